@@ -1,0 +1,34 @@
+# Compiler options that hold for every target of the project.
+#
+# -ffp-contract=off        the same bits from every loop shape: no fused multiply-add behind our back
+# -fno-math-errno          sqrt becomes one instruction (results unchanged)
+# -fno-trapping-math       comparisons may be vectorised (results unchanged)
+# -ffast-math is never used: it changes results.
+add_compile_options(-Wall -Wextra -Wshadow -Werror -ffp-contract=off -fno-math-errno -fno-trapping-math)
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+
+if(MORULA_NATIVE)
+  add_compile_options(-march=native)
+  include(CheckCXXSourceRuns)
+  set(CMAKE_REQUIRED_FLAGS -march=native)
+  check_cxx_source_runs("
+    #ifndef __AVX512F__
+    #error no AVX-512
+    #endif
+    int main() { return 0; }" MORULA_HAS_AVX512)
+  unset(CMAKE_REQUIRED_FLAGS)
+  if(MORULA_HAS_AVX512)
+    add_compile_options(-mprefer-vector-width=512)
+  endif()
+endif()
+
+if(MORULA_SANITIZE)
+  add_compile_options(-fsanitize=${MORULA_SANITIZE} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${MORULA_SANITIZE})
+endif()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()

@@ -1,0 +1,41 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "cbm/spheres.h"
+#include "coupling/cells.h"
+#include "coupling/model.h"
+#include "dcm/shells.h"
+#include "fields/field.h"
+
+namespace morula {
+
+/// Clock and step-size controller: part of the state, so that a restart goes on with the same steps.
+struct Clock {
+  double time = 0.0;          ///< [s]
+  double next_step = 1.0;     ///< step size the controller wants next [s]
+  std::uint64_t steps = 0;    ///< done so far
+  bool capped = false;        ///< the capped start is still on
+};
+
+/// Sums over the whole run that the report shows.
+struct Ledger {
+  double field_in[kMaxFields] = {};      ///< amount that came in through the boundary [amol]
+  double field_taken[kMaxFields] = {};   ///< amount taken by cells [amol]
+  double field_decayed[kMaxFields] = {}; ///< amount lost by decay [amol]
+  double field_start[kMaxFields] = {};   ///< amount in the field at time 0 [amol]
+  std::uint64_t divisions = 0, deaths = 0, promotions = 0, demotions = 0;
+};
+
+/// All state of a run on this rank: what a checkpoint holds. No hidden state exists elsewhere; workspaces can be rebuilt from it.
+struct Tissue {
+  Clock clock;
+  Ledger ledger;
+  Cells cells;
+  cbm::Spheres spheres;
+  dcm::Shells shells;
+  std::vector<Vec3d> obstacle_offset;    ///< how far each obstacle has moved [µm]
+  std::vector<fields::Field> fields;
+};
+
+}  // namespace morula

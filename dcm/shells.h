@@ -1,0 +1,49 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/mesh/topology.h"
+#include "core/vec3.h"
+
+namespace morula::dcm {
+
+/// All shells of a rank: what a checkpoint holds of them, and nothing else. Nodes of a shell are contiguous; shells come in the order of
+/// their cells. Geometry, forces and operators are derived from this and live in workspaces.
+struct Shells {
+  std::vector<std::shared_ptr<const ReferenceShape>> shape;  ///< by shell
+  std::vector<std::uint32_t> first_node{0};                  ///< by shell, one more at the end
+  std::vector<std::uint32_t> first_edge{0};                  ///< by shell, one more at the end
+  std::vector<std::uint16_t> type;                           ///< by shell: cell type, gives the parameters
+  std::vector<double> reference_volume;                      ///< by shell: V0 of the pressure law [µm³]
+  std::vector<double> rest_volume;                           ///< by shell: volume of the stress-free membrane [µm³]
+  std::vector<Vec3d> position;                               ///< by node [µm]
+  std::vector<Vec3f> velocity;                               ///< by node: last solution, the solver's start [µm/s]
+  std::vector<double> rest_length;                           ///< by edge [µm]
+
+  [[nodiscard]] std::size_t size() const { return shape.size(); }
+  [[nodiscard]] std::uint32_t node_count() const { return first_node.back(); }
+  [[nodiscard]] std::span<Vec3d> nodes(std::size_t shell) {
+    return std::span(position).subspan(first_node[shell], first_node[shell + 1] - first_node[shell]);
+  }
+  [[nodiscard]] std::span<const Vec3d> nodes(std::size_t shell) const {
+    return std::span(position).subspan(first_node[shell], first_node[shell + 1] - first_node[shell]);
+  }
+  [[nodiscard]] const Topology& topology(std::size_t shell) const { return *shape[shell]->topology; }
+};
+
+/// Parameters of the single-cell mechanics of one cell type, in internal units (physics: dcm.md, time_stepping.md §9).
+struct ShellParameters {
+  double spring_stiffness = 0.0;  ///< k = (√3/2) E h [nN/µm]
+  double edge_damping = 0.1;      ///< γ_int per edge, along the edge [nN·s/µm]
+  double hinge_stiffness = 0.0;   ///< k_h = (2/√3) E h³ / (12 (1 − ν²)) [nN·µm]
+  double tension = 0.0;           ///< γ [nN/µm]
+  double bulk_modulus = 2.5;      ///< K_V [kPa]
+  double shape_stiffness = 0.3;   ///< k_s of the triangle shape term k_s A_ref (1/q − 1)² [nN/µm]
+  double barrier_stiffness = 1.0; ///< k_d of the dihedral barrier k_d z²/(1 − z²) [nN·µm]
+  double barrier_angle = 1.6;     ///< |θ| from which the barrier acts [rad]
+  double medium_friction = 0.1;   ///< γ_med per area of the node [nN·s/µm³]
+};
+
+}  // namespace morula::dcm
