@@ -9,9 +9,9 @@ namespace {
 
 /// What a ghost is announced with; its positions follow by exchange().
 struct GhostHeader {
-  CellId id;
+  CellId id, parent;
   std::uint64_t order;
-  double radius;
+  double radius, birth_time;
   std::uint32_t nodes;  ///< 1 for a sphere
   std::uint16_t type;
   BodyShape shape;
@@ -53,8 +53,11 @@ void Scene::add_owned(const Tissue& tissue) {
   owned_shells_ = shells.size();
   owned_spheres_ = tissue.spheres.size();
   std::vector<ContactBody> spheres;
+  std::vector<Birth> sphere_birth;
+  birth_.clear();
   for (const CellRow& row : tissue.cells.rows) {
     ContactBody body;
+    (row.body == BodyKind::kShell ? birth_ : sphere_birth).push_back({row.parent, row.birth_time});
     body.id = row.id;
     body.material = row.type;
     if (row.body == BodyKind::kShell) {
@@ -67,6 +70,7 @@ void Scene::add_owned(const Tissue& tissue) {
     }
   }
   bodies_.insert(bodies_.end(), spheres.begin(), spheres.end());
+  birth_.insert(birth_.end(), sphere_birth.begin(), sphere_birth.end());
 }
 
 void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, const Comm& comm) {
@@ -97,7 +101,8 @@ void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, 
     for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
       if (!overlaps_any_image(box[i], all[r], space)) continue;
       send_bodies_[r].push_back(i);
-      headers.push_back({bodies_[i].id, order[i], bodies_[i].radius, bodies_[i].point_count, bodies_[i].material, bodies_[i].shape, {}});
+      headers.push_back({bodies_[i].id, birth_[i].parent, order[i], bodies_[i].radius, birth_[i].time, bodies_[i].point_count,
+                         bodies_[i].material, bodies_[i].shape, {}});
     }
     outgoing[r] = pack(headers);
   }
@@ -125,13 +130,16 @@ void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, 
     return body;
   };
   std::vector<ContactBody> shells, spheres;
+  std::vector<Birth> shell_birth, sphere_birth;
   for (const Arrival& arrival : ghost_shells) {
     receive_bodies_[arrival.rank][arrival.at] = static_cast<std::uint32_t>(owned_shells_ + shells.size());
     shells.push_back(body_of(arrival.header));
+    shell_birth.push_back({arrival.header.parent, arrival.header.birth_time});
   }
   for (const Arrival& arrival : ghost_spheres) {
     receive_bodies_[arrival.rank][arrival.at] = static_cast<std::uint32_t>(owned_shells_ + shells.size() + owned_spheres_ + spheres.size());
     spheres.push_back(body_of(arrival.header));
+    sphere_birth.push_back({arrival.header.parent, arrival.header.birth_time});
   }
   for (auto& list : send_bodies_)
     for (std::uint32_t& body : list)
@@ -142,6 +150,8 @@ void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, 
   for (const Arrival& arrival : ghost_spheres) orders.push_back(arrival.header.order);
   bodies_.insert(bodies_.begin() + static_cast<std::ptrdiff_t>(owned_shells_), shells.begin(), shells.end());
   bodies_.insert(bodies_.end(), spheres.begin(), spheres.end());
+  birth_.insert(birth_.begin() + static_cast<std::ptrdiff_t>(owned_shells_), shell_birth.begin(), shell_birth.end());
+  birth_.insert(birth_.end(), sphere_birth.begin(), sphere_birth.end());
   place_bodies(orders);
 }
 

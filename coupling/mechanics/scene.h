@@ -34,6 +34,10 @@ class Scene {
   [[nodiscard]] std::span<const std::uint32_t> first_node() const { return first_node_; }
   [[nodiscard]] std::span<const std::uint32_t> first_face() const { return first_face_; }
 
+  /// Parent and time of birth by body, ghosts too: sisters push each other apart slowly.
+  [[nodiscard]] CellId parent(std::size_t body) const { return birth_[body].parent; }
+  [[nodiscard]] double birth_time(std::size_t body) const { return birth_[body].time; }
+
   std::vector<Vec3d>& position() { return position_; }
   [[nodiscard]] const std::vector<Vec3d>& position() const { return position_; }
 
@@ -46,7 +50,10 @@ class Scene {
   void give_positions(Tissue& tissue) const;
 
  private:
-  struct Ghosts;
+  struct Birth {
+    CellId parent;
+    double time = 0.0;
+  };
   void add_owned(const Tissue& tissue);
   void find_ghosts(const Tissue& tissue, const Space& space, double reach, const Comm& comm);
   void place_bodies(std::span<const std::uint64_t> order);
@@ -55,6 +62,7 @@ class Scene {
 
   const Comm* comm_ = nullptr;
   std::vector<ContactBody> bodies_;
+  std::vector<Birth> birth_;
   std::size_t owned_shells_ = 0, shells_ = 0, owned_spheres_ = 0, face_count_ = 0;
   std::uint32_t owned_nodes_ = 0, shell_nodes_ = 0;
   std::vector<std::shared_ptr<const ReferenceShape>> shapes_;
