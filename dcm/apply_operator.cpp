@@ -106,7 +106,7 @@ void add_diagonal_block(const LaneBlock& block, const Shells& shells, const Shel
   const std::size_t nodes = topology.node_count();
   ws.p.resize(std::max(ws.p.size(), nodes * 6 * W));
   float* const sum = ws.p.data();
-  load_lanes<W, float>(lane_pointers<W>(&diagonal.data()->xx, block, shells.first_node, 6), nodes * 6, sum);
+  load_lanes<W, float>(lane_pointers<W>(static_cast<const float*>(&diagonal.data()->xx), block, shells.first_node, 6), nodes * 6, sum);
   const auto add = [&](std::size_t node, const SymMat3<Real>& m) {
     float* d = sum + node * 6 * W;
     const auto total = load_matrix<W>(d) + m;

@@ -36,7 +36,7 @@ ShellLaw hinge_bending() {
   return {.info = {.name = "hinge_bending",
                    .title = "Bending of the cortex",
                    .equation = "E = ½ k_h (θ − θ0)², k_h = (2/√3) E_cor h³ / (12 (1 − ν²))",
-                   .source = "Gompper & Kroll 1996, doi:10.1051/jp1:1996246",
+                   .source = "Gompper & Kroll 1996, J. Phys. I France 6, 1305",
                    .parameters = {{"young_modulus", "pressure", "kPa", 1.0, 0.0, 1000.0, kCortex, "Young's modulus of the cortex E_cor."},
                                   {"thickness", "length", "µm", 0.2, 0.0, 5.0, kCortex, "Thickness of the cortex h."},
                                   {"poisson_ratio", "number", "1", 0.5, -0.99, 0.5, kCortex, "Poisson ratio of the cortex ν, for bending only."}}},

@@ -103,7 +103,7 @@ void block_forces(const LaneBlock& block, const SurfaceList& surfaces, std::span
     store_vec3<double, W>(g, i, (h - n * dot(n, h)) * (Real(0.5) / load_scalar<double, W>(ws.node_length.data(), i)));
   }
   double* const out = ws.node_gradient.data();
-  by_node(doubles(force.data()), 3, ws.node_gradient);
+  by_node(&std::as_const(*force.data()).x, 3, ws.node_gradient);
   const double* const x = ws.position.data();
   const auto triangles = topology.faces();
   for (std::size_t f = 0; f < faces; ++f) {
