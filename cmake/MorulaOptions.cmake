@@ -11,6 +11,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 
+# The deprecated C++ bindings of MPI are not wanted (their headers do not compile without warnings).
+add_compile_definitions(OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+
 if(MORULA_NATIVE)
   add_compile_options(-march=native)
   include(CheckCXXSourceRuns)
