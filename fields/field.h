@@ -12,8 +12,8 @@ namespace morula::fields {
 /// The voxels of the domain, cut into bricks. The same for every field of the same voxel size, on every rank.
 struct Grid {
   Box box;
-  std::array<std::int32_t, 3> voxels{};  ///< along x, y, z
-  std::array<std::int32_t, 3> bricks{};  ///< along x, y, z
+  std::array<std::int32_t, 3> voxels{};      ///< along x, y, z
+  std::array<std::int32_t, 3> bricks{};      ///< along x, y, z
   static constexpr std::int32_t kBrick = 8;  ///< voxels along a side of a brick (fewer at the high faces)
 
   [[nodiscard]] Vec3d spacing() const {
@@ -26,9 +26,9 @@ struct Grid {
 /// One concentration on this rank: the bricks it owns.
 struct Field {
   Grid grid;
-  std::vector<std::int64_t> owned_bricks;        ///< brick numbers (x fastest), increasing
-  std::vector<std::vector<double>> concentration; ///< by owned brick, voxels x fastest [mM]
-  double next_step = 0.0;                        ///< the integrator's first step in the next interval [s]; 0: let it choose
+  std::vector<std::int64_t> owned_bricks;          ///< brick numbers (x fastest), increasing
+  std::vector<std::vector<double>> concentration;  ///< by owned brick, voxels x fastest [mM]
+  double next_step = 0.0;                          ///< the integrator's first step in the next interval [s]; 0: let it choose
 };
 
 }  // namespace morula::fields

@@ -86,11 +86,13 @@ std::vector<std::vector<std::byte>> Comm::exchange(const std::vector<std::vector
   for (std::size_t r = 0; r < ranks; ++r) {
     incoming[r].resize(static_cast<std::size_t>(receive_sizes[r]));
     if (!incoming[r].empty())
-      MPI_Irecv(incoming[r].data(), static_cast<int>(incoming[r].size()), MPI_BYTE, static_cast<int>(r), 71, comm_, &requests.emplace_back());
+      MPI_Irecv(incoming[r].data(), static_cast<int>(incoming[r].size()), MPI_BYTE, static_cast<int>(r), 71, comm_,
+                &requests.emplace_back());
   }
   for (std::size_t r = 0; r < ranks; ++r)
     if (!outgoing[r].empty())
-      MPI_Isend(outgoing[r].data(), static_cast<int>(outgoing[r].size()), MPI_BYTE, static_cast<int>(r), 71, comm_, &requests.emplace_back());
+      MPI_Isend(outgoing[r].data(), static_cast<int>(outgoing[r].size()), MPI_BYTE, static_cast<int>(r), 71, comm_,
+                &requests.emplace_back());
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   return incoming;
 }
