@@ -133,18 +133,20 @@ void FrictionSystem::apply_elements(int thread, std::span<const Float4> p, std::
 }
 
 void FrictionSystem::apply(std::span<const Float4> p, std::span<Float4> q) const {
+  if (shells_ != nullptr && shells_->point_count() > 0) shells_->multiply(p, q);
+  const std::size_t done = shells_ != nullptr ? shells_->point_count() : 0;
   for_owned_bodies([&](int, std::uint32_t body) {
     const BodyPoints& points = layout_.bodies[body];
+    if (points.first < done) return;
     for (std::uint32_t i = points.first; i < points.first + points.count; ++i) store(q[i], splat(point_friction_[i]) * load(p[i]));
   });
-  for (const OperatorPart* part : parts_) part->add_product(p, q);
 #pragma omp parallel for schedule(static, 1) num_threads(threads_)
   for (int t = 0; t < threads_; ++t) apply_elements(t, p, q);
 }
 
 void FrictionSystem::build_preconditioner() {
   for (std::size_t i = 0; i < layout_.point_count; ++i) inverse_[i] = isotropic(point_friction_[i]);
-  for (const OperatorPart* part : parts_) part->add_diagonal(inverse_);
+  if (shells_ != nullptr && shells_->point_count() > 0) shells_->add_diagonal(inverse_);
   const auto block = [&](float weight, float a, float b, const float* n) {
     return SymMat3<float>(isotropic(weight * a) + outer(weight * b, Vec3f{n[0], n[1], n[2]}));
   };

@@ -37,12 +37,13 @@ struct SpherePairElement {
   float a, b, k;
 };
 
-/// A part of the matrix that somebody else can apply: the shells' own mechanics.
+/// A part of the matrix that somebody else can apply: the shells' own mechanics. It acts on the first point_count() points, all owned.
 class OperatorPart {
  public:
   virtual ~OperatorPart() = default;
-  /// q += A p on the owned points of the bodies it knows.
-  virtual void add_product(std::span<const Float4> p, std::span<Float4> q) const = 0;
+  [[nodiscard]] virtual std::size_t point_count() const = 0;
+  /// q = A p on its points.
+  virtual void multiply(std::span<const Float4> p, std::span<Float4> q) const = 0;
   /// Add the 3×3 diagonal blocks.
   virtual void add_diagonal(std::span<SymMat3<float>> diagonal) const = 0;
 };
@@ -73,11 +74,11 @@ class FrictionSystem {
 
   void set_layout(Layout layout, int threads);
 
-  /// Diagonal friction of points (spheres' medium friction) [nN·s/µm]; by point, ghosts ignored.
+  /// Diagonal friction [nN·s/µm] by point: of the spheres, and 0 where the shells' part has its own; ghosts are ignored.
   void set_point_friction(std::span<const float> friction) { point_friction_.assign(friction.begin(), friction.end()); }
   void set_elements(std::vector<ElementGroup> groups, const FaceQuadrature& quadrature);
   void set_sphere_pairs(std::span<const SpherePairElement> pairs) { sphere_pairs_ = pairs; }
-  void set_parts(std::vector<const OperatorPart*> parts) { parts_ = std::move(parts); }
+  void set_shells(const OperatorPart* shells) { shells_ = shells; }
   void set_step(double dt) { dt_ = static_cast<float>(dt); }
 
   /// Solve A v = b from the start in v, until ‖r‖ ≤ tolerance ‖b‖. v of ghost points is not written.
@@ -107,7 +108,7 @@ class FrictionSystem {
   std::vector<float> point_friction_;
   std::vector<ElementGroup> groups_;
   std::span<const SpherePairElement> sphere_pairs_;
-  std::vector<const OperatorPart*> parts_;
+  const OperatorPart* shells_ = nullptr;
   float beta_[4][3] = {};
   std::vector<ThreadWork> work_;
   std::vector<SymMat3<float>> inverse_;

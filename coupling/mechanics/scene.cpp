@@ -9,9 +9,9 @@ namespace {
 
 /// What a ghost is announced with; its positions follow by exchange().
 struct GhostHeader {
-  CellId id;
+  CellId id, parent;
   std::uint64_t order;
-  double radius;
+  double radius, birth_time;
   std::uint32_t nodes;  ///< 1 for a sphere
   std::uint16_t type;
   BodyShape shape;
@@ -53,8 +53,11 @@ void Scene::add_owned(const Tissue& tissue) {
   owned_shells_ = shells.size();
   owned_spheres_ = tissue.spheres.size();
   std::vector<ContactBody> spheres;
+  std::vector<Birth> sphere_birth;
+  birth_.clear();
   for (const CellRow& row : tissue.cells.rows) {
     ContactBody body;
+    (row.body == BodyKind::kShell ? birth_ : sphere_birth).push_back({row.parent, row.birth_time});
     body.id = row.id;
     body.material = row.type;
     if (row.body == BodyKind::kShell) {
@@ -67,6 +70,7 @@ void Scene::add_owned(const Tissue& tissue) {
     }
   }
   bodies_.insert(bodies_.end(), spheres.begin(), spheres.end());
+  birth_.insert(birth_.end(), sphere_birth.begin(), sphere_birth.end());
 }
 
 void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, const Comm& comm) {
@@ -97,7 +101,8 @@ void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, 
     for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
       if (!overlaps_any_image(box[i], all[r], space)) continue;
       send_bodies_[r].push_back(i);
-      headers.push_back({bodies_[i].id, order[i], bodies_[i].radius, bodies_[i].point_count, bodies_[i].material, bodies_[i].shape, {}});
+      headers.push_back({bodies_[i].id, birth_[i].parent, order[i], bodies_[i].radius, birth_[i].time, bodies_[i].point_count,
+                         bodies_[i].material, bodies_[i].shape, {}});
     }
     outgoing[r] = pack(headers);
   }
@@ -125,13 +130,16 @@ void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, 
     return body;
   };
   std::vector<ContactBody> shells, spheres;
+  std::vector<Birth> shell_birth, sphere_birth;
   for (const Arrival& arrival : ghost_shells) {
     receive_bodies_[arrival.rank][arrival.at] = static_cast<std::uint32_t>(owned_shells_ + shells.size());
     shells.push_back(body_of(arrival.header));
+    shell_birth.push_back({arrival.header.parent, arrival.header.birth_time});
   }
   for (const Arrival& arrival : ghost_spheres) {
     receive_bodies_[arrival.rank][arrival.at] = static_cast<std::uint32_t>(owned_shells_ + shells.size() + owned_spheres_ + spheres.size());
     spheres.push_back(body_of(arrival.header));
+    sphere_birth.push_back({arrival.header.parent, arrival.header.birth_time});
   }
   for (auto& list : send_bodies_)
     for (std::uint32_t& body : list)
@@ -142,6 +150,8 @@ void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, 
   for (const Arrival& arrival : ghost_spheres) orders.push_back(arrival.header.order);
   bodies_.insert(bodies_.begin() + static_cast<std::ptrdiff_t>(owned_shells_), shells.begin(), shells.end());
   bodies_.insert(bodies_.end(), spheres.begin(), spheres.end());
+  birth_.insert(birth_.begin() + static_cast<std::ptrdiff_t>(owned_shells_), shell_birth.begin(), shell_birth.end());
+  birth_.insert(birth_.end(), sphere_birth.begin(), sphere_birth.end());
   place_bodies(orders);
 }
 
@@ -170,6 +180,7 @@ void Scene::build(const Tissue& tissue, const Space& space, double reach, ShapeL
   shells_ = 0;
   while (shells_ < bodies_.size() && bodies_[shells_].shape == BodyShape::kSurface) ++shells_;
   for (std::size_t i = owned_shells_; i < shells_; ++i) shapes_.push_back(library.icosphere(bodies_[i].point_count).value());
+  topologies_.clear();
   first_node_.assign(1, 0);
   first_face_.assign(1, 0);
   std::uint32_t point = 0;
@@ -179,6 +190,7 @@ void Scene::build(const Tissue& tissue, const Space& space, double reach, ShapeL
     point += body.point_count;
     if (i >= shells_) continue;
     body.topology = shapes_[i]->topology.get();
+    topologies_.push_back(body.topology);
     body.first_face = first_face_.back();
     first_node_.push_back(point);
     first_face_.push_back(first_face_.back() + body.topology->face_count());
@@ -194,6 +206,15 @@ void Scene::build(const Tissue& tissue, const Space& space, double reach, ShapeL
 void Scene::take_positions(const Tissue& tissue) {
   std::copy(tissue.shells.position.begin(), tissue.shells.position.end(), position_.begin());
   std::copy(tissue.spheres.position.begin(), tissue.spheres.position.end(), position_.begin() + shell_nodes_);
+}
+
+void Scene::take_radii(const Tissue& tissue) {
+  for (std::size_t i = 0; i < owned_spheres_; ++i) bodies_[shells_ + i].radius = tissue.spheres.radius[i];
+  if (comm_->size() == 1) return;
+  std::vector<Vec3d> radius(position_.size());
+  for (std::size_t i = 0; i < owned_spheres_; ++i) radius[bodies_[shells_ + i].first_point].x = tissue.spheres.radius[i];
+  exchange(std::span(radius));
+  for (std::size_t i = shells_ + owned_spheres_; i < bodies_.size(); ++i) bodies_[i].radius = radius[bodies_[i].first_point].x;
 }
 
 void Scene::give_positions(Tissue& tissue) const {
