@@ -72,7 +72,7 @@ LifeDecision live(CellRow& row, const CellType& type, const LifeStep& step) {
 LifeReport live(std::span<CellRow> rows, std::span<const CellType> types, const LifeStep& step) {
   std::vector<LifeDecision> decisions(rows.size());
   const auto count = static_cast<std::int64_t>(rows.size());
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (count > 1000)
   for (std::int64_t k = 0; k < count; ++k) decisions[k] = live(rows[k], types[rows[k].type], step);
 
   LifeReport report;
