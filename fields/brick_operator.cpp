@@ -7,6 +7,10 @@
 
 namespace morula::fields {
 
+namespace {
+constexpr std::size_t kWorthThreads = 64;  ///< bricks; below, starting threads costs more than it saves
+}
+
 BrickOperator::BrickOperator(const Grid& grid, const FieldSpec& spec, const Layout& layout, Halo& halo)
     : spec_(spec), layout_(layout), halo_(halo), voxel_volume_(grid.voxel_volume()), slope_(layout.concentrations(), 0.0),
       diagonal_(layout.concentrations()) {
@@ -105,7 +109,7 @@ void BrickOperator::evaluate(const double* unknowns, double* rate, bool amounts)
   halo_.exchange(unknowns);
   double* taken_rate = amounts ? rate + layout_.sinks_at() : nullptr;
   if (!amounts) std::fill(rate + layout_.concentrations(), rate + layout_.unknowns(), 0.0);
-#pragma omp parallel for schedule(static) if (layout_.bricks() > 8)
+#pragma omp parallel for schedule(static) if (layout_.bricks() > kWorthThreads)
   for (std::size_t b = 0; b < layout_.bricks(); ++b) {
     Padded padded;
     fill(b, unknowns, 1.0, padded);
@@ -117,7 +121,7 @@ void BrickOperator::evaluate(const double* unknowns, double* rate, bool amounts)
 }
 
 void BrickOperator::linearize(const double* unknowns) {
-#pragma omp parallel for schedule(static) if (layout_.bricks() > 8)
+#pragma omp parallel for schedule(static) if (layout_.bricks() > kWorthThreads)
   for (std::size_t b = 0; b < layout_.bricks(); ++b) {
     const std::size_t at = layout_.offset[b];
     for (std::size_t s = layout_.first_sink[b]; s < layout_.first_sink[b + 1]; ++s) slope_[at + static_cast<std::size_t>(layout_.sinks[s].voxel)] = 0.0;
@@ -132,7 +136,7 @@ void BrickOperator::linearize(const double* unknowns) {
 void BrickOperator::multiply(const double* x, double* out) {
   halo_.exchange(x);
   std::fill(out + layout_.concentrations(), out + layout_.unknowns(), 0.0);
-#pragma omp parallel for schedule(static) if (layout_.bricks() > 8)
+#pragma omp parallel for schedule(static) if (layout_.bricks() > kWorthThreads)
   for (std::size_t b = 0; b < layout_.bricks(); ++b) {
     Padded padded;
     fill(b, x, 0.0, padded);
@@ -143,7 +147,7 @@ void BrickOperator::multiply(const double* x, double* out) {
 
 void BrickOperator::precondition(double gamma, const double* x, double* out) const {
   const std::size_t n = layout_.concentrations();
-#pragma omp parallel for simd schedule(static) if (n > 16384)
+#pragma omp parallel for simd schedule(static) if (n > 512 * kWorthThreads)
   for (std::size_t i = 0; i < n; ++i) out[i] = x[i] / (1.0 + gamma * (diagonal_[i] + slope_[i]));
   std::fill(out + n, out + layout_.unknowns(), 0.0);
 }

@@ -28,7 +28,7 @@ const Layout& layout(N_Vector v) { return *content(v).space->layout; }
 std::size_t unknowns(N_Vector v) { return content(v).values->size(); }
 std::size_t concentrations(N_Vector v) { return layout(v).concentrations(); }
 
-constexpr std::size_t kWorthThreads = 32768;  ///< below, starting threads costs more than it saves
+constexpr std::size_t kWorthThreads = 131072;  ///< unknowns; below, starting threads costs more than it saves
 
 /// z_i = f(i) for all unknowns
 template <class F>
