@@ -27,6 +27,17 @@ inline double block_dot(const double* x, const double* y, std::size_t n) {
   using L = Lane<double, 8>;
   return block_sum(n, [x, y](std::size_t i) { return L::load(x + i) * L::load(y + i); }, [x, y](std::size_t i) { return x[i] * y[i]; });
 }
+/// Σ x_i² m_i
+inline double block_triple(const double* x, const double* m, std::size_t n) {
+  using L = Lane<double, 8>;
+  return block_sum(
+      n,
+      [x, m](std::size_t i) {
+        const L xi = L::load(x + i);
+        return xi * (xi * L::load(m + i));
+      },
+      [x, m](std::size_t i) { return x[i] * (x[i] * m[i]); });
+}
 /// Σ (x_i w_i)²
 inline double block_weighted_square(const double* x, const double* w, std::size_t n) {
   using L = Lane<double, 8>;

@@ -133,23 +133,25 @@ void BrickOperator::linearize(const double* unknowns) {
   }
 }
 
-void BrickOperator::multiply(const double* x, double* out) {
+double BrickOperator::shifted_product(double gamma, const double* x, double* out, const Comm& comm) {
   halo_.exchange(x);
-  std::fill(out + layout_.concentrations(), out + layout_.unknowns(), 0.0);
+  partial_.resize(layout_.bricks());
 #pragma omp parallel for schedule(static) if (layout_.bricks() > kWorthThreads)
   for (std::size_t b = 0; b < layout_.bricks(); ++b) {
     Padded padded;
     fill(b, x, 0.0, padded);
-    stencil(b, padded, out + layout_.offset[b]);
-    for (std::size_t i = layout_.offset[b]; i < layout_.offset[b + 1]; ++i) out[i] -= slope_[i] * x[i];
+    const std::size_t at = layout_.offset[b], end = layout_.offset[b + 1];
+    stencil(b, padded, out + at);
+    for (std::size_t i = at; i < end; ++i) out[i] = x[i] - gamma * (out[i] - slope_[i] * x[i]);
+    partial_[b] = block_dot(x + at, out + at, end - at);
   }
+  OrderFreeSum sum;
+  for (const double p : partial_) sum.add(p);
+  return comm.sum(sum);
 }
 
-void BrickOperator::precondition(double gamma, const double* x, double* out) const {
-  const std::size_t n = layout_.concentrations();
-#pragma omp parallel for simd schedule(static) if (n > 512 * kWorthThreads)
-  for (std::size_t i = 0; i < n; ++i) out[i] = x[i] / (1.0 + gamma * (diagonal_[i] + slope_[i]));
-  std::fill(out + n, out + layout_.unknowns(), 0.0);
+void BrickOperator::inverse_diagonal(double gamma, double* out) const {
+  for (std::size_t i = 0; i < layout_.concentrations(); ++i) out[i] = 1.0 / (1.0 + gamma * (diagonal_[i] + slope_[i]));
 }
 
 double BrickOperator::largest_rate() const {

@@ -23,12 +23,12 @@ class BrickOperator {
   /// d(unknowns)/dt. Collective. Rates of the amounts [amol/s] only if `amounts`, else 0.
   void evaluate(const double* unknowns, double* rate, bool amounts);
 
-  /// Take the slopes of the uptake at these concentrations; multiply() and precondition() use them.
+  /// Take the slopes of the uptake at these concentrations; what follows uses them. J = ∂(dc/dt)/∂c.
   void linearize(const double* unknowns);
-  /// out = J x, J = ∂(dc/dt)/∂c at the linearization; amounts 0. Collective.
-  void multiply(const double* x, double* out);
-  /// out = (1 − γ diag J)⁻¹ x; amounts 0.
-  void precondition(double gamma, const double* x, double* out) const;
+  /// out = (1 − γJ) x on the concentrations; returns x·out over all ranks. Collective.
+  double shifted_product(double gamma, const double* x, double* out, const Comm& comm);
+  /// out = 1/diag(1 − γJ) on the concentrations.
+  void inverse_diagonal(double gamma, double* out) const;
 
   /// No eigenvalue of −J is larger, whatever the concentrations (Gershgorin) [1/s]; of this rank's voxels.
   [[nodiscard]] double largest_rate() const;
@@ -54,6 +54,7 @@ class BrickOperator {
   double voxel_volume_ = 0.0;
   std::vector<double> slope_;     ///< −∂(dc/dt)/∂c of uptake, by voxel [1/s]
   std::vector<double> diagonal_;  ///< −diag J without uptake, by voxel [1/s]
+  std::vector<double> partial_;   ///< a sum per brick
 };
 
 }  // namespace morula::fields

@@ -3,11 +3,12 @@
 #include <arkode/arkode_arkstep.h>
 #include <arkode/arkode_erkstep.h>
 #include <sundials/sundials_context.h>
-#include <sunlinsol/sunlinsol_pcg.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+
+#include "fields/brick_cg.h"
 
 namespace morula::fields {
 
@@ -43,14 +44,8 @@ int linearize(double, N_Vector y, N_Vector, void* user) {
   problem(user).op->linearize(unknowns_of(y));
   return 0;
 }
-int multiply(N_Vector v, N_Vector jv, double, N_Vector, N_Vector, void* user, N_Vector) {
-  problem(user).op->multiply(unknowns_of(v), unknowns_of(jv));
-  return 0;
-}
-int precondition(double, N_Vector, N_Vector, N_Vector r, N_Vector z, double gamma, double, int, void* user) {
-  problem(user).op->precondition(gamma, unknowns_of(r), unknowns_of(z));
-  return 0;
-}
+/// Never called: the linear solver takes its products from the operator. ARKODE asks for it to accept linearize().
+int no_product(N_Vector, N_Vector, double, N_Vector, N_Vector, void*, N_Vector) { return -1; }
 /// The largest step for which Bogacki–Shampine 3(2) is stable on the negative real axis: 2.51 (Hairer & Wanner 1996, IV.2).
 constexpr double kExplicitStability = 2.5;
 int stability(N_Vector, double, double* step, void* user) {
@@ -86,10 +81,15 @@ Error failure(const std::string& what) {
 constexpr int kMostIterations = 500;
 constexpr std::int64_t kMostSteps = 1'000'000;
 
-bool set_up_implicit(Session& s, Problem& p, double first_step) {
+bool set_up_implicit(Session& s, Problem& p, const BrickVectorSpace& space, double first_step) {
   s.implicit = true;
   s.arkode = ARKStepCreate(nullptr, rate, 0.0, s.y, s.context);
-  s.linear_solver = SUNLinSol_PCG(s.y, SUN_PREC_LEFT, kMostIterations, s.context);
+  const auto gamma = [&s] {
+    double value = 0.0;
+    ARKStepGetCurrentGamma(s.arkode, &value);
+    return value;
+  };
+  s.linear_solver = make_brick_cg(*p.op, space, gamma, kMostIterations, s.context);
   if (s.arkode == nullptr || s.linear_solver == nullptr) return false;
   bool ok = true;
   const auto set = [&](int flag) { ok = ok && flag >= 0; };
@@ -99,8 +99,7 @@ bool set_up_implicit(Session& s, Problem& p, double first_step) {
   set(ARKStepSetTableNum(s.arkode, ARKODE_ESDIRK324L2SA_4_2_3, ARKODE_ERK_NONE));
   set(ARKStepSetInterpolantType(s.arkode, ARK_INTERP_LAGRANGE));
   set(ARKStepSetLinearSolver(s.arkode, s.linear_solver, nullptr));
-  set(ARKStepSetJacTimes(s.arkode, linearize, multiply));
-  set(ARKStepSetPreconditioner(s.arkode, nullptr, precondition));
+  set(ARKStepSetJacTimes(s.arkode, linearize, no_product));
   if (p.op->layout().sinks_anywhere)
     set(ARKStepSetNlsRhsFn(s.arkode, rate_of_concentrations));
   else
@@ -172,7 +171,7 @@ Result<IntegrationReport> integrate(BrickOperator& op, const BrickVectorSpace& s
   if (s.y == nullptr) return Error{ErrorKind::kResources, "no memory for a field's unknowns", ""};
   std::copy(unknowns.begin(), unknowns.end(), unknowns_of(s.y));
   const double first_step = std::min(settings.first_step, settings.interval);
-  const bool ready = settings.method == Method::kImplicit ? set_up_implicit(s, p, first_step) : set_up_explicit(s, p, first_step);
+  const bool ready = settings.method == Method::kImplicit ? set_up_implicit(s, p, space, first_step) : set_up_explicit(s, p, first_step);
   if (!ready) return failure("set-up: " + p.message);
 
   IntegrationReport report;
