@@ -138,14 +138,29 @@ void count_work(const Session& s, IntegrationReport& report) {
     report.evaluations = value;
     ARKStepGetNumLinIters(s.arkode, &value);
     report.linear_iterations = value;
-    ARKStepGetCurrentStep(s.arkode, &report.next_step);
   } else {
     ERKStepGetNumErrTestFails(s.arkode, &value);
     report.failed_steps = value;
     ERKStepGetNumRhsEvals(s.arkode, &value);
     report.evaluations = value;
-    ERKStepGetCurrentStep(s.arkode, &report.next_step);
   }
+}
+
+/// The step to begin the next interval with, from the first step of this one: both meet the same kind of jump, cells that moved.
+/// h (1.5 e)^(−1/3) with the error estimate e of the step, as ARKODE's own controllers do, changed by a factor of 5 at most. (What ARKODE
+/// would do after the last step is of no use: that step is cut to end with the interval.)
+double next_first_step(const Session& s, double taken_step) {
+  N_Vector error = N_VClone(s.y), weights = N_VClone(s.y);
+  double norm = 1.0;
+  if (error != nullptr && weights != nullptr) {
+    s.implicit ? ARKStepGetEstLocalErrors(s.arkode, error) : ERKStepGetEstLocalErrors(s.arkode, error);
+    s.implicit ? ARKStepGetErrWeights(s.arkode, weights) : ERKStepGetErrWeights(s.arkode, weights);
+    norm = N_VWrmsNorm(error, weights);
+  }
+  N_VDestroy(weights);
+  N_VDestroy(error);
+  const double factor = norm > 0.0 ? 0.96 / std::cbrt(1.5 * norm) : 5.0;
+  return taken_step * std::clamp(factor, 0.2, 5.0);
 }
 
 }  // namespace
@@ -153,12 +168,13 @@ void count_work(const Session& s, IntegrationReport& report) {
 const char* name_of(Method method) { return method == Method::kExplicit ? "explicit (Bogacki-Shampine 3(2))" : "implicit (ESDIRK 3(2))"; }
 
 Method cheaper_method(double interval, double largest_rate, double smallest_rate) {
-  const double explicit_cost = 3.0 * std::max(2.0, interval * largest_rate / kExplicitStability);
-  // Implicit: a handful of steps of three solves. The iterations of a solve grow with the root of the condition of 1 − γJ.
-  constexpr double steps = 4.0, solves = 3.0 * 2.0, overhead = 2.5, diagonal = 0.4358665;
+  // In units of one multiplication. Measured with 25³ voxels: an explicit stage with its vector sums costs 1.5 of them; the implicit
+  // method needs about two steps of four solves, each of 3 + 2.4 √κ multiplications, κ the condition of 1 − γJ.
+  const double explicit_cost = 3.0 * 1.5 * std::max(2.0, interval * largest_rate / kExplicitStability);
+  constexpr double steps = 2.0, solves = 4.0, diagonal = 0.4358665;
   const double gamma = diagonal * interval / steps;
   const double condition = (1.0 + gamma * largest_rate) / (1.0 + gamma * smallest_rate);
-  const double implicit_cost = steps * solves * overhead * (1.0 + std::sqrt(condition));
+  const double implicit_cost = steps * solves * (3.0 + 2.4 * std::sqrt(condition));
   return explicit_cost <= implicit_cost ? Method::kExplicit : Method::kImplicit;
 }
 
@@ -181,6 +197,7 @@ Result<IntegrationReport> integrate(BrickOperator& op, const BrickVectorSpace& s
     const int flag = s.implicit ? ARKStepEvolve(s.arkode, settings.interval, s.y, &time, ARK_ONE_STEP)
                                 : ERKStepEvolve(s.arkode, settings.interval, s.y, &time, ARK_ONE_STEP);
     if (flag < 0) return failure(p.message);
+    if (report.steps == 0) report.next_step = next_first_step(s, time);
     if (++report.steps > kMostSteps) return failure("more than a million steps in one interval");
     if (flag == ARK_TSTOP_RETURN) break;
   }
