@@ -46,8 +46,8 @@ void declare_life(Section& s, draft::CellType& t) {
                        {.name = "below", .doc = "Concentration below which cells die.", .quantity = Q::kConcentration, .low = 0.0,
                         .example = "0.02 mM"},
                        t.death_below);
-            d.quantity({.name = "rate", .doc = "Probability of death per time while below.", .quantity = Q::kRate, .fallback = "0 1/h",
-                        .low = 0.0, .example = "0.05 1/h", .source = "chosen"},
+            d.quantity({.name = "rate", .doc = "Probability of death per time while below.", .quantity = Q::kRate, .required = true, .low = 0.0,
+                        .example = "0.05 1/h"},
                        t.death_rate);
             d.quantity({.name = "shrink_time", .doc = "A dying cell shrinks as V0 exp(-t/shrink_time).", .quantity = Q::kTime,
                         .fallback = "8 h", .low = 0.0, .low_open = true, .example = "8 h", .source = "chosen: apoptosis takes about 8 h"},
@@ -99,7 +99,7 @@ void declare_shell(Section& s, draft::CellType& t) {
                 .example = "0.2 mN/m",
                 .source = "chosen between 0.03 mN/m (neutrophil, Hochmuth 2000) and 0.4 mN/m (fibroblast, Tinevez et al. 2009)"},
                t.tension);
-    c.quantity({.name = "damping", .doc = "Friction of an edge against its own lengthening.", .quantity = Q::kFrictionPerNode,
+    c.quantity({.name = "damping", .doc = "Friction of an edge against its own lengthening.", .quantity = Q::kFriction,
                 .fallback = "1e-4 N s/m", .low = 0.0, .high = 1e4, .example = "1e-4 N s/m", .source = kTable1},
                t.damping);
   });

@@ -33,7 +33,6 @@ struct Spread {
 };
 
 struct CellType {
-  Place place;
   Spread radius;
   Given<std::string> body;
   bool has_cycle = false;

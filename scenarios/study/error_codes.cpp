@@ -58,7 +58,6 @@ constexpr ErrorCode kCodes[] = {
     {611, "CSV row with too few or too many values", "Every row has as many values as the header."},
     {612, "CSV value", "The value cannot be read: NA, NaN and infinite values are refused."},
     {613, "CSV without cells", "The file has a header and no rows."},
-    {614, "coincident cells", "Cells of the CSV file lie at the same place. They are named and moved apart (warning)."},
     {620, "mesh cannot be read", "The STL or OBJ file is damaged or empty."},
     {621, "mesh is open", "Every edge of the surface must have exactly two faces."},
     {622, "mesh is not oriented", "Neighbouring faces must have the same sense of rotation, counter-clockwise seen from outside; a closed surface encloses a positive "

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/numbers/decimal_number.h"
+
 namespace morula::scenarios {
 namespace {
 
@@ -18,7 +20,7 @@ const Special* find_special(const KeySpec& key, const std::string& text) {
 }
 
 std::string range_text(const KeySpec& key) {
-  const std::string unit = key.quantity == Quantity::kFraction ? "" : internal_unit(key.quantity);
+  const std::string unit(describe(key.quantity).internal_unit);
   const auto bound = [&unit](double x) { return short_number(x) + (unit.empty() ? "" : " " + unit); };
   const bool low = std::isfinite(key.low), high = std::isfinite(key.high);
   const std::string low_text = (key.low_open ? "above " : "at least ") + bound(key.low);
@@ -81,7 +83,7 @@ bool ReadSection::read_number(const KeySpec& key, const Node& node, double& valu
     value = special->value;
     return true;
   }
-  const auto read = read_quantity(node.text, key.quantity, key.name, key.example, node.place, diagnostics_);
+  const auto read = read_quantity(units_, node.text, key.quantity, key.name, key.example, node.place, diagnostics_);
   if (!read) return false;
   if (!in_range(key, *read)) {
     diagnostics_.error(302, node.place, quoted(key.name) + " is " + node.text + ", but must be " + range_text(key), example_of(key));
