@@ -7,6 +7,9 @@
 add_compile_options(-Wall -Wextra -Wshadow -Werror -ffp-contract=off -fno-math-errno -fno-trapping-math)
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 
+# The deprecated C++ bindings of MPI are not wanted (their headers do not compile without warnings).
+add_compile_definitions(OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+
 if(MORULA_NATIVE)
   add_compile_options(-march=native)
   include(CheckCXXSourceRuns)
