@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "core/mesh/triangle_mesh.h"
 #include "scenarios/study/draft.h"
 #include "scenarios/study/study.h"
 
@@ -35,6 +36,8 @@ int find_field(BuildContext& context, const std::string& name, const Place& plac
 bool may_have_shells(const draft::Study& draft);
 /// Note a file the study refers to; `written` is replaced by the place of its copy, for the resolved study.
 std::string add_input_file(BuildContext& context, Given<std::string>& written);
+/// Read the closed surface of an STL or OBJ file, in µm, and check it: E601–E602 and E620–E624; then the mesh is empty.
+TriangleMesh surface_from_file(BuildContext& context, Given<std::string>& written, const Given<double>& scale);
 /// Largest explicit Euler step that is stable for the types of this study [s] (estimate).
 double explicit_step_limit(const draft::Study& draft);
 

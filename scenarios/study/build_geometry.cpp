@@ -14,7 +14,7 @@ bool has_direction(BuildContext& c, const Given<Vec3d>& from, const Given<Vec3d>
   return false;
 }
 
-Surface primitive(BuildContext& c, const draft::Obstacle& o) {
+TriangleMesh primitive(BuildContext& c, const draft::Obstacle& o) {
   if (o.plane.present && o.plane.center.known() && o.plane.normal.known() && o.plane.radius.known()) {
     if (norm2(o.plane.normal.value) > 0.0) return slab_surface(o.plane.center.value, o.plane.normal.value, o.plane.radius.value);
     c.diagnostics.error(302, o.plane.normal.place, "'normal' has no direction", "for example `[0, 0, 1]`");
@@ -52,7 +52,7 @@ void build_geometry(BuildContext& c) {
     obstacle.name = name;
     obstacle.inside = o.side.value == "inside";
     obstacle.velocity = o.velocity.value;
-    Surface surface;
+    TriangleMesh surface;
     if (count == 1) surface = o.stl.known() ? surface_from_file(c, o.stl, o.scale) : o.obj.known() ? surface_from_file(c, o.obj, o.scale) : primitive(c, o);
     check_place(c, name, place, surface.position);
     obstacle.position = std::move(surface.position);

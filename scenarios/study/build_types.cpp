@@ -125,6 +125,7 @@ void build_cell_types(BuildContext& c) {
     type.shell_nodes = static_cast<std::uint32_t>(t.nodes.value);
     type.sphere.young = t.sphere_young.value;
     type.sphere.poisson = t.sphere_poisson.value;
+    type.sphere.adhesive = t.sphere_law.value != "hertz";
     type.shell = shell_parameters(t);
     c.study.model.types.push_back(std::move(type));
   }

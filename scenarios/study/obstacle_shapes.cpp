@@ -20,8 +20,8 @@ Frame frame_of(const Vec3d& axis) {
 }
 
 /// A hexahedron from its centre and three right-handed half edges.
-Surface hexahedron(const Vec3d& center, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-  Surface s;
+TriangleMesh hexahedron(const Vec3d& center, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  TriangleMesh s;
   for (int i = 0; i < 8; ++i)
     s.position.push_back(center + a * (i & 1 ? 1.0 : -1.0) + b * (i & 2 ? 1.0 : -1.0) + c * (i & 4 ? 1.0 : -1.0));
   constexpr std::uint32_t kQuads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
@@ -56,7 +56,7 @@ class Revolution {
     ++rings_;
   }
 
-  Surface finish(const Vec3d& top) {
+  TriangleMesh finish(const Vec3d& top) {
     const auto last = static_cast<std::uint32_t>(surface_.position.size());
     const std::uint32_t first = last - kSides;
     surface_.position.push_back(top);
@@ -66,7 +66,7 @@ class Revolution {
 
  private:
   Frame frame_;
-  Surface surface_;
+  TriangleMesh surface_;
   std::uint32_t rings_ = 0;
 };
 
@@ -78,29 +78,29 @@ double polygon_radius() {
 
 }  // namespace
 
-Surface box_surface(const Vec3d& center, const Vec3d& size) {
+TriangleMesh box_surface(const Vec3d& center, const Vec3d& size) {
   return hexahedron(center, {0.5 * size.x, 0, 0}, {0, 0.5 * size.y, 0}, {0, 0, 0.5 * size.z});
 }
 
-Surface slab_surface(const Vec3d& center, const Vec3d& normal, double size) {
+TriangleMesh slab_surface(const Vec3d& center, const Vec3d& normal, double size) {
   const Vec3d n = normalized(normal);
   const Frame f = frame_of(n);
   const double half_thickness = 0.05 * size;
   return hexahedron(center - n * half_thickness, f.u * (0.5 * size), f.v * (0.5 * size), n * half_thickness);
 }
 
-Surface sphere_surface(const Vec3d& center, double radius) {
+TriangleMesh sphere_surface(const Vec3d& center, double radius) {
   ShapeLibrary library;
   const auto shape = library.icosphere(2562);  // 2562 nodes exist, so that this cannot fail
   const double scale = radius * std::cbrt(4.0 / 3.0 * std::numbers::pi);
-  Surface s;
+  TriangleMesh s;
   for (const Vec3d& p : (*shape)->position) s.position.push_back(center + p * scale);
   const auto faces = (*shape)->topology->faces();
   s.faces.assign(faces.begin(), faces.end());
   return s;
 }
 
-Surface cylinder_surface(const Vec3d& from, const Vec3d& to, double radius) {
+TriangleMesh cylinder_surface(const Vec3d& from, const Vec3d& to, double radius) {
   Revolution body(normalized(to - from), from);
   const double polygon = radius * polygon_radius();
   body.ring(from, polygon);
@@ -108,7 +108,7 @@ Surface cylinder_surface(const Vec3d& from, const Vec3d& to, double radius) {
   return body.finish(to);
 }
 
-Surface capsule_surface(const Vec3d& from, const Vec3d& to, double radius) {
+TriangleMesh capsule_surface(const Vec3d& from, const Vec3d& to, double radius) {
   constexpr int kCapRings = 16;
   const Vec3d axis = normalized(to - from);
   const double polygon = polygon_radius();

@@ -1,25 +1,19 @@
 #pragma once
-#include <vector>
-
-#include "core/mesh/topology.h"
+#include "core/mesh/triangle_mesh.h"
 
 namespace morula::scenarios {
 
-/// A closed triangle mesh, faces counter-clockwise seen from outside.
-struct Surface {
-  std::vector<Vec3d> position;  ///< [µm]
-  std::vector<Triangle> faces;
-};
+// Closed meshes in µm, faces counter-clockwise seen from outside.
 
 /// A box along the axes.
-Surface box_surface(const Vec3d& center, const Vec3d& size);
+TriangleMesh box_surface(const Vec3d& center, const Vec3d& size);
 /// A square slab whose upper face is centred at `center`, looks along `normal` (any length but 0) and has edges `size`; `size`/10 thick.
-Surface slab_surface(const Vec3d& center, const Vec3d& normal, double size);
+TriangleMesh slab_surface(const Vec3d& center, const Vec3d& normal, double size);
 /// A sphere: the icosphere with 2562 nodes, scaled so that the enclosed volume is exact.
-Surface sphere_surface(const Vec3d& center, double radius);
+TriangleMesh sphere_surface(const Vec3d& center, double radius);
 /// A solid cylinder between two points, with 64 sides whose cross-section has the circle's area.
-Surface cylinder_surface(const Vec3d& from, const Vec3d& to, double radius);
+TriangleMesh cylinder_surface(const Vec3d& from, const Vec3d& to, double radius);
 /// A cylinder with round ends around two points, 64 sides.
-Surface capsule_surface(const Vec3d& from, const Vec3d& to, double radius);
+TriangleMesh capsule_surface(const Vec3d& from, const Vec3d& to, double radius);
 
 }  // namespace morula::scenarios
