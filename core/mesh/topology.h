@@ -63,7 +63,7 @@ struct ReferenceShape {
   std::vector<double> hinge_angle;  ///< by edge: dihedral turning angle, 0 flat, > 0 convex [rad]
 };
 
-/// Reference shape from any positions (they are centred and scaled).
+/// Reference shape from any positions (they are centred and scaled); null when they enclose no positive volume.
 std::shared_ptr<const ReferenceShape> make_reference_shape(std::shared_ptr<const Topology> topology, std::vector<Vec3d> position);
 
 /// Subdivided icosahedra with 42, 162, 642 and 2562 nodes, built once and shared.
