@@ -7,6 +7,7 @@
 #include "core/parallel/comm.h"
 #include "core/result.h"
 #include "coupling/tissue.h"
+#include "scenarios/results/hdf5_reader.h"
 
 namespace morula::scenarios {
 
@@ -34,6 +35,9 @@ Status write_checkpoint(const std::filesystem::path& path, const Tissue& tissue,
 /// cells in the order of their ids (then put in canonical order) and of the bricks; the caller distributes them by place.
 /// Errors: kFile for a damaged file, kInput for another format version or a model with other types, fields or obstacles.
 Result<LoadedCheckpoint> read_checkpoint(const std::filesystem::path& path, const Model& model, ShapeLibrary& shapes, const Comm& comm);
+
+/// Whether this program reads the file's format; if not, kInput with a message that names both versions.
+Status check_checkpoint_version(const std::filesystem::path& path, const Hdf5Reader& file);
 
 /// Number of voxels of a brick: kBrick along each axis, fewer at the high faces.
 std::size_t brick_voxel_count(const fields::Grid& grid, std::int64_t brick);

@@ -200,17 +200,6 @@ Status read_fields(const Hdf5Reader& file, const Comm& comm, Tissue& out) {
   return {};
 }
 
-Status check_version(const std::filesystem::path& path, const Hdf5Reader& file) {
-  MORULA_TRY_ASSIGN(const std::uint32_t version, file.value<std::uint32_t>("format_version"));
-  if (version == kCheckpointFormat) return {};
-  std::string writer = "another Morula";
-  if (const auto text = file.text("info/morula_version"); text.ok()) writer = "Morula " + text.value();
-  return Error{ErrorKind::kInput,
-               "checkpoint '" + path.string() + "' has format version " + std::to_string(version) + " (written by " + writer + "), and this Morula " +
-                   build_info().version + " reads version " + std::to_string(kCheckpointFormat),
-               "resume with the version of Morula that wrote it"};
-}
-
 Status check_against(const Model& model, const Tissue& tissue) {
   const auto differs = [](const char* what, std::size_t in_file, std::size_t in_study) {
     return Error{ErrorKind::kInput, "the checkpoint has " + std::to_string(in_file) + ' ' + what + ", the study " + std::to_string(in_study),
@@ -225,11 +214,22 @@ Status check_against(const Model& model, const Tissue& tissue) {
 
 }  // namespace
 
+Status check_checkpoint_version(const std::filesystem::path& path, const Hdf5Reader& file) {
+  MORULA_TRY_ASSIGN(const std::uint32_t version, file.value<std::uint32_t>("format_version"));
+  if (version == kCheckpointFormat) return {};
+  std::string writer = "another Morula";
+  if (const auto text = file.text("info/morula_version"); text.ok()) writer = "Morula " + text.value();
+  return Error{ErrorKind::kInput,
+               "checkpoint '" + path.string() + "' has format version " + std::to_string(version) + " (written by " + writer + "), and this Morula " +
+                   build_info().version + " reads version " + std::to_string(kCheckpointFormat),
+               "resume with the version of Morula that wrote it"};
+}
+
 Result<LoadedCheckpoint> read_checkpoint(const std::filesystem::path& path, const Model& model, ShapeLibrary& shapes, const Comm& comm) {
   auto opened = Hdf5Reader::open(path);
   MORULA_TRY(agree(opened.ok() ? Status{} : Status(opened.error()), comm));
   const Hdf5Reader file = std::move(opened).value();
-  MORULA_TRY(agree(check_version(path, file), comm));
+  MORULA_TRY(agree(check_checkpoint_version(path, file), comm));
   MORULA_TRY(file.verify(comm));
   LoadedCheckpoint out;
   MORULA_TRY(agree(read_globals(file, out), comm));
