@@ -23,6 +23,7 @@ struct Spheres {
 struct SphereParameters {
   double young = 0.45;   ///< E [kPa]
   double poisson = 0.4;  ///< ν
+  bool adhesive = true;  ///< JKR; false: Hertz, spheres of this type do not adhere to spheres
 };
 
 }  // namespace morula::cbm
