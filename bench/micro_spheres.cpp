@@ -50,7 +50,7 @@ BENCHMARK(jkr_latency);
 void jkr_lanes(benchmark::State& state) {
   using L = Lane<double, 8>;
   const auto scalar = reference_pair();
-  const PairLaw<L> law{L(scalar.modulus), L(scalar.reduced_radius), L(scalar.length), L(scalar.radius), L(scalar.force)};
+  const PairLaw<L> law{L(scalar.modulus), L(scalar.reduced_radius), L(scalar.length), L(scalar.inverse_length), L(scalar.radius), L(scalar.force)};
   const auto values = overlaps(1024);
   for (auto _ : state) {
     for (std::size_t k = 0; k < values.size(); k += 8) {

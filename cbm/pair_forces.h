@@ -93,6 +93,22 @@ inline PairResponse evaluate_pair(const ContactTable::Entry& entry, const Vec3d&
   return out;
 }
 
+/// A sphere and a rigid plane, Hertz with R* = R and E* = E/(1 − ν²): no adhesion and no friction, as at a wall of the domain.
+/// outward: unit vector from the sphere towards the plane; distance: of the centre from the plane, negative behind it [µm].
+inline PairResponse evaluate_wall(const SphereParameters& sphere, double radius, const Vec3d& outward, double distance) noexcept {
+  const PairLaw<double> law = make_pair_law(ContactMaterial::against_rigid(sphere.young, sphere.poisson, 0.0), radius);
+  PairResponse out;
+  out.normal = outward;
+  out.distance = distance;
+  out.overlap = radius - distance;
+  const ContactResponse<double> contact = hertz_contact(law, out.overlap);
+  out.force = contact.force;
+  out.stiffness = contact.stiffness;
+  out.area = contact.area;
+  out.energy = contact.energy;
+  return out;
+}
+
 /// All pairs; out has the length of pairs. Threaded; the result of a pair depends on nothing but the pair.
 void evaluate_pairs(const Space& space, const SphereView& spheres, const ContactTable& table, std::span<const SpherePair> pairs,
                     std::span<PairResponse> out);

@@ -47,19 +47,19 @@ Real jkr_branch(Real overlap_ratio) noexcept {
 /// The attached branch at this overlap [µm]; nothing beyond the fold. Precondition: W > 0.
 template <class Real>
 ContactResponse<Real> jkr_contact(const PairLaw<Real>& law, Real overlap) noexcept {
-  const Real ratio = overlap / law.length;
+  const Real ratio = overlap * law.inverse_length;
   const Real y = jkr_branch(ratio);
   const Real y2 = y * y;
   const Real y3 = y2 * y;
   const Real y4 = y2 * y2;
   const Real contact_radius = Real(0.5) * law.radius * y2;
-  const auto holds = ratio >= Real(kBreakOverlap);
+  const auto holds = overlap >= Real(kBreakOverlap) * law.length;  // the same comparison as update_attached
   const Real zero(0.0);
   ContactResponse<Real> out;
   out.force = select(holds, law.force * y3 * (y3 * Real(1.0 / 6.0) - Real(1.0)), zero);
   // Where the slope is negative (y³ < 3) the numerator is 0 already, so that the denominator may be kept away from 0.
   const Real slope = y2 * max(y3 - Real(3.0), zero) / max(y3 - Real(1.0), Real(1.0));
-  out.stiffness = select(holds, law.force / law.length * slope, zero);
+  out.stiffness = select(holds, law.force * law.inverse_length * slope, zero);
   out.contact_radius = select(holds, contact_radius, zero);
   out.area = Real(std::numbers::pi) * out.contact_radius * out.contact_radius;
   const Real energy = y4 * (y3 * (y3 * Real(1.0 / 60.0) - Real(1.0 / 6.0)) + Real(0.25)) - Real(0.1);

@@ -219,7 +219,7 @@ TEST(Jkr, GivesTheSameBitsInLanes) {
   constexpr int W = 8;
   using L = Lane<double, W>;
   const auto law = reference_pair();
-  PairLaw<L> lanes{L(law.modulus), L(law.reduced_radius), L(law.length), L(law.radius), L(law.force)};
+  PairLaw<L> lanes{L(law.modulus), L(law.reduced_radius), L(law.length), L(law.inverse_length), L(law.radius), L(law.force)};
   std::mt19937_64 generator(7);
   std::uniform_real_distribution<double> overlap(-1.3, 4.0);
   for (int round = 0; round < 100; ++round) {

@@ -132,6 +132,16 @@ TEST(PairForces, FrictionScalarsBuildTheFrictionBlock) {
   EXPECT_NEAR(r.isotropic_friction + r.axial_friction, 60.0 * r.area, 1e-10);
 }
 
+TEST(PairForces, AWallPushesLikeARigidPlaneWithoutFriction) {
+  // R = 5, E* = 0.535714286 (plane of the physics page), δ = 1: (4/3) E* √5.
+  const auto r = evaluate_wall({0.45, 0.4}, 5.0, {0, 0, -1}, 4.0);
+  EXPECT_NEAR(r.force, 4.0 / 3.0 * 0.535714286 * std::sqrt(5.0), 1e-8);
+  EXPECT_NEAR(r.area, 5.0 * kPi, 1e-12);
+  EXPECT_EQ(r.isotropic_friction, 0.0);
+  EXPECT_EQ(evaluate_wall({0.45, 0.4}, 5.0, {0, 0, -1}, 5.1).force, 0.0);
+  EXPECT_GT(evaluate_wall({0.45, 0.4}, 5.0, {0, 0, -1}, -1.0).force, r.force);
+}
+
 TEST(PairForces, CoincidentCentresGetADefiniteDirection) {
   const auto table = two_types();
   const auto r = evaluate_pair(table.entry(0, 0), {0, 0, 0}, 5.0, 5.0, true, 0.0);

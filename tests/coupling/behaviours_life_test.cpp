@@ -166,7 +166,7 @@ CellType starving() {
 
 TEST(Death, PoissonSurvivorsAfterNinetySixHours) {
   // μ = 5.31667e-5/min, 96 h: fraction 0.736210 (physics page), whatever the step. Four standard errors of a binomial.
-  for (const double dt : {1800.0, 7200.0}) {
+  for (const double dt : {3600.0, 14400.0}) {
     CellType type = starving();
     type.removal_fraction = 1e-30;
     Population population;
