@@ -22,7 +22,8 @@ ContactTable::ContactTable(std::span<const SphereParameters> types, std::span<co
       // Always from the lower type's side, so that (a, b) and (b, a) are the same numbers to the last bit.
       const SphereParameters& first = types[a < b ? a : b];
       const SphereParameters& second = types[a < b ? b : a];
-      entries_.push_back({ContactMaterial::elastic(first.young, first.poisson, second.young, second.poisson, surface.adhesion),
+      const double adhesion = first.adhesive && second.adhesive ? surface.adhesion : 0.0;
+      entries_.push_back({ContactMaterial::elastic(first.young, first.poisson, second.young, second.poisson, adhesion),
                           surface.normal_friction, surface.tangential_friction});
     }
   }
