@@ -15,8 +15,8 @@ namespace morula::cbm {
 /// constant of Ũ makes the energy 0 there, so that energy goes on without a jump (and stays 0) when an attached pair is pulled
 /// beyond the fold within a step. The pair is always on the outer branch y ≥ 1.
 ///
-/// Whether a pair is attached is state, and fixed within a step; `update_attached` gives it for the next. An unattached pair that overlaps
-/// within a step feels the Hertz force. Without adhesion (W = 0) the law is Hertz's.
+/// Whether a pair is attached is state, and fixed within a step; `update_attached` gives it for the next. An unattached pair that
+/// overlaps within a step feels the Hertz force. Without adhesion (W = 0) the law is Hertz's.
 
 /// Fold of the branch: contact breaks at δ = −0.75 X when the distance is controlled.
 inline constexpr double kBreakOverlap = -0.75;
@@ -26,8 +26,8 @@ inline constexpr double kZeroLoadRadius = 1.6509636244473134;
 
 /// y ≥ 1 of the attached branch at the dimensionless overlap δ̃; y = 1 below the fold.
 ///
-/// Solved for e = y − 1, which is small near the fold: e²(e² + 4e + 6) = 4δ̃ + 3. A rational start (fitted, relative error below 1e-4 for any
-/// overlap, from the right) and two Newton steps reach machine precision; there is no loop and no branch, so that lanes work.
+/// Solved for e = y − 1, which is small near the fold: e²(e² + 4e + 6) = 4δ̃ + 3. A rational start (fitted, relative error below 1e-4
+/// for any overlap) and two Newton steps reach machine precision; there is no loop and no branch, so that lanes work.
 template <class Real>
 Real jkr_branch(Real overlap_ratio) noexcept {
   // The floor keeps the division below finite; it moves the fold by 2.5e-16 in δ̃, less than the rounding of δ̃ itself.

@@ -43,7 +43,8 @@ Cluster random_cluster(int count, unsigned seed) {
     cluster.type.push_back(static_cast<std::uint16_t>(k % 2));
   }
   for (std::uint32_t i = 0; i < cluster.position.size(); ++i) {
-    for (std::uint32_t j = i + 1; j < cluster.position.size(); ++j) cluster.pairs.push_back({i, j, (i + j) % 3 != 0, (i * j) % 7 == 0 ? 0.4 : 0.0});
+    for (std::uint32_t j = i + 1; j < cluster.position.size(); ++j)
+      cluster.pairs.push_back({i, j, (i + j) % 3 != 0, (i * j) % 7 == 0 ? 0.4 : 0.0});
   }
   return cluster;
 }

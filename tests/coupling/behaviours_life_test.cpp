@@ -174,7 +174,8 @@ TEST(Death, PoissonSurvivorsAfterNinetySixHours) {
     const int n = 20000;
     for (int k = 1; k <= n; ++k) population.rows.push_back(make_founder(CellId::founder(k), 0, type, 1, 0.0, false));
     population.run_to(96 * kHour, dt);
-    const auto alive = std::count_if(population.rows.begin(), population.rows.end(), [](const CellRow& r) { return r.phase != Phase::kDying; });
+    const auto alive =
+        std::count_if(population.rows.begin(), population.rows.end(), [](const CellRow& r) { return r.phase != Phase::kDying; });
     EXPECT_NEAR(static_cast<double>(alive) / n, 0.736210, 4 * std::sqrt(0.7362 * 0.2638 / n));
     EXPECT_EQ(population.events.size(), n - static_cast<std::size_t>(alive));
   }
