@@ -22,7 +22,8 @@ ContactTable::ContactTable(std::span<const SphereParameters> types, std::span<co
       // Always from the lower type's side, so that (a, b) and (b, a) are the same numbers to the last bit.
       const SphereParameters& first = types[a < b ? a : b];
       const SphereParameters& second = types[a < b ? b : a];
-      entries_.push_back({ContactMaterial::elastic(first.young, first.poisson, second.young, second.poisson, surface.adhesion),
+      const double adhesion = first.adhesive && second.adhesive ? surface.adhesion : 0.0;
+      entries_.push_back({ContactMaterial::elastic(first.young, first.poisson, second.young, second.poisson, adhesion),
                           surface.normal_friction, surface.tangential_friction});
     }
   }
@@ -41,7 +42,7 @@ void evaluate_pairs(const Space& space, const SphereView& spheres, const Contact
   assert(out.size() == pairs.size());
   const bool periodic = space.any_periodic();
   const auto count = static_cast<std::int64_t>(pairs.size());
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (count > 1000)
   for (std::int64_t k = 0; k < count; ++k) {
     const SpherePair& pair = pairs[k];
     out[k] = evaluate_pair(table.entry(spheres.type[pair.i], spheres.type[pair.j]), between(space, periodic, spheres, pair),
@@ -53,7 +54,7 @@ std::size_t update_attached(const Space& space, const SphereView& spheres, const
   const bool periodic = space.any_periodic();
   const auto count = static_cast<std::int64_t>(pairs.size());
   std::int64_t changed = 0;
-#pragma omp parallel for schedule(static) reduction(+ : changed)
+#pragma omp parallel for schedule(static) reduction(+ : changed) if (count > 1000)
   for (std::int64_t k = 0; k < count; ++k) {
     SpherePair& pair = pairs[k];
     const double radius_i = spheres.radius[pair.i];

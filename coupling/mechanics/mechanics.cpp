@@ -16,7 +16,7 @@ double step_margin(const Model& model) { return 2.0 * model.step.max_displacemen
 
 }  // namespace
 
-Mechanics::Mechanics(const Model& model, std::vector<RigidSurface> obstacles, ShapeLibrary& shapes, const Comm& comm, int threads)
+Mechanics::Mechanics(const Model& model, std::vector<RigidSurface> obstacles, ShapeLibrary& shapes, Comm comm, int threads)
     : model_(model),
       shapes_(shapes),
       comm_(comm),

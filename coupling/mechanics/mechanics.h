@@ -49,7 +49,7 @@ struct BodyValues {
 /// A workspace: everything in it can be rebuilt from the Tissue, and rebuilding it never changes a result.
 class Mechanics {
  public:
-  Mechanics(const Model& model, std::vector<RigidSurface> obstacles, ShapeLibrary& shapes, const Comm& comm, int threads);
+  Mechanics(const Model& model, std::vector<RigidSurface> obstacles, ShapeLibrary& shapes, Comm comm, int threads);
 
   /// Cells were added, removed, moved between ranks, or changed their body: everything is collected again at the next use.
   void bodies_changed() { scene_valid_ = false; }
@@ -105,7 +105,7 @@ class Mechanics {
 
   const Model& model_;
   ShapeLibrary& shapes_;
-  const Comm& comm_;
+  Comm comm_;
   int threads_;
   StageTimer timer_;
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "cbm/laws/jkr.h"
+#include "core/mesh/pseudonormal.h"
 
 namespace morula {
 
@@ -133,7 +134,8 @@ void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts) 
         response.overlap = -1e300;
         continue;
       }
-      const double side = near->inside ? -1.0 : 1.0;
+      const Vec3d from = x[a.first_point] - contacts.obstacle_offset(pair.b);
+      const double side = signed_distance(*obstacle.topology, obstacle.position, from, near->face, near->closest) < 0.0 ? -1.0 : 1.0;
       const Vec3d between = near->closest.point + contacts.obstacle_offset(pair.b) - x[a.first_point];
       const double distance = norm(between);
       response.distance = side * distance;
