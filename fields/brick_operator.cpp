@@ -7,10 +7,6 @@
 
 namespace morula::fields {
 
-namespace {
-constexpr std::size_t kWorthThreads = 64;  ///< bricks; below, starting threads costs more than it saves
-}
-
 BrickOperator::BrickOperator(const Grid& grid, const FieldSpec& spec, const Layout& layout, Halo& halo)
     : spec_(spec), layout_(layout), halo_(halo), voxel_volume_(grid.voxel_volume()), slope_(layout.concentrations(), 0.0),
       diagonal_(layout.concentrations()) {
@@ -120,7 +116,7 @@ void BrickOperator::evaluate(const double* unknowns, double* rate, bool amounts)
   halo_.exchange(unknowns);
   double* taken_rate = amounts ? rate + layout_.sinks_at() : nullptr;
   if (!amounts) std::fill(rate + layout_.concentrations(), rate + layout_.unknowns(), 0.0);
-#pragma omp parallel for schedule(static) if (layout_.bricks() > kWorthThreads)
+#pragma omp parallel for schedule(static) if (layout_.bricks() >= kBricksWorthThreads)
   for (std::size_t b = 0; b < layout_.bricks(); ++b) {
     Padded padded;
     fill(b, unknowns, 1.0, padded);
@@ -132,7 +128,7 @@ void BrickOperator::evaluate(const double* unknowns, double* rate, bool amounts)
 }
 
 void BrickOperator::linearize(const double* unknowns) {
-#pragma omp parallel for schedule(static) if (layout_.bricks() > kWorthThreads)
+#pragma omp parallel for schedule(static) if (layout_.bricks() >= kBricksWorthThreads)
   for (std::size_t b = 0; b < layout_.bricks(); ++b) {
     const std::size_t at = layout_.offset[b];
     for (std::size_t s = layout_.first_sink[b]; s < layout_.first_sink[b + 1]; ++s) slope_[at + static_cast<std::size_t>(layout_.sinks[s].voxel)] = 0.0;
@@ -147,7 +143,7 @@ void BrickOperator::linearize(const double* unknowns) {
 double BrickOperator::shifted_product(double gamma, const double* x, double* out, const Comm& comm) {
   halo_.exchange(x);
   partial_.resize(layout_.bricks());
-#pragma omp parallel for schedule(static) if (layout_.bricks() > kWorthThreads)
+#pragma omp parallel for schedule(static) if (layout_.bricks() >= kBricksWorthThreads)
   for (std::size_t b = 0; b < layout_.bricks(); ++b) {
     Padded padded;
     fill(b, x, 0.0, padded);
