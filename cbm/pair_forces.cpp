@@ -42,7 +42,7 @@ void evaluate_pairs(const Space& space, const SphereView& spheres, const Contact
   assert(out.size() == pairs.size());
   const bool periodic = space.any_periodic();
   const auto count = static_cast<std::int64_t>(pairs.size());
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (count > 1000)
   for (std::int64_t k = 0; k < count; ++k) {
     const SpherePair& pair = pairs[k];
     out[k] = evaluate_pair(table.entry(spheres.type[pair.i], spheres.type[pair.j]), between(space, periodic, spheres, pair),
@@ -54,7 +54,7 @@ std::size_t update_attached(const Space& space, const SphereView& spheres, const
   const bool periodic = space.any_periodic();
   const auto count = static_cast<std::int64_t>(pairs.size());
   std::int64_t changed = 0;
-#pragma omp parallel for schedule(static) reduction(+ : changed)
+#pragma omp parallel for schedule(static) reduction(+ : changed) if (count > 1000)
   for (std::int64_t k = 0; k < count; ++k) {
     SpherePair& pair = pairs[k];
     const double radius_i = spheres.radius[pair.i];

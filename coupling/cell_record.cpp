@@ -22,11 +22,11 @@ std::vector<CellRecord> take_apart(Tissue& tissue) {
     if (row.body == BodyKind::kShell) {
       const std::size_t i = next_shell++;
       const auto nodes = [&](const auto& array) { return std::vector(array.begin() + shells.first_node[i], array.begin() + shells.first_node[i + 1]); };
-      record.shell = ShellBody{shells.shape[i], shells.reference_volume[i], shells.rest_volume[i], nodes(shells.position), nodes(shells.velocity),
+      record.shell = ShellRecord{shells.shape[i], shells.reference_volume[i], shells.rest_volume[i], nodes(shells.position), nodes(shells.velocity),
                                std::vector(shells.rest_length.begin() + shells.first_edge[i], shells.rest_length.begin() + shells.first_edge[i + 1])};
     } else {
       const std::size_t i = next_sphere++;
-      record.sphere = SphereBody{spheres.position[i], spheres.radius[i], spheres.velocity[i], std::move(spheres.attached[i])};
+      record.sphere = SphereRecord{spheres.position[i], spheres.radius[i], spheres.velocity[i], std::move(spheres.attached[i])};
     }
   }
   tissue.cells = {};
@@ -44,7 +44,7 @@ void put_together(Tissue& tissue, std::vector<CellRecord> cells) {
     cell.row.body = cell.shell ? BodyKind::kShell : BodyKind::kSphere;
     tissue.cells.rows.push_back(cell.row);
     if (cell.shell) {
-      const ShellBody& body = *cell.shell;
+      const ShellRecord& body = *cell.shell;
       shells.shape.push_back(body.shape);
       shells.type.push_back(cell.row.type);
       shells.reference_volume.push_back(body.reference_volume);
@@ -55,7 +55,7 @@ void put_together(Tissue& tissue, std::vector<CellRecord> cells) {
       shells.first_node.push_back(static_cast<std::uint32_t>(shells.position.size()));
       shells.first_edge.push_back(static_cast<std::uint32_t>(shells.rest_length.size()));
     } else {
-      SphereBody& body = *cell.sphere;
+      SphereRecord& body = *cell.sphere;
       spheres.position.push_back(body.position);
       spheres.radius.push_back(body.radius);
       spheres.type.push_back(cell.row.type);
@@ -65,8 +65,8 @@ void put_together(Tissue& tissue, std::vector<CellRecord> cells) {
   }
 }
 
-ShellBody spherical_shell(std::shared_ptr<const ReferenceShape> shape, const Vec3d& center, double volume, double reference_volume) {
-  ShellBody body;
+ShellRecord spherical_shell(std::shared_ptr<const ReferenceShape> shape, const Vec3d& center, double volume, double reference_volume) {
+  ShellRecord body;
   const double scale = std::cbrt(volume);  // the reference shape encloses 1
   body.position.reserve(shape->position.size());
   for (const Vec3d& p : shape->position) body.position.push_back(center + p * scale);
@@ -112,7 +112,7 @@ struct Reader {
 void append_bytes(const CellRecord& cell, std::vector<std::byte>& out) {
   append(out, &cell.row, 1);
   if (cell.sphere) {
-    const SphereBody& body = *cell.sphere;
+    const SphereRecord& body = *cell.sphere;
     const std::uint64_t count = body.attached.size();
     append(out, &body.position, 1);
     append(out, &body.radius, 1);
@@ -120,7 +120,7 @@ void append_bytes(const CellRecord& cell, std::vector<std::byte>& out) {
     append(out, &count, 1);
     append(out, body.attached.data(), body.attached.size());
   } else {
-    const ShellBody& body = *cell.shell;
+    const ShellRecord& body = *cell.shell;
     const std::uint32_t nodes = body.shape->topology->node_count();
     append(out, &nodes, 1);
     append(out, &body.reference_volume, 1);
@@ -138,14 +138,14 @@ std::vector<CellRecord> read_records(std::span<const std::byte> bytes, ShapeLibr
     CellRecord& cell = out.emplace_back();
     cell.row = reader.one<CellRow>();
     if (cell.row.body == BodyKind::kSphere) {
-      SphereBody body;
+      SphereRecord body;
       body.position = reader.one<Vec3d>();
       body.radius = reader.one<double>();
       body.velocity = reader.one<Vec3f>();
       body.attached = reader.many<CellId>(reader.one<std::uint64_t>());
       cell.sphere = std::move(body);
     } else {
-      ShellBody body;
+      ShellRecord body;
       const auto nodes = reader.one<std::uint32_t>();
       body.shape = shapes.icosphere(nodes).value();
       body.reference_volume = reader.one<double>();

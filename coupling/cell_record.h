@@ -12,7 +12,7 @@
 namespace morula {
 
 /// The body of a cell that is a sphere.
-struct SphereBody {
+struct SphereRecord {
   Vec3d position;
   double radius = 0.0;
   Vec3f velocity;
@@ -20,7 +20,7 @@ struct SphereBody {
 };
 
 /// The body of a cell that is a shell.
-struct ShellBody {
+struct ShellRecord {
   std::shared_ptr<const ReferenceShape> shape;
   double reference_volume = 0.0;
   double rest_volume = 0.0;
@@ -32,8 +32,8 @@ struct ShellBody {
 /// One cell whole: its row and its body. What events, swaps and moves between ranks work on.
 struct CellRecord {
   CellRow row;
-  std::optional<SphereBody> sphere;
-  std::optional<ShellBody> shell;
+  std::optional<SphereRecord> sphere;
+  std::optional<ShellRecord> shell;
 
   [[nodiscard]] Vec3d center() const;
 };
@@ -45,7 +45,7 @@ std::vector<CellRecord> take_apart(Tissue& tissue);
 void put_together(Tissue& tissue, std::vector<CellRecord> cells);
 
 /// A spherical shell around `center` whose mesh encloses `volume`, with stress-free membrane at that volume and velocity zero.
-ShellBody spherical_shell(std::shared_ptr<const ReferenceShape> shape, const Vec3d& center, double volume, double reference_volume);
+ShellRecord spherical_shell(std::shared_ptr<const ReferenceShape> shape, const Vec3d& center, double volume, double reference_volume);
 
 /// A cell as bytes and back. Shapes travel by their node count.
 void append_bytes(const CellRecord& cell, std::vector<std::byte>& out);

@@ -61,6 +61,7 @@ class ContactLayer {
   void set_depth(double depth);
   void set_offsets(std::span<const Vec3d> offsets);
   void set_cap(double cap);
+  [[nodiscard]] double cap() const { return materials_.empty() ? 0.0 : materials_.front().law.cap; }
 
   /// Take note of how far the bodies have moved since the last call. True when the list of pairs is no longer sure: rebuild() is due
   /// before evaluate(). Local to the rank; on several ranks all rebuild when one must.

@@ -4,7 +4,7 @@
 
 namespace morula {
 
-/// The cube root of a positive normal number, to 2 units in the last place; the same bits on every platform (libm's is not).
+/// The cube root of a positive normal number, to 3 units in the last place; the same bits on every platform (libm's is not).
 ///
 /// Start by dividing the exponent by three in the bit pattern (relative error below 4 %), then Halley's iteration, which cubes the
 /// error: y ← y (y³ + 2a)/(2y³ + a), three times.

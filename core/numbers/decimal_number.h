@@ -7,8 +7,8 @@ namespace morula {
 /// A decimal number at the start of a text.
 struct DecimalNumber {
   long double value = 0.0L;
-  std::size_t length = 0;      ///< characters it takes; 0: the text does not begin with a number
-  bool leading_zero = false;   ///< as in 010, which some readers take for octal
+  std::size_t length = 0;     ///< characters it takes; 0: the text does not begin with a number
+  bool leading_zero = false;  ///< as in 010, which some readers take for octal
 };
 
 /// Sign, digits, point, exponent: nothing else (no NaN, no infinity, no hexadecimal, no comma), whatever the locale.

@@ -61,10 +61,9 @@ Factor exact_factor(double factor) {
 /// Characters beyond ASCII that people write in units, in the spelling that udunits2's tables have.
 std::string plain_spelling(std::string_view unit) {
   static constexpr std::pair<std::string_view, std::string_view> kSpelling[] = {
-      {"µ", "u"}, {"μ", "u"}, {"·", " "}, {"⋅", " "}, {"×", " "}, {"−", "-"},
-      {"\u00a0", " "}, {"\u202f", " "}, {"°", "deg"}};
-  static constexpr std::pair<std::string_view, std::string_view> kSuperscripts[] = {
-      {"⁻", "-"}, {"⁰", "0"}, {"¹", "1"}, {"²", "2"}, {"³", "3"}, {"⁴", "4"}, {"⁵", "5"}, {"⁶", "6"}};
+      {"µ", "u"}, {"μ", "u"}, {"·", " "}, {"⋅", " "}, {"×", " "}, {"−", "-"}, {"\u00a0", " "}, {"\u202f", " "}, {"°", "deg"}};
+  static constexpr std::pair<std::string_view, std::string_view> kSuperscripts[] = {{"⁻", "-"}, {"⁰", "0"}, {"¹", "1"}, {"²", "2"},
+                                                                                    {"³", "3"}, {"⁴", "4"}, {"⁵", "5"}, {"⁶", "6"}};
   std::string out;
   bool raised = false;
   const auto take = [&](const auto& table, bool raises) {

@@ -5,27 +5,13 @@ namespace morula {
 std::span<const UnitDefinition> unit_definitions() {
   // Exact by definition: BIPM, The International System of Units, 9th edition (2019), tables 2, 4 and 8.
   static constexpr UnitDefinition kUnits[] = {
-      {"m", "meter", "1e6 um"},
-      {"", "metre", "1e6 um"},
-      {"mol", "mole", "1e18 amol"},
-      {"min", "minute", "60 s"},
-      {"h", "hour", "3600 s"},
-      {"d", "day", "86400 s"},
-      {"", "week", "604800 s"},
-      {"Hz", "hertz", "s^-1"},
-      {"L", "liter", "1e15 um^3"},
-      {"l", "litre", "1e15 um^3"},
-      {"M", "molar", "1e18 amol/L"},
-      {"N", "newton", "1e3 g m/s^2"},
-      {"Pa", "pascal", "N/m^2"},
-      {"bar", "", "1e5 Pa"},
-      {"mmHg", "", "133.322387415 Pa"},
-      {"J", "joule", "N m"},
-      {"W", "watt", "J/s"},
-      {"P", "poise", "0.1 Pa s"},
-      {"dyn", "dyne", "1e-5 N"},
-      {"erg", "", "1e-7 J"},
-      {"deg", "degree", "0.017453292519943295 rad"},
+      {"m", "meter", "1e6 um"},    {"", "metre", "1e6 um"},       {"mol", "mole", "1e18 amol"},
+      {"min", "minute", "60 s"},   {"h", "hour", "3600 s"},       {"d", "day", "86400 s"},
+      {"", "week", "604800 s"},    {"Hz", "hertz", "s^-1"},       {"L", "liter", "1e15 um^3"},
+      {"l", "litre", "1e15 um^3"}, {"M", "molar", "1e18 amol/L"}, {"N", "newton", "1e3 g m/s^2"},
+      {"Pa", "pascal", "N/m^2"},   {"bar", "", "1e5 Pa"},         {"mmHg", "", "133.322387415 Pa"},
+      {"J", "joule", "N m"},       {"W", "watt", "J/s"},          {"P", "poise", "0.1 Pa s"},
+      {"dyn", "dyne", "1e-5 N"},   {"erg", "", "1e-7 J"},         {"deg", "degree", "0.017453292519943295 rad"},
       {"%", "percent", "0.01"},
   };
   return kUnits;
@@ -35,7 +21,7 @@ std::span<const UnitPrefix> unit_prefixes() {
   // no hecto: its symbol makes "hh" or "hs" a unit, which is a slip more often than a wish
   static constexpr UnitPrefix kPrefixes[] = {
       {"a", "atto", 1e-18}, {"f", "femto", 1e-15}, {"p", "pico", 1e-12}, {"n", "nano", 1e-9}, {"u", "micro", 1e-6}, {"m", "milli", 1e-3},
-      {"c", "centi", 1e-2}, {"d", "deci", 1e-1},   {"k", "kilo", 1e3},  {"M", "mega", 1e6},   {"G", "giga", 1e9},
+      {"c", "centi", 1e-2}, {"d", "deci", 1e-1},   {"k", "kilo", 1e3},   {"M", "mega", 1e6},  {"G", "giga", 1e9},
   };
   return kPrefixes;
 }

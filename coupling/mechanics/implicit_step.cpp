@@ -61,7 +61,7 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
   OrderFreeSum sums[2];
   contacts_.add_step_friction(contact_scene(), displacement_, friction_, sums[0]);
   shells_.add_step_friction(displacement_, friction_, sums[0]);
-  spheres_.add_step_friction(displacement_, friction_, sums[0]);
+  spheres_.add_step_friction(scene_, displacement_, friction_, sums[0]);
   for (std::size_t body = 0; body < scene_.bodies().size(); ++body) {
     const ContactBody& b = scene_.bodies()[body];
     if (!b.owned) continue;
@@ -115,13 +115,11 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
   for (int iteration = 0; iteration < control.max_newton; ++iteration) {
     if (iteration > 0) std::fill(solution_.begin(), solution_.end(), Float4{});
     auto solved = solve(dt, iteration == 0 ? control.first_tolerance : control.later_tolerance);
-    if (!solved) return solved.error();
+    if (!solved) return undo(start, solved.error());
     ++report.newton;
     const double longest = limit_direction(range);
     if (iteration == 0 && longest > 4.0 * allowed && dt > 1e-3) {
-      scene_.position() = start;
-      evaluated_ = false;
-      return StepFault{"points would move too far in one step", {}, true};
+      return undo(start, StepFault{"points would move too far in one step", {}, true});
     }
     double slope = -dot(residual_, direction);
     const bool converged = -0.5 * slope <= 1e-12 * (1.0 + std::abs(trial.phi));
@@ -132,7 +130,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
       const std::vector<Vec3d> newton_direction = direction;
       std::fill(solution_.begin(), solution_.end(), Float4{});
       solved = solve(0.0, control.first_tolerance);
-      if (!solved) return solved.error();
+      if (!solved) return undo(start, solved.error());
       limit_direction(range);
       slope = -dot(residual_, direction);
       bool moved = trial.search(direction, slope, kGradientHalvings, 0.0);
@@ -154,9 +152,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
                 worst = norm2(residual_[i]);
                 fault.cell = body.id;
               }
-          scene_.position() = start;
-          evaluated_ = false;
-          return fault;
+          return undo(start, fault);
         }
         break;
       }
@@ -165,9 +161,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
   }
   report.displacement = largest(displacement_);
   if (report.displacement > 1.5 * allowed && dt > 1e-3) {
-    scene_.position() = start;
-    evaluated_ = false;
-    return StepFault{"points moved too far in one step", {}, true};
+    return undo(start, StepFault{"points moved too far in one step", {}, true});
   }
   finish(tissue, dt, report);
   return report;
@@ -184,7 +178,7 @@ Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt
     right_[i] = {static_cast<float>(residual_[i].x), static_cast<float>(residual_[i].y), static_cast<float>(residual_[i].z), 0.0f};
   });
   auto solved = system_.solve(right_, solution_, 1e-4, kMaxLinearIterations, comm_);
-  if (!solved) return StepFault{solved.error().what, {}, true};
+  if (!solved) return undo(start, StepFault{solved.error().what, {}, true});
   report.linear_iterations = solved->iterations;
   report.newton = 1;
   auto& x = scene_.position();
@@ -192,15 +186,11 @@ Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt
   for_owned_points([&](std::uint32_t i) { displacement_[i] = x[i] - start[i]; });
   report.displacement = largest(displacement_);
   if (!std::isfinite(report.displacement) || report.displacement > model_.contact.range) {
-    scene_.position() = start;
-    evaluated_ = false;
-    return StepFault{"points moved too far in one explicit step", {}, true};
+    return undo(start, StepFault{"points moved too far in one explicit step", {}, true});
   }
   evaluate(tissue);
   if (const auto fault = find_fault(tissue); comm_.any(fault.has_value())) {
-    scene_.position() = start;
-    evaluated_ = false;
-    return fault.value_or(StepFault{"a cell on another rank is too distorted", {}, true});
+    return undo(start, fault.value_or(StepFault{"a cell on another rank is too distorted", {}, true}));
   }
   finish(tissue, dt, report);
   return report;

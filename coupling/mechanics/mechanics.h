@@ -10,7 +10,7 @@
 #include "core/mesh/topology.h"
 #include "core/parallel/comm.h"
 #include "coupling/mechanics/scene.h"
-#include "coupling/mechanics/shell_mechanics.h"
+#include "coupling/mechanics/shell_system.h"
 #include "coupling/mechanics/sphere_contacts.h"
 #include "coupling/model.h"
 #include "coupling/stage_timer.h"
@@ -49,7 +49,7 @@ struct BodyValues {
 /// A workspace: everything in it can be rebuilt from the Tissue, and rebuilding it never changes a result.
 class Mechanics {
  public:
-  Mechanics(const Model& model, std::vector<RigidSurface> obstacles, ShapeLibrary& shapes, const Comm& comm, int threads);
+  Mechanics(const Model& model, std::vector<RigidSurface> obstacles, ShapeLibrary& shapes, Comm comm, int threads);
 
   /// Cells were added, removed, moved between ranks, or changed their body: everything is collected again at the next use.
   void bodies_changed() { scene_valid_ = false; }
@@ -79,7 +79,10 @@ class Mechanics {
  private:
   struct Trial;  // a point of the line search
   void prepare(const Tissue& tissue);
-  void evaluate(const Tissue& tissue);
+  /// Energy and forces at the scene's positions; `moved`: positions differ from those of the last call.
+  void evaluate(const Tissue& tissue, bool moved = true);
+  /// Back to the step's start after a fault.
+  StepFault undo(const std::vector<Vec3d>& start, StepFault fault);
   void begin_step(const Tissue& tissue, double dt);
   [[nodiscard]] double friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt);
   [[nodiscard]] std::optional<StepFault> find_fault(const Tissue& tissue) const;
@@ -89,24 +92,32 @@ class Mechanics {
   void finish(Tissue& tissue, double dt, StepReport& report);
   [[nodiscard]] ContactScene contact_scene() const;
   template <class F>
-  void for_owned_points(F&& function) const;
+  void for_owned_points(F&& function) const {
+    const std::uint32_t nodes = scene_.owned_nodes(), first = scene_.sphere_point();
+    const auto last = first + static_cast<std::uint32_t>(scene_.owned_spheres());
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (std::uint32_t i = 0; i < nodes; ++i) function(i);
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (std::uint32_t i = first; i < last; ++i) function(i);
+  }
   [[nodiscard]] double largest(std::span<const Vec3d> by_point) const;
   [[nodiscard]] double dot(std::span<const Vec3d> a, std::span<const Vec3d> b) const;
 
   const Model& model_;
   ShapeLibrary& shapes_;
-  const Comm& comm_;
+  Comm comm_;
   int threads_;
   StageTimer timer_;
 
   Scene scene_;
   bool scene_valid_ = false;
-  bool evaluated_ = false;
+  bool evaluated_ = false;           ///< energy and forces belong to the scene's positions and the tissue's parameters
+  bool contacts_current_ = false;    ///< geometry and surface contacts belong to the scene's positions
   std::vector<Vec3d> scene_start_;   ///< owned positions when the ghosts were found
   ContactLayer contacts_;
   ContactGradient gradient_;
   SurfaceGeometry geometry_;
-  ShellMechanics shells_;
+  ShellSystem shells_;
   SphereContacts spheres_;
   FrictionSystem system_;
   BodyValues values_;

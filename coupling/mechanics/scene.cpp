@@ -180,6 +180,7 @@ void Scene::build(const Tissue& tissue, const Space& space, double reach, ShapeL
   shells_ = 0;
   while (shells_ < bodies_.size() && bodies_[shells_].shape == BodyShape::kSurface) ++shells_;
   for (std::size_t i = owned_shells_; i < shells_; ++i) shapes_.push_back(library.icosphere(bodies_[i].point_count).value());
+  topologies_.clear();
   first_node_.assign(1, 0);
   first_face_.assign(1, 0);
   std::uint32_t point = 0;
@@ -189,6 +190,7 @@ void Scene::build(const Tissue& tissue, const Space& space, double reach, ShapeL
     point += body.point_count;
     if (i >= shells_) continue;
     body.topology = shapes_[i]->topology.get();
+    topologies_.push_back(body.topology);
     body.first_face = first_face_.back();
     first_node_.push_back(point);
     first_face_.push_back(first_face_.back() + body.topology->face_count());
@@ -204,6 +206,15 @@ void Scene::build(const Tissue& tissue, const Space& space, double reach, ShapeL
 void Scene::take_positions(const Tissue& tissue) {
   std::copy(tissue.shells.position.begin(), tissue.shells.position.end(), position_.begin());
   std::copy(tissue.spheres.position.begin(), tissue.spheres.position.end(), position_.begin() + shell_nodes_);
+}
+
+void Scene::take_radii(const Tissue& tissue) {
+  for (std::size_t i = 0; i < owned_spheres_; ++i) bodies_[shells_ + i].radius = tissue.spheres.radius[i];
+  if (comm_->size() == 1) return;
+  std::vector<Vec3d> radius(position_.size());
+  for (std::size_t i = 0; i < owned_spheres_; ++i) radius[bodies_[shells_ + i].first_point].x = tissue.spheres.radius[i];
+  exchange(std::span(radius));
+  for (std::size_t i = shells_ + owned_spheres_; i < bodies_.size(); ++i) bodies_[i].radius = radius[bodies_[i].first_point].x;
 }
 
 void Scene::give_positions(Tissue& tissue) const {

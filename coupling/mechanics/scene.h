@@ -31,6 +31,7 @@ class Scene {
   [[nodiscard]] std::size_t point_count() const { return position_.size(); }
   [[nodiscard]] std::size_t face_count() const { return face_count_; }
   [[nodiscard]] std::span<const std::shared_ptr<const ReferenceShape>> shapes() const { return shapes_; }  ///< of shells, ghosts too
+  [[nodiscard]] std::span<const Topology* const> topologies() const { return topologies_; }                     ///< of shells, ghosts too
   [[nodiscard]] std::span<const std::uint32_t> first_node() const { return first_node_; }
   [[nodiscard]] std::span<const std::uint32_t> first_face() const { return first_face_; }
 
@@ -47,6 +48,8 @@ class Scene {
 
   /// Copy owned positions from / to the tissue.
   void take_positions(const Tissue& tissue);
+  /// Radii of owned spheres from the tissue, and of ghosts from their owners. Collective.
+  void take_radii(const Tissue& tissue);
   void give_positions(Tissue& tissue) const;
 
  private:
@@ -66,6 +69,7 @@ class Scene {
   std::size_t owned_shells_ = 0, shells_ = 0, owned_spheres_ = 0, face_count_ = 0;
   std::uint32_t owned_nodes_ = 0, shell_nodes_ = 0;
   std::vector<std::shared_ptr<const ReferenceShape>> shapes_;
+  std::vector<const Topology*> topologies_;
   std::vector<std::uint32_t> first_node_, first_face_;
   std::vector<Vec3d> position_;
   std::vector<std::vector<std::uint32_t>> send_bodies_;     ///< by rank: owned bodies that go there

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "cbm/laws/jkr.h"
+#include "core/mesh/pseudonormal.h"
 
 namespace morula {
 
@@ -133,7 +134,8 @@ void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts) 
         response.overlap = -1e300;
         continue;
       }
-      const double side = near->inside ? -1.0 : 1.0;
+      const Vec3d from = x[a.first_point] - contacts.obstacle_offset(pair.b);
+      const double side = signed_distance(*obstacle.topology, obstacle.position, from, near->face, near->closest) < 0.0 ? -1.0 : 1.0;
       const Vec3d between = near->closest.point + contacts.obstacle_offset(pair.b) - x[a.first_point];
       const double distance = norm(between);
       response.distance = side * distance;
@@ -171,6 +173,12 @@ void SphereContacts::collect(const Scene& scene, std::span<Vec3d> force, std::sp
 
 void SphereContacts::add_step_friction(const Scene& scene, std::span<const Vec3d> displacement, std::span<Vec3d> out,
                                        OrderFreeSum& quadratic) const {
+  for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
+    const std::uint32_t point = scene.sphere_point() + static_cast<std::uint32_t>(i);
+    const double gamma = medium_friction_[point];
+    out[point] += displacement[point] * gamma;
+    quadratic.add(gamma * norm2(displacement[point]));
+  }
   for (const SpherePairElement& e : step_elements_) {
     if (e.a == 0.0f && e.b == 0.0f) continue;
     const bool rigid = e.j == kRigidPoint;
@@ -186,23 +194,27 @@ void SphereContacts::add_step_friction(const Scene& scene, std::span<const Vec3d
 }
 
 void SphereContacts::update_attached(const Scene& scene, Tissue& tissue) {
-  const std::size_t first = scene.first_sphere();
   const auto bodies = scene.bodies();
-  const auto set = [&](std::uint32_t body, CellId partner, bool attached) {
-    if (!bodies[body].owned) return;
-    auto& list = tissue.spheres.attached[body - first];
-    const auto at = std::lower_bound(list.begin(), list.end(), partner);
-    const bool known = at != list.end() && *at == partner;
-    if (attached && !known) list.insert(at, partner);
-    if (!attached && known) list.erase(at);
-  };
-  for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    Pair& pair = pairs_[k];
-    const bool attached = cbm::update_attached(responses_[k].overlap, pair.attached, pair.law);
-    if (attached == pair.attached) continue;
-    set(pair.a, pair.rigid ? CellId(pair.b + 1) : bodies[pair.b].id, attached);
-    if (!pair.rigid) set(pair.b, bodies[pair.a].id, attached);
-    pair.attached = attached;
+  for (std::size_t k = 0; k < pairs_.size(); ++k)
+    pairs_[k].attached = cbm::update_attached(responses_[k].overlap, pairs_[k].attached, pairs_[k].law);
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
+    auto& list = tissue.spheres.attached[i];
+    std::size_t known = 0, attached = 0;
+    const auto partner = [&](std::uint32_t incidence) {
+      const Pair& pair = pairs_[incidence / 2];
+      return pair.rigid ? CellId(pair.b + 1) : bodies[incidence % 2 == 0 ? pair.b : pair.a].id;
+    };
+    for (std::uint32_t k = incident_begin_[i]; k < incident_begin_[i + 1]; ++k) {
+      if (!pairs_[incident_[k] / 2].attached) continue;
+      ++attached;
+      if (std::binary_search(list.begin(), list.end(), partner(incident_[k]))) ++known;
+    }
+    if (known == attached && attached == list.size()) continue;
+    list.clear();
+    for (std::uint32_t k = incident_begin_[i]; k < incident_begin_[i + 1]; ++k)
+      if (pairs_[incident_[k] / 2].attached) list.push_back(partner(incident_[k]));
+    std::sort(list.begin(), list.end());
   }
 }
 

@@ -28,8 +28,11 @@ class SphereContacts {
   /// Add forces on owned spheres, by point, and contact areas by body.
   void collect(const Scene& scene, std::span<Vec3d> force, std::span<double> contact_area) const;
 
-  /// Keep the present friction as that of the step.
-  void begin_step() { step_elements_ = elements_; }
+  /// Keep the present friction as that of the step, together with the medium's friction by point [nN·s/µm].
+  void begin_step(std::vector<float> medium_friction) {
+    step_elements_ = elements_;
+    medium_friction_ = std::move(medium_friction);
+  }
   void add_step_friction(const Scene& scene, std::span<const Vec3d> displacement, std::span<Vec3d> out, OrderFreeSum& quadratic) const;
   [[nodiscard]] std::span<const SpherePairElement> elements() const { return elements_; }
 
@@ -63,6 +66,7 @@ class SphereContacts {
   std::vector<Pair> pairs_;
   std::vector<Response> responses_;
   std::vector<SpherePairElement> elements_, step_elements_;
+  std::vector<float> medium_friction_;
   std::vector<std::uint32_t> incident_begin_, incident_;  ///< by sphere body: pairs, and which side in the lowest bit
 };
 

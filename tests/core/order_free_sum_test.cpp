@@ -88,8 +88,8 @@ TEST(OrderFreeSum, IsExactAmongDenormals) {
 TEST(OrderFreeSum, OverflowsOnlyInTheEnd) {
   EXPECT_EQ(sum({kMax, kMax}), kInf);
   EXPECT_EQ(sum({-kMax, -kMax}), -kInf);
-  EXPECT_EQ(sum({kMax, 0x1p969}), kMax);               // less than half a unit in the last place
-  EXPECT_EQ(sum({kMax, 0x1p970}), kInf);               // half: ties to even, which is beyond
+  EXPECT_EQ(sum({kMax, 0x1p969}), kMax);  // less than half a unit in the last place
+  EXPECT_EQ(sum({kMax, 0x1p970}), kInf);  // half: ties to even, which is beyond
   EXPECT_EQ(sum({kMax, 0x1p970, -kTiny}), kMax);
 }
 

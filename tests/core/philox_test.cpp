@@ -38,7 +38,8 @@ TEST(Random, GivesTheReferenceUniformAndNormalPair) {
 
 TEST(Random, CellAndIndexFillTheWholeCounter) {
   const Random random(5, RandomStream::kMigration);
-  const Words expected = philox4x32_10({0x89abcdef, 0x01234567, 0x76543210, 0xfedcba98}, {5, static_cast<std::uint32_t>(RandomStream::kMigration)});
+  const Words expected =
+      philox4x32_10({0x89abcdef, 0x01234567, 0x76543210, 0xfedcba98}, {5, static_cast<std::uint32_t>(RandomStream::kMigration)});
   EXPECT_EQ(random.words(CellId(0x0123456789abcdef), 0xfedcba9876543210), expected);
 }
 

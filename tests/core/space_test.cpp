@@ -73,7 +73,8 @@ TEST(Space, WrappingNeverEndsOnTheHighFace) {
 
 TEST(Space, PointsInsideStayBitForBit) {
   const Space space = slab();
-  for (const Vec3d p : {Vec3d{-50, 0, 10}, Vec3d{49.999999999999993, 39.999999999999993, 0}, Vec3d{0.1, 0.3, 1e9}}) EXPECT_EQ(space.wrapped(p), p);
+  for (const Vec3d p : {Vec3d{-50, 0, 10}, Vec3d{49.999999999999993, 39.999999999999993, 0}, Vec3d{0.1, 0.3, 1e9}})
+    EXPECT_EQ(space.wrapped(p), p);
 }
 
 TEST(Box, IncludesInflatesAndOverlaps) {

@@ -166,7 +166,8 @@ TEST(UnitConversion, EveryExampleIsAValueOfItsQuantityAndOfNoOther) {
       const auto quantity = static_cast<Quantity>(q);
       const auto value = units.parse(describe(quantity).example, static_cast<Quantity>(other));
       const bool plain_as_fraction = quantity == Quantity::kNumber && other == static_cast<int>(Quantity::kFraction);
-      EXPECT_EQ(value.ok(), q == other || plain_as_fraction) << describe(quantity).example << " as " << describe(static_cast<Quantity>(other)).name;
+      EXPECT_EQ(value.ok(), q == other || plain_as_fraction)
+          << describe(quantity).example << " as " << describe(static_cast<Quantity>(other)).name;
     }
 }
 
@@ -218,7 +219,8 @@ TEST(UnitConversion, WritingAndReadingGivesTheSameBits) {
   };
   for (int q = 0; q < kQuantityCount; ++q) {
     const auto quantity = static_cast<Quantity>(q);
-    for (const double value : {0.0, -0.0, 1.0, 0.1, 1.0 / 3.0, 1e-300, 5e-324, 1e300, std::numeric_limits<double>::max()}) check(value, quantity);
+    for (const double value : {0.0, -0.0, 1.0, 0.1, 1.0 / 3.0, 1e-300, 5e-324, 1e300, std::numeric_limits<double>::max()})
+      check(value, quantity);
     for (int i = 0; i < 60; ++i) {
       const double mantissa = 1.0 + std::ldexp(static_cast<double>(random() >> 12), -52);
       check(std::ldexp(mantissa, static_cast<int>(random() % 60) - 30), quantity);
