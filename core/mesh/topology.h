@@ -17,9 +17,9 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// An edge i–j with its two faces. Seen from outside and walking from i to j, face (i, j, k) lies on the left and (j, i, l) on the right.
 /// On a closed mesh every edge is a hinge, so that edges and hinges are one list.
 struct Edge {
-  std::uint32_t i, j;          ///< end nodes, i < j
-  std::uint32_t k, l;          ///< opposite nodes of the left and the right face
-  std::uint32_t left, right;   ///< the two faces
+  std::uint32_t i, j;         ///< end nodes, i < j
+  std::uint32_t k, l;         ///< opposite nodes of the left and the right face
+  std::uint32_t left, right;  ///< the two faces
 };
 
 /// Immutable connectivity of a closed, oriented triangle mesh. Shared by all shells that have it.

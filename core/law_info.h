@@ -1,0 +1,32 @@
+#pragma once
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace morula {
+
+/// One parameter of a law as a person meets it: what the law reference, the schema of the study file and `explain` are made from.
+///
+/// Numbers are in the internal unit that `unit` names (µm, nN, s, amol and their products). Bounds are inclusive; no bound is ±infinity.
+struct LawParameter {
+  std::string name;                ///< key in a study file, snake_case: "young_modulus"
+  std::string quantity;            ///< kind of quantity, one word: "pressure", "length", "tension", "number"
+  std::string unit;                ///< internal unit as text: "kPa", "µm", "nN/µm", "1"
+  std::optional<double> fallback;  ///< value when the study gives none; empty: the study must give it
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
+  std::string source;              ///< where the fallback comes from: author year, doi; or "choice of this project"
+  std::string doc;                 ///< one sentence
+};
+
+/// What there is to say about a law apart from its functions: plain data, filled in once in the `builtin.cpp` of the law's folder.
+struct LawInfo {
+  std::string name;      ///< snake_case, unique within its folder: "jkr"
+  std::string title;     ///< for people: "Johnson–Kendall–Roberts contact"
+  std::string equation;  ///< in plain text with Unicode symbols
+  std::string source;    ///< author year, doi
+  std::vector<LawParameter> parameters;
+};
+
+}  // namespace morula

@@ -1,0 +1,126 @@
+#include "scenarios/pictures/coloring.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "scenarios/pictures/camera.h"
+#include "scenarios/pictures/palette.h"
+
+namespace morula::scenarios {
+namespace {
+
+// Bodies use two colours of the categorical list that differ in lightness as well.
+Rgb body_color(BodyKind body) { return body == BodyKind::kShell ? categorical_color(1) : categorical_color(0); }
+
+std::string type_name(const Snapshot& snapshot, std::size_t type) {
+  return type < snapshot.type_names.size() ? snapshot.type_names[type] : "type " + std::to_string(type);
+}
+
+void choose_unit(ColorScale& scale, ColorBy by) {
+  const double largest = std::max(std::abs(scale.low), std::abs(scale.high));
+  if (by == ColorBy::kPressure) {
+    const bool small = largest < 2.0;
+    scale.unit = small ? "Pa" : "kPa";
+    scale.per_unit = small ? 1e3 : 1.0;
+  } else if (by == ColorBy::kVolume) {
+    scale.unit = "µm³";
+  } else {
+    const bool small = largest < 0.02;
+    scale.unit = small ? "µM" : "mM";
+    scale.per_unit = small ? 1e3 : 1.0;
+  }
+}
+
+// Both ends to multiples of a round step.
+void widen(ColorScale& scale) {
+  const double span = scale.high - scale.low;
+  const double size = std::max(std::abs(scale.low), std::abs(scale.high));
+  if (span <= 1e-6 * size || span == 0.0) {  // all the same: a scale around it
+    const double half = size > 0.0 ? 0.5 * nice_below(size) : 0.5;
+    scale.low = scale.low >= 0.0 ? std::max(0.0, scale.low - half) : scale.low - half;
+    scale.high += half;
+    return;
+  }
+  const double step = nice_below(span / 4.0);
+  scale.low = std::floor(scale.low / step + 1e-9) * step;
+  scale.high = std::ceil(scale.high / step - 1e-9) * step;
+}
+
+}  // namespace
+
+bool is_number(ColorBy by) { return by == ColorBy::kPressure || by == ColorBy::kVolume || by == ColorBy::kConcentration; }
+
+double color_value(const Snapshot::Cell& cell, ColorBy by, std::size_t field) {
+  switch (by) {
+    case ColorBy::kPressure: return cell.pressure;
+    case ColorBy::kVolume: return cell.volume;
+    case ColorBy::kConcentration: return cell.concentration[std::min(field, cell.concentration.size() - 1)];
+    default: return 0.0;
+  }
+}
+
+ColorScale common_scale(std::span<const Snapshot> snapshots, ColorBy by, std::size_t field, const std::string& name) {
+  ColorScale scale;
+  if (!is_number(by)) return scale;
+  scale.quantity = by == ColorBy::kPressure ? "pressure" : by == ColorBy::kVolume ? "volume" : name;
+  std::vector<double> values;
+  for (const Snapshot& snapshot : snapshots)
+    for (const auto& cell : snapshot.cells) {
+      const double value = color_value(cell, by, field);
+      if (std::isfinite(value)) values.push_back(value);
+    }
+  if (values.empty()) return choose_unit(scale, by), scale;
+  std::sort(values.begin(), values.end());
+  const auto percentile = [&](double p) { return values[static_cast<std::size_t>(std::lround(p * static_cast<double>(values.size() - 1)))]; };
+  scale.low = percentile(0.01);
+  scale.high = percentile(0.99);
+  if (scale.low < 0.0 && scale.high > 0.0 && std::min(-scale.low, scale.high) > 0.1 * std::max(-scale.low, scale.high)) {
+    scale.diverging = true;
+    scale.high = std::max(-scale.low, scale.high);
+    scale.low = -scale.high;
+  } else if (scale.low > 0.0 && scale.low < 0.35 * scale.high) {
+    scale.low = 0.0;  // zero is near: show it
+  }
+  widen(scale);
+  choose_unit(scale, by);
+  return scale;
+}
+
+Rgb scale_color(const ColorScale& scale, double value) {
+  if (!std::isfinite(value)) return {0.75f, 0.75f, 0.75f};
+  const double t = scale.high > scale.low ? (value - scale.low) / (scale.high - scale.low) : 0.5;
+  return scale.diverging ? diverging_color(t) : sequential_color(t);
+}
+
+std::vector<Rgb> cell_colors(const Snapshot& snapshot, ColorBy by, const ColorScale& scale, std::size_t field) {
+  std::vector<Rgb> colors;
+  colors.reserve(snapshot.cells.size());
+  for (const auto& cell : snapshot.cells) {
+    switch (by) {
+      case ColorBy::kType: colors.push_back(categorical_color(cell.type)); break;
+      case ColorBy::kBody: colors.push_back(body_color(cell.body)); break;
+      case ColorBy::kIdentity: colors.push_back(identity_color(cell.id)); break;
+      default: colors.push_back(scale_color(scale, color_value(cell, by, field)));
+    }
+  }
+  return colors;
+}
+
+std::vector<LegendEntry> legend_entries(const Snapshot& snapshot, ColorBy by) {
+  std::vector<LegendEntry> entries;
+  if (by == ColorBy::kType) {
+    std::vector<std::size_t> count(65536);
+    for (const auto& cell : snapshot.cells) ++count[cell.type];
+    for (std::size_t type = 0; type < count.size(); ++type)
+      if (count[type] > 0) entries.push_back({type_name(snapshot, type) + " (" + std::to_string(count[type]) + ")", categorical_color(type)});
+  } else if (by == ColorBy::kBody) {
+    std::array<std::size_t, 2> count{};
+    for (const auto& cell : snapshot.cells) ++count[cell.body == BodyKind::kShell ? 1 : 0];
+    if (count[1]) entries.push_back({"deformable shell (" + std::to_string(count[1]) + ")", body_color(BodyKind::kShell)});
+    if (count[0]) entries.push_back({"sphere (" + std::to_string(count[0]) + ")", body_color(BodyKind::kSphere)});
+  }
+  return entries;
+}
+
+}  // namespace morula::scenarios

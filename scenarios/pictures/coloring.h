@@ -1,0 +1,47 @@
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scenarios/pictures/image.h"
+#include "scenarios/results/snapshot.h"
+
+namespace morula::scenarios {
+
+enum class ColorBy { kType, kBody, kIdentity, kPressure, kVolume, kConcentration };
+
+/// How a number of a cell becomes a colour, and what the colour bar says.
+struct ColorScale {
+  double low = 0.0, high = 1.0;  ///< internal units; what lies outside gets the colour of the end
+  bool diverging = false;        ///< colours part at zero: low = −high
+  std::string quantity;          ///< "pressure"
+  std::string unit;              ///< of the labels: "Pa"
+  double per_unit = 1.0;         ///< internal value × this = number on the bar
+};
+
+/// A line of a legend.
+struct LegendEntry {
+  std::string text;
+  Rgb color;
+};
+
+/// Whether `by` gives a number (colour bar) or a kind (legend).
+bool is_number(ColorBy by);
+
+/// The value that a cell is coloured by; `field` is the field's number for kConcentration.
+double color_value(const Snapshot::Cell& cell, ColorBy by, std::size_t field);
+
+/// One scale for all of these snapshots, so that their pictures compare: from the 1st to the 99th percentile of all cells, widened to
+/// round numbers; diverging when values of both signs matter. `name`: of the field.
+ColorScale common_scale(std::span<const Snapshot> snapshots, ColorBy by, std::size_t field = 0, const std::string& name = "");
+
+/// Colour of a scale at a value.
+Rgb scale_color(const ColorScale& scale, double value);
+
+/// Colour of every cell.
+std::vector<Rgb> cell_colors(const Snapshot& snapshot, ColorBy by, const ColorScale& scale, std::size_t field = 0);
+
+/// Legend for kinds: the cell types that occur, or the bodies; empty otherwise.
+std::vector<LegendEntry> legend_entries(const Snapshot& snapshot, ColorBy by);
+
+}  // namespace morula::scenarios

@@ -1,0 +1,30 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "scenarios/pictures/camera.h"
+#include "scenarios/pictures/coloring.h"
+#include "scenarios/pictures/image.h"
+
+namespace morula::scenarios {
+
+struct RenderOptions {
+  int width = 900, height = 900;  ///< of the picture [px]
+  int samples = 3;                ///< sub-pixels along each side of a pixel, 1..4
+  Camera camera;                  ///< see view_height() for what it is fitted to
+  std::optional<CutPlane> cut;    ///< its normal must point towards the eye
+  ColorBy color_by = ColorBy::kType;
+  std::size_t field = 0;          ///< for ColorBy::kConcentration
+  ColorScale scale;               ///< for numbers; see common_scale()
+  std::string title;              ///< written at the top left
+  bool outlines = true;
+  bool annotations = true;        ///< title, scale bar, colour bar, legend
+};
+
+/// Rows of the picture that show the tissue: between the title and the scale bar [px].
+int view_height(const RenderOptions& options);
+
+/// A picture of the snapshot. Its bytes depend on the arguments alone, not on threads or time. An empty snapshot gives an empty view.
+Image render(const Snapshot& snapshot, const RenderOptions& options);
+
+}  // namespace morula::scenarios
