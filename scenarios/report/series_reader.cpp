@@ -63,7 +63,7 @@ Status read_row(std::string_view line, std::size_t number, const std::string& or
   for (std::size_t c = 0; c < fields.size(); ++c) {
     double value = 0.0;
     if (!number_of(fields[c], value))
-      return wrong(origin, number, "'" + std::string(fields[c]) + "' in column '" + table.columns[c].name + "' is not a number", "");
+      return wrong(origin, number, "not a number in column '" + table.columns[c].name + "': " + std::string(fields[c]), "");
     table.columns[c].values.push_back(value);
   }
   return {};
