@@ -9,10 +9,10 @@ namespace morula::cbm {
 
 /// All spheres of a rank: what a checkpoint holds of them. Spheres come in the order of their cells.
 struct Spheres {
-  std::vector<Vec3d> position;        ///< [µm]
-  std::vector<double> radius;         ///< [µm]
-  std::vector<std::uint16_t> type;    ///< cell type
-  std::vector<Vec3f> velocity;        ///< last solution, the solver's start [µm/s]
+  std::vector<Vec3d> position;      ///< [µm]
+  std::vector<double> radius;       ///< [µm]
+  std::vector<std::uint16_t> type;  ///< cell type
+  std::vector<Vec3f> velocity;      ///< last solution, the solver's start [µm/s]
   /// Partners to which the sphere adheres (the JKR branch flag of the pair), sorted; both partners carry the entry.
   std::vector<std::vector<CellId>> attached;
 
@@ -23,6 +23,7 @@ struct Spheres {
 struct SphereParameters {
   double young = 0.45;   ///< E [kPa]
   double poisson = 0.4;  ///< ν
+  bool adhesive = true;  ///< JKR; false: Hertz, spheres of this type do not adhere to spheres
 };
 
 }  // namespace morula::cbm

@@ -5,7 +5,14 @@
 # -fno-trapping-math       comparisons may be vectorised (results unchanged)
 # -ffast-math is never used: it changes results.
 add_compile_options(-Wall -Wextra -Wshadow -Werror -ffp-contract=off -fno-math-errno -fno-trapping-math)
+# GCC 12 sees overlapping copies in std::string operations that have none (gcc.gnu.org/PR105329, PR105651).
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  add_compile_options(-Wno-restrict)
+endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+
+# The deprecated C++ bindings of MPI are not wanted (their headers do not compile without warnings).
+add_compile_definitions(OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
 
 if(MORULA_NATIVE)
   add_compile_options(-march=native)

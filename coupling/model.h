@@ -28,20 +28,20 @@ struct CellType {
   Distribution radius{6.0, 0.0};  ///< of the cell at birth [µm]
 
   // life
-  bool cycles = false;                          ///< grows and divides
+  bool cycles = false;                            ///< grows and divides
   Distribution cycle_duration{18 * 3600.0, 0.0};  ///< from birth to twice the birth volume [s]
-  bool exponential_growth = false;              ///< else linear
-  double inhibit_pressure = kNever;             ///< growth stops above this pressure [kPa]
-  int death_field = -1;                         ///< field whose lack kills, or -1
-  double death_below = 0.0;                     ///< [mM]
-  double death_rate = 0.0;                      ///< while below [1/s]
-  double apoptosis_time = 8 * 3600.0;           ///< τ_a of the shrinking V0 e^{−t/τ_a} [s]
-  double removal_fraction = 0.1;                ///< removed below this fraction of the volume at death
-  double migration_speed = 0.0;                 ///< S, root mean square in three dimensions [µm/s]
-  double migration_persistence = 1800.0;        ///< P [s]
+  bool exponential_growth = false;                ///< else linear
+  double inhibit_pressure = kNever;               ///< growth stops above this pressure [kPa]
+  int death_field = -1;                           ///< field whose lack kills, or -1
+  double death_below = 0.0;                       ///< [mM]
+  double death_rate = 0.0;                        ///< while below [1/s]
+  double apoptosis_time = 8 * 3600.0;             ///< τ_a of the shrinking V0 e^{−t/τ_a} [s]
+  double removal_fraction = 0.1;                  ///< removed below this fraction of the volume at death
+  double migration_speed = 0.0;                   ///< S, root mean square in three dimensions [µm/s]
+  double migration_persistence = 1800.0;          ///< P [s]
 
   // friction
-  double medium_friction = 0.1;     ///< γ_med per area [nN·s/µm³]
+  double medium_friction = 0.1;  ///< γ_med per area [nN·s/µm³]
 
   // bodies
   BodyKind initial_body = BodyKind::kSphere;
@@ -52,17 +52,17 @@ struct CellType {
 
 /// Contact of two materials. Cell types come first, obstacles after them.
 struct ContactPair {
-  double adhesion = 0.0;             ///< W per contact area of the pair [nN/µm]
-  double normal_friction = 50.0;     ///< γ_n per contact area [nN·s/µm³]
-  double tangential_friction = 50.0; ///< γ_t per contact area [nN·s/µm³]
+  double adhesion = 0.0;              ///< W per contact area of the pair [nN/µm]
+  double normal_friction = 50.0;      ///< γ_n per contact area [nN·s/µm³]
+  double tangential_friction = 50.0;  ///< γ_t per contact area [nN·s/µm³]
 };
 
 /// Numbers of the traction law that do not depend on the pair.
 struct ContactNumerics {
-  double range = 0.5;            ///< c [µm]
-  double repulsion = 100.0;      ///< k_r [kPa/µm]
-  int points_per_face = 3;       ///< interior quadrature points, 3 or 4
-  double skin = 0.5;             ///< of the candidate lists [µm]
+  double range = 0.5;        ///< c [µm]
+  double repulsion = 100.0;  ///< k_r [kPa/µm]
+  int points_per_face = 3;   ///< interior quadrature points, 3 or 4
+  double skin = 0.5;         ///< of the candidate lists [µm]
 };
 
 /// A rigid obstacle.
@@ -70,8 +70,8 @@ struct ObstacleSpec {
   std::string name;
   std::vector<Vec3d> position;
   std::vector<Triangle> faces;
-  bool inside = false;        ///< cells live inside the closed surface
-  Vec3d velocity{};           ///< prescribed translation [µm/s]
+  bool inside = false;  ///< cells live inside the closed surface
+  Vec3d velocity{};     ///< prescribed translation [µm/s]
 };
 
 enum class RegionShape : std::uint8_t { kSphere, kBox, kHalfSpace, kEverything };
@@ -82,43 +82,43 @@ struct Region {
   RegionShape shape = RegionShape::kSphere;
   Vec3d center{};
   double radius = 0.0;
-  Vec3d size{};               ///< of a box
-  Vec3d normal{0, 0, 1};      ///< of a half space; inside is the side the normal points away from
+  Vec3d size{};           ///< of a box
+  Vec3d normal{0, 0, 1};  ///< of a half space; inside is the side the normal points away from
   BodyKind body = BodyKind::kShell;
-  double margin = 3.0;        ///< leaving needs this distance beyond the border [µm]
-  bool follow_tissue = false; ///< centre is relative to the tissue's centroid
+  double margin = 3.0;         ///< leaving needs this distance beyond the border [µm]
+  bool follow_tissue = false;  ///< centre is relative to the tissue's centroid
 };
 
 /// Promote or demote by a value of the cell.
 struct Trigger {
   enum class Value : std::uint8_t { kPressure, kField, kType } value = Value::kPressure;
-  int field = -1;              ///< for kField
-  std::uint16_t type = 0;      ///< for kType: cells of this type are shells
-  bool promote_above = true;   ///< promote when value > promote threshold (else when below)
+  int field = -1;             ///< for kField
+  std::uint16_t type = 0;     ///< for kType: cells of this type are shells
+  bool promote_above = true;  ///< promote when value > promote threshold (else when below)
   double promote = 0.0;
   double demote = 0.0;
-  double hold = 1800.0;        ///< no second swap within this time [s]
+  double hold = 1800.0;  ///< no second swap within this time [s]
 };
 
 struct Swaps {
   std::vector<Region> regions;
   std::vector<Trigger> triggers;
   std::uint64_t max_shells = std::numeric_limits<std::uint64_t>::max();
-  double hold = 600.0;         ///< of regions [s]
+  double hold = 600.0;  ///< of regions [s]
 };
 
 enum class Integrator : std::uint8_t { kImplicit, kExplicitEuler };
 
 struct StepControl {
   Integrator integrator = Integrator::kImplicit;
-  double initial_step = 1.0;        ///< [s]
-  double max_step = 60.0;           ///< [s]
-  double max_displacement = 0.3;    ///< allowed displacement of a step in units of the contact range c (of shell nodes and spheres)
+  double initial_step = 1.0;      ///< [s]
+  double max_step = 60.0;         ///< [s]
+  double max_displacement = 0.3;  ///< allowed displacement of a step in units of the contact range c (of shell nodes and spheres)
   int max_newton = 3;
-  double newton_stop = 0.2;         ///< stop when the nonlinear residual is below this part of the force
-  double first_tolerance = 1e-2;    ///< of the linear solve
-  double later_tolerance = 0.1;     ///< of the later solves of a step
-  double start_cap = 0.0;           ///< δ of the capped start: traction not above k_r δ until the overlap is below 0.1 µm; 0: no cap [µm]
+  double newton_stop = 0.2;       ///< stop when the nonlinear residual is below this part of the force
+  double first_tolerance = 1e-2;  ///< of the linear solve
+  double later_tolerance = 0.1;   ///< of the later solves of a step
+  double start_cap = 0.0;         ///< δ of the capped start: traction not above k_r δ until the overlap is below 0.1 µm; 0: no cap [µm]
 };
 
 /// Limits that stop a run (or warn when a part of them is reached).
@@ -134,7 +134,7 @@ struct Model {
   Space space;
   std::vector<CellType> types;
   std::vector<ObstacleSpec> obstacles;
-  std::vector<ContactPair> pairs;   ///< (materials × materials), symmetric; materials = types then obstacles
+  std::vector<ContactPair> pairs;  ///< (materials × materials), symmetric; materials = types then obstacles
   ContactNumerics contact;
   std::vector<fields::FieldSpec> fields;
   Swaps swaps;

@@ -12,18 +12,18 @@ namespace morula {
 
 /// Clock and step-size controller: part of the state, so that a restart goes on with the same steps.
 struct Clock {
-  double time = 0.0;          ///< [s]
-  double next_step = 1.0;     ///< step size the controller wants next [s]
-  std::uint64_t steps = 0;    ///< done so far
-  bool capped = false;        ///< the capped start is still on
+  double time = 0.0;        ///< [s]
+  double next_step = 1.0;   ///< step size the controller wants next [s]
+  std::uint64_t steps = 0;  ///< done so far
+  bool capped = false;      ///< the capped start is still on
 };
 
 /// Sums over the whole run that the report shows.
 struct Ledger {
-  double field_in[kMaxFields] = {};      ///< amount that came in through the boundary [amol]
-  double field_taken[kMaxFields] = {};   ///< amount taken by cells [amol]
-  double field_decayed[kMaxFields] = {}; ///< amount lost by decay [amol]
-  double field_start[kMaxFields] = {};   ///< amount in the field at time 0 [amol]
+  double field_in[kMaxFields] = {};       ///< amount that came in through the boundary [amol]
+  double field_taken[kMaxFields] = {};    ///< amount taken by cells [amol]
+  double field_decayed[kMaxFields] = {};  ///< amount lost by decay [amol]
+  double field_start[kMaxFields] = {};    ///< amount in the field at time 0 [amol]
   std::uint64_t divisions = 0, deaths = 0, promotions = 0, demotions = 0;
 };
 
@@ -34,7 +34,7 @@ struct Tissue {
   Cells cells;
   cbm::Spheres spheres;
   dcm::Shells shells;
-  std::vector<Vec3d> obstacle_offset;    ///< how far each obstacle has moved [µm]
+  std::vector<Vec3d> obstacle_offset;  ///< how far each obstacle has moved [µm]
   std::vector<fields::Field> fields;
 };
 

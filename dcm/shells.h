@@ -35,15 +35,15 @@ struct Shells {
 
 /// Parameters of the single-cell mechanics of one cell type, in internal units (physics: dcm.md, time_stepping.md §9).
 struct ShellParameters {
-  double spring_stiffness = 0.0;  ///< k = (√3/2) E h [nN/µm]
-  double edge_damping = 0.1;      ///< γ_int per edge, along the edge [nN·s/µm]
-  double hinge_stiffness = 0.0;   ///< k_h = (2/√3) E h³ / (12 (1 − ν²)) [nN·µm]
-  double tension = 0.0;           ///< γ [nN/µm]
-  double bulk_modulus = 2.5;      ///< K_V [kPa]
-  double shape_stiffness = 0.3;   ///< k_s of the triangle shape term k_s A_ref (1/q − 1)² [nN/µm]
-  double barrier_stiffness = 1.0; ///< k_d of the dihedral barrier k_d z²/(1 − z²) [nN·µm]
-  double barrier_angle = 1.6;     ///< |θ| from which the barrier acts [rad]
-  double medium_friction = 0.1;   ///< γ_med per area of the node [nN·s/µm³]
+  double spring_stiffness = 0.0;   ///< k = (√3/2) E h [nN/µm]
+  double edge_damping = 0.1;       ///< γ_int per edge, along the edge [nN·s/µm]
+  double hinge_stiffness = 0.0;    ///< k_h = (2/√3) E h³ / (12 (1 − ν²)) [nN·µm]
+  double tension = 0.0;            ///< γ [nN/µm]
+  double bulk_modulus = 2.5;       ///< K_V [kPa]
+  double shape_stiffness = 0.3;    ///< k_s of the triangle shape term k_s A_ref (1/q − 1)² [nN/µm]
+  double barrier_stiffness = 1.0;  ///< k_d of the dihedral barrier k_d z²/(1 − z²) [nN·µm]
+  double barrier_angle = 1.6;      ///< |θ| from which the barrier acts [rad]
+  double medium_friction = 0.1;    ///< γ_med per area of the node [nN·s/µm³]
 };
 
 }  // namespace morula::dcm

@@ -13,8 +13,8 @@ struct FaceCondition {
 
 /// Uptake by one cell: rate · c/(K_m + c), and 0 where the rate is 0.
 struct UptakeSpec {
-  double rate = 0.0;              ///< V_max [amol/s per cell]
-  double half_saturation = 0.0;   ///< K_m [mM]
+  double rate = 0.0;             ///< V_max [amol/s per cell]
+  double half_saturation = 0.0;  ///< K_m [mM]
 };
 
 /// One diffusing concentration: ∂c/∂t = D ∇²c − λ c − uptake (physics: fields_and_coupling.md, A).

@@ -17,9 +17,9 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// An edge i–j with its two faces. Seen from outside and walking from i to j, face (i, j, k) lies on the left and (j, i, l) on the right.
 /// On a closed mesh every edge is a hinge, so that edges and hinges are one list.
 struct Edge {
-  std::uint32_t i, j;          ///< end nodes, i < j
-  std::uint32_t k, l;          ///< opposite nodes of the left and the right face
-  std::uint32_t left, right;   ///< the two faces
+  std::uint32_t i, j;         ///< end nodes, i < j
+  std::uint32_t k, l;         ///< opposite nodes of the left and the right face
+  std::uint32_t left, right;  ///< the two faces
 };
 
 /// Immutable connectivity of a closed, oriented triangle mesh. Shared by all shells that have it.
@@ -63,7 +63,7 @@ struct ReferenceShape {
   std::vector<double> hinge_angle;  ///< by edge: dihedral turning angle, 0 flat, > 0 convex [rad]
 };
 
-/// Reference shape from any positions (they are centred and scaled).
+/// Reference shape from any positions (they are centred and scaled); null when they enclose no positive volume.
 std::shared_ptr<const ReferenceShape> make_reference_shape(std::shared_ptr<const Topology> topology, std::vector<Vec3d> position);
 
 /// Subdivided icosahedra with 42, 162, 642 and 2562 nodes, built once and shared.

@@ -27,38 +27,45 @@ void Comm::sum(std::span<const OrderFreeSum> local, std::span<double> out) const
 }
 
 std::int64_t Comm::sum(std::int64_t local) const {
+  if (size_ == 1) return local;
   MPI_Allreduce(MPI_IN_PLACE, &local, 1, MPI_INT64_T, MPI_SUM, comm_);
   return local;
 }
 
 double Comm::max(double local) const {
+  if (size_ == 1) return local;
   MPI_Allreduce(MPI_IN_PLACE, &local, 1, MPI_DOUBLE, MPI_MAX, comm_);
   return local;
 }
 
 double Comm::min(double local) const {
+  if (size_ == 1) return local;
   MPI_Allreduce(MPI_IN_PLACE, &local, 1, MPI_DOUBLE, MPI_MIN, comm_);
   return local;
 }
 
 std::int64_t Comm::max(std::int64_t local) const {
+  if (size_ == 1) return local;
   MPI_Allreduce(MPI_IN_PLACE, &local, 1, MPI_INT64_T, MPI_MAX, comm_);
   return local;
 }
 
 std::int64_t Comm::exclusive_scan(std::int64_t local) const {
+  if (size_ == 1) return 0;
   std::int64_t out = 0;
   MPI_Exscan(&local, &out, 1, MPI_INT64_T, MPI_SUM, comm_);
   return rank_ == 0 ? 0 : out;
 }
 
 std::vector<std::int64_t> Comm::gather_to_all(std::int64_t local) const {
+  if (size_ == 1) return {local};
   std::vector<std::int64_t> out(static_cast<std::size_t>(size_));
   MPI_Allgather(&local, 1, MPI_INT64_T, out.data(), 1, MPI_INT64_T, comm_);
   return out;
 }
 
 std::vector<std::byte> Comm::gather_to_all(std::span<const std::byte> local) const {
+  if (size_ == 1) return {local.begin(), local.end()};
   const auto sizes = gather_to_all(static_cast<std::int64_t>(local.size()));
   std::vector<int> counts(sizes.begin(), sizes.end());
   std::vector<int> offsets(counts.size(), 0);
@@ -69,6 +76,7 @@ std::vector<std::byte> Comm::gather_to_all(std::span<const std::byte> local) con
 }
 
 std::vector<std::vector<std::byte>> Comm::exchange(const std::vector<std::vector<std::byte>>& outgoing) const {
+  if (size_ == 1) return outgoing;
   const auto ranks = static_cast<std::size_t>(size_);
   std::vector<std::int64_t> send_sizes(ranks), receive_sizes(ranks);
   for (std::size_t r = 0; r < ranks; ++r) send_sizes[r] = static_cast<std::int64_t>(outgoing[r].size());
@@ -78,22 +86,27 @@ std::vector<std::vector<std::byte>> Comm::exchange(const std::vector<std::vector
   for (std::size_t r = 0; r < ranks; ++r) {
     incoming[r].resize(static_cast<std::size_t>(receive_sizes[r]));
     if (!incoming[r].empty())
-      MPI_Irecv(incoming[r].data(), static_cast<int>(incoming[r].size()), MPI_BYTE, static_cast<int>(r), 71, comm_, &requests.emplace_back());
+      MPI_Irecv(incoming[r].data(), static_cast<int>(incoming[r].size()), MPI_BYTE, static_cast<int>(r), 71, comm_,
+                &requests.emplace_back());
   }
   for (std::size_t r = 0; r < ranks; ++r)
     if (!outgoing[r].empty())
-      MPI_Isend(outgoing[r].data(), static_cast<int>(outgoing[r].size()), MPI_BYTE, static_cast<int>(r), 71, comm_, &requests.emplace_back());
+      MPI_Isend(outgoing[r].data(), static_cast<int>(outgoing[r].size()), MPI_BYTE, static_cast<int>(r), 71, comm_,
+                &requests.emplace_back());
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   return incoming;
 }
 
 void Comm::broadcast(std::vector<std::byte>& bytes) const {
+  if (size_ == 1) return;
   auto size = static_cast<std::int64_t>(bytes.size());
   MPI_Bcast(&size, 1, MPI_INT64_T, 0, comm_);
   bytes.resize(static_cast<std::size_t>(size));
   MPI_Bcast(bytes.data(), static_cast<int>(size), MPI_BYTE, 0, comm_);
 }
 
-void Comm::barrier() const { MPI_Barrier(comm_); }
+void Comm::barrier() const {
+  if (size_ > 1) MPI_Barrier(comm_);
+}
 
 }  // namespace morula

@@ -15,7 +15,9 @@ namespace morula {
 /// Sums are order-free, so that every rank gets the same bits whatever the number of ranks.
 class Comm {
  public:
-  explicit Comm(MPI_Comm comm = MPI_COMM_WORLD);
+  /// One rank alone; works without MPI being initialised.
+  Comm() = default;
+  explicit Comm(MPI_Comm comm);
 
   [[nodiscard]] int rank() const { return rank_; }
   [[nodiscard]] int size() const { return size_; }
@@ -45,7 +47,7 @@ class Comm {
   void barrier() const;
 
  private:
-  MPI_Comm comm_;
+  MPI_Comm comm_ = MPI_COMM_NULL;
   int rank_ = 0;
   int size_ = 1;
 };

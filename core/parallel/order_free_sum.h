@@ -9,7 +9,7 @@ namespace morula {
 ///
 /// The terms are added as integers into 32-bit digits at fixed binary places over the whole range of double (a superaccumulator,
 /// Kulisch), so that any order, any number of threads and any number of ranks give the same bits. Not a number and infinities poison
-/// the sum: value() is then NaN. Up to 2^30 terms between two calls of carry().
+/// the sum: value() is then NaN. Up to 2^29 terms, those of added sums included, between two calls of carry().
 class OrderFreeSum {
  public:
   /// 32-bit places: the lowest bit of a double is 2^-1074, the highest 2^1023.
@@ -41,10 +41,10 @@ class OrderFreeSum {
     return *this;
   }
 
-  /// Bring every digit but the last into [0, 2^32); the sum is unchanged, and there is room for 2^30 more terms.
+  /// Bring every digit but the last into [0, 2^32); the sum is unchanged, and there is room for 2^29 more terms.
   void carry() noexcept;
 
-  /// The exact sum, rounded to the nearest double.
+  /// The exact sum, rounded to the nearest double, ties to even; infinite beyond the largest double, +0 where nothing remains.
   [[nodiscard]] double value() const noexcept;
 
   /// The digits and the poison flag as one array of integers that may be added element by element (MPI_SUM) after carry().

@@ -42,9 +42,18 @@ struct Lane {
   friend Lane operator*(Lane a, Lane b) { return from(a.v * b.v); }
   friend Lane operator/(Lane a, Lane b) { return from(a.v / b.v); }
   friend Lane operator-(Lane a) { return from(-a.v); }
-  Lane& operator+=(Lane b) { v += b.v; return *this; }
-  Lane& operator-=(Lane b) { v -= b.v; return *this; }
-  Lane& operator*=(Lane b) { v *= b.v; return *this; }
+  Lane& operator+=(Lane b) {
+    v += b.v;
+    return *this;
+  }
+  Lane& operator-=(Lane b) {
+    v -= b.v;
+    return *this;
+  }
+  Lane& operator*=(Lane b) {
+    v *= b.v;
+    return *this;
+  }
 
   friend Mask operator<(Lane a, Lane b) { return a.v < b.v; }
   friend Mask operator<=(Lane a, Lane b) { return a.v <= b.v; }

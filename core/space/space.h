@@ -46,7 +46,7 @@ struct Space {
   [[nodiscard]] bool any_periodic() const { return periodic(0) || periodic(1) || periodic(2); }
   /// The shortest vector from a to b over all periodic images.
   [[nodiscard]] Vec3d nearest_image(Vec3d from_a_to_b) const;
-  /// The point's image inside the box along periodic axes.
+  /// The point's image inside the box, low <= p < high along periodic axes; a point that is there already stays bit for bit.
   [[nodiscard]] Vec3d wrapped(Vec3d p) const;
 };
 

@@ -18,14 +18,14 @@ struct Snapshot {
     std::uint16_t type = 0;
     BodyKind body = BodyKind::kSphere;
     Phase phase = Phase::kGrowing;
-    Vec3d centroid;            ///< [µm]
-    double volume = 0.0;       ///< [µm³]
-    double area = 0.0;         ///< surface [µm²]
-    double pressure = 0.0;     ///< [kPa]
-    double contact_area = 0.0; ///< [µm²]
-    double age = 0.0;          ///< [s]
+    Vec3d centroid;                                  ///< [µm]
+    double volume = 0.0;                             ///< [µm³]
+    double area = 0.0;                               ///< surface [µm²]
+    double pressure = 0.0;                           ///< [kPa]
+    double contact_area = 0.0;                       ///< [µm²]
+    double age = 0.0;                                ///< [s]
     std::array<double, kMaxFields> concentration{};  ///< seen [mM]
-    double radius = 0.0;       ///< of a sphere; volume-equivalent radius of a shell [µm]
+    double radius = 0.0;                             ///< of a sphere; volume-equivalent radius of a shell [µm]
   };
   /// A shell: nodes first_node .. first_node+node_count−1, faces of topologies[topology].
   struct Shell {
@@ -35,14 +35,14 @@ struct Snapshot {
   };
   struct Grid {
     std::string name;
-    Vec3d low, spacing;                  ///< [µm]
+    Vec3d low, spacing;  ///< [µm]
     std::array<std::int32_t, 3> voxels{};
-    std::vector<double> concentration;   ///< x fastest [mM]
+    std::vector<double> concentration;  ///< x fastest [mM]
   };
 
-  double time = 0.0;  ///< [s]
-  std::vector<Cell> cells;       ///< sorted by id
-  std::vector<Shell> shells;     ///< in the order of their cells
+  double time = 0.0;          ///< [s]
+  std::vector<Cell> cells;    ///< sorted by id
+  std::vector<Shell> shells;  ///< in the order of their cells
   std::vector<Vec3d> nodes;
   std::vector<std::vector<Triangle>> topologies;
   std::vector<Grid> fields;

@@ -1,29 +1,30 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "coupling/model.h"
+#include "scenarios/study/diagnostics.h"
 
 namespace morula::scenarios {
 
 /// How cells are placed at time 0.
 struct InitialCells {
-  enum class Source { kFill, kCsv, kLattice } source = Source::kFill;
+  enum class Source { kFill, kPositions, kCsv } source = Source::kFill;
 
   // fill: `count` cells of `type` in a shape, relaxed from a regular packing with a seeded jitter
   std::uint16_t type = 0;
-  std::uint64_t count = 0;
+  std::uint64_t count = 0;                  ///< of any source
   RegionShape fill = RegionShape::kSphere;  ///< kSphere or kBox
   Vec3d center{};
   double radius = 0.0;   ///< of a sphere [µm]
   Vec3d size{};          ///< of a box [µm]
-  bool explicit_positions = false;
-  std::vector<Vec3d> positions;  ///< given in the study, `at: [[x, y, z], ...]` [µm]
+  std::vector<Vec3d> positions;  ///< kPositions, `at: [[x, y, z], ...]` [µm]
   bool random_age = true;        ///< each cell at a random point of its cycle, else at birth
 
-  // csv: x,y,z,type[,radius,phase,model]
-  std::string csv_path;
+  // csv: x,y,z,type[,radius,phase,model]; read with read_cells_csv (csv.h)
+  std::string csv_path;           ///< absolute
   double coincident_shift = 6.0;  ///< coincident cells are moved apart by this distance and named [µm]
   double coincident_below = 1e-3; ///< closer than this counts as coincident [µm]
 
@@ -48,6 +49,12 @@ struct OutputSpec {
   bool report = true;
 };
 
+/// A file the study refers to: a CSV of cells or a surface.
+struct InputFile {
+  std::string path;   ///< absolute
+  std::string copy;   ///< where its copy belongs in the run folder, as resolved_text names it: "inputs/cells.csv"
+};
+
 /// The immutable, validated, unit-converted study; the only way settings enter.
 struct Study {
   std::string name;
@@ -59,8 +66,24 @@ struct Study {
   OutputSpec output;
   std::string source_path;                ///< the file as given
   std::string source_text;                ///< its bytes
-  std::string resolved_text;              ///< YAML with every default
-  std::vector<std::string> input_files;   ///< CSV and mesh files it refers to, as absolute paths
+  std::string resolved_text;              ///< YAML with every default; beside the copies of its input files it reads to this same study
+  std::vector<InputFile> input_files;
+  Diagnostics warnings;
+  std::vector<std::string> notes;         ///< for the log: coincident cells that are moved, CSV columns left aside
 };
+
+struct ReadOptions {
+  std::vector<std::string> overrides;       ///< `key.path=value`, as if written in the file
+  std::vector<std::string> series_names;    ///< observables that exist; empty: not checked
+  std::vector<std::string> scenario_names;  ///< library studies that exist; empty: not checked
+  bool strict = false;                      ///< warnings are errors
+};
+
+/// Read, check and convert a study file. On failure all errors (and warnings), sorted by place.
+Result<Study, Diagnostics> read_study(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// As read_study, from text; `folder` is where its relative paths start.
+Result<Study, Diagnostics> read_study_text(const std::string& shown_name, const std::string& text, const std::filesystem::path& folder,
+                                           const ReadOptions& options = {});
 
 }  // namespace morula::scenarios

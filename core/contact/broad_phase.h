@@ -1,0 +1,31 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/space/space.h"
+#include "core/vec3.h"
+
+namespace morula {
+
+/// What the broad phase needs of a body: a box and a ball that both contain it, already inflated by half the reach of its contacts.
+struct Extent {
+  Box box;
+  Vec3d center;
+  double radius = 0.0;
+};
+
+/// Two bodies that may touch: place(a) < place(b). Body b is meant at its image b + shift.
+struct BodyPair {
+  std::uint32_t a, b;
+  Vec3d shift{};
+};
+
+/// All pairs whose boxes and balls overlap, at least one of the two owned, in canonical order (place of a, place of b).
+///
+/// `place` is the canonical place of each body, a permutation. Bodies are binned by their centres into a grid as wide as the largest
+/// body, so that the cost grows with the number of bodies. On periodic axes the nearest image counts.
+std::vector<BodyPair> find_body_pairs(std::span<const Extent> extents, std::span<const std::uint32_t> place, std::span<const char> owned,
+                                      const Space& space);
+
+}  // namespace morula

@@ -1,0 +1,131 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/contact/broad_phase.h"
+#include "core/contact/contact_body.h"
+#include "core/contact/surface_pair.h"
+#include "core/friction/friction_system.h"
+#include "core/mesh/triangle_tree.h"
+#include "core/parallel/comm.h"
+
+namespace morula {
+
+/// A rigid triangulated obstacle. Its shape never changes; it may move as a whole.
+struct RigidSurface {
+  std::shared_ptr<const Topology> topology;
+  std::vector<Vec3d> position;
+  SurfaceGeometry geometry;
+  std::unique_ptr<TriangleTree> tree;
+  std::uint16_t material = 0;
+};
+
+/// Two spheres that may touch; body a comes first in the canonical order, b is meant at b + shift.
+struct SphereNeighbours {
+  std::uint32_t a, b;
+  Vec3d shift{};
+};
+
+struct ContactSettings {
+  double range = 0.5;         ///< c [µm]
+  double skin = 0.3;          ///< of a pair's lists [µm]
+  double body_skin = 1.0;     ///< of the list of pairs [µm]
+  double sphere_reach = 0.0;  ///< largest gap at which two spheres still pull [µm]
+  double depth = 0.0;         ///< overlap that must be seen; 0: what the skin allows [µm]
+  int points_per_face = 3;
+  int threads = 1;
+};
+
+/// Gradients that contacts leave on the points and faces of all bodies; sized like the scene. Only owned bodies are written.
+struct ContactGradient {
+  std::vector<Vec3d> force;         ///< by point
+  std::vector<Vec3d> node_normal;   ///< ∂E/∂n_v by point
+  std::vector<double> face_energy;  ///< ∂E/∂A_T by face
+  std::vector<Vec3d> face_normal;   ///< ∂E/∂n_T by face
+  std::vector<double> contact_area; ///< by body: area of its surface that is in contact [µm²]
+};
+
+/// Contacts of all bodies of a rank: which bodies may touch, and for surfaces the gaps, energies, gradients and friction elements.
+///
+/// Every pair with at least one owned body is evaluated here, whole, by one thread; a pair across two ranks is evaluated on both,
+/// identically. Sums over the pairs of a body run in canonical order. Pairs of two spheres are only listed: their laws live elsewhere.
+class ContactLayer {
+ public:
+  ContactLayer(ContactSettings settings, std::vector<RigidSurface> obstacles, std::vector<ContactMaterial> materials,
+               std::size_t material_count);
+
+  /// The bodies have changed: forget all lists.
+  void reset() { fresh_ = true; }
+  void set_depth(double depth);
+  void set_offsets(std::span<const Vec3d> offsets);
+  void set_cap(double cap);
+  [[nodiscard]] double cap() const { return materials_.empty() ? 0.0 : materials_.front().law.cap; }
+
+  /// Take note of how far the bodies have moved since the last call. True when the list of pairs is no longer sure: rebuild() is due
+  /// before evaluate(). Local to the rank; on several ranks all rebuild when one must.
+  [[nodiscard]] bool note_motion(const ContactScene& scene);
+  /// Find the pairs of bodies again. On several ranks the ghosts must be renewed first.
+  void rebuild(const ContactScene& scene, const Space& space);
+
+  /// Narrow phase of all surface pairs at the present positions: energies, gradients, elements.
+  void evaluate(const ContactScene& scene);
+
+  /// Energy of the pairs that this rank counts (those whose first body it owns), added to an order-free sum.
+  void add_energy(const ContactScene& scene, OrderFreeSum& sum) const;
+  /// Collect the gradients of all pairs on the owned bodies.
+  void collect(const ContactScene& scene, ContactGradient& gradient) const;
+  /// Deepest penetration of a surface into another surface or obstacle [µm], and which pair has it.
+  [[nodiscard]] const SurfacePair* deepest(const ContactScene& scene) const;
+
+  /// Keep the present friction as that of the step (Γ_n).
+  void begin_step();
+  /// Friction of the step's start applied to a displacement (obstacles have moved since begin_step()): adds Γ_n d to `out` (owned points) and returns dᵀΓ_n d of the counted pairs.
+  void add_step_friction(const ContactScene& scene, std::span<const Vec3d> displacement, std::span<Vec3d> out, OrderFreeSum& quadratic) const;
+  /// Element groups for the friction system, in canonical order.
+  [[nodiscard]] std::vector<ElementGroup> element_groups(const ContactScene& scene) const;
+
+  [[nodiscard]] std::span<const SphereNeighbours> sphere_neighbours() const { return spheres_; }
+  [[nodiscard]] std::span<const SurfacePair> pairs() const { return pairs_; }
+  [[nodiscard]] std::span<const RigidSurface> obstacles() const { return obstacles_; }
+  [[nodiscard]] const Vec3d& obstacle_offset(std::size_t i) const { return offsets_[i]; }
+  [[nodiscard]] const ContactMaterial& material(std::uint16_t a, std::uint16_t b) const { return materials_[a * material_count_ + b]; }
+  [[nodiscard]] const ContactSettings& settings() const { return settings_; }
+  /// Bytes that lists and results take.
+  [[nodiscard]] std::size_t memory() const;
+
+ private:
+  [[nodiscard]] PairBody view(const ContactScene& scene, const SurfacePair& pair, int which) const;
+  void rebuild_lists(const ContactScene& scene, SurfacePair& pair);
+  void evaluate_pair(const ContactScene& scene, SurfacePair& pair);
+  void add_obstacle_pairs(const ContactScene& scene);
+  [[nodiscard]] ListReach reach() const { return {settings_.range, settings_.skin, settings_.depth}; }
+
+  struct BodyMotion {
+    Vec3d mean;             ///< since the last call of note_motion()
+    double deviation = 0.0; ///< largest distance of a point's displacement from the mean
+  };
+
+  ContactSettings settings_;
+  std::vector<RigidSurface> obstacles_;
+  std::vector<Vec3d> offsets_, last_offsets_, step_offsets_;
+  std::vector<ContactMaterial> materials_;
+  std::size_t material_count_;
+  bool fresh_ = true;
+
+  std::vector<SurfacePair> pairs_;
+  std::vector<SphereNeighbours> spheres_;
+  std::vector<std::uint32_t> incident_begin_;
+  struct Incidence {
+    std::uint32_t pair;
+    std::uint8_t side;
+  };
+  std::vector<Incidence> incident_;
+  std::vector<Vec3d> last_position_;  ///< at the last note_motion()
+  std::vector<BodyMotion> motion_;
+  std::vector<double> travel_;        ///< by body: bound on the way of its points since the list of pairs was built
+  double obstacle_travel_ = 0.0;
+};
+
+}  // namespace morula

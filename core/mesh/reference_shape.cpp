@@ -1,0 +1,67 @@
+#include <cmath>
+
+#include "core/mesh/topology.h"
+
+namespace morula {
+namespace {
+
+Vec3d mean_position(std::span<const Vec3d> position) {
+  Vec3d sum;
+  for (const Vec3d& x : position) sum += x;
+  return sum / static_cast<double>(position.size());
+}
+
+/// N = (x1−x0)×(x2−x0): twice the area times the outward normal.
+Vec3d area_vector(const Triangle& face, std::span<const Vec3d> position) {
+  return cross(position[face[1]] - position[face[0]], position[face[2]] - position[face[0]]);
+}
+
+}  // namespace
+
+double enclosed_volume(std::span<const Triangle> faces, std::span<const Vec3d> position, const Vec3d& origin) {
+  double six_volumes = 0.0;
+  for (const auto& [a, b, c] : faces) six_volumes += dot(position[a] - origin, cross(position[b] - origin, position[c] - origin));
+  return six_volumes / 6.0;
+}
+
+Vec3d volume_centroid(std::span<const Triangle> faces, std::span<const Vec3d> position) {
+  // Tetrahedra from a point in the middle: their centroids lie at a quarter of the sum of the other three corners.
+  const Vec3d origin = mean_position(position);
+  double six_volumes = 0.0;
+  Vec3d moment;
+  for (const auto& face : faces) {
+    const Vec3d a = position[face[0]] - origin, b = position[face[1]] - origin, c = position[face[2]] - origin;
+    const double tetrahedron = dot(a, cross(b, c));
+    six_volumes += tetrahedron;
+    moment += (a + b + c) * tetrahedron;
+  }
+  return origin + moment / (4.0 * six_volumes);
+}
+
+std::shared_ptr<const ReferenceShape> make_reference_shape(std::shared_ptr<const Topology> topology, std::vector<Vec3d> position) {
+  const auto faces = topology->faces();
+  const Vec3d center = volume_centroid(faces, position);
+  const double volume = enclosed_volume(faces, position, center);
+  if (!(volume > 0.0) || !std::isfinite(volume)) return nullptr;
+  const double scale = 1.0 / std::cbrt(volume);
+  for (Vec3d& x : position) x = (x - center) * scale;
+
+  auto shape = std::make_shared<ReferenceShape>();
+  shape->face_area.reserve(faces.size());
+  for (const Triangle& face : faces) shape->face_area.push_back(0.5 * norm(area_vector(face, position)));
+  shape->edge_length.reserve(topology->edge_count());
+  shape->hinge_angle.reserve(topology->edge_count());
+  for (const Edge& edge : topology->edges()) {
+    const Vec3d along = position[edge.j] - position[edge.i];
+    const Vec3d left = area_vector(faces[edge.left], position), right = area_vector(faces[edge.right], position);
+    const double length = norm(along);
+    shape->edge_length.push_back(length);
+    // Walking from i to j, a ridge turns the left normal into the right one about the direction of walking.
+    shape->hinge_angle.push_back(std::atan2(dot(cross(left, right), along) / length, dot(left, right)));
+  }
+  shape->topology = std::move(topology);
+  shape->position = std::move(position);
+  return shape;
+}
+
+}  // namespace morula

@@ -1,0 +1,20 @@
+#include "coupling/behaviours/draw.h"
+
+#include <cmath>
+
+namespace morula {
+
+double draw_truncated(const Distribution& distribution, const Random& random, CellId cell, std::uint64_t& index) {
+  if (distribution.relative_spread <= 0.0) return distribution.mean;
+  for (;;) {
+    const RandomPair normal = random.normal(cell, index++);
+    for (const double z : {normal.first, normal.second}) {
+      const double factor = 1.0 + distribution.relative_spread * z;
+      if (std::abs(z) <= 3.0 && factor > 0.0) return distribution.mean * factor;
+    }
+  }
+}
+
+double balanced_growth_age(double u) { return -std::log2(1.0 - 0.5 * u); }
+
+}  // namespace morula

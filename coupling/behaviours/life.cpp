@@ -1,0 +1,89 @@
+#include "coupling/behaviours/life.h"
+
+#include "coupling/behaviours/death.h"
+#include "coupling/behaviours/growth.h"
+#include "coupling/behaviours/migration.h"
+
+namespace morula {
+namespace {
+
+using Kind = LifeDecision::Kind;
+
+/// What follows when a cell is at its division volume.
+LifeDecision at_division_volume(CellRow& row, double late) {
+  const bool said = row.phase == Phase::kWaiting;
+  if (row.body == BodyKind::kSphere && row.id.can_divide()) return {Kind::kDivide, late};
+  row.phase = Phase::kWaiting;
+  if (said) return {};
+  return {row.body == BodyKind::kShell ? Kind::kWait : Kind::kCannot, late};
+}
+
+Event describe(const CellRow& row, const CellType& type, const LifeStep& step, const LifeDecision& decision) {
+  Event event;
+  event.time = step.time - decision.late;
+  event.cell = row.id;
+  switch (decision.kind) {
+    case Kind::kNone:
+      break;
+    case Kind::kDivide:
+      event.kind = EventKind::kDivision;
+      event.first_daughter = row.id.daughter(0);
+      event.second_daughter = row.id.daughter(1);
+      event.text = "reached its division volume";
+      break;
+    case Kind::kWait:
+      event.kind = EventKind::kDivisionWaits;
+      event.text = "reached its division volume as a shell";
+      break;
+    case Kind::kCannot:
+      event.kind = EventKind::kWarning;
+      event.text = "cannot divide: its lineage is " + std::to_string(CellId::kMaxGenerations) + " generations long";
+      break;
+    case Kind::kBeginDying:
+      event.kind = EventKind::kDeath;
+      event.text = "a concentration (field " + std::to_string(type.death_field) + ") is below what " + type.name + " needs";
+      break;
+    case Kind::kRemove:
+      event.kind = EventKind::kRemoval;
+      event.text = "shrunk below the volume at which a dead cell is removed";
+      break;
+  }
+  return event;
+}
+
+}  // namespace
+
+LifeDecision live(CellRow& row, const CellType& type, const LifeStep& step) {
+  if (row.phase == Phase::kDying) {
+    shrink(row, type, step.dt);
+    return {is_gone(row, type, step.time) ? Kind::kRemove : Kind::kNone, 0.0};
+  }
+  if (begins_to_die(row, type, step.seed, step.step, step.dt)) {
+    start_dying(row, step.time);
+    return {Kind::kBeginDying, 0.0};
+  }
+  row.migration_velocity = next_migration_velocity(row.migration_velocity, row.id, type, step.seed, step.step, step.dt);
+  if (row.phase == Phase::kResting) return {};
+  if (row.phase == Phase::kWaiting) return at_division_volume(row, 0.0);
+  const Growth growth = grow(row, type, step.dt);
+  return growth.reached ? at_division_volume(row, growth.late) : LifeDecision{};
+}
+
+LifeReport live(std::span<CellRow> rows, std::span<const CellType> types, const LifeStep& step) {
+  std::vector<LifeDecision> decisions(rows.size());
+  const auto count = static_cast<std::int64_t>(rows.size());
+#pragma omp parallel for schedule(static) if (count > 1000)
+  for (std::int64_t k = 0; k < count; ++k) decisions[k] = live(rows[k], types[rows[k].type], step);
+
+  LifeReport report;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const LifeDecision& decision = decisions[k];
+    if (decision.kind == Kind::kNone) continue;
+    report.events.push_back(describe(rows[k], types[rows[k].type], step, decision));
+    if (decision.kind == Kind::kDivide) report.divisions.push_back({k, decision.late});
+    if (decision.kind == Kind::kRemove) report.removals.push_back(k);
+  }
+  return report;
+}
+
+}  // namespace morula

@@ -1,0 +1,55 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "coupling/cells.h"
+#include "coupling/events.h"
+#include "coupling/model.h"
+
+namespace morula {
+
+/// The step whose life is lived.
+struct LifeStep {
+  std::uint32_t seed = 1;
+  std::uint64_t step = 0;  ///< number of the step; keys the random numbers
+  double time = 0.0;       ///< at the end of the step [s]
+  double dt = 0.0;         ///< [s]
+};
+
+/// What a cell decided in a step.
+struct LifeDecision {
+  enum class Kind : std::uint8_t {
+    kNone,
+    kDivide,     ///< a sphere reached its division volume
+    kWait,       ///< a shell did, and waits; said once
+    kCannot,     ///< it did, but its lineage has as many generations as an id can name; said once
+    kBeginDying,
+    kRemove,     ///< a dying cell is gone
+  } kind = Kind::kNone;
+  double late = 0.0;  ///< time between the event and the end of the step [s]
+};
+
+/// One step in the life of one cell: growth, cycle, death and the wanted velocity. Reads and writes this row only, and its state is that at the
+/// beginning of the stage: nothing depends on the order of cells.
+///
+/// A dying cell shrinks and is removed at last. Any other may begin to die; if it does not, it grows unless it rests or waits. Division at
+/// the division volume: a sphere divides, a shell waits (and divides if it becomes a sphere later).
+LifeDecision live(CellRow& row, const CellType& type, const LifeStep& step);
+
+struct DivisionOrder {
+  std::size_t row = 0;
+  double late = 0.0;  ///< for divide_sphere [s]
+};
+
+/// What a step of life asks the pipeline to do, in the order of rows.
+struct LifeReport {
+  std::vector<Event> events;
+  std::vector<DivisionOrder> divisions;  ///< rows to replace by their daughters (divide_sphere)
+  std::vector<std::size_t> removals;     ///< rows to remove
+};
+
+/// One step in the life of all cells. Rows are changed in place; divisions and removals are only asked for. types: by row.type.
+LifeReport live(std::span<CellRow> rows, std::span<const CellType> types, const LifeStep& step);
+
+}  // namespace morula

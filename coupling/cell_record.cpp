@@ -1,0 +1,162 @@
+#include "coupling/cell_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace morula {
+
+Vec3d CellRecord::center() const {
+  return sphere ? sphere->position : volume_centroid(shell->shape->topology->faces(), shell->position);
+}
+
+std::vector<CellRecord> take_apart(Tissue& tissue) {
+  std::vector<CellRecord> out;
+  out.reserve(tissue.cells.size());
+  auto& shells = tissue.shells;
+  auto& spheres = tissue.spheres;
+  std::size_t next_shell = 0, next_sphere = 0;
+  for (const CellRow& row : tissue.cells.rows) {
+    CellRecord& record = out.emplace_back();
+    record.row = row;
+    if (row.body == BodyKind::kShell) {
+      const std::size_t i = next_shell++;
+      const auto nodes = [&](const auto& array) { return std::vector(array.begin() + shells.first_node[i], array.begin() + shells.first_node[i + 1]); };
+      record.shell = ShellRecord{shells.shape[i], shells.reference_volume[i], shells.rest_volume[i], nodes(shells.position), nodes(shells.velocity),
+                               std::vector(shells.rest_length.begin() + shells.first_edge[i], shells.rest_length.begin() + shells.first_edge[i + 1])};
+    } else {
+      const std::size_t i = next_sphere++;
+      record.sphere = SphereRecord{spheres.position[i], spheres.radius[i], spheres.velocity[i], std::move(spheres.attached[i])};
+    }
+  }
+  tissue.cells = {};
+  tissue.shells = {};
+  tissue.spheres = {};
+  return out;
+}
+
+void put_together(Tissue& tissue, std::vector<CellRecord> cells) {
+  std::sort(cells.begin(), cells.end(), [](const CellRecord& a, const CellRecord& b) { return before(a.row, b.row); });
+  auto& shells = tissue.shells;
+  auto& spheres = tissue.spheres;
+  tissue.cells.rows.reserve(cells.size());
+  for (CellRecord& cell : cells) {
+    cell.row.body = cell.shell ? BodyKind::kShell : BodyKind::kSphere;
+    tissue.cells.rows.push_back(cell.row);
+    if (cell.shell) {
+      const ShellRecord& body = *cell.shell;
+      shells.shape.push_back(body.shape);
+      shells.type.push_back(cell.row.type);
+      shells.reference_volume.push_back(body.reference_volume);
+      shells.rest_volume.push_back(body.rest_volume);
+      shells.position.insert(shells.position.end(), body.position.begin(), body.position.end());
+      shells.velocity.insert(shells.velocity.end(), body.velocity.begin(), body.velocity.end());
+      shells.rest_length.insert(shells.rest_length.end(), body.rest_length.begin(), body.rest_length.end());
+      shells.first_node.push_back(static_cast<std::uint32_t>(shells.position.size()));
+      shells.first_edge.push_back(static_cast<std::uint32_t>(shells.rest_length.size()));
+    } else {
+      SphereRecord& body = *cell.sphere;
+      spheres.position.push_back(body.position);
+      spheres.radius.push_back(body.radius);
+      spheres.type.push_back(cell.row.type);
+      spheres.velocity.push_back(body.velocity);
+      spheres.attached.push_back(std::move(body.attached));
+    }
+  }
+}
+
+ShellRecord spherical_shell(std::shared_ptr<const ReferenceShape> shape, const Vec3d& center, double volume, double reference_volume) {
+  ShellRecord body;
+  const double scale = std::cbrt(volume);  // the reference shape encloses 1
+  body.position.reserve(shape->position.size());
+  for (const Vec3d& p : shape->position) body.position.push_back(center + p * scale);
+  body.velocity.assign(shape->position.size(), Vec3f{});
+  body.rest_length.reserve(shape->edge_length.size());
+  for (const double length : shape->edge_length) body.rest_length.push_back(length * scale);
+  body.reference_volume = reference_volume;
+  body.rest_volume = volume;
+  body.shape = std::move(shape);
+  return body;
+}
+
+namespace {
+
+template <class T>
+void append(std::vector<std::byte>& out, const T* items, std::size_t count) {
+  const auto* bytes = reinterpret_cast<const std::byte*>(items);  // NOLINT: plain data
+  out.insert(out.end(), bytes, bytes + count * sizeof(T));
+}
+
+/// Reads plain data from the front of a byte range.
+struct Reader {
+  std::span<const std::byte> rest;
+
+  template <class T>
+  T one() {
+    T out;
+    std::memcpy(static_cast<void*>(&out), rest.data(), sizeof(T));
+    rest = rest.subspan(sizeof(T));
+    return out;
+  }
+  template <class T>
+  std::vector<T> many(std::size_t count) {
+    std::vector<T> out(count);
+    if (count != 0) std::memcpy(static_cast<void*>(out.data()), rest.data(), count * sizeof(T));
+    rest = rest.subspan(count * sizeof(T));
+    return out;
+  }
+};
+
+}  // namespace
+
+void append_bytes(const CellRecord& cell, std::vector<std::byte>& out) {
+  append(out, &cell.row, 1);
+  if (cell.sphere) {
+    const SphereRecord& body = *cell.sphere;
+    const std::uint64_t count = body.attached.size();
+    append(out, &body.position, 1);
+    append(out, &body.radius, 1);
+    append(out, &body.velocity, 1);
+    append(out, &count, 1);
+    append(out, body.attached.data(), body.attached.size());
+  } else {
+    const ShellRecord& body = *cell.shell;
+    const std::uint32_t nodes = body.shape->topology->node_count();
+    append(out, &nodes, 1);
+    append(out, &body.reference_volume, 1);
+    append(out, &body.rest_volume, 1);
+    append(out, body.position.data(), body.position.size());
+    append(out, body.velocity.data(), body.velocity.size());
+    append(out, body.rest_length.data(), body.rest_length.size());
+  }
+}
+
+std::vector<CellRecord> read_records(std::span<const std::byte> bytes, ShapeLibrary& shapes) {
+  std::vector<CellRecord> out;
+  Reader reader{bytes};
+  while (!reader.rest.empty()) {
+    CellRecord& cell = out.emplace_back();
+    cell.row = reader.one<CellRow>();
+    if (cell.row.body == BodyKind::kSphere) {
+      SphereRecord body;
+      body.position = reader.one<Vec3d>();
+      body.radius = reader.one<double>();
+      body.velocity = reader.one<Vec3f>();
+      body.attached = reader.many<CellId>(reader.one<std::uint64_t>());
+      cell.sphere = std::move(body);
+    } else {
+      ShellRecord body;
+      const auto nodes = reader.one<std::uint32_t>();
+      body.shape = shapes.icosphere(nodes).value();
+      body.reference_volume = reader.one<double>();
+      body.rest_volume = reader.one<double>();
+      body.position = reader.many<Vec3d>(nodes);
+      body.velocity = reader.many<Vec3f>(nodes);
+      body.rest_length = reader.many<double>(body.shape->edge_length.size());
+      cell.shell = std::move(body);
+    }
+  }
+  return out;
+}
+
+}  // namespace morula

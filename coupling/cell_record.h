@@ -1,0 +1,54 @@
+#pragma once
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/mesh/topology.h"
+#include "core/result.h"
+#include "coupling/tissue.h"
+
+namespace morula {
+
+/// The body of a cell that is a sphere.
+struct SphereRecord {
+  Vec3d position;
+  double radius = 0.0;
+  Vec3f velocity;
+  std::vector<CellId> attached;  ///< sorted
+};
+
+/// The body of a cell that is a shell.
+struct ShellRecord {
+  std::shared_ptr<const ReferenceShape> shape;
+  double reference_volume = 0.0;
+  double rest_volume = 0.0;
+  std::vector<Vec3d> position;
+  std::vector<Vec3f> velocity;
+  std::vector<double> rest_length;
+};
+
+/// One cell whole: its row and its body. What events, swaps and moves between ranks work on.
+struct CellRecord {
+  CellRow row;
+  std::optional<SphereRecord> sphere;
+  std::optional<ShellRecord> shell;
+
+  [[nodiscard]] Vec3d center() const;
+};
+
+/// All cells of the tissue as records, in the order of the rows. The tissue's cells and bodies are left empty.
+std::vector<CellRecord> take_apart(Tissue& tissue);
+
+/// Put cells back: sorted into canonical order. The tissue's own cells must be empty.
+void put_together(Tissue& tissue, std::vector<CellRecord> cells);
+
+/// A spherical shell around `center` whose mesh encloses `volume`, with stress-free membrane at that volume and velocity zero.
+ShellRecord spherical_shell(std::shared_ptr<const ReferenceShape> shape, const Vec3d& center, double volume, double reference_volume);
+
+/// A cell as bytes and back. Shapes travel by their node count.
+void append_bytes(const CellRecord& cell, std::vector<std::byte>& out);
+std::vector<CellRecord> read_records(std::span<const std::byte> bytes, ShapeLibrary& shapes);
+
+}  // namespace morula

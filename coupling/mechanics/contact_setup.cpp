@@ -1,0 +1,107 @@
+#include "coupling/mechanics/contact_setup.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace morula {
+namespace {
+
+constexpr double kWallThickness = 10.0;  // of the plates that stand for walls [µm]
+
+Result<RigidSurface> rigid_surface(const std::string& name, std::vector<Vec3d> position, std::vector<Triangle> faces, bool inside,
+                                   std::uint16_t material) {
+  if (inside)
+    for (Triangle& t : faces) std::swap(t[1], t[2]);
+  RigidSurface out;
+  auto topology = Topology::build(static_cast<std::uint32_t>(position.size()), std::move(faces));
+  if (!topology) return Error{ErrorKind::kInput, "obstacle '" + name + "': " + topology.error().message, topology.error().help};
+  out.topology = std::move(topology).value();
+  out.position = std::move(position);
+  out.material = material;
+  const Topology* const topologies[1] = {out.topology.get()};
+  const std::uint32_t first_node[1] = {0};
+  const std::uint32_t first_face[2] = {0, out.topology->face_count()};
+  compute_surface_geometry({topologies, first_node, first_face}, out.position, out.geometry);
+  out.tree = std::make_unique<TriangleTree>(out.position, out.topology->faces());
+  return out;
+}
+
+/// A closed box as eight nodes and twelve faces, outward.
+void box_mesh(const Box& box, std::vector<Vec3d>& position, std::vector<Triangle>& faces) {
+  position.clear();
+  for (int z = 0; z < 2; ++z)
+    for (int y = 0; y < 2; ++y)
+      for (int x = 0; x < 2; ++x)
+        position.push_back({x ? box.high.x : box.low.x, y ? box.high.y : box.low.y, z ? box.high.z : box.low.z});
+  faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+}
+
+}  // namespace
+
+std::vector<ContactMaterial> contact_materials(const Model& model) {
+  const std::size_t given = model.material_count(), count = contact_material_count(model);
+  std::vector<ContactMaterial> out(count * count);
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = 0; b < count; ++b) {
+      ContactMaterial& material = out[a * count + b];
+      material.law.range = model.contact.range;
+      material.law.repulsion = model.contact.repulsion;
+      if (a >= given || b >= given) continue;
+      const ContactPair& pair = model.pair(a, b);
+      material.law.adhesion = pair.adhesion;
+      material.normal_friction = pair.normal_friction;
+      material.tangential_friction = pair.tangential_friction;
+    }
+  return out;
+}
+
+Result<std::vector<RigidSurface>> contact_obstacles(const Model& model) {
+  std::vector<RigidSurface> out;
+  for (std::size_t i = 0; i < model.obstacles.size(); ++i) {
+    const ObstacleSpec& spec = model.obstacles[i];
+    MORULA_TRY_ASSIGN(auto surface, rigid_surface(spec.name, spec.position, spec.faces, spec.inside, static_cast<std::uint16_t>(model.types.size() + i)));
+    out.push_back(std::move(surface));
+  }
+  const Box& box = model.space.box;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (model.space.boundary[axis][side] != BoundaryKind::kWall) continue;
+      Box plate = box.inflated(kWallThickness);
+      (side == 0 ? plate.high : plate.low)[axis] = (side == 0 ? box.low : box.high)[axis];
+      std::vector<Vec3d> position;
+      std::vector<Triangle> faces;
+      box_mesh(plate, position, faces);
+      MORULA_TRY_ASSIGN(auto surface, rigid_surface("wall", position, faces, false, static_cast<std::uint16_t>(model.material_count())));
+      out.push_back(std::move(surface));
+    }
+  return out;
+}
+
+ContactSettings contact_settings(const Model& model, int threads) {
+  ContactSettings settings;
+  settings.range = model.contact.range;
+  settings.skin = model.contact.skin;
+  settings.body_skin = 2.0 * model.contact.skin;
+  settings.points_per_face = model.contact.points_per_face;
+  settings.threads = threads;
+  // Spheres that adhere hold on up to 0.75 X, X = (π² W² R*/E*²)^(1/3) (cbm.md §2), at the largest radius a cell of the type reaches.
+  for (std::size_t a = 0; a < model.types.size(); ++a)
+    for (std::size_t b = a; b < model.types.size(); ++b) {
+      const auto radius = [&](std::size_t t) {
+        return 2.0 * model.types[t].radius.mean * (1.0 + 3.0 * model.types[t].radius.relative_spread);
+      };
+      const auto compliance = [&](std::size_t t) {
+        const auto& s = model.types[t].sphere;
+        return (1.0 - s.poisson * s.poisson) / s.young;
+      };
+      const double reduced_radius = radius(a) * radius(b) / (radius(a) + radius(b));
+      const double reduced_modulus = 1.0 / (compliance(a) + compliance(b));
+      const double w = model.pair(a, b).adhesion;
+      const double x = std::cbrt(std::numbers::pi * std::numbers::pi * w * w * reduced_radius / (reduced_modulus * reduced_modulus));
+      settings.sphere_reach = std::max(settings.sphere_reach, 0.75 * x);
+    }
+  return settings;
+}
+
+}  // namespace morula

@@ -1,0 +1,21 @@
+#pragma once
+#include <vector>
+
+#include "core/contact/contact_layer.h"
+#include "core/result.h"
+#include "coupling/model.h"
+
+namespace morula {
+
+/// Materials of the contact layer: cell types, obstacles, and one for the walls of the domain (no adhesion, no friction), in this order.
+/// A (count × count) table; count = contact_material_count(model).
+std::vector<ContactMaterial> contact_materials(const Model& model);
+[[nodiscard]] inline std::size_t contact_material_count(const Model& model) { return model.material_count() + 1; }
+
+/// Obstacles of the study and a thick plate for every wall of the domain. Errors name the obstacle whose mesh is no closed surface.
+Result<std::vector<RigidSurface>> contact_obstacles(const Model& model);
+
+/// Ranges and skins of the contact layer for this model.
+ContactSettings contact_settings(const Model& model, int threads);
+
+}  // namespace morula

@@ -1,0 +1,199 @@
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/mechanics/mechanics.h"
+
+namespace morula {
+namespace {
+
+constexpr double kArmijo = 1e-4;
+constexpr int kHalvings = 8;
+constexpr int kGradientHalvings = 20;
+constexpr double kStuckForce = 1e-3;        // largest residual that counts as rest [nN]
+constexpr double kAllowedRise = 0.2;        // of Φ, in the last resort of the freeze rule [nN·µm]
+constexpr double kLastResortStep = 0.2;     // in units of the contact range
+constexpr int kMaxLinearIterations = 400;
+
+}  // namespace
+
+/// One Newton iteration's search along a direction. Φ(x) = E(x) − f·d + dᵀΓ_n d/(2Δt).
+struct Mechanics::Trial {
+  Mechanics& m;
+  const Tissue& tissue;
+  std::span<const Vec3d> start;     ///< x_n by point
+  std::span<const Vec3d> external;
+  double dt;
+  double phi;                       ///< at the accepted state
+  StepReport& report;
+
+  [[nodiscard]] double measure() {
+    m.evaluate(tissue);
+    const double work = m.friction_residual(start, external, dt);
+    return m.energy_ - work + m.friction_energy_ / (2.0 * dt);
+  }
+
+  /// Move along `direction` until Φ falls enough. On success the workspace is evaluated at the new state; else positions are restored.
+  bool search(const std::vector<Vec3d>& direction, double slope, int halvings, double allowed_rise) {
+    const std::vector<Vec3d> from = m.scene_.position();
+    double fraction = 1.0;
+    for (int k = 0; k <= halvings; ++k, fraction *= 0.5) {
+      auto& x = m.scene_.position();
+      m.for_owned_points([&](std::uint32_t i) { x[i] = from[i] + direction[i] * fraction; });
+      const double next = measure();
+      const bool sound = std::isfinite(next) && !m.find_fault(tissue).has_value();
+      const bool lower = next <= phi + kArmijo * fraction * slope;
+      if (m.comm_.all(sound && (lower || next <= phi + allowed_rise))) {
+        if (next > phi) report.allowed_rise += next - phi;
+        phi = next;
+        return true;
+      }
+      ++report.halvings;
+    }
+    m.scene_.position() = from;
+    return false;
+  }
+};
+
+double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt) {
+  const auto& x = scene_.position();
+  std::fill(friction_.begin(), friction_.end(), Vec3d{});
+  for (std::size_t i = 0; i < x.size(); ++i) displacement_[i] = x[i] - start[i];
+  OrderFreeSum sums[2];
+  contacts_.add_step_friction(contact_scene(), displacement_, friction_, sums[0]);
+  shells_.add_step_friction(displacement_, friction_, sums[0]);
+  spheres_.add_step_friction(scene_, displacement_, friction_, sums[0]);
+  for (std::size_t body = 0; body < scene_.bodies().size(); ++body) {
+    const ContactBody& b = scene_.bodies()[body];
+    if (!b.owned) continue;
+    double work = 0.0;
+    for (std::uint32_t i = b.first_point; i < b.first_point + b.point_count; ++i) {
+      const std::size_t e = i < scene_.owned_nodes() ? i : i - scene_.sphere_point() + scene_.owned_nodes();
+      work += morula::dot(external[e], displacement_[i]);
+      residual_[i] = force_[i] + external[e] - friction_[i] * (1.0 / dt);
+    }
+    sums[1].add(work);
+  }
+  double totals[2];
+  comm_.sum(sums, totals);
+  friction_energy_ = totals[0];
+  return totals[1];
+}
+
+Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt, std::span<const Vec3d> external) {
+  const StepControl& control = model_.step;
+  const double range = model_.contact.range;
+  begin_step(tissue, dt);
+  const std::vector<Vec3d> start = scene_.position();
+  StepReport report;
+  report.step = dt;
+  Trial trial{*this, tissue, start, external, dt, 0.0, report};
+  const double work = friction_residual(start, external, dt);
+  trial.phi = energy_ - work + friction_energy_ / (2.0 * dt);
+  const double force_norm = std::sqrt(dot(residual_, residual_));
+  if (!std::isfinite(trial.phi) || !std::isfinite(force_norm)) return StepFault{"forces are not numbers", {}, false};
+
+  std::vector<Vec3d> direction(start.size());
+  const auto solve = [&](double step, double tolerance) -> Result<SolveReport, StepFault> {
+    assemble(tissue, step);
+    auto timed = timer_.scope(Stage::kSolve);
+    for_owned_points([&](std::uint32_t i) {
+      right_[i] = {static_cast<float>(residual_[i].x), static_cast<float>(residual_[i].y), static_cast<float>(residual_[i].z), 0.0f};
+    });
+    auto solved = system_.solve(right_, solution_, tolerance, kMaxLinearIterations, comm_);
+    if (!solved) return StepFault{solved.error().what, {}, true};
+    report.linear_iterations += solved->iterations;
+    for_owned_points([&](std::uint32_t i) { direction[i] = Vec3d{solution_[i].x, solution_[i].y, solution_[i].z} * dt; });
+    return *solved;
+  };
+  const auto limit_direction = [&](double most) {
+    const double longest = largest(direction);
+    if (longest > most) for_owned_points([&](std::uint32_t i) { direction[i] *= most / longest; });
+    return longest;
+  };
+  const double allowed = control.max_displacement * range;
+
+  for (int iteration = 0; iteration < control.max_newton; ++iteration) {
+    if (iteration > 0) std::fill(solution_.begin(), solution_.end(), Float4{});
+    auto solved = solve(dt, iteration == 0 ? control.first_tolerance : control.later_tolerance);
+    if (!solved) return undo(start, solved.error());
+    ++report.newton;
+    const double longest = limit_direction(range);
+    if (iteration == 0 && longest > 4.0 * allowed && dt > 1e-3) {
+      return undo(start, StepFault{"points would move too far in one step", {}, true});
+    }
+    double slope = -dot(residual_, direction);
+    const bool converged = -0.5 * slope <= 1e-12 * (1.0 + std::abs(trial.phi));
+    if (!trial.search(direction, slope, kHalvings, converged ? 1e-9 * (1.0 + std::abs(trial.phi)) : 0.0)) {
+      // Freeze rule (time_stepping.md §9.3): the gradient in the metric of friction, then a short Newton step with an allowed rise.
+      evaluate(tissue);
+      (void)friction_residual(start, external, dt);
+      const std::vector<Vec3d> newton_direction = direction;
+      std::fill(solution_.begin(), solution_.end(), Float4{});
+      solved = solve(0.0, control.first_tolerance);
+      if (!solved) return undo(start, solved.error());
+      limit_direction(range);
+      slope = -dot(residual_, direction);
+      bool moved = trial.search(direction, slope, kGradientHalvings, 0.0);
+      if (!moved) {
+        direction = newton_direction;
+        limit_direction(kLastResortStep * range);
+        moved = trial.search(direction, -dot(residual_, direction), 2, kAllowedRise);
+      }
+      if (!moved) {
+        evaluate(tissue);
+        (void)friction_residual(start, external, dt);
+        if (largest(residual_) > kStuckForce) {
+          StepFault fault{"no step lowers the energy", {}, true};
+          if (const auto shape = find_fault(tissue)) fault = *shape;
+          double worst = 0.0;
+          for (const ContactBody& body : scene_.bodies())
+            for (std::uint32_t i = body.first_point; body.owned && i < body.first_point + body.point_count; ++i)
+              if (norm2(residual_[i]) > worst) {
+                worst = norm2(residual_[i]);
+                fault.cell = body.id;
+              }
+          return undo(start, fault);
+        }
+        break;
+      }
+    }
+    if (std::sqrt(dot(residual_, residual_)) <= control.newton_stop * force_norm || converged) break;
+  }
+  report.displacement = largest(displacement_);
+  if (report.displacement > 1.5 * allowed && dt > 1e-3) {
+    return undo(start, StepFault{"points moved too far in one step", {}, true});
+  }
+  finish(tissue, dt, report);
+  return report;
+}
+
+Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt, std::span<const Vec3d> external) {
+  begin_step(tissue, dt);
+  const std::vector<Vec3d> start = scene_.position();
+  StepReport report;
+  report.step = dt;
+  (void)friction_residual(start, external, dt);
+  assemble(tissue, 0.0);
+  for_owned_points([&](std::uint32_t i) {
+    right_[i] = {static_cast<float>(residual_[i].x), static_cast<float>(residual_[i].y), static_cast<float>(residual_[i].z), 0.0f};
+  });
+  auto solved = system_.solve(right_, solution_, 1e-4, kMaxLinearIterations, comm_);
+  if (!solved) return undo(start, StepFault{solved.error().what, {}, true});
+  report.linear_iterations = solved->iterations;
+  report.newton = 1;
+  auto& x = scene_.position();
+  for_owned_points([&](std::uint32_t i) { x[i] += Vec3d{solution_[i].x, solution_[i].y, solution_[i].z} * dt; });
+  for_owned_points([&](std::uint32_t i) { displacement_[i] = x[i] - start[i]; });
+  report.displacement = largest(displacement_);
+  if (!std::isfinite(report.displacement) || report.displacement > model_.contact.range) {
+    return undo(start, StepFault{"points moved too far in one explicit step", {}, true});
+  }
+  evaluate(tissue);
+  if (const auto fault = find_fault(tissue); comm_.any(fault.has_value())) {
+    return undo(start, fault.value_or(StepFault{"a cell on another rank is too distorted", {}, true}));
+  }
+  finish(tissue, dt, report);
+  return report;
+}
+
+}  // namespace morula

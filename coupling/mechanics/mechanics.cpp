@@ -1,0 +1,277 @@
+#include "coupling/mechanics/mechanics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "coupling/mechanics/contact_setup.h"
+
+namespace morula {
+namespace {
+
+/// How far a body may go in one step before the step is refused: ghosts must reach that far (implicit_step.cpp).
+constexpr double kCappedDepth = 5.0;  // overlap that the capped start can undo [µm]
+
+double step_margin(const Model& model) { return 2.0 * model.step.max_displacement * model.contact.range; }
+
+}  // namespace
+
+Mechanics::Mechanics(const Model& model, std::vector<RigidSurface> obstacles, ShapeLibrary& shapes, Comm comm, int threads)
+    : model_(model),
+      shapes_(shapes),
+      comm_(comm),
+      threads_(threads),
+      contacts_(contact_settings(model, threads), std::move(obstacles), contact_materials(model), contact_material_count(model)),
+      shells_(model),
+      spheres_(model) {}
+
+ContactScene Mechanics::contact_scene() const { return {scene_.bodies(), scene_.position(), &geometry_}; }
+
+double Mechanics::largest(std::span<const Vec3d> by_point) const {
+  double most = 0.0;
+  for (const ContactBody& body : scene_.bodies())
+    if (body.owned)
+      for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) {
+        const double here = norm2(by_point[i]);
+        if (!(here <= most)) most = here;  // not a number wins
+      }
+  return std::sqrt(comm_.max(most));
+}
+
+double Mechanics::dot(std::span<const Vec3d> a, std::span<const Vec3d> b) const {
+  OrderFreeSum sum;
+  for (const ContactBody& body : scene_.bodies()) {
+    if (!body.owned) continue;
+    double part = 0.0;
+    for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) part += morula::dot(a[i], b[i]);
+    sum.add(part);
+  }
+  return comm_.sum(sum);
+}
+
+void Mechanics::prepare(const Tissue& tissue) {
+  // Ghosts must be renewed when something has gone further than their reach allows for.
+  const double slack = contacts_.settings().body_skin;
+  bool renew = !scene_valid_;
+  if (!renew && comm_.size() > 1) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < scene_start_.size(); ++i) {
+      const Vec3d& now = i < tissue.shells.position.size() ? tissue.shells.position[i] : tissue.spheres.position[i - tissue.shells.position.size()];
+      most = std::max(most, norm2(now - scene_start_[i]));
+    }
+    renew = most > 0.25 * slack * slack;
+  }
+  if (comm_.any(renew)) {
+    auto timed = timer_.scope(Stage::kGhosts);
+    const double reach = std::max(contacts_.settings().range, contacts_.settings().sphere_reach) + 2.0 * contacts_.settings().body_skin + slack + 2.0 * step_margin(model_);
+    scene_.build(tissue, model_.space, reach, shapes_, comm_);
+    scene_valid_ = true;
+    evaluated_ = contacts_current_ = false;
+    scene_start_ = tissue.shells.position;
+    scene_start_.insert(scene_start_.end(), tissue.spheres.position.begin(), tissue.spheres.position.end());
+    contacts_.reset();
+    shells_.set_shells(tissue.shells);
+    const std::size_t points = scene_.point_count(), faces = scene_.face_count(), bodies = scene_.bodies().size();
+    force_.assign(points, {});
+    residual_.assign(points, {});
+    displacement_.assign(points, {});
+    friction_.assign(points, {});
+    right_.assign(points, {});
+    solution_.assign(points, {});
+    gradient_.node_normal.assign(points, {});
+    gradient_.face_energy.assign(faces, 0.0);
+    gradient_.face_normal.assign(faces, {});
+    gradient_.contact_area.assign(bodies, 0.0);
+
+    FrictionSystem::Layout layout;
+    layout.point_count = points;
+    for (const ContactBody& body : scene_.bodies()) {
+      layout.bodies.push_back({body.first_point, body.point_count});
+      layout.owned.push_back(body.owned);
+    }
+    if (comm_.size() > 1) layout.exchange = [this](std::span<Float4> vector) { scene_.exchange(vector); };
+    system_.set_layout(std::move(layout), threads_);
+    system_.set_shells(&shells_);
+  }
+  if (!evaluated_) {
+    const double cap = tissue.clock.capped ? model_.step.start_cap : 0.0;
+    const double depth = tissue.clock.capped ? kCappedDepth : 0.0;
+    if (cap != contacts_.cap() || depth != contacts_.settings().depth) contacts_current_ = false;
+    contacts_.set_cap(cap);
+    contacts_.set_depth(depth);
+    if (!contacts_current_) {
+      contacts_.set_offsets(tissue.obstacle_offset);
+      scene_.take_positions(tissue);
+    }
+    scene_.take_radii(tissue);
+    spheres_.update_laws(scene_, tissue);
+    evaluate(tissue, !contacts_current_);
+  }
+}
+
+void Mechanics::evaluate(const Tissue& tissue, bool moved) {
+  if (moved) {
+    auto timed = timer_.scope(Stage::kGhosts);
+    scene_.exchange(scene_.position());
+  }
+  const ContactScene scene = contact_scene();
+  {
+    auto timed = timer_.scope(Stage::kInternal);
+    if (moved) compute_surface_geometry({scene_.topologies(), scene_.first_node(), scene_.first_face()}, scene_.position(), geometry_);
+    shells_.evaluate(tissue.shells, scene_.position());
+  }
+  {
+    auto timed = timer_.scope(Stage::kCandidates);
+    if (moved && comm_.any(contacts_.note_motion(scene))) {
+      contacts_.rebuild(scene, model_.space);
+      spheres_.set_pairs(scene_, contacts_, tissue);
+    }
+  }
+  auto timed = timer_.scope(Stage::kContacts);
+  if (moved) contacts_.evaluate(scene);
+  spheres_.evaluate(scene_, contacts_);
+
+  std::fill(force_.begin(), force_.end(), Vec3d{});
+  std::fill(gradient_.node_normal.begin(), gradient_.node_normal.end(), Vec3d{});
+  std::fill(gradient_.face_energy.begin(), gradient_.face_energy.end(), 0.0);
+  std::fill(gradient_.face_normal.begin(), gradient_.face_normal.end(), Vec3d{});
+  std::fill(gradient_.contact_area.begin(), gradient_.contact_area.end(), 0.0);
+  gradient_.force.swap(force_);
+  contacts_.collect(scene, gradient_);
+  gradient_.force.swap(force_);
+  spheres_.collect(scene_, force_, gradient_.contact_area);
+  const SurfaceList owned{scene_.topologies().first(scene_.owned_shells()), scene_.first_node(), scene_.first_face()};
+  add_surface_forces(owned, scene_.position(), geometry_, {gradient_.face_energy, gradient_.face_normal, gradient_.node_normal}, force_);
+  const auto& internal = shells_.forces();
+  for (std::size_t i = 0; i < scene_.owned_nodes(); ++i) force_[i] += internal.force[i];
+
+  OrderFreeSum sum;
+  for (std::size_t i = 0; i < scene_.owned_shells(); ++i) sum.add(internal.energy[i]);
+  contacts_.add_energy(scene, sum);
+  spheres_.add_energy(scene_, sum);
+  energy_ = comm_.sum(sum);
+  evaluated_ = contacts_current_ = true;
+}
+
+StepFault Mechanics::undo(const std::vector<Vec3d>& start, StepFault fault) {
+  scene_.position() = start;
+  evaluated_ = contacts_current_ = false;
+  return fault;
+}
+
+void Mechanics::begin_step(const Tissue& tissue, double dt) {
+  auto timed = timer_.scope(Stage::kAssemble);
+  contacts_.begin_step();
+  shells_.begin_step(tissue.shells, scene_.position(), geometry_);
+  std::vector<float> friction(scene_.point_count(), 0.0f);
+  const std::size_t first = scene_.first_sphere();
+  for (std::size_t i = 0; i < scene_.owned_spheres(); ++i) {
+    const double r = tissue.spheres.radius[i];
+    friction[scene_.bodies()[first + i].first_point] =
+        static_cast<float>(model_.types[tissue.spheres.type[i]].medium_friction * 4.0 * std::numbers::pi * r * r);
+  }
+  system_.set_point_friction(friction);
+  spheres_.begin_step(std::move(friction));
+  // The last velocity is the solver's start; obstacles go where they will be at the end of the step.
+  for (std::size_t i = 0; i < tissue.shells.velocity.size(); ++i) {
+    const Vec3f& v = tissue.shells.velocity[i];
+    solution_[i] = {v.x, v.y, v.z, 0.0f};
+  }
+  for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i) {
+    const Vec3f& v = tissue.spheres.velocity[i];
+    solution_[scene_.sphere_point() + i] = {v.x, v.y, v.z, 0.0f};
+  }
+  std::vector<Vec3d> offsets = tissue.obstacle_offset;
+  bool moving = false;
+  for (std::size_t i = 0; i < model_.obstacles.size(); ++i) {
+    offsets[i] += model_.obstacles[i].velocity * dt;
+    moving = moving || norm2(model_.obstacles[i].velocity) > 0.0;
+  }
+  if (moving) {
+    contacts_.set_offsets(offsets);
+    evaluate(tissue);
+  }
+}
+
+void Mechanics::assemble(const Tissue& tissue, double dt) {
+  auto timed = timer_.scope(Stage::kAssemble);
+  shells_.assemble(tissue.shells, scene_.position(), gradient_.face_energy, dt);
+  system_.set_step(dt);
+  system_.set_elements(contacts_.element_groups(contact_scene()), FaceQuadrature::with_points(contacts_.settings().points_per_face));
+  system_.set_sphere_pairs(spheres_.elements());
+}
+
+std::optional<StepFault> Mechanics::find_fault(const Tissue& tissue) const {
+  (void)tissue;
+  const auto& faults = shells_.forces().fault;
+  for (std::size_t i = 0; i < faults.size(); ++i)
+    if (faults[i]) return StepFault{dcm::describe(faults[i]), scene_.bodies()[i].id, true};
+  return std::nullopt;
+}
+
+Result<StepReport, StepFault> Mechanics::step(Tissue& tissue, double dt, std::span<const Vec3d> external) {
+  prepare(tissue);
+  return model_.step.integrator == Integrator::kImplicit ? implicit_step(tissue, dt, external) : explicit_step(tissue, dt, external);
+}
+
+void Mechanics::finish(Tissue& tissue, double dt, StepReport& report) {
+  auto timed = timer_.scope(Stage::kAdvance);
+  scene_.give_positions(tissue);
+  const double rate = 1.0 / dt;
+  const auto velocity = [&](std::size_t point) {
+    const Vec3d v = displacement_[point] * rate;
+    return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+  };
+  for (std::size_t i = 0; i < tissue.shells.velocity.size(); ++i) tissue.shells.velocity[i] = velocity(i);
+  for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i) tissue.spheres.velocity[i] = velocity(scene_.sphere_point() + i);
+  for (std::size_t i = 0; i < model_.obstacles.size(); ++i) tissue.obstacle_offset[i] += model_.obstacles[i].velocity * dt;
+  spheres_.update_attached(scene_, tissue);
+  report.energy = energy_;
+  report.overlap = deepest_overlap();
+  if (tissue.clock.capped && report.overlap < 0.1) tissue.clock.capped = false;
+  evaluated_ = false;  // volumes and flags change with the next step; contact caches stay
+}
+
+double Mechanics::deepest_overlap() const {
+  const SurfacePair* worst = contacts_.deepest(contact_scene());
+  return comm_.max(worst != nullptr ? worst->overlap : 0.0);
+}
+
+const BodyValues& Mechanics::values(const Tissue& tissue) {
+  prepare(tissue);
+  const std::size_t shells = scene_.owned_shells(), spheres = scene_.owned_spheres();
+  for (auto* v : {&values_.volume, &values_.area, &values_.pressure, &values_.contact_area}) v->assign(shells + spheres, 0.0);
+  for (std::size_t i = 0; i < shells; ++i) {
+    values_.volume[i] = geometry_.volume[i];
+    values_.area[i] = geometry_.area[i];
+    values_.pressure[i] = shells_.forces().pressure[i];
+    values_.contact_area[i] = gradient_.contact_area[i];
+  }
+  spheres_.virial_pressure(scene_, tissue, std::span(values_.pressure).subspan(shells));
+  for (std::size_t i = 0; i < spheres; ++i) {
+    const double r = tissue.spheres.radius[i];
+    values_.volume[shells + i] = 4.0 / 3.0 * std::numbers::pi * r * r * r;
+    values_.area[shells + i] = 4.0 * std::numbers::pi * r * r;
+    values_.contact_area[shells + i] = gradient_.contact_area[scene_.first_sphere() + i];
+  }
+  return values_;
+}
+
+double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& force) {
+  evaluated_ = false;
+  prepare(tissue);
+  force.assign(force_.begin(), force_.begin() + scene_.owned_nodes());
+  const auto first = force_.begin() + scene_.sphere_point();
+  force.insert(force.end(), first, first + static_cast<std::ptrdiff_t>(scene_.owned_spheres()));
+  return energy_;
+}
+
+std::size_t Mechanics::memory() const {
+  const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  return contacts_.memory() + shells_.memory() + spheres_.memory() + bytes(force_) + bytes(residual_) + bytes(displacement_) + bytes(friction_) +
+         bytes(right_) + bytes(solution_) + bytes(gradient_.node_normal) + bytes(gradient_.face_energy) + bytes(gradient_.face_normal) +
+         bytes(gradient_.force) + bytes(geometry_.face_area) + bytes(geometry_.face_normal) + bytes(geometry_.node_normal) +
+         bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) + bytes(scene_.position()) + bytes(scene_start_);
+}
+
+}  // namespace morula

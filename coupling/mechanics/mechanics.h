@@ -1,0 +1,134 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/contact/contact_layer.h"
+#include "core/friction/friction_system.h"
+#include "core/mesh/topology.h"
+#include "core/parallel/comm.h"
+#include "coupling/mechanics/scene.h"
+#include "coupling/mechanics/shell_system.h"
+#include "coupling/mechanics/sphere_contacts.h"
+#include "coupling/model.h"
+#include "coupling/stage_timer.h"
+#include "coupling/tissue.h"
+
+namespace morula {
+
+/// Why a step could not be done as asked.
+struct StepFault {
+  std::string what;
+  CellId cell;               ///< where, if known
+  bool smaller_step_may_help = true;
+};
+
+struct StepReport {
+  double step = 0.0;                 ///< done [s]
+  int newton = 0;                    ///< iterations
+  int linear_iterations = 0;
+  int halvings = 0;                  ///< of the line search
+  double displacement = 0.0;         ///< largest of any point [µm]
+  double energy = 0.0;               ///< at the end [nN·µm]
+  double allowed_rise = 0.0;         ///< rise of Φ that the freeze rule let pass [nN·µm]
+  double overlap = 0.0;              ///< deepest penetration of a surface [µm]
+};
+
+/// What mechanics knows of each cell at the present positions, in the order of the rank's bodies (shells, then spheres).
+struct BodyValues {
+  std::vector<double> volume;        ///< [µm³]
+  std::vector<double> area;          ///< [µm²]
+  std::vector<double> pressure;      ///< shells: −K_V ln(V/V0); spheres: virial [kPa]
+  std::vector<double> contact_area;  ///< [µm²]
+};
+
+/// The mechanics of a tissue: forces, energies and the implicit step over shells and spheres together (time_stepping.md §1, §8, §9).
+///
+/// A workspace: everything in it can be rebuilt from the Tissue, and rebuilding it never changes a result.
+class Mechanics {
+ public:
+  Mechanics(const Model& model, std::vector<RigidSurface> obstacles, ShapeLibrary& shapes, Comm comm, int threads);
+
+  /// Cells were added, removed, moved between ranks, or changed their body: everything is collected again at the next use.
+  void bodies_changed() { scene_valid_ = false; }
+  /// Numbers that shape the forces (reference volumes, rest lengths, radii) were changed; positions were not.
+  void parameters_changed() { evaluated_ = false; }
+
+  /// One step of length dt under the given external forces (owned shell nodes, then owned spheres) [nN]. On success the tissue holds
+  /// the new positions and velocities; on a fault it is unchanged. Collective.
+  Result<StepReport, StepFault> step(Tissue& tissue, double dt, std::span<const Vec3d> external);
+
+  /// Volumes, areas, pressures and contact areas at the tissue's present positions. Collective.
+  const BodyValues& values(const Tissue& tissue);
+
+  /// Number of external force entries for this tissue: owned shell nodes, then owned spheres.
+  [[nodiscard]] static std::size_t external_size(const Tissue& tissue) { return tissue.shells.node_count() + tissue.spheres.size(); }
+
+  /// Energy and forces at the tissue's positions, for tests: forces in the order of `external`.
+  double energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& force);
+
+  [[nodiscard]] StageTimer& timer() { return timer_; }
+  [[nodiscard]] const ContactLayer& contacts() const { return contacts_; }
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] double deepest_overlap() const;
+  /// Bytes of all workspaces of this rank.
+  [[nodiscard]] std::size_t memory() const;
+
+ private:
+  struct Trial;  // a point of the line search
+  void prepare(const Tissue& tissue);
+  /// Energy and forces at the scene's positions; `moved`: positions differ from those of the last call.
+  void evaluate(const Tissue& tissue, bool moved = true);
+  /// Back to the step's start after a fault.
+  StepFault undo(const std::vector<Vec3d>& start, StepFault fault);
+  void begin_step(const Tissue& tissue, double dt);
+  [[nodiscard]] double friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt);
+  [[nodiscard]] std::optional<StepFault> find_fault(const Tissue& tissue) const;
+  Result<StepReport, StepFault> implicit_step(Tissue& tissue, double dt, std::span<const Vec3d> external);
+  Result<StepReport, StepFault> explicit_step(Tissue& tissue, double dt, std::span<const Vec3d> external);
+  void assemble(const Tissue& tissue, double dt);
+  void finish(Tissue& tissue, double dt, StepReport& report);
+  [[nodiscard]] ContactScene contact_scene() const;
+  template <class F>
+  void for_owned_points(F&& function) const {
+    const std::uint32_t nodes = scene_.owned_nodes(), first = scene_.sphere_point();
+    const auto last = first + static_cast<std::uint32_t>(scene_.owned_spheres());
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (std::uint32_t i = 0; i < nodes; ++i) function(i);
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (std::uint32_t i = first; i < last; ++i) function(i);
+  }
+  [[nodiscard]] double largest(std::span<const Vec3d> by_point) const;
+  [[nodiscard]] double dot(std::span<const Vec3d> a, std::span<const Vec3d> b) const;
+
+  const Model& model_;
+  ShapeLibrary& shapes_;
+  Comm comm_;
+  int threads_;
+  StageTimer timer_;
+
+  Scene scene_;
+  bool scene_valid_ = false;
+  bool evaluated_ = false;           ///< energy and forces belong to the scene's positions and the tissue's parameters
+  bool contacts_current_ = false;    ///< geometry and surface contacts belong to the scene's positions
+  std::vector<Vec3d> scene_start_;   ///< owned positions when the ghosts were found
+  ContactLayer contacts_;
+  ContactGradient gradient_;
+  SurfaceGeometry geometry_;
+  ShellSystem shells_;
+  SphereContacts spheres_;
+  FrictionSystem system_;
+  BodyValues values_;
+
+  double energy_ = 0.0;              ///< at the present positions, without external work
+  std::vector<Vec3d> force_;         ///< by point
+  std::vector<Vec3d> residual_;      ///< force + external − Γ_n d/Δt
+  std::vector<Vec3d> displacement_;  ///< d = x − x_n
+  std::vector<Vec3d> friction_;      ///< Γ_n d
+  double friction_energy_ = 0.0;     ///< dᵀΓ_n d
+  std::vector<Float4> right_, solution_;
+};
+
+}  // namespace morula

@@ -1,0 +1,259 @@
+#include "coupling/mechanics/scene.h"
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
+namespace morula {
+namespace {
+
+/// What a ghost is announced with; its positions follow by exchange().
+struct GhostHeader {
+  CellId id, parent;
+  std::uint64_t order;
+  double radius, birth_time;
+  std::uint32_t nodes;  ///< 1 for a sphere
+  std::uint16_t type;
+  BodyShape shape;
+  std::uint8_t unused[1];
+};
+
+template <class T>
+std::vector<T> unpack(const std::vector<std::byte>& bytes) {
+  std::vector<T> out(bytes.size() / sizeof(T));
+  if (!out.empty()) std::memcpy(out.data(), bytes.data(), bytes.size());
+  return out;
+}
+template <class T>
+std::vector<std::byte> pack(const std::vector<T>& items) {
+  std::vector<std::byte> out(items.size() * sizeof(T));
+  if (!out.empty()) std::memcpy(out.data(), items.data(), out.size());
+  return out;
+}
+
+bool overlaps_any_image(const Box& a, const Box& b, const Space& space) {
+  if (!space.any_periodic()) return a.overlaps(b);
+  const Vec3d size = space.box.size();
+  const auto most = [&](int axis) { return space.periodic(axis) ? 1 : 0; };
+  for (int x = -most(0); x <= most(0); ++x)
+    for (int y = -most(1); y <= most(1); ++y)
+      for (int z = -most(2); z <= most(2); ++z) {
+        const Vec3d shift{x * size.x, y * size.y, z * size.z};
+        if (a.overlaps({b.low + shift, b.high + shift})) return true;
+      }
+  return false;
+}
+
+}  // namespace
+
+void Scene::add_owned(const Tissue& tissue) {
+  const auto& shells = tissue.shells;
+  bodies_.clear();
+  shapes_.assign(shells.shape.begin(), shells.shape.end());
+  owned_shells_ = shells.size();
+  owned_spheres_ = tissue.spheres.size();
+  std::vector<ContactBody> spheres;
+  std::vector<Birth> sphere_birth;
+  birth_.clear();
+  for (const CellRow& row : tissue.cells.rows) {
+    ContactBody body;
+    (row.body == BodyKind::kShell ? birth_ : sphere_birth).push_back({row.parent, row.birth_time});
+    body.id = row.id;
+    body.material = row.type;
+    if (row.body == BodyKind::kShell) {
+      body.shape = BodyShape::kSurface;
+      body.point_count = shapes_[bodies_.size()]->topology->node_count();
+      bodies_.push_back(body);
+    } else {
+      body.radius = tissue.spheres.radius[spheres.size()];
+      spheres.push_back(body);
+    }
+  }
+  bodies_.insert(bodies_.end(), spheres.begin(), spheres.end());
+  birth_.insert(birth_.end(), sphere_birth.begin(), sphere_birth.end());
+}
+
+void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, const Comm& comm) {
+  const auto ranks = static_cast<std::size_t>(comm.size());
+  send_bodies_.assign(ranks, {});
+  receive_bodies_.assign(ranks, {});
+  if (comm.size() == 1) return;
+  std::vector<Box> box(bodies_.size());
+  Box mine;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (i < owned_shells_)
+      for (const Vec3d& p : tissue.shells.nodes(i)) box[i].include(p);
+    else
+      box[i].include(tissue.spheres.position[i - owned_shells_]);
+    box[i] = box[i].inflated(0.5 * reach + bodies_[i].radius);
+    mine.include(box[i]);
+  }
+  const auto all = unpack<Box>(comm.gather_to_all(pack(std::vector<Box>{mine})));
+  std::vector<std::uint64_t> order(bodies_.size());
+  {
+    std::size_t shell = 0, sphere = owned_shells_;
+    for (const CellRow& row : tissue.cells.rows) order[row.body == BodyKind::kShell ? shell++ : sphere++] = row.order;
+  }
+  std::vector<std::vector<std::byte>> outgoing(ranks);
+  for (std::size_t r = 0; r < ranks; ++r) {
+    if (static_cast<int>(r) == comm.rank() || all[r].empty()) continue;
+    std::vector<GhostHeader> headers;
+    for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+      if (!overlaps_any_image(box[i], all[r], space)) continue;
+      send_bodies_[r].push_back(i);
+      headers.push_back({bodies_[i].id, birth_[i].parent, order[i], bodies_[i].radius, birth_[i].time, bodies_[i].point_count,
+                         bodies_[i].material, bodies_[i].shape, {}});
+    }
+    outgoing[r] = pack(headers);
+  }
+  const auto incoming = comm.exchange(outgoing);
+
+  struct Arrival {
+    GhostHeader header;
+    std::size_t rank, at;
+  };
+  std::vector<Arrival> ghost_shells, ghost_spheres;
+  for (std::size_t r = 0; r < ranks; ++r) {
+    const auto headers = unpack<GhostHeader>(incoming[r]);
+    receive_bodies_[r].resize(headers.size());
+    for (std::size_t k = 0; k < headers.size(); ++k)
+      (headers[k].shape == BodyShape::kSurface ? ghost_shells : ghost_spheres).push_back({headers[k], r, k});
+  }
+  const auto body_of = [](const GhostHeader& h) {
+    ContactBody body;
+    body.id = h.id;
+    body.material = h.type;
+    body.shape = h.shape;
+    body.radius = h.radius;
+    body.point_count = h.nodes;
+    body.owned = false;
+    return body;
+  };
+  std::vector<ContactBody> shells, spheres;
+  std::vector<Birth> shell_birth, sphere_birth;
+  for (const Arrival& arrival : ghost_shells) {
+    receive_bodies_[arrival.rank][arrival.at] = static_cast<std::uint32_t>(owned_shells_ + shells.size());
+    shells.push_back(body_of(arrival.header));
+    shell_birth.push_back({arrival.header.parent, arrival.header.birth_time});
+  }
+  for (const Arrival& arrival : ghost_spheres) {
+    receive_bodies_[arrival.rank][arrival.at] = static_cast<std::uint32_t>(owned_shells_ + shells.size() + owned_spheres_ + spheres.size());
+    spheres.push_back(body_of(arrival.header));
+    sphere_birth.push_back({arrival.header.parent, arrival.header.birth_time});
+  }
+  for (auto& list : send_bodies_)
+    for (std::uint32_t& body : list)
+      if (body >= owned_shells_) body += static_cast<std::uint32_t>(shells.size());
+  std::vector<std::uint64_t> orders(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(owned_shells_));
+  for (const Arrival& arrival : ghost_shells) orders.push_back(arrival.header.order);
+  orders.insert(orders.end(), order.begin() + static_cast<std::ptrdiff_t>(owned_shells_), order.end());
+  for (const Arrival& arrival : ghost_spheres) orders.push_back(arrival.header.order);
+  bodies_.insert(bodies_.begin() + static_cast<std::ptrdiff_t>(owned_shells_), shells.begin(), shells.end());
+  bodies_.insert(bodies_.end(), spheres.begin(), spheres.end());
+  birth_.insert(birth_.begin() + static_cast<std::ptrdiff_t>(owned_shells_), shell_birth.begin(), shell_birth.end());
+  birth_.insert(birth_.end(), sphere_birth.begin(), sphere_birth.end());
+  place_bodies(orders);
+}
+
+void Scene::place_bodies(std::span<const std::uint64_t> order) {
+  std::vector<std::uint32_t> sorted(bodies_.size());
+  std::iota(sorted.begin(), sorted.end(), 0u);
+  std::sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return order[a] != order[b] ? order[a] < order[b] : bodies_[a].id < bodies_[b].id;
+  });
+  for (std::uint32_t place = 0; place < sorted.size(); ++place) bodies_[sorted[place]].place = place;
+}
+
+void Scene::build(const Tissue& tissue, const Space& space, double reach, ShapeLibrary& library, const Comm& comm) {
+  comm_ = &comm;
+  add_owned(tissue);
+  if (comm.size() == 1) {
+    std::vector<std::uint64_t> order(bodies_.size());
+    std::size_t shell = 0, sphere = owned_shells_;
+    for (const CellRow& row : tissue.cells.rows) order[row.body == BodyKind::kShell ? shell++ : sphere++] = row.order;
+    send_bodies_.assign(1, {});
+    receive_bodies_.assign(1, {});
+    place_bodies(order);
+  } else {
+    find_ghosts(tissue, space, reach, comm);
+  }
+  shells_ = 0;
+  while (shells_ < bodies_.size() && bodies_[shells_].shape == BodyShape::kSurface) ++shells_;
+  for (std::size_t i = owned_shells_; i < shells_; ++i) shapes_.push_back(library.icosphere(bodies_[i].point_count).value());
+  topologies_.clear();
+  first_node_.assign(1, 0);
+  first_face_.assign(1, 0);
+  std::uint32_t point = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    ContactBody& body = bodies_[i];
+    body.first_point = point;
+    point += body.point_count;
+    if (i >= shells_) continue;
+    body.topology = shapes_[i]->topology.get();
+    topologies_.push_back(body.topology);
+    body.first_face = first_face_.back();
+    first_node_.push_back(point);
+    first_face_.push_back(first_face_.back() + body.topology->face_count());
+  }
+  face_count_ = first_face_.back();
+  owned_nodes_ = first_node_[owned_shells_];
+  shell_nodes_ = first_node_.back();
+  position_.assign(point, Vec3d{});
+  take_positions(tissue);
+  exchange(position_);
+}
+
+void Scene::take_positions(const Tissue& tissue) {
+  std::copy(tissue.shells.position.begin(), tissue.shells.position.end(), position_.begin());
+  std::copy(tissue.spheres.position.begin(), tissue.spheres.position.end(), position_.begin() + shell_nodes_);
+}
+
+void Scene::take_radii(const Tissue& tissue) {
+  for (std::size_t i = 0; i < owned_spheres_; ++i) bodies_[shells_ + i].radius = tissue.spheres.radius[i];
+  if (comm_->size() == 1) return;
+  std::vector<Vec3d> radius(position_.size());
+  for (std::size_t i = 0; i < owned_spheres_; ++i) radius[bodies_[shells_ + i].first_point].x = tissue.spheres.radius[i];
+  exchange(std::span(radius));
+  for (std::size_t i = shells_ + owned_spheres_; i < bodies_.size(); ++i) bodies_[i].radius = radius[bodies_[i].first_point].x;
+}
+
+void Scene::give_positions(Tissue& tissue) const {
+  std::copy_n(position_.begin(), tissue.shells.position.size(), tissue.shells.position.begin());
+  std::copy_n(position_.begin() + shell_nodes_, tissue.spheres.position.size(), tissue.spheres.position.begin());
+}
+
+template <class T>
+void Scene::exchange_points(std::span<T> by_point) const {
+  if (comm_->size() == 1) return;
+  const auto ranks = send_bodies_.size();
+  std::vector<std::vector<T>> out(ranks), in(ranks);
+  std::vector<MPI_Request> requests;
+  for (std::size_t r = 0; r < ranks; ++r) {
+    std::size_t count = 0;
+    for (const std::uint32_t body : receive_bodies_[r]) count += bodies_[body].point_count;
+    if (count == 0) continue;
+    in[r].resize(count);
+    MPI_Irecv(in[r].data(), static_cast<int>(count * sizeof(T)), MPI_BYTE, static_cast<int>(r), 72, comm_->raw(), &requests.emplace_back());
+  }
+  for (std::size_t r = 0; r < ranks; ++r) {
+    for (const std::uint32_t body : send_bodies_[r]) {
+      const auto points = by_point.subspan(bodies_[body].first_point, bodies_[body].point_count);
+      out[r].insert(out[r].end(), points.begin(), points.end());
+    }
+    if (out[r].empty()) continue;
+    MPI_Isend(out[r].data(), static_cast<int>(out[r].size() * sizeof(T)), MPI_BYTE, static_cast<int>(r), 72, comm_->raw(), &requests.emplace_back());
+  }
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  for (std::size_t r = 0; r < ranks; ++r) {
+    const T* next = in[r].data();
+    for (const std::uint32_t body : receive_bodies_[r]) {
+      std::copy_n(next, bodies_[body].point_count, by_point.begin() + bodies_[body].first_point);
+      next += bodies_[body].point_count;
+    }
+  }
+}
+
+void Scene::exchange(std::span<Vec3d> by_point) const { exchange_points(by_point); }
+void Scene::exchange(std::span<Float4> by_point) const { exchange_points(by_point); }
+
+}  // namespace morula

@@ -1,0 +1,79 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/contact/contact_body.h"
+#include "core/friction/float4.h"
+#include "core/mesh/surface_geometry.h"
+#include "core/parallel/comm.h"
+#include "coupling/tissue.h"
+
+namespace morula {
+
+/// The bodies that a rank sees during mechanics: its own and read-only ghosts of the neighbours' that may touch them.
+///
+/// Bodies and points come in this order: owned shells, ghost shells, owned spheres, ghost spheres. A workspace: rebuilt from the Tissue.
+class Scene {
+ public:
+  /// Collect owned bodies and exchange ghosts: every body within `reach` of another rank's bodies goes there. Collective.
+  void build(const Tissue& tissue, const Space& space, double reach, ShapeLibrary& shapes, const Comm& comm);
+
+  [[nodiscard]] std::span<const ContactBody> bodies() const { return bodies_; }
+  [[nodiscard]] std::size_t owned_shells() const { return owned_shells_; }
+  [[nodiscard]] std::size_t shells() const { return shells_; }  ///< with ghosts
+  [[nodiscard]] std::size_t owned_spheres() const { return owned_spheres_; }
+  [[nodiscard]] std::size_t first_sphere() const { return shells_; }  ///< body number
+  [[nodiscard]] std::size_t ghost_count() const { return bodies_.size() - owned_shells_ - owned_spheres_; }
+  [[nodiscard]] std::uint32_t owned_nodes() const { return owned_nodes_; }  ///< of owned shells: points 0 .. owned_nodes−1
+  [[nodiscard]] std::uint32_t sphere_point() const { return shell_nodes_; } ///< first point of the owned spheres
+  [[nodiscard]] std::size_t point_count() const { return position_.size(); }
+  [[nodiscard]] std::size_t face_count() const { return face_count_; }
+  [[nodiscard]] std::span<const std::shared_ptr<const ReferenceShape>> shapes() const { return shapes_; }  ///< of shells, ghosts too
+  [[nodiscard]] std::span<const Topology* const> topologies() const { return topologies_; }                     ///< of shells, ghosts too
+  [[nodiscard]] std::span<const std::uint32_t> first_node() const { return first_node_; }
+  [[nodiscard]] std::span<const std::uint32_t> first_face() const { return first_face_; }
+
+  /// Parent and time of birth by body, ghosts too: sisters push each other apart slowly.
+  [[nodiscard]] CellId parent(std::size_t body) const { return birth_[body].parent; }
+  [[nodiscard]] double birth_time(std::size_t body) const { return birth_[body].time; }
+
+  std::vector<Vec3d>& position() { return position_; }
+  [[nodiscard]] const std::vector<Vec3d>& position() const { return position_; }
+
+  /// Refresh ghost entries of a vector over points from their owners. Collective.
+  void exchange(std::span<Vec3d> by_point) const;
+  void exchange(std::span<Float4> by_point) const;
+
+  /// Copy owned positions from / to the tissue.
+  void take_positions(const Tissue& tissue);
+  /// Radii of owned spheres from the tissue, and of ghosts from their owners. Collective.
+  void take_radii(const Tissue& tissue);
+  void give_positions(Tissue& tissue) const;
+
+ private:
+  struct Birth {
+    CellId parent;
+    double time = 0.0;
+  };
+  void add_owned(const Tissue& tissue);
+  void find_ghosts(const Tissue& tissue, const Space& space, double reach, const Comm& comm);
+  void place_bodies(std::span<const std::uint64_t> order);
+  template <class T>
+  void exchange_points(std::span<T> by_point) const;
+
+  const Comm* comm_ = nullptr;
+  std::vector<ContactBody> bodies_;
+  std::vector<Birth> birth_;
+  std::size_t owned_shells_ = 0, shells_ = 0, owned_spheres_ = 0, face_count_ = 0;
+  std::uint32_t owned_nodes_ = 0, shell_nodes_ = 0;
+  std::vector<std::shared_ptr<const ReferenceShape>> shapes_;
+  std::vector<const Topology*> topologies_;
+  std::vector<std::uint32_t> first_node_, first_face_;
+  std::vector<Vec3d> position_;
+  std::vector<std::vector<std::uint32_t>> send_bodies_;     ///< by rank: owned bodies that go there
+  std::vector<std::vector<std::uint32_t>> receive_bodies_;  ///< by rank: ghosts that come from there, in the sender's order
+};
+
+}  // namespace morula

@@ -1,0 +1,58 @@
+#include "coupling/mechanics/shell_system.h"
+
+namespace morula {
+
+ShellSystem::ShellSystem(const Model& model) {
+  for (const CellType& type : model.types) {
+    parameters_.push_back(type.shell);
+    parameters_.back().medium_friction = type.medium_friction;
+  }
+}
+
+void ShellSystem::set_shells(const dcm::Shells& shells) {
+  shells_ = &shells;
+  blocks_ = dcm::make_shell_blocks(shells);
+}
+
+void ShellSystem::evaluate(const dcm::Shells& shells, std::span<const Vec3d> position) {
+  dcm::internal_forces(blocks_, shells, parameters_, position.first(shells.node_count()), forces_);
+}
+
+void ShellSystem::begin_step(const dcm::Shells& shells, std::span<const Vec3d> position, const SurfaceGeometry& geometry) {
+  const std::size_t nodes = shells.node_count();
+  dcm::compute_shell_friction(blocks_, shells, parameters_, position.first(nodes), std::span(geometry.node_area).first(nodes), friction_);
+}
+
+void ShellSystem::assemble(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<const double> face_contact_energy, double dt) {
+  dcm::assemble_shell_operator(blocks_, shells, parameters_, position.first(shells.node_count()), friction_,
+                               face_contact_energy.first(blocks_.face_count()), dt, operator_);
+}
+
+void ShellSystem::add_step_friction(std::span<const Vec3d> displacement, std::span<Vec3d> out, OrderFreeSum& quadratic) {
+  if (shells_ == nullptr || shells_->size() == 0) return;
+  const std::size_t nodes = shells_->node_count();
+  friction_force_.resize(nodes);
+  friction_quadratic_.resize(shells_->size());
+  dcm::friction_times_displacement(blocks_, *shells_, friction_, displacement.first(nodes), friction_force_, friction_quadratic_);
+  for (std::size_t i = 0; i < nodes; ++i) out[i] += friction_force_[i];
+  for (const double q : friction_quadratic_) quadratic.add(q);
+}
+
+void ShellSystem::multiply(std::span<const Float4> p, std::span<Float4> q) const {
+  dcm::apply_shell_operator(blocks_, *shells_, operator_, p.first(point_count()), q.first(point_count()));
+}
+
+void ShellSystem::add_diagonal(std::span<SymMat3<float>> diagonal) const {
+  dcm::add_block_diagonal(blocks_, *shells_, operator_, diagonal.first(point_count()));
+}
+
+std::size_t ShellSystem::memory() const {
+  std::size_t total = forces_.force.capacity() * sizeof(Vec3d) + friction_force_.capacity() * sizeof(Vec3d);
+  for (const auto& block : operator_.blocks)
+    total += (block.edge.capacity() + block.diagonal.capacity() + block.volume_gradient.capacity() + block.shape.capacity() + block.barrier.capacity()) * sizeof(float) +
+             (block.shape_face.capacity() + block.barrier_edge.capacity()) * sizeof(std::uint32_t);
+  for (const auto& block : friction_.blocks) total += (block.direction.capacity() + block.medium.capacity()) * sizeof(double);
+  return total;
+}
+
+}  // namespace morula

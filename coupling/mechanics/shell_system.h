@@ -1,0 +1,47 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "core/friction/friction_system.h"
+#include "core/mesh/surface_geometry.h"
+#include "coupling/tissue.h"
+#include "dcm/blocks.h"
+#include "dcm/internal_forces.h"
+#include "dcm/shell_friction.h"
+#include "dcm/shell_operator.h"
+
+namespace morula {
+
+/// The owned shells as the step sees them: their forces, their friction, and their part of the matrix. Points 0 .. node_count−1.
+class ShellSystem : public OperatorPart {
+ public:
+  explicit ShellSystem(const Model& model);
+
+  void set_shells(const dcm::Shells& shells);
+  /// Internal forces at `position`; in `forces()` afterwards.
+  void evaluate(const dcm::Shells& shells, std::span<const Vec3d> position);
+  void begin_step(const dcm::Shells& shells, std::span<const Vec3d> position, const SurfaceGeometry& geometry);
+  void assemble(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<const double> face_contact_energy, double dt);
+  /// Add Γ_n d to `out` and dᵀΓ_n d to the sum.
+  void add_step_friction(std::span<const Vec3d> displacement, std::span<Vec3d> out, OrderFreeSum& quadratic);
+
+  [[nodiscard]] const dcm::ShellMechanics& forces() const { return forces_; }
+  [[nodiscard]] std::span<const dcm::ShellParameters> parameters() const { return parameters_; }
+  [[nodiscard]] std::size_t memory() const;
+
+  [[nodiscard]] std::size_t point_count() const override { return shells_ == nullptr ? 0 : shells_->node_count(); }
+  void multiply(std::span<const Float4> p, std::span<Float4> q) const override;
+  void add_diagonal(std::span<SymMat3<float>> diagonal) const override;
+
+ private:
+  std::vector<dcm::ShellParameters> parameters_;  ///< by cell type
+  const dcm::Shells* shells_ = nullptr;
+  dcm::ShellBlocks blocks_;
+  dcm::ShellMechanics forces_;
+  dcm::ShellFriction friction_;
+  dcm::ShellOperator operator_;
+  std::vector<Vec3d> friction_force_;
+  std::vector<double> friction_quadratic_;
+};
+
+}  // namespace morula

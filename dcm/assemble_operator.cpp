@@ -1,0 +1,247 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/mesh/lane_surface.h"
+#include "dcm/lane_parameters.h"
+#include "dcm/laws/cortical_tension.h"
+#include "dcm/laws/dihedral_barrier.h"
+#include "dcm/laws/edge_damper.h"
+#include "dcm/laws/edge_spring.h"
+#include "dcm/laws/triangle_shape.h"
+#include "dcm/laws/volume_pressure.h"
+#include "dcm/shell_operator.h"
+#include "dcm/stencils/face.h"
+#include "dcm/stencils/hinge.h"
+
+namespace morula::dcm {
+namespace {
+
+/// The Gauss–Newton part of a face's shape term is kept where its stiffness w |∇(1/q)|² exceeds this part of k + γ. It grows from zero
+/// with the deviation from equilateral, so that most faces of a healthy mesh have none worth its memory; what is left out changes the
+/// path of the iteration, never the state it ends in.
+constexpr float kShapeThreshold = 0.02f;
+
+struct Workspace {
+  LaneVector<double> position;
+  LaneVector<float> local, face, rest_length, contact_energy;
+  LaneVector<double> rest_length_double, contact_energy_double;
+};
+
+template <int W>
+Lane<float, W> to_float(Lane<double, W> a) noexcept {
+  return Lane<float, W>::from(__builtin_convertvector(a.v, typename Lane<float, W>::Vector));
+}
+template <int W>
+Vec3<Lane<float, W>> to_float(const Vec3<Lane<double, W>>& a) noexcept {
+  return {to_float<W>(a.x), to_float<W>(a.y), to_float<W>(a.z)};
+}
+
+/// What the edge loop needs of a face: N, the inverse of |N|, weight of the tension's stiffness, isotropic part of the shape term.
+template <int W>
+struct FaceRecord {
+  using Real = Lane<float, W>;
+  static constexpr int kSize = 6;
+  Vec3<Real> n;
+  Real inverse_norm, tension, isotropic;
+
+  void store(LaneVector<float>& array, std::size_t face) const noexcept {
+    float* p = array.data() + face * kSize * W;
+    n.x.store(p), n.y.store(p + W), n.z.store(p + 2 * W);
+    inverse_norm.store(p + 3 * W), tension.store(p + 4 * W), isotropic.store(p + 5 * W);
+  }
+  static FaceRecord load(const LaneVector<float>& array, std::size_t face) noexcept {
+    const float* p = array.data() + face * kSize * W;
+    return {{Real::load(p), Real::load(p + W), Real::load(p + 2 * W)}, Real::load(p + 3 * W), Real::load(p + 4 * W), Real::load(p + 5 * W)};
+  }
+};
+
+template <int W>
+struct Assembly {
+  using Real = Lane<float, W>;
+  const LaneBlock& block;
+  const Shells& shells;
+  std::span<const ShellParameters> types;
+  const Topology& topology;
+  Workspace& ws;
+  ShellOperator::Block& out;
+  Real dt;
+
+  Vec3<Real> x(std::size_t node) const noexcept { return load_vec3<float, W>(ws.local.data(), node); }
+  Real of_type(double ShellParameters::*member) const noexcept { return parameter<float, W>(block, shells, types, member); }
+};
+
+/// Append √w ∇(1/q) of corners 1 and 2 where any lane's term is worth it; the others get zeros.
+template <int W>
+void add_shape_term(Assembly<W>& a, std::uint32_t f, const FaceStencil<Lane<float, W>>& face, Lane<float, W> inverse_norm,
+                    Lane<float, W> inverse_quality, Lane<float, W> weight, Lane<float, W> threshold) noexcept {
+  using Real = Lane<float, W>;
+  // 1/q = Σl²/(4√3 A): ∇(1/q) = [∇Σl² − 4√3 (1/q) ∇A] / (4√3 A)
+  const Real scale = inverse_norm * Real(static_cast<float>(2.0 / TriangleShape<float>::kEquilateral));
+  const auto unit_normal = face.twice_area_vector * inverse_norm;
+  const Real area_part = inverse_quality * inverse_norm;  // (1/q) / (2A)
+  const auto g1 = (face.e2 - face.e0) * (Real(2.0f) * scale) - cross(unit_normal, face.e1) * area_part;
+  const auto g2 = (face.e0 - face.e1) * (Real(2.0f) * scale) - cross(unit_normal, face.e2) * area_part;
+  const Real size = weight * (norm2(g1) + norm2(g2) + norm2(g1 + g2));
+  const auto counts = size >= threshold;
+  if (!any_lane<W>(counts)) return;
+  const Real root = select(counts, sqrt(weight * a.dt), Real(0.0f));
+  const std::size_t place = a.out.shape.size();
+  a.out.shape_face.push_back(f);
+  a.out.shape.resize(place + 6 * W);
+  store_vec3<float, W>(a.out.shape.data() + place, 0, g1 * root);
+  store_vec3<float, W>(a.out.shape.data() + place, 1, g2 * root);
+}
+
+/// Face records, shape terms, volume gradient and volume term.
+template <int W>
+void assemble_faces(Assembly<W>& a) noexcept {
+  using Real = Lane<float, W>;
+  const CorticalTension<Real> tension{a.of_type(&ShellParameters::tension)};
+  const TriangleShape<Real> shape{a.of_type(&ShellParameters::shape_stiffness)};
+  const bool has_shape = any_lane<W>(shape.stiffness > Real(0.0f));
+  const Real threshold = max(Real(1e-30f), Real(kShapeThreshold) * (a.of_type(&ShellParameters::spring_stiffness) + tension.tension));
+  const ShapeArray<float, W> unit_area(a.block, a.shells, &ReferenceShape::face_area);
+  const Real scale = by_lane<float, W>(a.block, [&](std::uint32_t s) { return std::pow(std::cbrt(a.shells.rest_volume[s]), 2); });
+  Real six_volumes(0.0f);
+  const auto faces = a.topology.faces();
+  for (std::uint32_t f = 0; f < faces.size(); ++f) {
+    const Triangle& t = faces[f];
+    const auto x0 = a.x(t[0]);
+    const auto face = FaceStencil<Real>::of(x0, a.x(t[1]), a.x(t[2]));
+    const auto& n = face.twice_area_vector;
+    const Real inverse_norm = Real(1.0f) / norm(n);
+    six_volumes += dot(x0, n);
+    for (const std::uint32_t node : t) add_vec3<float, W>(a.out.volume_gradient.data(), node, n * Real(1.0f / 6.0f));
+
+    const Real weight = tension.stiffness_weight(load_scalar<float, W>(a.ws.contact_energy.data(), f));
+    FaceRecord<W> record{n, inverse_norm, Real(0.5f) * a.dt * weight * inverse_norm * inverse_norm * inverse_norm, Real(0.0f)};
+    if (has_shape) {
+      const Real inverse_area = Real(2.0f) * inverse_norm, reference_area = unit_area[f] * scale;
+      const Real inverse_quality = shape.inverse_quality(inverse_area, face.square_sum());
+      record.isotropic = Real(2.0f) * a.dt * max(Real(0.0f), shape.square_sum_slope(inverse_quality, inverse_area, reference_area));
+      add_shape_term(a, f, face, inverse_norm, inverse_quality, shape.gauss_newton_weight(reference_area), threshold);
+    }
+    record.store(a.ws.face, f);
+  }
+  for (int lane = 0; lane < W; ++lane) {
+    const VolumePressure law{a.types[a.shells.type[a.block.member[lane]]].bulk_modulus};
+    const double volume = six_volumes[lane] / 6.0;
+    a.out.volume_stiffness[lane] = volume > 0.0 ? static_cast<float>(law.curvature_psd(volume)) * a.dt[lane] : 0.0f;
+  }
+}
+
+/// Edge blocks; true when an edge of the block is beyond the onset of the barrier.
+template <int W>
+bool assemble_edges(Assembly<W>& a, const ShellFriction::Block& friction, Lane<float, W> cos_onset) noexcept {
+  using Real = Lane<float, W>;
+  const EdgeSpring<Real> spring{a.of_type(&ShellParameters::spring_stiffness)};
+  const EdgeDamper<Real> damper{to_float<W>(Lane<double, W>::load(friction.damping.data()))};
+  Real margin(1.0f);
+  const auto edges = a.topology.edges();
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const Edge& edge = edges[k];
+    const auto xi = a.x(edge.i), xj = a.x(edge.j), xk = a.x(edge.k), xl = a.x(edge.l);
+    const auto left = FaceRecord<W>::load(a.ws.face, edge.left), right = FaceRecord<W>::load(a.ws.face, edge.right);
+    const auto e = xj - xi;
+    const Real length = norm(e), rest_length = load_scalar<float, W>(a.ws.rest_length.data(), k);
+    SymMat3<Real> m = damper.friction(to_float<W>(load_vec3<double, W>(friction.direction.data(), k)));
+    m += a.dt * spring.stiffness_psd(e * (Real(1.0f) / length), length, rest_length);
+    // ½ cot of the angle opposite to the edge, times n nᵀ; 1/|N|³ is in the record
+    m += outer(left.tension * dot(xi - xk, xj - xk), left.n);
+    m += outer(right.tension * dot(xi - xl, xj - xl), right.n);
+    m += isotropic(left.isotropic + right.isotropic);
+    margin = min(margin, dot(left.n, right.n) * left.inverse_norm * right.inverse_norm - cos_onset);
+    float* p = a.out.edge.data() + k * 6 * W;
+    m.xx.store(p), m.xy.store(p + W), m.xz.store(p + 2 * W), m.yy.store(p + 3 * W), m.yz.store(p + 4 * W), m.zz.store(p + 5 * W);
+  }
+  return any_lane<W>(margin < Real(0.0f));
+}
+
+template <int W>
+void assemble_barrier(Assembly<W>& a, Lane<float, W> cos_onset) noexcept {
+  using Real = Lane<float, W>;
+  using Double = Lane<double, W>;
+  const DihedralBarrier<Double> barrier{parameter<double, W>(a.block, a.shells, a.types, &ShellParameters::barrier_stiffness),
+                                        parameter<double, W>(a.block, a.shells, a.types, &ShellParameters::barrier_angle)};
+  const auto edges = a.topology.edges();
+  for (std::uint32_t k = 0; k < edges.size(); ++k) {
+    const Edge& edge = edges[k];
+    const auto left = FaceRecord<W>::load(a.ws.face, edge.left), right = FaceRecord<W>::load(a.ws.face, edge.right);
+    if (!any_lane<W>(dot(left.n, right.n) * left.inverse_norm * right.inverse_norm < cos_onset)) continue;
+    const auto x = [&](std::uint32_t node) { return load_vec3<double, W>(a.ws.position.data(), node); };
+    const auto normal = [&](std::uint32_t face) {
+      const Triangle& t = a.topology.faces()[face];
+      return cross(x(t[1]) - x(t[0]), x(t[2]) - x(t[0]));
+    };
+    const auto e = x(edge.j) - x(edge.i), n1 = normal(edge.left), n2 = normal(edge.right);
+    const Double length = norm(e), inverse_length = Double(1.0) / length;
+    const Double angle = hinge_angle(n1, n2, e * inverse_length);
+    const auto g = HingeGradient<Double>::of(e, length, inverse_length, x(edge.k) - x(edge.i), x(edge.l) - x(edge.i), n1,
+                                             Double(1.0) / norm2(n1), n2, Double(1.0) / norm2(n2));
+    const Real root = sqrt(to_float<W>(barrier.curvature_psd(angle)) * a.dt);
+    const std::size_t place = a.out.barrier.size();
+    a.out.barrier_edge.push_back(k);
+    a.out.barrier.resize(place + 9 * W);
+    store_vec3<float, W>(a.out.barrier.data() + place, 0, to_float<W>(g.j) * root);
+    store_vec3<float, W>(a.out.barrier.data() + place, 1, to_float<W>(g.k) * root);
+    store_vec3<float, W>(a.out.barrier.data() + place, 2, to_float<W>(g.l) * root);
+  }
+}
+
+/// Bring positions (relative to node 0), rest lengths and contact energies of the block into lanes of float.
+template <int W>
+void load_inputs(Assembly<W>& a, std::span<const Vec3d> position, const ShellBlocks& blocks, std::span<const double> contact_energy) noexcept {
+  const std::size_t nodes = a.topology.node_count(), edges = a.topology.edge_count(), faces = a.topology.face_count();
+  const auto convert = [](const LaneVector<double>& in, std::size_t count, LaneVector<float>& out) {
+    out.resize(std::max(out.size(), count));
+    for (std::size_t i = 0; i < count; i += W) to_float<W>(Lane<double, W>::load(in.data() + i)).store(out.data() + i);
+  };
+  a.ws.position.resize(std::max(a.ws.position.size(), nodes * 3 * W));
+  load_relative_positions<W>(a.block, lane_pointers<W>(&position.data()->x, a.block, a.shells.first_node, 3), a.ws.position.data());
+  convert(a.ws.position, nodes * 3 * W, a.ws.local);
+  a.ws.rest_length_double.resize(std::max(a.ws.rest_length_double.size(), edges * W));
+  load_lanes<W, double>(lane_pointers<W>(a.shells.rest_length.data(), a.block, a.shells.first_edge), edges, a.ws.rest_length_double.data());
+  convert(a.ws.rest_length_double, edges * W, a.ws.rest_length);
+  if (contact_energy.empty()) {
+    a.ws.contact_energy.assign(faces * W, 0.0f);
+  } else {
+    a.ws.contact_energy_double.resize(std::max(a.ws.contact_energy_double.size(), faces * W));
+    load_lanes<W, double>(lane_pointers<W>(contact_energy.data(), a.block, blocks.first_face), faces, a.ws.contact_energy_double.data());
+    convert(a.ws.contact_energy_double, faces * W, a.ws.contact_energy);
+  }
+  a.ws.face.resize(std::max(a.ws.face.size(), faces * FaceRecord<W>::kSize * W));
+}
+
+template <int W>
+void assemble_block(const ShellBlocks& blocks, const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types,
+                    std::span<const Vec3d> position, const ShellFriction::Block& friction, std::span<const double> contact_energy,
+                    double time_step, ShellOperator::Block& out, Workspace& ws) noexcept {
+  const Topology& topology = *block.topology;
+  const std::size_t nodes = topology.node_count();
+  Assembly<W> a{block, shells, types, topology, ws, out, Lane<float, W>(static_cast<float>(time_step))};
+  load_inputs(a, position, blocks, contact_energy);
+  out.edge.resize(std::size_t{topology.edge_count()} * 6 * W);
+  out.volume_gradient.assign(nodes * 3 * W, 0.0f);
+  out.diagonal.resize(nodes * W);
+  out.shape_face.clear(), out.shape.clear(), out.barrier_edge.clear(), out.barrier.clear();
+  for (std::size_t i = 0; i < nodes; ++i) to_float<W>(load_scalar<double, W>(friction.medium.data(), i)).store(out.diagonal.data() + i * W);
+  assemble_faces(a);
+  const auto cos_onset = by_lane<float, W>(block, [&](std::uint32_t shell) {
+    const ShellParameters& p = types[shells.type[shell]];
+    return p.barrier_stiffness > 0.0 ? std::cos(p.barrier_angle) : -2.0;
+  });
+  if (assemble_edges(a, friction, cos_onset)) assemble_barrier(a, cos_onset);
+}
+
+}  // namespace
+
+void assemble_shell_operator(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
+                             std::span<const Vec3d> position, const ShellFriction& friction, std::span<const double> face_contact_energy,
+                             double time_step, ShellOperator& out) {
+  out.blocks.resize(blocks.blocks.size());
+  for_each_block<Workspace>(blocks, [&]<int W>(std::size_t b, const LaneBlock& block, Workspace& ws) {
+    assemble_block<W>(blocks, block, shells, types, position, friction.blocks[b], face_contact_energy, time_step, out.blocks[b], ws);
+  });
+}
+
+}  // namespace morula::dcm

@@ -1,0 +1,40 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/mesh/lane_blocks.h"
+#include "dcm/shells.h"
+
+namespace morula::dcm {
+
+/// How the shells of a rank are computed in lanes. Good until shells are added, removed or get another Topology.
+struct ShellBlocks {
+  std::vector<LaneBlock> blocks;
+  std::vector<std::uint32_t> first_face{0};  ///< by shell, one more at the end: into arrays by face
+
+  [[nodiscard]] std::uint32_t face_count() const { return first_face.back(); }
+};
+
+/// Group the shells by Topology in their order, `max_lanes` (1, 4 or 8) at a time. Results do not depend on the width.
+ShellBlocks make_shell_blocks(const Shells& shells, int max_lanes = LaneBlock::kMaxLanes);
+
+/// Run `kernel.operator()<W>(block number, block, workspace)` for every block, in parallel; each thread has one Workspace.
+template <class Workspace, class Kernel>
+void for_each_block(const ShellBlocks& blocks, const Kernel& kernel) {
+  const std::size_t count = blocks.blocks.size();
+#pragma omp parallel if (count > 1)
+  {
+    Workspace workspace;
+#pragma omp for schedule(static)
+    for (std::size_t b = 0; b < count; ++b) {
+      const LaneBlock& block = blocks.blocks[b];
+      switch (block.lanes) {
+        case 8: kernel.template operator()<8>(b, block, workspace); break;
+        case 4: kernel.template operator()<4>(b, block, workspace); break;
+        default: kernel.template operator()<1>(b, block, workspace); break;
+      }
+    }
+  }
+}
+
+}  // namespace morula::dcm

@@ -1,0 +1,32 @@
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/simd/transpose.h"
+#include "dcm/blocks.h"
+#include "dcm/shells.h"
+
+namespace morula::dcm {
+
+/// The shells' own friction Γ_n, frozen at the start of a step: dampers along the edges of that state and friction of its node areas
+/// against the medium.
+struct ShellFriction {
+  struct Block {
+    LaneVector<double> direction;                      ///< unit vector from node i to node j: [edge][component][lane]
+    LaneVector<double> medium;                         ///< γ_med a: [node][lane] [nN·s/µm]
+    std::array<double, LaneBlock::kMaxLanes> damping;  ///< γ_int by lane [nN·s/µm]
+  };
+  std::vector<Block> blocks;
+};
+
+/// Γ_n at the positions and node areas of the step's start. `node_area` is indexed as the shells' nodes (SurfaceGeometry::node_area).
+void compute_shell_friction(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
+                            std::span<const Vec3d> position, std::span<const double> node_area, ShellFriction& out);
+
+/// result = Γ_n d by node, and quadratic = dᵀ Γ_n d by shell, in double: the nonlinear residual and the objective Φ of a step need both.
+/// With d a displacement [µm] the result is in nN·s, and divided by Δt a force.
+void friction_times_displacement(const ShellBlocks& blocks, const Shells& shells, const ShellFriction& friction,
+                                 std::span<const Vec3d> displacement, std::span<Vec3d> result, std::span<double> quadratic);
+
+}  // namespace morula::dcm

@@ -1,0 +1,55 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/friction/float4.h"
+#include "core/simd/transpose.h"
+#include "core/vec3.h"
+#include "dcm/blocks.h"
+#include "dcm/shell_friction.h"
+#include "dcm/shells.h"
+
+namespace morula::dcm {
+
+/// The shells' part of the matrix of a step, A = Γ_n + Δt K̃, symmetric positive semi-definite, in float and in lanes [nN·s/µm].
+///
+/// Everything but the medium friction acts on differences of velocities, so that rigid translation feels nothing whatever the rounding:
+///   edge     M (v_i − v_j): damper, spring, tension on the normal part of differences (½ cot per face), isotropic part of triangle_shape
+///   shape    b bᵀ per face: Gauss–Newton part of triangle_shape, only where it counts
+///   barrier  b bᵀ per edge: Gauss–Newton part of dihedral_barrier, only where it acts
+///   volume   (Δt K_V/V) g gᵀ per shell, g = ∂V/∂x
+/// Hinge bending is explicit: with it the iterations and the result stay the same (time_stepping.md §10.1).
+struct ShellOperator {
+  struct Block {
+    LaneVector<float> edge;             ///< xx xy xz yy yz zz of M: [edge][6][lane]
+    LaneVector<float> diagonal;         ///< medium friction: [node][lane]
+    LaneVector<float> volume_gradient;  ///< g: [node][3][lane]
+    std::array<float, LaneBlock::kMaxLanes> volume_stiffness{};
+    std::vector<std::uint32_t> shape_face;    ///< faces with a shape term
+    LaneVector<float> shape;                  ///< b at corners 1 and 2 (at 0 minus their sum): [entry][2][3][lane]
+    std::vector<std::uint32_t> barrier_edge;  ///< edges with a barrier term
+    LaneVector<float> barrier;                ///< b at nodes j, k, l (at i minus their sum): [entry][3][3][lane]
+  };
+  std::vector<Block> blocks;
+};
+
+/// Assemble A at `position` (a trial state) for the friction of the step's start and step size `time_step` [s].
+///
+/// `face_contact_energy` is the contact energy per area that lowers the tension of each face, ∂E_contact/∂A_T [nN/µm] by face
+/// (ShellBlocks::first_face); empty when there is no contact. Where tension and contact energy sum to less than zero, their stiffness is
+/// left out.
+void assemble_shell_operator(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
+                             std::span<const Vec3d> position, const ShellFriction& friction, std::span<const double> face_contact_energy,
+                             double time_step, ShellOperator& out);
+
+/// q = A p by node of the shells; p and q are indexed as the shells' nodes, and q is overwritten. Fourth components come out as zero.
+void apply_shell_operator(const ShellBlocks& blocks, const Shells& shells, const ShellOperator& matrix, std::span<const Float4> p,
+                          std::span<Float4> q);
+
+/// Add the 3×3 diagonal blocks of A to `diagonal`, by node of the shells, for block-Jacobi. The volume term is left out: with it the
+/// iterations are the same (time_stepping.md §5).
+void add_block_diagonal(const ShellBlocks& blocks, const Shells& shells, const ShellOperator& matrix, std::span<SymMat3<float>> diagonal);
+
+}  // namespace morula::dcm

@@ -1,0 +1,144 @@
+#include "fields/brick_cg.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "fields/block_sum.h"
+
+namespace morula::fields {
+
+namespace {
+
+struct Solver {
+  BrickOperator* op = nullptr;
+  const BrickVectorSpace* space = nullptr;
+  std::function<double()> gamma;
+  int most_iterations = 0;
+  N_Vector weights = nullptr;  ///< of the norm in which the tolerance is meant; owned by ARKODE
+  std::unique_ptr<std::vector<double>> residual, direction, image, inverse_diagonal;
+  int iterations = 0;
+  double residual_norm = 0.0;
+  sunindextype last_flag = 0;
+};
+
+Solver& solver(SUNLinearSolver s) { return *static_cast<Solver*>(s->content); }
+
+/// Two inner products of a pass over the bricks, in one message.
+struct TwoSums {
+  std::array<OrderFreeSum, 2> local;
+  std::array<double, 2> total{};
+  void add(double first, double second) {
+    local[0].add(first);
+    local[1].add(second);
+  }
+  void finish(const Comm& comm) { comm.sum(local, total); }
+};
+
+/// r·M⁻¹r and |r|² in the weighted norm.
+TwoSums residual_sums(const Solver& s, const double* r, const double* m, const double* w) {
+  const Layout& layout = *s.space->layout;
+  TwoSums sums;
+  for (std::size_t b = 0; b < layout.bricks(); ++b) {
+    const std::size_t at = layout.offset[b], n = layout.offset[b + 1] - at;
+    sums.add(block_triple(r + at, m + at, n), block_weighted_square(r + at, w + at, n));
+  }
+  sums.finish(*s.space->comm);
+  return sums;
+}
+
+int solve(SUNLinearSolver ls, SUNMatrix, N_Vector x_vector, N_Vector b_vector, double tolerance) {
+  Solver& s = solver(ls);
+  const Layout& layout = *s.space->layout;
+  const std::size_t n = layout.concentrations();
+  const double gamma = s.gamma();
+  double* x = unknowns_of(x_vector);
+  double *r = s.residual->data(), *p = s.direction->data(), *q = s.image->data(), *m = s.inverse_diagonal->data();
+  const double* w = unknowns_of(s.weights);
+  // The guess is zero: SUNDIALS solves for corrections. The amounts take no part.
+  std::fill(x, x + layout.unknowns(), 0.0);
+  std::copy_n(unknowns_of(b_vector), n, r);
+  s.op->inverse_diagonal(gamma, m);
+  TwoSums now = residual_sums(s, r, m, w);
+  const double start_norm = std::sqrt(now.total[1]);
+  s.iterations = 0;
+  s.residual_norm = start_norm;
+  for (std::size_t i = 0; i < n; ++i) p[i] = m[i] * r[i];
+  while (s.residual_norm > tolerance && s.iterations < s.most_iterations) {
+    const double p_image = s.op->shifted_product(gamma, p, q, *s.space->comm);
+    const double alpha = now.total[0] / p_image;
+    TwoSums next;
+    for (std::size_t b = 0; b < layout.bricks(); ++b) {
+      const std::size_t at = layout.offset[b], end = layout.offset[b + 1];
+      for (std::size_t i = at; i < end; ++i) {
+        x[i] += alpha * p[i];
+        r[i] -= alpha * q[i];
+      }
+      next.add(block_triple(r + at, m + at, end - at), block_weighted_square(r + at, w + at, end - at));
+    }
+    next.finish(*s.space->comm);
+    const double beta = next.total[0] / now.total[0];
+    for (std::size_t i = 0; i < n; ++i) p[i] = m[i] * r[i] + beta * p[i];
+    now = next;
+    s.residual_norm = std::sqrt(now.total[1]);
+    ++s.iterations;
+    if (!std::isfinite(s.residual_norm)) break;
+  }
+  s.last_flag = s.residual_norm <= tolerance ? SUNLS_SUCCESS : s.residual_norm < start_norm ? SUNLS_RES_REDUCED : SUNLS_CONV_FAIL;
+  return static_cast<int>(s.last_flag);
+}
+
+SUNLinearSolver_Type type(SUNLinearSolver) { return SUNLINEARSOLVER_ITERATIVE; }
+SUNLinearSolver_ID identity(SUNLinearSolver) { return SUNLINEARSOLVER_CUSTOM; }
+int initialize(SUNLinearSolver) { return SUNLS_SUCCESS; }
+int set_up(SUNLinearSolver, SUNMatrix) { return SUNLS_SUCCESS; }
+/// The product comes from the BrickOperator itself; SUNDIALS demands that a matrix-free solver has this function.
+int set_product(SUNLinearSolver, void*, SUNATimesFn) { return SUNLS_SUCCESS; }
+int set_weights(SUNLinearSolver ls, N_Vector first, N_Vector) {
+  solver(ls).weights = first;
+  return SUNLS_SUCCESS;
+}
+int iterations(SUNLinearSolver ls) { return solver(ls).iterations; }
+double residual_norm(SUNLinearSolver ls) { return solver(ls).residual_norm; }
+sunindextype last_flag(SUNLinearSolver ls) { return solver(ls).last_flag; }
+int release(SUNLinearSolver ls) {
+  Solver& s = solver(ls);
+  for (auto* buffer : {&s.residual, &s.direction, &s.image, &s.inverse_diagonal}) s.space->pool->give_back(std::move(*buffer));
+  delete &s;
+  ls->content = nullptr;
+  SUNLinSolFreeEmpty(ls);
+  return SUNLS_SUCCESS;
+}
+
+}  // namespace
+
+SUNLinearSolver make_brick_cg(BrickOperator& op, const BrickVectorSpace& space, std::function<double()> gamma, int most_iterations,
+                              SUNContext context) {
+  SUNLinearSolver out = SUNLinSolNewEmpty(context);
+  if (out == nullptr) return nullptr;
+  auto* content = new Solver;
+  content->op = &op;
+  content->space = &space;
+  content->gamma = std::move(gamma);
+  content->most_iterations = most_iterations;
+  for (auto* buffer : {&content->residual, &content->direction, &content->image, &content->inverse_diagonal})
+    *buffer = space.pool->take(space.layout->unknowns());
+  out->content = content;
+  SUNLinearSolver_Ops ops = out->ops;
+  ops->gettype = type;
+  ops->getid = identity;
+  ops->initialize = initialize;
+  ops->setup = set_up;
+  ops->setatimes = set_product;
+  ops->setscalingvectors = set_weights;
+  ops->solve = solve;
+  ops->numiters = iterations;
+  ops->resnorm = residual_norm;
+  ops->lastflag = last_flag;
+  ops->free = release;
+  return out;
+}
+
+}  // namespace morula::fields

@@ -1,0 +1,168 @@
+#include "fields/brick_operator.h"
+
+#include <algorithm>
+
+#include "fields/block_sum.h"
+#include "fields/uptake.h"
+
+namespace morula::fields {
+
+namespace {
+constexpr std::size_t kWorthThreads = 64;  ///< bricks; below, starting threads costs more than it saves
+}
+
+BrickOperator::BrickOperator(const Grid& grid, const FieldSpec& spec, const Layout& layout, Halo& halo)
+    : spec_(spec), layout_(layout), halo_(halo), voxel_volume_(grid.voxel_volume()), slope_(layout.concentrations(), 0.0),
+      diagonal_(layout.concentrations()) {
+  const Vec3d h = grid.spacing();
+  for (std::size_t a = 0; a < 3; ++a) conductance_[a] = spec.diffusion / (h[a] * h[a]);
+  std::fill(diagonal_.begin(), diagonal_.end(), 2.0 * (conductance_[0] + conductance_[1] + conductance_[2]) + spec.decay);
+  for (std::size_t b = 0; b < layout.bricks(); ++b) {
+    for (std::size_t side = 0; side < kSides; ++side) {
+      // The ghost −c (value given) or +c (no flux) adds to the diagonal; a brick that is its own periodic neighbour need not be exact.
+      if (halo.source(b, side).kind != GhostSource::Kind::kBoundary) continue;
+      const double extra = face(side).kind == FaceCondition::Kind::kValue ? conductance_[side / 2] : -conductance_[side / 2];
+      for_each_in_layer(layout.extent[b], side, [&](std::size_t voxel, std::size_t) { diagonal_[layout.offset[b] + voxel] += extra; });
+    }
+  }
+}
+
+void BrickOperator::fill(std::size_t brick, const double* values, double scale, Padded& padded) const {
+  const auto& n = layout_.extent[brick];
+  const auto nx = static_cast<std::size_t>(n[0]), ny = static_cast<std::size_t>(n[1]), nz = static_cast<std::size_t>(n[2]);
+  const double* c = values + layout_.offset[brick];
+  for (std::size_t k = 0; k < nz; ++k)
+    for (std::size_t j = 0; j < ny; ++j) {
+      double* row = padded.data() + ((k + 1) * kPadded + j + 1) * kPadded + 1;
+      std::copy_n(c + (k * ny + j) * nx, nx, row);
+    }
+  constexpr std::array<std::size_t, 3> stride{1, kPadded, kPadded * kPadded};
+  for (std::size_t side = 0; side < kSides; ++side) {
+    const std::size_t axis = side / 2, u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
+    const std::size_t ghost = (side % 2) ? static_cast<std::size_t>(n[axis] + 1) : 0;
+    double* to = padded.data() + ghost * stride[axis] + stride[u] + stride[v];
+    const auto nu = static_cast<std::size_t>(n[u]);
+    const auto at = [&](std::size_t k) -> double& { return to[(k % nu) * stride[u] + (k / nu) * stride[v]]; };
+    const GhostSource& source = halo_.source(brick, side);
+    if (source.kind == GhostSource::Kind::kSameRank) {
+      const double* other = values + layout_.offset[source.at];
+      for_each_in_layer(layout_.extent[source.at], side ^ 1u, [&](std::size_t voxel, std::size_t k) { at(k) = other[voxel]; });
+    } else if (source.kind == GhostSource::Kind::kOtherRank) {
+      const double* layer = halo_.received() + source.at;
+      for (std::size_t k = 0; k < layer_size(n, side); ++k) at(k) = layer[k];
+    } else if (face(side).kind == FaceCondition::Kind::kValue) {
+      const double twice = 2.0 * scale * face(side).value;
+      for_each_in_layer(n, side, [&](std::size_t voxel, std::size_t k) { at(k) = twice - c[voxel]; });
+    } else {
+      for_each_in_layer(n, side, [&](std::size_t voxel, std::size_t k) { at(k) = c[voxel]; });
+    }
+  }
+}
+
+void BrickOperator::stencil(std::size_t brick, const Padded& padded, double* out) const {
+  const auto& n = layout_.extent[brick];
+  const auto nx = static_cast<std::size_t>(n[0]), ny = static_cast<std::size_t>(n[1]), nz = static_cast<std::size_t>(n[2]);
+  constexpr std::size_t row = kPadded, plane = kPadded * kPadded;
+  const auto [kx, ky, kz] = conductance_;
+  const double decay = spec_.decay;
+  const auto one_row = [&](const double* p, double* to, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double c = p[i];
+      to[i] = (kx * ((p[i + 1] - c) + (p[i - 1] - c)) + ky * ((p[i + row] - c) + (p[i - row] - c))) +
+              (kz * ((p[i + plane] - c) + (p[i - plane] - c)) - decay * c);
+    }
+  };
+  for (std::size_t k = 0; k < nz; ++k)
+    for (std::size_t j = 0; j < ny; ++j) {
+      const double* p = padded.data() + ((k + 1) * kPadded + j + 1) * kPadded + 1;
+      double* to = out + (k * ny + j) * nx;
+      if (nx == Grid::kBrick)
+        one_row(p, to, Grid::kBrick);
+      else
+        one_row(p, to, nx);
+    }
+}
+
+void BrickOperator::add_uptake(std::size_t brick, const double* c, double* rate, double* taken_rate) const {
+  for (std::size_t s = layout_.first_sink[brick]; s < layout_.first_sink[brick + 1]; ++s) {
+    const Sink& sink = layout_.sinks[s];
+    const double amount = sink.cells * uptake(spec_.uptake[sink.type], c[sink.voxel]);
+    rate[sink.voxel] -= amount / voxel_volume_;
+    if (taken_rate != nullptr) taken_rate[s] = amount;
+  }
+}
+
+void BrickOperator::boundary_and_decay(std::size_t brick, const double* c, double* amounts) const {
+  for (std::size_t side = 0; side < kSides; ++side) {
+    amounts[side] = 0.0;
+    if (halo_.source(brick, side).kind != GhostSource::Kind::kBoundary || face(side).kind != FaceCondition::Kind::kValue) continue;
+    double gradient = 0.0;
+    const double twice = 2.0 * face(side).value;
+    for_each_in_layer(layout_.extent[brick], side, [&](std::size_t voxel, std::size_t) { gradient += (twice - c[voxel]) - c[voxel]; });
+    amounts[side] = conductance_[side / 2] * voxel_volume_ * gradient;
+  }
+  const std::size_t voxels = layout_.offset[brick + 1] - layout_.offset[brick];
+  amounts[Layout::kDecayed] = spec_.decay == 0.0 ? 0.0 : spec_.decay * voxel_volume_ * block_sum(c, voxels);
+}
+
+void BrickOperator::evaluate(const double* unknowns, double* rate, bool amounts) {
+  halo_.exchange(unknowns);
+  double* taken_rate = amounts ? rate + layout_.sinks_at() : nullptr;
+  if (!amounts) std::fill(rate + layout_.concentrations(), rate + layout_.unknowns(), 0.0);
+#pragma omp parallel for schedule(static) if (layout_.bricks() > kWorthThreads)
+  for (std::size_t b = 0; b < layout_.bricks(); ++b) {
+    Padded padded;
+    fill(b, unknowns, 1.0, padded);
+    const double* c = unknowns + layout_.offset[b];
+    stencil(b, padded, rate + layout_.offset[b]);
+    add_uptake(b, c, rate + layout_.offset[b], taken_rate);
+    if (amounts) boundary_and_decay(b, c, rate + layout_.amounts_at(b));
+  }
+}
+
+void BrickOperator::linearize(const double* unknowns) {
+#pragma omp parallel for schedule(static) if (layout_.bricks() > kWorthThreads)
+  for (std::size_t b = 0; b < layout_.bricks(); ++b) {
+    const std::size_t at = layout_.offset[b];
+    for (std::size_t s = layout_.first_sink[b]; s < layout_.first_sink[b + 1]; ++s) slope_[at + static_cast<std::size_t>(layout_.sinks[s].voxel)] = 0.0;
+    for (std::size_t s = layout_.first_sink[b]; s < layout_.first_sink[b + 1]; ++s) {
+      const Sink& sink = layout_.sinks[s];
+      const std::size_t voxel = at + static_cast<std::size_t>(sink.voxel);
+      slope_[voxel] += sink.cells * uptake_slope(spec_.uptake[sink.type], unknowns[voxel]) / voxel_volume_;
+    }
+  }
+}
+
+double BrickOperator::shifted_product(double gamma, const double* x, double* out, const Comm& comm) {
+  halo_.exchange(x);
+  partial_.resize(layout_.bricks());
+#pragma omp parallel for schedule(static) if (layout_.bricks() > kWorthThreads)
+  for (std::size_t b = 0; b < layout_.bricks(); ++b) {
+    Padded padded;
+    fill(b, x, 0.0, padded);
+    const std::size_t at = layout_.offset[b], end = layout_.offset[b + 1];
+    stencil(b, padded, out + at);
+    for (std::size_t i = at; i < end; ++i) out[i] = x[i] - gamma * (out[i] - slope_[i] * x[i]);
+    partial_[b] = block_dot(x + at, out + at, end - at);
+  }
+  OrderFreeSum sum;
+  for (const double p : partial_) sum.add(p);
+  return comm.sum(sum);
+}
+
+void BrickOperator::inverse_diagonal(double gamma, double* out) const {
+  for (std::size_t i = 0; i < layout_.concentrations(); ++i) out[i] = 1.0 / (1.0 + gamma * (diagonal_[i] + slope_[i]));
+}
+
+double BrickOperator::largest_rate() const {
+  double uptake_rate = 0.0, in_voxel = 0.0;
+  for (std::size_t s = 0; s < layout_.sinks.size(); ++s) {
+    const Sink& sink = layout_.sinks[s];
+    const bool same = s > 0 && layout_.sinks[s - 1].brick == sink.brick && layout_.sinks[s - 1].voxel == sink.voxel;
+    in_voxel = (same ? in_voxel : 0.0) + sink.cells * uptake_slope(spec_.uptake[sink.type], 0.0) / voxel_volume_;
+    uptake_rate = std::max(uptake_rate, in_voxel);
+  }
+  return 4.0 * (conductance_[0] + conductance_[1] + conductance_[2]) + spec_.decay + uptake_rate;
+}
+
+}  // namespace morula::fields

@@ -1,0 +1,65 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/cell_id.h"
+#include "core/parallel/comm.h"
+#include "core/space/space.h"
+#include "core/vec3.h"
+#include "fields/field.h"
+#include "fields/layout.h"
+
+namespace morula::fields {
+
+/// A cell as a field sees it, whatever its body: for a shell, its centroid and the radius of the ball of its volume.
+struct CellSource {
+  CellId id;
+  std::uint16_t type = 0;
+  Vec3d center{};
+  double radius = 0.0;  ///< [µm]
+};
+
+/// Which cell meets which voxel, on both sides: the rank that has the cell and the rank that has the voxel.
+///
+/// Sums at a voxel run in order of the cells' ids, sums at a cell in order of the voxels: the same bits on any number of ranks.
+class CellExchange {
+ public:
+  /// Spread the cells of this rank over the voxels, and tell the voxels' owners. Collective. `owner` as from owners_of().
+  CellExchange(const Field& field, const Space& space, std::span<const int> owner, std::span<const CellSource> cells, const Comm& comm);
+
+  /// Σ w_iv per (brick, voxel, type) of the types for which `takes_up` is true, sorted.
+  [[nodiscard]] std::vector<Sink> sinks(const std::vector<bool>& takes_up) const;
+
+  /// Give back to the cells: what each took [amol], its share w_iv/Σw of what its sink took, and what each sees, Σ w_iv c_v [mM].
+  /// `sink_taken` belongs to the sinks of `layout`. Collective.
+  void give_back(const Field& field, const Layout& layout, std::span<const double> sink_taken, const Comm& comm, std::span<double> taken,
+                 std::span<double> seen) const;
+
+ private:
+  struct Deposit {
+    std::uint64_t id = 0;
+    double weight = 0.0;
+    std::int32_t brick = 0;  ///< grid number when sent, then the number on this rank
+    std::int32_t voxel = 0;
+    std::uint16_t type = 0;
+    std::uint16_t unused = 0;
+    std::int32_t from = 0;         ///< rank; filled in by the receiver
+    std::uint64_t place = 0;       ///< in that rank's message; filled in by the receiver
+  };
+  struct Share {
+    double taken = 0.0;
+    double concentration = 0.0;
+  };
+  struct Sent {
+    std::int32_t rank = 0;
+    double weight = 0.0;
+  };
+
+  std::vector<Deposit> deposits_;            ///< on voxels of this rank, sorted by (brick, voxel, type, id)
+  std::vector<std::uint64_t> received_from_; ///< number of deposits by rank
+  std::vector<Sent> sent_;                   ///< deposits of this rank's cells, cell after cell
+  std::vector<std::size_t> first_sent_;      ///< of each cell; one more for the end
+};
+
+}  // namespace morula::fields

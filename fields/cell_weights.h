@@ -1,0 +1,27 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/space/space.h"
+#include "core/vec3.h"
+#include "fields/field.h"
+
+namespace morula::fields {
+
+/// The part of a cell that lies in a voxel.
+struct VoxelWeight {
+  std::int64_t brick = 0;   ///< in the grid
+  std::int32_t voxel = 0;   ///< in the brick, x fastest
+  double weight = 0.0;
+};
+
+/// How a sphere is spread over the voxels: w_v ≥ 0, Σ w_v = 1; sorted by (brick, voxel), each voxel once.
+///
+/// w_v is the share of the sphere's volume in the voxel, by 4³ points per voxel; spheres smaller than half a voxel get the trilinear
+/// weights of their centre. What lies beyond a face that is not periodic is given to the part inside; a cell that is wholly outside
+/// belongs to the nearest voxel. The round-off of the sum goes to the largest weight (physics: fields_and_coupling.md, A).
+/// `out` is overwritten.
+void sphere_weights(const Grid& grid, const Space& space, const Vec3d& center, double radius, std::vector<VoxelWeight>& out);
+
+}  // namespace morula::fields

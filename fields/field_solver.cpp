@@ -1,0 +1,176 @@
+#include "fields/field_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "fields/brick_operator.h"
+#include "fields/brick_vector.h"
+#include "fields/halo.h"
+#include "fields/layout.h"
+
+namespace morula::fields {
+
+struct FieldSolver::Workspace {
+  BufferPool pool;
+  std::vector<double> unknowns;
+};
+
+FieldSolver::FieldSolver() : workspace_(std::make_unique<Workspace>()) {}
+FieldSolver::~FieldSolver() = default;
+FieldSolver::FieldSolver(FieldSolver&&) noexcept = default;
+FieldSolver& FieldSolver::operator=(FieldSolver&&) noexcept = default;
+
+double IntervalReport::balance_error() const {
+  double passed = std::fabs(taken) + std::fabs(decayed);
+  for (const auto& axis : inflow) passed += std::fabs(axis[0]) + std::fabs(axis[1]);
+  const double scale = std::max({std::fabs(amount_before), std::fabs(amount_after), passed});
+  return scale > 0.0 ? std::fabs(residual) / scale : std::fabs(residual);
+}
+
+Status check(const FieldSpec& spec) {
+  const auto wrong = [&](const std::string& what, const std::string& help) {
+    return Error{ErrorKind::kInput, "field '" + spec.name + "': " + what, help};
+  };
+  const auto negative = [](double x) { return !(x >= 0.0) || !std::isfinite(x); };
+  if (negative(spec.diffusion)) return wrong("the diffusion coefficient is negative or not a number", "give 0 or more, such as 2000 um^2/s");
+  if (negative(spec.decay)) return wrong("the decay rate is negative or not a number", "give 0 or more");
+  if (!(spec.relative_tolerance > 0.0) || !(spec.relative_tolerance < 1.0)) return wrong("the relative tolerance is not between 0 and 1", "1e-4 is usual");
+  for (const auto& axis : spec.boundary)
+    for (const auto& face : axis)
+      if (!std::isfinite(face.value)) return wrong("a boundary value is not a number", "");
+  for (const auto& u : spec.uptake) {
+    if (negative(u.rate)) return wrong("an uptake rate is negative or not a number", "give 0 for a type that takes nothing");
+    if (u.rate > 0.0 && !(u.half_saturation > 0.0)) return wrong("an uptake has no positive half saturation K_m", "give K_m above 0, such as 5 uM");
+  }
+  return {};
+}
+
+namespace {
+
+/// The largest concentration that matters: start, faces, now.
+double concentration_scale(const Field& field, const FieldSpec& spec, const Comm& comm) {
+  double scale = std::fabs(spec.initial);
+  for (const auto& axis : spec.boundary)
+    for (const auto& face : axis)
+      if (face.kind == FaceCondition::Kind::kValue) scale = std::max(scale, std::fabs(face.value));
+  for (const auto& brick : field.concentration)
+    for (const double c : brick) scale = std::max(scale, std::fabs(c));
+  return comm.max(scale);
+}
+
+/// The slowest mode of the field: π²D/L² between two faces with a value, a quarter of it with one, else decay alone [1/s].
+double slowest_rate(const Grid& grid, const FieldSpec& spec, const Space& space) {
+  double rate = spec.decay;
+  const Vec3d size = grid.box.size();
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (space.periodic(static_cast<int>(a))) continue;
+    const int held = (spec.boundary[a][0].kind == FaceCondition::Kind::kValue) + (spec.boundary[a][1].kind == FaceCondition::Kind::kValue);
+    const double mode = std::numbers::pi * std::numbers::pi * spec.diffusion / (size[a] * size[a]);
+    rate += held == 2 ? mode : held == 1 ? 0.25 * mode : 0.0;
+  }
+  return rate;
+}
+
+/// Sums over all ranks of what the unknowns hold besides concentrations.
+void collect_amounts(const Layout& layout, const std::vector<double>& unknowns, const Comm& comm, IntervalReport& report) {
+  std::array<OrderFreeSum, Layout::kAmountsPerBrick> local;
+  for (std::size_t b = 0; b < layout.bricks(); ++b)
+    for (std::size_t k = 0; k < Layout::kAmountsPerBrick; ++k) local[k].add(unknowns[layout.amounts_at(b) + k]);
+  std::array<double, Layout::kAmountsPerBrick> total{};
+  comm.sum(local, total);
+  for (std::size_t side = 0; side < kSides; ++side) report.inflow[side / 2][side % 2] = total[side];
+  report.decayed = total[Layout::kDecayed];
+}
+
+void collect_extremes(const Field& field, const Comm& comm, IntervalReport& report) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const auto& brick : field.concentration)
+    for (const double c : brick) {
+      low = std::min(low, c);
+      high = std::max(high, c);
+    }
+  report.minimum = comm.min(low);
+  report.maximum = comm.max(high);
+}
+
+double sum_of(std::span<const double> values, const Comm& comm) {
+  OrderFreeSum sum;
+  for (const double v : values) sum.add(v);
+  return comm.sum(sum);
+}
+
+Status check_cells(const Field& field, std::span<const CellSource> cells, const Comm& comm) {
+  bool wrong = false;
+  for (const auto& cell : cells)
+    wrong = wrong || !std::isfinite(norm2(cell.center)) || !(cell.radius >= 0.0) || !(cell.radius < 10.0 * norm(field.grid.box.size()));
+  if (comm.any(wrong)) return Error{ErrorKind::kInternal, "a cell has no finite position or radius when the fields are integrated", ""};
+  return {};
+}
+
+}  // namespace
+
+Result<IntervalReport> FieldSolver::advance(Field& field, const FieldSpec& spec, const Space& space, std::span<const CellSource> cells,
+                                            double interval, const Comm& comm, std::span<double> taken, std::span<double> seen) {
+  MORULA_TRY(check(spec));
+  MORULA_TRY(check_cells(field, cells, comm));
+  MORULA_TRY_ASSIGN(const std::vector<int> owner, owners_of(field, comm));
+  IntervalReport report;
+  report.amount_before = total_amount(field, comm);
+  if (!std::isfinite(report.amount_before))
+    return Error{ErrorKind::kPhysics, "field '" + spec.name + "' holds a value that is not a number", ""};
+
+  const CellExchange exchange(field, space, owner, cells, comm);
+  std::vector<bool> takes_up;
+  for (const auto& u : spec.uptake) takes_up.push_back(u.rate > 0.0);
+  Layout layout = layout_of(field, exchange.sinks(takes_up));
+  layout.sinks_anywhere = comm.any(!layout.sinks.empty());
+  Halo halo(field, layout, space, owner, comm);
+  BrickOperator op(field.grid, spec, layout, halo);
+
+  IntegrationSettings settings;
+  settings.interval = interval;
+  settings.first_step = field.next_step;
+  settings.relative_tolerance = spec.relative_tolerance;
+  settings.absolute_tolerance = std::max(1e-3 * spec.relative_tolerance * concentration_scale(field, spec, comm), 1e-30);
+  settings.largest_rate = comm.max(op.largest_rate());
+  settings.method = cheaper_method(interval, settings.largest_rate, slowest_rate(field.grid, spec, space));
+
+  auto& unknowns = workspace_->unknowns;
+  unknowns.assign(layout.unknowns(), 0.0);
+  for (std::size_t b = 0; b < layout.bricks(); ++b)
+    std::copy(field.concentration[b].begin(), field.concentration[b].end(), unknowns.begin() + static_cast<std::ptrdiff_t>(layout.offset[b]));
+  if (interval > 0.0) {
+    const BrickVectorSpace vectors{&layout, &comm, &workspace_->pool};
+    auto work = integrate(op, vectors, settings, unknowns);
+    if (!work.ok()) {
+      work.error().message = "field '" + spec.name + "': " + work.error().message;
+      return std::move(work).error();
+    }
+    report.work = *work;
+    field.next_step = report.work.next_step;
+  }
+  for (std::size_t b = 0; b < layout.bricks(); ++b)
+    std::copy_n(unknowns.begin() + static_cast<std::ptrdiff_t>(layout.offset[b]), field.concentration[b].size(), field.concentration[b].begin());
+
+  exchange.give_back(field, layout, std::span(unknowns).subspan(layout.sinks_at()), comm, taken, seen);
+  collect_amounts(layout, unknowns, comm, report);
+  collect_extremes(field, comm, report);
+  report.taken = sum_of(taken.first(cells.size()), comm);
+  report.amount_after = total_amount(field, comm);
+  report.residual = (report.amount_after - report.amount_before) + report.taken + report.decayed - report.total_inflow();
+  return report;
+}
+
+Status sample(const Field& field, const Space& space, std::span<const CellSource> cells, const Comm& comm, std::span<double> seen) {
+  MORULA_TRY(check_cells(field, cells, comm));
+  MORULA_TRY_ASSIGN(const std::vector<int> owner, owners_of(field, comm));
+  const CellExchange exchange(field, space, owner, cells, comm);
+  std::vector<double> nothing(cells.size());
+  exchange.give_back(field, layout_of(field, {}), {}, comm, nothing, seen);
+  return {};
+}
+
+}  // namespace morula::fields

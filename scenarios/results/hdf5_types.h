@@ -1,0 +1,13 @@
+#pragma once
+#include <hdf5.h>
+
+#include <cstdint>
+
+#include "scenarios/results/hdf5_plan.h"
+
+namespace morula::scenarios {
+
+/// The HDF5 type of a stored value, a copy to be closed. For kText a string of `width` bytes, UTF-8, filled with zeros.
+[[nodiscard]] hid_t file_type(StoredType type, std::uint32_t width);
+
+}  // namespace morula::scenarios

@@ -1,0 +1,101 @@
+#include <type_traits>
+
+#include "scenarios/results/hdf5_reader.h"
+#include "scenarios/results/snapshot_columns.h"
+#include "scenarios/results/snapshot_file.h"
+
+namespace morula::scenarios {
+namespace {
+
+Error no_such_snapshot(const std::filesystem::path& path, std::size_t index, std::size_t count) {
+  return Error{ErrorKind::kFile, "'" + path.string() + "' has no snapshot " + std::to_string(index) + " (it has " + std::to_string(count) + ")", ""};
+}
+
+Status read_cells(const Hdf5Reader& file, const std::string& group, Snapshot& out) {
+  MORULA_TRY_ASSIGN(const std::uint64_t count, file.rows(group + "cells/id"));
+  out.cells.resize(count);
+  Status status;
+  for_each_snapshot_column([&](const std::string& name, const char*, auto member) {
+    using Value = std::remove_cvref_t<decltype(out.cells.front().*member)>;
+    auto column = file.read<Value>(group + "cells/" + name, 0, count);
+    if (!column.ok()) {
+      if (status.ok()) status = std::move(column).error();
+      return;
+    }
+    for (std::size_t i = 0; i < count; ++i) out.cells[i].*member = column.value()[i];
+  });
+  return status;
+}
+
+Status read_shells(const Hdf5Reader& file, const std::string& group, Snapshot& out) {
+  MORULA_TRY_ASSIGN(const auto cell, file.read<std::uint64_t>(group + "shells/cell"));
+  MORULA_TRY_ASSIGN(const auto first, file.read<std::uint64_t>(group + "shells/first_node", 0, cell.size()));
+  MORULA_TRY_ASSIGN(const auto count, file.read<std::uint32_t>(group + "shells/node_count", 0, cell.size()));
+  MORULA_TRY_ASSIGN(const auto topology, file.read<std::uint32_t>(group + "shells/topology", 0, cell.size()));
+  MORULA_TRY_ASSIGN(out.nodes, file.read<Vec3d>(group + "shells/node"));
+  MORULA_TRY_ASSIGN(const auto face_count, file.read<std::uint32_t>(group + "topologies/face_count"));
+  std::uint64_t place = 0;
+  for (const std::uint32_t faces : face_count) {
+    MORULA_TRY_ASSIGN(std::vector<Triangle> list, file.read<Triangle>(group + "topologies/faces", place, faces));
+    out.topologies.push_back(std::move(list));
+    place += faces;
+  }
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    if (cell[i] >= out.cells.size() || topology[i] >= out.topologies.size() || first[i] + count[i] > out.nodes.size())
+      return Error{ErrorKind::kFile, "a shell in " + group + " points outside its arrays", ""};
+    for (const Triangle& face : out.topologies[topology[i]])
+      for (const std::uint32_t node : face)
+        if (node >= count[i]) return Error{ErrorKind::kFile, "a face in " + group + " points outside its shell", ""};
+    out.shells.push_back({static_cast<std::uint32_t>(cell[i]), static_cast<std::uint32_t>(first[i]), count[i], topology[i]});
+  }
+  return {};
+}
+
+Status read_fields(const Hdf5Reader& file, const std::string& group, Snapshot& out) {
+  MORULA_TRY_ASSIGN(const std::vector<std::string> names, file.texts(group + "field_names"));
+  for (const std::string& name : names) {
+    Snapshot::Grid grid;
+    const std::string field = group + "fields/" + name;
+    grid.name = name;
+    MORULA_TRY_ASSIGN(grid.low, file.value<Vec3d>(field + "/low"));
+    MORULA_TRY_ASSIGN(grid.spacing, file.value<Vec3d>(field + "/spacing"));
+    MORULA_TRY_ASSIGN(grid.voxels, (file.value<std::array<std::int32_t, 3>>(field + "/voxels")));
+    MORULA_TRY_ASSIGN(grid.concentration, file.read<double>(field + "/concentration"));
+    out.fields.push_back(std::move(grid));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<SnapshotEntry>> list_snapshots(const std::filesystem::path& path) {
+  MORULA_TRY_ASSIGN(const Hdf5Reader file, Hdf5Reader::open(path));
+  std::vector<SnapshotEntry> entries;
+  if (!file.exists("snapshots")) return entries;
+  MORULA_TRY_ASSIGN(const std::vector<std::string> names, file.names("snapshots"));
+  for (const std::string& name : names) {
+    SnapshotEntry entry;
+    entry.index = entries.size();
+    MORULA_TRY_ASSIGN(entry.time, file.value<double>("snapshots/" + name + "/time"));
+    MORULA_TRY_ASSIGN(entry.cells, file.rows("snapshots/" + name + "/cells/id"));
+    entries.push_back(entry);
+  }
+  return entries;
+}
+
+Result<Snapshot> read_snapshot(const std::filesystem::path& path, std::size_t index) {
+  MORULA_TRY_ASSIGN(const Hdf5Reader file, Hdf5Reader::open(path));
+  if (!file.exists("snapshots")) return no_such_snapshot(path, index, 0);
+  MORULA_TRY_ASSIGN(const std::vector<std::string> names, file.names("snapshots"));
+  if (index >= names.size()) return no_such_snapshot(path, index, names.size());
+  const std::string group = "snapshots/" + names[index] + '/';
+  Snapshot out;
+  MORULA_TRY_ASSIGN(out.time, file.value<double>(group + "time"));
+  MORULA_TRY_ASSIGN(out.type_names, file.texts(group + "type_names"));
+  MORULA_TRY(read_cells(file, group, out));
+  MORULA_TRY(read_shells(file, group, out));
+  MORULA_TRY(read_fields(file, group, out));
+  return out;
+}
+
+}  // namespace morula::scenarios

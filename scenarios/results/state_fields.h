@@ -1,0 +1,58 @@
+#pragma once
+#include "coupling/tissue.h"
+
+namespace morula::scenarios {
+
+/// The members of a row, once: checkpoint, reading back and state hash all walk this list. `visit(name, units, member)`.
+template <class Visit>
+void for_each_row_field(Visit&& visit) {
+  visit("id", "1", &CellRow::id);
+  visit("parent", "1", &CellRow::parent);
+  visit("order", "1", &CellRow::order);
+  visit("birth_time", "s", &CellRow::birth_time);
+  visit("birth_volume", "um^3", &CellRow::birth_volume);
+  visit("target_volume", "um^3", &CellRow::target_volume);
+  visit("division_volume", "um^3", &CellRow::division_volume);
+  visit("cycle_duration", "s", &CellRow::cycle_duration);
+  visit("pressure", "kPa", &CellRow::pressure);
+  visit("death_time", "s", &CellRow::death_time);
+  visit("last_swap_time", "s", &CellRow::last_swap_time);
+  visit("reference_excess", "1", &CellRow::reference_excess);
+  visit("polarity", "1", &CellRow::polarity);
+  visit("migration_velocity", "um/s", &CellRow::migration_velocity);
+  visit("amount", "amol", &CellRow::amount);
+  visit("concentration", "mM", &CellRow::concentration);
+  visit("draws", "1", &CellRow::draws);
+  visit("type", "1", &CellRow::type);
+  visit("phase", "1", &CellRow::phase);
+  visit("body", "1", &CellRow::body);
+}
+
+/// The size of a row that the list above covers, to notice a member that was added to one and not to the other.
+inline constexpr std::size_t kListedRowBytes = 3 * 8 + 9 * 8 + 2 * sizeof(Vec3d) + 2 * kMaxFields * 8 + 8 + 2 + 1 + 1;
+static_assert(sizeof(CellRow) == kListedRowBytes + sizeof(CellRow::unused_), "list every member of CellRow in for_each_row_field");
+
+template <class Visit>
+void for_each_clock_field(Visit&& visit) {
+  visit("time", "s", &Clock::time);
+  visit("next_step", "s", &Clock::next_step);
+  visit("steps", "1", &Clock::steps);
+  visit("capped", "1", &Clock::capped);
+}
+static_assert(sizeof(Clock) == 4 * 8, "list every member of Clock in for_each_clock_field");
+
+/// `array(name, units, member)` for the values by field, `count(name, units, member)` for the counters.
+template <class Array, class Count>
+void for_each_ledger_field(Array&& array, Count&& count) {
+  array("field_in", "amol", &Ledger::field_in);
+  array("field_taken", "amol", &Ledger::field_taken);
+  array("field_decayed", "amol", &Ledger::field_decayed);
+  array("field_start", "amol", &Ledger::field_start);
+  count("divisions", "1", &Ledger::divisions);
+  count("deaths", "1", &Ledger::deaths);
+  count("promotions", "1", &Ledger::promotions);
+  count("demotions", "1", &Ledger::demotions);
+}
+static_assert(sizeof(Ledger) == (4 * kMaxFields + 4) * 8, "list every member of Ledger in for_each_ledger_field");
+
+}  // namespace morula::scenarios

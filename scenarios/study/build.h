@@ -1,0 +1,44 @@
+#pragma once
+#include <optional>
+
+#include "core/mesh/triangle_mesh.h"
+#include "scenarios/study/draft.h"
+#include "scenarios/study/study.h"
+
+namespace morula::scenarios {
+
+/// What the steps from the draft to the model share. Each step checks its part against the rest of the study (E4xx, E5xx, E6xx) and fills the
+/// model; it runs even when other parts have errors, and looks only at values that are known.
+struct BuildContext {
+  draft::Study& draft;
+  Study& study;
+  Diagnostics& diagnostics;
+  std::filesystem::path folder;   ///< of the study, for relative paths
+  const ReadOptions& options;
+};
+
+void build_time_and_numerics(BuildContext& context);
+void build_domain(BuildContext& context);
+void build_cell_types(BuildContext& context);
+void build_geometry(BuildContext& context);
+/// Adhesion and friction of all pairs of materials; missing pairs get their default, in the draft, too.
+void build_pairs(BuildContext& context);
+void build_fields(BuildContext& context);
+void build_initial(BuildContext& context);
+void build_coupling(BuildContext& context);
+/// Checks that need the whole study: contact range, friction, step, domain size.
+void check_whole(BuildContext& context);
+
+/// Index of a cell type or field by name, or −1 and an error with suggestions.
+int find_type(BuildContext& context, const std::string& name, const Place& place);
+int find_field(BuildContext& context, const std::string& name, const Place& place);
+/// Whether any cell may have this body: by its type, by `as`, or by coupling.
+bool may_have_shells(const draft::Study& draft);
+/// Note a file the study refers to; `written` is replaced by the place of its copy, for the resolved study.
+std::string add_input_file(BuildContext& context, Given<std::string>& written);
+/// Read the closed surface of an STL or OBJ file, in µm, and check it: E601–E602 and E620–E624; then the mesh is empty.
+TriangleMesh surface_from_file(BuildContext& context, Given<std::string>& written, const Given<double>& scale);
+/// Largest explicit Euler step that is stable for the types of this study [s] (estimate).
+double explicit_step_limit(const draft::Study& draft);
+
+}  // namespace morula::scenarios

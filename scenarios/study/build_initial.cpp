@@ -1,0 +1,192 @@
+#include <cmath>
+#include <numbers>
+
+#include "scenarios/study/build.h"
+#include "scenarios/study/csv.h"
+#include "scenarios/study/read_section.h"
+
+namespace morula::scenarios {
+namespace {
+
+std::string place_text(const Vec3d& p) { return "[" + short_number(p.x) + " um, " + short_number(p.y) + " um, " + short_number(p.z) + " um]"; }
+
+std::string domain_text(const Box& box) { return "the domain reaches from " + place_text(box.low) + " to " + place_text(box.high); }
+
+class InitialBuilder {
+ public:
+  InitialBuilder(BuildContext& context, const UnitSystem& units) : c_(context), units_(units), domain_(context.study.model.space.box) {}
+
+  void build(draft::Initial& d, const Place& place) {
+    const int sources = (d.fill.given || d.count.given) + d.at.given + d.csv.given;
+    if (sources != 1) {
+      c_.diagnostics.error(111, place, sources == 0 ? "an entry of `initial` needs `fill`, `at` or `csv`" : "an entry of `initial` has only one of `fill`, `at` and `csv`",
+                           "for example `{type: hepatocyte, count: 400, fill: sphere, radius: 60 um}`");
+      return;
+    }
+    InitialCells cells;
+    cells.random_age = d.age.value != "birth";
+    cells.body_given = d.body.known();
+    cells.body = d.body.value == "shell" ? BodyKind::kShell : BodyKind::kSphere;
+    cells.start_volume_fraction = d.start_volume.value;
+    cells.inflate_time = d.inflate.value;
+    check_inflation(d, place);
+    int type = -1;
+    if (!d.csv.given) {
+      if (!d.type.given) c_.diagnostics.error(103, place, "key 'type' is missing in an entry of `initial`", "name one of the cell types");
+      if (d.type.known()) type = find_type(c_, d.type.value, d.type.place);
+      cells.type = static_cast<std::uint16_t>(std::max(0, type));
+    }
+    refuse_strays(d);
+    if (d.csv.given)
+      build_csv(d, cells);
+    else if (d.at.given)
+      build_positions(d, cells);
+    else
+      build_fill(d, place, type, cells);
+    total_ += cells.count;
+    if (total_ >= (std::uint64_t{1} << CellId::kFounderBits))
+      c_.diagnostics.error(404, place, "more than " + std::to_string((std::uint64_t{1} << CellId::kFounderBits) - 1) + " cells at time 0", "");
+    c_.study.initial.push_back(std::move(cells));
+  }
+
+ private:
+  void stray(bool given, const Place& place, const char* key, const char* with) {
+    if (given) c_.diagnostics.error(111, place, std::string("'") + key + "' has no meaning with `" + with + "`", "leave it away");
+  }
+  void refuse_strays(const draft::Initial& d) {
+    const char* with = d.csv.given ? "csv" : d.at.given ? "at" : nullptr;
+    if (with) {
+      stray(d.radius.given, d.radius.place, "radius", with);
+      stray(d.size.given, d.size.place, "size", with);
+      stray(d.center.given, d.center.place, "center", with);
+    }
+    if (d.csv.given) {
+      stray(d.type.given, d.type.place, "type", with);
+    } else {
+      stray(d.coincident_shift.given, d.coincident_shift.place, "coincident_shift", with ? with : "fill");
+      stray(d.coincident_below.given, d.coincident_below.place, "coincident_below", with ? with : "fill");
+    }
+  }
+
+  void check_inflation(const draft::Initial& d, const Place& place) {
+    if (!d.start_volume.known() || !d.inflate.known()) return;
+    if (d.start_volume.value < 1.0 && d.inflate.value == 0.0)
+      c_.diagnostics.error(510, d.start_volume.place, "cells start at " + d.start_volume.text + " of their volume, but no time is given to inflate them",
+                           "add for example `inflate: 30 min`");
+    if (d.start_volume.value == 1.0 && d.inflate.value > 0.0)
+      c_.diagnostics.error(510, d.inflate.given ? d.inflate.place : place, "'inflate' has no meaning for cells that start with their whole volume",
+                           "add for example `start_volume: 50 %`");
+  }
+
+  void build_positions(const draft::Initial& d, InitialCells& cells) {
+    cells.source = InitialCells::Source::kPositions;
+    cells.positions = d.at.value;
+    cells.count = cells.positions.size();
+    if (!d.at.known() || !c_.draft.domain.size.known()) return;
+    for (const Vec3d& p : cells.positions)
+      if (!domain_.contains(p)) c_.diagnostics.error(505, d.at.place, "a cell at " + place_text(p) + " is outside the domain", domain_text(domain_));
+  }
+
+  void build_csv(draft::Initial& d, InitialCells& cells) {
+    cells.source = InitialCells::Source::kCsv;
+    cells.coincident_shift = d.coincident_shift.value;
+    cells.coincident_below = d.coincident_below.value;
+    if (!d.csv.known()) return;
+    const std::string shown = d.csv.value;
+    cells.csv_path = add_input_file(c_, d.csv);
+    std::vector<std::string> names;
+    for (const auto& type : c_.draft.cell_types) names.push_back(type.name);
+    const auto csv = read_cells_csv(cells.csv_path, shown, names, d.csv.place, units_, c_.diagnostics);
+    if (!csv) return;
+    cells.count = csv->cells.size();
+    if (!csv->ignored_columns.empty()) {
+      std::string note = shown + ": columns left aside:";
+      for (const std::string& column : csv->ignored_columns) note += " `" + column + "`";
+      c_.study.notes.push_back(note);
+    }
+    std::vector<Vec3d> positions;
+    for (const CsvCell& cell : csv->cells) positions.push_back(cell.position);
+    note_coincident(*csv, shown, d, coincident_groups(positions, cells.coincident_below));
+    if (c_.draft.domain.size.known()) check_rows_inside(*csv);
+  }
+
+  void note_coincident(const CsvCells& csv, const std::string& shown, const draft::Initial& d, const std::vector<std::vector<std::size_t>>& groups) {
+    for (const auto& group : groups) {
+      std::string same, moved;
+      for (std::size_t k = 0; k < group.size(); ++k) {
+        const std::string number = std::to_string(total_ + group[k] + 1);
+        same += (k ? ", " : "") + number + " (line " + std::to_string(csv.cells[group[k]].line) + ")";
+        if (k) moved += (k > 1 ? ", " : "") + number;
+      }
+      c_.study.notes.push_back(shown + ": cells " + same + " lie at the same place; moved by " + d.coincident_shift.text + ": " + moved);
+    }
+  }
+
+  void check_rows_inside(const CsvCells& csv) {
+    constexpr int kMost = 20;
+    int outside = 0;
+    for (const CsvCell& cell : csv.cells) {
+      if (domain_.contains(cell.position)) continue;
+      if (++outside <= kMost) {
+        const std::size_t begin = csv.source->line_begin[static_cast<std::size_t>(cell.line) - 1];
+        c_.diagnostics.error(505, place_at(csv.source, begin, csv.source->line(cell.line).size()),
+                             "a cell at " + place_text(cell.position) + " is outside the domain", domain_text(domain_));
+      }
+    }
+    if (outside > kMost)
+      c_.diagnostics.error(505, {csv.source, 0, 0, 1}, std::to_string(outside - kMost) + " more cells are outside the domain", domain_text(domain_));
+  }
+
+  void build_fill(const draft::Initial& d, const Place& place, int type, InitialCells& cells) {
+    cells.source = InitialCells::Source::kFill;
+    cells.count = d.count.value;
+    cells.center = d.center.value;
+    cells.radius = d.radius.value;
+    cells.size = d.size.value;
+    cells.fill = d.fill.value == "box" ? RegionShape::kBox : RegionShape::kSphere;
+    const bool sphere = d.fill.value == "sphere";
+    const auto missing = [&](bool given, const char* key) {
+      if (!given) c_.diagnostics.error(103, place, std::string("key '") + key + "' is missing in an entry of `initial`", "a filled shape needs `count`, `fill`, and `radius` (sphere) or `size` (box)");
+    };
+    missing(d.count.given, "count");
+    missing(d.fill.given, "fill");
+    if (!d.fill.known()) return;
+    missing(sphere ? d.radius.given : d.size.given, sphere ? "radius" : "size");
+    stray(sphere ? d.size.given : d.radius.given, sphere ? d.size.place : d.radius.place, sphere ? "size" : "radius", sphere ? "fill: sphere" : "fill: box");
+    if (!(sphere ? d.radius.known() : d.size.known()) || !d.center.known()) return;
+    const Vec3d half = sphere ? Vec3d{cells.radius, cells.radius, cells.radius} : cells.size * 0.5;
+    const Box shape{cells.center - half, cells.center + half};
+    if (c_.draft.domain.size.known() && !(domain_.contains(shape.low) && domain_.contains(shape.high)))
+      c_.diagnostics.error(502, sphere ? d.radius.place : d.size.place, "the shape to fill reaches out of the domain", domain_text(domain_));
+    if (type >= 0 && d.count.known()) check_room(d, type, cells, sphere);
+  }
+
+  /// Spheres of the type's radius need more room than the shape has.
+  void check_room(const draft::Initial& d, int type, const InitialCells& cells, bool sphere) {
+    const Given<double>& radius = c_.draft.cell_types[static_cast<std::size_t>(type)].content.radius.mean;
+    if (!radius.known() || !d.start_volume.known()) return;
+    const double ball = 4.0 / 3.0 * std::numbers::pi;
+    const double need = static_cast<double>(cells.count) * ball * std::pow(radius.value, 3) * cells.start_volume_fraction;
+    const double room = sphere ? ball * std::pow(cells.radius, 3) : cells.size.x * cells.size.y * cells.size.z;
+    if (need <= room) return;
+    const std::string fits = sphere ? "a radius of at least " + short_number(std::ceil(std::cbrt(need / 0.64 / ball))) + " um"
+                                    : "a volume of at least " + short_number(need / 0.64) + " um^3";
+    c_.diagnostics.error(506, d.count.place, std::to_string(cells.count) + " cells of radius " + radius.text + " have " + short_number(need / room) + " times the volume of the shape they fill",
+                         "give the shape " + fits + ", or fewer cells");
+  }
+
+  BuildContext& c_;
+  const UnitSystem& units_;
+  const Box& domain_;
+  std::uint64_t total_ = 0;
+};
+
+}  // namespace
+
+void build_initial(BuildContext& c) {
+  const UnitSystem units;
+  InitialBuilder builder(c, units);
+  for (auto& [name, place, d] : c.draft.initial) builder.build(d, place);
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scenarios/study/build.h"
+#include "scenarios/study/read_section.h"
+
+namespace morula::scenarios {
+namespace {
+
+/// Bending rigidity of a thin plate, D = E h³ / (12 (1 − ν²)) [nN·µm].
+double plate_rigidity(double young, double thickness, double poisson) {
+  return young * thickness * thickness * thickness / (12.0 * (1.0 - poisson * poisson));
+}
+
+dcm::ShellParameters shell_parameters(const draft::CellType& t) {
+  dcm::ShellParameters p;
+  p.spring_stiffness = 0.5 * std::numbers::sqrt3 * t.young.value * t.thickness.value;  // Seung & Nelson 1988, doi:10.1103/PhysRevA.38.1005
+  p.edge_damping = t.damping.value;
+  const double bending = t.bending.value >= 0.0 ? t.bending.value : plate_rigidity(t.young.value, t.thickness.value, t.poisson.value);
+  p.hinge_stiffness = 2.0 / std::numbers::sqrt3 * bending;
+  p.tension = t.tension.value;
+  p.bulk_modulus = t.bulk_modulus.value;
+  p.shape_stiffness = t.shape_stiffness.value;
+  p.barrier_stiffness = t.fold_stiffness.value;
+  p.barrier_angle = t.fold_angle.value;
+  p.medium_friction = t.friction_medium.value;
+  return p;
+}
+
+void build_death(BuildContext& c, const draft::CellType& draft, const Place& type_place, CellType& type) {
+  if (!draft.has_death) return;
+  if (!draft.death_field.known() || !draft.death_below.known()) {
+    if (!draft.death_field.given || !draft.death_below.given)  // else the error has been told
+      c.diagnostics.error(103, type_place, "`death` needs a field and a concentration", "write for example `oxygen_below: 0.02 mM`");
+    return;
+  }
+  type.death_field = find_field(c, draft.death_field.value, draft.death_field.place);
+  type.death_below = draft.death_below.value;
+  type.death_rate = draft.death_rate.value;
+  type.apoptosis_time = draft.shrink_time.value;
+  type.removal_fraction = draft.removed_below.value;
+}
+
+/// W of every pair by material index; what the file says twice must agree.
+class PairTable {
+ public:
+  explicit PairTable(BuildContext& context) : c_(context), types_(c_.draft.cell_types.size()), materials_(types_ + c_.draft.geometry.size()) {
+    given_.resize(types_ * materials_);
+  }
+
+  void read() {
+    for (std::size_t i = 0; i < types_; ++i)
+      for (const auto& item : c_.draft.cell_types[i].content.adhesion) read_one(i, item);
+  }
+
+  void fill_defaults() {
+    for (std::size_t i = 0; i < types_; ++i)
+      for (std::size_t j = i; j < materials_; ++j) {
+        if (slot(i, j)) continue;
+        const bool cells = j < types_;
+        Given<double> value;  // Table 1 of Van Liedekerke et al.
+        value.value = cells ? 0.1 : 0.01;
+        value.text = cells ? "1e-4 J/m^2" : "1e-5 J/m^2";
+        value.place = c_.draft.cell_types[i].place;
+        c_.draft.cell_types[i].content.adhesion.push_back({name(j), value.place, value});
+        set(i, j, value);
+      }
+  }
+
+  [[nodiscard]] const Given<double>& at(std::size_t i, std::size_t j) const { return *given_[std::min(i, j) * materials_ + std::max(i, j)]; }
+
+ private:
+  [[nodiscard]] std::string name(std::size_t material) const {
+    return material < types_ ? c_.draft.cell_types[material].name : c_.draft.geometry[material - types_].name;
+  }
+  std::optional<Given<double>>& slot(std::size_t i, std::size_t j) { return given_[std::min(i, j) * materials_ + std::max(i, j)]; }
+  void set(std::size_t i, std::size_t j, const Given<double>& value) { slot(i, j) = value; }
+
+  void read_one(std::size_t i, const Named<Given<double>>& item) {
+    std::vector<std::string> names;
+    std::size_t j = 0;
+    for (; j < materials_ && name(j) != item.name; ++j) names.push_back(name(j));
+    if (j == materials_) {
+      c_.diagnostics.error(401, item.place, "there is no cell type or obstacle '" + item.name + "'", suggest(item.name, names));
+      return;
+    }
+    const auto& before = slot(i, j);
+    if (before && before->value != item.content.value) {
+      c_.diagnostics.error(510, item.content.place,
+                           "the adhesion of '" + name(i) + "' and '" + name(j) + "' is " + item.content.text + " here, but " + before->text +
+                               " in line " + std::to_string(before->place.line),
+                           "give each pair once");
+      return;
+    }
+    set(i, j, item.content);
+  }
+
+  BuildContext& c_;
+  std::size_t types_, materials_;
+  std::vector<std::optional<Given<double>>> given_;
+};
+
+}  // namespace
+
+void build_cell_types(BuildContext& c) {
+  constexpr std::size_t kMaxTypes = 256;
+  if (c.draft.cell_types.size() > kMaxTypes)
+    c.diagnostics.error(404, c.draft.cell_types[kMaxTypes].place, "more than " + std::to_string(kMaxTypes) + " cell types", "");
+  for (const auto& [name, place, t] : c.draft.cell_types) {
+    CellType type;
+    type.name = name;
+    type.radius = {t.radius.mean.value, t.radius.spread.value};
+    type.cycles = t.has_cycle && t.cycle_model.value == "volume_threshold";
+    if (t.has_cycle) {
+      type.cycle_duration = {t.cycle_duration.mean.value, t.cycle_duration.spread.value};
+      type.exponential_growth = t.growth.value == "exponential";
+    }
+    type.inhibit_pressure = t.pressure_above.value;
+    build_death(c, t, place, type);
+    type.migration_speed = t.migration_speed.value;
+    type.migration_persistence = t.persistence.value;
+    type.medium_friction = t.friction_medium.value;
+    type.initial_body = t.body.value == "shell" ? BodyKind::kShell : BodyKind::kSphere;
+    type.shell_nodes = static_cast<std::uint32_t>(t.nodes.value);
+    type.sphere.young = t.sphere_young.value;
+    type.sphere.poisson = t.sphere_poisson.value;
+    type.sphere.adhesive = t.sphere_law.value != "hertz";
+    type.shell = shell_parameters(t);
+    c.study.model.types.push_back(std::move(type));
+  }
+}
+
+void build_pairs(BuildContext& c) {
+  const std::size_t types = c.draft.cell_types.size(), materials = types + c.draft.geometry.size();
+  PairTable table(c);
+  table.read();
+  table.fill_defaults();
+  auto& pairs = c.study.model.pairs;
+  pairs.assign(materials * materials, ContactPair{0.0, 0.0, 0.0});
+  for (std::size_t i = 0; i < types; ++i) {
+    for (std::size_t j = 0; j < materials; ++j) {
+      const draft::CellType& a = c.draft.cell_types[i].content;
+      const double friction = j < types ? 0.5 * (a.friction_cell_cell.value + c.draft.cell_types[j].content.friction_cell_cell.value)
+                                        : a.friction_obstacle.value;
+      pairs[i * materials + j] = pairs[j * materials + i] = {table.at(i, j).value, friction, friction};
+    }
+  }
+  if (!may_have_shells(c.draft)) return;
+  for (std::size_t i = 0; i < types; ++i) {
+    for (std::size_t j = i; j < materials; ++j) {
+      const draft::CellType& a = c.draft.cell_types[i].content;
+      const Given<double>& other = j < types ? c.draft.cell_types[j].content.tension : a.tension;
+      const Given<double>& w = table.at(i, j);
+      if (!a.tension.known() || !other.known() || w.value < a.tension.value + other.value) continue;
+      const std::string partner = j < types ? c.draft.cell_types[j].name : c.draft.geometry[j - types].name;
+      c.diagnostics.warning(509, w.given ? w.place : a.tension.place,
+                            "shells of '" + c.draft.cell_types[i].name + "' adhere to '" + partner + "' by " + w.text +
+                                ", not less than twice the cortical tension (" + a.tension.text + "): only the springs of the cortex stop the spreading",
+                            "raise `dcm.cortex.tension` above half of the adhesion, or lower the adhesion");
+    }
+  }
+}
+
+}  // namespace morula::scenarios

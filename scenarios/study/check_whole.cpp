@@ -1,0 +1,122 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scenarios/study/build.h"
+#include "scenarios/study/read_section.h"
+
+namespace morula::scenarios {
+namespace {
+
+/// Mean edge of an icosphere of this many nodes whose enclosed volume is that of a sphere of radius 1.
+double mean_edge(std::uint64_t nodes) {
+  struct Level {
+    std::uint64_t nodes;
+    double edge, volume;  ///< with nodes on the unit sphere: mean edge, part of the sphere's volume
+  };
+  static constexpr Level kLevels[] = {{42, 0.5817, 0.873}, {162, 0.29933, 0.96616}, {642, 0.15073, 0.99139}, {2562, 0.0755, 0.99784}};
+  for (const Level& level : kLevels)
+    if (level.nodes == nodes) return level.edge / std::cbrt(level.volume);
+  return 0.0;
+}
+
+void check_contact_range(BuildContext& c) {
+  const Given<double>& range = c.draft.contact.range;
+  if (!may_have_shells(c.draft) || !range.known()) return;
+  for (const auto& [name, place, t] : c.draft.cell_types) {
+    if (!t.nodes.known() || !t.radius.mean.known()) continue;
+    const double edge = mean_edge(t.nodes.value) * t.radius.mean.value;
+    // Half an edge is where faces begin to feel more than their opposite; the rule is exact to how mean_edge rounds (0.55 L was measured good).
+    const bool too_long = range.value > 0.56 * edge, too_short = range.value < 0.25 * edge;
+    if (!too_long && !too_short) continue;
+    const Place at = range.given ? range.place : t.nodes.given ? t.nodes.place : place;
+    const std::string what = "the contact range (" + range.text + ") is " + (too_long ? "more than half" : "less than a quarter") +
+                             " of the mean edge (" + short_number(std::round(edge * 100) / 100) + " um) of a shell of '" + name + "' with " + t.nodes.text + " nodes";
+    const std::string help = "`contact.range` between " + short_number(std::round(edge * 25) / 100) + " um and " + short_number(std::floor(edge * 50) / 100) + " um fits this mesh";
+    if (too_long)
+      c.diagnostics.error(503, at, what, help);
+    else
+      c.diagnostics.warning(503, at, what, help);
+  }
+}
+
+void check_friction(BuildContext& c) {
+  std::size_t without = 0;
+  for (const auto& type : c.draft.cell_types)
+    if (type.content.friction_medium.known() && type.content.friction_medium.value == 0.0) ++without;
+  if (without == 0) return;
+  for (const auto& [name, place, t] : c.draft.cell_types) {
+    if (!t.friction_medium.known() || t.friction_medium.value > 0.0) continue;
+    const std::string help = "give `friction.medium` at least 1e5 N s/m^3";
+    if (without == c.draft.cell_types.size())
+      c.diagnostics.error(504, t.friction_medium.place, "no cell has friction with the medium: the velocities of cells without contact are not determined", help);
+    else
+      c.diagnostics.warning(504, t.friction_medium.place, "cells of '" + name + "' have no friction with the medium: alone, their velocity is not determined", help);
+  }
+}
+
+void check_periodic_size(BuildContext& c) {
+  if (!c.draft.domain.size.known() || !c.draft.contact.range.known()) return;
+  double radius = 0.0;
+  for (const auto& type : c.draft.cell_types) radius = std::max(radius, type.content.radius.mean.value * (1.0 + 3.0 * type.content.radius.spread.value));
+  // A dividing cell is 2^(1/3) times as wide as a newborn; a pair of such cells may not meet around the domain.
+  const double needed = 2.0 * (2.0 * std::cbrt(2.0) * radius + c.draft.contact.range.value);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (c.study.model.space.periodic(static_cast<int>(axis)) && c.draft.domain.size.value[axis] < needed)
+      c.diagnostics.error(511, c.draft.domain.size.place, std::string("the domain is too small along ") + "xyz"[axis] + ": with periodic faces a cell would touch its own image",
+                          "at least " + short_number(std::ceil(needed)) + " um, or a `wall`");
+}
+
+void check_names(BuildContext& c) {
+  for (const auto& obstacle : c.draft.geometry)
+    for (const auto& type : c.draft.cell_types)
+      if (type.name == obstacle.name)
+        c.diagnostics.error(112, obstacle.place, "'" + obstacle.name + "' is a cell type and an obstacle", "give the obstacle another name");
+  const auto check_name = [&](const Given<std::string>& name, const char* what) {
+    if (name.known() && !is_name(name.value))
+      c.diagnostics.error(112, name.place, "'" + name.value + "' cannot be " + what, "names begin with a letter and hold letters, digits, `_` and `-`");
+  };
+  check_name(c.draft.name, "the name of a study");
+  for (const auto& region : c.draft.coupling.regions) check_name(region.content.name, "the name of a region");
+  const auto check_known = [&](const std::string& word, const Place& place, const std::vector<std::string>& known, const char* what) {
+    if (!known.empty() && std::find(known.begin(), known.end(), word) == known.end())
+      c.diagnostics.error(403, place, std::string("there is no ") + what + " '" + word + "'", suggest(word, known));
+  };
+  if (c.draft.scenario.known()) check_known(c.draft.scenario.value, c.draft.scenario.place, c.options.scenario_names, "library study");
+  for (const std::string& name : c.draft.output.series.value) check_known(name, c.draft.output.series.place, c.options.series_names, "observable");
+}
+
+}  // namespace
+
+double explicit_step_limit(const draft::Study& study) {
+  double limit = 1e300;
+  const bool shells = may_have_shells(study);
+  for (const auto& type : study.cell_types) {
+    const draft::CellType& t = type.content;
+    const double friction = t.friction_medium.value, radius = t.radius.mean.value;
+    if (!(friction > 0.0) || !(radius > 0.0)) continue;
+    if (shells && t.bulk_modulus.value > 0.0) {
+      // Fastest modes of a free shell of N nodes: the volume, stiffness K A²/(V N) against γ A/N for each node; the springs, at most 6 k
+      // against γ A/N (edge damping left out); the repulsion, k_r against the contact friction.
+      const double node_area = 4.0 * std::numbers::pi * radius * radius / std::max(1.0, static_cast<double>(t.nodes.value));
+      const double spring = 0.5 * std::numbers::sqrt3 * t.young.value * t.thickness.value;
+      limit = std::min(limit, 2.0 * friction * radius / (3.0 * t.bulk_modulus.value));
+      if (spring > 0.0) limit = std::min(limit, 2.0 * (friction * node_area + t.damping.value) / (6.0 * spring));
+      if (study.contact.repulsion.value > 0.0)
+        limit = std::min(limit, 2.0 * std::max(friction, t.friction_cell_cell.value) / study.contact.repulsion.value);
+    }
+    // A sphere with 12 neighbours at contact radius R/2: stiffness 2 E* a each, E* = E/(2 (1 − ν²)).
+    const double contact = 12.0 * t.sphere_young.value / (1.0 - t.sphere_poisson.value * t.sphere_poisson.value) * 0.5 * radius;
+    if (contact > 0.0) limit = std::min(limit, 2.0 * friction * 4.0 * std::numbers::pi * radius * radius / contact);
+  }
+  return limit;
+}
+
+void check_whole(BuildContext& c) {
+  check_names(c);
+  check_contact_range(c);
+  check_friction(c);
+  check_periodic_size(c);
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,15 @@
+#pragma once
+#include "scenarios/study/draft.h"
+
+namespace morula::scenarios {
+
+/// The one table of all keys of the study file: name, quantity, range, default, source, doc, example.
+void declare_study(Section& section, draft::Study& study);
+
+void declare_cell_type(Section& section, draft::CellType& type);
+void declare_obstacle(Section& section, draft::Obstacle& obstacle);
+void declare_initial(Section& section, draft::Initial& initial);
+void declare_field(Section& section, draft::Field& field);
+void declare_coupling(Section& section, draft::Coupling& coupling);
+
+}  // namespace morula::scenarios

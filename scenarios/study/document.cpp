@@ -1,0 +1,246 @@
+#include "scenarios/study/document.h"
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+namespace morula::scenarios {
+namespace {
+
+/// Builds our Node tree from the parser's events. Events carry everything that yaml-cpp's own node tree loses: double keys, anchors, marks.
+class TreeBuilder : public YAML::EventHandler {
+ public:
+  TreeBuilder(std::shared_ptr<const SourceText> source, Diagnostics& diagnostics) : source_(std::move(source)), diagnostics_(diagnostics) {}
+
+  Node root;
+  bool any = false;
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    refuse_anchor(mark, anchor);
+    Node node;
+    node.place = open_.empty() || !open_.back().has_key ? place(mark, 1) : open_.back().key_place;
+    add(std::move(node), "");
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    diagnostics_.error(106, place(mark, token_length(mark)), "aliases (`*name`) are not allowed in a study", "write the value out");
+    Node node;
+    node.place = place(mark, 1);
+    add(std::move(node), "*");
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, const std::string& value) override {
+    refuse_anchor(mark, anchor);
+    refuse_tag(mark, tag);
+    Node node;
+    node.kind = Node::Kind::kScalar;
+    node.text = value;
+    const char first = byte(mark) < source_->bytes.size() ? source_->bytes[byte(mark)] : ' ';
+    node.place = place(mark, value.size() + (first == '"' || first == '\'' ? 2 : 0));
+    add(std::move(node), value);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, YAML::EmitterStyle::value) override {
+    begin(mark, tag, anchor, Node::Kind::kList);
+  }
+  void OnSequenceEnd() override { end(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, YAML::EmitterStyle::value) override {
+    begin(mark, tag, anchor, Node::Kind::kMap);
+  }
+  void OnMapEnd() override { end(); }
+
+ private:
+  struct Open {
+    Node node;
+    bool has_key = false;
+    std::string key;
+    Place key_place;
+  };
+
+  [[nodiscard]] std::size_t byte(const YAML::Mark& mark) const { return mark.pos < 0 ? 0 : static_cast<std::size_t>(mark.pos); }
+  [[nodiscard]] Place place(const YAML::Mark& mark, std::size_t length) const { return place_at(source_, byte(mark), length); }
+  [[nodiscard]] std::size_t token_length(const YAML::Mark& mark) const {
+    const std::size_t stop = source_->bytes.find_first_of(" \t\r\n,]}", byte(mark));
+    return (stop == std::string::npos ? source_->bytes.size() : stop) - std::min(byte(mark), source_->bytes.size());
+  }
+
+  void refuse_anchor(const YAML::Mark& mark, YAML::anchor_t anchor) {
+    if (anchor != YAML::NullAnchor)
+      diagnostics_.error(106, place(mark, token_length(mark)), "anchors (`&name`) are not allowed in a study", "write the value out");
+  }
+  void refuse_tag(const YAML::Mark& mark, const std::string& tag) {
+    if (!tag.empty() && tag != "?" && tag != "!")
+      diagnostics_.error(106, place(mark, token_length(mark)), "tags (`!name`) are not allowed in a study", "leave the tag away");
+  }
+
+  void begin(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, Node::Kind kind) {
+    refuse_anchor(mark, anchor);
+    refuse_tag(mark, tag);
+    Open open;
+    open.node.kind = kind;
+    open.node.place = place(mark, 1);
+    open_.push_back(std::move(open));
+  }
+  void end() {
+    Node node = std::move(open_.back().node);
+    open_.pop_back();
+    add(std::move(node), "");
+  }
+
+  void add(Node node, const std::string& as_key) {
+    if (open_.empty()) {
+      root = std::move(node);
+      any = true;
+      return;
+    }
+    Open& parent = open_.back();
+    if (parent.node.kind == Node::Kind::kList) {
+      parent.node.items.push_back(std::move(node));
+    } else if (!parent.has_key) {
+      take_key(parent, node, as_key);
+    } else {
+      parent.has_key = false;
+      if (!parent.key.empty()) parent.node.entries.push_back({std::move(parent.key), std::move(parent.key_place), std::move(node)});
+    }
+  }
+
+  void take_key(Open& parent, const Node& node, const std::string& as_key) {
+    parent.has_key = true;
+    parent.key.clear();  // an empty key: its value is dropped
+    parent.key_place = node.place;
+    if (as_key == "<<") {
+      diagnostics_.error(106, node.place, "merge keys (`<<`) are not allowed in a study", "write the keys out");
+    } else if (node.kind != Node::Kind::kScalar || as_key.empty()) {
+      if (as_key != "*") diagnostics_.error(112, node.place, "a key must be a word", "write `name: value`");
+    } else if (const Node::Entry* first = find_entry(parent.node, as_key)) {
+      diagnostics_.error(102, node.place, "key '" + as_key + "' is given twice, first in line " + std::to_string(first->key_place.line),
+                         "keep one of them");
+    } else {
+      parent.key = as_key;
+    }
+  }
+
+  static const Node::Entry* find_entry(const Node& map, std::string_view key) {
+    const auto found = std::find_if(map.entries.begin(), map.entries.end(), [&](const Node::Entry& e) { return e.key == key; });
+    return found == map.entries.end() ? nullptr : &*found;
+  }
+
+  std::shared_ptr<const SourceText> source_;
+  Diagnostics& diagnostics_;
+  std::vector<Open> open_;
+};
+
+/// Tabs may not indent YAML; found here because the parser's own message depends on what follows the tab.
+bool refuse_tabs(const std::shared_ptr<const SourceText>& source, Diagnostics& diagnostics) {
+  bool found = false;
+  for (const std::size_t begin : source->line_begin) {
+    const std::size_t word = source->bytes.find_first_not_of(" \t", begin);
+    const std::size_t tab = source->bytes.find('\t', begin);
+    if (word == std::string::npos || tab > word || source->bytes[word] == '\n' || source->bytes[word] == '\r') continue;
+    diagnostics.error(105, place_at(source, tab, 1), "a tab is used for indentation", "indent with spaces");
+    found = true;
+  }
+  return found;
+}
+
+}  // namespace
+
+const Node* Node::find(std::string_view key) const {
+  for (const Entry& entry : entries)
+    if (entry.key == key) return &entry.value;
+  return nullptr;
+}
+
+Node* Node::find(std::string_view key) { return const_cast<Node*>(std::as_const(*this).find(key)); }
+
+Node parse_document(const std::shared_ptr<const SourceText>& source, Diagnostics& diagnostics) {
+  if (refuse_tabs(source, diagnostics)) return {};
+  TreeBuilder builder(source, diagnostics);
+  const Place start{source, 1, 1, 1};
+  try {
+    std::istringstream stream(source->bytes);
+    YAML::Parser parser(stream);
+    if (!parser.HandleNextDocument(builder) || !builder.any || builder.root.kind == Node::Kind::kNull) {
+      diagnostics.error(107, start, "the study is empty", "`morula new` writes one to start from");
+      return {};
+    }
+    Node first = std::move(builder.root);
+    if (parser.HandleNextDocument(builder))
+      diagnostics.error(107, builder.root.place, "a study is one YAML document, but another one follows", "remove the line `---` and what comes after");
+    return first;
+  } catch (const YAML::Exception& e) {  // the parser's way to report syntax errors; it ends here
+    const Place at = e.mark.is_null() ? start : place_at(source, static_cast<std::size_t>(std::max(0, e.mark.pos)), 1);
+    diagnostics.error(100, at, "not valid YAML: " + e.msg, "check the indentation, colons, quotes and brackets at this place and just before it");
+    return {};
+  }
+}
+
+namespace {
+
+Node* descend(Node& at, const std::string& part) {
+  if (at.kind == Node::Kind::kNull) at.kind = Node::Kind::kMap;
+  if (at.kind == Node::Kind::kMap) {
+    if (Node* found = at.find(part)) return found;
+    return nullptr;
+  }
+  if (at.kind != Node::Kind::kList) return nullptr;
+  std::size_t index = 0;
+  const auto [end, code] = std::from_chars(part.data(), part.data() + part.size(), index);
+  if (code != std::errc() || end != part.data() + part.size() || index >= at.items.size()) return nullptr;
+  return &at.items[index];
+}
+
+}  // namespace
+
+void apply_override(Node& document, const std::string& assignment, Diagnostics& diagnostics) {
+  const auto whole = std::make_shared<const SourceText>("command line", assignment);
+  const std::size_t equals = assignment.find('=');
+  const std::string example = "write `key.path=value`, for example `cell_types.hepatocyte.radius=\"7 um\"` or `time.end=2h`";
+  if (equals == std::string::npos || equals == 0) {
+    diagnostics.error(110, place_at(whole, 0, assignment.size()), "'" + assignment + "' does not set a key", example);
+    return;
+  }
+  // The value keeps its column: blanks stand where the key path was.
+  const auto value_text = std::make_shared<const SourceText>("command line", std::string(equals + 1, ' ') + assignment.substr(equals + 1));
+  Diagnostics of_value;
+  Node value = parse_document(value_text, of_value);
+  if (of_value.has_errors()) {
+    diagnostics.error(110, place_at(whole, equals + 1, assignment.size()), "the value of '" + assignment + "' cannot be read", example);
+    return;
+  }
+  // Errors about the value shall show the argument as it was typed.
+  const auto retarget = [&whole](auto& self, Node& node) -> void {
+    node.place.source = whole;
+    for (Node::Entry& entry : node.entries) entry.key_place.source = whole, self(self, entry.value);
+    for (Node& item : node.items) self(self, item);
+  };
+  retarget(retarget, value);
+
+  Node* at = &document;
+  std::size_t begin = 0;
+  while (true) {
+    const std::size_t dot = std::min(assignment.find('.', begin), equals);
+    const std::string part = assignment.substr(begin, dot - begin);
+    const Place here = place_at(whole, begin, dot - begin);
+    Node* next = part.empty() ? nullptr : descend(*at, part);
+    if (!next && !part.empty() && at->kind == Node::Kind::kMap) {
+      Node fresh;
+      fresh.place = here;
+      at->entries.push_back({part, here, std::move(fresh)});
+      next = &at->entries.back().value;
+    }
+    if (!next) {
+      diagnostics.error(110, here, "'" + assignment.substr(0, dot) + "' is not a place in the study", example);
+      return;
+    }
+    at = next;
+    if (dot == equals) break;
+    begin = dot + 1;
+  }
+  *at = std::move(value);
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,41 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenarios/study/diagnostics.h"
+
+namespace morula::scenarios {
+
+/// A YAML document as the user wrote it: every key and value with its place, scalars as text. Numbers are read later, by the key they
+/// belong to, so that `010` or `1e3 kPa` never depend on what YAML takes them for.
+struct Node {
+  enum class Kind { kNull, kScalar, kList, kMap };
+  struct Entry;
+
+  Kind kind = Kind::kNull;
+  std::string text;             ///< of a scalar
+  Place place;
+  std::vector<Entry> entries;   ///< of a map, in the order of the file
+  std::vector<Node> items;      ///< of a list
+
+  [[nodiscard]] const Node* find(std::string_view key) const;
+  [[nodiscard]] Node* find(std::string_view key);
+};
+
+struct Node::Entry {
+  std::string key;
+  Place key_place;
+  Node value;
+};
+
+/// Parse YAML text. Refused with a message: syntax errors (E100), double keys (E102), tabs in indentation (E105), anchors, aliases, merge
+/// keys and tags (E106), more than one document or none (E107), keys that are not words (E112). What could be parsed is returned.
+Node parse_document(const std::shared_ptr<const SourceText>& source, Diagnostics& diagnostics);
+
+/// Put `key.path=value` of the command line into the document, as if it were written there. Parts of the path are keys, or numbers (from 0)
+/// of list items. Errors (E110) point at the command line.
+void apply_override(Node& document, const std::string& assignment, Diagnostics& diagnostics);
+
+}  // namespace morula::scenarios

@@ -1,0 +1,146 @@
+#pragma once
+#include <vector>
+
+#include "scenarios/study/section.h"
+
+namespace morula::scenarios::draft {
+
+/// The study as its file says it, key by key, in internal units: the form between the YAML and the Model. Every struct has one declaration in
+/// declare.h and nothing here is looked at by the simulation.
+
+struct Time {
+  Given<double> end, step, output, checkpoint;
+  Given<std::string> integrator;
+};
+
+struct Numerics {
+  Given<std::uint64_t> newton;
+  Given<double> newton_stop, tolerance, later_tolerance, max_displacement, initial_step, skin, start_cap;
+};
+
+/// `all`, an axis, or one face; the most particular one holds.
+struct DomainBoundary {
+  Given<std::string> all, x, y, z, x_low, x_high, y_low, y_high, z_low, z_high;
+};
+
+struct Domain {
+  Given<Vec3d> size, center;
+  DomainBoundary boundary;
+};
+
+struct Spread {
+  Given<double> mean, spread;
+};
+
+struct CellType {
+  Spread radius;
+  Given<std::string> body;
+  bool has_cycle = false;
+  Given<std::string> cycle_model, growth, axis;
+  Spread cycle_duration;
+  Given<double> pressure_above;
+  bool has_death = false;
+  Given<std::string> death_field;
+  Given<double> death_below, death_rate, shrink_time, removed_below;
+  Given<double> migration_speed, persistence;
+  Given<double> friction_cell_cell, friction_obstacle, friction_medium;
+  std::vector<Named<Given<double>>> adhesion;
+  Given<std::string> sphere_law;
+  Given<double> sphere_young, sphere_poisson;
+  Given<std::uint64_t> nodes;
+  Given<double> young, thickness, poisson, tension, damping;
+  Given<double> bending, bulk_modulus, shape_stiffness, fold_stiffness, fold_angle;
+};
+
+struct Contact {
+  Given<double> range, repulsion;
+  Given<std::uint64_t> points;
+};
+
+struct Shape {
+  bool present = false;
+  Given<Vec3d> center, size, normal, low_end, high_end;
+  Given<double> radius;
+};
+
+struct Obstacle {
+  Given<std::string> stl, obj;
+  Given<double> scale;
+  Shape plane, sphere, cylinder, capsule, box;
+  Given<std::string> side;
+  Given<Vec3d> velocity;
+};
+
+struct Initial {
+  Given<std::string> type;
+  Given<std::uint64_t> count;
+  Given<std::string> fill;
+  Given<Vec3d> center, size;
+  Given<double> radius;
+  Given<std::vector<Vec3d>> at;
+  Given<std::string> age;
+  Given<std::string> csv;
+  Given<double> coincident_shift, coincident_below;
+  Given<std::string> body;
+  Given<double> start_volume, inflate;
+};
+
+struct FieldBoundary {
+  Given<double> all, x_low, x_high, y_low, y_high, z_low, z_high;
+};
+
+struct Uptake {
+  Given<double> rate, half_saturation;
+};
+
+struct Field {
+  Given<double> diffusion, decay, initial, voxel, tolerance;
+  FieldBoundary boundary;
+  std::vector<Named<Uptake>> uptake;
+};
+
+struct Region {
+  Given<std::string> name, shape, body;
+  Given<Vec3d> center, size, normal;
+  Given<double> radius, margin;
+  Given<bool> follow_tissue;
+};
+
+struct Trigger {
+  Given<std::string> promote, demote, type;
+  Given<double> hold;
+};
+
+struct Coupling {
+  Given<std::uint64_t> max_shells;
+  Given<double> hold;
+  std::vector<Named<Region>> regions;
+  std::vector<Named<Trigger>> triggers;
+};
+
+struct Output {
+  Given<std::vector<std::string>> series, formats;
+  Given<bool> report;
+};
+
+struct Limits {
+  Given<double> volume_error, overlap, field_balance;
+};
+
+struct Study {
+  Given<std::uint64_t> schema, seed;
+  Given<std::string> name, title, scenario;
+  Time time;
+  Numerics numerics;
+  Domain domain;
+  std::vector<Named<CellType>> cell_types;
+  Contact contact;
+  std::vector<Named<Obstacle>> geometry;
+  std::vector<Named<Initial>> initial;
+  std::vector<Named<Field>> fields;
+  Coupling coupling;
+  Output output;
+  Limits limits;
+};
+
+}  // namespace morula::scenarios::draft

@@ -1,0 +1,78 @@
+#include "scenarios/study/error_codes.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace morula::scenarios {
+namespace {
+
+constexpr ErrorCode kCodes[] = {
+    {100, "not valid YAML", "The text breaks the rules of YAML at or just before this place: a bracket or quote that is not closed, a missing colon, "
+                            "an indentation that fits no section."},
+    {101, "unknown key", "The section has no key of this name. Keys are never ignored: a typing error would silently leave the default."},
+    {102, "double key", "The same key stands twice in one section. YAML libraries keep one of them without a word; Morula refuses both."},
+    {103, "missing key", "A key that has no default is not given."},
+    {104, "wrong structure", "The key needs a single value, a list or a map, and something else (or nothing) stands there."},
+    {105, "tab in the indentation", "YAML is indented by spaces only."},
+    {106, "anchor, alias, merge key or tag", "These parts of YAML hide where a value comes from, and merge keys are ignored by some readers. Write the value out."},
+    {107, "empty study or more than one document", "A study file is exactly one YAML document that holds keys."},
+    {108, "word not allowed", "The key takes one of a few words."},
+    {109, "not a whole number", "The key counts something: digits only, no unit, no exponent."},
+    {110, "override cannot be applied", "An override on the command line has the form `key.path=value`; list items are numbered from 0."},
+    {111, "keys that exclude each other, or one of several is needed", "Some keys are alternatives of each other."},
+    {112, "not a name", "Names begin with a letter and hold letters, digits, `_` and `-`, at most 64 characters; a name stands for one thing only."},
+    {113, "comparison cannot be read", "A trigger is written `pressure > 1 kPa` or `oxygen < 0.05 mM`."},
+    {201, "unit missing", "Every number with a dimension carries its unit: a bare 5 could be micrometres or metres."},
+    {202, "unit not known", "The unit is not in the units database (udunits2). Prefixes and products are written `kPa`, `N s/m^3`, `amol/s`."},
+    {203, "unit of another quantity", "The unit is known but measures something else than the key."},
+    {204, "not a number", "A number is written with digits, a point and an exponent: 12, 0.5, 5e10. No comma, no thousands separator."},
+    {205, "unit where none belongs", "The key is a plain number."},
+    {301, "not finite", "NaN and infinity are refused everywhere; where there is no limit, a word such as `never` or `unlimited` says so."},
+    {302, "out of range", "The value is outside what makes sense physically or numerically."},
+    {303, "wrong number of components", "A place, size or direction has three numbers: [x, y, z]."},
+    {304, "leading zero", "A number such as 010 is ten to people and eight to YAML; write 10."},
+    {401, "no such cell type or obstacle", "The name is not declared under `cell_types` or `geometry`."},
+    {402, "no such field", "The name is not declared under `fields`."},
+    {403, "no such observable or library study", "The name is not known to this program."},
+    {404, "too many of something", "The study declares more cell types, fields or cells than the program can hold."},
+    {501, "thresholds that make cells flip back and forth", "A trigger needs a demote threshold on the other side of the promote threshold, with a gap between."},
+    {502, "outside the domain", "A region, an obstacle or a shape to fill does not lie where cells can be."},
+    {503, "contact range does not fit the mesh", "The adhesive range c must be between a quarter and a half of the mean edge of the shell's mesh: below, adhesion depends on "
+                                               "where the nodes are (warning); above, faces feel more than their opposite (error)."},
+    {504, "no friction with the surroundings", "A cell that touches nothing would have no friction at all, and the force balance no unique solution."},
+    {505, "initial cell outside the domain", "A cell's centre at time 0 lies outside the domain."},
+    {506, "cells do not fit", "The cells of one entry have more volume than the shape they shall fill."},
+    {507, "step above the stability limit", "Explicit Euler diverges with this step. Use `auto`, a smaller step, or the implicit integrator."},
+    {508, "time that is never reached", "An output or checkpoint interval is longer than the run: nothing would be written before its end."},
+    {509, "adhesion stronger than the cortex", "With W >= 2 tension two free surfaces spread on each other without limit; only the springs of the cortex stop them, and the "
+                                             "contact angle is theirs (warning)."},
+    {510, "values that contradict each other", "Two places of the study say different things about one quantity."},
+    {511, "domain too small", "With periodic faces a cell would touch its own image."},
+    {512, "field cannot be resolved", "The voxel size gives too many or too few voxels."},
+    {601, "file missing", "A file that the study names does not exist. Paths are relative to the folder of the study."},
+    {602, "file cannot be read", "It is a folder, a device, or its permissions forbid reading."},
+    {603, "file too large", "Study files are read up to 5 MiB, CSV files up to 500 MiB."},
+    {604, "binary file", "The file holds a zero byte: it is not text."},
+    {605, "not UTF-8", "The file holds bytes that are no UTF-8 text."},
+    {610, "CSV header", "The first line names the columns: x, y, z and type are needed; radius, phase and model are optional; others are listed and left aside."},
+    {611, "CSV row with too few or too many values", "Every row has as many values as the header."},
+    {612, "CSV value", "The value cannot be read: NA, NaN and infinite values are refused."},
+    {613, "CSV without cells", "The file has a header and no rows."},
+    {620, "mesh cannot be read", "The STL or OBJ file is damaged or empty."},
+    {621, "mesh is open", "Every edge of the surface must have exactly two faces."},
+    {622, "mesh is not oriented", "Neighbouring faces must have the same sense of rotation, counter-clockwise seen from outside; a closed surface encloses a positive "
+                                  "volume."},
+    {623, "mesh crosses itself", "Two faces that are not neighbours intersect."},
+    {624, "mesh has degenerate or double faces", "A face has no area, or the same face stands twice."},
+};
+
+}  // namespace
+
+std::span<const ErrorCode> error_codes() { return kCodes; }
+
+const ErrorCode* find_error_code(int code) {
+  const auto found = std::find_if(std::begin(kCodes), std::end(kCodes), [code](const ErrorCode& e) { return e.code == code; });
+  return found == std::end(kCodes) ? nullptr : found;
+}
+
+}  // namespace morula::scenarios

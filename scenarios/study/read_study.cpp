@@ -1,0 +1,76 @@
+#include "scenarios/study/build.h"
+#include "scenarios/study/declare.h"
+#include "scenarios/study/document.h"
+#include "scenarios/study/read_section.h"
+#include "scenarios/study/study.h"
+#include "scenarios/study/write_section.h"
+
+namespace morula::scenarios {
+namespace {
+
+void read_draft(const Node& document, const std::shared_ptr<const SourceText>& source, draft::Study& draft, Diagnostics& diagnostics) {
+  const UnitSystem units;
+  ReadSection section(&document, Place{source, 1, 1, 1}, "", units, diagnostics);
+  declare_study(section, draft);
+  section.finish();
+}
+
+void build(BuildContext& context) {
+  build_domain(context);
+  build_cell_types(context);
+  build_geometry(context);
+  build_pairs(context);
+  build_fields(context);
+  build_initial(context);
+  build_coupling(context);
+  build_time_and_numerics(context);
+  check_whole(context);
+  Study& study = context.study;
+  const draft::Study& draft = context.draft;
+  study.name = draft.name.value;
+  study.title = draft.title.value;
+  study.scenario = draft.scenario.value;
+  study.output = {draft.output.series.value, draft.output.formats.value, draft.output.report.value};
+}
+
+Result<Study, Diagnostics> read_source(const std::shared_ptr<const SourceText>& source, const std::filesystem::path& folder,
+                                       const ReadOptions& options, Diagnostics diagnostics) {
+  Node document = parse_document(source, diagnostics);
+  if (document.kind == Node::Kind::kNull) return diagnostics;  // what could not be parsed has been told
+  if (document.kind != Node::Kind::kMap) {
+    diagnostics.error(104, document.place, "a study is a map (`key: value`)", "`morula new` writes one to start from");
+    return diagnostics;
+  }
+  for (const std::string& assignment : options.overrides) apply_override(document, assignment, diagnostics);
+
+  draft::Study draft;
+  Study study;
+  read_draft(document, source, draft, diagnostics);
+  BuildContext context{draft, study, diagnostics, folder, options};
+  build(context);
+  diagnostics.sort();
+  if (options.strict) diagnostics.warnings_to_errors();
+  if (diagnostics.has_errors()) return diagnostics;
+  study.source_path = source->name;
+  study.source_text = source->bytes;
+  study.resolved_text = write_study(draft);
+  study.warnings = std::move(diagnostics);
+  return study;
+}
+
+}  // namespace
+
+Result<Study, Diagnostics> read_study(const std::filesystem::path& path, const ReadOptions& options) {
+  Diagnostics diagnostics;
+  const auto source = read_text_file(path, path.string(), kMaxStudyBytes, {}, diagnostics);
+  if (!source) return diagnostics;
+  std::error_code ignored;
+  return read_source(source, std::filesystem::absolute(path, ignored).parent_path(), options, std::move(diagnostics));
+}
+
+Result<Study, Diagnostics> read_study_text(const std::string& shown_name, const std::string& text, const std::filesystem::path& folder,
+                                           const ReadOptions& options) {
+  return read_source(std::make_shared<const SourceText>(shown_name, text), folder, options, {});
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,119 @@
+#include "coupling/behaviours/migration.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "coupling/behaviours/birth.h"
+
+namespace morula {
+namespace {
+
+CellType walker() {
+  CellType type;
+  type.migration_speed = 0.01;
+  type.migration_persistence = 600.0;
+  return type;
+}
+
+/// Mean squared displacement of n walkers after this many steps with the velocity held over each.
+double mean_square_displacement(int walkers, int steps, double dt, std::uint32_t seed) {
+  const CellType type = walker();
+  double sum = 0.0;
+  for (int k = 1; k <= walkers; ++k) {
+    const CellId id = CellId::founder(k);
+    Vec3d velocity = initial_migration_velocity(id, type, seed);
+    Vec3d place{};
+    for (int n = 0; n < steps; ++n) {
+      place += dt * velocity;
+      velocity = next_migration_velocity(velocity, id, type, seed, n, dt);
+    }
+    sum += norm2(place);
+  }
+  return sum / walkers;
+}
+
+TEST(Migration, DisplacementFollowsTheDiscreteReference) {
+  // S = 0.01 µm/s, P = 600 s, dt = 60 s (physics page): N = 10 → 26.585218, N = 60 → 360.598232 µm²; the standard error of 10⁴
+  // walkers in three dimensions is 0.82 %, three of them allowed.
+  EXPECT_NEAR(mean_square_displacement(10000, 10, 60.0, 1), 26.585218, 3 * 0.0082 * 26.585218);
+  EXPECT_NEAR(mean_square_displacement(10000, 60, 60.0, 2), 360.598232, 3 * 0.0082 * 360.598232);
+}
+
+TEST(Migration, SmallStepsApproachTheContinuousReference) {
+  // MSD(600 s) = 26.487320 µm².
+  EXPECT_NEAR(mean_square_displacement(10000, 60, 10.0, 3), 26.487320, 3 * 0.0082 * 26.487320);
+}
+
+TEST(Migration, StaysStationaryAndForgetsExactly) {
+  const CellType type = walker();
+  const int n = 20000;
+  double start = 0.0, end = 0.0, correlation = 0.0;
+  for (int k = 1; k <= n; ++k) {
+    const CellId id = CellId::founder(k);
+    const Vec3d u0 = initial_migration_velocity(id, type, 8);
+    const Vec3d u1 = next_migration_velocity(u0, id, type, 8, 5, 300.0);
+    start += norm2(u0) / n;
+    end += norm2(u1) / n;
+    correlation += dot(u0, u1) / n;
+  }
+  // ⟨u²⟩ = S², relative standard error √(2/3n); ⟨u0·u1⟩ = S² e^(−1/2).
+  const double error = 4 * std::sqrt(2.0 / 3.0 / n);
+  EXPECT_NEAR(start / 1e-4, 1.0, error);
+  EXPECT_NEAR(end / 1e-4, 1.0, error);
+  EXPECT_NEAR(correlation / 1e-4, std::exp(-0.5), error);
+}
+
+TEST(Migration, ComponentsAreIndependent) {
+  const CellType type = walker();
+  const int n = 20000;
+  double xy = 0.0, xz = 0.0, yz = 0.0;
+  for (int k = 1; k <= n; ++k) {
+    const Vec3d u = next_migration_velocity({}, CellId::founder(k), type, 8, 11, 1e6);
+    xy += u.x * u.y;
+    xz += u.x * u.z;
+    yz += u.y * u.z;
+  }
+  const double bound = 4 * (1e-4 / 3) * std::sqrt(n);
+  EXPECT_LT(std::abs(xy), bound);
+  EXPECT_LT(std::abs(xz), bound);
+  EXPECT_LT(std::abs(yz), bound);
+}
+
+TEST(Migration, SuccessiveStepsAndTheStartAreUncorrelated) {
+  const CellType type = walker();
+  const int n = 20000;
+  double steps = 0.0, start = 0.0;
+  for (int k = 1; k <= n; ++k) {
+    const CellId id = CellId::founder(k);
+    const Vec3d fresh = next_migration_velocity({}, id, type, 8, 0, 1e6);
+    steps += dot(fresh, next_migration_velocity({}, id, type, 8, 1, 1e6));
+    start += dot(fresh, initial_migration_velocity(id, type, 8));
+  }
+  const double bound = 4 * (1e-4 / 3) * std::sqrt(3.0 * n);
+  EXPECT_LT(std::abs(steps), bound);
+  EXPECT_LT(std::abs(start), bound);
+}
+
+TEST(Migration, ForceMovesTheIsolatedCellWithItsWantedVelocity) {
+  CellType type = walker();
+  CellRow row = make_founder(CellId::founder(3), 0, type, 1, 0.0, false);
+  row.migration_velocity = {0.01, -0.02, 0.03};
+  // Γ_cm = 0.1·4π·36 = 45.24 nN·s/µm for R = 6 and 31.416 for R = 5 (physics page).
+  EXPECT_NEAR(medium_friction_of(0.1, row.target_volume), 45.24, 0.005);
+  EXPECT_NEAR(medium_friction_of(0.1, 523.5987755983), 31.41592654, 1e-8);
+  const Vec3d force = migration_force(row, type, row.target_volume);
+  EXPECT_NEAR(force.x, 0.4523893421, 1e-9);
+  EXPECT_NEAR(force.y / force.x, -2.0, 1e-14);
+  EXPECT_NEAR(force.z / force.x, 3.0, 1e-14);
+}
+
+TEST(Migration, IsOffWithoutSpeed) {
+  CellType type = walker();
+  type.migration_speed = 0.0;
+  EXPECT_EQ(next_migration_velocity({1, 1, 1}, CellId::founder(1), type, 1, 0, 60.0), Vec3d{});
+  EXPECT_EQ(initial_migration_velocity(CellId::founder(1), type, 1), Vec3d{});
+}
+
+}  // namespace
+}  // namespace morula

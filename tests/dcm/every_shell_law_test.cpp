@@ -1,0 +1,144 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "dcm/builtin.h"
+#include "tests/dcm/shell_fixtures.h"
+
+namespace morula::dcm::testing {
+namespace {
+
+/// Two cell types in which only this law acts.
+std::vector<ShellParameters> only(const ShellLaw& law) {
+  std::vector<ShellParameters> types(2, nothing());
+  types[0].*law.strength = 0.7;
+  types[1].*law.strength = 1.1;
+  for (ShellParameters& p : types) p.barrier_angle = 0.2;  // so low that it acts on most edges of a sphere
+  return types;
+}
+
+std::vector<ShellLaw> conservative_laws() {
+  std::vector<ShellLaw> out;
+  for (const ShellLaw& law : shell_laws()) {
+    if (law.conservative) out.push_back(law);
+  }
+  return out;
+}
+
+class EveryShellLaw : public ::testing::TestWithParam<ShellLaw> {};
+
+template <class T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+TEST_P(EveryShellLaw, ForceIsMinusTheGradientOfItsEnergy) {
+  Shells shells = rough_shells();
+  for (double& v : shells.reference_volume) v *= 1.1;
+  const auto types = only(GetParam());
+  const auto at = mechanics(shells, types, shells.position);
+  ASSERT_GT(norm(at.force), 1e-3);
+  for (int trial = 0; trial < 20; ++trial) {
+    auto direction = random_vectors(shells.position.size(), 100 + trial);
+    const double scale = 1.0 / norm(direction), h = 2e-4;
+    for (Vec3d& d : direction) d *= scale;
+    const auto slope = [&](double step) {
+      return (sum(mechanics(shells, types, moved(shells.position, direction, step)).energy) -
+              sum(mechanics(shells, types, moved(shells.position, direction, -step)).energy)) / (2.0 * step);
+    };
+    EXPECT_NEAR(slope(h), -dot(at.force, direction), 1e-7 * norm(at.force));
+  }
+}
+
+TEST_P(EveryShellLaw, ExertsNeitherNetForceNorTorque) {
+  const Shells shells = rough_shells();
+  const auto at = mechanics(shells, only(GetParam()), shells.position);
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    Vec3d force{}, torque{};
+    double size = 0.0;
+    for (std::uint32_t i = shells.first_node[s]; i < shells.first_node[s + 1]; ++i) {
+      const Vec3d arm = shells.position[i] - shells.position[shells.first_node[s]];
+      force += at.force[i];
+      torque += cross(arm, at.force[i]);
+      size += morula::norm(at.force[i]);
+    }
+    ASSERT_GT(size, 0.0);
+    EXPECT_LE(morula::norm(force), 1e-12 * size);
+    EXPECT_LE(morula::norm(torque), 1e-12 * 12.0 * size);
+  }
+}
+
+TEST_P(EveryShellLaw, DoesNotFeelRigidMotion) {
+  const Shells shells = rough_shells();
+  const auto types = only(GetParam());
+  const auto at = mechanics(shells, types, shells.position);
+  const double c = std::cos(0.9), s = std::sin(0.9);
+  const auto turn = [&](const Vec3d& v) { return Vec3d{c * v.x - s * v.y, s * v.x + c * v.y, v.z}; };
+  std::vector<Vec3d> x = shells.position;
+  for (Vec3d& v : x) v = turn(v) + Vec3d{3.0, -7.0, 11.0};
+  const auto there = mechanics(shells, types, x);
+  for (std::size_t k = 0; k < shells.size(); ++k) EXPECT_NEAR(there.energy[k], at.energy[k], 3e-12 * (1.0 + at.energy[k]));
+  for (std::size_t i = 0; i < x.size(); ++i) EXPECT_LE(morula::norm(there.force[i] - turn(at.force[i])), 1e-11 * norm(at.force));
+}
+
+TEST_P(EveryShellLaw, GivesTheSameBitsInOneFourAndEightLanes) {
+  const Shells shells = rough_shells();
+  const auto types = only(GetParam());
+  const auto one = mechanics(shells, types, shells.position, 1);
+  for (const int lanes : {4, 8}) {
+    const auto many = mechanics(shells, types, shells.position, lanes);
+    EXPECT_TRUE(same_bits(one.energy, many.energy)) << lanes << " lanes";
+    EXPECT_TRUE(same_bits(one.volume, many.volume)) << lanes << " lanes";
+    EXPECT_TRUE(same_bits(one.pressure, many.pressure)) << lanes << " lanes";
+    EXPECT_EQ(one.force, many.force) << lanes << " lanes";
+  }
+}
+
+TEST_P(EveryShellLaw, IsSilentInTheReferenceShapeWhereItHasOne) {
+  const Shells shells = one_shell(162);
+  auto types = only(GetParam());
+  for (ShellParameters& p : types) p.barrier_angle = 1.6;
+  const auto at = mechanics(shells, types, shells.position);
+  if (GetParam().zero_in_reference) {
+    EXPECT_LE(norm(at.force), 1e-11);
+    EXPECT_LE(std::abs(at.energy[0]), 1e-11);
+  } else {
+    EXPECT_GT(norm(at.force), 1e-3);
+  }
+}
+
+TEST_P(EveryShellLaw, ForceIsProportionalToItsStrength) {
+  const Shells shells = rough_shells();
+  auto types = only(GetParam());
+  const auto once = mechanics(shells, types, shells.position);
+  for (ShellParameters& p : types) p.*GetParam().strength *= 2.0;
+  const auto twice = mechanics(shells, types, shells.position);
+  for (std::size_t i = 0; i < once.force.size(); ++i) {
+    EXPECT_LE(morula::norm(twice.force[i] - 2.0 * once.force[i]), 1e-14 * norm(once.force));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryShellLaw, ::testing::ValuesIn(conservative_laws()),
+                         [](const auto& test) { return test.param.info.name; });
+
+TEST(ShellLawRegistry, DescribesEveryLawCompletely) {
+  std::vector<std::string> names;
+  for (const ShellLaw& law : shell_laws()) {
+    EXPECT_FALSE(law.info.name.empty() || law.info.title.empty() || law.info.equation.empty() || law.info.source.empty());
+    EXPECT_NE(law.strength, nullptr);
+    EXPECT_FALSE(law.info.parameters.empty()) << law.info.name;
+    for (const LawParameter& p : law.info.parameters) {
+      EXPECT_FALSE(p.name.empty() || p.quantity.empty() || p.unit.empty() || p.source.empty() || p.doc.empty()) << law.info.name;
+      EXPECT_LT(p.minimum, p.maximum) << p.name;
+      ASSERT_TRUE(p.fallback.has_value()) << p.name;
+      EXPECT_GE(*p.fallback, p.minimum) << p.name;
+      EXPECT_LE(*p.fallback, p.maximum) << p.name;
+    }
+    names.push_back(law.info.name);
+  }
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end()) << "names are unique";
+}
+
+}  // namespace
+}  // namespace morula::dcm::testing

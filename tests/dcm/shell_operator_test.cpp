@@ -1,0 +1,324 @@
+#include <gtest/gtest.h>
+
+#define EIGEN_DONT_VECTORIZE  // the compiler warns about Eigen's AVX-512 reductions
+#include <Eigen/Dense>
+#include <cstring>
+
+#include "dcm/builtin.h"
+#include "dcm/laws/dihedral_barrier.h"
+#include "dcm/laws/triangle_shape.h"
+#include "dcm/shell_operator.h"
+#include "dcm/stencils/hinge.h"
+#include "tests/dcm/shell_fixtures.h"
+
+namespace morula::dcm::testing {
+namespace {
+
+struct Assembled {
+  ShellBlocks blocks;
+  ShellFriction friction;
+  ShellOperator matrix;
+};
+
+Assembled assemble(const Shells& shells, const std::vector<ShellParameters>& types, double dt, int lanes = 8,
+                   std::span<const double> contact_energy = {}) {
+  Assembled a;
+  a.blocks = make_shell_blocks(shells, lanes);
+  a.friction = friction_of(shells, a.blocks, types, shells.position);
+  assemble_shell_operator(a.blocks, shells, types, shells.position, a.friction, contact_energy, dt, a.matrix);
+  return a;
+}
+
+std::vector<Float4> to_float4(std::span<const Vec3d> v) {
+  std::vector<Float4> out(v.size());
+  for (std::size_t i = 0; i < v.size(); ++i) out[i] = {static_cast<float>(v[i].x), static_cast<float>(v[i].y), static_cast<float>(v[i].z), 0.0f};
+  return out;
+}
+
+std::vector<Vec3d> apply(const Assembled& a, const Shells& shells, std::span<const Vec3d> p) {
+  std::vector<Float4> q(p.size(), Float4{9.0f, 9.0f, 9.0f, 9.0f});
+  apply_shell_operator(a.blocks, shells, a.matrix, to_float4(p), q);
+  std::vector<Vec3d> out(p.size());
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    EXPECT_EQ(q[i].w, 0.0f);
+    out[i] = {q[i].x, q[i].y, q[i].z};
+  }
+  return out;
+}
+
+Eigen::MatrixXd dense(const Assembled& a, const Shells& shells) {
+  const std::size_t n = 3 * shells.position.size();
+  Eigen::MatrixXd matrix(n, n);
+  for (std::size_t column = 0; column < n; ++column) {
+    std::vector<Vec3d> unit(shells.position.size());
+    unit[column / 3][column % 3] = 1.0;
+    const auto result = apply(a, shells, unit);
+    for (std::size_t row = 0; row < n; ++row) matrix(row, column) = result[row / 3][row % 3];
+  }
+  return matrix;
+}
+
+/// A rough shell of 42 nodes, far from its reference shape: stretched, so that tension, shape and barrier all act.
+Shells small_rough_shell() {
+  Shells shells = one_shell(42, 3.0);
+  const auto noise = random_vectors(shells.position.size(), 3);
+  for (std::size_t i = 0; i < shells.position.size(); ++i) {
+    Vec3d& x = shells.position[i];
+    x = Vec3d{1.25 * x.x, x.y, 0.8 * x.z} + 0.1 * noise[i];
+  }
+  return shells;
+}
+
+std::vector<ShellParameters> everything() {
+  ShellParameters p;
+  p.spring_stiffness = 0.173205;
+  p.hinge_stiffness = 1.0264e-3;
+  p.tension = 0.5;
+  p.barrier_angle = 0.5;
+  ShellParameters q = p;
+  q.tension = 0.8, q.shape_stiffness = 0.1, q.edge_damping = 0.3;
+  return {p, q};
+}
+
+class EveryShellLawInTheOperator : public ::testing::TestWithParam<ShellLaw> {};
+
+TEST_P(EveryShellLawInTheOperator, IsSymmetricAndPositiveSemiDefinite) {
+  const ShellLaw& law = GetParam();
+  const Shells shells = small_rough_shell();
+  ShellParameters p = nothing();
+  p.*law.strength = 0.7;
+  p.barrier_angle = 0.2;
+  const Eigen::MatrixXd matrix = dense(assemble(shells, {p}, 10.0), shells);
+  const double largest = matrix.cwiseAbs().maxCoeff();
+  if (!law.in_operator) {
+    EXPECT_EQ(largest, 0.0);
+    return;
+  }
+  ASSERT_GT(largest, 1e-3);
+  EXPECT_LE((matrix - matrix.transpose()).cwiseAbs().maxCoeff(), 1e-6 * largest);
+  const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues();
+  EXPECT_GE(eigenvalues.minCoeff(), -2e-6 * eigenvalues.maxCoeff());
+  EXPECT_GT(eigenvalues.maxCoeff(), 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryShellLawInTheOperator, ::testing::ValuesIn(shell_laws()),
+                         [](const auto& test) { return test.param.info.name; });
+
+TEST(ShellOperator, StaysPositiveDefiniteUnderAdhesionStrongerThanTension) {
+  const Shells shells = small_rough_shell();
+  ShellParameters p = nothing();
+  p.tension = 0.5;
+  std::vector<double> contact(shells.topology(0).face_count());
+  for (std::size_t f = 0; f < contact.size(); ++f) contact[f] = f % 3 == 0 ? -0.9 : f % 3 == 1 ? -0.2 : 0.3;
+  const Eigen::VectorXd with = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(assemble(shells, {p}, 10.0, 8, contact), shells)).eigenvalues();
+  EXPECT_GE(with.minCoeff(), -2e-6 * with.maxCoeff());
+  EXPECT_GT(with.maxCoeff(), 0.1);
+}
+
+TEST(ShellOperator, TensionTakesTheContactEnergyOfItsFace) {
+  const Shells shells = small_rough_shell();
+  ShellParameters p = nothing(), lower = nothing();
+  p.tension = 0.5, lower.tension = 0.3;
+  const std::vector<double> contact(shells.topology(0).face_count(), -0.2);
+  const auto d = random_vectors(shells.position.size(), 4);
+  const auto a = apply(assemble(shells, {p}, 10.0, 8, contact), shells, d), b = apply(assemble(shells, {lower}, 10.0), shells, d);
+  for (std::size_t i = 0; i < d.size(); ++i) EXPECT_LE(morula::norm(a[i] - b[i]), 1e-5 * norm(b));
+}
+
+/// K̃ d for the laws whose Hessian is positive semi-definite at this state is the derivative of the force.
+void expect_force_derivative(const Shells& shells, const std::vector<ShellParameters>& types, double tolerance) {
+  const double dt = 10.0, h = 1e-5;
+  const auto a = assemble(shells, types, dt);
+  const auto d = random_vectors(shells.position.size(), 21);
+  const auto plus = mechanics(shells, types, moved(shells.position, d, h)), minus = mechanics(shells, types, moved(shells.position, d, -h));
+  const auto result = apply(a, shells, d);
+  std::vector<Vec3d> expected(d.size());
+  for (std::size_t i = 0; i < d.size(); ++i) expected[i] = (minus.force[i] - plus.force[i]) * (dt / (2.0 * h));
+  ASSERT_GT(norm(expected), 0.0);
+  for (std::size_t i = 0; i < d.size(); ++i) EXPECT_LE(morula::norm(result[i] - expected[i]), tolerance * norm(expected));
+}
+
+TEST(ShellOperator, IsTheHessianOfStretchedSprings) {
+  Shells shells = rough_shells();
+  for (double& length : shells.rest_length) length *= 0.4;  // every edge of the rough shells is stretched
+  std::vector<ShellParameters> types(2, nothing());
+  for (ShellParameters& p : types) p.spring_stiffness = 0.173205;
+  expect_force_derivative(shells, types, 1e-5);
+}
+
+TEST(ShellOperator, IsTheHessianOfThePressureAtTheReferenceVolume) {
+  Shells shells = rough_shells();
+  std::vector<ShellParameters> types(2, nothing());
+  for (ShellParameters& p : types) p.bulk_modulus = 2.5;
+  const auto at = mechanics(shells, types, shells.position);
+  for (std::size_t s = 0; s < shells.size(); ++s) shells.reference_volume[s] = at.volume[s];
+  expect_force_derivative(shells, types, 1e-5);
+}
+
+TEST(ShellOperator, TensionIsTheSecondDerivativeOfTheAreaAlongNormals) {
+  // Flat hexagon pieces do not exist on a closed mesh: compare vᵀKv of a single face's normal motion with ½cot sums by finite
+  // differences of Σ A over faces with frozen normals: A_T(v) ≈ A + ½ vᵀ S v for motion along its own normal.
+  const Shells shells = small_rough_shell();
+  ShellParameters p = nothing();
+  p.tension = 1.0;
+  const auto d = random_vectors(shells.position.size(), 8);
+  const auto q = apply(assemble(shells, {p}, 1.0), shells, d);
+  double expected = 0.0;
+  const double h = 1e-3;
+  for (const Triangle& t : shells.topology(0).faces()) {
+    const auto& x = shells.position;
+    const Vec3d n = normalized(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]));
+    const auto area = [&](double step) {
+      const auto at = [&](int c) { return x[t[c]] + n * (step * morula::dot(n, d[t[c]])); };
+      return 0.5 * morula::norm(cross(at(1) - at(0), at(2) - at(0)));
+    };
+    expected += (area(h) - 2.0 * area(0.0) + area(-h)) / (h * h);
+  }
+  EXPECT_NEAR(dot(d, q), expected, 1e-4 * expected);
+}
+
+TEST(ShellOperator, ShapeTermIsGaussNewtonPlusItsIsotropicPart) {
+  const Shells shells = small_rough_shell();
+  ShellParameters p = nothing();
+  p.shape_stiffness = 0.3;
+  const auto d = random_vectors(shells.position.size(), 9);
+  const auto q = apply(assemble(shells, {p}, 1.0), shells, d);
+  const TriangleShape<double> law{0.3};
+  const double size = std::pow(shells.rest_volume[0], 2.0 / 3.0), h = 1e-5;
+  double expected = 0.0;
+  for (std::uint32_t f = 0; f < shells.topology(0).face_count(); ++f) {
+    const Triangle& t = shells.topology(0).faces()[f];
+    const auto at = [&](int c, double step) { return shells.position[t[c]] + step * d[t[c]]; };
+    const auto square_sum = [&](double step) {
+      return norm2(at(1, step) - at(0, step)) + norm2(at(2, step) - at(1, step)) + norm2(at(0, step) - at(2, step));
+    };
+    const auto inverse_area = [&](double step) { return 2.0 / morula::norm(cross(at(1, step) - at(0, step), at(2, step) - at(0, step))); };
+    const auto u = [&](double step) { return law.inverse_quality(inverse_area(step), square_sum(step)); };
+    const double slope = (u(h) - u(-h)) / (2.0 * h), reference = shells.shape[0]->face_area[f] * size;
+    const double relative = norm2(d[t[1]] - d[t[0]]) + norm2(d[t[2]] - d[t[1]]) + norm2(d[t[0]] - d[t[2]]);
+    expected += law.gauss_newton_weight(reference) * slope * slope + 2.0 * law.square_sum_slope(u(0.0), inverse_area(0.0), reference) * relative;
+  }
+  EXPECT_NEAR(dot(d, q), expected, 1e-4 * expected);
+}
+
+TEST(ShellOperator, BarrierTermIsGaussNewton) {
+  const Shells shells = small_rough_shell();
+  ShellParameters p = nothing();
+  p.barrier_stiffness = 1.0;
+  p.barrier_angle = 0.6;
+  const auto d = random_vectors(shells.position.size(), 10);
+  const auto a = assemble(shells, {p}, 1.0);
+  const auto q = apply(a, shells, d);
+  const DihedralBarrier<double> law{1.0, 0.6};
+  const double h = 1e-5;
+  double expected = 0.0;
+  std::size_t active = 0;
+  for (const Edge& edge : shells.topology(0).edges()) {
+    const auto angle = [&](double step) {
+      const auto at = [&](std::uint32_t i) { return shells.position[i] + step * d[i]; };
+      const Vec3d e = at(edge.j) - at(edge.i);
+      return hinge_angle(cross(e, at(edge.k) - at(edge.i)), cross(at(edge.l) - at(edge.i), e), normalized(e));
+    };
+    const double slope = (angle(h) - angle(-h)) / (2.0 * h);
+    expected += law.curvature_psd(angle(0.0)) * slope * slope;
+    active += std::abs(angle(0.0)) > 0.6;
+  }
+  ASSERT_GT(active, 0u);
+  EXPECT_EQ(a.matrix.blocks[0].barrier_edge.size(), active) << "only active edges are stored";
+  EXPECT_NEAR(dot(d, q), expected, 1e-4 * expected);
+}
+
+TEST(ShellOperator, WithoutStepIsTheFrictionOfTheResidual) {
+  const Shells shells = rough_shells();
+  const auto types = everything();
+  const auto a = assemble(shells, types, 0.0);
+  const auto d = random_vectors(shells.position.size(), 11);
+  std::vector<Vec3d> expected(d.size());
+  std::vector<double> quadratic(shells.size());
+  friction_times_displacement(a.blocks, shells, a.friction, d, expected, quadratic);
+  const auto q = apply(a, shells, d);
+  for (std::size_t i = 0; i < d.size(); ++i) EXPECT_LE(morula::norm(q[i] - expected[i]), 1e-6 * norm(expected));
+  EXPECT_NEAR(sum(quadratic), dot(d, expected), 1e-10 * sum(quadratic));
+}
+
+TEST(ShellOperator, GivesTheSameBitsInOneFourAndEightLanes) {
+  const Shells shells = rough_shells();
+  const auto types = everything();
+  const auto p = to_float4(random_vectors(shells.position.size(), 12));
+  std::vector<std::vector<Float4>> q;
+  std::vector<std::vector<SymMat3<float>>> diagonal;
+  for (const int lanes : {1, 4, 8}) {
+    const auto a = assemble(shells, types, 30.0, lanes);
+    q.emplace_back(p.size());
+    diagonal.emplace_back(p.size());
+    apply_shell_operator(a.blocks, shells, a.matrix, p, q.back());
+    add_block_diagonal(a.blocks, shells, a.matrix, diagonal.back());
+  }
+  for (const std::size_t other : {1u, 2u}) {
+    EXPECT_EQ(std::memcmp(q[0].data(), q[other].data(), p.size() * sizeof(Float4)), 0);
+    EXPECT_EQ(std::memcmp(diagonal[0].data(), diagonal[other].data(), p.size() * sizeof(SymMat3<float>)), 0);
+  }
+}
+
+TEST(ShellOperator, DiagonalBlocksAreThoseOfTheMatrixWithoutTheVolumeTerm) {
+  const Shells shells = small_rough_shell();
+  auto types = everything();
+  types[0].bulk_modulus = 0.0;
+  const auto a = assemble(shells, types, 10.0);
+  ASSERT_FALSE(a.matrix.blocks[0].shape_face.empty());
+  ASSERT_FALSE(a.matrix.blocks[0].barrier_edge.empty());
+  std::vector<SymMat3<float>> diagonal(shells.position.size(), isotropic(1.0f));
+  add_block_diagonal(a.blocks, shells, a.matrix, diagonal);
+  const Eigen::MatrixXd matrix = dense(a, shells);
+  const double scale = matrix.cwiseAbs().maxCoeff();
+  for (std::size_t i = 0; i < diagonal.size(); ++i) {
+    const SymMat3<float>& b = diagonal[i];
+    const double expected[3][3] = {{b.xx, b.xy, b.xz}, {b.xy, b.yy, b.yz}, {b.xz, b.yz, b.zz}};
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(matrix(3 * i + r, 3 * i + c) + (r == c), expected[r][c], 1e-5 * scale);
+    }
+  }
+}
+
+TEST(ShellOperator, LetsRigidTranslationFeelTheMediumOnly) {
+  const Shells shells = rough_shells();
+  const auto types = everything();
+  const auto a = assemble(shells, types, 60.0);
+  const std::vector<Vec3d> v(shells.position.size(), Vec3d{0.3, -0.2, 0.5});
+  const auto q = apply(a, shells, v);
+  const auto geometry = geometry_of(shells, a.blocks, shells.position);
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    // the volume term is the only one that is not in differences: float rounding of Σ g times Δt K_V A/V
+    EXPECT_LE(morula::norm(q[i] - 0.1 * geometry.node_area[i] * v[i]), 2e-3 * 0.1 * geometry.node_area[i]);
+  }
+}
+
+TEST(ShellFriction, LetsRigidRotationFeelTheMediumOnly) {  // T1.2: |Γ_int v| ≤ 1e-12 |Γ| |v|
+  const Shells shells = rough_shells();
+  auto types = everything();
+  for (ShellParameters& p : types) p.medium_friction = 0.0;
+  const auto blocks = make_shell_blocks(shells);
+  const auto friction = friction_of(shells, blocks, types, shells.position);
+  std::vector<Vec3d> v(shells.position.size()), result(v.size());
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] = cross(Vec3d{0.3, 0.7, -0.2}, shells.position[i]);
+  std::vector<double> quadratic(shells.size());
+  friction_times_displacement(blocks, shells, friction, v, result, quadratic);
+  EXPECT_LE(norm(result), 1e-12 * 0.3 * norm(v));
+}
+
+TEST(ShellFriction, IsSymmetricAndDissipates) {  // T1.3
+  const Shells shells = rough_shells();
+  const auto types = everything();
+  const auto blocks = make_shell_blocks(shells);
+  const auto friction = friction_of(shells, blocks, types, shells.position);
+  const auto a = random_vectors(shells.position.size(), 1), b = random_vectors(shells.position.size(), 2);
+  std::vector<Vec3d> fa(a.size()), fb(a.size());
+  std::vector<double> qa(shells.size()), qb(shells.size());
+  friction_times_displacement(blocks, shells, friction, a, fa, qa);
+  friction_times_displacement(blocks, shells, friction, b, fb, qb);
+  EXPECT_NEAR(dot(b, fa), dot(a, fb), 1e-12 * norm(a) * norm(fb));
+  for (const double q : qa) EXPECT_GT(q, 0.0);
+}
+
+}  // namespace
+}  // namespace morula::dcm::testing

@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <numeric>
+
+#include "results_support.h"
+#include "scenarios/results/hash128.h"
+#include "scenarios/results/parcels.h"
+#include "scenarios/results/state_hash.h"
+
+namespace morula::scenarios {
+namespace {
+
+using namespace testing_support;
+
+std::string hash_of_text(const std::string& text) { return hash128(std::as_bytes(std::span(text))).hex(); }
+
+// Known answers of MurmurHash3 x64 128, seed 0; the digest prints the first word last here.
+TEST(Hash128, GivesTheKnownAnswersOfMurmurHash3) {
+  EXPECT_EQ(hash_of_text(""), "00000000000000000000000000000000");
+  EXPECT_EQ(hash_of_text("hello"), "5b1e906a48ae1d19cbd8a7b341bd9b02");
+  EXPECT_EQ(hash_of_text("The quick brown fox jumps over the lazy dog"), "7a433ca9c49a9347e34bbc7bbc071b6c");
+}
+
+TEST(Hash128, AddsModulo2To128) {
+  Hash128 sum{~std::uint64_t{0}, 4};
+  sum += {1, 0};
+  EXPECT_EQ(sum, (Hash128{0, 5}));
+  sum = {~std::uint64_t{0}, ~std::uint64_t{0}};
+  sum += {1, 0};
+  EXPECT_EQ(sum, (Hash128{0, 0}));
+}
+
+TEST(Hash128, TableChecksumOfSlicesIsThatOfTheWhole) {
+  std::vector<double> table(30);
+  std::iota(table.begin(), table.end(), 0.5);
+  const auto bytes = std::as_bytes(std::span(table));
+  const Hash128 whole = table_checksum(bytes, 24, 0);
+  Hash128 slices = table_checksum(bytes.subspan(24 * 4), 24, 4);
+  slices += table_checksum(bytes.first(24 * 4), 24, 0);
+  EXPECT_EQ(whole, slices);
+  std::swap_ranges(table.begin(), table.begin() + 3, table.begin() + 3);  // rows 0 and 1
+  EXPECT_NE(table_checksum(bytes, 24, 0), whole);
+}
+
+/// Order of cells in memory turned around, partners and bricks too.
+Tissue turned_around(const Tissue& from) {
+  Tissue to = from;
+  std::reverse(to.cells.rows.begin(), to.cells.rows.end());
+  std::reverse(to.spheres.position.begin(), to.spheres.position.end());
+  std::reverse(to.spheres.radius.begin(), to.spheres.radius.end());
+  std::reverse(to.spheres.type.begin(), to.spheres.type.end());
+  std::reverse(to.spheres.velocity.begin(), to.spheres.velocity.end());
+  std::reverse(to.spheres.attached.begin(), to.spheres.attached.end());
+  for (auto& partners : to.spheres.attached) std::reverse(partners.begin(), partners.end());
+  to.shells = {};
+  for (std::size_t i = from.shells.size(); i-- > 0;) {
+    const dcm::Shells& s = from.shells;
+    to.shells.shape.push_back(s.shape[i]);
+    to.shells.type.push_back(s.type[i]);
+    to.shells.reference_volume.push_back(s.reference_volume[i]);
+    to.shells.rest_volume.push_back(s.rest_volume[i]);
+    to.shells.position.insert(to.shells.position.end(), s.position.begin() + s.first_node[i], s.position.begin() + s.first_node[i + 1]);
+    to.shells.velocity.insert(to.shells.velocity.end(), s.velocity.begin() + s.first_node[i], s.velocity.begin() + s.first_node[i + 1]);
+    to.shells.rest_length.insert(to.shells.rest_length.end(), s.rest_length.begin() + s.first_edge[i], s.rest_length.begin() + s.first_edge[i + 1]);
+    to.shells.first_node.push_back(static_cast<std::uint32_t>(to.shells.position.size()));
+    to.shells.first_edge.push_back(static_cast<std::uint32_t>(to.shells.rest_length.size()));
+  }
+  for (fields::Field& field : to.fields) {
+    std::reverse(field.owned_bricks.begin(), field.owned_bricks.end());
+    std::reverse(field.concentration.begin(), field.concentration.end());
+  }
+  return to;
+}
+
+TEST(StateHash, DoesNotDependOnOrderOrRank) {
+  const Comm comm;
+  ShapeLibrary library;
+  const Tissue tissue = make_tissue(comm, library);
+  const Hash128 hash = state_hash(tissue, comm);
+  EXPECT_EQ(hash, state_hash(turned_around(tissue), comm));
+  EXPECT_EQ(hash, state_hash(make_tissue(comm, library, 60, 3), comm));
+  const Comm alone(MPI_COMM_SELF);
+  EXPECT_EQ(hash, state_hash(make_tissue(alone, library), alone)) << "the hash depends on the number of ranks";
+}
+
+TEST(StateHash, SeesEveryPartOfTheState) {
+  const Comm comm(MPI_COMM_SELF);
+  ShapeLibrary library;
+  const Tissue tissue = make_tissue(comm, library);
+  std::vector<Hash128> hashes{state_hash(tissue, comm)};
+  const auto after = [&](auto change) {
+    Tissue changed = tissue;
+    change(changed);
+    hashes.push_back(state_hash(changed, comm));
+  };
+  after([](Tissue& t) { t.clock.steps++; });
+  after([](Tissue& t) { t.clock.capped = false; });
+  after([](Tissue& t) { t.ledger.demotions++; });
+  after([](Tissue& t) { t.ledger.field_start[0] = 0.0; });  // was −0.0
+  after([](Tissue& t) { t.cells.rows[5].concentration[2] = 0.0; });
+  after([](Tissue& t) { t.cells.rows[5].draws++; });
+  after([](Tissue& t) { t.cells.rows[5].phase = Phase::kDying; t.cells.rows[6].phase = Phase::kDying; });
+  after([](Tissue& t) { t.spheres.velocity[3].y *= 2; });
+  after([](Tissue& t) { t.spheres.attached[0].push_back(CellId::founder(99)); });
+  after([](Tissue& t) { std::swap(t.spheres.position[0], t.spheres.position[1]); });
+  after([](Tissue& t) { t.shells.position[7].z += 1e-13; });
+  after([](Tissue& t) { t.shells.velocity[7].z += 1; });
+  after([](Tissue& t) { t.shells.rest_length[7] *= 2; });
+  after([](Tissue& t) { t.shells.reference_volume[1] *= 2; });
+  after([](Tissue& t) { t.fields[1].concentration[3][2] += 1e-12; });
+  after([](Tissue& t) { std::swap(t.fields[0], t.fields[1]); });
+  after([](Tissue& t) { t.fields[0].next_step = 0.0; });
+  after([](Tissue& t) { t.obstacle_offset[1].x = 7; });
+  std::sort(hashes.begin(), hashes.end());
+  EXPECT_EQ(std::adjacent_find(hashes.begin(), hashes.end()), hashes.end()) << "two different states have the same hash";
+}
+
+TEST(StateHash, IgnoresPadding) {
+  const Comm comm(MPI_COMM_SELF);
+  ShapeLibrary library;
+  Tissue tissue = make_tissue(comm, library);
+  const Hash128 hash = state_hash(tissue, comm);
+  tissue.cells.rows[0].unused_[2] = 7;
+  EXPECT_EQ(hash, state_hash(tissue, comm));
+}
+
+TEST(Parcels, AreSortedOverRanksWithoutLoss) {
+  const Comm comm;
+  Parcels local;
+  std::mt19937_64 engine(7 + static_cast<unsigned>(comm.rank()));
+  const int mine = 50 * (comm.rank() + 1);
+  for (int i = 0; i < mine; ++i) {
+    const std::uint64_t key = engine() % 97;
+    const std::vector<std::uint64_t> content(key % 4, key);
+    local.add(key, std::as_bytes(std::span(content)));
+  }
+  const Parcels sorted = sort_over_ranks(local, comm);
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    EXPECT_LE(sorted.key(i == 0 ? 0 : i - 1), sorted.key(i));
+    ASSERT_EQ(sorted.bytes(i).size(), 8 * (sorted.key(i) % 4));
+  }
+  EXPECT_EQ(comm.sum(static_cast<std::int64_t>(sorted.size())), comm.sum(std::int64_t{mine}));
+  const auto firsts = comm.gather_to_all(sorted.size() == 0 ? -1 : static_cast<std::int64_t>(sorted.key(0)));
+  const auto lasts = comm.gather_to_all(sorted.size() == 0 ? -1 : static_cast<std::int64_t>(sorted.key(sorted.size() - 1)));
+  std::int64_t last = -1;
+  for (std::size_t r = 0; r < firsts.size(); ++r) {
+    if (firsts[r] < 0) continue;
+    EXPECT_LT(last, firsts[r]) << "equal keys on two ranks, or stretches out of order";
+    last = lasts[r];
+  }
+}
+
+}  // namespace
+}  // namespace morula::scenarios
