@@ -64,6 +64,7 @@ constexpr ErrorCode kCodes[] = {
                                   "volume."},
     {623, "mesh crosses itself", "Two faces that are not neighbours intersect."},
     {624, "mesh has degenerate or double faces", "A face has no area, or the same face stands twice."},
+    {625, "mesh is not a surface", "An edge has three or more faces, or two parts of the surface touch in one node."},
 };
 
 }  // namespace

@@ -119,7 +119,7 @@ Json schema_of(const Declaration& d) {
 std::string study_json_schema() {
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Morula study"}};
   const Declaration root = study_declarations();
-  for (auto& [key, value] : section_schema(root).items()) schema[key] = value;
+  schema.update(section_schema(root));
   return schema.dump(2) + "\n";
 }
 

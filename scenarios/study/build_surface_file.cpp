@@ -1,0 +1,55 @@
+#include "core/mesh/mesh_check.h"
+#include "core/mesh/surface_file.h"
+#include "scenarios/study/build.h"
+
+namespace morula::scenarios {
+namespace {
+
+int code_of(MeshProblemKind kind) {
+  switch (kind) {
+    case MeshProblemKind::kHole: return 621;
+    case MeshProblemKind::kNonManifoldEdge:
+    case MeshProblemKind::kNonManifoldNode: return 625;
+    case MeshProblemKind::kFlippedFaces:
+    case MeshProblemKind::kNotOrientable:
+    case MeshProblemKind::kInsideOut: return 622;
+    case MeshProblemKind::kSelfIntersection: return 623;
+    case MeshProblemKind::kDegenerateFace:
+    case MeshProblemKind::kDuplicateFace: return 624;
+    case MeshProblemKind::kEmpty:
+    case MeshProblemKind::kBadIndex:
+    case MeshProblemKind::kNotFinite:
+    case MeshProblemKind::kUnusedNode: return 620;
+  }
+  return 620;
+}
+
+}  // namespace
+
+TriangleMesh surface_from_file(BuildContext& c, Given<std::string>& written, const Given<double>& scale) {
+  if (!written.known() || !scale.known()) return {};
+  const std::string shown = written.value;
+  const std::filesystem::path path = add_input_file(c, written);
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
+    c.diagnostics.error(601, written.place, "file '" + shown + "' does not exist", "paths are relative to the folder of the study");
+    return {};
+  }
+  if (std::filesystem::is_directory(path, ignored)) {
+    c.diagnostics.error(602, written.place, "'" + shown + "' is a folder, not a file", "name the file in it");
+    return {};
+  }
+  auto mesh = read_surface(path, {.scale = scale.value});
+  if (!mesh.ok()) {
+    c.diagnostics.error(620, written.place, mesh.error().message, mesh.error().help);
+    return {};
+  }
+  const std::vector<MeshProblem> problems = check_mesh(mesh->position, mesh->faces);
+  for (const MeshProblem& problem : problems)
+    c.diagnostics.error(code_of(problem.kind), written.place, "surface '" + shown + "': " + problem.message,
+                        "mend the surface, for example in MeshLab or Blender");
+  if (!problems.empty()) return {};
+  return std::move(mesh).value();
+}
+
+}  // namespace morula::scenarios
