@@ -105,6 +105,7 @@ void build_geometry(BuildContext& c) {
                           "give one of `stl`, `obj`, `plane`, `sphere`, `cylinder`, `capsule`, `box`");
     const bool from_file = o.stl.given || o.obj.given;
     if (o.scale.given && !from_file) c.diagnostics.error(111, o.scale.place, "'scale' has no meaning without `stl` or `obj`", "leave it away");
+    if (!from_file) o.scale.text.clear();  // its default has no meaning either: not part of the resolved study
     ObstacleSpec obstacle;
     obstacle.name = name;
     obstacle.inside = o.side.value == "inside";

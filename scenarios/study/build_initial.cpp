@@ -53,18 +53,22 @@ class InitialBuilder {
   void stray(bool given, const Place& place, const char* key, const char* with) {
     if (given) c_.diagnostics.error(111, place, std::string("'") + key + "' has no meaning with `" + with + "`", "leave it away");
   }
-  void refuse_strays(const draft::Initial& d) {
+  /// Keys of another source of cells are errors; their defaults are no part of the resolved study.
+  void refuse_strays(draft::Initial& d) {
     const char* with = d.csv.given ? "csv" : d.at.given ? "at" : nullptr;
     if (with) {
       stray(d.radius.given, d.radius.place, "radius", with);
       stray(d.size.given, d.size.place, "size", with);
       stray(d.center.given, d.center.place, "center", with);
+      d.center.text.clear();
     }
     if (d.csv.given) {
       stray(d.type.given, d.type.place, "type", with);
     } else {
       stray(d.coincident_shift.given, d.coincident_shift.place, "coincident_shift", with ? with : "fill");
       stray(d.coincident_below.given, d.coincident_below.place, "coincident_below", with ? with : "fill");
+      d.coincident_shift.text.clear();
+      d.coincident_below.text.clear();
     }
   }
 

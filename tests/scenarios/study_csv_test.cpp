@@ -115,7 +115,7 @@ TEST(StudyCsv, StudyChecksItsCellsAndNamesCoincidentOnes) {
 // The five measured embryos: cell counts and the two files without coincident rows are those of the data's README.
 TEST(StudyCsv, MeasuredEmbryosAreRead) {
   const char* data = std::getenv("MORULA_SHARED_DATA");
-  const std::filesystem::path folder = std::filesystem::path(data ? data : "../shared/data") / "mouse_blastocyst";
+  const std::filesystem::path folder = (data ? std::filesystem::path(data) : std::filesystem::path(__FILE__).parent_path() / "../../../shared/data") / "mouse_blastocyst";
   if (!std::filesystem::exists(folder / "embryo_44.csv")) GTEST_SKIP() << "no measured embryos beside this checkout";
   const UnitSystem units;
   const std::pair<int, bool> embryos[] = {{44, false}, {64, true}, {114, true}, {178, true}, {216, true}};

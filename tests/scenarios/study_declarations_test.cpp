@@ -66,7 +66,6 @@ TEST(ResolvedStudy, NamesTheCopiesOfItsInputFiles) {
   const auto first = read(changed("{type: hepatocyte, count: 400, fill: sphere, radius: 60 um, as: cbm}", "{csv: data/cells.csv}"), {}, folder.path());
   ASSERT_TRUE(first.ok()) << first.error().text();
   EXPECT_THAT(first->resolved_text, HasSubstr("csv: inputs/cells.csv"));
-  const Folder run;
   std::filesystem::create_directories(folder.path() / "run/inputs");
   for (const InputFile& file : first->input_files) std::filesystem::copy_file(file.path, folder.path() / "run" / file.copy);
   const auto second = read(first->resolved_text, {}, folder.path() / "run");
@@ -93,8 +92,8 @@ TEST(StudyDeclarations, EveryDefaultAndExampleCanBeRead) {
     for (const Declaration& child : d.children) {
       EXPECT_GT(std::string(child.spec.doc).size(), 4u) << child.path;
       const bool section = child.kind == Declaration::Kind::kGroup || child.kind == Declaration::Kind::kNamed || child.kind == Declaration::Kind::kList;
-      if (!section) EXPECT_GT(std::string(child.spec.example).size(), 0u) << child.path;
-      if (child.spec.fallback && *child.spec.fallback) EXPECT_GT(std::string(child.spec.source).size(), 0u) << child.path << " has a default without a source";
+      EXPECT_TRUE(section || *child.spec.example) << child.path << " has no example";
+      EXPECT_TRUE(!child.spec.fallback || !*child.spec.fallback || *child.spec.source) << child.path << " has a default without a source";
       ++documented;
       visit(child);
     }
