@@ -50,7 +50,8 @@ BENCHMARK(jkr_latency);
 void jkr_lanes(benchmark::State& state) {
   using L = Lane<double, 8>;
   const auto scalar = reference_pair();
-  const PairLaw<L> law{L(scalar.modulus), L(scalar.reduced_radius), L(scalar.length), L(scalar.radius), L(scalar.force)};
+  const PairLaw<L> law{L(scalar.modulus),        L(scalar.reduced_radius), L(scalar.length),
+                       L(scalar.inverse_length), L(scalar.radius),         L(scalar.force)};
   const auto values = overlaps(1024);
   for (auto _ : state) {
     for (std::size_t k = 0; k < values.size(); k += 8) {
@@ -70,7 +71,8 @@ void pair_kernel(benchmark::State& state) {
   std::uniform_real_distribution<double> jitter(-0.5, 0.5);
   for (int x = 0; x < side; ++x) {
     for (int y = 0; y < side; ++y) {
-      for (int z = 0; z < side; ++z) position.push_back({9.0 * x + jitter(generator), 9.0 * y + jitter(generator), 9.0 * z + jitter(generator)});
+      for (int z = 0; z < side; ++z)
+        position.push_back({9.0 * x + jitter(generator), 9.0 * y + jitter(generator), 9.0 * z + jitter(generator)});
     }
   }
   const std::vector<double> radius(position.size(), 5.0);

@@ -50,8 +50,8 @@ struct SpherePair {
 
 /// What a pair needs to know of the spheres; spans of equal length (owned spheres and ghosts).
 struct SphereView {
-  std::span<const Vec3d> position;       ///< [µm]
-  std::span<const double> radius;        ///< [µm]
+  std::span<const Vec3d> position;  ///< [µm]
+  std::span<const double> radius;   ///< [µm]
   std::span<const std::uint16_t> type;
 };
 
@@ -61,16 +61,16 @@ struct SphereView {
 /// stiffness·nnᵀ + transverse_stiffness·(I − nnᵀ), where the transverse part max(0, −F)/d acts in tension only. The friction
 /// block is A[γ_n nnᵀ + γ_t(I − nnᵀ)] = isotropic_friction·I + axial_friction·nnᵀ.
 struct PairResponse {
-  Vec3d normal;                     ///< from i to j; the x axis where the centres coincide
-  double distance = 0.0;            ///< of the centres [µm]
-  double overlap = 0.0;             ///< at which the law was evaluated: R_i + R_j − d − offset [µm]
-  double force = 0.0;               ///< [nN]
-  double stiffness = 0.0;           ///< max(0, dF/dδ) [nN/µm]
-  double transverse_stiffness = 0.0;///< [nN/µm]
-  double area = 0.0;                ///< [µm²]
-  double energy = 0.0;              ///< [nN·µm]
-  double isotropic_friction = 0.0;  ///< Aγ_t [nN·s/µm]
-  double axial_friction = 0.0;      ///< A(γ_n − γ_t) [nN·s/µm]
+  Vec3d normal;                       ///< from i to j; the x axis where the centres coincide
+  double distance = 0.0;              ///< of the centres [µm]
+  double overlap = 0.0;               ///< at which the law was evaluated: R_i + R_j − d − offset [µm]
+  double force = 0.0;                 ///< [nN]
+  double stiffness = 0.0;             ///< max(0, dF/dδ) [nN/µm]
+  double transverse_stiffness = 0.0;  ///< [nN/µm]
+  double area = 0.0;                  ///< [µm²]
+  double energy = 0.0;                ///< [nN·µm]
+  double isotropic_friction = 0.0;    ///< Aγ_t [nN·s/µm]
+  double axial_friction = 0.0;        ///< A(γ_n − γ_t) [nN·s/µm]
 };
 
 /// One pair whose centres are `between` = x_j − x_i apart. Symmetric: exchanging i and j flips the normal and nothing else, bit for bit.
@@ -93,6 +93,22 @@ inline PairResponse evaluate_pair(const ContactTable::Entry& entry, const Vec3d&
   return out;
 }
 
+/// A sphere and a rigid plane, Hertz with R* = R and E* = E/(1 − ν²): no adhesion and no friction, as at a wall of the domain.
+/// outward: unit vector from the sphere towards the plane; distance: of the centre from the plane, negative behind it [µm].
+inline PairResponse evaluate_wall(const SphereParameters& sphere, double radius, const Vec3d& outward, double distance) noexcept {
+  const PairLaw<double> law = make_pair_law(ContactMaterial::against_rigid(sphere.young, sphere.poisson, 0.0), radius);
+  PairResponse out;
+  out.normal = outward;
+  out.distance = distance;
+  out.overlap = radius - distance;
+  const ContactResponse<double> contact = hertz_contact(law, out.overlap);
+  out.force = contact.force;
+  out.stiffness = contact.stiffness;
+  out.area = contact.area;
+  out.energy = contact.energy;
+  return out;
+}
+
 /// All pairs; out has the length of pairs. Threaded; the result of a pair depends on nothing but the pair.
 void evaluate_pairs(const Space& space, const SphereView& spheres, const ContactTable& table, std::span<const SpherePair> pairs,
                     std::span<PairResponse> out);
@@ -102,10 +118,10 @@ std::size_t update_attached(const Space& space, const SphereView& spheres, const
 
 /// Sums over the pairs of each sphere, in the order of the list (which must therefore be canonical for repeatable bits).
 struct SphereContactSums {
-  std::vector<Vec3d> force;         ///< [nN]
-  std::vector<double> area;         ///< [µm²]
-  std::vector<double> virial;       ///< Σ_j d_ij F_ij [nN·µm]
-  std::vector<std::uint32_t> count; ///< pairs with contact
+  std::vector<Vec3d> force;          ///< [nN]
+  std::vector<double> area;          ///< [µm²]
+  std::vector<double> virial;        ///< Σ_j d_ij F_ij [nN·µm]
+  std::vector<std::uint32_t> count;  ///< pairs with contact
 };
 SphereContactSums sum_contacts(std::size_t sphere_count, std::span<const SpherePair> pairs, std::span<const PairResponse> responses);
 

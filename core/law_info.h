@@ -16,8 +16,8 @@ struct LawParameter {
   std::optional<double> fallback;  ///< value when the study gives none; empty: the study must give it
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
-  std::string source;              ///< where the fallback comes from: author year, doi; or "choice of this project"
-  std::string doc;                 ///< one sentence
+  std::string source;  ///< where the fallback comes from: author year, doi; or "choice of this project"
+  std::string doc;     ///< one sentence
 };
 
 /// What there is to say about a law apart from its functions: plain data, filled in once in the `builtin.cpp` of the law's folder.

@@ -49,6 +49,22 @@ Lane<double, W> apply_diagonal(const ShellOperator::Block& matrix, std::size_t n
   return volume_rate;
 }
 
+/// q_i += M (p_i − p_j), q_j −= the same. Edges are sorted by i, whose sum stays in registers over its run.
+template <int W>
+void apply_edges(const ShellOperator::Block& matrix, std::span<const Edge> edges, NodeVectors<W> p, NodeVectors<W> q) noexcept {
+  for (std::size_t k = 0; k < edges.size();) {
+    const std::uint32_t i = edges[k].i;
+    const auto pi = p[i];
+    auto qi = q[i];
+    for (; k < edges.size() && edges[k].i == i; ++k) {
+      const auto force = load_matrix<W>(matrix.edge.data() + k * 6 * W) * (pi - p[edges[k].j]);
+      qi += force;
+      q.add(edges[k].j, -force);
+    }
+    q.set(i, qi);
+  }
+}
+
 template <int W>
 void apply_rank_one_terms(const ShellOperator::Block& matrix, const Topology& topology, NodeVectors<W> p, NodeVectors<W> q) noexcept {
   for (std::size_t entry = 0; entry < matrix.shape_face.size(); ++entry) {
@@ -84,13 +100,7 @@ void apply_block(const LaneBlock& block, const Shells& shells, const ShellOperat
   const NodeVectors<W> p{ws.p.data()}, q{ws.q.data()};
   load_lanes<W, float>(lane_pointers<W>(&input.data()->x, block, shells.first_node, 4), nodes * 4, p.data);
   const auto volume_rate = apply_diagonal<W>(matrix, nodes, p, q);
-  const auto edges = topology.edges();
-  for (std::size_t k = 0; k < edges.size(); ++k) {
-    const Edge& edge = edges[k];
-    const auto force = load_matrix<W>(matrix.edge.data() + k * 6 * W) * (p[edge.i] - p[edge.j]);
-    q.add(edge.i, force);
-    q.add(edge.j, -force);
-  }
+  apply_edges<W>(matrix, topology.edges(), p, q);
   apply_rank_one_terms<W>(matrix, topology, p, q);
   const Real pressure = Real::load(matrix.volume_stiffness.data()) *
                         Real::from(__builtin_convertvector(volume_rate.v, typename Real::Vector));

@@ -16,10 +16,14 @@
 namespace morula::dcm {
 namespace {
 
-/// The Gauss–Newton part of a face's shape term is kept where its stiffness w |∇(1/q)|² exceeds this part of k + γ. It grows from zero
-/// with the deviation from equilateral, so that most faces of a healthy mesh have none worth its memory; what is left out changes the
-/// path of the iteration, never the state it ends in.
-constexpr float kShapeThreshold = 0.02f;
+/// The Gauss–Newton part of a face's shape term is kept where its stiffness w |∇(1/q)|² exceeds ¼ k + γ/100. It grows from zero with
+/// the deviation from equilateral, so that most faces of an elastic mesh have none worth its memory (a node holds 3 k in the plane);
+/// in a fluid mesh, where it is the only stiffness in the plane, nearly all keep it. What is left out changes the path of the
+/// iteration, never the state it ends in.
+template <class Real>
+Real shape_threshold(Real spring_stiffness, Real tension) noexcept {
+  return max(Real(1e-30f), Real(0.25f) * spring_stiffness + Real(0.01f) * tension);
+}
 
 struct Workspace {
   LaneVector<double> position;
@@ -99,7 +103,7 @@ void assemble_faces(Assembly<W>& a) noexcept {
   const CorticalTension<Real> tension{a.of_type(&ShellParameters::tension)};
   const TriangleShape<Real> shape{a.of_type(&ShellParameters::shape_stiffness)};
   const bool has_shape = any_lane<W>(shape.stiffness > Real(0.0f));
-  const Real threshold = max(Real(1e-30f), Real(kShapeThreshold) * (a.of_type(&ShellParameters::spring_stiffness) + tension.tension));
+  const Real threshold = shape_threshold(a.of_type(&ShellParameters::spring_stiffness), tension.tension);
   const ShapeArray<float, W> unit_area(a.block, a.shells, &ReferenceShape::face_area);
   const Real scale = by_lane<float, W>(a.block, [&](std::uint32_t s) { return std::pow(std::cbrt(a.shells.rest_volume[s]), 2); });
   Real six_volumes(0.0f);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct Solver {
   int most_iterations = 0;
   N_Vector weights = nullptr;  ///< of the norm in which the tolerance is meant; owned by ARKODE
   std::unique_ptr<std::vector<double>> residual, direction, image, inverse_diagonal;
+  std::vector<std::array<double, 2>> partial;  ///< sums per brick
   int iterations = 0;
   double residual_norm = 0.0;
   sunindextype last_flag = 0;
@@ -26,27 +28,38 @@ struct Solver {
 
 Solver& solver(SUNLinearSolver s) { return *static_cast<Solver*>(s->content); }
 
-/// Two inner products of a pass over the bricks, in one message.
-struct TwoSums {
-  std::array<OrderFreeSum, 2> local;
-  std::array<double, 2> total{};
-  void add(double first, double second) {
-    local[0].add(first);
-    local[1].add(second);
-  }
-  void finish(const Comm& comm) { comm.sum(local, total); }
-};
-
-/// r·M⁻¹r and |r|² in the weighted norm.
-TwoSums residual_sums(const Solver& s, const double* r, const double* m, const double* w) {
+/// x += α p, r −= α q; returns r·M⁻¹r and |r|² in the weighted norm, summed over all ranks in one message.
+std::array<double, 2> step_and_sum(Solver& s, double alpha, double* x) {
   const Layout& layout = *s.space->layout;
-  TwoSums sums;
+  double* r = s.residual->data();
+  const double *p = s.direction->data(), *q = s.image->data(), *m = s.inverse_diagonal->data(), *w = unknowns_of(s.weights);
+  s.partial.resize(layout.bricks());
+#pragma omp parallel for schedule(static) if (layout.bricks() >= kBricksWorthThreads)
   for (std::size_t b = 0; b < layout.bricks(); ++b) {
-    const std::size_t at = layout.offset[b], n = layout.offset[b + 1] - at;
-    sums.add(block_triple(r + at, m + at, n), block_weighted_square(r + at, w + at, n));
+    const std::size_t at = layout.offset[b], end = layout.offset[b + 1];
+    for (std::size_t i = at; i < end; ++i) {
+      x[i] += alpha * p[i];
+      r[i] -= alpha * q[i];
+    }
+    s.partial[b] = {block_triple(r + at, m + at, end - at), block_weighted_square(r + at, w + at, end - at)};
   }
-  sums.finish(*s.space->comm);
-  return sums;
+  std::array<OrderFreeSum, 2> local;
+  for (const auto& part : s.partial) {
+    local[0].add(part[0]);
+    local[1].add(part[1]);
+  }
+  std::array<double, 2> total{};
+  s.space->comm->sum(local, total);
+  return total;
+}
+
+/// p = M⁻¹r + β p
+void turn(Solver& s, double beta) {
+  double* p = s.direction->data();
+  const double *r = s.residual->data(), *m = s.inverse_diagonal->data();
+  const std::size_t n = s.space->layout->concentrations();
+#pragma omp parallel for simd schedule(static) if (s.space->layout->bricks() >= kBricksWorthThreads)
+  for (std::size_t i = 0; i < n; ++i) p[i] = m[i] * r[i] + beta * p[i];
 }
 
 int solve(SUNLinearSolver ls, SUNMatrix, N_Vector x_vector, N_Vector b_vector, double tolerance) {
@@ -55,34 +68,22 @@ int solve(SUNLinearSolver ls, SUNMatrix, N_Vector x_vector, N_Vector b_vector, d
   const std::size_t n = layout.concentrations();
   const double gamma = s.gamma();
   double* x = unknowns_of(x_vector);
-  double *r = s.residual->data(), *p = s.direction->data(), *q = s.image->data(), *m = s.inverse_diagonal->data();
-  const double* w = unknowns_of(s.weights);
   // The guess is zero: SUNDIALS solves for corrections. The amounts take no part.
   std::fill(x, x + layout.unknowns(), 0.0);
-  std::copy_n(unknowns_of(b_vector), n, r);
-  s.op->inverse_diagonal(gamma, m);
-  TwoSums now = residual_sums(s, r, m, w);
-  const double start_norm = std::sqrt(now.total[1]);
+  std::copy_n(unknowns_of(b_vector), n, s.residual->data());
+  for (auto* buffer : {s.direction.get(), s.image.get()}) std::fill(buffer->begin(), buffer->end(), 0.0);
+  s.op->inverse_diagonal(gamma, s.inverse_diagonal->data());
+  auto [rho, square] = step_and_sum(s, 0.0, x);
+  const double start_norm = std::sqrt(square);
   s.iterations = 0;
   s.residual_norm = start_norm;
-  for (std::size_t i = 0; i < n; ++i) p[i] = m[i] * r[i];
+  turn(s, 0.0);
   while (s.residual_norm > tolerance && s.iterations < s.most_iterations) {
-    const double p_image = s.op->shifted_product(gamma, p, q, *s.space->comm);
-    const double alpha = now.total[0] / p_image;
-    TwoSums next;
-    for (std::size_t b = 0; b < layout.bricks(); ++b) {
-      const std::size_t at = layout.offset[b], end = layout.offset[b + 1];
-      for (std::size_t i = at; i < end; ++i) {
-        x[i] += alpha * p[i];
-        r[i] -= alpha * q[i];
-      }
-      next.add(block_triple(r + at, m + at, end - at), block_weighted_square(r + at, w + at, end - at));
-    }
-    next.finish(*s.space->comm);
-    const double beta = next.total[0] / now.total[0];
-    for (std::size_t i = 0; i < n; ++i) p[i] = m[i] * r[i] + beta * p[i];
-    now = next;
-    s.residual_norm = std::sqrt(now.total[1]);
+    const double p_image = s.op->shifted_product(gamma, s.direction->data(), s.image->data(), *s.space->comm);
+    const auto [next_rho, next_square] = step_and_sum(s, rho / p_image, x);
+    turn(s, next_rho / rho);
+    rho = next_rho;
+    s.residual_norm = std::sqrt(next_square);
     ++s.iterations;
     if (!std::isfinite(s.residual_norm)) break;
   }

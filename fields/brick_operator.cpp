@@ -7,10 +7,6 @@
 
 namespace morula::fields {
 
-namespace {
-constexpr std::size_t kWorthThreads = 64;  ///< bricks; below, starting threads costs more than it saves
-}
-
 BrickOperator::BrickOperator(const Grid& grid, const FieldSpec& spec, const Layout& layout, Halo& halo)
     : spec_(spec), layout_(layout), halo_(halo), voxel_volume_(grid.voxel_volume()), slope_(layout.concentrations(), 0.0),
       diagonal_(layout.concentrations()) {
@@ -36,27 +32,38 @@ void BrickOperator::fill(std::size_t brick, const double* values, double scale, 
       double* row = padded.data() + ((k + 1) * kPadded + j + 1) * kPadded + 1;
       std::copy_n(c + (k * ny + j) * nx, nx, row);
     }
-  constexpr std::array<std::size_t, 3> stride{1, kPadded, kPadded * kPadded};
-  for (std::size_t side = 0; side < kSides; ++side) {
-    const std::size_t axis = side / 2, u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
-    const std::size_t ghost = (side % 2) ? static_cast<std::size_t>(n[axis] + 1) : 0;
-    double* to = padded.data() + ghost * stride[axis] + stride[u] + stride[v];
-    const auto nu = static_cast<std::size_t>(n[u]);
-    const auto at = [&](std::size_t k) -> double& { return to[(k % nu) * stride[u] + (k / nu) * stride[v]]; };
-    const GhostSource& source = halo_.source(brick, side);
-    if (source.kind == GhostSource::Kind::kSameRank) {
-      const double* other = values + layout_.offset[source.at];
-      for_each_in_layer(layout_.extent[source.at], side ^ 1u, [&](std::size_t voxel, std::size_t k) { at(k) = other[voxel]; });
-    } else if (source.kind == GhostSource::Kind::kOtherRank) {
-      const double* layer = halo_.received() + source.at;
-      for (std::size_t k = 0; k < layer_size(n, side); ++k) at(k) = layer[k];
-    } else if (face(side).kind == FaceCondition::Kind::kValue) {
-      const double twice = 2.0 * scale * face(side).value;
-      for_each_in_layer(n, side, [&](std::size_t voxel, std::size_t k) { at(k) = twice - c[voxel]; });
-    } else {
-      for_each_in_layer(n, side, [&](std::size_t voxel, std::size_t k) { at(k) = c[voxel]; });
-    }
+  for (std::size_t side = 0; side < kSides; ++side) fill_ghosts(brick, side, values, scale, padded);
+}
+
+void BrickOperator::fill_ghosts(std::size_t brick, std::size_t side, const double* values, double scale, Padded& padded) const {
+  const auto& n = layout_.extent[brick];
+  constexpr std::array<std::size_t, 3> padded_stride{1, kPadded, kPadded * kPadded};
+  const std::size_t axis = side / 2, u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
+  const auto nu = static_cast<std::size_t>(n[u]), nv = static_cast<std::size_t>(n[v]);
+  const std::size_t su = padded_stride[u], sv = padded_stride[v];
+  const std::size_t ghost = (side % 2) ? static_cast<std::size_t>(n[axis] + 1) : 0;
+  double* to = padded.data() + ghost * padded_stride[axis] + su + sv;
+  // Beyond the faces of the domain: the ghost mirrors the outermost voxel, 2 c_b − c or c.
+  const GhostSource& source = halo_.source(brick, side);
+  if (source.kind == GhostSource::Kind::kBoundary) {
+    const bool held = face(side).kind == FaceCondition::Kind::kValue;
+    const double twice = held ? 2.0 * scale * face(side).value : 0.0;
+    const double* inner = (side % 2) ? to - padded_stride[axis] : to + padded_stride[axis];
+    for (std::size_t j = 0; j < nv; ++j)
+      for (std::size_t i = 0; i < nu; ++i) to[i * su + j * sv] = held ? twice - inner[i * su + j * sv] : inner[i * su + j * sv];
+    return;
   }
+  if (source.kind == GhostSource::Kind::kOtherRank) {
+    const double* layer = halo_.received() + source.at;
+    for (std::size_t j = 0; j < nv; ++j)
+      for (std::size_t i = 0; i < nu; ++i) to[i * su + j * sv] = layer[j * nu + i];
+    return;
+  }
+  const auto& m = layout_.extent[source.at];
+  const std::array<std::size_t, 3> stride{1, static_cast<std::size_t>(m[0]), static_cast<std::size_t>(m[0]) * static_cast<std::size_t>(m[1])};
+  const double* layer = values + layout_.offset[source.at] + ((side % 2) ? 0 : static_cast<std::size_t>(m[axis] - 1) * stride[axis]);
+  for (std::size_t j = 0; j < nv; ++j)
+    for (std::size_t i = 0; i < nu; ++i) to[i * su + j * sv] = layer[i * stride[u] + j * stride[v]];
 }
 
 void BrickOperator::stencil(std::size_t brick, const Padded& padded, double* out) const {
@@ -109,7 +116,7 @@ void BrickOperator::evaluate(const double* unknowns, double* rate, bool amounts)
   halo_.exchange(unknowns);
   double* taken_rate = amounts ? rate + layout_.sinks_at() : nullptr;
   if (!amounts) std::fill(rate + layout_.concentrations(), rate + layout_.unknowns(), 0.0);
-#pragma omp parallel for schedule(static) if (layout_.bricks() > kWorthThreads)
+#pragma omp parallel for schedule(static) if (layout_.bricks() >= kBricksWorthThreads)
   for (std::size_t b = 0; b < layout_.bricks(); ++b) {
     Padded padded;
     fill(b, unknowns, 1.0, padded);
@@ -121,7 +128,7 @@ void BrickOperator::evaluate(const double* unknowns, double* rate, bool amounts)
 }
 
 void BrickOperator::linearize(const double* unknowns) {
-#pragma omp parallel for schedule(static) if (layout_.bricks() > kWorthThreads)
+#pragma omp parallel for schedule(static) if (layout_.bricks() >= kBricksWorthThreads)
   for (std::size_t b = 0; b < layout_.bricks(); ++b) {
     const std::size_t at = layout_.offset[b];
     for (std::size_t s = layout_.first_sink[b]; s < layout_.first_sink[b + 1]; ++s) slope_[at + static_cast<std::size_t>(layout_.sinks[s].voxel)] = 0.0;
@@ -136,7 +143,7 @@ void BrickOperator::linearize(const double* unknowns) {
 double BrickOperator::shifted_product(double gamma, const double* x, double* out, const Comm& comm) {
   halo_.exchange(x);
   partial_.resize(layout_.bricks());
-#pragma omp parallel for schedule(static) if (layout_.bricks() > kWorthThreads)
+#pragma omp parallel for schedule(static) if (layout_.bricks() >= kBricksWorthThreads)
   for (std::size_t b = 0; b < layout_.bricks(); ++b) {
     Padded padded;
     fill(b, x, 0.0, padded);

@@ -41,6 +41,7 @@ class BrickOperator {
 
   /// The brick with a layer of ghosts around it. At faces with a value the ghost is 2·scale·c_b − c.
   void fill(std::size_t brick, const double* values, double scale, Padded& padded) const;
+  void fill_ghosts(std::size_t brick, std::size_t side, const double* values, double scale, Padded& padded) const;
   /// out = D ∇²_h c − λ c
   void stencil(std::size_t brick, const Padded& padded, double* out) const;
   void add_uptake(std::size_t brick, const double* c, double* rate, double* taken_rate) const;

@@ -39,12 +39,15 @@ void each(N_Vector z, F&& f) {
   for (std::size_t i = 0; i < n; ++i) out[i] = f(i);
 }
 
-/// Σ over bricks of f(first voxel, voxels), the same bits on any number of ranks.
+/// Σ over bricks of f(first voxel, voxels), the same bits on any number of ranks and threads.
 template <class F>
 double sum_over_bricks(N_Vector v, F&& f) {
   const Layout& l = layout(v);
+  std::vector<double> partial(l.bricks());
+#pragma omp parallel for schedule(static) if (unknowns(v) > kWorthThreads)
+  for (std::size_t b = 0; b < l.bricks(); ++b) partial[b] = f(l.offset[b], l.offset[b + 1] - l.offset[b]);
   OrderFreeSum sum;
-  for (std::size_t b = 0; b < l.bricks(); ++b) sum.add(f(l.offset[b], l.offset[b + 1] - l.offset[b]));
+  for (const double p : partial) sum.add(p);
   return content(v).space->comm->sum(sum);
 }
 

@@ -16,6 +16,9 @@ struct Sink {
   double cells = 0.0;       ///< Σ w_iv: how many cells' worth of uptake happens here
 };
 
+/// With fewer bricks, starting threads costs more than it saves.
+inline constexpr std::size_t kBricksWorthThreads = 48;
+
 /// The unknowns of this rank, one after the other: the concentrations of each brick, then the amounts that the time integration
 /// must add up with its own weights: per brick the inflow through the six faces of the domain and the decay, then what each sink took.
 struct Layout {

@@ -15,8 +15,8 @@ namespace morula::cbm {
 /// constant of Ũ makes the energy 0 there, so that energy goes on without a jump (and stays 0) when an attached pair is pulled
 /// beyond the fold within a step. The pair is always on the outer branch y ≥ 1.
 ///
-/// Whether a pair is attached is state, and fixed within a step; `update_attached` gives it for the next. An unattached pair that overlaps
-/// within a step feels the Hertz force. Without adhesion (W = 0) the law is Hertz's.
+/// Whether a pair is attached is state, and fixed within a step; `update_attached` gives it for the next. An unattached pair that
+/// overlaps within a step feels the Hertz force. Without adhesion (W = 0) the law is Hertz's.
 
 /// Fold of the branch: contact breaks at δ = −0.75 X when the distance is controlled.
 inline constexpr double kBreakOverlap = -0.75;
@@ -26,8 +26,8 @@ inline constexpr double kZeroLoadRadius = 1.6509636244473134;
 
 /// y ≥ 1 of the attached branch at the dimensionless overlap δ̃; y = 1 below the fold.
 ///
-/// Solved for e = y − 1, which is small near the fold: e²(e² + 4e + 6) = 4δ̃ + 3. A rational start (fitted, relative error below 1e-4 for any
-/// overlap, from the right) and two Newton steps reach machine precision; there is no loop and no branch, so that lanes work.
+/// Solved for e = y − 1, which is small near the fold: e²(e² + 4e + 6) = 4δ̃ + 3. A rational start (fitted, relative error below 1e-4
+/// for any overlap) and two Newton steps reach machine precision; there is no loop and no branch, so that lanes work.
 template <class Real>
 Real jkr_branch(Real overlap_ratio) noexcept {
   // The floor keeps the division below finite; it moves the fold by 2.5e-16 in δ̃, less than the rounding of δ̃ itself.
@@ -47,19 +47,19 @@ Real jkr_branch(Real overlap_ratio) noexcept {
 /// The attached branch at this overlap [µm]; nothing beyond the fold. Precondition: W > 0.
 template <class Real>
 ContactResponse<Real> jkr_contact(const PairLaw<Real>& law, Real overlap) noexcept {
-  const Real ratio = overlap / law.length;
+  const Real ratio = overlap * law.inverse_length;
   const Real y = jkr_branch(ratio);
   const Real y2 = y * y;
   const Real y3 = y2 * y;
   const Real y4 = y2 * y2;
   const Real contact_radius = Real(0.5) * law.radius * y2;
-  const auto holds = ratio >= Real(kBreakOverlap);
+  const auto holds = overlap >= Real(kBreakOverlap) * law.length;  // the same comparison as update_attached
   const Real zero(0.0);
   ContactResponse<Real> out;
   out.force = select(holds, law.force * y3 * (y3 * Real(1.0 / 6.0) - Real(1.0)), zero);
   // Where the slope is negative (y³ < 3) the numerator is 0 already, so that the denominator may be kept away from 0.
   const Real slope = y2 * max(y3 - Real(3.0), zero) / max(y3 - Real(1.0), Real(1.0));
-  out.stiffness = select(holds, law.force / law.length * slope, zero);
+  out.stiffness = select(holds, law.force * law.inverse_length * slope, zero);
   out.contact_radius = select(holds, contact_radius, zero);
   out.area = Real(std::numbers::pi) * out.contact_radius * out.contact_radius;
   const Real energy = y4 * (y3 * (y3 * Real(1.0 / 60.0) - Real(1.0 / 6.0)) + Real(0.25)) - Real(0.1);

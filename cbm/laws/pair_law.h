@@ -51,16 +51,18 @@ struct PairLaw {
   Real modulus{};         ///< E* [kPa]
   Real reduced_radius{};  ///< R* [µm]
   Real length{};          ///< X [µm]; 0 without adhesion
+  Real inverse_length{};  ///< 1/X [1/µm]; 0 without adhesion
   Real radius{};          ///< a_s [µm]; 0 without adhesion
   Real force{};           ///< πWR* [nN]; 0 without adhesion
 };
 
 /// The scales of a pair; one cube root, and none without adhesion.
 constexpr PairLaw<double> make_pair_law(const ContactMaterial& material, double reduced_radius) noexcept {
-  PairLaw<double> law{material.modulus, reduced_radius, 0.0, 0.0, 0.0};
+  PairLaw<double> law{.modulus = material.modulus, .reduced_radius = reduced_radius};
   if (material.adhesion > 0.0) {
     const double root = cube_root(reduced_radius);
     law.length = material.length_factor * root;
+    law.inverse_length = 1.0 / law.length;
     law.radius = material.radius_factor * (root * root);
     law.force = std::numbers::pi * material.adhesion * reduced_radius;
   }

@@ -22,7 +22,11 @@ struct ContactBody {
   double radius = 0.0;             ///< of a sphere [µm]
   std::uint16_t material = 0;
   BodyShape shape = BodyShape::kSphere;
-  bool owned = true;               ///< false: a read-only ghost
+  bool owned = true;   ///< false: a read-only ghost
+  bool moves = true;   ///< false: held in place while others relax around it
+
+  /// Its points are unknowns of this rank.
+  [[nodiscard]] bool active() const { return owned && moves; }
 };
 
 /// Bodies at some positions. `geometry` is that of the surfaces at these positions; its node arrays are indexed as `position`.

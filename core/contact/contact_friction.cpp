@@ -54,8 +54,8 @@ void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const 
                                     out,
                                     source->first_point,
                                     target != nullptr ? target->first_point : 0,
-                                    source->owned,
-                                    target != nullptr && target->owned,
+                                    source->active(),
+                                    target != nullptr && target->active(),
                                     target != nullptr,
                                     pair.rigid ? offsets_[pair.b] - step_offsets_[pair.b] : Vec3d{}};
       for (const ContactElement& e : pair.step_elements[d]) sum += scatter(e);
@@ -72,14 +72,14 @@ std::vector<ElementGroup> ContactLayer::element_groups(const ContactScene& scene
     for (int d = 0; d < 2; ++d) {
       if (pair.elements[d].empty()) continue;
       if (pair.rigid) {
-        groups.push_back({pair.elements[d], pair.a, pair.a, a.first_point, 0, a.owned, false, false});
+        groups.push_back({pair.elements[d], pair.a, pair.a, a.first_point, 0, a.active(), false, false});
         continue;
       }
       const ContactBody& b = scene.bodies[pair.b];
       const ContactBody& source = d == 0 ? a : b;
       const ContactBody& target = d == 0 ? b : a;
       groups.push_back({pair.elements[d], d == 0 ? pair.a : pair.b, d == 0 ? pair.b : pair.a, source.first_point, target.first_point,
-                        source.owned, target.owned, true});
+                        source.active(), target.active(), true});
     }
   }
   return groups;

@@ -208,9 +208,14 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair) {
   const bool both = !pair.rigid && body[0].topology != nullptr && body[1].topology != nullptr;
   const std::uint16_t material_a = scene.bodies[pair.a].material;
   const std::uint16_t material_b = pair.rigid ? obstacles_[pair.b].material : scene.bodies[pair.b].material;
+  ContactMaterial contact = material(material_a, material_b);
+  if (!both && !pair.rigid) {  // a sphere gives way by its own foundation (fields_and_coupling.md, D)
+    contact.law.repulsion = contact.sphere_repulsion;
+    contact.law.cap = 0.0;
+  }
   for (int d = 0; d < 2; ++d) {
     if (pair.points[d].source_face.empty()) continue;
-    evaluate_points({body[d], body[1 - d], material(material_a, material_b), FaceQuadrature::with_points(settings_.points_per_face), reach(),
+    evaluate_points({body[d], body[1 - d], contact, FaceQuadrature::with_points(settings_.points_per_face), reach(),
                      both ? 0.5 : 1.0, pair.motion, pair.motion - pair.built_at, !pair.rigid},
                     d, pair);
   }

@@ -8,9 +8,9 @@ namespace morula {
 
 /// A cell of time 0.
 ///
-/// Its radius at birth and its cycle duration are drawn from the type (streams kCellVariability and kDivisionDuration), its wanted velocity from
-/// the stationary law. With random_age, a cell whose type cycles is at a random point of its cycle (balanced growth, stream kInitialPhase)
-/// and has the target volume of that point; else it is at birth. Division volume is twice the birth volume. All draws are keyed by the id,
+/// Its radius at birth and its cycle duration are drawn from the type (streams kCellVariability and kDivisionDuration), its wanted
+/// velocity from the stationary law. With random_age, a cell whose type cycles is at a random point of its cycle (balanced growth,
+/// stream kInitialPhase) and has the target volume of that point; else it is at birth. Division volume is twice the birth volume. All draws are keyed by the id,
 /// so that a founder is the same in whatever order founders are made. Field amounts and concentrations are 0.
 CellRow make_founder(CellId id, std::uint16_t type_index, const CellType& type, std::uint32_t seed, double time, bool random_age);
 

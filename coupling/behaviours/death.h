@@ -6,8 +6,8 @@
 
 namespace morula {
 
-/// Whether a cell begins to die in a step of dt [s]: a Poisson process of rate death_rate while the seen concentration of death_field is below
-/// death_below, so with probability 1 − e^(−rate·dt). The random number is that of (cell, step).
+/// Whether a cell begins to die in a step of dt [s]: a Poisson process of rate death_rate while the seen concentration of death_field is
+/// below death_below, so with probability 1 − e^(−rate·dt). The random number is that of (cell, step).
 bool begins_to_die(const CellRow& row, const CellType& type, std::uint32_t seed, std::uint64_t step, double dt);
 
 /// A cell that begins to die at this time [s].

@@ -21,15 +21,15 @@ struct SphereDivision {
 
 /// Divide a cell whose body is a sphere, at an instant.
 ///
-/// V_1 = f V_m and V_2 = V_m − V_1, so that nothing is lost to rounding; amounts split likewise, the remainder to the second daughter. The axis
-/// is random, uniform on the sphere (stream kDivisionAxis of the mother). The daughters lie inside the mother's envelope, centres d apart
-/// at x + u d V_2/V_m and x − u d V_1/V_m, which keeps the centroid; d = 0.4126 R_m for equal daughters (cbm/division_ramp.h, whose
+/// V_1 = f V_m and V_2 = V_m − V_1, so that nothing is lost to rounding; amounts split likewise, the remainder to the second daughter.
+/// The axis is random, uniform on the sphere (stream kDivisionAxis of the mother). The daughters lie inside the mother's envelope, centres
+/// d apart at x + u d V_2/V_m and x − u d V_1/V_m, which keeps the centroid; d = 0.4126 R_m for equal daughters (cbm/division_ramp.h, whose
 /// offset forgives their overlap while it is released). Radii follow from the volumes: r = (V/V_m)^(1/3) R_m.
 ///
 /// time: end of the step [s]; late: how long before that the division volume was reached [s]. The daughters are born at time − late, and
 /// their target volumes have already grown for `late`; their bodies have not: the first step drives them there.
 /// Precondition: mother.id.can_divide(), 0 < fraction < 1.
-SphereDivision divide_sphere(const CellRow& mother, const SphereBody& body, const CellType& type, std::uint32_t seed, double time, double late,
-                             double fraction = 0.5);
+SphereDivision divide_sphere(const CellRow& mother, const SphereBody& body, const CellType& type, std::uint32_t seed, double time,
+                             double late, double fraction = 0.5);
 
 }  // namespace morula

@@ -4,8 +4,8 @@
 
 namespace morula {
 
-/// Target volume at a point of the cycle [µm³]: V_b (1 + a) for linear growth and V_b 2^a for exponential growth when the division volume is
-/// 2 V_b; in general from birth_volume at a = 0 to division_volume at a = 1.
+/// Target volume at a point of the cycle [µm³]: V_b (1 + a) for linear growth and V_b 2^a for exponential growth when the division
+/// volume is 2 V_b; in general from birth_volume at a = 0 to division_volume at a = 1.
 double volume_in_cycle(double birth_volume, double division_volume, bool exponential, double point);
 
 struct Growth {

@@ -21,16 +21,16 @@ struct LifeStep {
 struct LifeDecision {
   enum class Kind : std::uint8_t {
     kNone,
-    kDivide,     ///< a sphere reached its division volume
-    kWait,       ///< a shell did, and waits; said once
-    kCannot,     ///< it did, but its lineage has as many generations as an id can name; said once
+    kDivide,  ///< a sphere reached its division volume
+    kWait,    ///< a shell did, and waits; said once
+    kCannot,  ///< it did, but its lineage has as many generations as an id can name; said once
     kBeginDying,
-    kRemove,     ///< a dying cell is gone
+    kRemove,  ///< a dying cell is gone
   } kind = Kind::kNone;
   double late = 0.0;  ///< time between the event and the end of the step [s]
 };
 
-/// One step in the life of one cell: growth, cycle, death and the wanted velocity. Reads and writes this row only, and its state is that at the
+/// One step in the life of one cell: growth, cycle, death and the wanted velocity. Reads and writes this row only, as it was at the
 /// beginning of the stage: nothing depends on the order of cells.
 ///
 /// A dying cell shrinks and is removed at last. Any other may begin to die; if it does not, it grows unless it rests or waits. Division at

@@ -64,7 +64,7 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
   spheres_.add_step_friction(scene_, displacement_, friction_, sums[0]);
   for (std::size_t body = 0; body < scene_.bodies().size(); ++body) {
     const ContactBody& b = scene_.bodies()[body];
-    if (!b.owned) continue;
+    if (!b.active()) continue;
     double work = 0.0;
     for (std::uint32_t i = b.first_point; i < b.first_point + b.point_count; ++i) {
       const std::size_t e = i < scene_.owned_nodes() ? i : i - scene_.sphere_point() + scene_.owned_nodes();
@@ -147,7 +147,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
           if (const auto shape = find_fault(tissue)) fault = *shape;
           double worst = 0.0;
           for (const ContactBody& body : scene_.bodies())
-            for (std::uint32_t i = body.first_point; body.owned && i < body.first_point + body.point_count; ++i)
+            for (std::uint32_t i = body.first_point; body.active() && i < body.first_point + body.point_count; ++i)
               if (norm2(residual_[i]) > worst) {
                 worst = norm2(residual_[i]);
                 fault.cell = body.id;

@@ -30,7 +30,7 @@ ContactScene Mechanics::contact_scene() const { return {scene_.bodies(), scene_.
 double Mechanics::largest(std::span<const Vec3d> by_point) const {
   double most = 0.0;
   for (const ContactBody& body : scene_.bodies())
-    if (body.owned)
+    if (body.active())
       for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) {
         const double here = norm2(by_point[i]);
         if (!(here <= most)) most = here;  // not a number wins
@@ -41,7 +41,7 @@ double Mechanics::largest(std::span<const Vec3d> by_point) const {
 double Mechanics::dot(std::span<const Vec3d> a, std::span<const Vec3d> b) const {
   OrderFreeSum sum;
   for (const ContactBody& body : scene_.bodies()) {
-    if (!body.owned) continue;
+    if (!body.active()) continue;
     double part = 0.0;
     for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) part += morula::dot(a[i], b[i]);
     sum.add(part);
@@ -83,18 +83,10 @@ void Mechanics::prepare(const Tissue& tissue) {
     gradient_.face_normal.assign(faces, {});
     gradient_.contact_area.assign(bodies, 0.0);
 
-    FrictionSystem::Layout layout;
-    layout.point_count = points;
-    for (const ContactBody& body : scene_.bodies()) {
-      layout.bodies.push_back({body.first_point, body.point_count});
-      layout.owned.push_back(body.owned);
-    }
-    if (comm_.size() > 1) layout.exchange = [this](std::span<Float4> vector) { scene_.exchange(vector); };
-    system_.set_layout(std::move(layout), threads_);
-    system_.set_shells(&shells_);
+    lay_out_system();
   }
   if (!evaluated_) {
-    const double cap = tissue.clock.capped ? model_.step.start_cap : 0.0;
+    const double cap = tissue.clock.capped ? (relaxing_ ? relax_cap_ : model_.step.start_cap) : 0.0;
     const double depth = tissue.clock.capped ? kCappedDepth : 0.0;
     if (cap != contacts_.cap() || depth != contacts_.settings().depth) contacts_current_ = false;
     contacts_.set_cap(cap);
@@ -107,6 +99,18 @@ void Mechanics::prepare(const Tissue& tissue) {
     spheres_.update_laws(scene_, tissue);
     evaluate(tissue, !contacts_current_);
   }
+}
+
+void Mechanics::lay_out_system() {
+  FrictionSystem::Layout layout;
+  layout.point_count = scene_.point_count();
+  for (const ContactBody& body : scene_.bodies()) {
+    layout.bodies.push_back({body.first_point, body.point_count});
+    layout.owned.push_back(body.active());
+  }
+  if (comm_.size() > 1) layout.exchange = [this](std::span<Float4> vector) { scene_.exchange(vector); };
+  system_.set_layout(std::move(layout), threads_);
+  system_.set_shells(&shells_);
 }
 
 void Mechanics::evaluate(const Tissue& tissue, bool moved) {
@@ -181,6 +185,10 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
     const Vec3f& v = tissue.spheres.velocity[i];
     solution_[scene_.sphere_point() + i] = {v.x, v.y, v.z, 0.0f};
   }
+  if (relaxing_) {
+    std::fill(solution_.begin(), solution_.end(), Float4{});
+    return;
+  }
   std::vector<Vec3d> offsets = tissue.obstacle_offset;
   bool moving = false;
   for (std::size_t i = 0; i < model_.obstacles.size(); ++i) {
@@ -224,12 +232,28 @@ void Mechanics::finish(Tissue& tissue, double dt, StepReport& report) {
   };
   for (std::size_t i = 0; i < tissue.shells.velocity.size(); ++i) tissue.shells.velocity[i] = velocity(i);
   for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i) tissue.spheres.velocity[i] = velocity(scene_.sphere_point() + i);
-  for (std::size_t i = 0; i < model_.obstacles.size(); ++i) tissue.obstacle_offset[i] += model_.obstacles[i].velocity * dt;
-  spheres_.update_attached(scene_, tissue);
+  if (!relaxing_) {
+    for (std::size_t i = 0; i < model_.obstacles.size(); ++i) tissue.obstacle_offset[i] += model_.obstacles[i].velocity * dt;
+    spheres_.update_attached(scene_, tissue);
+  }
   report.energy = energy_;
   report.overlap = deepest_overlap();
   if (tissue.clock.capped && report.overlap < 0.1) tissue.clock.capped = false;
   evaluated_ = false;  // volumes and flags change with the next step; contact caches stay
+}
+
+std::vector<Vec3d> Mechanics::spread(const Tissue& tissue, std::span<const Vec3d> by_body) {
+  prepare(tissue);
+  std::vector<Vec3d> out(external_size(tissue));
+  const std::size_t shells = scene_.owned_shells();
+  for (std::size_t i = 0; i < shells; ++i) {
+    if (norm2(by_body[i]) == 0.0) continue;
+    const ContactBody& body = scene_.bodies()[i];
+    for (std::uint32_t n = body.first_point; n < body.first_point + body.point_count; ++n)
+      out[n] = by_body[i] * (geometry_.node_area[n] / geometry_.area[i]);
+  }
+  std::copy(by_body.begin() + static_cast<std::ptrdiff_t>(shells), by_body.end(), out.begin() + scene_.owned_nodes());
+  return out;
 }
 
 double Mechanics::deepest_overlap() const {

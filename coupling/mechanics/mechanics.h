@@ -60,6 +60,13 @@ class Mechanics {
   /// the new positions and velocities; on a fault it is unchanged. Collective.
   Result<StepReport, StepFault> step(Tissue& tissue, double dt, std::span<const Vec3d> external);
 
+  /// Forces on whole cells (by owned body: shells, then spheres) as `external`: on a shell spread over its nodes by their area (dcm.md §11).
+  std::vector<Vec3d> spread(const Tissue& tissue, std::span<const Vec3d> by_body);
+
+  /// Let the owned bodies with moves[body] != 0 find their shape between all others, which are held in place: capped contact, short steps at
+  /// first (time_stepping.md §9.6.4). The clock stands still. Collective; ranks without such bodies take part.
+  Status relax(Tissue& tissue, std::span<const char> moves);
+
   /// Volumes, areas, pressures and contact areas at the tissue's present positions. Collective.
   const BodyValues& values(const Tissue& tissue);
 
@@ -84,6 +91,8 @@ class Mechanics {
   /// Back to the step's start after a fault.
   StepFault undo(const std::vector<Vec3d>& start, StepFault fault);
   void begin_step(const Tissue& tissue, double dt);
+  void hold_all_but(std::span<const char> moves);
+  void lay_out_system();
   [[nodiscard]] double friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt);
   [[nodiscard]] std::optional<StepFault> find_fault(const Tissue& tissue) const;
   Result<StepReport, StepFault> implicit_step(Tissue& tissue, double dt, std::span<const Vec3d> external);
@@ -93,12 +102,11 @@ class Mechanics {
   [[nodiscard]] ContactScene contact_scene() const;
   template <class F>
   void for_owned_points(F&& function) const {
-    const std::uint32_t nodes = scene_.owned_nodes(), first = scene_.sphere_point();
-    const auto last = first + static_cast<std::uint32_t>(scene_.owned_spheres());
+    const auto bodies = scene_.bodies();
 #pragma omp parallel for schedule(static) num_threads(threads_)
-    for (std::uint32_t i = 0; i < nodes; ++i) function(i);
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (std::uint32_t i = first; i < last; ++i) function(i);
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      if (bodies[b].active())
+        for (std::uint32_t i = bodies[b].first_point; i < bodies[b].first_point + bodies[b].point_count; ++i) function(i);
   }
   [[nodiscard]] double largest(std::span<const Vec3d> by_point) const;
   [[nodiscard]] double dot(std::span<const Vec3d> a, std::span<const Vec3d> b) const;
@@ -112,6 +120,8 @@ class Mechanics {
   Scene scene_;
   bool scene_valid_ = false;
   bool evaluated_ = false;           ///< energy and forces belong to the scene's positions and the tissue's parameters
+  double relax_cap_ = 0.0;           ///< δ while cells relax in place; 0: that of the study
+  bool relaxing_ = false;            ///< obstacles and flags stand still
   bool contacts_current_ = false;    ///< geometry and surface contacts belong to the scene's positions
   std::vector<Vec3d> scene_start_;   ///< owned positions when the ghosts were found
   ContactLayer contacts_;

@@ -203,6 +203,10 @@ void Scene::build(const Tissue& tissue, const Space& space, double reach, ShapeL
   exchange(position_);
 }
 
+void Scene::set_moving(std::span<const char> moves) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].moves = moves.empty() || moves[i] != 0;
+}
+
 void Scene::take_positions(const Tissue& tissue) {
   std::copy(tissue.shells.position.begin(), tissue.shells.position.end(), position_.begin());
   std::copy(tissue.spheres.position.begin(), tissue.spheres.position.end(), position_.begin() + shell_nodes_);

@@ -46,6 +46,9 @@ class Scene {
   void exchange(std::span<Vec3d> by_point) const;
   void exchange(std::span<Float4> by_point) const;
 
+  /// Hold all bodies in place but those with moves[body] != 0; an empty list lets all move.
+  void set_moving(std::span<const char> moves);
+
   /// Copy owned positions from / to the tissue.
   void take_positions(const Tissue& tissue);
   /// Radii of owned spheres from the tissue, and of ghosts from their owners. Collective.

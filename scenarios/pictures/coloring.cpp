@@ -47,6 +47,13 @@ void widen(ColorScale& scale) {
   scale.high = std::ceil(scale.high / step - 1e-9) * step;
 }
 
+// A little lighter or darker from cell to cell, so that neighbours of one kind differ: −1..1 from the id.
+Rgb varied(const Rgb& color, CellId id) {
+  const std::uint64_t h = (id.bits() * 0x9E3779B97F4A7C15ull) >> 40;
+  const float t = static_cast<float>(h & 0xFFFF) / 32767.5f - 1.0f;
+  return t > 0.0f ? mix(color, {1.0f, 1.0f, 1.0f}, 0.16f * t) : color * (1.0f + 0.10f * t);
+}
+
 }  // namespace
 
 bool is_number(ColorBy by) { return by == ColorBy::kPressure || by == ColorBy::kVolume || by == ColorBy::kConcentration; }
@@ -98,8 +105,8 @@ std::vector<Rgb> cell_colors(const Snapshot& snapshot, ColorBy by, const ColorSc
   colors.reserve(snapshot.cells.size());
   for (const auto& cell : snapshot.cells) {
     switch (by) {
-      case ColorBy::kType: colors.push_back(categorical_color(cell.type)); break;
-      case ColorBy::kBody: colors.push_back(body_color(cell.body)); break;
+      case ColorBy::kType: colors.push_back(varied(categorical_color(cell.type), cell.id)); break;
+      case ColorBy::kBody: colors.push_back(varied(body_color(cell.body), cell.id)); break;
       case ColorBy::kIdentity: colors.push_back(identity_color(cell.id)); break;
       default: colors.push_back(scale_color(scale, color_value(cell, by, field)));
     }

@@ -38,7 +38,7 @@ ColorScale common_scale(std::span<const Snapshot> snapshots, ColorBy by, std::si
 /// Colour of a scale at a value.
 Rgb scale_color(const ColorScale& scale, double value);
 
-/// Colour of every cell.
+/// Colour of every cell; kinds vary a little in lightness from cell to cell, so that neighbours can be told apart.
 std::vector<Rgb> cell_colors(const Snapshot& snapshot, ColorBy by, const ColorScale& scale, std::size_t field = 0);
 
 /// Legend for kinds: the cell types that occur, or the bodies; empty otherwise.

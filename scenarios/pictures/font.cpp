@@ -156,10 +156,12 @@ void draw_glyph(Image& image, double x, double y, const Glyph& glyph, double sca
 
 }  // namespace
 
+constexpr double kLetterSpacing = 0.35;  // between glyphs, on their grid
+
 double text_width(std::string_view text, double cap_height) {
   double width = 0.0;
-  for (std::size_t at = 0; at < text.size();) width += glyph_of(next_code(text, at)).advance;
-  return (width + 0.25 * static_cast<double>(text.empty() ? 0 : 1)) * cap_height / 7.0;
+  for (std::size_t at = 0; at < text.size();) width += glyph_of(next_code(text, at)).advance + kLetterSpacing;
+  return width * cap_height / 7.0;
 }
 
 void draw_text(Image& image, double x, double y, std::string_view text, double cap_height, const Rgb& color, Align align) {
@@ -168,7 +170,7 @@ void draw_text(Image& image, double x, double y, std::string_view text, double c
   for (std::size_t at = 0; at < text.size();) {
     const Glyph& glyph = glyph_of(next_code(text, at));
     draw_glyph(image, x + 0.3 * scale, y, glyph, scale, color);
-    x += glyph.advance * scale;
+    x += (glyph.advance + kLetterSpacing) * scale;
   }
 }
 

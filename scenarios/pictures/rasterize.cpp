@@ -47,7 +47,7 @@ void draw_sphere(const Disc& disc, const ClipDepth& clip, const Band& band, doub
 void draw_triangle(const DrawnTriangle& t, const ClipDepth& clip, const Band& band, PixelBuffer& pixels) {
   const auto& [a, b, c] = t.corner;
   const double twice_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  if (!(std::abs(twice_area) > 1e-12)) return;
+  if (!(std::abs(twice_area) > 1e-12)) return;  // a line, or not a number
   const auto [low_x, high_x] = std::minmax({a.x, b.x, c.x});
   const auto [low_y, high_y] = std::minmax({a.y, b.y, c.y});
   const int y0 = std::max(band.first, static_cast<int>(std::ceil(low_y - 0.5)));
@@ -107,7 +107,7 @@ std::vector<Disc> discs_of(const Snapshot& snapshot, const Projection& projectio
   std::vector<Disc> discs;
   for (std::size_t i = 0; i < snapshot.cells.size(); ++i) {
     const auto& cell = snapshot.cells[i];
-    if (cell.body != BodyKind::kSphere || !(cell.radius > 0.0)) continue;
+    if (cell.body != BodyKind::kSphere || !(cell.radius > 0.0) || !std::isfinite(norm2(cell.centroid))) continue;
     const Vec3d p = projection.pixel(cell.centroid);
     discs.push_back({p.x, p.y, p.z, cell.radius, static_cast<std::int32_t>(2 * i)});
   }

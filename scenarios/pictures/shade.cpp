@@ -64,13 +64,13 @@ class Shader {
  private:
   [[nodiscard]] Rgb lit(int x, int y, std::size_t i, std::int32_t surface) const {
     const Rgb base = colors_[static_cast<std::size_t>(surface / 2)];
-    if (surface % 2 == 1) return mix(base, {1.0f, 1.0f, 1.0f}, 0.30f);
+    if (surface % 2 == 1) return mix(base, {1.0f, 1.0f, 1.0f}, options_.cut_lightening);
     const float nx = static_cast<float>(pixels_.normal_x[i]) / 32767.0f, ny = static_cast<float>(pixels_.normal_y[i]) / 32767.0f;
     const float nz = std::sqrt(std::max(0.0f, 1.0f - nx * nx - ny * ny));
     const float open = openness(x, y, i, nx, ny, nz);
     // light from (−0.42, 0.58, 0.70); half Lambert keeps the shadow side readable
     const float wrap = 0.5f + 0.5f * (-0.42f * nx + 0.58f * ny + 0.70f * nz);
-    const float brightness = (0.40f + 0.66f * wrap * wrap) * (0.30f + 0.70f * open) * (0.86f + 0.14f * nz);
+    const float brightness = (0.46f + 0.62f * wrap * wrap) * (0.34f + 0.66f * open) * (0.86f + 0.14f * nz);
     const float glance = std::max(0.0f, -0.228f * nx + 0.315f * ny + 0.921f * nz);  // half-way vector of light and eye
     const float shine = 0.10f * std::pow(glance, 30.0f) * open;
     const Rgb shaded = base * brightness + Rgb{shine, shine, shine};

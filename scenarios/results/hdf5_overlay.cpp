@@ -51,6 +51,7 @@ herr_t driver_query(const H5FD_t*, unsigned long* flags) {
 haddr_t driver_get_eoa(const H5FD_t* file, H5FD_mem_t) { return as_driver_file(file)->end_of_allocation; }
 herr_t driver_set_eoa(H5FD_t* file, H5FD_mem_t, haddr_t place) {
   as_driver_file(file)->end_of_allocation = place;
+  as_driver_file(file)->overlay->set_used_end(place);
   return 0;
 }
 haddr_t driver_get_eof(const H5FD_t* file, H5FD_mem_t) { return as_driver_file(file)->overlay->new_length(); }

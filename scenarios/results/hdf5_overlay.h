@@ -47,11 +47,14 @@ class Overlay {
   /// Length of the file below; of the file as HDF5 left it.
   [[nodiscard]] std::uint64_t old_length() const { return base_length_; }
   [[nodiscard]] std::uint64_t new_length() const { return length_; }
+  /// Where the part of the file that HDF5 uses ends at the moment.
+  [[nodiscard]] std::uint64_t used_end() const { return used_end_; }
 
   // for the driver
   [[nodiscard]] bool read(std::uint64_t place, std::span<std::byte> out) const;
   [[nodiscard]] bool write(std::uint64_t place, std::span<const std::byte> bytes);
   void set_length(std::uint64_t length) { length_ = length; }
+  void set_used_end(std::uint64_t place) { used_end_ = place; }
   void forget();
 
  private:
@@ -65,6 +68,7 @@ class Overlay {
   int descriptor_ = -1;
   std::uint64_t base_length_ = 0;
   std::uint64_t length_ = 0;
+  std::uint64_t used_end_ = 0;
   std::map<std::uint64_t, Page> pages_;
 };
 

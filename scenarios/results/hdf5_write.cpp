@@ -165,8 +165,7 @@ Result<Addition> plan_addition(const fs::path& path, const std::vector<Dataset>&
   MORULA_TRY_ASSIGN(const std::unique_ptr<Overlay> overlay, Overlay::over(path));
   Hdf5Handle file(overlay->open(true), H5Fclose);
   if (!file.ok()) return hdf5_error(path, "open");
-  haddr_t end = 0;
-  H5Fget_eoa(file.get(), &end);
+  const std::uint64_t end = overlay->used_end();
   for (const std::string& group : removed)
     if (H5Ldelete(file.get(), group.c_str(), H5P_DEFAULT) < 0) return hdf5_error(path, "remove " + group + " from");
   MORULA_TRY(declare(file.get(), path, datasets, extents));

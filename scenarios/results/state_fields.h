@@ -18,6 +18,8 @@ void for_each_row_field(Visit&& visit) {
   visit("death_time", "s", &CellRow::death_time);
   visit("last_swap_time", "s", &CellRow::last_swap_time);
   visit("reference_excess", "1", &CellRow::reference_excess);
+  visit("inflation_left", "um^3", &CellRow::inflation_left);
+  visit("inflation_rate", "um^3/s", &CellRow::inflation_rate);
   visit("polarity", "1", &CellRow::polarity);
   visit("migration_velocity", "um/s", &CellRow::migration_velocity);
   visit("amount", "amol", &CellRow::amount);
@@ -29,7 +31,7 @@ void for_each_row_field(Visit&& visit) {
 }
 
 /// The size of a row that the list above covers, to notice a member that was added to one and not to the other.
-inline constexpr std::size_t kListedRowBytes = 3 * 8 + 9 * 8 + 2 * sizeof(Vec3d) + 2 * kMaxFields * 8 + 8 + 2 + 1 + 1;
+inline constexpr std::size_t kListedRowBytes = 3 * 8 + 11 * 8 + 2 * sizeof(Vec3d) + 2 * kMaxFields * 8 + 8 + 2 + 1 + 1;
 static_assert(sizeof(CellRow) == kListedRowBytes + sizeof(CellRow::unused_), "list every member of CellRow in for_each_row_field");
 
 template <class Visit>

@@ -39,7 +39,8 @@ TEST_P(EveryContactLaw, ForceIsTheDerivativeOfItsEnergy) {
         if (near_jump(law, overlap, 40 * h) || std::abs(overlap) < 40 * h) continue;
         const auto energy = [&](double at) { return GetParam().respond(law, at, attached).energy; };
         // Fourth-order difference: the truncation error at the fold's edge stays below the tolerance.
-        const double slope = (8.0 * (energy(overlap + h) - energy(overlap - h)) - (energy(overlap + 2 * h) - energy(overlap - 2 * h))) / (12 * h);
+        const double slope =
+            (8.0 * (energy(overlap + h) - energy(overlap - h)) - (energy(overlap + 2 * h) - energy(overlap - 2 * h))) / (12 * h);
         EXPECT_NEAR(slope, GetParam().respond(law, overlap, attached).force, 1e-7 * (std::abs(slope) + 1e-2)) << overlap << attached;
       }
     }
@@ -53,7 +54,8 @@ TEST_P(EveryContactLaw, StiffnessIsThePositivePartOfTheSlopeOfTheForce) {
         const double h = 1e-4;
         if (near_jump(law, overlap, 100 * h) || std::abs(overlap) < 100 * h) continue;
         const auto force = [&](double at) { return GetParam().respond(law, at, attached).force; };
-        const double slope = (8.0 * (force(overlap + h) - force(overlap - h)) - (force(overlap + 2 * h) - force(overlap - 2 * h))) / (12 * h);
+        const double slope =
+            (8.0 * (force(overlap + h) - force(overlap - h)) - (force(overlap + 2 * h) - force(overlap - 2 * h))) / (12 * h);
         EXPECT_NEAR(GetParam().respond(law, overlap, attached).stiffness, std::max(0.0, slope), 1e-7 * (std::abs(slope) + 1.0)) << overlap;
       }
     }
@@ -100,7 +102,8 @@ TEST_P(EveryContactLaw, IsDescribedInFull) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, EveryContactLaw, testing::ValuesIn(contact_laws()), [](const auto& test) { return test.param.info.name; });
+INSTANTIATE_TEST_SUITE_P(Registry, EveryContactLaw, testing::ValuesIn(contact_laws()),
+                         [](const auto& test) { return test.param.info.name; });
 
 }  // namespace
 }  // namespace morula::cbm

@@ -43,7 +43,8 @@ Cluster random_cluster(int count, unsigned seed) {
     cluster.type.push_back(static_cast<std::uint16_t>(k % 2));
   }
   for (std::uint32_t i = 0; i < cluster.position.size(); ++i) {
-    for (std::uint32_t j = i + 1; j < cluster.position.size(); ++j) cluster.pairs.push_back({i, j, (i + j) % 3 != 0, (i * j) % 7 == 0 ? 0.4 : 0.0});
+    for (std::uint32_t j = i + 1; j < cluster.position.size(); ++j)
+      cluster.pairs.push_back({i, j, (i + j) % 3 != 0, (i * j) % 7 == 0 ? 0.4 : 0.0});
   }
   return cluster;
 }
@@ -130,6 +131,16 @@ TEST(PairForces, FrictionScalarsBuildTheFrictionBlock) {
   EXPECT_NEAR(r.area, kPi * 3.026791 * 3.026791, 1e-4);  // a at δ = 1 of the reference pair
   EXPECT_DOUBLE_EQ(r.isotropic_friction, 50.0 * r.area);
   EXPECT_NEAR(r.isotropic_friction + r.axial_friction, 60.0 * r.area, 1e-10);
+}
+
+TEST(PairForces, AWallPushesLikeARigidPlaneWithoutFriction) {
+  // R = 5, E* = 0.535714286 (plane of the physics page), δ = 1: (4/3) E* √5.
+  const auto r = evaluate_wall({0.45, 0.4}, 5.0, {0, 0, -1}, 4.0);
+  EXPECT_NEAR(r.force, 4.0 / 3.0 * 0.535714286 * std::sqrt(5.0), 1e-8);
+  EXPECT_NEAR(r.area, 5.0 * kPi, 1e-12);
+  EXPECT_EQ(r.isotropic_friction, 0.0);
+  EXPECT_EQ(evaluate_wall({0.45, 0.4}, 5.0, {0, 0, -1}, 5.1).force, 0.0);
+  EXPECT_GT(evaluate_wall({0.45, 0.4}, 5.0, {0, 0, -1}, -1.0).force, r.force);
 }
 
 TEST(PairForces, CoincidentCentresGetADefiniteDirection) {

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
+#include <omp.h>
 
+#include <algorithm>
 #include <cstring>
+#include <map>
 
 #include "dcm/builtin.h"
 #include "tests/dcm/shell_fixtures.h"
@@ -118,8 +121,45 @@ TEST_P(EveryShellLaw, ForceIsProportionalToItsStrength) {
   }
 }
 
+TEST_P(EveryShellLaw, EnergyScalesWithTheSizeOfTheCellAsItsUnitsSay) {
+  // Energy ∝ size^n at fixed coefficients: [nN·µm] = [coefficient] · µm^n.
+  const std::map<std::string, int> exponent{{"nN/µm", 2}, {"nN·µm", 0}, {"kPa", 3}};
+  const std::map<std::string, std::string> unit_of_strength{{"edge_spring", "nN/µm"},    {"hinge_bending", "nN·µm"},
+                                                            {"cortical_tension", "nN/µm"}, {"volume_pressure", "kPa"},
+                                                            {"triangle_shape", "nN/µm"},  {"dihedral_barrier", "nN·µm"}};
+  const int n = exponent.at(unit_of_strength.at(GetParam().info.name));
+  Shells shells = rough_shells();
+  const auto types = only(GetParam());
+  const auto at = mechanics(shells, types, shells.position);
+  const double scale = 1.7;
+  for (Vec3d& x : shells.position) x *= scale;
+  for (double& length : shells.rest_length) length *= scale;
+  for (double& volume : shells.rest_volume) volume *= scale * scale * scale;
+  for (double& volume : shells.reference_volume) volume *= scale * scale * scale;
+  const auto larger = mechanics(shells, types, shells.position);
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    EXPECT_NEAR(larger.energy[s], std::pow(scale, n) * at.energy[s], 1e-11 * std::pow(scale, n) * (1.0 + at.energy[s]));
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Registry, EveryShellLaw, ::testing::ValuesIn(conservative_laws()),
                          [](const auto& test) { return test.param.info.name; });
+
+TEST(InternalForces, HaveTheSameBitsOnAnyNumberOfThreads) {
+  const Shells shells = rough_shells();
+  ShellParameters p;
+  p.spring_stiffness = 0.17, p.hinge_stiffness = 1e-3, p.tension = 0.5, p.barrier_angle = 0.5;
+  const std::vector<ShellParameters> types{p, p};
+  const int threads = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const auto one = mechanics(shells, types, shells.position);
+  omp_set_num_threads(3);
+  const auto three = mechanics(shells, types, shells.position);
+  omp_set_num_threads(threads);
+  EXPECT_EQ(one.force, three.force);
+  EXPECT_EQ(one.energy, three.energy);
+  EXPECT_EQ(one.volume, three.volume);
+}
 
 TEST(ShellLawRegistry, DescribesEveryLawCompletely) {
   std::vector<std::string> names;

@@ -1,12 +1,17 @@
 #include <gtest/gtest.h>
 #include <mpi.h>
+#include <omp.h>
 
 namespace {
 
-/// Starts MPI for the tests of this program; every test works on MPI_COMM_SELF.
+/// Starts MPI for the tests of this program; every test works on MPI_COMM_SELF, with one thread unless it says otherwise: tests run
+/// side by side, and threads that wait for a busy processor are slow.
 class MpiEnvironment : public testing::Environment {
  public:
-  void SetUp() override { MPI_Init(nullptr, nullptr); }
+  void SetUp() override {
+    MPI_Init(nullptr, nullptr);
+    omp_set_num_threads(1);
+  }
   void TearDown() override { MPI_Finalize(); }
 };
 

@@ -53,7 +53,7 @@ TEST_F(Checkpoint, WrittenByAnyNumberOfRanksIsTheSameFile) {
   if (comm.is_root()) {
     const Comm alone(MPI_COMM_SELF);
     ASSERT_TRUE(write_checkpoint(folder / "alone.h5", make_tissue(alone, library), kInfo, alone).ok());
-    EXPECT_EQ(slurp(path), slurp(folder / "alone.h5"));
+    EXPECT_TRUE(slurp(path) == slurp(folder / "alone.h5"));
   }
 }
 
@@ -201,7 +201,7 @@ TEST_F(Checkpoint, RunningOutOfRoomLeavesTheOldOneAndIsAnErrorOnAllRanks) {
     EXPECT_EQ(written.error().kind, ErrorKind::kResources) << written.error().message;
     comm.barrier();
     EXPECT_FALSE(std::filesystem::exists(folder / "cp.h5.tmp"));
-    EXPECT_EQ(slurp(path), good);
+    EXPECT_TRUE(slurp(path) == good);
   }
 }
 

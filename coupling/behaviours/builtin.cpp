@@ -1,0 +1,71 @@
+#include "coupling/behaviours/builtin.h"
+
+#include "cbm/division_ramp.h"
+#include "coupling/behaviours/pressure_filter.h"
+#include "coupling/model.h"
+
+namespace morula {
+namespace {
+
+constexpr const char* kOurs = "choice of this project";
+
+// Fallbacks are those of a default CellType, so that the description and the model cannot drift apart.
+
+LawInfo growth_law(const char* name, const char* title, const char* equation) {
+  const CellType type;
+  return {
+      .name = name,
+      .title = title,
+      .equation = equation,
+      .source = "choice of this project; ages of a balanced population: Powell 1956, doi:10.1099/00221287-15-3-492",
+      .parameters = {{"cycle_duration", "time", "s", type.cycle_duration.mean, 1.0, 1e9, kOurs, "From birth to twice the birth volume."},
+                     {"inhibit_pressure", "pressure", "kPa", type.inhibit_pressure, 0.0, kNever, kOurs,
+                      "Growth stops while the averaged pressure is above this."},
+                     {"pressure_averaging", "time", "s", kPressureAveraging, kPressureAveraging, kPressureAveraging, kOurs,
+                      "Time of the exponential average of the pressure; fixed."}}};
+}
+
+LawInfo division_law() {
+  return {.name = "instant_division",
+          .title = "Division of a sphere at an instant",
+          .equation = "V_2 = V_m − V_1, d = 2(R_m − r) = 0.4126 R_m, rest distance grows linearly to R_1 + R_2 − δ_0",
+          .source = kOurs,
+          .parameters = {{"relaxation", "time", "s", cbm::kSisterRelaxation, cbm::kSisterRelaxation, cbm::kSisterRelaxation, kOurs,
+                          "Time over which the overlap of two sisters is released; fixed."}}};
+}
+
+LawInfo death_law() {
+  const CellType type;
+  return {
+      .name = "starvation",
+      .title = "Death by lack of a concentration, shrinking and removal",
+      .equation = "P(death in Δt) = 1 − e^(−rate·Δt) while c < death_below; then V = V_0 e^(−t/τ_a), removed below a fraction of V_0",
+      .source = kOurs,
+      .parameters = {{"death_below", "concentration", "mM", type.death_below, 0.0, 1e6, kOurs, "Concentration below which cells may die."},
+                     {"death_rate", "rate", "1/s", type.death_rate, 0.0, 1e6, kOurs, "Probability of death per time while below."},
+                     {"apoptosis_time", "time", "s", type.apoptosis_time, 1.0, 1e9, kOurs, "τ_a of the shrinking volume."},
+                     {"removal_fraction", "number", "1", type.removal_fraction, 1e-6, 0.999, kOurs,
+                      "A dead cell is removed below this part of its volume at death."}}};
+}
+
+LawInfo migration_law() {
+  const CellType type;
+  return {.name = "persistent_walk",
+          .title = "Persistent random migration",
+          .equation = "F = Γ_cm u, du = −u dt/P + (S/√3)√(2/P) dB per component; MSD = 2S²P[t − P(1 − e^(−t/P))]",
+          .source = "Uhlenbeck & Ornstein 1930, doi:10.1103/PhysRev.36.823",
+          .parameters = {{"migration_speed", "velocity", "µm/s", type.migration_speed, 0.0, 10.0, kOurs,
+                          "S: root mean square of the wanted velocity in three dimensions."},
+                         {"migration_persistence", "time", "s", type.migration_persistence, 1.0, 1e9, kOurs,
+                          "P: time over which direction is kept."}}};
+}
+
+}  // namespace
+
+std::vector<LawInfo> behaviour_laws() {
+  return {growth_law("linear_growth", "Linear growth over the cycle", "V = V_b (1 + t/T)"),
+          growth_law("exponential_growth", "Exponential growth over the cycle", "V = V_b 2^(t/T)"), division_law(), death_law(),
+          migration_law()};
+}
+
+}  // namespace morula

@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/behaviours/life.h"
+#include "coupling/simulation.h"
+
+namespace morula {
+namespace {
+
+constexpr double kSmallestStep = 1e-4;   // below this a step is given up [s]
+constexpr double kGrowthOfStep = 1.5;    // most a step grows from one to the next
+constexpr std::uint64_t kReorderEvery = 200;  // steps between renewals of the canonical order: the same on any number of ranks
+constexpr double kTolerableImbalance = 1.25;
+
+/// The step that the controller wants, cut so that it lands on `land_on` without leaving a crumb.
+double fit_step(double wanted, double time, double land_on) {
+  const double left = land_on - time;
+  if (left <= wanted * (1.0 + 1e-9)) return left;
+  return left < 1.5 * wanted ? 0.5 * left : wanted;
+}
+
+/// What growth may change before a step, so that it can be taken back.
+struct Growing {
+  std::vector<CellRow> rows;
+  std::vector<double> reference_volume, rest_volume, rest_length, radius;
+
+  explicit Growing(const Tissue& t)
+      : rows(t.cells.rows), reference_volume(t.shells.reference_volume), rest_volume(t.shells.rest_volume), rest_length(t.shells.rest_length), radius(t.spheres.radius) {}
+  void restore(Tissue& t) const {
+    t.cells.rows = rows;
+    t.shells.reference_volume = reference_volume;
+    t.shells.rest_volume = rest_volume;
+    t.shells.rest_length = rest_length;
+    t.spheres.radius = radius;
+  }
+};
+
+}  // namespace
+
+Result<StepOutcome> Simulation::step(double land_on) {
+  StepOutcome outcome;
+  Clock& clock = tissue_.clock;
+  const Growing before(tissue_);
+  double dt = fit_step(std::min(clock.next_step, model_.step.max_step), clock.time, land_on);
+  const bool wanted_less = dt < clock.next_step;
+  LifeReport life;
+
+  for (;; ++outcome.retries) {
+    {  // behaviours: growth, cycle, death, migration
+      auto timed = timer().scope(Stage::kBehaviours);
+      life = live(tissue_.cells.rows, model_.types, {model_.seed, clock.steps, clock.time + dt, dt});
+      set_bodies_to_targets(dt);
+    }
+    // mechanics: ghosts, candidates, contacts, forces, system, solve, advance
+    const auto moved = mechanics_->step(tissue_, dt, mechanics_->spread(tissue_, active_forces()));
+    if (moved) {
+      outcome.mechanics = *moved;
+      break;
+    }
+    before.restore(tissue_);
+    mechanics_->parameters_changed();
+    if (!moved.error().smaller_step_may_help || dt * 0.25 < kSmallestStep) {
+      char when[64];
+      std::snprintf(when, sizeof when, " at %.6g h", clock.time / 3600.0);
+      return Error{ErrorKind::kPhysics, moved.error().what + (moved.error().cell.valid() ? " (cell " + moved.error().cell.text() + ")" : "") + when,
+                   "the step was cut to " + std::to_string(dt) + " s without success; weaker adhesion, more tension or a finer mesh may help"};
+    }
+    dt *= outcome.retries < 2 ? 0.5 : 0.25;
+  }
+  clock.time = dt == land_on - clock.time ? land_on : clock.time + dt;
+  if (std::abs(clock.time - land_on) < 1e-9 * std::max(1.0, land_on)) clock.time = land_on;
+  ++clock.steps;
+  {  // the next step: towards the allowed displacement, more slowly where Newton had to work
+    const double allowed = model_.step.max_displacement * model_.contact.range;
+    double factor = std::min(kGrowthOfStep, 0.9 * allowed / std::max(outcome.mechanics.displacement, 1e-12));
+    if (outcome.mechanics.halvings > 3) factor = std::min(factor, 0.5);
+    const double next = std::min(model_.step.max_step, dt * std::max(factor, 0.2));
+    clock.next_step = wanted_less && outcome.retries == 0 ? std::max(next, std::min(clock.next_step, model_.step.max_step)) : next;
+    if (model_.step.integrator == Integrator::kExplicitEuler) clock.next_step = model_.step.max_step;
+  }
+  wrap_cells();
+  average_pressures(dt);
+  MORULA_TRY(advance_fields(dt, outcome));
+  {
+    auto timed = timer().scope(Stage::kBehaviours);
+    divide_and_remove(life, clock.time, outcome.events);
+  }
+  MORULA_TRY_ASSIGN(const auto swapped, swap_bodies());
+  outcome.events.insert(outcome.events.end(), swapped.begin(), swapped.end());
+  outcome.events = all_events(std::move(outcome.events));
+  if (clock.steps % kReorderEvery == 0) {
+    renew_order(tissue_);
+    mechanics_->bodies_changed();
+    if (imbalance() > kTolerableImbalance) distribute();
+  }
+  return outcome;
+}
+
+}  // namespace morula

@@ -1,0 +1,303 @@
+#include "coupling/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "coupling/behaviours/division.h"
+#include "coupling/behaviours/life.h"
+#include "coupling/behaviours/migration.h"
+#include "coupling/behaviours/pressure_filter.h"
+#include "coupling/cell_record.h"
+#include "coupling/mechanics/contact_setup.h"
+#include "coupling/swaps.h"
+#include "dcm/growth.h"
+
+namespace morula {
+namespace {
+
+/// Time over which V0 (or a sphere's volume) goes back to that of a free cell after a swap: about ten mechanical relaxation times [s].
+constexpr double kEasing = 600.0;
+
+template <class T>
+std::vector<std::byte> bytes_of(const std::vector<T>& items) {
+  std::vector<std::byte> out(items.size() * sizeof(T));
+  if (!out.empty()) std::memcpy(out.data(), items.data(), out.size());
+  return out;
+}
+
+}  // namespace
+
+Simulation::Simulation(Model model, Tissue tissue, const Comm& comm, int threads)
+    : model_(std::move(model)), tissue_(std::move(tissue)), comm_(comm), threads_(threads) {}
+
+Result<std::unique_ptr<Simulation>> Simulation::create(Model model, Tissue tissue, const Comm& comm, int threads) {
+  std::unique_ptr<Simulation> out(new Simulation(std::move(model), std::move(tissue), comm, threads));
+  MORULA_TRY_ASSIGN(auto obstacles, contact_obstacles(out->model_));
+  out->tissue_.obstacle_offset.resize(obstacles.size());
+  out->mechanics_ = std::make_unique<Mechanics>(out->model_, std::move(obstacles), out->shapes_, comm, threads);
+  if (out->tissue_.fields.empty()) {
+    for (std::size_t f = 0; f < out->model_.fields.size(); ++f) {
+      const auto& spec = out->model_.fields[f];
+      MORULA_TRY_ASSIGN(const auto grid, fields::grid_for(spec, out->model_.space));
+      const auto owner = fields::owners_along_curve(grid, comm.size());
+      out->tissue_.fields.push_back(fields::uniform_field(grid, spec.initial, owner, comm.rank()));
+      out->tissue_.ledger.field_start[f] = fields::total_amount(out->tissue_.fields.back(), comm);
+      for (CellRow& row : out->tissue_.cells.rows) row.concentration[f] = spec.initial;
+    }
+  }
+  out->distribute();
+  return out;
+}
+
+void Simulation::distribute() {
+  auto timed = mechanics_->timer().scope(Stage::kBalance);
+  balance(tissue_, partition_, shapes_, comm_);
+  if (comm_.size() > 1)
+    for (fields::Field& field : tissue_.fields) {
+      std::vector<int> owner(static_cast<std::size_t>(field.grid.brick_count()));
+      const Vec3d size = field.grid.spacing() * static_cast<double>(fields::Grid::kBrick);
+      for (std::size_t b = 0; b < owner.size(); ++b) {
+        const auto place = field.grid.place(static_cast<std::int64_t>(b));
+        owner[b] = partition_.owner(field.grid.box.low + Vec3d{(place[0] + 0.5) * size.x, (place[1] + 0.5) * size.y, (place[2] + 0.5) * size.z});
+      }
+      fields::redistribute(field, owner, comm_);
+    }
+  mechanics_->bodies_changed();
+}
+
+std::vector<Vec3d> Simulation::centers() const {
+  std::vector<Vec3d> out(tissue_.cells.size());
+  std::size_t shell = 0, sphere = 0;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (tissue_.cells.rows[i].body == BodyKind::kShell) {
+      out[i] = volume_centroid(tissue_.shells.topology(shell).faces(), tissue_.shells.nodes(shell));
+      ++shell;
+    } else {
+      out[i] = tissue_.spheres.position[sphere++];
+    }
+  }
+  return out;
+}
+
+void Simulation::set_bodies_to_targets(double dt) {
+  const double keep = std::exp(-dt / kEasing);
+  std::size_t shell = 0, sphere = 0;
+  for (CellRow& row : tissue_.cells.rows) {
+    if (row.inflation_left > 0.0) {
+      const double gain = std::min(row.inflation_left, row.inflation_rate * dt);
+      row.target_volume += gain;
+      row.inflation_left -= gain;
+    }
+    row.reference_excess *= keep;
+    const double excess = std::exp(row.reference_excess);
+    if (row.body == BodyKind::kShell) {
+      if (tissue_.shells.rest_volume[shell] != row.target_volume) dcm::set_target_volume(tissue_.shells, shell, row.target_volume);
+      tissue_.shells.reference_volume[shell] = free_reference_volume(row.target_volume, model_.types[row.type]) * excess;
+      ++shell;
+    } else {
+      tissue_.spheres.radius[sphere++] = std::cbrt(3.0 * row.target_volume * excess / (4.0 * std::numbers::pi));
+    }
+  }
+  mechanics_->parameters_changed();
+}
+
+std::vector<Vec3d> Simulation::active_forces() const {
+  std::vector<Vec3d> shells, spheres;
+  for (const CellRow& row : tissue_.cells.rows)
+    (row.body == BodyKind::kShell ? shells : spheres).push_back(migration_force(row, model_.types[row.type], row.target_volume));
+  shells.insert(shells.end(), spheres.begin(), spheres.end());
+  return shells;
+}
+
+void Simulation::average_pressures(double dt) {
+  const BodyValues& values = mechanics_->values(tissue_);
+  std::size_t shell = 0, sphere = tissue_.shells.size();
+  for (CellRow& row : tissue_.cells.rows)
+    row.pressure = averaged_pressure(row.pressure, values.pressure[row.body == BodyKind::kShell ? shell++ : sphere++], dt);
+}
+
+Status Simulation::advance_fields(double dt, StepOutcome& outcome) {
+  if (model_.fields.empty()) return {};
+  auto timed = timer().scope(Stage::kFields);
+  const std::vector<Vec3d> center = centers();
+  std::vector<fields::CellSource> sources;
+  for (std::size_t i = 0; i < center.size(); ++i) {
+    const CellRow& row = tissue_.cells.rows[i];
+    sources.push_back({row.id, row.type, center[i], std::cbrt(3.0 * row.target_volume / (4.0 * std::numbers::pi))});
+  }
+  std::vector<double> taken(sources.size()), seen(sources.size());
+  for (std::size_t f = 0; f < model_.fields.size(); ++f) {
+    MORULA_TRY_ASSIGN(auto report, field_solver_.advance(tissue_.fields[f], model_.fields[f], model_.space, sources, dt, comm_, taken, seen));
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      tissue_.cells.rows[i].amount[f] += taken[i];
+      tissue_.cells.rows[i].concentration[f] = seen[i];
+    }
+    tissue_.ledger.field_in[f] += report.total_inflow();
+    tissue_.ledger.field_taken[f] += report.taken;
+    tissue_.ledger.field_decayed[f] += report.decayed;
+    outcome.fields.push_back(report);
+  }
+  return {};
+}
+
+Result<std::vector<Event>> Simulation::swap_bodies() {
+  auto timed = timer().scope(Stage::kCoupling);
+  std::vector<Event> events;
+  const std::vector<SwapOrder> orders = choose_swaps(model_, tissue_, centers(), comm_);
+  if (!comm_.any(!orders.empty())) return events;
+  std::vector<double> pressure(orders.size()), volume;
+  for (std::size_t k = 0; k < orders.size(); ++k) pressure[k] = tissue_.cells.rows[orders[k].row].pressure;
+  auto cells = take_apart(tissue_);
+  std::vector<CellId> fresh;
+  for (std::size_t k = 0; k < orders.size(); ++k) {
+    CellRecord& cell = cells[orders[k].row];
+    const bool up = orders[k].to == BodyKind::kShell;
+    if (up) {
+      promote(cell, model_.types[cell.row.type], pressure[k], tissue_.clock.time, shapes_);
+      fresh.push_back(cell.row.id);
+    } else {
+      demote(cell, tissue_.clock.time);
+    }
+    events.push_back({tissue_.clock.time, up ? EventKind::kPromotion : EventKind::kDemotion, cell.row.id, {}, {}, orders[k].reason});
+  }
+  put_together(tissue_, std::move(cells));
+  mechanics_->bodies_changed();
+
+  if (comm_.any(!fresh.empty())) {  // new shells find their shape between their neighbours, at their volume
+    std::sort(fresh.begin(), fresh.end());
+    std::vector<char> moves;
+    std::vector<std::pair<std::size_t, double>> kept;  // shell, volume
+    for (const CellRow& row : tissue_.cells.rows) {
+      if (row.body != BodyKind::kShell) continue;
+      const std::size_t shell = moves.size();
+      const bool is_fresh = std::binary_search(fresh.begin(), fresh.end(), row.id);
+      if (is_fresh) kept.emplace_back(shell, tissue_.shells.rest_volume[shell]);
+      moves.push_back(is_fresh);
+    }
+    moves.resize(moves.size() + tissue_.spheres.size(), 0);
+    MORULA_TRY(mechanics_->relax(tissue_, moves));
+    for (const auto& [shell, v] : kept) {
+      const auto faces = tissue_.shells.topology(shell).faces();
+      const auto nodes = tissue_.shells.nodes(shell);
+      const Vec3d center = volume_centroid(faces, nodes);
+      const double scale = std::cbrt(v / enclosed_volume(faces, nodes, center));
+      for (Vec3d& p : nodes) p = center + (p - center) * scale;
+    }
+    mechanics_->bodies_changed();
+  }
+  std::int64_t ups = 0, downs = 0;
+  for (const Event& event : events) ++(event.kind == EventKind::kPromotion ? ups : downs);
+  tissue_.ledger.promotions += static_cast<std::uint64_t>(comm_.sum(ups));
+  tissue_.ledger.demotions += static_cast<std::uint64_t>(comm_.sum(downs));
+  return events;
+}
+
+Result<std::vector<Event>> Simulation::first_swaps() {
+  MORULA_TRY_ASSIGN(auto events, swap_bodies());
+  for (CellRow& row : tissue_.cells.rows)
+    if (row.last_swap_time == tissue_.clock.time) row.last_swap_time = -1e300;  // being placed is no exchange
+  return all_events(std::move(events));
+}
+
+void Simulation::divide_and_remove(const LifeReport& life, double time, std::vector<Event>& events) {
+  events.insert(events.end(), life.events.begin(), life.events.end());
+  std::int64_t divisions = static_cast<std::int64_t>(life.divisions.size()), deaths = 0;
+  for (const Event& event : life.events) deaths += event.kind == EventKind::kDeath;
+  if (!life.divisions.empty() || !life.removals.empty()) {
+    auto cells = take_apart(tissue_);
+    std::vector<CellRecord> next;
+    std::size_t division = 0, removal = 0;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (removal < life.removals.size() && life.removals[removal] == i) {
+        ++removal;
+        continue;
+      }
+      if (division < life.divisions.size() && life.divisions[division].row == i) {
+        const SphereRecord& mother = *cells[i].sphere;
+        const auto pair = divide_sphere(cells[i].row, {mother.position, mother.radius}, model_.types[cells[i].row.type], model_.seed, time,
+                                        life.divisions[division].late);
+        for (int which = 0; which < 2; ++which) {
+          CellRecord& daughter = next.emplace_back();
+          daughter.row = which == 0 ? pair.first : pair.second;
+          const SphereBody& body = which == 0 ? pair.first_body : pair.second_body;
+          // Daughters keep their mother's partners and adhere to each other.
+          SphereRecord record{body.position, body.radius, mother.velocity, mother.attached};
+          const CellId sister = which == 0 ? pair.second.id : pair.first.id;
+          record.attached.insert(std::upper_bound(record.attached.begin(), record.attached.end(), sister), sister);
+          daughter.sphere = std::move(record);
+        }
+        ++division;
+        continue;
+      }
+      next.push_back(std::move(cells[i]));
+    }
+    put_together(tissue_, std::move(next));
+    mechanics_->bodies_changed();
+  }
+  tissue_.ledger.divisions += static_cast<std::uint64_t>(comm_.sum(divisions));
+  tissue_.ledger.deaths += static_cast<std::uint64_t>(comm_.sum(deaths));
+}
+
+void Simulation::wrap_cells() {
+  if (!model_.space.any_periodic()) return;
+  bool moved = false;
+  std::size_t shell = 0, sphere = 0;
+  for (const CellRow& row : tissue_.cells.rows) {
+    if (row.body == BodyKind::kShell) {
+      const auto nodes = tissue_.shells.nodes(shell);
+      const Vec3d center = volume_centroid(tissue_.shells.topology(shell).faces(), nodes);
+      const Vec3d shift = model_.space.wrapped(center) - center;
+      if (norm2(shift) > 1e-6) {
+        for (Vec3d& p : nodes) p += shift;
+        moved = true;
+      }
+      ++shell;
+    } else {
+      Vec3d& p = tissue_.spheres.position[sphere++];
+      const Vec3d there = model_.space.wrapped(p);
+      moved = moved || !(there == p);
+      p = there;
+    }
+  }
+  if (moved) mechanics_->bodies_changed();
+}
+
+std::vector<Event> Simulation::all_events(std::vector<Event> mine) const {
+  const auto earlier = [](const Event& a, const Event& b) {
+    if (a.time != b.time) return a.time < b.time;
+    if (a.kind != b.kind) return a.kind < b.kind;
+    return a.cell < b.cell;
+  };
+  if (comm_.size() > 1) {
+    struct Packed {
+      double time;
+      CellId cell, first, second;
+      std::uint32_t kind, length;
+    };
+    std::vector<std::byte> bytes;
+    for (const Event& event : mine) {
+      const std::vector<Packed> head{{event.time, event.cell, event.first_daughter, event.second_daughter, static_cast<std::uint32_t>(event.kind),
+                                      static_cast<std::uint32_t>(event.text.size())}};
+      const auto packed = bytes_of(head);
+      bytes.insert(bytes.end(), packed.begin(), packed.end());
+      const auto* text = reinterpret_cast<const std::byte*>(event.text.data());  // NOLINT
+      bytes.insert(bytes.end(), text, text + event.text.size());
+    }
+    const auto all = comm_.gather_to_all(bytes);
+    mine.clear();
+    for (std::size_t at = 0; at < all.size();) {
+      Packed head;
+      std::memcpy(static_cast<void*>(&head), all.data() + at, sizeof head);
+      at += sizeof head;
+      mine.push_back({head.time, static_cast<EventKind>(head.kind), head.cell, head.first, head.second,
+                      std::string(reinterpret_cast<const char*>(all.data() + at), head.length)});  // NOLINT
+      at += head.length;
+    }
+  }
+  std::sort(mine.begin(), mine.end(), earlier);
+  return mine;
+}
+
+}  // namespace morula

@@ -1,0 +1,69 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/parallel/partition.h"
+#include "coupling/balance.h"
+#include "coupling/events.h"
+#include "coupling/mechanics/mechanics.h"
+#include "coupling/model.h"
+#include "coupling/tissue.h"
+#include "fields/field_solver.h"
+
+namespace morula {
+
+/// What one step did.
+struct StepOutcome {
+  StepReport mechanics;
+  int retries = 0;                ///< steps that were refused and tried again, smaller
+  std::vector<Event> events;      ///< of all ranks, in the order (time, kind, cell)
+  std::vector<fields::IntervalReport> fields;
+};
+
+/// A tissue that runs: its state, its model, and the workspaces. One step is Simulation::step (coupling/pipeline.cpp).
+class Simulation {
+ public:
+  /// Takes the tissue over: distributes it over the ranks and makes the workspaces. Errors: an obstacle that is no closed surface.
+  static Result<std::unique_ptr<Simulation>> create(Model model, Tissue tissue, const Comm& comm, int threads);
+
+  /// One step, not beyond `land_on` [s]; lands there exactly when it is near. kPhysics when no step size works: the message names cell, law
+  /// and time; the tissue is that before the step. Collective.
+  Result<StepOutcome> step(double land_on);
+
+  /// Swaps that regions and triggers ask for at the very beginning. Collective.
+  Result<std::vector<Event>> first_swaps();
+
+  [[nodiscard]] const Model& model() const { return model_; }
+  [[nodiscard]] const Tissue& tissue() const { return tissue_; }
+  [[nodiscard]] const Comm& comm() const { return comm_; }
+  [[nodiscard]] Mechanics& mechanics() { return *mechanics_; }
+  [[nodiscard]] StageTimer& timer() { return mechanics_->timer(); }
+  [[nodiscard]] const BodyValues& values() { return mechanics_->values(tissue_); }
+  [[nodiscard]] std::vector<Vec3d> centers() const;  ///< of the cells, by row
+  [[nodiscard]] double imbalance() const { return morula::imbalance(tissue_, comm_); }
+
+ private:
+  Simulation(Model model, Tissue tissue, const Comm& comm, int threads);
+  void distribute();
+  void set_bodies_to_targets(double dt);
+  [[nodiscard]] std::vector<Vec3d> active_forces() const;
+  void average_pressures(double dt);
+  Status advance_fields(double dt, StepOutcome& outcome);
+  Result<std::vector<Event>> swap_bodies();
+  void divide_and_remove(const struct LifeReport& life, double time, std::vector<Event>& events);
+  void wrap_cells();
+  [[nodiscard]] std::vector<Event> all_events(std::vector<Event> mine) const;
+
+  Model model_;
+  Tissue tissue_;
+  Comm comm_;
+  int threads_;
+  ShapeLibrary shapes_;
+  Partition partition_;
+  std::unique_ptr<Mechanics> mechanics_;
+  fields::FieldSolver field_solver_;
+};
+
+}  // namespace morula

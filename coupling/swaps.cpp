@@ -1,0 +1,165 @@
+#include "coupling/swaps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "dcm/growth.h"
+
+namespace morula {
+namespace {
+
+/// Distance of a point outside a region; negative inside [µm].
+double distance_outside(const Region& region, const Vec3d& point, const Vec3d& tissue_center) {
+  const Vec3d from = point - (region.follow_tissue ? region.center + tissue_center : region.center);
+  switch (region.shape) {
+    case RegionShape::kSphere: return norm(from) - region.radius;
+    case RegionShape::kHalfSpace: return dot(from, normalized(region.normal));
+    case RegionShape::kBox: {
+      const Vec3d d{std::abs(from.x) - 0.5 * region.size.x, std::abs(from.y) - 0.5 * region.size.y, std::abs(from.z) - 0.5 * region.size.z};
+      return std::max({d.x, d.y, d.z});
+    }
+    case RegionShape::kEverything: return -1e300;
+  }
+  return 1e300;
+}
+
+bool needs_center(const Swaps& swaps) {
+  return std::any_of(swaps.regions.begin(), swaps.regions.end(), [](const Region& r) { return r.follow_tissue; });
+}
+
+Vec3d tissue_centroid(std::span<const Vec3d> center, const Comm& comm) {
+  OrderFreeSum sums[4];
+  for (const Vec3d& c : center) {
+    sums[0].add(c.x);
+    sums[1].add(c.y);
+    sums[2].add(c.z);
+    sums[3].add(1.0);
+  }
+  double total[4];
+  comm.sum(sums, total);
+  return total[3] > 0.0 ? Vec3d{total[0], total[1], total[2]} * (1.0 / total[3]) : Vec3d{};
+}
+
+struct Wish {
+  BodyKind body;
+  double hold;
+  std::string reason;
+};
+
+double trigger_value(const Trigger& trigger, const CellRow& row) {
+  return trigger.value == Trigger::Value::kPressure ? row.pressure : row.concentration[static_cast<std::size_t>(trigger.field)];
+}
+
+/// What body a cell is to have: the first region it is in decides, then the triggers, then its type.
+Wish wish(const Model& model, const CellRow& row, const Vec3d& center, const Vec3d& tissue_center) {
+  const bool shell = row.body == BodyKind::kShell;
+  for (const Region& region : model.swaps.regions) {
+    const double margin = row.body == region.body ? region.margin : 0.0;
+    if (distance_outside(region, center, tissue_center) <= margin) return {region.body, model.swaps.hold, "region " + region.name};
+  }
+  double hold = model.swaps.hold;
+  for (const Trigger& trigger : model.swaps.triggers) {
+    if (trigger.value == Trigger::Value::kType) {
+      if (row.type == trigger.type) return {BodyKind::kShell, trigger.hold, "type " + model.types[row.type].name};
+      continue;
+    }
+    hold = std::max(hold, trigger.hold);
+    const double value = trigger_value(trigger, row);
+    const double threshold = shell ? trigger.demote : trigger.promote;
+    const bool wants = trigger.promote_above ? value > threshold : value < threshold;
+    if (wants) return {BodyKind::kShell, trigger.hold, trigger.value == Trigger::Value::kPressure ? "pressure" : model.fields[static_cast<std::size_t>(trigger.field)].name};
+  }
+  return {model.types[row.type].initial_body, hold, "outside"};
+}
+
+/// The ids of all ranks, sorted.
+std::vector<CellId> all_ids(const std::vector<CellId>& mine, const Comm& comm) {
+  const auto* bytes = reinterpret_cast<const std::byte*>(mine.data());  // NOLINT: plain data
+  const auto all = comm.gather_to_all(std::span(bytes, mine.size() * sizeof(CellId)));
+  std::vector<CellId> out(all.size() / sizeof(CellId));
+  if (!out.empty()) std::memcpy(static_cast<void*>(out.data()), all.data(), all.size());
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+}  // namespace
+
+std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm) {
+  if (model.swaps.regions.empty() && model.swaps.triggers.empty()) return {};
+  const Vec3d tissue_center = needs_center(model.swaps) ? tissue_centroid(center, comm) : Vec3d{};
+  std::vector<SwapOrder> orders;
+  std::int64_t shells = 0;
+  for (std::size_t i = 0; i < tissue.cells.size(); ++i) {
+    const CellRow& row = tissue.cells.rows[i];
+    if (row.body == BodyKind::kShell) ++shells;
+    if (row.phase == Phase::kDying) continue;
+    const Wish wanted = wish(model, row, center[i], tissue_center);
+    if (wanted.body == row.body || tissue.clock.time - row.last_swap_time < wanted.hold) continue;
+    orders.push_back({i, wanted.body, wanted.reason});
+  }
+  shells = comm.sum(shells);
+  const std::int64_t cells = comm.sum(static_cast<std::int64_t>(tissue.cells.size()));
+
+  // The lowest ids first, under the cap of shells and the number of swaps a step.
+  std::vector<CellId> up, down;
+  for (const SwapOrder& order : orders) (order.to == BodyKind::kShell ? up : down).push_back(tissue.cells.rows[order.row].id);
+  const auto all_up = all_ids(up, comm), all_down = all_ids(down, comm);
+  const auto most = tissue.clock.steps == 0 ? static_cast<std::size_t>(cells) : static_cast<std::size_t>(std::max<std::int64_t>(1, cells / 100));
+  const std::size_t downs = std::min(all_down.size(), most);
+  const auto free_places = static_cast<std::int64_t>(std::min<std::uint64_t>(model.swaps.max_shells, 1ull << 40)) - shells + static_cast<std::int64_t>(downs);
+  const std::size_t ups = std::min({all_up.size(), most - std::min(most, downs), static_cast<std::size_t>(std::max<std::int64_t>(0, free_places))});
+  std::erase_if(orders, [&](const SwapOrder& order) {
+    const CellId id = tissue.cells.rows[order.row].id;
+    const auto& all = order.to == BodyKind::kShell ? all_up : all_down;
+    const std::size_t allowed = order.to == BodyKind::kShell ? ups : downs;
+    return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), id) - all.begin()) >= allowed;
+  });
+  return orders;
+}
+
+double free_reference_volume(double target_volume, const CellType& type) {
+  return dcm::pressure_free_reference(target_volume, type.shell.tension, type.shell.bulk_modulus);
+}
+
+void set_enclosed_volume(ShellRecord& shell, double volume) {
+  const auto faces = shell.shape->topology->faces();
+  const Vec3d center = volume_centroid(faces, shell.position);
+  const double scale = std::cbrt(volume / enclosed_volume(faces, shell.position, center));
+  for (Vec3d& p : shell.position) p = center + (p - center) * scale;
+}
+
+void promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes) {
+  const SphereRecord& sphere = *cell.sphere;
+  const double volume = 4.0 / 3.0 * std::numbers::pi * sphere.radius * sphere.radius * sphere.radius;
+  // p = −K_V ln(V/V0) = p_i + 2γ/R: the shell pushes back as hard as the sphere was pushed.
+  const double reference = free_reference_volume(volume, type) * std::exp(std::max(0.0, pressure) / type.shell.bulk_modulus);
+  ShellRecord shell = spherical_shell(shapes.icosphere(type.shell_nodes).value(), sphere.position, volume, reference);
+  std::fill(shell.velocity.begin(), shell.velocity.end(), sphere.velocity);
+  cell.row.reference_excess = std::log(reference / free_reference_volume(cell.row.target_volume, type));
+  cell.row.last_swap_time = time;
+  cell.row.body = BodyKind::kShell;
+  cell.shell = std::move(shell);
+  cell.sphere.reset();
+}
+
+void demote(CellRecord& cell, double time) {
+  const ShellRecord& shell = *cell.shell;
+  const auto faces = shell.shape->topology->faces();
+  const Vec3d center = volume_centroid(faces, shell.position);
+  const double volume = enclosed_volume(faces, shell.position, center);
+  SphereRecord sphere;
+  sphere.position = center;
+  sphere.radius = std::cbrt(3.0 * volume / (4.0 * std::numbers::pi));
+  Vec3f mean;
+  for (const Vec3f& v : shell.velocity) mean += v;
+  sphere.velocity = mean * (1.0f / static_cast<float>(shell.velocity.size()));
+  cell.row.reference_excess = std::log(volume / cell.row.target_volume);
+  cell.row.last_swap_time = time;
+  cell.row.body = BodyKind::kSphere;
+  cell.sphere = std::move(sphere);
+  cell.shell.reset();
+}
+
+}  // namespace morula

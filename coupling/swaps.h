@@ -1,0 +1,35 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "core/parallel/comm.h"
+#include "coupling/cell_record.h"
+#include "coupling/events.h"
+#include "coupling/tissue.h"
+
+namespace morula {
+
+/// A cell that is to exchange its body.
+struct SwapOrder {
+  std::size_t row = 0;
+  BodyKind to = BodyKind::kShell;
+  std::string reason;  ///< for people: "region core", "pressure > 1 kPa"
+};
+
+/// Which cells exchange their body now, by regions and triggers with their margins, thresholds and hold times. Decisions read only the state
+/// given here: rows, and by row the centre of the cell. Among the willing the lowest ids come first; not more than max_shells shells,
+/// not more than one in a hundred cells (at least one) a step once the run has begun (fields_and_coupling.md, D). Collective.
+std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm);
+
+/// The sphere becomes a shell of the same volume, its mesh a sphere; V0 such that its pressure balances `pressure` and the tension.
+void promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes);
+/// The shell becomes a sphere of the same volume at its centroid.
+void demote(CellRecord& cell, double time);
+
+/// Scale a shell about its centroid so that its mesh encloses exactly this volume.
+void set_enclosed_volume(ShellRecord& shell, double volume);
+
+/// V0 of a free shell of this target volume: V exp(2γ/(R K_V)) [µm³].
+double free_reference_volume(double target_volume, const CellType& type);
+
+}  // namespace morula

@@ -1,0 +1,150 @@
+#include "scenarios/pictures/svg_frame.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "scenarios/pictures/palette.h"
+
+namespace morula::scenarios {
+namespace {
+
+// Two decimals of a pixel, no needless zeros.
+std::string px(double value) {
+  char buffer[48];
+  const double rounded = std::round(value * 100.0) / 100.0;
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, rounded == 0.0 ? 0.0 : rounded).ptr};
+}
+
+std::string color_text(int color) {
+  // Darker than in pictures of cells: thin lines need contrast on white and on black.
+  static constexpr int kOrder[] = {5, 6, 2, 3, 1, 0, 4};
+  const Rgb c = categorical_color(static_cast<std::size_t>(kOrder[color % 7]));
+  char buffer[8];
+  std::snprintf(buffer, sizeof buffer, "#%02x%02x%02x", static_cast<unsigned>(c.r * 255.0f + 0.5f), static_cast<unsigned>(c.g * 255.0f + 0.5f),
+                static_cast<unsigned>(c.b * 255.0f + 0.5f));
+  return buffer;
+}
+
+std::string axis_title(const CurveAxis& axis) { return axis.unit.empty() ? axis.label : axis.label + " [" + axis.unit + "]"; }
+
+double position(double value, const Ticks& ticks, bool logarithmic) {
+  if (!logarithmic) return (value - ticks.low) / (ticks.high - ticks.low);
+  return std::log10(value / ticks.low) / std::log10(ticks.high / ticks.low);
+}
+
+}  // namespace
+
+std::string xml_escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      case '\'': out += "&#39;"; break;
+      default:
+        if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' && c != '\r')
+          out += "\xEF\xBF\xBD";
+        else
+          out += c;
+    }
+  }
+  return out;
+}
+
+SvgFrame::SvgFrame(const std::string& title, int width, int height, SvgUse use)
+    : height_(height), left_(70.0), right_(width - 18.0), top_(title.empty() ? 18.0 : 38.0), bottom_(height - 50.0) {
+  out_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + std::to_string(width) + " " + std::to_string(height) + "\" width=\"" +
+         std::to_string(width) + "\" height=\"" + std::to_string(height) +
+         "\" role=\"img\" font-family=\"system-ui, 'Helvetica Neue', Arial, sans-serif\"" +
+         (use == SvgUse::kFile ? " style=\"background:#fff;color:#22252b\"" : "") + ">\n";
+  if (title.empty()) return;
+  out_ += "<title>" + xml_escaped(title) + "</title>\n";
+  text(left_, 22.0, title, "start", 15.0, " font-weight=\"600\"");
+}
+
+void SvgFrame::text(double x, double y, const std::string& content, const char* anchor, double size, const std::string& more) {
+  out_ += "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\" text-anchor=\"" + anchor + "\" font-size=\"" + px(size) + "\" fill=\"currentColor\"" + more +
+          ">" + xml_escaped(content) + "</text>\n";
+}
+
+void SvgFrame::axes(const CurveAxis& x_axis, const CurveAxis& y_axis, const Ticks& along, const Ticks& upwards) {
+  along_ = along;
+  upwards_ = upwards;
+  log_x_ = x_axis.logarithmic;
+  log_y_ = y_axis.logarithmic;
+  for (std::size_t i = 0; i < upwards.at.size(); ++i) {
+    const double at = y(upwards.at[i]);
+    out_ += "<path d=\"M" + px(left_) + " " + px(at) + "H" + px(right_) + "\" stroke=\"currentColor\" stroke-opacity=\"0.14\"/>\n";
+    text(left_ - 8.0, at + 4.0, upwards.text[i], "end", 12.0);
+  }
+  for (std::size_t i = 0; i < along.at.size(); ++i) {
+    const double at = x(along.at[i]);
+    out_ += "<path d=\"M" + px(at) + " " + px(bottom_) + "v5\" stroke=\"currentColor\"/>\n";
+    text(at, bottom_ + 19.0, along.text[i], "middle", 12.0);
+  }
+  out_ += "<path d=\"M" + px(left_) + " " + px(top_) + "V" + px(bottom_) + "H" + px(right_) + "\" fill=\"none\" stroke=\"currentColor\"/>\n";
+  text(0.5 * (left_ + right_), height_ - 11.0, axis_title(x_axis), "middle", 13.0);
+  text(16.0, 0.5 * (top_ + bottom_), axis_title(y_axis), "middle", 13.0,
+       " transform=\"rotate(-90 16 " + px(0.5 * (top_ + bottom_)) + ")\"");
+}
+
+double SvgFrame::x(double value) const { return left_ + position(value, along_, log_x_) * (right_ - left_); }
+double SvgFrame::y(double value) const { return bottom_ - std::clamp(position(value, upwards_, log_y_), -0.05, 1.05) * (bottom_ - top_); }
+
+bool SvgFrame::defined(double x_value, double y_value) const {
+  return std::isfinite(x_value) && std::isfinite(y_value) && (!log_x_ || x_value > 0.0) && (!log_y_ || y_value > 0.0);
+}
+bool SvgFrame::shows(double x_value, double y_value) const {
+  return defined(x_value, y_value) && x_value >= along_.low && x_value <= along_.high && y_value >= upwards_.low && y_value <= upwards_.high;
+}
+
+void SvgFrame::polyline(const std::vector<std::pair<double, double>>& points, int color) {
+  out_ += "<polyline fill=\"none\" stroke=\"" + color_text(color) + "\" stroke-width=\"2\" stroke-linejoin=\"round\" stroke-linecap=\"round\" points=\"";
+  for (std::size_t i = 0; i < points.size(); ++i) out_.append(i ? " " : "").append(px(points[i].first)).append(",").append(px(points[i].second));
+  out_ += "\"/>\n";
+}
+
+void SvgFrame::point(double x_px, double y_px, int color) {
+  out_ += "<circle cx=\"" + px(x_px) + "\" cy=\"" + px(y_px) + "\" r=\"2.6\" fill=\"" + color_text(color) + "\" fill-opacity=\"0.65\"/>\n";
+}
+
+void SvgFrame::bar(double from, double to, double height, int color) {
+  const double a = y(0.0), b = y(height);
+  out_ += "<rect x=\"" + px(x(from)) + "\" y=\"" + px(std::min(a, b)) + "\" width=\"" + px(x(to) - x(from)) + "\" height=\"" + px(std::abs(a - b)) +
+          "\" fill=\"" + color_text(color) + "\" fill-opacity=\"0.85\"/>\n";
+}
+
+void SvgFrame::limit(const CurveLimit& limit) {
+  if (!std::isfinite(limit.value) || (log_y_ && limit.value <= 0.0)) return;
+  const double at = y(limit.value);
+  out_ += "<path d=\"M" + px(left_) + " " + px(at) + "H" + px(right_) + "\" stroke=\"#c0392b\" stroke-width=\"1.5\" stroke-dasharray=\"7 5\"/>\n";
+  out_ += "<text x=\"" + px(right_ - 4.0) + "\" y=\"" + px(at - 5.0) + "\" text-anchor=\"end\" font-size=\"12\" fill=\"#c0392b\">" + xml_escaped(limit.text) +
+          "</text>\n";
+}
+
+void SvgFrame::legend(const std::vector<std::string>& names) {
+  if (names.size() < 2) return;
+  // One row over the plot's right part; a second row where the names are long.
+  double at = right_;
+  double row = 22.0;
+  for (std::size_t i = names.size(); i-- > 0;) {
+    const double wide = 7.0 * static_cast<double>(names[i].size()) + 30.0;
+    if (at - wide < left_ + 0.35 * (right_ - left_) && at < right_) {
+      at = right_;
+      row += 17.0;
+    }
+    at -= wide;
+    out_ += "<path d=\"M" + px(at) + " " + px(row - 4.0) + "h16\" stroke=\"" + color_text(static_cast<int>(i)) + "\" stroke-width=\"4\" stroke-linecap=\"round\"/>\n";
+    text(at + 22.0, row, names[i], "start", 12.0);
+  }
+}
+
+void SvgFrame::no_data() { text(0.5 * (left_ + right_), 0.5 * (top_ + bottom_), "no data", "middle", 14.0, " fill-opacity=\"0.6\""); }
+
+std::string SvgFrame::finish() { return std::move(out_) + "</svg>\n"; }
+
+}  // namespace morula::scenarios

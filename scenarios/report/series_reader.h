@@ -1,0 +1,36 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+
+namespace morula::scenarios {
+
+/// One column of series.csv.
+struct SeriesColumn {
+  std::string name;            ///< "pressure"
+  std::string unit;            ///< "kPa"; "" where the header names none
+  std::vector<double> values;  ///< NaN for an empty field
+};
+
+/// A table of numbers over time.
+struct SeriesTable {
+  std::vector<SeriesColumn> columns;  ///< all of the same length
+
+  [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : columns[0].values.size(); }
+  /// The column with this name, or null.
+  [[nodiscard]] const SeriesColumn* find(std::string_view name) const;
+};
+
+/// Read a CSV whose header gives each column as `name [unit]` or `name`.
+///
+/// A last line without its newline is still being written and is left out. Errors name file, line and column: no header, a double
+/// name, a row with too few or too many fields, a field that is not a number.
+Result<SeriesTable> read_series(const std::filesystem::path& path);
+
+/// The same from text; `origin` is the file's name in messages.
+Result<SeriesTable> parse_series(std::string_view text, const std::string& origin);
+
+}  // namespace morula::scenarios

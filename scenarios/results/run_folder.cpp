@@ -1,0 +1,209 @@
+#include "scenarios/results/run_folder.h"
+
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <set>
+
+#include "scenarios/results/file_io.h"
+
+namespace morula::scenarios {
+namespace fs = std::filesystem;
+namespace {
+
+/// A study's name as a part of a folder's name.
+std::string safe_name(const std::string& study) {
+  std::string out;
+  for (const char c : study) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+    out += plain ? c : '_';
+  }
+  return out.empty() || out[0] == '.' ? "run" + out : out;
+}
+
+/// The largest NNNN among `<name>-NNNN` in a folder, 0 if there is none.
+long largest_number(const fs::path& parent, const std::string& name) {
+  long largest = 0;
+  std::error_code error;
+  for (fs::directory_iterator entry(parent, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string text = entry->path().filename().string();
+    if (text.size() <= name.size() + 1 || text.compare(0, name.size() + 1, name + '-') != 0) continue;
+    long number = 0;
+    const char* last = text.data() + text.size();
+    const auto [end_of_number, problem] = std::from_chars(text.data() + name.size() + 1, last, number);
+    if (problem == std::errc() && end_of_number == last) largest = std::max(largest, number);
+  }
+  return largest;
+}
+
+Status make_parents(const fs::path& path) {
+  std::error_code error;
+  if (!path.empty() && !fs::is_directory(path, error)) {
+    fs::create_directories(path, error);
+    if (error) return file_error(path, "create folder", error.value());
+  }
+  return {};
+}
+
+/// mkdir is atomic: of two runs that start together, each gets its own folder.
+Result<fs::path> make_folder(const fs::path& parent, const fs::path& out, const std::string& study) {
+  if (!out.empty()) {
+    const fs::path clean = out.has_filename() ? out : out.parent_path();
+    MORULA_TRY(make_parents(clean.parent_path()));
+    if (::mkdir(clean.c_str(), 0755) == 0) return clean;
+    if (errno == EEXIST) return Error{ErrorKind::kFile, "'" + clean.string() + "' exists already, and a run never overwrites anything", "give --out another name, or go on with `morula resume " + clean.string() + "`"};
+    return file_error(clean, "create folder", errno);
+  }
+  MORULA_TRY(make_parents(parent));
+  const std::string name = safe_name(study);
+  for (long number = largest_number(parent, name) + 1;; ++number) {
+    char suffix[32];
+    std::snprintf(suffix, sizeof suffix, "-%04ld", number);
+    const fs::path path = parent / (name + suffix);
+    if (::mkdir(path.c_str(), 0755) == 0) return path;
+    if (errno != EEXIST) return file_error(path, "create folder", errno);
+  }
+}
+
+std::string shortest(double value) {
+  char text[40];
+  const auto result = std::to_chars(text, text + sizeof text, value);
+  return {text, result.ptr};
+}
+
+/// Keeps the whole lines that `keep` likes.
+Status filter_lines(const fs::path& path, const std::function<bool(const std::string&, std::size_t)>& keep) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return {};
+  MORULA_TRY_ASSIGN(const std::string text, read_file(path));
+  std::string kept;
+  std::size_t number = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string::npos) break;  // written by halves
+    const std::string line = text.substr(begin, end - begin);
+    if (keep(line, number++)) kept += line + '\n';
+    begin = end + 1;
+  }
+  return kept == text ? Status{} : write_file_atomically(path, kept);
+}
+
+Result<InputRecord> copy_input(const fs::path& source, const fs::path& run, std::set<std::string>& taken) {
+  std::string name = source.filename().string();
+  for (int number = 2; !taken.insert(name).second; ++number) name = std::to_string(number) + "_" + source.filename().string();
+  MORULA_TRY_ASSIGN(const std::string bytes, read_file(source));
+  MORULA_TRY(write_file_atomically(run / "inputs" / name, bytes));
+  MORULA_TRY_ASSIGN(const std::string sha256, sha256_of_text(bytes));
+  return InputRecord{source.string(), "inputs/" + name, sha256};
+}
+
+}  // namespace
+
+Result<RunFolder> RunFolder::create(const fs::path& parent, const fs::path& out, const std::string& study, const Comm& comm) {
+  std::string made;
+  Status status;
+  if (comm.is_root()) {
+    auto folder = make_folder(parent, out, study);
+    if (folder.ok()) made = folder->string();
+    else status = std::move(folder).error();
+  }
+  MORULA_TRY(agree(std::move(status), comm));
+  std::vector<std::byte> bytes(made.size());
+  std::memcpy(bytes.data(), made.data(), made.size());
+  comm.broadcast(bytes);
+  return RunFolder(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), comm.is_root());
+}
+
+Result<RunFolder> RunFolder::open(const fs::path& path, const Comm& comm) {
+  Status status;
+  std::error_code ignored;
+  if (comm.is_root()) {
+    if (!fs::is_directory(path, ignored)) status = Error{ErrorKind::kFile, "there is no run '" + path.string() + "'", "`morula list` shows the runs"};
+    else if (!fs::exists(path / "run.json", ignored)) status = Error{ErrorKind::kFile, "'" + path.string() + "' is not a run: it has no run.json", "`morula list` shows the runs"};
+  }
+  MORULA_TRY(agree(std::move(status), comm));
+  return RunFolder(path, comm.is_root());
+}
+
+Status RunFolder::write_study(const Study& study, RunRecord& record) const {
+  if (!is_root_) return {};
+  MORULA_TRY(write_file_atomically(path_ / "study.yaml", study.source_text));
+  MORULA_TRY(write_file_atomically(path_ / "study.resolved.yaml", study.resolved_text));
+  MORULA_TRY_ASSIGN(const std::string source_hash, sha256_of_text(study.source_text));
+  MORULA_TRY_ASSIGN(record.study_hash, sha256_of_text(study.resolved_text));
+  record.inputs = {{study.source_path, "study.yaml", source_hash}};
+  std::error_code error;
+  fs::create_directory(path_ / "inputs", error);
+  if (error) return file_error(path_ / "inputs", "create folder", error.value());
+  std::set<std::string> taken;
+  for (const std::string& source : study.input_files) {
+    MORULA_TRY_ASSIGN(InputRecord input, copy_input(source, path_, taken));
+    record.inputs.push_back(std::move(input));
+  }
+  return {};
+}
+
+Status RunFolder::write_record(const RunRecord& run) const {
+  if (!is_root_) return {};
+  MORULA_TRY(write_file_atomically(record(), to_json(run)));
+  std::error_code ignored;
+  for (const auto& [marker, state] : {std::pair{"DONE", RunState::kDone}, std::pair{"FAILED", RunState::kFailed}}) {
+    if (run.state == state) MORULA_TRY(write_file_atomically(path_ / marker, run.message.empty() ? "" : run.message + '\n'));
+    else fs::remove(path_ / marker, ignored);  // from before a resume
+  }
+  return {};
+}
+
+Status RunFolder::write_status(const RunStatus& run_status) const { return is_root_ ? write_file_atomically(status(), to_json(run_status)) : Status{}; }
+
+Status RunFolder::write_verdict(std::span<const Verdict> verdicts) const {
+  return is_root_ ? write_file_atomically(path_ / "verdict.json", to_json(verdicts)) : Status{};
+}
+
+Status RunFolder::add_to_log(const std::string& line) const { return is_root_ ? append_to_text(log(), line + '\n') : Status{}; }
+
+Status RunFolder::add_events(std::span<const Event> list) const {
+  if (!is_root_ || list.empty()) return {};
+  std::string lines;
+  for (const Event& event : list) lines += to_json_line(event);
+  return append_to_text(events(), lines);
+}
+
+Status RunFolder::begin_series(std::span<const SeriesColumn> columns) const {
+  if (!is_root_) return {};
+  std::string header = "time [s]";
+  for (const SeriesColumn& column : columns) header += ',' + column.name + " [" + column.unit + ']';
+  header += '\n';
+  std::error_code ignored;
+  if (!fs::exists(series(), ignored)) return write_file_atomically(series(), header);
+  MORULA_TRY_ASSIGN(const std::string text, read_file(series()));
+  if (text.compare(0, header.size(), header) == 0) return {};
+  return Error{ErrorKind::kInput, "'" + series().string() + "' has other columns than the study's series", "resume with the study that the run was started with"};
+}
+
+Status RunFolder::add_to_series(double time, std::span<const double> values) const {
+  if (!is_root_) return {};
+  std::string line = shortest(time);
+  for (const double value : values) line += ',' + shortest(value);
+  return append_to_text(series(), line + '\n');
+}
+
+Status RunFolder::cut_back(double time) const {
+  if (!is_root_) return {};
+  MORULA_TRY(filter_lines(series(), [&](const std::string& line, std::size_t number) {
+    if (number == 0) return true;  // the header
+    double at = 0.0;
+    const auto [end, problem] = std::from_chars(line.data(), line.data() + line.size(), at);
+    return problem == std::errc() && at <= time;
+  }));
+  return filter_lines(events(), [&](const std::string& line, std::size_t) {
+    const std::optional<double> at = time_of_event_line(line);
+    return at && *at <= time;
+  });
+}
+
+}  // namespace morula::scenarios

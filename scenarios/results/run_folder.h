@@ -1,0 +1,61 @@
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/parallel/comm.h"
+#include "core/result.h"
+#include "coupling/events.h"
+#include "scenarios/results/run_record.h"
+#include "scenarios/study/study.h"
+
+namespace morula::scenarios {
+
+/// A curve in series.csv.
+struct SeriesColumn {
+  std::string name;
+  std::string unit;  ///< "1" for a number
+};
+
+/// The folder of one run (UX, section 5): where each file is, and how the texts are written. Only the root rank touches texts: on the other
+/// ranks the calls do nothing and succeed; pass the result to agree() where all ranks must know.
+class RunFolder {
+ public:
+  /// Collective. Makes `<parent>/<study>-NNNN` with the next free number, or exactly `out` if given. Never an existing folder: kFile.
+  static Result<RunFolder> create(const std::filesystem::path& parent, const std::filesystem::path& out, const std::string& study, const Comm& comm);
+  /// Collective. An existing run, to resume or to look at: kFile if it is none.
+  static Result<RunFolder> open(const std::filesystem::path& path, const Comm& comm);
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::filesystem::path results() const { return path_ / "results.h5"; }
+  [[nodiscard]] std::filesystem::path checkpoints() const { return path_ / "checkpoints"; }
+  [[nodiscard]] std::filesystem::path record() const { return path_ / "run.json"; }
+  [[nodiscard]] std::filesystem::path status() const { return path_ / "status.json"; }
+  [[nodiscard]] std::filesystem::path series() const { return path_ / "series.csv"; }
+  [[nodiscard]] std::filesystem::path events() const { return path_ / "events.jsonl"; }
+  [[nodiscard]] std::filesystem::path log() const { return path_ / "log.txt"; }
+  [[nodiscard]] std::filesystem::path vtk() const { return path_ / "vtk"; }
+
+  /// study.yaml, study.resolved.yaml and inputs/; fills the record's inputs with their SHA-256.
+  Status write_study(const Study& study, RunRecord& record) const;
+  /// run.json, and DONE or FAILED when the run has ended so (a stopped run has neither).
+  Status write_record(const RunRecord& record) const;
+  Status write_status(const RunStatus& status) const;
+  Status write_verdict(std::span<const Verdict> verdicts) const;
+  Status add_to_log(const std::string& line) const;
+  Status add_events(std::span<const Event> events) const;
+  /// Header of series.csv (`time [s]` first). When the file is there already (a resumed run), its header must be the same: kInput.
+  Status begin_series(std::span<const SeriesColumn> columns) const;
+  Status add_to_series(double time, std::span<const double> values) const;
+  /// After a restart: takes from series.csv and events.jsonl what is later than `time`, and what was written by halves.
+  Status cut_back(double time) const;
+
+ private:
+  RunFolder(std::filesystem::path path, bool is_root) : path_(std::move(path)), is_root_(is_root) {}
+  std::filesystem::path path_;
+  bool is_root_;
+};
+
+}  // namespace morula::scenarios

@@ -1,0 +1,91 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "coupling/events.h"
+
+namespace morula::scenarios {
+
+enum class RunState : std::uint8_t { kRunning, kDone, kStopped, kFailed };
+
+/// `running`, `done`, `stopped`, `failed`.
+[[nodiscard]] std::string name_of(RunState state);
+
+/// A file the run was made from.
+struct InputRecord {
+  std::string source;  ///< as given
+  std::string copy;    ///< in the run folder, relative
+  std::string sha256;
+};
+
+/// The state at the end, for `morula info`.
+struct FinalState {
+  double time = 0.0;  ///< [s]
+  std::uint64_t cells = 0, spheres = 0, shells = 0;
+  std::string state_hash;
+};
+
+/// What run.json says: what was run, with what, where, and how it ended. Version, compiler, libraries and host are filled by complete_record.
+struct RunRecord {
+  RunState state = RunState::kRunning;
+  int exit_code = 0;
+  std::string message;  ///< why it stopped or failed
+  std::string study, title;
+  std::uint64_t seed = 0;
+  int ranks = 1, threads = 1;
+  std::string command;
+  std::string parent;   ///< run folder it goes on from, or empty
+  std::string study_hash;
+  std::vector<InputRecord> inputs;
+  std::string started, finished;  ///< UTC, as 2026-11-21T12:00:00Z
+  double wall_time = 0.0;         ///< [s], over all restarts
+  std::optional<FinalState> final_state;
+
+  std::string version, git_hash, compiler, build_type, host;
+  std::vector<std::pair<std::string, std::string>> libraries;
+};
+
+/// Fills in version, build, libraries, host; and `started` if it is empty.
+void complete_record(RunRecord& record);
+/// Now, UTC, as 2026-11-21T12:00:00Z.
+[[nodiscard]] std::string utc_now();
+
+[[nodiscard]] std::string to_json(const RunRecord& record);
+Result<RunRecord> read_run_record(const std::filesystem::path& run_json);
+
+/// What status.json says: where a run stands, for `morula status` and other programs.
+struct RunStatus {
+  RunState state = RunState::kRunning;
+  double time = 0.0, end = 0.0;    ///< [s]
+  std::uint64_t cells = 0, shells = 0, steps = 0;
+  double step = 0.0;               ///< step size [s]
+  double wall_time = 0.0;          ///< [s]
+  double left_low = -1.0, left_high = -1.0;  ///< wall time left, a range; −1: not known [s]
+  std::int64_t process = 0;        ///< process id of the root
+  std::string updated;             ///< UTC; filled when written
+};
+[[nodiscard]] std::string to_json(const RunStatus& status);
+Result<RunStatus> read_run_status(const std::filesystem::path& status_json);
+
+/// One line of events.jsonl, with the newline.
+[[nodiscard]] std::string to_json_line(const Event& event);
+/// Time of a line of events.jsonl; nothing if the line is not whole.
+[[nodiscard]] std::optional<double> time_of_event_line(const std::string& line);
+[[nodiscard]] std::string name_of(EventKind kind);
+
+/// One criterion of a library study.
+struct Verdict {
+  std::string id;        ///< as `S18.1`
+  std::string quantity;
+  double value = 0.0;
+  std::string limit;     ///< as `<= 0.3 um`
+  bool passed = false;
+};
+[[nodiscard]] std::string to_json(std::span<const Verdict> verdicts);
+
+}  // namespace morula::scenarios

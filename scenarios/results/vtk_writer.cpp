@@ -1,0 +1,204 @@
+#include "scenarios/results/vtk_writer.h"
+
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <cstdio>
+#include <type_traits>
+
+#include "scenarios/results/file_io.h"
+#include "scenarios/results/hdf5_plan.h"
+#include "scenarios/results/parcels.h"
+#include "scenarios/results/snapshot_columns.h"
+
+namespace morula::scenarios {
+namespace fs = std::filesystem;
+namespace {
+
+std::string shortest(double value) {
+  char text[40];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') out += "&amp;";
+    else if (c == '<') out += "&lt;";
+    else if (c == '>') out += "&gt;";
+    else if (c == '"') out += "&quot;";
+    else out += c;
+  }
+  return out;
+}
+
+const char* vtk_type(StoredType type) {
+  switch (type) {
+    case StoredType::kUint8:
+    case StoredType::kText: return "UInt8";
+    case StoredType::kUint16: return "UInt16";
+    case StoredType::kUint32: return "UInt32";
+    case StoredType::kUint64: return "UInt64";
+    case StoredType::kInt32: return "Int32";
+    case StoredType::kInt64: return "Int64";
+    case StoredType::kFloat: return "Float32";
+    case StoredType::kDouble: return "Float64";
+  }
+  return "UInt8";
+}
+
+/// One <DataArray>: the length in bytes and then the values, together in base64.
+template <class T>
+std::string data_array(const std::string& name, const std::vector<T>& values) {
+  ByteWriter bytes;
+  bytes.put(std::uint64_t{values.size() * sizeof(T)});
+  bytes.put_all(std::span(values));
+  std::string out = std::string("<DataArray type=\"") + vtk_type(Stored<T>::type) + "\" Name=\"" + escaped(name) + '"';
+  if (Stored<T>::width > 1) out += " NumberOfComponents=\"" + std::to_string(Stored<T>::width) + '"';
+  return out + " format=\"binary\">" + base64(bytes.bytes()) + "</DataArray>\n";
+}
+
+std::string file_head(const char* type) {
+  return std::string("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<VTKFile type=\"") + type +
+         "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
+}
+
+/// Time, and the names of the cell types by number as one text each.
+std::string field_data(const Snapshot& s) {
+  std::string names;
+  for (const std::string& name : s.type_names) {
+    for (const char c : name) names += std::to_string(static_cast<unsigned char>(c)) + ' ';
+    names += "0 ";
+  }
+  std::string out = "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">" + shortest(s.time) + "</DataArray>\n";
+  if (!s.type_names.empty())
+    out += "<Array type=\"String\" Name=\"type_names\" NumberOfTuples=\"" + std::to_string(s.type_names.size()) + "\" format=\"ascii\">" + names + "</Array>\n";
+  return out + "</FieldData>\n";
+}
+
+/// All numbers of the cells with these indices, one array each; concentrations by the names of the fields.
+std::string cell_arrays(const Snapshot& s, const std::vector<std::uint32_t>& cell_of_item) {
+  std::string out;
+  for_each_snapshot_column([&](const std::string& name, const std::string& units, auto member) {
+    using Value = std::remove_cvref_t<decltype(s.cells.front().*member)>;
+    if constexpr (std::is_same_v<Value, std::array<double, kMaxFields>>) {
+      for (std::size_t f = 0; f < s.fields.size() && f < kMaxFields; ++f) {
+        std::vector<double> column;
+        for (const std::uint32_t c : cell_of_item) column.push_back((s.cells[c].*member)[f]);
+        out += data_array(s.fields[f].name + " [" + units + ']', column);
+      }
+    } else {
+      std::vector<Value> column;
+      for (const std::uint32_t c : cell_of_item) column.push_back(s.cells[c].*member);
+      const std::string label = name == "id" ? "cell_id" : name;
+      out += data_array(units == "1" ? label : label + " [" + units + ']', column);
+    }
+  });
+  return out;
+}
+
+struct Mesh {
+  std::vector<Vec3d> points;
+  std::vector<std::int64_t> connectivity, offsets;
+  std::vector<std::uint8_t> types;
+};
+
+std::string mesh_file(const Snapshot& s, const Mesh& mesh, const std::string& point_data, const std::string& cell_data) {
+  return file_head("UnstructuredGrid") + "<UnstructuredGrid>\n" + field_data(s) + "<Piece NumberOfPoints=\"" + std::to_string(mesh.points.size()) +
+         "\" NumberOfCells=\"" + std::to_string(mesh.types.size()) + "\">\n<PointData>\n" + point_data + "</PointData>\n<CellData>\n" + cell_data +
+         "</CellData>\n<Points>\n" + data_array("Points", mesh.points) + "</Points>\n<Cells>\n" + data_array("connectivity", mesh.connectivity) +
+         data_array("offsets", mesh.offsets) + data_array("types", mesh.types) + "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+}
+
+std::string shells_file(const Snapshot& s) {
+  constexpr std::uint8_t kTriangle = 5;  // VTK_TRIANGLE
+  Mesh mesh;
+  std::vector<std::uint32_t> cell_of_face;
+  mesh.points = s.nodes;
+  for (const Snapshot::Shell& shell : s.shells)
+    for (const Triangle& face : s.topologies[shell.topology]) {
+      for (const std::uint32_t node : face) mesh.connectivity.push_back(std::int64_t{shell.first_node} + node);
+      mesh.offsets.push_back(static_cast<std::int64_t>(mesh.connectivity.size()));
+      mesh.types.push_back(kTriangle);
+      cell_of_face.push_back(shell.cell);
+    }
+  return mesh_file(s, mesh, "", cell_arrays(s, cell_of_face));
+}
+
+std::string spheres_file(const Snapshot& s) {
+  constexpr std::uint8_t kVertex = 1;  // VTK_VERTEX
+  Mesh mesh;
+  std::vector<std::uint32_t> cell_of_point;
+  for (std::size_t c = 0; c < s.cells.size(); ++c) {
+    if (s.cells[c].body != BodyKind::kSphere) continue;
+    mesh.connectivity.push_back(static_cast<std::int64_t>(mesh.points.size()));
+    mesh.points.push_back(s.cells[c].centroid);
+    mesh.offsets.push_back(static_cast<std::int64_t>(mesh.points.size()));
+    mesh.types.push_back(kVertex);
+    cell_of_point.push_back(static_cast<std::uint32_t>(c));
+  }
+  return mesh_file(s, mesh, cell_arrays(s, cell_of_point), "");
+}
+
+std::string grid_file(const Snapshot& s, const Snapshot::Grid& grid) {
+  std::string extent, origin, spacing;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const char* gap = axis == 0 ? "" : " ";
+    extent += gap + ("0 " + std::to_string(grid.voxels[axis]));
+    origin += gap + shortest(grid.low[axis]);
+    spacing += gap + shortest(grid.spacing[axis]);
+  }
+  return file_head("ImageData") + "<ImageData WholeExtent=\"" + extent + "\" Origin=\"" + origin + "\" Spacing=\"" + spacing + "\">\n" + field_data(s) +
+         "<Piece Extent=\"" + extent + "\">\n<PointData>\n</PointData>\n<CellData>\n" + data_array(grid.name + " [mM]", grid.concentration) +
+         "</CellData>\n</Piece>\n</ImageData>\n</VTKFile>\n";
+}
+
+std::string numbered(const std::string& stem, std::size_t number, const char* suffix) {
+  char text[32];
+  std::snprintf(text, sizeof text, "_%06zu", number);
+  return stem + text + suffix;
+}
+
+Status write_collection(const fs::path& folder, const std::string& stem, const char* suffix, const std::vector<std::size_t>& numbers,
+                        const std::vector<double>& times) {
+  std::string text = file_head("Collection") + "<Collection>\n";
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    text += "<DataSet timestep=\"" + shortest(times[i]) + "\" group=\"\" part=\"0\" file=\"" + escaped(numbered(stem, numbers[i], suffix)) + "\"/>\n";
+  return write_file_atomically(folder / (stem + ".pvd"), text + "</Collection>\n</VTKFile>\n");
+}
+
+}  // namespace
+
+std::string base64(std::span<const std::byte> bytes) {
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    for (std::size_t k = 0; k < count; ++k) group |= std::to_integer<std::uint32_t>(bytes[i + k]) << (16 - 8 * k);
+    for (std::size_t k = 0; k < 4; ++k) out += k <= count ? kDigits[(group >> (18 - 6 * k)) & 63] : '=';
+  }
+  return out;
+}
+
+Status write_vtk(const Snapshot& snapshot, const fs::path& folder, std::size_t number) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return file_error(folder, "create folder", error.value());
+  MORULA_TRY(write_file_atomically(folder / numbered("shells", number, ".vtu"), shells_file(snapshot)));
+  MORULA_TRY(write_file_atomically(folder / numbered("spheres", number, ".vtu"), spheres_file(snapshot)));
+  for (const Snapshot::Grid& grid : snapshot.fields)
+    MORULA_TRY(write_file_atomically(folder / numbered("field_" + grid.name, number, ".vti"), grid_file(snapshot, grid)));
+  return {};
+}
+
+Status write_vtk_collections(const fs::path& folder, const std::vector<std::size_t>& numbers, const std::vector<double>& times,
+                             const std::vector<std::string>& field_names) {
+  MORULA_TRY(write_collection(folder, "shells", ".vtu", numbers, times));
+  MORULA_TRY(write_collection(folder, "spheres", ".vtu", numbers, times));
+  for (const std::string& name : field_names) MORULA_TRY(write_collection(folder, "field_" + name, ".vti", numbers, times));
+  return {};
+}
+
+}  // namespace morula::scenarios
