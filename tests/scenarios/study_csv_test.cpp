@@ -26,7 +26,8 @@ Reading read_csv(const std::string& bytes) {
 }
 
 TEST(StudyCsv, ReadsUnitsAndOptionalColumnsInAnyOrder) {
-  const Reading r = read_csv("type, z [nm],x [um] , y,radius,phase [%],model,source_cell\n# comment\nTE,1500,2.5,-3e0,6.5,25,dcm,1\n\nEPI,0,0,0,5,0,,26.45\r\n");
+  const Reading r = read_csv(
+      "type, z [nm],x [um] , y,radius,phase [%],model,source_cell\n# comment\nTE,1500,2.5,-3e0,6.5,25,dcm,1\n\nEPI,0,0,0,5,0,,26.45\r\n");
   ASSERT_TRUE(r.cells) << r.messages;
   ASSERT_EQ(r.cells->cells.size(), 2u);
   const CsvCell& a = r.cells->cells[0];
@@ -43,7 +44,8 @@ TEST(StudyCsv, ReadsUnitsAndOptionalColumnsInAnyOrder) {
 }
 
 TEST(StudyCsv, NamesEveryBadValueWithItsPlace) {
-  const Reading r = read_csv("x,y,z,type\n1,2,TE\n1,NA,3,TE\n1,2,inf,TE\nnan,2,3,TE\n1,2,3,TX\n1,2,3 um,TE\n1,,3,TE\n1,2,3,TE,5\n1,2,1e999,EPI\n");
+  const Reading r =
+      read_csv("x,y,z,type\n1,2,TE\n1,NA,3,TE\n1,2,inf,TE\nnan,2,3,TE\n1,2,3,TX\n1,2,3 um,TE\n1,,3,TE\n1,2,3,TE,5\n1,2,1e999,EPI\n");
   EXPECT_THAT(r.messages, HasSubstr("cells.csv:2:1: error: row has 3 values, but the header names 4 [E611]"));
   EXPECT_THAT(r.messages, HasSubstr("cells.csv:3:3: error: 'y' is not a number: 'NA' [E612]"));
   EXPECT_THAT(r.messages, HasSubstr("cells.csv:4:5: error: 'z' is not a finite number: 'inf' [E612]"));
@@ -115,13 +117,15 @@ TEST(StudyCsv, StudyChecksItsCellsAndNamesCoincidentOnes) {
 // The five measured embryos: cell counts and the two files without coincident rows are those of the data's README.
 TEST(StudyCsv, MeasuredEmbryosAreRead) {
   const char* data = std::getenv("MORULA_SHARED_DATA");
-  const std::filesystem::path folder = (data ? std::filesystem::path(data) : std::filesystem::path(__FILE__).parent_path() / "../../../shared/data") / "mouse_blastocyst";
+  const std::filesystem::path folder =
+      (data ? std::filesystem::path(data) : std::filesystem::path(__FILE__).parent_path() / "../../../shared/data") / "mouse_blastocyst";
   if (!std::filesystem::exists(folder / "embryo_44.csv")) GTEST_SKIP() << "no measured embryos beside this checkout";
   const UnitSystem units;
   const std::pair<int, bool> embryos[] = {{44, false}, {64, true}, {114, true}, {178, true}, {216, true}};
   for (const auto& [count, coincident] : embryos) {
     Diagnostics diagnostics;
-    const auto cells = read_cells_csv(folder / ("embryo_" + std::to_string(count) + ".csv"), "embryo", {"TE", "EPI", "PRE", "DP", "DN"}, {}, units, diagnostics);
+    const auto cells = read_cells_csv(folder / ("embryo_" + std::to_string(count) + ".csv"), "embryo", {"TE", "EPI", "PRE", "DP", "DN"}, {},
+                                      units, diagnostics);
     ASSERT_TRUE(cells) << diagnostics.text();
     EXPECT_EQ(cells->cells.size(), static_cast<std::size_t>(count));
     std::vector<Vec3d> positions;

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
-#include <nlohmann/json.hpp>
 #include <cstring>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <tuple>
 
@@ -21,10 +21,12 @@ void expect_same_study(const Study& a, const Study& b) {
   for (std::size_t i = 0; i < a.model.types.size(); ++i) {
     const CellType &s = a.model.types[i], &t = b.model.types[i];
     EXPECT_EQ(s.name, t.name);
-    EXPECT_EQ(std::tie(s.radius.mean, s.radius.relative_spread, s.cycles, s.cycle_duration.mean, s.inhibit_pressure, s.death_field, s.death_below,
-                       s.death_rate, s.apoptosis_time, s.removal_fraction, s.migration_speed, s.migration_persistence, s.medium_friction, s.initial_body, s.shell_nodes),
-              std::tie(t.radius.mean, t.radius.relative_spread, t.cycles, t.cycle_duration.mean, t.inhibit_pressure, t.death_field, t.death_below,
-                       t.death_rate, t.apoptosis_time, t.removal_fraction, t.migration_speed, t.migration_persistence, t.medium_friction, t.initial_body, t.shell_nodes));
+    EXPECT_EQ(std::tie(s.radius.mean, s.radius.relative_spread, s.cycles, s.cycle_duration.mean, s.inhibit_pressure, s.death_field,
+                       s.death_below, s.death_rate, s.apoptosis_time, s.removal_fraction, s.migration_speed, s.migration_persistence,
+                       s.medium_friction, s.initial_body, s.shell_nodes),
+              std::tie(t.radius.mean, t.radius.relative_spread, t.cycles, t.cycle_duration.mean, t.inhibit_pressure, t.death_field,
+                       t.death_below, t.death_rate, t.apoptosis_time, t.removal_fraction, t.migration_speed, t.migration_persistence,
+                       t.medium_friction, t.initial_body, t.shell_nodes));
     EXPECT_EQ(std::memcmp(&s.shell, &t.shell, sizeof s.shell), 0);
   }
   ASSERT_EQ(a.model.pairs.size(), b.model.pairs.size());
@@ -32,7 +34,8 @@ void expect_same_study(const Study& a, const Study& b) {
   ASSERT_EQ(a.model.obstacles.size(), b.model.obstacles.size());
   for (std::size_t i = 0; i < a.model.obstacles.size(); ++i) EXPECT_EQ(a.model.obstacles[i].position, b.model.obstacles[i].position);
   ASSERT_EQ(a.model.fields.size(), b.model.fields.size());
-  for (std::size_t i = 0; i < a.model.fields.size(); ++i) EXPECT_EQ(a.model.fields[i].uptake[0].half_saturation, b.model.fields[i].uptake[0].half_saturation);
+  for (std::size_t i = 0; i < a.model.fields.size(); ++i)
+    EXPECT_EQ(a.model.fields[i].uptake[0].half_saturation, b.model.fields[i].uptake[0].half_saturation);
   ASSERT_EQ(a.model.swaps.triggers.size(), b.model.swaps.triggers.size());
   EXPECT_EQ(a.model.step.max_step, b.model.step.max_step);
   EXPECT_EQ(a.time.output, b.time.output);
@@ -40,10 +43,10 @@ void expect_same_study(const Study& a, const Study& b) {
 }
 
 TEST(ResolvedStudy, ReadsBackToTheSameStudy) {
-  for (const std::string& text :
-       {std::string(kGoodStudy), changed("boundary: open", "boundary: {x: periodic, z_low: wall}"),
-        changed("title: Spheroid", "title: 'quotes \" and: colons # and \\ ü'\nscenario: null_x #"),
-        changed("mean: 18 h", "mean: 18.123456789012345 h"), changed("{sphere: {radius: 150 um}", "{plane: {size: 1 mm, normal: [0.1, 0.2, 0.3]}")}) {
+  for (const std::string& text : {std::string(kGoodStudy), changed("boundary: open", "boundary: {x: periodic, z_low: wall}"),
+                                  changed("title: Spheroid", "title: 'quotes \" and: colons # and \\ ü'\nscenario: null_x #"),
+                                  changed("mean: 18 h", "mean: 18.123456789012345 h"),
+                                  changed("{sphere: {radius: 150 um}", "{plane: {size: 1 mm, normal: [0.1, 0.2, 0.3]}")}) {
     const auto first = read(text);
     ASSERT_TRUE(first.ok()) << first.error().text();
     const auto second = read(first->resolved_text);
@@ -63,7 +66,8 @@ TEST(ResolvedStudy, ReadsBackToTheSameStudy) {
 TEST(ResolvedStudy, NamesTheCopiesOfItsInputFiles) {
   const Folder folder;
   folder.write("data/cells.csv", "x,y,z,type\n1,2,3,hepatocyte\n");
-  const auto first = read(changed("{type: hepatocyte, count: 400, fill: sphere, radius: 60 um, as: cbm}", "{csv: data/cells.csv}"), {}, folder.path());
+  const auto first =
+      read(changed("{type: hepatocyte, count: 400, fill: sphere, radius: 60 um, as: cbm}", "{csv: data/cells.csv}"), {}, folder.path());
   ASSERT_TRUE(first.ok()) << first.error().text();
   EXPECT_THAT(first->resolved_text, HasSubstr("csv: inputs/cells.csv"));
   std::filesystem::create_directories(folder.path() / "run/inputs");
@@ -77,21 +81,24 @@ TEST(ResolvedStudy, NamesTheCopiesOfItsInputFiles) {
 TEST(ResolvedStudy, HoldsEveryDefault) {
   const auto study = read(kGoodStudy);
   ASSERT_TRUE(study.ok());
-  for (const char* line : {"thickness: 200 nm\n", "shrink_time: 8 h  # default\n", "bending: auto  # default\n", "half_saturation: 0.005 mM  # default\n", "newton: 3  # default\n"})
+  for (const char* line : {"thickness: 200 nm\n", "shrink_time: 8 h  # default\n", "bending: auto  # default\n",
+                           "half_saturation: 0.005 mM  # default\n", "newton: 3  # default\n"})
     EXPECT_THAT(study->resolved_text, HasSubstr(line));
 }
 
 TEST(StudyDeclarations, EveryDefaultAndExampleCanBeRead) {
   // A default that could not be read would stop even the good study; here every section is present, so that all are tried.
   const auto study = read(changed("{sphere: {radius: 150 um}, side: inside, motion: fixed}",
-                                  "{cylinder: {from: [0 um, 0 um, 0 um], to: [0 um, 0 um, 9 um], radius: 1 um}}\n  a: {plane: {size: 9 um}}\n  b: {box: {size: [9 um, 9 um, 9 um]}}\n"
+                                  "{cylinder: {from: [0 um, 0 um, 0 um], to: [0 um, 0 um, 9 um], radius: 1 um}}\n  a: {plane: {size: 9 "
+                                  "um}}\n  b: {box: {size: [9 um, 9 um, 9 um]}}\n"
                                   "  c: {capsule: {from: [0 um, 0 um, 0 um], to: [0 um, 0 um, 9 um], radius: 1 um}}"));
   EXPECT_TRUE(study.ok()) << study.error().text();
   int documented = 0;
   const std::function<void(const Declaration&)> visit = [&](const Declaration& d) {
     for (const Declaration& child : d.children) {
       EXPECT_GT(std::string(child.spec.doc).size(), 4u) << child.path;
-      const bool section = child.kind == Declaration::Kind::kGroup || child.kind == Declaration::Kind::kNamed || child.kind == Declaration::Kind::kList;
+      const bool section =
+          child.kind == Declaration::Kind::kGroup || child.kind == Declaration::Kind::kNamed || child.kind == Declaration::Kind::kList;
       EXPECT_TRUE(section || *child.spec.example) << child.path << " has no example";
       EXPECT_TRUE(!child.spec.fallback || !*child.spec.fallback || *child.spec.source) << child.path << " has a default without a source";
       ++documented;
@@ -127,7 +134,8 @@ TEST(StudyDeclarations, SchemaHoldsEveryKey) {
 
 TEST(StudyDeclarations, ReferenceHoldsEveryKeyAndCode) {
   const std::string reference = study_reference();
-  for (const char* words : {"## `cell_types.<name>.dcm.cortex`", "| `tension` |", "0.1 mN/m", "| E501 |", "`<field>_below`"}) EXPECT_THAT(reference, HasSubstr(words));
+  for (const char* words : {"## `cell_types.<name>.dcm.cortex`", "| `tension` |", "0.1 mN/m", "| E501 |", "`<field>_below`"})
+    EXPECT_THAT(reference, HasSubstr(words));
 }
 
 TEST(StudyDeclarations, KeysAndCodesAreExplained) {
@@ -173,10 +181,18 @@ TEST(StudyFuzz, MutatedStudiesNeverCrash) {
       const std::size_t at = random() % text.size();
       const char piece = pieces[random() % pieces.size()];
       switch (random() % 4) {
-        case 0: text[at] = piece; break;
-        case 1: text.insert(at, 1, piece); break;
-        case 2: text.erase(at, 1 + random() % 20); break;
-        default: text.insert(at, text.substr(random() % text.size(), random() % 60)); break;
+        case 0:
+          text[at] = piece;
+          break;
+        case 1:
+          text.insert(at, 1, piece);
+          break;
+        case 2:
+          text.erase(at, 1 + random() % 20);
+          break;
+        default:
+          text.insert(at, text.substr(random() % text.size(), random() % 60));
+          break;
       }
     }
     expect_study_or_error(text);

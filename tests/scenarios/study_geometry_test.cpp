@@ -21,7 +21,7 @@ Study with_obstacle(const std::string& shape) {
 TEST(StudyGeometry, PrimitivesAreClosedOutwardAndWhereTheyWereAskedFor) {
   struct Case {
     const char* shape;
-    double volume;     ///< of the ideal body
+    double volume;  ///< of the ideal body
     Vec3d inside, outside;
   };
   const double pi = std::numbers::pi;
@@ -31,7 +31,10 @@ TEST(StudyGeometry, PrimitivesAreClosedOutwardAndWhereTheyWereAskedFor) {
       {"sphere: {radius: 50 um, center: [60 um, 0 um, 0 um]}", 4.0 / 3.0 * pi * 125000, {100, 0, 0}, {0, 0, 0}},
       {"box: {size: [10 um, 20 um, 30 um], center: [5 um, 0 um, 0 um]}", 6000, {1, 9, 14}, {-1, 0, 0}},
       {"cylinder: {from: [0 um, 0 um, 0 um], to: [100 um, 0 um, 0 um], radius: 10 um}", pi * 1e4, {1, 9, 0}, {-1, 0, 0}},
-      {"capsule: {from: [0 um, 0 um, 0 um], to: [0 um, 100 um, 0 um], radius: 10 um}", pi * 1e4 + 4.0 / 3.0 * pi * 1000, {0, -9, 0}, {0, -11, 0}},
+      {"capsule: {from: [0 um, 0 um, 0 um], to: [0 um, 100 um, 0 um], radius: 10 um}",
+       pi * 1e4 + 4.0 / 3.0 * pi * 1000,
+       {0, -9, 0},
+       {0, -11, 0}},
   };
   for (const Case& c : cases) {
     const Study study = with_obstacle(c.shape);
