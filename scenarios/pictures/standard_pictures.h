@@ -10,10 +10,10 @@ namespace morula::scenarios {
 
 /// A picture with what is said about it.
 struct Picture {
-  std::string name;     ///< file name without folder and ending: "cut_pressure_03"
+  std::string name;  ///< file name without folder and ending: "cut_pressure_03"
   std::string caption;
-  double time = 0.0;    ///< [s]
-  bool frame = false;   ///< one of a row over time; else a large picture of the last snapshot
+  double time = 0.0;   ///< [s]
+  bool frame = false;  ///< one of a row over time; else a large picture of the last snapshot
   Image image;
 };
 
