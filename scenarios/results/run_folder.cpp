@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <cstring>
 #include <functional>
-#include <set>
 
 #include "scenarios/results/file_io.h"
 
@@ -92,13 +91,11 @@ Status filter_lines(const fs::path& path, const std::function<bool(const std::st
   return kept == text ? Status{} : write_file_atomically(path, kept);
 }
 
-Result<InputRecord> copy_input(const fs::path& source, const fs::path& run, std::set<std::string>& taken) {
-  std::string name = source.filename().string();
-  for (int number = 2; !taken.insert(name).second; ++number) name = std::to_string(number) + "_" + source.filename().string();
-  MORULA_TRY_ASSIGN(const std::string bytes, read_file(source));
-  MORULA_TRY(write_file_atomically(run / "inputs" / name, bytes));
+Result<InputRecord> copy_input(const InputFile& input, const fs::path& run) {
+  MORULA_TRY_ASSIGN(const std::string bytes, read_file(input.path));
+  MORULA_TRY(write_file_atomically(run / input.copy, bytes));
   MORULA_TRY_ASSIGN(const std::string sha256, sha256_of_text(bytes));
-  return InputRecord{source.string(), "inputs/" + name, sha256};
+  return InputRecord{input.path, input.copy, sha256};
 }
 
 }  // namespace
@@ -139,9 +136,8 @@ Status RunFolder::write_study(const Study& study, RunRecord& record) const {
   std::error_code error;
   fs::create_directory(path_ / "inputs", error);
   if (error) return file_error(path_ / "inputs", "create folder", error.value());
-  std::set<std::string> taken;
-  for (const std::string& source : study.input_files) {
-    MORULA_TRY_ASSIGN(InputRecord input, copy_input(source, path_, taken));
+  for (const InputFile& file : study.input_files) {
+    MORULA_TRY_ASSIGN(InputRecord input, copy_input(file, path_));
     record.inputs.push_back(std::move(input));
   }
   return {};
@@ -173,10 +169,10 @@ Status RunFolder::add_events(std::span<const Event> list) const {
   return append_to_text(events(), lines);
 }
 
-Status RunFolder::begin_series(std::span<const SeriesColumn> columns) const {
+Status RunFolder::begin_series(std::span<const SeriesHeader> columns) const {
   if (!is_root_) return {};
   std::string header = "time [s]";
-  for (const SeriesColumn& column : columns) header += ',' + column.name + " [" + column.unit + ']';
+  for (const SeriesHeader& column : columns) header += ',' + column.name + " [" + column.unit + ']';
   header += '\n';
   std::error_code ignored;
   if (!fs::exists(series(), ignored)) return write_file_atomically(series(), header);
