@@ -83,7 +83,11 @@ TEST_F(RunFolders, HoldTheStudyAndItsInputsWithTheirHashes) {
   study.source_path = "study.yaml";
   study.source_text = "schema: 1\n";
   study.resolved_text = "schema: 1\nseed: 1\n";
+<<<<<<< HEAD
   study.input_files = {{folder / "cells.csv", "inputs/cells.csv"}, {folder / "other/cells.csv", "inputs/2_cells.csv"}};
+=======
+  study.input_files = {{folder / "cells.csv", "inputs/cells.csv"}, {folder / "other/cells.csv", "inputs/cells-2.csv"}};
+>>>>>>> driver
   RunRecord record;
   const Status written = run.write_study(study, record);
   ASSERT_TRUE(written.ok()) << written.error().message;
@@ -162,7 +166,7 @@ TEST_F(RunFolders, StatusComesBack) {
 TEST_F(RunFolders, SeriesAndEventsAreCutBackToTheCheckpoint) {
   const RunFolder run = make();
   if (!comm.is_root()) return;
-  const std::vector<SeriesColumn> columns{{"cell_count", "1"}, {"pressure", "kPa"}};
+  const std::vector<SeriesHeader> columns{{"cell_count", "1"}, {"pressure", "kPa"}};
   ASSERT_TRUE(run.begin_series(columns).ok());
   std::vector<Event> events;
   for (int i = 0; i < 5; ++i) {
@@ -181,7 +185,7 @@ TEST_F(RunFolders, SeriesAndEventsAreCutBackToTheCheckpoint) {
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 3);
   EXPECT_EQ(lines.substr(0, lines.find('\n')), R"({"time_s":0.0,"kind":"division","cell":"7","daughters":["7.0","7.1"],"text":"grown"})");
   EXPECT_TRUE(run.begin_series(columns).ok());
-  EXPECT_EQ(run.begin_series(std::vector<SeriesColumn>{{"other", "1"}}).error().kind, ErrorKind::kInput);
+  EXPECT_EQ(run.begin_series(std::vector<SeriesHeader>{{"other", "1"}}).error().kind, ErrorKind::kInput);
 }
 
 TEST_F(RunFolders, VerdictSaysWhetherAllPassed) {
