@@ -13,8 +13,8 @@
 
 namespace morula::scenarios {
 
-/// A curve in series.csv.
-struct SeriesColumn {
+/// A column of series.csv as its header names it.
+struct SeriesHeader {
   std::string name;
   std::string unit;  ///< "1" for a number
 };
@@ -24,7 +24,8 @@ struct SeriesColumn {
 class RunFolder {
  public:
   /// Collective. Makes `<parent>/<study>-NNNN` with the next free number, or exactly `out` if given. Never an existing folder: kFile.
-  static Result<RunFolder> create(const std::filesystem::path& parent, const std::filesystem::path& out, const std::string& study, const Comm& comm);
+  static Result<RunFolder> create(const std::filesystem::path& parent, const std::filesystem::path& out, const std::string& study,
+                                  const Comm& comm);
   /// Collective. An existing run, to resume or to look at: kFile if it is none.
   static Result<RunFolder> open(const std::filesystem::path& path, const Comm& comm);
 
@@ -47,7 +48,7 @@ class RunFolder {
   Status add_to_log(const std::string& line) const;
   Status add_events(std::span<const Event> events) const;
   /// Header of series.csv (`time [s]` first). When the file is there already (a resumed run), its header must be the same: kInput.
-  Status begin_series(std::span<const SeriesColumn> columns) const;
+  Status begin_series(std::span<const SeriesHeader> columns) const;
   Status add_to_series(double time, std::span<const double> values) const;
   /// After a restart: takes from series.csv and events.jsonl what is later than `time`, and what was written by halves.
   Status cut_back(double time) const;
