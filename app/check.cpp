@@ -1,6 +1,6 @@
-#include "app/estimate.h"
 #include "app/read_study.h"
 #include "app/verbs.h"
+#include "app/estimate_text.h"
 #include "app/words.h"
 #include "scenarios/study/catalogue.h"
 
@@ -17,7 +17,10 @@ Status check(const CheckOptions& options, const Context& context) {
     }
     const std::size_t warnings = study->warnings.warning_count();
     if (!options.schema) context.console.result(path + ": ok" + (warnings ? " (" + count_words(warnings, "warning", "warnings") + ")" : "") + "\n");
-    if (options.estimate) context.console.result(estimate_text(*study, context.comm.size()));
+    if (options.estimate) {
+      MORULA_TRY_ASSIGN(const std::string text, estimate_text(*study, context.comm.size()));
+      context.console.result(text);
+    }
   }
   return outcome;
 }

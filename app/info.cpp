@@ -6,6 +6,7 @@
 #include "app/run_state.h"
 #include "app/verbs.h"
 #include "app/words.h"
+#include "scenarios/run/progress.h"
 #include "scenarios/results/checkpoint_folder.h"
 #include "scenarios/results/file_io.h"
 #include "scenarios/results/run_folder.h"
@@ -45,12 +46,12 @@ std::string text_of(const RunOverview& run, const scenarios::FinalState& state) 
   const scenarios::RunRecord& r = run.record;
   std::string out = run.path.string() + ": " + r.study + (r.title.empty() ? "" : ", " + r.title) + "\n";
   out += "  state     " + run.state_word() + (r.message.empty() ? "" : ": " + r.message) + "\n";
-  out += "  time      " + simulated_time_words(state.time) + (run.status.end > 0.0 ? " of " + simulated_time_words(run.status.end) : "") + "\n";
+  out += "  time      " + scenarios::time_text(state.time) + (run.status.end > 0.0 ? " of " + scenarios::time_text(run.status.end) : "") + "\n";
   out += "  cells     " + std::to_string(state.cells) + " (" + count_words(state.spheres, "sphere", "spheres") + ", " + count_words(state.shells, "shell", "shells") + ")\n";
   out += "  hash      " + state.state_hash + "\n";
   out += "  seed      " + std::to_string(r.seed) + "\n";
   out += "  ran on    " + r.host + ", " + count_words(static_cast<std::uint64_t>(r.ranks), "rank", "ranks") + ", " + count_words(static_cast<std::uint64_t>(r.threads), "thread", "threads") +
-         " each, " + wall_time_words(r.wall_time) + "\n";
+         " each, " + scenarios::duration_text(r.wall_time) + "\n";
   out += "  morula    " + r.version + " (" + r.git_hash + "), " + r.compiler + "\n";
   out += "  command   " + r.command + "\n";
   if (!r.parent.empty()) out += "  parent    " + r.parent + "\n";
@@ -105,7 +106,7 @@ Status info_of_study(const InfoOptions& options, const Context& context) {
     for (const auto& name : list) out += (out.empty() ? "" : ", ") + name.get<std::string>();
     return out.empty() ? std::string("none") : out;
   };
-  context.console.result(study.name + (study.title.empty() ? "" : ": " + study.title) + "\n  end         " + simulated_time_words(study.time.end) + "\n  seed        " +
+  context.console.result(study.name + (study.title.empty() ? "" : ": " + study.title) + "\n  end         " + scenarios::time_text(study.time.end) + "\n  seed        " +
                          std::to_string(model.seed) + "\n  cells       " + std::to_string(cells) + "\n  cell types  " + names(types) + "\n  obstacles   " + names(obstacles) +
                          "\n  fields      " + names(fields) + "\n  regions     " + names(regions) + "\n");
   return {};

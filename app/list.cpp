@@ -5,6 +5,7 @@
 #include "app/run_state.h"
 #include "app/verbs.h"
 #include "app/words.h"
+#include "scenarios/run/progress.h"
 #include "scenarios/results/file_io.h"
 
 namespace morula::app {
@@ -58,8 +59,8 @@ Status list(const ListOptions& options, const Context& context) {
   }
   std::vector<std::vector<std::string>> rows{{"run", "state", "time", "of", "cells", "shells", "wall", "started"}};
   for (const RunOverview& run : runs)
-    rows.push_back({run.path.filename().string(), run.state_word(), simulated_time_words(run.status.time), simulated_time_words(run.status.end), std::to_string(run.status.cells),
-                    std::to_string(run.status.shells), wall_time_words(run.status.wall_time), run.record.started});
+    rows.push_back({run.path.filename().string(), run.state_word(), scenarios::time_text(run.status.time), scenarios::time_text(run.status.end), std::to_string(run.status.cells),
+                    std::to_string(run.status.shells), scenarios::duration_text(run.status.wall_time), run.record.started});
   context.console.result(table_text(rows));
   return {};
 }

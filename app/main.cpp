@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/command_line.h"
-#include "app/exit_code.h"
 #include "app/verbs.h"
+#include "scenarios/run/exit_code.h"
 
 namespace {
 
@@ -48,24 +48,24 @@ Status run_command(const std::vector<std::string>& arguments, const Context& con
 
 /// The exit code of this rank.
 int guarded(const std::vector<std::string>& arguments, const Context& context) {
-  int code = kDone;
+  int code = 0;
   try {
     if (const Status done = run_command(arguments, context); !done.ok()) {
       context.console.error(done.error());
-      code = exit_code_of(done.error().kind);
+      code = scenarios::exit_code(done.error().kind);
     }
   } catch (const std::bad_alloc&) {
     Console(true).error({ErrorKind::kResources, "out of memory", "use more ranks on more machines, or a smaller study"});
-    code = exit_code_of(ErrorKind::kResources);
+    code = scenarios::exit_code(ErrorKind::kResources);
     if (context.comm.size() > 1) MPI_Abort(MPI_COMM_WORLD, code);  // the other ranks wait for this one
   } catch (const std::exception& defect) {
     Console(true).error({ErrorKind::kInternal, std::string("internal error: ") + defect.what(), "this is a defect of Morula; please report it with the study"});
-    code = exit_code_of(ErrorKind::kInternal);
+    code = scenarios::exit_code(ErrorKind::kInternal);
     if (context.comm.size() > 1) MPI_Abort(MPI_COMM_WORLD, code);
   }
-  if (!context.console.finish() && code == kDone) {
+  if (!context.console.finish() && code == 0) {
     context.console.error({ErrorKind::kResources, "standard output cannot be written", "is the disk full?"});
-    code = exit_code_of(ErrorKind::kResources);
+    code = scenarios::exit_code(ErrorKind::kResources);
   }
   return code;
 }
@@ -84,9 +84,9 @@ int main(int argc, char** argv) {
   int provided = MPI_THREAD_SINGLE;
   if (MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS) {
     Console(true).error({ErrorKind::kInternal, "MPI cannot be started", "check the installation with `ompi_info`"});
-    return exit_code_of(ErrorKind::kInternal);
+    return scenarios::exit_code(ErrorKind::kInternal);
   }
-  int code = kDone;
+  int code = 0;
   {
     const Comm comm(MPI_COMM_WORLD);
     std::string command = "morula";

@@ -2,6 +2,7 @@
 
 #include "app/words.h"
 #include "scenarios/library/library.h"
+#include "scenarios/observables/observables.h"
 
 namespace morula::app {
 
@@ -11,6 +12,10 @@ Result<scenarios::Study> read_study_and_tell(const std::string& path, const std:
   options.scenario_names = scenarios::template_names();
   options.strict = strict;
   auto study = scenarios::read_study(path, options);
+  if (study.ok() && !study->output.series.empty()) {  // which observables exist depends on the cell types and fields of the study
+    options.series_names = scenarios::observable_names(study->model);
+    study = scenarios::read_study(path, options);
+  }
   const scenarios::Diagnostics& told = study.ok() ? study->warnings : study.error();
   if (!told.empty()) context.console.message(told.text(context.console.colour()));
   if (study.ok()) {

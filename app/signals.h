@@ -3,13 +3,8 @@
 
 namespace morula::app {
 
-/// What a signal asked for.
-enum class StopRequest : int { kNone = 0, kStop = 1, kInterrupt = 2 };
-
-/// SIGTERM and SIGUSR1 ask to stop early, SIGINT to be interrupted; the run ends with a checkpoint at the next step. A second SIGINT ends the
-/// program at once (exit 130).
-void watch_signals();
-/// What was asked for so far.
-[[nodiscard]] StopRequest stop_request() noexcept;
+/// From now on SIGTERM and SIGUSR1 ask to stop early and SIGINT to be interrupted: the run ends with a checkpoint after the step that it is
+/// doing. A second SIGINT ends the program at once (exit 130). Returns what was asked for: a scenarios::StopWish.
+const std::atomic<int>& watch_signals();
 
 }  // namespace morula::app

@@ -3,6 +3,7 @@
 #include "app/run_state.h"
 #include "app/verbs.h"
 #include "app/words.h"
+#include "scenarios/run/progress.h"
 #include "scenarios/results/run_folder.h"
 
 namespace morula::app {
@@ -15,12 +16,12 @@ std::string status_text(const RunOverview& run) {
   const RunStatus& status = run.status;
   const double part = status.end > 0.0 ? 100.0 * status.time / status.end : 0.0;
   std::string out = run.path.string() + ": " + run.state_word() + "\n";
-  out += "  time   " + simulated_time_words(status.time) + " of " + simulated_time_words(status.end) + " (" + number_text("%.0f", part) + " %)\n";
+  out += "  time   " + scenarios::time_text(status.time) + " of " + scenarios::time_text(status.end) + " (" + number_text("%.0f", part) + " %)\n";
   out += "  cells  " + std::to_string(status.cells) + " (" + count_words(status.shells, "shell", "shells") + ")\n";
   out += "  steps  " + std::to_string(status.steps) + ", the last of " + number_text("%.3g s", status.step) + "\n";
-  out += "  wall   " + wall_time_words(status.wall_time);
+  out += "  wall   " + scenarios::duration_text(status.wall_time);
   if (status.state == RunState::kRunning && !run.lost && status.left_low >= 0.0)
-    out += ", left " + wall_time_words(status.left_low) + " to " + wall_time_words(status.left_high);
+    out += ", left " + scenarios::duration_text(status.left_low) + " to " + scenarios::duration_text(status.left_high);
   out += "\n  as of  " + status.updated + "\n";
   if (!run.record.message.empty()) out += "  why    " + run.record.message + "\n";
   if (run.lost || status.state == RunState::kStopped) out += "  next   morula resume " + run.path.string() + "\n";

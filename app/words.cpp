@@ -22,29 +22,6 @@ std::string number_text(const char* format, double value) {
   return text;
 }
 
-std::string wall_time_words(double seconds) {
-  if (!(seconds >= 0.0) || seconds > 1e9) return "unknown";
-  if (seconds < 9.95) return number_text("%.1f s", seconds);
-  const auto s = static_cast<long long>(std::llround(seconds));
-  char text[64];
-  if (s < 60) {
-    std::snprintf(text, sizeof text, "%lld s", s);
-  } else if (s < 3600) {
-    std::snprintf(text, sizeof text, "%lld min %02lld s", s / 60, s % 60);
-  } else if (s < 48 * 3600) {
-    std::snprintf(text, sizeof text, "%lld h %02lld min", s / 3600, s % 3600 / 60);
-  } else {
-    std::snprintf(text, sizeof text, "%lld d %lld h", s / 86400, s % 86400 / 3600);
-  }
-  return text;
-}
-
-std::string simulated_time_words(double seconds) {
-  if (std::fabs(seconds) < 120.0) return number_text("%.3g s", seconds);
-  if (std::fabs(seconds) < 2.0 * 3600.0) return number_text("%.1f min", seconds / 60.0);
-  return number_text("%.1f h", seconds / 3600.0);
-}
-
 std::string bytes_words(double bytes) {
   constexpr const char* units[] = {"B", "kB", "MB", "GB", "TB"};
   int unit = 0;

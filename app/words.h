@@ -10,10 +10,6 @@ namespace morula::app {
 /// A time typed on the command line, as `48h` or `90 min`, in seconds. kInput, naming `flag`, if it is none, or is not above 0.
 Result<double> read_time(const std::string& flag, const std::string& text);
 
-/// Wall time for people: "12 s", "1 min 05 s", "1 h 21 min", "2 d 3 h".
-[[nodiscard]] std::string wall_time_words(double seconds);
-/// Simulated time in the unit of the clock in a live line: "39.4 h", "12.0 min", "8 s".
-[[nodiscard]] std::string simulated_time_words(double seconds);
 /// Bytes: "812 MB".
 [[nodiscard]] std::string bytes_words(double bytes);
 /// "1 cell", "3 cells".
