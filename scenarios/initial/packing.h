@@ -1,0 +1,30 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/space/space.h"
+#include "scenarios/study/study.h"
+
+namespace morula::scenarios {
+
+/// What a filled shape looks like.
+struct Packing {
+  std::vector<Vec3d> center;    ///< by cell, from the middle of the shape outwards [µm]
+  double worst_overlap = 0.0;   ///< largest of touch·(r_i + r_j) − distance over all pairs; ≤ 0: none [µm]
+  double reach_beyond = 0.0;    ///< how far the outermost cell sticks out of the shape; 0: not at all [µm]
+};
+
+/// Centres of `radius.size()` cells of these radii in the block's shape.
+///
+/// Face-centred cubic close packing, the nearest points to the shape's middle (measured by the shape itself, so that a box fills as a box),
+/// turned at random in a sphere, with a jitter of 3 % of the spacing; then overlapping cells are pushed apart until no two centres are
+/// closer than touch·(r_i + r_j), up to 0.1 % of the mean radius or kMostPasses passes. Walls keep cells inside; periodic faces count.
+/// Random numbers: stream kInitialPosition of the founders first_number …; a pure function of its arguments.
+Packing pack_cells(const InitialCells& block, std::span<const double> radius, double touch, const Space& space, std::uint64_t first_number,
+                   std::uint32_t seed);
+
+/// Push spheres apart in place until no two centres are closer than touch·(r_i + r_j) − slack; returns the largest remaining overlap [µm].
+double push_apart(std::vector<Vec3d>& center, std::span<const double> radius, double touch, double slack, int most_passes, const Space& space);
+
+}  // namespace morula::scenarios

@@ -1,0 +1,57 @@
+#include "scenarios/observables/local_snapshot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace morula::scenarios {
+
+Snapshot local_snapshot(Simulation& simulation) {
+  const BodyValues& values = simulation.values();
+  const Tissue& tissue = simulation.tissue();
+  const Model& model = simulation.model();
+  const std::vector<Vec3d> center = simulation.centers();
+  Snapshot out;
+  out.time = tissue.clock.time;
+  for (const CellType& type : model.types) out.type_names.push_back(type.name);
+  for (const auto& spec : model.fields) out.fields.emplace_back().name = spec.name;
+  std::vector<const Topology*> known;
+  std::size_t shell = 0, sphere = 0;
+  for (std::size_t i = 0; i < center.size(); ++i) {
+    const CellRow& row = tissue.cells.rows[i];
+    const bool is_shell = row.body == BodyKind::kShell;
+    const std::size_t body = is_shell ? shell : tissue.shells.size() + sphere;
+    Snapshot::Cell& cell = out.cells.emplace_back();
+    cell.id = row.id;
+    cell.parent = row.parent;
+    cell.type = row.type;
+    cell.body = row.body;
+    cell.phase = row.phase;
+    cell.centroid = center[i];
+    cell.volume = values.volume[body];
+    cell.area = values.area[body];
+    cell.pressure = values.pressure[body];
+    cell.contact_area = values.contact_area[body];
+    cell.age = out.time - row.birth_time;
+    cell.concentration = row.concentration;
+    cell.radius = is_shell ? std::cbrt(3.0 * cell.volume / (4.0 * std::numbers::pi)) : tissue.spheres.radius[sphere];
+    if (!is_shell) {
+      ++sphere;
+      continue;
+    }
+    const Topology* topology = &tissue.shells.topology(shell);
+    const auto found = std::find(known.begin(), known.end(), topology);
+    const auto number = static_cast<std::uint32_t>(found - known.begin());
+    if (found == known.end()) {
+      known.push_back(topology);
+      out.topologies.emplace_back(topology->faces().begin(), topology->faces().end());
+    }
+    const auto nodes = std::as_const(tissue.shells).nodes(shell);
+    out.shells.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(out.nodes.size()), static_cast<std::uint32_t>(nodes.size()), number});
+    out.nodes.insert(out.nodes.end(), nodes.begin(), nodes.end());
+    ++shell;
+  }
+  return out;
+}
+
+}  // namespace morula::scenarios
