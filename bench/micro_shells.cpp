@@ -56,8 +56,8 @@ struct Bed {
 };
 
 void report(benchmark::State& state, const Bed& bed) {
-  state.counters["ns_per_node"] = benchmark::Counter(
-      static_cast<double>(bed.shells.node_count()) * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["ns_per_node"] = benchmark::Counter(static_cast<double>(bed.shells.node_count()) * 1e-9,
+                                                     benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 void surface_geometry(benchmark::State& state) {
@@ -72,7 +72,8 @@ void surface_geometry(benchmark::State& state) {
 void surface_forces(benchmark::State& state) {
   Bed bed(state);
   const std::vector<double> face_area(bed.blocks.face_count(), 0.1);
-  const std::vector<Vec3d> face_normal(bed.blocks.face_count(), Vec3d{0.1, 0.2, 0.3}), node_normal(bed.shells.node_count(), Vec3d{0.1, 0.2, 0.3});
+  const std::vector<Vec3d> face_normal(bed.blocks.face_count(), Vec3d{0.1, 0.2, 0.3}),
+      node_normal(bed.shells.node_count(), Vec3d{0.1, 0.2, 0.3});
   std::vector<Vec3d> force(bed.shells.node_count());
   for (auto _ : state) {
     add_surface_forces(bed.surfaces(), bed.blocks.blocks, bed.shells.position, bed.geometry, {face_area, face_normal, node_normal}, force);

@@ -79,7 +79,8 @@ void apply_rank_one_terms(const ShellOperator::Block& matrix, const Topology& to
   for (std::size_t entry = 0; entry < matrix.barrier_edge.size(); ++entry) {
     const Edge& edge = topology.edges()[matrix.barrier_edge[entry]];
     const float* b = matrix.barrier.data();
-    const auto bj = load_vec3<float, W>(b, 3 * entry), bk = load_vec3<float, W>(b, 3 * entry + 1), bl = load_vec3<float, W>(b, 3 * entry + 2);
+    const auto bj = load_vec3<float, W>(b, 3 * entry), bk = load_vec3<float, W>(b, 3 * entry + 1),
+               bl = load_vec3<float, W>(b, 3 * entry + 2);
     const auto pi = p[edge.i];
     const auto s = dot(bj, p[edge.j] - pi) + dot(bk, p[edge.k] - pi) + dot(bl, p[edge.l] - pi);
     q.add(edge.j, bj * s);
@@ -102,8 +103,8 @@ void apply_block(const LaneBlock& block, const Shells& shells, const ShellOperat
   const auto volume_rate = apply_diagonal<W>(matrix, nodes, p, q);
   apply_edges<W>(matrix, topology.edges(), p, q);
   apply_rank_one_terms<W>(matrix, topology, p, q);
-  const Real pressure = Real::load(matrix.volume_stiffness.data()) *
-                        Real::from(__builtin_convertvector(volume_rate.v, typename Real::Vector));
+  const Real pressure =
+      Real::load(matrix.volume_stiffness.data()) * Real::from(__builtin_convertvector(volume_rate.v, typename Real::Vector));
   for (std::size_t i = 0; i < nodes; ++i) q.add(i, load_vec3<float, W>(matrix.volume_gradient.data(), i) * pressure);
   store_lanes<W, float>(q.data, nodes * 4, lane_pointers<W>(&output.data()->x, block, shells.first_node, 4));
 }
@@ -139,7 +140,8 @@ void add_diagonal_block(const LaneBlock& block, const Shells& shells, const Shel
   for (std::size_t entry = 0; entry < matrix.barrier_edge.size(); ++entry) {
     const Edge& edge = topology.edges()[matrix.barrier_edge[entry]];
     const float* b = matrix.barrier.data();
-    const auto bj = load_vec3<float, W>(b, 3 * entry), bk = load_vec3<float, W>(b, 3 * entry + 1), bl = load_vec3<float, W>(b, 3 * entry + 2);
+    const auto bj = load_vec3<float, W>(b, 3 * entry), bk = load_vec3<float, W>(b, 3 * entry + 1),
+               bl = load_vec3<float, W>(b, 3 * entry + 2);
     add(edge.i, outer(Real(1.0f), bj + bk + bl));
     add(edge.j, outer(Real(1.0f), bj));
     add(edge.k, outer(Real(1.0f), bk));

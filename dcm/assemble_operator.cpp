@@ -194,7 +194,8 @@ void assemble_barrier(Assembly<W>& a, Lane<float, W> cos_onset) noexcept {
 
 /// Bring positions (relative to node 0), rest lengths and contact energies of the block into lanes of float.
 template <int W>
-void load_inputs(Assembly<W>& a, std::span<const Vec3d> position, const ShellBlocks& blocks, std::span<const double> contact_energy) noexcept {
+void load_inputs(Assembly<W>& a, std::span<const Vec3d> position, const ShellBlocks& blocks,
+                 std::span<const double> contact_energy) noexcept {
   const std::size_t nodes = a.topology.node_count(), edges = a.topology.edge_count(), faces = a.topology.face_count();
   const auto convert = [](const LaneVector<double>& in, std::size_t count, LaneVector<float>& out) {
     out.resize(std::max(out.size(), count));

@@ -29,9 +29,15 @@ void for_each_block(const ShellBlocks& blocks, const Kernel& kernel) {
     for (std::size_t b = 0; b < count; ++b) {
       const LaneBlock& block = blocks.blocks[b];
       switch (block.lanes) {
-        case 8: kernel.template operator()<8>(b, block, workspace); break;
-        case 4: kernel.template operator()<4>(b, block, workspace); break;
-        default: kernel.template operator()<1>(b, block, workspace); break;
+        case 8:
+          kernel.template operator()<8>(b, block, workspace);
+          break;
+        case 4:
+          kernel.template operator()<4>(b, block, workspace);
+          break;
+        default:
+          kernel.template operator()<1>(b, block, workspace);
+          break;
       }
     }
   }

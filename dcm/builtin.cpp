@@ -2,7 +2,6 @@
 
 #include <string>
 
-
 namespace morula::dcm {
 namespace {
 
@@ -39,7 +38,8 @@ ShellLaw hinge_bending() {
                    .source = "Gompper & Kroll 1996, J. Phys. I France 6, 1305",
                    .parameters = {{"young_modulus", "pressure", "kPa", 1.0, 0.0, 1000.0, kCortex, "Young's modulus of the cortex E_cor."},
                                   {"thickness", "length", "µm", 0.2, 0.0, 5.0, kCortex, "Thickness of the cortex h."},
-                                  {"poisson_ratio", "number", "1", 0.5, -0.99, 0.5, kCortex, "Poisson ratio of the cortex ν, for bending only."}}},
+                                  {"poisson_ratio", "number", "1", 0.5, -0.99, 0.5, kCortex,
+                                   "Poisson ratio of the cortex ν, for bending only."}}},
           .stencil = LawStencil::kHinge,
           .in_operator = false,
           .strength = &ShellParameters::hinge_stiffness};
@@ -50,8 +50,10 @@ ShellLaw cortical_tension() {
                    .title = "Tension of the actomyosin cortex",
                    .equation = "E = γ A",
                    .source = "Fischer-Friedrich et al. 2014, doi:10.1038/srep06213",
-                   .parameters = {{"tension", "tension", "nN/µm", 0.5, 0.0, 100.0, "between interphase 0.2 and metaphase 1.6: " +
-                                   std::string("Fischer-Friedrich et al. 2014, doi:10.1038/srep06213"), "Tension γ of the cortex."}}},
+                   .parameters = {{"tension", "tension", "nN/µm", 0.5, 0.0, 100.0,
+                                   "between interphase 0.2 and metaphase 1.6: " +
+                                       std::string("Fischer-Friedrich et al. 2014, doi:10.1038/srep06213"),
+                                   "Tension γ of the cortex."}}},
           .stencil = LawStencil::kFace,
           .zero_in_reference = false,
           .strength = &ShellParameters::tension};
@@ -68,25 +70,27 @@ ShellLaw volume_pressure() {
 }
 
 ShellLaw triangle_shape() {
-  return {.info = {.name = "triangle_shape",
-                   .title = "Resistance of triangles to collapse",
-                   .equation = "E = k_s A_ref (1/q − 1)², q = 4√3 A / Σ l²",
-                   .source = "choice of this project: regularises faces where the cortex has no shear stiffness",
-                   .parameters = {{"shape_stiffness", "tension", "nN/µm", 0.3, 0.0, 100.0, kMeasured, "Stiffness k_s per reference area."}}},
-          .stencil = LawStencil::kFace,
-          .zero_in_reference = false,
-          .strength = &ShellParameters::shape_stiffness};
+  return {
+      .info = {.name = "triangle_shape",
+               .title = "Resistance of triangles to collapse",
+               .equation = "E = k_s A_ref (1/q − 1)², q = 4√3 A / Σ l²",
+               .source = "choice of this project: regularises faces where the cortex has no shear stiffness",
+               .parameters = {{"shape_stiffness", "tension", "nN/µm", 0.3, 0.0, 100.0, kMeasured, "Stiffness k_s per reference area."}}},
+      .stencil = LawStencil::kFace,
+      .zero_in_reference = false,
+      .strength = &ShellParameters::shape_stiffness};
 }
 
 ShellLaw dihedral_barrier() {
-  return {.info = {.name = "dihedral_barrier",
-                   .title = "Barrier against folding",
-                   .equation = "E = k_d z² / (1 − z²), z = (|θ| − θ_b) / (π − θ_b) for |θ| > θ_b, else 0",
-                   .source = "choice of this project: keeps the sign of contact gaps defined",
-                   .parameters = {{"barrier_stiffness", "energy", "nN·µm", 1.0, 0.0, 1000.0, kMeasured, "Energy k_d of the barrier."},
-                                  {"barrier_angle", "angle", "rad", 1.6, 0.1, 2.8, kMeasured, "Turning angle θ_b where the barrier begins."}}},
-          .stencil = LawStencil::kHinge,
-          .strength = &ShellParameters::barrier_stiffness};
+  return {
+      .info = {.name = "dihedral_barrier",
+               .title = "Barrier against folding",
+               .equation = "E = k_d z² / (1 − z²), z = (|θ| − θ_b) / (π − θ_b) for |θ| > θ_b, else 0",
+               .source = "choice of this project: keeps the sign of contact gaps defined",
+               .parameters = {{"barrier_stiffness", "energy", "nN·µm", 1.0, 0.0, 1000.0, kMeasured, "Energy k_d of the barrier."},
+                              {"barrier_angle", "angle", "rad", 1.6, 0.1, 2.8, kMeasured, "Turning angle θ_b where the barrier begins."}}},
+      .stencil = LawStencil::kHinge,
+      .strength = &ShellParameters::barrier_stiffness};
 }
 
 ShellLaw medium_friction() {

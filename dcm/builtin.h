@@ -13,9 +13,9 @@ enum class LawStencil { kEdge, kHinge, kFace, kCell, kNode };
 struct ShellLaw {
   LawInfo info;
   LawStencil stencil = LawStencil::kEdge;
-  bool conservative = true;      ///< has an energy; otherwise it is a friction
-  bool zero_in_reference = true; ///< no force in the reference shape at its rest volume
-  bool in_operator = true;       ///< adds to the matrix of the implicit step
+  bool conservative = true;                     ///< has an energy; otherwise it is a friction
+  bool zero_in_reference = true;                ///< no force in the reference shape at its rest volume
+  bool in_operator = true;                      ///< adds to the matrix of the implicit step
   double ShellParameters::*strength = nullptr;  ///< the coefficient that the law is proportional to; 0 switches the law off
 };
 

@@ -5,9 +5,7 @@ namespace morula::dcm {
 
 /// k = (√3/2) E h of the springs of a cortex of Young's modulus E [kPa] and thickness h [µm]; [nN/µm] (Seung & Nelson 1988,
 /// doi:10.1103/PhysRevA.38.1005).
-constexpr double spring_stiffness(double young_modulus, double thickness) {
-  return 0.5 * std::numbers::sqrt3 * young_modulus * thickness;
-}
+constexpr double spring_stiffness(double young_modulus, double thickness) { return 0.5 * std::numbers::sqrt3 * young_modulus * thickness; }
 
 /// κ = E h³ / (12 (1 − ν²)) of a plate; [nN·µm].
 constexpr double bending_modulus(double young_modulus, double thickness, double poisson_ratio) {

@@ -87,9 +87,9 @@ void add_face_laws(BlockState<W>& state, const Shells& shells, const CorticalTen
     const Real inverse_quality = shape.inverse_quality(inverse_area, face.square_sum());
     state.max_inverse_quality = max(state.max_inverse_quality, inverse_quality);
     state.energy += tension.energy(area) + shape.energy(inverse_quality, reference_area);
-    const auto force = FaceForce<Real>::of(face, inverse_twice_area,
-                                           tension.slope() + shape.area_slope(inverse_quality, inverse_area, reference_area),
-                                           shape.square_sum_slope(inverse_quality, inverse_area, reference_area));
+    const auto force =
+        FaceForce<Real>::of(face, inverse_twice_area, tension.slope() + shape.area_slope(inverse_quality, inverse_area, reference_area),
+                            shape.square_sum_slope(inverse_quality, inverse_area, reference_area));
     const auto push = face.twice_area_vector * pressure_sixth;
     state.add_force(t[0], force.f0 + push);
     state.add_force(t[1], force.f1 + push);
@@ -195,8 +195,8 @@ void write_shell_results(const BlockState<W>& state, const Shells& shells, std::
     out.max_angle[shell] = state.max_angle[lane];
     const bool good = std::isfinite(energy) && volume > 0.0 && state.max_inverse_quality[lane] <= 1.0 / ShellLimits::kQuality &&
                       state.max_angle[lane] <= ShellLimits::kAngle;
-    out.fault[shell] = good ? ShellFault{}
-                            : locate_fault(state.topology, position.subspan(shells.first_node[shell], state.topology.node_count()), volume);
+    out.fault[shell] =
+        good ? ShellFault{} : locate_fault(state.topology, position.subspan(shells.first_node[shell], state.topology.node_count()), volume);
   }
 }
 
@@ -207,7 +207,8 @@ void block_mechanics(const LaneBlock& block, const Shells& shells, std::span<con
   const Topology& topology = *block.topology;
   ws.fit(topology, W);
   load_relative_positions<W>(block, lane_pointers<W>(&position.data()->x, block, shells.first_node, 3), ws.position.data());
-  load_lanes<W, double>(lane_pointers<W>(shells.rest_length.data(), block, shells.first_edge), topology.edge_count(), ws.rest_length.data());
+  load_lanes<W, double>(lane_pointers<W>(shells.rest_length.data(), block, shells.first_edge), topology.edge_count(),
+                        ws.rest_length.data());
   std::fill_n(ws.force.data(), std::size_t{topology.node_count()} * 3 * W, 0.0);
 
   BlockState<W> state{block, topology, ws};
@@ -237,7 +238,8 @@ void block_mechanics(const LaneBlock& block, const Shells& shells, std::span<con
 void internal_forces(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
                      std::span<const Vec3d> position, ShellMechanics& out) {
   out.force.resize(shells.node_count());
-  for (std::vector<double>* array : {&out.energy, &out.volume, &out.pressure, &out.min_quality, &out.max_angle}) array->resize(shells.size());
+  for (std::vector<double>* array : {&out.energy, &out.volume, &out.pressure, &out.min_quality, &out.max_angle})
+    array->resize(shells.size());
   out.fault.resize(shells.size());
   for_each_block<Workspace>(blocks, [&]<int W>(std::size_t, const LaneBlock& block, Workspace& ws) {
     block_mechanics<W>(block, shells, types, position, out, ws);

@@ -10,13 +10,13 @@ namespace morula::dcm {
 
 /// What the membrane and the pressure of every shell do at some positions.
 struct ShellMechanics {
-  std::vector<Vec3d> force;        ///< −∂E/∂x by node [nN]
-  std::vector<double> energy;      ///< E by shell [fJ]
-  std::vector<double> volume;      ///< enclosed, by shell [µm³]
-  std::vector<double> pressure;    ///< −K_V ln(V/V0), by shell [kPa]
-  std::vector<double> min_quality; ///< smallest q of a face, by shell
-  std::vector<double> max_angle;   ///< largest |θ| of an edge, by shell [rad]
-  std::vector<ShellFault> fault;   ///< by shell; energy and force of a faulty shell are not to be used
+  std::vector<Vec3d> force;         ///< −∂E/∂x by node [nN]
+  std::vector<double> energy;       ///< E by shell [fJ]
+  std::vector<double> volume;       ///< enclosed, by shell [µm³]
+  std::vector<double> pressure;     ///< −K_V ln(V/V0), by shell [kPa]
+  std::vector<double> min_quality;  ///< smallest q of a face, by shell
+  std::vector<double> max_angle;    ///< largest |θ| of an edge, by shell [rad]
+  std::vector<ShellFault> fault;    ///< by shell; energy and force of a faulty shell are not to be used
 };
 
 /// Energies and forces of all internal laws (edge_spring, hinge_bending, cortical_tension, volume_pressure, triangle_shape,

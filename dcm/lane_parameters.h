@@ -18,7 +18,8 @@ Lane<T, W> by_lane(const LaneBlock& block, const Get& get) {
 
 /// A parameter of every lane, from the type of the shell in it.
 template <class T, int W>
-Lane<T, W> parameter(const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types, double ShellParameters::*member) {
+Lane<T, W> parameter(const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types,
+                     double ShellParameters::*member) {
   return by_lane<T, W>(block, [&](std::uint32_t shell) { return types[shells.type[shell]].*member; });
 }
 

@@ -7,10 +7,10 @@ namespace morula::dcm {
 /// What makes a shell's state unusable; a step that leads there is tried again with a smaller one.
 enum class ShellFaultKind : std::uint8_t {
   kNone,
-  kNotFinite,       ///< a position is not a number; element: node
-  kVolume,          ///< enclosed volume not positive (volume_pressure)
-  kTriangleShape,   ///< quality q below ShellLimits::kQuality (triangle_shape); element: face
-  kDihedral,        ///< |θ| above ShellLimits::kAngle (dihedral_barrier); element: edge
+  kNotFinite,      ///< a position is not a number; element: node
+  kVolume,         ///< enclosed volume not positive (volume_pressure)
+  kTriangleShape,  ///< quality q below ShellLimits::kQuality (triangle_shape); element: face
+  kDihedral,       ///< |θ| above ShellLimits::kAngle (dihedral_barrier); element: edge
 };
 
 struct ShellFault {

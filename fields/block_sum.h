@@ -20,12 +20,14 @@ double block_sum(std::size_t n, FLane&& f_lane, F&& f) {
 
 /// Σ x_i
 inline double block_sum(const double* x, std::size_t n) {
-  return block_sum(n, [x](std::size_t i) { return Lane<double, 8>::load(x + i); }, [x](std::size_t i) { return x[i]; });
+  return block_sum(
+      n, [x](std::size_t i) { return Lane<double, 8>::load(x + i); }, [x](std::size_t i) { return x[i]; });
 }
 /// Σ x_i y_i
 inline double block_dot(const double* x, const double* y, std::size_t n) {
   using L = Lane<double, 8>;
-  return block_sum(n, [x, y](std::size_t i) { return L::load(x + i) * L::load(y + i); }, [x, y](std::size_t i) { return x[i] * y[i]; });
+  return block_sum(
+      n, [x, y](std::size_t i) { return L::load(x + i) * L::load(y + i); }, [x, y](std::size_t i) { return x[i] * y[i]; });
 }
 /// Σ x_i² m_i
 inline double block_triple(const double* x, const double* m, std::size_t n) {

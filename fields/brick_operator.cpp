@@ -8,7 +8,11 @@
 namespace morula::fields {
 
 BrickOperator::BrickOperator(const Grid& grid, const FieldSpec& spec, const Layout& layout, Halo& halo)
-    : spec_(spec), layout_(layout), halo_(halo), voxel_volume_(grid.voxel_volume()), slope_(layout.concentrations(), 0.0),
+    : spec_(spec),
+      layout_(layout),
+      halo_(halo),
+      voxel_volume_(grid.voxel_volume()),
+      slope_(layout.concentrations(), 0.0),
       diagonal_(layout.concentrations()) {
   const Vec3d h = grid.spacing();
   for (std::size_t a = 0; a < 3; ++a) conductance_[a] = spec.diffusion / (h[a] * h[a]);
@@ -60,7 +64,8 @@ void BrickOperator::fill_ghosts(std::size_t brick, std::size_t side, const doubl
     return;
   }
   const auto& m = layout_.extent[source.at];
-  const std::array<std::size_t, 3> stride{1, static_cast<std::size_t>(m[0]), static_cast<std::size_t>(m[0]) * static_cast<std::size_t>(m[1])};
+  const std::array<std::size_t, 3> stride{1, static_cast<std::size_t>(m[0]),
+                                          static_cast<std::size_t>(m[0]) * static_cast<std::size_t>(m[1])};
   const double* layer = values + layout_.offset[source.at] + ((side % 2) ? 0 : static_cast<std::size_t>(m[axis] - 1) * stride[axis]);
   for (std::size_t j = 0; j < nv; ++j)
     for (std::size_t i = 0; i < nu; ++i) to[i * su + j * sv] = layer[i * stride[u] + j * stride[v]];
@@ -131,7 +136,8 @@ void BrickOperator::linearize(const double* unknowns) {
 #pragma omp parallel for schedule(static) if (layout_.bricks() >= kBricksWorthThreads)
   for (std::size_t b = 0; b < layout_.bricks(); ++b) {
     const std::size_t at = layout_.offset[b];
-    for (std::size_t s = layout_.first_sink[b]; s < layout_.first_sink[b + 1]; ++s) slope_[at + static_cast<std::size_t>(layout_.sinks[s].voxel)] = 0.0;
+    for (std::size_t s = layout_.first_sink[b]; s < layout_.first_sink[b + 1]; ++s)
+      slope_[at + static_cast<std::size_t>(layout_.sinks[s].voxel)] = 0.0;
     for (std::size_t s = layout_.first_sink[b]; s < layout_.first_sink[b + 1]; ++s) {
       const Sink& sink = layout_.sinks[s];
       const std::size_t voxel = at + static_cast<std::size_t>(sink.voxel);

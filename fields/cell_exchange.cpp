@@ -8,7 +8,8 @@
 
 namespace morula::fields {
 
-CellExchange::CellExchange(const Field& field, const Space& space, std::span<const int> owner, std::span<const CellSource> cells, const Comm& comm) {
+CellExchange::CellExchange(const Field& field, const Space& space, std::span<const int> owner, std::span<const CellSource> cells,
+                           const Comm& comm) {
   const auto ranks = static_cast<std::size_t>(comm.size());
   std::vector<std::vector<VoxelWeight>> weights(cells.size());
 #pragma omp parallel for schedule(static) if (cells.size() > 256)

@@ -44,8 +44,8 @@ class CellExchange {
     std::int32_t voxel = 0;
     std::uint16_t type = 0;
     std::uint16_t unused = 0;
-    std::int32_t from = 0;         ///< rank; filled in by the receiver
-    std::uint64_t place = 0;       ///< in that rank's message; filled in by the receiver
+    std::int32_t from = 0;    ///< rank; filled in by the receiver
+    std::uint64_t place = 0;  ///< in that rank's message; filled in by the receiver
   };
   struct Share {
     double taken = 0.0;
@@ -56,10 +56,10 @@ class CellExchange {
     double weight = 0.0;
   };
 
-  std::vector<Deposit> deposits_;            ///< on voxels of this rank, sorted by (brick, voxel, type, id)
-  std::vector<std::uint64_t> received_from_; ///< number of deposits by rank
-  std::vector<Sent> sent_;                   ///< deposits of this rank's cells, cell after cell
-  std::vector<std::size_t> first_sent_;      ///< of each cell; one more for the end
+  std::vector<Deposit> deposits_;             ///< on voxels of this rank, sorted by (brick, voxel, type, id)
+  std::vector<std::uint64_t> received_from_;  ///< number of deposits by rank
+  std::vector<Sent> sent_;                    ///< deposits of this rank's cells, cell after cell
+  std::vector<std::size_t> first_sent_;       ///< of each cell; one more for the end
 };
 
 }  // namespace morula::fields

@@ -105,7 +105,8 @@ void normalize(std::vector<VoxelWeight>& weights) {
   double sum = 0.0;
   for (const auto& w : weights) sum += w.weight;
   for (auto& w : weights) w.weight /= sum;
-  auto& largest = *std::max_element(weights.begin(), weights.end(), [](const VoxelWeight& a, const VoxelWeight& b) { return a.weight < b.weight; });
+  auto& largest =
+      *std::max_element(weights.begin(), weights.end(), [](const VoxelWeight& a, const VoxelWeight& b) { return a.weight < b.weight; });
   for (int round = 0; round < 4; ++round) {
     double total = 0.0;
     for (const auto& w : weights) total += w.weight;

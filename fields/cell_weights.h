@@ -11,8 +11,8 @@ namespace morula::fields {
 
 /// The part of a cell that lies in a voxel.
 struct VoxelWeight {
-  std::int64_t brick = 0;   ///< in the grid
-  std::int32_t voxel = 0;   ///< in the brick, x fastest
+  std::int64_t brick = 0;  ///< in the grid
+  std::int32_t voxel = 0;  ///< in the brick, x fastest
   double weight = 0.0;
 };
 

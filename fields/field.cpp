@@ -32,7 +32,8 @@ Vec3d Grid::voxel_center(const std::array<std::int32_t, 3>& v) const {
 
 Result<Grid> grid_for(const FieldSpec& spec, const Space& space) {
   if (!(spec.voxel > 0.0) || !std::isfinite(spec.voxel))
-    return Error{ErrorKind::kInput, "field '" + spec.name + "': the voxel size must be positive, it is " + std::to_string(spec.voxel) + " µm",
+    return Error{ErrorKind::kInput,
+                 "field '" + spec.name + "': the voxel size must be positive, it is " + std::to_string(spec.voxel) + " µm",
                  "give a voxel size such as 10 um"};
   Grid grid;
   grid.box = space.box;
@@ -40,7 +41,8 @@ Result<Grid> grid_for(const FieldSpec& spec, const Space& space) {
   for (std::size_t a = 0; a < 3; ++a) {
     const double wanted = std::ceil(size[a] / spec.voxel * (1.0 - 1e-12));
     if (!(size[a] > 0.0) || !(wanted < static_cast<double>(std::numeric_limits<std::int32_t>::max())))
-      return Error{ErrorKind::kInput, "field '" + spec.name + "': the domain cannot be cut into voxels of " + std::to_string(spec.voxel) + " µm",
+      return Error{ErrorKind::kInput,
+                   "field '" + spec.name + "': the domain cannot be cut into voxels of " + std::to_string(spec.voxel) + " µm",
                    "make the domain larger than nothing and the voxels larger"};
     grid.voxels[a] = std::max(1, static_cast<std::int32_t>(wanted));
     grid.bricks[a] = (grid.voxels[a] + Grid::kBrick - 1) / Grid::kBrick;
@@ -53,8 +55,7 @@ namespace {
 std::uint64_t z_order(const std::array<std::int32_t, 3>& p) {
   std::uint64_t out = 0;
   for (int bit = 0; bit < 21; ++bit)
-    for (std::size_t a = 0; a < 3; ++a)
-      out |= ((static_cast<std::uint64_t>(p[a]) >> bit) & 1u) << (3 * bit + static_cast<int>(a));
+    for (std::size_t a = 0; a < 3; ++a) out |= ((static_cast<std::uint64_t>(p[a]) >> bit) & 1u) << (3 * bit + static_cast<int>(a));
   return out;
 }
 
@@ -136,8 +137,7 @@ Result<std::vector<int>> owners_of(const Field& field, const Comm& comm) {
       owner[static_cast<std::size_t>(brick)] = static_cast<int>(r);
     }
   }
-  if (std::find(owner.begin(), owner.end(), -1) != owner.end())
-    return Error{ErrorKind::kInternal, "a brick of a field has no owner", ""};
+  if (std::find(owner.begin(), owner.end(), -1) != owner.end()) return Error{ErrorKind::kInternal, "a brick of a field has no owner", ""};
   return owner;
 }
 

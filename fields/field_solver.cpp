@@ -35,15 +35,18 @@ Status check(const FieldSpec& spec) {
     return Error{ErrorKind::kInput, "field '" + spec.name + "': " + what, help};
   };
   const auto negative = [](double x) { return !(x >= 0.0) || !std::isfinite(x); };
-  if (negative(spec.diffusion)) return wrong("the diffusion coefficient is negative or not a number", "give 0 or more, such as 2000 um^2/s");
+  if (negative(spec.diffusion))
+    return wrong("the diffusion coefficient is negative or not a number", "give 0 or more, such as 2000 um^2/s");
   if (negative(spec.decay)) return wrong("the decay rate is negative or not a number", "give 0 or more");
-  if (!(spec.relative_tolerance > 0.0) || !(spec.relative_tolerance < 1.0)) return wrong("the relative tolerance is not between 0 and 1", "1e-4 is usual");
+  if (!(spec.relative_tolerance > 0.0) || !(spec.relative_tolerance < 1.0))
+    return wrong("the relative tolerance is not between 0 and 1", "1e-4 is usual");
   for (const auto& axis : spec.boundary)
     for (const auto& face : axis)
       if (!std::isfinite(face.value)) return wrong("a boundary value is not a number", "");
   for (const auto& u : spec.uptake) {
     if (negative(u.rate)) return wrong("an uptake rate is negative or not a number", "give 0 for a type that takes nothing");
-    if (u.rate > 0.0 && !(u.half_saturation > 0.0)) return wrong("an uptake has no positive half saturation K_m", "give K_m above 0, such as 5 uM");
+    if (u.rate > 0.0 && !(u.half_saturation > 0.0))
+      return wrong("an uptake has no positive half saturation K_m", "give K_m above 0, such as 5 uM");
   }
   return {};
 }
@@ -141,7 +144,8 @@ Result<IntervalReport> FieldSolver::advance(Field& field, const FieldSpec& spec,
   auto& unknowns = workspace_->unknowns;
   unknowns.assign(layout.unknowns(), 0.0);
   for (std::size_t b = 0; b < layout.bricks(); ++b)
-    std::copy(field.concentration[b].begin(), field.concentration[b].end(), unknowns.begin() + static_cast<std::ptrdiff_t>(layout.offset[b]));
+    std::copy(field.concentration[b].begin(), field.concentration[b].end(),
+              unknowns.begin() + static_cast<std::ptrdiff_t>(layout.offset[b]));
   if (interval > 0.0) {
     const BrickVectorSpace vectors{&layout, &comm, &workspace_->pool};
     auto work = integrate(op, vectors, settings, unknowns);
@@ -153,7 +157,8 @@ Result<IntervalReport> FieldSolver::advance(Field& field, const FieldSpec& spec,
     field.next_step = report.work.next_step;
   }
   for (std::size_t b = 0; b < layout.bricks(); ++b)
-    std::copy_n(unknowns.begin() + static_cast<std::ptrdiff_t>(layout.offset[b]), field.concentration[b].size(), field.concentration[b].begin());
+    std::copy_n(unknowns.begin() + static_cast<std::ptrdiff_t>(layout.offset[b]), field.concentration[b].size(),
+                field.concentration[b].begin());
 
   exchange.give_back(field, layout, std::span(unknowns).subspan(layout.sinks_at()), comm, taken, seen);
   collect_amounts(layout, unknowns, comm, report);

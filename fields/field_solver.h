@@ -17,13 +17,13 @@ namespace morula::fields {
 /// What happened to one field in one interval; the same on every rank.
 struct IntervalReport {
   IntegrationReport work;
-  double amount_before = 0.0;                         ///< in the field [amol]
-  double amount_after = 0.0;                          ///< in the field [amol]
-  std::array<std::array<double, 2>, 3> inflow{};      ///< through each face, axis then low and high; negative: out [amol]
-  double decayed = 0.0;                               ///< [amol]
-  double taken = 0.0;                                 ///< by all cells, summed over the cells [amol]
-  double minimum = 0.0, maximum = 0.0;                ///< of the concentration at the end [mM]; a negative minimum is not clipped
-  double residual = 0.0;                              ///< after − before + taken + decayed − inflow [amol]
+  double amount_before = 0.0;                     ///< in the field [amol]
+  double amount_after = 0.0;                      ///< in the field [amol]
+  std::array<std::array<double, 2>, 3> inflow{};  ///< through each face, axis then low and high; negative: out [amol]
+  double decayed = 0.0;                           ///< [amol]
+  double taken = 0.0;                             ///< by all cells, summed over the cells [amol]
+  double minimum = 0.0, maximum = 0.0;            ///< of the concentration at the end [mM]; a negative minimum is not clipped
+  double residual = 0.0;                          ///< after − before + taken + decayed − inflow [amol]
 
   [[nodiscard]] double total_inflow() const {
     return inflow[0][0] + inflow[0][1] + inflow[1][0] + inflow[1][1] + inflow[2][0] + inflow[2][1];
@@ -49,8 +49,8 @@ class FieldSolver {
   ///
   /// Errors: kInput for a spec that makes no sense (negative diffusion, decay, rate; K_m not positive), kPhysics when the integrator
   /// gives up or the field is not finite; the field is then unchanged.
-  Result<IntervalReport> advance(Field& field, const FieldSpec& spec, const Space& space, std::span<const CellSource> cells, double interval,
-                                 const Comm& comm, std::span<double> taken, std::span<double> seen);
+  Result<IntervalReport> advance(Field& field, const FieldSpec& spec, const Space& space, std::span<const CellSource> cells,
+                                 double interval, const Comm& comm, std::span<double> taken, std::span<double> seen);
 
  private:
   struct Workspace;

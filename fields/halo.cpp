@@ -74,14 +74,16 @@ void Halo::exchange(const double* unknowns) {
   std::vector<MPI_Request> requests;
   requests.reserve(sends_.size() + receives_.size());
   for (const Message& m : receives_)
-    MPI_Irecv(received_.data() + m.begin, static_cast<int>(m.end - m.begin), MPI_DOUBLE, m.rank, kHaloTag, comm_.raw(), &requests.emplace_back());
+    MPI_Irecv(received_.data() + m.begin, static_cast<int>(m.end - m.begin), MPI_DOUBLE, m.rank, kHaloTag, comm_.raw(),
+              &requests.emplace_back());
   std::size_t at = 0;
   for (const Layer& layer : sent_layers_) {
     const double* values = unknowns + layout_.offset[layer.brick];
     for_each_in_layer(layout_.extent[layer.brick], layer.side, [&](std::size_t voxel, std::size_t) { sent_[at++] = values[voxel]; });
   }
   for (const Message& m : sends_)
-    MPI_Isend(sent_.data() + m.begin, static_cast<int>(m.end - m.begin), MPI_DOUBLE, m.rank, kHaloTag, comm_.raw(), &requests.emplace_back());
+    MPI_Isend(sent_.data() + m.begin, static_cast<int>(m.end - m.begin), MPI_DOUBLE, m.rank, kHaloTag, comm_.raw(),
+              &requests.emplace_back());
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
 }
 

@@ -57,7 +57,8 @@ std::size_t layer_size(const std::array<std::int32_t, 3>& extent, std::size_t si
 template <class Visit>
 void for_each_in_layer(const std::array<std::int32_t, 3>& n, std::size_t side, Visit&& visit) {
   const std::size_t axis = side / 2;
-  const std::array<std::size_t, 3> stride{1, static_cast<std::size_t>(n[0]), static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1])};
+  const std::array<std::size_t, 3> stride{1, static_cast<std::size_t>(n[0]),
+                                          static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1])};
   const std::size_t u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
   const std::size_t start = (side % 2) ? static_cast<std::size_t>(n[axis] - 1) * stride[axis] : 0;
   std::size_t k = 0;

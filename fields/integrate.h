@@ -34,8 +34,8 @@ struct IntegrationReport {
 
 struct IntegrationSettings {
   Method method = Method::kExplicit;
-  double interval = 0.0;            ///< [s]
-  double first_step = 0.0;          ///< [s]; 0: chosen by the integrator
+  double interval = 0.0;    ///< [s]
+  double first_step = 0.0;  ///< [s]; 0: chosen by the integrator
   double relative_tolerance = 0.0;
   double absolute_tolerance = 0.0;  ///< [mM]
   double largest_rate = 0.0;        ///< of all ranks [1/s]

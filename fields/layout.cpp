@@ -15,7 +15,8 @@ Layout layout_of(const Field& field, std::vector<Sink> sinks) {
   out.sinks = std::move(sinks);
   out.first_sink.resize(out.bricks() + 1);
   for (std::size_t b = 0; b <= out.bricks(); ++b) {
-    const auto it = std::partition_point(out.sinks.begin(), out.sinks.end(), [b](const Sink& s) { return static_cast<std::size_t>(s.brick) < b; });
+    const auto it =
+        std::partition_point(out.sinks.begin(), out.sinks.end(), [b](const Sink& s) { return static_cast<std::size_t>(s.brick) < b; });
     out.first_sink[b] = static_cast<std::size_t>(it - out.sinks.begin());
   }
   return out;

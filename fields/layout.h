@@ -10,10 +10,10 @@ namespace morula::fields {
 
 /// Where a concentration meets cells: all cells of one type that overlap one voxel.
 struct Sink {
-  std::int32_t brick = 0;   ///< on this rank
-  std::int32_t voxel = 0;   ///< in the brick, x fastest
-  std::uint16_t type = 0;   ///< of the cells
-  double cells = 0.0;       ///< Σ w_iv: how many cells' worth of uptake happens here
+  std::int32_t brick = 0;  ///< on this rank
+  std::int32_t voxel = 0;  ///< in the brick, x fastest
+  std::uint16_t type = 0;  ///< of the cells
+  double cells = 0.0;      ///< Σ w_iv: how many cells' worth of uptake happens here
 };
 
 /// With fewer bricks, starting threads costs more than it saves.
@@ -31,7 +31,7 @@ struct Layout {
   std::vector<Sink> sinks;                          ///< sorted by (brick, voxel, type)
   std::vector<std::size_t> first_sink;              ///< of each brick; one more for the end
   std::int64_t global_voxels = 0;
-  bool sinks_anywhere = false;                      ///< on any rank
+  bool sinks_anywhere = false;  ///< on any rank
 
   [[nodiscard]] std::size_t bricks() const { return extent.size(); }
   [[nodiscard]] std::size_t concentrations() const { return offset.back(); }

@@ -13,9 +13,9 @@ namespace morula {
 struct LaneBlock {
   static constexpr int kMaxLanes = 8;
   const Topology* topology = nullptr;
-  int lanes = 1;                                   ///< width the kernels use: 1, 4 or 8
-  int count = 1;                                   ///< surfaces in the block, at most `lanes`
-  std::array<std::uint32_t, kMaxLanes> member{};   ///< which surface is in each lane
+  int lanes = 1;                                  ///< width the kernels use: 1, 4 or 8
+  int count = 1;                                  ///< surfaces in the block, at most `lanes`
+  std::array<std::uint32_t, kMaxLanes> member{};  ///< which surface is in each lane
 };
 
 /// Group surfaces by Topology, in the order in which they come. Full blocks have `max_lanes` lanes (1, 4 or 8); what is left over of a

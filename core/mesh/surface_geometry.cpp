@@ -60,7 +60,8 @@ void block_geometry(const LaneBlock& block, const SurfaceList& surfaces, std::sp
     store_vec3<double, W>(normal, i, sum * (Real(1.0) / length));
   }
   store_lanes<W, double>(ws.face_area.data(), faces, lane_pointers<W>(out.face_area.data(), block, surfaces.first_face));
-  store_lanes<W, double>(ws.face_normal.data(), 3 * faces, lane_pointers<W>(doubles(out.face_normal.data()), block, surfaces.first_face, 3));
+  store_lanes<W, double>(ws.face_normal.data(), 3 * faces,
+                         lane_pointers<W>(doubles(out.face_normal.data()), block, surfaces.first_face, 3));
   store_lanes<W, double>(normal, 3 * nodes, lane_pointers<W>(doubles(out.node_normal.data()), block, surfaces.first_node, 3));
   store_lanes<W, double>(ws.node_length.data(), nodes, lane_pointers<W>(out.node_normal_length.data(), block, surfaces.first_node));
   store_lanes<W, double>(node_area, nodes, lane_pointers<W>(out.node_area.data(), block, surfaces.first_node));
@@ -76,7 +77,8 @@ void block_forces(const LaneBlock& block, const SurfaceList& surfaces, std::span
   using Real = Lane<double, W>;
   const Topology& topology = *block.topology;
   const std::size_t nodes = topology.node_count(), faces = topology.face_count();
-  for (LaneVector<double>* array : {&ws.position, &ws.node_normal, &ws.gradient_node, &ws.node_gradient}) Workspace::fit(*array, nodes * 3 * W);
+  for (LaneVector<double>* array : {&ws.position, &ws.node_normal, &ws.gradient_node, &ws.node_gradient})
+    Workspace::fit(*array, nodes * 3 * W);
   for (LaneVector<double>* array : {&ws.face_normal, &ws.gradient_face_normal}) Workspace::fit(*array, faces * 3 * W);
   for (LaneVector<double>* array : {&ws.face_area, &ws.gradient_face}) Workspace::fit(*array, faces * W);
   Workspace::fit(ws.node_length, nodes * W);
@@ -131,9 +133,15 @@ void for_each_block(std::span<const LaneBlock> blocks, const Kernel& kernel) {
 #pragma omp for schedule(static)
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       switch (blocks[b].lanes) {
-        case 8: kernel.template operator()<8>(blocks[b], ws); break;
-        case 4: kernel.template operator()<4>(blocks[b], ws); break;
-        default: kernel.template operator()<1>(blocks[b], ws); break;
+        case 8:
+          kernel.template operator()<8>(blocks[b], ws);
+          break;
+        case 4:
+          kernel.template operator()<4>(blocks[b], ws);
+          break;
+        default:
+          kernel.template operator()<1>(blocks[b], ws);
+          break;
       }
     }
   }

@@ -11,9 +11,9 @@ namespace morula {
 
 /// Closed triangulated surfaces, ghosts included: where the nodes and faces of each of them start in the node and face arrays.
 struct SurfaceList {
-  std::span<const Topology* const> topology;   ///< by surface
-  std::span<const std::uint32_t> first_node;   ///< by surface, at least as many entries
-  std::span<const std::uint32_t> first_face;   ///< by surface, one more at the end
+  std::span<const Topology* const> topology;  ///< by surface
+  std::span<const std::uint32_t> first_node;  ///< by surface, at least as many entries
+  std::span<const std::uint32_t> first_face;  ///< by surface, one more at the end
 };
 
 /// Areas, normals and volumes at some positions. Node arrays are indexed as the positions; a position that belongs to no surface (the

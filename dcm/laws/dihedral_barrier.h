@@ -17,9 +17,7 @@ struct DihedralBarrier {
   Real onset;      // θ_b
 
   /// z; 0 where the barrier does not act.
-  Real depth(Real angle) const noexcept {
-    return max(Real(0.0), (abs(angle) - onset) / (Real(std::numbers::pi) - onset));
-  }
+  Real depth(Real angle) const noexcept { return max(Real(0.0), (abs(angle) - onset) / (Real(std::numbers::pi) - onset)); }
   Real energy(Real angle) const noexcept {
     const Real z = depth(angle);
     return stiffness * z * z / (Real(1.0) - z * z);

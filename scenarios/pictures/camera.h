@@ -9,10 +9,10 @@ namespace morula::scenarios {
 
 /// Where the picture is taken from: orthographic, so that one scale bar is right everywhere in it.
 struct Camera {
-  Vec3d center;                   ///< seen in the middle of the view [µm]
-  Vec3d right{1.0, 0.0, 0.0};     ///< unit, to the right of the picture
-  Vec3d up{0.0, 0.0, 1.0};        ///< unit, to its top
-  Vec3d toward{0.0, -1.0, 0.0};   ///< unit, from the tissue to the eye; right × up
+  Vec3d center;                  ///< seen in the middle of the view [µm]
+  Vec3d right{1.0, 0.0, 0.0};    ///< unit, to the right of the picture
+  Vec3d up{0.0, 0.0, 1.0};       ///< unit, to its top
+  Vec3d toward{0.0, -1.0, 0.0};  ///< unit, from the tissue to the eye; right × up
   double pixels_per_um = 1.0;
 
   /// Coordinates of a point in the picture's frame: right, up, towards the eye [µm].

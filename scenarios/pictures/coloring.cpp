@@ -60,10 +60,14 @@ bool is_number(ColorBy by) { return by == ColorBy::kPressure || by == ColorBy::k
 
 double color_value(const Snapshot::Cell& cell, ColorBy by, std::size_t field) {
   switch (by) {
-    case ColorBy::kPressure: return cell.pressure;
-    case ColorBy::kVolume: return cell.volume;
-    case ColorBy::kConcentration: return cell.concentration[std::min(field, cell.concentration.size() - 1)];
-    default: return 0.0;
+    case ColorBy::kPressure:
+      return cell.pressure;
+    case ColorBy::kVolume:
+      return cell.volume;
+    case ColorBy::kConcentration:
+      return cell.concentration[std::min(field, cell.concentration.size() - 1)];
+    default:
+      return 0.0;
   }
 }
 
@@ -79,7 +83,9 @@ ColorScale common_scale(std::span<const Snapshot> snapshots, ColorBy by, std::si
     }
   if (values.empty()) return choose_unit(scale, by), scale;
   std::sort(values.begin(), values.end());
-  const auto percentile = [&](double p) { return values[static_cast<std::size_t>(std::lround(p * static_cast<double>(values.size() - 1)))]; };
+  const auto percentile = [&](double p) {
+    return values[static_cast<std::size_t>(std::lround(p * static_cast<double>(values.size() - 1)))];
+  };
   scale.low = percentile(0.01);
   scale.high = percentile(0.99);
   if (scale.low < 0.0 && scale.high > 0.0 && std::min(-scale.low, scale.high) > 0.1 * std::max(-scale.low, scale.high)) {
@@ -105,10 +111,17 @@ std::vector<Rgb> cell_colors(const Snapshot& snapshot, ColorBy by, const ColorSc
   colors.reserve(snapshot.cells.size());
   for (const auto& cell : snapshot.cells) {
     switch (by) {
-      case ColorBy::kType: colors.push_back(varied(categorical_color(cell.type), cell.id)); break;
-      case ColorBy::kBody: colors.push_back(varied(body_color(cell.body), cell.id)); break;
-      case ColorBy::kIdentity: colors.push_back(identity_color(cell.id)); break;
-      default: colors.push_back(scale_color(scale, color_value(cell, by, field)));
+      case ColorBy::kType:
+        colors.push_back(varied(categorical_color(cell.type), cell.id));
+        break;
+      case ColorBy::kBody:
+        colors.push_back(varied(body_color(cell.body), cell.id));
+        break;
+      case ColorBy::kIdentity:
+        colors.push_back(identity_color(cell.id));
+        break;
+      default:
+        colors.push_back(scale_color(scale, color_value(cell, by, field)));
     }
   }
   return colors;
@@ -120,7 +133,8 @@ std::vector<LegendEntry> legend_entries(const Snapshot& snapshot, ColorBy by) {
     std::vector<std::size_t> count(65536);
     for (const auto& cell : snapshot.cells) ++count[cell.type];
     for (std::size_t type = 0; type < count.size(); ++type)
-      if (count[type] > 0) entries.push_back({type_name(snapshot, type) + " (" + std::to_string(count[type]) + ")", categorical_color(type)});
+      if (count[type] > 0)
+        entries.push_back({type_name(snapshot, type) + " (" + std::to_string(count[type]) + ")", categorical_color(type)});
   } else if (by == ColorBy::kBody) {
     std::array<std::size_t, 2> count{};
     for (const auto& cell : snapshot.cells) ++count[cell.body == BodyKind::kShell ? 1 : 0];

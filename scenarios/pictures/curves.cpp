@@ -174,11 +174,15 @@ BarPlot histogram(const std::vector<double>& values, int bins, const std::string
   plot.series.push_back({"cells", std::vector<double>(count, 0.0)});
   for (std::size_t i = 0; i < count; ++i) plot.categories.push_back(short_number((first + static_cast<double>(i)) * step));
   for (const double value : values)
-    if (std::isfinite(value)) plot.series[0].heights[static_cast<std::size_t>(std::clamp(std::floor(value / step) - first, 0.0, static_cast<double>(count - 1)))] += 1.0;
+    if (std::isfinite(value))
+      plot.series[0].heights[static_cast<std::size_t>(std::clamp(std::floor(value / step) - first, 0.0, static_cast<double>(count - 1)))] +=
+          1.0;
   return plot;
 }
 
-Status write_curves(const CurvePlot& plot, const std::filesystem::path& stem) { return write_both(stem, curves_svg(plot), curves_csv(plot)); }
+Status write_curves(const CurvePlot& plot, const std::filesystem::path& stem) {
+  return write_both(stem, curves_svg(plot), curves_csv(plot));
+}
 Status write_bars(const BarPlot& plot, const std::filesystem::path& stem) { return write_both(stem, bars_svg(plot), bars_csv(plot)); }
 
 }  // namespace morula::scenarios

@@ -9,9 +9,9 @@
 namespace morula::scenarios {
 
 struct CurveAxis {
-  std::string label;             ///< quantity
-  std::string unit;              ///< "" for a pure number
-  bool logarithmic = false;      ///< base 10; values ≤ 0 are left out
+  std::string label;                ///< quantity
+  std::string unit;                 ///< "" for a pure number
+  bool logarithmic = false;         ///< base 10; values ≤ 0 are left out
   std::optional<double> low, high;  ///< where not given: from the data
 };
 
@@ -46,7 +46,7 @@ struct BarSeries {
 /// Groups of bars, one group for each category.
 struct BarPlot {
   std::string title;
-  CurveAxis x, y;                       ///< x: label and unit only
+  CurveAxis x, y;  ///< x: label and unit only
   std::vector<std::string> categories;
   std::vector<BarSeries> series;
   int width = 640, height = 360;

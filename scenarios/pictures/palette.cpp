@@ -66,7 +66,8 @@ Vec3d from_msh(const Vec3d& msh) {
 // The hue an unsaturated end gets so that the path to the saturated colour does not curve (Moreland 2009, "AdjustHue").
 double adjusted_hue(const Vec3d& saturated, double m_unsaturated) {
   if (saturated.x >= m_unsaturated) return saturated.z;
-  const double spin = saturated.y * std::sqrt(m_unsaturated * m_unsaturated - saturated.x * saturated.x) / (saturated.x * std::sin(saturated.y));
+  const double spin =
+      saturated.y * std::sqrt(m_unsaturated * m_unsaturated - saturated.x * saturated.x) / (saturated.x * std::sin(saturated.y));
   return saturated.z > -std::numbers::pi / 3.0 ? saturated.z + spin : saturated.z - spin;
 }
 

@@ -45,7 +45,8 @@ Result<std::vector<std::uint8_t>> encode_png(const Image& image) {
 Status write_bytes(const std::filesystem::path& path, const void* data, std::size_t size) {
   const std::filesystem::path aside = path.string() + ".part";
   std::FILE* file = std::fopen(aside.c_str(), "wb");
-  if (!file) return Error{ErrorKind::kFile, "cannot write " + path.string() + ": " + std::strerror(errno), "is the folder there and writable?"};
+  if (!file)
+    return Error{ErrorKind::kFile, "cannot write " + path.string() + ": " + std::strerror(errno), "is the folder there and writable?"};
   bool good = std::fwrite(data, 1, size, file) == size;
   good = std::fclose(file) == 0 && good;
   std::error_code failed;

@@ -39,7 +39,8 @@ void draw_sphere(const Disc& disc, const ClipDepth& clip, const Band& band, doub
       const double dx = ((x + 0.5) - disc.x) / pixels_per_um;
       const double height = std::sqrt(std::max(0.0, half2 - dx * dx));
       const double depth = disc.depth + height;
-      if (depth > pixels.depth[i] && depth <= clip.at(x, y)) pixels.put(i, static_cast<float>(depth), disc.surface, Vec3d{dx, dy, height} / disc.radius);
+      if (depth > pixels.depth[i] && depth <= clip.at(x, y))
+        pixels.put(i, static_cast<float>(depth), disc.surface, Vec3d{dx, dy, height} / disc.radius);
     }
   }
 }

@@ -12,8 +12,8 @@ struct PixelBuffer {
   static constexpr std::int32_t kNothing = -1;
 
   int width = 0, height = 0;
-  std::vector<float> depth;          ///< towards the eye; −infinity where nothing is seen [µm]
-  std::vector<std::int32_t> surface; ///< 2 × cell number, + 1 on a cut face; kNothing
+  std::vector<float> depth;                      ///< towards the eye; −infinity where nothing is seen [µm]
+  std::vector<std::int32_t> surface;             ///< 2 × cell number, + 1 on a cut face; kNothing
   std::vector<std::int16_t> normal_x, normal_y;  ///< of the unit normal in the view frame × 32767 (its z is positive)
 
   PixelBuffer(int width_, int height_);

@@ -49,7 +49,12 @@ Image render(const Snapshot& snapshot, const RenderOptions& options) {
   PixelBuffer pixels(options.width * samples, rows * samples);
   rasterize(snapshot, camera, options.cut, pixels);
   const auto colors = cell_colors(snapshot, options.color_by, options.scale, options.field);
-  shade(pixels, colors, {samples, camera.pixels_per_um, median_radius(snapshot), options.outlines, is_number(options.color_by) ? 0.06f : 0.3f}, image, 0, top_margin(options));
+  shade(pixels, colors,
+        {samples, camera.pixels_per_um, median_radius(snapshot), options.outlines,
+         is_number(options.color_by)              ? 0.06f
+         : options.color_by == ColorBy::kIdentity ? 0.12f
+                                                  : 0.3f},
+        image, 0, top_margin(options));
   if (options.annotations) annotate(snapshot, options, image);
   return image;
 }

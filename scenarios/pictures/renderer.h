@@ -14,11 +14,11 @@ struct RenderOptions {
   Camera camera;                  ///< see view_height() for what it is fitted to
   std::optional<CutPlane> cut;    ///< its normal must point towards the eye
   ColorBy color_by = ColorBy::kType;
-  std::size_t field = 0;          ///< for ColorBy::kConcentration
-  ColorScale scale;               ///< for numbers; see common_scale()
-  std::string title;              ///< written at the top left
+  std::size_t field = 0;  ///< for ColorBy::kConcentration
+  ColorScale scale;       ///< for numbers; see common_scale()
+  std::string title;      ///< written at the top left
   bool outlines = true;
-  bool annotations = true;        ///< title, scale bar, colour bar, legend
+  bool annotations = true;  ///< title, scale bar, colour bar, legend
 };
 
 /// Rows of the picture that show the tissue: between the title and the scale bar [px].

@@ -11,7 +11,7 @@ struct ShadeOptions {
   double pixels_per_um = 1.0;  ///< of the sub-pixels
   double cell_radius = 6.0;    ///< typical; sets the reach of the ambient occlusion [µm]
   bool outlines = true;
-  float cut_lightening = 0.3f; ///< white in the colour of a cut face; little where the colour is a number to be read off
+  float cut_lightening = 0.3f;  ///< white in the colour of a cut face; little where the colour is a number to be read off
 };
 
 /// Light the surfaces and write them into the image at (left, top), `samples`² sub-pixels to a pixel.

@@ -54,16 +54,19 @@ std::vector<Picture> standard_pictures(std::span<const Snapshot> snapshots) {
   const ColorScale pressure = common_scale(snapshots, ColorBy::kPressure);
 
   for (std::size_t i = 0; i < snapshots.size(); ++i)
-    set.add(snapshots[i], "cells_" + two_digits(i), kind == ColorBy::kBody ? "coloured by body" : "coloured by type", colored(kind), false, true);
+    set.add(snapshots[i], "cells_" + two_digits(i), kind == ColorBy::kBody ? "coloured by body" : "coloured by type", colored(kind), false,
+            true);
   for (std::size_t i = 0; i < snapshots.size(); ++i)
-    set.add(snapshots[i], "cut_pressure_" + two_digits(i), "cut through the middle, coloured by pressure", colored(ColorBy::kPressure, pressure), true, true);
+    set.add(snapshots[i], "cut_pressure_" + two_digits(i), "cut through the middle, coloured by pressure",
+            colored(ColorBy::kPressure, pressure), true, true);
 
   const Snapshot& last = snapshots.back();
   set.add(last, "cells_final", "coloured by body", colored(ColorBy::kBody), false, false);
   set.add(last, "cut_body_final", "cut through the middle, coloured by body", colored(ColorBy::kBody), true, false);
   const ColorBy inner = one_type ? ColorBy::kIdentity : ColorBy::kType;
   set.add(last, one_type ? "cut_cells_final" : "cut_type_final",
-          one_type ? "cut through the middle, each cell in its own colour" : "cut through the middle, coloured by type", colored(inner), true, false);
+          one_type ? "cut through the middle, each cell in its own colour" : "cut through the middle, coloured by type", colored(inner),
+          true, false);
   set.add(last, "cut_pressure_final", "cut through the middle, coloured by pressure", colored(ColorBy::kPressure, pressure), true, false);
   for (std::size_t field = 0; field < last.fields.size() && field < kMaxFields; ++field) {
     const std::string& name = last.fields[field].name;

@@ -10,17 +10,17 @@ namespace morula::scenarios {
 
 /// A picture with what is said about it.
 struct Picture {
-  std::string name;     ///< file name without folder and ending: "cut_pressure_03"
+  std::string name;  ///< file name without folder and ending: "cut_pressure_03"
   std::string caption;
-  double time = 0.0;    ///< [s]
-  bool frame = false;   ///< one of a row over time; else a large picture of the last snapshot
+  double time = 0.0;   ///< [s]
+  bool frame = false;  ///< one of a row over time; else a large picture of the last snapshot
   Image image;
 };
 
 /// The pictures every run gets. `snapshots` in order of time, usually at 0, 25, 50, 75 and 100 % of a run.
 ///
 /// Frames (640 × 640) of each snapshot: the whole tissue by type (by body where there is but one type and both bodies), and cut in
-/// half by pressure. Large ones (900 × 900) of the last: whole and cut by body, cut by type or cell, cut by pressure, and cut by each field.
+/// half by pressure. Large (900 × 900) of the last: whole and cut by body, cut by type or cell, cut by pressure, and each field.
 /// Camera and colour scales are the same in all, fitted to the largest snapshot, so that the frames compare. Deterministic.
 std::vector<Picture> standard_pictures(std::span<const Snapshot> snapshots);
 

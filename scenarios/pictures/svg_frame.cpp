@@ -22,8 +22,8 @@ std::string color_text(int color) {
   static constexpr int kOrder[] = {5, 6, 2, 3, 1, 0, 4};
   const Rgb c = categorical_color(static_cast<std::size_t>(kOrder[color % 7]));
   char buffer[8];
-  std::snprintf(buffer, sizeof buffer, "#%02x%02x%02x", static_cast<unsigned>(c.r * 255.0f + 0.5f), static_cast<unsigned>(c.g * 255.0f + 0.5f),
-                static_cast<unsigned>(c.b * 255.0f + 0.5f));
+  std::snprintf(buffer, sizeof buffer, "#%02x%02x%02x", static_cast<unsigned>(c.r * 255.0f + 0.5f),
+                static_cast<unsigned>(c.g * 255.0f + 0.5f), static_cast<unsigned>(c.b * 255.0f + 0.5f));
   return buffer;
 }
 
@@ -40,11 +40,21 @@ std::string xml_escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      case '\'': out += "&#39;"; break;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
       default:
         if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' && c != '\r')
           out += "\xEF\xBF\xBD";
@@ -67,8 +77,8 @@ SvgFrame::SvgFrame(const std::string& title, int width, int height, SvgUse use)
 }
 
 void SvgFrame::text(double x, double y, const std::string& content, const char* anchor, double size, const std::string& more) {
-  out_ += "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\" text-anchor=\"" + anchor + "\" font-size=\"" + px(size) + "\" fill=\"currentColor\"" + more +
-          ">" + xml_escaped(content) + "</text>\n";
+  out_ += "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\" text-anchor=\"" + anchor + "\" font-size=\"" + px(size) +
+          "\" fill=\"currentColor\"" + more + ">" + xml_escaped(content) + "</text>\n";
 }
 
 void SvgFrame::axes(const CurveAxis& x_axis, const CurveAxis& y_axis, const Ticks& along, const Ticks& upwards) {
@@ -86,7 +96,8 @@ void SvgFrame::axes(const CurveAxis& x_axis, const CurveAxis& y_axis, const Tick
     out_ += "<path d=\"M" + px(at) + " " + px(bottom_) + "v5\" stroke=\"currentColor\"/>\n";
     text(at, bottom_ + 19.0, along.text[i], "middle", 12.0);
   }
-  out_ += "<path d=\"M" + px(left_) + " " + px(top_) + "V" + px(bottom_) + "H" + px(right_) + "\" fill=\"none\" stroke=\"currentColor\"/>\n";
+  out_ +=
+      "<path d=\"M" + px(left_) + " " + px(top_) + "V" + px(bottom_) + "H" + px(right_) + "\" fill=\"none\" stroke=\"currentColor\"/>\n";
   text(0.5 * (left_ + right_), height_ - 11.0, axis_title(x_axis), "middle", 13.0);
   text(16.0, 0.5 * (top_ + bottom_), axis_title(y_axis), "middle", 13.0,
        " transform=\"rotate(-90 16 " + px(0.5 * (top_ + bottom_)) + ")\"");
@@ -99,12 +110,15 @@ bool SvgFrame::defined(double x_value, double y_value) const {
   return std::isfinite(x_value) && std::isfinite(y_value) && (!log_x_ || x_value > 0.0) && (!log_y_ || y_value > 0.0);
 }
 bool SvgFrame::shows(double x_value, double y_value) const {
-  return defined(x_value, y_value) && x_value >= along_.low && x_value <= along_.high && y_value >= upwards_.low && y_value <= upwards_.high;
+  return defined(x_value, y_value) && x_value >= along_.low && x_value <= along_.high && y_value >= upwards_.low &&
+         y_value <= upwards_.high;
 }
 
 void SvgFrame::polyline(const std::vector<std::pair<double, double>>& points, int color) {
-  out_ += "<polyline fill=\"none\" stroke=\"" + color_text(color) + "\" stroke-width=\"2\" stroke-linejoin=\"round\" stroke-linecap=\"round\" points=\"";
-  for (std::size_t i = 0; i < points.size(); ++i) out_.append(i ? " " : "").append(px(points[i].first)).append(",").append(px(points[i].second));
+  out_ += "<polyline fill=\"none\" stroke=\"" + color_text(color) +
+          "\" stroke-width=\"2\" stroke-linejoin=\"round\" stroke-linecap=\"round\" points=\"";
+  for (std::size_t i = 0; i < points.size(); ++i)
+    out_.append(i ? " " : "").append(px(points[i].first)).append(",").append(px(points[i].second));
   out_ += "\"/>\n";
 }
 
@@ -114,16 +128,17 @@ void SvgFrame::point(double x_px, double y_px, int color) {
 
 void SvgFrame::bar(double from, double to, double height, int color) {
   const double a = y(0.0), b = y(height);
-  out_ += "<rect x=\"" + px(x(from)) + "\" y=\"" + px(std::min(a, b)) + "\" width=\"" + px(x(to) - x(from)) + "\" height=\"" + px(std::abs(a - b)) +
-          "\" fill=\"" + color_text(color) + "\" fill-opacity=\"0.85\"/>\n";
+  out_ += "<rect x=\"" + px(x(from)) + "\" y=\"" + px(std::min(a, b)) + "\" width=\"" + px(x(to) - x(from)) + "\" height=\"" +
+          px(std::abs(a - b)) + "\" fill=\"" + color_text(color) + "\" fill-opacity=\"0.85\"/>\n";
 }
 
 void SvgFrame::limit(const CurveLimit& limit) {
   if (!std::isfinite(limit.value) || (log_y_ && limit.value <= 0.0)) return;
   const double at = y(limit.value);
-  out_ += "<path d=\"M" + px(left_) + " " + px(at) + "H" + px(right_) + "\" stroke=\"#c0392b\" stroke-width=\"1.5\" stroke-dasharray=\"7 5\"/>\n";
-  out_ += "<text x=\"" + px(right_ - 4.0) + "\" y=\"" + px(at - 5.0) + "\" text-anchor=\"end\" font-size=\"12\" fill=\"#c0392b\">" + xml_escaped(limit.text) +
-          "</text>\n";
+  out_ += "<path d=\"M" + px(left_) + " " + px(at) + "H" + px(right_) +
+          "\" stroke=\"#c0392b\" stroke-width=\"1.5\" stroke-dasharray=\"7 5\"/>\n";
+  out_ += "<text x=\"" + px(right_ - 4.0) + "\" y=\"" + px(at - 5.0) + "\" text-anchor=\"end\" font-size=\"12\" fill=\"#c0392b\">" +
+          xml_escaped(limit.text) + "</text>\n";
 }
 
 void SvgFrame::legend(const std::vector<std::string>& names) {
@@ -138,7 +153,8 @@ void SvgFrame::legend(const std::vector<std::string>& names) {
       row += 17.0;
     }
     at -= wide;
-    out_ += "<path d=\"M" + px(at) + " " + px(row - 4.0) + "h16\" stroke=\"" + color_text(static_cast<int>(i)) + "\" stroke-width=\"4\" stroke-linecap=\"round\"/>\n";
+    out_ += "<path d=\"M" + px(at) + " " + px(row - 4.0) + "h16\" stroke=\"" + color_text(static_cast<int>(i)) +
+            "\" stroke-width=\"4\" stroke-linecap=\"round\"/>\n";
     text(at + 22.0, row, names[i], "start", 12.0);
   }
 }

@@ -24,8 +24,8 @@ void add_parameters(const UsedLaw& use, std::string& out) {
   if (use.law.parameters.empty()) return;
   out += "\n| parameter | value | unit | meaning | source of the default |\n|---|---|---|---|---|\n";
   for (const LawParameter& parameter : use.law.parameters)
-    for (const std::string& cell : {std::string("| ") + table_cell(parameter.name), table_cell(used_value(use, parameter)), table_cell(parameter.unit),
-                                    table_cell(parameter.doc), table_cell(parameter.source) + " |\n"})
+    for (const std::string& cell : {std::string("| ") + table_cell(parameter.name), table_cell(used_value(use, parameter)),
+                                    table_cell(parameter.unit), table_cell(parameter.doc), table_cell(parameter.source) + " |\n"})
       out.append(cell).append(cell.ends_with("\n") ? "" : " | ");
 }
 
@@ -39,12 +39,17 @@ std::string used_value(const UsedLaw& use, const LawParameter& parameter) {
 
 std::string methods_text(const std::string& title, std::span<const UsedLaw> laws) {
   std::string out = "# Methods: ";
-  out.append(table_cell(title)).append("\n\nLaws this run used. Lengths in µm, forces in nN, times in s, amounts in amol, unless said otherwise.\n");
+  out.append(table_cell(title))
+      .append("\n\nLaws this run used. Lengths in µm, forces in nN, times in s, amounts in amol, unless said otherwise.\n");
   const std::string* purpose = nullptr;
   for (const UsedLaw& use : laws) {
     if (!purpose || *purpose != use.purpose) out.append("\n## ").append(table_cell(use.purpose)).append("\n");
     purpose = &use.purpose;
-    out.append("\n### ").append(table_cell(use.law.title.empty() ? use.law.name : use.law.title)).append(" (`").append(use.law.name).append("`)\n\n");
+    out.append("\n### ")
+        .append(table_cell(use.law.title.empty() ? use.law.name : use.law.title))
+        .append(" (`")
+        .append(use.law.name)
+        .append("`)\n\n");
     if (!use.law.equation.empty()) out.append("    ").append(table_cell(use.law.equation)).append("\n\n");
     if (!use.law.source.empty()) out.append("Source: ").append(table_cell(use.law.source)).append("\n");
     add_parameters(use, out);

@@ -42,10 +42,12 @@ void add_head(std::string& out, const ReportContent& content) {
   const std::string title = xml_escaped(content.title.empty() ? content.study : content.title);
   add(out, "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n<meta charset=\"utf-8\"/>\n");
   add(out, "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>", title, "</title>\n<style>", kReportStyle,
-      "</style>\n</head>\n<body>\n<main>\n<header>\n<h1>", title, "</h1>\n<p class=\"sub\">Study <code>", xml_escaped(content.study), "</code>");
+      "</style>\n</head>\n<body>\n<main>\n<header>\n<h1>", title, "</h1>\n<p class=\"sub\">Study <code>", xml_escaped(content.study),
+      "</code>");
   if (!content.scenario.empty()) add(out, " · scenario ", xml_escaped(content.scenario));
   add(out, "</p>\n");
-  if (!content.state.empty() && content.state != "done") add(out, "<p class=\"warning\">This run is not complete: ", xml_escaped(content.state), ".</p>\n");
+  if (!content.state.empty() && content.state != "done")
+    add(out, "<p class=\"warning\">This run is not complete: ", xml_escaped(content.state), ".</p>\n");
   if (!content.summary.empty()) add(out, "<p>", xml_escaped(content.summary), "</p>\n");
   add(out, "</header>\n");
 }
@@ -57,7 +59,8 @@ void add_verdict(std::string& out, const ReportContent& content) {
   add(out, "<section>\n<h2>Verdict</h2>\n<p class=\"", all ? "badge good" : "badge bad", "\">", std::to_string(passed), " of ",
       std::to_string(content.criteria.size()), " criteria passed</p>\n");
   std::vector<Row> rows;
-  for (const auto& c : content.criteria) rows.push_back({{c.id, c.text, c.value, c.limit, c.passed ? "✓ passed" : "✗ failed"}, c.passed ? "good" : "bad"});
+  for (const auto& c : content.criteria)
+    rows.push_back({{c.id, c.text, c.value, c.limit, c.passed ? "✓ passed" : "✗ failed"}, c.passed ? "good" : "bad"});
   add_table(out, {"id", "criterion", "value", "limit", "result"}, rows);
   add(out, "</section>\n");
 }
@@ -73,7 +76,8 @@ void add_key_numbers(std::string& out, const ReportContent& content) {
 Status add_pictures(std::string& out, const ReportContent& content, bool frames) {
   const auto wanted = [&](const Picture& picture) { return picture.frame == frames; };
   if (std::none_of(content.pictures.begin(), content.pictures.end(), wanted)) return {};
-  add(out, frames ? "<section>\n<h2>Over time</h2>\n" : "<section>\n<h2>Final state</h2>\n", "<div class=\"", frames ? "frames" : "large", "\">\n");
+  add(out, frames ? "<section>\n<h2>Over time</h2>\n" : "<section>\n<h2>Final state</h2>\n", "<div class=\"", frames ? "frames" : "large",
+      "\">\n");
   for (const Picture& picture : content.pictures) {
     if (!wanted(picture)) continue;
     MORULA_TRY_ASSIGN(const auto png, encode_png(picture.image));
@@ -88,7 +92,8 @@ Status add_pictures(std::string& out, const ReportContent& content, bool frames)
 void add_plots(std::string& out, const ReportContent& content) {
   if (content.plots.empty()) return;
   add(out, "<section>\n<h2>Curves</h2>\n<div class=\"plots\">\n");
-  for (const ReportPlot& plot : content.plots) add(out, "<figure>", plot.svg, "<figcaption>", xml_escaped(plot.caption), "</figcaption></figure>\n");
+  for (const ReportPlot& plot : content.plots)
+    add(out, "<figure>", plot.svg, "<figcaption>", xml_escaped(plot.caption), "</figcaption></figure>\n");
   add(out, "</div>\n</section>\n");
 }
 
@@ -130,7 +135,8 @@ void add_methods(std::string& out, const ReportContent& content) {
   if (content.laws.empty()) return;
   add(out, "<section>\n<h2>Methods</h2>\n<p>Laws this run used. Lengths in µm, forces in nN, times in s, amounts in amol.</p>\n");
   for (const UsedLaw& use : content.laws) {
-    add(out, "<article>\n<h3>", xml_escaped(use.law.title.empty() ? use.law.name : use.law.title), " <small>", xml_escaped(use.purpose), "</small></h3>\n");
+    add(out, "<article>\n<h3>", xml_escaped(use.law.title.empty() ? use.law.name : use.law.title), " <small>", xml_escaped(use.purpose),
+        "</small></h3>\n");
     if (!use.law.equation.empty()) add(out, "<p class=\"equation\">", xml_escaped(use.law.equation), "</p>\n");
     if (!use.law.source.empty()) add(out, "<p class=\"source\">", xml_escaped(use.law.source), "</p>\n");
     std::vector<Row> rows;

@@ -59,7 +59,8 @@ Status read_header(std::string_view line, const std::string& origin, SeriesTable
 Status read_row(std::string_view line, std::size_t number, const std::string& origin, SeriesTable& table) {
   const auto fields = fields_of(line);
   if (fields.size() != table.columns.size())
-    return wrong(origin, number, "this row has " + std::to_string(fields.size()) + " fields, the header names " + std::to_string(table.columns.size()), "");
+    return wrong(origin, number,
+                 "this row has " + std::to_string(fields.size()) + " fields, the header names " + std::to_string(table.columns.size()), "");
   for (std::size_t c = 0; c < fields.size(); ++c) {
     double value = 0.0;
     if (!number_of(fields[c], value))

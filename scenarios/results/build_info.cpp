@@ -35,7 +35,8 @@ BuildInfo build_info() {
   const std::string text(mpi, static_cast<std::size_t>(length));
   info.libraries.emplace_back("mpi", text.substr(0, text.find_first_of(",\n")));
   info.libraries.emplace_back("openssl", OpenSSL_version(OPENSSL_VERSION_STRING));
-  info.libraries.emplace_back("nlohmann_json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH));
+  info.libraries.emplace_back("nlohmann_json",
+                              dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH));
   return info;
 }
 

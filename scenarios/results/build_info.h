@@ -7,10 +7,10 @@ namespace morula::scenarios {
 
 /// What this program was built from and with: written into run.json, printed by `doctor`.
 struct BuildInfo {
-  std::string version;      ///< of Morula, as `0.1.0`
-  std::string git_hash;     ///< commit at configuration, or `unknown`
-  std::string compiler;     ///< name and version
-  std::string build_type;   ///< as given to CMake, with the target processor
+  std::string version;                                         ///< of Morula, as `0.1.0`
+  std::string git_hash;                                        ///< commit at configuration, or `unknown`
+  std::string compiler;                                        ///< name and version
+  std::string build_type;                                      ///< as given to CMake, with the target processor
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version in use
 };
 

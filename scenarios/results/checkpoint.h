@@ -17,9 +17,9 @@ inline constexpr std::uint32_t kCheckpointFormat = 1;
 /// What a checkpoint holds besides the state.
 struct CheckpointInfo {
   std::string run_name;
-  std::string study_hash;       ///< SHA-256 of the resolved study
-  double wall_time = 0.0;       ///< spent on the run so far [s]
-  std::string morula_version;   ///< filled by write_checkpoint
+  std::string study_hash;      ///< SHA-256 of the resolved study
+  double wall_time = 0.0;      ///< spent on the run so far [s]
+  std::string morula_version;  ///< filled by write_checkpoint
 };
 
 struct LoadedCheckpoint {

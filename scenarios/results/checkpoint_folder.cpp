@@ -34,8 +34,10 @@ std::vector<fs::path> shared_list(const fs::path& folder, const Comm& comm) {
   std::vector<fs::path> out;
   std::string line;
   for (const std::byte b : bytes) {
-    if (static_cast<char>(b) != '\n') line += static_cast<char>(b);
-    else out.emplace_back(std::exchange(line, {}));
+    if (static_cast<char>(b) != '\n')
+      line += static_cast<char>(b);
+    else
+      out.emplace_back(std::exchange(line, {}));
   }
   return out;
 }
@@ -91,9 +93,9 @@ Result<fs::path> save_checkpoint(const fs::path& folder, const Tissue& tissue, c
 Result<RestoredCheckpoint> load_newest_checkpoint(const fs::path& folder, const Model& model, ShapeLibrary& shapes, const Comm& comm) {
   RestoredCheckpoint out;
   MORULA_TRY_ASSIGN(GoodCheckpoint good, first_good(folder, comm, [&](const fs::path& path) -> Status {
-    MORULA_TRY_ASSIGN(out.checkpoint, read_checkpoint(path, model, shapes, comm));
-    return {};
-  }));
+                      MORULA_TRY_ASSIGN(out.checkpoint, read_checkpoint(path, model, shapes, comm));
+                      return {};
+                    }));
   out.path = std::move(good.path);
   out.warnings = std::move(good.warnings);
   return out;

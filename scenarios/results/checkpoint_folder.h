@@ -8,7 +8,8 @@
 namespace morula::scenarios {
 
 /// Collective. Writes the next `cp_NNNNNN.h5` into the folder (made if missing) and then removes all but the two newest. Returns its path.
-Result<std::filesystem::path> save_checkpoint(const std::filesystem::path& folder, const Tissue& tissue, const CheckpointInfo& info, const Comm& comm);
+Result<std::filesystem::path> save_checkpoint(const std::filesystem::path& folder, const Tissue& tissue, const CheckpointInfo& info,
+                                              const Comm& comm);
 
 /// The checkpoints in a folder, newest first.
 std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& folder);
@@ -21,7 +22,8 @@ struct RestoredCheckpoint {
 
 /// Collective. Loads the newest checkpoint that is whole. A damaged one is passed over, and a warning says so. One of another
 /// format version is refused. kFile when there is none that can be used.
-Result<RestoredCheckpoint> load_newest_checkpoint(const std::filesystem::path& folder, const Model& model, ShapeLibrary& shapes, const Comm& comm);
+Result<RestoredCheckpoint> load_newest_checkpoint(const std::filesystem::path& folder, const Model& model, ShapeLibrary& shapes,
+                                                  const Comm& comm);
 
 /// Collective. The path of the newest whole checkpoint and the warnings, without loading it.
 struct GoodCheckpoint {

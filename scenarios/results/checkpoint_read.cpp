@@ -22,7 +22,9 @@ struct Stretch {
   [[nodiscard]] std::uint64_t size() const { return end - begin; }
 };
 
-std::uint64_t before_mine(std::uint64_t mine, const Comm& comm) { return static_cast<std::uint64_t>(comm.exclusive_scan(static_cast<std::int64_t>(mine))); }
+std::uint64_t before_mine(std::uint64_t mine, const Comm& comm) {
+  return static_cast<std::uint64_t>(comm.exclusive_scan(static_cast<std::int64_t>(mine)));
+}
 
 template <class Visit>
 Status first_failure(Visit&& each) {
@@ -74,7 +76,8 @@ Status read_rows(const Hdf5Reader& file, const Stretch& mine, std::vector<CellRo
   });
 }
 
-Status read_spheres(const Hdf5Reader& file, std::uint64_t first, std::uint64_t count, std::vector<std::uint32_t>& partner_count, cbm::Spheres& out) {
+Status read_spheres(const Hdf5Reader& file, std::uint64_t first, std::uint64_t count, std::vector<std::uint32_t>& partner_count,
+                    cbm::Spheres& out) {
   MORULA_TRY_ASSIGN(out.position, file.read<Vec3d>("spheres/position", first, count));
   MORULA_TRY_ASSIGN(out.radius, file.read<double>("spheres/radius", first, count));
   MORULA_TRY_ASSIGN(out.type, file.read<std::uint16_t>("spheres/type", first, count));
@@ -132,7 +135,8 @@ Status read_cells(const Hdf5Reader& file, ShapeLibrary& library, const Comm& com
   MORULA_TRY(agree(read_partners(file, first_partner, partner_count, out.spheres), comm));
 
   MORULA_TRY(agree(read_shell_heads(file, first_shell, shells, library, out.shells), comm));
-  const std::uint64_t first_node = before_mine(out.shells.first_node.back(), comm), first_edge = before_mine(out.shells.first_edge.back(), comm);
+  const std::uint64_t first_node = before_mine(out.shells.first_node.back(), comm),
+                      first_edge = before_mine(out.shells.first_edge.back(), comm);
   return agree(read_shell_arrays(file, first_node, first_edge, out.shells), comm);
 }
 
@@ -164,7 +168,8 @@ void put_in_canonical_order(Tissue& tissue) {
       h.rest_volume.push_back(from.rest_volume[b]);
       h.position.insert(h.position.end(), from.position.begin() + from.first_node[b], from.position.begin() + from.first_node[b + 1]);
       h.velocity.insert(h.velocity.end(), from.velocity.begin() + from.first_node[b], from.velocity.begin() + from.first_node[b + 1]);
-      h.rest_length.insert(h.rest_length.end(), from.rest_length.begin() + from.first_edge[b], from.rest_length.begin() + from.first_edge[b + 1]);
+      h.rest_length.insert(h.rest_length.end(), from.rest_length.begin() + from.first_edge[b],
+                           from.rest_length.begin() + from.first_edge[b + 1]);
       h.first_node.push_back(static_cast<std::uint32_t>(h.position.size()));
       h.first_edge.push_back(static_cast<std::uint32_t>(h.rest_length.size()));
     }
@@ -202,11 +207,13 @@ Status read_fields(const Hdf5Reader& file, const Comm& comm, Tissue& out) {
 
 Status check_against(const Model& model, const Tissue& tissue) {
   const auto differs = [](const char* what, std::size_t in_file, std::size_t in_study) {
-    return Error{ErrorKind::kInput, "the checkpoint has " + std::to_string(in_file) + ' ' + what + ", the study " + std::to_string(in_study),
+    return Error{ErrorKind::kInput,
+                 "the checkpoint has " + std::to_string(in_file) + ' ' + what + ", the study " + std::to_string(in_study),
                  "resume with the study that the run was started with"};
   };
   if (tissue.fields.size() != model.fields.size()) return differs("fields", tissue.fields.size(), model.fields.size());
-  if (tissue.obstacle_offset.size() != model.obstacles.size()) return differs("obstacles", tissue.obstacle_offset.size(), model.obstacles.size());
+  if (tissue.obstacle_offset.size() != model.obstacles.size())
+    return differs("obstacles", tissue.obstacle_offset.size(), model.obstacles.size());
   for (const CellRow& row : tissue.cells.rows)
     if (row.type >= model.types.size()) return differs("cell types or more", row.type + std::size_t{1}, model.types.size());
   return {};
@@ -220,8 +227,8 @@ Status check_checkpoint_version(const std::filesystem::path& path, const Hdf5Rea
   std::string writer = "another Morula";
   if (const auto text = file.text("info/morula_version"); text.ok()) writer = "Morula " + text.value();
   return Error{ErrorKind::kInput,
-               "checkpoint '" + path.string() + "' has format version " + std::to_string(version) + " (written by " + writer + "), and this Morula " +
-                   build_info().version + " reads version " + std::to_string(kCheckpointFormat),
+               "checkpoint '" + path.string() + "' has format version " + std::to_string(version) + " (written by " + writer +
+                   "), and this Morula " + build_info().version + " reads version " + std::to_string(kCheckpointFormat),
                "resume with the version of Morula that wrote it"};
 }
 

@@ -145,7 +145,9 @@ void add_globals(StoragePlan& plan, const Tissue& tissue, const CheckpointInfo& 
   for_each_clock_field(
       [&](const std::string& name, const char* units, auto member) { plan.add_value("clock/" + name, units, tissue.clock.*member); });
   for_each_ledger_field(
-      [&](const std::string& name, const char* units, auto member) { plan.add_value("ledger/" + name, units, std::to_array(tissue.ledger.*member)); },
+      [&](const std::string& name, const char* units, auto member) {
+        plan.add_value("ledger/" + name, units, std::to_array(tissue.ledger.*member));
+      },
       [&](const std::string& name, const char* units, auto member) { plan.add_value("ledger/" + name, units, tissue.ledger.*member); });
   plan.add_from_root("obstacles/offset", "um", std::span<const Vec3d>(tissue.obstacle_offset));
 }

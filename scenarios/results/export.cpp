@@ -31,7 +31,9 @@ std::string quoted(const std::string& text) {
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + '"';
 }
-std::string as_text(const Snapshot& s, std::uint16_t type) { return type < s.type_names.size() ? quoted(s.type_names[type]) : std::to_string(type); }
+std::string as_text(const Snapshot& s, std::uint16_t type) {
+  return type < s.type_names.size() ? quoted(s.type_names[type]) : std::to_string(type);
+}
 std::string as_text(const Snapshot&, BodyKind body) { return body == BodyKind::kSphere ? "sphere" : "shell"; }
 std::string as_text(const Snapshot&, Phase phase) {
   static constexpr std::array kNames{"growing", "waiting", "resting", "dying"};
@@ -109,7 +111,8 @@ Result<std::string> surfaces_as_stl(const Snapshot& s, ShapeLibrary& library, st
       const Vec3d& p = ball->position[node];
       return cell.centroid + p * (cell.radius / std::sqrt(norm2(p)));
     };
-    for (const Triangle& f : ball->topology->faces()) put_triangle(triangles, on_surface(f[0]), on_surface(f[1]), on_surface(f[2])), ++count;
+    for (const Triangle& f : ball->topology->faces())
+      put_triangle(triangles, on_surface(f[0]), on_surface(f[1]), on_surface(f[2])), ++count;
   }
   std::string out(80, ' ');
   const std::string title = "binary STL, um, written by Morula";
@@ -147,7 +150,10 @@ Result<std::size_t> export_snapshots(const fs::path& results, const fs::path& fo
     if (field_names.empty())
       for (const Snapshot::Grid& grid : snapshot.fields) field_names.push_back(grid.name);
   }
-  if (numbers.empty()) return Error{ErrorKind::kInput, "'" + results.string() + "' has no snapshot in this range of time (it has " + std::to_string(entries.size()) + " in all)", "see --from, --to and --every"};
+  if (numbers.empty())
+    return Error{ErrorKind::kInput,
+                 "'" + results.string() + "' has no snapshot in this range of time (it has " + std::to_string(entries.size()) + " in all)",
+                 "see --from, --to and --every"};
   if (format == ExportFormat::kVtk) MORULA_TRY(write_vtk_collections(folder, numbers, times, field_names));
   return numbers.size();
 }

@@ -21,7 +21,8 @@ struct ExportRange {
 
 /// Writes the snapshots of a results.h5 into a folder: vtk as write_vtk with collections; csv one table of cells a snapshot; stl one file of all surfaces a snapshot.
 /// Returns the number of snapshots. kInput when the range holds none.
-Result<std::size_t> export_snapshots(const std::filesystem::path& results, const std::filesystem::path& folder, ExportFormat format, const ExportRange& range);
+Result<std::size_t> export_snapshots(const std::filesystem::path& results, const std::filesystem::path& folder, ExportFormat format,
+                                     const ExportRange& range);
 
 /// Table of cells with units in the header: ids as text (`17.01`), type and phase by name.
 [[nodiscard]] std::string cells_as_csv(const Snapshot& snapshot);

@@ -18,8 +18,10 @@ Error file_error(const fs::path& path, std::string_view doing, int error_number)
   const bool no_room = error_number == ENOSPC || error_number == EDQUOT || error_number == EFBIG;
   error.kind = no_room ? ErrorKind::kResources : ErrorKind::kFile;
   error.message = "cannot " + std::string(doing) + " '" + path.string() + "': " + std::strerror(error_number);
-  if (no_room) error.help = "free some disk space (or raise the quota or file size limit) and resume the run";
-  else if (error_number == EACCES || error_number == EPERM || error_number == EROFS) error.help = "choose a folder you may write to with --out";
+  if (no_room)
+    error.help = "free some disk space (or raise the quota or file size limit) and resume the run";
+  else if (error_number == EACCES || error_number == EPERM || error_number == EROFS)
+    error.help = "choose a folder you may write to with --out";
   return error;
 }
 

@@ -32,16 +32,26 @@ struct StoredAs {
   static constexpr StoredType type = kType;
   static constexpr std::uint32_t width = 1;
 };
-template <> struct Stored<std::uint8_t> : StoredAs<StoredType::kUint8> {};
-template <> struct Stored<bool> : StoredAs<StoredType::kUint8> {};
-template <> struct Stored<std::uint16_t> : StoredAs<StoredType::kUint16> {};
-template <> struct Stored<std::uint32_t> : StoredAs<StoredType::kUint32> {};
-template <> struct Stored<std::uint64_t> : StoredAs<StoredType::kUint64> {};
-template <> struct Stored<std::int32_t> : StoredAs<StoredType::kInt32> {};
-template <> struct Stored<std::int64_t> : StoredAs<StoredType::kInt64> {};
-template <> struct Stored<float> : StoredAs<StoredType::kFloat> {};
-template <> struct Stored<double> : StoredAs<StoredType::kDouble> {};
-template <> struct Stored<CellId> : StoredAs<StoredType::kUint64> {};
+template <>
+struct Stored<std::uint8_t> : StoredAs<StoredType::kUint8> {};
+template <>
+struct Stored<bool> : StoredAs<StoredType::kUint8> {};
+template <>
+struct Stored<std::uint16_t> : StoredAs<StoredType::kUint16> {};
+template <>
+struct Stored<std::uint32_t> : StoredAs<StoredType::kUint32> {};
+template <>
+struct Stored<std::uint64_t> : StoredAs<StoredType::kUint64> {};
+template <>
+struct Stored<std::int32_t> : StoredAs<StoredType::kInt32> {};
+template <>
+struct Stored<std::int64_t> : StoredAs<StoredType::kInt64> {};
+template <>
+struct Stored<float> : StoredAs<StoredType::kFloat> {};
+template <>
+struct Stored<double> : StoredAs<StoredType::kDouble> {};
+template <>
+struct Stored<CellId> : StoredAs<StoredType::kUint64> {};
 template <class T, std::size_t N>
 struct Stored<std::array<T, N>> {
   static constexpr StoredType type = Stored<T>::type;

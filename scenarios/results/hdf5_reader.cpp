@@ -103,7 +103,8 @@ Result<std::string> Hdf5Reader::units(const std::string& path) const {
   return text_attribute(dataset.get(), "units");
 }
 
-Status Hdf5Reader::check_share(const std::string& path, StoredType type, std::uint32_t width, std::uint64_t first, std::uint64_t count) const {
+Status Hdf5Reader::check_share(const std::string& path, StoredType type, std::uint32_t width, std::uint64_t first,
+                               std::uint64_t count) const {
   const Hdf5Handle dataset = open_dataset(state_->file.get(), path);
   const auto shape = dataset.ok() ? shape_of(dataset) : std::nullopt;
   if (!shape) return damaged("no dataset '" + path + "'");
@@ -158,7 +159,8 @@ Status Hdf5Reader::verify(const Comm& comm) const {
   std::vector<Hash128> sums;
   const auto read_my_share = [&]() -> Status {
     MORULA_TRY_ASSIGN(const std::string manifest, text("manifest"));
-    if (text_attribute(state_->file.get(), "manifest_checksum") != hash128(std::as_bytes(std::span(manifest))).hex()) return damaged("its table of contents is altered");
+    if (text_attribute(state_->file.get(), "manifest_checksum") != hash128(std::as_bytes(std::span(manifest))).hex())
+      return damaged("its table of contents is altered");
     std::istringstream stream(manifest);
     std::string line;
     while (std::getline(stream, line)) {

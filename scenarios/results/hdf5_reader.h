@@ -54,7 +54,8 @@ class Hdf5Reader {
  private:
   struct State;
   explicit Hdf5Reader(std::unique_ptr<State> state);
-  [[nodiscard]] Status check_share(const std::string& path, StoredType type, std::uint32_t width, std::uint64_t first, std::uint64_t count) const;
+  [[nodiscard]] Status check_share(const std::string& path, StoredType type, std::uint32_t width, std::uint64_t first,
+                                   std::uint64_t count) const;
   [[nodiscard]] Status read_raw(const std::string& path, StoredType type, std::uint32_t width, std::uint64_t first, std::uint64_t count,
                                 std::byte* out) const;
   [[nodiscard]] Error damaged(const std::string& what) const;

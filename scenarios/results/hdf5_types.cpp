@@ -9,29 +9,42 @@ namespace morula::scenarios {
 std::size_t size_of(StoredType type) {
   switch (type) {
     case StoredType::kUint8:
-    case StoredType::kText: return 1;
-    case StoredType::kUint16: return 2;
+    case StoredType::kText:
+      return 1;
+    case StoredType::kUint16:
+      return 2;
     case StoredType::kUint32:
     case StoredType::kInt32:
-    case StoredType::kFloat: return 4;
+    case StoredType::kFloat:
+      return 4;
     case StoredType::kUint64:
     case StoredType::kInt64:
-    case StoredType::kDouble: return 8;
+    case StoredType::kDouble:
+      return 8;
   }
   return 1;
 }
 
 hid_t file_type(StoredType type, std::uint32_t width) {
   switch (type) {
-    case StoredType::kUint8: return H5Tcopy(H5T_STD_U8LE);
-    case StoredType::kUint16: return H5Tcopy(H5T_STD_U16LE);
-    case StoredType::kUint32: return H5Tcopy(H5T_STD_U32LE);
-    case StoredType::kUint64: return H5Tcopy(H5T_STD_U64LE);
-    case StoredType::kInt32: return H5Tcopy(H5T_STD_I32LE);
-    case StoredType::kInt64: return H5Tcopy(H5T_STD_I64LE);
-    case StoredType::kFloat: return H5Tcopy(H5T_IEEE_F32LE);
-    case StoredType::kDouble: return H5Tcopy(H5T_IEEE_F64LE);
-    case StoredType::kText: break;
+    case StoredType::kUint8:
+      return H5Tcopy(H5T_STD_U8LE);
+    case StoredType::kUint16:
+      return H5Tcopy(H5T_STD_U16LE);
+    case StoredType::kUint32:
+      return H5Tcopy(H5T_STD_U32LE);
+    case StoredType::kUint64:
+      return H5Tcopy(H5T_STD_U64LE);
+    case StoredType::kInt32:
+      return H5Tcopy(H5T_STD_I32LE);
+    case StoredType::kInt64:
+      return H5Tcopy(H5T_STD_I64LE);
+    case StoredType::kFloat:
+      return H5Tcopy(H5T_IEEE_F32LE);
+    case StoredType::kDouble:
+      return H5Tcopy(H5T_IEEE_F64LE);
+    case StoredType::kText:
+      break;
   }
   const hid_t text = H5Tcopy(H5T_C_S1);
   H5Tset_size(text, width);

@@ -22,9 +22,9 @@ using Dataset = StoragePlan::Dataset;
 
 /// Where a dataset's rows lie: over all ranks and in the file.
 struct Extent {
-  std::uint64_t rows = 0;        ///< of all ranks
-  std::uint64_t first_row = 0;   ///< of this rank's slice
-  std::uint64_t place = 0;       ///< in the file
+  std::uint64_t rows = 0;       ///< of all ranks
+  std::uint64_t first_row = 0;  ///< of this rank's slice
+  std::uint64_t place = 0;      ///< in the file
 };
 
 std::size_t row_size(const Dataset& dataset) { return size_of(dataset.type) * dataset.width; }
@@ -35,7 +35,8 @@ std::vector<Extent> extents_over_ranks(const std::vector<Dataset>& datasets, con
   const std::vector<std::byte> gathered = comm.gather_to_all(std::as_bytes(std::span(rows)));
   std::vector<Extent> extents(datasets.size());
   for (int rank = 0; rank < comm.size(); ++rank) {
-    std::memcpy(rows.data(), gathered.data() + static_cast<std::size_t>(rank) * rows.size() * sizeof(std::int64_t), rows.size() * sizeof(std::int64_t));
+    std::memcpy(rows.data(), gathered.data() + static_cast<std::size_t>(rank) * rows.size() * sizeof(std::int64_t),
+                rows.size() * sizeof(std::int64_t));
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (rank < comm.rank()) extents[i].first_row += static_cast<std::uint64_t>(rows[i]);
       extents[i].rows += static_cast<std::uint64_t>(rows[i]);
@@ -47,7 +48,8 @@ std::vector<Extent> extents_over_ranks(const std::vector<Dataset>& datasets, con
 /// Checksums of the whole tables, on every rank.
 std::vector<Hash128> checksums_over_ranks(const std::vector<Dataset>& datasets, const std::vector<Extent>& extents, const Comm& comm) {
   std::vector<Hash128> local;
-  for (std::size_t i = 0; i < datasets.size(); ++i) local.push_back(table_checksum(datasets[i].bytes, row_size(datasets[i]), extents[i].first_row));
+  for (std::size_t i = 0; i < datasets.size(); ++i)
+    local.push_back(table_checksum(datasets[i].bytes, row_size(datasets[i]), extents[i].first_row));
   const std::vector<std::byte> gathered = comm.gather_to_all(std::as_bytes(std::span(local)));
   std::vector<Hash128> sums(datasets.size());
   ByteReader reader(gathered);
@@ -61,8 +63,8 @@ std::string manifest_text(const std::vector<Dataset>& datasets, const std::vecto
   std::string text;
   for (std::size_t i = 0; i < datasets.size(); ++i) {
     const Dataset& d = datasets[i];
-    text += checksums[i].hex() + ' ' + std::to_string(static_cast<int>(d.type)) + ' ' + std::to_string(d.width) + ' ' + std::to_string(extents[i].rows) + ' ' +
-            d.path + ' ' + d.units + '\n';
+    text += checksums[i].hex() + ' ' + std::to_string(static_cast<int>(d.type)) + ' ' + std::to_string(d.width) + ' ' +
+            std::to_string(extents[i].rows) + ' ' + d.path + ' ' + d.units + '\n';
   }
   return text;
 }
@@ -171,7 +173,8 @@ Result<Addition> plan_addition(const fs::path& path, const std::vector<Dataset>&
   MORULA_TRY(declare(file.get(), path, datasets, extents));
   if (!file.close()) return hdf5_error(path, "add to");
   for (std::size_t i = 0; i < datasets.size(); ++i)
-    if (extents[i].rows != 0 && extents[i].place < end) return Error{ErrorKind::kInternal, "new values would lie over old ones in '" + path.string() + "'", ""};
+    if (extents[i].rows != 0 && extents[i].place < end)
+      return Error{ErrorKind::kInternal, "new values would lie over old ones in '" + path.string() + "'", ""};
   return Addition{overlay->changes(), end, overlay->new_length()};
 }
 
@@ -208,7 +211,8 @@ Status create_new(const fs::path& path, const std::vector<Dataset>& datasets, co
     Hdf5Handle file(overlay.create(), H5Fclose);
     if (!file.ok()) return hdf5_error(path, "create");
     MORULA_TRY(declare(file.get(), path, datasets, extents));
-    if (!manifest_checksum.empty() && !write_text_attribute(file.get(), "manifest_checksum", manifest_checksum)) return hdf5_error(path, "create");
+    if (!manifest_checksum.empty() && !write_text_attribute(file.get(), "manifest_checksum", manifest_checksum))
+      return hdf5_error(path, "create");
     if (!file.close()) return hdf5_error(path, "create");
     structure = overlay.changes();
     length = overlay.new_length();

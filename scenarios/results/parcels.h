@@ -20,7 +20,9 @@ class Parcels {
   }
   [[nodiscard]] std::size_t size() const { return key_.size(); }
   [[nodiscard]] std::uint64_t key(std::size_t i) const { return key_[i]; }
-  [[nodiscard]] std::span<const std::byte> bytes(std::size_t i) const { return std::span(bytes_).subspan(begin_[i], begin_[i + 1] - begin_[i]); }
+  [[nodiscard]] std::span<const std::byte> bytes(std::size_t i) const {
+    return std::span(bytes_).subspan(begin_[i], begin_[i + 1] - begin_[i]);
+  }
 
  private:
   std::vector<std::uint64_t> key_;

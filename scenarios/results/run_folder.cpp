@@ -54,7 +54,9 @@ Result<fs::path> make_folder(const fs::path& parent, const fs::path& out, const 
     const fs::path clean = out.has_filename() ? out : out.parent_path();
     MORULA_TRY(make_parents(clean.parent_path()));
     if (::mkdir(clean.c_str(), 0755) == 0) return clean;
-    if (errno == EEXIST) return Error{ErrorKind::kFile, "'" + clean.string() + "' exists already, and a run never overwrites anything", "give --out another name, or go on with `morula resume " + clean.string() + "`"};
+    if (errno == EEXIST)
+      return Error{ErrorKind::kFile, "'" + clean.string() + "' exists already, and a run never overwrites anything",
+                   "give --out another name, or go on with `morula resume " + clean.string() + "`"};
     return file_error(clean, "create folder", errno);
   }
   MORULA_TRY(make_parents(parent));
@@ -93,6 +95,7 @@ Status filter_lines(const fs::path& path, const std::function<bool(const std::st
 
 Result<InputRecord> copy_input(const InputFile& input, const fs::path& run) {
   MORULA_TRY_ASSIGN(const std::string bytes, read_file(input.path));
+  MORULA_TRY(make_parents((run / input.copy).parent_path()));
   MORULA_TRY(write_file_atomically(run / input.copy, bytes));
   MORULA_TRY_ASSIGN(const std::string sha256, sha256_of_text(bytes));
   return InputRecord{input.path, input.copy, sha256};
@@ -105,8 +108,10 @@ Result<RunFolder> RunFolder::create(const fs::path& parent, const fs::path& out,
   Status status;
   if (comm.is_root()) {
     auto folder = make_folder(parent, out, study);
-    if (folder.ok()) made = folder->string();
-    else status = std::move(folder).error();
+    if (folder.ok())
+      made = folder->string();
+    else
+      status = std::move(folder).error();
   }
   MORULA_TRY(agree(std::move(status), comm));
   std::vector<std::byte> bytes(made.size());
@@ -119,8 +124,10 @@ Result<RunFolder> RunFolder::open(const fs::path& path, const Comm& comm) {
   Status status;
   std::error_code ignored;
   if (comm.is_root()) {
-    if (!fs::is_directory(path, ignored)) status = Error{ErrorKind::kFile, "there is no run '" + path.string() + "'", "`morula list` shows the runs"};
-    else if (!fs::exists(path / "run.json", ignored)) status = Error{ErrorKind::kFile, "'" + path.string() + "' is not a run: it has no run.json", "`morula list` shows the runs"};
+    if (!fs::is_directory(path, ignored))
+      status = Error{ErrorKind::kFile, "there is no run '" + path.string() + "'", "`morula list` shows the runs"};
+    else if (!fs::exists(path / "run.json", ignored))
+      status = Error{ErrorKind::kFile, "'" + path.string() + "' is not a run: it has no run.json", "`morula list` shows the runs"};
   }
   MORULA_TRY(agree(std::move(status), comm));
   return RunFolder(path, comm.is_root());
@@ -136,9 +143,9 @@ Status RunFolder::write_study(const Study& study, RunRecord& record) const {
   std::error_code error;
   fs::create_directory(path_ / "inputs", error);
   if (error) return file_error(path_ / "inputs", "create folder", error.value());
-  for (const InputFile& file : study.input_files) {
-    MORULA_TRY_ASSIGN(InputRecord input, copy_input(file, path_));
-    record.inputs.push_back(std::move(input));
+  for (const InputFile& input : study.input_files) {
+    MORULA_TRY_ASSIGN(InputRecord copied, copy_input(input, path_));
+    record.inputs.push_back(std::move(copied));
   }
   return {};
 }
@@ -148,13 +155,17 @@ Status RunFolder::write_record(const RunRecord& run) const {
   MORULA_TRY(write_file_atomically(record(), to_json(run)));
   std::error_code ignored;
   for (const auto& [marker, state] : {std::pair{"DONE", RunState::kDone}, std::pair{"FAILED", RunState::kFailed}}) {
-    if (run.state == state) MORULA_TRY(write_file_atomically(path_ / marker, run.message.empty() ? "" : run.message + '\n'));
-    else fs::remove(path_ / marker, ignored);  // from before a resume
+    if (run.state == state)
+      MORULA_TRY(write_file_atomically(path_ / marker, run.message.empty() ? "" : run.message + '\n'));
+    else
+      fs::remove(path_ / marker, ignored);  // from before a resume
   }
   return {};
 }
 
-Status RunFolder::write_status(const RunStatus& run_status) const { return is_root_ ? write_file_atomically(status(), to_json(run_status)) : Status{}; }
+Status RunFolder::write_status(const RunStatus& run_status) const {
+  return is_root_ ? write_file_atomically(status(), to_json(run_status)) : Status{};
+}
 
 Status RunFolder::write_verdict(std::span<const Verdict> verdicts) const {
   return is_root_ ? write_file_atomically(path_ / "verdict.json", to_json(verdicts)) : Status{};
@@ -178,7 +189,8 @@ Status RunFolder::begin_series(std::span<const SeriesHeader> columns) const {
   if (!fs::exists(series(), ignored)) return write_file_atomically(series(), header);
   MORULA_TRY_ASSIGN(const std::string text, read_file(series()));
   if (text.compare(0, header.size(), header) == 0) return {};
-  return Error{ErrorKind::kInput, "'" + series().string() + "' has other columns than the study's series", "resume with the study that the run was started with"};
+  return Error{ErrorKind::kInput, "'" + series().string() + "' has other columns than the study's series",
+               "resume with the study that the run was started with"};
 }
 
 Status RunFolder::add_to_series(double time, std::span<const double> values) const {

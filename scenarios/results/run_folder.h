@@ -24,7 +24,8 @@ struct SeriesHeader {
 class RunFolder {
  public:
   /// Collective. Makes `<parent>/<study>-NNNN` with the next free number, or exactly `out` if given. Never an existing folder: kFile.
-  static Result<RunFolder> create(const std::filesystem::path& parent, const std::filesystem::path& out, const std::string& study, const Comm& comm);
+  static Result<RunFolder> create(const std::filesystem::path& parent, const std::filesystem::path& out, const std::string& study,
+                                  const Comm& comm);
   /// Collective. An existing run, to resume or to look at: kFile if it is none.
   static Result<RunFolder> open(const std::filesystem::path& path, const Comm& comm);
 

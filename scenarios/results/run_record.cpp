@@ -49,10 +49,14 @@ Result<Json> read_object(const std::filesystem::path& path) {
 
 std::string name_of(RunState state) {
   switch (state) {
-    case RunState::kRunning: return "running";
-    case RunState::kDone: return "done";
-    case RunState::kStopped: return "stopped";
-    case RunState::kFailed: return "failed";
+    case RunState::kRunning:
+      return "running";
+    case RunState::kDone:
+      return "done";
+    case RunState::kStopped:
+      return "stopped";
+    case RunState::kFailed:
+      return "failed";
   }
   return "failed";
 }
@@ -95,8 +99,11 @@ std::string to_json(const RunRecord& r) {
   json["finished"] = r.finished.empty() ? Json(nullptr) : Json(r.finished);
   json["wall_time_s"] = number(r.wall_time);
   if (r.final_state) {
-    json["final"] = {{"time_s", number(r.final_state->time)}, {"cells", r.final_state->cells}, {"spheres", r.final_state->spheres},
-                     {"shells", r.final_state->shells}, {"state_hash", r.final_state->state_hash}};
+    json["final"] = {{"time_s", number(r.final_state->time)},
+                     {"cells", r.final_state->cells},
+                     {"spheres", r.final_state->spheres},
+                     {"shells", r.final_state->shells},
+                     {"state_hash", r.final_state->state_hash}};
   }
   if (!r.timings.empty()) {
     json["timings"] = Json::object();
@@ -104,7 +111,8 @@ std::string to_json(const RunRecord& r) {
   }
   json["study_hash"] = r.study_hash;
   json["inputs"] = Json::array();
-  for (const InputRecord& input : r.inputs) json["inputs"].push_back({{"source", input.source}, {"copy", input.copy}, {"sha256", input.sha256}});
+  for (const InputRecord& input : r.inputs)
+    json["inputs"].push_back({{"source", input.source}, {"copy", input.copy}, {"sha256", input.sha256}});
   json["version"] = r.version;
   json["git_hash"] = r.git_hash;
   json["compiler"] = r.compiler;
@@ -153,10 +161,19 @@ Result<RunRecord> read_run_record(const std::filesystem::path& run_json) {
 }
 
 std::string to_json(const RunStatus& s) {
-  const Json json{{"state", name_of(s.state)}, {"time_s", number(s.time)}, {"end_s", number(s.end)}, {"fraction", number(s.end > 0 ? s.time / s.end : 0.0)},
-                  {"cells", s.cells}, {"shells", s.shells}, {"steps", s.steps}, {"step_s", number(s.step)}, {"wall_time_s", number(s.wall_time)},
-                  {"left_low_s", s.left_low < 0 ? Json(nullptr) : number(s.left_low)}, {"left_high_s", s.left_high < 0 ? Json(nullptr) : number(s.left_high)},
-                  {"process", s.process}, {"updated", s.updated.empty() ? utc_now() : s.updated}};
+  const Json json{{"state", name_of(s.state)},
+                  {"time_s", number(s.time)},
+                  {"end_s", number(s.end)},
+                  {"fraction", number(s.end > 0 ? s.time / s.end : 0.0)},
+                  {"cells", s.cells},
+                  {"shells", s.shells},
+                  {"steps", s.steps},
+                  {"step_s", number(s.step)},
+                  {"wall_time_s", number(s.wall_time)},
+                  {"left_low_s", s.left_low < 0 ? Json(nullptr) : number(s.left_low)},
+                  {"left_high_s", s.left_high < 0 ? Json(nullptr) : number(s.left_high)},
+                  {"process", s.process},
+                  {"updated", s.updated.empty() ? utc_now() : s.updated}};
   return text_of(json, 2);
 }
 
@@ -180,13 +197,20 @@ Result<RunStatus> read_run_status(const std::filesystem::path& status_json) {
 
 std::string name_of(EventKind kind) {
   switch (kind) {
-    case EventKind::kDivision: return "division";
-    case EventKind::kDivisionWaits: return "division_waits";
-    case EventKind::kDeath: return "death";
-    case EventKind::kRemoval: return "removal";
-    case EventKind::kPromotion: return "promotion";
-    case EventKind::kDemotion: return "demotion";
-    case EventKind::kWarning: return "warning";
+    case EventKind::kDivision:
+      return "division";
+    case EventKind::kDivisionWaits:
+      return "division_waits";
+    case EventKind::kDeath:
+      return "death";
+    case EventKind::kRemoval:
+      return "removal";
+    case EventKind::kPromotion:
+      return "promotion";
+    case EventKind::kDemotion:
+      return "demotion";
+    case EventKind::kWarning:
+      return "warning";
   }
   return "warning";
 }

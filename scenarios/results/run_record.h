@@ -39,7 +39,7 @@ struct RunRecord {
   std::uint64_t seed = 0;
   int ranks = 1, threads = 1;
   std::string command;
-  std::string parent;   ///< run folder it goes on from, or empty
+  std::string parent;  ///< run folder it goes on from, or empty
   std::string study_hash;
   std::vector<InputRecord> inputs;
   std::string started, finished;  ///< UTC, as 2026-11-21T12:00:00Z
@@ -62,13 +62,13 @@ Result<RunRecord> read_run_record(const std::filesystem::path& run_json);
 /// What status.json says: where a run stands, for `morula status` and other programs.
 struct RunStatus {
   RunState state = RunState::kRunning;
-  double time = 0.0, end = 0.0;    ///< [s]
+  double time = 0.0, end = 0.0;  ///< [s]
   std::uint64_t cells = 0, shells = 0, steps = 0;
-  double step = 0.0;               ///< step size [s]
-  double wall_time = 0.0;          ///< [s]
+  double step = 0.0;                         ///< step size [s]
+  double wall_time = 0.0;                    ///< [s]
   double left_low = -1.0, left_high = -1.0;  ///< wall time left, a range; −1: not known [s]
-  std::int64_t process = 0;        ///< process id of the root
-  std::string updated;             ///< UTC; filled when written
+  std::int64_t process = 0;                  ///< process id of the root
+  std::string updated;                       ///< UTC; filled when written
 };
 [[nodiscard]] std::string to_json(const RunStatus& status);
 Result<RunStatus> read_run_status(const std::filesystem::path& status_json);
@@ -81,10 +81,10 @@ Result<RunStatus> read_run_status(const std::filesystem::path& status_json);
 
 /// One criterion of a library study.
 struct Verdict {
-  std::string id;        ///< as `S18.1`
+  std::string id;  ///< as `S18.1`
   std::string quantity;
   double value = 0.0;
-  std::string limit;     ///< as `<= 0.3 um`
+  std::string limit;  ///< as `<= 0.3 um`
   bool passed = false;
 };
 [[nodiscard]] std::string to_json(std::span<const Verdict> verdicts);

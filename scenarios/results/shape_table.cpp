@@ -76,7 +76,8 @@ Result<std::shared_ptr<const ReferenceShape>> read_shape(const Hdf5Reader& file,
   MORULA_TRY_ASSIGN(shape->edge_length, file.read<double>("shapes/edge_length", places.first_edge[number], places.edges[number]));
   MORULA_TRY_ASSIGN(shape->face_area, file.read<double>("shapes/face_area", places.first_face[number], places.faces[number]));
   MORULA_TRY_ASSIGN(shape->hinge_angle, file.read<double>("shapes/hinge_angle", places.first_edge[number], places.edges[number]));
-  if (shape->topology->edge_count() != places.edges[number]) return Error{ErrorKind::kFile, "the checkpoint's shape " + std::to_string(number) + " does not fit its faces", ""};
+  if (shape->topology->edge_count() != places.edges[number])
+    return Error{ErrorKind::kFile, "the checkpoint's shape " + std::to_string(number) + " does not fit its faces", ""};
   return std::shared_ptr<const ReferenceShape>(shape);
 }
 
@@ -117,12 +118,14 @@ ShapeNumbers add_shapes(StoragePlan& plan, const std::vector<std::shared_ptr<con
   return numbers;
 }
 
-Result<std::map<std::uint32_t, std::shared_ptr<const ReferenceShape>>> read_shapes(const Hdf5Reader& file, const std::vector<std::uint32_t>& numbers,
-                                                                                  ShapeLibrary& library) {
+Result<std::map<std::uint32_t, std::shared_ptr<const ReferenceShape>>> read_shapes(const Hdf5Reader& file,
+                                                                                   const std::vector<std::uint32_t>& numbers,
+                                                                                   ShapeLibrary& library) {
   std::map<std::uint32_t, std::shared_ptr<const ReferenceShape>> out;
   MORULA_TRY_ASSIGN(const Places places, read_places(file));
   for (const std::uint32_t number : numbers) {
-    if (number >= places.nodes.size()) return Error{ErrorKind::kFile, "the checkpoint names shape " + std::to_string(number) + ", which it does not hold", ""};
+    if (number >= places.nodes.size())
+      return Error{ErrorKind::kFile, "the checkpoint names shape " + std::to_string(number) + ", which it does not hold", ""};
     MORULA_TRY_ASSIGN(std::shared_ptr<const ReferenceShape> shape, read_shape(file, places, number));
     const auto known = library.icosphere(shape->topology->node_count());
     if (known.ok() && shape_hash(**known) == shape_hash(*shape)) shape = *known;

@@ -22,7 +22,8 @@ struct ShapeNumbers {
 ShapeNumbers add_shapes(StoragePlan& plan, const std::vector<std::shared_ptr<const ReferenceShape>>& shapes, const Comm& comm);
 
 /// The shapes with these numbers (sorted, each once), as they were, bit for bit. A shape of the library is the library's own object.
-Result<std::map<std::uint32_t, std::shared_ptr<const ReferenceShape>>> read_shapes(const Hdf5Reader& file, const std::vector<std::uint32_t>& numbers,
-                                                                                  ShapeLibrary& library);
+Result<std::map<std::uint32_t, std::shared_ptr<const ReferenceShape>>> read_shapes(const Hdf5Reader& file,
+                                                                                   const std::vector<std::uint32_t>& numbers,
+                                                                                   ShapeLibrary& library);
 
 }  // namespace morula::scenarios

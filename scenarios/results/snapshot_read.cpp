@@ -8,7 +8,8 @@ namespace morula::scenarios {
 namespace {
 
 Error no_such_snapshot(const std::filesystem::path& path, std::size_t index, std::size_t count) {
-  return Error{ErrorKind::kFile, "'" + path.string() + "' has no snapshot " + std::to_string(index) + " (it has " + std::to_string(count) + ")", ""};
+  return Error{ErrorKind::kFile,
+               "'" + path.string() + "' has no snapshot " + std::to_string(index) + " (it has " + std::to_string(count) + ")", ""};
 }
 
 Status read_cells(const Hdf5Reader& file, const std::string& group, Snapshot& out) {

@@ -141,7 +141,9 @@ void add_field(StoragePlan& plan, const std::string& name, const fields::Field& 
 }
 
 Status check_local(const Snapshot& local, std::span<const fields::Field> fields) {
-  if (local.fields.size() != fields.size()) return Error{ErrorKind::kInternal, "a snapshot names " + std::to_string(local.fields.size()) + " fields of " + std::to_string(fields.size()), ""};
+  if (local.fields.size() != fields.size())
+    return Error{ErrorKind::kInternal,
+                 "a snapshot names " + std::to_string(local.fields.size()) + " fields of " + std::to_string(fields.size()), ""};
   for (const Snapshot::Shell& shell : local.shells)
     if (shell.cell >= local.cells.size() || shell.topology >= local.topologies.size() || shell.node_count == 0 ||
         std::size_t{shell.first_node} + shell.node_count > local.nodes.size())
@@ -156,8 +158,10 @@ Result<std::vector<SnapshotEntry>> list_on_all(const std::filesystem::path& path
   std::error_code ignored;
   if (comm.is_root() && std::filesystem::exists(path, ignored)) {
     auto listed = list_snapshots(path);
-    if (listed.ok()) entries = std::move(listed).value();
-    else status = std::move(listed).error();
+    if (listed.ok())
+      entries = std::move(listed).value();
+    else
+      status = std::move(listed).error();
   }
   MORULA_TRY(agree(std::move(status), comm));
   ByteWriter writer;

@@ -1,8 +1,8 @@
 #pragma once
 #include <memory>
 
-#include "coupling/tissue.h"
 #include "core/parallel/comm.h"
+#include "coupling/tissue.h"
 #include "scenarios/results/hash128.h"
 
 namespace morula::scenarios {

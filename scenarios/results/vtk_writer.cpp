@@ -23,11 +23,16 @@ std::string shortest(double value) {
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '"') out += "&quot;";
-    else out += c;
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
   }
   return out;
 }
@@ -35,14 +40,22 @@ std::string escaped(const std::string& text) {
 const char* vtk_type(StoredType type) {
   switch (type) {
     case StoredType::kUint8:
-    case StoredType::kText: return "UInt8";
-    case StoredType::kUint16: return "UInt16";
-    case StoredType::kUint32: return "UInt32";
-    case StoredType::kUint64: return "UInt64";
-    case StoredType::kInt32: return "Int32";
-    case StoredType::kInt64: return "Int64";
-    case StoredType::kFloat: return "Float32";
-    case StoredType::kDouble: return "Float64";
+    case StoredType::kText:
+      return "UInt8";
+    case StoredType::kUint16:
+      return "UInt16";
+    case StoredType::kUint32:
+      return "UInt32";
+    case StoredType::kUint64:
+      return "UInt64";
+    case StoredType::kInt32:
+      return "Int32";
+    case StoredType::kInt64:
+      return "Int64";
+    case StoredType::kFloat:
+      return "Float32";
+    case StoredType::kDouble:
+      return "Float64";
   }
   return "UInt8";
 }
@@ -70,9 +83,11 @@ std::string field_data(const Snapshot& s) {
     for (const char c : name) names += std::to_string(static_cast<unsigned char>(c)) + ' ';
     names += "0 ";
   }
-  std::string out = "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">" + shortest(s.time) + "</DataArray>\n";
+  std::string out = "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">" +
+                    shortest(s.time) + "</DataArray>\n";
   if (!s.type_names.empty())
-    out += "<Array type=\"String\" Name=\"type_names\" NumberOfTuples=\"" + std::to_string(s.type_names.size()) + "\" format=\"ascii\">" + names + "</Array>\n";
+    out += "<Array type=\"String\" Name=\"type_names\" NumberOfTuples=\"" + std::to_string(s.type_names.size()) + "\" format=\"ascii\">" +
+           names + "</Array>\n";
   return out + "</FieldData>\n";
 }
 
@@ -104,10 +119,11 @@ struct Mesh {
 };
 
 std::string mesh_file(const Snapshot& s, const Mesh& mesh, const std::string& point_data, const std::string& cell_data) {
-  return file_head("UnstructuredGrid") + "<UnstructuredGrid>\n" + field_data(s) + "<Piece NumberOfPoints=\"" + std::to_string(mesh.points.size()) +
-         "\" NumberOfCells=\"" + std::to_string(mesh.types.size()) + "\">\n<PointData>\n" + point_data + "</PointData>\n<CellData>\n" + cell_data +
-         "</CellData>\n<Points>\n" + data_array("Points", mesh.points) + "</Points>\n<Cells>\n" + data_array("connectivity", mesh.connectivity) +
-         data_array("offsets", mesh.offsets) + data_array("types", mesh.types) + "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  return file_head("UnstructuredGrid") + "<UnstructuredGrid>\n" + field_data(s) + "<Piece NumberOfPoints=\"" +
+         std::to_string(mesh.points.size()) + "\" NumberOfCells=\"" + std::to_string(mesh.types.size()) + "\">\n<PointData>\n" +
+         point_data + "</PointData>\n<CellData>\n" + cell_data + "</CellData>\n<Points>\n" + data_array("Points", mesh.points) +
+         "</Points>\n<Cells>\n" + data_array("connectivity", mesh.connectivity) + data_array("offsets", mesh.offsets) +
+         data_array("types", mesh.types) + "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
 std::string shells_file(const Snapshot& s) {
@@ -148,9 +164,9 @@ std::string grid_file(const Snapshot& s, const Snapshot::Grid& grid) {
     origin += gap + shortest(grid.low[axis]);
     spacing += gap + shortest(grid.spacing[axis]);
   }
-  return file_head("ImageData") + "<ImageData WholeExtent=\"" + extent + "\" Origin=\"" + origin + "\" Spacing=\"" + spacing + "\">\n" + field_data(s) +
-         "<Piece Extent=\"" + extent + "\">\n<PointData>\n</PointData>\n<CellData>\n" + data_array(grid.name + " [mM]", grid.concentration) +
-         "</CellData>\n</Piece>\n</ImageData>\n</VTKFile>\n";
+  return file_head("ImageData") + "<ImageData WholeExtent=\"" + extent + "\" Origin=\"" + origin + "\" Spacing=\"" + spacing + "\">\n" +
+         field_data(s) + "<Piece Extent=\"" + extent + "\">\n<PointData>\n</PointData>\n<CellData>\n" +
+         data_array(grid.name + " [mM]", grid.concentration) + "</CellData>\n</Piece>\n</ImageData>\n</VTKFile>\n";
 }
 
 std::string numbered(const std::string& stem, std::size_t number, const char* suffix) {
@@ -163,7 +179,8 @@ Status write_collection(const fs::path& folder, const std::string& stem, const c
                         const std::vector<double>& times) {
   std::string text = file_head("Collection") + "<Collection>\n";
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    text += "<DataSet timestep=\"" + shortest(times[i]) + "\" group=\"\" part=\"0\" file=\"" + escaped(numbered(stem, numbers[i], suffix)) + "\"/>\n";
+    text += "<DataSet timestep=\"" + shortest(times[i]) + "\" group=\"\" part=\"0\" file=\"" + escaped(numbered(stem, numbers[i], suffix)) +
+            "\"/>\n";
   return write_file_atomically(folder / (stem + ".pvd"), text + "</Collection>\n</VTKFile>\n");
 }
 

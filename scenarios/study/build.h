@@ -13,7 +13,7 @@ struct BuildContext {
   draft::Study& draft;
   Study& study;
   Diagnostics& diagnostics;
-  std::filesystem::path folder;   ///< of the study, for relative paths
+  std::filesystem::path folder;  ///< of the study, for relative paths
   const ReadOptions& options;
 };
 

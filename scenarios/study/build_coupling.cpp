@@ -39,12 +39,14 @@ std::optional<Comparison> read_comparison(BuildContext& c, const UnitSystem& uni
       if (c.draft.fields[i].name == comparison.subject) comparison.field = static_cast<int>(i);
     }
     if (comparison.field < 0) {
-      c.diagnostics.error(402, given.place, "there is no field '" + comparison.subject + "' to compare", suggest(comparison.subject, allowed));
+      c.diagnostics.error(402, given.place, "there is no field '" + comparison.subject + "' to compare",
+                          suggest(comparison.subject, allowed));
       return std::nullopt;
     }
   }
-  const auto value = read_quantity(units, comparison.value_text, pressure ? Quantity::kPressure : Quantity::kConcentration,
-                                   comparison.subject, pressure ? "pressure > 1 kPa" : comparison.subject + " < 0.05 mM", given.place, c.diagnostics);
+  const auto value =
+      read_quantity(units, comparison.value_text, pressure ? Quantity::kPressure : Quantity::kConcentration, comparison.subject,
+                    pressure ? "pressure > 1 kPa" : comparison.subject + " < 0.05 mM", given.place, c.diagnostics);
   if (!value) return std::nullopt;
   comparison.value = *value;
   return comparison;
@@ -53,16 +55,19 @@ std::optional<Comparison> read_comparison(BuildContext& c, const UnitSystem& uni
 void check_thresholds(BuildContext& c, const UnitSystem& units, const draft::Trigger& t, const Comparison& up, const Comparison& down) {
   const Quantity quantity = up.field < 0 ? Quantity::kPressure : Quantity::kConcentration;
   if (up.subject != down.subject) {
-    c.diagnostics.error(510, t.demote.place, "promote looks at '" + up.subject + "', but demote at '" + down.subject + "'", "use one value, or two triggers");
+    c.diagnostics.error(510, t.demote.place, "promote looks at '" + up.subject + "', but demote at '" + down.subject + "'",
+                        "use one value, or two triggers");
   } else if (up.above == down.above) {
-    c.diagnostics.error(501, t.demote.place, "cells would flip back and forth: promote and demote both ask for " + std::string(up.above ? "more" : "less") + " " + up.subject,
-                        "turn the sign of one of them");
+    c.diagnostics.error(
+        501, t.demote.place,
+        "cells would flip back and forth: promote and demote both ask for " + std::string(up.above ? "more" : "less") + " " + up.subject,
+        "turn the sign of one of them");
   } else if (up.above ? down.value >= up.value : down.value <= up.value) {
     c.diagnostics.error(501, t.demote.place,
-                        "cells would flip back and forth: the demote threshold (" + down.value_text + ") is not " + (up.above ? "below" : "above") +
-                            " the promote threshold (" + up.value_text + ")",
-                        std::string("set demote ") + (up.above ? "below" : "above") + " promote, for example `" + up.subject + (up.above ? " < " : " > ") +
-                            units.format_value(up.value * (up.above ? 0.6 : 1.5), quantity) + "`");
+                        "cells would flip back and forth: the demote threshold (" + down.value_text + ") is not " +
+                            (up.above ? "below" : "above") + " the promote threshold (" + up.value_text + ")",
+                        std::string("set demote ") + (up.above ? "below" : "above") + " promote, for example `" + up.subject +
+                            (up.above ? " < " : " > ") + units.format_value(up.value * (up.above ? 0.6 : 1.5), quantity) + "`");
   }
 }
 
@@ -123,17 +128,21 @@ void check_inside_domain(BuildContext& c, const draft::Region& r, const Region& 
   bool outside = false;
   if (region.shape == RegionShape::kHalfSpace) {  // the corner that lies farthest against the normal decides
     const Vec3d n = region.normal;
-    const Vec3d corner{n.x > 0 ? domain.low.x : domain.high.x, n.y > 0 ? domain.low.y : domain.high.y, n.z > 0 ? domain.low.z : domain.high.z};
+    const Vec3d corner{n.x > 0 ? domain.low.x : domain.high.x, n.y > 0 ? domain.low.y : domain.high.y,
+                       n.z > 0 ? domain.low.z : domain.high.z};
     outside = dot(corner - region.center, n) > 0.0;
   } else {
     const Vec3d half = region.shape == RegionShape::kSphere ? Vec3d{region.radius, region.radius, region.radius} : region.size * 0.5;
     outside = !domain.overlaps({region.center - half, region.center + half});
   }
   if (outside)
-    c.diagnostics.error(502, r.center.given ? r.center.place : r.shape.place, "region '" + region.name + "' lies outside the domain: no cell can ever be in it",
-                        "the domain reaches from " + std::to_string(static_cast<long>(domain.low.x)) + ", " + std::to_string(static_cast<long>(domain.low.y)) + ", " +
-                            std::to_string(static_cast<long>(domain.low.z)) + " um to " + std::to_string(static_cast<long>(domain.high.x)) + ", " +
-                            std::to_string(static_cast<long>(domain.high.y)) + ", " + std::to_string(static_cast<long>(domain.high.z)) + " um");
+    c.diagnostics.error(502, r.center.given ? r.center.place : r.shape.place,
+                        "region '" + region.name + "' lies outside the domain: no cell can ever be in it",
+                        "the domain reaches from " + std::to_string(static_cast<long>(domain.low.x)) + ", " +
+                            std::to_string(static_cast<long>(domain.low.y)) + ", " + std::to_string(static_cast<long>(domain.low.z)) +
+                            " um to " + std::to_string(static_cast<long>(domain.high.x)) + ", " +
+                            std::to_string(static_cast<long>(domain.high.y)) + ", " + std::to_string(static_cast<long>(domain.high.z)) +
+                            " um");
 }
 
 void build_region(BuildContext& c, const draft::Region& r, const Place& place) {

@@ -20,10 +20,13 @@ void check_voxels(BuildContext& c, const draft::Field& f) {
   double voxels = 1.0;
   for (std::size_t axis = 0; axis < 3; ++axis) voxels *= std::ceil(size[axis] / f.voxel.value);
   if (voxels > kMaxVoxels)
-    c.diagnostics.error(512, f.voxel.place, "voxels of " + f.voxel.text + " in this domain are " + short_number(voxels) + ", more than " + short_number(kMaxVoxels),
-                        "make the voxels larger or the domain smaller");
+    c.diagnostics.error(
+        512, f.voxel.place,
+        "voxels of " + f.voxel.text + " in this domain are " + short_number(voxels) + ", more than " + short_number(kMaxVoxels),
+        "make the voxels larger or the domain smaller");
   if (f.voxel.value > std::fmin(size.x, std::fmin(size.y, size.z)))
-    c.diagnostics.warning(512, f.voxel.place, "a voxel (" + f.voxel.text + ") is larger than the domain: the field is uniform along an axis",
+    c.diagnostics.warning(512, f.voxel.place,
+                          "a voxel (" + f.voxel.text + ") is larger than the domain: the field is uniform along an axis",
                           "make the voxels smaller");
 }
 

@@ -96,7 +96,7 @@ void check_place(BuildContext& c, const std::string& name, const Place& place, c
 
 void build_geometry(BuildContext& c) {
   for (auto& [name, place, o] : c.draft.geometry) {
-    const std::array<bool, 7> kinds{o.stl.given,          o.obj.given,         o.plane.present, o.sphere.present,
+    const std::array<bool, 7> kinds{o.stl.given,        o.obj.given,       o.plane.present, o.sphere.present,
                                     o.cylinder.present, o.capsule.present, o.box.present};
     int count = 0;
     for (const bool kind : kinds) count += kind;
@@ -104,7 +104,9 @@ void build_geometry(BuildContext& c) {
       c.diagnostics.error(111, place, "obstacle '" + name + "' has " + (count == 0 ? "no shape" : "more than one shape"),
                           "give one of `stl`, `obj`, `plane`, `sphere`, `cylinder`, `capsule`, `box`");
     const bool from_file = o.stl.given || o.obj.given;
-    if (o.scale.given && !from_file) c.diagnostics.error(111, o.scale.place, "'scale' has no meaning without `stl` or `obj`", "leave it away");
+    if (o.scale.given && !from_file)
+      c.diagnostics.error(111, o.scale.place, "'scale' has no meaning without `stl` or `obj`", "leave it away");
+    if (!from_file) o.scale.text.clear();  // its default has no meaning either: not part of the resolved study
     ObstacleSpec obstacle;
     obstacle.name = name;
     obstacle.inside = o.side.value == "inside";

@@ -8,7 +8,9 @@
 namespace morula::scenarios {
 namespace {
 
-std::string place_text(const Vec3d& p) { return "[" + short_number(p.x) + " um, " + short_number(p.y) + " um, " + short_number(p.z) + " um]"; }
+std::string place_text(const Vec3d& p) {
+  return "[" + short_number(p.x) + " um, " + short_number(p.y) + " um, " + short_number(p.z) + " um]";
+}
 
 std::string domain_text(const Box& box) { return "the domain reaches from " + place_text(box.low) + " to " + place_text(box.high); }
 
@@ -19,7 +21,9 @@ class InitialBuilder {
   void build(draft::Initial& d, const Place& place) {
     const int sources = (d.fill.given || d.count.given) + d.at.given + d.csv.given;
     if (sources != 1) {
-      c_.diagnostics.error(111, place, sources == 0 ? "an entry of `initial` needs `fill`, `at` or `csv`" : "an entry of `initial` has only one of `fill`, `at` and `csv`",
+      c_.diagnostics.error(111, place,
+                           sources == 0 ? "an entry of `initial` needs `fill`, `at` or `csv`"
+                                        : "an entry of `initial` has only one of `fill`, `at` and `csv`",
                            "for example `{type: hepatocyte, count: 400, fill: sphere, radius: 60 um}`");
       return;
     }
@@ -45,7 +49,8 @@ class InitialBuilder {
       build_fill(d, place, type, cells);
     total_ += cells.count;
     if (total_ >= (std::uint64_t{1} << CellId::kFounderBits))
-      c_.diagnostics.error(404, place, "more than " + std::to_string((std::uint64_t{1} << CellId::kFounderBits) - 1) + " cells at time 0", "");
+      c_.diagnostics.error(404, place, "more than " + std::to_string((std::uint64_t{1} << CellId::kFounderBits) - 1) + " cells at time 0",
+                           "");
     c_.study.initial.push_back(std::move(cells));
   }
 
@@ -53,29 +58,34 @@ class InitialBuilder {
   void stray(bool given, const Place& place, const char* key, const char* with) {
     if (given) c_.diagnostics.error(111, place, std::string("'") + key + "' has no meaning with `" + with + "`", "leave it away");
   }
-  void refuse_strays(const draft::Initial& d) {
+  /// Keys of another source of cells are errors; their defaults are no part of the resolved study.
+  void refuse_strays(draft::Initial& d) {
     const char* with = d.csv.given ? "csv" : d.at.given ? "at" : nullptr;
     if (with) {
       stray(d.radius.given, d.radius.place, "radius", with);
       stray(d.size.given, d.size.place, "size", with);
       stray(d.center.given, d.center.place, "center", with);
+      d.center.text.clear();
     }
     if (d.csv.given) {
       stray(d.type.given, d.type.place, "type", with);
     } else {
       stray(d.coincident_shift.given, d.coincident_shift.place, "coincident_shift", with ? with : "fill");
       stray(d.coincident_below.given, d.coincident_below.place, "coincident_below", with ? with : "fill");
+      d.coincident_shift.text.clear();
+      d.coincident_below.text.clear();
     }
   }
 
   void check_inflation(const draft::Initial& d, const Place& place) {
     if (!d.start_volume.known() || !d.inflate.known()) return;
     if (d.start_volume.value < 1.0 && d.inflate.value == 0.0)
-      c_.diagnostics.error(510, d.start_volume.place, "cells start at " + d.start_volume.text + " of their volume, but no time is given to inflate them",
+      c_.diagnostics.error(510, d.start_volume.place,
+                           "cells start at " + d.start_volume.text + " of their volume, but no time is given to inflate them",
                            "add for example `inflate: 30 min`");
     if (d.start_volume.value == 1.0 && d.inflate.value > 0.0)
-      c_.diagnostics.error(510, d.inflate.given ? d.inflate.place : place, "'inflate' has no meaning for cells that start with their whole volume",
-                           "add for example `start_volume: 50 %`");
+      c_.diagnostics.error(510, d.inflate.given ? d.inflate.place : place,
+                           "'inflate' has no meaning for cells that start with their whole volume", "add for example `start_volume: 50 %`");
   }
 
   void build_positions(const draft::Initial& d, InitialCells& cells) {
@@ -84,7 +94,8 @@ class InitialBuilder {
     cells.count = cells.positions.size();
     if (!d.at.known() || !c_.draft.domain.size.known()) return;
     for (const Vec3d& p : cells.positions)
-      if (!domain_.contains(p)) c_.diagnostics.error(505, d.at.place, "a cell at " + place_text(p) + " is outside the domain", domain_text(domain_));
+      if (!domain_.contains(p))
+        c_.diagnostics.error(505, d.at.place, "a cell at " + place_text(p) + " is outside the domain", domain_text(domain_));
   }
 
   void build_csv(draft::Initial& d, InitialCells& cells) {
@@ -110,7 +121,8 @@ class InitialBuilder {
     if (c_.draft.domain.size.known()) check_rows_inside(*csv);
   }
 
-  void note_coincident(const CsvCells& csv, const std::string& shown, const draft::Initial& d, const std::vector<std::vector<std::size_t>>& groups) {
+  void note_coincident(const CsvCells& csv, const std::string& shown, const draft::Initial& d,
+                       const std::vector<std::vector<std::size_t>>& groups) {
     for (const auto& group : groups) {
       std::string same, moved;
       for (std::size_t k = 0; k < group.size(); ++k) {
@@ -134,7 +146,8 @@ class InitialBuilder {
       }
     }
     if (outside > kMost)
-      c_.diagnostics.error(505, {csv.source, 0, 0, 1}, std::to_string(outside - kMost) + " more cells are outside the domain", domain_text(domain_));
+      c_.diagnostics.error(505, {csv.source, 0, 0, 1}, std::to_string(outside - kMost) + " more cells are outside the domain",
+                           domain_text(domain_));
   }
 
   void build_fill(const draft::Initial& d, const Place& place, int type, InitialCells& cells) {
@@ -146,18 +159,22 @@ class InitialBuilder {
     cells.fill = d.fill.value == "box" ? RegionShape::kBox : RegionShape::kSphere;
     const bool sphere = d.fill.value == "sphere";
     const auto missing = [&](bool given, const char* key) {
-      if (!given) c_.diagnostics.error(103, place, std::string("key '") + key + "' is missing in an entry of `initial`", "a filled shape needs `count`, `fill`, and `radius` (sphere) or `size` (box)");
+      if (!given)
+        c_.diagnostics.error(103, place, std::string("key '") + key + "' is missing in an entry of `initial`",
+                             "a filled shape needs `count`, `fill`, and `radius` (sphere) or `size` (box)");
     };
     missing(d.count.given, "count");
     missing(d.fill.given, "fill");
     if (!d.fill.known()) return;
     missing(sphere ? d.radius.given : d.size.given, sphere ? "radius" : "size");
-    stray(sphere ? d.size.given : d.radius.given, sphere ? d.size.place : d.radius.place, sphere ? "size" : "radius", sphere ? "fill: sphere" : "fill: box");
+    stray(sphere ? d.size.given : d.radius.given, sphere ? d.size.place : d.radius.place, sphere ? "size" : "radius",
+          sphere ? "fill: sphere" : "fill: box");
     if (!(sphere ? d.radius.known() : d.size.known()) || !d.center.known()) return;
     const Vec3d half = sphere ? Vec3d{cells.radius, cells.radius, cells.radius} : cells.size * 0.5;
     const Box shape{cells.center - half, cells.center + half};
     if (c_.draft.domain.size.known() && !(domain_.contains(shape.low) && domain_.contains(shape.high)))
-      c_.diagnostics.error(502, sphere ? d.radius.place : d.size.place, "the shape to fill reaches out of the domain", domain_text(domain_));
+      c_.diagnostics.error(502, sphere ? d.radius.place : d.size.place, "the shape to fill reaches out of the domain",
+                           domain_text(domain_));
     if (type >= 0 && d.count.known()) check_room(d, type, cells, sphere);
   }
 
@@ -171,7 +188,9 @@ class InitialBuilder {
     if (need <= room) return;
     const std::string fits = sphere ? "a radius of at least " + short_number(std::ceil(std::cbrt(need / 0.64 / ball))) + " um"
                                     : "a volume of at least " + short_number(need / 0.64) + " um^3";
-    c_.diagnostics.error(506, d.count.place, std::to_string(cells.count) + " cells of radius " + radius.text + " have " + short_number(need / room) + " times the volume of the shape they fill",
+    c_.diagnostics.error(506, d.count.place,
+                         std::to_string(cells.count) + " cells of radius " + radius.text + " have " + short_number(need / room) +
+                             " times the volume of the shape they fill",
                          "give the shape " + fits + ", or fewer cells");
   }
 

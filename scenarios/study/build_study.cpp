@@ -11,7 +11,8 @@ void build_time_and_numerics(BuildContext& c) {
   c.study.time = {time.end.value, time.output.value, time.checkpoint.value};
   const auto check_interval = [&](const Given<double>& interval, const char* what) {
     if (interval.given && interval.known() && time.end.known() && interval.value > time.end.value)
-      c.diagnostics.warning(508, interval.place, std::string("the ") + what + " interval (" + interval.text + ") is longer than the run (" + time.end.text + ")",
+      c.diagnostics.warning(508, interval.place,
+                            std::string("the ") + what + " interval (" + interval.text + ") is longer than the run (" + time.end.text + ")",
                             std::string("make `") + what + "` at most `end`");
   };
   check_interval(time.output, "output");
@@ -33,8 +34,10 @@ void build_time_and_numerics(BuildContext& c) {
     const double limit = explicit_step_limit(c.draft);
     if (time.step.value == 0.0) step.max_step = std::min(kImplicitMaxStep, 0.5 * limit);
     if (time.step.known() && time.step.value > limit)
-      c.diagnostics.error(507, time.step.place, "explicit Euler is unstable with a step of " + time.step.text + ": the limit is near " + short_number(limit) + " s",
-                          "use `step: auto`, a smaller step, or `integrator: implicit`");
+      c.diagnostics.error(
+          507, time.step.place,
+          "explicit Euler is unstable with a step of " + time.step.text + ": the limit is near " + short_number(limit) + " s",
+          "use `step: auto`, a smaller step, or `integrator: implicit`");
   }
   if (step.initial_step > step.max_step) {
     if (n.initial_step.given && n.initial_step.known() && time.step.known())
@@ -68,7 +71,8 @@ void build_domain(BuildContext& c) {
     if (low != high) {
       const char name[2] = {"xyz"[axis], 0};
       const Given<std::string>& at = faces[axis][low ? 0 : 1]->known() ? *faces[axis][low ? 0 : 1] : *faces[axis][low ? 1 : 0];
-      c.diagnostics.error(510, at.place, std::string("only one of the faces across ") + name + " is periodic", std::string("write `") + name + ": periodic`");
+      c.diagnostics.error(510, at.place, std::string("only one of the faces across ") + name + " is periodic",
+                          std::string("write `") + name + ": periodic`");
     }
   }
 }

@@ -7,19 +7,25 @@ namespace {
 
 int code_of(MeshProblemKind kind) {
   switch (kind) {
-    case MeshProblemKind::kHole: return 621;
+    case MeshProblemKind::kHole:
+      return 621;
     case MeshProblemKind::kNonManifoldEdge:
-    case MeshProblemKind::kNonManifoldNode: return 625;
+    case MeshProblemKind::kNonManifoldNode:
+      return 625;
     case MeshProblemKind::kFlippedFaces:
     case MeshProblemKind::kNotOrientable:
-    case MeshProblemKind::kInsideOut: return 622;
-    case MeshProblemKind::kSelfIntersection: return 623;
+    case MeshProblemKind::kInsideOut:
+      return 622;
+    case MeshProblemKind::kSelfIntersection:
+      return 623;
     case MeshProblemKind::kDegenerateFace:
-    case MeshProblemKind::kDuplicateFace: return 624;
+    case MeshProblemKind::kDuplicateFace:
+      return 624;
     case MeshProblemKind::kEmpty:
     case MeshProblemKind::kBadIndex:
     case MeshProblemKind::kNotFinite:
-    case MeshProblemKind::kUnusedNode: return 620;
+    case MeshProblemKind::kUnusedNode:
+      return 620;
   }
   return 620;
 }

@@ -45,7 +45,8 @@ void build_death(BuildContext& c, const draft::CellType& draft, const Place& typ
 /// W of every pair by material index; what the file says twice must agree.
 class PairTable {
  public:
-  explicit PairTable(BuildContext& context) : c_(context), types_(c_.draft.cell_types.size()), materials_(types_ + c_.draft.geometry.size()) {
+  explicit PairTable(BuildContext& context)
+      : c_(context), types_(c_.draft.cell_types.size()), materials_(types_ + c_.draft.geometry.size()) {
     given_.resize(types_ * materials_);
   }
 
@@ -68,7 +69,9 @@ class PairTable {
       }
   }
 
-  [[nodiscard]] const Given<double>& at(std::size_t i, std::size_t j) const { return *given_[std::min(i, j) * materials_ + std::max(i, j)]; }
+  [[nodiscard]] const Given<double>& at(std::size_t i, std::size_t j) const {
+    return *given_[std::min(i, j) * materials_ + std::max(i, j)];
+  }
 
  private:
   [[nodiscard]] std::string name(std::size_t material) const {
@@ -88,8 +91,8 @@ class PairTable {
     const auto& before = slot(i, j);
     if (before && before->value != item.content.value) {
       c_.diagnostics.error(510, item.content.place,
-                           "the adhesion of '" + name(i) + "' and '" + name(j) + "' is " + item.content.text + " here, but " + before->text +
-                               " in line " + std::to_string(before->place.line),
+                           "the adhesion of '" + name(i) + "' and '" + name(j) + "' is " + item.content.text + " here, but " +
+                               before->text + " in line " + std::to_string(before->place.line),
                            "give each pair once");
       return;
     }
@@ -156,7 +159,8 @@ void build_pairs(BuildContext& c) {
       const std::string partner = j < types ? c.draft.cell_types[j].name : c.draft.geometry[j - types].name;
       c.diagnostics.warning(509, w.given ? w.place : a.tension.place,
                             "shells of '" + c.draft.cell_types[i].name + "' adhere to '" + partner + "' by " + w.text +
-                                ", not less than twice the cortical tension (" + a.tension.text + "): only the springs of the cortex stop the spreading",
+                                ", not less than twice the cortical tension (" + a.tension.text +
+                                "): only the springs of the cortex stop the spreading",
                             "raise `dcm.cortex.tension` above half of the adhesion, or lower the adhesion");
     }
   }

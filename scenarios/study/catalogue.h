@@ -12,8 +12,8 @@ struct Declaration {
   enum class Kind { kQuantity, kWhole, kWord, kText, kFlag, kVector, kVectors, kWords, kComparison, kGroup, kNamed, kList, kQuantities };
   Kind kind = Kind::kGroup;
   KeySpec spec;
-  std::string path;      ///< such as `cell_types.<name>.dcm.cortex.young`
-  std::string suffix;    ///< of a key that may also be written `<prefix><suffix>`
+  std::string path;    ///< such as `cell_types.<name>.dcm.cortex.young`
+  std::string suffix;  ///< of a key that may also be written `<prefix><suffix>`
   std::vector<Declaration> children;
 };
 

@@ -31,8 +31,10 @@ void check_contact_range(BuildContext& c) {
     if (!too_long && !too_short) continue;
     const Place at = range.given ? range.place : t.nodes.given ? t.nodes.place : place;
     const std::string what = "the contact range (" + range.text + ") is " + (too_long ? "more than half" : "less than a quarter") +
-                             " of the mean edge (" + short_number(std::round(edge * 100) / 100) + " um) of a shell of '" + name + "' with " + t.nodes.text + " nodes";
-    const std::string help = "`contact.range` between " + short_number(std::round(edge * 25) / 100) + " um and " + short_number(std::floor(edge * 50) / 100) + " um fits this mesh";
+                             " of the mean edge (" + short_number(std::round(edge * 100) / 100) + " um) of a shell of '" + name +
+                             "' with " + t.nodes.text + " nodes";
+    const std::string help = "`contact.range` between " + short_number(std::round(edge * 25) / 100) + " um and " +
+                             short_number(std::floor(edge * 50) / 100) + " um fits this mesh";
     if (too_long)
       c.diagnostics.error(503, at, what, help);
     else
@@ -49,32 +51,39 @@ void check_friction(BuildContext& c) {
     if (!t.friction_medium.known() || t.friction_medium.value > 0.0) continue;
     const std::string help = "give `friction.medium` at least 1e5 N s/m^3";
     if (without == c.draft.cell_types.size())
-      c.diagnostics.error(504, t.friction_medium.place, "no cell has friction with the medium: the velocities of cells without contact are not determined", help);
+      c.diagnostics.error(504, t.friction_medium.place,
+                          "no cell has friction with the medium: the velocities of cells without contact are not determined", help);
     else
-      c.diagnostics.warning(504, t.friction_medium.place, "cells of '" + name + "' have no friction with the medium: alone, their velocity is not determined", help);
+      c.diagnostics.warning(504, t.friction_medium.place,
+                            "cells of '" + name + "' have no friction with the medium: alone, their velocity is not determined", help);
   }
 }
 
 void check_periodic_size(BuildContext& c) {
   if (!c.draft.domain.size.known() || !c.draft.contact.range.known()) return;
   double radius = 0.0;
-  for (const auto& type : c.draft.cell_types) radius = std::max(radius, type.content.radius.mean.value * (1.0 + 3.0 * type.content.radius.spread.value));
+  for (const auto& type : c.draft.cell_types)
+    radius = std::max(radius, type.content.radius.mean.value * (1.0 + 3.0 * type.content.radius.spread.value));
   // A dividing cell is 2^(1/3) times as wide as a newborn; a pair of such cells may not meet around the domain.
   const double needed = 2.0 * (2.0 * std::cbrt(2.0) * radius + c.draft.contact.range.value);
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (c.study.model.space.periodic(static_cast<int>(axis)) && c.draft.domain.size.value[axis] < needed)
-      c.diagnostics.error(511, c.draft.domain.size.place, std::string("the domain is too small along ") + "xyz"[axis] + ": with periodic faces a cell would touch its own image",
-                          "at least " + short_number(std::ceil(needed)) + " um, or a `wall`");
+      c.diagnostics.error(
+          511, c.draft.domain.size.place,
+          std::string("the domain is too small along ") + "xyz"[axis] + ": with periodic faces a cell would touch its own image",
+          "at least " + short_number(std::ceil(needed)) + " um, or a `wall`");
 }
 
 void check_names(BuildContext& c) {
   for (const auto& obstacle : c.draft.geometry)
     for (const auto& type : c.draft.cell_types)
       if (type.name == obstacle.name)
-        c.diagnostics.error(112, obstacle.place, "'" + obstacle.name + "' is a cell type and an obstacle", "give the obstacle another name");
+        c.diagnostics.error(112, obstacle.place, "'" + obstacle.name + "' is a cell type and an obstacle",
+                            "give the obstacle another name");
   const auto check_name = [&](const Given<std::string>& name, const char* what) {
     if (name.known() && !is_name(name.value))
-      c.diagnostics.error(112, name.place, "'" + name.value + "' cannot be " + what, "names begin with a letter and hold letters, digits, `_` and `-`");
+      c.diagnostics.error(112, name.place, "'" + name.value + "' cannot be " + what,
+                          "names begin with a letter and hold letters, digits, `_` and `-`");
   };
   check_name(c.draft.name, "the name of a study");
   for (const auto& region : c.draft.coupling.regions) check_name(region.content.name, "the name of a region");
@@ -83,7 +92,8 @@ void check_names(BuildContext& c) {
       c.diagnostics.error(403, place, std::string("there is no ") + what + " '" + word + "'", suggest(word, known));
   };
   if (c.draft.scenario.known()) check_known(c.draft.scenario.value, c.draft.scenario.place, c.options.scenario_names, "library study");
-  for (const std::string& name : c.draft.output.series.value) check_known(name, c.draft.output.series.place, c.options.series_names, "observable");
+  for (const std::string& name : c.draft.output.series.value)
+    check_known(name, c.draft.output.series.place, c.options.series_names, "observable");
 }
 
 }  // namespace

@@ -63,8 +63,8 @@ std::vector<std::vector<std::size_t>> coincident_groups(const std::vector<Vec3d>
   return groups;
 }
 
-void move_apart(std::vector<Vec3d>& positions, const std::vector<std::vector<std::size_t>>& groups, double shift, std::uint64_t first_number,
-                std::uint32_t seed) {
+void move_apart(std::vector<Vec3d>& positions, const std::vector<std::vector<std::size_t>>& groups, double shift,
+                std::uint64_t first_number, std::uint32_t seed) {
   const Random random(seed, RandomStream::kSeparation);
   for (const auto& group : groups)
     for (std::size_t k = 1; k < group.size(); ++k)

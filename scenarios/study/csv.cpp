@@ -104,7 +104,8 @@ class CsvReader {
     if (bracket == std::string_view::npos) return;
     const std::size_t close = field.text.find(']', bracket);
     if (close == std::string_view::npos || column == kType || column == kModel) {
-      error(610, field, "column '" + std::string(field.text) + "' cannot be read", "units are written as `x [um]`; type and model have none");
+      error(610, field, "column '" + std::string(field.text) + "' cannot be read",
+            "units are written as `x [um]`; type and model have none");
       return;
     }
     const std::string unit(trimmed(field.text.substr(bracket + 1, close - bracket - 1)));
@@ -112,7 +113,8 @@ class CsvReader {
     if (factor.ok())
       factor_[column] = *factor;
     else
-      error(factor.error().kind == UnitError::Kind::kWrongDimension ? 203 : 202, field, "'" + name + "' " + factor.error().message, "for example `x [um]`");
+      error(factor.error().kind == UnitError::Kind::kWrongDimension ? 203 : 202, field, "'" + name + "' " + factor.error().message,
+            "for example `x [um]`");
   }
 
   std::optional<double> number(Column column) {
@@ -139,7 +141,8 @@ class CsvReader {
     if (fields_.size() != columns_) {
       const std::string_view text = source_->line(static_cast<int>(line) + 1);
       error(611, {text, source_->line_begin[line]},
-            "row has " + std::to_string(fields_.size()) + " values, but the header names " + std::to_string(columns_), "a value or a comma is missing or too many");
+            "row has " + std::to_string(fields_.size()) + " values, but the header names " + std::to_string(columns_),
+            "a value or a comma is missing or too many");
       return;
     }
     CsvCell cell;
@@ -151,12 +154,14 @@ class CsvReader {
     if (at_[kRadius] >= 0)
       if (const auto r = number(kRadius)) {
         cell.radius = *r;
-        if (*r <= 0.0 || *r > 100.0) error(302, fields_[static_cast<std::size_t>(at_[kRadius])], "'radius' must be above 0 and at most 100 um", "");
+        if (*r <= 0.0 || *r > 100.0)
+          error(302, fields_[static_cast<std::size_t>(at_[kRadius])], "'radius' must be above 0 and at most 100 um", "");
       }
     if (at_[kPhase] >= 0)
       if (const auto p = number(kPhase)) {
         cell.phase = *p;
-        if (*p < 0.0 || *p >= 1.0) error(302, fields_[static_cast<std::size_t>(at_[kPhase])], "'phase' must be at least 0 and below 1", "0 is birth, 1 is division");
+        if (*p < 0.0 || *p >= 1.0)
+          error(302, fields_[static_cast<std::size_t>(at_[kPhase])], "'phase' must be at least 0 and below 1", "0 is birth, 1 is division");
       }
     if (at_[kModel] >= 0) read_model(cell);
     if (errors_ == errors_before) cells_.cells.push_back(cell);

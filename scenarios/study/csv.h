@@ -14,7 +14,7 @@ namespace morula::scenarios {
 
 /// One row of a CSV file of cells.
 struct CsvCell {
-  Vec3d position{};              ///< [µm]
+  Vec3d position{};  ///< [µm]
   std::uint16_t type = 0;
   double radius = 0.0;           ///< of the cell at birth [µm]; 0: not given, drawn from its type
   double phase = -1.0;           ///< point of its cycle, 0 (birth) to 1 (division); −1: not given
@@ -42,7 +42,7 @@ std::vector<std::vector<std::size_t>> coincident_groups(const std::vector<Vec3d>
 
 /// Move all but the first cell of each group by `shift` [µm] along a random direction that depends only on the seed and the cell's number;
 /// cell k has the number `first_number` + k.
-void move_apart(std::vector<Vec3d>& positions, const std::vector<std::vector<std::size_t>>& groups, double shift, std::uint64_t first_number,
-                std::uint32_t seed);
+void move_apart(std::vector<Vec3d>& positions, const std::vector<std::vector<std::size_t>>& groups, double shift,
+                std::uint64_t first_number, std::uint32_t seed);
 
 }  // namespace morula::scenarios

@@ -6,45 +6,67 @@ namespace {
 using Q = Quantity;
 
 void point(Section& s, const char* name, const char* doc, Given<Vec3d>& value, const char* fallback = nullptr) {
-  s.vector({.name = name, .doc = doc, .quantity = Q::kLength, .fallback = fallback, .required = !fallback,
-            .example = "[0 um, 0 um, 0 um]", .source = fallback ? "chosen" : ""},
+  s.vector({.name = name,
+            .doc = doc,
+            .quantity = Q::kLength,
+            .fallback = fallback,
+            .required = !fallback,
+            .example = "[0 um, 0 um, 0 um]",
+            .source = fallback ? "chosen" : ""},
            value);
 }
 
 void radius(Section& s, Given<double>& value) {
-  s.quantity({.name = "radius", .doc = "Radius.", .quantity = Q::kLength, .required = true, .low = 0.0, .low_open = true, .example = "50 um"},
-             value);
+  s.quantity(
+      {.name = "radius", .doc = "Radius.", .quantity = Q::kLength, .required = true, .low = 0.0, .low_open = true, .example = "50 um"},
+      value);
 }
 
 }  // namespace
 
 void declare_obstacle(Section& s, draft::Obstacle& o) {
-  s.text({.name = "stl", .doc = "Surface from an STL file, relative to the study's folder: closed, oriented, not crossing itself.",
+  s.text({.name = "stl",
+          .doc = "Surface from an STL file, relative to the study's folder: closed, oriented, not crossing itself.",
           .example = "mesh/capsule.stl"},
          o.stl);
   s.text({.name = "obj", .doc = "Surface from an OBJ file, as for `stl`.", .example = "mesh/capsule.obj"}, o.obj);
-  s.quantity({.name = "scale", .doc = "Length of one unit of the STL or OBJ file.", .quantity = Q::kLength, .fallback = "1 um", .low = 0.0,
-              .low_open = true, .example = "1 um", .source = "chosen"},
+  s.quantity({.name = "scale",
+              .doc = "Length of one unit of the STL or OBJ file.",
+              .quantity = Q::kLength,
+              .fallback = "1 um",
+              .low = 0.0,
+              .low_open = true,
+              .example = "1 um",
+              .source = "chosen"},
              o.scale);
-  s.group({.name = "plane", .doc = "A rectangular slab whose upper face, seen along the normal, is the plane.", .optional_section = true}, o.plane.present,
-          [&o](Section& p) {
+  s.group({.name = "plane", .doc = "A rectangular slab whose upper face, seen along the normal, is the plane.", .optional_section = true},
+          o.plane.present, [&o](Section& p) {
             point(p, "center", "Centre of the upper face.", o.plane.center, "[0 um, 0 um, 0 um]");
-            p.vector({.name = "normal", .doc = "Direction away from the solid; need not have length 1.", .fallback = "[0, 0, 1]",
-                      .example = "[0, 0, 1]", .source = "chosen"},
+            p.vector({.name = "normal",
+                      .doc = "Direction away from the solid; need not have length 1.",
+                      .fallback = "[0, 0, 1]",
+                      .example = "[0, 0, 1]",
+                      .source = "chosen"},
                      o.plane.normal);
-            p.quantity({.name = "size", .doc = "Edge of the square face; the slab is a tenth as thick.", .quantity = Q::kLength,
-                        .required = true, .low = 0.0, .low_open = true, .example = "200 um"},
+            p.quantity({.name = "size",
+                        .doc = "Edge of the square face; the slab is a tenth as thick.",
+                        .quantity = Q::kLength,
+                        .required = true,
+                        .low = 0.0,
+                        .low_open = true,
+                        .example = "200 um"},
                        o.plane.radius);
           });
   s.group({.name = "sphere", .doc = "A sphere.", .optional_section = true}, o.sphere.present, [&o](Section& p) {
     point(p, "center", "Centre.", o.sphere.center, "[0 um, 0 um, 0 um]");
     radius(p, o.sphere.radius);
   });
-  s.group({.name = "cylinder", .doc = "A solid cylinder between two points.", .optional_section = true}, o.cylinder.present, [&o](Section& p) {
-    point(p, "from", "Centre of one end.", o.cylinder.low_end);
-    point(p, "to", "Centre of the other end.", o.cylinder.high_end);
-    radius(p, o.cylinder.radius);
-  });
+  s.group({.name = "cylinder", .doc = "A solid cylinder between two points.", .optional_section = true}, o.cylinder.present,
+          [&o](Section& p) {
+            point(p, "from", "Centre of one end.", o.cylinder.low_end);
+            point(p, "to", "Centre of the other end.", o.cylinder.high_end);
+            radius(p, o.cylinder.radius);
+          });
   s.group({.name = "capsule", .doc = "A cylinder with round ends.", .optional_section = true}, o.capsule.present, [&o](Section& p) {
     point(p, "from", "Centre of one round end.", o.capsule.low_end);
     point(p, "to", "Centre of the other round end.", o.capsule.high_end);
@@ -52,18 +74,32 @@ void declare_obstacle(Section& s, draft::Obstacle& o) {
   });
   s.group({.name = "box", .doc = "A box along the axes.", .optional_section = true}, o.box.present, [&o](Section& p) {
     point(p, "center", "Centre.", o.box.center, "[0 um, 0 um, 0 um]");
-    p.vector({.name = "size", .doc = "Edges.", .quantity = Q::kLength, .required = true, .low = 0.0, .low_open = true,
+    p.vector({.name = "size",
+              .doc = "Edges.",
+              .quantity = Q::kLength,
+              .required = true,
+              .low = 0.0,
+              .low_open = true,
               .example = "[50 um, 50 um, 10 um]"},
              o.box.size);
   });
-  s.word({.name = "side", .doc = "Where the cells are: outside the surface, or inside it (a capsule, a mould).", .fallback = "outside",
-          .words = {"outside", "inside"}, .example = "inside", .source = "chosen"},
+  s.word({.name = "side",
+          .doc = "Where the cells are: outside the surface, or inside it (a capsule, a mould).",
+          .fallback = "outside",
+          .words = {"outside", "inside"},
+          .example = "inside",
+          .source = "chosen"},
          o.side);
   bool present = false;
   s.group({.name = "motion", .doc = "The word `fixed`, or a prescribed motion.", .shorthand = "velocity", .example = "fixed"}, present,
           [&o](Section& m) {
-            m.vector({.name = "velocity", .doc = "Velocity of a translation, or `fixed`.", .quantity = Q::kSpeed, .fallback = "fixed",
-                      .specials = {{"fixed", 0.0}}, .example = "[0 um/h, 0 um/h, 10 um/h]", .source = "chosen"},
+            m.vector({.name = "velocity",
+                      .doc = "Velocity of a translation, or `fixed`.",
+                      .quantity = Q::kSpeed,
+                      .fallback = "fixed",
+                      .specials = {{"fixed", 0.0}},
+                      .example = "[0 um/h, 0 um/h, 10 um/h]",
+                      .source = "chosen"},
                      o.velocity);
           });
 }
@@ -71,40 +107,83 @@ void declare_obstacle(Section& s, draft::Obstacle& o) {
 void declare_initial(Section& s, draft::Initial& i) {
   s.text({.name = "type", .doc = "Cell type of these cells (a CSV file names them itself).", .example = "hepatocyte"}, i.type);
   s.whole({.name = "count", .doc = "How many cells fill the shape.", .low = 1, .high = 2.0e8, .example = "400"}, i.count);
-  s.word({.name = "fill", .doc = "Fill a shape with `count` cells from a regular packing with a seeded jitter.", .words = {"sphere", "box"},
+  s.word({.name = "fill",
+          .doc = "Fill a shape with `count` cells from a regular packing with a seeded jitter.",
+          .words = {"sphere", "box"},
           .example = "sphere"},
          i.fill);
-  s.vector({.name = "center", .doc = "Centre of the shape.", .quantity = Q::kLength, .fallback = "[0 um, 0 um, 0 um]",
-            .example = "[0 um, 0 um, 0 um]", .source = "chosen"},
+  s.vector({.name = "center",
+            .doc = "Centre of the shape.",
+            .quantity = Q::kLength,
+            .fallback = "[0 um, 0 um, 0 um]",
+            .example = "[0 um, 0 um, 0 um]",
+            .source = "chosen"},
            i.center);
-  s.quantity({.name = "radius", .doc = "Radius of a sphere to fill.", .quantity = Q::kLength, .low = 0.0, .low_open = true, .example = "60 um"},
-             i.radius);
-  s.vector({.name = "size", .doc = "Edges of a box to fill.", .quantity = Q::kLength, .low = 0.0, .low_open = true,
+  s.quantity(
+      {.name = "radius", .doc = "Radius of a sphere to fill.", .quantity = Q::kLength, .low = 0.0, .low_open = true, .example = "60 um"},
+      i.radius);
+  s.vector({.name = "size",
+            .doc = "Edges of a box to fill.",
+            .quantity = Q::kLength,
+            .low = 0.0,
+            .low_open = true,
             .example = "[100 um, 100 um, 50 um]"},
            i.size);
-  s.vectors({.name = "at", .doc = "Cells at these points instead of a filled shape.", .quantity = Q::kLength,
+  s.vectors({.name = "at",
+             .doc = "Cells at these points instead of a filled shape.",
+             .quantity = Q::kLength,
              .example = "[[-5 um, 0 um, 0 um], [5 um, 0 um, 0 um]]"},
             i.at);
-  s.word({.name = "age", .doc = "Each cell at a random point of its cycle, or all newborn.", .fallback = "random", .words = {"random", "birth"},
-          .example = "random", .source = "chosen"},
+  s.word({.name = "age",
+          .doc = "Each cell at a random point of its cycle, or all newborn.",
+          .fallback = "random",
+          .words = {"random", "birth"},
+          .example = "random",
+          .source = "chosen"},
          i.age);
-  s.text({.name = "csv", .doc = "Cells from a CSV file with the columns x,y,z,type[,radius,phase,model]; units in the header, `x [um]`.",
+  s.text({.name = "csv",
+          .doc = "Cells from a CSV file with the columns x,y,z,type[,radius,phase,model]; units in the header, `x [um]`.",
           .example = "cells.csv"},
          i.csv);
-  s.quantity({.name = "coincident_shift", .doc = "Cells of a CSV file at the same place are named and moved apart by this distance.",
-              .quantity = Q::kLength, .fallback = "6 um", .low = 0.0, .low_open = true, .example = "6 um", .source = "chosen: one cell radius"},
+  s.quantity({.name = "coincident_shift",
+              .doc = "Cells of a CSV file at the same place are named and moved apart by this distance.",
+              .quantity = Q::kLength,
+              .fallback = "6 um",
+              .low = 0.0,
+              .low_open = true,
+              .example = "6 um",
+              .source = "chosen: one cell radius"},
              i.coincident_shift);
-  s.quantity({.name = "coincident_below", .doc = "Closer than this counts as the same place.", .quantity = Q::kLength, .fallback = "1 nm",
-              .low = 0.0, .example = "1 nm", .source = "chosen"},
+  s.quantity({.name = "coincident_below",
+              .doc = "Closer than this counts as the same place.",
+              .quantity = Q::kLength,
+              .fallback = "1 nm",
+              .low = 0.0,
+              .example = "1 nm",
+              .source = "chosen"},
              i.coincident_below);
-  s.word({.name = "as", .doc = "Body of these cells before any region or trigger; without it, as their type says.", .words = {"sphere", "shell"},
-          .synonyms = {{"cbm", "sphere"}, {"dcm", "shell"}}, .example = "shell"},
+  s.word({.name = "as",
+          .doc = "Body of these cells before any region or trigger; without it, as their type says.",
+          .words = {"sphere", "shell"},
+          .synonyms = {{"cbm", "sphere"}, {"dcm", "shell"}},
+          .example = "shell"},
          i.body);
-  s.quantity({.name = "start_volume", .doc = "Volume at time 0 as a part of the cell's volume.", .quantity = Q::kFraction, .fallback = "100 %",
-              .low = 0.05, .high = 1.0, .example = "50 %", .source = "chosen"},
+  s.quantity({.name = "start_volume",
+              .doc = "Volume at time 0 as a part of the cell's volume.",
+              .quantity = Q::kFraction,
+              .fallback = "100 %",
+              .low = 0.05,
+              .high = 1.0,
+              .example = "50 %",
+              .source = "chosen"},
              i.start_volume);
-  s.quantity({.name = "inflate", .doc = "Time in which a cell of smaller `start_volume` reaches its volume.", .quantity = Q::kTime,
-              .fallback = "0 s", .low = 0.0, .example = "30 min", .source = "chosen"},
+  s.quantity({.name = "inflate",
+              .doc = "Time in which a cell of smaller `start_volume` reaches its volume.",
+              .quantity = Q::kTime,
+              .fallback = "0 s",
+              .low = 0.0,
+              .example = "30 min",
+              .source = "chosen"},
              i.inflate);
 }
 

@@ -88,9 +88,7 @@ std::size_t Diagnostics::error_count() const {
 
 void Diagnostics::sort() {
   std::vector<const SourceText*> order;  // sources in the order they were first named; the study comes first because it is read first
-  const auto rank = [&order](const Diagnostic& d) {
-    return std::find(order.begin(), order.end(), d.place.source.get()) - order.begin();
-  };
+  const auto rank = [&order](const Diagnostic& d) { return std::find(order.begin(), order.end(), d.place.source.get()) - order.begin(); };
   for (const Diagnostic& d : list_)
     if (std::find(order.begin(), order.end(), d.place.source.get()) == order.end()) order.push_back(d.place.source.get());
   std::stable_sort(list_.begin(), list_.end(), [&](const Diagnostic& a, const Diagnostic& b) {
@@ -105,7 +103,9 @@ void Diagnostics::warnings_to_errors() {
 }
 
 std::string Diagnostics::text(bool colour) const {
-  const auto paint = [colour](const char* code, const std::string& words) { return colour ? "\033[" + std::string(code) + "m" + words + "\033[0m" : words; };
+  const auto paint = [colour](const char* code, const std::string& words) {
+    return colour ? "\033[" + std::string(code) + "m" + words + "\033[0m" : words;
+  };
   std::string out;
   for (const Diagnostic& d : list_) {
     const bool is_error = d.severity == Severity::kError;

@@ -12,7 +12,7 @@ namespace morula::scenarios {
 
 /// The bytes of an input file (or of one `key=value` of the command line), and where its lines begin.
 struct SourceText {
-  std::string name;   ///< as the user wrote it
+  std::string name;  ///< as the user wrote it
   std::string bytes;
   std::vector<std::size_t> line_begin;
 

@@ -169,11 +169,13 @@ Node parse_document(const std::shared_ptr<const SourceText>& source, Diagnostics
     }
     Node first = std::move(builder.root);
     if (parser.HandleNextDocument(builder))
-      diagnostics.error(107, builder.root.place, "a study is one YAML document, but another one follows", "remove the line `---` and what comes after");
+      diagnostics.error(107, builder.root.place, "a study is one YAML document, but another one follows",
+                        "remove the line `---` and what comes after");
     return first;
   } catch (const YAML::Exception& e) {  // the parser's way to report syntax errors; it ends here
     const Place at = e.mark.is_null() ? start : place_at(source, static_cast<std::size_t>(std::max(0, e.mark.pos)), 1);
-    diagnostics.error(100, at, "not valid YAML: " + e.msg, "check the indentation, colons, quotes and brackets at this place and just before it");
+    diagnostics.error(100, at, "not valid YAML: " + e.msg,
+                      "check the indentation, colons, quotes and brackets at this place and just before it");
     return {};
   }
 }

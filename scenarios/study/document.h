@@ -15,10 +15,10 @@ struct Node {
   struct Entry;
 
   Kind kind = Kind::kNull;
-  std::string text;             ///< of a scalar
+  std::string text;  ///< of a scalar
   Place place;
-  std::vector<Entry> entries;   ///< of a map, in the order of the file
-  std::vector<Node> items;      ///< of a list
+  std::vector<Entry> entries;  ///< of a map, in the order of the file
+  std::vector<Node> items;     ///< of a list
 
   [[nodiscard]] const Node* find(std::string_view key) const;
   [[nodiscard]] Node* find(std::string_view key);

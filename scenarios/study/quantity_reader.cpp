@@ -7,11 +7,16 @@ namespace {
 
 int code_of(UnitError::Kind kind, Quantity quantity) {
   switch (kind) {
-    case UnitError::Kind::kNoUnit: return 201;
-    case UnitError::Kind::kUnknownUnit: return 202;
-    case UnitError::Kind::kWrongDimension: return quantity == Quantity::kNumber ? 205 : 203;
-    case UnitError::Kind::kNotANumber: return 204;
-    case UnitError::Kind::kNotFinite: return 301;
+    case UnitError::Kind::kNoUnit:
+      return 201;
+    case UnitError::Kind::kUnknownUnit:
+      return 202;
+    case UnitError::Kind::kWrongDimension:
+      return quantity == Quantity::kNumber ? 205 : 203;
+    case UnitError::Kind::kNotANumber:
+      return 204;
+    case UnitError::Kind::kNotFinite:
+      return 301;
   }
   return 204;
 }

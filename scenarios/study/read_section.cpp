@@ -25,7 +25,8 @@ std::string range_text(const KeySpec& key) {
   const bool low = std::isfinite(key.low), high = std::isfinite(key.high);
   const std::string low_text = (key.low_open ? "above " : "at least ") + bound(key.low);
   const std::string high_text = (key.high_open ? "below " : "at most ") + bound(key.high);
-  if (low && high) return key.low_open || key.high_open ? low_text + " and " + high_text : "between " + bound(key.low) + " and " + bound(key.high);
+  if (low && high)
+    return key.low_open || key.high_open ? low_text + " and " + high_text : "between " + bound(key.low) + " and " + bound(key.high);
   return low ? low_text : high_text;
 }
 
@@ -120,7 +121,8 @@ void ReadSection::whole(const KeySpec& key, Given<std::uint64_t>& value) {
     return;
   }
   if (text.size() > 1 && text[0] == '0') {
-    diagnostics_.error(304, node->place, quoted(key.name) + " begins with a zero: '" + text + "' could be meant as octal", "leave the zero away");
+    diagnostics_.error(304, node->place, quoted(key.name) + " begins with a zero: '" + text + "' could be meant as octal",
+                       "leave the zero away");
     return;
   }
   std::uint64_t number = 0;

@@ -19,7 +19,8 @@ class ReadSection final : public Section {
   void vector(const KeySpec& key, Given<Vec3d>& value) override;
   void vectors(const KeySpec& key, Given<std::vector<Vec3d>>& value) override;
   void words(const KeySpec& key, Given<std::vector<std::string>>& value) override;
-  void suffixed(const char* suffix, const KeySpec& prefix_key, Given<std::string>& prefix, const KeySpec& key, Given<double>& value) override;
+  void suffixed(const char* suffix, const KeySpec& prefix_key, Given<std::string>& prefix, const KeySpec& key,
+                Given<double>& value) override;
   void group(const KeySpec& key, bool& present, const std::function<void(Section&)>& describe) override;
   void quantities(const KeySpec& key, std::vector<Named<Given<double>>>& items) override;
 

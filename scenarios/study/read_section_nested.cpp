@@ -8,10 +8,14 @@ namespace morula::scenarios {
 
 std::string yaml_scalar(const std::string& text) {
   const auto plain_first = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '/'; };
-  const auto plain = [&](char c) { return plain_first(c) || c == ' ' || c == '.' || c == '+' || c == '-' || c == '^' || c == '%' || c == '*' || c == '<' || c == '>'; };
-  const bool sign_first = text.size() > 1 && (text[0] == '-' || text[0] == '.' || text[0] == '+') && std::isdigit(static_cast<unsigned char>(text[1]));
+  const auto plain = [&](char c) {
+    return plain_first(c) || c == ' ' || c == '.' || c == '+' || c == '-' || c == '^' || c == '%' || c == '*' || c == '<' || c == '>';
+  };
+  const bool sign_first =
+      text.size() > 1 && (text[0] == '-' || text[0] == '.' || text[0] == '+') && std::isdigit(static_cast<unsigned char>(text[1]));
   const bool null_word = text == "null" || text == "Null" || text == "NULL";
-  const bool safe = !text.empty() && (plain_first(text[0]) || sign_first) && std::all_of(text.begin(), text.end(), plain) && text.back() != ' ' && !null_word;
+  const bool safe = !text.empty() && (plain_first(text[0]) || sign_first) && std::all_of(text.begin(), text.end(), plain) &&
+                    text.back() != ' ' && !null_word;
   if (safe) return text;
   std::string out = "\"";
   for (const char c : text) {
@@ -51,7 +55,8 @@ void ReadSection::read_section(const KeySpec& key, const Node& node, const Place
     section.finish();
   } else {
     if (node.kind == Node::Kind::kNull)
-      diagnostics_.error(104, key_place, "'" + std::string(key.name) + "' has no value", *key.example ? "for example `" + std::string(key.example) + "`" : "");
+      diagnostics_.error(104, key_place, "'" + std::string(key.name) + "' has no value",
+                         *key.example ? "for example `" + std::string(key.example) + "`" : "");
     else
       wrong_shape(key, node, "a map (`key: value`)");
   }
@@ -133,7 +138,8 @@ void ReadSection::quantities(const KeySpec& key, std::vector<Named<Given<double>
   }
 }
 
-void ReadSection::suffixed(const char* suffix, const KeySpec& prefix_key, Given<std::string>& prefix, const KeySpec& key, Given<double>& value) {
+void ReadSection::suffixed(const char* suffix, const KeySpec& prefix_key, Given<std::string>& prefix, const KeySpec& key,
+                           Given<double>& value) {
   text(prefix_key, prefix);
   quantity(key, value);
   suffixes_.push_back({suffix, key, &prefix, &value});

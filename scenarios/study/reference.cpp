@@ -20,19 +20,32 @@ std::string kind_text(const Declaration& d) {
   for (const Special& special : key.specials) words += (words.empty() ? "" : ", ") + std::string("`") + special.word + "`";
   const std::string quantity(describe(key.quantity).name);
   switch (d.kind) {
-    case Kind::kQuantity: return quantity + (words.empty() ? "" : ", or " + words);
-    case Kind::kWhole: return "a whole number" + (words.empty() ? "" : ": " + words);
-    case Kind::kWord: return "one of " + words;
-    case Kind::kText: return "text";
-    case Kind::kFlag: return "`true` or `false`";
-    case Kind::kVector: return "[x, y, z], each " + quantity + (words.empty() ? "" : ", or " + words);
-    case Kind::kVectors: return "a list of [x, y, z], each " + quantity;
-    case Kind::kWords: return "a list of words" + (words.empty() ? "" : ": " + words);
-    case Kind::kComparison: return "a comparison: `value > quantity` or `value < quantity`";
-    case Kind::kQuantities: return "a map from names to values, each " + quantity;
-    case Kind::kGroup: return "a section";
-    case Kind::kNamed: return "a map from names to sections";
-    case Kind::kList: return "a list of sections";
+    case Kind::kQuantity:
+      return quantity + (words.empty() ? "" : ", or " + words);
+    case Kind::kWhole:
+      return "a whole number" + (words.empty() ? "" : ": " + words);
+    case Kind::kWord:
+      return "one of " + words;
+    case Kind::kText:
+      return "text";
+    case Kind::kFlag:
+      return "`true` or `false`";
+    case Kind::kVector:
+      return "[x, y, z], each " + quantity + (words.empty() ? "" : ", or " + words);
+    case Kind::kVectors:
+      return "a list of [x, y, z], each " + quantity;
+    case Kind::kWords:
+      return "a list of words" + (words.empty() ? "" : ": " + words);
+    case Kind::kComparison:
+      return "a comparison: `value > quantity` or `value < quantity`";
+    case Kind::kQuantities:
+      return "a map from names to values, each " + quantity;
+    case Kind::kGroup:
+      return "a section";
+    case Kind::kNamed:
+      return "a map from names to sections";
+    case Kind::kList:
+      return "a list of sections";
   }
   return "";
 }
@@ -87,7 +100,7 @@ bool path_matches(const std::string& path, const std::string& typed) {
   if (b.size() > a.size()) return false;
   for (std::size_t i = 1; i <= b.size(); ++i)
     if (a[a.size() - i] != b[b.size() - i] && a[a.size() - i] != "<name>") return false;
-  return !(b.size() == 1 && a.back() == "<name>" );
+  return !(b.size() == 1 && a.back() == "<name>");
 }
 
 void explain_matching(const Declaration& from, const std::string& typed, std::string& out) {
@@ -107,7 +120,8 @@ void table_of(const Declaration& section, std::string& out) {
     const KeySpec& key = child.spec;
     const std::string fallback = key.required ? "required" : key.fallback && *key.fallback ? "`" + std::string(key.fallback) + "`" : "";
     const std::string name = std::string("`") + key.name + "`" + (child.suffix.empty() ? "" : ", or `<field>" + child.suffix + "`");
-    out += "| " + name + " | " + key.doc + " | " + kind_text(child) + " | " + (key.words.empty() ? range_of(key) : "") + " | " + fallback + " | " + key.source + " |\n";
+    out += "| " + name + " | " + key.doc + " | " + kind_text(child) + " | " + (key.words.empty() ? range_of(key) : "") + " | " + fallback +
+           " | " + key.source + " |\n";
   }
   for (const Declaration& child : section.children)
     if (is_section(child)) table_of(child, out);
@@ -135,7 +149,8 @@ std::string study_reference() {
   table_of(study_declarations(), out);
   out += "\n## Units\n\nKnown units, with SI prefixes: " + UnitSystem::known_units() + ". Products and powers are written `N s/m^3`.\n";
   out += "\n## Messages\n\n| code | title | meaning |\n|---|---|---|\n";
-  for (const ErrorCode& code : error_codes()) out += "| E" + std::to_string(code.code) + " | " + code.title + " | " + code.explanation + " |\n";
+  for (const ErrorCode& code : error_codes())
+    out += "| E" + std::to_string(code.code) + " | " + code.title + " | " + code.explanation + " |\n";
   return out;
 }
 

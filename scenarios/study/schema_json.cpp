@@ -14,8 +14,8 @@ constexpr const char* kNumberPattern = "^[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][
 Json description_of(const Declaration& d) {
   std::string text = d.spec.doc;
   const auto quantity = describe(d.spec.quantity);
-  const bool number = d.kind == Declaration::Kind::kQuantity || d.kind == Declaration::Kind::kVector || d.kind == Declaration::Kind::kVectors ||
-                      d.kind == Declaration::Kind::kQuantities;
+  const bool number = d.kind == Declaration::Kind::kQuantity || d.kind == Declaration::Kind::kVector ||
+                      d.kind == Declaration::Kind::kVectors || d.kind == Declaration::Kind::kQuantities;
   if (number && d.spec.quantity != Quantity::kNumber) text += " (" + std::string(quantity.name) + " with its unit)";
   if (*d.spec.source) text += " Source: " + std::string(d.spec.source) + ".";
   return text;
@@ -89,19 +89,32 @@ Json vector_schema(const KeySpec& key) {
 Json bare_schema(const Declaration& d) {
   using Kind = Declaration::Kind;
   switch (d.kind) {
-    case Kind::kQuantity: return quantity_schema(d.spec);
-    case Kind::kWhole: return whole_schema(d.spec);
-    case Kind::kWord: return words_schema(d.spec);
-    case Kind::kText: return {{"type", "string"}};
-    case Kind::kComparison: return {{"type", "string"}, {"pattern", "^[^<>]+[<>][^<>]+$"}};
-    case Kind::kFlag: return {{"type", "boolean"}};
-    case Kind::kVector: return vector_schema(d.spec);
-    case Kind::kVectors: return {{"type", "array"}, {"items", vector_schema(d.spec)}, {"minItems", 1}};
-    case Kind::kWords: return {{"type", "array"}, {"items", words_schema(d.spec)}};
-    case Kind::kQuantities: return {{"type", "object"}, {"additionalProperties", quantity_schema(d.spec)}};
-    case Kind::kNamed: return {{"type", "object"}, {"additionalProperties", section_schema(d)}};
-    case Kind::kList: return {{"type", "array"}, {"items", section_schema(d)}};
-    case Kind::kGroup: return section_schema(d);
+    case Kind::kQuantity:
+      return quantity_schema(d.spec);
+    case Kind::kWhole:
+      return whole_schema(d.spec);
+    case Kind::kWord:
+      return words_schema(d.spec);
+    case Kind::kText:
+      return {{"type", "string"}};
+    case Kind::kComparison:
+      return {{"type", "string"}, {"pattern", "^[^<>]+[<>][^<>]+$"}};
+    case Kind::kFlag:
+      return {{"type", "boolean"}};
+    case Kind::kVector:
+      return vector_schema(d.spec);
+    case Kind::kVectors:
+      return {{"type", "array"}, {"items", vector_schema(d.spec)}, {"minItems", 1}};
+    case Kind::kWords:
+      return {{"type", "array"}, {"items", words_schema(d.spec)}};
+    case Kind::kQuantities:
+      return {{"type", "object"}, {"additionalProperties", quantity_schema(d.spec)}};
+    case Kind::kNamed:
+      return {{"type", "object"}, {"additionalProperties", section_schema(d)}};
+    case Kind::kList:
+      return {{"type", "array"}, {"items", section_schema(d)}};
+    case Kind::kGroup:
+      return section_schema(d);
   }
   return Json::object();
 }

@@ -18,15 +18,15 @@ struct InitialCells {
   std::uint64_t count = 0;                  ///< of any source
   RegionShape fill = RegionShape::kSphere;  ///< kSphere or kBox
   Vec3d center{};
-  double radius = 0.0;   ///< of a sphere [µm]
-  Vec3d size{};          ///< of a box [µm]
+  double radius = 0.0;           ///< of a sphere [µm]
+  Vec3d size{};                  ///< of a box [µm]
   std::vector<Vec3d> positions;  ///< kPositions, `at: [[x, y, z], ...]` [µm]
   bool random_age = true;        ///< each cell at a random point of its cycle, else at birth
 
   // csv: x,y,z,type[,radius,phase,model]; read with read_cells_csv (csv.h)
-  std::string csv_path;           ///< absolute
-  double coincident_shift = 6.0;  ///< coincident cells are moved apart by this distance and named [µm]
-  double coincident_below = 1e-3; ///< closer than this counts as coincident [µm]
+  std::string csv_path;            ///< absolute
+  double coincident_shift = 6.0;   ///< coincident cells are moved apart by this distance and named [µm]
+  double coincident_below = 1e-3;  ///< closer than this counts as coincident [µm]
 
   // body of these cells before any region is looked at; empty in the file: as the type says
   bool body_given = false;
@@ -38,38 +38,38 @@ struct InitialCells {
 };
 
 struct TimeSpec {
-  double end = 0.0;         ///< [s]
-  double output = 3600.0;   ///< series and snapshots [s]
+  double end = 0.0;                ///< [s]
+  double output = 3600.0;          ///< series and snapshots [s]
   double checkpoint = 6 * 3600.0;  ///< [s]; a multiple of output is not required: written at the first output time not before it is due
 };
 
 struct OutputSpec {
-  std::vector<std::string> series;    ///< names of observables; empty: all
-  std::vector<std::string> formats;   ///< hdf5 always; vtk if named
+  std::vector<std::string> series;   ///< names of observables; empty: all
+  std::vector<std::string> formats;  ///< hdf5 always; vtk if named
   bool report = true;
 };
 
 /// A file the study refers to: a CSV of cells or a surface.
 struct InputFile {
-  std::string path;   ///< absolute
-  std::string copy;   ///< where its copy belongs in the run folder, as resolved_text names it: "inputs/cells.csv"
+  std::string path;  ///< absolute
+  std::string copy;  ///< where its copy belongs in the run folder, as resolved_text names it: "inputs/cells.csv"
 };
 
 /// The immutable, validated, unit-converted study; the only way settings enter.
 struct Study {
   std::string name;
   std::string title;
-  std::string scenario;   ///< library study it was made from, or "" (gives the criteria that go to verdict.json)
+  std::string scenario;  ///< library study it was made from, or "" (gives the criteria that go to verdict.json)
   Model model;
   TimeSpec time;
   std::vector<InitialCells> initial;
   OutputSpec output;
-  std::string source_path;                ///< the file as given
-  std::string source_text;                ///< its bytes
-  std::string resolved_text;              ///< YAML with every default; beside the copies of its input files it reads to this same study
+  std::string source_path;    ///< the file as given
+  std::string source_text;    ///< its bytes
+  std::string resolved_text;  ///< YAML with every default; beside the copies of its input files it reads to this same study
   std::vector<InputFile> input_files;
   Diagnostics warnings;
-  std::vector<std::string> notes;         ///< for the log: coincident cells that are moved, CSV columns left aside
+  std::vector<std::string> notes;  ///< for the log: coincident cells that are moved, CSV columns left aside
 };
 
 struct ReadOptions {

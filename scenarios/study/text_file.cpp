@@ -74,7 +74,8 @@ std::shared_ptr<const SourceText> read_text_file(const std::filesystem::path& pa
   auto source = std::make_shared<const SourceText>(shown_name, std::move(bytes));
   if (const auto nul = source->bytes.find('\0'); nul != std::string::npos) {
     at = Place{std::make_shared<SourceText>(shown_name, ""), 0, 0, 1};
-    return fail(604, "file '" + shown_name + "' is binary: byte " + std::to_string(nul + 1) + " is zero", "a text file in UTF-8 is expected");
+    return fail(604, "file '" + shown_name + "' is binary: byte " + std::to_string(nul + 1) + " is zero",
+                "a text file in UTF-8 is expected");
   }
   if (const auto bad = first_bad_utf8(source->bytes); bad != std::string::npos) {
     const Place in_file = place_at(source, bad, 1);

@@ -67,7 +67,8 @@ struct LinearEnergy {
   std::vector<double> face_area;
   std::vector<Vec3d> face_normal, node_normal;
 
-  explicit LinearEnergy(const Surfaces& s) : face_area(s.first_face.back()), face_normal(s.first_face.back()), node_normal(s.position.size()) {
+  explicit LinearEnergy(const Surfaces& s)
+      : face_area(s.first_face.back()), face_normal(s.first_face.back()), node_normal(s.position.size()) {
     std::mt19937_64 engine(5);
     std::normal_distribution<double> normal;
     for (double& a : face_area) a = normal(engine);

@@ -47,7 +47,8 @@ TEST_P(EveryShellLaw, ForceIsMinusTheGradientOfItsEnergy) {
     for (Vec3d& d : direction) d *= scale;
     const auto slope = [&](double step) {
       return (sum(mechanics(shells, types, moved(shells.position, direction, step)).energy) -
-              sum(mechanics(shells, types, moved(shells.position, direction, -step)).energy)) / (2.0 * step);
+              sum(mechanics(shells, types, moved(shells.position, direction, -step)).energy)) /
+             (2.0 * step);
     };
     EXPECT_NEAR(slope(h), -dot(at.force, direction), 1e-7 * norm(at.force));
   }
@@ -124,9 +125,9 @@ TEST_P(EveryShellLaw, ForceIsProportionalToItsStrength) {
 TEST_P(EveryShellLaw, EnergyScalesWithTheSizeOfTheCellAsItsUnitsSay) {
   // Energy ∝ size^n at fixed coefficients: [nN·µm] = [coefficient] · µm^n.
   const std::map<std::string, int> exponent{{"nN/µm", 2}, {"nN·µm", 0}, {"kPa", 3}};
-  const std::map<std::string, std::string> unit_of_strength{{"edge_spring", "nN/µm"},    {"hinge_bending", "nN·µm"},
+  const std::map<std::string, std::string> unit_of_strength{{"edge_spring", "nN/µm"},      {"hinge_bending", "nN·µm"},
                                                             {"cortical_tension", "nN/µm"}, {"volume_pressure", "kPa"},
-                                                            {"triangle_shape", "nN/µm"},  {"dihedral_barrier", "nN·µm"}};
+                                                            {"triangle_shape", "nN/µm"},   {"dihedral_barrier", "nN·µm"}};
   const int n = exponent.at(unit_of_strength.at(GetParam().info.name));
   Shells shells = rough_shells();
   const auto types = only(GetParam());

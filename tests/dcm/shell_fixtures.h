@@ -21,7 +21,8 @@ inline std::shared_ptr<const ReferenceShape> icosphere(std::uint32_t nodes) {
 }
 
 /// Append a shell: its reference shape at the rest volume, moved to `center`.
-inline void add_shell(Shells& shells, std::shared_ptr<const ReferenceShape> shape, double volume, Vec3d center = {}, std::uint16_t type = 0) {
+inline void add_shell(Shells& shells, std::shared_ptr<const ReferenceShape> shape, double volume, Vec3d center = {},
+                      std::uint16_t type = 0) {
   const double size = std::cbrt(volume);
   for (const Vec3d& x : shape->position) shells.position.push_back(center + size * x);
   for (const double length : shape->edge_length) shells.rest_length.push_back(size * length);

@@ -31,7 +31,8 @@ Assembled assemble(const Shells& shells, const std::vector<ShellParameters>& typ
 
 std::vector<Float4> to_float4(std::span<const Vec3d> v) {
   std::vector<Float4> out(v.size());
-  for (std::size_t i = 0; i < v.size(); ++i) out[i] = {static_cast<float>(v[i].x), static_cast<float>(v[i].y), static_cast<float>(v[i].z), 0.0f};
+  for (std::size_t i = 0; i < v.size(); ++i)
+    out[i] = {static_cast<float>(v[i].x), static_cast<float>(v[i].y), static_cast<float>(v[i].z), 0.0f};
   return out;
 }
 
@@ -110,7 +111,8 @@ TEST(ShellOperator, StaysPositiveDefiniteUnderAdhesionStrongerThanTension) {
   p.tension = 0.5;
   std::vector<double> contact(shells.topology(0).face_count());
   for (std::size_t f = 0; f < contact.size(); ++f) contact[f] = f % 3 == 0 ? -0.9 : f % 3 == 1 ? -0.2 : 0.3;
-  const Eigen::VectorXd with = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(assemble(shells, {p}, 10.0, 8, contact), shells)).eigenvalues();
+  const Eigen::VectorXd with =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(assemble(shells, {p}, 10.0, 8, contact), shells)).eigenvalues();
   EXPECT_GE(with.minCoeff(), -2e-6 * with.maxCoeff());
   EXPECT_GT(with.maxCoeff(), 0.1);
 }
@@ -196,7 +198,8 @@ TEST(ShellOperator, ShapeTermIsGaussNewtonPlusItsIsotropicPart) {
     const auto u = [&](double step) { return law.inverse_quality(inverse_area(step), square_sum(step)); };
     const double slope = (u(h) - u(-h)) / (2.0 * h), reference = shells.shape[0]->face_area[f] * size;
     const double relative = norm2(d[t[1]] - d[t[0]]) + norm2(d[t[2]] - d[t[1]]) + norm2(d[t[0]] - d[t[2]]);
-    expected += law.gauss_newton_weight(reference) * slope * slope + 2.0 * law.square_sum_slope(u(0.0), inverse_area(0.0), reference) * relative;
+    expected +=
+        law.gauss_newton_weight(reference) * slope * slope + 2.0 * law.square_sum_slope(u(0.0), inverse_area(0.0), reference) * relative;
   }
   EXPECT_NEAR(dot(d, q), expected, 1e-4 * expected);
 }

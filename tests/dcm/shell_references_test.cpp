@@ -79,7 +79,7 @@ TEST(VolumePressure, RelaxesTheBreathingModeAtThePublishedRate) {  // T5.5: eige
     ShellParameters p = nothing();
     p.bulk_modulus = 1.0;
     const auto gradient = mechanics(shells, {p}, shells.position).force;  // ∂V/∂x
-    double rate = 0.0;  // (K_V/V) gᵀ Γ⁻¹ g
+    double rate = 0.0;                                                    // (K_V/V) gᵀ Γ⁻¹ g
     for (std::size_t i = 0; i < gradient.size(); ++i) rate += norm2(gradient[i]) / (0.1 * geometry.node_area[i]);
     EXPECT_NEAR(2.5 / geometry.volume[0] * rate, expected[level], 0.006) << nodes[level];
   }

@@ -10,7 +10,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-double sine_mode(const Vec3d& x, double side) { return std::sin(kPi * x.x / side) * std::sin(kPi * x.y / side) * std::sin(kPi * x.z / side); }
+double sine_mode(const Vec3d& x, double side) {
+  return std::sin(kPi * x.x / side) * std::sin(kPi * x.y / side) * std::sin(kPi * x.z / side);
+}
 
 /// Decay rate of the lowest mode of a cube with 0 on its faces, measured over one interval.
 double measured_decay_rate(int cells_per_side, double interval, double tolerance) {
@@ -85,7 +87,9 @@ TEST(Diffusion, PointReleaseSpreadsAsAGaussian) {
   // c = N (4πDt)^{−3/2} e^{−r²/4Dt}; N = 10⁶ amol, D = 2000: at t = 0.5 s 0.70988043 at r = 0 and 0.64232638, 0.37997161, 0.05827053 mM
   // at 20, 50, 100 µm. Started from the exact field at 0.1 s; h = 10 gives 2 % (second order).
   const double amount = 1e6, diffusion = 2000.0;
-  const auto exact = [&](double r2, double t) { return amount * std::pow(4.0 * kPi * diffusion * t, -1.5) * std::exp(-r2 / (4.0 * diffusion * t)); };
+  const auto exact = [&](double r2, double t) {
+    return amount * std::pow(4.0 * kPi * diffusion * t, -1.5) * std::exp(-r2 / (4.0 * diffusion * t));
+  };
   EXPECT_NEAR(exact(0.0, 0.5), 0.70988043, 1e-8);
   EXPECT_NEAR(exact(1e4, 0.5), 0.05827053, 1e-8);
   Space space = cube(410.0);
@@ -108,7 +112,9 @@ TEST(Diffusion, APeriodicModeDecaysAndKeepsItsMean) {
   FieldSpec spec = spec_of(diffusion, h);
   spec.relative_tolerance = 1e-7;
   hold_all_faces(spec, 7.0);  // must be ignored on periodic axes
-  const auto wave = [&](Vec3d x) { return std::cos(2 * kPi * x.x / side) * std::cos(2 * kPi * x.y / side) * std::cos(2 * kPi * x.z / side); };
+  const auto wave = [&](Vec3d x) {
+    return std::cos(2 * kPi * x.x / side) * std::cos(2 * kPi * x.y / side) * std::cos(2 * kPi * x.z / side);
+  };
   Field field = field_of(spec, space, [&](Vec3d x) { return 1.0 + 0.5 * wave(x); });
   const double before = total_amount(field, alone());
   advance(field, spec, space, interval);

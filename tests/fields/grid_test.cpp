@@ -47,7 +47,8 @@ TEST(CellWeights, AddUpToOneAndAreCentredOnTheCell) {
       const auto p = grid.place(w.brick);
       EXPECT_GE(w.weight, 0.0);
       sum += w.weight;
-      mean += grid.voxel_center({8 * p[0] + w.voxel % n[0], 8 * p[1] + (w.voxel / n[0]) % n[1], 8 * p[2] + w.voxel / (n[0] * n[1])}) * w.weight;
+      mean +=
+          grid.voxel_center({8 * p[0] + w.voxel % n[0], 8 * p[1] + (w.voxel / n[0]) % n[1], 8 * p[2] + w.voxel / (n[0] * n[1])}) * w.weight;
     }
     EXPECT_EQ(sum, 1.0);
     // Trilinear weights are centred exactly; volume shares only when the sphere covers many voxels.

@@ -40,8 +40,7 @@ inline Field field_of(const FieldSpec& spec, const Space& space, const std::func
     std::size_t at = 0;
     for (int k = 0; k < n[2]; ++k)
       for (int j = 0; j < n[1]; ++j)
-        for (int i = 0; i < n[0]; ++i)
-          field.concentration[b][at++] = value(grid.voxel_center({8 * p[0] + i, 8 * p[1] + j, 8 * p[2] + k}));
+        for (int i = 0; i < n[0]; ++i) field.concentration[b][at++] = value(grid.voxel_center({8 * p[0] + i, 8 * p[1] + j, 8 * p[2] + k}));
   }
   return field;
 }
@@ -56,8 +55,8 @@ inline double value_at(const Field& field, int x, int y, int z) {
 inline Comm alone() { return Comm(MPI_COMM_SELF); }
 
 /// Advance a field that is all on this rank; cells' amounts are added to `taken` when it is given.
-inline IntervalReport advance(Field& field, const FieldSpec& spec, const Space& space, double interval, const std::vector<CellSource>& cells = {},
-                              std::vector<double>* taken = nullptr) {
+inline IntervalReport advance(Field& field, const FieldSpec& spec, const Space& space, double interval,
+                              const std::vector<CellSource>& cells = {}, std::vector<double>* taken = nullptr) {
   FieldSolver solver;
   std::vector<double> took(cells.size()), seen(cells.size());
   auto report = solver.advance(field, spec, space, cells, interval, alone(), took, seen);

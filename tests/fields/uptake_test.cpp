@@ -149,7 +149,8 @@ TEST(Uptake, OfFirstOrderGivesTheThieleProfile) {
   // c(0) = 1/cosh φ and effectiveness η = tanh φ/φ, φ = L√(k/D) (Thiele 1939, doi:10.1021/ie50355a027); K_m ≫ c makes it first order.
   // 41 voxels: second-order errors (φ/41)²-ish, below 0.2 % up to φ = 2.
   const double half = 100.0, diffusion = 2000.0, c0 = 1e-4, large = 100.0;
-  for (const auto& [phi, centre, effectiveness] : {std::tuple{0.5, 0.886819, 0.924234}, {1.0, 0.648054, 0.761594}, {2.0, 0.265802, 0.482014}}) {
+  for (const auto& [phi, centre, effectiveness] :
+       {std::tuple{0.5, 0.886819, 0.924234}, {1.0, 0.648054, 0.761594}, {2.0, 0.265802, 0.482014}}) {
     const double k = phi * phi * diffusion / (half * half);
     Slab slab(half, 41, c0, {k * large, large});
     const auto report = slab.settle();
@@ -201,11 +202,13 @@ double staircase_ball_centre(double h, double radius) {
   std::vector<double> c(layout.unknowns(), 0.0), rate(layout.unknowns());
   std::vector<double> free_voxel;
   const Field mask = field_of(spec, space, [&](Vec3d x) { return inside(x) ? 1.0 : 0.0; });
-  for (std::size_t b = 0; b < layout.bricks(); ++b) free_voxel.insert(free_voxel.end(), mask.concentration[b].begin(), mask.concentration[b].end());
+  for (std::size_t b = 0; b < layout.bricks(); ++b)
+    free_voxel.insert(free_voxel.end(), mask.concentration[b].begin(), mask.concentration[b].end());
   std::fill_n(c.begin(), layout.concentrations(), c0);
   // Relaxation by Richardson iteration with the Chebyshev-like momentum of heavy ball, rates at the two ends of the spectrum.
   const double fast = op.largest_rate(), slow = 0.45;
-  const double root = std::sqrt(slow / fast), step = 4.0 / (fast * (1 + root) * (1 + root)), momentum = std::pow((1 - root) / (1 + root), 2);
+  const double root = std::sqrt(slow / fast), step = 4.0 / (fast * (1 + root) * (1 + root)),
+               momentum = std::pow((1 - root) / (1 + root), 2);
   std::vector<double> before = c;
   for (int i = 0; i < 400; ++i) {
     op.evaluate(c.data(), rate.data(), false);
@@ -219,7 +222,8 @@ double staircase_ball_centre(double h, double radius) {
   for (std::size_t v = 0; v < layout.concentrations(); ++v) left = std::max(left, free_voxel[v] * std::fabs(rate[v]));
   EXPECT_LT(left, 1e-8) << "the relaxation has not settled";
   for (std::size_t b = 0; b < layout.bricks(); ++b)
-    field.concentration[b].assign(c.begin() + static_cast<std::ptrdiff_t>(layout.offset[b]), c.begin() + static_cast<std::ptrdiff_t>(layout.offset[b + 1]));
+    field.concentration[b].assign(c.begin() + static_cast<std::ptrdiff_t>(layout.offset[b]),
+                                  c.begin() + static_cast<std::ptrdiff_t>(layout.offset[b + 1]));
   return value_at(field, voxels / 2, voxels / 2, voxels / 2);
 }
 

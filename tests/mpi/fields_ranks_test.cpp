@@ -33,8 +33,10 @@ struct Case {
       const CellId id = CellId::founder(i);
       const auto a = random.uniform(id, 0), b = random.uniform(id, 1);
       const Vec3d low = space.box.low;
-      cells.push_back({id, static_cast<std::uint16_t>(i % 2),
-                       {low.x + a.first * size[0], low.y + a.second * size[1], low.z + b.first * size[2]}, 3.0 + 6.0 * b.second});
+      cells.push_back({id,
+                       static_cast<std::uint16_t>(i % 2),
+                       {low.x + a.first * size[0], low.y + a.second * size[1], low.z + b.first * size[2]},
+                       3.0 + 6.0 * b.second});
     }
   }
 };
@@ -100,8 +102,13 @@ void expect_part_of(const Outcome& part, const Outcome& whole) {
     EXPECT_EQ(a.work.steps, b.work.steps);
     EXPECT_EQ(a.work.evaluations, b.work.evaluations);
     EXPECT_EQ(a.work.linear_iterations, b.work.linear_iterations);
-    for (const auto& [x, y] : {std::pair{a.taken, b.taken}, {a.decayed, b.decayed}, {a.total_inflow(), b.total_inflow()},
-                               {a.amount_after, b.amount_after}, {a.minimum, b.minimum}, {a.maximum, b.maximum}, {a.residual, b.residual}})
+    for (const auto& [x, y] : {std::pair{a.taken, b.taken},
+                               {a.decayed, b.decayed},
+                               {a.total_inflow(), b.total_inflow()},
+                               {a.amount_after, b.amount_after},
+                               {a.minimum, b.minimum},
+                               {a.maximum, b.maximum},
+                               {a.residual, b.residual}})
       EXPECT_TRUE(same_bits(x, y)) << x << " " << y;
   }
 }
@@ -135,7 +142,9 @@ TEST(FieldsOnRanks, SampleWhatOneRankSamples) {
   const Comm world(MPI_COMM_WORLD), self(MPI_COMM_SELF);
   const Case c({210.0, 170.0, 90.0});
   const Grid grid = grid_for(c.spec, c.space).value();
-  const auto value = [](std::int64_t brick, std::size_t voxel) { return std::sin(0.37 * static_cast<double>(brick) + 0.11 * static_cast<double>(voxel)); };
+  const auto value = [](std::int64_t brick, std::size_t voxel) {
+    return std::sin(0.37 * static_cast<double>(brick) + 0.11 * static_cast<double>(voxel));
+  };
   const auto seen_on = [&](const Comm& comm, const std::vector<CellSource>& cells) {
     Field field = uniform_field(grid, 0.0, owners_along_curve(grid, comm.size()), comm.rank());
     for (std::size_t b = 0; b < field.owned_bricks.size(); ++b)

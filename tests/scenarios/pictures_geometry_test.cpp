@@ -2,11 +2,11 @@
 
 #include <numbers>
 
-#include "pictures_scene.h"
 #include "scenarios/pictures/annotate.h"
 #include "scenarios/pictures/rasterize.h"
 #include "scenarios/pictures/renderer.h"
 #include "scenarios/pictures/standard_pictures.h"
+#include "tests/scenarios/pictures_scene.h"
 
 namespace morula::scenarios {
 namespace {

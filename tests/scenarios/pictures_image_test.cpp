@@ -7,13 +7,13 @@
 #include <fstream>
 #include <limits>
 
-#include "pictures_scene.h"
 #include "scenarios/pictures/annotate.h"
 #include "scenarios/pictures/font.h"
 #include "scenarios/pictures/palette.h"
 #include "scenarios/pictures/png.h"
 #include "scenarios/pictures/renderer.h"
 #include "scenarios/pictures/standard_pictures.h"
+#include "tests/scenarios/pictures_scene.h"
 
 namespace morula::scenarios {
 namespace {

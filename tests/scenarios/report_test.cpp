@@ -84,7 +84,8 @@ ReportContent full_content() {
   content.events = {{kNasty, 3, 10.0, 100.0}};
   content.warnings = {{5.0, kNasty}};
   content.provenance = {{"command", kNasty}, {"host", kNasty}};
-  content.laws = {{kNasty, {kNasty, kNasty, kNasty, kNasty, {{kNasty, "pressure", "kPa", 1.0, 0.0, 2.0, kNasty, kNasty}}}, {{kNasty, 0.25}}}};
+  content.laws = {
+      {kNasty, {kNasty, kNasty, kNasty, kNasty, {{kNasty, "pressure", "kPa", 1.0, 0.0, 2.0, kNasty, kNasty}}}, {{kNasty, 0.25}}}};
   return content;
 }
 

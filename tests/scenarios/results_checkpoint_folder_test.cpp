@@ -1,7 +1,7 @@
-#include "results_support.h"
 #include "scenarios/results/checkpoint_folder.h"
 #include "scenarios/results/hdf5_plan.h"
 #include "scenarios/results/state_hash.h"
+#include "tests/scenarios/results_support.h"
 
 namespace morula::scenarios {
 namespace {

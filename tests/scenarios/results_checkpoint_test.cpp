@@ -4,11 +4,11 @@
 
 #include <csignal>
 
-#include "results_support.h"
 #include "scenarios/results/checkpoint.h"
 #include "scenarios/results/hdf5_plan.h"
 #include "scenarios/results/hdf5_reader.h"
 #include "scenarios/results/state_hash.h"
+#include "tests/scenarios/results_support.h"
 
 namespace morula::scenarios {
 namespace {
@@ -150,7 +150,8 @@ TEST_F(Checkpoint, OfAnotherVersionIsRefusedNamingBoth) {
   const auto loaded = read_checkpoint(path, model, library, comm);
   ASSERT_FALSE(loaded.ok());
   EXPECT_EQ(loaded.error().kind, ErrorKind::kInput);
-  for (const char* part : {"77", "9.9.9", "reads version 1"}) EXPECT_NE(loaded.error().message.find(part), std::string::npos) << loaded.error().message;
+  for (const char* part : {"77", "9.9.9", "reads version 1"})
+    EXPECT_NE(loaded.error().message.find(part), std::string::npos) << loaded.error().message;
 }
 
 TEST_F(Checkpoint, OfAnotherModelIsRefused) {

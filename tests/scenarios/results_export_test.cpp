@@ -4,10 +4,10 @@
 #include <regex>
 #include <set>
 
-#include "results_support.h"
 #include "scenarios/results/export.h"
 #include "scenarios/results/snapshot_file.h"
 #include "scenarios/results/vtk_writer.h"
+#include "tests/scenarios/results_support.h"
 
 namespace morula::scenarios {
 namespace {
@@ -24,8 +24,8 @@ Snapshot small_snapshot(ShapeLibrary& library, double time) {
     cell.id = CellId::founder(s.cells.size() + 1).daughter(1);
     cell.body = BodyKind::kShell;
     cell.pressure = 0.25 * static_cast<double>(s.cells.size() + 1);
-    s.shells.push_back({static_cast<std::uint32_t>(s.cells.size()), static_cast<std::uint32_t>(s.nodes.size()), shape->topology->node_count(),
-                        static_cast<std::uint32_t>(s.topologies.size())});
+    s.shells.push_back({static_cast<std::uint32_t>(s.cells.size()), static_cast<std::uint32_t>(s.nodes.size()),
+                        shape->topology->node_count(), static_cast<std::uint32_t>(s.topologies.size())});
     s.topologies.emplace_back(shape->topology->faces().begin(), shape->topology->faces().end());
     s.nodes.insert(s.nodes.end(), shape->position.begin(), shape->position.end());
     s.cells.push_back(cell);
@@ -79,11 +79,14 @@ bool parse_xml(const std::string& xml, std::vector<Element>& done) {
     std::string rest = name_end == std::string::npos ? "" : tag.substr(name_end);
     for (std::smatch match; std::regex_search(rest, match, kAttribute); rest = match.suffix()) {
       static const std::regex kBareAmpersand("&(?!amp;|lt;|gt;|quot;)");
-      if (!element.attributes.emplace(match[1], match[2]).second || std::regex_search(match[2].first, match[2].second, kBareAmpersand)) return false;
+      if (!element.attributes.emplace(match[1], match[2]).second || std::regex_search(match[2].first, match[2].second, kBareAmpersand))
+        return false;
     }
     if (rest.find_first_not_of(" \n") != std::string::npos) return false;
-    if (closed) done.push_back(element);
-    else open.push_back(element);
+    if (closed)
+      done.push_back(element);
+    else
+      open.push_back(element);
   }
   return open.empty();
 }
@@ -228,7 +231,9 @@ TEST_F(Exports, OfARunHaveCollectionsWithAllTimesFromTheStart) {
 TEST_F(Exports, CsvHasUnitsInTheHeaderAndOneLineACell) {
   const std::string csv = cells_as_csv(small_snapshot(library, 0.0));
   const std::string header = csv.substr(0, csv.find('\n'));
-  EXPECT_EQ(header, "id,parent,type,body,phase,x [um],y [um],z [um],volume [um^3],area [um^2],pressure [kPa],contact_area [um^2],age [s],oxygen [mM],radius [um]");
+  EXPECT_EQ(header,
+            "id,parent,type,body,phase,x [um],y [um],z [um],volume [um^3],area [um^2],pressure [kPa],contact_area [um^2],age [s],oxygen "
+            "[mM],radius [um]");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
   EXPECT_NE(csv.find("\n9,0,liver,sphere,growing,1,2,3,"), std::string::npos) << csv;
   const auto commas = std::count(header.begin(), header.end(), ',');
@@ -253,7 +258,7 @@ TEST_F(Exports, StlEnclosesTheCellsVolume) {
     }
     return volume;
   };
-  EXPECT_NEAR(volume_of(0, 4), 1.0, 1e-6);   // a reference shape has volume 1
+  EXPECT_NEAR(volume_of(0, 4), 1.0, 1e-6);  // a reference shape has volume 1
   EXPECT_NEAR(volume_of(1, 80), 1.0, 1e-6);
   const double ball = 4.0 / 3.0 * std::acos(-1.0) * std::pow(5.5, 3);
   EXPECT_NEAR(volume_of(2, 320), ball, 0.04 * ball);  // inscribed with 162 nodes

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <numeric>
 
-#include "results_support.h"
 #include "scenarios/results/hash128.h"
 #include "scenarios/results/parcels.h"
 #include "scenarios/results/state_hash.h"
+#include "tests/scenarios/results_support.h"
 
 namespace morula::scenarios {
 namespace {
@@ -60,7 +60,8 @@ Tissue turned_around(const Tissue& from) {
     to.shells.rest_volume.push_back(s.rest_volume[i]);
     to.shells.position.insert(to.shells.position.end(), s.position.begin() + s.first_node[i], s.position.begin() + s.first_node[i + 1]);
     to.shells.velocity.insert(to.shells.velocity.end(), s.velocity.begin() + s.first_node[i], s.velocity.begin() + s.first_node[i + 1]);
-    to.shells.rest_length.insert(to.shells.rest_length.end(), s.rest_length.begin() + s.first_edge[i], s.rest_length.begin() + s.first_edge[i + 1]);
+    to.shells.rest_length.insert(to.shells.rest_length.end(), s.rest_length.begin() + s.first_edge[i],
+                                 s.rest_length.begin() + s.first_edge[i + 1]);
     to.shells.first_node.push_back(static_cast<std::uint32_t>(to.shells.position.size()));
     to.shells.first_edge.push_back(static_cast<std::uint32_t>(to.shells.rest_length.size()));
   }
@@ -98,7 +99,10 @@ TEST(StateHash, SeesEveryPartOfTheState) {
   after([](Tissue& t) { t.ledger.field_start[0] = 0.0; });  // was −0.0
   after([](Tissue& t) { t.cells.rows[5].concentration[2] = 0.0; });
   after([](Tissue& t) { t.cells.rows[5].draws++; });
-  after([](Tissue& t) { t.cells.rows[5].phase = Phase::kDying; t.cells.rows[6].phase = Phase::kDying; });
+  after([](Tissue& t) {
+    t.cells.rows[5].phase = Phase::kDying;
+    t.cells.rows[6].phase = Phase::kDying;
+  });
   after([](Tissue& t) { t.spheres.velocity[3].y *= 2; });
   after([](Tissue& t) { t.spheres.attached[0].push_back(CellId::founder(99)); });
   after([](Tissue& t) { std::swap(t.spheres.position[0], t.spheres.position[1]); });

@@ -4,10 +4,10 @@
 #include <csignal>
 #include <set>
 
-#include "results_support.h"
 #include "scenarios/results/hdf5_journal.h"
 #include "scenarios/results/hdf5_reader.h"
 #include "scenarios/results/snapshot_file.h"
+#include "tests/scenarios/results_support.h"
 
 namespace morula::scenarios {
 namespace {
@@ -32,7 +32,8 @@ Snapshot make_snapshot(double time, int cells, const Comm& comm, ShapeLibrary& l
     cell.body = id.bits() % 3 == 0 ? BodyKind::kShell : BodyKind::kSphere;
     cell.phase = Phase::kDying;
     cell.centroid = numbers.vector();
-    for (double* value : {&cell.volume, &cell.area, &cell.pressure, &cell.contact_area, &cell.age, &cell.radius}) *value = numbers.next() + time;
+    for (double* value : {&cell.volume, &cell.area, &cell.pressure, &cell.contact_area, &cell.age, &cell.radius})
+      *value = numbers.next() + time;
     for (double& value : cell.concentration) value = numbers.next();
     if (cell.body == BodyKind::kShell) {
       const std::uint32_t topology = id.bits() % 2, nodes = topology == 0 ? 42 : 4;
@@ -53,13 +54,16 @@ std::string description(const Snapshot& s) {
   out << std::hexfloat << s.time;
   for (const auto& name : s.type_names) out << ' ' << name;
   for (const auto& c : s.cells) {
-    out << '\n' << c.id.text() << ' ' << c.parent.text() << ' ' << c.type << ' ' << int(c.body) << ' ' << int(c.phase) << ' ' << c.centroid.x << ' ' << c.centroid.y << ' '
-        << c.centroid.z << ' ' << c.volume << ' ' << c.area << ' ' << c.pressure << ' ' << c.contact_area << ' ' << c.age << ' ' << c.radius;
+    out << '\n'
+        << c.id.text() << ' ' << c.parent.text() << ' ' << c.type << ' ' << int(c.body) << ' ' << int(c.phase) << ' ' << c.centroid.x << ' '
+        << c.centroid.y << ' ' << c.centroid.z << ' ' << c.volume << ' ' << c.area << ' ' << c.pressure << ' ' << c.contact_area << ' '
+        << c.age << ' ' << c.radius;
     for (const double v : c.concentration) out << ' ' << v;
   }
   for (const auto& shell : s.shells) {
     out << "\nshell of " << s.cells[shell.cell].id.text();
-    for (std::uint32_t n = 0; n < shell.node_count; ++n) out << ' ' << s.nodes[shell.first_node + n].x << ' ' << s.nodes[shell.first_node + n].z;
+    for (std::uint32_t n = 0; n < shell.node_count; ++n)
+      out << ' ' << s.nodes[shell.first_node + n].x << ' ' << s.nodes[shell.first_node + n].z;
     for (const Triangle& f : s.topologies[shell.topology]) out << ' ' << f[0] << f[1] << f[2];
   }
   return out.str();
@@ -87,7 +91,8 @@ struct Snapshots : ::testing::Test {
 };
 
 TEST_F(Snapshots, ComeBackBitForBitSortedById) {
-  for (const int cells : {30, 0, 1, 31}) ASSERT_TRUE(append(path, 100.0 + cells + 10 * (cells < 30 ? 100 : cells == 31 ? 200 : 0), cells, comm).ok());
+  for (const int cells : {30, 0, 1, 31})
+    ASSERT_TRUE(append(path, 100.0 + cells + 10 * (cells < 30 ? 100 : cells == 31 ? 200 : 0), cells, comm).ok());
   ASSERT_EQ(times(path).size(), 4u);
   const auto read = read_snapshot(path, 3);
   ASSERT_TRUE(read.ok()) << read.error().message;
@@ -114,7 +119,8 @@ TEST_F(Snapshots, FieldsComeBackWithXFastest) {
       for (int x = 0; x < nx; ++x) {
         const int brick = ((z / 8) * whole.grid.bricks[1] + y / 8) * whole.grid.bricks[0] + x / 8;
         const int width = std::min(8, nx - x / 8 * 8), height = std::min(8, ny - y / 8 * 8);
-        const double expected = whole.concentration[static_cast<std::size_t>(brick)][static_cast<std::size_t>(((z % 8) * height + y % 8) * width + x % 8)];
+        const double expected =
+            whole.concentration[static_cast<std::size_t>(brick)][static_cast<std::size_t>(((z % 8) * height + y % 8) * width + x % 8)];
         ASSERT_EQ(read->fields[1].concentration[static_cast<std::size_t>((z * ny + y) * nx + x)], expected) << x << ' ' << y << ' ' << z;
       }
 }
@@ -182,7 +188,7 @@ TEST_F(Snapshots, AJournalLeftByAKilledProcessIsFinishedOrDropped) {
   const std::string whole_journal = slurp(journal_path(path));
   EXPECT_EQ(times(path), (std::vector<double>{0.0, 1.0}));  // the reader sees what the journal says
   EXPECT_EQ(read_snapshot(path, 1)->cells.size(), 20u);
-  ASSERT_TRUE(append(path, 2.0, 5, alone).ok());            // the next writer finishes it
+  ASSERT_TRUE(append(path, 2.0, 5, alone).ok());  // the next writer finishes it
   EXPECT_EQ(times(path), (std::vector<double>{0.0, 1.0, 2.0}));
   EXPECT_FALSE(std::filesystem::exists(journal_path(path)));
   // Half way through changing the old part, the journal still there:

@@ -106,8 +106,8 @@ inline CellRow make_row(CellId id, BodyKind body) {
   row.id = id;
   row.parent = CellId::founder(3);
   row.order = (id.bits() * 7919) % 64;  // many cells share a place along the curve
-  for (double* value : {&row.birth_time, &row.birth_volume, &row.target_volume, &row.division_volume, &row.cycle_duration, &row.pressure, &row.death_time,
-                        &row.last_swap_time, &row.reference_excess})
+  for (double* value : {&row.birth_time, &row.birth_volume, &row.target_volume, &row.division_volume, &row.cycle_duration, &row.pressure,
+                        &row.death_time, &row.last_swap_time, &row.reference_excess})
     *value = numbers.next();
   row.polarity = numbers.vector();
   row.migration_velocity = numbers.vector();
@@ -195,9 +195,12 @@ inline Tissue make_tissue(const Comm& comm, ShapeLibrary& library, int cells = 6
   }
   std::sort(tissue.cells.rows.begin(), tissue.cells.rows.end(), before);
   for (const CellRow& row : tissue.cells.rows) {
-    if (row.body == BodyKind::kSphere) add_sphere(tissue.spheres, row.id);
-    else if (row.id.founder_number() % 2 == 0) add_shell(tissue.shells, row.id, tetra);
-    else add_shell(tissue.shells, row.id, library.icosphere(42).value());
+    if (row.body == BodyKind::kSphere)
+      add_sphere(tissue.spheres, row.id);
+    else if (row.id.founder_number() % 2 == 0)
+      add_shell(tissue.shells, row.id, tetra);
+    else
+      add_shell(tissue.shells, row.id, library.icosphere(42).value());
   }
   for (int f = 0; f < 2; ++f) tissue.fields.push_back(make_field(f, comm, spread));
   return tissue;

@@ -27,7 +27,8 @@ TEST_P(BadStudy, IsRefusedWithPlaceCodeAndReason) {
 INSTANTIATE_TEST_SUITE_P(
     Structure, BadStudy,
     testing::Values(
-        Case{"DoubleKey", "title: S", "study: twice\ntitle: S", "study.yaml:3:1: error: key 'study' is given twice, first in line 2 [E102]"},
+        Case{"DoubleKey", "title: S", "study: twice\ntitle: S",
+             "study.yaml:3:1: error: key 'study' is given twice, first in line 2 [E102]"},
         Case{"DoubleKeyInFlow", "spread: 10 %}", "spread: 10 %, mean: 7 um}", "study.yaml:9:40: error: key 'mean' is given twice"},
         Case{"Missing", "domain: {size: [400 um, 400 um, 400 um], boundary: open}\n", "", "key 'domain' is missing in the study [E103]"},
         Case{"MissingInSection", "end: 96 h, ", "", "study.yaml:5:1: error: key 'end' is missing in `time` [E103]"},
@@ -52,12 +53,9 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"NoUnit", "thickness: 200 nm", "thickness: 200", "'thickness' is a length"},
         Case{"UnknownUnit", "thickness: 200 nm", "thickness: 200 smoots", "[E202]"},
         Case{"WrongUnit", "end: 96 h", "end: 96 um", "'end' is a time, but 'um' is a length [E203]"},
-        Case{"NoNumber", "end: 96 h", "end: soon", "[E204]"},
-        Case{"Comma", "end: 96 h", "end: \"9,6 h\"", "[E20"},
-        Case{"TwoNumbers", "end: 96 h", "end: 9 6 h", "[E20"},
-        Case{"UnitOnPlain", "poisson: 0.5,", "poisson: 0.5 kPa,", "[E205]"},
-        Case{"NaN", "poisson: 0.5,", "poisson: .nan,", "[E301]"},
-        Case{"Inf", "end: 96 h", "end: inf h", "[E301]"},
+        Case{"NoNumber", "end: 96 h", "end: soon", "[E204]"}, Case{"Comma", "end: 96 h", "end: \"9,6 h\"", "[E20"},
+        Case{"TwoNumbers", "end: 96 h", "end: 9 6 h", "[E20"}, Case{"UnitOnPlain", "poisson: 0.5,", "poisson: 0.5 kPa,", "[E205]"},
+        Case{"NaN", "poisson: 0.5,", "poisson: .nan,", "[E301]"}, Case{"Inf", "end: 96 h", "end: inf h", "[E301]"},
         Case{"Overflow", "end: 96 h", "end: 1e999 h", "[E301]"},
         Case{"OutOfRange", "poisson: 0.5,", "poisson: 0.7,", "'poisson' is 0.7, but must be between 0 and 0.5 [E302]"},
         Case{"Negative", "speed: 2 um/h", "speed: -2 um/h", "[E302]"},
@@ -84,29 +82,37 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"TriggerHalf", "demote: pressure < 600 Pa, ", "", "a trigger needs `promote` and `demote`, or `type` [E111]"},
         Case{"NoSource", "count: 400, fill: sphere, radius: 60 um, ", "", "an entry of `initial` needs `fill`, `at` or `csv` [E111]"},
         Case{"TwoSources", "count: 400, ", "count: 400, csv: a.csv, ", "[E111]"},
-        Case{"TwoShapes", "{sphere: {radius: 150 um}", "{box: {size: [1 um, 1 um, 1 um]}, sphere: {radius: 150 um}", "more than one shape [E111]"},
+        Case{"TwoShapes", "{sphere: {radius: 150 um}", "{box: {size: [1 um, 1 um, 1 um]}, sphere: {radius: 150 um}",
+             "more than one shape [E111]"},
         Case{"TypeAndObstacle", "geometry:\n  capsule", "geometry:\n  hepatocyte", "'hepatocyte' is a cell type and an obstacle [E112]"},
         Case{"MissingStl", "{sphere: {radius: 150 um}", "{stl: mesh/none.stl", "file 'mesh/none.stl' does not exist [E601]"},
-        Case{"MissingCsv", "{type: hepatocyte, count: 400, fill: sphere, radius: 60 um, as: cbm}", "{csv: none.csv}", "file 'none.csv' does not exist [E601]"}),
+        Case{"MissingCsv", "{type: hepatocyte, count: 400, fill: sphere, radius: 60 um, as: cbm}", "{csv: none.csv}",
+             "file 'none.csv' does not exist [E601]"}),
     [](const auto& one) { return one.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
     Physics, BadStudy,
     testing::Values(
-        Case{"RegionOutside", "center: [0 um, 0 um, 0 um], radius: 25 um", "center: [900 um, 0 um, 0 um], radius: 25 um", "region 'core' lies outside the domain"},
+        Case{"RegionOutside", "center: [0 um, 0 um, 0 um], radius: 25 um", "center: [900 um, 0 um, 0 um], radius: 25 um",
+             "region 'core' lies outside the domain"},
         Case{"BothSigns", "demote: pressure < 600 Pa", "demote: pressure > 600 Pa", "[E501]"},
-        Case{"RangeTooLong", "limits: {", "contact: {range: 1.2 um}\nlimits: {", "more than half of the mean edge (1.82 um) of a shell of 'hepatocyte' with 162 nodes [E503]"},
+        Case{"RangeTooLong", "limits: {", "contact: {range: 1.2 um}\nlimits: {",
+             "more than half of the mean edge (1.82 um) of a shell of 'hepatocyte' with 162 nodes [E503]"},
         Case{"NoFriction", "medium: 1e8 N s/m^3", "medium: 0 N s/m^3", "no cell has friction with the medium"},
         Case{"FillOutside", "radius: 60 um", "radius: 201 um", "the shape to fill reaches out of the domain [E502]"},
-        Case{"TooManyCells", "count: 400", "count: 1200", "1200 cells of radius 6 um have 1.2 times the volume of the shape they fill [E506]"},
-        Case{"CellOutside", "{type: hepatocyte, count: 400, fill: sphere, radius: 60 um,", "{type: hepatocyte, at: [[0 um, 0 um, 0 um], [201 um, 0 um, 0 um]],",
+        Case{"TooManyCells", "count: 400", "count: 1200",
+             "1200 cells of radius 6 um have 1.2 times the volume of the shape they fill [E506]"},
+        Case{"CellOutside", "{type: hepatocyte, count: 400, fill: sphere, radius: 60 um,",
+             "{type: hepatocyte, at: [[0 um, 0 um, 0 um], [201 um, 0 um, 0 um]],",
              "a cell at [201 um, 0 um, 0 um] is outside the domain [E505]"},
         Case{"ExplicitStep", "step: auto", "step: 1 s, integrator: explicit_euler", "explicit Euler is unstable with a step of 1 s"},
         Case{"StartVolume", "as: cbm}", "as: cbm, start_volume: 50 %}", "no time is given to inflate them [E510]"},
-        Case{"PeriodicTooSmall", "size: [400 um, 400 um, 400 um], boundary: open", "size: [400 um, 400 um, 20 um], boundary: {z: periodic}", "the domain is too small along z"},
+        Case{"PeriodicTooSmall", "size: [400 um, 400 um, 400 um], boundary: open", "size: [400 um, 400 um, 20 um], boundary: {z: periodic}",
+             "the domain is too small along z"},
         Case{"HalfPeriodic", "boundary: open", "boundary: {x_low: periodic}", "only one of the faces across x is periodic [E510]"},
         Case{"ManyVoxels", "diffusion: 2e-9", "voxel: 0.1 um, diffusion: 2e-9", "[E512]"},
-        Case{"ObstacleOutside", "{radius: 150 um}", "{radius: 10 um, center: [900 um, 0 um, 0 um]}", "obstacle 'capsule' lies outside the domain"}),
+        Case{"ObstacleOutside", "{radius: 150 um}", "{radius: 10 um, center: [900 um, 0 um, 0 um]}",
+             "obstacle 'capsule' lies outside the domain"}),
     [](const auto& one) { return one.param.name; });
 
 TEST(BadStudyFile, EmptyFileIsRefused) {
@@ -134,7 +140,9 @@ TEST(BadStudyFile, FolderIsNotAFile) {
 
 TEST(BadStudyFile, BinaryFileIsRefused) {
   const Folder folder;
-  const auto path = folder.write("study.yaml", std::string("\x7f""ELF\x02\x01\0\0\0", 9));
+  const auto path = folder.write("study.yaml", std::string("\x7f"
+                                                           "ELF\x02\x01\0\0\0",
+                                                           9));
   EXPECT_THAT(file_error(path), HasSubstr("is binary: byte 7 is zero [E604]"));
 }
 

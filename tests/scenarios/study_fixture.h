@@ -56,7 +56,8 @@ inline std::string changed(const std::string& from, const std::string& to, std::
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-inline Result<Study, Diagnostics> read(const std::string& text, const ReadOptions& options = {}, const std::filesystem::path& folder = ".") {
+inline Result<Study, Diagnostics> read(const std::string& text, const ReadOptions& options = {},
+                                       const std::filesystem::path& folder = ".") {
   return read_study_text("study.yaml", text, folder, options);
 }
 

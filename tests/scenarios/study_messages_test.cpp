@@ -21,14 +21,16 @@ TEST(StudyMessages, UnknownKeyIsShownAsACompilerWould) {
 
 TEST(StudyMessages, UnitOfAnotherQuantityIsNamed) {
   const std::string message = errors_of(changed("bulk_modulus: 2.5 kPa", "bulk_modulus: 2.5 mJ/m^2"));
-  EXPECT_THAT(message, HasSubstr("study.yaml:20:21: error: 'bulk_modulus' is a pressure, but 'mJ/m^2' is a surface energy or tension [E203]\n"));
+  EXPECT_THAT(message,
+              HasSubstr("study.yaml:20:21: error: 'bulk_modulus' is a pressure, but 'mJ/m^2' is a surface energy or tension [E203]\n"));
   EXPECT_THAT(message, HasSubstr("      = help: for example `2.5 kPa`\n"));
 }
 
 TEST(StudyMessages, ThresholdsThatFlipAreRefused) {
   const std::string message = errors_of(changed("demote: pressure < 600 Pa", "demote: pressure < 1.2 kPa"));
-  EXPECT_THAT(message, HasSubstr("study.yaml:32:43: error: cells would flip back and forth: the demote threshold (1.2 kPa) is not below the promote "
-                                 "threshold (1 kPa) [E501]\n"));
+  EXPECT_THAT(message,
+              HasSubstr("study.yaml:32:43: error: cells would flip back and forth: the demote threshold (1.2 kPa) is not below the promote "
+                        "threshold (1 kPa) [E501]\n"));
   EXPECT_THAT(message, HasSubstr("      = help: set demote below promote, for example `pressure < 600 Pa`\n"));
 }
 
@@ -52,8 +54,8 @@ TEST(StudyMessages, FarWordsGetTheListOfWhatIsAllowed) {
 }
 
 TEST(StudyMessages, ColumnsCountCharactersNotBytes) {
-  const std::string message = errors_of(changed("title: Spheroid of centre-based cells with a deformable core\nseed: 20261121",
-                                                "title: {müß: 1, yy: 2}\nseed: 1"));
+  const std::string message =
+      errors_of(changed("title: Spheroid of centre-based cells with a deformable core\nseed: 20261121", "title: {müß: 1, yy: 2}\nseed: 1"));
   EXPECT_THAT(message, HasSubstr("study.yaml:3:8: error: 'title' must be a single value, but here is a map [E104]"));
   const std::string unit = errors_of(changed("{mean: 6 um, spread: 10 %}", "{mean: 6 µm, spraed: 10 %}"));
   EXPECT_THAT(unit, HasSubstr("study.yaml:9:26: error: unknown key 'spraed'"));

@@ -62,8 +62,11 @@ TEST(StudyReader, ShellConstantsAreThoseOfTable1) {
 }
 
 TEST(StudyReader, DefaultsAreTheModelsDefaults) {
-  const Study s = good("schema: 1\nstudy: s\ntime: 1 h\ndomain: {size: [100 um, 100 um, 100 um]}\ncell_types: {a: {}}\ninitial: [{type: a, at: [[0 um, 0 um, 0 um]]}]\n"
-                       "" , {{"time={end: 1 h}"}, {}, {}, false});
+  const Study s = good(
+      "schema: 1\nstudy: s\ntime: 1 h\ndomain: {size: [100 um, 100 um, 100 um]}\ncell_types: {a: {}}\ninitial: [{type: a, at: [[0 um, 0 "
+      "um, 0 um]]}]\n"
+      "",
+      {{"time={end: 1 h}"}, {}, {}, false});
   const CellType &t = s.model.types[0], d;
   EXPECT_FALSE(t.cycles);
   EXPECT_EQ(t.death_field, -1);
@@ -99,7 +102,8 @@ TEST(StudyReader, BothSpellingsOfABodyMeanTheSame) {
 TEST(StudyReader, HertzianSpheresDoNotAdhere) { EXPECT_FALSE(good(changed("law: jkr", "law: hertz")).model.types[0].sphere.adhesive); }
 
 TEST(StudyReader, TriggersOnFieldsAndTypesAreRead) {
-  const Study oxygen = good(changed("promote: pressure > 1 kPa, demote: pressure < 600 Pa", "promote: oxygen < 0.05 mM, demote: oxygen > 0.1 mM"));
+  const Study oxygen =
+      good(changed("promote: pressure > 1 kPa, demote: pressure < 600 Pa", "promote: oxygen < 0.05 mM, demote: oxygen > 0.1 mM"));
   EXPECT_EQ(oxygen.model.swaps.triggers[0].value, Trigger::Value::kField);
   EXPECT_FALSE(oxygen.model.swaps.triggers[0].promote_above);
   EXPECT_DOUBLE_EQ(oxygen.model.swaps.triggers[0].promote, 0.05);
@@ -154,7 +158,11 @@ TEST(StudyReader, ObservablesAndScenariosAreCheckedWhenTheirNamesAreKnown) {
 
 TEST(StudyOverrides, ActAsIfWrittenInTheFile) {
   ReadOptions options;
-  options.overrides = {"seed=7", "cell_types.hepatocyte.radius=7 um", "initial.0.count=100", "time.end=2h", "contact.range=0.6 um",
+  options.overrides = {"seed=7",
+                       "cell_types.hepatocyte.radius=7 um",
+                       "initial.0.count=100",
+                       "time.end=2h",
+                       "contact.range=0.6 um",
                        "domain.size=[500 um, 500 um, 500 um]"};
   const Study s = good(kGoodStudy, options);
   EXPECT_EQ(s.model.seed, 7u);
@@ -173,7 +181,9 @@ TEST(StudyOverrides, ErrorsPointAtTheCommandLine) {
     options.overrides = {assignment};
     return errors_of(kGoodStudy, options);
   };
-  EXPECT_THAT(errors("time.end=2 um"), HasSubstr("command line:1:10: error: 'end' is a time, but 'um' is a length [E203]\n    1 | time.end=2 um\n      |          ^~~~\n"));
+  EXPECT_THAT(
+      errors("time.end=2 um"),
+      HasSubstr("command line:1:10: error: 'end' is a time, but 'um' is a length [E203]\n    1 | time.end=2 um\n      |          ^~~~\n"));
   EXPECT_THAT(errors("time.ned=2 h"), HasSubstr("command line:1:6: error: unknown key 'ned' in `time` [E101]"));
   EXPECT_THAT(errors("seed"), HasSubstr("'seed' does not set a key [E110]"));
   EXPECT_THAT(errors("seed="), HasSubstr("[E110]"));

@@ -1,0 +1,220 @@
+/// Whole-tissue benchmarks: clusters of shells and tissues of spheres, driven as a run drives them.
+///
+///   bench_tissue [--json FILE] [--only NAME] [--threads N]
+///
+/// Prints a table and writes the same as JSON: wall time split by stage, µs per node-step (or cell-step), steps per simulated hour, bytes
+/// per node (or cell). Under mpirun the tissue is shared by the ranks.
+#include <mpi.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "core/space/curve.h"
+#include "coupling/behaviours/birth.h"
+#include "coupling/cell_record.h"
+#include "coupling/simulation.h"
+#include "coupling/swaps.h"
+
+namespace {
+
+using namespace morula;
+
+struct Case {
+  std::string name;
+  std::size_t cells;
+  BodyKind body;
+  double friction;       ///< between cells [nN·s/µm³]
+  double relax;          ///< simulated before the clock is started [s]
+  double duration;       ///< simulated and timed [s]
+  double growth;         ///< doubling time [s]; 0: none
+};
+
+Model make_model(const Case& c) {
+  Model model;
+  model.space.box = {{-1e4, -1e4, -1e4}, {1e4, 1e4, 1e4}};
+  CellType type;
+  type.name = "cell";
+  type.initial_body = c.body;
+  type.cycles = c.growth > 0.0;
+  type.exponential_growth = true;
+  type.cycle_duration = {c.growth > 0.0 ? c.growth : 18 * 3600.0, 0.0};
+  type.shell.spring_stiffness = 0.173;
+  type.shell.tension = 0.5;
+  type.shell.hinge_stiffness = 2.0 / std::sqrt(3.0) * 8.8889e-4;
+  type.sphere = {0.45, 0.4};
+  model.types = {type};
+  model.pairs = {ContactPair{c.body == BodyKind::kShell ? 0.1 : 0.02, c.friction, c.friction}};
+  model.contact.range = 0.3;
+  model.contact.points_per_face = 4;
+  model.contact.repulsion = 40.0;
+  model.contact.skin = 0.3;
+  model.step.max_step = 60.0;
+  model.step.initial_step = 1.0;
+  return model;
+}
+
+/// The `count` points of a face-centred cubic lattice nearest to the origin.
+std::vector<Vec3d> packing(std::size_t count, double spacing) {
+  const double a = spacing * std::numbers::sqrt2;
+  const int n = static_cast<int>(std::cbrt(static_cast<double>(count))) + 3;
+  std::vector<Vec3d> points;
+  for (int x = -n; x <= n; ++x)
+    for (int y = -n; y <= n; ++y)
+      for (int z = -n; z <= n; ++z)
+        if ((x + y + z) % 2 == 0) points.push_back(Vec3d{0.5 * a * x, 0.5 * a * y, 0.5 * a * z});
+  std::sort(points.begin(), points.end(), [](const Vec3d& p, const Vec3d& q) {
+    const double d = norm2(p) - norm2(q);
+    if (std::abs(d) > 1e-9) return d < 0.0;
+    return std::lexicographical_compare(&p.x, &p.x + 3, &q.x, &q.x + 3);
+  });
+  points.resize(std::min(count, points.size()));
+  return points;
+}
+
+Tissue make_tissue(const Model& model, const Case& c, const Comm& comm) {
+  ShapeLibrary shapes;
+  std::vector<CellRecord> cells;
+  const auto centers = packing(c.cells, c.body == BodyKind::kShell ? 12.0 : 11.4);
+  for (std::size_t i = 0; i < centers.size(); ++i) {
+    if (static_cast<int>(i * static_cast<std::size_t>(comm.size()) / centers.size()) != comm.rank()) continue;
+    CellRecord& cell = cells.emplace_back();
+    cell.row = make_founder(CellId::founder(i + 1), 0, model.types[0], 1, 0.0, false);
+    cell.row.order = curve_place(centers[i]);
+    if (c.body == BodyKind::kShell)
+      cell.shell = spherical_shell(shapes.icosphere(162).value(), centers[i], cell.row.target_volume,
+                                   free_reference_volume(cell.row.target_volume, model.types[0]));
+    else
+      cell.sphere = SphereRecord{centers[i], 6.0, {}, {}};
+  }
+  Tissue tissue;
+  tissue.clock.next_step = model.step.initial_step;
+  put_together(tissue, std::move(cells));
+  return tissue;
+}
+
+struct Figures {
+  double wall = 0.0, unit_us = 0.0, steps_per_hour = 0.0, bytes = 0.0, per_hour_kilo = 0.0, overlap = 0.0, newton = 0.0, linear = 0.0, imbalance = 1.0;
+  std::int64_t ghosts = 0;
+  std::vector<std::pair<std::string, double>> stages;
+};
+
+bool run_case(const Case& c, const Comm& comm, int threads, Figures& out) {
+  const Model model = make_model(c);
+  auto created = Simulation::create(model, make_tissue(model, c, comm), comm, threads);
+  if (!created) {
+    std::fprintf(stderr, "%s\n", created.error().message.c_str());
+    return false;
+  }
+  Simulation& simulation = **created;
+  const auto run_to = [&](double end, double& newton, double& linear, std::int64_t& steps) {
+    while (simulation.tissue().clock.time < end) {
+      const auto done = simulation.step(end);
+      if (!done) {
+        std::fprintf(stderr, "%s: %s\n", c.name.c_str(), done.error().message.c_str());
+        return false;
+      }
+      newton += done->mechanics.newton;
+      linear += done->mechanics.linear_iterations;
+      out.overlap = std::max(out.overlap, done->mechanics.overlap);
+      ++steps;
+    }
+    return true;
+  };
+  std::int64_t steps = 0;
+  if (c.relax > 0.0 && !run_to(c.relax, out.newton, out.linear, steps)) return false;
+  out = {};
+  steps = 0;
+  std::vector<double> before;
+  for (std::size_t s = 0; s < kStageNames.size(); ++s) before.push_back(simulation.timer().seconds(static_cast<Stage>(s)));
+  comm.barrier();
+  const auto start = std::chrono::steady_clock::now();
+  if (!run_to(c.relax + c.duration, out.newton, out.linear, steps)) return false;
+  comm.barrier();
+  out.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double units = static_cast<double>(c.cells) * (c.body == BodyKind::kShell ? 162.0 : 1.0);
+  out.unit_us = 1e6 * out.wall / (units * static_cast<double>(steps));
+  out.steps_per_hour = static_cast<double>(steps) * 3600.0 / c.duration;
+  out.per_hour_kilo = out.wall / (c.duration / 3600.0) / (units / 1000.0);
+  out.newton /= static_cast<double>(steps);
+  out.linear /= static_cast<double>(steps);
+  const auto& tissue = simulation.tissue();
+  double bytes = static_cast<double>(simulation.mechanics().memory());
+  bytes += static_cast<double>(tissue.cells.size()) * sizeof(CellRow) + static_cast<double>(tissue.shells.node_count()) * (sizeof(Vec3d) + sizeof(Vec3f)) +
+           static_cast<double>(tissue.shells.rest_length.size()) * 8.0 + static_cast<double>(tissue.spheres.size()) * (24.0 + 8.0 + 2.0 + 12.0 + 24.0);
+  for (const auto& list : tissue.spheres.attached) bytes += static_cast<double>(list.capacity()) * sizeof(CellId);
+  OrderFreeSum sum;
+  sum.add(bytes);
+  out.bytes = comm.sum(sum) / units;
+  out.ghosts = comm.sum(static_cast<std::int64_t>(simulation.mechanics().scene().ghost_count()));
+  out.imbalance = simulation.imbalance();
+  for (std::size_t s = 0; s < kStageNames.size(); ++s)
+    out.stages.emplace_back(kStageNames[s], 1e6 * (simulation.timer().seconds(static_cast<Stage>(s)) - before[s]) / (units * static_cast<double>(steps)));
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  int status = 0;
+  {
+    const Comm comm(MPI_COMM_WORLD);
+    std::string json, only;
+    int threads = 1;
+    for (int i = 1; i + 1 < argc; i += 2) {
+      if (std::strcmp(argv[i], "--json") == 0) json = argv[i + 1];
+      if (std::strcmp(argv[i], "--only") == 0) only = argv[i + 1];
+      if (std::strcmp(argv[i], "--threads") == 0) threads = std::atoi(argv[i + 1]);
+    }
+    omp_set_num_threads(threads);
+    const double h = 3600.0;
+    const std::vector<Case> cases{
+        {"cluster_13", 13, BodyKind::kShell, 50.0, 0.0, 18 * h, 18 * h},
+        {"cluster_55", 55, BodyKind::kShell, 50.0, 0.0, 18 * h, 18 * h},
+        {"dcm_cluster", 1000, BodyKind::kShell, 50.0, 600.0, 0.5 * h, 18 * h},
+        {"cbm_tissue", 100000, BodyKind::kSphere, 50.0, 120.0, 600.0, 18 * h},
+        {"cbm_tissue_no_friction", 100000, BodyKind::kSphere, 0.0, 120.0, 600.0, 18 * h},
+    };
+    std::string text = "{\n  \"ranks\": " + std::to_string(comm.size()) + ", \"threads\": " + std::to_string(threads) + ",\n  \"cases\": [";
+    bool first = true;
+    for (const Case& c : cases) {
+      if (!only.empty() && c.name != only) continue;
+      Figures f;
+      if (!run_case(c, comm, threads, f)) {
+        status = 1;
+        continue;
+      }
+      if (!comm.is_root()) continue;
+      const char* unit = c.body == BodyKind::kShell ? "node" : "cell";
+      std::printf("%-24s %6zu cells  %7.2f s  %6.3f us/%s-step  %6.1f steps/h  %6.4f s/(h k%s)  newton %.2f  linear %.1f  %5.0f B/%s  overlap %.3f um  ghosts %ld  imbalance %.2f\n",
+                  c.name.c_str(), c.cells, f.wall, f.unit_us, unit, f.steps_per_hour, f.per_hour_kilo, unit, f.newton, f.linear, f.bytes, unit, f.overlap,
+                  static_cast<long>(f.ghosts), f.imbalance);
+      text += std::string(first ? "" : ",") + "\n    {\"name\": \"" + c.name + "\", \"cells\": " + std::to_string(c.cells) + ", \"seconds\": " + std::to_string(f.wall) +
+              ", \"us_per_" + unit + "_step\": " + std::to_string(f.unit_us) + ", \"steps_per_hour\": " + std::to_string(f.steps_per_hour) + ", \"s_per_hour_and_1000_" +
+              unit + "s\": " + std::to_string(f.per_hour_kilo) + ", \"newton\": " + std::to_string(f.newton) + ", \"linear_iterations\": " + std::to_string(f.linear) +
+              ", \"bytes_per_" + unit + "\": " + std::to_string(f.bytes) + ", \"overlap_um\": " + std::to_string(f.overlap) + ", \"ghosts\": " + std::to_string(f.ghosts) +
+              ", \"imbalance\": " + std::to_string(f.imbalance) + ", \"stages_us\": {";
+      bool first_stage = true;
+      for (const auto& [name, us] : f.stages) {
+        if (us > 0.0005) std::printf("    %-18s %7.3f\n", name.c_str(), us);
+        text += std::string(first_stage ? "" : ", ") + "\"" + name + "\": " + std::to_string(us);
+        first_stage = false;
+      }
+      text += "}}";
+      first = false;
+      std::fflush(stdout);
+    }
+    text += "\n  ]\n}\n";
+    if (!json.empty() && comm.is_root()) std::ofstream(json) << text;
+  }
+  MPI_Finalize();
+  return status;
+}
