@@ -63,9 +63,9 @@ void add_running_verbs(CLI::App& program, Parsed& p) {
   verb = add_verb(program, "resume", "Go on with a run from its newest good checkpoint", "morula resume runs/spheroid-0001 --until 48h",
                   "morula resume runs/spheroid-0001 --set limits.overlap=\"0.4 um\" --out runs/softer");
   verb->add_option("RUN", p.resume.run, "Run folder")->required();
-  verb->add_option("--from", p.resume.from, "Checkpoint to start from, as cp_000003 (default: the newest good one)")->type_name("CHECKPOINT");
+  verb->add_option("--from", p.resume.from, "Checkpoint to start from, as cp_000003 (default: the newest good one); an older one makes a new run")->type_name("CHECKPOINT");
   verb->add_option("--set", p.resume.overrides, "Change a value of the study; this makes a new run with this one as its parent")->type_name("KEY=VALUE");
-  verb->add_option("--out", p.resume.out, "Folder of the new run that --set makes")->type_name("DIR");
+  verb->add_option("--out", p.resume.out, "Folder of the new run that --set or --from makes")->type_name("DIR");
   add_limits(*verb, p.resume.limits);
 }
 
@@ -153,8 +153,8 @@ Status check_combinations(const std::string& verb, const Parsed& p) {
   if (verb == "check" && p.check.studies.empty() && !p.check.schema) return wrong("`check` needs a study file");
   if (verb == "explain" && p.explain.id.empty() == p.explain.markdown.empty()) return wrong("`explain` needs one of: a key, law or error code; --markdown");
   if (verb == "info" && p.info.target.empty() && !p.info.defaults) return wrong("`info` needs a run folder, a study file or the name of a law");
-  if (verb == "resume" && !p.resume.out.empty() && p.resume.overrides.empty())
-    return Error{ErrorKind::kInput, "`resume --out` goes with --set only", "without --set a run goes on in its own folder"};
+  if (verb == "resume" && !p.resume.out.empty() && p.resume.overrides.empty() && p.resume.from.empty())
+    return Error{ErrorKind::kInput, "`resume --out` goes with --set or --from only", "without --set a run goes on in its own folder"};
   return {};
 }
 

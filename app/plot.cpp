@@ -4,6 +4,8 @@
 #include "app/verbs.h"
 #include "app/words.h"
 #include "scenarios/pictures/png.h"
+#include "scenarios/pictures/standard_pictures.h"
+#include "scenarios/report/series_reader.h"
 #include "scenarios/results/file_io.h"
 #include "scenarios/results/run_folder.h"
 #include "scenarios/run/report_run.h"
