@@ -34,7 +34,7 @@ std::string with_geometry(const std::string& text) { return changed(sphere_study
 std::string with_csv() { return changed(sphere_study(), "{type: round, count: 20, fill: sphere, radius: 20 um, as: sphere}", "{csv: cells.csv}"); }
 
 TEST(BadStudy, UnknownKeyIsNamedWithASuggestion) {
-  expect_refused(changed(sphere_study(), "young: 450 Pa", "yuong: 450 Pa"), 2, AllOf(HasSubstr("study.yaml:10:"), HasSubstr("'yuong'"), HasSubstr("[E101]"), HasSubstr("did you mean `young`?")));
+  expect_refused(changed(sphere_study(), "young: 450 Pa", "yuong: 450 Pa"), 2, AllOf(HasSubstr("study.yaml:11:"), HasSubstr("'yuong'"), HasSubstr("[E101]"), HasSubstr("did you mean `young`?")));
 }
 
 TEST(BadStudy, DoubleKeyIsRefused) { expect_refused(changed(sphere_study(), "seed: 7", "seed: 7\nseed: 8"), 2, AllOf(HasSubstr("study.yaml:4:"), HasSubstr("[E102]"))); }
@@ -52,7 +52,7 @@ TEST(BadStudy, NotANumberIsRefused) {
   expect_refused(changed(sphere_study(), "mean: 5 um", "mean: inf um"), 2, HasSubstr("[E301]"));
 }
 
-TEST(BadStudy, TabInTheIndentationIsRefused) { expect_refused(changed(sphere_study(), "    adhesion:", "\tadhesion:"), 2, AllOf(HasSubstr("study.yaml:9:"), HasSubstr("[E105]"))); }
+TEST(BadStudy, TabInTheIndentationIsRefused) { expect_refused(changed(sphere_study(), "    adhesion:", "\tadhesion:"), 2, AllOf(HasSubstr("study.yaml:10:"), HasSubstr("[E105]"))); }
 
 TEST(BadStudy, EmptyFileIsRefused) {
   expect_refused("", 2, HasSubstr("[E107]"));

@@ -119,7 +119,7 @@ TEST(Explain, KnowsKeysLawsAndCodes) {
   EXPECT_THAT(run_morula({"explain", "cell_types.hepatocyte.dcm.cortex.tension"}, folder.path()).out, HasSubstr("example:"));
   EXPECT_THAT(run_morula({"explain", "jkr"}, folder.path()).out, HasSubstr("Johnson"));
   EXPECT_THAT(run_morula({"explain", "--markdown", "laws"}, folder.path()).out, HasSubstr("### `jkr`"));
-  EXPECT_THAT(run_morula({"explain", "--markdown", "study"}, folder.path()).out, HasSubstr("## `cell_types`"));
+  EXPECT_THAT(run_morula({"explain", "--markdown", "study"}, folder.path()).out, HasSubstr("## `cell_types.<name>`"));
   const Outcome near = run_morula({"explain", "jrk"}, folder.path());
   EXPECT_EQ(near.exit_code, 2);
   EXPECT_THAT(near.err, HasSubstr("did you mean `jkr`?"));

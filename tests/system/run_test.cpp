@@ -81,7 +81,7 @@ TEST(Run, SaysWhenAFolderCannotBeWritten) {
   for (const char* out : {"file/run", "/proc/run"}) {
     const Outcome outcome = run_morula({"run", "study.yaml", "--out", out}, folder.path());
     EXPECT_EQ(outcome.exit_code, 3) << outcome.all();
-    EXPECT_THAT(outcome.err, AllOf(HasSubstr("error: "), HasSubstr(out)));
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("error: "), HasSubstr(fs::path(out).parent_path().string())));
   }
   if (geteuid() == 0) return;  // root may write everywhere
   fs::create_directory(folder / "locked");
@@ -103,7 +103,7 @@ TEST(Run, DryRunWritesNothing) {
 TEST(Run, OverridesAndFlagsReachTheRun) {
   const TestFolder folder;
   folder.write("study.yaml", sphere_study());
-  const Outcome outcome = run_morula({"run", "study.yaml", "initial[0].count=5", "--seed", "99", "--until", "20 min", "--out", "short"}, folder.path());
+  const Outcome outcome = run_morula({"run", "study.yaml", "initial.0.count=5", "--seed", "99", "--until", "20 min", "--out", "short"}, folder.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.all();
   const json info = info_of(folder / "short");
   EXPECT_EQ(info["cells"], 5);

@@ -25,7 +25,7 @@ json info_of(const fs::path& run) { return json::parse(run_morula({"info", run.s
 Outcome signalled(const TestFolder& folder, int signal) {
   folder.write("study.yaml", long_study());
   RunningCommand command({"run", "study.yaml", "--out", "run"}, folder.path());
-  EXPECT_TRUE(command.wait_for(folder / "run/checkpoints/cp_000001.h5")) << "the run did not get going";
+  EXPECT_TRUE(command.wait_for(folder / "run/checkpoints/cp_000003.h5")) << "the run did not get going";
   command.send(signal);
   return command.wait();
 }
