@@ -38,6 +38,7 @@ Vec3d pseudonormal(const PairBody& target, std::uint32_t face, const double (&mu
 struct Candidate {
   double distance2 = 1e300;
   double second2 = 1e300;  ///< lower bound of the squared distance to all other faces
+  double second = 1e150;   ///< its root
   std::uint16_t place = kAsleep;
   ClosestPoint closest;
 };
@@ -52,17 +53,21 @@ void try_face(const Vec3d& point, std::uint16_t place, const PointsEvaluation& e
   const Vec3d away = point - e.target.centroid(face);
   // The ball of the face has grown by at most twice what the bodies moved since it was measured.
   const double radius = lists.target_radius[place] + 2.0 * e.motion_since_built;
-  const double limit = std::sqrt(best.second2) + radius;
+  const double limit = best.second + radius;
   const double center2 = norm2(away);
   if (center2 > limit * limit) return;
   const ClosestPoint closest = closest_on(e.target, face, point);
   if (closest.distance2 < best.distance2 || (closest.distance2 == best.distance2 && place < best.place)) {
-    best.second2 = best.distance2;
+    if (best.distance2 < best.second2) {
+      best.second2 = best.distance2;
+      best.second = std::sqrt(best.second2);
+    }
     best.distance2 = closest.distance2;
     best.place = place;
     best.closest = closest;
   } else if (closest.distance2 < best.second2) {
     best.second2 = closest.distance2;
+    best.second = std::sqrt(best.second2);
   }
 }
 
@@ -70,7 +75,8 @@ void try_face(const Vec3d& point, std::uint16_t place, const PointsEvaluation& e
 Candidate search(const Vec3d& point, std::size_t index, std::size_t source_face, const PointsEvaluation& e, const PointsAgainstBody& lists) {
   Candidate best;
   const double reach = e.reach.candidates();
-  best.second2 = reach * reach;  // faces beyond the lists' reach are of no interest
+  best.second = reach;  // faces beyond the lists' reach are of no interest
+  best.second2 = reach * reach;
   const std::uint16_t guess = lists.nearest[index];
   if (guess != kAsleep) try_face(point, guess, e, lists, best);
   for (std::uint32_t k = lists.first_candidate[source_face]; k < lists.first_candidate[source_face + 1]; ++k)
@@ -140,7 +146,7 @@ PointGap gap_to_surface(const Vec3d& point, std::size_t index, std::size_t sourc
   }
   lists.nearest[index] = best.place;
   // No other face can be nearer while twice the motion is less than the lead of the nearest one.
-  const double second = std::min(std::sqrt(best.second2), e.reach.candidates() - e.motion_since_built);
+  const double second = std::min(best.second, e.reach.candidates() - e.motion_since_built);
   lists.good_until[index] = static_cast<float>((e.motion + 0.5 * (second - distance) * kSafety) * (1.0 - 1e-6));
   return signed_gap(point, best.place, best.closest, inside, e, lists);
 }

@@ -15,7 +15,8 @@ SphereContacts::SphereContacts(const Model& model) : model_(model) {
   for (std::size_t a = 0; a < types; ++a) {
     const auto& s = model.types[a].sphere;
     for (std::size_t b = 0; b < materials; ++b) {
-      const double adhesion = b < model.material_count() ? model.pair(a, b).adhesion : 0.0;
+      const bool adhesive = s.adhesive && b < model.material_count() && (b >= types || model.types[b].sphere.adhesive);
+      const double adhesion = adhesive ? model.pair(a, b).adhesion : 0.0;
       materials_[a * materials + b] = b < types ? cbm::ContactMaterial::elastic(s.young, s.poisson, model.types[b].sphere.young, model.types[b].sphere.poisson, adhesion)
                                                 : cbm::ContactMaterial::against_rigid(s.young, s.poisson, adhesion);
     }

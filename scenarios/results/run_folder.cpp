@@ -95,10 +95,7 @@ Status filter_lines(const fs::path& path, const std::function<bool(const std::st
 
 Result<InputRecord> copy_input(const InputFile& input, const fs::path& run) {
   MORULA_TRY_ASSIGN(const std::string bytes, read_file(input.path));
-<<<<<<< HEAD
   MORULA_TRY(make_parents((run / input.copy).parent_path()));
-=======
->>>>>>> driver
   MORULA_TRY(write_file_atomically(run / input.copy, bytes));
   MORULA_TRY_ASSIGN(const std::string sha256, sha256_of_text(bytes));
   return InputRecord{input.path, input.copy, sha256};
@@ -146,15 +143,9 @@ Status RunFolder::write_study(const Study& study, RunRecord& record) const {
   std::error_code error;
   fs::create_directory(path_ / "inputs", error);
   if (error) return file_error(path_ / "inputs", "create folder", error.value());
-<<<<<<< HEAD
   for (const InputFile& input : study.input_files) {
     MORULA_TRY_ASSIGN(InputRecord copied, copy_input(input, path_));
     record.inputs.push_back(std::move(copied));
-=======
-  for (const InputFile& file : study.input_files) {
-    MORULA_TRY_ASSIGN(InputRecord input, copy_input(file, path_));
-    record.inputs.push_back(std::move(input));
->>>>>>> driver
   }
   return {};
 }

@@ -105,6 +105,10 @@ std::string to_json(const RunRecord& r) {
                      {"shells", r.final_state->shells},
                      {"state_hash", r.final_state->state_hash}};
   }
+  if (!r.timings.empty()) {
+    json["timings"] = Json::object();
+    for (const auto& [name, value] : r.timings) json["timings"][name] = number(value);
+  }
   json["study_hash"] = r.study_hash;
   json["inputs"] = Json::array();
   for (const InputRecord& input : r.inputs)
@@ -142,9 +146,11 @@ Result<RunRecord> read_run_record(const std::filesystem::path& run_json) {
   r.build_type = text_at(json, "build");
   r.host = text_at(json, "host");
   if (const auto final = json.find("final"); final != json.end() && final->is_object())
-    r.final_state = FinalState{number_at(*final, "time_s", 0.0), number_at(*final, "cells", std::uint64_t{0}),
-                               number_at(*final, "spheres", std::uint64_t{0}), number_at(*final, "shells", std::uint64_t{0}),
-                               text_at(*final, "state_hash")};
+    r.final_state = FinalState{number_at(*final, "time_s", 0.0), number_at(*final, "cells", std::uint64_t{0}), number_at(*final, "spheres", std::uint64_t{0}),
+                               number_at(*final, "shells", std::uint64_t{0}), text_at(*final, "state_hash")};
+  if (const auto timings = json.find("timings"); timings != json.end() && timings->is_object())
+    for (const auto& [name, value] : timings->items())
+      if (value.is_number()) r.timings.emplace_back(name, value.get<double>());
   if (const auto inputs = json.find("inputs"); inputs != json.end() && inputs->is_array())
     for (const Json& input : *inputs)
       if (input.is_object()) r.inputs.push_back({text_at(input, "source"), text_at(input, "copy"), text_at(input, "sha256")});

@@ -45,6 +45,7 @@ struct RunRecord {
   std::string started, finished;  ///< UTC, as 2026-11-21T12:00:00Z
   double wall_time = 0.0;         ///< [s], over all restarts
   std::optional<FinalState> final_state;
+  std::vector<std::pair<std::string, double>> timings;  ///< name with unit, value; empty when not asked for
 
   std::string version, git_hash, compiler, build_type, host;
   std::vector<std::pair<std::string, std::string>> libraries;

@@ -83,11 +83,7 @@ TEST_F(RunFolders, HoldTheStudyAndItsInputsWithTheirHashes) {
   study.source_path = "study.yaml";
   study.source_text = "schema: 1\n";
   study.resolved_text = "schema: 1\nseed: 1\n";
-<<<<<<< HEAD
   study.input_files = {{folder / "cells.csv", "inputs/cells.csv"}, {folder / "other/cells.csv", "inputs/2_cells.csv"}};
-=======
-  study.input_files = {{folder / "cells.csv", "inputs/cells.csv"}, {folder / "other/cells.csv", "inputs/cells-2.csv"}};
->>>>>>> driver
   RunRecord record;
   const Status written = run.write_study(study, record);
   ASSERT_TRUE(written.ok()) << written.error().message;

@@ -1,0 +1,95 @@
+#include "scenarios/library/criteria.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "scenarios/report/series_reader.h"
+
+namespace morula::scenarios {
+namespace {
+
+constexpr double kUncapped = 0.1;      // overlap at which the capped start ends [µm]
+constexpr double kEnergyRise = 1e-3;   // of the range (INV.7)
+
+std::string at_most(double limit, const char* unit) {
+  char text[64];
+  std::snprintf(text, sizeof text, "<= %g%s%s", limit, *unit ? " " : "", unit);
+  return text;
+}
+
+Verdict at_most(const char* id, const char* quantity, double value, double limit, const char* unit) {
+  return {id, quantity, value, at_most(limit, unit), value <= limit};
+}
+
+/// Largest value of a column from a row on; NaN (which passes no limit) where a value is no number.
+double largest(const SeriesColumn& column, std::size_t from = 0) {
+  double out = 0.0;
+  for (std::size_t i = from; i < column.values.size(); ++i)
+    if (!(column.values[i] <= out)) out = column.values[i];
+  return out;
+}
+
+/// The row from which overlaps count: with a capped start, the first one after it.
+std::size_t first_settled_row(const Study& study, const SeriesColumn& overlap) {
+  if (!(study.model.step.start_cap > 0.0)) return 0;
+  std::size_t row = 0;
+  while (row < overlap.values.size() && !(overlap.values[row] < kUncapped)) ++row;
+  return std::min(row + 1, overlap.values.empty() ? 0 : overlap.values.size() - 1);
+}
+
+/// Largest rise between two rows, relative to the range. The row of time 0 has no step before it and is left out.
+double largest_rise(const SeriesColumn& energy) {
+  double rise = 0.0, low = 1e300, high = -1e300;
+  for (std::size_t i = 1; i < energy.values.size(); ++i) {
+    low = std::min(low, energy.values[i]);
+    high = std::max(high, energy.values[i]);
+    if (i > 1) rise = std::max(rise, energy.values[i] - energy.values[i - 1]);
+  }
+  return high > low ? rise / (high - low) : 0.0;
+}
+
+}  // namespace
+
+const std::vector<ScenarioCriteria>& scenario_criteria() {
+  static const std::vector<ScenarioCriteria> all{};
+  return all;
+}
+
+bool is_passive(const Study& study) {
+  const Model& model = study.model;
+  for (const CellType& type : model.types)
+    if (type.cycles || type.migration_speed > 0.0 || (type.death_field >= 0 && type.death_rate > 0.0)) return false;
+  for (const InitialCells& block : study.initial)
+    if (block.start_volume_fraction < 1.0) return false;
+  for (const ObstacleSpec& obstacle : model.obstacles)
+    if (norm2(obstacle.velocity) > 0.0) return false;
+  return model.swaps.regions.empty() && model.swaps.triggers.empty();
+}
+
+Result<std::vector<Verdict>> common_criteria(const Study& study, const std::filesystem::path& run) {
+  MORULA_TRY_ASSIGN(const SeriesTable series, read_series(run / "series.csv"));
+  const Limits& limits = study.model.limits;
+  std::vector<Verdict> out;
+  if (const auto* error = series.find("volume_error"))
+    out.push_back(at_most("INV.3", "volume of any cell against its pressure law, relative", largest(*error), limits.volume_error, ""));
+  if (const auto* overlap = series.find("worst_overlap"))
+    out.push_back(at_most("INV.4", "deepest penetration of a surface in any step", largest(*overlap, first_settled_row(study, *overlap)), limits.overlap, "um"));
+  if (const auto* energy = series.find("energy"); energy && is_passive(study) && energy->values.size() > 2)
+    out.push_back(at_most("INV.7", "rise of the energy between outputs, relative to its range", largest_rise(*energy), kEnergyRise, ""));
+  if (const auto* balance = series.find("field_balance"))
+    out.push_back(at_most("LIMIT.field_balance", "balance of the amounts of every field, relative", largest(*balance), limits.field_balance, ""));
+  return out;
+}
+
+Result<std::vector<Verdict>> judge(const Study& study, const std::filesystem::path& run) {
+  MORULA_TRY_ASSIGN(std::vector<Verdict> out, common_criteria(study, run));
+  for (const ScenarioCriteria& criteria : scenario_criteria()) {
+    if (criteria.scenario != study.scenario) continue;
+    MORULA_TRY_ASSIGN(const std::vector<Verdict> more, criteria.judge(study, run));
+    out.insert(out.end(), more.begin(), more.end());
+  }
+  return out;
+}
+
+}  // namespace morula::scenarios

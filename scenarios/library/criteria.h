@@ -1,0 +1,33 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "scenarios/results/run_record.h"
+#include "scenarios/study/study.h"
+
+namespace morula::scenarios {
+
+/// Criteria of one library study: judged on what is in the run's folder (series.csv, results.h5, events.jsonl). kFile where something is missing.
+using Judge = Result<std::vector<Verdict>> (*)(const Study& study, const std::filesystem::path& run);
+
+struct ScenarioCriteria {
+  std::string scenario;  ///< `scenario:` of the study
+  Judge judge = nullptr;
+};
+
+/// All library studies that have criteria of their own: one line each.
+const std::vector<ScenarioCriteria>& scenario_criteria();
+
+/// What holds for every run (physics/scenarios.md §0.3), judged on series.csv: volumes against the law (INV.3), overlap (INV.4), balance of
+/// the fields, and for passive runs that the energy falls (INV.7). The other invariants are not seen in a series; tests hold them.
+Result<std::vector<Verdict>> common_criteria(const Study& study, const std::filesystem::path& run);
+
+/// common_criteria, then those of the study's scenario.
+Result<std::vector<Verdict>> judge(const Study& study, const std::filesystem::path& run);
+
+/// Whether nothing drives the tissue: no growth, migration, death, exchange of bodies, inflation or moving obstacle. Its energy can only fall.
+bool is_passive(const Study& study);
+
+}  // namespace morula::scenarios

@@ -1,0 +1,57 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "coupling/model.h"
+#include "core/result.h"
+#include "scenarios/study/study.h"
+
+namespace morula::scenarios {
+
+/// A range of wall times [s]; negative: not known.
+struct WallRange {
+  double low = -1.0, high = -1.0;
+};
+
+/// Load of a tissue in units of one sphere: a node of a shell is worth as much as in the balance of ranks (coupling/balance.h).
+struct Load {
+  double spheres = 0.0;
+  double nodes = 0.0;
+  [[nodiscard]] double total() const { return spheres + 3.0 * nodes; }
+};
+
+/// Rate at which the number of spheres grows if nothing inhibits it: ln 2 / cycle, averaged over the cells of each type [1/s].
+double free_growth_rate(const Model& model, const std::vector<std::int64_t>& cells_of_type);
+
+/// Wall time left, from what the run has cost so far for its load and from how the load will grow (elapsed/fraction is wrong when cells
+/// multiply): ∫ κ (3 N_nodes + N_spheres e^{g t}) dt, κ the wall time per simulated second and unit of load of the last steps.
+/// The range: half of the free growth and 15 % less per load, to the whole of it and 25 % more.
+class CostModel {
+ public:
+  /// One step: simulated [s], wall [s], the load it had.
+  void observe(double simulated, double wall, const Load& load);
+  [[nodiscard]] WallRange left(double simulated, const Load& load, double growth_rate) const;
+  /// κ [wall s / (simulated s · load)]; 0: nothing observed.
+  [[nodiscard]] double cost() const { return weight_ > 0.0 ? wall_ / weight_ : 0.0; }
+
+ private:
+  double wall_ = 0.0, weight_ = 0.0;  ///< fading sums
+};
+
+/// What a study will need, before it is run.
+struct Estimate {
+  std::int64_t cells = 0, shells = 0, nodes = 0, voxels = 0;  ///< at time 0
+  double cells_at_end = 0.0;                                   ///< if nothing inhibits growth
+  double memory = 0.0;                                         ///< at the end [bytes]
+  WallRange wall;                                              ///< on one thread [s]
+};
+
+/// Places the cells of time 0 (no mechanics) and counts them. Costs per load and step are those measured on a 2020s workstation core;
+/// the range is a factor of 3 each way, for machines and tissues differ.
+Result<Estimate> estimate(const Study& study);
+
+/// "9 min", "1 h 21 min", "35–50 min" for people.
+std::string duration_text(double seconds);
+std::string duration_text(const WallRange& range);
+
+}  // namespace morula::scenarios

@@ -1,0 +1,175 @@
+#include "core/friction/friction_system.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace morula {
+namespace {
+
+/// Spheres with medium friction g and pair friction; vectors are float (time_stepping.md §10.7), so references hold to a few 1e-7.
+constexpr double kFloat = 2e-6;
+
+struct Pair {
+  std::uint32_t i, j;
+  double normal, tangential;
+  Vec3d n{1, 0, 0};
+};
+
+std::vector<Vec3d> velocities(std::size_t count, double g, const std::vector<Pair>& pairs, const std::vector<Vec3d>& force, int threads = 1) {
+  FrictionSystem::Layout layout;
+  layout.point_count = count;
+  for (std::uint32_t i = 0; i < count; ++i) layout.bodies.push_back({i, 1});
+  layout.owned.assign(count, 1);
+  FrictionSystem system;
+  system.set_layout(layout, threads);
+  system.set_point_friction(std::vector<float>(count, static_cast<float>(g)));
+  std::vector<SpherePairElement> elements;
+  for (const Pair& p : pairs)
+    elements.push_back({p.i, p.j, p.i, p.j, {static_cast<float>(p.n.x), static_cast<float>(p.n.y), static_cast<float>(p.n.z)},
+                        static_cast<float>(p.tangential), static_cast<float>(p.normal - p.tangential), 0.0f});
+  system.set_sphere_pairs(elements);
+  system.set_elements({}, FaceQuadrature::with_points(3));
+  std::vector<Float4> b(count), v(count);
+  for (std::size_t i = 0; i < count; ++i) b[i] = {static_cast<float>(force[i].x), static_cast<float>(force[i].y), static_cast<float>(force[i].z), 0.0f};
+  const auto report = system.solve(b, v, 1e-7, 500, Comm());
+  EXPECT_TRUE(report.ok());
+  std::vector<Vec3d> out;
+  for (const Float4& u : v) out.push_back({u.x, u.y, u.z});
+  return out;
+}
+
+std::vector<Pair> chain(std::uint32_t count, double friction) {
+  std::vector<Pair> out;
+  for (std::uint32_t i = 0; i + 1 < count; ++i) out.push_back({i, i + 1, friction, friction});
+  return out;
+}
+
+// Reference velocities: g = 45, G = 600 nN·s/µm, F = 1 nN (cbm.md §1).
+
+TEST(FrictionSystem, TwoCellsPulledApart) {
+  const auto v = velocities(2, 45, chain(2, 600), {{1, 0, 0}, {-1, 0, 0}});
+  EXPECT_NEAR(v[0].x, 8.0321285e-4, 8.0e-4 * kFloat);
+  EXPECT_NEAR(v[1].x, -8.0321285e-4, 8.0e-4 * kFloat);
+}
+
+TEST(FrictionSystem, TwoCellsOneOfThemPulled) {
+  const auto v = velocities(2, 45, chain(2, 600), {{1, 0, 0}, {0, 0, 0}});
+  EXPECT_NEAR(v[0].x, 1.15127175e-2, 1.2e-2 * kFloat);
+  EXPECT_NEAR(v[1].x, 1.07095047e-2, 1.1e-2 * kFloat);
+}
+
+TEST(FrictionSystem, OpenChainOfThree) {
+  const auto v = velocities(3, 45, chain(3, 600), {{1, 0, 0}, {0, 0, 0}, {0, 0, 0}});
+  EXPECT_NEAR(v[0].x, 8.27293544e-3, 8.3e-3 * kFloat);
+  EXPECT_NEAR(v[1].x, 7.22673893e-3, 7.3e-3 * kFloat);
+  EXPECT_NEAR(v[2].x, 6.72254785e-3, 6.8e-3 * kFloat);
+}
+
+TEST(FrictionSystem, TriangleOfCells) {
+  auto pairs = chain(3, 600);
+  pairs.push_back({0, 2, 600, 600});
+  const auto v = velocities(3, 45, pairs, {{1, 0, 0}, {0, 0, 0}, {0, 0, 0}});
+  EXPECT_NEAR(v[0].x, 7.76874435e-3, 7.8e-3 * kFloat);
+  EXPECT_NEAR(v[1].x, 7.22673893e-3, 7.3e-3 * kFloat);
+  EXPECT_NEAR(v[2].x, 7.22673893e-3, 7.3e-3 * kFloat);
+}
+
+TEST(FrictionSystem, ChainOfTenDecaysAlongItsLength) {
+  std::vector<Vec3d> force(10);
+  force[0] = {1, 0, 0};
+  const auto v = velocities(10, 45, chain(10, 600), force);
+  EXPECT_NEAR(v[0].x, 5.36173e-3, 1e-8);
+  EXPECT_NEAR(v[1].x, 4.09719e-3, 1e-8);
+  EXPECT_NEAR(v[4].x, 1.87780e-3, 1e-8);
+  EXPECT_NEAR(v[9].x, 8.0455e-4, 1e-8);
+}
+
+TEST(FrictionSystem, ObliquePairWithDifferentNormalAndTangentialFriction) {
+  const double s = std::sqrt(0.5);
+  const auto v = velocities(2, 45, {{0, 1, 400, 150, {s, s, 0}}}, {{1, 0, 0}, {0, 0, 0}});
+  EXPECT_NEAR(v[0].x, 0.01213161, 2e-8);
+  EXPECT_NEAR(v[0].y, -0.00042878, 2e-8);
+  EXPECT_NEAR(v[1].x, 0.01009062, 2e-8);
+  EXPECT_NEAR(v[1].y, 0.00042878, 2e-8);
+}
+
+TEST(FrictionSystem, MomentumGoesToTheMediumOnly) {
+  std::vector<Vec3d> force(10);
+  force[3] = {1, -2, 0.5};
+  const auto v = velocities(10, 45, chain(10, 600), force);
+  Vec3d sum;
+  for (const Vec3d& u : v) sum += u * 45.0;
+  EXPECT_NEAR(sum.x, 1.0, 1e-5);
+  EXPECT_NEAR(sum.y, -2.0, 1e-5);
+  EXPECT_NEAR(sum.z, 0.5, 1e-5);
+}
+
+TEST(FrictionSystem, EqualForcesMoveAllAlike) {
+  const auto v = velocities(6, 45, chain(6, 600), std::vector<Vec3d>(6, Vec3d{0.3, 0.1, -0.2}));
+  for (const Vec3d& u : v) EXPECT_NEAR(u.x, 0.3 / 45.0, 0.3 / 45.0 * kFloat);
+}
+
+TEST(FrictionSystem, GivesTheSameBitsOnOneAndThreeThreads) {
+  std::vector<Vec3d> force(50);
+  for (std::size_t i = 0; i < 50; ++i) force[i] = {std::sin(1.0 + double(i)), std::cos(double(i)), 0.1 * double(i)};
+  auto pairs = chain(50, 600);
+  for (std::uint32_t i = 0; i + 7 < 50; i += 3) pairs.push_back({i, i + 7, 300, 100, {0, 1, 0}});
+  const auto one = velocities(50, 45, pairs, force, 1);
+  const auto three = velocities(50, 45, pairs, force, 3);
+  for (std::size_t i = 0; i < 50; ++i) EXPECT_EQ(one[i], three[i]);
+}
+
+TEST(FrictionSystem, RefusesForcesThatAreNoNumbers) {
+  FrictionSystem system;
+  FrictionSystem::Layout layout;
+  layout.point_count = 1;
+  layout.bodies = {{0, 1}};
+  layout.owned = {1};
+  system.set_layout(layout, 1);
+  const float friction[1] = {1.0f};
+  system.set_point_friction(friction);
+  system.set_elements({}, FaceQuadrature::with_points(3));
+  std::vector<Float4> b{{NAN, 0, 0, 0}}, v(1);
+  EXPECT_FALSE(system.solve(b, v, 1e-6, 10, Comm()).ok());
+}
+
+TEST(TractionLaw, DoesTheWorkOfAdhesionWhenPulledApart) {
+  const TractionLaw law{0.1, 0.5, 40.0, 0.0};
+  double work = 0.0;
+  const int n = 20000;
+  for (int i = 0; i < n; ++i) work += law.attraction((i + 0.5) * law.range / n).slope * law.range / n;
+  EXPECT_NEAR(work, 0.1, 1e-9);
+  EXPECT_DOUBLE_EQ(law.attraction(0.25).slope, 2.0 * 0.1 / 0.5);  // peak 2W/c
+}
+
+TEST(TractionLaw, SlopesAreDerivativesOfEnergies) {
+  for (const double cap : {0.0, 0.05}) {
+    const TractionLaw law{0.3, 0.5, 40.0, cap};
+    for (double g = -0.3; g < 0.6; g += 0.0137) {
+      const double h = 1e-6;
+      EXPECT_NEAR((law.attraction(g + h).energy - law.attraction(g - h).energy) / (2 * h), law.attraction(g).slope, 2e-6);
+      EXPECT_NEAR((law.repulse(g + h).energy - law.repulse(g - h).energy) / (2 * h), law.repulse(g).slope, 5e-5);
+    }
+  }
+}
+
+TEST(TractionLaw, CapLimitsTheTraction) {
+  const TractionLaw law{0.0, 0.5, 40.0, 0.1};
+  EXPECT_DOUBLE_EQ(law.repulse(-0.05).slope, -2.0);
+  EXPECT_DOUBLE_EQ(law.repulse(-3.0).slope, -4.0);
+}
+
+TEST(OpposedWeight, IsASmoothStepBetweenItsEnds) {
+  EXPECT_EQ(OpposedWeight::of(0.6).value, 1.0);
+  EXPECT_EQ(OpposedWeight::of(-0.4).value, 0.0);
+  EXPECT_NEAR(OpposedWeight::of(0.1).value, 0.5, 1e-15);
+  for (double m = -0.29; m < 0.5; m += 0.03) {
+    const double h = 1e-6;
+    EXPECT_NEAR((OpposedWeight::of(m + h).value - OpposedWeight::of(m - h).value) / (2 * h), OpposedWeight::of(m).slope, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace morula

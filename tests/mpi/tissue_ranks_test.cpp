@@ -1,0 +1,130 @@
+/// A hybrid tissue on all ranks against the same tissue on one: the same bits.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+
+#include "core/space/curve.h"
+#include "coupling/behaviours/birth.h"
+#include "coupling/simulation.h"
+#include "coupling/swaps.h"
+
+namespace morula {
+namespace {
+
+Model hybrid_model() {
+  Model model;
+  model.seed = 5;
+  model.space.box = {{-80, -80, -80}, {80, 80, 80}};
+  CellType type;
+  type.name = "cell";
+  type.cycles = true;
+  type.cycle_duration = {6 * 3600.0, 0.1};
+  type.migration_speed = 2.0 / 3600.0;
+  type.shell_nodes = 42;
+  type.shell.spring_stiffness = 0.173;
+  type.shell.tension = 0.2;
+  type.shell.hinge_stiffness = 1e-3;
+  model.types = {type};
+  model.pairs = {ContactPair{0.05, 50.0, 50.0}};
+  model.contact.range = 0.8;
+  fields::FieldSpec oxygen;
+  oxygen.name = "oxygen";
+  oxygen.diffusion = 2000.0;
+  oxygen.initial = 0.2;
+  oxygen.voxel = 10.0;
+  for (auto& axis : oxygen.boundary)
+    for (auto& face : axis) face = {fields::FaceCondition::Kind::kValue, 0.2};
+  oxygen.uptake = {{40.0, 0.005}};
+  model.fields = {oxygen};
+  Region core;
+  core.name = "core";
+  core.radius = 11.0;
+  core.margin = 1.0;
+  model.swaps.regions = {core};
+  model.swaps.hold = 300.0;
+  model.step.max_step = 30.0;
+  return model;
+}
+
+Tissue hybrid_tissue(const Model& model, const Comm& comm) {
+  std::vector<CellRecord> cells;
+  std::uint64_t number = 0;
+  for (int x = -2; x <= 2; ++x)
+    for (int y = -2; y <= 2; ++y)
+      for (int z = -2; z <= 2; ++z) {
+        if ((x + y + z) % 2 != 0 || x * x + y * y + z * z > 6) continue;
+        const CellId id = CellId::founder(++number);
+        if (static_cast<int>(number % static_cast<std::uint64_t>(comm.size())) != comm.rank()) continue;
+        CellRecord& cell = cells.emplace_back();
+        cell.row = make_founder(id, 0, model.types[0], model.seed, 0.0, true);
+        const Vec3d center{8.3 * x + 0.1, 8.3 * y - 0.2, 8.3 * z + 0.3};
+        cell.row.order = curve_place(center);
+        cell.sphere = SphereRecord{center, 6.0, {}, {}};
+      }
+  Tissue tissue;
+  put_together(tissue, std::move(cells));
+  return tissue;
+}
+
+/// Everything of every cell on every rank, by id.
+std::map<std::uint64_t, std::vector<std::byte>> everything(const Simulation& simulation) {
+  Tissue copy = simulation.tissue();
+  std::vector<std::byte> bytes;
+  for (const CellRecord& cell : take_apart(copy)) {
+    std::vector<std::byte> one;
+    append_bytes(cell, one);
+    const std::uint64_t head[2] = {cell.row.id.bits(), one.size()};
+    const auto* raw = reinterpret_cast<const std::byte*>(head);  // NOLINT
+    bytes.insert(bytes.end(), raw, raw + sizeof head);
+    bytes.insert(bytes.end(), one.begin(), one.end());
+  }
+  const auto all = simulation.comm().gather_to_all(bytes);
+  std::map<std::uint64_t, std::vector<std::byte>> out;
+  for (std::size_t at = 0; at < all.size();) {
+    std::uint64_t head[2];
+    std::memcpy(head, all.data() + at, sizeof head);
+    at += sizeof head;
+    out[head[0]] = {all.begin() + static_cast<std::ptrdiff_t>(at), all.begin() + static_cast<std::ptrdiff_t>(at + head[1])};
+    at += head[1];
+  }
+  return out;
+}
+
+std::map<std::uint64_t, std::vector<std::byte>> run(const Comm& comm, int steps, int threads, std::vector<double>* field_total = nullptr) {
+  const Model model = hybrid_model();
+  auto created = Simulation::create(model, hybrid_tissue(model, comm), comm, threads);
+  EXPECT_TRUE(created.ok());
+  Simulation& simulation = **created;
+  EXPECT_TRUE(simulation.first_swaps().ok());
+  for (int k = 0; k < steps; ++k) {
+    const auto done = simulation.step(1e6);
+    if (!done.ok()) {
+      ADD_FAILURE() << done.error().message;
+      break;
+    }
+  }
+  if (field_total != nullptr) field_total->push_back(fields::total_amount(simulation.tissue().fields[0], comm));
+  return everything(simulation);
+}
+
+TEST(TissueOnRanks, HasTheSameBitsAsOnOne) {
+  const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
+  std::vector<double> amount;
+  const auto together = run(world, 60, 1, &amount);
+  const auto single = run(alone, 60, 1, &amount);
+  ASSERT_EQ(together.size(), single.size());
+  EXPECT_GT(together.size(), 19u);
+  EXPECT_EQ(amount[0], amount[1]);
+  std::size_t different = 0;
+  for (const auto& [id, bytes] : single) {
+    const auto found = together.find(id);
+    ASSERT_NE(found, together.end()) << CellId(id).text();
+    if (found->second != bytes && ++different < 4) ADD_FAILURE() << "cell " << CellId(id).text() << " differs";
+  }
+  EXPECT_EQ(different, 0u);
+}
+
+}  // namespace
+}  // namespace morula
