@@ -1,0 +1,129 @@
+#include "scenarios/run/driver.h"
+
+#include <algorithm>
+
+#include "scenarios/initial/make_tissue.h"
+#include "scenarios/results/checkpoint_folder.h"
+#include "scenarios/results/file_io.h"
+#include "scenarios/run/report_run.h"
+#include "scenarios/run/run_lock.h"
+#include "scenarios/run/run_loop.h"
+
+namespace morula::scenarios {
+namespace {
+
+/// The columns of series.csv: those the study names, then what the criteria of every run are judged on.
+Result<std::vector<Observable>> columns_of(const Study& study) {
+  std::vector<std::string> names = study.output.series;
+  if (!names.empty())
+    for (std::string needed : {"cell_count", "shell_count", "volume_error", "overlap", "worst_overlap", "energy", "step_count", "step_size", "field_balance"})
+      if ((needed != "field_balance" || !study.model.fields.empty()) && std::find(names.begin(), names.end(), needed) == names.end()) names.push_back(needed);
+  return select_observables(study.model, names);
+}
+
+RunRecord new_record(const Study& study, const RunRequest& request, const Comm& comm) {
+  RunRecord record;
+  record.study = study.name;
+  record.title = study.title;
+  record.seed = study.model.seed;
+  record.ranks = comm.size();
+  record.threads = request.threads;
+  record.command = request.command;
+  complete_record(record);
+  return record;
+}
+
+Result<InitialTissue> initial_tissue(const Study& study, const Comm& comm) {
+  ShapeLibrary shapes;
+  auto made = make_tissue(study, shapes, comm);
+  MORULA_TRY(agree(made.ok() ? Status{} : Status(made.error()), comm));
+  return std::move(made).value();
+}
+
+/// Tell the study's warnings and notes, and what placing the cells had to say.
+void tell(RunLoop& loop, const Study& study, const std::vector<std::string>& more) {
+  for (const Diagnostic& warning : study.warnings.list()) loop.note(Note::Kind::kWarning, warning.text);
+  for (const std::string& text : study.notes) loop.note(Note::Kind::kNote, text);
+  for (const std::string& text : more) loop.note(Note::Kind::kNote, text);
+}
+
+std::string end_note(const RunRequest& request, double end) {
+  return "--until " + time_text(*request.until) + ": runs to " + time_text(end) + (end > *request.until ? ", the next output time" : "");
+}
+
+/// series.csv and run.json as they were when the run was last written.
+struct Restored {
+  LoadedCheckpoint checkpoint;
+  std::vector<std::string> warnings;
+};
+
+Result<Restored> restore(const RunFolder& folder, const ResumeRequest& request, const Study& study, const Comm& comm) {
+  ShapeLibrary shapes;
+  Restored out;
+  if (!request.from.empty()) {
+    MORULA_TRY_ASSIGN(out.checkpoint, read_checkpoint(request.from, study.model, shapes, comm));
+  } else {
+    MORULA_TRY_ASSIGN(RestoredCheckpoint newest, load_newest_checkpoint(folder.checkpoints(), study.model, shapes, comm));
+    out.checkpoint = std::move(newest.checkpoint);
+    out.warnings = std::move(newest.warnings);
+  }
+  return out;
+}
+
+}  // namespace
+
+bool RunSummary::passed() const {
+  return std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.passed; });
+}
+
+Result<RunSummary> run(const Study& study, const RunRequest& request, const Comm& comm) {
+  MORULA_TRY_ASSIGN(auto columns, columns_of(study));
+  MORULA_TRY_ASSIGN(InitialTissue initial, initial_tissue(study, comm));
+  MORULA_TRY_ASSIGN(auto simulation, Simulation::create(study.model, std::move(initial.tissue), comm, request.threads));
+  MORULA_TRY_ASSIGN(RunFolder folder, RunFolder::create(request.runs, request.out, study.name, comm));
+  MORULA_TRY_ASSIGN(const RunLock lock, RunLock::take(folder.path(), comm));
+  RunRecord record = new_record(study, request, comm);
+  Status written = folder.write_study(study, record);
+  if (written.ok()) written = folder.write_record(record);
+  MORULA_TRY(agree(std::move(written), comm));
+  if (comm.is_root() && request.on_start) request.on_start(folder.path());
+  RunLoop loop(study, request, comm, std::move(folder), std::move(columns), std::move(record), std::move(simulation));
+  tell(loop, study, initial.notes);
+  if (request.until) loop.note(Note::Kind::kNote, end_note(request, loop.end()));
+  if (Status begun = loop.begin(); !begun.ok()) return loop.fail(begun.error(), true);
+  return loop.go();
+}
+
+Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest& request, const Comm& comm) {
+  MORULA_TRY_ASSIGN(RunFolder folder, RunFolder::open(run, comm));
+  MORULA_TRY_ASSIGN(const RunLock lock, RunLock::take(folder.path(), comm));
+  auto read = read_run_study(folder.path());
+  MORULA_TRY(agree(read.ok() ? Status{} : Status(read.error()), comm));
+  const Study study = std::move(read).value();
+  MORULA_TRY_ASSIGN(RunRecord record, read_run_record(folder.record()));
+  MORULA_TRY_ASSIGN(auto columns, columns_of(study));
+  MORULA_TRY_ASSIGN(Restored restored, restore(folder, request, study, comm));
+  MORULA_TRY_ASSIGN(const std::string study_hash, sha256_of_file(folder.path() / "study.resolved.yaml"));
+  if (restored.checkpoint.info.study_hash != study_hash)
+    return Error{ErrorKind::kInput, "the checkpoint belongs to another study than '" + (folder.path() / "study.resolved.yaml").string() + "'", "the resolved study of a run must not be changed; start a new run instead"};
+  const double time = restored.checkpoint.tissue.clock.time;
+  MORULA_TRY_ASSIGN(auto simulation, Simulation::create(study.model, std::move(restored.checkpoint.tissue), comm, request.threads));
+  record.state = RunState::kRunning;
+  record.message.clear();
+  record.finished.clear();
+  record.final_state.reset();
+  record.ranks = comm.size();
+  record.threads = request.threads;
+  record.wall_time = restored.checkpoint.info.wall_time;
+  complete_record(record);
+  MORULA_TRY(agree(folder.write_record(record), comm));
+  if (comm.is_root() && request.on_start) request.on_start(folder.path());
+  RunLoop loop(study, request, comm, std::move(folder), std::move(columns), std::move(record), std::move(simulation));
+  for (const std::string& warning : restored.warnings) loop.note(Note::Kind::kWarning, warning);
+  loop.note(Note::Kind::kNote, "resumed from the checkpoint at " + time_text(time));
+  if (request.until) loop.note(Note::Kind::kNote, end_note(request, loop.end()));
+  if (Status back = loop.go_back(); !back.ok()) return loop.fail(back.error(), false);
+  return loop.go();
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,183 @@
+#include "scenarios/run/report_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "scenarios/library/criteria.h"
+#include "scenarios/pictures/png.h"
+#include "scenarios/report/report.h"
+#include "scenarios/results/export.h"
+#include "scenarios/results/file_io.h"
+#include "scenarios/results/snapshot_file.h"
+#include "scenarios/run/progress.h"
+#include "scenarios/run/run_plots.h"
+#include "scenarios/run/used_laws.h"
+
+namespace morula::scenarios {
+namespace fs = std::filesystem;
+namespace {
+
+std::string short_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+Status make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  return error ? Status(file_error(path, "create folder", error.value())) : Status{};
+}
+
+/// The snapshots nearest to 0, 25, 50, 75 and 100 % of the time, each once.
+Result<std::vector<Snapshot>> snapshots_over_time(const fs::path& results) {
+  MORULA_TRY_ASSIGN(const auto entries, list_snapshots(results));
+  std::vector<Snapshot> out;
+  std::size_t last = entries.size();
+  for (int quarter = 0; quarter <= 4 && !entries.empty(); ++quarter) {
+    const double wanted = entries.front().time + 0.25 * quarter * (entries.back().time - entries.front().time);
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < entries.size(); ++i)
+      if (std::abs(entries[i].time - wanted) < std::abs(entries[nearest].time - wanted)) nearest = i;
+    if (nearest == last) continue;
+    last = nearest;
+    MORULA_TRY_ASSIGN(Snapshot snapshot, read_snapshot(results, entries[nearest].index));
+    out.push_back(std::move(snapshot));
+  }
+  return out;
+}
+
+/// Counts by kind and the warnings of events.jsonl; lines that are not whole are left out.
+void read_events(const fs::path& path, ReportContent& content) {
+  const auto text = read_file(path);
+  if (!text.ok()) return;  // no events
+  std::map<std::string, ReportEvents> by_kind;
+  std::istringstream lines(*text);
+  for (std::string line; std::getline(lines, line);) {
+    const auto json = nlohmann::json::parse(line, nullptr, false);
+    if (!json.is_object() || !json.contains("kind") || !json["kind"].is_string() || !json.contains("time_s") || !json["time_s"].is_number()) continue;
+    const std::string kind = json["kind"];
+    const double time = json["time_s"];
+    if (kind == "warning") content.warnings.emplace_back(time, json.value("text", ""));
+    ReportEvents& events = by_kind[kind];
+    if (events.count++ == 0) events.first = time;
+    events.last = time;
+  }
+  for (auto& [kind, events] : by_kind) {
+    events.kind = kind;
+    std::replace(events.kind.begin(), events.kind.end(), '_', ' ');
+    content.events.push_back(events);
+  }
+}
+
+void add_limit(const SeriesTable& series, const char* column, const char* name, double limit, const char* unit, ReportContent& content) {
+  const SeriesColumn* values = series.find(column);
+  const SeriesColumn* time = series.find("time");
+  if (!values || values->values.empty()) return;
+  const auto worst = std::max_element(values->values.begin(), values->values.end());
+  content.limits.push_back({name, *worst, limit, unit, time ? time->values[static_cast<std::size_t>(worst - values->values.begin())] : -1.0});
+}
+
+void add_key_numbers(const RunRecord& record, const SeriesTable& series, ReportContent& content) {
+  auto& out = content.key_numbers;
+  const auto last = [&](const char* column) { return series.find(column) && series.rows() > 0 ? series.find(column)->values.back() : std::nan(""); };
+  const auto add = [&](const char* column, const char* name, const char* unit, double scale = 1.0) {
+    if (std::isfinite(last(column))) out.push_back({name, short_text(scale * last(column)), unit});
+  };
+  add("cell_count", "cells", "");
+  add("shell_count", "deformable shells", "");
+  const double time = last("time");
+  if (std::isfinite(time)) out.push_back({"simulated", time_text(time), ""});
+  if (record.wall_time > 0.0) {
+    out.push_back({"wall time", duration_text(record.wall_time), ""});
+    if (std::isfinite(time)) out.push_back({"speed", short_text(time / record.wall_time), "simulated s per s"});
+  }
+  add("spheroid_radius", "radius", "µm");
+  add("mean_pressure", "mean pressure", "Pa", 1000.0);
+  add("mean_contact_area", "contact area per cell", "µm²");
+  if (std::isfinite(last("step_count")) && last("step_count") > 0 && std::isfinite(time)) out.push_back({"mean step", short_text(time / last("step_count")), "s"});
+}
+
+void add_provenance(const RunRecord& r, ReportContent& content) {
+  auto& out = content.provenance;
+  out = {{"Morula", r.version + " (" + r.git_hash + ")"}, {"command", r.command}, {"seed", std::to_string(r.seed)},
+         {"ranks × threads", std::to_string(r.ranks) + " × " + std::to_string(r.threads)}, {"compiler", r.compiler}, {"build", r.build_type},
+         {"host", r.host}, {"started", r.started}, {"finished", r.finished}, {"study (SHA-256)", r.study_hash}};
+  for (const auto& [name, version] : r.libraries) out.emplace_back(name, version);
+  if (!r.parent.empty()) out.emplace_back("goes on from", r.parent);
+  if (r.final_state) out.emplace_back("state hash", r.final_state->state_hash);
+}
+
+std::string state_text(const RunRecord& record) {
+  switch (record.state) {
+    case RunState::kRunning: return "still running";
+    case RunState::kDone: return "done";
+    case RunState::kStopped: return record.message;
+    case RunState::kFailed: return "failed: " + record.message;
+  }
+  return "";
+}
+
+}  // namespace
+
+Result<Study> read_run_study(const fs::path& run) {
+  auto study = read_study(run / "study.resolved.yaml");
+  if (!study.ok()) return study.error().as_error();
+  return std::move(study).value();
+}
+
+Result<fs::path> write_run_report(const Study& study, const RunRecord& record, const fs::path& run, const std::vector<Verdict>& verdicts) {
+  MORULA_TRY_ASSIGN(const SeriesTable series, read_series(run / "series.csv"));
+  MORULA_TRY(make_folder(run / "plots"));
+  ReportContent content;
+  content.title = study.title.empty() ? study.name : study.title;
+  content.study = study.name;
+  content.scenario = study.scenario;
+  content.state = state_text(record);
+  for (const Verdict& v : verdicts) content.criteria.push_back({v.id, v.quantity, short_text(v.value), v.limit, v.passed});
+  for (const auto& [name, plot] : standard_plots(study, series)) {
+    MORULA_TRY(write_curves(plot, run / "plots" / name));
+    content.plots.push_back({plot.title, curves_svg(plot, SvgUse::kInline)});
+  }
+  MORULA_TRY_ASSIGN(const auto snapshots, snapshots_over_time(run / "results.h5"));
+  content.pictures = standard_pictures(snapshots);
+  for (const Picture& picture : content.pictures) MORULA_TRY(write_png(picture.image, run / "plots" / (picture.name + ".png")));
+  add_key_numbers(record, series, content);
+  add_limit(series, "volume_error", "volume error", study.model.limits.volume_error, "", content);
+  add_limit(series, "worst_overlap", "overlap", study.model.limits.overlap, "µm", content);
+  add_limit(series, "field_balance", "field balance", study.model.limits.field_balance, "", content);
+  read_events(run / "events.jsonl", content);
+  add_provenance(record, content);
+  content.laws = used_laws(study);
+  MORULA_TRY(write_report(content, run / "report.html"));
+  return run / "report.html";
+}
+
+Result<RunOutputs> finish_outputs(const Study& study, const RunRecord& record, const RunFolder& folder) {
+  RunOutputs out;
+  MORULA_TRY_ASSIGN(out.verdicts, judge(study, folder.path()));
+  MORULA_TRY(folder.write_verdict(out.verdicts));
+  const auto laws = used_laws(study);
+  MORULA_TRY(write_methods(study.title.empty() ? study.name : study.title, laws, folder.path() / "methods.md"));
+  if (std::find(study.output.formats.begin(), study.output.formats.end(), "vtk") != study.output.formats.end()) {
+    auto exported = export_snapshots(folder.results(), folder.vtk(), ExportFormat::kVtk, {});
+    if (!exported.ok()) return std::move(exported).error();
+  }
+  if (study.output.report) {
+    MORULA_TRY_ASSIGN(out.report, write_run_report(study, record, folder.path(), out.verdicts));
+  }
+  return out;
+}
+
+Result<fs::path> plot_run(const fs::path& run) {
+  MORULA_TRY_ASSIGN(const RunRecord record, read_run_record(run / "run.json"));
+  MORULA_TRY_ASSIGN(const Study study, read_run_study(run));
+  MORULA_TRY_ASSIGN(const auto verdicts, judge(study, run));
+  return write_run_report(study, record, run, verdicts);
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,31 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "core/result.h"
+#include "scenarios/results/run_folder.h"
+#include "scenarios/results/run_record.h"
+#include "scenarios/study/study.h"
+
+namespace morula::scenarios {
+
+/// What stands beside the results when a run is done.
+struct RunOutputs {
+  std::vector<Verdict> verdicts;
+  std::filesystem::path report;  ///< empty: the study wants none
+};
+
+/// verdict.json, methods.md, vtk/ where asked for, and plots/ with report.html where asked for. On one process.
+Result<RunOutputs> finish_outputs(const Study& study, const RunRecord& record, const RunFolder& folder);
+
+/// plots/*.svg (with their numbers as CSV), plots/*.png and report.html from what is in a run's folder, also of a run that goes on or
+/// failed. Returns the path of the report. On one process.
+Result<std::filesystem::path> write_run_report(const Study& study, const RunRecord& record, const std::filesystem::path& run, const std::vector<Verdict>& verdicts);
+
+/// The same for a run on disk, its study and record read from there: `morula plot RUN`.
+Result<std::filesystem::path> plot_run(const std::filesystem::path& run);
+
+/// The study of a run as it was resolved, with the run's copies of its input files.
+Result<Study> read_run_study(const std::filesystem::path& run);
+
+}  // namespace morula::scenarios

@@ -1,0 +1,312 @@
+#include "scenarios/run/run_loop.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "scenarios/observables/local_snapshot.h"
+#include "scenarios/results/checkpoint_folder.h"
+#include "scenarios/results/file_io.h"
+#include "scenarios/results/snapshot_file.h"
+#include "scenarios/results/state_hash.h"
+#include "scenarios/run/exit_code.h"
+#include "scenarios/run/report_run.h"
+
+namespace morula::scenarios {
+namespace {
+
+constexpr double kWarnAt = 0.8;            // of a limit
+constexpr auto kStatusEvery = std::chrono::seconds(2);
+
+std::string number_text(const char* format, double value) {
+  char text[48];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+/// Index of the first multiple of the interval that is later than `time`.
+double next_multiple(double time, double interval) {
+  double k = std::floor(time / interval);
+  while (k * interval <= time) ++k;
+  return k * interval;
+}
+
+}  // namespace
+
+double next_output(double time, double interval, double end) { return std::min(next_multiple(time, interval), end); }
+
+double end_of_run(const TimeSpec& time, const std::optional<double>& until) {
+  if (!until) return time.end;
+  double k = std::floor(*until / time.output);
+  while (k * time.output < *until * (1.0 - 1e-12)) ++k;
+  const double rounded = k * time.output;
+  return *until <= time.end ? std::min(rounded, time.end) : rounded;
+}
+
+RunLoop::RunLoop(const Study& study, const RunRequest& request, const Comm& comm, RunFolder folder, std::vector<Observable> columns,
+                 RunRecord record, std::unique_ptr<Simulation> simulation)
+    : study_(study),
+      request_(request),
+      comm_(comm),
+      folder_(std::move(folder)),
+      columns_(std::move(columns)),
+      record_(std::move(record)),
+      simulation_(std::move(simulation)),
+      end_(end_of_run(study.time, request.until)),
+      wall_before_(record_.wall_time) {
+  checkpoint_due_ = next_multiple(simulation_->tissue().clock.time, study.time.checkpoint);
+  progress_.end = end_;
+  count_cells();
+}
+
+void RunLoop::note(Note::Kind kind, const std::string& text) {
+  if (!comm_.is_root()) return;
+  const double time = simulation_->tissue().clock.time;
+  const Status written = folder_.add_to_log((kind == Note::Kind::kNote ? "note  " : "warn  ") + time_text(time) + "  " + text);
+  if (!written.ok() && text_status_.ok()) text_status_ = written;
+  if (request_.on_note) request_.on_note({kind, time, text});
+}
+
+Status RunLoop::begin() {
+  std::vector<SeriesHeader> header;
+  for (const Observable& column : columns_) header.push_back({column.name, column.unit});
+  MORULA_TRY(agree(folder_.begin_series(header), comm_));
+  MORULA_TRY_ASSIGN(events_, simulation_->first_swaps());
+  std::vector<Vec3d> ignored;
+  interval_.energy = simulation_->mechanics().energy_and_forces(simulation_->tissue(), ignored);
+  count_cells();
+  MORULA_TRY(output());
+  return checkpoint();
+}
+
+Status RunLoop::go_back() {
+  std::vector<SeriesHeader> header;
+  for (const Observable& column : columns_) header.push_back({column.name, column.unit});
+  MORULA_TRY(agree(folder_.begin_series(header), comm_));
+  const double time = simulation_->tissue().clock.time;
+  MORULA_TRY(agree(folder_.cut_back(time), comm_));
+  return truncate_snapshots(folder_.results(), time, comm_);
+}
+
+int RunLoop::wish_to_stop() const {
+  std::int64_t wish = request_.stop != nullptr ? request_.stop->load(std::memory_order_relaxed) : kGoOn;
+  if (wish == kGoOn && wall() > request_.max_wall) wish = kStopEarly;
+  return static_cast<int>(comm_.max(wish));
+}
+
+Result<RunSummary> RunLoop::go() {
+  RunSummary summary;
+  const Clock& clock = simulation_->tissue().clock;
+  while (clock.time < end_) {
+    if (const int wish = wish_to_stop(); wish != kGoOn) {
+      const ErrorKind kind = wish == kInterrupt ? ErrorKind::kInterrupted : ErrorKind::kStoppedEarly;
+      if (Status done = finish(RunState::kStopped, kind, summary); !done.ok()) return fail(done.error(), true);
+      return summary;
+    }
+    const std::uint64_t steps = clock.steps;
+    if (Status done = step(); !done.ok()) return fail(done.error(), clock.steps == steps);
+    if (clock.time < next_output(std::nextafter(clock.time, 0.0), study_.time.output, end_)) continue;
+    if (Status done = output(); !done.ok()) return fail(done.error(), true);
+    if (clock.time < checkpoint_due_ || clock.time >= end_) continue;
+    if (Status done = checkpoint(); !done.ok()) return fail(done.error(), true);
+  }
+  if (Status done = finish(RunState::kDone, ErrorKind::kInternal, summary); !done.ok()) return fail(done.error(), true);
+  return summary;
+}
+
+Status RunLoop::step() {
+  const Clock& clock = simulation_->tissue().clock;
+  const double before = clock.time;
+  const auto began = SteadyClock::now();
+  MORULA_TRY_ASSIGN(StepOutcome outcome, simulation_->step(next_output(clock.time, study_.time.output, end_)));
+  interval_.add(outcome);
+  ++work_.steps;
+  work_.node_steps += load_.nodes;
+  work_.cell_steps += static_cast<double>(progress_.cells);
+  progress_.step = outcome.mechanics.step;
+  events_.insert(events_.end(), std::make_move_iterator(outcome.events.begin()), std::make_move_iterator(outcome.events.end()));
+  count_cells();
+  tell_progress(clock.time - before, std::chrono::duration<double>(SteadyClock::now() - began).count());
+  return {};
+}
+
+void RunLoop::count_cells() {
+  const Tissue& tissue = simulation_->tissue();
+  const std::int64_t spheres = comm_.sum(static_cast<std::int64_t>(tissue.spheres.size()));
+  progress_.shells = comm_.sum(static_cast<std::int64_t>(tissue.shells.size()));
+  progress_.cells = spheres + progress_.shells;
+  progress_.time = tissue.clock.time;
+  load_ = {static_cast<double>(spheres), static_cast<double>(comm_.sum(static_cast<std::int64_t>(tissue.shells.node_count())))};
+}
+
+void RunLoop::tell_progress(double simulated, double seconds) {
+  cost_.observe(simulated, seconds, load_);
+  progress_.wall = wall();
+  progress_.left = cost_.left(end_ - progress_.time, load_, growth_rate_);
+  if (!comm_.is_root()) return;
+  if (request_.on_progress) request_.on_progress(progress_);
+  if (SteadyClock::now() - last_status_ < kStatusEvery) return;
+  last_status_ = SteadyClock::now();
+  const Status written = folder_.write_status(status(RunState::kRunning));
+  if (!written.ok() && text_status_.ok()) text_status_ = written;
+}
+
+Status RunLoop::output() {
+  Measures measures;
+  {
+    auto timed = simulation_->timer().scope(Stage::kObserve);
+    measures = measure(*simulation_);
+    growth_rate_ = free_growth_rate(study_.model, measures.of_type);
+    MORULA_TRY(write_moment(measures));
+  }
+  interval_ = Interval{.energy = interval_.energy};
+  return check_limits(measures);
+}
+
+Status RunLoop::write_moment(const Measures& measures) {
+  const Tissue& tissue = simulation_->tissue();
+  const Moment moment{measures, interval_, tissue.clock, tissue.ledger};
+  std::vector<double> row;
+  for (const Observable& column : columns_) row.push_back(column.value(moment));
+  MORULA_TRY(append_snapshot(folder_.results(), local_snapshot(*simulation_), tissue.fields, comm_));
+  tell_events();
+  Status written = std::exchange(text_status_, {});
+  if (written.ok()) written = folder_.add_to_series(measures.time, row);
+  if (written.ok()) written = folder_.add_events(events_);
+  if (written.ok()) written = folder_.write_status(status(RunState::kRunning));
+  events_.clear();
+  return agree(std::move(written), comm_);
+}
+
+/// What happened since the last output, counted: `14 promotions (region core)`.
+void RunLoop::tell_events() {
+  std::map<std::pair<EventKind, std::string>, std::size_t> counts;
+  for (const Event& event : events_)
+    if (event.kind == EventKind::kPromotion || event.kind == EventKind::kDemotion) ++counts[{event.kind, event.text}];
+  for (const auto& [what, count] : counts)
+    note(Note::Kind::kNote, std::to_string(count) + (count == 1 ? " cell" : " cells") + (what.first == EventKind::kPromotion ? " promoted to DCM (" : " demoted to CBM (") + what.second + ")");
+  for (const Event& event : events_)
+    if (event.kind == EventKind::kWarning) note(Note::Kind::kWarning, "cell " + event.cell.text() + ": " + event.text);
+}
+
+void RunLoop::warn_near_limit(bool& warned, const std::string& text) {
+  if (!warned) note(Note::Kind::kWarning, text);
+  warned = true;
+}
+
+Status RunLoop::check_limits(const Measures& m) {
+  const Limits& limits = study_.model.limits;
+  const auto crossed = [&](const std::string& what, const Extreme& extreme) {
+    return Error{ErrorKind::kPhysics, what + (extreme.cell.valid() ? " in cell " + extreme.cell.text() : "") + " at " + time_text(m.time), "the limit is in the study: `limits`; the last checkpoint and snapshot show the state"};
+  };
+  const std::string volume = "volume error " + number_text("%.2g %%", 100.0 * m.volume_error.value) + " (limit " + number_text("%.2g %%)", 100.0 * limits.volume_error);
+  if (!(m.volume_error.value <= limits.volume_error)) return crossed(volume, m.volume_error);
+  if (m.volume_error.value > kWarnAt * limits.volume_error) warn_near_limit(volume_warned_, volume + " in cell " + m.volume_error.cell.text());
+  if (!simulation_->tissue().clock.capped) {  // a capped start may overlap until it has come apart
+    const std::string overlap = "overlap " + number_text("%.2g um", m.overlap.value) + " (limit " + number_text("%.2g um)", limits.overlap);
+    if (!(m.overlap.value <= limits.overlap)) return crossed(overlap, m.overlap);
+    if (m.overlap.value > kWarnAt * limits.overlap) warn_near_limit(overlap_warned_, overlap + " at cell " + m.overlap.cell.text());
+  }
+  for (std::size_t f = 0; f < study_.model.fields.size(); ++f) {
+    const std::string balance = "balance of " + study_.model.fields[f].name + " off by " + number_text("%.2g", m.field_balance[f]) + " (limit " + number_text("%.2g)", limits.field_balance);
+    if (!(m.field_balance[f] <= limits.field_balance)) return crossed(balance, {});
+    if (m.field_balance[f] > kWarnAt * limits.field_balance) warn_near_limit(balance_warned_, balance);
+  }
+  return {};
+}
+
+Status RunLoop::checkpoint() {
+  auto timed = simulation_->timer().scope(Stage::kObserve);
+  const Tissue& tissue = simulation_->tissue();
+  checkpoint_due_ = next_multiple(tissue.clock.time, study_.time.checkpoint);
+  const CheckpointInfo info{record_.study, record_.study_hash, wall_before_ + wall(), {}};
+  auto saved = save_checkpoint(folder_.checkpoints(), tissue, info, comm_);
+  return saved.ok() ? Status{} : Status(std::move(saved).error());
+}
+
+RunStatus RunLoop::status(RunState state) const {
+  RunStatus out;
+  out.state = state;
+  out.time = simulation_->tissue().clock.time;
+  out.end = end_;
+  out.cells = static_cast<std::uint64_t>(progress_.cells);
+  out.shells = static_cast<std::uint64_t>(progress_.shells);
+  out.steps = simulation_->tissue().clock.steps;
+  out.step = progress_.step;
+  out.wall_time = wall_before_ + wall();
+  out.left_low = state == RunState::kRunning ? progress_.left.low : -1.0;
+  out.left_high = state == RunState::kRunning ? progress_.left.high : -1.0;
+  out.process = ::getpid();
+  return out;
+}
+
+FinalState RunLoop::final_state() const {
+  FinalState out;
+  out.time = simulation_->tissue().clock.time;
+  out.cells = static_cast<std::uint64_t>(progress_.cells);
+  out.shells = static_cast<std::uint64_t>(progress_.shells);
+  out.spheres = out.cells - out.shells;
+  out.state_hash = state_hash(simulation_->tissue(), comm_).hex();
+  return out;
+}
+
+Status RunLoop::finish(RunState state, ErrorKind kind, RunSummary& summary) {
+  const bool done = state == RunState::kDone;
+  tell_events();
+  MORULA_TRY(agree(folder_.add_events(events_), comm_));
+  events_.clear();
+  MORULA_TRY(checkpoint());
+  record_.state = state;
+  record_.exit_code = done ? 0 : exit_code(kind);
+  record_.message = done ? "" : std::string(kind == ErrorKind::kInterrupted ? "interrupted" : "stopped early") + " at " + time_text(progress_.time) + ", with a checkpoint";
+  record_.finished = utc_now();
+  record_.wall_time = wall_before_ + wall();
+  record_.final_state = final_state();
+  if (request_.timings) {
+    const Timings timings = collect_timings(*simulation_, work_, wall());
+    record_.timings = timings_record(timings);
+    summary.timings = timings_table(timings);
+  }
+  Status written = folder_.write_status(status(state));
+  if (written.ok() && comm_.is_root() && done) {
+    auto outputs = finish_outputs(study_, record_, folder_);
+    if (outputs.ok()) {
+      summary.verdicts = std::move(outputs->verdicts);
+      summary.report = std::move(outputs->report);
+    } else {
+      written = std::move(outputs).error();
+    }
+  }
+  if (written.ok()) written = folder_.write_record(record_);
+  MORULA_TRY(agree(std::move(written), comm_));
+  if (!done) note(Note::Kind::kNote, record_.message);
+  summary.path = folder_.path();
+  summary.state = state;
+  if (!done) summary.stopped = kind;
+  summary.final_state = *record_.final_state;
+  summary.wall_time = wall();
+  return {};
+}
+
+Error RunLoop::fail(Error error, bool state_is_sound) {
+  note(Note::Kind::kWarning, error.message);
+  if (comm_.is_root()) (void)folder_.add_events(events_);
+  events_.clear();
+  // A full disk has no room for a checkpoint, and the earlier one is whole; a step that broke off midway left no state to keep.
+  if (state_is_sound && error.kind != ErrorKind::kResources) (void)checkpoint().ok();
+  record_.state = RunState::kFailed;
+  record_.exit_code = exit_code(error.kind);
+  record_.message = error.message;
+  record_.finished = utc_now();
+  record_.wall_time = wall_before_ + wall();
+  if (state_is_sound) record_.final_state = final_state();
+  (void)folder_.write_status(status(RunState::kFailed)).ok();
+  (void)folder_.write_record(record_).ok();
+  error.message = folder_.path().string() + ": " + error.message;
+  return error;
+}
+
+}  // namespace morula::scenarios

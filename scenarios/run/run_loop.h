@@ -1,0 +1,79 @@
+#pragma once
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "coupling/simulation.h"
+#include "scenarios/observables/observables.h"
+#include "scenarios/results/run_folder.h"
+#include "scenarios/run/driver.h"
+#include "scenarios/run/timings.h"
+
+namespace morula::scenarios {
+
+/// The first output time after `time`: the next multiple of the interval, or the end if that comes first [s].
+double next_output(double time, double interval, double end);
+/// `until` rounded up to a multiple of the output interval, or to the end where it lies before the end and the multiple does not [s].
+double end_of_run(const TimeSpec& time, const std::optional<double>& until);
+
+/// A run while it goes on: the simulation, its folder, and what is due next. All members that call MPI are called by all ranks.
+class RunLoop {
+ public:
+  RunLoop(const Study& study, const RunRequest& request, const Comm& comm, RunFolder folder, std::vector<Observable> columns, RunRecord record,
+          std::unique_ptr<Simulation> simulation);
+
+  /// Time 0: the first exchange of bodies, the first row, snapshot and checkpoint.
+  Status begin();
+  /// After a restart: take away what is later than the checkpoint.
+  Status go_back();
+  /// To the end, a wish to stop, or an error.
+  Result<RunSummary> go();
+  /// Mark the run as failed; the error with the run's name in it.
+  Error fail(Error error, bool state_is_sound);
+
+  void note(Note::Kind kind, const std::string& text);
+  [[nodiscard]] const RunFolder& folder() const { return folder_; }
+  [[nodiscard]] double end() const { return end_; }
+
+ private:
+  using SteadyClock = std::chrono::steady_clock;
+
+  Status step();
+  Status output();
+  Status write_moment(const Measures& measures);
+  Status check_limits(const Measures& measures);
+  void warn_near_limit(bool& warned, const std::string& text);
+  void tell_events();
+  Status checkpoint();
+  Status finish(RunState state, ErrorKind kind, RunSummary& summary);
+  [[nodiscard]] int wish_to_stop() const;
+  [[nodiscard]] double wall() const { return std::chrono::duration<double>(SteadyClock::now() - start_).count(); }
+  [[nodiscard]] RunStatus status(RunState state) const;
+  [[nodiscard]] FinalState final_state() const;
+  void count_cells();
+  void tell_progress(double simulated, double seconds);
+
+  const Study& study_;
+  const RunRequest& request_;
+  Comm comm_;
+  RunFolder folder_;
+  std::vector<Observable> columns_;
+  RunRecord record_;
+  std::unique_ptr<Simulation> simulation_;
+  double end_ = 0.0;
+  double checkpoint_due_ = 0.0;
+  double wall_before_ = 0.0;     ///< of earlier parts of the run [s]
+  SteadyClock::time_point start_ = SteadyClock::now(), last_status_ = SteadyClock::now();
+  Interval interval_;
+  WorkDone work_;
+  CostModel cost_;
+  Progress progress_;
+  Load load_;
+  double growth_rate_ = 0.0;     ///< of the spheres, if nothing inhibits it [1/s]
+  std::vector<Event> events_;    ///< not yet written
+  Status text_status_;           ///< the first failure of a text written between outputs
+  bool volume_warned_ = false, overlap_warned_ = false, balance_warned_ = false;
+};
+
+}  // namespace morula::scenarios
