@@ -146,8 +146,9 @@ Result<RunRecord> read_run_record(const std::filesystem::path& run_json) {
   r.build_type = text_at(json, "build");
   r.host = text_at(json, "host");
   if (const auto final = json.find("final"); final != json.end() && final->is_object())
-    r.final_state = FinalState{number_at(*final, "time_s", 0.0), number_at(*final, "cells", std::uint64_t{0}), number_at(*final, "spheres", std::uint64_t{0}),
-                               number_at(*final, "shells", std::uint64_t{0}), text_at(*final, "state_hash")};
+    r.final_state = FinalState{number_at(*final, "time_s", 0.0), number_at(*final, "cells", std::uint64_t{0}),
+                               number_at(*final, "spheres", std::uint64_t{0}), number_at(*final, "shells", std::uint64_t{0}),
+                               text_at(*final, "state_hash")};
   if (const auto timings = json.find("timings"); timings != json.end() && timings->is_object())
     for (const auto& [name, value] : timings->items())
       if (value.is_number()) r.timings.emplace_back(name, value.get<double>());

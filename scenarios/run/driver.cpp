@@ -126,4 +126,27 @@ Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest&
   return loop.go();
 }
 
+Result<RunSummary> branch(const std::filesystem::path& parent, const Study& study, const ResumeRequest& request, const Comm& comm) {
+  MORULA_TRY_ASSIGN(const RunFolder from, RunFolder::open(parent, comm));
+  MORULA_TRY_ASSIGN(auto columns, columns_of(study));
+  MORULA_TRY_ASSIGN(Restored restored, restore(from, request, study, comm));
+  const double time = restored.checkpoint.tissue.clock.time;
+  MORULA_TRY_ASSIGN(auto simulation,
+                    Simulation::create(study.model, std::move(restored.checkpoint.tissue), comm, request.threads));
+  MORULA_TRY_ASSIGN(RunFolder folder, RunFolder::create(request.runs, request.out, study.name, comm));
+  MORULA_TRY_ASSIGN(const RunLock lock, RunLock::take(folder.path(), comm));
+  RunRecord record = new_record(study, request, comm);
+  record.parent = std::filesystem::absolute(from.path()).lexically_normal().string();
+  Status written = folder.write_study(study, record);
+  if (written.ok()) written = folder.write_record(record);
+  MORULA_TRY(agree(std::move(written), comm));
+  if (comm.is_root() && request.on_start) request.on_start(folder.path());
+  RunLoop loop(study, request, comm, std::move(folder), std::move(columns), std::move(record), std::move(simulation));
+  tell(loop, study, restored.warnings);
+  loop.note(Note::Kind::kNote, "goes on from '" + from.path().string() + "' at " + time_text(time));
+  if (request.until) loop.note(Note::Kind::kNote, end_note(request, loop.end()));
+  if (Status begun = loop.begin(); !begun.ok()) return loop.fail(begun.error(), true);
+  return loop.go();
+}
+
 }  // namespace morula::scenarios

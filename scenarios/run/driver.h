@@ -74,4 +74,8 @@ Result<RunSummary> run(const Study& study, const RunRequest& request, const Comm
 /// and snapshots is taken away first. `until` beyond the study's end extends the run. Collective.
 Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest& request, const Comm& comm);
 
+/// Start a new run of a changed study from a checkpoint of another run, which is recorded as its parent and left as it is. Collective.
+/// Errors as of `run`, and kInput when the state does not fit the study (other cell types, fields or obstacles).
+Result<RunSummary> branch(const std::filesystem::path& parent, const Study& study, const ResumeRequest& request, const Comm& comm);
+
 }  // namespace morula::scenarios

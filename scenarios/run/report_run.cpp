@@ -33,24 +33,6 @@ Status make_folder(const fs::path& path) {
   return error ? Status(file_error(path, "create folder", error.value())) : Status{};
 }
 
-/// The snapshots nearest to 0, 25, 50, 75 and 100 % of the time, each once.
-Result<std::vector<Snapshot>> snapshots_over_time(const fs::path& results) {
-  MORULA_TRY_ASSIGN(const auto entries, list_snapshots(results));
-  std::vector<Snapshot> out;
-  std::size_t last = entries.size();
-  for (int quarter = 0; quarter <= 4 && !entries.empty(); ++quarter) {
-    const double wanted = entries.front().time + 0.25 * quarter * (entries.back().time - entries.front().time);
-    std::size_t nearest = 0;
-    for (std::size_t i = 1; i < entries.size(); ++i)
-      if (std::abs(entries[i].time - wanted) < std::abs(entries[nearest].time - wanted)) nearest = i;
-    if (nearest == last) continue;
-    last = nearest;
-    MORULA_TRY_ASSIGN(Snapshot snapshot, read_snapshot(results, entries[nearest].index));
-    out.push_back(std::move(snapshot));
-  }
-  return out;
-}
-
 /// Counts by kind and the warnings of events.jsonl; lines that are not whole are left out.
 void read_events(const fs::path& path, ReportContent& content) {
   const auto text = read_file(path);
@@ -123,6 +105,23 @@ std::string state_text(const RunRecord& record) {
 }
 
 }  // namespace
+
+Result<std::vector<Snapshot>> snapshots_over_time(const fs::path& results) {
+  MORULA_TRY_ASSIGN(const auto entries, list_snapshots(results));
+  std::vector<Snapshot> out;
+  std::size_t last = entries.size();
+  for (int quarter = 0; quarter <= 4 && !entries.empty(); ++quarter) {
+    const double wanted = entries.front().time + 0.25 * quarter * (entries.back().time - entries.front().time);
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < entries.size(); ++i)
+      if (std::abs(entries[i].time - wanted) < std::abs(entries[nearest].time - wanted)) nearest = i;
+    if (nearest == last) continue;
+    last = nearest;
+    MORULA_TRY_ASSIGN(Snapshot snapshot, read_snapshot(results, entries[nearest].index));
+    out.push_back(std::move(snapshot));
+  }
+  return out;
+}
 
 Result<Study> read_run_study(const fs::path& run) {
   auto study = read_study(run / "study.resolved.yaml");

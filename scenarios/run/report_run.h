@@ -5,6 +5,7 @@
 #include "core/result.h"
 #include "scenarios/results/run_folder.h"
 #include "scenarios/results/run_record.h"
+#include "scenarios/results/snapshot.h"
 #include "scenarios/study/study.h"
 
 namespace morula::scenarios {
@@ -24,6 +25,9 @@ Result<std::filesystem::path> write_run_report(const Study& study, const RunReco
 
 /// The same for a run on disk, its study and record read from there: `morula plot RUN`.
 Result<std::filesystem::path> plot_run(const std::filesystem::path& run);
+
+/// The snapshots nearest to 0, 25, 50, 75 and 100 % of the time, each once.
+Result<std::vector<Snapshot>> snapshots_over_time(const std::filesystem::path& results);
 
 /// The study of a run as it was resolved, with the run's copies of its input files.
 Result<Study> read_run_study(const std::filesystem::path& run);

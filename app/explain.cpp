@@ -1,0 +1,36 @@
+#include "app/laws.h"
+#include "app/verbs.h"
+#include "scenarios/study/catalogue.h"
+#include "scenarios/study/diagnostics.h"
+
+namespace morula::app {
+
+Status explain(const ExplainOptions& options, const Context& context) {
+  if (options.markdown == "laws") {
+    context.console.result(law_reference());
+    return {};
+  }
+  if (options.markdown == "study") {
+    context.console.result(scenarios::study_reference());
+    return {};
+  }
+  std::string text;
+  for (const ListedLaw& law : laws_named(options.id)) text += law_text(law);
+  if (const auto found = scenarios::explain_study(options.id)) text += *found;
+  if (text.empty()) {
+    std::vector<std::string> known = law_names();
+    for (std::string& path : scenarios::study_key_paths()) {
+      const std::size_t dot = path.rfind('.');
+      if (dot != std::string::npos) known.push_back(path.substr(dot + 1));
+      known.push_back(std::move(path));
+    }
+    const std::string near = scenarios::suggest(options.id, known);
+    const bool suggestion = near.rfind("did you mean", 0) == 0;
+    return Error{ErrorKind::kInput, "nothing is known of '" + options.id + "'",
+                 suggestion ? near : "a key such as `time.end`, a law such as `jkr`, or a code such as `E203`; `morula explain --markdown study` lists all keys"};
+  }
+  context.console.result(text);
+  return {};
+}
+
+}  // namespace morula::app

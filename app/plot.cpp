@@ -1,0 +1,69 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "app/verbs.h"
+#include "app/words.h"
+#include "scenarios/pictures/png.h"
+#include "scenarios/pictures/standard_pictures.h"
+#include "scenarios/report/series_reader.h"
+#include "scenarios/results/file_io.h"
+#include "scenarios/results/run_folder.h"
+#include "scenarios/run/report_run.h"
+#include "scenarios/run/run_plots.h"
+
+namespace morula::app {
+namespace fs = std::filesystem;
+namespace {
+
+/// What the user wants to see: names that begin so; nothing given: all.
+bool wanted(const std::string& name, const std::vector<std::string>& only) {
+  return only.empty() || std::any_of(only.begin(), only.end(), [&](const std::string& begin) { return name.starts_with(begin); });
+}
+
+Status write_plots(const scenarios::Study& study, const fs::path& run, const std::vector<std::string>& only, std::string& written) {
+  MORULA_TRY_ASSIGN(const scenarios::SeriesTable series, scenarios::read_series(run / "series.csv"));
+  for (const scenarios::NamedPlot& one : scenarios::standard_plots(study, series)) {
+    if (!wanted(one.name, only)) continue;
+    MORULA_TRY(scenarios::write_curves(one.plot, run / "plots" / one.name));
+    written += (run / "plots" / (one.name + ".svg")).string() + "\n";
+  }
+  return {};
+}
+
+Status write_pictures(const fs::path& run, const std::vector<std::string>& only, std::string& written) {
+  MORULA_TRY_ASSIGN(const auto snapshots, scenarios::snapshots_over_time(run / "results.h5"));
+  for (const scenarios::Picture& picture : scenarios::standard_pictures(snapshots)) {
+    if (!wanted(picture.name, only)) continue;
+    const fs::path path = run / "plots" / (picture.name + ".png");
+    MORULA_TRY(scenarios::write_png(picture.image, path));
+    written += path.string() + "\n";
+  }
+  return {};
+}
+
+/// Plots and pictures alone, some of them, without a report.
+Status plot_some(const fs::path& run, const PlotOptions& options, const Context& context) {
+  const auto has = [&](const char* format) { return options.formats.empty() || std::find(options.formats.begin(), options.formats.end(), format) != options.formats.end(); };
+  MORULA_TRY_ASSIGN(const scenarios::Study study, scenarios::read_run_study(run));
+  std::error_code error;
+  fs::create_directories(run / "plots", error);
+  if (error) return scenarios::file_error(run / "plots", "create folder", error.value());
+  std::string written;
+  if (has("svg")) MORULA_TRY(write_plots(study, run, options.only, written));
+  if (has("png")) MORULA_TRY(write_pictures(run, options.only, written));
+  if (written.empty()) return Error{ErrorKind::kInput, "no plot or picture has a name that begins so", "`morula plot " + run.string() + "` writes all; their names are those of the files in plots/"};
+  context.console.result(written);
+  return {};
+}
+
+}  // namespace
+
+Status plot(const PlotOptions& options, const Context& context) {
+  MORULA_TRY_ASSIGN(const scenarios::RunFolder folder, scenarios::RunFolder::open(options.run, Comm()));
+  if (!options.only.empty() || !options.formats.empty()) return plot_some(folder.path(), options, context);
+  MORULA_TRY_ASSIGN(const fs::path report, scenarios::plot_run(folder.path()));
+  context.console.result(report.string() + "\n");
+  return {};
+}
+
+}  // namespace morula::app

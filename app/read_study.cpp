@@ -1,0 +1,29 @@
+#include "app/read_study.h"
+
+#include "app/words.h"
+#include "scenarios/library/library.h"
+#include "scenarios/observables/observables.h"
+
+namespace morula::app {
+
+Result<scenarios::Study> read_study_and_tell(const std::string& path, const std::vector<std::string>& overrides, bool strict, const Context& context) {
+  scenarios::ReadOptions options;
+  options.overrides = overrides;
+  options.scenario_names = scenarios::template_names();
+  options.strict = strict;
+  auto study = scenarios::read_study(path, options);
+  if (study.ok() && !study->output.series.empty()) {  // which observables exist depends on the cell types and fields of the study
+    options.series_names = scenarios::observable_names(study->model);
+    study = scenarios::read_study(path, options);
+  }
+  const scenarios::Diagnostics& told = study.ok() ? study->warnings : study.error();
+  if (!told.empty()) context.console.message(told.text(context.console.colour()));
+  if (study.ok()) {
+    for (const std::string& note : study->notes) context.console.note(note);
+    return std::move(study).value();
+  }
+  context.console.message(count_words(told.error_count(), "error", "errors") + " in '" + path + "'\n");
+  return Error{told.kind(), "", ""};
+}
+
+}  // namespace morula::app

@@ -1,0 +1,60 @@
+#include <filesystem>
+
+#include "app/read_study.h"
+#include "app/run_display.h"
+#include "app/run_request.h"
+#include "app/verbs.h"
+#include "scenarios/results/checkpoint_folder.h"
+#include "scenarios/results/file_io.h"
+#include "scenarios/results/run_folder.h"
+
+namespace morula::app {
+namespace fs = std::filesystem;
+namespace {
+
+/// The checkpoint the user names: a path, or a file name in the run with or without its ending.
+Result<fs::path> find_checkpoint(const fs::path& run, const std::string& from) {
+  std::error_code error;
+  for (const fs::path& path : {run / "checkpoints" / from, run / "checkpoints" / (from + ".h5"), fs::path(from)})
+    if (fs::is_regular_file(path, error)) return path;
+  std::string there;
+  for (const fs::path& path : scenarios::checkpoints_in(run / "checkpoints")) there += (there.empty() ? "" : ", ") + path.stem().string();
+  return Error{ErrorKind::kFile, "there is no checkpoint '" + from + "' in '" + run.string() + "'", there.empty() ? "the run has no checkpoints" : "there are: " + there};
+}
+
+bool is_newest(const fs::path& run, const fs::path& checkpoint) {
+  const auto all = scenarios::checkpoints_in(run / "checkpoints");
+  std::error_code error;
+  return !all.empty() && fs::equivalent(all.front(), checkpoint, error);
+}
+
+}  // namespace
+
+Status resume(const ResumeOptions& options, const Context& context) {
+  MORULA_TRY_ASSIGN(const scenarios::RunFolder folder, scenarios::RunFolder::open(options.run, context.comm));
+  auto study = read_study_and_tell((folder.path() / "study.resolved.yaml").string(), options.overrides, false, context);
+  MORULA_TRY(scenarios::agree(study.ok() ? Status{} : Status{study.error()}, context.comm));
+  scenarios::ResumeRequest request;
+  MORULA_TRY(fill_request(options.limits, context, request));
+  bool go_back = false;
+  if (!options.from.empty()) {
+    auto found = find_checkpoint(folder.path(), options.from);
+    MORULA_TRY(scenarios::agree(found.ok() ? Status{} : Status{found.error()}, context.comm));
+    request.from = std::move(found).value();
+    go_back = !is_newest(folder.path(), request.from);
+  }
+  RunDisplay display(context.console, first_line(*study, options.limits.threads, context));
+  display.listen_to(request);
+  // A change of the study, or going on from an earlier moment, makes a new run: what the old one has found stays.
+  const bool new_run = !options.overrides.empty() || go_back;
+  if (new_run) {
+    request.out = options.out;
+    request.runs = fs::absolute(folder.path()).lexically_normal().parent_path();
+  }
+  MORULA_TRY_ASSIGN(const scenarios::RunSummary summary, new_run ? scenarios::branch(folder.path(), *study, request, context.comm)
+                                                                 : scenarios::resume(folder.path(), request, context.comm));
+  display.end(summary);
+  return outcome_of(summary);
+}
+
+}  // namespace morula::app

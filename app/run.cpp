@@ -1,0 +1,36 @@
+#include "app/estimate_text.h"
+#include "app/read_study.h"
+#include "app/run_display.h"
+#include "app/run_request.h"
+#include "app/verbs.h"
+#include "scenarios/results/file_io.h"
+
+namespace morula::app {
+
+Status run(const RunOptions& options, const Context& context) {
+  std::vector<std::string> overrides = options.overrides;
+  if (options.seed) overrides.push_back("seed=" + std::to_string(*options.seed));
+  auto study = read_study_and_tell(options.study, overrides, false, context);
+  MORULA_TRY(scenarios::agree(study.ok() ? Status{} : Status{study.error()}, context.comm));
+  scenarios::RunRequest request;
+  request.out = options.out;
+  MORULA_TRY(fill_request(options.limits, context, request));
+  if (options.dry_run) {
+    Status told;
+    if (context.comm.is_root()) {
+      auto text = estimate_text(*study, context.comm.size());
+      if (text.ok())
+        context.console.result(first_line(*study, options.limits.threads, context) + "\n" + *text);
+      else
+        told = text.error();
+    }
+    return scenarios::agree(std::move(told), context.comm);
+  }
+  RunDisplay display(context.console, first_line(*study, options.limits.threads, context));
+  display.listen_to(request);
+  MORULA_TRY_ASSIGN(const scenarios::RunSummary summary, scenarios::run(*study, request, context.comm));
+  display.end(summary);
+  return outcome_of(summary);
+}
+
+}  // namespace morula::app

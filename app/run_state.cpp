@@ -1,0 +1,42 @@
+#include "app/run_state.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "core/parallel/comm.h"
+#include "scenarios/results/run_folder.h"
+
+namespace morula::app {
+namespace {
+
+bool on_this_machine(const std::string& host) {
+  char name[256] = "";
+  return gethostname(name, sizeof name - 1) == 0 && host == name;
+}
+
+}  // namespace
+
+std::string RunOverview::state_word() const { return lost ? "lost" : scenarios::name_of(record.state); }
+
+Result<RunOverview> overview_of(const std::filesystem::path& run) {
+  MORULA_TRY_ASSIGN(const scenarios::RunFolder folder, scenarios::RunFolder::open(run, Comm()));
+  RunOverview overview;
+  overview.path = folder.path();
+  MORULA_TRY_ASSIGN(overview.record, scenarios::read_run_record(folder.record()));
+  std::error_code error;
+  if (std::filesystem::exists(folder.status(), error)) {
+    MORULA_TRY_ASSIGN(overview.status, scenarios::read_run_status(folder.status()));
+  } else {
+    overview.status.wall_time = overview.record.wall_time;
+    overview.status.updated = overview.record.started;
+  }
+  overview.status.state = overview.record.state;
+  const auto process = static_cast<pid_t>(overview.status.process);
+  if (overview.record.state == scenarios::RunState::kRunning && process > 0 && on_this_machine(overview.record.host))
+    overview.lost = kill(process, 0) != 0 && errno == ESRCH;
+  return overview;
+}
+
+}  // namespace morula::app

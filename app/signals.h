@@ -1,0 +1,10 @@
+#pragma once
+#include <atomic>
+
+namespace morula::app {
+
+/// From now on SIGTERM and SIGUSR1 ask to stop early and SIGINT to be interrupted: the run ends with a checkpoint after the step that it is
+/// doing. A second SIGINT ends the program at once (exit 130). Returns what was asked for: a scenarios::StopWish.
+const std::atomic<int>& watch_signals();
+
+}  // namespace morula::app

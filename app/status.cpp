@@ -1,0 +1,46 @@
+#include <nlohmann/json.hpp>
+
+#include "app/run_state.h"
+#include "app/verbs.h"
+#include "app/words.h"
+#include "scenarios/run/progress.h"
+#include "scenarios/results/run_folder.h"
+
+namespace morula::app {
+namespace {
+
+using scenarios::RunState;
+using scenarios::RunStatus;
+
+std::string status_text(const RunOverview& run) {
+  const RunStatus& status = run.status;
+  const double part = status.end > 0.0 ? 100.0 * status.time / status.end : 0.0;
+  std::string out = run.path.string() + ": " + run.state_word() + "\n";
+  out += "  time   " + scenarios::time_text(status.time) + " of " + scenarios::time_text(status.end) + " (" + number_text("%.0f", part) + " %)\n";
+  out += "  cells  " + std::to_string(status.cells) + " (" + count_words(status.shells, "shell", "shells") + ")\n";
+  out += "  steps  " + std::to_string(status.steps) + ", the last of " + number_text("%.3g s", status.step) + "\n";
+  out += "  wall   " + scenarios::duration_text(status.wall_time);
+  if (status.state == RunState::kRunning && !run.lost && status.left_low >= 0.0)
+    out += ", left " + scenarios::duration_text(status.left_low) + " to " + scenarios::duration_text(status.left_high);
+  out += "\n  as of  " + status.updated + "\n";
+  if (!run.record.message.empty()) out += "  why    " + run.record.message + "\n";
+  if (run.lost || status.state == RunState::kStopped) out += "  next   morula resume " + run.path.string() + "\n";
+  return out;
+}
+
+}  // namespace
+
+Status show_status(const StatusOptions& options, const Context& context) {
+  MORULA_TRY_ASSIGN(const RunOverview run, overview_of(options.run));
+  if (!options.json) {
+    context.console.result(status_text(run));
+    return {};
+  }
+  auto json = nlohmann::ordered_json::parse(scenarios::to_json(run.status));
+  json["state"] = run.state_word();
+  json["run"] = run.path.string();
+  context.console.result(json.dump(2) + "\n");
+  return {};
+}
+
+}  // namespace morula::app

@@ -1,0 +1,60 @@
+#include "app/words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/numbers/unit_conversion.h"
+
+namespace morula::app {
+
+Result<double> read_time(const std::string& flag, const std::string& text) {
+  const UnitSystem units;
+  const auto time = units.parse(text, Quantity::kTime);
+  if (!time.ok()) return Error{ErrorKind::kInput, flag + " " + time.error().message, time.error().help};
+  if (!(*time > 0.0)) return Error{ErrorKind::kInput, flag + " must be above 0, but is '" + text + "'", "for example `" + flag + " 48h`"};
+  return *time;
+}
+
+std::string number_text(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string bytes_words(double bytes) {
+  constexpr const char* units[] = {"B", "kB", "MB", "GB", "TB"};
+  int unit = 0;
+  for (; bytes >= 1000.0 && unit < 4; ++unit) bytes /= 1000.0;
+  return number_text(unit == 0 || bytes >= 100.0 ? "%.0f " : "%.1f ", bytes) + units[unit];
+}
+
+std::string count_words(std::uint64_t count, const std::string& singular, const std::string& plural) {
+  return std::to_string(count) + " " + (count == 1 ? singular : plural);
+}
+
+namespace {
+/// Characters of a UTF-8 text: all bytes but those that go on with a character.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
+}
+}  // namespace
+
+std::string table_text(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()), 0);
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width_of(row[i]));
+  }
+  std::string out;
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      out += row[i];
+      if (i + 1 < row.size()) out.append(widths[i] - width_of(row[i]) + 2, ' ');
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace morula::app

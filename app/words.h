@@ -1,0 +1,22 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+
+namespace morula::app {
+
+/// A time typed on the command line, as `48h` or `90 min`, in seconds. kInput, naming `flag`, if it is none, or is not above 0.
+Result<double> read_time(const std::string& flag, const std::string& text);
+
+/// Bytes: "812 MB".
+[[nodiscard]] std::string bytes_words(double bytes);
+/// "1 cell", "3 cells".
+[[nodiscard]] std::string count_words(std::uint64_t count, const std::string& singular, const std::string& plural);
+/// printf for std::string, for single numbers: number_text("%.3g", 2.5).
+[[nodiscard]] std::string number_text(const char* format, double value);
+/// Columns aligned on their widest entry (in characters, not bytes), two spaces apart.
+[[nodiscard]] std::string table_text(const std::vector<std::vector<std::string>>& rows);
+
+}  // namespace morula::app

@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+
+namespace morula::test {
+
+/// A small tissue of spheres: a second or two of wall time, no randomness left out.
+[[nodiscard]] std::string sphere_study();
+/// About thirty cells, some of them shells: oxygen, growth, division, promotion by a region.
+[[nodiscard]] std::string hybrid_study();
+/// A text with the first `from` replaced by `to`; a test failure when it does not hold `from`.
+[[nodiscard]] std::string changed(std::string text, const std::string& from, const std::string& to);
+
+/// A cube as ASCII STL [µm], its faces counter-clockwise seen from outside; `faces` of 12, `flipped` turns the first one.
+[[nodiscard]] std::string cube_stl(double edge, int faces = 12, bool flipped = false);
+/// Two cubes as one surface, the second moved by half an edge: it crosses itself.
+[[nodiscard]] std::string crossing_stl(double edge);
+
+}  // namespace morula::test
