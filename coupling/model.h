@@ -87,6 +87,10 @@ struct Region {
   BodyKind body = BodyKind::kShell;
   double margin = 3.0;         ///< leaving needs this distance beyond the border [µm]
   bool follow_tissue = false;  ///< centre is relative to the tissue's centroid
+  double from = 0.0;           ///< the region exists from here [s]
+  double until = kNever;       ///< to here [s]
+
+  [[nodiscard]] bool exists_at(double time) const { return time >= from && time < until; }
 };
 
 /// Promote or demote by a value of the cell.

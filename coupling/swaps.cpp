@@ -53,9 +53,10 @@ double trigger_value(const Trigger& trigger, const CellRow& row) {
 }
 
 /// What body a cell is to have: the first region it is in decides, then the triggers, then its type.
-Wish wish(const Model& model, const CellRow& row, const Vec3d& center, const Vec3d& tissue_center) {
+Wish wish(const Model& model, double time, const CellRow& row, const Vec3d& center, const Vec3d& tissue_center) {
   const bool shell = row.body == BodyKind::kShell;
   for (const Region& region : model.swaps.regions) {
+    if (!region.exists_at(time)) continue;
     const double margin = row.body == region.body ? region.margin : 0.0;
     if (distance_outside(region, center, tissue_center) <= margin) return {region.body, model.swaps.hold, "region " + region.name};
   }
@@ -95,7 +96,7 @@ std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, st
     const CellRow& row = tissue.cells.rows[i];
     if (row.body == BodyKind::kShell) ++shells;
     if (row.phase == Phase::kDying) continue;
-    const Wish wanted = wish(model, row, center[i], tissue_center);
+    const Wish wanted = wish(model, tissue.clock.time, row, center[i], tissue_center);
     if (wanted.body == row.body || tissue.clock.time - row.last_swap_time < wanted.hold) continue;
     orders.push_back({i, wanted.body, wanted.reason});
   }

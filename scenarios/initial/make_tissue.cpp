@@ -63,6 +63,13 @@ void apply_csv(CellRow& row, const CsvCell& csv, const CellType& type) {
   if (csv.body) row.body = *csv.body;
 }
 
+/// The cell has this volume at time 0, whatever the point of its cycle.
+void set_volume(CellRow& row, double volume) {
+  row.birth_volume *= volume / row.target_volume;
+  row.division_volume = 2.0 * row.birth_volume;
+  row.target_volume = volume;
+}
+
 /// The whole of one entry, the same on every rank.
 class Builder {
  public:
@@ -121,6 +128,7 @@ class Builder {
       const CsvCell& cell = csv->cells[i];
       Seedling& made = cells_.emplace_back(Seedling{founder(study_, block, first + i, cell.type), position[i]});
       apply_csv(made.row, cell, study_.model.types[cell.type]);
+      if (block.shared_volume > 0.0) set_volume(made.row, block.shared_volume);
       start_small(made.row, block);
     }
     return {};

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/mesh/convex_hull.h"
 #include "scenarios/study/build.h"
 #include "scenarios/study/csv.h"
 #include "scenarios/study/read_section.h"
@@ -72,6 +73,7 @@ class InitialBuilder {
     } else {
       stray(d.coincident_shift.given, d.coincident_shift.place, "coincident_shift", with ? with : "fill");
       stray(d.coincident_below.given, d.coincident_below.place, "coincident_below", with ? with : "fill");
+      stray(d.has_hull, d.hull_margin.place, "volume_from_hull", with ? with : "fill");
       d.coincident_shift.text.clear();
       d.coincident_below.text.clear();
     }
@@ -118,7 +120,40 @@ class InitialBuilder {
     std::vector<Vec3d> positions;
     for (const CsvCell& cell : csv->cells) positions.push_back(cell.position);
     note_coincident(*csv, shown, d, coincident_groups(positions, cells.coincident_below));
+    if (d.has_hull) share_hull(*csv, shown, d, std::move(positions), cells);
     if (c_.draft.domain.size.known()) check_rows_inside(*csv);
+  }
+
+  /// Each cell's part of the inflated hull of all places, less the cavity.
+  void share_hull(const CsvCells& csv, const std::string& shown, const draft::Initial& d, std::vector<Vec3d> positions,
+                  InitialCells& cells) {
+    if (!d.hull_margin.known() || (d.has_cavity && !(d.cavity_radius.known() && d.cavity_center.known()))) return;
+    const Place& place = d.hull_margin.place;
+    for (const CsvCell& cell : csv.cells)
+      if (cell.radius > 0.0) {
+        c_.diagnostics.error(510, place, "'" + shown + "' gives cells a radius (line " + std::to_string(cell.line) + "), and `volume_from_hull` another",
+                             "leave one of them away");
+        return;
+      }
+    const auto hull = convex_hull(std::move(positions));
+    if (!hull) {
+      c_.diagnostics.error(510, place, "the places in '" + shown + "' share no volume: " + hull.error().message, "leave `volume_from_hull` away");
+      return;
+    }
+    const double ball = 4.0 / 3.0 * std::numbers::pi;
+    if (d.has_cavity && hull->depth(d.cavity_center.value) < -d.hull_margin.value)
+      c_.diagnostics.error(510, d.cavity_center.place, "the cavity's centre is outside the inflated hull of the cells", "move it inside");
+    const double whole = hull->inflated_volume(d.hull_margin.value);
+    const double cavity = d.has_cavity ? ball * std::pow(d.cavity_radius.value, 3) : 0.0;
+    if (cavity >= whole) {
+      c_.diagnostics.error(510, d.cavity_radius.place, "the cavity is larger than the inflated hull of the cells (" + short_number(whole) + " um^3)",
+                           "make it smaller");
+      return;
+    }
+    cells.shared_volume = (whole - cavity) / static_cast<double>(cells.count);
+    c_.study.notes.push_back(shown + ": hull of the cells inflated by " + d.hull_margin.text + ": " + short_number(whole) + " um^3" +
+                             (d.has_cavity ? ", less the cavity: " + short_number(whole - cavity) + " um^3" : "") + "; each cell has " +
+                             short_number(cells.shared_volume) + " um^3 (radius " + short_number(std::cbrt(cells.shared_volume / ball)) + " um)");
   }
 
   void note_coincident(const CsvCells& csv, const std::string& shown, const draft::Initial& d,

@@ -67,6 +67,23 @@ void declare_region(Section& s, draft::Region& r) {
           .example = "true",
           .source = "chosen"},
          r.follow_tissue);
+  s.quantity({.name = "from",
+              .doc = "The region exists from this time.",
+              .quantity = Q::kTime,
+              .fallback = "0 s",
+              .low = 0.0,
+              .example = "1 h",
+              .source = "chosen"},
+             r.from);
+  s.quantity({.name = "until",
+              .doc = "The region ends at this time; cells inside then become what their type says.",
+              .quantity = Q::kTime,
+              .fallback = "never",
+              .low = 0.0,
+              .specials = {{"never", std::numeric_limits<double>::infinity()}},
+              .example = "1.5 h",
+              .source = "chosen"},
+             r.until);
 }
 
 void declare_trigger(Section& s, draft::Trigger& t) {

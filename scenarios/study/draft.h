@@ -81,6 +81,9 @@ struct Initial {
   Given<std::string> age;
   Given<std::string> csv;
   Given<double> coincident_shift, coincident_below;
+  bool has_hull = false, has_cavity = false;
+  Given<double> hull_margin, cavity_radius;
+  Given<Vec3d> cavity_center;
   Given<std::string> body;
   Given<double> start_volume, inflate;
 };
@@ -102,7 +105,7 @@ struct Field {
 struct Region {
   Given<std::string> name, shape, body;
   Given<Vec3d> center, size, normal;
-  Given<double> radius, margin;
+  Given<double> radius, margin, from, until;
   Given<bool> follow_tissue;
 };
 

@@ -1,0 +1,266 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "scenarios/report/series_reader.h"
+#include "scenarios/results/file_io.h"
+#include "scenarios/results/snapshot_file.h"
+#include "scenarios/run/driver.h"
+#include "scenarios/run/report_run.h"
+#include "scenarios/run/run_loop.h"
+#include "tests/scenarios/results_support.h"
+#include "tests/scenarios/study_fixture.h"
+
+namespace morula::scenarios {
+namespace {
+
+using testing_support::slurp;
+using testing_support::spit;
+namespace fs = std::filesystem;
+
+const std::string kSpheres = R"(schema: 1
+study: growing
+seed: 5
+time: {end: 2 h, output: 30 min, checkpoint: 1 h}
+domain: {size: [200 um, 200 um, 200 um]}
+cell_types:
+  cell:
+    radius: {mean: 6 um, spread: 5 %}
+    cycle: {model: volume_threshold, duration: {mean: 4 h, spread: 10 %}}
+    migration: {speed: 2 um/h, persistence: 30 min}
+initial:
+  - {type: cell, count: 8, fill: sphere, radius: 25 um}
+output: {report: false}
+)";
+
+const std::string kShells = R"(schema: 1
+study: pair
+time: {end: 4 min, output: 1 min}
+domain: {size: [100 um, 100 um, 100 um]}
+cell_types:
+  cell: {radius: 6 um, dcm: {nodes: 42}}
+contact: {range: 1 um}
+initial:
+  - {type: cell, at: [[-6 um, 0 um, 0 um], [6 um, 0 um, 0 um]], as: shell}
+)";
+
+const std::string kHybrid = R"(schema: 1
+study: hybrid
+time: {end: 20 min, output: 5 min}
+domain: {size: [200 um, 200 um, 200 um]}
+cell_types:
+  cell:
+    radius: 6 um
+    cycle: {model: volume_threshold, duration: 6 h}
+    dcm: {nodes: 42}
+contact: {range: 1 um}
+initial:
+  - {type: cell, count: 14, fill: sphere, radius: 30 um}
+fields:
+  oxygen: {diffusion: 2e-9 m^2/s, initial: 0.2 mM, boundary: {all: 0.2 mM}, uptake: {cell: 40 amol/s}, voxel: 20 um}
+coupling:
+  regions:
+    - {name: core, shape: sphere, center: [0 um, 0 um, 0 um], radius: 6 um, as: dcm, margin: 3 um}
+output: {report: false, formats: [hdf5, vtk]}
+)";
+
+class Runs : public ::testing::Test {
+ protected:
+  Study study(const std::string& text) {
+    auto read = test::read(text, {}, folder_.path());
+    EXPECT_TRUE(read.ok()) << read.error().text();
+    return std::move(read).value();
+  }
+  RunRequest request(const std::string& name) {
+    RunRequest out;
+    out.out = folder_.path() / name;
+    out.command = "a test";
+    return out;
+  }
+  RunSummary run_whole(const std::string& text, const std::string& name) {
+    auto done = run(study(text), request(name), Comm());
+    EXPECT_TRUE(done.ok()) << done.error().message;
+    return done.ok() ? std::move(done).value() : RunSummary{};
+  }
+  ResumeRequest resume_request() { return {}; }
+
+  /// To `until`, then resumed to the end.
+  RunSummary run_split(const std::string& text, const std::string& name, double until) {
+    RunRequest first = request(name);
+    first.until = until;
+    const auto half = run(study(text), first, Comm());
+    EXPECT_TRUE(half.ok()) << half.error().message;
+    auto rest = resume(folder_.path() / name, resume_request(), Comm());
+    EXPECT_TRUE(rest.ok()) << rest.error().message;
+    return rest.ok() ? std::move(rest).value() : RunSummary{};
+  }
+  fs::path operator/(const std::string& name) const { return folder_.path() / name; }
+
+  test::Folder folder_;
+};
+
+TEST(OutputTimes, AreMultiplesOfTheIntervalAndTheEnd) {
+  EXPECT_EQ(next_output(0.0, 1800.0, 7200.0), 1800.0);
+  EXPECT_EQ(next_output(1800.0, 1800.0, 7200.0), 3600.0);
+  EXPECT_EQ(next_output(7000.0, 1800.0, 7100.0), 7100.0);
+  for (int k = 1; k < 1000; ++k) ASSERT_EQ(next_output(k * 0.1, 0.1, 1e9), (k + 1) * 0.1);  // 0.1 is no binary number
+  for (int k = 1; k < 1000; ++k) ASSERT_EQ(next_output(std::nextafter(k * 0.1, 0.0), 0.1, 1e9), k * 0.1);
+}
+
+TEST(OutputTimes, UntilIsRoundedUp) {
+  const TimeSpec time{7200.0, 1800.0, 3600.0};
+  EXPECT_EQ(end_of_run(time, {}), 7200.0);
+  EXPECT_EQ(end_of_run(time, 3600.0), 3600.0);
+  EXPECT_EQ(end_of_run(time, 3601.0), 5400.0);
+  EXPECT_EQ(end_of_run(time, 7300.0), 9000.0);
+  EXPECT_EQ(end_of_run({7000.0, 1800.0, 3600.0}, 6500.0), 7000.0);
+}
+
+TEST_F(Runs, GrowingSpheresLeaveAWholeFolder) {
+  const RunSummary summary = run_whole(kSpheres, "a");
+  EXPECT_EQ(summary.state, RunState::kDone);
+  EXPECT_EQ(summary.final_state.time, 7200.0);
+  EXPECT_GE(summary.final_state.cells, 9u);  // of 8 cells with a cycle of 4 h about 3 divide in 2 h
+  EXPECT_TRUE(summary.passed());
+  for (const char* name : {"study.yaml", "study.resolved.yaml", "run.json", "status.json", "events.jsonl", "series.csv", "verdict.json", "methods.md", "results.h5", "DONE"})
+    EXPECT_TRUE(fs::exists((*this / "a") / name)) << name;
+  const auto series = read_series(*this / "a/series.csv");
+  ASSERT_TRUE(series.ok());
+  EXPECT_EQ(series->find("time")->values, (std::vector<double>{0, 1800, 3600, 5400, 7200}));
+  EXPECT_EQ(series->find("cell_count")->values.front(), 8.0);
+  EXPECT_EQ(series->find("cell_count")->values.back(), static_cast<double>(summary.final_state.cells));
+  EXPECT_GT(series->find("total_volume")->values.back(), 1.3 * series->find("total_volume")->values.front());
+  const auto snapshots = list_snapshots(*this / "a/results.h5");
+  ASSERT_TRUE(snapshots.ok());
+  EXPECT_EQ(snapshots->size(), 5u);
+  const auto record = read_run_record(*this / "a/run.json");
+  ASSERT_TRUE(record.ok());
+  EXPECT_EQ(record->state, RunState::kDone);
+  EXPECT_EQ(record->final_state->state_hash, summary.final_state.state_hash);
+}
+
+TEST_F(Runs, ASplitRunEndsInTheSameBits) {
+  const RunSummary whole = run_whole(kSpheres, "whole");
+  const RunSummary split = run_split(kSpheres, "split", 3500.0);
+  EXPECT_EQ(split.final_state.state_hash, whole.final_state.state_hash);
+  EXPECT_EQ(slurp(*this / "split/series.csv"), slurp(*this / "whole/series.csv"));
+  EXPECT_EQ(slurp(*this / "split/events.jsonl"), slurp(*this / "whole/events.jsonl"));
+}
+
+TEST_F(Runs, TwoShellsAdhereAndASplitRunIsTheSame) {
+  const RunSummary whole = run_whole(kShells, "whole");
+  EXPECT_TRUE(whole.passed());
+  EXPECT_TRUE(fs::exists(whole.report));
+  EXPECT_TRUE(fs::exists(*this / "whole/plots/overlap.svg"));
+  const auto series = read_series(*this / "whole/series.csv");
+  ASSERT_TRUE(series.ok());
+  const auto& area = series->find("mean_contact_area")->values;
+  EXPECT_GT(area.back(), area.front());
+  EXPECT_EQ(run_split(kShells, "split", 120.0).final_state.state_hash, whole.final_state.state_hash);
+}
+
+TEST_F(Runs, AHybridWithARegionRunsAndSplits) {
+  const RunSummary whole = run_whole(kHybrid, "whole");
+  EXPECT_GE(whole.final_state.shells, 1u);
+  EXPECT_LT(whole.final_state.shells, whole.final_state.cells);
+  EXPECT_TRUE(whole.passed());
+  EXPECT_TRUE(fs::exists(*this / "whole/vtk/shells.pvd"));
+  EXPECT_NE(slurp(*this / "whole/events.jsonl").find("\"kind\":\"promotion\""), std::string::npos);
+  EXPECT_EQ(run_split(kHybrid, "split", 600.0).final_state.state_hash, whole.final_state.state_hash);
+}
+
+TEST_F(Runs, AWishToStopIsHonouredBetweenStepsAndCostsNoBit) {
+  const RunSummary whole = run_whole(kSpheres, "whole");
+  std::atomic<int> stop{kGoOn};
+  RunRequest interrupted = request("stopped");
+  interrupted.stop = &stop;
+  int steps = 0;
+  interrupted.on_progress = [&](const Progress&) {
+    if (++steps == 25) stop = kInterrupt;
+  };
+  const auto first = run(study(kSpheres), interrupted, Comm());
+  ASSERT_TRUE(first.ok()) << first.error().message;
+  EXPECT_EQ(first->state, RunState::kStopped);
+  EXPECT_EQ(first->stopped, ErrorKind::kInterrupted);
+  EXPECT_EQ(read_run_record(*this / "stopped/run.json")->exit_code, 130);
+  EXPECT_FALSE(fs::exists(*this / "stopped/DONE"));
+  EXPECT_NE(std::fmod(first->final_state.time, 1800.0), 0.0);  // it did not step to an output time first
+  const auto rest = resume(*this / "stopped", {}, Comm());
+  ASSERT_TRUE(rest.ok()) << rest.error().message;
+  EXPECT_EQ(rest->final_state.state_hash, whole.final_state.state_hash);
+}
+
+TEST_F(Runs, MaxWallStopsEarly) {
+  RunRequest hurried = request("hurried");
+  hurried.max_wall = 0.0;
+  const auto stopped = run(study(kSpheres), hurried, Comm());
+  ASSERT_TRUE(stopped.ok()) << stopped.error().message;
+  EXPECT_EQ(stopped->stopped, ErrorKind::kStoppedEarly);
+  EXPECT_EQ(read_run_record(*this / "hurried/run.json")->exit_code, 75);
+}
+
+TEST_F(Runs, UntilBeyondTheEndGoesOn) {
+  run_whole(kShells, "a");
+  ResumeRequest more;
+  more.until = 350.0;
+  const auto done = resume(*this / "a", more, Comm());
+  ASSERT_TRUE(done.ok()) << done.error().message;
+  EXPECT_EQ(done->final_state.time, 360.0);
+  EXPECT_EQ(read_series(*this / "a/series.csv")->rows(), 7u);
+}
+
+TEST_F(Runs, WhatIsLaterThanTheCheckpointIsTakenAway) {
+  const RunSummary whole = run_whole(kSpheres, "whole");
+  // As if killed after the output at 1.5 h: the newest checkpoint is that of 1 h.
+  run_whole(kSpheres, "killed");
+  const auto newest = *this / "killed/checkpoints";
+  std::vector<fs::path> files(fs::directory_iterator(newest), {});
+  std::sort(files.begin(), files.end());
+  fs::remove(files.back());
+  const auto done = resume(*this / "killed", {}, Comm());
+  ASSERT_TRUE(done.ok()) << done.error().message;
+  EXPECT_EQ(done->final_state.state_hash, whole.final_state.state_hash);
+  EXPECT_EQ(slurp(*this / "killed/series.csv"), slurp(*this / "whole/series.csv"));
+  EXPECT_EQ(list_snapshots(*this / "killed/results.h5")->size(), 5u);
+}
+
+TEST_F(Runs, ATargetThatExistsIsLeftAlone) {
+  fs::create_directories(*this / "taken");
+  spit(*this / "taken/precious", "data");
+  const auto refused = run(study(kSpheres), request("taken"), Comm());
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().kind, ErrorKind::kFile);
+  EXPECT_EQ(slurp(*this / "taken/precious"), "data");
+}
+
+TEST_F(Runs, ACrossedLimitFailsTheRunAndNamesTheCell) {
+  std::string text = kShells;
+  text = test::changed("[-6 um, 0 um, 0 um], [6 um, 0 um, 0 um]", "[-5.3 um, 0 um, 0 um], [5.3 um, 0 um, 0 um]", text);
+  const auto failed = run(study(text), request("a"), Comm());
+  ASSERT_FALSE(failed.ok());
+  EXPECT_EQ(failed.error().kind, ErrorKind::kPhysics);
+  EXPECT_NE(failed.error().message.find("overlap"), std::string::npos) << failed.error().message;
+  EXPECT_NE(failed.error().message.find("cell 1"), std::string::npos) << failed.error().message;
+  EXPECT_TRUE(fs::exists(*this / "a/FAILED"));
+  EXPECT_EQ(read_run_record(*this / "a/run.json")->exit_code, 4);
+  EXPECT_FALSE(fs::is_empty(*this / "a/checkpoints"));
+}
+
+TEST_F(Runs, TheSeriesAskedForComesFirst) {
+  run_whole(kSpheres + "", "a");
+  std::string text = test::changed("output: {report: false}", "output: {report: false, series: [spheroid_radius]}", kSpheres);
+  run_whole(text, "b");
+  const std::string header = slurp(*this / "b/series.csv").substr(0, 60);
+  EXPECT_EQ(header.substr(0, 32), "time [s],spheroid_radius [um],ce");
+}
+
+TEST_F(Runs, PlotsCanBeMadeAgain) {
+  run_whole(kShells, "a");
+  fs::remove(*this / "a/report.html");
+  const auto report = plot_run(*this / "a");
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_TRUE(fs::exists(*report));
+}
+
+}  // namespace
+}  // namespace morula::scenarios

@@ -1,0 +1,97 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scenarios/run/cost_model.h"
+#include "scenarios/run/progress.h"
+#include "scenarios/run/timings.h"
+#include "tests/scenarios/study_fixture.h"
+
+namespace morula::scenarios {
+namespace {
+
+TEST(CostModel, LeftFollowsTheLoadNotTheFraction) {
+  CostModel model;
+  for (int i = 0; i < 100; ++i) model.observe(60.0, 0.6, {100.0, 0.0});  // 1e-4 wall s per simulated s and sphere
+  const WallRange still = model.left(1000.0, {100.0, 0.0}, 0.0);
+  EXPECT_NEAR(still.low, 0.85 * 10.0, 1e-9);
+  EXPECT_NEAR(still.high, 1.25 * 10.0, 1e-9);
+  EXPECT_NEAR(model.left(1000.0, {200.0, 0.0}, 0.0).high, 25.0, 1e-9);
+  EXPECT_NEAR(model.left(1000.0, {0.0, 100.0}, 0.0).high, 37.5, 1e-9);  // a node is worth three spheres
+  // Growth over ln 2: ∫ e^{gt} = 1/g.
+  const double growth = std::log(2.0) / 1000.0;
+  EXPECT_NEAR(model.left(1000.0, {100.0, 0.0}, growth).high, 1.25 * 1e-4 * 100.0 / growth, 1e-9);
+  EXPECT_NEAR(model.left(1000.0, {0.0, 100.0}, growth).high, 37.5, 1e-9);  // shells do not multiply
+}
+
+TEST(CostModel, KnowsNothingBeforeTheFirstStep) { EXPECT_LT(CostModel().left(1.0, {1.0, 1.0}, 0.0).low, 0.0); }
+
+TEST(CostModel, GrowthRateIsTheMeanOverCells) {
+  Model model;
+  model.types.resize(2);
+  model.types[0].cycles = true;
+  model.types[0].cycle_duration.mean = 1000.0;
+  EXPECT_NEAR(free_growth_rate(model, {30, 10}), 0.75 * std::log(2.0) / 1000.0, 1e-15);
+  EXPECT_EQ(free_growth_rate(model, {0, 0}), 0.0);
+}
+
+TEST(CostModel, EstimatesAStudyBeforeItRuns) {
+  const auto study = test::read(test::kGoodStudy);
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  const auto guess = estimate(*study);
+  ASSERT_TRUE(guess.ok()) << guess.error().message;
+  EXPECT_EQ(guess->cells, 400);
+  EXPECT_GT(guess->shells, 20);   // the region holds (25/49)³ of the cells
+  EXPECT_LT(guess->shells, 120);
+  EXPECT_EQ(guess->nodes, 162 * guess->shells);
+  EXPECT_GT(guess->cells_at_end, 10000.0);  // 96 h of an 18 h cycle: 40 times
+  EXPECT_GT(guess->memory, 1e7);
+  EXPECT_LT(guess->wall.low, guess->wall.high);
+}
+
+TEST(Progress, LiveLineReadsAsInTheGuide) {
+  Progress p;
+  p.time = 39.4 * 3600.0;
+  p.end = 96 * 3600.0;
+  p.cells = 1212;
+  p.shells = 87;
+  p.step = 18.0;
+  p.left = {35 * 60.0, 50 * 60.0};
+  EXPECT_EQ(live_line(p), " 41 % ▕███████▍          ▏ t 39.4 h of 96 h · 1212 cells (87 DCM) · dt 18 s · left 35–50 min");
+  EXPECT_EQ(plain_line(p), " 41 %  t 39.4 h of 96 h · 1212 cells (87 DCM) · dt 18 s · left 35–50 min");
+}
+
+TEST(Progress, PlainLinesComeEachTwentieth) {
+  PlainPace pace;
+  Progress p;
+  p.end = 100.0;
+  int lines = 0;
+  for (int i = 0; i <= 1000; ++i) {
+    p.time = 0.1 * i;
+    lines += pace.due(p);
+  }
+  EXPECT_EQ(lines, 21);
+}
+
+TEST(Progress, DurationsAreForPeople) {
+  EXPECT_EQ(duration_text(12.0), "12 s");
+  EXPECT_EQ(duration_text(81 * 60.0), "81 min");
+  EXPECT_EQ(duration_text(2 * 3600.0 + 300.0), "2 h 05 min");
+  EXPECT_EQ(duration_text(WallRange{30.0, 200.0}), "30 s to 3 min");
+  EXPECT_EQ(duration_text(WallRange{}), "unknown");
+}
+
+TEST(Timings, TableAddsUp) {
+  Timings t;
+  t.stages = {{"solve", 6.0}, {"contacts", 3.0}};
+  t.wall = 10.0;
+  t.work = {1000, 2e6, 4e4};
+  t.bytes_per_node = 512.0;
+  const std::string table = timings_table(t);
+  EXPECT_NE(table.find("solve                  6.00   60.0 %        6.000\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("other                  1.00   10.0 %"), std::string::npos) << table;
+  EXPECT_NE(table.find("1000 steps · 5000 ns per node-step · 2.5e+05 ns per cell-step · 512 bytes per node"), std::string::npos) << table;
+}
+
+}  // namespace
+}  // namespace morula::scenarios
