@@ -65,6 +65,7 @@ void Mechanics::prepare(const Tissue& tissue) {
     auto timed = timer_.scope(Stage::kGhosts);
     const double reach = std::max(contacts_.settings().range, contacts_.settings().sphere_reach) + 2.0 * contacts_.settings().body_skin + slack + 2.0 * step_margin(model_);
     scene_.build(tissue, model_.space, reach, shapes_, comm_);
+    set_moving();  // also when ghosts are renewed while some cells relax
     scene_valid_ = true;
     evaluated_ = contacts_current_ = false;
     scene_start_ = tissue.shells.position;
