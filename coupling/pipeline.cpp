@@ -88,6 +88,7 @@ Result<StepOutcome> Simulation::step(double land_on) {
   MORULA_TRY_ASSIGN(const auto swapped, swap_bodies());
   outcome.events.insert(outcome.events.end(), swapped.begin(), swapped.end());
   outcome.events = all_events(std::move(outcome.events));
+  rename_partners(outcome.events);
   if (clock.steps % kReorderEvery == 0) {
     renew_order(tissue_);
     mechanics_->bodies_changed();

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "cbm/partners.h"
 #include "coupling/behaviours/division.h"
 #include "coupling/behaviours/life.h"
 #include "coupling/behaviours/migration.h"
@@ -93,7 +94,7 @@ void Simulation::set_bodies_to_targets(double dt) {
     row.reference_excess *= keep;
     const double excess = std::exp(row.reference_excess);
     if (row.body == BodyKind::kShell) {
-      if (tissue_.shells.rest_volume[shell] != row.target_volume) dcm::set_target_volume(tissue_.shells, shell, row.target_volume);
+      if (tissue_.shells.rest_volume[shell] != row.target_volume) dcm::set_rest_volume(tissue_.shells, shell, row.target_volume);
       tissue_.shells.reference_volume[shell] = free_reference_volume(row.target_volume, model_.types[row.type]) * excess;
       ++shell;
     } else {
@@ -222,11 +223,8 @@ void Simulation::divide_and_remove(const LifeReport& life, double time, std::vec
           CellRecord& daughter = next.emplace_back();
           daughter.row = which == 0 ? pair.first : pair.second;
           const SphereBody& body = which == 0 ? pair.first_body : pair.second_body;
-          // Daughters keep their mother's partners and adhere to each other.
-          SphereRecord record{body.position, body.radius, mother.velocity, mother.attached};
-          const CellId sister = which == 0 ? pair.second.id : pair.first.id;
-          record.attached.insert(std::upper_bound(record.attached.begin(), record.attached.end(), sister), sister);
-          daughter.sphere = std::move(record);
+          daughter.sphere = SphereRecord{body.position, body.radius, mother.velocity,
+                                         cbm::daughter_partners(mother.attached, which == 0 ? pair.second.id : pair.first.id)};
         }
         ++division;
         continue;
@@ -238,6 +236,21 @@ void Simulation::divide_and_remove(const LifeReport& life, double time, std::vec
   }
   tissue_.ledger.divisions += static_cast<std::uint64_t>(comm_.sum(divisions));
   tissue_.ledger.deaths += static_cast<std::uint64_t>(comm_.sum(deaths));
+}
+
+void Simulation::rename_partners(const std::vector<Event>& events) {
+  std::vector<const Event*> divisions;  // sorted by mother, because events are
+  for (const Event& event : events)
+    if (event.kind == EventKind::kDivision) divisions.push_back(&event);
+  if (divisions.empty()) return;
+  std::sort(divisions.begin(), divisions.end(), [](const Event* a, const Event* b) { return a->cell < b->cell; });
+  for (auto& partners : tissue_.spheres.attached) {
+    const cbm::Partners before = partners;
+    for (const CellId partner : before) {
+      const auto at = std::lower_bound(divisions.begin(), divisions.end(), partner, [](const Event* e, CellId id) { return e->cell < id; });
+      if (at != divisions.end() && (*at)->cell == partner) cbm::replace_partner(partners, partner, (*at)->first_daughter, (*at)->second_daughter);
+    }
+  }
 }
 
 void Simulation::wrap_cells() {

@@ -53,6 +53,8 @@ class Simulation {
   Status advance_fields(double dt, StepOutcome& outcome);
   Result<std::vector<Event>> swap_bodies();
   void divide_and_remove(const struct LifeReport& life, double time, std::vector<Event>& events);
+  /// Partners of a mother become partners of her daughters, also on other ranks. `events` are those of all ranks.
+  void rename_partners(const std::vector<Event>& events);
   void wrap_cells();
   [[nodiscard]] std::vector<Event> all_events(std::vector<Event> mine) const;
 

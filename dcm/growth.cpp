@@ -5,11 +5,9 @@
 
 namespace morula::dcm {
 
-void set_target_volume(Shells& shells, std::size_t shell, double target_volume) {
-  const double scale = target_volume / shells.reference_volume[shell];
-  const double length_scale = std::cbrt(scale);
-  shells.reference_volume[shell] = target_volume;
-  shells.rest_volume[shell] *= scale;
+void set_rest_volume(Shells& shells, std::size_t shell, double rest_volume) {
+  const double length_scale = std::cbrt(rest_volume / shells.rest_volume[shell]);
+  shells.rest_volume[shell] = rest_volume;
   for (std::uint32_t edge = shells.first_edge[shell]; edge < shells.first_edge[shell + 1]; ++edge) shells.rest_length[edge] *= length_scale;
 }
 

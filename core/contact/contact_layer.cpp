@@ -62,7 +62,8 @@ bool ContactLayer::note_motion(const ContactScene& scene) {
       deviation2 = std::max(deviation2, norm2(scene.position[p] - last_position_[p] - motion.mean));
       last_position_[p] = scene.position[p];
     }
-    motion.deviation = std::sqrt(deviation2);
+    motion.deviation = std::sqrt(deviation2) + std::abs(body.radius - last_radius_[i]);
+    last_radius_[i] = body.radius;
     motion_[i] = motion;
     travel_[i] += (norm(motion.mean) + motion.deviation) * 1.000001;
     if (travel_[i] > limit) outdated = true;
@@ -164,6 +165,8 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
   last_position_.assign(scene.position.begin(), scene.position.end());
   last_offsets_ = offsets_;
   motion_.assign(n, {});
+  last_radius_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) last_radius_[i] = scene.bodies[i].radius;
   travel_.assign(n, 0.0);
   obstacle_travel_ = 0.0;
   fresh_ = false;
@@ -221,9 +224,13 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair) {
   }
 }
 
-void ContactLayer::evaluate(const ContactScene& scene) {
+void ContactLayer::evaluate(const ContactScene& scene, bool only_spheres) {
+  const auto has_sphere = [&](const SurfacePair& pair) {
+    return !pair.rigid && (scene.bodies[pair.a].shape == BodyShape::kSphere || scene.bodies[pair.b].shape == BodyShape::kSphere);
+  };
 #pragma omp parallel for schedule(dynamic, 4) num_threads(settings_.threads)
-  for (std::size_t k = 0; k < pairs_.size(); ++k) evaluate_pair(scene, pairs_[k]);
+  for (std::size_t k = 0; k < pairs_.size(); ++k)
+    if (!only_spheres || has_sphere(pairs_[k])) evaluate_pair(scene, pairs_[k]);
 }
 
 void ContactLayer::add_energy(const ContactScene& scene, OrderFreeSum& sum) const {

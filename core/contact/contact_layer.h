@@ -69,8 +69,9 @@ class ContactLayer {
   /// Find the pairs of bodies again. On several ranks the ghosts must be renewed first.
   void rebuild(const ContactScene& scene, const Space& space);
 
-  /// Narrow phase of all surface pairs at the present positions: energies, gradients, elements.
-  void evaluate(const ContactScene& scene);
+  /// Narrow phase of all surface pairs at the present positions: energies, gradients, elements. When only radii have changed since the
+  /// last call, the pairs with a sphere suffice.
+  void evaluate(const ContactScene& scene, bool only_spheres = false);
 
   /// Energy of the pairs that this rank counts (those whose first body it owns), added to an order-free sum.
   void add_energy(const ContactScene& scene, OrderFreeSum& sum) const;
@@ -124,6 +125,7 @@ class ContactLayer {
   std::vector<Incidence> incident_;
   std::vector<Vec3d> last_position_;  ///< at the last note_motion()
   std::vector<BodyMotion> motion_;
+  std::vector<double> last_radius_;   ///< of spheres: growth counts as motion
   std::vector<double> travel_;        ///< by body: bound on the way of its points since the list of pairs was built
   double obstacle_travel_ = 0.0;
 };

@@ -126,13 +126,14 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   }
   {
     auto timed = timer_.scope(Stage::kCandidates);
-    if (moved && comm_.any(contacts_.note_motion(scene))) {
+    if (comm_.any(contacts_.note_motion(scene))) {
       contacts_.rebuild(scene, model_.space);
       spheres_.set_pairs(scene_, contacts_, tissue);
+      moved = true;
     }
   }
   auto timed = timer_.scope(Stage::kContacts);
-  if (moved) contacts_.evaluate(scene);
+  contacts_.evaluate(scene, !moved);
   spheres_.evaluate(scene_, contacts_);
 
   std::fill(force_.begin(), force_.end(), Vec3d{});
