@@ -14,7 +14,9 @@ namespace {
 
 constexpr double kJitter = 0.03;         // of the spacing
 constexpr double kSmallestSpacing = 0.9; // of the wanted spacing, before cells stick out of the shape
-constexpr int kMostPasses = 400;
+constexpr int kMostPasses = 400;         // fewer for very many cells
+constexpr double kCellPasses = 4e7;
+constexpr double kDraw = 0.01;           // part of the way to the middle in the first pass
 constexpr double kSlack = 1e-3;          // of the mean radius
 
 /// How far out a point lies in the shape: 1 on the border where centres end.
@@ -140,12 +142,12 @@ void keep_within_walls(Vec3d& p, double radius, const Space& space) {
 
 }  // namespace
 
-double push_apart(std::vector<Vec3d>& center, std::span<const double> radius, double touch, double slack, int most_passes, const Space& space) {
+double push_apart(std::vector<Vec3d>& center, std::span<const double> radius, const PushApart& how, const Space& space) {
   if (center.empty()) return 0.0;
-  const double reach = 2.0 * touch * *std::max_element(radius.begin(), radius.end());
+  const double reach = 2.0 * how.touch * *std::max_element(radius.begin(), radius.end());
   std::vector<Vec3d> push(center.size());
   double worst = -1e300;
-  for (int pass = 0; pass <= most_passes; ++pass) {
+  for (int pass = 0; pass <= how.most_passes; ++pass) {
     const CellGrid grid(center, reach, space);
     worst = -1e300;
     for (std::size_t i = 0; i < center.size(); ++i) {
@@ -154,15 +156,16 @@ double push_apart(std::vector<Vec3d>& center, std::span<const double> radius, do
         if (j == i) return;
         const Vec3d away = space.nearest_image(center[i] - center[j]);
         const double distance = norm(away);
-        const double overlap = touch * (radius[i] + radius[j]) - distance;
+        const double overlap = how.touch * (radius[i] + radius[j]) - distance;
         worst = std::max(worst, overlap);
         // Both move by a little less than half: a cell with many neighbours would overshoot.
         if (overlap > 0.0 && distance > 0.0) push[i] += away * (0.4 * overlap / distance);
       });
     }
-    if (worst <= slack || pass == most_passes) break;
+    const double draw = pass < how.drawn_passes ? kDraw * (1.0 - static_cast<double>(pass) / how.drawn_passes) : 0.0;
+    if ((worst <= how.slack && draw == 0.0) || pass == how.most_passes) break;
     for (std::size_t i = 0; i < center.size(); ++i) {
-      center[i] += push[i];
+      center[i] += push[i] + (how.middle - center[i]) * draw;
       keep_within_walls(center[i], radius[i], space);
     }
   }
@@ -190,7 +193,9 @@ Packing pack_cells(const InitialCells& block, std::span<const double> radius, do
     keep_within_walls(p, radius[i], space);
     out.center.push_back(p);
   }
-  out.worst_overlap = push_apart(out.center, radius, touch, kSlack * mean, kMostPasses, space);
+  const int passes = std::clamp(static_cast<int>(kCellPasses / static_cast<double>(radius.size())), 60, kMostPasses);
+  const int drawn = block.fill == RegionShape::kSphere && !space.any_periodic() && radius.size() > 1 ? passes / 3 : 0;
+  out.worst_overlap = push_apart(out.center, radius, {touch, kSlack * mean, passes, drawn, block.center}, space);
   for (std::size_t i = 0; i < radius.size(); ++i) {
     const Vec3d from = out.center[i] - block.center;
     double beyond = norm(from) + radius[i] - block.radius;

@@ -19,12 +19,21 @@ struct Packing {
 ///
 /// Face-centred cubic close packing, the nearest points to the shape's middle (measured by the shape itself, so that a box fills as a box),
 /// turned at random in a sphere, with a jitter of 3 % of the spacing; then overlapping cells are pushed apart until no two centres are
-/// closer than touch·(r_i + r_j), up to 0.1 % of the mean radius or kMostPasses passes. Walls keep cells inside; periodic faces count.
-/// Random numbers: stream kInitialPosition of the founders first_number …; a pure function of its arguments.
+/// closer than touch·(r_i + r_j), up to 0.1 % of the mean radius or a number of passes, while cells of a ball are drawn together. Walls
+/// keep cells inside; periodic faces count. Random numbers: stream kInitialPosition of the founders first_number …; a pure function of its arguments.
 Packing pack_cells(const InitialCells& block, std::span<const double> radius, double touch, const Space& space, std::uint64_t first_number,
                    std::uint32_t seed);
 
+/// How cells are pushed apart.
+struct PushApart {
+  double touch = 1.0;       ///< of r_i + r_j
+  double slack = 0.0;       ///< overlap that may remain [µm]
+  int most_passes = 400;
+  int drawn_passes = 0;     ///< in the first of them all cells are drawn together as well, ever less
+  Vec3d middle{};           ///< towards this point
+};
+
 /// Push spheres apart in place until no two centres are closer than touch·(r_i + r_j) − slack; returns the largest remaining overlap [µm].
-double push_apart(std::vector<Vec3d>& center, std::span<const double> radius, double touch, double slack, int most_passes, const Space& space);
+double push_apart(std::vector<Vec3d>& center, std::span<const double> radius, const PushApart& how, const Space& space);
 
 }  // namespace morula::scenarios

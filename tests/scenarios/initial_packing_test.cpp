@@ -47,12 +47,16 @@ TEST(Packing, CellsOfManySizesTouchWithoutOverlap) {
 }
 
 TEST(Packing, IsDenseNotScattered) {
-  // Volume of the cells over that of the ball they reach: random close packing of mixed sizes is 0.64, a free surface takes some of it.
-  const std::vector<double> radius(400, 6.0);
-  const Packing packing = pack_cells(ball(400, 60.0), radius, 1.0, open_space(), 1, 7);
-  double reach = 0.0;
-  for (const Vec3d& p : packing.center) reach = std::max(reach, norm(p - Vec3d{10, -20, 30}) + 6.0);
-  EXPECT_GT(400.0 * std::pow(6.0 / reach, 3), 0.55);
+  // Volume of the cells over that of the ball with their radius of gyration; random close packing of spheres is 0.64.
+  for (const auto& radius : {std::vector<double>(400, 6.0), mixed_radii(400)}) {
+    const Packing packing = pack_cells(ball(400, 60.0), radius, 1.0, open_space(), 1, 7);
+    double square = 0.0, cubes = 0.0;
+    for (std::size_t i = 0; i < 400; ++i) {
+      square += (norm2(packing.center[i] - Vec3d{10, -20, 30}) + 0.6 * radius[i] * radius[i]) / 400.0;
+      cubes += std::pow(radius[i], 3);
+    }
+    EXPECT_GT(cubes / std::pow(std::sqrt(5.0 / 3.0 * square), 3), 0.55);
+  }
 }
 
 TEST(Packing, DependsOnTheSeedAlone) {
@@ -104,7 +108,7 @@ initial:
 class InitialTissues : public ::testing::Test {
  protected:
   Study study() {
-    folder_.write("cells.csv", "x [um],y [um],z [um],type,radius [um],phase,model\n-80,0,0,soft,7,0.5,sphere\n-80,0,0,hard,4,,shell\n-100,0,0,soft,,,\n");
+    folder_.write("cells.csv", "x [um],y [um],z [um],type,radius [um],phase,model\n-80,0,0,soft,7,0.5,sphere\n-80,0,0,hard,4,0,shell\n-100,0,0,soft,6,0,sphere\n");
     auto read = test::read(kMixed, {}, folder_.path());
     EXPECT_TRUE(read.ok()) << read.error().text();
     return std::move(read).value();
