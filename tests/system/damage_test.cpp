@@ -40,7 +40,8 @@ class Damage : public testing::Test {
   void expect_older_is_used() {
     const Outcome resumed = run_morula({"resume", "run", "--until", "1 h"}, folder.path());
     EXPECT_EQ(resumed.exit_code, 0) << resumed.all();
-    EXPECT_THAT(resumed.err, AllOf(HasSubstr(checkpoints[1].filename().string()), HasSubstr(checkpoints[0].filename().string()), HasSubstr("older"), HasSubstr("warn")));
+    EXPECT_THAT(resumed.err, AllOf(HasSubstr(checkpoints[1].filename().string()), HasSubstr(checkpoints[0].filename().string()),
+                                   HasSubstr("older"), HasSubstr("warn")));
     EXPECT_EQ(info_of(folder / "run")["state_hash"], hash);
   }
   TestFolder folder;
