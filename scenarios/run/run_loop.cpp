@@ -60,6 +60,10 @@ RunLoop::RunLoop(const Study& study, const RunRequest& request, const Comm& comm
   checkpoint_due_ = next_multiple(simulation_->tissue().clock.time, study.time.checkpoint);
   progress_.end = end_;
   count_cells();
+  std::vector<std::int64_t> of_type(study.model.types.size(), 0);
+  for (const CellRow& row : simulation_->tissue().cells.rows) ++of_type[row.type];
+  for (std::int64_t& count : of_type) count = comm_.sum(count);
+  growth_rate_ = free_growth_rate(study.model, of_type);
 }
 
 void RunLoop::note(Note::Kind kind, const std::string& text) {
@@ -70,11 +74,30 @@ void RunLoop::note(Note::Kind kind, const std::string& text) {
   if (request_.on_note) request_.on_note({kind, time, text});
 }
 
+void RunLoop::warn(const std::string& text) {
+  note(Note::Kind::kWarning, text);
+  warnings_.push_back({simulation_->tissue().clock.time, EventKind::kWarning, {}, {}, {}, text});
+}
+
+Status RunLoop::write_events() {
+  Status written = folder_.add_events(warnings_);
+  if (written.ok()) written = folder_.add_events(events_);
+  warnings_.clear();
+  events_.clear();
+  return written;
+}
+
 Status RunLoop::begin() {
   std::vector<SeriesHeader> header;
   for (const Observable& column : columns_) header.push_back({column.name, column.unit});
   MORULA_TRY(agree(folder_.begin_series(header), comm_));
-  MORULA_TRY_ASSIGN(events_, simulation_->first_swaps());
+  if (comm_.is_root()) text_status_ = append_to_text(folder_.events(), "");
+  auto placed = simulation_->first_swaps();
+  if (!placed.ok()) {  // some cells have their new body but not yet their shape: no state to go on from
+    state_is_whole_ = false;
+    return std::move(placed).error();
+  }
+  events_ = std::move(placed).value();
   std::vector<Vec3d> ignored;
   interval_.energy = simulation_->mechanics().energy_and_forces(simulation_->tissue(), ignored);
   count_cells();
@@ -175,9 +198,8 @@ Status RunLoop::write_moment(const Measures& measures) {
   tell_events();
   Status written = std::exchange(text_status_, {});
   if (written.ok()) written = folder_.add_to_series(measures.time, row);
-  if (written.ok()) written = folder_.add_events(events_);
+  if (written.ok()) written = write_events();
   if (written.ok()) written = folder_.write_status(status(RunState::kRunning));
-  events_.clear();
   return agree(std::move(written), comm_);
 }
 
@@ -193,7 +215,7 @@ void RunLoop::tell_events() {
 }
 
 void RunLoop::warn_near_limit(bool& warned, const std::string& text) {
-  if (!warned) note(Note::Kind::kWarning, text);
+  if (!warned) warn(text);
   warned = true;
 }
 
@@ -256,8 +278,7 @@ FinalState RunLoop::final_state() const {
 Status RunLoop::finish(RunState state, ErrorKind kind, RunSummary& summary) {
   const bool done = state == RunState::kDone;
   tell_events();
-  MORULA_TRY(agree(folder_.add_events(events_), comm_));
-  events_.clear();
+  MORULA_TRY(agree(write_events(), comm_));
   MORULA_TRY(checkpoint());
   record_.state = state;
   record_.exit_code = done ? 0 : exit_code(kind);
@@ -292,9 +313,9 @@ Status RunLoop::finish(RunState state, ErrorKind kind, RunSummary& summary) {
 }
 
 Error RunLoop::fail(Error error, bool state_is_sound) {
-  note(Note::Kind::kWarning, error.message);
-  if (comm_.is_root()) (void)folder_.add_events(events_);
-  events_.clear();
+  state_is_sound = state_is_sound && state_is_whole_;
+  warn(error.message);
+  (void)write_events().ok();
   // A full disk has no room for a checkpoint, and the earlier one is whole; a step that broke off midway left no state to keep.
   if (state_is_sound && error.kind != ErrorKind::kResources) (void)checkpoint().ok();
   record_.state = RunState::kFailed;

@@ -43,6 +43,9 @@ class RunLoop {
   Status output();
   Status write_moment(const Measures& measures);
   Status check_limits(const Measures& measures);
+  /// A warning of the run itself: for people, and into events.jsonl.
+  void warn(const std::string& text);
+  Status write_events();
   void warn_near_limit(bool& warned, const std::string& text);
   void tell_events();
   Status checkpoint();
@@ -71,7 +74,9 @@ class RunLoop {
   Progress progress_;
   Load load_;
   double growth_rate_ = 0.0;     ///< of the spheres, if nothing inhibits it [1/s]
-  std::vector<Event> events_;    ///< not yet written
+  std::vector<Event> events_;    ///< of the tissue, not yet written
+  std::vector<Event> warnings_;  ///< of the run, not yet written
+  bool state_is_whole_ = true;
   Status text_status_;           ///< the first failure of a text written between outputs
   bool volume_warned_ = false, overlap_warned_ = false, balance_warned_ = false;
 };
