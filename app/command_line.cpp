@@ -185,7 +185,7 @@ Result<std::variant<Options, Answer>> read_command_line(const std::vector<std::s
     program.parse(reversed);
   } catch (const CLI::CallForHelp&) {
     const auto chosen = program.get_subcommands();
-    return std::variant<Options, Answer>(Answer{chosen.empty() ? program.help() : chosen.front()->help()});
+    return std::variant<Options, Answer>(Answer{chosen.empty() ? program.help() : chosen.front()->help("morula")});
   } catch (const CLI::ParseError& problem) {
     return usage_error(program, arguments, problem);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "scenarios/library/blastocyst.h"
 #include "scenarios/report/series_reader.h"
 
 namespace morula::scenarios {
@@ -52,7 +53,7 @@ double largest_rise(const SeriesColumn& energy) {
 }  // namespace
 
 const std::vector<ScenarioCriteria>& scenario_criteria() {
-  static const std::vector<ScenarioCriteria> all{};
+  static const std::vector<ScenarioCriteria> all{{"blastocyst", &judge_blastocyst}};
   return all;
 }
 

@@ -1,0 +1,200 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/system/morula_command.h"
+#include "tests/system/studies.h"
+
+namespace morula::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const char* const kVerbs[] = {"new", "check", "run", "resume", "status", "list", "info", "explain", "plot", "export", "doctor"};
+
+TEST(CommandLine, VersionIsOneLineOnStandardOutput) {
+  const TestFolder folder;
+  const Outcome outcome = run_morula({"--version"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
+  EXPECT_THAT(outcome.out, StartsWith("morula 0."));
+  EXPECT_EQ(outcome.out.find('\n'), outcome.out.size() - 1);
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST(CommandLine, EveryHelpEndsWithTwoExamplesThatNameTheVerb) {
+  const TestFolder folder;
+  for (const char* verb : kVerbs) {
+    const Outcome outcome = run_morula({verb, "--help"}, folder.path());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
+    const std::size_t examples = outcome.out.rfind("Examples:\n");
+    ASSERT_NE(examples, std::string::npos) << outcome.all();
+    int count = 0;
+    for (std::size_t at = examples; (at = outcome.out.find(std::string("morula ") + verb, at + 1)) != std::string::npos;) ++count;
+    EXPECT_EQ(count, 2) << outcome.out;
+  }
+  EXPECT_THAT(run_morula({"--help"}, folder.path()).out, HasSubstr("Examples:\n"));
+}
+
+TEST(CommandLine, AnUnknownVerbSuggestsTheNearOne) {
+  const TestFolder folder;
+  const Outcome outcome = run_morula({"chekc", "study.yaml"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("error: unknown verb 'chekc'"));
+  EXPECT_THAT(outcome.err, HasSubstr("help: did you mean `check`?"));
+  EXPECT_EQ(outcome.out, "");
+}
+
+TEST(CommandLine, AnUnknownFlagSuggestsTheNearOne) {
+  const TestFolder folder;
+  const Outcome outcome = run_morula({"run", "study.yaml", "--thread", "2"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("'--thread'"));
+  EXPECT_THAT(outcome.err, HasSubstr("`--threads`"));
+}
+
+TEST(CommandLine, WrongUseIsExitTwo) {
+  const TestFolder folder;
+  const std::vector<std::vector<std::string>> wrong = {{},
+                                                       {"run"},
+                                                       {"check"},
+                                                       {"explain"},
+                                                       {"info"},
+                                                       {"export", "run", "pdf"},
+                                                       {"run", "study.yaml", "--threads", "0"},
+                                                       {"run", "study.yaml", "--threads", "two"},
+                                                       {"run", "study.yaml", "--seed", "-1"},
+                                                       {"explain", "E999"},
+                                                       {"new", "no_such_template"},
+                                                       {"explain", "--markdown", "poems"}};
+  for (const auto& arguments : wrong) {
+    const Outcome outcome = run_morula(arguments, folder.path());
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.all();
+    EXPECT_THAT(outcome.err, HasSubstr("error: ")) << outcome.all();
+    EXPECT_THAT(outcome.err, HasSubstr("help: ")) << outcome.all();
+  }
+}
+
+TEST(CommandLine, WhatIsMissingIsExitThree) {
+  const TestFolder folder;
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"check", "missing.yaml"}, {"run", "missing.yaml"}, {"resume", "missing"}, {"status", "missing"}, {"list", "missing"}, {"info", "missing"}, {"plot", "missing"},
+           {"export", "missing", "csv"}}) {
+    const Outcome outcome = run_morula(arguments, folder.path());
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.all();
+    EXPECT_THAT(outcome.err, HasSubstr("missing")) << outcome.all();
+    EXPECT_EQ(outcome.out, "");
+  }
+}
+
+TEST(CommandLine, NoColourWhereThereIsNoTerminal) {
+  const TestFolder folder;
+  EXPECT_EQ(run_morula({"check", "missing.yaml"}, folder.path()).err.find('\033'), std::string::npos);
+}
+
+TEST(CommandLine, AFullStandardOutputIsNotSuccess) {
+  const TestFolder folder;
+  CommandOptions options;
+  options.shell_before = "exec 1>/dev/full;";
+  EXPECT_EQ(run_morula({"explain", "--markdown", "study"}, folder.path(), options).exit_code, 6);
+}
+
+TEST(CommandLine, OnSeveralRanksTheRootAloneSpeaksAndAllEndAlike) {
+  const TestFolder folder;
+  CommandOptions options;
+  options.ranks = 2;
+  const Outcome good = run_morula({"explain", "E203"}, folder.path(), options);
+  EXPECT_EQ(good.exit_code, 0) << good.all();
+  EXPECT_EQ(good.out.find("E203"), good.out.rfind("E203"));
+  const Outcome bad = run_morula({"run", "missing.yaml"}, folder.path(), options);
+  EXPECT_EQ(bad.exit_code, 3) << bad.all();
+  EXPECT_EQ(bad.err.find("missing.yaml:"), bad.err.rfind("missing.yaml:")) << bad.err;
+  EXPECT_FALSE(bad.timed_out);
+}
+
+TEST(Explain, KnowsKeysLawsAndCodes) {
+  const TestFolder folder;
+  EXPECT_THAT(run_morula({"explain", "E203"}, folder.path()).out, StartsWith("E203: "));
+  EXPECT_THAT(run_morula({"explain", "cell_types.hepatocyte.dcm.cortex.tension"}, folder.path()).out, HasSubstr("example:"));
+  EXPECT_THAT(run_morula({"explain", "jkr"}, folder.path()).out, HasSubstr("Johnson"));
+  EXPECT_THAT(run_morula({"explain", "--markdown", "laws"}, folder.path()).out, HasSubstr("### `jkr`"));
+  EXPECT_THAT(run_morula({"explain", "--markdown", "study"}, folder.path()).out, HasSubstr("## `cell_types.<name>`"));
+  const Outcome near = run_morula({"explain", "jrk"}, folder.path());
+  EXPECT_EQ(near.exit_code, 2);
+  EXPECT_THAT(near.err, HasSubstr("did you mean `jkr`?"));
+}
+
+TEST(Info, OfALawAndOfAStudyIsJson) {
+  const TestFolder folder;
+  const auto law = nlohmann::json::parse(run_morula({"info", "jkr", "--json"}, folder.path()).out);
+  EXPECT_EQ(law["law"], "jkr");
+  EXPECT_FALSE(law["parameters"].empty());
+  folder.write("study.yaml", sphere_study());
+  const auto study = nlohmann::json::parse(run_morula({"info", "study.yaml", "--json"}, folder.path()).out);
+  EXPECT_EQ(study["study"], "small");
+  EXPECT_EQ(study["cells"], 20);
+  EXPECT_EQ(study["end"], 7200.0);
+  const auto defaults = nlohmann::json::parse(run_morula({"info", "--defaults", "--json"}, folder.path()).out);
+  const auto range = std::find_if(defaults.begin(), defaults.end(), [](const auto& row) { return row["key"] == "contact.range"; });
+  ASSERT_NE(range, defaults.end());
+  EXPECT_EQ((*range)["default"], "0.5 um");
+  EXPECT_THAT(run_morula({"info", "study.yaml", "--defaults"}, folder.path()).out, HasSubstr("max_displacement"));
+}
+
+TEST(Doctor, FindsWhatARunNeeds) {
+  const TestFolder folder;
+  const Outcome outcome = run_morula({"doctor", "--json"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["good"], true);
+  EXPECT_EQ(json["ranks"], 1);
+  std::vector<std::string> names;
+  for (const auto& finding : json["findings"]) names.push_back(finding["name"]);
+  EXPECT_THAT(names, testing::IsSupersetOf({"mpi", "hdf5", "cores", "memory", "disk", "writing"}));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "the probe file was left behind";
+}
+
+TEST(List, OfNoRunsIsAnEmptyJsonList) {
+  const TestFolder folder;
+  EXPECT_EQ(nlohmann::json::parse(run_morula({"list", "--json"}, folder.path()).out), nlohmann::json::array());
+}
+
+TEST(New, ListsTheTemplatesAndEachPassesItsCheck) {
+  const TestFolder folder;
+  const Outcome list = run_morula({"new"}, folder.path());
+  ASSERT_EQ(list.exit_code, 0) << list.all();
+  std::istringstream lines(list.out);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    const std::string name = line.substr(0, line.find(' '));
+    const Outcome made = run_morula({"new", name}, folder.path());
+    EXPECT_EQ(made.exit_code, 0) << made.all();
+    EXPECT_TRUE(std::filesystem::exists(folder / name / "README.md")) << name;
+    const Outcome checked = run_morula({"check", "study.yaml", "--estimate"}, folder / name);
+    EXPECT_EQ(checked.exit_code, 0) << name << "\n" << checked.all();
+    EXPECT_THAT(checked.out, HasSubstr("memory")) << checked.all();
+  }
+  EXPECT_GE(count, 3);
+}
+
+TEST(New, LeavesAnExistingFolderAsItIs) {
+  const TestFolder folder;
+  folder.write("pair/mine.txt", "mine");
+  const Outcome outcome = run_morula({"new", "pair"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.all();
+  EXPECT_THAT(outcome.err, HasSubstr("exists already"));
+  EXPECT_EQ(read_text(folder / "pair/mine.txt"), "mine");
+  EXPECT_FALSE(std::filesystem::exists(folder / "pair/study.yaml"));
+}
+
+TEST(New, SaysWhereAFolderCannotBeMade) {
+  const TestFolder folder;
+  folder.write("file", "not a folder");
+  const Outcome outcome = run_morula({"new", "pair", "file/study"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.all();
+  EXPECT_THAT(outcome.err, HasSubstr("file"));
+}
+
+}  // namespace
+}  // namespace morula::test

@@ -1,0 +1,100 @@
+// The same bits on any number of threads and ranks, over kills and restarts, for a tissue of both kinds of body.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/system/morula_command.h"
+#include "tests/system/studies.h"
+
+namespace morula::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+json info_of(const fs::path& run) {
+  const Outcome outcome = run_morula({"info", run.string(), "--json"}, run.parent_path());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
+  return json::parse(outcome.out, nullptr, false);
+}
+
+CommandOptions on_ranks(int ranks) {
+  CommandOptions options;
+  options.ranks = ranks;
+  options.timeout = std::chrono::seconds(120);
+  return options;
+}
+
+/// The hash of the hybrid study after one rank and one thread ran it without a break.
+class Repeat : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = new TestFolder;
+    folder->write("study.yaml", hybrid_study());
+    first = run_morula({"run", "study.yaml", "--out", "first"}, folder->path(), on_ranks(0));
+  }
+  static void TearDownTestSuite() { delete folder; }
+  void SetUp() override {
+    ASSERT_EQ(first.exit_code, 0) << first.all();
+    reference = info_of(*folder / "first");
+    ASSERT_GT(reference["shells"].get<int>(), 0) << "the study must have shells";
+    ASSERT_GT(reference["spheres"].get<int>(), 0) << "and spheres";
+    ASSERT_GT(reference["cells"].get<int>(), 30) << "and divisions";
+  }
+  void expect_same(const std::string& run, const Outcome& outcome) {
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.all();
+    const json info = info_of(*folder / run);
+    EXPECT_EQ(info["state_hash"], reference["state_hash"]) << run;
+    EXPECT_EQ(info["cells"], reference["cells"]);
+    EXPECT_EQ(read_text(*folder / run / "events.jsonl"), read_text(*folder / "first/events.jsonl")) << run;
+  }
+  static TestFolder* folder;
+  static Outcome first;
+  json reference;
+};
+TestFolder* Repeat::folder = nullptr;
+Outcome Repeat::first;
+
+// One test, because each test is a process of its own and the reference is run once.
+TEST_F(Repeat, SameBitsOnThreadsAndRanksAndOverRestarts) {
+  expect_same("threads", run_morula({"run", "study.yaml", "--out", "threads", "--threads", "2"}, folder->path(), on_ranks(0)));
+  for (const int ranks : {1, 2, 4}) {
+    const std::string name = "ranks" + std::to_string(ranks);
+    expect_same(name, run_morula({"run", "study.yaml", "--out", name}, folder->path(), on_ranks(ranks)));
+  }
+  // half on two ranks, the rest on one; then half on one rank, the rest on two
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "two-one", "--until", "20 min"}, folder->path(), on_ranks(2)).exit_code, 0);
+  expect_same("two-one", run_morula({"resume", "two-one"}, folder->path(), on_ranks(0)));
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "one-two", "--until", "20 min"}, folder->path(), on_ranks(0)).exit_code, 0);
+  expect_same("one-two", run_morula({"resume", "one-two"}, folder->path(), on_ranks(2)));
+}
+
+TEST_F(Repeat, KilledOnTwoRanksAndResumedOnAnotherNumber) {
+  const unsigned moment = static_cast<unsigned>(std::chrono::steady_clock::now().time_since_epoch().count() % 500);
+  {
+    RunningCommand command({"run", "study.yaml", "--out", "killed"}, folder->path(), on_ranks(2));
+    ASSERT_TRUE(command.wait_for(*folder / "killed/checkpoints/cp_000001.h5")) << command.wait().all();
+    std::this_thread::sleep_for(std::chrono::milliseconds(moment));
+    const json status = json::parse(read_text(*folder / "killed/status.json"), nullptr, false);
+    ASSERT_TRUE(status.is_object());
+    kill(status["process"].get<pid_t>(), SIGKILL);  // a rank dies; mpirun ends the other
+    EXPECT_NE(command.wait().exit_code, 0);
+  }
+  expect_same("killed", run_morula({"resume", "killed"}, folder->path(), on_ranks(0)));
+}
+
+TEST_F(Repeat, SigtermToMpirunLeavesACheckpoint) {
+  RunningCommand command({"run", "study.yaml", "--out", "stopped", "time.end=40 h"}, folder->path(), on_ranks(2));
+  ASSERT_TRUE(command.wait_for(*folder / "stopped/checkpoints/cp_000001.h5")) << command.wait().all();
+  command.send(SIGUSR1);  // as a batch system does; mpirun passes it on
+  const Outcome outcome = command.wait();
+  EXPECT_EQ(outcome.exit_code, 75) << outcome.all();
+  EXPECT_FALSE(outcome.timed_out);
+  EXPECT_EQ(info_of(*folder / "stopped")["state"], "stopped");
+}
+
+}  // namespace
+}  // namespace morula::test

@@ -1,0 +1,193 @@
+// Runs from beginning to end, and what is in their folders.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/system/morula_command.h"
+#include "tests/system/studies.h"
+
+namespace morula::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+json info_of(const fs::path& run) {
+  const Outcome outcome = run_morula({"info", run.string(), "--json"}, run.parent_path());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
+  return json::parse(outcome.out);
+}
+
+TEST(Run, MakesTheFolderThatThePagePromises) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  const Outcome outcome = run_morula({"run", "study.yaml", "output.report=true", "--timings"}, folder.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.all();
+  EXPECT_EQ(outcome.out, "runs/small-0001\n");
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("morula 0.1.0 · small · seed 7 · 1 rank × 1 thread · runs/small-0001"), HasSubstr("100 %"), HasSubstr("done   "), HasSubstr("checks passed")));
+  EXPECT_EQ(outcome.err.find('\r'), std::string::npos) << "no live line where there is no terminal";
+  const fs::path run = folder / "runs/small-0001";
+  for (const char* name : {"study.yaml", "study.resolved.yaml", "run.json", "status.json", "log.txt", "events.jsonl", "series.csv", "verdict.json", "results.h5", "checkpoints", "methods.md", "report.html", "DONE"})
+    EXPECT_TRUE(fs::exists(run / name)) << name;
+  EXPECT_FALSE(fs::exists(run / "FAILED"));
+
+  const std::vector<std::string> series = lines_of(read_text(run / "series.csv"));
+  EXPECT_EQ(series.size(), 1u + 13u) << "a header, time 0 and every 10 min of 2 h";
+  EXPECT_THAT(series[0], testing::StartsWith("time [s],"));
+  for (const std::string& line : lines_of(read_text(run / "events.jsonl"))) EXPECT_TRUE(json::parse(line).is_object());
+
+  const json info = info_of(run);
+  EXPECT_EQ(info["state"], "done");
+  EXPECT_EQ(info["time"], 7200.0);
+  EXPECT_EQ(info["cells"], info["spheres"].get<int>() + info["shells"].get<int>());
+  EXPECT_GE(info["cells"].get<int>(), 20);
+  EXPECT_EQ(info["state_hash"].get<std::string>().size(), 32u);
+  EXPECT_EQ(json::parse(run_morula({"status", "runs/small-0001", "--json"}, folder.path()).out)["state"], "done");
+  const json list = json::parse(run_morula({"list", "--json"}, folder.path()).out);
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0]["study"], "small");
+}
+
+TEST(Run, NeverWritesIntoAnExistingFolder) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  folder.write("here/mine.txt", "mine");
+  const Outcome taken = run_morula({"run", "study.yaml", "--out", "here"}, folder.path());
+  EXPECT_EQ(taken.exit_code, 3) << taken.all();
+  EXPECT_THAT(taken.err, HasSubstr("here"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "here"), fs::directory_iterator()), 1);
+  for (const char* run : {"runs/small-0001", "runs/small-0002"}) {
+    const Outcome outcome = run_morula({"run", "study.yaml", "--until", "10 min"}, folder.path());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
+    EXPECT_EQ(outcome.out, std::string(run) + "\n");
+  }
+}
+
+TEST(Run, SaysWhenAFolderCannotBeWritten) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  folder.write("file", "");
+  for (const char* out : {"file/run", "/proc/run"}) {
+    const Outcome outcome = run_morula({"run", "study.yaml", "--out", out}, folder.path());
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.all();
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("error: "), HasSubstr(fs::path(out).parent_path().string())));
+  }
+  if (geteuid() == 0) return;  // root may write everywhere
+  fs::create_directory(folder / "locked");
+  fs::permissions(folder / "locked", fs::perms::owner_read | fs::perms::owner_exec);
+  const Outcome outcome = run_morula({"run", "study.yaml", "--out", "locked/run"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.all();
+  EXPECT_THAT(outcome.err, HasSubstr("locked/run"));
+}
+
+TEST(Run, DryRunWritesNothing) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  const Outcome outcome = run_morula({"run", "study.yaml", "--dry-run"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
+  EXPECT_THAT(outcome.out, HasSubstr("20 at the start"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+}
+
+TEST(Run, OverridesAndFlagsReachTheRun) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  const Outcome outcome = run_morula({"run", "study.yaml", "initial.0.count=5", "--seed", "99", "--until", "20 min", "--out", "short"}, folder.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.all();
+  const json info = info_of(folder / "short");
+  EXPECT_EQ(info["cells"], 5);
+  EXPECT_EQ(info["seed"], 99);
+  EXPECT_EQ(info["time"], 1200.0);
+  EXPECT_THAT(read_text(folder / "short/study.resolved.yaml"), HasSubstr("count: 5"));
+}
+
+TEST(Run, OtherSeedsGiveOtherTissues) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  run_morula({"run", "study.yaml", "--seed", "1", "--until", "10 min", "--out", "one"}, folder.path());
+  run_morula({"run", "study.yaml", "--seed", "2", "--until", "10 min", "--out", "two"}, folder.path());
+  EXPECT_NE(info_of(folder / "one")["state_hash"], info_of(folder / "two")["state_hash"]);
+}
+
+TEST(Run, StopsAtTheWallTimeAndGoesOnToTheSameEnd) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "whole"}, folder.path()).exit_code, 0);
+  const Outcome stopped = run_morula({"run", "study.yaml", "--out", "parts", "--max-wall", "1 ms"}, folder.path());
+  EXPECT_EQ(stopped.exit_code, 75) << stopped.all();
+  EXPECT_THAT(stopped.err, HasSubstr("morula resume parts"));
+  EXPECT_EQ(info_of(folder / "parts")["state"], "stopped");
+  const Outcome resumed = run_morula({"resume", "parts"}, folder.path());
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.all();
+  EXPECT_EQ(info_of(folder / "parts")["state_hash"], info_of(folder / "whole")["state_hash"]);
+  EXPECT_EQ(read_text(folder / "parts/series.csv").size() > 100, true);
+}
+
+TEST(Resume, UntilALaterTimeEqualsARunToThatTime) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "long", "--until", "2 h"}, folder.path()).exit_code, 0);
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "parts", "--until", "1 h"}, folder.path()).exit_code, 0);
+  const Outcome resumed = run_morula({"resume", "parts", "--until", "2 h"}, folder.path());
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.all();
+  EXPECT_EQ(info_of(folder / "parts")["state_hash"], info_of(folder / "long")["state_hash"]);
+}
+
+TEST(Resume, WithAChangeMakesANewRunWithItsParent) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "runs/first", "--until", "30 min"}, folder.path()).exit_code, 0);
+  const json before = info_of(folder / "runs/first");
+  const Outcome changed_run = run_morula({"resume", "runs/first", "--set", "time.end=1 h", "--set", "cell_types.round.adhesion={round: 2e-4 J/m^2}", "--out", "runs/second"}, folder.path());
+  ASSERT_EQ(changed_run.exit_code, 0) << changed_run.all();
+  const json after = info_of(folder / "runs/second");
+  EXPECT_THAT(after["parent"].get<std::string>(), testing::EndsWith("runs/first"));
+  EXPECT_EQ(after["time"], 3600.0);
+  EXPECT_EQ(info_of(folder / "runs/first")["state_hash"], before["state_hash"]);
+  const Outcome wrong = run_morula({"resume", "runs/first", "--set", "time.end=soon"}, folder.path());
+  EXPECT_EQ(wrong.exit_code, 2) << wrong.all();
+}
+
+TEST(Resume, FromACheckpointThatIsNotThereListsThoseThatAre) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "run", "--until", "10 min"}, folder.path()).exit_code, 0);
+  const Outcome outcome = run_morula({"resume", "run", "--from", "cp_999999"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.all();
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("cp_999999"), HasSubstr("cp_00000")));
+}
+
+TEST(Results, AreExportedAndPlotted) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "run", "--until", "30 min"}, folder.path()).exit_code, 0);
+  for (const char* format : {"vtk", "csv", "stl"}) {
+    const Outcome outcome = run_morula({"export", "run", format, "--every", "2"}, folder.path());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
+    EXPECT_FALSE(fs::is_empty(folder.path() / "run" / format)) << format;
+    EXPECT_EQ(run_morula({"export", "run", format}, folder.path()).exit_code, 3) << "nothing is overwritten";
+  }
+  EXPECT_EQ(run_morula({"export", "run", "csv", "--from", "20 h", "--out", "none"}, folder.path()).exit_code, 2);
+  const Outcome some = run_morula({"plot", "run", "--format", "svg"}, folder.path());
+  EXPECT_EQ(some.exit_code, 0) << some.all();
+  EXPECT_THAT(some.out, HasSubstr(".svg"));
+  EXPECT_EQ(some.out.find(".png"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "run/report.html"));
+  const Outcome all = run_morula({"plot", "run"}, folder.path());
+  EXPECT_EQ(all.exit_code, 0) << all.all();
+  EXPECT_THAT(read_text(folder / "run/report.html"), HasSubstr("<html"));
+}
+
+}  // namespace
+}  // namespace morula::test

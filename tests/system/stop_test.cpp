@@ -1,0 +1,101 @@
+// Runs that are stopped, interrupted or killed, and go on.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/system/morula_command.h"
+#include "tests/system/studies.h"
+
+namespace morula::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// A study that takes some seconds, with checkpoints at every output.
+std::string long_study() { return changed(changed(sphere_study(), "end: 2 h", "end: 200 h"), "checkpoint: 30 min", "checkpoint: 10 min"); }
+
+json info_of(const fs::path& run) { return json::parse(run_morula({"info", run.string(), "--json"}, run.parent_path()).out); }
+
+/// Starts a long run, waits until it is well under way, sends the signal.
+Outcome signalled(const TestFolder& folder, int signal) {
+  folder.write("study.yaml", long_study());
+  RunningCommand command({"run", "study.yaml", "--out", "run"}, folder.path());
+  EXPECT_TRUE(command.wait_for(folder / "run/checkpoints/cp_000003.h5")) << "the run did not get going";
+  command.send(signal);
+  return command.wait();
+}
+
+void expect_stopped(const TestFolder& folder, const Outcome& outcome, int exit_code) {
+  EXPECT_EQ(outcome.exit_code, exit_code) << outcome.all();
+  EXPECT_FALSE(outcome.timed_out);
+  EXPECT_THAT(outcome.err, HasSubstr("morula resume run"));
+  const json info = info_of(folder / "run");
+  EXPECT_EQ(info["state"], "stopped");
+  EXPECT_EQ(info["exit_code"], exit_code);
+  EXPECT_GT(info["time"].get<double>(), 0.0);
+  const Outcome resumed = run_morula({"resume", "run", "--max-wall", "1 ms"}, folder.path());
+  EXPECT_EQ(resumed.exit_code, 75) << resumed.all();
+  EXPECT_GE(info_of(folder / "run")["time"], info["time"]) << "the checkpoint is of the moment of the signal";
+}
+
+TEST(Stop, SigtermLeavesACheckpointAndExit75) {
+  const TestFolder folder;
+  expect_stopped(folder, signalled(folder, SIGTERM), 75);
+}
+
+TEST(Stop, Sigusr1LeavesACheckpointAndExit75) {
+  const TestFolder folder;
+  expect_stopped(folder, signalled(folder, SIGUSR1), 75);
+}
+
+TEST(Stop, ControlCLeavesACheckpointAndExit130) {
+  const TestFolder folder;
+  expect_stopped(folder, signalled(folder, SIGINT), 130);
+}
+
+TEST(Stop, ASecondRunInTheSameFolderIsRefusedWhileTheFirstRuns) {
+  const TestFolder folder;
+  folder.write("study.yaml", long_study());
+  RunningCommand command({"run", "study.yaml", "--out", "run"}, folder.path());
+  ASSERT_TRUE(command.wait_for(folder / "run/checkpoints/cp_000001.h5"));
+  const Outcome second = run_morula({"resume", "run"}, folder.path());
+  EXPECT_EQ(second.exit_code, 2) << second.all();
+  EXPECT_EQ(json::parse(run_morula({"status", "run", "--json"}, folder.path()).out)["state"], "running");
+  command.send(SIGTERM);
+  EXPECT_EQ(command.wait().exit_code, 75);
+}
+
+TEST(Kill, AtARandomMomentThenResumeEndsInTheSameBits) {
+  const TestFolder folder;
+  const std::string study = changed(sphere_study(), "checkpoint: 30 min", "checkpoint: 10 min");
+  folder.write("study.yaml", study);
+  const std::vector<std::string> longer{"time.end=16 h"};
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "whole", longer[0]}, folder.path()).exit_code, 0);
+  const std::string hash = info_of(folder / "whole")["state_hash"];
+  const unsigned moment = static_cast<unsigned>(std::chrono::steady_clock::now().time_since_epoch().count() % 400);
+  RecordProperty("killed_after_ms", static_cast<int>(moment));
+  {
+    RunningCommand command({"run", "study.yaml", "--out", "killed", longer[0]}, folder.path());
+    ASSERT_TRUE(command.wait_for(folder / "killed/checkpoints/cp_000001.h5"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(moment));
+    command.send(SIGKILL);
+    const Outcome killed = command.wait();
+    EXPECT_TRUE(killed.exit_code == 137 || killed.exit_code == 0) << killed.all();
+    if (killed.exit_code == 137) {
+      EXPECT_EQ(json::parse(run_morula({"status", "killed", "--json"}, folder.path()).out)["state"], "lost");
+      EXPECT_EQ(info_of(folder / "killed")["state_hash"].get<std::string>().size(), 32u) << "the newest checkpoint can be hashed";
+    }
+  }
+  const Outcome resumed = run_morula({"resume", "killed"}, folder.path());
+  ASSERT_EQ(resumed.exit_code, 0) << "killed after " << moment << " ms\n" << resumed.all();
+  EXPECT_EQ(info_of(folder / "killed")["state_hash"], hash) << "killed after " << moment << " ms";
+  EXPECT_EQ(read_text(folder / "killed/series.csv").substr(0, 200), read_text(folder / "whole/series.csv").substr(0, 200));
+}
+
+}  // namespace
+}  // namespace morula::test
