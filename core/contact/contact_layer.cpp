@@ -219,7 +219,7 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair) {
   for (int d = 0; d < 2; ++d) {
     if (pair.points[d].source_face.empty()) continue;
     evaluate_points({body[d], body[1 - d], contact, FaceQuadrature::with_points(settings_.points_per_face), reach(),
-                     both ? 0.5 : 1.0, pair.motion, pair.motion - pair.built_at, !pair.rigid},
+                     both ? 0.5 : 1.0, pair.motion, pair.motion - pair.built_at, !pair.rigid, {}},
                     d, pair);
   }
 }

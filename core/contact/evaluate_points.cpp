@@ -119,9 +119,13 @@ double contact_ramp(double gap, double range) {
 
 }  // namespace
 
-void evaluate_points(const PointsEvaluation& e, int d, SurfacePair& pair) {
+void evaluate_points(const PointsEvaluation& given, int d, SurfacePair& pair) {
   PointsAgainstBody& lists = pair.points[d];
-  const bool sphere = e.target.topology == nullptr;
+  const bool sphere = given.target.topology == nullptr;
+  std::vector<Vec3d> centroid(lists.target_face.size());
+  for (std::size_t m = 0; m < centroid.size(); ++m) centroid[m] = given.target.centroid(lists.target_face[m]);
+  PointsEvaluation e = given;
+  e.target_centroid = centroid;
   const double part = 1.0 / e.quadrature.count;
   std::size_t index = 0;
   for (std::size_t k = 0; k < lists.source_face.size(); ++k) {

@@ -49,14 +49,13 @@ ClosestPoint closest_on(const PairBody& target, std::uint32_t face, const Vec3d&
 }
 
 void try_face(const Vec3d& point, std::uint16_t place, const PointsEvaluation& e, const PointsAgainstBody& lists, Candidate& best) {
-  const std::uint32_t face = lists.target_face[place];
-  const Vec3d away = point - e.target.centroid(face);
+  const Vec3d away = point - e.target_centroid[place];
   // The ball of the face has grown by at most twice what the bodies moved since it was measured.
   const double radius = lists.target_radius[place] + 2.0 * e.motion_since_built;
   const double limit = best.second + radius;
   const double center2 = norm2(away);
   if (center2 > limit * limit) return;
-  const ClosestPoint closest = closest_on(e.target, face, point);
+  const ClosestPoint closest = closest_on(e.target, lists.target_face[place], point);
   if (closest.distance2 < best.distance2 || (closest.distance2 == best.distance2 && place < best.place)) {
     if (best.distance2 < best.second2) {
       best.second2 = best.distance2;

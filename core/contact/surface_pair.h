@@ -102,6 +102,7 @@ struct PointsEvaluation {
   double motion;              ///< of the pair
   double motion_since_built;
   bool target_moves;          ///< false for rigid obstacles: no gradient of the target is wanted
+  std::span<const Vec3d> target_centroid;  ///< by place in the pair's target faces; filled by evaluate_points()
 };
 
 /// Fill the candidate lists of one direction. `target_faces` are the faces of the target that may be near, in increasing order (empty for
