@@ -18,7 +18,7 @@
 namespace morula::scenarios {
 namespace {
 
-constexpr double kWarnAt = 0.8;            // of a limit
+constexpr double kWarnAt = 0.8;  // of a limit
 constexpr auto kStatusEvery = std::chrono::seconds(2);
 
 std::string number_text(const char* format, double value) {
@@ -209,7 +209,8 @@ void RunLoop::tell_events() {
   for (const Event& event : events_)
     if (event.kind == EventKind::kPromotion || event.kind == EventKind::kDemotion) ++counts[{event.kind, event.text}];
   for (const auto& [what, count] : counts)
-    note(Note::Kind::kNote, std::to_string(count) + (count == 1 ? " cell" : " cells") + (what.first == EventKind::kPromotion ? " promoted to DCM (" : " demoted to CBM (") + what.second + ")");
+    note(Note::Kind::kNote, std::to_string(count) + (count == 1 ? " cell" : " cells") +
+                                (what.first == EventKind::kPromotion ? " promoted to DCM (" : " demoted to CBM (") + what.second + ")");
   for (const Event& event : events_)
     if (event.kind == EventKind::kWarning) note(Note::Kind::kWarning, "cell " + event.cell.text() + ": " + event.text);
 }
@@ -222,18 +223,22 @@ void RunLoop::warn_near_limit(bool& warned, const std::string& text) {
 Status RunLoop::check_limits(const Measures& m) {
   const Limits& limits = study_.model.limits;
   const auto crossed = [&](const std::string& what, const Extreme& extreme) {
-    return Error{ErrorKind::kPhysics, what + (extreme.cell.valid() ? " in cell " + extreme.cell.text() : "") + " at " + time_text(m.time), "the limit is in the study: `limits`; the last checkpoint and snapshot show the state"};
+    return Error{ErrorKind::kPhysics, what + (extreme.cell.valid() ? " in cell " + extreme.cell.text() : "") + " at " + time_text(m.time),
+                 "the limit is in the study: `limits`; the last checkpoint and snapshot show the state"};
   };
-  const std::string volume = "volume error " + number_text("%.2g %%", 100.0 * m.volume_error.value) + " (limit " + number_text("%.2g %%)", 100.0 * limits.volume_error);
+  const std::string volume = "volume error " + number_text("%.2g %%", 100.0 * m.volume_error.value) + " (limit " +
+                             number_text("%.2g %%)", 100.0 * limits.volume_error);
   if (!(m.volume_error.value <= limits.volume_error)) return crossed(volume, m.volume_error);
-  if (m.volume_error.value > kWarnAt * limits.volume_error) warn_near_limit(volume_warned_, volume + " in cell " + m.volume_error.cell.text());
+  if (m.volume_error.value > kWarnAt * limits.volume_error)
+    warn_near_limit(volume_warned_, volume + " in cell " + m.volume_error.cell.text());
   if (!simulation_->tissue().clock.capped) {  // a capped start may overlap until it has come apart
     const std::string overlap = "overlap " + number_text("%.2g um", m.overlap.value) + " (limit " + number_text("%.2g um)", limits.overlap);
     if (!(m.overlap.value <= limits.overlap)) return crossed(overlap, m.overlap);
     if (m.overlap.value > kWarnAt * limits.overlap) warn_near_limit(overlap_warned_, overlap + " at cell " + m.overlap.cell.text());
   }
   for (std::size_t f = 0; f < study_.model.fields.size(); ++f) {
-    const std::string balance = "balance of " + study_.model.fields[f].name + " off by " + number_text("%.2g", m.field_balance[f]) + " (limit " + number_text("%.2g)", limits.field_balance);
+    const std::string balance = "balance of " + study_.model.fields[f].name + " off by " + number_text("%.2g", m.field_balance[f]) +
+                                " (limit " + number_text("%.2g)", limits.field_balance);
     if (!(m.field_balance[f] <= limits.field_balance)) return crossed(balance, {});
     if (m.field_balance[f] > kWarnAt * limits.field_balance) warn_near_limit(balance_warned_, balance);
   }
@@ -282,7 +287,9 @@ Status RunLoop::finish(RunState state, ErrorKind kind, RunSummary& summary) {
   MORULA_TRY(checkpoint());
   record_.state = state;
   record_.exit_code = done ? 0 : exit_code(kind);
-  record_.message = done ? "" : std::string(kind == ErrorKind::kInterrupted ? "interrupted" : "stopped early") + " at " + time_text(progress_.time) + ", with a checkpoint";
+  record_.message = done ? ""
+                         : std::string(kind == ErrorKind::kInterrupted ? "interrupted" : "stopped early") + " at " +
+                               time_text(progress_.time) + ", with a checkpoint";
   record_.finished = utc_now();
   record_.wall_time = wall_before_ + wall();
   record_.final_state = final_state();
