@@ -125,6 +125,7 @@ Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest&
   RunLoop loop(study, request, comm, std::move(folder), std::move(columns), std::move(record), std::move(simulation));
   for (const std::string& warning : restored.warnings) loop.note(Note::Kind::kWarning, warning);
   loop.note(Note::Kind::kNote, "resumed from the checkpoint at " + time_text(time));
+  if (time >= loop.end()) loop.note(Note::Kind::kNote, "nothing is left to do: the run ends at " + time_text(loop.end()));
   if (request.until) loop.note(Note::Kind::kNote, end_note(request, loop.end()));
   if (Status back = loop.go_back(); !back.ok()) return loop.fail(back.error(), false);
   return loop.go();

@@ -71,7 +71,8 @@ struct RunSummary {
 Result<RunSummary> run(const Study& study, const RunRequest& request, const Comm& comm);
 
 /// Go on with a run from its newest good checkpoint, on any number of ranks and threads. What lies beyond the checkpoint in series, events
-/// and snapshots is taken away first. `until` beyond the study's end extends the run. Collective.
+/// and snapshots is taken away first. `until` beyond the study's end extends the run. Means over an output interval that was begun before
+/// the restart (step size, iterations) count from the restart; the state itself is the same to the bit. Collective.
 Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest& request, const Comm& comm);
 
 /// Start a new run of a changed study from a checkpoint of another run, which is recorded as its parent and left as it is. Collective.
