@@ -83,7 +83,8 @@ void Mechanics::prepare(const Tissue& tissue) {
     gradient_.face_normal.assign(faces, {});
     gradient_.contact_area.assign(bodies, 0.0);
 
-    lay_out_system();
+    if (relaxing_) hold_all_but(relax_moves_);  // the new scene knows nothing of who is held
+    else lay_out_system();
   }
   if (!evaluated_) {
     const double cap = tissue.clock.capped ? (relaxing_ ? relax_cap_ : model_.step.start_cap) : 0.0;

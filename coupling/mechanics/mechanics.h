@@ -123,6 +123,7 @@ class Mechanics {
   double relax_cap_ = 0.0;           ///< δ while cells relax in place; 0: that of the study
   bool relaxing_ = false;            ///< obstacles and flags stand still
   bool flags_changed_ = false;       ///< spheres attached or parted at the end of the last step: forces are to be found anew
+  std::vector<char> relax_moves_;    ///< which owned bodies move meanwhile
   bool contacts_current_ = false;    ///< geometry and surface contacts belong to the scene's positions
   std::vector<Vec3d> scene_start_;   ///< owned positions when the ghosts were found
   ContactLayer contacts_;

@@ -28,7 +28,8 @@ void Mechanics::hold_all_but(std::span<const char> moves) {
 
 Status Mechanics::relax(Tissue& tissue, std::span<const char> moves) {
   prepare(tissue);
-  hold_all_but(moves);
+  relax_moves_.assign(moves.begin(), moves.end());
+  hold_all_but(relax_moves_);
   relaxing_ = true;
   const Clock clock = tissue.clock;
   tissue.clock.capped = true;
