@@ -3,6 +3,7 @@
 #include "app/words.h"
 #include "scenarios/library/library.h"
 #include "scenarios/observables/observables.h"
+#include "scenarios/results/file_io.h"
 
 namespace morula::app {
 
@@ -25,6 +26,14 @@ Result<scenarios::Study> read_study_and_tell(const std::string& path, const std:
   }
   context.console.message(count_words(told.error_count(), "error", "errors") + " in '" + path + "'\n");
   return Error{told.kind(), "", ""};
+}
+
+Status agree_on(const Result<scenarios::Study>& study, const std::string& path, const Context& context) {
+  const Status all = scenarios::agree(study.ok() ? Status{} : Status{study.error()}, context.comm);
+  if (!all.ok() && study.ok())  // this rank has told nothing
+    return Error{all.error().kind, "another rank cannot read '" + path + "' as this one does",
+                 "the study and its files must be on a disk that all machines share"};
+  return all;
 }
 
 }  // namespace morula::app

@@ -13,4 +13,7 @@ namespace morula::app {
 Result<scenarios::Study> read_study_and_tell(const std::string& path, const std::vector<std::string>& overrides, bool strict,
                                              const Context& context);
 
+/// Collective. Success where every rank has read the study; else the error, with a text of its own if only other ranks have failed.
+Status agree_on(const Result<scenarios::Study>& study, const std::string& path, const Context& context);
+
 }  // namespace morula::app

@@ -11,7 +11,7 @@ Status run(const RunOptions& options, const Context& context) {
   std::vector<std::string> overrides = options.overrides;
   if (options.seed) overrides.push_back("seed=" + std::to_string(*options.seed));
   auto study = read_study_and_tell(options.study, overrides, false, context);
-  MORULA_TRY(scenarios::agree(study.ok() ? Status{} : Status{study.error()}, context.comm));
+  MORULA_TRY(agree_on(study, options.study, context));
   scenarios::RunRequest request;
   request.out = options.out;
   MORULA_TRY(fill_request(options.limits, context, request));

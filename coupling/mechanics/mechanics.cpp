@@ -65,7 +65,6 @@ void Mechanics::prepare(const Tissue& tissue) {
     auto timed = timer_.scope(Stage::kGhosts);
     const double reach = std::max(contacts_.settings().range, contacts_.settings().sphere_reach) + 2.0 * contacts_.settings().body_skin + slack + 2.0 * step_margin(model_);
     scene_.build(tissue, model_.space, reach, shapes_, comm_);
-    set_moving();  // also when ghosts are renewed while some cells relax
     scene_valid_ = true;
     evaluated_ = contacts_current_ = false;
     scene_start_ = tissue.shells.position;
@@ -84,7 +83,8 @@ void Mechanics::prepare(const Tissue& tissue) {
     gradient_.face_normal.assign(faces, {});
     gradient_.contact_area.assign(bodies, 0.0);
 
-    lay_out_system();
+    if (relaxing_) hold_all_but(relax_moves_);  // the new scene knows nothing of who is held
+    else lay_out_system();
   }
   if (!evaluated_) {
     const double cap = tissue.clock.capped ? (relaxing_ ? relax_cap_ : model_.step.start_cap) : 0.0;
@@ -145,7 +145,7 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   gradient_.force.swap(force_);
   contacts_.collect(scene, gradient_);
   gradient_.force.swap(force_);
-  spheres_.collect(scene_, force_, gradient_.contact_area);
+  spheres_.collect(scene_, force_);
   const SurfaceList owned{scene_.topologies().first(scene_.owned_shells()), scene_.first_node(), scene_.first_face()};
   add_surface_forces(owned, scene_.position(), geometry_, {gradient_.face_energy, gradient_.face_normal, gradient_.node_normal}, force_);
   const auto& internal = shells_.forces();
@@ -220,6 +220,7 @@ std::optional<StepFault> Mechanics::find_fault(const Tissue& tissue) const {
 }
 
 Result<StepReport, StepFault> Mechanics::step(Tissue& tissue, double dt, std::span<const Vec3d> external) {
+  if (comm_.any(flags_changed_)) evaluated_ = flags_changed_ = false;
   prepare(tissue);
   return model_.step.integrator == Integrator::kImplicit ? implicit_step(tissue, dt, external) : explicit_step(tissue, dt, external);
 }
@@ -236,12 +237,12 @@ void Mechanics::finish(Tissue& tissue, double dt, StepReport& report) {
   for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i) tissue.spheres.velocity[i] = velocity(scene_.sphere_point() + i);
   if (!relaxing_) {
     for (std::size_t i = 0; i < model_.obstacles.size(); ++i) tissue.obstacle_offset[i] += model_.obstacles[i].velocity * dt;
-    spheres_.update_attached(scene_, tissue);
+    flags_changed_ = comm_.any(spheres_.update_attached(scene_, tissue));
   }
   report.energy = energy_;
   report.overlap = deepest_overlap();
   if (tissue.clock.capped && report.overlap < 0.1) tissue.clock.capped = false;
-  evaluated_ = false;  // volumes and flags change with the next step; contact caches stay
+  if (relaxing_) evaluated_ = false;
 }
 
 std::vector<Vec3d> Mechanics::spread(const Tissue& tissue, std::span<const Vec3d> by_body) {
@@ -273,13 +274,14 @@ const BodyValues& Mechanics::values(const Tissue& tissue) {
     values_.pressure[i] = shells_.forces().pressure[i];
     values_.contact_area[i] = gradient_.contact_area[i];
   }
-  spheres_.virial_pressure(scene_, tissue, std::span(values_.pressure).subspan(shells));
   for (std::size_t i = 0; i < spheres; ++i) {
     const double r = tissue.spheres.radius[i];
     values_.volume[shells + i] = 4.0 / 3.0 * std::numbers::pi * r * r * r;
     values_.area[shells + i] = 4.0 * std::numbers::pi * r * r;
     values_.contact_area[shells + i] = gradient_.contact_area[scene_.first_sphere() + i];
   }
+  if (spheres_.renew_sisters(scene_, contacts_, tissue)) flags_changed_ = true;
+  spheres_.add_values(scene_, tissue, std::span(values_.pressure).subspan(shells), std::span(values_.contact_area).subspan(shells));
   return values_;
 }
 

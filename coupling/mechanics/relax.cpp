@@ -5,35 +5,31 @@
 namespace morula {
 namespace {
 
-constexpr double kFirstStep = 0.1;      // [s]
-constexpr double kLongestStep = 30.0;   // [s]
-constexpr double kCap = 0.1;            // δ of the capped traction [µm]
-constexpr double kAtRest = 2e-3;        // displacement of a longest step that counts as rest [µm]
-constexpr double kOverlapAtRest = 0.1;  // [µm]
+constexpr double kFirstStep = 0.1;        // [s]
+constexpr double kLongestStep = 30.0;     // [s]
+constexpr double kCap = 0.1;              // δ of the capped traction [µm]
+constexpr double kAtRest = 2e-3;          // displacement of a longest step that counts as rest [µm]
+constexpr double kOverlapAtRest = 0.1;    // [µm]
 constexpr int kMostSteps = 120;
 
 }  // namespace
 
 void Mechanics::hold_all_but(std::span<const char> moves) {
-  moves_.assign(moves.begin(), moves.end());
-  set_moving();
-  lay_out_system();
-}
-
-void Mechanics::set_moving() {
   std::vector<char> by_body;
-  if (!moves_.empty()) {  // ghosts never move; owned shells come first, owned spheres after the ghost shells
+  if (!moves.empty()) {  // ghosts never move; owned shells come first, owned spheres after the ghost shells
     by_body.assign(scene_.bodies().size(), 0);
-    const auto spheres = moves_.begin() + static_cast<std::ptrdiff_t>(scene_.owned_shells());
-    std::copy(moves_.begin(), spheres, by_body.begin());
-    std::copy(spheres, moves_.end(), by_body.begin() + static_cast<std::ptrdiff_t>(scene_.first_sphere()));
+    std::copy_n(moves.begin(), scene_.owned_shells(), by_body.begin());
+    std::copy(moves.begin() + static_cast<std::ptrdiff_t>(scene_.owned_shells()), moves.end(),
+              by_body.begin() + static_cast<std::ptrdiff_t>(scene_.first_sphere()));
   }
   scene_.set_moving(by_body);
+  lay_out_system();
 }
 
 Status Mechanics::relax(Tissue& tissue, std::span<const char> moves) {
   prepare(tissue);
-  hold_all_but(moves);
+  relax_moves_.assign(moves.begin(), moves.end());
+  hold_all_but(relax_moves_);
   relaxing_ = true;
   const Clock clock = tissue.clock;
   tissue.clock.capped = true;

@@ -1,7 +1,9 @@
 #include "coupling/mechanics/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <numbers>
 #include <numeric>
 
 namespace morula {
@@ -9,9 +11,9 @@ namespace {
 
 /// What a ghost is announced with; its positions follow by exchange().
 struct GhostHeader {
-  CellId id, parent;
+  CellId id;
   std::uint64_t order;
-  double radius, birth_time;
+  double radius, birth_radius, birth_time;
   std::uint32_t nodes;  ///< 1 for a sphere
   std::uint16_t type;
   BodyShape shape;
@@ -57,7 +59,7 @@ void Scene::add_owned(const Tissue& tissue) {
   birth_.clear();
   for (const CellRow& row : tissue.cells.rows) {
     ContactBody body;
-    (row.body == BodyKind::kShell ? birth_ : sphere_birth).push_back({row.parent, row.birth_time});
+    (row.body == BodyKind::kShell ? birth_ : sphere_birth).push_back({std::cbrt(3.0 * row.birth_volume / (4.0 * std::numbers::pi)), row.birth_time});
     body.id = row.id;
     body.material = row.type;
     if (row.body == BodyKind::kShell) {
@@ -101,7 +103,7 @@ void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, 
     for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
       if (!overlaps_any_image(box[i], all[r], space)) continue;
       send_bodies_[r].push_back(i);
-      headers.push_back({bodies_[i].id, birth_[i].parent, order[i], bodies_[i].radius, birth_[i].time, bodies_[i].point_count,
+      headers.push_back({bodies_[i].id, order[i], bodies_[i].radius, birth_[i].radius, birth_[i].time, bodies_[i].point_count,
                          bodies_[i].material, bodies_[i].shape, {}});
     }
     outgoing[r] = pack(headers);
@@ -134,12 +136,12 @@ void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, 
   for (const Arrival& arrival : ghost_shells) {
     receive_bodies_[arrival.rank][arrival.at] = static_cast<std::uint32_t>(owned_shells_ + shells.size());
     shells.push_back(body_of(arrival.header));
-    shell_birth.push_back({arrival.header.parent, arrival.header.birth_time});
+    shell_birth.push_back({arrival.header.birth_radius, arrival.header.birth_time});
   }
   for (const Arrival& arrival : ghost_spheres) {
     receive_bodies_[arrival.rank][arrival.at] = static_cast<std::uint32_t>(owned_shells_ + shells.size() + owned_spheres_ + spheres.size());
     spheres.push_back(body_of(arrival.header));
-    sphere_birth.push_back({arrival.header.parent, arrival.header.birth_time});
+    sphere_birth.push_back({arrival.header.birth_radius, arrival.header.birth_time});
   }
   for (auto& list : send_bodies_)
     for (std::uint32_t& body : list)

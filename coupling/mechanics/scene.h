@@ -35,8 +35,8 @@ class Scene {
   [[nodiscard]] std::span<const std::uint32_t> first_node() const { return first_node_; }
   [[nodiscard]] std::span<const std::uint32_t> first_face() const { return first_face_; }
 
-  /// Parent and time of birth by body, ghosts too: sisters push each other apart slowly.
-  [[nodiscard]] CellId parent(std::size_t body) const { return birth_[body].parent; }
+  /// Radius at birth and time of birth by body, ghosts too: sisters push each other apart slowly.
+  [[nodiscard]] double birth_radius(std::size_t body) const { return birth_[body].radius; }
   [[nodiscard]] double birth_time(std::size_t body) const { return birth_[body].time; }
 
   std::vector<Vec3d>& position() { return position_; }
@@ -57,8 +57,8 @@ class Scene {
 
  private:
   struct Birth {
-    CellId parent;
-    double time = 0.0;
+    double radius = 0.0;  ///< [µm]
+    double time = 0.0;    ///< [s]
   };
   void add_owned(const Tissue& tissue);
   void find_ghosts(const Tissue& tissue, const Space& space, double reach, const Comm& comm);

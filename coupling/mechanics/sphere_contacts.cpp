@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "cbm/division_ramp.h"
 #include "cbm/laws/jkr.h"
+#include "cbm/pair_forces.h"
 #include "core/mesh/pseudonormal.h"
 
 namespace morula {
@@ -25,6 +27,7 @@ SphereContacts::SphereContacts(const Model& model) : model_(model) {
 
 void SphereContacts::set_pairs(const Scene& scene, const ContactLayer& contacts, const Tissue& tissue) {
   pairs_.clear();
+  sisters_.clear();
   const auto bodies = scene.bodies();
   const std::size_t first = scene.first_sphere();
   const auto is_attached = [&](std::uint32_t owned, CellId partner) {
@@ -34,6 +37,7 @@ void SphereContacts::set_pairs(const Scene& scene, const ContactLayer& contacts,
   for (const SphereNeighbours& n : contacts.sphere_neighbours()) {
     Pair pair{n.a, n.b, n.shift, {}, 0.0, false, false};
     pair.attached = bodies[n.a].owned ? is_attached(n.a, bodies[n.b].id) : is_attached(n.b, bodies[n.a].id);
+    if (cbm::are_sisters(bodies[n.a].id, bodies[n.b].id)) sisters_.push_back(static_cast<std::uint32_t>(pairs_.size()));
     pairs_.push_back(pair);
   }
   const auto obstacles = contacts.obstacles();
@@ -64,31 +68,34 @@ void SphereContacts::set_pairs(const Scene& scene, const ContactLayer& contacts,
   }
 }
 
-void SphereContacts::update_laws(const Scene& scene, const Tissue& tissue) {
+void SphereContacts::update_law(const Scene& scene, double now, Pair& pair) const {
   const auto bodies = scene.bodies();
   const std::size_t materials = model_.material_count() + 1;
-  const double now = tissue.clock.time;
-#pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    Pair& pair = pairs_[k];
-    const ContactBody& a = bodies[pair.a];
-    pair.overlap_offset = 0.0;
-    if (pair.rigid) {
-      const std::size_t material = std::min<std::size_t>(model_.types.size() + pair.b, materials - 1);
-      pair.law = cbm::make_pair_law(materials_[a.material * materials + material], a.radius);
-      continue;
-    }
-    const ContactBody& b = bodies[pair.b];
-    pair.law = cbm::make_pair_law(materials_[a.material * materials + b.material], a.radius, b.radius);
-    const CellId parent = scene.parent(pair.a);
-    const double age = now - scene.birth_time(pair.a);
-    if (!parent.valid() || scene.parent(pair.b) != parent || age >= kSeparationTime) continue;
-    // Sisters start 0.4126 R_m apart; their distance at rest grows linearly to the zero-load distance (cbm.md §5).
-    const double mother = std::cbrt(a.radius * a.radius * a.radius + b.radius * b.radius * b.radius);
-    const double start = 2.0 * (1.0 - std::cbrt(0.5)) * mother;
-    const double end = a.radius + b.radius - cbm::zero_load_overlap(pair.law);
-    if (end > start) pair.overlap_offset = (end - start) * (1.0 - age / kSeparationTime);
+  const ContactBody& a = bodies[pair.a];
+  pair.overlap_offset = 0.0;
+  if (pair.rigid) {
+    const std::size_t material = std::min<std::size_t>(model_.types.size() + pair.b, materials - 1);
+    pair.law = cbm::make_pair_law(materials_[a.material * materials + material], a.radius);
+    return;
   }
+  const ContactBody& b = bodies[pair.b];
+  pair.law = cbm::make_pair_law(materials_[a.material * materials + b.material], a.radius, b.radius);
+  if (!cbm::are_sisters(a.id, b.id)) return;
+  pair.overlap_offset = cbm::sister_overlap_offset(pair.law, a.radius, b.radius, scene.birth_radius(pair.a), scene.birth_radius(pair.b),
+                                                   now - scene.birth_time(pair.a));
+}
+
+void SphereContacts::update_laws(const Scene& scene, const Tissue& tissue) {
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < pairs_.size(); ++k) update_law(scene, tissue.clock.time, pairs_[k]);
+}
+
+bool SphereContacts::renew_sisters(const Scene& scene, const ContactLayer& contacts, const Tissue& tissue) {
+  for (const std::uint32_t k : sisters_) {
+    update_law(scene, tissue.clock.time, pairs_[k]);
+    evaluate_pair(scene, contacts, k);
+  }
+  return !sisters_.empty();
 }
 
 void SphereContacts::make_element(const Pair& pair, const ContactBody& a, const ContactBody* b, const Response& response, double area,
@@ -109,13 +116,9 @@ void SphereContacts::make_element(const Pair& pair, const ContactBody& a, const 
              static_cast<float>(stiffness)};
 }
 
-void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts) {
+void SphereContacts::evaluate_pair(const Scene& scene, const ContactLayer& contacts, std::size_t k) {
   const auto bodies = scene.bodies();
   const auto& x = scene.position();
-  responses_.resize(pairs_.size());
-  elements_.resize(pairs_.size());
-#pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const Pair& pair = pairs_[k];
     const ContactBody& a = bodies[pair.a];
     Response& response = responses_[k];
@@ -133,7 +136,7 @@ void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts) 
       if (!near) {
         elements_[k] = {a.first_point, kRigidPoint, pair.a, pair.a, {0, 0, 1}, 0, 0, 0};
         response.overlap = -1e300;
-        continue;
+        return;
       }
       const Vec3d from = x[a.first_point] - contacts.obstacle_offset(pair.b);
       const double side = signed_distance(*obstacle.topology, obstacle.position, from, near->face, near->closest) < 0.0 ? -1.0 : 1.0;
@@ -143,11 +146,22 @@ void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts) 
       response.normal = distance > 1e-9 ? between * (side / distance) : -obstacle.geometry.face_normal[near->face];
       response.overlap = a.radius - response.distance;
     }
+    if (response.overlap < (pair.attached ? cbm::kBreakOverlap * pair.law.length : 0.0)) {  // out of reach: most of what the skin adds
+      elements_[k] = {a.first_point, b != nullptr ? b->first_point : kRigidPoint, pair.a, b != nullptr ? pair.b : pair.a, {0, 0, 1}, 0, 0, 0};
+      return;
+    }
     const auto law = cbm::contact_response(pair.law, response.overlap, pair.attached);
     response.force = law.force;
     response.energy = law.energy;
+    response.area = law.area;
     make_element(pair, a, b, response, law.area, law.stiffness, elements_[k]);
-  }
+}
+
+void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts) {
+  responses_.resize(pairs_.size());
+  elements_.resize(pairs_.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < pairs_.size(); ++k) evaluate_pair(scene, contacts, k);
 }
 
 void SphereContacts::add_energy(const Scene& scene, OrderFreeSum& sum) const {
@@ -155,20 +169,16 @@ void SphereContacts::add_energy(const Scene& scene, OrderFreeSum& sum) const {
     if (responses_[k].energy != 0.0 && scene.bodies()[pairs_[k].a].owned) sum.add(responses_[k].energy);
 }
 
-void SphereContacts::collect(const Scene& scene, std::span<Vec3d> force, std::span<double> contact_area) const {
+void SphereContacts::collect(const Scene& scene, std::span<Vec3d> force) const {
   const std::size_t first = scene.first_sphere();
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
     Vec3d sum;
-    double area = 0.0;
     for (std::uint32_t k = incident_begin_[i]; k < incident_begin_[i + 1]; ++k) {
       const Response& response = responses_[incident_[k] / 2];
       sum += response.normal * (incident_[k] % 2 == 0 ? -response.force : response.force);
-      const Pair& pair = pairs_[incident_[k] / 2];
-      area += cbm::contact_response(pair.law, response.overlap, pair.attached).area;
     }
     force[scene.bodies()[first + i].first_point] += sum;
-    contact_area[first + i] += area;
   }
 }
 
@@ -194,10 +204,20 @@ void SphereContacts::add_step_friction(const Scene& scene, std::span<const Vec3d
   }
 }
 
-void SphereContacts::update_attached(const Scene& scene, Tissue& tissue) {
+bool SphereContacts::update_attached(const Scene& scene, Tissue& tissue) {
   const auto bodies = scene.bodies();
-  for (std::size_t k = 0; k < pairs_.size(); ++k)
-    pairs_[k].attached = cbm::update_attached(responses_[k].overlap, pairs_[k].attached, pairs_[k].law);
+  bool changed = false;
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    Pair& pair = pairs_[k];
+    const bool attached = cbm::update_attached(responses_[k].overlap, pair.attached, pair.law);
+    if (attached == pair.attached) continue;
+    pair.attached = attached;
+    const auto law = cbm::contact_response(pair.law, responses_[k].overlap, attached);
+    responses_[k].force = law.force;
+    responses_[k].energy = law.energy;
+    responses_[k].area = law.area;
+    changed = true;
+  }
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
     auto& list = tissue.spheres.attached[i];
@@ -217,17 +237,19 @@ void SphereContacts::update_attached(const Scene& scene, Tissue& tissue) {
       if (pairs_[incident_[k] / 2].attached) list.push_back(partner(incident_[k]));
     std::sort(list.begin(), list.end());
   }
+  return changed;
 }
 
-void SphereContacts::virial_pressure(const Scene& scene, const Tissue& tissue, std::span<double> out) const {
+void SphereContacts::add_values(const Scene& scene, const Tissue& tissue, std::span<double> pressure, std::span<double> contact_area) const {
   for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
     double virial = 0.0;
     for (std::uint32_t k = incident_begin_[i]; k < incident_begin_[i + 1]; ++k) {
       const Response& response = responses_[incident_[k] / 2];
       virial += response.distance * response.force;
+      contact_area[i] += response.area;
     }
     const double r = tissue.spheres.radius[i];
-    out[i] = virial / (6.0 * (4.0 / 3.0) * std::numbers::pi * r * r * r);
+    pressure[i] = cbm::virial_pressure(virial, (4.0 / 3.0) * std::numbers::pi * r * r * r);
   }
 }
 

@@ -22,11 +22,13 @@ class SphereContacts {
   void set_pairs(const Scene& scene, const ContactLayer& contacts, const Tissue& tissue);
   /// Radii or time have changed: laws and rest distances of young sisters anew.
   void update_laws(const Scene& scene, const Tissue& tissue);
+  /// The time has moved on: rest distances and responses of sisters anew. Returns whether there are any.
+  bool renew_sisters(const Scene& scene, const ContactLayer& contacts, const Tissue& tissue);
   /// Responses at the scene's positions.
   void evaluate(const Scene& scene, const ContactLayer& contacts);
   void add_energy(const Scene& scene, OrderFreeSum& sum) const;
-  /// Add forces on owned spheres, by point, and contact areas by body.
-  void collect(const Scene& scene, std::span<Vec3d> force, std::span<double> contact_area) const;
+  /// Add forces on owned spheres, by point.
+  void collect(const Scene& scene, std::span<Vec3d> force) const;
 
   /// Keep the present friction as that of the step, together with the medium's friction by point [nN·s/µm].
   void begin_step(std::vector<float> medium_friction) {
@@ -36,13 +38,10 @@ class SphereContacts {
   void add_step_friction(const Scene& scene, std::span<const Vec3d> displacement, std::span<Vec3d> out, OrderFreeSum& quadratic) const;
   [[nodiscard]] std::span<const SpherePairElement> elements() const { return elements_; }
 
-  /// Flags after the step, into the tissue.
-  void update_attached(const Scene& scene, Tissue& tissue);
-  /// Virial pressure p_i = Σ d_ij F_ij/(6 V_i) of each owned sphere (cbm.md §3) [kPa].
-  void virial_pressure(const Scene& scene, const Tissue& tissue, std::span<double> out) const;
-  /// Time over which sisters are moved apart after division [s].
-  static constexpr double kSeparationTime = 1200.0;
-
+  /// Flags after the step, into the tissue; responses follow. Returns whether any flag of this rank has changed.
+  bool update_attached(const Scene& scene, Tissue& tissue);
+  /// Virial pressure p_i = Σ d_ij F_ij/(6 V_i) of each owned sphere (cbm.md §3) [kPa]; its contact area is added to `contact_area` [µm²].
+  void add_values(const Scene& scene, const Tissue& tissue, std::span<double> pressure, std::span<double> contact_area) const;
   [[nodiscard]] std::size_t memory() const;
 
  private:
@@ -56,14 +55,17 @@ class SphereContacts {
   };
   struct Response {
     Vec3d normal;               ///< from a to b
-    double distance = 0.0, overlap = 0.0, force = 0.0, energy = 0.0;
+    double distance = 0.0, overlap = 0.0, force = 0.0, energy = 0.0, area = 0.0;
   };
+  void update_law(const Scene& scene, double now, Pair& pair) const;
+  void evaluate_pair(const Scene& scene, const ContactLayer& contacts, std::size_t k);
   void make_element(const Pair& pair, const ContactBody& a, const ContactBody* b, const Response& response, double area, double stiffness,
                     SpherePairElement& element) const;
 
   const Model& model_;
   std::vector<cbm::ContactMaterial> materials_;  ///< cell type × material
   std::vector<Pair> pairs_;
+  std::vector<std::uint32_t> sisters_;           ///< pairs of sisters
   std::vector<Response> responses_;
   std::vector<SpherePairElement> elements_, step_elements_;
   std::vector<float> medium_friction_;

@@ -79,12 +79,17 @@ class Builder {
     const std::uint64_t first = cells_.size() + 1;
     const std::size_t before = cells_.size();
     switch (block.source) {
-      case InitialCells::Source::kFill: fill(block, first); break;
+      case InitialCells::Source::kFill:
+        fill(block, first);
+        break;
       case InitialCells::Source::kPositions:
-        for (std::size_t i = 0; i < block.positions.size(); ++i) cells_.push_back({founder(study_, block, first + i, block.type), block.positions[i]});
+        for (std::size_t i = 0; i < block.positions.size(); ++i)
+          cells_.push_back({founder(study_, block, first + i, block.type), block.positions[i]});
         for (std::size_t i = before; i < cells_.size(); ++i) start_small(cells_[i].row, block);
         break;
-      case InitialCells::Source::kCsv: MORULA_TRY(from_csv(block, first)); break;
+      case InitialCells::Source::kCsv:
+        MORULA_TRY(from_csv(block, first));
+        break;
     }
     return inside_domain(before, number);
   }
@@ -108,8 +113,10 @@ class Builder {
     for (std::size_t i = 0; i < radius.size(); ++i) cells_[first - 1 + i].center = packing.center[i];
     const std::string who = std::to_string(block.count) + " cells of " + study_.model.types[block.type].name;
     const double tolerance = 0.02 * radius.front();
-    if (packing.reach_beyond > tolerance) out_.notes.push_back(who + " reach " + micrometres(packing.reach_beyond) + " out of the shape they fill");
-    if (packing.worst_overlap > tolerance) out_.notes.push_back(who + " start with overlaps of up to " + micrometres(packing.worst_overlap));
+    if (packing.reach_beyond > tolerance)
+      out_.notes.push_back(who + " reach " + micrometres(packing.reach_beyond) + " out of the shape they fill");
+    if (packing.worst_overlap > tolerance)
+      out_.notes.push_back(who + " start with overlaps of up to " + micrometres(packing.worst_overlap));
   }
 
   Status from_csv(const InitialCells& block, std::uint64_t first) {
@@ -120,7 +127,10 @@ class Builder {
     const auto csv = read_cells_csv(block.csv_path, block.csv_path, names, {}, units, diagnostics);
     if (!csv) return diagnostics.as_error();
     if (csv->cells.size() != block.count)
-      return Error{ErrorKind::kInput, "'" + block.csv_path + "' has " + std::to_string(csv->cells.size()) + " cells, but had " + std::to_string(block.count) + " when the study was checked", "leave the file alone while the run starts"};
+      return Error{ErrorKind::kInput,
+                   "'" + block.csv_path + "' has " + std::to_string(csv->cells.size()) + " cells, but had " + std::to_string(block.count) +
+                       " when the study was checked",
+                   "leave the file alone while the run starts"};
     std::vector<Vec3d> position;
     for (const CsvCell& cell : csv->cells) position.push_back(cell.position);
     move_apart(position, coincident_groups(position, block.coincident_below), block.coincident_shift, first, study_.model.seed);
@@ -138,7 +148,9 @@ class Builder {
     const Box& box = study_.model.space.box;
     for (std::size_t i = from; i < cells_.size(); ++i)
       if (!box.contains(cells_[i].center))
-        return Error{ErrorKind::kInput, "entry " + std::to_string(number + 1) + " of `initial` puts cell " + cells_[i].row.id.text() + " outside the domain", "make the domain larger, or the cells fewer"};
+        return Error{ErrorKind::kInput,
+                     "entry " + std::to_string(number + 1) + " of `initial` puts cell " + cells_[i].row.id.text() + " outside the domain",
+                     "make the domain larger, or the cells fewer"};
     return {};
   }
 
@@ -157,7 +169,8 @@ Result<CellRecord> with_body(const Seedling& cell, const Model& model, ShapeLibr
     return record;
   }
   MORULA_TRY_ASSIGN(auto shape, shapes.icosphere(type.shell_nodes));
-  ShellRecord shell = spherical_shell(std::move(shape), cell.center, cell.row.target_volume, free_reference_volume(cell.row.target_volume, type));
+  ShellRecord shell =
+      spherical_shell(std::move(shape), cell.center, cell.row.target_volume, free_reference_volume(cell.row.target_volume, type));
   const Rotation turn = random_rotation(Random(model.seed, RandomStream::kOrientation), cell.row.id, 0);
   for (Vec3d& p : shell.position) p = cell.center + turn * (p - cell.center);
   record.shell = std::move(shell);

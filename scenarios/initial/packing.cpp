@@ -12,12 +12,12 @@
 namespace morula::scenarios {
 namespace {
 
-constexpr double kJitter = 0.03;         // of the spacing
-constexpr double kSmallestSpacing = 0.9; // of the wanted spacing, before cells stick out of the shape
-constexpr int kMostPasses = 400;         // fewer for very many cells
+constexpr double kJitter = 0.03;          // of the spacing
+constexpr double kSmallestSpacing = 0.9;  // of the wanted spacing, before cells stick out of the shape
+constexpr int kMostPasses = 400;          // fewer for very many cells
 constexpr double kCellPasses = 4e7;
-constexpr double kDraw = 0.01;           // part of the way to the middle in the first pass
-constexpr double kSlack = 1e-3;          // of the mean radius
+constexpr double kDraw = 0.01;   // part of the way to the middle in the first pass
+constexpr double kSlack = 1e-3;  // of the mean radius
 
 /// How far out a point lies in the shape: 1 on the border where centres end.
 double gauge(const InitialCells& block, const Vec3d& from_center, double inset) {
@@ -108,7 +108,8 @@ class CellGrid {
     for (int z = 0; z < used[2]; ++z)
       for (int y = 0; y < used[1]; ++y)
         for (int x = 0; x < used[0]; ++x) {
-          const auto cube = number({along[0][static_cast<std::size_t>(x)], along[1][static_cast<std::size_t>(y)], along[2][static_cast<std::size_t>(z)]});
+          const auto cube =
+              number({along[0][static_cast<std::size_t>(x)], along[1][static_cast<std::size_t>(y)], along[2][static_cast<std::size_t>(z)]});
           for (std::size_t k = first_[cube]; k < first_[cube + 1]; ++k) function(item_[k]);
         }
   }
@@ -117,7 +118,8 @@ class CellGrid {
   [[nodiscard]] std::array<std::int64_t, 3> place(const Vec3d& p) const {
     std::array<std::int64_t, 3> out{};
     for (std::size_t axis = 0; axis < 3; ++axis)
-      out[axis] = std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor((p[axis] - low_[axis]) / width_[axis])), 0, count_[axis] - 1);
+      out[axis] =
+          std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor((p[axis] - low_[axis]) / width_[axis])), 0, count_[axis] - 1);
     return out;
   }
   [[nodiscard]] std::size_t number(const std::array<std::int64_t, 3>& p) const {

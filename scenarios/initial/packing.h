@@ -10,9 +10,9 @@ namespace morula::scenarios {
 
 /// What a filled shape looks like.
 struct Packing {
-  std::vector<Vec3d> center;    ///< by cell, from the middle of the shape outwards [µm]
-  double worst_overlap = 0.0;   ///< largest of touch·(r_i + r_j) − distance over all pairs; ≤ 0: none [µm]
-  double reach_beyond = 0.0;    ///< how far the outermost cell sticks out of the shape; 0: not at all [µm]
+  std::vector<Vec3d> center;   ///< by cell, from the middle of the shape outwards [µm]
+  double worst_overlap = 0.0;  ///< largest of touch·(r_i + r_j) − distance over all pairs; ≤ 0: none [µm]
+  double reach_beyond = 0.0;   ///< how far the outermost cell sticks out of the shape; 0: not at all [µm]
 };
 
 /// Centres of `radius.size()` cells of these radii in the block's shape.
@@ -26,11 +26,11 @@ Packing pack_cells(const InitialCells& block, std::span<const double> radius, do
 
 /// How cells are pushed apart.
 struct PushApart {
-  double touch = 1.0;       ///< of r_i + r_j
-  double slack = 0.0;       ///< overlap that may remain [µm]
+  double touch = 1.0;  ///< of r_i + r_j
+  double slack = 0.0;  ///< overlap that may remain [µm]
   int most_passes = 400;
-  int drawn_passes = 0;     ///< in the first of them all cells are drawn together as well, ever less
-  Vec3d middle{};           ///< towards this point
+  int drawn_passes = 0;  ///< in the first of them all cells are drawn together as well, ever less
+  Vec3d middle{};        ///< towards this point
 };
 
 /// Push spheres apart in place until no two centres are closer than touch·(r_i + r_j) − slack; returns the largest remaining overlap [µm].

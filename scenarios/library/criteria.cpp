@@ -10,8 +10,8 @@
 namespace morula::scenarios {
 namespace {
 
-constexpr double kUncapped = 0.1;      // overlap at which the capped start ends [µm]
-constexpr double kEnergyRise = 1e-3;   // of the range (INV.7)
+constexpr double kUncapped = 0.1;     // overlap at which the capped start ends [µm]
+constexpr double kEnergyRise = 1e-3;  // of the range (INV.7)
 
 std::string at_most(double limit, const char* unit) {
   char text[64];
@@ -75,11 +75,13 @@ Result<std::vector<Verdict>> common_criteria(const Study& study, const std::file
   if (const auto* error = series.find("volume_error"))
     out.push_back(at_most("INV.3", "volume of any cell against its pressure law, relative", largest(*error), limits.volume_error, ""));
   if (const auto* overlap = series.find("worst_overlap"))
-    out.push_back(at_most("INV.4", "deepest penetration of a surface in any step", largest(*overlap, first_settled_row(study, *overlap)), limits.overlap, "um"));
+    out.push_back(at_most("INV.4", "deepest penetration of a surface in any step", largest(*overlap, first_settled_row(study, *overlap)),
+                          limits.overlap, "um"));
   if (const auto* energy = series.find("energy"); energy && is_passive(study) && energy->values.size() > 2)
     out.push_back(at_most("INV.7", "rise of the energy between outputs, relative to its range", largest_rise(*energy), kEnergyRise, ""));
   if (const auto* balance = series.find("field_balance"))
-    out.push_back(at_most("LIMIT.field_balance", "balance of the amounts of every field, relative", largest(*balance), limits.field_balance, ""));
+    out.push_back(
+        at_most("LIMIT.field_balance", "balance of the amounts of every field, relative", largest(*balance), limits.field_balance, ""));
   return out;
 }
 

@@ -47,7 +47,8 @@ Snapshot local_snapshot(Simulation& simulation) {
       out.topologies.emplace_back(topology->faces().begin(), topology->faces().end());
     }
     const auto nodes = std::as_const(tissue.shells).nodes(shell);
-    out.shells.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(out.nodes.size()), static_cast<std::uint32_t>(nodes.size()), number});
+    out.shells.push_back(
+        {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(out.nodes.size()), static_cast<std::uint32_t>(nodes.size()), number});
     out.nodes.insert(out.nodes.end(), nodes.begin(), nodes.end());
     ++shell;
   }

@@ -61,7 +61,8 @@ void measure_fields(const Simulation& simulation, Measures& out) {
     out.mean_field[f] = amount / (field.grid.voxel_volume() * static_cast<double>(field.grid.voxel_count()));
     const Ledger& l = tissue.ledger;
     const double residual = amount - l.field_start[f] + l.field_taken[f] + l.field_decayed[f] - l.field_in[f];
-    const double scale = std::max({std::abs(amount), std::abs(l.field_start[f]), std::abs(l.field_taken[f]), std::abs(l.field_decayed[f]), std::abs(l.field_in[f])});
+    const double scale = std::max(
+        {std::abs(amount), std::abs(l.field_start[f]), std::abs(l.field_taken[f]), std::abs(l.field_decayed[f]), std::abs(l.field_in[f])});
     out.field_balance[f] = scale > 0.0 ? std::abs(residual) / scale : 0.0;
   }
 }

@@ -7,7 +7,9 @@
 namespace morula::scenarios {
 namespace {
 
-double per_step(std::uint64_t count, std::uint64_t steps) { return steps > 0 ? static_cast<double>(count) / static_cast<double>(steps) : 0.0; }
+double per_step(std::uint64_t count, std::uint64_t steps) {
+  return steps > 0 ? static_cast<double>(count) / static_cast<double>(steps) : 0.0;
+}
 
 /// The general ones: one line each.
 std::vector<Observable> general() {
@@ -16,23 +18,31 @@ std::vector<Observable> general() {
       {"cell_count", "1", "Number of cells.", [](M m) { return double(m.measures.cells); }},
       {"sphere_count", "1", "Cells whose body is a sphere.", [](M m) { return double(m.measures.spheres); }},
       {"shell_count", "1", "Cells whose body is a deformable shell.", [](M m) { return double(m.measures.shells); }},
-      {"shell_fraction", "1", "Part of the cells whose body is a shell.", [](M m) { return m.measures.cells > 0 ? double(m.measures.shells) / double(m.measures.cells) : 0.0; }},
-      {"spheroid_radius", "um", "Radius of the ball with the tissue's radius of gyration, cells weighted by volume.", [](M m) { return m.measures.spheroid_radius; }},
-      {"largest_extent", "um", "Largest distance of a cell's far side from the tissue's centre.", [](M m) { return m.measures.largest_extent; }},
+      {"shell_fraction", "1", "Part of the cells whose body is a shell.",
+       [](M m) { return m.measures.cells > 0 ? double(m.measures.shells) / double(m.measures.cells) : 0.0; }},
+      {"spheroid_radius", "um", "Radius of the ball with the tissue's radius of gyration, cells weighted by volume.",
+       [](M m) { return m.measures.spheroid_radius; }},
+      {"largest_extent", "um", "Largest distance of a cell's far side from the tissue's centre.",
+       [](M m) { return m.measures.largest_extent; }},
       {"total_volume", "um^3", "Volume of all cells.", [](M m) { return m.measures.total_volume; }},
       {"mean_pressure", "kPa", "Mean pressure over all cells.", [](M m) { return m.measures.mean_pressure; }},
       {"shell_pressure", "kPa", "Mean pressure over the shells.", [](M m) { return m.measures.shell_pressure; }},
       {"max_pressure", "kPa", "Largest pressure of a cell.", [](M m) { return m.measures.pressure.value; }},
       {"mean_contact_area", "um^2", "Mean area of a cell that is in contact.", [](M m) { return m.measures.mean_contact_area; }},
       {"overlap", "um", "Deepest penetration of a shell or obstacle at this time.", [](M m) { return m.measures.overlap.value; }},
-      {"worst_overlap", "um", "Deepest penetration in any step since the last output.", [](M m) { return std::max(m.interval.worst_overlap, m.measures.overlap.value); }},
-      {"volume_error", "1", "Largest relative difference of a cell's volume from what its row and its pressure ask for.", [](M m) { return m.measures.volume_error.value; }},
+      {"worst_overlap", "um", "Deepest penetration in any step since the last output.",
+       [](M m) { return std::max(m.interval.worst_overlap, m.measures.overlap.value); }},
+      {"volume_error", "1", "Largest relative difference of a cell's volume from what its row and its pressure ask for.",
+       [](M m) { return m.measures.volume_error.value; }},
       {"total_volume_error", "1", "The same of the volume of all cells together.", [](M m) { return m.measures.total_volume_error; }},
       {"energy", "nN um", "Elastic, surface and contact energy after the last step.", [](M m) { return m.interval.energy; }},
       {"step_count", "1", "Steps since time 0.", [](M m) { return double(m.clock.steps); }},
-      {"step_size", "s", "Mean step since the last output.", [](M m) { return m.interval.steps > 0 ? m.interval.time / double(m.interval.steps) : m.clock.next_step; }},
-      {"newton_iterations", "1", "Newton iterations per step since the last output.", [](M m) { return per_step(m.interval.newton, m.interval.steps); }},
-      {"linear_iterations", "1", "Iterations of the linear solver per step since the last output.", [](M m) { return per_step(m.interval.linear, m.interval.steps); }},
+      {"step_size", "s", "Mean step since the last output.",
+       [](M m) { return m.interval.steps > 0 ? m.interval.time / double(m.interval.steps) : m.clock.next_step; }},
+      {"newton_iterations", "1", "Newton iterations per step since the last output.",
+       [](M m) { return per_step(m.interval.newton, m.interval.steps); }},
+      {"linear_iterations", "1", "Iterations of the linear solver per step since the last output.",
+       [](M m) { return per_step(m.interval.linear, m.interval.steps); }},
       {"retries", "1", "Steps tried again with a smaller size since the last output.", [](M m) { return double(m.interval.retries); }},
       {"divisions", "1", "Divisions since time 0.", [](M m) { return double(m.ledger.divisions); }},
       {"deaths", "1", "Deaths since time 0.", [](M m) { return double(m.ledger.deaths); }},
@@ -46,12 +56,15 @@ std::vector<Observable> general() {
 std::vector<Observable> observables(const Model& model) {
   std::vector<Observable> out = general();
   for (std::size_t t = 0; t < model.types.size(); ++t)
-    out.push_back({"count_" + model.types[t].name, "1", "Number of cells of the type " + model.types[t].name + ".", [t](const Moment& m) { return double(m.measures.of_type[t]); }});
+    out.push_back({"count_" + model.types[t].name, "1", "Number of cells of the type " + model.types[t].name + ".",
+                   [t](const Moment& m) { return double(m.measures.of_type[t]); }});
   for (std::size_t f = 0; f < model.fields.size(); ++f) {
     const std::string& name = model.fields[f].name;
     out.push_back({"mean_" + name, "mM", "Mean concentration of " + name + ".", [f](const Moment& m) { return m.measures.mean_field[f]; }});
-    out.push_back({"min_" + name, "mM", "Smallest concentration of " + name + ".", [f](const Moment& m) { return m.measures.least_field[f]; }});
-    out.push_back({"balance_" + name, "1", "Relative error of the balance of amounts of " + name + " since time 0.", [f](const Moment& m) { return m.measures.field_balance[f]; }});
+    out.push_back(
+        {"min_" + name, "mM", "Smallest concentration of " + name + ".", [f](const Moment& m) { return m.measures.least_field[f]; }});
+    out.push_back({"balance_" + name, "1", "Relative error of the balance of amounts of " + name + " since time 0.",
+                   [f](const Moment& m) { return m.measures.field_balance[f]; }});
   }
   if (!model.fields.empty())
     out.push_back({"field_balance", "1", "Largest relative error of the balance of amounts over all fields.",
@@ -71,7 +84,8 @@ Result<std::vector<Observable>> select_observables(const Model& model, const std
   std::vector<Observable> out;
   for (const std::string& name : names) {
     const auto found = std::find_if(all.begin(), all.end(), [&](const Observable& o) { return o.name == name; });
-    if (found == all.end()) return Error{ErrorKind::kInput, "there is no observable '" + name + "' (output.series)", suggest(name, observable_names(model))};
+    if (found == all.end())
+      return Error{ErrorKind::kInput, "there is no observable '" + name + "' (output.series)", suggest(name, observable_names(model))};
     out.push_back(*found);
   }
   return out;

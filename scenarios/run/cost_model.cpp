@@ -11,8 +11,9 @@
 namespace morula::scenarios {
 namespace {
 
-constexpr double kFade = 0.97;               // memory of about 30 steps
-constexpr double kCostPerLoadHour = 4.0e-5;  // CPU s per simulated hour and unit of load: 0.12 s per 1,000 nodes (measured on clusters at W = 0.1 mN/m)
+constexpr double kFade = 0.97;  // memory of about 30 steps
+constexpr double kCostPerLoadHour =
+    4.0e-5;  // CPU s per simulated hour and unit of load: 0.12 s per 1,000 nodes (measured on clusters at W = 0.1 mN/m)
 constexpr double kBytesPerNode = 800.0, kBytesPerSphere = 600.0, kBytesPerVoxel = 120.0;
 constexpr double kBytesAlways = 6e7;
 
@@ -61,7 +62,8 @@ Result<Estimate> estimate(const Study& study) {
   std::size_t shell = 0, sphere = 0;
   for (const CellRow& row : tissue.cells.rows) {
     ++of_type[row.type];
-    if (row.body == BodyKind::kSphere) center.push_back(tissue.spheres.position[sphere++]);
+    if (row.body == BodyKind::kSphere)
+      center.push_back(tissue.spheres.position[sphere++]);
     else {
       center.push_back(volume_centroid(tissue.shells.topology(shell).faces(), std::as_const(tissue.shells).nodes(shell)));
       ++shell;
@@ -88,12 +90,15 @@ Result<Estimate> estimate(const Study& study) {
 
 std::string duration_text(double seconds) {
   char text[64];
-  if (seconds < 90.0) std::snprintf(text, sizeof text, "%.0f s", seconds);
-  else if (seconds < 90.0 * 60.0) std::snprintf(text, sizeof text, "%.0f min", seconds / 60.0);
+  if (seconds < 90.0)
+    std::snprintf(text, sizeof text, "%.0f s", seconds);
+  else if (seconds < 90.0 * 60.0)
+    std::snprintf(text, sizeof text, "%.0f min", seconds / 60.0);
   else if (seconds < 48.0 * 3600.0) {
     const long minutes = std::lround(seconds / 60.0);
     std::snprintf(text, sizeof text, "%ld h %02ld min", minutes / 60, minutes % 60);
-  } else std::snprintf(text, sizeof text, "%.1f d", seconds / 86400.0);
+  } else
+    std::snprintf(text, sizeof text, "%.1f d", seconds / 86400.0);
   return text;
 }
 

@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <string>
 
-#include "coupling/model.h"
 #include "core/result.h"
+#include "coupling/model.h"
 #include "scenarios/study/study.h"
 
 namespace morula::scenarios {
@@ -41,9 +41,9 @@ class CostModel {
 /// What a study will need, before it is run.
 struct Estimate {
   std::int64_t cells = 0, shells = 0, nodes = 0, voxels = 0;  ///< at time 0
-  double cells_at_end = 0.0;                                   ///< if nothing inhibits growth
-  double memory = 0.0;                                         ///< at the end [bytes]
-  WallRange wall;                                              ///< on one thread [s]
+  double cells_at_end = 0.0;                                  ///< if nothing inhibits growth
+  double memory = 0.0;                                        ///< at the end [bytes]
+  WallRange wall;                                             ///< on one thread [s]
 };
 
 /// Places the cells of time 0 (no mechanics) and counts them. Costs per load and step are those measured on a 2020s workstation core;

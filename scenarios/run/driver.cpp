@@ -16,8 +16,10 @@ namespace {
 Result<std::vector<Observable>> columns_of(const Study& study) {
   std::vector<std::string> names = study.output.series;
   if (!names.empty())
-    for (std::string needed : {"cell_count", "shell_count", "volume_error", "overlap", "worst_overlap", "energy", "step_count", "step_size", "field_balance"})
-      if ((needed != "field_balance" || !study.model.fields.empty()) && std::find(names.begin(), names.end(), needed) == names.end()) names.push_back(needed);
+    for (std::string needed :
+         {"cell_count", "shell_count", "volume_error", "overlap", "worst_overlap", "energy", "step_count", "step_size", "field_balance"})
+      if ((needed != "field_balance" || !study.model.fields.empty()) && std::find(names.begin(), names.end(), needed) == names.end())
+        names.push_back(needed);
   return select_observables(study.model, names);
 }
 
@@ -105,7 +107,9 @@ Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest&
   MORULA_TRY_ASSIGN(Restored restored, restore(folder, request, study, comm));
   MORULA_TRY_ASSIGN(const std::string study_hash, sha256_of_file(folder.path() / "study.resolved.yaml"));
   if (restored.checkpoint.info.study_hash != study_hash)
-    return Error{ErrorKind::kInput, "the checkpoint belongs to another study than '" + (folder.path() / "study.resolved.yaml").string() + "'", "the resolved study of a run must not be changed; start a new run instead"};
+    return Error{ErrorKind::kInput,
+                 "the checkpoint belongs to another study than '" + (folder.path() / "study.resolved.yaml").string() + "'",
+                 "the resolved study of a run must not be changed; start a new run instead"};
   const double time = restored.checkpoint.tissue.clock.time;
   MORULA_TRY_ASSIGN(auto simulation, Simulation::create(study.model, std::move(restored.checkpoint.tissue), comm, request.threads));
   record.state = RunState::kRunning;
@@ -121,6 +125,7 @@ Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest&
   RunLoop loop(study, request, comm, std::move(folder), std::move(columns), std::move(record), std::move(simulation));
   for (const std::string& warning : restored.warnings) loop.note(Note::Kind::kWarning, warning);
   loop.note(Note::Kind::kNote, "resumed from the checkpoint at " + time_text(time));
+  if (time >= loop.end()) loop.note(Note::Kind::kNote, "nothing is left to do: the run ends at " + time_text(loop.end()));
   if (request.until) loop.note(Note::Kind::kNote, end_note(request, loop.end()));
   if (Status back = loop.go_back(); !back.ok()) return loop.fail(back.error(), false);
   return loop.go();
@@ -131,8 +136,7 @@ Result<RunSummary> branch(const std::filesystem::path& parent, const Study& stud
   MORULA_TRY_ASSIGN(auto columns, columns_of(study));
   MORULA_TRY_ASSIGN(Restored restored, restore(from, request, study, comm));
   const double time = restored.checkpoint.tissue.clock.time;
-  MORULA_TRY_ASSIGN(auto simulation,
-                    Simulation::create(study.model, std::move(restored.checkpoint.tissue), comm, request.threads));
+  MORULA_TRY_ASSIGN(auto simulation, Simulation::create(study.model, std::move(restored.checkpoint.tissue), comm, request.threads));
   MORULA_TRY_ASSIGN(RunFolder folder, RunFolder::create(request.runs, request.out, study.name, comm));
   MORULA_TRY_ASSIGN(const RunLock lock, RunLock::take(folder.path(), comm));
   RunRecord record = new_record(study, request, comm);

@@ -34,10 +34,10 @@ struct RunRequest {
   std::filesystem::path out;            ///< exactly this folder instead
   std::string command;                  ///< for run.json
   int threads = 1;
-  std::optional<double> until;          ///< rounded up to the next output time; may lie beyond the study's end [s]
-  double max_wall = std::numeric_limits<double>::infinity();  ///< [s]
-  const std::atomic<int>* stop = nullptr;                     ///< a StopWish
-  bool timings = false;                 ///< write the budget per stage into run.json
+  std::optional<double> until;                                 ///< rounded up to the next output time; may lie beyond the study's end [s]
+  double max_wall = std::numeric_limits<double>::infinity();   ///< [s]
+  const std::atomic<int>* stop = nullptr;                      ///< a StopWish
+  bool timings = false;                                        ///< write the budget per stage into run.json
   std::function<void(const std::filesystem::path&)> on_start;  ///< on the root, when the run's folder is there
   std::function<void(const Progress&)> on_progress;            ///< on the root, after every step
   std::function<void(const Note&)> on_note;                    ///< on the root
@@ -51,13 +51,13 @@ struct ResumeRequest : RunRequest {
 /// How a run ended that did not fail.
 struct RunSummary {
   std::filesystem::path path;
-  RunState state = RunState::kDone;     ///< kDone or kStopped
-  std::optional<ErrorKind> stopped;     ///< kStoppedEarly or kInterrupted
+  RunState state = RunState::kDone;  ///< kDone or kStopped
+  std::optional<ErrorKind> stopped;  ///< kStoppedEarly or kInterrupted
   FinalState final_state;
-  double wall_time = 0.0;               ///< of this call [s]
-  std::vector<Verdict> verdicts;        ///< of a run that is done
-  std::string timings;                  ///< the table, if asked for
-  std::filesystem::path report;         ///< empty: none written
+  double wall_time = 0.0;         ///< of this call [s]
+  std::vector<Verdict> verdicts;  ///< of a run that is done
+  std::string timings;            ///< the table, if asked for
+  std::filesystem::path report;   ///< empty: none written
 
   [[nodiscard]] bool passed() const;
 };
@@ -71,7 +71,8 @@ struct RunSummary {
 Result<RunSummary> run(const Study& study, const RunRequest& request, const Comm& comm);
 
 /// Go on with a run from its newest good checkpoint, on any number of ranks and threads. What lies beyond the checkpoint in series, events
-/// and snapshots is taken away first. `until` beyond the study's end extends the run. Collective.
+/// and snapshots is taken away first. `until` beyond the study's end extends the run. Means over an output interval that was begun before
+/// the restart (step size, iterations) count from the restart; the state itself is the same to the bit. Collective.
 Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest& request, const Comm& comm);
 
 /// Start a new run of a changed study from a checkpoint of another run, which is recorded as its parent and left as it is. Collective.

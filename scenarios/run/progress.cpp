@@ -30,9 +30,12 @@ std::string percent(const Progress& p) {
 std::string time_text(double seconds) {
   char text[32];
   if (seconds == 0.0) return "0 h";
-  if (seconds < 120.0) std::snprintf(text, sizeof text, "%.3g s", seconds);
-  else if (seconds < 7200.0) std::snprintf(text, sizeof text, "%.3g min", seconds / 60.0);
-  else std::snprintf(text, sizeof text, "%.4g h", seconds / 3600.0);
+  if (seconds < 120.0)
+    std::snprintf(text, sizeof text, "%.3g s", seconds);
+  else if (seconds < 7200.0)
+    std::snprintf(text, sizeof text, "%.3g min", seconds / 60.0);
+  else
+    std::snprintf(text, sizeof text, "%.4g h", seconds / 3600.0);
   return text;
 }
 

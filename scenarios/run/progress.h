@@ -10,8 +10,8 @@ namespace morula::scenarios {
 struct Progress {
   double time = 0.0, end = 0.0;  ///< simulated [s]
   std::int64_t cells = 0, shells = 0;
-  double step = 0.0;             ///< last step [s]
-  double wall = 0.0;             ///< since this program began the run [s]
+  double step = 0.0;  ///< last step [s]
+  double wall = 0.0;  ///< since this program began the run [s]
   WallRange left;
 };
 

@@ -41,7 +41,8 @@ void read_events(const fs::path& path, ReportContent& content) {
   std::istringstream lines(*text);
   for (std::string line; std::getline(lines, line);) {
     const auto json = nlohmann::json::parse(line, nullptr, false);
-    if (!json.is_object() || !json.contains("kind") || !json["kind"].is_string() || !json.contains("time_s") || !json["time_s"].is_number()) continue;
+    if (!json.is_object() || !json.contains("kind") || !json["kind"].is_string() || !json.contains("time_s") || !json["time_s"].is_number())
+      continue;
     const std::string kind = json["kind"];
     const double time = json["time_s"];
     if (kind == "warning") content.warnings.emplace_back(time, json.value("text", ""));
@@ -61,12 +62,15 @@ void add_limit(const SeriesTable& series, const char* column, const char* name, 
   const SeriesColumn* time = series.find("time");
   if (!values || values->values.empty()) return;
   const auto worst = std::max_element(values->values.begin(), values->values.end());
-  content.limits.push_back({name, *worst, limit, unit, time ? time->values[static_cast<std::size_t>(worst - values->values.begin())] : -1.0});
+  content.limits.push_back(
+      {name, *worst, limit, unit, time ? time->values[static_cast<std::size_t>(worst - values->values.begin())] : -1.0});
 }
 
 void add_key_numbers(const RunRecord& record, const SeriesTable& series, ReportContent& content) {
   auto& out = content.key_numbers;
-  const auto last = [&](const char* column) { return series.find(column) && series.rows() > 0 ? series.find(column)->values.back() : std::nan(""); };
+  const auto last = [&](const char* column) {
+    return series.find(column) && series.rows() > 0 ? series.find(column)->values.back() : std::nan("");
+  };
   const auto add = [&](const char* column, const char* name, const char* unit, double scale = 1.0) {
     if (std::isfinite(last(column))) out.push_back({name, short_text(scale * last(column)), unit});
   };
@@ -81,14 +85,22 @@ void add_key_numbers(const RunRecord& record, const SeriesTable& series, ReportC
   add("spheroid_radius", "radius", "µm");
   add("mean_pressure", "mean pressure", "Pa", 1000.0);
   add("mean_contact_area", "contact area per cell", "µm²");
-  if (std::isfinite(last("step_count")) && last("step_count") > 0 && std::isfinite(time)) out.push_back({"mean step", short_text(time / last("step_count")), "s"});
+  if (std::isfinite(last("step_count")) && last("step_count") > 0 && std::isfinite(time))
+    out.push_back({"mean step", short_text(time / last("step_count")), "s"});
 }
 
 void add_provenance(const RunRecord& r, ReportContent& content) {
   auto& out = content.provenance;
-  out = {{"Morula", r.version + " (" + r.git_hash + ")"}, {"command", r.command}, {"seed", std::to_string(r.seed)},
-         {"ranks × threads", std::to_string(r.ranks) + " × " + std::to_string(r.threads)}, {"compiler", r.compiler}, {"build", r.build_type},
-         {"host", r.host}, {"started", r.started}, {"finished", r.finished}, {"study (SHA-256)", r.study_hash}};
+  out = {{"Morula", r.version + " (" + r.git_hash + ")"},
+         {"command", r.command},
+         {"seed", std::to_string(r.seed)},
+         {"ranks × threads", std::to_string(r.ranks) + " × " + std::to_string(r.threads)},
+         {"compiler", r.compiler},
+         {"build", r.build_type},
+         {"host", r.host},
+         {"started", r.started},
+         {"finished", r.finished},
+         {"study (SHA-256)", r.study_hash}};
   for (const auto& [name, version] : r.libraries) out.emplace_back(name, version);
   if (!r.parent.empty()) out.emplace_back("goes on from", r.parent);
   if (r.final_state) out.emplace_back("state hash", r.final_state->state_hash);
@@ -96,10 +108,14 @@ void add_provenance(const RunRecord& r, ReportContent& content) {
 
 std::string state_text(const RunRecord& record) {
   switch (record.state) {
-    case RunState::kRunning: return "still running";
-    case RunState::kDone: return "done";
-    case RunState::kStopped: return record.message;
-    case RunState::kFailed: return "failed: " + record.message;
+    case RunState::kRunning:
+      return "still running";
+    case RunState::kDone:
+      return "done";
+    case RunState::kStopped:
+      return record.message;
+    case RunState::kFailed:
+      return "failed: " + record.message;
   }
   return "";
 }

@@ -16,7 +16,8 @@ Result<RunLock> RunLock::take(const std::filesystem::path& run, const Comm& comm
   if (comm.is_root()) {
     descriptor = ::open(run.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-      status = Error{ErrorKind::kInput, "'" + run.string() + "' is being written by another program", "wait for it, or stop it; `morula status " + run.string() + "` shows where it stands"};
+      status = Error{ErrorKind::kInput, "'" + run.string() + "' is being written by another program",
+                     "wait for it, or stop it; `morula status " + run.string() + "` shows where it stands"};
   }
   RunLock lock(descriptor);
   MORULA_TRY(agree(std::move(status), comm));

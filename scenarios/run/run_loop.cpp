@@ -18,7 +18,7 @@
 namespace morula::scenarios {
 namespace {
 
-constexpr double kWarnAt = 0.8;            // of a limit
+constexpr double kWarnAt = 0.8;  // of a limit
 constexpr auto kStatusEvery = std::chrono::seconds(2);
 
 std::string number_text(const char* format, double value) {
@@ -60,6 +60,10 @@ RunLoop::RunLoop(const Study& study, const RunRequest& request, const Comm& comm
   checkpoint_due_ = next_multiple(simulation_->tissue().clock.time, study.time.checkpoint);
   progress_.end = end_;
   count_cells();
+  std::vector<std::int64_t> of_type(study.model.types.size(), 0);
+  for (const CellRow& row : simulation_->tissue().cells.rows) ++of_type[row.type];
+  for (std::int64_t& count : of_type) count = comm_.sum(count);
+  growth_rate_ = free_growth_rate(study.model, of_type);
 }
 
 void RunLoop::note(Note::Kind kind, const std::string& text) {
@@ -70,11 +74,30 @@ void RunLoop::note(Note::Kind kind, const std::string& text) {
   if (request_.on_note) request_.on_note({kind, time, text});
 }
 
+void RunLoop::warn(const std::string& text) {
+  note(Note::Kind::kWarning, text);
+  warnings_.push_back({simulation_->tissue().clock.time, EventKind::kWarning, {}, {}, {}, text});
+}
+
+Status RunLoop::write_events() {
+  Status written = folder_.add_events(warnings_);
+  if (written.ok()) written = folder_.add_events(events_);
+  warnings_.clear();
+  events_.clear();
+  return written;
+}
+
 Status RunLoop::begin() {
   std::vector<SeriesHeader> header;
   for (const Observable& column : columns_) header.push_back({column.name, column.unit});
   MORULA_TRY(agree(folder_.begin_series(header), comm_));
-  MORULA_TRY_ASSIGN(events_, simulation_->first_swaps());
+  if (comm_.is_root()) text_status_ = append_to_text(folder_.events(), "");
+  auto placed = simulation_->first_swaps();
+  if (!placed.ok()) {  // some cells have their new body but not yet their shape: no state to go on from
+    state_is_whole_ = false;
+    return std::move(placed).error();
+  }
+  events_ = std::move(placed).value();
   std::vector<Vec3d> ignored;
   interval_.energy = simulation_->mechanics().energy_and_forces(simulation_->tissue(), ignored);
   count_cells();
@@ -175,9 +198,8 @@ Status RunLoop::write_moment(const Measures& measures) {
   tell_events();
   Status written = std::exchange(text_status_, {});
   if (written.ok()) written = folder_.add_to_series(measures.time, row);
-  if (written.ok()) written = folder_.add_events(events_);
+  if (written.ok()) written = write_events();
   if (written.ok()) written = folder_.write_status(status(RunState::kRunning));
-  events_.clear();
   return agree(std::move(written), comm_);
 }
 
@@ -187,31 +209,36 @@ void RunLoop::tell_events() {
   for (const Event& event : events_)
     if (event.kind == EventKind::kPromotion || event.kind == EventKind::kDemotion) ++counts[{event.kind, event.text}];
   for (const auto& [what, count] : counts)
-    note(Note::Kind::kNote, std::to_string(count) + (count == 1 ? " cell" : " cells") + (what.first == EventKind::kPromotion ? " promoted to DCM (" : " demoted to CBM (") + what.second + ")");
+    note(Note::Kind::kNote, std::to_string(count) + (count == 1 ? " cell" : " cells") +
+                                (what.first == EventKind::kPromotion ? " promoted to DCM (" : " demoted to CBM (") + what.second + ")");
   for (const Event& event : events_)
     if (event.kind == EventKind::kWarning) note(Note::Kind::kWarning, "cell " + event.cell.text() + ": " + event.text);
 }
 
 void RunLoop::warn_near_limit(bool& warned, const std::string& text) {
-  if (!warned) note(Note::Kind::kWarning, text);
+  if (!warned) warn(text);
   warned = true;
 }
 
 Status RunLoop::check_limits(const Measures& m) {
   const Limits& limits = study_.model.limits;
   const auto crossed = [&](const std::string& what, const Extreme& extreme) {
-    return Error{ErrorKind::kPhysics, what + (extreme.cell.valid() ? " in cell " + extreme.cell.text() : "") + " at " + time_text(m.time), "the limit is in the study: `limits`; the last checkpoint and snapshot show the state"};
+    return Error{ErrorKind::kPhysics, what + (extreme.cell.valid() ? " in cell " + extreme.cell.text() : "") + " at " + time_text(m.time),
+                 "the limit is in the study: `limits`; the last checkpoint and snapshot show the state"};
   };
-  const std::string volume = "volume error " + number_text("%.2g %%", 100.0 * m.volume_error.value) + " (limit " + number_text("%.2g %%)", 100.0 * limits.volume_error);
+  const std::string volume = "volume error " + number_text("%.2g %%", 100.0 * m.volume_error.value) + " (limit " +
+                             number_text("%.2g %%)", 100.0 * limits.volume_error);
   if (!(m.volume_error.value <= limits.volume_error)) return crossed(volume, m.volume_error);
-  if (m.volume_error.value > kWarnAt * limits.volume_error) warn_near_limit(volume_warned_, volume + " in cell " + m.volume_error.cell.text());
+  if (m.volume_error.value > kWarnAt * limits.volume_error)
+    warn_near_limit(volume_warned_, volume + " in cell " + m.volume_error.cell.text());
   if (!simulation_->tissue().clock.capped) {  // a capped start may overlap until it has come apart
     const std::string overlap = "overlap " + number_text("%.2g um", m.overlap.value) + " (limit " + number_text("%.2g um)", limits.overlap);
     if (!(m.overlap.value <= limits.overlap)) return crossed(overlap, m.overlap);
     if (m.overlap.value > kWarnAt * limits.overlap) warn_near_limit(overlap_warned_, overlap + " at cell " + m.overlap.cell.text());
   }
   for (std::size_t f = 0; f < study_.model.fields.size(); ++f) {
-    const std::string balance = "balance of " + study_.model.fields[f].name + " off by " + number_text("%.2g", m.field_balance[f]) + " (limit " + number_text("%.2g)", limits.field_balance);
+    const std::string balance = "balance of " + study_.model.fields[f].name + " off by " + number_text("%.2g", m.field_balance[f]) +
+                                " (limit " + number_text("%.2g)", limits.field_balance);
     if (!(m.field_balance[f] <= limits.field_balance)) return crossed(balance, {});
     if (m.field_balance[f] > kWarnAt * limits.field_balance) warn_near_limit(balance_warned_, balance);
   }
@@ -256,12 +283,13 @@ FinalState RunLoop::final_state() const {
 Status RunLoop::finish(RunState state, ErrorKind kind, RunSummary& summary) {
   const bool done = state == RunState::kDone;
   tell_events();
-  MORULA_TRY(agree(folder_.add_events(events_), comm_));
-  events_.clear();
+  MORULA_TRY(agree(write_events(), comm_));
   MORULA_TRY(checkpoint());
   record_.state = state;
   record_.exit_code = done ? 0 : exit_code(kind);
-  record_.message = done ? "" : std::string(kind == ErrorKind::kInterrupted ? "interrupted" : "stopped early") + " at " + time_text(progress_.time) + ", with a checkpoint";
+  record_.message = done ? ""
+                         : std::string(kind == ErrorKind::kInterrupted ? "interrupted" : "stopped early") + " at " +
+                               time_text(progress_.time) + ", with a checkpoint";
   record_.finished = utc_now();
   record_.wall_time = wall_before_ + wall();
   record_.final_state = final_state();
@@ -292,9 +320,9 @@ Status RunLoop::finish(RunState state, ErrorKind kind, RunSummary& summary) {
 }
 
 Error RunLoop::fail(Error error, bool state_is_sound) {
-  note(Note::Kind::kWarning, error.message);
-  if (comm_.is_root()) (void)folder_.add_events(events_);
-  events_.clear();
+  state_is_sound = state_is_sound && state_is_whole_;
+  warn(error.message);
+  (void)write_events().ok();
   // A full disk has no room for a checkpoint, and the earlier one is whole; a step that broke off midway left no state to keep.
   if (state_is_sound && error.kind != ErrorKind::kResources) (void)checkpoint().ok();
   record_.state = RunState::kFailed;

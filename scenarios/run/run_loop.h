@@ -20,8 +20,8 @@ double end_of_run(const TimeSpec& time, const std::optional<double>& until);
 /// A run while it goes on: the simulation, its folder, and what is due next. All members that call MPI are called by all ranks.
 class RunLoop {
  public:
-  RunLoop(const Study& study, const RunRequest& request, const Comm& comm, RunFolder folder, std::vector<Observable> columns, RunRecord record,
-          std::unique_ptr<Simulation> simulation);
+  RunLoop(const Study& study, const RunRequest& request, const Comm& comm, RunFolder folder, std::vector<Observable> columns,
+          RunRecord record, std::unique_ptr<Simulation> simulation);
 
   /// Time 0: the first exchange of bodies, the first row, snapshot and checkpoint.
   Status begin();
@@ -43,6 +43,9 @@ class RunLoop {
   Status output();
   Status write_moment(const Measures& measures);
   Status check_limits(const Measures& measures);
+  /// A warning of the run itself: for people, and into events.jsonl.
+  void warn(const std::string& text);
+  Status write_events();
   void warn_near_limit(bool& warned, const std::string& text);
   void tell_events();
   Status checkpoint();
@@ -63,7 +66,7 @@ class RunLoop {
   std::unique_ptr<Simulation> simulation_;
   double end_ = 0.0;
   double checkpoint_due_ = 0.0;
-  double wall_before_ = 0.0;     ///< of earlier parts of the run [s]
+  double wall_before_ = 0.0;  ///< of earlier parts of the run [s]
   SteadyClock::time_point start_ = SteadyClock::now(), last_status_ = SteadyClock::now();
   Interval interval_;
   WorkDone work_;
@@ -71,8 +74,10 @@ class RunLoop {
   Progress progress_;
   Load load_;
   double growth_rate_ = 0.0;     ///< of the spheres, if nothing inhibits it [1/s]
-  std::vector<Event> events_;    ///< not yet written
-  Status text_status_;           ///< the first failure of a text written between outputs
+  std::vector<Event> events_;    ///< of the tissue, not yet written
+  std::vector<Event> warnings_;  ///< of the run, not yet written
+  bool state_is_whole_ = true;
+  Status text_status_;  ///< the first failure of a text written between outputs
   bool volume_warned_ = false, overlap_warned_ = false, balance_warned_ = false;
 };
 

@@ -47,16 +47,23 @@ class Plots {
     for (const CellType& type : model.types) types.emplace_back("count_" + type.name, type.name);
     if (types.size() > 1) add("cells_by_type", "Cells by type", "cells", "", types);
     add("size", "Size of the tissue", "radius", "um", {{"spheroid_radius", "by gyration"}, {"largest_extent", "largest extent"}});
-    add("pressure", "Pressure", "pressure", "Pa", {{"mean_pressure", "mean"}, {"shell_pressure", "mean of shells"}, {"max_pressure", "largest"}}, 1000.0);
+    add("pressure", "Pressure", "pressure", "Pa",
+        {{"mean_pressure", "mean"}, {"shell_pressure", "mean of shells"}, {"max_pressure", "largest"}}, 1000.0);
     add("contact_area", "Contact", "area per cell", "um^2", {{"mean_contact_area", "mean"}});
     add("energy", "Energy", "energy", "nN um", {{"energy", "energy"}});
-    for (const auto& spec : model.fields) add("field_" + spec.name, spec.name, "concentration", "mM", {{"mean_" + spec.name, "mean"}, {"min_" + spec.name, "least"}});
+    for (const auto& spec : model.fields)
+      add("field_" + spec.name, spec.name, "concentration", "mM", {{"mean_" + spec.name, "mean"}, {"min_" + spec.name, "least"}});
     add("step", "Step size", "step", "s", {{"step_size", "mean step"}});
     add("solver", "Work of the solver", "iterations per step", "", {{"newton_iterations", "Newton"}, {"linear_iterations", "linear"}});
-    add("events", "Events", "since the start", "", {{"divisions", "divisions"}, {"deaths", "deaths"}, {"promotions", "promotions"}, {"demotions", "demotions"}});
-    add_limited("volume_error", "Volume against the pressure law", "largest error", "%", {{"volume_error", "worst cell"}, {"total_volume_error", "all cells"}}, model.limits.volume_error, 100.0);
-    add_limited("overlap", "Overlap of surfaces", "depth", "um", {{"overlap", "at the output"}, {"worst_overlap", "in any step"}}, model.limits.overlap);
-    if (!model.fields.empty()) add_limited("field_balance", "Balance of the fields", "relative error", "", {{"field_balance", "largest"}}, model.limits.field_balance);
+    add("events", "Events", "since the start", "",
+        {{"divisions", "divisions"}, {"deaths", "deaths"}, {"promotions", "promotions"}, {"demotions", "demotions"}});
+    add_limited("volume_error", "Volume against the pressure law", "largest error", "%",
+                {{"volume_error", "worst cell"}, {"total_volume_error", "all cells"}}, model.limits.volume_error, 100.0);
+    add_limited("overlap", "Overlap of surfaces", "depth", "um", {{"overlap", "at the output"}, {"worst_overlap", "in any step"}},
+                model.limits.overlap);
+    if (!model.fields.empty())
+      add_limited("field_balance", "Balance of the fields", "relative error", "", {{"field_balance", "largest"}},
+                  model.limits.field_balance);
     return std::move(out_);
   }
 

@@ -20,8 +20,10 @@ Timings collect_timings(Simulation& simulation, const WorkDone& work, double wal
   const auto bytes = static_cast<double>(comm.sum(static_cast<std::int64_t>(simulation.mechanics().memory())));
   const auto nodes = static_cast<double>(comm.sum(static_cast<std::int64_t>(simulation.tissue().shells.node_count())));
   const auto cells = static_cast<double>(comm.sum(static_cast<std::int64_t>(simulation.tissue().cells.size())));
-  if (nodes > 0.0) out.bytes_per_node = bytes / nodes;
-  else if (cells > 0.0) out.bytes_per_cell = bytes / cells;
+  if (nodes > 0.0)
+    out.bytes_per_node = bytes / nodes;
+  else if (cells > 0.0)
+    out.bytes_per_cell = bytes / cells;
   return out;
 }
 
@@ -31,7 +33,8 @@ std::string timings_table(const Timings& t) {
   const double steps = static_cast<double>(std::max<std::uint64_t>(t.work.steps, 1));
   double sum = 0.0;
   const auto row = [&](const std::string& name, double seconds) {
-    std::snprintf(line, sizeof line, "%-18s %8.2f  %5.1f %%  %11.3f\n", name.c_str(), seconds, t.wall > 0.0 ? 100.0 * seconds / t.wall : 0.0, 1e3 * seconds / steps);
+    std::snprintf(line, sizeof line, "%-18s %8.2f  %5.1f %%  %11.3f\n", name.c_str(), seconds,
+                  t.wall > 0.0 ? 100.0 * seconds / t.wall : 0.0, 1e3 * seconds / steps);
     out += line;
   };
   for (const auto& [name, seconds] : t.stages) {

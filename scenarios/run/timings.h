@@ -17,9 +17,9 @@ struct WorkDone {
 /// Where the time of a run went; seconds are means over the ranks.
 struct Timings {
   std::vector<std::pair<std::string, double>> stages;  ///< [s]
-  double wall = 0.0;                                    ///< [s]
+  double wall = 0.0;                                   ///< [s]
   WorkDone work;
-  double bytes_per_node = 0.0, bytes_per_cell = 0.0;    ///< of the workspaces; by node where there are shells, else by cell
+  double bytes_per_node = 0.0, bytes_per_cell = 0.0;  ///< of the workspaces; by node where there are shells, else by cell
 };
 
 /// Collective.

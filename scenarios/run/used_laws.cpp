@@ -34,8 +34,12 @@ void add_shell_laws(const CellType& type, std::vector<UsedLaw>& out) {
   for (const dcm::ShellLaw& law : dcm::shell_laws()) {
     if (p.*law.strength == 0.0) continue;
     LawInfo info = law.info;
-    if (info.name == "edge_spring") info.parameters = {parameter("spring_stiffness", "tension", "nN/µm", "Stiffness k of every edge, from Young's modulus and thickness.")};
-    if (info.name == "hinge_bending") info.parameters = {parameter("hinge_stiffness", "energy", "nN·µm", "Stiffness k_h of every hinge, from Young's modulus, thickness and Poisson ratio.")};
+    if (info.name == "edge_spring")
+      info.parameters = {
+          parameter("spring_stiffness", "tension", "nN/µm", "Stiffness k of every edge, from Young's modulus and thickness.")};
+    if (info.name == "hinge_bending")
+      info.parameters = {parameter("hinge_stiffness", "energy", "nN·µm",
+                                   "Stiffness k_h of every hinge, from Young's modulus, thickness and Poisson ratio.")};
     out.push_back({"shell of " + type.name, std::move(info), values});
   }
 }
@@ -62,27 +66,37 @@ LawInfo pair_info() {
 void add_contacts(const Model& model, bool shells, bool spheres, std::vector<UsedLaw>& out) {
   if (shells || !model.obstacles.empty())
     out.push_back({"contact of surfaces", traction_info(), {{"range", model.contact.range}, {"repulsion", model.contact.repulsion}}});
-  const auto name = [&](std::size_t m) { return m < model.types.size() ? model.types[m].name : model.obstacles[m - model.types.size()].name; };
+  const auto name = [&](std::size_t m) {
+    return m < model.types.size() ? model.types[m].name : model.obstacles[m - model.types.size()].name;
+  };
   for (std::size_t a = 0; a < model.types.size(); ++a)
     for (std::size_t b = a; b < model.material_count(); ++b) {
       const ContactPair& pair = model.pair(a, b);
-      out.push_back({"contact of " + name(a) + " with " + name(b), pair_info(),
-                     {{"adhesion", pair.adhesion}, {"normal_friction", pair.normal_friction}, {"tangential_friction", pair.tangential_friction}}});
+      out.push_back(
+          {"contact of " + name(a) + " with " + name(b),
+           pair_info(),
+           {{"adhesion", pair.adhesion}, {"normal_friction", pair.normal_friction}, {"tangential_friction", pair.tangential_friction}}});
     }
   if (!spheres) return;
   for (std::size_t t = 0; t < model.types.size(); ++t) {
     const CellType& type = model.types[t];
     for (const cbm::ContactLawEntry& law : cbm::contact_laws())
       if (law.info.name == (type.sphere.adhesive ? "jkr" : "hertz"))
-        out.push_back({"spheres of " + type.name, law.info, {{"young", type.sphere.young}, {"poisson", type.sphere.poisson}, {"adhesion", model.pair(t, t).adhesion}}});
+        out.push_back({"spheres of " + type.name,
+                       law.info,
+                       {{"young", type.sphere.young}, {"poisson", type.sphere.poisson}, {"adhesion", model.pair(t, t).adhesion}}});
   }
 }
 
 void add_behaviours(const CellType& type, std::vector<UsedLaw>& out) {
-  const Values values{{"cycle_duration", type.cycle_duration.mean}, {"inhibit_pressure", type.inhibit_pressure},
-                      {"death_below", type.death_below},            {"death_rate", type.death_rate},
-                      {"apoptosis_time", type.apoptosis_time},      {"removal_fraction", type.removal_fraction},
-                      {"migration_speed", type.migration_speed},    {"migration_persistence", type.migration_persistence}};
+  const Values values{{"cycle_duration", type.cycle_duration.mean},
+                      {"inhibit_pressure", type.inhibit_pressure},
+                      {"death_below", type.death_below},
+                      {"death_rate", type.death_rate},
+                      {"apoptosis_time", type.apoptosis_time},
+                      {"removal_fraction", type.removal_fraction},
+                      {"migration_speed", type.migration_speed},
+                      {"migration_persistence", type.migration_persistence}};
   for (LawInfo& law : behaviour_laws()) {
     const bool used = law.name == "linear_growth"        ? type.cycles && !type.exponential_growth
                       : law.name == "exponential_growth" ? type.cycles && type.exponential_growth
@@ -101,13 +115,22 @@ void add_fields(const Model& model, std::vector<UsedLaw>& out) {
                  .equation = "∂c/∂t = D ∇²c − λ c − Σ_i w_i V_max c/(K_m + c)",
                  .source = "Michaelis & Menten 1913; integrated by ARKODE (Reynolds et al. 2023, doi:10.1145/3594632)",
                  .parameters = {parameter("diffusion", "diffusion", "µm²/s", "D."), parameter("decay", "rate", "1/s", "λ."),
-                                parameter("initial", "concentration", "mM", "At time 0."), parameter("voxel", "length", "µm", "Wanted voxel size.")}};
-    out.push_back({"field " + spec.name, std::move(info), {{"diffusion", spec.diffusion}, {"decay", spec.decay}, {"initial", spec.initial}, {"voxel", spec.voxel}}});
-    LawInfo uptake{.name = "uptake", .title = "Uptake by one cell", .equation = "V_max c/(K_m + c)", .source = kProject,
-                   .parameters = {parameter("rate", "amount rate", "amol/s", "V_max."), parameter("half_saturation", "concentration", "mM", "K_m.")}};
+                                parameter("initial", "concentration", "mM", "At time 0."),
+                                parameter("voxel", "length", "µm", "Wanted voxel size.")}};
+    out.push_back({"field " + spec.name,
+                   std::move(info),
+                   {{"diffusion", spec.diffusion}, {"decay", spec.decay}, {"initial", spec.initial}, {"voxel", spec.voxel}}});
+    LawInfo uptake{
+        .name = "uptake",
+        .title = "Uptake by one cell",
+        .equation = "V_max c/(K_m + c)",
+        .source = kProject,
+        .parameters = {parameter("rate", "amount rate", "amol/s", "V_max."), parameter("half_saturation", "concentration", "mM", "K_m.")}};
     for (std::size_t t = 0; t < spec.uptake.size(); ++t)
       if (spec.uptake[t].rate > 0.0)
-        out.push_back({"uptake of " + spec.name + " by " + model.types[t].name, uptake, {{"rate", spec.uptake[t].rate}, {"half_saturation", spec.uptake[t].half_saturation}}});
+        out.push_back({"uptake of " + spec.name + " by " + model.types[t].name,
+                       uptake,
+                       {{"rate", spec.uptake[t].rate}, {"half_saturation", spec.uptake[t].half_saturation}}});
   }
 }
 
@@ -119,9 +142,12 @@ std::vector<UsedLaw> used_laws(const Study& study) {
   for (const Region& region : model.swaps.regions) (region.body == BodyKind::kShell ? shells : spheres) = true;
   std::vector<bool> given(model.types.size(), false);
   for (const InitialCells& block : study.initial)
-    if (block.body_given) (block.body == BodyKind::kShell ? shells : spheres) = true;
-    else if (block.source != InitialCells::Source::kCsv) given[block.type] = true;
-    else std::fill(given.begin(), given.end(), true);
+    if (block.body_given)
+      (block.body == BodyKind::kShell ? shells : spheres) = true;
+    else if (block.source != InitialCells::Source::kCsv)
+      given[block.type] = true;
+    else
+      std::fill(given.begin(), given.end(), true);
   for (std::size_t t = 0; t < model.types.size(); ++t)
     if (given[t]) (model.types[t].initial_body == BodyKind::kShell ? shells : spheres) = true;
   std::vector<UsedLaw> out;

@@ -15,7 +15,8 @@ Space open_space(double half = 500.0) { return {.box = {{-half, -half, -half}, {
 double worst_overlap(const std::vector<Vec3d>& center, const std::vector<double>& radius, double touch, const Space& space) {
   double worst = -1e300;
   for (std::size_t i = 0; i < center.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) worst = std::max(worst, touch * (radius[i] + radius[j]) - norm(space.nearest_image(center[i] - center[j])));
+    for (std::size_t j = 0; j < i; ++j)
+      worst = std::max(worst, touch * (radius[i] + radius[j]) - norm(space.nearest_image(center[i] - center[j])));
   return worst;
 }
 
@@ -108,7 +109,9 @@ initial:
 class InitialTissues : public ::testing::Test {
  protected:
   Study study() {
-    folder_.write("cells.csv", "x [um],y [um],z [um],type,radius [um],phase,model\n-80,0,0,soft,7,0.5,sphere\n-80,0,0,hard,4,0,shell\n-100,0,0,soft,6,0,sphere\n");
+    folder_.write(
+        "cells.csv",
+        "x [um],y [um],z [um],type,radius [um],phase,model\n-80,0,0,soft,7,0.5,sphere\n-80,0,0,hard,4,0,shell\n-100,0,0,soft,6,0,sphere\n");
     auto read = test::read(kMixed, {}, folder_.path());
     EXPECT_TRUE(read.ok()) << read.error().text();
     return std::move(read).value();

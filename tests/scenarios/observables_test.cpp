@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kBall = 4.0 / 3.0 * std::numbers::pi;
 
-std::unique_ptr<Simulation> simulation_of(const std::vector<Vec3d>& centers, const std::vector<BodyKind>& bodies, Model model = test::clusters_model()) {
+std::unique_ptr<Simulation> simulation_of(const std::vector<Vec3d>& centers, const std::vector<BodyKind>& bodies,
+                                          Model model = test::clusters_model()) {
   ShapeLibrary shapes;
   Tissue tissue = test::make_tissue(model, shapes, centers, bodies);
   auto made = Simulation::create(std::move(model), std::move(tissue), Comm(), 1);

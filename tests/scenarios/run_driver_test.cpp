@@ -123,7 +123,8 @@ TEST_F(Runs, GrowingSpheresLeaveAWholeFolder) {
   EXPECT_EQ(summary.final_state.time, 7200.0);
   EXPECT_GE(summary.final_state.cells, 9u);  // of 8 cells with a cycle of 4 h about 3 divide in 2 h
   EXPECT_TRUE(summary.passed());
-  for (const char* name : {"study.yaml", "study.resolved.yaml", "run.json", "status.json", "events.jsonl", "series.csv", "verdict.json", "methods.md", "results.h5", "DONE"})
+  for (const char* name : {"study.yaml", "study.resolved.yaml", "run.json", "status.json", "events.jsonl", "series.csv", "verdict.json",
+                           "methods.md", "results.h5", "DONE"})
     EXPECT_TRUE(fs::exists((*this / "a") / name)) << name;
   const auto series = read_series(*this / "a/series.csv");
   ASSERT_TRUE(series.ok());

@@ -41,7 +41,7 @@ TEST(CostModel, EstimatesAStudyBeforeItRuns) {
   const auto guess = estimate(*study);
   ASSERT_TRUE(guess.ok()) << guess.error().message;
   EXPECT_EQ(guess->cells, 400);
-  EXPECT_GT(guess->shells, 20);   // the region holds (25/49)³ of the cells
+  EXPECT_GT(guess->shells, 20);  // the region holds (25/49)³ of the cells
   EXPECT_LT(guess->shells, 120);
   EXPECT_EQ(guess->nodes, 162 * guess->shells);
   EXPECT_GT(guess->cells_at_end, 10000.0);  // 96 h of an 18 h cycle: 40 times

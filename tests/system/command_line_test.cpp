@@ -147,6 +147,24 @@ TEST(Info, OfALawAndOfAStudyIsJson) {
   EXPECT_THAT(run_morula({"info", "study.yaml", "--defaults"}, folder.path()).out, HasSubstr("max_displacement"));
 }
 
+TEST(Check, PrintsTheSchemaAsJson) {
+  const TestFolder folder;
+  const Outcome outcome = run_morula({"check", "--schema"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
+  const auto schema = nlohmann::json::parse(outcome.out);
+  EXPECT_TRUE(schema["properties"].contains("cell_types"));
+}
+
+TEST(Check, GoesThroughAllFilesAndTellsTheWorst) {
+  const TestFolder folder;
+  folder.write("good.yaml", sphere_study());
+  folder.write("bad.yaml", changed(sphere_study(), "seed: 7", "sede: 7"));
+  const Outcome outcome = run_morula({"check", "missing.yaml", "bad.yaml", "good.yaml"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.all();
+  EXPECT_EQ(outcome.out, "good.yaml: ok\n");
+  EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("missing.yaml"), HasSubstr("did you mean `seed`?")));
+}
+
 TEST(Doctor, FindsWhatARunNeeds) {
   const TestFolder folder;
   const Outcome outcome = run_morula({"doctor", "--json"}, folder.path());

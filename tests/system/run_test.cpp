@@ -164,6 +164,34 @@ TEST(Resume, WithAChangeMakesANewRunWithItsParent) {
   EXPECT_EQ(wrong.exit_code, 2) << wrong.all();
 }
 
+TEST(Resume, FromAnOlderCheckpointMakesANewRunThatEndsInTheSameBits) {
+  const TestFolder folder;
+  folder.write("study.yaml", changed(sphere_study(), "checkpoint: 30 min", "checkpoint: 10 min"));
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "first"}, folder.path()).exit_code, 0);
+  std::vector<fs::path> checkpoints(fs::directory_iterator(folder / "first/checkpoints"), fs::directory_iterator{});
+  const fs::path older = *std::min_element(checkpoints.begin(), checkpoints.end());
+  const std::string before = read_text(folder / "first/series.csv");
+  const Outcome again = run_morula({"resume", "first", "--from", older.stem().string(), "--out", "second"}, folder.path());
+  ASSERT_EQ(again.exit_code, 0) << again.all();
+  EXPECT_EQ(again.out, "second\n");
+  EXPECT_EQ(read_text(folder / "first/series.csv"), before) << "what the first run has found stays";
+  EXPECT_EQ(info_of(folder / "second")["state_hash"], info_of(folder / "first")["state_hash"]);
+}
+
+TEST(Run, ThatCrossesALimitFailsWithExitFour) {
+  const TestFolder folder;
+  folder.write("study.yaml", hybrid_study());
+  const Outcome outcome = run_morula({"run", "study.yaml", "--out", "run", "limits.volume_error=1e-9"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.all();
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("error: run: volume error"), HasSubstr("cell "), HasSubstr("help: ")));
+  EXPECT_TRUE(fs::exists(folder / "run/FAILED"));
+  EXPECT_FALSE(fs::exists(folder / "run/DONE"));
+  const json info = info_of(folder / "run");
+  EXPECT_EQ(info["state"], "failed");
+  EXPECT_EQ(info["exit_code"], 4);
+  EXPECT_FALSE(fs::is_empty(folder / "run/checkpoints")) << "there is a state to look at";
+}
+
 TEST(Resume, FromACheckpointThatIsNotThereListsThoseThatAre) {
   const TestFolder folder;
   folder.write("study.yaml", sphere_study());

@@ -58,6 +58,18 @@ TEST(Stop, ControlCLeavesACheckpointAndExit130) {
   expect_stopped(folder, signalled(folder, SIGINT), 130);
 }
 
+TEST(Stop, ASecondControlCEndsAtOnce) {
+  const TestFolder folder;
+  folder.write("study.yaml", long_study());
+  RunningCommand command({"run", "study.yaml", "--out", "run"}, folder.path());
+  ASSERT_TRUE(command.wait_for(folder / "run/checkpoints/cp_000003.h5"));
+  command.send(SIGINT);
+  command.send(SIGINT);
+  const Outcome outcome = command.wait();
+  EXPECT_EQ(outcome.exit_code, 130) << outcome.all();
+  EXPECT_EQ(run_morula({"resume", "run", "--max-wall", "1 ms"}, folder.path()).exit_code, 75) << "the checkpoints are whole";
+}
+
 TEST(Stop, ASecondRunInTheSameFolderIsRefusedWhileTheFirstRuns) {
   const TestFolder folder;
   folder.write("study.yaml", long_study());

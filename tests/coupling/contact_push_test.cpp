@@ -1,0 +1,132 @@
+/// A shell that is pushed stops at what stands in its way: it never passes through, and forces balance.
+#include <gtest/gtest.h>
+
+#include "core/mesh/primitives.h"
+#include "core/mesh/surface_file.h"
+#include "tests/coupling/tissue_fixture.h"
+
+#include <filesystem>
+
+namespace morula {
+namespace {
+
+using test::clusters_model;
+using test::make_tissue;
+
+constexpr double kHour = 3600.0;
+constexpr double kSpeed = 10.0 / kHour;  // 10 µm/h
+constexpr double kFree = 0.1 * 452.389;  // medium friction of the whole cell [nN·s/µm]
+
+Model pushed_model() {
+  Model model = clusters_model(0.05);
+  model.contact.range = 0.5;
+  model.contact.repulsion = 100.0;
+  model.contact.points_per_face = 3;
+  return model;
+}
+
+/// Push the first cell along x for two hours with the force that moves a free cell at 10 µm/h; the others are held by an equal counter-force.
+/// Returns the deepest penetration of the run; the tissue holds the end.
+double push(const Model& model, Tissue& tissue, std::vector<RigidSurface> obstacles, bool hold_last) {
+  ShapeLibrary shapes;
+  Mechanics mechanics(model, std::move(obstacles), shapes, Comm(), 1);
+  double deepest = 0.0, dt = 1.0;
+  for (double time = 0.0; time < 2.0 * kHour; time += dt) {
+    std::vector<Vec3d> force(tissue.cells.size());
+    force.front() = {kSpeed * kFree, 0, 0};
+    if (hold_last) force.back() = {-kSpeed * kFree, 0, 0};
+    auto done = mechanics.step(tissue, dt, mechanics.spread(tissue, force));
+    for (int retry = 0; !done.ok() && retry < 12; ++retry) {
+      dt *= 0.5;
+      done = mechanics.step(tissue, dt, mechanics.spread(tissue, force));
+    }
+    if (!done.ok()) {
+      ADD_FAILURE() << done.error().what;
+      break;
+    }
+    deepest = std::max(deepest, done->overlap);
+    if (done->displacement < 0.05) dt = std::min(60.0, 1.5 * dt);
+  }
+  return deepest;
+}
+
+double leading_x(const Tissue& tissue) {
+  double x = -1e300;
+  for (const Vec3d& p : tissue.shells.nodes(0)) x = std::max(x, p.x);
+  return x;
+}
+
+RigidSurface obstacle(const TriangleMesh& mesh, const Model& model) {
+  Model with = model;
+  with.obstacles = {ObstacleSpec{"obstacle", mesh.position, mesh.faces, false, {}}};
+  with.pairs.assign(4, ContactPair{0.0, 0.0, 0.0});
+  auto surfaces = contact_obstacles(with);
+  EXPECT_TRUE(surfaces.ok());
+  return std::move((*surfaces)[0]);
+}
+
+/// The model with one obstacle material of weak adhesion.
+Model with_obstacle(Model model, const TriangleMesh& mesh) {
+  const ContactPair cells = model.pairs[0], wall{0.001, 0.1, 0.1};
+  model.obstacles = {ObstacleSpec{"obstacle", mesh.position, mesh.faces, false, {}}};
+  model.pairs = {cells, wall, wall, wall};
+  return model;
+}
+
+TEST(PushedShell, StopsAtAnotherShell) {
+  const Model model = pushed_model();
+  ShapeLibrary shapes;
+  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}, {13, 0.3, -0.2}}, {BodyKind::kShell, BodyKind::kShell});
+  EXPECT_LT(push(model, tissue, {}, true), 0.1);
+  const Vec3d a = volume_centroid(tissue.shells.topology(0).faces(), tissue.shells.nodes(0));
+  const Vec3d b = volume_centroid(tissue.shells.topology(1).faces(), tissue.shells.nodes(1));
+  EXPECT_GT(b.x - a.x, 9.0);
+}
+
+TEST(PushedShell, StopsAtASphere) {
+  const Model model = pushed_model();
+  ShapeLibrary shapes;
+  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}, {13, 0.3, -0.2}}, {BodyKind::kShell, BodyKind::kSphere});
+  (void)push(model, tissue, {}, true);
+  const Vec3d a = volume_centroid(tissue.shells.topology(0).faces(), tissue.shells.nodes(0));
+  EXPECT_GT(tissue.spheres.position[0].x - a.x, 7.0);  // a sphere has no shape: its share of the flattening is overlap
+}
+
+TEST(PushedShell, StopsAtAPlane) {
+  const auto plate = make_box({1.0, 30.0, 30.0}, 40.0);
+  ASSERT_TRUE(plate.ok());
+  TriangleMesh mesh = *plate;
+  for (Vec3d& p : mesh.position) p.x += 7.5;  // its face is at x = 7
+  const Model model = with_obstacle(pushed_model(), mesh);
+  ShapeLibrary shapes;
+  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell});
+  tissue.obstacle_offset.resize(1);
+  auto obstacles = contact_obstacles(model);
+  ASSERT_TRUE(obstacles.ok());
+  EXPECT_LT(push(model, tissue, std::move(*obstacles), false), 0.1);
+  EXPECT_LT(leading_x(tissue), 7.15);
+  EXPECT_GT(leading_x(tissue), 6.0);
+}
+
+TEST(PushedShell, StopsAtASurfaceFromAnStlFile) {
+  const auto sphere = make_sphere(8.0, 642);
+  ASSERT_TRUE(sphere.ok());
+  const auto path = std::filesystem::temp_directory_path() / "morula_push.stl";
+  ASSERT_TRUE(write_stl(path, sphere->position, sphere->faces).ok());
+  auto read = read_surface(path, 1.0);
+  ASSERT_TRUE(read.ok());
+  TriangleMesh mesh = *read;
+  for (Vec3d& p : mesh.position) p.x += 15.0;  // begins at x = 7
+  const Model model = with_obstacle(pushed_model(), mesh);
+  ShapeLibrary shapes;
+  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell});
+  tissue.obstacle_offset.resize(1);
+  auto obstacles = contact_obstacles(model);
+  ASSERT_TRUE(obstacles.ok());
+  EXPECT_LT(push(model, tissue, std::move(*obstacles), false), 0.1);
+  const Vec3d center = volume_centroid(tissue.shells.topology(0).faces(), tissue.shells.nodes(0));
+  EXPECT_GT(norm(center - Vec3d{15, 0, 0}), 10.0);  // it may slip aside, but not through
+}
+
+}  // namespace
+}  // namespace morula
