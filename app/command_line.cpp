@@ -34,17 +34,22 @@ CLI::App* add_verb(CLI::App& program, const char* name, const char* what, const 
 
 void add_limits(CLI::App& verb, RunLimits& limits) {
   verb.add_option("--until", limits.until, "Simulated time at which to end, as 48h; instead of the study's time.end")->type_name("TIME");
-  verb.add_option("--threads", limits.threads, "Threads of each rank; results do not depend on it")->check(CLI::Range(1, 1024))->type_name("N")->capture_default_str();
+  verb.add_option("--threads", limits.threads, "Threads of each rank; results do not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N")
+      ->capture_default_str();
   verb.add_option("--max-wall", limits.max_wall, "Stop with a checkpoint after this wall time, as 2h (exit code 75)")->type_name("TIME");
   verb.add_flag("--timings", limits.timings, "Print the time spent in each stage of the step");
 }
 
 void add_making_verbs(CLI::App& program, Parsed& p) {
-  CLI::App* verb = add_verb(program, "new", "Make a study folder from a template; without a name, list the templates", "morula new", "morula new hybrid_spheroid spheroid");
+  CLI::App* verb = add_verb(program, "new", "Make a study folder from a template; without a name, list the templates", "morula new",
+                            "morula new hybrid_spheroid spheroid");
   verb->add_option("TEMPLATE", p.make_new.template_name, "Name of the template");
   verb->add_option("DIR", p.make_new.folder, "Folder to make; it must not exist (default: the template's name)");
 
-  verb = add_verb(program, "check", "Check studies and show all their mistakes at once; nothing is run", "morula check study.yaml --estimate", "morula check --schema > study.schema.json");
+  verb = add_verb(program, "check", "Check studies and show all their mistakes at once; nothing is run",
+                  "morula check study.yaml --estimate", "morula check --schema > study.schema.json");
   verb->add_option("STUDY", p.check.studies, "Study files");
   verb->add_flag("--estimate", p.check.estimate, "Also print size, memory and time of the run");
   verb->add_flag("--schema", p.check.schema, "Print the JSON Schema of study files, for editors");
@@ -52,7 +57,8 @@ void add_making_verbs(CLI::App& program, Parsed& p) {
 }
 
 void add_running_verbs(CLI::App& program, Parsed& p) {
-  CLI::App* verb = add_verb(program, "run", "Simulate a study", "morula run study.yaml --until 24h --threads 2", "mpirun -n 4 morula run study.yaml seed=7 cell_types.hepatocyte.radius=\"7 um\"");
+  CLI::App* verb = add_verb(program, "run", "Simulate a study", "morula run study.yaml --until 24h --threads 2",
+                            "mpirun -n 4 morula run study.yaml seed=7 cell_types.hepatocyte.radius=\"7 um\"");
   verb->add_option("STUDY", p.run.study, "Study file")->required();
   verb->add_option("KEY=VALUE", p.run.overrides, "Values that replace those of the study, by the path of the key");
   verb->add_option("--out", p.run.out, "Run folder; it must not exist (default: runs/STUDY-NNNN)")->type_name("DIR");
@@ -63,14 +69,18 @@ void add_running_verbs(CLI::App& program, Parsed& p) {
   verb = add_verb(program, "resume", "Go on with a run from its newest good checkpoint", "morula resume runs/spheroid-0001 --until 48h",
                   "morula resume runs/spheroid-0001 --set limits.overlap=\"0.4 um\" --out runs/softer");
   verb->add_option("RUN", p.resume.run, "Run folder")->required();
-  verb->add_option("--from", p.resume.from, "Checkpoint to start from, as cp_000003 (default: the newest good one); an older one makes a new run")->type_name("CHECKPOINT");
-  verb->add_option("--set", p.resume.overrides, "Change a value of the study; this makes a new run with this one as its parent")->type_name("KEY=VALUE");
+  verb->add_option("--from", p.resume.from,
+                   "Checkpoint to start from, as cp_000003 (default: the newest good one); an older one makes a new run")
+      ->type_name("CHECKPOINT");
+  verb->add_option("--set", p.resume.overrides, "Change a value of the study; this makes a new run with this one as its parent")
+      ->type_name("KEY=VALUE");
   verb->add_option("--out", p.resume.out, "Folder of the new run that --set or --from makes")->type_name("DIR");
   add_limits(*verb, p.resume.limits);
 }
 
 void add_looking_verbs(CLI::App& program, Parsed& p) {
-  CLI::App* verb = add_verb(program, "status", "Say where a run stands", "morula status runs/spheroid-0001", "morula status runs/spheroid-0001 --json");
+  CLI::App* verb =
+      add_verb(program, "status", "Say where a run stands", "morula status runs/spheroid-0001", "morula status runs/spheroid-0001 --json");
   verb->add_option("RUN", p.status.run, "Run folder")->required();
   verb->add_flag("--json", p.status.json, "Print JSON");
 
@@ -78,32 +88,48 @@ void add_looking_verbs(CLI::App& program, Parsed& p) {
   verb->add_option("DIR", p.list.folder, "Folder that holds run folders (default: runs, or the current folder)");
   verb->add_flag("--json", p.list.json, "Print JSON");
 
-  verb = add_verb(program, "info", "What was run, what a study says, what a law is", "morula info runs/spheroid-0001 --json", "morula info study.yaml --defaults");
+  verb = add_verb(program, "info", "What was run, what a study says, what a law is", "morula info runs/spheroid-0001 --json",
+                  "morula info study.yaml --defaults");
   verb->add_option("RUN|STUDY|LAW", p.info.target, "Run folder, study file, or name of a law");
   verb->add_flag("--json", p.info.json, "Print JSON");
   verb->add_flag("--defaults", p.info.defaults, "Defaults with their sources; of a study or run: all values, defaults filled in");
 
-  verb = add_verb(program, "explain", "What a key, a law or an error code means", "morula explain E203", "morula explain cell_types.hepatocyte.dcm.cortex.tension");
+  verb = add_verb(program, "explain", "What a key, a law or an error code means", "morula explain E203",
+                  "morula explain cell_types.hepatocyte.dcm.cortex.tension");
   verb->add_option("ID", p.explain.id, "Path of a key, name of a law, or code of a message");
-  verb->add_option("--markdown", p.explain.markdown, "Print a whole reference as Markdown")->check(CLI::IsMember({"laws", "study"}))->type_name("laws|study");
+  verb->add_option("--markdown", p.explain.markdown, "Print a whole reference as Markdown")
+      ->check(CLI::IsMember({"laws", "study"}))
+      ->type_name("laws|study");
 
-  verb = add_verb(program, "doctor", "Check what a run needs of this machine: MPI, HDF5, threads, disk, memory", "morula doctor", "mpirun -n 4 morula doctor --json");
+  verb = add_verb(program, "doctor", "Check what a run needs of this machine: MPI, HDF5, threads, disk, memory", "morula doctor",
+                  "mpirun -n 4 morula doctor --json");
   verb->add_flag("--json", p.doctor.json, "Print JSON");
 }
 
 void add_result_verbs(CLI::App& program, Parsed& p) {
-  CLI::App* verb = add_verb(program, "plot", "Plots, pictures and report.html of a run", "morula plot runs/spheroid-0001", "morula plot runs/spheroid-0001 --only cells --format svg");
+  CLI::App* verb = add_verb(program, "plot", "Plots, pictures and report.html of a run", "morula plot runs/spheroid-0001",
+                            "morula plot runs/spheroid-0001 --only cells --format svg");
   verb->add_option("RUN", p.plot.run, "Run folder")->required();
   verb->add_option("--only", p.plot.only, "Only plots and pictures whose name begins so; no report")->delimiter(',')->type_name("NAME");
-  verb->add_option("--format", p.plot.formats, "svg for plots, png for pictures (default: both)")->delimiter(',')->check(CLI::IsMember({"svg", "png"}))->type_name("svg,png");
+  verb->add_option("--format", p.plot.formats, "svg for plots, png for pictures (default: both)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"svg", "png"}))
+      ->type_name("svg,png");
 
-  verb = add_verb(program, "export", "Write the snapshots of a run for other programs", "morula export runs/spheroid-0001 vtk --every 4", "morula export runs/spheroid-0001 csv --from 12h --to 24h");
+  verb = add_verb(program, "export", "Write the snapshots of a run for other programs", "morula export runs/spheroid-0001 vtk --every 4",
+                  "morula export runs/spheroid-0001 csv --from 12h --to 24h");
   verb->add_option("RUN", p.export_results.run, "Run folder")->required();
-  verb->add_option("FORMAT", p.export_results.format, "vtk (ParaView), csv (cells), stl (surfaces)")->required()->check(CLI::IsMember({"vtk", "csv", "stl"}));
-  verb->add_option("--every", p.export_results.every, "Every n-th snapshot")->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))->type_name("N")->capture_default_str();
+  verb->add_option("FORMAT", p.export_results.format, "vtk (ParaView), csv (cells), stl (surfaces)")
+      ->required()
+      ->check(CLI::IsMember({"vtk", "csv", "stl"}));
+  verb->add_option("--every", p.export_results.every, "Every n-th snapshot")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
+      ->type_name("N")
+      ->capture_default_str();
   verb->add_option("--from", p.export_results.from, "From this simulated time, as 12h")->type_name("TIME");
   verb->add_option("--to", p.export_results.to, "To this simulated time")->type_name("TIME");
-  verb->add_option("--out", p.export_results.out, "Folder to make; it must not exist (default: RUN/vtk, RUN/csv, RUN/stl)")->type_name("DIR");
+  verb->add_option("--out", p.export_results.out, "Folder to make; it must not exist (default: RUN/vtk, RUN/csv, RUN/stl)")
+      ->type_name("DIR");
 }
 
 Options chosen_options(const std::string& verb, Parsed&& p) {
@@ -151,8 +177,10 @@ std::string version_text() {
 Status check_combinations(const std::string& verb, const Parsed& p) {
   const auto wrong = [&](const std::string& message) { return Error{ErrorKind::kInput, message, "see `morula " + verb + " --help`"}; };
   if (verb == "check" && p.check.studies.empty() && !p.check.schema) return wrong("`check` needs a study file");
-  if (verb == "explain" && p.explain.id.empty() == p.explain.markdown.empty()) return wrong("`explain` needs one of: a key, law or error code; --markdown");
-  if (verb == "info" && p.info.target.empty() && !p.info.defaults) return wrong("`info` needs a run folder, a study file or the name of a law");
+  if (verb == "explain" && p.explain.id.empty() == p.explain.markdown.empty())
+    return wrong("`explain` needs one of: a key, law or error code; --markdown");
+  if (verb == "info" && p.info.target.empty() && !p.info.defaults)
+    return wrong("`info` needs a run folder, a study file or the name of a law");
   if (verb == "resume" && !p.resume.out.empty() && p.resume.overrides.empty() && p.resume.from.empty())
     return Error{ErrorKind::kInput, "`resume --out` goes with --set or --from only", "without --set a run goes on in its own folder"};
   return {};
@@ -164,9 +192,10 @@ Result<std::variant<Options, Answer>> read_command_line(const std::vector<std::s
   Parsed parsed;
   CLI::App program("Morula simulates tissues in which some cells are spheres and some are deformable shells.", "morula");
   program.require_subcommand(1);
-  program.footer("Exit codes: 0 done; 1 internal error; 2 bad command or study; 3 file missing or target exists; 4 physics limit or solver failed;\n"
-                 "5 verification failed; 6 memory or disk; 75 stopped early with a checkpoint; 130 interrupted with a checkpoint.\n\n"
-                 "Examples:\n  morula new hybrid_spheroid spheroid\n  morula run spheroid/study.yaml");
+  program.footer(
+      "Exit codes: 0 done; 1 internal error; 2 bad command or study; 3 file missing or target exists; 4 physics limit or solver failed;\n"
+      "5 verification failed; 6 memory or disk; 75 stopped early with a checkpoint; 130 interrupted with a checkpoint.\n\n"
+      "Examples:\n  morula new hybrid_spheroid spheroid\n  morula run spheroid/study.yaml");
   bool version = false;
   program.add_flag("--version", version, "Print the version");
   add_making_verbs(program, parsed);

@@ -25,8 +25,9 @@ struct Finding {
 Finding mpi(const Comm& comm) {
   int provided = MPI_THREAD_SINGLE;
   MPI_Query_thread(&provided);
-  return {"mpi", scenarios::build_info().libraries.at(1).second + ", " + count_words(static_cast<std::uint64_t>(comm.size()), "rank", "ranks"), provided >= MPI_THREAD_FUNNELED,
-          "this MPI does not allow threads: use --threads 1"};
+  return {"mpi",
+          scenarios::build_info().libraries.at(1).second + ", " + count_words(static_cast<std::uint64_t>(comm.size()), "rank", "ranks"),
+          provided >= MPI_THREAD_FUNNELED, "this MPI does not allow threads: use --threads 1"};
 }
 
 Finding hdf5() {
@@ -39,8 +40,10 @@ Finding hdf5() {
 #else
   const bool parallel = false;
 #endif
-  return {"hdf5", std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(release) + (parallel ? ", parallel" : ", not parallel"), parallel,
-          "build with the parallel HDF5 (Debian: libhdf5-openmpi-dev)"};
+  return {
+      "hdf5",
+      std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(release) + (parallel ? ", parallel" : ", not parallel"),
+      parallel, "build with the parallel HDF5 (Debian: libhdf5-openmpi-dev)"};
 }
 
 Finding threads() {
@@ -59,7 +62,8 @@ Finding disk() {
   const fs::path here = fs::current_path(error);
   const fs::space_info space = fs::space(here, error);
   if (error) return {"disk", "cannot be asked: " + error.message(), false, "go to a folder that can be read"};
-  return {"disk", bytes_words(static_cast<double>(space.available)) + " free in " + here.string(), space.available >= 500'000'000, "less than 500 MB free: results may not fit"};
+  return {"disk", bytes_words(static_cast<double>(space.available)) + " free in " + here.string(), space.available >= 500'000'000,
+          "less than 500 MB free: results may not fit"};
 }
 
 Finding writing() {
@@ -67,27 +71,32 @@ Finding writing() {
   const fs::path probe = fs::current_path(error) / (".morula-doctor-" + std::to_string(getpid()));
   const Status written = scenarios::write_file_atomically(probe, "probe\n");
   fs::remove(probe, error);
-  return {"writing", written.ok() ? "this folder can be written" : written.error().message, written.ok(), "run in a folder of your own, or use `morula run --out DIR`"};
+  return {"writing", written.ok() ? "this folder can be written" : written.error().message, written.ok(),
+          "run in a folder of your own, or use `morula run --out DIR`"};
 }
 
 }  // namespace
 
 Status doctor(const DoctorOptions& options, const Context& context) {
   const scenarios::BuildInfo build = scenarios::build_info();
-  std::vector<Finding> findings{{"morula", build.version + " (" + build.git_hash + "), " + build.compiler + ", " + build.build_type, true, ""}};
-  for (Finding& finding : std::vector<Finding>{mpi(context.comm), hdf5(), threads(), memory(), disk(), writing()}) findings.push_back(std::move(finding));
+  std::vector<Finding> findings{
+      {"morula", build.version + " (" + build.git_hash + "), " + build.compiler + ", " + build.build_type, true, ""}};
+  for (Finding& finding : std::vector<Finding>{mpi(context.comm), hdf5(), threads(), memory(), disk(), writing()})
+    findings.push_back(std::move(finding));
 
   bool well = true;
   nlohmann::ordered_json json;
   std::vector<std::vector<std::string>> rows;
   for (const Finding& finding : findings) {
     well = well && finding.good;
-    json["findings"].push_back({{"name", finding.name}, {"value", finding.value}, {"good", finding.good}, {"advice", finding.good ? "" : finding.advice}});
+    json["findings"].push_back(
+        {{"name", finding.name}, {"value", finding.value}, {"good", finding.good}, {"advice", finding.good ? "" : finding.advice}});
     rows.push_back({finding.good ? "ok" : "bad", finding.name, finding.value + (finding.good ? "" : ": " + finding.advice)});
   }
   json["good"] = well;
   json["ranks"] = context.comm.size();
-  context.console.result(options.json ? json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n" : table_text(rows));
+  context.console.result(options.json ? json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"
+                                      : table_text(rows));
   if (!well) return Error{ErrorKind::kVerification, "this machine is not ready for a run", "see the lines marked `bad`"};
   return {};
 }

@@ -26,8 +26,11 @@ Status explain(const ExplainOptions& options, const Context& context) {
     }
     const std::string near = scenarios::suggest(options.id, known);
     const bool suggestion = near.rfind("did you mean", 0) == 0;
-    return Error{ErrorKind::kInput, "nothing is known of '" + options.id + "'",
-                 suggestion ? near : "a key such as `time.end`, a law such as `jkr`, or a code such as `E203`; `morula explain --markdown study` lists all keys"};
+    return Error{
+        ErrorKind::kInput, "nothing is known of '" + options.id + "'",
+        suggestion
+            ? near
+            : "a key such as `time.end`, a law such as `jkr`, or a code such as `E203`; `morula explain --markdown study` lists all keys"};
   }
   context.console.result(text);
   return {};

@@ -6,11 +6,11 @@
 #include "app/run_state.h"
 #include "app/verbs.h"
 #include "app/words.h"
-#include "scenarios/run/progress.h"
 #include "scenarios/results/checkpoint_folder.h"
 #include "scenarios/results/file_io.h"
 #include "scenarios/results/run_folder.h"
 #include "scenarios/results/state_hash.h"
+#include "scenarios/run/progress.h"
 #include "scenarios/study/catalogue.h"
 #include "scenarios/study/diagnostics.h"
 
@@ -27,16 +27,19 @@ Result<scenarios::FinalState> newest_state(const scenarios::RunFolder& run, cons
   const auto study = scenarios::read_study(run.path() / "study.resolved.yaml");
   if (!study.ok()) return study.error().as_error();
   ShapeLibrary shapes;
-  MORULA_TRY_ASSIGN(const scenarios::RestoredCheckpoint restored, scenarios::load_newest_checkpoint(run.checkpoints(), study->model, shapes, alone));
+  MORULA_TRY_ASSIGN(const scenarios::RestoredCheckpoint restored,
+                    scenarios::load_newest_checkpoint(run.checkpoints(), study->model, shapes, alone));
   for (const std::string& warning : restored.warnings) context.console.warning(warning);
   const Tissue& tissue = restored.checkpoint.tissue;
-  return scenarios::FinalState{tissue.clock.time, tissue.cells.size(), tissue.spheres.size(), tissue.shells.size(), scenarios::state_hash(tissue, alone).hex()};
+  return scenarios::FinalState{tissue.clock.time, tissue.cells.size(), tissue.spheres.size(), tissue.shells.size(),
+                               scenarios::state_hash(tissue, alone).hex()};
 }
 
 Json json_of(const RunOverview& run, const scenarios::FinalState& state) {
   Json json = Json::parse(scenarios::to_json(run.record));
-  Json out{{"run", run.path.string()}, {"state", run.state_word()}, {"time", state.time}, {"cells", state.cells}, {"spheres", state.spheres}, {"shells", state.shells},
-           {"state_hash", state.state_hash}, {"end", run.status.end}, {"steps", run.status.steps}};
+  Json out{{"run", run.path.string()},       {"state", run.state_word()}, {"time", state.time},
+           {"cells", state.cells},           {"spheres", state.spheres},  {"shells", state.shells},
+           {"state_hash", state.state_hash}, {"end", run.status.end},     {"steps", run.status.steps}};
   for (const auto& [key, value] : json.items())
     if (!out.contains(key)) out[key] = value;
   return out;
@@ -46,16 +49,19 @@ std::string text_of(const RunOverview& run, const scenarios::FinalState& state) 
   const scenarios::RunRecord& r = run.record;
   std::string out = run.path.string() + ": " + r.study + (r.title.empty() ? "" : ", " + r.title) + "\n";
   out += "  state     " + run.state_word() + (r.message.empty() ? "" : ": " + r.message) + "\n";
-  out += "  time      " + scenarios::time_text(state.time) + (run.status.end > 0.0 ? " of " + scenarios::time_text(run.status.end) : "") + "\n";
-  out += "  cells     " + std::to_string(state.cells) + " (" + count_words(state.spheres, "sphere", "spheres") + ", " + count_words(state.shells, "shell", "shells") + ")\n";
+  out += "  time      " + scenarios::time_text(state.time) + (run.status.end > 0.0 ? " of " + scenarios::time_text(run.status.end) : "") +
+         "\n";
+  out += "  cells     " + std::to_string(state.cells) + " (" + count_words(state.spheres, "sphere", "spheres") + ", " +
+         count_words(state.shells, "shell", "shells") + ")\n";
   out += "  hash      " + state.state_hash + "\n";
   out += "  seed      " + std::to_string(r.seed) + "\n";
-  out += "  ran on    " + r.host + ", " + count_words(static_cast<std::uint64_t>(r.ranks), "rank", "ranks") + ", " + count_words(static_cast<std::uint64_t>(r.threads), "thread", "threads") +
-         " each, " + scenarios::duration_text(r.wall_time) + "\n";
+  out += "  ran on    " + r.host + ", " + count_words(static_cast<std::uint64_t>(r.ranks), "rank", "ranks") + ", " +
+         count_words(static_cast<std::uint64_t>(r.threads), "thread", "threads") + " each, " + scenarios::duration_text(r.wall_time) + "\n";
   out += "  morula    " + r.version + " (" + r.git_hash + "), " + r.compiler + "\n";
   out += "  command   " + r.command + "\n";
   if (!r.parent.empty()) out += "  parent    " + r.parent + "\n";
-  for (const scenarios::InputRecord& input : r.inputs) out += "  input     " + input.source + " (sha256 " + input.sha256.substr(0, 16) + "...)\n";
+  for (const scenarios::InputRecord& input : r.inputs)
+    out += "  input     " + input.source + " (sha256 " + input.sha256.substr(0, 16) + "...)\n";
   return out;
 }
 
@@ -95,8 +101,9 @@ Status info_of_study(const InfoOptions& options, const Context& context) {
   for (const ObstacleSpec& obstacle : model.obstacles) obstacles.push_back(obstacle.name);
   for (const fields::FieldSpec& field : model.fields) fields.push_back(field.name);
   for (const Region& region : model.swaps.regions) regions.push_back(region.name);
-  const Json json{{"study", study.name}, {"title", study.title},       {"scenario", study.scenario}, {"seed", model.seed},   {"end", study.time.end}, {"cells", cells},
-                  {"cell_types", types}, {"obstacles", obstacles}, {"fields", fields},           {"regions", regions}};
+  const Json json{{"study", study.name},   {"title", study.title}, {"scenario", study.scenario}, {"seed", model.seed},
+                  {"end", study.time.end}, {"cells", cells},       {"cell_types", types},        {"obstacles", obstacles},
+                  {"fields", fields},      {"regions", regions}};
   if (options.json) {
     context.console.result(text_of(json));
     return {};
@@ -106,8 +113,9 @@ Status info_of_study(const InfoOptions& options, const Context& context) {
     for (const auto& name : list) out += (out.empty() ? "" : ", ") + name.get<std::string>();
     return out.empty() ? std::string("none") : out;
   };
-  context.console.result(study.name + (study.title.empty() ? "" : ": " + study.title) + "\n  end         " + scenarios::time_text(study.time.end) + "\n  seed        " +
-                         std::to_string(model.seed) + "\n  cells       " + std::to_string(cells) + "\n  cell types  " + names(types) + "\n  obstacles   " + names(obstacles) +
+  context.console.result(study.name + (study.title.empty() ? "" : ": " + study.title) + "\n  end         " +
+                         scenarios::time_text(study.time.end) + "\n  seed        " + std::to_string(model.seed) + "\n  cells       " +
+                         std::to_string(cells) + "\n  cell types  " + names(types) + "\n  obstacles   " + names(obstacles) +
                          "\n  fields      " + names(fields) + "\n  regions     " + names(regions) + "\n");
   return {};
 }
@@ -148,7 +156,8 @@ Status info(const InfoOptions& options, const Context& context) {
   }
   const std::string near = scenarios::suggest(options.target, law_names());
   const bool suggestion = near.rfind("did you mean", 0) == 0;
-  return Error{ErrorKind::kFile, "'" + options.target + "' is no run folder, no study file and no law", suggestion ? near : "`morula list` shows the runs; `morula explain --markdown laws` the laws"};
+  return Error{ErrorKind::kFile, "'" + options.target + "' is no run folder, no study file and no law",
+               suggestion ? near : "`morula list` shows the runs; `morula explain --markdown laws` the laws"};
 }
 
 }  // namespace morula::app

@@ -11,9 +11,13 @@
 namespace morula::app {
 namespace {
 
-std::string with_unit(double value, const std::string& unit) { return number_text("%.6g", value) + (unit == "1" || unit.empty() ? "" : " " + unit); }
+std::string with_unit(double value, const std::string& unit) {
+  return number_text("%.6g", value) + (unit == "1" || unit.empty() ? "" : " " + unit);
+}
 
-std::string default_of(const LawParameter& parameter) { return parameter.fallback ? with_unit(*parameter.fallback, parameter.unit) : "none"; }
+std::string default_of(const LawParameter& parameter) {
+  return parameter.fallback ? with_unit(*parameter.fallback, parameter.unit) : "none";
+}
 
 std::string range_of(const LawParameter& parameter) {
   const bool low = std::isfinite(parameter.minimum), high = std::isfinite(parameter.maximum);
@@ -53,11 +57,13 @@ std::vector<std::string> law_names() {
 }
 
 std::string law_text(const ListedLaw& law) {
-  std::string out = law.info.name + ": " + law.info.title + " (" + law.group + ")\n  equation: " + law.info.equation + "\n  source:   " + law.info.source + "\n";
+  std::string out = law.info.name + ": " + law.info.title + " (" + law.group + ")\n  equation: " + law.info.equation +
+                    "\n  source:   " + law.info.source + "\n";
   if (law.info.parameters.empty()) return out;
   out += "  parameters:\n";
   for (const LawParameter& p : law.info.parameters) {
-    out += "    " + p.name + " [" + (p.unit.empty() ? "1" : p.unit) + "]: " + p.doc + "\n      default " + default_of(p) + ", range " + range_of(p);
+    out += "    " + p.name + " [" + (p.unit.empty() ? "1" : p.unit) + "]: " + p.doc + "\n      default " + default_of(p) + ", range " +
+           range_of(p);
     out += p.source.empty() ? "\n" : "; source: " + p.source + "\n";
   }
   return out;
@@ -72,7 +78,7 @@ std::string law_json(const ListedLaw& law) {
     one["maximum"] = std::isfinite(p.maximum) ? nlohmann::ordered_json(p.maximum) : nlohmann::ordered_json(nullptr);
     parameters.push_back(std::move(one));
   }
-  const nlohmann::ordered_json json{{"law", law.info.name},      {"title", law.info.title},   {"group", law.group},
+  const nlohmann::ordered_json json{{"law", law.info.name},          {"title", law.info.title},   {"group", law.group},
                                     {"equation", law.info.equation}, {"source", law.info.source}, {"parameters", parameters}};
   return json.dump(2) + "\n";
 }
@@ -91,7 +97,8 @@ std::string law_reference() {
     if (law.info.parameters.empty()) continue;
     out += "\n| parameter | unit | default | range | what | source |\n|---|---|---|---|---|---|\n";
     for (const LawParameter& p : law.info.parameters)
-      out += "| `" + p.name + "` | " + (p.unit.empty() ? "1" : p.unit) + " | " + default_of(p) + " | " + range_of(p) + " | " + in_cell(p.doc) + " | " + in_cell(p.source) + " |\n";
+      out += "| `" + p.name + "` | " + (p.unit.empty() ? "1" : p.unit) + " | " + default_of(p) + " | " + range_of(p) + " | " +
+             in_cell(p.doc) + " | " + in_cell(p.source) + " |\n";
   }
   return out;
 }

@@ -5,8 +5,8 @@
 #include "app/run_state.h"
 #include "app/verbs.h"
 #include "app/words.h"
-#include "scenarios/run/progress.h"
 #include "scenarios/results/file_io.h"
+#include "scenarios/run/progress.h"
 
 namespace morula::app {
 namespace fs = std::filesystem;
@@ -35,9 +35,18 @@ Result<std::vector<RunOverview>> runs_in(const fs::path& folder, const Context& 
 std::string json_of(const std::vector<RunOverview>& runs) {
   auto list = nlohmann::ordered_json::array();
   for (const RunOverview& run : runs)
-    list.push_back({{"run", run.path.string()},       {"study", run.record.study},   {"state", run.state_word()},       {"time", run.status.time},
-                    {"end", run.status.end},          {"cells", run.status.cells},   {"shells", run.status.shells},     {"seed", run.record.seed},
-                    {"ranks", run.record.ranks},      {"threads", run.record.threads}, {"wall_time", run.status.wall_time}, {"started", run.record.started},
+    list.push_back({{"run", run.path.string()},
+                    {"study", run.record.study},
+                    {"state", run.state_word()},
+                    {"time", run.status.time},
+                    {"end", run.status.end},
+                    {"cells", run.status.cells},
+                    {"shells", run.status.shells},
+                    {"seed", run.record.seed},
+                    {"ranks", run.record.ranks},
+                    {"threads", run.record.threads},
+                    {"wall_time", run.status.wall_time},
+                    {"started", run.record.started},
                     {"parent", run.record.parent}});
   return list.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -46,8 +55,11 @@ std::string json_of(const std::vector<RunOverview>& runs) {
 
 Status list(const ListOptions& options, const Context& context) {
   std::error_code error;
-  const fs::path folder = !options.folder.empty() ? fs::path(options.folder) : fs::is_directory("runs", error) ? fs::path("runs") : fs::path(".");
-  if (!fs::is_directory(folder, error)) return Error{ErrorKind::kFile, "'" + folder.string() + "' is no folder", "give the folder that holds the runs, as `morula list runs`"};
+  const fs::path folder = !options.folder.empty()           ? fs::path(options.folder)
+                          : fs::is_directory("runs", error) ? fs::path("runs")
+                                                            : fs::path(".");
+  if (!fs::is_directory(folder, error))
+    return Error{ErrorKind::kFile, "'" + folder.string() + "' is no folder", "give the folder that holds the runs, as `morula list runs`"};
   MORULA_TRY_ASSIGN(const std::vector<RunOverview> runs, runs_in(folder, context));
   if (options.json) {
     context.console.result(json_of(runs));
@@ -59,8 +71,9 @@ Status list(const ListOptions& options, const Context& context) {
   }
   std::vector<std::vector<std::string>> rows{{"run", "state", "time", "of", "cells", "shells", "wall", "started"}};
   for (const RunOverview& run : runs)
-    rows.push_back({run.path.filename().string(), run.state_word(), scenarios::time_text(run.status.time), scenarios::time_text(run.status.end), std::to_string(run.status.cells),
-                    std::to_string(run.status.shells), scenarios::duration_text(run.status.wall_time), run.record.started});
+    rows.push_back({run.path.filename().string(), run.state_word(), scenarios::time_text(run.status.time),
+                    scenarios::time_text(run.status.end), std::to_string(run.status.cells), std::to_string(run.status.shells),
+                    scenarios::duration_text(run.status.wall_time), run.record.started});
   context.console.result(table_text(rows));
   return {};
 }

@@ -59,7 +59,8 @@ int guarded(const std::vector<std::string>& arguments, const Context& context) {
     code = scenarios::exit_code(ErrorKind::kResources);
     if (context.comm.size() > 1) MPI_Abort(MPI_COMM_WORLD, code);  // the other ranks wait for this one
   } catch (const std::exception& defect) {
-    Console(true).error({ErrorKind::kInternal, std::string("internal error: ") + defect.what(), "this is a defect of Morula; please report it with the study"});
+    Console(true).error({ErrorKind::kInternal, std::string("internal error: ") + defect.what(),
+                         "this is a defect of Morula; please report it with the study"});
     code = scenarios::exit_code(ErrorKind::kInternal);
     if (context.comm.size() > 1) MPI_Abort(MPI_COMM_WORLD, code);
   }
@@ -77,7 +78,8 @@ void quiet_mpi() {
   setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
   setenv("OMPI_MCA_shmem_mmap_enable_nfs_warning", "0", 0);
   const auto launched_by = [](const char* variable) { return std::getenv(variable) != nullptr; };
-  if (!launched_by("OMPI_COMM_WORLD_RANK") && !launched_by("PMIX_RANK") && !launched_by("PMI_RANK")) setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  if (!launched_by("OMPI_COMM_WORLD_RANK") && !launched_by("PMIX_RANK") && !launched_by("PMI_RANK"))
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
 }
 
 }  // namespace

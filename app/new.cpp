@@ -35,10 +35,14 @@ Status make_new(const NewOptions& options, const Context& context) {
     return {};
   }
   const scenarios::Template* one = scenarios::find_template(options.template_name);
-  if (!one) return Error{ErrorKind::kInput, "there is no template '" + options.template_name + "'", scenarios::suggest(options.template_name, scenarios::template_names())};
+  if (!one)
+    return Error{ErrorKind::kInput, "there is no template '" + options.template_name + "'",
+                 scenarios::suggest(options.template_name, scenarios::template_names())};
   const fs::path folder = options.folder.empty() ? fs::path(one->name) : fs::path(options.folder);
   std::error_code error;
-  if (fs::exists(folder, error)) return Error{ErrorKind::kFile, "'" + folder.string() + "' exists already", "name another folder: `morula new " + std::string(one->name) + " DIR`"};
+  if (fs::exists(folder, error))
+    return Error{ErrorKind::kFile, "'" + folder.string() + "' exists already",
+                 "name another folder: `morula new " + std::string(one->name) + " DIR`"};
   if (folder.has_parent_path()) fs::create_directories(folder.parent_path(), error);
   if (error) return scenarios::file_error(folder.parent_path(), "create", error.value());
   if (!fs::create_directory(folder, error) || error) return scenarios::file_error(folder, "create", error.value());

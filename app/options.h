@@ -82,7 +82,7 @@ struct DoctorOptions {
   bool json = false;
 };
 
-using Options = std::variant<NewOptions, CheckOptions, RunOptions, ResumeOptions, StatusOptions, ListOptions, InfoOptions, ExplainOptions, PlotOptions, ExportOptions,
-                             DoctorOptions>;
+using Options = std::variant<NewOptions, CheckOptions, RunOptions, ResumeOptions, StatusOptions, ListOptions, InfoOptions, ExplainOptions,
+                             PlotOptions, ExportOptions, DoctorOptions>;
 
 }  // namespace morula::app

@@ -43,7 +43,9 @@ Status write_pictures(const fs::path& run, const std::vector<std::string>& only,
 
 /// Plots and pictures alone, some of them, without a report.
 Status plot_some(const fs::path& run, const PlotOptions& options, const Context& context) {
-  const auto has = [&](const char* format) { return options.formats.empty() || std::find(options.formats.begin(), options.formats.end(), format) != options.formats.end(); };
+  const auto has = [&](const char* format) {
+    return options.formats.empty() || std::find(options.formats.begin(), options.formats.end(), format) != options.formats.end();
+  };
   MORULA_TRY_ASSIGN(const scenarios::Study study, scenarios::read_run_study(run));
   std::error_code error;
   fs::create_directories(run / "plots", error);
@@ -51,7 +53,9 @@ Status plot_some(const fs::path& run, const PlotOptions& options, const Context&
   std::string written;
   if (has("svg")) MORULA_TRY(write_plots(study, run, options.only, written));
   if (has("png")) MORULA_TRY(write_pictures(run, options.only, written));
-  if (written.empty()) return Error{ErrorKind::kInput, "no plot or picture has a name that begins so", "`morula plot " + run.string() + "` writes all; their names are those of the files in plots/"};
+  if (written.empty())
+    return Error{ErrorKind::kInput, "no plot or picture has a name that begins so",
+                 "`morula plot " + run.string() + "` writes all; their names are those of the files in plots/"};
   context.console.result(written);
   return {};
 }

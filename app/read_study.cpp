@@ -6,7 +6,8 @@
 
 namespace morula::app {
 
-Result<scenarios::Study> read_study_and_tell(const std::string& path, const std::vector<std::string>& overrides, bool strict, const Context& context) {
+Result<scenarios::Study> read_study_and_tell(const std::string& path, const std::vector<std::string>& overrides, bool strict,
+                                             const Context& context) {
   scenarios::ReadOptions options;
   options.overrides = overrides;
   options.scenario_names = scenarios::template_names();

@@ -19,7 +19,8 @@ Result<fs::path> find_checkpoint(const fs::path& run, const std::string& from) {
     if (fs::is_regular_file(path, error)) return path;
   std::string there;
   for (const fs::path& path : scenarios::checkpoints_in(run / "checkpoints")) there += (there.empty() ? "" : ", ") + path.stem().string();
-  return Error{ErrorKind::kFile, "there is no checkpoint '" + from + "' in '" + run.string() + "'", there.empty() ? "the run has no checkpoints" : "there are: " + there};
+  return Error{ErrorKind::kFile, "there is no checkpoint '" + from + "' in '" + run.string() + "'",
+               there.empty() ? "the run has no checkpoints" : "there are: " + there};
 }
 
 bool is_newest(const fs::path& run, const fs::path& checkpoint) {

@@ -71,7 +71,8 @@ void RunDisplay::note(const scenarios::Note& note) {
 void RunDisplay::end(const scenarios::RunSummary& summary) {
   clear();
   const scenarios::FinalState& state = summary.final_state;
-  const std::string where = scenarios::time_text(state.time) + " in " + scenarios::duration_text(summary.wall_time) + " · " + count_words(state.cells, "cell", "cells");
+  const std::string where = scenarios::time_text(state.time) + " in " + scenarios::duration_text(summary.wall_time) + " · " +
+                            count_words(state.cells, "cell", "cells");
   if (summary.stopped) {
     console_.message("stopped at " + where + ", with a checkpoint\n  go on with `morula resume " + summary.path.string() + "`\n");
   } else {
@@ -80,7 +81,9 @@ void RunDisplay::end(const scenarios::RunSummary& summary) {
     if (!summary.report.empty()) line += " · report: " + summary.report.string();
     console_.message(line + "\n");
     for (const scenarios::Verdict& verdict : summary.verdicts)
-      if (!verdict.passed) console_.warning("check " + verdict.id + " failed: " + verdict.quantity + " is " + number_text("%.4g", verdict.value) + ", wanted " + verdict.limit);
+      if (!verdict.passed)
+        console_.warning("check " + verdict.id + " failed: " + verdict.quantity + " is " + number_text("%.4g", verdict.value) +
+                         ", wanted " + verdict.limit);
   }
   if (!summary.timings.empty()) console_.message(summary.timings);
   console_.result(summary.path.string() + "\n");

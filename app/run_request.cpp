@@ -25,7 +25,8 @@ Status fill_request(const RunLimits& limits, const Context& context, scenarios::
 
 std::string first_line(const scenarios::Study& study, int threads, const Context& context) {
   return "morula " + scenarios::build_info().version + " · " + study.name + " · seed " + std::to_string(study.model.seed) + " · " +
-         count_words(static_cast<std::uint64_t>(context.comm.size()), "rank", "ranks") + " × " + count_words(static_cast<std::uint64_t>(threads), "thread", "threads");
+         count_words(static_cast<std::uint64_t>(context.comm.size()), "rank", "ranks") + " × " +
+         count_words(static_cast<std::uint64_t>(threads), "thread", "threads");
 }
 
 Status outcome_of(const scenarios::RunSummary& summary) {

@@ -10,7 +10,7 @@ namespace morula::app {
 
 /// What every verb is given.
 struct Context {
-  Comm comm;            ///< all ranks of the program
+  Comm comm;  ///< all ranks of the program
   Console console;
   std::string command;  ///< as typed, for run.json
 };

@@ -36,7 +36,8 @@ std::string count_words(std::uint64_t count, const std::string& singular, const 
 namespace {
 /// Characters of a UTF-8 text: all bytes but those that go on with a character.
 std::size_t width_of(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
 }
 }  // namespace
 

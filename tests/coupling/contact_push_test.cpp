@@ -56,15 +56,6 @@ double leading_x(const Tissue& tissue) {
   return x;
 }
 
-RigidSurface obstacle(const TriangleMesh& mesh, const Model& model) {
-  Model with = model;
-  with.obstacles = {ObstacleSpec{"obstacle", mesh.position, mesh.faces, false, {}}};
-  with.pairs.assign(4, ContactPair{0.0, 0.0, 0.0});
-  auto surfaces = contact_obstacles(with);
-  EXPECT_TRUE(surfaces.ok());
-  return std::move((*surfaces)[0]);
-}
-
 /// The model with one obstacle material of weak adhesion.
 Model with_obstacle(Model model, const TriangleMesh& mesh) {
   const ContactPair cells = model.pairs[0], wall{0.001, 0.1, 0.1};
@@ -109,11 +100,11 @@ TEST(PushedShell, StopsAtAPlane) {
 }
 
 TEST(PushedShell, StopsAtASurfaceFromAnStlFile) {
-  const auto sphere = make_sphere(8.0, 642);
+  const auto sphere = make_sphere(8.0, 3);
   ASSERT_TRUE(sphere.ok());
   const auto path = std::filesystem::temp_directory_path() / "morula_push.stl";
-  ASSERT_TRUE(write_stl(path, sphere->position, sphere->faces).ok());
-  auto read = read_surface(path, 1.0);
+  ASSERT_TRUE(write_stl(path, *sphere).ok());
+  auto read = read_surface(path);
   ASSERT_TRUE(read.ok());
   TriangleMesh mesh = *read;
   for (Vec3d& p : mesh.position) p.x += 15.0;  // begins at x = 7

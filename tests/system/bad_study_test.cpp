@@ -30,19 +30,29 @@ void expect_refused(const std::string& study, int exit_code, const testing::Matc
   expect_refused(folder, exit_code, message);
 }
 
-std::string with_geometry(const std::string& text) { return changed(sphere_study(), "initial:", "geometry:\n  wall: " + text + "\ninitial:"); }
-std::string with_csv() { return changed(sphere_study(), "{type: round, count: 20, fill: sphere, radius: 20 um, as: sphere}", "{csv: cells.csv}"); }
-
-TEST(BadStudy, UnknownKeyIsNamedWithASuggestion) {
-  expect_refused(changed(sphere_study(), "young: 450 Pa", "yuong: 450 Pa"), 2, AllOf(HasSubstr("study.yaml:11:"), HasSubstr("'yuong'"), HasSubstr("[E101]"), HasSubstr("did you mean `young`?")));
+std::string with_geometry(const std::string& text) {
+  return changed(sphere_study(), "initial:", "geometry:\n  wall: " + text + "\ninitial:");
+}
+std::string with_csv() {
+  return changed(sphere_study(), "{type: round, count: 20, fill: sphere, radius: 20 um, as: sphere}", "{csv: cells.csv}");
 }
 
-TEST(BadStudy, DoubleKeyIsRefused) { expect_refused(changed(sphere_study(), "seed: 7", "seed: 7\nseed: 8"), 2, AllOf(HasSubstr("study.yaml:4:"), HasSubstr("[E102]"))); }
+TEST(BadStudy, UnknownKeyIsNamedWithASuggestion) {
+  expect_refused(changed(sphere_study(), "young: 450 Pa", "yuong: 450 Pa"), 2,
+                 AllOf(HasSubstr("study.yaml:11:"), HasSubstr("'yuong'"), HasSubstr("[E101]"), HasSubstr("did you mean `young`?")));
+}
 
-TEST(BadStudy, MissingUnitIsRefused) { expect_refused(changed(sphere_study(), "young: 450 Pa", "young: 450"), 2, AllOf(HasSubstr("[E201]"), HasSubstr("for example"))); }
+TEST(BadStudy, DoubleKeyIsRefused) {
+  expect_refused(changed(sphere_study(), "seed: 7", "seed: 7\nseed: 8"), 2, AllOf(HasSubstr("study.yaml:4:"), HasSubstr("[E102]")));
+}
+
+TEST(BadStudy, MissingUnitIsRefused) {
+  expect_refused(changed(sphere_study(), "young: 450 Pa", "young: 450"), 2, AllOf(HasSubstr("[E201]"), HasSubstr("for example")));
+}
 
 TEST(BadStudy, WrongUnitIsNamedByItsQuantity) {
-  expect_refused(changed(sphere_study(), "young: 450 Pa", "young: 450 mJ/m^2"), 2, AllOf(HasSubstr("[E203]"), HasSubstr("is a pressure"), HasSubstr("surface energy")));
+  expect_refused(changed(sphere_study(), "young: 450 Pa", "young: 450 mJ/m^2"), 2,
+                 AllOf(HasSubstr("[E203]"), HasSubstr("is a pressure"), HasSubstr("surface energy")));
 }
 
 TEST(BadStudy, OutOfRangeIsRefused) { expect_refused(changed(sphere_study(), "poisson: 0.4", "poisson: 0.9"), 2, HasSubstr("[E302]")); }
@@ -52,16 +62,25 @@ TEST(BadStudy, NotANumberIsRefused) {
   expect_refused(changed(sphere_study(), "mean: 5 um", "mean: inf um"), 2, HasSubstr("[E301]"));
 }
 
-TEST(BadStudy, TabInTheIndentationIsRefused) { expect_refused(changed(sphere_study(), "    adhesion:", "\tadhesion:"), 2, AllOf(HasSubstr("study.yaml:10:"), HasSubstr("[E105]"))); }
+TEST(BadStudy, TabInTheIndentationIsRefused) {
+  expect_refused(changed(sphere_study(), "    adhesion:", "\tadhesion:"), 2, AllOf(HasSubstr("study.yaml:10:"), HasSubstr("[E105]")));
+}
 
 TEST(BadStudy, EmptyFileIsRefused) {
   expect_refused("", 2, HasSubstr("[E107]"));
   expect_refused("# nothing but a comment\n", 2, HasSubstr("[E107]"));
 }
 
-TEST(BadStudy, BinaryFileIsRefused) { expect_refused(std::string("\x7f" "ELF\0\0\1\2", 8), 2, HasSubstr("[E604]")); }
+TEST(BadStudy, BinaryFileIsRefused) {
+  expect_refused(std::string("\x7f"
+                             "ELF\0\0\1\2",
+                             8),
+                 2, HasSubstr("[E604]"));
+}
 
-TEST(BadStudy, TextThatIsNotUtf8IsRefused) { expect_refused(changed(sphere_study(), "study: small", "study: small\ntitle: caf\xe9"), 2, HasSubstr("[E605]")); }
+TEST(BadStudy, TextThatIsNotUtf8IsRefused) {
+  expect_refused(changed(sphere_study(), "study: small", "study: small\ntitle: caf\xe9"), 2, HasSubstr("[E605]"));
+}
 
 TEST(BadStudy, HundredMegabytesAreRefusedBeforeTheyAreRead) {
   const TestFolder folder;
@@ -81,16 +100,19 @@ TEST(BadStudy, AFolderInsteadOfAFileIsRefused) {
 }
 
 TEST(BadStudy, RegionOutsideTheDomainIsRefused) {
-  expect_refused(changed(hybrid_study(), "center: [0 um, 0 um, 0 um]", "center: [500 um, 0 um, 0 um]"), 2, AllOf(HasSubstr("[E502]"), HasSubstr("core")));
+  expect_refused(changed(hybrid_study(), "center: [0 um, 0 um, 0 um]", "center: [500 um, 0 um, 0 um]"), 2,
+                 AllOf(HasSubstr("[E502]"), HasSubstr("core")));
 }
 
 TEST(BadStudy, DemoteNotBelowPromoteIsRefused) {
-  expect_refused(changed(hybrid_study(), "coupling:\n", "coupling:\n  triggers:\n    - {promote: pressure > 1 kPa, demote: pressure < 1.2 kPa}\n"), 2,
-                 AllOf(HasSubstr("[E501]"), HasSubstr("flip back and forth")));
+  expect_refused(
+      changed(hybrid_study(), "coupling:\n", "coupling:\n  triggers:\n    - {promote: pressure > 1 kPa, demote: pressure < 1.2 kPa}\n"), 2,
+      AllOf(HasSubstr("[E501]"), HasSubstr("flip back and forth")));
 }
 
 TEST(BadStudy, AllMistakesAreShownAtOnce) {
-  const std::string study = changed(changed(changed(sphere_study(), "young: 450 Pa", "yuong: 450 Pa"), "seed: 7", "seed: -7"), "2 h, output", "2, output");
+  const std::string study =
+      changed(changed(changed(sphere_study(), "young: 450 Pa", "yuong: 450 Pa"), "seed: 7", "seed: -7"), "2 h, output", "2, output");
   expect_refused(study, 2, AllOf(HasSubstr("[E101]"), HasSubstr("[E201]"), HasSubstr("study.yaml:3:"), HasSubstr("3 errors in")));
 }
 
@@ -106,7 +128,8 @@ TEST(BadStudy, OverridesAreCheckedToo) {
 }
 
 TEST(BadStudy, UnknownObservableAndScenarioAreRefused) {
-  expect_refused(changed(sphere_study(), "{report: false}", "{report: false, series: [cell_cuont]}"), 2, AllOf(HasSubstr("[E403]"), HasSubstr("cell_count")));
+  expect_refused(changed(sphere_study(), "{report: false}", "{report: false, series: [cell_cuont]}"), 2,
+                 AllOf(HasSubstr("[E403]"), HasSubstr("cell_count")));
   expect_refused(changed(sphere_study(), "seed: 7", "seed: 7\nscenario: tisue"), 2, AllOf(HasSubstr("[E403]"), HasSubstr("tissue")));
 }
 
@@ -119,7 +142,9 @@ TEST(BadStudy, StrictTurnsWarningsIntoErrors) {
   EXPECT_EQ(run_morula({"check", "study.yaml", "--strict"}, folder.path()).exit_code, 2);
 }
 
-TEST(BadGeometry, MissingStlIsAMissingFile) { expect_refused(with_geometry("{stl: nowhere.stl}"), 3, AllOf(HasSubstr("[E601]"), HasSubstr("nowhere.stl"))); }
+TEST(BadGeometry, MissingStlIsAMissingFile) {
+  expect_refused(with_geometry("{stl: nowhere.stl}"), 3, AllOf(HasSubstr("[E601]"), HasSubstr("nowhere.stl")));
+}
 
 TEST(BadGeometry, OpenFlippedAndCrossingSurfacesAreRefused) {
   const TestFolder folder;

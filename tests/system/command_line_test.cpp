@@ -78,9 +78,14 @@ TEST(CommandLine, WrongUseIsExitTwo) {
 
 TEST(CommandLine, WhatIsMissingIsExitThree) {
   const TestFolder folder;
-  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-           {"check", "missing.yaml"}, {"run", "missing.yaml"}, {"resume", "missing"}, {"status", "missing"}, {"list", "missing"}, {"info", "missing"}, {"plot", "missing"},
-           {"export", "missing", "csv"}}) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{{"check", "missing.yaml"},
+                                                                                         {"run", "missing.yaml"},
+                                                                                         {"resume", "missing"},
+                                                                                         {"status", "missing"},
+                                                                                         {"list", "missing"},
+                                                                                         {"info", "missing"},
+                                                                                         {"plot", "missing"},
+                                                                                         {"export", "missing", "csv"}}) {
     const Outcome outcome = run_morula(arguments, folder.path());
     EXPECT_EQ(outcome.exit_code, 3) << outcome.all();
     EXPECT_THAT(outcome.err, HasSubstr("missing")) << outcome.all();

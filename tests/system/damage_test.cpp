@@ -1,6 +1,7 @@
 // Disks that fill up and checkpoints that are not what they were.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hdf5.h>
 #include <sys/mount.h>
 #include <unistd.h>
 
@@ -40,7 +41,8 @@ class Damage : public testing::Test {
   void expect_older_is_used() {
     const Outcome resumed = run_morula({"resume", "run", "--until", "1 h"}, folder.path());
     EXPECT_EQ(resumed.exit_code, 0) << resumed.all();
-    EXPECT_THAT(resumed.err, AllOf(HasSubstr(checkpoints[1].filename().string()), HasSubstr(checkpoints[0].filename().string()), HasSubstr("older"), HasSubstr("warn")));
+    EXPECT_THAT(resumed.err, AllOf(HasSubstr(checkpoints[1].filename().string()), HasSubstr(checkpoints[0].filename().string()),
+                                   HasSubstr("older"), HasSubstr("warn")));
     EXPECT_EQ(info_of(folder / "run")["state_hash"], hash);
   }
   TestFolder folder;
@@ -61,6 +63,19 @@ TEST_F(Damage, OfOneAlteredByteIsNoticedAndTheOlderOneIsUsed) {
   bytes[at] = static_cast<char>(bytes[at] ^ 0x10);
   std::ofstream(checkpoints[1], std::ios::binary) << bytes;
   expect_older_is_used();
+}
+
+TEST_F(Damage, OfNothingButTheVersionIsRefusedWithBothVersions) {
+  const std::uint32_t other = 99;
+  const hid_t file = H5Fopen(checkpoints[1].c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t version = H5Dopen(file, "format_version", H5P_DEFAULT);
+  ASSERT_GE(H5Dwrite(version, H5T_NATIVE_UINT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, &other), 0);
+  H5Dclose(version);
+  H5Fclose(file);
+  const Outcome resumed = run_morula({"resume", "run", "--until", "2 h"}, folder.path());
+  EXPECT_EQ(resumed.exit_code, 2) << resumed.all();
+  EXPECT_THAT(resumed.err, AllOf(HasSubstr("version 99"), HasSubstr("reads version 1"), HasSubstr("resume with the version of Morula that wrote it")));
+  EXPECT_EQ(checkpoints_of(folder / "run"), checkpoints) << "nothing is removed";
 }
 
 TEST_F(Damage, OfAllCheckpointsIsExitThree) {

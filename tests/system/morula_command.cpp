@@ -48,9 +48,11 @@ std::vector<std::string> whole_command(std::vector<std::string> arguments, const
   return command;
 }
 
-[[noreturn]] void become(const std::vector<std::string>& command, const fs::path& folder, const fs::path& streams, const CommandOptions& options) {
+[[noreturn]] void become(const std::vector<std::string>& command, const fs::path& folder, const fs::path& streams,
+                         const CommandOptions& options) {
   setpgid(0, 0);  // so that a test that gives up ends mpirun and its ranks together
-  const int out = open((streams / "out").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), err = open((streams / "err").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const int out = open((streams / "out").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600),
+            err = open((streams / "err").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   const int in = open("/dev/null", O_RDONLY);
   if (out < 0 || err < 0 || in < 0 || dup2(in, 0) < 0 || dup2(out, 1) < 0 || dup2(err, 2) < 0 || chdir(folder.c_str()) != 0) _exit(126);
   setenv("OMP_NUM_THREADS", "1", 0);

@@ -37,10 +37,10 @@ struct Outcome {
 };
 
 struct CommandOptions {
-  int ranks = 0;                                               ///< 0: without mpirun
+  int ranks = 0;  ///< 0: without mpirun
   std::vector<std::pair<std::string, std::string>> environment{};
   std::chrono::milliseconds timeout{60'000};
-  std::string shell_before{};                                  ///< as `ulimit -f 20;`, run by bash before the program
+  std::string shell_before{};  ///< as `ulimit -f 20;`, run by bash before the program
 };
 
 /// The program, running in the background.
@@ -66,6 +66,7 @@ class RunningCommand {
 };
 
 /// Runs the program to its end in a folder.
-Outcome run_morula(const std::vector<std::string>& arguments, const std::filesystem::path& working_folder, const CommandOptions& options = {});
+Outcome run_morula(const std::vector<std::string>& arguments, const std::filesystem::path& working_folder,
+                   const CommandOptions& options = {});
 
 }  // namespace morula::test

@@ -35,10 +35,12 @@ TEST(Run, MakesTheFolderThatThePagePromises) {
   const Outcome outcome = run_morula({"run", "study.yaml", "output.report=true", "--timings"}, folder.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.all();
   EXPECT_EQ(outcome.out, "runs/small-0001\n");
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("morula 0.1.0 · small · seed 7 · 1 rank × 1 thread · runs/small-0001"), HasSubstr("100 %"), HasSubstr("done   "), HasSubstr("checks passed")));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("morula 0.1.0 · small · seed 7 · 1 rank × 1 thread · runs/small-0001"), HasSubstr("100 %"),
+                                 HasSubstr("done   "), HasSubstr("checks passed")));
   EXPECT_EQ(outcome.err.find('\r'), std::string::npos) << "no live line where there is no terminal";
   const fs::path run = folder / "runs/small-0001";
-  for (const char* name : {"study.yaml", "study.resolved.yaml", "run.json", "status.json", "log.txt", "events.jsonl", "series.csv", "verdict.json", "results.h5", "checkpoints", "methods.md", "report.html", "DONE"})
+  for (const char* name : {"study.yaml", "study.resolved.yaml", "run.json", "status.json", "log.txt", "events.jsonl", "series.csv",
+                           "verdict.json", "results.h5", "checkpoints", "methods.md", "report.html", "DONE"})
     EXPECT_TRUE(fs::exists(run / name)) << name;
   EXPECT_FALSE(fs::exists(run / "FAILED"));
 
@@ -103,7 +105,8 @@ TEST(Run, DryRunWritesNothing) {
 TEST(Run, OverridesAndFlagsReachTheRun) {
   const TestFolder folder;
   folder.write("study.yaml", sphere_study());
-  const Outcome outcome = run_morula({"run", "study.yaml", "initial.0.count=5", "--seed", "99", "--until", "20 min", "--out", "short"}, folder.path());
+  const Outcome outcome =
+      run_morula({"run", "study.yaml", "initial.0.count=5", "--seed", "99", "--until", "20 min", "--out", "short"}, folder.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.all();
   const json info = info_of(folder / "short");
   EXPECT_EQ(info["cells"], 5);
@@ -149,7 +152,9 @@ TEST(Resume, WithAChangeMakesANewRunWithItsParent) {
   folder.write("study.yaml", sphere_study());
   ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "runs/first", "--until", "30 min"}, folder.path()).exit_code, 0);
   const json before = info_of(folder / "runs/first");
-  const Outcome changed_run = run_morula({"resume", "runs/first", "--set", "time.end=1 h", "--set", "cell_types.round.adhesion={round: 2e-4 J/m^2}", "--out", "runs/second"}, folder.path());
+  const Outcome changed_run = run_morula(
+      {"resume", "runs/first", "--set", "time.end=1 h", "--set", "cell_types.round.adhesion={round: 2e-4 J/m^2}", "--out", "runs/second"},
+      folder.path());
   ASSERT_EQ(changed_run.exit_code, 0) << changed_run.all();
   const json after = info_of(folder / "runs/second");
   EXPECT_THAT(after["parent"].get<std::string>(), testing::EndsWith("runs/first"));

@@ -63,7 +63,8 @@ namespace {
 using Corner = std::array<double, 3>;
 
 std::string cube_facets(double edge, int faces, bool flipped, double shift) {
-  constexpr int triangles[12][3] = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+  constexpr int triangles[12][3] = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
+                                    {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
   const double h = edge / 2;
   const Corner corners[8] = {{-h, -h, -h}, {h, -h, -h}, {h, h, -h}, {-h, h, -h}, {-h, -h, h}, {h, -h, h}, {h, h, h}, {-h, h, h}};
   std::string out;
@@ -80,8 +81,12 @@ std::string cube_facets(double edge, int faces, bool flipped, double shift) {
 
 }  // namespace
 
-std::string cube_stl(double edge, int faces, bool flipped) { return "solid cube\n" + cube_facets(edge, faces, flipped, 0.0) + "endsolid cube\n"; }
+std::string cube_stl(double edge, int faces, bool flipped) {
+  return "solid cube\n" + cube_facets(edge, faces, flipped, 0.0) + "endsolid cube\n";
+}
 
-std::string crossing_stl(double edge) { return "solid cubes\n" + cube_facets(edge, 12, false, 0.0) + cube_facets(edge, 12, false, 0.3 * edge) + "endsolid cubes\n"; }
+std::string crossing_stl(double edge) {
+  return "solid cubes\n" + cube_facets(edge, 12, false, 0.0) + cube_facets(edge, 12, false, 0.3 * edge) + "endsolid cubes\n";
+}
 
 }  // namespace morula::test
