@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "scenarios/library/blastocyst.h"
+#include "scenarios/library/hybrid_spheroid.h"
 #include "scenarios/report/series_reader.h"
 
 namespace morula::scenarios {
@@ -53,7 +54,7 @@ double largest_rise(const SeriesColumn& energy) {
 }  // namespace
 
 const std::vector<ScenarioCriteria>& scenario_criteria() {
-  static const std::vector<ScenarioCriteria> all{{"blastocyst", &judge_blastocyst}};
+  static const std::vector<ScenarioCriteria> all{{"blastocyst", &judge_blastocyst}, {"hybrid_spheroid", &judge_hybrid_spheroid}};
   return all;
 }
 

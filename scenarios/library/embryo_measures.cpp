@@ -163,12 +163,15 @@ double mann_whitney_p(std::span<const double> lower, std::span<const double> upp
 
 std::vector<double> free_outer_fractions(const Snapshot& snapshot) {
   const Bodies bodies(snapshot);
+  std::vector<Vec3d> centers;
+  for (const auto& cell : snapshot.cells) centers.push_back(cell.centroid);
+  const Vec3d middle = centers.empty() ? Vec3d{} : mean_of(centers);
   std::vector<double> out;
   for (std::size_t i = 0; i < snapshot.cells.size(); ++i) {
     double free = 0.0, whole = 0.0;
     for (const Patch& patch : bodies.patches(i)) {
       whole += patch.area;
-      if (!bodies.meets_another(patch.place, patch.normal, i)) free += patch.area;
+      if (dot(patch.normal, patch.place - middle) > 0.0 && !bodies.meets_another(patch.place, patch.normal, i)) free += patch.area;
     }
     out.push_back(whole > 0.0 ? free / whole : 0.0);
   }

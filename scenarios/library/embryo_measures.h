@@ -16,8 +16,8 @@ double rms_after_rigid_motion(std::span<const Vec3d> a, std::span<const Vec3d> b
 /// approximation with correction for ties and continuity. 1 where a list is empty.
 double mann_whitney_p(std::span<const double> lower, std::span<const double> upper);
 
-/// By cell of the snapshot: the part of its surface from which one sees the outside, that is from which a ray along the outward normal
-/// meets no other cell. A surface that looks into a closed cavity, or is covered by a neighbour, does not count.
+/// By cell of the snapshot: the part of its surface that is outer and free. Outer: its outward normal points away from the mean of all
+/// centroids, so that the walls of a cavity do not count. Free: a ray along the normal meets no other cell.
 std::vector<double> free_outer_fractions(const Snapshot& snapshot);
 
 }  // namespace morula::scenarios

@@ -1,0 +1,76 @@
+#include "scenarios/library/hybrid_spheroid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "scenarios/report/series_reader.h"
+
+namespace morula::scenarios {
+namespace {
+
+constexpr double kHold = 1800.0;         // S7.8 [s]
+constexpr double kContactPart = 0.3;     // of the surface, on average
+constexpr double kLeastMeanStep = 15.0;  // 100 times the explicit limit of shells of 162 nodes, 0.15 s (time_stepping.md)
+
+Verdict within(const char* id, const char* quantity, double value, double low, double high) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%g to %g", low, high);
+  return {id, quantity, value, text, value >= low && value <= high};
+}
+
+Verdict at_least(const char* id, const char* quantity, double value, double limit, const char* unit) {
+  char text[64];
+  std::snprintf(text, sizeof text, ">= %g%s%s", limit, *unit ? " " : "", unit);
+  return {id, quantity, value, text, value >= limit};
+}
+
+/// Shortest time between two exchanges of the body of a cell, the placing at time 0 aside; infinity when no cell has two [s].
+Result<double> shortest_hold(const std::filesystem::path& events) {
+  double shortest = std::numeric_limits<double>::infinity();
+  std::ifstream file(events);
+  if (!file) return Error{ErrorKind::kFile, "'" + events.string() + "' cannot be read", {}};
+  std::map<std::string, double> last;
+  for (std::string line; std::getline(file, line);) {
+    const auto event = nlohmann::json::parse(line, nullptr, false);
+    if (!event.is_object() || !event.contains("cell") || !event.contains("time_s")) continue;
+    const std::string kind = event.value("kind", "");
+    const double time = event.value("time_s", 0.0);
+    if ((kind != "promotion" && kind != "demotion") || time == 0.0) continue;
+    const auto [at, fresh] = last.try_emplace(event.value("cell", ""), time);
+    if (!fresh) shortest = std::min(shortest, time - at->second);
+    at->second = time;
+  }
+  return shortest;
+}
+
+}  // namespace
+
+Result<std::vector<Verdict>> judge_hybrid_spheroid(const Study&, const std::filesystem::path& run) {
+  MORULA_TRY_ASSIGN(const SeriesTable series, read_series(run / "series.csv"));
+  MORULA_TRY_ASSIGN(const double hold, shortest_hold(run / "events.jsonl"));
+  std::vector<Verdict> out;
+  const auto last = [&](const char* name) {
+    const SeriesColumn* column = series.find(name);
+    return column != nullptr && !column->values.empty() ? column->values.back() : std::nan("");
+  };
+  if (series.find("shell_count")) out.push_back(within("DEMO.1", "shells at the end", last("shell_count"), 40, 60));
+  if (series.find("cell_count")) out.push_back(within("DEMO.2", "cells at the end", last("cell_count"), 350, 450));
+  if (series.find("mean_contact_area") && series.find("cell_count") && series.find("total_volume")) {
+    const double volume = last("total_volume") / last("cell_count");
+    const double area = std::cbrt(36.0 * std::numbers::pi * volume * volume);  // of a ball of that volume
+    out.push_back(at_least("DEMO.3", "mean contact area over the surface of a ball of the mean volume", last("mean_contact_area") / area, kContactPart, ""));
+  }
+  if (series.find("step_count") && series.find("time"))
+    out.push_back(at_least("DEMO.4", "mean step", last("time") / std::max(1.0, last("step_count")), kLeastMeanStep, "s"));
+  // A hold lasts to the end of a step; no cell with two exchanges is as good as a whole run.
+  out.push_back(at_least("S7.8", "shortest time between two exchanges of a cell's body", std::min(hold, std::max(series.find("time") ? last("time") : kHold, kHold)), kHold, "s"));
+  return out;
+}
+
+}  // namespace morula::scenarios

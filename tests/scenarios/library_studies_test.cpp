@@ -1,0 +1,243 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "coupling/simulation.h"
+#include "scenarios/initial/make_tissue.h"
+#include "scenarios/library/criteria.h"
+#include "scenarios/library/library.h"
+#include "scenarios/run/driver.h"
+#include "tests/scenarios/study_fixture.h"
+
+namespace morula::scenarios {
+namespace {
+
+/// The folder that `morula new <name>` makes.
+class NewStudy {
+ public:
+  explicit NewStudy(const std::string& name) {
+    for (const TemplateFile& file : find_template(name)->files) folder_.write(std::string(file.path), std::string(file.content));
+  }
+  [[nodiscard]] Result<Study, Diagnostics> read(const std::vector<std::string>& overrides, const std::string& file = "study.yaml") const {
+    ReadOptions options;
+    options.overrides = overrides;
+    options.scenario_names = template_names();
+    return read_study(folder_.path() / file, options);
+  }
+  /// Run it for a while, shortened by overrides.
+  [[nodiscard]] Result<RunSummary> run(std::vector<std::string> overrides) const {
+    overrides.push_back("output.report=false");
+    const auto study = read(overrides);
+    if (!study) return Error{ErrorKind::kInput, study.error().text(), {}};
+    RunRequest request;
+    request.runs = folder_.path() / "runs";
+    return scenarios::run(*study, request, Comm());
+  }
+
+ private:
+  test::Folder folder_;
+};
+
+/// Criteria that are not about the end of a whole run.
+void expect_sound(const Result<RunSummary>& run) {
+  ASSERT_TRUE(run.ok()) << run.error().message;
+  EXPECT_EQ(run->state, RunState::kDone);
+  int invariants = 0;
+  for (const Verdict& v : run->verdicts)
+    if (v.id.starts_with("INV.") || v.id.starts_with("LIMIT.")) {
+      ++invariants;
+      EXPECT_TRUE(v.passed) << v.id << ": " << v.quantity << " is " << v.value << ", wanted " << v.limit;
+    }
+  EXPECT_GE(invariants, 2);
+}
+
+const Verdict* find(const RunSummary& run, const std::string& quantity) {
+  for (const Verdict& v : run.verdicts)
+    if (v.quantity.find(quantity) != std::string::npos) return &v;
+  return nullptr;
+}
+
+TEST(LibraryStudies, AreTheFiveThatWereAskedFor) {
+  EXPECT_EQ(template_names(), (std::vector<std::string>{"blastocyst", "cluster", "hybrid_spheroid", "pair", "tissue"}));
+}
+
+TEST(LibraryStudies, PassTheCheckerWithoutAWarning) {
+  for (const Template& one : templates()) {
+    const NewStudy made{std::string(one.name)};
+    int readme = 0;
+    for (const TemplateFile& file : one.files) {
+      readme += file.path == "README.md";
+      if (!file.path.ends_with(".yaml")) continue;
+      const auto study = made.read({}, std::string(file.path));
+      ASSERT_TRUE(study.ok()) << study.error().text();
+      EXPECT_TRUE(study->warnings.empty()) << study->warnings.text();
+      EXPECT_EQ(study->scenario, one.name);
+      EXPECT_FALSE(study->title.empty());
+    }
+    EXPECT_EQ(readme, 1) << one.name;
+  }
+}
+
+TEST(LibraryStudies, PairComesTogetherWithAnyBodies) {
+  const NewStudy pair("pair");
+  for (const std::vector<std::string>& bodies : {std::vector<std::string>{}, {"initial.1.as=shell"}, {"initial.0.as=sphere"}}) {
+    auto overrides = bodies;
+    overrides.insert(overrides.end(), {"time.end=6 min", "time.output=1 min", "time.checkpoint=6 min"});
+    const auto run = pair.run(overrides);
+    expect_sound(run);
+    ASSERT_TRUE(run.ok());
+    EXPECT_NE(find(*run, "rise of the energy"), nullptr);
+  }
+}
+
+TEST(LibraryStudies, ClusterRunsShortened) {
+  expect_sound(NewStudy("cluster").run({"time.end=5 min", "time.output=1 min", "time.checkpoint=5 min", "initial.0.count=4", "initial.0.radius=13 um"}));
+}
+
+TEST(LibraryStudies, TissueGrowsShortened) {
+  const auto run = NewStudy("tissue").run({"time.end=4 h", "time.checkpoint=4 h", "initial.0.count=30", "initial.0.radius=20 um"});
+  ASSERT_TRUE(run.ok()) << run.error().message;
+  EXPECT_GT(run->final_state.cells, 30u);
+}
+
+TEST(LibraryStudies, HybridSpheroidRunsShortened) {
+  const auto run = NewStudy("hybrid_spheroid")
+                       .run({"time.end=10 min", "time.output=5 min", "time.checkpoint=10 min", "initial.0.count=40", "initial.0.radius=20 um",
+                             "initial.0.inflate=5 min", "coupling.regions.0.radius=8 um", "fields.oxygen.voxel=24 um"});
+  expect_sound(run);
+  ASSERT_TRUE(run.ok());
+  EXPECT_GT(run->final_state.shells, 0u);
+  EXPECT_LT(run->final_state.shells, 20u);
+  ASSERT_NE(find(*run, "shells at the end"), nullptr);  // judged, and honest: so small a core is not the demo's
+  EXPECT_FALSE(find(*run, "shells at the end")->passed);
+}
+
+TEST(LibraryStudies, BlastocystRunsShortened) {
+  const auto run = NewStudy("blastocyst").run({"time.end=6 min", "time.output=3 min", "time.checkpoint=6 min"});
+  expect_sound(run);
+  ASSERT_TRUE(run.ok());
+  for (const char* quantity : {"cells at time 0", "groups of coincident cells", "without a free outer surface", "trophectoderm lies outside", "root mean square"}) {
+    const Verdict* v = find(*run, quantity);
+    ASSERT_NE(v, nullptr) << quantity;
+    EXPECT_TRUE(v->passed) << v->quantity << " is " << v->value << ", wanted " << v->limit;
+  }
+}
+
+TEST(LibraryStudies, BlastocystIsAllShellsOrAllSpheresByOneKey) {
+  const NewStudy blastocyst("blastocyst");
+  for (const bool shells : {true, false}) {
+    const auto study = blastocyst.read({shells ? "initial.0.as=shell" : "initial.0.as=sphere"});
+    ASSERT_TRUE(study.ok()) << study.error().text();
+    ShapeLibrary shapes;
+    const auto tissue = make_tissue(*study, shapes, Comm());
+    ASSERT_TRUE(tissue.ok());
+    EXPECT_EQ(tissue->tissue.shells.size(), shells ? 44u : 0u);
+    EXPECT_EQ(tissue->tissue.spheres.size(), shells ? 0u : 44u);
+  }
+}
+
+/// S18.6 on few cells: every exchange of a region that comes and goes keeps the id and, to 1e-10, the volume.
+TEST(RegionInTime, ExchangesBodiesAndBackAndKeepsIdsAndVolumes) {
+  const NewStudy tissue("tissue");
+  const auto study = tissue.read({"time.end=6 min", "time.output=1 min", "time.checkpoint=6 min", "initial.0.count=5", "initial.0.radius=13 um",
+                                  "cell_types.epithelial.cycle.model=none", "coupling.hold=0 s",
+                                  "coupling.regions=[{name: all, shape: everything, from: 1 min, until: 4 min}]"});
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  ShapeLibrary shapes;
+  auto initial = make_tissue(*study, shapes, Comm());
+  ASSERT_TRUE(initial.ok());
+  auto made = Simulation::create(study->model, std::move(initial->tissue), Comm(), 1);
+  ASSERT_TRUE(made.ok());
+  Simulation& simulation = **made;
+  ASSERT_TRUE(simulation.first_swaps().ok());
+  EXPECT_EQ(simulation.tissue().shells.size(), 0u);
+
+  const auto volumes = [&] {
+    std::map<CellId, std::pair<BodyKind, double>> out;
+    const BodyValues& values = simulation.values();
+    std::size_t shell = 0, sphere = simulation.tissue().shells.size();
+    for (const CellRow& row : simulation.tissue().cells.rows)
+      out[row.id] = {row.body, values.volume[row.body == BodyKind::kShell ? shell++ : sphere++]};
+    return out;
+  };
+  int promotions = 0, demotions = 0;
+  const auto start = volumes();
+  auto before = start;
+  while (simulation.tissue().clock.time < study->time.end) {
+    const double time = simulation.tissue().clock.time;
+    const auto outcome = simulation.step(60.0 * (std::floor(time / 60.0) + 1.0));
+    ASSERT_TRUE(outcome.ok()) << outcome.error().message;
+    const auto after = volumes();
+    ASSERT_EQ(after.size(), 5u);
+    for (const auto& [id, now] : after) {
+      ASSERT_TRUE(start.contains(id));
+      const double now_is = now.second, was = before.at(id).second;
+      if (now.first == BodyKind::kShell && before.at(id).first == BodyKind::kSphere) {
+        ++promotions;  // a resting sphere keeps its volume within a step: what changed, the exchange changed
+        EXPECT_NEAR(now_is, was, 1e-10 * was);
+        EXPECT_GE(simulation.tissue().clock.time, 60.0);
+      } else if (now.first == BodyKind::kSphere && before.at(id).first == BodyKind::kShell) {
+        ++demotions;  // the shell moved in the step before it: its volume follows its pressure
+        EXPECT_NEAR(now_is, was, 1e-3 * was);
+        EXPECT_GE(simulation.tissue().clock.time, 240.0);
+      }
+    }
+    before = after;
+  }
+  EXPECT_EQ(promotions, 5);
+  EXPECT_EQ(demotions, 5);
+  EXPECT_EQ(simulation.tissue().shells.size(), 0u);
+}
+
+TEST(RegionInTime, ThatEndsBeforeItBeginsIsRefused) {
+  const NewStudy tissue("tissue");
+  const auto study = tissue.read({"coupling.regions=[{name: all, shape: everything, from: 2 h, until: 1 h}]"});
+  ASSERT_FALSE(study.ok());
+  EXPECT_NE(study.error().text().find("region 'all' ends before it begins [E510]"), std::string::npos) << study.error().text();
+}
+
+TEST(VolumeFromHull, OfACubeOfNucleiIsSharedEqually) {
+  const test::Folder folder;
+  folder.write("cells.csv", "x,y,z,type\n0,0,0,cell\n20,0,0,cell\n0,20,0,cell\n20,20,0,cell\n0,0,20,cell\n20,0,20,cell\n0,20,20,cell\n20,20,20,cell\n");
+  const std::string text = R"(schema: 1
+study: cube
+time: {end: 1 h, output: 30 min, checkpoint: 1 h}
+domain: {size: [100 um, 100 um, 100 um]}
+cell_types: {cell: {radius: 6 um}}
+initial: [{csv: cells.csv, volume_from_hull: {margin: 5 um, cavity: {center: [10 um, 10 um, 10 um], radius: 10 um}}}]
+)";
+  const auto study = test::read(text, {}, folder.path());
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  const double ball = 4.0 / 3.0 * std::numbers::pi;
+  const double expected = 8000.0 + 2400.0 * 5.0 + 60.0 * std::numbers::pi * 25.0 + ball * 125.0 - ball * 1000.0;
+  EXPECT_NEAR(study->initial[0].shared_volume, expected / 8.0, 1e-9);
+  folder.write("inputs/cells.csv", "x,y,z,type\n0,0,0,cell\n20,0,0,cell\n0,20,0,cell\n20,20,0,cell\n0,0,20,cell\n20,0,20,cell\n0,20,20,cell\n20,20,20,cell\n");
+  const auto resolved = test::read(study->resolved_text, {}, folder.path());
+  ASSERT_TRUE(resolved.ok()) << resolved.error().text();
+  EXPECT_EQ(resolved->initial[0].shared_volume, study->initial[0].shared_volume);
+}
+
+TEST(VolumeFromHull, IsRefusedWhereItHasNoMeaning) {
+  const test::Folder folder;
+  folder.write("flat.csv", "x,y,z,type\n0,0,0,cell\n20,0,0,cell\n0,20,0,cell\n20,20,0,cell\n");
+  folder.write("radius.csv", "x,y,z,type,radius\n0,0,0,cell,5\n20,0,0,cell,5\n0,20,0,cell,5\n20,20,9,cell,5\n");
+  folder.write("good.csv", "x,y,z,type\n0,0,0,cell\n20,0,0,cell\n0,20,0,cell\n0,0,20,cell\n");
+  const std::string text = R"(schema: 1
+study: cube
+time: {end: 1 h, output: 30 min, checkpoint: 1 h}
+domain: {size: [100 um, 100 um, 100 um]}
+cell_types: {cell: {radius: 6 um}}
+initial: [INITIAL]
+)";
+  const auto message = [&](const std::string& initial) { return test::errors_of(test::changed("INITIAL", initial, text), {}, folder.path()); };
+  EXPECT_NE(message("{csv: flat.csv, volume_from_hull: {margin: 5 um}}").find("share no volume"), std::string::npos);
+  EXPECT_NE(message("{csv: radius.csv, volume_from_hull: {margin: 5 um}}").find("gives cells a radius"), std::string::npos);
+  EXPECT_NE(message("{csv: good.csv, volume_from_hull: {margin: 1 um, cavity: {center: [5 um, 5 um, 5 um], radius: 20 um}}}").find("larger than the inflated hull"), std::string::npos);
+  EXPECT_NE(message("{csv: good.csv, volume_from_hull: {margin: 1 um, cavity: {center: [50 um, 5 um, 5 um], radius: 2 um}}}").find("outside the inflated hull"), std::string::npos);
+  EXPECT_NE(message("{type: cell, count: 3, fill: sphere, radius: 20 um, volume_from_hull: {margin: 5 um}}").find("has no meaning with `fill`"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace morula::scenarios
