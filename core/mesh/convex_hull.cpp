@@ -112,7 +112,8 @@ Result<ConvexHull> convex_hull(std::vector<Vec3d> points) {
     for (const Index i : f.corners) middle += hull.points[i] * (1.0 / 12.0);
   std::vector<Index> order(hull.points.size());
   std::iota(order.begin(), order.end(), Index{0});
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return norm2(hull.points[a] - middle) > norm2(hull.points[b] - middle); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return norm2(hull.points[a] - middle) > norm2(hull.points[b] - middle); });
   for (const Index i : order) add_point(facets, hull.points, i, tolerance);
   measure(hull, facets);
   return hull;

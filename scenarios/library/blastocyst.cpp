@@ -49,12 +49,14 @@ struct Embryo {
 
 Result<Embryo> read_embryo(const Study& study, const std::filesystem::path& run) {
   if (study.initial.size() != 1 || study.initial.front().source != InitialCells::Source::kCsv)
-    return Error{ErrorKind::kInput, "the criteria of a blastocyst need its cells from one CSV file", "leave `scenario` away for other studies"};
+    return Error{ErrorKind::kInput, "the criteria of a blastocyst need its cells from one CSV file",
+                 "leave `scenario` away for other studies"};
   Embryo out;
   std::vector<std::string> names;
   for (const CellType& type : study.model.types) names.push_back(type.name);
   const auto outer = std::find(names.begin(), names.end(), "TE");
-  if (outer == names.end()) return Error{ErrorKind::kInput, "the criteria of a blastocyst need the cell type `TE`", "leave `scenario` away for other studies"};
+  if (outer == names.end())
+    return Error{ErrorKind::kInput, "the criteria of a blastocyst need the cell type `TE`", "leave `scenario` away for other studies"};
   out.outer = static_cast<std::uint16_t>(outer - names.begin());
   const UnitSystem units;
   Diagnostics diagnostics;
@@ -119,11 +121,13 @@ void judge_places(const Embryo& embryo, std::vector<Verdict>& out) {
     measured.push_back(embryo.rows[number - 1].position);
     now.push_back(cell.centroid);
   }
-  out.push_back(below("S18.3", "root mean square way of the cells from the measured nuclei", rms_after_rigid_motion(measured, now), kRmsDisplacement, "um"));
+  out.push_back(below("S18.3", "root mean square way of the cells from the measured nuclei", rms_after_rigid_motion(measured, now),
+                      kRmsDisplacement, "um"));
   const auto hull = convex_hull(now);
   if (!hull) return;
   for (const auto& cell : embryo.last().cells) (embryo.is_outer(cell) ? outer : inner).push_back(hull->depth(cell.centroid));
-  out.push_back(below("S18.3", "trophectoderm lies outside the inner cells (depth below the hull, Mann-Whitney p)", mann_whitney_p(outer, inner), kOrder));
+  out.push_back(below("S18.3", "trophectoderm lies outside the inner cells (depth below the hull, Mann-Whitney p)",
+                      mann_whitney_p(outer, inner), kOrder));
 }
 
 /// The last moment before a time.
@@ -177,8 +181,10 @@ void judge_exchange(const Region& region, const Embryo& embryo, std::vector<Verd
   out.push_back(equal("S18.6", "inner cells that are shells before the region ends", shells, inner));
   out.push_back(equal("S18.6", "inner cells that are shells at the end", shells_at_end, 0));
   out.push_back(below("S18.6", "volume of the cells just promoted, relative change", volume, kSwapVolume));
-  out.push_back(below("S18.6", "way of a trophectoderm cell in the 20 min of promotion, beyond its drift", motion_by_exchange(embryo, region.from), kSwapMotion, "um"));
-  out.push_back(below("S18.6", "way of a trophectoderm cell in the 20 min of demotion, beyond its drift", motion_by_exchange(embryo, region.until), kSwapMotion, "um"));
+  out.push_back(below("S18.6", "way of a trophectoderm cell in the 20 min of promotion, beyond its drift",
+                      motion_by_exchange(embryo, region.from), kSwapMotion, "um"));
+  out.push_back(below("S18.6", "way of a trophectoderm cell in the 20 min of demotion, beyond its drift",
+                      motion_by_exchange(embryo, region.until), kSwapMotion, "um"));
 }
 
 }  // namespace

@@ -61,7 +61,8 @@ class Bodies {
       return out;
     }
     for (int k = 0; k < kPatchesOfSphere; ++k) {  // a spiral of equal areas
-      const double z = 1.0 - (2.0 * k + 1.0) / kPatchesOfSphere, r = std::sqrt(1.0 - z * z), turn = k * std::numbers::pi * (3.0 - std::sqrt(5.0));
+      const double z = 1.0 - (2.0 * k + 1.0) / kPatchesOfSphere, r = std::sqrt(1.0 - z * z),
+                   turn = k * std::numbers::pi * (3.0 - std::sqrt(5.0));
       const Vec3d n{r * std::cos(turn), r * std::sin(turn), z};
       out.push_back({s_.cells[cell].centroid + n * s_.cells[cell].radius, n, 1.0});
     }
@@ -71,7 +72,8 @@ class Bodies {
   /// Whether the ray meets any cell but `own`.
   [[nodiscard]] bool meets_another(const Vec3d& from, const Vec3d& along, std::size_t own) const {
     for (std::size_t i = 0; i < s_.cells.size(); ++i)
-      if (i != own && meets_ball(from, along, s_.cells[i].centroid, reach_[i]) && (shell_of(i) == nullptr || meets_shell(from, along, *shell_of(i))))
+      if (i != own && meets_ball(from, along, s_.cells[i].centroid, reach_[i]) &&
+          (shell_of(i) == nullptr || meets_shell(from, along, *shell_of(i))))
         return true;
     return false;
   }

@@ -64,12 +64,14 @@ Result<std::vector<Verdict>> judge_hybrid_spheroid(const Study&, const std::file
   if (series.find("mean_contact_area") && series.find("cell_count") && series.find("total_volume")) {
     const double volume = last("total_volume") / last("cell_count");
     const double area = std::cbrt(36.0 * std::numbers::pi * volume * volume);  // of a ball of that volume
-    out.push_back(at_least("DEMO.3", "mean contact area over the surface of a ball of the mean volume", last("mean_contact_area") / area, kContactPart, ""));
+    out.push_back(at_least("DEMO.3", "mean contact area over the surface of a ball of the mean volume", last("mean_contact_area") / area,
+                           kContactPart, ""));
   }
   if (series.find("step_count") && series.find("time"))
     out.push_back(at_least("DEMO.4", "mean step", last("time") / std::max(1.0, last("step_count")), kLeastMeanStep, "s"));
   // A hold lasts to the end of a step; no cell with two exchanges is as good as a whole run.
-  out.push_back(at_least("S7.8", "shortest time between two exchanges of a cell's body", std::min(hold, std::max(series.find("time") ? last("time") : kHold, kHold)), kHold, "s"));
+  out.push_back(at_least("S7.8", "shortest time between two exchanges of a cell's body",
+                         std::min(hold, std::max(series.find("time") ? last("time") : kHold, kHold)), kHold, "s"));
   return out;
 }
 

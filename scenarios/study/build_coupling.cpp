@@ -163,7 +163,8 @@ void build_region(BuildContext& c, const draft::Region& r, const Place& place) {
     region.from = r.from.value;
     region.until = r.until.value;
     if (r.from.known() && r.until.known() && !(region.from < region.until))
-      c.diagnostics.error(510, r.until.given ? r.until.place : r.from.place, "region '" + region.name + "' ends before it begins", "set until after from");
+      c.diagnostics.error(510, r.until.given ? r.until.place : r.from.place, "region '" + region.name + "' ends before it begins",
+                          "set until after from");
     check_inside_domain(c, r, region);
   }
   for (const Region& other : c.study.model.swaps.regions)

@@ -131,13 +131,15 @@ class InitialBuilder {
     const Place& place = d.hull_margin.place;
     for (const CsvCell& cell : csv.cells)
       if (cell.radius > 0.0) {
-        c_.diagnostics.error(510, place, "'" + shown + "' gives cells a radius (line " + std::to_string(cell.line) + "), and `volume_from_hull` another",
-                             "leave one of them away");
+        c_.diagnostics.error(
+            510, place, "'" + shown + "' gives cells a radius (line " + std::to_string(cell.line) + "), and `volume_from_hull` another",
+            "leave one of them away");
         return;
       }
     const auto hull = convex_hull(std::move(positions));
     if (!hull) {
-      c_.diagnostics.error(510, place, "the places in '" + shown + "' share no volume: " + hull.error().message, "leave `volume_from_hull` away");
+      c_.diagnostics.error(510, place, "the places in '" + shown + "' share no volume: " + hull.error().message,
+                           "leave `volume_from_hull` away");
       return;
     }
     const double ball = 4.0 / 3.0 * std::numbers::pi;
@@ -146,14 +148,16 @@ class InitialBuilder {
     const double whole = hull->inflated_volume(d.hull_margin.value);
     const double cavity = d.has_cavity ? ball * std::pow(d.cavity_radius.value, 3) : 0.0;
     if (cavity >= whole) {
-      c_.diagnostics.error(510, d.cavity_radius.place, "the cavity is larger than the inflated hull of the cells (" + short_number(whole) + " um^3)",
+      c_.diagnostics.error(510, d.cavity_radius.place,
+                           "the cavity is larger than the inflated hull of the cells (" + short_number(whole) + " um^3)",
                            "make it smaller");
       return;
     }
     cells.shared_volume = (whole - cavity) / static_cast<double>(cells.count);
     c_.study.notes.push_back(shown + ": hull of the cells inflated by " + d.hull_margin.text + ": " + short_number(whole) + " um^3" +
                              (d.has_cavity ? ", less the cavity: " + short_number(whole - cavity) + " um^3" : "") + "; each cell has " +
-                             short_number(cells.shared_volume) + " um^3 (radius " + short_number(std::cbrt(cells.shared_volume / ball)) + " um)");
+                             short_number(cells.shared_volume) + " um^3 (radius " + short_number(std::cbrt(cells.shared_volume / ball)) +
+                             " um)");
   }
 
   void note_coincident(const CsvCells& csv, const std::string& shown, const draft::Initial& d,

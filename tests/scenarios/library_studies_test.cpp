@@ -93,7 +93,8 @@ TEST(LibraryStudies, PairComesTogetherWithAnyBodies) {
 }
 
 TEST(LibraryStudies, ClusterRunsShortened) {
-  expect_sound(NewStudy("cluster").run({"time.end=5 min", "time.output=1 min", "time.checkpoint=5 min", "initial.0.count=4", "initial.0.radius=13 um"}));
+  expect_sound(NewStudy("cluster").run(
+      {"time.end=5 min", "time.output=1 min", "time.checkpoint=5 min", "initial.0.count=4", "initial.0.radius=13 um"}));
 }
 
 TEST(LibraryStudies, TissueGrowsShortened) {
@@ -103,9 +104,10 @@ TEST(LibraryStudies, TissueGrowsShortened) {
 }
 
 TEST(LibraryStudies, HybridSpheroidRunsShortened) {
-  const auto run = NewStudy("hybrid_spheroid")
-                       .run({"time.end=10 min", "time.output=5 min", "time.checkpoint=10 min", "initial.0.count=40", "initial.0.radius=20 um",
-                             "initial.0.inflate=5 min", "coupling.regions.0.radius=8 um", "fields.oxygen.voxel=24 um"});
+  const auto run =
+      NewStudy("hybrid_spheroid")
+          .run({"time.end=10 min", "time.output=5 min", "time.checkpoint=10 min", "initial.0.count=40", "initial.0.radius=20 um",
+                "initial.0.inflate=5 min", "coupling.regions.0.radius=8 um", "fields.oxygen.voxel=24 um"});
   expect_sound(run);
   ASSERT_TRUE(run.ok());
   EXPECT_GT(run->final_state.shells, 0u);
@@ -118,7 +120,8 @@ TEST(LibraryStudies, BlastocystRunsShortened) {
   const auto run = NewStudy("blastocyst").run({"time.end=6 min", "time.output=3 min", "time.checkpoint=6 min"});
   expect_sound(run);
   ASSERT_TRUE(run.ok());
-  for (const char* quantity : {"cells at time 0", "groups of coincident cells", "without a free outer surface", "trophectoderm lies outside", "root mean square"}) {
+  for (const char* quantity : {"cells at time 0", "groups of coincident cells", "without a free outer surface",
+                               "trophectoderm lies outside", "root mean square"}) {
     const Verdict* v = find(*run, quantity);
     ASSERT_NE(v, nullptr) << quantity;
     EXPECT_TRUE(v->passed) << v->quantity << " is " << v->value << ", wanted " << v->limit;
@@ -141,8 +144,8 @@ TEST(LibraryStudies, BlastocystIsAllShellsOrAllSpheresByOneKey) {
 /// S18.6 on few cells: every exchange of a region that comes and goes keeps the id and, to 1e-10, the volume.
 TEST(RegionInTime, ExchangesBodiesAndBackAndKeepsIdsAndVolumes) {
   const NewStudy tissue("tissue");
-  const auto study = tissue.read({"time.end=6 min", "time.output=1 min", "time.checkpoint=6 min", "initial.0.count=5", "initial.0.radius=13 um",
-                                  "cell_types.epithelial.cycle.model=none", "coupling.hold=0 s",
+  const auto study = tissue.read({"time.end=6 min", "time.output=1 min", "time.checkpoint=6 min", "initial.0.count=5",
+                                  "initial.0.radius=13 um", "cell_types.epithelial.cycle.model=none", "coupling.hold=0 s",
                                   "coupling.regions=[{name: all, shape: everything, from: 1 min, until: 4 min}]"});
   ASSERT_TRUE(study.ok()) << study.error().text();
   ShapeLibrary shapes;
@@ -200,7 +203,8 @@ TEST(RegionInTime, ThatEndsBeforeItBeginsIsRefused) {
 
 TEST(VolumeFromHull, OfACubeOfNucleiIsSharedEqually) {
   const test::Folder folder;
-  folder.write("cells.csv", "x,y,z,type\n0,0,0,cell\n20,0,0,cell\n0,20,0,cell\n20,20,0,cell\n0,0,20,cell\n20,0,20,cell\n0,20,20,cell\n20,20,20,cell\n");
+  folder.write("cells.csv",
+               "x,y,z,type\n0,0,0,cell\n20,0,0,cell\n0,20,0,cell\n20,20,0,cell\n0,0,20,cell\n20,0,20,cell\n0,20,20,cell\n20,20,20,cell\n");
   const std::string text = R"(schema: 1
 study: cube
 time: {end: 1 h, output: 30 min, checkpoint: 1 h}
@@ -213,7 +217,8 @@ initial: [{csv: cells.csv, volume_from_hull: {margin: 5 um, cavity: {center: [10
   const double ball = 4.0 / 3.0 * std::numbers::pi;
   const double expected = 8000.0 + 2400.0 * 5.0 + 60.0 * std::numbers::pi * 25.0 + ball * 125.0 - ball * 1000.0;
   EXPECT_NEAR(study->initial[0].shared_volume, expected / 8.0, 1e-9);
-  folder.write("inputs/cells.csv", "x,y,z,type\n0,0,0,cell\n20,0,0,cell\n0,20,0,cell\n20,20,0,cell\n0,0,20,cell\n20,0,20,cell\n0,20,20,cell\n20,20,20,cell\n");
+  folder.write("inputs/cells.csv",
+               "x,y,z,type\n0,0,0,cell\n20,0,0,cell\n0,20,0,cell\n20,20,0,cell\n0,0,20,cell\n20,0,20,cell\n0,20,20,cell\n20,20,20,cell\n");
   const auto resolved = test::read(study->resolved_text, {}, folder.path());
   ASSERT_TRUE(resolved.ok()) << resolved.error().text();
   EXPECT_EQ(resolved->initial[0].shared_volume, study->initial[0].shared_volume);
@@ -231,12 +236,20 @@ domain: {size: [100 um, 100 um, 100 um]}
 cell_types: {cell: {radius: 6 um}}
 initial: [INITIAL]
 )";
-  const auto message = [&](const std::string& initial) { return test::errors_of(test::changed("INITIAL", initial, text), {}, folder.path()); };
+  const auto message = [&](const std::string& initial) {
+    return test::errors_of(test::changed("INITIAL", initial, text), {}, folder.path());
+  };
   EXPECT_NE(message("{csv: flat.csv, volume_from_hull: {margin: 5 um}}").find("share no volume"), std::string::npos);
   EXPECT_NE(message("{csv: radius.csv, volume_from_hull: {margin: 5 um}}").find("gives cells a radius"), std::string::npos);
-  EXPECT_NE(message("{csv: good.csv, volume_from_hull: {margin: 1 um, cavity: {center: [5 um, 5 um, 5 um], radius: 20 um}}}").find("larger than the inflated hull"), std::string::npos);
-  EXPECT_NE(message("{csv: good.csv, volume_from_hull: {margin: 1 um, cavity: {center: [50 um, 5 um, 5 um], radius: 2 um}}}").find("outside the inflated hull"), std::string::npos);
-  EXPECT_NE(message("{type: cell, count: 3, fill: sphere, radius: 20 um, volume_from_hull: {margin: 5 um}}").find("has no meaning with `fill`"), std::string::npos);
+  EXPECT_NE(message("{csv: good.csv, volume_from_hull: {margin: 1 um, cavity: {center: [5 um, 5 um, 5 um], radius: 20 um}}}")
+                .find("larger than the inflated hull"),
+            std::string::npos);
+  EXPECT_NE(message("{csv: good.csv, volume_from_hull: {margin: 1 um, cavity: {center: [50 um, 5 um, 5 um], radius: 2 um}}}")
+                .find("outside the inflated hull"),
+            std::string::npos);
+  EXPECT_NE(
+      message("{type: cell, count: 3, fill: sphere, radius: 20 um, volume_from_hull: {margin: 5 um}}").find("has no meaning with `fill`"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -21,10 +21,10 @@ std::vector<Vec3d> corners_of_a_box(const Vec3d& size) {
 
 TEST(ConvexHull, OfABoxHasTheMeasuresOfABox) {
   auto points = corners_of_a_box({2, 3, 5});
-  points.push_back({1, 1, 1});        // inside
-  points.push_back({1, 1.5, 5});      // on a face
-  points.push_back({0, 0, 2.5});      // on an edge
-  points.push_back({2, 3, 5});        // a corner again
+  points.push_back({1, 1, 1});    // inside
+  points.push_back({1, 1.5, 5});  // on a face
+  points.push_back({0, 0, 2.5});  // on an edge
+  points.push_back({2, 3, 5});    // a corner again
   const auto hull = convex_hull(points);
   ASSERT_TRUE(hull.ok());
   EXPECT_EQ(hull->faces.size(), 12u);
@@ -56,7 +56,8 @@ TEST(ConvexHull, OfAnIcosphereIsTheIcosphere) {
   const auto shape = shapes.icosphere(162).value();
   std::vector<Vec3d> points(shape->position.begin(), shape->position.end());
   for (std::uint64_t i = 0; i < 200; ++i)  // inside
-    points.push_back(Random(3, RandomStream::kInitialPosition).direction(CellId::founder(i + 1), 0) * (0.55 * static_cast<double>(i) / 200.0));
+    points.push_back(Random(3, RandomStream::kInitialPosition).direction(CellId::founder(i + 1), 0) *
+                     (0.55 * static_cast<double>(i) / 200.0));
   const auto hull = convex_hull(points);
   ASSERT_TRUE(hull.ok());
   EXPECT_EQ(hull->faces.size(), 320u);
