@@ -6,9 +6,7 @@
 
 namespace morula {
 
-Vec3d CellRecord::center() const {
-  return sphere ? sphere->position : volume_centroid(shell->shape->topology->faces(), shell->position);
-}
+Vec3d CellRecord::center() const { return sphere ? sphere->position : volume_centroid(shell->shape->topology->faces(), shell->position); }
 
 std::vector<CellRecord> take_apart(Tissue& tissue) {
   std::vector<CellRecord> out;
@@ -21,9 +19,16 @@ std::vector<CellRecord> take_apart(Tissue& tissue) {
     record.row = row;
     if (row.body == BodyKind::kShell) {
       const std::size_t i = next_shell++;
-      const auto nodes = [&](const auto& array) { return std::vector(array.begin() + shells.first_node[i], array.begin() + shells.first_node[i + 1]); };
-      record.shell = ShellRecord{shells.shape[i], shells.reference_volume[i], shells.rest_volume[i], nodes(shells.position), nodes(shells.velocity),
-                               std::vector(shells.rest_length.begin() + shells.first_edge[i], shells.rest_length.begin() + shells.first_edge[i + 1])};
+      const auto nodes = [&](const auto& array) {
+        return std::vector(array.begin() + shells.first_node[i], array.begin() + shells.first_node[i + 1]);
+      };
+      record.shell = ShellRecord{
+          shells.shape[i],
+          shells.reference_volume[i],
+          shells.rest_volume[i],
+          nodes(shells.position),
+          nodes(shells.velocity),
+          std::vector(shells.rest_length.begin() + shells.first_edge[i], shells.rest_length.begin() + shells.first_edge[i + 1])};
     } else {
       const std::size_t i = next_sphere++;
       record.sphere = SphereRecord{spheres.position[i], spheres.radius[i], spheres.velocity[i], std::move(spheres.attached[i])};

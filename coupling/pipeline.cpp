@@ -7,8 +7,8 @@
 namespace morula {
 namespace {
 
-constexpr double kSmallestStep = 1e-4;   // below this a step is given up [s]
-constexpr double kGrowthOfStep = 1.5;    // most a step grows from one to the next
+constexpr double kSmallestStep = 1e-4;        // below this a step is given up [s]
+constexpr double kGrowthOfStep = 1.5;         // most a step grows from one to the next
 constexpr std::uint64_t kReorderEvery = 200;  // steps between renewals of the canonical order: the same on any number of ranks
 constexpr double kTolerableImbalance = 1.25;
 
@@ -25,7 +25,11 @@ struct Growing {
   std::vector<double> reference_volume, rest_volume, rest_length, radius;
 
   explicit Growing(const Tissue& t)
-      : rows(t.cells.rows), reference_volume(t.shells.reference_volume), rest_volume(t.shells.rest_volume), rest_length(t.shells.rest_length), radius(t.spheres.radius) {}
+      : rows(t.cells.rows),
+        reference_volume(t.shells.reference_volume),
+        rest_volume(t.shells.rest_volume),
+        rest_length(t.shells.rest_length),
+        radius(t.spheres.radius) {}
   void restore(Tissue& t) const {
     t.cells.rows = rows;
     t.shells.reference_volume = reference_volume;
@@ -62,8 +66,9 @@ Result<StepOutcome> Simulation::step(double land_on) {
     if (!moved.error().smaller_step_may_help || dt * 0.25 < kSmallestStep) {
       char when[64];
       std::snprintf(when, sizeof when, " at %.6g h", clock.time / 3600.0);
-      return Error{ErrorKind::kPhysics, moved.error().what + (moved.error().cell.valid() ? " (cell " + moved.error().cell.text() + ")" : "") + when,
-                   "the step was cut to " + std::to_string(dt) + " s without success; weaker adhesion, more tension or a finer mesh may help"};
+      return Error{
+          ErrorKind::kPhysics, moved.error().what + (moved.error().cell.valid() ? " (cell " + moved.error().cell.text() + ")" : "") + when,
+          "the step was cut to " + std::to_string(dt) + " s without success; weaker adhesion, more tension or a finer mesh may help"};
     }
     dt *= outcome.retries < 2 ? 0.5 : 0.25;
   }

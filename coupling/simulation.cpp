@@ -61,7 +61,8 @@ void Simulation::distribute() {
       const Vec3d size = field.grid.spacing() * static_cast<double>(fields::Grid::kBrick);
       for (std::size_t b = 0; b < owner.size(); ++b) {
         const auto place = field.grid.place(static_cast<std::int64_t>(b));
-        owner[b] = partition_.owner(field.grid.box.low + Vec3d{(place[0] + 0.5) * size.x, (place[1] + 0.5) * size.y, (place[2] + 0.5) * size.z});
+        owner[b] =
+            partition_.owner(field.grid.box.low + Vec3d{(place[0] + 0.5) * size.x, (place[1] + 0.5) * size.y, (place[2] + 0.5) * size.z});
       }
       fields::redistribute(field, owner, comm_);
     }
@@ -130,7 +131,8 @@ Status Simulation::advance_fields(double dt, StepOutcome& outcome) {
   }
   std::vector<double> taken(sources.size()), seen(sources.size());
   for (std::size_t f = 0; f < model_.fields.size(); ++f) {
-    MORULA_TRY_ASSIGN(auto report, field_solver_.advance(tissue_.fields[f], model_.fields[f], model_.space, sources, dt, comm_, taken, seen));
+    MORULA_TRY_ASSIGN(auto report,
+                      field_solver_.advance(tissue_.fields[f], model_.fields[f], model_.space, sources, dt, comm_, taken, seen));
     for (std::size_t i = 0; i < sources.size(); ++i) {
       tissue_.cells.rows[i].amount[f] += taken[i];
       tissue_.cells.rows[i].concentration[f] = seen[i];
@@ -248,7 +250,8 @@ void Simulation::rename_partners(const std::vector<Event>& events) {
     const cbm::Partners before = partners;
     for (const CellId partner : before) {
       const auto at = std::lower_bound(divisions.begin(), divisions.end(), partner, [](const Event* e, CellId id) { return e->cell < id; });
-      if (at != divisions.end() && (*at)->cell == partner) cbm::replace_partner(partners, partner, (*at)->first_daughter, (*at)->second_daughter);
+      if (at != divisions.end() && (*at)->cell == partner)
+        cbm::replace_partner(partners, partner, (*at)->first_daughter, (*at)->second_daughter);
     }
   }
 }
@@ -291,8 +294,8 @@ std::vector<Event> Simulation::all_events(std::vector<Event> mine) const {
     };
     std::vector<std::byte> bytes;
     for (const Event& event : mine) {
-      const std::vector<Packed> head{{event.time, event.cell, event.first_daughter, event.second_daughter, static_cast<std::uint32_t>(event.kind),
-                                      static_cast<std::uint32_t>(event.text.size())}};
+      const std::vector<Packed> head{{event.time, event.cell, event.first_daughter, event.second_daughter,
+                                      static_cast<std::uint32_t>(event.kind), static_cast<std::uint32_t>(event.text.size())}};
       const auto packed = bytes_of(head);
       bytes.insert(bytes.end(), packed.begin(), packed.end());
       const auto* text = reinterpret_cast<const std::byte*>(event.text.data());  // NOLINT

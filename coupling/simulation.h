@@ -17,8 +17,8 @@ namespace morula {
 /// What one step did.
 struct StepOutcome {
   StepReport mechanics;
-  int retries = 0;                ///< steps that were refused and tried again, smaller
-  std::vector<Event> events;      ///< of all ranks, in the order (time, kind, cell)
+  int retries = 0;            ///< steps that were refused and tried again, smaller
+  std::vector<Event> events;  ///< of all ranks, in the order (time, kind, cell)
   std::vector<fields::IntervalReport> fields;
 };
 

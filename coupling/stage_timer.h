@@ -8,10 +8,23 @@ namespace morula {
 
 /// The stages of a step as `run --timings` prints them.
 enum class Stage : std::uint8_t {
-  kGhosts, kCandidates, kContacts, kInternal, kAssemble, kSolve, kAdvance, kFields, kBehaviours, kCoupling, kBalance, kObserve, kCount
+  kGhosts,
+  kCandidates,
+  kContacts,
+  kInternal,
+  kAssemble,
+  kSolve,
+  kAdvance,
+  kFields,
+  kBehaviours,
+  kCoupling,
+  kBalance,
+  kObserve,
+  kCount
 };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Stage::kCount)> kStageNames{
-    "exchange ghosts", "find candidates", "contacts", "internal forces", "assemble", "solve", "advance", "fields", "behaviours", "coupling", "balance", "observe"};
+    "exchange ghosts", "find candidates", "contacts",   "internal forces", "assemble", "solve",
+    "advance",         "fields",          "behaviours", "coupling",        "balance",  "observe"};
 
 /// Wall time by stage. Timing never influences a result.
 class StageTimer {

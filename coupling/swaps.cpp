@@ -14,13 +14,16 @@ namespace {
 double distance_outside(const Region& region, const Vec3d& point, const Vec3d& tissue_center) {
   const Vec3d from = point - (region.follow_tissue ? region.center + tissue_center : region.center);
   switch (region.shape) {
-    case RegionShape::kSphere: return norm(from) - region.radius;
-    case RegionShape::kHalfSpace: return dot(from, normalized(region.normal));
+    case RegionShape::kSphere:
+      return norm(from) - region.radius;
+    case RegionShape::kHalfSpace:
+      return dot(from, normalized(region.normal));
     case RegionShape::kBox: {
       const Vec3d d{std::abs(from.x) - 0.5 * region.size.x, std::abs(from.y) - 0.5 * region.size.y, std::abs(from.z) - 0.5 * region.size.z};
       return std::max({d.x, d.y, d.z});
     }
-    case RegionShape::kEverything: return -1e300;
+    case RegionShape::kEverything:
+      return -1e300;
   }
   return 1e300;
 }
@@ -70,7 +73,9 @@ Wish wish(const Model& model, double time, const CellRow& row, const Vec3d& cent
     const double value = trigger_value(trigger, row);
     const double threshold = shell ? trigger.demote : trigger.promote;
     const bool wants = trigger.promote_above ? value > threshold : value < threshold;
-    if (wants) return {BodyKind::kShell, trigger.hold, trigger.value == Trigger::Value::kPressure ? "pressure" : model.fields[static_cast<std::size_t>(trigger.field)].name};
+    if (wants)
+      return {BodyKind::kShell, trigger.hold,
+              trigger.value == Trigger::Value::kPressure ? "pressure" : model.fields[static_cast<std::size_t>(trigger.field)].name};
   }
   return {model.types[row.type].initial_body, hold, "outside"};
 }
@@ -107,10 +112,13 @@ std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, st
   std::vector<CellId> up, down;
   for (const SwapOrder& order : orders) (order.to == BodyKind::kShell ? up : down).push_back(tissue.cells.rows[order.row].id);
   const auto all_up = all_ids(up, comm), all_down = all_ids(down, comm);
-  const auto most = tissue.clock.steps == 0 ? static_cast<std::size_t>(cells) : static_cast<std::size_t>(std::max<std::int64_t>(1, cells / 100));
+  const auto most =
+      tissue.clock.steps == 0 ? static_cast<std::size_t>(cells) : static_cast<std::size_t>(std::max<std::int64_t>(1, cells / 100));
   const std::size_t downs = std::min(all_down.size(), most);
-  const auto free_places = static_cast<std::int64_t>(std::min<std::uint64_t>(model.swaps.max_shells, 1ull << 40)) - shells + static_cast<std::int64_t>(downs);
-  const std::size_t ups = std::min({all_up.size(), most - std::min(most, downs), static_cast<std::size_t>(std::max<std::int64_t>(0, free_places))});
+  const auto free_places =
+      static_cast<std::int64_t>(std::min<std::uint64_t>(model.swaps.max_shells, 1ull << 40)) - shells + static_cast<std::int64_t>(downs);
+  const std::size_t ups =
+      std::min({all_up.size(), most - std::min(most, downs), static_cast<std::size_t>(std::max<std::int64_t>(0, free_places))});
   std::erase_if(orders, [&](const SwapOrder& order) {
     const CellId id = tissue.cells.rows[order.row].id;
     const auto& all = order.to == BodyKind::kShell ? all_up : all_down;

@@ -99,7 +99,8 @@ std::vector<BodyPair> find_body_pairs(std::span<const Extent> extents, std::span
     for (int z = 0; z < n[2]; ++z)
       for (int y = 0; y < n[1]; ++y)
         for (int x = 0; x < n[0]; ++x) {
-          const std::size_t cell = grid.index({near[0][static_cast<std::size_t>(x)], near[1][static_cast<std::size_t>(y)], near[2][static_cast<std::size_t>(z)]});
+          const std::size_t cell = grid.index(
+              {near[0][static_cast<std::size_t>(x)], near[1][static_cast<std::size_t>(y)], near[2][static_cast<std::size_t>(z)]});
           for (std::uint32_t k = begin[cell]; k < begin[cell + 1]; ++k) {
             const std::uint32_t j = member[k];
             if (place[j] <= place[i] || !(owned[i] || owned[j])) continue;

@@ -29,8 +29,13 @@ void ContactLayer::set_cap(double cap) {
 PairBody ContactLayer::view(const ContactScene& scene, const SurfacePair& pair, int which) const {
   if (which == 1 && pair.rigid) {
     const RigidSurface& obstacle = obstacles_[pair.b];
-    return {obstacle.topology.get(), obstacle.position,           obstacle.geometry.face_normal, obstacle.geometry.face_area,
-            obstacle.geometry.node_normal, offsets_[pair.b], 0.0};
+    return {obstacle.topology.get(),
+            obstacle.position,
+            obstacle.geometry.face_normal,
+            obstacle.geometry.face_area,
+            obstacle.geometry.node_normal,
+            offsets_[pair.b],
+            0.0};
   }
   const ContactBody& body = scene.bodies[which == 0 ? pair.a : pair.b];
   const Vec3d shift = which == 0 ? Vec3d{} : pair.shift;
@@ -55,7 +60,8 @@ bool ContactLayer::note_motion(const ContactScene& scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const ContactBody& body = scene.bodies[i];
     BodyMotion motion;
-    for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p) motion.mean += scene.position[p] - last_position_[p];
+    for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p)
+      motion.mean += scene.position[p] - last_position_[p];
     motion.mean *= 1.0 / body.point_count;
     double deviation2 = 0.0;
     for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p) {
@@ -218,8 +224,16 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair) {
   }
   for (int d = 0; d < 2; ++d) {
     if (pair.points[d].source_face.empty()) continue;
-    evaluate_points({body[d], body[1 - d], contact, FaceQuadrature::with_points(settings_.points_per_face), reach(),
-                     both ? 0.5 : 1.0, pair.motion, pair.motion - pair.built_at, !pair.rigid, {}},
+    evaluate_points({body[d],
+                     body[1 - d],
+                     contact,
+                     FaceQuadrature::with_points(settings_.points_per_face),
+                     reach(),
+                     both ? 0.5 : 1.0,
+                     pair.motion,
+                     pair.motion - pair.built_at,
+                     !pair.rigid,
+                     {}},
                     d, pair);
   }
 }
@@ -255,8 +269,7 @@ void ContactLayer::collect(const ContactScene& scene, ContactGradient& gradient)
         gradient.face_energy[body.first_face + faces[m]] += part.face_energy[m];
         gradient.contact_area[i] += part.face_contact[m];
       }
-      for (std::size_t m = 0; m < part.face_normal.size(); ++m)
-        gradient.face_normal[body.first_face + faces[m]] += part.face_normal[m];
+      for (std::size_t m = 0; m < part.face_normal.size(); ++m) gradient.face_normal[body.first_face + faces[m]] += part.face_normal[m];
     }
   }
 }
@@ -264,7 +277,8 @@ void ContactLayer::collect(const ContactScene& scene, ContactGradient& gradient)
 const SurfacePair* ContactLayer::deepest(const ContactScene& scene) const {
   const SurfacePair* worst = nullptr;
   for (const SurfacePair& pair : pairs_) {
-    const bool surfaces = pair.rigid || (scene.bodies[pair.a].shape == BodyShape::kSurface && scene.bodies[pair.b].shape == BodyShape::kSurface);
+    const bool surfaces =
+        pair.rigid || (scene.bodies[pair.a].shape == BodyShape::kSurface && scene.bodies[pair.b].shape == BodyShape::kSurface);
     if (surfaces && (worst == nullptr || pair.overlap > worst->overlap)) worst = &pair;
   }
   return worst;
@@ -272,7 +286,8 @@ const SurfacePair* ContactLayer::deepest(const ContactScene& scene) const {
 
 std::size_t ContactLayer::memory() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
-  std::size_t total = bytes(pairs_) + bytes(spheres_) + bytes(incident_begin_) + bytes(incident_) + bytes(last_position_) + bytes(motion_) + bytes(travel_);
+  std::size_t total =
+      bytes(pairs_) + bytes(spheres_) + bytes(incident_begin_) + bytes(incident_) + bytes(last_position_) + bytes(motion_) + bytes(travel_);
   for (const SurfacePair& pair : pairs_)
     for (int d = 0; d < 2; ++d) {
       const PointsAgainstBody& p = pair.points[d];

@@ -40,11 +40,11 @@ struct ContactSettings {
 
 /// Gradients that contacts leave on the points and faces of all bodies; sized like the scene. Only owned bodies are written.
 struct ContactGradient {
-  std::vector<Vec3d> force;         ///< by point
-  std::vector<Vec3d> node_normal;   ///< ∂E/∂n_v by point
-  std::vector<double> face_energy;  ///< ∂E/∂A_T by face
-  std::vector<Vec3d> face_normal;   ///< ∂E/∂n_T by face
-  std::vector<double> contact_area; ///< by body: area of its surface that is in contact [µm²]
+  std::vector<Vec3d> force;          ///< by point
+  std::vector<Vec3d> node_normal;    ///< ∂E/∂n_v by point
+  std::vector<double> face_energy;   ///< ∂E/∂A_T by face
+  std::vector<Vec3d> face_normal;    ///< ∂E/∂n_T by face
+  std::vector<double> contact_area;  ///< by body: area of its surface that is in contact [µm²]
 };
 
 /// Contacts of all bodies of a rank: which bodies may touch, and for surfaces the gaps, energies, gradients and friction elements.
@@ -83,7 +83,8 @@ class ContactLayer {
   /// Keep the present friction as that of the step (Γ_n).
   void begin_step();
   /// Friction of the step's start applied to a displacement (obstacles have moved since begin_step()): adds Γ_n d to `out` (owned points) and returns dᵀΓ_n d of the counted pairs.
-  void add_step_friction(const ContactScene& scene, std::span<const Vec3d> displacement, std::span<Vec3d> out, OrderFreeSum& quadratic) const;
+  void add_step_friction(const ContactScene& scene, std::span<const Vec3d> displacement, std::span<Vec3d> out,
+                         OrderFreeSum& quadratic) const;
   /// Element groups for the friction system, in canonical order.
   [[nodiscard]] std::vector<ElementGroup> element_groups(const ContactScene& scene) const;
 
@@ -104,8 +105,8 @@ class ContactLayer {
   [[nodiscard]] ListReach reach() const { return {settings_.range, settings_.skin, settings_.depth}; }
 
   struct BodyMotion {
-    Vec3d mean;             ///< since the last call of note_motion()
-    double deviation = 0.0; ///< largest distance of a point's displacement from the mean
+    Vec3d mean;              ///< since the last call of note_motion()
+    double deviation = 0.0;  ///< largest distance of a point's displacement from the mean
   };
 
   ContactSettings settings_;
@@ -125,8 +126,8 @@ class ContactLayer {
   std::vector<Incidence> incident_;
   std::vector<Vec3d> last_position_;  ///< at the last note_motion()
   std::vector<BodyMotion> motion_;
-  std::vector<double> last_radius_;   ///< of spheres: growth counts as motion
-  std::vector<double> travel_;        ///< by body: bound on the way of its points since the list of pairs was built
+  std::vector<double> last_radius_;  ///< of spheres: growth counts as motion
+  std::vector<double> travel_;       ///< by body: bound on the way of its points since the list of pairs was built
   double obstacle_travel_ = 0.0;
 };
 

@@ -33,7 +33,8 @@ struct TargetNormal {
 
 TargetNormal target_normal(const PairBody& target, const Triangle* t, const PointGap& gap) {
   if (t == nullptr) return {gap.normal, 1.0};
-  const Vec3d sum = target.node_normal[(*t)[0]] * gap.mu[0] + target.node_normal[(*t)[1]] * gap.mu[1] + target.node_normal[(*t)[2]] * gap.mu[2];
+  const Vec3d sum =
+      target.node_normal[(*t)[0]] * gap.mu[0] + target.node_normal[(*t)[1]] * gap.mu[1] + target.node_normal[(*t)[2]] * gap.mu[2];
   const double length = norm(sum);
   if (length < 1e-9) return {gap.normal, 1.0};
   return {sum * (1.0 / length), length};
@@ -160,9 +161,9 @@ void evaluate_points(const PointsEvaluation& given, int d, SurfacePair& pair) {
         sink.push_target(0, pull);
       else
         for (std::size_t j = 0; j < 3; ++j) sink.push_target(j, pull * gap.mu[j]);
-      if (weight.slope != 0.0)
-        add_weight_gradient(e, q, face, k, target_face, gap, normal, area * weight.slope * attraction.energy, sink);
-      pair.elements[d].push_back(element_of(t, target_face, q, gap, area, weight.value * attraction.curvature + repulsion.curvature, e.material));
+      if (weight.slope != 0.0) add_weight_gradient(e, q, face, k, target_face, gap, normal, area * weight.slope * attraction.energy, sink);
+      pair.elements[d].push_back(
+          element_of(t, target_face, q, gap, area, weight.value * attraction.curvature + repulsion.curvature, e.material));
     }
   }
 }

@@ -71,7 +71,8 @@ void try_face(const Vec3d& point, std::uint16_t place, const PointsEvaluation& e
 }
 
 /// The nearest of the candidates, ties to the lowest face.
-Candidate search(const Vec3d& point, std::size_t index, std::size_t source_face, const PointsEvaluation& e, const PointsAgainstBody& lists) {
+Candidate search(const Vec3d& point, std::size_t index, std::size_t source_face, const PointsEvaluation& e,
+                 const PointsAgainstBody& lists) {
   Candidate best;
   const double reach = e.reach.candidates();
   best.second = reach;  // faces beyond the lists' reach are of no interest

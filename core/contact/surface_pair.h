@@ -68,27 +68,27 @@ inline constexpr std::uint16_t kAsleep = 0xFFFF;
 
 /// Gradient of a pair's energy with respect to one of its bodies.
 struct PairGradient {
-  std::vector<std::uint16_t> node;     ///< nodes of the body that the pair can touch, increasing; a sphere has node 0
-  std::vector<Vec3d> force;            ///< −∂E/∂x by node, at fixed face areas and normals [nN]
-  std::vector<Vec3d> node_normal;      ///< ∂E/∂n_v by node; empty when zero [nN·µm]
-  std::vector<double> face_energy;     ///< ∂E/∂A_T by source face [nN/µm]
-  std::vector<Vec3d> face_normal;      ///< ∂E/∂n_T by source face; empty when zero [nN·µm]
-  std::vector<double> face_contact;    ///< contact area of the face, by source face (ramp c/2 .. c) [µm²]
+  std::vector<std::uint16_t> node;   ///< nodes of the body that the pair can touch, increasing; a sphere has node 0
+  std::vector<Vec3d> force;          ///< −∂E/∂x by node, at fixed face areas and normals [nN]
+  std::vector<Vec3d> node_normal;    ///< ∂E/∂n_v by node; empty when zero [nN·µm]
+  std::vector<double> face_energy;   ///< ∂E/∂A_T by source face [nN/µm]
+  std::vector<Vec3d> face_normal;    ///< ∂E/∂n_T by source face; empty when zero [nN·µm]
+  std::vector<double> face_contact;  ///< contact area of the face, by source face (ramp c/2 .. c) [µm²]
 };
 
 /// Two bodies in touch, at least one of them a surface; body a comes first in the canonical order. A rigid obstacle is always b.
 struct SurfacePair {
   std::uint32_t a = 0, b = 0;  ///< bodies; b is the obstacle's number when `rigid`
   bool rigid = false;
-  Vec3d shift{};               ///< image of b
-  double motion = 0.0;         ///< how far the bodies have moved against each other since the pair came to be (an upper bound) [µm]
-  double built_at = -1e300;    ///< motion when the lists were built
-  PointsAgainstBody points[2];     ///< [0]: points of a against b; [1]: points of b against a
-  PairGradient gradient[2];        ///< of a and of b
+  Vec3d shift{};                ///< image of b
+  double motion = 0.0;          ///< how far the bodies have moved against each other since the pair came to be (an upper bound) [µm]
+  double built_at = -1e300;     ///< motion when the lists were built
+  PointsAgainstBody points[2];  ///< [0]: points of a against b; [1]: points of b against a
+  PairGradient gradient[2];     ///< of a and of b
   std::vector<ContactElement> elements[2];       ///< at the present positions
   std::vector<ContactElement> step_elements[2];  ///< at the start of the step: its friction
-  double energy = 0.0;         ///< [nN·µm]
-  double overlap = 0.0;        ///< deepest penetration [µm]
+  double energy = 0.0;                           ///< [nN·µm]
+  double overlap = 0.0;                          ///< deepest penetration [µm]
 };
 
 /// Everything that evaluating one direction of a pair reads.
@@ -98,10 +98,10 @@ struct PointsEvaluation {
   const ContactMaterial& material;
   const FaceQuadrature& quadrature;
   ListReach reach;
-  double share;               ///< ½ when both bodies are sources, else 1
-  double motion;              ///< of the pair
+  double share;   ///< ½ when both bodies are sources, else 1
+  double motion;  ///< of the pair
   double motion_since_built;
-  bool target_moves;          ///< false for rigid obstacles: no gradient of the target is wanted
+  bool target_moves;                       ///< false for rigid obstacles: no gradient of the target is wanted
   std::span<const Vec3d> target_centroid;  ///< by place in the pair's target faces; filled by evaluate_points()
 };
 

@@ -66,9 +66,9 @@ struct SolveFault {
 class FrictionSystem {
  public:
   struct Layout {
-    std::size_t point_count = 0;               ///< owned and ghost points
-    std::vector<BodyPoints> bodies;            ///< all bodies; ghosts too
-    std::vector<char> owned;                   ///< by body
+    std::size_t point_count = 0;                      ///< owned and ghost points
+    std::vector<BodyPoints> bodies;                   ///< all bodies; ghosts too
+    std::vector<char> owned;                          ///< by body
     std::function<void(std::span<Float4>)> exchange;  ///< fills the ghost points; may be empty
   };
 

@@ -113,8 +113,7 @@ inline ClosestPoint closest_point_on_triangle(const Vec3d& p, const Vec3d& a, co
   const double area_b = d5 * d2 - d1 * d6;
   if (area_b <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return detail::on_edge(p, a, c, 0, 2, d2 / (d2 - d6));
   const double area_a = d3 * d6 - d5 * d4;
-  if (area_a <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0)
-    return detail::on_edge(p, b, c, 1, 2, (d4 - d3) / ((d4 - d3) + (d5 - d6)));
+  if (area_a <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) return detail::on_edge(p, b, c, 1, 2, (d4 - d3) / ((d4 - d3) + (d5 - d6)));
 
   const double scale = 1.0 / (area_a + area_b + area_c);
   const double u = area_a * scale, v = area_b * scale, w = area_c * scale;

@@ -13,8 +13,8 @@ namespace {
 TriangleMesh icosahedron() {
   constexpr double g = std::numbers::phi;
   TriangleMesh mesh;
-  mesh.position = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                   {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+  mesh.position = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                   {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
   mesh.faces = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
                 {3, 9, 4},  {3, 4, 2}, {3, 2, 6}, {3, 6, 8},  {3, 8, 9},   {4, 9, 5}, {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
   for (Vec3d& x : mesh.position) x = normalized(x);
@@ -58,8 +58,7 @@ Result<std::shared_ptr<const ReferenceShape>> ShapeLibrary::icosphere(std::uint3
     }
     return icospheres_[i];
   }
-  return Error{ErrorKind::kInput, "there is no icosphere with " + std::to_string(nodes) + " nodes",
-               "choose 42, 162, 642 or 2562 nodes"};
+  return Error{ErrorKind::kInput, "there is no icosphere with " + std::to_string(nodes) + " nodes", "choose 42, 162, 642 or 2562 nodes"};
 }
 
 }  // namespace morula

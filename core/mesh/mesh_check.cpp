@@ -85,7 +85,9 @@ void MeshChecker::check_numbers() {
   for (std::uint32_t f = 0; f < faces_.size(); ++f)
     for (const std::uint32_t node : faces_[f]) {
       if (node < position_.size()) continue;
-      add(Kind::kBadIndex, "face " + std::to_string(f) + " names node " + std::to_string(node) + ", but there are only " + std::to_string(position_.size()), {f}, {});
+      add(Kind::kBadIndex,
+          "face " + std::to_string(f) + " names node " + std::to_string(node) + ", but there are only " + std::to_string(position_.size()),
+          {f}, {});
       break;
     }
   for (std::size_t node = 0; node < position_.size(); ++node) {
@@ -120,7 +122,8 @@ void MeshChecker::check_duplicates() {
   for (std::size_t n = 1; n < by_nodes.size(); ++n) {
     if (by_nodes[n].first != by_nodes[n - 1].first) continue;
     const std::uint32_t a = by_nodes[n - 1].second, b = by_nodes[n].second;
-    add(Kind::kDuplicateFace, "faces " + std::to_string(a) + " and " + std::to_string(b) + " have the same nodes, at " + text(center(a)), {a, b}, center(a));
+    add(Kind::kDuplicateFace, "faces " + std::to_string(a) + " and " + std::to_string(b) + " have the same nodes, at " + text(center(a)),
+        {a, b}, center(a));
   }
 }
 
@@ -129,7 +132,8 @@ void MeshChecker::check_unused() {
   for (const Triangle& face : faces_)
     for (const std::uint32_t node : face) used[node] = 1;
   for (std::size_t node = 0; node < used.size(); ++node)
-    if (!used[node]) add(Kind::kUnusedNode, "node " + std::to_string(node) + " at " + text(position_[node]) + " belongs to no face", {}, position_[node]);
+    if (!used[node])
+      add(Kind::kUnusedNode, "node " + std::to_string(node) + " at " + text(position_[node]) + " belongs to no face", {}, position_[node]);
 }
 
 void MeshChecker::check_edges_and_nodes() {
@@ -138,12 +142,15 @@ void MeshChecker::check_edges_and_nodes() {
     std::vector<std::uint32_t> faces;
     for (const MeshSides::Side& side : edge.sides) faces.push_back(side.face);
     const Vec3d place = (position_[edge.low] + position_[edge.high]) * 0.5;
-    add(Kind::kNonManifoldEdge, "the edge from " + text(position_[edge.low]) + " to " + text(position_[edge.high]) + " has " +
-                                    std::to_string(faces.size()) + " faces: " + face_list(faces), faces, place);
+    add(Kind::kNonManifoldEdge,
+        "the edge from " + text(position_[edge.low]) + " to " + text(position_[edge.high]) + " has " + std::to_string(faces.size()) +
+            " faces: " + face_list(faces),
+        faces, place);
   }
   for (const auto& [node, faces] : sides_->pinched_nodes(static_cast<std::uint32_t>(position_.size())))
-    add(Kind::kNonManifoldNode, "the surface touches itself in node " + std::to_string(node) + " at " + text(position_[node]) + ", " + face_list(faces),
-        faces, position_[node]);
+    add(Kind::kNonManifoldNode,
+        "the surface touches itself in node " + std::to_string(node) + " at " + text(position_[node]) + ", " + face_list(faces), faces,
+        position_[node]);
 }
 
 void MeshChecker::check_holes() {
@@ -152,7 +159,9 @@ void MeshChecker::check_holes() {
     Vec3d middle;
     for (const std::uint32_t node : hole.nodes) middle += position_[node];
     middle = middle / static_cast<double>(hole.nodes.size());
-    add(Kind::kHole, "the surface is open: a border of " + std::to_string(hole.edge_count) + " edges around " + text(middle) + ", at " + face_list(hole.faces),
+    add(Kind::kHole,
+        "the surface is open: a border of " + std::to_string(hole.edge_count) + " edges around " + text(middle) + ", at " +
+            face_list(hole.faces),
         hole.faces, middle);
   }
 }
@@ -160,11 +169,14 @@ void MeshChecker::check_holes() {
 void MeshChecker::check_orientation() {
   const OrientedParts parts = orient_parts(*sides_, faces_);
   for (const auto& [face, other] : parts.contradictions)
-    add(Kind::kNotOrientable, "the surface has no inside: walking around it turns face " + std::to_string(face) + " over, at " + text(center(face)),
+    add(Kind::kNotOrientable,
+        "the surface has no inside: walking around it turns face " + std::to_string(face) + " over, at " + text(center(face)),
         {face, other}, center(face));
   for (const std::vector<std::uint32_t>& patch : parts.flipped_patches)
-    add(Kind::kFlippedFaces, (patch.size() == 1 ? "one face runs" : std::to_string(patch.size()) + " faces run") +
-                                 std::string(" against the faces around, at ") + text(center(patch)) + ": " + face_list(patch), patch, center(patch));
+    add(Kind::kFlippedFaces,
+        (patch.size() == 1 ? "one face runs" : std::to_string(patch.size()) + " faces run") +
+            std::string(" against the faces around, at ") + text(center(patch)) + ": " + face_list(patch),
+        patch, center(patch));
   if (expectation_.outward) check_inside_out(parts);
 }
 
@@ -188,8 +200,12 @@ void MeshChecker::check_inside_out(const OrientedParts& parts) {
     if (around % 2 == 0 ? volume > 0.0 : volume < 0.0) continue;
     const Vec3d place = center(numbers[part]);
     add(Kind::kInsideOut,
-        (around % 2 == 0 ? "the closed surface of " : "the surface of a cavity, of ") + std::to_string(numbers[part].size()) + " faces around " + text(place) +
-            (volume == 0.0 ? " encloses no volume: " : around % 2 == 0 ? " is inside out: " : " faces away from it: ") + face_list(numbers[part]),
+        (around % 2 == 0 ? "the closed surface of " : "the surface of a cavity, of ") + std::to_string(numbers[part].size()) +
+            " faces around " + text(place) +
+            (volume == 0.0     ? " encloses no volume: "
+             : around % 2 == 0 ? " is inside out: "
+                               : " faces away from it: ") +
+            face_list(numbers[part]),
         numbers[part], place);
   }
 }
@@ -198,7 +214,8 @@ void MeshChecker::check_crossings() {
   // One more than is listed, to know whether there are more; finding them all could take long in a tangled mesh.
   for (const auto& [a, b] : find_self_intersections(position_, faces_, expectation_.most_of_a_kind + 1)) {
     const Vec3d place = (center(a) + center(b)) * 0.5;
-    add(Kind::kSelfIntersection, "faces " + std::to_string(a) + " and " + std::to_string(b) + " cross or touch, at " + text(place), {a, b}, place);
+    add(Kind::kSelfIntersection, "faces " + std::to_string(a) + " and " + std::to_string(b) + " cross or touch, at " + text(place), {a, b},
+        place);
   }
 }
 
@@ -212,8 +229,9 @@ std::vector<MeshProblem> MeshChecker::finished() {
     const std::size_t shown = std::min(end - begin, most);
     for (std::size_t n = begin; n < begin + shown; ++n) out.push_back(std::move(problems_[n]));
     if (shown < end - begin)
-      out.back().message += out.back().kind == Kind::kSelfIntersection ? " (there are more like this)"
-                                                                       : " (and " + std::to_string(end - begin - shown) + " more like this)";
+      out.back().message += out.back().kind == Kind::kSelfIntersection
+                                ? " (there are more like this)"
+                                : " (and " + std::to_string(end - begin - shown) + " more like this)";
     begin = end;
   }
   return out;
@@ -232,7 +250,8 @@ Status require_sound_mesh(const std::string& name, std::span<const Vec3d> positi
   std::string message = "the mesh " + name + " cannot be used:";
   for (const MeshProblem& problem : problems) message += "\n  " + problem.message;
   return Error{ErrorKind::kInput, std::move(message),
-               expectation.closed ? "a body needs a closed surface without self-intersections, faces counter-clockwise seen from outside; repair it in a mesh program"
+               expectation.closed ? "a body needs a closed surface without self-intersections, faces counter-clockwise seen from outside; "
+                                    "repair it in a mesh program"
                                   : "faces must agree in direction and must not cross; repair it in a mesh program"};
 }
 

@@ -35,17 +35,19 @@ struct MeshProblem {
 
 /// What a mesh is to be.
 struct MeshExpectation {
-  bool closed = true;              ///< borders are problems; when false, an open surface (a plane) is fine
-  bool outward = true;             ///< closed parts point outwards, parts that bound a cavity inside another one into the cavity
+  bool closed = true;   ///< borders are problems; when false, an open surface (a plane) is fine
+  bool outward = true;  ///< closed parts point outwards, parts that bound a cavity inside another one into the cavity
   bool no_self_intersection = true;
-  std::size_t most_of_a_kind = 10; ///< list so many problems of each kind; the last one says how many more there are (crossings: that there are more)
+  std::size_t most_of_a_kind =
+      10;  ///< list so many problems of each kind; the last one says how many more there are (crossings: that there are more)
 };
 
 /// Everything that is wrong with a triangle mesh, in the order of MeshProblemKind; empty when it is what it should be.
 ///
 /// Topology::build() accepts every mesh that passes with `closed`. A face has no area when its corners lie exactly on a line or its height is below
 /// 10⁻¹⁰ of its longest side. A bad index or coordinate ends the check early: geometry cannot be judged then.
-std::vector<MeshProblem> check_mesh(std::span<const Vec3d> position, std::span<const Triangle> faces, const MeshExpectation& expectation = {});
+std::vector<MeshProblem> check_mesh(std::span<const Vec3d> position, std::span<const Triangle> faces,
+                                    const MeshExpectation& expectation = {});
 
 /// check_mesh() as a Status: an error that names `name` and lists all problems.
 Status require_sound_mesh(const std::string& name, std::span<const Vec3d> position, std::span<const Triangle> faces,

@@ -157,7 +157,8 @@ OrientedParts orient_parts(const MeshSides& sides, std::span<const Triangle> fac
     }
     if (!orientable) out.closed[part] = 0;
     const bool swap = 2 * against > members.size();
-    for (const std::uint32_t face : members) out.flipped[face] = static_cast<char>(orientable && out.flipped[face] != static_cast<char>(swap));
+    for (const std::uint32_t face : members)
+      out.flipped[face] = static_cast<char>(orientable && out.flipped[face] != static_cast<char>(swap));
   }
 
   std::vector<char> listed(faces.size(), 0);

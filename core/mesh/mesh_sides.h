@@ -48,11 +48,12 @@ class MeshSides {
 /// The connected parts of a mesh, and which faces run against the majority of their part.
 struct OrientedParts {
   std::uint32_t count = 0;
-  std::vector<std::uint32_t> part;                              ///< by face
-  std::vector<char> flipped;                                    ///< by face
-  std::vector<char> closed;                                     ///< by part: every edge has two faces, and it can be oriented
-  std::vector<std::vector<std::uint32_t>> flipped_patches;      ///< connected flipped faces, in increasing order
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> contradictions;  ///< one pair of neighbouring faces for each part that cannot be oriented
+  std::vector<std::uint32_t> part;                          ///< by face
+  std::vector<char> flipped;                                ///< by face
+  std::vector<char> closed;                                 ///< by part: every edge has two faces, and it can be oriented
+  std::vector<std::vector<std::uint32_t>> flipped_patches;  ///< connected flipped faces, in increasing order
+  std::vector<std::pair<std::uint32_t, std::uint32_t>>
+      contradictions;  ///< one pair of neighbouring faces for each part that cannot be oriented
 };
 
 /// Walks over edges with exactly two faces. Where both directions have equally many faces, those of the part's first face count as right.

@@ -91,7 +91,8 @@ Result<TriangleMesh> make_plane(double size_x, double size_y, double edge) {
   const std::uint32_t nx = parts(size_x, edge), ny = parts(size_y, edge);
   TriangleMesh mesh;
   for (std::uint32_t y = 0; y <= ny; ++y)
-    for (std::uint32_t x = 0; x <= nx; ++x) mesh.position.push_back({size_x * (double(x) / nx - 0.5), size_y * (double(y) / ny - 0.5), 0.0});
+    for (std::uint32_t x = 0; x <= nx; ++x)
+      mesh.position.push_back({size_x * (double(x) / nx - 0.5), size_y * (double(y) / ny - 0.5), 0.0});
   for (std::uint32_t y = 0; y < ny; ++y)
     for (std::uint32_t x = 0; x < nx; ++x) {
       const std::uint32_t a = y * (nx + 1) + x, b = a + 1, c = b + nx + 1, d = a + nx + 1;
@@ -119,7 +120,9 @@ Result<TriangleMesh> make_box(const Vec3d& size, double edge) {
   std::map<std::array<std::uint32_t, 3>, std::uint32_t> node_at;  // lattice points on the surface
   const auto node = [&](const std::array<std::uint32_t, 3>& at) {
     const auto [place, is_new] = node_at.try_emplace(at, static_cast<std::uint32_t>(mesh.position.size()));
-    if (is_new) mesh.position.push_back({size.x * (double(at[0]) / n[0] - 0.5), size.y * (double(at[1]) / n[1] - 0.5), size.z * (double(at[2]) / n[2] - 0.5)});
+    if (is_new)
+      mesh.position.push_back(
+          {size.x * (double(at[0]) / n[0] - 0.5), size.y * (double(at[1]) / n[1] - 0.5), size.z * (double(at[2]) / n[2] - 0.5)});
     return place->second;
   };
   for (std::size_t axis = 0; axis < 3; ++axis) {

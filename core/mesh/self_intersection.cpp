@@ -30,7 +30,8 @@ FacePair arranged(std::span<const Vec3d> position, const Triangle& a, const Tria
   const auto rest = [&](const Triangle& from, Triangle& to) {
     std::size_t n = shared;
     for (const std::uint32_t node : from)
-      if (std::find(to.begin(), to.begin() + static_cast<std::ptrdiff_t>(shared), node) == to.begin() + static_cast<std::ptrdiff_t>(shared)) to[n++] = node;
+      if (std::find(to.begin(), to.begin() + static_cast<std::ptrdiff_t>(shared), node) == to.begin() + static_cast<std::ptrdiff_t>(shared))
+        to[n++] = node;
   };
   rest(a, first);
   rest(b, second);
@@ -61,10 +62,11 @@ bool meet_elsewhere(const FacePair& pair) {
 
 bool exactly_collinear(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return CGAL::collinear(exact(a), exact(b), exact(c)); }
 
-std::vector<std::pair<std::uint32_t, std::uint32_t>> find_self_intersections(std::span<const Vec3d> position, std::span<const Triangle> faces,
-                                                                             std::size_t most) {
+std::vector<std::pair<std::uint32_t, std::uint32_t>> find_self_intersections(std::span<const Vec3d> position,
+                                                                             std::span<const Triangle> faces, std::size_t most) {
   std::vector<char> usable(faces.size());
-  for (std::size_t f = 0; f < faces.size(); ++f) usable[f] = !exactly_collinear(position[faces[f][0]], position[faces[f][1]], position[faces[f][2]]);
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    usable[f] = !exactly_collinear(position[faces[f][0]], position[faces[f][1]], position[faces[f][2]]);
 
   const TriangleTree tree(position, faces);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> found;

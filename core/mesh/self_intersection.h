@@ -12,8 +12,8 @@ namespace morula {
 /// folded onto each other. Decided by exact predicates, so that rounding neither hides nor invents a crossing.
 /// Faces with a repeated node or exactly without area, and pairs with the same three nodes, are left out: other checks name them.
 /// Stops after `most` pairs. Precondition: indices valid, coordinates finite.
-std::vector<std::pair<std::uint32_t, std::uint32_t>> find_self_intersections(std::span<const Vec3d> position, std::span<const Triangle> faces,
-                                                                              std::size_t most);
+std::vector<std::pair<std::uint32_t, std::uint32_t>> find_self_intersections(std::span<const Vec3d> position,
+                                                                             std::span<const Triangle> faces, std::size_t most);
 
 /// True when the corners lie exactly on one line (or in one point). Precondition: finite coordinates.
 bool exactly_collinear(const Vec3d& a, const Vec3d& b, const Vec3d& c);

@@ -51,7 +51,8 @@ Result<double> coordinate(const fs::path& file, const TextWords& words, std::str
   if (word.empty()) return line_error(file, words.line(), "a coordinate is missing", "every node has three coordinates");
   const auto value = parse_number(word);
   if (!value) return line_error(file, words.line(), quoted(word) + " is not a number", "every node has three coordinates");
-  if (!std::isfinite(*value)) return line_error(file, words.line(), "the coordinate " + quoted(word) + " is not finite", "coordinates must be finite numbers");
+  if (!std::isfinite(*value))
+    return line_error(file, words.line(), "the coordinate " + quoted(word) + " is not finite", "coordinates must be finite numbers");
   return *value;
 }
 
@@ -75,7 +76,8 @@ Result<TriangleMesh> parse_text_stl(const fs::path& file, std::string_view conte
     const std::string_view word = words.next();
     if (word == wanted) return {};
     if (word.empty()) return line_error(file, words.line(), "the file ends in the middle of a face", "it is truncated; write it again");
-    return line_error(file, words.line(), quoted(word) + " stands where '" + std::string(wanted) + "' should", "every facet is a triangle: facet normal, outer loop, three vertex lines, endloop, endfacet");
+    return line_error(file, words.line(), quoted(word) + " stands where '" + std::string(wanted) + "' should",
+                      "every facet is a triangle: facet normal, outer loop, three vertex lines, endloop, endfacet");
   };
   bool in_solid = false;
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
@@ -84,12 +86,14 @@ Result<TriangleMesh> parse_text_stl(const fs::path& file, std::string_view conte
       words.skip_line();  // its name
       continue;
     }
-    if (!in_solid || word != "facet") return line_error(file, words.line(), quoted(word) + " stands where 'facet' or 'endsolid' should", "this is no STL text");
+    if (!in_solid || word != "facet")
+      return line_error(file, words.line(), quoted(word) + " stands where 'facet' or 'endsolid' should", "this is no STL text");
     MORULA_TRY(expect("normal"));
     for (int axis = 0; axis < 3; ++axis) {
       // Normals are often nonsense (NaN for thin faces) and never used: the order of the corners counts.
       const std::string_view component = words.next();
-      if (!parse_number(component)) return line_error(file, words.line(), quoted(component) + " is not a number", "a normal has three components");
+      if (!parse_number(component))
+        return line_error(file, words.line(), quoted(component) + " is not a number", "a normal has three components");
     }
     MORULA_TRY(expect("outer"));
     MORULA_TRY(expect("loop"));
@@ -122,8 +126,10 @@ Result<TriangleMesh> parse_binary_stl(const fs::path& file, std::string_view con
     for (int c = 0; c < 3; ++c) {
       mesh.position.push_back({corners[3 * c], corners[3 * c + 1], corners[3 * c + 2]});
       if (!finite(mesh.position.back()))
-        return file_error(file, "face " + std::to_string(f) + " (byte " + std::to_string(kStlHeader + f * kStlFace) + ") has a coordinate that is not finite",
-                          "coordinates must be finite numbers");
+        return file_error(
+            file,
+            "face " + std::to_string(f) + " (byte " + std::to_string(kStlHeader + f * kStlFace) + ") has a coordinate that is not finite",
+            "coordinates must be finite numbers");
     }
     mesh.faces.push_back({first, first + 1, first + 2});
   }
@@ -136,13 +142,14 @@ Result<std::uint32_t> obj_node(const fs::path& file, std::size_t line, std::stri
   if (!index) return line_error(file, line, quoted(corner) + " is not a node", "a face lists nodes as i, i/t, i//n or i/t/n");
   const auto count = static_cast<long long>(nodes);
   if (*index == 0 || *index > count || *index < -count)
-    return line_error(file, line, "node " + std::to_string(*index) + " does not exist", std::to_string(nodes) + " nodes come before this line; they count from 1, or from -1 backwards");
+    return line_error(file, line, "node " + std::to_string(*index) + " does not exist",
+                      std::to_string(nodes) + " nodes come before this line; they count from 1, or from -1 backwards");
   return static_cast<std::uint32_t>(*index > 0 ? *index - 1 : count + *index);
 }
 
 bool passed_over(std::string_view keyword) {
-  constexpr std::string_view kKeywords[] = {"vt", "vn", "vp", "g", "o", "s", "mg", "usemtl", "mtllib", "l", "p", "usemap", "maplib",
-                                            "shadow_obj", "trace_obj", "lod", "bevel", "c_interp", "d_interp"};
+  constexpr std::string_view kKeywords[] = {"vt", "vn",     "vp",     "g",          "o",         "s",   "mg",    "usemtl",   "mtllib",  "l",
+                                            "p",  "usemap", "maplib", "shadow_obj", "trace_obj", "lod", "bevel", "c_interp", "d_interp"};
   return std::ranges::find(kKeywords, keyword) != std::end(kKeywords);
 }
 
@@ -164,7 +171,8 @@ Result<TriangleMesh> parse_obj(const fs::path& file, std::string_view content) {
         MORULA_TRY_ASSIGN(const std::uint32_t node, obj_node(file, words.line(), word, mesh.position.size()));
         corners.push_back(node);
       }
-      if (corners.size() < 3) return line_error(file, words.line(), "a face has only " + std::to_string(corners.size()) + " nodes", "a face has at least three");
+      if (corners.size() < 3)
+        return line_error(file, words.line(), "a face has only " + std::to_string(corners.size()) + " nodes", "a face has at least three");
       for (std::size_t c = 2; c < corners.size(); ++c) mesh.faces.push_back({corners[0], corners[c - 1], corners[c]});
     } else {
       return line_error(file, words.line(), quoted(keyword) + " is not known", "only polygons (v, f) can be read; is this an OBJ file?");
@@ -191,8 +199,10 @@ Result<TriangleMesh> read_stl(const fs::path& file, const SurfaceFileOptions& op
   }
   if (content.size() < kStlHeader || content.find('\0') == std::string::npos)
     return file_error(file, "is no STL file", "it neither begins with 'solid' nor has the size of a binary STL");
-  return file_error(file, "announces " + std::to_string(announced) + " faces, which take " + std::to_string(binary_size) + " bytes, but has " +
-                              std::to_string(content.size()), "it is truncated, or no STL file; write it again");
+  return file_error(file,
+                    "announces " + std::to_string(announced) + " faces, which take " + std::to_string(binary_size) + " bytes, but has " +
+                        std::to_string(content.size()),
+                    "it is truncated, or no STL file; write it again");
 }
 
 Result<TriangleMesh> read_obj(const fs::path& file, const SurfaceFileOptions& options) {

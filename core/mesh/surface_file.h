@@ -8,7 +8,7 @@
 namespace morula {
 
 struct SurfaceFileOptions {
-  double scale = 1.0;   ///< coordinates in the file × scale = µm
+  double scale = 1.0;  ///< coordinates in the file × scale = µm
   /// Nodes nearer than this part of the diagonal of the whole surface become one; 0 unites only equal ones. STL repeats each node in every
   /// face, rounded to single precision (6·10⁻⁸).
   double weld = 1e-6;

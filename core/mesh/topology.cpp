@@ -17,9 +17,9 @@ Error mesh_error(std::string message, std::string help) { return {ErrorKind::kIn
 
 /// One side of a face: the edge between two nodes as this face walks along it.
 struct FaceSide {
-  std::uint32_t low, high;  ///< end nodes, low < high
+  std::uint32_t low, high;     ///< end nodes, low < high
   std::uint32_t face, corner;  ///< the side opposite to this corner of this face
-  bool forward;             ///< the face walks from low to high
+  bool forward;                ///< the face walks from low to high
 
   friend bool operator<(const FaceSide& a, const FaceSide& b) {
     if (a.low != b.low) return a.low < b.low;
@@ -135,8 +135,8 @@ Result<std::shared_ptr<const Topology>> Topology::build(std::uint32_t node_count
     const auto number = static_cast<std::uint32_t>(topology->edges_.size());
     topology->face_edges_[left.face][left.corner] = number;
     topology->face_edges_[right.face][right.corner] = number;
-    topology->edges_.push_back({left.low, left.high, topology->faces_[left.face][left.corner], topology->faces_[right.face][right.corner],
-                                left.face, right.face});
+    topology->edges_.push_back(
+        {left.low, left.high, topology->faces_[left.face][left.corner], topology->faces_[right.face][right.corner], left.face, right.face});
     begin = end;
   }
 

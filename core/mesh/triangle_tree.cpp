@@ -129,7 +129,8 @@ std::optional<NearestFace> TriangleTree::nearest(const Vec3d& p, double cutoff) 
       const std::uint32_t face = order_[n];
       const auto& [a, b, c] = faces_[face];
       const ClosestPoint closest = closest_point_on_triangle(p, position_[a], position_[b], position_[c]);
-      const bool better = best ? closest.distance2 < best2 || (closest.distance2 == best2 && face < best->face) : closest.distance2 <= best2;
+      const bool better =
+          best ? closest.distance2 < best2 || (closest.distance2 == best2 && face < best->face) : closest.distance2 <= best2;
       if (!better) continue;
       best = NearestFace{face, closest};
       best2 = closest.distance2;

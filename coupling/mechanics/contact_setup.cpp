@@ -32,9 +32,9 @@ void box_mesh(const Box& box, std::vector<Vec3d>& position, std::vector<Triangle
   position.clear();
   for (int z = 0; z < 2; ++z)
     for (int y = 0; y < 2; ++y)
-      for (int x = 0; x < 2; ++x)
-        position.push_back({x ? box.high.x : box.low.x, y ? box.high.y : box.low.y, z ? box.high.z : box.low.z});
-  faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+      for (int x = 0; x < 2; ++x) position.push_back({x ? box.high.x : box.low.x, y ? box.high.y : box.low.y, z ? box.high.z : box.low.z});
+  faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+           {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
 }
 
 /// k_w = 4E′/(3π a_ref), E′ = E/(1 − ν²): a Winkler foundation that meets the Hertz force of a sphere on a plane at the contact radius a_ref
@@ -76,7 +76,8 @@ Result<std::vector<RigidSurface>> contact_obstacles(const Model& model) {
   std::vector<RigidSurface> out;
   for (std::size_t i = 0; i < model.obstacles.size(); ++i) {
     const ObstacleSpec& spec = model.obstacles[i];
-    MORULA_TRY_ASSIGN(auto surface, rigid_surface(spec.name, spec.position, spec.faces, spec.inside, static_cast<std::uint16_t>(model.types.size() + i)));
+    MORULA_TRY_ASSIGN(auto surface,
+                      rigid_surface(spec.name, spec.position, spec.faces, spec.inside, static_cast<std::uint16_t>(model.types.size() + i)));
     out.push_back(std::move(surface));
   }
   const Box& box = model.space.box;

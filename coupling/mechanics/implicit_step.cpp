@@ -9,9 +9,9 @@ namespace {
 constexpr double kArmijo = 1e-4;
 constexpr int kHalvings = 8;
 constexpr int kGradientHalvings = 20;
-constexpr double kStuckForce = 1e-3;        // largest residual that counts as rest [nN]
-constexpr double kAllowedRise = 0.2;        // of Φ, in the last resort of the freeze rule [nN·µm]
-constexpr double kLastResortStep = 0.2;     // in units of the contact range
+constexpr double kStuckForce = 1e-3;     // largest residual that counts as rest [nN]
+constexpr double kAllowedRise = 0.2;     // of Φ, in the last resort of the freeze rule [nN·µm]
+constexpr double kLastResortStep = 0.2;  // in units of the contact range
 constexpr int kMaxLinearIterations = 400;
 
 }  // namespace
@@ -20,10 +20,10 @@ constexpr int kMaxLinearIterations = 400;
 struct Mechanics::Trial {
   Mechanics& m;
   const Tissue& tissue;
-  std::span<const Vec3d> start;     ///< x_n by point
+  std::span<const Vec3d> start;  ///< x_n by point
   std::span<const Vec3d> external;
   double dt;
-  double phi;                       ///< at the accepted state
+  double phi;  ///< at the accepted state
   StepReport& report;
 
   [[nodiscard]] double measure() {

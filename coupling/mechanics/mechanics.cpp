@@ -56,14 +56,16 @@ void Mechanics::prepare(const Tissue& tissue) {
   if (!renew && comm_.size() > 1) {
     double most = 0.0;
     for (std::size_t i = 0; i < scene_start_.size(); ++i) {
-      const Vec3d& now = i < tissue.shells.position.size() ? tissue.shells.position[i] : tissue.spheres.position[i - tissue.shells.position.size()];
+      const Vec3d& now =
+          i < tissue.shells.position.size() ? tissue.shells.position[i] : tissue.spheres.position[i - tissue.shells.position.size()];
       most = std::max(most, norm2(now - scene_start_[i]));
     }
     renew = most > 0.25 * slack * slack;
   }
   if (comm_.any(renew)) {
     auto timed = timer_.scope(Stage::kGhosts);
-    const double reach = std::max(contacts_.settings().range, contacts_.settings().sphere_reach) + 2.0 * contacts_.settings().body_skin + slack + 2.0 * step_margin(model_);
+    const double reach = std::max(contacts_.settings().range, contacts_.settings().sphere_reach) + 2.0 * contacts_.settings().body_skin +
+                         slack + 2.0 * step_margin(model_);
     scene_.build(tissue, model_.space, reach, shapes_, comm_);
     scene_valid_ = true;
     evaluated_ = contacts_current_ = false;
@@ -83,8 +85,10 @@ void Mechanics::prepare(const Tissue& tissue) {
     gradient_.face_normal.assign(faces, {});
     gradient_.contact_area.assign(bodies, 0.0);
 
-    if (relaxing_) hold_all_but(relax_moves_);  // the new scene knows nothing of who is held
-    else lay_out_system();
+    if (relaxing_)
+      hold_all_but(relax_moves_);  // the new scene knows nothing of who is held
+    else
+      lay_out_system();
   }
   if (!evaluated_) {
     const double cap = tissue.clock.capped ? (relaxing_ ? relax_cap_ : model_.step.start_cap) : 0.0;
@@ -296,10 +300,11 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
 
 std::size_t Mechanics::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return contacts_.memory() + shells_.memory() + spheres_.memory() + bytes(force_) + bytes(residual_) + bytes(displacement_) + bytes(friction_) +
-         bytes(right_) + bytes(solution_) + bytes(gradient_.node_normal) + bytes(gradient_.face_energy) + bytes(gradient_.face_normal) +
-         bytes(gradient_.force) + bytes(geometry_.face_area) + bytes(geometry_.face_normal) + bytes(geometry_.node_normal) +
-         bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) + bytes(scene_.position()) + bytes(scene_start_);
+  return contacts_.memory() + shells_.memory() + spheres_.memory() + bytes(force_) + bytes(residual_) + bytes(displacement_) +
+         bytes(friction_) + bytes(right_) + bytes(solution_) + bytes(gradient_.node_normal) + bytes(gradient_.face_energy) +
+         bytes(gradient_.face_normal) + bytes(gradient_.force) + bytes(geometry_.face_area) + bytes(geometry_.face_normal) +
+         bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) + bytes(scene_.position()) +
+         bytes(scene_start_);
 }
 
 }  // namespace morula

@@ -21,19 +21,19 @@ namespace morula {
 /// Why a step could not be done as asked.
 struct StepFault {
   std::string what;
-  CellId cell;               ///< where, if known
+  CellId cell;  ///< where, if known
   bool smaller_step_may_help = true;
 };
 
 struct StepReport {
-  double step = 0.0;                 ///< done [s]
-  int newton = 0;                    ///< iterations
+  double step = 0.0;  ///< done [s]
+  int newton = 0;     ///< iterations
   int linear_iterations = 0;
-  int halvings = 0;                  ///< of the line search
-  double displacement = 0.0;         ///< largest of any point [µm]
-  double energy = 0.0;               ///< at the end [nN·µm]
-  double allowed_rise = 0.0;         ///< rise of Φ that the freeze rule let pass [nN·µm]
-  double overlap = 0.0;              ///< deepest penetration of a surface [µm]
+  int halvings = 0;           ///< of the line search
+  double displacement = 0.0;  ///< largest of any point [µm]
+  double energy = 0.0;        ///< at the end [nN·µm]
+  double allowed_rise = 0.0;  ///< rise of Φ that the freeze rule let pass [nN·µm]
+  double overlap = 0.0;       ///< deepest penetration of a surface [µm]
 };
 
 /// What mechanics knows of each cell at the present positions, in the order of the rank's bodies (shells, then spheres).
@@ -119,13 +119,13 @@ class Mechanics {
 
   Scene scene_;
   bool scene_valid_ = false;
-  bool evaluated_ = false;           ///< energy and forces belong to the scene's positions and the tissue's parameters
-  double relax_cap_ = 0.0;           ///< δ while cells relax in place; 0: that of the study
-  bool relaxing_ = false;            ///< obstacles and flags stand still
-  bool flags_changed_ = false;       ///< spheres attached or parted at the end of the last step: forces are to be found anew
-  std::vector<char> relax_moves_;    ///< which owned bodies move meanwhile
-  bool contacts_current_ = false;    ///< geometry and surface contacts belong to the scene's positions
-  std::vector<Vec3d> scene_start_;   ///< owned positions when the ghosts were found
+  bool evaluated_ = false;          ///< energy and forces belong to the scene's positions and the tissue's parameters
+  double relax_cap_ = 0.0;          ///< δ while cells relax in place; 0: that of the study
+  bool relaxing_ = false;           ///< obstacles and flags stand still
+  bool flags_changed_ = false;      ///< spheres attached or parted at the end of the last step: forces are to be found anew
+  std::vector<char> relax_moves_;   ///< which owned bodies move meanwhile
+  bool contacts_current_ = false;   ///< geometry and surface contacts belong to the scene's positions
+  std::vector<Vec3d> scene_start_;  ///< owned positions when the ghosts were found
   ContactLayer contacts_;
   ContactGradient gradient_;
   SurfaceGeometry geometry_;

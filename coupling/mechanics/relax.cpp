@@ -5,11 +5,11 @@
 namespace morula {
 namespace {
 
-constexpr double kFirstStep = 0.1;        // [s]
-constexpr double kLongestStep = 30.0;     // [s]
-constexpr double kCap = 0.1;              // δ of the capped traction [µm]
-constexpr double kAtRest = 2e-3;          // displacement of a longest step that counts as rest [µm]
-constexpr double kOverlapAtRest = 0.1;    // [µm]
+constexpr double kFirstStep = 0.1;      // [s]
+constexpr double kLongestStep = 30.0;   // [s]
+constexpr double kCap = 0.1;            // δ of the capped traction [µm]
+constexpr double kAtRest = 2e-3;        // displacement of a longest step that counts as rest [µm]
+constexpr double kOverlapAtRest = 0.1;  // [µm]
 constexpr int kMostSteps = 120;
 
 }  // namespace

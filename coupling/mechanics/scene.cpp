@@ -59,7 +59,8 @@ void Scene::add_owned(const Tissue& tissue) {
   birth_.clear();
   for (const CellRow& row : tissue.cells.rows) {
     ContactBody body;
-    (row.body == BodyKind::kShell ? birth_ : sphere_birth).push_back({std::cbrt(3.0 * row.birth_volume / (4.0 * std::numbers::pi)), row.birth_time});
+    (row.body == BodyKind::kShell ? birth_ : sphere_birth)
+        .push_back({std::cbrt(3.0 * row.birth_volume / (4.0 * std::numbers::pi)), row.birth_time});
     body.id = row.id;
     body.material = row.type;
     if (row.body == BodyKind::kShell) {
@@ -103,8 +104,15 @@ void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, 
     for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
       if (!overlaps_any_image(box[i], all[r], space)) continue;
       send_bodies_[r].push_back(i);
-      headers.push_back({bodies_[i].id, order[i], bodies_[i].radius, birth_[i].radius, birth_[i].time, bodies_[i].point_count,
-                         bodies_[i].material, bodies_[i].shape, {}});
+      headers.push_back({bodies_[i].id,
+                         order[i],
+                         bodies_[i].radius,
+                         birth_[i].radius,
+                         birth_[i].time,
+                         bodies_[i].point_count,
+                         bodies_[i].material,
+                         bodies_[i].shape,
+                         {}});
     }
     outgoing[r] = pack(headers);
   }
@@ -160,9 +168,8 @@ void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, 
 void Scene::place_bodies(std::span<const std::uint64_t> order) {
   std::vector<std::uint32_t> sorted(bodies_.size());
   std::iota(sorted.begin(), sorted.end(), 0u);
-  std::sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return order[a] != order[b] ? order[a] < order[b] : bodies_[a].id < bodies_[b].id;
-  });
+  std::sort(sorted.begin(), sorted.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return order[a] != order[b] ? order[a] < order[b] : bodies_[a].id < bodies_[b].id; });
   for (std::uint32_t place = 0; place < sorted.size(); ++place) bodies_[sorted[place]].place = place;
 }
 
@@ -247,7 +254,8 @@ void Scene::exchange_points(std::span<T> by_point) const {
       out[r].insert(out[r].end(), points.begin(), points.end());
     }
     if (out[r].empty()) continue;
-    MPI_Isend(out[r].data(), static_cast<int>(out[r].size() * sizeof(T)), MPI_BYTE, static_cast<int>(r), 72, comm_->raw(), &requests.emplace_back());
+    MPI_Isend(out[r].data(), static_cast<int>(out[r].size() * sizeof(T)), MPI_BYTE, static_cast<int>(r), 72, comm_->raw(),
+              &requests.emplace_back());
   }
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   for (std::size_t r = 0; r < ranks; ++r) {

@@ -26,12 +26,12 @@ class Scene {
   [[nodiscard]] std::size_t owned_spheres() const { return owned_spheres_; }
   [[nodiscard]] std::size_t first_sphere() const { return shells_; }  ///< body number
   [[nodiscard]] std::size_t ghost_count() const { return bodies_.size() - owned_shells_ - owned_spheres_; }
-  [[nodiscard]] std::uint32_t owned_nodes() const { return owned_nodes_; }  ///< of owned shells: points 0 .. owned_nodes−1
-  [[nodiscard]] std::uint32_t sphere_point() const { return shell_nodes_; } ///< first point of the owned spheres
+  [[nodiscard]] std::uint32_t owned_nodes() const { return owned_nodes_; }   ///< of owned shells: points 0 .. owned_nodes−1
+  [[nodiscard]] std::uint32_t sphere_point() const { return shell_nodes_; }  ///< first point of the owned spheres
   [[nodiscard]] std::size_t point_count() const { return position_.size(); }
   [[nodiscard]] std::size_t face_count() const { return face_count_; }
   [[nodiscard]] std::span<const std::shared_ptr<const ReferenceShape>> shapes() const { return shapes_; }  ///< of shells, ghosts too
-  [[nodiscard]] std::span<const Topology* const> topologies() const { return topologies_; }                     ///< of shells, ghosts too
+  [[nodiscard]] std::span<const Topology* const> topologies() const { return topologies_; }                ///< of shells, ghosts too
   [[nodiscard]] std::span<const std::uint32_t> first_node() const { return first_node_; }
   [[nodiscard]] std::span<const std::uint32_t> first_face() const { return first_face_; }
 

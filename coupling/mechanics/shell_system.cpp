@@ -23,7 +23,8 @@ void ShellSystem::begin_step(const dcm::Shells& shells, std::span<const Vec3d> p
   dcm::compute_shell_friction(blocks_, shells, parameters_, position.first(nodes), std::span(geometry.node_area).first(nodes), friction_);
 }
 
-void ShellSystem::assemble(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<const double> face_contact_energy, double dt) {
+void ShellSystem::assemble(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<const double> face_contact_energy,
+                           double dt) {
   dcm::assemble_shell_operator(blocks_, shells, parameters_, position.first(shells.node_count()), friction_,
                                face_contact_energy.first(blocks_.face_count()), dt, operator_);
 }
@@ -49,7 +50,9 @@ void ShellSystem::add_diagonal(std::span<SymMat3<float>> diagonal) const {
 std::size_t ShellSystem::memory() const {
   std::size_t total = forces_.force.capacity() * sizeof(Vec3d) + friction_force_.capacity() * sizeof(Vec3d);
   for (const auto& block : operator_.blocks)
-    total += (block.edge.capacity() + block.diagonal.capacity() + block.volume_gradient.capacity() + block.shape.capacity() + block.barrier.capacity()) * sizeof(float) +
+    total += (block.edge.capacity() + block.diagonal.capacity() + block.volume_gradient.capacity() + block.shape.capacity() +
+              block.barrier.capacity()) *
+                 sizeof(float) +
              (block.shape_face.capacity() + block.barrier_edge.capacity()) * sizeof(std::uint32_t);
   for (const auto& block : friction_.blocks) total += (block.direction.capacity() + block.medium.capacity()) * sizeof(double);
   return total;

@@ -19,7 +19,8 @@ SphereContacts::SphereContacts(const Model& model) : model_(model) {
     for (std::size_t b = 0; b < materials; ++b) {
       const bool adhesive = s.adhesive && b < model.material_count() && (b >= types || model.types[b].sphere.adhesive);
       const double adhesion = adhesive ? model.pair(a, b).adhesion : 0.0;
-      materials_[a * materials + b] = b < types ? cbm::ContactMaterial::elastic(s.young, s.poisson, model.types[b].sphere.young, model.types[b].sphere.poisson, adhesion)
+      materials_[a * materials + b] = b < types ? cbm::ContactMaterial::elastic(s.young, s.poisson, model.types[b].sphere.young,
+                                                                                model.types[b].sphere.poisson, adhesion)
                                                 : cbm::ContactMaterial::against_rigid(s.young, s.poisson, adhesion);
     }
   }
@@ -119,42 +120,42 @@ void SphereContacts::make_element(const Pair& pair, const ContactBody& a, const 
 void SphereContacts::evaluate_pair(const Scene& scene, const ContactLayer& contacts, std::size_t k) {
   const auto bodies = scene.bodies();
   const auto& x = scene.position();
-    const Pair& pair = pairs_[k];
-    const ContactBody& a = bodies[pair.a];
-    Response& response = responses_[k];
-    response = {};
-    const ContactBody* b = pair.rigid ? nullptr : &bodies[pair.b];
-    if (b != nullptr) {
-      const Vec3d between = x[b->first_point] + pair.shift - x[a.first_point];
-      response.distance = norm(between);
-      response.normal = response.distance > 1e-9 ? between * (1.0 / response.distance) : Vec3d{0, 0, 1};
-      response.overlap = a.radius + b->radius - response.distance - pair.overlap_offset;
-    } else {
-      const auto& obstacle = contacts.obstacles()[pair.b];
-      const double reach = a.radius + contacts.settings().sphere_reach + contacts.settings().body_skin;
-      const auto near = obstacle.tree->nearest(x[a.first_point] - contacts.obstacle_offset(pair.b), reach);
-      if (!near) {
-        elements_[k] = {a.first_point, kRigidPoint, pair.a, pair.a, {0, 0, 1}, 0, 0, 0};
-        response.overlap = -1e300;
-        return;
-      }
-      const Vec3d from = x[a.first_point] - contacts.obstacle_offset(pair.b);
-      const double side = signed_distance(*obstacle.topology, obstacle.position, from, near->face, near->closest) < 0.0 ? -1.0 : 1.0;
-      const Vec3d between = near->closest.point + contacts.obstacle_offset(pair.b) - x[a.first_point];
-      const double distance = norm(between);
-      response.distance = side * distance;
-      response.normal = distance > 1e-9 ? between * (side / distance) : -obstacle.geometry.face_normal[near->face];
-      response.overlap = a.radius - response.distance;
-    }
-    if (response.overlap < (pair.attached ? cbm::kBreakOverlap * pair.law.length : 0.0)) {  // out of reach: most of what the skin adds
-      elements_[k] = {a.first_point, b != nullptr ? b->first_point : kRigidPoint, pair.a, b != nullptr ? pair.b : pair.a, {0, 0, 1}, 0, 0, 0};
+  const Pair& pair = pairs_[k];
+  const ContactBody& a = bodies[pair.a];
+  Response& response = responses_[k];
+  response = {};
+  const ContactBody* b = pair.rigid ? nullptr : &bodies[pair.b];
+  if (b != nullptr) {
+    const Vec3d between = x[b->first_point] + pair.shift - x[a.first_point];
+    response.distance = norm(between);
+    response.normal = response.distance > 1e-9 ? between * (1.0 / response.distance) : Vec3d{0, 0, 1};
+    response.overlap = a.radius + b->radius - response.distance - pair.overlap_offset;
+  } else {
+    const auto& obstacle = contacts.obstacles()[pair.b];
+    const double reach = a.radius + contacts.settings().sphere_reach + contacts.settings().body_skin;
+    const auto near = obstacle.tree->nearest(x[a.first_point] - contacts.obstacle_offset(pair.b), reach);
+    if (!near) {
+      elements_[k] = {a.first_point, kRigidPoint, pair.a, pair.a, {0, 0, 1}, 0, 0, 0};
+      response.overlap = -1e300;
       return;
     }
-    const auto law = cbm::contact_response(pair.law, response.overlap, pair.attached);
-    response.force = law.force;
-    response.energy = law.energy;
-    response.area = law.area;
-    make_element(pair, a, b, response, law.area, law.stiffness, elements_[k]);
+    const Vec3d from = x[a.first_point] - contacts.obstacle_offset(pair.b);
+    const double side = signed_distance(*obstacle.topology, obstacle.position, from, near->face, near->closest) < 0.0 ? -1.0 : 1.0;
+    const Vec3d between = near->closest.point + contacts.obstacle_offset(pair.b) - x[a.first_point];
+    const double distance = norm(between);
+    response.distance = side * distance;
+    response.normal = distance > 1e-9 ? between * (side / distance) : -obstacle.geometry.face_normal[near->face];
+    response.overlap = a.radius - response.distance;
+  }
+  if (response.overlap < (pair.attached ? cbm::kBreakOverlap * pair.law.length : 0.0)) {  // out of reach: most of what the skin adds
+    elements_[k] = {a.first_point, b != nullptr ? b->first_point : kRigidPoint, pair.a, b != nullptr ? pair.b : pair.a, {0, 0, 1}, 0, 0, 0};
+    return;
+  }
+  const auto law = cbm::contact_response(pair.law, response.overlap, pair.attached);
+  response.force = law.force;
+  response.energy = law.energy;
+  response.area = law.area;
+  make_element(pair, a, b, response, law.area, law.stiffness, elements_[k]);
 }
 
 void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts) {
@@ -240,7 +241,8 @@ bool SphereContacts::update_attached(const Scene& scene, Tissue& tissue) {
   return changed;
 }
 
-void SphereContacts::add_values(const Scene& scene, const Tissue& tissue, std::span<double> pressure, std::span<double> contact_area) const {
+void SphereContacts::add_values(const Scene& scene, const Tissue& tissue, std::span<double> pressure,
+                                std::span<double> contact_area) const {
   for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
     double virial = 0.0;
     for (std::uint32_t k = incident_begin_[i]; k < incident_begin_[i + 1]; ++k) {

@@ -46,7 +46,7 @@ class SphereContacts {
 
  private:
   struct Pair {
-    std::uint32_t a, b;         ///< bodies; b is the obstacle's number if rigid
+    std::uint32_t a, b;  ///< bodies; b is the obstacle's number if rigid
     Vec3d shift;
     cbm::PairLaw<double> law;
     double overlap_offset = 0;  ///< of young sisters: the law sees δ − offset
@@ -54,7 +54,7 @@ class SphereContacts {
     bool rigid = false;
   };
   struct Response {
-    Vec3d normal;               ///< from a to b
+    Vec3d normal;  ///< from a to b
     double distance = 0.0, overlap = 0.0, force = 0.0, energy = 0.0, area = 0.0;
   };
   void update_law(const Scene& scene, double now, Pair& pair) const;
@@ -65,7 +65,7 @@ class SphereContacts {
   const Model& model_;
   std::vector<cbm::ContactMaterial> materials_;  ///< cell type × material
   std::vector<Pair> pairs_;
-  std::vector<std::uint32_t> sisters_;           ///< pairs of sisters
+  std::vector<std::uint32_t> sisters_;  ///< pairs of sisters
   std::vector<Response> responses_;
   std::vector<SpherePairElement> elements_, step_elements_;
   std::vector<float> medium_friction_;

@@ -17,7 +17,8 @@ struct Pair {
   Vec3d n{1, 0, 0};
 };
 
-std::vector<Vec3d> velocities(std::size_t count, double g, const std::vector<Pair>& pairs, const std::vector<Vec3d>& force, int threads = 1) {
+std::vector<Vec3d> velocities(std::size_t count, double g, const std::vector<Pair>& pairs, const std::vector<Vec3d>& force,
+                              int threads = 1) {
   FrictionSystem::Layout layout;
   layout.point_count = count;
   for (std::uint32_t i = 0; i < count; ++i) layout.bodies.push_back({i, 1});
@@ -27,12 +28,19 @@ std::vector<Vec3d> velocities(std::size_t count, double g, const std::vector<Pai
   system.set_point_friction(std::vector<float>(count, static_cast<float>(g)));
   std::vector<SpherePairElement> elements;
   for (const Pair& p : pairs)
-    elements.push_back({p.i, p.j, p.i, p.j, {static_cast<float>(p.n.x), static_cast<float>(p.n.y), static_cast<float>(p.n.z)},
-                        static_cast<float>(p.tangential), static_cast<float>(p.normal - p.tangential), 0.0f});
+    elements.push_back({p.i,
+                        p.j,
+                        p.i,
+                        p.j,
+                        {static_cast<float>(p.n.x), static_cast<float>(p.n.y), static_cast<float>(p.n.z)},
+                        static_cast<float>(p.tangential),
+                        static_cast<float>(p.normal - p.tangential),
+                        0.0f});
   system.set_sphere_pairs(elements);
   system.set_elements({}, FaceQuadrature::with_points(3));
   std::vector<Float4> b(count), v(count);
-  for (std::size_t i = 0; i < count; ++i) b[i] = {static_cast<float>(force[i].x), static_cast<float>(force[i].y), static_cast<float>(force[i].z), 0.0f};
+  for (std::size_t i = 0; i < count; ++i)
+    b[i] = {static_cast<float>(force[i].x), static_cast<float>(force[i].y), static_cast<float>(force[i].z), 0.0f};
   const auto report = system.solve(b, v, 1e-7, 500, Comm());
   EXPECT_TRUE(report.ok());
   std::vector<Vec3d> out;

@@ -108,7 +108,8 @@ TEST(ImplicitStep, DoesNotDependOnWhenTheWorkspaceWasMade) {
     Mechanics fresh(model, {}, shapes, Comm(), 1);
     if (step % 3 == 0) (void)fresh.values(split);  // looking changes nothing
     ASSERT_TRUE(fresh.step(split, 0.2, none).ok());
-    for (std::size_t i = 0; i < whole.shells.position.size(); ++i) ASSERT_EQ(whole.shells.position[i], split.shells.position[i]) << step << ' ' << i;
+    for (std::size_t i = 0; i < whole.shells.position.size(); ++i)
+      ASSERT_EQ(whole.shells.position[i], split.shells.position[i]) << step << ' ' << i;
     ASSERT_EQ(whole.spheres.position[0], split.spheres.position[0]) << step;
     for (Tissue* t : {&whole, &split}) t->spheres.radius[0] *= 1.001;
     kept.parameters_changed();

@@ -45,7 +45,8 @@ inline Tissue make_tissue(const Model& model, ShapeLibrary& shapes, const std::v
     cell.row.division_volume = 2.0 * volume;
     if (bodies[i] == BodyKind::kShell) {
       const auto& p = model.types[0].shell;
-      cell.shell = spherical_shell(shapes.icosphere(nodes).value(), centers[i], volume, dcm::pressure_free_reference(volume, p.tension, p.bulk_modulus));
+      cell.shell = spherical_shell(shapes.icosphere(nodes).value(), centers[i], volume,
+                                   dcm::pressure_free_reference(volume, p.tension, p.bulk_modulus));
     } else {
       cell.sphere = SphereRecord{centers[i], radius, {}, {}};
     }

@@ -158,7 +158,8 @@ TEST(ClosestPoint, IsRightForSliversOfAnyThinness) {
   for (int n = 0; n < 3000; ++n) {
     const double thin = std::pow(10.0, draw.number(-16, -1));
     const Vec3d a = draw.point(1), b = draw.point(1);
-    for (const Corners& t : {Corners{a, b, (a + b) * 0.5 + draw.point(thin)}, Corners{a, a + draw.point(thin), b}, Corners{b, a, a + draw.point(thin)}}) {
+    for (const Corners& t :
+         {Corners{a, b, (a + b) * 0.5 + draw.point(thin)}, Corners{a, a + draw.point(thin), b}, Corners{b, a, a + draw.point(thin)}}) {
       for (const Vec3d& p : {draw.point(2), (t[0] + t[1] + t[2]) / 3.0 + draw.point(thin), draw.point(100)}) {
         const ClosestPoint c = closest(p, t);
         expect_sound(c, p, t, 1e-12);
@@ -236,7 +237,8 @@ TEST(Pseudonormal, TellsInsideFromOutsideOfASpikyBodyAtEveryFeature) {
 TEST(Pseudonormal, WeightsTheNormalsAtANodeByTheirAngles) {
   // Cube corner cut into three squares, one of them by its diagonal through the corner: each square still weighs π/2.
   const std::vector<Vec3d> x = {{1, 1, 1}, {0, 1, 1}, {0, 0, 1}, {1, 0, 1}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}};
-  const std::vector<Triangle> faces = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {3, 5, 4}, {0, 4, 1}, {1, 4, 6}, {2, 1, 6}, {2, 6, 7}, {3, 2, 7}, {3, 7, 5}, {4, 5, 7}, {4, 7, 6}};
+  const std::vector<Triangle> faces = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {3, 5, 4}, {0, 4, 1}, {1, 4, 6},
+                                       {2, 1, 6}, {2, 6, 7}, {3, 2, 7}, {3, 7, 5}, {4, 5, 7}, {4, 7, 6}};
   const auto topology = *Topology::build(8, faces);
   const Vec3d n = pseudonormal(*topology, x, 0, TriangleFeature::kVertex0);
   EXPECT_NEAR(n.x, std::acos(0.0), 1e-14);

@@ -18,7 +18,9 @@ using testing::HasSubstr;
 using testing::SizeIs;
 using Kind = MeshProblemKind;
 
-std::vector<MeshProblem> check(const TriangleMesh& mesh, MeshExpectation expectation = {}) { return check_mesh(mesh.position, mesh.faces, expectation); }
+std::vector<MeshProblem> check(const TriangleMesh& mesh, MeshExpectation expectation = {}) {
+  return check_mesh(mesh.position, mesh.faces, expectation);
+}
 
 std::vector<Kind> kinds(const std::vector<MeshProblem>& problems) {
   std::vector<Kind> out;
@@ -228,7 +230,8 @@ TEST(MeshCheck, ReportsAllKindsOfProblemsAtOnce) {
   append(mesh, *make_sphere(1.0, 2), {1.3, 0.1, 0.05});
   std::swap(mesh.faces[5][0], mesh.faces[5][1]);
   mesh.faces.erase(mesh.faces.begin() + 600);
-  EXPECT_THAT(kinds(check(mesh)), AllOf(testing::Contains(Kind::kHole), testing::Contains(Kind::kFlippedFaces), testing::Contains(Kind::kSelfIntersection)));
+  EXPECT_THAT(kinds(check(mesh)),
+              AllOf(testing::Contains(Kind::kHole), testing::Contains(Kind::kFlippedFaces), testing::Contains(Kind::kSelfIntersection)));
   const Status status = require_sound_mesh("capsule.stl", mesh.position, mesh.faces);
   ASSERT_FALSE(status.ok());
   EXPECT_THAT(status.error().message, AllOf(HasSubstr("capsule.stl"), HasSubstr("open"), HasSubstr("against"), HasSubstr("cross")));

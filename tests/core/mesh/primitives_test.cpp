@@ -33,7 +33,8 @@ TEST(Primitives, BoxIsClosedAndHasItsVolume) {
 TEST(Primitives, BoxHasNoEdgeAboveTheMarkAlongItsSides) {
   const TriangleMesh box = *make_box({2, 3, 4}, 0.7);
   for (const Triangle& face : box.faces)
-    for (std::size_t c = 0; c < 3; ++c) EXPECT_LE(norm(box.position[face[c]] - box.position[face[(c + 1) % 3]]), 0.7 * std::sqrt(2.0) + 1e-12);
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_LE(norm(box.position[face[c]] - box.position[face[(c + 1) % 3]]), 0.7 * std::sqrt(2.0) + 1e-12);
 }
 
 TEST(Primitives, SphereIsClosedAtEveryLevelAndNearsItsVolume) {

@@ -76,13 +76,13 @@ TEST_P(InscribedIcosphere, HasThePublishedFigures) {
   EXPECT_NEAR(node.max * s * s, want.area_max, 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Nodes, InscribedIcosphere,
-    testing::Values(Figures{42, 0, 0, 0, 0, 0, 0, 0.873453, 0.928345, 1.0461327, 0.58228},
-                    Figures{162, 1.7960, 1.655, 1.950, 2.7400, 2.162, 2.921, 0.966161, 0.981178, 1.0115411, 0.29933},
-                    Figures{642, 0.9044, 0.830, 0.988, 0.70130, 0.545, 0.817, 0.991394, 0.995235, 1.0028853, 0.15073},
-                    Figures{2562, 0.4530, 0.415, 0.496, 0.17637, 0.137, 0.211, 0.997839, 0.998805, 1.0007213, 0.07550}),
-    [](const auto& test) { return std::to_string(test.param.nodes); });
+INSTANTIATE_TEST_SUITE_P(Nodes, InscribedIcosphere,
+                         testing::Values(Figures{42, 0, 0, 0, 0, 0, 0, 0.873453, 0.928345, 1.0461327, 0.58228},
+                                         Figures{162, 1.7960, 1.655, 1.950, 2.7400, 2.162, 2.921, 0.966161, 0.981178, 1.0115411, 0.29933},
+                                         Figures{642, 0.9044, 0.830, 0.988, 0.70130, 0.545, 0.817, 0.991394, 0.995235, 1.0028853, 0.15073},
+                                         Figures{2562, 0.4530, 0.415, 0.496, 0.17637, 0.137, 0.211, 0.997839, 0.998805, 1.0007213,
+                                                 0.07550}),
+                         [](const auto& test) { return std::to_string(test.param.nodes); });
 
 TEST(ReferenceShape, HasUnitVolumeAndItsCentroidAtTheOriginWhateverItWasMadeFrom) {
   TriangleMesh mesh = make_icosphere(2);

@@ -99,7 +99,8 @@ TEST_F(SurfaceFile, ReadsBackTheStlItWrites) {
   EXPECT_EQ(mesh->position.size(), sphere.position.size());
   ASSERT_EQ(mesh->faces.size(), sphere.faces.size());
   for (std::size_t f = 0; f < sphere.faces.size(); ++f)
-    for (std::size_t c = 0; c < 3; ++c) EXPECT_LT(norm(mesh->position[mesh->faces[f][c]] - sphere.position[sphere.faces[f][c]]), 6.0 * 1.2e-7);
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_LT(norm(mesh->position[mesh->faces[f][c]] - sphere.position[sphere.faces[f][c]]), 6.0 * 1.2e-7);
   EXPECT_TRUE(check_mesh(mesh->position, mesh->faces).empty());
 }
 
@@ -145,7 +146,8 @@ TEST_F(SurfaceFile, NamesMissingEmptyAndForeignFiles) {
 TEST_F(SurfaceFile, NamesATruncatedBinaryStl) {
   ASSERT_TRUE(write_stl(folder_ / "a.stl", *make_box({1, 1, 1}, 1.0)).ok());
   const std::string content = slurp(folder_ / "a.stl");
-  EXPECT_THAT(message(write("cut.stl", content.substr(0, 333))), AllOf(HasSubstr("announces 12 faces"), HasSubstr("684 bytes"), HasSubstr("has 333")));
+  EXPECT_THAT(message(write("cut.stl", content.substr(0, 333))),
+              AllOf(HasSubstr("announces 12 faces"), HasSubstr("684 bytes"), HasSubstr("has 333")));
 }
 
 TEST_F(SurfaceFile, NamesATruncatedTextStl) {
@@ -176,11 +178,12 @@ TEST_F(SurfaceFile, NamesCoordinatesThatAreNotFiniteNumbers) {
 }
 
 TEST_F(SurfaceFile, ReadsAnObjWithAllWaysToNameANode) {
-  const auto mesh = read_surface(write("box.obj", "# a box\r\nmtllib x.mtl\no box\n"
-                                                  "v 0 0 0\nv 1 0 0 1.0\nv 1 1 0 0.5 0.5 0.5\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nv 9 9 9\n"
-                                                  "vt 0 0\nvn 0 0 1\ns off\n"
-                                                  "f 1 4 3 2\nf 5/1 6/1 7/1 8/1 # top\nf 1//1 2//1 6//1 5//1\nf 2/1/1 3/1/1 7/1/1 6/1/1\n"
-                                                  "f -7 -6 -2 -3\nf 4 \\\n 1 5 8\n"));
+  const auto mesh = read_surface(write("box.obj",
+                                       "# a box\r\nmtllib x.mtl\no box\n"
+                                       "v 0 0 0\nv 1 0 0 1.0\nv 1 1 0 0.5 0.5 0.5\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nv 9 9 9\n"
+                                       "vt 0 0\nvn 0 0 1\ns off\n"
+                                       "f 1 4 3 2\nf 5/1 6/1 7/1 8/1 # top\nf 1//1 2//1 6//1 5//1\nf 2/1/1 3/1/1 7/1/1 6/1/1\n"
+                                       "f -7 -6 -2 -3\nf 4 \\\n 1 5 8\n"));
   ASSERT_TRUE(mesh.ok()) << mesh.error().message;
   EXPECT_EQ(mesh->position.size(), 8u);  // the node at (9, 9, 9) belongs to no face
   EXPECT_EQ(mesh->faces.size(), 12u);

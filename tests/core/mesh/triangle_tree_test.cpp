@@ -22,7 +22,8 @@ TriangleMesh crowd_of_random_triangles(std::mt19937_64& engine, std::size_t coun
   TriangleMesh mesh;
   for (std::size_t f = 0; f < count; ++f) {
     const Vec3d center{place(engine), place(engine), place(engine)};
-    for (int c = 0; c < 3; ++c) mesh.position.push_back(center + Vec3d{size(engine), size(engine), size(engine)} * (f % 5 == 0 ? 0.0 : 1.0));
+    for (int c = 0; c < 3; ++c)
+      mesh.position.push_back(center + Vec3d{size(engine), size(engine), size(engine)} * (f % 5 == 0 ? 0.0 : 1.0));
     const auto n = static_cast<std::uint32_t>(3 * f);
     mesh.faces.push_back({n, n + 1, n + 2});
   }
@@ -56,7 +57,8 @@ TEST(TriangleTree, FindsTheNearestFaceAsALoopOverAllDoesBitForBit) {
   for (const TriangleMesh* mesh : {&sphere, &crowd}) {
     const TriangleTree tree(mesh->position, mesh->faces);
     for (int n = 0; n < 1500; ++n) {
-      const Vec3d p = n % 10 == 0 ? mesh->position[static_cast<std::size_t>(n) % mesh->position.size()] * 1.5 : Vec3d{place(engine), place(engine), place(engine)};
+      const Vec3d p = n % 10 == 0 ? mesh->position[static_cast<std::size_t>(n) % mesh->position.size()] * 1.5
+                                  : Vec3d{place(engine), place(engine), place(engine)};
       std::uint32_t want = 0;
       double want2 = 1e300;
       for (std::uint32_t f = 0; f < mesh->faces.size(); ++f) {
