@@ -35,10 +35,15 @@ Vec3d pseudonormal(const PairBody& target, std::uint32_t face, const double (&mu
   return sum;
 }
 
+/// How far behind the nearest face another one need be known to lie: a longer lead would save nothing, since bodies move less between
+/// evaluations [µm].
+constexpr double kLead = 0.15;
+
 struct Candidate {
   double distance2 = 1e300;
-  double second2 = 1e300;  ///< lower bound of the squared distance to all other faces
-  double second = 1e150;   ///< its root
+  double distance = 1e150;  ///< its root
+  double second2 = 1e300;   ///< lower bound of the squared distance to all other faces
+  double second = 1e150;    ///< its root
   std::uint16_t place = kAsleep;
   ClosestPoint closest;
 };
@@ -52,7 +57,7 @@ void try_face(const Vec3d& point, std::uint16_t place, const PointsEvaluation& e
   const Vec3d away = point - e.target_centroid[place];
   // The ball of the face has grown by at most twice what the bodies moved since it was measured.
   const double radius = lists.target_radius[place] + 2.0 * e.motion_since_built;
-  const double limit = best.second + radius;
+  const double limit = std::min(best.second, best.distance + kLead) + radius;
   const double center2 = norm2(away);
   if (center2 > limit * limit) return;
   const ClosestPoint closest = closest_on(e.target, lists.target_face[place], point);
@@ -62,6 +67,7 @@ void try_face(const Vec3d& point, std::uint16_t place, const PointsEvaluation& e
       best.second = std::sqrt(best.second2);
     }
     best.distance2 = closest.distance2;
+    best.distance = std::sqrt(best.distance2);
     best.place = place;
     best.closest = closest;
   } else if (closest.distance2 < best.second2) {
@@ -81,6 +87,7 @@ Candidate search(const Vec3d& point, std::size_t index, std::size_t source_face,
   if (guess != kAsleep) try_face(point, guess, e, lists, best);
   for (std::uint32_t k = lists.first_candidate[source_face]; k < lists.first_candidate[source_face + 1]; ++k)
     if (lists.candidate[k] != guess) try_face(point, lists.candidate[k], e, lists, best);
+  best.second = std::min(best.second, best.distance + kLead);
   return best;
 }
 
@@ -137,7 +144,7 @@ PointGap gap_to_surface(const Vec3d& point, std::size_t index, std::size_t sourc
     lists.good_until[index] = static_cast<float>((e.motion + clear * kSafety) * (1.0 - 1e-6));
     return {};
   }
-  const double distance = std::sqrt(best.distance2);
+  const double distance = best.distance;
   const bool inside = is_inside(point, e.target, lists.target_face[best.place], best.closest);
   if (!inside && distance >= e.reach.range) {
     lists.nearest[index] = kAsleep;
