@@ -181,13 +181,7 @@ Result<std::vector<Event>> Simulation::swap_bodies() {
     }
     moves.resize(moves.size() + tissue_.spheres.size(), 0);
     MORULA_TRY(mechanics_->relax(tissue_, moves));
-    for (const auto& [shell, v] : kept) {
-      const auto faces = tissue_.shells.topology(shell).faces();
-      const auto nodes = tissue_.shells.nodes(shell);
-      const Vec3d center = volume_centroid(faces, nodes);
-      const double scale = std::cbrt(v / enclosed_volume(faces, nodes, center));
-      for (Vec3d& p : nodes) p = center + (p - center) * scale;
-    }
+    for (const auto& [shell, v] : kept) set_enclosed_volume(tissue_.shells.topology(shell), tissue_.shells.nodes(shell), v);
     mechanics_->bodies_changed();
   }
   std::int64_t ups = 0, downs = 0;

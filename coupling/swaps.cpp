@@ -132,11 +132,10 @@ double free_reference_volume(double target_volume, const CellType& type) {
   return dcm::pressure_free_reference(target_volume, type.shell.tension, type.shell.bulk_modulus);
 }
 
-void set_enclosed_volume(ShellRecord& shell, double volume) {
-  const auto faces = shell.shape->topology->faces();
-  const Vec3d center = volume_centroid(faces, shell.position);
-  const double scale = std::cbrt(volume / enclosed_volume(faces, shell.position, center));
-  for (Vec3d& p : shell.position) p = center + (p - center) * scale;
+void set_enclosed_volume(const Topology& topology, std::span<Vec3d> nodes, double volume) {
+  const Vec3d center = volume_centroid(topology.faces(), nodes);
+  const double scale = std::cbrt(volume / enclosed_volume(topology.faces(), nodes, center));
+  for (Vec3d& p : nodes) p = center + (p - center) * scale;
 }
 
 void promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes) {

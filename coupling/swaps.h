@@ -26,8 +26,8 @@ void promote(CellRecord& cell, const CellType& type, double pressure, double tim
 /// The shell becomes a sphere of the same volume at its centroid.
 void demote(CellRecord& cell, double time);
 
-/// Scale a shell about its centroid so that its mesh encloses exactly this volume.
-void set_enclosed_volume(ShellRecord& shell, double volume);
+/// Scale a closed mesh about its centroid so that it encloses exactly this volume.
+void set_enclosed_volume(const Topology& topology, std::span<Vec3d> nodes, double volume);
 
 /// V0 of a free shell of this target volume: V exp(2γ/(R K_V)) [µm³].
 double free_reference_volume(double target_volume, const CellType& type);

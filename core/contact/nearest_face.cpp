@@ -4,18 +4,10 @@
 #include <cmath>
 
 #include "core/mesh/closest_point.h"
+#include "core/mesh/pseudonormal.h"
 
 namespace morula {
 namespace {
-
-/// Angle of a face at one of its corners [rad].
-double corner_angle(const PairBody& body, std::uint32_t face, std::uint32_t node) {
-  const Triangle& t = body.topology->faces()[face];
-  const int c = t[0] == node ? 0 : t[1] == node ? 1 : 2;
-  const Vec3d u = body.position[t[(c + 1) % 3]] - body.position[node];
-  const Vec3d v = body.position[t[(c + 2) % 3]] - body.position[node];
-  return std::atan2(norm(cross(u, v)), dot(u, v));
-}
 
 /// A vector on the outer side of the nearest feature: face normal, sum of the two face normals at an edge, angle-weighted normal at a
 /// node (Bærentzen & Aanæs 2005, doi:10.1109/TVCG.2005.49).
@@ -31,7 +23,11 @@ Vec3d pseudonormal(const PairBody& target, std::uint32_t face, const double (&mu
   const int corner = mu[0] != 0.0 ? 0 : mu[1] != 0.0 ? 1 : 2;
   const std::uint32_t node = topology.faces()[face][static_cast<std::size_t>(corner)];
   Vec3d sum;
-  for (const std::uint32_t f : topology.faces_of_node(node)) sum += target.face_normal[f] * corner_angle(target, f, node);
+  for (const std::uint32_t f : topology.faces_of_node(node)) {
+    const Triangle& t = topology.faces()[f];
+    const int c = t[0] == node ? 0 : t[1] == node ? 1 : 2;
+    sum += target.face_normal[f] * corner_angle(t, c, target.position);
+  }
   return sum;
 }
 

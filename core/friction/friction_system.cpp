@@ -41,10 +41,6 @@ double dot_of_body(const Float4* a, const Float4* b, std::uint32_t count) {
   return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-struct Jump {
-  Float4v force;  ///< a u + (b + Δt k)(n·u) n
-};
-
 inline Float4v response(Float4v u, Float4v n, float a, float b) { return splat(a) * u + splat(b * dot3(n, u)) * n; }
 
 }  // namespace

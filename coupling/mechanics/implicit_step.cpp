@@ -40,7 +40,7 @@ struct Mechanics::Trial {
       auto& x = m.scene_.position();
       m.for_owned_points([&](std::uint32_t i) { x[i] = from[i] + direction[i] * fraction; });
       const double next = measure();
-      const bool sound = std::isfinite(next) && !m.find_fault(tissue).has_value();
+      const bool sound = std::isfinite(next) && !m.find_fault().has_value();
       const bool lower = next <= phi + kArmijo * fraction * slope;
       if (m.comm_.all(sound && (lower || next <= phi + allowed_rise))) {
         if (next > phi) report.allowed_rise += next - phi;
@@ -144,7 +144,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
         (void)friction_residual(start, external, dt);
         if (largest(residual_) > kStuckForce) {
           StepFault fault{"no step lowers the energy", {}, true};
-          if (const auto shape = find_fault(tissue)) fault = *shape;
+          if (const auto shape = find_fault()) fault = *shape;
           double worst = 0.0;
           for (const ContactBody& body : scene_.bodies())
             for (std::uint32_t i = body.first_point; body.active() && i < body.first_point + body.point_count; ++i)
@@ -189,7 +189,7 @@ Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt
     return undo(start, StepFault{"points moved too far in one explicit step", {}, true});
   }
   evaluate(tissue);
-  if (const auto fault = find_fault(tissue); comm_.any(fault.has_value())) {
+  if (const auto fault = find_fault(); comm_.any(fault.has_value())) {
     return undo(start, fault.value_or(StepFault{"a cell on another rank is too distorted", {}, true}));
   }
   finish(tissue, dt, report);

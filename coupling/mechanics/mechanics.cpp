@@ -215,8 +215,7 @@ void Mechanics::assemble(const Tissue& tissue, double dt) {
   system_.set_sphere_pairs(spheres_.elements());
 }
 
-std::optional<StepFault> Mechanics::find_fault(const Tissue& tissue) const {
-  (void)tissue;
+std::optional<StepFault> Mechanics::find_fault() const {
   const auto& faults = shells_.forces().fault;
   for (std::size_t i = 0; i < faults.size(); ++i)
     if (faults[i]) return StepFault{dcm::describe(faults[i]), scene_.bodies()[i].id, true};

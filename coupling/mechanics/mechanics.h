@@ -94,7 +94,7 @@ class Mechanics {
   void hold_all_but(std::span<const char> moves);
   void lay_out_system();
   [[nodiscard]] double friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt);
-  [[nodiscard]] std::optional<StepFault> find_fault(const Tissue& tissue) const;
+  [[nodiscard]] std::optional<StepFault> find_fault() const;
   Result<StepReport, StepFault> implicit_step(Tissue& tissue, double dt, std::span<const Vec3d> external);
   Result<StepReport, StepFault> explicit_step(Tissue& tissue, double dt, std::span<const Vec3d> external);
   void assemble(const Tissue& tissue, double dt);
