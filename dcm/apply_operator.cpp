@@ -7,7 +7,7 @@ namespace morula::dcm {
 namespace {
 
 struct Workspace {
-  LaneVector<float> p, q;
+  LaneVector<float> p, q, rate;
 };
 
 /// Node vectors in lanes: [node][x y z 0][lane], the transpose of one Float4 per node and shell.
@@ -48,6 +48,21 @@ Lane<double, W> apply_diagonal(const ShellOperator::Block& matrix, std::size_t n
   }
   return volume_rate;
 }
+
+/// A face's entry of the membrane term.
+template <int W>
+struct MembraneFace {
+  using Real = Lane<float, W>;
+  Real h01, h12, h20;
+  Vec3<Real> e0, e1, e2;
+
+  MembraneFace(const ShellOperator::Block& matrix, std::size_t face) noexcept {
+    const float* m = matrix.membrane.data() + face * 9 * W;
+    h01 = Real::load(m), h12 = Real::load(m + W), h20 = Real::load(m + 2 * W);
+    e1 = load_vec3<float, W>(m + 3 * W, 0), e2 = load_vec3<float, W>(m + 3 * W, 1);
+    e0 = -(e1 + e2);
+  }
+};
 
 /// q_i += M (p_i − p_j), q_j −= the same. Edges are sorted by i, whose sum stays in registers over its run.
 template <int W>
@@ -90,6 +105,59 @@ void apply_rank_one_terms(const ShellOperator::Block& matrix, const Topology& to
   }
 }
 
+/// Forces along the edges of a face from each other's strains; an edge's own strain is in its edge block.
+template <int W>
+void apply_membrane(const ShellOperator::Block& matrix, std::span<const Triangle> faces, NodeVectors<W> p, NodeVectors<W> q) noexcept {
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const Triangle& t = faces[f];
+    const MembraneFace<W> face(matrix, f);
+    const auto p0 = p[t[0]], p1 = p[t[1]], p2 = p[t[2]];
+    const auto s0 = dot(face.e0, p2 - p1), s1 = dot(face.e1, p0 - p2), s2 = dot(face.e2, p1 - p0);
+    const auto f0 = face.e0 * (face.h01 * s1 + face.h20 * s2), f1 = face.e1 * (face.h01 * s0 + face.h12 * s2),
+               f2 = face.e2 * (face.h12 * s1 + face.h20 * s0);
+    q.add(t[0], f1 - f2);
+    q.add(t[1], f2 - f0);
+    q.add(t[2], f0 - f1);
+  }
+}
+
+/// q += Hᵀ H p with H_i p = n_i · Σ_j w_ij (p_i − p_j), n_i the scaled normals.
+template <int W>
+void apply_bending(const ShellOperator::Block& matrix, const Topology& topology, NodeVectors<W> p, NodeVectors<W> q,
+                   LaneVector<float>& rate) noexcept {
+  using Real = Lane<float, W>;
+  const auto normal = [&](std::size_t i) { return load_vec3<float, W>(matrix.bending_normal.data(), i); };
+  const auto weight = [&](std::size_t k) { return load_scalar<float, W>(matrix.bending_weight.data(), k); };
+  rate.assign(topology.node_count() * std::size_t{W}, 0.0f);
+  const auto add_rate = [&](std::size_t i, Real value) { (Real::load(rate.data() + i * W) + value).store(rate.data() + i * W); };
+  const auto edges = topology.edges();
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const auto d = (p[edges[k].i] - p[edges[k].j]) * weight(k);
+    add_rate(edges[k].i, dot(normal(edges[k].i), d));
+    add_rate(edges[k].j, -dot(normal(edges[k].j), d));
+  }
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const std::size_t i = edges[k].i, j = edges[k].j;
+    const auto force =
+        (normal(i) * load_scalar<float, W>(rate.data(), i) - normal(j) * load_scalar<float, W>(rate.data(), j)) * weight(k);
+    q.add(i, force);
+    q.add(j, -force);
+  }
+}
+
+/// q += stiffness g (g·p), summed in double.
+template <int W>
+void apply_whole_shell(const LaneVector<float>& gradient, const std::array<float, LaneBlock::kMaxLanes>& stiffness, std::size_t nodes,
+                       NodeVectors<W> p, NodeVectors<W> q) noexcept {
+  using Real = Lane<float, W>;
+  using Double = Lane<double, W>;
+  Double rate(0.0);
+  for (std::size_t i = 0; i < nodes; ++i)
+    rate += Double::from(__builtin_convertvector(dot(load_vec3<float, W>(gradient.data(), i), p[i]).v, typename Double::Vector));
+  const Real scale = Real::load(stiffness.data()) * Real::from(__builtin_convertvector(rate.v, typename Real::Vector));
+  for (std::size_t i = 0; i < nodes; ++i) q.add(i, load_vec3<float, W>(gradient.data(), i) * scale);
+}
+
 template <int W>
 void apply_block(const LaneBlock& block, const Shells& shells, const ShellOperator::Block& matrix, std::span<const Float4> input,
                  std::span<Float4> output, Workspace& ws) noexcept {
@@ -103,10 +171,51 @@ void apply_block(const LaneBlock& block, const Shells& shells, const ShellOperat
   const auto volume_rate = apply_diagonal<W>(matrix, nodes, p, q);
   apply_edges<W>(matrix, topology.edges(), p, q);
   apply_rank_one_terms<W>(matrix, topology, p, q);
+  if (!matrix.membrane.empty()) apply_membrane<W>(matrix, topology.faces(), p, q);
+  if (!matrix.bending_normal.empty()) apply_bending<W>(matrix, topology, p, q, ws.rate);
+  if (!matrix.area_gradient.empty()) apply_whole_shell<W>(matrix.area_gradient, matrix.area_stiffness, nodes, p, q);
+  if (!matrix.bulk_gradient.empty()) apply_whole_shell<W>(matrix.bulk_gradient, matrix.bulk_friction, nodes, p, q);
   const Real pressure =
       Real::load(matrix.volume_stiffness.data()) * Real::from(__builtin_convertvector(volume_rate.v, typename Real::Vector));
   for (std::size_t i = 0; i < nodes; ++i) q.add(i, load_vec3<float, W>(matrix.volume_gradient.data(), i) * pressure);
   store_lanes<W, float>(q.data, nodes * 4, lane_pointers<W>(&output.data()->x, block, shells.first_node, 4));
+}
+
+/// s (a bᵀ + b aᵀ)
+template <class Real>
+SymMat3<Real> symmetric_outer(Real s, const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+  return {Real(2.0f) * s * a.x * b.x,     s * (a.x * b.y + a.y * b.x),    s * (a.x * b.z + a.z * b.x),
+          Real(2.0f) * s * a.y * b.y, s * (a.y * b.z + a.z * b.y), Real(2.0f) * s * a.z * b.z};
+}
+
+/// Diagonal blocks of the membrane (but for what the edge blocks hold) and of bending; `add(node, block)`.
+template <int W, class Add>
+void add_membrane_diagonal(const ShellOperator::Block& matrix, std::span<const Triangle> faces, const Add& add) noexcept {
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const MembraneFace<W> face(matrix, f);
+    add(faces[f][0], symmetric_outer(-face.h12, face.e1, face.e2));
+    add(faces[f][1], symmetric_outer(-face.h20, face.e2, face.e0));
+    add(faces[f][2], symmetric_outer(-face.h01, face.e0, face.e1));
+  }
+}
+template <int W, class Add>
+void add_bending_diagonal(const ShellOperator::Block& matrix, const Topology& topology, LaneVector<float>& sum, const Add& add) noexcept {
+  using Real = Lane<float, W>;
+  const auto normal = [&](std::size_t i) { return load_vec3<float, W>(matrix.bending_normal.data(), i); };
+  sum.assign(topology.node_count() * std::size_t{W}, 0.0f);
+  for (std::size_t k = 0; k < topology.edges().size(); ++k) {
+    const Edge& edge = topology.edges()[k];
+    const Real weight = load_scalar<float, W>(matrix.bending_weight.data(), k);
+    for (const std::uint32_t node : {edge.i, edge.j}) {
+      float* total = sum.data() + std::size_t{node} * W;
+      (Real::load(total) + weight).store(total);
+      add(node, outer(weight * weight, normal(node == edge.i ? edge.j : edge.i)));
+    }
+  }
+  for (std::size_t i = 0; i < topology.node_count(); ++i) {
+    const Real total = load_scalar<float, W>(sum.data(), i);
+    add(i, outer(total * total, normal(i)));
+  }
 }
 
 template <int W>
@@ -147,6 +256,8 @@ void add_diagonal_block(const LaneBlock& block, const Shells& shells, const Shel
     add(edge.k, outer(Real(1.0f), bk));
     add(edge.l, outer(Real(1.0f), bl));
   }
+  if (!matrix.membrane.empty()) add_membrane_diagonal<W>(matrix, topology.faces(), add);
+  if (!matrix.bending_normal.empty()) add_bending_diagonal<W>(matrix, topology, ws.rate, add);
   store_lanes<W, float>(sum, nodes * 6, lane_pointers<W>(&diagonal.data()->xx, block, shells.first_node, 6));
 }
 

@@ -1,15 +1,15 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include "core/mesh/lane_surface.h"
-#include "dcm/lane_parameters.h"
 #include "dcm/laws/cortical_tension.h"
 #include "dcm/laws/dihedral_barrier.h"
 #include "dcm/laws/edge_damper.h"
 #include "dcm/laws/edge_spring.h"
 #include "dcm/laws/triangle_shape.h"
 #include "dcm/laws/volume_pressure.h"
-#include "dcm/shell_operator.h"
+#include "dcm/membrane.h"
+#include "dcm/operator_assembly.h"
 #include "dcm/stencils/face.h"
 #include "dcm/stencils/hinge.h"
 
@@ -21,58 +21,11 @@ namespace {
 /// in a fluid mesh, where it is the only stiffness in the plane, nearly all keep it. What is left out changes the path of the
 /// iteration, never the state it ends in.
 template <class Real>
-Real shape_threshold(Real spring_stiffness, Real tension) noexcept {
-  return max(Real(1e-30f), Real(0.25f) * spring_stiffness + Real(0.01f) * tension);
+Real shape_threshold(Real spring_stiffness, Real sheet_shear, Real tension) noexcept {
+  // a spring lattice has the shear modulus √3/4 k
+  const Real stiffness = spring_stiffness + Real(static_cast<float>(4.0 / std::numbers::sqrt3)) * sheet_shear;
+  return max(Real(1e-30f), Real(0.25f) * stiffness + Real(0.01f) * tension);
 }
-
-struct Workspace {
-  LaneVector<double> position;
-  LaneVector<float> local, face, rest_length, contact_energy;
-  LaneVector<double> rest_length_double, contact_energy_double;
-};
-
-template <int W>
-Lane<float, W> to_float(Lane<double, W> a) noexcept {
-  return Lane<float, W>::from(__builtin_convertvector(a.v, typename Lane<float, W>::Vector));
-}
-template <int W>
-Vec3<Lane<float, W>> to_float(const Vec3<Lane<double, W>>& a) noexcept {
-  return {to_float<W>(a.x), to_float<W>(a.y), to_float<W>(a.z)};
-}
-
-/// What the edge loop needs of a face: N, the inverse of |N|, weight of the tension's stiffness, isotropic part of the shape term.
-template <int W>
-struct FaceRecord {
-  using Real = Lane<float, W>;
-  static constexpr int kSize = 6;
-  Vec3<Real> n;
-  Real inverse_norm, tension, isotropic;
-
-  void store(LaneVector<float>& array, std::size_t face) const noexcept {
-    float* p = array.data() + face * kSize * W;
-    n.x.store(p), n.y.store(p + W), n.z.store(p + 2 * W);
-    inverse_norm.store(p + 3 * W), tension.store(p + 4 * W), isotropic.store(p + 5 * W);
-  }
-  static FaceRecord load(const LaneVector<float>& array, std::size_t face) noexcept {
-    const float* p = array.data() + face * kSize * W;
-    return {{Real::load(p), Real::load(p + W), Real::load(p + 2 * W)}, Real::load(p + 3 * W), Real::load(p + 4 * W), Real::load(p + 5 * W)};
-  }
-};
-
-template <int W>
-struct Assembly {
-  using Real = Lane<float, W>;
-  const LaneBlock& block;
-  const Shells& shells;
-  std::span<const ShellParameters> types;
-  const Topology& topology;
-  Workspace& ws;
-  ShellOperator::Block& out;
-  Real dt;
-
-  Vec3<Real> x(std::size_t node) const noexcept { return load_vec3<float, W>(ws.local.data(), node); }
-  Real of_type(double ShellParameters::*member) const noexcept { return parameter<float, W>(block, shells, types, member); }
-};
 
 /// Append √w ∇(1/q) of corners 1 and 2 where any lane's term is worth it; the others get zeros.
 template <int W>
@@ -103,7 +56,9 @@ void assemble_faces(Assembly<W>& a) noexcept {
   const CorticalTension<Real> tension{a.of_type(&ShellParameters::tension)};
   const TriangleShape<Real> shape{a.of_type(&ShellParameters::shape_stiffness)};
   const bool has_shape = any_lane<W>(shape.stiffness > Real(0.0f));
-  const Real threshold = shape_threshold(a.of_type(&ShellParameters::spring_stiffness), tension.tension);
+  const Real sheet_shear = a.of_type(&ShellParameters::neo_hooke_shear) + a.of_type(&ShellParameters::stvk_shear) +
+                           a.of_type(&ShellParameters::skalak_shear);
+  const Real threshold = shape_threshold(a.of_type(&ShellParameters::spring_stiffness), sheet_shear, tension.tension);
   const ShapeArray<float, W> unit_area(a.block, a.shells, &ReferenceShape::face_area);
   const Real scale = by_lane<float, W>(a.block, [&](std::uint32_t s) { return std::pow(std::cbrt(a.shells.rest_volume[s]), 2); });
   Real six_volumes(0.0f);
@@ -140,6 +95,7 @@ bool assemble_edges(Assembly<W>& a, const ShellFriction::Block& friction, Lane<f
   using Real = Lane<float, W>;
   const EdgeSpring<Real> spring{a.of_type(&ShellParameters::spring_stiffness)};
   const EdgeDamper<Real> damper{to_float<W>(Lane<double, W>::load(friction.damping.data()))};
+  const IsotropicDamper<Real> isotropic_damper{to_float<W>(Lane<double, W>::load(friction.isotropic_damping.data()))};
   Real margin(1.0f);
   const auto edges = a.topology.edges();
   for (std::size_t k = 0; k < edges.size(); ++k) {
@@ -153,7 +109,7 @@ bool assemble_edges(Assembly<W>& a, const ShellFriction::Block& friction, Lane<f
     // ½ cot of the angle opposite to the edge, times n nᵀ; 1/|N|³ is in the record
     m += outer(left.tension * dot(xi - xk, xj - xk), left.n);
     m += outer(right.tension * dot(xi - xl, xj - xl), right.n);
-    m += isotropic(left.isotropic + right.isotropic);
+    m += isotropic(left.isotropic + right.isotropic + isotropic_damper.damping);
     margin = min(margin, dot(left.n, right.n) * left.inverse_norm * right.inverse_norm - cos_onset);
     float* p = a.out.edge.data() + k * 6 * W;
     m.xx.store(p), m.xy.store(p + W), m.xz.store(p + 2 * W), m.yy.store(p + 3 * W), m.yz.store(p + 4 * W), m.zz.store(p + 5 * W);
@@ -220,7 +176,7 @@ void load_inputs(Assembly<W>& a, std::span<const Vec3d> position, const ShellBlo
 template <int W>
 void assemble_block(const ShellBlocks& blocks, const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types,
                     std::span<const Vec3d> position, const ShellFriction::Block& friction, std::span<const double> contact_energy,
-                    double time_step, ShellOperator::Block& out, Workspace& ws) noexcept {
+                    double time_step, ShellOperator::Block& out, OperatorWorkspace& ws) noexcept {
   const Topology& topology = *block.topology;
   const std::size_t nodes = topology.node_count();
   Assembly<W> a{block, shells, types, topology, ws, out, Lane<float, W>(static_cast<float>(time_step))};
@@ -230,12 +186,22 @@ void assemble_block(const ShellBlocks& blocks, const LaneBlock& block, const She
   out.diagonal.resize(nodes * W);
   out.shape_face.clear(), out.shape.clear(), out.barrier_edge.clear(), out.barrier.clear();
   for (std::size_t i = 0; i < nodes; ++i) to_float<W>(load_scalar<double, W>(friction.medium.data(), i)).store(out.diagonal.data() + i * W);
+  const auto any = [&](double ShellParameters::*strength) { return any_has<W>(block, shells, types, strength); };
+  const bool global_area = any(&ShellParameters::global_area_modulus);
+  if (global_area || any(&ShellParameters::local_area_modulus)) add_area_tensions(a);
   assemble_faces(a);
   const auto cos_onset = by_lane<float, W>(block, [&](std::uint32_t shell) {
     const ShellParameters& p = types[shells.type[shell]];
     return p.barrier_stiffness > 0.0 ? std::cos(p.barrier_angle) : -2.0;
   });
   if (assemble_edges(a, friction, cos_onset)) assemble_barrier(a, cos_onset);
+  out.membrane.clear(), out.area_gradient.clear(), out.bending_normal.clear(), out.bending_weight.clear();
+  if (Membrane<float, W>::acts(block, shells, types)) assemble_membrane(a);
+  if (global_area) assemble_global_area(a);
+  if (any(&ShellParameters::helfrich_rigidity)) assemble_bending(a);
+  out.bulk_gradient.resize(friction.volume_gradient.size());
+  for (std::size_t i = 0; i < out.bulk_gradient.size(); ++i) out.bulk_gradient[i] = static_cast<float>(friction.volume_gradient[i]);
+  for (int lane = 0; lane < W; ++lane) out.bulk_friction[lane] = static_cast<float>(friction.bulk_friction[lane]);
 }
 
 }  // namespace
@@ -244,7 +210,7 @@ void assemble_shell_operator(const ShellBlocks& blocks, const Shells& shells, st
                              std::span<const Vec3d> position, const ShellFriction& friction, std::span<const double> face_contact_energy,
                              double time_step, ShellOperator& out) {
   out.blocks.resize(blocks.blocks.size());
-  for_each_block<Workspace>(blocks, [&]<int W>(std::size_t b, const LaneBlock& block, Workspace& ws) {
+  for_each_block<OperatorWorkspace>(blocks, [&]<int W>(std::size_t b, const LaneBlock& block, OperatorWorkspace& ws) {
     assemble_block<W>(blocks, block, shells, types, position, friction.blocks[b], face_contact_energy, time_step, out.blocks[b], ws);
   });
 }

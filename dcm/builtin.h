@@ -16,7 +16,7 @@ struct ShellLaw {
   bool conservative = true;                     ///< has an energy; otherwise it is a friction
   bool zero_in_reference = true;                ///< no force in the reference shape at its rest volume
   bool in_operator = true;                      ///< adds to the matrix of the implicit step
-  double ShellParameters::*strength = nullptr;  ///< the coefficient that the law is proportional to; 0 switches the law off
+  double ShellParameters::*strength = nullptr;  ///< the coefficient that the law grows with; 0 switches the law off
 };
 
 /// All laws of this folder, in the order of the documentation. Tests, the law reference and `morula explain` walk this list.

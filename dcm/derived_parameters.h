@@ -7,6 +7,24 @@ namespace morula::dcm {
 /// doi:10.1103/PhysRevA.38.1005).
 constexpr double spring_stiffness(double young_modulus, double thickness) { return 0.5 * std::numbers::sqrt3 * young_modulus * thickness; }
 
+/// G = E h/(2 (1 + ν)) of a thin sheet of an isotropic solid; [nN/µm].
+constexpr double sheet_shear_modulus(double young_modulus, double thickness, double poisson_ratio) {
+  return young_modulus * thickness / (2.0 * (1.0 + poisson_ratio));
+}
+
+/// ν/(1 − ν): the Lamé modulus of a sheet in units of 2G; α of the neo-Hookean, C of Skalak's law.
+constexpr double sheet_area_ratio(double poisson_ratio) { return poisson_ratio / (1.0 - poisson_ratio); }
+
+/// Springs that together with an area modulus of every face have Young's modulus E h and Poisson ratio ν ≥ 1/3 (dcm.md §2): the lattice
+/// has the shear modulus √3/4 k and the area modulus √3/2 k. [nN/µm]
+struct SpringsWithArea {
+  double spring_stiffness, area_modulus;
+};
+constexpr SpringsWithArea springs_with_area(double young_modulus, double thickness, double poisson_ratio) {
+  const double sheet = young_modulus * thickness, square = poisson_ratio * poisson_ratio;
+  return {2.0 * sheet / (std::numbers::sqrt3 * (1.0 + poisson_ratio)), sheet * (3.0 * poisson_ratio - 1.0) / (2.0 * (1.0 - square))};
+}
+
 /// κ = E h³ / (12 (1 − ν²)) of a plate; [nN·µm].
 constexpr double bending_modulus(double young_modulus, double thickness, double poisson_ratio) {
   return young_modulus * thickness * thickness * thickness / (12.0 * (1.0 - poisson_ratio * poisson_ratio));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace morula::dcm {
 
@@ -9,6 +10,21 @@ void set_rest_volume(Shells& shells, std::size_t shell, double rest_volume) {
   const double length_scale = std::cbrt(rest_volume / shells.rest_volume[shell]);
   shells.rest_volume[shell] = rest_volume;
   for (std::uint32_t edge = shells.first_edge[shell]; edge < shells.first_edge[shell + 1]; ++edge) shells.rest_length[edge] *= length_scale;
+}
+
+void turn_over(Shells& shells, std::span<const ShellParameters> types, double dt) {
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    const double rate = types[shells.type[s]].turnover_rate;
+    if (rate == 0.0) continue;
+    const double keep = std::exp(-rate * dt);
+    const auto edges = shells.topology(s).edges();
+    const auto x = std::as_const(shells).nodes(s);
+    double* rest = shells.rest_length.data() + shells.first_edge[s];
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      const double length = norm(x[edges[k].j] - x[edges[k].i]);
+      rest[k] = length + (rest[k] - length) * keep;
+    }
+  }
 }
 
 double pressure_free_reference(double volume, double tension, double bulk_modulus) {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/mesh/lane_surface.h"
+#include "dcm/block_state.h"
 #include "dcm/lane_parameters.h"
 #include "dcm/laws/cortical_tension.h"
 #include "dcm/laws/dihedral_barrier.h"
@@ -10,41 +10,12 @@
 #include "dcm/laws/hinge_bending.h"
 #include "dcm/laws/triangle_shape.h"
 #include "dcm/laws/volume_pressure.h"
+#include "dcm/membrane.h"
 #include "dcm/stencils/face.h"
 #include "dcm/stencils/hinge.h"
 
 namespace morula::dcm {
 namespace {
-
-struct Workspace {
-  LaneVector<double> position, force, face_vector, face_inverse_square, rest_length;
-
-  void fit(const Topology& topology, int lanes) {
-    const auto grow = [lanes](LaneVector<double>& array, std::size_t size) {
-      if (array.size() < size * lanes) array.resize(size * lanes);
-    };
-    grow(position, topology.node_count() * std::size_t{3});
-    grow(force, topology.node_count() * std::size_t{3});
-    grow(face_vector, topology.face_count() * std::size_t{3});
-    grow(face_inverse_square, topology.face_count());
-    grow(rest_length, topology.edge_count());
-  }
-};
-
-/// What the loops over the elements of one block share.
-template <int W>
-struct BlockState {
-  using Real = Lane<double, W>;
-  const LaneBlock& block;
-  const Topology& topology;
-  Workspace& ws;
-  Real energy{0.0}, volume{0.0}, max_inverse_quality{0.0}, max_angle{0.0};
-
-  Vec3<Real> x(std::size_t node) const noexcept { return load_vec3<double, W>(ws.position.data(), node); }
-  Vec3<Real> face_vector(std::size_t face) const noexcept { return load_vec3<double, W>(ws.face_vector.data(), face); }
-  Real inverse_square(std::size_t face) const noexcept { return load_scalar<double, W>(ws.face_inverse_square.data(), face); }
-  void add_force(std::size_t node, const Vec3<Real>& f) noexcept { add_vec3<double, W>(ws.force.data(), node, f); }
-};
 
 /// Doubled area vectors of all faces, and the enclosed volume V = Σ x_0·N/6 relative to node 0.
 template <int W>
@@ -61,17 +32,17 @@ void measure_faces(BlockState<W>& state) noexcept {
   state.volume = six_volumes * (1.0 / 6.0);
 }
 
-/// Tension, triangle shape, and the pressure p with ∂V/∂x_c = Σ N/6 (equal to Σ x×x/6 on closed meshes).
+/// Tension (with that of the global area), triangle shape, and the pressure p with ∂V/∂x_c = Σ N/6 (equal to Σ x×x/6 on closed meshes).
 template <int W>
 void add_face_laws(BlockState<W>& state, const Shells& shells, const CorticalTension<Lane<double, W>>& tension,
-                   const TriangleShape<Lane<double, W>>& shape, Lane<double, W> pressure) noexcept {
+                   Lane<double, W> global_tension, const TriangleShape<Lane<double, W>>& shape, Lane<double, W> pressure) noexcept {
   using Real = Lane<double, W>;
   const ShapeArray<double, W> unit_area(state.block, shells, &ReferenceShape::face_area);
   const Real scale = by_lane<double, W>(state.block, [&](std::uint32_t s) {
     const double size = std::cbrt(shells.rest_volume[s]);
     return size * size;
   });
-  const Real pressure_sixth = pressure * (1.0 / 6.0);
+  const Real pressure_sixth = pressure * (1.0 / 6.0), tension_slope = tension.slope() + global_tension;
   const auto faces = state.topology.faces();
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const Triangle& t = faces[f];
@@ -88,7 +59,7 @@ void add_face_laws(BlockState<W>& state, const Shells& shells, const CorticalTen
     state.max_inverse_quality = max(state.max_inverse_quality, inverse_quality);
     state.energy += tension.energy(area) + shape.energy(inverse_quality, reference_area);
     const auto force =
-        FaceForce<Real>::of(face, inverse_twice_area, tension.slope() + shape.area_slope(inverse_quality, inverse_area, reference_area),
+        FaceForce<Real>::of(face, inverse_twice_area, tension_slope + shape.area_slope(inverse_quality, inverse_area, reference_area),
                             shape.square_sum_slope(inverse_quality, inverse_area, reference_area));
     const auto push = face.twice_area_vector * pressure_sixth;
     state.add_force(t[0], force.f0 + push);
@@ -184,6 +155,10 @@ ShellFault locate_fault(const Topology& topology, std::span<const Vec3d> x, doub
   return worst;
 }
 
+std::span<const double> rest_lengths(const Shells& shells, std::uint32_t shell) {
+  return std::span(shells.rest_length).subspan(shells.first_edge[shell], shells.first_edge[shell + 1] - shells.first_edge[shell]);
+}
+
 template <int W>
 void write_shell_results(const BlockState<W>& state, const Shells& shells, std::span<const Vec3d> position, ShellMechanics& out) noexcept {
   for (int lane = 0; lane < state.block.count; ++lane) {
@@ -194,15 +169,21 @@ void write_shell_results(const BlockState<W>& state, const Shells& shells, std::
     out.min_quality[shell] = 1.0 / state.max_inverse_quality[lane];
     out.max_angle[shell] = state.max_angle[lane];
     const bool good = std::isfinite(energy) && volume > 0.0 && state.max_inverse_quality[lane] <= 1.0 / ShellLimits::kQuality &&
-                      state.max_angle[lane] <= ShellLimits::kAngle;
-    out.fault[shell] =
-        good ? ShellFault{} : locate_fault(state.topology, position.subspan(shells.first_node[shell], state.topology.node_count()), volume);
+                      state.max_angle[lane] <= ShellLimits::kAngle && state.stretch_excess[lane] <= 0.0;
+    if (good) {
+      out.fault[shell] = {};
+      continue;
+    }
+    const auto x = position.subspan(shells.first_node[shell], state.topology.node_count());
+    out.fault[shell] = state.stretch_excess[lane] > 0.0 && std::isfinite(energy) && volume > 0.0
+                           ? ShellFault{ShellFaultKind::kStretch, overstretched_face(state.topology, x, rest_lengths(shells, shell))}
+                           : locate_fault(state.topology, x, volume);
   }
 }
 
 template <int W>
 void block_mechanics(const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types, std::span<const Vec3d> position,
-                     ShellMechanics& out, Workspace& ws) noexcept {
+                     ShellMechanics& out, ForceWorkspace& ws) noexcept {
   using Real = Lane<double, W>;
   const Topology& topology = *block.topology;
   ws.fit(topology, W);
@@ -223,11 +204,19 @@ void block_mechanics(const LaneBlock& block, const Shells& shells, std::span<con
     volume_energy.set(lane, volume > 0.0 ? law.energy(volume, reference) : 0.0);
     out.pressure[shell] = pressure[lane];
   }
-  add_face_laws<W>(state, shells, {of_type(&ShellParameters::tension)}, {of_type(&ShellParameters::shape_stiffness)}, pressure);
+  Real global_tension(0.0), area_energy(0.0);
+  if (any_has<W>(block, shells, types, &ShellParameters::global_area_modulus)) {
+    const auto both = global_area<W>(state, shells, types);
+    area_energy = both[0], global_tension = both[1];
+  }
+  add_face_laws<W>(state, shells, {of_type(&ShellParameters::tension)}, global_tension, {of_type(&ShellParameters::shape_stiffness)},
+                   pressure);
   add_edge_laws<W>(state, shells, {of_type(&ShellParameters::spring_stiffness)}, {of_type(&ShellParameters::hinge_stiffness)});
   const DihedralBarrier<Real> barrier{of_type(&ShellParameters::barrier_stiffness), of_type(&ShellParameters::barrier_angle)};
   if (any_lane<W>(state.max_angle > barrier.onset)) add_barrier(state, barrier);
-  state.energy += volume_energy;
+  if (Membrane<double, W>::acts(block, shells, types)) add_membrane_laws<W>(state, shells, types);
+  if (any_has<W>(block, shells, types, &ShellParameters::helfrich_rigidity)) add_helfrich<W>(state, shells, types);
+  state.energy += volume_energy + area_energy;
   store_lanes<W, double>(ws.force.data(), std::size_t{topology.node_count()} * 3,
                          lane_pointers<W>(&out.force.data()->x, block, shells.first_node, 3));
   write_shell_results(state, shells, position, out);
@@ -241,7 +230,7 @@ void internal_forces(const ShellBlocks& blocks, const Shells& shells, std::span<
   for (std::vector<double>* array : {&out.energy, &out.volume, &out.pressure, &out.min_quality, &out.max_angle})
     array->resize(shells.size());
   out.fault.resize(shells.size());
-  for_each_block<Workspace>(blocks, [&]<int W>(std::size_t, const LaneBlock& block, Workspace& ws) {
+  for_each_block<ForceWorkspace>(blocks, [&]<int W>(std::size_t, const LaneBlock& block, ForceWorkspace& ws) {
     block_mechanics<W>(block, shells, types, position, out, ws);
   });
 }

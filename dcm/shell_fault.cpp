@@ -15,6 +15,8 @@ std::string describe(const ShellFault& fault) {
       return "triangle_shape: quality of face " + element + " is below 0.2";
     case ShellFaultKind::kDihedral:
       return "dihedral_barrier: edge " + element + " is folded beyond 2.9 rad";
+    case ShellFaultKind::kStretch:
+      return "st_venant_kirchhoff: face " + element + " is stretched beyond 0.8 to 1.3, where the law softens; neo_hooke holds there";
   }
   return "unknown fault";
 }

@@ -11,6 +11,7 @@ enum class ShellFaultKind : std::uint8_t {
   kVolume,         ///< enclosed volume not positive (volume_pressure)
   kTriangleShape,  ///< quality q below ShellLimits::kQuality (triangle_shape); element: face
   kDihedral,       ///< |θ| above ShellLimits::kAngle (dihedral_barrier); element: edge
+  kStretch,        ///< a principal stretch outside the range of st_venant_kirchhoff; element: face
 };
 
 struct ShellFault {

@@ -4,6 +4,8 @@
 #include "dcm/lane_parameters.h"
 #include "dcm/laws/edge_damper.h"
 #include "dcm/laws/medium_friction.h"
+#include "dcm/laws/volume_pressure.h"
+#include "dcm/membrane.h"
 
 namespace morula::dcm {
 namespace {
@@ -11,6 +13,27 @@ namespace {
 struct Workspace {
   LaneVector<double> input, output;
 };
+
+/// u = ∂V/∂x = Σ N/6 and η_V/V. Positions are in `ws.input`.
+template <int W>
+void compute_bulk_friction(const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types,
+                           ShellFriction::Block& out, const Workspace& ws) noexcept {
+  using Real = Lane<double, W>;
+  const Topology& topology = *block.topology;
+  out.volume_gradient.assign(topology.node_count() * std::size_t{3} * W, 0.0);
+  Real six_volumes(0.0);
+  for (const Triangle& t : topology.faces()) {
+    const auto x0 = load_vec3<double, W>(ws.input.data(), t[0]);
+    const auto n = cross(load_vec3<double, W>(ws.input.data(), t[1]) - x0, load_vec3<double, W>(ws.input.data(), t[2]) - x0);
+    six_volumes += dot(x0, n);
+    for (const std::uint32_t node : t) add_vec3<double, W>(out.volume_gradient.data(), node, n * Real(1.0 / 6.0));
+  }
+  for (int lane = 0; lane < W; ++lane) {
+    const BulkViscosity law{types[shells.type[block.member[lane]]].bulk_viscosity};
+    const double volume = six_volumes[lane] / 6.0;
+    out.bulk_friction[lane] = volume > 0.0 ? law.friction(volume) : 0.0;
+  }
+}
 
 template <int W>
 void compute_block(const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types, std::span<const Vec3d> position,
@@ -30,7 +53,43 @@ void compute_block(const LaneBlock& block, const Shells& shells, std::span<const
   load_lanes<W, double>(lane_pointers<W>(node_area.data(), block, shells.first_node), nodes, out.medium.data());
   const MediumFriction<Real> medium{parameter<double, W>(block, shells, types, &ShellParameters::medium_friction)};
   for (std::size_t i = 0; i < nodes; ++i) medium.coefficient(load_scalar<double, W>(out.medium.data(), i)).store(out.medium.data() + i * W);
-  for (int lane = 0; lane < LaneBlock::kMaxLanes; ++lane) out.damping[lane] = types[shells.type[block.member[lane]]].edge_damping;
+  for (int lane = 0; lane < LaneBlock::kMaxLanes; ++lane) {
+    const ShellParameters& p = types[shells.type[block.member[lane]]];
+    out.damping[lane] = p.edge_damping;
+    out.isotropic_damping[lane] = p.isotropic_damping;
+  }
+  out.isotropic = any_has<W>(block, shells, types, &ShellParameters::isotropic_damping);
+  if (any_has<W>(block, shells, types, &ShellParameters::bulk_viscosity))
+    compute_bulk_friction<W>(block, shells, types, out, ws);
+  else
+    out.volume_gradient.clear();
+}
+
+template <int W>
+Lane<double, W> add_isotropic_dampers(const ShellFriction::Block& friction, std::span<const Edge> edges, const double* d,
+                                      double* y) noexcept {
+  using Real = Lane<double, W>;
+  const IsotropicDamper<Real> damper{Real::load(friction.isotropic_damping.data())};
+  Real sum(0.0);
+  for (const Edge& edge : edges) {
+    const auto relative = load_vec3<double, W>(d, edge.i) - load_vec3<double, W>(d, edge.j);
+    const auto force = damper.force(relative);
+    sum -= dot(relative, force);
+    add_vec3<double, W>(y, edge.i, -force);
+    add_vec3<double, W>(y, edge.j, force);
+  }
+  return sum;
+}
+
+template <int W>
+Lane<double, W> add_bulk_viscosity(const ShellFriction::Block& friction, std::size_t nodes, const double* d, double* y) noexcept {
+  using Real = Lane<double, W>;
+  const auto u = [&](std::size_t i) { return load_vec3<double, W>(friction.volume_gradient.data(), i); };
+  Real change(0.0);
+  for (std::size_t i = 0; i < nodes; ++i) change += dot(u(i), load_vec3<double, W>(d, i));
+  const Real pressure = Real::load(friction.bulk_friction.data()) * change;
+  for (std::size_t i = 0; i < nodes; ++i) add_vec3<double, W>(y, i, u(i) * pressure);
+  return pressure * change;
 }
 
 template <int W>
@@ -59,6 +118,8 @@ void apply_block(const LaneBlock& block, const Shells& shells, const ShellFricti
     add_vec3<double, W>(y, edge.i, -force);
     add_vec3<double, W>(y, edge.j, force);
   }
+  if (friction.isotropic) sum += add_isotropic_dampers<W>(friction, topology.edges(), d, y);
+  if (!friction.volume_gradient.empty()) sum += add_bulk_viscosity<W>(friction, nodes, d, y);
   store_lanes<W, double>(y, nodes * 3, lane_pointers<W>(&result.data()->x, block, shells.first_node, 3));
   for (int lane = 0; lane < block.count; ++lane) quadratic[block.member[lane]] = sum[lane];
 }

@@ -19,7 +19,10 @@ namespace morula::dcm {
 ///   edge     M (v_i − v_j): damper, spring, tension on the normal part of differences (½ cot per face), isotropic part of triangle_shape
 ///   shape    b bᵀ per face: Gauss–Newton part of triangle_shape, only where it counts
 ///   barrier  b bᵀ per edge: Gauss–Newton part of dihedral_barrier, only where it acts
-///   volume   (Δt K_V/V) g gᵀ per shell, g = ∂V/∂x
+///   membrane the three edge strains of a face among each other; what an edge strain does to itself is in the edge blocks
+///   bending  κ/a h hᵀ per node: Gauss–Newton part of the Helfrich law
+///   volume   (Δt K_V/V) g gᵀ per shell, g = ∂V/∂x; likewise the global area, and the bulk viscosity with the g of the step's start
+/// What no shell of a block has is empty and costs nothing.
 /// Hinge bending is explicit: with it the iterations and the result stay the same (time_stepping.md §10.1).
 struct ShellOperator {
   struct Block {
@@ -27,6 +30,13 @@ struct ShellOperator {
     LaneVector<float> diagonal;         ///< medium friction: [node][lane]
     LaneVector<float> volume_gradient;  ///< g: [node][3][lane]
     std::array<float, LaneBlock::kMaxLanes> volume_stiffness{};
+    LaneVector<float> membrane;         ///< h01 h12 h20, e1, e2 of every face: [face][9][lane]
+    LaneVector<float> area_gradient;    ///< ∂A/∂x: [node][3][lane]
+    std::array<float, LaneBlock::kMaxLanes> area_stiffness{};
+    LaneVector<float> bulk_gradient;  ///< ∂V/∂x of the step's start: [node][3][lane]
+    std::array<float, LaneBlock::kMaxLanes> bulk_friction{};
+    LaneVector<float> bending_weight;         ///< ½ Σ cot of every edge: [edge][lane]
+    LaneVector<float> bending_normal;         ///< √(Δt κ/a) n of every node: [node][3][lane]
     std::vector<std::uint32_t> shape_face;    ///< faces with a shape term
     LaneVector<float> shape;                  ///< b at corners 1 and 2 (at 0 minus their sum): [entry][2][3][lane]
     std::vector<std::uint32_t> barrier_edge;  ///< edges with a barrier term

@@ -20,7 +20,7 @@ struct Shells {
   std::vector<double> rest_volume;                           ///< by shell: volume of the stress-free membrane [µm³]
   std::vector<Vec3d> position;                               ///< by node [µm]
   std::vector<Vec3f> velocity;                               ///< by node: last solution, the solver's start [µm/s]
-  std::vector<double> rest_length;                           ///< by edge [µm]
+  std::vector<double> rest_length;                           ///< by edge; those of a face are its reference metric [µm]
 
   [[nodiscard]] std::size_t size() const { return shape.size(); }
   [[nodiscard]] std::uint32_t node_count() const { return first_node.back(); }
@@ -35,15 +35,26 @@ struct Shells {
 
 /// Parameters of the single-cell mechanics of one cell type, in internal units (physics: dcm.md, time_stepping.md §9).
 struct ShellParameters {
-  double spring_stiffness = 0.0;   ///< k = (√3/2) E h [nN/µm]
-  double edge_damping = 0.1;       ///< γ_int per edge, along the edge [nN·s/µm]
-  double hinge_stiffness = 0.0;    ///< k_h = (2/√3) E h³ / (12 (1 − ν²)) [nN·µm]
-  double tension = 0.0;            ///< γ [nN/µm]
-  double bulk_modulus = 2.5;       ///< K_V [kPa]
-  double shape_stiffness = 0.3;    ///< k_s of the triangle shape term k_s A_ref (1/q − 1)² [nN/µm]
-  double barrier_stiffness = 1.0;  ///< k_d of the dihedral barrier k_d z²/(1 − z²) [nN·µm]
-  double barrier_angle = 1.6;      ///< |θ| from which the barrier acts [rad]
-  double medium_friction = 0.1;    ///< γ_med per area of the node [nN·s/µm³]
+  double spring_stiffness = 0.0;       ///< k = (√3/2) E h [nN/µm]
+  double neo_hooke_shear = 0.0;        ///< G of the neo-Hookean membrane [nN/µm]
+  double stvk_shear = 0.0;             ///< G of the St Venant–Kirchhoff membrane [nN/µm]
+  double skalak_shear = 0.0;           ///< G of Skalak's membrane [nN/µm]
+  double membrane_area_ratio = 1.0;    ///< of these three: α = C = ν/(1 − ν)
+  double local_area_modulus = 0.0;     ///< K_a of every face [nN/µm]
+  double global_area_modulus = 0.0;    ///< K_G of the whole surface [nN/µm]
+  double turnover_rate = 0.0;          ///< 1/τ at which rest lengths become the present ones [1/s]
+  double edge_damping = 0.1;           ///< γ_int per edge, along the edge [nN·s/µm]
+  double isotropic_damping = 0.0;      ///< γ_iso per edge, in all directions; resists rotation [nN·s/µm]
+  double hinge_stiffness = 0.0;        ///< k_h = (2/√3) E h³ / (12 (1 − ν²)) [nN·µm]
+  double helfrich_rigidity = 0.0;      ///< κ [nN·µm]
+  double spontaneous_curvature = 0.0;  ///< c0 of the Helfrich energy [1/µm]
+  double tension = 0.0;                ///< γ [nN/µm]
+  double bulk_modulus = 2.5;           ///< K_V [kPa]
+  double bulk_viscosity = 0.0;         ///< η_V of the volume [kPa·s]
+  double shape_stiffness = 0.3;        ///< k_s of the triangle shape term k_s A_ref (1/q − 1)² [nN/µm]
+  double barrier_stiffness = 1.0;      ///< k_d of the dihedral barrier k_d z²/(1 − z²) [nN·µm]
+  double barrier_angle = 1.6;          ///< |θ| from which the barrier acts [rad]
+  double medium_friction = 0.1;        ///< γ_med per area of the node [nN·s/µm³]
 };
 
 }  // namespace morula::dcm

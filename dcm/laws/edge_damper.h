@@ -21,4 +21,16 @@ struct EdgeDamper {
   SymMat3<Real> friction(const Vec3<Real>& t) const noexcept { return outer(damping, t); }
 };
 
+/// Damper of an edge in all directions: force on node i −γ_iso (v_i − v_j), and the opposite on j. It conserves momentum, but resists rigid
+/// rotation: a spinning cell feels a torque that nothing exerts (dcm.md §1). For comparison with models that have it.
+///
+/// γ_iso [nN·s/µm].
+template <class Real>
+struct IsotropicDamper {
+  Real damping;  // γ_iso
+
+  Vec3<Real> force(const Vec3<Real>& relative_velocity) const noexcept { return relative_velocity * -damping; }
+  SymMat3<Real> friction() const noexcept { return isotropic(damping); }
+};
+
 }  // namespace morula::dcm

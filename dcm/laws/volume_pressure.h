@@ -22,4 +22,14 @@ struct VolumePressure {
   [[nodiscard]] double curvature_psd(double volume) const noexcept { return bulk_modulus / volume; }
 };
 
+/// Viscosity of the volume: p = −η_V V̇/V. With V̇ = u·v, u = ∂V/∂x, it is the friction (η_V/V) u uᵀ: of rank one, and positive
+/// semi-definite; it resists no rigid motion (dcm.md §5).
+///
+/// η_V [kPa·s].
+struct BulkViscosity {
+  double viscosity;  // η_V
+
+  [[nodiscard]] double friction(double volume) const noexcept { return viscosity / volume; }
+};
+
 }  // namespace morula::dcm
