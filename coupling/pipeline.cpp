@@ -3,6 +3,7 @@
 
 #include "coupling/behaviours/life.h"
 #include "coupling/simulation.h"
+#include "dcm/growth.h"
 
 namespace morula {
 namespace {
@@ -84,6 +85,7 @@ Result<StepOutcome> Simulation::step(double land_on) {
     if (model_.step.integrator == Integrator::kExplicitEuler) clock.next_step = model_.step.max_step;
   }
   wrap_cells();
+  dcm::turn_over(tissue_.shells, mechanics_->shell_parameters(), dt);
   average_pressures(dt);
   MORULA_TRY(advance_fields(dt, outcome));
   {

@@ -31,8 +31,9 @@ constexpr double bending_modulus(double young_modulus, double thickness, double 
 }
 
 /// k_h = (2/√3) κ of the hinges, calibrated on cylinders and plates (dcm.md §3); [nN·µm].
+constexpr double hinge_stiffness(double bending_modulus) { return 2.0 / std::numbers::sqrt3 * bending_modulus; }
 constexpr double hinge_stiffness(double young_modulus, double thickness, double poisson_ratio) {
-  return 2.0 / std::numbers::sqrt3 * bending_modulus(young_modulus, thickness, poisson_ratio);
+  return hinge_stiffness(bending_modulus(young_modulus, thickness, poisson_ratio));
 }
 
 }  // namespace morula::dcm

@@ -76,6 +76,8 @@ class Mechanics {
   /// Energy and forces at the tissue's positions, for tests: forces in the order of `external`.
   double energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& force);
 
+  /// Parameters of the single-cell mechanics by cell type.
+  [[nodiscard]] std::span<const dcm::ShellParameters> shell_parameters() const { return shells_.parameters(); }
   [[nodiscard]] StageTimer& timer() { return timer_; }
   [[nodiscard]] const ContactLayer& contacts() const { return contacts_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }

@@ -51,10 +51,12 @@ std::size_t ShellSystem::memory() const {
   std::size_t total = forces_.force.capacity() * sizeof(Vec3d) + friction_force_.capacity() * sizeof(Vec3d);
   for (const auto& block : operator_.blocks)
     total += (block.edge.capacity() + block.diagonal.capacity() + block.volume_gradient.capacity() + block.shape.capacity() +
-              block.barrier.capacity()) *
+              block.barrier.capacity() + block.membrane.capacity() + block.area_gradient.capacity() + block.bulk_gradient.capacity() +
+              block.bending_weight.capacity() + block.bending_normal.capacity()) *
                  sizeof(float) +
              (block.shape_face.capacity() + block.barrier_edge.capacity()) * sizeof(std::uint32_t);
-  for (const auto& block : friction_.blocks) total += (block.direction.capacity() + block.medium.capacity()) * sizeof(double);
+  for (const auto& block : friction_.blocks) 
+    total += (block.direction.capacity() + block.medium.capacity() + block.volume_gradient.capacity()) * sizeof(double);
   return total;
 }
 

@@ -23,23 +23,48 @@ LawParameter parameter(const char* name, const char* quantity, const char* unit,
   return out;
 }
 
-/// The values of one type by parameter name, where the model holds them; stiffnesses stand for the moduli they come from.
+/// What stands for the moduli of a law that the model holds as one stiffness.
+std::vector<LawParameter> held_parameters(const std::string& law) {
+  const LawParameter ratio = parameter("membrane_area_ratio", "number", "1", "ν/(1 − ν), from the Poisson ratio ν.");
+  const char* shear = "Shear modulus G of the sheet, from Young's modulus, thickness and Poisson ratio.";
+  if (law == "edge_spring")
+    return {parameter("spring_stiffness", "tension", "nN/µm", "Stiffness k of every edge, from Young's modulus and thickness.")};
+  if (law == "neo_hooke") return {parameter("neo_hooke_shear", "tension", "nN/µm", shear), ratio};
+  if (law == "st_venant_kirchhoff") return {parameter("stvk_shear", "tension", "nN/µm", shear), ratio};
+  if (law == "skalak") return {parameter("skalak_shear", "tension", "nN/µm", shear), ratio};
+  if (law == "hinge_bending")
+    return {parameter("hinge_stiffness", "energy", "nN·µm",
+                      "Stiffness k_h of every hinge, from Young's modulus, thickness and Poisson ratio.")};
+  return {};
+}
+
+/// The values of one type by parameter name, where the model holds them.
 void add_shell_laws(const CellType& type, std::vector<UsedLaw>& out) {
   const dcm::ShellParameters& p = type.shell;
-  const Values values{{"edge_damping", p.edge_damping},           {"tension", p.tension},
-                      {"bulk_modulus", p.bulk_modulus},           {"shape_stiffness", p.shape_stiffness},
-                      {"barrier_stiffness", p.barrier_stiffness}, {"barrier_angle", p.barrier_angle},
-                      {"medium_friction", p.medium_friction},     {"spring_stiffness", p.spring_stiffness},
-                      {"hinge_stiffness", p.hinge_stiffness}};
+  const Values values{{"edge_damping", p.edge_damping},
+                      {"isotropic_damping", p.isotropic_damping},
+                      {"tension", p.tension},
+                      {"bulk_modulus", p.bulk_modulus},
+                      {"bulk_viscosity", p.bulk_viscosity},
+                      {"shape_stiffness", p.shape_stiffness},
+                      {"barrier_stiffness", p.barrier_stiffness},
+                      {"barrier_angle", p.barrier_angle},
+                      {"medium_friction", p.medium_friction},
+                      {"spring_stiffness", p.spring_stiffness},
+                      {"neo_hooke_shear", p.neo_hooke_shear},
+                      {"stvk_shear", p.stvk_shear},
+                      {"skalak_shear", p.skalak_shear},
+                      {"membrane_area_ratio", p.membrane_area_ratio},
+                      {"local_area_modulus", p.local_area_modulus},
+                      {"global_area_modulus", p.global_area_modulus},
+                      {"turnover_time", 1.0 / p.turnover_rate},
+                      {"hinge_stiffness", p.hinge_stiffness},
+                      {"helfrich_rigidity", p.helfrich_rigidity},
+                      {"spontaneous_curvature", p.spontaneous_curvature}};
   for (const dcm::ShellLaw& law : dcm::shell_laws()) {
     if (p.*law.strength == 0.0) continue;
     LawInfo info = law.info;
-    if (info.name == "edge_spring")
-      info.parameters = {
-          parameter("spring_stiffness", "tension", "nN/µm", "Stiffness k of every edge, from Young's modulus and thickness.")};
-    if (info.name == "hinge_bending")
-      info.parameters = {parameter("hinge_stiffness", "energy", "nN·µm",
-                                   "Stiffness k_h of every hinge, from Young's modulus, thickness and Poisson ratio.")};
+    if (auto held = held_parameters(info.name); !held.empty()) info.parameters = std::move(held);
     out.push_back({"shell of " + type.name, std::move(info), values});
   }
 }

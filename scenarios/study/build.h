@@ -20,6 +20,8 @@ struct BuildContext {
 void build_time_and_numerics(BuildContext& context);
 void build_domain(BuildContext& context);
 void build_cell_types(BuildContext& context);
+/// The shell of one cell type, and whether its laws go together: E513–E515.
+dcm::ShellParameters build_shell(BuildContext& context, const std::string& type_name, const draft::CellType& draft);
 void build_geometry(BuildContext& context);
 /// Adhesion and friction of all pairs of materials; missing pairs get their default, in the draft, too.
 void build_pairs(BuildContext& context);

@@ -1,32 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "scenarios/study/build.h"
 #include "scenarios/study/read_section.h"
 
 namespace morula::scenarios {
 namespace {
-
-/// Bending rigidity of a thin plate, D = E h³ / (12 (1 − ν²)) [nN·µm].
-double plate_rigidity(double young, double thickness, double poisson) {
-  return young * thickness * thickness * thickness / (12.0 * (1.0 - poisson * poisson));
-}
-
-dcm::ShellParameters shell_parameters(const draft::CellType& t) {
-  dcm::ShellParameters p;
-  p.spring_stiffness = 0.5 * std::numbers::sqrt3 * t.young.value * t.thickness.value;  // Seung & Nelson 1988, doi:10.1103/PhysRevA.38.1005
-  p.edge_damping = t.damping.value;
-  const double bending = t.bending.value >= 0.0 ? t.bending.value : plate_rigidity(t.young.value, t.thickness.value, t.poisson.value);
-  p.hinge_stiffness = 2.0 / std::numbers::sqrt3 * bending;
-  p.tension = t.tension.value;
-  p.bulk_modulus = t.bulk_modulus.value;
-  p.shape_stiffness = t.shape_stiffness.value;
-  p.barrier_stiffness = t.fold_stiffness.value;
-  p.barrier_angle = t.fold_angle.value;
-  p.medium_friction = t.friction_medium.value;
-  return p;
-}
 
 void build_death(BuildContext& c, const draft::CellType& draft, const Place& type_place, CellType& type) {
   if (!draft.has_death) return;
@@ -129,7 +108,7 @@ void build_cell_types(BuildContext& c) {
     type.sphere.young = t.sphere_young.value;
     type.sphere.poisson = t.sphere_poisson.value;
     type.sphere.adhesive = t.sphere_law.value != "hertz";
-    type.shell = shell_parameters(t);
+    type.shell = build_shell(c, name, t);
     c.study.model.types.push_back(std::move(type));
   }
 }
@@ -160,7 +139,7 @@ void build_pairs(BuildContext& c) {
       c.diagnostics.warning(509, w.given ? w.place : a.tension.place,
                             "shells of '" + c.draft.cell_types[i].name + "' adhere to '" + partner + "' by " + w.text +
                                 ", not less than twice the cortical tension (" + a.tension.text +
-                                "): only the springs of the cortex stop the spreading",
+                                "): only the elasticity of the cortex stops the spreading",
                             "raise `dcm.cortex.tension` above half of the adhesion, or lower the adhesion");
     }
   }

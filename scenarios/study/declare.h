@@ -7,6 +7,7 @@ namespace morula::scenarios {
 void declare_study(Section& section, draft::Study& study);
 
 void declare_cell_type(Section& section, draft::CellType& type);
+void declare_shell(Section& section, draft::CellType& type);
 void declare_obstacle(Section& section, draft::Obstacle& obstacle);
 void declare_initial(Section& section, draft::Initial& initial);
 void declare_field(Section& section, draft::Field& field);

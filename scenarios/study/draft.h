@@ -48,8 +48,11 @@ struct CellType {
   Given<std::string> sphere_law;
   Given<double> sphere_young, sphere_poisson;
   Given<std::uint64_t> nodes;
-  Given<double> young, thickness, poisson, tension, damping;
-  Given<double> bending, bulk_modulus, shape_stiffness, fold_stiffness, fold_angle;
+  Given<std::string> elastic, bending_law;
+  Given<double> young, thickness, poisson, shear_modulus, area_ratio, tension, turnover, damping, isotropic_damping;
+  Given<double> local_area, global_area;
+  Given<bool> area_on_top;
+  Given<double> bending, spontaneous_radius, bulk_modulus, bulk_viscosity, shape_stiffness, fold_stiffness, fold_angle;
 };
 
 struct Contact {

@@ -54,11 +54,16 @@ constexpr ErrorCode kCodes[] = {
     {508, "time that is never reached",
      "An output or checkpoint interval is longer than the run: nothing would be written before its end."},
     {509, "adhesion stronger than the cortex",
-     "With W >= 2 tension two free surfaces spread on each other without limit; only the springs of the cortex stop them, and the "
+     "With W >= 2 tension two free surfaces spread on each other without limit; only the elasticity of the cortex stops them, and the "
      "contact angle is theirs (warning)."},
     {510, "values that contradict each other", "Two places of the study say different things about one quantity."},
     {511, "domain too small", "With periodic faces a cell would touch its own image."},
     {512, "field cannot be resolved", "The voxel size gives too many or too few voxels."},
+    {513, "elasticity of the area counted twice",
+     "Two laws of one shell resist changes of its area. Their moduli add: say `area: {on_top: true}` where that is meant."},
+    {514, "Poisson ratio outside the law",
+     "A net of springs with an area modulus has a Poisson ratio of at least 1/3: below, the area modulus would be negative."},
+    {515, "key without effect", "The key belongs to another law than the one that is chosen; it would be read and left aside."},
     {601, "file missing", "A file that the study names does not exist. Paths are relative to the folder of the study."},
     {602, "file cannot be read", "It is a folder, a device, or its permissions forbid reading."},
     {603, "file too large", "Study files are read up to 5 MiB, CSV files up to 500 MiB."},

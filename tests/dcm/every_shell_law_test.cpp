@@ -16,7 +16,11 @@ std::vector<ShellParameters> only(const ShellLaw& law) {
   std::vector<ShellParameters> types(2, nothing());
   types[0].*law.strength = 0.7;
   types[1].*law.strength = 1.1;
-  for (ShellParameters& p : types) p.barrier_angle = 0.2;  // so low that it acts on most edges of a sphere
+  for (ShellParameters& p : types) {
+    p.barrier_angle = 0.2;  // so low that it acts on most edges of a sphere
+    p.spontaneous_curvature = 0.2;
+  }
+  types[1].membrane_area_ratio = 0.6;
   return types;
 }
 
@@ -133,9 +137,10 @@ TEST_P(EveryShellLaw, EnergyScalesWithTheSizeOfTheCellAsItsUnitsSay) {
                                                             {"global_area", "nN/µm"},      {"helfrich", "nN·µm"}};
   const int n = exponent.at(unit_of_strength.at(GetParam().info.name));
   Shells shells = rough_shells();
-  const auto types = only(GetParam());
+  auto types = only(GetParam());
   const auto at = mechanics(shells, types, shells.position);
   const double scale = 1.7;
+  for (ShellParameters& p : types) p.spontaneous_curvature /= scale;
   for (Vec3d& x : shells.position) x *= scale;
   for (double& length : shells.rest_length) length *= scale;
   for (double& volume : shells.rest_volume) volume *= scale * scale * scale;

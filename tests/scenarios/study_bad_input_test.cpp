@@ -115,6 +115,31 @@ INSTANTIATE_TEST_SUITE_P(
              "obstacle 'capsule' lies outside the domain"}),
     [](const auto& one) { return one.param.name; });
 
+INSTANTIATE_TEST_SUITE_P(
+    ShellLaws, BadStudy,
+    testing::Values(
+        Case{"UnknownLaw", "cortex: {young", "cortex: {elastic: neo_hookean, young", "neo_hooke"},
+        Case{"AreaTwice", "cortex: {young: 1 kPa", "area: {local: 0.1 mN/m}\n      cortex: {elastic: neo_hooke, young: 1 kPa",
+             "study.yaml:19:21: error: shells of 'hepatocyte' resist changes of area twice: by `cortex.elastic: neo_hooke` and by `area.local` "
+             "[E513]"},
+        Case{"AreaTwiceByMesh", "cortex: {young: 1 kPa", "area: {global: 1 mN/m}\n      cortex: {elastic: springs_with_area, young: 1 kPa",
+             "by `cortex.elastic: springs_with_area` and by `area.global` [E513]"},
+        Case{"LocalAndGlobalArea", "cortex: {young: 1 kPa", "area: {local: 1 mN/m, global: 1 mN/m}\n      cortex: {young: 1 kPa",
+             "by `area.local` and by `area.global` [E513]"},
+        Case{"PoissonOfSprings", "poisson: 0.5,", "poisson: 0.3, elastic: springs_with_area,",
+             "a net of springs with an area modulus cannot have a Poisson ratio of 0.3 [E514]"},
+        Case{"PoissonOfSheet", "poisson: 0.5,", "poisson: 0.6, elastic: stvk,", "'poisson' is 0.6, but must be between 0 and 0.5 [E302]"},
+        Case{"SkalakKey", "poisson: 0.5,", "shear_modulus: 5 uN/m,", "'shear_modulus' has no effect here [E515]"},
+        Case{"SkalakRatio", "poisson: 0.5,", "area_ratio: 50, elastic: neo_hooke,", "'area_ratio' has no effect here [E515]"},
+        Case{"CurvatureOfHinges", "bulk_modulus: 2.5 kPa", "bending: {spontaneous_radius: 3 um}",
+             "'spontaneous_radius' has no effect here [E515]"},
+        Case{"CurvatureZero", "bulk_modulus: 2.5 kPa", "bending: {law: helfrich, spontaneous_radius: 0 um}", "too small a sphere [E302]"},
+        Case{"TurnoverOfAFluid", "poisson: 0.5,", "elastic: none, turnover: 10 min,", "'turnover' has no effect here [E515]"},
+        Case{"NegativeModulus", "bulk_modulus: 2.5 kPa", "area: {local: -1 mN/m}", "[E302]"},
+        Case{"NegativeViscosity", "bulk_modulus: 2.5 kPa", "bulk_viscosity: -1 Pa s", "[E302]"},
+        Case{"NoTimeOfTurnover", "poisson: 0.5,", "turnover: 0 s,", "[E302]"}),
+    [](const auto& one) { return one.param.name; });
+
 TEST(BadStudyFile, EmptyFileIsRefused) {
   EXPECT_THAT(errors_of(""), HasSubstr("the study is empty [E107]"));
   EXPECT_THAT(errors_of("# only a comment\n"), HasSubstr("the study is empty [E107]"));

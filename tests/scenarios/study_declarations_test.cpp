@@ -81,7 +81,7 @@ TEST(ResolvedStudy, NamesTheCopiesOfItsInputFiles) {
 TEST(ResolvedStudy, HoldsEveryDefault) {
   const auto study = read(kGoodStudy);
   ASSERT_TRUE(study.ok());
-  for (const char* line : {"thickness: 200 nm\n", "shrink_time: 8 h  # default\n", "bending: auto  # default\n",
+  for (const char* line : {"thickness: 200 nm\n", "shrink_time: 8 h  # default\n", "rigidity: auto  # default\n",
                            "half_saturation: 0.005 mM  # default\n", "newton: 3  # default\n"})
     EXPECT_THAT(study->resolved_text, HasSubstr(line));
 }

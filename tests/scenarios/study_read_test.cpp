@@ -61,6 +61,56 @@ TEST(StudyReader, ShellConstantsAreThoseOfTable1) {
   EXPECT_DOUBLE_EQ(p.bulk_modulus, 2.5);
 }
 
+dcm::ShellParameters shell_with(const std::string& keys) {
+  return good(changed("cortex: {young: 1 kPa, thickness: 200 nm, poisson: 0.5, tension: 0.2 mN/m}", keys)).model.types[0].shell;
+}
+
+// dcm.md §2: G = E h/3 = 0.066667, C = 1 for nu = 1/2; springs with area: k = 0.15396, K_a = 0.06667.
+TEST(StudyReader, ElasticityOfTheCortexHonoursThicknessAndPoissonRatio) {
+  const auto neo = shell_with("cortex: {elastic: neo_hooke, poisson: 0.5}");
+  EXPECT_NEAR(neo.neo_hooke_shear, 0.066667, 1e-6);
+  EXPECT_DOUBLE_EQ(neo.membrane_area_ratio, 1.0);
+  EXPECT_EQ(neo.spring_stiffness, 0.0);
+  const auto stvk = shell_with("cortex: {elastic: stvk, young: 2 kPa, thickness: 0.5 um, poisson: 0.25}");
+  EXPECT_NEAR(stvk.stvk_shear, 0.4, 1e-12);
+  EXPECT_NEAR(stvk.membrane_area_ratio, 1.0 / 3.0, 1e-12);
+  const auto red_cell = shell_with("cortex: {elastic: skalak, shear_modulus: 5.5 uN/m, area_ratio: 50}");
+  EXPECT_DOUBLE_EQ(red_cell.skalak_shear, 5.5e-3);
+  EXPECT_DOUBLE_EQ(red_cell.membrane_area_ratio, 50.0);
+  const auto net = shell_with("cortex: {elastic: springs_with_area}");
+  EXPECT_NEAR(net.spring_stiffness, 0.15396, 1e-5);
+  EXPECT_NEAR(net.local_area_modulus, 0.06667, 1e-5);
+  const auto fluid = shell_with("cortex: {elastic: none}");
+  EXPECT_EQ(fluid.spring_stiffness + fluid.neo_hooke_shear + fluid.stvk_shear + fluid.skalak_shear + fluid.local_area_modulus, 0.0);
+  EXPECT_GT(fluid.hinge_stiffness, 0.0) << "bending is a law of its own";
+}
+
+TEST(StudyReader, BendingIsHingesOrHelfrich) {
+  EXPECT_NEAR(shell_with("bending: 8.8889e-19 J").hinge_stiffness, 1.0264e-3, 1e-7);  // a bare value is the rigidity
+  const auto p = shell_with("bending: {law: helfrich, rigidity: 2e-19 J, spontaneous_radius: 4 um}");
+  EXPECT_EQ(p.hinge_stiffness, 0.0);
+  EXPECT_DOUBLE_EQ(p.helfrich_rigidity, 2e-4);
+  EXPECT_DOUBLE_EQ(p.spontaneous_curvature, 0.5);
+  const auto plate = shell_with("bending: {law: helfrich}");
+  EXPECT_NEAR(plate.helfrich_rigidity, 8.8889e-4, 1e-8);
+  EXPECT_EQ(plate.spontaneous_curvature, 0.0);
+  const auto none = shell_with("bending: {law: none}");
+  EXPECT_EQ(none.hinge_stiffness + none.helfrich_rigidity, 0.0);
+}
+
+TEST(StudyReader, AreaTurnoverAndViscosityAreOffUnlessGiven) {
+  const auto p = good().model.types[0].shell;
+  EXPECT_EQ(p.local_area_modulus + p.global_area_modulus + p.turnover_rate + p.bulk_viscosity + p.isotropic_damping, 0.0);
+  const auto q = shell_with(
+      "cortex: {elastic: neo_hooke, turnover: 10 min, isotropic_damping: 1e-5 N s/m}\n"
+      "      area: {local: 0.07 mN/m, global: 2 mN/m, on_top: true}\n      bulk_viscosity: 100 Pa s");
+  EXPECT_DOUBLE_EQ(q.turnover_rate, 1.0 / 600.0);
+  EXPECT_DOUBLE_EQ(q.isotropic_damping, 0.01);
+  EXPECT_DOUBLE_EQ(q.local_area_modulus, 0.07);
+  EXPECT_DOUBLE_EQ(q.global_area_modulus, 2.0);
+  EXPECT_DOUBLE_EQ(q.bulk_viscosity, 0.1);
+}
+
 TEST(StudyReader, DefaultsAreTheModelsDefaults) {
   const Study s = good(
       "schema: 1\nstudy: s\ntime: 1 h\ndomain: {size: [100 um, 100 um, 100 um]}\ncell_types: {a: {}}\ninitial: [{type: a, at: [[0 um, 0 "

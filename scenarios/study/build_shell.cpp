@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <cmath>
+
+#include "dcm/derived_parameters.h"
+#include "scenarios/study/build.h"
+
+namespace morula::scenarios {
+namespace {
+
+bool is_sheet(const std::string& elastic) { return elastic == "neo_hooke" || elastic == "stvk" || elastic == "skalak"; }
+
+/// Laws of one shell that resist changes of its area may add only when the study says so.
+void check_area(BuildContext& c, const std::string& type, const draft::CellType& t) {
+  if (t.area_on_top.value) return;
+  const bool membrane = is_sheet(t.elastic.value) || t.elastic.value == "springs_with_area";
+  const bool local = t.local_area.value > 0.0, global = t.global_area.value > 0.0;
+  if (membrane + local + global < 2) return;
+  const std::string first = membrane ? "`cortex.elastic: " + t.elastic.value + "`" : "`area.local`";
+  const std::string second = global ? "`area.global`" : "`area.local`";
+  c.diagnostics.error(513, global ? t.global_area.place : t.local_area.place,
+                      "shells of '" + type + "' resist changes of area twice: by " + first + " and by " + second,
+                      "leave one away, or write `area: {on_top: true, ...}` if the moduli shall add");
+}
+
+/// Keys of a law that is not the chosen one; their default may stand there, as in a resolved study.
+void check_effect(BuildContext& c, const draft::CellType& t) {
+  const auto without_effect = [&](const Given<double>& key, const char* name, const std::string& needs) {
+    const bool is_default = key.value == -1.0 || std::isinf(key.value);  // auto; flat, never
+    if (key.given && !is_default) c.diagnostics.error(515, key.place, std::string("'") + name + "' has no effect here", "it belongs to " + needs);
+  };
+  if (t.elastic.value != "skalak") {
+    without_effect(t.shear_modulus, "shear_modulus", "`elastic: skalak`; other laws take it from `young`, `thickness` and `poisson`");
+    without_effect(t.area_ratio, "area_ratio", "`elastic: skalak`; other laws take it from `poisson`");
+  }
+  if (t.bending_law.value != "helfrich")
+    without_effect(t.spontaneous_radius, "spontaneous_radius", "`law: helfrich`; hinges are at rest in the angles of the sphere");
+  if (t.bending_law.value == "none") without_effect(t.bending, "rigidity", "`law: hinge` or `law: helfrich`");
+  if (t.elastic.value == "none" && t.local_area.value == 0.0 && t.global_area.value == 0.0)
+    without_effect(t.turnover, "turnover", "a cortex that is elastic in its plane");
+}
+
+void set_elasticity(BuildContext& c, const draft::CellType& t, dcm::ShellParameters& p) {
+  const double young = t.young.value, thickness = t.thickness.value, poisson = t.poisson.value;
+  const std::string& law = t.elastic.value;
+  const double shear = dcm::sheet_shear_modulus(young, thickness, poisson);
+  p.local_area_modulus = t.local_area.value;
+  p.membrane_area_ratio = dcm::sheet_area_ratio(poisson);
+  if (law == "springs") p.spring_stiffness = dcm::spring_stiffness(young, thickness);
+  if (law == "neo_hooke") p.neo_hooke_shear = shear;
+  if (law == "stvk") p.stvk_shear = shear;
+  if (law == "skalak") {
+    p.skalak_shear = t.shear_modulus.value >= 0.0 ? t.shear_modulus.value : shear;
+    if (t.area_ratio.value >= 0.0) p.membrane_area_ratio = t.area_ratio.value;
+  }
+  if (law != "springs_with_area") return;
+  const auto both = dcm::springs_with_area(young, thickness, poisson);
+  p.spring_stiffness = both.spring_stiffness;
+  p.local_area_modulus += std::max(0.0, both.area_modulus);
+  if (poisson < 1.0 / 3.0 - 1e-12)
+    c.diagnostics.error(514, t.poisson.place, "a net of springs with an area modulus cannot have a Poisson ratio of " + t.poisson.text,
+                        "`poisson` between 0.3334 and 0.5, or `elastic: neo_hooke`, which takes 0 to 0.5");
+}
+
+void set_bending(BuildContext& c, const draft::CellType& t, dcm::ShellParameters& p) {
+  const double rigidity =
+      t.bending.value >= 0.0 ? t.bending.value : dcm::bending_modulus(t.young.value, t.thickness.value, t.poisson.value);
+  if (t.bending_law.value == "hinge") p.hinge_stiffness = dcm::hinge_stiffness(rigidity);
+  if (t.bending_law.value != "helfrich") return;
+  p.helfrich_rigidity = rigidity;
+  p.spontaneous_curvature = 2.0 / t.spontaneous_radius.value;
+  if (std::abs(t.spontaneous_radius.value) < 0.02)
+    c.diagnostics.error(302, t.spontaneous_radius.place, "'spontaneous_radius' is " + t.spontaneous_radius.text + ", too small a sphere",
+                        "at least 0.02 um, or `flat`");
+}
+
+}  // namespace
+
+dcm::ShellParameters build_shell(BuildContext& c, const std::string& type_name, const draft::CellType& t) {
+  dcm::ShellParameters p;
+  set_elasticity(c, t, p);
+  set_bending(c, t, p);
+  check_area(c, type_name, t);
+  check_effect(c, t);
+  p.global_area_modulus = t.global_area.value;
+  p.turnover_rate = 1.0 / t.turnover.value;
+  p.edge_damping = t.damping.value;
+  p.isotropic_damping = t.isotropic_damping.value;
+  p.tension = t.tension.value;
+  p.bulk_modulus = t.bulk_modulus.value;
+  p.bulk_viscosity = t.bulk_viscosity.value;
+  p.shape_stiffness = t.shape_stiffness.value;
+  p.barrier_stiffness = t.fold_stiffness.value;
+  p.barrier_angle = t.fold_angle.value;
+  p.medium_friction = t.friction_medium.value;
+  return p;
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,237 @@
+#include "scenarios/study/declare.h"
+
+namespace morula::scenarios {
+namespace {
+
+using Q = Quantity;
+constexpr const char* kTable1 = "Van Liedekerke et al., Table 1";
+
+void declare_cortex(Section& c, draft::CellType& t) {
+  c.word({.name = "elastic",
+          .doc = "Elasticity in the plane. springs: a net of springs, Poisson ratio 1/3 whatever `poisson` says; springs_with_area: springs and "
+                 "the area of every face, Poisson ratio 1/3 to 1/2; neo_hooke, stvk (St Venant-Kirchhoff, stretches 0.8 to 1.3) and skalak: "
+                 "triangles of constant strain, Poisson ratio 0 to 1/2; none: a fluid.",
+          .fallback = "springs",
+          .words = {"none", "springs", "springs_with_area", "neo_hooke", "stvk", "skalak"},
+          .example = "neo_hooke",
+          .source = "Van Liedekerke et al."},
+         t.elastic);
+  c.quantity({.name = "young",
+              .doc = "Young's modulus E of the cortex.",
+              .quantity = Q::kPressure,
+              .fallback = "1 kPa",
+              .low = 0.0,
+              .high = 1e4,
+              .example = "1 kPa",
+              .source = kTable1},
+             t.young);
+  c.quantity({.name = "thickness",
+              .doc = "Thickness h of the cortex.",
+              .quantity = Q::kLength,
+              .fallback = "200 nm",
+              .low = 0.0,
+              .high = 5.0,
+              .low_open = true,
+              .example = "200 nm",
+              .source = kTable1},
+             t.thickness);
+  c.quantity({.name = "poisson",
+              .doc = "Poisson ratio of the cortex: of its bending stiffness, and of its plane where `elastic` can have it (not in a net of "
+                     "springs).",
+              .fallback = "0.5",
+              .low = 0.0,
+              .high = 0.5,
+              .example = "0.5",
+              .source = kTable1},
+             t.poisson);
+  c.quantity({.name = "shear_modulus",
+              .doc = "Shear modulus G of `elastic: skalak`; `auto`: E h/(2 (1 + poisson)).",
+              .quantity = Q::kTension,
+              .fallback = "auto",
+              .low = 0.0,
+              .high = 1e4,
+              .low_open = true,
+              .specials = {{"auto", -1.0}},
+              .example = "5.5 uN/m",
+              .source = "thin sheet of an isotropic solid"},
+             t.shear_modulus);
+  c.quantity({.name = "area_ratio",
+              .doc = "Resistance to change of area C of `elastic: skalak`; `auto`: poisson/(1 - poisson).",
+              .fallback = "auto",
+              .low = 0.0,
+              .high = 1e6,
+              .specials = {{"auto", -1.0}},
+              .example = "50",
+              .source = "Skalak et al. 1973, doi:10.1016/S0006-3495(73)85983-1"},
+             t.area_ratio);
+  c.quantity({.name = "tension",
+              .doc = "Active cortical tension.",
+              .quantity = Q::kTension,
+              .fallback = "0.1 mN/m",
+              .low = 0.0,
+              .high = 100.0,
+              .example = "0.2 mN/m",
+              .source = "chosen between 0.03 mN/m (neutrophil, Hochmuth 2000) and 0.4 mN/m (fibroblast, Tinevez et al. 2009)"},
+             t.tension);
+  c.quantity({.name = "turnover",
+              .doc = "Time after which 1/e of the elastic stress in the plane is left at constant shape, because the cortex is renewed; "
+                     "`never`: it is permanent.",
+              .quantity = Q::kTime,
+              .fallback = "never",
+              .low = 0.0,
+              .low_open = true,
+              .specials = {{"never", std::numeric_limits<double>::infinity()}},
+              .example = "10 min",
+              .source = "chosen: off"},
+             t.turnover);
+  c.quantity({.name = "damping",
+              .doc = "Friction of an edge against its own lengthening.",
+              .quantity = Q::kFriction,
+              .fallback = "1e-4 N s/m",
+              .low = 0.0,
+              .high = 1e4,
+              .example = "1e-4 N s/m",
+              .source = kTable1},
+             t.damping);
+  c.quantity({.name = "isotropic_damping",
+              .doc = "Friction of an edge against any relative motion of its ends; unlike `damping` it resists rigid rotation of the cell.",
+              .quantity = Q::kFriction,
+              .fallback = "0 N s/m",
+              .low = 0.0,
+              .high = 1e4,
+              .example = "1e-5 N s/m",
+              .source = "chosen: off"},
+             t.isotropic_damping);
+}
+
+void declare_area(Section& a, draft::CellType& t) {
+  a.quantity({.name = "local",
+              .doc = "Modulus of the area of every face.",
+              .quantity = Q::kTension,
+              .fallback = "0 mN/m",
+              .low = 0.0,
+              .high = 1e6,
+              .example = "0.07 mN/m",
+              .source = "chosen: off"},
+             t.local_area);
+  a.quantity({.name = "global",
+              .doc = "Modulus of the area of the whole cell.",
+              .quantity = Q::kTension,
+              .fallback = "0 mN/m",
+              .low = 0.0,
+              .high = 1e6,
+              .example = "1 mN/m",
+              .source = "chosen: off"},
+             t.global_area);
+  a.flag({.name = "on_top",
+          .doc = "Needed where another law resists changes of area already (springs_with_area, neo_hooke, stvk, skalak, or both moduli "
+                 "here): yes, the moduli shall add.",
+          .fallback = "false",
+          .example = "true",
+          .source = "chosen: nothing is counted twice unasked"},
+         t.area_on_top);
+}
+
+void declare_bending(Section& b, draft::CellType& t) {
+  b.word({.name = "law",
+          .doc = "hinge: springs at the edges with the angles of the sphere at rest; helfrich: mean curvature by the cotangent formula, flat "
+                 "at rest or of `spontaneous_radius`; none.",
+          .fallback = "hinge",
+          .words = {"none", "hinge", "helfrich"},
+          .example = "helfrich",
+          .source = "chosen"},
+         t.bending_law);
+  b.quantity({.name = "rigidity",
+              .doc = "Bending rigidity D of the cortex; `auto`: E h^3/(12 (1 - poisson^2)).",
+              .quantity = Q::kEnergy,
+              .fallback = "auto",
+              .low = 0.0,
+              .specials = {{"auto", -1.0}},
+              .example = "8.9e-19 J",
+              .source = "Kirchhoff plate"},
+             t.bending);
+  b.quantity({.name = "spontaneous_radius",
+              .doc = "With `law: helfrich`, the radius of the sphere that has no bending moment (c0 = 2/R; negative: bent inwards); `flat`: "
+                     "no spontaneous curvature.",
+              .quantity = Q::kLength,
+              .fallback = "flat",
+              .low = -1e6,
+              .high = 1e6,
+              .specials = {{"flat", std::numeric_limits<double>::infinity()}},
+              .example = "3 um",
+              .source = "Helfrich 1973, doi:10.1515/znc-1973-11-1209"},
+             t.spontaneous_radius);
+}
+
+}  // namespace
+
+void declare_shell(Section& s, draft::CellType& t) {
+  bool present = false;
+  s.whole({.name = "nodes",
+           .doc = "Nodes of the shell's mesh: 42, 162, 642 or 2562 (subdivided icosahedra).",
+           .fallback = "162",
+           .low = 42,
+           .high = 2562,
+           .words = {"42", "162", "642", "2562"},
+           .example = "162",
+           .source = "Van Liedekerke et al.: 160 to 2600 nodes a cell"},
+          t.nodes);
+  s.group({.name = "cortex", .doc = "The cell's cortex: a thin elastic layer under active tension."}, present,
+          [&t](Section& c) { declare_cortex(c, t); });
+  s.group({.name = "area", .doc = "Elasticity of the area, apart from that of the cortex."}, present,
+          [&t](Section& a) { declare_area(a, t); });
+  s.group({.name = "bending",
+           .doc = "Bending of the cortex.",
+           .shorthand = "rigidity",
+           .example = "{law: helfrich, rigidity: 2e-19 J}"},
+          present, [&t](Section& b) { declare_bending(b, t); });
+  s.quantity({.name = "bulk_modulus",
+              .doc = "Stiffness K of the volume: p = -K ln(V/V0).",
+              .quantity = Q::kPressure,
+              .fallback = "2.5 kPa",
+              .low = 0.0,
+              .high = 1e4,
+              .low_open = true,
+              .example = "2.5 kPa",
+              .source = kTable1},
+             t.bulk_modulus);
+  s.quantity({.name = "bulk_viscosity",
+              .doc = "Viscosity of the volume: adds -eta (dV/dt)/V to the pressure.",
+              .quantity = Q::kViscosity,
+              .fallback = "0 Pa s",
+              .low = 0.0,
+              .high = 1e9,
+              .example = "100 Pa s",
+              .source = "chosen: off"},
+             t.bulk_viscosity);
+  s.quantity({.name = "shape_stiffness",
+              .doc = "Keeps triangles from collapsing; no shear modulus in regular triangles.",
+              .quantity = Q::kTension,
+              .fallback = "0.3 mN/m",
+              .low = 0.0,
+              .high = 100.0,
+              .example = "0.3 mN/m",
+              .source = "measured: clusters up to W/(2 tension) = 0.9"},
+             t.shape_stiffness);
+  s.group({.name = "fold_barrier", .doc = "Keeps edges from folding through."}, present, [&t](Section& f) {
+    f.quantity({.name = "stiffness",
+                .doc = "Energy scale of the barrier.",
+                .quantity = Q::kEnergy,
+                .fallback = "1 fJ",
+                .low = 0.0,
+                .example = "1 fJ",
+                .source = "measured: clusters up to W/(2 tension) = 0.9"},
+               t.fold_stiffness);
+    f.quantity({.name = "angle",
+                .doc = "Turning angle of an edge from which the barrier acts.",
+                .quantity = Q::kAngle,
+                .fallback = "1.6 rad",
+                .low = 0.2,
+                .high = 3.0,
+                .example = "1.6 rad",
+                .source = "measured"},
+               t.fold_angle);
+  });
+}
+
+}  // namespace morula::scenarios
