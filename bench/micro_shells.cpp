@@ -23,7 +23,7 @@ struct Bed {
   ShellOperator matrix;
   std::vector<double> contact_energy;
 
-  explicit Bed(const benchmark::State& state) {
+  explicit Bed(const benchmark::State& state, double ShellParameters::*added = nullptr) {
     ShapeLibrary library;
     const auto shape = library.icosphere(162).value();
     std::mt19937_64 engine(1);
@@ -45,6 +45,10 @@ struct Bed {
     types[0].spring_stiffness = 0.173205;
     types[0].hinge_stiffness = 1.0264e-3;
     types[0].tension = 0.5;
+    if (added != nullptr) {
+      types[0].*added = added == &ShellParameters::helfrich_rigidity ? 8.8889e-4 : 0.0667;
+      if (added == &ShellParameters::helfrich_rigidity) types[0].hinge_stiffness = 0.0;
+    }
     blocks = make_shell_blocks(shells, static_cast<int>(state.range(1)));
     contact_energy.assign(blocks.face_count(), -0.05);
     compute_surface_geometry(surfaces(), blocks.blocks, shells.position, geometry);
@@ -82,8 +86,8 @@ void surface_forces(benchmark::State& state) {
   report(state, bed);
 }
 
-void forces(benchmark::State& state) {
-  Bed bed(state);
+void forces(benchmark::State& state, double ShellParameters::*added) {
+  Bed bed(state, added);
   ShellMechanics out;
   for (auto _ : state) {
     internal_forces(bed.blocks, bed.shells, bed.types, bed.shells.position, out);
@@ -92,8 +96,8 @@ void forces(benchmark::State& state) {
   report(state, bed);
 }
 
-void assembly(benchmark::State& state) {
-  Bed bed(state);
+void assembly(benchmark::State& state, double ShellParameters::*added) {
+  Bed bed(state, added);
   for (auto _ : state) {
     bed.assemble();
     benchmark::ClobberMemory();
@@ -101,8 +105,8 @@ void assembly(benchmark::State& state) {
   report(state, bed);
 }
 
-void operator_application(benchmark::State& state) {
-  Bed bed(state);
+void operator_application(benchmark::State& state, double ShellParameters::*added) {
+  Bed bed(state, added);
   std::vector<Float4> p(bed.shells.node_count(), Float4{0.1f, 0.2f, 0.3f, 0.0f}), q(p.size());
   for (auto _ : state) {
     apply_shell_operator(bed.blocks, bed.shells, bed.matrix, p, q);
@@ -139,11 +143,24 @@ void sizes(benchmark::internal::Benchmark* b) { b->Args({8, 1})->Args({8, 4})->A
 
 BENCHMARK(surface_geometry)->Apply(sizes);
 BENCHMARK(surface_forces)->Apply(sizes);
-BENCHMARK(forces)->Apply(sizes);
-BENCHMARK(assembly)->Apply(sizes);
-BENCHMARK(operator_application)->Apply(sizes);
+BENCHMARK_CAPTURE(forces, by_default, nullptr)->Apply(sizes);
+BENCHMARK_CAPTURE(assembly, by_default, nullptr)->Apply(sizes);
+BENCHMARK_CAPTURE(operator_application, by_default, nullptr)->Apply(sizes);
 BENCHMARK(block_diagonal)->Apply(sizes);
 BENCHMARK(friction_of_displacement)->Apply(sizes);
+
+// One more law beside those by default (Helfrich: in place of the hinges).
+void eight_cells(benchmark::internal::Benchmark* b) { b->Args({8, 8})->MinTime(0.05); }
+#define MORULA_WITH_LAW(law, strength)                                                                  \
+  BENCHMARK_CAPTURE(forces, with_##law, &ShellParameters::strength)->Apply(eight_cells);                \
+  BENCHMARK_CAPTURE(assembly, with_##law, &ShellParameters::strength)->Apply(eight_cells);              \
+  BENCHMARK_CAPTURE(operator_application, with_##law, &ShellParameters::strength)->Apply(eight_cells)
+MORULA_WITH_LAW(neo_hooke, neo_hooke_shear);
+MORULA_WITH_LAW(stvk, stvk_shear);
+MORULA_WITH_LAW(skalak, skalak_shear);
+MORULA_WITH_LAW(local_area, local_area_modulus);
+MORULA_WITH_LAW(global_area, global_area_modulus);
+MORULA_WITH_LAW(helfrich, helfrich_rigidity);
 
 }  // namespace
 }  // namespace morula::dcm

@@ -102,6 +102,20 @@ TEST_P(EveryShellLaw, GivesTheSameBitsInOneFourAndEightLanes) {
   }
 }
 
+TEST_P(EveryShellLaw, GivesNothingToTheShellsOfATypeWithoutIt) {
+  const Shells shells = rough_shells();
+  auto types = only(GetParam());
+  const auto both = mechanics(shells, types, shells.position);
+  types[1].*GetParam().strength = 0.0;
+  const auto one = mechanics(shells, types, shells.position);  // types 0 and 1 share lanes
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    const bool has = shells.type[s] == 0;
+    EXPECT_EQ(one.energy[s], has ? both.energy[s] : 0.0);
+    for (std::uint32_t i = shells.first_node[s]; i < shells.first_node[s + 1]; ++i)
+      EXPECT_EQ(one.force[i], has ? both.force[i] : Vec3d{}) << "shell " << s;
+  }
+}
+
 TEST_P(EveryShellLaw, IsSilentInTheReferenceShapeWhereItHasOne) {
   const Shells shells = one_shell(162);
   auto types = only(GetParam());
