@@ -3,6 +3,8 @@
 
 #include "dcm/derived_parameters.h"
 #include "dcm/growth.h"
+#include "dcm/laws/edge_damper.h"
+#include "dcm/laws/edge_spring.h"
 #include "tests/dcm/flat_sheet.h"
 
 namespace morula::dcm::testing {
@@ -198,6 +200,22 @@ TEST(StVenantKirchhoff, IsAtFaultOutsideItsRangeAndNamesTheFace) {
   EXPECT_NE(std::find(named.begin(), named.end(), t[0]), named.end());
   p.stvk_shear = 0.0, p.neo_hooke_shear = kShear;
   EXPECT_FALSE(stretched(1.4)) << "a neo-Hookean membrane holds there";
+}
+
+TEST(KelvinVoigtEdge, CreepsTowardsItsLengthUnderAStepForce) {  // T2.3: L − L0 = (f/k)(1 − e^{−t/τ}), τ = γ_int/k = 0.57735 s; ± 1 %
+  const EdgeSpring<double> spring{0.173205};
+  const EdgeDamper<double> damper{0.1};
+  const double tau = 0.1 / 0.173205, force = 0.01, rest = 1.8, dt = tau / 200.0;
+  EXPECT_NEAR(tau, 0.57735, 5e-6);
+  const Vec3d direction = normalized(Vec3d{1.0, -2.0, 0.5});
+  double length = rest;
+  for (int step = 1; step <= 600; ++step) {
+    // along the edge: γ_int L̇ = f − slope of the spring
+    const double friction = morula::dot(direction, damper.friction(direction) * direction);
+    length += dt * (force - spring.slope(length, rest)) / friction;
+    const double exact = force / 0.173205 * (1.0 - std::exp(-step * dt / tau));
+    EXPECT_NEAR((length - rest) / exact, 1.0, 0.01);
+  }
 }
 
 TEST(Turnover, LetsTheTensionOfAHeldSpringDecayExponentially) {
