@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "scenarios/library/verdicts.h"
 #include "scenarios/report/series_reader.h"
 
 namespace morula::scenarios {
@@ -17,18 +17,6 @@ namespace {
 constexpr double kHold = 1800.0;         // S7.8 [s]
 constexpr double kContactPart = 0.3;     // of the surface, on average
 constexpr double kLeastMeanStep = 15.0;  // 100 times the explicit limit of shells of 162 nodes, 0.15 s (time_stepping.md)
-
-Verdict within(const char* id, const char* quantity, double value, double low, double high) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%g to %g", low, high);
-  return {id, quantity, value, text, value >= low && value <= high};
-}
-
-Verdict at_least(const char* id, const char* quantity, double value, double limit, const char* unit) {
-  char text[64];
-  std::snprintf(text, sizeof text, ">= %g%s%s", limit, *unit ? " " : "", unit);
-  return {id, quantity, value, text, value >= limit};
-}
 
 /// Shortest time between two exchanges of the body of a cell, the placing at time 0 aside; infinity when no cell has two [s].
 Result<double> shortest_hold(const std::filesystem::path& events) {
