@@ -151,9 +151,9 @@ BENCHMARK(friction_of_displacement)->Apply(sizes);
 
 // One more law beside those by default (Helfrich: in place of the hinges).
 void eight_cells(benchmark::internal::Benchmark* b) { b->Args({8, 8})->MinTime(0.05); }
-#define MORULA_WITH_LAW(law, strength)                                                                  \
-  BENCHMARK_CAPTURE(forces, with_##law, &ShellParameters::strength)->Apply(eight_cells);                \
-  BENCHMARK_CAPTURE(assembly, with_##law, &ShellParameters::strength)->Apply(eight_cells);              \
+#define MORULA_WITH_LAW(law, strength)                                                     \
+  BENCHMARK_CAPTURE(forces, with_##law, &ShellParameters::strength)->Apply(eight_cells);   \
+  BENCHMARK_CAPTURE(assembly, with_##law, &ShellParameters::strength)->Apply(eight_cells); \
   BENCHMARK_CAPTURE(operator_application, with_##law, &ShellParameters::strength)->Apply(eight_cells)
 MORULA_WITH_LAW(neo_hooke, neo_hooke_shear);
 MORULA_WITH_LAW(stvk, stvk_shear);

@@ -138,8 +138,7 @@ void apply_bending(const ShellOperator::Block& matrix, const Topology& topology,
   }
   for (std::size_t k = 0; k < edges.size(); ++k) {
     const std::size_t i = edges[k].i, j = edges[k].j;
-    const auto force =
-        (normal(i) * load_scalar<float, W>(rate.data(), i) - normal(j) * load_scalar<float, W>(rate.data(), j)) * weight(k);
+    const auto force = (normal(i) * load_scalar<float, W>(rate.data(), i) - normal(j) * load_scalar<float, W>(rate.data(), j)) * weight(k);
     q.add(i, force);
     q.add(j, -force);
   }
@@ -184,7 +183,7 @@ void apply_block(const LaneBlock& block, const Shells& shells, const ShellOperat
 /// s (a bᵀ + b aᵀ)
 template <class Real>
 SymMat3<Real> symmetric_outer(Real s, const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
-  return {Real(2.0f) * s * a.x * b.x,     s * (a.x * b.y + a.y * b.x),    s * (a.x * b.z + a.z * b.x),
+  return {Real(2.0f) * s * a.x * b.x, s * (a.x * b.y + a.y * b.x), s * (a.x * b.z + a.z * b.x),
           Real(2.0f) * s * a.y * b.y, s * (a.y * b.z + a.z * b.y), Real(2.0f) * s * a.z * b.z};
 }
 

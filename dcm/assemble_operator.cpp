@@ -56,8 +56,8 @@ void assemble_faces(Assembly<W>& a) noexcept {
   const CorticalTension<Real> tension{a.of_type(&ShellParameters::tension)};
   const TriangleShape<Real> shape{a.of_type(&ShellParameters::shape_stiffness)};
   const bool has_shape = any_lane<W>(shape.stiffness > Real(0.0f));
-  const Real sheet_shear = a.of_type(&ShellParameters::neo_hooke_shear) + a.of_type(&ShellParameters::stvk_shear) +
-                           a.of_type(&ShellParameters::skalak_shear);
+  const Real sheet_shear =
+      a.of_type(&ShellParameters::neo_hooke_shear) + a.of_type(&ShellParameters::stvk_shear) + a.of_type(&ShellParameters::skalak_shear);
   const Real threshold = shape_threshold(a.of_type(&ShellParameters::spring_stiffness), sheet_shear, tension.tension);
   const ShapeArray<float, W> unit_area(a.block, a.shells, &ReferenceShape::face_area);
   const Real scale = by_lane<float, W>(a.block, [&](std::uint32_t s) { return std::pow(std::cbrt(a.shells.rest_volume[s]), 2); });

@@ -27,23 +27,25 @@ std::vector<LawParameter> sheet_parameters(const char* poisson_doc) {
 }
 
 ShellLaw neo_hooke() {
-  return {.info = {.name = "neo_hooke",
-                   .title = "Elastic cortex: neo-Hookean membrane on constant-strain triangles",
-                   .equation = "W = ½ G [tr C − 2 + (det C^(−α) − 1)/α], G = E h / (2 (1 + ν)), α = ν/(1 − ν); ν = ½: ½ G (tr C + 1/det C − 3)",
-                   .source = "Blatz & Ko 1962, doi:10.1122/1.548937, in plane stress; Holzapfel 2000, Nonlinear Solid Mechanics, §6.5",
-                   .parameters = sheet_parameters("Poisson ratio of the cortex ν.")},
-          .stencil = LawStencil::kFace,
-          .strength = &ShellParameters::neo_hooke_shear};
+  return {
+      .info = {.name = "neo_hooke",
+               .title = "Elastic cortex: neo-Hookean membrane on constant-strain triangles",
+               .equation = "W = ½ G [tr C − 2 + (det C^(−α) − 1)/α], G = E h / (2 (1 + ν)), α = ν/(1 − ν); ν = ½: ½ G (tr C + 1/det C − 3)",
+               .source = "Blatz & Ko 1962, doi:10.1122/1.548937, in plane stress; Holzapfel 2000, Nonlinear Solid Mechanics, §6.5",
+               .parameters = sheet_parameters("Poisson ratio of the cortex ν.")},
+      .stencil = LawStencil::kFace,
+      .strength = &ShellParameters::neo_hooke_shear};
 }
 
 ShellLaw st_venant_kirchhoff() {
-  return {.info = {.name = "st_venant_kirchhoff",
-                   .title = "Elastic cortex: St Venant–Kirchhoff membrane on constant-strain triangles",
-                   .equation = "W = G [tr E² + α (tr E)²], E = (C − 1)/2, G = E h / (2 (1 + ν)), α = ν/(1 − ν); stretches within 0.8 to 1.3",
-                   .source = "Holzapfel 2000, Nonlinear Solid Mechanics, §6.5",
-                   .parameters = sheet_parameters("Poisson ratio of the cortex ν.")},
-          .stencil = LawStencil::kFace,
-          .strength = &ShellParameters::stvk_shear};
+  return {
+      .info = {.name = "st_venant_kirchhoff",
+               .title = "Elastic cortex: St Venant–Kirchhoff membrane on constant-strain triangles",
+               .equation = "W = G [tr E² + α (tr E)²], E = (C − 1)/2, G = E h / (2 (1 + ν)), α = ν/(1 − ν); stretches within 0.8 to 1.3",
+               .source = "Holzapfel 2000, Nonlinear Solid Mechanics, §6.5",
+               .parameters = sheet_parameters("Poisson ratio of the cortex ν.")},
+      .stencil = LawStencil::kFace,
+      .strength = &ShellParameters::stvk_shear};
 }
 
 ShellLaw skalak() {
@@ -219,10 +221,10 @@ ShellLaw medium_friction() {
 }  // namespace
 
 const std::vector<ShellLaw>& shell_laws() {
-  static const std::vector<ShellLaw> laws{edge_spring(),     neo_hooke(),        st_venant_kirchhoff(), skalak(),          local_area(),
-                                          global_area_law(), cortex_turnover(),  edge_damper(),         isotropic_damper(), hinge_bending(),
-                                          helfrich(),        cortical_tension(), volume_pressure(),     bulk_viscosity(),  triangle_shape(),
-                                          dihedral_barrier(), medium_friction()};
+  static const std::vector<ShellLaw> laws{
+      edge_spring(),     neo_hooke(),      st_venant_kirchhoff(), skalak(),           local_area(),     global_area_law(),
+      cortex_turnover(), edge_damper(),    isotropic_damper(),    hinge_bending(),    helfrich(),       cortical_tension(),
+      volume_pressure(), bulk_viscosity(), triangle_shape(),      dihedral_barrier(), medium_friction()};
   return laws;
 }
 

@@ -78,9 +78,9 @@ void add_helfrich(BlockState<W>& state, const Shells& shells, std::span<const Sh
     Real beta(0.0);
     for (int c = 0; c < 3; ++c) beta += load_scalar<double, W>(ws.node_area.data(), t[c]);
     const auto u = at(ws.volume_gradient, 0) + at(ws.volume_gradient, 1) + at(ws.volume_gradient, 2);
-    const auto gradient = face_gradient<Real>({x2 - x1, x0 - x2, x1 - x0}, state.face_vector(f),
-                                              {at(ws.area_gradient, 0), at(ws.area_gradient, 1), at(ws.area_gradient, 2)},
-                                              beta * Real(1.0 / 3.0), u);
+    const auto gradient =
+        face_gradient<Real>({x2 - x1, x0 - x2, x1 - x0}, state.face_vector(f),
+                            {at(ws.area_gradient, 0), at(ws.area_gradient, 1), at(ws.area_gradient, 2)}, beta * Real(1.0 / 3.0), u);
     for (int c = 0; c < 3; ++c) state.add_force(t[c], -gradient[c]);
   }
 }

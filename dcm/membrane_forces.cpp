@@ -49,8 +49,7 @@ std::uint32_t overstretched_face(const Topology& topology, std::span<const Vec3d
   for (std::uint32_t f = 0; f < topology.face_count(); ++f) {
     const Triangle& t = topology.faces()[f];
     const auto rest = rest_squares<double>(topology.face_edges()[f], [&](std::uint32_t edge) { return rest_length[edge]; });
-    const auto strain =
-        MembraneStrain<double>::of(rest, {norm2(x[t[2]] - x[t[1]]), norm2(x[t[0]] - x[t[2]]), norm2(x[t[1]] - x[t[0]])});
+    const auto strain = MembraneStrain<double>::of(rest, {norm2(x[t[2]] - x[t[1]]), norm2(x[t[0]] - x[t[2]]), norm2(x[t[1]] - x[t[0]])});
     if (!(StVenantKirchhoff<double>::excess(strain.trace, strain.det) <= 0.0)) return f;
   }
   return topology.face_count();

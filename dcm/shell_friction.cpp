@@ -16,8 +16,8 @@ struct Workspace {
 
 /// u = ∂V/∂x = Σ N/6 and η_V/V. Positions are in `ws.input`.
 template <int W>
-void compute_bulk_friction(const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types,
-                           ShellFriction::Block& out, const Workspace& ws) noexcept {
+void compute_bulk_friction(const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types, ShellFriction::Block& out,
+                           const Workspace& ws) noexcept {
   using Real = Lane<double, W>;
   const Topology& topology = *block.topology;
   out.volume_gradient.assign(topology.node_count() * std::size_t{3} * W, 0.0);

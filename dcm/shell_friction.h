@@ -13,9 +13,9 @@ namespace morula::dcm {
 /// its node areas against the medium, viscosity of its volume.
 struct ShellFriction {
   struct Block {
-    LaneVector<double> direction;                      ///< unit vector from node i to node j: [edge][component][lane]
-    LaneVector<double> medium;                         ///< γ_med a: [node][lane] [nN·s/µm]
-    std::array<double, LaneBlock::kMaxLanes> damping;  ///< γ_int by lane [nN·s/µm]
+    LaneVector<double> direction;                                  ///< unit vector from node i to node j: [edge][component][lane]
+    LaneVector<double> medium;                                     ///< γ_med a: [node][lane] [nN·s/µm]
+    std::array<double, LaneBlock::kMaxLanes> damping;              ///< γ_int by lane [nN·s/µm]
     std::array<double, LaneBlock::kMaxLanes> isotropic_damping{};  ///< γ_iso by lane [nN·s/µm]
     std::array<double, LaneBlock::kMaxLanes> bulk_friction{};      ///< η_V/V by lane [kPa·s/µm³]
     LaneVector<double> volume_gradient;  ///< u = ∂V/∂x: [node][component][lane] [µm²]; empty when no shell has bulk viscosity

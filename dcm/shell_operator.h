@@ -30,8 +30,8 @@ struct ShellOperator {
     LaneVector<float> diagonal;         ///< medium friction: [node][lane]
     LaneVector<float> volume_gradient;  ///< g: [node][3][lane]
     std::array<float, LaneBlock::kMaxLanes> volume_stiffness{};
-    LaneVector<float> membrane;         ///< h01 h12 h20, e1, e2 of every face: [face][9][lane]
-    LaneVector<float> area_gradient;    ///< ∂A/∂x: [node][3][lane]
+    LaneVector<float> membrane;       ///< h01 h12 h20, e1, e2 of every face: [face][9][lane]
+    LaneVector<float> area_gradient;  ///< ∂A/∂x: [node][3][lane]
     std::array<float, LaneBlock::kMaxLanes> area_stiffness{};
     LaneVector<float> bulk_gradient;  ///< ∂V/∂x of the step's start: [node][3][lane]
     std::array<float, LaneBlock::kMaxLanes> bulk_friction{};

@@ -20,8 +20,8 @@ struct StVenantKirchhoff {
   MembraneStress<Real> stress(Real trace, Real det) const noexcept {
     const Real excess = trace - Real(2.0);  // 2 tr E
     const Real trace_e2 = Real(0.25) * (trace * trace - Real(2.0) * (det + trace) + Real(2.0));
-    return {shear * (trace_e2 + Real(0.25) * area_ratio * excess * excess),
-            Real(0.5) * shear * (trace - Real(1.0) + area_ratio * excess), Real(-0.5) * shear};
+    return {shear * (trace_e2 + Real(0.25) * area_ratio * excess * excess), Real(0.5) * shear * (trace - Real(1.0) + area_ratio * excess),
+            Real(-0.5) * shear};
   }
   /// ∂²W/∂C², positive definite everywhere: ½ G [dC:dC + α (tr dC)²].
   MembraneModuli<Real> moduli() const noexcept {

@@ -26,7 +26,8 @@ void check_area(BuildContext& c, const std::string& type, const draft::CellType&
 void check_effect(BuildContext& c, const draft::CellType& t) {
   const auto without_effect = [&](const Given<double>& key, const char* name, const std::string& needs) {
     const bool is_default = key.value == -1.0 || std::isinf(key.value);  // auto; flat, never
-    if (key.given && !is_default) c.diagnostics.error(515, key.place, std::string("'") + name + "' has no effect here", "it belongs to " + needs);
+    if (key.given && !is_default)
+      c.diagnostics.error(515, key.place, std::string("'") + name + "' has no effect here", "it belongs to " + needs);
   };
   if (t.elastic.value != "skalak") {
     without_effect(t.shear_modulus, "shear_modulus", "`elastic: skalak`; other laws take it from `young`, `thickness` and `poisson`");

@@ -111,7 +111,7 @@ double explicit_step_limit(const draft::Study& study) {
       const double node_area = 4.0 * std::numbers::pi * radius * radius / std::max(1.0, static_cast<double>(t.nodes.value));
       const double sheet = t.young.value * t.thickness.value;
       // triangles of constant strain: at most 7.2 E h against γ A/N (dcm.md §1), as springs of 1.2 E h
-      const double spring = t.elastic.value == "none"                                                      ? 0.0
+      const double spring = t.elastic.value == "none"                                                ? 0.0
                             : t.elastic.value == "springs" || t.elastic.value == "springs_with_area" ? 0.5 * std::numbers::sqrt3 * sheet
                                                                                                      : 1.2 * sheet;
       limit = std::min(limit, 2.0 * friction * radius / (3.0 * t.bulk_modulus.value));

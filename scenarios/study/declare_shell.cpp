@@ -7,15 +7,17 @@ using Q = Quantity;
 constexpr const char* kTable1 = "Van Liedekerke et al., Table 1";
 
 void declare_cortex(Section& c, draft::CellType& t) {
-  c.word({.name = "elastic",
-          .doc = "Elasticity in the plane. springs: a net of springs, Poisson ratio 1/3 whatever `poisson` says; springs_with_area: springs and "
-                 "the area of every face, Poisson ratio 1/3 to 1/2; neo_hooke, stvk (St Venant-Kirchhoff, stretches 0.8 to 1.3) and skalak: "
-                 "triangles of constant strain, Poisson ratio 0 to 1/2; none: a fluid.",
-          .fallback = "springs",
-          .words = {"none", "springs", "springs_with_area", "neo_hooke", "stvk", "skalak"},
-          .example = "neo_hooke",
-          .source = "Van Liedekerke et al."},
-         t.elastic);
+  c.word(
+      {.name = "elastic",
+       .doc =
+           "Elasticity in the plane. springs: a net of springs, Poisson ratio 1/3 whatever `poisson` says; springs_with_area: springs and "
+           "the area of every face, Poisson ratio 1/3 to 1/2; neo_hooke, stvk (St Venant-Kirchhoff, stretches 0.8 to 1.3) and skalak: "
+           "triangles of constant strain, Poisson ratio 0 to 1/2; none: a fluid.",
+       .fallback = "springs",
+       .words = {"none", "springs", "springs_with_area", "neo_hooke", "stvk", "skalak"},
+       .example = "neo_hooke",
+       .source = "Van Liedekerke et al."},
+      t.elastic);
   c.quantity({.name = "young",
               .doc = "Young's modulus E of the cortex.",
               .quantity = Q::kPressure,
@@ -133,14 +135,15 @@ void declare_area(Section& a, draft::CellType& t) {
 }
 
 void declare_bending(Section& b, draft::CellType& t) {
-  b.word({.name = "law",
-          .doc = "hinge: springs at the edges with the angles of the sphere at rest; helfrich: mean curvature by the cotangent formula, flat "
-                 "at rest or of `spontaneous_radius`; none.",
-          .fallback = "hinge",
-          .words = {"none", "hinge", "helfrich"},
-          .example = "helfrich",
-          .source = "chosen"},
-         t.bending_law);
+  b.word(
+      {.name = "law",
+       .doc = "hinge: springs at the edges with the angles of the sphere at rest; helfrich: mean curvature by the cotangent formula, flat "
+              "at rest or of `spontaneous_radius`; none.",
+       .fallback = "hinge",
+       .words = {"none", "hinge", "helfrich"},
+       .example = "helfrich",
+       .source = "chosen"},
+      t.bending_law);
   b.quantity({.name = "rigidity",
               .doc = "Bending rigidity D of the cortex; `auto`: E h^3/(12 (1 - poisson^2)).",
               .quantity = Q::kEnergy,
@@ -150,17 +153,18 @@ void declare_bending(Section& b, draft::CellType& t) {
               .example = "8.9e-19 J",
               .source = "Kirchhoff plate"},
              t.bending);
-  b.quantity({.name = "spontaneous_radius",
-              .doc = "With `law: helfrich`, the radius of the sphere that has no bending moment (c0 = 2/R; negative: bent inwards); `flat`: "
-                     "no spontaneous curvature.",
-              .quantity = Q::kLength,
-              .fallback = "flat",
-              .low = -1e6,
-              .high = 1e6,
-              .specials = {{"flat", std::numeric_limits<double>::infinity()}},
-              .example = "3 um",
-              .source = "Helfrich 1973, doi:10.1515/znc-1973-11-1209"},
-             t.spontaneous_radius);
+  b.quantity(
+      {.name = "spontaneous_radius",
+       .doc = "With `law: helfrich`, the radius of the sphere that has no bending moment (c0 = 2/R; negative: bent inwards); `flat`: "
+              "no spontaneous curvature.",
+       .quantity = Q::kLength,
+       .fallback = "flat",
+       .low = -1e6,
+       .high = 1e6,
+       .specials = {{"flat", std::numeric_limits<double>::infinity()}},
+       .example = "3 um",
+       .source = "Helfrich 1973, doi:10.1515/znc-1973-11-1209"},
+      t.spontaneous_radius);
 }
 
 }  // namespace
@@ -180,10 +184,7 @@ void declare_shell(Section& s, draft::CellType& t) {
           [&t](Section& c) { declare_cortex(c, t); });
   s.group({.name = "area", .doc = "Elasticity of the area, apart from that of the cortex."}, present,
           [&t](Section& a) { declare_area(a, t); });
-  s.group({.name = "bending",
-           .doc = "Bending of the cortex.",
-           .shorthand = "rigidity",
-           .example = "{law: helfrich, rigidity: 2e-19 J}"},
+  s.group({.name = "bending", .doc = "Bending of the cortex.", .shorthand = "rigidity", .example = "{law: helfrich, rigidity: 2e-19 J}"},
           present, [&t](Section& b) { declare_bending(b, t); });
   s.quantity({.name = "bulk_modulus",
               .doc = "Stiffness K of the volume: p = -K ln(V/V0).",

@@ -143,12 +143,10 @@ TEST_P(EveryShellLaw, ForceIsProportionalToItsStrength) {
 TEST_P(EveryShellLaw, EnergyScalesWithTheSizeOfTheCellAsItsUnitsSay) {
   // Energy ∝ size^n at fixed coefficients: [nN·µm] = [coefficient] · µm^n.
   const std::map<std::string, int> exponent{{"nN/µm", 2}, {"nN·µm", 0}, {"kPa", 3}};
-  const std::map<std::string, std::string> unit_of_strength{{"edge_spring", "nN/µm"},      {"hinge_bending", "nN·µm"},
-                                                            {"cortical_tension", "nN/µm"}, {"volume_pressure", "kPa"},
-                                                            {"triangle_shape", "nN/µm"},   {"dihedral_barrier", "nN·µm"},
-                                                            {"neo_hooke", "nN/µm"},        {"st_venant_kirchhoff", "nN/µm"},
-                                                            {"skalak", "nN/µm"},           {"local_area", "nN/µm"},
-                                                            {"global_area", "nN/µm"},      {"helfrich", "nN·µm"}};
+  const std::map<std::string, std::string> unit_of_strength{
+      {"edge_spring", "nN/µm"},    {"hinge_bending", "nN·µm"},    {"cortical_tension", "nN/µm"}, {"volume_pressure", "kPa"},
+      {"triangle_shape", "nN/µm"}, {"dihedral_barrier", "nN·µm"}, {"neo_hooke", "nN/µm"},        {"st_venant_kirchhoff", "nN/µm"},
+      {"skalak", "nN/µm"},         {"local_area", "nN/µm"},       {"global_area", "nN/µm"},      {"helfrich", "nN·µm"}};
   const int n = exponent.at(unit_of_strength.at(GetParam().info.name));
   Shells shells = rough_shells();
   auto types = only(GetParam());

@@ -62,14 +62,14 @@ TEST_P(ExplicitLimit, IsThePublishedOne) {
 
 INSTANTIATE_TEST_SUITE_P(
     Laws, ExplicitLimit,
-    ::testing::Values(
-        Limit{"edge_spring", &ShellParameters::spring_stiffness, 0.173205, {0.540, 0.131, 0.0317}, 0.05},
-        Limit{"neo_hooke", &ShellParameters::neo_hooke_shear, sheet_shear_modulus(1.0, 0.2, 0.5), {0.432, 0.104, 0.0245}, 0.05},
-        Limit{"skalak", &ShellParameters::skalak_shear, sheet_shear_modulus(1.0, 0.2, 0.5), {0.432, 0.104, 0.0245}, 0.05},
-        Limit{"cortical_tension", &ShellParameters::tension, 0.5, {0.191, 0.0449, 0.0110}, 0.05},
-        Limit{"volume_pressure", &ShellParameters::bulk_modulus, 2.5, {0.162, 0.161, 0.160}, 0.05},
-        Limit{"hinge_bending", &ShellParameters::hinge_stiffness, 1.0264e-3, {42.8, 2.52, 0.153}, 0.05},
-        Limit{"helfrich", &ShellParameters::helfrich_rigidity, 8.8889e-4, {54.0, 2.87, 0.169}, 0.05}),
+    ::testing::Values(Limit{"edge_spring", &ShellParameters::spring_stiffness, 0.173205, {0.540, 0.131, 0.0317}, 0.05},
+                      Limit{
+                          "neo_hooke", &ShellParameters::neo_hooke_shear, sheet_shear_modulus(1.0, 0.2, 0.5), {0.432, 0.104, 0.0245}, 0.05},
+                      Limit{"skalak", &ShellParameters::skalak_shear, sheet_shear_modulus(1.0, 0.2, 0.5), {0.432, 0.104, 0.0245}, 0.05},
+                      Limit{"cortical_tension", &ShellParameters::tension, 0.5, {0.191, 0.0449, 0.0110}, 0.05},
+                      Limit{"volume_pressure", &ShellParameters::bulk_modulus, 2.5, {0.162, 0.161, 0.160}, 0.05},
+                      Limit{"hinge_bending", &ShellParameters::hinge_stiffness, 1.0264e-3, {42.8, 2.52, 0.153}, 0.05},
+                      Limit{"helfrich", &ShellParameters::helfrich_rigidity, 8.8889e-4, {54.0, 2.87, 0.169}, 0.05}),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace

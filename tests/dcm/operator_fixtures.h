@@ -17,7 +17,7 @@ struct Assembled {
 };
 
 inline Assembled assemble(const Shells& shells, const std::vector<ShellParameters>& types, double dt, int lanes = 8,
-                   std::span<const double> contact_energy = {}) {
+                          std::span<const double> contact_energy = {}) {
   Assembled a;
   a.blocks = make_shell_blocks(shells, lanes);
   a.friction = friction_of(shells, a.blocks, types, shells.position);

@@ -120,7 +120,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Case{"UnknownLaw", "cortex: {young", "cortex: {elastic: neo_hookean, young", "neo_hooke"},
         Case{"AreaTwice", "cortex: {young: 1 kPa", "area: {local: 0.1 mN/m}\n      cortex: {elastic: neo_hooke, young: 1 kPa",
-             "study.yaml:19:21: error: shells of 'hepatocyte' resist changes of area twice: by `cortex.elastic: neo_hooke` and by `area.local` "
+             "study.yaml:19:21: error: shells of 'hepatocyte' resist changes of area twice: by `cortex.elastic: neo_hooke` and by "
+             "`area.local` "
              "[E513]"},
         Case{"AreaTwiceByMesh", "cortex: {young: 1 kPa", "area: {global: 1 mN/m}\n      cortex: {elastic: springs_with_area, young: 1 kPa",
              "by `cortex.elastic: springs_with_area` and by `area.global` [E513]"},
