@@ -135,12 +135,19 @@ void build_pairs(BuildContext& c) {
       const Given<double>& other = j < types ? c.draft.cell_types[j].content.tension : a.tension;
       const Given<double>& w = table.at(i, j);
       if (!a.tension.known() || !other.known() || w.value < a.tension.value + other.value) continue;
+      const auto flows = [](const draft::CellType& t) {
+        return t.elastic.value == "none" && t.local_area.value + t.global_area.value == 0.0;
+      };
+      const bool no_rest = flows(a) || (j < types && flows(c.draft.cell_types[j].content));
       const std::string partner = j < types ? c.draft.cell_types[j].name : c.draft.geometry[j - types].name;
-      c.diagnostics.warning(509, w.given ? w.place : a.tension.place,
-                            "shells of '" + c.draft.cell_types[i].name + "' adhere to '" + partner + "' by " + w.text +
-                                ", not less than twice the cortical tension (" + a.tension.text +
-                                "): only the elasticity of the cortex stops the spreading",
-                            "raise `dcm.cortex.tension` above half of the adhesion, or lower the adhesion");
+      const Place& place = w.given ? w.place : a.tension.place;
+      const std::string what = "shells of '" + c.draft.cell_types[i].name + "' adhere to '" + partner + "' by " + w.text +
+                               ", not less than twice the cortical tension (" + a.tension.text + "): ";
+      const std::string help = "raise `dcm.cortex.tension` above half of the adhesion, or lower the adhesion";
+      if (no_rest)
+        c.diagnostics.error(509, place, what + "a cortex that is not elastic spreads without end", help);
+      else
+        c.diagnostics.warning(509, place, what + "only the elasticity of the cortex stops the spreading", help);
     }
   }
 }

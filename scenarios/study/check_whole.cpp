@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dcm/derived_parameters.h"
 #include "scenarios/study/build.h"
 #include "scenarios/study/read_section.h"
 
@@ -96,6 +97,29 @@ void check_names(BuildContext& c) {
     check_known(name, c.draft.output.series.place, c.options.series_names, "observable");
 }
 
+/// Limit by the elasticity in the plane: springs at most 6 k, sheets 7.2 E h, an area modulus likewise, against the friction of a node (and
+/// of its edges along themselves).
+double in_plane_limit(const draft::CellType& t, double node_friction) {
+  const bool springs = t.elastic.value == "springs" || t.elastic.value == "springs_with_area";
+  double sheet = t.young.value * t.thickness.value;
+  if (t.elastic.value == "skalak" && t.shear_modulus.value >= 0.0) sheet = 3.0 * t.shear_modulus.value;
+  if (t.elastic.value == "skalak" && t.area_ratio.value > 1.0) sheet *= t.area_ratio.value;
+  double stiffness = 7.2 * t.local_area.value;
+  if (t.elastic.value != "none") stiffness += springs ? 3.0 * std::numbers::sqrt3 * sheet : 7.2 * sheet;
+  return stiffness > 0.0 ? 2.0 * (node_friction + t.damping.value) / stiffness : 1e300;
+}
+
+/// Limit by tension, global area and bending (dcm.md §1): 7.5 γ/(γ_med L²), 4 K_G/(γ_med R²), 46 k_h/(γ_med a L²), 56 κ/(γ_med L⁴).
+double surface_limit(const draft::CellType& t, double friction, double node_area, double radius) {
+  const double edge_square = std::pow(mean_edge(t.nodes.value) * radius, 2);
+  const double rigidity =
+      t.bending.value >= 0.0 ? t.bending.value : dcm::bending_modulus(t.young.value, t.thickness.value, t.poisson.value);
+  double rate = std::max(7.5 * t.tension.value / edge_square, 4.0 * t.global_area.value / (radius * radius));
+  if (t.bending_law.value == "hinge") rate = std::max(rate, 46.0 * dcm::hinge_stiffness(rigidity) / (node_area * edge_square));
+  if (t.bending_law.value == "helfrich") rate = std::max(rate, 56.0 * rigidity / (edge_square * edge_square));
+  return rate > 0.0 ? 2.0 * friction / rate : 1e300;
+}
+
 }  // namespace
 
 double explicit_step_limit(const draft::Study& study) {
@@ -105,17 +129,12 @@ double explicit_step_limit(const draft::Study& study) {
     const draft::CellType& t = type.content;
     const double friction = t.friction_medium.value, radius = t.radius.mean.value;
     if (!(friction > 0.0) || !(radius > 0.0)) continue;
-    if (shells && t.bulk_modulus.value > 0.0) {
-      // Fastest modes of a free shell of N nodes: the volume, stiffness K A²/(V N) against γ A/N for each node; the springs, at most 6 k
-      // against γ A/N (edge damping left out); the repulsion, k_r against the contact friction.
+    if (shells && t.bulk_modulus.value > 0.0 && mean_edge(t.nodes.value) > 0.0) {
+      // Fastest modes of a free shell of N nodes: the volume, stiffness K A²/(V N) against γ A/N for each node; the membrane; tension and
+      // bending; the repulsion, k_r against the contact friction.
       const double node_area = 4.0 * std::numbers::pi * radius * radius / std::max(1.0, static_cast<double>(t.nodes.value));
-      const double sheet = t.young.value * t.thickness.value;
-      // triangles of constant strain: at most 7.2 E h against γ A/N (dcm.md §1), as springs of 1.2 E h
-      const double spring = t.elastic.value == "none"                                                ? 0.0
-                            : t.elastic.value == "springs" || t.elastic.value == "springs_with_area" ? 0.5 * std::numbers::sqrt3 * sheet
-                                                                                                     : 1.2 * sheet;
       limit = std::min(limit, 2.0 * friction * radius / (3.0 * t.bulk_modulus.value));
-      if (spring > 0.0) limit = std::min(limit, 2.0 * (friction * node_area + t.damping.value) / (6.0 * spring));
+      limit = std::min({limit, in_plane_limit(t, friction * node_area), surface_limit(t, friction, node_area, radius)});
       if (study.contact.repulsion.value > 0.0)
         limit = std::min(limit, 2.0 * std::max(friction, t.friction_cell_cell.value) / study.contact.repulsion.value);
     }

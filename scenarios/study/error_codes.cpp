@@ -55,7 +55,7 @@ constexpr ErrorCode kCodes[] = {
      "An output or checkpoint interval is longer than the run: nothing would be written before its end."},
     {509, "adhesion stronger than the cortex",
      "With W >= 2 tension two free surfaces spread on each other without limit; only the elasticity of the cortex stops them, and the "
-     "contact angle is theirs (warning)."},
+     "contact angle is its own (warning). A cortex with `elastic: none` has no equilibrium (error)."},
     {510, "values that contradict each other", "Two places of the study say different things about one quantity."},
     {511, "domain too small", "With periodic faces a cell would touch its own image."},
     {512, "field cannot be resolved", "The voxel size gives too many or too few voxels."},

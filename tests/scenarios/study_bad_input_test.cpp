@@ -136,6 +136,8 @@ INSTANTIATE_TEST_SUITE_P(
              "'spontaneous_radius' has no effect here [E515]"},
         Case{"CurvatureZero", "bulk_modulus: 2.5 kPa", "bending: {law: helfrich, spontaneous_radius: 0 um}", "too small a sphere [E302]"},
         Case{"TurnoverOfAFluid", "poisson: 0.5,", "elastic: none, turnover: 10 min,", "'turnover' has no effect here [E515]"},
+        Case{"FluidThatSpreads", "thickness: 200 nm, poisson: 0.5, tension: 0.2 mN/m", "elastic: none, tension: 0.05 mN/m",
+             "a cortex that is not elastic spreads without end [E509]"},
         Case{"NegativeModulus", "bulk_modulus: 2.5 kPa", "area: {local: -1 mN/m}", "[E302]"},
         Case{"NegativeViscosity", "bulk_modulus: 2.5 kPa", "bulk_viscosity: -1 Pa s", "[E302]"},
         Case{"NoTimeOfTurnover", "poisson: 0.5,", "turnover: 0 s,", "[E302]"}),

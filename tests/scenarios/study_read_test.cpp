@@ -180,6 +180,16 @@ TEST(StudyReader, ExplicitStepAutoIsHalfTheStabilityLimit) {
   EXPECT_LT(2 * s.model.step.max_step, 0.20);
 }
 
+// dcm.md §1: 0.0110 s for a tension of 0.5 mN/m at 2562 nodes; 2.87 s for Helfrich at 642 nodes and 8.9e-19 J, a hundredth for 8.9e-17 J.
+TEST(StudyReader, ExplicitStepKnowsTensionAndBending) {
+  const auto limit = [](const std::string& from, const std::string& to) {
+    const std::string text = changed("limits: {", "contact: {range: 0.2 um}\nlimits: {", changed("nodes: 162", "nodes: 2562"));
+    return 2.0 * good(changed(from, to, changed("step: auto", "step: auto, integrator: explicit_euler", text))).model.step.max_step;
+  };
+  EXPECT_NEAR(limit("tension: 0.2 mN/m", "tension: 0.5 mN/m"), 0.0110, 0.0011);
+  EXPECT_NEAR(limit("bulk_modulus: 2.5 kPa", "bending: {law: helfrich, rigidity: 8.8889e-17 J}"), 0.00169, 0.0003);
+}
+
 TEST(StudyReader, AdhesionStrongerThanTheCortexIsAWarning) {
   EXPECT_THAT(warnings_of(changed("hepatocyte: 1e-4 J/m^2", "hepatocyte: 5e-4 J/m^2")), HasSubstr("[E509]"));
   EXPECT_THAT(warnings_of(kGoodStudy), Not(HasSubstr("[E509]")));
