@@ -19,9 +19,8 @@ struct ShellMechanics {
   std::vector<ShellFault> fault;    ///< by shell; energy and force of a faulty shell are not to be used
 };
 
-/// Energies and forces of all internal laws (edge_spring, hinge_bending, cortical_tension, volume_pressure, triangle_shape,
-/// dihedral_barrier) at `position`, which need not be that of the shells (a trial state); rest lengths, rest volumes and reference
-/// volumes are the shells'. `types[t]` are the parameters of cell type t.
+/// Energies and forces of all internal laws (the conservative ones of shell_laws()) at `position`, which need not be that of the shells (a
+/// trial state); rest lengths, rest volumes and reference volumes are the shells'. `types[t]` are the parameters of cell type t.
 ///
 /// Lanes over shells of one Topology, in parallel over blocks: the same bits for every lane width and number of threads.
 void internal_forces(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,

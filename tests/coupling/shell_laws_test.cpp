@@ -66,7 +66,8 @@ double elongation_after_hold(double turnover_rate) {
   auto simulation = std::move(Simulation::create(model, std::move(tissue), Comm(), 1)).value();
   while (simulation->tissue().clock.time < 1200.0) EXPECT_TRUE(simulation->step(1200.0).ok());
   double length = 0.0, width = 0.0;
-  for (const Vec3d& x : simulation->tissue().shells.position) length = std::max(length, std::abs(x.x)), width = std::max(width, std::abs(x.y));
+  for (const Vec3d& x : simulation->tissue().shells.position)
+    length = std::max(length, std::abs(x.x)), width = std::max(width, std::abs(x.y));
   return length / width;
 }
 
