@@ -21,6 +21,10 @@ void build_time_and_numerics(BuildContext& context);
 void build_domain(BuildContext& context);
 void build_cell_types(BuildContext& context);
 void build_geometry(BuildContext& context);
+/// The prescribed way of an obstacle over time.
+void build_motion_course(BuildContext& context, const draft::Obstacle& draft, ObstacleSpec& obstacle);
+/// External loads; after the cells of time 0.
+void build_loads(BuildContext& context);
 /// Adhesion and friction of all pairs of materials; missing pairs get their default, in the draft, too.
 void build_pairs(BuildContext& context);
 void build_fields(BuildContext& context);
