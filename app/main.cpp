@@ -3,8 +3,10 @@
 
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "app/command_line.h"
@@ -87,7 +89,10 @@ void quiet_mpi() {
 /// thread takes the core that the thread it waits for needs. The runtime of OpenMP reads this when the program is loaded, hence once more.
 void sleep_while_waiting(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
-  if (setenv("OMP_WAIT_POLICY", "passive", 0) == 0) execv("/proc/self/exe", argv);  // comes back only when it fails: then they spin
+  std::error_code unknown;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  if (unknown || setenv("OMP_WAIT_POLICY", "passive", 0) != 0) return;
+  execv(program.c_str(), argv);  // comes back only when it fails: then they spin
 }
 
 }  // namespace
