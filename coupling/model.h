@@ -73,8 +73,8 @@ struct ObstacleSpec {
   std::vector<Triangle> faces;
   bool inside = false;  ///< cells live inside the closed surface
   Vec3d velocity{};     ///< prescribed translation [µm/s]
-  Vec3d direction{};    ///< of `distance`, of length 1
-  TimeCourse distance;  ///< how far it has gone along `direction`, beside `velocity`; empty: nowhere [µm]
+  Vec3d direction{};      ///< of `distance`, of length 1
+  TimeCourse distance{};  ///< how far it has gone along `direction`, beside `velocity`; empty: nowhere [µm]
 
   [[nodiscard]] bool moves() const { return norm2(velocity) > 0.0 || !distance.empty(); }
   /// Way from one time to another [µm].
