@@ -23,6 +23,7 @@ struct Parsed {
   ExplainOptions explain;
   PlotOptions plot;
   ExportOptions export_results;
+  VerifyOptions verify;
   DoctorOptions doctor;
 };
 
@@ -101,6 +102,13 @@ void add_looking_verbs(CLI::App& program, Parsed& p) {
       ->check(CLI::IsMember({"laws", "study"}))
       ->type_name("laws|study");
 
+  verb = add_verb(program, "verify", "Compare the laws with theory and published numbers (exit code 5 when one is outside its tolerance)",
+                  "morula verify physics", "morula verify physics --studies --json");
+  verb->add_option("SUITE", p.verify.suite, "Which numbers (default: physics)")->check(CLI::IsMember({"physics"}))->type_name("physics");
+  verb->add_flag("--list", p.verify.list, "List the suites");
+  verb->add_flag("--json", p.verify.json, "Print JSON: {suite, rows: [{id, quantity, reference, value, tolerance, passed, source}]}");
+  verb->add_flag("--studies", p.verify.studies, "Also run the single-cell experiments of the library (about half a minute)");
+
   verb = add_verb(program, "doctor", "Check what a run needs of this machine: MPI, HDF5, threads, disk, memory", "morula doctor",
                   "mpirun -n 4 morula doctor --json");
   verb->add_flag("--json", p.doctor.json, "Print JSON");
@@ -143,6 +151,7 @@ Options chosen_options(const std::string& verb, Parsed&& p) {
   if (verb == "explain") return std::move(p.explain);
   if (verb == "plot") return std::move(p.plot);
   if (verb == "export") return std::move(p.export_results);
+  if (verb == "verify") return std::move(p.verify);
   return std::move(p.doctor);
 }
 

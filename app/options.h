@@ -78,11 +78,18 @@ struct ExportOptions {
   std::string from, to;  ///< simulated time, as `12 h`
 };
 
+struct VerifyOptions {
+  std::string suite;  ///< `physics`
+  bool list = false;
+  bool json = false;
+  bool studies = false;  ///< also run the library's quick experiments
+};
+
 struct DoctorOptions {
   bool json = false;
 };
 
 using Options = std::variant<NewOptions, CheckOptions, RunOptions, ResumeOptions, StatusOptions, ListOptions, InfoOptions, ExplainOptions,
-                             PlotOptions, ExportOptions, DoctorOptions>;
+                             PlotOptions, ExportOptions, VerifyOptions, DoctorOptions>;
 
 }  // namespace morula::app

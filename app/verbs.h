@@ -27,6 +27,7 @@ Status info(const InfoOptions& options, const Context& context);
 Status explain(const ExplainOptions& options, const Context& context);
 Status plot(const PlotOptions& options, const Context& context);
 Status export_results(const ExportOptions& options, const Context& context);
+Status verify(const VerifyOptions& options, const Context& context);
 Status doctor(const DoctorOptions& options, const Context& context);
 
 }  // namespace morula::app

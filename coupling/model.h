@@ -7,6 +7,7 @@
 #include "cbm/spheres.h"
 #include "core/mesh/topology.h"
 #include "core/space/space.h"
+#include "coupling/time_course.h"
 #include "dcm/shells.h"
 #include "fields/field_spec.h"
 
@@ -72,6 +73,38 @@ struct ObstacleSpec {
   std::vector<Triangle> faces;
   bool inside = false;  ///< cells live inside the closed surface
   Vec3d velocity{};     ///< prescribed translation [µm/s]
+  Vec3d direction{};      ///< of `distance`, of length 1
+  TimeCourse distance{};  ///< how far it has gone along `direction`, beside `velocity`; empty: nowhere [µm]
+
+  [[nodiscard]] bool moves() const { return norm2(velocity) > 0.0 || !distance.empty(); }
+  /// Way from one time to another [µm].
+  [[nodiscard]] Vec3d way(double from, double to) const {
+    Vec3d out = velocity * (to - from);
+    if (!distance.empty()) out += direction * (distance.at(to) - distance.at(from));
+    return out;
+  }
+};
+
+/// What pulls or pushes a cell from outside.
+enum class LoadKind : std::uint8_t {
+  kTraction,   ///< s0 cos²θ along the outward normal, θ from `axis`
+  kPull,       ///< a force spread over the nodes at the ends of `axis`
+  kPressure,   ///< against the outward normal, on the whole cell or at the ends of `axis`
+  kBodyForce,  ///< on the whole cell
+};
+enum class LoadEnd : std::uint8_t { kBoth, kHigh, kLow };
+
+/// An external load on all cells of a type (coupling/loads.h).
+struct CellLoad {
+  std::string name;
+  std::uint16_t type = 0;
+  LoadKind kind = LoadKind::kBodyForce;
+  Vec3d axis{1, 0, 0};           ///< of length 1
+  double size = 0.0;             ///< peak stress or pressure [kPa]; force at an end [nN]
+  Vec3d force{};                 ///< kBodyForce [nN]
+  double part = 1.0;             ///< of the nodes, at an end
+  LoadEnd end = LoadEnd::kBoth;  ///< which ends
+  TimeCourse course;             ///< factor over time; empty: 1
 };
 
 enum class RegionShape : std::uint8_t { kSphere, kBox, kHalfSpace, kEverything };
@@ -138,6 +171,7 @@ struct Model {
   Space space;
   std::vector<CellType> types;
   std::vector<ObstacleSpec> obstacles;
+  std::vector<CellLoad> loads;
   std::vector<ContactPair> pairs;  ///< (materials × materials), symmetric; materials = types then obstacles
   ContactNumerics contact;
   std::vector<fields::FieldSpec> fields;

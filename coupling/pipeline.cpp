@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "coupling/behaviours/life.h"
+#include "coupling/loads.h"
 #include "coupling/simulation.h"
 #include "dcm/growth.h"
 
@@ -9,6 +10,7 @@ namespace morula {
 namespace {
 
 constexpr double kSmallestStep = 1e-4;        // below this a step is given up [s]
+constexpr double kAtRest = 1e-3;              // displacement of a step, as a part of the allowed one, below which nothing is to be resolved
 constexpr double kGrowthOfStep = 1.5;         // most a step grows from one to the next
 constexpr std::uint64_t kReorderEvery = 200;  // steps between renewals of the canonical order: the same on any number of ranks
 constexpr double kTolerableImbalance = 1.25;
@@ -46,6 +48,7 @@ Result<StepOutcome> Simulation::step(double land_on) {
   StepOutcome outcome;
   Clock& clock = tissue_.clock;
   const Growing before(tissue_);
+  land_on = std::min(land_on, next_corner(model_, clock.time));  // of what is prescribed over time
   double dt = fit_step(std::min(clock.next_step, model_.step.max_step), clock.time, land_on);
   const bool wanted_less = dt < clock.next_step;
   LifeReport life;
@@ -57,7 +60,7 @@ Result<StepOutcome> Simulation::step(double land_on) {
       set_bodies_to_targets(dt);
     }
     // mechanics: ghosts, candidates, contacts, forces, system, solve, advance
-    const auto moved = mechanics_->step(tissue_, dt, mechanics_->spread(tissue_, active_forces()));
+    const auto moved = mechanics_->step(tissue_, dt, external_forces(clock.time + dt));
     if (moved) {
       outcome.mechanics = *moved;
       break;
@@ -79,7 +82,9 @@ Result<StepOutcome> Simulation::step(double land_on) {
   {  // the next step: towards the allowed displacement, more slowly where Newton had to work
     const double allowed = model_.step.max_displacement * model_.contact.range;
     double factor = std::min(kGrowthOfStep, 0.9 * allowed / std::max(outcome.mechanics.displacement, 1e-12));
-    if (outcome.mechanics.halvings > 3) factor = std::min(factor, 0.5);
+    // At rest on a kink of the contact energy every search is short, whatever the step: a smaller one would only stop the clock.
+    const bool moving = outcome.mechanics.displacement > kAtRest * allowed;
+    if (outcome.mechanics.halvings > 3 && moving) factor = std::min(factor, 0.5);
     const double next = std::min(model_.step.max_step, dt * std::max(factor, 0.2));
     clock.next_step = wanted_less && outcome.retries == 0 ? std::max(next, std::min(clock.next_step, model_.step.max_step)) : next;
     if (model_.step.integrator == Integrator::kExplicitEuler) clock.next_step = model_.step.max_step;

@@ -11,6 +11,7 @@
 #include "coupling/behaviours/migration.h"
 #include "coupling/behaviours/pressure_filter.h"
 #include "coupling/cell_record.h"
+#include "coupling/loads.h"
 #include "coupling/mechanics/contact_setup.h"
 #include "coupling/swaps.h"
 #include "dcm/growth.h"
@@ -111,6 +112,12 @@ std::vector<Vec3d> Simulation::active_forces() const {
     (row.body == BodyKind::kShell ? shells : spheres).push_back(migration_force(row, model_.types[row.type], row.target_volume));
   shells.insert(shells.end(), spheres.begin(), spheres.end());
   return shells;
+}
+
+std::vector<Vec3d> Simulation::external_forces(double time) {
+  std::vector<Vec3d> out = mechanics_->spread(tissue_, active_forces());
+  add_loads(model_, tissue_, time, out);
+  return out;
 }
 
 void Simulation::average_pressures(double dt) {

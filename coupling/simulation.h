@@ -49,6 +49,9 @@ class Simulation {
   void distribute();
   void set_bodies_to_targets(double dt);
   [[nodiscard]] std::vector<Vec3d> active_forces() const;
+  /// Migration and external loads at a time, by shell node, then by sphere. Implicit in time, explicit in shape: strengths are those of the
+  /// step's end, directions and areas those of its start, and the step holds them as dead loads.
+  [[nodiscard]] std::vector<Vec3d> external_forces(double time);
   void average_pressures(double dt);
   Status advance_fields(double dt, StepOutcome& outcome);
   Result<std::vector<Event>> swap_bodies();

@@ -198,8 +198,8 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
   std::vector<Vec3d> offsets = tissue.obstacle_offset;
   bool moving = false;
   for (std::size_t i = 0; i < model_.obstacles.size(); ++i) {
-    offsets[i] += model_.obstacles[i].velocity * dt;
-    moving = moving || norm2(model_.obstacles[i].velocity) > 0.0;
+    offsets[i] += model_.obstacles[i].way(tissue.clock.time, tissue.clock.time + dt);
+    moving = moving || model_.obstacles[i].moves();
   }
   if (moving) {
     contacts_.set_offsets(offsets);
@@ -239,7 +239,8 @@ void Mechanics::finish(Tissue& tissue, double dt, StepReport& report) {
   for (std::size_t i = 0; i < tissue.shells.velocity.size(); ++i) tissue.shells.velocity[i] = velocity(i);
   for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i) tissue.spheres.velocity[i] = velocity(scene_.sphere_point() + i);
   if (!relaxing_) {
-    for (std::size_t i = 0; i < model_.obstacles.size(); ++i) tissue.obstacle_offset[i] += model_.obstacles[i].velocity * dt;
+    for (std::size_t i = 0; i < model_.obstacles.size(); ++i) 
+      tissue.obstacle_offset[i] += model_.obstacles[i].way(tissue.clock.time, tissue.clock.time + dt);
     flags_changed_ = comm_.any(spheres_.update_attached(scene_, tissue));
   }
   report.energy = energy_;
@@ -286,6 +287,23 @@ const BodyValues& Mechanics::values(const Tissue& tissue) {
   if (spheres_.renew_sisters(scene_, contacts_, tissue)) flags_changed_ = true;
   spheres_.add_values(scene_, tissue, std::span(values_.pressure).subspan(shells), std::span(values_.contact_area).subspan(shells));
   return values_;
+}
+
+std::vector<Vec3d> Mechanics::obstacle_forces(const Tissue& tissue) {
+  std::vector<Vec3d> out(model_.obstacles.size());
+  if (out.empty()) return out;
+  prepare(tissue);
+  std::vector<OrderFreeSum> sums(3 * out.size());
+  for (const SurfacePair& pair : contacts_.pairs()) {  // areas and normals belong to the cell: their share of its force is zero in sum
+    if (!pair.rigid || !scene_.bodies()[pair.a].owned) continue;
+    Vec3d on_cell{};
+    for (const Vec3d& force : pair.gradient[0].force) on_cell += force;
+    for (int axis = 0; axis < 3; ++axis) sums[3 * pair.b + static_cast<std::size_t>(axis)].add(-on_cell[static_cast<std::size_t>(axis)]);
+  }
+  std::vector<double> totals(sums.size());
+  comm_.sum(sums, totals);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = {totals[3 * i], totals[3 * i + 1], totals[3 * i + 2]};
+  return out;
 }
 
 double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& force) {

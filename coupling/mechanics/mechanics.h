@@ -70,6 +70,9 @@ class Mechanics {
   /// Volumes, areas, pressures and contact areas at the tissue's present positions. Collective.
   const BodyValues& values(const Tissue& tissue);
 
+  /// Force of all cells on each obstacle, friction left out [nN]. Spheres do not touch obstacles. Collective; the same on every rank.
+  std::vector<Vec3d> obstacle_forces(const Tissue& tissue);
+
   /// Number of external force entries for this tissue: owned shell nodes, then owned spheres.
   [[nodiscard]] static std::size_t external_size(const Tissue& tissue) { return tissue.shells.node_count() + tissue.spheres.size(); }
 

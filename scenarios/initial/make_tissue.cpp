@@ -11,6 +11,7 @@
 #include "coupling/behaviours/growth.h"
 #include "coupling/cell_record.h"
 #include "coupling/swaps.h"
+#include "scenarios/initial/biconcave.h"
 #include "scenarios/initial/packing.h"
 #include "scenarios/initial/rotation.h"
 #include "scenarios/study/csv.h"
@@ -30,6 +31,8 @@ std::string micrometres(double length) {
 struct Seedling {
   CellRow row;
   Vec3d center;
+  CellShape shape = CellShape::kSphere;
+  Orientation orientation = Orientation::kRandom;
 };
 
 /// The rows of one entry with the volumes of time 0.
@@ -90,6 +93,10 @@ class Builder {
       case InitialCells::Source::kCsv:
         MORULA_TRY(from_csv(block, first));
         break;
+    }
+    for (std::size_t i = before; i < cells_.size(); ++i) {
+      cells_[i].shape = block.shape;
+      cells_[i].orientation = block.orientation;
     }
     return inside_domain(before, number);
   }
@@ -169,10 +176,13 @@ Result<CellRecord> with_body(const Seedling& cell, const Model& model, ShapeLibr
     return record;
   }
   MORULA_TRY_ASSIGN(auto shape, shapes.icosphere(type.shell_nodes));
+  if (cell.shape == CellShape::kBiconcave) shape = biconcave_shape(*shape);
   ShellRecord shell =
       spherical_shell(std::move(shape), cell.center, cell.row.target_volume, free_reference_volume(cell.row.target_volume, type));
-  const Rotation turn = random_rotation(Random(model.seed, RandomStream::kOrientation), cell.row.id, 0);
-  for (Vec3d& p : shell.position) p = cell.center + turn * (p - cell.center);
+  if (cell.orientation == Orientation::kRandom) {
+    const Rotation turn = random_rotation(Random(model.seed, RandomStream::kOrientation), cell.row.id, 0);
+    for (Vec3d& p : shell.position) p = cell.center + turn * (p - cell.center);
+  }
   record.shell = std::move(shell);
   return record;
 }

@@ -5,6 +5,7 @@
 
 #include "scenarios/library/blastocyst.h"
 #include "scenarios/library/hybrid_spheroid.h"
+#include "scenarios/library/single_cell.h"
 #include "scenarios/library/verdicts.h"
 #include "scenarios/report/series_reader.h"
 
@@ -44,7 +45,15 @@ double largest_rise(const SeriesColumn& energy) {
 }  // namespace
 
 const std::vector<ScenarioCriteria>& scenario_criteria() {
-  static const std::vector<ScenarioCriteria> all{{"blastocyst", &judge_blastocyst}, {"hybrid_spheroid", &judge_hybrid_spheroid}};
+  static const std::vector<ScenarioCriteria> all{
+      {"blastocyst", &judge_blastocyst},
+      {"doublet", &judge_doublet, &plot_doublet},
+      {"hybrid_spheroid", &judge_hybrid_spheroid},
+      {"optical_stretcher", &judge_optical_stretcher, &plot_optical_stretcher},
+      {"optical_tweezers", &judge_optical_tweezers, &plot_optical_tweezers},
+      {"parallel_plates", &judge_parallel_plates, &plot_parallel_plates},
+      {"spreading", &judge_spreading, &plot_spreading},
+  };
   return all;
 }
 
@@ -55,8 +64,8 @@ bool is_passive(const Study& study) {
   for (const InitialCells& block : study.initial)
     if (block.start_volume_fraction < 1.0) return false;
   for (const ObstacleSpec& obstacle : model.obstacles)
-    if (norm2(obstacle.velocity) > 0.0) return false;
-  return model.swaps.regions.empty() && model.swaps.triggers.empty();
+    if (obstacle.moves()) return false;
+  return model.loads.empty() && model.swaps.regions.empty() && model.swaps.triggers.empty();
 }
 
 Result<std::vector<Verdict>> common_criteria(const Study& study, const std::filesystem::path& run) {
@@ -84,6 +93,12 @@ Result<std::vector<Verdict>> judge(const Study& study, const std::filesystem::pa
     out.insert(out.end(), more.begin(), more.end());
   }
   return out;
+}
+
+Result<std::vector<NamedPlot>> scenario_plots(const Study& study, const std::filesystem::path& run) {
+  for (const ScenarioCriteria& criteria : scenario_criteria())
+    if (criteria.scenario == study.scenario && criteria.plots != nullptr) return criteria.plots(study, run);
+  return std::vector<NamedPlot>{};
 }
 
 }  // namespace morula::scenarios

@@ -5,6 +5,7 @@
 
 #include "core/result.h"
 #include "scenarios/results/run_record.h"
+#include "scenarios/run/run_plots.h"
 #include "scenarios/study/study.h"
 
 namespace morula::scenarios {
@@ -12,9 +13,13 @@ namespace morula::scenarios {
 /// Criteria of one library study: judged on what is in the run's folder (series.csv, results.h5, events.jsonl). kFile where something is missing.
 using Judge = Result<std::vector<Verdict>> (*)(const Study& study, const std::filesystem::path& run);
 
+/// Plots of one library study beside those of every run: against theory or data.
+using Plotter = Result<std::vector<NamedPlot>> (*)(const Study& study, const std::filesystem::path& run);
+
 struct ScenarioCriteria {
   std::string scenario;  ///< `scenario:` of the study
   Judge judge = nullptr;
+  Plotter plots = nullptr;  ///< may be null
 };
 
 /// All library studies that have criteria of their own: one line each.
@@ -26,6 +31,9 @@ Result<std::vector<Verdict>> common_criteria(const Study& study, const std::file
 
 /// common_criteria, then those of the study's scenario.
 Result<std::vector<Verdict>> judge(const Study& study, const std::filesystem::path& run);
+
+/// The plots of the study's scenario; none where it has none.
+Result<std::vector<NamedPlot>> scenario_plots(const Study& study, const std::filesystem::path& run);
 
 /// Whether nothing drives the tissue: no growth, migration, death, exchange of bodies, inflation or moving obstacle. Its energy can only fall.
 bool is_passive(const Study& study);

@@ -116,6 +116,7 @@ Measures measure(Simulation& simulation) {
   out.volume_error = over_ranks(volume_error, comm);
   out.overlap = over_ranks(deepest_overlap(simulation), comm);
   measure_fields(simulation, out);
+  out.obstacle_force = simulation.mechanics().obstacle_forces(tissue);
   if (out.cells == 0) return out;
   const auto cells = static_cast<double>(out.cells);
   const Vec3d mean = Vec3d{total[kVolumeX], total[kVolumeY], total[kVolumeZ]} * (1.0 / total[kVolume]);

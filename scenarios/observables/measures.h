@@ -32,6 +32,7 @@ struct Measures {
   /// Rounding, unless growth, division or a swap lost volume on the way from the row to the body.
   Extreme volume_error;
   double total_volume_error = 0.0;               ///< |Σ V_i − Σ V_i^law| / Σ V_i^law
+  std::vector<Vec3d> obstacle_force;             ///< of all cells on each obstacle [nN]
   std::array<double, kMaxFields> mean_field{};   ///< over voxels [mM]
   std::array<double, kMaxFields> least_field{};  ///< over voxels [mM]
   /// |A − A_0 + taken + decayed − inflow| / max(A, A_0, taken, decayed, |inflow|) since time 0, A the amount in the field.

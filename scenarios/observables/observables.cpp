@@ -58,6 +58,14 @@ std::vector<Observable> observables(const Model& model) {
   for (std::size_t t = 0; t < model.types.size(); ++t)
     out.push_back({"count_" + model.types[t].name, "1", "Number of cells of the type " + model.types[t].name + ".",
                    [t](const Moment& m) { return double(m.measures.of_type[t]); }});
+  for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
+    const std::string& name = model.obstacles[o].name;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::string letter(1, "xyz"[axis]);
+      out.push_back({"force_" + letter + "_" + name, "nN", "Force of all cells on the obstacle " + name + " along " + letter + ".",
+                     [o, axis](const Moment& m) { return m.measures.obstacle_force[o][axis]; }});
+    }
+  }
   for (std::size_t f = 0; f < model.fields.size(); ++f) {
     const std::string& name = model.fields[f].name;
     out.push_back({"mean_" + name, "mM", "Mean concentration of " + name + ".", [f](const Moment& m) { return m.measures.mean_field[f]; }});

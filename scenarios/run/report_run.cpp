@@ -154,7 +154,9 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
   content.scenario = study.scenario;
   content.state = state_text(record);
   for (const Verdict& v : verdicts) content.criteria.push_back({v.id, v.quantity, short_text(v.value), v.limit, v.passed});
-  for (const auto& [name, plot] : standard_plots(study, series)) {
+  MORULA_TRY_ASSIGN(std::vector<NamedPlot> plots, scenario_plots(study, run));
+  for (NamedPlot& plot : standard_plots(study, series)) plots.push_back(std::move(plot));
+  for (const auto& [name, plot] : plots) {
     MORULA_TRY(write_curves(plot, run / "plots" / name));
     content.plots.push_back({plot.title, curves_svg(plot, SvgUse::kInline)});
   }

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/numbers/number_text.h"
+#include "coupling/loads.h"
 #include "scenarios/observables/local_snapshot.h"
 #include "scenarios/results/checkpoint_folder.h"
 #include "scenarios/results/file_io.h"
@@ -127,11 +128,21 @@ Result<RunSummary> RunLoop::go() {
     if (Status done = step(); !done.ok()) return fail(done.error(), clock.steps == steps);
     if (clock.time < next_output(std::nextafter(clock.time, 0.0), study_.time.output, end_)) continue;
     if (Status done = output(); !done.ok()) return fail(done.error(), true);
+    if (at_rest()) break;
     if (clock.time < checkpoint_due_ || clock.time >= end_) continue;
     if (Status done = checkpoint(); !done.ok()) return fail(done.error(), true);
   }
   if (Status done = finish(RunState::kDone, ErrorKind::kInternal, summary); !done.ok()) return fail(done.error(), true);
   return summary;
+}
+
+bool RunLoop::at_rest() const {
+  const Tissue& tissue = simulation_->tissue();
+  if (!(study_.time.rest > 0.0) || next_corner(study_.model, tissue.clock.time) < kNever) return false;
+  double fastest = 0.0;
+  for (const auto* velocities : {&tissue.shells.velocity, &tissue.spheres.velocity})
+    for (const Vec3f& v : *velocities) fastest = std::max(fastest, static_cast<double>(norm2(v)));
+  return std::sqrt(comm_.max(fastest)) < study_.time.rest;
 }
 
 Status RunLoop::step() {

@@ -40,6 +40,8 @@ class RunLoop {
   using SteadyClock = std::chrono::steady_clock;
 
   Status step();
+  /// The study asks to end at rest, and nothing moves or will move any more. Collective.
+  [[nodiscard]] bool at_rest() const;
   Status output();
   Status write_moment(const Measures& measures);
   Status check_limits(const Measures& measures);

@@ -23,6 +23,10 @@ void build_cell_types(BuildContext& context);
 /// The shell of one cell type, and whether its laws go together: E513–E515.
 dcm::ShellParameters build_shell(BuildContext& context, const std::string& type_name, const draft::CellType& draft);
 void build_geometry(BuildContext& context);
+/// The prescribed way of an obstacle over time.
+void build_motion_course(BuildContext& context, const draft::Obstacle& draft, ObstacleSpec& obstacle);
+/// External loads; after the cells of time 0.
+void build_loads(BuildContext& context);
 /// Adhesion and friction of all pairs of materials; missing pairs get their default, in the draft, too.
 void build_pairs(BuildContext& context);
 void build_fields(BuildContext& context);

@@ -34,6 +34,8 @@ class InitialBuilder {
     cells.body = d.body.value == "shell" ? BodyKind::kShell : BodyKind::kSphere;
     cells.start_volume_fraction = d.start_volume.value;
     cells.inflate_time = d.inflate.value;
+    cells.shape = d.shape.value == "biconcave" ? CellShape::kBiconcave : CellShape::kSphere;
+    cells.orientation = d.orientation.value == "aligned" ? Orientation::kAligned : Orientation::kRandom;
     check_inflation(d, place);
     int type = -1;
     if (!d.csv.given) {

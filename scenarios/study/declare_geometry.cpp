@@ -101,6 +101,7 @@ void declare_obstacle(Section& s, draft::Obstacle& o) {
                       .example = "[0 um/h, 0 um/h, 10 um/h]",
                       .source = "chosen"},
                      o.velocity);
+            declare_motion_course(m, o);
           });
 }
 
@@ -206,6 +207,20 @@ void declare_initial(Section& s, draft::Initial& i) {
               .example = "30 min",
               .source = "chosen"},
              i.inflate);
+  s.word({.name = "shape",
+          .doc = "Stress-free shape of shells: a sphere, or the biconcave disc of a red blood cell, its axis along z.",
+          .fallback = "sphere",
+          .words = {"sphere", "biconcave"},
+          .example = "biconcave",
+          .source = "disc: Evans & Fung 1972, doi:10.1016/0026-2862(72)90069-6"},
+         i.shape);
+  s.word({.name = "orientation",
+          .doc = "Each mesh turned at random, or all along the axes of the domain.",
+          .fallback = "random",
+          .words = {"random", "aligned"},
+          .example = "aligned",
+          .source = "chosen"},
+         i.orientation);
 }
 
 }  // namespace morula::scenarios

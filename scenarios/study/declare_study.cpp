@@ -43,6 +43,15 @@ void declare_time(Section& s, draft::Time& time) {
               .example = "6 h",
               .source = "chosen"},
              time.checkpoint);
+  s.quantity({.name = "rest",
+              .doc = "The run ends at the first output at which no point moves faster than this and nothing prescribed over time is still "
+                     "to come; 0: only at `end`.",
+              .quantity = Q::kSpeed,
+              .fallback = "0 um/s",
+              .low = 0.0,
+              .example = "1e-5 um/s",
+              .source = "chosen"},
+             time.rest);
   s.word({.name = "integrator",
           .doc = "Implicit step (Newton on the incremental energy) or explicit Euler, which needs steps near 0.1 s.",
           .fallback = "implicit",
@@ -288,6 +297,7 @@ void declare_study(Section& s, draft::Study& study) {
           [&](Section& c) { declare_contact(c, study.contact); });
   s.named({.name = "geometry", .doc = "Rigid obstacles, by name."}, study.geometry, &declare_obstacle);
   s.list({.name = "initial", .doc = "The cells at time 0.", .required = true}, study.initial, &declare_initial);
+  s.named({.name = "loads", .doc = "Forces from outside on the cells of a type, by name."}, study.loads, &declare_load);
   s.named({.name = "fields", .doc = "Diffusing concentrations, by name; at most 4."}, study.fields, &declare_field);
   s.group({.name = "coupling", .doc = "Which cells are spheres and which are shells, and when that changes."}, present,
           [&](Section& c) { declare_coupling(c, study.coupling); });

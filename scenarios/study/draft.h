@@ -9,7 +9,7 @@ namespace morula::scenarios::draft {
 /// declare.h and nothing here is looked at by the simulation.
 
 struct Time {
-  Given<double> end, step, output, checkpoint;
+  Given<double> end, step, output, checkpoint, rest;
   Given<std::string> integrator;
 };
 
@@ -66,12 +66,33 @@ struct Shape {
   Given<double> radius;
 };
 
+/// A corner of something that is prescribed over time.
+struct CoursePoint {
+  Given<double> time, value;
+};
+
 struct Obstacle {
   Given<std::string> stl, obj;
   Given<double> scale;
   Shape plane, sphere, cylinder, capsule, box;
   Given<std::string> side;
-  Given<Vec3d> velocity;
+  Given<Vec3d> velocity, direction;
+  std::vector<Named<CoursePoint>> course;
+};
+
+struct LoadEnds {
+  Given<Vec3d> axis;
+  Given<double> part;
+  Given<std::string> ends;
+};
+
+struct Load {
+  Given<std::string> type;
+  bool traction = false, pull = false, pressure = false;
+  Given<double> peak, pull_force, pressure_value;
+  Given<Vec3d> traction_axis, body_force;
+  LoadEnds pull_ends, pressure_ends;
+  std::vector<Named<CoursePoint>> course;
 };
 
 struct Initial {
@@ -89,6 +110,7 @@ struct Initial {
   Given<Vec3d> cavity_center;
   Given<std::string> body;
   Given<double> start_volume, inflate;
+  Given<std::string> shape, orientation;
 };
 
 struct FieldBoundary {
@@ -143,6 +165,7 @@ struct Study {
   Contact contact;
   std::vector<Named<Obstacle>> geometry;
   std::vector<Named<Initial>> initial;
+  std::vector<Named<Load>> loads;
   std::vector<Named<Field>> fields;
   Coupling coupling;
   Output output;

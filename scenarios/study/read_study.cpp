@@ -22,6 +22,7 @@ void build(BuildContext& context) {
   build_pairs(context);
   build_fields(context);
   build_initial(context);
+  build_loads(context);
   build_coupling(context);
   build_time_and_numerics(context);
   check_whole(context);

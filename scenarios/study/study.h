@@ -9,6 +9,11 @@
 
 namespace morula::scenarios {
 
+/// Stress-free shape of shells.
+enum class CellShape : std::uint8_t { kSphere, kBiconcave };
+/// How the meshes of shells lie at time 0.
+enum class Orientation : std::uint8_t { kRandom, kAligned };
+
 /// How cells are placed at time 0.
 struct InitialCells {
   enum class Source { kFill, kPositions, kCsv } source = Source::kFill;
@@ -36,12 +41,16 @@ struct InitialCells {
   // start small and inflate: volume at time 0 as a part of the cell's volume, and the time to reach it
   double start_volume_fraction = 1.0;
   double inflate_time = 0.0;  ///< [s]
+
+  CellShape shape = CellShape::kSphere;
+  Orientation orientation = Orientation::kRandom;
 };
 
 struct TimeSpec {
   double end = 0.0;                ///< [s]
   double output = 3600.0;          ///< series and snapshots [s]
   double checkpoint = 6 * 3600.0;  ///< [s]; a multiple of output is not required: written at the first output time not before it is due
+  double rest = 0.0;  ///< speed of all points below which the run ends at an output; 0: never [µm/s]
 };
 
 struct OutputSpec {

@@ -59,8 +59,9 @@ const Verdict* find(const RunSummary& run, const std::string& quantity) {
   return nullptr;
 }
 
-TEST(LibraryStudies, AreTheFiveThatWereAskedFor) {
-  EXPECT_EQ(template_names(), (std::vector<std::string>{"blastocyst", "cluster", "hybrid_spheroid", "pair", "tissue"}));
+TEST(LibraryStudies, AreThoseThatWereAskedFor) {
+  EXPECT_EQ(template_names(), (std::vector<std::string>{"blastocyst", "cluster", "doublet", "hybrid_spheroid", "optical_stretcher",
+                                                        "optical_tweezers", "pair", "parallel_plates", "spreading", "tissue"}));
 }
 
 TEST(LibraryStudies, PassTheCheckerWithoutAWarning) {

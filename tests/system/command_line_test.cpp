@@ -13,7 +13,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-const char* const kVerbs[] = {"new", "check", "run", "resume", "status", "list", "info", "explain", "plot", "export", "doctor"};
+const char* const kVerbs[] = {"new", "check", "run", "resume", "status", "list", "info", "explain", "plot", "export", "verify", "doctor"};
 
 TEST(CommandLine, VersionIsOneLineOnStandardOutput) {
   const TestFolder folder;
@@ -36,6 +36,25 @@ TEST(CommandLine, EveryHelpEndsWithTwoExamplesThatNameTheVerb) {
     EXPECT_EQ(count, 2) << outcome.out;
   }
   EXPECT_THAT(run_morula({"--help"}, folder.path()).out, HasSubstr("Examples:\n"));
+}
+
+TEST(CommandLine, VerifyPrintsTheReferenceNumbersAsATableAndAsJson) {
+  const TestFolder folder;
+  const Outcome table = run_morula({"verify", "physics"}, folder.path());
+  EXPECT_EQ(table.exit_code, 0) << table.all();
+  EXPECT_THAT(table.out, HasSubstr("T4.1"));
+  EXPECT_THAT(table.out, HasSubstr("0.168954"));
+  const Outcome outcome = run_morula({"verify", "physics", "--json"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
+  const auto json = nlohmann::json::parse(outcome.out, nullptr, false);
+  ASSERT_TRUE(json.is_object()) << outcome.out;
+  EXPECT_EQ(json["suite"], "physics");
+  ASSERT_GT(json["rows"].size(), 25u);
+  for (const auto& row : json["rows"]) {
+    for (const char* key : {"id", "quantity", "reference", "value", "tolerance", "passed", "source"}) EXPECT_TRUE(row.contains(key)) << key;
+    EXPECT_TRUE(row["passed"].get<bool>()) << row;
+  }
+  EXPECT_EQ(run_morula({"verify", "chemistry"}, folder.path()).exit_code, 2);
 }
 
 TEST(CommandLine, AnUnknownVerbSuggestsTheNearOne) {

@@ -96,5 +96,23 @@ TEST_F(Repeat, SigtermToMpirunLeavesACheckpoint) {
   EXPECT_EQ(info_of(*folder / "stopped")["state"], "stopped");
 }
 
+/// Loads on chosen nodes are found again on whichever rank a cell is, and after a restart in the middle of a course.
+TEST(Loads, GiveTheSameBitsOnRanksAndOverARestart) {
+  const TestFolder folder;
+  folder.write("study.yaml", loaded_study());
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "one"}, folder.path(), on_ranks(0)).exit_code, 0);
+  const json reference = info_of(folder / "one");
+  for (const int ranks : {2, 4}) {
+    const std::string name = "ranks" + std::to_string(ranks);
+    const Outcome outcome = run_morula({"run", "study.yaml", "--out", name}, folder.path(), on_ranks(ranks));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.all();
+    EXPECT_EQ(info_of(folder / name)["state_hash"], reference["state_hash"]) << name;
+    EXPECT_EQ(read_text(folder / name / "series.csv"), read_text(folder / "one/series.csv")) << name;
+  }
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "broken", "--until", "20 s"}, folder.path(), on_ranks(2)).exit_code, 0);
+  ASSERT_EQ(run_morula({"resume", "broken"}, folder.path(), on_ranks(0)).exit_code, 0);
+  EXPECT_EQ(info_of(folder / "broken")["state_hash"], reference["state_hash"]);
+}
+
 }  // namespace
 }  // namespace morula::test

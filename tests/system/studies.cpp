@@ -52,6 +52,34 @@ output: {report: false}
 )";
 }
 
+std::string loaded_study() {
+  return R"(schema: 1
+study: loaded
+time: {end: 60 s, output: 10 s, checkpoint: 20 s}
+domain: {size: [120 um, 60 um, 60 um], boundary: open}
+cell_types:
+  pulled: {radius: 6 um, dcm: {nodes: 42, cortex: {tension: 0.1 mN/m}}}
+  lit: {radius: 6 um, dcm: {nodes: 42, cortex: {tension: 0.1 mN/m}}}
+  squeezed: {radius: 6 um, dcm: {nodes: 42, cortex: {tension: 0.1 mN/m}}}
+  stone: {radius: 6 um}
+contact: {range: 1 um}
+geometry:
+  plate:
+    plane: {center: [0 um, 0 um, 6.5 um], normal: [0, 0, -1], size: 100 um}
+    motion: {direction: [0, 0, -1], course: [{time: 5 s, distance: 0 um}, {time: 33 s, distance: 0.8 um}]}
+initial:
+  - {type: pulled, at: [[-40 um, 0 um, 0 um], [-20 um, 0 um, 0 um]], as: shell, orientation: aligned}
+  - {type: lit, at: [[0 um, 0 um, 0 um]], as: shell}
+  - {type: squeezed, at: [[20 um, 0 um, 0 um]], as: shell, orientation: aligned}
+  - {type: stone, at: [[40 um, 0 um, -12 um]], as: sphere}
+loads:
+  beads: {type: pulled, pull: {force: 200 pN, axis: [1, 1, 0], part: 5 %}, course: [{time: 0 s, factor: 0}, {time: 17 s, factor: 1}, {time: 41 s, factor: 0.5}]}
+  light: {type: lit, traction: {peak: 2 Pa, axis: [0, 1, 0]}}
+  press: {type: squeezed, pressure: {value: 5 Pa, axis: [0, 1, 0], part: 20 %, ends: low}}
+  weight: {type: stone, body_force: [0 nN, 0 nN, -1 nN]}
+)";
+}
+
 std::string changed(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << "the text does not hold: " << from;

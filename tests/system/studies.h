@@ -7,6 +7,8 @@ namespace morula::test {
 [[nodiscard]] std::string sphere_study();
 /// About thirty cells, some of them shells: oxygen, growth, division, promotion by a region.
 [[nodiscard]] std::string hybrid_study();
+/// Shells that are pulled, stretched and pressed by a moving plate, and a sphere that sinks: every kind of load, with courses.
+[[nodiscard]] std::string loaded_study();
 /// A text with the first `from` replaced by `to`; a test failure when it does not hold `from`.
 [[nodiscard]] std::string changed(std::string text, const std::string& from, const std::string& to);
 

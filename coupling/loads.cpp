@@ -1,0 +1,116 @@
+#include "coupling/loads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace morula {
+namespace {
+
+constexpr double kTie = 1e-9;  // of a shape that encloses the volume 1
+
+/// Function(face, its three nodes, area vector ½ (b − a) × (c − a)) for every face.
+template <class F>
+void for_faces(const Topology& topology, std::span<const Vec3d> x, F&& function) {
+  for (const Triangle& t : topology.faces()) function(t, cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]) * 0.5);
+}
+
+void add_to_corners(const Triangle& t, const Vec3d& whole, std::span<Vec3d> force) {
+  for (const std::uint32_t node : t) force[node] += whole * (1.0 / 3.0);
+}
+
+void add_traction(const CellLoad& load, const Topology& topology, std::span<const Vec3d> x, double peak, std::span<Vec3d> force) {
+  const Vec3d center = volume_centroid(topology.faces(), x);
+  for_faces(topology, x, [&](const Triangle& t, const Vec3d& area) {
+    const Vec3d from = (x[t[0]] + x[t[1]] + x[t[2]]) * (1.0 / 3.0) - center;
+    const double along = dot(from, load.axis);
+    add_to_corners(t, area * (peak * along * along / norm2(from)), force);
+  });
+}
+
+void add_pull(const CellLoad& load, const ReferenceShape& shape, double size, std::span<Vec3d> force) {
+  const auto add = [&](const Vec3d& outward) {
+    const auto nodes = end_nodes(shape, outward, load.part);
+    for (const std::uint32_t node : nodes) force[node] += outward * (size / static_cast<double>(nodes.size()));
+  };
+  if (load.end != LoadEnd::kLow) add(load.axis);
+  if (load.end != LoadEnd::kHigh) add(load.axis * -1.0);
+}
+
+void add_pressure(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> x, double p, std::span<Vec3d> force) {
+  std::vector<char> chosen(x.size(), load.part >= 1.0);
+  const auto choose = [&](const Vec3d& outward) {
+    for (const std::uint32_t node : end_nodes(shape, outward, load.part)) chosen[node] = 1;
+  };
+  if (load.part < 1.0 && load.end != LoadEnd::kLow) choose(load.axis);
+  if (load.part < 1.0 && load.end != LoadEnd::kHigh) choose(load.axis * -1.0);
+  for_faces(*shape.topology, x, [&](const Triangle& t, const Vec3d& area) {
+    if (chosen[t[0]] && chosen[t[1]] && chosen[t[2]]) add_to_corners(t, area * -p, force);
+  });
+}
+
+void add_body_force(const CellLoad& load, const Topology& topology, std::span<const Vec3d> x, double strength, std::span<Vec3d> force) {
+  double whole = 0.0;
+  for_faces(topology, x, [&](const Triangle&, const Vec3d& area) { whole += norm(area); });
+  for_faces(topology, x,
+            [&](const Triangle& t, const Vec3d& area) { add_to_corners(t, load.force * (strength * norm(area) / whole), force); });
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> end_nodes(const ReferenceShape& shape, const Vec3d& axis, double part) {
+  const std::size_t all = shape.position.size();
+  std::vector<double> along(all);
+  for (std::size_t i = 0; i < all; ++i) along[i] = dot(shape.position[i], axis);
+  std::vector<double> sorted = along;
+  const auto wanted = static_cast<std::size_t>(std::llround(part * static_cast<double>(all)));
+  const std::size_t count = std::clamp<std::size_t>(wanted, 1, all);
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count - 1), sorted.end(), std::greater<>());
+  std::vector<std::uint32_t> out;
+  for (std::size_t i = 0; i < all; ++i)
+    if (along[i] >= sorted[count - 1] - kTie) out.push_back(static_cast<std::uint32_t>(i));
+  return out;
+}
+
+void add_shell_load(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> position, double strength,
+                    std::span<Vec3d> force) {
+  switch (load.kind) {
+    case LoadKind::kTraction:
+      return add_traction(load, *shape.topology, position, load.size * strength, force);
+    case LoadKind::kPull:
+      return add_pull(load, shape, load.size * strength, force);
+    case LoadKind::kPressure:
+      return add_pressure(load, shape, position, load.size * strength, force);
+    case LoadKind::kBodyForce:
+      return add_body_force(load, *shape.topology, position, strength, force);
+  }
+}
+
+void add_loads(const Model& model, const Tissue& tissue, double time, std::span<Vec3d> external) {
+  for (const CellLoad& load : model.loads) {
+    const double strength = load.course.at(time);
+    if (strength == 0.0) continue;
+    std::size_t shell = 0, sphere = tissue.shells.node_count();
+    for (const CellRow& row : tissue.cells.rows) {
+      if (row.body == BodyKind::kSphere) {
+        if (row.type == load.type && load.kind == LoadKind::kBodyForce) external[sphere] += load.force * strength;
+        ++sphere;
+        continue;
+      }
+      if (row.type == load.type) {
+        const std::uint32_t first = tissue.shells.first_node[shell], count = tissue.shells.first_node[shell + 1] - first;
+        add_shell_load(load, *tissue.shells.shape[shell], tissue.shells.nodes(shell), strength, external.subspan(first, count));
+      }
+      ++shell;
+    }
+  }
+}
+
+double next_corner(const Model& model, double time) {
+  double next = kNever;
+  for (const CellLoad& load : model.loads) next = std::min(next, load.course.next_point(time));
+  for (const ObstacleSpec& obstacle : model.obstacles) next = std::min(next, obstacle.distance.next_point(time));
+  return next;
+}
+
+}  // namespace morula

@@ -1,0 +1,112 @@
+// S1: spheres under the traction s0 cos²θ, against the closed form for small strains.
+#include <algorithm>
+#include <cmath>
+
+#include "core/numbers/number_text.h"
+#include "scenarios/library/shape_measures.h"
+#include "scenarios/library/single_cell.h"
+#include "scenarios/library/theory.h"
+#include "scenarios/library/verdicts.h"
+
+namespace morula::scenarios {
+namespace {
+
+constexpr double kSmallStress = 0.5e-3;  // up to here a shell without tension does not wrinkle [kPa]
+
+/// One cell at one hold.
+struct Stretching {
+  double stress = 0.0;   ///< s0 [kPa]
+  double tension = 0.0;  ///< [nN/µm]
+  std::uint32_t nodes = 0;
+  SecondMode measured;
+  theory::Stretch expected;
+  double volume_change = 0.0;  ///< relative to the unloaded cell
+};
+
+/// All cells at all holds; those of stress 0 after a load are what is left after the release.
+Result<std::vector<Stretching>> stretchings(const Study& study, const std::filesystem::path& run) {
+  MORULA_TRY_ASSIGN(const auto snapshots, all_snapshots(run));
+  std::vector<Stretching> out;
+  for (const CellLoad& load : study.model.loads) {
+    if (load.kind != LoadKind::kTraction) continue;
+    const CellType& type = study.model.types[load.type];
+    const auto holds = holds_of(load.course, snapshots);
+    if (holds.empty() || holds.front().value != 0.0) continue;  // no unloaded state to measure from
+    const auto before = shells_of(snapshots[holds.front().snapshot], load.type);
+    for (std::size_t h = 1; h < holds.size(); ++h) {
+      const auto after = shells_of(snapshots[holds[h].snapshot], load.type);
+      for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
+        const double stress = load.size * holds[h].value;
+        out.push_back({stress, type.shell.tension, type.shell_nodes, fit_second_mode(before[i], after[i], load.axis),
+                       theory::stretched_sphere(stress, radius_of_volume(before[i].cell->volume), spring_modulus(type), 1.0 / 3.0,
+                                                type.shell.tension, type.shell.bulk_modulus),
+                       after[i].cell->volume / before[i].cell->volume - 1.0});
+      }
+    }
+  }
+  return out;
+}
+
+std::string tension_text(double tension) { return "tension " + number_text("%g", 1000.0 * tension) + " uN/m"; }
+
+}  // namespace
+
+Result<std::vector<Verdict>> judge_optical_stretcher(const Study& study, const std::filesystem::path& run) {
+  MORULA_TRY_ASSIGN(const auto all, stretchings(study, run));
+  std::vector<Verdict> out;
+  double worst = 0.0, limit = 0.0, volume = 0.0, left = 0.0, most = 0.0, with = 0.0, without = 0.0;
+  for (const Stretching& s : all) {
+    const double error = s.stress > 0.0 ? std::abs(s.measured.axial / s.expected.axial - 1.0) : 0.0;
+    most = std::max(most, s.measured.axial);
+    volume = std::max(volume, std::abs(s.volume_change));
+    if (s.stress == 0.0) left = std::max(left, std::abs(s.measured.axial));
+    if (s.tension >= 0.03 && s.stress > 0.0 && s.stress <= 3.0e-3) {
+      worst = std::max(worst, error);
+      limit = tolerance(s.nodes, 0.06, 0.03);
+    }
+    if (std::abs(s.stress - kSmallStress) > 1e-9) continue;
+    if (s.tension == 0.0) {
+      without = s.measured.axial;
+      out.push_back(at_most("S1.2", "axial strain without tension at 0.5 Pa against the closed form, relative", error,
+                            tolerance(s.nodes, 0.08, 0.04)));
+      out.push_back(within("S1.2", "axial over minus transverse strain without tension at 0.5 Pa",
+                           -s.measured.axial / s.measured.transverse, 1.91, 2.11));
+      if (s.nodes >= 642)
+        out.push_back(at_most("S1.4", "what the second mode leaves over, without tension at 0.5 Pa, relative to the axial strain",
+                              s.measured.residual / s.measured.axial, 0.05));
+    }
+    if (std::abs(s.tension - 0.03) < 1e-9) with = s.measured.axial;
+  }
+  if (limit > 0.0) out.insert(out.begin(), at_most("S1.1", "axial strain under tension against the closed form, relative", worst, limit));
+  if (with > 0.0 && without > 0.0)
+    out.push_back(within("S1.3", "strain at 0.5 Pa: tension 30 uN/m over none", with / without, 0.516, 0.596));
+  out.push_back(at_most("S1.5", "change of volume, relative", volume, 0.01));
+  if (most > 0.0) out.push_back(at_most("S1.7", "strain left after the release, relative to the largest", left / most, 0.02));
+  return out;
+}
+
+Result<std::vector<NamedPlot>> plot_optical_stretcher(const Study& study, const std::filesystem::path& run) {
+  MORULA_TRY_ASSIGN(const auto all, stretchings(study, run));
+  CurvePlot plot;
+  plot.title = "Optical stretcher: strain against stress";
+  plot.x = {"peak stress", "Pa", false, {}, {}};
+  plot.y = {"strain along the axis", "%", false, {}, {}};
+  std::vector<double> tensions;
+  for (const Stretching& s : all)
+    if (std::find(tensions.begin(), tensions.end(), s.tension) == tensions.end()) tensions.push_back(s.tension);
+  for (const double tension : tensions) {
+    Curve points{tension_text(tension), {}, {}, CurveStyle::kPoints}, line{tension_text(tension) + ", theory", {0.0}, {0.0}, CurveStyle::kLine};
+    for (const Stretching& s : all) {
+      if (s.tension != tension || s.stress == 0.0) continue;
+      points.x.push_back(1000.0 * s.stress);
+      points.y.push_back(100.0 * s.measured.axial);
+      line.x.push_back(1000.0 * s.stress);
+      line.y.push_back(100.0 * s.expected.axial);
+    }
+    plot.curves.push_back(std::move(line));
+    plot.curves.push_back(std::move(points));
+  }
+  return std::vector<NamedPlot>{{"stretch", std::move(plot)}};
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,43 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "coupling/time_course.h"
+#include "scenarios/library/criteria.h"
+#include "scenarios/results/snapshot.h"
+
+namespace morula::scenarios {
+
+/// Experiments on one or two cells: criteria (physics/scenarios.md S1, S2, S4, S6 and a cell between plates) and plots against theory.
+Result<std::vector<Verdict>> judge_optical_stretcher(const Study& study, const std::filesystem::path& run);
+Result<std::vector<Verdict>> judge_optical_tweezers(const Study& study, const std::filesystem::path& run);
+Result<std::vector<Verdict>> judge_spreading(const Study& study, const std::filesystem::path& run);
+Result<std::vector<Verdict>> judge_doublet(const Study& study, const std::filesystem::path& run);
+Result<std::vector<Verdict>> judge_parallel_plates(const Study& study, const std::filesystem::path& run);
+
+Result<std::vector<NamedPlot>> plot_optical_stretcher(const Study& study, const std::filesystem::path& run);
+Result<std::vector<NamedPlot>> plot_optical_tweezers(const Study& study, const std::filesystem::path& run);
+Result<std::vector<NamedPlot>> plot_spreading(const Study& study, const std::filesystem::path& run);
+Result<std::vector<NamedPlot>> plot_doublet(const Study& study, const std::filesystem::path& run);
+Result<std::vector<NamedPlot>> plot_parallel_plates(const Study& study, const std::filesystem::path& run);
+
+/// All snapshots of a run. kFile when there is none.
+Result<std::vector<Snapshot>> all_snapshots(const std::filesystem::path& run);
+
+/// A time during which a course does not change, and the last snapshot in it.
+struct Hold {
+  double value = 0.0;  ///< of the course
+  double time = 0.0;   ///< of the snapshot [s]
+  std::size_t snapshot = 0;
+};
+/// The holds of a course that a run has a snapshot of, in time order; a course without points is one hold.
+std::vector<Hold> holds_of(const TimeCourse& course, const std::vector<Snapshot>& snapshots);
+
+/// The tolerance for meshes of fewer than 642 nodes, or that for finer ones.
+inline double tolerance(std::uint32_t nodes, double coarse, double fine) { return nodes < 642 ? coarse : fine; }
+
+/// Two-dimensional Young modulus Y = 2k/√3 of the springs of a type [nN/µm], and its Poisson ratio 1/3.
+double spring_modulus(const CellType& type);
+
+}  // namespace morula::scenarios

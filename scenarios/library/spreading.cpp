@@ -1,0 +1,162 @@
+// S4: cells on a rigid plane; a fluid cortex against Young's law, an elastic one against the static reference solution.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/numbers/number_text.h"
+#include "scenarios/library/shape_measures.h"
+#include "scenarios/library/single_cell.h"
+#include "scenarios/library/theory.h"
+#include "scenarios/library/verdicts.h"
+
+namespace morula::scenarios {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kFluid = 0.1;  // Y/γ up to which the cortex counts as fluid (physics/scenarios.md S4: Y = 0.05 γ)
+
+struct Spread {
+  double time = 0.0, ratio = 0.0, modulus = 0.0;  ///< W/γ, Y/γ
+  std::uint32_t nodes = 0;
+  theory::Cap expected;
+  double angle = 0.0, contact_radius = 0.0, height = 0.0, pressure = 0.0;  ///< in the units of theory::Cap
+  double contact_area = 0.0;                                               ///< as the contact law counts it [µm²]
+};
+
+/// The plane that the cells sit on: the top of the first obstacle, seen along the third axis.
+double top_of(const ObstacleSpec& obstacle) {
+  double top = -1e300;
+  for (const Vec3d& x : obstacle.position) top = std::max(top, x.z);
+  return top;
+}
+
+std::vector<Spread> spreads(const Study& study, const Snapshot& snapshot) {
+  std::vector<Spread> out;
+  const Model& model = study.model;
+  if (model.obstacles.empty()) return out;
+  const Vec3d point{0, 0, top_of(model.obstacles[0])}, normal{0, 0, 1};
+  for (std::size_t type = 0; type < model.types.size(); ++type) {
+    const CellType& t = model.types[type];
+    const double adhesion = model.pair(type, model.types.size()).adhesion;
+    if (!(t.shell.tension > 0.0) || adhesion > 2.0 * t.shell.tension) continue;
+    for (const ShellView& shell : shells_of(snapshot, type)) {
+      const auto cap = fit_cap(shell, point, normal);
+      if (!cap) continue;
+      const double r0 = radius_of_volume(shell.cell->volume);
+      out.push_back({snapshot.time, adhesion / t.shell.tension, spring_modulus(t) / t.shell.tension, t.shell_nodes,
+                     theory::on_plane(adhesion, t.shell.tension), cap->angle, cap->contact_radius / r0, cap->height / r0,
+                     shell.cell->pressure * r0 / t.shell.tension, shell.cell->contact_area});
+    }
+  }
+  return out;
+}
+
+/// The elastic cells at their largest modulus: contact area must rise with W; and fall with the modulus at equal W.
+void judge_order(const std::vector<Spread>& cells, std::vector<Verdict>& out) {
+  bool with_adhesion = true, with_modulus = true;
+  int pairs_w = 0, pairs_e = 0;
+  for (const Spread& a : cells)
+    for (const Spread& b : cells) {
+      if (a.modulus == b.modulus && a.ratio < b.ratio) {
+        ++pairs_w;
+        with_adhesion = with_adhesion && a.contact_area < b.contact_area;
+      }
+      if (a.ratio == b.ratio && a.modulus < b.modulus) {
+        ++pairs_e;
+        with_modulus = with_modulus && a.contact_area > b.contact_area;
+      }
+    }
+  if (pairs_w > 0) out.push_back(at_least("S4.4", "contact area rises with the adhesion (1: yes)", with_adhesion, 1.0));
+  if (pairs_e > 0) out.push_back(at_least("S4.4", "contact area falls with the modulus of the cortex (1: yes)", with_modulus, 1.0));
+}
+
+/// Contact radius and height of E = 1 kPa, h = 200 nm, γ = 0.1 mN/m at 642 nodes (static minimisation, spreading_reference.csv).
+struct ElasticReference {
+  double ratio, contact_radius, height;
+};
+constexpr ElasticReference kElastic[] = {{0.5, 0.839, 1.687}, {1.0, 1.104, 1.464}};
+
+}  // namespace
+
+Result<std::vector<Verdict>> judge_spreading(const Study& study, const std::filesystem::path& run) {
+  MORULA_TRY_ASSIGN(const auto snapshots, all_snapshots(run));
+  std::vector<Verdict> out;
+  const auto relative = [](double value, double expected) { return std::abs(value / expected - 1.0); };
+  const auto ends = spreads(study, snapshots.back());
+  for (const Spread& s : ends) {
+    const std::string at = ", W/T = " + number_text("%g", s.ratio);
+    if (s.modulus <= kFluid) {
+      out.push_back(at_most("S4.1", ("contact radius against Young's law, relative" + at).c_str(),
+                            relative(s.contact_radius, s.expected.contact_radius), tolerance(s.nodes, 0.10, 0.06)));
+      out.push_back(at_most("S4.1", ("height, relative" + at).c_str(), relative(s.height, s.expected.height), tolerance(s.nodes, 0.10, 0.05)));
+      out.push_back(at_most("S4.1", ("contact angle" + at).c_str(), std::abs(s.angle - s.expected.angle) / kDegree,
+                            tolerance(s.nodes, 10.0, 5.0), "deg"));
+      out.push_back(at_most("S4.2", ("pressure, relative" + at).c_str(), relative(s.pressure, s.expected.pressure),
+                            tolerance(s.nodes, 0.10, 0.05)));
+    } else if (s.nodes >= 642) {
+      for (const ElasticReference& r : kElastic)
+        if (std::abs(r.ratio - s.ratio) < 1e-9 && std::abs(s.modulus - 2.0) < 1e-9) {
+          out.push_back(at_most("S4.4", ("contact radius of an elastic cortex, relative" + at).c_str(),
+                                relative(s.contact_radius, r.contact_radius), 0.04));
+          out.push_back(at_most("S4.4", ("height of an elastic cortex, relative" + at).c_str(), relative(s.height, r.height), 0.04));
+        }
+    }
+  }
+  judge_order(ends, out);
+  double fall = 0.0;  // of the contact area of the fluid cells from one output to the next, over the last one
+  for (std::size_t k = 2; k < snapshots.size(); ++k) {
+    const auto before = spreads(study, snapshots[k - 1]), after = spreads(study, snapshots[k]);
+    for (std::size_t i = 0; i < std::min({before.size(), after.size(), ends.size()}); ++i)
+      if (ends[i].modulus <= kFluid) fall = std::max(fall, (before[i].contact_area - after[i].contact_area) / ends[i].contact_area);
+  }
+  out.push_back(at_most("S4.3", "fall of the contact area between outputs, relative to the last one", fall, 0.01));
+  return out;
+}
+
+Result<std::vector<NamedPlot>> plot_spreading(const Study& study, const std::filesystem::path& run) {
+  MORULA_TRY_ASSIGN(const auto snapshots, all_snapshots(run));
+  CurvePlot shape, over_time;
+  shape.title = "Spreading: contact radius and height";
+  shape.x = {"W/tension", "", false, 0.0, 2.0};
+  shape.y = {"over R0", "", false, 0.0, {}};
+  Curve a{"contact radius, Young's law", {}, {}, CurveStyle::kLine}, h{"height, Young's law", {}, {}, CurveStyle::kLine};
+  for (int i = 0; i < 98; ++i) {
+    const theory::Cap cap = theory::on_plane(0.02 * i, 1.0);
+    a.x.push_back(0.02 * i);
+    h.x.push_back(0.02 * i);
+    a.y.push_back(cap.contact_radius);
+    h.y.push_back(cap.height);
+  }
+  shape.curves = {std::move(a), std::move(h)};
+  const auto ends = spreads(study, snapshots.back());
+  for (const bool fluid : {true, false}) {
+    const std::string who = fluid ? "fluid cortex" : "elastic cortex";
+    Curve radius{"contact radius, " + who, {}, {}, CurveStyle::kPoints}, height{"height, " + who, {}, {}, CurveStyle::kPoints};
+    for (const Spread& s : ends) {
+      if ((s.modulus <= kFluid) != fluid) continue;
+      radius.x.push_back(s.ratio);
+      height.x.push_back(s.ratio);
+      radius.y.push_back(s.contact_radius);
+      height.y.push_back(s.height);
+    }
+    if (radius.x.empty()) continue;
+    shape.curves.push_back(std::move(radius));
+    shape.curves.push_back(std::move(height));
+  }
+  over_time.title = "Spreading: contact area over time";
+  over_time.x = {"time", "min", false, {}, {}};
+  over_time.y = {"contact area", "um^2", false, 0.0, {}};
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    Curve curve{"W/T = " + number_text("%g", ends[i].ratio) + (ends[i].modulus <= kFluid ? ", fluid" : ", elastic"), {}, {}, CurveStyle::kLine};
+    for (const Snapshot& snapshot : snapshots) {
+      const auto cells = spreads(study, snapshot);
+      if (i >= cells.size()) continue;
+      curve.x.push_back(snapshot.time / 60.0);
+      curve.y.push_back(cells[i].contact_area);
+    }
+    over_time.curves.push_back(std::move(curve));
+  }
+  return std::vector<NamedPlot>{{"spreading", std::move(shape)}, {"spreading_time", std::move(over_time)}};
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,74 @@
+#include "scenarios/library/theory.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace morula::scenarios::theory {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Height and volume of the drop with b = 1 and contact radius a: with r = 1 − (1 − a) s², the integrands of h = 2∫ tan ψ dr and
+/// V = 2π ∫ r² tan ψ dr are smooth at the equator (s = 0), where tan ψ grows like 1/√(1 − r). Simpson's rule.
+struct HeightAndVolume {
+  double height, volume;
+};
+HeightAndVolume drop(double a) {
+  constexpr int kIntervals = 400;
+  const double curvature = 1.0 / (1.0 - a * a);
+  HeightAndVolume out{0.0, 0.0};
+  for (int i = 0; i <= kIntervals; ++i) {
+    const double s = static_cast<double>(i) / kIntervals, r = 1.0 - (1.0 - a) * s * s;
+    const double sine = curvature * (r * r - a * a) / r;
+    const double less = curvature * (1.0 - r) * (r + a * a) / r;  // 1 − sin ψ, free of cancellation at the equator
+    const double value = i == 0 ? 2.0 * (1.0 - a) / std::sqrt(2.0 * curvature * (1.0 - a) * (1.0 + a * a))
+                                : sine / std::sqrt(less * (1.0 + sine)) * 2.0 * (1.0 - a) * s;
+    const double weight = (i == 0 || i == kIntervals ? 1.0 : i % 2 ? 4.0 : 2.0) / (3.0 * kIntervals);
+    out.height += 2.0 * weight * value;
+    out.volume += 2.0 * kPi * weight * r * r * value;
+  }
+  return out;
+}
+
+}  // namespace
+
+Cap cap_of_angle(double cosine) {
+  const double c = cosine;
+  Cap out;
+  out.angle = std::acos(c);
+  out.radius = std::cbrt(4.0 / (2.0 + 3.0 * c - c * c * c));
+  out.contact_radius = out.radius * std::sin(out.angle);
+  out.height = out.radius * (1.0 + c);
+  out.pressure = 2.0 / out.radius;
+  const double contact = out.contact_radius * out.contact_radius, free_part = 2.0 * out.radius * out.height;  // both over π R0²
+  out.contact_part = contact / (contact + free_part);
+  return out;
+}
+
+Stretch stretched_sphere(double peak_stress, double radius, double modulus, double poisson, double tension, double bulk_modulus) {
+  const double square = radius * radius;
+  const double u2 = 2.0 / 3.0 * peak_stress / (4.0 * modulus / ((5.0 + poisson) * square) + 4.0 * tension / square);
+  const double u0 =
+      peak_stress / 3.0 / (2.0 * modulus / ((1.0 - poisson) * square) - 2.0 * tension / square + 3.0 * bulk_modulus / radius);
+  return {(u0 + u2) / radius, (u0 - 0.5 * u2) / radius};
+}
+
+PressedDrop pressed_drop(double height) {
+  if (height >= 2.0) return {};
+  double low = 0.0, high = 0.9999;  // a/b: the height over V^(1/3) falls with it
+  for (int i = 0; i < 60; ++i) {
+    const double a = 0.5 * (low + high);
+    const auto [h, v] = drop(a);
+    (h / std::cbrt(3.0 * v / (4.0 * kPi)) > height ? low : high) = a;
+  }
+  const double a = 0.5 * (low + high);
+  const double scale = 1.0 / std::cbrt(3.0 * drop(a).volume / (4.0 * kPi));
+  PressedDrop out;
+  out.contact_radius = a * scale;
+  out.equator = scale;
+  out.pressure = 2.0 / (scale * (1.0 - a * a));
+  out.force = out.pressure * kPi * out.contact_radius * out.contact_radius;
+  return out;
+}
+
+}  // namespace morula::scenarios::theory

@@ -1,0 +1,103 @@
+#include <algorithm>
+
+#include "scenarios/study/build.h"
+
+namespace morula::scenarios {
+namespace {
+
+/// The points of a course as a table; an error where their times do not increase.
+TimeCourse course_of(BuildContext& c, const std::vector<Named<draft::CoursePoint>>& points) {
+  TimeCourse out;
+  for (const auto& [name, place, point] : points) {
+    if (!point.time.known() || !point.value.known()) return {};
+    if (!out.time.empty() && point.time.value <= out.time.back()) {
+      c.diagnostics.error(510, point.time.place, "the times of a course must increase, but " + point.time.text + " is not after the one before it",
+                          "sort the points by time");
+      return {};
+    }
+    out.time.push_back(point.time.value);
+    out.value.push_back(point.value.value);
+  }
+  if (out.time.size() == 1)
+    c.diagnostics.error(510, points.front().place, "a course needs at least two points", "give where it begins and where it ends");
+  return out;
+}
+
+Vec3d unit_axis(BuildContext& c, const Given<Vec3d>& axis, const char* key) {
+  if (!axis.known()) return {1, 0, 0};
+  if (norm2(axis.value) == 0.0) {
+    c.diagnostics.error(302, axis.place, std::string("'") + key + "' has no direction", "for example `[1, 0, 0]`");
+    return {1, 0, 0};
+  }
+  return normalized(axis.value);
+}
+
+LoadEnd end_of(const Given<std::string>& word) {
+  return word.value == "high" ? LoadEnd::kHigh : word.value == "low" ? LoadEnd::kLow : LoadEnd::kBoth;
+}
+
+/// A load on the surface needs shells; one on chosen nodes needs to know where these were at the start.
+void check_bodies(BuildContext& c, const std::string& name, const Place& place, const CellLoad& load) {
+  if (load.kind == LoadKind::kBodyForce) return;
+  const std::string who = "load '" + name + "' acts on the surface of '" + c.study.model.types[load.type].name + "'";
+  const bool chosen = load.kind == LoadKind::kPull || load.part < 1.0;
+  for (const InitialCells& block : c.study.initial) {
+    if (block.type != load.type && block.source != InitialCells::Source::kCsv) continue;
+    const BodyKind body = block.body_given ? block.body : c.study.model.types[load.type].initial_body;
+    if (body == BodyKind::kSphere && c.draft.coupling.regions.empty() && c.draft.coupling.triggers.empty()) {
+      c.diagnostics.error(516, place, who + ", but cells of that type are spheres", "place them `as: shell`, or use `body_force`");
+      return;
+    }
+    if (!chosen) continue;
+    if (block.orientation != Orientation::kAligned) {
+      c.diagnostics.error(516, place, who + " at chosen nodes, but its cells are turned at random", "place them with `orientation: aligned`");
+      return;
+    }
+  }
+  const bool swaps = !c.draft.coupling.regions.empty() || !c.draft.coupling.triggers.empty();
+  if (chosen && (swaps || c.study.model.types[load.type].cycles))
+    c.diagnostics.error(516, place, who + " at chosen nodes, which a cell that divides or changes its body would not keep",
+                        "use a load on the whole cell, or cells that stay as they are");
+}
+
+}  // namespace
+
+void build_motion_course(BuildContext& c, const draft::Obstacle& o, ObstacleSpec& obstacle) {
+  if (o.course.empty()) return;
+  obstacle.direction = unit_axis(c, o.direction, "direction");
+  obstacle.distance = course_of(c, o.course);
+}
+
+void build_loads(BuildContext& c) {
+  for (auto& [name, place, d] : c.draft.loads) {
+    const int kinds = d.traction + d.pull + d.pressure + d.body_force.given;
+    if (kinds != 1) {
+      c.diagnostics.error(111, place, "load '" + name + "' " + (kinds == 0 ? "says nothing of a force" : "has more than one kind of force"),
+                          "give one of `traction`, `pull`, `pressure`, `body_force`");
+      continue;
+    }
+    const int type = d.type.known() ? find_type(c, d.type.value, d.type.place) : -1;
+    CellLoad load;
+    load.name = name;
+    load.type = static_cast<std::uint16_t>(std::max(0, type));
+    if (d.traction) {
+      load.kind = LoadKind::kTraction;
+      load.size = d.peak.value;
+      load.axis = unit_axis(c, d.traction_axis, "axis");
+    } else if (d.pull || d.pressure) {
+      const draft::LoadEnds& ends = d.pull ? d.pull_ends : d.pressure_ends;
+      load.kind = d.pull ? LoadKind::kPull : LoadKind::kPressure;
+      load.size = d.pull ? d.pull_force.value : d.pressure_value.value;
+      load.axis = unit_axis(c, ends.axis, "axis");
+      load.part = ends.part.value;
+      load.end = end_of(ends.ends);
+    } else {
+      load.force = d.body_force.value;
+    }
+    load.course = course_of(c, d.course);
+    if (type >= 0 && static_cast<std::size_t>(type) < c.study.model.types.size()) check_bodies(c, name, place, load);
+    c.study.model.loads.push_back(std::move(load));
+  }
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,104 @@
+#include "scenarios/study/declare.h"
+
+namespace morula::scenarios {
+namespace {
+
+using Q = Quantity;
+
+void axis(Section& s, Given<Vec3d>& value, const char* doc) {
+  s.vector({.name = "axis", .doc = doc, .fallback = "[1, 0, 0]", .example = "[1, 0, 0]", .source = "chosen"}, value);
+}
+
+void ends(Section& s, draft::LoadEnds& e, const char* part, const char* doc) {
+  s.quantity({.name = "part",
+              .doc = doc,
+              .quantity = Q::kFraction,
+              .fallback = part,
+              .low = 0.0,
+              .high = 1.0,
+              .low_open = true,
+              .example = "2 %",
+              .source = "chosen"},
+             e.part);
+  s.word({.name = "ends",
+          .doc = "The nodes of the undeformed cell with the largest coordinate along the axis (`high`), the smallest (`low`), or both.",
+          .fallback = "both",
+          .words = {"both", "high", "low"},
+          .example = "both",
+          .source = "chosen"},
+         e.ends);
+}
+
+void declare_course_point(Section& s, draft::CoursePoint& point) {
+  s.quantity({.name = "time", .doc = "When.", .quantity = Q::kTime, .required = true, .low = 0.0, .example = "10 s"}, point.time);
+  s.quantity({.name = "factor", .doc = "Part of the full load at that time.", .required = true, .low = -1e6, .high = 1e6, .example = "1"},
+             point.value);
+}
+
+void declare_distance_point(Section& s, draft::CoursePoint& point) {
+  s.quantity({.name = "time", .doc = "When.", .quantity = Q::kTime, .required = true, .low = 0.0, .example = "10 s"}, point.time);
+  s.quantity(
+      {.name = "distance", .doc = "How far it is then from where it began.", .quantity = Q::kLength, .required = true, .example = "2 um"},
+      point.value);
+}
+
+}  // namespace
+
+void declare_motion_course(Section& s, draft::Obstacle& o) {
+  s.vector({.name = "direction",
+            .doc = "Direction of `course`; need not have length 1.",
+            .fallback = "[0, 0, 1]",
+            .example = "[0, 0, -1]",
+            .source = "chosen"},
+           o.direction);
+  s.list({.name = "course",
+          .doc = "Way along `direction` over time, beside the velocity: straight lines between these points, at rest before the first and "
+                 "after the last. Steps land on the points.",
+          .example = "[{time: 0 s, distance: 0 um}, {time: 5 min, distance: 2 um}]"},
+         o.course, &declare_distance_point);
+}
+
+void declare_load(Section& s, draft::Load& load) {
+  s.text({.name = "type", .doc = "Cell type that bears the load.", .required = true, .example = "hepatocyte"}, load.type);
+  s.group({.name = "traction",
+           .doc = "Traction s0 cos^2(theta) along the outward normal, theta from the axis through the cell's centre: an optical stretcher.",
+           .optional_section = true,
+           .example = "{peak: 1 Pa, axis: [1, 0, 0]}"},
+          load.traction, [&load](Section& t) {
+            t.quantity({.name = "peak", .doc = "s0, the traction on the axis.", .quantity = Q::kPressure, .required = true, .example = "1 Pa"},
+                       load.peak);
+            axis(t, load.traction_axis, "Axis of the beams.");
+          });
+  s.group({.name = "pull",
+           .doc = "A force spread evenly over the nodes at the ends of an axis, outwards: beads, grips, tweezers.",
+           .optional_section = true,
+           .example = "{force: 100 pN, axis: [1, 0, 0], part: 2 %}"},
+          load.pull, [&load](Section& p) {
+            p.quantity({.name = "force", .doc = "Force at each end, outwards.", .quantity = Q::kForce, .required = true, .example = "100 pN"},
+                       load.pull_force);
+            axis(p, load.pull_ends.axis, "Axis along which the force acts.");
+            ends(p, load.pull_ends, "2 %", "Part of the nodes at each end that bear the force: a fixed set, ties taken in.");
+          });
+  s.group({.name = "pressure",
+           .doc = "A uniform pressure against the outward normal, on the whole surface or at the ends of an axis; negative: suction.",
+           .optional_section = true,
+           .example = "{value: 10 Pa}"},
+          load.pressure, [&load](Section& p) {
+            p.quantity({.name = "value", .doc = "The pressure.", .quantity = Q::kPressure, .required = true, .example = "10 Pa"},
+                       load.pressure_value);
+            axis(p, load.pressure_ends.axis, "Axis that tells the ends.");
+            ends(p, load.pressure_ends, "100 %", "Part of the nodes at each end; faces between such nodes bear the pressure.");
+          });
+  s.vector({.name = "body_force",
+            .doc = "A force on the whole cell; on a shell spread over its surface.",
+            .quantity = Q::kForce,
+            .example = "[0 nN, 0 nN, -1 nN]"},
+           load.body_force);
+  s.list({.name = "course",
+          .doc = "The load over time: straight lines between these points, constant before the first and after the last. Without it: the full "
+                 "load from time 0 on. Steps land on the points.",
+          .example = "[{time: 0 s, factor: 0}, {time: 1 s, factor: 1}]"},
+         load.course, &declare_course_point);
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,50 @@
+#include "scenarios/verify/verify.h"
+
+#include <cmath>
+
+#include "core/numbers/number_text.h"
+#include "scenarios/library/library.h"
+#include "scenarios/results/file_io.h"
+#include "scenarios/run/driver.h"
+#include "scenarios/verify/reference_numbers.h"
+
+namespace morula::scenarios {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kStudies[] = {"doublet", "optical_stretcher", "optical_tweezers", "parallel_plates", "spreading"};
+
+}  // namespace
+
+std::vector<VerifiedRow> verify_physics() {
+  std::vector<VerifiedRow> out;
+  for (const ReferenceNumber& number : physics_numbers()) {
+    const double value = number.compute();
+    out.push_back({number.id, number.quantity, number.reference, value, number_text("%.2g", number.tolerance),
+                   std::abs(value - number.reference) <= number.tolerance, number.source});
+  }
+  return out;
+}
+
+Result<std::vector<VerifiedRow>> verify_single_cell_studies(const fs::path& folder, const std::function<void(const std::string&)>& tell) {
+  std::vector<VerifiedRow> out;
+  for (const char* name : kStudies) {
+    tell(name);
+    std::error_code error;
+    fs::create_directories(folder / name, error);
+    if (error) return file_error(folder / name, "create folder", error.value());
+    for (const TemplateFile& file : find_template(name)->files) MORULA_TRY(write_file_atomically(folder / name / std::string(file.path), file.content));
+    ReadOptions options;
+    options.overrides = {"output.report=false"};
+    const auto study = read_study(folder / name / "study.yaml", options);
+    if (!study.ok()) return study.error().as_error();
+    RunRequest request;
+    request.runs = folder / name / "runs";
+    request.command = std::string("morula verify physics: ") + name;
+    MORULA_TRY_ASSIGN(const RunSummary run, scenarios::run(*study, request, Comm()));
+    for (const Verdict& v : run.verdicts) out.push_back({v.id, v.quantity, std::nullopt, v.value, v.limit, v.passed, std::string("study ") + name});
+  }
+  return out;
+}
+
+}  // namespace morula::scenarios

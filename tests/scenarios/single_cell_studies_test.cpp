@@ -1,0 +1,56 @@
+// The single-cell experiments of the library, whole, in their quick version: every criterion holds (physics/scenarios.md S1, S2, S4, S6).
+#include <gtest/gtest.h>
+
+#include "scenarios/library/criteria.h"
+#include "scenarios/library/library.h"
+#include "scenarios/library/single_cell.h"
+#include "scenarios/run/driver.h"
+#include "tests/scenarios/study_fixture.h"
+
+namespace morula::scenarios {
+namespace {
+
+class SingleCell : public testing::TestWithParam<const char*> {};
+
+TEST_P(SingleCell, StudyMeetsAllItsCriteriaAndIsPlottedAgainstTheory) {
+  const test::Folder folder;
+  for (const TemplateFile& file : find_template(GetParam())->files) folder.write(std::string(file.path), std::string(file.content));
+  ReadOptions options;
+  options.overrides = {"output.report=false"};
+  const auto study = read_study(folder.path() / "study.yaml", options);
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  RunRequest request;
+  request.runs = folder.path() / "runs";
+  const auto run = scenarios::run(*study, request, Comm());
+  ASSERT_TRUE(run.ok()) << run.error().message;
+  EXPECT_GE(run->verdicts.size(), 7u);
+  for (const Verdict& v : run->verdicts) EXPECT_TRUE(v.passed) << v.id << ": " << v.quantity << " is " << v.value << ", wanted " << v.limit;
+  const auto plots = scenario_plots(*study, run->path);
+  ASSERT_TRUE(plots.ok()) << plots.error().message;
+  ASSERT_FALSE(plots->empty());
+  for (const NamedPlot& plot : *plots)
+    for (const Curve& curve : plot.plot.curves) {
+      EXPECT_FALSE(curve.x.empty()) << plot.name << ": " << curve.name;
+      for (const double y : curve.y) EXPECT_TRUE(std::isfinite(y)) << plot.name << ": " << curve.name;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Quick, SingleCell,
+                         testing::Values("doublet", "optical_stretcher", "optical_tweezers", "parallel_plates", "spreading"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST(Holds, AreTheConstantPartsOfACourseWithTheirLastSnapshot) {
+  std::vector<Snapshot> snapshots(8);
+  for (std::size_t i = 0; i < snapshots.size(); ++i) snapshots[i].time = 10.0 * static_cast<double>(i);
+  const auto holds = holds_of({{0.0, 20.0, 21.0, 45.0, 46.0}, {0.0, 0.0, 0.5, 0.5, 2.0}}, snapshots);
+  ASSERT_EQ(holds.size(), 3u);
+  EXPECT_EQ(holds[0].snapshot, 2u);
+  EXPECT_EQ(holds[1].snapshot, 4u);
+  EXPECT_EQ(holds[1].value, 0.5);
+  EXPECT_EQ(holds[2].snapshot, 7u);
+  EXPECT_EQ(holds[2].value, 2.0);
+  EXPECT_EQ(holds_of({}, snapshots).size(), 1u);
+}
+
+}  // namespace
+}  // namespace morula::scenarios

@@ -1,0 +1,71 @@
+#include <gtest/gtest.h>
+
+#include "tests/scenarios/study_fixture.h"
+
+namespace morula::scenarios {
+namespace {
+
+constexpr const char* kStudy = R"(schema: 1
+study: loaded
+time: {end: 1 h, rest: 1e-4 um/s}
+domain: {size: [100 um, 100 um, 100 um]}
+cell_types:
+  cell: {radius: 6 um}
+geometry:
+  plate:
+    plane: {center: [0 um, 0 um, 20 um], normal: [0, 0, -1], size: 50 um}
+    motion: {direction: [0, 0, -2], course: [{time: 0 s, distance: 0 um}, {time: 1 min, distance: 3 um}]}
+initial:
+  - {type: cell, at: [[0 um, 0 um, 0 um]], as: shell, orientation: aligned}
+loads:
+  beads:
+    type: cell
+    pull: {force: 193 pN, axis: [0, 3, 0], part: 2 %, ends: high}
+    course: [{time: 0 s, factor: 0}, {time: 10 s, factor: 1}]
+)";
+
+TEST(Loads, AreReadInInternalUnits) {
+  const auto study = test::read(kStudy);
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  ASSERT_EQ(study->model.loads.size(), 1u);
+  const CellLoad& load = study->model.loads[0];
+  EXPECT_EQ(load.kind, LoadKind::kPull);
+  EXPECT_DOUBLE_EQ(load.size, 0.193);
+  EXPECT_DOUBLE_EQ(load.part, 0.02);
+  EXPECT_EQ(load.end, LoadEnd::kHigh);
+  EXPECT_DOUBLE_EQ(load.axis.y, 1.0);
+  EXPECT_DOUBLE_EQ(load.course.at(5.0), 0.5);
+  const ObstacleSpec& plate = study->model.obstacles[0];
+  EXPECT_DOUBLE_EQ(plate.way(0.0, 30.0).z, -1.5);
+  EXPECT_DOUBLE_EQ(study->time.rest, 1e-4);
+  const auto again = test::read(study->resolved_text);
+  ASSERT_TRUE(again.ok()) << again.error().text();
+  EXPECT_EQ(again->resolved_text, study->resolved_text);
+  EXPECT_EQ(again->model.loads[0].course.time, load.course.time);
+}
+
+TEST(Loads, ThatContradictTheStudyAreRefusedWithTheirPlace) {
+  const auto message = [](const std::string& from, const std::string& to) { return test::errors_of(test::changed(from, to, kStudy)); };
+  EXPECT_NE(message(", orientation: aligned", "").find("place them with `orientation: aligned`"), std::string::npos);
+  EXPECT_NE(message("as: shell", "as: sphere").find("[E513]"), std::string::npos);
+  EXPECT_NE(message("radius: 6 um}\ngeo", "radius: 6 um, cycle: {duration: 18 h}}\ngeo").find("would not keep"), std::string::npos);
+  EXPECT_NE(message("type: cell\n", "type: cel\n").find("[E401]"), std::string::npos);
+  EXPECT_NE(message("{time: 10 s, factor: 1}", "{time: 0 s, factor: 1}").find("must increase"), std::string::npos);
+  EXPECT_NE(message(", {time: 10 s, factor: 1}", "").find("at least two points"), std::string::npos);
+  EXPECT_NE(message("axis: [0, 3, 0]", "axis: [0, 0, 0]").find("has no direction"), std::string::npos);
+  EXPECT_NE(message("    course: [{time: 0 s, f", "    pressure: {value: 1 Pa}\n    course: [{time: 0 s, f").find("more than one kind"),
+            std::string::npos);
+  EXPECT_NE(message("    pull: {force: 193 pN, axis: [0, 3, 0], part: 2 %, ends: high}\n", "").find("says nothing of a force"),
+            std::string::npos);
+  EXPECT_NE(message("force: 193 pN", "force: 193 Pa").find("[E203]"), std::string::npos);
+}
+
+TEST(Loads, OnWholeSpheresAreFine) {
+  const auto study = test::read(test::changed("pull: {force: 193 pN, axis: [0, 3, 0], part: 2 %, ends: high}", "body_force: [0 nN, 0 nN, -1 nN]",
+                                              test::changed("as: shell", "as: sphere", kStudy)));
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  EXPECT_DOUBLE_EQ(study->model.loads[0].force.z, -1.0);
+}
+
+}  // namespace
+}  // namespace morula::scenarios
