@@ -3,6 +3,7 @@
 
 #include "app/verbs.h"
 #include "app/words.h"
+#include "scenarios/library/criteria.h"
 #include "scenarios/pictures/png.h"
 #include "scenarios/pictures/standard_pictures.h"
 #include "scenarios/report/series_reader.h"
@@ -22,7 +23,9 @@ bool wanted(const std::string& name, const std::vector<std::string>& only) {
 
 Status write_plots(const scenarios::Study& study, const fs::path& run, const std::vector<std::string>& only, std::string& written) {
   MORULA_TRY_ASSIGN(const scenarios::SeriesTable series, scenarios::read_series(run / "series.csv"));
-  for (const scenarios::NamedPlot& one : scenarios::standard_plots(study, series)) {
+  MORULA_TRY_ASSIGN(std::vector<scenarios::NamedPlot> plots, scenarios::scenario_plots(study, run));
+  for (scenarios::NamedPlot& plot : scenarios::standard_plots(study, series)) plots.push_back(std::move(plot));
+  for (const scenarios::NamedPlot& one : plots) {
     if (!wanted(one.name, only)) continue;
     MORULA_TRY(scenarios::write_curves(one.plot, run / "plots" / one.name));
     written += (run / "plots" / (one.name + ".svg")).string() + "\n";

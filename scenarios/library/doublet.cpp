@@ -82,7 +82,7 @@ Result<std::vector<NamedPlot>> plot_doublet(const Study& study, const std::files
   CurvePlot angle, radius, over_time;
   angle.title = "Doublet: contact angle";
   angle.y = {"angle", "deg", false, 0.0, {}};
-  radius.title = "Doublet: contact radius and pressure";
+  radius.title = "Doublet: contact radius and pressure (lines: theory)";
   radius.y = {"a/R0, p R0/(2 tension)", "", false, 0.0, {}};
   angle.x = radius.x = {"W/tension", "", false, 0.0, 2.0};
   Curve angle_theory{"Young's law", {}, {}, CurveStyle::kLine}, a_theory{"contact radius, theory", {}, {}, CurveStyle::kLine},
@@ -102,7 +102,9 @@ Result<std::vector<NamedPlot>> plot_doublet(const Study& study, const std::files
     p.y.push_back(0.5 * d.pressure);
   }
   angle.curves = {std::move(angle_theory), std::move(angles)};
-  radius.curves = {std::move(a_theory), std::move(p_theory), std::move(a), std::move(p)};
+  a.color = a_theory.color = 0;
+  p.color = p_theory.color = 1;
+  radius.curves = {std::move(a), std::move(p), std::move(a_theory), std::move(p_theory)};
   over_time.title = "Doublet: contact angle over time";
   over_time.x = {"time", "min", false, {}, {}};
   over_time.y = {"angle", "deg", false, 0.0, {}};

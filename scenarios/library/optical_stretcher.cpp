@@ -88,7 +88,7 @@ Result<std::vector<Verdict>> judge_optical_stretcher(const Study& study, const s
 Result<std::vector<NamedPlot>> plot_optical_stretcher(const Study& study, const std::filesystem::path& run) {
   MORULA_TRY_ASSIGN(const auto all, stretchings(study, run));
   CurvePlot plot;
-  plot.title = "Optical stretcher: strain against stress";
+  plot.title = "Optical stretcher: strain against stress (lines: theory)";
   plot.x = {"peak stress", "Pa", false, {}, {}};
   plot.y = {"strain along the axis", "%", false, {}, {}};
   std::vector<double> tensions;
@@ -103,8 +103,9 @@ Result<std::vector<NamedPlot>> plot_optical_stretcher(const Study& study, const 
       line.x.push_back(1000.0 * s.stress);
       line.y.push_back(100.0 * s.expected.axial);
     }
-    plot.curves.push_back(std::move(line));
+    points.color = line.color = static_cast<int>(plot.curves.size() / 2);
     plot.curves.push_back(std::move(points));
+    plot.curves.push_back(std::move(line));
   }
   return std::vector<NamedPlot>{{"stretch", std::move(plot)}};
 }

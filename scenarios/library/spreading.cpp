@@ -116,7 +116,7 @@ Result<std::vector<Verdict>> judge_spreading(const Study& study, const std::file
 Result<std::vector<NamedPlot>> plot_spreading(const Study& study, const std::filesystem::path& run) {
   MORULA_TRY_ASSIGN(const auto snapshots, all_snapshots(run));
   CurvePlot shape, over_time;
-  shape.title = "Spreading: contact radius and height";
+  shape.title = "Spreading: shape (lines: Young's law)";
   shape.x = {"W/tension", "", false, 0.0, 2.0};
   shape.y = {"over R0", "", false, 0.0, {}};
   Curve a{"contact radius, Young's law", {}, {}, CurveStyle::kLine}, h{"height, Young's law", {}, {}, CurveStyle::kLine};
@@ -127,7 +127,6 @@ Result<std::vector<NamedPlot>> plot_spreading(const Study& study, const std::fil
     a.y.push_back(cap.contact_radius);
     h.y.push_back(cap.height);
   }
-  shape.curves = {std::move(a), std::move(h)};
   const auto ends = spreads(study, snapshots.back());
   for (const bool fluid : {true, false}) {
     const std::string who = fluid ? "fluid cortex" : "elastic cortex";
@@ -140,9 +139,15 @@ Result<std::vector<NamedPlot>> plot_spreading(const Study& study, const std::fil
       height.y.push_back(s.height);
     }
     if (radius.x.empty()) continue;
+    radius.color = fluid ? 0 : 2;
+    height.color = fluid ? 1 : 3;
     shape.curves.push_back(std::move(radius));
     shape.curves.push_back(std::move(height));
   }
+  a.color = 0;
+  h.color = 1;
+  shape.curves.push_back(std::move(a));
+  shape.curves.push_back(std::move(h));
   over_time.title = "Spreading: contact area over time";
   over_time.x = {"time", "min", false, {}, {}};
   over_time.y = {"contact area", "um^2", false, 0.0, {}};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/numbers/number_text.h"
 #include "scenarios/pictures/annotate.h"
@@ -110,15 +111,20 @@ std::string curves_svg(const CurvePlot& plot, SvgUse use) {
   SvgFrame frame(plot.title, plot.width, plot.height, use);
   frame.axes(plot.x, plot.y, ticks_of(plot.x, x, 7, false), ticks_of(plot.y, y, 5, true));
   for (const CurveLimit& limit : plot.limits) frame.limit(limit);
-  for (std::size_t c = 0; c < plot.curves.size(); ++c) {
-    if (plot.curves[c].style == CurveStyle::kPoints)
-      draw_points(frame, plot.curves[c], static_cast<int>(c));
-    else
-      draw_line(frame, plot.curves[c], static_cast<int>(c));
-  }
   std::vector<std::string> names;
-  for (const Curve& curve : plot.curves) names.push_back(curve.name);
-  frame.legend(names);
+  std::vector<int> colors;
+  for (std::size_t c = 0; c < plot.curves.size(); ++c) {
+    const Curve& curve = plot.curves[c];
+    const int color = curve.color >= 0 ? curve.color : static_cast<int>(c);
+    if (curve.style == CurveStyle::kPoints)
+      draw_points(frame, curve, color);
+    else
+      draw_line(frame, curve, color);
+    if (std::find(colors.begin(), colors.end(), color) != colors.end()) continue;  // the curve that it belongs to is in the legend
+    names.push_back(curve.name);
+    colors.push_back(color);
+  }
+  frame.legend(names, colors);
   if (!any) frame.no_data();
   return frame.finish();
 }
@@ -148,7 +154,9 @@ std::string bars_svg(const BarPlot& plot, SvgUse use) {
       if (std::isfinite(plot.series[s].heights[i])) frame.bar(left, left + share, plot.series[s].heights[i], static_cast<int>(s));
     }
   }
-  frame.legend(names);
+  std::vector<int> colors(names.size());
+  std::iota(colors.begin(), colors.end(), 0);
+  frame.legend(names, colors);
   if (!any) frame.no_data();
   return frame.finish();
 }

@@ -21,6 +21,7 @@ struct Curve {
   std::string name;
   std::vector<double> x, y;  ///< same length; a NaN interrupts the line
   CurveStyle style = CurveStyle::kLine;
+  int color = -1;  ///< number in the palette; curves that share one have one entry in the legend, the first's; −1: its own
 };
 
 /// A horizontal dashed line that must not be crossed.

@@ -141,7 +141,7 @@ void SvgFrame::limit(const CurveLimit& limit) {
           xml_escaped(limit.text) + "</text>\n";
 }
 
-void SvgFrame::legend(const std::vector<std::string>& names) {
+void SvgFrame::legend(const std::vector<std::string>& names, const std::vector<int>& colors) {
   if (names.size() < 2) return;
   // One row over the plot's right part; a second row where the names are long.
   double at = right_;
@@ -153,7 +153,7 @@ void SvgFrame::legend(const std::vector<std::string>& names) {
       row += 17.0;
     }
     at -= wide;
-    out_ += "<path d=\"M" + px(at) + " " + px(row - 4.0) + "h16\" stroke=\"" + color_text(static_cast<int>(i)) +
+    out_ += "<path d=\"M" + px(at) + " " + px(row - 4.0) + "h16\" stroke=\"" + color_text(colors[i]) +
             "\" stroke-width=\"4\" stroke-linecap=\"round\"/>\n";
     text(at + 22.0, row, names[i], "start", 12.0);
   }

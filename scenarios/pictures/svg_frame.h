@@ -28,7 +28,7 @@ class SvgFrame {
 
   void bar(double left, double right, double height, int color);  ///< data coordinates
   void limit(const CurveLimit& limit);
-  void legend(const std::vector<std::string>& names);  ///< nothing for a single name
+  void legend(const std::vector<std::string>& names, const std::vector<int>& colors);  ///< nothing for a single name
   void no_data();
   std::string finish();
 
