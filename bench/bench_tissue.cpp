@@ -4,6 +4,7 @@
 ///
 /// Prints a table and writes the same as JSON: wall time split by stage, µs per node-step (or cell-step), steps per simulated hour, bytes
 /// per node (or cell). Under mpirun the tissue is shared by the ranks.
+#include <malloc.h>
 #include <mpi.h>
 #include <omp.h>
 
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <numbers>
 #include <string>
@@ -101,14 +103,49 @@ Tissue make_tissue(const Model& model, const Case& c, const Comm& comm) {
 }
 
 struct Figures {
-  double wall = 0.0, unit_us = 0.0, steps_per_hour = 0.0, bytes = 0.0, per_hour_kilo = 0.0, overlap = 0.0, newton = 0.0, linear = 0.0,
+  double wall = 0.0, unit_us = 0.0, cpu_us = 0.0, steps_per_hour = 0.0, bytes = 0.0, resident = 0.0, peak = 0.0, per_hour_kilo = 0.0, overlap = 0.0, newton = 0.0, linear = 0.0,
          imbalance = 1.0;
   std::int64_t ghosts = 0;
   std::vector<std::pair<std::string, double>> stages;
 };
 
+/// Bytes of the state itself.
+std::size_t state_bytes(const Tissue& tissue) {
+  const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  const auto &s = tissue.spheres;
+  const auto &h = tissue.shells;
+  return bytes(tissue.cells.rows) + bytes(s.position) + bytes(s.radius) + bytes(s.type) + bytes(s.velocity) + s.attached.memory() +
+         bytes(h.position) + bytes(h.velocity) + bytes(h.rest_length) + bytes(h.shape) + bytes(h.type) + bytes(h.reference_volume) +
+         bytes(h.rest_volume) + bytes(h.first_node) + bytes(h.first_edge);
+}
+
+/// A line of /proc/self/status in kB: VmRSS (resident now) or VmHWM (most so far); 0 where there is no such file.
+std::int64_t resident_kb(const std::string& name) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.compare(0, name.size(), name) == 0) return std::atoll(line.c_str() + name.size());
+  return 0;
+}
+
+/// Processor time of this rank, all threads: what a shared machine cannot stretch [s].
+double cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// What the process holds before a case: freed pages are handed back and the mark of the highest is set anew.
+std::int64_t settle_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+  std::ofstream("/proc/self/clear_refs") << "5\n";
+  return resident_kb("VmRSS:");
+}
+
 bool run_case(const Case& c, const Comm& comm, int threads, Figures& out) {
   const Model model = make_model(c);
+  const std::int64_t resident_before = settle_memory();
   auto created = Simulation::create(model, make_tissue(model, c, comm), comm, threads);
   if (!created) {
     std::fprintf(stderr, "%s\n", created.error().message.c_str());
@@ -137,25 +174,26 @@ bool run_case(const Case& c, const Comm& comm, int threads, Figures& out) {
   for (std::size_t s = 0; s < kStageNames.size(); ++s) before.push_back(simulation.timer().seconds(static_cast<Stage>(s)));
   comm.barrier();
   const auto start = std::chrono::steady_clock::now();
+  const double cpu_start = cpu_seconds();
   if (!run_to(c.relax + c.duration, out.newton, out.linear, steps)) return false;
+  OrderFreeSum cpu;
+  cpu.add(cpu_seconds() - cpu_start);
   comm.barrier();
   out.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const double units = static_cast<double>(c.cells) * (c.body == BodyKind::kShell ? 162.0 : 1.0);
   out.unit_us = 1e6 * out.wall / (units * static_cast<double>(steps));
+  out.cpu_us = 1e6 * comm.sum(cpu) / (units * static_cast<double>(steps));
   out.steps_per_hour = static_cast<double>(steps) * 3600.0 / c.duration;
   out.per_hour_kilo = out.wall / (c.duration / 3600.0) / (units / 1000.0);
   out.newton /= static_cast<double>(steps);
   out.linear /= static_cast<double>(steps);
   const auto& tissue = simulation.tissue();
-  double bytes = static_cast<double>(simulation.mechanics().memory());
-  bytes += static_cast<double>(tissue.cells.size()) * sizeof(CellRow) +
-           static_cast<double>(tissue.shells.node_count()) * (sizeof(Vec3d) + sizeof(Vec3f)) +
-           static_cast<double>(tissue.shells.rest_length.size()) * 8.0 +
-           static_cast<double>(tissue.spheres.size()) * (24.0 + 8.0 + 2.0 + 12.0 + 24.0);
-  for (const auto& list : tissue.spheres.attached) bytes += static_cast<double>(list.capacity()) * sizeof(CellId);
+  double bytes = static_cast<double>(simulation.mechanics().memory() + state_bytes(tissue));
   OrderFreeSum sum;
   sum.add(bytes);
   out.bytes = comm.sum(sum) / units;
+  out.resident = static_cast<double>(comm.sum(resident_kb("VmRSS:") - resident_before)) * 1024.0 / units;
+  out.peak = static_cast<double>(comm.sum(resident_kb("VmHWM:") - resident_before)) * 1024.0 / units;
   out.ghosts = comm.sum(static_cast<std::int64_t>(simulation.mechanics().scene().ghost_count()));
   out.imbalance = simulation.imbalance();
   for (std::size_t s = 0; s < kStageNames.size(); ++s)
@@ -199,15 +237,17 @@ int main(int argc, char** argv) {
       if (!comm.is_root()) continue;
       const char* unit = c.body == BodyKind::kShell ? "node" : "cell";
       std::printf(
-          "%-24s %6zu cells  %7.2f s  %6.3f us/%s-step  %6.1f steps/h  %6.4f s/(h k%s)  newton %.2f  linear %.1f  %5.0f B/%s  overlap %.3f "
+          "%-24s %6zu cells  %7.2f s  %6.3f us/%s-step (CPU of all ranks %.3f)  %6.1f steps/h  %6.4f s/(h k%s)  newton %.2f  linear %.1f  %5.0f B/%s (resident %.0f, peak %.0f)  overlap %.3f "
           "um  ghosts %ld  imbalance %.2f\n",
-          c.name.c_str(), c.cells, f.wall, f.unit_us, unit, f.steps_per_hour, f.per_hour_kilo, unit, f.newton, f.linear, f.bytes, unit,
-          f.overlap, static_cast<long>(f.ghosts), f.imbalance);
+          c.name.c_str(), c.cells, f.wall, f.unit_us, unit, f.cpu_us, f.steps_per_hour, f.per_hour_kilo, unit, f.newton, f.linear, f.bytes, unit,
+          f.resident, f.peak, f.overlap, static_cast<long>(f.ghosts), f.imbalance);
       text += std::string(first ? "" : ",") + "\n    {\"name\": \"" + c.name + "\", \"cells\": " + std::to_string(c.cells) +
-              ", \"seconds\": " + std::to_string(f.wall) + ", \"us_per_" + unit + "_step\": " + std::to_string(f.unit_us) +
+              ", \"seconds\": " + std::to_string(f.wall) + ", \"us_per_" + unit + "_step\": " + std::to_string(f.unit_us) + ", \"cpu_us_per_" + unit +
+              "_step\": " + std::to_string(f.cpu_us) +
               ", \"steps_per_hour\": " + std::to_string(f.steps_per_hour) + ", \"s_per_hour_and_1000_" + unit +
               "s\": " + std::to_string(f.per_hour_kilo) + ", \"newton\": " + std::to_string(f.newton) +
-              ", \"linear_iterations\": " + std::to_string(f.linear) + ", \"bytes_per_" + unit + "\": " + std::to_string(f.bytes) +
+              ", \"linear_iterations\": " + std::to_string(f.linear) + ", \"bytes_per_" + unit + "\": " + std::to_string(f.bytes) + ", \"resident_bytes_per_" + unit +
+              "\": " + std::to_string(f.resident) + ", \"peak_bytes_per_" + unit + "\": " + std::to_string(f.peak) +
               ", \"overlap_um\": " + std::to_string(f.overlap) + ", \"ghosts\": " + std::to_string(f.ghosts) +
               ", \"imbalance\": " + std::to_string(f.imbalance) + ", \"stages_us\": {";
       bool first_stage = true;

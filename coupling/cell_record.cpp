@@ -31,7 +31,9 @@ std::vector<CellRecord> take_apart(Tissue& tissue) {
           std::vector(shells.rest_length.begin() + shells.first_edge[i], shells.rest_length.begin() + shells.first_edge[i + 1])};
     } else {
       const std::size_t i = next_sphere++;
-      record.sphere = SphereRecord{spheres.position[i], spheres.radius[i], spheres.velocity[i], std::move(spheres.attached[i])};
+      const auto partners = spheres.attached[i];
+      record.sphere =
+          SphereRecord{spheres.position[i], spheres.radius[i], spheres.velocity[i], cbm::Partners(partners.begin(), partners.end())};
     }
   }
   tissue.cells = {};
@@ -65,7 +67,7 @@ void put_together(Tissue& tissue, std::vector<CellRecord> cells) {
       spheres.radius.push_back(body.radius);
       spheres.type.push_back(cell.row.type);
       spheres.velocity.push_back(body.velocity);
-      spheres.attached.push_back(std::move(body.attached));
+      spheres.attached.push_back(body.attached);
     }
   }
 }

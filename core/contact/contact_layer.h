@@ -88,7 +88,8 @@ class ContactLayer {
   /// Element groups for the friction system, in canonical order.
   [[nodiscard]] std::vector<ElementGroup> element_groups(const ContactScene& scene) const;
 
-  [[nodiscard]] std::span<const SphereNeighbours> sphere_neighbours() const { return spheres_; }
+  /// Pairs of spheres that rebuild() has found, in canonical order; handed over, for the layer has no use for them.
+  [[nodiscard]] std::vector<SphereNeighbours> take_sphere_neighbours() { return std::move(spheres_); }
   [[nodiscard]] std::span<const SurfacePair> pairs() const { return pairs_; }
   [[nodiscard]] std::span<const RigidSurface> obstacles() const { return obstacles_; }
   [[nodiscard]] const Vec3d& obstacle_offset(std::size_t i) const { return offsets_[i]; }

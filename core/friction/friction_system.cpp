@@ -65,7 +65,7 @@ void FrictionSystem::set_layout(Layout layout, int threads) {
     }
   }
   groups_.clear();
-  sphere_pairs_ = {};
+  sphere_pairs_ = nullptr;
 }
 
 void FrictionSystem::set_elements(std::vector<ElementGroup> groups, const FaceQuadrature& quadrature) {
@@ -116,16 +116,6 @@ void FrictionSystem::apply_elements(int thread, std::span<const Float4> p, std::
         for (int j = 0; j < 3; ++j) store(target_out[e.target[j]], load(target_out[e.target[j]]) - splat(mu[j]) * f);
     }
   }
-  for (const SpherePairElement& e : sphere_pairs_) {
-    const bool rigid = e.j == kRigidPoint;
-    const bool write_i = layout_.owned[e.body_i] && mine(e.body_i);
-    const bool write_j = !rigid && layout_.owned[e.body_j] && mine(e.body_j);
-    if (!write_i && !write_j) continue;
-    const Float4v u = rigid ? load(p[e.i]) : load(p[e.i]) - load(p[e.j]);
-    const Float4v f = response(u, Float4v{e.n[0], e.n[1], e.n[2], 0.0f}, e.a, e.b + dt_ * e.k);
-    if (write_i) store(q[e.i], load(q[e.i]) + f);
-    if (write_j) store(q[e.j], load(q[e.j]) - f);
-  }
 }
 
 void FrictionSystem::apply(std::span<const Float4> p, std::span<Float4> q) const {
@@ -138,6 +128,7 @@ void FrictionSystem::apply(std::span<const Float4> p, std::span<Float4> q) const
   });
 #pragma omp parallel for schedule(static, 1) num_threads(threads_)
   for (int t = 0; t < threads_; ++t) apply_elements(t, p, q);
+  if (sphere_pairs_ != nullptr) sphere_pairs_->add_product(p, q, dt_);
 }
 
 void FrictionSystem::build_preconditioner() {
@@ -164,12 +155,8 @@ void FrictionSystem::build_preconditioner() {
         }
       }
     }
-    for (const SpherePairElement& e : sphere_pairs_) {
-      const SymMat3<float> both = block(1.0f, e.a, e.b + dt_ * e.k, e.n);
-      if (mine(e.body_i)) inverse_[e.i] += both;
-      if (e.j != kRigidPoint && mine(e.body_j)) inverse_[e.j] += both;
-    }
   }
+  if (sphere_pairs_ != nullptr) sphere_pairs_->add_diagonal(inverse_, dt_);
   for_owned_bodies([&](int, std::uint32_t body) {
     const BodyPoints& points = layout_.bodies[body];
     for (std::uint32_t i = points.first; i < points.first + points.count; ++i) inverse_[i] = inverse_of(inverse_[i]);
@@ -254,6 +241,14 @@ Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<const Float4> b,
   report.residual = residual / b_norm;
   report.converged = residual <= goal;
   return report;
+}
+
+std::size_t FrictionSystem::memory() const {
+  const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  std::size_t total = bytes(layout_.bodies) + bytes(layout_.owned) + bytes(point_friction_) + bytes(groups_) + bytes(inverse_) + bytes(p_) +
+                      bytes(q_) + bytes(r_) + bytes(z_);
+  for (const ThreadWork& work : work_) total += bytes(work.groups);
+  return total;
 }
 
 }  // namespace morula

@@ -8,6 +8,7 @@
 #include "core/contact/traction_law.h"
 #include "core/friction/contact_element.h"
 #include "core/friction/float4.h"
+#include "core/friction/sphere_pairs.h"
 #include "core/parallel/comm.h"
 #include "core/result.h"
 #include "core/vec3.h"
@@ -26,15 +27,6 @@ struct ElementGroup {
   std::uint32_t source_first = 0, target_first = 0;  ///< first points
   bool write_source = true, write_target = true;     ///< false: ghost
   bool target_moves = true;                          ///< false: rigid, not an unknown
-};
-
-/// Two spheres in touch: force on i −(a u + (b + Δt k)(n·u) n), u = v_i − v_j. With j = kRigidPoint the other side is at rest.
-inline constexpr std::uint32_t kRigidPoint = 0xFFFFFFFF;
-struct SpherePairElement {
-  std::uint32_t i, j;            ///< points
-  std::uint32_t body_i, body_j;  ///< places in the list of bodies
-  float n[3];
-  float a, b, k;
 };
 
 /// A part of the matrix that somebody else can apply: the shells' own mechanics. It acts on the first point_count() points, all owned.
@@ -76,14 +68,18 @@ class FrictionSystem {
 
   /// Diagonal friction [nN·s/µm] by point: of the spheres, and 0 where the shells' part has its own; ghosts are ignored.
   void set_point_friction(std::span<const float> friction) { point_friction_.assign(friction.begin(), friction.end()); }
+  [[nodiscard]] std::span<const float> point_friction() const { return point_friction_; }
   void set_elements(std::vector<ElementGroup> groups, const FaceQuadrature& quadrature);
-  void set_sphere_pairs(std::span<const SpherePairElement> pairs) { sphere_pairs_ = pairs; }
+  void set_sphere_pairs(const SpherePairs* pairs) { sphere_pairs_ = pairs; }
   void set_shells(const OperatorPart* shells) { shells_ = shells; }
   void set_step(double dt) { dt_ = static_cast<float>(dt); }
 
   /// Solve A v = b from the start in v, until ‖r‖ ≤ tolerance ‖b‖. v of ghost points is not written.
   Result<SolveReport, SolveFault> solve(std::span<const Float4> b, std::span<Float4> v, double tolerance, int max_iterations,
                                         const Comm& comm);
+
+  /// Bytes of all vectors.
+  [[nodiscard]] std::size_t memory() const;
 
   /// q = A p on owned points (p must hold the ghosts). For tests and for the residual.
   void apply(std::span<const Float4> p, std::span<Float4> q) const;
@@ -99,7 +95,6 @@ class FrictionSystem {
   struct ThreadWork {
     std::uint32_t first_body = 0, last_body = 0;  ///< owned bodies of this thread: first <= body < last
     std::vector<std::uint32_t> groups;            ///< that touch them, in canonical order
-    std::vector<std::uint32_t> pairs;             ///< sphere pairs likewise; empty with one thread: all
   };
 
   Layout layout_;
@@ -107,7 +102,7 @@ class FrictionSystem {
   float dt_ = 0.0f;
   std::vector<float> point_friction_;
   std::vector<ElementGroup> groups_;
-  std::span<const SpherePairElement> sphere_pairs_;
+  const SpherePairs* sphere_pairs_ = nullptr;
   const OperatorPart* shells_ = nullptr;
   float beta_[4][3] = {};
   std::vector<ThreadWork> work_;

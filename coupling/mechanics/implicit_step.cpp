@@ -61,7 +61,13 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
   OrderFreeSum sums[2];
   contacts_.add_step_friction(contact_scene(), displacement_, friction_, sums[0]);
   shells_.add_step_friction(displacement_, friction_, sums[0]);
-  spheres_.add_step_friction(scene_, displacement_, friction_, sums[0]);
+  const auto medium = system_.point_friction();
+  for (std::size_t i = 0; i < scene_.owned_spheres(); ++i) {
+    const std::size_t point = scene_.sphere_point() + i;
+    friction_[point] += displacement_[point] * static_cast<double>(medium[point]);
+    sums[0].add(static_cast<double>(medium[point]) * norm2(displacement_[point]));
+  }
+  spheres_.pairs().add_friction(displacement_, friction_, sums[0]);
   for (std::size_t body = 0; body < scene_.bodies().size(); ++body) {
     const ContactBody& b = scene_.bodies()[body];
     if (!b.active()) continue;

@@ -23,7 +23,7 @@ Mechanics::Mechanics(const Model& model, std::vector<RigidSurface> obstacles, Sh
       threads_(threads),
       contacts_(contact_settings(model, threads), std::move(obstacles), contact_materials(model), contact_material_count(model)),
       shells_(model),
-      spheres_(model) {}
+      spheres_(model, threads) {}
 
 ContactScene Mechanics::contact_scene() const { return {scene_.bodies(), scene_.position(), &geometry_}; }
 
@@ -101,7 +101,7 @@ void Mechanics::prepare(const Tissue& tissue) {
       scene_.take_positions(tissue);
     }
     scene_.take_radii(tissue);
-    spheres_.update_laws(scene_, tissue);
+    spheres_.update_sisters(scene_, tissue.clock.time);
     evaluate(tissue, !contacts_current_);
   }
 }
@@ -116,6 +116,7 @@ void Mechanics::lay_out_system() {
   if (comm_.size() > 1) layout.exchange = [this](std::span<Float4> vector) { scene_.exchange(vector); };
   system_.set_layout(std::move(layout), threads_);
   system_.set_shells(&shells_);
+  system_.set_sphere_pairs(&spheres_.pairs());
 }
 
 void Mechanics::evaluate(const Tissue& tissue, bool moved) {
@@ -139,9 +140,9 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   }
   auto timed = timer_.scope(Stage::kContacts);
   contacts_.evaluate(scene, !moved);
-  spheres_.evaluate(scene_, contacts_);
 
   std::fill(force_.begin(), force_.end(), Vec3d{});
+  spheres_.evaluate(scene_, contacts_, force_);
   std::fill(gradient_.node_normal.begin(), gradient_.node_normal.end(), Vec3d{});
   std::fill(gradient_.face_energy.begin(), gradient_.face_energy.end(), 0.0);
   std::fill(gradient_.face_normal.begin(), gradient_.face_normal.end(), Vec3d{});
@@ -149,7 +150,6 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   gradient_.force.swap(force_);
   contacts_.collect(scene, gradient_);
   gradient_.force.swap(force_);
-  spheres_.collect(scene_, force_);
   const SurfaceList owned{scene_.topologies().first(scene_.owned_shells()), scene_.first_node(), scene_.first_face()};
   add_surface_forces(owned, scene_.position(), geometry_, {gradient_.face_energy, gradient_.face_normal, gradient_.node_normal}, force_);
   const auto& internal = shells_.forces();
@@ -158,13 +158,14 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   OrderFreeSum sum;
   for (std::size_t i = 0; i < scene_.owned_shells(); ++i) sum.add(internal.energy[i]);
   contacts_.add_energy(scene, sum);
-  spheres_.add_energy(scene_, sum);
+  spheres_.add_energy(sum);
   energy_ = comm_.sum(sum);
   evaluated_ = contacts_current_ = true;
 }
 
 StepFault Mechanics::undo(const std::vector<Vec3d>& start, StepFault fault) {
   scene_.position() = start;
+  spheres_.end_step();
   evaluated_ = contacts_current_ = false;
   return fault;
 }
@@ -181,7 +182,7 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
         static_cast<float>(model_.types[tissue.spheres.type[i]].medium_friction * 4.0 * std::numbers::pi * r * r);
   }
   system_.set_point_friction(friction);
-  spheres_.begin_step(std::move(friction));
+  spheres_.begin_step();
   // The last velocity is the solver's start; obstacles go where they will be at the end of the step.
   for (std::size_t i = 0; i < tissue.shells.velocity.size(); ++i) {
     const Vec3f& v = tissue.shells.velocity[i];
@@ -212,7 +213,6 @@ void Mechanics::assemble(const Tissue& tissue, double dt) {
   shells_.assemble(tissue.shells, scene_.position(), gradient_.face_energy, dt);
   system_.set_step(dt);
   system_.set_elements(contacts_.element_groups(contact_scene()), FaceQuadrature::with_points(contacts_.settings().points_per_face));
-  system_.set_sphere_pairs(spheres_.elements());
 }
 
 std::optional<StepFault> Mechanics::find_fault() const {
@@ -223,7 +223,7 @@ std::optional<StepFault> Mechanics::find_fault() const {
 }
 
 Result<StepReport, StepFault> Mechanics::step(Tissue& tissue, double dt, std::span<const Vec3d> external) {
-  if (comm_.any(flags_changed_)) evaluated_ = flags_changed_ = false;
+  if (comm_.any(flags_changed_ || spheres_.outdated())) evaluated_ = flags_changed_ = false;
   prepare(tissue);
   return model_.step.integrator == Integrator::kImplicit ? implicit_step(tissue, dt, external) : explicit_step(tissue, dt, external);
 }
@@ -240,8 +240,9 @@ void Mechanics::finish(Tissue& tissue, double dt, StepReport& report) {
   for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i) tissue.spheres.velocity[i] = velocity(scene_.sphere_point() + i);
   if (!relaxing_) {
     for (std::size_t i = 0; i < model_.obstacles.size(); ++i) tissue.obstacle_offset[i] += model_.obstacles[i].velocity * dt;
-    flags_changed_ = comm_.any(spheres_.update_attached(scene_, tissue));
+    flags_changed_ = comm_.any(spheres_.update_attached(scene_, contacts_, tissue));
   }
+  spheres_.end_step();
   report.energy = energy_;
   report.overlap = deepest_overlap();
   if (tissue.clock.capped && report.overlap < 0.1) tissue.clock.capped = false;
@@ -283,8 +284,11 @@ const BodyValues& Mechanics::values(const Tissue& tissue) {
     values_.area[shells + i] = 4.0 * std::numbers::pi * r * r;
     values_.contact_area[shells + i] = gradient_.contact_area[scene_.first_sphere() + i];
   }
-  if (spheres_.renew_sisters(scene_, contacts_, tissue)) flags_changed_ = true;
-  spheres_.add_values(scene_, tissue, std::span(values_.pressure).subspan(shells), std::span(values_.contact_area).subspan(shells));
+  if (spheres_.renew_sisters(scene_, contacts_, tissue.clock.time)) flags_changed_ = true;
+  for (std::size_t i = 0; i < spheres; ++i) {
+    values_.pressure[shells + i] = spheres_.pressure(i, tissue.spheres.radius[i]);
+    values_.contact_area[shells + i] += spheres_.contact_area(i);
+  }
   return values_;
 }
 
@@ -299,11 +303,11 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
 
 std::size_t Mechanics::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return contacts_.memory() + shells_.memory() + spheres_.memory() + bytes(force_) + bytes(residual_) + bytes(displacement_) +
+  return contacts_.memory() + shells_.memory() + spheres_.memory() + system_.memory() + scene_.memory() + bytes(force_) + bytes(residual_) + bytes(displacement_) +
          bytes(friction_) + bytes(right_) + bytes(solution_) + bytes(gradient_.node_normal) + bytes(gradient_.face_energy) +
          bytes(gradient_.face_normal) + bytes(gradient_.force) + bytes(geometry_.face_area) + bytes(geometry_.face_normal) +
-         bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) + bytes(scene_.position()) +
-         bytes(scene_start_);
+         bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) + bytes(scene_start_) +
+         bytes(gradient_.contact_area) + bytes(values_.volume) + bytes(values_.area) + bytes(values_.pressure) + bytes(values_.contact_area);
 }
 
 }  // namespace morula
