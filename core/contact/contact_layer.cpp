@@ -215,9 +215,7 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair) {
   clear_results(pair);
   const PairBody body[2] = {view(scene, pair, 0), view(scene, pair, 1)};
   const bool both = !pair.rigid && body[0].topology != nullptr && body[1].topology != nullptr;
-  const std::uint16_t material_a = scene.bodies[pair.a].material;
-  const std::uint16_t material_b = pair.rigid ? obstacles_[pair.b].material : scene.bodies[pair.b].material;
-  ContactMaterial contact = material(material_a, material_b);
+  ContactMaterial contact = material_of(scene, pair);
   if (!both && !pair.rigid) {  // a sphere gives way by its own foundation (fields_and_coupling.md, D)
     contact.law.repulsion = contact.sphere_repulsion;
     contact.law.cap = 0.0;

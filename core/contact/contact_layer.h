@@ -98,6 +98,9 @@ class ContactLayer {
   [[nodiscard]] std::size_t memory() const;
 
  private:
+  [[nodiscard]] const ContactMaterial& material_of(const ContactScene& scene, const SurfacePair& pair) const {
+    return material(scene.bodies[pair.a].material, pair.rigid ? obstacles_[pair.b].material : scene.bodies[pair.b].material);
+  }
   [[nodiscard]] PairBody view(const ContactScene& scene, const SurfacePair& pair, int which) const;
   void rebuild_lists(const ContactScene& scene, SurfacePair& pair);
   void evaluate_pair(const ContactScene& scene, SurfacePair& pair);

@@ -92,23 +92,15 @@ void add_weight_gradient(const PointsEvaluation& e, int q, std::uint32_t face, s
   add_foot_gradient(e, q, *t, gap, c, sink);
 }
 
-ContactElement element_of(const Triangle& source, const Triangle* target, int q, const PointGap& gap, double area, double stiffness,
-                          const ContactMaterial& material) {
+ContactElement element_of(std::uint32_t source_face, std::uint32_t target_face, int q, const PointGap& gap, double area,
+                          double stiffness, double range) {
   ContactElement element{};
-  const double weight = area * friction_weight(gap.gap, material.law.range);
-  for (std::size_t i = 0; i < 3; ++i) {
-    element.source[i] = static_cast<std::uint16_t>(source[i]);
-    element.target[i] = target != nullptr ? static_cast<std::uint16_t>((*target)[i]) : 0;
-  }
-  element.mu[0] = static_cast<float>(gap.mu[0]);
-  element.mu[1] = static_cast<float>(gap.mu[1]);
-  element.n[0] = static_cast<float>(gap.normal.x);
-  element.n[1] = static_cast<float>(gap.normal.y);
-  element.n[2] = static_cast<float>(gap.normal.z);
-  element.a = static_cast<float>(weight * material.tangential_friction);
-  element.b = static_cast<float>(weight * (material.normal_friction - material.tangential_friction));
+  element.source = 4 * source_face + static_cast<std::uint32_t>(q);
+  element.target = target_face;
+  element.set_weights(gap.mu[0], gap.mu[1]);
+  element.set_normal(gap.normal);
+  element.w = static_cast<float>(area * friction_weight(gap.gap, range));
   element.k = static_cast<float>(area * stiffness);
-  element.point = static_cast<std::uint16_t>(q);
   return element;
 }
 
@@ -163,7 +155,8 @@ void evaluate_points(const PointsEvaluation& given, int d, SurfacePair& pair) {
         for (std::size_t j = 0; j < 3; ++j) sink.push_target(j, pull * gap.mu[j]);
       if (weight.slope != 0.0) add_weight_gradient(e, q, face, k, target_face, gap, normal, area * weight.slope * attraction.energy, sink);
       pair.elements[d].push_back(
-          element_of(t, target_face, q, gap, area, weight.value * attraction.curvature + repulsion.curvature, e.material));
+          element_of(face, sphere ? 0 : lists.target_face[gap.place], q, gap, area,
+                     weight.value * attraction.curvature + repulsion.curvature, e.material.law.range));
     }
   }
 }

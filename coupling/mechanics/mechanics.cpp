@@ -299,7 +299,7 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
 
 std::size_t Mechanics::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return contacts_.memory() + shells_.memory() + spheres_.memory() + bytes(force_) + bytes(residual_) + bytes(displacement_) +
+  return system_.memory() + contacts_.memory() + shells_.memory() + spheres_.memory() + bytes(force_) + bytes(residual_) + bytes(displacement_) +
          bytes(friction_) + bytes(right_) + bytes(solution_) + bytes(gradient_.node_normal) + bytes(gradient_.face_energy) +
          bytes(gradient_.face_normal) + bytes(gradient_.force) + bytes(geometry_.face_area) + bytes(geometry_.face_normal) +
          bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) + bytes(scene_.position()) +
