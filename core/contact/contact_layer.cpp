@@ -52,6 +52,27 @@ PairBody ContactLayer::view(const ContactScene& scene, const SurfacePair& pair, 
           0.0};
 }
 
+double ContactLayer::patch_motion(const ContactScene& scene, const SurfacePair& pair) const {
+  BodyMotion side[2];
+  for (int which = 0; which < 2; ++which) {
+    if (which == 1 && pair.rigid) {
+      side[1].mean = offsets_[pair.b] - last_offsets_[pair.b];
+      continue;
+    }
+    const std::uint32_t body = which == 0 ? pair.a : pair.b;
+    if (scene.bodies[body].shape == BodyShape::kSphere) {
+      side[which] = motion_[body];
+      continue;
+    }
+    Box box;
+    const std::uint32_t first = scene.bodies[body].first_point;
+    for (const std::uint16_t node : pair.gradient[which].node) box.include(scene.position[first + node] - last_position_[first + node]);
+    if (pair.gradient[which].node.empty()) continue;
+    side[which] = {box.center(), 0.5 * norm(box.high - box.low)};
+  }
+  return (norm(side[0].mean - side[1].mean) + side[0].deviation + side[1].deviation) * 1.000001;
+}
+
 bool ContactLayer::note_motion(const ContactScene& scene) {
   if (fresh_ || last_position_.size() != scene.position.size() || motion_.size() != scene.bodies.size()) return true;
   bool outdated = false;
@@ -64,10 +85,8 @@ bool ContactLayer::note_motion(const ContactScene& scene) {
       motion.mean += scene.position[p] - last_position_[p];
     motion.mean *= 1.0 / body.point_count;
     double deviation2 = 0.0;
-    for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p) {
+    for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p)
       deviation2 = std::max(deviation2, norm2(scene.position[p] - last_position_[p] - motion.mean));
-      last_position_[p] = scene.position[p];
-    }
     motion.deviation = std::sqrt(deviation2) + std::abs(body.radius - last_radius_[i]);
     last_radius_[i] = body.radius;
     motion_[i] = motion;
@@ -77,11 +96,16 @@ bool ContactLayer::note_motion(const ContactScene& scene) {
   double fastest_obstacle = 0.0;
   for (std::size_t i = 0; i < offsets_.size(); ++i) fastest_obstacle = std::max(fastest_obstacle, norm(offsets_[i] - last_offsets_[i]));
   obstacle_travel_ += fastest_obstacle;
-  for (SurfacePair& pair : pairs_) {
+#pragma omp parallel for schedule(static) num_threads(settings_.threads)
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    SurfacePair& pair = pairs_[k];
     const BodyMotion& a = motion_[pair.a];
     const BodyMotion b = pair.rigid ? BodyMotion{offsets_[pair.b] - last_offsets_[pair.b], 0.0} : motion_[pair.b];
-    pair.motion += (norm(a.mean - b.mean) + a.deviation + b.deviation) * 1.000001;
+    const double whole = (norm(a.mean - b.mean) + a.deviation + b.deviation) * 1.000001;
+    pair.motion += whole;
+    pair.patch_motion += std::min(whole, patch_motion(scene, pair));
   }
+  std::copy(scene.position.begin(), scene.position.end(), last_position_.begin());
   last_offsets_ = offsets_;
   return outdated || obstacle_travel_ > limit;
 }
@@ -208,9 +232,10 @@ void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {
   }
   number_pair_nodes(body[0].topology, body[1].topology, pair);
   pair.built_at = pair.motion;
+  pair.patch_built_at = pair.patch_motion;
 }
 
-void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair) {
+void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, PointsWorkspace& workspace) {
   if (pair.motion - pair.built_at > settings_.skin) rebuild_lists(scene, pair);
   clear_results(pair);
   const PairBody body[2] = {view(scene, pair, 0), view(scene, pair, 1)};
@@ -228,11 +253,11 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair) {
                      FaceQuadrature::with_points(settings_.points_per_face),
                      reach(),
                      both ? 0.5 : 1.0,
-                     pair.motion,
+                     pair.patch_motion,
                      pair.motion - pair.built_at,
-                     !pair.rigid,
-                     {}},
-                    d, pair);
+                     pair.patch_motion - pair.patch_built_at,
+                     !pair.rigid},
+                    d, pair, workspace);
   }
 }
 
@@ -240,9 +265,13 @@ void ContactLayer::evaluate(const ContactScene& scene, bool only_spheres) {
   const auto has_sphere = [&](const SurfacePair& pair) {
     return !pair.rigid && (scene.bodies[pair.a].shape == BodyShape::kSphere || scene.bodies[pair.b].shape == BodyShape::kSphere);
   };
-#pragma omp parallel for schedule(dynamic, 4) num_threads(settings_.threads)
-  for (std::size_t k = 0; k < pairs_.size(); ++k)
-    if (!only_spheres || has_sphere(pairs_[k])) evaluate_pair(scene, pairs_[k]);
+#pragma omp parallel num_threads(settings_.threads)
+  {
+    PointsWorkspace workspace;
+#pragma omp for schedule(dynamic, 4)
+    for (std::size_t k = 0; k < pairs_.size(); ++k)
+      if (!only_spheres || has_sphere(pairs_[k])) evaluate_pair(scene, pairs_[k], workspace);
+  }
 }
 
 void ContactLayer::add_energy(const ContactScene& scene, OrderFreeSum& sum) const {

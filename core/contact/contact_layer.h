@@ -7,7 +7,7 @@
 #include "core/contact/broad_phase.h"
 #include "core/contact/contact_body.h"
 #include "core/contact/surface_pair.h"
-#include "core/friction/friction_system.h"
+#include "core/friction/contact_element.h"
 #include "core/mesh/triangle_tree.h"
 #include "core/parallel/comm.h"
 
@@ -103,7 +103,9 @@ class ContactLayer {
   }
   [[nodiscard]] PairBody view(const ContactScene& scene, const SurfacePair& pair, int which) const;
   void rebuild_lists(const ContactScene& scene, SurfacePair& pair);
-  void evaluate_pair(const ContactScene& scene, SurfacePair& pair);
+  void evaluate_pair(const ContactScene& scene, SurfacePair& pair, PointsWorkspace& workspace);
+  /// Bound on how far the nodes in a pair's lists have moved against each other since the last call of note_motion().
+  [[nodiscard]] double patch_motion(const ContactScene& scene, const SurfacePair& pair) const;
   void add_obstacle_pairs(const ContactScene& scene);
   [[nodiscard]] ListReach reach() const { return {settings_.range, settings_.skin, settings_.depth}; }
 
