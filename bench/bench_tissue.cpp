@@ -221,7 +221,9 @@ int main(int argc, char** argv) {
     const std::vector<Case> cases{
         {"cluster_13", 13, BodyKind::kShell, 50.0, 0.0, 18 * h, 18 * h},
         {"cluster_55", 55, BodyKind::kShell, 50.0, 0.0, 18 * h, 18 * h},
+        {"cluster_200", 200, BodyKind::kShell, 50.0, 300.0, 600.0, 18 * h},
         {"dcm_cluster", 1000, BodyKind::kShell, 50.0, 300.0, 600.0, 18 * h},
+        {"dcm_growth", 1000, BodyKind::kShell, 50.0, 3600.0, 3600.0, 18 * h},
         {"cbm_tissue", 100000, BodyKind::kSphere, 50.0, 120.0, 600.0, 18 * h},
         {"cbm_tissue_no_friction", 100000, BodyKind::kSphere, 0.0, 120.0, 600.0, 18 * h},
     };

@@ -114,10 +114,10 @@ std::vector<Vec3d> Simulation::active_forces() const {
 }
 
 void Simulation::average_pressures(double dt) {
-  const BodyValues& values = mechanics_->values(tissue_);
+  const std::vector<double> pressure = mechanics_->pressures(tissue_);
   std::size_t shell = 0, sphere = tissue_.shells.size();
   for (CellRow& row : tissue_.cells.rows)
-    row.pressure = averaged_pressure(row.pressure, values.pressure[row.body == BodyKind::kShell ? shell++ : sphere++], dt);
+    row.pressure = averaged_pressure(row.pressure, pressure[row.body == BodyKind::kShell ? shell++ : sphere++], dt);
 }
 
 Status Simulation::advance_fields(double dt, StepOutcome& outcome) {

@@ -52,11 +52,33 @@ PairBody ContactLayer::view(const ContactScene& scene, const SurfacePair& pair, 
           0.0};
 }
 
+double ContactLayer::patch_motion(const ContactScene& scene, const SurfacePair& pair) const {
+  BodyMotion side[2];
+  for (int which = 0; which < 2; ++which) {
+    if (which == 1 && pair.rigid) {
+      side[1].mean = offsets_[pair.b] - last_offsets_[pair.b];
+      continue;
+    }
+    const std::uint32_t body = which == 0 ? pair.a : pair.b;
+    if (scene.bodies[body].shape == BodyShape::kSphere) {
+      side[which] = motion_[body];
+      continue;
+    }
+    Box box;
+    const std::uint32_t first = scene.bodies[body].first_point;
+    for (const std::uint16_t node : pair.gradient[which].node) box.include(scene.position[first + node] - last_position_[first + node]);
+    if (pair.gradient[which].node.empty()) continue;
+    side[which] = {box.center(), 0.5 * norm(box.high - box.low)};
+  }
+  return (norm(side[0].mean - side[1].mean) + side[0].deviation + side[1].deviation) * 1.000001;
+}
+
 bool ContactLayer::note_motion(const ContactScene& scene) {
-  if (fresh_ || last_position_.size() != scene.position.size() || motion_.size() != scene.bodies.size()) return true;
-  bool outdated = false;
+  if (fresh_ || last_position_.size() != scene.position.size() || last_radius_.size() != scene.bodies.size()) return true;
+  if (pairs_.empty()) return note_travel(scene);
+  double most = 0.0;
   const double limit = 0.5 * settings_.body_skin;
-#pragma omp parallel for schedule(static) num_threads(settings_.threads) reduction(|| : outdated)
+#pragma omp parallel for schedule(static) num_threads(settings_.threads) reduction(max : most)
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const ContactBody& body = scene.bodies[i];
     BodyMotion motion;
@@ -64,26 +86,45 @@ bool ContactLayer::note_motion(const ContactScene& scene) {
       motion.mean += scene.position[p] - last_position_[p];
     motion.mean *= 1.0 / body.point_count;
     double deviation2 = 0.0;
-    for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p) {
+    for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p)
       deviation2 = std::max(deviation2, norm2(scene.position[p] - last_position_[p] - motion.mean));
-      last_position_[p] = scene.position[p];
-    }
     motion.deviation = std::sqrt(deviation2) + std::abs(body.radius - last_radius_[i]);
     last_radius_[i] = body.radius;
     motion_[i] = motion;
     travel_[i] += (norm(motion.mean) + motion.deviation) * 1.000001;
-    if (travel_[i] > limit) outdated = true;
+    most = std::max(most, travel_[i]);
   }
   double fastest_obstacle = 0.0;
   for (std::size_t i = 0; i < offsets_.size(); ++i) fastest_obstacle = std::max(fastest_obstacle, norm(offsets_[i] - last_offsets_[i]));
   obstacle_travel_ += fastest_obstacle;
-  for (SurfacePair& pair : pairs_) {
+#pragma omp parallel for schedule(static) num_threads(settings_.threads)
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    SurfacePair& pair = pairs_[k];
     const BodyMotion& a = motion_[pair.a];
     const BodyMotion b = pair.rigid ? BodyMotion{offsets_[pair.b] - last_offsets_[pair.b], 0.0} : motion_[pair.b];
-    pair.motion += (norm(a.mean - b.mean) + a.deviation + b.deviation) * 1.000001;
+    const double whole = (norm(a.mean - b.mean) + a.deviation + b.deviation) * 1.000001;
+    pair.motion += whole;
+    pair.patch_motion += std::min(whole, patch_motion(scene, pair));
   }
+  std::copy(scene.position.begin(), scene.position.end(), last_position_.begin());
   last_offsets_ = offsets_;
-  return outdated || obstacle_travel_ > limit;
+  wear_ = std::max(most, obstacle_travel_) / limit;
+  return wear_ > 1.0;
+}
+
+bool ContactLayer::note_travel(const ContactScene& scene) {
+  double most = 0.0;
+#pragma omp parallel for schedule(static) num_threads(settings_.threads) reduction(max : most)
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const ContactBody& body = scene.bodies[i];
+    double way2 = 0.0;
+    for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p)
+      way2 = std::max(way2, norm2(scene.position[p] - last_position_[p]));
+    most = std::max(most, std::sqrt(way2) + std::abs(body.radius - last_radius_[i]));
+  }
+  for (std::size_t i = 0; i < offsets_.size(); ++i) most = std::max(most, norm(offsets_[i] - last_offsets_[i]));
+  wear_ = most * 1.000001 / (0.5 * settings_.body_skin);
+  return wear_ > 1.0;
 }
 
 void ContactLayer::add_obstacle_pairs(const ContactScene& scene) {
@@ -136,7 +177,7 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
   for (const BodyPair& found : find_body_pairs(extents, place, owned, space)) {
     const bool spheres = scene.bodies[found.a].shape == BodyShape::kSphere && scene.bodies[found.b].shape == BodyShape::kSphere;
     if (spheres) {
-      spheres_.push_back({found.a, found.b, found.shift});
+      spheres_.push_back({found.a, found.b});
     } else {
       SurfacePair& pair = pairs_.emplace_back();
       pair.a = found.a;
@@ -156,26 +197,37 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
       if (k < old.size() && key(old[k]) == key(pair) && old[k].shift == pair.shift) pair = std::move(old[k]);
     }
   }
-  incident_begin_.assign(n + 1, 0);
+  index_incident_pairs(n);
+  last_position_.assign(scene.position.begin(), scene.position.end());
+  last_offsets_ = offsets_;
+  last_radius_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) last_radius_[i] = scene.bodies[i].radius;
+  obstacle_travel_ = 0.0;
+  fresh_ = false;
+}
+
+void ContactLayer::index_incident_pairs(std::size_t bodies) {
+  if (pairs_.empty()) {  // spheres alone: they need none of this
+    std::vector<std::uint32_t>().swap(incident_begin_);
+    std::vector<Incidence>().swap(incident_);
+    std::vector<BodyMotion>().swap(motion_);
+    std::vector<double>().swap(travel_);
+    return;
+  }
+  incident_begin_.assign(bodies + 1, 0);
   for (const SurfacePair& pair : pairs_) {
     ++incident_begin_[pair.a + 1];
     if (!pair.rigid) ++incident_begin_[pair.b + 1];
   }
-  for (std::size_t i = 1; i <= n; ++i) incident_begin_[i] += incident_begin_[i - 1];
-  incident_.resize(incident_begin_[n]);
+  for (std::size_t i = 1; i <= bodies; ++i) incident_begin_[i] += incident_begin_[i - 1];
+  incident_.resize(incident_begin_[bodies]);
   std::vector<std::uint32_t> next(incident_begin_.begin(), incident_begin_.end() - 1);
   for (std::uint32_t k = 0; k < pairs_.size(); ++k) {
     incident_[next[pairs_[k].a]++] = {k, 0};
     if (!pairs_[k].rigid) incident_[next[pairs_[k].b]++] = {k, 1};
   }
-  last_position_.assign(scene.position.begin(), scene.position.end());
-  last_offsets_ = offsets_;
-  motion_.assign(n, {});
-  last_radius_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) last_radius_[i] = scene.bodies[i].radius;
-  travel_.assign(n, 0.0);
-  obstacle_travel_ = 0.0;
-  fresh_ = false;
+  motion_.assign(bodies, {});
+  travel_.assign(bodies, 0.0);
 }
 
 void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {
@@ -208,16 +260,15 @@ void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {
   }
   number_pair_nodes(body[0].topology, body[1].topology, pair);
   pair.built_at = pair.motion;
+  pair.patch_built_at = pair.patch_motion;
 }
 
-void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair) {
+void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, PointsWorkspace& workspace) {
   if (pair.motion - pair.built_at > settings_.skin) rebuild_lists(scene, pair);
   clear_results(pair);
   const PairBody body[2] = {view(scene, pair, 0), view(scene, pair, 1)};
   const bool both = !pair.rigid && body[0].topology != nullptr && body[1].topology != nullptr;
-  const std::uint16_t material_a = scene.bodies[pair.a].material;
-  const std::uint16_t material_b = pair.rigid ? obstacles_[pair.b].material : scene.bodies[pair.b].material;
-  ContactMaterial contact = material(material_a, material_b);
+  ContactMaterial contact = material_of(scene, pair);
   if (!both && !pair.rigid) {  // a sphere gives way by its own foundation (fields_and_coupling.md, D)
     contact.law.repulsion = contact.sphere_repulsion;
     contact.law.cap = 0.0;
@@ -230,11 +281,11 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair) {
                      FaceQuadrature::with_points(settings_.points_per_face),
                      reach(),
                      both ? 0.5 : 1.0,
-                     pair.motion,
+                     pair.patch_motion,
                      pair.motion - pair.built_at,
-                     !pair.rigid,
-                     {}},
-                    d, pair);
+                     pair.patch_motion - pair.patch_built_at,
+                     !pair.rigid},
+                    d, pair, workspace);
   }
 }
 
@@ -242,9 +293,13 @@ void ContactLayer::evaluate(const ContactScene& scene, bool only_spheres) {
   const auto has_sphere = [&](const SurfacePair& pair) {
     return !pair.rigid && (scene.bodies[pair.a].shape == BodyShape::kSphere || scene.bodies[pair.b].shape == BodyShape::kSphere);
   };
-#pragma omp parallel for schedule(dynamic, 4) num_threads(settings_.threads)
-  for (std::size_t k = 0; k < pairs_.size(); ++k)
-    if (!only_spheres || has_sphere(pairs_[k])) evaluate_pair(scene, pairs_[k]);
+#pragma omp parallel num_threads(settings_.threads)
+  {
+    PointsWorkspace workspace;
+#pragma omp for schedule(dynamic, 4)
+    for (std::size_t k = 0; k < pairs_.size(); ++k)
+      if (!only_spheres || has_sphere(pairs_[k])) evaluate_pair(scene, pairs_[k], workspace);
+  }
 }
 
 void ContactLayer::add_energy(const ContactScene& scene, OrderFreeSum& sum) const {
@@ -253,6 +308,7 @@ void ContactLayer::add_energy(const ContactScene& scene, OrderFreeSum& sum) cons
 }
 
 void ContactLayer::collect(const ContactScene& scene, ContactGradient& gradient) const {
+  if (pairs_.empty()) return;
 #pragma omp parallel for schedule(static) num_threads(settings_.threads)
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const ContactBody& body = scene.bodies[i];
@@ -287,7 +343,8 @@ const SurfacePair* ContactLayer::deepest(const ContactScene& scene) const {
 std::size_t ContactLayer::memory() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
   std::size_t total =
-      bytes(pairs_) + bytes(spheres_) + bytes(incident_begin_) + bytes(incident_) + bytes(last_position_) + bytes(motion_) + bytes(travel_);
+      bytes(pairs_) + bytes(spheres_) + bytes(incident_begin_) + bytes(incident_) + bytes(last_position_) + bytes(motion_) + bytes(travel_) +
+      bytes(last_radius_);
   for (const SurfacePair& pair : pairs_)
     for (int d = 0; d < 2; ++d) {
       const PointsAgainstBody& p = pair.points[d];

@@ -7,7 +7,7 @@
 #include "core/contact/broad_phase.h"
 #include "core/contact/contact_body.h"
 #include "core/contact/surface_pair.h"
-#include "core/friction/friction_system.h"
+#include "core/friction/contact_element.h"
 #include "core/mesh/triangle_tree.h"
 #include "core/parallel/comm.h"
 
@@ -22,10 +22,9 @@ struct RigidSurface {
   std::uint16_t material = 0;
 };
 
-/// Two spheres that may touch; body a comes first in the canonical order, b is meant at b + shift.
+/// Two spheres that may touch; body a comes first in the canonical order. On periodic axes the nearest image counts.
 struct SphereNeighbours {
   std::uint32_t a, b;
-  Vec3d shift{};
 };
 
 struct ContactSettings {
@@ -66,6 +65,8 @@ class ContactLayer {
   /// Take note of how far the bodies have moved since the last call. True when the list of pairs is no longer sure: rebuild() is due
   /// before evaluate(). Local to the rank; on several ranks all rebuild when one must.
   [[nodiscard]] bool note_motion(const ContactScene& scene);
+  /// How much of the way that the list of pairs allows for was used up at the last note_motion(), 1: all of it.
+  [[nodiscard]] double wear() const { return wear_; }
   /// Find the pairs of bodies again. On several ranks the ghosts must be renewed first.
   void rebuild(const ContactScene& scene, const Space& space);
 
@@ -75,7 +76,7 @@ class ContactLayer {
 
   /// Energy of the pairs that this rank counts (those whose first body it owns), added to an order-free sum.
   void add_energy(const ContactScene& scene, OrderFreeSum& sum) const;
-  /// Collect the gradients of all pairs on the owned bodies.
+  /// Collect the gradients of all pairs on the owned bodies (contact areas of the others are left alone).
   void collect(const ContactScene& scene, ContactGradient& gradient) const;
   /// Deepest penetration of a surface into another surface or obstacle [µm], and which pair has it.
   [[nodiscard]] const SurfacePair* deepest(const ContactScene& scene) const;
@@ -99,10 +100,19 @@ class ContactLayer {
   [[nodiscard]] std::size_t memory() const;
 
  private:
+  [[nodiscard]] const ContactMaterial& material_of(const ContactScene& scene, const SurfacePair& pair) const {
+    return material(scene.bodies[pair.a].material, pair.rigid ? obstacles_[pair.b].material : scene.bodies[pair.b].material);
+  }
   [[nodiscard]] PairBody view(const ContactScene& scene, const SurfacePair& pair, int which) const;
   void rebuild_lists(const ContactScene& scene, SurfacePair& pair);
-  void evaluate_pair(const ContactScene& scene, SurfacePair& pair);
+  void evaluate_pair(const ContactScene& scene, SurfacePair& pair, PointsWorkspace& workspace);
+  /// Bound on how far the nodes in a pair's lists have moved against each other since the last call of note_motion().
+  /// note_motion() where there are no pairs of surfaces: nothing but the distance from where the list was built is of interest.
+  [[nodiscard]] bool note_travel(const ContactScene& scene);
+  [[nodiscard]] double patch_motion(const ContactScene& scene, const SurfacePair& pair) const;
   void add_obstacle_pairs(const ContactScene& scene);
+  /// Which pairs each body has, and room for their motion.
+  void index_incident_pairs(std::size_t bodies);
   [[nodiscard]] ListReach reach() const { return {settings_.range, settings_.skin, settings_.depth}; }
 
   struct BodyMotion {
@@ -125,11 +135,12 @@ class ContactLayer {
     std::uint8_t side;
   };
   std::vector<Incidence> incident_;
-  std::vector<Vec3d> last_position_;  ///< at the last note_motion()
+  std::vector<Vec3d> last_position_;  ///< at the last note_motion(), or rebuild() if there are no pairs
   std::vector<BodyMotion> motion_;
   std::vector<double> last_radius_;  ///< of spheres: growth counts as motion
   std::vector<double> travel_;       ///< by body: bound on the way of its points since the list of pairs was built
   double obstacle_travel_ = 0.0;
+  double wear_ = 0.0;
 };
 
 }  // namespace morula

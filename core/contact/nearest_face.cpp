@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/mesh/closest_point.h"
+#include "core/contact/closest_foot.h"
 #include "core/mesh/pseudonormal.h"
 
 namespace morula {
@@ -33,125 +33,116 @@ Vec3d pseudonormal(const PairBody& target, std::uint32_t face, const double (&mu
 
 /// How far behind the nearest face another one need be known to lie: a longer lead would save nothing, since bodies move less between
 /// evaluations [µm].
-constexpr double kLead = 0.15;
+constexpr double kLead = 0.08;
 
-struct Candidate {
-  double distance2 = 1e300;
-  double distance = 1e150;  ///< its root
-  double second2 = 1e300;   ///< lower bound of the squared distance to all other faces
-  double second = 1e150;    ///< its root
-  std::uint16_t place = kAsleep;
-  ClosestPoint closest;
-};
+constexpr int kLanes = 8;
 
-ClosestPoint closest_on(const PairBody& target, std::uint32_t face, const Vec3d& point) {
-  const Triangle& t = target.topology->faces()[face];
-  return closest_point_on_triangle(point, target.node(t[0]), target.node(t[1]), target.node(t[2]));
-}
-
-void try_face(const Vec3d& point, std::uint16_t place, const PointsEvaluation& e, const PointsAgainstBody& lists, Candidate& best) {
-  const Vec3d away = point - e.target_centroid[place];
-  // The ball of the face has grown by at most twice what the bodies moved since it was measured.
-  const double radius = lists.target_radius[place] + 2.0 * e.motion_since_built;
-  const double limit = std::min(best.second, best.distance + kLead) + radius;
-  const double center2 = norm2(away);
-  if (center2 > limit * limit) return;
-  const ClosestPoint closest = closest_on(e.target, lists.target_face[place], point);
-  if (closest.distance2 < best.distance2 || (closest.distance2 == best.distance2 && place < best.place)) {
-    if (best.distance2 < best.second2) {
-      best.second2 = best.distance2;
-      best.second = std::sqrt(best.second2);
-    }
-    best.distance2 = closest.distance2;
-    best.distance = std::sqrt(best.distance2);
-    best.place = place;
-    best.closest = closest;
-  } else if (closest.distance2 < best.second2) {
-    best.second2 = closest.distance2;
-    best.second = std::sqrt(best.second2);
+/// The nearest faces so far.
+class Search {
+ public:
+  Search(const Vec3d& point, const PointsEvaluation& e, const PointsAgainstBody& lists) : point_(point), e_(e), lists_(lists) {
+    second_ = e.reach.candidates();  // faces beyond the lists' reach are of no interest
+    second2_ = second_ * second_;
   }
-}
 
-/// The nearest of the candidates, ties to the lowest face.
-Candidate search(const Vec3d& point, std::size_t index, std::size_t source_face, const PointsEvaluation& e,
-                 const PointsAgainstBody& lists) {
-  Candidate best;
-  const double reach = e.reach.candidates();
-  best.second = reach;  // faces beyond the lists' reach are of no interest
-  best.second2 = reach * reach;
-  const std::uint16_t guess = lists.nearest[index];
-  if (guess != kAsleep) try_face(point, guess, e, lists, best);
-  for (std::uint32_t k = lists.first_candidate[source_face]; k < lists.first_candidate[source_face + 1]; ++k)
-    if (lists.candidate[k] != guess) try_face(point, lists.candidate[k], e, lists, best);
-  best.second = std::min(best.second, best.distance + kLead);
-  return best;
-}
+  /// Whether a face may be nearer than what is known; its ball has grown by at most twice what the nodes moved since it was measured.
+  [[nodiscard]] bool may_be_near(std::uint16_t place) const {
+    const double limit = std::min(second_, distance_ + kLead) + lists_.target_radius[place] + 2.0 * e_.patch_since_built;
+    return norm2(point_ - e_.target_centroid[place]) <= limit * limit;
+  }
+  void try_face(std::uint16_t place) {
+    const Triangle& t = faces()[lists_.target_face[place]];
+    take(place, closest_foot_of(point_, e_.target.node(t[0]), e_.target.node(t[1]), e_.target.node(t[2])).distance2);
+  }
+  void try_faces(const std::uint16_t (&place)[kLanes], int count) {
+    using Real = Lane<double, kLanes>;
+    if (count < 3) {
+      for (int lane = 0; lane < count; ++lane) try_face(place[lane]);
+      return;
+    }
+    alignas(64) double corner[3][3][kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const Triangle& t = faces()[lists_.target_face[place[std::min(lane, count - 1)]]];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3d x = e_.target.node(t[k]);
+        for (std::size_t c = 0; c < 3; ++c) corner[k][c][lane] = x[c];
+      }
+    }
+    const auto load = [&](std::size_t k) {
+      return Vec3<Real>{Real::load(corner[k][0]), Real::load(corner[k][1]), Real::load(corner[k][2])};
+    };
+    const auto foot = closest_foot<Real>({point_.x, point_.y, point_.z}, load(0), load(1), load(2));
+    for (int lane = 0; lane < count; ++lane) {
+      if (foot.doubtful[lane] != 0.0)
+        try_face(place[lane]);
+      else
+        take(place[lane], foot.distance2[lane]);
+    }
+  }
+  [[nodiscard]] FoundFace result() const { return {place_, std::min(second_, distance_ + kLead)}; }
 
-bool is_inside(const Vec3d& point, const PairBody& target, std::uint32_t face, const ClosestPoint& closest) {
-  return dot(point - closest.point, pseudonormal(target, face, closest.barycentric)) < 0.0;
-}
+ private:
+  [[nodiscard]] std::span<const Triangle> faces() const { return e_.target.topology->faces(); }
+  void take(std::uint16_t place, double distance2) {
+    if (distance2 < distance2_ || (distance2 == distance2_ && place < place_)) {
+      if (distance2_ < second2_) set_second(distance2_);
+      distance2_ = distance2;
+      distance_ = std::sqrt(distance2);
+      place_ = place;
+    } else if (distance2 < second2_) {
+      set_second(distance2);
+    }
+  }
+  void set_second(double distance2) {
+    second2_ = distance2;
+    second_ = std::sqrt(distance2);
+  }
 
-PointGap signed_gap(const Vec3d& point, std::uint16_t place, const ClosestPoint& closest, bool inside, const PointsEvaluation& e,
-                    const PointsAgainstBody& lists) {
-  PointGap out;
-  const double distance = std::sqrt(closest.distance2);
-  out.gap = inside ? -distance : distance;
-  out.in_range = out.gap < e.reach.range;
-  out.place = place;
-  out.foot = closest.point;
-  for (int c = 0; c < 3; ++c) out.mu[c] = closest.barycentric[c];
-  const Vec3d away = point - closest.point;
-  const bool on_face = closest.barycentric[0] != 0.0 && closest.barycentric[1] != 0.0 && closest.barycentric[2] != 0.0;
-  if (on_face || distance < 1e-12)
-    out.normal = e.target.face_normal[lists.target_face[place]];
-  else
-    out.normal = away * ((inside ? -1.0 : 1.0) / distance);
-  return out;
-}
+  const Vec3d& point_;
+  const PointsEvaluation& e_;
+  const PointsAgainstBody& lists_;
+  double distance2_ = 1e300, distance_ = 1e150, second2_, second_;
+  std::uint16_t place_ = kAsleep;
+};
 
 }  // namespace
 
-PointGap gap_to_sphere(const Vec3d& point, const PairBody& target, const ListReach& reach) {
-  PointGap out;
-  const Vec3d away = point - target.node(0);
-  const double distance = norm(away);
-  out.gap = distance - target.radius;
-  out.in_range = out.gap < reach.range;
-  out.normal = distance > 1e-12 ? away * (1.0 / distance) : Vec3d{0, 0, 1};
-  out.foot = target.node(0) + out.normal * target.radius;
-  return out;
+FoundFace find_nearest_face(const Vec3d& point, std::size_t source_place, std::uint16_t guess, const PointsEvaluation& e,
+                              const PointsAgainstBody& lists) {
+  Search search(point, e, lists);
+  if (guess != kAsleep) search.try_face(guess);
+  std::uint16_t waiting[kLanes];
+  int count = 0;
+  for (std::uint32_t k = lists.first_candidate[source_place]; k < lists.first_candidate[source_place + 1]; ++k) {
+    const std::uint16_t place = lists.candidate[k];
+    if (place == guess || !search.may_be_near(place)) continue;
+    waiting[count++] = place;
+    if (count == kLanes) {
+      search.try_faces(waiting, count);
+      count = 0;
+    }
+  }
+  search.try_faces(waiting, count);
+  return search.result();
 }
 
-PointGap gap_to_surface(const Vec3d& point, std::size_t index, std::size_t source_face, const PointsEvaluation& e,
-                        PointsAgainstBody& lists) {
-  const bool sure = e.motion < lists.good_until[index];
-  if (sure && lists.nearest[index] == kAsleep) return {};
-  if (sure) {
-    const std::uint16_t place = lists.nearest[index];
-    const ClosestPoint closest = closest_on(e.target, lists.target_face[place], point);
-    return signed_gap(point, place, closest, is_inside(point, e.target, lists.target_face[place], closest), e, lists);
-  }
+bool is_inside(const Vec3d& away, const PairBody& target, std::uint32_t face, const double (&mu)[3]) {
+  return dot(away, pseudonormal(target, face, mu)) < 0.0;
+}
 
-  const Candidate best = search(point, index, source_face, e, lists);
+void remember(const FoundFace& nearest, double gap, std::size_t index, const PointsEvaluation& e, PointsAgainstBody& lists) {
   constexpr double kSafety = 0.999;  // bounds hold in spite of rounding
-  if (best.place == kAsleep) {
-    const double clear = e.reach.candidates() - e.motion_since_built - e.reach.range;
+  const double reach = e.reach.candidates() - e.motion_since_built;  // within which all faces are known
+  double clear;
+  if (nearest.place == kAsleep || gap >= e.reach.range) {
     lists.nearest[index] = kAsleep;
-    lists.good_until[index] = static_cast<float>((e.motion + clear * kSafety) * (1.0 - 1e-6));
-    return {};
+    clear = (nearest.place == kAsleep ? reach : std::min(gap, reach)) - e.reach.range;
+  } else {
+    // No other face can be nearer while twice the motion is less than the lead of the nearest one.
+    lists.nearest[index] = nearest.place;
+    clear = 0.5 * (std::min(nearest.second, reach) - std::abs(gap));
   }
-  const double distance = best.distance;
-  const bool inside = is_inside(point, e.target, lists.target_face[best.place], best.closest);
-  if (!inside && distance >= e.reach.range) {
-    lists.nearest[index] = kAsleep;
-    lists.good_until[index] = static_cast<float>((e.motion + (distance - e.reach.range) * kSafety) * (1.0 - 1e-6));
-    return {};
-  }
-  lists.nearest[index] = best.place;
-  // No other face can be nearer while twice the motion is less than the lead of the nearest one.
-  const double second = std::min(best.second, e.reach.candidates() - e.motion_since_built);
-  lists.good_until[index] = static_cast<float>((e.motion + 0.5 * (second - distance) * kSafety) * (1.0 - 1e-6));
-  return signed_gap(point, best.place, best.closest, inside, e, lists);
+  lists.good_until[index] = static_cast<float>((e.motion + clear * kSafety) * (1.0 - 1e-6));
 }
 
 }  // namespace morula

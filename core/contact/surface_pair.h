@@ -62,7 +62,7 @@ struct PointsAgainstBody {
   std::vector<std::uint32_t> first_candidate;             ///< by source face, one more at the end
   std::vector<std::uint16_t> candidate;                   ///< places in target_face, increasing
   std::vector<std::uint16_t> nearest;                     ///< by point: place of the nearest face in target_face, or kAsleep
-  std::vector<float> good_until;                          ///< by point: the pair's motion up to which `nearest` is sure
+  std::vector<float> good_until;                          ///< by point: the pair's patch_motion up to which `nearest` is sure
 };
 inline constexpr std::uint16_t kAsleep = 0xFFFF;
 
@@ -83,12 +83,20 @@ struct SurfacePair {
   Vec3d shift{};                ///< image of b
   double motion = 0.0;          ///< how far the bodies have moved against each other since the pair came to be (an upper bound) [µm]
   double built_at = -1e300;     ///< motion when the lists were built
+  double patch_motion = 0.0;    ///< the same of the nodes in the lists alone
+  double patch_built_at = 0.0;  ///< patch_motion when the lists were built
   PointsAgainstBody points[2];  ///< [0]: points of a against b; [1]: points of b against a
   PairGradient gradient[2];     ///< of a and of b
   std::vector<ContactElement> elements[2];       ///< at the present positions
   std::vector<ContactElement> step_elements[2];  ///< at the start of the step: its friction
   double energy = 0.0;                           ///< [nN·µm]
   double overlap = 0.0;                          ///< deepest penetration [µm]
+};
+
+/// The face of the target that is nearest to a point.
+struct FoundFace {
+  std::uint16_t place = kAsleep;  ///< in the pair's target faces; kAsleep: none within the reach of the lists
+  double second = 0.0;            ///< no other face is nearer than this [µm]
 };
 
 /// Everything that evaluating one direction of a pair reads.
@@ -98,11 +106,24 @@ struct PointsEvaluation {
   const ContactMaterial& material;
   const FaceQuadrature& quadrature;
   ListReach reach;
-  double share;   ///< ½ when both bodies are sources, else 1
-  double motion;  ///< of the pair
-  double motion_since_built;
-  bool target_moves;                       ///< false for rigid obstacles: no gradient of the target is wanted
-  std::span<const Vec3d> target_centroid;  ///< by place in the pair's target faces; filled by evaluate_points()
+  double share;               ///< ½ when both bodies are sources, else 1
+  double motion;              ///< of the nodes in the pair's lists
+  double motion_since_built;  ///< of the whole bodies
+  double patch_since_built;   ///< of the nodes in the lists
+  bool target_moves;          ///< false for rigid obstacles: no gradient of the target is wanted
+  std::span<const Vec3d> target_centroid{};  ///< by place in the pair's target faces; filled by evaluate_points()
+};
+
+/// What one thread needs to evaluate pairs.
+struct PointsWorkspace {
+  struct Point {
+    std::uint32_t source_place;
+    std::uint16_t q;
+    bool searched;
+    FoundFace nearest;
+  };
+  std::vector<Vec3d> centroid;
+  std::vector<Point> points;
 };
 
 /// Fill the candidate lists of one direction. `target_faces` are the faces of the target that may be near, in increasing order (empty for
@@ -117,6 +138,6 @@ void number_pair_nodes(const Topology* topology_a, const Topology* topology_b, S
 void clear_results(SurfacePair& pair);
 
 /// Add energy, gradients and elements of direction d (points of body d against the other) at the present positions.
-void evaluate_points(const PointsEvaluation& evaluation, int d, SurfacePair& pair);
+void evaluate_points(const PointsEvaluation& evaluation, int d, SurfacePair& pair, PointsWorkspace& workspace);
 
 }  // namespace morula

@@ -54,20 +54,20 @@ struct Mechanics::Trial {
   }
 };
 
-double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt) {
+double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt, bool moved) {
   const auto& x = scene_.position();
-  std::fill(friction_.begin(), friction_.end(), Vec3d{});
+  std::fill(residual_.begin(), residual_.end(), Vec3d{});  // first holds Γ_n d
   for (std::size_t i = 0; i < x.size(); ++i) displacement_[i] = x[i] - start[i];
   OrderFreeSum sums[2];
-  contacts_.add_step_friction(contact_scene(), displacement_, friction_, sums[0]);
-  shells_.add_step_friction(displacement_, friction_, sums[0]);
+  contacts_.add_step_friction(contact_scene(), displacement_, residual_, sums[0]);
+  shells_.add_step_friction(displacement_, residual_, sums[0]);
   const auto medium = system_.point_friction();
-  for (std::size_t i = 0; i < scene_.owned_spheres(); ++i) {
+  for (std::size_t i = 0; moved && i < scene_.owned_spheres(); ++i) {
     const std::size_t point = scene_.sphere_point() + i;
-    friction_[point] += displacement_[point] * static_cast<double>(medium[point]);
+    residual_[point] += displacement_[point] * static_cast<double>(medium[point]);
     sums[0].add(static_cast<double>(medium[point]) * norm2(displacement_[point]));
   }
-  spheres_.pairs().add_friction(displacement_, friction_, sums[0]);
+  if (moved) spheres_.pairs().add_friction(displacement_, residual_, sums[0]);
   for (std::size_t body = 0; body < scene_.bodies().size(); ++body) {
     const ContactBody& b = scene_.bodies()[body];
     if (!b.active()) continue;
@@ -75,7 +75,7 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
     for (std::uint32_t i = b.first_point; i < b.first_point + b.point_count; ++i) {
       const std::size_t e = i < scene_.owned_nodes() ? i : i - scene_.sphere_point() + scene_.owned_nodes();
       work += morula::dot(external[e], displacement_[i]);
-      residual_[i] = force_[i] + external[e] - friction_[i] * (1.0 / dt);
+      residual_[i] = force_[i] + external[e] - residual_[i] * (1.0 / dt);
     }
     sums[1].add(work);
   }
@@ -93,7 +93,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
   StepReport report;
   report.step = dt;
   Trial trial{*this, tissue, start, external, dt, 0.0, report};
-  const double work = friction_residual(start, external, dt);
+  const double work = friction_residual(start, external, dt, false);
   trial.phi = energy_ - work + friction_energy_ / (2.0 * dt);
   const double force_norm = std::sqrt(dot(residual_, residual_));
   if (!std::isfinite(trial.phi) || !std::isfinite(force_norm)) return StepFault{"forces are not numbers", {}, false};
@@ -103,9 +103,9 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
     assemble(tissue, step);
     auto timed = timer_.scope(Stage::kSolve);
     for_owned_points([&](std::uint32_t i) {
-      right_[i] = {static_cast<float>(residual_[i].x), static_cast<float>(residual_[i].y), static_cast<float>(residual_[i].z), 0.0f};
+      system_.right()[i] = {static_cast<float>(residual_[i].x), static_cast<float>(residual_[i].y), static_cast<float>(residual_[i].z), 0.0f};
     });
-    auto solved = system_.solve(right_, solution_, tolerance, kMaxLinearIterations, comm_);
+    auto solved = system_.solve(solution_, tolerance, kMaxLinearIterations, comm_);
     if (!solved) return StepFault{solved.error().what, {}, true};
     report.linear_iterations += solved->iterations;
     for_owned_points([&](std::uint32_t i) { direction[i] = Vec3d{solution_[i].x, solution_[i].y, solution_[i].z} * dt; });
@@ -178,12 +178,12 @@ Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt
   const std::vector<Vec3d> start = scene_.position();
   StepReport report;
   report.step = dt;
-  (void)friction_residual(start, external, dt);
+  (void)friction_residual(start, external, dt, false);
   assemble(tissue, 0.0);
   for_owned_points([&](std::uint32_t i) {
-    right_[i] = {static_cast<float>(residual_[i].x), static_cast<float>(residual_[i].y), static_cast<float>(residual_[i].z), 0.0f};
+    system_.right()[i] = {static_cast<float>(residual_[i].x), static_cast<float>(residual_[i].y), static_cast<float>(residual_[i].z), 0.0f};
   });
-  auto solved = system_.solve(right_, solution_, 1e-4, kMaxLinearIterations, comm_);
+  auto solved = system_.solve(solution_, 1e-4, kMaxLinearIterations, comm_);
   if (!solved) return undo(start, StepFault{solved.error().what, {}, true});
   report.linear_iterations = solved->iterations;
   report.newton = 1;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "coupling/mechanics/contact_setup.h"
 
@@ -52,7 +53,7 @@ double Mechanics::dot(std::span<const Vec3d> a, std::span<const Vec3d> b) const 
 void Mechanics::prepare(const Tissue& tissue) {
   // Ghosts must be renewed when something has gone further than their reach allows for.
   const double slack = contacts_.settings().body_skin;
-  bool renew = !scene_valid_;
+  bool renew = !scene_valid_ || (renew_soon_ && !evaluated_);
   if (!renew && comm_.size() > 1) {
     double most = 0.0;
     for (std::size_t i = 0; i < scene_start_.size(); ++i) {
@@ -68,19 +69,22 @@ void Mechanics::prepare(const Tissue& tissue) {
                          slack + 2.0 * step_margin(model_);
     scene_.build(tissue, model_.space, reach, shapes_, comm_);
     scene_valid_ = true;
+    renew_soon_ = false;
+    wear_ = 0.0;
     evaluated_ = contacts_current_ = false;
-    scene_start_ = tissue.shells.position;
-    scene_start_.insert(scene_start_.end(), tissue.spheres.position.begin(), tissue.spheres.position.end());
+    scene_start_.clear();
+    if (comm_.size() > 1) {
+      scene_start_ = tissue.shells.position;
+      scene_start_.insert(scene_start_.end(), tissue.spheres.position.begin(), tissue.spheres.position.end());
+    }
     contacts_.reset();
     shells_.set_shells(tissue.shells);
     const std::size_t points = scene_.point_count(), faces = scene_.face_count(), bodies = scene_.bodies().size();
     force_.assign(points, {});
     residual_.assign(points, {});
     displacement_.assign(points, {});
-    friction_.assign(points, {});
-    right_.assign(points, {});
     solution_.assign(points, {});
-    gradient_.node_normal.assign(points, {});
+    gradient_.node_normal.assign(scene_.sphere_point(), {});  // spheres have none
     gradient_.face_energy.assign(faces, 0.0);
     gradient_.face_normal.assign(faces, {});
     gradient_.contact_area.assign(bodies, 0.0);
@@ -127,7 +131,7 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   const ContactScene scene = contact_scene();
   {
     auto timed = timer_.scope(Stage::kInternal);
-    if (moved) compute_surface_geometry({scene_.topologies(), scene_.first_node(), scene_.first_face()}, scene_.position(), geometry_);
+    if (moved) compute_surface_geometry({scene_.topologies(), scene_.first_node(), scene_.first_face()}, std::span(std::as_const(scene_).position()).first(scene_.sphere_point()), geometry_);
     shells_.evaluate(tissue.shells, scene_.position());
   }
   {
@@ -243,6 +247,10 @@ void Mechanics::finish(Tissue& tissue, double dt, StepReport& report) {
     flags_changed_ = comm_.any(spheres_.update_attached(scene_, contacts_, tissue));
   }
   spheres_.end_step();
+  // Where there are ghosts, a list of pairs that would wear out within the next step is made together with them, before that step: else
+  // the list is made in the middle of the step, and the ghosts soon after.
+  renew_soon_ = comm_.size() > 1 && comm_.any(2.0 * contacts_.wear() - wear_ > 1.0);
+  wear_ = contacts_.wear();
   report.energy = energy_;
   report.overlap = deepest_overlap();
   if (tissue.clock.capped && report.overlap < 0.1) tissue.clock.capped = false;
@@ -268,28 +276,32 @@ double Mechanics::deepest_overlap() const {
   return comm_.max(worst != nullptr ? worst->overlap : 0.0);
 }
 
-const BodyValues& Mechanics::values(const Tissue& tissue) {
-  prepare(tissue);
+BodyValues Mechanics::values(const Tissue& tissue) {
+  BodyValues values;
+  values.pressure = pressures(tissue);
   const std::size_t shells = scene_.owned_shells(), spheres = scene_.owned_spheres();
-  for (auto* v : {&values_.volume, &values_.area, &values_.pressure, &values_.contact_area}) v->assign(shells + spheres, 0.0);
+  for (auto* v : {&values.volume, &values.area, &values.contact_area}) v->assign(shells + spheres, 0.0);
   for (std::size_t i = 0; i < shells; ++i) {
-    values_.volume[i] = geometry_.volume[i];
-    values_.area[i] = geometry_.area[i];
-    values_.pressure[i] = shells_.forces().pressure[i];
-    values_.contact_area[i] = gradient_.contact_area[i];
+    values.volume[i] = geometry_.volume[i];
+    values.area[i] = geometry_.area[i];
+    values.contact_area[i] = gradient_.contact_area[i];
   }
   for (std::size_t i = 0; i < spheres; ++i) {
     const double r = tissue.spheres.radius[i];
-    values_.volume[shells + i] = 4.0 / 3.0 * std::numbers::pi * r * r * r;
-    values_.area[shells + i] = 4.0 * std::numbers::pi * r * r;
-    values_.contact_area[shells + i] = gradient_.contact_area[scene_.first_sphere() + i];
+    values.volume[shells + i] = 4.0 / 3.0 * std::numbers::pi * r * r * r;
+    values.area[shells + i] = 4.0 * std::numbers::pi * r * r;
+    values.contact_area[shells + i] = gradient_.contact_area[scene_.first_sphere() + i] + spheres_.contact_area(i);
   }
+  return values;
+}
+
+std::vector<double> Mechanics::pressures(const Tissue& tissue) {
+  prepare(tissue);
   if (spheres_.renew_sisters(scene_, contacts_, tissue.clock.time)) flags_changed_ = true;
-  for (std::size_t i = 0; i < spheres; ++i) {
-    values_.pressure[shells + i] = spheres_.pressure(i, tissue.spheres.radius[i]);
-    values_.contact_area[shells + i] += spheres_.contact_area(i);
-  }
-  return values_;
+  std::vector<double> out(scene_.owned_shells() + scene_.owned_spheres());
+  for (std::size_t i = 0; i < scene_.owned_shells(); ++i) out[i] = shells_.forces().pressure[i];
+  for (std::size_t i = 0; i < scene_.owned_spheres(); ++i) out[scene_.owned_shells() + i] = spheres_.pressure(i, tissue.spheres.radius[i]);
+  return out;
 }
 
 double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& force) {
@@ -303,11 +315,12 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
 
 std::size_t Mechanics::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return contacts_.memory() + shells_.memory() + spheres_.memory() + system_.memory() + scene_.memory() + bytes(force_) + bytes(residual_) + bytes(displacement_) +
-         bytes(friction_) + bytes(right_) + bytes(solution_) + bytes(gradient_.node_normal) + bytes(gradient_.face_energy) +
+  return contacts_.memory() + shells_.memory() + spheres_.memory() + system_.memory() + scene_.memory() + bytes(force_) + bytes(residual_) +
+         bytes(displacement_) +
+         bytes(solution_) + bytes(gradient_.node_normal) + bytes(gradient_.face_energy) +
          bytes(gradient_.face_normal) + bytes(gradient_.force) + bytes(geometry_.face_area) + bytes(geometry_.face_normal) +
          bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) + bytes(scene_start_) +
-         bytes(gradient_.contact_area) + bytes(values_.volume) + bytes(values_.area) + bytes(values_.pressure) + bytes(values_.contact_area);
+         bytes(gradient_.contact_area);
 }
 
 }  // namespace morula

@@ -68,7 +68,9 @@ class Mechanics {
   Status relax(Tissue& tissue, std::span<const char> moves);
 
   /// Volumes, areas, pressures and contact areas at the tissue's present positions. Collective.
-  const BodyValues& values(const Tissue& tissue);
+  BodyValues values(const Tissue& tissue);
+  /// The pressures alone.
+  std::vector<double> pressures(const Tissue& tissue);
 
   /// Number of external force entries for this tissue: owned shell nodes, then owned spheres.
   [[nodiscard]] static std::size_t external_size(const Tissue& tissue) { return tissue.shells.node_count() + tissue.spheres.size(); }
@@ -93,7 +95,8 @@ class Mechanics {
   void begin_step(const Tissue& tissue, double dt);
   void hold_all_but(std::span<const char> moves);
   void lay_out_system();
-  [[nodiscard]] double friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt);
+  /// `moved`: false at the step's start, where spheres have not rubbed yet.
+  [[nodiscard]] double friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt, bool moved = true);
   [[nodiscard]] std::optional<StepFault> find_fault() const;
   Result<StepReport, StepFault> implicit_step(Tissue& tissue, double dt, std::span<const Vec3d> external);
   Result<StepReport, StepFault> explicit_step(Tissue& tissue, double dt, std::span<const Vec3d> external);
@@ -119,6 +122,8 @@ class Mechanics {
 
   Scene scene_;
   bool scene_valid_ = false;
+  bool renew_soon_ = false;         ///< the next evaluation for new parameters is a good time to renew ghosts and pairs
+  double wear_ = 0.0;               ///< of the list of pairs, at the end of the last step
   bool evaluated_ = false;          ///< energy and forces belong to the scene's positions and the tissue's parameters
   double relax_cap_ = 0.0;          ///< δ while cells relax in place; 0: that of the study
   bool relaxing_ = false;           ///< obstacles and flags stand still
@@ -132,15 +137,13 @@ class Mechanics {
   ShellSystem shells_;
   SphereContacts spheres_;
   FrictionSystem system_;
-  BodyValues values_;
 
   double energy_ = 0.0;              ///< at the present positions, without external work
   std::vector<Vec3d> force_;         ///< by point
   std::vector<Vec3d> residual_;      ///< force + external − Γ_n d/Δt
   std::vector<Vec3d> displacement_;  ///< d = x − x_n
-  std::vector<Vec3d> friction_;      ///< Γ_n d
   double friction_energy_ = 0.0;     ///< dᵀΓ_n d
-  std::vector<Float4> right_, solution_;
+  std::vector<Float4> solution_;
 };
 
 }  // namespace morula

@@ -39,6 +39,8 @@ void ShellSystem::add_step_friction(std::span<const Vec3d> displacement, std::sp
   for (const double q : friction_quadratic_) quadratic.add(q);
 }
 
+void ShellSystem::add_edge_blocks(const EdgeBlockSource& source) { dcm::add_edge_blocks(blocks_, source, operator_); }
+
 void ShellSystem::multiply(std::span<const Float4> p, std::span<Float4> q) const {
   dcm::apply_shell_operator(blocks_, *shells_, operator_, p.first(point_count()), q.first(point_count()));
 }

@@ -30,6 +30,7 @@ class ShellSystem : public OperatorPart {
   [[nodiscard]] std::size_t memory() const;
 
   [[nodiscard]] std::size_t point_count() const override { return shells_ == nullptr ? 0 : shells_->node_count(); }
+  void add_edge_blocks(const EdgeBlockSource& source) override;
   void multiply(std::span<const Float4> p, std::span<Float4> q) const override;
   void add_diagonal(std::span<SymMat3<float>> diagonal) const override;
 
