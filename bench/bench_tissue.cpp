@@ -192,8 +192,8 @@ bool run_case(const Case& c, const Comm& comm, int threads, Figures& out) {
   OrderFreeSum sum;
   sum.add(bytes);
   out.bytes = comm.sum(sum) / units;
-  out.resident = static_cast<double>(comm.sum(resident_kb("VmRSS:") - resident_before)) * 1024.0 / units;
   out.peak = static_cast<double>(comm.sum(resident_kb("VmHWM:") - resident_before)) * 1024.0 / units;
+  out.resident = static_cast<double>(comm.sum(settle_memory() - resident_before)) * 1024.0 / units;
   out.ghosts = comm.sum(static_cast<std::int64_t>(simulation.mechanics().scene().ghost_count()));
   out.imbalance = simulation.imbalance();
   for (std::size_t s = 0; s < kStageNames.size(); ++s)

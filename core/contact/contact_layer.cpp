@@ -4,6 +4,13 @@
 #include <cmath>
 
 namespace morula {
+namespace {
+
+constexpr double kFloatRounding = 1.0 / (1 << 24);  // relative, of a number kept as float
+
+Vec3f to_float(const Vec3d& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+
+}  // namespace
 
 ContactLayer::ContactLayer(ContactSettings settings, std::vector<RigidSurface> obstacles, std::vector<ContactMaterial> materials,
                            std::size_t material_count)
@@ -74,8 +81,9 @@ double ContactLayer::patch_motion(const ContactScene& scene, const SurfacePair& 
 }
 
 bool ContactLayer::note_motion(const ContactScene& scene) {
-  if (fresh_ || last_position_.size() != scene.position.size() || last_radius_.size() != scene.bodies.size()) return true;
-  if (pairs_.empty()) return note_travel(scene);
+  if (fresh_ || last_radius_.size() != scene.bodies.size()) return true;
+  if (pairs_.empty()) return listed_at_.size() != scene.position.size() || note_travel(scene);
+  if (last_position_.size() != scene.position.size()) return true;
   double most = 0.0;
   const double limit = 0.5 * settings_.body_skin;
 #pragma omp parallel for schedule(static) num_threads(settings_.threads) reduction(max : most)
@@ -117,10 +125,11 @@ bool ContactLayer::note_travel(const ContactScene& scene) {
 #pragma omp parallel for schedule(static) num_threads(settings_.threads) reduction(max : most)
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const ContactBody& body = scene.bodies[i];
-    double way2 = 0.0;
-    for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p)
-      way2 = std::max(way2, norm2(scene.position[p] - last_position_[p]));
-    most = std::max(most, std::sqrt(way2) + std::abs(body.radius - last_radius_[i]));
+    const double growth = std::abs(body.radius - last_radius_[i]);
+    for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p) {
+      const Vec3d there{listed_at_[p].x, listed_at_[p].y, listed_at_[p].z};
+      most = std::max(most, norm(scene.position[p] - there) + kFloatRounding * norm(there) + growth);
+    }
   }
   for (std::size_t i = 0; i < offsets_.size(); ++i) most = std::max(most, norm(offsets_[i] - last_offsets_[i]));
   wear_ = most * 1.000001 / (0.5 * settings_.body_skin);
@@ -198,7 +207,14 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
     }
   }
   index_incident_pairs(n);
-  last_position_.assign(scene.position.begin(), scene.position.end());
+  if (pairs_.empty()) {
+    std::vector<Vec3d>().swap(last_position_);
+    listed_at_.resize(scene.position.size());
+    for (std::size_t p = 0; p < listed_at_.size(); ++p) listed_at_[p] = to_float(scene.position[p]);
+  } else {
+    std::vector<Vec3f>().swap(listed_at_);
+    last_position_.assign(scene.position.begin(), scene.position.end());
+  }
   last_offsets_ = offsets_;
   last_radius_.resize(n);
   for (std::size_t i = 0; i < n; ++i) last_radius_[i] = scene.bodies[i].radius;
@@ -313,7 +329,7 @@ void ContactLayer::collect(const ContactScene& scene, ContactGradient& gradient)
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const ContactBody& body = scene.bodies[i];
     if (!body.owned) continue;
-    gradient.contact_area[i] = 0.0;
+    if (body.shape == BodyShape::kSurface) gradient.contact_area[i] = 0.0;
     for (std::uint32_t k = incident_begin_[i]; k < incident_begin_[i + 1]; ++k) {
       const SurfacePair& pair = pairs_[incident_[k].pair];
       const PairGradient& part = pair.gradient[incident_[k].side];
@@ -344,7 +360,7 @@ std::size_t ContactLayer::memory() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
   std::size_t total =
       bytes(pairs_) + bytes(spheres_) + bytes(incident_begin_) + bytes(incident_) + bytes(last_position_) + bytes(motion_) + bytes(travel_) +
-      bytes(last_radius_);
+      bytes(last_radius_) + bytes(listed_at_);
   for (const SurfacePair& pair : pairs_)
     for (int d = 0; d < 2; ++d) {
       const PointsAgainstBody& p = pair.points[d];

@@ -76,7 +76,7 @@ class ContactLayer {
 
   /// Energy of the pairs that this rank counts (those whose first body it owns), added to an order-free sum.
   void add_energy(const ContactScene& scene, OrderFreeSum& sum) const;
-  /// Collect the gradients of all pairs on the owned bodies (contact areas of the others are left alone).
+  /// Collect the gradients of all pairs on the owned bodies (contact areas are those of surfaces).
   void collect(const ContactScene& scene, ContactGradient& gradient) const;
   /// Deepest penetration of a surface into another surface or obstacle [µm], and which pair has it.
   [[nodiscard]] const SurfacePair* deepest(const ContactScene& scene) const;
@@ -135,7 +135,8 @@ class ContactLayer {
     std::uint8_t side;
   };
   std::vector<Incidence> incident_;
-  std::vector<Vec3d> last_position_;  ///< at the last note_motion(), or rebuild() if there are no pairs
+  std::vector<Vec3d> last_position_;  ///< at the last note_motion(); empty if there are no pairs
+  std::vector<Vec3f> listed_at_;      ///< where the points were at the last rebuild(), if there are no pairs
   std::vector<BodyMotion> motion_;
   std::vector<double> last_radius_;  ///< of spheres: growth counts as motion
   std::vector<double> travel_;       ///< by body: bound on the way of its points since the list of pairs was built

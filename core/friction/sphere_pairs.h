@@ -61,13 +61,15 @@ class SpherePairs {
   std::vector<SpherePair> pairs;
   std::vector<SpherePairElement> elements;  ///< by pair
   std::vector<RigidPairElement> rigid;
-  std::vector<std::uint16_t> material;  ///< by sphere, ghosts too
+  std::vector<std::uint16_t> material;  ///< by sphere, ghosts too; not needed while the table is uniform
 
   /// Friction of material pairs, `count` × `count`, row by row.
   void set_friction(std::vector<PairFriction> friction, std::size_t count);
   /// The pairs are new: spheres 0 .. owned−1 are points first_point .. first_point+owned−1, ghosts follow. Shares the work out.
   void set_layout(std::uint32_t first_point, std::uint32_t owned, int threads);
 
+  /// All material pairs rub alike.
+  [[nodiscard]] bool uniform() const { return uniform_; }
   [[nodiscard]] std::span<const Share> shares() const { return shares_; }
   [[nodiscard]] const PairFriction& friction(std::uint16_t a, std::uint16_t b) const { return friction_[a * materials_ + b]; }
   [[nodiscard]] const PairFriction& friction(const SpherePair& pair) const {
@@ -90,7 +92,7 @@ class SpherePairs {
 
   std::vector<PairFriction> friction_{PairFriction{}};
   std::size_t materials_ = 1;
-  bool uniform_ = true;  ///< all entries of the table are alike
+  bool uniform_ = true;
   std::uint32_t first_point_ = 0, owned_ = 0;
   std::vector<Share> shares_;
 };

@@ -79,7 +79,7 @@ void Mechanics::prepare(const Tissue& tissue) {
     }
     contacts_.reset();
     shells_.set_shells(tissue.shells);
-    const std::size_t points = scene_.point_count(), faces = scene_.face_count(), bodies = scene_.bodies().size();
+    const std::size_t points = scene_.point_count(), faces = scene_.face_count();
     force_.assign(points, {});
     residual_.assign(points, {});
     displacement_.assign(points, {});
@@ -87,7 +87,7 @@ void Mechanics::prepare(const Tissue& tissue) {
     gradient_.node_normal.assign(scene_.sphere_point(), {});  // spheres have none
     gradient_.face_energy.assign(faces, 0.0);
     gradient_.face_normal.assign(faces, {});
-    gradient_.contact_area.assign(bodies, 0.0);
+    gradient_.contact_area.assign(scene_.shells(), 0.0);  // a sphere's contacts with shells are counted on their faces
 
     if (relaxing_)
       hold_all_but(relax_moves_);  // the new scene knows nothing of who is held
@@ -286,11 +286,12 @@ BodyValues Mechanics::values(const Tissue& tissue) {
     values.area[i] = geometry_.area[i];
     values.contact_area[i] = gradient_.contact_area[i];
   }
+  const std::vector<double> contact_area = spheres_.contact_areas(scene_, contacts_);
   for (std::size_t i = 0; i < spheres; ++i) {
     const double r = tissue.spheres.radius[i];
     values.volume[shells + i] = 4.0 / 3.0 * std::numbers::pi * r * r * r;
     values.area[shells + i] = 4.0 * std::numbers::pi * r * r;
-    values.contact_area[shells + i] = gradient_.contact_area[scene_.first_sphere() + i] + spheres_.contact_area(i);
+    values.contact_area[shells + i] = contact_area[i];
   }
   return values;
 }

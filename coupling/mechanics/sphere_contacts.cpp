@@ -60,8 +60,10 @@ void SphereContacts::set_pairs(const Scene& scene, ContactLayer& contacts, const
     keep_step_friction(scene, std::move(old_pairs), std::move(old_elements));
   else
     list_.elements.assign(list_.pairs.size(), {});
-  list_.material.resize(spheres.size());
-  for (std::size_t i = 0; i < spheres.size(); ++i) list_.material[i] = spheres[i].material;
+  if (!list_.uniform()) {
+    list_.material.resize(spheres.size());
+    for (std::size_t i = 0; i < spheres.size(); ++i) list_.material[i] = spheres[i].material;
+  }
   list_.set_layout(scene.sphere_point(), owned, threads_);
 
   std::vector<std::uint32_t> known(owned, 0);  // attached pairs of each sphere
@@ -85,7 +87,9 @@ void SphereContacts::keep_step_friction(const Scene& scene, std::vector<SpherePa
     return p.a != q.a ? spheres[p.a].place < spheres[q.a].place : spheres[p.b].place < spheres[q.b].place;
   };
   std::vector<SpherePair> merged;
+  merged.reserve(list_.pairs.size() + list_.pairs.size() / 64);
   list_.elements.clear();
+  list_.elements.reserve(merged.capacity());
   std::size_t k = 0;
   const auto add_parted = [&](auto&& until) {  // pairs that rubbed at the step's start and are out of reach by now go on to the step's end
     for (; k < old_pairs.size() && until(old_pairs[k]); ++k) {
@@ -205,7 +209,6 @@ void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts, 
   const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
   Vec3d* to = force.data() + scene.sphere_point();
   virial_.assign(owned, 0.0);
-  area_.assign(owned, 0.0);
   const auto shares = list_.shares();
   std::vector<OrderFreeSum> energy(std::max<std::size_t>(1, shares.size()));
   flips_.resize(shares.size());
@@ -226,7 +229,6 @@ void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts, 
           if (has_a) {
             to[pair.a] -= f;
             virial_[pair.a] += virial;
-            area_[pair.a] += block.area[lane];
             if (pair.a != sphere) {
               energy[t].add(of_sphere);
               of_sphere = 0.0;
@@ -237,7 +239,6 @@ void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts, 
           if (has_b) {
             to[pair.b] += f;
             virial_[pair.b] += virial;
-            area_[pair.b] += block.area[lane];
           }
           if (writes(pair)) {
             if (block.attached_next[lane] != (pair.attached != 0)) flips_[t].push_back(k);
@@ -260,7 +261,6 @@ void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts, 
   for (const RigidPair& pair : rigid_) {
     to[pair.sphere] -= pair.normal * pair.force;
     virial_[pair.sphere] += pair.distance * pair.force;
-    area_[pair.sphere] += pair.area;
     energy[0].add(pair.energy);
   }
   energy_ = energy[0];
@@ -307,7 +307,7 @@ void SphereContacts::evaluate_rigid(const Scene& scene, const ContactLayer& cont
 
 void SphereContacts::refresh_values(const Scene& scene, const ContactLayer& contacts, const std::vector<char>& marked) {
   for (std::size_t i = 0; i < scene.owned_spheres(); ++i)
-    if (marked[i]) virial_[i] = area_[i] = 0.0;
+    if (marked[i]) virial_[i] = 0.0;
   const auto shares = list_.shares();
 #pragma omp parallel for schedule(static, 1) num_threads(threads_)
   for (std::size_t t = 0; t < shares.size(); ++t) {
@@ -319,7 +319,6 @@ void SphereContacts::refresh_values(const Scene& scene, const ContactLayer& cont
           for (const std::uint32_t i : {pair.a, std::uint32_t{pair.b}}) {
             if (!marked[i] || !share.has(i)) continue;
             virial_[i] += block.distance[lane] * block.force[lane];
-            area_[i] += block.area[lane];
           }
         },
         [](std::uint32_t) {});
@@ -329,7 +328,6 @@ void SphereContacts::refresh_values(const Scene& scene, const ContactLayer& cont
     if (!marked[pair.sphere]) continue;
     evaluate_rigid(scene, contacts, k);
     virial_[pair.sphere] += pair.distance * pair.force;
-    area_[pair.sphere] += pair.area;
   }
 }
 
@@ -412,9 +410,25 @@ double SphereContacts::pressure(std::size_t i, double radius) const {
   return cbm::virial_pressure(virial_[i], (4.0 / 3.0) * std::numbers::pi * radius * radius * radius);
 }
 
+std::vector<double> SphereContacts::contact_areas(const Scene& scene, const ContactLayer& contacts) const {
+  std::vector<double> area(scene.owned_spheres(), 0.0);
+  const auto shares = list_.shares();
+#pragma omp parallel for schedule(static, 1) num_threads(threads_)
+  for (std::size_t t = 0; t < shares.size(); ++t)
+    visit(
+        shares[t], scene, contacts, [](const SpherePair&) { return true; },
+        [&](std::uint32_t k, const cbm::PairBlock& block, int lane) {
+          for (const std::uint32_t i : {list_.pairs[k].a, std::uint32_t{list_.pairs[k].b}})
+            if (shares[t].has(i)) area[i] += block.area[lane];
+        },
+        [](std::uint32_t) {});
+  for (const RigidPair& pair : rigid_) area[pair.sphere] += pair.area;
+  return area;
+}
+
 std::size_t SphereContacts::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return list_.memory() + bytes(sisters_) + bytes(rigid_) + bytes(virial_) + bytes(area_);  // flips: a handful
+  return list_.memory() + bytes(sisters_) + bytes(rigid_) + bytes(virial_);  // flips: a handful
 }
 
 }  // namespace morula

@@ -38,14 +38,14 @@ class SphereContacts {
   /// The pairs' part of the friction system.
   [[nodiscard]] const SpherePairs& pairs() const { return list_; }
 
-  /// Flags after the step, into the tissue; pressures and areas follow. Returns whether any flag of this rank has changed.
+  /// Flags after the step, into the tissue; pressures follow. Returns whether any flag of this rank has changed.
   bool update_attached(const Scene& scene, const ContactLayer& contacts, Tissue& tissue);
-  /// The time has moved on: rest distances, pressures and areas of young sisters anew. Returns whether any has changed.
+  /// The time has moved on: rest distances and pressures of young sisters anew. Returns whether any has changed.
   bool renew_sisters(const Scene& scene, const ContactLayer& contacts, double now);
   /// Virial pressure p_i = Σ d_ij F_ij/(6 V_i) of owned sphere i of this radius (cbm.md §3) [kPa].
   [[nodiscard]] double pressure(std::size_t i, double radius) const;
-  /// Contact area of owned sphere i [µm²].
-  [[nodiscard]] double contact_area(std::size_t i) const { return area_[i]; }
+  /// Contact areas of owned spheres [µm²]; evaluates the pairs, for nobody needs them in a step.
+  [[nodiscard]] std::vector<double> contact_areas(const Scene& scene, const ContactLayer& contacts) const;
   [[nodiscard]] std::size_t memory() const;
 
  private:
@@ -73,7 +73,7 @@ class SphereContacts {
              FarAway&& far_away) const;
   void set_element(SpherePairElement& element, const cbm::PairBlock& block, int lane) const;
   void evaluate_rigid(const Scene& scene, const ContactLayer& contacts, std::size_t k);
-  /// Pressures and areas of the marked spheres anew, without touching forces.
+  /// Pressures of the marked spheres anew, without touching forces.
   void refresh_values(const Scene& scene, const ContactLayer& contacts, const std::vector<char>& marked);
   void write_partners(const Scene& scene, const std::vector<char>& marked, Tissue& tissue) const;
   [[nodiscard]] CellId partner_id(const Scene& scene, std::uint32_t sphere) const;
@@ -84,7 +84,7 @@ class SphereContacts {
   SpherePairs list_;
   std::vector<Sisters> sisters_;  ///< by pair
   std::vector<RigidPair> rigid_;  ///< by sphere
-  std::vector<double> virial_, area_;  ///< by owned sphere: Σ d_ij F_ij [nN·µm], Σ A_ij [µm²]
+  std::vector<double> virial_;    ///< by owned sphere: Σ d_ij F_ij [nN·µm]
   OrderFreeSum energy_;
   std::vector<std::vector<std::uint32_t>> flips_;  ///< by share: pairs whose flag changes if the step ends where they were evaluated last
   bool in_step_ = false;
