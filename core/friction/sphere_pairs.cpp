@@ -103,6 +103,7 @@ void SpherePairs::add_friction(std::span<const Vec3d> displacement, std::span<Ve
   const Vec3d* d = displacement.data() + first_point_;
   Vec3d* to = out.data() + first_point_;
   std::vector<OrderFreeSum> sums(shares_.size());
+  const bool slippery = uniform_ && friction_[0].tangential == 0.0f && friction_[0].extra == 0.0f;
   const int threads = static_cast<int>(shares_.size());
 #pragma omp parallel for schedule(static, 1) num_threads(threads)
   for (int t = 0; t < threads; ++t) {
@@ -110,7 +111,7 @@ void SpherePairs::add_friction(std::span<const Vec3d> displacement, std::span<Ve
     OrderFreeSum& sum = sums[static_cast<std::size_t>(t)];
     std::uint32_t sphere = 0;
     double of_sphere = 0.0;  // pairs that come first under one sphere: their order is canonical, so they may be added up in double
-    for (const Run& run : share.runs)
+    for (const Run& run : slippery ? std::span<const Run>() : std::span(share.runs))
       for (std::uint32_t k = run.first; k < run.last; ++k) {
         const SpherePairElement& e = elements[k];
         if (e.area == 0.0f) continue;

@@ -56,18 +56,22 @@ struct Mechanics::Trial {
 
 double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt, bool moved) {
   const auto& x = scene_.position();
-  std::fill(residual_.begin(), residual_.end(), Vec3d{});  // first holds Γ_n d
+  for_owned_points([&](std::uint32_t i) {  // −Δt (F + external), to which Γ_n d is added
+    const std::size_t e = i < scene_.owned_nodes() ? i : i - scene_.sphere_point() + scene_.owned_nodes();
+    force_[i] = (force_[i] + external[e]) * -dt;
+  });
+  spent_ = true;
   for (std::size_t i = 0; i < x.size(); ++i) displacement_[i] = x[i] - start[i];
   OrderFreeSum sums[2];
-  contacts_.add_step_friction(contact_scene(), displacement_, residual_, sums[0]);
-  shells_.add_step_friction(displacement_, residual_, sums[0]);
+  contacts_.add_step_friction(contact_scene(), displacement_, force_, sums[0]);
+  shells_.add_step_friction(displacement_, force_, sums[0]);
   const auto medium = system_.point_friction();
   for (std::size_t i = 0; moved && i < scene_.owned_spheres(); ++i) {
     const std::size_t point = scene_.sphere_point() + i;
-    residual_[point] += displacement_[point] * static_cast<double>(medium[point]);
+    force_[point] += displacement_[point] * static_cast<double>(medium[point]);
     sums[0].add(static_cast<double>(medium[point]) * norm2(displacement_[point]));
   }
-  if (moved) spheres_.pairs().add_friction(displacement_, residual_, sums[0]);
+  if (moved) spheres_.pairs().add_friction(displacement_, force_, sums[0]);
   for (std::size_t body = 0; body < scene_.bodies().size(); ++body) {
     const ContactBody& b = scene_.bodies()[body];
     if (!b.active()) continue;
@@ -75,7 +79,7 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
     for (std::uint32_t i = b.first_point; i < b.first_point + b.point_count; ++i) {
       const std::size_t e = i < scene_.owned_nodes() ? i : i - scene_.sphere_point() + scene_.owned_nodes();
       work += morula::dot(external[e], displacement_[i]);
-      residual_[i] = force_[i] + external[e] - residual_[i] * (1.0 / dt);
+      force_[i] *= -1.0 / dt;
     }
     sums[1].add(work);
   }
@@ -95,7 +99,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
   Trial trial{*this, tissue, start, external, dt, 0.0, report};
   const double work = friction_residual(start, external, dt, false);
   trial.phi = energy_ - work + friction_energy_ / (2.0 * dt);
-  const double force_norm = std::sqrt(dot(residual_, residual_));
+  const double force_norm = std::sqrt(dot(force_, force_));
   if (!std::isfinite(trial.phi) || !std::isfinite(force_norm)) return StepFault{"forces are not numbers", {}, false};
 
   std::vector<Vec3d> direction(start.size());
@@ -103,7 +107,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
     assemble(tissue, step);
     auto timed = timer_.scope(Stage::kSolve);
     for_owned_points([&](std::uint32_t i) {
-      system_.right()[i] = {static_cast<float>(residual_[i].x), static_cast<float>(residual_[i].y), static_cast<float>(residual_[i].z), 0.0f};
+      system_.right()[i] = {static_cast<float>(force_[i].x), static_cast<float>(force_[i].y), static_cast<float>(force_[i].z), 0.0f};
     });
     auto solved = system_.solve(solution_, tolerance, kMaxLinearIterations, comm_);
     if (!solved) return StepFault{solved.error().what, {}, true};
@@ -127,7 +131,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
     if (iteration == 0 && longest > 4.0 * allowed && dt > 1e-3) {
       return undo(start, StepFault{"points would move too far in one step", {}, true});
     }
-    double slope = -dot(residual_, direction);
+    double slope = -dot(force_, direction);
     const bool converged = -0.5 * slope <= 1e-12 * (1.0 + std::abs(trial.phi));
     if (!trial.search(direction, slope, kHalvings, converged ? 1e-9 * (1.0 + std::abs(trial.phi)) : 0.0)) {
       // Freeze rule (time_stepping.md §9.3): the gradient in the metric of friction, then a short Newton step with an allowed rise.
@@ -138,24 +142,24 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
       solved = solve(0.0, control.first_tolerance);
       if (!solved) return undo(start, solved.error());
       limit_direction(range);
-      slope = -dot(residual_, direction);
+      slope = -dot(force_, direction);
       bool moved = trial.search(direction, slope, kGradientHalvings, 0.0);
       if (!moved) {
         direction = newton_direction;
         limit_direction(kLastResortStep * range);
-        moved = trial.search(direction, -dot(residual_, direction), 2, kAllowedRise);
+        moved = trial.search(direction, -dot(force_, direction), 2, kAllowedRise);
       }
       if (!moved) {
         evaluate(tissue);
         (void)friction_residual(start, external, dt);
-        if (largest(residual_) > kStuckForce) {
+        if (largest(force_) > kStuckForce) {
           StepFault fault{"no step lowers the energy", {}, true};
           if (const auto shape = find_fault()) fault = *shape;
           double worst = 0.0;
           for (const ContactBody& body : scene_.bodies())
             for (std::uint32_t i = body.first_point; body.active() && i < body.first_point + body.point_count; ++i)
-              if (norm2(residual_[i]) > worst) {
-                worst = norm2(residual_[i]);
+              if (norm2(force_[i]) > worst) {
+                worst = norm2(force_[i]);
                 fault.cell = body.id;
               }
           return undo(start, fault);
@@ -163,7 +167,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
         break;
       }
     }
-    if (std::sqrt(dot(residual_, residual_)) <= control.newton_stop * force_norm || converged) break;
+    if (std::sqrt(dot(force_, force_)) <= control.newton_stop * force_norm || converged) break;
   }
   report.displacement = largest(displacement_);
   if (report.displacement > 1.5 * allowed && dt > 1e-3) {
@@ -181,7 +185,7 @@ Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt
   (void)friction_residual(start, external, dt, false);
   assemble(tissue, 0.0);
   for_owned_points([&](std::uint32_t i) {
-    system_.right()[i] = {static_cast<float>(residual_[i].x), static_cast<float>(residual_[i].y), static_cast<float>(residual_[i].z), 0.0f};
+    system_.right()[i] = {static_cast<float>(force_[i].x), static_cast<float>(force_[i].y), static_cast<float>(force_[i].z), 0.0f};
   });
   auto solved = system_.solve(solution_, 1e-4, kMaxLinearIterations, comm_);
   if (!solved) return undo(start, StepFault{solved.error().what, {}, true});

@@ -81,7 +81,6 @@ void Mechanics::prepare(const Tissue& tissue) {
     shells_.set_shells(tissue.shells);
     const std::size_t points = scene_.point_count(), faces = scene_.face_count();
     force_.assign(points, {});
-    residual_.assign(points, {});
     displacement_.assign(points, {});
     solution_.assign(points, {});
     gradient_.node_normal.assign(scene_.sphere_point(), {});  // spheres have none
@@ -146,6 +145,7 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   contacts_.evaluate(scene, !moved);
 
   std::fill(force_.begin(), force_.end(), Vec3d{});
+  spent_ = false;
   spheres_.evaluate(scene_, contacts_, force_);
   std::fill(gradient_.node_normal.begin(), gradient_.node_normal.end(), Vec3d{});
   std::fill(gradient_.face_energy.begin(), gradient_.face_energy.end(), 0.0);
@@ -227,7 +227,7 @@ std::optional<StepFault> Mechanics::find_fault() const {
 }
 
 Result<StepReport, StepFault> Mechanics::step(Tissue& tissue, double dt, std::span<const Vec3d> external) {
-  if (comm_.any(flags_changed_ || spheres_.outdated())) evaluated_ = flags_changed_ = false;
+  if (comm_.any(flags_changed_ || spent_)) evaluated_ = flags_changed_ = false;
   prepare(tissue);
   return model_.step.integrator == Integrator::kImplicit ? implicit_step(tissue, dt, external) : explicit_step(tissue, dt, external);
 }
@@ -316,7 +316,7 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
 
 std::size_t Mechanics::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return contacts_.memory() + shells_.memory() + spheres_.memory() + system_.memory() + scene_.memory() + bytes(force_) + bytes(residual_) +
+  return contacts_.memory() + shells_.memory() + spheres_.memory() + system_.memory() + scene_.memory() + bytes(force_) +
          bytes(displacement_) +
          bytes(solution_) + bytes(gradient_.node_normal) + bytes(gradient_.face_energy) +
          bytes(gradient_.face_normal) + bytes(gradient_.force) + bytes(geometry_.face_area) + bytes(geometry_.face_normal) +

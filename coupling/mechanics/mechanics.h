@@ -139,8 +139,8 @@ class Mechanics {
   FrictionSystem system_;
 
   double energy_ = 0.0;              ///< at the present positions, without external work
-  std::vector<Vec3d> force_;         ///< by point
-  std::vector<Vec3d> residual_;      ///< force + external − Γ_n d/Δt
+  std::vector<Vec3d> force_;         ///< by point; friction_residual() makes the residual of it: force + external − Γ_n d/Δt
+  bool spent_ = false;               ///< force_ holds a residual: evaluate() before the next step
   std::vector<Vec3d> displacement_;  ///< d = x − x_n
   double friction_energy_ = 0.0;     ///< dᵀΓ_n d
   std::vector<Float4> solution_;

@@ -264,7 +264,6 @@ void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts, 
     energy[0].add(pair.energy);
   }
   energy_ = energy[0];
-  outdated_ = false;
 }
 
 void SphereContacts::evaluate_rigid(const Scene& scene, const ContactLayer& contacts, std::size_t k) {

@@ -29,12 +29,7 @@ class SphereContacts {
 
   /// From here to end_step() the present friction is that of the step. Precondition: evaluated since the last end_step().
   void begin_step() { in_step_ = true; }
-  void end_step() {
-    outdated_ = outdated_ || in_step_;
-    in_step_ = false;
-  }
-  /// The elements are still those of the last step: evaluate() is due before the next begin_step().
-  [[nodiscard]] bool outdated() const { return outdated_; }
+  void end_step() { in_step_ = false; }
   /// The pairs' part of the friction system.
   [[nodiscard]] const SpherePairs& pairs() const { return list_; }
 
@@ -88,7 +83,6 @@ class SphereContacts {
   OrderFreeSum energy_;
   std::vector<std::vector<std::uint32_t>> flips_;  ///< by share: pairs whose flag changes if the step ends where they were evaluated last
   bool in_step_ = false;
-  bool outdated_ = false;
   bool partners_stale_ = false;  ///< a sphere has partners that are no pair of the list any more
 };
 
