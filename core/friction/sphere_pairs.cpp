@@ -99,9 +99,10 @@ void SpherePairs::add_diagonal(std::span<SymMat3<float>> diagonal, float dt) con
   });
 }
 
-void SpherePairs::add_friction(std::span<const Vec3d> displacement, std::span<Vec3d> out, OrderFreeSum& quadratic) const {
-  const Vec3d* d = displacement.data() + first_point_;
-  Vec3d* to = out.data() + first_point_;
+void SpherePairs::add_friction(std::span<const Vec3d> from, std::span<const Vec3d> to, std::span<Vec3d> out,
+                               OrderFreeSum& quadratic) const {
+  const auto displacement = [&](std::uint32_t sphere) { return to[first_point_ + sphere] - from[first_point_ + sphere]; };
+  Vec3d* force = out.data() + first_point_;
   std::vector<OrderFreeSum> sums(shares_.size());
   const bool slippery = uniform_ && friction_[0].tangential == 0.0f && friction_[0].extra == 0.0f;
   const int threads = static_cast<int>(shares_.size());
@@ -117,12 +118,12 @@ void SpherePairs::add_friction(std::span<const Vec3d> displacement, std::span<Ve
         if (e.area == 0.0f) continue;
         const SpherePair pair = pairs[k];
         const PairFriction& coefficient = friction(pair);
-        const Vec3d u = d[pair.a] - d[pair.b];
+        const Vec3d u = displacement(pair.a) - displacement(pair.b);
         const Vec3d n{e.n[0], e.n[1], e.n[2]};
         const double area = e.area;
         const Vec3d f = u * (area * coefficient.tangential) + n * (area * coefficient.extra * dot(n, u));
         if (share.has(pair.a)) {
-          to[pair.a] += f;
+          force[pair.a] += f;
           if (pair.a != sphere) {
             sum.add(of_sphere);
             of_sphere = 0.0;
@@ -130,15 +131,15 @@ void SpherePairs::add_friction(std::span<const Vec3d> displacement, std::span<Ve
           }
           of_sphere += dot(f, u);
         }
-        if (share.has(pair.b)) to[pair.b] -= f;
+        if (share.has(pair.b)) force[pair.b] -= f;
       }
     sum.add(of_sphere);
     for (const RigidPairElement& e : rigid) {
       if (!share.has(e.sphere)) continue;
-      const Vec3d n{e.n[0], e.n[1], e.n[2]};
-      const Vec3d f = d[e.sphere] * static_cast<double>(e.isotropic) + n * (static_cast<double>(e.axial) * dot(n, d[e.sphere]));
-      to[e.sphere] += f;
-      sum.add(dot(f, d[e.sphere]));
+      const Vec3d n{e.n[0], e.n[1], e.n[2]}, d = displacement(e.sphere);
+      const Vec3d f = d * static_cast<double>(e.isotropic) + n * (static_cast<double>(e.axial) * dot(n, d));
+      force[e.sphere] += f;
+      sum.add(dot(f, d));
     }
   }
   for (const OrderFreeSum& sum : sums) quadratic += sum;

@@ -61,24 +61,26 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
     force_[i] = (force_[i] + external[e]) * -dt;
   });
   spent_ = true;
-  for (std::size_t i = 0; i < x.size(); ++i) displacement_[i] = x[i] - start[i];
+  displacement_.resize(contacts_.pairs().empty() ? scene_.sphere_point() : x.size());  // spheres alone have no use for it
+  for (std::size_t i = 0; i < displacement_.size(); ++i) displacement_[i] = x[i] - start[i];
   OrderFreeSum sums[2];
   contacts_.add_step_friction(contact_scene(), displacement_, force_, sums[0]);
   shells_.add_step_friction(displacement_, force_, sums[0]);
   const auto medium = system_.point_friction();
   for (std::size_t i = 0; moved && i < scene_.owned_spheres(); ++i) {
     const std::size_t point = scene_.sphere_point() + i;
-    force_[point] += displacement_[point] * static_cast<double>(medium[point]);
-    sums[0].add(static_cast<double>(medium[point]) * norm2(displacement_[point]));
+    const Vec3d d = x[point] - start[point];
+    force_[point] += d * static_cast<double>(medium[point]);
+    sums[0].add(static_cast<double>(medium[point]) * norm2(d));
   }
-  if (moved) spheres_.pairs().add_friction(displacement_, force_, sums[0]);
+  if (moved) spheres_.pairs().add_friction(start, x, force_, sums[0]);
   for (std::size_t body = 0; body < scene_.bodies().size(); ++body) {
     const ContactBody& b = scene_.bodies()[body];
     if (!b.active()) continue;
     double work = 0.0;
     for (std::uint32_t i = b.first_point; i < b.first_point + b.point_count; ++i) {
       const std::size_t e = i < scene_.owned_nodes() ? i : i - scene_.sphere_point() + scene_.owned_nodes();
-      work += morula::dot(external[e], displacement_[i]);
+      work += morula::dot(external[e], x[i] - start[i]);
       force_[i] *= -1.0 / dt;
     }
     sums[1].add(work);
@@ -169,7 +171,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
     }
     if (std::sqrt(dot(force_, force_)) <= control.newton_stop * force_norm || converged) break;
   }
-  report.displacement = largest(displacement_);
+  report.displacement = furthest(start);
   if (report.displacement > 1.5 * allowed && dt > 1e-3) {
     return undo(start, StepFault{"points moved too far in one step", {}, true});
   }
@@ -193,8 +195,7 @@ Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt
   report.newton = 1;
   auto& x = scene_.position();
   for_owned_points([&](std::uint32_t i) { x[i] += Vec3d{solution_[i].x, solution_[i].y, solution_[i].z} * dt; });
-  for_owned_points([&](std::uint32_t i) { displacement_[i] = x[i] - start[i]; });
-  report.displacement = largest(displacement_);
+  report.displacement = furthest(start);
   if (!std::isfinite(report.displacement) || report.displacement > model_.contact.range) {
     return undo(start, StepFault{"points moved too far in one explicit step", {}, true});
   }

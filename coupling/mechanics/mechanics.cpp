@@ -39,6 +39,17 @@ double Mechanics::largest(std::span<const Vec3d> by_point) const {
   return std::sqrt(comm_.max(most));
 }
 
+double Mechanics::furthest(std::span<const Vec3d> start) const {
+  double most = 0.0;
+  for (const ContactBody& body : scene_.bodies())
+    if (body.active())
+      for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) {
+        const double here = norm2(scene_.position()[i] - start[i]);
+        if (!(here <= most)) most = here;
+      }
+  return std::sqrt(comm_.max(most));
+}
+
 double Mechanics::dot(std::span<const Vec3d> a, std::span<const Vec3d> b) const {
   OrderFreeSum sum;
   for (const ContactBody& body : scene_.bodies()) {
@@ -81,7 +92,6 @@ void Mechanics::prepare(const Tissue& tissue) {
     shells_.set_shells(tissue.shells);
     const std::size_t points = scene_.point_count(), faces = scene_.face_count();
     force_.assign(points, {});
-    displacement_.assign(points, {});
     solution_.assign(points, {});
     gradient_.node_normal.assign(scene_.sphere_point(), {});  // spheres have none
     gradient_.face_energy.assign(faces, 0.0);
@@ -234,14 +244,15 @@ Result<StepReport, StepFault> Mechanics::step(Tissue& tissue, double dt, std::sp
 
 void Mechanics::finish(Tissue& tissue, double dt, StepReport& report) {
   auto timed = timer_.scope(Stage::kAdvance);
-  scene_.give_positions(tissue);
   const double rate = 1.0 / dt;
-  const auto velocity = [&](std::size_t point) {
-    const Vec3d v = displacement_[point] * rate;
+  const auto velocity = [&](std::size_t point, const Vec3d& start) {
+    const Vec3d v = (scene_.position()[point] - start) * rate;
     return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
   };
-  for (std::size_t i = 0; i < tissue.shells.velocity.size(); ++i) tissue.shells.velocity[i] = velocity(i);
-  for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i) tissue.spheres.velocity[i] = velocity(scene_.sphere_point() + i);
+  for (std::size_t i = 0; i < tissue.shells.velocity.size(); ++i) tissue.shells.velocity[i] = velocity(i, tissue.shells.position[i]);
+  for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i)
+    tissue.spheres.velocity[i] = velocity(scene_.sphere_point() + i, tissue.spheres.position[i]);
+  scene_.give_positions(tissue);
   if (!relaxing_) {
     for (std::size_t i = 0; i < model_.obstacles.size(); ++i) tissue.obstacle_offset[i] += model_.obstacles[i].velocity * dt;
     flags_changed_ = comm_.any(spheres_.update_attached(scene_, contacts_, tissue));

@@ -112,6 +112,7 @@ class Mechanics {
         for (std::uint32_t i = bodies[b].first_point; i < bodies[b].first_point + bodies[b].point_count; ++i) function(i);
   }
   [[nodiscard]] double largest(std::span<const Vec3d> by_point) const;
+  [[nodiscard]] double furthest(std::span<const Vec3d> start) const;  ///< largest way from there [µm]
   [[nodiscard]] double dot(std::span<const Vec3d> a, std::span<const Vec3d> b) const;
 
   const Model& model_;
@@ -141,7 +142,7 @@ class Mechanics {
   double energy_ = 0.0;              ///< at the present positions, without external work
   std::vector<Vec3d> force_;         ///< by point; friction_residual() makes the residual of it: force + external − Γ_n d/Δt
   bool spent_ = false;               ///< force_ holds a residual: evaluate() before the next step
-  std::vector<Vec3d> displacement_;  ///< d = x − x_n
+  std::vector<Vec3d> displacement_;  ///< d = x − x_n, of what touches surfaces
   double friction_energy_ = 0.0;     ///< dᵀΓ_n d
   std::vector<Float4> solution_;
 };
