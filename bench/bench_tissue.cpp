@@ -103,8 +103,8 @@ Tissue make_tissue(const Model& model, const Case& c, const Comm& comm) {
 }
 
 struct Figures {
-  double wall = 0.0, unit_us = 0.0, cpu_us = 0.0, steps_per_hour = 0.0, bytes = 0.0, resident = 0.0, peak = 0.0, per_hour_kilo = 0.0, overlap = 0.0, newton = 0.0, linear = 0.0,
-         imbalance = 1.0;
+  double wall = 0.0, unit_us = 0.0, cpu_us = 0.0, steps_per_hour = 0.0, bytes = 0.0, resident = 0.0, peak = 0.0, per_hour_kilo = 0.0,
+         overlap = 0.0, newton = 0.0, linear = 0.0, imbalance = 1.0;
   std::int64_t ghosts = 0;
   std::vector<std::pair<std::string, double>> stages;
 };
@@ -112,8 +112,8 @@ struct Figures {
 /// Bytes of the state itself.
 std::size_t state_bytes(const Tissue& tissue) {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  const auto &s = tissue.spheres;
-  const auto &h = tissue.shells;
+  const auto& s = tissue.spheres;
+  const auto& h = tissue.shells;
   return bytes(tissue.cells.rows) + bytes(s.position) + bytes(s.radius) + bytes(s.type) + bytes(s.velocity) + s.attached.memory() +
          bytes(h.position) + bytes(h.velocity) + bytes(h.rest_length) + bytes(h.shape) + bytes(h.type) + bytes(h.reference_volume) +
          bytes(h.rest_volume) + bytes(h.first_node) + bytes(h.first_edge);
@@ -239,19 +239,20 @@ int main(int argc, char** argv) {
       if (!comm.is_root()) continue;
       const char* unit = c.body == BodyKind::kShell ? "node" : "cell";
       std::printf(
-          "%-24s %6zu cells  %7.2f s  %6.3f us/%s-step (CPU of all ranks %.3f)  %6.1f steps/h  %6.4f s/(h k%s)  newton %.2f  linear %.1f  %5.0f B/%s (resident %.0f, peak %.0f)  overlap %.3f "
+          "%-24s %6zu cells  %7.2f s  %6.3f us/%s-step (CPU of all ranks %.3f)  %6.1f steps/h  %6.4f s/(h k%s)  newton %.2f  linear %.1f  "
+          "%5.0f B/%s (resident %.0f, peak %.0f)  overlap %.3f "
           "um  ghosts %ld  imbalance %.2f\n",
-          c.name.c_str(), c.cells, f.wall, f.unit_us, unit, f.cpu_us, f.steps_per_hour, f.per_hour_kilo, unit, f.newton, f.linear, f.bytes, unit,
-          f.resident, f.peak, f.overlap, static_cast<long>(f.ghosts), f.imbalance);
+          c.name.c_str(), c.cells, f.wall, f.unit_us, unit, f.cpu_us, f.steps_per_hour, f.per_hour_kilo, unit, f.newton, f.linear, f.bytes,
+          unit, f.resident, f.peak, f.overlap, static_cast<long>(f.ghosts), f.imbalance);
       text += std::string(first ? "" : ",") + "\n    {\"name\": \"" + c.name + "\", \"cells\": " + std::to_string(c.cells) +
-              ", \"seconds\": " + std::to_string(f.wall) + ", \"us_per_" + unit + "_step\": " + std::to_string(f.unit_us) + ", \"cpu_us_per_" + unit +
-              "_step\": " + std::to_string(f.cpu_us) +
+              ", \"seconds\": " + std::to_string(f.wall) + ", \"us_per_" + unit + "_step\": " + std::to_string(f.unit_us) +
+              ", \"cpu_us_per_" + unit + "_step\": " + std::to_string(f.cpu_us) +
               ", \"steps_per_hour\": " + std::to_string(f.steps_per_hour) + ", \"s_per_hour_and_1000_" + unit +
               "s\": " + std::to_string(f.per_hour_kilo) + ", \"newton\": " + std::to_string(f.newton) +
-              ", \"linear_iterations\": " + std::to_string(f.linear) + ", \"bytes_per_" + unit + "\": " + std::to_string(f.bytes) + ", \"resident_bytes_per_" + unit +
-              "\": " + std::to_string(f.resident) + ", \"peak_bytes_per_" + unit + "\": " + std::to_string(f.peak) +
-              ", \"overlap_um\": " + std::to_string(f.overlap) + ", \"ghosts\": " + std::to_string(f.ghosts) +
-              ", \"imbalance\": " + std::to_string(f.imbalance) + ", \"stages_us\": {";
+              ", \"linear_iterations\": " + std::to_string(f.linear) + ", \"bytes_per_" + unit + "\": " + std::to_string(f.bytes) +
+              ", \"resident_bytes_per_" + unit + "\": " + std::to_string(f.resident) + ", \"peak_bytes_per_" + unit +
+              "\": " + std::to_string(f.peak) + ", \"overlap_um\": " + std::to_string(f.overlap) +
+              ", \"ghosts\": " + std::to_string(f.ghosts) + ", \"imbalance\": " + std::to_string(f.imbalance) + ", \"stages_us\": {";
       bool first_stage = true;
       for (const auto& [name, us] : f.stages) {
         if (us > 0.0005) std::printf("    %-18s %7.3f\n", name.c_str(), us);

@@ -51,20 +51,20 @@ struct PairBlock {
   static constexpr int kWidth = 8;
   using Row = double[kWidth];
 
-  alignas(64) Row between[3] = {};       ///< x_b − x_a [µm]
-  alignas(64) Row radius_a = {};         ///< [µm]
-  alignas(64) Row radius_b = {};         ///< [µm]
-  alignas(64) Row offset = {};           ///< overlap forgiven to fresh sisters (division_ramp.h) [µm]
-  alignas(64) Row attached = {};         ///< 1: on the adhesive branch, fixed within a step; 0: not
+  alignas(64) Row between[3] = {};  ///< x_b − x_a [µm]
+  alignas(64) Row radius_a = {};    ///< [µm]
+  alignas(64) Row radius_b = {};    ///< [µm]
+  alignas(64) Row offset = {};      ///< overlap forgiven to fresh sisters (division_ramp.h) [µm]
+  alignas(64) Row attached = {};    ///< 1: on the adhesive branch, fixed within a step; 0: not
   const ContactMaterial* material[kWidth] = {};
 
-  alignas(64) Row normal[3] = {};        ///< from a to b
-  alignas(64) Row distance = {};         ///< of the centres [µm]
-  alignas(64) Row force = {};            ///< [nN]
-  alignas(64) Row stiffness = {};        ///< max(0, dF/dδ) [nN/µm]
-  alignas(64) Row area = {};             ///< [µm²]
-  alignas(64) Row energy = {};           ///< [nN·µm]
-  bool attached_next[kWidth] = {};       ///< at the end of a step that ends here
+  alignas(64) Row normal[3] = {};   ///< from a to b
+  alignas(64) Row distance = {};    ///< of the centres [µm]
+  alignas(64) Row force = {};       ///< [nN]
+  alignas(64) Row stiffness = {};   ///< max(0, dF/dδ) [nN/µm]
+  alignas(64) Row area = {};        ///< [µm²]
+  alignas(64) Row energy = {};      ///< [nN·µm]
+  bool attached_next[kWidth] = {};  ///< at the end of a step that ends here
 
   void set(int lane, const Vec3d& x, double a, double b, const ContactMaterial& m, bool is_attached, double forgiven) noexcept {
     between[0][lane] = x.x;

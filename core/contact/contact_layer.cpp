@@ -358,9 +358,8 @@ const SurfacePair* ContactLayer::deepest(const ContactScene& scene) const {
 
 std::size_t ContactLayer::memory() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
-  std::size_t total =
-      bytes(pairs_) + bytes(spheres_) + bytes(incident_begin_) + bytes(incident_) + bytes(last_position_) + bytes(motion_) + bytes(travel_) +
-      bytes(last_radius_) + bytes(listed_at_);
+  std::size_t total = bytes(pairs_) + bytes(spheres_) + bytes(incident_begin_) + bytes(incident_) + bytes(last_position_) + bytes(motion_) +
+                      bytes(travel_) + bytes(last_radius_) + bytes(listed_at_);
   for (const SurfacePair& pair : pairs_)
     for (int d = 0; d < 2; ++d) {
       const PointsAgainstBody& p = pair.points[d];

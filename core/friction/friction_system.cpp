@@ -263,8 +263,8 @@ Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<Float4> v, doubl
 
 std::size_t FrictionSystem::memory() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
-  std::size_t total =
-      bytes(point_friction_) + bytes(pairs_) + bytes(inverse_) + bytes(p_) + bytes(q_) + bytes(r_) + bytes(layout_.bodies) + bytes(layout_.owned);
+  std::size_t total = bytes(point_friction_) + bytes(pairs_) + bytes(inverse_) + bytes(p_) + bytes(q_) + bytes(r_) + bytes(layout_.bodies) +
+                      bytes(layout_.owned);
   for (const auto& arena : blocks_) total += bytes(arena);
   for (const ThreadWork& work : work_) total += bytes(work.groups);
   return total;

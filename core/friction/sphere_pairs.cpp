@@ -22,9 +22,8 @@ SymMat3<float> pair_block(const float* n, float isotropic_part, float axial) {
 void SpherePairs::set_friction(std::vector<PairFriction> friction, std::size_t count) {
   friction_ = std::move(friction);
   materials_ = count;
-  uniform_ = std::all_of(friction_.begin(), friction_.end(), [&](const PairFriction& f) {
-    return f.tangential == friction_[0].tangential && f.extra == friction_[0].extra;
-  });
+  uniform_ = std::all_of(friction_.begin(), friction_.end(),
+                         [&](const PairFriction& f) { return f.tangential == friction_[0].tangential && f.extra == friction_[0].extra; });
 }
 
 void SpherePairs::set_layout(std::uint32_t first_point, std::uint32_t owned, int threads) {

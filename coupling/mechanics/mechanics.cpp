@@ -140,7 +140,9 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   const ContactScene scene = contact_scene();
   {
     auto timed = timer_.scope(Stage::kInternal);
-    if (moved) compute_surface_geometry({scene_.topologies(), scene_.first_node(), scene_.first_face()}, std::span(std::as_const(scene_).position()).first(scene_.sphere_point()), geometry_);
+    if (moved)
+      compute_surface_geometry({scene_.topologies(), scene_.first_node(), scene_.first_face()},
+                               std::span(std::as_const(scene_).position()).first(scene_.sphere_point()), geometry_);
     shells_.evaluate(tissue.shells, scene_.position());
   }
   {
@@ -328,8 +330,7 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
 std::size_t Mechanics::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return contacts_.memory() + shells_.memory() + spheres_.memory() + system_.memory() + scene_.memory() + bytes(force_) +
-         bytes(displacement_) +
-         bytes(solution_) + bytes(gradient_.node_normal) + bytes(gradient_.face_energy) +
+         bytes(displacement_) + bytes(solution_) + bytes(gradient_.node_normal) + bytes(gradient_.face_energy) +
          bytes(gradient_.face_normal) + bytes(gradient_.force) + bytes(geometry_.face_area) + bytes(geometry_.face_normal) +
          bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) + bytes(scene_start_) +
          bytes(gradient_.contact_area);

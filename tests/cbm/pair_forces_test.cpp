@@ -92,8 +92,8 @@ TEST(PairForces, AreThoseOfTheScalarLaw) {
   const auto cluster = random_cluster(12, 6);
   for (const Pair& pair : cluster.pairs) {
     const auto found = respond(cluster, table, pair);
-    const auto law = make_pair_law(table.entry(cluster.type[pair.i], cluster.type[pair.j]).material, cluster.radius[pair.i],
-                                   cluster.radius[pair.j]);
+    const auto law =
+        make_pair_law(table.entry(cluster.type[pair.i], cluster.type[pair.j]).material, cluster.radius[pair.i], cluster.radius[pair.j]);
     const double overlap = cluster.radius[pair.i] + cluster.radius[pair.j] - found.distance - pair.offset;
     const auto expected = contact_response(law, overlap, pair.attached);
     EXPECT_EQ(found.force, expected.force);

@@ -32,8 +32,7 @@ std::vector<Vec3d> velocities(std::size_t count, double g, const std::vector<Pai
   for (std::size_t i = 0; i < count; ++i) list.material[i] = static_cast<std::uint16_t>(i);
   for (const Pair& p : pairs) {
     list.pairs.push_back({p.i, p.j, 0});
-    list.elements.push_back(
-        {{static_cast<float>(p.n.x), static_cast<float>(p.n.y), static_cast<float>(p.n.z)}, 1.0f, 0.0f});
+    list.elements.push_back({{static_cast<float>(p.n.x), static_cast<float>(p.n.y), static_cast<float>(p.n.z)}, 1.0f, 0.0f});
     friction[p.i * count + p.j] = {static_cast<float>(p.tangential), static_cast<float>(p.normal - p.tangential)};
   }
   list.set_friction(std::move(friction), count);
