@@ -22,7 +22,7 @@ Model two_types() {
   model.space.box = {{-30, -30, -15}, {200, 200, 200}};
   model.space.boundary[0][0] = model.space.boundary[2][0] = BoundaryKind::kWall;
   model.contact.skin = 0.004;  // lists wear out within a step
-  model.contact.range = 2.0;  // long steps are allowed
+  model.contact.range = 2.0;   // long steps are allowed
   return model;
 }
 
@@ -72,7 +72,8 @@ void expect_equal(const Tissue& a, const Tissue& b, int step) {
 std::vector<Vec3d> pull(std::size_t cells, int step) {
   const Random random(9, RandomStream::kInitialPosition);
   std::vector<Vec3d> out;
-  for (std::size_t i = 0; i < cells; ++i) out.push_back(random.direction(CellId::founder(i + 1), static_cast<std::uint64_t>(step / 6)) * 1.5);
+  for (std::size_t i = 0; i < cells; ++i)
+    out.push_back(random.direction(CellId::founder(i + 1), static_cast<std::uint64_t>(step / 6)) * 1.5);
   return out;
 }
 
