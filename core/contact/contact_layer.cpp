@@ -232,7 +232,6 @@ void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {
   }
   number_pair_nodes(body[0].topology, body[1].topology, pair);
   pair.built_at = pair.motion;
-  pair.patch_built_at = pair.patch_motion;
 }
 
 void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, PointsWorkspace& workspace) {
@@ -255,7 +254,6 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
                      both ? 0.5 : 1.0,
                      pair.patch_motion,
                      pair.motion - pair.built_at,
-                     pair.patch_motion - pair.patch_built_at,
                      !pair.rigid},
                     d, pair, workspace);
   }
@@ -318,7 +316,7 @@ std::size_t ContactLayer::memory() const {
   for (const SurfacePair& pair : pairs_)
     for (int d = 0; d < 2; ++d) {
       const PointsAgainstBody& p = pair.points[d];
-      total += bytes(p.source_face) + bytes(p.source_node) + bytes(p.target_face) + bytes(p.target_node) + bytes(p.target_radius) +
+      total += bytes(p.source_face) + bytes(p.source_node) + bytes(p.target_face) + bytes(p.target_node) +
                bytes(p.first_candidate) + bytes(p.candidate) + bytes(p.nearest) + bytes(p.good_until);
       const PairGradient& g = pair.gradient[d];
       total += bytes(g.node) + bytes(g.force) + bytes(g.node_normal) + bytes(g.face_energy) + bytes(g.face_normal) + bytes(g.face_contact);

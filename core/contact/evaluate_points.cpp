@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "core/contact/closest_foot.h"
@@ -192,42 +193,33 @@ Vec3d quadrature_point(const PointsEvaluation& e, const Triangle& t, int q) {
 }
 
 /// The points that may be in range, with their nearest faces; those that surely are not are left out.
-void collect_points(PointsEvaluation& e, PointsAgainstBody& lists, PointsWorkspace& ws) {
+void collect_points(const PointsEvaluation& e, PointsAgainstBody& lists, PointsWorkspace& ws) {
   ws.points.clear();
-  bool centroids = false;
-  std::size_t index = 0;
-  const int count = e.quadrature.count;
-  for (std::uint32_t k = 0; k < lists.source_face.size(); ++k)
-    for (int q = 0; q < count; ++q, ++index) {
+  ws.search.clear();
+  const std::uint32_t count = static_cast<std::uint32_t>(e.quadrature.count);
+  const auto triangles = e.source.topology->faces();
+  for (std::uint32_t k = 0; k < lists.source_face.size(); ++k) {
+    const Triangle& t = triangles[lists.source_face[k]];
+    for (std::uint32_t q = 0; q < count; ++q) {
+      const std::uint32_t index = k * count + q;
       const std::uint16_t known = lists.nearest[index];
       const bool sure = e.motion < lists.good_until[index];
-      if (sure && known == kAsleep) continue;
-      if (sure || e.target.topology == nullptr) {
-        ws.points.push_back({k, static_cast<std::uint16_t>(q), false, {known, 0.0}});
-        continue;
-      }
-      if (!centroids) {
-        ws.centroid.resize(lists.target_face.size());
-        for (std::size_t m = 0; m < ws.centroid.size(); ++m) ws.centroid[m] = e.target.centroid(lists.target_face[m]);
-        e.target_centroid = ws.centroid;
-        centroids = true;
-      }
-      const Vec3d point = quadrature_point(e, e.source.topology->faces()[lists.source_face[k]], q);
-      const FoundFace nearest = find_nearest_face(point, k, known, e, lists);
-      if (nearest.place == kAsleep)
-        remember(nearest, 0.0, index, e, lists);
-      else
-        ws.points.push_back({k, static_cast<std::uint16_t>(q), true, nearest});
+      if (sure && (known & kAsleep)) continue;
+      if (!sure && e.target.topology != nullptr) ws.search.push_back(static_cast<std::uint32_t>(ws.points.size()));
+      const std::uint16_t guess = known & kNoFace;
+      ws.points.push_back({quadrature_point(e, t, static_cast<int>(q)), k, static_cast<std::uint16_t>(q), guess});
     }
+  }
+  find_nearest_faces(e, lists, ws);
 }
 
-void fill(const PointsEvaluation& e, const PointsAgainstBody& lists, const PointsWorkspace::Point& p, int lane, Batch& batch) {
+void fill(const PointsEvaluation& e, const PointsAgainstBody& lists, const ContactPoint& p, int lane, Batch& batch) {
   const std::uint32_t face = lists.source_face[p.source_place];
-  put(batch.point, lane, quadrature_point(e, e.source.topology->faces()[face], p.q));
+  put(batch.point, lane, p.position);
   put(batch.source_normal, lane, e.source.face_normal[face]);
   batch.area[lane] = e.source.face_area[face];
   if (e.target.topology == nullptr) return;
-  const Triangle& t = e.target.topology->faces()[lists.target_face[p.nearest.place]];
+  const Triangle& t = e.target.topology->faces()[lists.target_face[p.place]];
   for (std::size_t k = 0; k < 3; ++k) {
     put(batch.corner[k], lane, e.target.node(t[k]));
     put(batch.node_normal[k], lane, e.target.node_normal[t[k]]);
@@ -235,12 +227,12 @@ void fill(const PointsEvaluation& e, const PointsAgainstBody& lists, const Point
 }
 
 /// Add one point's share to the pair.
-void add_point(const PointsEvaluation& e, int d, const PointsWorkspace::Point& p, const Batch& batch, int lane, SurfacePair& pair) {
+void add_point(const PointsEvaluation& e, int d, const ContactPoint& p, const Batch& batch, int lane, SurfacePair& pair) {
   const PointsAgainstBody& lists = pair.points[d];
   const std::uint32_t face = lists.source_face[p.source_place];
   const bool sphere = e.target.topology == nullptr;
   Sink sink{pair.gradient[d], e.target_moves ? &pair.gradient[1 - d] : nullptr, lists.source_node[p.source_place], {0, 0, 0}};
-  if (!sphere && e.target_moves) sink.target_node = lists.target_node[p.nearest.place];
+  if (!sphere && e.target_moves) sink.target_node = lists.target_node[p.place];
   PointGap gap;
   gap.gap = batch.gap[lane];
   gap.normal = get(batch.normal, lane);
@@ -258,13 +250,13 @@ void add_point(const PointsEvaluation& e, int d, const PointsWorkspace::Point& p
   else
     for (std::size_t j = 0; j < 3; ++j) sink.push_target(j, pull * gap.mu[j]);
   if (batch.weight_slope[lane] != 0.0) {
-    const Triangle* target_face = sphere ? nullptr : &e.target.topology->faces()[lists.target_face[p.nearest.place]];
+    const Triangle* target_face = sphere ? nullptr : &e.target.topology->faces()[lists.target_face[p.place]];
     add_weight_gradient(e, p.q, face, p.source_place, target_face, gap, {get(batch.unit, lane), batch.length[lane]},
                         batch.weight_slope[lane] * batch.attraction[lane], sink);
   }
   ContactElement& element = pair.elements[d].emplace_back();
   element.source = 4 * face + p.q;
-  element.target = sphere ? 0 : lists.target_face[p.nearest.place];
+  element.target = sphere ? 0 : lists.target_face[p.place];
   element.set_weights(gap.mu[0], gap.mu[1]);
   element.set_normal(gap.normal);
   element.w = static_cast<float>(batch.bearing[lane]);
@@ -273,18 +265,24 @@ void add_point(const PointsEvaluation& e, int d, const PointsWorkspace::Point& p
 
 }  // namespace
 
-void evaluate_points(const PointsEvaluation& given, int d, SurfacePair& pair, PointsWorkspace& ws) {
+void evaluate_points(const PointsEvaluation& e, int d, SurfacePair& pair, PointsWorkspace& ws) {
   PointsAgainstBody& lists = pair.points[d];
-  PointsEvaluation e = given;
   collect_points(e, lists, ws);
+  if (e.target.topology != nullptr) {  // what has no face within reach is out of range
+    const auto index = [&](const ContactPoint& p) { return p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q; };
+    std::erase_if(ws.points, [&](const ContactPoint& p) {
+      if (p.place == kNoFace) remember(p, 0.0, index(p), e, lists);
+      return p.place == kNoFace;
+    });
+  }
   Batch batch;
   for (std::size_t first = 0; first < ws.points.size(); first += kLanes) {
     const int count = static_cast<int>(std::min<std::size_t>(kLanes, ws.points.size() - first));
     std::uint32_t face[kLanes] = {};
     for (int lane = 0; lane < kLanes; ++lane) {  // empty lanes repeat the last point
-      const auto& p = ws.points[first + static_cast<std::size_t>(std::min(lane, count - 1))];
+      const ContactPoint& p = ws.points[first + static_cast<std::size_t>(std::min(lane, count - 1))];
       fill(e, lists, p, lane, batch);
-      if (e.target.topology != nullptr) face[lane] = lists.target_face[p.nearest.place];
+      if (e.target.topology != nullptr) face[lane] = lists.target_face[p.place];
     }
     if (e.target.topology == nullptr)
       gaps_to_sphere(e.target, batch);
@@ -292,10 +290,9 @@ void evaluate_points(const PointsEvaluation& given, int d, SurfacePair& pair, Po
       gaps_to_faces(e, face, batch);
     respond(e, batch);
     for (int lane = 0; lane < count; ++lane) {
-      const auto& p = ws.points[first + static_cast<std::size_t>(lane)];
+      const ContactPoint& p = ws.points[first + static_cast<std::size_t>(lane)];
       const double gap = batch.gap[lane];
-      if (p.searched)
-        remember(p.nearest, gap, p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q, e, lists);
+      if (p.second >= 0.0) remember(p, gap, p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q, e, lists);
       if (gap < e.reach.range) add_point(e, d, p, batch, lane, pair);
     }
   }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contact/closest_foot.h"
 #include "core/contact/surface_pair.h"
 
 namespace morula {
@@ -19,11 +20,36 @@ Ball face_ball(const PairBody& body, std::uint32_t face) {
   return {center, std::sqrt(radius2)};
 }
 
-void add_candidates_of_face(const Ball& face, std::span<const Ball> target, double reach, std::vector<std::uint16_t>& out) {
-  for (std::size_t m = 0; m < target.size(); ++m) {
-    const double limit = reach + face.radius + target[m].radius;
-    if (norm2(target[m].center - face.center) < limit * limit) out.push_back(static_cast<std::uint16_t>(m));
+/// Add the target faces that are within `reach` of the ball of a source face's points.
+void add_candidates_of_face(const Ball& points, const PairBody& target, std::span<const std::uint32_t> target_faces,
+                            std::span<const Ball> ball, double reach, std::vector<std::uint16_t>& out) {
+  constexpr int kLanes = 8;
+  using Real = Lane<double, kLanes>;
+  const double limit = (reach + points.radius) * (1.0 + 1e-9), limit2 = limit * limit;
+  std::uint16_t waiting[kLanes];
+  int count = 0;
+  alignas(64) double corner[3][3][kLanes] = {};
+  const auto measure = [&] {
+    const auto load = [&](std::size_t k) {
+      return Vec3<Real>{Real::load(corner[k][0]), Real::load(corner[k][1]), Real::load(corner[k][2])};
+    };
+    const auto foot = closest_foot<Real>({points.center.x, points.center.y, points.center.z}, load(0), load(1), load(2));
+    for (int lane = 0; lane < count; ++lane)
+      if (foot.distance2[lane] < limit2 || foot.doubtful[lane] != 0.0) out.push_back(waiting[lane]);
+    count = 0;
+  };
+  for (std::size_t m = 0; m < ball.size(); ++m) {
+    const double far = limit + ball[m].radius;
+    if (!(norm2(ball[m].center - points.center) < far * far)) continue;
+    const Triangle& t = target.topology->faces()[target_faces[m]];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d x = target.node(t[k]);
+      corner[k][0][count] = x.x, corner[k][1][count] = x.y, corner[k][2][count] = x.z;
+    }
+    waiting[count++] = static_cast<std::uint16_t>(m);
+    if (count == kLanes) measure();
   }
+  if (count > 0) measure();
 }
 
 std::uint16_t number_of(const std::vector<std::uint16_t>& sorted, std::uint32_t node) {
@@ -55,7 +81,6 @@ void build_point_lists(const PairBody& source, const PairBody& target, const Lis
                        std::span<const std::uint32_t> target_faces, PointsAgainstBody& lists) {
   lists.source_face.clear();
   lists.target_face.clear();
-  lists.target_radius.clear();
   lists.first_candidate.assign(1, 0);
   lists.candidate.clear();
 
@@ -80,13 +105,14 @@ void build_point_lists(const PairBody& source, const PairBody& target, const Lis
     Box box;
     for (const std::uint32_t node : t) box.include(source.node(node));
     if (!box.overlaps(near)) continue;
-    const Ball ball = face_ball(source, face);
+    Ball ball = face_ball(source, face);
+    ball.radius *= 0.5;  // of its points, at (2/3, 1/6, 1/6) and at the centroid
     if (target.topology == nullptr) {
       const double limit = target.radius + ball.radius + distance;
       if (norm2(ball.center - target.node(0)) > limit * limit) continue;
     } else {
       const std::size_t before = lists.candidate.size();
-      add_candidates_of_face(ball, balls, distance, lists.candidate);
+      add_candidates_of_face(ball, target, target_faces, balls, distance, lists.candidate);
       if (lists.candidate.size() == before) continue;
     }
     lists.source_face.push_back(face);
@@ -94,18 +120,17 @@ void build_point_lists(const PairBody& source, const PairBody& target, const Lis
   }
 
   // Keep only the target faces that are somebody's candidate, in their order.
-  std::vector<std::uint16_t> place(balls.size(), kAsleep);
+  std::vector<std::uint16_t> place(balls.size(), kNoFace);
   for (const std::uint16_t m : lists.candidate) place[m] = 0;
   std::uint16_t kept = 0;
   for (std::size_t m = 0; m < place.size(); ++m) {
-    if (place[m] == kAsleep) continue;
+    if (place[m] == kNoFace) continue;
     place[m] = kept++;
     lists.target_face.push_back(target_faces[m]);
-    lists.target_radius.push_back(static_cast<float>(balls[m].radius * 1.000001));
   }
   for (std::uint16_t& m : lists.candidate) m = place[m];
   const std::size_t points = lists.source_face.size() * static_cast<std::size_t>(points_per_face);
-  lists.nearest.assign(points, kAsleep);
+  lists.nearest.assign(points, kNoFace);
   lists.good_until.assign(points, -1e30f);
 }
 

@@ -58,13 +58,13 @@ struct PointsAgainstBody {
   std::vector<std::array<std::uint16_t, 3>> source_node;  ///< their nodes, as numbered in the pair
   std::vector<std::uint32_t> target_face;                 ///< faces of the target that are a candidate of any source face
   std::vector<std::array<std::uint16_t, 3>> target_node;  ///< their nodes, as numbered in the pair
-  std::vector<float> target_radius;                       ///< of a ball around the face's centroid, when the lists were built
   std::vector<std::uint32_t> first_candidate;             ///< by source face, one more at the end
   std::vector<std::uint16_t> candidate;                   ///< places in target_face, increasing
-  std::vector<std::uint16_t> nearest;                     ///< by point: place of the nearest face in target_face, or kAsleep
+  std::vector<std::uint16_t> nearest;                     ///< by point: place of the nearest face in target_face; see kAsleep, kNoFace
   std::vector<float> good_until;                          ///< by point: the pair's patch_motion up to which `nearest` is sure
 };
-inline constexpr std::uint16_t kAsleep = 0xFFFF;
+inline constexpr std::uint16_t kAsleep = 0x8000;  ///< flag: the point is out of range
+inline constexpr std::uint16_t kNoFace = 0x7FFF;  ///< no face is known
 
 /// Gradient of a pair's energy with respect to one of its bodies.
 struct PairGradient {
@@ -84,19 +84,12 @@ struct SurfacePair {
   double motion = 0.0;          ///< how far the bodies have moved against each other since the pair came to be (an upper bound) [µm]
   double built_at = -1e300;     ///< motion when the lists were built
   double patch_motion = 0.0;    ///< the same of the nodes in the lists alone
-  double patch_built_at = 0.0;  ///< patch_motion when the lists were built
   PointsAgainstBody points[2];  ///< [0]: points of a against b; [1]: points of b against a
   PairGradient gradient[2];     ///< of a and of b
   std::vector<ContactElement> elements[2];       ///< at the present positions
   std::vector<ContactElement> step_elements[2];  ///< at the start of the step: its friction
   double energy = 0.0;                           ///< [nN·µm]
   double overlap = 0.0;                          ///< deepest penetration [µm]
-};
-
-/// The face of the target that is nearest to a point.
-struct FoundFace {
-  std::uint16_t place = kAsleep;  ///< in the pair's target faces; kAsleep: none within the reach of the lists
-  double second = 0.0;            ///< no other face is nearer than this [µm]
 };
 
 /// Everything that evaluating one direction of a pair reads.
@@ -109,21 +102,34 @@ struct PointsEvaluation {
   double share;               ///< ½ when both bodies are sources, else 1
   double motion;              ///< of the nodes in the pair's lists
   double motion_since_built;  ///< of the whole bodies
-  double patch_since_built;   ///< of the nodes in the lists
   bool target_moves;          ///< false for rigid obstacles: no gradient of the target is wanted
-  std::span<const Vec3d> target_centroid{};  ///< by place in the pair's target faces; filled by evaluate_points()
+};
+
+/// A quadrature point under evaluation.
+struct ContactPoint {
+  Vec3d position;
+  std::uint32_t source_place;  ///< of its face in the pair's source faces
+  std::uint16_t q;
+  std::uint16_t place = kNoFace;  ///< of the nearest face in the pair's target faces; kNoFace: none within the reach of the lists
+  double second = -1.0;           ///< no other face is nearer than this [µm]; < 0 where nothing was searched
 };
 
 /// What one thread needs to evaluate pairs.
 struct PointsWorkspace {
-  struct Point {
-    std::uint32_t source_place;
-    std::uint16_t q;
-    bool searched;
-    FoundFace nearest;
+  struct Ball {
+    Vec3d center;
+    double radius;
   };
-  std::vector<Vec3d> centroid;
-  std::vector<Point> points;
+  struct Job {  ///< the distance of a point from a face
+    std::uint32_t point;
+    std::uint16_t place;
+  };
+  std::vector<ContactPoint> points;
+  std::vector<std::uint32_t> search;  ///< points whose nearest face is not sure
+  std::vector<Ball> ball;             ///< around the target's faces
+  std::vector<Job> jobs;
+  std::vector<double> distance2;  ///< by job
+  std::vector<double> guessed;    ///< of the guesses
 };
 
 /// Fill the candidate lists of one direction. `target_faces` are the faces of the target that may be near, in increasing order (empty for
