@@ -15,12 +15,12 @@ struct PointGap {
   double mu[3] = {1, 0, 0};  ///< weights of the nearest face's nodes at the nearest point
 };
 
-/// Where the results of one direction go.
+/// Where the results of one point go.
 struct Sink {
   PairGradient& source;
   PairGradient* target;  ///< null for rigid obstacles
-  const std::array<std::uint16_t, 3>& source_node;
-  std::array<std::uint16_t, 3> target_node;
+  const Triangle& source_node;
+  Triangle target_node;
 
   void push_source(const FaceQuadrature& quadrature, int q, const Vec3d& force) {
     for (std::size_t i = 0; i < 3; ++i) source.force[source_node[i]] += force * quadrature.weight[q][i];
@@ -29,10 +29,6 @@ struct Sink {
     if (target != nullptr) target->force[target_node[corner]] += force;
   }
 };
-
-void grow(std::vector<Vec3d>& gradient, std::size_t size) {
-  if (gradient.empty()) gradient.assign(size, Vec3d{});
-}
 
 /// Normal of the target at the foot point: node normals interpolated, or the sphere's.
 struct TargetNormal {
@@ -69,11 +65,23 @@ void add_foot_gradient(const PointsEvaluation& e, int q, const Triangle& t, cons
   }
 }
 
+/// Forces on the corners of the source face from h = ∂E/∂n_T: F_c = e_c × w, w = (I − n_T n_Tᵀ) h/(2 A_T), e_c the edge opposite to c.
+void add_face_normal_gradient(const PairBody& source, std::uint32_t face, const Vec3d& h, Sink& sink) {
+  const Vec3d& n = source.face_normal[face];
+  const Vec3d w = (h - n * dot(n, h)) * (0.5 / source.face_area[face]);
+  const Vec3d& x0 = source.position[sink.source_node[0]];
+  const Vec3d& x1 = source.position[sink.source_node[1]];
+  const Vec3d& x2 = source.position[sink.source_node[2]];
+  const Vec3d f0 = cross(x2 - x1, w), f1 = cross(x0 - x2, w);
+  sink.source.force[sink.source_node[0]] += f0;
+  sink.source.force[sink.source_node[1]] += f1;
+  sink.source.force[sink.source_node[2]] -= f0 + f1;
+}
+
 /// Gradient through the opposed-normal weight: `h0` = ∂E/∂m with m = −n_T·n_y.
-void add_weight_gradient(const PointsEvaluation& e, int q, std::uint32_t face, std::size_t source_place, const Triangle* t,
-                         const PointGap& gap, const TargetNormal& normal, double h0, Sink& sink) {
-  grow(sink.source.face_normal, sink.source.face_energy.size());
-  sink.source.face_normal[source_place] -= normal.unit * h0;
+void add_weight_gradient(const PointsEvaluation& e, int q, std::uint32_t face, const Triangle* t, const PointGap& gap,
+                         const TargetNormal& normal, double h0, Sink& sink) {
+  add_face_normal_gradient(e.source, face, normal.unit * -h0, sink);
   const Vec3d h = e.source.face_normal[face] * -h0;  // ∂E/∂n_y
   const Vec3d across = (h - normal.unit * dot(normal.unit, h)) * (1.0 / normal.length);
   if (t == nullptr) {  // n_y = (x_q − x)/|x_q − x| of a sphere
@@ -86,7 +94,7 @@ void add_weight_gradient(const PointsEvaluation& e, int q, std::uint32_t face, s
   for (std::size_t j = 0; j < 3; ++j) {
     c[j] = dot(across, e.target.node_normal[(*t)[j]]);
     if (sink.target == nullptr || gap.mu[j] == 0.0) continue;
-    grow(sink.target->node_normal, sink.target->node.size());
+    sink.target->has_node_normal = true;
     sink.target->node_normal[sink.target_node[j]] += across * gap.mu[j];
   }
   add_foot_gradient(e, q, *t, gap, c, sink);
@@ -227,12 +235,13 @@ void fill(const PointsEvaluation& e, const PointsAgainstBody& lists, const Conta
 }
 
 /// Add one point's share to the pair.
-void add_point(const PointsEvaluation& e, int d, const ContactPoint& p, const Batch& batch, int lane, SurfacePair& pair) {
+void add_point(const PointsEvaluation& e, int d, const ContactPoint& p, const Batch& batch, int lane, SurfacePair& pair,
+               PairGradient (&gradient)[2], std::vector<ContactElement>& elements) {
   const PointsAgainstBody& lists = pair.points[d];
   const std::uint32_t face = lists.source_face[p.source_place];
   const bool sphere = e.target.topology == nullptr;
-  Sink sink{pair.gradient[d], e.target_moves ? &pair.gradient[1 - d] : nullptr, lists.source_node[p.source_place], {0, 0, 0}};
-  if (!sphere && e.target_moves) sink.target_node = lists.target_node[p.place];
+  Sink sink{gradient[d], e.target_moves ? &gradient[1 - d] : nullptr, e.source.topology->faces()[face], {0, 0, 0}};
+  if (!sphere) sink.target_node = e.target.topology->faces()[lists.target_face[p.place]];
   PointGap gap;
   gap.gap = batch.gap[lane];
   gap.normal = get(batch.normal, lane);
@@ -240,7 +249,7 @@ void add_point(const PointsEvaluation& e, int d, const ContactPoint& p, const Ba
   const double scale = e.share * (1.0 / e.quadrature.count);
   pair.energy += batch.area[lane] * batch.density[lane];
   sink.source.face_energy[p.source_place] += scale * batch.density[lane];
-  sink.source.face_contact[p.source_place] += batch.ramp[lane];
+  sink.source.contact_area += batch.ramp[lane];
   pair.overlap = gap.gap < -pair.overlap ? -gap.gap : pair.overlap;
 
   const Vec3d pull = get(batch.pull, lane);
@@ -251,10 +260,10 @@ void add_point(const PointsEvaluation& e, int d, const ContactPoint& p, const Ba
     for (std::size_t j = 0; j < 3; ++j) sink.push_target(j, pull * gap.mu[j]);
   if (batch.weight_slope[lane] != 0.0) {
     const Triangle* target_face = sphere ? nullptr : &e.target.topology->faces()[lists.target_face[p.place]];
-    add_weight_gradient(e, p.q, face, p.source_place, target_face, gap, {get(batch.unit, lane), batch.length[lane]},
+    add_weight_gradient(e, p.q, face, target_face, gap, {get(batch.unit, lane), batch.length[lane]},
                         batch.weight_slope[lane] * batch.attraction[lane], sink);
   }
-  ContactElement& element = pair.elements[d].emplace_back();
+  ContactElement& element = elements.emplace_back();
   element.source = 4 * face + p.q;
   element.target = sphere ? 0 : lists.target_face[p.place];
   element.set_weights(gap.mu[0], gap.mu[1]);
@@ -265,7 +274,7 @@ void add_point(const PointsEvaluation& e, int d, const ContactPoint& p, const Ba
 
 }  // namespace
 
-void evaluate_points(const PointsEvaluation& e, int d, SurfacePair& pair, PointsWorkspace& ws) {
+void evaluate_points(const PointsEvaluation& e, int d, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& ws) {
   PointsAgainstBody& lists = pair.points[d];
   collect_points(e, lists, ws);
   if (e.target.topology != nullptr) {  // what has no face within reach is out of range
@@ -275,6 +284,7 @@ void evaluate_points(const PointsEvaluation& e, int d, SurfacePair& pair, Points
       return p.place == kNoFace;
     });
   }
+  ws.elements.clear();
   Batch batch;
   for (std::size_t first = 0; first < ws.points.size(); first += kLanes) {
     const int count = static_cast<int>(std::min<std::size_t>(kLanes, ws.points.size() - first));
@@ -293,9 +303,10 @@ void evaluate_points(const PointsEvaluation& e, int d, SurfacePair& pair, Points
       const ContactPoint& p = ws.points[first + static_cast<std::size_t>(lane)];
       const double gap = batch.gap[lane];
       if (p.second >= 0.0) remember(p, gap, p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q, e, lists);
-      if (gap < e.reach.range) add_point(e, d, p, batch, lane, pair);
+      if (gap < e.reach.range) add_point(e, d, p, batch, lane, pair, gradient, ws.elements);
     }
   }
+  pair.elements[d].assign(ws.elements.begin(), ws.elements.end());  // no more room than needed: they live long
 }
 
 }  // namespace morula

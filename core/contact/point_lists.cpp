@@ -52,10 +52,6 @@ void add_candidates_of_face(const Ball& points, const PairBody& target, std::spa
   if (count > 0) measure();
 }
 
-std::uint16_t number_of(const std::vector<std::uint16_t>& sorted, std::uint32_t node) {
-  return static_cast<std::uint16_t>(std::lower_bound(sorted.begin(), sorted.end(), node) - sorted.begin());
-}
-
 void collect_nodes(const Topology* topology, std::span<const std::uint32_t> faces, std::vector<std::uint16_t>& nodes) {
   for (const std::uint32_t face : faces)
     for (const std::uint32_t node : topology->faces()[face]) nodes.push_back(static_cast<std::uint16_t>(node));
@@ -64,15 +60,6 @@ void collect_nodes(const Topology* topology, std::span<const std::uint32_t> face
 void sort_unique(std::vector<std::uint16_t>& nodes) {
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-}
-
-void number_faces(const Topology* topology, std::span<const std::uint32_t> faces, const std::vector<std::uint16_t>& nodes,
-                  std::vector<std::array<std::uint16_t, 3>>& numbered) {
-  numbered.clear();
-  for (const std::uint32_t face : faces) {
-    const Triangle& t = topology->faces()[face];
-    numbered.push_back({number_of(nodes, t[0]), number_of(nodes, t[1]), number_of(nodes, t[2])});
-  }
 }
 
 }  // namespace
@@ -132,12 +119,15 @@ void build_point_lists(const PairBody& source, const PairBody& target, const Lis
   const std::size_t points = lists.source_face.size() * static_cast<std::size_t>(points_per_face);
   lists.nearest.assign(points, kNoFace);
   lists.good_until.assign(points, -1e30f);
+  for (auto* list : {&lists.source_face, &lists.target_face, &lists.first_candidate}) list->shrink_to_fit();  // they live long
+  for (auto* list : {&lists.candidate, &lists.nearest}) list->shrink_to_fit();
+  lists.good_until.shrink_to_fit();
 }
 
-void number_pair_nodes(const Topology* topology_a, const Topology* topology_b, SurfacePair& pair) {
+void collect_pair_nodes(const Topology* topology_a, const Topology* topology_b, SurfacePair& pair) {
   const Topology* topology[2] = {topology_a, topology_b};
+  std::vector<std::uint16_t> nodes;
   for (int body = 0; body < 2; ++body) {
-    auto& nodes = pair.gradient[body].node;
     nodes.clear();
     if (topology[body] == nullptr) {
       nodes.push_back(0);
@@ -146,28 +136,21 @@ void number_pair_nodes(const Topology* topology_a, const Topology* topology_b, S
       collect_nodes(topology[body], pair.points[1 - body].target_face, nodes);
       sort_unique(nodes);
     }
-  }
-  for (int d = 0; d < 2; ++d) {
-    PointsAgainstBody& points = pair.points[d];
-    points.source_node.clear();
-    points.target_node.clear();
-    if (points.source_face.empty()) continue;
-    number_faces(topology[d], points.source_face, pair.gradient[d].node, points.source_node);
-    if (!pair.rigid && topology[1 - d] != nullptr)
-      number_faces(topology[1 - d], points.target_face, pair.gradient[1 - d].node, points.target_node);
+    pair.node[body].assign(nodes.begin(), nodes.end());
   }
 }
 
-void clear_results(SurfacePair& pair) {
+void clear_results(SurfacePair& pair, const std::size_t (&node_count)[2], PairGradient (&gradient)[2]) {
   pair.energy = 0.0;
   pair.overlap = 0.0;
   for (int body = 0; body < 2; ++body) {
-    PairGradient& gradient = pair.gradient[body];
-    gradient.force.assign(gradient.node.size(), Vec3d{});
-    gradient.node_normal.clear();
-    gradient.face_energy.assign(pair.points[body].source_face.size(), 0.0);
-    gradient.face_contact.assign(pair.points[body].source_face.size(), 0.0);
-    gradient.face_normal.clear();
+    PairGradient& g = gradient[body];
+    if (g.force.size() < node_count[body]) g.force.resize(node_count[body]);
+    if (g.node_normal.size() < node_count[body]) g.node_normal.resize(node_count[body]);
+    for (const std::uint16_t node : pair.node[body]) g.force[node] = g.node_normal[node] = {};
+    g.has_node_normal = false;
+    g.face_energy.assign(pair.points[body].source_face.size(), 0.0);
+    g.contact_area = 0.0;
     pair.elements[body].clear();
   }
 }

@@ -56,12 +56,13 @@ struct Mechanics::Trial {
 
 double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt) {
   const auto& x = scene_.position();
-  std::fill(friction_.begin(), friction_.end(), Vec3d{});
+  std::vector<Vec3d>& friction = residual_;  // Γ_n d, before it becomes the residual
+  std::fill(friction.begin() + scene_.owned_nodes(), friction.end(), Vec3d{});
   for (std::size_t i = 0; i < x.size(); ++i) displacement_[i] = x[i] - start[i];
   OrderFreeSum sums[2];
-  contacts_.add_step_friction(contact_scene(), displacement_, friction_, sums[0]);
-  shells_.add_step_friction(displacement_, friction_, sums[0]);
-  spheres_.add_step_friction(scene_, displacement_, friction_, sums[0]);
+  shells_.set_step_friction(displacement_, friction, sums[0]);
+  contacts_.add_step_friction(contact_scene(), displacement_, friction, sums[0]);
+  spheres_.add_step_friction(scene_, displacement_, friction, sums[0]);
   for (std::size_t body = 0; body < scene_.bodies().size(); ++body) {
     const ContactBody& b = scene_.bodies()[body];
     if (!b.active()) continue;
@@ -69,7 +70,7 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
     for (std::uint32_t i = b.first_point; i < b.first_point + b.point_count; ++i) {
       const std::size_t e = i < scene_.owned_nodes() ? i : i - scene_.sphere_point() + scene_.owned_nodes();
       work += morula::dot(external[e], displacement_[i]);
-      residual_[i] = force_[i] + external[e] - friction_[i] * (1.0 / dt);
+      residual_[i] = force_[i] + external[e] - friction[i] * (1.0 / dt);
     }
     sums[1].add(work);
   }

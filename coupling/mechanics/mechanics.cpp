@@ -69,20 +69,21 @@ void Mechanics::prepare(const Tissue& tissue) {
     scene_.build(tissue, model_.space, reach, shapes_, comm_);
     scene_valid_ = true;
     evaluated_ = contacts_current_ = false;
-    scene_start_ = tissue.shells.position;
-    scene_start_.insert(scene_start_.end(), tissue.spheres.position.begin(), tissue.spheres.position.end());
+    if (comm_.size() > 1) {
+      scene_start_ = tissue.shells.position;
+      scene_start_.insert(scene_start_.end(), tissue.spheres.position.begin(), tissue.spheres.position.end());
+    }
     contacts_.reset();
     shells_.set_shells(tissue.shells);
     const std::size_t points = scene_.point_count(), faces = scene_.face_count(), bodies = scene_.bodies().size();
     force_.assign(points, {});
     residual_.assign(points, {});
     displacement_.assign(points, {});
-    friction_.assign(points, {});
     right_.assign(points, {});
     solution_.assign(points, {});
+    gradient_.force.assign(points, {});
     gradient_.node_normal.assign(points, {});
     gradient_.face_energy.assign(faces, 0.0);
-    gradient_.face_normal.assign(faces, {});
     gradient_.contact_area.assign(bodies, 0.0);
 
     if (relaxing_)
@@ -138,20 +139,21 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
     }
   }
   auto timed = timer_.scope(Stage::kContacts);
-  contacts_.evaluate(scene, !moved);
+  const bool with_spheres = contacts_.has_pairs(SurfacePairKind::kWithSphere);
+  if (moved) {
+    gradient_.set_zero();
+    contacts_.evaluate(scene, SurfacePairKind::kSurfaces, gradient_);
+    if (with_spheres) surfaces_only_ = gradient_;
+  } else if (with_spheres) {
+    gradient_ = surfaces_only_;
+  }
+  if (with_spheres) contacts_.evaluate(scene, SurfacePairKind::kWithSphere, gradient_);
   spheres_.evaluate(scene_, contacts_);
 
-  std::fill(force_.begin(), force_.end(), Vec3d{});
-  std::fill(gradient_.node_normal.begin(), gradient_.node_normal.end(), Vec3d{});
-  std::fill(gradient_.face_energy.begin(), gradient_.face_energy.end(), 0.0);
-  std::fill(gradient_.face_normal.begin(), gradient_.face_normal.end(), Vec3d{});
-  std::fill(gradient_.contact_area.begin(), gradient_.contact_area.end(), 0.0);
-  gradient_.force.swap(force_);
-  contacts_.collect(scene, gradient_);
-  gradient_.force.swap(force_);
+  std::copy(gradient_.force.begin(), gradient_.force.end(), force_.begin());
   spheres_.collect(scene_, force_);
   const SurfaceList owned{scene_.topologies().first(scene_.owned_shells()), scene_.first_node(), scene_.first_face()};
-  add_surface_forces(owned, scene_.position(), geometry_, {gradient_.face_energy, gradient_.face_normal, gradient_.node_normal}, force_);
+  add_surface_forces(owned, scene_.position(), geometry_, {gradient_.face_energy, {}, gradient_.node_normal}, force_);
   const auto& internal = shells_.forces();
   for (std::size_t i = 0; i < scene_.owned_nodes(); ++i) force_[i] += internal.force[i];
 
@@ -300,8 +302,7 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
 std::size_t Mechanics::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return system_.memory() + contacts_.memory() + shells_.memory() + spheres_.memory() + bytes(force_) + bytes(residual_) + bytes(displacement_) +
-         bytes(friction_) + bytes(right_) + bytes(solution_) + bytes(gradient_.node_normal) + bytes(gradient_.face_energy) +
-         bytes(gradient_.face_normal) + bytes(gradient_.force) + bytes(geometry_.face_area) + bytes(geometry_.face_normal) +
+         bytes(right_) + bytes(solution_) + gradient_.memory() + surfaces_only_.memory() + bytes(geometry_.face_area) + bytes(geometry_.face_normal) +
          bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) + bytes(scene_.position()) +
          bytes(scene_start_);
 }

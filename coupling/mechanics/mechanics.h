@@ -127,7 +127,8 @@ class Mechanics {
   bool contacts_current_ = false;   ///< geometry and surface contacts belong to the scene's positions
   std::vector<Vec3d> scene_start_;  ///< owned positions when the ghosts were found
   ContactLayer contacts_;
-  ContactGradient gradient_;
+  ContactGradient gradient_;          ///< of all contacts of surfaces
+  ContactGradient surfaces_only_;     ///< without the pairs with a sphere; kept only where there are any
   SurfaceGeometry geometry_;
   ShellSystem shells_;
   SphereContacts spheres_;
@@ -138,7 +139,6 @@ class Mechanics {
   std::vector<Vec3d> force_;         ///< by point
   std::vector<Vec3d> residual_;      ///< force + external − Γ_n d/Δt
   std::vector<Vec3d> displacement_;  ///< d = x − x_n
-  std::vector<Vec3d> friction_;      ///< Γ_n d
   double friction_energy_ = 0.0;     ///< dᵀΓ_n d
   std::vector<Float4> right_, solution_;
 };
