@@ -222,7 +222,8 @@ void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {
       pair.points[d] = {};
       continue;
     }
-    build_point_lists(body[d], body[1 - d], reach(), settings_.points_per_face, faces[1 - d], pair.points[d]);
+    build_point_lists(body[d], body[1 - d], reach(), settings_.points_per_face, faces[1 - d], pair.patch_motion, pair.motion - pair.built_at,
+                      pair.points[d]);
   }
   collect_pair_nodes(body[0].topology, body[1].topology, pair);
   pair.built_at = pair.motion;

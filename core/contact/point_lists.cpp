@@ -62,14 +62,36 @@ void sort_unique(std::vector<std::uint16_t>& nodes) {
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 }
 
+/// Carry over the nearest faces as guesses, and let points sleep on: at most until `longest`, since there are new candidates.
+void keep_what_is_known(const PointsAgainstBody& old, std::size_t points_per_face, double longest, PointsAgainstBody& lists) {
+  std::size_t k = 0;
+  for (std::size_t m = 0; m < lists.source_face.size(); ++m) {
+    while (k < old.source_face.size() && old.source_face[k] < lists.source_face[m]) ++k;
+    if (k == old.source_face.size()) return;
+    if (old.source_face[k] != lists.source_face[m]) continue;
+    for (std::size_t q = 0; q < points_per_face; ++q) {
+      const std::uint16_t known = old.nearest[k * points_per_face + q];
+      std::uint16_t& now = lists.nearest[m * points_per_face + q];
+      if ((known & kNoFace) != kNoFace) {
+        const std::uint32_t face = old.target_face[known & kNoFace];
+        const auto at = std::lower_bound(lists.target_face.begin(), lists.target_face.end(), face);
+        if (at != lists.target_face.end() && *at == face) now = static_cast<std::uint16_t>(at - lists.target_face.begin());
+      }
+      if (!(known & kAsleep)) continue;
+      now |= kAsleep;
+      lists.good_until[m * points_per_face + q] =
+          std::min(old.good_until[k * points_per_face + q], static_cast<float>(longest * (1.0 - 1e-6)));
+    }
+  }
+}
+
 }  // namespace
 
 void build_point_lists(const PairBody& source, const PairBody& target, const ListReach& reach, int points_per_face,
-                       std::span<const std::uint32_t> target_faces, PointsAgainstBody& lists) {
-  lists.source_face.clear();
-  lists.target_face.clear();
+                       std::span<const std::uint32_t> target_faces, double motion, double motion_since_built, PointsAgainstBody& lists) {
+  PointsAgainstBody old;
+  std::swap(old, lists);
   lists.first_candidate.assign(1, 0);
-  lists.candidate.clear();
 
   const double distance = reach.candidates();
   std::vector<Ball> balls;
@@ -119,6 +141,8 @@ void build_point_lists(const PairBody& source, const PairBody& target, const Lis
   const std::size_t points = lists.source_face.size() * static_cast<std::size_t>(points_per_face);
   lists.nearest.assign(points, kNoFace);
   lists.good_until.assign(points, -1e30f);
+  // Faces that were in no list were beyond its reach, and the bodies have moved since.
+  keep_what_is_known(old, static_cast<std::size_t>(points_per_face), motion + 0.999 * (distance - motion_since_built - reach.range), lists);
   for (auto* list : {&lists.source_face, &lists.target_face, &lists.first_candidate}) list->shrink_to_fit();  // they live long
   for (auto* list : {&lists.candidate, &lists.nearest}) list->shrink_to_fit();
   lists.good_until.shrink_to_fit();

@@ -131,9 +131,9 @@ struct PointsWorkspace {
 };
 
 /// Fill the candidate lists of one direction. `target_faces` are the faces of the target that may be near, in increasing order (empty for
-/// a sphere).
+/// a sphere). `motion` is that of the pair's nodes, `motion_since_built` that of the whole bodies since `lists` were last built.
 void build_point_lists(const PairBody& source, const PairBody& target, const ListReach& reach, int points_per_face,
-                       std::span<const std::uint32_t> target_faces, PointsAgainstBody& lists);
+                       std::span<const std::uint32_t> target_faces, double motion, double motion_since_built, PointsAgainstBody& lists);
 
 /// Note the nodes of both bodies that the lists of both directions can touch.
 void collect_pair_nodes(const Topology* topology_a, const Topology* topology_b, SurfacePair& pair);

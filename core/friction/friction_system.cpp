@@ -225,8 +225,7 @@ void FrictionSystem::advance(float alpha, std::span<Float4> v, const Comm& comm,
   comm.sum(sums[0], totals);
 }
 
-Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<const Float4> b, std::span<Float4> v, double tolerance, int max_iterations,
-                                                      const Comm& comm) {
+Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<Float4> v, double tolerance, int max_iterations, const Comm& comm) {
   build_preconditioner();
   const auto exchange = [&](std::span<Float4> vector) {
     if (layout_.exchange) layout_.exchange(vector);
@@ -238,7 +237,7 @@ Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<const Float4> b,
     });
   };
 
-  const double b_norm = std::sqrt(dot(b, b, comm));
+  const double b_norm = std::sqrt(dot(r_, r_, comm));
   if (!std::isfinite(b_norm)) return SolveFault{"the force is not a number"};
   if (b_norm == 0.0) {
     for_owned_points([&](std::uint32_t i) { v[i] = {}; });
@@ -246,21 +245,15 @@ Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<const Float4> b,
   }
   exchange(v);
   apply(v, q_);
+  for_owned_points([&](std::uint32_t i) { store(p_[i], load(r_[i]) - load(q_[i])); });
+  // A start that is worse than none is dropped: zero velocity has the residual ‖b‖.
+  const bool helps = std::sqrt(dot(p_, p_, comm)) < b_norm;
   for_owned_points([&](std::uint32_t i) {
-    r_[i] = b[i];
     p_[i] = {};
+    if (!helps) v[i] = q_[i] = {};
   });
   double sums[2];  // r·r, r·z
   advance(1.0f, v, comm, sums);
-  // A start that is worse than none is dropped: zero velocity has the residual ‖b‖.
-  if (!(std::sqrt(sums[0]) < b_norm)) {
-    for_owned_points([&](std::uint32_t i) {
-      v[i] = {};
-      r_[i] = b[i];
-      q_[i] = {};
-    });
-    advance(0.0f, v, comm, sums);
-  }
   double residual = std::sqrt(sums[0]);
   const double goal = tolerance * b_norm;
   SolveReport report{0, residual / b_norm, residual <= goal};

@@ -82,9 +82,10 @@ class FrictionSystem {
   void set_elements(std::span<const ElementGroup> groups, const FaceQuadrature& quadrature);
   void set_sphere_pairs(std::span<const SpherePairElement> pairs) { sphere_pairs_ = pairs; }
 
-  /// Solve A v = b from the start in v, until ‖r‖ ≤ tolerance ‖b‖. v of ghost points is not written.
-  Result<SolveReport, SolveFault> solve(std::span<const Float4> b, std::span<Float4> v, double tolerance, int max_iterations,
-                                        const Comm& comm);
+  /// Where the caller puts b by point (owned points), anew before each solve().
+  [[nodiscard]] std::span<Float4> right() { return r_; }
+  /// Solve A v = b from the start in v, until ‖r‖ ≤ tolerance ‖b‖. v of ghost points is not written; b is used up.
+  Result<SolveReport, SolveFault> solve(std::span<Float4> v, double tolerance, int max_iterations, const Comm& comm);
 
   /// q = A p on owned points (p must hold the ghosts). For tests and for the residual.
   void apply(std::span<const Float4> p, std::span<Float4> q) const;

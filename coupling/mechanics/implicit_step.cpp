@@ -97,10 +97,11 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
   const auto solve = [&](double step, double tolerance) -> Result<SolveReport, StepFault> {
     assemble(tissue, step);
     auto timed = timer_.scope(Stage::kSolve);
+    const std::span<Float4> right = system_.right();
     for_owned_points([&](std::uint32_t i) {
-      right_[i] = {static_cast<float>(residual_[i].x), static_cast<float>(residual_[i].y), static_cast<float>(residual_[i].z), 0.0f};
+      right[i] = {static_cast<float>(residual_[i].x), static_cast<float>(residual_[i].y), static_cast<float>(residual_[i].z), 0.0f};
     });
-    auto solved = system_.solve(right_, solution_, tolerance, kMaxLinearIterations, comm_);
+    auto solved = system_.solve(solution_, tolerance, kMaxLinearIterations, comm_);
     if (!solved) return StepFault{solved.error().what, {}, true};
     report.linear_iterations += solved->iterations;
     for_owned_points([&](std::uint32_t i) { direction[i] = Vec3d{solution_[i].x, solution_[i].y, solution_[i].z} * dt; });
@@ -175,10 +176,11 @@ Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt
   report.step = dt;
   (void)friction_residual(start, external, dt);
   assemble(tissue, 0.0);
+  const std::span<Float4> right = system_.right();
   for_owned_points([&](std::uint32_t i) {
-    right_[i] = {static_cast<float>(residual_[i].x), static_cast<float>(residual_[i].y), static_cast<float>(residual_[i].z), 0.0f};
+    right[i] = {static_cast<float>(residual_[i].x), static_cast<float>(residual_[i].y), static_cast<float>(residual_[i].z), 0.0f};
   });
-  auto solved = system_.solve(right_, solution_, 1e-4, kMaxLinearIterations, comm_);
+  auto solved = system_.solve(solution_, 1e-4, kMaxLinearIterations, comm_);
   if (!solved) return undo(start, StepFault{solved.error().what, {}, true});
   report.linear_iterations = solved->iterations;
   report.newton = 1;

@@ -79,10 +79,8 @@ void Mechanics::prepare(const Tissue& tissue) {
     force_.assign(points, {});
     residual_.assign(points, {});
     displacement_.assign(points, {});
-    right_.assign(points, {});
     solution_.assign(points, {});
     gradient_.force.assign(points, {});
-    gradient_.node_normal.assign(points, {});
     gradient_.face_energy.assign(faces, 0.0);
     gradient_.contact_area.assign(bodies, 0.0);
 
@@ -140,20 +138,24 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   }
   auto timed = timer_.scope(Stage::kContacts);
   const bool with_spheres = contacts_.has_pairs(SurfacePairKind::kWithSphere);
-  if (moved) {
-    gradient_.set_zero();
-    contacts_.evaluate(scene, SurfacePairKind::kSurfaces, gradient_);
-    if (with_spheres) surfaces_only_ = gradient_;
-  } else if (with_spheres) {
-    gradient_ = surfaces_only_;
+  if (moved || with_spheres) {
+    gradient_.node_normal.swap(residual_);  // which is found anew after each evaluation
+    if (moved) {
+      gradient_.set_zero();
+      contacts_.evaluate(scene, SurfacePairKind::kSurfaces, gradient_);
+      if (with_spheres) surfaces_only_ = gradient_;
+    } else {
+      gradient_ = surfaces_only_;
+    }
+    if (with_spheres) contacts_.evaluate(scene, SurfacePairKind::kWithSphere, gradient_);
+    const SurfaceList owned{scene_.topologies().first(scene_.owned_shells()), scene_.first_node(), scene_.first_face()};
+    add_surface_forces(owned, scene_.position(), geometry_, {gradient_.face_energy, {}, gradient_.node_normal}, gradient_.force);
+    gradient_.node_normal.swap(residual_);
   }
-  if (with_spheres) contacts_.evaluate(scene, SurfacePairKind::kWithSphere, gradient_);
   spheres_.evaluate(scene_, contacts_);
 
   std::copy(gradient_.force.begin(), gradient_.force.end(), force_.begin());
   spheres_.collect(scene_, force_);
-  const SurfaceList owned{scene_.topologies().first(scene_.owned_shells()), scene_.first_node(), scene_.first_face()};
-  add_surface_forces(owned, scene_.position(), geometry_, {gradient_.face_energy, {}, gradient_.node_normal}, force_);
   const auto& internal = shells_.forces();
   for (std::size_t i = 0; i < scene_.owned_nodes(); ++i) force_[i] += internal.force[i];
 
@@ -302,7 +304,7 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
 std::size_t Mechanics::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return system_.memory() + contacts_.memory() + shells_.memory() + spheres_.memory() + bytes(force_) + bytes(residual_) + bytes(displacement_) +
-         bytes(right_) + bytes(solution_) + gradient_.memory() + surfaces_only_.memory() + bytes(geometry_.face_area) + bytes(geometry_.face_normal) +
+         bytes(solution_) + gradient_.memory() + surfaces_only_.memory() + bytes(geometry_.face_area) + bytes(geometry_.face_normal) +
          bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) + bytes(scene_.position()) +
          bytes(scene_start_);
 }

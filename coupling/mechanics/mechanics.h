@@ -140,7 +140,7 @@ class Mechanics {
   std::vector<Vec3d> residual_;      ///< force + external − Γ_n d/Δt
   std::vector<Vec3d> displacement_;  ///< d = x − x_n
   double friction_energy_ = 0.0;     ///< dᵀΓ_n d
-  std::vector<Float4> right_, solution_;
+  std::vector<Float4> solution_;
 };
 
 }  // namespace morula
