@@ -285,7 +285,7 @@ void ContactLayer::collect(const ContactScene& scene, const SurfacePair& pair, i
   const std::uint32_t number = side == 0 ? pair.a : pair.b;
   const ContactBody& body = scene.bodies[number];
   if (!body.owned || (pair.elements[0].empty() && pair.elements[1].empty())) return;
-  for (const std::uint16_t node : pair.node[side]) gradient.force[body.first_point + node] += part.force[node];
+  for (const std::uint16_t node : pair.node[side]) gradient.force[body.first_point + node] += part.force[node].value();
   if (part.has_node_normal)
     for (const std::uint16_t node : pair.node[side]) gradient.node_normal[body.first_point + node] += part.node_normal[node];
   const auto& faces = pair.points[side].source_face;

@@ -23,10 +23,16 @@ struct Sink {
   Triangle target_node;
 
   void push_source(const FaceQuadrature& quadrature, int q, const Vec3d& force) {
-    for (std::size_t i = 0; i < 3; ++i) source.force[source_node[i]] += force * quadrature.weight[q][i];
+    const auto padded = PaddedVec3::of(force);
+    for (std::size_t i = 0; i < 3; ++i) source.force[source_node[i]].v += padded * quadrature.weight[q][i];
   }
   void push_target(std::size_t corner, const Vec3d& force) {
-    if (target != nullptr) target->force[target_node[corner]] += force;
+    if (target != nullptr) target->force[target_node[corner]].v += PaddedVec3::of(force);
+  }
+  void push_target(const double (&mu)[3], const Vec3d& force) {
+    if (target == nullptr) return;
+    const auto padded = PaddedVec3::of(force);
+    for (std::size_t j = 0; j < 3; ++j) target->force[target_node[j]].v += padded * mu[j];
   }
 };
 
@@ -73,9 +79,9 @@ void add_face_normal_gradient(const PairBody& source, std::uint32_t face, const 
   const Vec3d& x1 = source.position[sink.source_node[1]];
   const Vec3d& x2 = source.position[sink.source_node[2]];
   const Vec3d f0 = cross(x2 - x1, w), f1 = cross(x0 - x2, w);
-  sink.source.force[sink.source_node[0]] += f0;
-  sink.source.force[sink.source_node[1]] += f1;
-  sink.source.force[sink.source_node[2]] -= f0 + f1;
+  sink.source.force[sink.source_node[0]].v += PaddedVec3::of(f0);
+  sink.source.force[sink.source_node[1]].v += PaddedVec3::of(f1);
+  sink.source.force[sink.source_node[2]].v -= PaddedVec3::of(f0 + f1);
 }
 
 /// Gradient through the opposed-normal weight: `h0` = ∂E/∂m with m = −n_T·n_y.
@@ -113,7 +119,16 @@ struct alignas(64) Batch {
   double unit[3][kLanes], length[kLanes];  ///< normal of the target at the foot point
   double weight_slope[kLanes], attraction[kLanes], density[kLanes], ramp[kLanes], pull[3][kLanes];
   double bearing[kLanes], stiffness[kLanes];
+  std::int32_t rounded_mu[2][kLanes], rounded_normal[3][kLanes];  ///< as ContactElement keeps them
 };
+
+/// Rounded to the nearest integer, halves away from zero.
+void store_rounded(std::int32_t (&out)[kLanes], Real value) {
+  using Int [[gnu::vector_size(kLanes * sizeof(std::int32_t))]] = std::int32_t;
+  const Real half = select(value < Real(0.0), Real(-0.5), Real(0.5));
+  const Int rounded = __builtin_convertvector((value + half).v, Int);
+  __builtin_memcpy(out, &rounded, sizeof rounded);
+}
 
 void put(double (&array)[3][kLanes], int lane, const Vec3d& v) {
   array[0][lane] = v.x, array[1][lane] = v.y, array[2][lane] = v.z;
@@ -193,6 +208,8 @@ void respond(const PointsEvaluation& e, Batch& batch) {
   (area * friction_weight(gap, law.range)).store(batch.bearing);
   (area * (weight.value * attraction.curvature + repulsion.curvature)).store(batch.stiffness);
   area.store(batch.area);
+  for (std::size_t k = 0; k < 2; ++k) store_rounded(batch.rounded_mu[k], Real::load(batch.mu[k]) * Real(ContactElement::kWeightUnits));
+  for (std::size_t k = 0; k < 3; ++k) store_rounded(batch.rounded_normal[k], Real::load(batch.normal[k]) * Real(ContactElement::kNormalUnits));
 }
 
 Vec3d quadrature_point(const PointsEvaluation& e, const Triangle& t, int q) {
@@ -257,7 +274,7 @@ void add_point(const PointsEvaluation& e, int d, const ContactPoint& p, const Ba
   if (sphere)
     sink.push_target(0, pull);
   else
-    for (std::size_t j = 0; j < 3; ++j) sink.push_target(j, pull * gap.mu[j]);
+    sink.push_target(gap.mu, pull);
   if (batch.weight_slope[lane] != 0.0) {
     const Triangle* target_face = sphere ? nullptr : &e.target.topology->faces()[lists.target_face[p.place]];
     add_weight_gradient(e, p.q, face, target_face, gap, {get(batch.unit, lane), batch.length[lane]},
@@ -266,8 +283,8 @@ void add_point(const PointsEvaluation& e, int d, const ContactPoint& p, const Ba
   ContactElement& element = elements.emplace_back();
   element.source = 4 * face + p.q;
   element.target = sphere ? 0 : lists.target_face[p.place];
-  element.set_weights(gap.mu[0], gap.mu[1]);
-  element.set_normal(gap.normal);
+  element.set_weights(batch.rounded_mu[0][lane], batch.rounded_mu[1][lane]);
+  for (std::size_t k = 0; k < 3; ++k) element.n[k] = static_cast<std::int16_t>(batch.rounded_normal[k][lane]);
   element.w = static_cast<float>(batch.bearing[lane]);
   element.k = static_cast<float>(batch.stiffness[lane]);
 }

@@ -3,6 +3,7 @@
 
 #include "core/contact/closest_foot.h"
 #include "core/contact/surface_pair.h"
+#include "core/simd/transpose.h"
 
 namespace morula {
 namespace {
@@ -20,11 +21,40 @@ Ball face_ball(const PairBody& body, std::uint32_t face) {
   return {center, std::sqrt(radius2)};
 }
 
+constexpr int kLanes = 8;
+using Real = Lane<double, kLanes>;
+
+/// Balls around faces, eight at a time; those that fill up the last eight are out of everybody's reach.
+struct Balls {
+  std::vector<double> x, y, z, radius;
+  std::size_t count = 0;
+
+  void add(const Ball& ball) {
+    if (count++ % kLanes == 0) {
+      for (auto* v : {&x, &y, &z}) v->resize(v->size() + kLanes, 1e30);
+      radius.resize(radius.size() + kLanes, 0.0);
+    }
+    x[count - 1] = ball.center.x, y[count - 1] = ball.center.y, z[count - 1] = ball.center.z;
+    radius[count - 1] = ball.radius;
+  }
+  /// Call `found` with the number of each ball within `distance` of a point.
+  template <class Found>
+  void near(const Vec3d& point, double distance, Found&& found) const {
+    for (std::size_t first = 0; first < count; first += kLanes) {
+      const Vec3<Real> away{Real::load(x.data() + first) - Real(point.x), Real::load(y.data() + first) - Real(point.y),
+                            Real::load(z.data() + first) - Real(point.z)};
+      const Real far = Real::load(radius.data() + first) + Real(distance);
+      const auto within = norm2(away) < far * far;
+      if (!any_lane<kLanes>(within)) continue;
+      for (int lane = 0; lane < kLanes; ++lane)
+        if (within[lane] != 0) found(first + static_cast<std::size_t>(lane));
+    }
+  }
+};
+
 /// Add the target faces that are within `reach` of the ball of a source face's points.
-void add_candidates_of_face(const Ball& points, const PairBody& target, std::span<const std::uint32_t> target_faces,
-                            std::span<const Ball> ball, double reach, std::vector<std::uint16_t>& out) {
-  constexpr int kLanes = 8;
-  using Real = Lane<double, kLanes>;
+void add_candidates_of_face(const Ball& points, const PairBody& target, std::span<const std::uint32_t> target_faces, const Balls& balls,
+                            double reach, std::vector<std::uint16_t>& out) {
   const double limit = (reach + points.radius) * (1.0 + 1e-9), limit2 = limit * limit;
   std::uint16_t waiting[kLanes];
   int count = 0;
@@ -38,9 +68,7 @@ void add_candidates_of_face(const Ball& points, const PairBody& target, std::spa
       if (foot.distance2[lane] < limit2 || foot.doubtful[lane] != 0.0) out.push_back(waiting[lane]);
     count = 0;
   };
-  for (std::size_t m = 0; m < ball.size(); ++m) {
-    const double far = limit + ball[m].radius;
-    if (!(norm2(ball[m].center - points.center) < far * far)) continue;
+  balls.near(points.center, limit, [&](std::size_t m) {
     const Triangle& t = target.topology->faces()[target_faces[m]];
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3d x = target.node(t[k]);
@@ -48,7 +76,7 @@ void add_candidates_of_face(const Ball& points, const PairBody& target, std::spa
     }
     waiting[count++] = static_cast<std::uint16_t>(m);
     if (count == kLanes) measure();
-  }
+  });
   if (count > 0) measure();
 }
 
@@ -94,18 +122,19 @@ void build_point_lists(const PairBody& source, const PairBody& target, const Lis
   lists.first_candidate.assign(1, 0);
 
   const double distance = reach.candidates();
-  std::vector<Ball> balls;
+  Balls balls;
   Box near;
   if (target.topology == nullptr) {
     near.include(target.node(0) - Vec3d{1, 1, 1} * target.radius);
     near.include(target.node(0) + Vec3d{1, 1, 1} * target.radius);
   } else {
     for (const std::uint32_t face : target_faces) {
-      balls.push_back(face_ball(target, face));
-      near.include(balls.back().center - Vec3d{1, 1, 1} * balls.back().radius);
-      near.include(balls.back().center + Vec3d{1, 1, 1} * balls.back().radius);
+      const Ball ball = face_ball(target, face);
+      balls.add(ball);
+      near.include(ball.center - Vec3d{1, 1, 1} * ball.radius);
+      near.include(ball.center + Vec3d{1, 1, 1} * ball.radius);
     }
-    if (balls.empty()) return;
+    if (balls.count == 0) return;
   }
   near = near.inflated(distance);
 
@@ -129,7 +158,7 @@ void build_point_lists(const PairBody& source, const PairBody& target, const Lis
   }
 
   // Keep only the target faces that are somebody's candidate, in their order.
-  std::vector<std::uint16_t> place(balls.size(), kNoFace);
+  std::vector<std::uint16_t> place(balls.count, kNoFace);
   for (const std::uint16_t m : lists.candidate) place[m] = 0;
   std::uint16_t kept = 0;
   for (std::size_t m = 0; m < place.size(); ++m) {
@@ -171,7 +200,10 @@ void clear_results(SurfacePair& pair, const std::size_t (&node_count)[2], PairGr
     PairGradient& g = gradient[body];
     if (g.force.size() < node_count[body]) g.force.resize(node_count[body]);
     if (g.node_normal.size() < node_count[body]) g.node_normal.resize(node_count[body]);
-    for (const std::uint16_t node : pair.node[body]) g.force[node] = g.node_normal[node] = {};
+    for (const std::uint16_t node : pair.node[body]) {
+      g.force[node] = {};
+      g.node_normal[node] = {};
+    }
     g.has_node_normal = false;
     g.face_energy.assign(pair.points[body].source_face.size(), 0.0);
     g.contact_area = 0.0;

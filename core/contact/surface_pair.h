@@ -64,9 +64,18 @@ struct PointsAgainstBody {
 inline constexpr std::uint16_t kAsleep = 0x8000;  ///< flag: the point is out of range
 inline constexpr std::uint16_t kNoFace = 0x7FFF;  ///< no face is known
 
+/// A vector and a zero: one register.
+struct alignas(32) PaddedVec3 {
+  using Vector [[gnu::vector_size(32)]] = double;
+  Vector v{};
+
+  static Vector of(const Vec3d& a) { return Vector{a.x, a.y, a.z, 0.0}; }
+  [[nodiscard]] Vec3d value() const { return {v[0], v[1], v[2]}; }
+};
+
 /// Gradient of a pair's energy with respect to one of its bodies, good until the next pair is evaluated.
 struct PairGradient {
-  std::vector<Vec3d> force;         ///< −∂E/∂x by node of the body, at fixed face areas and node normals [nN]; zero but at the pair's nodes
+  std::vector<PaddedVec3> force;    ///< −∂E/∂x by node of the body, at fixed face areas and node normals [nN]; zero but at the pair's nodes
   std::vector<Vec3d> node_normal;   ///< ∂E/∂n_v likewise [nN·µm]
   bool has_node_normal = false;     ///< false: all of node_normal is zero
   std::vector<double> face_energy;  ///< ∂E/∂A_T by source face [nN/µm]

@@ -29,9 +29,6 @@ struct SpherePairElement {
   float a, b, k;
 };
 
-/// Fills the blocks that contacts add to the edges of a body (zero before); false when there are none.
-using EdgeBlockSource = std::function<bool(std::uint32_t body, std::span<EdgeBlock> edges)>;
-
 /// A part of the matrix that somebody else can apply: the shells' own mechanics. It acts on the first point_count() points, all owned,
 /// which belong to the first bodies.
 class OperatorPart {

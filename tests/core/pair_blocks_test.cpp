@@ -8,6 +8,11 @@
 namespace morula {
 namespace {
 
+void set_weights(ContactElement& e, double mu0, double mu1) {
+  e.set_weights(static_cast<std::int32_t>(mu0 * ContactElement::kWeightUnits + 0.5),
+                static_cast<std::int32_t>(mu1 * ContactElement::kWeightUnits + 0.5));
+}
+
 /// Two bodies of 42 nodes (or a sphere, or an obstacle) with random contact points on each other.
 struct RandomContacts {
   ShapeLibrary shapes;
@@ -33,8 +38,9 @@ struct RandomContacts {
           e.source = 4 * face + q;
           e.target = sphere ? 0 : static_cast<std::uint32_t>(uniform(0, topology->face_count() - 0.01));
           const double mu0 = uniform(0, 1) < 0.2 ? 0.0 : uniform(0, 1);
-          e.set_weights(mu0, uniform(0, 1.0 - mu0));
-          e.set_normal(normalized(Vec3d{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}));
+          set_weights(e, mu0, uniform(0, 1.0 - mu0));
+          const Vec3d n = normalized(Vec3d{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)});
+          for (std::size_t k = 0; k < 3; ++k) e.n[k] = static_cast<std::int16_t>(n[k] * ContactElement::kNormalUnits);
           e.w = static_cast<float>(uniform(0, 0.5));
           e.k = static_cast<float>(uniform(0, 2.0));
           elements[d].push_back(e);
@@ -168,7 +174,7 @@ TEST(ContactElement, KeepsWeightsThatSumToOne) {
   ContactElement e{};
   for (double mu0 = 0.0; mu0 <= 1.0; mu0 += 0.0137)
     for (double mu1 = 0.0; mu0 + mu1 <= 1.0; mu1 += 0.0171) {
-      e.set_weights(mu0, mu1);
+      set_weights(e, mu0, mu1);
       double mu[3];
       e.weights(mu);
       EXPECT_NEAR(mu[0], mu0, 1e-5);
@@ -176,7 +182,7 @@ TEST(ContactElement, KeepsWeightsThatSumToOne) {
       EXPECT_GE(mu[2], 0.0);
       EXPECT_NEAR(mu[0] + mu[1] + mu[2], 1.0, 1e-15);
     }
-  e.set_weights(0.0, 1.0);
+  set_weights(e, 0.0, 1.0);
   double mu[3];
   e.weights(mu);
   EXPECT_EQ(mu[0], 0.0);
