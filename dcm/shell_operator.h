@@ -4,7 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "core/friction/friction_system.h"
+#include "core/friction/edge_block.h"
+#include "core/friction/float4.h"
 #include "core/simd/transpose.h"
 #include "core/vec3.h"
 #include "dcm/blocks.h"

@@ -39,12 +39,17 @@ struct ContactSettings {
 
 /// Gradients that contacts leave on the points and faces of all bodies; sized like the scene. Only owned bodies are written.
 struct ContactGradient {
-  std::vector<Vec3d> force;          ///< by point
+  std::vector<Vec3d> force;          ///< by point: at fixed face areas and node normals
   std::vector<Vec3d> node_normal;    ///< ∂E/∂n_v by point
   std::vector<double> face_energy;   ///< ∂E/∂A_T by face
-  std::vector<Vec3d> face_normal;    ///< ∂E/∂n_T by face
-  std::vector<double> contact_area;  ///< by body: area of its surface that is in contact [µm²]
+  std::vector<double> contact_area;  ///< by surface: its area that is in contact [µm²]
+
+  void set_zero();
+  [[nodiscard]] std::size_t memory() const;
 };
+
+/// Which pairs are meant: surfaces with surfaces and obstacles, or with spheres.
+enum class SurfacePairKind : std::uint8_t { kSurfaces, kWithSphere };
 
 /// Contacts of all bodies of a rank: which bodies may touch, and for surfaces the gaps, energies, gradients and friction elements.
 ///
@@ -70,14 +75,12 @@ class ContactLayer {
   /// Find the pairs of bodies again. On several ranks the ghosts must be renewed first.
   void rebuild(const ContactScene& scene, const Space& space);
 
-  /// Narrow phase of all surface pairs at the present positions: energies, gradients, elements. When only radii have changed since the
-  /// last call, the pairs with a sphere suffice.
-  void evaluate(const ContactScene& scene, bool only_spheres = false);
+  /// Narrow phase of the surface pairs of one kind at the present positions: energies and elements, kept; gradients are added to `gradient`.
+  void evaluate(const ContactScene& scene, SurfacePairKind kind, ContactGradient& gradient);
+  [[nodiscard]] bool has_pairs(SurfacePairKind kind) const { return !pairs_of_kind_[static_cast<std::size_t>(kind)].empty(); }
 
   /// Energy of the pairs that this rank counts (those whose first body it owns), added to an order-free sum.
   void add_energy(const ContactScene& scene, OrderFreeSum& sum) const;
-  /// Collect the gradients of all pairs on the owned bodies (contact areas are those of surfaces).
-  void collect(const ContactScene& scene, ContactGradient& gradient) const;
   /// Deepest penetration of a surface into another surface or obstacle [µm], and which pair has it.
   [[nodiscard]] const SurfacePair* deepest(const ContactScene& scene) const;
 
@@ -105,14 +108,13 @@ class ContactLayer {
   }
   [[nodiscard]] PairBody view(const ContactScene& scene, const SurfacePair& pair, int which) const;
   void rebuild_lists(const ContactScene& scene, SurfacePair& pair);
-  void evaluate_pair(const ContactScene& scene, SurfacePair& pair, PointsWorkspace& workspace);
+  void evaluate_pair(const ContactScene& scene, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& workspace);
+  void collect(const ContactScene& scene, const SurfacePair& pair, int side, const PairGradient& part, ContactGradient& gradient) const;
   /// Bound on how far the nodes in a pair's lists have moved against each other since the last call of note_motion().
   /// note_motion() where there are no pairs of surfaces: nothing but the distance from where the list was built is of interest.
   [[nodiscard]] bool note_travel(const ContactScene& scene);
   [[nodiscard]] double patch_motion(const ContactScene& scene, const SurfacePair& pair) const;
   void add_obstacle_pairs(const ContactScene& scene);
-  /// Which pairs each body has, and room for their motion.
-  void index_incident_pairs(std::size_t bodies);
   [[nodiscard]] ListReach reach() const { return {settings_.range, settings_.skin, settings_.depth}; }
 
   struct BodyMotion {
@@ -129,14 +131,9 @@ class ContactLayer {
 
   std::vector<SurfacePair> pairs_;
   std::vector<SphereNeighbours> spheres_;
-  std::vector<std::uint32_t> incident_begin_;
-  struct Incidence {
-    std::uint32_t pair;
-    std::uint8_t side;
-  };
-  std::vector<Incidence> incident_;
-  std::vector<Vec3d> last_position_;  ///< at the last note_motion(); empty if there are no pairs
-  std::vector<Vec3f> listed_at_;      ///< where the points were at the last rebuild(), if there are no pairs
+  std::vector<std::uint32_t> pairs_of_kind_[2];  ///< by SurfacePairKind
+  std::vector<Vec3d> last_position_;             ///< at the last note_motion(); empty if there are no pairs
+  std::vector<Vec3f> listed_at_;                 ///< where the points were at the last rebuild(), if there are no pairs
   std::vector<BodyMotion> motion_;
   std::vector<double> last_radius_;  ///< of spheres: growth counts as motion
   std::vector<double> travel_;       ///< by body: bound on the way of its points since the list of pairs was built

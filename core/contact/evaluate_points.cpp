@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "core/contact/closest_foot.h"
@@ -14,24 +15,26 @@ struct PointGap {
   double mu[3] = {1, 0, 0};  ///< weights of the nearest face's nodes at the nearest point
 };
 
-/// Where the results of one direction go.
+/// Where the results of one point go.
 struct Sink {
   PairGradient& source;
   PairGradient* target;  ///< null for rigid obstacles
-  const std::array<std::uint16_t, 3>& source_node;
-  std::array<std::uint16_t, 3> target_node;
+  const Triangle& source_node;
+  Triangle target_node;
 
   void push_source(const FaceQuadrature& quadrature, int q, const Vec3d& force) {
-    for (std::size_t i = 0; i < 3; ++i) source.force[source_node[i]] += force * quadrature.weight[q][i];
+    const auto padded = PaddedVec3::of(force);
+    for (std::size_t i = 0; i < 3; ++i) source.force[source_node[i]].v += padded * quadrature.weight[q][i];
   }
   void push_target(std::size_t corner, const Vec3d& force) {
-    if (target != nullptr) target->force[target_node[corner]] += force;
+    if (target != nullptr) target->force[target_node[corner]].v += PaddedVec3::of(force);
+  }
+  void push_target(const double (&mu)[3], const Vec3d& force) {
+    if (target == nullptr) return;
+    const auto padded = PaddedVec3::of(force);
+    for (std::size_t j = 0; j < 3; ++j) target->force[target_node[j]].v += padded * mu[j];
   }
 };
-
-void grow(std::vector<Vec3d>& gradient, std::size_t size) {
-  if (gradient.empty()) gradient.assign(size, Vec3d{});
-}
 
 /// Normal of the target at the foot point: node normals interpolated, or the sphere's.
 struct TargetNormal {
@@ -68,11 +71,23 @@ void add_foot_gradient(const PointsEvaluation& e, int q, const Triangle& t, cons
   }
 }
 
+/// Forces on the corners of the source face from h = ∂E/∂n_T: F_c = e_c × w, w = (I − n_T n_Tᵀ) h/(2 A_T), e_c the edge opposite to c.
+void add_face_normal_gradient(const PairBody& source, std::uint32_t face, const Vec3d& h, Sink& sink) {
+  const Vec3d& n = source.face_normal[face];
+  const Vec3d w = (h - n * dot(n, h)) * (0.5 / source.face_area[face]);
+  const Vec3d& x0 = source.position[sink.source_node[0]];
+  const Vec3d& x1 = source.position[sink.source_node[1]];
+  const Vec3d& x2 = source.position[sink.source_node[2]];
+  const Vec3d f0 = cross(x2 - x1, w), f1 = cross(x0 - x2, w);
+  sink.source.force[sink.source_node[0]].v += PaddedVec3::of(f0);
+  sink.source.force[sink.source_node[1]].v += PaddedVec3::of(f1);
+  sink.source.force[sink.source_node[2]].v -= PaddedVec3::of(f0 + f1);
+}
+
 /// Gradient through the opposed-normal weight: `h0` = ∂E/∂m with m = −n_T·n_y.
-void add_weight_gradient(const PointsEvaluation& e, int q, std::uint32_t face, std::size_t source_place, const Triangle* t,
-                         const PointGap& gap, const TargetNormal& normal, double h0, Sink& sink) {
-  grow(sink.source.face_normal, sink.source.face_energy.size());
-  sink.source.face_normal[source_place] -= normal.unit * h0;
+void add_weight_gradient(const PointsEvaluation& e, int q, std::uint32_t face, const Triangle* t, const PointGap& gap,
+                         const TargetNormal& normal, double h0, Sink& sink) {
+  add_face_normal_gradient(e.source, face, normal.unit * -h0, sink);
   const Vec3d h = e.source.face_normal[face] * -h0;  // ∂E/∂n_y
   const Vec3d across = (h - normal.unit * dot(normal.unit, h)) * (1.0 / normal.length);
   if (t == nullptr) {  // n_y = (x_q − x)/|x_q − x| of a sphere
@@ -85,7 +100,7 @@ void add_weight_gradient(const PointsEvaluation& e, int q, std::uint32_t face, s
   for (std::size_t j = 0; j < 3; ++j) {
     c[j] = dot(across, e.target.node_normal[(*t)[j]]);
     if (sink.target == nullptr || gap.mu[j] == 0.0) continue;
-    grow(sink.target->node_normal, sink.target->node.size());
+    sink.target->has_node_normal = true;
     sink.target->node_normal[sink.target_node[j]] += across * gap.mu[j];
   }
   add_foot_gradient(e, q, *t, gap, c, sink);
@@ -104,7 +119,16 @@ struct alignas(64) Batch {
   double unit[3][kLanes], length[kLanes];  ///< normal of the target at the foot point
   double weight_slope[kLanes], attraction[kLanes], density[kLanes], ramp[kLanes], pull[3][kLanes];
   double bearing[kLanes], stiffness[kLanes];
+  std::int32_t rounded_mu[2][kLanes], rounded_normal[3][kLanes];  ///< as ContactElement keeps them
 };
+
+/// Rounded to the nearest integer, halves away from zero.
+void store_rounded(std::int32_t (&out)[kLanes], Real value) {
+  using Int [[gnu::vector_size(kLanes * sizeof(std::int32_t))]] = std::int32_t;
+  const Real half = select(value < Real(0.0), Real(-0.5), Real(0.5));
+  const Int rounded = __builtin_convertvector((value + half).v, Int);
+  __builtin_memcpy(out, &rounded, sizeof rounded);
+}
 
 void put(double (&array)[3][kLanes], int lane, const Vec3d& v) {
   array[0][lane] = v.x, array[1][lane] = v.y, array[2][lane] = v.z;
@@ -184,6 +208,8 @@ void respond(const PointsEvaluation& e, Batch& batch) {
   (area * friction_weight(gap, law.range)).store(batch.bearing);
   (area * (weight.value * attraction.curvature + repulsion.curvature)).store(batch.stiffness);
   area.store(batch.area);
+  for (std::size_t k = 0; k < 2; ++k) store_rounded(batch.rounded_mu[k], Real::load(batch.mu[k]) * Real(ContactElement::kWeightUnits));
+  for (std::size_t k = 0; k < 3; ++k) store_rounded(batch.rounded_normal[k], Real::load(batch.normal[k]) * Real(ContactElement::kNormalUnits));
 }
 
 Vec3d quadrature_point(const PointsEvaluation& e, const Triangle& t, int q) {
@@ -192,42 +218,33 @@ Vec3d quadrature_point(const PointsEvaluation& e, const Triangle& t, int q) {
 }
 
 /// The points that may be in range, with their nearest faces; those that surely are not are left out.
-void collect_points(PointsEvaluation& e, PointsAgainstBody& lists, PointsWorkspace& ws) {
+void collect_points(const PointsEvaluation& e, PointsAgainstBody& lists, PointsWorkspace& ws) {
   ws.points.clear();
-  bool centroids = false;
-  std::size_t index = 0;
-  const int count = e.quadrature.count;
-  for (std::uint32_t k = 0; k < lists.source_face.size(); ++k)
-    for (int q = 0; q < count; ++q, ++index) {
+  ws.search.clear();
+  const std::uint32_t count = static_cast<std::uint32_t>(e.quadrature.count);
+  const auto triangles = e.source.topology->faces();
+  for (std::uint32_t k = 0; k < lists.source_face.size(); ++k) {
+    const Triangle& t = triangles[lists.source_face[k]];
+    for (std::uint32_t q = 0; q < count; ++q) {
+      const std::uint32_t index = k * count + q;
       const std::uint16_t known = lists.nearest[index];
       const bool sure = e.motion < lists.good_until[index];
-      if (sure && known == kAsleep) continue;
-      if (sure || e.target.topology == nullptr) {
-        ws.points.push_back({k, static_cast<std::uint16_t>(q), false, {known, 0.0}});
-        continue;
-      }
-      if (!centroids) {
-        ws.centroid.resize(lists.target_face.size());
-        for (std::size_t m = 0; m < ws.centroid.size(); ++m) ws.centroid[m] = e.target.centroid(lists.target_face[m]);
-        e.target_centroid = ws.centroid;
-        centroids = true;
-      }
-      const Vec3d point = quadrature_point(e, e.source.topology->faces()[lists.source_face[k]], q);
-      const FoundFace nearest = find_nearest_face(point, k, known, e, lists);
-      if (nearest.place == kAsleep)
-        remember(nearest, 0.0, index, e, lists);
-      else
-        ws.points.push_back({k, static_cast<std::uint16_t>(q), true, nearest});
+      if (sure && (known & kAsleep)) continue;
+      if (!sure && e.target.topology != nullptr) ws.search.push_back(static_cast<std::uint32_t>(ws.points.size()));
+      const std::uint16_t guess = known & kNoFace;
+      ws.points.push_back({quadrature_point(e, t, static_cast<int>(q)), k, static_cast<std::uint16_t>(q), guess});
     }
+  }
+  find_nearest_faces(e, lists, ws);
 }
 
-void fill(const PointsEvaluation& e, const PointsAgainstBody& lists, const PointsWorkspace::Point& p, int lane, Batch& batch) {
+void fill(const PointsEvaluation& e, const PointsAgainstBody& lists, const ContactPoint& p, int lane, Batch& batch) {
   const std::uint32_t face = lists.source_face[p.source_place];
-  put(batch.point, lane, quadrature_point(e, e.source.topology->faces()[face], p.q));
+  put(batch.point, lane, p.position);
   put(batch.source_normal, lane, e.source.face_normal[face]);
   batch.area[lane] = e.source.face_area[face];
   if (e.target.topology == nullptr) return;
-  const Triangle& t = e.target.topology->faces()[lists.target_face[p.nearest.place]];
+  const Triangle& t = e.target.topology->faces()[lists.target_face[p.place]];
   for (std::size_t k = 0; k < 3; ++k) {
     put(batch.corner[k], lane, e.target.node(t[k]));
     put(batch.node_normal[k], lane, e.target.node_normal[t[k]]);
@@ -235,12 +252,13 @@ void fill(const PointsEvaluation& e, const PointsAgainstBody& lists, const Point
 }
 
 /// Add one point's share to the pair.
-void add_point(const PointsEvaluation& e, int d, const PointsWorkspace::Point& p, const Batch& batch, int lane, SurfacePair& pair) {
+void add_point(const PointsEvaluation& e, int d, const ContactPoint& p, const Batch& batch, int lane, SurfacePair& pair,
+               PairGradient (&gradient)[2], std::vector<ContactElement>& elements) {
   const PointsAgainstBody& lists = pair.points[d];
   const std::uint32_t face = lists.source_face[p.source_place];
   const bool sphere = e.target.topology == nullptr;
-  Sink sink{pair.gradient[d], e.target_moves ? &pair.gradient[1 - d] : nullptr, lists.source_node[p.source_place], {0, 0, 0}};
-  if (!sphere && e.target_moves) sink.target_node = lists.target_node[p.nearest.place];
+  Sink sink{gradient[d], e.target_moves ? &gradient[1 - d] : nullptr, e.source.topology->faces()[face], {0, 0, 0}};
+  if (!sphere) sink.target_node = e.target.topology->faces()[lists.target_face[p.place]];
   PointGap gap;
   gap.gap = batch.gap[lane];
   gap.normal = get(batch.normal, lane);
@@ -248,7 +266,7 @@ void add_point(const PointsEvaluation& e, int d, const PointsWorkspace::Point& p
   const double scale = e.share * (1.0 / e.quadrature.count);
   pair.energy += batch.area[lane] * batch.density[lane];
   sink.source.face_energy[p.source_place] += scale * batch.density[lane];
-  sink.source.face_contact[p.source_place] += batch.ramp[lane];
+  sink.source.contact_area += batch.ramp[lane];
   pair.overlap = gap.gap < -pair.overlap ? -gap.gap : pair.overlap;
 
   const Vec3d pull = get(batch.pull, lane);
@@ -256,35 +274,42 @@ void add_point(const PointsEvaluation& e, int d, const PointsWorkspace::Point& p
   if (sphere)
     sink.push_target(0, pull);
   else
-    for (std::size_t j = 0; j < 3; ++j) sink.push_target(j, pull * gap.mu[j]);
+    sink.push_target(gap.mu, pull);
   if (batch.weight_slope[lane] != 0.0) {
-    const Triangle* target_face = sphere ? nullptr : &e.target.topology->faces()[lists.target_face[p.nearest.place]];
-    add_weight_gradient(e, p.q, face, p.source_place, target_face, gap, {get(batch.unit, lane), batch.length[lane]},
+    const Triangle* target_face = sphere ? nullptr : &e.target.topology->faces()[lists.target_face[p.place]];
+    add_weight_gradient(e, p.q, face, target_face, gap, {get(batch.unit, lane), batch.length[lane]},
                         batch.weight_slope[lane] * batch.attraction[lane], sink);
   }
-  ContactElement& element = pair.elements[d].emplace_back();
+  ContactElement& element = elements.emplace_back();
   element.source = 4 * face + p.q;
-  element.target = sphere ? 0 : lists.target_face[p.nearest.place];
-  element.set_weights(gap.mu[0], gap.mu[1]);
-  element.set_normal(gap.normal);
+  element.target = sphere ? 0 : lists.target_face[p.place];
+  element.set_weights(batch.rounded_mu[0][lane], batch.rounded_mu[1][lane]);
+  for (std::size_t k = 0; k < 3; ++k) element.n[k] = static_cast<std::int16_t>(batch.rounded_normal[k][lane]);
   element.w = static_cast<float>(batch.bearing[lane]);
   element.k = static_cast<float>(batch.stiffness[lane]);
 }
 
 }  // namespace
 
-void evaluate_points(const PointsEvaluation& given, int d, SurfacePair& pair, PointsWorkspace& ws) {
+void evaluate_points(const PointsEvaluation& e, int d, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& ws) {
   PointsAgainstBody& lists = pair.points[d];
-  PointsEvaluation e = given;
   collect_points(e, lists, ws);
+  if (e.target.topology != nullptr) {  // what has no face within reach is out of range
+    const auto index = [&](const ContactPoint& p) { return p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q; };
+    std::erase_if(ws.points, [&](const ContactPoint& p) {
+      if (p.place == kNoFace) remember(p, 0.0, index(p), e, lists);
+      return p.place == kNoFace;
+    });
+  }
+  ws.elements.clear();
   Batch batch;
   for (std::size_t first = 0; first < ws.points.size(); first += kLanes) {
     const int count = static_cast<int>(std::min<std::size_t>(kLanes, ws.points.size() - first));
     std::uint32_t face[kLanes] = {};
     for (int lane = 0; lane < kLanes; ++lane) {  // empty lanes repeat the last point
-      const auto& p = ws.points[first + static_cast<std::size_t>(std::min(lane, count - 1))];
+      const ContactPoint& p = ws.points[first + static_cast<std::size_t>(std::min(lane, count - 1))];
       fill(e, lists, p, lane, batch);
-      if (e.target.topology != nullptr) face[lane] = lists.target_face[p.nearest.place];
+      if (e.target.topology != nullptr) face[lane] = lists.target_face[p.place];
     }
     if (e.target.topology == nullptr)
       gaps_to_sphere(e.target, batch);
@@ -292,13 +317,13 @@ void evaluate_points(const PointsEvaluation& given, int d, SurfacePair& pair, Po
       gaps_to_faces(e, face, batch);
     respond(e, batch);
     for (int lane = 0; lane < count; ++lane) {
-      const auto& p = ws.points[first + static_cast<std::size_t>(lane)];
+      const ContactPoint& p = ws.points[first + static_cast<std::size_t>(lane)];
       const double gap = batch.gap[lane];
-      if (p.searched)
-        remember(p.nearest, gap, p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q, e, lists);
-      if (gap < e.reach.range) add_point(e, d, p, batch, lane, pair);
+      if (p.second >= 0.0) remember(p, gap, p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q, e, lists);
+      if (gap < e.reach.range) add_point(e, d, p, batch, lane, pair, gradient, ws.elements);
     }
   }
+  pair.elements[d].assign(ws.elements.begin(), ws.elements.end());  // no more room than needed: they live long
 }
 
 }  // namespace morula

@@ -5,6 +5,7 @@
 
 #include "core/contact/closest_foot.h"
 #include "core/mesh/pseudonormal.h"
+#include "core/simd/transpose.h"
 
 namespace morula {
 namespace {
@@ -37,111 +38,142 @@ constexpr double kLead = 0.08;
 
 constexpr int kLanes = 8;
 
-/// The nearest faces so far.
-class Search {
- public:
-  Search(const Vec3d& point, const PointsEvaluation& e, const PointsAgainstBody& lists) : point_(point), e_(e), lists_(lists) {
-    second_ = e.reach.candidates();  // faces beyond the lists' reach are of no interest
-    second2_ = second_ * second_;
-  }
-
-  /// Whether a face may be nearer than what is known; its ball has grown by at most twice what the nodes moved since it was measured.
-  [[nodiscard]] bool may_be_near(std::uint16_t place) const {
-    const double limit = std::min(second_, distance_ + kLead) + lists_.target_radius[place] + 2.0 * e_.patch_since_built;
-    return norm2(point_ - e_.target_centroid[place]) <= limit * limit;
-  }
-  void try_face(std::uint16_t place) {
-    const Triangle& t = faces()[lists_.target_face[place]];
-    take(place, closest_foot_of(point_, e_.target.node(t[0]), e_.target.node(t[1]), e_.target.node(t[2])).distance2);
-  }
-  void try_faces(const std::uint16_t (&place)[kLanes], int count) {
-    using Real = Lane<double, kLanes>;
-    if (count < 3) {
-      for (int lane = 0; lane < count; ++lane) try_face(place[lane]);
-      return;
-    }
-    alignas(64) double corner[3][3][kLanes];
+/// Distances of all jobs, eight at a time.
+void measure(const PointsEvaluation& e, const PointsAgainstBody& lists, PointsWorkspace& ws) {
+  using Real = Lane<double, kLanes>;
+  const auto faces = e.target.topology->faces();
+  const std::size_t jobs = ws.jobs.size();
+  ws.distance2.resize((jobs + kLanes - 1) / kLanes * kLanes);
+  alignas(64) double data[4][3][kLanes];  // corners, then the point
+  for (std::size_t first = 0; first < jobs; first += kLanes) {
     for (int lane = 0; lane < kLanes; ++lane) {
-      const Triangle& t = faces()[lists_.target_face[place[std::min(lane, count - 1)]]];
+      const auto& job = ws.jobs[std::min(first + static_cast<std::size_t>(lane), jobs - 1)];
+      const Triangle& t = faces[lists.target_face[job.place]];
+      const Vec3d& point = ws.points[job.point].position;
       for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3d x = e_.target.node(t[k]);
-        for (std::size_t c = 0; c < 3; ++c) corner[k][c][lane] = x[c];
+        const Vec3d& x = e.target.position[t[k]];
+        data[k][0][lane] = x.x, data[k][1][lane] = x.y, data[k][2][lane] = x.z;
       }
+      data[3][0][lane] = point.x, data[3][1][lane] = point.y, data[3][2][lane] = point.z;
     }
     const auto load = [&](std::size_t k) {
-      return Vec3<Real>{Real::load(corner[k][0]), Real::load(corner[k][1]), Real::load(corner[k][2])};
+      return Vec3<Real>{Real::load(data[k][0]), Real::load(data[k][1]), Real::load(data[k][2])};
     };
-    const auto foot = closest_foot<Real>({point_.x, point_.y, point_.z}, load(0), load(1), load(2));
-    for (int lane = 0; lane < count; ++lane) {
-      if (foot.doubtful[lane] != 0.0)
-        try_face(place[lane]);
-      else
-        take(place[lane], foot.distance2[lane]);
+    const Vec3<Real> shift{e.target.shift.x, e.target.shift.y, e.target.shift.z};
+    const auto foot = closest_foot<Real>(load(3), load(0) + shift, load(1) + shift, load(2) + shift);
+    foot.distance2.store(ws.distance2.data() + first);
+    if (!any_lane<kLanes>(foot.doubtful > Real(0.0))) continue;
+    for (std::size_t k = first; k < std::min(jobs, first + kLanes); ++k) {
+      const Triangle& t = faces[lists.target_face[ws.jobs[k].place]];
+      ws.distance2[k] =
+          closest_foot_of(ws.points[ws.jobs[k].point].position, e.target.node(t[0]), e.target.node(t[1]), e.target.node(t[2])).distance2;
     }
   }
-  [[nodiscard]] FoundFace result() const { return {place_, std::min(second_, distance_ + kLead)}; }
+}
 
- private:
-  [[nodiscard]] std::span<const Triangle> faces() const { return e_.target.topology->faces(); }
-  void take(std::uint16_t place, double distance2) {
-    if (distance2 < distance2_ || (distance2 == distance2_ && place < place_)) {
-      if (distance2_ < second2_) set_second(distance2_);
-      distance2_ = distance2;
-      distance_ = std::sqrt(distance2);
-      place_ = place;
-    } else if (distance2 < second2_) {
-      set_second(distance2);
+/// Balls around the centroids of the target's faces.
+void find_balls(const PointsEvaluation& e, const PointsAgainstBody& lists, PointsWorkspace& ws) {
+  ws.ball.resize(lists.target_face.size());
+  for (std::size_t m = 0; m < ws.ball.size(); ++m) {
+    const std::uint32_t face = lists.target_face[m];
+    const Triangle& t = e.target.topology->faces()[face];
+    const Vec3d center = e.target.centroid(face);
+    double radius2 = 0.0;
+    for (const std::uint32_t node : t) radius2 = std::max(radius2, norm2(e.target.node(node) - center));
+    ws.ball[m] = {center, std::sqrt(radius2) * (1.0 + 1e-12)};
+  }
+}
+
+/// The nearest face so far and how far all others are at least.
+struct Best {
+  double distance2 = 1e300, second2;
+  std::uint16_t place = kNoFace;
+
+  void take(std::uint16_t other, double other2) {
+    if (other2 < distance2 || (other2 == distance2 && other < place)) {
+      second2 = std::min(second2, distance2);
+      distance2 = other2;
+      place = other;
+    } else {
+      second2 = std::min(second2, other2);
     }
   }
-  void set_second(double distance2) {
-    second2_ = distance2;
-    second_ = std::sqrt(distance2);
-  }
-
-  const Vec3d& point_;
-  const PointsEvaluation& e_;
-  const PointsAgainstBody& lists_;
-  double distance2_ = 1e300, distance_ = 1e150, second2_, second_;
-  std::uint16_t place_ = kAsleep;
 };
+
+/// Queue the candidates that may be nearer than `limit`, but for the guess.
+void queue_candidates(const PointsAgainstBody& lists, std::uint32_t number, double limit, PointsWorkspace& ws) {
+  const ContactPoint& point = ws.points[number];
+  const std::uint32_t begin = lists.first_candidate[point.source_place], end = lists.first_candidate[point.source_place + 1];
+  std::size_t count = ws.jobs.size();
+  ws.jobs.resize(count + (end - begin));
+  for (std::uint32_t k = begin; k < end; ++k) {
+    const std::uint16_t place = lists.candidate[k];
+    const PointsWorkspace::Ball& ball = ws.ball[place];
+    const double far = limit + ball.radius;
+    ws.jobs[count] = {number, place};
+    count += static_cast<std::size_t>((norm2(ball.center - point.position) <= far * far) & (place != point.place));
+  }
+  ws.jobs.resize(count);
+}
 
 }  // namespace
 
-FoundFace find_nearest_face(const Vec3d& point, std::size_t source_place, std::uint16_t guess, const PointsEvaluation& e,
-                              const PointsAgainstBody& lists) {
-  Search search(point, e, lists);
-  if (guess != kAsleep) search.try_face(guess);
-  std::uint16_t waiting[kLanes];
-  int count = 0;
-  for (std::uint32_t k = lists.first_candidate[source_place]; k < lists.first_candidate[source_place + 1]; ++k) {
-    const std::uint16_t place = lists.candidate[k];
-    if (place == guess || !search.may_be_near(place)) continue;
-    waiting[count++] = place;
-    if (count == kLanes) {
-      search.try_faces(waiting, count);
-      count = 0;
+void find_nearest_faces(const PointsEvaluation& e, const PointsAgainstBody& lists, PointsWorkspace& ws) {
+  if (ws.search.empty()) return;
+  find_balls(e, lists, ws);
+  // Of most points the nearest face is still the one that it was: measure that first.
+  ws.jobs.clear();
+  for (const std::uint32_t number : ws.search)
+    if (ws.points[number].place != kNoFace) ws.jobs.push_back({number, ws.points[number].place});
+  measure(e, lists, ws);
+  std::vector<double>& guessed = ws.guessed;
+  guessed.assign(ws.distance2.begin(), ws.distance2.begin() + static_cast<std::ptrdiff_t>(ws.jobs.size()));
+
+  const double reach = e.reach.candidates();  // faces beyond the lists' reach are of no interest
+  ws.jobs.clear();
+  std::size_t guess = 0;
+  for (const std::uint32_t number : ws.search) {
+    const ContactPoint& point = ws.points[number];
+    double near;  // the nearest face is not farther than this
+    if (point.place != kNoFace) {
+      near = std::sqrt(guessed[guess++]);
+    } else {
+      double near2 = reach * reach;
+      for (std::uint32_t k = lists.first_candidate[point.source_place]; k < lists.first_candidate[point.source_place + 1]; ++k)
+        near2 = std::min(near2, norm2(ws.ball[lists.candidate[k]].center - point.position));
+      near = std::sqrt(near2);
     }
+    queue_candidates(lists, number, std::min(reach, near + kLead), ws);
   }
-  search.try_faces(waiting, count);
-  return search.result();
+  measure(e, lists, ws);
+  guess = 0;
+  std::size_t job = 0;
+  for (const std::uint32_t number : ws.search) {
+    ContactPoint& point = ws.points[number];
+    Best best;
+    best.second2 = reach * reach;
+    if (point.place != kNoFace) best.take(point.place, guessed[guess++]);
+    for (; job < ws.jobs.size() && ws.jobs[job].point == number; ++job) best.take(ws.jobs[job].place, ws.distance2[job]);
+    const bool found = best.distance2 <= reach * reach;
+    point.place = found ? best.place : kNoFace;
+    point.second = std::min(std::sqrt(best.second2), std::sqrt(best.distance2) + kLead);
+  }
 }
 
 bool is_inside(const Vec3d& away, const PairBody& target, std::uint32_t face, const double (&mu)[3]) {
   return dot(away, pseudonormal(target, face, mu)) < 0.0;
 }
 
-void remember(const FoundFace& nearest, double gap, std::size_t index, const PointsEvaluation& e, PointsAgainstBody& lists) {
+void remember(const ContactPoint& point, double gap, std::size_t index, const PointsEvaluation& e, PointsAgainstBody& lists) {
   constexpr double kSafety = 0.999;  // bounds hold in spite of rounding
   const double reach = e.reach.candidates() - e.motion_since_built;  // within which all faces are known
+  const bool asleep = point.place == kNoFace || gap >= e.reach.range;
   double clear;
-  if (nearest.place == kAsleep || gap >= e.reach.range) {
-    lists.nearest[index] = kAsleep;
-    clear = (nearest.place == kAsleep ? reach : std::min(gap, reach)) - e.reach.range;
-  } else {
-    // No other face can be nearer while twice the motion is less than the lead of the nearest one.
-    lists.nearest[index] = nearest.place;
-    clear = 0.5 * (std::min(nearest.second, reach) - std::abs(gap));
-  }
+  if (asleep)
+    clear = (point.place == kNoFace ? reach : std::min(gap, reach)) - e.reach.range;
+  else  // no other face can be nearer while twice the motion is less than the lead of the nearest one
+    clear = 0.5 * (std::min(point.second, reach) - std::abs(gap));
+  lists.nearest[index] = static_cast<std::uint16_t>(asleep ? point.place | kAsleep : point.place);
   lists.good_until[index] = static_cast<float>((e.motion + clear * kSafety) * (1.0 - 1e-6));
 }
 

@@ -1,9 +1,8 @@
 #pragma once
-#include <cmath>
 #include <cstdint>
 #include <span>
 
-#include "core/friction/float4.h"
+#include "core/friction/edge_block.h"
 #include "core/mesh/topology.h"
 
 namespace morula {
@@ -21,27 +20,25 @@ struct ContactElement {
   float w;               ///< area that bears friction [µm²]
   float k;               ///< contact stiffness [nN/µm]
 
+  static constexpr std::int32_t kWeightUnits = 65535, kNormalUnits = 32767;
+
   [[nodiscard]] std::uint32_t source_face() const { return source >> 2; }
   [[nodiscard]] std::uint32_t point() const { return source & 3u; }
   template <class Real>
   void weights(Real (&out)[3]) const {
-    constexpr Real unit = Real(1.0) / Real(65535.0);
+    constexpr Real unit = Real(1.0) / Real(kWeightUnits);
     out[0] = static_cast<Real>(mu[0]) * unit;
     out[1] = static_cast<Real>(mu[1]) * unit;
-    out[2] = static_cast<Real>(65535 - mu[0] - mu[1]) * unit;
+    out[2] = static_cast<Real>(kWeightUnits - mu[0] - mu[1]) * unit;
   }
-  void set_weights(double mu0, double mu1) {
-    mu[0] = static_cast<std::uint16_t>(mu0 * 65535.0 + 0.5);
-    const std::uint16_t most = static_cast<std::uint16_t>(65535 - mu[0]);
-    mu[1] = static_cast<std::uint16_t>(mu1 * 65535.0 + 0.5);
-    if (mu[1] > most) mu[1] = most;
-  }
-  void set_normal(const Vec3d& normal) {
-    for (std::size_t c = 0; c < 3; ++c) n[c] = static_cast<std::int16_t>(normal[c] * 32767.0 + (normal[c] < 0.0 ? -0.5 : 0.5));
+  /// Weights in units of 1/65535, rounded; the second gives way so that the third is not negative.
+  void set_weights(std::int32_t mu0, std::int32_t mu1) {
+    mu[0] = static_cast<std::uint16_t>(mu0);
+    mu[1] = static_cast<std::uint16_t>(mu1 < kWeightUnits - mu0 ? mu1 : kWeightUnits - mu0);
   }
   template <class Real>
   [[nodiscard]] Vec3<Real> normal() const {
-    constexpr Real unit = Real(1.0) / Real(32767.0);
+    constexpr Real unit = Real(1.0) / Real(kNormalUnits);
     return {static_cast<Real>(n[0]) * unit, static_cast<Real>(n[1]) * unit, static_cast<Real>(n[2]) * unit};
   }
 };
@@ -56,11 +53,6 @@ struct ElementGroup {
   bool write[2] = {true, true};                    ///< false: ghost, or held
   bool rigid = false;                              ///< body 1 is an obstacle, not an unknown
   float normal_friction = 0.0f, tangential_friction = 0.0f;  ///< γ_n, γ_t per area [nN·s/µm³]
-};
-
-/// A symmetric 3×3 block xx xy xz yy yz zz, and two zeros: one register.
-struct alignas(32) EdgeBlock {
-  float m[8] = {};
 };
 
 }  // namespace morula

@@ -231,12 +231,10 @@ Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<Float4> v, doubl
   apply(v, q_);
   for_owned_points([&](std::uint32_t i) { store(p_[i], load(r_[i]) - load(q_[i])); });
   // A start that is worse than none is dropped: zero velocity has the residual ‖b‖.
-  const bool good = std::sqrt(dot(p_, p_, comm)) < b_norm;
+  const bool helps = std::sqrt(dot(p_, p_, comm)) < b_norm;
   for_owned_points([&](std::uint32_t i) {
     p_[i] = {};
-    if (good) return;
-    v[i] = {};
-    q_[i] = {};
+    if (!helps) v[i] = q_[i] = {};
   });
   double sums[2];  // r·r, r·z
   advance(1.0f, v, comm, sums);

@@ -21,8 +21,6 @@ struct BodyPoints {
   std::uint32_t first, count;
 };
 
-/// Fills the blocks that contacts add to the edges of a body (zero before); false when there are none.
-using EdgeBlockSource = std::function<bool(std::uint32_t body, std::span<EdgeBlock> edges)>;
 
 /// A part of the matrix that somebody else can apply: the shells' own mechanics. It acts on the first point_count() points, all owned,
 /// which belong to the first bodies.
@@ -76,9 +74,9 @@ class FrictionSystem {
   void set_sphere_pairs(const SpherePairs* pairs) { sphere_pairs_ = pairs; }
   [[nodiscard]] std::span<const float> point_friction() const { return point_friction_; }
 
-  /// Where b of the next solve() goes, by point.
+  /// Where the caller puts b by point (owned points), anew before each solve().
   [[nodiscard]] std::span<Float4> right() { return r_; }
-  /// Solve A v = b from the start in v, until ‖r‖ ≤ tolerance ‖b‖. b is what right() holds; it is used up. v of ghost points is not written.
+  /// Solve A v = b from the start in v, until ‖r‖ ≤ tolerance ‖b‖. v of ghost points is not written; b is used up.
   Result<SolveReport, SolveFault> solve(std::span<Float4> v, double tolerance, int max_iterations, const Comm& comm);
 
   /// q = A p on owned points (p must hold the ghosts). For tests and for the residual.

@@ -145,11 +145,16 @@ void PairCondenser::add_pair_blocks(const ElementGroup& group, std::vector<NodeP
 void PairCondenser::add_edge_blocks(const ElementGroup& group, int side, std::span<EdgeBlock> edges) const {
   if (group.topology[side] == nullptr) return;
   const auto edges_of_face = group.topology[side]->face_edges();
-  for (const ContactElement& e : group.elements[side]) {
-    const Float8v matrix = matrix_of(e, group, time_step_);
-    const float* const beta = beta_[e.point()];
-    const auto& edge = edges_of_face[e.source_face()];
-    for (std::size_t c = 0; c < 3; ++c) add(edges[edge[c]], -beta[(c + 1) % 3] * beta[(c + 2) % 3], matrix);
+  const auto sources = group.elements[side];
+  for (std::size_t k = 0; k < sources.size();) {  // the points of a face come one after the other
+    const std::uint32_t face = sources[k].source_face();
+    Float8v sum[3] = {};
+    for (; k < sources.size() && sources[k].source_face() == face; ++k) {
+      const Float8v matrix = matrix_of(sources[k], group, time_step_);
+      const float* const beta = beta_[sources[k].point()];
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += matrix * (beta[(c + 1) % 3] * beta[(c + 2) % 3]);
+    }
+    for (std::size_t c = 0; c < 3; ++c) add(edges[edges_of_face[face][c]], -1.0f, sum[c]);
   }
   for (const ContactElement& e : group.elements[1 - side]) {
     const Float8v matrix = matrix_of(e, group, time_step_);

@@ -5,6 +5,7 @@
 
 #include "core/contact/traction_law.h"
 #include "core/friction/contact_element.h"
+#include "core/friction/float4.h"
 
 namespace morula {
 

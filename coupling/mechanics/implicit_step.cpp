@@ -64,8 +64,10 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
   displacement_.resize(contacts_.pairs().empty() ? scene_.sphere_point() : x.size());  // spheres alone have no use for it
   for (std::size_t i = 0; i < displacement_.size(); ++i) displacement_[i] = x[i] - start[i];
   OrderFreeSum sums[2];
+  std::vector<Vec3d>& of_shells = gradient_.node_normal;  // which is found anew before it is used again
+  shells_.set_step_friction(displacement_, of_shells, sums[0]);
+  for (std::size_t i = 0; i < scene_.owned_nodes(); ++i) force_[i] += of_shells[i];
   contacts_.add_step_friction(contact_scene(), displacement_, force_, sums[0]);
-  shells_.add_step_friction(displacement_, force_, sums[0]);
   const auto medium = system_.point_friction();
   for (std::size_t i = 0; moved && i < scene_.owned_spheres(); ++i) {
     const std::size_t point = scene_.sphere_point() + i;
@@ -108,8 +110,9 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
   const auto solve = [&](double step, double tolerance) -> Result<SolveReport, StepFault> {
     assemble(tissue, step);
     auto timed = timer_.scope(Stage::kSolve);
+    const std::span<Float4> right = system_.right();
     for_owned_points([&](std::uint32_t i) {
-      system_.right()[i] = {static_cast<float>(force_[i].x), static_cast<float>(force_[i].y), static_cast<float>(force_[i].z), 0.0f};
+      right[i] = {static_cast<float>(force_[i].x), static_cast<float>(force_[i].y), static_cast<float>(force_[i].z), 0.0f};
     });
     auto solved = system_.solve(solution_, tolerance, kMaxLinearIterations, comm_);
     if (!solved) return StepFault{solved.error().what, {}, true};
@@ -186,8 +189,9 @@ Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt
   report.step = dt;
   (void)friction_residual(start, external, dt, false);
   assemble(tissue, 0.0);
+  const std::span<Float4> right = system_.right();
   for_owned_points([&](std::uint32_t i) {
-    system_.right()[i] = {static_cast<float>(force_[i].x), static_cast<float>(force_[i].y), static_cast<float>(force_[i].z), 0.0f};
+    right[i] = {static_cast<float>(force_[i].x), static_cast<float>(force_[i].y), static_cast<float>(force_[i].z), 0.0f};
   });
   auto solved = system_.solve(solution_, 1e-4, kMaxLinearIterations, comm_);
   if (!solved) return undo(start, StepFault{solved.error().what, {}, true});

@@ -92,10 +92,10 @@ void Mechanics::prepare(const Tissue& tissue) {
     shells_.set_shells(tissue.shells);
     const std::size_t points = scene_.point_count(), faces = scene_.face_count();
     force_.assign(points, {});
+    gradient_.force.assign(scene_.shells() > 0 ? points : 0, {});  // spheres alone add to force_ at once
+    gradient_.node_normal.assign(scene_.sphere_point(), {});       // spheres have none
     solution_.assign(points, {});
-    gradient_.node_normal.assign(scene_.sphere_point(), {});  // spheres have none
     gradient_.face_energy.assign(faces, 0.0);
-    gradient_.face_normal.assign(faces, {});
     gradient_.contact_area.assign(scene_.shells(), 0.0);  // a sphere's contacts with shells are counted on their faces
 
     if (relaxing_)
@@ -154,20 +154,25 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
     }
   }
   auto timed = timer_.scope(Stage::kContacts);
-  contacts_.evaluate(scene, !moved);
-
-  std::fill(force_.begin(), force_.end(), Vec3d{});
+  const bool with_spheres = contacts_.has_pairs(SurfacePairKind::kWithSphere);
+  if (moved || with_spheres) {
+    if (moved) {
+      gradient_.set_zero();
+      contacts_.evaluate(scene, SurfacePairKind::kSurfaces, gradient_);
+      if (with_spheres) surfaces_only_ = gradient_;
+    } else {
+      gradient_ = surfaces_only_;
+    }
+    if (with_spheres) contacts_.evaluate(scene, SurfacePairKind::kWithSphere, gradient_);
+    const SurfaceList owned{scene_.topologies().first(scene_.owned_shells()), scene_.first_node(), scene_.first_face()};
+    add_surface_forces(owned, scene_.position(), geometry_, {gradient_.face_energy, {}, gradient_.node_normal}, gradient_.force);
+  }
+  if (gradient_.force.empty())
+    std::fill(force_.begin(), force_.end(), Vec3d{});
+  else
+    std::copy(gradient_.force.begin(), gradient_.force.end(), force_.begin());
   spent_ = false;
   spheres_.evaluate(scene_, contacts_, force_);
-  std::fill(gradient_.node_normal.begin(), gradient_.node_normal.end(), Vec3d{});
-  std::fill(gradient_.face_energy.begin(), gradient_.face_energy.end(), 0.0);
-  std::fill(gradient_.face_normal.begin(), gradient_.face_normal.end(), Vec3d{});
-  std::fill(gradient_.contact_area.begin(), gradient_.contact_area.end(), 0.0);
-  gradient_.force.swap(force_);
-  contacts_.collect(scene, gradient_);
-  gradient_.force.swap(force_);
-  const SurfaceList owned{scene_.topologies().first(scene_.owned_shells()), scene_.first_node(), scene_.first_face()};
-  add_surface_forces(owned, scene_.position(), geometry_, {gradient_.face_energy, gradient_.face_normal, gradient_.node_normal}, force_);
   const auto& internal = shells_.forces();
   for (std::size_t i = 0; i < scene_.owned_nodes(); ++i) force_[i] += internal.force[i];
 
@@ -330,10 +335,9 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
 std::size_t Mechanics::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return contacts_.memory() + shells_.memory() + spheres_.memory() + system_.memory() + scene_.memory() + bytes(force_) +
-         bytes(displacement_) + bytes(solution_) + bytes(gradient_.node_normal) + bytes(gradient_.face_energy) +
-         bytes(gradient_.face_normal) + bytes(gradient_.force) + bytes(geometry_.face_area) + bytes(geometry_.face_normal) +
-         bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) + bytes(scene_start_) +
-         bytes(gradient_.contact_area);
+         bytes(displacement_) + bytes(solution_) + gradient_.memory() + surfaces_only_.memory() + bytes(geometry_.face_area) +
+         bytes(geometry_.face_normal) + bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) +
+         bytes(scene_start_);
 }
 
 }  // namespace morula
