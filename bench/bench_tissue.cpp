@@ -1,9 +1,13 @@
 /// Whole-tissue benchmarks: clusters of shells and tissues of spheres, driven as a run drives them.
 ///
 ///   bench_tissue [--json FILE] [--only NAME] [--threads N]
+///   bench_tissue --accuracy NAME
 ///
-/// Prints a table and writes the same as JSON: wall time split by stage, µs per node-step (or cell-step), steps per simulated hour, bytes
-/// per node (or cell). Under mpirun the tissue is shared by the ranks.
+/// Prints a table and writes the same as JSON: wall time split by stage, µs per node-step (or cell-step), steps per simulated hour, CPU
+/// seconds per simulated hour and 1000 nodes (or cells), bytes per node (or cell). Under mpirun the tissue is shared by the ranks.
+/// --accuracy runs a case of shells twice, as always and with steps of at most 10 s and a tenth of the displacement, and prints how
+/// contact area and shapes differ.
+#include <malloc.h>
 #include <mpi.h>
 #include <omp.h>
 
@@ -12,6 +16,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <numbers>
 #include <string>
@@ -100,15 +105,49 @@ Tissue make_tissue(const Model& model, const Case& c, const Comm& comm) {
   return tissue;
 }
 
+double cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 struct Figures {
-  double wall = 0.0, unit_us = 0.0, steps_per_hour = 0.0, bytes = 0.0, per_hour_kilo = 0.0, overlap = 0.0, newton = 0.0, linear = 0.0,
-         imbalance = 1.0;
+  double wall = 0.0, unit_us = 0.0, cpu = 0.0, unit_cpu_us = 0.0, steps_per_hour = 0.0, bytes = 0.0, resident = 0.0, peak = 0.0,
+         per_hour_kilo = 0.0, overlap = 0.0, newton = 0.0, linear = 0.0, imbalance = 1.0;
   std::int64_t ghosts = 0;
   std::vector<std::pair<std::string, double>> stages;
 };
 
+/// Bytes of the state itself.
+std::size_t state_bytes(const Tissue& tissue) {
+  const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  const auto& s = tissue.spheres;
+  const auto& h = tissue.shells;
+  return bytes(tissue.cells.rows) + bytes(s.position) + bytes(s.radius) + bytes(s.type) + bytes(s.velocity) + s.attached.memory() +
+         bytes(h.position) + bytes(h.velocity) + bytes(h.rest_length) + bytes(h.shape) + bytes(h.type) + bytes(h.reference_volume) +
+         bytes(h.rest_volume) + bytes(h.first_node) + bytes(h.first_edge);
+}
+
+/// A line of /proc/self/status in kB: VmRSS (resident now) or VmHWM (most so far); 0 where there is no such file.
+std::int64_t resident_kb(const std::string& name) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.compare(0, name.size(), name) == 0) return std::atoll(line.c_str() + name.size());
+  return 0;
+}
+
+/// What the process holds before a case: freed pages are handed back and the mark of the highest is set anew.
+std::int64_t settle_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+  std::ofstream("/proc/self/clear_refs") << "5\n";
+  return resident_kb("VmRSS:");
+}
+
 bool run_case(const Case& c, const Comm& comm, int threads, Figures& out) {
   const Model model = make_model(c);
+  const std::int64_t resident_before = settle_memory();
   auto created = Simulation::create(model, make_tissue(model, c, comm), comm, threads);
   if (!created) {
     std::fprintf(stderr, "%s\n", created.error().message.c_str());
@@ -137,30 +176,77 @@ bool run_case(const Case& c, const Comm& comm, int threads, Figures& out) {
   for (std::size_t s = 0; s < kStageNames.size(); ++s) before.push_back(simulation.timer().seconds(static_cast<Stage>(s)));
   comm.barrier();
   const auto start = std::chrono::steady_clock::now();
+  const double cpu_start = cpu_seconds();
   if (!run_to(c.relax + c.duration, out.newton, out.linear, steps)) return false;
   comm.barrier();
+  OrderFreeSum cpu;
+  cpu.add(cpu_seconds() - cpu_start);
+  out.cpu = comm.sum(cpu);
   out.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const double units = static_cast<double>(c.cells) * (c.body == BodyKind::kShell ? 162.0 : 1.0);
   out.unit_us = 1e6 * out.wall / (units * static_cast<double>(steps));
   out.steps_per_hour = static_cast<double>(steps) * 3600.0 / c.duration;
-  out.per_hour_kilo = out.wall / (c.duration / 3600.0) / (units / 1000.0);
+  out.unit_cpu_us = 1e6 * out.cpu / (units * static_cast<double>(steps));
+  out.per_hour_kilo = out.cpu / (c.duration / 3600.0) / (units / 1000.0);
   out.newton /= static_cast<double>(steps);
   out.linear /= static_cast<double>(steps);
   const auto& tissue = simulation.tissue();
-  double bytes = static_cast<double>(simulation.mechanics().memory());
-  bytes += static_cast<double>(tissue.cells.size()) * sizeof(CellRow) +
-           static_cast<double>(tissue.shells.node_count()) * (sizeof(Vec3d) + sizeof(Vec3f)) +
-           static_cast<double>(tissue.shells.rest_length.size()) * 8.0 +
-           static_cast<double>(tissue.spheres.size()) * (24.0 + 8.0 + 2.0 + 12.0 + 24.0);
-  for (const auto& list : tissue.spheres.attached) bytes += static_cast<double>(list.capacity()) * sizeof(CellId);
+  double bytes = static_cast<double>(simulation.mechanics().memory() + state_bytes(tissue));
   OrderFreeSum sum;
   sum.add(bytes);
   out.bytes = comm.sum(sum) / units;
+  out.peak = static_cast<double>(comm.sum(resident_kb("VmHWM:") - resident_before)) * 1024.0 / units;
+  out.resident = static_cast<double>(comm.sum(settle_memory() - resident_before)) * 1024.0 / units;
   out.ghosts = comm.sum(static_cast<std::int64_t>(simulation.mechanics().scene().ghost_count()));
   out.imbalance = simulation.imbalance();
   for (std::size_t s = 0; s < kStageNames.size(); ++s)
     out.stages.emplace_back(kStageNames[s],
                             1e6 * (simulation.timer().seconds(static_cast<Stage>(s)) - before[s]) / (units * static_cast<double>(steps)));
+  return true;
+}
+
+/// Contact area and positions at some time.
+struct Shape {
+  double area = 0.0;  ///< of all cells [µm²]
+  std::vector<Vec3d> position;
+};
+
+/// The state of a case every third of its duration; empty when a step fails.
+std::vector<Shape> shapes_of(const Case& c, const Model& model, const Comm& comm, int threads) {
+  auto created = Simulation::create(model, make_tissue(model, c, comm), comm, threads);
+  std::vector<Shape> out;
+  if (!created) return out;
+  Simulation& simulation = **created;
+  for (int third = 1; third <= 3; ++third) {
+    const double end = c.relax + c.duration * third / 3.0;
+    while (simulation.tissue().clock.time < end)
+      if (const auto done = simulation.step(end); !done) {
+        std::fprintf(stderr, "%s: %s\n", c.name.c_str(), done.error().message.c_str());
+        return {};
+      }
+    Shape& shape = out.emplace_back();
+    for (const double area : simulation.mechanics().values(simulation.tissue()).contact_area) shape.area += area;
+    shape.position = simulation.tissue().shells.position;
+  }
+  return out;
+}
+
+/// Default control against small steps.
+bool compare_with_small_steps(const Case& c, const Comm& comm, int threads) {
+  Model model = make_model(c);
+  const auto usual = shapes_of(c, model, comm, threads);
+  model.step.max_step = 10.0;
+  model.step.max_displacement *= 0.1;
+  const auto fine = shapes_of(c, model, comm, threads);
+  if (usual.size() != 3 || fine.size() != 3) return false;
+  std::printf("%s against steps of at most 10 s and %.3f c\n", c.name.c_str(), model.step.max_displacement);
+  for (std::size_t k = 0; k < 3; ++k) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < fine[k].position.size(); ++i) sum += norm2(usual[k].position[i] - fine[k].position[i]);
+    std::printf("  after %5.2f h  contact area %9.1f um2  error %+.3f %%  shape rms %.4f um\n",
+                (c.relax + c.duration * static_cast<double>(k + 1) / 3.0) / 3600.0, fine[k].area,
+                100.0 * (usual[k].area / fine[k].area - 1.0), std::sqrt(sum / static_cast<double>(fine[k].position.size())));
+  }
   return true;
 }
 
@@ -171,11 +257,12 @@ int main(int argc, char** argv) {
   int status = 0;
   {
     const Comm comm(MPI_COMM_WORLD);
-    std::string json, only;
+    std::string json, only, accuracy;
     int threads = 1;
     for (int i = 1; i + 1 < argc; i += 2) {
       if (std::strcmp(argv[i], "--json") == 0) json = argv[i + 1];
       if (std::strcmp(argv[i], "--only") == 0) only = argv[i + 1];
+      if (std::strcmp(argv[i], "--accuracy") == 0) accuracy = argv[i + 1];
       if (std::strcmp(argv[i], "--threads") == 0) threads = std::atoi(argv[i + 1]);
     }
     omp_set_num_threads(threads);
@@ -183,13 +270,19 @@ int main(int argc, char** argv) {
     const std::vector<Case> cases{
         {"cluster_13", 13, BodyKind::kShell, 50.0, 0.0, 18 * h, 18 * h},
         {"cluster_55", 55, BodyKind::kShell, 50.0, 0.0, 18 * h, 18 * h},
+        {"cluster_200", 200, BodyKind::kShell, 50.0, 300.0, 600.0, 18 * h},
         {"dcm_cluster", 1000, BodyKind::kShell, 50.0, 300.0, 600.0, 18 * h},
+        {"dcm_growth", 1000, BodyKind::kShell, 50.0, 3600.0, 1800.0, 18 * h},
         {"cbm_tissue", 100000, BodyKind::kSphere, 50.0, 120.0, 600.0, 18 * h},
         {"cbm_tissue_no_friction", 100000, BodyKind::kSphere, 0.0, 120.0, 600.0, 18 * h},
     };
     std::string text = "{\n  \"ranks\": " + std::to_string(comm.size()) + ", \"threads\": " + std::to_string(threads) + ",\n  \"cases\": [";
     bool first = true;
     for (const Case& c : cases) {
+      if (!accuracy.empty()) {
+        if (c.name == accuracy && !compare_with_small_steps(c, comm, threads)) status = 1;
+        continue;
+      }
       if (!only.empty() && c.name != only) continue;
       Figures f;
       if (!run_case(c, comm, threads, f)) {
@@ -199,17 +292,20 @@ int main(int argc, char** argv) {
       if (!comm.is_root()) continue;
       const char* unit = c.body == BodyKind::kShell ? "node" : "cell";
       std::printf(
-          "%-24s %6zu cells  %7.2f s  %6.3f us/%s-step  %6.1f steps/h  %6.4f s/(h k%s)  newton %.2f  linear %.1f  %5.0f B/%s  overlap %.3f "
+          "%-24s %6zu cells  %7.2f s  %6.3f us/%s-step (CPU of all ranks %.3f)  %6.1f steps/h  %6.4f s/(h k%s)  newton %.2f  linear %.1f  "
+          "%5.0f B/%s (resident %.0f, peak %.0f)  overlap %.3f "
           "um  ghosts %ld  imbalance %.2f\n",
-          c.name.c_str(), c.cells, f.wall, f.unit_us, unit, f.steps_per_hour, f.per_hour_kilo, unit, f.newton, f.linear, f.bytes, unit,
-          f.overlap, static_cast<long>(f.ghosts), f.imbalance);
+          c.name.c_str(), c.cells, f.wall, f.unit_us, unit, f.unit_cpu_us, f.steps_per_hour, f.per_hour_kilo, unit, f.newton, f.linear,
+          f.bytes, unit, f.resident, f.peak, f.overlap, static_cast<long>(f.ghosts), f.imbalance);
       text += std::string(first ? "" : ",") + "\n    {\"name\": \"" + c.name + "\", \"cells\": " + std::to_string(c.cells) +
               ", \"seconds\": " + std::to_string(f.wall) + ", \"us_per_" + unit + "_step\": " + std::to_string(f.unit_us) +
+              ", \"cpu_us_per_" + unit + "_step\": " + std::to_string(f.unit_cpu_us) +
               ", \"steps_per_hour\": " + std::to_string(f.steps_per_hour) + ", \"s_per_hour_and_1000_" + unit +
               "s\": " + std::to_string(f.per_hour_kilo) + ", \"newton\": " + std::to_string(f.newton) +
               ", \"linear_iterations\": " + std::to_string(f.linear) + ", \"bytes_per_" + unit + "\": " + std::to_string(f.bytes) +
-              ", \"overlap_um\": " + std::to_string(f.overlap) + ", \"ghosts\": " + std::to_string(f.ghosts) +
-              ", \"imbalance\": " + std::to_string(f.imbalance) + ", \"stages_us\": {";
+              ", \"resident_bytes_per_" + unit + "\": " + std::to_string(f.resident) + ", \"peak_bytes_per_" + unit +
+              "\": " + std::to_string(f.peak) + ", \"overlap_um\": " + std::to_string(f.overlap) +
+              ", \"ghosts\": " + std::to_string(f.ghosts) + ", \"imbalance\": " + std::to_string(f.imbalance) + ", \"stages_us\": {";
       bool first_stage = true;
       for (const auto& [name, us] : f.stages) {
         if (us > 0.0005) std::printf("    %-18s %7.3f\n", name.c_str(), us);

@@ -63,37 +63,21 @@ void jkr_lanes(benchmark::State& state) {
 }
 BENCHMARK(jkr_lanes);
 
-/// The whole kernel: geometry, cube root of R*, law, friction; 60 000 pairs of a dense tissue in list order, one thread.
-void pair_kernel(benchmark::State& state) {
-  const int side = 20;
-  std::vector<Vec3d> position;
-  std::mt19937_64 generator(1);
-  std::uniform_real_distribution<double> jitter(-0.5, 0.5);
-  for (int x = 0; x < side; ++x) {
-    for (int y = 0; y < side; ++y) {
-      for (int z = 0; z < side; ++z)
-        position.push_back({9.0 * x + jitter(generator), 9.0 * y + jitter(generator), 9.0 * z + jitter(generator)});
-    }
-  }
-  const std::vector<double> radius(position.size(), 5.0);
-  const std::vector<std::uint16_t> type(position.size(), 0);
-  std::vector<SpherePair> pairs;
-  for (std::uint32_t i = 0; i < position.size(); ++i) {
-    for (const std::uint32_t next : {1u, 20u, 21u, 400u, 401u, 420u, 421u, 440u}) {
-      if (i + next < position.size()) pairs.push_back({i, i + next, true, 0.0});
-    }
-  }
-  const std::vector<SphereParameters> types = {{0.45, 0.4}};
-  const std::vector<SurfacePair> surfaces = {{0.1, 50, 50}};
-  const ContactTable table(types, surfaces);
-  Space space;
-  std::vector<PairResponse> out(pairs.size());
+/// Geometry, cube root of R*, law: eight pairs at a time, as the step does it.
+void pair_blocks(benchmark::State& state) {
+  const ContactMaterial material = ContactMaterial::elastic(0.45, 0.4, 0.45, 0.4, 0.1);
+  const auto values = overlaps(1024);
+  PairBlock block;
   for (auto _ : state) {
-    evaluate_pairs(space, {position, radius, type}, table, pairs, out);
-    benchmark::ClobberMemory();
+    for (std::size_t k = 0; k < values.size(); k += PairBlock::kWidth) {
+      for (int lane = 0; lane < PairBlock::kWidth; ++lane)
+        block.set(lane, {10.0 - values[k + static_cast<std::size_t>(lane)], 0.1, 0.2}, 5.0, 5.0, material, true, 0.0);
+      evaluate(block, PairBlock::kWidth);
+      benchmark::DoNotOptimize(block);
+    }
   }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(pairs.size()));
+  state.SetItemsProcessed(state.iterations() * 1024);
 }
-BENCHMARK(pair_kernel);
+BENCHMARK(pair_blocks);
 
 }  // namespace

@@ -1,93 +1,91 @@
 #include "cbm/pair_forces.h"
 
 #include <cassert>
+#include <numbers>
 
 namespace morula::cbm {
-namespace {
 
-/// x_j − x_i, by the nearest image where the domain is periodic.
-Vec3d between(const Space& space, bool periodic, const SphereView& spheres, const SpherePair& pair) {
-  const Vec3d direct = spheres.position[pair.j] - spheres.position[pair.i];
-  return periodic ? space.nearest_image(direct) : direct;
-}
-
-}  // namespace
-
-ContactTable::ContactTable(std::span<const SphereParameters> types, std::span<const SurfacePair> surfaces) : types_(types.size()) {
-  assert(surfaces.size() == types_ * types_);
+ContactTable::ContactTable(std::span<const SphereParameters> types, std::span<const SurfacePair> surfaces)
+    : types_(types.size()), materials_(types.empty() ? 0 : surfaces.size() / types.size()) {
+  assert(surfaces.size() == types_ * materials_ && materials_ >= types_);
   entries_.reserve(surfaces.size());
   for (std::size_t a = 0; a < types_; ++a) {
-    for (std::size_t b = 0; b < types_; ++b) {
-      const SurfacePair& surface = surfaces[a * types_ + b];
-      // Always from the lower type's side, so that (a, b) and (b, a) are the same numbers to the last bit.
-      const SphereParameters& first = types[a < b ? a : b];
-      const SphereParameters& second = types[a < b ? b : a];
-      const double adhesion = first.adhesive && second.adhesive ? surface.adhesion : 0.0;
-      entries_.push_back({ContactMaterial::elastic(first.young, first.poisson, second.young, second.poisson, adhesion),
-                          surface.normal_friction, surface.tangential_friction});
+    for (std::size_t b = 0; b < materials_; ++b) {
+      const SurfacePair& surface = surfaces[a * materials_ + b];
+      ContactMaterial material;
+      if (b < types_) {
+        // Always from the lower type's side, so that (a, b) and (b, a) are the same numbers to the last bit.
+        const SphereParameters& first = types[a < b ? a : b];
+        const SphereParameters& second = types[a < b ? b : a];
+        const double adhesion = first.adhesive && second.adhesive ? surface.adhesion : 0.0;
+        material = ContactMaterial::elastic(first.young, first.poisson, second.young, second.poisson, adhesion);
+      } else {
+        material = ContactMaterial::against_rigid(types[a].young, types[a].poisson, types[a].adhesive ? surface.adhesion : 0.0);
+      }
+      entries_.push_back({material, surface.normal_friction, surface.tangential_friction});
     }
   }
 }
 
-double ContactTable::reach(double largest_radius) const {
-  double longest = 0.0;
-  for (const Entry& entry : entries_) {
-    longest = max(longest, adhesive_reach(make_pair_law(entry.material, largest_radius, largest_radius)));
+void evaluate(PairBlock& block, int count) noexcept {
+  using L = Lane<double, PairBlock::kWidth>;
+  for (int lane = count; lane < PairBlock::kWidth; ++lane)  // idle lanes repeat the first
+    block.set(lane, {block.between[0][0], block.between[1][0], block.between[2][0]}, block.radius_a[0], block.radius_b[0],
+              *block.material[0], block.attached[0] != 0.0, block.offset[0]);
+
+  const L x = L::load(block.between[0]), y = L::load(block.between[1]), z = L::load(block.between[2]);
+  const L distance = sqrt(x * x + y * y + z * z);
+  const auto apart = distance > L(kCoincident);
+  const L inverse = select(apart, L(1.0) / distance, L(0.0));
+  (x * inverse).store(block.normal[0]);
+  (y * inverse).store(block.normal[1]);
+  select(apart, z * inverse, L(1.0)).store(block.normal[2]);
+  distance.store(block.distance);
+
+  const L radius_a = L::load(block.radius_a), radius_b = L::load(block.radius_b);
+  const L overlap = radius_a + radius_b - distance - L::load(block.offset);
+
+  // The scales of each pair: make_pair_law() in lanes.
+  PairLaw<L> law;
+  law.reduced_radius = radius_a * radius_b / (radius_a + radius_b);
+  L adhesion, length_factor, radius_factor, root;
+  for (int lane = 0; lane < PairBlock::kWidth; ++lane) {
+    const ContactMaterial& material = *block.material[lane];
+    law.modulus.set(lane, material.modulus);
+    adhesion.set(lane, material.adhesion);
+    length_factor.set(lane, material.length_factor);
+    radius_factor.set(lane, material.radius_factor);
+    root.set(lane, cube_root_start(law.reduced_radius[lane]));
   }
-  return 2.0 * largest_radius + longest;
+  root = cube_root_refined(law.reduced_radius, root);
+  const auto adheres = adhesion > L(0.0);
+  law.length = length_factor * root;
+  law.inverse_length = select(adheres, L(1.0) / law.length, L(0.0));
+  law.radius = radius_factor * (root * root);
+  law.force = L(std::numbers::pi) * adhesion * law.reduced_radius;
+
+  const auto attached = (L::load(block.attached) > L(0.0)) & adheres;
+  const ContactResponse<L> hertz = hertz_contact(law, overlap), jkr = jkr_contact(law, overlap);
+  select(attached, jkr.force, hertz.force).store(block.force);
+  select(attached, jkr.stiffness, hertz.stiffness).store(block.stiffness);
+  select(attached, jkr.area, hertz.area).store(block.area);
+  select(attached, jkr.energy, hertz.energy).store(block.energy);
+  const auto stays = (overlap >= select(attached, L(kBreakOverlap) * law.length, L(0.0))) & adheres;  // as update_attached()
+  for (int lane = 0; lane < PairBlock::kWidth; ++lane) block.attached_next[lane] = stays[lane] != 0;
 }
 
-void evaluate_pairs(const Space& space, const SphereView& spheres, const ContactTable& table, std::span<const SpherePair> pairs,
-                    std::span<PairResponse> out) {
-  assert(out.size() == pairs.size());
-  const bool periodic = space.any_periodic();
-  const auto count = static_cast<std::int64_t>(pairs.size());
-#pragma omp parallel for schedule(static) if (count > 1000)
-  for (std::int64_t k = 0; k < count; ++k) {
-    const SpherePair& pair = pairs[k];
-    out[k] = evaluate_pair(table.entry(spheres.type[pair.i], spheres.type[pair.j]), between(space, periodic, spheres, pair),
-                           spheres.radius[pair.i], spheres.radius[pair.j], pair.attached, pair.offset);
-  }
-}
-
-std::size_t update_attached(const Space& space, const SphereView& spheres, const ContactTable& table, std::span<SpherePair> pairs) {
-  const bool periodic = space.any_periodic();
-  const auto count = static_cast<std::int64_t>(pairs.size());
-  std::int64_t changed = 0;
-#pragma omp parallel for schedule(static) reduction(+ : changed) if (count > 1000)
-  for (std::int64_t k = 0; k < count; ++k) {
-    SpherePair& pair = pairs[k];
-    const double radius_i = spheres.radius[pair.i];
-    const double radius_j = spheres.radius[pair.j];
-    const PairLaw<double> law = make_pair_law(table.entry(spheres.type[pair.i], spheres.type[pair.j]).material, radius_i, radius_j);
-    const double overlap = radius_i + radius_j - norm(between(space, periodic, spheres, pair)) - pair.offset;
-    const bool attached = update_attached(overlap, pair.attached, law);
-    changed += attached != pair.attached;
-    pair.attached = attached;
-  }
-  return static_cast<std::size_t>(changed);
-}
-
-SphereContactSums sum_contacts(std::size_t sphere_count, std::span<const SpherePair> pairs, std::span<const PairResponse> responses) {
-  assert(responses.size() == pairs.size());
-  SphereContactSums sums;
-  sums.force.assign(sphere_count, Vec3d{});
-  sums.area.assign(sphere_count, 0.0);
-  sums.virial.assign(sphere_count, 0.0);
-  sums.count.assign(sphere_count, 0);
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const PairResponse& response = responses[k];
-    const Vec3d force = response.force * response.normal;
-    const double virial = response.distance * response.force;
-    sums.force[pairs[k].i] -= force;
-    sums.force[pairs[k].j] += force;
-    for (const std::uint32_t sphere : {pairs[k].i, pairs[k].j}) {
-      sums.area[sphere] += response.area;
-      sums.virial[sphere] += virial;
-      sums.count[sphere] += response.area > 0.0;
-    }
-  }
-  return sums;
+PairResponse evaluate_pair(const ContactMaterial& material, const Vec3d& between, double radius_a, double radius_b, bool attached,
+                           double offset) noexcept {
+  PairBlock block;
+  block.set(0, between, radius_a, radius_b, material, attached, offset);
+  evaluate(block, 1);
+  return {{block.normal[0][0], block.normal[1][0], block.normal[2][0]},
+          block.distance[0],
+          block.force[0],
+          block.stiffness[0],
+          block.area[0],
+          block.energy[0],
+          block.attached_next[0]};
 }
 
 }  // namespace morula::cbm

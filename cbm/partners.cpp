@@ -4,7 +4,7 @@
 
 namespace morula::cbm {
 
-bool adheres(const Partners& partners, CellId other) { return std::binary_search(partners.begin(), partners.end(), other); }
+bool adheres(std::span<const CellId> partners, CellId other) { return std::binary_search(partners.begin(), partners.end(), other); }
 
 void set_adheres(Partners& partners, CellId other, bool attached) {
   const auto place = std::lower_bound(partners.begin(), partners.end(), other);

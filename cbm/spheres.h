@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/cell_id.h"
+#include "cbm/partners.h"
 #include "core/vec3.h"
 
 namespace morula::cbm {
@@ -14,7 +14,7 @@ struct Spheres {
   std::vector<std::uint16_t> type;  ///< cell type
   std::vector<Vec3f> velocity;      ///< last solution, the solver's start [µm/s]
   /// Partners to which the sphere adheres (the JKR branch flag of the pair), sorted; both partners carry the entry.
-  std::vector<std::vector<CellId>> attached;
+  PartnerLists attached;
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };

@@ -31,7 +31,9 @@ std::vector<CellRecord> take_apart(Tissue& tissue) {
           std::vector(shells.rest_length.begin() + shells.first_edge[i], shells.rest_length.begin() + shells.first_edge[i + 1])};
     } else {
       const std::size_t i = next_sphere++;
-      record.sphere = SphereRecord{spheres.position[i], spheres.radius[i], spheres.velocity[i], std::move(spheres.attached[i])};
+      const auto partners = spheres.attached[i];
+      record.sphere =
+          SphereRecord{spheres.position[i], spheres.radius[i], spheres.velocity[i], cbm::Partners(partners.begin(), partners.end())};
     }
   }
   tissue.cells = {};
@@ -45,6 +47,15 @@ void put_together(Tissue& tissue, std::vector<CellRecord> cells) {
   auto& shells = tissue.shells;
   auto& spheres = tissue.spheres;
   tissue.cells.rows.reserve(cells.size());
+  const auto is_sphere = [](const CellRecord& cell) { return cell.sphere.has_value(); };
+  const auto sphere_count = static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), is_sphere));
+  spheres.position.reserve(sphere_count);
+  spheres.radius.reserve(sphere_count);
+  spheres.type.reserve(sphere_count);
+  spheres.velocity.reserve(sphere_count);
+  std::size_t partners = 0;
+  for (const CellRecord& cell : cells) partners += cell.sphere ? cell.sphere->attached.size() : 0;
+  spheres.attached.reserve(sphere_count, partners);
   for (CellRecord& cell : cells) {
     cell.row.body = cell.shell ? BodyKind::kShell : BodyKind::kSphere;
     tissue.cells.rows.push_back(cell.row);
@@ -65,7 +76,7 @@ void put_together(Tissue& tissue, std::vector<CellRecord> cells) {
       spheres.radius.push_back(body.radius);
       spheres.type.push_back(cell.row.type);
       spheres.velocity.push_back(body.velocity);
-      spheres.attached.push_back(std::move(body.attached));
+      spheres.attached.push_back(body.attached);
     }
   }
 }

@@ -16,7 +16,7 @@ struct SphereRecord {
   Vec3d position;
   double radius = 0.0;
   Vec3f velocity;
-  std::vector<CellId> attached;  ///< sorted
+  cbm::Partners attached;
 };
 
 /// The body of a cell that is a shell.

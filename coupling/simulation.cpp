@@ -121,10 +121,10 @@ std::vector<Vec3d> Simulation::external_forces(double time) {
 }
 
 void Simulation::average_pressures(double dt) {
-  const BodyValues& values = mechanics_->values(tissue_);
+  const std::vector<double> pressure = mechanics_->pressures(tissue_);
   std::size_t shell = 0, sphere = tissue_.shells.size();
   for (CellRow& row : tissue_.cells.rows)
-    row.pressure = averaged_pressure(row.pressure, values.pressure[row.body == BodyKind::kShell ? shell++ : sphere++], dt);
+    row.pressure = averaged_pressure(row.pressure, pressure[row.body == BodyKind::kShell ? shell++ : sphere++], dt);
 }
 
 Status Simulation::advance_fields(double dt, StepOutcome& outcome) {
@@ -247,13 +247,18 @@ void Simulation::rename_partners(const std::vector<Event>& events) {
     if (event.kind == EventKind::kDivision) divisions.push_back(&event);
   if (divisions.empty()) return;
   std::sort(divisions.begin(), divisions.end(), [](const Event* a, const Event* b) { return a->cell < b->cell; });
-  for (auto& partners : tissue_.spheres.attached) {
-    const cbm::Partners before = partners;
-    for (const CellId partner : before) {
+  const cbm::PartnerLists before = std::move(tissue_.spheres.attached);
+  tissue_.spheres.attached = {};
+  tissue_.spheres.attached.reserve(before.size(), before.partner_count() + 2 * divisions.size());
+  cbm::Partners partners;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    partners.assign(before[i].begin(), before[i].end());
+    for (const CellId partner : before[i]) {
       const auto at = std::lower_bound(divisions.begin(), divisions.end(), partner, [](const Event* e, CellId id) { return e->cell < id; });
       if (at != divisions.end() && (*at)->cell == partner)
         cbm::replace_partner(partners, partner, (*at)->first_daughter, (*at)->second_daughter);
     }
+    tissue_.spheres.attached.push_back(partners);
   }
 }
 

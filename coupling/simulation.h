@@ -40,7 +40,7 @@ class Simulation {
   [[nodiscard]] const Comm& comm() const { return comm_; }
   [[nodiscard]] Mechanics& mechanics() { return *mechanics_; }
   [[nodiscard]] StageTimer& timer() { return mechanics_->timer(); }
-  [[nodiscard]] const BodyValues& values() { return mechanics_->values(tissue_); }
+  [[nodiscard]] BodyValues values() { return mechanics_->values(tissue_); }
   [[nodiscard]] std::vector<Vec3d> centers() const;  ///< of the cells, by row
   [[nodiscard]] double imbalance() const { return morula::imbalance(tissue_, comm_); }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/friction/edge_block.h"
 #include "core/friction/float4.h"
 #include "core/simd/transpose.h"
 #include "core/vec3.h"
@@ -53,6 +54,10 @@ struct ShellOperator {
 void assemble_shell_operator(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
                              std::span<const Vec3d> position, const ShellFriction& friction, std::span<const double> face_contact_energy,
                              double time_step, ShellOperator& out);
+
+/// Add blocks xx xy xz yy yz zz to the edges of the shells, in the order of each shell's Topology: what contacts couple within one shell.
+/// `source(shell, blocks)` fills them (zero before) and says whether there are any.
+void add_edge_blocks(const ShellBlocks& blocks, const EdgeBlockSource& source, ShellOperator& out);
 
 /// q = A p by node of the shells; p and q are indexed as the shells' nodes, and q is overwritten. Fourth components come out as zero.
 void apply_shell_operator(const ShellBlocks& blocks, const Shells& shells, const ShellOperator& matrix, std::span<const Float4> p,

@@ -15,23 +15,32 @@ struct FrictionScatter {
   const FaceQuadrature& quadrature;
   std::span<const Vec3d> displacement;
   std::span<Vec3d> out;
-  std::uint32_t source_first, target_first;
-  bool write_source, write_target, target_moves;
+  const ContactBody& source;
+  const ContactBody* target;  ///< null: an obstacle
+  double normal_friction, tangential_friction;
   Vec3d rigid_displacement;
 
   double operator()(const ContactElement& e) const {
-    const auto& beta = quadrature.weight[e.point];
-    const double mu[3] = {e.mu[0], e.mu[1], 1.0 - e.mu[0] - e.mu[1]};
+    const Triangle& s = source.topology->faces()[e.source_face()];
+    const auto& beta = quadrature.weight[e.point()];
     Vec3d u = -rigid_displacement;
-    for (std::size_t i = 0; i < 3; ++i) u += displacement[source_first + e.source[i]] * beta[i];
-    if (target_moves)
-      for (std::size_t j = 0; j < 3; ++j) u -= displacement[target_first + e.target[j]] * mu[j];
-    const Vec3d n{e.n[0], e.n[1], e.n[2]};
-    const Vec3d f = u * static_cast<double>(e.a) + n * (static_cast<double>(e.b) * dot(n, u));
-    if (write_source)
-      for (std::size_t i = 0; i < 3; ++i) out[source_first + e.source[i]] += f * beta[i];
-    if (write_target)
-      for (std::size_t j = 0; j < 3; ++j) out[target_first + e.target[j]] -= f * mu[j];
+    for (std::size_t i = 0; i < 3; ++i) u += displacement[source.first_point + s[i]] * beta[i];
+    Triangle t{0, 0, 0};
+    double mu[3] = {1.0, 0.0, 0.0};
+    if (target != nullptr) {
+      if (target->topology != nullptr) {
+        t = target->topology->faces()[e.target];
+        e.weights(mu);
+      }
+      for (std::size_t j = 0; j < 3; ++j) u -= displacement[target->first_point + t[j]] * mu[j];
+    }
+    const Vec3d n = e.normal<double>();
+    const double w = e.w;
+    const Vec3d f = u * (w * tangential_friction) + n * (w * (normal_friction - tangential_friction) * dot(n, u));
+    if (source.active())
+      for (std::size_t i = 0; i < 3; ++i) out[source.first_point + s[i]] += f * beta[i];
+    if (target != nullptr && target->active())
+      for (std::size_t j = 0; j < 3; ++j) out[target->first_point + t[j]] -= f * mu[j];
     return dot(f, u);
   }
 };
@@ -49,14 +58,14 @@ void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const 
       const ContactBody* source = d == 0 ? &a : b;
       const ContactBody* target = d == 0 ? b : &a;
       if (source == nullptr) continue;
+      const ContactMaterial& contact = material_of(scene, pair);
       const FrictionScatter scatter{quadrature,
                                     displacement,
                                     out,
-                                    source->first_point,
-                                    target != nullptr ? target->first_point : 0,
-                                    source->active(),
-                                    target != nullptr && target->active(),
-                                    target != nullptr,
+                                    *source,
+                                    target,
+                                    contact.normal_friction,
+                                    contact.tangential_friction,
                                     pair.rigid ? offsets_[pair.b] - step_offsets_[pair.b] : Vec3d{}};
       for (const ContactElement& e : pair.step_elements[d]) sum += scatter(e);
     }
@@ -66,20 +75,22 @@ void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const 
 
 std::vector<ElementGroup> ContactLayer::element_groups(const ContactScene& scene) const {
   std::vector<ElementGroup> groups;
-  groups.reserve(2 * pairs_.size());
+  groups.reserve(pairs_.size());
   for (const SurfacePair& pair : pairs_) {
-    const ContactBody& a = scene.bodies[pair.a];
-    for (int d = 0; d < 2; ++d) {
-      if (pair.elements[d].empty()) continue;
-      if (pair.rigid) {
-        groups.push_back({pair.elements[d], pair.a, pair.a, a.first_point, 0, a.active(), false, false});
-        continue;
-      }
-      const ContactBody& b = scene.bodies[pair.b];
-      const ContactBody& source = d == 0 ? a : b;
-      const ContactBody& target = d == 0 ? b : a;
-      groups.push_back({pair.elements[d], d == 0 ? pair.a : pair.b, d == 0 ? pair.b : pair.a, source.first_point, target.first_point,
-                        source.active(), target.active(), true});
+    if (pair.elements[0].empty() && pair.elements[1].empty()) continue;
+    const ContactMaterial& contact = material_of(scene, pair);
+    ElementGroup& group = groups.emplace_back();
+    group.rigid = pair.rigid;
+    group.normal_friction = static_cast<float>(contact.normal_friction);
+    group.tangential_friction = static_cast<float>(contact.tangential_friction);
+    for (std::size_t side = 0; side < (pair.rigid ? 1 : 2); ++side) {
+      const std::uint32_t number = side == 0 ? pair.a : pair.b;
+      const ContactBody& body = scene.bodies[number];
+      group.elements[side] = pair.elements[side];
+      group.topology[side] = body.topology;
+      group.body[side] = number;
+      group.first[side] = body.first_point;
+      group.write[side] = body.active();
     }
   }
   return groups;

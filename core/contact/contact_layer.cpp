@@ -4,6 +4,13 @@
 #include <cmath>
 
 namespace morula {
+namespace {
+
+constexpr double kFloatRounding = 1.0 / (1 << 24);  // relative, of a number kept as float
+
+Vec3f to_float(const Vec3d& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+
+}  // namespace
 
 ContactLayer::ContactLayer(ContactSettings settings, std::vector<RigidSurface> obstacles, std::vector<ContactMaterial> materials,
                            std::size_t material_count)
@@ -52,11 +59,34 @@ PairBody ContactLayer::view(const ContactScene& scene, const SurfacePair& pair, 
           0.0};
 }
 
+double ContactLayer::patch_motion(const ContactScene& scene, const SurfacePair& pair) const {
+  BodyMotion side[2];
+  for (int which = 0; which < 2; ++which) {
+    if (which == 1 && pair.rigid) {
+      side[1].mean = offsets_[pair.b] - last_offsets_[pair.b];
+      continue;
+    }
+    const std::uint32_t body = which == 0 ? pair.a : pair.b;
+    if (scene.bodies[body].shape == BodyShape::kSphere) {
+      side[which] = motion_[body];
+      continue;
+    }
+    Box box;
+    const std::uint32_t first = scene.bodies[body].first_point;
+    for (const std::uint16_t node : pair.node[which]) box.include(scene.position[first + node] - last_position_[first + node]);
+    if (pair.node[which].empty()) continue;
+    side[which] = {box.center(), 0.5 * norm(box.high - box.low)};
+  }
+  return (norm(side[0].mean - side[1].mean) + side[0].deviation + side[1].deviation) * 1.000001;
+}
+
 bool ContactLayer::note_motion(const ContactScene& scene) {
-  if (fresh_ || last_position_.size() != scene.position.size() || motion_.size() != scene.bodies.size()) return true;
-  bool outdated = false;
+  if (fresh_ || last_radius_.size() != scene.bodies.size()) return true;
+  if (pairs_.empty()) return listed_at_.size() != scene.position.size() || note_travel(scene);
+  if (last_position_.size() != scene.position.size()) return true;
+  double most = 0.0;
   const double limit = 0.5 * settings_.body_skin;
-#pragma omp parallel for schedule(static) num_threads(settings_.threads) reduction(|| : outdated)
+#pragma omp parallel for schedule(static) num_threads(settings_.threads) reduction(max : most)
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const ContactBody& body = scene.bodies[i];
     BodyMotion motion;
@@ -64,26 +94,46 @@ bool ContactLayer::note_motion(const ContactScene& scene) {
       motion.mean += scene.position[p] - last_position_[p];
     motion.mean *= 1.0 / body.point_count;
     double deviation2 = 0.0;
-    for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p) {
+    for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p)
       deviation2 = std::max(deviation2, norm2(scene.position[p] - last_position_[p] - motion.mean));
-      last_position_[p] = scene.position[p];
-    }
     motion.deviation = std::sqrt(deviation2) + std::abs(body.radius - last_radius_[i]);
     last_radius_[i] = body.radius;
     motion_[i] = motion;
     travel_[i] += (norm(motion.mean) + motion.deviation) * 1.000001;
-    if (travel_[i] > limit) outdated = true;
+    most = std::max(most, travel_[i]);
   }
   double fastest_obstacle = 0.0;
   for (std::size_t i = 0; i < offsets_.size(); ++i) fastest_obstacle = std::max(fastest_obstacle, norm(offsets_[i] - last_offsets_[i]));
   obstacle_travel_ += fastest_obstacle;
-  for (SurfacePair& pair : pairs_) {
+#pragma omp parallel for schedule(static) num_threads(settings_.threads)
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    SurfacePair& pair = pairs_[k];
     const BodyMotion& a = motion_[pair.a];
     const BodyMotion b = pair.rigid ? BodyMotion{offsets_[pair.b] - last_offsets_[pair.b], 0.0} : motion_[pair.b];
-    pair.motion += (norm(a.mean - b.mean) + a.deviation + b.deviation) * 1.000001;
+    const double whole = (norm(a.mean - b.mean) + a.deviation + b.deviation) * 1.000001;
+    pair.motion += whole;
+    pair.patch_motion += std::min(whole, patch_motion(scene, pair));
   }
+  std::copy(scene.position.begin(), scene.position.end(), last_position_.begin());
   last_offsets_ = offsets_;
-  return outdated || obstacle_travel_ > limit;
+  wear_ = std::max(most, obstacle_travel_) / limit;
+  return wear_ > 1.0;
+}
+
+bool ContactLayer::note_travel(const ContactScene& scene) {
+  double most = 0.0;
+#pragma omp parallel for schedule(static) num_threads(settings_.threads) reduction(max : most)
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const ContactBody& body = scene.bodies[i];
+    const double growth = std::abs(body.radius - last_radius_[i]);
+    for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p) {
+      const Vec3d there{listed_at_[p].x, listed_at_[p].y, listed_at_[p].z};
+      most = std::max(most, norm(scene.position[p] - there) + kFloatRounding * norm(there) + growth);
+    }
+  }
+  for (std::size_t i = 0; i < offsets_.size(); ++i) most = std::max(most, norm(offsets_[i] - last_offsets_[i]));
+  wear_ = most * 1.000001 / (0.5 * settings_.body_skin);
+  return wear_ > 1.0;
 }
 
 void ContactLayer::add_obstacle_pairs(const ContactScene& scene) {
@@ -136,7 +186,7 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
   for (const BodyPair& found : find_body_pairs(extents, place, owned, space)) {
     const bool spheres = scene.bodies[found.a].shape == BodyShape::kSphere && scene.bodies[found.b].shape == BodyShape::kSphere;
     if (spheres) {
-      spheres_.push_back({found.a, found.b, found.shift});
+      spheres_.push_back({found.a, found.b});
     } else {
       SurfacePair& pair = pairs_.emplace_back();
       pair.a = found.a;
@@ -156,24 +206,27 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
       if (k < old.size() && key(old[k]) == key(pair) && old[k].shift == pair.shift) pair = std::move(old[k]);
     }
   }
-  incident_begin_.assign(n + 1, 0);
-  for (const SurfacePair& pair : pairs_) {
-    ++incident_begin_[pair.a + 1];
-    if (!pair.rigid) ++incident_begin_[pair.b + 1];
-  }
-  for (std::size_t i = 1; i <= n; ++i) incident_begin_[i] += incident_begin_[i - 1];
-  incident_.resize(incident_begin_[n]);
-  std::vector<std::uint32_t> next(incident_begin_.begin(), incident_begin_.end() - 1);
+  for (auto& list : pairs_of_kind_) list.clear();
   for (std::uint32_t k = 0; k < pairs_.size(); ++k) {
-    incident_[next[pairs_[k].a]++] = {k, 0};
-    if (!pairs_[k].rigid) incident_[next[pairs_[k].b]++] = {k, 1};
+    const auto is_sphere = [&](std::uint32_t body) { return scene.bodies[body].shape == BodyShape::kSphere; };
+    const bool with_sphere = !pairs_[k].rigid && (is_sphere(pairs_[k].a) || is_sphere(pairs_[k].b));
+    pairs_of_kind_[with_sphere ? 1 : 0].push_back(k);
   }
-  last_position_.assign(scene.position.begin(), scene.position.end());
+  if (pairs_.empty()) {  // spheres alone: they need no motions
+    std::vector<Vec3d>().swap(last_position_);
+    std::vector<BodyMotion>().swap(motion_);
+    std::vector<double>().swap(travel_);
+    listed_at_.resize(scene.position.size());
+    for (std::size_t p = 0; p < listed_at_.size(); ++p) listed_at_[p] = to_float(scene.position[p]);
+  } else {
+    std::vector<Vec3f>().swap(listed_at_);
+    last_position_.assign(scene.position.begin(), scene.position.end());
+    motion_.assign(n, {});
+    travel_.assign(n, 0.0);
+  }
   last_offsets_ = offsets_;
-  motion_.assign(n, {});
   last_radius_.resize(n);
   for (std::size_t i = 0; i < n; ++i) last_radius_[i] = scene.bodies[i].radius;
-  travel_.assign(n, 0.0);
   obstacle_travel_ = 0.0;
   fresh_ = false;
 }
@@ -204,20 +257,19 @@ void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {
       pair.points[d] = {};
       continue;
     }
-    build_point_lists(body[d], body[1 - d], reach(), settings_.points_per_face, faces[1 - d], pair.points[d]);
+    build_point_lists(body[d], body[1 - d], reach(), settings_.points_per_face, faces[1 - d], pair.patch_motion, pair.motion - pair.built_at,
+                      pair.points[d]);
   }
-  number_pair_nodes(body[0].topology, body[1].topology, pair);
+  collect_pair_nodes(body[0].topology, body[1].topology, pair);
   pair.built_at = pair.motion;
 }
 
-void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair) {
+void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& workspace) {
   if (pair.motion - pair.built_at > settings_.skin) rebuild_lists(scene, pair);
-  clear_results(pair);
+  clear_results(pair, {scene.bodies[pair.a].point_count, pair.rigid ? 0 : scene.bodies[pair.b].point_count}, gradient);
   const PairBody body[2] = {view(scene, pair, 0), view(scene, pair, 1)};
   const bool both = !pair.rigid && body[0].topology != nullptr && body[1].topology != nullptr;
-  const std::uint16_t material_a = scene.bodies[pair.a].material;
-  const std::uint16_t material_b = pair.rigid ? obstacles_[pair.b].material : scene.bodies[pair.b].material;
-  ContactMaterial contact = material(material_a, material_b);
+  ContactMaterial contact = material_of(scene, pair);
   if (!both && !pair.rigid) {  // a sphere gives way by its own foundation (fields_and_coupling.md, D)
     contact.law.repulsion = contact.sphere_repulsion;
     contact.law.cap = 0.0;
@@ -230,48 +282,67 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair) {
                      FaceQuadrature::with_points(settings_.points_per_face),
                      reach(),
                      both ? 0.5 : 1.0,
-                     pair.motion,
+                     pair.patch_motion,
                      pair.motion - pair.built_at,
-                     !pair.rigid,
-                     {}},
-                    d, pair);
+                     !pair.rigid},
+                    d, pair, gradient, workspace);
   }
 }
 
-void ContactLayer::evaluate(const ContactScene& scene, bool only_spheres) {
-  const auto has_sphere = [&](const SurfacePair& pair) {
-    return !pair.rigid && (scene.bodies[pair.a].shape == BodyShape::kSphere || scene.bodies[pair.b].shape == BodyShape::kSphere);
+void ContactLayer::evaluate(const ContactScene& scene, SurfacePairKind kind, ContactGradient& gradient) {
+  // A few pairs at a time: their gradients go to the bodies while they are in cache, those of a body by one thread and in canonical order.
+  const std::vector<std::uint32_t>& list = pairs_of_kind_[static_cast<std::size_t>(kind)];
+  const std::size_t threads = static_cast<std::size_t>(settings_.threads), slots = threads == 1 ? 1 : 8 * threads;
+  struct Slot {
+    PairGradient gradient[2];
   };
-#pragma omp parallel for schedule(dynamic, 4) num_threads(settings_.threads)
-  for (std::size_t k = 0; k < pairs_.size(); ++k)
-    if (!only_spheres || has_sphere(pairs_[k])) evaluate_pair(scene, pairs_[k]);
+  std::vector<Slot> slot(slots);
+#pragma omp parallel num_threads(settings_.threads)
+  {
+    PointsWorkspace workspace;
+    for (std::size_t first = 0; first < list.size(); first += slots) {
+      const std::size_t count = std::min(slots, list.size() - first);
+#pragma omp for schedule(dynamic, 1)
+      for (std::size_t k = 0; k < count; ++k) evaluate_pair(scene, pairs_[list[first + k]], slot[k].gradient, workspace);
+#pragma omp for schedule(static, 1)
+      for (std::size_t t = 0; t < threads; ++t)
+        for (std::size_t k = 0; k < count; ++k) {
+          const SurfacePair& pair = pairs_[list[first + k]];
+          if (pair.a % threads == t) collect(scene, pair, 0, slot[k].gradient[0], gradient);
+          if (!pair.rigid && pair.b % threads == t) collect(scene, pair, 1, slot[k].gradient[1], gradient);
+        }
+    }
+  }
+}
+
+void ContactLayer::collect(const ContactScene& scene, const SurfacePair& pair, int side, const PairGradient& part,
+                           ContactGradient& gradient) const {
+  const std::uint32_t number = side == 0 ? pair.a : pair.b;
+  const ContactBody& body = scene.bodies[number];
+  if (!body.owned || (pair.elements[0].empty() && pair.elements[1].empty())) return;
+  for (const std::uint16_t node : pair.node[side]) gradient.force[body.first_point + node] += part.force[node].value();
+  if (part.has_node_normal)
+    for (const std::uint16_t node : pair.node[side]) gradient.node_normal[body.first_point + node] += part.node_normal[node];
+  const auto& faces = pair.points[side].source_face;
+  for (std::size_t m = 0; m < faces.size(); ++m) gradient.face_energy[body.first_face + faces[m]] += part.face_energy[m];
+  if (body.shape == BodyShape::kSurface) gradient.contact_area[number] += part.contact_area;
+}
+
+void ContactGradient::set_zero() {
+  std::fill(force.begin(), force.end(), Vec3d{});
+  std::fill(node_normal.begin(), node_normal.end(), Vec3d{});
+  std::fill(face_energy.begin(), face_energy.end(), 0.0);
+  std::fill(contact_area.begin(), contact_area.end(), 0.0);
+}
+
+std::size_t ContactGradient::memory() const {
+  const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
+  return bytes(force) + bytes(node_normal) + bytes(face_energy) + bytes(contact_area);
 }
 
 void ContactLayer::add_energy(const ContactScene& scene, OrderFreeSum& sum) const {
   for (const SurfacePair& pair : pairs_)
     if (scene.bodies[pair.a].owned) sum.add(pair.energy);
-}
-
-void ContactLayer::collect(const ContactScene& scene, ContactGradient& gradient) const {
-#pragma omp parallel for schedule(static) num_threads(settings_.threads)
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const ContactBody& body = scene.bodies[i];
-    if (!body.owned) continue;
-    gradient.contact_area[i] = 0.0;
-    for (std::uint32_t k = incident_begin_[i]; k < incident_begin_[i + 1]; ++k) {
-      const SurfacePair& pair = pairs_[incident_[k].pair];
-      const PairGradient& part = pair.gradient[incident_[k].side];
-      for (std::size_t m = 0; m < part.node.size(); ++m) gradient.force[body.first_point + part.node[m]] += part.force[m];
-      for (std::size_t m = 0; m < part.node_normal.size(); ++m)
-        gradient.node_normal[body.first_point + part.node[m]] += part.node_normal[m];
-      const auto& faces = pair.points[incident_[k].side].source_face;
-      for (std::size_t m = 0; m < part.face_energy.size(); ++m) {
-        gradient.face_energy[body.first_face + faces[m]] += part.face_energy[m];
-        gradient.contact_area[i] += part.face_contact[m];
-      }
-      for (std::size_t m = 0; m < part.face_normal.size(); ++m) gradient.face_normal[body.first_face + faces[m]] += part.face_normal[m];
-    }
-  }
 }
 
 const SurfacePair* ContactLayer::deepest(const ContactScene& scene) const {
@@ -286,16 +357,13 @@ const SurfacePair* ContactLayer::deepest(const ContactScene& scene) const {
 
 std::size_t ContactLayer::memory() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
-  std::size_t total =
-      bytes(pairs_) + bytes(spheres_) + bytes(incident_begin_) + bytes(incident_) + bytes(last_position_) + bytes(motion_) + bytes(travel_);
+  std::size_t total = bytes(pairs_) + bytes(spheres_) + bytes(pairs_of_kind_[0]) + bytes(pairs_of_kind_[1]) + bytes(last_position_) +
+                      bytes(motion_) + bytes(last_radius_) + bytes(travel_) + bytes(listed_at_);
   for (const SurfacePair& pair : pairs_)
     for (int d = 0; d < 2; ++d) {
       const PointsAgainstBody& p = pair.points[d];
-      total += bytes(p.source_face) + bytes(p.source_node) + bytes(p.target_face) + bytes(p.target_node) + bytes(p.target_radius) +
-               bytes(p.first_candidate) + bytes(p.candidate) + bytes(p.nearest) + bytes(p.good_until);
-      const PairGradient& g = pair.gradient[d];
-      total += bytes(g.node) + bytes(g.force) + bytes(g.node_normal) + bytes(g.face_energy) + bytes(g.face_normal) + bytes(g.face_contact);
-      total += bytes(pair.elements[d]) + bytes(pair.step_elements[d]);
+      total += bytes(p.source_face) + bytes(p.target_face) + bytes(p.first_candidate) + bytes(p.candidate) + bytes(p.nearest) +
+               bytes(p.good_until) + bytes(pair.node[d]) + bytes(pair.elements[d]) + bytes(pair.step_elements[d]);
     }
   return total;
 }

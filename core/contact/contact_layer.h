@@ -7,7 +7,7 @@
 #include "core/contact/broad_phase.h"
 #include "core/contact/contact_body.h"
 #include "core/contact/surface_pair.h"
-#include "core/friction/friction_system.h"
+#include "core/friction/contact_element.h"
 #include "core/mesh/triangle_tree.h"
 #include "core/parallel/comm.h"
 
@@ -22,10 +22,9 @@ struct RigidSurface {
   std::uint16_t material = 0;
 };
 
-/// Two spheres that may touch; body a comes first in the canonical order, b is meant at b + shift.
+/// Two spheres that may touch; body a comes first in the canonical order. On periodic axes the nearest image counts.
 struct SphereNeighbours {
   std::uint32_t a, b;
-  Vec3d shift{};
 };
 
 struct ContactSettings {
@@ -40,12 +39,17 @@ struct ContactSettings {
 
 /// Gradients that contacts leave on the points and faces of all bodies; sized like the scene. Only owned bodies are written.
 struct ContactGradient {
-  std::vector<Vec3d> force;          ///< by point
+  std::vector<Vec3d> force;          ///< by point: at fixed face areas and node normals
   std::vector<Vec3d> node_normal;    ///< ∂E/∂n_v by point
   std::vector<double> face_energy;   ///< ∂E/∂A_T by face
-  std::vector<Vec3d> face_normal;    ///< ∂E/∂n_T by face
-  std::vector<double> contact_area;  ///< by body: area of its surface that is in contact [µm²]
+  std::vector<double> contact_area;  ///< by surface: its area that is in contact [µm²]
+
+  void set_zero();
+  [[nodiscard]] std::size_t memory() const;
 };
+
+/// Which pairs are meant: surfaces with surfaces and obstacles, or with spheres.
+enum class SurfacePairKind : std::uint8_t { kSurfaces, kWithSphere };
 
 /// Contacts of all bodies of a rank: which bodies may touch, and for surfaces the gaps, energies, gradients and friction elements.
 ///
@@ -66,17 +70,17 @@ class ContactLayer {
   /// Take note of how far the bodies have moved since the last call. True when the list of pairs is no longer sure: rebuild() is due
   /// before evaluate(). Local to the rank; on several ranks all rebuild when one must.
   [[nodiscard]] bool note_motion(const ContactScene& scene);
+  /// How much of the way that the list of pairs allows for was used up at the last note_motion(), 1: all of it.
+  [[nodiscard]] double wear() const { return wear_; }
   /// Find the pairs of bodies again. On several ranks the ghosts must be renewed first.
   void rebuild(const ContactScene& scene, const Space& space);
 
-  /// Narrow phase of all surface pairs at the present positions: energies, gradients, elements. When only radii have changed since the
-  /// last call, the pairs with a sphere suffice.
-  void evaluate(const ContactScene& scene, bool only_spheres = false);
+  /// Narrow phase of the surface pairs of one kind at the present positions: energies and elements, kept; gradients are added to `gradient`.
+  void evaluate(const ContactScene& scene, SurfacePairKind kind, ContactGradient& gradient);
+  [[nodiscard]] bool has_pairs(SurfacePairKind kind) const { return !pairs_of_kind_[static_cast<std::size_t>(kind)].empty(); }
 
   /// Energy of the pairs that this rank counts (those whose first body it owns), added to an order-free sum.
   void add_energy(const ContactScene& scene, OrderFreeSum& sum) const;
-  /// Collect the gradients of all pairs on the owned bodies.
-  void collect(const ContactScene& scene, ContactGradient& gradient) const;
   /// Deepest penetration of a surface into another surface or obstacle [µm], and which pair has it.
   [[nodiscard]] const SurfacePair* deepest(const ContactScene& scene) const;
 
@@ -88,7 +92,8 @@ class ContactLayer {
   /// Element groups for the friction system, in canonical order.
   [[nodiscard]] std::vector<ElementGroup> element_groups(const ContactScene& scene) const;
 
-  [[nodiscard]] std::span<const SphereNeighbours> sphere_neighbours() const { return spheres_; }
+  /// Pairs of spheres that rebuild() has found, in canonical order; handed over, for the layer has no use for them.
+  [[nodiscard]] std::vector<SphereNeighbours> take_sphere_neighbours() { return std::move(spheres_); }
   [[nodiscard]] std::span<const SurfacePair> pairs() const { return pairs_; }
   [[nodiscard]] std::span<const RigidSurface> obstacles() const { return obstacles_; }
   [[nodiscard]] const Vec3d& obstacle_offset(std::size_t i) const { return offsets_[i]; }
@@ -98,9 +103,17 @@ class ContactLayer {
   [[nodiscard]] std::size_t memory() const;
 
  private:
+  [[nodiscard]] const ContactMaterial& material_of(const ContactScene& scene, const SurfacePair& pair) const {
+    return material(scene.bodies[pair.a].material, pair.rigid ? obstacles_[pair.b].material : scene.bodies[pair.b].material);
+  }
   [[nodiscard]] PairBody view(const ContactScene& scene, const SurfacePair& pair, int which) const;
   void rebuild_lists(const ContactScene& scene, SurfacePair& pair);
-  void evaluate_pair(const ContactScene& scene, SurfacePair& pair);
+  void evaluate_pair(const ContactScene& scene, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& workspace);
+  void collect(const ContactScene& scene, const SurfacePair& pair, int side, const PairGradient& part, ContactGradient& gradient) const;
+  /// Bound on how far the nodes in a pair's lists have moved against each other since the last call of note_motion().
+  /// note_motion() where there are no pairs of surfaces: nothing but the distance from where the list was built is of interest.
+  [[nodiscard]] bool note_travel(const ContactScene& scene);
+  [[nodiscard]] double patch_motion(const ContactScene& scene, const SurfacePair& pair) const;
   void add_obstacle_pairs(const ContactScene& scene);
   [[nodiscard]] ListReach reach() const { return {settings_.range, settings_.skin, settings_.depth}; }
 
@@ -118,17 +131,14 @@ class ContactLayer {
 
   std::vector<SurfacePair> pairs_;
   std::vector<SphereNeighbours> spheres_;
-  std::vector<std::uint32_t> incident_begin_;
-  struct Incidence {
-    std::uint32_t pair;
-    std::uint8_t side;
-  };
-  std::vector<Incidence> incident_;
-  std::vector<Vec3d> last_position_;  ///< at the last note_motion()
+  std::vector<std::uint32_t> pairs_of_kind_[2];  ///< by SurfacePairKind
+  std::vector<Vec3d> last_position_;             ///< at the last note_motion(); empty if there are no pairs
+  std::vector<Vec3f> listed_at_;                 ///< where the points were at the last rebuild(), if there are no pairs
   std::vector<BodyMotion> motion_;
   std::vector<double> last_radius_;  ///< of spheres: growth counts as motion
   std::vector<double> travel_;       ///< by body: bound on the way of its points since the list of pairs was built
   double obstacle_travel_ = 0.0;
+  double wear_ = 0.0;
 };
 
 }  // namespace morula

@@ -1,44 +1,46 @@
+#include <algorithm>
 #include <cmath>
 
+#include "core/contact/closest_foot.h"
 #include "core/contact/nearest_face.h"
 #include "core/contact/surface_pair.h"
 
 namespace morula {
 namespace {
 
-/// Where the results of one direction go.
+/// Where a point stands against the other body.
+struct PointGap {
+  double gap = 0.0;          ///< g: signed distance, < 0 inside [µm]
+  Vec3d normal;              ///< n̂ = ∂g/∂x_q, unit, away from the target
+  double mu[3] = {1, 0, 0};  ///< weights of the nearest face's nodes at the nearest point
+};
+
+/// Where the results of one point go.
 struct Sink {
   PairGradient& source;
   PairGradient* target;  ///< null for rigid obstacles
-  const std::array<std::uint16_t, 3>& source_node;
-  std::array<std::uint16_t, 3> target_node;
+  const Triangle& source_node;
+  Triangle target_node;
 
   void push_source(const FaceQuadrature& quadrature, int q, const Vec3d& force) {
-    for (std::size_t i = 0; i < 3; ++i) source.force[source_node[i]] += force * quadrature.weight[q][i];
+    const auto padded = PaddedVec3::of(force);
+    for (std::size_t i = 0; i < 3; ++i) source.force[source_node[i]].v += padded * quadrature.weight[q][i];
   }
   void push_target(std::size_t corner, const Vec3d& force) {
-    if (target != nullptr) target->force[target_node[corner]] += force;
+    if (target != nullptr) target->force[target_node[corner]].v += PaddedVec3::of(force);
+  }
+  void push_target(const double (&mu)[3], const Vec3d& force) {
+    if (target == nullptr) return;
+    const auto padded = PaddedVec3::of(force);
+    for (std::size_t j = 0; j < 3; ++j) target->force[target_node[j]].v += padded * mu[j];
   }
 };
-
-void grow(std::vector<Vec3d>& gradient, std::size_t size) {
-  if (gradient.empty()) gradient.assign(size, Vec3d{});
-}
 
 /// Normal of the target at the foot point: node normals interpolated, or the sphere's.
 struct TargetNormal {
   Vec3d unit;
   double length;  ///< of the interpolated vector
 };
-
-TargetNormal target_normal(const PairBody& target, const Triangle* t, const PointGap& gap) {
-  if (t == nullptr) return {gap.normal, 1.0};
-  const Vec3d sum =
-      target.node_normal[(*t)[0]] * gap.mu[0] + target.node_normal[(*t)[1]] * gap.mu[1] + target.node_normal[(*t)[2]] * gap.mu[2];
-  const double length = norm(sum);
-  if (length < 1e-9) return {gap.normal, 1.0};
-  return {sum * (1.0 / length), length};
-}
 
 /// Gradient through the weights μ_j of the foot point, which slides on its feature: c_j = ∂E/∂μ_j.
 void add_foot_gradient(const PointsEvaluation& e, int q, const Triangle& t, const PointGap& gap, const double (&c)[3], Sink& sink) {
@@ -69,11 +71,23 @@ void add_foot_gradient(const PointsEvaluation& e, int q, const Triangle& t, cons
   }
 }
 
+/// Forces on the corners of the source face from h = ∂E/∂n_T: F_c = e_c × w, w = (I − n_T n_Tᵀ) h/(2 A_T), e_c the edge opposite to c.
+void add_face_normal_gradient(const PairBody& source, std::uint32_t face, const Vec3d& h, Sink& sink) {
+  const Vec3d& n = source.face_normal[face];
+  const Vec3d w = (h - n * dot(n, h)) * (0.5 / source.face_area[face]);
+  const Vec3d& x0 = source.position[sink.source_node[0]];
+  const Vec3d& x1 = source.position[sink.source_node[1]];
+  const Vec3d& x2 = source.position[sink.source_node[2]];
+  const Vec3d f0 = cross(x2 - x1, w), f1 = cross(x0 - x2, w);
+  sink.source.force[sink.source_node[0]].v += PaddedVec3::of(f0);
+  sink.source.force[sink.source_node[1]].v += PaddedVec3::of(f1);
+  sink.source.force[sink.source_node[2]].v -= PaddedVec3::of(f0 + f1);
+}
+
 /// Gradient through the opposed-normal weight: `h0` = ∂E/∂m with m = −n_T·n_y.
-void add_weight_gradient(const PointsEvaluation& e, int q, std::uint32_t face, std::size_t source_place, const Triangle* t,
-                         const PointGap& gap, const TargetNormal& normal, double h0, Sink& sink) {
-  grow(sink.source.face_normal, sink.source.face_energy.size());
-  sink.source.face_normal[source_place] -= normal.unit * h0;
+void add_weight_gradient(const PointsEvaluation& e, int q, std::uint32_t face, const Triangle* t, const PointGap& gap,
+                         const TargetNormal& normal, double h0, Sink& sink) {
+  add_face_normal_gradient(e.source, face, normal.unit * -h0, sink);
   const Vec3d h = e.source.face_normal[face] * -h0;  // ∂E/∂n_y
   const Vec3d across = (h - normal.unit * dot(normal.unit, h)) * (1.0 / normal.length);
   if (t == nullptr) {  // n_y = (x_q − x)/|x_q − x| of a sphere
@@ -86,86 +100,230 @@ void add_weight_gradient(const PointsEvaluation& e, int q, std::uint32_t face, s
   for (std::size_t j = 0; j < 3; ++j) {
     c[j] = dot(across, e.target.node_normal[(*t)[j]]);
     if (sink.target == nullptr || gap.mu[j] == 0.0) continue;
-    grow(sink.target->node_normal, sink.target->node.size());
+    sink.target->has_node_normal = true;
     sink.target->node_normal[sink.target_node[j]] += across * gap.mu[j];
   }
   add_foot_gradient(e, q, *t, gap, c, sink);
 }
 
-ContactElement element_of(const Triangle& source, const Triangle* target, int q, const PointGap& gap, double area, double stiffness,
-                          const ContactMaterial& material) {
-  ContactElement element{};
-  const double weight = area * friction_weight(gap.gap, material.law.range);
-  for (std::size_t i = 0; i < 3; ++i) {
-    element.source[i] = static_cast<std::uint16_t>(source[i]);
-    element.target[i] = target != nullptr ? static_cast<std::uint16_t>((*target)[i]) : 0;
-  }
-  element.mu[0] = static_cast<float>(gap.mu[0]);
-  element.mu[1] = static_cast<float>(gap.mu[1]);
-  element.n[0] = static_cast<float>(gap.normal.x);
-  element.n[1] = static_cast<float>(gap.normal.y);
-  element.n[2] = static_cast<float>(gap.normal.z);
-  element.a = static_cast<float>(weight * material.tangential_friction);
-  element.b = static_cast<float>(weight * (material.normal_friction - material.tangential_friction));
-  element.k = static_cast<float>(area * stiffness);
-  element.point = static_cast<std::uint16_t>(q);
-  return element;
+constexpr int kLanes = 8;
+using Real = Lane<double, kLanes>;
+using Vector = Vec3<Real>;
+
+/// Up to 8 points and their nearest faces, in lanes.
+struct alignas(64) Batch {
+  double point[3][kLanes], source_normal[3][kLanes], area[kLanes];
+  double corner[3][3][kLanes], node_normal[3][3][kLanes];
+  // results
+  double gap[kLanes], normal[3][kLanes], mu[3][kLanes];
+  double unit[3][kLanes], length[kLanes];  ///< normal of the target at the foot point
+  double weight_slope[kLanes], attraction[kLanes], density[kLanes], ramp[kLanes], pull[3][kLanes];
+  double bearing[kLanes], stiffness[kLanes];
+  std::int32_t rounded_mu[2][kLanes], rounded_normal[3][kLanes];  ///< as ContactElement keeps them
+};
+
+/// Rounded to the nearest integer, halves away from zero.
+void store_rounded(std::int32_t (&out)[kLanes], Real value) {
+  using Int [[gnu::vector_size(kLanes * sizeof(std::int32_t))]] = std::int32_t;
+  const Real half = select(value < Real(0.0), Real(-0.5), Real(0.5));
+  const Int rounded = __builtin_convertvector((value + half).v, Int);
+  __builtin_memcpy(out, &rounded, sizeof rounded);
 }
 
-/// Share of a point's area that counts as contact area: 1 up to c/2, falling linearly to 0 at c.
-double contact_ramp(double gap, double range) {
-  const double t = (range - gap) / (0.5 * range);
-  return t > 1.0 ? 1.0 : t < 0.0 ? 0.0 : t;
+void put(double (&array)[3][kLanes], int lane, const Vec3d& v) {
+  array[0][lane] = v.x, array[1][lane] = v.y, array[2][lane] = v.z;
+}
+Vec3d get(const double (&array)[3][kLanes], int lane) { return {array[0][lane], array[1][lane], array[2][lane]}; }
+Vector load(const double (&array)[3][kLanes]) { return {Real::load(array[0]), Real::load(array[1]), Real::load(array[2])}; }
+void store(double (&array)[3][kLanes], const Vector& v) { v.x.store(array[0]), v.y.store(array[1]), v.z.store(array[2]); }
+
+/// Gaps against the nearest faces of a surface.
+void gaps_to_faces(const PointsEvaluation& e, std::span<const std::uint32_t> face, Batch& batch) {
+  const Vector point = load(batch.point), a = load(batch.corner[0]), b = load(batch.corner[1]), c = load(batch.corner[2]);
+  Foot<Real> foot = closest_foot<Real>(point, a, b, c);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (foot.doubtful[lane] == 0.0) continue;
+    const auto right =
+        closest_foot_of(get(batch.point, lane), get(batch.corner[0], lane), get(batch.corner[1], lane), get(batch.corner[2], lane));
+    foot.away.x.set(lane, right.away.x), foot.away.y.set(lane, right.away.y), foot.away.z.set(lane, right.away.z);
+    for (int k = 0; k < 3; ++k) foot.mu[k].set(lane, right.mu[k]);
+    foot.distance2.set(lane, right.distance2);
+  }
+  const Vector twice_area = cross(b - a, c - a);
+  const Vector unit = twice_area * (Real(1.0) / norm(twice_area));
+  const Real distance = sqrt(foot.distance2), zero(0.0);
+  select(dot(foot.away, unit) < zero, -distance, distance).store(batch.gap);
+  store(batch.normal, unit);
+  for (std::size_t k = 0; k < 3; ++k) foot.mu[k].store(batch.mu[k]);
+  const Real inner = min(min(foot.mu[0], foot.mu[1]), foot.mu[2]);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (inner[lane] != 0.0) continue;  // on an edge or a node: the side is that of the pseudonormal
+    const Vec3d away{foot.away.x[lane], foot.away.y[lane], foot.away.z[lane]};
+    const double mu[3] = {foot.mu[0][lane], foot.mu[1][lane], foot.mu[2][lane]};
+    const bool inside = is_inside(away, e.target, face[static_cast<std::size_t>(lane)], mu);
+    batch.gap[lane] = inside ? -distance[lane] : distance[lane];
+    if (distance[lane] >= 1e-12) put(batch.normal, lane, away * ((inside ? -1.0 : 1.0) / distance[lane]));
+  }
+  const Vector sum = load(batch.node_normal[0]) * foot.mu[0] + load(batch.node_normal[1]) * foot.mu[1] +
+                     load(batch.node_normal[2]) * foot.mu[2];
+  const Real length = norm(sum);
+  const auto usable = length > Real(1e-9);
+  const Vector normal = load(batch.normal);
+  const Real inverse = Real(1.0) / length;
+  store(batch.unit, Vector{select(usable, sum.x * inverse, normal.x), select(usable, sum.y * inverse, normal.y),
+                           select(usable, sum.z * inverse, normal.z)});
+  select(usable, length, Real(1.0)).store(batch.length);
+}
+
+/// Gaps against a sphere: |x_q − x| − R.
+void gaps_to_sphere(const PairBody& target, Batch& batch) {
+  const Vec3d center = target.node(0);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const Vec3d away = get(batch.point, lane) - center;
+    const double distance = norm(away);
+    batch.gap[lane] = distance - target.radius;
+    const Vec3d normal = distance > 1e-12 ? away * (1.0 / distance) : Vec3d{0, 0, 1};
+    put(batch.normal, lane, normal);
+    put(batch.unit, lane, normal);
+    batch.length[lane] = 1.0;
+    batch.mu[0][lane] = 1.0;
+    batch.mu[1][lane] = batch.mu[2][lane] = 0.0;
+  }
+}
+
+/// Energies, tractions and stiffness at the gaps.
+void respond(const PointsEvaluation& e, Batch& batch) {
+  const TractionLaw& law = e.material.law;
+  const Real gap = Real::load(batch.gap);
+  const auto weight = OpposedWeight::of(-dot(load(batch.source_normal), load(batch.unit)));
+  const auto attraction = law.attraction(gap);
+  const auto repulsion = law.repulse(gap);
+  const Real part(1.0 / e.quadrature.count);
+  const Real area = Real::load(batch.area) * Real(e.share) * part;
+  weight.slope.store(batch.weight_slope);
+  (area * attraction.energy).store(batch.attraction);
+  (weight.value * attraction.energy + repulsion.energy).store(batch.density);
+  (Real::load(batch.area) * part * contact_ramp(gap, law.range)).store(batch.ramp);
+  store(batch.pull, load(batch.normal) * (area * (weight.value * attraction.slope + repulsion.slope)));
+  (area * friction_weight(gap, law.range)).store(batch.bearing);
+  (area * (weight.value * attraction.curvature + repulsion.curvature)).store(batch.stiffness);
+  area.store(batch.area);
+  for (std::size_t k = 0; k < 2; ++k) store_rounded(batch.rounded_mu[k], Real::load(batch.mu[k]) * Real(ContactElement::kWeightUnits));
+  for (std::size_t k = 0; k < 3; ++k) store_rounded(batch.rounded_normal[k], Real::load(batch.normal[k]) * Real(ContactElement::kNormalUnits));
+}
+
+Vec3d quadrature_point(const PointsEvaluation& e, const Triangle& t, int q) {
+  const auto& beta = e.quadrature.weight[q];
+  return e.source.node(t[0]) * beta[0] + e.source.node(t[1]) * beta[1] + e.source.node(t[2]) * beta[2];
+}
+
+/// The points that may be in range, with their nearest faces; those that surely are not are left out.
+void collect_points(const PointsEvaluation& e, PointsAgainstBody& lists, PointsWorkspace& ws) {
+  ws.points.clear();
+  ws.search.clear();
+  const std::uint32_t count = static_cast<std::uint32_t>(e.quadrature.count);
+  const auto triangles = e.source.topology->faces();
+  for (std::uint32_t k = 0; k < lists.source_face.size(); ++k) {
+    const Triangle& t = triangles[lists.source_face[k]];
+    for (std::uint32_t q = 0; q < count; ++q) {
+      const std::uint32_t index = k * count + q;
+      const std::uint16_t known = lists.nearest[index];
+      const bool sure = e.motion < lists.good_until[index];
+      if (sure && (known & kAsleep)) continue;
+      if (!sure && e.target.topology != nullptr) ws.search.push_back(static_cast<std::uint32_t>(ws.points.size()));
+      const std::uint16_t guess = known & kNoFace;
+      ws.points.push_back({quadrature_point(e, t, static_cast<int>(q)), k, static_cast<std::uint16_t>(q), guess});
+    }
+  }
+  find_nearest_faces(e, lists, ws);
+}
+
+void fill(const PointsEvaluation& e, const PointsAgainstBody& lists, const ContactPoint& p, int lane, Batch& batch) {
+  const std::uint32_t face = lists.source_face[p.source_place];
+  put(batch.point, lane, p.position);
+  put(batch.source_normal, lane, e.source.face_normal[face]);
+  batch.area[lane] = e.source.face_area[face];
+  if (e.target.topology == nullptr) return;
+  const Triangle& t = e.target.topology->faces()[lists.target_face[p.place]];
+  for (std::size_t k = 0; k < 3; ++k) {
+    put(batch.corner[k], lane, e.target.node(t[k]));
+    put(batch.node_normal[k], lane, e.target.node_normal[t[k]]);
+  }
+}
+
+/// Add one point's share to the pair.
+void add_point(const PointsEvaluation& e, int d, const ContactPoint& p, const Batch& batch, int lane, SurfacePair& pair,
+               PairGradient (&gradient)[2], std::vector<ContactElement>& elements) {
+  const PointsAgainstBody& lists = pair.points[d];
+  const std::uint32_t face = lists.source_face[p.source_place];
+  const bool sphere = e.target.topology == nullptr;
+  Sink sink{gradient[d], e.target_moves ? &gradient[1 - d] : nullptr, e.source.topology->faces()[face], {0, 0, 0}};
+  if (!sphere) sink.target_node = e.target.topology->faces()[lists.target_face[p.place]];
+  PointGap gap;
+  gap.gap = batch.gap[lane];
+  gap.normal = get(batch.normal, lane);
+  for (std::size_t j = 0; j < 3; ++j) gap.mu[j] = batch.mu[j][lane];
+  const double scale = e.share * (1.0 / e.quadrature.count);
+  pair.energy += batch.area[lane] * batch.density[lane];
+  sink.source.face_energy[p.source_place] += scale * batch.density[lane];
+  sink.source.contact_area += batch.ramp[lane];
+  pair.overlap = gap.gap < -pair.overlap ? -gap.gap : pair.overlap;
+
+  const Vec3d pull = get(batch.pull, lane);
+  sink.push_source(e.quadrature, p.q, -pull);
+  if (sphere)
+    sink.push_target(0, pull);
+  else
+    sink.push_target(gap.mu, pull);
+  if (batch.weight_slope[lane] != 0.0) {
+    const Triangle* target_face = sphere ? nullptr : &e.target.topology->faces()[lists.target_face[p.place]];
+    add_weight_gradient(e, p.q, face, target_face, gap, {get(batch.unit, lane), batch.length[lane]},
+                        batch.weight_slope[lane] * batch.attraction[lane], sink);
+  }
+  ContactElement& element = elements.emplace_back();
+  element.source = 4 * face + p.q;
+  element.target = sphere ? 0 : lists.target_face[p.place];
+  element.set_weights(batch.rounded_mu[0][lane], batch.rounded_mu[1][lane]);
+  for (std::size_t k = 0; k < 3; ++k) element.n[k] = static_cast<std::int16_t>(batch.rounded_normal[k][lane]);
+  element.w = static_cast<float>(batch.bearing[lane]);
+  element.k = static_cast<float>(batch.stiffness[lane]);
 }
 
 }  // namespace
 
-void evaluate_points(const PointsEvaluation& given, int d, SurfacePair& pair) {
+void evaluate_points(const PointsEvaluation& e, int d, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& ws) {
   PointsAgainstBody& lists = pair.points[d];
-  const bool sphere = given.target.topology == nullptr;
-  std::vector<Vec3d> centroid(lists.target_face.size());
-  for (std::size_t m = 0; m < centroid.size(); ++m) centroid[m] = given.target.centroid(lists.target_face[m]);
-  PointsEvaluation e = given;
-  e.target_centroid = centroid;
-  const double part = 1.0 / e.quadrature.count;
-  std::size_t index = 0;
-  for (std::size_t k = 0; k < lists.source_face.size(); ++k) {
-    const std::uint32_t face = lists.source_face[k];
-    const Triangle& t = e.source.topology->faces()[face];
-    const Vec3d corner[3] = {e.source.node(t[0]), e.source.node(t[1]), e.source.node(t[2])};
-    Sink sink{pair.gradient[d], e.target_moves ? &pair.gradient[1 - d] : nullptr, lists.source_node[k], {0, 0, 0}};
-    for (int q = 0; q < e.quadrature.count; ++q, ++index) {
-      const auto& beta = e.quadrature.weight[q];
-      const Vec3d point = corner[0] * beta[0] + corner[1] * beta[1] + corner[2] * beta[2];
-      const PointGap gap = sphere ? gap_to_sphere(point, e.target, e.reach) : gap_to_surface(point, index, k, e, lists);
-      if (!gap.in_range) continue;
-
-      const Triangle* target_face = sphere ? nullptr : &e.target.topology->faces()[lists.target_face[gap.place]];
-      if (!sphere && e.target_moves) sink.target_node = lists.target_node[gap.place];
-      const TargetNormal normal = target_normal(e.target, target_face, gap);
-      const auto weight = OpposedWeight::of(-dot(e.source.face_normal[face], normal.unit));
-      const auto attraction = e.material.law.attraction(gap.gap);
-      const auto repulsion = e.material.law.repulse(gap.gap);
-
-      const double scale = e.share * part;
-      const double area = scale * e.source.face_area[face];
-      const double density = weight.value * attraction.energy + repulsion.energy;
-      pair.energy += area * density;
-      sink.source.face_energy[k] += scale * density;
-      sink.source.face_contact[k] += part * e.source.face_area[face] * contact_ramp(gap.gap, e.material.law.range);
-      pair.overlap = gap.gap < -pair.overlap ? -gap.gap : pair.overlap;
-
-      const Vec3d pull = gap.normal * (area * (weight.value * attraction.slope + repulsion.slope));
-      sink.push_source(e.quadrature, q, -pull);
-      if (sphere)
-        sink.push_target(0, pull);
-      else
-        for (std::size_t j = 0; j < 3; ++j) sink.push_target(j, pull * gap.mu[j]);
-      if (weight.slope != 0.0) add_weight_gradient(e, q, face, k, target_face, gap, normal, area * weight.slope * attraction.energy, sink);
-      pair.elements[d].push_back(
-          element_of(t, target_face, q, gap, area, weight.value * attraction.curvature + repulsion.curvature, e.material));
+  collect_points(e, lists, ws);
+  if (e.target.topology != nullptr) {  // what has no face within reach is out of range
+    const auto index = [&](const ContactPoint& p) { return p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q; };
+    std::erase_if(ws.points, [&](const ContactPoint& p) {
+      if (p.place == kNoFace) remember(p, 0.0, index(p), e, lists);
+      return p.place == kNoFace;
+    });
+  }
+  ws.elements.clear();
+  Batch batch;
+  for (std::size_t first = 0; first < ws.points.size(); first += kLanes) {
+    const int count = static_cast<int>(std::min<std::size_t>(kLanes, ws.points.size() - first));
+    std::uint32_t face[kLanes] = {};
+    for (int lane = 0; lane < kLanes; ++lane) {  // empty lanes repeat the last point
+      const ContactPoint& p = ws.points[first + static_cast<std::size_t>(std::min(lane, count - 1))];
+      fill(e, lists, p, lane, batch);
+      if (e.target.topology != nullptr) face[lane] = lists.target_face[p.place];
+    }
+    if (e.target.topology == nullptr)
+      gaps_to_sphere(e.target, batch);
+    else
+      gaps_to_faces(e, face, batch);
+    respond(e, batch);
+    for (int lane = 0; lane < count; ++lane) {
+      const ContactPoint& p = ws.points[first + static_cast<std::size_t>(lane)];
+      const double gap = batch.gap[lane];
+      if (p.second >= 0.0) remember(p, gap, p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q, e, lists);
+      if (gap < e.reach.range) add_point(e, d, p, batch, lane, pair, gradient, ws.elements);
     }
   }
+  pair.elements[d].assign(ws.elements.begin(), ws.elements.end());  // no more room than needed: they live long
 }
 
 }  // namespace morula

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/mesh/closest_point.h"
+#include "core/contact/closest_foot.h"
 #include "core/mesh/pseudonormal.h"
+#include "core/simd/transpose.h"
 
 namespace morula {
 namespace {
@@ -33,125 +34,147 @@ Vec3d pseudonormal(const PairBody& target, std::uint32_t face, const double (&mu
 
 /// How far behind the nearest face another one need be known to lie: a longer lead would save nothing, since bodies move less between
 /// evaluations [µm].
-constexpr double kLead = 0.15;
+constexpr double kLead = 0.08;
 
-struct Candidate {
-  double distance2 = 1e300;
-  double distance = 1e150;  ///< its root
-  double second2 = 1e300;   ///< lower bound of the squared distance to all other faces
-  double second = 1e150;    ///< its root
-  std::uint16_t place = kAsleep;
-  ClosestPoint closest;
-};
+constexpr int kLanes = 8;
 
-ClosestPoint closest_on(const PairBody& target, std::uint32_t face, const Vec3d& point) {
-  const Triangle& t = target.topology->faces()[face];
-  return closest_point_on_triangle(point, target.node(t[0]), target.node(t[1]), target.node(t[2]));
-}
-
-void try_face(const Vec3d& point, std::uint16_t place, const PointsEvaluation& e, const PointsAgainstBody& lists, Candidate& best) {
-  const Vec3d away = point - e.target_centroid[place];
-  // The ball of the face has grown by at most twice what the bodies moved since it was measured.
-  const double radius = lists.target_radius[place] + 2.0 * e.motion_since_built;
-  const double limit = std::min(best.second, best.distance + kLead) + radius;
-  const double center2 = norm2(away);
-  if (center2 > limit * limit) return;
-  const ClosestPoint closest = closest_on(e.target, lists.target_face[place], point);
-  if (closest.distance2 < best.distance2 || (closest.distance2 == best.distance2 && place < best.place)) {
-    if (best.distance2 < best.second2) {
-      best.second2 = best.distance2;
-      best.second = std::sqrt(best.second2);
+/// Distances of all jobs, eight at a time.
+void measure(const PointsEvaluation& e, const PointsAgainstBody& lists, PointsWorkspace& ws) {
+  using Real = Lane<double, kLanes>;
+  const auto faces = e.target.topology->faces();
+  const std::size_t jobs = ws.jobs.size();
+  ws.distance2.resize((jobs + kLanes - 1) / kLanes * kLanes);
+  alignas(64) double data[4][3][kLanes];  // corners, then the point
+  for (std::size_t first = 0; first < jobs; first += kLanes) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const auto& job = ws.jobs[std::min(first + static_cast<std::size_t>(lane), jobs - 1)];
+      const Triangle& t = faces[lists.target_face[job.place]];
+      const Vec3d& point = ws.points[job.point].position;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3d& x = e.target.position[t[k]];
+        data[k][0][lane] = x.x, data[k][1][lane] = x.y, data[k][2][lane] = x.z;
+      }
+      data[3][0][lane] = point.x, data[3][1][lane] = point.y, data[3][2][lane] = point.z;
     }
-    best.distance2 = closest.distance2;
-    best.distance = std::sqrt(best.distance2);
-    best.place = place;
-    best.closest = closest;
-  } else if (closest.distance2 < best.second2) {
-    best.second2 = closest.distance2;
-    best.second = std::sqrt(best.second2);
+    const auto load = [&](std::size_t k) {
+      return Vec3<Real>{Real::load(data[k][0]), Real::load(data[k][1]), Real::load(data[k][2])};
+    };
+    const Vec3<Real> shift{e.target.shift.x, e.target.shift.y, e.target.shift.z};
+    const auto foot = closest_foot<Real>(load(3), load(0) + shift, load(1) + shift, load(2) + shift);
+    foot.distance2.store(ws.distance2.data() + first);
+    if (!any_lane<kLanes>(foot.doubtful > Real(0.0))) continue;
+    for (std::size_t k = first; k < std::min(jobs, first + kLanes); ++k) {
+      const Triangle& t = faces[lists.target_face[ws.jobs[k].place]];
+      ws.distance2[k] =
+          closest_foot_of(ws.points[ws.jobs[k].point].position, e.target.node(t[0]), e.target.node(t[1]), e.target.node(t[2])).distance2;
+    }
   }
 }
 
-/// The nearest of the candidates, ties to the lowest face.
-Candidate search(const Vec3d& point, std::size_t index, std::size_t source_face, const PointsEvaluation& e,
-                 const PointsAgainstBody& lists) {
-  Candidate best;
-  const double reach = e.reach.candidates();
-  best.second = reach;  // faces beyond the lists' reach are of no interest
-  best.second2 = reach * reach;
-  const std::uint16_t guess = lists.nearest[index];
-  if (guess != kAsleep) try_face(point, guess, e, lists, best);
-  for (std::uint32_t k = lists.first_candidate[source_face]; k < lists.first_candidate[source_face + 1]; ++k)
-    if (lists.candidate[k] != guess) try_face(point, lists.candidate[k], e, lists, best);
-  best.second = std::min(best.second, best.distance + kLead);
-  return best;
+/// Balls around the centroids of the target's faces.
+void find_balls(const PointsEvaluation& e, const PointsAgainstBody& lists, PointsWorkspace& ws) {
+  ws.ball.resize(lists.target_face.size());
+  for (std::size_t m = 0; m < ws.ball.size(); ++m) {
+    const std::uint32_t face = lists.target_face[m];
+    const Triangle& t = e.target.topology->faces()[face];
+    const Vec3d center = e.target.centroid(face);
+    double radius2 = 0.0;
+    for (const std::uint32_t node : t) radius2 = std::max(radius2, norm2(e.target.node(node) - center));
+    ws.ball[m] = {center, std::sqrt(radius2) * (1.0 + 1e-12)};
+  }
 }
 
-bool is_inside(const Vec3d& point, const PairBody& target, std::uint32_t face, const ClosestPoint& closest) {
-  return dot(point - closest.point, pseudonormal(target, face, closest.barycentric)) < 0.0;
-}
+/// The nearest face so far and how far all others are at least.
+struct Best {
+  double distance2 = 1e300, second2;
+  std::uint16_t place = kNoFace;
 
-PointGap signed_gap(const Vec3d& point, std::uint16_t place, const ClosestPoint& closest, bool inside, const PointsEvaluation& e,
-                    const PointsAgainstBody& lists) {
-  PointGap out;
-  const double distance = std::sqrt(closest.distance2);
-  out.gap = inside ? -distance : distance;
-  out.in_range = out.gap < e.reach.range;
-  out.place = place;
-  out.foot = closest.point;
-  for (int c = 0; c < 3; ++c) out.mu[c] = closest.barycentric[c];
-  const Vec3d away = point - closest.point;
-  const bool on_face = closest.barycentric[0] != 0.0 && closest.barycentric[1] != 0.0 && closest.barycentric[2] != 0.0;
-  if (on_face || distance < 1e-12)
-    out.normal = e.target.face_normal[lists.target_face[place]];
-  else
-    out.normal = away * ((inside ? -1.0 : 1.0) / distance);
-  return out;
+  void take(std::uint16_t other, double other2) {
+    if (other2 < distance2 || (other2 == distance2 && other < place)) {
+      second2 = std::min(second2, distance2);
+      distance2 = other2;
+      place = other;
+    } else {
+      second2 = std::min(second2, other2);
+    }
+  }
+};
+
+/// Queue the candidates that may be nearer than `limit`, but for the guess.
+void queue_candidates(const PointsAgainstBody& lists, std::uint32_t number, double limit, PointsWorkspace& ws) {
+  const ContactPoint& point = ws.points[number];
+  const std::uint32_t begin = lists.first_candidate[point.source_place], end = lists.first_candidate[point.source_place + 1];
+  std::size_t count = ws.jobs.size();
+  ws.jobs.resize(count + (end - begin));
+  for (std::uint32_t k = begin; k < end; ++k) {
+    const std::uint16_t place = lists.candidate[k];
+    const PointsWorkspace::Ball& ball = ws.ball[place];
+    const double far = limit + ball.radius;
+    ws.jobs[count] = {number, place};
+    count += static_cast<std::size_t>((norm2(ball.center - point.position) <= far * far) & (place != point.place));
+  }
+  ws.jobs.resize(count);
 }
 
 }  // namespace
 
-PointGap gap_to_sphere(const Vec3d& point, const PairBody& target, const ListReach& reach) {
-  PointGap out;
-  const Vec3d away = point - target.node(0);
-  const double distance = norm(away);
-  out.gap = distance - target.radius;
-  out.in_range = out.gap < reach.range;
-  out.normal = distance > 1e-12 ? away * (1.0 / distance) : Vec3d{0, 0, 1};
-  out.foot = target.node(0) + out.normal * target.radius;
-  return out;
+void find_nearest_faces(const PointsEvaluation& e, const PointsAgainstBody& lists, PointsWorkspace& ws) {
+  if (ws.search.empty()) return;
+  find_balls(e, lists, ws);
+  // Of most points the nearest face is still the one that it was: measure that first.
+  ws.jobs.clear();
+  for (const std::uint32_t number : ws.search)
+    if (ws.points[number].place != kNoFace) ws.jobs.push_back({number, ws.points[number].place});
+  measure(e, lists, ws);
+  std::vector<double>& guessed = ws.guessed;
+  guessed.assign(ws.distance2.begin(), ws.distance2.begin() + static_cast<std::ptrdiff_t>(ws.jobs.size()));
+
+  const double reach = e.reach.candidates();  // faces beyond the lists' reach are of no interest
+  ws.jobs.clear();
+  std::size_t guess = 0;
+  for (const std::uint32_t number : ws.search) {
+    const ContactPoint& point = ws.points[number];
+    double near;  // the nearest face is not farther than this
+    if (point.place != kNoFace) {
+      near = std::sqrt(guessed[guess++]);
+    } else {
+      double near2 = reach * reach;
+      for (std::uint32_t k = lists.first_candidate[point.source_place]; k < lists.first_candidate[point.source_place + 1]; ++k)
+        near2 = std::min(near2, norm2(ws.ball[lists.candidate[k]].center - point.position));
+      near = std::sqrt(near2);
+    }
+    queue_candidates(lists, number, std::min(reach, near + kLead), ws);
+  }
+  measure(e, lists, ws);
+  guess = 0;
+  std::size_t job = 0;
+  for (const std::uint32_t number : ws.search) {
+    ContactPoint& point = ws.points[number];
+    Best best;
+    best.second2 = reach * reach;
+    if (point.place != kNoFace) best.take(point.place, guessed[guess++]);
+    for (; job < ws.jobs.size() && ws.jobs[job].point == number; ++job) best.take(ws.jobs[job].place, ws.distance2[job]);
+    const bool found = best.distance2 <= reach * reach;
+    point.place = found ? best.place : kNoFace;
+    point.second = std::min(std::sqrt(best.second2), std::sqrt(best.distance2) + kLead);
+  }
 }
 
-PointGap gap_to_surface(const Vec3d& point, std::size_t index, std::size_t source_face, const PointsEvaluation& e,
-                        PointsAgainstBody& lists) {
-  const bool sure = e.motion < lists.good_until[index];
-  if (sure && lists.nearest[index] == kAsleep) return {};
-  if (sure) {
-    const std::uint16_t place = lists.nearest[index];
-    const ClosestPoint closest = closest_on(e.target, lists.target_face[place], point);
-    return signed_gap(point, place, closest, is_inside(point, e.target, lists.target_face[place], closest), e, lists);
-  }
+bool is_inside(const Vec3d& away, const PairBody& target, std::uint32_t face, const double (&mu)[3]) {
+  return dot(away, pseudonormal(target, face, mu)) < 0.0;
+}
 
-  const Candidate best = search(point, index, source_face, e, lists);
+void remember(const ContactPoint& point, double gap, std::size_t index, const PointsEvaluation& e, PointsAgainstBody& lists) {
   constexpr double kSafety = 0.999;  // bounds hold in spite of rounding
-  if (best.place == kAsleep) {
-    const double clear = e.reach.candidates() - e.motion_since_built - e.reach.range;
-    lists.nearest[index] = kAsleep;
-    lists.good_until[index] = static_cast<float>((e.motion + clear * kSafety) * (1.0 - 1e-6));
-    return {};
-  }
-  const double distance = best.distance;
-  const bool inside = is_inside(point, e.target, lists.target_face[best.place], best.closest);
-  if (!inside && distance >= e.reach.range) {
-    lists.nearest[index] = kAsleep;
-    lists.good_until[index] = static_cast<float>((e.motion + (distance - e.reach.range) * kSafety) * (1.0 - 1e-6));
-    return {};
-  }
-  lists.nearest[index] = best.place;
-  // No other face can be nearer while twice the motion is less than the lead of the nearest one.
-  const double second = std::min(best.second, e.reach.candidates() - e.motion_since_built);
-  lists.good_until[index] = static_cast<float>((e.motion + 0.5 * (second - distance) * kSafety) * (1.0 - 1e-6));
-  return signed_gap(point, best.place, best.closest, inside, e, lists);
+  const double reach = e.reach.candidates() - e.motion_since_built;  // within which all faces are known
+  const bool asleep = point.place == kNoFace || gap >= e.reach.range;
+  double clear;
+  if (asleep)
+    clear = (point.place == kNoFace ? reach : std::min(gap, reach)) - e.reach.range;
+  else  // no other face can be nearer while twice the motion is less than the lead of the nearest one
+    clear = 0.5 * (std::min(point.second, reach) - std::abs(gap));
+  lists.nearest[index] = static_cast<std::uint16_t>(asleep ? point.place | kAsleep : point.place);
+  lists.good_until[index] = static_cast<float>((e.motion + clear * kSafety) * (1.0 - 1e-6));
 }
 
 }  // namespace morula

@@ -3,21 +3,14 @@
 
 namespace morula {
 
-/// Where a point stands against the other body.
-struct PointGap {
-  bool in_range = false;     ///< gap below the range, or inside
-  double gap = 0.0;          ///< g: signed distance, < 0 inside [µm]
-  Vec3d normal;              ///< n̂ = ∂g/∂x_q, unit, away from the target
-  std::uint16_t place = 0;   ///< of the nearest face in the pair's target faces
-  double mu[3] = {1, 0, 0};  ///< weights of its nodes at the nearest point
-  Vec3d foot;                ///< the nearest point
-};
+/// Find the nearest faces of workspace.points[i] for all i in workspace.search, ties to the lowest face; `place` of such a point may hold a
+/// guess, which only saves work.
+void find_nearest_faces(const PointsEvaluation& evaluation, const PointsAgainstBody& lists, PointsWorkspace& workspace);
 
-/// Gap of a point against a sphere: |x_q − x| − R.
-PointGap gap_to_sphere(const Vec3d& point, const PairBody& target, const ListReach& reach);
+/// Whether a point lies inside the target, given its nearest face, the weights of the nearest point there and the way from it.
+bool is_inside(const Vec3d& away, const PairBody& target, std::uint32_t face, const double (&mu)[3]);
 
-/// Gap of point number `index` of a direction against the nearest face of the target. Keeps what it found for later calls.
-PointGap gap_to_surface(const Vec3d& point, std::size_t index, std::size_t source_face, const PointsEvaluation& evaluation,
-                        PointsAgainstBody& lists);
+/// Note what a search has found for point number `index`, and up to which motion it is sure; `gap` is the signed distance.
+void remember(const ContactPoint& point, double gap, std::size_t index, const PointsEvaluation& evaluation, PointsAgainstBody& lists);
 
 }  // namespace morula

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contact/closest_foot.h"
 #include "core/contact/surface_pair.h"
+#include "core/simd/transpose.h"
 
 namespace morula {
 namespace {
@@ -19,15 +21,63 @@ Ball face_ball(const PairBody& body, std::uint32_t face) {
   return {center, std::sqrt(radius2)};
 }
 
-void add_candidates_of_face(const Ball& face, std::span<const Ball> target, double reach, std::vector<std::uint16_t>& out) {
-  for (std::size_t m = 0; m < target.size(); ++m) {
-    const double limit = reach + face.radius + target[m].radius;
-    if (norm2(target[m].center - face.center) < limit * limit) out.push_back(static_cast<std::uint16_t>(m));
-  }
-}
+constexpr int kLanes = 8;
+using Real = Lane<double, kLanes>;
 
-std::uint16_t number_of(const std::vector<std::uint16_t>& sorted, std::uint32_t node) {
-  return static_cast<std::uint16_t>(std::lower_bound(sorted.begin(), sorted.end(), node) - sorted.begin());
+/// Balls around faces, eight at a time; those that fill up the last eight are out of everybody's reach.
+struct Balls {
+  std::vector<double> x, y, z, radius;
+  std::size_t count = 0;
+
+  void add(const Ball& ball) {
+    if (count++ % kLanes == 0) {
+      for (auto* v : {&x, &y, &z}) v->resize(v->size() + kLanes, 1e30);
+      radius.resize(radius.size() + kLanes, 0.0);
+    }
+    x[count - 1] = ball.center.x, y[count - 1] = ball.center.y, z[count - 1] = ball.center.z;
+    radius[count - 1] = ball.radius;
+  }
+  /// Call `found` with the number of each ball within `distance` of a point.
+  template <class Found>
+  void near(const Vec3d& point, double distance, Found&& found) const {
+    for (std::size_t first = 0; first < count; first += kLanes) {
+      const Vec3<Real> away{Real::load(x.data() + first) - Real(point.x), Real::load(y.data() + first) - Real(point.y),
+                            Real::load(z.data() + first) - Real(point.z)};
+      const Real far = Real::load(radius.data() + first) + Real(distance);
+      const auto within = norm2(away) < far * far;
+      if (!any_lane<kLanes>(within)) continue;
+      for (int lane = 0; lane < kLanes; ++lane)
+        if (within[lane] != 0) found(first + static_cast<std::size_t>(lane));
+    }
+  }
+};
+
+/// Add the target faces that are within `reach` of the ball of a source face's points.
+void add_candidates_of_face(const Ball& points, const PairBody& target, std::span<const std::uint32_t> target_faces, const Balls& balls,
+                            double reach, std::vector<std::uint16_t>& out) {
+  const double limit = (reach + points.radius) * (1.0 + 1e-9), limit2 = limit * limit;
+  std::uint16_t waiting[kLanes];
+  int count = 0;
+  alignas(64) double corner[3][3][kLanes] = {};
+  const auto measure = [&] {
+    const auto load = [&](std::size_t k) {
+      return Vec3<Real>{Real::load(corner[k][0]), Real::load(corner[k][1]), Real::load(corner[k][2])};
+    };
+    const auto foot = closest_foot<Real>({points.center.x, points.center.y, points.center.z}, load(0), load(1), load(2));
+    for (int lane = 0; lane < count; ++lane)
+      if (foot.distance2[lane] < limit2 || foot.doubtful[lane] != 0.0) out.push_back(waiting[lane]);
+    count = 0;
+  };
+  balls.near(points.center, limit, [&](std::size_t m) {
+    const Triangle& t = target.topology->faces()[target_faces[m]];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d x = target.node(t[k]);
+      corner[k][0][count] = x.x, corner[k][1][count] = x.y, corner[k][2][count] = x.z;
+    }
+    waiting[count++] = static_cast<std::uint16_t>(m);
+    if (count == kLanes) measure();
+  });
+  if (count > 0) measure();
 }
 
 void collect_nodes(const Topology* topology, std::span<const std::uint32_t> faces, std::vector<std::uint16_t>& nodes) {
@@ -40,38 +90,51 @@ void sort_unique(std::vector<std::uint16_t>& nodes) {
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 }
 
-void number_faces(const Topology* topology, std::span<const std::uint32_t> faces, const std::vector<std::uint16_t>& nodes,
-                  std::vector<std::array<std::uint16_t, 3>>& numbered) {
-  numbered.clear();
-  for (const std::uint32_t face : faces) {
-    const Triangle& t = topology->faces()[face];
-    numbered.push_back({number_of(nodes, t[0]), number_of(nodes, t[1]), number_of(nodes, t[2])});
+/// Carry over the nearest faces as guesses, and let points sleep on: at most until `longest`, since there are new candidates.
+void keep_what_is_known(const PointsAgainstBody& old, std::size_t points_per_face, double longest, PointsAgainstBody& lists) {
+  std::size_t k = 0;
+  for (std::size_t m = 0; m < lists.source_face.size(); ++m) {
+    while (k < old.source_face.size() && old.source_face[k] < lists.source_face[m]) ++k;
+    if (k == old.source_face.size()) return;
+    if (old.source_face[k] != lists.source_face[m]) continue;
+    for (std::size_t q = 0; q < points_per_face; ++q) {
+      const std::uint16_t known = old.nearest[k * points_per_face + q];
+      std::uint16_t& now = lists.nearest[m * points_per_face + q];
+      if ((known & kNoFace) != kNoFace) {
+        const std::uint32_t face = old.target_face[known & kNoFace];
+        const auto at = std::lower_bound(lists.target_face.begin(), lists.target_face.end(), face);
+        if (at != lists.target_face.end() && *at == face) now = static_cast<std::uint16_t>(at - lists.target_face.begin());
+      }
+      if (!(known & kAsleep)) continue;
+      now |= kAsleep;
+      lists.good_until[m * points_per_face + q] =
+          std::min(old.good_until[k * points_per_face + q], static_cast<float>(longest * (1.0 - 1e-6)));
+    }
   }
 }
 
 }  // namespace
 
 void build_point_lists(const PairBody& source, const PairBody& target, const ListReach& reach, int points_per_face,
-                       std::span<const std::uint32_t> target_faces, PointsAgainstBody& lists) {
-  lists.source_face.clear();
-  lists.target_face.clear();
-  lists.target_radius.clear();
+                       std::span<const std::uint32_t> target_faces, double motion, double motion_since_built, PointsAgainstBody& lists) {
+  PointsAgainstBody old;
+  std::swap(old, lists);
   lists.first_candidate.assign(1, 0);
-  lists.candidate.clear();
 
   const double distance = reach.candidates();
-  std::vector<Ball> balls;
+  Balls balls;
   Box near;
   if (target.topology == nullptr) {
     near.include(target.node(0) - Vec3d{1, 1, 1} * target.radius);
     near.include(target.node(0) + Vec3d{1, 1, 1} * target.radius);
   } else {
     for (const std::uint32_t face : target_faces) {
-      balls.push_back(face_ball(target, face));
-      near.include(balls.back().center - Vec3d{1, 1, 1} * balls.back().radius);
-      near.include(balls.back().center + Vec3d{1, 1, 1} * balls.back().radius);
+      const Ball ball = face_ball(target, face);
+      balls.add(ball);
+      near.include(ball.center - Vec3d{1, 1, 1} * ball.radius);
+      near.include(ball.center + Vec3d{1, 1, 1} * ball.radius);
     }
-    if (balls.empty()) return;
+    if (balls.count == 0) return;
   }
   near = near.inflated(distance);
 
@@ -80,13 +143,14 @@ void build_point_lists(const PairBody& source, const PairBody& target, const Lis
     Box box;
     for (const std::uint32_t node : t) box.include(source.node(node));
     if (!box.overlaps(near)) continue;
-    const Ball ball = face_ball(source, face);
+    Ball ball = face_ball(source, face);
+    ball.radius *= 0.5;  // of its points, at (2/3, 1/6, 1/6) and at the centroid
     if (target.topology == nullptr) {
       const double limit = target.radius + ball.radius + distance;
       if (norm2(ball.center - target.node(0)) > limit * limit) continue;
     } else {
       const std::size_t before = lists.candidate.size();
-      add_candidates_of_face(ball, balls, distance, lists.candidate);
+      add_candidates_of_face(ball, target, target_faces, balls, distance, lists.candidate);
       if (lists.candidate.size() == before) continue;
     }
     lists.source_face.push_back(face);
@@ -94,25 +158,29 @@ void build_point_lists(const PairBody& source, const PairBody& target, const Lis
   }
 
   // Keep only the target faces that are somebody's candidate, in their order.
-  std::vector<std::uint16_t> place(balls.size(), kAsleep);
+  std::vector<std::uint16_t> place(balls.count, kNoFace);
   for (const std::uint16_t m : lists.candidate) place[m] = 0;
   std::uint16_t kept = 0;
   for (std::size_t m = 0; m < place.size(); ++m) {
-    if (place[m] == kAsleep) continue;
+    if (place[m] == kNoFace) continue;
     place[m] = kept++;
     lists.target_face.push_back(target_faces[m]);
-    lists.target_radius.push_back(static_cast<float>(balls[m].radius * 1.000001));
   }
   for (std::uint16_t& m : lists.candidate) m = place[m];
   const std::size_t points = lists.source_face.size() * static_cast<std::size_t>(points_per_face);
-  lists.nearest.assign(points, kAsleep);
+  lists.nearest.assign(points, kNoFace);
   lists.good_until.assign(points, -1e30f);
+  // Faces that were in no list were beyond its reach, and the bodies have moved since.
+  keep_what_is_known(old, static_cast<std::size_t>(points_per_face), motion + 0.999 * (distance - motion_since_built - reach.range), lists);
+  for (auto* list : {&lists.source_face, &lists.target_face, &lists.first_candidate}) list->shrink_to_fit();  // they live long
+  for (auto* list : {&lists.candidate, &lists.nearest}) list->shrink_to_fit();
+  lists.good_until.shrink_to_fit();
 }
 
-void number_pair_nodes(const Topology* topology_a, const Topology* topology_b, SurfacePair& pair) {
+void collect_pair_nodes(const Topology* topology_a, const Topology* topology_b, SurfacePair& pair) {
   const Topology* topology[2] = {topology_a, topology_b};
+  std::vector<std::uint16_t> nodes;
   for (int body = 0; body < 2; ++body) {
-    auto& nodes = pair.gradient[body].node;
     nodes.clear();
     if (topology[body] == nullptr) {
       nodes.push_back(0);
@@ -121,28 +189,24 @@ void number_pair_nodes(const Topology* topology_a, const Topology* topology_b, S
       collect_nodes(topology[body], pair.points[1 - body].target_face, nodes);
       sort_unique(nodes);
     }
-  }
-  for (int d = 0; d < 2; ++d) {
-    PointsAgainstBody& points = pair.points[d];
-    points.source_node.clear();
-    points.target_node.clear();
-    if (points.source_face.empty()) continue;
-    number_faces(topology[d], points.source_face, pair.gradient[d].node, points.source_node);
-    if (!pair.rigid && topology[1 - d] != nullptr)
-      number_faces(topology[1 - d], points.target_face, pair.gradient[1 - d].node, points.target_node);
+    pair.node[body].assign(nodes.begin(), nodes.end());
   }
 }
 
-void clear_results(SurfacePair& pair) {
+void clear_results(SurfacePair& pair, const std::size_t (&node_count)[2], PairGradient (&gradient)[2]) {
   pair.energy = 0.0;
   pair.overlap = 0.0;
   for (int body = 0; body < 2; ++body) {
-    PairGradient& gradient = pair.gradient[body];
-    gradient.force.assign(gradient.node.size(), Vec3d{});
-    gradient.node_normal.clear();
-    gradient.face_energy.assign(pair.points[body].source_face.size(), 0.0);
-    gradient.face_contact.assign(pair.points[body].source_face.size(), 0.0);
-    gradient.face_normal.clear();
+    PairGradient& g = gradient[body];
+    if (g.force.size() < node_count[body]) g.force.resize(node_count[body]);
+    if (g.node_normal.size() < node_count[body]) g.node_normal.resize(node_count[body]);
+    for (const std::uint16_t node : pair.node[body]) {
+      g.force[node] = {};
+      g.node_normal[node] = {};
+    }
+    g.has_node_normal = false;
+    g.face_energy.assign(pair.points[body].source_face.size(), 0.0);
+    g.contact_area = 0.0;
     pair.elements[body].clear();
   }
 }

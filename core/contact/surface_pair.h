@@ -54,26 +54,32 @@ struct ListReach {
 /// Lists and caches only save work: the nearest face is the exact nearest one whatever they hold, so that results do not depend on when
 /// they were built.
 struct PointsAgainstBody {
-  std::vector<std::uint32_t> source_face;                 ///< faces of the source within reach of the target
-  std::vector<std::array<std::uint16_t, 3>> source_node;  ///< their nodes, as numbered in the pair
-  std::vector<std::uint32_t> target_face;                 ///< faces of the target that are a candidate of any source face
-  std::vector<std::array<std::uint16_t, 3>> target_node;  ///< their nodes, as numbered in the pair
-  std::vector<float> target_radius;                       ///< of a ball around the face's centroid, when the lists were built
-  std::vector<std::uint32_t> first_candidate;             ///< by source face, one more at the end
-  std::vector<std::uint16_t> candidate;                   ///< places in target_face, increasing
-  std::vector<std::uint16_t> nearest;                     ///< by point: place of the nearest face in target_face, or kAsleep
-  std::vector<float> good_until;                          ///< by point: the pair's motion up to which `nearest` is sure
+  std::vector<std::uint32_t> source_face;      ///< faces of the source within reach of the target
+  std::vector<std::uint32_t> target_face;      ///< faces of the target that are a candidate of any source face
+  std::vector<std::uint32_t> first_candidate;  ///< by source face, one more at the end
+  std::vector<std::uint16_t> candidate;        ///< places in target_face, increasing
+  std::vector<std::uint16_t> nearest;          ///< by point: place of the nearest face in target_face; see kAsleep, kNoFace
+  std::vector<float> good_until;               ///< by point: the pair's patch_motion up to which `nearest` is sure
 };
-inline constexpr std::uint16_t kAsleep = 0xFFFF;
+inline constexpr std::uint16_t kAsleep = 0x8000;  ///< flag: the point is out of range
+inline constexpr std::uint16_t kNoFace = 0x7FFF;  ///< no face is known
 
-/// Gradient of a pair's energy with respect to one of its bodies.
+/// A vector and a zero: one register.
+struct alignas(32) PaddedVec3 {
+  using Vector [[gnu::vector_size(32)]] = double;
+  Vector v{};
+
+  static Vector of(const Vec3d& a) { return Vector{a.x, a.y, a.z, 0.0}; }
+  [[nodiscard]] Vec3d value() const { return {v[0], v[1], v[2]}; }
+};
+
+/// Gradient of a pair's energy with respect to one of its bodies, good until the next pair is evaluated.
 struct PairGradient {
-  std::vector<std::uint16_t> node;   ///< nodes of the body that the pair can touch, increasing; a sphere has node 0
-  std::vector<Vec3d> force;          ///< −∂E/∂x by node, at fixed face areas and normals [nN]
-  std::vector<Vec3d> node_normal;    ///< ∂E/∂n_v by node; empty when zero [nN·µm]
-  std::vector<double> face_energy;   ///< ∂E/∂A_T by source face [nN/µm]
-  std::vector<Vec3d> face_normal;    ///< ∂E/∂n_T by source face; empty when zero [nN·µm]
-  std::vector<double> face_contact;  ///< contact area of the face, by source face (ramp c/2 .. c) [µm²]
+  std::vector<PaddedVec3> force;    ///< −∂E/∂x by node of the body, at fixed face areas and node normals [nN]; zero but at the pair's nodes
+  std::vector<Vec3d> node_normal;   ///< ∂E/∂n_v likewise [nN·µm]
+  bool has_node_normal = false;     ///< false: all of node_normal is zero
+  std::vector<double> face_energy;  ///< ∂E/∂A_T by source face [nN/µm]
+  double contact_area = 0.0;        ///< of the faces of this body (ramp c/2 .. c) [µm²]
 };
 
 /// Two bodies in touch, at least one of them a surface; body a comes first in the canonical order. A rigid obstacle is always b.
@@ -83,8 +89,9 @@ struct SurfacePair {
   Vec3d shift{};                ///< image of b
   double motion = 0.0;          ///< how far the bodies have moved against each other since the pair came to be (an upper bound) [µm]
   double built_at = -1e300;     ///< motion when the lists were built
+  double patch_motion = 0.0;    ///< the same of the nodes in the lists alone
   PointsAgainstBody points[2];  ///< [0]: points of a against b; [1]: points of b against a
-  PairGradient gradient[2];     ///< of a and of b
+  std::vector<std::uint16_t> node[2];  ///< nodes of a and of b in these lists, increasing; a sphere has node 0, an obstacle none
   std::vector<ContactElement> elements[2];       ///< at the present positions
   std::vector<ContactElement> step_elements[2];  ///< at the start of the step: its friction
   double energy = 0.0;                           ///< [nN·µm]
@@ -98,25 +105,52 @@ struct PointsEvaluation {
   const ContactMaterial& material;
   const FaceQuadrature& quadrature;
   ListReach reach;
-  double share;   ///< ½ when both bodies are sources, else 1
-  double motion;  ///< of the pair
-  double motion_since_built;
-  bool target_moves;                       ///< false for rigid obstacles: no gradient of the target is wanted
-  std::span<const Vec3d> target_centroid;  ///< by place in the pair's target faces; filled by evaluate_points()
+  double share;               ///< ½ when both bodies are sources, else 1
+  double motion;              ///< of the nodes in the pair's lists
+  double motion_since_built;  ///< of the whole bodies
+  bool target_moves;          ///< false for rigid obstacles: no gradient of the target is wanted
+};
+
+/// A quadrature point under evaluation.
+struct ContactPoint {
+  Vec3d position;
+  std::uint32_t source_place;  ///< of its face in the pair's source faces
+  std::uint16_t q;
+  std::uint16_t place = kNoFace;  ///< of the nearest face in the pair's target faces; kNoFace: none within the reach of the lists
+  double second = -1.0;           ///< no other face is nearer than this [µm]; < 0 where nothing was searched
+};
+
+/// What one thread needs to evaluate pairs.
+struct PointsWorkspace {
+  struct Ball {
+    Vec3d center;
+    double radius;
+  };
+  struct Job {  ///< the distance of a point from a face
+    std::uint32_t point;
+    std::uint16_t place;
+  };
+  std::vector<ContactPoint> points;
+  std::vector<std::uint32_t> search;  ///< points whose nearest face is not sure
+  std::vector<Ball> ball;             ///< around the target's faces
+  std::vector<Job> jobs;
+  std::vector<double> distance2;  ///< by job
+  std::vector<double> guessed;    ///< of the guesses
+  std::vector<ContactElement> elements;
 };
 
 /// Fill the candidate lists of one direction. `target_faces` are the faces of the target that may be near, in increasing order (empty for
-/// a sphere).
+/// a sphere). `motion` is that of the pair's nodes, `motion_since_built` that of the whole bodies since `lists` were last built.
 void build_point_lists(const PairBody& source, const PairBody& target, const ListReach& reach, int points_per_face,
-                       std::span<const std::uint32_t> target_faces, PointsAgainstBody& lists);
+                       std::span<const std::uint32_t> target_faces, double motion, double motion_since_built, PointsAgainstBody& lists);
 
-/// Number the nodes of both bodies within the pair, after the lists of both directions are built.
-void number_pair_nodes(const Topology* topology_a, const Topology* topology_b, SurfacePair& pair);
+/// Note the nodes of both bodies that the lists of both directions can touch.
+void collect_pair_nodes(const Topology* topology_a, const Topology* topology_b, SurfacePair& pair);
 
-/// Set energy, overlap and gradients of a pair to zero and drop its elements.
-void clear_results(SurfacePair& pair);
+/// Set energy and overlap of a pair to zero, drop its elements, and make the gradients of its bodies (`node_count` of each) zero.
+void clear_results(SurfacePair& pair, const std::size_t (&node_count)[2], PairGradient (&gradient)[2]);
 
 /// Add energy, gradients and elements of direction d (points of body d against the other) at the present positions.
-void evaluate_points(const PointsEvaluation& evaluation, int d, SurfacePair& pair);
+void evaluate_points(const PointsEvaluation& evaluation, int d, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& workspace);
 
 }  // namespace morula

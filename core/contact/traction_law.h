@@ -1,4 +1,5 @@
 #pragma once
+#include "core/simd/lane.h"
 
 namespace morula {
 
@@ -15,51 +16,69 @@ struct TractionLaw {
   double repulsion = 40.0;  ///< k_r
   double cap = 0.0;         ///< δ; 0: no cap
 
-  struct Attraction {
-    double energy, slope, curvature;
-  };
-  struct Repulsion {
-    double energy, slope, curvature;
+  template <class Real>
+  struct Part {
+    Real energy, slope, curvature;
   };
 
-  /// Curvature is the positive semi-definite part: 4W/c² on the rising flank, 0 on the falling one ("projected").
-  [[nodiscard]] Attraction attraction(double g) const noexcept {
-    if (g >= range) return {0.0, 0.0, 0.0};
-    if (g <= 0.0) return {-adhesion, 0.0, 0.0};
-    const double omega = 4.0 * adhesion / (range * range);
-    if (g < 0.5 * range) return {-adhesion + 0.5 * omega * g * g, omega * g, omega};
-    const double rest = range - g;
-    return {-0.5 * omega * rest * rest, omega * rest, 0.0};
+  /// Curvature is the positive semi-definite part: 4W/c² on the rising flank, 0 on the falling one ("projected"). For a double or a lane.
+  template <class Real>
+  [[nodiscard]] Part<Real> attraction(Real g) const noexcept {
+    const Real zero(0.0), omega(4.0 * adhesion / (range * range)), bound(-adhesion), rest = Real(range) - g;
+    const auto touching = g <= zero, rising = g < Real(0.5 * range), within = g < Real(range);
+    return {select(touching, bound,
+                   select(rising, bound + Real(0.5) * omega * g * g, select(within, Real(-0.5) * omega * rest * rest, zero))),
+            select(touching, zero, select(rising, omega * g, select(within, omega * rest, zero))),
+            select(touching, zero, select(rising, omega, zero))};
   }
 
-  [[nodiscard]] Repulsion repulse(double g) const noexcept {
-    if (g >= 0.0) return {0.0, 0.0, 0.0};
-    if (cap > 0.0 && -g > cap) return {repulsion * cap * (-g - 0.5 * cap), -repulsion * cap, repulsion * cap / -g};
-    return {0.5 * repulsion * g * g, repulsion * g, repulsion};
+  template <class Real>
+  [[nodiscard]] Part<Real> repulse(Real g) const noexcept {
+    const Real zero(0.0), stiffness(repulsion);
+    const auto inside = g < zero;
+    Part<Real> part{Real(0.5) * stiffness * g * g, stiffness * g, stiffness};
+    if (cap > 0.0) {
+      const Real most(repulsion * cap), depth = -g;
+      const auto capped = depth > Real(cap);
+      part.energy = select(capped, most * (depth - Real(0.5 * cap)), part.energy);
+      part.slope = select(capped, -most, part.slope);
+      part.curvature = select(capped, most / depth, part.curvature);
+    }
+    return {select(inside, part.energy, zero), select(inside, part.slope, zero), select(inside, part.curvature, zero)};
   }
 };
 
 /// Weight of attraction between faces that look at each other: 1 when opposed, 0 when not, smooth between.
 ///
 /// φ(m) is the smoothstep of m = −n_q·n_y from −0.3 to 0.5 (time_stepping.md §9: O).
+template <class Real>
+struct SmoothWeight {
+  Real value, slope;
+};
 struct OpposedWeight {
   static constexpr double kLow = -0.3, kHigh = 0.5;
-  double value, slope;
 
-  static OpposedWeight of(double m) noexcept {
-    if (m >= kHigh) return {1.0, 0.0};
-    if (m <= kLow) return {0.0, 0.0};
-    const double t = (m - kLow) / (kHigh - kLow);
-    return {t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t) / (kHigh - kLow)};
+  template <class Real>
+  static SmoothWeight<Real> of(Real m) noexcept {
+    const Real zero(0.0), one(1.0), t = (m - Real(kLow)) * Real(1.0 / (kHigh - kLow));
+    const auto opposed = m >= Real(kHigh), averted = m <= Real(kLow);
+    return {select(opposed, one, select(averted, zero, t * t * (Real(3.0) - Real(2.0) * t))),
+            select(opposed, zero, select(averted, zero, Real(6.0 / (kHigh - kLow)) * t * (one - t)))};
   }
 };
 
 /// Part of the contact friction that acts at gap g: 1 up to c/2, falling smoothly to 0 at c (dcm.md §1).
-inline double friction_weight(double g, double range) noexcept {
-  const double t = (range - g) / (0.5 * range);
-  if (t >= 1.0) return 1.0;
-  if (t <= 0.0) return 0.0;
-  return t * t * (3.0 - 2.0 * t);
+template <class Real>
+Real friction_weight(Real g, double range) noexcept {
+  const Real zero(0.0), one(1.0), t = (Real(range) - g) * Real(2.0 / range);
+  return select(t >= one, one, select(t <= zero, zero, t * t * (Real(3.0) - Real(2.0) * t)));
+}
+
+/// Share of a point's area that counts as contact area: 1 up to c/2, falling linearly to 0 at c.
+template <class Real>
+Real contact_ramp(Real g, double range) noexcept {
+  const Real zero(0.0), one(1.0), t = (Real(range) - g) * Real(2.0 / range);
+  return select(t >= one, one, select(t <= zero, zero, t));
 }
 
 /// Interior quadrature points of a face: barycentric weights; every point stands for the same part of the area.

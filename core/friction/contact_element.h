@@ -1,22 +1,58 @@
 #pragma once
 #include <cstdint>
+#include <span>
+
+#include "core/friction/edge_block.h"
+#include "core/mesh/topology.h"
 
 namespace morula {
 
-/// One contact point in the friction system: a point of a source face against a point of a target face (or a sphere, or a rigid surface).
+/// One contact point: a quadrature point of a source face against a point of a target face (or a sphere, or a rigid surface).
 ///
 /// With the relative velocity u = Σ β_i v(source node i) − Σ μ_j v(target node j), the element's force on the source point is
-/// −(a u + (b + Δt k) (n·u) n). a, b: friction (isotropic, extra along the normal) [nN·s/µm]; k: contact stiffness [nN/µm].
-/// 48 bytes; nodes are numbered within their bodies.
+/// −(a u + (b + Δt k) (n·u) n) with a = w γ_t, b = w (γ_n − γ_t). It enters the operator only, never the forces, so that weights and
+/// normal are rounded to 16 bits (weights still sum to one exactly, so that rigid motion feels nothing).
 struct ContactElement {
-  std::uint16_t source[3];
-  std::uint16_t target[3];
-  float mu[2];  ///< weights of target nodes 0 and 1; the third is 1 − mu[0] − mu[1]
-  float n[3];
-  float a, b, k;
-  std::uint16_t point;  ///< quadrature point, gives β
-  std::uint16_t unused_ = 0;
+  std::uint32_t source;  ///< 4 × source face + quadrature point, which gives β
+  std::uint32_t target;  ///< target face; 0 for a sphere, whose centre has all the weight
+  std::uint16_t mu[2];   ///< weights of target nodes 0 and 1 in units of 1/65535; the third is the rest
+  std::int16_t n[3];     ///< unit normal in units of 1/32767
+  float w;               ///< area that bears friction [µm²]
+  float k;               ///< contact stiffness [nN/µm]
+
+  static constexpr std::int32_t kWeightUnits = 65535, kNormalUnits = 32767;
+
+  [[nodiscard]] std::uint32_t source_face() const { return source >> 2; }
+  [[nodiscard]] std::uint32_t point() const { return source & 3u; }
+  template <class Real>
+  void weights(Real (&out)[3]) const {
+    constexpr Real unit = Real(1.0) / Real(kWeightUnits);
+    out[0] = static_cast<Real>(mu[0]) * unit;
+    out[1] = static_cast<Real>(mu[1]) * unit;
+    out[2] = static_cast<Real>(kWeightUnits - mu[0] - mu[1]) * unit;
+  }
+  /// Weights in units of 1/65535, rounded; the second gives way so that the third is not negative.
+  void set_weights(std::int32_t mu0, std::int32_t mu1) {
+    mu[0] = static_cast<std::uint16_t>(mu0);
+    mu[1] = static_cast<std::uint16_t>(mu1 < kWeightUnits - mu0 ? mu1 : kWeightUnits - mu0);
+  }
+  template <class Real>
+  [[nodiscard]] Vec3<Real> normal() const {
+    constexpr Real unit = Real(1.0) / Real(kNormalUnits);
+    return {static_cast<Real>(n[0]) * unit, static_cast<Real>(n[1]) * unit, static_cast<Real>(n[2]) * unit};
+  }
 };
-static_assert(sizeof(ContactElement) == 48);
+static_assert(sizeof(ContactElement) == 28);
+
+/// All contact points of a pair of bodies, both directions. Groups come in canonical order; only the points of active bodies are written.
+struct ElementGroup {
+  std::span<const ContactElement> elements[2];     ///< [0]: points of body 0 against body 1; [1]: the other way round
+  const Topology* topology[2] = {nullptr, nullptr};  ///< null: a sphere
+  std::uint32_t body[2] = {0, 0};                  ///< places in the list of bodies
+  std::uint32_t first[2] = {0, 0};                 ///< first points
+  bool write[2] = {true, true};                    ///< false: ghost, or held
+  bool rigid = false;                              ///< body 1 is an obstacle, not an unknown
+  float normal_friction = 0.0f, tangential_friction = 0.0f;  ///< γ_n, γ_t per area [nN·s/µm³]
+};
 
 }  // namespace morula

@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace morula {
@@ -30,15 +31,20 @@ SymMat3<float> inverse_of(const SymMat3<float>& a) {
           static_cast<float>((double(a.xx) * a.yy - double(a.xy) * a.xy) * s)};
 }
 
+using Double4 [[gnu::vector_size(32)]] = double;
+Double4 to_double(Float4v v) { return __builtin_convertvector(v, Double4); }
+double total(Double4 sum) { return (sum[0] + sum[1]) + (sum[2] + sum[3]); }
+
 /// Dot product over the points of one body, in double and in fixed order.
 double dot_of_body(const Float4* a, const Float4* b, std::uint32_t count) {
-  using Double4 [[gnu::vector_size(32)]] = double;
   Double4 sum{};
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Double4 x{a[i].x, a[i].y, a[i].z, a[i].w}, y{b[i].x, b[i].y, b[i].z, b[i].w};
-    sum += x * y;
-  }
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  for (std::uint32_t i = 0; i < count; ++i) sum += to_double(load(a[i])) * to_double(load(b[i]));
+  return total(sum);
+}
+
+Float4v times(const SymMat3<float>& m, Float4v r) {
+  return splat(r[0]) * Float4v{m.xx, m.xy, m.xz, 0.0f} + splat(r[1]) * Float4v{m.xy, m.yy, m.yz, 0.0f} +
+         splat(r[2]) * Float4v{m.xz, m.yz, m.zz, 0.0f};
 }
 
 inline Float4v response(Float4v u, Float4v n, float a, float b) { return splat(a) * u + splat(b * dot3(n, u)) * n; }
@@ -49,7 +55,7 @@ void FrictionSystem::set_layout(Layout layout, int threads) {
   layout_ = std::move(layout);
   threads_ = std::max(1, threads);
   inverse_.assign(layout_.point_count, {});
-  for (auto* vector : {&p_, &q_, &r_, &z_}) vector->assign(layout_.point_count, Float4{});
+  for (auto* vector : {&p_, &q_, &r_}) vector->assign(layout_.point_count, Float4{});
   // Contiguous ranges of bodies of about equal numbers of points.
   std::size_t owned_points = 0;
   for (std::size_t body = 0; body < layout_.bodies.size(); ++body)
@@ -64,23 +70,55 @@ void FrictionSystem::set_layout(Layout layout, int threads) {
       work_[thread].first_body = work_[thread].last_body = static_cast<std::uint32_t>(body + 1);
     }
   }
-  groups_.clear();
-  sphere_pairs_ = {};
+  pairs_.clear();
+  for (auto& arena : blocks_) arena.clear();
+  sphere_pairs_ = nullptr;
 }
 
-void FrictionSystem::set_elements(std::vector<ElementGroup> groups, const FaceQuadrature& quadrature) {
-  groups_ = std::move(groups);
-  for (int q = 0; q < 4; ++q)
-    for (int i = 0; i < 3; ++i) beta_[q][i] = static_cast<float>(quadrature.weight[q][i]);
-  for (ThreadWork& work : work_) {
-    work.groups.clear();
-    for (std::size_t g = 0; g < groups_.size(); ++g) {
-      const auto mine = [&](std::uint32_t body) { return body >= work.first_body && body < work.last_body; };
-      const bool source = groups_[g].write_source && mine(groups_[g].source_body);
-      const bool target = groups_[g].write_target && groups_[g].target_moves && mine(groups_[g].target_body);
-      if (source || target) work.groups.push_back(static_cast<std::uint32_t>(g));
+void FrictionSystem::set_elements(std::span<const ElementGroup> groups, const FaceQuadrature& quadrature) {
+  pairs_.assign(groups.size(), {});
+  blocks_.resize(static_cast<std::size_t>(threads_));
+  for (auto& arena : blocks_) arena.clear();
+#pragma omp parallel num_threads(threads_)
+  {
+    const auto arena = static_cast<std::uint32_t>(omp_get_thread_num());
+    PairCondenser condenser(quadrature, dt_);
+#pragma omp for schedule(dynamic, 8)
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      const ElementGroup& group = groups[g];
+      const std::size_t begin = blocks_[arena].size();
+      condenser.add_pair_blocks(group, blocks_[arena]);
+      pairs_[g] = {arena,
+                   static_cast<std::uint32_t>(blocks_[arena].size() - begin),
+                   begin,
+                   {group.body[0], group.body[1]},
+                   {group.first[0], group.first[1]},
+                   {group.write[0], group.write[1] && !group.rigid},
+                   group.rigid};
     }
   }
+  for (ThreadWork& work : work_) {
+    work.groups.clear();
+    for (std::uint32_t g = 0; g < pairs_.size(); ++g)
+      if ((pairs_[g].write[0] && work.has(pairs_[g].body[0])) || (pairs_[g].write[1] && work.has(pairs_[g].body[1])))
+        work.groups.push_back(g);
+  }
+  if (shells_ == nullptr || shells_->point_count() == 0) return;
+
+  std::vector<std::uint32_t> begin(layout_.bodies.size() + 1, 0), incident;
+  for (const ElementGroup& group : groups)
+    for (std::size_t side = 0; side < (group.rigid ? 1 : 2); ++side) ++begin[group.body[side] + 1];
+  for (std::size_t body = 1; body < begin.size(); ++body) begin[body] += begin[body - 1];
+  incident.resize(begin.back());
+  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+  for (std::uint32_t g = 0; g < groups.size(); ++g)
+    for (std::uint32_t side = 0; side < (groups[g].rigid ? 1u : 2u); ++side) incident[next[groups[g].body[side]]++] = 2 * g + side;
+  const PairCondenser condenser(quadrature, dt_);
+  shells_->add_edge_blocks([&](std::uint32_t body, std::span<EdgeBlock> edges) {
+    for (std::uint32_t k = begin[body]; k < begin[body + 1]; ++k)
+      condenser.add_edge_blocks(groups[incident[k] / 2], static_cast<int>(incident[k] % 2), edges);
+    return begin[body] < begin[body + 1];
+  });
 }
 
 template <class Body>
@@ -91,40 +129,13 @@ void FrictionSystem::for_owned_bodies(Body&& function) const {
       if (layout_.owned[body]) function(t, body);
 }
 
-void FrictionSystem::apply_elements(int thread, std::span<const Float4> p, std::span<Float4> q) const {
+void FrictionSystem::apply_contacts(int thread, std::span<const Float4> p, std::span<Float4> q) const {
   const ThreadWork& work = work_[static_cast<std::size_t>(thread)];
-  const auto mine = [&](std::uint32_t body) { return body >= work.first_body && body < work.last_body; };
   for (const std::uint32_t g : work.groups) {
-    const ElementGroup& group = groups_[g];
-    const bool write_source = group.write_source && mine(group.source_body);
-    const bool write_target = group.write_target && group.target_moves && mine(group.target_body);
-    const Float4* source = p.data() + group.source_first;
-    Float4* source_out = q.data() + group.source_first;
-    const Float4* target = p.data() + group.target_first;
-    Float4* target_out = q.data() + group.target_first;
-    for (const ContactElement& e : group.elements) {
-      const float* beta = beta_[e.point];
-      const float mu[3] = {e.mu[0], e.mu[1], 1.0f - e.mu[0] - e.mu[1]};
-      Float4v u = splat(beta[0]) * load(source[e.source[0]]) + splat(beta[1]) * load(source[e.source[1]]) +
-                  splat(beta[2]) * load(source[e.source[2]]);
-      if (group.target_moves)
-        u -= splat(mu[0]) * load(target[e.target[0]]) + splat(mu[1]) * load(target[e.target[1]]) + splat(mu[2]) * load(target[e.target[2]]);
-      const Float4v f = response(u, Float4v{e.n[0], e.n[1], e.n[2], 0.0f}, e.a, e.b + dt_ * e.k);
-      if (write_source)
-        for (int i = 0; i < 3; ++i) store(source_out[e.source[i]], load(source_out[e.source[i]]) + splat(beta[i]) * f);
-      if (write_target)
-        for (int j = 0; j < 3; ++j) store(target_out[e.target[j]], load(target_out[e.target[j]]) - splat(mu[j]) * f);
-    }
-  }
-  for (const SpherePairElement& e : sphere_pairs_) {
-    const bool rigid = e.j == kRigidPoint;
-    const bool write_i = layout_.owned[e.body_i] && mine(e.body_i);
-    const bool write_j = !rigid && layout_.owned[e.body_j] && mine(e.body_j);
-    if (!write_i && !write_j) continue;
-    const Float4v u = rigid ? load(p[e.i]) : load(p[e.i]) - load(p[e.j]);
-    const Float4v f = response(u, Float4v{e.n[0], e.n[1], e.n[2], 0.0f}, e.a, e.b + dt_ * e.k);
-    if (write_i) store(q[e.i], load(q[e.i]) + f);
-    if (write_j) store(q[e.j], load(q[e.j]) - f);
+    const PairBlocks& pair = pairs_[g];
+    const bool write[2] = {pair.write[0] && work.has(pair.body[0]), pair.write[1] && work.has(pair.body[1])};
+    apply_pair_blocks(blocks_of(pair), p.data() + pair.first[0], write[0] ? q.data() + pair.first[0] : nullptr,
+                      pair.rigid ? nullptr : p.data() + pair.first[1], write[1] ? q.data() + pair.first[1] : nullptr);
   }
 }
 
@@ -137,51 +148,33 @@ void FrictionSystem::apply(std::span<const Float4> p, std::span<Float4> q) const
     for (std::uint32_t i = points.first; i < points.first + points.count; ++i) store(q[i], splat(point_friction_[i]) * load(p[i]));
   });
 #pragma omp parallel for schedule(static, 1) num_threads(threads_)
-  for (int t = 0; t < threads_; ++t) apply_elements(t, p, q);
+  for (int t = 0; t < threads_; ++t) apply_contacts(t, p, q);
+  if (sphere_pairs_ != nullptr) sphere_pairs_->add_product(p, q, dt_);
+}
+
+void FrictionSystem::add_contact_diagonal(int thread) {
+  const ThreadWork& work = work_[static_cast<std::size_t>(thread)];
+  for (const std::uint32_t g : work.groups) {
+    const PairBlocks& pair = pairs_[g];
+    for (int side = 0; side < 2; ++side) {
+      if (!pair.write[side] || !work.has(pair.body[side])) continue;
+      SymMat3<float>* const diagonal = inverse_.data() + pair.first[side];
+      for (const NodePairBlock& b : blocks_of(pair))
+        diagonal[side == 0 ? b.i : b.j] += {b.c[0], b.c[1], b.c[2], b.c[3], b.c[4], b.c[5]};
+    }
+  }
 }
 
 void FrictionSystem::build_preconditioner() {
   for (std::size_t i = 0; i < layout_.point_count; ++i) inverse_[i] = isotropic(point_friction_[i]);
   if (shells_ != nullptr && shells_->point_count() > 0) shells_->add_diagonal(inverse_);
-  const auto block = [&](float weight, float a, float b, const float* n) {
-    return SymMat3<float>(isotropic(weight * a) + outer(weight * b, Vec3f{n[0], n[1], n[2]}));
-  };
 #pragma omp parallel for schedule(static, 1) num_threads(threads_)
-  for (int t = 0; t < threads_; ++t) {
-    const ThreadWork& work = work_[static_cast<std::size_t>(t)];
-    const auto mine = [&](std::uint32_t body) { return body >= work.first_body && body < work.last_body; };
-    for (const std::uint32_t g : work.groups) {
-      const ElementGroup& group = groups_[g];
-      const bool write_source = group.write_source && mine(group.source_body);
-      const bool write_target = group.write_target && group.target_moves && mine(group.target_body);
-      for (const ContactElement& e : group.elements) {
-        const float b = e.b + dt_ * e.k;
-        const float mu[3] = {e.mu[0], e.mu[1], 1.0f - e.mu[0] - e.mu[1]};
-        for (int i = 0; i < 3; ++i) {
-          const float beta = beta_[e.point][i];
-          if (write_source) inverse_[group.source_first + e.source[i]] += block(beta * beta, e.a, b, e.n);
-          if (write_target) inverse_[group.target_first + e.target[i]] += block(mu[i] * mu[i], e.a, b, e.n);
-        }
-      }
-    }
-    for (const SpherePairElement& e : sphere_pairs_) {
-      const SymMat3<float> both = block(1.0f, e.a, e.b + dt_ * e.k, e.n);
-      if (mine(e.body_i)) inverse_[e.i] += both;
-      if (e.j != kRigidPoint && mine(e.body_j)) inverse_[e.j] += both;
-    }
-  }
+  for (int t = 0; t < threads_; ++t) add_contact_diagonal(t);
+  if (sphere_pairs_ != nullptr) sphere_pairs_->add_diagonal(inverse_, dt_);
   for_owned_bodies([&](int, std::uint32_t body) {
     const BodyPoints& points = layout_.bodies[body];
     for (std::uint32_t i = points.first; i < points.first + points.count; ++i) inverse_[i] = inverse_of(inverse_[i]);
   });
-}
-
-void FrictionSystem::precondition(std::size_t body) {
-  const BodyPoints& points = layout_.bodies[body];
-  for (std::uint32_t i = points.first; i < points.first + points.count; ++i) {
-    const Vec3f z = inverse_[i] * Vec3f{r_[i].x, r_[i].y, r_[i].z};
-    z_[i] = {z.x, z.y, z.z, 0.0f};
-  }
 }
 
 double FrictionSystem::dot(std::span<const Float4> a, std::span<const Float4> b, const Comm& comm) const {
@@ -194,8 +187,29 @@ double FrictionSystem::dot(std::span<const Float4> a, std::span<const Float4> b,
   return comm.sum(sums[0]);
 }
 
-Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<const Float4> b, std::span<Float4> v, double tolerance, int max_iterations,
-                                                      const Comm& comm) {
+void FrictionSystem::advance(float alpha, std::span<Float4> v, const Comm& comm, double (&totals)[2]) {
+  std::vector<std::array<OrderFreeSum, 2>> sums(static_cast<std::size_t>(threads_));
+  const Float4v a = splat(alpha);
+  for_owned_bodies([&](int t, std::uint32_t body) {
+    const BodyPoints& points = layout_.bodies[body];
+    Double4 rr{}, rz{};
+    for (std::uint32_t i = points.first; i < points.first + points.count; ++i) {
+      store(v[i], load(v[i]) + a * load(p_[i]));
+      const Float4v r = load(r_[i]) - a * load(q_[i]);
+      store(r_[i], r);
+      const Double4 wide = to_double(r);
+      rr += wide * wide;
+      rz += wide * to_double(times(inverse_[i], r));
+    }
+    sums[static_cast<std::size_t>(t)][0].add(total(rr));
+    sums[static_cast<std::size_t>(t)][1].add(total(rz));
+  });
+  for (std::size_t t = 1; t < sums.size(); ++t)
+    for (int k = 0; k < 2; ++k) sums[0][k] += sums[t][k];
+  comm.sum(sums[0], totals);
+}
+
+Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<Float4> v, double tolerance, int max_iterations, const Comm& comm) {
   build_preconditioner();
   const auto exchange = [&](std::span<Float4> vector) {
     if (layout_.exchange) layout_.exchange(vector);
@@ -207,7 +221,7 @@ Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<const Float4> b,
     });
   };
 
-  const double b_norm = std::sqrt(dot(b, b, comm));
+  const double b_norm = std::sqrt(dot(r_, r_, comm));
   if (!std::isfinite(b_norm)) return SolveFault{"the force is not a number"};
   if (b_norm == 0.0) {
     for_owned_points([&](std::uint32_t i) { v[i] = {}; });
@@ -215,45 +229,43 @@ Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<const Float4> b,
   }
   exchange(v);
   apply(v, q_);
-  for_owned_points([&](std::uint32_t i) { store(r_[i], load(b[i]) - load(q_[i])); });
+  for_owned_points([&](std::uint32_t i) { store(p_[i], load(r_[i]) - load(q_[i])); });
   // A start that is worse than none is dropped: zero velocity has the residual ‖b‖.
-  double residual = std::sqrt(dot(r_, r_, comm));
-  if (!(residual < b_norm)) {
-    for_owned_points([&](std::uint32_t i) {
-      v[i] = {};
-      r_[i] = b[i];
-    });
-    residual = b_norm;
-  }
+  const bool helps = std::sqrt(dot(p_, p_, comm)) < b_norm;
+  for_owned_points([&](std::uint32_t i) {
+    p_[i] = {};
+    if (!helps) v[i] = q_[i] = {};
+  });
+  double sums[2];  // r·r, r·z
+  advance(1.0f, v, comm, sums);
+  double residual = std::sqrt(sums[0]);
   const double goal = tolerance * b_norm;
   SolveReport report{0, residual / b_norm, residual <= goal};
-  for_owned_bodies([&](int, std::uint32_t body) { precondition(body); });
-  for_owned_points([&](std::uint32_t i) { p_[i] = z_[i]; });
-  double rz = dot(r_, z_, comm);
+  float beta = 0.0f;
   while (residual > goal && report.iterations < max_iterations) {
+    for_owned_points([&](std::uint32_t i) { store(p_[i], times(inverse_[i], load(r_[i])) + splat(beta) * load(p_[i])); });
     exchange(p_);
     apply(p_, q_);
     const double pq = dot(p_, q_, comm);
     if (!(pq > 0.0)) return SolveFault{"the friction matrix is not positive definite"};
-    const float alpha = static_cast<float>(rz / pq);
-    for_owned_bodies([&](int, std::uint32_t body) {
-      const BodyPoints& points = layout_.bodies[body];
-      for (std::uint32_t i = points.first; i < points.first + points.count; ++i) {
-        store(v[i], load(v[i]) + splat(alpha) * load(p_[i]));
-        store(r_[i], load(r_[i]) - splat(alpha) * load(q_[i]));
-      }
-      precondition(body);
-    });
-    residual = std::sqrt(dot(r_, r_, comm));
-    const double rz_next = dot(r_, z_, comm);
-    const float beta = static_cast<float>(rz_next / rz);
-    rz = rz_next;
-    for_owned_points([&](std::uint32_t i) { store(p_[i], load(z_[i]) + splat(beta) * load(p_[i])); });
+    const double rz = sums[1];
+    advance(static_cast<float>(rz / pq), v, comm, sums);
+    residual = std::sqrt(sums[0]);
+    beta = static_cast<float>(sums[1] / rz);
     ++report.iterations;
   }
   report.residual = residual / b_norm;
   report.converged = residual <= goal;
   return report;
+}
+
+std::size_t FrictionSystem::memory() const {
+  const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
+  std::size_t total = bytes(point_friction_) + bytes(pairs_) + bytes(inverse_) + bytes(p_) + bytes(q_) + bytes(r_) + bytes(layout_.bodies) +
+                      bytes(layout_.owned);
+  for (const auto& arena : blocks_) total += bytes(arena);
+  for (const ThreadWork& work : work_) total += bytes(work.groups);
+  return total;
 }
 
 }  // namespace morula

@@ -8,6 +8,8 @@
 #include "core/contact/traction_law.h"
 #include "core/friction/contact_element.h"
 #include "core/friction/float4.h"
+#include "core/friction/pair_blocks.h"
+#include "core/friction/sphere_pairs.h"
 #include "core/parallel/comm.h"
 #include "core/result.h"
 #include "core/vec3.h"
@@ -19,29 +21,15 @@ struct BodyPoints {
   std::uint32_t first, count;
 };
 
-/// Contact elements of one direction of a pair. Groups come in canonical order; only the points of owned bodies are written.
-struct ElementGroup {
-  std::span<const ContactElement> elements;
-  std::uint32_t source_body = 0, target_body = 0;    ///< places in the list of bodies
-  std::uint32_t source_first = 0, target_first = 0;  ///< first points
-  bool write_source = true, write_target = true;     ///< false: ghost
-  bool target_moves = true;                          ///< false: rigid, not an unknown
-};
 
-/// Two spheres in touch: force on i −(a u + (b + Δt k)(n·u) n), u = v_i − v_j. With j = kRigidPoint the other side is at rest.
-inline constexpr std::uint32_t kRigidPoint = 0xFFFFFFFF;
-struct SpherePairElement {
-  std::uint32_t i, j;            ///< points
-  std::uint32_t body_i, body_j;  ///< places in the list of bodies
-  float n[3];
-  float a, b, k;
-};
-
-/// A part of the matrix that somebody else can apply: the shells' own mechanics. It acts on the first point_count() points, all owned.
+/// A part of the matrix that somebody else can apply: the shells' own mechanics. It acts on the first point_count() points, all owned,
+/// which belong to the first bodies.
 class OperatorPart {
  public:
   virtual ~OperatorPart() = default;
   [[nodiscard]] virtual std::size_t point_count() const = 0;
+  /// Add blocks to the edges of its bodies: m (v_i − v_j) on node i of an edge, the opposite on j.
+  virtual void add_edge_blocks(const EdgeBlockSource& source) = 0;
   /// q = A p on its points.
   virtual void multiply(std::span<const Float4> p, std::span<Float4> q) const = 0;
   /// Add the 3×3 diagonal blocks.
@@ -58,8 +46,9 @@ struct SolveFault {
   std::string what;
 };
 
-/// The matrix of the force balance, (Γ + Δt K) v = F: sparse, symmetric, positive definite, over sphere centres and shell nodes together,
-/// never assembled. Preconditioned conjugate gradients with 3×3 block-Jacobi and a start vector (time_stepping.md §10.7).
+/// The matrix of the force balance, (Γ + Δt K) v = F: sparse, symmetric, positive definite, over sphere centres and shell nodes together.
+/// Preconditioned conjugate gradients with 3×3 block-Jacobi and a start vector (time_stepping.md §10.7). Contacts of surfaces are condensed
+/// to blocks over pairs of nodes (pair_blocks.h).
 ///
 /// Vectors are float, sums are double in fixed order within a body and order-free over bodies, so that the solution has the same bits on
 /// any number of threads and ranks. Ghost points of p are refreshed through `exchange` before each product.
@@ -76,43 +65,65 @@ class FrictionSystem {
 
   /// Diagonal friction [nN·s/µm] by point: of the spheres, and 0 where the shells' part has its own; ghosts are ignored.
   void set_point_friction(std::span<const float> friction) { point_friction_.assign(friction.begin(), friction.end()); }
-  void set_elements(std::vector<ElementGroup> groups, const FaceQuadrature& quadrature);
-  void set_sphere_pairs(std::span<const SpherePairElement> pairs) { sphere_pairs_ = pairs; }
-  void set_shells(const OperatorPart* shells) { shells_ = shells; }
+  /// The shells' own part; before set_elements(), which adds to it.
+  void set_shells(OperatorPart* shells) { shells_ = shells; }
   void set_step(double dt) { dt_ = static_cast<float>(dt); }
+  /// Contacts of surfaces at the present step size; read now, not kept.
+  void set_elements(std::span<const ElementGroup> groups, const FaceQuadrature& quadrature);
+  /// The spheres' own part; may be null.
+  void set_sphere_pairs(const SpherePairs* pairs) { sphere_pairs_ = pairs; }
+  [[nodiscard]] std::span<const float> point_friction() const { return point_friction_; }
 
-  /// Solve A v = b from the start in v, until ‖r‖ ≤ tolerance ‖b‖. v of ghost points is not written.
-  Result<SolveReport, SolveFault> solve(std::span<const Float4> b, std::span<Float4> v, double tolerance, int max_iterations,
-                                        const Comm& comm);
+  /// Where the caller puts b by point (owned points), anew before each solve().
+  [[nodiscard]] std::span<Float4> right() { return r_; }
+  /// Solve A v = b from the start in v, until ‖r‖ ≤ tolerance ‖b‖. v of ghost points is not written; b is used up.
+  Result<SolveReport, SolveFault> solve(std::span<Float4> v, double tolerance, int max_iterations, const Comm& comm);
 
   /// q = A p on owned points (p must hold the ghosts). For tests and for the residual.
   void apply(std::span<const Float4> p, std::span<Float4> q) const;
 
+  /// Bytes that vectors and blocks take.
+  [[nodiscard]] std::size_t memory() const;
+
  private:
+  /// Blocks of a pair of bodies; those of a thread lie one after the other in blocks_[arena].
+  struct PairBlocks {
+    std::uint32_t arena = 0, count = 0;
+    std::size_t begin = 0;
+    std::uint32_t body[2] = {0, 0}, first[2] = {0, 0};
+    bool write[2] = {true, true}, rigid = false;
+  };
+
   void build_preconditioner();
-  void precondition(std::size_t body);
   template <class Body>
   void for_owned_bodies(Body&& body) const;
   [[nodiscard]] double dot(std::span<const Float4> a, std::span<const Float4> b, const Comm& comm) const;
-  void apply_elements(int thread, std::span<const Float4> p, std::span<Float4> q) const;
+  void apply_contacts(int thread, std::span<const Float4> p, std::span<Float4> q) const;
+  void add_contact_diagonal(int thread);
+  /// v += α p, r −= α q; gives (r·r, r·z) with z = M⁻¹ r.
+  void advance(float alpha, std::span<Float4> v, const Comm& comm, double (&sums)[2]);
+  [[nodiscard]] std::span<const NodePairBlock> blocks_of(const PairBlocks& pair) const {
+    return std::span(blocks_[pair.arena]).subspan(pair.begin, pair.count);
+  }
 
   struct ThreadWork {
     std::uint32_t first_body = 0, last_body = 0;  ///< owned bodies of this thread: first <= body < last
     std::vector<std::uint32_t> groups;            ///< that touch them, in canonical order
-    std::vector<std::uint32_t> pairs;             ///< sphere pairs likewise; empty with one thread: all
+
+    [[nodiscard]] bool has(std::uint32_t body) const { return body >= first_body && body < last_body; }
   };
 
   Layout layout_;
   int threads_ = 1;
   float dt_ = 0.0f;
   std::vector<float> point_friction_;
-  std::vector<ElementGroup> groups_;
-  std::span<const SpherePairElement> sphere_pairs_;
-  const OperatorPart* shells_ = nullptr;
-  float beta_[4][3] = {};
+  std::vector<PairBlocks> pairs_;
+  std::vector<std::vector<NodePairBlock>> blocks_;
+  const SpherePairs* sphere_pairs_ = nullptr;
+  OperatorPart* shells_ = nullptr;
   std::vector<ThreadWork> work_;
   std::vector<SymMat3<float>> inverse_;
-  std::vector<Float4> p_, q_, r_, z_;
+  std::vector<Float4> p_, q_, r_;
 };
 
 }  // namespace morula

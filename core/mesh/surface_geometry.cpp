@@ -2,6 +2,8 @@
 
 #include <omp.h>
 
+#include <algorithm>
+
 #include "core/mesh/lane_surface.h"
 
 namespace morula {
@@ -95,7 +97,10 @@ void block_forces(const LaneBlock& block, const SurfaceList& surfaces, std::span
   by_node(doubles(geometry.node_normal.data()), 3, ws.node_normal);
   by_node(geometry.node_normal_length.data(), 1, ws.node_length);
   by_face(gradient.face_area.data(), 1, ws.gradient_face);
-  by_face(doubles(gradient.face_normal.data()), 3, ws.gradient_face_normal);
+  if (gradient.face_normal.empty())
+    std::fill_n(ws.gradient_face_normal.data(), faces * 3 * W, 0.0);
+  else
+    by_face(doubles(gradient.face_normal.data()), 3, ws.gradient_face_normal);
   by_node(doubles(gradient.node_normal.data()), 3, ws.gradient_node);
 
   double* const g = ws.gradient_node.data();  // ½ ∂E/∂G_v

@@ -37,7 +37,7 @@ void compute_surface_geometry(const SurfaceList& surfaces, std::span<const Vec3d
 /// Derivatives of an energy that depends on areas and normals of surfaces.
 struct SurfaceGradient {
   std::span<const double> face_area;   ///< ∂E/∂A_T by face [nN/µm]
-  std::span<const Vec3d> face_normal;  ///< ∂E/∂n_T by face [nN·µm]
+  std::span<const Vec3d> face_normal;  ///< ∂E/∂n_T by face [nN·µm]; empty: zero
   std::span<const Vec3d> node_normal;  ///< ∂E/∂n_v by node [nN·µm]
 };
 

@@ -54,22 +54,36 @@ struct Mechanics::Trial {
   }
 };
 
-double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt) {
+double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt, bool moved) {
   const auto& x = scene_.position();
-  std::fill(friction_.begin(), friction_.end(), Vec3d{});
-  for (std::size_t i = 0; i < x.size(); ++i) displacement_[i] = x[i] - start[i];
+  for_owned_points([&](std::uint32_t i) {  // −Δt (F + external), to which Γ_n d is added
+    const std::size_t e = i < scene_.owned_nodes() ? i : i - scene_.sphere_point() + scene_.owned_nodes();
+    force_[i] = (force_[i] + external[e]) * -dt;
+  });
+  spent_ = true;
+  displacement_.resize(contacts_.pairs().empty() ? scene_.sphere_point() : x.size());  // spheres alone have no use for it
+  for (std::size_t i = 0; i < displacement_.size(); ++i) displacement_[i] = x[i] - start[i];
   OrderFreeSum sums[2];
-  contacts_.add_step_friction(contact_scene(), displacement_, friction_, sums[0]);
-  shells_.add_step_friction(displacement_, friction_, sums[0]);
-  spheres_.add_step_friction(scene_, displacement_, friction_, sums[0]);
+  std::vector<Vec3d>& of_shells = gradient_.node_normal;  // which is found anew before it is used again
+  shells_.set_step_friction(displacement_, of_shells, sums[0]);
+  for (std::size_t i = 0; i < scene_.owned_nodes(); ++i) force_[i] += of_shells[i];
+  contacts_.add_step_friction(contact_scene(), displacement_, force_, sums[0]);
+  const auto medium = system_.point_friction();
+  for (std::size_t i = 0; moved && i < scene_.owned_spheres(); ++i) {
+    const std::size_t point = scene_.sphere_point() + i;
+    const Vec3d d = x[point] - start[point];
+    force_[point] += d * static_cast<double>(medium[point]);
+    sums[0].add(static_cast<double>(medium[point]) * norm2(d));
+  }
+  if (moved) spheres_.pairs().add_friction(start, x, force_, sums[0]);
   for (std::size_t body = 0; body < scene_.bodies().size(); ++body) {
     const ContactBody& b = scene_.bodies()[body];
     if (!b.active()) continue;
     double work = 0.0;
     for (std::uint32_t i = b.first_point; i < b.first_point + b.point_count; ++i) {
       const std::size_t e = i < scene_.owned_nodes() ? i : i - scene_.sphere_point() + scene_.owned_nodes();
-      work += morula::dot(external[e], displacement_[i]);
-      residual_[i] = force_[i] + external[e] - friction_[i] * (1.0 / dt);
+      work += morula::dot(external[e], x[i] - start[i]);
+      force_[i] *= -1.0 / dt;
     }
     sums[1].add(work);
   }
@@ -87,19 +101,20 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
   StepReport report;
   report.step = dt;
   Trial trial{*this, tissue, start, external, dt, 0.0, report};
-  const double work = friction_residual(start, external, dt);
+  const double work = friction_residual(start, external, dt, false);
   trial.phi = energy_ - work + friction_energy_ / (2.0 * dt);
-  const double force_norm = std::sqrt(dot(residual_, residual_));
+  const double force_norm = std::sqrt(dot(force_, force_));
   if (!std::isfinite(trial.phi) || !std::isfinite(force_norm)) return StepFault{"forces are not numbers", {}, false};
 
   std::vector<Vec3d> direction(start.size());
   const auto solve = [&](double step, double tolerance) -> Result<SolveReport, StepFault> {
     assemble(tissue, step);
     auto timed = timer_.scope(Stage::kSolve);
+    const std::span<Float4> right = system_.right();
     for_owned_points([&](std::uint32_t i) {
-      right_[i] = {static_cast<float>(residual_[i].x), static_cast<float>(residual_[i].y), static_cast<float>(residual_[i].z), 0.0f};
+      right[i] = {static_cast<float>(force_[i].x), static_cast<float>(force_[i].y), static_cast<float>(force_[i].z), 0.0f};
     });
-    auto solved = system_.solve(right_, solution_, tolerance, kMaxLinearIterations, comm_);
+    auto solved = system_.solve(solution_, tolerance, kMaxLinearIterations, comm_);
     if (!solved) return StepFault{solved.error().what, {}, true};
     report.linear_iterations += solved->iterations;
     for_owned_points([&](std::uint32_t i) { direction[i] = Vec3d{solution_[i].x, solution_[i].y, solution_[i].z} * dt; });
@@ -121,7 +136,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
     if (iteration == 0 && longest > 4.0 * allowed && dt > 1e-3) {
       return undo(start, StepFault{"points would move too far in one step", {}, true});
     }
-    double slope = -dot(residual_, direction);
+    double slope = -dot(force_, direction);
     const bool converged = -0.5 * slope <= 1e-12 * (1.0 + std::abs(trial.phi));
     if (!trial.search(direction, slope, kHalvings, converged ? 1e-9 * (1.0 + std::abs(trial.phi)) : 0.0)) {
       // Freeze rule (time_stepping.md §9.3): the gradient in the metric of friction, then a short Newton step with an allowed rise.
@@ -132,24 +147,24 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
       solved = solve(0.0, control.first_tolerance);
       if (!solved) return undo(start, solved.error());
       limit_direction(range);
-      slope = -dot(residual_, direction);
+      slope = -dot(force_, direction);
       bool moved = trial.search(direction, slope, kGradientHalvings, 0.0);
       if (!moved) {
         direction = newton_direction;
         limit_direction(kLastResortStep * range);
-        moved = trial.search(direction, -dot(residual_, direction), 2, kAllowedRise);
+        moved = trial.search(direction, -dot(force_, direction), 2, kAllowedRise);
       }
       if (!moved) {
         evaluate(tissue);
         (void)friction_residual(start, external, dt);
-        if (largest(residual_) > kStuckForce) {
+        if (largest(force_) > kStuckForce) {
           StepFault fault{"no step lowers the energy", {}, true};
           if (const auto shape = find_fault()) fault = *shape;
           double worst = 0.0;
           for (const ContactBody& body : scene_.bodies())
             for (std::uint32_t i = body.first_point; body.active() && i < body.first_point + body.point_count; ++i)
-              if (norm2(residual_[i]) > worst) {
-                worst = norm2(residual_[i]);
+              if (norm2(force_[i]) > worst) {
+                worst = norm2(force_[i]);
                 fault.cell = body.id;
               }
           return undo(start, fault);
@@ -157,9 +172,9 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
         break;
       }
     }
-    if (std::sqrt(dot(residual_, residual_)) <= control.newton_stop * force_norm || converged) break;
+    if (std::sqrt(dot(force_, force_)) <= control.newton_stop * force_norm || converged) break;
   }
-  report.displacement = largest(displacement_);
+  report.displacement = furthest(start);
   if (report.displacement > 1.5 * allowed && dt > 1e-3) {
     return undo(start, StepFault{"points moved too far in one step", {}, true});
   }
@@ -172,19 +187,19 @@ Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt
   const std::vector<Vec3d> start = scene_.position();
   StepReport report;
   report.step = dt;
-  (void)friction_residual(start, external, dt);
+  (void)friction_residual(start, external, dt, false);
   assemble(tissue, 0.0);
+  const std::span<Float4> right = system_.right();
   for_owned_points([&](std::uint32_t i) {
-    right_[i] = {static_cast<float>(residual_[i].x), static_cast<float>(residual_[i].y), static_cast<float>(residual_[i].z), 0.0f};
+    right[i] = {static_cast<float>(force_[i].x), static_cast<float>(force_[i].y), static_cast<float>(force_[i].z), 0.0f};
   });
-  auto solved = system_.solve(right_, solution_, 1e-4, kMaxLinearIterations, comm_);
+  auto solved = system_.solve(solution_, 1e-4, kMaxLinearIterations, comm_);
   if (!solved) return undo(start, StepFault{solved.error().what, {}, true});
   report.linear_iterations = solved->iterations;
   report.newton = 1;
   auto& x = scene_.position();
   for_owned_points([&](std::uint32_t i) { x[i] += Vec3d{solution_[i].x, solution_[i].y, solution_[i].z} * dt; });
-  for_owned_points([&](std::uint32_t i) { displacement_[i] = x[i] - start[i]; });
-  report.displacement = largest(displacement_);
+  report.displacement = furthest(start);
   if (!std::isfinite(report.displacement) || report.displacement > model_.contact.range) {
     return undo(start, StepFault{"points moved too far in one explicit step", {}, true});
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "coupling/mechanics/contact_setup.h"
 
@@ -23,7 +24,7 @@ Mechanics::Mechanics(const Model& model, std::vector<RigidSurface> obstacles, Sh
       threads_(threads),
       contacts_(contact_settings(model, threads), std::move(obstacles), contact_materials(model), contact_material_count(model)),
       shells_(model),
-      spheres_(model) {}
+      spheres_(model, threads) {}
 
 ContactScene Mechanics::contact_scene() const { return {scene_.bodies(), scene_.position(), &geometry_}; }
 
@@ -34,6 +35,17 @@ double Mechanics::largest(std::span<const Vec3d> by_point) const {
       for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) {
         const double here = norm2(by_point[i]);
         if (!(here <= most)) most = here;  // not a number wins
+      }
+  return std::sqrt(comm_.max(most));
+}
+
+double Mechanics::furthest(std::span<const Vec3d> start) const {
+  double most = 0.0;
+  for (const ContactBody& body : scene_.bodies())
+    if (body.active())
+      for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) {
+        const double here = norm2(scene_.position()[i] - start[i]);
+        if (!(here <= most)) most = here;
       }
   return std::sqrt(comm_.max(most));
 }
@@ -52,7 +64,7 @@ double Mechanics::dot(std::span<const Vec3d> a, std::span<const Vec3d> b) const 
 void Mechanics::prepare(const Tissue& tissue) {
   // Ghosts must be renewed when something has gone further than their reach allows for.
   const double slack = contacts_.settings().body_skin;
-  bool renew = !scene_valid_;
+  bool renew = !scene_valid_ || (renew_soon_ && !evaluated_);
   if (!renew && comm_.size() > 1) {
     double most = 0.0;
     for (std::size_t i = 0; i < scene_start_.size(); ++i) {
@@ -68,22 +80,23 @@ void Mechanics::prepare(const Tissue& tissue) {
                          slack + 2.0 * step_margin(model_);
     scene_.build(tissue, model_.space, reach, shapes_, comm_);
     scene_valid_ = true;
+    renew_soon_ = false;
+    wear_ = 0.0;
     evaluated_ = contacts_current_ = false;
-    scene_start_ = tissue.shells.position;
-    scene_start_.insert(scene_start_.end(), tissue.spheres.position.begin(), tissue.spheres.position.end());
+    scene_start_.clear();
+    if (comm_.size() > 1) {
+      scene_start_ = tissue.shells.position;
+      scene_start_.insert(scene_start_.end(), tissue.spheres.position.begin(), tissue.spheres.position.end());
+    }
     contacts_.reset();
     shells_.set_shells(tissue.shells);
-    const std::size_t points = scene_.point_count(), faces = scene_.face_count(), bodies = scene_.bodies().size();
+    const std::size_t points = scene_.point_count(), faces = scene_.face_count();
     force_.assign(points, {});
-    residual_.assign(points, {});
-    displacement_.assign(points, {});
-    friction_.assign(points, {});
-    right_.assign(points, {});
+    gradient_.force.assign(scene_.shells() > 0 ? points : 0, {});  // spheres alone add to force_ at once
+    gradient_.node_normal.assign(scene_.sphere_point(), {});       // spheres have none
     solution_.assign(points, {});
-    gradient_.node_normal.assign(points, {});
     gradient_.face_energy.assign(faces, 0.0);
-    gradient_.face_normal.assign(faces, {});
-    gradient_.contact_area.assign(bodies, 0.0);
+    gradient_.contact_area.assign(scene_.shells(), 0.0);  // a sphere's contacts with shells are counted on their faces
 
     if (relaxing_)
       hold_all_but(relax_moves_);  // the new scene knows nothing of who is held
@@ -101,7 +114,7 @@ void Mechanics::prepare(const Tissue& tissue) {
       scene_.take_positions(tissue);
     }
     scene_.take_radii(tissue);
-    spheres_.update_laws(scene_, tissue);
+    spheres_.update_sisters(scene_, tissue.clock.time);
     evaluate(tissue, !contacts_current_);
   }
 }
@@ -116,6 +129,7 @@ void Mechanics::lay_out_system() {
   if (comm_.size() > 1) layout.exchange = [this](std::span<Float4> vector) { scene_.exchange(vector); };
   system_.set_layout(std::move(layout), threads_);
   system_.set_shells(&shells_);
+  system_.set_sphere_pairs(&spheres_.pairs());
 }
 
 void Mechanics::evaluate(const Tissue& tissue, bool moved) {
@@ -126,7 +140,9 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   const ContactScene scene = contact_scene();
   {
     auto timed = timer_.scope(Stage::kInternal);
-    if (moved) compute_surface_geometry({scene_.topologies(), scene_.first_node(), scene_.first_face()}, scene_.position(), geometry_);
+    if (moved)
+      compute_surface_geometry({scene_.topologies(), scene_.first_node(), scene_.first_face()},
+                               std::span(std::as_const(scene_).position()).first(scene_.sphere_point()), geometry_);
     shells_.evaluate(tissue.shells, scene_.position());
   }
   {
@@ -138,33 +154,39 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
     }
   }
   auto timed = timer_.scope(Stage::kContacts);
-  contacts_.evaluate(scene, !moved);
-  spheres_.evaluate(scene_, contacts_);
-
-  std::fill(force_.begin(), force_.end(), Vec3d{});
-  std::fill(gradient_.node_normal.begin(), gradient_.node_normal.end(), Vec3d{});
-  std::fill(gradient_.face_energy.begin(), gradient_.face_energy.end(), 0.0);
-  std::fill(gradient_.face_normal.begin(), gradient_.face_normal.end(), Vec3d{});
-  std::fill(gradient_.contact_area.begin(), gradient_.contact_area.end(), 0.0);
-  gradient_.force.swap(force_);
-  contacts_.collect(scene, gradient_);
-  gradient_.force.swap(force_);
-  spheres_.collect(scene_, force_);
-  const SurfaceList owned{scene_.topologies().first(scene_.owned_shells()), scene_.first_node(), scene_.first_face()};
-  add_surface_forces(owned, scene_.position(), geometry_, {gradient_.face_energy, gradient_.face_normal, gradient_.node_normal}, force_);
+  const bool with_spheres = contacts_.has_pairs(SurfacePairKind::kWithSphere);
+  if (moved || with_spheres) {
+    if (moved) {
+      gradient_.set_zero();
+      contacts_.evaluate(scene, SurfacePairKind::kSurfaces, gradient_);
+      if (with_spheres) surfaces_only_ = gradient_;
+    } else {
+      gradient_ = surfaces_only_;
+    }
+    if (with_spheres) contacts_.evaluate(scene, SurfacePairKind::kWithSphere, gradient_);
+    const SurfaceList owned{scene_.topologies().first(scene_.owned_shells()), scene_.first_node(), scene_.first_face()};
+    add_surface_forces(owned, scene_.position(), geometry_, {gradient_.face_energy, {}, gradient_.node_normal}, gradient_.force);
+  }
+  if (gradient_.force.empty())
+    std::fill(force_.begin(), force_.end(), Vec3d{});
+  else
+    std::copy(gradient_.force.begin(), gradient_.force.end(), force_.begin());
+  spent_ = false;
+  spheres_.evaluate(scene_, contacts_, force_);
   const auto& internal = shells_.forces();
   for (std::size_t i = 0; i < scene_.owned_nodes(); ++i) force_[i] += internal.force[i];
 
   OrderFreeSum sum;
   for (std::size_t i = 0; i < scene_.owned_shells(); ++i) sum.add(internal.energy[i]);
   contacts_.add_energy(scene, sum);
-  spheres_.add_energy(scene_, sum);
+  spheres_.add_energy(sum);
   energy_ = comm_.sum(sum);
   evaluated_ = contacts_current_ = true;
 }
 
 StepFault Mechanics::undo(const std::vector<Vec3d>& start, StepFault fault) {
   scene_.position() = start;
+  spheres_.end_step();
   evaluated_ = contacts_current_ = false;
   return fault;
 }
@@ -181,7 +203,7 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
         static_cast<float>(model_.types[tissue.spheres.type[i]].medium_friction * 4.0 * std::numbers::pi * r * r);
   }
   system_.set_point_friction(friction);
-  spheres_.begin_step(std::move(friction));
+  spheres_.begin_step();
   // The last velocity is the solver's start; obstacles go where they will be at the end of the step.
   for (std::size_t i = 0; i < tissue.shells.velocity.size(); ++i) {
     const Vec3f& v = tissue.shells.velocity[i];
@@ -212,7 +234,6 @@ void Mechanics::assemble(const Tissue& tissue, double dt) {
   shells_.assemble(tissue.shells, scene_.position(), gradient_.face_energy, dt);
   system_.set_step(dt);
   system_.set_elements(contacts_.element_groups(contact_scene()), FaceQuadrature::with_points(contacts_.settings().points_per_face));
-  system_.set_sphere_pairs(spheres_.elements());
 }
 
 std::optional<StepFault> Mechanics::find_fault() const {
@@ -223,26 +244,32 @@ std::optional<StepFault> Mechanics::find_fault() const {
 }
 
 Result<StepReport, StepFault> Mechanics::step(Tissue& tissue, double dt, std::span<const Vec3d> external) {
-  if (comm_.any(flags_changed_)) evaluated_ = flags_changed_ = false;
+  if (comm_.any(flags_changed_ || spent_)) evaluated_ = flags_changed_ = false;
   prepare(tissue);
   return model_.step.integrator == Integrator::kImplicit ? implicit_step(tissue, dt, external) : explicit_step(tissue, dt, external);
 }
 
 void Mechanics::finish(Tissue& tissue, double dt, StepReport& report) {
   auto timed = timer_.scope(Stage::kAdvance);
-  scene_.give_positions(tissue);
   const double rate = 1.0 / dt;
-  const auto velocity = [&](std::size_t point) {
-    const Vec3d v = displacement_[point] * rate;
+  const auto velocity = [&](std::size_t point, const Vec3d& start) {
+    const Vec3d v = (scene_.position()[point] - start) * rate;
     return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
   };
-  for (std::size_t i = 0; i < tissue.shells.velocity.size(); ++i) tissue.shells.velocity[i] = velocity(i);
-  for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i) tissue.spheres.velocity[i] = velocity(scene_.sphere_point() + i);
+  for (std::size_t i = 0; i < tissue.shells.velocity.size(); ++i) tissue.shells.velocity[i] = velocity(i, tissue.shells.position[i]);
+  for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i)
+    tissue.spheres.velocity[i] = velocity(scene_.sphere_point() + i, tissue.spheres.position[i]);
+  scene_.give_positions(tissue);
   if (!relaxing_) {
-    for (std::size_t i = 0; i < model_.obstacles.size(); ++i) 
+    for (std::size_t i = 0; i < model_.obstacles.size(); ++i)
       tissue.obstacle_offset[i] += model_.obstacles[i].way(tissue.clock.time, tissue.clock.time + dt);
-    flags_changed_ = comm_.any(spheres_.update_attached(scene_, tissue));
+    flags_changed_ = comm_.any(spheres_.update_attached(scene_, contacts_, tissue));
   }
+  spheres_.end_step();
+  // Where there are ghosts, a list of pairs that would wear out within the next step is made together with them, before that step: else
+  // the list is made in the middle of the step, and the ghosts soon after.
+  renew_soon_ = comm_.size() > 1 && comm_.any(2.0 * contacts_.wear() - wear_ > 1.0);
+  wear_ = contacts_.wear();
   report.energy = energy_;
   report.overlap = deepest_overlap();
   if (tissue.clock.capped && report.overlap < 0.1) tissue.clock.capped = false;
@@ -268,25 +295,33 @@ double Mechanics::deepest_overlap() const {
   return comm_.max(worst != nullptr ? worst->overlap : 0.0);
 }
 
-const BodyValues& Mechanics::values(const Tissue& tissue) {
-  prepare(tissue);
+BodyValues Mechanics::values(const Tissue& tissue) {
+  BodyValues values;
+  values.pressure = pressures(tissue);
   const std::size_t shells = scene_.owned_shells(), spheres = scene_.owned_spheres();
-  for (auto* v : {&values_.volume, &values_.area, &values_.pressure, &values_.contact_area}) v->assign(shells + spheres, 0.0);
+  for (auto* v : {&values.volume, &values.area, &values.contact_area}) v->assign(shells + spheres, 0.0);
   for (std::size_t i = 0; i < shells; ++i) {
-    values_.volume[i] = geometry_.volume[i];
-    values_.area[i] = geometry_.area[i];
-    values_.pressure[i] = shells_.forces().pressure[i];
-    values_.contact_area[i] = gradient_.contact_area[i];
+    values.volume[i] = geometry_.volume[i];
+    values.area[i] = geometry_.area[i];
+    values.contact_area[i] = gradient_.contact_area[i];
   }
+  const std::vector<double> contact_area = spheres_.contact_areas(scene_, contacts_);
   for (std::size_t i = 0; i < spheres; ++i) {
     const double r = tissue.spheres.radius[i];
-    values_.volume[shells + i] = 4.0 / 3.0 * std::numbers::pi * r * r * r;
-    values_.area[shells + i] = 4.0 * std::numbers::pi * r * r;
-    values_.contact_area[shells + i] = gradient_.contact_area[scene_.first_sphere() + i];
+    values.volume[shells + i] = 4.0 / 3.0 * std::numbers::pi * r * r * r;
+    values.area[shells + i] = 4.0 * std::numbers::pi * r * r;
+    values.contact_area[shells + i] = contact_area[i];
   }
-  if (spheres_.renew_sisters(scene_, contacts_, tissue)) flags_changed_ = true;
-  spheres_.add_values(scene_, tissue, std::span(values_.pressure).subspan(shells), std::span(values_.contact_area).subspan(shells));
-  return values_;
+  return values;
+}
+
+std::vector<double> Mechanics::pressures(const Tissue& tissue) {
+  prepare(tissue);
+  if (spheres_.renew_sisters(scene_, contacts_, tissue.clock.time)) flags_changed_ = true;
+  std::vector<double> out(scene_.owned_shells() + scene_.owned_spheres());
+  for (std::size_t i = 0; i < scene_.owned_shells(); ++i) out[i] = shells_.forces().pressure[i];
+  for (std::size_t i = 0; i < scene_.owned_spheres(); ++i) out[scene_.owned_shells() + i] = spheres_.pressure(i, tissue.spheres.radius[i]);
+  return out;
 }
 
 std::vector<Vec3d> Mechanics::obstacle_forces(const Tissue& tissue) {
@@ -294,11 +329,9 @@ std::vector<Vec3d> Mechanics::obstacle_forces(const Tissue& tissue) {
   if (out.empty()) return out;
   prepare(tissue);
   std::vector<OrderFreeSum> sums(3 * out.size());
-  for (const SurfacePair& pair : contacts_.pairs()) {  // areas and normals belong to the cell: their share of its force is zero in sum
+  for (const SurfacePair& pair : contacts_.pairs()) {
     if (!pair.rigid || !scene_.bodies()[pair.a].owned) continue;
-    Vec3d on_cell{};
-    for (const Vec3d& force : pair.gradient[0].force) on_cell += force;
-    for (int axis = 0; axis < 3; ++axis) sums[3 * pair.b + static_cast<std::size_t>(axis)].add(-on_cell[static_cast<std::size_t>(axis)]);
+    for (std::size_t axis = 0; axis < 3; ++axis) sums[3 * pair.b + axis].add(pair.push[axis]);
   }
   std::vector<double> totals(sums.size());
   comm_.sum(sums, totals);
@@ -317,10 +350,9 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
 
 std::size_t Mechanics::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return contacts_.memory() + shells_.memory() + spheres_.memory() + bytes(force_) + bytes(residual_) + bytes(displacement_) +
-         bytes(friction_) + bytes(right_) + bytes(solution_) + bytes(gradient_.node_normal) + bytes(gradient_.face_energy) +
-         bytes(gradient_.face_normal) + bytes(gradient_.force) + bytes(geometry_.face_area) + bytes(geometry_.face_normal) +
-         bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) + bytes(scene_.position()) +
+  return contacts_.memory() + shells_.memory() + spheres_.memory() + system_.memory() + scene_.memory() + bytes(force_) +
+         bytes(displacement_) + bytes(solution_) + gradient_.memory() + surfaces_only_.memory() + bytes(geometry_.face_area) +
+         bytes(geometry_.face_normal) + bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) +
          bytes(scene_start_);
 }
 

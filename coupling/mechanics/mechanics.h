@@ -68,7 +68,9 @@ class Mechanics {
   Status relax(Tissue& tissue, std::span<const char> moves);
 
   /// Volumes, areas, pressures and contact areas at the tissue's present positions. Collective.
-  const BodyValues& values(const Tissue& tissue);
+  BodyValues values(const Tissue& tissue);
+  /// The pressures alone.
+  std::vector<double> pressures(const Tissue& tissue);
 
   /// Force of all cells on each obstacle, friction left out [nN]. Spheres do not touch obstacles. Collective; the same on every rank.
   std::vector<Vec3d> obstacle_forces(const Tissue& tissue);
@@ -98,7 +100,8 @@ class Mechanics {
   void begin_step(const Tissue& tissue, double dt);
   void hold_all_but(std::span<const char> moves);
   void lay_out_system();
-  [[nodiscard]] double friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt);
+  /// `moved`: false at the step's start, where spheres have not rubbed yet.
+  [[nodiscard]] double friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt, bool moved = true);
   [[nodiscard]] std::optional<StepFault> find_fault() const;
   Result<StepReport, StepFault> implicit_step(Tissue& tissue, double dt, std::span<const Vec3d> external);
   Result<StepReport, StepFault> explicit_step(Tissue& tissue, double dt, std::span<const Vec3d> external);
@@ -114,6 +117,7 @@ class Mechanics {
         for (std::uint32_t i = bodies[b].first_point; i < bodies[b].first_point + bodies[b].point_count; ++i) function(i);
   }
   [[nodiscard]] double largest(std::span<const Vec3d> by_point) const;
+  [[nodiscard]] double furthest(std::span<const Vec3d> start) const;  ///< largest way from there [µm]
   [[nodiscard]] double dot(std::span<const Vec3d> a, std::span<const Vec3d> b) const;
 
   const Model& model_;
@@ -124,6 +128,8 @@ class Mechanics {
 
   Scene scene_;
   bool scene_valid_ = false;
+  bool renew_soon_ = false;         ///< the next evaluation for new parameters is a good time to renew ghosts and pairs
+  double wear_ = 0.0;               ///< of the list of pairs, at the end of the last step
   bool evaluated_ = false;          ///< energy and forces belong to the scene's positions and the tissue's parameters
   double relax_cap_ = 0.0;          ///< δ while cells relax in place; 0: that of the study
   bool relaxing_ = false;           ///< obstacles and flags stand still
@@ -132,20 +138,19 @@ class Mechanics {
   bool contacts_current_ = false;   ///< geometry and surface contacts belong to the scene's positions
   std::vector<Vec3d> scene_start_;  ///< owned positions when the ghosts were found
   ContactLayer contacts_;
-  ContactGradient gradient_;
+  ContactGradient gradient_;       ///< of all contacts of surfaces
+  ContactGradient surfaces_only_;  ///< without the pairs with a sphere; kept only where there are any
   SurfaceGeometry geometry_;
   ShellSystem shells_;
   SphereContacts spheres_;
   FrictionSystem system_;
-  BodyValues values_;
 
   double energy_ = 0.0;              ///< at the present positions, without external work
-  std::vector<Vec3d> force_;         ///< by point
-  std::vector<Vec3d> residual_;      ///< force + external − Γ_n d/Δt
-  std::vector<Vec3d> displacement_;  ///< d = x − x_n
-  std::vector<Vec3d> friction_;      ///< Γ_n d
+  std::vector<Vec3d> force_;         ///< by point; friction_residual() makes the residual of it: force + external − Γ_n d/Δt
+  bool spent_ = false;               ///< force_ holds a residual: evaluate() before the next step
+  std::vector<Vec3d> displacement_;  ///< d = x − x_n, of what touches surfaces
   double friction_energy_ = 0.0;     ///< dᵀΓ_n d
-  std::vector<Float4> right_, solution_;
+  std::vector<Float4> solution_;
 };
 
 }  // namespace morula

@@ -33,6 +33,8 @@ std::vector<std::byte> pack(const std::vector<T>& items) {
   return out;
 }
 
+Scene::Birth birth_of(const CellRow& row) { return {std::cbrt(3.0 * row.birth_volume / (4.0 * std::numbers::pi)), row.birth_time}; }
+
 bool overlaps_any_image(const Box& a, const Box& b, const Space& space) {
   if (!space.any_periodic()) return a.overlaps(b);
   const Vec3d size = space.box.size();
@@ -55,12 +57,8 @@ void Scene::add_owned(const Tissue& tissue) {
   owned_shells_ = shells.size();
   owned_spheres_ = tissue.spheres.size();
   std::vector<ContactBody> spheres;
-  std::vector<Birth> sphere_birth;
-  birth_.clear();
   for (const CellRow& row : tissue.cells.rows) {
     ContactBody body;
-    (row.body == BodyKind::kShell ? birth_ : sphere_birth)
-        .push_back({std::cbrt(3.0 * row.birth_volume / (4.0 * std::numbers::pi)), row.birth_time});
     body.id = row.id;
     body.material = row.type;
     if (row.body == BodyKind::kShell) {
@@ -73,13 +71,21 @@ void Scene::add_owned(const Tissue& tissue) {
     }
   }
   bodies_.insert(bodies_.end(), spheres.begin(), spheres.end());
-  birth_.insert(birth_.end(), sphere_birth.begin(), sphere_birth.end());
+}
+
+std::vector<Scene::Birth> Scene::sphere_births(const Tissue& tissue) const {
+  std::vector<Birth> out;
+  for (const CellRow& row : tissue.cells.rows)
+    if (row.body == BodyKind::kSphere) out.push_back(birth_of(row));
+  out.insert(out.end(), ghost_birth_.begin(), ghost_birth_.end());
+  return out;
 }
 
 void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, const Comm& comm) {
   const auto ranks = static_cast<std::size_t>(comm.size());
   send_bodies_.assign(ranks, {});
   receive_bodies_.assign(ranks, {});
+  ghost_birth_.clear();
   if (comm.size() == 1) return;
   std::vector<Box> box(bodies_.size());
   Box mine;
@@ -93,9 +99,14 @@ void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, 
   }
   const auto all = unpack<Box>(comm.gather_to_all(pack(std::vector<Box>{mine})));
   std::vector<std::uint64_t> order(bodies_.size());
+  std::vector<std::uint32_t> row_of(bodies_.size());
   {
     std::size_t shell = 0, sphere = owned_shells_;
-    for (const CellRow& row : tissue.cells.rows) order[row.body == BodyKind::kShell ? shell++ : sphere++] = row.order;
+    for (std::uint32_t k = 0; k < tissue.cells.size(); ++k) {
+      const std::size_t body = tissue.cells.rows[k].body == BodyKind::kShell ? shell++ : sphere++;
+      order[body] = tissue.cells.rows[k].order;
+      row_of[body] = k;
+    }
   }
   std::vector<std::vector<std::byte>> outgoing(ranks);
   for (std::size_t r = 0; r < ranks; ++r) {
@@ -104,11 +115,12 @@ void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, 
     for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
       if (!overlaps_any_image(box[i], all[r], space)) continue;
       send_bodies_[r].push_back(i);
+      const Birth birth = birth_of(tissue.cells.rows[row_of[i]]);
       headers.push_back({bodies_[i].id,
                          order[i],
                          bodies_[i].radius,
-                         birth_[i].radius,
-                         birth_[i].time,
+                         birth.radius,
+                         birth.time,
                          bodies_[i].point_count,
                          bodies_[i].material,
                          bodies_[i].shape,
@@ -140,16 +152,14 @@ void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, 
     return body;
   };
   std::vector<ContactBody> shells, spheres;
-  std::vector<Birth> shell_birth, sphere_birth;
   for (const Arrival& arrival : ghost_shells) {
     receive_bodies_[arrival.rank][arrival.at] = static_cast<std::uint32_t>(owned_shells_ + shells.size());
     shells.push_back(body_of(arrival.header));
-    shell_birth.push_back({arrival.header.birth_radius, arrival.header.birth_time});
   }
   for (const Arrival& arrival : ghost_spheres) {
     receive_bodies_[arrival.rank][arrival.at] = static_cast<std::uint32_t>(owned_shells_ + shells.size() + owned_spheres_ + spheres.size());
     spheres.push_back(body_of(arrival.header));
-    sphere_birth.push_back({arrival.header.birth_radius, arrival.header.birth_time});
+    ghost_birth_.push_back({arrival.header.birth_radius, arrival.header.birth_time});
   }
   for (auto& list : send_bodies_)
     for (std::uint32_t& body : list)
@@ -160,8 +170,6 @@ void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, 
   for (const Arrival& arrival : ghost_spheres) orders.push_back(arrival.header.order);
   bodies_.insert(bodies_.begin() + static_cast<std::ptrdiff_t>(owned_shells_), shells.begin(), shells.end());
   bodies_.insert(bodies_.end(), spheres.begin(), spheres.end());
-  birth_.insert(birth_.begin() + static_cast<std::ptrdiff_t>(owned_shells_), shell_birth.begin(), shell_birth.end());
-  birth_.insert(birth_.end(), sphere_birth.begin(), sphere_birth.end());
   place_bodies(orders);
 }
 
@@ -269,5 +277,14 @@ void Scene::exchange_points(std::span<T> by_point) const {
 
 void Scene::exchange(std::span<Vec3d> by_point) const { exchange_points(by_point); }
 void Scene::exchange(std::span<Float4> by_point) const { exchange_points(by_point); }
+
+std::size_t Scene::memory() const {
+  const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  std::size_t total = bytes(bodies_) + bytes(ghost_birth_) + bytes(shapes_) + bytes(topologies_) + bytes(first_node_) + bytes(first_face_) +
+                      bytes(position_);
+  for (const auto* lists : {&send_bodies_, &receive_bodies_})
+    for (const auto& list : *lists) total += bytes(list);
+  return total;
+}
 
 }  // namespace morula

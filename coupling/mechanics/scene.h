@@ -35,9 +35,12 @@ class Scene {
   [[nodiscard]] std::span<const std::uint32_t> first_node() const { return first_node_; }
   [[nodiscard]] std::span<const std::uint32_t> first_face() const { return first_face_; }
 
-  /// Radius at birth and time of birth by body, ghosts too: sisters push each other apart slowly.
-  [[nodiscard]] double birth_radius(std::size_t body) const { return birth_[body].radius; }
-  [[nodiscard]] double birth_time(std::size_t body) const { return birth_[body].time; }
+  struct Birth {
+    double radius = 0.0;  ///< [µm]
+    double time = 0.0;    ///< [s]
+  };
+  /// Births of the spheres, ghosts too: sisters push each other apart slowly.
+  [[nodiscard]] std::vector<Birth> sphere_births(const Tissue& tissue) const;
 
   std::vector<Vec3d>& position() { return position_; }
   [[nodiscard]] const std::vector<Vec3d>& position() const { return position_; }
@@ -55,11 +58,10 @@ class Scene {
   void take_radii(const Tissue& tissue);
   void give_positions(Tissue& tissue) const;
 
+  /// Bytes of this workspace.
+  [[nodiscard]] std::size_t memory() const;
+
  private:
-  struct Birth {
-    double radius = 0.0;  ///< [µm]
-    double time = 0.0;    ///< [s]
-  };
   void add_owned(const Tissue& tissue);
   void find_ghosts(const Tissue& tissue, const Space& space, double reach, const Comm& comm);
   void place_bodies(std::span<const std::uint64_t> order);
@@ -68,7 +70,7 @@ class Scene {
 
   const Comm* comm_ = nullptr;
   std::vector<ContactBody> bodies_;
-  std::vector<Birth> birth_;
+  std::vector<Birth> ghost_birth_;  ///< of ghost spheres
   std::size_t owned_shells_ = 0, shells_ = 0, owned_spheres_ = 0, face_count_ = 0;
   std::uint32_t owned_nodes_ = 0, shell_nodes_ = 0;
   std::vector<std::shared_ptr<const ReferenceShape>> shapes_;

@@ -29,15 +29,15 @@ void ShellSystem::assemble(const dcm::Shells& shells, std::span<const Vec3d> pos
                                face_contact_energy.first(blocks_.face_count()), dt, operator_);
 }
 
-void ShellSystem::add_step_friction(std::span<const Vec3d> displacement, std::span<Vec3d> out, OrderFreeSum& quadratic) {
+void ShellSystem::set_step_friction(std::span<const Vec3d> displacement, std::span<Vec3d> out, OrderFreeSum& quadratic) {
   if (shells_ == nullptr || shells_->size() == 0) return;
   const std::size_t nodes = shells_->node_count();
-  friction_force_.resize(nodes);
   friction_quadratic_.resize(shells_->size());
-  dcm::friction_times_displacement(blocks_, *shells_, friction_, displacement.first(nodes), friction_force_, friction_quadratic_);
-  for (std::size_t i = 0; i < nodes; ++i) out[i] += friction_force_[i];
+  dcm::friction_times_displacement(blocks_, *shells_, friction_, displacement.first(nodes), out.first(nodes), friction_quadratic_);
   for (const double q : friction_quadratic_) quadratic.add(q);
 }
+
+void ShellSystem::add_edge_blocks(const EdgeBlockSource& source) { dcm::add_edge_blocks(blocks_, source, operator_); }
 
 void ShellSystem::multiply(std::span<const Float4> p, std::span<Float4> q) const {
   dcm::apply_shell_operator(blocks_, *shells_, operator_, p.first(point_count()), q.first(point_count()));
@@ -48,7 +48,7 @@ void ShellSystem::add_diagonal(std::span<SymMat3<float>> diagonal) const {
 }
 
 std::size_t ShellSystem::memory() const {
-  std::size_t total = forces_.force.capacity() * sizeof(Vec3d) + friction_force_.capacity() * sizeof(Vec3d);
+  std::size_t total = forces_.force.capacity() * sizeof(Vec3d);
   for (const auto& block : operator_.blocks)
     total += (block.edge.capacity() + block.diagonal.capacity() + block.volume_gradient.capacity() + block.shape.capacity() +
               block.barrier.capacity() + block.membrane.capacity() + block.area_gradient.capacity() + block.bulk_gradient.capacity() +

@@ -22,14 +22,15 @@ class ShellSystem : public OperatorPart {
   void evaluate(const dcm::Shells& shells, std::span<const Vec3d> position);
   void begin_step(const dcm::Shells& shells, std::span<const Vec3d> position, const SurfaceGeometry& geometry);
   void assemble(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<const double> face_contact_energy, double dt);
-  /// Add Γ_n d to `out` and dᵀΓ_n d to the sum.
-  void add_step_friction(std::span<const Vec3d> displacement, std::span<Vec3d> out, OrderFreeSum& quadratic);
+  /// Γ_n d of the shells' nodes into `out`, and dᵀΓ_n d added to the sum.
+  void set_step_friction(std::span<const Vec3d> displacement, std::span<Vec3d> out, OrderFreeSum& quadratic);
 
   [[nodiscard]] const dcm::ShellMechanics& forces() const { return forces_; }
   [[nodiscard]] std::span<const dcm::ShellParameters> parameters() const { return parameters_; }
   [[nodiscard]] std::size_t memory() const;
 
   [[nodiscard]] std::size_t point_count() const override { return shells_ == nullptr ? 0 : shells_->node_count(); }
+  void add_edge_blocks(const EdgeBlockSource& source) override;
   void multiply(std::span<const Float4> p, std::span<Float4> q) const override;
   void add_diagonal(std::span<SymMat3<float>> diagonal) const override;
 
@@ -40,7 +41,6 @@ class ShellSystem : public OperatorPart {
   dcm::ShellMechanics forces_;
   dcm::ShellFriction friction_;
   dcm::ShellOperator operator_;
-  std::vector<Vec3d> friction_force_;
   std::vector<double> friction_quadratic_;
 };
 

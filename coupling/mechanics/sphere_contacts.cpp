@@ -5,259 +5,285 @@
 #include <numbers>
 
 #include "cbm/division_ramp.h"
-#include "cbm/laws/jkr.h"
-#include "cbm/pair_forces.h"
 #include "core/mesh/pseudonormal.h"
 
 namespace morula {
+namespace {
 
-SphereContacts::SphereContacts(const Model& model) : model_(model) {
-  const std::size_t types = model.types.size(), materials = model.material_count() + 1;  // the last one: walls
-  materials_.resize(types * materials);
-  for (std::size_t a = 0; a < types; ++a) {
-    const auto& s = model.types[a].sphere;
-    for (std::size_t b = 0; b < materials; ++b) {
-      const bool adhesive = s.adhesive && b < model.material_count() && (b >= types || model.types[b].sphere.adhesive);
-      const double adhesion = adhesive ? model.pair(a, b).adhesion : 0.0;
-      materials_[a * materials + b] = b < types ? cbm::ContactMaterial::elastic(s.young, s.poisson, model.types[b].sphere.young,
-                                                                                model.types[b].sphere.poisson, adhesion)
-                                                : cbm::ContactMaterial::against_rigid(s.young, s.poisson, adhesion);
+/// Materials as the law sees them: types, obstacles, and one more for walls, which neither adhere nor rub.
+cbm::ContactTable contact_table(const Model& model) {
+  std::vector<cbm::SphereParameters> types;
+  std::vector<cbm::SurfacePair> surfaces;
+  for (std::size_t a = 0; a < model.types.size(); ++a) {
+    types.push_back(model.types[a].sphere);
+    for (std::size_t b = 0; b < model.material_count(); ++b)
+      surfaces.push_back({model.pair(a, b).adhesion, model.pair(a, b).normal_friction, model.pair(a, b).tangential_friction});
+    surfaces.push_back({});
+  }
+  return {types, surfaces};
+}
+
+}  // namespace
+
+SphereContacts::SphereContacts(const Model& model, int threads)
+    : model_(model), threads_(std::max(1, threads)), table_(contact_table(model)) {
+  std::vector<PairFriction> friction;
+  for (std::size_t a = 0; a < table_.type_count(); ++a)
+    for (std::size_t b = 0; b < table_.type_count(); ++b) {
+      const auto& entry = table_.entry(a, b);
+      friction.push_back(
+          {static_cast<float>(entry.tangential_friction), static_cast<float>(entry.normal_friction - entry.tangential_friction)});
     }
+  list_.set_friction(std::move(friction), table_.type_count());
+}
+
+void SphereContacts::update_sisters(const Scene& scene, double now) {
+  const auto spheres = scene.bodies().subspan(scene.first_sphere());
+  for (Sisters& s : sisters_) {
+    const ContactBody &a = spheres[list_.pairs[s.pair].a], &b = spheres[list_.pairs[s.pair].b];
+    const auto law = cbm::make_pair_law(table_.entry(a.material, b.material).material, a.radius, b.radius);
+    s.offset = cbm::sister_overlap_offset(law, a.radius, b.radius, s.birth_radius_a, s.birth_radius_b, now - s.birth_time);
   }
 }
 
-void SphereContacts::set_pairs(const Scene& scene, const ContactLayer& contacts, const Tissue& tissue) {
-  pairs_.clear();
-  sisters_.clear();
-  const auto bodies = scene.bodies();
-  const std::size_t first = scene.first_sphere();
-  const auto is_attached = [&](std::uint32_t owned, CellId partner) {
-    const auto& list = tissue.spheres.attached[owned - first];
-    return std::binary_search(list.begin(), list.end(), partner);
+template <class Wanted, class Sink, class FarAway>
+void SphereContacts::visit(const SpherePairs::Share& share, const Scene& scene, const ContactLayer& contacts, Wanted&& wanted, Sink&& sink,
+                           FarAway&& far_away) const {
+  const Vec3d* x = scene.position().data() + scene.sphere_point();
+  const ContactBody* body = scene.bodies().data() + scene.first_sphere();
+  const bool periodic = model_.space.any_periodic();
+  const double reach = contacts.settings().sphere_reach + 1e-6;
+  cbm::PairBlock block;
+  std::uint32_t number[cbm::PairBlock::kWidth];
+  int filled = 0;
+  const auto flush = [&] {
+    if (filled == 0) return;
+    cbm::evaluate(block, filled);
+    for (int lane = 0; lane < filled; ++lane) sink(number[lane], block, lane);
+    filled = 0;
   };
-  for (const SphereNeighbours& n : contacts.sphere_neighbours()) {
-    Pair pair{n.a, n.b, n.shift, {}, 0.0, false, false};
-    pair.attached = bodies[n.a].owned ? is_attached(n.a, bodies[n.b].id) : is_attached(n.b, bodies[n.a].id);
-    if (cbm::are_sisters(bodies[n.a].id, bodies[n.b].id)) sisters_.push_back(static_cast<std::uint32_t>(pairs_.size()));
-    pairs_.push_back(pair);
-  }
-  const auto obstacles = contacts.obstacles();
-  for (std::uint32_t i = static_cast<std::uint32_t>(first); i < first + scene.owned_spheres(); ++i)
-    for (std::uint32_t o = 0; o < obstacles.size(); ++o) {
-      const double reach = bodies[i].radius + contacts.settings().sphere_reach + contacts.settings().body_skin;
-      Box box;
-      box.include(scene.position()[bodies[i].first_point] - contacts.obstacle_offset(o));
-      if (obstacles[o].tree->faces_in(box.inflated(reach)).empty()) continue;
-      Pair pair{i, o, {}, {}, 0.0, false, true};
-      // An obstacle is a partner too: its number stands where a cell's id would, with no founder path.
-      pair.attached = is_attached(i, CellId(o + 1));
-      pairs_.push_back(pair);
+  for (const SpherePairs::Run& run : share.runs) {
+    auto sisters =
+        std::lower_bound(sisters_.begin(), sisters_.end(), run.first, [](const Sisters& s, std::uint32_t k) { return s.pair < k; });
+    for (std::uint32_t k = run.first; k < run.last; ++k) {
+      const SpherePair pair = list_.pairs[k];
+      double offset = 0.0;
+      if (sisters != sisters_.end() && sisters->pair == k) offset = (sisters++)->offset;
+      if (!wanted(pair)) continue;
+      const ContactBody &a = body[pair.a], &b = body[pair.b];
+      Vec3d between = x[pair.b] - x[pair.a];
+      if (periodic) between = model_.space.nearest_image(between);
+      const double far = a.radius + b.radius + (pair.attached ? reach : 1e-6);
+      if (norm2(between) < far * far) {
+        number[filled] = k;
+        block.set(filled++, between, a.radius, b.radius, table_.entry(a.material, b.material).material, pair.attached, offset);
+        if (filled == cbm::PairBlock::kWidth) flush();
+      } else {  // most of what the skin adds
+        far_away(k);
+      }
     }
-  update_laws(scene, tissue);
-
-  incident_begin_.assign(bodies.size() - first + 1, 0);
-  for (const Pair& pair : pairs_) {
-    ++incident_begin_[pair.a - first + 1];
-    if (!pair.rigid) ++incident_begin_[pair.b - first + 1];
   }
-  for (std::size_t i = 1; i < incident_begin_.size(); ++i) incident_begin_[i] += incident_begin_[i - 1];
-  incident_.resize(incident_begin_.back());
-  std::vector<std::uint32_t> next(incident_begin_.begin(), incident_begin_.end() - 1);
-  for (std::uint32_t k = 0; k < pairs_.size(); ++k) {
-    incident_[next[pairs_[k].a - first]++] = 2 * k;
-    if (!pairs_[k].rigid) incident_[next[pairs_[k].b - first]++] = 2 * k + 1;
+  flush();
+}
+
+void SphereContacts::set_element(SpherePairElement& element, const cbm::PairBlock& block, int lane) const {
+  element.stiffness = static_cast<float>(block.stiffness[lane]);
+  if (in_step_ && element.area != 0.0f) return;  // the friction of the step's start goes on
+  for (int axis = 0; axis < 3; ++axis) element.n[axis] = static_cast<float>(block.normal[axis][lane]);
+  element.area = in_step_ ? 0.0f : static_cast<float>(block.area[lane]);
+}
+
+void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts, std::span<Vec3d> force) {
+  const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
+  Vec3d* to = force.data() + scene.sphere_point();
+  virial_.assign(owned, 0.0);
+  const auto shares = list_.shares();
+  std::vector<OrderFreeSum> energy(std::max<std::size_t>(1, shares.size()));
+  flips_.resize(shares.size());
+#pragma omp parallel for schedule(static, 1) num_threads(threads_)
+  for (std::size_t t = 0; t < shares.size(); ++t) {
+    const SpherePairs::Share& share = shares[t];
+    const auto writes = [&](const SpherePair& pair) { return pair.a < owned ? share.has(pair.a) : share.has(pair.b); };  // one thread only
+    flips_[t].clear();
+    std::uint32_t sphere = 0;
+    double of_sphere = 0.0;  // pairs that come first under one sphere: their order is canonical, so they may be added up in double
+    visit(
+        share, scene, contacts, [](const SpherePair&) { return true; },
+        [&](std::uint32_t k, const cbm::PairBlock& block, int lane) {
+          const SpherePair pair = list_.pairs[k];
+          const bool has_a = share.has(pair.a), has_b = share.has(pair.b);
+          const Vec3d f = Vec3d{block.normal[0][lane], block.normal[1][lane], block.normal[2][lane]} * block.force[lane];
+          const double virial = block.distance[lane] * block.force[lane];
+          if (has_a) {
+            to[pair.a] -= f;
+            virial_[pair.a] += virial;
+            if (pair.a != sphere) {
+              energy[t].add(of_sphere);
+              of_sphere = 0.0;
+              sphere = pair.a;
+            }
+            of_sphere += block.energy[lane];
+          }
+          if (has_b) {
+            to[pair.b] += f;
+            virial_[pair.b] += virial;
+          }
+          if (writes(pair)) {
+            if (block.attached_next[lane] != (pair.attached != 0)) flips_[t].push_back(k);
+            set_element(list_.elements[k], block, lane);
+          }
+        },
+        [&](std::uint32_t k) {
+          const SpherePair pair = list_.pairs[k];
+          if (!writes(pair)) return;
+          if (pair.attached) flips_[t].push_back(k);
+          list_.elements[k].stiffness = 0.0f;
+          if (!in_step_) list_.elements[k].area = 0.0f;
+        });
+    energy[t].add(of_sphere);
+  }
+  for (std::size_t t = 1; t < energy.size(); ++t) energy[0] += energy[t];
+
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (std::size_t k = 0; k < rigid_.size(); ++k) evaluate_rigid(scene, contacts, k);
+  for (const RigidPair& pair : rigid_) {
+    to[pair.sphere] -= pair.normal * pair.force;
+    virial_[pair.sphere] += pair.distance * pair.force;
+    energy[0].add(pair.energy);
+  }
+  energy_ = energy[0];
+}
+
+void SphereContacts::evaluate_rigid(const Scene& scene, const ContactLayer& contacts, std::size_t k) {
+  RigidPair& pair = rigid_[k];
+  RigidPairElement& element = list_.rigid[k];
+  const ContactBody& body = scene.bodies()[scene.first_sphere() + pair.sphere];
+  const bool rubs = in_step_ && (element.isotropic != 0.0f || element.axial != 0.0f);
+  element.stiffness = 0.0f;
+  if (!rubs) element.isotropic = element.axial = 0.0f;
+  pair.force = pair.energy = pair.area = pair.distance = 0.0;
+  pair.attached_next = false;
+  const auto& obstacle = contacts.obstacles()[pair.obstacle];
+  const double reach = body.radius + contacts.settings().sphere_reach + contacts.settings().body_skin;
+  const Vec3d center = scene.position()[body.first_point], from = center - contacts.obstacle_offset(pair.obstacle);
+  const auto near = obstacle.tree->nearest(from, reach);
+  if (!near) return;
+  const double side = signed_distance(*obstacle.topology, obstacle.position, from, near->face, near->closest) < 0.0 ? -1.0 : 1.0;
+  const Vec3d between = near->closest.point + contacts.obstacle_offset(pair.obstacle) - center;
+  const double distance = norm(between);
+  pair.normal = distance > cbm::kCoincident ? between * (side / distance) : -obstacle.geometry.face_normal[near->face];
+  pair.distance = side * distance;
+  const double overlap = body.radius - pair.distance;
+  const std::size_t material = std::min<std::size_t>(model_.types.size() + pair.obstacle, table_.material_count() - 1);
+  const auto& entry = table_.entry(body.material, material);
+  const auto law = cbm::make_pair_law(entry.material, body.radius);
+  const auto response = cbm::contact_response(law, overlap, pair.attached);
+  pair.force = response.force;
+  pair.energy = response.energy;
+  pair.area = response.area;
+  pair.attached_next = cbm::update_attached(overlap, pair.attached, law);
+  element.stiffness = static_cast<float>(response.stiffness);
+  if (rubs) return;
+  element.n[0] = static_cast<float>(pair.normal.x);
+  element.n[1] = static_cast<float>(pair.normal.y);
+  element.n[2] = static_cast<float>(pair.normal.z);
+  if (in_step_) return;
+  element.isotropic = static_cast<float>(response.area * entry.tangential_friction);
+  element.axial = static_cast<float>(response.area * (entry.normal_friction - entry.tangential_friction));
+}
+
+void SphereContacts::refresh_values(const Scene& scene, const ContactLayer& contacts, const std::vector<char>& marked) {
+  for (std::size_t i = 0; i < scene.owned_spheres(); ++i)
+    if (marked[i]) virial_[i] = 0.0;
+  const auto shares = list_.shares();
+#pragma omp parallel for schedule(static, 1) num_threads(threads_)
+  for (std::size_t t = 0; t < shares.size(); ++t) {
+    const SpherePairs::Share& share = shares[t];
+    visit(
+        share, scene, contacts, [&](const SpherePair& pair) { return marked[pair.a] || marked[pair.b]; },
+        [&](std::uint32_t k, const cbm::PairBlock& block, int lane) {
+          const SpherePair pair = list_.pairs[k];
+          for (const std::uint32_t i : {pair.a, std::uint32_t{pair.b}}) {
+            if (!marked[i] || !share.has(i)) continue;
+            virial_[i] += block.distance[lane] * block.force[lane];
+          }
+        },
+        [](std::uint32_t) {});
+  }
+  for (std::size_t k = 0; k < rigid_.size(); ++k) {
+    const RigidPair& pair = rigid_[k];
+    if (!marked[pair.sphere]) continue;
+    evaluate_rigid(scene, contacts, k);
+    virial_[pair.sphere] += pair.distance * pair.force;
   }
 }
 
-void SphereContacts::update_law(const Scene& scene, double now, Pair& pair) const {
-  const auto bodies = scene.bodies();
-  const std::size_t materials = model_.material_count() + 1;
-  const ContactBody& a = bodies[pair.a];
-  pair.overlap_offset = 0.0;
-  if (pair.rigid) {
-    const std::size_t material = std::min<std::size_t>(model_.types.size() + pair.b, materials - 1);
-    pair.law = cbm::make_pair_law(materials_[a.material * materials + material], a.radius);
-    return;
-  }
-  const ContactBody& b = bodies[pair.b];
-  pair.law = cbm::make_pair_law(materials_[a.material * materials + b.material], a.radius, b.radius);
-  if (!cbm::are_sisters(a.id, b.id)) return;
-  pair.overlap_offset = cbm::sister_overlap_offset(pair.law, a.radius, b.radius, scene.birth_radius(pair.a), scene.birth_radius(pair.b),
-                                                   now - scene.birth_time(pair.a));
-}
-
-void SphereContacts::update_laws(const Scene& scene, const Tissue& tissue) {
-#pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < pairs_.size(); ++k) update_law(scene, tissue.clock.time, pairs_[k]);
-}
-
-bool SphereContacts::renew_sisters(const Scene& scene, const ContactLayer& contacts, const Tissue& tissue) {
-  for (const std::uint32_t k : sisters_) {
-    update_law(scene, tissue.clock.time, pairs_[k]);
-    evaluate_pair(scene, contacts, k);
-  }
-  return !sisters_.empty();
-}
-
-void SphereContacts::make_element(const Pair& pair, const ContactBody& a, const ContactBody* b, const Response& response, double area,
-                                  double stiffness, SpherePairElement& element) const {
-  double normal_friction = 0.0, tangential_friction = 0.0;
-  const std::size_t other = b != nullptr ? b->material : model_.types.size() + pair.b;
-  if (other < model_.material_count()) {
-    normal_friction = model_.pair(a.material, other).normal_friction;
-    tangential_friction = model_.pair(a.material, other).tangential_friction;
-  }
-  element = {a.first_point,
-             b != nullptr ? b->first_point : kRigidPoint,
-             pair.a,
-             b != nullptr ? pair.b : pair.a,
-             {static_cast<float>(response.normal.x), static_cast<float>(response.normal.y), static_cast<float>(response.normal.z)},
-             static_cast<float>(area * tangential_friction),
-             static_cast<float>(area * (normal_friction - tangential_friction)),
-             static_cast<float>(stiffness)};
-}
-
-void SphereContacts::evaluate_pair(const Scene& scene, const ContactLayer& contacts, std::size_t k) {
-  const auto bodies = scene.bodies();
-  const auto& x = scene.position();
-  const Pair& pair = pairs_[k];
-  const ContactBody& a = bodies[pair.a];
-  Response& response = responses_[k];
-  response = {};
-  const ContactBody* b = pair.rigid ? nullptr : &bodies[pair.b];
-  if (b != nullptr) {
-    const Vec3d between = x[b->first_point] + pair.shift - x[a.first_point];
-    response.distance = norm(between);
-    response.normal = response.distance > 1e-9 ? between * (1.0 / response.distance) : Vec3d{0, 0, 1};
-    response.overlap = a.radius + b->radius - response.distance - pair.overlap_offset;
-  } else {
-    const auto& obstacle = contacts.obstacles()[pair.b];
-    const double reach = a.radius + contacts.settings().sphere_reach + contacts.settings().body_skin;
-    const auto near = obstacle.tree->nearest(x[a.first_point] - contacts.obstacle_offset(pair.b), reach);
-    if (!near) {
-      elements_[k] = {a.first_point, kRigidPoint, pair.a, pair.a, {0, 0, 1}, 0, 0, 0};
-      response.overlap = -1e300;
-      return;
+bool SphereContacts::update_attached(const Scene& scene, const ContactLayer& contacts, Tissue& tissue) {
+  std::vector<char> marked;
+  const auto mark = [&](std::uint32_t i) {
+    if (marked.empty()) marked.assign(scene.bodies().size() - scene.first_sphere(), 0);
+    marked[i] = 1;
+  };
+  for (auto& flips : flips_) {
+    for (const std::uint32_t k : flips) {
+      SpherePair& pair = list_.pairs[k];
+      pair.attached = !pair.attached;
+      mark(pair.a);
+      mark(pair.b);
     }
-    const Vec3d from = x[a.first_point] - contacts.obstacle_offset(pair.b);
-    const double side = signed_distance(*obstacle.topology, obstacle.position, from, near->face, near->closest) < 0.0 ? -1.0 : 1.0;
-    const Vec3d between = near->closest.point + contacts.obstacle_offset(pair.b) - x[a.first_point];
-    const double distance = norm(between);
-    response.distance = side * distance;
-    response.normal = distance > 1e-9 ? between * (side / distance) : -obstacle.geometry.face_normal[near->face];
-    response.overlap = a.radius - response.distance;
+    flips.clear();
   }
-  if (response.overlap < (pair.attached ? cbm::kBreakOverlap * pair.law.length : 0.0)) {  // out of reach: most of what the skin adds
-    elements_[k] = {a.first_point, b != nullptr ? b->first_point : kRigidPoint, pair.a, b != nullptr ? pair.b : pair.a, {0, 0, 1}, 0, 0, 0};
-    return;
+  for (RigidPair& pair : rigid_) {
+    if (pair.attached == pair.attached_next) continue;
+    pair.attached = pair.attached_next;
+    mark(pair.sphere);
   }
-  const auto law = cbm::contact_response(pair.law, response.overlap, pair.attached);
-  response.force = law.force;
-  response.energy = law.energy;
-  response.area = law.area;
-  make_element(pair, a, b, response, law.area, law.stiffness, elements_[k]);
-}
-
-void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts) {
-  responses_.resize(pairs_.size());
-  elements_.resize(pairs_.size());
-#pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < pairs_.size(); ++k) evaluate_pair(scene, contacts, k);
-}
-
-void SphereContacts::add_energy(const Scene& scene, OrderFreeSum& sum) const {
-  for (std::size_t k = 0; k < pairs_.size(); ++k)
-    if (responses_[k].energy != 0.0 && scene.bodies()[pairs_[k].a].owned) sum.add(responses_[k].energy);
-}
-
-void SphereContacts::collect(const Scene& scene, std::span<Vec3d> force) const {
-  const std::size_t first = scene.first_sphere();
-#pragma omp parallel for schedule(static)
-  for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
-    Vec3d sum;
-    for (std::uint32_t k = incident_begin_[i]; k < incident_begin_[i + 1]; ++k) {
-      const Response& response = responses_[incident_[k] / 2];
-      sum += response.normal * (incident_[k] % 2 == 0 ? -response.force : response.force);
-    }
-    force[scene.bodies()[first + i].first_point] += sum;
-  }
-}
-
-void SphereContacts::add_step_friction(const Scene& scene, std::span<const Vec3d> displacement, std::span<Vec3d> out,
-                                       OrderFreeSum& quadratic) const {
-  for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
-    const std::uint32_t point = scene.sphere_point() + static_cast<std::uint32_t>(i);
-    const double gamma = medium_friction_[point];
-    out[point] += displacement[point] * gamma;
-    quadratic.add(gamma * norm2(displacement[point]));
-  }
-  for (const SpherePairElement& e : step_elements_) {
-    if (e.a == 0.0f && e.b == 0.0f) continue;
-    const bool rigid = e.j == kRigidPoint;
-    const Vec3d u = rigid ? displacement[e.i] : displacement[e.i] - displacement[e.j];
-    const Vec3d n{e.n[0], e.n[1], e.n[2]};
-    const Vec3d f = u * static_cast<double>(e.a) + n * (static_cast<double>(e.b) * dot(n, u));
-    if (scene.bodies()[e.body_i].owned) {
-      out[e.i] += f;
-      quadratic.add(dot(f, u));
-    }
-    if (!rigid && scene.bodies()[e.body_j].owned) out[e.j] -= f;
-  }
-}
-
-bool SphereContacts::update_attached(const Scene& scene, Tissue& tissue) {
-  const auto bodies = scene.bodies();
-  bool changed = false;
-  for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    Pair& pair = pairs_[k];
-    const bool attached = cbm::update_attached(responses_[k].overlap, pair.attached, pair.law);
-    if (attached == pair.attached) continue;
-    pair.attached = attached;
-    const auto law = cbm::contact_response(pair.law, responses_[k].overlap, attached);
-    responses_[k].force = law.force;
-    responses_[k].energy = law.energy;
-    responses_[k].area = law.area;
-    changed = true;
-  }
-#pragma omp parallel for schedule(static)
-  for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
-    auto& list = tissue.spheres.attached[i];
-    std::size_t known = 0, attached = 0;
-    const auto partner = [&](std::uint32_t incidence) {
-      const Pair& pair = pairs_[incidence / 2];
-      return pair.rigid ? CellId(pair.b + 1) : bodies[incidence % 2 == 0 ? pair.b : pair.a].id;
-    };
-    for (std::uint32_t k = incident_begin_[i]; k < incident_begin_[i + 1]; ++k) {
-      if (!pairs_[incident_[k] / 2].attached) continue;
-      ++attached;
-      if (std::binary_search(list.begin(), list.end(), partner(incident_[k]))) ++known;
-    }
-    if (known == attached && attached == list.size()) continue;
-    list.clear();
-    for (std::uint32_t k = incident_begin_[i]; k < incident_begin_[i + 1]; ++k)
-      if (pairs_[incident_[k] / 2].attached) list.push_back(partner(incident_[k]));
-    std::sort(list.begin(), list.end());
-  }
+  const bool changed = !marked.empty();
+  if (changed) refresh_values(scene, contacts, marked);
+  if (partners_stale_) marked.assign(scene.bodies().size() - scene.first_sphere(), 1);
+  if (changed || partners_stale_) write_partners(scene, marked, tissue);
+  partners_stale_ = false;
   return changed;
 }
 
-void SphereContacts::add_values(const Scene& scene, const Tissue& tissue, std::span<double> pressure,
-                                std::span<double> contact_area) const {
-  for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
-    double virial = 0.0;
-    for (std::uint32_t k = incident_begin_[i]; k < incident_begin_[i + 1]; ++k) {
-      const Response& response = responses_[incident_[k] / 2];
-      virial += response.distance * response.force;
-      contact_area[i] += response.area;
-    }
-    const double r = tissue.spheres.radius[i];
-    pressure[i] = cbm::virial_pressure(virial, (4.0 / 3.0) * std::numbers::pi * r * r * r);
+bool SphereContacts::renew_sisters(const Scene& scene, const ContactLayer& contacts, double now) {
+  if (sisters_.empty()) return false;
+  const std::vector<Sisters> before = sisters_;
+  update_sisters(scene, now);
+  std::vector<char> marked;
+  for (std::size_t s = 0; s < sisters_.size(); ++s) {
+    if (sisters_[s].offset == before[s].offset) continue;
+    if (marked.empty()) marked.assign(scene.bodies().size() - scene.first_sphere(), 0);
+    marked[list_.pairs[sisters_[s].pair].a] = marked[list_.pairs[sisters_[s].pair].b] = 1;
   }
+  if (marked.empty()) return false;
+  refresh_values(scene, contacts, marked);
+  return true;
+}
+
+double SphereContacts::pressure(std::size_t i, double radius) const {
+  return cbm::virial_pressure(virial_[i], (4.0 / 3.0) * std::numbers::pi * radius * radius * radius);
+}
+
+std::vector<double> SphereContacts::contact_areas(const Scene& scene, const ContactLayer& contacts) const {
+  std::vector<double> area(scene.owned_spheres(), 0.0);
+  const auto shares = list_.shares();
+#pragma omp parallel for schedule(static, 1) num_threads(threads_)
+  for (std::size_t t = 0; t < shares.size(); ++t)
+    visit(
+        shares[t], scene, contacts, [](const SpherePair&) { return true; },
+        [&](std::uint32_t k, const cbm::PairBlock& block, int lane) {
+          for (const std::uint32_t i : {list_.pairs[k].a, std::uint32_t{list_.pairs[k].b}})
+            if (shares[t].has(i)) area[i] += block.area[lane];
+        },
+        [](std::uint32_t) {});
+  for (const RigidPair& pair : rigid_) area[pair.sphere] += pair.area;
+  return area;
 }
 
 std::size_t SphereContacts::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return bytes(pairs_) + bytes(responses_) + bytes(elements_) + bytes(step_elements_) + bytes(incident_) + bytes(incident_begin_);
+  return list_.memory() + bytes(sisters_) + bytes(rigid_) + bytes(virial_);  // flips: a handful
 }
 
 }  // namespace morula

@@ -2,9 +2,9 @@
 #include <span>
 #include <vector>
 
-#include "cbm/laws/pair_law.h"
+#include "cbm/pair_forces.h"
 #include "core/contact/contact_layer.h"
-#include "core/friction/friction_system.h"
+#include "core/friction/sphere_pairs.h"
 #include "coupling/mechanics/scene.h"
 #include "coupling/model.h"
 #include "coupling/tissue.h"
@@ -13,63 +13,77 @@ namespace morula {
 
 /// Contacts of spheres with spheres and with obstacles: JKR or Hertz forces, friction by contact area, and who adheres to whom.
 ///
-/// Candidates come from the contact layer. Whether a pair is attached is state (cbm::Spheres::attached) and fixed within a step.
+/// Candidates come from the contact layer. Whether a pair is attached is state (cbm::Spheres::attached) and fixed within a step. Nothing is
+/// kept of a pair but what the solver needs of it: evaluating adds to sums by sphere at once.
 class SphereContacts {
  public:
-  explicit SphereContacts(const Model& model);
+  SphereContacts(const Model& model, int threads);
 
-  /// New candidates: after the contact layer has found its pairs again.
-  void set_pairs(const Scene& scene, const ContactLayer& contacts, const Tissue& tissue);
-  /// Radii or time have changed: laws and rest distances of young sisters anew.
-  void update_laws(const Scene& scene, const Tissue& tissue);
-  /// The time has moved on: rest distances and responses of sisters anew. Returns whether there are any.
-  bool renew_sisters(const Scene& scene, const ContactLayer& contacts, const Tissue& tissue);
-  /// Responses at the scene's positions.
-  void evaluate(const Scene& scene, const ContactLayer& contacts);
-  void add_energy(const Scene& scene, OrderFreeSum& sum) const;
-  /// Add forces on owned spheres, by point.
-  void collect(const Scene& scene, std::span<Vec3d> force) const;
+  /// New candidates: after the contact layer has found its pairs again. Takes the layer's list.
+  void set_pairs(const Scene& scene, ContactLayer& contacts, const Tissue& tissue);
+  /// Radii or time have changed: rest distances of young sisters anew.
+  void update_sisters(const Scene& scene, double now);
+  /// Forces on owned spheres at the scene's positions are added to `force` (by point); energy, pressures and the solver's elements follow.
+  void evaluate(const Scene& scene, const ContactLayer& contacts, std::span<Vec3d> force);
+  void add_energy(OrderFreeSum& sum) const { sum += energy_; }
 
-  /// Keep the present friction as that of the step, together with the medium's friction by point [nN·s/µm].
-  void begin_step(std::vector<float> medium_friction) {
-    step_elements_ = elements_;
-    medium_friction_ = std::move(medium_friction);
-  }
-  void add_step_friction(const Scene& scene, std::span<const Vec3d> displacement, std::span<Vec3d> out, OrderFreeSum& quadratic) const;
-  [[nodiscard]] std::span<const SpherePairElement> elements() const { return elements_; }
+  /// From here to end_step() the present friction is that of the step. Precondition: evaluated since the last end_step().
+  void begin_step() { in_step_ = true; }
+  void end_step() { in_step_ = false; }
+  /// The pairs' part of the friction system.
+  [[nodiscard]] const SpherePairs& pairs() const { return list_; }
 
-  /// Flags after the step, into the tissue; responses follow. Returns whether any flag of this rank has changed.
-  bool update_attached(const Scene& scene, Tissue& tissue);
-  /// Virial pressure p_i = Σ d_ij F_ij/(6 V_i) of each owned sphere (cbm.md §3) [kPa]; its contact area is added to `contact_area` [µm²].
-  void add_values(const Scene& scene, const Tissue& tissue, std::span<double> pressure, std::span<double> contact_area) const;
+  /// Flags after the step, into the tissue; pressures follow. Returns whether any flag of this rank has changed.
+  bool update_attached(const Scene& scene, const ContactLayer& contacts, Tissue& tissue);
+  /// The time has moved on: rest distances and pressures of young sisters anew. Returns whether any has changed.
+  bool renew_sisters(const Scene& scene, const ContactLayer& contacts, double now);
+  /// Virial pressure p_i = Σ d_ij F_ij/(6 V_i) of owned sphere i of this radius (cbm.md §3) [kPa].
+  [[nodiscard]] double pressure(std::size_t i, double radius) const;
+  /// Contact areas of owned spheres [µm²]; evaluates the pairs, for nobody needs them in a step.
+  [[nodiscard]] std::vector<double> contact_areas(const Scene& scene, const ContactLayer& contacts) const;
   [[nodiscard]] std::size_t memory() const;
 
  private:
-  struct Pair {
-    std::uint32_t a, b;  ///< bodies; b is the obstacle's number if rigid
-    Vec3d shift;
-    cbm::PairLaw<double> law;
-    double overlap_offset = 0;  ///< of young sisters: the law sees δ − offset
-    bool attached = false;
-    bool rigid = false;
+  /// Two daughters of one division; part of their overlap is forgiven for a while.
+  struct Sisters {
+    std::uint32_t pair;
+    double birth_radius_a, birth_radius_b, birth_time;
+    double offset = 0.0;  ///< the law sees δ − offset [µm]
   };
-  struct Response {
-    Vec3d normal;  ///< from a to b
-    double distance = 0.0, overlap = 0.0, force = 0.0, energy = 0.0, area = 0.0;
+  /// An owned sphere near an obstacle.
+  struct RigidPair {
+    std::uint32_t sphere, obstacle;
+    bool attached = false, attached_next = false;
+    Vec3d normal{};
+    double distance = 0.0, force = 0.0, energy = 0.0, area = 0.0;
   };
-  void update_law(const Scene& scene, double now, Pair& pair) const;
-  void evaluate_pair(const Scene& scene, const ContactLayer& contacts, std::size_t k);
-  void make_element(const Pair& pair, const ContactBody& a, const ContactBody* b, const Response& response, double area, double stiffness,
-                    SpherePairElement& element) const;
+
+  void find_sisters(const Scene& scene, const Tissue& tissue);
+  void find_rigid_pairs(const Scene& scene, const ContactLayer& contacts, const Tissue& tissue);
+  void keep_step_friction(const Scene& scene, std::vector<SpherePair> old_pairs, std::vector<SpherePairElement> old_elements);
+  /// Evaluates the pairs of a share that pass `wanted`: calls sink(number of the pair, block, lane) in their order for those within reach,
+  /// and far_away(number) for the others.
+  template <class Wanted, class Sink, class FarAway>
+  void visit(const SpherePairs::Share& share, const Scene& scene, const ContactLayer& contacts, Wanted&& wanted, Sink&& sink,
+             FarAway&& far_away) const;
+  void set_element(SpherePairElement& element, const cbm::PairBlock& block, int lane) const;
+  void evaluate_rigid(const Scene& scene, const ContactLayer& contacts, std::size_t k);
+  /// Pressures of the marked spheres anew, without touching forces.
+  void refresh_values(const Scene& scene, const ContactLayer& contacts, const std::vector<char>& marked);
+  void write_partners(const Scene& scene, const std::vector<char>& marked, Tissue& tissue) const;
+  [[nodiscard]] CellId partner_id(const Scene& scene, std::uint32_t sphere) const;
 
   const Model& model_;
-  std::vector<cbm::ContactMaterial> materials_;  ///< cell type × material
-  std::vector<Pair> pairs_;
-  std::vector<std::uint32_t> sisters_;  ///< pairs of sisters
-  std::vector<Response> responses_;
-  std::vector<SpherePairElement> elements_, step_elements_;
-  std::vector<float> medium_friction_;
-  std::vector<std::uint32_t> incident_begin_, incident_;  ///< by sphere body: pairs, and which side in the lowest bit
+  int threads_;
+  cbm::ContactTable table_;  ///< of all materials and walls
+  SpherePairs list_;
+  std::vector<Sisters> sisters_;  ///< by pair
+  std::vector<RigidPair> rigid_;  ///< by sphere
+  std::vector<double> virial_;    ///< by owned sphere: Σ d_ij F_ij [nN·µm]
+  OrderFreeSum energy_;
+  std::vector<std::vector<std::uint32_t>> flips_;  ///< by share: pairs whose flag changes if the step ends where they were evaluated last
+  bool in_step_ = false;
+  bool partners_stale_ = false;  ///< a sphere has partners that are no pair of the list any more
 };
 
 }  // namespace morula

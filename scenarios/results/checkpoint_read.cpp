@@ -91,7 +91,7 @@ Status read_partners(const Hdf5Reader& file, std::uint64_t first, const std::vec
   MORULA_TRY_ASSIGN(const std::vector<CellId> partners, file.read<CellId>("spheres/partners", first, total));
   auto next = partners.begin();
   for (const std::uint32_t count : counts) {
-    out.attached.emplace_back(next, next + count);
+    out.attached.push_back(std::span(next, count));
     next += count;
   }
   return {};
@@ -159,7 +159,7 @@ void put_in_canonical_order(Tissue& tissue) {
       s.radius.push_back(tissue.spheres.radius[b]);
       s.type.push_back(tissue.spheres.type[b]);
       s.velocity.push_back(tissue.spheres.velocity[b]);
-      s.attached.push_back(std::move(tissue.spheres.attached[b]));
+      s.attached.push_back(tissue.spheres.attached[b]);
     } else {
       const dcm::Shells& from = tissue.shells;
       h.shape.push_back(from.shape[b]);

@@ -36,10 +36,9 @@ Parcels pack_cells(const Tissue& tissue, const ShapeNumbers& numbers) {
       out.put(s.radius[sphere]);
       out.put(s.type[sphere]);
       out.put(s.velocity[sphere]);
-      std::vector<CellId> partners = s.attached[sphere];
-      std::sort(partners.begin(), partners.end());
+      const std::span<const CellId> partners = s.attached[sphere];  // sorted
       out.put(static_cast<std::uint32_t>(partners.size()));
-      out.put_all(std::span(partners));
+      out.put_all(partners);
       ++sphere;
     } else {
       const dcm::Shells& s = tissue.shells;

@@ -24,10 +24,9 @@ void put_sphere(ByteWriter& out, const cbm::Spheres& spheres, std::size_t i) {
   out.put(spheres.radius[i]);
   out.put(spheres.type[i]);
   out.put(spheres.velocity[i]);
-  std::vector<CellId> partners = spheres.attached[i];
-  std::sort(partners.begin(), partners.end());
+  const std::span<const CellId> partners = spheres.attached[i];  // sorted
   out.put(std::uint64_t{partners.size()});
-  out.put_all(std::span(partners));
+  out.put_all(partners);
 }
 
 void put_shell(ByteWriter& out, const dcm::Shells& shells, std::size_t i, const Hash128& shape) {

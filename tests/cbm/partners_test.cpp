@@ -21,6 +21,17 @@ TEST(Partners, AreSortedAndEachOnce) {
   EXPECT_FALSE(adheres(partners, cell(5)));
 }
 
+TEST(PartnerLists, KeepTheListsOfSpheresApart) {
+  PartnerLists lists;
+  for (const Partners& partners : {Partners{cell(2), cell(9)}, Partners{}, Partners{cell(4)}}) lists.push_back(partners);
+  ASSERT_EQ(lists.size(), 3u);
+  EXPECT_EQ(lists.partner_count(), 3u);
+  EXPECT_THAT(lists[0], ElementsAre(cell(2), cell(9)));
+  EXPECT_THAT(lists[1], ElementsAre());
+  EXPECT_THAT(lists[2], ElementsAre(cell(4)));
+  EXPECT_TRUE(adheres(lists[2], cell(4)));
+}
+
 TEST(Partners, PassToBothDaughtersAndTheirNeighbours) {
   const CellId mother = cell(4), first = mother.daughter(0), second = mother.daughter(1);
   EXPECT_THAT(daughter_partners({cell(2), cell(9)}, second), ElementsAre(cell(2), cell(9), second));

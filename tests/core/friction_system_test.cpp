@@ -26,22 +26,23 @@ std::vector<Vec3d> velocities(std::size_t count, double g, const std::vector<Pai
   FrictionSystem system;
   system.set_layout(layout, threads);
   system.set_point_friction(std::vector<float>(count, static_cast<float>(g)));
-  std::vector<SpherePairElement> elements;
-  for (const Pair& p : pairs)
-    elements.push_back({p.i,
-                        p.j,
-                        p.i,
-                        p.j,
-                        {static_cast<float>(p.n.x), static_cast<float>(p.n.y), static_cast<float>(p.n.z)},
-                        static_cast<float>(p.tangential),
-                        static_cast<float>(p.normal - p.tangential),
-                        0.0f});
-  system.set_sphere_pairs(elements);
+  SpherePairs list;  // a material of its own for each pair's first sphere, area 1
+  std::vector<PairFriction> friction(count * count);
+  list.material.resize(count);
+  for (std::size_t i = 0; i < count; ++i) list.material[i] = static_cast<std::uint16_t>(i);
+  for (const Pair& p : pairs) {
+    list.pairs.push_back({p.i, p.j, 0});
+    list.elements.push_back({{static_cast<float>(p.n.x), static_cast<float>(p.n.y), static_cast<float>(p.n.z)}, 1.0f, 0.0f});
+    friction[p.i * count + p.j] = {static_cast<float>(p.tangential), static_cast<float>(p.normal - p.tangential)};
+  }
+  list.set_friction(std::move(friction), count);
+  list.set_layout(0, static_cast<std::uint32_t>(count), threads);
+  system.set_sphere_pairs(&list);
   system.set_elements({}, FaceQuadrature::with_points(3));
-  std::vector<Float4> b(count), v(count);
+  std::vector<Float4> v(count);
   for (std::size_t i = 0; i < count; ++i)
-    b[i] = {static_cast<float>(force[i].x), static_cast<float>(force[i].y), static_cast<float>(force[i].z), 0.0f};
-  const auto report = system.solve(b, v, 1e-7, 500, Comm());
+    system.right()[i] = {static_cast<float>(force[i].x), static_cast<float>(force[i].y), static_cast<float>(force[i].z), 0.0f};
+  const auto report = system.solve(v, 1e-7, 500, Comm());
   EXPECT_TRUE(report.ok());
   std::vector<Vec3d> out;
   for (const Float4& u : v) out.push_back({u.x, u.y, u.z});
@@ -139,8 +140,9 @@ TEST(FrictionSystem, RefusesForcesThatAreNoNumbers) {
   const float friction[1] = {1.0f};
   system.set_point_friction(friction);
   system.set_elements({}, FaceQuadrature::with_points(3));
-  std::vector<Float4> b{{NAN, 0, 0, 0}}, v(1);
-  EXPECT_FALSE(system.solve(b, v, 1e-6, 10, Comm()).ok());
+  system.right()[0] = {NAN, 0, 0, 0};
+  std::vector<Float4> v(1);
+  EXPECT_FALSE(system.solve(v, 1e-6, 10, Comm()).ok());
 }
 
 TEST(TractionLaw, DoesTheWorkOfAdhesionWhenPulledApart) {

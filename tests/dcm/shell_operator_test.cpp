@@ -216,6 +216,46 @@ TEST(ShellOperator, DiagonalBlocksAreThoseOfTheMatrixWithoutTheVolumeTerm) {
   }
 }
 
+TEST(ShellOperator, TakesBlocksOfContactsOnItsEdgesInEveryWidth) {
+  const Shells shells = rough_shells();
+  const std::vector<ShellParameters> types = everything();
+  const auto block_of = [](std::uint32_t shell, std::size_t k, std::size_t c) {
+    return static_cast<float>(0.1 * static_cast<double>((7 * shell + 3 * k + 5 * c) % 11));
+  };
+  const EdgeBlockSource source = [&](std::uint32_t shell, std::span<EdgeBlock> edges) {
+    if (shell == 2) return false;
+    for (std::size_t k = 0; k < edges.size(); ++k)
+      for (std::size_t c = 0; c < 6; ++c) edges[k].m[c] = block_of(shell, k, c);
+    return true;
+  };
+  const auto p = random_vectors(shells.position.size(), 9);
+  std::vector<Vec3d> first;
+  for (const int lanes : {1, 4, 8}) {
+    Assembled a = assemble(shells, types, 10.0, lanes);
+    const auto before = apply(a, shells, p);
+    add_edge_blocks(a.blocks, source, a.matrix);
+    const auto after = apply(a, shells, p);
+    if (lanes == 1) first = after;
+    EXPECT_EQ(std::memcmp(first.data(), after.data(), first.size() * sizeof(Vec3d)), 0) << lanes;
+    std::vector<Vec3d> expected(p.size());
+    for (std::uint32_t shell = 0; shell < shells.size(); ++shell) {
+      if (shell == 2) continue;
+      const std::uint32_t base = shells.first_node[shell];
+      const auto edges = shells.topology(shell).edges();
+      for (std::size_t k = 0; k < edges.size(); ++k) {
+        const auto m = [&](std::size_t c) { return static_cast<double>(block_of(shell, k, c)); };
+        const SymMat3<double> matrix{m(0), m(1), m(2), m(3), m(4), m(5)};
+        const Vec3d f = matrix * (p[base + edges[k].i] - p[base + edges[k].j]);
+        expected[base + edges[k].i] += f;
+        expected[base + edges[k].j] -= f;
+      }
+    }
+    double largest = 0.0;
+    for (const Vec3d& v : after) largest = std::max(largest, norm(v));
+    for (std::size_t i = 0; i < p.size(); ++i) EXPECT_NEAR(norm(after[i] - before[i] - expected[i]), 0.0, 3e-6 * largest) << i;
+  }
+}
+
 TEST(ShellOperator, LetsRigidTranslationFeelTheMediumOnly) {
   const Shells shells = rough_shells();
   const auto types = everything();

@@ -41,7 +41,7 @@ TEST(Hash128, TableChecksumOfSlicesIsThatOfTheWhole) {
   EXPECT_NE(table_checksum(bytes, 24, 0), whole);
 }
 
-/// Order of cells in memory turned around, partners and bricks too.
+/// Order of cells in memory turned around, bricks too.
 Tissue turned_around(const Tissue& from) {
   Tissue to = from;
   std::reverse(to.cells.rows.begin(), to.cells.rows.end());
@@ -49,8 +49,8 @@ Tissue turned_around(const Tissue& from) {
   std::reverse(to.spheres.radius.begin(), to.spheres.radius.end());
   std::reverse(to.spheres.type.begin(), to.spheres.type.end());
   std::reverse(to.spheres.velocity.begin(), to.spheres.velocity.end());
-  std::reverse(to.spheres.attached.begin(), to.spheres.attached.end());
-  for (auto& partners : to.spheres.attached) std::reverse(partners.begin(), partners.end());
+  to.spheres.attached = {};
+  for (std::size_t i = from.spheres.size(); i-- > 0;) to.spheres.attached.push_back(from.spheres.attached[i]);
   to.shells = {};
   for (std::size_t i = from.shells.size(); i-- > 0;) {
     const dcm::Shells& s = from.shells;
@@ -104,7 +104,15 @@ TEST(StateHash, SeesEveryPartOfTheState) {
     t.cells.rows[6].phase = Phase::kDying;
   });
   after([](Tissue& t) { t.spheres.velocity[3].y *= 2; });
-  after([](Tissue& t) { t.spheres.attached[0].push_back(CellId::founder(99)); });
+  after([](Tissue& t) {
+    cbm::PartnerLists changed;
+    for (std::size_t i = 0; i < t.spheres.size(); ++i) {
+      cbm::Partners partners(t.spheres.attached[i].begin(), t.spheres.attached[i].end());
+      cbm::set_adheres(partners, CellId::founder(99), i == 0);
+      changed.push_back(partners);
+    }
+    t.spheres.attached = changed;
+  });
   after([](Tissue& t) { std::swap(t.spheres.position[0], t.spheres.position[1]); });
   after([](Tissue& t) { t.shells.position[7].z += 1e-13; });
   after([](Tissue& t) { t.shells.velocity[7].z += 1; });

@@ -129,8 +129,9 @@ inline void add_sphere(cbm::Spheres& spheres, CellId id) {
   spheres.radius.push_back(numbers.next());
   spheres.type.push_back(static_cast<std::uint16_t>(id.bits() % 3));
   spheres.velocity.push_back(numbers.vector_f());
-  auto& partners = spheres.attached.emplace_back();
+  cbm::Partners partners;
   for (std::uint64_t p = 0; p < id.bits() % 4; ++p) partners.push_back(CellId::founder(p + 1));
+  spheres.attached.push_back(partners);
 }
 
 inline void add_shell(dcm::Shells& shells, CellId id, const std::shared_ptr<const ReferenceShape>& shape) {

@@ -1,0 +1,100 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/friction/float4.h"
+#include "core/parallel/order_free_sum.h"
+#include "core/vec3.h"
+
+namespace morula {
+
+/// Two spheres that may touch, numbered among the spheres of a rank (owned ones first, ghosts after). a comes first in the canonical order.
+struct SpherePair {
+  std::uint32_t a;
+  std::uint32_t b : 31;
+  std::uint32_t attached : 1;  ///< branch of the contact law: fixed within a step
+};
+static_assert(sizeof(SpherePair) == 8);
+
+/// What the friction system knows of a pair: force on a −A γ_t u − (A (γ_n − γ_t) + Δt k)(n·u) n, u = v_a − v_b; on b the opposite.
+///
+/// Area and normal are those of the step's start wherever the pair touched then (its friction is fixed for the step), k is the present one.
+struct SpherePairElement {
+  float n[3] = {0.0f, 0.0f, 1.0f};
+  float area = 0.0f;       ///< A [µm²]
+  float stiffness = 0.0f;  ///< k [nN/µm]
+};
+
+/// A sphere against something rigid: the same with v_b = 0. Few, so that it carries its own coefficients.
+struct RigidPairElement {
+  std::uint32_t sphere = 0;
+  float n[3] = {0.0f, 0.0f, 1.0f};
+  float isotropic = 0.0f;  ///< A γ_t [nN·s/µm]
+  float axial = 0.0f;      ///< A (γ_n − γ_t) [nN·s/µm]
+  float stiffness = 0.0f;  ///< k [nN/µm]
+};
+
+/// Friction per contact area of two materials.
+struct PairFriction {
+  float tangential = 0.0f;  ///< γ_t [nN·s/µm³]
+  float extra = 0.0f;       ///< γ_n − γ_t [nN·s/µm³]
+};
+
+/// The list of sphere pairs of a rank in canonical order, and its part of the friction matrix.
+///
+/// Sums over the pairs of a sphere run in the order of the list. Each thread writes one contiguous range of the owned spheres and visits
+/// all pairs that touch it, so that the bits do not depend on the number of threads.
+class SpherePairs {
+ public:
+  /// Stretches of the list, first <= pair < last.
+  struct Run {
+    std::uint32_t first, last;
+  };
+  /// What one thread does: it writes the spheres first <= sphere < last.
+  struct Share {
+    std::uint32_t first = 0, last = 0;
+    std::vector<Run> runs;
+    [[nodiscard]] bool has(std::uint32_t sphere) const { return sphere >= first && sphere < last; }
+  };
+
+  std::vector<SpherePair> pairs;
+  std::vector<SpherePairElement> elements;  ///< by pair
+  std::vector<RigidPairElement> rigid;
+  std::vector<std::uint16_t> material;  ///< by sphere, ghosts too; not needed while the table is uniform
+
+  /// Friction of material pairs, `count` × `count`, row by row.
+  void set_friction(std::vector<PairFriction> friction, std::size_t count);
+  /// The pairs are new: spheres 0 .. owned−1 are points first_point .. first_point+owned−1, ghosts follow. Shares the work out.
+  void set_layout(std::uint32_t first_point, std::uint32_t owned, int threads);
+
+  /// All material pairs rub alike.
+  [[nodiscard]] bool uniform() const { return uniform_; }
+  [[nodiscard]] std::span<const Share> shares() const { return shares_; }
+  [[nodiscard]] const PairFriction& friction(std::uint16_t a, std::uint16_t b) const { return friction_[a * materials_ + b]; }
+  [[nodiscard]] const PairFriction& friction(const SpherePair& pair) const {
+    return uniform_ ? friction_[0] : friction(material[pair.a], material[pair.b]);
+  }
+
+  /// Add the pairs' part of A p to q, for owned spheres.
+  void add_product(std::span<const Float4> p, std::span<Float4> q, float dt) const;
+  /// Add the 3×3 diagonal blocks.
+  void add_diagonal(std::span<SymMat3<float>> diagonal, float dt) const;
+  /// Friction alone, in double, on displacements d = to − from: adds Γ d to `out` (owned spheres), and dᵀΓ d of the pairs that this rank
+  /// counts (whose first sphere it owns).
+  void add_friction(std::span<const Vec3d> from, std::span<const Vec3d> to, std::span<Vec3d> out, OrderFreeSum& quadratic) const;
+
+  [[nodiscard]] std::size_t memory() const;
+
+ private:
+  template <class F>
+  void for_shares(F&& function) const;
+
+  std::vector<PairFriction> friction_{PairFriction{}};
+  std::size_t materials_ = 1;
+  bool uniform_ = true;
+  std::uint32_t first_point_ = 0, owned_ = 0;
+  std::vector<Share> shares_;
+};
+
+}  // namespace morula

@@ -1,0 +1,162 @@
+/// The lists of SphereContacts: which pairs there are, and who adheres to whom.
+#include <algorithm>
+
+#include "cbm/division_ramp.h"
+#include "coupling/mechanics/sphere_contacts.h"
+
+namespace morula {
+namespace {
+
+/// An obstacle is a partner too: its number stands where a cell's id would; no founder has so small a one.
+CellId obstacle_partner(std::uint32_t obstacle) { return CellId(obstacle + 1); }
+
+}  // namespace
+
+CellId SphereContacts::partner_id(const Scene& scene, std::uint32_t sphere) const {
+  return scene.bodies()[scene.first_sphere() + sphere].id;
+}
+
+void SphereContacts::set_pairs(const Scene& scene, ContactLayer& contacts, const Tissue& tissue) {
+  std::vector<SpherePair> old_pairs;
+  std::vector<SpherePairElement> old_elements;
+  if (in_step_) {
+    old_pairs.swap(list_.pairs);
+    old_elements.swap(list_.elements);
+  }
+  const auto first = static_cast<std::uint32_t>(scene.first_sphere());
+  const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
+  const auto spheres = scene.bodies().subspan(first);
+  list_.pairs.clear();
+  {
+    const std::vector<SphereNeighbours> found = contacts.take_sphere_neighbours();
+    list_.pairs.reserve(found.size());
+    for (const SphereNeighbours& n : found) list_.pairs.push_back({n.a - first, (n.b - first) & 0x7FFFFFFFu, 0});
+  }
+  if (in_step_)
+    keep_step_friction(scene, std::move(old_pairs), std::move(old_elements));
+  else
+    list_.elements.assign(list_.pairs.size(), {});
+  if (!list_.uniform()) {
+    list_.material.resize(spheres.size());
+    for (std::size_t i = 0; i < spheres.size(); ++i) list_.material[i] = spheres[i].material;
+  }
+  list_.set_layout(scene.sphere_point(), owned, threads_);
+
+  std::vector<std::uint32_t> known(owned, 0);  // attached pairs of each sphere
+  for (SpherePair& pair : list_.pairs) {
+    const CellId a = spheres[pair.a].id, b = spheres[pair.b].id;
+    if (!(pair.a < owned ? cbm::adheres(tissue.spheres.attached[pair.a], b) : cbm::adheres(tissue.spheres.attached[pair.b], a))) continue;
+    pair.attached = 1;
+    if (pair.a < owned) ++known[pair.a];
+    if (pair.b < owned) ++known[pair.b];
+  }
+  find_rigid_pairs(scene, contacts, tissue);
+  for (const RigidPair& pair : rigid_) known[pair.sphere] += pair.attached;
+  partners_stale_ = false;
+  for (std::uint32_t i = 0; i < owned; ++i) partners_stale_ = partners_stale_ || known[i] != tissue.spheres.attached[i].size();
+  find_sisters(scene, tissue);
+}
+
+void SphereContacts::keep_step_friction(const Scene& scene, std::vector<SpherePair> old_pairs,
+                                        std::vector<SpherePairElement> old_elements) {
+  const auto spheres = scene.bodies().subspan(scene.first_sphere());
+  const auto before = [&](const SpherePair& p, const SpherePair& q) {
+    return p.a != q.a ? spheres[p.a].place < spheres[q.a].place : spheres[p.b].place < spheres[q.b].place;
+  };
+  std::vector<SpherePair> merged;
+  merged.reserve(list_.pairs.size() + list_.pairs.size() / 64);
+  list_.elements.clear();
+  list_.elements.reserve(merged.capacity());
+  std::size_t k = 0;
+  const auto add_parted = [&](auto&& until) {  // pairs that rubbed at the step's start and are out of reach by now go on to the step's end
+    for (; k < old_pairs.size() && until(old_pairs[k]); ++k) {
+      if (old_elements[k].area == 0.0f) continue;
+      merged.push_back({old_pairs[k].a, old_pairs[k].b, 0});
+      list_.elements.push_back(old_elements[k]);
+    }
+  };
+  for (const SpherePair& pair : list_.pairs) {
+    add_parted([&](const SpherePair& old) { return before(old, pair); });
+    merged.push_back(pair);
+    const bool same = k < old_pairs.size() && old_pairs[k].a == pair.a && old_pairs[k].b == pair.b;
+    list_.elements.push_back(same ? old_elements[k++] : SpherePairElement{});
+  }
+  add_parted([](const SpherePair&) { return true; });
+  list_.pairs = std::move(merged);
+}
+
+void SphereContacts::find_rigid_pairs(const Scene& scene, const ContactLayer& contacts, const Tissue& tissue) {
+  const std::vector<RigidPair> old = std::move(rigid_);
+  const std::vector<RigidPairElement> old_elements = std::move(list_.rigid);
+  rigid_.clear();
+  list_.rigid.clear();
+  const auto obstacles = contacts.obstacles();
+  const auto spheres = scene.bodies().subspan(scene.first_sphere());
+  std::size_t k = 0;
+  for (std::uint32_t i = 0; i < scene.owned_spheres(); ++i)
+    for (std::uint32_t o = 0; o < obstacles.size(); ++o) {
+      const double reach = spheres[i].radius + contacts.settings().sphere_reach + contacts.settings().body_skin;
+      Box box;
+      box.include(scene.position()[spheres[i].first_point] - contacts.obstacle_offset(o));
+      RigidPairElement kept{};
+      kept.sphere = i;
+      while (in_step_ && k < old.size() && (old[k].sphere != i ? old[k].sphere < i : old[k].obstacle < o)) ++k;
+      const bool rubs = in_step_ && k < old.size() && old[k].sphere == i && old[k].obstacle == o &&
+                        (old_elements[k].isotropic != 0.0f || old_elements[k].axial != 0.0f);
+      if (rubs) kept = old_elements[k];
+      if (!rubs && obstacles[o].tree->faces_in(box.inflated(reach)).empty()) continue;
+      const bool attached = cbm::adheres(tissue.spheres.attached[i], obstacle_partner(o));
+      RigidPair& pair = rigid_.emplace_back();
+      pair.sphere = i;
+      pair.obstacle = o;
+      pair.attached = pair.attached_next = attached;
+      list_.rigid.push_back(kept);
+    }
+}
+
+void SphereContacts::find_sisters(const Scene& scene, const Tissue& tissue) {
+  sisters_.clear();
+  const auto spheres = scene.bodies().subspan(scene.first_sphere());
+  std::vector<Scene::Birth> birth;
+  for (std::uint32_t k = 0; k < list_.pairs.size(); ++k) {
+    const SpherePair pair = list_.pairs[k];
+    if (!cbm::are_sisters(spheres[pair.a].id, spheres[pair.b].id)) continue;
+    if (birth.empty()) birth = scene.sphere_births(tissue);
+    sisters_.push_back({k, birth[pair.a].radius, birth[pair.b].radius, birth[pair.a].time, 0.0});
+  }
+  update_sisters(scene, tissue.clock.time);
+}
+
+void SphereContacts::write_partners(const Scene& scene, const std::vector<char>& marked, Tissue& tissue) const {
+  const std::size_t owned = scene.owned_spheres();
+  const cbm::PartnerLists& old = tissue.spheres.attached;
+  std::vector<std::uint32_t> end(owned, 0);
+  const auto for_attached = [&](auto&& function) {
+    for (const SpherePair& pair : list_.pairs) {
+      if (!pair.attached) continue;
+      if (pair.a < owned && marked[pair.a]) function(pair.a, partner_id(scene, pair.b));
+      if (pair.b < owned && marked[pair.b]) function(pair.b, partner_id(scene, pair.a));
+    }
+    for (const RigidPair& pair : rigid_)
+      if (pair.attached && marked[pair.sphere]) function(pair.sphere, obstacle_partner(pair.obstacle));
+  };
+  for_attached([&](std::uint32_t i, CellId) { ++end[i]; });
+  std::uint32_t total = 0;
+  for (std::size_t i = 0; i < owned; ++i) {  // for now, end holds where the list begins
+    const std::uint32_t count = marked[i] ? end[i] : static_cast<std::uint32_t>(old[i].size());
+    end[i] = total;
+    total += count;
+  }
+  std::vector<CellId> ids(total);
+  for (std::size_t i = 0; i < owned; ++i) {
+    if (marked[i]) continue;
+    std::copy(old[i].begin(), old[i].end(), ids.begin() + end[i]);
+    end[i] += static_cast<std::uint32_t>(old[i].size());
+  }
+  for_attached([&](std::uint32_t i, CellId partner) { ids[end[i]++] = partner; });
+  for (std::size_t i = 0; i < owned; ++i)
+    if (marked[i]) std::sort(ids.begin() + (i == 0 ? 0 : end[i - 1]), ids.begin() + end[i]);
+  tissue.spheres.attached = cbm::PartnerLists(std::move(ids), std::move(end));
+}
+
+}  // namespace morula
