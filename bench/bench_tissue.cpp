@@ -111,8 +111,8 @@ double cpu_seconds() {
 }
 
 struct Figures {
-  double wall = 0.0, cpu = 0.0, unit_cpu_us = 0.0, unit_us = 0.0, steps_per_hour = 0.0, bytes = 0.0, per_hour_kilo = 0.0, overlap = 0.0, newton = 0.0, linear = 0.0,
-         imbalance = 1.0;
+  double wall = 0.0, cpu = 0.0, unit_cpu_us = 0.0, unit_us = 0.0, steps_per_hour = 0.0, bytes = 0.0, per_hour_kilo = 0.0, overlap = 0.0,
+         newton = 0.0, linear = 0.0, imbalance = 1.0;
   std::int64_t ghosts = 0;
   std::vector<std::pair<std::string, double>> stages;
 };
@@ -273,10 +273,11 @@ int main(int argc, char** argv) {
       if (!comm.is_root()) continue;
       const char* unit = c.body == BodyKind::kShell ? "node" : "cell";
       std::printf(
-          "%-24s %6zu cells  %7.2f s  %6.3f us/%s-step (CPU %.3f)  %6.1f steps/h  %6.4f s/(h k%s)  newton %.2f  linear %.1f  %5.0f B/%s  overlap %.3f "
+          "%-24s %6zu cells  %7.2f s  %6.3f us/%s-step (CPU %.3f)  %6.1f steps/h  %6.4f s/(h k%s)  newton %.2f  linear %.1f  %5.0f B/%s  "
+          "overlap %.3f "
           "um  ghosts %ld  imbalance %.2f\n",
-          c.name.c_str(), c.cells, f.wall, f.unit_us, unit, f.unit_cpu_us, f.steps_per_hour, f.per_hour_kilo, unit, f.newton, f.linear, f.bytes, unit,
-          f.overlap, static_cast<long>(f.ghosts), f.imbalance);
+          c.name.c_str(), c.cells, f.wall, f.unit_us, unit, f.unit_cpu_us, f.steps_per_hour, f.per_hour_kilo, unit, f.newton, f.linear,
+          f.bytes, unit, f.overlap, static_cast<long>(f.ghosts), f.imbalance);
       text += std::string(first ? "" : ",") + "\n    {\"name\": \"" + c.name + "\", \"cells\": " + std::to_string(c.cells) +
               ", \"seconds\": " + std::to_string(f.wall) + ", \"us_per_" + unit + "_step\": " + std::to_string(f.unit_us) +
               ", \"cpu_us_per_" + unit + "_step\": " + std::to_string(f.unit_cpu_us) +

@@ -128,7 +128,7 @@ class ContactLayer {
   std::vector<SurfacePair> pairs_;
   std::vector<SphereNeighbours> spheres_;
   std::vector<std::uint32_t> pairs_of_kind_[2];  ///< by SurfacePairKind
-  std::vector<Vec3d> last_position_;  ///< at the last note_motion()
+  std::vector<Vec3d> last_position_;             ///< at the last note_motion()
   std::vector<BodyMotion> motion_;
   std::vector<double> last_radius_;  ///< of spheres: growth counts as motion
   std::vector<double> travel_;       ///< by body: bound on the way of its points since the list of pairs was built

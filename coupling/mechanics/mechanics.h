@@ -127,8 +127,8 @@ class Mechanics {
   bool contacts_current_ = false;   ///< geometry and surface contacts belong to the scene's positions
   std::vector<Vec3d> scene_start_;  ///< owned positions when the ghosts were found
   ContactLayer contacts_;
-  ContactGradient gradient_;          ///< of all contacts of surfaces
-  ContactGradient surfaces_only_;     ///< without the pairs with a sphere; kept only where there are any
+  ContactGradient gradient_;       ///< of all contacts of surfaces
+  ContactGradient surfaces_only_;  ///< without the pairs with a sphere; kept only where there are any
   SurfaceGeometry geometry_;
   ShellSystem shells_;
   SphereContacts spheres_;
