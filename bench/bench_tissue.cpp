@@ -207,8 +207,8 @@ bool run_case(const Case& c, const Comm& comm, int threads, Figures& out) {
 
 /// Contact area and positions at some time.
 struct Shape {
-  double area = 0.0;  ///< of all cells [µm²]
-  std::vector<Vec3d> position;
+  double area = 0.0;            ///< of all cells [µm²]
+  std::vector<Vec3d> position;  ///< of all nodes, cells by id
 };
 
 /// The state of a case every third of its duration; empty when a step fails.
@@ -226,7 +226,14 @@ std::vector<Shape> shapes_of(const Case& c, const Model& model, const Comm& comm
       }
     Shape& shape = out.emplace_back();
     for (const double area : simulation.mechanics().values(simulation.tissue()).contact_area) shape.area += area;
-    shape.position = simulation.tissue().shells.position;
+    const Tissue& tissue = simulation.tissue();
+    std::vector<std::pair<CellId, std::size_t>> by_id;  // the order in storage changes
+    for (std::size_t i = 0; i < tissue.cells.size(); ++i) by_id.emplace_back(tissue.cells.rows[i].id, i);
+    std::sort(by_id.begin(), by_id.end());
+    for (const auto& [id, shell] : by_id) {
+      const auto nodes = tissue.shells.nodes(shell);
+      shape.position.insert(shape.position.end(), nodes.begin(), nodes.end());
+    }
   }
   return out;
 }

@@ -38,9 +38,8 @@ void add_block(const LaneBlock& block, const EdgeBlockSource& source, ShellOpera
 }  // namespace
 
 void add_edge_blocks(const ShellBlocks& blocks, const EdgeBlockSource& source, ShellOperator& out) {
-  for_each_block<Workspace>(blocks, [&]<int W>(std::size_t b, const LaneBlock& block, Workspace& ws) {
-    add_block<W>(block, source, out.blocks[b], ws);
-  });
+  for_each_block<Workspace>(
+      blocks, [&]<int W>(std::size_t b, const LaneBlock& block, Workspace& ws) { add_block<W>(block, source, out.blocks[b], ws); });
 }
 
 }  // namespace morula::dcm

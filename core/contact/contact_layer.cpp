@@ -257,8 +257,8 @@ void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {
       pair.points[d] = {};
       continue;
     }
-    build_point_lists(body[d], body[1 - d], reach(), settings_.points_per_face, faces[1 - d], pair.patch_motion, pair.motion - pair.built_at,
-                      pair.points[d]);
+    build_point_lists(body[d], body[1 - d], reach(), settings_.points_per_face, faces[1 - d], pair.patch_motion,
+                      pair.motion - pair.built_at, pair.points[d]);
   }
   collect_pair_nodes(body[0].topology, body[1].topology, pair);
   pair.built_at = pair.motion;
@@ -276,17 +276,13 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
   }
   for (int d = 0; d < 2; ++d) {
     if (pair.points[d].source_face.empty()) continue;
-    evaluate_points({body[d],
-                     body[1 - d],
-                     contact,
-                     FaceQuadrature::with_points(settings_.points_per_face),
-                     reach(),
-                     both ? 0.5 : 1.0,
-                     pair.patch_motion,
-                     pair.motion - pair.built_at,
-                     !pair.rigid},
+    evaluate_points({body[d], body[1 - d], contact, FaceQuadrature::with_points(settings_.points_per_face), reach(), both ? 0.5 : 1.0,
+                     pair.patch_motion, pair.motion - pair.built_at, !pair.rigid},
                     d, pair, gradient, workspace);
   }
+  if (!pair.rigid) return;
+  pair.push = {};  // areas and normals belong to the cell: their share of its force is zero in sum
+  for (const std::uint16_t node : pair.node[0]) pair.push -= gradient[0].force[node].value();
 }
 
 void ContactLayer::evaluate(const ContactScene& scene, SurfacePairKind kind, ContactGradient& gradient) {

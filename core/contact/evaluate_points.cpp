@@ -130,9 +130,7 @@ void store_rounded(std::int32_t (&out)[kLanes], Real value) {
   __builtin_memcpy(out, &rounded, sizeof rounded);
 }
 
-void put(double (&array)[3][kLanes], int lane, const Vec3d& v) {
-  array[0][lane] = v.x, array[1][lane] = v.y, array[2][lane] = v.z;
-}
+void put(double (&array)[3][kLanes], int lane, const Vec3d& v) { array[0][lane] = v.x, array[1][lane] = v.y, array[2][lane] = v.z; }
 Vec3d get(const double (&array)[3][kLanes], int lane) { return {array[0][lane], array[1][lane], array[2][lane]}; }
 Vector load(const double (&array)[3][kLanes]) { return {Real::load(array[0]), Real::load(array[1]), Real::load(array[2])}; }
 void store(double (&array)[3][kLanes], const Vector& v) { v.x.store(array[0]), v.y.store(array[1]), v.z.store(array[2]); }
@@ -164,8 +162,8 @@ void gaps_to_faces(const PointsEvaluation& e, std::span<const std::uint32_t> fac
     batch.gap[lane] = inside ? -distance[lane] : distance[lane];
     if (distance[lane] >= 1e-12) put(batch.normal, lane, away * ((inside ? -1.0 : 1.0) / distance[lane]));
   }
-  const Vector sum = load(batch.node_normal[0]) * foot.mu[0] + load(batch.node_normal[1]) * foot.mu[1] +
-                     load(batch.node_normal[2]) * foot.mu[2];
+  const Vector sum =
+      load(batch.node_normal[0]) * foot.mu[0] + load(batch.node_normal[1]) * foot.mu[1] + load(batch.node_normal[2]) * foot.mu[2];
   const Real length = norm(sum);
   const auto usable = length > Real(1e-9);
   const Vector normal = load(batch.normal);
@@ -209,7 +207,8 @@ void respond(const PointsEvaluation& e, Batch& batch) {
   (area * (weight.value * attraction.curvature + repulsion.curvature)).store(batch.stiffness);
   area.store(batch.area);
   for (std::size_t k = 0; k < 2; ++k) store_rounded(batch.rounded_mu[k], Real::load(batch.mu[k]) * Real(ContactElement::kWeightUnits));
-  for (std::size_t k = 0; k < 3; ++k) store_rounded(batch.rounded_normal[k], Real::load(batch.normal[k]) * Real(ContactElement::kNormalUnits));
+  for (std::size_t k = 0; k < 3; ++k)
+    store_rounded(batch.rounded_normal[k], Real::load(batch.normal[k]) * Real(ContactElement::kNormalUnits));
 }
 
 Vec3d quadrature_point(const PointsEvaluation& e, const Triangle& t, int q) {

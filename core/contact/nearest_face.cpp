@@ -56,9 +56,7 @@ void measure(const PointsEvaluation& e, const PointsAgainstBody& lists, PointsWo
       }
       data[3][0][lane] = point.x, data[3][1][lane] = point.y, data[3][2][lane] = point.z;
     }
-    const auto load = [&](std::size_t k) {
-      return Vec3<Real>{Real::load(data[k][0]), Real::load(data[k][1]), Real::load(data[k][2])};
-    };
+    const auto load = [&](std::size_t k) { return Vec3<Real>{Real::load(data[k][0]), Real::load(data[k][1]), Real::load(data[k][2])}; };
     const Vec3<Real> shift{e.target.shift.x, e.target.shift.y, e.target.shift.z};
     const auto foot = closest_foot<Real>(load(3), load(0) + shift, load(1) + shift, load(2) + shift);
     foot.distance2.store(ws.distance2.data() + first);
@@ -165,7 +163,7 @@ bool is_inside(const Vec3d& away, const PairBody& target, std::uint32_t face, co
 }
 
 void remember(const ContactPoint& point, double gap, std::size_t index, const PointsEvaluation& e, PointsAgainstBody& lists) {
-  constexpr double kSafety = 0.999;  // bounds hold in spite of rounding
+  constexpr double kSafety = 0.999;                                  // bounds hold in spite of rounding
   const double reach = e.reach.candidates() - e.motion_since_built;  // within which all faces are known
   const bool asleep = point.place == kNoFace || gap >= e.reach.range;
   double clear;

@@ -75,7 +75,7 @@ struct alignas(32) PaddedVec3 {
 
 /// Gradient of a pair's energy with respect to one of its bodies, good until the next pair is evaluated.
 struct PairGradient {
-  std::vector<PaddedVec3> force;    ///< −∂E/∂x by node of the body, at fixed face areas and node normals [nN]; zero but at the pair's nodes
+  std::vector<PaddedVec3> force;  ///< −∂E/∂x by node of the body, at fixed face areas and node normals [nN]; zero but at the pair's nodes
   std::vector<Vec3d> node_normal;   ///< ∂E/∂n_v likewise [nN·µm]
   bool has_node_normal = false;     ///< false: all of node_normal is zero
   std::vector<double> face_energy;  ///< ∂E/∂A_T by source face [nN/µm]
@@ -91,11 +91,12 @@ struct SurfacePair {
   double built_at = -1e300;     ///< motion when the lists were built
   double patch_motion = 0.0;    ///< the same of the nodes in the lists alone
   PointsAgainstBody points[2];  ///< [0]: points of a against b; [1]: points of b against a
-  std::vector<std::uint16_t> node[2];  ///< nodes of a and of b in these lists, increasing; a sphere has node 0, an obstacle none
+  std::vector<std::uint16_t> node[2];            ///< nodes of a and of b in these lists, increasing; a sphere has node 0, an obstacle none
   std::vector<ContactElement> elements[2];       ///< at the present positions
   std::vector<ContactElement> step_elements[2];  ///< at the start of the step: its friction
   double energy = 0.0;                           ///< [nN·µm]
   double overlap = 0.0;                          ///< deepest penetration [µm]
+  Vec3d push;                                    ///< force on b where it is rigid [nN]
 };
 
 /// Everything that evaluating one direction of a pair reads.

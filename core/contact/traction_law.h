@@ -26,10 +26,10 @@ struct TractionLaw {
   [[nodiscard]] Part<Real> attraction(Real g) const noexcept {
     const Real zero(0.0), omega(4.0 * adhesion / (range * range)), bound(-adhesion), rest = Real(range) - g;
     const auto touching = g <= zero, rising = g < Real(0.5 * range), within = g < Real(range);
-    return {select(touching, bound,
-                   select(rising, bound + Real(0.5) * omega * g * g, select(within, Real(-0.5) * omega * rest * rest, zero))),
-            select(touching, zero, select(rising, omega * g, select(within, omega * rest, zero))),
-            select(touching, zero, select(rising, omega, zero))};
+    return {
+        select(touching, bound, select(rising, bound + Real(0.5) * omega * g * g, select(within, Real(-0.5) * omega * rest * rest, zero))),
+        select(touching, zero, select(rising, omega * g, select(within, omega * rest, zero))),
+        select(touching, zero, select(rising, omega, zero))};
   }
 
   template <class Real>

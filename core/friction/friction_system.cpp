@@ -159,8 +159,7 @@ void FrictionSystem::add_contact_diagonal(int thread) {
     for (int side = 0; side < 2; ++side) {
       if (!pair.write[side] || !work.has(pair.body[side])) continue;
       SymMat3<float>* const diagonal = inverse_.data() + pair.first[side];
-      for (const NodePairBlock& b : blocks_of(pair))
-        diagonal[side == 0 ? b.i : b.j] += {b.c[0], b.c[1], b.c[2], b.c[3], b.c[4], b.c[5]};
+      for (const NodePairBlock& b : blocks_of(pair)) diagonal[side == 0 ? b.i : b.j] += {b.c[0], b.c[1], b.c[2], b.c[3], b.c[4], b.c[5]};
     }
   }
 }

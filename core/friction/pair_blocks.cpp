@@ -175,8 +175,7 @@ Float4v times(const NodePairBlock& block, Float4v d) {
   std::memcpy(&high, block.c + 2, sizeof high);
   const Float4v x = __builtin_shufflevector(d, d, 0, 0, 0, 0), y = __builtin_shufflevector(d, d, 1, 1, 1, 1),
                 z = __builtin_shufflevector(d, d, 2, 2, 2, 2);
-  const Float4v sum =
-      x * low + y * __builtin_shufflevector(low, high, 1, 3, 6, 6) + z * __builtin_shufflevector(high, high, 0, 2, 3, 3);
+  const Float4v sum = x * low + y * __builtin_shufflevector(low, high, 1, 3, 6, 6) + z * __builtin_shufflevector(high, high, 0, 2, 3, 3);
   return reinterpret_cast<Float4v>(reinterpret_cast<Int4v>(sum) & Int4v{-1, -1, -1, 0});
 }
 

@@ -96,9 +96,8 @@ Applied apply_condensed(const RandomContacts& c, const std::vector<Vec3d> (&v)[2
     for (const Vec3d& x : v[side]) p[side].push_back({float(x.x), float(x.y), float(x.z), 0.0f});
     out.q[side].resize(v[side].size());
   }
-  EXPECT_TRUE(std::is_sorted(blocks.begin(), blocks.end(), [](const NodePairBlock& a, const NodePairBlock& b) {
-    return a.i != b.i ? a.i < b.i : a.j < b.j;
-  }));
+  EXPECT_TRUE(std::is_sorted(blocks.begin(), blocks.end(),
+                             [](const NodePairBlock& a, const NodePairBlock& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; }));
   apply_pair_blocks(blocks, p[0].data(), write0 ? out.q[0].data() : nullptr, c.group.rigid ? nullptr : p[1].data(),
                     write1 && !c.group.rigid ? out.q[1].data() : nullptr);
   for (int side = 0; side < (c.group.rigid ? 1 : 2); ++side) {
