@@ -239,7 +239,7 @@ void Mechanics::finish(Tissue& tissue, double dt, StepReport& report) {
   for (std::size_t i = 0; i < tissue.shells.velocity.size(); ++i) tissue.shells.velocity[i] = velocity(i);
   for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i) tissue.spheres.velocity[i] = velocity(scene_.sphere_point() + i);
   if (!relaxing_) {
-    for (std::size_t i = 0; i < model_.obstacles.size(); ++i) 
+    for (std::size_t i = 0; i < model_.obstacles.size(); ++i)
       tissue.obstacle_offset[i] += model_.obstacles[i].way(tissue.clock.time, tissue.clock.time + dt);
     flags_changed_ = comm_.any(spheres_.update_attached(scene_, tissue));
   }

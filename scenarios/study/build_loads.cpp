@@ -11,7 +11,8 @@ TimeCourse course_of(BuildContext& c, const std::vector<Named<draft::CoursePoint
   for (const auto& [name, place, point] : points) {
     if (!point.time.known() || !point.value.known()) return {};
     if (!out.time.empty() && point.time.value <= out.time.back()) {
-      c.diagnostics.error(510, point.time.place, "the times of a course must increase, but " + point.time.text + " is not after the one before it",
+      c.diagnostics.error(510, point.time.place,
+                          "the times of a course must increase, but " + point.time.text + " is not after the one before it",
                           "sort the points by time");
       return {};
     }
@@ -50,7 +51,8 @@ void check_bodies(BuildContext& c, const std::string& name, const Place& place, 
     }
     if (!chosen) continue;
     if (block.orientation != Orientation::kAligned) {
-      c.diagnostics.error(513, place, who + " at chosen nodes, but its cells are turned at random", "place them with `orientation: aligned`");
+      c.diagnostics.error(513, place, who + " at chosen nodes, but its cells are turned at random",
+                          "place them with `orientation: aligned`");
       return;
     }
   }
