@@ -59,7 +59,7 @@ constexpr ErrorCode kCodes[] = {
     {510, "values that contradict each other", "Two places of the study say different things about one quantity."},
     {511, "domain too small", "With periodic faces a cell would touch its own image."},
     {512, "field cannot be resolved", "The voxel size gives too many or too few voxels."},
-    {513, "load that cells cannot bear",
+    {520, "load that cells cannot bear",
      "Tractions, pulls and pressures act on surfaces: they need shells, and chosen nodes need shells that keep their mesh and place."},
     {601, "file missing", "A file that the study names does not exist. Paths are relative to the folder of the study."},
     {602, "file cannot be read", "It is a folder, a device, or its permissions forbid reading."},

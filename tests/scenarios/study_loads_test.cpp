@@ -49,7 +49,7 @@ TEST(Loads, AreReadInInternalUnits) {
 TEST(Loads, ThatContradictTheStudyAreRefusedWithTheirPlace) {
   const auto message = [](const std::string& from, const std::string& to) { return test::errors_of(test::changed(from, to, kStudy)); };
   EXPECT_NE(message(", orientation: aligned", "").find("place them with `orientation: aligned`"), std::string::npos);
-  EXPECT_NE(message("as: shell", "as: sphere").find("[E513]"), std::string::npos);
+  EXPECT_NE(message("as: shell", "as: sphere").find("[E520]"), std::string::npos);
   EXPECT_NE(message("radius: 6 um}\ngeo", "radius: 6 um, cycle: {duration: 18 h}}\ngeo").find("would not keep"), std::string::npos);
   EXPECT_NE(message("type: cell\n", "type: cel\n").find("[E401]"), std::string::npos);
   EXPECT_NE(message("{time: 10 s, factor: 1}", "{time: 0 s, factor: 1}").find("must increase"), std::string::npos);
