@@ -75,7 +75,8 @@ Status verify(const VerifyOptions& options, const Context& context) {
     context.console.note("all " + count_words(rows.size(), "row", "rows") + " within tolerance");
     return {};
   }
-  return Error{ErrorKind::kVerification, count_words(failed, "row", "rows") + " of " + std::to_string(rows.size()) + " outside the tolerance", ""};
+  return Error{ErrorKind::kVerification,
+               count_words(failed, "row", "rows") + " of " + std::to_string(rows.size()) + " outside the tolerance", ""};
 }
 
 }  // namespace morula::app

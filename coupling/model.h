@@ -71,8 +71,8 @@ struct ObstacleSpec {
   std::string name;
   std::vector<Vec3d> position;
   std::vector<Triangle> faces;
-  bool inside = false;  ///< cells live inside the closed surface
-  Vec3d velocity{};     ///< prescribed translation [µm/s]
+  bool inside = false;    ///< cells live inside the closed surface
+  Vec3d velocity{};       ///< prescribed translation [µm/s]
   Vec3d direction{};      ///< of `distance`, of length 1
   TimeCourse distance{};  ///< how far it has gone along `direction`, beside `velocity`; empty: nowhere [µm]
 

@@ -65,10 +65,12 @@ Result<std::vector<Verdict>> judge_doublet(const Study& study, const std::filesy
                           tolerance(d.nodes, 8.0, 4.0), "deg"));
     out.push_back(at_most("S6.1", ("contact radius, relative" + at).c_str(), relative(d.contact_radius, d.expected.contact_radius),
                           tolerance(d.nodes, 0.10, 0.05)));
-    out.push_back(at_most("S6.1", ("length, relative" + at).c_str(), relative(d.length, 2.0 * d.expected.height), tolerance(d.nodes, 0.06, 0.03)));
+    out.push_back(
+        at_most("S6.1", ("length, relative" + at).c_str(), relative(d.length, 2.0 * d.expected.height), tolerance(d.nodes, 0.06, 0.03)));
     out.push_back(at_most("S6.1", ("part of the surface in contact" + at).c_str(), std::abs(d.contact_part - d.expected.contact_part),
                           tolerance(d.nodes, 0.03, 0.015)));
-    out.push_back(at_most("S6.1", ("pressure, relative" + at).c_str(), relative(d.pressure, d.expected.pressure), tolerance(d.nodes, 0.06, 0.03)));
+    out.push_back(
+        at_most("S6.1", ("pressure, relative" + at).c_str(), relative(d.pressure, d.expected.pressure), tolerance(d.nodes, 0.06, 0.03)));
     drift = std::max(drift, d.drift);
   }
   // The forces add up to nothing, but the overdamped surface of a coarse mesh does not move evenly: a part of an edge, that finer meshes lose.
@@ -94,7 +96,8 @@ Result<std::vector<NamedPlot>> plot_doublet(const Study& study, const std::files
     a_theory.y.push_back(cap.contact_radius);
     p_theory.y.push_back(0.5 * cap.pressure);
   }
-  Curve angles{"cells", {}, {}, CurveStyle::kPoints}, a{"contact radius", {}, {}, CurveStyle::kPoints}, p{"pressure", {}, {}, CurveStyle::kPoints};
+  Curve angles{"cells", {}, {}, CurveStyle::kPoints}, a{"contact radius", {}, {}, CurveStyle::kPoints},
+      p{"pressure", {}, {}, CurveStyle::kPoints};
   for (const Doublet& d : ends) {
     for (Curve* curve : {&angles, &a, &p}) curve->x.push_back(d.ratio);
     angles.y.push_back(d.angle / kDegree);
@@ -118,7 +121,8 @@ Result<std::vector<NamedPlot>> plot_doublet(const Study& study, const std::files
         }
     over_time.curves.push_back(std::move(curve));
   }
-  return std::vector<NamedPlot>{{"doublet_angle", std::move(angle)}, {"doublet_shape", std::move(radius)}, {"doublet_time", std::move(over_time)}};
+  return std::vector<NamedPlot>{
+      {"doublet_angle", std::move(angle)}, {"doublet_shape", std::move(radius)}, {"doublet_time", std::move(over_time)}};
 }
 
 }  // namespace morula::scenarios

@@ -95,7 +95,8 @@ Result<std::vector<NamedPlot>> plot_optical_stretcher(const Study& study, const 
   for (const Stretching& s : all)
     if (std::find(tensions.begin(), tensions.end(), s.tension) == tensions.end()) tensions.push_back(s.tension);
   for (const double tension : tensions) {
-    Curve points{tension_text(tension), {}, {}, CurveStyle::kPoints}, line{tension_text(tension) + ", theory", {0.0}, {0.0}, CurveStyle::kLine};
+    Curve points{tension_text(tension), {}, {}, CurveStyle::kPoints},
+        line{tension_text(tension) + ", theory", {0.0}, {0.0}, CurveStyle::kLine};
     for (const Stretching& s : all) {
       if (s.tension != tension || s.stress == 0.0) continue;
       points.x.push_back(1000.0 * s.stress);

@@ -33,8 +33,8 @@ Result<std::vector<Pulled>> pulled(const Study& study, const std::filesystem::pa
         area = cells[0].cell->area;
         volume = cells[0].cell->volume;
       }
-      out.push_back({load.size * hold.value, extent(cells[0].nodes, load.axis), extent(cells[0].nodes, side), cells[0].cell->area / area - 1.0,
-                     cells[0].cell->volume / volume - 1.0});
+      out.push_back({load.size * hold.value, extent(cells[0].nodes, load.axis), extent(cells[0].nodes, side),
+                     cells[0].cell->area / area - 1.0, cells[0].cell->volume / volume - 1.0});
     }
     break;
   }

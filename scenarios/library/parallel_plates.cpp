@@ -36,13 +36,15 @@ Result<std::vector<Pressing>> pressings(const Study& study, const std::filesyste
   MORULA_TRY_ASSIGN(const SeriesTable series, read_series(run / "series.csv"));
   const Model& model = study.model;
   std::vector<Pressing> out;
-  const auto moving = std::find_if(model.obstacles.begin(), model.obstacles.end(), [](const ObstacleSpec& o) { return !o.distance.empty(); });
+  const auto moving =
+      std::find_if(model.obstacles.begin(), model.obstacles.end(), [](const ObstacleSpec& o) { return !o.distance.empty(); });
   if (moving == model.obstacles.end() || model.obstacles.size() != 2) return out;
   const ObstacleSpec& other = model.obstacles[moving == model.obstacles.begin() ? 1 : 0];
   for (const Hold& hold : holds_of(moving->distance, snapshots)) {
     for (const ShellView& shell : shells_of(snapshots[hold.snapshot], 0)) {
       const CellType& type = model.types[0];
-      const double force = at_time(series, "force_z_" + moving->name, hold.time), opposite = at_time(series, "force_z_" + other.name, hold.time);
+      const double force = at_time(series, "force_z_" + moving->name, hold.time),
+                   opposite = at_time(series, "force_z_" + other.name, hold.time);
       if (!(std::abs(force) > 1e-6)) continue;  // not yet touched, or no such column
       const double r0 = radius_of_volume(shell.cell->volume), gamma = type.shell.tension;
       Pressing p;
@@ -74,7 +76,8 @@ Result<std::vector<Verdict>> judge_parallel_plates(const Study& study, const std
     force = std::max(force, std::abs(p.force - p.expected.force) / std::max(1.0, p.expected.force));
   }
   out.push_back(at_least("PLATES.0", "states at rest between the plates", static_cast<double>(all.size()), 3.0));
-  out.push_back(at_most("PLATES.1", "force on the plate against the pressed drop, over the larger of it and tension times R0", force, limit));
+  out.push_back(
+      at_most("PLATES.1", "force on the plate against the pressed drop, over the larger of it and tension times R0", force, limit));
   out.push_back(at_most("PLATES.2", "tension found from force, pressure and equator, relative error", tension, limit));
   out.push_back(at_most("PLATES.3", "sum of the forces on both plates, over the larger of one and tension times R0", balance, 0.01));
   out.push_back(at_most("PLATES.4", "height of the flattest state over R0", flattest, 1.3));

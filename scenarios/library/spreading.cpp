@@ -88,11 +88,12 @@ Result<std::vector<Verdict>> judge_spreading(const Study& study, const std::file
     if (s.modulus <= kFluid) {
       out.push_back(at_most("S4.1", ("contact radius against Young's law, relative" + at).c_str(),
                             relative(s.contact_radius, s.expected.contact_radius), tolerance(s.nodes, 0.10, 0.06)));
-      out.push_back(at_most("S4.1", ("height, relative" + at).c_str(), relative(s.height, s.expected.height), tolerance(s.nodes, 0.10, 0.05)));
+      out.push_back(
+          at_most("S4.1", ("height, relative" + at).c_str(), relative(s.height, s.expected.height), tolerance(s.nodes, 0.10, 0.05)));
       out.push_back(at_most("S4.1", ("contact angle" + at).c_str(), std::abs(s.angle - s.expected.angle) / kDegree,
                             tolerance(s.nodes, 10.0, 5.0), "deg"));
-      out.push_back(at_most("S4.2", ("pressure, relative" + at).c_str(), relative(s.pressure, s.expected.pressure),
-                            tolerance(s.nodes, 0.10, 0.05)));
+      out.push_back(
+          at_most("S4.2", ("pressure, relative" + at).c_str(), relative(s.pressure, s.expected.pressure), tolerance(s.nodes, 0.10, 0.05)));
     } else if (s.nodes >= 642) {
       for (const ElasticReference& r : kElastic)
         if (std::abs(r.ratio - s.ratio) < 1e-9 && std::abs(s.modulus - 2.0) < 1e-9) {
@@ -152,7 +153,8 @@ Result<std::vector<NamedPlot>> plot_spreading(const Study& study, const std::fil
   over_time.x = {"time", "min", false, {}, {}};
   over_time.y = {"contact area", "um^2", false, 0.0, {}};
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    Curve curve{"W/T = " + number_text("%g", ends[i].ratio) + (ends[i].modulus <= kFluid ? ", fluid" : ", elastic"), {}, {}, CurveStyle::kLine};
+    Curve curve{
+        "W/T = " + number_text("%g", ends[i].ratio) + (ends[i].modulus <= kFluid ? ", fluid" : ", elastic"), {}, {}, CurveStyle::kLine};
     for (const Snapshot& snapshot : snapshots) {
       const auto cells = spreads(study, snapshot);
       if (i >= cells.size()) continue;

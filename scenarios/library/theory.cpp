@@ -48,8 +48,7 @@ Cap cap_of_angle(double cosine) {
 Stretch stretched_sphere(double peak_stress, double radius, double modulus, double poisson, double tension, double bulk_modulus) {
   const double square = radius * radius;
   const double u2 = 2.0 / 3.0 * peak_stress / (4.0 * modulus / ((5.0 + poisson) * square) + 4.0 * tension / square);
-  const double u0 =
-      peak_stress / 3.0 / (2.0 * modulus / ((1.0 - poisson) * square) - 2.0 * tension / square + 3.0 * bulk_modulus / radius);
+  const double u0 = peak_stress / 3.0 / (2.0 * modulus / ((1.0 - poisson) * square) - 2.0 * tension / square + 3.0 * bulk_modulus / radius);
   return {(u0 + u2) / radius, (u0 - 0.5 * u2) / radius};
 }
 

@@ -11,7 +11,8 @@ TimeCourse course_of(BuildContext& c, const std::vector<Named<draft::CoursePoint
   for (const auto& [name, place, point] : points) {
     if (!point.time.known() || !point.value.known()) return {};
     if (!out.time.empty() && point.time.value <= out.time.back()) {
-      c.diagnostics.error(510, point.time.place, "the times of a course must increase, but " + point.time.text + " is not after the one before it",
+      c.diagnostics.error(510, point.time.place,
+                          "the times of a course must increase, but " + point.time.text + " is not after the one before it",
                           "sort the points by time");
       return {};
     }
@@ -45,18 +46,19 @@ void check_bodies(BuildContext& c, const std::string& name, const Place& place, 
     if (block.type != load.type && block.source != InitialCells::Source::kCsv) continue;
     const BodyKind body = block.body_given ? block.body : c.study.model.types[load.type].initial_body;
     if (body == BodyKind::kSphere && c.draft.coupling.regions.empty() && c.draft.coupling.triggers.empty()) {
-      c.diagnostics.error(516, place, who + ", but cells of that type are spheres", "place them `as: shell`, or use `body_force`");
+      c.diagnostics.error(520, place, who + ", but cells of that type are spheres", "place them `as: shell`, or use `body_force`");
       return;
     }
     if (!chosen) continue;
     if (block.orientation != Orientation::kAligned) {
-      c.diagnostics.error(516, place, who + " at chosen nodes, but its cells are turned at random", "place them with `orientation: aligned`");
+      c.diagnostics.error(520, place, who + " at chosen nodes, but its cells are turned at random",
+                          "place them with `orientation: aligned`");
       return;
     }
   }
   const bool swaps = !c.draft.coupling.regions.empty() || !c.draft.coupling.triggers.empty();
   if (chosen && (swaps || c.study.model.types[load.type].cycles))
-    c.diagnostics.error(516, place, who + " at chosen nodes, which a cell that divides or changes its body would not keep",
+    c.diagnostics.error(520, place, who + " at chosen nodes, which a cell that divides or changes its body would not keep",
                         "use a load on the whole cell, or cells that stay as they are");
 }
 

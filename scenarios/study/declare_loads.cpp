@@ -65,8 +65,9 @@ void declare_load(Section& s, draft::Load& load) {
            .optional_section = true,
            .example = "{peak: 1 Pa, axis: [1, 0, 0]}"},
           load.traction, [&load](Section& t) {
-            t.quantity({.name = "peak", .doc = "s0, the traction on the axis.", .quantity = Q::kPressure, .required = true, .example = "1 Pa"},
-                       load.peak);
+            t.quantity(
+                {.name = "peak", .doc = "s0, the traction on the axis.", .quantity = Q::kPressure, .required = true, .example = "1 Pa"},
+                load.peak);
             axis(t, load.traction_axis, "Axis of the beams.");
           });
   s.group({.name = "pull",
@@ -74,8 +75,9 @@ void declare_load(Section& s, draft::Load& load) {
            .optional_section = true,
            .example = "{force: 100 pN, axis: [1, 0, 0], part: 2 %}"},
           load.pull, [&load](Section& p) {
-            p.quantity({.name = "force", .doc = "Force at each end, outwards.", .quantity = Q::kForce, .required = true, .example = "100 pN"},
-                       load.pull_force);
+            p.quantity(
+                {.name = "force", .doc = "Force at each end, outwards.", .quantity = Q::kForce, .required = true, .example = "100 pN"},
+                load.pull_force);
             axis(p, load.pull_ends.axis, "Axis along which the force acts.");
             ends(p, load.pull_ends, "2 %", "Part of the nodes at each end that bear the force: a fixed set, ties taken in.");
           });
@@ -94,11 +96,12 @@ void declare_load(Section& s, draft::Load& load) {
             .quantity = Q::kForce,
             .example = "[0 nN, 0 nN, -1 nN]"},
            load.body_force);
-  s.list({.name = "course",
-          .doc = "The load over time: straight lines between these points, constant before the first and after the last. Without it: the full "
-                 "load from time 0 on. Steps land on the points.",
-          .example = "[{time: 0 s, factor: 0}, {time: 1 s, factor: 1}]"},
-         load.course, &declare_course_point);
+  s.list(
+      {.name = "course",
+       .doc = "The load over time: straight lines between these points, constant before the first and after the last. Without it: the full "
+              "load from time 0 on. Steps land on the points.",
+       .example = "[{time: 0 s, factor: 0}, {time: 1 s, factor: 1}]"},
+      load.course, &declare_course_point);
 }
 
 }  // namespace morula::scenarios

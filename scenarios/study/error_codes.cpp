@@ -64,7 +64,7 @@ constexpr ErrorCode kCodes[] = {
     {514, "Poisson ratio outside the law",
      "A net of springs with an area modulus has a Poisson ratio of at least 1/3: below, the area modulus would be negative."},
     {515, "key without effect", "The key belongs to another law than the one that is chosen; it would be read and left aside."},
-    {516, "load that cells cannot bear",
+    {520, "load that cells cannot bear",
      "Tractions, pulls and pressures act on surfaces: they need shells, and chosen nodes need shells that keep their mesh and place."},
     {601, "file missing", "A file that the study names does not exist. Paths are relative to the folder of the study."},
     {602, "file cannot be read", "It is a folder, a device, or its permissions forbid reading."},

@@ -50,7 +50,7 @@ struct TimeSpec {
   double end = 0.0;                ///< [s]
   double output = 3600.0;          ///< series and snapshots [s]
   double checkpoint = 6 * 3600.0;  ///< [s]; a multiple of output is not required: written at the first output time not before it is due
-  double rest = 0.0;  ///< speed of all points below which the run ends at an output; 0: never [µm/s]
+  double rest = 0.0;               ///< speed of all points below which the run ends at an output; 0: never [µm/s]
 };
 
 struct OutputSpec {

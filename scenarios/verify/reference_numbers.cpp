@@ -116,8 +116,8 @@ double tension_of_stretched_springs() {
 cbm::PairLaw<double> reference_pair() { return cbm::make_pair_law(cbm::ContactMaterial::elastic(0.45, 0.4, 0.45, 0.4, 0.1), 5.0, 5.0); }
 
 void add_shells(std::vector<ReferenceNumber>& out) {
-  out.push_back({"dcm 0", "stiffness of the springs, E 1 kPa, h 0.2 um [nN/um]", 0.173205, 5e-7, "Seung & Nelson 1988, doi:10.1103/PhysRevA.38.1005",
-                 [] { return dcm::spring_stiffness(kYoung, kThickness); }});
+  out.push_back({"dcm 0", "stiffness of the springs, E 1 kPa, h 0.2 um [nN/um]", 0.173205, 5e-7,
+                 "Seung & Nelson 1988, doi:10.1103/PhysRevA.38.1005", [] { return dcm::spring_stiffness(kYoung, kThickness); }});
   out.push_back({"dcm 0", "bending rigidity of the cortex, Poisson ratio 0.5 [nN um]", 8.8889e-4, 5e-9, kClosedForm,
                  [] { return dcm::bending_modulus(kYoung, kThickness, kPoisson); }});
   out.push_back({"dcm 0", "stiffness of the hinges [nN um]", 1.02640e-3, 5e-9, kClosedForm,
@@ -134,8 +134,8 @@ void add_shells(std::vector<ReferenceNumber>& out) {
                    [n] { return geometry(sphere(n, true)).volume[0] / ball(kRadius); }});
     out.push_back({"T3", "hinge energy of a sphere with flat rest angles over 8 pi kappa" + at, m.hinge, 6e-5, kIndependent,
                    [n] { return hinge_energy_over_helfrich(n); }});
-    out.push_back({"T4.1", "pressure that holds a sphere of tension 0.5 nN/um (2 gamma/R = 0.166667) [kPa]" + at, m.laplace, 1e-6, kIndependent,
-                   [n] { return laplace_pressure(n); }});
+    out.push_back({"T4.1", "pressure that holds a sphere of tension 0.5 nN/um (2 gamma/R = 0.166667) [kPa]" + at, m.laplace, 1e-6,
+                   kIndependent, [n] { return laplace_pressure(n); }});
     out.push_back({"T5.5", "rate of the breathing mode [1/s]" + at, m.rate, 6e-3, kIndependent, [n] { return breathing_rate(n); }});
   }
   out.push_back({"T4.1", "pressure that holds a sphere of tension 0.5 nN/um against Laplace's, 2562 nodes [kPa]", 2.0 * kTension / kRadius,
@@ -163,7 +163,8 @@ void add_spheres(std::vector<ReferenceNumber>& out) {
   struct Point {
     double overlap, radius, force;
   };
-  for (const Point& p : {Point{-0.360562, 1.040042, -1.5}, Point{0.0, 1.259921, -4.0 / 3.0}, Point{2.0, 2.0, 8.0 / 3.0}, Point{6.550510, 3.0, 21.303062}}) {
+  for (const Point& p :
+       {Point{-0.360562, 1.040042, -1.5}, Point{0.0, 1.259921, -4.0 / 3.0}, Point{2.0, 2.0, 8.0 / 3.0}, Point{6.550510, 3.0, 21.303062}}) {
     char at[48];
     std::snprintf(at, sizeof at, " at overlap %g (dimensionless)", p.overlap);
     out.push_back({"JKR", std::string("contact radius") + at, p.radius, 4e-6, kJkr, [p] {

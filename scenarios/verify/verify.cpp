@@ -33,7 +33,8 @@ Result<std::vector<VerifiedRow>> verify_single_cell_studies(const fs::path& fold
     std::error_code error;
     fs::create_directories(folder / name, error);
     if (error) return file_error(folder / name, "create folder", error.value());
-    for (const TemplateFile& file : find_template(name)->files) MORULA_TRY(write_file_atomically(folder / name / std::string(file.path), file.content));
+    for (const TemplateFile& file : find_template(name)->files)
+      MORULA_TRY(write_file_atomically(folder / name / std::string(file.path), file.content));
     ReadOptions options;
     options.overrides = {"output.report=false"};
     const auto study = read_study(folder / name / "study.yaml", options);
@@ -42,7 +43,8 @@ Result<std::vector<VerifiedRow>> verify_single_cell_studies(const fs::path& fold
     request.runs = folder / name / "runs";
     request.command = std::string("morula verify physics: ") + name;
     MORULA_TRY_ASSIGN(const RunSummary run, scenarios::run(*study, request, Comm()));
-    for (const Verdict& v : run.verdicts) out.push_back({v.id, v.quantity, std::nullopt, v.value, v.limit, v.passed, std::string("study ") + name});
+    for (const Verdict& v : run.verdicts)
+      out.push_back({v.id, v.quantity, std::nullopt, v.value, v.limit, v.passed, std::string("study ") + name});
   }
   return out;
 }

@@ -100,7 +100,8 @@ TEST(Extent, IsMeasuredAlongTheAxis) {
   EXPECT_DOUBLE_EQ(extent(nodes, {0, 0, 1}), 1.0);
 }
 
-TEST(Biconcave, IsTheRestingRedBloodCell) {  // Evans & Fung 1972, R = 3.91 µm: 94.1 µm³, 134.1 µm², 0.81 µm in the middle, 2.57 µm at the rim
+TEST(Biconcave,
+     IsTheRestingRedBloodCell) {  // Evans & Fung 1972, R = 3.91 µm: 94.1 µm³, 134.1 µm², 0.81 µm in the middle, 2.57 µm at the rim
   ShapeLibrary shapes;
   const auto sphere = shapes.icosphere(2562).value();
   const auto shape = biconcave_shape(*sphere);

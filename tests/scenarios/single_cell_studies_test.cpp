@@ -1,6 +1,8 @@
 // The single-cell experiments of the library, whole, in their quick version: every criterion holds (physics/scenarios.md S1, S2, S4, S6).
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "scenarios/library/criteria.h"
 #include "scenarios/library/library.h"
 #include "scenarios/library/single_cell.h"
@@ -37,7 +39,7 @@ TEST_P(SingleCell, StudyMeetsAllItsCriteriaAndIsPlottedAgainstTheory) {
 
 INSTANTIATE_TEST_SUITE_P(Quick, SingleCell,
                          testing::Values("doublet", "optical_stretcher", "optical_tweezers", "parallel_plates", "spreading"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& instance) { return std::string(instance.param); });
 
 TEST(Holds, AreTheConstantPartsOfACourseWithTheirLastSnapshot) {
   std::vector<Snapshot> snapshots(8);

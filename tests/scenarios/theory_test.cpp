@@ -57,8 +57,8 @@ TEST(Theory, OfTheStretcherIsItsTable) {
   const auto at = [&](const char* name, std::size_t i) { return t.find(name)->values[i]; };
   ASSERT_GT(t.rows(), 30u);
   for (std::size_t i = 0; i < t.rows(); ++i) {
-    const theory::Stretch s = theory::stretched_sphere(1e-3 * at("peak_stress_Pa", i), 6.0, 0.2, at("poisson_2d", i),
-                                                       1e3 * at("active_tension_N_per_m", i), 2.5);
+    const theory::Stretch s =
+        theory::stretched_sphere(1e-3 * at("peak_stress_Pa", i), 6.0, 0.2, at("poisson_2d", i), 1e3 * at("active_tension_N_per_m", i), 2.5);
     EXPECT_NEAR(s.axial, at("axial_strain", i), 1e-5);
     EXPECT_NEAR(s.transverse, at("transverse_strain", i), 1e-5);
   }
