@@ -219,7 +219,9 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair) {
   const std::uint16_t material_b = pair.rigid ? obstacles_[pair.b].material : scene.bodies[pair.b].material;
   ContactMaterial contact = material(material_a, material_b);
   if (!both && !pair.rigid) {  // a sphere gives way by its own foundation (fields_and_coupling.md, D)
-    contact.law.repulsion = contact.sphere_repulsion;
+    const bool first = body[0].topology == nullptr;
+    const double modulus = (first ? contact : material(material_b, material_a)).sphere_modulus;
+    contact.law.repulsion = sphere_foundation(modulus, contact.law.adhesion, body[first ? 0 : 1].radius);
     contact.law.cap = 0.0;
   }
   for (int d = 0; d < 2; ++d) {
