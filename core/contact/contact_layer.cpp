@@ -213,6 +213,7 @@ void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {
 void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair) {
   if (pair.motion - pair.built_at > settings_.skin) rebuild_lists(scene, pair);
   clear_results(pair);
+  if (!scene.bodies[pair.a].moves && (pair.rigid || !scene.bodies[pair.b].moves)) return;  // both held: nothing to find
   const PairBody body[2] = {view(scene, pair, 0), view(scene, pair, 1)};
   const bool both = !pair.rigid && body[0].topology != nullptr && body[1].topology != nullptr;
   const std::uint16_t material_a = scene.bodies[pair.a].material;
@@ -224,6 +225,9 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair) {
     contact.law.repulsion = sphere_foundation(modulus, contact.law.adhesion, body[first ? 0 : 1].radius);
     contact.law.cap = 0.0;
   }
+  contact.law.adhesion *= hold_;
+  contact.normal_friction *= hold_;
+  contact.tangential_friction *= hold_;
   for (int d = 0; d < 2; ++d) {
     if (pair.points[d].source_face.empty()) continue;
     evaluate_points({body[d],

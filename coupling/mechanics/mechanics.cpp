@@ -10,7 +10,8 @@ namespace morula {
 namespace {
 
 /// How far a body may go in one step before the step is refused: ghosts must reach that far (implicit_step.cpp).
-constexpr double kCappedDepth = 5.0;  // overlap that the capped start can undo [µm]
+constexpr double kCappedDepth = 5.0;      // overlap that the capped start can undo [µm]
+constexpr double kCapWithoutStart = 0.1;  // δ after a promotion into too little room, where the study has no capped start [µm]
 
 double step_margin(const Model& model) { return 2.0 * model.step.max_displacement * model.contact.range; }
 
@@ -91,10 +92,12 @@ void Mechanics::prepare(const Tissue& tissue) {
       lay_out_system();
   }
   if (!evaluated_) {
-    const double cap = tissue.clock.capped ? (relaxing_ ? relax_cap_ : model_.step.start_cap) : 0.0;
-    const double depth = tissue.clock.capped ? kCappedDepth : 0.0;
-    if (cap != contacts_.cap() || depth != contacts_.settings().depth) contacts_current_ = false;
+    const double cap = tissue.clock.capped ? (relaxing_ ? relax_cap_ : model_.step.start_cap > 0.0 ? model_.step.start_cap : kCapWithoutStart) : 0.0;
+    const double depth = tissue.clock.capped ? (relaxing_ ? relax_depth_ : kCappedDepth) : 0.0;
+    const double hold = relaxing_ ? relax_hold_ : 1.0;
+    if (cap != contacts_.cap() || depth != contacts_.settings().depth || hold != contacts_.hold()) contacts_current_ = false;
     contacts_.set_cap(cap);
+    contacts_.set_hold(hold);
     contacts_.set_depth(depth);
     if (!contacts_current_) {
       contacts_.set_offsets(tissue.obstacle_offset);
