@@ -270,6 +270,27 @@ double Mechanics::deepest_overlap() const {
   return comm_.max(worst != nullptr ? worst->overlap : 0.0);
 }
 
+std::vector<std::pair<CellId, CellId>> Mechanics::touching(const Tissue& tissue, std::span<const CellId> these) {
+  prepare(tissue);
+  const auto bodies = scene_.bodies();
+  const auto wanted = [&](CellId id) { return std::binary_search(these.begin(), these.end(), id); };
+  std::vector<std::pair<CellId, CellId>> out;
+  for (const SurfacePair& pair : contacts_.pairs()) {
+    double area = 0.0;
+    for (const PairGradient& gradient : pair.gradient)
+      for (const double face : gradient.face_contact) area += face;
+    if (!(area > 0.0)) continue;
+    const ContactBody& a = bodies[pair.a];
+    const CellId partner = pair.rigid ? CellId(pair.b + 1) : bodies[pair.b].id;
+    if (!wanted(a.id) && (pair.rigid || !wanted(partner))) continue;
+    if (a.owned) out.emplace_back(a.id, partner);
+    if (!pair.rigid && bodies[pair.b].owned) out.emplace_back(partner, a.id);
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());  // images of periodic neighbours
+  return out;
+}
+
 const BodyValues& Mechanics::values(const Tissue& tissue) {
   prepare(tissue);
   const std::size_t shells = scene_.owned_shells(), spheres = scene_.owned_spheres();

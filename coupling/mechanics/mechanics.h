@@ -69,6 +69,10 @@ class Mechanics {
   /// Collective; ranks without such bodies take part.
   Status relax(Tissue& tissue, std::span<const char> moves);
 
+  /// Which owned cells touch which of `these` (sorted), or are one of `these` and touch whom: pairs (owned cell, partner) with contact area in the
+  /// surface contacts at the tissue's positions, sorted. An obstacle is the partner CellId(number + 1). Collective.
+  std::vector<std::pair<CellId, CellId>> touching(const Tissue& tissue, std::span<const CellId> these);
+
   /// Volumes, areas, pressures and contact areas at the tissue's present positions. Collective.
   const BodyValues& values(const Tissue& tissue);
 
