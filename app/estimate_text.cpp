@@ -1,6 +1,7 @@
 #include "app/estimate_text.h"
 
 #include "app/words.h"
+#include "core/numbers/number_text.h"
 #include "scenarios/run/progress.h"
 
 namespace morula::app {

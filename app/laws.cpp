@@ -5,6 +5,7 @@
 
 #include "app/words.h"
 #include "cbm/builtin.h"
+#include "core/numbers/number_text.h"
 #include "coupling/behaviours/builtin.h"
 #include "dcm/builtin.h"
 

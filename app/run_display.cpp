@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "app/words.h"
+#include "core/numbers/number_text.h"
 
 namespace morula::app {
 namespace {

@@ -3,6 +3,7 @@
 #include "app/run_state.h"
 #include "app/verbs.h"
 #include "app/words.h"
+#include "core/numbers/number_text.h"
 #include "scenarios/results/run_folder.h"
 #include "scenarios/run/progress.h"
 

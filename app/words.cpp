@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "core/numbers/number_text.h"
 #include "core/numbers/unit_conversion.h"
 
 namespace morula::app {
@@ -14,12 +14,6 @@ Result<double> read_time(const std::string& flag, const std::string& text) {
   if (!time.ok()) return Error{ErrorKind::kInput, flag + " " + time.error().message, time.error().help};
   if (!(*time > 0.0)) return Error{ErrorKind::kInput, flag + " must be above 0, but is '" + text + "'", "for example `" + flag + " 48h`"};
   return *time;
-}
-
-std::string number_text(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
 }
 
 std::string bytes_words(double bytes) {

@@ -14,8 +14,6 @@ Result<double> read_time(const std::string& flag, const std::string& text);
 [[nodiscard]] std::string bytes_words(double bytes);
 /// "1 cell", "3 cells".
 [[nodiscard]] std::string count_words(std::uint64_t count, const std::string& singular, const std::string& plural);
-/// printf for std::string, for single numbers: number_text("%.3g", 2.5).
-[[nodiscard]] std::string number_text(const char* format, double value);
 /// Columns aligned on their widest entry (in characters, not bytes), two spaces apart.
 [[nodiscard]] std::string table_text(const std::vector<std::vector<std::string>>& rows);
 

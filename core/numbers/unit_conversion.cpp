@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/numbers/decimal_number.h"
+#include "core/numbers/number_text.h"
 #include "core/numbers/unit_table.h"
 
 namespace morula {
@@ -111,11 +112,6 @@ bool is_plain_unit(std::string_view unit) {
     before = c;
   }
   return true;
-}
-
-std::string shortest(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 std::string help_for(Quantity quantity) { return "for example `" + std::string(describe(quantity).example) + "`"; }
@@ -238,7 +234,7 @@ std::string UnitSystem::format_value(double internal, Quantity quantity) const {
   if (std::isnan(internal)) return "nan";
   if (std::isinf(internal)) return internal < 0 ? "-inf" : "inf";
   const auto internal_unit = describe(quantity).internal_unit;
-  const std::string plain = shortest(internal) + (internal_unit.empty() ? "" : " ") + std::string(internal_unit);
+  const std::string plain = shortest_text(internal) + (internal_unit.empty() ? "" : " ") + std::string(internal_unit);
   std::string best = plain;
   if (internal == 0.0) return best;
   for (const std::string_view unit : written_units(quantity).units) {

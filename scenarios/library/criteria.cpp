@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "scenarios/library/blastocyst.h"
 #include "scenarios/library/hybrid_spheroid.h"
+#include "scenarios/library/verdicts.h"
 #include "scenarios/report/series_reader.h"
 
 namespace morula::scenarios {
@@ -13,16 +13,6 @@ namespace {
 
 constexpr double kUncapped = 0.1;     // overlap at which the capped start ends [µm]
 constexpr double kEnergyRise = 1e-3;  // of the range (INV.7)
-
-std::string at_most(double limit, const char* unit) {
-  char text[64];
-  std::snprintf(text, sizeof text, "<= %g%s%s", limit, *unit ? " " : "", unit);
-  return text;
-}
-
-Verdict at_most(const char* id, const char* quantity, double value, double limit, const char* unit) {
-  return {id, quantity, value, at_most(limit, unit), value <= limit};
-}
 
 /// Largest value of a column from a row on; NaN (which passes no limit) where a value is no number.
 double largest(const SeriesColumn& column, std::size_t from = 0) {
@@ -74,15 +64,15 @@ Result<std::vector<Verdict>> common_criteria(const Study& study, const std::file
   const Limits& limits = study.model.limits;
   std::vector<Verdict> out;
   if (const auto* error = series.find("volume_error"))
-    out.push_back(at_most("INV.3", "volume of any cell against its pressure law, relative", largest(*error), limits.volume_error, ""));
+    out.push_back(at_most("INV.3", "volume of any cell against its pressure law, relative", largest(*error), limits.volume_error));
   if (const auto* overlap = series.find("worst_overlap"))
     out.push_back(at_most("INV.4", "deepest penetration of a surface in any step", largest(*overlap, first_settled_row(study, *overlap)),
                           limits.overlap, "um"));
   if (const auto* energy = series.find("energy"); energy && is_passive(study) && energy->values.size() > 2)
-    out.push_back(at_most("INV.7", "rise of the energy between outputs, relative to its range", largest_rise(*energy), kEnergyRise, ""));
+    out.push_back(at_most("INV.7", "rise of the energy between outputs, relative to its range", largest_rise(*energy), kEnergyRise));
   if (const auto* balance = series.find("field_balance"))
     out.push_back(
-        at_most("LIMIT.field_balance", "balance of the amounts of every field, relative", largest(*balance), limits.field_balance, ""));
+        at_most("LIMIT.field_balance", "balance of the amounts of every field, relative", largest(*balance), limits.field_balance));
   return out;
 }
 

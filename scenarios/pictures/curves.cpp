@@ -1,10 +1,10 @@
 #include "scenarios/pictures/curves.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
+#include "core/numbers/number_text.h"
 #include "scenarios/pictures/annotate.h"
 #include "scenarios/pictures/camera.h"
 #include "scenarios/pictures/png.h"
@@ -56,12 +56,6 @@ void draw_line(SvgFrame& frame, const Curve& curve, int color) {
   flush();
 }
 
-std::string exact_number(double value) {
-  if (std::isnan(value)) return "nan";
-  char buffer[40];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
-
 std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string out = "\"";
@@ -76,7 +70,7 @@ std::string curves_csv(const CurvePlot& plot) {
   std::string out = "curve," + header(plot.x.label, plot.x.unit) + "," + header(plot.y.label, plot.y.unit) + "\n";
   for (const Curve& curve : plot.curves)
     for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i)
-      out += csv_field(curve.name) + "," + exact_number(curve.x[i]) + "," + exact_number(curve.y[i]) + "\n";
+      out += csv_field(curve.name) + "," + shortest_text(curve.x[i]) + "," + shortest_text(curve.y[i]) + "\n";
   return out;
 }
 
@@ -87,7 +81,7 @@ std::string bars_csv(const BarPlot& plot) {
   for (std::size_t i = 0; i < plot.categories.size(); ++i) {
     out += csv_field(plot.categories[i]);
     for (const BarSeries& series : plot.series)
-      out.append(",").append(exact_number(i < series.heights.size() ? series.heights[i] : std::numeric_limits<double>::quiet_NaN()));
+      out.append(",").append(shortest_text(i < series.heights.size() ? series.heights[i] : std::numeric_limits<double>::quiet_NaN()));
     out += "\n";
   }
   return out;

@@ -1,12 +1,12 @@
 #include "scenarios/results/export.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <type_traits>
 
+#include "core/numbers/number_text.h"
 #include "scenarios/results/file_io.h"
 #include "scenarios/results/parcels.h"
 #include "scenarios/results/snapshot_columns.h"
@@ -17,13 +17,8 @@ namespace morula::scenarios {
 namespace fs = std::filesystem;
 namespace {
 
-std::string shortest(double value) {
-  char text[40];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
 std::string as_text(const Snapshot&, CellId value) { return value.text(); }
-std::string as_text(const Snapshot&, double value) { return shortest(value); }
+std::string as_text(const Snapshot&, double value) { return shortest_text(value); }
 /// A name as a field of a CSV line (RFC 4180).
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
@@ -39,10 +34,10 @@ std::string as_text(const Snapshot&, Phase phase) {
   static constexpr std::array kNames{"growing", "waiting", "resting", "dying"};
   return static_cast<std::size_t>(phase) < kNames.size() ? kNames[static_cast<std::size_t>(phase)] : "unknown";
 }
-std::string as_text(const Snapshot&, const Vec3d& v) { return shortest(v.x) + ',' + shortest(v.y) + ',' + shortest(v.z); }
+std::string as_text(const Snapshot&, const Vec3d& v) { return shortest_text(v.x) + ',' + shortest_text(v.y) + ',' + shortest_text(v.z); }
 std::string as_text(const Snapshot& s, const std::array<double, kMaxFields>& values) {
   std::string out;
-  for (std::size_t f = 0; f < s.fields.size() && f < kMaxFields; ++f) out += (f == 0 ? "" : ",") + shortest(values[f]);
+  for (std::size_t f = 0; f < s.fields.size() && f < kMaxFields; ++f) out += (f == 0 ? "" : ",") + shortest_text(values[f]);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <functional>
 
+#include "core/numbers/number_text.h"
 #include "scenarios/results/file_io.h"
 
 namespace morula::scenarios {
@@ -68,12 +69,6 @@ Result<fs::path> make_folder(const fs::path& parent, const fs::path& out, const 
     if (::mkdir(path.c_str(), 0755) == 0) return path;
     if (errno != EEXIST) return file_error(path, "create folder", errno);
   }
-}
-
-std::string shortest(double value) {
-  char text[40];
-  const auto result = std::to_chars(text, text + sizeof text, value);
-  return {text, result.ptr};
 }
 
 /// Keeps the whole lines that `keep` likes.
@@ -195,8 +190,8 @@ Status RunFolder::begin_series(std::span<const SeriesHeader> columns) const {
 
 Status RunFolder::add_to_series(double time, std::span<const double> values) const {
   if (!is_root_) return {};
-  std::string line = shortest(time);
-  for (const double value : values) line += ',' + shortest(value);
+  std::string line = shortest_text(time);
+  for (const double value : values) line += ',' + shortest_text(value);
   return append_to_text(series(), line + '\n');
 }
 

@@ -1,11 +1,11 @@
 #include "scenarios/results/vtk_writer.h"
 
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <type_traits>
 
+#include "core/numbers/number_text.h"
 #include "scenarios/results/file_io.h"
 #include "scenarios/results/hdf5_plan.h"
 #include "scenarios/results/parcels.h"
@@ -14,11 +14,6 @@
 namespace morula::scenarios {
 namespace fs = std::filesystem;
 namespace {
-
-std::string shortest(double value) {
-  char text[40];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
 
 std::string escaped(const std::string& text) {
   std::string out;
@@ -84,7 +79,7 @@ std::string field_data(const Snapshot& s) {
     names += "0 ";
   }
   std::string out = "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">" +
-                    shortest(s.time) + "</DataArray>\n";
+                    shortest_text(s.time) + "</DataArray>\n";
   if (!s.type_names.empty())
     out += "<Array type=\"String\" Name=\"type_names\" NumberOfTuples=\"" + std::to_string(s.type_names.size()) + "\" format=\"ascii\">" +
            names + "</Array>\n";
@@ -161,8 +156,8 @@ std::string grid_file(const Snapshot& s, const Snapshot::Grid& grid) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const char* gap = axis == 0 ? "" : " ";
     extent += gap + ("0 " + std::to_string(grid.voxels[axis]));
-    origin += gap + shortest(grid.low[axis]);
-    spacing += gap + shortest(grid.spacing[axis]);
+    origin += gap + shortest_text(grid.low[axis]);
+    spacing += gap + shortest_text(grid.spacing[axis]);
   }
   return file_head("ImageData") + "<ImageData WholeExtent=\"" + extent + "\" Origin=\"" + origin + "\" Spacing=\"" + spacing + "\">\n" +
          field_data(s) + "<Piece Extent=\"" + extent + "\">\n<PointData>\n</PointData>\n<CellData>\n" +
@@ -179,8 +174,8 @@ Status write_collection(const fs::path& folder, const std::string& stem, const c
                         const std::vector<double>& times) {
   std::string text = file_head("Collection") + "<Collection>\n";
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    text += "<DataSet timestep=\"" + shortest(times[i]) + "\" group=\"\" part=\"0\" file=\"" + escaped(numbered(stem, numbers[i], suffix)) +
-            "\"/>\n";
+    text += "<DataSet timestep=\"" + shortest_text(times[i]) + "\" group=\"\" part=\"0\" file=\"" +
+            escaped(numbered(stem, numbers[i], suffix)) + "\"/>\n";
   return write_file_atomically(folder / (stem + ".pvd"), text + "</Collection>\n</VTKFile>\n");
 }
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
+#include "core/numbers/number_text.h"
 #include "scenarios/observables/local_snapshot.h"
 #include "scenarios/results/checkpoint_folder.h"
 #include "scenarios/results/file_io.h"
@@ -20,12 +20,6 @@ namespace {
 
 constexpr double kWarnAt = 0.8;  // of a limit
 constexpr auto kStatusEvery = std::chrono::seconds(2);
-
-std::string number_text(const char* format, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 /// Index of the first multiple of the interval that is later than `time`.
 double next_multiple(double time, double interval) {

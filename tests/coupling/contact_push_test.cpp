@@ -67,6 +67,18 @@ Model with_obstacle(Model model, const TriangleMesh& mesh) {
   return model;
 }
 
+/// A shell pushed against an obstacle, after the push; it never goes deeper than 0.1 µm.
+Tissue push_against(const TriangleMesh& obstacle) {
+  const Model model = with_obstacle(pushed_model(), obstacle);
+  ShapeLibrary shapes;
+  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell});
+  tissue.obstacle_offset.resize(1);
+  auto obstacles = contact_obstacles(model);
+  EXPECT_TRUE(obstacles.ok());
+  EXPECT_LT(push(model, tissue, std::move(*obstacles), false), 0.1);
+  return tissue;
+}
+
 TEST(PushedShell, StopsAtAnotherShell) {
   const Model model = pushed_model();
   ShapeLibrary shapes;
@@ -92,13 +104,7 @@ TEST(PushedShell, StopsAtAPlane) {
   ASSERT_TRUE(plate.ok());
   TriangleMesh mesh = *plate;
   for (Vec3d& p : mesh.position) p.x += 7.5;  // its face is at x = 7
-  const Model model = with_obstacle(pushed_model(), mesh);
-  ShapeLibrary shapes;
-  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell});
-  tissue.obstacle_offset.resize(1);
-  auto obstacles = contact_obstacles(model);
-  ASSERT_TRUE(obstacles.ok());
-  EXPECT_LT(push(model, tissue, std::move(*obstacles), false), 0.1);
+  const Tissue tissue = push_against(mesh);
   EXPECT_LT(leading_x(tissue), 7.15);
   EXPECT_GT(leading_x(tissue), 6.0);
 }
@@ -112,13 +118,7 @@ TEST(PushedShell, StopsAtASurfaceFromAnStlFile) {
   ASSERT_TRUE(read.ok());
   TriangleMesh mesh = *read;
   for (Vec3d& p : mesh.position) p.x += 15.0;  // begins at x = 7
-  const Model model = with_obstacle(pushed_model(), mesh);
-  ShapeLibrary shapes;
-  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell});
-  tissue.obstacle_offset.resize(1);
-  auto obstacles = contact_obstacles(model);
-  ASSERT_TRUE(obstacles.ok());
-  EXPECT_LT(push(model, tissue, std::move(*obstacles), false), 0.1);
+  const Tissue tissue = push_against(mesh);
   const Vec3d center = volume_centroid(tissue.shells.topology(0).faces(), tissue.shells.nodes(0));
   EXPECT_GT(norm(center - Vec3d{15, 0, 0}), 10.0);  // it may slip aside, but not through
 }

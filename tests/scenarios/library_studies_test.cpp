@@ -112,8 +112,8 @@ TEST(LibraryStudies, HybridSpheroidRunsShortened) {
   ASSERT_TRUE(run.ok());
   EXPECT_GT(run->final_state.shells, 0u);
   EXPECT_LT(run->final_state.shells, 20u);
-  ASSERT_NE(find(*run, "shells at the end"), nullptr);  // judged, and honest: so small a core is not the demo's
-  EXPECT_FALSE(find(*run, "shells at the end")->passed);
+  EXPECT_EQ(find(*run, "shells at the end"), nullptr);  // a criterion of the whole day
+  EXPECT_NE(find(*run, "mean step"), nullptr);
 }
 
 TEST(LibraryStudies, BlastocystRunsShortened) {

@@ -7,13 +7,8 @@ namespace morula::scenarios {
 namespace {
 
 using namespace testing_support;
-const CheckpointInfo kInfo{"spheroid-0001", "abcdef", 12.5, ""};
 
-struct CheckpointFolder : ::testing::Test {
-  Comm comm;
-  ShapeLibrary library;
-  Folder folder{comm};
-  Model model = model_of_test_tissue();
+struct CheckpointFolder : CheckpointTest {
   std::filesystem::path checkpoints = folder / "checkpoints";
 
   void save(double time) {

@@ -15,13 +15,7 @@ namespace {
 
 using namespace testing_support;
 
-const CheckpointInfo kInfo{"spheroid-0001", "abcdef", 12.5, ""};
-
-struct Checkpoint : ::testing::Test {
-  Comm comm;
-  ShapeLibrary library;
-  Folder folder{comm};
-  Model model = model_of_test_tissue();
+struct Checkpoint : CheckpointTest {
   std::filesystem::path path = folder / "cp.h5";
 };
 

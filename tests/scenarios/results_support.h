@@ -13,6 +13,7 @@
 
 #include "core/parallel/comm.h"
 #include "coupling/tissue.h"
+#include "scenarios/results/checkpoint.h"
 
 namespace morula::scenarios::testing_support {
 
@@ -147,6 +148,17 @@ inline void add_shell(dcm::Shells& shells, CellId id, const std::shared_ptr<cons
   }
   for (std::uint32_t e = 0; e < shape->topology->edge_count(); ++e) shells.rest_length.push_back(numbers.next());
 }
+
+/// What a checkpoint of the tests says of its run.
+inline const CheckpointInfo kInfo{"spheroid-0001", "abcdef", 12.5, ""};
+
+/// A test that writes and reads checkpoints of the test tissue.
+struct CheckpointTest : ::testing::Test {
+  Comm comm;
+  ShapeLibrary library;
+  Folder folder{comm};
+  Model model = model_of_test_tissue();
+};
 
 inline fields::Field make_field(int index, const Comm& comm, int spread) {
   fields::Field field;

@@ -10,6 +10,7 @@ namespace morula::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 const char* const kVerbs[] = {"new", "check", "run", "resume", "status", "list", "info", "explain", "plot", "export", "doctor"};
@@ -199,6 +200,26 @@ TEST(New, ListsTheTemplatesAndEachPassesItsCheck) {
     EXPECT_THAT(checked.out, HasSubstr("memory")) << checked.all();
   }
   EXPECT_GE(count, 3);
+}
+
+/// The OpenMP runtime names its settings on standard error when it is loaded; how often a waiting thread looks is one of them.
+CommandOptions naming_settings(const std::string& shell_before) {
+  CommandOptions options;
+  options.environment = {{"OMP_DISPLAY_ENV", "verbose"}};
+  options.shell_before = shell_before;
+  return options;
+}
+
+TEST(Threads, SleepWhileTheyWait) {
+  const TestFolder folder;
+  const Outcome outcome = run_morula({"list"}, folder.path(), naming_settings("unset OMP_WAIT_POLICY GOMP_SPINCOUNT;"));
+  EXPECT_THAT(outcome.err, HasSubstr("GOMP_SPINCOUNT = '0'"));
+}
+
+TEST(Threads, WaitAsTheUserSays) {
+  const TestFolder folder;
+  const Outcome outcome = run_morula({"list"}, folder.path(), naming_settings("export OMP_WAIT_POLICY=active;"));
+  EXPECT_THAT(outcome.err, Not(HasSubstr("GOMP_SPINCOUNT = '0'")));
 }
 
 TEST(New, LeavesAnExistingFolderAsItIs) {
