@@ -92,7 +92,10 @@ void Mechanics::prepare(const Tissue& tissue) {
       lay_out_system();
   }
   if (!evaluated_) {
-    const double cap = tissue.clock.capped ? (relaxing_ ? relax_cap_ : model_.step.start_cap > 0.0 ? model_.step.start_cap : kCapWithoutStart) : 0.0;
+    const double cap = tissue.clock.capped ? (relaxing_                     ? relax_cap_
+                                              : model_.step.start_cap > 0.0 ? model_.step.start_cap
+                                                                            : kCapWithoutStart)
+                                           : 0.0;
     const double depth = tissue.clock.capped ? (relaxing_ ? relax_depth_ : kCappedDepth) : 0.0;
     const double hold = relaxing_ ? relax_hold_ : 1.0;
     if (cap != contacts_.cap() || depth != contacts_.settings().depth || hold != contacts_.hold()) contacts_current_ = false;

@@ -110,7 +110,8 @@ void judge_shape(const Study& study, const Embryo& embryo, std::vector<Verdict>&
     }
   }
   out.push_back(equal("S18.2", "trophectoderm cells that such a ball does not touch", covered, 0));
-  out.push_back(equal("S18.2", "inner cells that a ball of a cell's size, rolling outside, touches on more than 10 % of their surface", outside, 0));
+  out.push_back(
+      equal("S18.2", "inner cells that a ball of a cell's size, rolling outside, touches on more than 10 % of their surface", outside, 0));
   out.push_back(below("S18.2", "largest part of an inner cell's surface that such a ball touches", most, kInnerFree));
 }
 
