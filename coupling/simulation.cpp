@@ -159,6 +159,12 @@ Result<std::vector<Event>> Simulation::swap_bodies() {
   if (!comm_.any(!orders.empty())) return events;
   std::vector<double> pressure(orders.size()), volume;
   for (std::size_t k = 0; k < orders.size(); ++k) pressure[k] = tissue_.cells.rows[orders[k].row].pressure;
+  std::vector<CellId> leaving;
+  for (const SwapOrder& order : orders)
+    if (order.to == BodyKind::kSphere) leaving.push_back(tissue_.cells.rows[order.row].id);
+  leaving = ids_of_all_ranks(leaving, comm_);
+  std::vector<std::pair<CellId, CellId>> touching;
+  if (!leaving.empty()) touching = mechanics_->touching(tissue_, leaving);
   auto cells = take_apart(tissue_);
   std::vector<CellId> fresh;
   for (std::size_t k = 0; k < orders.size(); ++k) {
@@ -172,6 +178,7 @@ Result<std::vector<Event>> Simulation::swap_bodies() {
     }
     events.push_back({tissue_.clock.time, up ? EventKind::kPromotion : EventKind::kDemotion, cell.row.id, {}, {}, orders[k].reason});
   }
+  attach_touching(cells, touching);  // what adhered as a shell goes on adhering
   put_together(tissue_, std::move(cells));
   mechanics_->bodies_changed();
 

@@ -55,7 +55,7 @@ double trigger_value(const Trigger& trigger, const CellRow& row) {
   return trigger.value == Trigger::Value::kPressure ? row.pressure : row.concentration[static_cast<std::size_t>(trigger.field)];
 }
 
-/// What body a cell is to have: the first region it is in decides, then the triggers, then its type.
+/// What body a cell is to have: the first region it is in decides, then the triggers, then what it was at the start.
 Wish wish(const Model& model, double time, const CellRow& row, const Vec3d& center, const Vec3d& tissue_center) {
   const bool shell = row.body == BodyKind::kShell;
   for (const Region& region : model.swaps.regions) {
@@ -77,11 +77,12 @@ Wish wish(const Model& model, double time, const CellRow& row, const Vec3d& cent
       return {BodyKind::kShell, trigger.hold,
               trigger.value == Trigger::Value::kPressure ? "pressure" : model.fields[static_cast<std::size_t>(trigger.field)].name};
   }
-  return {model.types[row.type].initial_body, hold, "outside"};
+  return {row.own_body, hold, "outside"};
 }
 
-/// The ids of all ranks, sorted.
-std::vector<CellId> all_ids(const std::vector<CellId>& mine, const Comm& comm) {
+}  // namespace
+
+std::vector<CellId> ids_of_all_ranks(const std::vector<CellId>& mine, const Comm& comm) {
   const auto* bytes = reinterpret_cast<const std::byte*>(mine.data());  // NOLINT: plain data
   const auto all = comm.gather_to_all(std::span(bytes, mine.size() * sizeof(CellId)));
   std::vector<CellId> out(all.size() / sizeof(CellId));
@@ -89,8 +90,6 @@ std::vector<CellId> all_ids(const std::vector<CellId>& mine, const Comm& comm) {
   std::sort(out.begin(), out.end());
   return out;
 }
-
-}  // namespace
 
 std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm) {
   if (model.swaps.regions.empty() && model.swaps.triggers.empty()) return {};
@@ -111,7 +110,7 @@ std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, st
   // The lowest ids first, under the cap of shells and the number of swaps a step.
   std::vector<CellId> up, down;
   for (const SwapOrder& order : orders) (order.to == BodyKind::kShell ? up : down).push_back(tissue.cells.rows[order.row].id);
-  const auto all_up = all_ids(up, comm), all_down = all_ids(down, comm);
+  const auto all_up = ids_of_all_ranks(up, comm), all_down = ids_of_all_ranks(down, comm);
   const auto most =
       tissue.clock.steps == 0 ? static_cast<std::size_t>(cells) : static_cast<std::size_t>(std::max<std::int64_t>(1, cells / 100));
   const std::size_t downs = std::min(all_down.size(), most);
@@ -168,6 +167,18 @@ void demote(CellRecord& cell, double time) {
   cell.row.body = BodyKind::kSphere;
   cell.sphere = std::move(sphere);
   cell.shell.reset();
+}
+
+void attach_touching(std::span<CellRecord> cells, std::span<const std::pair<CellId, CellId>> touching) {
+  for (CellRecord& cell : cells) {
+    if (!cell.sphere) continue;
+    auto& attached = cell.sphere->attached;
+    const auto first = std::lower_bound(touching.begin(), touching.end(), std::pair(cell.row.id, CellId()));
+    for (auto at = first; at != touching.end() && at->first == cell.row.id; ++at) {
+      const auto place = std::lower_bound(attached.begin(), attached.end(), at->second);
+      if (place == attached.end() || *place != at->second) attached.insert(place, at->second);
+    }
+  }
 }
 
 }  // namespace morula

@@ -267,21 +267,30 @@ void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {
 void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& workspace) {
   if (pair.motion - pair.built_at > settings_.skin) rebuild_lists(scene, pair);
   clear_results(pair, {scene.bodies[pair.a].point_count, pair.rigid ? 0 : scene.bodies[pair.b].point_count}, gradient);
+  pair.area = 0.0;
+  pair.push = {};
+  if (!scene.bodies[pair.a].moves && (pair.rigid || !scene.bodies[pair.b].moves)) return;  // both held: nothing to find
   const PairBody body[2] = {view(scene, pair, 0), view(scene, pair, 1)};
   const bool both = !pair.rigid && body[0].topology != nullptr && body[1].topology != nullptr;
   ContactMaterial contact = material_of(scene, pair);
   if (!both && !pair.rigid) {  // a sphere gives way by its own foundation (fields_and_coupling.md, D)
-    contact.law.repulsion = contact.sphere_repulsion;
+    const bool first = body[0].topology == nullptr;
+    const double modulus = (first ? contact : material(scene.bodies[pair.b].material, scene.bodies[pair.a].material)).sphere_modulus;
+    contact.law.repulsion = sphere_foundation(modulus, contact.law.adhesion, body[first ? 0 : 1].radius);
     contact.law.cap = 0.0;
   }
+  contact.law.adhesion *= hold_;
+  contact.normal_friction *= hold_;
+  contact.tangential_friction *= hold_;
   for (int d = 0; d < 2; ++d) {
     if (pair.points[d].source_face.empty()) continue;
     evaluate_points({body[d], body[1 - d], contact, FaceQuadrature::with_points(settings_.points_per_face), reach(), both ? 0.5 : 1.0,
                      pair.patch_motion, pair.motion - pair.built_at, !pair.rigid},
                     d, pair, gradient, workspace);
   }
+  pair.area = gradient[0].contact_area + gradient[1].contact_area;
   if (!pair.rigid) return;
-  pair.push = {};  // areas and normals belong to the cell: their share of its force is zero in sum
+  // Areas and normals belong to the cell: their share of its force is zero in sum.
   for (const std::uint16_t node : pair.node[0]) pair.push -= gradient[0].force[node].value();
 }
 

@@ -65,6 +65,9 @@ class ContactLayer {
   void set_depth(double depth);
   void set_offsets(std::span<const Vec3d> offsets);
   void set_cap(double cap);
+  /// Part of adhesion and contact friction that acts, 0 to 1: a new shell is let out of deep overlap before it sticks to its neighbours.
+  void set_hold(double part) { hold_ = part; }
+  [[nodiscard]] double hold() const { return hold_; }
   [[nodiscard]] double cap() const { return materials_.empty() ? 0.0 : materials_.front().law.cap; }
 
   /// Take note of how far the bodies have moved since the last call. True when the list of pairs is no longer sure: rebuild() is due
@@ -122,6 +125,7 @@ class ContactLayer {
     double deviation = 0.0;  ///< largest distance of a point's displacement from the mean
   };
 
+  double hold_ = 1.0;
   ContactSettings settings_;
   std::vector<RigidSurface> obstacles_;
   std::vector<Vec3d> offsets_, last_offsets_, step_offsets_;

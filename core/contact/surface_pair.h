@@ -15,7 +15,7 @@ namespace morula {
 /// Contact of two materials as the contact layer needs it.
 struct ContactMaterial {
   TractionLaw law;
-  double sphere_repulsion = 0.07;    ///< foundation stiffness k_w where one of the two bodies is a sphere [kPa/µm]
+  double sphere_modulus = 0.5;       ///< E/(1 − ν²) of the first material's spheres: they meet surfaces with sphere_foundation() [kPa]
   double normal_friction = 0.0;      ///< γ_n per contact area [nN·s/µm³]
   double tangential_friction = 0.0;  ///< γ_t per contact area [nN·s/µm³]
 };
@@ -96,6 +96,7 @@ struct SurfacePair {
   std::vector<ContactElement> step_elements[2];  ///< at the start of the step: its friction
   double energy = 0.0;                           ///< [nN·µm]
   double overlap = 0.0;                          ///< deepest penetration [µm]
+  double area = 0.0;                             ///< of both surfaces in contact [µm²]
   Vec3d push;                                    ///< force on b where it is rigid [nN]
 };
 

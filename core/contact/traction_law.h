@@ -1,4 +1,7 @@
 #pragma once
+#include <cmath>
+#include <numbers>
+
 #include "core/simd/lane.h"
 
 namespace morula {
@@ -47,6 +50,21 @@ struct TractionLaw {
     return {select(inside, part.energy, zero), select(inside, part.slope, zero), select(inside, part.curvature, zero)};
   }
 };
+
+/// Foundation stiffness k_w with which a sphere gives way to a surface, its own share of the flattening [kPa/µm].
+///
+/// A Winkler foundation on a plane carries π k_w R δ² and the attraction pulls 2π R W (Derjaguin), so that the sphere's half W/2 of the
+/// adhesion balances it at δ² = W/k_w. Two such spheres rest at an overlap δ0 = a0²/(3R*), a0³ = 9πWR*²/(2E*) (Johnson, Kendall & Roberts 1971,
+/// doi:10.1098/rspa.1971.0141; R* = R/2, E* = E′/2): each gives δ0/2. Both agree when k_w = 4W/δ0² = 4E′/(π a0), which is the form
+/// 4E′/(3π a_ref) of fields_and_coupling.md, D, with a_ref = a0/3. A sphere that hardly adheres (a0 < 0.3 R) is met at its Hertz force instead:
+/// a_ref goes linearly to 0.3 R at W = 0.
+///
+/// modulus: E′ = E/(1 − ν²) [kPa]; adhesion: W of the pair [nN/µm]; radius: R [µm].
+inline double sphere_foundation(double modulus, double adhesion, double radius) noexcept {
+  const double unloaded = std::cbrt(9.0 * std::numbers::pi * adhesion * radius * radius / (4.0 * modulus));  // a0
+  const double reference = unloaded > 0.3 * radius ? unloaded / 3.0 : 0.3 * radius - (2.0 / 3.0) * unloaded;
+  return 4.0 * modulus / (3.0 * std::numbers::pi * reference);
+}
 
 /// Weight of attraction between faces that look at each other: 1 when opposed, 0 when not, smooth between.
 ///

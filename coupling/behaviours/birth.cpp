@@ -13,7 +13,7 @@ CellRow make_founder(CellId id, std::uint16_t type_index, const CellType& type, 
   CellRow row;
   row.id = id;
   row.type = type_index;
-  row.body = type.initial_body;
+  row.body = row.own_body = type.initial_body;
   row.phase = type.cycles ? Phase::kGrowing : Phase::kResting;
 
   std::uint64_t variability_draws = 0;
@@ -49,6 +49,7 @@ CellRow make_daughter(const CellRow& mother, int which, const CellType& type, st
   row.type = mother.type;
   row.phase = type.cycles ? Phase::kGrowing : Phase::kResting;
   row.body = mother.body;
+  row.own_body = mother.own_body;
   return row;
 }
 

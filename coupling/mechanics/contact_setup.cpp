@@ -37,21 +37,6 @@ void box_mesh(const Box& box, std::vector<Vec3d>& position, std::vector<Triangle
            {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
 }
 
-/// k_w = 4E′/(3π a_ref), E′ = E/(1 − ν²): a Winkler foundation that meets the Hertz force of a sphere on a plane at the contact radius a_ref
-/// of the unloaded adhesive pair (fields_and_coupling.md, D). The softer of the two types gives way; a_ref is at least 0.3 R.
-double foundation_stiffness(const Model& model, std::size_t a, std::size_t b) {
-  double softest = 1e300;
-  for (const std::size_t t : {a, b}) {
-    const auto& sphere = model.types[t].sphere;
-    const double modulus = sphere.young / (1.0 - sphere.poisson * sphere.poisson);
-    const double radius = model.types[t].radius.mean;
-    // a0 = (9π W R*²/(2 E*))^(1/3) with R* = R/2 and E* = E′/2
-    const double unloaded = std::cbrt(9.0 * std::numbers::pi * model.pair(a, b).adhesion * radius * radius / (4.0 * modulus));
-    softest = std::min(softest, 4.0 * modulus / (3.0 * std::numbers::pi * std::max(unloaded, 0.3 * radius)));
-  }
-  return softest;
-}
-
 }  // namespace
 
 std::vector<ContactMaterial> contact_materials(const Model& model) {
@@ -64,7 +49,10 @@ std::vector<ContactMaterial> contact_materials(const Model& model) {
       material.law.repulsion = model.contact.repulsion;
       if (a >= given || b >= given) continue;
       const ContactPair& pair = model.pair(a, b);
-      if (a < model.types.size() && b < model.types.size()) material.sphere_repulsion = foundation_stiffness(model, a, b);
+      if (a < model.types.size()) {
+        const auto& sphere = model.types[a].sphere;
+        material.sphere_modulus = sphere.young / (1.0 - sphere.poisson * sphere.poisson);
+      }
       material.law.adhesion = pair.adhesion;
       material.normal_friction = pair.normal_friction;
       material.tangential_friction = pair.tangential_friction;

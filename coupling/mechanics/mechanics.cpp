@@ -11,7 +11,8 @@ namespace morula {
 namespace {
 
 /// How far a body may go in one step before the step is refused: ghosts must reach that far (implicit_step.cpp).
-constexpr double kCappedDepth = 5.0;  // overlap that the capped start can undo [µm]
+constexpr double kCappedDepth = 5.0;      // overlap that the capped start can undo [µm]
+constexpr double kCapWithoutStart = 0.1;  // δ after a promotion into too little room, where the study has no capped start [µm]
 
 double step_margin(const Model& model) { return 2.0 * model.step.max_displacement * model.contact.range; }
 
@@ -104,10 +105,15 @@ void Mechanics::prepare(const Tissue& tissue) {
       lay_out_system();
   }
   if (!evaluated_) {
-    const double cap = tissue.clock.capped ? (relaxing_ ? relax_cap_ : model_.step.start_cap) : 0.0;
-    const double depth = tissue.clock.capped ? kCappedDepth : 0.0;
-    if (cap != contacts_.cap() || depth != contacts_.settings().depth) contacts_current_ = false;
+    const double cap = tissue.clock.capped ? (relaxing_                     ? relax_cap_
+                                              : model_.step.start_cap > 0.0 ? model_.step.start_cap
+                                                                            : kCapWithoutStart)
+                                           : 0.0;
+    const double depth = tissue.clock.capped ? (relaxing_ ? relax_depth_ : kCappedDepth) : 0.0;
+    const double hold = relaxing_ ? relax_hold_ : 1.0;
+    if (cap != contacts_.cap() || depth != contacts_.settings().depth || hold != contacts_.hold()) contacts_current_ = false;
     contacts_.set_cap(cap);
+    contacts_.set_hold(hold);
     contacts_.set_depth(depth);
     if (!contacts_current_) {
       contacts_.set_offsets(tissue.obstacle_offset);
@@ -293,6 +299,24 @@ std::vector<Vec3d> Mechanics::spread(const Tissue& tissue, std::span<const Vec3d
 double Mechanics::deepest_overlap() const {
   const SurfacePair* worst = contacts_.deepest(contact_scene());
   return comm_.max(worst != nullptr ? worst->overlap : 0.0);
+}
+
+std::vector<std::pair<CellId, CellId>> Mechanics::touching(const Tissue& tissue, std::span<const CellId> these) {
+  prepare(tissue);
+  const auto bodies = scene_.bodies();
+  const auto wanted = [&](CellId id) { return std::binary_search(these.begin(), these.end(), id); };
+  std::vector<std::pair<CellId, CellId>> out;
+  for (const SurfacePair& pair : contacts_.pairs()) {
+    if (!(pair.area > 0.0)) continue;
+    const ContactBody& a = bodies[pair.a];
+    const CellId partner = pair.rigid ? CellId(pair.b + 1) : bodies[pair.b].id;
+    if (!wanted(a.id) && (pair.rigid || !wanted(partner))) continue;
+    if (a.owned) out.emplace_back(a.id, partner);
+    if (!pair.rigid && bodies[pair.b].owned) out.emplace_back(partner, a.id);
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());  // images of periodic neighbours
+  return out;
 }
 
 BodyValues Mechanics::values(const Tissue& tissue) {

@@ -63,9 +63,15 @@ class Mechanics {
   /// Forces on whole cells (by owned body: shells, then spheres) as `external`: on a shell spread over its nodes by their area (dcm.md §11).
   std::vector<Vec3d> spread(const Tissue& tissue, std::span<const Vec3d> by_body);
 
-  /// Let the owned bodies with moves[body] != 0 find their shape between all others, which are held in place: capped contact, short steps at
-  /// first (time_stepping.md §9.6.4). The clock stands still. Collective; ranks without such bodies take part.
+  /// Let the owned bodies with moves[body] != 0 find their shape between all others, which are held in place (fields_and_coupling.md, D). First
+  /// they are let out of overlap: no adhesion and no friction, a traction capped at a value that grows from 0.1 kPa to 10 kPa. Then adhesion and
+  /// friction come in, and they settle. The clock stands still; where overlap is left (no room), the capped start is on when it goes on.
+  /// Collective; ranks without such bodies take part.
   Status relax(Tissue& tissue, std::span<const char> moves);
+
+  /// Which owned cells touch which of `these` (sorted), or are one of `these` and touch whom: pairs (owned cell, partner) with contact area in the
+  /// surface contacts at the tissue's positions, sorted. An obstacle is the partner CellId(number + 1). Collective.
+  std::vector<std::pair<CellId, CellId>> touching(const Tissue& tissue, std::span<const CellId> these);
 
   /// Volumes, areas, pressures and contact areas at the tissue's present positions. Collective.
   BodyValues values(const Tissue& tissue);
@@ -131,7 +137,9 @@ class Mechanics {
   bool renew_soon_ = false;         ///< the next evaluation for new parameters is a good time to renew ghosts and pairs
   double wear_ = 0.0;               ///< of the list of pairs, at the end of the last step
   bool evaluated_ = false;          ///< energy and forces belong to the scene's positions and the tissue's parameters
-  double relax_cap_ = 0.0;          ///< δ while cells relax in place; 0: that of the study
+  double relax_cap_ = 0.0;          ///< δ while cells relax in place [µm]
+  double relax_depth_ = 0.0;        ///< overlap that is seen meanwhile [µm]
+  double relax_hold_ = 1.0;         ///< part of adhesion and contact friction that acts meanwhile
   bool relaxing_ = false;           ///< obstacles and flags stand still
   bool flags_changed_ = false;      ///< spheres attached or parted at the end of the last step: forces are to be found anew
   std::vector<char> relax_moves_;   ///< which owned bodies move meanwhile

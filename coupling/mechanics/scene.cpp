@@ -222,6 +222,13 @@ void Scene::build(const Tissue& tissue, const Space& space, double reach, ShapeL
 
 void Scene::set_moving(std::span<const char> moves) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].moves = moves.empty() || moves[i] != 0;
+  if (moves.empty() || comm_->size() == 1) return;
+  std::vector<Vec3d> flag(position_.size());  // ghosts move when their owner says so
+  for (const ContactBody& body : bodies_)
+    if (body.active()) flag[body.first_point].x = 1.0;
+  exchange(std::span(flag));
+  for (ContactBody& body : bodies_)
+    if (!body.owned) body.moves = flag[body.first_point].x != 0.0;
 }
 
 void Scene::take_positions(const Tissue& tissue) {

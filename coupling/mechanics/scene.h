@@ -49,7 +49,7 @@ class Scene {
   void exchange(std::span<Vec3d> by_point) const;
   void exchange(std::span<Float4> by_point) const;
 
-  /// Hold all bodies in place but those with moves[body] != 0; an empty list lets all move.
+  /// Hold all bodies in place but those with moves[body] != 0 (of owned ones; ghosts follow their owner); an empty list lets all move. Collective.
   void set_moving(std::span<const char> moves);
 
   /// Copy owned positions from / to the tissue.

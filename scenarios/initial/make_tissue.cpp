@@ -39,7 +39,7 @@ struct Seedling {
 CellRow founder(const Study& study, const InitialCells& block, std::uint64_t number, std::uint16_t type_index) {
   const CellType& type = study.model.types[type_index];
   CellRow row = make_founder(CellId::founder(number), type_index, type, study.model.seed, 0.0, block.random_age);
-  if (block.body_given) row.body = block.body;
+  if (block.body_given) row.body = row.own_body = block.body;
   return row;
 }
 
@@ -63,7 +63,7 @@ void apply_csv(CellRow& row, const CsvCell& csv, const CellType& type) {
     row.target_volume = volume_in_cycle(row.birth_volume, row.division_volume, type.exponential_growth, csv.phase);
     row.birth_time = -csv.phase * row.cycle_duration;
   }
-  if (csv.body) row.body = *csv.body;
+  if (csv.body) row.body = row.own_body = *csv.body;
 }
 
 /// The cell has this volume at time 0, whatever the point of its cycle.

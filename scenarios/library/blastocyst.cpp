@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <numbers>
 #include <optional>
 
 #include "core/mesh/convex_hull.h"
@@ -95,7 +96,9 @@ void judge_shape(const Study& study, const Embryo& embryo, std::vector<Verdict>&
   for (const auto& cell : last.cells) volume += cell.volume;
   if (const double target = study.initial.front().shared_volume * static_cast<double>(last.cells.size()); target > 0.0)
     out.push_back(below("S18.2", "total volume against the target, relative", std::abs(volume / target - 1.0), kVolumeError));
-  const std::vector<double> free = free_outer_fractions(last);
+  const InitialCells& start = study.initial.front();
+  const double cell_radius = std::cbrt(0.75 / std::numbers::pi * volume / static_cast<double>(last.cells.size()));
+  const std::vector<double> free = outer_surface_fractions(last, cell_radius, {start.cavity_center, start.cavity_radius});
   std::size_t covered = 0, outside = 0;
   double most = 0.0;
   for (std::size_t i = 0; i < free.size(); ++i) {
@@ -106,9 +109,10 @@ void judge_shape(const Study& study, const Embryo& embryo, std::vector<Verdict>&
       most = std::max(most, free[i]);
     }
   }
-  out.push_back(equal("S18.2", "trophectoderm cells without a free outer surface", covered, 0));
-  out.push_back(equal("S18.2", "inner cells with more than 10 % free outer surface", outside, 0));
-  out.push_back(below("S18.2", "largest free outer part of an inner cell's surface", most, kInnerFree));
+  out.push_back(equal("S18.2", "trophectoderm cells that such a ball does not touch", covered, 0));
+  out.push_back(
+      equal("S18.2", "inner cells that a ball of a cell's size, rolling outside, touches on more than 10 % of their surface", outside, 0));
+  out.push_back(below("S18.2", "largest part of an inner cell's surface that such a ball touches", most, kInnerFree));
 }
 
 /// S18.3
@@ -130,18 +134,22 @@ void judge_places(const Embryo& embryo, std::vector<Verdict>& out) {
                       mann_whitney_p(outer, inner), kOrder));
 }
 
-/// The last moment before a time.
-std::size_t moment_before(const Embryo& embryo, double time) {
+/// The last moment not after a time.
+std::size_t moment_at(const Embryo& embryo, double time) {
   std::size_t k = 0;
-  while (k + 1 < embryo.moments.size() && embryo.moments[k + 1].time < time) ++k;
+  while (k + 1 < embryo.moments.size() && embryo.moments[k + 1].time <= time + 1e-6) ++k;
   return k;
 }
 
+/// The last moment before a time.
+std::size_t moment_before(const Embryo& embryo, double time) { return moment_at(embryo, time - 2e-6); }
+
 /// Largest way of a TE centre in the window of an exchange that begins at `time`, beyond what it went on as in the window before.
 double motion_by_exchange(const Embryo& embryo, double time) {
-  const std::size_t at = moment_before(embryo, time);
-  const std::size_t before = moment_before(embryo, embryo.moments[at].time - kSwapWindow + 1e-6);
-  const std::size_t after = moment_before(embryo, embryo.moments[at].time + kSwapWindow + 1e-6);
+  // At the moment of an exchange the first cell has its new body, and nobody has moved yet.
+  const std::size_t at = moment_at(embryo, time);
+  const std::size_t before = moment_at(embryo, embryo.moments[at].time - kSwapWindow);
+  const std::size_t after = moment_at(embryo, embryo.moments[at].time + kSwapWindow);
   std::map<CellId, Vec3d> start, past;
   for (const auto& cell : embryo.moments[at].cells) start[cell.id] = cell.centroid;
   for (const auto& cell : embryo.moments[before].cells) past[cell.id] = cell.centroid;

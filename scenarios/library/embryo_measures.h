@@ -16,8 +16,17 @@ double rms_after_rigid_motion(std::span<const Vec3d> a, std::span<const Vec3d> b
 /// approximation with correction for ties and continuity. 1 where a list is empty.
 double mann_whitney_p(std::span<const double> lower, std::span<const double> upper);
 
-/// By cell of the snapshot: the part of its surface that is outer and free. Outer: its outward normal points away from the mean of all
-/// centroids, so that the walls of a cavity do not count. Free: a ray along the normal meets no other cell.
-std::vector<double> free_outer_fractions(const Snapshot& snapshot);
+/// A ball that does not count as outside: the cavity of an embryo.
+struct Cavity {
+  Vec3d center;
+  double radius = 0.0;  ///< 0: none [µm]
+};
+
+/// By cell of the snapshot: the part of its surface that a ball of radius `probe` [µm] can touch when it rolls over the tissue from far away. The ball
+/// passes no gap that is narrower than itself, so that a crevice between two cells exposes no third one, and its centre never enters the
+/// cavity, so that the cavity's walls do not count, closed or not (rolling ball: Richards 1977, doi:10.1146/annurev.bb.06.060177.001055).
+///
+/// Where the ball can be is found on a grid of a fifth of its radius; shells are met at their nodes and the middles of their faces.
+std::vector<double> outer_surface_fractions(const Snapshot& snapshot, double probe, const Cavity& cavity);
 
 }  // namespace morula::scenarios

@@ -28,10 +28,11 @@ void for_each_row_field(Visit&& visit) {
   visit("type", "1", &CellRow::type);
   visit("phase", "1", &CellRow::phase);
   visit("body", "1", &CellRow::body);
+  visit("own_body", "1", &CellRow::own_body);
 }
 
 /// The size of a row that the list above covers, to notice a member that was added to one and not to the other.
-inline constexpr std::size_t kListedRowBytes = 3 * 8 + 11 * 8 + 2 * sizeof(Vec3d) + 2 * kMaxFields * 8 + 8 + 2 + 1 + 1;
+inline constexpr std::size_t kListedRowBytes = 3 * 8 + 11 * 8 + 2 * sizeof(Vec3d) + 2 * kMaxFields * 8 + 8 + 2 + 1 + 1 + 1;
 static_assert(sizeof(CellRow) == kListedRowBytes + sizeof(CellRow::unused_), "list every member of CellRow in for_each_row_field");
 
 template <class Visit>

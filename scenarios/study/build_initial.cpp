@@ -155,6 +155,10 @@ class InitialBuilder {
                            "make it smaller");
       return;
     }
+    if (d.has_cavity) {
+      cells.cavity_center = d.cavity_center.value;
+      cells.cavity_radius = d.cavity_radius.value;
+    }
     cells.shared_volume = (whole - cavity) / static_cast<double>(cells.count);
     c_.study.notes.push_back(shown + ": hull of the cells inflated by " + d.hull_margin.text + ": " + short_number(whole) + " um^3" +
                              (d.has_cavity ? ", less the cavity: " + short_number(whole - cavity) + " um^3" : "") + "; each cell has " +

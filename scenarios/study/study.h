@@ -33,6 +33,8 @@ struct InitialCells {
   double coincident_shift = 6.0;   ///< coincident cells are moved apart by this distance and named [µm]
   double coincident_below = 1e-3;  ///< closer than this counts as coincident [µm]
   double shared_volume = 0.0;      ///< of each cell at time 0, from the hull of all places; 0: as its type or its row says [µm³]
+  Vec3d cavity_center{};           ///< of the ball that is no cell's room [µm]
+  double cavity_radius = 0.0;      ///< 0: none [µm]
 
   // body of these cells before any region is looked at; empty in the file: as the type says
   bool body_given = false;

@@ -80,33 +80,58 @@ void make_shell(Snapshot& snapshot, std::uint32_t cell, double radius) {
   snapshot.cells[cell].body = BodyKind::kShell;
 }
 
-TEST(FreeOuterSurface, OfOneCellIsAll) {
+TEST(OuterSurface, OfOneCellIsAll) {
   Snapshot s;
   s.cells.push_back(ball(1, {3, 4, 5}, 6.0));
-  EXPECT_DOUBLE_EQ(free_outer_fractions(s)[0], 1.0);
+  EXPECT_DOUBLE_EQ(outer_surface_fractions(s, 6.0, {})[0], 1.0);
   make_shell(s, 0, 9.0);
-  EXPECT_DOUBLE_EQ(free_outer_fractions(s)[0], 1.0);
+  EXPECT_DOUBLE_EQ(outer_surface_fractions(s, 6.0, {})[0], 1.0);
 }
 
-TEST(FreeOuterSurface, OfACellInsideAShellIsNone) {
+TEST(OuterSurface, OfACellInsideAShellIsNone) {
   Snapshot s;
   s.cells.push_back(ball(1, {0, 0, 0}, 10.0));
   make_shell(s, 0, 20.0);
   s.cells.push_back(ball(2, {3, 0, 0}, 2.0));
-  const auto free = free_outer_fractions(s);
-  EXPECT_GT(free[0], 0.95);
+  const auto free = outer_surface_fractions(s, 4.0, {});
+  EXPECT_DOUBLE_EQ(free[0], 1.0);
   EXPECT_DOUBLE_EQ(free[1], 0.0);
 }
 
-TEST(FreeOuterSurface, IsHiddenByANeighbourOutside) {
-  // The ray along a normal at the angle θ to the row passes a neighbour's centre, 10 µm away, at 10 sin θ: it is free for θ > 30°.
+TEST(OuterSurface, EndsWhereTheBallTouchesTheNeighbourToo) {
+  // Ball r on two touching cells R: its centre is R + r from both, at the angle α with cos α = R/(R + r) to the row.
   Snapshot s;
   for (std::uint64_t k = 0; k < 3; ++k) s.cells.push_back(ball(k + 1, {10.0 * static_cast<double>(k), 0, 0}, 5.0));
-  const auto free = free_outer_fractions(s);
-  EXPECT_NEAR(free[1], std::cos(std::numbers::pi / 6.0), 0.01);
-  // Of the balls at the ends, normals with n·(10 n/2 − 10 x) > 0 point away from the middle: cos θ < ½, three quarters of the surface.
-  EXPECT_NEAR(free[0], 0.75, 0.01);
-  EXPECT_NEAR(free[2], 0.75, 0.01);
+  for (const double probe : {5.0, 2.5}) {
+    const double cos_alpha = 5.0 / (5.0 + probe);
+    const auto free = outer_surface_fractions(s, probe, {});
+    EXPECT_NEAR(free[0], 0.5 * (1.0 + cos_alpha), 0.015);
+    EXPECT_NEAR(free[1], cos_alpha, 0.015);
+    EXPECT_NEAR(free[2], 0.5 * (1.0 + cos_alpha), 0.015);
+  }
+}
+
+TEST(OuterSurface, AGapNarrowerThanTheBallExposesNoCell) {
+  Snapshot s;  // a cell and its twelve neighbours in face-centred cubic packing, all touching
+  s.cells.push_back(ball(1, {}, 5.0));
+  std::uint64_t number = 2;
+  const double d = 10.0 / std::sqrt(2.0);
+  for (const double a : {-d, d})
+    for (const double b : {-d, d}) {
+      s.cells.push_back(ball(number++, {a, b, 0}, 5.0));
+      s.cells.push_back(ball(number++, {a, 0, b}, 5.0));
+      s.cells.push_back(ball(number++, {0, a, b}, 5.0));
+    }
+  EXPECT_DOUBLE_EQ(outer_surface_fractions(s, 5.0, {})[0], 0.0);
+  // Through the square windows a ball of up to (√2 − 1) R passes and finds the middle.
+  EXPECT_GT(outer_surface_fractions(s, 1.0, {})[0], 0.02);
+}
+
+TEST(OuterSurface, WallsOfTheCavityDoNotCount) {
+  Snapshot s;
+  s.cells.push_back(ball(1, {}, 5.0));
+  // The ball's centre 10 n is in the cavity when 100 + 900 − 600 cos θ < 625: cos θ > 0.625.
+  EXPECT_NEAR(outer_surface_fractions(s, 5.0, {{30, 0, 0}, 25.0})[0], 0.5 * (1.0 + 0.625), 0.01);
 }
 
 #ifdef MORULA_EMBRYO_DATA

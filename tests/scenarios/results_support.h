@@ -120,6 +120,7 @@ inline CellRow make_row(CellId id, BodyKind body) {
   row.type = static_cast<std::uint16_t>(id.bits() % 3);
   row.phase = static_cast<Phase>(id.bits() % 4);
   row.body = body;
+  row.own_body = id.bits() % 2 == 0 ? BodyKind::kSphere : BodyKind::kShell;
   return row;
 }
 

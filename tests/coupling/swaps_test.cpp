@@ -1,0 +1,204 @@
+/// One cell, two bodies: what an exchange keeps, and what its neighbours notice of it (fields_and_coupling.md, D).
+#include "coupling/swaps.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "coupling/simulation.h"
+#include "tests/coupling/tissue_fixture.h"
+
+namespace morula {
+namespace {
+
+using test::clusters_model;
+using test::make_tissue;
+
+constexpr BodyKind kSphere = BodyKind::kSphere, kShell = BodyKind::kShell;
+
+/// Little friction, so that rest comes soon: where cells rest does not depend on it.
+Model resting_model(double radius, double tension, double young, double range) {
+  Model model = clusters_model(0.1);
+  CellType& type = model.types[0];
+  type.radius.mean = radius;
+  type.shell.tension = tension;
+  type.shell.medium_friction = type.medium_friction = 1e-3;
+  type.sphere.young = young;
+  model.pairs = {ContactPair{0.1, 0.5, 0.5}};
+  model.contact.range = range;
+  model.contact.repulsion = 100.0;
+  model.contact.points_per_face = 3;
+  return model;
+}
+
+std::map<CellId, Vec3d> centers_of(const Tissue& tissue) {
+  std::map<CellId, Vec3d> out;
+  std::size_t shell = 0, sphere = 0;
+  for (const CellRow& row : tissue.cells.rows) {
+    if (row.body == kShell) {
+      out[row.id] = volume_centroid(tissue.shells.topology(shell).faces(), tissue.shells.nodes(shell));
+      ++shell;
+    } else {
+      out[row.id] = tissue.spheres.position[sphere++];
+    }
+  }
+  return out;
+}
+
+/// Distance at which two cells rest.
+double resting_distance(const Model& model, BodyKind a, BodyKind b) {
+  const double radius = model.types[0].radius.mean;
+  ShapeLibrary shapes;
+  Tissue tissue = make_tissue(model, shapes, {{-0.98 * radius, 0.2, 0.1}, {0.98 * radius, 0, 0}}, {a, b}, 162, radius);
+  Mechanics mechanics(model, {}, shapes, Comm(), 1);
+  const std::vector<Vec3d> none(Mechanics::external_size(tissue));
+  double dt = 0.1;
+  for (int k = 0; k < 400; ++k) {
+    const auto done = mechanics.step(tissue, dt, none);
+    if (!done) {
+      dt *= 0.5;
+      continue;
+    }
+    if (dt >= 60.0 && done->displacement < 1e-4) break;
+    if (done->displacement < 0.1) dt = std::min(60.0, 1.5 * dt);
+  }
+  const auto center = centers_of(tissue);
+  return norm(center.begin()->second - center.rbegin()->second);
+}
+
+TEST(Bodies, RestEquallyFarApartWhenTheSphereIsCalibratedOnTheShell) {
+  // Inner cells of the blastocyst. Young's modulus is that of the doublet of shells; the foundation follows from it, without a number of its own.
+  const Model model = resting_model(11.76, 0.3, 0.18, 1.0);
+  const double spheres = resting_distance(model, kSphere, kSphere);
+  const double shells = resting_distance(model, kShell, kShell);
+  const double mixed = resting_distance(model, kShell, kSphere);
+  // Two JKR spheres: 2R − a0²/(3R*), a0³ = 9πWR*²/(2E*) (cbm.md §2)
+  const double reduced = 0.18 / (2.0 * (1.0 - 0.16)), half = 0.5 * 11.76;
+  const double a0 = std::cbrt(9.0 * std::numbers::pi * 0.1 * half * half / (2.0 * reduced));
+  EXPECT_NEAR(spheres, 2.0 * 11.76 - a0 * a0 / (3.0 * half), 2e-3);
+  EXPECT_NEAR(shells, spheres, 0.02 * 11.76);
+  EXPECT_NEAR(mixed, 0.5 * (spheres + shells), 0.02 * 11.76);
+}
+
+/// The places of a face-centred cubic lattice nearest to the origin.
+std::vector<Vec3d> lattice(std::size_t count, double distance) {
+  std::vector<Vec3d> out;
+  const double a = distance * std::sqrt(2.0);
+  for (int i = -3; i <= 3; ++i)
+    for (int j = -3; j <= 3; ++j)
+      for (int k = -3; k <= 3; ++k) {
+        const Vec3d corner{i * a, j * a, k * a};
+        for (const Vec3d& offset : {Vec3d{0, 0, 0}, Vec3d{0.5, 0.5, 0}, Vec3d{0.5, 0, 0.5}, Vec3d{0, 0.5, 0.5}})
+          out.push_back(corner + offset * a);
+      }
+  std::stable_sort(out.begin(), out.end(), [](const Vec3d& p, const Vec3d& q) { return norm2(p) < norm2(q) - 1e-6; });
+  out.resize(count);
+  return out;
+}
+
+Region ball_of_shells(double radius, double from, double until) {
+  Region region;
+  region.name = "ball";
+  region.radius = radius;
+  region.margin = 50.0;
+  region.from = from;
+  region.until = until;
+  return region;
+}
+
+/// Interface test (c): less than 0.02 R within ten relaxation times.
+TEST(Promotion, DoesNotMoveTheNeighboursInARelaxedCluster) {
+  Model model = resting_model(6.0, 0.5, 0.8, 0.5);
+  const double reduced = 0.8 / (2.0 * (1.0 - 0.16));
+  const double a0 = std::cbrt(9.0 * std::numbers::pi * 0.1 * 9.0 / (2.0 * reduced));
+  const double rest = 12.0 - a0 * a0 / 9.0;  // only nearest neighbours touch: the lattice at the pair's distance is at rest
+  model.swaps.regions = {ball_of_shells(1.0, 60.0, kNever)};
+  model.swaps.hold = 0.0;
+  ShapeLibrary shapes;
+  Tissue tissue = make_tissue(model, shapes, lattice(64, rest), std::vector<BodyKind>(64, kSphere));
+  for (CellRow& row : tissue.cells.rows) row.phase = Phase::kResting;
+  auto made = Simulation::create(model, std::move(tissue), Comm(), 1);
+  ASSERT_TRUE(made.ok());
+  Simulation& simulation = **made;
+  while (simulation.tissue().clock.time < 60.0) ASSERT_TRUE(simulation.step(60.0).ok());
+  ASSERT_EQ(simulation.tissue().shells.size(), 1u);
+  const auto before = centers_of(simulation.tissue());
+  while (simulation.tissue().clock.time < 660.0) ASSERT_TRUE(simulation.step(660.0).ok());
+  double most = 0.0;
+  for (const auto& [id, center] : centers_of(simulation.tissue())) most = std::max(most, norm(center - before.at(id)));
+  EXPECT_LT(most, 0.02 * 6.0);
+}
+
+TEST(Promotion, FindsAShapeForEveryCellOfADeeplyOverlappingCluster) {
+  // A cell and five neighbours at 1.2 R, where confluent cells are 1.8 R apart: surfaces begin 9 µm inside each other. With a cap of full height and
+  // adhesion from the start, nothing lowered the energy.
+  Model model = resting_model(11.8, 0.3, 0.19, 0.5);
+  model.pairs = {ContactPair{0.1, 50.0, 50.0}};
+  model.swaps.regions = {ball_of_shells(100.0, 0.0, kNever)};
+  model.swaps.hold = 0.0;
+  ShapeLibrary shapes;
+  Tissue tissue = make_tissue(model, shapes, lattice(6, 1.2 * 11.8), std::vector<BodyKind>(6, kSphere), 162, 11.8);
+  for (CellRow& row : tissue.cells.rows) row.phase = Phase::kResting;
+  tissue.clock.steps = 1;  // the run has begun: one exchange a step
+  auto made = Simulation::create(model, std::move(tissue), Comm(), 1);
+  ASSERT_TRUE(made.ok());
+  Simulation& simulation = **made;
+  while (simulation.tissue().clock.time < 60.0) {
+    const auto done = simulation.step(60.0);
+    ASSERT_TRUE(done.ok()) << done.error().message;
+  }
+  EXPECT_EQ(simulation.tissue().shells.size(), 6u);
+  EXPECT_FALSE(simulation.tissue().clock.capped);
+}
+
+TEST(Demotion, LeavesAttachedWhatWasInTouch) {
+  Model model = resting_model(6.0, 0.3, 0.45, 0.5);
+  model.swaps.regions = {ball_of_shells(100.0, 0.0, 1.0)};
+  model.swaps.hold = 0.0;
+  ShapeLibrary shapes;
+  // Two shells with a gap of 0.2 µm in a contact of range 0.5 µm: as spheres they overlap nowhere, but they adhere.
+  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}, {12.33, 0, 0}}, {kShell, kShell});
+  for (CellRow& row : tissue.cells.rows) row.phase = Phase::kResting;
+  auto made = Simulation::create(model, std::move(tissue), Comm(), 1);
+  ASSERT_TRUE(made.ok());
+  Simulation& simulation = **made;
+  while (simulation.tissue().spheres.size() < 2) ASSERT_TRUE(simulation.step(simulation.tissue().clock.time + 0.5).ok());
+  const auto& attached = simulation.tissue().spheres.attached;
+  for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_EQ(attached[i].size(), 1u);
+    EXPECT_EQ(attached[i][0], simulation.tissue().cells.rows[1 - i].id);
+  }
+}
+
+TEST(ChooseSwaps, LeavesACellOutsideAllRegionsTheBodyItWasPlacedWith) {
+  Model model = clusters_model();  // its type begins as a sphere
+  model.swaps.regions = {ball_of_shells(5.0, 0.0, kNever)};
+  ShapeLibrary shapes;
+  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}, {100, 0, 0}, {0, 100, 0}}, {kSphere, kShell, kSphere});
+  for (CellRow& row : tissue.cells.rows) row.own_body = row.body;
+  std::vector<Vec3d> by_row;
+  const auto places = centers_of(tissue);
+  for (const CellRow& row : tissue.cells.rows) by_row.push_back(places.at(row.id));
+  const auto orders = choose_swaps(model, tissue, by_row, Comm());
+  ASSERT_EQ(orders.size(), 1u);  // the one in the region
+  EXPECT_EQ(tissue.cells.rows[orders[0].row].id, CellId::founder(1));
+  EXPECT_EQ(orders[0].to, kShell);
+}
+
+TEST(Swap, ThereAndBackKeepsVolumeAndCentroid) {
+  const Model model = clusters_model();
+  ShapeLibrary shapes;
+  Tissue tissue = make_tissue(model, shapes, {{1, 2, 3}}, {kSphere});
+  auto cells = take_apart(tissue);
+  CellRecord cell = cells[0];
+  promote(cell, model.types[0], 0.05, 10.0, shapes);
+  ASSERT_TRUE(cell.shell.has_value());
+  demote(cell, 20.0);
+  EXPECT_NEAR(cell.sphere->radius, 6.0, 1e-10 * 6.0);
+  EXPECT_LT(norm(cell.sphere->position - Vec3d{1, 2, 3}), 1e-10 * 6.0);
+  EXPECT_EQ(cell.row.id, CellId::founder(1));
+}
+
+}  // namespace
+}  // namespace morula
