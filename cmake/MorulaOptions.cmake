@@ -9,6 +9,10 @@ add_compile_options(-Wall -Wextra -Wshadow -Werror -ffp-contract=off -fno-math-e
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   add_compile_options(-Wno-restrict)
 endif()
+# Lanes may be wider than the machine's registers; how such vectors are passed matters only between differently compiled programs.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options(-Wno-psabi)
+endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 
 # The deprecated C++ bindings of MPI are not wanted (their headers do not compile without warnings).
