@@ -28,9 +28,17 @@ if(MORULA_NATIVE)
     add_compile_options(-mprefer-vector-width=512)
   endif()
 endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT MORULA_HAS_AVX512)
+  # Lanes may be wider than the registers; how such vectors are passed matters only between differently compiled programs.
+  add_compile_options(-Wno-psabi)
+endif()
 
 if(MORULA_SANITIZE)
   add_compile_options(-fsanitize=${MORULA_SANITIZE} -fno-omit-frame-pointer)
+  # With its checks in between, GCC 12 loses sight of how long the arrays of a lane are.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options(-Wno-stringop-overflow)
+  endif()
   add_link_options(-fsanitize=${MORULA_SANITIZE})
 endif()
 
