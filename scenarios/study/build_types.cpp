@@ -155,7 +155,7 @@ void build_pairs(BuildContext& c) {
       const draft::CellType& a = c.draft.cell_types[i].content;
       const Given<double>& other = j < types ? c.draft.cell_types[j].content.tension : a.tension;
       const Given<double>& w = table.at(i, j);
-      if (!a.tension.known() || !other.known() || w.value < a.tension.value + other.value) continue;
+      if (w.value == 0.0 || !a.tension.known() || !other.known() || w.value < a.tension.value + other.value) continue;
       const std::string partner = j < types ? c.draft.cell_types[j].name : c.draft.geometry[j - types].name;
       c.diagnostics.warning(509, w.given ? w.place : a.tension.place,
                             "shells of '" + c.draft.cell_types[i].name + "' adhere to '" + partner + "' by " + w.text +
