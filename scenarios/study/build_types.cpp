@@ -134,7 +134,7 @@ void build_pairs(BuildContext& c) {
       const draft::CellType& a = c.draft.cell_types[i].content;
       const Given<double>& other = j < types ? c.draft.cell_types[j].content.tension : a.tension;
       const Given<double>& w = table.at(i, j);
-      if (!a.tension.known() || !other.known() || w.value < a.tension.value + other.value) continue;
+      if (w.value == 0.0 || !a.tension.known() || !other.known() || w.value < a.tension.value + other.value) continue;
       const auto flows = [](const draft::CellType& t) {
         return t.elastic.value == "none" && t.local_area.value + t.global_area.value == 0.0;
       };
