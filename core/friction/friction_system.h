@@ -21,7 +21,6 @@ struct BodyPoints {
   std::uint32_t first, count;
 };
 
-
 /// A part of the matrix that somebody else can apply: the shells' own mechanics. It acts on the first point_count() points, all owned,
 /// which belong to the first bodies.
 class OperatorPart {
