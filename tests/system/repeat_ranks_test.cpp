@@ -73,7 +73,8 @@ TEST_F(Repeat, SameBitsOnThreadsAndRanksAndOverRestarts) {
 }
 
 TEST_F(Repeat, KilledOnTwoRanksAndResumedOnAnotherNumber) {
-  const unsigned moment = static_cast<unsigned>(std::chrono::steady_clock::now().time_since_epoch().count() % 500);
+  const unsigned moment =
+      static_cast<unsigned>(std::chrono::steady_clock::now().time_since_epoch().count() % 100);  // before the run is over
   {
     RunningCommand command({"run", "study.yaml", "--out", "killed"}, folder->path(), on_ranks(2));
     ASSERT_TRUE(command.wait_for(*folder / "killed/checkpoints/cp_000001.h5")) << command.wait().all();
