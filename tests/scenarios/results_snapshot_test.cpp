@@ -212,15 +212,21 @@ TEST_F(Snapshots, SurviveSigkillAtAnyMoment) {
   for (int round = 0; round < 12; ++round) {
     std::error_code ignored;
     std::filesystem::remove(path, ignored);
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
     const pid_t child = ::fork();
     if (child == 0) {
       for (int i = 0;; ++i)
-        if (!append(path, i, 20, alone).ok()) ::_exit(1);
+        if (!append(path, i, 20, alone).ok() || ::write(ends[1], "", 1) != 1) ::_exit(1);
     }
+    char done = 0;  // every third child has written three before it is killed
+    for (int k = 0; k < 3 && round % 3 == 0; ++k) ASSERT_EQ(::read(ends[0], &done, 1), 1);
     ::usleep(5000 + engine() % 60000);
     ::kill(child, SIGKILL);
     int status = 0;
     ::waitpid(child, &status, 0);
+    ::close(ends[0]);
+    ::close(ends[1]);
     ASSERT_TRUE(WIFSIGNALED(status)) << "the child stopped by itself";
     if (!std::filesystem::exists(path)) continue;
     const std::vector<double> before = times(path);
