@@ -6,6 +6,9 @@
 #include "cbm/builtin.h"
 
 namespace morula::cbm {
+
+void PrintTo(const ContactLawEntry& law, std::ostream* out) { *out << law.info.name; }
+
 namespace {
 
 /// Every registered contact law, with its fallback parameters and, where it adheres, with adhesion too.

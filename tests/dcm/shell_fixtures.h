@@ -1,15 +1,24 @@
 #pragma once
 #include <cmath>
 #include <numbers>
+#include <ostream>
 #include <random>
 #include <vector>
 
 #include "core/mesh/surface_geometry.h"
 #include "core/mesh/topology.h"
 #include "dcm/blocks.h"
+#include "dcm/builtin.h"
 #include "dcm/internal_forces.h"
 #include "dcm/shell_friction.h"
 #include "dcm/shells.h"
+
+namespace morula::dcm {
+
+/// Names of parametrised tests in the runner's list.
+inline void PrintTo(const ShellLaw& law, std::ostream* out) { *out << law.info.name; }
+
+}  // namespace morula::dcm
 
 namespace morula::dcm::testing {
 

@@ -14,6 +14,7 @@ struct Case {
   const char* to;
   const char* expected;  ///< part of the message
 };
+void PrintTo(const Case& study, std::ostream* out) { *out << study.name; }
 
 class BadStudy : public testing::TestWithParam<Case> {};
 

@@ -43,6 +43,7 @@ struct Figures {
   double node_radius;                    // for the volume of the unit sphere
   double unit_edge;                      // mean edge for unit node radius
 };
+void PrintTo(const Figures& figures, std::ostream* out) { *out << figures.nodes << " nodes"; }
 
 class InscribedIcosphere : public testing::TestWithParam<Figures> {};
 
