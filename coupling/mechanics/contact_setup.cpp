@@ -1,7 +1,9 @@
 #include "coupling/mechanics/contact_setup.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace morula {
@@ -37,6 +39,39 @@ void box_mesh(const Box& box, std::vector<Vec3d>& position, std::vector<Triangle
            {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
 }
 
+/// The largest number of faces (by their centroids) in any cube of this edge that lies on a grid of half its edge.
+std::size_t most_faces_in_cube(const RigidSurface& surface, double edge) {
+  using Place = std::array<long, 3>;
+  std::map<Place, std::size_t> bins;
+  for (const Triangle& t : surface.topology->faces()) {
+    const Vec3d c = (surface.position[t[0]] + surface.position[t[1]] + surface.position[t[2]]) * (1.0 / 3.0);
+    ++bins[{std::lround(2.0 * c.x / edge), std::lround(2.0 * c.y / edge), std::lround(2.0 * c.z / edge)}];
+  }
+  std::size_t most = 0;
+  for (const auto& [place, count] : bins) {
+    std::size_t here = 0;
+    for (long corner = 0; corner < 8; ++corner) {
+      const auto bin = bins.find({place[0] + (corner & 1), place[1] + (corner >> 1 & 1), place[2] + (corner >> 2)});
+      if (bin != bins.end()) here += bin->second;
+    }
+    most = std::max(most, here);
+  }
+  return most;
+}
+
+/// A pair's lists number the faces near one cell in 15 bits.
+Status check_fineness(const Model& model, const std::string& name, const RigidSurface& surface) {
+  double radius = 0.0;
+  for (const CellType& type : model.types) radius = std::max(radius, type.radius.mean * (1.0 + 3.0 * type.radius.relative_spread));
+  if (surface.topology->face_count() < kNoFace || radius == 0.0) return {};
+  const std::size_t faces = most_faces_in_cube(surface, 4.0 * radius);
+  if (faces < kNoFace) return {};
+  return Error{ErrorKind::kInput,
+               "obstacle '" + name + "' has " + std::to_string(faces) + " faces within reach of one cell; at most " +
+                   std::to_string(kNoFace - 1) + " can be held",
+               "use a coarser mesh: edges far below those of the cells' meshes add nothing"};
+}
+
 }  // namespace
 
 std::vector<ContactMaterial> contact_materials(const Model& model) {
@@ -66,6 +101,7 @@ Result<std::vector<RigidSurface>> contact_obstacles(const Model& model) {
     const ObstacleSpec& spec = model.obstacles[i];
     MORULA_TRY_ASSIGN(auto surface,
                       rigid_surface(spec.name, spec.position, spec.faces, spec.inside, static_cast<std::uint16_t>(model.types.size() + i)));
+    MORULA_TRY(check_fineness(model, spec.name, surface));
     out.push_back(std::move(surface));
   }
   const Box& box = model.space.box;

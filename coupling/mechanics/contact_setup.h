@@ -12,7 +12,8 @@ namespace morula {
 std::vector<ContactMaterial> contact_materials(const Model& model);
 [[nodiscard]] inline std::size_t contact_material_count(const Model& model) { return model.material_count() + 1; }
 
-/// Obstacles of the study and a thick plate for every wall of the domain. Errors name the obstacle whose mesh is no closed surface.
+/// Obstacles of the study and a thick plate for every wall of the domain. Errors name the obstacle whose mesh is no closed
+/// surface, or has more faces near one cell than a pair's lists can hold.
 Result<std::vector<RigidSurface>> contact_obstacles(const Model& model);
 
 /// Ranges and skins of the contact layer for this model.

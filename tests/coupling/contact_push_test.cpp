@@ -79,6 +79,16 @@ Tissue push_against(const TriangleMesh& obstacle) {
   return tissue;
 }
 
+TEST(Obstacles, FinerThanContactsCanHoldAreRefusedByName) {
+  const auto fine = make_sphere(8.0, 6), large = make_sphere(200.0, 6);  // 81,920 faces, all near one cell or few of them
+  ASSERT_TRUE(fine.ok() && large.ok());
+  const auto refused = contact_obstacles(with_obstacle(pushed_model(), *fine));
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().kind, ErrorKind::kInput);
+  EXPECT_NE(refused.error().message.find("faces within reach of one cell"), std::string::npos) << refused.error().message;
+  EXPECT_TRUE(contact_obstacles(with_obstacle(pushed_model(), *large)).ok());
+}
+
 TEST(PushedShell, StopsAtAnotherShell) {
   const Model model = pushed_model();
   ShapeLibrary shapes;
