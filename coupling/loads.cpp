@@ -49,13 +49,6 @@ void add_pressure(const CellLoad& load, const ReferenceShape& shape, std::span<c
   });
 }
 
-void add_body_force(const CellLoad& load, const Topology& topology, std::span<const Vec3d> x, double strength, std::span<Vec3d> force) {
-  double whole = 0.0;
-  for_faces(topology, x, [&](const Triangle&, const Vec3d& area) { whole += norm(area); });
-  for_faces(topology, x,
-            [&](const Triangle& t, const Vec3d& area) { add_to_corners(t, load.force * (strength * norm(area) / whole), force); });
-}
-
 }  // namespace
 
 std::vector<std::uint32_t> end_nodes(const ReferenceShape& shape, const Vec3d& axis, double part) {
@@ -82,21 +75,24 @@ void add_shell_load(const CellLoad& load, const ReferenceShape& shape, std::span
     case LoadKind::kPressure:
       return add_pressure(load, shape, position, load.size * strength, force);
     case LoadKind::kBodyForce:
-      return add_body_force(load, *shape.topology, position, strength, force);
+      return;  // on the whole cell: body_force()
   }
 }
 
-void add_loads(const Model& model, const Tissue& tissue, double time, std::span<Vec3d> external) {
+Vec3d body_force(const Model& model, std::uint16_t type, double time) {
+  Vec3d out{};
+  for (const CellLoad& load : model.loads)
+    if (load.kind == LoadKind::kBodyForce && load.type == type) out += load.force * load.course.at(time);
+  return out;
+}
+
+void add_surface_loads(const Model& model, const Tissue& tissue, double time, std::span<Vec3d> external) {
   for (const CellLoad& load : model.loads) {
     const double strength = load.course.at(time);
-    if (strength == 0.0) continue;
-    std::size_t shell = 0, sphere = tissue.shells.node_count();
+    if (strength == 0.0 || load.kind == LoadKind::kBodyForce) continue;
+    std::size_t shell = 0;
     for (const CellRow& row : tissue.cells.rows) {
-      if (row.body == BodyKind::kSphere) {
-        if (row.type == load.type && load.kind == LoadKind::kBodyForce) external[sphere] += load.force * strength;
-        ++sphere;
-        continue;
-      }
+      if (row.body == BodyKind::kSphere) continue;
       if (row.type == load.type) {
         const std::uint32_t first = tissue.shells.first_node[shell], count = tissue.shells.first_node[shell + 1] - first;
         add_shell_load(load, *tissue.shells.shape[shell], tissue.shells.nodes(shell), strength, external.subspan(first, count));

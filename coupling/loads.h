@@ -22,15 +22,18 @@ std::vector<std::uint32_t> end_nodes(const ReferenceShape& shape, const Vec3d& a
 /// - traction: s0 cos²θ along the outward normal of every face, θ the angle between the axis and the way from the cell's centroid to the
 ///   face's (optical stretcher: Guck et al. 2001, doi:10.1016/S0006-3495(01)75740-2);
 /// - pull: the force, in equal parts, on the end nodes: along the axis at the high end, against it at the low end;
-/// - pressure: p A_T against the outward normal of every face whose three nodes are chosen (all of the cell, or an end of it);
-/// - body force: a part of it by node area (uniform traction over the surface).
+/// - pressure: p A_T against the outward normal of every face whose three nodes are chosen (all of the cell, or an end of it).
 ///
+/// A body force acts on the whole cell and adds nothing here.
 /// Directions and areas are those of `position`: a step that is given these forces holds them as dead loads.
 void add_shell_load(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> position, double strength,
                     std::span<Vec3d> force);
 
-/// All loads of the model at a time on all bodies of the rank, added to `external`: by shell node, then by sphere (Mechanics::step) [nN].
-void add_loads(const Model& model, const Tissue& tissue, double time, std::span<Vec3d> external);
+/// The body forces of the model on one cell of a type at a time [nN]; Mechanics::spread() puts them on its nodes.
+Vec3d body_force(const Model& model, std::uint16_t type, double time);
+
+/// The other loads of the model at a time on all shells of the rank, added to `external` (by shell node, as in Mechanics::step) [nN].
+void add_surface_loads(const Model& model, const Tissue& tissue, double time, std::span<Vec3d> external);
 
 /// The first corner of the course of any load or obstacle after a time [s]; infinity when none is left.
 double next_corner(const Model& model, double time);

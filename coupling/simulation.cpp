@@ -106,17 +106,18 @@ void Simulation::set_bodies_to_targets(double dt) {
   mechanics_->parameters_changed();
 }
 
-std::vector<Vec3d> Simulation::active_forces() const {
+std::vector<Vec3d> Simulation::forces_on_cells(double time) const {
   std::vector<Vec3d> shells, spheres;
   for (const CellRow& row : tissue_.cells.rows)
-    (row.body == BodyKind::kShell ? shells : spheres).push_back(migration_force(row, model_.types[row.type], row.target_volume));
+    (row.body == BodyKind::kShell ? shells : spheres)
+        .push_back(migration_force(row, model_.types[row.type], row.target_volume) + body_force(model_, row.type, time));
   shells.insert(shells.end(), spheres.begin(), spheres.end());
   return shells;
 }
 
 std::vector<Vec3d> Simulation::external_forces(double time) {
-  std::vector<Vec3d> out = mechanics_->spread(tissue_, active_forces());
-  add_loads(model_, tissue_, time, out);
+  std::vector<Vec3d> out = mechanics_->spread(tissue_, forces_on_cells(time));
+  add_surface_loads(model_, tissue_, time, out);
   return out;
 }
 

@@ -48,7 +48,7 @@ class Simulation {
   Simulation(Model model, Tissue tissue, const Comm& comm, int threads);
   void distribute();
   void set_bodies_to_targets(double dt);
-  [[nodiscard]] std::vector<Vec3d> active_forces() const;
+  [[nodiscard]] std::vector<Vec3d> forces_on_cells(double time) const;
   /// Migration and external loads at a time, by shell node, then by sphere. Implicit in time, explicit in shape: strengths are those of the
   /// step's end, directions and areas those of its start, and the step holds them as dead loads.
   [[nodiscard]] std::vector<Vec3d> external_forces(double time);

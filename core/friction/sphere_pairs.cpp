@@ -59,43 +59,46 @@ void SpherePairs::for_shares(F&& function) const {
   for (int t = 0; t < threads; ++t) function(shares_[static_cast<std::size_t>(t)]);
 }
 
-void SpherePairs::add_product(std::span<const Float4> p, std::span<Float4> q, float dt) const {
-  const Float4* in = p.data() + first_point_;
-  Float4* out = q.data() + first_point_;
+template <class OnPair, class OnRigid>
+void SpherePairs::for_entries(float dt, OnPair&& on_pair, OnRigid&& on_rigid) const {
   for_shares([&](const Share& share) {
     for (const Run& run : share.runs)
       for (std::uint32_t k = run.first; k < run.last; ++k) {
         const SpherePairElement& e = elements[k];
         if (e.area == 0.0f && e.stiffness == 0.0f) continue;
-        const SpherePair pair = pairs[k];
-        const PairFriction& f = friction(pair);
-        const Float4v force =
-            pair_force(load(in[pair.a]) - load(in[pair.b]), e.n, e.area * f.tangential, e.area * f.extra + dt * e.stiffness);
-        if (share.has(pair.a)) store(out[pair.a], load(out[pair.a]) + force);
-        if (share.has(pair.b)) store(out[pair.b], load(out[pair.b]) - force);
+        const PairFriction& f = friction(pairs[k]);
+        on_pair(share, pairs[k], e.n, e.area * f.tangential, e.area * f.extra + dt * e.stiffness);
       }
     for (const RigidPairElement& e : rigid)
-      if (share.has(e.sphere))
-        store(out[e.sphere], load(out[e.sphere]) + pair_force(load(in[e.sphere]), e.n, e.isotropic, e.axial + dt * e.stiffness));
+      if (share.has(e.sphere)) on_rigid(e, e.axial + dt * e.stiffness);
   });
+}
+
+void SpherePairs::add_product(std::span<const Float4> p, std::span<Float4> q, float dt) const {
+  const Float4* in = p.data() + first_point_;
+  Float4* out = q.data() + first_point_;
+  for_entries(
+      dt,
+      [&](const Share& share, const SpherePair& pair, const float* n, float isotropic, float axial) {
+        const Float4v force = pair_force(load(in[pair.a]) - load(in[pair.b]), n, isotropic, axial);
+        if (share.has(pair.a)) store(out[pair.a], load(out[pair.a]) + force);
+        if (share.has(pair.b)) store(out[pair.b], load(out[pair.b]) - force);
+      },
+      [&](const RigidPairElement& e, float axial) {
+        store(out[e.sphere], load(out[e.sphere]) + pair_force(load(in[e.sphere]), e.n, e.isotropic, axial));
+      });
 }
 
 void SpherePairs::add_diagonal(std::span<SymMat3<float>> diagonal, float dt) const {
   SymMat3<float>* out = diagonal.data() + first_point_;
-  for_shares([&](const Share& share) {
-    for (const Run& run : share.runs)
-      for (std::uint32_t k = run.first; k < run.last; ++k) {
-        const SpherePairElement& e = elements[k];
-        if (e.area == 0.0f && e.stiffness == 0.0f) continue;
-        const SpherePair pair = pairs[k];
-        const PairFriction& f = friction(pair);
-        const SymMat3<float> block = pair_block(e.n, e.area * f.tangential, e.area * f.extra + dt * e.stiffness);
+  for_entries(
+      dt,
+      [&](const Share& share, const SpherePair& pair, const float* n, float isotropic, float axial) {
+        const SymMat3<float> block = pair_block(n, isotropic, axial);
         if (share.has(pair.a)) out[pair.a] += block;
         if (share.has(pair.b)) out[pair.b] += block;
-      }
-    for (const RigidPairElement& e : rigid)
-      if (share.has(e.sphere)) out[e.sphere] += pair_block(e.n, e.isotropic, e.axial + dt * e.stiffness);
-  });
+      },
+      [&](const RigidPairElement& e, float axial) { out[e.sphere] += pair_block(e.n, e.isotropic, axial); });
 }
 
 void SpherePairs::add_friction(std::span<const Vec3d> from, std::span<const Vec3d> to, std::span<Vec3d> out,

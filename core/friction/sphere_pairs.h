@@ -89,6 +89,10 @@ class SpherePairs {
  private:
   template <class F>
   void for_shares(F&& function) const;
+  /// on_pair(share, pair, n, isotropic, axial) and on_rigid(element, axial) for all that rub or resist, by the thread that writes them;
+  /// isotropic, axial: entries of the matrix at this step size.
+  template <class OnPair, class OnRigid>
+  void for_entries(float dt, OnPair&& on_pair, OnRigid&& on_rigid) const;
 
   std::vector<PairFriction> friction_{PairFriction{}};
   std::size_t materials_ = 1;

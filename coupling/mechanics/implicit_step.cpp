@@ -93,6 +93,13 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
   return totals[1];
 }
 
+void Mechanics::give_residual() {
+  const std::span<Float4> right = system_.right();
+  for_owned_points([&](std::uint32_t i) {
+    right[i] = {static_cast<float>(force_[i].x), static_cast<float>(force_[i].y), static_cast<float>(force_[i].z), 0.0f};
+  });
+}
+
 Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt, std::span<const Vec3d> external) {
   const StepControl& control = model_.step;
   const double range = model_.contact.range;
@@ -110,10 +117,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
   const auto solve = [&](double step, double tolerance) -> Result<SolveReport, StepFault> {
     assemble(tissue, step);
     auto timed = timer_.scope(Stage::kSolve);
-    const std::span<Float4> right = system_.right();
-    for_owned_points([&](std::uint32_t i) {
-      right[i] = {static_cast<float>(force_[i].x), static_cast<float>(force_[i].y), static_cast<float>(force_[i].z), 0.0f};
-    });
+    give_residual();
     auto solved = system_.solve(solution_, tolerance, kMaxLinearIterations, comm_);
     if (!solved) return StepFault{solved.error().what, {}, true};
     report.linear_iterations += solved->iterations;
@@ -189,10 +193,7 @@ Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt
   report.step = dt;
   (void)friction_residual(start, external, dt, false);
   assemble(tissue, 0.0);
-  const std::span<Float4> right = system_.right();
-  for_owned_points([&](std::uint32_t i) {
-    right[i] = {static_cast<float>(force_[i].x), static_cast<float>(force_[i].y), static_cast<float>(force_[i].z), 0.0f};
-  });
+  give_residual();
   auto solved = system_.solve(solution_, 1e-4, kMaxLinearIterations, comm_);
   if (!solved) return undo(start, StepFault{solved.error().what, {}, true});
   report.linear_iterations = solved->iterations;

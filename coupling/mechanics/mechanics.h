@@ -108,6 +108,8 @@ class Mechanics {
   void lay_out_system();
   /// `moved`: false at the step's start, where spheres have not rubbed yet.
   [[nodiscard]] double friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt, bool moved = true);
+  /// The residual becomes the right side of the system.
+  void give_residual();
   [[nodiscard]] std::optional<StepFault> find_fault() const;
   Result<StepReport, StepFault> implicit_step(Tissue& tissue, double dt, std::span<const Vec3d> external);
   Result<StepReport, StepFault> explicit_step(Tissue& tissue, double dt, std::span<const Vec3d> external);

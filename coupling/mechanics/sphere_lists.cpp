@@ -142,7 +142,7 @@ void SphereContacts::write_partners(const Scene& scene, const std::vector<char>&
   };
   for_attached([&](std::uint32_t i, CellId) { ++end[i]; });
   std::uint32_t total = 0;
-  for (std::size_t i = 0; i < owned; ++i) {  // for now, end holds where the list begins
+  for (std::size_t i = 0; i < owned; ++i) {  // end[i] is where the list of i begins until its ids are copied
     const std::uint32_t count = marked[i] ? end[i] : static_cast<std::uint32_t>(old[i].size());
     end[i] = total;
     total += count;

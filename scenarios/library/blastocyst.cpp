@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <numbers>
 #include <optional>
 
 #include "core/mesh/convex_hull.h"
 #include "scenarios/library/embryo_measures.h"
+#include "scenarios/library/verdicts.h"
 #include "scenarios/results/snapshot_file.h"
 #include "scenarios/study/csv.h"
 
@@ -22,20 +22,6 @@ constexpr double kOrder = 1e-6;           // S18.3, p
 constexpr double kSwapVolume = 1e-10;     // S18.6
 constexpr double kSwapMotion = 0.2;       // S18.6 [µm]
 constexpr double kSwapWindow = 1200.0;    // in which an exchange of all inner cells is over [s]
-
-std::string limit_text(const char* sign, double limit, const char* unit) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%s %g%s%s", sign, limit, *unit ? " " : "", unit);
-  return text;
-}
-
-Verdict below(const char* id, const char* quantity, double value, double limit, const char* unit = "") {
-  return {id, quantity, value, limit_text("<=", limit, unit), value <= limit};
-}
-
-Verdict equal(const char* id, const char* quantity, std::size_t value, std::size_t expected) {
-  return {id, quantity, static_cast<double>(value), limit_text("==", static_cast<double>(expected), ""), value == expected};
-}
 
 /// What was measured and what became of it.
 struct Embryo {
@@ -95,7 +81,7 @@ void judge_shape(const Study& study, const Embryo& embryo, std::vector<Verdict>&
   double volume = 0.0;
   for (const auto& cell : last.cells) volume += cell.volume;
   if (const double target = study.initial.front().shared_volume * static_cast<double>(last.cells.size()); target > 0.0)
-    out.push_back(below("S18.2", "total volume against the target, relative", std::abs(volume / target - 1.0), kVolumeError));
+    out.push_back(at_most("S18.2", "total volume against the target, relative", std::abs(volume / target - 1.0), kVolumeError));
   const InitialCells& start = study.initial.front();
   const double cell_radius = std::cbrt(0.75 / std::numbers::pi * volume / static_cast<double>(last.cells.size()));
   const std::vector<double> free = outer_surface_fractions(last, cell_radius, {start.cavity_center, start.cavity_radius});
@@ -112,7 +98,7 @@ void judge_shape(const Study& study, const Embryo& embryo, std::vector<Verdict>&
   out.push_back(equal("S18.2", "trophectoderm cells that such a ball does not touch", covered, 0));
   out.push_back(
       equal("S18.2", "inner cells that a ball of a cell's size, rolling outside, touches on more than 10 % of their surface", outside, 0));
-  out.push_back(below("S18.2", "largest part of an inner cell's surface that such a ball touches", most, kInnerFree));
+  out.push_back(at_most("S18.2", "largest part of an inner cell's surface that such a ball touches", most, kInnerFree));
 }
 
 /// S18.3
@@ -125,13 +111,13 @@ void judge_places(const Embryo& embryo, std::vector<Verdict>& out) {
     measured.push_back(embryo.rows[number - 1].position);
     now.push_back(cell.centroid);
   }
-  out.push_back(below("S18.3", "root mean square way of the cells from the measured nuclei", rms_after_rigid_motion(measured, now),
-                      kRmsDisplacement, "um"));
+  out.push_back(at_most("S18.3", "root mean square way of the cells from the measured nuclei", rms_after_rigid_motion(measured, now),
+                        kRmsDisplacement, "um"));
   const auto hull = convex_hull(now);
   if (!hull) return;
   for (const auto& cell : embryo.last().cells) (embryo.is_outer(cell) ? outer : inner).push_back(hull->depth(cell.centroid));
-  out.push_back(below("S18.3", "trophectoderm lies outside the inner cells (depth below the hull, Mann-Whitney p)",
-                      mann_whitney_p(outer, inner), kOrder));
+  out.push_back(at_most("S18.3", "trophectoderm lies outside the inner cells (depth below the hull, Mann-Whitney p)",
+                        mann_whitney_p(outer, inner), kOrder));
 }
 
 /// The last moment not after a time.
@@ -188,11 +174,11 @@ void judge_exchange(const Region& region, const Embryo& embryo, std::vector<Verd
   out.push_back(equal("S18.6", "ids that came or went", lost, 0));
   out.push_back(equal("S18.6", "inner cells that are shells before the region ends", shells, inner));
   out.push_back(equal("S18.6", "inner cells that are shells at the end", shells_at_end, 0));
-  out.push_back(below("S18.6", "volume of the cells just promoted, relative change", volume, kSwapVolume));
-  out.push_back(below("S18.6", "way of a trophectoderm cell in the 20 min of promotion, beyond its drift",
-                      motion_by_exchange(embryo, region.from), kSwapMotion, "um"));
-  out.push_back(below("S18.6", "way of a trophectoderm cell in the 20 min of demotion, beyond its drift",
-                      motion_by_exchange(embryo, region.until), kSwapMotion, "um"));
+  out.push_back(at_most("S18.6", "volume of the cells just promoted, relative change", volume, kSwapVolume));
+  out.push_back(at_most("S18.6", "way of a trophectoderm cell in the 20 min of promotion, beyond its drift",
+                        motion_by_exchange(embryo, region.from), kSwapMotion, "um"));
+  out.push_back(at_most("S18.6", "way of a trophectoderm cell in the 20 min of demotion, beyond its drift",
+                        motion_by_exchange(embryo, region.until), kSwapMotion, "um"));
 }
 
 }  // namespace

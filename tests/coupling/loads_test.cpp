@@ -159,8 +159,9 @@ TEST(Load, OnSpheresIsItsForce) {
   model.loads = {load};
   ShapeLibrary shapes;
   const Tissue tissue = test::make_tissue(model, shapes, {{0, 0, 0}, {50, 0, 0}}, {BodyKind::kShell, BodyKind::kSphere});
-  std::vector<Vec3d> external(Mechanics::external_size(tissue));
-  add_loads(model, tissue, 0.0, external);
+  Mechanics mechanics(model, {}, shapes, Comm(), 1);
+  const Vec3d force = body_force(model, 0, 0.0);
+  std::vector<Vec3d> external = mechanics.spread(tissue, std::vector{force, force});
   EXPECT_NEAR(external.back().z, -2.0, 1e-15);
   external.pop_back();
   EXPECT_NEAR(sum(external).z, -2.0, 1e-12);
