@@ -27,6 +27,7 @@ struct ShellRecord {
   std::vector<Vec3d> position;
   std::vector<Vec3f> velocity;
   std::vector<double> rest_length;
+  dcm::FaceState face{};
 };
 
 /// One cell whole: its row and its body. What events, swaps and moves between ranks work on.

@@ -106,6 +106,12 @@ double next_corner(const Model& model, double time) {
   double next = kNever;
   for (const CellLoad& load : model.loads) next = std::min(next, load.course.next_point(time));
   for (const ObstacleSpec& obstacle : model.obstacles) next = std::min(next, obstacle.distance.next_point(time));
+  for (const Lumen& lumen : model.lumens) {
+    next = std::min(next, lumen.course.next_point(time));
+    if (lumen.from > time) next = std::min(next, lumen.from);
+  }
+  for (const CellType& type : model.types)
+    for (const TensionRegion& region : type.regional_tension.regions) next = std::min(next, region.course.next_point(time));
   return next;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/friction/friction_system.h"
@@ -22,6 +23,10 @@ class ShellSystem : public OperatorPart {
   void evaluate(const dcm::Shells& shells, std::span<const Vec3d> position);
   void begin_step(const dcm::Shells& shells, std::span<const Vec3d> position, const SurfaceGeometry& geometry);
   void assemble(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<const double> face_contact_energy, double dt);
+  /// Friction of single nodes of the step, beside that of the shells' own; empty: none. After begin_step().
+  void set_node_friction(std::vector<SymMat3<double>> friction) { node_friction_ = std::move(friction); }
+  /// Stiffness of single nodes, positive semi-definite; empty: none. Before assemble().
+  void set_node_stiffness(std::vector<SymMat3<double>> stiffness) { node_stiffness_ = std::move(stiffness); }
   /// Γ_n d of the shells' nodes into `out`, and dᵀΓ_n d added to the sum.
   void set_step_friction(std::span<const Vec3d> displacement, std::span<Vec3d> out, OrderFreeSum& quadratic);
 
@@ -42,6 +47,8 @@ class ShellSystem : public OperatorPart {
   dcm::ShellFriction friction_;
   dcm::ShellOperator operator_;
   std::vector<double> friction_quadratic_;
+  std::vector<SymMat3<double>> node_friction_, node_stiffness_;  ///< by node, or empty
+  std::vector<SymMat3<float>> node_block_;                       ///< Γ + Δt K of these, or empty
 };
 
 }  // namespace morula

@@ -66,6 +66,15 @@ constexpr ErrorCode kCodes[] = {
     {515, "key without effect", "The key belongs to another law than the one that is chosen; it would be read and left aside."},
     {520, "load that cells cannot bear",
      "Tractions, pulls and pressures act on surfaces: they need shells, and chosen nodes need shells that keep their mesh and place."},
+    {555, "mark that no face can carry",
+     "Marks are of the faces of shells; a face has room for 8. A cone about the polarity needs cells with a polarity. `lateral`, `whole` and "
+     "`seen` have a meaning of their own."},
+    {556, "tension of a region too weak for the adhesion",
+     "Where cells touch, half of the adhesion works against the tension of each. Below that a contact grows until something elastic holds it "
+     "(warning); a cortex with `elastic: none` has no rest (error)."},
+    {557, "cavity without walls or pressure", "A cavity presses on faces of shells. One that keeps its solute has a positive pressure."},
+    {558, "nothing to move along",
+     "The leading edge is where the polarity points to: cells that protrude need one. What cells move along is an obstacle."},
     {601, "file missing", "A file that the study names does not exist. Paths are relative to the folder of the study."},
     {602, "file cannot be read", "It is a folder, a device, or its permissions forbid reading."},
     {603, "file too large", "Study files are read up to 5 MiB, CSV files up to 500 MiB."},
