@@ -15,8 +15,8 @@ inline constexpr double kGasEnergy = 2.578731;
 inline constexpr double kBurst = 0.5;
 
 /// Find the faces of the lumens that are due (Lumen::renewed), and measure all lumens: at the beginning of a step. A lumen that keeps its
-/// solute gets its amount when it is first seen. A ray goes from `center` in every direction of a SightMap; faces of shells that are met
-/// first and show their outside bound the cavity; spheres stand in the way. Collective.
+/// solute gets its amount when it is first seen. A ray goes from `center` in every direction of a SightMap; faces of shells that show their
+/// outside and of which at least half is seen bound the cavity; spheres stand in the way. Collective.
 void look_into_lumens(const Model& model, Tissue& tissue, const Comm& comm);
 
 /// Volume, area, cover and pressure of the lumens at the present positions and time. Collective.

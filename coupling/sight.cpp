@@ -39,6 +39,7 @@ void SightMap::cast(int side, const Window& w, std::uint32_t number, const Hit& 
       const double along = hit(ray);
       if (!(along > 0.0)) continue;
       const double distance = along * norm(ray);
+      if (number != kNothing) ++met_[number];
       const std::size_t place = (static_cast<std::size_t>(side) * kSide + static_cast<std::size_t>(j)) * kSide + static_cast<std::size_t>(i);
       if (distance > reach_ || !(distance < own_[place] || (distance == own_[place] && number < number_[place]))) continue;
       own_[place] = distance;
@@ -47,6 +48,7 @@ void SightMap::cast(int side, const Window& w, std::uint32_t number, const Hit& 
 }
 
 void SightMap::add_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, std::uint32_t number) {
+  if (number != kNothing && met_.size() <= number) met_.resize(number + std::size_t{1}, 0);
   if (std::min({norm(a - eye_), norm(b - eye_), norm(c - eye_)}) > reach_) return;
   for (int side = 0; side < 6; ++side) {
     const Vec3d p[3] = {turned(a - eye_, side), turned(b - eye_, side), turned(c - eye_, side)};
@@ -101,11 +103,11 @@ void SightMap::join(const Comm& comm) {
 }
 
 std::vector<std::uint32_t> SightMap::seen() const {
-  std::vector<std::uint32_t> out;
+  std::vector<std::uint32_t> nearest(met_.size(), 0), out;
   for (std::size_t i = 0; i < own_.size(); ++i)
-    if (number_[i] != kNothing && own_[i] == distance_[i]) out.push_back(number_[i]);
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
+    if (number_[i] != kNothing && own_[i] == distance_[i]) ++nearest[number_[i]];
+  for (std::uint32_t k = 0; k < met_.size(); ++k)
+    if (met_[k] > 0 && 2 * nearest[k] >= met_[k]) out.push_back(k);
   return out;
 }
 

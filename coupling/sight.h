@@ -30,7 +30,8 @@ class SightMap {
   /// Nearest distances over all ranks. Collective.
   void join(const Comm& comm);
 
-  /// Numbers of the triangles that are the nearest ones along some direction, over all that were added here; sorted.
+  /// Numbers of the triangles of which at least half can be seen (they are the nearest ones along half of the directions in which they lie), over
+  /// all that were added here; increasing. Half, so that a rim of triangles in part behind others neither adds to what is seen nor takes from it.
   [[nodiscard]] std::vector<std::uint32_t> seen() const;
   /// Part of the sphere of directions along which something is seen.
   [[nodiscard]] double covered() const;
@@ -47,6 +48,7 @@ class SightMap {
   std::vector<double> distance_;       ///< over all ranks, by ray
   std::vector<double> own_;            ///< of what was added here
   std::vector<std::uint32_t> number_;  ///< of what was added here
+  std::vector<std::uint32_t> met_;     ///< directions in which a triangle lies, by number
 };
 
 }  // namespace morula

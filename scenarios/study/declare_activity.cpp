@@ -14,8 +14,8 @@ void declare_protrusion(Section& p, draft::Activity& a) {
               .quantity = Q::kAngle,
               .fallback = "45 deg",
               .low = 0.0,
-              .low_open = true,
               .high = 0.5 * std::numbers::pi,
+              .low_open = true,
               .example = "45 deg",
               .source = "chosen"},
              a.angle);
@@ -46,7 +46,7 @@ void declare_protrusion(Section& p, draft::Activity& a) {
 void declare_activity(Section& s, draft::CellType& t) {
   draft::Activity& a = t.activity;
   s.group({.name = "fluctuations",
-           .doc = "Random forces that belong to the friction by the fluctuation-dissipation theorem.",
+           .doc = "Random forces that belong to the friction by the fluctuation-dissipation theorem. `numerics.tolerance` is 1e-4 then, unless given.",
            .optional_section = true,
            .example = "{energy: 4e-18 J}"},
           a.has_fluctuations, [&a](Section& f) {

@@ -188,8 +188,8 @@ void declare_lumen(Section& s, draft::Lumen& l) {
               .quantity = Q::kLength,
               .fallback = "100 um",
               .low = 0.0,
-              .low_open = true,
               .high = 1e5,
+              .low_open = true,
               .example = "60 um",
               .source = "chosen"},
              l.reach);

@@ -49,7 +49,9 @@ TEST(FaceMarks, PolarityAndPointGiveTheAxis) {
   for (const Vec3d& p : shape->position) x.push_back(Vec3d{5, -7, 11} + p * 10.0);
   const auto faces = faces_by_place(rule, *shape->topology, x, {});
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (faces[f]) EXPECT_LT(x[shape->topology->faces()[f][0]].z, 11.0 - 5.0);
+    if (faces[f]) {
+      EXPECT_LT(x[shape->topology->faces()[f][0]].z, 11.0 - 5.0);
+    }
   }
   EXPECT_GT(std::count(faces.begin(), faces.end(), 1), 0);
 }

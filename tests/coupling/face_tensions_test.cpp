@@ -13,6 +13,13 @@ namespace {
 
 constexpr double kCap = 1.1, kOwn = 0.5, kLateral = 0.2;
 
+TensionRegion region(int mark, double tension) {
+  TensionRegion out;
+  out.mark = mark;
+  out.tension = tension;
+  return out;
+}
+
 /// A region at the top of every cell, and a lateral tension.
 Model model_with_regions() {
   Model model = test::clusters_model();
@@ -20,7 +27,7 @@ Model model_with_regions() {
   FaceMark rule;
   rule.angle = 1.0;
   model.marks = {rule};
-  model.types[0].regional_tension.regions = {{.mark = 0, .tension = kCap}, {.mark = TensionRegion::kLateral, .tension = kLateral}};
+  model.types[0].regional_tension.regions = {region(0, kCap), region(TensionRegion::kLateral, kLateral)};
   return model;
 }
 
@@ -46,18 +53,21 @@ Tissue rough_pair(const Model& model, ShapeLibrary& shapes) {
 TEST(RegionalTension, IsThatOfTheFirstMarkAndGoesToTheLateralOneWithContact) {
   RegionalTension t;
   EXPECT_EQ(t.of_face(0.5, 0xFF, 1.0, 0.0), 0.5);
-  t.regions = {{.mark = 2, .tension = 1.0}, {.mark = 0, .tension = 2.0}};
+  t.regions = {region(2, 1.0), region(0, 2.0)};
   EXPECT_EQ(t.of_face(0.5, 0b010, 1.0, 0.0), 0.5) << "no mark, no lateral tension";
   EXPECT_EQ(t.of_face(0.5, 0b001, 0.0, 0.0), 2.0);
   EXPECT_EQ(t.of_face(0.5, 0b101, 0.0, 0.0), 1.0) << "the first listed";
-  t.regions.push_back({.mark = TensionRegion::kWhole, .tension = 0.7});
+  t.regions.push_back(region(TensionRegion::kWhole, 0.7));
   EXPECT_EQ(t.of_face(0.5, 0b010, 0.0, 0.0), 0.7);
-  t.regions.push_back({.mark = TensionRegion::kLateral, .tension = 0.2});
+  t.regions.push_back(region(TensionRegion::kLateral, 0.2));
   EXPECT_DOUBLE_EQ(t.of_face(0.5, 0b001, 0.25, 0.0), 2.0 + 0.25 * (0.2 - 2.0));
 }
 
 TEST(RegionalTension, FollowsItsCourseAndItsModulation) {
-  TensionRegion r{.mark = 0, .tension = 0.5, .course = {{0.0, 10.0}, {1.0, 3.0}}, .amplitude = 0.4, .period = 40.0, .phase = 0.0};
+  TensionRegion r = region(0, 0.5);
+  r.course = {{0.0, 10.0}, {1.0, 3.0}};
+  r.amplitude = 0.4;
+  r.period = 40.0;
   EXPECT_DOUBLE_EQ(r.at(0.0), 0.5);
   EXPECT_NEAR(r.at(10.0), 0.5 * 3.0 * 1.4, 1e-14);  // a quarter of the period: sin = 1
   EXPECT_NEAR(r.at(30.0), 0.5 * 3.0 * 0.6, 1e-14);
@@ -128,16 +138,17 @@ TEST(FaceTensions, ForceIsMinusTheGradientAndHasNoSumAndNoTorque) {
 TEST(FaceTensions, EachRegionOfASphereNeedsItsOwnLaplacePressure) {
   Model with = test::clusters_model();
   with.types[0].shell = {};
-  with.types[0].shell.shape_stiffness = with.types[0].shell.barrier_stiffness = with.types[0].shell.bulk_modulus = 0.0;
+  with.types[0].shell.shape_stiffness = with.types[0].shell.barrier_stiffness = 0.0;
   with.types[0].shell.tension = kOwn;
   with.mark_names = {"top"};
   FaceMark rule;
   rule.angle = 1.2;
   with.marks = {rule};
-  with.types[0].regional_tension.regions = {{.mark = 0, .tension = kCap}};
+  with.types[0].regional_tension.regions = {region(0, kCap)};
   ShapeLibrary shapes;
   Tissue tissue = test::make_tissue(with, shapes, {{0, 0, 0}}, {BodyKind::kShell}, 642);
   for (Vec3d& x : tissue.shells.position) x = normalized(x) * 6.0;
+  tissue.shells.reference_volume[0] = enclosed_volume(tissue.shells.topology(0).faces(), tissue.shells.position, {});  // no pressure
   mark_new_shells(with, tissue);
   std::vector<Vec3d> force;
   make_mechanics(with, shapes).energy_and_forces(tissue, force);
@@ -160,14 +171,14 @@ TEST(FaceTensions, EachRegionOfASphereNeedsItsOwnLaplacePressure) {
 
 /// The stiffness of regions is that of the tension itself: a region that is the whole surface does what the cell's own tension does, at any step.
 TEST(FaceTensions, ARegionThatIsTheWholeSurfaceIsTheOwnTension) {
-  Model own = test::clusters_model(), region = own;
-  region.types[0].shell.tension = 0.01;
-  region.types[0].regional_tension.regions = {{.mark = TensionRegion::kWhole, .tension = own.types[0].shell.tension}};
-  for (Model* m : {&own, &region}) m->step.first_tolerance = m->step.later_tolerance = 1e-6, m->step.newton_stop = 1e-4, m->step.max_newton = 8;
+  Model own = test::clusters_model(), whole = own;
+  whole.types[0].shell.tension = 0.01;
+  whole.types[0].regional_tension.regions = {region(TensionRegion::kWhole, own.types[0].shell.tension)};
+  for (Model* m : {&own, &whole}) m->step.first_tolerance = m->step.later_tolerance = 1e-6, m->step.newton_stop = 1e-4, m->step.max_newton = 8;
   ShapeLibrary shapes;
   Tissue a = test::make_tissue(own, shapes, {{0, 0, 0}, {0, 0, 11.9}}, {BodyKind::kShell, BodyKind::kShell}), b = a;
   for (Tissue* t : {&a, &b}) {
-    const Model& model = t == &a ? own : region;
+    const Model& model = t == &a ? own : whole;
     Mechanics mechanics = make_mechanics(model, shapes);
     const std::vector<Vec3d> none(Mechanics::external_size(*t));
     for (int k = 0; k < 4; ++k) {
@@ -205,7 +216,9 @@ TEST(FaceTensions, LateralContactIsEasedAndIsThatOfTheTouchingFaces) {
       EXPECT_GE(part, 0.0);
       EXPECT_LE(part, 1.0);
       touching += part * area;
-      if (std::abs((x[t[0]] + x[t[1]] + x[t[2]]).z / 3.0 - 6.0) > 2.0) EXPECT_EQ(part, 0.0);
+      if (std::abs((x[t[0]] + x[t[1]] + x[t[2]]).z / 3.0 - 6.0) > 2.0) {
+        EXPECT_EQ(part, 0.0);
+      }
     }
     const double contact = simulation->values().contact_area[s];
     EXPECT_GT(contact, 20.0);
