@@ -37,7 +37,8 @@ void for_faces(const Tissue& tissue, int mark, F&& function) {
   }
 }
 
-void mark_by_sight(const Lumen& lumen, Tissue& tissue, const Comm& comm) {
+/// Returns the part of all directions in which there is a wall of any kind.
+double mark_by_sight(const Lumen& lumen, Tissue& tissue, const Comm& comm) {
   SightMap map(lumen.center, lumen.reach);
   dcm::Shells& shells = tissue.shells;
   std::uint32_t number = 0;
@@ -62,6 +63,7 @@ void mark_by_sight(const Lumen& lumen, Tissue& tissue, const Comm& comm) {
     std::vector<std::uint8_t>& marks = shells.faces_of(s).mark;
     marks[face - first_face[s]] = static_cast<std::uint8_t>(marks[face - first_face[s]] | bit);
   }
+  return map.covered();
 }
 
 }  // namespace
@@ -89,9 +91,10 @@ void measure_lumens(const Model& model, Tissue& tissue, const Comm& comm) {
     double total[3];
     comm.sum(sums, total);
     LumenState& state = tissue.lumens[k];
-    state.covered = total[2] / (4.0 * std::numbers::pi);
+    const double of_shells = total[2] / (4.0 * std::numbers::pi);
+    if (!lumen.by_sight) state.covered = of_shells;
     state.area = total[1];
-    state.volume = state.covered >= kBurst ? total[0] / state.covered : 0.0;
+    state.volume = state.covered >= kBurst && of_shells > 0.0 ? total[0] / of_shells : 0.0;
     state.pressure = lumen_pressure(lumen, state, tissue.clock.time);
   }
 }
@@ -108,7 +111,7 @@ void look_into_lumens(const Model& model, Tissue& tissue, const Comm& comm) {
     const bool first = state.looked_at < lumen.from;
     state.looked_at = time;
     looked = true;
-    if (lumen.by_sight) mark_by_sight(lumen, tissue, comm);
+    if (lumen.by_sight) state.covered = mark_by_sight(lumen, tissue, comm);
     if (!first) continue;
     measure_lumens(model, tissue, comm);
     if (lumen.keeps_solute) state.amount = lumen.pressure * state.volume / kGasEnergy;

@@ -11,7 +11,7 @@ namespace morula {
 
 /// R T at 310.15 K: an excess of 1 mM of solute is a pressure of 2.5787 kPa [fJ/amol].
 inline constexpr double kGasEnergy = 2.578731;
-/// A cavity whose faces are seen in less than this part of all directions has burst: its fluid has no pressure any more.
+/// A cavity whose walls are seen in less than this part of all directions has burst: its fluid has no pressure any more.
 inline constexpr double kBurst = 0.5;
 
 /// Find the faces of the lumens that are due (Lumen::renewed), and measure all lumens: at the beginning of a step. A lumen that keeps its
@@ -21,8 +21,9 @@ void look_into_lumens(const Model& model, Tissue& tissue, const Comm& comm);
 
 /// Volume, area, cover and pressure of the lumens at the present positions and time. Collective.
 ///
-/// With A_T n_T outward from the cells and c the centre: covered = Σ Ω_T/(4π), the winding number of the faces about c (1 for any closed
-/// cavity), and V = −⅓ Σ A_T n_T·(x_T − c)/covered, so that gaps between cells count like their surroundings.
+/// With A_T n_T outward from the cells, c the centre and w = Σ Ω_T/(4π) the winding number of the faces about c (1 for any cavity that shells close):
+/// V = −⅓ Σ A_T n_T·(x_T − c)/w, so that gaps between shells and walls that are spheres count like their surroundings. Covered is the part of all
+/// directions in which there was a wall, shell or sphere, when the cavity was last looked into; w for faces that are not found by sight.
 void measure_lumens(const Model& model, Tissue& tissue, const Comm& comm);
 
 /// Pressure of the fluid of a lumen at a time [kPa]: 0 before it exists and after it has burst; else P·course, or R T n·course/V.

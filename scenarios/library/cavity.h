@@ -5,7 +5,8 @@
 namespace morula::scenarios {
 
 /// S18.4 of the blastocyst with a cavity whose pressure is switched on in the middle of the run: the cavity is larger with pressure than
-/// without, and does not leak. The study must have one cavity; the row before the first pressure is what it is compared with.
+/// without, and does not leak. For the first cavity of a study, none where it has none; the row before the first pressure is what it is compared
+/// with.
 Result<std::vector<Verdict>> judge_cavity(const Study& study, const std::filesystem::path& run);
 
 /// Mean height of the cells of a type about a cavity [µm]: the extent of each along the way from the cavity's centre to its own. For S18.5.

@@ -48,7 +48,7 @@ double largest_rise(const SeriesColumn& energy) {
 const std::vector<ScenarioCriteria>& scenario_criteria() {
   static const std::vector<ScenarioCriteria> all{
       {"blastocyst", &judge_blastocyst},
-      {"blastocyst_cavity", &judge_cavity},
+      {"blastocyst", &judge_cavity},
       {"doublet", &judge_doublet, &plot_doublet},
       {"hybrid_spheroid", &judge_hybrid_spheroid},
       {"optical_stretcher", &judge_optical_stretcher, &plot_optical_stretcher},

@@ -60,12 +60,12 @@ FaceMark rule_of(BuildContext& c, const std::string& name, const Place& place, c
   }
   if (m.cone) {
     rule.angle = m.angle.value;
-    rule.axis = direction_of(c, m.cone_axis, "axis");
+    if (m.cone_axis.given) rule.axis = direction_of(c, m.cone_axis, "axis");
     if (m.cone_toward.given) rule.axis_from = FaceMark::Axis::kTowardPoint;
     if (m.cone_polarity.value) rule.axis_from = FaceMark::Axis::kPolarity;
     rule.center = m.cone_toward.value;
-    if (m.cone_axis.given + m.cone_toward.given + m.cone_polarity.value > 1)
-      c.diagnostics.error(111, place, "the cone of mark '" + name + "' has more than one axis",
+    if (m.cone_axis.given + m.cone_toward.given + m.cone_polarity.value != 1)
+      c.diagnostics.error(111, place, "the cone of mark '" + name + "' needs exactly one axis",
                           "give one of `axis`, `toward`, `polarity: true`");
   } else if (m.band) {
     rule.rule = FaceMark::Rule::kBand;

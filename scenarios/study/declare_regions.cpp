@@ -90,7 +90,7 @@ void declare_mark(Section& s, draft::Mark& m) {
            .optional_section = true,
            .example = "{axis: [0, 0, 1], angle: 60 deg}"},
           m.cone, [&m](Section& c) {
-            axis_key(c, m.cone_axis, "The axis, in the laboratory.");
+            c.vector({.name = "axis", .doc = "The axis, in the laboratory; or give `toward` or `polarity`.", .example = "[0, 0, 1]"}, m.cone_axis);
             c.vector({.name = "toward",
                       .doc = "In place of `axis`: the point that the axis points to, such as the middle of a cavity.",
                       .quantity = Q::kLength,

@@ -64,6 +64,7 @@ Tissue turned_around(const Tissue& from) {
                                  s.rest_length.begin() + s.first_edge[i + 1]);
     to.shells.first_node.push_back(static_cast<std::uint32_t>(to.shells.position.size()));
     to.shells.first_edge.push_back(static_cast<std::uint32_t>(to.shells.rest_length.size()));
+    if (!s.faces_of(i).empty()) to.shells.faces_of(to.shells.size() - 1) = s.faces_of(i);
   }
   for (fields::Field& field : to.fields) {
     std::reverse(field.owned_bricks.begin(), field.owned_bricks.end());
@@ -118,6 +119,11 @@ TEST(StateHash, SeesEveryPartOfTheState) {
   after([](Tissue& t) { t.shells.velocity[7].z += 1; });
   after([](Tissue& t) { t.shells.rest_length[7] *= 2; });
   after([](Tissue& t) { t.shells.reference_volume[1] *= 2; });
+  after([](Tissue& t) { t.shells.faces_of(0).mark.assign(5, 1); });
+  after([](Tissue& t) { t.shells.faces_of(0).mark.assign(5, 2); });
+  after([](Tissue& t) { t.shells.faces_of(0).contact.assign(5, 0.5f); });
+  after([](Tissue& t) { t.lumens[1].amount *= 2; });
+  after([](Tissue& t) { t.lumens[1].looked_at += 1; });
   after([](Tissue& t) { t.fields[1].concentration[3][2] += 1e-12; });
   after([](Tissue& t) { std::swap(t.fields[0], t.fields[1]); });
   after([](Tissue& t) { t.fields[0].next_step = 0.0; });
