@@ -43,16 +43,16 @@ struct CellType {
   double migration_speed = 0.0;                   ///< S, root mean square in three dimensions [µm/s]
   double migration_persistence = 1800.0;          ///< P [s]
 
-  int migration_substrate = -1;                   ///< material that must be touched, to which the force of migration is tangential; -1: none
+  int migration_substrate = -1;  ///< material that must be touched, to which the force of migration is tangential; -1: none
   Fluctuations fluctuations;
   Protrusion protrusion;
   PolarityTurning polarity;
   Vec3d start_polarity{};  ///< zero: random
 
   // friction
-  double medium_friction = 0.1;        ///< γ_med per area: of a sphere, and for shells the lesser of normal and tangential [nN·s/µm³]
-  double medium_normal_extra = 0.0;    ///< of shells: γ_n − γ_t per area where positive [nN·s/µm³]
-  double medium_tangent_extra = 0.0;   ///< of shells: γ_t − γ_n per area where positive [nN·s/µm³]
+  double medium_friction = 0.1;       ///< γ_med per area: of a sphere, and for shells the lesser of normal and tangential [nN·s/µm³]
+  double medium_normal_extra = 0.0;   ///< of shells: γ_n − γ_t per area where positive [nN·s/µm³]
+  double medium_tangent_extra = 0.0;  ///< of shells: γ_t − γ_n per area where positive [nN·s/µm³]
 
   // bodies
   BodyKind initial_body = BodyKind::kSphere;

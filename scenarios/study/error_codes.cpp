@@ -70,10 +70,12 @@ constexpr ErrorCode kCodes[] = {
     {520, "load that cells cannot bear",
      "Tractions, pulls and pressures act on surfaces: they need shells, and chosen nodes need shells that keep their mesh and place."},
     {555, "mark that no face can carry",
-     "Marks are of the faces of shells; a face has room for 8. A cone about the polarity needs cells with a polarity. `lateral`, `whole` and "
+     "Marks are of the faces of shells; a face has room for 8. A cone about the polarity needs cells with a polarity. `lateral`, `whole` "
+     "and "
      "`seen` have a meaning of their own."},
     {556, "tension of a region too weak for the adhesion",
-     "Where cells touch, half of the adhesion works against the tension of each. Below that a contact grows until something elastic holds it "
+     "Where cells touch, half of the adhesion works against the tension of each. Below that a contact grows until something elastic holds "
+     "it "
      "(warning); a cortex with `elastic: none` has no rest (error)."},
     {557, "cavity without walls or pressure", "A cavity presses on faces of shells. One that keeps its solute has a positive pressure."},
     {558, "nothing to move along",

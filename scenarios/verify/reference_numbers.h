@@ -19,4 +19,7 @@ struct ReferenceNumber {
 /// A number belongs here when it is not ours; to add one, add a line.
 std::vector<ReferenceNumber> physics_numbers();
 
+/// Those of what acts on marked faces and single nodes (verify/active_numbers.cpp), appended.
+void add_active_numbers(std::vector<ReferenceNumber>& out);
+
 }  // namespace morula::scenarios
