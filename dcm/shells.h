@@ -29,7 +29,7 @@ struct Shells {
   std::vector<Vec3d> position;                               ///< by node [µm]
   std::vector<Vec3f> velocity;                               ///< by node: last solution, the solver's start [µm/s]
   std::vector<double> rest_length;                           ///< by edge; those of a face are its reference metric [µm]
-  std::vector<FaceState> face;                               ///< by shell; empty: no shell has any
+  std::vector<FaceState> face;                               ///< by shell; may end early: the shells after have none
 
   [[nodiscard]] std::size_t size() const { return shape.size(); }
   [[nodiscard]] std::uint32_t node_count() const { return first_node.back(); }
@@ -43,7 +43,7 @@ struct Shells {
   /// What the faces of a shell carry.
   [[nodiscard]] const FaceState& faces_of(std::size_t shell) const {
     static const FaceState kNothing;
-    return face.empty() ? kNothing : face[shell];
+    return shell < face.size() ? face[shell] : kNothing;
   }
   [[nodiscard]] FaceState& faces_of(std::size_t shell) {
     if (face.size() < size()) face.resize(size());

@@ -97,6 +97,19 @@ TEST(FaceMarks, AreGivenOnceAndGoWithTheMesh) {
   EXPECT_EQ(std::count_if(fresh.begin(), fresh.end(), [](std::uint8_t m) { return m & 2; }), 0) << "it is far from the ball";
 }
 
+TEST(FaceMarks, OfTheFirstShellLeaveTheOthersWithout) {
+  ShapeLibrary shapes;
+  Tissue tissue = test::make_tissue(test::clusters_model(), shapes, {{0, 0, 0}, {40, 0, 0}}, {BodyKind::kShell, BodyKind::kShell});
+  std::vector<CellRecord> cells = take_apart(tissue);
+  cells[0].shell->face.mark.assign(320, 1);
+  put_together(tissue, std::move(cells));
+  EXPECT_EQ(std::as_const(tissue.shells).faces_of(0).mark.size(), 320u);
+  EXPECT_TRUE(std::as_const(tissue.shells).faces_of(1).empty());
+  const std::vector<CellRecord> again = take_apart(tissue);
+  EXPECT_EQ(again[0].shell->face.mark.size(), 320u);
+  EXPECT_TRUE(again[1].shell->face.empty());
+}
+
 TEST(FaceMarks, ByTouchFollowTheContactAndMayBeKept) {
   Model model = test::clusters_model();
   model.types.push_back(model.types[0]);

@@ -123,7 +123,7 @@ TEST(StateHash, SeesEveryPartOfTheState) {
   after([](Tissue& t) { t.shells.faces_of(0).mark.assign(5, 2); });
   after([](Tissue& t) { t.shells.faces_of(0).contact.assign(5, 0.5f); });
   after([](Tissue& t) { t.lumens[1].amount *= 2; });
-  after([](Tissue& t) { t.lumens[1].looked_at += 1; });
+  after([](Tissue& t) { t.lumens[0].looked_at += 1; });
   after([](Tissue& t) { t.fields[1].concentration[3][2] += 1e-12; });
   after([](Tissue& t) { std::swap(t.fields[0], t.fields[1]); });
   after([](Tissue& t) { t.fields[0].next_step = 0.0; });
