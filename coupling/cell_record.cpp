@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/mesh/shape_bytes.h"
+
 namespace morula {
 
 Vec3d CellRecord::center() const { return sphere ? sphere->position : volume_centroid(shell->shape->topology->faces(), shell->position); }
@@ -137,8 +139,7 @@ void append_bytes(const CellRecord& cell, std::vector<std::byte>& out) {
     append(out, body.attached.data(), body.attached.size());
   } else {
     const ShellRecord& body = *cell.shell;
-    const std::uint32_t nodes = body.shape->topology->node_count();
-    append(out, &nodes, 1);
+    append_shape(*body.shape, out);
     append(out, &body.reference_volume, 1);
     append(out, &body.rest_volume, 1);
     append(out, body.position.data(), body.position.size());
@@ -162,8 +163,8 @@ std::vector<CellRecord> read_records(std::span<const std::byte> bytes, ShapeLibr
       cell.sphere = std::move(body);
     } else {
       ShellRecord body;
-      const auto nodes = reader.one<std::uint32_t>();
-      body.shape = shapes.icosphere(nodes).value();
+      body.shape = read_shape(reader.rest, shapes);
+      const std::uint32_t nodes = body.shape->topology->node_count();
       body.reference_volume = reader.one<double>();
       body.rest_volume = reader.one<double>();
       body.position = reader.many<Vec3d>(nodes);

@@ -47,7 +47,7 @@ void put_together(Tissue& tissue, std::vector<CellRecord> cells);
 /// A spherical shell around `center` whose mesh encloses `volume`, with stress-free membrane at that volume and velocity zero.
 ShellRecord spherical_shell(std::shared_ptr<const ReferenceShape> shape, const Vec3d& center, double volume, double reference_volume);
 
-/// A cell as bytes and back. Shapes travel by their node count.
+/// A cell as bytes and back. An icosphere travels by its node count, any other shape whole.
 void append_bytes(const CellRecord& cell, std::vector<std::byte>& out);
 std::vector<CellRecord> read_records(std::span<const std::byte> bytes, ShapeLibrary& shapes);
 

@@ -63,7 +63,7 @@ class Scene {
 
  private:
   void add_owned(const Tissue& tissue);
-  void find_ghosts(const Tissue& tissue, const Space& space, double reach, const Comm& comm);
+  void find_ghosts(const Tissue& tissue, const Space& space, double reach, ShapeLibrary& library, const Comm& comm);
   void place_bodies(std::span<const std::uint64_t> order);
   template <class T>
   void exchange_points(std::span<T> by_point) const;

@@ -4,6 +4,7 @@
 
 #include "dcm/derived_parameters.h"
 #include "scenarios/study/build.h"
+#include "scenarios/study/build_meshes.h"
 #include "scenarios/study/read_section.h"
 
 namespace morula::scenarios {
@@ -24,8 +25,9 @@ double mean_edge(std::uint64_t nodes) {
 void check_contact_range(BuildContext& c) {
   const Given<double>& range = c.draft.contact.range;
   if (!may_have_shells(c.draft) || !range.known()) return;
-  for (const auto& [name, place, t] : c.draft.cell_types) {
-    if (!t.nodes.known() || !t.radius.mean.known()) continue;
+  for (std::size_t type = 0; type < c.draft.cell_types.size(); ++type) {
+    const auto& [name, place, t] = c.draft.cell_types[type];
+    if (!t.nodes.known() || !t.radius.mean.known() || only_from_meshes(c.study, type)) continue;
     const double edge = mean_edge(t.nodes.value) * t.radius.mean.value;
     // Half an edge is where faces begin to feel more than their opposite; the rule is exact to how mean_edge rounds (0.55 L was measured good).
     const bool too_long = range.value > 0.56 * edge, too_short = range.value < 0.25 * edge;

@@ -13,6 +13,7 @@ void declare_obstacle(Section& section, draft::Obstacle& obstacle);
 void declare_motion_course(Section& section, draft::Obstacle& obstacle);
 void declare_load(Section& section, draft::Load& load);
 void declare_initial(Section& section, draft::Initial& initial);
+void declare_meshes(Section& section, draft::Meshes& meshes);
 void declare_field(Section& section, draft::Field& field);
 void declare_coupling(Section& section, draft::Coupling& coupling);
 

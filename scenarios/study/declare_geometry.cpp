@@ -221,6 +221,11 @@ void declare_initial(Section& s, draft::Initial& i) {
           .example = "aligned",
           .source = "chosen"},
          i.orientation);
+  s.group({.name = "meshes",
+           .doc = "Cells with surfaces of their own, from files: closed surfaces in VTK, STL or OBJ, one for each cell.",
+           .optional_section = true,
+           .example = "{file: embryo.vtk, scale: 1 um}"},
+          i.has_meshes, [&i](Section& m) { declare_meshes(m, i.meshes); });
 }
 
 }  // namespace morula::scenarios

@@ -95,6 +95,22 @@ struct Load {
   std::vector<Named<CoursePoint>> course;
 };
 
+/// Cells that come with surfaces of their own.
+struct Meshes {
+  Given<std::string> file;
+  Given<std::vector<std::string>> files;
+  Given<double> scale;
+  Given<std::string> cell_is, id_array;
+  Given<std::vector<std::string>> types;
+  Given<std::string> type_array, pressure_array;
+  Given<double> pressure_unit;
+  Given<std::uint64_t> nodes;
+  Given<double> edge;
+  Given<bool> repair;
+  Given<double> overlap;
+  Given<Vec3d> center;
+};
+
 struct Initial {
   Given<std::string> type;
   Given<std::uint64_t> count;
@@ -111,6 +127,8 @@ struct Initial {
   Given<std::string> body;
   Given<double> start_volume, inflate;
   Given<std::string> shape, orientation;
+  bool has_meshes = false;
+  Meshes meshes;
 };
 
 struct FieldBoundary {
