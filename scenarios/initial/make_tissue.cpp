@@ -32,10 +32,10 @@ std::string micrometres(double length) {
 /// A cell whose row and place are settled, its body still to be made.
 struct Seedling {
   CellRow row;
-  Vec3d center;
+  Vec3d center{};
   CellShape shape = CellShape::kSphere;
   Orientation orientation = Orientation::kRandom;
-  std::optional<MeshCell> surface;  ///< its own, instead of a shape
+  std::optional<MeshCell> surface{};  ///< its own, instead of a shape
   const MeshCells* meshes = nullptr;
 };
 

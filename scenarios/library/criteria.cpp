@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scenarios/library/blastocyst.h"
+#include "scenarios/library/embryo.h"
 #include "scenarios/library/hybrid_spheroid.h"
 #include "scenarios/library/single_cell.h"
 #include "scenarios/library/verdicts.h"
@@ -48,6 +49,7 @@ const std::vector<ScenarioCriteria>& scenario_criteria() {
   static const std::vector<ScenarioCriteria> all{
       {"blastocyst", &judge_blastocyst},
       {"doublet", &judge_doublet, &plot_doublet},
+      {"embryo", &judge_embryo, &plot_embryo},
       {"hybrid_spheroid", &judge_hybrid_spheroid},
       {"optical_stretcher", &judge_optical_stretcher, &plot_optical_stretcher},
       {"optical_tweezers", &judge_optical_tweezers, &plot_optical_tweezers},

@@ -21,6 +21,7 @@ class MeshesBuilder {
     cells_.source = InitialCells::Source::kMeshes;
     cells_.body_given = true;
     cells_.body = BodyKind::kShell;
+    cells_.orientation = Orientation::kAligned;  // as in the file
     const std::size_t before = c_.diagnostics.error_count();
     refuse_contradictions();
     take_settings();
