@@ -60,7 +60,7 @@ const Verdict* find(const RunSummary& run, const std::string& quantity) {
 }
 
 TEST(LibraryStudies, AreThoseThatWereAskedFor) {
-  EXPECT_EQ(template_names(), (std::vector<std::string>{"blastocyst", "cluster", "doublet", "hybrid_spheroid", "optical_stretcher",
+  EXPECT_EQ(template_names(), (std::vector<std::string>{"blastocyst", "cluster", "doublet", "embryo", "hybrid_spheroid", "optical_stretcher",
                                                         "optical_tweezers", "pair", "parallel_plates", "spreading", "tissue"}));
 }
 
