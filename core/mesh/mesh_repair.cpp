@@ -23,7 +23,9 @@ std::string at(const Vec3d& p) {
   return buffer;
 }
 
-std::string counted(std::size_t n, const char* one, const char* many) { return n == 1 ? std::string("one ") + one : std::to_string(n) + " " + many; }
+std::string counted(std::size_t n, const char* one, const char* many) {
+  return n == 1 ? std::string("one ") + one : std::to_string(n) + " " + many;
+}
 
 std::string face_list(const std::vector<std::uint32_t>& faces) {
   constexpr std::size_t kShown = 8;
@@ -75,9 +77,11 @@ void Mender::unite_points() {
     for (const std::uint32_t node : face) used[node] = 1;
   const auto needed = static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
   out_.mesh = with_welded_nodes(out_.mesh, kSamePlace * norm(box.size()));
-  if (needed < before) out_.repairs.push_back(counted(before - needed, "point that no face names", "points that no face names") + " left away");
+  if (needed < before)
+    out_.repairs.push_back(counted(before - needed, "point that no face names", "points that no face names") + " left away");
   if (out_.mesh.position.size() < needed)
-    out_.repairs.push_back(counted(needed - out_.mesh.position.size(), "point that lies on another one", "points that lie on other ones") + " united with it");
+    out_.repairs.push_back(counted(needed - out_.mesh.position.size(), "point that lies on another one", "points that lie on other ones") +
+                           " united with it");
 }
 
 void Mender::drop_faces(const std::vector<char>& drop) {
@@ -157,7 +161,8 @@ bool Mender::mend_thin_faces() {
     if (length(shortest) < kNeedle * length(longest)) {
       const auto [low, high] = std::minmax(face[shortest], face[(shortest + 1) % 3]);
       moved_to[high] = low;
-      out_.repairs.push_back("face " + std::to_string(out_.face[f]) + " without area, at " + at(center(f)) + ": its short edge drawn together");
+      out_.repairs.push_back("face " + std::to_string(out_.face[f]) + " without area, at " + at(center(f)) +
+                             ": its short edge drawn together");
     } else {
       const std::uint32_t a = face[longest], b = face[(longest + 1) % 3], tip = face[(longest + 2) % 3];
       const auto& both = of_edge[std::minmax(a, b)];

@@ -22,7 +22,9 @@ Error too_coarse(const std::string& what) {
   return {ErrorKind::kInput, "it cannot be remeshed: " + what, "ask for more nodes, or shorter edges"};
 }
 
-double volume_of(const TriangleMesh& mesh) { return enclosed_volume(mesh.faces, mesh.position, volume_centroid(mesh.faces, mesh.position)); }
+double volume_of(const TriangleMesh& mesh) {
+  return enclosed_volume(mesh.faces, mesh.position, volume_centroid(mesh.faces, mesh.position));
+}
 
 std::string percent(double part) {
   char text[32];
@@ -124,7 +126,8 @@ Result<Remeshed> remesh_surface(const TriangleMesh& mesh, const RemeshTarget& ta
   restore_volume(out.mesh, volume);
   MeshExpectation expectation;
   expectation.most_of_a_kind = 1;
-  if (const auto problems = check_mesh(out.mesh.position, out.mesh.faces, expectation); !problems.empty()) return too_coarse(problems.front().message);
+  if (const auto problems = check_mesh(out.mesh.position, out.mesh.faces, expectation); !problems.empty())
+    return too_coarse(problems.front().message);
   out.mean_edge = mean_edge_length(out.mesh);
   return out;
 }

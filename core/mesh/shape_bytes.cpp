@@ -49,8 +49,8 @@ std::shared_ptr<const ReferenceShape> read_shape(std::span<const std::byte>& byt
   shape.face_area = take<double>(bytes, counts[1]);
   shape.hinge_angle = take<double>(bytes, counts[2]);
   auto known = library.find(hash, [&](const ReferenceShape& other) {
-    return std::ranges::equal(other.topology->faces(), faces) && other.position == shape.position && other.edge_length == shape.edge_length &&
-           other.face_area == shape.face_area && other.hinge_angle == shape.hinge_angle;
+    return std::ranges::equal(other.topology->faces(), faces) && other.position == shape.position &&
+           other.edge_length == shape.edge_length && other.face_area == shape.face_area && other.hinge_angle == shape.hinge_angle;
   });
   if (known) return known;
   shape.topology = Topology::build(counts[0], std::move(faces)).value();

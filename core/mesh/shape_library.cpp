@@ -8,7 +8,9 @@ std::shared_ptr<const ReferenceShape> ShapeLibrary::adopt(std::shared_ptr<const 
   if (shape->icosphere_nodes != 0) return shape;
   std::erase_if(own_, [](const auto& entry) { return entry.second.expired(); });
   const std::uint64_t hash = shape->topology->hash();
-  const auto same_faces = [&](const ReferenceShape& other) { return std::ranges::equal(other.topology->faces(), shape->topology->faces()); };
+  const auto same_faces = [&](const ReferenceShape& other) {
+    return std::ranges::equal(other.topology->faces(), shape->topology->faces());
+  };
   if (auto known = find(hash, [&](const ReferenceShape& other) {
         return same_faces(other) && other.position == shape->position && other.edge_length == shape->edge_length &&
                other.face_area == shape->face_area && other.hinge_angle == shape->hinge_angle;

@@ -42,7 +42,8 @@ std::vector<double> components_of_faces(const TriangleMesh& mesh) {
     }
   std::vector<double> out;
   std::map<std::uint32_t, double> number;
-  for (const Triangle& face : mesh.faces) out.push_back(number.try_emplace(root(face[0]), static_cast<double>(number.size())).first->second);
+  for (const Triangle& face : mesh.faces)
+    out.push_back(number.try_emplace(root(face[0]), static_cast<double>(number.size())).first->second);
   return out;
 }
 

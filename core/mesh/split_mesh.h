@@ -10,9 +10,9 @@ namespace morula {
 /// One of the surfaces a mesh was split into.
 struct SplitSurface {
   double label = 0.0;
-  TriangleMesh mesh;                 ///< with the nodes its faces name, in increasing order of their old numbers
-  std::vector<std::uint32_t> face;   ///< old number of each face
-  std::vector<std::uint32_t> node;   ///< old number of each node
+  TriangleMesh mesh;                ///< with the nodes its faces name, in increasing order of their old numbers
+  std::vector<std::uint32_t> face;  ///< old number of each face
+  std::vector<std::uint32_t> node;  ///< old number of each node
 };
 
 /// One surface for each label of the faces, in increasing order of the labels; nodes that two labels share are given to both.

@@ -6,9 +6,7 @@
 namespace morula {
 
 Result<std::string> read_surface_bytes(const std::filesystem::path& file) {
-  const auto file_error = [&](const char* what, const char* help) {
-    return Error{ErrorKind::kFile, file.string() + ": " + what, help};
-  };
+  const auto file_error = [&](const char* what, const char* help) { return Error{ErrorKind::kFile, file.string() + ": " + what, help}; };
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) return file_error("there is no such file", "check the path; it is relative to the study file");

@@ -258,8 +258,7 @@ Result<LabelledMesh> read_labelled_mesh(const fs::path& file, double scale) {
     return file_error(file, "its ending tells no known format", "cells are read from .vtk (legacy), .stl and .obj files");
   MORULA_TRY_ASSIGN(const std::string content, read_surface_bytes(file));
   const bool is_obj = ending == ".obj";
-  if (is_obj && content.find('\0') != std::string::npos)
-    return file_error(file, "is binary, not an OBJ text", "write it as Wavefront OBJ");
+  if (is_obj && content.find('\0') != std::string::npos) return file_error(file, "is binary, not an OBJ text", "write it as Wavefront OBJ");
   MORULA_TRY_ASSIGN(Parsed parsed, is_obj ? parse_obj(file, content) : parse_stl(file, content));
   if (parsed.mesh.faces.empty()) return file_error(file, "holds no faces", "a surface needs triangles");
   for (Vec3d& p : parsed.mesh.position) {

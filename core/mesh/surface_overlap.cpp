@@ -35,7 +35,8 @@ std::vector<SurfaceOverlap> find_overlaps(std::span<const TriangleMesh> surfaces
         const double depth = nearest ? -signed_distance(*sides[b].topology, surfaces[b].position, p, nearest->face, nearest->closest) : 0.0;
         if (depth > 0.0) inside.push_back({a, b, node, nearest->face, depth, p});
       }
-      std::sort(inside.begin(), inside.end(), [](const SurfaceOverlap& l, const SurfaceOverlap& r) { return l.depth != r.depth ? l.depth > r.depth : l.node < r.node; });
+      std::sort(inside.begin(), inside.end(),
+                [](const SurfaceOverlap& l, const SurfaceOverlap& r) { return l.depth != r.depth ? l.depth > r.depth : l.node < r.node; });
       // Near a fold of the surface the side of a node is not to be trusted: it must be wound around, too.
       const auto deepest = std::find_if(inside.begin(), inside.end(), [&](const SurfaceOverlap& one) {
         return winding_number(surfaces[b].position, surfaces[b].faces, one.place) > 0.5;

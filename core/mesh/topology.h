@@ -58,10 +58,10 @@ class Topology {
 /// V^(1/3) × edge_length.
 struct ReferenceShape {
   std::shared_ptr<const Topology> topology;
-  std::vector<Vec3d> position;      ///< by node; volume centroid at the origin, enclosed volume 1
-  std::vector<double> edge_length;  ///< by edge
-  std::vector<double> face_area;    ///< by face
-  std::vector<double> hinge_angle;  ///< by edge: dihedral turning angle, 0 flat, > 0 convex [rad]
+  std::vector<Vec3d> position;        ///< by node; volume centroid at the origin, enclosed volume 1
+  std::vector<double> edge_length;    ///< by edge
+  std::vector<double> face_area;      ///< by face
+  std::vector<double> hinge_angle;    ///< by edge: dihedral turning angle, 0 flat, > 0 convex [rad]
   std::uint32_t icosphere_nodes = 0;  ///< of the library's icosphere that this is; 0: a shape of its own
 };
 

@@ -83,7 +83,9 @@ class VtkParser {
 
 std::string plain_name(std::string_view word) {  // names are written with %20 for a space
   std::string out;
-  const auto digit = [](char c) { return c >= '0' && c <= '9' ? c - '0' : c >= 'A' && c <= 'F' ? c - 'A' + 10 : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1; };
+  const auto digit = [](char c) {
+    return c >= '0' && c <= '9' ? c - '0' : c >= 'A' && c <= 'F' ? c - 'A' + 10 : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+  };
   for (std::size_t i = 0; i < word.size(); ++i) {
     if (word[i] == '%' && i + 2 < word.size() && digit(word[i + 1]) >= 0 && digit(word[i + 2]) >= 0) {
       out += static_cast<char>(16 * digit(word[i + 1]) + digit(word[i + 2]));
@@ -112,7 +114,8 @@ Status VtkParser::read_block(std::string_view keyword) {
   if (keyword == "DATASET") {
     const std::string_view kind = words_.word();
     if (kind != "POLYDATA" && kind != "UNSTRUCTURED_GRID")
-      return words_.error("a data set of the kind " + quoted_word(kind) + " holds no surfaces", "POLYDATA and UNSTRUCTURED_GRID can be read");
+      return words_.error("a data set of the kind " + quoted_word(kind) + " holds no surfaces",
+                          "POLYDATA and UNSTRUCTURED_GRID can be read");
     is_grid_ = kind == "UNSTRUCTURED_GRID";
     has_dataset_ = true;
     return {};
@@ -169,7 +172,8 @@ Result<CellLists> VtkParser::read_cells() {
     MORULA_TRY_ASSIGN(out.nodes, words_.wholes(size, words_.word()));
     out.first.clear();
     for (const std::int64_t offset : offsets) {
-      if (offset < 0 || static_cast<std::size_t>(offset) > size || (!out.first.empty() && static_cast<std::size_t>(offset) < out.first.back()))
+      if (offset < 0 || static_cast<std::size_t>(offset) > size ||
+          (!out.first.empty() && static_cast<std::size_t>(offset) < out.first.back()))
         return words_.error("an offset of a cell lies outside the list of nodes", kWriteAgain);
       out.first.push_back(static_cast<std::size_t>(offset));
     }
@@ -182,7 +186,8 @@ Result<CellLists> VtkParser::read_cells() {
     if (at >= size || numbers[at] < 0 || static_cast<std::size_t>(numbers[at]) > size - at - 1)
       return words_.error("the list of cells ends inside cell " + std::to_string(cell), kWriteAgain);
     const auto length = static_cast<std::size_t>(numbers[at++]);
-    out.nodes.insert(out.nodes.end(), numbers.begin() + static_cast<std::ptrdiff_t>(at), numbers.begin() + static_cast<std::ptrdiff_t>(at + length));
+    out.nodes.insert(out.nodes.end(), numbers.begin() + static_cast<std::ptrdiff_t>(at),
+                     numbers.begin() + static_cast<std::ptrdiff_t>(at + length));
     out.first.push_back(out.nodes.size());
     at += length;
   }
@@ -227,8 +232,9 @@ Status VtkParser::read_array(std::string_view keyword) {
     if (words_.peek() == "LOOKUP_TABLE") words_.word(), words_.word();
     return keep(name, static_cast<std::size_t>(*components), tuples_, type);
   }
-  for (const auto& [word, components] : {std::pair("VECTORS", 3u), std::pair("NORMALS", 3u), std::pair("TENSORS", 9u), std::pair("TENSORS6", 6u),
-                                         std::pair("GLOBAL_IDS", 1u), std::pair("PEDIGREE_IDS", 1u), std::pair("EDGE_FLAGS", 1u)}) {
+  for (const auto& [word, components] :
+       {std::pair("VECTORS", 3u), std::pair("NORMALS", 3u), std::pair("TENSORS", 9u), std::pair("TENSORS6", 6u),
+        std::pair("GLOBAL_IDS", 1u), std::pair("PEDIGREE_IDS", 1u), std::pair("EDGE_FLAGS", 1u)}) {
     if (keyword != word) continue;
     const std::string_view name = words_.word(), type = words_.word();
     return keep(name, components, tuples_, type);
@@ -245,7 +251,8 @@ Status VtkParser::read_array(std::string_view keyword) {
     const auto table = words_.numbers(4 * size, words_.is_binary() ? "unsigned_char" : "float");
     return table.ok() ? Status{} : Status(table.error());
   }
-  return words_.error(quoted_word(keyword) + " is not known", "fewer or more numbers follow than are announced, or this is no legacy VTK file");
+  return words_.error(quoted_word(keyword) + " is not known",
+                      "fewer or more numbers follow than are announced, or this is no legacy VTK file");
 }
 
 Result<Triangle> VtkParser::triangle(std::uint32_t part, std::int64_t a, std::int64_t b, std::int64_t c) const {
@@ -259,7 +266,8 @@ Result<Triangle> VtkParser::triangle(std::uint32_t part, std::int64_t a, std::in
 
 Status VtkParser::add_polygon(std::uint32_t part, std::span<const std::int64_t> nodes) {
   if (nodes.size() < 3)
-    return file_error("a face of cell " + std::to_string(part) + " has only " + std::to_string(nodes.size()) + " points", "a face has at least three");
+    return file_error("a face of cell " + std::to_string(part) + " has only " + std::to_string(nodes.size()) + " points",
+                      "a face has at least three");
   for (std::size_t c = 2; c < nodes.size(); ++c) {
     MORULA_TRY_ASSIGN(const Triangle face, triangle(part, nodes[0], nodes[c - 1], nodes[c]));
     out_.mesh.faces.push_back(face);
@@ -341,7 +349,8 @@ Status VtkParser::assemble() {
   const auto fits = [&](const std::vector<MeshArray>& arrays, std::size_t count, const char* what) -> Status {
     for (const MeshArray& array : arrays)
       if (array.count() != count)
-        return file_error("array '" + array.name + "' has " + std::to_string(array.count()) + " values for " + std::to_string(count) + what, kWriteAgain);
+        return file_error("array '" + array.name + "' has " + std::to_string(array.count()) + " values for " + std::to_string(count) + what,
+                          kWriteAgain);
     return {};
   };
   MORULA_TRY(fits(out_.part_arrays, total, " cells"));
@@ -350,7 +359,9 @@ Status VtkParser::assemble() {
 
 }  // namespace
 
-Result<LabelledMesh> parse_vtk(const fs::path& file, std::string_view content, double scale) { return VtkParser(file, content, scale).run(); }
+Result<LabelledMesh> parse_vtk(const fs::path& file, std::string_view content, double scale) {
+  return VtkParser(file, content, scale).run();
+}
 
 Result<LabelledMesh> read_vtk(const fs::path& file, double scale) {
   MORULA_TRY_ASSIGN(const std::string content, read_surface_bytes(file));

@@ -25,13 +25,22 @@ NumberType number_type(std::string_view name) {
     NumberType type;
   };
   // vtkIdType is written as 32 bits in these files, whatever it is in memory.
-  constexpr Entry kTypes[] = {
-      {"float", {Kind::kFloat, 4}},           {"double", {Kind::kFloat, 8}},         {"int", {Kind::kSigned, 4}},
-      {"vtkIdType", {Kind::kSigned, 4}},      {"vtktypeint64", {Kind::kSigned, 8}},  {"vtktypeuint64", {Kind::kUnsigned, 8}},
-      {"long", {Kind::kSigned, 8}},           {"unsigned_long", {Kind::kUnsigned, 8}}, {"unsigned_int", {Kind::kUnsigned, 4}},
-      {"short", {Kind::kSigned, 2}},          {"unsigned_short", {Kind::kUnsigned, 2}}, {"char", {Kind::kSigned, 1}},
-      {"signed_char", {Kind::kSigned, 1}},    {"unsigned_char", {Kind::kUnsigned, 1}}, {"vtktypeint32", {Kind::kSigned, 4}},
-      {"vtktypeuint32", {Kind::kUnsigned, 4}}};
+  constexpr Entry kTypes[] = {{"float", {Kind::kFloat, 4}},
+                              {"double", {Kind::kFloat, 8}},
+                              {"int", {Kind::kSigned, 4}},
+                              {"vtkIdType", {Kind::kSigned, 4}},
+                              {"vtktypeint64", {Kind::kSigned, 8}},
+                              {"vtktypeuint64", {Kind::kUnsigned, 8}},
+                              {"long", {Kind::kSigned, 8}},
+                              {"unsigned_long", {Kind::kUnsigned, 8}},
+                              {"unsigned_int", {Kind::kUnsigned, 4}},
+                              {"short", {Kind::kSigned, 2}},
+                              {"unsigned_short", {Kind::kUnsigned, 2}},
+                              {"char", {Kind::kSigned, 1}},
+                              {"signed_char", {Kind::kSigned, 1}},
+                              {"unsigned_char", {Kind::kUnsigned, 1}},
+                              {"vtktypeint32", {Kind::kSigned, 4}},
+                              {"vtktypeuint32", {Kind::kUnsigned, 4}}};
   for (const Entry& entry : kTypes)
     if (entry.name == name) return entry.type;
   return {};
@@ -40,7 +49,8 @@ NumberType number_type(std::string_view name) {
 template <class To, class From>
 To from_bits(std::uint64_t bits) {
   From value{};
-  std::make_unsigned_t<std::conditional_t<std::is_floating_point_v<From>, std::conditional_t<sizeof(From) == 4, std::int32_t, std::int64_t>, From>>
+  std::make_unsigned_t<
+      std::conditional_t<std::is_floating_point_v<From>, std::conditional_t<sizeof(From) == 4, std::int32_t, std::int64_t>, From>>
       narrow = static_cast<decltype(narrow)>(bits);
   std::memcpy(&value, &narrow, sizeof value);
   return static_cast<To>(value);
@@ -51,7 +61,8 @@ Number decode(const char* at, NumberType type) {
   std::uint64_t bits = 0;
   for (std::size_t b = 0; b < type.bytes; ++b) bits = bits << 8 | static_cast<unsigned char>(at[b]);
   if (type.kind == Kind::kFloat) {
-    if constexpr (std::is_floating_point_v<Number>) return type.bytes == 4 ? from_bits<Number, float>(bits) : from_bits<Number, double>(bits);
+    if constexpr (std::is_floating_point_v<Number>)
+      return type.bytes == 4 ? from_bits<Number, float>(bits) : from_bits<Number, double>(bits);
     return Number{-1};
   }
   if (type.kind == Kind::kUnsigned) return static_cast<Number>(bits);
@@ -128,7 +139,8 @@ Result<std::size_t> VtkWords::count(const char* what) {
 template <class Number>
 Result<std::vector<Number>> VtkWords::block(std::size_t n, std::string_view type_name) {
   const NumberType type = number_type(type_name);
-  if (type.kind == Kind::kUnknown) return error("numbers of the type " + quoted_word(type_name) + " cannot be read", "use float, double or int");
+  if (type.kind == Kind::kUnknown)
+    return error("numbers of the type " + quoted_word(type_name) + " cannot be read", "use float, double or int");
   constexpr bool kWhole = std::is_integral_v<Number>;
   if (kWhole && type.kind == Kind::kFloat) return error("indices of the type " + quoted_word(type_name) + " cannot be read", "use int");
   const std::size_t least = binary_ ? type.bytes : 2;  // a digit and what parts it from the next number
@@ -149,7 +161,8 @@ Result<std::vector<Number>> VtkWords::block(std::size_t n, std::string_view type
       return error("the file ends after " + std::to_string(i) + " of " + std::to_string(n) + " numbers", "it is truncated; write it again");
     if constexpr (kWhole) {
       const auto value = parse_whole(text);
-      if (!value) return error(quoted_word(text) + " is not a whole number", "fewer numbers follow than are announced, or the file is damaged");
+      if (!value)
+        return error(quoted_word(text) + " is not a whole number", "fewer numbers follow than are announced, or the file is damaged");
       out.push_back(static_cast<Number>(*value));
     } else {
       const auto value = parse_number(text);

@@ -23,7 +23,7 @@ namespace {
 
 using CellIs = MeshCells::CellIs;
 
-constexpr double kWeld = 1e-6;  // of the diagonal: STL rounds to single precision
+constexpr double kWeld = 1e-6;                                    // of the diagonal: STL rounds to single precision
 constexpr double kSmallestRadius = 0.1, kLargestRadius = 1000.0;  // of a cell [µm]: beyond, the scale must be wrong
 constexpr const char* kMend = "mend the surface, for example in MeshLab or Blender";
 
@@ -63,8 +63,10 @@ class MeshCellReader {
   void read_file(std::size_t number);
   bool split(const std::string& shown, FileCells& file);
   [[nodiscard]] const MeshArray* find_array(const std::string& shown, const LabelledMesh& file, const std::string& name, bool& of_points);
-  [[nodiscard]] std::optional<std::vector<double>> by_face(const std::string& shown, const LabelledMesh& file, const std::string& array_name);
-  [[nodiscard]] std::optional<double> value_of(const std::string& cell, const FileCells& file, const SplitSurface& surface, const std::string& array_name);
+  [[nodiscard]] std::optional<std::vector<double>> by_face(const std::string& shown, const LabelledMesh& file,
+                                                           const std::string& array_name);
+  [[nodiscard]] std::optional<double> value_of(const std::string& cell, const FileCells& file, const SplitSurface& surface,
+                                               const std::string& array_name);
   void add_cell(const std::string& name, const FileCells& file, const SplitSurface& surface);
   bool mend_and_check(MeshCell& cell);
   void check_size(const MeshCell& cell);
@@ -110,14 +112,16 @@ const MeshArray* MeshCellReader::find_array(const std::string& shown, const Labe
     return nullptr;
   }
   if (array->components != 1) {
-    problem(545, "array '" + name + "' of '" + shown + "' has " + std::to_string(array->components) + " components", "one number a cell is needed");
+    problem(545, "array '" + name + "' of '" + shown + "' has " + std::to_string(array->components) + " components",
+            "one number a cell is needed");
     return nullptr;
   }
   return array;
 }
 
 /// The number that an array gives to every face: that of its part, or of all its points.
-std::optional<std::vector<double>> MeshCellReader::by_face(const std::string& shown, const LabelledMesh& file, const std::string& array_name) {
+std::optional<std::vector<double>> MeshCellReader::by_face(const std::string& shown, const LabelledMesh& file,
+                                                           const std::string& array_name) {
   bool of_points = false;
   const MeshArray* array = find_array(shown, file, array_name, of_points);
   if (!array) return std::nullopt;
@@ -127,9 +131,10 @@ std::optional<std::vector<double>> MeshCellReader::by_face(const std::string& sh
     out.push_back(array->values[of_points ? nodes[0] : file.part[f]]);
     const bool differs = of_points && (array->values[nodes[1]] != out.back() || array->values[nodes[2]] != out.back());
     if (std::isfinite(out.back()) && !differs) continue;
-    problem(545, "array '" + array_name + "' of '" + shown + "' has " +
-                     (differs ? "different values at the points of face " + std::to_string(f)
-                              : "a value that is not finite, at face " + std::to_string(f)),
+    problem(545,
+            "array '" + array_name + "' of '" + shown + "' has " +
+                (differs ? "different values at the points of face " + std::to_string(f)
+                         : "a value that is not finite, at face " + std::to_string(f)),
             "every face needs one finite number");
     return std::nullopt;
   }
@@ -142,7 +147,8 @@ bool MeshCellReader::split(const std::string& shown, FileCells& file) {
   CellIs how = spec_.cell_is;
   if (how == CellIs::kAuto) how = closed_parts > 1 ? CellIs::kPart : CellIs::kComponent;
   if (how == CellIs::kPart && closed_parts == 0) {
-    problem(547, "the parts of '" + shown + "' are single polygons, which enclose nothing", "write `cell_is: component`, or name an `id_array`");
+    problem(547, "the parts of '" + shown + "' are single polygons, which enclose nothing",
+            "write `cell_is: component`, or name an `id_array`");
     return false;
   }
   std::vector<double> label;
@@ -182,7 +188,8 @@ std::optional<double> MeshCellReader::value_of(const std::string& cell, const Fi
   const double value = (*values)[surface.face.front()];
   for (const std::uint32_t f : surface.face)
     if ((*values)[f] != value) {
-      problem(545, "array '" + array_name + "' has the values " + text_of(value) + " and " + text_of((*values)[f]) + " in one cell: " + cell,
+      problem(545,
+              "array '" + array_name + "' has the values " + text_of(value) + " and " + text_of((*values)[f]) + " in one cell: " + cell,
               "a cell has one value");
       return std::nullopt;
     }
@@ -199,8 +206,9 @@ void MeshCellReader::add_cell(const std::string& name, const FileCells& file, co
     if (!value) return;
     const auto count = static_cast<double>(spec_.types.size());
     if (!(*value >= 0.0 && *value < count && *value == std::floor(*value)))
-      return problem(549, "array '" + spec_.type_array + "' gives the type number " + text_of(*value) + " to a cell (" + name + "), and `types` has " +
-                              std::to_string(spec_.types.size()) + " names",
+      return problem(549,
+                     "array '" + spec_.type_array + "' gives the type number " + text_of(*value) + " to a cell (" + name +
+                         "), and `types` has " + std::to_string(spec_.types.size()) + " names",
                      "`types` names the cell types 0, 1, 2, ... of that array");
     cell.type = spec_.types[static_cast<std::size_t>(*value)];
   } else if (!spec_.types.empty() && out_.cells.size() < spec_.types.size()) {
@@ -232,11 +240,13 @@ bool MeshCellReader::mend_and_check(MeshCell& cell) {
       continue;
     }
     const bool mendable = !spec_.repair && (found.kind == MeshProblemKind::kFlippedFaces || found.kind == MeshProblemKind::kInsideOut ||
-                                            found.kind == MeshProblemKind::kDegenerateFace || found.kind == MeshProblemKind::kDuplicateFace ||
-                                            found.kind == MeshProblemKind::kUnusedNode);
+                                            found.kind == MeshProblemKind::kDegenerateFace ||
+                                            found.kind == MeshProblemKind::kDuplicateFace || found.kind == MeshProblemKind::kUnusedNode);
     const bool smooth = found.kind == MeshProblemKind::kSelfIntersection;
     problem(code_of(found.kind), cell.name + ": " + found.message,
-            mendable ? "leave `repair: false` away" : smooth ? "remesh it (`nodes` or `edge`), or mend the surface" : kMend);
+            mendable ? "leave `repair: false` away"
+            : smooth ? "remesh it (`nodes` or `edge`), or mend the surface"
+                     : kMend);
     sound = false;
   }
   if (!sound) return false;
@@ -252,13 +262,16 @@ bool MeshCellReader::mend_and_check(MeshCell& cell) {
 void MeshCellReader::check_size(const MeshCell& cell) {
   const double radius = std::cbrt(3.0 * cell.volume / (4.0 * std::numbers::pi));
   if (radius >= kSmallestRadius && radius <= kLargestRadius) return;
-  problem(550, cell.name + " has the volume of a ball of radius " + text_of(radius, "%.3g") + " um, which is no cell", "check `scale`: the length that 1 in the file stands for");
+  problem(550, cell.name + " has the volume of a ball of radius " + text_of(radius, "%.3g") + " um, which is no cell",
+          "check `scale`: the length that 1 in the file stands for");
 }
 
 void MeshCellReader::check_type_count() {
   if (!out_.problems.empty() || spec_.types.empty() || !spec_.type_array.empty() || spec_.types.size() == out_.cells.size()) return;
-  problem(549, "`types` names " + std::to_string(spec_.types.size()) + " cell types, and there are " + std::to_string(out_.cells.size()) + " cells",
-          "name one type for each cell, or give `type_array`");
+  problem(
+      549,
+      "`types` names " + std::to_string(spec_.types.size()) + " cell types, and there are " + std::to_string(out_.cells.size()) + " cells",
+      "name one type for each cell, or give `type_array`");
 }
 
 void MeshCellReader::move_to_center() {
@@ -281,16 +294,19 @@ void MeshCellReader::check_overlaps() {
   const SurfaceOverlap* deepest = nullptr;
   const std::vector<SurfaceOverlap> overlaps = find_overlaps(meshes);
   const auto named = [&](const SurfaceOverlap& o) {
-    return out_.cells[o.a].name + " reaches " + text_of(o.depth, "%.3g") + " um into " + out_.cells[o.b].name + ", at " + text_of_place(o.place) +
-           ", through face " + std::to_string(o.face);
+    return out_.cells[o.a].name + " reaches " + text_of(o.depth, "%.3g") + " um into " + out_.cells[o.b].name + ", at " +
+           text_of_place(o.place) + ", through face " + std::to_string(o.face);
   };
   for (const SurfaceOverlap& o : overlaps) {
     if (!deepest || o.depth > deepest->depth) deepest = &o;
     if (o.depth > spec_.overlap && ++too_deep <= kMostNamed)
-      problem(546, named(o), "at most " + text_of(spec_.overlap) + " um of overlap may be left to the contact law: `overlap`, or move the surfaces");
+      problem(546, named(o),
+              "at most " + text_of(spec_.overlap) + " um of overlap may be left to the contact law: `overlap`, or move the surfaces");
   }
-  if (too_deep > kMostNamed) problem(546, std::to_string(too_deep - kMostNamed) + " more overlaps of cells are too deep", "mend the surfaces");
-  if (too_deep == 0 && deepest) out_.notes.push_back("deepest overlap at the start: " + named(*deepest) + "; the contact law will push it apart");
+  if (too_deep > kMostNamed)
+    problem(546, std::to_string(too_deep - kMostNamed) + " more overlaps of cells are too deep", "mend the surfaces");
+  if (too_deep == 0 && deepest)
+    out_.notes.push_back("deepest overlap at the start: " + named(*deepest) + "; the contact law will push it apart");
 }
 
 }  // namespace

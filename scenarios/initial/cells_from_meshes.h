@@ -12,9 +12,9 @@ namespace morula::scenarios {
 
 /// A cell as its surface in the file says it.
 struct MeshCell {
-  std::string name;       ///< for messages: "embryo.vtk, cell 9"
-  TriangleMesh mesh;      ///< closed, outwards [µm]
-  double volume = 0.0;    ///< [µm³]
+  std::string name;     ///< for messages: "embryo.vtk, cell 9"
+  TriangleMesh mesh;    ///< closed, outwards [µm]
+  double volume = 0.0;  ///< [µm³]
   std::uint16_t type = 0;
   std::optional<double> pressure;  ///< [kPa]
 };
@@ -26,7 +26,7 @@ struct MeshCellProblem {
 };
 
 struct MeshCellsRead {
-  std::vector<MeshCell> cells;  ///< in the order of the files, in a file by part, by first face, or by id
+  std::vector<MeshCell> cells;     ///< in the order of the files, in a file by part, by first face, or by id
   std::vector<std::string> notes;  ///< for the log: each repair, crossings that remeshing will smooth, the deepest overlap
   std::vector<MeshCellProblem> problems;
 };

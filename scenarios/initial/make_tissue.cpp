@@ -200,7 +200,8 @@ Result<CellRecord> with_body(const Seedling& cell, const Model& model, ShapeLibr
   record.row.order = curve_place(cell.center);
   const CellType& type = model.types[cell.row.type];
   if (cell.surface) {
-    MORULA_TRY_ASSIGN(record.shell, shell_of_surface(*cell.surface, *cell.meshes, free_reference_volume(cell.row.target_volume, type), shapes));
+    MORULA_TRY_ASSIGN(record.shell,
+                      shell_of_surface(*cell.surface, *cell.meshes, free_reference_volume(cell.row.target_volume, type), shapes));
     return record;
   }
   if (cell.row.body == BodyKind::kSphere) {

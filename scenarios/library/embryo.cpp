@@ -55,7 +55,8 @@ Result<Aggregate> read_aggregate(const Study& study, const std::filesystem::path
       out.ratio = study.model.pair(cells.type, cells.type).adhesion / (2.0 * out.type->shell.tension);
       out.file = read_mesh_cells(cells.meshes, cells.type, false);
     }
-  if (!out.spec) return Error{ErrorKind::kInput, "the criteria of 'embryo' need cells from meshes", "give `initial` an entry with `meshes`"};
+  if (!out.spec)
+    return Error{ErrorKind::kInput, "the criteria of 'embryo' need cells from meshes", "give `initial` an entry with `meshes`"};
   if (!out.file.problems.empty()) return Error{ErrorKind::kFile, out.file.problems.front().text, out.file.problems.front().help};
   std::vector<TriangleMesh> meshes;
   for (const MeshCell& cell : out.file.cells) meshes.push_back(cell.mesh);
@@ -98,7 +99,8 @@ void judge_import(const Aggregate& all, std::vector<Verdict>& out) {
 std::vector<std::pair<std::size_t, double>> tensions(const Aggregate& all) {
   std::vector<std::pair<std::size_t, double>> out;
   for (std::size_t c = 0; c < all.file.cells.size(); ++c)
-    if (all.file_shape.sphere[c] && all.file.cells[c].pressure) out.emplace_back(c, 0.5 * *all.file.cells[c].pressure * all.file_shape.sphere[c]->radius);
+    if (all.file_shape.sphere[c] && all.file.cells[c].pressure)
+      out.emplace_back(c, 0.5 * *all.file.cells[c].pressure * all.file_shape.sphere[c]->radius);
   return out;
 }
 
@@ -108,17 +110,20 @@ void judge_inference(const Aggregate& all, double factor, std::vector<Verdict>& 
   const auto by_cell = tensions(all);
   for (const auto& [cell, tension] : by_cell) sum += tension;
   const double mean = by_cell.empty() ? 0.0 : sum / static_cast<double>(by_cell.size());
-  out.push_back(at_most("S17.2", "tension over pressure from the curvature of the free surfaces, relative", std::abs(mean / all.type->shell.tension - 1.0),
-                        factor * 0.03));
-  out.push_back(at_most("S17.2", "mean contact angle against 58.9 degrees", std::abs(all.file_shape.mean_angle() / kDegree - kMeanAngle), factor * 2.0, "deg"));
+  out.push_back(at_most("S17.2", "tension over pressure from the curvature of the free surfaces, relative",
+                        std::abs(mean / all.type->shell.tension - 1.0), factor * 0.03));
+  out.push_back(at_most("S17.2", "mean contact angle against 58.9 degrees", std::abs(all.file_shape.mean_angle() / kDegree - kMeanAngle),
+                        factor * 2.0, "deg"));
 }
 
 /// S17.3; with nodes of a coarser copy also S17.6.
 void judge_hold(const Aggregate& all, double factor, std::vector<Verdict>& out) {
   const auto before = surfaces(all.moments.front()), after = surfaces(all.moments.back());
   const AggregateShape start = measure_aggregate(before), end = measure_aggregate(after);
-  out.push_back(at_most("S17.3", "motion of the surfaces along their normals, root mean square", rms_normal_motion(before, after), factor * 0.3, "um"));
-  out.push_back(at_most("S17.3", "share of the surfaces in contact against 0.619", std::abs(end.contact_fraction - kContactFraction), factor * 0.03));
+  out.push_back(at_most("S17.3", "motion of the surfaces along their normals, root mean square", rms_normal_motion(before, after),
+                        factor * 0.3, "um"));
+  out.push_back(
+      at_most("S17.3", "share of the surfaces in contact against 0.619", std::abs(end.contact_fraction - kContactFraction), factor * 0.03));
   double pressure = 0.0;
   for (const auto& cell : all.moments.back().cells) pressure += cell.pressure / static_cast<double>(all.moments.back().cells.size());
   out.push_back(at_most("S17.3", "mean pressure against 117.7 Pa", 1000.0 * std::abs(pressure - kMeanPressure), factor * 6.0, "Pa"));
@@ -130,7 +135,8 @@ void judge_hold(const Aggregate& all, double factor, std::vector<Verdict>& out) 
   }
   out.push_back(equal("S17.3", "inner cells that are still inner ones", still, inner));
   if (all.spec->nodes > 0)
-    out.push_back(at_most("S17.6", ("share of the surfaces in contact against 0.619, " + std::to_string(all.spec->nodes) + " nodes a cell").c_str(),
+    out.push_back(at_most("S17.6",
+                          ("share of the surfaces in contact against 0.619, " + std::to_string(all.spec->nodes) + " nodes a cell").c_str(),
                           std::abs(end.contact_fraction - kContactFraction), all.spec->nodes < 642 ? 0.06 : 0.03));
 }
 
@@ -181,7 +187,8 @@ void judge_opening(const Aggregate& all, std::vector<Verdict>& out) {
 /// S17.5
 void judge_closing(const Aggregate& all, std::vector<Verdict>& out) {
   const AggregateShape end = measure_aggregate(surfaces(all.moments.back()));
-  out.push_back(at_most("S17.5", "share of the surfaces in contact against 0.619", std::abs(end.contact_fraction - kContactFraction), 0.05));
+  out.push_back(
+      at_most("S17.5", "share of the surfaces in contact against 0.619", std::abs(end.contact_fraction - kContactFraction), 0.05));
 }
 
 }  // namespace

@@ -13,9 +13,9 @@ namespace morula::scenarios {
 namespace {
 
 constexpr double kContact = 0.6, kFree = 2.5;  // [µm]
-constexpr double kMeetEdges = 0.4;              // of the mean edge, beyond twice kFree
-constexpr std::size_t kFewestFree = 20;                     // nodes, for a sphere
-constexpr double kFewestPart = 0.05;                        // of the nodes
+constexpr double kMeetEdges = 0.4;             // of the mean edge, beyond twice kFree
+constexpr std::size_t kFewestFree = 20;        // nodes, for a sphere
+constexpr double kFewestPart = 0.05;           // of the nodes
 
 /// Solution of a linear system by elimination with pivots; nothing when it is singular. The last column is the right side.
 template <std::size_t N>
@@ -95,7 +95,8 @@ std::vector<std::vector<double>> distances(std::span<const TriangleMesh> cells) 
       const Box reach = trees[b]->bounds().inflated(kFree);
       for (std::size_t i = 0; i < mine.size(); ++i) {
         if (!reach.contains(cells[a].position[i])) continue;
-        if (const auto nearest = trees[b]->nearest(cells[a].position[i], mine[i])) mine[i] = std::min(mine[i], std::sqrt(nearest->closest.distance2));
+        if (const auto nearest = trees[b]->nearest(cells[a].position[i], mine[i]))
+          mine[i] = std::min(mine[i], std::sqrt(nearest->closest.distance2));
       }
     }
   }
@@ -133,7 +134,8 @@ AggregateShape measure_aggregate(std::span<const TriangleMesh> cells) {
     whole += mine;
     touching += in_contact;
     out.contact_part.push_back(in_contact / mine);
-    const bool enough = free[c].size() >= kFewestFree && static_cast<double>(free[c].size()) >= kFewestPart * static_cast<double>(area.size());
+    const bool enough =
+        free[c].size() >= kFewestFree && static_cast<double>(free[c].size()) >= kFewestPart * static_cast<double>(area.size());
     out.sphere.push_back(enough ? fit_sphere(free[c]) : std::nullopt);
   }
   out.contact_fraction = touching / whole;

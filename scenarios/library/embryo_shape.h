@@ -10,10 +10,10 @@ namespace morula::scenarios {
 
 /// The sphere that the free surface of a cell is a part of.
 struct FreeSphere {
-  Vec3d center;             ///< [µm]
-  double radius = 0.0;      ///< [µm]
-  double rms = 0.0;         ///< of the nodes' distances from it [µm]
-  std::size_t nodes = 0;    ///< free ones
+  Vec3d center;           ///< [µm]
+  double radius = 0.0;    ///< [µm]
+  double rms = 0.0;       ///< of the nodes' distances from it [µm]
+  std::size_t nodes = 0;  ///< free ones
 };
 
 /// Two cells whose free surfaces meet in a line that can be seen from outside.

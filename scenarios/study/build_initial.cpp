@@ -40,7 +40,8 @@ class InitialBuilder {
     check_inflation(d, place);
     int type = -1;
     if (!d.csv.given) {
-      if (!d.type.given && !d.has_meshes) c_.diagnostics.error(103, place, "key 'type' is missing in an entry of `initial`", "name one of the cell types");
+      if (!d.type.given && !d.has_meshes)
+        c_.diagnostics.error(103, place, "key 'type' is missing in an entry of `initial`", "name one of the cell types");
       if (d.type.known()) type = find_type(c_, d.type.value, d.type.place);
       cells.type = static_cast<std::uint16_t>(std::max(0, type));
     }

@@ -32,7 +32,9 @@ class MeshesBuilder {
   }
 
  private:
-  void error(int code, const Place& place, std::string text, std::string help) { c_.diagnostics.error(code, place, std::move(text), std::move(help)); }
+  void error(int code, const Place& place, std::string text, std::string help) {
+    c_.diagnostics.error(code, place, std::move(text), std::move(help));
+  }
   void refuse_contradictions();
   void take_settings();
   void take_files();
@@ -53,11 +55,13 @@ void MeshesBuilder::refuse_contradictions() {
   if (entry_.body.known() && entry_.body.value != "shell")
     error(111, entry_.body.place, "cells from meshes are shells", "leave `as` away; a region can make them spheres later");
   if (entry_.start_volume.given)
-    error(111, entry_.start_volume.place, "'start_volume' has no meaning with `meshes`: a cell has the volume of its surface", "leave it away");
+    error(111, entry_.start_volume.place, "'start_volume' has no meaning with `meshes`: a cell has the volume of its surface",
+          "leave it away");
   for (const Given<std::string>* key : {&entry_.shape, &entry_.orientation})
     if (key->given) error(111, key->place, "cells from meshes have a shape and an orientation of their own", "leave the key away");
   for (std::string* text : {&entry_.start_volume.text, &entry_.inflate.text, &entry_.shape.text, &entry_.orientation.text}) text->clear();
-  if (d_.nodes.value > 0 && d_.edge.given) error(111, d_.edge.place, "'edge' and 'nodes' both say how fine the cells are", "leave one of them away");
+  if (d_.nodes.value > 0 && d_.edge.given)
+    error(111, d_.edge.place, "'edge' and 'nodes' both say how fine the cells are", "leave one of them away");
   if (d_.cell_is.given && d_.id_array.given)
     error(111, d_.cell_is.place, "'cell_is' and 'id_array' both say what one cell is", "leave one of them away");
   if (d_.pressure_array.given != d_.pressure_unit.given)
@@ -120,10 +124,12 @@ void MeshesBuilder::take_files() {
 void MeshesBuilder::take_types() {
   if (!d_.types.given) {
     d_.types.text.clear();
-    if (!entry_.type.given) error(103, place_, "key 'type' is missing in an entry of `initial`", "name one of the cell types, or a list: `meshes.types`");
+    if (!entry_.type.given)
+      error(103, place_, "key 'type' is missing in an entry of `initial`", "name one of the cell types, or a list: `meshes.types`");
     return;
   }
-  if (entry_.type.given) error(111, entry_.type.place, "'type' and 'meshes.types' both say the type of the cells", "leave one of them away");
+  if (entry_.type.given)
+    error(111, entry_.type.place, "'type' and 'meshes.types' both say the type of the cells", "leave one of them away");
   for (const std::string& name : d_.types.value)
     if (const int type = find_type(c_, name, d_.types.place); type >= 0) spec_.types.push_back(static_cast<std::uint16_t>(type));
 }
@@ -153,14 +159,16 @@ void MeshesBuilder::read() {
     const Box& domain = c_.study.model.space.box;
     if (c_.draft.domain.size.known() && !(domain.contains(box.low) && domain.contains(box.high)))
       error(505, at, cell.name + " reaches out of the domain: from " + text_of_place(box.low) + " to " + text_of_place(box.high),
-            "the domain reaches from " + text_of_place(domain.low) + " to " + text_of_place(domain.high) + "; `meshes.center` can move the cells");
+            "the domain reaches from " + text_of_place(domain.low) + " to " + text_of_place(domain.high) +
+                "; `meshes.center` can move the cells");
     meshes.push_back(std::move(surface->mesh));
   }
   if (spec_.remeshes()) note_remeshing(meshes, nodes, shortest, longest, changed);
   check_edge(shortest, longest);
 }
 
-void MeshesBuilder::note_remeshing(std::span<const TriangleMesh> meshes, std::size_t nodes, double shortest, double longest, double changed) {
+void MeshesBuilder::note_remeshing(std::span<const TriangleMesh> meshes, std::size_t nodes, double shortest, double longest,
+                                   double changed) {
   double deepest = 0.0;
   for (const SurfaceOverlap& overlap : find_overlaps(meshes)) deepest = std::max(deepest, overlap.depth);
   c_.study.notes.push_back(std::to_string(meshes.size()) + " cells remeshed to " + std::to_string(nodes) + " nodes in all, mean edges of " +

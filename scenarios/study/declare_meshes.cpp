@@ -5,9 +5,7 @@ namespace morula::scenarios {
 using Q = Quantity;
 
 void declare_meshes(Section& s, draft::Meshes& m) {
-  s.text({.name = "file",
-          .doc = "A legacy VTK (.vtk), STL or OBJ file with the closed surfaces of the cells.",
-          .example = "embryo.vtk"},
+  s.text({.name = "file", .doc = "A legacy VTK (.vtk), STL or OBJ file with the closed surfaces of the cells.", .example = "embryo.vtk"},
          m.file);
   s.words({.name = "files", .doc = "Several such files instead of one.", .fallback = "[]", .example = "[a.stl, b.stl]", .source = "chosen"},
           m.files);
@@ -20,7 +18,8 @@ void declare_meshes(Section& s, draft::Meshes& m) {
               .example = "1 um"},
              m.scale);
   s.word({.name = "cell_is",
-          .doc = "What is one cell of a file: `part` (a polyhedron of VTK, a solid of STL, an object or group of OBJ), `component` (faces that hang "
+          .doc = "What is one cell of a file: `part` (a polyhedron of VTK, a solid of STL, an object or group of OBJ), `component` (faces "
+                 "that hang "
                  "together), or `file` (all of it). `auto`: parts where there are several closed ones, else components.",
           .fallback = "auto",
           .words = {"auto", "part", "component", "file"},
@@ -31,13 +30,14 @@ void declare_meshes(Section& s, draft::Meshes& m) {
           .doc = "Instead: faces with the same number in this array of the VTK file (of its cells or points) are one cell.",
           .example = "cell_id"},
          m.id_array);
-  s.words({.name = "types",
-           .doc = "Instead of `type`: the cell type of each cell in the order of the files; with `type_array`, of the values 0, 1, 2, ... of "
-                  "that array.",
-           .fallback = "[]",
-           .example = "[outer, outer, inner]",
-           .source = "chosen"},
-          m.types);
+  s.words(
+      {.name = "types",
+       .doc = "Instead of `type`: the cell type of each cell in the order of the files; with `type_array`, of the values 0, 1, 2, ... of "
+              "that array.",
+       .fallback = "[]",
+       .example = "[outer, outer, inner]",
+       .source = "chosen"},
+      m.types);
   s.text({.name = "type_array", .doc = "Array of the VTK file with the number of each cell's type in `types`.", .example = "cell_type_id"},
          m.type_array);
   s.text({.name = "pressure_array",

@@ -30,9 +30,9 @@ struct MeshCells {
   std::uint32_t nodes = 0;           ///< remesh to about so many nodes; 0: not
   double edge = 0.0;                 ///< remesh to edges of about this length [µm]; 0: not
   bool repair = true;
-  double overlap = 0.3;      ///< deeper than this cells may not reach into each other at the start [µm]
-  bool has_center = false;   ///< move all cells together
-  Vec3d center{};            ///< so that the centroid of their volume is here [µm]
+  double overlap = 0.3;     ///< deeper than this cells may not reach into each other at the start [µm]
+  bool has_center = false;  ///< move all cells together
+  Vec3d center{};           ///< so that the centroid of their volume is here [µm]
 
   [[nodiscard]] bool remeshes() const { return nodes > 0 || edge > 0.0; }
 };

@@ -29,7 +29,7 @@ std::string cells_file() {
 const std::string kStudy = R"(schema: 1
 study: own_meshes
 seed: 4
-time: {end: 40 s, output: 10 s, checkpoint: 10 s}
+time: {end: 10 s, output: 5 s, checkpoint: 5 s}
 domain: {size: [100 um, 100 um, 100 um]}
 cell_types:
   cell:
@@ -73,7 +73,7 @@ TEST(MeshesOnRanks, EndInTheBitsOfOneRankAndResumeOnAnotherNumber) {
     const std::string hash = expect_run(study, folder / "alone", alone).final_state.state_hash;
     bytes.resize(hash.size());
     std::memcpy(bytes.data(), hash.data(), hash.size());
-    expect_run(study, folder / "split", alone, 20.0);
+    expect_run(study, folder / "split", alone, 5.0);
   }
   all.broadcast(bytes);
   const std::string reference(reinterpret_cast<const char*>(bytes.data()), bytes.size());

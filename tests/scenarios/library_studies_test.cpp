@@ -60,8 +60,9 @@ const Verdict* find(const RunSummary& run, const std::string& quantity) {
 }
 
 TEST(LibraryStudies, AreThoseThatWereAskedFor) {
-  EXPECT_EQ(template_names(), (std::vector<std::string>{"blastocyst", "cluster", "doublet", "embryo", "hybrid_spheroid", "optical_stretcher",
-                                                        "optical_tweezers", "pair", "parallel_plates", "spreading", "tissue"}));
+  EXPECT_EQ(template_names(),
+            (std::vector<std::string>{"blastocyst", "cluster", "doublet", "embryo", "hybrid_spheroid", "optical_stretcher",
+                                      "optical_tweezers", "pair", "parallel_plates", "spreading", "tissue"}));
 }
 
 TEST(LibraryStudies, PassTheCheckerWithoutAWarning) {

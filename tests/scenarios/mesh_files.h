@@ -19,7 +19,8 @@ inline std::string as_vtk(const std::vector<TriangleMesh>& cells, const std::str
   std::string points, polyhedra, types;
   std::size_t count = 0, size = 0;
   for (const TriangleMesh& cell : cells) {
-    for (const Vec3d& p : cell.position) points += number_text("%.9g", p.x) + " " + number_text("%.9g", p.y) + " " + number_text("%.9g", p.z) + "\n";
+    for (const Vec3d& p : cell.position)
+      points += number_text("%.9g", p.x) + " " + number_text("%.9g", p.y) + " " + number_text("%.9g", p.z) + "\n";
     polyhedra += std::to_string(1 + 4 * cell.faces.size()) + " " + std::to_string(cell.faces.size());
     for (const Triangle& f : cell.faces)
       polyhedra += " 3 " + std::to_string(f[0] + count) + " " + std::to_string(f[1] + count) + " " + std::to_string(f[2] + count);
@@ -29,8 +30,8 @@ inline std::string as_vtk(const std::vector<TriangleMesh>& cells, const std::str
     size += 2 + 4 * cell.faces.size();
   }
   const std::string n = std::to_string(cells.size());
-  return "# vtk DataFile Version 4.2\ncells\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS " + std::to_string(count) + " double\n" + points + "CELLS " + n +
-         " " + std::to_string(size) + "\n" + polyhedra + "CELL_TYPES " + n + "\n" + types +
+  return "# vtk DataFile Version 4.2\ncells\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS " + std::to_string(count) + " double\n" + points +
+         "CELLS " + n + " " + std::to_string(size) + "\n" + polyhedra + "CELL_TYPES " + n + "\n" + types +
          (cell_data.empty() ? "" : "CELL_DATA " + n + "\n" + cell_data);
 }
 
@@ -42,7 +43,8 @@ inline std::string mesh_study(const std::string& meshes, const std::string& entr
          "  cell: {radius: 6 um, adhesion: {cell: 0.1 mJ/m^2}, dcm: {cortex: {tension: 0.2 mN/m}}}\n"
          "  other: {radius: 6 um, dcm: {cortex: {tension: 0.2 mN/m}}}\n"
          "contact: {range: 0.8 um}\n"
-         "initial:\n  - {" + entry + "meshes: {" + meshes + "}}\noutput: {report: false}\n";
+         "initial:\n  - {" +
+         entry + "meshes: {" + meshes + "}}\noutput: {report: false}\n";
 }
 
 }  // namespace morula::scenarios::test

@@ -94,7 +94,8 @@ TEST(MeshRepair, UnitesDoublePointsAndDropsDoubleFacesAndFreePoints) {
   mesh.faces[20][0] = 162;
   mesh.position.push_back({9, 9, 9});
   const MeshRepair mended = repair_mesh(mesh);
-  EXPECT_THAT(mended.repairs, ElementsAre(HasSubstr("one point that no face names"), HasSubstr("one point that lies on another"), HasSubstr("face 320")));
+  EXPECT_THAT(mended.repairs,
+              ElementsAre(HasSubstr("one point that no face names"), HasSubstr("one point that lies on another"), HasSubstr("face 320")));
   EXPECT_EQ(mended.mesh.position.size(), 162u);
   EXPECT_TRUE(check_mesh(mended.mesh.position, mended.mesh.faces).empty());
   EXPECT_NEAR(volume(mended.mesh), before, 1e-6);
@@ -102,7 +103,8 @@ TEST(MeshRepair, UnitesDoublePointsAndDropsDoubleFacesAndFreePoints) {
 
 TEST(MeshRepair, GivesFacesWithoutAreaToTheirNeighbours) {
   // A point in the middle of an edge makes a cap: the two small faces and a face without area between them.
-  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0.5, 0}}, {{0, 4, 1}, {0, 2, 4}, {1, 4, 2}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0.5, 0}},
+                    {{0, 4, 1}, {0, 2, 4}, {1, 4, 2}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
   EXPECT_FALSE(check_mesh(mesh.position, mesh.faces).empty());
   const MeshRepair cap = repair_mesh(mesh);
   EXPECT_THAT(cap.repairs, ElementsAre(HasSubstr("face 2 without area")));
