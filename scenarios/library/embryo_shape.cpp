@@ -12,10 +12,10 @@
 namespace morula::scenarios {
 namespace {
 
-constexpr double kContact = 0.6, kFree = 2.5;  // [µm]
-constexpr double kMeetEdges = 0.4;             // of the mean edge, beyond twice kFree
-constexpr std::size_t kFewestFree = 20;        // nodes, for a sphere
-constexpr double kFewestPart = 0.05;           // of the nodes
+constexpr double kFree = 2.5;            // [µm]
+constexpr double kMeetEdges = 0.4;       // of the mean edge, beyond twice kFree
+constexpr std::size_t kFewestFree = 20;  // nodes, for a sphere
+constexpr double kFewestPart = 0.05;     // of the nodes
 
 /// Solution of a linear system by elimination with pivots; nothing when it is singular. The last column is the right side.
 template <std::size_t N>
@@ -118,7 +118,7 @@ double AggregateShape::mean_angle() const {
   return angles.empty() ? 0.0 : sum / static_cast<double>(angles.size());
 }
 
-AggregateShape measure_aggregate(std::span<const TriangleMesh> cells) {
+AggregateShape measure_aggregate(std::span<const TriangleMesh> cells, double contact_gap) {
   AggregateShape out;
   const auto distance = distances(cells);
   std::vector<std::vector<Vec3d>> free(cells.size());
@@ -128,7 +128,7 @@ AggregateShape measure_aggregate(std::span<const TriangleMesh> cells) {
     double mine = 0.0, in_contact = 0.0;
     for (std::size_t i = 0; i < area.size(); ++i) {
       mine += area[i];
-      if (distance[c][i] < kContact) in_contact += area[i];
+      if (distance[c][i] < contact_gap) in_contact += area[i];
       if (distance[c][i] >= kFree) free[c].push_back(cells[c].position[i]);
     }
     whole += mine;

@@ -32,11 +32,11 @@ struct AggregateShape {
   [[nodiscard]] double mean_angle() const;  ///< [rad]; 0 when no junction is seen
 };
 
-/// Measure closed surfaces of cells. A node is in contact when it lies within 0.6 µm of another cell's surface, and free when it lies more than
+/// Measure closed surfaces of cells. A node is in contact when it lies within `contact_gap` of another cell's surface, and free when it lies more than
 /// 2.5 µm from all others; areas are thirds of the faces around a node. Spheres are fitted through the free nodes by linear least squares.
 /// Cells of equal tension meet in circles: cos ψ = (R_a² + R_b² − d²)/(2 R_a R_b) with the distance d of the centres, angle (π − ψ)/2 (two
 /// soap bubbles). A pair counts when free nodes of both come within 5 µm and 0.4 mean edges of each other. (Physics: scenarios.md S17.)
-AggregateShape measure_aggregate(std::span<const TriangleMesh> cells);
+AggregateShape measure_aggregate(std::span<const TriangleMesh> cells, double contact_gap = 0.6);
 
 /// Root mean square, by area, of how far nodes moved along their normals, after the rigid motion of all of them that makes it least [µm].
 /// The motion is small: its turn is taken to first order. Both have the same nodes and faces.
