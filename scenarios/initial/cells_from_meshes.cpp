@@ -25,6 +25,7 @@ using CellIs = MeshCells::CellIs;
 
 constexpr double kWeld = 1e-6;                                    // of the diagonal: STL rounds to single precision
 constexpr double kSmallestRadius = 0.1, kLargestRadius = 1000.0;  // of a cell [µm]: beyond, the scale must be wrong
+constexpr std::size_t kMostNodes = 15000;                         // of a cell: lists of contacts count the faces near it in 15 bits
 constexpr const char* kMend = "mend the surface, for example in MeshLab or Blender";
 
 std::string text_of(double value, const char* format = "%.6g") {
@@ -43,6 +44,7 @@ struct FileCells {
   LabelledMesh file;
   std::vector<SplitSurface> cells;
   bool by_id = false;
+  std::vector<double> type_value, pressure_value;  ///< by face; empty where the study names no such array
 };
 
 class MeshCellReader {
@@ -65,8 +67,8 @@ class MeshCellReader {
   [[nodiscard]] const MeshArray* find_array(const std::string& shown, const LabelledMesh& file, const std::string& name, bool& of_points);
   [[nodiscard]] std::optional<std::vector<double>> by_face(const std::string& shown, const LabelledMesh& file,
                                                            const std::string& array_name);
-  [[nodiscard]] std::optional<double> value_of(const std::string& cell, const FileCells& file, const SplitSurface& surface,
-                                               const std::string& array_name);
+  [[nodiscard]] std::optional<double> value_of(const std::string& cell, const SplitSurface& surface, const std::string& array_name,
+                                               const std::vector<double>& by_face);
   void add_cell(const std::string& name, const FileCells& file, const SplitSurface& surface);
   bool mend_and_check(MeshCell& cell);
   void check_size(const MeshCell& cell);
@@ -87,6 +89,13 @@ void MeshCellReader::read_file(std::size_t number) {
   if (!read.ok()) return problem(620, read.error().message, read.error().help);
   file.file = std::move(read).value();
   if (!split(shown, file)) return;
+  for (const auto& [array, values] :
+       {std::pair(&spec_.type_array, &file.type_value), std::pair(&spec_.pressure_array, &file.pressure_value)}) {
+    if (array->empty()) continue;
+    auto found = by_face(shown, file.file, *array);
+    if (!found) return;
+    *values = std::move(*found);
+  }
   for (std::size_t c = 0; c < file.cells.size(); ++c) {
     std::string name = shown;
     if (file.cells.size() > 1 || file.by_id) name += ", cell " + std::to_string(c);
@@ -181,15 +190,12 @@ bool MeshCellReader::split(const std::string& shown, FileCells& file) {
 }
 
 /// The number that all faces of a cell have in common.
-std::optional<double> MeshCellReader::value_of(const std::string& cell, const FileCells& file, const SplitSurface& surface,
-                                               const std::string& array_name) {
-  const auto values = by_face(cell, file.file, array_name);
-  if (!values) return std::nullopt;
-  const double value = (*values)[surface.face.front()];
+std::optional<double> MeshCellReader::value_of(const std::string& cell, const SplitSurface& surface, const std::string& array_name,
+                                               const std::vector<double>& by_face) {
+  const double value = by_face[surface.face.front()];
   for (const std::uint32_t f : surface.face)
-    if ((*values)[f] != value) {
-      problem(545,
-              "array '" + array_name + "' has the values " + text_of(value) + " and " + text_of((*values)[f]) + " in one cell: " + cell,
+    if (by_face[f] != value) {
+      problem(545, "array '" + array_name + "' has the values " + text_of(value) + " and " + text_of(by_face[f]) + " in one cell: " + cell,
               "a cell has one value");
       return std::nullopt;
     }
@@ -202,7 +208,7 @@ void MeshCellReader::add_cell(const std::string& name, const FileCells& file, co
   cell.mesh = file.file.has_indices ? surface.mesh : welded(surface.mesh);
   cell.type = type_;
   if (!spec_.type_array.empty()) {
-    const auto value = value_of(name, file, surface, spec_.type_array);
+    const auto value = value_of(name, surface, spec_.type_array, file.type_value);
     if (!value) return;
     const auto count = static_cast<double>(spec_.types.size());
     if (!(*value >= 0.0 && *value < count && *value == std::floor(*value)))
@@ -215,7 +221,7 @@ void MeshCellReader::add_cell(const std::string& name, const FileCells& file, co
     cell.type = spec_.types[out_.cells.size()];
   }
   if (!spec_.pressure_array.empty()) {
-    const auto value = value_of(name, file, surface, spec_.pressure_array);
+    const auto value = value_of(name, surface, spec_.pressure_array, file.pressure_value);
     if (!value) return;
     cell.pressure = *value * spec_.pressure_unit;
   }
@@ -313,14 +319,29 @@ void MeshCellReader::check_overlaps() {
 
 MeshCellsRead read_mesh_cells(const MeshCells& spec, std::uint16_t type, bool judge) { return MeshCellReader(spec, type, judge).run(); }
 
+namespace {
+
+Error too_many_nodes(const MeshCell& cell, double nodes) {
+  return {ErrorKind::kInput,
+          cell.name + " would have " + text_of(nodes, "%.3g") + " nodes, and a cell can have " + std::to_string(kMostNodes),
+          "remesh the cells, for example `nodes: 642`"};
+}
+
+}  // namespace
+
 Result<CellSurface> cell_surface(const MeshCell& cell, const MeshCells& spec) {
   if (!spec.remeshes()) {
+    if (cell.mesh.position.size() > kMostNodes) return too_many_nodes(cell, static_cast<double>(cell.mesh.position.size()));
     TriangleMesh mesh = with_near_neighbour_order(cell.mesh);
     const double edge = mean_edge_length(mesh);
     return CellSurface{std::move(mesh), edge, 0.0};
   }
+  // Even triangles of this edge cover the surface: N − 2 = 2 A/(√3 L²).
+  const double expected = spec.nodes > 0 ? spec.nodes : 2.0 + 2.0 * surface_area(cell.mesh) / (std::numbers::sqrt3 * spec.edge * spec.edge);
+  if (expected > 1.2 * static_cast<double>(kMostNodes)) return too_many_nodes(cell, expected);
   auto made = remesh_surface(cell.mesh, {spec.nodes, spec.edge});
   if (!made.ok()) return Error{made.error().kind, cell.name + ": " + made.error().message, made.error().help};
+  if (made->mesh.position.size() > kMostNodes) return too_many_nodes(cell, static_cast<double>(made->mesh.position.size()));
   return CellSurface{std::move(made->mesh), made->mean_edge, made->volume_error};
 }
 

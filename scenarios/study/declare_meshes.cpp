@@ -55,7 +55,7 @@ void declare_meshes(Section& s, draft::Meshes& m) {
            .doc = "Remesh every cell evenly to about so many nodes; its volume is kept. `as_is`: keep the nodes of the file.",
            .fallback = "as_is",
            .low = 20,
-           .high = 30000,
+           .high = 15000,
            .specials = {{"as_is", 0.0}},
            .example = "642",
            .source = "chosen"},

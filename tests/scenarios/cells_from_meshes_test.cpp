@@ -212,6 +212,7 @@ TEST_F(CellsFromMeshes, RefuseKeysThatAreMissingOrContradictEachOther) {
   EXPECT_THAT(bad("file: a.vtk, scale: 1 um, nodes: 162, edge: 1 um"), HasSubstr("both say how fine"));
   EXPECT_THAT(bad("file: a.vtk, scale: 1 um, cell_is: file"), AllOf(HasSubstr("consists of 2 separate surfaces"), HasSubstr("[E547]")));
   EXPECT_THAT(bad("file: a.vtk, scale: 1 um, edge: 30 um"), HasSubstr("[E548]"));
+  EXPECT_THAT(bad("file: a.vtk, scale: 1 um, edge: 0.001 um"), AllOf(HasSubstr("a cell can have 15000"), HasSubstr("[E548]")));
   EXPECT_THAT(bad("file: a.vtk, scale: 1 um, nodes: 642"), AllOf(HasSubstr("more than half of the mean edge"), HasSubstr("[E503]")));
   EXPECT_THAT(bad("file: a.vtk, scale: 1 um, center: [48 um, 0 um, 0 um]"), HasSubstr("reaches out of the domain"));
   EXPECT_THAT(bad("file: a.vtk, scale: 1 um", "type: cell, as: sphere, "), HasSubstr("cells from meshes are shells"));

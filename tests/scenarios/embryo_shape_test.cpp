@@ -47,7 +47,8 @@ TEST(EmbryoShape, OfTheLibraryFileIsThatOfItsPublishedTables) {
   ASSERT_TRUE(read.problems.empty()) << read.problems.front().text;
   ASSERT_EQ(read.cells.size(), 16u);
   // Volumes [µm³] and fitted radii [µm] of its cells; 13 has no free surface.
-  const double volume[16] = {10215.1, 10245.6, 10220.9, 10217.3, 9692.1, 9692.7, 9451.4, 9466.6, 9262.2, 9310.9, 8965.5, 9008.2, 8689.6, 8685.4, 8373.6, 8401.8};
+  const double volume[16] = {10215.1, 10245.6, 10220.9, 10217.3, 9692.1, 9692.7, 9451.4, 9466.6,
+                             9262.2,  9310.9,  8965.5,  9008.2,  8689.6, 8685.4, 8373.6, 8401.8};
   const double radius[16] = {17.19, 17.28, 16.53, 17.91, 16.98, 16.36, 16.84, 18.13, 16.05, 17.39, 16.66, 17.27, 16.96, 0.0, 16.25, 16.26};
   const AggregateShape shape = measure_aggregate(meshes_of(read));
   double tension = 0.0;
@@ -69,7 +70,8 @@ TEST(EmbryoShape, OfTheLibraryFileIsThatOfItsPublishedTables) {
     double angle;
   };
   for (const Pair& pair : {Pair{0, 1, 59.4}, Pair{2, 3, 59.4}, Pair{4, 5, 61.5}, Pair{7, 14, 54.2}, Pair{14, 15, 60.3}}) {
-    const auto found = std::find_if(shape.angles.begin(), shape.angles.end(), [&](const JunctionAngle& j) { return j.a == pair.a && j.b == pair.b; });
+    const auto found =
+        std::find_if(shape.angles.begin(), shape.angles.end(), [&](const JunctionAngle& j) { return j.a == pair.a && j.b == pair.b; });
     ASSERT_NE(found, shape.angles.end()) << pair.a << "-" << pair.b;
     EXPECT_NEAR(found->angle / kDegree, pair.angle, 0.3) << pair.a << "-" << pair.b;
   }
