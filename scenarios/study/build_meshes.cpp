@@ -41,7 +41,7 @@ class MeshesBuilder {
   void take_types();
   void read();
   void note_remeshing(std::span<const TriangleMesh> meshes, std::size_t nodes, double shortest, double longest, double changed);
-  void check_edge(double shortest, double longest);
+  void check_edge(const Given<double>& range, double shortest, double longest);
 
   BuildContext& c_;
   draft::Meshes& d_;
@@ -164,7 +164,15 @@ void MeshesBuilder::read() {
     meshes.push_back(std::move(surface->mesh));
   }
   if (spec_.remeshes()) note_remeshing(meshes, nodes, shortest, longest, changed);
-  check_edge(shortest, longest);
+  check_edge(c_.draft.contact.range, shortest, longest);
+  for (const auto& pair : c_.draft.contact.pairs) {
+    const auto& names = pair.content.between.value;
+    const auto is_here = [&](const std::string& name) {
+      return std::any_of(read.cells.begin(), read.cells.end(),
+                         [&](const MeshCell& cell) { return c_.draft.cell_types[cell.type].name == name; });
+    };
+    if (pair.content.range.given && std::any_of(names.begin(), names.end(), is_here)) check_edge(pair.content.range, shortest, longest);
+  }
 }
 
 void MeshesBuilder::note_remeshing(std::span<const TriangleMesh> meshes, std::size_t nodes, double shortest, double longest,
@@ -178,8 +186,7 @@ void MeshesBuilder::note_remeshing(std::span<const TriangleMesh> meshes, std::si
 }
 
 /// As for the shells of a type (E503), with the edges that these cells have.
-void MeshesBuilder::check_edge(double shortest, double longest) {
-  const Given<double>& range = c_.draft.contact.range;
+void MeshesBuilder::check_edge(const Given<double>& range, double shortest, double longest) {
   if (!range.known()) return;
   const bool too_long = range.value > 0.56 * shortest, too_short = range.value < 0.25 * longest;
   if (!too_long && !too_short) return;
@@ -187,7 +194,7 @@ void MeshesBuilder::check_edge(double shortest, double longest) {
   const Place at = range.given ? range.place : d_.edge.given ? d_.edge.place : d_.nodes.given ? d_.nodes.place : place_;
   const std::string what = "the contact range (" + range.text + ") is " + (too_long ? "more than half" : "less than a quarter") +
                            " of the mean edge (" + short_number(std::round(edge * 100) / 100) + " um) of a cell from a mesh";
-  const std::string help = "`contact.range` between " + short_number(std::ceil(longest * 25) / 100) + " um and " +
+  const std::string help = "a contact range between " + short_number(std::ceil(longest * 25) / 100) + " um and " +
                            short_number(std::floor(shortest * 50) / 100) + " um fits these cells; or remesh them";
   if (too_long)
     error(503, at, what, help);

@@ -56,8 +56,8 @@ TEST_F(EmbryoInFull, OpensItsContactsAndClosesThemAgainFromTheSurfacesOfThatRun)
     if (entry.path().extension() == ".stl" && entry.path() > last) last = entry.path();
   ASSERT_FALSE(last.empty());
   std::filesystem::copy_file(last, folder_ / "study/open.stl");
-  run("closed",
-      {"study/decompact.yaml", "cell_types.cell.adhesion.cell=1 mJ/m^2", "initial.0.meshes.file=open.stl", "initial.0.meshes.scale=1 um", "time.end=1 min"});
+  run("closed", {"study/decompact.yaml", "cell_types.cell.adhesion.cell=1 mJ/m^2", "initial.0.meshes.file=open.stl",
+                 "initial.0.meshes.scale=1 um", "time.end=1 min"});
   expect_criteria("closed", "S17.5");
 }
 
