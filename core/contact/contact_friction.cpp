@@ -13,18 +13,20 @@ namespace {
 /// Adds a·u + b (n·u) n of one element to its points' sums and returns uᵀ(…)u; u is the jump of the displacement.
 struct FrictionScatter {
   const FaceQuadrature& quadrature;
-  std::span<const Vec3d> displacement;
+  std::span<const Vec3d> position, start;
   std::span<Vec3d> out;
   const ContactBody& source;
   const ContactBody* target;  ///< null: an obstacle
   double normal_friction, tangential_friction;
   Vec3d rigid_displacement;
 
+  Vec3d way(std::uint32_t point) const { return position[point] - start[point]; }
+
   double operator()(const ContactElement& e) const {
     const Triangle& s = source.topology->faces()[e.source_face()];
     const auto& beta = quadrature.weight[e.point()];
     Vec3d u = -rigid_displacement;
-    for (std::size_t i = 0; i < 3; ++i) u += displacement[source.first_point + s[i]] * beta[i];
+    for (std::size_t i = 0; i < 3; ++i) u += way(source.first_point + s[i]) * beta[i];
     Triangle t{0, 0, 0};
     double mu[3] = {1.0, 0.0, 0.0};
     if (target != nullptr) {
@@ -32,7 +34,7 @@ struct FrictionScatter {
         t = target->topology->faces()[e.target];
         e.weights(mu);
       }
-      for (std::size_t j = 0; j < 3; ++j) u -= displacement[target->first_point + t[j]] * mu[j];
+      for (std::size_t j = 0; j < 3; ++j) u -= way(target->first_point + t[j]) * mu[j];
     }
     const Vec3d n = e.normal<double>();
     const double w = e.w;
@@ -47,10 +49,11 @@ struct FrictionScatter {
 
 }  // namespace
 
-void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const Vec3d> displacement, std::span<Vec3d> out,
+void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const Vec3d> start, bool moved, std::span<Vec3d> out,
                                      OrderFreeSum& quadratic) const {
   const auto& quadrature = FaceQuadrature::with_points(settings_.points_per_face);
   for (const SurfacePair& pair : pairs_) {
+    if (!moved && !pair.rigid) continue;
     double sum = 0.0;
     for (int d = 0; d < 2; ++d) {
       const ContactBody& a = scene.bodies[pair.a];
@@ -60,7 +63,8 @@ void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const 
       if (source == nullptr) continue;
       const ContactMaterial& contact = material_of(scene, pair);
       const FrictionScatter scatter{quadrature,
-                                    displacement,
+                                    scene.position,
+                                    start,
                                     out,
                                     *source,
                                     target,

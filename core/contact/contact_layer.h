@@ -89,8 +89,9 @@ class ContactLayer {
 
   /// Keep the present friction as that of the step (Γ_n).
   void begin_step();
-  /// Friction of the step's start applied to a displacement (obstacles have moved since begin_step()): adds Γ_n d to `out` (owned points) and returns dᵀΓ_n d of the counted pairs.
-  void add_step_friction(const ContactScene& scene, std::span<const Vec3d> displacement, std::span<Vec3d> out,
+  /// Friction of the step's start applied to the way d of all points from `start` (obstacles have moved since begin_step()): adds Γ_n d to `out`
+  /// (owned points) and dᵀΓ_n d of the counted pairs to the sum. `moved`: false where all points are at the start.
+  void add_step_friction(const ContactScene& scene, std::span<const Vec3d> start, bool moved, std::span<Vec3d> out,
                          OrderFreeSum& quadratic) const;
   /// Element groups for the friction system, in canonical order.
   [[nodiscard]] std::vector<ElementGroup> element_groups(const ContactScene& scene) const;

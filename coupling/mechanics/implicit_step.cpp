@@ -61,13 +61,9 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
     force_[i] = (force_[i] + external[e]) * -dt;
   });
   spent_ = true;
-  displacement_.resize(contacts_.pairs().empty() ? scene_.sphere_point() : x.size());  // spheres alone have no use for it
-  for (std::size_t i = 0; i < displacement_.size(); ++i) displacement_[i] = x[i] - start[i];
   OrderFreeSum sums[2];
-  std::vector<Vec3d>& of_shells = gradient_.node_normal;  // which is found anew before it is used again
-  shells_.set_step_friction(displacement_, of_shells, sums[0]);
-  for (std::size_t i = 0; i < scene_.owned_nodes(); ++i) force_[i] += of_shells[i];
-  contacts_.add_step_friction(contact_scene(), displacement_, force_, sums[0]);
+  if (moved) shells_.add_step_friction(x, force_, sums[0]);
+  contacts_.add_step_friction(contact_scene(), start, moved, force_, sums[0]);
   const auto medium = system_.point_friction();
   for (std::size_t i = 0; moved && i < scene_.owned_spheres(); ++i) {
     const std::size_t point = scene_.sphere_point() + i;
