@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 namespace morula {
@@ -19,13 +20,33 @@ void add(EdgeBlock& block, float weight, Float8v matrix) {
   std::memcpy(block.m, &sum, sizeof sum);
 }
 
-/// D = a I + (b + Δt k) n nᵀ of a contact point.
+/// D = a I + (b + Δt k) n nᵀ of a contact point, and its smallest eigenvalue behind.
 Float8v matrix_of(const ContactElement& e, const ElementGroup& group, float time_step) {
   const Vec3f n = e.normal<float>();
   const float a = e.w * group.tangential_friction;
   const float b = e.w * (group.normal_friction - group.tangential_friction) + time_step * e.k;
   const Float8v left{n.x, n.x, n.x, n.y, n.y, n.z, 0.0f, 0.0f}, right{n.x, n.y, n.z, n.y, n.z, n.z, 0.0f, 0.0f};
-  return left * right * b + Float8v{a, 0.0f, 0.0f, a, 0.0f, a, 0.0f, 0.0f};
+  return left * right * b + Float8v{a, 0.0f, 0.0f, a, 0.0f, a, b < 0.0f ? a + b : a, 0.0f};
+}
+
+/// C of a sum of points as it is kept; sum[6] bounds its smallest eigenvalue from below.
+NodePairBlock rounded(const float* sum, std::uint16_t j) {
+  const float xx = sum[0], xy = sum[1], xz = sum[2], yy = sum[3], yz = sum[4], zz = sum[5];
+  const float most = std::max(std::max(xx, yy), zz);  // of all entries, since C is positive
+  NodePairBlock out{};
+  out.j = j;
+  // units of at most 2^-8 more than needed: a float without its lower half, rounded up
+  const std::uint32_t bits = std::bit_cast<std::uint32_t>(most * (1.0f / NodePairBlock::kMost));
+  out.unit = static_cast<std::uint16_t>((bits + 0xFFFFu) >> 16);
+  const float unit = out.scale();
+  if (!(unit > 0.0f)) return out;
+  const float per_unit = 1.0f / unit;
+  // an error of half a unit in every entry takes at most 1.5 units from an eigenvalue
+  const float back = std::max(0.0f, 1.5f - sum[6] * per_unit);
+  const auto entry = [&](float value) { return static_cast<std::int16_t>(std::lround(value * per_unit)); };
+  const auto diagonal = [&](float value) { return static_cast<std::int16_t>(std::lround(value * per_unit + back)); };
+  out.c[0] = diagonal(xx), out.c[1] = entry(xy), out.c[2] = entry(xz), out.c[3] = diagonal(zz), out.c[4] = diagonal(yy), out.c[5] = entry(yz);
+  return out;
 }
 
 Triangle nodes_of(const Topology* topology, std::uint32_t face) {
@@ -45,6 +66,11 @@ void target_weights(const ContactElement& e, const Topology* target, float (&mu)
 std::size_t node_count(const Topology* topology) { return topology == nullptr ? 1 : topology->node_count(); }
 
 }  // namespace
+
+SymMat3<float> NodePairBlock::matrix() const {
+  const float s = scale();
+  return {s * c[0], s * c[1], s * c[2], s * c[4], s * c[5], s * c[3]};
+}
 
 PairCondenser::PairCondenser(const FaceQuadrature& quadrature, float time_step) : time_step_(time_step) {
   for (int q = 0; q < 4; ++q)
@@ -104,7 +130,7 @@ std::uint32_t PairCondenser::number_pairs(const ElementGroup& group) {
   return slots;
 }
 
-void PairCondenser::add_pair_blocks(const ElementGroup& group, std::vector<NodePairBlock>& out) {
+void PairCondenser::add_pair_blocks(const ElementGroup& group, NodePairArena& out) {
   mark_pairs(group);
   const std::uint32_t slots = number_pairs(group);
   sum_.assign(slots, {});
@@ -127,18 +153,20 @@ void PairCondenser::add_pair_blocks(const ElementGroup& group, std::vector<NodeP
       }
     }
   }
-  if (out.capacity() < out.size() + slots) out.reserve(out.size() + out.size() / 8 + slots);
+  const auto make_room = [](auto& vector, std::size_t more) {
+    if (vector.capacity() < vector.size() + more) vector.reserve(vector.size() + vector.size() / 8 + more);
+  };
+  make_room(out.blocks, slots);
   const std::size_t rows = node_count(group.topology[0]);
+  make_room(out.rows, rows);
   std::uint32_t next = 0;
   for (std::size_t i = 0; i < rows; ++i) {
     if (!(row_used_[i / 64] >> (i % 64) & 1u)) continue;
+    const std::uint32_t first = next;
     for (std::size_t w = 0; w < words_; ++w)
-      for (std::uint64_t bits = pattern_[i * words_ + w]; bits != 0; bits &= bits - 1) {
-        NodePairBlock& block = out.emplace_back();
-        block.i = static_cast<std::uint16_t>(i);
-        block.j = static_cast<std::uint16_t>(w * 64 + static_cast<std::size_t>(std::countr_zero(bits)));
-        std::memcpy(block.c, sum_[next++].m, sizeof block.c);
-      }
+      for (std::uint64_t bits = pattern_[i * words_ + w]; bits != 0; bits &= bits - 1)
+        out.blocks.push_back(rounded(sum_[next++].m, static_cast<std::uint16_t>(w * 64 + static_cast<std::size_t>(std::countr_zero(bits)))));
+    out.rows.push_back({static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(next - first)});
   }
 }
 
@@ -170,39 +198,40 @@ namespace {
 /// C d, with a zero behind.
 Float4v times(const NodePairBlock& block, Float4v d) {
   using Int4v [[gnu::vector_size(16)]] = std::int32_t;
-  Float4v low, high;  // xx xy xz yy and xz yy yz zz
-  std::memcpy(&low, block.c, sizeof low);
-  std::memcpy(&high, block.c + 2, sizeof high);
+  using Short8v [[gnu::vector_size(16)]] = std::int16_t;
+  using Int8v [[gnu::vector_size(32)]] = std::int32_t;
+  Short8v packed;
+  std::memcpy(&packed, &block, sizeof packed);
+  const Float8v c = __builtin_convertvector(__builtin_convertvector(packed, Int8v), Float8v);
+  const Float4v low = __builtin_shufflevector(c, c, 0, 1, 2, 3), high = __builtin_shufflevector(c, c, 4, 5, 6, 7);  // xx xy xz zz, yy yz
   const Float4v x = __builtin_shufflevector(d, d, 0, 0, 0, 0), y = __builtin_shufflevector(d, d, 1, 1, 1, 1),
                 z = __builtin_shufflevector(d, d, 2, 2, 2, 2);
-  const Float4v sum = x * low + y * __builtin_shufflevector(low, high, 1, 3, 6, 6) + z * __builtin_shufflevector(high, high, 0, 2, 3, 3);
-  return reinterpret_cast<Float4v>(reinterpret_cast<Int4v>(sum) & Int4v{-1, -1, -1, 0});
+  const Float4v sum = x * low + y * __builtin_shufflevector(low, high, 1, 4, 5, 5) + z * __builtin_shufflevector(low, high, 2, 5, 3, 3);
+  return reinterpret_cast<Float4v>(reinterpret_cast<Int4v>(sum * block.scale()) & Int4v{-1, -1, -1, 0});
 }
 
 template <bool kFirst, bool kSecond, bool kRest>
-void apply_rows(std::span<const NodePairBlock> blocks, const Float4* p0, Float4* q0, const Float4* p1, Float4* q1) {
-  const NodePairBlock* block = blocks.data();
-  const NodePairBlock* const end = block + blocks.size();
-  while (block != end) {
-    const std::uint16_t i = block->i;
-    const Float4v pi = load(p0[i]);
+void apply_rows(const NodePairBlocks& pair, const Float4* p0, Float4* q0, const Float4* p1, Float4* q1) {
+  const NodePairBlock* block = pair.blocks.data();
+  for (const NodePairRow& row : pair.rows) {
+    const Float4v pi = load(p0[row.i]);
     Float4v sum{};
-    for (; block != end && block->i == i; ++block) {
+    for (const NodePairBlock* const end = block + row.count; block != end; ++block) {
       const Float4v f = times(*block, kRest ? pi : pi - load(p1[block->j]));
       if constexpr (kFirst) sum += f;
       if constexpr (kSecond) store(q1[block->j], load(q1[block->j]) - f);
     }
-    if constexpr (kFirst) store(q0[i], load(q0[i]) + sum);
+    if constexpr (kFirst) store(q0[row.i], load(q0[row.i]) + sum);
   }
 }
 
 }  // namespace
 
-void apply_pair_blocks(std::span<const NodePairBlock> blocks, const Float4* p0, Float4* q0, const Float4* p1, Float4* q1) {
-  if (p1 == nullptr) return q0 != nullptr ? apply_rows<true, false, true>(blocks, p0, q0, nullptr, nullptr) : void();
-  if (q0 != nullptr && q1 != nullptr) return apply_rows<true, true, false>(blocks, p0, q0, p1, q1);
-  if (q0 != nullptr) return apply_rows<true, false, false>(blocks, p0, q0, p1, nullptr);
-  if (q1 != nullptr) return apply_rows<false, true, false>(blocks, p0, nullptr, p1, q1);
+void apply_pair_blocks(const NodePairBlocks& pair, const Float4* p0, Float4* q0, const Float4* p1, Float4* q1) {
+  if (p1 == nullptr) return q0 != nullptr ? apply_rows<true, false, true>(pair, p0, q0, nullptr, nullptr) : void();
+  if (q0 != nullptr && q1 != nullptr) return apply_rows<true, true, false>(pair, p0, q0, p1, q1);
+  if (q0 != nullptr) return apply_rows<true, false, false>(pair, p0, q0, p1, nullptr);
+  if (q1 != nullptr) return apply_rows<false, true, false>(pair, p0, nullptr, p1, q1);
 }
 
 }  // namespace morula
