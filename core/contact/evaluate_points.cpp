@@ -216,7 +216,7 @@ Vec3d quadrature_point(const PointsEvaluation& e, const Triangle& t, int q) {
   return e.source.node(t[0]) * beta[0] + e.source.node(t[1]) * beta[1] + e.source.node(t[2]) * beta[2];
 }
 
-/// The points that may be in range, with their nearest faces; those that surely are not are left out.
+/// The points that may be in range, with the nearest faces known; those that surely are not are left out.
 void collect_points(const PointsEvaluation& e, PointsAgainstBody& lists, PointsWorkspace& ws) {
   ws.points.clear();
   ws.search.clear();
@@ -234,7 +234,6 @@ void collect_points(const PointsEvaluation& e, PointsAgainstBody& lists, PointsW
       ws.points.push_back({quadrature_point(e, t, static_cast<int>(q)), k, static_cast<std::uint16_t>(q), guess});
     }
   }
-  find_nearest_faces(e, lists, ws);
 }
 
 void fill(const PointsEvaluation& e, const PointsAgainstBody& lists, const ContactPoint& p, int lane, Batch& batch) {
@@ -251,9 +250,8 @@ void fill(const PointsEvaluation& e, const PointsAgainstBody& lists, const Conta
 }
 
 /// Add one point's share to the pair.
-void add_point(const PointsEvaluation& e, int d, const ContactPoint& p, const Batch& batch, int lane, SurfacePair& pair,
-               PairGradient (&gradient)[2], std::vector<ContactElement>& elements) {
-  const PointsAgainstBody& lists = pair.points[d];
+void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists, const ContactPoint& p, const Batch& batch, int lane,
+               SurfacePair& pair, PairGradient (&gradient)[2], std::vector<ContactElement>& elements) {
   const std::uint32_t face = lists.source_face[p.source_place];
   const bool sphere = e.target.topology == nullptr;
   Sink sink{gradient[d], e.target_moves ? &gradient[1 - d] : nullptr, e.source.topology->faces()[face], {0, 0, 0}};
@@ -291,8 +289,13 @@ void add_point(const PointsEvaluation& e, int d, const ContactPoint& p, const Ba
 }  // namespace
 
 void evaluate_points(const PointsEvaluation& e, int d, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& ws) {
-  PointsAgainstBody& lists = pair.points[d];
+  PointsAgainstBody& lists = ws.lists;
+  pair.points[d].unpack(lists);
   collect_points(e, lists, ws);
+  if (!ws.search.empty()) {
+    pair.points[d].unpack_candidates(lists);
+    find_nearest_faces(e, lists, ws);
+  }
   if (e.target.topology != nullptr) {  // what has no face within reach is out of range
     const auto index = [&](const ContactPoint& p) { return p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q; };
     std::erase_if(ws.points, [&](const ContactPoint& p) {
@@ -319,9 +322,11 @@ void evaluate_points(const PointsEvaluation& e, int d, SurfacePair& pair, PairGr
       const ContactPoint& p = ws.points[first + static_cast<std::size_t>(lane)];
       const double gap = batch.gap[lane];
       if (p.second >= 0.0) remember(p, gap, p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q, e, lists);
-      if (gap < e.reach.range) add_point(e, d, p, batch, lane, pair, gradient, ws.elements);
+      if (gap < e.reach.range) add_point(e, d, lists, p, batch, lane, pair, gradient, ws.elements);
     }
   }
+  pair.points[d].update(lists);
+  std::swap(gradient[d].source_face, lists.source_face);
   pair.elements[d].assign(ws.elements.begin(), ws.elements.end());  // no more room than needed: they live long
 }
 

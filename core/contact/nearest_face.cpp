@@ -172,7 +172,7 @@ void remember(const ContactPoint& point, double gap, std::size_t index, const Po
   else  // no other face can be nearer while twice the motion is less than the lead of the nearest one
     clear = 0.5 * (std::min(point.second, reach) - std::abs(gap));
   lists.nearest[index] = static_cast<std::uint16_t>(asleep ? point.place | kAsleep : point.place);
-  lists.good_until[index] = static_cast<float>((e.motion + clear * kSafety) * (1.0 - 1e-6));
+  lists.good_until[index] = static_cast<float>(std::max(0.0, (e.motion + clear * kSafety) * (1.0 - 1e-6)));
 }
 
 }  // namespace morula
