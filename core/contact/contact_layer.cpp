@@ -40,8 +40,6 @@ PairBody ContactLayer::view(const ContactScene& scene, const SurfacePair& pair, 
     const RigidSurface& obstacle = obstacles_[pair.b];
     return {obstacle.topology.get(),
             obstacle.position,
-            obstacle.geometry.face_normal,
-            obstacle.geometry.face_area,
             obstacle.geometry.node_normal,
             offsets_[pair.b],
             0.0};
@@ -49,16 +47,8 @@ PairBody ContactLayer::view(const ContactScene& scene, const SurfacePair& pair, 
   const ContactBody& body = scene.bodies[which == 0 ? pair.a : pair.b];
   const Vec3d shift = which == 0 ? Vec3d{} : pair.shift;
   const auto points = scene.position.subspan(body.first_point, body.point_count);
-  if (body.shape == BodyShape::kSphere) return {nullptr, points, {}, {}, {}, shift, body.radius};
-  const SurfaceGeometry& geometry = *scene.geometry;
-  const std::size_t faces = body.topology->face_count();
-  return {body.topology,
-          points,
-          std::span(geometry.face_normal).subspan(body.first_face, faces),
-          std::span(geometry.face_area).subspan(body.first_face, faces),
-          std::span(geometry.node_normal).subspan(body.first_point, body.point_count),
-          shift,
-          0.0};
+  if (body.shape == BodyShape::kSphere) return {nullptr, points, {}, shift, body.radius};
+  return {body.topology, points, std::span(scene.geometry->node_normal).subspan(body.first_point, body.point_count), shift, 0.0};
 }
 
 double ContactLayer::patch_motion(const ContactScene& scene, const SurfacePair& pair) const {

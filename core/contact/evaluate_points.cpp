@@ -42,6 +42,12 @@ struct TargetNormal {
   double length;  ///< of the interpolated vector
 };
 
+/// Face that a point lies on.
+struct SourceFace {
+  Vec3d normal;  ///< n_T
+  double area;   ///< A_T
+};
+
 /// Gradient through the weights μ_j of the foot point, which slides on its feature: c_j = ∂E/∂μ_j.
 void add_foot_gradient(const PointsEvaluation& e, int q, const Triangle& t, const PointGap& gap, const double (&c)[3], Sink& sink) {
   const Vec3d y[3] = {e.target.node(t[0]), e.target.node(t[1]), e.target.node(t[2])};
@@ -72,9 +78,9 @@ void add_foot_gradient(const PointsEvaluation& e, int q, const Triangle& t, cons
 }
 
 /// Forces on the corners of the source face from h = ∂E/∂n_T: F_c = e_c × w, w = (I − n_T n_Tᵀ) h/(2 A_T), e_c the edge opposite to c.
-void add_face_normal_gradient(const PairBody& source, std::uint32_t face, const Vec3d& h, Sink& sink) {
-  const Vec3d& n = source.face_normal[face];
-  const Vec3d w = (h - n * dot(n, h)) * (0.5 / source.face_area[face]);
+void add_face_normal_gradient(const PairBody& source, const SourceFace& face, const Vec3d& h, Sink& sink) {
+  const Vec3d& n = face.normal;
+  const Vec3d w = (h - n * dot(n, h)) * (0.5 / face.area);
   const Vec3d& x0 = source.position[sink.source_node[0]];
   const Vec3d& x1 = source.position[sink.source_node[1]];
   const Vec3d& x2 = source.position[sink.source_node[2]];
@@ -85,10 +91,10 @@ void add_face_normal_gradient(const PairBody& source, std::uint32_t face, const 
 }
 
 /// Gradient through the opposed-normal weight: `h0` = ∂E/∂m with m = −n_T·n_y.
-void add_weight_gradient(const PointsEvaluation& e, int q, std::uint32_t face, const Triangle* t, const PointGap& gap,
+void add_weight_gradient(const PointsEvaluation& e, int q, const SourceFace& face, const Triangle* t, const PointGap& gap,
                          const TargetNormal& normal, double h0, Sink& sink) {
   add_face_normal_gradient(e.source, face, normal.unit * -h0, sink);
-  const Vec3d h = e.source.face_normal[face] * -h0;  // ∂E/∂n_y
+  const Vec3d h = face.normal * -h0;  // ∂E/∂n_y
   const Vec3d across = (h - normal.unit * dot(normal.unit, h)) * (1.0 / normal.length);
   if (t == nullptr) {  // n_y = (x_q − x)/|x_q − x| of a sphere
     const Vec3d force = across * (1.0 / (gap.gap + e.target.radius));
@@ -112,9 +118,10 @@ using Vector = Vec3<Real>;
 
 /// Up to 8 points and their nearest faces, in lanes.
 struct alignas(64) Batch {
-  double point[3][kLanes], source_normal[3][kLanes], area[kLanes];
+  double point[3][kLanes], source_corner[3][3][kLanes];
   double corner[3][3][kLanes], node_normal[3][3][kLanes];
   // results
+  double source_normal[3][kLanes], face_area[kLanes], area[kLanes];  ///< of the source's face; what the point stands for
   double gap[kLanes], normal[3][kLanes], mu[3][kLanes];
   double unit[3][kLanes], length[kLanes];  ///< normal of the target at the foot point
   double weight_slope[kLanes], attraction[kLanes], density[kLanes], ramp[kLanes], pull[3][kLanes];
@@ -192,16 +199,22 @@ void gaps_to_sphere(const PairBody& target, Batch& batch) {
 /// Energies, tractions and stiffness at the gaps.
 void respond(const PointsEvaluation& e, Batch& batch) {
   const TractionLaw& law = e.material.law;
+  const Vector x0 = load(batch.source_corner[0]);
+  const Vector twice = cross(load(batch.source_corner[1]) - x0, load(batch.source_corner[2]) - x0);
+  const Real length = norm(twice), face_area = length * Real(0.5);
+  const Vector source_normal = twice * (Real(1.0) / length);
+  store(batch.source_normal, source_normal);
+  face_area.store(batch.face_area);
   const Real gap = Real::load(batch.gap);
-  const auto weight = OpposedWeight::of(-dot(load(batch.source_normal), load(batch.unit)));
+  const auto weight = OpposedWeight::of(-dot(source_normal, load(batch.unit)));
   const auto attraction = law.attraction(gap);
   const auto repulsion = law.repulse(gap);
   const Real part(1.0 / e.quadrature.count);
-  const Real area = Real::load(batch.area) * Real(e.share) * part;
+  const Real area = face_area * Real(e.share) * part;
   weight.slope.store(batch.weight_slope);
   (area * attraction.energy).store(batch.attraction);
   (weight.value * attraction.energy + repulsion.energy).store(batch.density);
-  (Real::load(batch.area) * part * contact_ramp(gap, law.range)).store(batch.ramp);
+  (face_area * part * contact_ramp(gap, law.range)).store(batch.ramp);
   store(batch.pull, load(batch.normal) * (area * (weight.value * attraction.slope + repulsion.slope)));
   (area * friction_weight(gap, law.range)).store(batch.bearing);
   (area * (weight.value * attraction.curvature + repulsion.curvature)).store(batch.stiffness);
@@ -237,10 +250,9 @@ void collect_points(const PointsEvaluation& e, PointsAgainstBody& lists, PointsW
 }
 
 void fill(const PointsEvaluation& e, const PointsAgainstBody& lists, const ContactPoint& p, int lane, Batch& batch) {
-  const std::uint32_t face = lists.source_face[p.source_place];
   put(batch.point, lane, p.position);
-  put(batch.source_normal, lane, e.source.face_normal[face]);
-  batch.area[lane] = e.source.face_area[face];
+  const Triangle& s = e.source.topology->faces()[lists.source_face[p.source_place]];
+  for (std::size_t k = 0; k < 3; ++k) put(batch.source_corner[k], lane, e.source.position[s[k]]);
   if (e.target.topology == nullptr) return;
   const Triangle& t = e.target.topology->faces()[lists.target_face[p.place]];
   for (std::size_t k = 0; k < 3; ++k) {
@@ -274,7 +286,7 @@ void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists,
     sink.push_target(gap.mu, pull);
   if (batch.weight_slope[lane] != 0.0) {
     const Triangle* target_face = sphere ? nullptr : &e.target.topology->faces()[lists.target_face[p.place]];
-    add_weight_gradient(e, p.q, face, target_face, gap, {get(batch.unit, lane), batch.length[lane]},
+    add_weight_gradient(e, p.q, {get(batch.source_normal, lane), batch.face_area[lane]}, target_face, gap, {get(batch.unit, lane), batch.length[lane]},
                         batch.weight_slope[lane] * batch.attraction[lane], sink);
   }
   ContactElement& element = elements.emplace_back();

@@ -26,13 +26,16 @@ struct ContactMaterial {
 struct PairBody {
   const Topology* topology = nullptr;
   std::span<const Vec3d> position;
-  std::span<const Vec3d> face_normal;
-  std::span<const double> face_area;
   std::span<const Vec3d> node_normal;
   Vec3d shift{};        ///< added to the positions: periodic image, or how far an obstacle has moved
   double radius = 0.0;  ///< of a sphere
 
   [[nodiscard]] Vec3d node(std::uint32_t i) const { return position[i] + shift; }
+  /// Unit and outward.
+  [[nodiscard]] Vec3d face_normal(std::uint32_t face) const {
+    const Triangle& t = topology->faces()[face];
+    return normalized(cross(position[t[1]] - position[t[0]], position[t[2]] - position[t[0]]));
+  }
   [[nodiscard]] Vec3d centroid(std::uint32_t face) const {
     const Triangle& t = topology->faces()[face];
     return (position[t[0]] + position[t[1]] + position[t[2]]) * (1.0 / 3.0) + shift;

@@ -147,8 +147,8 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   {
     auto timed = timer_.scope(Stage::kInternal);
     if (moved)
-      compute_surface_geometry({scene_.topologies(), scene_.first_node(), scene_.first_face()},
-                               std::span(std::as_const(scene_).position()).first(scene_.sphere_point()), geometry_);
+      compute_node_geometry({scene_.topologies(), scene_.first_node(), scene_.first_face()},
+                            std::span(std::as_const(scene_).position()).first(scene_.sphere_point()), geometry_);
     shells_.evaluate(tissue.shells, scene_.position(), force_);
   }
   {
