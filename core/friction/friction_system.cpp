@@ -166,7 +166,7 @@ void FrictionSystem::add_contact_diagonal(int thread) {
       const NodePairBlock* block = blocks.blocks.data();
       for (const NodePairRow& row : blocks.rows)
         for (const NodePairBlock* const end = block + row.count; block != end; ++block)
-          diagonal[side == 0 ? row.i : block->j] += block->matrix();
+          diagonal[side == 0 ? row.i : block->j] += block->matrix(row.unit);
     }
   }
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
 
 namespace morula {
@@ -29,23 +28,20 @@ Float8v matrix_of(const ContactElement& e, const ElementGroup& group, float time
   return left * right * b + Float8v{a, 0.0f, 0.0f, a, 0.0f, a, b < 0.0f ? a + b : a, 0.0f};
 }
 
-/// C of a sum of points as it is kept; sum[6] bounds its smallest eigenvalue from below.
-NodePairBlock rounded(const float* sum, std::uint16_t j) {
-  const float xx = sum[0], xy = sum[1], xz = sum[2], yy = sum[3], yz = sum[4], zz = sum[5];
-  const float most = std::max(std::max(xx, yy), zz);  // of all entries, since C is positive
-  NodePairBlock out{};
-  out.j = j;
-  // units of at most 2^-8 more than needed: a float without its lower half, rounded up
-  const std::uint32_t bits = std::bit_cast<std::uint32_t>(most * (1.0f / NodePairBlock::kMost));
-  out.unit = static_cast<std::uint16_t>((bits + 0xFFFFu) >> 16);
-  const float unit = out.scale();
-  if (!(unit > 0.0f)) return out;
-  const float per_unit = 1.0f / unit;
+/// C of a sum of points as it is kept; sum.m[6] bounds its smallest eigenvalue from below.
+NodePairBlock rounded(const EdgeBlock& sum, float per_unit, std::uint16_t j) {
+  using Int8v [[gnu::vector_size(32)]] = std::int32_t;
+  using Short8v [[gnu::vector_size(16)]] = std::int16_t;
+  Float8v units = load8(sum) * per_unit;
   // an error of half a unit in every entry takes at most 1.5 units from an eigenvalue
-  const float back = std::max(0.0f, 1.5f - sum[6] * per_unit);
-  const auto entry = [&](float value) { return static_cast<std::int16_t>(std::lround(value * per_unit)); };
-  const auto diagonal = [&](float value) { return static_cast<std::int16_t>(std::lround(value * per_unit + back)); };
-  out.c[0] = diagonal(xx), out.c[1] = entry(xy), out.c[2] = entry(xz), out.c[3] = diagonal(zz), out.c[4] = diagonal(yy), out.c[5] = entry(yz);
+  units += Float8v{1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, 0.0f, 0.0f} * std::max(0.0f, 1.5f - units[6]);
+  units += units < 0.0f ? Float8v{} - 0.5f : Float8v{} + 0.5f;
+  const Int8v whole = __builtin_convertvector(units, Int8v);  // xx xy xz yy yz zz
+  const Short8v packed = __builtin_convertvector(__builtin_shufflevector(whole, whole, 0, 7, 1, 3, 2, 4, 5, 7), Short8v);
+  NodePairBlock out;
+  std::memcpy(&out, &packed, sizeof out);
+  out.j = j;
+  out.unused = 0;
   return out;
 }
 
@@ -66,11 +62,6 @@ void target_weights(const ContactElement& e, const Topology* target, float (&mu)
 std::size_t node_count(const Topology* topology) { return topology == nullptr ? 1 : topology->node_count(); }
 
 }  // namespace
-
-SymMat3<float> NodePairBlock::matrix() const {
-  const float s = scale();
-  return {s * c[0], s * c[1], s * c[2], s * c[4], s * c[5], s * c[3]};
-}
 
 PairCondenser::PairCondenser(const FaceQuadrature& quadrature, float time_step) : time_step_(time_step) {
   for (int q = 0; q < 4; ++q)
@@ -163,10 +154,16 @@ void PairCondenser::add_pair_blocks(const ElementGroup& group, NodePairArena& ou
   for (std::size_t i = 0; i < rows; ++i) {
     if (!(row_used_[i / 64] >> (i % 64) & 1u)) continue;
     const std::uint32_t first = next;
+    float most = 0.0f;  // of all entries, since C is positive
+    for (std::size_t w = 0; w < words_; ++w) next += static_cast<std::uint32_t>(std::popcount(pattern_[i * words_ + w]));
+    for (std::uint32_t k = first; k < next; ++k) most = std::max({most, sum_[k].m[0], sum_[k].m[3], sum_[k].m[5]});
+    const float per_unit = most > 0.0f ? NodePairBlock::kMost / most : 0.0f;
+    out.rows.push_back({static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(next - first), most / NodePairBlock::kMost});
+    std::uint32_t k = first;
     for (std::size_t w = 0; w < words_; ++w)
       for (std::uint64_t bits = pattern_[i * words_ + w]; bits != 0; bits &= bits - 1)
-        out.blocks.push_back(rounded(sum_[next++].m, static_cast<std::uint16_t>(w * 64 + static_cast<std::size_t>(std::countr_zero(bits)))));
-    out.rows.push_back({static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(next - first)});
+        out.blocks.push_back(
+            rounded(sum_[k++], per_unit, static_cast<std::uint16_t>(w * 64 + static_cast<std::size_t>(std::countr_zero(bits)))));
   }
 }
 
@@ -195,33 +192,46 @@ void PairCondenser::add_edge_blocks(const ElementGroup& group, int side, std::sp
 
 namespace {
 
-/// C d, with a zero behind.
-Float4v times(const NodePairBlock& block, Float4v d) {
+/// x, y, or z of a point in all components.
+struct Splat {
+  Float4v x, y, z;
+  explicit Splat(const Float4& p) : x{p.x, p.x, p.x, p.x}, y{p.y, p.y, p.y, p.y}, z{p.z, p.z, p.z, p.z} {}
+};
+
+/// C d in units of the row, with anything behind.
+Float4v times(const NodePairBlock& block, Float4v x, Float4v y, Float4v z) {
   using Int4v [[gnu::vector_size(16)]] = std::int32_t;
-  using Short8v [[gnu::vector_size(16)]] = std::int16_t;
-  using Int8v [[gnu::vector_size(32)]] = std::int32_t;
-  Short8v packed;
-  std::memcpy(&packed, &block, sizeof packed);
-  const Float8v c = __builtin_convertvector(__builtin_convertvector(packed, Int8v), Float8v);
-  const Float4v low = __builtin_shufflevector(c, c, 0, 1, 2, 3), high = __builtin_shufflevector(c, c, 4, 5, 6, 7);  // xx xy xz zz, yy yz
-  const Float4v x = __builtin_shufflevector(d, d, 0, 0, 0, 0), y = __builtin_shufflevector(d, d, 1, 1, 1, 1),
-                z = __builtin_shufflevector(d, d, 2, 2, 2, 2);
-  const Float4v sum = x * low + y * __builtin_shufflevector(low, high, 1, 4, 5, 5) + z * __builtin_shufflevector(low, high, 2, 5, 3, 3);
-  return reinterpret_cast<Float4v>(reinterpret_cast<Int4v>(sum * block.scale()) & Int4v{-1, -1, -1, 0});
+  Int4v packed;
+  std::memcpy(&packed, &block, sizeof packed);  // two entries in each
+  const Float4v low = __builtin_convertvector((packed << 16) >> 16, Float4v);  // xx xy xz zz
+  const Float4v high = __builtin_convertvector(packed >> 16, Float4v);         // j yy yz
+  return x * low + y * __builtin_shufflevector(low, high, 1, 5, 6, 6) + z * __builtin_shufflevector(low, high, 2, 6, 3, 3);
+}
+
+Float4v without_last(Float4v v) {
+  using Int4v [[gnu::vector_size(16)]] = std::int32_t;
+  return reinterpret_cast<Float4v>(reinterpret_cast<Int4v>(v) & Int4v{-1, -1, -1, 0});
 }
 
 template <bool kFirst, bool kSecond, bool kRest>
 void apply_rows(const NodePairBlocks& pair, const Float4* p0, Float4* q0, const Float4* p1, Float4* q1) {
   const NodePairBlock* block = pair.blocks.data();
   for (const NodePairRow& row : pair.rows) {
-    const Float4v pi = load(p0[row.i]);
+    const Splat pi(p0[row.i]);
+    const Float4v unit = without_last(Float4v{row.unit, row.unit, row.unit, row.unit});
     Float4v sum{};
     for (const NodePairBlock* const end = block + row.count; block != end; ++block) {
-      const Float4v f = times(*block, kRest ? pi : pi - load(p1[block->j]));
+      Float4v f;
+      if constexpr (kRest) {
+        f = times(*block, pi.x, pi.y, pi.z);
+      } else {
+        const Splat pj(p1[block->j]);
+        f = times(*block, pi.x - pj.x, pi.y - pj.y, pi.z - pj.z) * unit;
+      }
       if constexpr (kFirst) sum += f;
       if constexpr (kSecond) store(q1[block->j], load(q1[block->j]) - f);
     }
-    if constexpr (kFirst) store(q0[row.i], load(q0[row.i]) + sum);
+    if constexpr (kFirst) store(q0[row.i], load(q0[row.i]) + (kRest ? sum * unit : sum));
   }
 }
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,22 +11,22 @@ namespace morula {
 
 /// How contact couples node i of one body with node j of another: the force on i is −C (v_i − v_j), on j the opposite.
 ///
-/// C is symmetric and positive definite; kept as xx xy xz zz yy yz in units of `unit`, rounded to 16 bits. What rounding could take from its
+/// C is symmetric and positive definite; its entries are kept in units of the row, rounded to 16 bits. What rounding could take from its
 /// smallest eigenvalue is given back on the diagonal where friction alone does not make up for it.
 struct alignas(16) NodePairBlock {
-  std::int16_t c[6];
-  std::uint16_t unit;  ///< upper half of a float [nN·s/µm]
-  std::uint16_t j;     ///< node of the second body
+  std::int16_t xx;
+  std::uint16_t j;  ///< node of the second body
+  std::int16_t xy, yy, xz, yz, zz, unused;
 
   static constexpr float kMost = 32760.0f;  ///< of an entry: room is left for what is given back
-  [[nodiscard]] float scale() const { return std::bit_cast<float>(std::uint32_t{unit} << 16); }
-  [[nodiscard]] SymMat3<float> matrix() const;
+  [[nodiscard]] SymMat3<float> matrix(float unit) const { return {unit * xx, unit * xy, unit * xz, unit * yy, unit * yz, unit * zz}; }
 };
 static_assert(sizeof(NodePairBlock) == 16);
 
 /// The blocks of node i of the first body come one after the other.
 struct NodePairRow {
   std::uint16_t i, count;
+  float unit;  ///< [nN·s/µm]
 };
 
 /// Blocks of a pair of bodies, by row.

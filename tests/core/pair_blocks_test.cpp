@@ -170,8 +170,10 @@ TEST(PairBlocks, StayPositiveThoughRounded) {  // without friction C is of rank 
   NodePairArena blocks;
   condenser.add_pair_blocks(c.group, blocks);
   ASSERT_GT(blocks.blocks.size(), 30u);
-  for (const NodePairBlock& block : blocks.blocks) {
-    const SymMat3<float> m = block.matrix();
+  std::size_t row = 0, last = blocks.rows[0].count;
+  for (std::size_t k = 0; k < blocks.blocks.size(); ++k) {
+    if (k == last) last += blocks.rows[++row].count;
+    const SymMat3<float> m = blocks.blocks[k].matrix(1.0f);  // in units of the row: exact
     const double xx = m.xx, yy = m.yy, zz = m.zz, xy = m.xy, xz = m.xz, yz = m.yz;
     EXPECT_GE(xx * yy - xy * xy, 0.0);
     EXPECT_GE(xx * zz - xz * xz, 0.0);
