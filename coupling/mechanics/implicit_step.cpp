@@ -55,6 +55,7 @@ struct Mechanics::Trial {
 };
 
 double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt, bool moved) {
+  auto timed = timer_.scope(Stage::kAdvance);
   const auto& x = scene_.position();
   for_owned_points([&](std::uint32_t i) {  // −Δt (F + external), to which Γ_n d is added
     const std::size_t e = i < scene_.owned_nodes() ? i : i - scene_.sphere_point() + scene_.owned_nodes();
