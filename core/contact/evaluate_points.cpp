@@ -295,7 +295,7 @@ void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists,
   element.set_weights(batch.rounded_mu[0][lane], batch.rounded_mu[1][lane]);
   for (std::size_t k = 0; k < 3; ++k) element.n[k] = static_cast<std::int16_t>(batch.rounded_normal[k][lane]);
   element.w = static_cast<float>(batch.bearing[lane]);
-  element.k = static_cast<float>(batch.stiffness[lane]);
+  element.set_stiffness(static_cast<float>(batch.stiffness[lane]));
 }
 
 }  // namespace

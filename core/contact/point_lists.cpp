@@ -191,6 +191,7 @@ void collect_pair_nodes(const Topology* topology_a, const Topology* topology_b, 
 }
 
 void clear_results(SurfacePair& pair, const std::size_t (&node_count)[2], PairGradient (&gradient)[2]) {
+  pair.at_start = false;
   pair.energy = 0.0;
   pair.overlap = 0.0;
   for (int body = 0; body < 2; ++body) {

@@ -76,18 +76,21 @@ struct PairGradient {
 struct SurfacePair {
   std::uint32_t a = 0, b = 0;  ///< bodies; b is the obstacle's number when `rigid`
   bool rigid = false;
+  bool at_start = false;        ///< not evaluated since the step began: the elements are those of its start
   Vec3d shift{};                ///< image of b
   double motion = 0.0;          ///< how far the bodies have moved against each other since the pair came to be (an upper bound) [µm]
   double built_at = -1e300;     ///< motion when the lists were built
   double patch_motion = 0.0;  ///< that of the nodes in the lists alone, since the lists were built
   PackedPoints points[2];     ///< [0]: points of a against b; [1]: points of b against a
   std::vector<std::uint16_t> node[2];            ///< nodes of a and of b in these lists, increasing; a sphere has node 0, an obstacle none
-  std::vector<ContactElement> elements[2];       ///< at the present positions
+  std::vector<ContactElement> elements[2];       ///< at the present positions; see present()
   std::vector<ContactElement> step_elements[2];  ///< at the start of the step: its friction
   double energy = 0.0;                           ///< [nN·µm]
   double overlap = 0.0;                          ///< deepest penetration [µm]
   double area = 0.0;                             ///< of both surfaces in contact [µm²]
   Vec3d push;                                    ///< force on b where it is rigid [nN]
+
+  [[nodiscard]] const std::vector<ContactElement>& present(std::size_t d) const { return at_start ? step_elements[d] : elements[d]; }
 };
 
 /// Everything that evaluating one direction of a pair reads.

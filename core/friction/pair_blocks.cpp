@@ -23,7 +23,7 @@ void add(EdgeBlock& block, float weight, Float8v matrix) {
 Float8v matrix_of(const ContactElement& e, const ElementGroup& group, float time_step) {
   const Vec3f n = e.normal<float>();
   const float a = e.w * group.tangential_friction;
-  const float b = e.w * (group.normal_friction - group.tangential_friction) + time_step * e.k;
+  const float b = e.w * (group.normal_friction - group.tangential_friction) + time_step * e.stiffness();
   const Float8v left{n.x, n.x, n.x, n.y, n.y, n.z, 0.0f, 0.0f}, right{n.x, n.y, n.z, n.y, n.z, n.z, 0.0f, 0.0f};
   return left * right * b + Float8v{a, 0.0f, 0.0f, a, 0.0f, a, b < 0.0f ? a + b : a, 0.0f};
 }

@@ -42,7 +42,7 @@ struct RandomContacts {
           const Vec3d n = normalized(Vec3d{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)});
           for (std::size_t k = 0; k < 3; ++k) e.n[k] = static_cast<std::int16_t>(n[k] * ContactElement::kNormalUnits);
           e.w = static_cast<float>(uniform(0, 0.5));
-          e.k = static_cast<float>(uniform(0, 2.0));
+          e.set_stiffness(static_cast<float>(uniform(0, 2.0)));
           elements[d].push_back(e);
         }
       group.elements[d] = elements[d];
@@ -71,7 +71,7 @@ void apply_points(const RandomContacts& c, const std::vector<Vec3d> (&v)[2], std
         if (!c.group.rigid) u -= v[1 - d][t[k]] * mu[k];
       }
       const Vec3d n = e.normal<double>();
-      const double a = e.w * 15.0, b = e.w * 25.0 + double(kStep) * e.k;
+      const double a = e.w * 15.0, b = e.w * 25.0 + double(kStep) * e.stiffness();
       const Vec3d f = u * a + n * (b * dot(n, u));
       for (std::size_t k = 0; k < 3; ++k) {
         q[d][s[k]] += f * quadrature.weight[e.point()][k];
