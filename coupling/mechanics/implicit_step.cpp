@@ -9,6 +9,9 @@ namespace {
 constexpr double kArmijo = 1e-4;
 constexpr int kHalvings = 8;
 constexpr int kGradientHalvings = 20;
+// A step whose residual is not below `newton_stop` may end all the same where little motion is left; both in units of newton_stop:
+constexpr double kMostLeft = 2.5;          // of the residual
+constexpr double kSmallCorrection = 0.15;  // motion that another iteration would bring, in units of the contact range
 constexpr double kStuckForce = 1e-3;     // largest residual that counts as rest [nN]
 constexpr double kAllowedRise = 0.2;     // of Φ, in the last resort of the freeze rule [nN·µm]
 constexpr double kLastResortStep = 0.2;  // in units of the contact range
@@ -173,7 +176,11 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
         break;
       }
     }
-    if (std::sqrt(dot(force_, force_)) <= control.newton_stop * force_norm || converged) break;
+    // Another iteration would move points by about the part of this one's way that the residual has left: where this is little, it is not
+    // worth a matrix and a solve, and the next step sees the residual (time_stepping.md §6.1, §10.5).
+    const double left = std::sqrt(dot(force_, force_)) / force_norm;
+    if (left <= control.newton_stop || converged) break;
+    if (left <= kMostLeft * control.newton_stop && left * longest <= kSmallCorrection * control.newton_stop * range) break;
   }
   report.displacement = furthest(start);
   if (report.displacement > 1.5 * allowed && dt > 1e-3) {
