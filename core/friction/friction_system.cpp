@@ -86,11 +86,14 @@ void FrictionSystem::set_elements(std::span<const ElementGroup> groups, const Fa
 #pragma omp for schedule(dynamic, 8)
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const ElementGroup& group = groups[g];
-      const std::size_t begin = blocks_[arena].size();
-      condenser.add_pair_blocks(group, blocks_[arena]);
+      NodePairArena& out = blocks_[arena];
+      const std::size_t begin = out.blocks.size(), first_row = out.rows.size();
+      condenser.add_pair_blocks(group, out);
       pairs_[g] = {arena,
-                   static_cast<std::uint32_t>(blocks_[arena].size() - begin),
+                   static_cast<std::uint32_t>(out.blocks.size() - begin),
+                   static_cast<std::uint32_t>(out.rows.size() - first_row),
                    begin,
+                   first_row,
                    {group.body[0], group.body[1]},
                    {group.first[0], group.first[1]},
                    {group.write[0], group.write[1] && !group.rigid},
@@ -159,7 +162,11 @@ void FrictionSystem::add_contact_diagonal(int thread) {
     for (int side = 0; side < 2; ++side) {
       if (!pair.write[side] || !work.has(pair.body[side])) continue;
       SymMat3<float>* const diagonal = inverse_.data() + pair.first[side];
-      for (const NodePairBlock& b : blocks_of(pair)) diagonal[side == 0 ? b.i : b.j] += {b.c[0], b.c[1], b.c[2], b.c[3], b.c[4], b.c[5]};
+      const NodePairBlocks blocks = blocks_of(pair);
+      const NodePairBlock* block = blocks.blocks.data();
+      for (const NodePairRow& row : blocks.rows)
+        for (const NodePairBlock* const end = block + row.count; block != end; ++block)
+          diagonal[side == 0 ? row.i : block->j] += block->matrix(row.unit);
     }
   }
 }
@@ -262,7 +269,7 @@ std::size_t FrictionSystem::memory() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
   std::size_t total = bytes(point_friction_) + bytes(pairs_) + bytes(inverse_) + bytes(p_) + bytes(q_) + bytes(r_) + bytes(layout_.bodies) +
                       bytes(layout_.owned);
-  for (const auto& arena : blocks_) total += bytes(arena);
+  for (const NodePairArena& arena : blocks_) total += bytes(arena.rows) + bytes(arena.blocks);
   for (const ThreadWork& work : work_) total += bytes(work.groups);
   return total;
 }

@@ -87,8 +87,8 @@ class FrictionSystem {
  private:
   /// Blocks of a pair of bodies; those of a thread lie one after the other in blocks_[arena].
   struct PairBlocks {
-    std::uint32_t arena = 0, count = 0;
-    std::size_t begin = 0;
+    std::uint32_t arena = 0, count = 0, row_count = 0;
+    std::size_t begin = 0, first_row = 0;
     std::uint32_t body[2] = {0, 0}, first[2] = {0, 0};
     bool write[2] = {true, true}, rigid = false;
   };
@@ -101,8 +101,9 @@ class FrictionSystem {
   void add_contact_diagonal(int thread);
   /// v += α p, r −= α q; gives (r·r, r·z) with z = M⁻¹ r.
   void advance(float alpha, std::span<Float4> v, const Comm& comm, double (&sums)[2]);
-  [[nodiscard]] std::span<const NodePairBlock> blocks_of(const PairBlocks& pair) const {
-    return std::span(blocks_[pair.arena]).subspan(pair.begin, pair.count);
+  [[nodiscard]] NodePairBlocks blocks_of(const PairBlocks& pair) const {
+    const NodePairArena& arena = blocks_[pair.arena];
+    return {std::span(arena.rows).subspan(pair.first_row, pair.row_count), std::span(arena.blocks).subspan(pair.begin, pair.count)};
   }
 
   struct ThreadWork {
@@ -117,7 +118,7 @@ class FrictionSystem {
   float dt_ = 0.0f;
   std::vector<float> point_friction_;
   std::vector<PairBlocks> pairs_;
-  std::vector<std::vector<NodePairBlock>> blocks_;
+  std::vector<NodePairArena> blocks_;
   const SpherePairs* sphere_pairs_ = nullptr;
   OperatorPart* shells_ = nullptr;
   std::vector<ThreadWork> work_;

@@ -9,6 +9,9 @@ namespace {
 constexpr double kArmijo = 1e-4;
 constexpr int kHalvings = 8;
 constexpr int kGradientHalvings = 20;
+// A step whose residual is not below `newton_stop` may end all the same where little motion is left; both in units of newton_stop:
+constexpr double kMostLeft = 2.5;          // of the residual
+constexpr double kSmallCorrection = 0.15;  // motion that another iteration would bring, in units of the contact range
 constexpr double kStuckForce = 1e-3;     // largest residual that counts as rest [nN]
 constexpr double kAllowedRise = 0.2;     // of Φ, in the last resort of the freeze rule [nN·µm]
 constexpr double kLastResortStep = 0.2;  // in units of the contact range
@@ -55,19 +58,16 @@ struct Mechanics::Trial {
 };
 
 double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt, bool moved) {
+  auto timed = timer_.scope(Stage::kAdvance);
   const auto& x = scene_.position();
   for_owned_points([&](std::uint32_t i) {  // −Δt (F + external), to which Γ_n d is added
     const std::size_t e = i < scene_.owned_nodes() ? i : i - scene_.sphere_point() + scene_.owned_nodes();
     force_[i] = (force_[i] + external[e]) * -dt;
   });
   spent_ = true;
-  displacement_.resize(contacts_.pairs().empty() ? scene_.sphere_point() : x.size());  // spheres alone have no use for it
-  for (std::size_t i = 0; i < displacement_.size(); ++i) displacement_[i] = x[i] - start[i];
   OrderFreeSum sums[2];
-  std::vector<Vec3d>& of_shells = gradient_.node_normal;  // which is found anew before it is used again
-  shells_.set_step_friction(displacement_, of_shells, sums[0]);
-  for (std::size_t i = 0; i < scene_.owned_nodes(); ++i) force_[i] += of_shells[i];
-  contacts_.add_step_friction(contact_scene(), displacement_, force_, sums[0]);
+  if (moved) shells_.add_step_friction(x, force_, sums[0]);
+  contacts_.add_step_friction(contact_scene(), start, moved, force_, sums[0]);
   const auto medium = system_.point_friction();
   for (std::size_t i = 0; moved && i < scene_.owned_spheres(); ++i) {
     const std::size_t point = scene_.sphere_point() + i;
@@ -176,7 +176,11 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
         break;
       }
     }
-    if (std::sqrt(dot(force_, force_)) <= control.newton_stop * force_norm || converged) break;
+    // Another iteration would move points by about the part of this one's way that the residual has left: where this is little, it is not
+    // worth a matrix and a solve, and the next step sees the residual (time_stepping.md §6.1, §10.5).
+    const double left = std::sqrt(dot(force_, force_)) / force_norm;
+    if (left <= control.newton_stop || converged) break;
+    if (left <= kMostLeft * control.newton_stop && left * longest <= kSmallCorrection * control.newton_stop * range) break;
   }
   report.displacement = furthest(start);
   if (report.displacement > 1.5 * allowed && dt > 1e-3) {

@@ -147,9 +147,9 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   {
     auto timed = timer_.scope(Stage::kInternal);
     if (moved)
-      compute_surface_geometry({scene_.topologies(), scene_.first_node(), scene_.first_face()},
-                               std::span(std::as_const(scene_).position()).first(scene_.sphere_point()), geometry_);
-    shells_.evaluate(tissue.shells, scene_.position());
+      compute_node_geometry({scene_.topologies(), scene_.first_node(), scene_.first_face()},
+                            std::span(std::as_const(scene_).position()).first(scene_.sphere_point()), geometry_);
+    shells_.evaluate(tissue.shells, scene_.position(), force_);
   }
   {
     auto timed = timer_.scope(Stage::kCandidates);
@@ -173,14 +173,11 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
     const SurfaceList owned{scene_.topologies().first(scene_.owned_shells()), scene_.first_node(), scene_.first_face()};
     add_surface_forces(owned, scene_.position(), geometry_, {gradient_.face_energy, {}, gradient_.node_normal}, gradient_.force);
   }
-  if (gradient_.force.empty())
-    std::fill(force_.begin(), force_.end(), Vec3d{});
-  else
-    std::copy(gradient_.force.begin(), gradient_.force.end(), force_.begin());
+  for (std::size_t i = 0; i < scene_.owned_nodes(); ++i) force_[i] += gradient_.force[i];  // to those within the shells
+  for (std::size_t i = scene_.owned_nodes(); i < force_.size(); ++i) force_[i] = gradient_.force.empty() ? Vec3d{} : gradient_.force[i];
   spent_ = false;
   spheres_.evaluate(scene_, contacts_, force_);
   const auto& internal = shells_.forces();
-  for (std::size_t i = 0; i < scene_.owned_nodes(); ++i) force_[i] += internal.force[i];
 
   OrderFreeSum sum;
   for (std::size_t i = 0; i < scene_.owned_shells(); ++i) sum.add(internal.energy[i]);
@@ -200,7 +197,7 @@ StepFault Mechanics::undo(const std::vector<Vec3d>& start, StepFault fault) {
 void Mechanics::begin_step(const Tissue& tissue, double dt) {
   auto timed = timer_.scope(Stage::kAssemble);
   contacts_.begin_step();
-  shells_.begin_step(tissue.shells, scene_.position(), geometry_);
+  shells_.begin_step(tissue.shells, geometry_);
   std::vector<float> friction(scene_.point_count(), 0.0f);
   const std::size_t first = scene_.first_sphere();
   for (std::size_t i = 0; i < scene_.owned_spheres(); ++i) {
@@ -375,7 +372,7 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
 std::size_t Mechanics::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return contacts_.memory() + shells_.memory() + spheres_.memory() + system_.memory() + scene_.memory() + bytes(force_) +
-         bytes(displacement_) + bytes(solution_) + gradient_.memory() + surfaces_only_.memory() + bytes(geometry_.face_area) +
+         bytes(solution_) + gradient_.memory() + surfaces_only_.memory() + bytes(geometry_.face_area) +
          bytes(geometry_.face_normal) + bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) +
          bytes(scene_start_);
 }

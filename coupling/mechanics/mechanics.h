@@ -106,7 +106,7 @@ class Mechanics {
   void begin_step(const Tissue& tissue, double dt);
   void hold_all_but(std::span<const char> moves);
   void lay_out_system();
-  /// `moved`: false at the step's start, where spheres have not rubbed yet.
+  /// `moved`: false at the step's start, where nothing has rubbed yet but obstacles that move.
   [[nodiscard]] double friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt, bool moved = true);
   /// The residual becomes the right side of the system.
   void give_residual();
@@ -158,7 +158,6 @@ class Mechanics {
   double energy_ = 0.0;              ///< at the present positions, without external work
   std::vector<Vec3d> force_;         ///< by point; friction_residual() makes the residual of it: force + external − Γ_n d/Δt
   bool spent_ = false;               ///< force_ holds a residual: evaluate() before the next step
-  std::vector<Vec3d> displacement_;  ///< d = x − x_n, of what touches surfaces
   double friction_energy_ = 0.0;     ///< dᵀΓ_n d
   std::vector<Float4> solution_;
 };
