@@ -5,6 +5,7 @@
 
 #include "app/words.h"
 #include "cbm/builtin.h"
+#include "cbm/packing.h"
 #include "core/numbers/number_text.h"
 #include "coupling/behaviours/builtin.h"
 #include "dcm/builtin.h"
@@ -39,6 +40,7 @@ std::string in_cell(const std::string& text) {
 std::vector<ListedLaw> all_laws() {
   std::vector<ListedLaw> laws;
   for (auto& entry : cbm::contact_laws()) laws.push_back({"contact of spheres", std::move(entry.info)});
+  laws.push_back({"contact of spheres", cbm::packing_law()});
   for (const auto& entry : dcm::shell_laws()) laws.push_back({"shells", entry.info});
   for (auto& info : behaviour_laws()) laws.push_back({"behaviours", std::move(info)});
   return laws;
