@@ -153,6 +153,48 @@ TEST(Promotion, FindsAShapeForEveryCellOfADeeplyOverlappingCluster) {
   EXPECT_FALSE(simulation.tissue().clock.capped);
 }
 
+/// Thirteen cells in 37 % of the room that their volumes need: the third has none to become a shell. It stays what it was and says so, and the
+/// run goes on; before, it went on as a shell 3.7 µm inside its neighbours until no step lowered the energy.
+TEST(Promotion, WithoutRoomIsPutOffWithAWarning) {
+  Model model = resting_model(11.8, 0.3, 0.19, 0.5);
+  model.pairs = {ContactPair{0.1, 50.0, 50.0}};
+  model.swaps.regions = {ball_of_shells(100.0, 0.0, kNever)};
+  model.swaps.hold = 300.0;
+  ShapeLibrary shapes;
+  Tissue tissue = make_tissue(model, shapes, lattice(13, 1.3 * 11.8), std::vector<BodyKind>(13, kSphere), 162, 11.8);
+  for (CellRow& row : tissue.cells.rows) row.phase = Phase::kResting;
+  tissue.clock.steps = 1;  // the run has begun: one exchange a step
+  auto made = Simulation::create(model, std::move(tissue), Comm(), 1);
+  ASSERT_TRUE(made.ok());
+  Simulation& simulation = **made;
+  CellId put_off;
+  for (int k = 0; k < 8 && !put_off.valid(); ++k) {
+    const auto done = simulation.step(60.0);
+    ASSERT_TRUE(done.ok()) << done.error().message;
+    for (const Event& event : done->events)
+      if (event.kind == EventKind::kWarning) {
+        put_off = event.cell;
+        EXPECT_NE(event.text.find("no room"), std::string::npos);
+      }
+  }
+  ASSERT_TRUE(put_off.valid());
+  const Tissue& now = simulation.tissue();
+  EXPECT_FALSE(now.clock.capped);
+  EXPECT_EQ(now.ledger.promotions, now.shells.size());
+  std::size_t sphere = 0;
+  for (const CellRow& row : now.cells.rows) {
+    if (row.id == put_off) {
+      EXPECT_EQ(row.body, kSphere);
+      EXPECT_EQ(row.last_swap_time, now.clock.time);
+      EXPECT_DOUBLE_EQ(now.spheres.radius[sphere], 11.8);
+    }
+    sphere += row.body == kSphere;
+  }
+  const auto next = simulation.step(60.0);
+  ASSERT_TRUE(next.ok()) << next.error().message;
+  for (const Event& event : next->events) EXPECT_NE(event.cell, put_off);  // not before its hold time is over
+}
+
 TEST(Demotion, LeavesAttachedWhatWasInTouch) {
   Model model = resting_model(6.0, 0.3, 0.45, 0.5);
   model.swaps.regions = {ball_of_shells(100.0, 0.0, 1.0)};
