@@ -54,9 +54,9 @@ Result<PackingCurve> PackingCurve::through(std::span<const PackingKnot> knots) {
                    "begin with the packing at which the pressure sets in");
   for (std::size_t k = 1; k < knots.size(); ++k) {
     if (!(knots[k].packing > knots[k - 1].packing))
-      return refused("the packing of the knots must increase, but " + number(knots[k].packing) + " is not above " +
-                         number(knots[k - 1].packing),
-                     "sort the knots by packing");
+      return refused(
+          "the packing of the knots must increase, but " + number(knots[k].packing) + " is not above " + number(knots[k - 1].packing),
+          "sort the knots by packing");
     if (!(knots[k].pressure >= knots[k - 1].pressure) || !std::isfinite(knots[k].pressure))
       return refused("the pressure must not fall with the packing, but it goes from " + number(knots[k - 1].pressure) + " to " +
                          number(knots[k].pressure) + " kPa",
@@ -132,8 +132,9 @@ LawInfo packing_law() {
   return {.name = "packing",
           .title = "Pressure of packing",
           .equation = "U = Σ_i V_i Ψ(φ_i), φ_i = Σ_j v_cap,ij/V_i, p_i = Ψ′(φ_i); pair force + πa_g² [p_i l_j/d + p_j l_i/d]",
-          .source = "choice of this project after Van Liedekerke et al. 2019, doi:10.1371/journal.pcbi.1006273; monotone cubic of Fritsch & "
-                    "Carlson 1980, doi:10.1137/0717021",
+          .source =
+              "choice of this project after Van Liedekerke et al. 2019, doi:10.1371/journal.pcbi.1006273; monotone cubic of Fritsch & "
+              "Carlson 1980, doi:10.1137/0717021",
           .parameters = {{.name = "packing_onset",
                           .quantity = "fraction",
                           .unit = "1",

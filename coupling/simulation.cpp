@@ -39,8 +39,7 @@ std::vector<CellId> too_deep(const Mechanics& mechanics, std::span<const CellId>
     if (std::binary_search(these.begin(), these.end(), id)) out.push_back(id);
   };
   for (const SurfacePair& pair : mechanics.contacts().pairs()) {
-    const bool surfaces =
-        pair.rigid || (bodies[pair.a].shape == BodyShape::kSurface && bodies[pair.b].shape == BodyShape::kSurface);
+    const bool surfaces = pair.rigid || (bodies[pair.a].shape == BodyShape::kSurface && bodies[pair.b].shape == BodyShape::kSurface);
     if (!surfaces || !(pair.overlap > depth)) continue;
     offer(bodies[pair.a].id);
     if (!pair.rigid) offer(bodies[pair.b].id);
@@ -206,7 +205,7 @@ Result<std::vector<Event>> Simulation::swap_bodies() {
   if (!leaving.empty()) touching = mechanics_->touching(tissue_, leaving);
   auto cells = take_apart(tissue_);
   std::vector<CellId> fresh;
-  std::vector<CellRecord> before;  // of the promoted, should they find no room
+  std::vector<CellRecord> before;                 // of the promoted, should they find no room
   const bool may_stay = tissue_.clock.steps > 0;  // at the very beginning cells become what the study says
   for (std::size_t k = 0; k < orders.size(); ++k) {
     CellRecord& cell = cells[orders[k].row];

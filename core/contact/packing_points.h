@@ -5,7 +5,7 @@ namespace morula {
 
 /// Pressure of a sphere by its packing, as the surfaces that press into it feel it (cbm.md §3; fields_and_coupling.md, D).
 struct SpherePressure {
-  double pressure = 0.0;    ///< p = Ψ′(φ) [kPa]
+  double pressure = 0.0;  ///< p = Ψ′(φ) [kPa]
   double resistance = 0.0;  ///< bound on Ψ″/V · Σ |∂v/∂d| over all contacts of the sphere: the operator's stiffness per area [kPa/µm]
 };
 

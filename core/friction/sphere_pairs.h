@@ -49,9 +49,9 @@ struct SpherePacking {
   struct Slopes {
     float a = 0.0f, b = 0.0f;
   };
-  bool on = false;                                ///< of the model: the same on all ranks
-  std::vector<float> resistance;                  ///< c = Ψ″/V by sphere, ghosts too [nN/µm⁵]
-  std::vector<Slopes> slopes;                     ///< by pair
+  bool on = false;                                  ///< of the model: the same on all ranks
+  std::vector<float> resistance;                    ///< c = Ψ″/V by sphere, ghosts too [nN/µm⁵]
+  std::vector<Slopes> slopes;                       ///< by pair
   std::function<void(std::span<Float4>)> exchange;  ///< fills the ghost points of a vector by point; may be empty
 
   [[nodiscard]] std::size_t memory() const { return resistance.capacity() * sizeof(float) + slopes.capacity() * sizeof(Slopes); }

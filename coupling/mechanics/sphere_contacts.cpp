@@ -292,9 +292,7 @@ bool SphereContacts::renew_sisters(const Scene& scene, const ContactLayer& conta
   return true;
 }
 
-double SphereContacts::pressure(std::size_t i, double radius) const {
-  return cbm::virial_pressure(virial_[i], ball(radius));
-}
+double SphereContacts::pressure(std::size_t i, double radius) const { return cbm::virial_pressure(virial_[i], ball(radius)); }
 
 std::vector<double> SphereContacts::contact_areas(const Scene& scene, const ContactLayer& contacts) const {
   std::vector<double> area(scene.owned_spheres(), 0.0);

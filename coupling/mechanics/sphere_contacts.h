@@ -97,11 +97,11 @@ class SphereContacts {
   bool packs_ = false;
   cbm::ContactTable table_;  ///< of all materials and walls
   SpherePairs list_;
-  std::vector<Sisters> sisters_;  ///< by pair
-  std::vector<RigidPair> rigid_;  ///< by sphere
-  std::vector<double> virial_;    ///< by owned sphere: Σ d_ij F_ij [nN·µm]
-  std::vector<double> packing_;   ///< by owned sphere: φ; empty where no type packs, as the next two
-  std::vector<double> pressed_;   ///< by sphere, ghosts too: p [kPa]
+  std::vector<Sisters> sisters_;                  ///< by pair
+  std::vector<RigidPair> rigid_;                  ///< by sphere
+  std::vector<double> virial_;                    ///< by owned sphere: Σ d_ij F_ij [nN·µm]
+  std::vector<double> packing_;                   ///< by owned sphere: φ; empty where no type packs, as the next two
+  std::vector<double> pressed_;                   ///< by sphere, ghosts too: p [kPa]
   std::vector<SpherePressure> surface_pressure_;  ///< by body
   OrderFreeSum energy_;
   std::vector<std::vector<std::uint32_t>> flips_;  ///< by share: pairs whose flag changes if the step ends where they were evaluated last

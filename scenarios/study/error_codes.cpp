@@ -67,7 +67,8 @@ constexpr ErrorCode kCodes[] = {
     {520, "load that cells cannot bear",
      "Tractions, pulls and pressures act on surfaces: they need shells, and chosen nodes need shells that keep their mesh and place."},
     {530, "packing curve that is none",
-     "Pressure by packing needs three knots or more, whose packing increases from above 0, and whose pressure begins with 0 and never falls."},
+     "Pressure by packing needs three knots or more, whose packing increases from above 0, and whose pressure begins with 0 and never "
+     "falls."},
     {531, "packing softer than the spheres",
      "The ideal filled cell adds what Hertz contacts lack of K_V ln(V0/V). With so small a bulk modulus they lack nothing."},
     {601, "file missing", "A file that the study names does not exist. Paths are relative to the folder of the study."},

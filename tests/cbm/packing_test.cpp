@@ -63,7 +63,8 @@ TEST(SphereCaps, GoOverToTheWholeSmallSphereWithoutAJump) {
 TEST(PlaneCap, IsHalfOfTheCapsOfTwoEqualSpheres) {
   for (const double overlap : {0.1, 1.0, 3.0}) {
     EXPECT_NEAR(plane_cap(6.0, overlap).volume, sphere_caps(6.0, 6.0, 12.0 - 2.0 * overlap).volume_a, 1e-12);
-    EXPECT_NEAR(plane_cap(6.0, overlap).slope, 2.0 * sphere_caps(6.0, 6.0, 12.0 - 2.0 * overlap).slope_a, 1e-12);  // one side moves twice as far
+    EXPECT_NEAR(plane_cap(6.0, overlap).slope, 2.0 * sphere_caps(6.0, 6.0, 12.0 - 2.0 * overlap).slope_a,
+                1e-12);  // one side moves twice as far
   }
   EXPECT_EQ(plane_cap(6.0, -0.1).volume, 0.0);
 }
@@ -92,7 +93,8 @@ TEST(Packing, EightKnotsKeepThePressureWithin1Point2Percent) {
 
 TEST(Packing, CurveIsMonotoneAndItsPartsAreDerivatives) {
   for (const PackingCurve& curve :
-       {ideal(), PackingCurve::through(std::vector<PackingKnot>{{0.02, 0.0}, {0.03, 0.5}, {0.05, 0.5}, {0.051, 0.9}, {0.3, 0.91}}).value()}) {
+       {ideal(),
+        PackingCurve::through(std::vector<PackingKnot>{{0.02, 0.0}, {0.03, 0.5}, {0.05, 0.5}, {0.051, 0.9}, {0.3, 0.91}}).value()}) {
     const double end = 1.6 * curve.last(), step = end / 10000.0;
     double before = 0.0;
     for (int k = 0; k <= 10000; ++k) {

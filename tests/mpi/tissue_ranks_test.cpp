@@ -93,7 +93,7 @@ std::map<std::uint64_t, std::vector<std::byte>> everything(const Simulation& sim
 }
 
 std::map<std::uint64_t, std::vector<std::byte>> run(const Model& model, const Comm& comm, int steps, int threads,
-                                                     std::vector<double>* field_total = nullptr, Ledger* ledger = nullptr) {
+                                                    std::vector<double>* field_total = nullptr, Ledger* ledger = nullptr) {
   auto created = Simulation::create(model, hybrid_tissue(model, comm), comm, threads);
   EXPECT_TRUE(created.ok());
   Simulation& simulation = **created;
