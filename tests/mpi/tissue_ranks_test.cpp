@@ -139,12 +139,12 @@ TEST(TissueOnRanks, DemotesWithTheSameBitsAsOnOne) {
   Model model = hybrid_model();
   model.types[0].cycles = false;
   model.swaps.regions[0].shape = RegionShape::kEverything;
-  model.swaps.regions[0].until = 200.0;
+  model.swaps.regions[0].until = 60.0;
   model.swaps.hold = 60.0;
   model.step.max_step = 15.0;
   Ledger ledger;
-  const auto together = run(model, world, 40, 1, nullptr, &ledger);
-  const auto single = run(model, alone, 40, 1);
+  const auto together = run(model, world, 22, 1, nullptr, &ledger);
+  const auto single = run(model, alone, 22, 1);
   EXPECT_GE(ledger.demotions, 5u);
   EXPECT_LT(ledger.demotions, together.size());  // the last state holds both bodies
   expect_same(together, single);
@@ -156,7 +156,7 @@ TEST(TissueOnRanks, PacksWithTheSameBitsAsOnOne) {
   Model model = hybrid_model();
   model.types[0].sphere.packing =
       cbm::PackingCurve::through(std::vector<cbm::PackingKnot>{{0.005, 0.0}, {0.02, 0.05}, {0.05, 0.2}, {0.2, 0.5}}).value();
-  expect_same(run(model, world, 60, 1), run(model, alone, 60, 1));
+  expect_same(run(model, world, 40, 1), run(model, alone, 40, 1));
 }
 
 }  // namespace
