@@ -186,7 +186,8 @@ output: {report: false}
 }
 
 TEST_F(Runs, WithPackingSplitAsWhole) {
-  const std::string text = packed_pair("{packing: 0.1 %, pressure: 0 Pa}, {packing: 1 %, pressure: 20 Pa}, {packing: 5 %, pressure: 90 Pa}");
+  const std::string text =
+      packed_pair("{packing: 0.1 %, pressure: 0 Pa}, {packing: 1 %, pressure: 20 Pa}, {packing: 5 %, pressure: 90 Pa}");
   const RunSummary whole = run_whole(text, "whole");
   EXPECT_TRUE(whole.passed());
   EXPECT_EQ(slurp(*this / "whole/log.txt").find("packed more tightly"), std::string::npos);
