@@ -5,6 +5,7 @@
 
 #include "app/words.h"
 #include "cbm/builtin.h"
+#include "cbm/packing.h"
 #include "core/numbers/number_text.h"
 #include "coupling/behaviours/builtin.h"
 #include "coupling/builtin.h"
@@ -41,6 +42,7 @@ std::string in_cell(const std::string& text) {
 std::vector<ListedLaw> all_laws() {
   std::vector<ListedLaw> laws;
   for (auto& entry : cbm::contact_laws()) laws.push_back({"contact of spheres", std::move(entry.info)});
+  laws.push_back({"contact of spheres", cbm::packing_law()});
   for (const auto& entry : dcm::shell_laws()) laws.push_back({"shells", entry.info});
   const auto add = [&laws](const char* group, std::vector<LawInfo> infos) {
     for (LawInfo& info : infos) laws.push_back({group, std::move(info)});

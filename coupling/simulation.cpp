@@ -21,12 +21,49 @@ namespace {
 
 /// Time over which V0 (or a sphere's volume) goes back to that of a free cell after a swap: about ten mechanical relaxation times [s].
 constexpr double kEasing = 600.0;
+/// A promoted cell that is left this deep within a neighbour has no room: it stays a sphere for now [µm].
+constexpr double kNoRoom = 0.5;
 
 template <class T>
 std::vector<std::byte> bytes_of(const std::vector<T>& items) {
   std::vector<std::byte> out(items.size() * sizeof(T));
   if (!out.empty()) std::memcpy(out.data(), items.data(), out.size());
   return out;
+}
+
+/// The cells of this list that lie deeper than this within another surface, as the contacts were found last. `these` is sorted; so is the answer.
+std::vector<CellId> too_deep(const Mechanics& mechanics, std::span<const CellId> these, double depth) {
+  const auto bodies = mechanics.scene().bodies();
+  std::vector<CellId> out;
+  const auto offer = [&](CellId id) {
+    if (std::binary_search(these.begin(), these.end(), id)) out.push_back(id);
+  };
+  for (const SurfacePair& pair : mechanics.contacts().pairs()) {
+    const bool surfaces = pair.rigid || (bodies[pair.a].shape == BodyShape::kSurface && bodies[pair.b].shape == BodyShape::kSurface);
+    if (!surfaces || !(pair.overlap > depth)) continue;
+    offer(bodies[pair.a].id);
+    if (!pair.rigid) offer(bodies[pair.b].id);
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+/// Cells just promoted that found no room (`back`, sorted) become again the spheres they were; their events say so.
+void take_back(Tissue& tissue, std::vector<CellRecord> before, std::span<const CellId> back, std::vector<Event>& events) {
+  const auto goes_back = [&](CellId id) { return std::binary_search(back.begin(), back.end(), id); };
+  auto cells = take_apart(tissue);
+  for (CellRecord& cell : cells) {
+    if (!goes_back(cell.row.id)) continue;
+    cell = std::move(*std::find_if(before.begin(), before.end(), [&](const CellRecord& b) { return b.row.id == cell.row.id; }));
+    cell.row.last_swap_time = tissue.clock.time;
+  }
+  put_together(tissue, std::move(cells));
+  for (Event& event : events) {
+    if (event.kind != EventKind::kPromotion || !goes_back(event.cell)) continue;
+    event.kind = EventKind::kWarning;
+    event.text = "no room among its neighbours to become a shell (" + event.text + "); it stays a sphere until the hold time is over";
+  }
 }
 
 }  // namespace
@@ -168,10 +205,13 @@ Result<std::vector<Event>> Simulation::swap_bodies() {
   if (!leaving.empty()) touching = mechanics_->touching(tissue_, leaving);
   auto cells = take_apart(tissue_);
   std::vector<CellId> fresh;
+  std::vector<CellRecord> before;                 // of the promoted, should they find no room
+  const bool may_stay = tissue_.clock.steps > 0;  // at the very beginning cells become what the study says
   for (std::size_t k = 0; k < orders.size(); ++k) {
     CellRecord& cell = cells[orders[k].row];
     const bool up = orders[k].to == BodyKind::kShell;
     if (up) {
+      if (may_stay) before.push_back(cell);
       promote(cell, model_.types[cell.row.type], pressure[k], tissue_.clock.time, shapes_);
       fresh.push_back(cell.row.id);
     } else {
@@ -180,6 +220,7 @@ Result<std::vector<Event>> Simulation::swap_bodies() {
     events.push_back({tissue_.clock.time, up ? EventKind::kPromotion : EventKind::kDemotion, cell.row.id, {}, {}, orders[k].reason});
   }
   attach_touching(cells, touching);  // what adhered as a shell goes on adhering
+  attach_touching(before, touching);
   put_together(tissue_, std::move(cells));
   mechanics_->bodies_changed();
 
@@ -195,12 +236,25 @@ Result<std::vector<Event>> Simulation::swap_bodies() {
       moves.push_back(is_fresh);
     }
     moves.resize(moves.size() + tissue_.spheres.size(), 0);
+    const bool capped = tissue_.clock.capped;
     MORULA_TRY(mechanics_->relax(tissue_, moves));
     for (const auto& [shell, v] : kept) set_enclosed_volume(tissue_.shells.topology(shell), tissue_.shells.nodes(shell), v);
     mechanics_->bodies_changed();
+    if (may_stay) {
+      const std::vector<CellId> back = too_deep(*mechanics_, fresh, kNoRoom);
+      if (comm_.any(!back.empty())) {
+        take_back(tissue_, std::move(before), back, events);
+        mechanics_->bodies_changed();
+      }
+      // Where all have gone back the tissue is as it was; others that are left in an overlap go on with the capped start.
+      if (comm_.all(back.size() == fresh.size())) tissue_.clock.capped = capped;
+    }
   }
   std::int64_t ups = 0, downs = 0;
-  for (const Event& event : events) ++(event.kind == EventKind::kPromotion ? ups : downs);
+  for (const Event& event : events) {
+    ups += event.kind == EventKind::kPromotion;
+    downs += event.kind == EventKind::kDemotion;
+  }
   tissue_.ledger.promotions += static_cast<std::uint64_t>(comm_.sum(ups));
   tissue_.ledger.demotions += static_cast<std::uint64_t>(comm_.sum(downs));
   return events;

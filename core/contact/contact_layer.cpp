@@ -290,11 +290,33 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
     evaluate_points({body[d], body[1 - d], contact, FaceQuadrature::with_points(settings_.points_per_face), reach(), both ? 0.5 : 1.0,
                      pair.patch_motion, pair.motion - pair.built_at, !pair.rigid},
                     d, pair, gradient, workspace);
+    if (!both && !pair.rigid && !packing_.empty())
+      add_packing(body[d], body[1 - d], FaceQuadrature::with_points(settings_.points_per_face), packing_[d == 0 ? pair.b : pair.a], d, pair,
+                  gradient);
   }
   pair.area = gradient[0].contact_area + gradient[1].contact_area;
   if (!pair.rigid) return;
   // Areas and normals belong to the cell: their share of its force is zero in sum.
   for (const std::uint16_t node : pair.node[0]) pair.push -= gradient[0].force[node].value();
+}
+
+void ContactLayer::find_penetration(const ContactScene& scene, std::span<Penetration> by_body) {
+  const std::vector<std::uint32_t>& list = pairs_of_kind_[static_cast<std::size_t>(SurfacePairKind::kWithSphere)];
+  std::vector<Penetration> of_pair(list.size());
+#pragma omp parallel for schedule(dynamic, 8) num_threads(settings_.threads)
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    SurfacePair& pair = pairs_[list[k]];
+    if (pair.motion - pair.built_at > settings_.skin) rebuild_lists(scene, pair);
+    const PairBody body[2] = {view(scene, pair, 0), view(scene, pair, 1)};
+    const int d = body[0].topology != nullptr ? 0 : 1;
+    of_pair[k] = penetration(body[d], body[1 - d], FaceQuadrature::with_points(settings_.points_per_face), pair.points[d].source_face);
+  }
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const SurfacePair& pair = pairs_[list[k]];
+    Penetration& sum = by_body[scene.bodies[pair.a].topology == nullptr ? pair.a : pair.b];
+    sum.volume += of_pair[k].volume;
+    sum.slope += of_pair[k].slope;
+  }
 }
 
 void ContactLayer::evaluate(const ContactScene& scene, SurfacePairKind kind, ContactGradient& gradient) {

@@ -6,6 +6,7 @@
 
 #include "core/contact/broad_phase.h"
 #include "core/contact/contact_body.h"
+#include "core/contact/packing_points.h"
 #include "core/contact/surface_pair.h"
 #include "core/friction/contact_element.h"
 #include "core/mesh/triangle_tree.h"
@@ -80,6 +81,10 @@ class ContactLayer {
 
   /// Narrow phase of the surface pairs of one kind at the present positions: energies and elements, kept; gradients are added to `gradient`.
   void evaluate(const ContactScene& scene, SurfacePairKind kind, ContactGradient& gradient);
+  /// What surfaces take of each sphere at the present positions, added to `by_body` in canonical order; before evaluate() of that kind.
+  void find_penetration(const ContactScene& scene, std::span<Penetration> by_body);
+  /// Pressures of spheres by body (of surfaces: ignored), from here on; none: spheres do not resist their packing.
+  void set_packing(std::span<const SpherePressure> by_body) { packing_.assign(by_body.begin(), by_body.end()); }
   [[nodiscard]] bool has_pairs(SurfacePairKind kind) const { return !pairs_of_kind_[static_cast<std::size_t>(kind)].empty(); }
 
   /// Energy of the pairs that this rank counts (those whose first body it owns), added to an order-free sum.
@@ -136,6 +141,7 @@ class ContactLayer {
   bool fresh_ = true;
 
   std::vector<SurfacePair> pairs_;
+  std::vector<SpherePressure> packing_;  ///< by body; empty: none
   std::vector<SphereNeighbours> spheres_;
   std::vector<std::uint32_t> pairs_of_kind_[2];  ///< by SurfacePairKind
   std::vector<Vec3f> known_at_;                  ///< where the points were at the last note_motion(); if there are no pairs, at the last rebuild()

@@ -161,6 +161,7 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   }
   auto timed = timer_.scope(Stage::kContacts);
   const bool with_spheres = contacts_.has_pairs(SurfacePairKind::kWithSphere);
+  if (spheres_.packs()) find_packing(scene, with_spheres);
   if (moved || with_spheres) {
     if (moved) {
       gradient_.set_zero();
@@ -185,6 +186,13 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   spheres_.add_energy(sum);
   energy_ = comm_.sum(sum);
   evaluated_ = contacts_current_ = true;
+}
+
+void Mechanics::find_packing(const ContactScene& scene, bool with_surfaces) {
+  std::vector<Penetration> penetration(with_surfaces ? scene.bodies.size() : 0);
+  if (with_surfaces) contacts_.find_penetration(scene, penetration);
+  spheres_.find_packing(scene_, contacts_, penetration);
+  contacts_.set_packing(spheres_.surface_pressure());
 }
 
 StepFault Mechanics::undo(const std::vector<Vec3d>& start, StepFault fault) {
@@ -338,10 +346,18 @@ BodyValues Mechanics::values(const Tissue& tissue) {
 
 std::vector<double> Mechanics::pressures(const Tissue& tissue) {
   prepare(tissue);
-  if (spheres_.renew_sisters(scene_, contacts_, tissue.clock.time)) flags_changed_ = true;
+  const bool renewed = spheres_.renew_sisters(scene_, contacts_, tissue.clock.time);
+  if (renewed) flags_changed_ = true;
+  if (spheres_.packs() && comm_.any(renewed)) evaluate(tissue, false);  // the packing of sisters counts at their neighbours, too
   std::vector<double> out(scene_.owned_shells() + scene_.owned_spheres());
   for (std::size_t i = 0; i < scene_.owned_shells(); ++i) out[i] = shells_.forces().pressure[i];
   for (std::size_t i = 0; i < scene_.owned_spheres(); ++i) out[scene_.owned_shells() + i] = spheres_.pressure(i, tissue.spheres.radius[i]);
+  return out;
+}
+
+std::vector<double> Mechanics::packing() const {
+  std::vector<double> out(scene_.owned_spheres());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = spheres_.packing(i);
   return out;
 }
 

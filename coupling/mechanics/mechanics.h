@@ -81,6 +81,9 @@ class Mechanics {
   /// Force of all cells on each obstacle, friction left out [nN]. Spheres do not touch obstacles. Collective; the same on every rank.
   std::vector<Vec3d> obstacle_forces(const Tissue& tissue);
 
+  /// How tightly the owned spheres are packed, φ (cbm.md §3); 0 where no type has a pressure of packing. After values(), pressures() or a step.
+  [[nodiscard]] std::vector<double> packing() const;
+
   /// Number of external force entries for this tissue: owned shell nodes, then owned spheres.
   [[nodiscard]] static std::size_t external_size(const Tissue& tissue) { return tissue.shells.node_count() + tissue.spheres.size(); }
 
@@ -103,6 +106,8 @@ class Mechanics {
   void evaluate(const Tissue& tissue, bool moved = true);
   /// Back to the step's start after a fault.
   StepFault undo(const std::vector<Vec3d>& start, StepFault fault);
+  /// Pressures of the spheres by their packing, for all that press on them.
+  void find_packing(const ContactScene& scene, bool with_surfaces);
   void begin_step(const Tissue& tissue, double dt);
   void hold_all_but(std::span<const char> moves);
   void lay_out_system();

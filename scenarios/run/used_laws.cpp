@@ -104,6 +104,11 @@ void add_contacts(const Model& model, bool shells, bool spheres, std::vector<Use
         out.push_back({"spheres of " + type.name,
                        law.info,
                        {{"young", type.sphere.young}, {"poisson", type.sphere.poisson}, {"adhesion", model.pair(t, t).adhesion}}});
+    if (const cbm::PackingCurve& curve = type.sphere.packing; !curve.empty())
+      out.push_back(
+          {"spheres of " + type.name,
+           cbm::packing_law(),
+           {{"packing_onset", curve.onset()}, {"packing_last", curve.last()}, {"packing_last_pressure", curve.knots().back().pressure}}});
   }
 }
 

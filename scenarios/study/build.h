@@ -22,6 +22,8 @@ void build_domain(BuildContext& context);
 void build_cell_types(BuildContext& context);
 /// The shell of one cell type, and whether its laws go together: E513–E515.
 dcm::ShellParameters build_shell(BuildContext& context, const std::string& type_name, const draft::CellType& draft);
+/// The pressure of packing of one cell type's spheres: E515, E530, E531; empty where the study gives none.
+cbm::PackingCurve build_packing(BuildContext& context, const std::string& type_name, const draft::CellType& draft);
 void build_geometry(BuildContext& context);
 /// The prescribed way of an obstacle over time.
 void build_motion_course(BuildContext& context, const draft::Obstacle& draft, ObstacleSpec& obstacle);

@@ -108,6 +108,7 @@ void build_cell_types(BuildContext& c) {
     type.sphere.young = t.sphere_young.value;
     type.sphere.poisson = t.sphere_poisson.value;
     type.sphere.adhesive = t.sphere_law.value != "hertz";
+    type.sphere.packing = build_packing(c, name, t);
     type.shell = build_shell(c, name, t);
     c.study.model.types.push_back(std::move(type));
   }

@@ -132,6 +132,26 @@ double surface_limit(const draft::CellType& t, double friction, double node_area
   return rate > 0.0 ? 2.0 * friction / rate : 1e300;
 }
 
+/// Stiffness of a cubic close packing's breath by the pressure of packing: each sphere's Ψ″/V (Σ |∂v/∂d|)² counts once at its centre and again at
+/// its neighbours', 2 (12 · ½π a_g²)² Ψ″/V with a_g² = 0.1815 R² where cells fill space [nN/µm].
+double packing_stiffness(const draft::CellType& t, double radius) {
+  if (!t.has_packing) return 0.0;
+  double steepest = 0.0;
+  if (t.packing_law.value == "knots") {
+    for (std::size_t k = 1; k < t.packing_knots.size(); ++k) {
+      const auto &low = t.packing_knots[k - 1].content, &high = t.packing_knots[k].content;
+      const double width = high.packing.value - low.packing.value;
+      if (width > 0.0) steepest = std::max(steepest, 1.5 * (high.pressure.value - low.pressure.value) / width);
+    }
+  } else if (const auto knots =
+                 cbm::ideal_filled_cell(t.packing_bulk_modulus.value >= 0.0 ? t.packing_bulk_modulus.value : t.bulk_modulus.value,
+                                        t.sphere_young.value, t.sphere_poisson.value)) {
+    if (const auto curve = cbm::PackingCurve::through(*knots)) steepest = curve->steepest();
+  }
+  const double slopes = 6.0 * std::numbers::pi * 0.1815;
+  return 2.0 * slopes * slopes * steepest / (4.0 / 3.0 * std::numbers::pi) * radius;
+}
+
 }  // namespace
 
 double explicit_step_limit(const draft::Study& study) {
@@ -151,7 +171,8 @@ double explicit_step_limit(const draft::Study& study) {
         limit = std::min(limit, 2.0 * std::max(friction, t.friction_cell_cell.value) / study.contact.repulsion.value);
     }
     // A sphere with 12 neighbours at contact radius R/2: stiffness 2 E* a each, E* = E/(2 (1 − ν²)).
-    const double contact = 12.0 * t.sphere_young.value / (1.0 - t.sphere_poisson.value * t.sphere_poisson.value) * 0.5 * radius;
+    double contact = 12.0 * t.sphere_young.value / (1.0 - t.sphere_poisson.value * t.sphere_poisson.value) * 0.5 * radius;
+    contact += packing_stiffness(t, radius);
     if (contact > 0.0) limit = std::min(limit, 2.0 * friction * 4.0 * std::numbers::pi * radius * radius / contact);
   }
   return limit;

@@ -8,6 +8,8 @@ void declare_study(Section& section, draft::Study& study);
 
 void declare_cell_type(Section& section, draft::CellType& type);
 void declare_shell(Section& section, draft::CellType& type);
+/// `cbm.packing`.
+void declare_packing(Section& section, draft::CellType& type);
 void declare_obstacle(Section& section, draft::Obstacle& obstacle);
 /// `direction` and `course` of an obstacle's motion.
 void declare_motion_course(Section& section, draft::Obstacle& obstacle);

@@ -218,6 +218,7 @@ void declare_cell_type(Section& s, draft::CellType& t) {
                 .example = "0.4",
                 .source = "Galle et al. 2005, doi:10.1529/biophysj.104.041459"},
                t.sphere_poisson);
+    declare_packing(c, t);
   });
   s.group({.name = "dcm", .doc = "The cell as a deformable shell."}, present, [&t](Section& d) { declare_shell(d, t); });
 }

@@ -32,6 +32,10 @@ struct Spread {
   Given<double> mean, spread;
 };
 
+struct PackingKnot {
+  Given<double> packing, pressure;
+};
+
 struct CellType {
   Spread radius;
   Given<std::string> body;
@@ -47,6 +51,10 @@ struct CellType {
   std::vector<Named<Given<double>>> adhesion;
   Given<std::string> sphere_law;
   Given<double> sphere_young, sphere_poisson;
+  bool has_packing = false;
+  Given<std::string> packing_law;
+  Given<double> packing_bulk_modulus;
+  std::vector<Named<PackingKnot>> packing_knots;
   Given<std::uint64_t> nodes;
   Given<std::string> elastic, bending_law;
   Given<double> young, thickness, poisson, shear_modulus, area_ratio, tension, turnover, damping, isotropic_damping;

@@ -69,6 +69,11 @@ constexpr ErrorCode kCodes[] = {
      "The repulsion is so soft that the pressure within the cells pushes their surfaces through each other (warning)."},
     {520, "load that cells cannot bear",
      "Tractions, pulls and pressures act on surfaces: they need shells, and chosen nodes need shells that keep their mesh and place."},
+    {530, "packing curve that is none",
+     "Pressure by packing needs three knots or more, whose packing increases from above 0, and whose pressure begins with 0 and never "
+     "falls."},
+    {531, "packing softer than the spheres",
+     "The ideal filled cell adds what Hertz contacts lack of K_V ln(V0/V). With so small a bulk modulus they lack nothing."},
     {545, "array of a mesh file", "A VTK file has no array of this name, or the array does not give every cell one finite number."},
     {546, "cells reach into each other", "Two surfaces of the files overlap deeper than `meshes.overlap` allows."},
     {547, "cells cannot be told apart",

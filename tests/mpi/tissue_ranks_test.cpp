@@ -92,8 +92,8 @@ std::map<std::uint64_t, std::vector<std::byte>> everything(const Simulation& sim
   return out;
 }
 
-std::map<std::uint64_t, std::vector<std::byte>> run(const Comm& comm, int steps, int threads, std::vector<double>* field_total = nullptr) {
-  const Model model = hybrid_model();
+std::map<std::uint64_t, std::vector<std::byte>> run(const Model& model, const Comm& comm, int steps, int threads,
+                                                    std::vector<double>* field_total = nullptr, Ledger* ledger = nullptr) {
   auto created = Simulation::create(model, hybrid_tissue(model, comm), comm, threads);
   EXPECT_TRUE(created.ok());
   Simulation& simulation = **created;
@@ -105,18 +105,15 @@ std::map<std::uint64_t, std::vector<std::byte>> run(const Comm& comm, int steps,
       break;
     }
   }
+  if (ledger != nullptr) *ledger = simulation.tissue().ledger;
   if (field_total != nullptr) field_total->push_back(fields::total_amount(simulation.tissue().fields[0], comm));
   return everything(simulation);
 }
 
-TEST(TissueOnRanks, HasTheSameBitsAsOnOne) {
-  const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
-  std::vector<double> amount;
-  const auto together = run(world, 60, 1, &amount);
-  const auto single = run(alone, 60, 1, &amount);
+using Everything = std::map<std::uint64_t, std::vector<std::byte>>;
+
+void expect_same(const Everything& together, const Everything& single) {
   ASSERT_EQ(together.size(), single.size());
-  EXPECT_GT(together.size(), 19u);
-  EXPECT_EQ(amount[0], amount[1]);
   std::size_t different = 0;
   for (const auto& [id, bytes] : single) {
     const auto found = together.find(id);
@@ -124,6 +121,42 @@ TEST(TissueOnRanks, HasTheSameBitsAsOnOne) {
     if (found->second != bytes && ++different < 4) ADD_FAILURE() << "cell " << CellId(id).text() << " differs";
   }
   EXPECT_EQ(different, 0u);
+}
+
+TEST(TissueOnRanks, HasTheSameBitsAsOnOne) {
+  const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
+  std::vector<double> amount;
+  const auto together = run(hybrid_model(), world, 60, 1, &amount);
+  const auto single = run(hybrid_model(), alone, 60, 1, &amount);
+  EXPECT_GT(together.size(), 19u);
+  EXPECT_EQ(amount[0], amount[1]);
+  expect_same(together, single);
+}
+
+/// Shells all over the tissue give way to spheres while their neighbours lie on other ranks: who adheres to whom comes from there.
+TEST(TissueOnRanks, DemotesWithTheSameBitsAsOnOne) {
+  const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
+  Model model = hybrid_model();
+  model.types[0].cycles = false;
+  model.swaps.regions[0].shape = RegionShape::kEverything;
+  model.swaps.regions[0].until = 60.0;
+  model.swaps.hold = 60.0;
+  model.step.max_step = 15.0;
+  Ledger ledger;
+  const auto together = run(model, world, 22, 1, nullptr, &ledger);
+  const auto single = run(model, alone, 22, 1);
+  EXPECT_GE(ledger.demotions, 5u);
+  EXPECT_LT(ledger.demotions, together.size());  // the last state holds both bodies
+  expect_same(together, single);
+}
+
+/// The pressure of a sphere's packing comes from all its neighbours, those of other ranks and shells, too.
+TEST(TissueOnRanks, PacksWithTheSameBitsAsOnOne) {
+  const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
+  Model model = hybrid_model();
+  model.types[0].sphere.packing =
+      cbm::PackingCurve::through(std::vector<cbm::PackingKnot>{{0.005, 0.0}, {0.02, 0.05}, {0.05, 0.2}, {0.2, 0.5}}).value();
+  expect_same(run(model, world, 40, 1), run(model, alone, 40, 1));
 }
 
 }  // namespace
