@@ -8,6 +8,7 @@
 #include "core/numbers/number_text.h"
 #include "coupling/behaviours/builtin.h"
 #include "dcm/builtin.h"
+#include "dcm/interior_laws.h"
 
 namespace morula::app {
 namespace {
@@ -40,6 +41,7 @@ std::vector<ListedLaw> all_laws() {
   std::vector<ListedLaw> laws;
   for (auto& entry : cbm::contact_laws()) laws.push_back({"contact of spheres", std::move(entry.info)});
   for (const auto& entry : dcm::shell_laws()) laws.push_back({"shells", entry.info});
+  for (auto& info : dcm::interior_laws()) laws.push_back({"interior of shells", std::move(info)});
   for (auto& info : behaviour_laws()) laws.push_back({"behaviours", std::move(info)});
   return laws;
 }

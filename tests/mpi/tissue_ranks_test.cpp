@@ -13,7 +13,8 @@
 namespace morula {
 namespace {
 
-Model hybrid_model() {
+/// `interior`: shells have a nucleus on links, and water flows.
+Model hybrid_model(bool interior) {
   Model model;
   model.seed = 5;
   model.space.box = {{-80, -80, -80}, {80, 80, 80}};
@@ -26,6 +27,14 @@ Model hybrid_model() {
   type.shell.spring_stiffness = 0.173;
   type.shell.tension = 0.2;
   type.shell.hinge_stiffness = 1e-3;
+  if (interior) {
+    type.interior.nucleus_fraction = 0.1;
+    type.interior.nucleus_links = {20, 0.01, 0.1, false};
+    type.interior.cortex_links = {dcm::LinkParameters::kAll, 0.005, 0.0, true};
+    type.osmosis.permeability = 1e-3;
+    type.osmosis.outside = 270.0;
+    type.osmosis.field = 0;
+  }
   model.types = {type};
   model.pairs = {ContactPair{0.05, 50.0, 50.0}};
   model.contact.range = 0.8;
@@ -92,8 +101,9 @@ std::map<std::uint64_t, std::vector<std::byte>> everything(const Simulation& sim
   return out;
 }
 
-std::map<std::uint64_t, std::vector<std::byte>> run(const Comm& comm, int steps, int threads, std::vector<double>* field_total = nullptr) {
-  const Model model = hybrid_model();
+std::map<std::uint64_t, std::vector<std::byte>> run(const Comm& comm, int steps, int threads, std::vector<double>* field_total = nullptr,
+                                                     bool interior = false) {
+  const Model model = hybrid_model(interior);
   auto created = Simulation::create(model, hybrid_tissue(model, comm), comm, threads);
   EXPECT_TRUE(created.ok());
   Simulation& simulation = **created;
@@ -124,6 +134,18 @@ TEST(TissueOnRanks, HasTheSameBitsAsOnOne) {
     if (found->second != bytes && ++different < 4) ADD_FAILURE() << "cell " << CellId(id).text() << " differs";
   }
   EXPECT_EQ(different, 0u);
+}
+
+TEST(TissueOnRanks, WithNucleiLinksAndOsmosisHasTheSameBitsAsOnOne) {
+  const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
+  const auto together = run(world, 25, 1, nullptr, true), single = run(alone, 25, 2, nullptr, true);
+  ASSERT_EQ(together.size(), single.size());
+  for (const auto& [id, bytes] : single) {
+    const auto found = together.find(id);
+    ASSERT_NE(found, together.end()) << CellId(id).text();
+    EXPECT_TRUE(found->second == bytes) << "cell " << CellId(id).text();
+  }
+  EXPECT_NE(single, run(alone, 25, 1)) << "the interior acts";
 }
 
 }  // namespace
