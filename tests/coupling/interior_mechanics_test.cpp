@@ -131,13 +131,13 @@ Squeeze squeeze(double nucleus) {
   TriangleMesh lower = make_box({40, 40, 4}, 10.0).value(), upper = lower;
   for (Vec3d& x : lower.position) x.z -= 8.2;
   for (Vec3d& x : upper.position) x.z += 8.2;
-  const double speed = 0.05;
+  const double speed = 0.02;
   model.obstacles = {{"lower", lower.position, lower.faces, false, {}, {}, {}}, {"upper", upper.position, upper.faces, false, {0, 0, -speed}, {}, {}}};
   model.pairs.assign(9, ContactPair{0.0, 0.1, 0.1});
-  model.step.max_step = 2.0;
+  model.step.max_step = 1.0;
   const auto simulation = one_cell(model);
   Squeeze out;
-  while (out.gap.empty() || out.gap.back() > 7.8) {
+  while (out.gap.empty() || out.gap.back() > 8.0) {
     const auto step = simulation->step(1e6);
     if (!step.ok()) {
       ADD_FAILURE() << step.error().message;
@@ -156,9 +156,9 @@ Squeeze squeeze(double nucleus) {
 
 TEST(SqueezedNucleus, PushesBackWhenThePlatesAreCloserThanItsWidth) {  // T12.3, T12.4
   const Squeeze bare = squeeze(0.0), with = squeeze(4.2);
-  for (double g = 12; g > 7.9; g -= 0.25) printf("%g %g %g\n", g, bare.at(g), with.at(g));
-  EXPECT_NEAR(with.at(9.5) / bare.at(9.5), 1.0, 0.02) << "nothing touches above 2 R_n = 8.4 µm";
-  EXPECT_GT(with.at(8.0), 1.3 * bare.at(8.0)) << "below it pushes";
+  for (const double gap : {11.0, 9.5, 8.75}) EXPECT_NEAR(with.at(gap) / bare.at(gap), 1.0, 1e-3) << "nothing touches above 2 R_n = 8.4 µm";
+  EXPECT_GT(with.at(8.25), 1.5 * bare.at(8.25));
+  EXPECT_GT(with.at(8.05), 3.0 * bare.at(8.05)) << "below it the nucleus pushes";
   EXPECT_GT(with.overlap, 0.0);
   EXPECT_LT(with.overlap, 0.1);
   EXPECT_GT(with.inside, 3.9) << "the nucleus is inside, at its radius from every face";
