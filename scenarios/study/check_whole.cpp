@@ -120,6 +120,17 @@ double surface_limit(const draft::CellType& t, double friction, double node_area
   return rate > 0.0 ? 2.0 * friction / rate : 1e300;
 }
 
+/// Limit by what holds a nucleus against the little friction it has: its links, and the repulsion over a tenth of its cross-section.
+double nucleus_limit(const draft::CellType& t, double repulsion) {
+  const draft::Nucleus& n = t.nucleus;
+  if (!n.present || n.kind.value != "rigid" || n.radius.given == n.volume_fraction.given) return 1e300;
+  const double radius = n.radius.given ? n.radius.value : std::cbrt(n.volume_fraction.value) * t.radius.mean.value;
+  const draft::Links& l = t.nucleus_links;
+  const double links = l.present ? static_cast<double>(std::min(l.number.value, t.nodes.value)) : 0.0;
+  const double friction = 6.0 * std::numbers::pi * n.viscosity.value * radius + links * l.damping.value / 3.0;
+  return 2.0 * friction / (links * l.stiffness.value / 3.0 + 0.1 * std::numbers::pi * radius * radius * repulsion);
+}
+
 }  // namespace
 
 double explicit_step_limit(const draft::Study& study) {
@@ -135,6 +146,7 @@ double explicit_step_limit(const draft::Study& study) {
       const double node_area = 4.0 * std::numbers::pi * radius * radius / std::max(1.0, static_cast<double>(t.nodes.value));
       limit = std::min(limit, 2.0 * friction * radius / (3.0 * t.bulk_modulus.value));
       limit = std::min({limit, in_plane_limit(t, friction * node_area), surface_limit(t, friction, node_area, radius)});
+      limit = std::min(limit, nucleus_limit(t, study.contact.repulsion.value));
       if (study.contact.repulsion.value > 0.0)
         limit = std::min(limit, 2.0 * std::max(friction, t.friction_cell_cell.value) / study.contact.repulsion.value);
     }

@@ -78,6 +78,11 @@ TEST(InteriorKeys, WrongOnesAreRefusedWithPlaceAndHelp) {
   EXPECT_THAT(errors_of(with_type_key("osmosis: {inactive: 95 %}")), HasSubstr("[E302]"));
 }
 
+TEST(InteriorKeys, ANucleusLimitsTheExplicitStep) {  // 6π η R over a tenth of k_r π R²: 2 × 0.0377 / 125.7 s
+  const std::string text = changed("time: {end: 96 h, step: auto", "time: {end: 96 h, integrator: explicit_euler, step: 1 ms", with_shell_key("nucleus: {radius: 2 um}"));
+  EXPECT_THAT(errors_of(text), AllOf(HasSubstr("explicit Euler is unstable with a step of 1 ms"), HasSubstr("0.0006"), HasSubstr("[E507]")));
+}
+
 TEST(InteriorKeys, SurviveTheResolvedStudy) {
   const std::string text = changed("    cbm: {law", "    osmosis: {outside: 200 mM}\n    cbm: {law",
                                    with_shell_key("nucleus: {radius: 3 um}\n      cytoskeleton: {nucleus_links: {stiffness: 0.01 nN/um}}"));
