@@ -11,21 +11,20 @@ constexpr const char* kOurs = "choice of this project";
 
 std::vector<LawInfo> surface_contact_laws() {
   const ContactNumerics numerics;
-  return {
-      {.name = "surface_traction",
-       .title = "Traction between surfaces",
-       .equation = "U(g) per area: −W + ½ω g² (g < c/2), −½ω (c − g)² (g < c), ω = 4W/c²; for g < 0 instead −W + ½ k_r g²",
-       .source = "choice of this project: the work of separation is exactly W; integrated over each face",
-       .parameters = {{"range", "length", "µm", numerics.range, 0.01, 5.0, kOurs, "Range c of the attraction."},
-                      {"repulsion", "pressure per length", "kPa/µm", numerics.repulsion, 0.0, kNever, kOurs,
-                       "Stiffness k_r of the repulsion."}}},
-      {.name = "contact_pair",
-       .title = "Adhesion and friction of a pair",
-       .equation = "F_friction = −(γ_n n nᵀ + γ_t (1 − n nᵀ)) A (v_i − v_j)",
-       .source = "Van Liedekerke et al. 2020, doi:10.1007/s10237-019-01204-7",
-       .parameters = {given_by_study("adhesion", "tension", "nN/µm", "Adhesion energy W per contact area of the pair."),
-                      given_by_study("normal_friction", "friction per area", "nN·s/µm³", "γ_n per contact area."),
-                      given_by_study("tangential_friction", "friction per area", "nN·s/µm³", "γ_t per contact area.")}}};
+  return {{.name = "surface_traction",
+           .title = "Traction between surfaces",
+           .equation = "U(g) per area: −W + ½ω g² (g < c/2), −½ω (c − g)² (g < c), ω = 4W/c²; for g < 0 instead −W + ½ k_r g²",
+           .source = "choice of this project: the work of separation is exactly W; integrated over each face",
+           .parameters = {{"range", "length", "µm", numerics.range, 0.01, 5.0, kOurs, "Range c of the attraction."},
+                          {"repulsion", "pressure per length", "kPa/µm", numerics.repulsion, 0.0, kNever, kOurs,
+                           "Stiffness k_r of the repulsion."}}},
+          {.name = "contact_pair",
+           .title = "Adhesion and friction of a pair",
+           .equation = "F_friction = −(γ_n n nᵀ + γ_t (1 − n nᵀ)) A (v_i − v_j)",
+           .source = "Van Liedekerke et al. 2020, doi:10.1007/s10237-019-01204-7",
+           .parameters = {given_by_study("adhesion", "tension", "nN/µm", "Adhesion energy W per contact area of the pair."),
+                          given_by_study("normal_friction", "friction per area", "nN·s/µm³", "γ_n per contact area."),
+                          given_by_study("tangential_friction", "friction per area", "nN·s/µm³", "γ_t per contact area.")}}};
 }
 
 std::vector<LawInfo> load_laws() {

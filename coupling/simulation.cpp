@@ -115,8 +115,7 @@ void Simulation::set_bodies_to_targets(double dt) {
         const std::size_t i = tissue_.shells.size() + sphere;
         exchange_water(row, type, time, dt, volume, body.area[i], body.pressure[i]);
       }
-      tissue_.spheres.radius[sphere++] =
-          std::cbrt(3.0 * row.target_volume * std::exp(row.reference_excess) / (4.0 * std::numbers::pi));
+      tissue_.spheres.radius[sphere++] = std::cbrt(3.0 * row.target_volume * std::exp(row.reference_excess) / (4.0 * std::numbers::pi));
     }
   }
   mechanics_->parameters_changed();

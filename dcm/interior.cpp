@@ -46,7 +46,9 @@ void add_area_gradient(std::span<const Vec3d> node, const Triangle& t, double fa
   out[t[2]] += cross(n, e2);
 }
 
-double face_area(std::span<const Vec3d> node, const Triangle& t) { return 0.5 * norm(cross(node[t[1]] - node[t[0]], node[t[2]] - node[t[0]])); }
+double face_area(std::span<const Vec3d> node, const Triangle& t) {
+  return 0.5 * norm(cross(node[t[1]] - node[t[0]], node[t[2]] - node[t[0]]));
+}
 
 void add_contact_forces(const InteriorView& cell, std::span<Vec3d> force, Vec3d& nucleus_force, InteriorEnergy& out) {
   const double radius = nucleus_radius(*cell.parameters, cell.rest_volume);

@@ -25,10 +25,10 @@ struct LinkParameters {
 
 /// What the shells of a cell type have inside: a rigid nucleus that floats, and a cytoskeleton of links.
 struct InteriorParameters {
-  double nucleus_fraction = 0.0;       ///< volume of the nucleus in parts of the membrane's rest volume; 0: no nucleus
-  double cytoplasm_viscosity = 1e-3;   ///< η of the drag on the nucleus [kPa·s]
-  LinkParameters nucleus_links;        ///< from nodes to the centre of the nucleus
-  LinkParameters cortex_links;         ///< across the cell, between opposite nodes
+  double nucleus_fraction = 0.0;      ///< volume of the nucleus in parts of the membrane's rest volume; 0: no nucleus
+  double cytoplasm_viscosity = 1e-3;  ///< η of the drag on the nucleus [kPa·s]
+  LinkParameters nucleus_links;       ///< from nodes to the centre of the nucleus
+  LinkParameters cortex_links;        ///< across the cell, between opposite nodes
 
   [[nodiscard]] bool has_nucleus() const { return nucleus_fraction > 0.0; }
   [[nodiscard]] bool acts() const { return has_nucleus() || cortex_links.act(); }

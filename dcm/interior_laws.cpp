@@ -27,13 +27,14 @@ LawInfo drag() {
 }
 
 LawInfo links(const char* name, const char* title, const char* doc) {
-  return {.name = name,
-          .title = title,
-          .equation = "F = [k_l (ℓ − ℓ0) + c_l dℓ/dt] t; ℓ0 of the undeformed cell, growing as V_target^(1/3); tension_only: none for ℓ < ℓ0",
-          .source = kNucleus,
-          .parameters = {{"number", "number", "1", std::nullopt, 1.0, 2562.0, kOurs, doc},
-                         {"stiffness", "tension", "nN/µm", std::nullopt, 0.0, 1e4, kOurs, "Spring constant k_l of a link."},
-                         {"damping", "friction", "nN·s/µm", 0.0, 0.0, 1e4, kOurs, "Friction c_l of a link, along itself."}}};
+  return {
+      .name = name,
+      .title = title,
+      .equation = "F = [k_l (ℓ − ℓ0) + c_l dℓ/dt] t; ℓ0 of the undeformed cell, growing as V_target^(1/3); tension_only: none for ℓ < ℓ0",
+      .source = kNucleus,
+      .parameters = {{"number", "number", "1", std::nullopt, 1.0, 2562.0, kOurs, doc},
+                     {"stiffness", "tension", "nN/µm", std::nullopt, 0.0, 1e4, kOurs, "Spring constant k_l of a link."},
+                     {"damping", "friction", "nN·s/µm", 0.0, 0.0, 1e4, kOurs, "Friction c_l of a link, along itself."}}};
 }
 
 }  // namespace

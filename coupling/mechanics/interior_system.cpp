@@ -61,6 +61,15 @@ dcm::InteriorEnergy InteriorSystem::of_shell(std::uint32_t shell) const {
   return {};
 }
 
+std::size_t InteriorSystem::memory() const {
+  const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  std::size_t total = bytes(items_) + bytes(nuclei_);
+  for (const Item& item : items_)
+    total += bytes(item.friction.share) + bytes(item.friction.nucleus_direction) + bytes(item.friction.cortex_direction) +
+             bytes(item.matrix.share) + bytes(item.matrix.nucleus_block) + bytes(item.matrix.cortex_block) + bytes(item.matrix.contact);
+  return total;
+}
+
 void InteriorSystem::begin_step(std::span<const Vec3d> position, const SurfaceGeometry& geometry) {
 #pragma omp parallel for schedule(static) if (items_.size() > 1)
   for (std::size_t k = 0; k < items_.size(); ++k) {
@@ -87,7 +96,8 @@ void InteriorSystem::add_step_friction(std::span<const Vec3d> start, std::span<c
 
 void InteriorSystem::assemble(std::span<const Vec3d> position, double dt) {
 #pragma omp parallel for schedule(static) if (items_.size() > 1)
-  for (std::size_t k = 0; k < items_.size(); ++k) dcm::assemble_interior(view(items_[k], position), items_[k].friction, dt, items_[k].matrix);
+  for (std::size_t k = 0; k < items_.size(); ++k)
+    dcm::assemble_interior(view(items_[k], position), items_[k].friction, dt, items_[k].matrix);
 }
 
 void InteriorSystem::start_from_cortex(std::span<Float4> velocity) const {

@@ -41,6 +41,7 @@ class InteriorSystem : public AddedPart {
   void start_from_cortex(std::span<Float4> velocity) const;
   /// What the nucleus of a shell feels; zeros where there is none.
   [[nodiscard]] dcm::InteriorEnergy of_shell(std::uint32_t shell) const;
+  [[nodiscard]] std::size_t memory() const;
 
   void add_product(std::span<const Float4> p, std::span<Float4> q) const override;
   void add_diagonal(std::span<SymMat3<float>> diagonal) const override;
@@ -62,7 +63,8 @@ class InteriorSystem : public AddedPart {
   const Model& model_;
   std::vector<Item> items_;
   std::vector<Nucleus> nuclei_;
-  std::map<std::pair<std::shared_ptr<const ReferenceShape>, std::uint16_t>, std::shared_ptr<const dcm::InteriorLinks>> links_;  ///< by shape and type
+  /// By shape and type.
+  std::map<std::pair<std::shared_ptr<const ReferenceShape>, std::uint16_t>, std::shared_ptr<const dcm::InteriorLinks>> links_;
 };
 
 }  // namespace morula

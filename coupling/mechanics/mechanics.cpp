@@ -28,7 +28,9 @@ Mechanics::Mechanics(const Model& model, std::vector<RigidSurface> obstacles, Sh
       interior_(model),
       spheres_(model, threads) {}
 
-ContactScene Mechanics::contact_scene() const { return {scene_.bodies(), std::span(scene_.position()).first(scene_.nucleus_point()), &geometry_}; }
+ContactScene Mechanics::contact_scene() const {
+  return {scene_.bodies(), std::span(scene_.position()).first(scene_.nucleus_point()), &geometry_};
+}
 
 double Mechanics::largest(std::span<const Vec3d> by_point) const {
   double most = 0.0;
@@ -389,10 +391,10 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
 
 std::size_t Mechanics::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return contacts_.memory() + shells_.memory() + spheres_.memory() + system_.memory() + scene_.memory() + bytes(force_) +
-         bytes(displacement_) + bytes(solution_) + gradient_.memory() + surfaces_only_.memory() + bytes(geometry_.face_area) +
-         bytes(geometry_.face_normal) + bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) +
-         bytes(scene_start_);
+  return contacts_.memory() + shells_.memory() + interior_.memory() + spheres_.memory() + system_.memory() + scene_.memory() +
+         bytes(force_) + bytes(displacement_) + bytes(solution_) + gradient_.memory() + surfaces_only_.memory() +
+         bytes(geometry_.face_area) + bytes(geometry_.face_normal) + bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) +
+         bytes(geometry_.node_area) + bytes(scene_start_);
 }
 
 }  // namespace morula

@@ -46,9 +46,9 @@ struct Snapshot {
     std::vector<double> concentration;  ///< x fastest [mM]
   };
 
-  double time = 0.0;          ///< [s]
-  std::vector<Cell> cells;    ///< sorted by id
-  std::vector<Shell> shells;  ///< in the order of their cells
+  double time = 0.0;            ///< [s]
+  std::vector<Cell> cells;      ///< sorted by id
+  std::vector<Shell> shells;    ///< in the order of their cells
   std::vector<Nucleus> nuclei;  ///< in the order of their cells
   std::vector<Vec3d> nodes;
   std::vector<std::vector<Triangle>> topologies;

@@ -217,8 +217,7 @@ Status write_vtk(const Snapshot& snapshot, const fs::path& folder, std::size_t n
   if (error) return file_error(folder, "create folder", error.value());
   MORULA_TRY(write_file_atomically(folder / numbered("shells", number, ".vtu"), shells_file(snapshot)));
   MORULA_TRY(write_file_atomically(folder / numbered("spheres", number, ".vtu"), spheres_file(snapshot)));
-  if (!snapshot.nuclei.empty())
-    MORULA_TRY(write_file_atomically(folder / numbered("nuclei", number, ".vtu"), nuclei_file(snapshot)));
+  if (!snapshot.nuclei.empty()) MORULA_TRY(write_file_atomically(folder / numbered("nuclei", number, ".vtu"), nuclei_file(snapshot)));
   for (const Snapshot::Grid& grid : snapshot.fields)
     MORULA_TRY(write_file_atomically(folder / numbered("field_" + grid.name, number, ".vti"), grid_file(snapshot, grid)));
   return {};

@@ -23,18 +23,21 @@ void check_osmotic_volumes(BuildContext& c, const draft::Osmosis& d, const Osmos
     c.diagnostics.error(536, place,
                         "an osmolarity of " + short_number(outside) + " mM outside would leave the cell at " +
                             (outside > 0.0 ? short_number(volume) + " times its target volume" : std::string("no finite volume")),
-                        law.inactive >= kLeast ? "at least " + short_number(std::ceil(least)) + " mM"
-                                               : "between " + short_number(std::ceil(least)) + " and " + short_number(std::floor(most)) + " mM");
+                        law.inactive >= kLeast
+                            ? "at least " + short_number(std::ceil(least)) + " mM"
+                            : "between " + short_number(std::ceil(least)) + " and " + short_number(std::floor(most)) + " mM");
     return;
   }
 }
 
 dcm::LinkParameters links_of(BuildContext& c, const draft::Links& d, std::uint64_t nodes, const std::string& type_name) {
   if (!d.present) return {};
-  if (d.number.given && d.number.known() && d.number.value != std::numeric_limits<std::uint64_t>::max() && nodes > 0 && d.number.value > nodes)
-    c.diagnostics.error(539, d.number.place,
-                        "shells of '" + type_name + "' have " + std::to_string(nodes) + " nodes, not enough for " + d.number.text + " links",
-                        "at most " + std::to_string(nodes) + ", or `all`");
+  if (d.number.given && d.number.known() && d.number.value != std::numeric_limits<std::uint64_t>::max() && nodes > 0 &&
+      d.number.value > nodes)
+    c.diagnostics.error(
+        539, d.number.place,
+        "shells of '" + type_name + "' have " + std::to_string(nodes) + " nodes, not enough for " + d.number.text + " links",
+        "at most " + std::to_string(nodes) + ", or `all`");
   dcm::LinkParameters out;
   out.count = static_cast<std::uint32_t>(std::min<std::uint64_t>(d.number.value, dcm::LinkParameters::kAll));
   out.stiffness = d.stiffness.value;
@@ -60,8 +63,8 @@ void set_nucleus(BuildContext& c, const draft::CellType& t, const std::string& t
   if (part <= kWidest) return;
   const std::string where = "the nucleus of '" + type_name + "' (" + written.text + ") ";
   c.diagnostics.error(537, written.place,
-                      where + (part >= 1.0 ? "is larger than the cell" : "leaves no room between itself and the cortex") + ", whose radius is " +
-                          t.radius.mean.text,
+                      where + (part >= 1.0 ? "is larger than the cell" : "leaves no room between itself and the cortex") +
+                          ", whose radius is " + t.radius.mean.text,
                       d.radius.given ? "at most " + short_number(kWidest * cell) + " um" : "at most 50 %");
 }
 

@@ -47,11 +47,12 @@ void declare_osmosis_keys(Section& o, draft::Osmosis& osmosis) {
               .example = "150 mM",
               .source = "chosen: physiological saline"},
              osmosis.outside);
-  o.list({.name = "course",
-          .doc = "`outside` over time as a factor: straight lines between these points, constant before the first and after the last. Steps "
-                 "land on the points.",
-          .example = "[{time: 10 min, factor: 1}, {time: 11 min, factor: 0.5}]"},
-         osmosis.course, &declare_course_point);
+  o.list(
+      {.name = "course",
+       .doc = "`outside` over time as a factor: straight lines between these points, constant before the first and after the last. Steps "
+              "land on the points.",
+       .example = "[{time: 10 min, factor: 1}, {time: 11 min, factor: 0.5}]"},
+      osmosis.course, &declare_course_point);
   o.text({.name = "field", .doc = "A field whose concentration at the cell adds to `outside`.", .example = "sucrose"}, osmosis.field);
 }
 
@@ -70,14 +71,15 @@ void declare_nucleus(Section& n, draft::Nucleus& nucleus) {
               .low_open = true,
               .example = "10 %"},
              nucleus.volume_fraction);
-  n.quantity({.name = "radius",
-              .doc = "Radius of the nucleus in a newborn cell of the mean radius (Table 1 of Van Liedekerke et al.: 2.5 um in 6 um), instead "
-                     "of `volume_fraction`.",
-              .quantity = Q::kLength,
-              .low = 0.0,
-              .low_open = true,
-              .example = "2.5 um"},
-             nucleus.radius);
+  n.quantity(
+      {.name = "radius",
+       .doc = "Radius of the nucleus in a newborn cell of the mean radius (Table 1 of Van Liedekerke et al.: 2.5 um in 6 um), instead "
+              "of `volume_fraction`.",
+       .quantity = Q::kLength,
+       .low = 0.0,
+       .low_open = true,
+       .example = "2.5 um"},
+      nucleus.radius);
   n.quantity({.name = "cytoplasm_viscosity",
               .doc = "Viscosity of the cytoplasm, which drags on the nucleus (Stokes).",
               .quantity = Q::kViscosity,
@@ -128,8 +130,8 @@ void declare_links(Section& l, draft::Links& links, const char* number) {
 }  // namespace
 
 void declare_interior(Section& s, draft::CellType& t) {
-  s.group({.name = "nucleus", .doc = "The nucleus of the cell.", .optional_section = true, .example = "{radius: 2.5 um}"}, t.nucleus.present,
-          [&t](Section& n) { declare_nucleus(n, t.nucleus); });
+  s.group({.name = "nucleus", .doc = "The nucleus of the cell.", .optional_section = true, .example = "{radius: 2.5 um}"},
+          t.nucleus.present, [&t](Section& n) { declare_nucleus(n, t.nucleus); });
   bool present = false;
   s.group({.name = "cytoskeleton", .doc = "Viscoelastic links inside the cell. They are at rest in the undeformed cell and grow with it."},
           present, [&t](Section& c) {
@@ -137,9 +139,8 @@ void declare_interior(Section& s, draft::CellType& t) {
                      .doc = "Links from nodes of the cortex to the centre of the nucleus.",
                      .optional_section = true,
                      .example = "{stiffness: 0.01 nN/um, damping: 1e-5 N s/m}"},
-                    t.nucleus_links.present, [&t](Section& l) {
-                      declare_links(l, t.nucleus_links, "How many nodes have one, spread evenly; all: every node.");
-                    });
+                    t.nucleus_links.present,
+                    [&t](Section& l) { declare_links(l, t.nucleus_links, "How many nodes have one, spread evenly; all: every node."); });
             c.group({.name = "cortex_links",
                      .doc = "Links across the cell, between opposite nodes of the cortex.",
                      .optional_section = true,

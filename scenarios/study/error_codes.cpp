@@ -67,13 +67,15 @@ constexpr ErrorCode kCodes[] = {
     {520, "load that cells cannot bear",
      "Tractions, pulls and pressures act on surfaces: they need shells, and chosen nodes need shells that keep their mesh and place."},
     {535, "nothing holds the volume",
-     "A shell whose bulk modulus is 0 has no pressure: its tension would shrink it to a point. With `osmosis`, too, the bulk modulus ties the "
+     "A shell whose bulk modulus is 0 has no pressure: its tension would shrink it to a point. With `osmosis`, too, the bulk modulus ties "
+     "the "
      "volume to what water and solutes ask for."},
     {536, "cell that bursts or dries out",
      "The osmolarity around a cell must leave it a volume that its shell can have, between a fifth of the target volume and ten times it."},
     {537, "nucleus does not fit",
      "The nucleus must lie inside its cell with room to float: at most 80 % of the cell's radius, half of its volume."},
-    {538, "links without a nucleus", "Links from the cortex to the nucleus need a nucleus: give the shell one, or link the cortex to itself."},
+    {538, "links without a nucleus",
+     "Links from the cortex to the nucleus need a nucleus: give the shell one, or link the cortex to itself."},
     {539, "more links than nodes", "Each node has one link to the nucleus at most, and one across the cell."},
     {601, "file missing", "A file that the study names does not exist. Paths are relative to the folder of the study."},
     {602, "file cannot be read", "It is a folder, a device, or its permissions forbid reading."},

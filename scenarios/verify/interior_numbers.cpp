@@ -48,13 +48,13 @@ void add_interior_numbers(std::vector<ReferenceNumber>& out) {
                  [] { return cell_in(300.0, 0.3).osmolytes; }});
   out.push_back({"T6.3", "time in which water flows, L_p 1e-3 um/(s kPa), 30 % inactive [s]", 1.810, 5e-4, kClosedForm,
                  [] { return osmotic_time(cell_in(300.0, 0.3), kVolume); }});
-  out.push_back({"T6.3", "the same, nothing inactive [s]", 2.585, 6e-4, kClosedForm,
-                 [] { return osmotic_time(cell_in(300.0, 0.0), kVolume); }});
+  out.push_back(
+      {"T6.3", "the same, nothing inactive [s]", 2.585, 6e-4, kClosedForm, [] { return osmotic_time(cell_in(300.0, 0.0), kVolume); }});
   for (const auto& [outside, part] : {std::pair{150.0, 1.7}, std::pair{450.0, 0.766667}, std::pair{600.0, 0.65}}) {
     char what[80];
     std::snprintf(what, sizeof what, "volume at rest in %g mM over that in 300 mM", outside);
-    out.push_back({"T6.4", what, part, 1e-6, kBoyle,
-                   [outside] { return volume_after_flux(cell_in(outside, 0.3), kVolume, 3600.0) / kVolume; }});
+    out.push_back(
+        {"T6.4", what, part, 1e-6, kBoyle, [outside] { return volume_after_flux(cell_in(outside, 0.3), kVolume, 3600.0) / kVolume; }});
   }
   for (const auto& [time, part] : {std::pair{1.0, 1.16055}, std::pair{5.0, 1.48143}, std::pair{20.0, 1.68934}}) {
     char what[80];

@@ -66,7 +66,8 @@ TEST(Osmosis, FollowsAShockInTime) {
   OsmoticCell cell = cell_at_300();
   cell.outside = 150.0;
   const std::pair<double, double> expected[] = {{1, 1.16055}, {2, 1.27567}, {5, 1.48143}, {10, 1.62206}, {20, 1.68934}, {60, 1.70000}};
-  for (const auto& [time, part] : expected) EXPECT_NEAR(volume_after_flux(cell, kVolume, time) / kVolume, part, 2e-5) << "at " << time << " s";
+  for (const auto& [time, part] : expected)
+    EXPECT_NEAR(volume_after_flux(cell, kVolume, time) / kVolume, part, 2e-5) << "at " << time << " s";
 }
 
 /// At a fixed area the equation of section B; its area goes with V^{2/3} here, so the reference is integrated with that by a fine explicit step.
@@ -128,7 +129,8 @@ TEST(Osmosis, SolutesAreKeptOverASwapAndSharedByDaughters) {
   EXPECT_NEAR(cell.row.reference_excess, std::log(1.7), 1e-9) << "a swollen sphere stays swollen";
 
   const auto pair = divide_sphere(cell.row, {cell.sphere->position, cell.sphere->radius}, type, 1, 10.0, 0.0, 0.4);
-  const double first = osmotic_cell(pair.first, type, 0.0, kArea, 0.0).osmolytes, second = osmotic_cell(pair.second, type, 0.0, kArea, 0.0).osmolytes;
+  const double first = osmotic_cell(pair.first, type, 0.0, kArea, 0.0).osmolytes,
+               second = osmotic_cell(pair.second, type, 0.0, kArea, 0.0).osmolytes;
   EXPECT_NEAR(first + second, before, 1e-9 * before);
   EXPECT_NEAR(first / before, 0.4, 1e-12);
   EXPECT_EQ(pair.first.reference_excess, cell.row.reference_excess);

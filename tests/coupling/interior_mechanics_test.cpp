@@ -63,7 +63,8 @@ double axial_strain(const Model& model, double time) {
   double length = 0.0, before = 0.0;
   for (const Vec3d& x : simulation->tissue().shells.position) length = std::max(length, std::abs(x.x));
   ShapeLibrary shapes;
-  for (const Vec3d& x : make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell}).shells.position) before = std::max(before, std::abs(x.x));
+  for (const Vec3d& x : make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell}).shells.position)
+    before = std::max(before, std::abs(x.x));
   return length / before - 1.0;
 }
 
@@ -132,7 +133,8 @@ Squeeze squeeze(double nucleus) {
   for (Vec3d& x : lower.position) x.z -= 8.2;
   for (Vec3d& x : upper.position) x.z += 8.2;
   const double speed = 0.02;
-  model.obstacles = {{"lower", lower.position, lower.faces, false, {}, {}, {}}, {"upper", upper.position, upper.faces, false, {0, 0, -speed}, {}, {}}};
+  model.obstacles = {{"lower", lower.position, lower.faces, false, {}, {}, {}},
+                     {"upper", upper.position, upper.faces, false, {0, 0, -speed}, {}, {}}};
   model.pairs.assign(9, ContactPair{0.0, 0.1, 0.1});
   model.step.max_step = 1.0;
   const auto simulation = one_cell(model);

@@ -33,7 +33,8 @@ struct Cell {
   /// Out of shape, so that links pull and the nucleus overlaps with the cortex.
   void distort() {
     const auto noise = random_vectors(node.size(), 5);
-    for (std::size_t i = 0; i < node.size(); ++i) node[i] = Vec3d{1.3 * node[i].x, node[i].y, 0.55 * node[i].z} + 0.1 * noise[i] + Vec3d{2, 1, -1};
+    for (std::size_t i = 0; i < node.size(); ++i)
+      node[i] = Vec3d{1.3 * node[i].x, node[i].y, 0.55 * node[i].z} + 0.1 * noise[i] + Vec3d{2, 1, -1};
     nucleus = {2.2, 1.1, -1.15};
   }
   [[nodiscard]] InteriorView view() const {
@@ -190,7 +191,8 @@ struct Matrix {
   }
   [[nodiscard]] std::vector<Vec3d> times(std::span<const Vec3d> p) const {
     std::vector<Float4> in(p.size()), out(p.size());
-    for (std::size_t i = 0; i < p.size(); ++i) in[i] = {static_cast<float>(p[i].x), static_cast<float>(p[i].y), static_cast<float>(p[i].z), 0.0f};
+    for (std::size_t i = 0; i < p.size(); ++i)
+      in[i] = {static_cast<float>(p[i].x), static_cast<float>(p[i].y), static_cast<float>(p[i].z), 0.0f};
     const std::size_t n = p.size() - 1;
     add_interior_product(cell.view(), matrix, std::span(in).first(n), std::span(out).first(n), &in[n], &out[n]);
     std::vector<Vec3d> result;
@@ -240,7 +242,8 @@ TEST(InteriorOperator, IsFrictionPlusTheStiffnessOfTheForce) {
   const auto fp = plus.forces(), fm = minus.forces();
   std::vector<Vec3d> rub(cell.node.size());
   Vec3d nucleus_rub;
-  const double quadratic = add_interior_friction(cell.view(), m.friction, std::span(d).first(cell.node.size()), &d.back(), rub, &nucleus_rub);
+  const double quadratic =
+      add_interior_friction(cell.view(), m.friction, std::span(d).first(cell.node.size()), &d.back(), rub, &nucleus_rub);
   double work = dot(nucleus_rub, d.back()), error = 0.0, size = 0.0;
   for (std::size_t i = 0; i < cell.node.size(); ++i) {
     const Vec3d expected = rub[i] + (fm.node[i] - fp.node[i]) * (dt / (2.0 * h));

@@ -102,7 +102,7 @@ std::map<std::uint64_t, std::vector<std::byte>> everything(const Simulation& sim
 }
 
 std::map<std::uint64_t, std::vector<std::byte>> run(const Comm& comm, int steps, int threads, std::vector<double>* field_total = nullptr,
-                                                     bool interior = false) {
+                                                    bool interior = false) {
   const Model model = hybrid_model(interior);
   auto created = Simulation::create(model, hybrid_tissue(model, comm), comm, threads);
   EXPECT_TRUE(created.ok());

@@ -34,8 +34,9 @@ TEST(InteriorKeys, AreOffUnlessGiven) {
 }
 
 TEST(InteriorKeys, AreReadInInternalUnits) {
-  const CellType type = read_type(with_shell_key("nucleus: {radius: 3 um, cytoplasm_viscosity: 2 Pa s}\n      cytoskeleton:\n        nucleus_links: {number: 50, stiffness: 0.01 "
-                                                 "nN/um, damping: 1e-5 N s/m}\n        cortex_links: {stiffness: 2 uN/m, tension_only: true}"));
+  const CellType type = read_type(with_shell_key(
+      "nucleus: {radius: 3 um, cytoplasm_viscosity: 2 Pa s}\n      cytoskeleton:\n        nucleus_links: {number: 50, stiffness: 0.01 "
+      "nN/um, damping: 1e-5 N s/m}\n        cortex_links: {stiffness: 2 uN/m, tension_only: true}"));
   EXPECT_DOUBLE_EQ(type.interior.nucleus_fraction, 0.125);
   EXPECT_DOUBLE_EQ(type.interior.cytoplasm_viscosity, 2e-3);
   EXPECT_EQ(type.interior.nucleus_links.count, 50u);
@@ -46,8 +47,9 @@ TEST(InteriorKeys, AreReadInInternalUnits) {
   EXPECT_TRUE(type.interior.cortex_links.tension_only);
   EXPECT_DOUBLE_EQ(read_type(with_shell_key("nucleus: {volume_fraction: 10 %}")).interior.nucleus_fraction, 0.1);
 
-  const CellType wet = read_type(with_type_key("osmosis: {permeability: 1e-13 m/s/Pa, inactive: 40 %, outside: 450 mM, field: oxygen, course: [{time: 0 s, "
-                                               "factor: 1}, {time: 1 min, factor: 0.5}]}"));
+  const CellType wet =
+      read_type(with_type_key("osmosis: {permeability: 1e-13 m/s/Pa, inactive: 40 %, outside: 450 mM, field: oxygen, course: [{time: 0 s, "
+                              "factor: 1}, {time: 1 min, factor: 0.5}]}"));
   EXPECT_DOUBLE_EQ(wet.osmosis.permeability, 1e-4);
   EXPECT_DOUBLE_EQ(wet.osmosis.inactive, 0.4);
   EXPECT_DOUBLE_EQ(wet.osmosis.inside, 300.0);
@@ -58,18 +60,21 @@ TEST(InteriorKeys, AreReadInInternalUnits) {
 }
 
 TEST(InteriorKeys, WrongOnesAreRefusedWithPlaceAndHelp) {
-  EXPECT_THAT(errors_of(with_shell_key("nucleus: {radius: 7 um}")), AllOf(HasSubstr("is larger than the cell"), HasSubstr("[E537]"), HasSubstr("4.8 um")));
+  EXPECT_THAT(errors_of(with_shell_key("nucleus: {radius: 7 um}")),
+              AllOf(HasSubstr("is larger than the cell"), HasSubstr("[E537]"), HasSubstr("4.8 um")));
   EXPECT_THAT(errors_of(with_shell_key("nucleus: {radius: 5.5 um}")), AllOf(HasSubstr("leaves no room"), HasSubstr("[E537]")));
   EXPECT_THAT(errors_of(with_shell_key("nucleus: {volume_fraction: 60 %}")), HasSubstr("[E537]"));
   EXPECT_THAT(errors_of(with_shell_key("nucleus: {}")), HasSubstr("[E111]"));
   EXPECT_THAT(errors_of(with_shell_key("nucleus: {radius: 2 um, volume_fraction: 4 %}")), HasSubstr("[E111]"));
   EXPECT_THAT(errors_of(with_shell_key("nucleus: {radius: -2 um}")), HasSubstr("[E302]"));
   EXPECT_THAT(errors_of(with_shell_key("nucleus: {radius: 2 um, cytoplasm_viscosity: 0 Pa s}")), HasSubstr("[E302]"));
-  EXPECT_THAT(errors_of(with_shell_key("cytoskeleton: {nucleus_links: {stiffness: 0.01 nN/um}}")), AllOf(HasSubstr("no nucleus"), HasSubstr("[E538]")));
+  EXPECT_THAT(errors_of(with_shell_key("cytoskeleton: {nucleus_links: {stiffness: 0.01 nN/um}}")),
+              AllOf(HasSubstr("no nucleus"), HasSubstr("[E538]")));
   EXPECT_THAT(errors_of(with_shell_key("cytoskeleton: {cortex_links: {stiffness: 0.01 nN/um, number: 500}}")), HasSubstr("[E539]"));
   EXPECT_THAT(errors_of(with_shell_key("cytoskeleton: {cortex_links: {number: 5}}")), HasSubstr("[E103]"));
   EXPECT_THAT(errors_of(with_shell_key("cytoskeleton: {cortex_links: {stiffness: -1 nN/um}}")), HasSubstr("[E302]"));
-  EXPECT_THAT(errors_of(with_shell_key("bulk_modulus: 0 kPa")), AllOf(HasSubstr("no resistance to changes of their volume"), HasSubstr("[E535]")));
+  EXPECT_THAT(errors_of(with_shell_key("bulk_modulus: 0 kPa")),
+              AllOf(HasSubstr("no resistance to changes of their volume"), HasSubstr("[E535]")));
   EXPECT_THAT(errors_of(with_type_key("osmosis: {outside: 10 mM}")), AllOf(HasSubstr("21.3 times its target volume"), HasSubstr("[E536]")));
   EXPECT_THAT(errors_of(with_type_key("osmosis: {course: [{time: 0 s, factor: 1}, {time: 9 s, factor: -1}]}")), HasSubstr("[E536]"));
   EXPECT_THAT(errors_of(with_type_key("osmosis: {course: [{time: 9 s, factor: 1}, {time: 0 s, factor: 1}]}")), HasSubstr("[E510]"));
@@ -79,8 +84,10 @@ TEST(InteriorKeys, WrongOnesAreRefusedWithPlaceAndHelp) {
 }
 
 TEST(InteriorKeys, ANucleusLimitsTheExplicitStep) {  // 6π η R over a tenth of k_r π R²: 2 × 0.0377 / 125.7 s
-  const std::string text = changed("time: {end: 96 h, step: auto", "time: {end: 96 h, integrator: explicit_euler, step: 1 ms", with_shell_key("nucleus: {radius: 2 um}"));
-  EXPECT_THAT(errors_of(text), AllOf(HasSubstr("explicit Euler is unstable with a step of 1 ms"), HasSubstr("0.0006"), HasSubstr("[E507]")));
+  const std::string text = changed("time: {end: 96 h, step: auto", "time: {end: 96 h, integrator: explicit_euler, step: 1 ms",
+                                   with_shell_key("nucleus: {radius: 2 um}"));
+  EXPECT_THAT(errors_of(text),
+              AllOf(HasSubstr("explicit Euler is unstable with a step of 1 ms"), HasSubstr("0.0006"), HasSubstr("[E507]")));
 }
 
 TEST(InteriorKeys, SurviveTheResolvedStudy) {
@@ -98,7 +105,8 @@ TEST(InteriorKeys, SurviveTheResolvedStudy) {
 /// Half lengths along x of the cells at the end of a part of the optical stretcher's study.
 std::vector<double> stretched_lengths(const std::vector<std::string>& overrides, Snapshot* last = nullptr) {
   const Folder folder;
-  for (const TemplateFile& file : find_template("optical_stretcher")->files) folder.write(std::string(file.path), std::string(file.content));
+  for (const TemplateFile& file : find_template("optical_stretcher")->files)
+    folder.write(std::string(file.path), std::string(file.content));
   ReadOptions options;
   options.overrides = {"output.report=false", "time.end=82 s", "time.checkpoint=82 s"};
   options.overrides.insert(options.overrides.end(), overrides.begin(), overrides.end());
@@ -170,7 +178,9 @@ TEST(Pictures, ShowANucleusInTheCutFaceOfItsCellOnly) {
   const Vec3d to_eye = camera.toward;
   rasterize(snapshot, camera, CutPlane{snapshot.nuclei[0].center + depth * to_eye, to_eye}, cut);
   rasterize(snapshot, camera, std::nullopt, whole);
-  const auto count = [](const PixelBuffer& pixels, std::int32_t surface) { return std::count(pixels.surface.begin(), pixels.surface.end(), surface); };
+  const auto count = [](const PixelBuffer& pixels, std::int32_t surface) {
+    return std::count(pixels.surface.begin(), pixels.surface.end(), surface);
+  };
   EXPECT_NEAR(static_cast<double>(count(cut, 3)), std::numbers::pi * 4.0 * 400.0, 60.0);
   EXPECT_GT(count(cut, 1), count(cut, 3)) << "the cell's own cut face around it";
   EXPECT_EQ(count(whole, 3), 0);
