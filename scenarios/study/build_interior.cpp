@@ -73,6 +73,11 @@ void set_nucleus(BuildContext& c, const draft::CellType& t, const std::string& t
 dcm::InteriorParameters build_interior(BuildContext& c, const draft::CellType& t, const std::string& type_name) {
   dcm::InteriorParameters out;
   if (t.nucleus.present && t.nucleus.kind.value == "rigid") set_nucleus(c, t, type_name, out);
+  if (t.osmosis.present && t.osmosis.inactive.known() && out.nucleus_fraction > t.osmosis.inactive.value)
+    c.diagnostics.error(540, t.osmosis.inactive.given ? t.osmosis.inactive.place : t.nucleus.kind.place,
+                        "the nucleus of '" + type_name + "' is " + short_number(100.0 * out.nucleus_fraction) +
+                            " % of the cell, but only " + t.osmosis.inactive.text + " are inactive",
+                        "`osmosis.inactive` of at least the nucleus' part, or a smaller nucleus");
   const std::uint64_t nodes = t.nodes.known() ? t.nodes.value : 0;
   out.nucleus_links = links_of(c, t.nucleus_links, nodes, type_name);
   out.cortex_links = links_of(c, t.cortex_links, nodes, type_name);

@@ -60,6 +60,18 @@ void check_friction(BuildContext& c) {
   }
 }
 
+/// A biconcave cell is thinner than any nucleus is wide.
+void check_nuclei(BuildContext& c) {
+  for (std::size_t i = 0; i < c.study.initial.size() && i < c.draft.initial.size(); ++i) {
+    const InitialCells& block = c.study.initial[i];
+    if (block.shape != CellShape::kBiconcave || block.type >= c.study.model.types.size()) continue;
+    const CellType& type = c.study.model.types[block.type];
+    if (type.interior.has_nucleus())
+      c.diagnostics.error(537, c.draft.initial[i].content.shape.place, "biconcave cells of '" + type.name + "' have no room for a nucleus",
+                          "`nucleus: {kind: none}`, or spherical cells");
+  }
+}
+
 void check_periodic_size(BuildContext& c) {
   if (!c.draft.domain.size.known() || !c.draft.contact.range.known()) return;
   double radius = 0.0;
@@ -162,6 +174,7 @@ void check_whole(BuildContext& c) {
   check_contact_range(c);
   check_friction(c);
   check_periodic_size(c);
+  check_nuclei(c);
 }
 
 }  // namespace morula::scenarios

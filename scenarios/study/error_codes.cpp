@@ -77,6 +77,7 @@ constexpr ErrorCode kCodes[] = {
     {538, "links without a nucleus",
      "Links from the cortex to the nucleus need a nucleus: give the shell one, or link the cortex to itself."},
     {539, "more links than nodes", "Each node has one link to the nucleus at most, and one across the cell."},
+    {540, "nucleus that water would have to leave", "A rigid nucleus is no solvent: the inactive part of the volume must hold it."},
     {601, "file missing", "A file that the study names does not exist. Paths are relative to the folder of the study."},
     {602, "file cannot be read", "It is a folder, a device, or its permissions forbid reading."},
     {603, "file too large", "Study files are read up to 5 MiB, CSV files up to 500 MiB."},

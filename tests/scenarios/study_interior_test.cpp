@@ -83,6 +83,14 @@ TEST(InteriorKeys, WrongOnesAreRefusedWithPlaceAndHelp) {
   EXPECT_THAT(errors_of(with_type_key("osmosis: {inactive: 95 %}")), HasSubstr("[E302]"));
 }
 
+TEST(InteriorKeys, ThatDoNotGoTogetherAreRefused) {
+  const std::string nucleus = with_shell_key("nucleus: {volume_fraction: 40 %}");
+  EXPECT_THAT(errors_of(changed("    cbm: {law", "    osmosis: {}\n    cbm: {law", nucleus)),
+              AllOf(HasSubstr("is 40 % of the cell, but only 30 % are inactive"), HasSubstr("[E540]")));
+  EXPECT_THAT(errors_of(changed("as: cbm}", "as: dcm, shape: biconcave}", with_shell_key("nucleus: {radius: 1 um}"))),
+              AllOf(HasSubstr("no room for a nucleus"), HasSubstr("[E537]")));
+}
+
 TEST(InteriorKeys, ANucleusLimitsTheExplicitStep) {  // 6π η R over a tenth of k_r π R²: 2 × 0.0377 / 125.7 s
   const std::string text = changed("time: {end: 96 h, step: auto", "time: {end: 96 h, integrator: explicit_euler, step: 1 ms",
                                    with_shell_key("nucleus: {radius: 2 um}"));
