@@ -27,7 +27,7 @@ void build_geometry(BuildContext& context);
 void build_motion_course(BuildContext& context, const draft::Obstacle& draft, ObstacleSpec& obstacle);
 /// Osmosis of a cell type: E535, E536.
 void build_osmosis(BuildContext& context, const draft::CellType& draft, CellType& type);
-/// Nucleus and links of the shells of a type: E111, E537–E539.
+/// Nucleus and links of the shells of a type: E111, E537–E540.
 dcm::InteriorParameters build_interior(BuildContext& context, const draft::CellType& draft, const std::string& type_name);
 /// The points of a course as a table; an error where their times do not increase.
 TimeCourse course_of(BuildContext& context, const std::vector<Named<draft::CoursePoint>>& points);
