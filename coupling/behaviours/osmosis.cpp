@@ -47,7 +47,7 @@ double osmotic_time(const OsmoticCell& cell, double volume) {
 
 double volume_after_flux(const OsmoticCell& cell, double volume, double dt) {
   constexpr double kGamma = 1.0 - 0.70710678118654752440;  // 1 − 1/√2
-  constexpr double kStep = 0.014;                          // of the relaxation time, longer the nearer to rest
+  constexpr double kStep = 0.008;                          // of the relaxation time, longer the nearer to rest
   if (!(cell.permeability > 0.0) || !(dt > 0.0)) return volume;
   const Flux flux{cell, volume};
   const double rest = osmotic_volume(cell);

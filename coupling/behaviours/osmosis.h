@@ -28,7 +28,7 @@ double osmotic_time(const OsmoticCell& cell, double volume);
 /// Volume after dt [s], from `volume`, at constant n, V_b, c_e and Δp.
 ///
 /// Singly diagonally implicit, second order and L-stable (Alexander 1977, doi:10.1137/0714068), in substeps of a small part of the relaxation
-/// time that lengthen towards rest: an error of 1e-5 on the way (some 120 substeps of a shock, one at rest), and the rest state for long dt.
+/// time that lengthen towards rest: an error of 1e-5 on the way (some 200 substeps of a shock, one at rest), and the rest state for long dt.
 double volume_after_flux(const OsmoticCell& cell, double volume, double dt);
 
 /// What a cell of this type holds and what is around it at `time` [s]: n = c_i (V_t − V_b), V_b = f_b V_t, with V_t the target volume that
