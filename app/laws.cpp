@@ -10,6 +10,7 @@
 #include "coupling/behaviours/builtin.h"
 #include "coupling/builtin.h"
 #include "dcm/builtin.h"
+#include "dcm/interior_laws.h"
 #include "fields/builtin.h"
 
 namespace morula::app {
@@ -48,6 +49,7 @@ std::vector<ListedLaw> all_laws() {
     for (LawInfo& info : infos) laws.push_back({group, std::move(info)});
   };
   add("contact of surfaces", surface_contact_laws());
+  add("interior of shells", dcm::interior_laws());
   add("behaviours", behaviour_laws());
   add("fields", fields::field_laws());
   add("loads", load_laws());

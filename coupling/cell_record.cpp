@@ -31,6 +31,7 @@ std::vector<CellRecord> take_apart(Tissue& tissue) {
           nodes(shells.position),
           nodes(shells.velocity),
           std::vector(shells.rest_length.begin() + shells.first_edge[i], shells.rest_length.begin() + shells.first_edge[i + 1])};
+      if (const Vec3d* nucleus = shells.nucleus_of(i)) record.shell->nucleus = *nucleus;
     } else {
       const std::size_t i = next_sphere++;
       const auto partners = spheres.attached[i];
@@ -72,6 +73,7 @@ void put_together(Tissue& tissue, std::vector<CellRecord> cells) {
       shells.rest_length.insert(shells.rest_length.end(), body.rest_length.begin(), body.rest_length.end());
       shells.first_node.push_back(static_cast<std::uint32_t>(shells.position.size()));
       shells.first_edge.push_back(static_cast<std::uint32_t>(shells.rest_length.size()));
+      shells.nucleus.push_back(body.nucleus);
     } else {
       SphereRecord& body = *cell.sphere;
       spheres.position.push_back(body.position);
@@ -95,6 +97,11 @@ ShellRecord spherical_shell(std::shared_ptr<const ReferenceShape> shape, const V
   body.rest_volume = volume;
   body.shape = std::move(shape);
   return body;
+}
+
+void place_nucleus(ShellRecord& shell, const dcm::InteriorParameters& interior) {
+  shell.nucleus.reset();
+  if (interior.has_nucleus()) shell.nucleus = volume_centroid(shell.shape->topology->faces(), shell.position);
 }
 
 namespace {
@@ -145,6 +152,9 @@ void append_bytes(const CellRecord& cell, std::vector<std::byte>& out) {
     append(out, body.position.data(), body.position.size());
     append(out, body.velocity.data(), body.velocity.size());
     append(out, body.rest_length.data(), body.rest_length.size());
+    const std::uint8_t has_nucleus = body.nucleus.has_value();
+    append(out, &has_nucleus, 1);
+    if (body.nucleus) append(out, &*body.nucleus, 1);
   }
 }
 
@@ -170,6 +180,7 @@ std::vector<CellRecord> read_records(std::span<const std::byte> bytes, ShapeLibr
       body.position = reader.many<Vec3d>(nodes);
       body.velocity = reader.many<Vec3f>(nodes);
       body.rest_length = reader.many<double>(body.shape->edge_length.size());
+      if (reader.one<std::uint8_t>() != 0) body.nucleus = reader.one<Vec3d>();
       cell.shell = std::move(body);
     }
   }

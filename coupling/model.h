@@ -8,6 +8,7 @@
 #include "core/mesh/topology.h"
 #include "core/space/space.h"
 #include "coupling/time_course.h"
+#include "dcm/interior.h"
 #include "dcm/shells.h"
 #include "fields/field_spec.h"
 
@@ -21,6 +22,18 @@ enum class BodyKind : std::uint8_t { kSphere = 0, kShell = 1 };
 struct Distribution {
   double mean = 0.0;
   double relative_spread = 0.0;
+};
+
+/// Osmotic control of the volume of a cell type (behaviours/osmosis.h).
+struct Osmosis {
+  double permeability = 0.0;  ///< L_p of water; 0: the volume is the target volume [µm/(s kPa)]
+  double inactive = 0.3;      ///< f_b = V_b/V_t
+  double inside = 300.0;      ///< c_i: osmolarity inside at the target volume [mM]
+  double outside = 300.0;     ///< of the medium [mM]
+  TimeCourse course;          ///< factor of `outside` over time; empty: 1
+  int field = -1;             ///< whose concentration at the cell adds to `outside`, or -1
+
+  [[nodiscard]] bool acts() const { return permeability > 0.0; }
 };
 
 /// Everything the step needs to know of a cell type, in internal units.
@@ -41,6 +54,8 @@ struct CellType {
   double migration_speed = 0.0;                   ///< S, root mean square in three dimensions [µm/s]
   double migration_persistence = 1800.0;          ///< P [s]
 
+  Osmosis osmosis;
+
   // friction
   double medium_friction = 0.1;  ///< γ_med per area [nN·s/µm³]
 
@@ -49,6 +64,7 @@ struct CellType {
   std::uint32_t shell_nodes = 162;
   cbm::SphereParameters sphere;
   dcm::ShellParameters shell;
+  dcm::InteriorParameters interior;  ///< of a shell
 };
 
 /// Traction between two surfaces over their gap (core/contact/traction_law.h; decision 0012).

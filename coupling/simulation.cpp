@@ -9,6 +9,7 @@
 #include "coupling/behaviours/division.h"
 #include "coupling/behaviours/life.h"
 #include "coupling/behaviours/migration.h"
+#include "coupling/behaviours/osmosis.h"
 #include "coupling/behaviours/pressure_filter.h"
 #include "coupling/cell_record.h"
 #include "coupling/loads.h"
@@ -122,22 +123,36 @@ std::vector<Vec3d> Simulation::centers() const {
 }
 
 void Simulation::set_bodies_to_targets(double dt) {
-  const double keep = std::exp(-dt / kEasing);
+  const double keep = std::exp(-dt / kEasing), time = tissue_.clock.time + dt;
+  const auto osmotic = [](const CellType& type) { return type.osmosis.acts(); };
+  BodyValues body;
+  if (std::any_of(model_.types.begin(), model_.types.end(), osmotic)) body = mechanics_->values(tissue_);
   std::size_t shell = 0, sphere = 0;
   for (CellRow& row : tissue_.cells.rows) {
+    const CellType& type = model_.types[row.type];
     if (row.inflation_left > 0.0) {
       const double gain = std::min(row.inflation_left, row.inflation_rate * dt);
       row.target_volume += gain;
       row.inflation_left -= gain;
     }
-    row.reference_excess *= keep;
-    const double excess = std::exp(row.reference_excess);
+    if (!type.osmosis.acts()) row.reference_excess *= keep;
     if (row.body == BodyKind::kShell) {
+      const double free = free_reference_volume(row.target_volume, type);
+      double& reference = tissue_.shells.reference_volume[shell];
+      if (type.osmosis.acts()) {  // growth brings its water along: what has grown begins at the same concentrations
+        const double grown = free * std::exp(row.reference_excess) / reference;
+        exchange_water(row, type, time, dt, grown * body.volume[shell], body.area[shell], body.pressure[shell]);
+      }
       if (tissue_.shells.rest_volume[shell] != row.target_volume) dcm::set_rest_volume(tissue_.shells, shell, row.target_volume);
-      tissue_.shells.reference_volume[shell] = free_reference_volume(row.target_volume, model_.types[row.type]) * excess;
+      reference = free * std::exp(row.reference_excess);
       ++shell;
     } else {
-      tissue_.spheres.radius[sphere++] = std::cbrt(3.0 * row.target_volume * excess / (4.0 * std::numbers::pi));
+      if (type.osmosis.acts()) {
+        const double volume = row.target_volume * std::exp(row.reference_excess);
+        const std::size_t i = tissue_.shells.size() + sphere;
+        exchange_water(row, type, time, dt, volume, body.area[i], body.pressure[i]);
+      }
+      tissue_.spheres.radius[sphere++] = std::cbrt(3.0 * row.target_volume * std::exp(row.reference_excess) / (4.0 * std::numbers::pi));
     }
   }
   mechanics_->parameters_changed();
@@ -335,6 +350,7 @@ void Simulation::wrap_cells() {
       const Vec3d shift = model_.space.wrapped(center) - center;
       if (norm2(shift) > 1e-6) {
         for (Vec3d& p : nodes) p += shift;
+        if (tissue_.shells.nucleus_of(shell) != nullptr) *tissue_.shells.nucleus[shell] += shift;
         moved = true;
       }
       ++shell;

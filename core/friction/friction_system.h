@@ -35,6 +35,16 @@ class OperatorPart {
   virtual void add_diagonal(std::span<SymMat3<float>> diagonal) const = 0;
 };
 
+/// Something that adds to the matrix on owned points of its own choice.
+class AddedPart {
+ public:
+  virtual ~AddedPart() = default;
+  /// q += A p.
+  virtual void add_product(std::span<const Float4> p, std::span<Float4> q) const = 0;
+  /// Add the 3×3 diagonal blocks.
+  virtual void add_diagonal(std::span<SymMat3<float>> diagonal) const = 0;
+};
+
 struct SolveReport {
   int iterations = 0;
   double residual = 0.0;  ///< ‖r‖/‖b‖ reached
@@ -66,6 +76,8 @@ class FrictionSystem {
   void set_point_friction(std::span<const float> friction) { point_friction_.assign(friction.begin(), friction.end()); }
   /// The shells' own part; before set_elements(), which adds to it.
   void set_shells(OperatorPart* shells) { shells_ = shells; }
+  /// What lives inside the shells; may be null.
+  void set_interior(const AddedPart* interior) { interior_ = interior; }
   void set_step(double dt) { dt_ = static_cast<float>(dt); }
   /// Contacts of surfaces at the present step size; read now, not kept.
   void set_elements(std::span<const ElementGroup> groups, const FaceQuadrature& quadrature);
@@ -121,6 +133,7 @@ class FrictionSystem {
   std::vector<NodePairArena> blocks_;
   const SpherePairs* sphere_pairs_ = nullptr;
   OperatorPart* shells_ = nullptr;
+  const AddedPart* interior_ = nullptr;
   std::vector<ThreadWork> work_;
   std::vector<SymMat3<float>> inverse_;
   std::vector<Float4> p_, q_, r_;

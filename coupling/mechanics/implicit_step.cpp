@@ -61,12 +61,12 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
   auto timed = timer_.scope(Stage::kAdvance);
   const auto& x = scene_.position();
   for_owned_points([&](std::uint32_t i) {  // −Δt (F + external), to which Γ_n d is added
-    const std::size_t e = i < scene_.owned_nodes() ? i : i - scene_.sphere_point() + scene_.owned_nodes();
-    force_[i] = (force_[i] + external[e]) * -dt;
+    force_[i] = (force_[i] + external_on(external, i)) * -dt;
   });
   spent_ = true;
   OrderFreeSum sums[2];
   if (moved) shells_.add_step_friction(x, force_, sums[0]);
+  if (moved) interior_.add_step_friction(start, x, force_, sums[0]);
   contacts_.add_step_friction(contact_scene(), start, moved, force_, sums[0]);
   const auto medium = system_.point_friction();
   for (std::size_t i = 0; moved && i < scene_.owned_spheres(); ++i) {
@@ -81,12 +81,12 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
     if (!b.active()) continue;
     double work = 0.0;
     for (std::uint32_t i = b.first_point; i < b.first_point + b.point_count; ++i) {
-      const std::size_t e = i < scene_.owned_nodes() ? i : i - scene_.sphere_point() + scene_.owned_nodes();
-      work += morula::dot(external[e], x[i] - start[i]);
+      work += morula::dot(external_on(external, i), x[i] - start[i]);
       force_[i] *= -1.0 / dt;
     }
     sums[1].add(work);
   }
+  for_nuclei([&](std::uint32_t i) { force_[i] *= -1.0 / dt; });
   double totals[2];
   comm_.sum(sums, totals);
   friction_energy_ = totals[0];

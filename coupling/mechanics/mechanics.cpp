@@ -25,9 +25,12 @@ Mechanics::Mechanics(const Model& model, std::vector<RigidSurface> obstacles, Sh
       threads_(threads),
       contacts_(contact_settings(model, threads), std::move(obstacles), contact_materials(model), contact_material_count(model)),
       shells_(model),
+      interior_(model),
       spheres_(model, threads) {}
 
-ContactScene Mechanics::contact_scene() const { return {scene_.bodies(), scene_.position(), &geometry_}; }
+ContactScene Mechanics::contact_scene() const {
+  return {scene_.bodies(), std::span(scene_.position()).first(scene_.nucleus_point()), &geometry_};
+}
 
 double Mechanics::largest(std::span<const Vec3d> by_point) const {
   double most = 0.0;
@@ -37,6 +40,7 @@ double Mechanics::largest(std::span<const Vec3d> by_point) const {
         const double here = norm2(by_point[i]);
         if (!(here <= most)) most = here;  // not a number wins
       }
+  for_nuclei([&](std::uint32_t i) { most = std::max(most, norm2(by_point[i])); });
   return std::sqrt(comm_.max(most));
 }
 
@@ -48,6 +52,7 @@ double Mechanics::furthest(std::span<const Vec3d> start) const {
         const double here = norm2(scene_.position()[i] - start[i]);
         if (!(here <= most)) most = here;
       }
+  for_nuclei([&](std::uint32_t i) { most = std::max(most, norm2(scene_.position()[i] - start[i])); });
   return std::sqrt(comm_.max(most));
 }
 
@@ -59,6 +64,7 @@ double Mechanics::dot(std::span<const Vec3d> a, std::span<const Vec3d> b) const 
     for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) part += morula::dot(a[i], b[i]);
     sum.add(part);
   }
+  for_nuclei([&](std::uint32_t i) { sum.add(morula::dot(a[i], b[i])); });
   return comm_.sum(sum);
 }
 
@@ -91,6 +97,7 @@ void Mechanics::prepare(const Tissue& tissue) {
     }
     contacts_.reset();
     shells_.set_shells(tissue.shells);
+    interior_.set_shells(tissue.shells, scene_.nucleus_point());
     const std::size_t points = scene_.point_count(), faces = scene_.face_count();
     force_.assign(points, {});
     gradient_.force.assign(scene_.shells() > 0 ? points : 0, {});  // spheres alone add to force_ at once
@@ -132,10 +139,15 @@ void Mechanics::lay_out_system() {
     layout.bodies.push_back({body.first_point, body.point_count});
     layout.owned.push_back(body.active());
   }
+  for (const InteriorSystem::Nucleus& nucleus : interior_.nuclei()) {
+    layout.bodies.push_back({nucleus.point, 1});
+    layout.owned.push_back(scene_.bodies()[nucleus.shell].active());
+  }
   if (comm_.size() > 1) layout.exchange = [this](std::span<Float4> vector) { scene_.exchange(vector); };
   system_.set_layout(std::move(layout), threads_);
   system_.set_shells(&shells_);
   system_.set_sphere_pairs(&spheres_.pairs());
+  if (!interior_.empty()) system_.set_interior(&interior_);
 }
 
 void Mechanics::evaluate(const Tissue& tissue, bool moved) {
@@ -179,11 +191,13 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   spent_ = false;
   spheres_.evaluate(scene_, contacts_, force_);
   const auto& internal = shells_.forces();
+  if (!interior_.empty()) interior_.evaluate(tissue.shells, scene_.position(), force_);
 
   OrderFreeSum sum;
   for (std::size_t i = 0; i < scene_.owned_shells(); ++i) sum.add(internal.energy[i]);
   contacts_.add_energy(scene, sum);
   spheres_.add_energy(sum);
+  interior_.add_energy(sum);
   energy_ = comm_.sum(sum);
   evaluated_ = contacts_current_ = true;
 }
@@ -206,6 +220,7 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
   auto timed = timer_.scope(Stage::kAssemble);
   contacts_.begin_step();
   shells_.begin_step(tissue.shells, geometry_);
+  interior_.begin_step(scene_.position(), geometry_);
   std::vector<float> friction(scene_.point_count(), 0.0f);
   const std::size_t first = scene_.first_sphere();
   for (std::size_t i = 0; i < scene_.owned_spheres(); ++i) {
@@ -224,6 +239,7 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
     const Vec3f& v = tissue.spheres.velocity[i];
     solution_[scene_.sphere_point() + i] = {v.x, v.y, v.z, 0.0f};
   }
+  interior_.start_from_cortex(solution_);
   if (relaxing_) {
     std::fill(solution_.begin(), solution_.end(), Float4{});
     return;
@@ -243,6 +259,7 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
 void Mechanics::assemble(const Tissue& tissue, double dt) {
   auto timed = timer_.scope(Stage::kAssemble);
   shells_.assemble(tissue.shells, scene_.position(), gradient_.face_energy, dt);
+  interior_.assemble(scene_.position(), dt);
   system_.set_step(dt);
   system_.set_elements(contacts_.element_groups(contact_scene()), FaceQuadrature::with_points(contacts_.settings().points_per_face));
 }
@@ -387,7 +404,7 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
 
 std::size_t Mechanics::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return contacts_.memory() + shells_.memory() + spheres_.memory() + system_.memory() + scene_.memory() + bytes(force_) +
+  return contacts_.memory() + shells_.memory() + interior_.memory() + spheres_.memory() + system_.memory() + scene_.memory() + bytes(force_) +
          bytes(solution_) + gradient_.memory() + surfaces_only_.memory() + bytes(geometry_.face_area) +
          bytes(geometry_.face_normal) + bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) +
          bytes(scene_start_);

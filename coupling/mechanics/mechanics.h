@@ -9,6 +9,7 @@
 #include "core/friction/friction_system.h"
 #include "core/mesh/topology.h"
 #include "core/parallel/comm.h"
+#include "coupling/mechanics/interior_system.h"
 #include "coupling/mechanics/scene.h"
 #include "coupling/mechanics/shell_system.h"
 #include "coupling/mechanics/sphere_contacts.h"
@@ -95,6 +96,8 @@ class Mechanics {
   [[nodiscard]] StageTimer& timer() { return timer_; }
   [[nodiscard]] const ContactLayer& contacts() const { return contacts_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
+  /// What the nucleus of an owned shell feels at the present positions.
+  [[nodiscard]] dcm::InteriorEnergy interior_of(std::uint32_t shell) const { return interior_.of_shell(shell); }
   [[nodiscard]] double deepest_overlap() const;
   /// Bytes of all workspaces of this rank.
   [[nodiscard]] std::size_t memory() const;
@@ -121,8 +124,20 @@ class Mechanics {
   void assemble(const Tissue& tissue, double dt);
   void finish(Tissue& tissue, double dt, StepReport& report);
   [[nodiscard]] ContactScene contact_scene() const;
+  /// Where the external force of an owned point is; nuclei have none.
+  [[nodiscard]] Vec3d external_on(std::span<const Vec3d> external, std::uint32_t point) const {
+    if (point >= scene_.nucleus_point()) return {};
+    return external[point < scene_.owned_nodes() ? point : point - scene_.sphere_point() + scene_.owned_nodes()];
+  }
+  /// `function(point)` for the nuclei of shells that move.
+  template <class F>
+  void for_nuclei(F&& function) const {
+    for (const InteriorSystem::Nucleus& nucleus : interior_.nuclei())
+      if (scene_.bodies()[nucleus.shell].active()) function(nucleus.point);
+  }
   template <class F>
   void for_owned_points(F&& function) const {
+    for_nuclei(function);
     const auto bodies = scene_.bodies();
 #pragma omp parallel for schedule(static) num_threads(threads_)
     for (std::size_t b = 0; b < bodies.size(); ++b)
@@ -157,6 +172,7 @@ class Mechanics {
   ContactGradient surfaces_only_;  ///< without the pairs with a sphere; kept only where there are any
   SurfaceGeometry geometry_;
   ShellSystem shells_;
+  InteriorSystem interior_;
   SphereContacts spheres_;
   FrictionSystem system_;
 

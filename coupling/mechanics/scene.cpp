@@ -231,6 +231,8 @@ void Scene::build(const Tissue& tissue, const Space& space, double reach, ShapeL
   face_count_ = first_face_.back();
   owned_nodes_ = first_node_[owned_shells_];
   shell_nodes_ = first_node_.back();
+  nucleus_point_ = point;
+  for (std::size_t i = 0; i < owned_shells_; ++i) point += tissue.shells.nucleus_of(i) != nullptr;
   position_.assign(point, Vec3d{});
   take_positions(tissue);
   exchange(position_);
@@ -250,6 +252,9 @@ void Scene::set_moving(std::span<const char> moves) {
 void Scene::take_positions(const Tissue& tissue) {
   std::copy(tissue.shells.position.begin(), tissue.shells.position.end(), position_.begin());
   std::copy(tissue.spheres.position.begin(), tissue.spheres.position.end(), position_.begin() + shell_nodes_);
+  std::size_t nucleus = nucleus_point_;
+  for (std::size_t i = 0; i < owned_shells_; ++i)
+    if (const Vec3d* center = tissue.shells.nucleus_of(i)) position_[nucleus++] = *center;
 }
 
 void Scene::take_radii(const Tissue& tissue) {
@@ -264,6 +269,9 @@ void Scene::take_radii(const Tissue& tissue) {
 void Scene::give_positions(Tissue& tissue) const {
   std::copy_n(position_.begin(), tissue.shells.position.size(), tissue.shells.position.begin());
   std::copy_n(position_.begin() + shell_nodes_, tissue.spheres.position.size(), tissue.spheres.position.begin());
+  std::size_t nucleus = nucleus_point_;
+  for (std::optional<Vec3d>& center : tissue.shells.nucleus)
+    if (center) center = position_[nucleus++];
 }
 
 template <class T>

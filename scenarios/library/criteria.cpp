@@ -62,7 +62,7 @@ const std::vector<ScenarioCriteria>& scenario_criteria() {
 bool is_passive(const Study& study) {
   const Model& model = study.model;
   for (const CellType& type : model.types)
-    if (type.cycles || type.migration_speed > 0.0 || (type.death_field >= 0 && type.death_rate > 0.0)) return false;
+    if (type.cycles || type.migration_speed > 0.0 || (type.death_field >= 0 && type.death_rate > 0.0) || type.osmosis.acts()) return false;
   for (const InitialCells& block : study.initial)
     if (block.start_volume_fraction < 1.0) return false;
   for (const ObstacleSpec& obstacle : model.obstacles)

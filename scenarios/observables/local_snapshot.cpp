@@ -50,6 +50,9 @@ Snapshot local_snapshot(Simulation& simulation) {
     out.shells.push_back(
         {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(out.nodes.size()), static_cast<std::uint32_t>(nodes.size()), number});
     out.nodes.insert(out.nodes.end(), nodes.begin(), nodes.end());
+    if (const Vec3d* nucleus = tissue.shells.nucleus_of(shell))
+      out.nuclei.push_back(
+          {static_cast<std::uint32_t>(i), *nucleus, dcm::nucleus_radius(model.types[row.type].interior, tissue.shells.rest_volume[shell])});
     ++shell;
   }
   return out;

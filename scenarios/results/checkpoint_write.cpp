@@ -21,6 +21,8 @@ struct SortedCells {
   std::vector<CellId> partners;
   std::vector<std::uint32_t> shape;
   dcm::Shells shells;
+  std::vector<std::uint8_t> has_nucleus;  ///< by shell
+  std::vector<Vec3d> nucleus;             ///< of those that have one
 };
 
 Parcels pack_cells(const Tissue& tissue, const ShapeNumbers& numbers) {
@@ -53,6 +55,9 @@ Parcels pack_cells(const Tissue& tissue, const ShapeNumbers& numbers) {
       out.put_all(std::span(s.position).subspan(node, nodes));
       out.put_all(std::span(s.velocity).subspan(node, nodes));
       out.put_all(std::span(s.rest_length).subspan(edge, edges));
+      const Vec3d* nucleus = s.nucleus_of(shell);
+      out.put(std::uint8_t{nucleus != nullptr});
+      if (nucleus != nullptr) out.put(*nucleus);
       ++shell;
     }
     parcels.add(row.id.bits(), out.bytes());
@@ -81,12 +86,15 @@ SortedCells unpack_cells(const Parcels& parcels) {
       in.get_all(nodes, out.shells.position);
       in.get_all(nodes, out.shells.velocity);
       in.get_all(edges, out.shells.rest_length);
+      out.has_nucleus.push_back(in.get<std::uint8_t>());
+      if (out.has_nucleus.back() != 0) out.nucleus.push_back(in.get<Vec3d>());
     }
   }
   return out;
 }
 
-void add_cells(StoragePlan& plan, const SortedCells& cells) {
+/// `with_nuclei`: some rank has a shell with a nucleus.
+void add_cells(StoragePlan& plan, const SortedCells& cells, bool with_nuclei) {
   for_each_row_field([&](const std::string& name, const char* units, auto member) {
     std::vector<std::remove_cvref_t<decltype(cells.rows.front().*member)>> column;
     for (const CellRow& row : cells.rows) column.push_back(row.*member);
@@ -105,6 +113,9 @@ void add_cells(StoragePlan& plan, const SortedCells& cells) {
   plan.add("shells/position", "um", cells.shells.position);
   plan.add("shells/velocity", "um/s", cells.shells.velocity);
   plan.add("shells/rest_length", "um", cells.shells.rest_length);
+  if (!with_nuclei) return;
+  plan.add("shells/has_nucleus", "1", cells.has_nucleus);
+  plan.add("shells/nucleus", "um", cells.nucleus);
 }
 
 Status add_field(StoragePlan& plan, const std::string& group, const fields::Field& field, const Comm& comm) {
@@ -167,7 +178,8 @@ Status write_checkpoint(const std::filesystem::path& path, const Tissue& tissue,
   StoragePlan plan(comm);
   add_globals(plan, tissue, info);
   const ShapeNumbers numbers = add_shapes(plan, tissue.shells.shape, comm);
-  add_cells(plan, unpack_cells(sort_over_ranks(pack_cells(tissue, numbers), comm)));
+  const SortedCells cells = unpack_cells(sort_over_ranks(pack_cells(tissue, numbers), comm));
+  add_cells(plan, cells, comm.any(!cells.nucleus.empty()));
   for (std::size_t f = 0; f < tissue.fields.size(); ++f) MORULA_TRY(add_field(plan, "fields/" + std::to_string(f), tissue.fields[f], comm));
   return create_file(path, std::move(plan), comm);
 }

@@ -39,6 +39,7 @@ void put_shell(ByteWriter& out, const dcm::Shells& shells, std::size_t i, const 
   out.put_all(std::span(shells.position).subspan(node, nodes));
   out.put_all(std::span(shells.velocity).subspan(node, nodes));
   out.put_all(std::span(shells.rest_length).subspan(edge, edges));
+  if (const Vec3d* nucleus = shells.nucleus_of(i)) out.put(*nucleus);
 }
 
 Hash128 hash_of_cells(const Tissue& tissue) {

@@ -27,6 +27,12 @@ cbm::PackingCurve build_packing(BuildContext& context, const std::string& type_n
 void build_geometry(BuildContext& context);
 /// The prescribed way of an obstacle over time.
 void build_motion_course(BuildContext& context, const draft::Obstacle& draft, ObstacleSpec& obstacle);
+/// Osmosis of a cell type: E535, E536.
+void build_osmosis(BuildContext& context, const draft::CellType& draft, CellType& type);
+/// Nucleus and links of the shells of a type: E111, E537–E540.
+dcm::InteriorParameters build_interior(BuildContext& context, const draft::CellType& draft, const std::string& type_name);
+/// The points of a course as a table; an error where their times do not increase.
+TimeCourse course_of(BuildContext& context, const std::vector<Named<draft::CoursePoint>>& points);
 /// External loads; after the cells of time 0.
 void build_loads(BuildContext& context);
 /// Adhesion and friction of all pairs of materials; missing pairs get their default, in the draft, too.

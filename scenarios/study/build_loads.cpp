@@ -5,25 +5,6 @@
 namespace morula::scenarios {
 namespace {
 
-/// The points of a course as a table; an error where their times do not increase.
-TimeCourse course_of(BuildContext& c, const std::vector<Named<draft::CoursePoint>>& points) {
-  TimeCourse out;
-  for (const auto& [name, place, point] : points) {
-    if (!point.time.known() || !point.value.known()) return {};
-    if (!out.time.empty() && point.time.value <= out.time.back()) {
-      c.diagnostics.error(510, point.time.place,
-                          "the times of a course must increase, but " + point.time.text + " is not after the one before it",
-                          "sort the points by time");
-      return {};
-    }
-    out.time.push_back(point.time.value);
-    out.value.push_back(point.value.value);
-  }
-  if (out.time.size() == 1)
-    c.diagnostics.error(510, points.front().place, "a course needs at least two points", "give where it begins and where it ends");
-  return out;
-}
-
 Vec3d unit_axis(BuildContext& c, const Given<Vec3d>& axis, const char* key) {
   if (!axis.known()) return {1, 0, 0};
   if (norm2(axis.value) == 0.0) {
@@ -63,6 +44,24 @@ void check_bodies(BuildContext& c, const std::string& name, const Place& place, 
 }
 
 }  // namespace
+
+TimeCourse course_of(BuildContext& c, const std::vector<Named<draft::CoursePoint>>& points) {
+  TimeCourse out;
+  for (const auto& [name, place, point] : points) {
+    if (!point.time.known() || !point.value.known()) return {};
+    if (!out.time.empty() && point.time.value <= out.time.back()) {
+      c.diagnostics.error(510, point.time.place,
+                          "the times of a course must increase, but " + point.time.text + " is not after the one before it",
+                          "sort the points by time");
+      return {};
+    }
+    out.time.push_back(point.time.value);
+    out.value.push_back(point.value.value);
+  }
+  if (out.time.size() == 1)
+    c.diagnostics.error(510, points.front().place, "a course needs at least two points", "give where it begins and where it ends");
+  return out;
+}
 
 void build_motion_course(BuildContext& c, const draft::Obstacle& o, ObstacleSpec& obstacle) {
   if (o.course.empty()) return;

@@ -70,6 +70,18 @@ void check_friction(BuildContext& c) {
   }
 }
 
+/// A biconcave cell is thinner than any nucleus is wide.
+void check_nuclei(BuildContext& c) {
+  for (std::size_t i = 0; i < c.study.initial.size() && i < c.draft.initial.size(); ++i) {
+    const InitialCells& block = c.study.initial[i];
+    if (block.shape != CellShape::kBiconcave || block.type >= c.study.model.types.size()) continue;
+    const CellType& type = c.study.model.types[block.type];
+    if (type.interior.has_nucleus())
+      c.diagnostics.error(537, c.draft.initial[i].content.shape.place, "biconcave cells of '" + type.name + "' have no room for a nucleus",
+                          "`nucleus: {kind: none}`, or spherical cells");
+  }
+}
+
 void check_periodic_size(BuildContext& c) {
   if (!c.draft.domain.size.known() || !c.draft.contact.range.known()) return;
   double radius = 0.0;
@@ -152,6 +164,17 @@ double packing_stiffness(const draft::CellType& t, double radius) {
   return 2.0 * slopes * slopes * steepest / (4.0 / 3.0 * std::numbers::pi) * radius;
 }
 
+/// Limit by what holds a nucleus against the little friction it has: its links, and the repulsion over a tenth of its cross-section.
+double nucleus_limit(const draft::CellType& t, double repulsion) {
+  const draft::Nucleus& n = t.nucleus;
+  if (!n.present || n.kind.value != "rigid" || n.radius.given == n.volume_fraction.given) return 1e300;
+  const double radius = n.radius.given ? n.radius.value : std::cbrt(n.volume_fraction.value) * t.radius.mean.value;
+  const draft::Links& l = t.nucleus_links;
+  const double links = l.present ? static_cast<double>(std::min(l.number.value, t.nodes.value)) : 0.0;
+  const double friction = 6.0 * std::numbers::pi * n.viscosity.value * radius + links * l.damping.value / 3.0;
+  return 2.0 * friction / (links * l.stiffness.value / 3.0 + 0.1 * std::numbers::pi * radius * radius * repulsion);
+}
+
 }  // namespace
 
 double explicit_step_limit(const draft::Study& study) {
@@ -167,6 +190,7 @@ double explicit_step_limit(const draft::Study& study) {
       const double node_area = 4.0 * std::numbers::pi * radius * radius / std::max(1.0, static_cast<double>(t.nodes.value));
       limit = std::min(limit, 2.0 * friction * radius / (3.0 * t.bulk_modulus.value));
       limit = std::min({limit, in_plane_limit(t, friction * node_area), surface_limit(t, friction, node_area, radius)});
+      limit = std::min(limit, nucleus_limit(t, study.contact.repulsion.value));
       if (study.contact.repulsion.value > 0.0)
         limit = std::min(limit, 2.0 * std::max(friction, t.friction_cell_cell.value) / study.contact.repulsion.value);
     }
@@ -183,6 +207,7 @@ void check_whole(BuildContext& c) {
   check_contact_ranges(c);
   check_friction(c);
   check_periodic_size(c);
+  check_nuclei(c);
 }
 
 }  // namespace morula::scenarios

@@ -181,6 +181,7 @@ void declare_cell_type(Section& s, draft::CellType& t) {
           .source = "chosen"},
          t.body);
   declare_life(s, t);
+  declare_osmosis(s, t);
   s.group({.name = "friction", .doc = "Friction with what is around."}, present, [&t](Section& f) { declare_friction(f, t); });
   s.quantities(
       {.name = "adhesion",

@@ -29,12 +29,6 @@ void ends(Section& s, draft::LoadEnds& e, const char* part, const char* doc) {
          e.ends);
 }
 
-void declare_course_point(Section& s, draft::CoursePoint& point) {
-  s.quantity({.name = "time", .doc = "When.", .quantity = Q::kTime, .required = true, .low = 0.0, .example = "10 s"}, point.time);
-  s.quantity({.name = "factor", .doc = "Part of the full load at that time.", .required = true, .low = -1e6, .high = 1e6, .example = "1"},
-             point.value);
-}
-
 void declare_distance_point(Section& s, draft::CoursePoint& point) {
   s.quantity({.name = "time", .doc = "When.", .quantity = Q::kTime, .required = true, .low = 0.0, .example = "10 s"}, point.time);
   s.quantity(
@@ -43,6 +37,12 @@ void declare_distance_point(Section& s, draft::CoursePoint& point) {
 }
 
 }  // namespace
+
+void declare_course_point(Section& s, draft::CoursePoint& point) {
+  s.quantity({.name = "time", .doc = "When.", .quantity = Q::kTime, .required = true, .low = 0.0, .example = "10 s"}, point.time);
+  s.quantity({.name = "factor", .doc = "Part of the full value at that time.", .required = true, .low = -1e6, .high = 1e6, .example = "1"},
+             point.value);
+}
 
 void declare_motion_course(Section& s, draft::Obstacle& o) {
   s.vector({.name = "direction",

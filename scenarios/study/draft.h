@@ -36,6 +36,31 @@ struct PackingKnot {
   Given<double> packing, pressure;
 };
 
+/// A corner of something that is prescribed over time.
+struct CoursePoint {
+  Given<double> time, value;
+};
+
+/// Osmotic control of the volume.
+struct Osmosis {
+  bool present = false;
+  Given<double> permeability, inactive, inside, outside;
+  Given<std::string> field;
+  std::vector<Named<CoursePoint>> course;
+};
+
+struct Nucleus {
+  bool present = false;
+  Given<std::string> kind;
+  Given<double> radius, volume_fraction, viscosity;
+};
+struct Links {
+  bool present = false;
+  Given<std::uint64_t> number;
+  Given<double> stiffness, damping;
+  Given<bool> tension_only;
+};
+
 struct CellType {
   Spread radius;
   Given<std::string> body;
@@ -47,6 +72,9 @@ struct CellType {
   Given<std::string> death_field;
   Given<double> death_below, death_rate, shrink_time, removed_below;
   Given<double> migration_speed, persistence;
+  Osmosis osmosis;
+  Nucleus nucleus;
+  Links nucleus_links, cortex_links;
   Given<double> friction_cell_cell, friction_obstacle, friction_medium;
   std::vector<Named<Given<double>>> adhesion;
   Given<std::string> sphere_law;
@@ -79,11 +107,6 @@ struct Shape {
   bool present = false;
   Given<Vec3d> center, size, normal, low_end, high_end;
   Given<double> radius;
-};
-
-/// A corner of something that is prescribed over time.
-struct CoursePoint {
-  Given<double> time, value;
 };
 
 struct Obstacle {

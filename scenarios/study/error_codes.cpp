@@ -74,6 +74,18 @@ constexpr ErrorCode kCodes[] = {
      "falls."},
     {531, "packing softer than the spheres",
      "The ideal filled cell adds what Hertz contacts lack of K_V ln(V0/V). With so small a bulk modulus they lack nothing."},
+    {535, "nothing holds the volume",
+     "A shell whose bulk modulus is 0 has no pressure: its tension would shrink it to a point. With `osmosis`, too, the bulk modulus ties "
+     "the "
+     "volume to what water and solutes ask for."},
+    {536, "cell that bursts or dries out",
+     "The osmolarity around a cell must leave it a volume that its shell can have, between a fifth of the target volume and ten times it."},
+    {537, "nucleus does not fit",
+     "The nucleus must lie inside its cell with room to float: at most 80 % of the cell's radius, half of its volume."},
+    {538, "links without a nucleus",
+     "Links from the cortex to the nucleus need a nucleus: give the shell one, or link the cortex to itself."},
+    {539, "more links than nodes", "Each node has one link to the nucleus at most, and one across the cell."},
+    {540, "nucleus that water would have to leave", "A rigid nucleus is no solvent: the inactive part of the volume must hold it."},
     {545, "array of a mesh file", "A VTK file has no array of this name, or the array does not give every cell one finite number."},
     {546, "cells reach into each other", "Two surfaces of the files overlap deeper than `meshes.overlap` allows."},
     {547, "cells cannot be told apart",

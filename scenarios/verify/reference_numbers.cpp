@@ -216,6 +216,7 @@ std::vector<ReferenceNumber> physics_numbers() {
   add_shells(out);
   add_spheres(out);
   add_packing(out);
+  add_interior_numbers(out);
   return out;
 }
 

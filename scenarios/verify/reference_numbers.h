@@ -19,4 +19,7 @@ struct ReferenceNumber {
 /// A number belongs here when it is not ours; to add one, add a line.
 std::vector<ReferenceNumber> physics_numbers();
 
+/// Those of water, nucleus and cytoskeleton.
+void add_interior_numbers(std::vector<ReferenceNumber>& out);
+
 }  // namespace morula::scenarios

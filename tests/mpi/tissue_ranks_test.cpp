@@ -13,7 +13,8 @@
 namespace morula {
 namespace {
 
-Model hybrid_model() {
+/// `interior`: shells have a nucleus on links, and water flows.
+Model hybrid_model(bool interior) {
   Model model;
   model.seed = 5;
   model.space.box = {{-80, -80, -80}, {80, 80, 80}};
@@ -26,6 +27,14 @@ Model hybrid_model() {
   type.shell.spring_stiffness = 0.173;
   type.shell.tension = 0.2;
   type.shell.hinge_stiffness = 1e-3;
+  if (interior) {
+    type.interior.nucleus_fraction = 0.1;
+    type.interior.nucleus_links = {20, 0.01, 0.1, false};
+    type.interior.cortex_links = {dcm::LinkParameters::kAll, 0.005, 0.0, true};
+    type.osmosis.permeability = 1e-3;
+    type.osmosis.outside = 270.0;
+    type.osmosis.field = 0;
+  }
   model.types = {type};
   model.pairs = {ContactPair{0.05, 50.0, 50.0}};
   model.contact.range = 0.8;
@@ -157,6 +166,13 @@ TEST(TissueOnRanks, PacksWithTheSameBitsAsOnOne) {
   model.types[0].sphere.packing =
       cbm::PackingCurve::through(std::vector<cbm::PackingKnot>{{0.005, 0.0}, {0.02, 0.05}, {0.05, 0.2}, {0.2, 0.5}}).value();
   expect_same(run(model, world, 40, 1), run(model, alone, 40, 1));
+}
+
+TEST(TissueOnRanks, WithNucleiLinksAndOsmosisHasTheSameBitsAsOnOne) {
+  const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
+  const Everything single = run(hybrid_model(true), alone, 25, 2);
+  expect_same(run(hybrid_model(true), world, 25, 1), single);
+  EXPECT_NE(single, run(hybrid_model(), alone, 25, 1)) << "the interior acts";
 }
 
 }  // namespace

@@ -64,6 +64,7 @@ Tissue turned_around(const Tissue& from) {
                                  s.rest_length.begin() + s.first_edge[i + 1]);
     to.shells.first_node.push_back(static_cast<std::uint32_t>(to.shells.position.size()));
     to.shells.first_edge.push_back(static_cast<std::uint32_t>(to.shells.rest_length.size()));
+    to.shells.nucleus.push_back(s.nucleus[i]);
   }
   for (fields::Field& field : to.fields) {
     std::reverse(field.owned_bricks.begin(), field.owned_bricks.end());
@@ -118,6 +119,10 @@ TEST(StateHash, SeesEveryPartOfTheState) {
   after([](Tissue& t) { t.shells.velocity[7].z += 1; });
   after([](Tissue& t) { t.shells.rest_length[7] *= 2; });
   after([](Tissue& t) { t.shells.reference_volume[1] *= 2; });
+  after([](Tissue& t) {
+    for (auto& nucleus : t.shells.nucleus)
+      if (nucleus) nucleus->y += 1e-13;
+  });
   after([](Tissue& t) { t.fields[1].concentration[3][2] += 1e-12; });
   after([](Tissue& t) { std::swap(t.fields[0], t.fields[1]); });
   after([](Tissue& t) { t.fields[0].next_step = 0.0; });
