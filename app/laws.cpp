@@ -53,6 +53,7 @@ std::vector<ListedLaw> all_laws() {
   add("behaviours", behaviour_laws());
   add("fields", fields::field_laws());
   add("loads", load_laws());
+  add("activity", active_laws());
   return laws;
 }
 

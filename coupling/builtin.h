@@ -11,4 +11,8 @@ std::vector<LawInfo> surface_contact_laws();
 /// Loads from outside as the law reference describes them, by the names of their kinds in a study; their functions are in coupling/loads.h.
 std::vector<LawInfo> load_laws();
 
+/// What acts on surfaces and cells by themselves: regions of tension, cavities, springs, fluctuations, protrusion, polarity, directed friction;
+/// their functions are in coupling/face_regions.h, lumens.h, protrusion.h, behaviours/polarity.h and mechanics/.
+std::vector<LawInfo> active_laws();
+
 }  // namespace morula

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
+#include <utility>
 
 #include "core/mesh/shape_bytes.h"
 
@@ -30,7 +32,8 @@ std::vector<CellRecord> take_apart(Tissue& tissue) {
           shells.rest_volume[i],
           nodes(shells.position),
           nodes(shells.velocity),
-          std::vector(shells.rest_length.begin() + shells.first_edge[i], shells.rest_length.begin() + shells.first_edge[i + 1])};
+          std::vector(shells.rest_length.begin() + shells.first_edge[i], shells.rest_length.begin() + shells.first_edge[i + 1]),
+          std::as_const(shells).faces_of(i)};
       if (const Vec3d* nucleus = shells.nucleus_of(i)) record.shell->nucleus = *nucleus;
     } else {
       const std::size_t i = next_sphere++;
@@ -46,7 +49,9 @@ std::vector<CellRecord> take_apart(Tissue& tissue) {
 }
 
 void put_together(Tissue& tissue, std::vector<CellRecord> cells) {
-  std::sort(cells.begin(), cells.end(), [](const CellRecord& a, const CellRecord& b) { return before(a.row, b.row); });
+  std::vector<std::size_t> sorted(cells.size());
+  std::iota(sorted.begin(), sorted.end(), std::size_t{0});
+  std::sort(sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) { return before(cells[a].row, cells[b].row); });
   auto& shells = tissue.shells;
   auto& spheres = tissue.spheres;
   tissue.cells.rows.reserve(cells.size());
@@ -59,7 +64,8 @@ void put_together(Tissue& tissue, std::vector<CellRecord> cells) {
   std::size_t partners = 0;
   for (const CellRecord& cell : cells) partners += cell.sphere ? cell.sphere->attached.size() : 0;
   spheres.attached.reserve(sphere_count, partners);
-  for (CellRecord& cell : cells) {
+  for (const std::size_t place : sorted) {
+    CellRecord& cell = cells[place];
     cell.row.body = cell.shell ? BodyKind::kShell : BodyKind::kSphere;
     tissue.cells.rows.push_back(cell.row);
     if (cell.shell) {
@@ -74,6 +80,7 @@ void put_together(Tissue& tissue, std::vector<CellRecord> cells) {
       shells.first_node.push_back(static_cast<std::uint32_t>(shells.position.size()));
       shells.first_edge.push_back(static_cast<std::uint32_t>(shells.rest_length.size()));
       shells.nucleus.push_back(body.nucleus);
+      if (!body.face.empty()) shells.faces_of(shells.size() - 1) = body.face;
     } else {
       SphereRecord& body = *cell.sphere;
       spheres.position.push_back(body.position);
@@ -155,6 +162,11 @@ void append_bytes(const CellRecord& cell, std::vector<std::byte>& out) {
     const std::uint8_t has_nucleus = body.nucleus.has_value();
     append(out, &has_nucleus, 1);
     if (body.nucleus) append(out, &*body.nucleus, 1);
+    const std::uint32_t marks[2] = {static_cast<std::uint32_t>(body.face.mark.size()),
+                                    static_cast<std::uint32_t>(body.face.contact.size())};
+    append(out, marks, 2);
+    append(out, body.face.mark.data(), body.face.mark.size());
+    append(out, body.face.contact.data(), body.face.contact.size());
   }
 }
 
@@ -181,6 +193,9 @@ std::vector<CellRecord> read_records(std::span<const std::byte> bytes, ShapeLibr
       body.velocity = reader.many<Vec3f>(nodes);
       body.rest_length = reader.many<double>(body.shape->edge_length.size());
       if (reader.one<std::uint8_t>() != 0) body.nucleus = reader.one<Vec3d>();
+      const auto marks = reader.one<std::uint32_t>(), contacts = reader.one<std::uint32_t>();
+      body.face.mark = reader.many<std::uint8_t>(marks);
+      body.face.contact = reader.many<float>(contacts);
       cell.shell = std::move(body);
     }
   }

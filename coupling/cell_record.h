@@ -27,6 +27,7 @@ struct ShellRecord {
   std::vector<Vec3d> position;
   std::vector<Vec3f> velocity;
   std::vector<double> rest_length;
+  dcm::FaceState face{};
   std::optional<Vec3d> nucleus{};  ///< centre of its rigid nucleus
 };
 

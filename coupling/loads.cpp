@@ -106,7 +106,14 @@ double next_corner(const Model& model, double time) {
   double next = kNever;
   for (const CellLoad& load : model.loads) next = std::min(next, load.course.next_point(time));
   for (const ObstacleSpec& obstacle : model.obstacles) next = std::min(next, obstacle.distance.next_point(time));
-  for (const CellType& type : model.types) next = std::min(next, type.osmosis.course.next_point(time));
+  for (const Lumen& lumen : model.lumens) {
+    next = std::min(next, lumen.course.next_point(time));
+    if (lumen.from > time) next = std::min(next, lumen.from);
+  }
+  for (const CellType& type : model.types) {
+    next = std::min(next, type.osmosis.course.next_point(time));
+    for (const TensionRegion& region : type.regional_tension.regions) next = std::min(next, region.course.next_point(time));
+  }
   return next;
 }
 

@@ -7,6 +7,8 @@
 #include "cbm/spheres.h"
 #include "core/mesh/topology.h"
 #include "core/space/space.h"
+#include "coupling/active_terms.h"
+#include "coupling/face_regions.h"
 #include "coupling/time_course.h"
 #include "dcm/interior.h"
 #include "dcm/shells.h"
@@ -55,9 +57,16 @@ struct CellType {
   double migration_persistence = 1800.0;          ///< P [s]
 
   Osmosis osmosis;
+  int migration_substrate = -1;                   ///< material that must be touched, to which the force of migration is tangential; -1: none
+  Fluctuations fluctuations;
+  Protrusion protrusion;
+  PolarityTurning polarity;
+  Vec3d start_polarity{};  ///< zero: random
 
   // friction
-  double medium_friction = 0.1;  ///< γ_med per area [nN·s/µm³]
+  double medium_friction = 0.1;        ///< γ_med per area: of a sphere, and for shells the lesser of normal and tangential [nN·s/µm³]
+  double medium_normal_extra = 0.0;    ///< of shells: γ_n − γ_t per area where positive [nN·s/µm³]
+  double medium_tangent_extra = 0.0;   ///< of shells: γ_t − γ_n per area where positive [nN·s/µm³]
 
   // bodies
   BodyKind initial_body = BodyKind::kSphere;
@@ -65,6 +74,7 @@ struct CellType {
   cbm::SphereParameters sphere;
   dcm::ShellParameters shell;
   dcm::InteriorParameters interior;  ///< of a shell
+  RegionalTension regional_tension;  ///< of shells; empty: shell.tension everywhere
 };
 
 /// Traction between two surfaces over their gap (core/contact/traction_law.h; decision 0012).
@@ -199,6 +209,10 @@ struct Model {
   std::vector<CellType> types;
   std::vector<ObstacleSpec> obstacles;
   std::vector<CellLoad> loads;
+  std::vector<std::string> mark_names;  ///< of the bits of a face's marks; at most kMaxMarks
+  std::vector<FaceMark> marks;
+  std::vector<Lumen> lumens;
+  std::vector<ApicalSpring> apical_springs;
   std::vector<ContactPair> pairs;  ///< (materials × materials), symmetric; materials = types then obstacles
   ContactNumerics contact;
   std::vector<fields::FieldSpec> fields;

@@ -3,6 +3,7 @@
 
 #include "coupling/behaviours/life.h"
 #include "coupling/loads.h"
+#include "coupling/lumens.h"
 #include "coupling/simulation.h"
 #include "dcm/growth.h"
 
@@ -52,6 +53,7 @@ Result<StepOutcome> Simulation::step(double land_on) {
   double dt = fit_step(std::min(clock.next_step, model_.step.max_step), clock.time, land_on);
   const bool wanted_less = dt < clock.next_step;
   LifeReport life;
+  look_into_lumens(model_, tissue_, comm_);
 
   for (;; ++outcome.retries) {
     {  // behaviours: growth, cycle, death, migration
@@ -60,7 +62,7 @@ Result<StepOutcome> Simulation::step(double land_on) {
       set_bodies_to_targets(dt);
     }
     // mechanics: ghosts, candidates, contacts, forces, system, solve, advance
-    const auto moved = mechanics_->step(tissue_, dt, external_forces(clock.time + dt));
+    const auto moved = mechanics_->step(tissue_, dt, external_forces(clock.time + dt, dt));
     if (moved) {
       outcome.mechanics = *moved;
       break;
@@ -92,6 +94,8 @@ Result<StepOutcome> Simulation::step(double land_on) {
   wrap_cells();
   dcm::turn_over(tissue_.shells, mechanics_->shell_parameters(), dt);
   average_pressures(dt);
+  turn_polarities(clock.steps - 1, dt);
+  renew_faces(dt);
   MORULA_TRY(advance_fields(dt, outcome));
   {
     auto timed = timer().scope(Stage::kBehaviours);

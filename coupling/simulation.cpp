@@ -12,7 +12,7 @@
 #include "coupling/behaviours/osmosis.h"
 #include "coupling/behaviours/pressure_filter.h"
 #include "coupling/cell_record.h"
-#include "coupling/loads.h"
+#include "coupling/face_marks.h"
 #include "coupling/mechanics/contact_setup.h"
 #include "coupling/swaps.h"
 #include "dcm/growth.h"
@@ -88,6 +88,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Model model, Tissue tissu
     }
   }
   out->distribute();
+  mark_new_shells(out->model_, out->tissue_);
   return out;
 }
 
@@ -158,21 +159,6 @@ void Simulation::set_bodies_to_targets(double dt) {
   mechanics_->parameters_changed();
 }
 
-std::vector<Vec3d> Simulation::forces_on_cells(double time) const {
-  std::vector<Vec3d> shells, spheres;
-  for (const CellRow& row : tissue_.cells.rows)
-    (row.body == BodyKind::kShell ? shells : spheres)
-        .push_back(migration_force(row, model_.types[row.type], row.target_volume) + body_force(model_, row.type, time));
-  shells.insert(shells.end(), spheres.begin(), spheres.end());
-  return shells;
-}
-
-std::vector<Vec3d> Simulation::external_forces(double time) {
-  std::vector<Vec3d> out = mechanics_->spread(tissue_, forces_on_cells(time));
-  add_surface_loads(model_, tissue_, time, out);
-  return out;
-}
-
 void Simulation::average_pressures(double dt) {
   const std::vector<double> pressure = mechanics_->pressures(tissue_);
   std::size_t shell = 0, sphere = tissue_.shells.size();
@@ -237,6 +223,7 @@ Result<std::vector<Event>> Simulation::swap_bodies() {
   attach_touching(cells, touching);  // what adhered as a shell goes on adhering
   attach_touching(before, touching);
   put_together(tissue_, std::move(cells));
+  mark_new_shells(model_, tissue_);
   mechanics_->bodies_changed();
 
   if (comm_.any(!fresh.empty())) {  // new shells find their shape between their neighbours, at their volume

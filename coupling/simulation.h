@@ -48,11 +48,19 @@ class Simulation {
   Simulation(Model model, Tissue tissue, const Comm& comm, int threads);
   void distribute();
   void set_bodies_to_targets(double dt);
-  [[nodiscard]] std::vector<Vec3d> forces_on_cells(double time) const;
+  [[nodiscard]] std::vector<Vec3d> forces_on_cells(double time);
   /// Migration and external loads at a time, by shell node, then by sphere. Implicit in time, explicit in shape: strengths are those of the
   /// step's end, directions and areas those of its start, and the step holds them as dead loads.
-  [[nodiscard]] std::vector<Vec3d> external_forces(double time);
+  /// dt: of the step, which fluctuations depend on.
+  [[nodiscard]] std::vector<Vec3d> external_forces(double time, double dt);
+  /// Protrusions of the shells, by shell node.
+  void add_protrusions(std::span<Vec3d> external);
+  /// Polarities after the step with this number.
+  void turn_polarities(std::uint64_t step, double dt);
   void average_pressures(double dt);
+  /// After a step: marks that follow their cells, the eased contact of the faces, the lumens.
+  void renew_faces(double dt);
+  void renew_lumens(double dt);
   Status advance_fields(double dt, StepOutcome& outcome);
   Result<std::vector<Event>> swap_bodies();
   void divide_and_remove(const struct LifeReport& life, double time, std::vector<Event>& events);

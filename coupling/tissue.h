@@ -27,6 +27,16 @@ struct Ledger {
   std::uint64_t divisions = 0, deaths = 0, promotions = 0, demotions = 0;
 };
 
+/// A cavity (Lumen) as it was when it was last looked at. The same on every rank.
+struct LumenState {
+  double looked_at = -1e300;  ///< when its faces were last found [s]
+  double amount = 0.0;        ///< of solute, where it is kept [amol]
+  double volume = 0.0;        ///< [µm³]
+  double pressure = 0.0;      ///< [kPa]
+  double area = 0.0;          ///< of its faces [µm²]
+  double covered = 0.0;       ///< part of all directions in which its faces are seen
+};
+
 /// All state of a run on this rank: what a checkpoint holds. No hidden state exists elsewhere; workspaces can be rebuilt from it.
 struct Tissue {
   Clock clock;
@@ -36,6 +46,7 @@ struct Tissue {
   dcm::Shells shells;
   std::vector<Vec3d> obstacle_offset;  ///< how far each obstacle has moved [µm]
   std::vector<fields::Field> fields;
+  std::vector<LumenState> lumens;  ///< by lumen of the model
 };
 
 }  // namespace morula

@@ -10,6 +10,14 @@
 
 namespace morula::dcm {
 
+/// What the faces of one shell carry beside their geometry, by face of its Topology. Empty arrays: zero everywhere.
+struct FaceState {
+  std::vector<std::uint8_t> mark;  ///< set of marks: bit k is the k-th of the study
+  std::vector<float> contact;      ///< part of the face that is in contact with other cells, eased over time; 0 to 1
+
+  [[nodiscard]] bool empty() const { return mark.empty() && contact.empty(); }
+};
+
 /// All shells of a rank: what a checkpoint holds of them, and nothing else. Nodes of a shell are contiguous; shells come in the order of
 /// their cells. Geometry, forces and operators are derived from this and live in workspaces.
 struct Shells {
@@ -23,6 +31,7 @@ struct Shells {
   std::vector<Vec3f> velocity;                               ///< by node: last solution, the solver's start [µm/s]
   std::vector<double> rest_length;                           ///< by edge; those of a face are its reference metric [µm]
   std::vector<std::optional<Vec3d>> nucleus;  ///< by shell: centre of its rigid nucleus; shells beyond the end have none [µm]
+  std::vector<FaceState> face;                               ///< by shell; empty: no shell has any
 
   [[nodiscard]] std::size_t size() const { return shape.size(); }
   [[nodiscard]] std::uint32_t node_count() const { return first_node.back(); }
@@ -36,6 +45,15 @@ struct Shells {
     return shell < nucleus.size() && nucleus[shell] ? &*nucleus[shell] : nullptr;
   }
   [[nodiscard]] const Topology& topology(std::size_t shell) const { return *shape[shell]->topology; }
+  /// What the faces of a shell carry.
+  [[nodiscard]] const FaceState& faces_of(std::size_t shell) const {
+    static const FaceState kNothing;
+    return face.empty() ? kNothing : face[shell];
+  }
+  [[nodiscard]] FaceState& faces_of(std::size_t shell) {
+    if (face.size() < size()) face.resize(size());
+    return face[shell];
+  }
 };
 
 /// Parameters of the single-cell mechanics of one cell type, in internal units (physics: dcm.md, time_stepping.md §9).

@@ -34,6 +34,10 @@ enum class RandomStream : std::uint32_t {
   kMigration,
   kOrientation,
   kSeparation,  ///< direction in which coincident cells are moved apart
+  kFluctuationOfNodes,
+  kFluctuationOfEdges,
+  kFluctuationOfContacts,
+  kPolarity,
 };
 
 /// A pair of independent numbers.

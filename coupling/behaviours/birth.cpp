@@ -6,6 +6,7 @@
 #include "coupling/behaviours/draw.h"
 #include "coupling/behaviours/growth.h"
 #include "coupling/behaviours/migration.h"
+#include "coupling/behaviours/polarity.h"
 
 namespace morula {
 
@@ -27,6 +28,7 @@ CellRow make_founder(CellId id, std::uint16_t type_index, const CellType& type, 
   row.birth_time = time - point * row.cycle_duration;
   row.target_volume = volume_in_cycle(row.birth_volume, row.division_volume, type.exponential_growth, point);
   row.migration_velocity = initial_migration_velocity(id, type, seed);
+  row.polarity = initial_polarity(id, type, seed);
   return row;
 }
 

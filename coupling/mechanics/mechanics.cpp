@@ -26,7 +26,9 @@ Mechanics::Mechanics(const Model& model, std::vector<RigidSurface> obstacles, Sh
       contacts_(contact_settings(model, threads), std::move(obstacles), contact_materials(model), contact_material_count(model)),
       shells_(model),
       interior_(model),
-      spheres_(model, threads) {}
+      spheres_(model, threads),
+      face_tensions_(model),
+      node_terms_(model) {}
 
 ContactScene Mechanics::contact_scene() const {
   return {scene_.bodies(), std::span(scene_.position()).first(scene_.nucleus_point()), &geometry_};
@@ -128,6 +130,8 @@ void Mechanics::prepare(const Tissue& tissue) {
     }
     scene_.take_radii(tissue);
     spheres_.update_sisters(scene_, tissue.clock.time);
+    face_tensions_.set(tissue, std::max(tension_time_, tissue.clock.time));
+    if (node_terms_.has_springs()) node_terms_.set_springs(tissue, comm_);
     evaluate(tissue, !contacts_current_);
   }
 }
@@ -195,6 +199,8 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
 
   OrderFreeSum sum;
   for (std::size_t i = 0; i < scene_.owned_shells(); ++i) sum.add(internal.energy[i]);
+  face_tensions_.add_forces(tissue.shells, scene_.position(), geometry_, force_, sum);
+  node_terms_.add_forces(tissue.shells, scene_.position(), force_, sum);
   contacts_.add_energy(scene, sum);
   spheres_.add_energy(sum);
   interior_.add_energy(sum);
@@ -221,6 +227,7 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
   contacts_.begin_step();
   shells_.begin_step(tissue.shells, geometry_);
   interior_.begin_step(scene_.position(), geometry_);
+  shells_.set_node_friction(node_terms_.friction(tissue, geometry_));
   std::vector<float> friction(scene_.point_count(), 0.0f);
   const std::size_t first = scene_.first_sphere();
   for (std::size_t i = 0; i < scene_.owned_spheres(); ++i) {
@@ -258,7 +265,8 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
 
 void Mechanics::assemble(const Tissue& tissue, double dt) {
   auto timed = timer_.scope(Stage::kAssemble);
-  shells_.assemble(tissue.shells, scene_.position(), gradient_.face_energy, dt);
+  shells_.set_node_stiffness(node_terms_.stiffness(scene_.position(), scene_.owned_nodes()));
+  shells_.assemble(tissue.shells, scene_.position(), face_tensions_.on_top_of(gradient_.face_energy), dt);
   interior_.assemble(scene_.position(), dt);
   system_.set_step(dt);
   system_.set_elements(contacts_.element_groups(contact_scene()), FaceQuadrature::with_points(contacts_.settings().points_per_face));
@@ -273,6 +281,11 @@ std::optional<StepFault> Mechanics::find_fault() const {
 
 Result<StepReport, StepFault> Mechanics::step(Tissue& tissue, double dt, std::span<const Vec3d> external) {
   if (comm_.any(flags_changed_ || spent_)) evaluated_ = flags_changed_ = false;
+  if (node_terms_.has_springs()) evaluated_ = false;  // their spheres are those of the step's start
+  if (const double end = tissue.clock.time + dt; !relaxing_ && face_tensions_.vary() && end != tension_time_) {
+    tension_time_ = end;
+    evaluated_ = false;
+  }
   prepare(tissue);
   return model_.step.integrator == Integrator::kImplicit ? implicit_step(tissue, dt, external) : explicit_step(tissue, dt, external);
 }

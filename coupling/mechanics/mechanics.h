@@ -9,7 +9,9 @@
 #include "core/friction/friction_system.h"
 #include "core/mesh/topology.h"
 #include "core/parallel/comm.h"
+#include "coupling/mechanics/face_tensions.h"
 #include "coupling/mechanics/interior_system.h"
+#include "coupling/mechanics/node_terms.h"
 #include "coupling/mechanics/scene.h"
 #include "coupling/mechanics/shell_system.h"
 #include "coupling/mechanics/sphere_contacts.h"
@@ -45,6 +47,12 @@ struct BodyValues {
   std::vector<double> contact_area;  ///< [µm²]
 };
 
+/// How a body touches a material.
+struct Touch {
+  double area = 0.0;  ///< [µm²]
+  Vec3d normal{};     ///< of the contact, of length 1; its sign has no meaning
+};
+
 /// The mechanics of a tissue: forces, energies and the implicit step over shells and spheres together (time_stepping.md §1, §8, §9).
 ///
 /// A workspace: everything in it can be rebuilt from the Tissue, and rebuilding it never changes a result.
@@ -73,6 +81,18 @@ class Mechanics {
   /// Which owned cells touch which of `these` (sorted), or are one of `these` and touch whom: pairs (owned cell, partner) with contact area in the
   /// surface contacts at the tissue's positions, sorted. An obstacle is the partner CellId(number + 1). Collective.
   std::vector<std::pair<CellId, CellId>> touching(const Tissue& tissue, std::span<const CellId> these);
+
+  /// Which part of every owned face (in the order of the shells) is in contact with cells or obstacles of the materials with
+  /// with_material[material] != 0, at the tissue's positions; 0 to 1, with the taper of contact friction at the rim. Collective.
+  std::vector<float> contact_of_faces(const Tissue& tissue, std::span<const char> with_material);
+
+  /// How every owned body (shells, then spheres) touches a material; spheres: obstacles only. Collective.
+  std::vector<Touch> touch_of_bodies(const Tissue& tissue, std::uint16_t material);
+
+  /// Random forces of a step of dt [s] on all owned points, added to `external` [nN]: ⟨f fᵀ⟩ = (2 k_B T/Δt) Γ with the friction Γ of the
+  /// tissue's positions, element by element (dcm.md §10), so that what acts between points has no net force. Between two types
+  /// k_B T is the mean of theirs. Random numbers are those of (cell, step, element). Collective.
+  void add_fluctuations(const Tissue& tissue, double dt, std::span<Vec3d> external);
 
   /// Volumes, areas, pressures and contact areas at the tissue's present positions. Collective.
   BodyValues values(const Tissue& tissue);
@@ -113,6 +133,9 @@ class Mechanics {
   void find_packing(const ContactScene& scene, bool with_surfaces);
   void begin_step(const Tissue& tissue, double dt);
   void hold_all_but(std::span<const char> moves);
+  void add_shell_noise(const Tissue& tissue, double dt, std::span<Vec3d> external) const;
+  void add_sphere_noise(const Tissue& tissue, double dt, std::span<Vec3d> external) const;
+  void add_contact_noise(const Tissue& tissue, double dt, std::span<Vec3d> external) const;
   void lay_out_system();
   /// `moved`: false at the step's start, where nothing has rubbed yet but obstacles that move.
   [[nodiscard]] double friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt, bool moved = true);
@@ -174,6 +197,9 @@ class Mechanics {
   ShellSystem shells_;
   InteriorSystem interior_;
   SphereContacts spheres_;
+  FaceTensions face_tensions_;
+  NodeTerms node_terms_;
+  double tension_time_ = 0.0;  ///< of the tensions that vary [s]
   FrictionSystem system_;
 
   double energy_ = 0.0;              ///< at the present positions, without external work

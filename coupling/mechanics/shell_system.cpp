@@ -5,7 +5,7 @@ namespace morula {
 ShellSystem::ShellSystem(const Model& model) {
   for (const CellType& type : model.types) {
     parameters_.push_back(type.shell);
-    parameters_.back().medium_friction = type.medium_friction;
+    if (type.medium_normal_extra == 0.0 && type.medium_tangent_extra == 0.0) parameters_.back().medium_friction = type.medium_friction;
   }
 }
 
@@ -28,6 +28,14 @@ void ShellSystem::assemble(const dcm::Shells& shells, std::span<const Vec3d> pos
                            double dt) {
   dcm::assemble_shell_operator(blocks_, shells, parameters_, position.first(shells.node_count()), friction_,
                                face_contact_energy.first(blocks_.face_count()), dt, operator_);
+  node_block_.assign(node_friction_.empty() && node_stiffness_.empty() ? 0 : shells.node_count(), {});
+  for (std::size_t i = 0; i < node_block_.size(); ++i) {
+    SymMat3<double> sum;
+    if (!node_friction_.empty()) sum += node_friction_[i];
+    if (!node_stiffness_.empty()) sum += dt * node_stiffness_[i];
+    const auto f = [](double a) { return static_cast<float>(a); };
+    node_block_[i] = {f(sum.xx), f(sum.xy), f(sum.xz), f(sum.yy), f(sum.yz), f(sum.zz)};
+  }
 }
 
 void ShellSystem::add_step_friction(std::span<const Vec3d> position, std::span<Vec3d> out, OrderFreeSum& quadratic) {
@@ -36,16 +44,31 @@ void ShellSystem::add_step_friction(std::span<const Vec3d> position, std::span<V
   friction_quadratic_.resize(shells_->size());
   dcm::add_friction_of_motion(blocks_, *shells_, friction_, position.first(nodes), out.first(nodes), friction_quadratic_);
   for (const double q : friction_quadratic_) quadratic.add(q);
+  for (std::size_t s = 0; s < shells_->size() && !node_friction_.empty(); ++s) {
+    double of_shell = 0.0;
+    for (std::uint32_t i = shells_->first_node[s]; i < shells_->first_node[s + 1]; ++i) {
+      const Vec3d displacement = position[i] - shells_->position[i];
+      const Vec3d push = node_friction_[i] * displacement;
+      out[i] += push;
+      of_shell += dot(displacement, push);
+    }
+    quadratic.add(of_shell);
+  }
 }
 
 void ShellSystem::add_edge_blocks(const EdgeBlockSource& source) { dcm::add_edge_blocks(blocks_, source, operator_); }
 
 void ShellSystem::multiply(std::span<const Float4> p, std::span<Float4> q) const {
   dcm::apply_shell_operator(blocks_, *shells_, operator_, p.first(point_count()), q.first(point_count()));
+  for (std::size_t i = 0; i < node_block_.size(); ++i) {
+    const Vec3f add = node_block_[i] * Vec3f{p[i].x, p[i].y, p[i].z};
+    q[i].x += add.x, q[i].y += add.y, q[i].z += add.z;
+  }
 }
 
 void ShellSystem::add_diagonal(std::span<SymMat3<float>> diagonal) const {
   dcm::add_block_diagonal(blocks_, *shells_, operator_, diagonal.first(point_count()));
+  for (std::size_t i = 0; i < node_block_.size(); ++i) diagonal[i] += node_block_[i];
 }
 
 std::size_t ShellSystem::memory() const {

@@ -1,5 +1,6 @@
 #pragma once
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/friction/friction_system.h"
@@ -25,6 +26,10 @@ class ShellSystem : public OperatorPart {
   void assemble(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<const double> face_contact_energy, double dt);
   /// Adds Γ_n d, d = position − start, of the shells' nodes to `out`, and dᵀΓ_n d to the sum.
   void add_step_friction(std::span<const Vec3d> position, std::span<Vec3d> out, OrderFreeSum& quadratic);
+  /// Friction of single nodes of the step, beside that of the shells' own; empty: none. After begin_step().
+  void set_node_friction(std::vector<SymMat3<double>> friction) { node_friction_ = std::move(friction); }
+  /// Stiffness of single nodes, positive semi-definite; empty: none. Before assemble().
+  void set_node_stiffness(std::vector<SymMat3<double>> stiffness) { node_stiffness_ = std::move(stiffness); }
 
   [[nodiscard]] const dcm::ShellMechanics& forces() const { return forces_; }
   [[nodiscard]] std::span<const dcm::ShellParameters> parameters() const { return parameters_; }
@@ -43,6 +48,8 @@ class ShellSystem : public OperatorPart {
   dcm::ShellFriction friction_;
   dcm::ShellOperator operator_;
   std::vector<double> friction_quadratic_;
+  std::vector<SymMat3<double>> node_friction_, node_stiffness_;  ///< by node, or empty
+  std::vector<SymMat3<float>> node_block_;                       ///< Γ + Δt K of these, or empty
 };
 
 }  // namespace morula

@@ -51,6 +51,12 @@ class SphereContacts {
   [[nodiscard]] double pressure(std::size_t i, double radius) const;
   /// Contact areas of owned spheres [µm²]; evaluates the pairs, for nobody needs them in a step.
   [[nodiscard]] std::vector<double> contact_areas(const Scene& scene, const ContactLayer& contacts) const;
+  /// function(owned sphere, obstacle, normal, area) for the spheres that touch obstacles.
+  template <class F>
+  void for_touched_obstacles(F&& function) const {
+    for (const RigidPair& pair : rigid_)
+      if (pair.area > 0.0) function(pair.sphere, pair.obstacle, pair.normal, pair.area);
+  }
   [[nodiscard]] std::size_t memory() const;
 
  private:

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scenarios/library/blastocyst.h"
+#include "scenarios/library/cavity.h"
 #include "scenarios/library/embryo.h"
 #include "scenarios/library/hybrid_spheroid.h"
 #include "scenarios/library/single_cell.h"
@@ -48,6 +49,7 @@ double largest_rise(const SeriesColumn& energy) {
 const std::vector<ScenarioCriteria>& scenario_criteria() {
   static const std::vector<ScenarioCriteria> all{
       {"blastocyst", &judge_blastocyst},
+      {"blastocyst", &judge_cavity},
       {"doublet", &judge_doublet, &plot_doublet},
       {"embryo", &judge_embryo, &plot_embryo},
       {"hybrid_spheroid", &judge_hybrid_spheroid},
@@ -62,12 +64,13 @@ const std::vector<ScenarioCriteria>& scenario_criteria() {
 bool is_passive(const Study& study) {
   const Model& model = study.model;
   for (const CellType& type : model.types)
-    if (type.cycles || type.migration_speed > 0.0 || (type.death_field >= 0 && type.death_rate > 0.0) || type.osmosis.acts()) return false;
+    if (type.fluctuations.energy > 0.0 || type.protrusion.force > 0.0 || !type.regional_tension.empty() || type.osmosis.acts() || type.cycles ||
+        type.migration_speed > 0.0 || (type.death_field >= 0 && type.death_rate > 0.0)) return false;
   for (const InitialCells& block : study.initial)
     if (block.start_volume_fraction < 1.0) return false;
   for (const ObstacleSpec& obstacle : model.obstacles)
     if (obstacle.moves()) return false;
-  return model.loads.empty() && model.swaps.regions.empty() && model.swaps.triggers.empty();
+  return model.loads.empty() && model.lumens.empty() && model.apical_springs.empty() && model.swaps.regions.empty() && model.swaps.triggers.empty();
 }
 
 Result<std::vector<Verdict>> common_criteria(const Study& study, const std::filesystem::path& run) {

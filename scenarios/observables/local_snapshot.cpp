@@ -15,6 +15,7 @@ Snapshot local_snapshot(Simulation& simulation) {
   out.time = tissue.clock.time;
   for (const CellType& type : model.types) out.type_names.push_back(type.name);
   for (const auto& spec : model.fields) out.fields.emplace_back().name = spec.name;
+  out.mark_names = model.mark_names;
   std::vector<const Topology*> known;
   std::size_t shell = 0, sphere = 0;
   for (std::size_t i = 0; i < center.size(); ++i) {
@@ -53,6 +54,11 @@ Snapshot local_snapshot(Simulation& simulation) {
     if (const Vec3d* nucleus = tissue.shells.nucleus_of(shell))
       out.nuclei.push_back(
           {static_cast<std::uint32_t>(i), *nucleus, dcm::nucleus_radius(model.types[row.type].interior, tissue.shells.rest_volume[shell])});
+    if (!model.mark_names.empty()) {
+      const auto& marks = tissue.shells.faces_of(shell).mark;
+      out.face_marks.insert(out.face_marks.end(), marks.begin(), marks.end());
+      if (marks.empty()) out.face_marks.resize(out.face_marks.size() + topology->face_count(), 0);
+    }
     ++shell;
   }
   return out;

@@ -101,6 +101,8 @@ Measures measure(Simulation& simulation) {
   Measures out;
   out.time = tissue.clock.time;
   out.of_type.assign(model.types.size(), 0);
+  out.lumens = tissue.lumens;
+  out.lumens.resize(model.lumens.size());
   OrderFreeSum sums[kSums];
   Extreme pressure, volume_error;
   std::size_t shell = 0, sphere = tissue.shells.size();

@@ -66,6 +66,15 @@ std::vector<Observable> observables(const Model& model) {
                      [o, axis](const Moment& m) { return m.measures.obstacle_force[o][axis]; }});
     }
   }
+  for (std::size_t k = 0; k < model.lumens.size(); ++k) {
+    const std::string& name = model.lumens[k].name;
+    const auto of = [k](double LumenState::*member) { return [k, member](const Moment& m) { return m.measures.lumens[k].*member; }; };
+    out.push_back({"volume_" + name, "um^3", "Volume of the cavity " + name + ".", of(&LumenState::volume)});
+    out.push_back({"area_" + name, "um^2", "Area of the faces that bound the cavity " + name + ".", of(&LumenState::area)});
+    out.push_back({"pressure_" + name, "kPa", "Pressure of the fluid in the cavity " + name + ".", of(&LumenState::pressure)});
+    out.push_back({"open_" + name, "1", "Part of the directions from the centre of the cavity " + name + " in which it has no wall.",
+                   [k](const Moment& m) { return 1.0 - m.measures.lumens[k].covered; }});
+  }
   for (std::size_t f = 0; f < model.fields.size(); ++f) {
     const std::string& name = model.fields[f].name;
     out.push_back({"mean_" + name, "mM", "Mean concentration of " + name + ".", [f](const Moment& m) { return m.measures.mean_field[f]; }});

@@ -53,6 +53,18 @@ Status read_globals(const Hdf5Reader& file, LoadedCheckpoint& out) {
     std::copy(values.begin(), values.end(), std::begin(member));
     return {};
   };
+  Status lumens;
+  for_each_lumen_field([&](const std::string& name, const char*, auto member) {
+    if (!lumens.ok() || !file.exists("lumens/" + name)) return;
+    auto column = file.read<double>("lumens/" + name);
+    if (!column.ok()) {
+      lumens = std::move(column).error();
+      return;
+    }
+    out.tissue.lumens.resize(column.value().size());
+    for (std::size_t i = 0; i < out.tissue.lumens.size(); ++i) out.tissue.lumens[i].*member = column.value()[i];
+  });
+  MORULA_TRY(lumens);
   Clock& clock = out.tissue.clock;
   Ledger& ledger = out.tissue.ledger;
   return first_failure([&](auto note) {
@@ -135,6 +147,37 @@ Status read_nuclei(const Hdf5Reader& file, std::uint64_t first, const std::vecto
   return {};
 }
 
+/// Marks and contact of the faces, where any shell had them.
+Status read_faces(const Hdf5Reader& file, std::uint64_t first_shell, const Comm& comm, dcm::Shells& out) {
+  if (!file.exists("shells/mark_count")) return {};
+  std::vector<std::uint32_t> counts[2];
+  const auto read_counts = [&]() -> Status {
+    MORULA_TRY_ASSIGN(counts[0], file.read<std::uint32_t>("shells/mark_count", first_shell, out.size()));
+    MORULA_TRY_ASSIGN(counts[1], file.read<std::uint32_t>("shells/face_contact_count", first_shell, out.size()));
+    return {};
+  };
+  MORULA_TRY(agree(read_counts(), comm));
+  std::uint64_t total[2], first[2];
+  for (int k = 0; k < 2; ++k) {
+    total[k] = std::accumulate(counts[k].begin(), counts[k].end(), std::uint64_t{0});
+    first[k] = before_mine(total[k], comm);
+  }
+  const auto read_values = [&]() -> Status {
+    MORULA_TRY_ASSIGN(const auto marks, file.read<std::uint8_t>("shells/mark", first[0], total[0]));
+    MORULA_TRY_ASSIGN(const auto contacts, file.read<float>("shells/face_contact", first[1], total[1]));
+    out.face.resize(out.size());
+    auto mark = marks.begin();
+    auto contact = contacts.begin();
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out.face[i].mark.assign(mark, mark + counts[0][i]);
+      out.face[i].contact.assign(contact, contact + counts[1][i]);
+      mark += counts[0][i], contact += counts[1][i];
+    }
+    return {};
+  };
+  return agree(read_values(), comm);
+}
+
 /// Rows and bodies of this rank in the order of ids. Collective: where a rank's bodies begin follows from the ranks before it.
 Status read_cells(const Hdf5Reader& file, ShapeLibrary& library, const Comm& comm, Tissue& out) {
   std::uint64_t total = 0;
@@ -157,7 +200,8 @@ Status read_cells(const Hdf5Reader& file, ShapeLibrary& library, const Comm& com
   MORULA_TRY(agree(read_nuclei(file, first_nucleus, has_nucleus, out.shells), comm));
   const std::uint64_t first_node = before_mine(out.shells.first_node.back(), comm),
                       first_edge = before_mine(out.shells.first_edge.back(), comm);
-  return agree(read_shell_arrays(file, first_node, first_edge, out.shells), comm);
+  MORULA_TRY(agree(read_shell_arrays(file, first_node, first_edge, out.shells), comm));
+  return read_faces(file, first_shell, comm, out.shells);
 }
 
 /// The same cells in canonical order, bodies with them.
@@ -193,6 +237,7 @@ void put_in_canonical_order(Tissue& tissue) {
       h.first_node.push_back(static_cast<std::uint32_t>(h.position.size()));
       h.first_edge.push_back(static_cast<std::uint32_t>(h.rest_length.size()));
       h.nucleus.push_back(from.nucleus_of(b) != nullptr ? std::optional(*from.nucleus_of(b)) : std::nullopt);
+      if (!from.face.empty()) h.face.push_back(from.face[b]);
     }
   }
   tissue.cells = std::move(sorted);
@@ -235,6 +280,7 @@ Status check_against(const Model& model, const Tissue& tissue) {
   if (tissue.fields.size() != model.fields.size()) return differs("fields", tissue.fields.size(), model.fields.size());
   if (tissue.obstacle_offset.size() != model.obstacles.size())
     return differs("obstacles", tissue.obstacle_offset.size(), model.obstacles.size());
+  if (tissue.lumens.size() > model.lumens.size()) return differs("lumens", tissue.lumens.size(), model.lumens.size());
   for (const CellRow& row : tissue.cells.rows)
     if (row.type >= model.types.size()) return differs("cell types or more", row.type + std::size_t{1}, model.types.size());
   for (std::size_t s = 0; s < tissue.shells.size(); ++s) {

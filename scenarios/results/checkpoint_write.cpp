@@ -23,6 +23,9 @@ struct SortedCells {
   dcm::Shells shells;
   std::vector<std::uint8_t> has_nucleus;  ///< by shell
   std::vector<Vec3d> nucleus;             ///< of those that have one
+  std::vector<std::uint32_t> mark_count, contact_count;  ///< by shell
+  std::vector<std::uint8_t> mark;
+  std::vector<float> contact;
 };
 
 Parcels pack_cells(const Tissue& tissue, const ShapeNumbers& numbers) {
@@ -58,6 +61,11 @@ Parcels pack_cells(const Tissue& tissue, const ShapeNumbers& numbers) {
       const Vec3d* nucleus = s.nucleus_of(shell);
       out.put(std::uint8_t{nucleus != nullptr});
       if (nucleus != nullptr) out.put(*nucleus);
+      const dcm::FaceState& face = s.faces_of(shell);
+      out.put(static_cast<std::uint32_t>(face.mark.size()));
+      out.put(static_cast<std::uint32_t>(face.contact.size()));
+      out.put_all(std::span(face.mark));
+      out.put_all(std::span(face.contact));
       ++shell;
     }
     parcels.add(row.id.bits(), out.bytes());
@@ -88,13 +96,16 @@ SortedCells unpack_cells(const Parcels& parcels) {
       in.get_all(edges, out.shells.rest_length);
       out.has_nucleus.push_back(in.get<std::uint8_t>());
       if (out.has_nucleus.back() != 0) out.nucleus.push_back(in.get<Vec3d>());
+      out.mark_count.push_back(in.get<std::uint32_t>());
+      out.contact_count.push_back(in.get<std::uint32_t>());
+      in.get_all(out.mark_count.back(), out.mark);
+      in.get_all(out.contact_count.back(), out.contact);
     }
   }
   return out;
 }
 
-/// `with_nuclei`: some rank has a shell with a nucleus.
-void add_cells(StoragePlan& plan, const SortedCells& cells, bool with_nuclei) {
+void add_cells(StoragePlan& plan, const SortedCells& cells, const Comm& comm) {
   for_each_row_field([&](const std::string& name, const char* units, auto member) {
     std::vector<std::remove_cvref_t<decltype(cells.rows.front().*member)>> column;
     for (const CellRow& row : cells.rows) column.push_back(row.*member);
@@ -113,9 +124,15 @@ void add_cells(StoragePlan& plan, const SortedCells& cells, bool with_nuclei) {
   plan.add("shells/position", "um", cells.shells.position);
   plan.add("shells/velocity", "um/s", cells.shells.velocity);
   plan.add("shells/rest_length", "um", cells.shells.rest_length);
-  if (!with_nuclei) return;
-  plan.add("shells/has_nucleus", "1", cells.has_nucleus);
-  plan.add("shells/nucleus", "um", cells.nucleus);
+  if (comm.any(!cells.nucleus.empty())) {
+    plan.add("shells/has_nucleus", "1", cells.has_nucleus);
+    plan.add("shells/nucleus", "um", cells.nucleus);
+  }
+  if (!comm.any(!cells.mark.empty() || !cells.contact.empty())) return;
+  plan.add("shells/mark_count", "1", cells.mark_count);
+  plan.add("shells/mark", "1", cells.mark);
+  plan.add("shells/face_contact_count", "1", cells.contact_count);
+  plan.add("shells/face_contact", "1", cells.contact);
 }
 
 Status add_field(StoragePlan& plan, const std::string& group, const fields::Field& field, const Comm& comm) {
@@ -160,6 +177,12 @@ void add_globals(StoragePlan& plan, const Tissue& tissue, const CheckpointInfo& 
       },
       [&](const std::string& name, const char* units, auto member) { plan.add_value("ledger/" + name, units, tissue.ledger.*member); });
   plan.add_from_root("obstacles/offset", "um", std::span<const Vec3d>(tissue.obstacle_offset));
+  if (tissue.lumens.empty()) return;
+  for_each_lumen_field([&](const std::string& name, const char* units, auto member) {
+    std::vector<double> column;
+    for (const LumenState& lumen : tissue.lumens) column.push_back(lumen.*member);
+    plan.add_from_root("lumens/" + name, units, std::span<const double>(column));
+  });
 }
 
 }  // namespace
@@ -179,7 +202,7 @@ Status write_checkpoint(const std::filesystem::path& path, const Tissue& tissue,
   add_globals(plan, tissue, info);
   const ShapeNumbers numbers = add_shapes(plan, tissue.shells.shape, comm);
   const SortedCells cells = unpack_cells(sort_over_ranks(pack_cells(tissue, numbers), comm));
-  add_cells(plan, cells, comm.any(!cells.nucleus.empty()));
+  add_cells(plan, cells, comm);
   for (std::size_t f = 0; f < tissue.fields.size(); ++f) MORULA_TRY(add_field(plan, "fields/" + std::to_string(f), tissue.fields[f], comm));
   return create_file(path, std::move(plan), comm);
 }

@@ -74,6 +74,7 @@ class ByteReader {
     bytes_ = bytes_.subspan(count * sizeof(T));
   }
   [[nodiscard]] bool empty() const { return bytes_.empty(); }
+  [[nodiscard]] std::size_t rest() const { return bytes_.size(); }  ///< bytes left
 
  private:
   std::span<const std::byte> bytes_;

@@ -52,6 +52,8 @@ struct Snapshot {
   std::vector<Nucleus> nuclei;  ///< in the order of their cells
   std::vector<Vec3d> nodes;
   std::vector<std::vector<Triangle>> topologies;
+  std::vector<std::string> mark_names;   ///< of the bits of a face's marks
+  std::vector<std::uint8_t> face_marks;  ///< by face, in the order of the shells; empty when the study has no marks
   std::vector<Grid> fields;
   std::vector<std::string> type_names;
 };

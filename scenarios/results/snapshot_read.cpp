@@ -49,6 +49,12 @@ Status read_shells(const Hdf5Reader& file, const std::string& group, Snapshot& o
         if (node >= count[i]) return Error{ErrorKind::kFile, "a face in " + group + " points outside its shell", ""};
     out.shells.push_back({static_cast<std::uint32_t>(cell[i]), static_cast<std::uint32_t>(first[i]), count[i], topology[i]});
   }
+  if (!file.exists(group + "mark_names")) return {};
+  MORULA_TRY_ASSIGN(out.mark_names, file.texts(group + "mark_names"));
+  MORULA_TRY_ASSIGN(out.face_marks, file.read<std::uint8_t>(group + "shells/face_marks"));
+  std::size_t faces = 0;
+  for (const Snapshot::Shell& shell : out.shells) faces += out.topologies[shell.topology].size();
+  if (out.face_marks.size() != faces) return Error{ErrorKind::kFile, "the marks in " + group + " are not those of its faces", ""};
   return {};
 }
 

@@ -64,6 +64,12 @@ Parcels pack_cells(const Snapshot& local, const std::vector<std::uint32_t>& topo
   for (const Snapshot::Shell& shell : local.shells) shell_of[shell.cell] = &shell;
   std::vector<const Snapshot::Nucleus*> nucleus_of(local.cells.size(), nullptr);
   for (const Snapshot::Nucleus& nucleus : local.nuclei) nucleus_of[nucleus.cell] = &nucleus;
+  std::vector<std::size_t> first_face(local.cells.size(), 0);
+  std::size_t faces = 0;
+  for (const Snapshot::Shell& shell : local.shells) {
+    first_face[shell.cell] = faces;
+    faces += local.topologies[shell.topology].size();
+  }
   Parcels parcels;
   ByteWriter out;
   for (std::size_t c = 0; c < local.cells.size(); ++c) {
@@ -79,19 +85,22 @@ Parcels pack_cells(const Snapshot& local, const std::vector<std::uint32_t>& topo
         out.put(nucleus_of[c]->center);
         out.put(nucleus_of[c]->radius);
       }
+      if (!local.mark_names.empty())
+        out.put_all(std::span(local.face_marks).subspan(first_face[c], local.topologies[shell->topology].size()));
     }
     parcels.add(local.cells[c].id.bits(), out.bytes());
   }
   return parcels;
 }
 
-void add_cells(StoragePlan& plan, const Parcels& sorted, const Comm& comm) {
+void add_cells(StoragePlan& plan, const Parcels& sorted, bool marks, const Comm& comm) {
   std::vector<Snapshot::Cell> cells;
   std::vector<std::uint64_t> shell_cell, first_node;
   std::vector<std::uint32_t> node_count, topology;
   std::vector<Vec3d> nodes, nucleus_center;
   std::vector<std::uint64_t> nucleus_cell;
   std::vector<double> nucleus_radius;
+  std::vector<std::uint8_t> face_marks;
   const auto first_cell = static_cast<std::uint64_t>(comm.exclusive_scan(static_cast<std::int64_t>(sorted.size())));
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     ByteReader in(sorted.bytes(i));
@@ -103,10 +112,12 @@ void add_cells(StoragePlan& plan, const Parcels& sorted, const Comm& comm) {
     node_count.push_back(count);
     topology.push_back(in.get<std::uint32_t>());
     in.get_all(count, nodes);
-    if (in.get<std::uint8_t>() == 0) continue;
-    nucleus_cell.push_back(first_cell + i);
-    nucleus_center.push_back(in.get<Vec3d>());
-    nucleus_radius.push_back(in.get<double>());
+    if (in.get<std::uint8_t>() != 0) {
+      nucleus_cell.push_back(first_cell + i);
+      nucleus_center.push_back(in.get<Vec3d>());
+      nucleus_radius.push_back(in.get<double>());
+    }
+    if (marks) in.get_all(in.rest(), face_marks);
   }
   const auto nodes_before = static_cast<std::uint64_t>(comm.exclusive_scan(static_cast<std::int64_t>(nodes.size())));
   for (std::uint64_t& first : first_node) first += nodes_before;
@@ -120,6 +131,7 @@ void add_cells(StoragePlan& plan, const Parcels& sorted, const Comm& comm) {
   plan.add("shells/node_count", "1", node_count);
   plan.add("shells/topology", "1", topology);
   plan.add("shells/node", "um", nodes);
+  if (marks) plan.add("shells/face_marks", "1", face_marks);
   if (!comm.any(!nucleus_cell.empty())) return;
   plan.add("nuclei/cell", "1", nucleus_cell);
   plan.add("nuclei/center", "um", nucleus_center);
@@ -161,6 +173,11 @@ Status check_local(const Snapshot& local, std::span<const fields::Field> fields)
   if (local.fields.size() != fields.size())
     return Error{ErrorKind::kInternal,
                  "a snapshot names " + std::to_string(local.fields.size()) + " fields of " + std::to_string(fields.size()), ""};
+  std::size_t faces = 0;
+  for (const Snapshot::Shell& shell : local.shells)
+    if (shell.topology < local.topologies.size()) faces += local.topologies[shell.topology].size();
+  if (!local.mark_names.empty() && local.face_marks.size() != faces)
+    return Error{ErrorKind::kInternal, "a snapshot has marks of " + std::to_string(local.face_marks.size()) + " of its faces", ""};
   for (const Snapshot::Shell& shell : local.shells)
     if (shell.cell >= local.cells.size() || shell.topology >= local.topologies.size() || shell.node_count == 0 ||
         std::size_t{shell.first_node} + shell.node_count > local.nodes.size())
@@ -213,7 +230,8 @@ Status append_snapshot(const std::filesystem::path& path, const Snapshot& local,
   for (const Snapshot::Grid& grid : local.fields) names.push_back(grid.name);
   plan.add_text("field_names", names);
   const std::vector<std::uint32_t> numbers = add_topologies(plan, local, comm);
-  add_cells(plan, sort_over_ranks(pack_cells(local, numbers), comm), comm);
+  if (!local.mark_names.empty()) plan.add_text("mark_names", local.mark_names);
+  add_cells(plan, sort_over_ranks(pack_cells(local, numbers), comm), !local.mark_names.empty(), comm);
   for (std::size_t f = 0; f < fields.size(); ++f) add_field(plan, names[f], fields[f], comm);
   return add_to_file(path, std::move(plan), removed, comm);
 }

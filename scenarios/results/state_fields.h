@@ -44,6 +44,17 @@ void for_each_clock_field(Visit&& visit) {
 }
 static_assert(sizeof(Clock) == 4 * 8, "list every member of Clock in for_each_clock_field");
 
+template <class Visit>
+void for_each_lumen_field(Visit&& visit) {
+  visit("looked_at", "s", &LumenState::looked_at);
+  visit("amount", "amol", &LumenState::amount);
+  visit("volume", "um^3", &LumenState::volume);
+  visit("pressure", "kPa", &LumenState::pressure);
+  visit("area", "um^2", &LumenState::area);
+  visit("covered", "1", &LumenState::covered);
+}
+static_assert(sizeof(LumenState) == 6 * 8, "list every member of LumenState in for_each_lumen_field");
+
 /// `array(name, units, member)` for the values by field, `count(name, units, member)` for the counters.
 template <class Array, class Count>
 void for_each_ledger_field(Array&& array, Count&& count) {

@@ -40,6 +40,11 @@ void put_shell(ByteWriter& out, const dcm::Shells& shells, std::size_t i, const 
   out.put_all(std::span(shells.velocity).subspan(node, nodes));
   out.put_all(std::span(shells.rest_length).subspan(edge, edges));
   if (const Vec3d* nucleus = shells.nucleus_of(i)) out.put(*nucleus);
+  const dcm::FaceState& face = shells.faces_of(i);  // shells without have the bytes that they had before there were marks
+  if (face.empty()) return;
+  out.put(std::uint64_t{face.mark.size()});
+  out.put_all(std::span(face.mark));
+  out.put_all(std::span(face.contact));
 }
 
 Hash128 hash_of_cells(const Tissue& tissue) {
@@ -86,6 +91,8 @@ Hash128 hash_of_globals(const Tissue& tissue) {
   for_each_ledger_field(put, put);
   bytes.put(std::uint64_t{tissue.obstacle_offset.size()});
   bytes.put_all(std::span(tissue.obstacle_offset));
+  for (const LumenState& lumen : tissue.lumens)
+    for_each_lumen_field([&](const char*, const char*, auto member) { bytes.put(lumen.*member); });
   for (const fields::Field& field : tissue.fields) {
     bytes.put(field.grid.box.low);
     bytes.put(field.grid.box.high);

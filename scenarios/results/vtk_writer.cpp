@@ -133,7 +133,13 @@ std::string shells_file(const Snapshot& s) {
       mesh.types.push_back(kTriangle);
       cell_of_face.push_back(shell.cell);
     }
-  return mesh_file(s, mesh, "", cell_arrays(s, cell_of_face));
+  std::string marks;
+  for (std::size_t bit = 0; bit < s.mark_names.size(); ++bit) {
+    std::vector<std::uint8_t> column;
+    for (const std::uint8_t set : s.face_marks) column.push_back(set >> bit & 1);
+    marks += data_array("mark " + s.mark_names[bit], column);
+  }
+  return mesh_file(s, mesh, "", cell_arrays(s, cell_of_face) + marks);
 }
 
 std::string spheres_file(const Snapshot& s) {

@@ -218,6 +218,7 @@ std::vector<UsedLaw> used_laws(const Study& study) {
   for (const CellType& type : model.types) add_behaviours(type, out);
   add_fields(model, out);
   add_loads(model, out);
+  add_active_laws(model, shells, out);
   return out;
 }
 

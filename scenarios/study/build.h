@@ -31,8 +31,12 @@ void build_motion_course(BuildContext& context, const draft::Obstacle& draft, Ob
 void build_osmosis(BuildContext& context, const draft::CellType& draft, CellType& type);
 /// Nucleus and links of the shells of a type: E111, E537–E540.
 dcm::InteriorParameters build_interior(BuildContext& context, const draft::CellType& draft, const std::string& type_name);
-/// The points of a course as a table; an error where their times do not increase.
-TimeCourse course_of(BuildContext& context, const std::vector<Named<draft::CoursePoint>>& points);
+/// The points of a course as a table; E510 where their times do not increase, or there is only one.
+TimeCourse build_course(BuildContext& context, const std::vector<Named<draft::CoursePoint>>& points);
+/// Marks of faces, tension by region, cavities, springs: E555–E557; after types, obstacles, pairs and domain.
+void build_regions(BuildContext& context);
+/// Fluctuations, polarity, protrusion, what migrates on what, directions of friction: E558; after types and obstacles.
+void build_activity(BuildContext& context);
 /// External loads; after the cells of time 0.
 void build_loads(BuildContext& context);
 /// Adhesion and friction of all pairs of materials; missing pairs get their default, in the draft, too.
@@ -47,6 +51,8 @@ void check_whole(BuildContext& context);
 
 /// Index of a cell type or field by name, or −1 and an error with suggestions.
 int find_type(BuildContext& context, const std::string& name, const Place& place);
+/// Index of a cell type, or of an obstacle after the types, by name; −1 and an error with suggestions.
+int find_material(BuildContext& context, const std::string& name, const Place& place);
 int find_field(BuildContext& context, const std::string& name, const Place& place);
 /// Whether any cell may have this body: by its type, by `as`, or by coupling.
 bool may_have_shells(const draft::Study& draft);

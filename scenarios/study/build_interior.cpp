@@ -99,7 +99,7 @@ void build_osmosis(BuildContext& c, const draft::CellType& t, CellType& type) {
   law.inactive = d.inactive.value;
   law.inside = d.inside.value;
   law.outside = d.outside.value;
-  law.course = course_of(c, d.course);
+  law.course = build_course(c, d.course);
   if (d.field.given && d.field.known()) law.field = find_field(c, d.field.value, d.field.place);
   if (d.inactive.known() && d.inside.known() && d.outside.known()) check_osmotic_volumes(c, d, law);
 }

@@ -45,7 +45,7 @@ void check_bodies(BuildContext& c, const std::string& name, const Place& place, 
 
 }  // namespace
 
-TimeCourse course_of(BuildContext& c, const std::vector<Named<draft::CoursePoint>>& points) {
+TimeCourse build_course(BuildContext& c, const std::vector<Named<draft::CoursePoint>>& points) {
   TimeCourse out;
   for (const auto& [name, place, point] : points) {
     if (!point.time.known() || !point.value.known()) return {};
@@ -66,7 +66,7 @@ TimeCourse course_of(BuildContext& c, const std::vector<Named<draft::CoursePoint
 void build_motion_course(BuildContext& c, const draft::Obstacle& o, ObstacleSpec& obstacle) {
   if (o.course.empty()) return;
   obstacle.direction = unit_axis(c, o.direction, "direction");
-  obstacle.distance = course_of(c, o.course);
+  obstacle.distance = build_course(c, o.course);
 }
 
 void build_loads(BuildContext& c) {
@@ -95,7 +95,7 @@ void build_loads(BuildContext& c) {
     } else {
       load.force = d.body_force.value;
     }
-    load.course = course_of(c, d.course);
+    load.course = build_course(c, d.course);
     if (type >= 0 && static_cast<std::size_t>(type) < c.study.model.types.size()) check_bodies(c, name, place, load);
     c.study.model.loads.push_back(std::move(load));
   }

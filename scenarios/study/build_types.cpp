@@ -128,7 +128,15 @@ void build_pairs(BuildContext& c) {
       const draft::CellType& a = c.draft.cell_types[i].content;
       const double friction = j < types ? 0.5 * (a.friction_cell_cell.value + c.draft.cell_types[j].content.friction_cell_cell.value)
                                         : a.friction_obstacle.value;
-      pairs[i * materials + j] = pairs[j * materials + i] = {table.at(i, j).value, friction, friction};
+      const auto along = [](const Given<double>& tangential, const Given<double>& same) {
+        return tangential.value < 0.0 ? same.value : tangential.value;
+      };
+      double tangential = along(a.tangential_obstacle, a.friction_obstacle);
+      if (j < types) {
+        const draft::CellType& b = c.draft.cell_types[j].content;
+        tangential = 0.5 * (along(a.tangential_cell_cell, a.friction_cell_cell) + along(b.tangential_cell_cell, b.friction_cell_cell));
+      }
+      pairs[i * materials + j] = pairs[j * materials + i] = {table.at(i, j).value, friction, tangential};
     }
   }
   if (!may_have_shells(c.draft)) return;

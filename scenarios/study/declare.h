@@ -10,6 +10,13 @@ void declare_cell_type(Section& section, draft::CellType& type);
 void declare_shell(Section& section, draft::CellType& type);
 /// `cbm.packing`.
 void declare_packing(Section& section, draft::CellType& type);
+/// `regions` and `lateral_easing` of the cortex.
+void declare_tension_regions(Section& section, draft::CellType& type);
+void declare_mark(Section& section, draft::Mark& mark);
+void declare_lumen(Section& section, draft::Lumen& lumen);
+void declare_apical_spring(Section& section, draft::ApicalSpring& spring);
+/// `fluctuations`, `polarity` and `protrusion` of a cell type.
+void declare_activity(Section& section, draft::CellType& type);
 void declare_obstacle(Section& section, draft::Obstacle& obstacle);
 /// `direction` and `course` of an obstacle's motion.
 void declare_motion_course(Section& section, draft::Obstacle& obstacle);

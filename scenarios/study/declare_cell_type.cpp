@@ -133,7 +133,13 @@ void declare_life(Section& s, draft::CellType& t) {
                 .example = "30 min",
                 .source = "chosen"},
                t.persistence);
+    m.text({.name = "substrate",
+            .doc = "Obstacle that the cell must touch, and along which its force acts then; without it the cell is driven "
+                   "everywhere.",
+            .example = "plane"},
+           t.activity.migration_substrate);
   });
+  declare_activity(s, t);
 }
 
 void declare_friction(Section& s, draft::CellType& t) {
@@ -164,6 +170,24 @@ void declare_friction(Section& s, draft::CellType& t) {
               .example = "1e8 N s/m^3",
               .source = kTable1},
              t.friction_medium);
+  const auto tangential = [&s](const char* name, const char* doc, Given<double>& value) {
+    s.quantity({.name = name,
+                .doc = doc,
+                .quantity = Q::kFrictionPerArea,
+                .fallback = "same",
+                .low = 0.0,
+                .high = 1e6,
+                .specials = {{"same", -1.0}},
+                .example = "1e7 N s/m^3",
+                .source = "chosen"},
+               value);
+  };
+  tangential("cell_cell_tangential", "Along the contact; `cell_cell` then is the friction of approach. `same`: both alike.",
+             t.tangential_cell_cell);
+  tangential("obstacle_tangential", "Along the obstacle; `obstacle` then is the friction across. `same`: both alike.", t.tangential_obstacle);
+  tangential("medium_tangential",
+             "Along a shell's surface; `medium` then is the friction across it. A sphere has the mean, (normal + 2 tangential)/3. `same`: both alike.",
+             t.tangential_medium);
 }
 
 }  // namespace

@@ -104,6 +104,7 @@ void declare_cortex(Section& c, draft::CellType& t) {
               .example = "1e-5 N s/m",
               .source = "chosen: off"},
              t.isotropic_damping);
+  declare_tension_regions(c, t);
 }
 
 void declare_area(Section& a, draft::CellType& t) {

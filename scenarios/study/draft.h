@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "scenarios/study/draft_regions.h"
 #include "scenarios/study/section.h"
 
 namespace morula::scenarios::draft {
@@ -88,6 +89,10 @@ struct CellType {
   Given<double> young, thickness, poisson, shear_modulus, area_ratio, tension, turnover, damping, isotropic_damping;
   Given<double> local_area, global_area;
   Given<bool> area_on_top;
+  std::vector<Named<TensionRegion>> tension_regions;
+  Given<double> lateral_easing;
+  Activity activity;
+  Given<double> tangential_cell_cell, tangential_obstacle, tangential_medium;
   Given<double> bending, spontaneous_radius, bulk_modulus, bulk_viscosity, shape_stiffness, fold_stiffness, fold_angle;
 };
 
@@ -222,6 +227,9 @@ struct Study {
   std::vector<Named<Obstacle>> geometry;
   std::vector<Named<Initial>> initial;
   std::vector<Named<Load>> loads;
+  std::vector<Named<Mark>> marks;
+  std::vector<Named<Lumen>> lumens;
+  std::vector<Named<ApicalSpring>> apical;
   std::vector<Named<Field>> fields;
   Coupling coupling;
   Output output;

@@ -26,6 +26,8 @@ void build(BuildContext& context) {
   build_loads(context);
   build_coupling(context);
   build_time_and_numerics(context);
+  build_activity(context);
+  build_regions(context);
   check_whole(context);
   Study& study = context.study;
   const draft::Study& draft = context.draft;

@@ -14,7 +14,7 @@ namespace morula {
 namespace {
 
 /// `interior`: shells have a nucleus on links, and water flows.
-Model hybrid_model(bool interior) {
+Model hybrid_model(bool interior = false) {
   Model model;
   model.seed = 5;
   model.space.box = {{-80, -80, -80}, {80, 80, 80}};

@@ -65,6 +65,7 @@ Tissue turned_around(const Tissue& from) {
     to.shells.first_node.push_back(static_cast<std::uint32_t>(to.shells.position.size()));
     to.shells.first_edge.push_back(static_cast<std::uint32_t>(to.shells.rest_length.size()));
     to.shells.nucleus.push_back(s.nucleus[i]);
+    if (!s.faces_of(i).empty()) to.shells.faces_of(to.shells.size() - 1) = s.faces_of(i);
   }
   for (fields::Field& field : to.fields) {
     std::reverse(field.owned_bricks.begin(), field.owned_bricks.end());
@@ -123,6 +124,11 @@ TEST(StateHash, SeesEveryPartOfTheState) {
     for (auto& nucleus : t.shells.nucleus)
       if (nucleus) nucleus->y += 1e-13;
   });
+  after([](Tissue& t) { t.shells.faces_of(0).mark.assign(5, 1); });
+  after([](Tissue& t) { t.shells.faces_of(0).mark.assign(5, 2); });
+  after([](Tissue& t) { t.shells.faces_of(0).contact.assign(5, 0.5f); });
+  after([](Tissue& t) { t.lumens[1].amount *= 2; });
+  after([](Tissue& t) { t.lumens[1].looked_at += 1; });
   after([](Tissue& t) { t.fields[1].concentration[3][2] += 1e-12; });
   after([](Tissue& t) { std::swap(t.fields[0], t.fields[1]); });
   after([](Tissue& t) { t.fields[0].next_step = 0.0; });

@@ -99,6 +99,7 @@ inline Model model_of_test_tissue() {
   model.types[1].interior.nucleus_fraction = 0.07;
   model.obstacles.resize(2);
   model.fields.resize(2);
+  model.lumens.resize(2);
   return model;
 }
 
@@ -150,6 +151,11 @@ inline void add_shell(dcm::Shells& shells, CellId id, const std::shared_ptr<cons
   }
   for (std::uint32_t e = 0; e < shape->topology->edge_count(); ++e) shells.rest_length.push_back(numbers.next());
   shells.nucleus.push_back(id.bits() % 3 == 1 ? std::optional(numbers.vector()) : std::nullopt);
+  if (id.bits() % 2 == 0) return;  // some shells have no marks
+  for (std::uint32_t f = 0; f < shape->topology->face_count(); ++f) {
+    shells.faces_of(shells.size() - 1).mark.push_back(static_cast<std::uint8_t>((id.bits() + 3 * f) % 256));
+    if (id.bits() % 3 == 0) shells.faces_of(shells.size() - 1).contact.push_back(static_cast<float>(numbers.next()));
+  }
 }
 
 /// What a checkpoint of the tests says of its run.
@@ -202,6 +208,7 @@ inline Tissue make_tissue(const Comm& comm, ShapeLibrary& library, int cells = 6
   tissue.ledger.promotions = 7;
   tissue.ledger.demotions = 8;
   tissue.obstacle_offset = {{1, 2, 3}, {4, 5, 6}};
+  tissue.lumens = {{10.5, 3.25, 1e5, 0.02, 4e3, 0.97}, {-1e300, 7.0, 0.0, 0.0, 0.0, 0.0}};
   const auto tetra = tetrahedron();
   for (int c = 0; c < cells; ++c) {
     if ((c * spread) % comm.size() != comm.rank()) continue;

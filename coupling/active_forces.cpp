@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <map>
+
+#include "coupling/behaviours/migration.h"
+#include "coupling/behaviours/polarity.h"
+#include "coupling/loads.h"
+#include "coupling/lumens.h"
+#include "coupling/protrusion.h"
+#include "coupling/simulation.h"
+
+namespace morula {
+namespace {
+
+/// What is left of a force along a surface; nothing where the body does not touch it.
+Vec3d along_surface(const Vec3d& force, const Touch& touch) {
+  if (!(touch.area > 0.0)) return {};
+  return force - touch.normal * dot(force, touch.normal);
+}
+
+/// Touch of all bodies with the materials that some type needs it for.
+std::map<int, std::vector<Touch>> touches(const Model& model, const Tissue& tissue, Mechanics& mechanics) {
+  std::map<int, std::vector<Touch>> out;
+  for (const CellType& type : model.types)
+    for (const int material : {type.migration_substrate, type.protrusion.substrate})
+      if (material >= 0 && !out.contains(material)) out[material] = mechanics.touch_of_bodies(tissue, static_cast<std::uint16_t>(material));
+  return out;
+}
+
+/// Nodes of faces in contact with a material, by node of the rank's shells.
+std::vector<char> nodes_in_touch(const Model& model, const Tissue& tissue, Mechanics& mechanics, int material) {
+  std::vector<char> materials(model.material_count(), 0);
+  materials[static_cast<std::size_t>(material)] = 1;
+  const std::vector<float> part = mechanics.contact_of_faces(tissue, materials);
+  std::vector<char> out(tissue.shells.node_count(), 0);
+  std::size_t face = 0;
+  for (std::size_t s = 0; s < tissue.shells.size(); ++s)
+    for (const Triangle& t : tissue.shells.topology(s).faces())
+      if (part[face++] > 0.0f)
+        for (const std::uint32_t node : t) out[tissue.shells.first_node[s] + node] = 1;
+  return out;
+}
+
+}  // namespace
+
+std::vector<Vec3d> Simulation::forces_on_cells(double time) {
+  const auto touch = touches(model_, tissue_, *mechanics_);
+  std::vector<Vec3d> shells, spheres;
+  std::size_t shell = 0, sphere = tissue_.shells.size();
+  for (const CellRow& row : tissue_.cells.rows) {
+    const CellType& type = model_.types[row.type];
+    const bool is_shell = row.body == BodyKind::kShell;
+    const std::size_t body = is_shell ? shell++ : sphere++;
+    Vec3d force = migration_force(row, type, row.target_volume);
+    if (type.migration_substrate >= 0) force = along_surface(force, touch.at(type.migration_substrate)[body]);
+    if (!is_shell && type.protrusion.force > 0.0 && !type.protrusion.internal) {  // a sphere has no front: the force is that of the whole
+      Vec3d push = row.polarity * type.protrusion.force;
+      if (type.protrusion.substrate >= 0) {
+        const Touch& on = touch.at(type.protrusion.substrate)[body];
+        push = along_surface(push, on) * (type.protrusion.contact_area > 0.0 ? std::min(1.0, on.area / type.protrusion.contact_area) : 1.0);
+      }
+      force += push;
+    }
+    (is_shell ? shells : spheres).push_back(force + body_force(model_, row.type, time));
+  }
+  shells.insert(shells.end(), spheres.begin(), spheres.end());
+  return shells;
+}
+
+void Simulation::add_protrusions(std::span<Vec3d> external) {
+  const auto active = [](const CellType& type) { return type.protrusion.force > 0.0; };
+  if (std::none_of(model_.types.begin(), model_.types.end(), active)) return;
+  const auto touch = touches(model_, tissue_, *mechanics_);
+  std::map<int, std::vector<char>> nodes;
+  for (const CellType& type : model_.types)
+    if (const int m = type.protrusion.substrate; active(type) && m >= 0 && !nodes.contains(m))
+      nodes[m] = nodes_in_touch(model_, tissue_, *mechanics_, m);
+  std::size_t shell = 0;
+  for (const CellRow& row : tissue_.cells.rows) {
+    if (row.body == BodyKind::kSphere) continue;
+    const std::size_t s = shell++;
+    const Protrusion& law = model_.types[row.type].protrusion;
+    if (law.force == 0.0) continue;
+    const std::uint32_t first = tissue_.shells.first_node[s], count = tissue_.shells.first_node[s + 1] - first;
+    double size = law.force;
+    Vec3d direction = row.polarity;
+    std::span<const char> front;
+    if (law.substrate >= 0) {
+      const Touch& on = touch.at(law.substrate)[s];
+      direction = along_surface(direction, on);
+      if (law.contact_area > 0.0) size *= std::min(1.0, on.area / law.contact_area);
+      front = std::span(nodes.at(law.substrate)).subspan(first, count);
+    }
+    (void)add_protrusion(law, tissue_.shells.topology(s), std::as_const(tissue_.shells).nodes(s), row.polarity, front, direction, size,
+                         external.subspan(first, count));
+  }
+}
+
+std::vector<Vec3d> Simulation::external_forces(double time, double dt) {
+  std::vector<Vec3d> out = mechanics_->spread(tissue_, forces_on_cells(time));
+  add_surface_loads(model_, tissue_, time, out);
+  add_lumen_forces(model_, tissue_, time, comm_, out);
+  add_protrusions(out);
+  mechanics_->add_fluctuations(tissue_, dt, out);
+  return out;
+}
+
+void Simulation::turn_polarities(std::uint64_t step, double dt) {
+  std::size_t shell = 0, sphere = 0;
+  for (CellRow& row : tissue_.cells.rows) {
+    const CellType& type = model_.types[row.type];
+    Vec3d velocity{};
+    if (row.body == BodyKind::kSphere) {
+      const Vec3f& v = tissue_.spheres.velocity[sphere++];
+      velocity = {v.x, v.y, v.z};
+    } else {
+      const std::uint32_t first = tissue_.shells.first_node[shell], last = tissue_.shells.first_node[shell + 1];
+      ++shell;
+      if (type.polarity.follow_velocity > 0.0)
+        for (std::uint32_t i = first; i < last; ++i) {
+          const Vec3f& v = tissue_.shells.velocity[i];
+          velocity += Vec3d{v.x, v.y, v.z};
+        }
+    }
+    row.polarity = next_polarity(row.polarity, velocity, row.id, type, model_.seed, step, dt);
+  }
+}
+
+}  // namespace morula

@@ -1,0 +1,143 @@
+#include "coupling/lumens.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "coupling/face_marks.h"
+#include "coupling/sight.h"
+
+namespace morula {
+namespace {
+
+bool carries(const dcm::FaceState& face, std::size_t f, int mark) { return !face.mark.empty() && (face.mark[f] >> mark & 1); }
+
+/// Solid angle of a triangle about the origin, positive where it shows the origin its outside (Van Oosterom & Strackee 1983,
+/// doi:10.1109/TBME.1983.325207).
+double solid_angle(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  const double la = norm(a), lb = norm(b), lc = norm(c);
+  return 2.0 * std::atan2(-dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+}
+
+/// Function(corners, area vector) for the rank's faces of a lumen.
+template <class F>
+void for_faces(const Tissue& tissue, int mark, F&& function) {
+  const dcm::Shells& shells = tissue.shells;
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    const dcm::FaceState& face = shells.faces_of(s);
+    if (face.mark.empty()) continue;
+    const std::uint32_t first = shells.first_node[s];
+    const auto triangles = shells.topology(s).faces();
+    for (std::size_t f = 0; f < triangles.size(); ++f) {
+      if (!carries(face, f, mark)) continue;
+      const Triangle t{first + triangles[f][0], first + triangles[f][1], first + triangles[f][2]};
+      const auto& x = shells.position;
+      function(t, cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]) * 0.5);
+    }
+  }
+}
+
+/// Returns the part of all directions in which there is a wall of any kind.
+double mark_by_sight(const Lumen& lumen, Tissue& tissue, const Comm& comm) {
+  SightMap map(lumen.center, lumen.reach);
+  dcm::Shells& shells = tissue.shells;
+  std::uint32_t number = 0;
+  std::vector<std::uint32_t> first_face{0};
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    const auto x = std::as_const(shells).nodes(s);
+    for (const Triangle& t : shells.topology(s).faces()) {
+      const Vec3d normal = cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
+      const bool outside = dot(normal, x[t[0]] - lumen.center) < 0.0;
+      map.add_triangle(x[t[0]], x[t[1]], x[t[2]], outside ? number : SightMap::kNothing);
+      ++number;
+    }
+    first_face.push_back(number);
+  }
+  for (std::size_t i = 0; i < tissue.spheres.size(); ++i) map.add_ball(tissue.spheres.position[i], tissue.spheres.radius[i]);
+  map.join(comm);
+  const auto bit = static_cast<std::uint8_t>(1u << lumen.mark);
+  for (std::size_t s = 0; s < shells.size(); ++s)
+    for (std::uint8_t& marks : shells.faces_of(s).mark) marks = static_cast<std::uint8_t>(marks & ~bit);
+  for (const std::uint32_t face : map.seen()) {
+    const auto s = static_cast<std::size_t>(std::upper_bound(first_face.begin(), first_face.end(), face) - first_face.begin()) - 1;
+    std::vector<std::uint8_t>& marks = shells.faces_of(s).mark;
+    marks[face - first_face[s]] = static_cast<std::uint8_t>(marks[face - first_face[s]] | bit);
+  }
+  return map.covered();
+}
+
+}  // namespace
+
+double lumen_pressure(const Lumen& lumen, const LumenState& state, double time) {
+  if (time < lumen.from || state.covered < kBurst) return 0.0;
+  const double factor = lumen.course.at(time);
+  if (!lumen.keeps_solute) return lumen.pressure * factor;
+  return state.volume > 0.0 ? kGasEnergy * state.amount * factor / state.volume : 0.0;
+}
+
+void measure_lumens(const Model& model, Tissue& tissue, const Comm& comm) {
+  tissue.lumens.resize(model.lumens.size());
+  for (std::size_t k = 0; k < model.lumens.size(); ++k) {
+    const Lumen& lumen = model.lumens[k];
+    if (tissue.clock.time < lumen.from) continue;
+    OrderFreeSum sums[3];
+    for_faces(tissue, lumen.mark, [&](const Triangle& t, const Vec3d& area) {
+      const auto& x = tissue.shells.position;
+      const Vec3d a = x[t[0]] - lumen.center, b = x[t[1]] - lumen.center, c = x[t[2]] - lumen.center;
+      sums[0].add(-dot(area, a) / 3.0);
+      sums[1].add(norm(area));
+      sums[2].add(solid_angle(a, b, c));
+    });
+    double total[3];
+    comm.sum(sums, total);
+    LumenState& state = tissue.lumens[k];
+    const double of_shells = total[2] / (4.0 * std::numbers::pi);
+    if (!lumen.by_sight) state.covered = of_shells;
+    state.area = total[1];
+    state.volume = state.covered >= kBurst && of_shells > 0.0 ? total[0] / of_shells : 0.0;
+    state.pressure = lumen_pressure(lumen, state, tissue.clock.time);
+  }
+}
+
+void look_into_lumens(const Model& model, Tissue& tissue, const Comm& comm) {
+  if (model.lumens.empty()) return;
+  tissue.lumens.resize(model.lumens.size());
+  bool looked = false;
+  for (std::size_t k = 0; k < model.lumens.size(); ++k) {
+    const Lumen& lumen = model.lumens[k];
+    LumenState& state = tissue.lumens[k];
+    const double time = tissue.clock.time;
+    if (time < lumen.from || time - state.looked_at < lumen.renewed * (1.0 - 1e-9)) continue;
+    const bool first = state.looked_at < lumen.from;
+    state.looked_at = time;
+    looked = true;
+    if (lumen.by_sight) state.covered = mark_by_sight(lumen, tissue, comm);
+    if (!first) continue;
+    measure_lumens(model, tissue, comm);
+    if (lumen.keeps_solute) state.amount = lumen.pressure * state.volume / kGasEnergy;
+  }
+  if (looked) measure_lumens(model, tissue, comm);
+}
+
+void add_lumen_forces(const Model& model, const Tissue& tissue, double time, const Comm& comm, std::span<Vec3d> external) {
+  for (std::size_t k = 0; k < tissue.lumens.size(); ++k) {
+    const Lumen& lumen = model.lumens[k];
+    const double pressure = lumen_pressure(lumen, tissue.lumens[k], time);
+    if (pressure == 0.0) continue;
+    OrderFreeSum sums[4];
+    for_faces(tissue, lumen.mark, [&](const Triangle&, const Vec3d& area) {
+      sums[0].add(norm(area));
+      for (std::size_t axis = 0; axis < 3; ++axis) sums[axis + 1].add(area[axis]);
+    });
+    double total[4];
+    comm.sum(sums, total);
+    if (!(total[0] > 0.0)) continue;
+    const Vec3d mean = Vec3d{total[1], total[2], total[3]} * (1.0 / total[0]);
+    for_faces(tissue, lumen.mark, [&](const Triangle& t, const Vec3d& area) {
+      const Vec3d push = (mean * norm(area) - area) * (pressure / 3.0);
+      for (const std::uint32_t node : t) external[node] += push;
+    });
+  }
+}
+
+}  // namespace morula

@@ -1,0 +1,54 @@
+#include <algorithm>
+
+#include "coupling/mechanics/mechanics.h"
+
+namespace morula {
+
+std::vector<float> Mechanics::contact_of_faces(const Tissue& tissue, std::span<const char> with_material) {
+  prepare(tissue);
+  const auto bodies = scene_.bodies();
+  std::vector<float> out(scene_.first_face()[scene_.owned_shells()], 0.0f);
+  for (const SurfacePair& pair : contacts_.pairs()) {
+    for (int d = 0; d < 2; ++d) {
+      if (d == 1 && pair.rigid) break;
+      const ContactBody& source = bodies[d == 0 ? pair.a : pair.b];
+      if (!source.owned || source.topology == nullptr) continue;
+      const bool both = !pair.rigid && bodies[d == 0 ? pair.b : pair.a].topology != nullptr;  // both bodies are sources, with half of the area each
+      const std::uint16_t partner = pair.rigid ? contacts_.obstacles()[pair.b].material : bodies[d == 0 ? pair.b : pair.a].material;
+      if (partner >= with_material.size() || !with_material[partner]) continue;
+      for (const ContactElement& element : pair.elements[d]) {
+        const std::size_t face = source.first_face + element.source_face();
+        out[face] += element.w * static_cast<float>((both ? 2.0 : 1.0) / geometry_.face_area[face]);
+      }
+    }
+  }
+  for (float& part : out) part = std::min(part, 1.0f);
+  return out;
+}
+
+std::vector<Touch> Mechanics::touch_of_bodies(const Tissue& tissue, std::uint16_t material) {
+  std::vector<char> materials(model_.material_count(), 0);
+  materials[material] = 1;
+  const std::vector<float> part = contact_of_faces(tissue, materials);
+  std::vector<Touch> out(scene_.owned_shells() + scene_.owned_spheres());
+  for (std::size_t s = 0; s < scene_.owned_shells(); ++s)
+    for (std::uint32_t f = scene_.first_face()[s]; f < scene_.first_face()[s + 1]; ++f) {
+      const double area = geometry_.face_area[f] * static_cast<double>(part[f]);
+      out[s].area += area;
+      out[s].normal += geometry_.face_normal[f] * area;
+    }
+  spheres_.for_touched_obstacles([&](std::uint32_t sphere, std::uint32_t obstacle, const Vec3d& normal, double area) {
+    if (contacts_.obstacles()[obstacle].material != material) return;
+    Touch& touch = out[scene_.owned_shells() + sphere];
+    touch.area += area;
+    touch.normal += normal * area;
+  });
+  for (Touch& touch : out)
+    if (norm2(touch.normal) > 0.0)
+      touch.normal = normalized(touch.normal);
+    else
+      touch.area = 0.0;
+  return out;
+}
+
+}  // namespace morula

@@ -1,0 +1,66 @@
+#include "coupling/mechanics/face_tensions.h"
+
+#include <algorithm>
+
+namespace morula {
+
+FaceTensions::FaceTensions(const Model& model) : model_(model) {
+  for (const CellType& type : model.types) {
+    any_ = any_ || !type.regional_tension.empty();
+    for (const TensionRegion& region : type.regional_tension.regions) vary_ = vary_ || !region.course.empty() || region.period > 0.0;
+  }
+}
+
+void FaceTensions::set(const Tissue& tissue, double time) {
+  if (!any_) return;
+  extra_.clear();
+  const dcm::Shells& shells = tissue.shells;
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    const CellType& type = model_.types[shells.type[s]];
+    const std::size_t faces = shells.topology(s).face_count();
+    if (type.regional_tension.empty()) {
+      extra_.resize(extra_.size() + faces, 0.0);
+      continue;
+    }
+    const dcm::FaceState& face = shells.faces_of(s);
+    const double own = type.shell.tension;
+    for (std::size_t f = 0; f < faces; ++f) {
+      const std::uint8_t marks = face.mark.empty() ? std::uint8_t{0} : face.mark[f];
+      const double contact = face.contact.empty() ? 0.0 : static_cast<double>(face.contact[f]);
+      extra_.push_back(type.regional_tension.of_face(own, marks, contact, time) - own);
+    }
+  }
+}
+
+void FaceTensions::add_forces(const dcm::Shells& shells, std::span<const Vec3d> x, const SurfaceGeometry& geometry, std::span<Vec3d> force,
+                              OrderFreeSum& energy) const {
+  if (!any_) return;
+  std::size_t face = 0;
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    const std::uint32_t first = shells.first_node[s];
+    double of_shell = 0.0;
+    for (const Triangle& t : shells.topology(s).faces()) {
+      const double tension = extra_[face];
+      if (tension != 0.0) {
+        of_shell += tension * geometry.face_area[face];
+        const Vec3d n = geometry.face_normal[face] * (-0.5 * tension);
+        const Vec3d &x0 = x[first + t[0]], &x1 = x[first + t[1]], &x2 = x[first + t[2]];
+        const Vec3d f1 = cross(n, x0 - x2), f2 = cross(n, x1 - x0);
+        force[first + t[1]] += f1;
+        force[first + t[2]] += f2;
+        force[first + t[0]] -= f1 + f2;
+      }
+      ++face;
+    }
+    energy.add(of_shell);
+  }
+}
+
+std::span<const double> FaceTensions::on_top_of(std::span<const double> face_energy) {
+  if (!any_) return face_energy;
+  sum_.assign(face_energy.begin(), face_energy.end());
+  for (std::size_t f = 0; f < extra_.size(); ++f) sum_[f] += extra_[f];
+  return sum_;
+}
+
+}  // namespace morula

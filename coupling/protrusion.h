@@ -1,0 +1,20 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "core/mesh/topology.h"
+#include "coupling/active_terms.h"
+
+namespace morula {
+
+/// Forces of the protrusion of one shell along its polarity p, added to `force` by node [nN].
+///
+/// The front are the nodes whose way from the cell's centroid makes less than the angle α with p: weights a_i (cos θ_i − cos α), a_i the node's area,
+/// f_i = F w_i p/Σ w. With `touches` (by node) only nodes in touch with the substrate count. With an internal reaction −F is borne by the
+/// rear, in the same way about −p, so that ΣF = 0.
+///
+/// p: direction of the force, need not be of length 1; `size`: F [nN]. Returns whether there is a front.
+bool add_protrusion(const Protrusion& law, const Topology& topology, std::span<const Vec3d> position, const Vec3d& polarity,
+                    std::span<const char> touches, const Vec3d& direction, double size, std::span<Vec3d> force);
+
+}  // namespace morula

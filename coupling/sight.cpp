@@ -1,0 +1,125 @@
+#include "coupling/sight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+namespace morula {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kNear = 1e-9;  // of what is before the eye [µm]
+
+double ray_coordinate(int i) { return (2.0 * i + 1.0) / SightMap::kSide - 1.0; }
+
+/// A vector in the frame of a side of the cube: x and y across, z outwards.
+Vec3d turned(const Vec3d& p, int side) {
+  const int axis = side / 2;
+  const double sign = side % 2 ? -1.0 : 1.0;
+  return {p[static_cast<std::size_t>((axis + 1) % 3)], p[static_cast<std::size_t>((axis + 2) % 3)],
+          sign * p[static_cast<std::size_t>(axis)]};
+}
+
+/// First ray at or after a coordinate, within 0 to kSide.
+int first_ray(double u) {
+  return static_cast<int>(std::clamp(std::ceil((u + 1.0) * 0.5 * SightMap::kSide - 0.5), 0.0, static_cast<double>(SightMap::kSide)));
+}
+
+}  // namespace
+
+SightMap::SightMap(const Vec3d& eye, double reach)
+    : eye_(eye), reach_(reach), own_(std::size_t{6} * kSide * kSide, kFar), number_(own_.size(), kNothing) {}
+
+template <class Hit>
+void SightMap::cast(int side, const Window& w, std::uint32_t number, const Hit& hit) {
+  for (int j = w.v0; j < w.v1; ++j)
+    for (int i = w.u0; i < w.u1; ++i) {
+      const Vec3d ray{ray_coordinate(i), ray_coordinate(j), 1.0};
+      const double along = hit(ray);
+      if (!(along > 0.0)) continue;
+      const double distance = along * norm(ray);
+      if (number != kNothing) ++met_[number];
+      const std::size_t place = (static_cast<std::size_t>(side) * kSide + static_cast<std::size_t>(j)) * kSide + static_cast<std::size_t>(i);
+      if (distance > reach_ || !(distance < own_[place] || (distance == own_[place] && number < number_[place]))) continue;
+      own_[place] = distance;
+      number_[place] = number;
+    }
+}
+
+void SightMap::add_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, std::uint32_t number) {
+  if (number != kNothing && met_.size() <= number) met_.resize(number + std::size_t{1}, 0);
+  if (std::min({norm(a - eye_), norm(b - eye_), norm(c - eye_)}) > reach_) return;
+  for (int side = 0; side < 6; ++side) {
+    const Vec3d p[3] = {turned(a - eye_, side), turned(b - eye_, side), turned(c - eye_, side)};
+    if (std::max({p[0].z, p[1].z, p[2].z}) <= kNear) continue;
+    Window w{0, kSide, 0, kSide};
+    if (std::min({p[0].z, p[1].z, p[2].z}) > kNear) {
+      const double u[3] = {p[0].x / p[0].z, p[1].x / p[1].z, p[2].x / p[2].z}, v[3] = {p[0].y / p[0].z, p[1].y / p[1].z, p[2].y / p[2].z};
+      const double margin = 1e-9;
+      w = {first_ray(std::min({u[0], u[1], u[2]}) - margin), first_ray(std::max({u[0], u[1], u[2]}) + margin),
+           first_ray(std::min({v[0], v[1], v[2]}) - margin), first_ray(std::max({v[0], v[1], v[2]}) + margin)};
+    }
+    const Vec3d n = cross(p[1] - p[0], p[2] - p[0]), c01 = cross(p[0], p[1]), c12 = cross(p[1], p[2]), c20 = cross(p[2], p[0]);
+    const double height = dot(n, p[0]);
+    cast(side, w, number, [&](const Vec3d& ray) {
+      const double s0 = dot(ray, c01), s1 = dot(ray, c12), s2 = dot(ray, c20);
+      const bool inside = (s0 >= 0.0 && s1 >= 0.0 && s2 >= 0.0) || (s0 <= 0.0 && s1 <= 0.0 && s2 <= 0.0);
+      return inside ? height / dot(n, ray) : -1.0;
+    });
+  }
+}
+
+void SightMap::add_ball(const Vec3d& center, double radius) {
+  if (norm(center - eye_) - radius > reach_) return;
+  for (int side = 0; side < 6; ++side) {
+    const Vec3d p = turned(center - eye_, side);
+    if (p.z + radius <= kNear) continue;
+    Window w{0, kSide, 0, kSide};
+    if (const double low = p.z - radius, high = p.z + radius; low > kNear) {
+      const auto least = [&](double x) { return std::min((x - radius) / low, (x - radius) / high); };
+      const auto most = [&](double x) { return std::max((x + radius) / low, (x + radius) / high); };
+      w = {first_ray(least(p.x)), first_ray(most(p.x)), first_ray(least(p.y)), first_ray(most(p.y))};
+    }
+    cast(side, w, kNothing, [&](const Vec3d& ray) {  // |t ray − p| = r
+      const double square = norm2(ray), half = dot(ray, p), root = half * half - square * (norm2(p) - radius * radius);
+      if (root < 0.0) return -1.0;
+      const double near = (half - std::sqrt(root)) / square;
+      return near > 0.0 ? near : (half + std::sqrt(root)) / square;
+    });
+  }
+}
+
+void SightMap::join(const Comm& comm) {
+  distance_ = own_;
+  if (comm.size() == 1) return;
+  const auto all = comm.gather_to_all(std::as_bytes(std::span(own_)));
+  for (std::size_t at = 0; at < all.size(); at += own_.size() * sizeof(double))
+    for (std::size_t i = 0; i < own_.size(); ++i) {
+      double there;
+      std::memcpy(&there, all.data() + at + i * sizeof(double), sizeof there);
+      distance_[i] = std::min(distance_[i], there);
+    }
+}
+
+std::vector<std::uint32_t> SightMap::seen() const {
+  std::vector<std::uint32_t> nearest(met_.size(), 0), out;
+  for (std::size_t i = 0; i < own_.size(); ++i)
+    if (number_[i] != kNothing && own_[i] == distance_[i]) ++nearest[number_[i]];
+  for (std::uint32_t k = 0; k < met_.size(); ++k)
+    if (met_[k] > 0 && 2 * nearest[k] >= met_[k]) out.push_back(k);
+  return out;
+}
+
+double SightMap::covered() const {
+  double hit = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < distance_.size(); ++i) {
+    const double u = ray_coordinate(static_cast<int>(i % kSide)), v = ray_coordinate(static_cast<int>(i / kSide % kSide));
+    const double weight = std::pow(1.0 + u * u + v * v, -1.5);  // solid angle of a ray's pixel
+    all += weight;
+    if (distance_[i] < kFar) hit += weight;
+  }
+  return hit / all;
+}
+
+}  // namespace morula

@@ -1,0 +1,54 @@
+#include "scenarios/library/cavity.h"
+
+#include <algorithm>
+
+#include "scenarios/library/verdicts.h"
+#include "scenarios/report/series_reader.h"
+
+namespace morula::scenarios {
+namespace {
+
+constexpr double kGrowth = 0.02;  // S18.4
+constexpr double kLeak = 0.05;    // S18.4: part of the directions from the centre in which there is no wall
+
+}  // namespace
+
+Result<std::vector<Verdict>> judge_cavity(const Study& study, const std::filesystem::path& run) {
+  if (study.model.lumens.empty()) return std::vector<Verdict>{};
+  MORULA_TRY_ASSIGN(const SeriesTable series, read_series(run / "series.csv"));
+  const std::string& name = study.model.lumens.front().name;
+  const SeriesColumn* volume = series.find("volume_" + name);
+  const SeriesColumn* pressure = series.find("pressure_" + name);
+  const SeriesColumn* open = series.find("open_" + name);
+  if (volume == nullptr || pressure == nullptr || open == nullptr)
+    return Error{ErrorKind::kFile, "series.csv has no columns of the cavity '" + name + "'", "leave `output.series` away, or name them there"};
+  std::size_t before = 0;
+  while (before + 1 < series.rows() && !(pressure->values[before + 1] > 0.0)) ++before;
+  const double without = volume->values[before], with = volume->values.back();
+  std::vector<Verdict> out;
+  out.push_back(at_least("S18.4", "volume of the cavity under pressure over that before, less 1", without > 0.0 ? with / without - 1.0 : 0.0,
+                         kGrowth));
+  out.push_back(at_least("S18.4", "pressure of the cavity at the end", pressure->values.back(), 1e-6, "kPa"));
+  out.push_back(at_most("S18.4", "part of the directions from the centre of the cavity without a wall", open->values.back(), kLeak));
+  return out;
+}
+
+double mean_height(const Snapshot& moment, std::uint16_t type, const Vec3d& cavity) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const Snapshot::Shell& shell : moment.shells) {
+    const Snapshot::Cell& cell = moment.cells[shell.cell];
+    if (cell.type != type) continue;
+    const Vec3d axis = normalized(cell.centroid - cavity);
+    double low = 1e300, high = -1e300;
+    for (std::uint32_t i = shell.first_node; i < shell.first_node + shell.node_count; ++i) {
+      const double along = dot(moment.nodes[i], axis);
+      low = std::min(low, along), high = std::max(high, along);
+    }
+    sum += high - low;
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
+
+}  // namespace morula::scenarios

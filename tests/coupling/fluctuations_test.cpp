@@ -1,0 +1,240 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "coupling/simulation.h"
+#include "tests/coupling/tissue_fixture.h"
+
+namespace morula {
+namespace {
+
+constexpr double kEnergy = 4.2821e-3;  // a thousand times the thermal one [nN·µm]
+
+Mechanics make_mechanics(const Model& model, ShapeLibrary& shapes) {
+  return Mechanics(model, contact_obstacles(model).value(), shapes, Comm(), 1);
+}
+
+Model fluctuating(double adhesion = 0.1) {
+  Model model = test::clusters_model(adhesion);
+  model.types[0].fluctuations.energy = kEnergy;
+  model.step.first_tolerance = 1e-4;  // what a study with fluctuations has: rigid motion is resolved last
+  return model;
+}
+
+std::vector<Vec3d> noise(const Model& model, const Tissue& tissue, Mechanics& mechanics, double dt) {
+  std::vector<Vec3d> out(Mechanics::external_size(tissue));
+  mechanics.add_fluctuations(tissue, dt, out);
+  (void)model;
+  return out;
+}
+
+double work(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
+  double out = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) out += dot(a[i], b[i]);
+  return out;
+}
+
+/// ⟨(w·f)²⟩ = (2 k_B T/Δt) wᵀΓw for any w. wᵀΓw is measured from the other side: the explicit step under a large force g solves Γv = F + g,
+/// so that w = v(g) − v(0) has Γw = g and wᵀΓw = w·g.
+void expect_covariance(const Model& model, Tissue tissue, const std::vector<Vec3d>& push, double tolerance) {
+  ShapeLibrary shapes;
+  constexpr double kStep = 0.5, kShort = 1e-3;
+  Model stepping = model;
+  stepping.step.integrator = Integrator::kExplicitEuler;
+  std::vector<Vec3d> way[2];
+  for (const bool pushed : {false, true}) {
+    Tissue moved = tissue;
+    Mechanics mechanics = make_mechanics(stepping, shapes);
+    std::vector<Vec3d> external(push.size());
+    if (pushed) external = push;
+    ASSERT_TRUE(mechanics.step(moved, kShort, external).ok());
+    way[pushed] = moved.shells.position;
+    way[pushed].insert(way[pushed].end(), moved.spheres.position.begin(), moved.spheres.position.end());
+  }
+  std::vector<Vec3d> w;
+  for (std::size_t i = 0; i < push.size(); ++i) w.push_back((way[1][i] - way[0][i]) * (1.0 / kShort));
+  const double expected = 2.0 * kEnergy / kStep * work(w, push);
+  Mechanics mechanics = make_mechanics(model, shapes);
+  double sum = 0.0, mean = 0.0;
+  constexpr int kSamples = 4000;
+  for (int k = 0; k < kSamples; ++k) {
+    tissue.clock.steps = static_cast<std::uint64_t>(k);
+    const double value = work(w, noise(model, tissue, mechanics, kStep));
+    sum += value * value / kSamples;
+    mean += value / kSamples;
+  }
+  EXPECT_NEAR(sum / expected, 1.0, tolerance);
+  EXPECT_LT(std::abs(mean), 4.0 * std::sqrt(expected / kSamples));
+}
+
+/// A push that is different at every point.
+std::vector<Vec3d> uneven_push(const Tissue& tissue, double size) {
+  std::vector<Vec3d> out;
+  for (const auto* list : {&tissue.shells.position, &tissue.spheres.position})
+    for (const Vec3d& x : *list) out.push_back(Vec3d{std::sin(x.y + 1.0), std::cos(2.0 * x.z), std::sin(x.x - x.y)} * size);
+  return out;
+}
+
+TEST(Fluctuations, HaveTheCovarianceOfAllFrictionOfAShell) {  // medium across and along, edges, isotropic, volume
+  Model model = fluctuating();
+  auto& type = model.types[0];
+  type.shell.medium_friction = 0.05;
+  type.medium_normal_extra = 0.15;
+  type.shell.edge_damping = 0.4;
+  type.shell.isotropic_damping = 0.02;
+  type.shell.bulk_viscosity = 0.3;
+  ShapeLibrary shapes;
+  const Tissue tissue = test::make_tissue(model, shapes, {{1, 2, 3}}, {BodyKind::kShell}, 42);
+  std::vector<Vec3d> push = uneven_push(tissue, 0.05);
+  expect_covariance(model, tissue, push, 0.07);  // 3 standard errors of 4000 samples
+  for (std::size_t i = 0; i < push.size(); ++i) push[i] = normalized(tissue.shells.position[i] - Vec3d{1, 2, 3}) * 0.05;  // the volume breathes
+  expect_covariance(model, tissue, push, 0.07);
+}
+
+TEST(Fluctuations, HaveTheCovarianceOfTheFrictionOfContacts) {
+  Model model = fluctuating();
+  model.pairs = {ContactPair{0.1, 50.0, 5.0}};
+  ShapeLibrary shapes;
+  const Tissue tissue =
+      test::make_tissue(model, shapes, {{0, 0, 0}, {0, 0, 11.9}, {0, 11.5, 5.9}, {0, 22, 7}},
+                        {BodyKind::kShell, BodyKind::kShell, BodyKind::kSphere, BodyKind::kSphere}, 42);
+  expect_covariance(model, tissue, uneven_push(tissue, 0.02), 0.07);
+}
+
+TEST(Fluctuations, BetweenPointsHaveNoSumAndNoTorque) {
+  Model model = fluctuating();
+  model.types[0].shell.medium_friction = model.types[0].medium_friction = 1e-12;
+  model.types[0].shell.bulk_viscosity = 0.3;
+  ShapeLibrary shapes;
+  const Tissue tissue = test::make_tissue(model, shapes, {{0, 0, 0}, {0, 0, 11.9}}, {BodyKind::kShell, BodyKind::kShell}, 162);
+  Mechanics mechanics = make_mechanics(model, shapes);
+  const auto f = noise(model, tissue, mechanics, 1.0);
+  Vec3d sum{};
+  double size = 0.0;
+  for (const Vec3d& each : f) sum += each, size += norm(each);
+  EXPECT_GT(size, 1.0);
+  EXPECT_LT(norm(sum), 1e-6 * size);
+}
+
+TEST(Fluctuations, AreThoseOfCellAndStepAndGrowWithTheRootOfTheRate) {
+  const Model model = fluctuating();
+  ShapeLibrary shapes;
+  Tissue tissue = test::make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell}, 42);
+  Mechanics mechanics = make_mechanics(model, shapes), again = make_mechanics(model, shapes);
+  const auto a = noise(model, tissue, mechanics, 1.0), b = noise(model, tissue, again, 4.0);
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(norm(a[i] - b[i] * 2.0), 0.0, 1e-14);
+  tissue.clock.steps = 1;
+  EXPECT_GT(norm(noise(model, tissue, mechanics, 1.0)[0] - a[0]), 1e-3);
+}
+
+/// T10.2: a free cell diffuses with D = k_B T/(γ A), whatever its other friction and however long the steps.
+TEST(Fluctuations, MoveAFreeCellByTheEinsteinRelation) {
+  Model model = fluctuating();
+  model.step.max_displacement = 3.0;  // steps are never refused for their noise: that would choose the small ones
+  model.step.max_step = 2.0;
+  model.step.initial_step = 2.0;
+  ShapeLibrary shapes;
+  Tissue tissue = test::make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell}, 42);
+  auto simulation = Simulation::create(model, std::move(tissue), Comm(), 1).value();
+  // The centre that diffuses is that of friction: the nodes by their areas.
+  const auto way = [](const dcm::Shells& from, const dcm::Shells& to, double& whole) {
+    Vec3d out{};
+    whole = 0.0;
+    for (const Triangle& t : from.topology(0).faces()) {
+      const auto& x = from.position;
+      const double area = 0.5 * norm(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]));
+      for (const std::uint32_t i : t) out += (to.position[i] - x[i]) * (area / 3.0);
+      whole += area;
+    }
+    return out * (1.0 / whole);
+  };
+  double sum = 0.0, area = 0.0;
+  constexpr int kSteps = 8000;
+  for (int k = 0; k < kSteps; ++k) {
+    const dcm::Shells before = simulation->tissue().shells;
+    ASSERT_TRUE(simulation->step(1e9).ok());
+    double whole = 0.0;
+    sum += norm2(way(before, simulation->tissue().shells, whole));
+    area += whole / kSteps;
+  }
+  const double d = sum / (6.0 * simulation->tissue().clock.time);
+  EXPECT_NEAR(d / (kEnergy / (0.1 * area)), 1.0, 0.03);  // the standard error is 0.9 %
+}
+
+/// Modes of the surface are those of the implicit step: (k_B T/k)/(1 + Δt/(2τ)). A free cell of springs alone is compared with itself at small
+/// steps through one number that is the same whatever the mesh: the energy of all modes, ½ k_B T each by equipartition.
+TEST(Fluctuations, ShareTheEnergyEquallyWhereStepsResolveTheModes) {
+  for (const double dt : {0.02, 0.4}) {
+    Model model = fluctuating();
+    auto& shell = model.types[0].shell;
+    shell = {};
+    shell.tension = shell.shape_stiffness = shell.barrier_stiffness = shell.hinge_stiffness = 0.0;
+    shell.edge_damping = 0.0;
+    shell.spring_stiffness = 0.173;
+    shell.bulk_modulus = 2.5;
+    model.types[0].fluctuations.energy = 1e-5;  // displacements stay linear
+    model.step.max_step = model.step.initial_step = dt;
+    model.step.first_tolerance = 1e-4;
+    ShapeLibrary shapes;
+    Tissue tissue = test::make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell}, 42);
+    auto simulation = Simulation::create(model, std::move(tissue), Comm(), 1).value();
+    double energy = 0.0;
+    const int warm = static_cast<int>(40.0 / dt), count = dt < 0.1 ? 6000 : 3000;
+    for (int k = 0; k < warm + count; ++k) {
+      const auto done = simulation->step(1e9);
+      ASSERT_TRUE(done.ok());
+      if (k >= warm) energy += done->mechanics.energy / count;
+    }
+    // 42 nodes: 126 modes, 6 of them rigid.
+    const double per_mode = energy / (0.5 * 1e-5 * 120.0);
+    if (dt < 0.1) {
+      EXPECT_NEAR(per_mode, 1.0, 0.05);
+    } else {
+      EXPECT_LT(per_mode, 0.95) << "fast modes come out too small";
+    }
+  }
+}
+
+/// T10.1: the modes of a sphere under tension (Milner & Safran 1987): ⟨|u_2m|²⟩ = k_B T/(γ R² (l − 1)(l + 2)) in units of R², which is 5.946e-8 at
+/// 310 K and γ = 0.5, R = 6; here at ten times the temperature, and with the bias of the implicit step 1/(1 + Δt/(2τ)),
+/// τ = γ_med R²/(γ (l − 1)(l + 2)) = 1.8 s.
+TEST(Fluctuations, GiveTheModesOfATenseSphere) {
+  Model model = fluctuating();
+  auto& shell = model.types[0].shell;
+  shell.spring_stiffness = shell.hinge_stiffness = shell.edge_damping = 0.0;
+  shell.shape_stiffness = 0.1;  // holds triangles together; no shear modulus
+  model.types[0].fluctuations.energy = 0.01 * kEnergy;  // nodes stay where they are to a few hundredths of an edge
+  shell.bulk_modulus = 50.0;
+  constexpr double dt = 0.2, kRelaxation = 0.1 * 36.0 / (0.5 * 4.0);
+  model.step.max_step = model.step.initial_step = dt;
+  model.step.max_displacement = 1.0;
+  ShapeLibrary shapes;
+  Tissue tissue = test::make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell}, 162);
+  auto simulation = Simulation::create(model, std::move(tissue), Comm(), 1).value();
+  double square = 0.0;
+  int count = 0;
+  while (simulation->tissue().clock.time < 1200.0) {
+    ASSERT_TRUE(simulation->step(1e9).ok());
+    if (simulation->tissue().clock.steps % 4 != 0 || simulation->tissue().clock.time < 20.0) continue;
+    const dcm::Shells& shells = simulation->tissue().shells;
+    const Vec3d center = simulation->centers()[0];
+    double mode[5] = {};  // ∫ ρ Y_2m dΩ over the faces, ρ the distance in units of R
+    for (const Triangle& t : shells.topology(0).faces()) {
+      const Vec3d a = shells.position[t[0]] - center, b = shells.position[t[1]] - center, c = shells.position[t[2]] - center;
+      const Vec3d middle = (a + b + c) * (1.0 / 3.0), n = normalized(middle);
+      const double rho = norm(middle), angle = dot(cross(b - a, c - a) * 0.5, n) / (rho * rho);
+      const double y[5] = {0.546274 * (n.x * n.x - n.y * n.y), 1.092548 * n.x * n.y, 1.092548 * n.x * n.z, 1.092548 * n.y * n.z,
+                           0.315392 * (3.0 * n.z * n.z - 1.0)};
+      for (int m = 0; m < 5; ++m) mode[m] += y[m] * rho / 6.0 * angle;
+    }
+    for (const double u : mode) square += u * u;
+    ++count;
+  }
+  // On this mesh, computed independently: the stiffness of the mode is 0.9704 of the sphere's, and the sum above sees 1.0413 of its amplitude.
+  const double expected = 5.946e-8 * 10.0 / (1.0 + dt / (2.0 * kRelaxation)) * 1.0413 * 1.0413 / 0.9704;
+  EXPECT_NEAR(square / (5.0 * count) / expected, 1.0, 0.1);  // 3 standard errors
+}
+
+}  // namespace
+}  // namespace morula
