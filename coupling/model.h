@@ -91,6 +91,7 @@ enum class LoadKind : std::uint8_t {
   kPull,       ///< a force spread over the nodes at the ends of `axis`
   kPressure,   ///< against the outward normal, on the whole cell or at the ends of `axis`
   kBodyForce,  ///< on the whole cell
+  kGrip,       ///< springs that hold the nodes at the ends of `axis` in place, or move them (coupling/grips.h)
 };
 enum class LoadEnd : std::uint8_t { kBoth, kHigh, kLow };
 
@@ -100,11 +101,17 @@ struct CellLoad {
   std::uint16_t type = 0;
   LoadKind kind = LoadKind::kBodyForce;
   Vec3d axis{1, 0, 0};           ///< of length 1
-  double size = 0.0;             ///< peak stress or pressure [kPa]; force at an end [nN]
+  double size = 0.0;             ///< peak stress or pressure [kPa]; force at an end [nN]; stiffness of a grip at an end [nN/µm]
   Vec3d force{};                 ///< kBodyForce [nN]
   double part = 1.0;             ///< of the nodes, at an end
   LoadEnd end = LoadEnd::kBoth;  ///< which ends
   TimeCourse course;             ///< factor over time; empty: 1
+  bool within = false;           ///< kPressure: only faces whose middle lies in the cylinder from low_end to high_end
+  Vec3d low_end{}, high_end{};   ///< [µm]
+  double radius = 0.0;           ///< [µm]
+  Vec3d center{};                ///< kGrip: of the undeformed cell whose end nodes the grip holds, before it moves [µm]
+  Vec3d direction{0, 0, 1};      ///< kGrip: of `way`, of length 1
+  TimeCourse way;                ///< kGrip: how far it has moved; empty: it stays [µm]
 };
 
 enum class RegionShape : std::uint8_t { kSphere, kBox, kHalfSpace, kEverything };

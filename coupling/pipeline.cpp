@@ -60,7 +60,8 @@ Result<StepOutcome> Simulation::step(double land_on) {
       set_bodies_to_targets(dt);
     }
     // mechanics: ghosts, candidates, contacts, forces, system, solve, advance
-    const auto moved = mechanics_->step(tissue_, dt, external_forces(clock.time + dt));
+    const auto moved =
+        mechanics_->step(tissue_, dt, external_forces(clock.time + dt), grip_anchors(model_, tissue_, clock.time + dt));
     if (moved) {
       outcome.mechanics = *moved;
       break;
@@ -72,7 +73,8 @@ Result<StepOutcome> Simulation::step(double land_on) {
       std::snprintf(when, sizeof when, " at %.6g h", clock.time / 3600.0);
       return Error{
           ErrorKind::kPhysics, moved.error().what + (moved.error().cell.valid() ? " (cell " + moved.error().cell.text() + ")" : "") + when,
-          "the step was cut to " + std::to_string(dt) + " s without success; weaker adhesion, more tension or a finer mesh may help"};
+          "the step was cut to " + std::to_string(dt) +
+              " s without success; weaker adhesion, more tension, a larger `shape_stiffness` or `fold_barrier`, or another number of nodes may help"};
     }
     dt *= outcome.retries < 2 ? 0.5 : 0.25;
   }

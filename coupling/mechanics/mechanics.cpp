@@ -208,6 +208,7 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
     friction[scene_.bodies()[first + i].first_point] =
         static_cast<float>(model_.types[tissue.spheres.type[i]].medium_friction * 4.0 * std::numbers::pi * r * r);
   }
+  for (const Anchor& anchor : anchors_) friction[anchor.node] += static_cast<float>(anchor.stiffness * dt);
   system_.set_point_friction(friction);
   spheres_.begin_step();
   // The last velocity is the solver's start; obstacles go where they will be at the end of the step.
@@ -249,7 +250,9 @@ std::optional<StepFault> Mechanics::find_fault() const {
   return std::nullopt;
 }
 
-Result<StepReport, StepFault> Mechanics::step(Tissue& tissue, double dt, std::span<const Vec3d> external) {
+Result<StepReport, StepFault> Mechanics::step(Tissue& tissue, double dt, std::span<const Vec3d> external,
+                                              std::span<const Anchor> anchors) {
+  anchors_ = anchors;
   if (comm_.any(flags_changed_ || spent_)) evaluated_ = flags_changed_ = false;
   prepare(tissue);
   return model_.step.integrator == Integrator::kImplicit ? implicit_step(tissue, dt, external) : explicit_step(tissue, dt, external);

@@ -47,11 +47,14 @@ double largest_rise(const SeriesColumn& energy) {
 const std::vector<ScenarioCriteria>& scenario_criteria() {
   static const std::vector<ScenarioCriteria> all{
       {"blastocyst", &judge_blastocyst},
+      {"cell_shear", &judge_cell_shear, &plot_cell_shear},
       {"doublet", &judge_doublet, &plot_doublet},
       {"hybrid_spheroid", &judge_hybrid_spheroid},
+      {"micropipette", &judge_micropipette, &plot_micropipette},
       {"optical_stretcher", &judge_optical_stretcher, &plot_optical_stretcher},
       {"optical_tweezers", &judge_optical_tweezers, &plot_optical_tweezers},
       {"parallel_plates", &judge_parallel_plates, &plot_parallel_plates},
+      {"pull_off", &judge_pull_off, &plot_pull_off},
       {"spreading", &judge_spreading, &plot_spreading},
   };
   return all;

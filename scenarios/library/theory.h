@@ -42,4 +42,8 @@ struct PressedDrop {
 /// height: of the gap over R0, between 0.05 and 2 (a sphere).
 PressedDrop pressed_drop(double height);
 
+/// Suction above which a cell with a surface tension has no rest in a pipette: its projection is a hemisphere, dp = 2γ (1/Rp − 1/Rc). Rc, the
+/// radius of the part outside, follows from the volume: a sphere less the cap that its opening of radius Rp cuts off, and the hemisphere.
+double critical_aspiration(double tension, double pipette_radius, double cell_radius);
+
 }  // namespace morula::scenarios::theory

@@ -150,6 +150,7 @@ void check_whole(BuildContext& c) {
   check_contact_range(c);
   check_friction(c);
   check_periodic_size(c);
+  check_resolution(c);
 }
 
 }  // namespace morula::scenarios

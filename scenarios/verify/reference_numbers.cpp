@@ -184,6 +184,7 @@ std::vector<ReferenceNumber> physics_numbers() {
   std::vector<ReferenceNumber> out;
   add_shells(out);
   add_spheres(out);
+  add_contact_numbers(out);
   return out;
 }
 

@@ -19,4 +19,7 @@ struct ReferenceNumber {
 /// A number belongs here when it is not ours; to add one, add a line.
 std::vector<ReferenceNumber> physics_numbers();
 
+/// Those of contacts and pipettes (contact_numbers.cpp), which physics_numbers() adds.
+void add_contact_numbers(std::vector<ReferenceNumber>& out);
+
 }  // namespace morula::scenarios
