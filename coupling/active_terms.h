@@ -26,18 +26,19 @@ struct Fluctuations {
 
 /// Protrusion at the leading edge of a shell (dcm.md §11).
 struct Protrusion {
-  double force = 0.0;                          ///< F_p; 0: none [nN]
-  double angle = std::numbers::pi / 4.0;       ///< half angle of the front about the polarity [rad]
-  bool internal = false;                       ///< the rear bears −F_p: motion only through what the surface rubs on or adheres to
-  int substrate = -1;                          ///< material that the front must be in touch with, to which the force is tangential; -1: none
-  double contact_area = 0.0;                   ///< A_ref: the force is F_p·min(1, A_contact/A_ref) of the cell's contact with the substrate; 0: always F_p [µm²]
+  double force = 0.0;                     ///< F_p; 0: none [nN]
+  double angle = std::numbers::pi / 4.0;  ///< half angle of the front about the polarity [rad]
+  bool internal = false;                  ///< the rear bears −F_p: motion only through what the surface rubs on or adheres to
+  int substrate = -1;                     ///< material that the front must be in touch with, to which the force is tangential; -1: none
+  double contact_area =
+      0.0;  ///< A_ref: the force is F_p·min(1, A_contact/A_ref) of the cell's contact with the substrate; 0: always F_p [µm²]
 };
 
 /// How the polarity of a cell turns: rotational diffusion on the unit sphere, and towards its velocity (dcm.md §11).
 struct PolarityTurning {
-  bool set = false;               ///< cells of the type have a polarity
-  double diffusion = 0.0;         ///< D_r [1/s]
-  double follow_velocity = 0.0;   ///< τ_p: dp/dt = (v̂ − p)/τ_p; 0: does not [s]
+  bool set = false;              ///< cells of the type have a polarity
+  double diffusion = 0.0;        ///< D_r [1/s]
+  double follow_velocity = 0.0;  ///< τ_p: dp/dt = (v̂ − p)/τ_p; 0: does not [s]
 };
 
 }  // namespace morula

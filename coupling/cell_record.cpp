@@ -26,14 +26,14 @@ std::vector<CellRecord> take_apart(Tissue& tissue) {
       const auto nodes = [&](const auto& array) {
         return std::vector(array.begin() + shells.first_node[i], array.begin() + shells.first_node[i + 1]);
       };
-      record.shell = ShellRecord{
-          shells.shape[i],
-          shells.reference_volume[i],
-          shells.rest_volume[i],
-          nodes(shells.position),
-          nodes(shells.velocity),
-          std::vector(shells.rest_length.begin() + shells.first_edge[i], shells.rest_length.begin() + shells.first_edge[i + 1]),
-          std::as_const(shells).faces_of(i)};
+      record.shell =
+          ShellRecord{shells.shape[i],
+                      shells.reference_volume[i],
+                      shells.rest_volume[i],
+                      nodes(shells.position),
+                      nodes(shells.velocity),
+                      std::vector(shells.rest_length.begin() + shells.first_edge[i], shells.rest_length.begin() + shells.first_edge[i + 1]),
+                      std::as_const(shells).faces_of(i)};
       if (const Vec3d* nucleus = shells.nucleus_of(i)) record.shell->nucleus = *nucleus;
     } else {
       const std::size_t i = next_sphere++;

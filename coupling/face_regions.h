@@ -70,7 +70,7 @@ struct RegionalTension {
 /// A cavity between cells whose fluid presses on the faces that look into it (dcm.md §15; fields_and_coupling.md B).
 struct Lumen {
   std::string name;
-  int mark = 0;               ///< bit of the faces that bound it, renewed by sight from `center`, unless the faces are those of a mark of the study
+  int mark = 0;  ///< bit of the faces that bound it, renewed by sight from `center`, unless the faces are those of a mark of the study
   bool by_sight = true;       ///< faces are found by sight
   Vec3d center{};             ///< where its fluid is looked at from [µm]
   double reach = 100.0;       ///< how far the eye sees [µm]

@@ -57,16 +57,16 @@ struct CellType {
   double migration_persistence = 1800.0;          ///< P [s]
 
   Osmosis osmosis;
-  int migration_substrate = -1;                   ///< material that must be touched, to which the force of migration is tangential; -1: none
+  int migration_substrate = -1;  ///< material that must be touched, to which the force of migration is tangential; -1: none
   Fluctuations fluctuations;
   Protrusion protrusion;
   PolarityTurning polarity;
   Vec3d start_polarity{};  ///< zero: random
 
   // friction
-  double medium_friction = 0.1;        ///< γ_med per area: of a sphere, and for shells the lesser of normal and tangential [nN·s/µm³]
-  double medium_normal_extra = 0.0;    ///< of shells: γ_n − γ_t per area where positive [nN·s/µm³]
-  double medium_tangent_extra = 0.0;   ///< of shells: γ_t − γ_n per area where positive [nN·s/µm³]
+  double medium_friction = 0.1;       ///< γ_med per area: of a sphere, and for shells the lesser of normal and tangential [nN·s/µm³]
+  double medium_normal_extra = 0.0;   ///< of shells: γ_n − γ_t per area where positive [nN·s/µm³]
+  double medium_tangent_extra = 0.0;  ///< of shells: γ_t − γ_n per area where positive [nN·s/µm³]
 
   // bodies
   BodyKind initial_body = BodyKind::kSphere;
@@ -128,6 +128,7 @@ enum class LoadKind : std::uint8_t {
   kPull,       ///< a force spread over the nodes at the ends of `axis`
   kPressure,   ///< against the outward normal, on the whole cell or at the ends of `axis`
   kBodyForce,  ///< on the whole cell
+  kGrip,       ///< springs that hold the nodes at the ends of `axis` in place, or move them (coupling/grips.h)
 };
 enum class LoadEnd : std::uint8_t { kBoth, kHigh, kLow };
 
@@ -137,11 +138,17 @@ struct CellLoad {
   std::uint16_t type = 0;
   LoadKind kind = LoadKind::kBodyForce;
   Vec3d axis{1, 0, 0};           ///< of length 1
-  double size = 0.0;             ///< peak stress or pressure [kPa]; force at an end [nN]
+  double size = 0.0;             ///< peak stress or pressure [kPa]; force at an end [nN]; stiffness of a grip at an end [nN/µm]
   Vec3d force{};                 ///< kBodyForce [nN]
   double part = 1.0;             ///< of the nodes, at an end
   LoadEnd end = LoadEnd::kBoth;  ///< which ends
   TimeCourse course;             ///< factor over time; empty: 1
+  bool within = false;           ///< kPressure: only faces whose middle lies in the cylinder from low_end to high_end
+  Vec3d low_end{}, high_end{};   ///< [µm]
+  double radius = 0.0;           ///< [µm]
+  Vec3d center{};                ///< kGrip: of the undeformed cell whose end nodes the grip holds, before it moves [µm]
+  Vec3d direction{0, 0, 1};      ///< kGrip: of `way`, of length 1
+  TimeCourse way;                ///< kGrip: how far it has moved; empty: it stays [µm]
 };
 
 enum class RegionShape : std::uint8_t { kSphere, kBox, kHalfSpace, kEverything };

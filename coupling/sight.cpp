@@ -40,7 +40,8 @@ void SightMap::cast(int side, const Window& w, std::uint32_t number, const Hit& 
       if (!(along > 0.0)) continue;
       const double distance = along * norm(ray);
       if (number != kNothing) ++met_[number];
-      const std::size_t place = (static_cast<std::size_t>(side) * kSide + static_cast<std::size_t>(j)) * kSide + static_cast<std::size_t>(i);
+      const std::size_t place =
+          (static_cast<std::size_t>(side) * kSide + static_cast<std::size_t>(j)) * kSide + static_cast<std::size_t>(i);
       if (distance > reach_ || !(distance < own_[place] || (distance == own_[place] && number < number_[place]))) continue;
       own_[place] = distance;
       number_[place] = number;

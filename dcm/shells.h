@@ -31,7 +31,7 @@ struct Shells {
   std::vector<Vec3f> velocity;                               ///< by node: last solution, the solver's start [µm/s]
   std::vector<double> rest_length;                           ///< by edge; those of a face are its reference metric [µm]
   std::vector<std::optional<Vec3d>> nucleus;  ///< by shell: centre of its rigid nucleus; shells beyond the end have none [µm]
-  std::vector<FaceState> face;                               ///< by shell; empty: no shell has any
+  std::vector<FaceState> face;                ///< by shell; empty: no shell has any
 
   [[nodiscard]] std::size_t size() const { return shape.size(); }
   [[nodiscard]] std::uint32_t node_count() const { return first_node.back(); }

@@ -9,7 +9,7 @@
 namespace morula {
 namespace {
 
-constexpr double kPiece = 0.02;            // variance of a turn
+constexpr double kPiece = 0.02;              // variance of a turn
 constexpr std::uint64_t kMostPieces = 2048;  // of a step; a longer one forgets the direction anyway
 
 }  // namespace

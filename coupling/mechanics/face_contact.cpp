@@ -13,7 +13,8 @@ std::vector<float> Mechanics::contact_of_faces(const Tissue& tissue, std::span<c
       if (d == 1 && pair.rigid) break;
       const ContactBody& source = bodies[d == 0 ? pair.a : pair.b];
       if (!source.owned || source.topology == nullptr) continue;
-      const bool both = !pair.rigid && bodies[d == 0 ? pair.b : pair.a].topology != nullptr;  // both bodies are sources, with half of the area each
+      const bool both =
+          !pair.rigid && bodies[d == 0 ? pair.b : pair.a].topology != nullptr;  // both bodies are sources, with half of the area each
       const std::uint16_t partner = pair.rigid ? contacts_.obstacles()[pair.b].material : bodies[d == 0 ? pair.b : pair.a].material;
       if (partner >= with_material.size() || !with_material[partner]) continue;
       for (const ContactElement& element : pair.elements[d]) {

@@ -115,7 +115,9 @@ void Mechanics::add_shell_noise(const Tissue& tissue, double dt, std::span<Vec3d
 void Mechanics::add_sphere_noise(const Tissue& tissue, double dt, std::span<Vec3d> external) const {
   const Random random(model_.seed, RandomStream::kFluctuationOfNodes), contact(model_.seed, RandomStream::kFluctuationOfContacts);
   const std::span<Vec3d> force = external.subspan(scene_.owned_nodes());
-  const auto energy = [&](std::size_t sphere) { return model_.types[scene_.bodies()[scene_.first_sphere() + sphere].material].fluctuations.energy; };
+  const auto energy = [&](std::size_t sphere) {
+    return model_.types[scene_.bodies()[scene_.first_sphere() + sphere].material].fluctuations.energy;
+  };
   const auto id = [&](std::size_t sphere) { return scene_.bodies()[scene_.first_sphere() + sphere].id; };
   for (std::size_t i = 0; i < force.size(); ++i) {
     if (energy(i) == 0.0) continue;
@@ -174,7 +176,8 @@ void Mechanics::add_contact_noise(const Tissue& tissue, double dt, std::span<Vec
         const Triangle& face = source.topology->faces()[e.source_face()];
         const Vec3d noise =
             normal_vector(random, source.id, point_draw(step, target != nullptr ? target->id : CellId(pair.b + 1), e.source));
-        const double across = static_cast<double>(e.w) * material.tangential_friction, along = static_cast<double>(e.w) * material.normal_friction;
+        const double across = static_cast<double>(e.w) * material.tangential_friction,
+                     along = static_cast<double>(e.w) * material.normal_friction;
         const Vec3d f = along_and_across(noise, normalized(e.normal<double>()), across, along) * std::sqrt(2.0 * kt / dt);
         for (std::size_t k = 0; k < 3; ++k) add(source, face[k], f * quadrature.weight[e.point()][k]);
         if (target == nullptr) continue;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "coupling/mechanics/mechanics.h"
 
@@ -12,10 +13,18 @@ constexpr int kGradientHalvings = 20;
 // A step whose residual is not below `newton_stop` may end all the same where little motion is left; both in units of newton_stop:
 constexpr double kMostLeft = 2.5;          // of the residual
 constexpr double kSmallCorrection = 0.15;  // motion that another iteration would bring, in units of the contact range
-constexpr double kStuckForce = 1e-3;     // largest residual that counts as rest [nN]
-constexpr double kAllowedRise = 0.2;     // of Φ, in the last resort of the freeze rule [nN·µm]
-constexpr double kLastResortStep = 0.2;  // in units of the contact range
+constexpr double kStuckForce = 1e-3;       // largest residual that counts as rest [nN]
+constexpr double kAllowedRise = 0.2;       // of Φ, in the last resort of the freeze rule [nN·µm]
+constexpr double kLastResortStep = 0.2;    // in units of the contact range
 constexpr int kMaxLinearIterations = 400;
+
+/// Which forces hold a node that nothing can move: words for the message.
+std::string forces_at_worst(const Vec3d& contacts, const Vec3d& shell) {
+  char text[160];
+  std::snprintf(text, sizeof text, "; at its worst node contacts act with %.3g nN, the laws of the shell with %.3g nN", norm(contacts),
+                norm(shell));
+  return text;
+}
 
 }  // namespace
 
@@ -63,6 +72,7 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
   for_owned_points([&](std::uint32_t i) {  // −Δt (F + external), to which Γ_n d is added
     force_[i] = (force_[i] + external_on(external, i)) * -dt;
   });
+  for (const Anchor& anchor : anchors_) force_[anchor.node] += (x[anchor.node] - anchor.target) * (anchor.stiffness * dt);
   spent_ = true;
   OrderFreeSum sums[2];
   if (moved) shells_.add_step_friction(x, force_, sums[0]);
@@ -87,6 +97,8 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
     sums[1].add(work);
   }
   for_nuclei([&](std::uint32_t i) { force_[i] *= -1.0 / dt; });
+  for (const Anchor& anchor : anchors_)  // what the springs have given: their energy at the start less that at x
+    sums[1].add(0.5 * anchor.stiffness * (norm2(start[anchor.node] - anchor.target) - norm2(x[anchor.node] - anchor.target)));
   double totals[2];
   comm_.sum(sums, totals);
   friction_energy_ = totals[0];
@@ -165,12 +177,15 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
           StepFault fault{"no step lowers the energy", {}, true};
           if (const auto shape = find_fault()) fault = *shape;
           double worst = 0.0;
+          std::uint32_t at = 0;
           for (const ContactBody& body : scene_.bodies())
             for (std::uint32_t i = body.first_point; body.active() && i < body.first_point + body.point_count; ++i)
               if (norm2(force_[i]) > worst) {
                 worst = norm2(force_[i]);
                 fault.cell = body.id;
+                at = i;
               }
+          if (at < scene_.owned_nodes()) fault.what += forces_at_worst(gradient_.force[at], shells_.forces().force[at]);
           return undo(start, fault);
         }
         break;

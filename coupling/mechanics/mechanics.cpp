@@ -235,6 +235,7 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
     friction[scene_.bodies()[first + i].first_point] =
         static_cast<float>(model_.types[tissue.spheres.type[i]].medium_friction * 4.0 * std::numbers::pi * r * r);
   }
+  for (const Anchor& anchor : anchors_) friction[anchor.node] += static_cast<float>(anchor.stiffness * dt);
   system_.set_point_friction(friction);
   spheres_.begin_step();
   // The last velocity is the solver's start; obstacles go where they will be at the end of the step.
@@ -279,7 +280,8 @@ std::optional<StepFault> Mechanics::find_fault() const {
   return std::nullopt;
 }
 
-Result<StepReport, StepFault> Mechanics::step(Tissue& tissue, double dt, std::span<const Vec3d> external) {
+Result<StepReport, StepFault> Mechanics::step(Tissue& tissue, double dt, std::span<const Vec3d> external, std::span<const Anchor> anchors) {
+  anchors_ = anchors;
   if (comm_.any(flags_changed_ || spent_)) evaluated_ = flags_changed_ = false;
   if (node_terms_.has_springs()) evaluated_ = false;  // their spheres are those of the step's start
   if (const double end = tissue.clock.time + dt; !relaxing_ && face_tensions_.vary() && end != tension_time_) {
@@ -417,8 +419,8 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
 
 std::size_t Mechanics::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return contacts_.memory() + shells_.memory() + interior_.memory() + spheres_.memory() + system_.memory() + scene_.memory() + bytes(force_) +
-         bytes(solution_) + gradient_.memory() + surfaces_only_.memory() + bytes(geometry_.face_area) +
+  return contacts_.memory() + shells_.memory() + interior_.memory() + spheres_.memory() + system_.memory() + scene_.memory() +
+         bytes(force_) + bytes(solution_) + gradient_.memory() + surfaces_only_.memory() + bytes(geometry_.face_area) +
          bytes(geometry_.face_normal) + bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) +
          bytes(scene_start_);
 }

@@ -9,6 +9,7 @@
 #include "core/friction/friction_system.h"
 #include "core/mesh/topology.h"
 #include "core/parallel/comm.h"
+#include "coupling/grips.h"
 #include "coupling/mechanics/face_tensions.h"
 #include "coupling/mechanics/interior_system.h"
 #include "coupling/mechanics/node_terms.h"
@@ -67,7 +68,8 @@ class Mechanics {
 
   /// One step of length dt under the given external forces (owned shell nodes, then owned spheres) [nN]. On success the tissue holds
   /// the new positions and velocities; on a fault it is unchanged. Collective.
-  Result<StepReport, StepFault> step(Tissue& tissue, double dt, std::span<const Vec3d> external);
+  /// `anchors`: springs on owned shell nodes, held implicitly at their places of the step's end.
+  Result<StepReport, StepFault> step(Tissue& tissue, double dt, std::span<const Vec3d> external, std::span<const Anchor> anchors = {});
 
   /// Forces on whole cells (by owned body: shells, then spheres) as `external`: on a shell spread over its nodes by their area (dcm.md §11).
   std::vector<Vec3d> spread(const Tissue& tissue, std::span<const Vec3d> by_body);
@@ -205,6 +207,7 @@ class Mechanics {
   double energy_ = 0.0;              ///< at the present positions, without external work
   std::vector<Vec3d> force_;         ///< by point; friction_residual() makes the residual of it: force + external − Γ_n d/Δt
   bool spent_ = false;               ///< force_ holds a residual: evaluate() before the next step
+  std::span<const Anchor> anchors_;  ///< of the present step
   double friction_energy_ = 0.0;     ///< dᵀΓ_n d
   std::vector<Float4> solution_;
 };

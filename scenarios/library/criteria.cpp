@@ -50,12 +50,15 @@ const std::vector<ScenarioCriteria>& scenario_criteria() {
   static const std::vector<ScenarioCriteria> all{
       {"blastocyst", &judge_blastocyst},
       {"blastocyst", &judge_cavity},
+      {"cell_shear", &judge_cell_shear, &plot_cell_shear},
       {"doublet", &judge_doublet, &plot_doublet},
       {"embryo", &judge_embryo, &plot_embryo},
       {"hybrid_spheroid", &judge_hybrid_spheroid},
+      {"micropipette", &judge_micropipette, &plot_micropipette},
       {"optical_stretcher", &judge_optical_stretcher, &plot_optical_stretcher},
       {"optical_tweezers", &judge_optical_tweezers, &plot_optical_tweezers},
       {"parallel_plates", &judge_parallel_plates, &plot_parallel_plates},
+      {"pull_off", &judge_pull_off, &plot_pull_off},
       {"spreading", &judge_spreading, &plot_spreading},
   };
   return all;
@@ -64,13 +67,15 @@ const std::vector<ScenarioCriteria>& scenario_criteria() {
 bool is_passive(const Study& study) {
   const Model& model = study.model;
   for (const CellType& type : model.types)
-    if (type.fluctuations.energy > 0.0 || type.protrusion.force > 0.0 || !type.regional_tension.empty() || type.osmosis.acts() || type.cycles ||
-        type.migration_speed > 0.0 || (type.death_field >= 0 && type.death_rate > 0.0)) return false;
+    if (type.fluctuations.energy > 0.0 || type.protrusion.force > 0.0 || !type.regional_tension.empty() || type.osmosis.acts() ||
+        type.cycles || type.migration_speed > 0.0 || (type.death_field >= 0 && type.death_rate > 0.0))
+      return false;
   for (const InitialCells& block : study.initial)
     if (block.start_volume_fraction < 1.0) return false;
   for (const ObstacleSpec& obstacle : model.obstacles)
     if (obstacle.moves()) return false;
-  return model.loads.empty() && model.lumens.empty() && model.apical_springs.empty() && model.swaps.regions.empty() && model.swaps.triggers.empty();
+  return model.loads.empty() && model.lumens.empty() && model.apical_springs.empty() && model.swaps.regions.empty() &&
+         model.swaps.triggers.empty();
 }
 
 Result<std::vector<Verdict>> common_criteria(const Study& study, const std::filesystem::path& run) {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "coupling/grips.h"
 #include "coupling/swaps.h"
 
 namespace morula::scenarios {
@@ -140,6 +141,7 @@ Measures measure(Simulation& simulation) {
   measure_fields(simulation, out);
   measure_packing(simulation, out);
   out.obstacle_force = simulation.mechanics().obstacle_forces(tissue);
+  out.grip_force = grip_forces(model, tissue, comm);
   if (out.cells == 0) return out;
   const auto cells = static_cast<double>(out.cells);
   const Vec3d mean = Vec3d{total[kVolumeX], total[kVolumeY], total[kVolumeZ]} * (1.0 / total[kVolume]);

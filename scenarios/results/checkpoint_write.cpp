@@ -21,8 +21,8 @@ struct SortedCells {
   std::vector<CellId> partners;
   std::vector<std::uint32_t> shape;
   dcm::Shells shells;
-  std::vector<std::uint8_t> has_nucleus;  ///< by shell
-  std::vector<Vec3d> nucleus;             ///< of those that have one
+  std::vector<std::uint8_t> has_nucleus;                 ///< by shell
+  std::vector<Vec3d> nucleus;                            ///< of those that have one
   std::vector<std::uint32_t> mark_count, contact_count;  ///< by shell
   std::vector<std::uint8_t> mark;
   std::vector<float> contact;

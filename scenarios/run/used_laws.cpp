@@ -179,6 +179,8 @@ const char* load_name(LoadKind kind) {
       return "pressure";
     case LoadKind::kBodyForce:
       return "body_force";
+    case LoadKind::kGrip:
+      return "grip";
   }
   return "";
 }
@@ -188,7 +190,7 @@ void add_loads(const Model& model, std::vector<UsedLaw>& out) {
     const double size = load.kind == LoadKind::kBodyForce ? norm(load.force) : load.size;
     out.push_back({"load " + load.name + " on " + model.types[load.type].name,
                    law_named(load_laws(), load_name(load.kind)),
-                   {{"stress", size}, {"pressure", size}, {"force", size}, {"part", load.part}}});
+                   {{"stress", size}, {"pressure", size}, {"force", size}, {"stiffness", size}, {"part", load.part}}});
   }
 }
 

@@ -48,6 +48,8 @@ void build_initial(BuildContext& context);
 void build_coupling(BuildContext& context);
 /// Checks that need the whole study: contact range, friction, step, domain size.
 void check_whole(BuildContext& context);
+/// Measured limits of meshes under strong adhesion, and cells whose volume does not bear their tension: E571, E572.
+void check_resolution(BuildContext& context);
 
 /// Index of a cell type or field by name, or −1 and an error with suggestions.
 int find_type(BuildContext& context, const std::string& name, const Place& place);

@@ -55,7 +55,8 @@ FaceMark rule_of(BuildContext& c, const std::string& name, const Place& place, c
   FaceMark rule;
   rule.always = m.when.value == "always" || m.touched;
   if (m.cone + m.band + m.ball + m.box + m.touched != 1) {
-    c.diagnostics.error(111, place, "mark '" + name + "' needs exactly one rule", "give one of `cone`, `band`, `ball`, `box`, `touched_by`");
+    c.diagnostics.error(111, place, "mark '" + name + "' needs exactly one rule",
+                        "give one of `cone`, `band`, `ball`, `box`, `touched_by`");
     return rule;
   }
   if (m.cone) {
@@ -124,8 +125,8 @@ void check_tension(BuildContext& c, std::size_t type, const TensionRegion& regio
     most = std::max(most, model.pair(type, other).adhesion);
   const double least = least_tension(region);
   if (most == 0.0 || 2.0 * least > most) return;
-  const std::string what = "the tension of '" + item.name + "' falls to " + short_number(least) + " mN/m, half of the adhesion between cells (" +
-                           short_number(most) + " mJ/m^2) or less: ";
+  const std::string what = "the tension of '" + item.name + "' falls to " + short_number(least) +
+                           " mN/m, half of the adhesion between cells (" + short_number(most) + " mJ/m^2) or less: ";
   const std::string help = "more tension there, or less adhesion";
   if (t.elastic.value == "none" && t.local_area.value + t.global_area.value == 0.0)
     c.diagnostics.error(556, item.content.tension.place, what + "a cortex that is not elastic has no rest there", help);
@@ -182,7 +183,8 @@ void build_lumens(BuildContext& c) {
     if (d.pressure.known() && lumen.keeps_solute && lumen.pressure <= 0.0)
       c.diagnostics.error(557, d.pressure.place, "a cavity that keeps its solute has a positive pressure", "for example `20 Pa`");
     if (!may_have_shells(c.draft))
-      c.diagnostics.error(557, place, "the cavity '" + name + "' has no walls: no cell of this study is a shell", "cells with `body: shell`");
+      c.diagnostics.error(557, place, "the cavity '" + name + "' has no walls: no cell of this study is a shell",
+                          "cells with `body: shell`");
     if (c.study.model.space.any_periodic())
       c.diagnostics.error(557, place, "the cavity '" + name + "' is in a domain with periodic faces, where nothing is outside",
                           "open faces or walls");

@@ -208,6 +208,7 @@ void check_whole(BuildContext& c) {
   check_friction(c);
   check_periodic_size(c);
   check_nuclei(c);
+  check_resolution(c);
 }
 
 }  // namespace morula::scenarios

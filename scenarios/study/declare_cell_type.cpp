@@ -184,9 +184,11 @@ void declare_friction(Section& s, draft::CellType& t) {
   };
   tangential("cell_cell_tangential", "Along the contact; `cell_cell` then is the friction of approach. `same`: both alike.",
              t.tangential_cell_cell);
-  tangential("obstacle_tangential", "Along the obstacle; `obstacle` then is the friction across. `same`: both alike.", t.tangential_obstacle);
+  tangential("obstacle_tangential", "Along the obstacle; `obstacle` then is the friction across. `same`: both alike.",
+             t.tangential_obstacle);
   tangential("medium_tangential",
-             "Along a shell's surface; `medium` then is the friction across it. A sphere has the mean, (normal + 2 tangential)/3. `same`: both alike.",
+             "Along a shell's surface; `medium` then is the friction across it. A sphere has the mean, (normal + 2 tangential)/3. `same`: "
+             "both alike.",
              t.tangential_medium);
 }
 

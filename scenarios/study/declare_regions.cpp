@@ -26,7 +26,8 @@ void declare_tension_region(Section& s, draft::TensionRegion& r) {
               .high = 100.0,
               .example = "0.4 mN/m"},
              r.tension);
-  course(s, r.course, "The tension over time, as parts of it: straight lines between these points, constant outside. Steps land on the points.");
+  course(s, r.course,
+         "The tension over time, as parts of it: straight lines between these points, constant outside. Steps land on the points.");
   s.quantity({.name = "amplitude",
               .doc = "Of a modulation 1 + amplitude sin(2 pi t/period + phase).",
               .quantity = Q::kFraction,
@@ -68,10 +69,11 @@ void center_key(Section& s, Given<Vec3d>& value, const char* doc) {
 }  // namespace
 
 void declare_tension_regions(Section& s, draft::CellType& t) {
-  s.named({.name = "regions",
-           .doc = "Tension by part of the surface: names of `marks`, `lateral` (what is in contact with other cells) or `whole`. Of the marks "
-                  "that a face carries the first listed here holds; contact goes from that tension to the lateral one."},
-          t.tension_regions, &declare_tension_region);
+  s.named(
+      {.name = "regions",
+       .doc = "Tension by part of the surface: names of `marks`, `lateral` (what is in contact with other cells) or `whole`. Of the marks "
+              "that a face carries the first listed here holds; contact goes from that tension to the lateral one."},
+      t.tension_regions, &declare_tension_region);
   s.quantity({.name = "lateral_easing",
               .doc = "Time in which a face that comes into contact takes the `lateral` tension (and gives it up again).",
               .quantity = Q::kTime,
@@ -90,7 +92,8 @@ void declare_mark(Section& s, draft::Mark& m) {
            .optional_section = true,
            .example = "{axis: [0, 0, 1], angle: 60 deg}"},
           m.cone, [&m](Section& c) {
-            c.vector({.name = "axis", .doc = "The axis, in the laboratory; or give `toward` or `polarity`.", .example = "[0, 0, 1]"}, m.cone_axis);
+            c.vector({.name = "axis", .doc = "The axis, in the laboratory; or give `toward` or `polarity`.", .example = "[0, 0, 1]"},
+                     m.cone_axis);
             c.vector({.name = "toward",
                       .doc = "In place of `axis`: the point that the axis points to, such as the middle of a cavity.",
                       .quantity = Q::kLength,
@@ -158,12 +161,9 @@ void declare_mark(Section& s, draft::Mark& m) {
            .example = "{material: plane, keep: true}"},
           m.touched, [&m](Section& t) {
             t.text({.name = "material", .doc = "The cell type or obstacle.", .required = true, .example = "plane"}, m.material);
-            t.flag({.name = "keep",
-                    .doc = "What was touched once stays marked.",
-                    .fallback = "false",
-                    .example = "true",
-                    .source = "chosen"},
-                   m.keep);
+            t.flag(
+                {.name = "keep", .doc = "What was touched once stays marked.", .fallback = "false", .example = "true", .source = "chosen"},
+                m.keep);
           });
   s.word({.name = "when",
           .doc = "start: given once, when the shell comes to be, and kept as it deforms; always: follows the cell from step to step. Marks "
@@ -210,24 +210,27 @@ void declare_lumen(Section& s, draft::Lumen& l) {
               .example = "30 min",
               .source = "chosen"},
              l.from);
-  s.quantity({.name = "pressure",
-              .doc = "Pressure of the fluid above that of the medium; with `solute: kept`, that at the volume at which the cavity is first seen.",
-              .quantity = Q::kPressure,
-              .required = true,
-              .low = -100.0,
-              .high = 100.0,
-              .example = "20 Pa"},
-             l.pressure);
-  s.word({.name = "solute",
-          .doc = "free: the pressure is as given, whatever the volume (such a cavity may grow without end); kept: P = R T n/V with the amount "
-                 "of solute n of the beginning.",
-          .fallback = "free",
-          .words = {"free", "kept"},
-          .example = "kept",
-          .source = "chosen"},
-         l.solute);
+  s.quantity(
+      {.name = "pressure",
+       .doc = "Pressure of the fluid above that of the medium; with `solute: kept`, that at the volume at which the cavity is first seen.",
+       .quantity = Q::kPressure,
+       .required = true,
+       .low = -100.0,
+       .high = 100.0,
+       .example = "20 Pa"},
+      l.pressure);
+  s.word(
+      {.name = "solute",
+       .doc = "free: the pressure is as given, whatever the volume (such a cavity may grow without end); kept: P = R T n/V with the amount "
+              "of solute n of the beginning.",
+       .fallback = "free",
+       .words = {"free", "kept"},
+       .example = "kept",
+       .source = "chosen"},
+      l.solute);
   course(s, l.course,
-         "Factor of the pressure (of the amount of solute) over time: straight lines between these points, constant outside. Steps land on the "
+         "Factor of the pressure (of the amount of solute) over time: straight lines between these points, constant outside. Steps land on "
+         "the "
          "points.");
 }
 

@@ -269,11 +269,13 @@ void declare_study(Section& s, draft::Study& study) {
   s.named({.name = "geometry", .doc = "Rigid obstacles, by name."}, study.geometry, &declare_obstacle);
   s.list({.name = "initial", .doc = "The cells at time 0.", .required = true}, study.initial, &declare_initial);
   s.named({.name = "loads", .doc = "Forces from outside on the cells of a type, by name."}, study.loads, &declare_load);
-  s.named({.name = "marks", .doc = "Marks of faces, by name; at most 8 with the cavities. Regions of tension, cavities and springs refer to them."},
+  s.named({.name = "marks",
+           .doc = "Marks of faces, by name; at most 8 with the cavities. Regions of tension, cavities and springs refer to them."},
           study.marks, &declare_mark);
   s.named({.name = "lumens", .doc = "Cavities between shells whose fluid presses on the faces around it, by name."}, study.lumens,
           &declare_lumen);
-  s.named({.name = "apical", .doc = "Springs that hold marked faces near their mean sphere, by name."}, study.apical, &declare_apical_spring);
+  s.named({.name = "apical", .doc = "Springs that hold marked faces near their mean sphere, by name."}, study.apical,
+          &declare_apical_spring);
   s.named({.name = "fields", .doc = "Diffusing concentrations, by name; at most 4."}, study.fields, &declare_field);
   s.group({.name = "coupling", .doc = "Which cells are spheres and which are shells, and when that changes."}, present,
           [&](Section& c) { declare_coupling(c, study.coupling); });

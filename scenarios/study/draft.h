@@ -118,6 +118,8 @@ struct Obstacle {
   Given<std::string> stl, obj;
   Given<double> scale;
   Shape plane, sphere, cylinder, capsule, box;
+  Shape pipette;  ///< from: the mouth; to: the far end; radius: inside
+  Given<double> pipette_wall, pipette_lip, pipette_edge;
   Given<std::string> side;
   Given<Vec3d> velocity, direction;
   std::vector<Named<CoursePoint>> course;
@@ -131,10 +133,12 @@ struct LoadEnds {
 
 struct Load {
   Given<std::string> type;
-  bool traction = false, pull = false, pressure = false;
-  Given<double> peak, pull_force, pressure_value;
-  Given<Vec3d> traction_axis, body_force;
-  LoadEnds pull_ends, pressure_ends;
+  bool traction = false, pull = false, pressure = false, grip = false;
+  Given<double> peak, pull_force, pressure_value, grip_stiffness;
+  Given<Vec3d> traction_axis, body_force, grip_center, grip_direction;
+  LoadEnds pull_ends, pressure_ends, grip_ends;
+  Shape pressure_within;  ///< low_end, high_end and radius of a cylinder
+  std::vector<Named<CoursePoint>> way;
   std::vector<Named<CoursePoint>> course;
 };
 

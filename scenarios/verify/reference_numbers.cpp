@@ -217,6 +217,7 @@ std::vector<ReferenceNumber> physics_numbers() {
   add_spheres(out);
   add_packing(out);
   add_interior_numbers(out);
+  add_contact_numbers(out);
   return out;
 }
 

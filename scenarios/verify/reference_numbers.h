@@ -21,5 +21,7 @@ std::vector<ReferenceNumber> physics_numbers();
 
 /// Those of water, nucleus and cytoskeleton.
 void add_interior_numbers(std::vector<ReferenceNumber>& out);
+/// Those of contacts and pipettes (contact_numbers.cpp), which physics_numbers() adds.
+void add_contact_numbers(std::vector<ReferenceNumber>& out);
 
 }  // namespace morula::scenarios

@@ -174,7 +174,8 @@ TEST(FaceTensions, ARegionThatIsTheWholeSurfaceIsTheOwnTension) {
   Model own = test::clusters_model(), whole = own;
   whole.types[0].shell.tension = 0.01;
   whole.types[0].regional_tension.regions = {region(TensionRegion::kWhole, own.types[0].shell.tension)};
-  for (Model* m : {&own, &whole}) m->step.first_tolerance = m->step.later_tolerance = 1e-6, m->step.newton_stop = 1e-4, m->step.max_newton = 8;
+  for (Model* m : {&own, &whole})
+    m->step.first_tolerance = m->step.later_tolerance = 1e-6, m->step.newton_stop = 1e-4, m->step.max_newton = 8;
   ShapeLibrary shapes;
   Tissue a = test::make_tissue(own, shapes, {{0, 0, 0}, {0, 0, 11.9}}, {BodyKind::kShell, BodyKind::kShell}), b = a;
   for (Tissue* t : {&a, &b}) {

@@ -88,7 +88,8 @@ TEST(Fluctuations, HaveTheCovarianceOfAllFrictionOfAShell) {  // medium across a
   const Tissue tissue = test::make_tissue(model, shapes, {{1, 2, 3}}, {BodyKind::kShell}, 42);
   std::vector<Vec3d> push = uneven_push(tissue, 0.05);
   expect_covariance(model, tissue, push, 0.07);  // 3 standard errors of 4000 samples
-  for (std::size_t i = 0; i < push.size(); ++i) push[i] = normalized(tissue.shells.position[i] - Vec3d{1, 2, 3}) * 0.05;  // the volume breathes
+  for (std::size_t i = 0; i < push.size(); ++i)
+    push[i] = normalized(tissue.shells.position[i] - Vec3d{1, 2, 3}) * 0.05;  // the volume breathes
   expect_covariance(model, tissue, push, 0.07);
 }
 
@@ -96,9 +97,8 @@ TEST(Fluctuations, HaveTheCovarianceOfTheFrictionOfContacts) {
   Model model = fluctuating();
   model.pairs = {ContactPair{0.1, 50.0, 5.0}};
   ShapeLibrary shapes;
-  const Tissue tissue =
-      test::make_tissue(model, shapes, {{0, 0, 0}, {0, 0, 11.9}, {0, 11.5, 5.9}, {0, 22, 7}},
-                        {BodyKind::kShell, BodyKind::kShell, BodyKind::kSphere, BodyKind::kSphere}, 42);
+  const Tissue tissue = test::make_tissue(model, shapes, {{0, 0, 0}, {0, 0, 11.9}, {0, 11.5, 5.9}, {0, 22, 7}},
+                                          {BodyKind::kShell, BodyKind::kShell, BodyKind::kSphere, BodyKind::kSphere}, 42);
   expect_covariance(model, tissue, uneven_push(tissue, 0.02), 0.07);
 }
 
@@ -203,7 +203,7 @@ TEST(Fluctuations, GiveTheModesOfATenseSphere) {
   Model model = fluctuating();
   auto& shell = model.types[0].shell;
   shell.spring_stiffness = shell.hinge_stiffness = shell.edge_damping = 0.0;
-  shell.shape_stiffness = 0.1;  // holds triangles together; no shear modulus
+  shell.shape_stiffness = 0.1;                          // holds triangles together; no shear modulus
   model.types[0].fluctuations.energy = 0.01 * kEnergy;  // nodes stay where they are to a few hundredths of an edge
   shell.bulk_modulus = 50.0;
   constexpr double dt = 0.2, kRelaxation = 0.1 * 36.0 / (0.5 * 4.0);

@@ -113,7 +113,8 @@ TEST(Protrusion, MovesAFreeCellOnlyWithItsReactionOutside) {
       const double dt = simulation->tissue().clock.time - before.clock.time;
       Vec3d way{};
       double whole = 0.0;
-      for (std::size_t i = 0; i < 162; ++i) way += (simulation->tissue().shells.position[i] - before.shells.position[i]) * area[i], whole += area[i];
+      for (std::size_t i = 0; i < 162; ++i)
+        way += (simulation->tissue().shells.position[i] - before.shells.position[i]) * area[i], whole += area[i];
       moved += way.x / whole;
       scale += 0.2 * dt / (0.1 * whole);
       if (!internal) expected += 0.2 * dt / (0.1 * whole);

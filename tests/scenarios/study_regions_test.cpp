@@ -123,10 +123,12 @@ TEST(Regions, AreAmongTheLawsThatMethodsName) {
   const auto study = test::read(kStudy);
   ASSERT_TRUE(study.ok()) << study.error().text();
   const std::vector<UsedLaw> laws = used_laws(*study);
-  for (const char* name : {"regional_tension", "lumen_pressure", "apical_spring", "fluctuations", "protrusion", "polarity", "directed_medium_friction"}) {
+  for (const char* name :
+       {"regional_tension", "lumen_pressure", "apical_spring", "fluctuations", "protrusion", "polarity", "directed_medium_friction"}) {
     const auto found = std::ranges::find(laws, std::string(name), [](const UsedLaw& use) { return use.law.name; });
     ASSERT_NE(found, laws.end()) << name;
-    for (const LawParameter& parameter : found->law.parameters) EXPECT_NE(used_value(*found, parameter), "not set") << name << parameter.name;
+    for (const LawParameter& parameter : found->law.parameters)
+      EXPECT_NE(used_value(*found, parameter), "not set") << name << parameter.name;
   }
 }
 
@@ -141,7 +143,8 @@ TEST(Regions, WhatNoFaceCanCarryIsRefused) {
   EXPECT_NE(errors("apical: {tension: 0.5", "apicl: {tension: 0.5").find("E401"), std::string::npos);
   EXPECT_NE(errors("{mark: apical", "{mark: apicl").find("E401"), std::string::npos);
   std::string many = kStudy;
-  for (int k = 0; k < 6; ++k) many = test::changed("marks:\n", "marks:\n  m" + std::to_string(k) + ": {types: [wall], band: {half_width: 1 um}}\n", many);
+  for (int k = 0; k < 6; ++k)
+    many = test::changed("marks:\n", "marks:\n  m" + std::to_string(k) + ": {types: [wall], band: {half_width: 1 um}}\n", many);
   EXPECT_NE(test::errors_of(many).find("E555"), std::string::npos);
 }
 
