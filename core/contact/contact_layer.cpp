@@ -305,7 +305,9 @@ void ContactLayer::find_penetration(const ContactScene& scene, std::span<Penetra
     if (pair.motion - pair.built_at > settings_.skin) rebuild_lists(scene, pair);
     const PairBody body[2] = {view(scene, pair, 0), view(scene, pair, 1)};
     const int d = body[0].topology != nullptr ? 0 : 1;
-    of_pair[k] = penetration(body[d], body[1 - d], FaceQuadrature::with_points(settings_.points_per_face), pair.points[d].source_face);
+    std::vector<std::uint32_t> faces;
+    pair.points[d].unpack_source_faces(faces);
+    of_pair[k] = penetration(body[d], body[1 - d], FaceQuadrature::with_points(settings_.points_per_face), faces);
   }
   for (std::size_t k = 0; k < list.size(); ++k) {
     const SurfacePair& pair = pairs_[list[k]];
