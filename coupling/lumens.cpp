@@ -94,7 +94,7 @@ void measure_lumens(const Model& model, Tissue& tissue, const Comm& comm) {
     const double of_shells = total[2] / (4.0 * std::numbers::pi);
     if (!lumen.by_sight) state.covered = of_shells;
     state.area = total[1];
-    state.volume = state.covered >= kBurst && of_shells > 0.0 ? total[0] / of_shells : 0.0;
+    state.volume = state.covered >= kBurst && of_shells > 0.0 ? std::max(0.0, total[0] / of_shells) : 0.0;
     state.pressure = lumen_pressure(lumen, state, tissue.clock.time);
   }
 }

@@ -49,7 +49,7 @@ double largest_rise(const SeriesColumn& energy) {
 const std::vector<ScenarioCriteria>& scenario_criteria() {
   static const std::vector<ScenarioCriteria> all{
       {"blastocyst", &judge_blastocyst},
-      {"blastocyst", &judge_cavity},
+      {"cavity", &judge_cavity},
       {"cell_shear", &judge_cell_shear, &plot_cell_shear},
       {"doublet", &judge_doublet, &plot_doublet},
       {"embryo", &judge_embryo, &plot_embryo},

@@ -218,6 +218,7 @@ std::vector<ReferenceNumber> physics_numbers() {
   add_packing(out);
   add_interior_numbers(out);
   add_contact_numbers(out);
+  add_active_numbers(out);
   return out;
 }
 
