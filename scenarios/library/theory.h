@@ -42,4 +42,8 @@ struct PressedDrop {
 /// height: of the gap over R0, between 0.05 and 2 (a sphere).
 PressedDrop pressed_drop(double height);
 
+/// Largest pull |F|/(πRW) that two elastic spheres bear, in the theory of Maugis 1992 (doi:10.1016/0021-9797(92)90285-T) of a constant
+/// adhesive stress σ0: between 2 (DMT, small λ) and 3/2 (JKR, large λ). λ = 2σ0 (R/(πWK²))^(1/3), K = 4E*/3.
+double maugis_pull_off(double lambda);
+
 }  // namespace morula::scenarios::theory

@@ -65,21 +65,36 @@ void add_shell_laws(const CellType& type, std::vector<UsedLaw>& out) {
   }
 }
 
+const char* law_name(SurfaceLaw law) {
+  switch (law) {
+    case SurfaceLaw::kTent:
+      return "traction";
+    case SurfaceLaw::kMaugisDugdale:
+      return "maugis_dugdale";
+    case SurfaceLaw::kFalling:
+      return "falling";
+  }
+  return "";
+}
+
 void add_contacts(const Model& model, bool shells, bool spheres, std::vector<UsedLaw>& out) {
-  if (shells || !model.obstacles.empty())
-    out.push_back({"contact of surfaces",
-                   law_named(surface_contact_laws(), "surface_traction"),
-                   {{"range", model.contact.range}, {"repulsion", model.contact.repulsion}}});
   const auto name = [&](std::size_t m) {
     return m < model.types.size() ? model.types[m].name : model.obstacles[m - model.types.size()].name;
   };
   for (std::size_t a = 0; a < model.types.size(); ++a)
     for (std::size_t b = a; b < model.material_count(); ++b) {
       const ContactPair& pair = model.pair(a, b);
+      const std::string purpose = "contact of " + name(a) + " with " + name(b);
       out.push_back(
-          {"contact of " + name(a) + " with " + name(b),
+          {purpose,
            law_named(surface_contact_laws(), "contact_pair"),
            {{"adhesion", pair.adhesion}, {"normal_friction", pair.normal_friction}, {"tangential_friction", pair.tangential_friction}}});
+      if (!shells && b < model.types.size()) continue;
+      out.push_back({purpose,
+                     law_named(surface_contact_laws(), law_name(pair.law)),
+                     {{"range", pair.range > 0.0 ? pair.range : model.contact.range},
+                      {"repulsion", pair.repulsion > 0.0 ? pair.repulsion : model.contact.repulsion},
+                      {"modulus", pair.reduced_modulus}}});
     }
   if (!spheres) return;
   for (std::size_t t = 0; t < model.types.size(); ++t) {
