@@ -54,7 +54,7 @@ void check_resolution(BuildContext& context);
 /// Index of a cell type or field by name, or −1 and an error with suggestions.
 int find_type(BuildContext& context, const std::string& name, const Place& place);
 /// Index of a cell type, or of an obstacle after the types, by name; −1 and an error with suggestions.
-int find_material(BuildContext& context, const std::string& name, const Place& place);
+int find_cell_or_obstacle(BuildContext& context, const std::string& name, const Place& place);
 int find_field(BuildContext& context, const std::string& name, const Place& place);
 /// Whether any cell may have this body: by its type, by `as`, or by coupling.
 bool may_have_shells(const draft::Study& draft);

@@ -16,7 +16,7 @@ void set_friction(const draft::CellType& t, CellType& type) {
 
 /// Material of the obstacle that a key names, or −1 and an error.
 int find_substrate(BuildContext& c, const Given<std::string>& name) {
-  const int material = find_material(c, name.value, name.place);
+  const int material = find_cell_or_obstacle(c, name.value, name.place);
   if (material < 0 || static_cast<std::size_t>(material) >= c.study.model.types.size()) return material;
   c.diagnostics.error(558, name.place, "'" + name.value + "' is a cell type, and cells move along obstacles", "name one of `geometry`");
   return -1;

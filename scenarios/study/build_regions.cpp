@@ -83,7 +83,7 @@ FaceMark rule_of(BuildContext& c, const std::string& name, const Place& place, c
   } else {
     rule.rule = FaceMark::Rule::kTouched;
     rule.keep = m.keep.value;
-    if (m.material.known()) rule.material = find_material(c, m.material.value, m.material.place);
+    if (m.material.known()) rule.material = find_cell_or_obstacle(c, m.material.value, m.material.place);
   }
   return rule;
 }
@@ -206,7 +206,7 @@ void build_springs(BuildContext& c) {
 
 }  // namespace
 
-int find_material(BuildContext& c, const std::string& name, const Place& place) {
+int find_cell_or_obstacle(BuildContext& c, const std::string& name, const Place& place) {
   std::vector<std::string> names;
   for (const auto& type : c.draft.cell_types) names.push_back(type.name);
   for (const auto& obstacle : c.draft.geometry) names.push_back(obstacle.name);
