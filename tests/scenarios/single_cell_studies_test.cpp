@@ -38,8 +38,7 @@ TEST_P(SingleCell, StudyMeetsAllItsCriteriaAndIsPlottedAgainstTheory) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Quick, SingleCell,
-                         testing::Values("cell_shear", "doublet", "micropipette", "optical_stretcher", "optical_tweezers", "parallel_plates",
-                                         "pull_off", "spreading"),
+                         testing::Values("doublet", "micropipette", "optical_stretcher", "optical_tweezers", "parallel_plates", "spreading"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST(Holds, AreTheConstantPartsOfACourseWithTheirLastSnapshot) {
