@@ -7,7 +7,9 @@
 #include "cbm/builtin.h"
 #include "core/numbers/number_text.h"
 #include "coupling/behaviours/builtin.h"
+#include "coupling/builtin.h"
 #include "dcm/builtin.h"
+#include "fields/builtin.h"
 
 namespace morula::app {
 namespace {
@@ -40,7 +42,13 @@ std::vector<ListedLaw> all_laws() {
   std::vector<ListedLaw> laws;
   for (auto& entry : cbm::contact_laws()) laws.push_back({"contact of spheres", std::move(entry.info)});
   for (const auto& entry : dcm::shell_laws()) laws.push_back({"shells", entry.info});
-  for (auto& info : behaviour_laws()) laws.push_back({"behaviours", std::move(info)});
+  const auto add = [&laws](const char* group, std::vector<LawInfo> infos) {
+    for (LawInfo& info : infos) laws.push_back({group, std::move(info)});
+  };
+  add("contact of surfaces", surface_contact_laws());
+  add("behaviours", behaviour_laws());
+  add("fields", fields::field_laws());
+  add("loads", load_laws());
   return laws;
 }
 
@@ -86,7 +94,8 @@ std::string law_json(const ListedLaw& law) {
 
 std::string law_reference() {
   std::string out =
-      "# Laws\n\nGenerated from the registries (`cbm/builtin.cpp`, `dcm/builtin.cpp`, `coupling/behaviours/builtin.cpp`); do not edit.\n"
+      "# Laws\n\nGenerated from the registries (`cbm/builtin.cpp`, `dcm/builtin.cpp`, `coupling/builtin.cpp`, "
+      "`coupling/behaviours/builtin.cpp`, `fields/builtin.cpp`); do not edit.\n"
       "Units inside are µm, nN, s and amol; 1 kPa = 1 nN/µm².\n";
   std::string group;
   for (const ListedLaw& law : all_laws()) {

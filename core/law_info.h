@@ -20,6 +20,13 @@ struct LawParameter {
   std::string doc;     ///< one sentence
 };
 
+/// A parameter without a value of its own: the study gives it.
+inline LawParameter given_by_study(const char* name, const char* quantity, const char* unit, const char* doc) {
+  LawParameter out;
+  out.name = name, out.quantity = quantity, out.unit = unit, out.doc = doc, out.source = "the study";
+  return out;
+}
+
 /// What there is to say about a law apart from its functions: plain data, filled in once in the `builtin.cpp` of the law's folder.
 struct LawInfo {
   std::string name;      ///< snake_case, unique within its folder: "jkr"

@@ -51,16 +51,27 @@ struct CellType {
   dcm::ShellParameters shell;
 };
 
+/// Traction between two surfaces over their gap (core/contact/traction_law.h; decision 0012).
+enum class SurfaceLaw : std::uint8_t {
+  kTent,           ///< rises to the middle of the range and falls again; linear repulsion
+  kMaugisDugdale,  ///< nearly constant over the range; Hertz-like repulsion
+  kFalling,        ///< highest at contact, falls over the range; linear repulsion
+};
+
 /// Contact of two materials. Cell types come first, obstacles after them.
 struct ContactPair {
   double adhesion = 0.0;              ///< W per contact area of the pair [nN/µm]
   double normal_friction = 50.0;      ///< γ_n per contact area [nN·s/µm³]
   double tangential_friction = 50.0;  ///< γ_t per contact area [nN·s/µm³]
+  SurfaceLaw law = SurfaceLaw::kTent;
+  double range = 0.0;            ///< c; 0: that of ContactNumerics [µm]
+  double repulsion = 0.0;        ///< k_r; 0: that of ContactNumerics [kPa/µm]
+  double reduced_modulus = 0.0;  ///< E* of kMaugisDugdale [kPa]
 };
 
-/// Numbers of the traction law that do not depend on the pair.
+/// Numbers of the traction law, for pairs that have none of their own.
 struct ContactNumerics {
-  double range = 0.5;        ///< c [µm]
+  double range = 0.5;        ///< c; no pair has a smaller one [µm]
   double repulsion = 100.0;  ///< k_r [kPa/µm]
   int points_per_face = 3;   ///< interior quadrature points, 3 or 4
   double skin = 0.5;         ///< of the candidate lists [µm]

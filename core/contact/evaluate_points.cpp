@@ -319,7 +319,7 @@ void evaluate_points(const PointsEvaluation& e, int d, SurfacePair& pair, PairGr
       const ContactPoint& p = ws.points[first + static_cast<std::size_t>(lane)];
       const double gap = batch.gap[lane];
       if (p.second >= 0.0) remember(p, gap, p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q, e, lists);
-      if (gap < e.reach.range) add_point(e, d, p, batch, lane, pair, gradient, ws.elements);
+      if (gap < e.material.law.range) add_point(e, d, p, batch, lane, pair, gradient, ws.elements);
     }
   }
   pair.elements[d].assign(ws.elements.begin(), ws.elements.end());  // no more room than needed: they live long

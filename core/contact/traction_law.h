@@ -8,46 +8,67 @@ namespace morula {
 
 /// Traction of two surfaces at gap g (g < 0: overlap), per area of contact, from a potential.
 ///
-/// Attraction: U_a = −W for g ≤ 0, −W + ½ω g² up to c/2, −½ω (c − g)² up to c, 0 beyond, with ω = 4W/c², so that the work of separation
-/// is exactly W and the traction is a tent of height 2W/c. Repulsion: U_r = ½ k_r g² for g < 0. Both are C¹ (dcm.md §7a; time_stepping.md
-/// §9: O). With a cap δ the repulsion grows linearly beyond depth δ (start from deep overlap).
+/// Attraction: the traction rises linearly from 0 at g = 0 to its peak at a, keeps it up to b, and falls linearly to 0 at the range c. The
+/// peak is 2W/(c + b − a), so that the work of separation is exactly W; U_a = −W for g ≤ 0. a = b = c/2 is a tent (dcm.md §7a;
+/// time_stepping.md §9: O), a → 0 with b → c the constant stress of Dugdale (Maugis 1992, doi:10.1016/0021-9797(92)90285-T), a = b → 0 a
+/// traction that only falls.
+/// Repulsion, g < 0: U_r = ½ k_r g², or like a Hertz contact 2/3 κ |g|^{3/2}. With κ = E*/(π √R) a sphere of radius R that is pressed
+/// by δ into a plane carries 4/3 E* √R δ^{3/2} in all, as Hertz has it.
+/// Both are C¹. With a cap δ the repulsion grows linearly beyond depth δ (start from deep overlap).
 ///
-/// W [nN/µm], c and g [µm], k_r [kPa/µm]; potentials [nN/µm], derivatives [kPa], curvatures [kPa/µm].
+/// W [nN/µm], a, b, c and g [µm], k_r [kPa/µm], κ [kPa/µm^{1/2}]; potentials [nN/µm], derivatives [kPa], curvatures [kPa/µm].
 struct TractionLaw {
   double adhesion = 0.0;    ///< W
   double range = 0.5;       ///< c
   double repulsion = 40.0;  ///< k_r
   double cap = 0.0;         ///< δ; 0: no cap
+  double flat_from = 0.5;   ///< a/c, > 0
+  double flat_to = 0.5;     ///< b/c, from a/c to below 1
+  double hertz = 0.0;       ///< κ; 0: the repulsion is k_r |g|
 
   template <class Real>
   struct Part {
     Real energy, slope, curvature;
   };
 
-  /// Curvature is the positive semi-definite part: 4W/c² on the rising flank, 0 on the falling one ("projected"). For a double or a lane.
+  /// Curvature is the positive semi-definite part: that of the rising flank, 0 on the flat and on the falling one ("projected"). For a
+  /// double or a lane.
   template <class Real>
   [[nodiscard]] Part<Real> attraction(Real g) const noexcept {
-    const Real zero(0.0), omega(4.0 * adhesion / (range * range)), bound(-adhesion), rest = Real(range) - g;
-    const auto touching = g <= zero, rising = g < Real(0.5 * range), within = g < Real(range);
-    return {
-        select(touching, bound, select(rising, bound + Real(0.5) * omega * g * g, select(within, Real(-0.5) * omega * rest * rest, zero))),
-        select(touching, zero, select(rising, omega * g, select(within, omega * rest, zero))),
-        select(touching, zero, select(rising, omega, zero))};
+    const double a = flat_from * range, b = flat_to * range, span = (1.0 + (flat_to - flat_from)) * range;
+    const double down = 2.0 * adhesion / (span * ((1.0 - flat_to) * range)), peak = 2.0 * adhesion / span;
+    const Real zero(0.0), omega(2.0 * adhesion / (span * a)), bound(-adhesion), rest = Real(range) - g;
+    const auto touching = g <= zero, rising = g < Real(a), flat = g < Real(b), within = g < Real(range);
+    const Real falling = select(within, Real(-0.5 * down) * rest * rest, zero), falling_slope = select(within, Real(down) * rest, zero);
+    return {select(touching, bound,
+                   select(rising, bound + Real(0.5) * omega * g * g, select(flat, bound + Real(peak) * (g - Real(0.5 * a)), falling))),
+            select(touching, zero, select(rising, omega * g, select(flat, Real(peak), falling_slope))),
+            select(touching, zero, select(rising, omega, zero))};
   }
 
   template <class Real>
   [[nodiscard]] Part<Real> repulse(Real g) const noexcept {
-    const Real zero(0.0), stiffness(repulsion);
-    const auto inside = g < zero;
-    Part<Real> part{Real(0.5) * stiffness * g * g, stiffness * g, stiffness};
+    const Real zero(0.0), depth = -g;
+    Part<Real> part = hertz > 0.0 ? hertz_at(depth) : Part<Real>{Real(0.5 * repulsion) * g * g, Real(repulsion) * g, Real(repulsion)};
     if (cap > 0.0) {
-      const Real most(repulsion * cap), depth = -g;
+      const Part<double> end = hertz > 0.0 ? hertz_at(cap) : Part<double>{0.5 * repulsion * cap * cap, -(repulsion * cap), 0.0};
       const auto capped = depth > Real(cap);
-      part.energy = select(capped, most * (depth - Real(0.5 * cap)), part.energy);
-      part.slope = select(capped, -most, part.slope);
-      part.curvature = select(capped, most / depth, part.curvature);
+      part.energy = select(capped, Real(end.energy) - Real(end.slope) * (depth - Real(cap)), part.energy);
+      part.slope = select(capped, Real(end.slope), part.slope);
+      part.curvature = select(capped, Real(-end.slope) / depth, part.curvature);
     }
+    const auto inside = g < zero;
     return {select(inside, part.energy, zero), select(inside, part.slope, zero), select(inside, part.curvature, zero)};
+  }
+
+ private:
+  /// The curvature of a Hertz contact has no bound as the depth goes to 0; steps need a finite one.
+  template <class Real>
+  [[nodiscard]] Part<Real> hertz_at(Real depth) const noexcept {
+    using std::sqrt;
+    const Real least(0.02 * range), kappa(hertz);
+    const Real root = sqrt(select(depth > Real(0.0), depth, Real(0.0)));
+    return {Real(2.0 / 3.0) * kappa * root * depth, -kappa * root, Real(0.5) * kappa / sqrt(select(depth > least, depth, least))};
   }
 };
 

@@ -72,6 +72,27 @@ Status check_fineness(const Model& model, const std::string& name, const RigidSu
                "use a coarser mesh: edges far below those of the cells' meshes add nothing"};
 }
 
+/// Radius of a cell of the type in the middle of its life; obstacles are flat.
+double curvature(const Model& model, std::size_t material) {
+  return material < model.types.size() ? 1.0 / model.types[material].radius.mean : 0.0;
+}
+
+TractionLaw traction_law(const Model& model, std::size_t a, std::size_t b) {
+  const ContactPair& pair = model.pair(a, b);
+  TractionLaw law;
+  law.adhesion = pair.adhesion;
+  law.range = pair.range > 0.0 ? pair.range : model.contact.range;
+  law.repulsion = pair.repulsion > 0.0 ? pair.repulsion : model.contact.repulsion;
+  constexpr double kFlank = 0.1;  // part of the range over which a traction that jumps in theory rises or falls
+  if (pair.law == SurfaceLaw::kMaugisDugdale) {
+    law.flat_from = kFlank, law.flat_to = 1.0 - kFlank;
+    law.hertz = pair.reduced_modulus * std::sqrt(curvature(model, a) + curvature(model, b)) / std::numbers::pi;
+  } else if (pair.law == SurfaceLaw::kFalling) {
+    law.flat_from = law.flat_to = kFlank;
+  }
+  return law;
+}
+
 }  // namespace
 
 std::vector<ContactMaterial> contact_materials(const Model& model) {
@@ -88,7 +109,7 @@ std::vector<ContactMaterial> contact_materials(const Model& model) {
         const auto& sphere = model.types[a].sphere;
         material.sphere_modulus = sphere.young / (1.0 - sphere.poisson * sphere.poisson);
       }
-      material.law.adhesion = pair.adhesion;
+      material.law = traction_law(model, a, b);
       material.normal_friction = pair.normal_friction;
       material.tangential_friction = pair.tangential_friction;
     }
@@ -122,6 +143,7 @@ Result<std::vector<RigidSurface>> contact_obstacles(const Model& model) {
 ContactSettings contact_settings(const Model& model, int threads) {
   ContactSettings settings;
   settings.range = model.contact.range;
+  for (const ContactPair& pair : model.pairs) settings.range = std::max(settings.range, pair.range);
   settings.skin = model.contact.skin;
   settings.body_skin = 2.0 * model.contact.skin;
   settings.points_per_face = model.contact.points_per_face;

@@ -84,4 +84,23 @@ double critical_aspiration(double tension, double pipette_radius, double cell_ra
   return 2.0 * tension * (1.0 / rp - 1.0 / (0.5 * (low + high)));
 }
 
+double maugis_pull_off(double lambda) {
+  // Load at m = c/a, the outer radius of the adhesive ring over that of the contact: the radius of contact follows from the ring's opening.
+  const auto load = [lambda](double m) {
+    const double root = std::sqrt(m * m - 1.0), arc = std::acos(1.0 / m);
+    const double a = 0.5 * lambda * ((m * m - 2.0) * arc + root), b = 4.0 / 3.0 * lambda * lambda * (root * arc - m + 1.0);
+    const double radius = 2.0 / (b + std::sqrt(b * b + 4.0 * a));  // of a r² + b r = 1
+    return radius * radius * radius - lambda * radius * radius * (root + m * m * arc);
+  };
+  double low = std::log(1e-6), high = std::log(1e6);  // of m − 1
+  for (int i = 0; i < 200; ++i) {
+    const double left = low + (high - low) / 3.0, right = high - (high - low) / 3.0;
+    if (load(1.0 + std::exp(left)) < load(1.0 + std::exp(right)))
+      high = right;
+    else
+      low = left;
+  }
+  return -load(1.0 + std::exp(0.5 * (low + high)));
+}
+
 }  // namespace morula::scenarios::theory

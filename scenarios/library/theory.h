@@ -46,4 +46,8 @@ PressedDrop pressed_drop(double height);
 /// radius of the part outside, follows from the volume: a sphere less the cap that its opening of radius Rp cuts off, and the hemisphere.
 double critical_aspiration(double tension, double pipette_radius, double cell_radius);
 
+/// Largest pull |F|/(πRW) that two elastic spheres bear, in the theory of Maugis 1992 (doi:10.1016/0021-9797(92)90285-T) of a constant
+/// adhesive stress σ0: between 2 (DMT, small λ) and 3/2 (JKR, large λ). λ = 2σ0 (R/(πWK²))^(1/3), K = 4E*/3.
+double maugis_pull_off(double lambda);
+
 }  // namespace morula::scenarios::theory

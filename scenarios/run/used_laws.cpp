@@ -4,37 +4,33 @@
 
 #include "cbm/builtin.h"
 #include "coupling/behaviours/builtin.h"
+#include "coupling/builtin.h"
 #include "dcm/builtin.h"
+#include "fields/builtin.h"
 
 namespace morula::scenarios {
 namespace {
 
-constexpr const char* kProject = "choice of this project";
-
 using Values = std::vector<std::pair<std::string, double>>;
 
-LawParameter parameter(const char* name, const char* quantity, const char* unit, const char* doc) {
-  LawParameter out;
-  out.name = name;
-  out.quantity = quantity;
-  out.unit = unit;
-  out.source = "the study";
-  out.doc = doc;
-  return out;
+LawInfo law_named(std::vector<LawInfo> laws, const char* name) {
+  for (LawInfo& law : laws)
+    if (law.name == name) return std::move(law);
+  return {};
 }
 
 /// What stands for the moduli of a law that the model holds as one stiffness.
 std::vector<LawParameter> held_parameters(const std::string& law) {
-  const LawParameter ratio = parameter("membrane_area_ratio", "number", "1", "ν/(1 − ν), from the Poisson ratio ν.");
+  const LawParameter ratio = given_by_study("membrane_area_ratio", "number", "1", "ν/(1 − ν), from the Poisson ratio ν.");
   const char* shear = "Shear modulus G of the sheet, from Young's modulus, thickness and Poisson ratio.";
   if (law == "edge_spring")
-    return {parameter("spring_stiffness", "tension", "nN/µm", "Stiffness k of every edge, from Young's modulus and thickness.")};
-  if (law == "neo_hooke") return {parameter("neo_hooke_shear", "tension", "nN/µm", shear), ratio};
-  if (law == "st_venant_kirchhoff") return {parameter("stvk_shear", "tension", "nN/µm", shear), ratio};
-  if (law == "skalak") return {parameter("skalak_shear", "tension", "nN/µm", shear), ratio};
+    return {given_by_study("spring_stiffness", "tension", "nN/µm", "Stiffness k of every edge, from Young's modulus and thickness.")};
+  if (law == "neo_hooke") return {given_by_study("neo_hooke_shear", "tension", "nN/µm", shear), ratio};
+  if (law == "st_venant_kirchhoff") return {given_by_study("stvk_shear", "tension", "nN/µm", shear), ratio};
+  if (law == "skalak") return {given_by_study("skalak_shear", "tension", "nN/µm", shear), ratio};
   if (law == "hinge_bending")
-    return {parameter("hinge_stiffness", "energy", "nN·µm",
-                      "Stiffness k_h of every hinge, from Young's modulus, thickness and Poisson ratio.")};
+    return {given_by_study("hinge_stiffness", "energy", "nN·µm",
+                           "Stiffness k_h of every hinge, from Young's modulus, thickness and Poisson ratio.")};
   return {};
 }
 
@@ -69,38 +65,36 @@ void add_shell_laws(const CellType& type, std::vector<UsedLaw>& out) {
   }
 }
 
-LawInfo traction_info() {
-  return {.name = "surface_traction",
-          .title = "Traction between surfaces",
-          .equation = "U(g) per area: −W (g ≤ 0), −W + ½ω g² (g < c/2), −½ω (c − g)² (g < c), ω = 4W/c²; repulsion ½ k_r g² (g < 0)",
-          .source = "choice of this project: the work of separation is exactly W; integrated over each face",
-          .parameters = {parameter("range", "length", "µm", "Range c of the attraction."),
-                         parameter("repulsion", "pressure per length", "kPa/µm", "Stiffness k_r of the repulsion.")}};
-}
-
-LawInfo pair_info() {
-  return {.name = "contact_pair",
-          .title = "Adhesion and friction of a pair",
-          .equation = "F_friction = −(γ_n n nᵀ + γ_t (1 − n nᵀ)) A (v_i − v_j)",
-          .source = "Van Liedekerke et al. 2020, doi:10.1007/s10237-019-01204-7",
-          .parameters = {parameter("adhesion", "tension", "nN/µm", "Adhesion energy W per contact area of the pair."),
-                         parameter("normal_friction", "friction per area", "nN·s/µm³", "γ_n per contact area."),
-                         parameter("tangential_friction", "friction per area", "nN·s/µm³", "γ_t per contact area.")}};
+const char* law_name(SurfaceLaw law) {
+  switch (law) {
+    case SurfaceLaw::kTent:
+      return "traction";
+    case SurfaceLaw::kMaugisDugdale:
+      return "maugis_dugdale";
+    case SurfaceLaw::kFalling:
+      return "falling";
+  }
+  return "";
 }
 
 void add_contacts(const Model& model, bool shells, bool spheres, std::vector<UsedLaw>& out) {
-  if (shells || !model.obstacles.empty())
-    out.push_back({"contact of surfaces", traction_info(), {{"range", model.contact.range}, {"repulsion", model.contact.repulsion}}});
   const auto name = [&](std::size_t m) {
     return m < model.types.size() ? model.types[m].name : model.obstacles[m - model.types.size()].name;
   };
   for (std::size_t a = 0; a < model.types.size(); ++a)
     for (std::size_t b = a; b < model.material_count(); ++b) {
       const ContactPair& pair = model.pair(a, b);
+      const std::string purpose = "contact of " + name(a) + " with " + name(b);
       out.push_back(
-          {"contact of " + name(a) + " with " + name(b),
-           pair_info(),
+          {purpose,
+           law_named(surface_contact_laws(), "contact_pair"),
            {{"adhesion", pair.adhesion}, {"normal_friction", pair.normal_friction}, {"tangential_friction", pair.tangential_friction}}});
+      if (!shells && b < model.types.size()) continue;
+      out.push_back({purpose,
+                     law_named(surface_contact_laws(), law_name(pair.law)),
+                     {{"range", pair.range > 0.0 ? pair.range : model.contact.range},
+                      {"repulsion", pair.repulsion > 0.0 ? pair.repulsion : model.contact.repulsion},
+                      {"modulus", pair.reduced_modulus}}});
     }
   if (!spheres) return;
   for (std::size_t t = 0; t < model.types.size(); ++t) {
@@ -135,27 +129,39 @@ void add_behaviours(const CellType& type, std::vector<UsedLaw>& out) {
 
 void add_fields(const Model& model, std::vector<UsedLaw>& out) {
   for (const fields::FieldSpec& spec : model.fields) {
-    LawInfo info{.name = "diffusion",
-                 .title = "Diffusion, decay and uptake by cells",
-                 .equation = "∂c/∂t = D ∇²c − λ c − Σ_i w_i V_max c/(K_m + c)",
-                 .source = "Michaelis & Menten 1913; integrated by ARKODE (Reynolds et al. 2023, doi:10.1145/3594632)",
-                 .parameters = {parameter("diffusion", "diffusion", "µm²/s", "D."), parameter("decay", "rate", "1/s", "λ."),
-                                parameter("initial", "concentration", "mM", "At time 0."),
-                                parameter("voxel", "length", "µm", "Wanted voxel size.")}};
     out.push_back({"field " + spec.name,
-                   std::move(info),
+                   law_named(fields::field_laws(), "diffusion"),
                    {{"diffusion", spec.diffusion}, {"decay", spec.decay}, {"initial", spec.initial}, {"voxel", spec.voxel}}});
-    LawInfo uptake{
-        .name = "uptake",
-        .title = "Uptake by one cell",
-        .equation = "V_max c/(K_m + c)",
-        .source = kProject,
-        .parameters = {parameter("rate", "amount rate", "amol/s", "V_max."), parameter("half_saturation", "concentration", "mM", "K_m.")}};
     for (std::size_t t = 0; t < spec.uptake.size(); ++t)
       if (spec.uptake[t].rate > 0.0)
         out.push_back({"uptake of " + spec.name + " by " + model.types[t].name,
-                       uptake,
+                       law_named(fields::field_laws(), "uptake"),
                        {{"rate", spec.uptake[t].rate}, {"half_saturation", spec.uptake[t].half_saturation}}});
+  }
+}
+
+const char* load_name(LoadKind kind) {
+  switch (kind) {
+    case LoadKind::kTraction:
+      return "traction";
+    case LoadKind::kPull:
+      return "pull";
+    case LoadKind::kPressure:
+      return "pressure";
+    case LoadKind::kBodyForce:
+      return "body_force";
+    case LoadKind::kGrip:
+      return "grip";
+  }
+  return "";
+}
+
+void add_loads(const Model& model, std::vector<UsedLaw>& out) {
+  for (const CellLoad& load : model.loads) {
+    const double size = load.kind == LoadKind::kBodyForce ? norm(load.force) : load.size;
+    out.push_back({"load " + load.name + " on " + model.types[load.type].name,
+                   law_named(load_laws(), load_name(load.kind)),
+                   {{"stress", size}, {"pressure", size}, {"force", size}, {"stiffness", size}, {"part", load.part}}});
   }
 }
 
@@ -181,6 +187,7 @@ std::vector<UsedLaw> used_laws(const Study& study) {
   add_contacts(model, shells, spheres, out);
   for (const CellType& type : model.types) add_behaviours(type, out);
   add_fields(model, out);
+  add_loads(model, out);
   return out;
 }
 

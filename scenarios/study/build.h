@@ -29,6 +29,8 @@ void build_motion_course(BuildContext& context, const draft::Obstacle& draft, Ob
 void build_loads(BuildContext& context);
 /// Adhesion and friction of all pairs of materials; missing pairs get their default, in the draft, too.
 void build_pairs(BuildContext& context);
+/// What `contact.pairs` says of them, after build_pairs(): E515–E517.
+void build_contact_pairs(BuildContext& context);
 void build_fields(BuildContext& context);
 void build_initial(BuildContext& context);
 void build_coupling(BuildContext& context);

@@ -21,10 +21,11 @@ double mean_edge(std::uint64_t nodes) {
   return 0.0;
 }
 
-void check_contact_range(BuildContext& c) {
-  const Given<double>& range = c.draft.contact.range;
-  if (!may_have_shells(c.draft) || !range.known()) return;
+/// Whether a range fits the meshes of the types that it holds for; empty `names`: of all.
+void check_range(BuildContext& c, const Given<double>& range, const std::vector<std::string>& names, const char* key) {
+  if (!range.known()) return;
   for (const auto& [name, place, t] : c.draft.cell_types) {
+    if (!names.empty() && std::ranges::find(names, name) == names.end()) continue;
     if (!t.nodes.known() || !t.radius.mean.known()) continue;
     const double edge = mean_edge(t.nodes.value) * t.radius.mean.value;
     // Half an edge is where faces begin to feel more than their opposite; the rule is exact to how mean_edge rounds (0.55 L was measured good).
@@ -34,13 +35,20 @@ void check_contact_range(BuildContext& c) {
     const std::string what = "the contact range (" + range.text + ") is " + (too_long ? "more than half" : "less than a quarter") +
                              " of the mean edge (" + short_number(std::round(edge * 100) / 100) + " um) of a shell of '" + name +
                              "' with " + t.nodes.text + " nodes";
-    const std::string help = "`contact.range` between " + short_number(std::round(edge * 25) / 100) + " um and " +
+    const std::string help = std::string("`") + key + "` between " + short_number(std::round(edge * 25) / 100) + " um and " +
                              short_number(std::floor(edge * 50) / 100) + " um fits this mesh";
     if (too_long)
       c.diagnostics.error(503, at, what, help);
     else
       c.diagnostics.warning(503, at, what, help);
   }
+}
+
+void check_contact_ranges(BuildContext& c) {
+  if (!may_have_shells(c.draft)) return;
+  check_range(c, c.draft.contact.range, {}, "contact.range");
+  for (const auto& pair : c.draft.contact.pairs)
+    if (pair.content.range.given && pair.content.between.known()) check_range(c, pair.content.range, pair.content.between.value, "range");
 }
 
 void check_friction(BuildContext& c) {
@@ -66,7 +74,9 @@ void check_periodic_size(BuildContext& c) {
   for (const auto& type : c.draft.cell_types)
     radius = std::max(radius, type.content.radius.mean.value * (1.0 + 3.0 * type.content.radius.spread.value));
   // A dividing cell is 2^(1/3) times as wide as a newborn; a pair of such cells may not meet around the domain.
-  const double needed = 2.0 * (2.0 * std::cbrt(2.0) * radius + c.draft.contact.range.value);
+  double range = c.draft.contact.range.value;
+  for (const auto& pair : c.draft.contact.pairs) range = std::max(range, pair.content.range.value);
+  const double needed = 2.0 * (2.0 * std::cbrt(2.0) * radius + range);
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (c.study.model.space.periodic(static_cast<int>(axis)) && c.draft.domain.size.value[axis] < needed)
       c.diagnostics.error(
@@ -147,7 +157,7 @@ double explicit_step_limit(const draft::Study& study) {
 
 void check_whole(BuildContext& c) {
   check_names(c);
-  check_contact_range(c);
+  check_contact_ranges(c);
   check_friction(c);
   check_periodic_size(c);
   check_resolution(c);

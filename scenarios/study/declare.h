@@ -11,6 +11,7 @@ void declare_shell(Section& section, draft::CellType& type);
 void declare_obstacle(Section& section, draft::Obstacle& obstacle);
 /// `direction` and `course` of an obstacle's motion.
 void declare_motion_course(Section& section, draft::Obstacle& obstacle);
+void declare_contact(Section& section, draft::Contact& contact);
 void declare_load(Section& section, draft::Load& load);
 void declare_initial(Section& section, draft::Initial& initial);
 void declare_field(Section& section, draft::Field& field);

@@ -181,36 +181,6 @@ void declare_domain(Section& s, draft::Domain& domain) {
           });
 }
 
-void declare_contact(Section& s, draft::Contact& contact) {
-  s.quantity(
-      {.name = "range",
-       .doc = "Range c of the adhesive traction. A mesh of edge L needs c between L/4 and L/2.",
-       .quantity = Q::kLength,
-       .fallback = "0.5 um",
-       .low = 0.01,
-       .high = 5.0,
-       .example = "0.5 um",
-       .source = "measured: adhesion energy recovered within 3 % with c >= L/4 and 3 points a face (162 nodes, R = 6 um: L = 1.8 um)"},
-      contact.range);
-  s.quantity({.name = "repulsion",
-              .doc = "Stiffness k_r of the repulsion of overlapping surfaces, pressure per depth.",
-              .quantity = Q::kPressurePerLength,
-              .fallback = "100 kPa/um",
-              .low = 0.1,
-              .high = 1e5,
-              .example = "100 kPa/um",
-              .source = "measured: overlap below 0.15 um at 1 kPa and W = 0.5 mJ/m^2"},
-             contact.repulsion);
-  s.whole({.name = "points",
-           .doc = "Quadrature points on a face, 3 or 4; 4 for strong adhesion (W >= tension) in clusters.",
-           .fallback = "3",
-           .low = 3,
-           .high = 4,
-           .example = "3",
-           .source = "measured"},
-          contact.points);
-}
-
 void declare_output(Section& s, draft::Output& output) {
   s.words({.name = "series",
            .doc = "Observables in series.csv; an empty list: all of them.",

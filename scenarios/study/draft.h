@@ -55,9 +55,16 @@ struct CellType {
   Given<double> bending, spontaneous_radius, bulk_modulus, bulk_viscosity, shape_stiffness, fold_stiffness, fold_angle;
 };
 
+struct ContactPair {
+  Given<std::vector<std::string>> between;
+  Given<std::string> law;
+  Given<double> range, repulsion, reduced_modulus, normal_friction, tangential_friction;
+};
+
 struct Contact {
   Given<double> range, repulsion;
   Given<std::uint64_t> points;
+  std::vector<Named<ContactPair>> pairs;
 };
 
 struct Shape {

@@ -20,6 +20,7 @@ void build(BuildContext& context) {
   build_cell_types(context);
   build_geometry(context);
   build_pairs(context);
+  build_contact_pairs(context);
   build_fields(context);
   build_initial(context);
   build_loads(context);

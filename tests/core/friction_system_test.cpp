@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace morula {
@@ -145,24 +146,49 @@ TEST(FrictionSystem, RefusesForcesThatAreNoNumbers) {
   EXPECT_FALSE(system.solve(v, 1e-6, 10, Comm()).ok());
 }
 
-TEST(TractionLaw, DoesTheWorkOfAdhesionWhenPulledApart) {
-  const TractionLaw law{0.1, 0.5, 40.0, 0.0};
-  double work = 0.0;
-  const int n = 20000;
-  for (int i = 0; i < n; ++i) work += law.attraction((i + 0.5) * law.range / n).slope * law.range / n;
-  EXPECT_NEAR(work, 0.1, 1e-9);
-  EXPECT_DOUBLE_EQ(law.attraction(0.25).slope, 2.0 * 0.1 / 0.5);  // peak 2W/c
+/// W, c, k_r, cap, a/c, b/c, κ: tent, Maugis–Dugdale, falling.
+const TractionLaw kLaws[] = {{0.3, 0.5, 40.0, 0.0}, {0.3, 0.5, 40.0, 0.0, 0.1, 0.9, 25.0}, {0.3, 0.5, 40.0, 0.0, 0.1, 0.1}};
+
+TEST(TractionLaw, DoesTheWorkOfAdhesionWhenPulledApart) {  // dcm.md T7.3
+  for (const TractionLaw& law : kLaws) {
+    double work = 0.0;
+    const int n = 20000;
+    for (int i = 0; i < n; ++i) work += law.attraction((i + 0.5) * law.range / n).slope * law.range / n;
+    EXPECT_NEAR(work, 0.3, 1e-9) << law.flat_to;
+    EXPECT_EQ(law.attraction(-0.01).energy, -0.3);
+    EXPECT_EQ(law.attraction(law.range).energy, 0.0);
+  }
+  EXPECT_DOUBLE_EQ(kLaws[0].attraction(0.25).slope, 2.0 * 0.3 / 0.5);          // peak 2W/c
+  EXPECT_DOUBLE_EQ(kLaws[1].attraction(0.25).slope, 0.3 / (0.9 * 0.5));        // plateau W/(c + b − a)·2
+  EXPECT_DOUBLE_EQ(kLaws[2].attraction(0.05).slope, 2.0 * 0.3 / 0.5);          // highest near contact
+  EXPECT_GT(kLaws[2].attraction(0.06).slope, kLaws[2].attraction(0.3).slope);  // and falling
 }
 
 TEST(TractionLaw, SlopesAreDerivativesOfEnergies) {
-  for (const double cap : {0.0, 0.05}) {
-    const TractionLaw law{0.3, 0.5, 40.0, cap};
-    for (double g = -0.3; g < 0.6; g += 0.0137) {
-      const double h = 1e-6;
-      EXPECT_NEAR((law.attraction(g + h).energy - law.attraction(g - h).energy) / (2 * h), law.attraction(g).slope, 2e-6);
-      EXPECT_NEAR((law.repulse(g + h).energy - law.repulse(g - h).energy) / (2 * h), law.repulse(g).slope, 5e-5);
+  for (TractionLaw law : kLaws)
+    for (const double cap : {0.0, 0.05}) {
+      law.cap = cap;
+      for (double g = -0.3; g < 0.6; g += 0.0137) {
+        const double h = 1e-6;
+        EXPECT_NEAR((law.attraction(g + h).energy - law.attraction(g - h).energy) / (2 * h), law.attraction(g).slope, 1.2e-5);
+        EXPECT_NEAR((law.repulse(g + h).energy - law.repulse(g - h).energy) / (2 * h), law.repulse(g).slope, 5e-5);
+        EXPECT_GE(law.attraction(g).curvature, 0.0);
+        EXPECT_GE(law.repulse(g).curvature, 0.0);
+      }
     }
+}
+
+TEST(TractionLaw, OfHertzCarriesWhatASphereInAPlaneCarries) {  // 4/3 E* √R δ^{3/2}
+  const double modulus = 1.5, radius = 6.0, depth = 0.3;
+  TractionLaw law;
+  law.hertz = modulus / (std::numbers::pi * std::sqrt(radius));
+  double force = 0.0;  // over the disc r² < 2Rδ, whose overlap is δ − r²/2R
+  const int n = 20000;
+  for (int i = 0; i < n; ++i) {
+    const double s = (i + 0.5) / n;  // (r²)/(2Rδ)
+    force -= law.repulse(-depth * (1.0 - s)).slope * std::numbers::pi * 2.0 * radius * depth / n;
   }
+  EXPECT_NEAR(force, 4.0 / 3.0 * modulus * std::sqrt(radius) * std::pow(depth, 1.5), 1e-5);
 }
 
 TEST(TractionLaw, CapLimitsTheTraction) {

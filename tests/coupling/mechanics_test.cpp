@@ -19,23 +19,30 @@ void shake(Tissue& tissue, double amount) {
     for (Vec3d& p : *positions) p += random.direction(CellId(1), n++) * amount;
 }
 
-struct Case {
+/// What the bodies are, and the law between them.
+struct Bodies {
   const char* name;
-  std::vector<Vec3d> centers;
-  std::vector<BodyKind> bodies;
-  double attached;
+  std::vector<BodyKind> kinds;
+  SurfaceLaw law;
+};
+const Bodies kBodies[] = {
+    {"Shells", {BodyKind::kShell, BodyKind::kShell, BodyKind::kShell}, SurfaceLaw::kTent},
+    {"ShellsAndASphere", {BodyKind::kShell, BodyKind::kSphere, BodyKind::kShell}, SurfaceLaw::kTent},
+    {"Spheres", {BodyKind::kSphere, BodyKind::kSphere, BodyKind::kSphere}, SurfaceLaw::kTent},
+    {"ShellsByMaugisDugdale", {BodyKind::kShell, BodyKind::kShell, BodyKind::kShell}, SurfaceLaw::kMaugisDugdale},
+    {"ShellsAndASphereByMaugisDugdale", {BodyKind::kShell, BodyKind::kSphere, BodyKind::kShell}, SurfaceLaw::kMaugisDugdale},
+    {"ShellsByAFallingTraction", {BodyKind::kShell, BodyKind::kShell, BodyKind::kShell}, SurfaceLaw::kFalling},
 };
 
-class EveryPairOfBodies : public testing::TestWithParam<int> {};
+class EveryPairOfBodies : public testing::TestWithParam<Bodies> {};
 
 TEST_P(EveryPairOfBodies, ForceIsMinusTheGradientOfTheWholeEnergy) {
   Model model = clusters_model(0.3);
   model.contact.range = 0.8;
-  const std::vector<std::vector<BodyKind>> bodies{{BodyKind::kShell, BodyKind::kShell, BodyKind::kShell},
-                                                  {BodyKind::kShell, BodyKind::kSphere, BodyKind::kShell},
-                                                  {BodyKind::kSphere, BodyKind::kSphere, BodyKind::kSphere}};
+  model.pairs[0].law = GetParam().law;
+  model.pairs[0].reduced_modulus = 1.0;
   ShapeLibrary shapes;
-  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}, {11.6, 0.3, 0.2}, {5.2, 10.4, 0.4}}, bodies[static_cast<std::size_t>(GetParam())]);
+  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}, {11.6, 0.3, 0.2}, {5.2, 10.4, 0.4}}, GetParam().kinds);
   shake(tissue, 0.05);
   Mechanics mechanics(model, {}, shapes, Comm(), 1);
   std::vector<Vec3d> force, unused;
@@ -73,7 +80,8 @@ TEST_P(EveryPairOfBodies, ForceIsMinusTheGradientOfTheWholeEnergy) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(ShellsAndSpheres, EveryPairOfBodies, testing::Values(0, 1, 2));
+INSTANTIATE_TEST_SUITE_P(Every, EveryPairOfBodies, testing::ValuesIn(kBodies),
+                         [](const testing::TestParamInfo<Bodies>& given) { return std::string(given.param.name); });
 
 TEST(ImplicitStep, DoubletSpreadsAndNeverGainsEnergy) {
   const Model model = clusters_model(0.1);

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "scenarios/run/used_laws.h"
 #include "tests/scenarios/study_fixture.h"
 
 namespace morula::scenarios {
@@ -44,6 +47,17 @@ TEST(Loads, AreReadInInternalUnits) {
   EXPECT_EQ(again->model.obstacles[0].way(0.0, 50.0), plate.way(0.0, 50.0));
   EXPECT_EQ(again->initial[0].orientation, Orientation::kAligned);
   EXPECT_EQ(again->model.loads[0].course.time, load.course.time);
+}
+
+TEST(Loads, AreAmongTheLawsThatMethodsName) {
+  const auto study = test::read(kStudy);
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  const std::vector<UsedLaw> laws = used_laws(*study);
+  const auto pull = std::ranges::find(laws, std::string("pull"), [](const UsedLaw& use) { return use.law.name; });
+  ASSERT_NE(pull, laws.end());
+  EXPECT_EQ(pull->purpose, "load beads on cell");
+  for (const LawParameter& parameter : pull->law.parameters) EXPECT_NE(used_value(*pull, parameter), "not set") << parameter.name;
+  EXPECT_EQ(used_value(*pull, pull->law.parameters[0]), "0.193");
 }
 
 TEST(Loads, ThatContradictTheStudyAreRefusedWithTheirPlace) {

@@ -102,5 +102,10 @@ TEST(CriticalAspiration, IsThatOfAHemisphere) {
   EXPECT_NEAR(theory::critical_aspiration(1.0, 0.01, 6.0), 2.0 * (100.0 - 1.0 / 6.0), 1e-6);
 }
 
+TEST(Theory, OfMaugisGoesFromDmtToJkr) {  // dcm.md T7.1
+  const double table[][2] = {{0.01, 1.998}, {0.1, 1.951}, {0.5, 1.718}, {1.0, 1.601}, {2.0, 1.535}, {5.0, 1.506}};
+  for (const auto& [lambda, pull] : table) EXPECT_NEAR(theory::maugis_pull_off(lambda), pull, 6e-4) << lambda;
+}
+
 }  // namespace
 }  // namespace morula::scenarios

@@ -1,0 +1,71 @@
+#include "coupling/builtin.h"
+
+#include "coupling/model.h"
+
+namespace morula {
+namespace {
+
+constexpr const char* kOurs = "choice of this project";
+
+}  // namespace
+
+std::vector<LawInfo> surface_contact_laws() {
+  const ContactNumerics numerics;
+  const LawParameter range{"range", "length", "µm", numerics.range, 0.01, 5.0, kOurs, "Range c of the attraction."};
+  const LawParameter repulsion{
+      "repulsion", "pressure per length", "kPa/µm", numerics.repulsion, 0.1, 1e5, kOurs, "Stiffness k_r of the repulsion."};
+  return {{.name = "traction",
+           .title = "Traction that rises and falls",
+           .equation = "U(g) per area: −W + ½ω g² (g < c/2), −½ω (c − g)² (g < c), ω = 4W/c²; for g < 0 instead −W + ½ k_r g²",
+           .source = "choice of this project: the work of separation is exactly W; integrated over each face",
+           .parameters = {range, repulsion}},
+          {.name = "maugis_dugdale",
+           .title = "Constant adhesive stress, elastic repulsion",
+           .equation = "σ = W/(0.9 c) (0.1 c < g < 0.9 c), linear to 0 at g = 0 and g = c; p = E*/(π √R) √|g| (g < 0), 1/R = 1/R_a + 1/R_b",
+           .source = "Odenthal et al. 2013, doi:10.1371/journal.pcbi.1003267, as a local traction (decision 0012); Maugis 1992, "
+                     "doi:10.1016/0021-9797(92)90285-T",
+           .parameters = {range, given_by_study("modulus", "pressure", "kPa", "Reduced modulus E* of what lies behind both surfaces.")}},
+          {.name = "falling",
+           .title = "Traction that falls from contact",
+           .equation = "σ = 2W/c · (c − g)/(0.9 c) (0.1 c < g < c), linear to 0 at g = 0; p = k_r |g| (g < 0)",
+           .source = "after Cuvelier et al. 2023: W and a short range instead of a pressure by curvature (decision 0012)",
+           .parameters = {range, repulsion}},
+          {.name = "contact_pair",
+           .title = "Adhesion and friction of a pair",
+           .equation = "F_friction = −(γ_n n nᵀ + γ_t (1 − n nᵀ)) A (v_i − v_j)",
+           .source = "Van Liedekerke et al. 2020, doi:10.1007/s10237-019-01204-7",
+           .parameters = {given_by_study("adhesion", "tension", "nN/µm", "Adhesion energy W per contact area of the pair."),
+                          given_by_study("normal_friction", "friction per area", "nN·s/µm³", "γ_n per contact area."),
+                          given_by_study("tangential_friction", "friction per area", "nN·s/µm³", "γ_t per contact area.")}}};
+}
+
+std::vector<LawInfo> load_laws() {
+  const LawParameter part = given_by_study("part", "number", "1", "Part of the nodes, at an end of the axis.");
+  return {{.name = "traction",
+           .title = "Stress of two opposed beams (optical stretcher)",
+           .equation = "F_T = s0 cos²θ A_T n_T, θ between the axis and the way from the cell's centroid to the face's",
+           .source = "Guck et al. 2001, doi:10.1016/S0006-3495(01)75740-2",
+           .parameters = {given_by_study("stress", "pressure", "kPa", "Peak stress s0, on the axis.")}},
+          {.name = "pull",
+           .title = "Pull at both ends of a cell (optical tweezers)",
+           .equation = "F_i = ±F a/m on the m nodes of an end of the axis a",
+           .source = "Dao, Lim & Suresh 2003, doi:10.1016/j.jmps.2003.09.019",
+           .parameters = {given_by_study("force", "force", "nN", "F at each end."), part}},
+          {.name = "pressure",
+           .title = "Pressure on a cell or on its ends",
+           .equation = "F_T = −p A_T n_T",
+           .source = kOurs,
+           .parameters = {given_by_study("pressure", "pressure", "kPa", "p, against the outward normal."), part}},
+          {.name = "grip",
+           .title = "Springs that hold or move the ends of a cell",
+           .equation = "E = ½ K/m Σ |x_i − X_i(t)|² over the m nodes of an end; X_i: where they are on the undeformed cell at the grip's place",
+           .source = kOurs,
+           .parameters = {given_by_study("stiffness", "tension", "nN/µm", "K of the springs of an end together."), part}},
+          {.name = "body_force",
+           .title = "Force on whole cells",
+           .equation = "F_i = F a_i/A, a_i the area of node i",
+           .source = kOurs,
+           .parameters = {given_by_study("force", "force", "nN", "Size of F on each cell.")}}};
+}
+
+}  // namespace morula
