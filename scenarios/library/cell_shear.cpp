@@ -115,13 +115,14 @@ Result<std::vector<Verdict>> judge_cell_shear(const Study& study, const std::fil
       if (!(r.friction > 0.0) || control.friction > 0.0 || control.on_plane != r.on_plane) continue;
       const char* id = r.on_plane ? "S4.6" : "S6.5";
       out.push_back(at_most(id, ("force against gamma A v, relative, " + r.name).c_str(),
-                            std::abs((r.mean(r.force) - control.mean(control.force)) / r.mean(r.expected) - 1.0), r.on_plane ? 0.05 : 0.08));
+                            std::abs((r.mean(r.force) - control.mean(control.force)) / r.mean(r.expected) - 1.0),
+                            r.on_plane ? 0.05 : 0.08));
       out.push_back(at_most(id, ("force without friction over that with the friction of Table 1, " + control.name).c_str(),
                             std::abs(control.mean(control.force) / control.nominal), 0.02));
     }
   for (const auto& [name, ratio] : free)
-    out.push_back(within("T9.6", ("speed of a cell that sticks without friction over that of its drag in the medium, " + name).c_str(), ratio,
-                         0.95, 1.05));
+    out.push_back(within("T9.6", ("speed of a cell that sticks without friction over that of its drag in the medium, " + name).c_str(),
+                         ratio, 0.95, 1.05));
   return out;
 }
 

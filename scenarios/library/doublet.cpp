@@ -108,7 +108,8 @@ void judge_unequal(const Study& study, const Snapshot& now, std::vector<Verdict>
       const double radius = std::sqrt(tense[0].cell->contact_area / std::numbers::pi);
       out.push_back(at_least("S6.2", "pressure of the tenser of two cells over that of the other",
                              tense[0].cell->pressure / slack[0].cell->pressure, 1.05));
-      out.push_back(at_least("S6.2", "bend of the contact into the cell of lower pressure", bulge(tense[0], axis, radius, 0.5 * radius), 0.0, "um"));
+      out.push_back(
+          at_least("S6.2", "bend of the contact into the cell of lower pressure", bulge(tense[0], axis, radius, 0.5 * radius), 0.0, "um"));
     }
 }
 

@@ -120,11 +120,13 @@ Result<std::vector<Verdict>> judge_micropipette(const Study& study, const std::f
     volume = std::max(volume, std::abs(a.volume_change));
     const std::string at = ", " + a.name + " at " + number_text("%.3g", 1000.0 * a.suction) + " Pa";
     if (a.fluid && a.suction > 0.0 && a.suction < 0.92 * a.critical) {
-      out.push_back(at_most("S3.1", ("tongue below the critical suction over the pipette's radius" + at).c_str(), a.length / a.pipette, 1.0));
+      out.push_back(
+          at_most("S3.1", ("tongue below the critical suction over the pipette's radius" + at).c_str(), a.length / a.pipette, 1.0));
       out.push_back(at_most("S3.1", ("its growth in a second over the pipette's radius" + at).c_str(), a.rate / a.pipette, 2e-3));
     }
     if (a.fluid && a.suction > 1.10 * a.critical) {
-      out.push_back(at_least("S3.1", ("tongue above the critical suction over the pipette's radius" + at).c_str(), a.length / a.pipette, 1.5));
+      out.push_back(
+          at_least("S3.1", ("tongue above the critical suction over the pipette's radius" + at).c_str(), a.length / a.pipette, 1.5));
       out.push_back(at_least("S3.1", ("its growth in a second over the pipette's radius" + at).c_str(), a.rate / a.pipette, 1e-4));
     }
     for (const Aspiration& b : all) {
@@ -146,8 +148,10 @@ Result<std::vector<Verdict>> judge_micropipette(const Study& study, const std::f
     for (const Aspiration& hard : all)
       if (!soft.fluid && !hard.fluid && std::abs(hard.modulus / soft.modulus - 2.0) < 1e-6 &&
           std::abs(hard.suction - soft.suction) < 1e-9 && soft.suction > kElasticSuction * soft.critical)
-        out.push_back(within("S3.3", ("what is drawn in at twice the modulus over that at once, " + number_text("%g", 1000.0 * soft.suction) + " Pa").c_str(),
-                             hard.drawn / soft.drawn, 0.40, 0.65));
+        out.push_back(
+            within("S3.3",
+                   ("what is drawn in at twice the modulus over that at once, " + number_text("%g", 1000.0 * soft.suction) + " Pa").c_str(),
+                   hard.drawn / soft.drawn, 0.40, 0.65));
   out.push_back(at_most("S3.4", "change of volume, relative", volume, 0.01));
   return out;
 }

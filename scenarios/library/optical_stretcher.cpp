@@ -122,7 +122,8 @@ Result<std::vector<Verdict>> judge_optical_stretcher(const Study& study, const s
   for (const Stretching& s : all) {
     if (s.nodes < 642 || s.tension < 0.029 || s.tension > 0.031 || std::abs(s.stress - 10e-3) > 1e-9) continue;
     out.push_back(within("S1.8", "axial strain at 10 Pa over the linear value", s.measured.axial / s.expected.axial, 0.95, 1.02));
-    out.push_back(within("S1.8", "transverse strain at 10 Pa over the linear value", s.measured.transverse / s.expected.transverse, 0.90, 0.97));
+    out.push_back(
+        within("S1.8", "transverse strain at 10 Pa over the linear value", s.measured.transverse / s.expected.transverse, 0.90, 0.97));
   }
   MORULA_TRY_ASSIGN(const auto back, recoveries(study, run));
   for (std::size_t i = 0; i < back.size(); ++i) {

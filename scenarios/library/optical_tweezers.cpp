@@ -50,8 +50,9 @@ Result<std::vector<PulledCell>> pulled_cells(const Study& study, const std::file
         area = cells[0].cell->area;
         volume = cells[0].cell->volume;
       }
-      return Pulled{snapshots[snapshot].time, load.size * factor, extent(cells[0].nodes, load.axis), extent(cells[0].nodes, side),
-                    cells[0].cell->area / area - 1.0, cells[0].cell->volume / volume - 1.0};
+      return Pulled{snapshots[snapshot].time,          load.size * factor,
+                    extent(cells[0].nodes, load.axis), extent(cells[0].nodes, side),
+                    cells[0].cell->area / area - 1.0,  cells[0].cell->volume / volume - 1.0};
     };
     for (const Hold& hold : holds_of(load.course, snapshots)) cell.at_rest.push_back(state(hold.snapshot, hold.value));
     if (!load.course.empty() && load.course.value.back() == 0.0)

@@ -69,8 +69,7 @@ void read_curve(const SeriesTable& series, const CellLoad& load, double drag_coe
     if (t < from || t > until) continue;
     s.time.push_back(t);
     s.distance.push_back(load.way.at(t) - load.way.at(from));
-    s.force.push_back(
-        dot(Vec3d{axis[0]->values[i], axis[1]->values[i], axis[2]->values[i]}, load.direction) - drag_coefficient * s.speed);
+    s.force.push_back(dot(Vec3d{axis[0]->values[i], axis[1]->values[i], axis[2]->values[i]}, load.direction) - drag_coefficient * s.speed);
   }
 }
 
@@ -145,11 +144,12 @@ void judge_pairs(const std::vector<Specimen>& all, std::vector<Verdict>& out) {
       if (a.cortex != b.cortex || a.on_plane != b.on_plane || a.adhesion != b.adhesion || a.tension != b.tension) continue;
       const bool speed = a.speed < 0.99 * b.speed, friction = a.friction < 0.99 * b.friction, nodes = a.nodes < b.nodes;
       if (speed && a.friction == b.friction && a.nodes == b.nodes)
-        out.push_back(at_least("S5.3",
-                               ("pull-off force at " + number_text("%g", b.speed) + " over that at " + number_text("%g", a.speed) + " um/s").c_str(),
-                               b.peak / a.peak, 0.99));
+        out.push_back(at_least(
+            "S5.3", ("pull-off force at " + number_text("%g", b.speed) + " over that at " + number_text("%g", a.speed) + " um/s").c_str(),
+            b.peak / a.peak, 0.99));
       if (friction && std::abs(a.speed / b.speed - 1.0) < 0.01 && a.nodes == b.nodes)
-        out.push_back(within("S5.4", ("pull-off force with contact friction over that without, " + number_text("%g", a.speed) + " um/s").c_str(),
+        out.push_back(within("S5.4",
+                             ("pull-off force with contact friction over that without, " + number_text("%g", a.speed) + " um/s").c_str(),
                              b.peak / a.peak, 0.9, 1.1));
       if (nodes && std::abs(a.speed / b.speed - 1.0) < 0.01 && a.friction == b.friction)
         out.push_back(within("S5.7", "pull-off force of the finer mesh over that of the coarser", b.peak / a.peak, 0.85, 1.15));
@@ -165,7 +165,8 @@ Result<std::vector<Verdict>> judge_pull_off(const Study& study, const std::files
   for (const Specimen& s : all) {
     const std::string at = ", " + s.name;
     if (s.cortex == Cortex::kElastic && !s.on_plane)
-      out.push_back(within("S5.1", ("pull-off force of an elastic pair over W R" + at).c_str(), s.peak / (s.adhesion * s.radius), 2.0, 3.6));
+      out.push_back(
+          within("S5.1", ("pull-off force of an elastic pair over W R" + at).c_str(), s.peak / (s.adhesion * s.radius), 2.0, 3.6));
     if (s.cortex == Cortex::kFluid)
       out.push_back(at_most("T8.2", ("pull-off force against pi gamma^2 sin^2(theta)/p, relative" + at).c_str(),
                             std::abs(s.peak / s.fluid_peak() - 1.0), tolerance(s.nodes, 0.20, 0.05)));
@@ -188,8 +189,8 @@ Result<std::vector<NamedPlot>> plot_pull_off(const Study& study, const std::file
   peaks.x = {"W", "mN/m", false, 0.0, {}};
   peaks.y = {"force", "nN", false, 0.0, {}};
   Curve elastic{"elastic cortex", {}, {}, CurveStyle::kPoints, 0}, fluid{"fluid cortex", {}, {}, CurveStyle::kPoints, 1},
-      expected{"fluid cortex, theory", {}, {}, CurveStyle::kLine, 1},
-      jkr{"3/2 pi W R/2 (JKR)", {0.0}, {0.0}, CurveStyle::kLine, 3}, dmt{"2 pi W R/2", {0.0}, {0.0}, CurveStyle::kLine, 4};
+      expected{"fluid cortex, theory", {}, {}, CurveStyle::kLine, 1}, jkr{"3/2 pi W R/2 (JKR)", {0.0}, {0.0}, CurveStyle::kLine, 3},
+      dmt{"2 pi W R/2", {0.0}, {0.0}, CurveStyle::kLine, 4};
   double most = 0.0, radius = 0.0;
   for (const Specimen& s : all) {
     curves.curves.push_back({s.name + ", " + number_text("%g", s.speed) + " um/s", s.distance, s.force, CurveStyle::kLine});

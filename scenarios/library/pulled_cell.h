@@ -8,20 +8,20 @@ namespace morula::scenarios {
 
 /// A cell pulled at two poles, at one moment.
 struct Pulled {
-  double time = 0.0;                     ///< [s]
-  double force = 0.0;                    ///< at each end [nN]
-  double axial = 0.0, transverse = 0.0;  ///< diameters [µm]
+  double time = 0.0;                              ///< [s]
+  double force = 0.0;                             ///< at each end [nN]
+  double axial = 0.0, transverse = 0.0;           ///< diameters [µm]
   double area_change = 0.0, volume_change = 0.0;  ///< relative to the first state
 };
 
 /// All states of the first cell of a load that pulls.
 struct PulledCell {
   std::size_t type = 0;
-  bool red_cell = false;           ///< the biconcave shape
-  bool hookean = false;            ///< its membrane is a net of springs
+  bool red_cell = false;  ///< the biconcave shape
+  bool hookean = false;   ///< its membrane is a net of springs
   std::uint32_t nodes = 0;
-  std::vector<Pulled> at_rest;     ///< at the holds of the load's course; the first is the unloaded one
-  std::vector<Pulled> recovery;    ///< every snapshot after the load's last corner, where the course ends at 0
+  std::vector<Pulled> at_rest;   ///< at the holds of the load's course; the first is the unloaded one
+  std::vector<Pulled> recovery;  ///< every snapshot after the load's last corner, where the course ends at 0
 };
 
 /// One entry for each load that pulls, in the order of the study.

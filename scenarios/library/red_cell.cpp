@@ -142,24 +142,23 @@ void judge_red_cell(const PulledCell& cell, const PulledCell* other_law, std::ve
   }
   if (c.force.back() >= 1000.0 * kTop) {
     const double wider = fine ? 0.0 : 1.0;
-    out.push_back(
-        within("S2.3", ("axial diameter at 193 pN [um]" + law).c_str(), c.axial.back(), 13.0 - wider, 17.7 + wider));
-    out.push_back(
-        within("S2.3", ("transverse diameter at 193 pN [um]" + law).c_str(), c.transverse.back(), 3.4 - wider, 5.1 + wider));
+    out.push_back(within("S2.3", ("axial diameter at 193 pN [um]" + law).c_str(), c.axial.back(), 13.0 - wider, 17.7 + wider));
+    out.push_back(within("S2.3", ("transverse diameter at 193 pN [um]" + law).c_str(), c.transverse.back(), 3.4 - wider, 5.1 + wider));
   }
   out.push_back(at_most("S2.4", ("change of area, relative" + law).c_str(), area, 0.01));
   if (cell.hookean)
-    out.push_back(at_most("S2.4b", "axial diameter with springs against the static solution on the same mesh, relative",
-                          from_static(cell, c), 0.02));
+    out.push_back(
+        at_most("S2.4b", "axial diameter with springs against the static solution on the same mesh, relative", from_static(cell, c), 0.02));
   if (!cell.hookean && other_law != nullptr) {
     const Curves springs = rising(*other_law);
-    out.push_back(at_most("S2.4b", "axial deviation of the hardening membrane from the data above 130 pN, over that of springs",
-                          deviation(c.force, c.axial, "axial_diameter_um", 130.0) /
-                              deviation(springs.force, springs.axial, "axial_diameter_um", 130.0),
-                          1.0));
+    out.push_back(at_most(
+        "S2.4b", "axial deviation of the hardening membrane from the data above 130 pN, over that of springs",
+        deviation(c.force, c.axial, "axial_diameter_um", 130.0) / deviation(springs.force, springs.axial, "axial_diameter_um", 130.0),
+        1.0));
   }
   if (cell.recovery.size() > 3)
-    out.push_back(at_most("S2.5", ("length over width in recovery against four measured cells, one viscosity fitted to the first" + law).c_str(),
+    out.push_back(at_most("S2.5",
+                          ("length over width in recovery against four measured cells, one viscosity fitted to the first" + law).c_str(),
                           fit_recovery(cell.recovery).largest, 0.15));
 }
 
@@ -189,7 +188,8 @@ std::vector<NamedPlot> plot_red_cells(const std::vector<PulledCell>& cells) {
   if (color == 1) return {};
   const ReferenceTable data = measured_stretch();
   stretch.curves.push_back({"measured", data.column("force_pN"), data.column("axial_diameter_um"), CurveStyle::kPoints, 0});
-  stretch.curves.push_back({"measured, transverse", data.column("force_pN"), data.column("transverse_diameter_um"), CurveStyle::kPoints, 0});
+  stretch.curves.push_back(
+      {"measured, transverse", data.column("force_pN"), data.column("transverse_diameter_um"), CurveStyle::kPoints, 0});
   for (int cell = 1; cell <= kMeasuredCells; ++cell) {
     Measured m = measured_recovery(cell);
     recovery.curves.push_back({"cell " + std::to_string(cell), std::move(m.time), std::move(m.ratio), CurveStyle::kPoints, 2 + cell});

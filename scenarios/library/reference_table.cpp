@@ -48,8 +48,7 @@ ReferenceTable::ReferenceTable(std::string_view study, std::string_view file) {
       columns_.resize(names_.size());
       continue;
     }
-    for (std::size_t i = 0; i < columns_.size(); ++i)
-      columns_[i].push_back(i < fields.size() ? number(fields[i]) : std::nan(""));
+    for (std::size_t i = 0; i < columns_.size(); ++i) columns_[i].push_back(i < fields.size() ? number(fields[i]) : std::nan(""));
   }
 }
 

@@ -71,8 +71,8 @@ void check_depth(BuildContext& c, const draft::ContactPair& pair, const Material
   if (pair.reduced_modulus.value >= least) return;
   const double depth = std::pow(std::numbers::pi * pressure / pair.reduced_modulus.value, 2) / curvature;
   c.diagnostics.warning(517, pair.reduced_modulus.place,
-                        "cells under their own pressure sink into each other by about " + short_number(std::round(depth * 100.0) / 100.0) + " um: modulus " +
-                            pair.reduced_modulus.text + " is that of soft bodies",
+                        "cells under their own pressure sink into each other by about " + short_number(std::round(depth * 100.0) / 100.0) +
+                            " um: modulus " + pair.reduced_modulus.text + " is that of soft bodies",
                         "at least " + short_number(std::ceil(least * 10.0) / 10.0) + " kPa keeps the overlap below `limits.overlap` (" +
                             c.draft.limits.overlap.text + ")");
 }

@@ -27,8 +27,8 @@ void check_strong_adhesion(BuildContext& c) {
   for (const auto& [name, place, t] : c.draft.cell_types) {
     if (!t.nodes.known() || t.nodes.value < kFineNodes || !t.tension.known() || !(t.tension.value > 0.0)) continue;
     for (const auto& sticks : t.adhesion) {
-      const auto other = std::find_if(c.draft.cell_types.begin(), c.draft.cell_types.end(),
-                                      [&](const auto& type) { return type.name == sticks.name; });
+      const auto other =
+          std::find_if(c.draft.cell_types.begin(), c.draft.cell_types.end(), [&](const auto& type) { return type.name == sticks.name; });
       if (other == c.draft.cell_types.end() || !sticks.content.known() || !other->content.tension.known()) continue;
       const double ratio = sticks.content.value / (t.tension.value + other->content.tension.value);
       const bool same = other->name == name;
@@ -54,7 +54,10 @@ void check_bulk(BuildContext& c) {
     if (t.bulk_modulus.value > least) continue;
     char text[48];
     std::snprintf(text, sizeof text, "%.3g kPa", 3.0 * least);
-    c.diagnostics.error(572, t.bulk_modulus.given ? t.bulk_modulus.place : t.tension.given ? t.tension.place : place,
+    c.diagnostics.error(572,
+                        t.bulk_modulus.given ? t.bulk_modulus.place
+                        : t.tension.given    ? t.tension.place
+                                             : place,
                         "cells of '" + name + "' would collapse: their volume (K = " + t.bulk_modulus.text +
                             ") does not resist the pressure of their cortical tension (" + t.tension.text + ")",
                         "`bulk_modulus` of at least " + std::string(text) + " (2 tension/radius), or less tension");

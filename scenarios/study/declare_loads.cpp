@@ -64,12 +64,13 @@ void declare_grip(Section& g, draft::Load& load) {
               .example = "10 mN/m",
               .source = "chosen: 1 nN moves a grip by 0.1 um"},
              load.grip_stiffness);
-  g.vector({.name = "center",
-            .doc = "Centre of the undeformed cell whose end nodes the grip holds; where the cell is placed, unless the grip shall push at once.",
-            .quantity = Q::kLength,
-            .required = true,
-            .example = "[0 um, 0 um, 6 um]"},
-           load.grip_center);
+  g.vector(
+      {.name = "center",
+       .doc = "Centre of the undeformed cell whose end nodes the grip holds; where the cell is placed, unless the grip shall push at once.",
+       .quantity = Q::kLength,
+       .required = true,
+       .example = "[0 um, 0 um, 6 um]"},
+      load.grip_center);
   axis(g, load.grip_ends.axis, "Axis that tells the ends.");
   ends(g, load.grip_ends, "10 %", "Part of the nodes at each end that are held: a fixed set, ties taken in.");
   g.vector({.name = "direction",
@@ -79,7 +80,8 @@ void declare_grip(Section& g, draft::Load& load) {
             .source = "chosen"},
            load.grip_direction);
   g.list({.name = "way",
-          .doc = "How far the grip has moved along `direction` over time: straight lines between these points, at rest before the first and after "
+          .doc = "How far the grip has moved along `direction` over time: straight lines between these points, at rest before the first "
+                 "and after "
                  "the last. Steps land on the points.",
           .example = "[{time: 0 s, distance: 0 um}, {time: 5 min, distance: 6 um}]"},
          load.way, &declare_distance_point);
@@ -139,12 +141,13 @@ void declare_load(Section& s, draft::Load& load) {
                      .example = "{from: [0 um, 0 um, 0 um], to: [0 um, 0 um, 15 um], radius: 2.75 um}"},
                     load.pressure_within.present, [&load](Section& w) { declare_within(w, load.pressure_within); });
           });
-  s.group({.name = "grip",
-           .doc = "Springs that hold the nodes at the ends of an axis where they are on an undeformed cell, and move them: a holding pipette, "
-                  "a glued bead. `course` is a factor of the stiffness.",
-           .optional_section = true,
-           .example = "{stiffness: 10 mN/m, center: [0 um, 0 um, 6 um], part: 10 %, ends: high}"},
-          load.grip, [&load](Section& g) { declare_grip(g, load); });
+  s.group(
+      {.name = "grip",
+       .doc = "Springs that hold the nodes at the ends of an axis where they are on an undeformed cell, and move them: a holding pipette, "
+              "a glued bead. `course` is a factor of the stiffness.",
+       .optional_section = true,
+       .example = "{stiffness: 10 mN/m, center: [0 um, 0 um, 6 um], part: 10 %, ends: high}"},
+      load.grip, [&load](Section& g) { declare_grip(g, load); });
   s.vector({.name = "body_force",
             .doc = "A force on the whole cell; on a shell spread over its surface.",
             .quantity = Q::kForce,

@@ -69,9 +69,11 @@ constexpr ErrorCode kCodes[] = {
      "The repulsion is so soft that the pressure within the cells pushes their surfaces through each other (warning)."},
     {520, "load that cells cannot bear",
      "Tractions, pulls and pressures act on surfaces: they need shells, and chosen nodes need shells that keep their mesh and place."},
-    {570, "grip in a periodic domain", "A grip holds nodes at places of the laboratory; a cell that leaves through a periodic face would be torn back."},
+    {570, "grip in a periodic domain",
+     "A grip holds nodes at places of the laboratory; a cell that leaves through a periodic face would be torn back."},
     {571, "mesh too fine for this adhesion",
-     "Where more than two cells meet, adhesion of nearly the tension of both surfaces folds the surfaces; meshes of 642 nodes and more were "
+     "Where more than two cells meet, adhesion of nearly the tension of both surfaces folds the surfaces; meshes of 642 nodes and more "
+     "were "
      "measured to stall on these folds (13 cells at W = 0.9 times both tensions), meshes of 162 nodes were not."},
     {572, "volume that does not bear the tension",
      "A sphere of tension T and bulk modulus K shrinks without end when K is below 2 T/(3 R)."},

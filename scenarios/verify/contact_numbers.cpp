@@ -84,16 +84,17 @@ double adhesion_from_work() {
 }  // namespace
 
 void add_contact_numbers(std::vector<ReferenceNumber>& out) {
-  out.push_back({"T7.2", "pull-off force of a rigid ball of 642 nodes from a plane, 2 pi R W, R 6 um, W 0.1 nN/um [nN]", 3.7699, 0.02 * 3.7699,
-                 "closed form (Derjaguin), any range below 2 R; 2 % for the mesh", [] { return largest_pull(); }});
+  out.push_back({"T7.2", "pull-off force of a rigid ball of 642 nodes from a plane, 2 pi R W, R 6 um, W 0.1 nN/um [nN]", 3.7699,
+                 0.02 * 3.7699, "closed form (Derjaguin), any range below 2 R; 2 % for the mesh", [] { return largest_pull(); }});
   out.push_back({"S5", "W recovered from the work of lifting that ball off [nN/um]", kAdhesion, 0.02 * kAdhesion,
                  "closed form: work pi R c W from touching to out of the range c", [] { return adhesion_from_work(); }});
   struct Pipette {
     double tension, radius, suction;
   };
   for (const Pipette& p : {Pipette{0.03, 2.5, 13.898}, {0.1, 2.0, 66.486}, {0.1, 2.5, 46.326}, {0.1, 3.0, 32.766}, {0.4, 2.5, 185.302}})
-    out.push_back({"S3", "critical suction of a cell of 6 um, tension " + std::to_string(p.tension).substr(0, 4) + " mN/m, pipette " +
-                             std::to_string(p.radius).substr(0, 3) + " um [Pa]",
+    out.push_back({"S3",
+                   "critical suction of a cell of 6 um, tension " + std::to_string(p.tension).substr(0, 4) + " mN/m, pipette " +
+                       std::to_string(p.radius).substr(0, 3) + " um [Pa]",
                    p.suction, 1e-3, "computed independently from the closed form",
                    [p] { return 1000.0 * theory::critical_aspiration(p.tension, p.radius, kRadius); }});
 }

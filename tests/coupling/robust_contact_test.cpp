@@ -11,11 +11,11 @@ namespace morula {
 namespace {
 
 struct Outcome {
-  bool reached = false;    ///< the end of the run
-  Error error;             ///< else
-  double quality = 1.0;    ///< smallest 4√3 A/Σℓ² of a face in any state
-  double overlap = 0.0;    ///< deepest, at the end [µm]
-  double length = 0.0;     ///< of the doublet at the end, over 2 R0
+  bool reached = false;      ///< the end of the run
+  Error error;               ///< else
+  double quality = 1.0;      ///< smallest 4√3 A/Σℓ² of a face in any state
+  double overlap = 0.0;      ///< deepest, at the end [µm]
+  double length = 0.0;       ///< of the doublet at the end, over 2 R0
   int steps_in_overlap = 0;  ///< steps until the overlap is below 0.1 µm
 };
 

@@ -60,8 +60,9 @@ const Verdict* find(const RunSummary& run, const std::string& quantity) {
 }
 
 TEST(LibraryStudies, AreThoseThatWereAskedFor) {
-  EXPECT_EQ(template_names(), (std::vector<std::string>{"blastocyst", "cell_shear", "cluster", "doublet", "hybrid_spheroid", "micropipette", "optical_stretcher",
-                                                        "optical_tweezers", "pair", "parallel_plates", "pull_off", "spreading", "tissue"}));
+  EXPECT_EQ(template_names(), (std::vector<std::string>{"blastocyst", "cell_shear", "cluster", "doublet", "hybrid_spheroid", "micropipette",
+                                                        "optical_stretcher", "optical_tweezers", "pair", "parallel_plates", "pull_off",
+                                                        "spreading", "tissue"}));
 }
 
 TEST(LibraryStudies, PassTheCheckerWithoutAWarning) {

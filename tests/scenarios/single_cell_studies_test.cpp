@@ -38,7 +38,8 @@ TEST_P(SingleCell, StudyMeetsAllItsCriteriaAndIsPlottedAgainstTheory) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Quick, SingleCell,
-                         testing::Values("doublet", "micropipette", "optical_stretcher", "optical_tweezers", "parallel_plates", "spreading"),
+                         testing::Values("doublet", "micropipette", "optical_stretcher", "optical_tweezers", "parallel_plates",
+                                         "spreading"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST(Holds, AreTheConstantPartsOfACourseWithTheirLastSnapshot) {

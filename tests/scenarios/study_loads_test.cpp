@@ -84,7 +84,8 @@ TEST(Loads, OnWholeSpheresAreFine) {
 }
 
 constexpr const char* kGrip =
-    "grip: {stiffness: 5 mN/m, center: [0 um, 0 um, 1 um], axis: [0, 0, 2], ends: low, way: [{time: 1 s, distance: 0 um}, {time: 2 s, distance: 3 um}]}";
+    "grip: {stiffness: 5 mN/m, center: [0 um, 0 um, 1 um], axis: [0, 0, 2], ends: low, way: [{time: 1 s, distance: 0 um}, {time: 2 s, "
+    "distance: 3 um}]}";
 
 TEST(Loads, GripsAreReadAndHoldPlacesOfTheLaboratoryOnly) {
   const std::string text = test::changed("pull: {force: 193 pN, axis: [0, 3, 0], part: 2 %, ends: high}", kGrip, kStudy);
@@ -106,8 +107,9 @@ TEST(Loads, GripsAreReadAndHoldPlacesOfTheLaboratoryOnly) {
 }
 
 TEST(Loads, SuctionActsWithinACylinder) {
-  const std::string text = test::changed("pull: {force: 193 pN, axis: [0, 3, 0], part: 2 %, ends: high}",
-                                         "pressure: {value: -50 Pa, within: {from: [0 um, 0 um, 4 um], to: [0 um, 0 um, 9 um], radius: 2 um}}", kStudy);
+  const std::string text =
+      test::changed("pull: {force: 193 pN, axis: [0, 3, 0], part: 2 %, ends: high}",
+                    "pressure: {value: -50 Pa, within: {from: [0 um, 0 um, 4 um], to: [0 um, 0 um, 9 um], radius: 2 um}}", kStudy);
   const auto study = test::read(text);
   ASSERT_TRUE(study.ok()) << study.error().text();
   EXPECT_TRUE(study->model.loads[0].within);

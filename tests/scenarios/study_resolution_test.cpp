@@ -52,8 +52,9 @@ TEST(Resolution, RangeLongerThanHalfTheMeanEdgeIsRefused) {
 
 TEST(Resolution, MembraneLawsThatBothResistAreaAndImpossiblePoissonRatiosAreRefused) {
   const std::string pair = test::changed(", [6 um, 10 um, 0 um]", "", kStudy);
-  EXPECT_NE(test::errors_of(test::changed("bulk_modulus", "area: {local: 0.1 mN/m, global: 1 mN/m}\n      bulk_modulus", pair)).find("[E513]"),
-            std::string::npos);
+  EXPECT_NE(
+      test::errors_of(test::changed("bulk_modulus", "area: {local: 0.1 mN/m, global: 1 mN/m}\n      bulk_modulus", pair)).find("[E513]"),
+      std::string::npos);
   EXPECT_NE(test::errors_of(test::changed("{tension:", "{elastic: springs_with_area, poisson: 0.2, tension:", pair)).find("[E514]"),
             std::string::npos);
   EXPECT_NE(test::errors_of(test::changed("{tension:", "{poisson: 0.6, tension:", pair)).find("[E30"), std::string::npos);
