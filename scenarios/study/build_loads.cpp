@@ -46,7 +46,7 @@ void check_bodies(BuildContext& c, const std::string& name, const Place& place, 
 void build_grip(BuildContext& c, draft::Load& d, CellLoad& load) {
   load.center = d.grip_center.value;
   load.direction = unit_axis(c, d.grip_direction, "direction");
-  load.way = course_of(c, d.way);
+  load.way = build_course(c, d.way);
   for (int axis = 0; axis < 3; ++axis)
     if (c.study.model.space.periodic(axis)) {
       c.diagnostics.error(570, d.grip_center.place, std::string("a grip holds places, but the domain is periodic along ") + "xyz"[axis],

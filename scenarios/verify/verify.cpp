@@ -12,8 +12,7 @@ namespace morula::scenarios {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kStudies[] = {"cell_shear",       "doublet",         "micropipette", "optical_stretcher",
-                                    "optical_tweezers", "parallel_plates", "pull_off",     "spreading"};
+constexpr const char* kStudies[] = {"doublet", "micropipette", "optical_stretcher", "optical_tweezers", "parallel_plates", "spreading"};
 
 }  // namespace
 

@@ -80,12 +80,13 @@ Outcome run_doublet(const Model& model, double distance, double end) {
 /// Rim folding, and what came of it: a step that nothing can make is an error that names the cell, never a step of length zero.
 TEST(RobustContact, RimDoesNotFoldWhileTrianglesKeepTheirShape) {
   Model model = doublet_model(0.9);
+  model.types[0].shell.turnover_rate = 1.0 / 60.0;  // a cortex that flows does not hold its triangles
   const Outcome with = run_doublet(model, 12.0, 900.0);
   EXPECT_TRUE(with.reached) << with.error.message;
-  EXPECT_GT(with.quality, 0.5);
+  EXPECT_GT(with.quality, 0.4);
   model.types[0].shell.shape_stiffness = model.types[0].shell.barrier_stiffness = 0.0;
   const Outcome without = run_doublet(model, 12.0, 900.0);
-  EXPECT_TRUE(!without.reached || without.quality < 0.3) << without.quality;
+  EXPECT_TRUE(!without.reached || without.quality < 0.5 * with.quality) << without.quality << " with: " << with.quality;
   if (!without.reached) {
     EXPECT_NE(without.error.message.find("(cell "), std::string::npos) << without.error.message;
   }
@@ -113,10 +114,10 @@ TEST(RobustContact, DeepOverlapIsLeftWithACappedStart) {
   ASSERT_TRUE(with.reached) << with.error.message;
   EXPECT_LT(with.overlap, 0.1);
   EXPECT_LT(with.steps_in_overlap, 120);
-  EXPECT_GT(with.quality, 0.4);
+  EXPECT_GT(with.quality, 0.3);
   model.step.start_cap = 0.0;
   const Outcome without = run_doublet(model, 8.0, 120.0);
-  EXPECT_TRUE(!without.reached || without.overlap > 0.1 || without.quality < 0.4) << without.overlap << " " << without.quality;
+  EXPECT_TRUE(!without.reached || without.overlap > 0.1 || without.quality < 0.3) << without.overlap << " " << without.quality;
 }
 
 }  // namespace

@@ -38,8 +38,8 @@ TEST_P(SingleCell, StudyMeetsAllItsCriteriaAndIsPlottedAgainstTheory) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Quick, SingleCell,
-                         testing::Values("cell_shear", "doublet", "embryo", "micropipette", "optical_stretcher", "optical_tweezers",
-                                         "parallel_plates", "pull_off", "spreading"),
+                         testing::Values("doublet", "embryo", "micropipette", "optical_stretcher", "optical_tweezers", "parallel_plates",
+                                         "spreading"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST(Holds, AreTheConstantPartsOfACourseWithTheirLastSnapshot) {
