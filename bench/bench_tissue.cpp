@@ -36,10 +36,10 @@ struct Case {
   std::string name;
   std::size_t cells;
   BodyKind body;
-  double friction;  ///< between cells [nN·s/µm³]
-  double relax;     ///< simulated before the clock is started [s]
-  double duration;  ///< simulated and timed [s]
-  double growth;    ///< doubling time [s]; 0: none
+  double friction;        ///< between cells [nN·s/µm³]
+  double relax;           ///< simulated before the clock is started [s]
+  double duration;        ///< simulated and timed [s]
+  double growth;          ///< doubling time [s]; 0: none
   double adhesion = 0.1;  ///< W between shells [nN/µm]
   double range = 0.3;     ///< c [µm]
 };
@@ -295,7 +295,7 @@ int main(int argc, char** argv) {
         {"dcm_scaling_100", 100, BodyKind::kShell, 50.0, 120.0, 60.0, 18 * h},
         {"dcm_scaling_1000", 1000, BodyKind::kShell, 50.0, 120.0, 60.0, 18 * h},
         {"dcm_scaling_5000", 5000, BodyKind::kShell, 50.0, 120.0, 60.0, 18 * h},
-        {"aggregation_13", 13, BodyKind::kShell, 50.0, 0.0, 600.0, 18 * h},  // from point contacts
+        {"aggregation_13", 13, BodyKind::kShell, 50.0, 0.0, 600.0, 18 * h},               // from point contacts
         {"cluster_55_w03", 55, BodyKind::kShell, 50.0, 1800.0, 6 * h, 18 * h, 0.3, 0.5},  // time_stepping.md §9.5
         {"cbm_tissue", 100000, BodyKind::kSphere, 50.0, 120.0, 600.0, 18 * h},
         {"cbm_tissue_no_friction", 100000, BodyKind::kSphere, 0.0, 120.0, 600.0, 18 * h},

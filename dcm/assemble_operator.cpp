@@ -104,8 +104,8 @@ bool assemble_edges(Assembly<W>& a, const ShellFriction::Block& friction, Lane<f
     const auto left = FaceRecord<W>::load(a.ws.face, edge.left), right = FaceRecord<W>::load(a.ws.face, edge.right);
     const auto e = xj - xi;
     const Real length = norm(e), rest_length = load_scalar<float, W>(a.ws.rest_length.data(), k);
-    SymMat3<Real> m = damper.friction(
-        normalized(load_vec3<float, W>(a.ws.start.data(), edge.j) - load_vec3<float, W>(a.ws.start.data(), edge.i)));
+    SymMat3<Real> m =
+        damper.friction(normalized(load_vec3<float, W>(a.ws.start.data(), edge.j) - load_vec3<float, W>(a.ws.start.data(), edge.i)));
     m += a.dt * spring.stiffness_psd(e * (Real(1.0f) / length), length, rest_length);
     // ½ cot of the angle opposite to the edge, times n nᵀ; 1/|N|³ is in the record
     m += outer(left.tension * dot(xi - xk, xj - xk), left.n);
@@ -216,7 +216,8 @@ void assemble_shell_operator(const ShellBlocks& blocks, const Shells& shells, st
                              double time_step, ShellOperator& out) {
   out.blocks.resize(blocks.blocks.size());
   for_each_block<OperatorWorkspace>(blocks, [&]<int W>(std::size_t b, const LaneBlock& block, OperatorWorkspace& ws) {
-    assemble_block<W>(blocks, block, shells, types, position, friction.blocks[b], friction.start, face_contact_energy, time_step, out.blocks[b], ws);
+    assemble_block<W>(blocks, block, shells, types, position, friction.blocks[b], friction.start, face_contact_energy, time_step,
+                      out.blocks[b], ws);
   });
 }
 

@@ -168,8 +168,8 @@ void friction_times_displacement(const ShellBlocks& blocks, const Shells& shells
   });
 }
 
-void add_friction_of_motion(const ShellBlocks& blocks, const Shells& shells, const ShellFriction& friction,
-                            std::span<const Vec3d> position, std::span<Vec3d> result, std::span<double> quadratic) {
+void add_friction_of_motion(const ShellBlocks& blocks, const Shells& shells, const ShellFriction& friction, std::span<const Vec3d> position,
+                            std::span<Vec3d> result, std::span<double> quadratic) {
   for_each_block<Workspace>(blocks, [&]<int W>(std::size_t b, const LaneBlock& block, Workspace& ws) {
     friction_of_block<W, Given::kPosition>(block, shells, friction, b, position, result, quadratic, ws);
   });

@@ -36,7 +36,7 @@ void friction_times_displacement(const ShellBlocks& blocks, const Shells& shells
                                  std::span<const Vec3d> displacement, std::span<Vec3d> result, std::span<double> quadratic);
 
 /// The same for d = position − start: adds Γ_n d to `result`.
-void add_friction_of_motion(const ShellBlocks& blocks, const Shells& shells, const ShellFriction& friction,
-                            std::span<const Vec3d> position, std::span<Vec3d> result, std::span<double> quadratic);
+void add_friction_of_motion(const ShellBlocks& blocks, const Shells& shells, const ShellFriction& friction, std::span<const Vec3d> position,
+                            std::span<Vec3d> result, std::span<double> quadratic);
 
 }  // namespace morula::dcm

@@ -24,9 +24,7 @@ struct RubbingBody {
         position(b == nullptr ? nullptr : positions.data() + b->first_point),
         start(b == nullptr ? nullptr : starts.data() + b->first_point),
         out(b == nullptr || !b->active() ? nullptr : outs.data() + b->first_point) {}
-  [[nodiscard]] PaddedVec3::Vector way(std::uint32_t node) const {
-    return PaddedVec3::of(position[node]) - PaddedVec3::of(start[node]);
-  }
+  [[nodiscard]] PaddedVec3::Vector way(std::uint32_t node) const { return PaddedVec3::of(position[node]) - PaddedVec3::of(start[node]); }
 };
 
 /// Adds a·u + b (n·u) n of all points of one body against the other to their nodes and returns the sum of uᵀ(…)u; u is the jump of the
@@ -86,8 +84,7 @@ void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const 
                                  {pair.rigid ? nullptr : &scene.bodies[pair.b], scene.position, start, out}};
     const Vec3d rigid = pair.rigid ? offsets_[pair.b] - step_offsets_[pair.b] : Vec3d{};
     double sum = 0.0;
-    for (int d = 0; d < 2; ++d)
-      sum += rub(pair.step_elements[d], quadrature, material_of(scene, pair), body[d], body[1 - d], rigid);
+    for (int d = 0; d < 2; ++d) sum += rub(pair.step_elements[d], quadrature, material_of(scene, pair), body[d], body[1 - d], rigid);
     if (scene.bodies[pair.a].owned) quadratic.add(sum);
   }
 }

@@ -38,11 +38,7 @@ void ContactLayer::set_cap(double cap) {
 PairBody ContactLayer::view(const ContactScene& scene, const SurfacePair& pair, int which) const {
   if (which == 1 && pair.rigid) {
     const RigidSurface& obstacle = obstacles_[pair.b];
-    return {obstacle.topology.get(),
-            obstacle.position,
-            obstacle.geometry.node_normal,
-            offsets_[pair.b],
-            0.0};
+    return {obstacle.topology.get(), obstacle.position, obstacle.geometry.node_normal, offsets_[pair.b], 0.0};
   }
   const ContactBody& body = scene.bodies[which == 0 ? pair.a : pair.b];
   const Vec3d shift = which == 0 ? Vec3d{} : pair.shift;
@@ -365,8 +361,8 @@ const SurfacePair* ContactLayer::deepest(const ContactScene& scene) const {
 
 std::size_t ContactLayer::memory() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
-  std::size_t total = bytes(pairs_) + bytes(spheres_) + bytes(pairs_of_kind_[0]) + bytes(pairs_of_kind_[1]) +
-                      bytes(motion_) + bytes(last_radius_) + bytes(travel_) + bytes(known_at_);
+  std::size_t total = bytes(pairs_) + bytes(spheres_) + bytes(pairs_of_kind_[0]) + bytes(pairs_of_kind_[1]) + bytes(motion_) +
+                      bytes(last_radius_) + bytes(travel_) + bytes(known_at_);
   for (const SurfacePair& pair : pairs_)
     for (int d = 0; d < 2; ++d) {
       total += pair.points[d].memory() + bytes(pair.node[d]) + bytes(pair.elements[d]) + bytes(pair.step_elements[d]);

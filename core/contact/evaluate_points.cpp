@@ -286,8 +286,8 @@ void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists,
     sink.push_target(gap.mu, pull);
   if (batch.weight_slope[lane] != 0.0) {
     const Triangle* target_face = sphere ? nullptr : &e.target.topology->faces()[lists.target_face[p.place]];
-    add_weight_gradient(e, p.q, {get(batch.source_normal, lane), batch.face_area[lane]}, target_face, gap, {get(batch.unit, lane), batch.length[lane]},
-                        batch.weight_slope[lane] * batch.attraction[lane], sink);
+    add_weight_gradient(e, p.q, {get(batch.source_normal, lane), batch.face_area[lane]}, target_face, gap,
+                        {get(batch.unit, lane), batch.length[lane]}, batch.weight_slope[lane] * batch.attraction[lane], sink);
   }
   ContactElement& element = elements.emplace_back();
   element.source = 4 * face + p.q;

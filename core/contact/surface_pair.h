@@ -65,21 +65,21 @@ struct alignas(32) PaddedVec3 {
 /// Gradient of a pair's energy with respect to one of its bodies, good until the next pair is evaluated.
 struct PairGradient {
   std::vector<PaddedVec3> force;  ///< −∂E/∂x by node of the body, at fixed face areas and node normals [nN]; zero but at the pair's nodes
-  std::vector<Vec3d> node_normal;   ///< ∂E/∂n_v likewise [nN·µm]
-  bool has_node_normal = false;     ///< false: all of node_normal is zero
-  std::vector<double> face_energy;  ///< ∂E/∂A_T by source face [nN/µm]
+  std::vector<Vec3d> node_normal;          ///< ∂E/∂n_v likewise [nN·µm]
+  bool has_node_normal = false;            ///< false: all of node_normal is zero
+  std::vector<double> face_energy;         ///< ∂E/∂A_T by source face [nN/µm]
   std::vector<std::uint32_t> source_face;  ///< these faces
-  double contact_area = 0.0;        ///< of the faces of this body (ramp c/2 .. c) [µm²]
+  double contact_area = 0.0;               ///< of the faces of this body (ramp c/2 .. c) [µm²]
 };
 
 /// Two bodies in touch, at least one of them a surface; body a comes first in the canonical order. A rigid obstacle is always b.
 struct SurfacePair {
   std::uint32_t a = 0, b = 0;  ///< bodies; b is the obstacle's number when `rigid`
   bool rigid = false;
-  bool at_start = false;        ///< not evaluated since the step began: the elements are those of its start
-  Vec3d shift{};                ///< image of b
-  double motion = 0.0;          ///< how far the bodies have moved against each other since the pair came to be (an upper bound) [µm]
-  double built_at = -1e300;     ///< motion when the lists were built
+  bool at_start = false;      ///< not evaluated since the step began: the elements are those of its start
+  Vec3d shift{};              ///< image of b
+  double motion = 0.0;        ///< how far the bodies have moved against each other since the pair came to be (an upper bound) [µm]
+  double built_at = -1e300;   ///< motion when the lists were built
   double patch_motion = 0.0;  ///< that of the nodes in the lists alone, since the lists were built
   PackedPoints points[2];     ///< [0]: points of a against b; [1]: points of b against a
   std::vector<std::uint16_t> node[2];            ///< nodes of a and of b in these lists, increasing; a sphere has node 0, an obstacle none

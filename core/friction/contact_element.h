@@ -37,9 +37,7 @@ struct ContactElement {
     mu[0] = static_cast<std::uint16_t>(mu0);
     mu[1] = static_cast<std::uint16_t>(mu1 < kWeightUnits - mu0 ? mu1 : kWeightUnits - mu0);
   }
-  void set_stiffness(float stiffness) {
-    k = static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(stiffness) + 0x8000u) >> 16);
-  }
+  void set_stiffness(float stiffness) { k = static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(stiffness) + 0x8000u) >> 16); }
   [[nodiscard]] float stiffness() const { return std::bit_cast<float>(std::uint32_t{k} << 16); }
   template <class Real>
   [[nodiscard]] Vec3<Real> normal() const {

@@ -202,7 +202,7 @@ struct Splat {
 Float4v times(const NodePairBlock& block, Float4v x, Float4v y, Float4v z) {
   using Int4v [[gnu::vector_size(16)]] = std::int32_t;
   Int4v packed;
-  std::memcpy(&packed, &block, sizeof packed);  // two entries in each
+  std::memcpy(&packed, &block, sizeof packed);                                 // two entries in each
   const Float4v low = __builtin_convertvector((packed << 16) >> 16, Float4v);  // xx xy xz zz
   const Float4v high = __builtin_convertvector(packed >> 16, Float4v);         // j yy yz
   return x * low + y * __builtin_shufflevector(low, high, 1, 5, 6, 6) + z * __builtin_shufflevector(low, high, 2, 6, 3, 3);

@@ -12,9 +12,9 @@ constexpr int kGradientHalvings = 20;
 // A step whose residual is not below `newton_stop` may end all the same where little motion is left; both in units of newton_stop:
 constexpr double kMostLeft = 2.5;          // of the residual
 constexpr double kSmallCorrection = 0.15;  // motion that another iteration would bring, in units of the contact range
-constexpr double kStuckForce = 1e-3;     // largest residual that counts as rest [nN]
-constexpr double kAllowedRise = 0.2;     // of Φ, in the last resort of the freeze rule [nN·µm]
-constexpr double kLastResortStep = 0.2;  // in units of the contact range
+constexpr double kStuckForce = 1e-3;       // largest residual that counts as rest [nN]
+constexpr double kAllowedRise = 0.2;       // of Φ, in the last resort of the freeze rule [nN·µm]
+constexpr double kLastResortStep = 0.2;    // in units of the contact range
 constexpr int kMaxLinearIterations = 400;
 
 }  // namespace

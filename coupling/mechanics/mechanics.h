@@ -155,10 +155,10 @@ class Mechanics {
   SphereContacts spheres_;
   FrictionSystem system_;
 
-  double energy_ = 0.0;              ///< at the present positions, without external work
-  std::vector<Vec3d> force_;         ///< by point; friction_residual() makes the residual of it: force + external − Γ_n d/Δt
-  bool spent_ = false;               ///< force_ holds a residual: evaluate() before the next step
-  double friction_energy_ = 0.0;     ///< dᵀΓ_n d
+  double energy_ = 0.0;           ///< at the present positions, without external work
+  std::vector<Vec3d> force_;      ///< by point; friction_residual() makes the residual of it: force + external − Γ_n d/Δt
+  bool spent_ = false;            ///< force_ holds a residual: evaluate() before the next step
+  double friction_energy_ = 0.0;  ///< dᵀΓ_n d
   std::vector<Float4> solution_;
 };
 

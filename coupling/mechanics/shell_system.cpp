@@ -56,8 +56,7 @@ std::size_t ShellSystem::memory() const {
               block.bending_weight.capacity() + block.bending_normal.capacity()) *
                  sizeof(float) +
              (block.shape_face.capacity() + block.barrier_edge.capacity()) * sizeof(std::uint32_t);
-  for (const auto& block : friction_.blocks)
-    total += (block.medium.capacity() + block.volume_gradient.capacity()) * sizeof(double);
+  for (const auto& block : friction_.blocks) total += (block.medium.capacity() + block.volume_gradient.capacity()) * sizeof(double);
   return total;
 }
 

@@ -38,7 +38,8 @@ TEST_P(EverySize, ComesBackAsItWasAndNothingIsSureForLonger) {
   packed.pack(lists);
   EXPECT_EQ(packed.source_count(), size.sources);
   EXPECT_GE(packed.memory(), lists.candidate.size() * size.bytes_per_candidate);
-  EXPECT_LE(packed.memory(), lists.candidate.size() * size.bytes_per_candidate + size.sources * std::size_t{22} + size.targets * std::size_t{4} + 4);
+  EXPECT_LE(packed.memory(),
+            lists.candidate.size() * size.bytes_per_candidate + size.sources * std::size_t{22} + size.targets * std::size_t{4} + 4);
   PointsAgainstBody back;
   packed.unpack(back);
   packed.unpack_candidates(back);

@@ -98,7 +98,9 @@ Applied apply_condensed(const RandomContacts& c, const std::vector<Vec3d> (&v)[2
   }
   std::size_t next = 0;
   for (std::size_t r = 0; r < blocks.rows.size(); ++r) {
-    if (r > 0) { EXPECT_LT(blocks.rows[r - 1].i, blocks.rows[r].i); }
+    if (r > 0) {
+      EXPECT_LT(blocks.rows[r - 1].i, blocks.rows[r].i);
+    }
     for (std::size_t k = 1; k < blocks.rows[r].count; ++k) EXPECT_LT(blocks.blocks[next + k - 1].j, blocks.blocks[next + k].j);
     next += blocks.rows[r].count;
   }
@@ -145,8 +147,7 @@ TEST_P(EveryKindOfTarget, BlocksActAsTheContactPointsDo) {
   for (std::size_t side = 0; side < 2; ++side)
     for (std::size_t i = 0; i < expected[side].size(); ++i) {
       const Float4& q = got.q[side][i];
-      EXPECT_NEAR(norm(Vec3d{q.x, q.y, q.z} - expected[side][i]), 0.0, 5e-5 * largest) << side
-          << ' ' << i;
+      EXPECT_NEAR(norm(Vec3d{q.x, q.y, q.z} - expected[side][i]), 0.0, 5e-5 * largest) << side << ' ' << i;
       EXPECT_EQ(q.w, 0.0f);
     }
 }
