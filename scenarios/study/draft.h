@@ -37,11 +37,6 @@ struct PackingKnot {
   Given<double> packing, pressure;
 };
 
-/// A corner of something that is prescribed over time.
-struct CoursePoint {
-  Given<double> time, value;
-};
-
 /// Osmotic control of the volume.
 struct Osmosis {
   bool present = false;
