@@ -77,7 +77,7 @@ struct CellType {
   RegionalTension regional_tension;  ///< of shells; empty: shell.tension everywhere
 };
 
-/// Traction between two surfaces over their gap (core/contact/traction_law.h; decision 0012).
+/// Traction between two surfaces over their gap (core/contact/traction_law.h; decision 0018).
 enum class SurfaceLaw : std::uint8_t {
   kTent,           ///< rises to the middle of the range and falls again; linear repulsion
   kMaugisDugdale,  ///< nearly constant over the range; Hertz-like repulsion

@@ -48,7 +48,7 @@ struct Shells {
   /// What the faces of a shell carry.
   [[nodiscard]] const FaceState& faces_of(std::size_t shell) const {
     static const FaceState kNothing;
-    return face.empty() ? kNothing : face[shell];
+    return shell < face.size() ? face[shell] : kNothing;
   }
   [[nodiscard]] FaceState& faces_of(std::size_t shell) {
     if (face.size() < size()) face.resize(size());

@@ -199,7 +199,7 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
 
   OrderFreeSum sum;
   for (std::size_t i = 0; i < scene_.owned_shells(); ++i) sum.add(internal.energy[i]);
-  face_tensions_.add_forces(tissue.shells, scene_.position(), geometry_, force_, sum);
+  face_tensions_.add_forces(tissue.shells, scene_.position(), force_, sum);
   node_terms_.add_forces(tissue.shells, scene_.position(), force_, sum);
   contacts_.add_energy(scene, sum);
   spheres_.add_energy(sum);

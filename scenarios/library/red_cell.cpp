@@ -104,7 +104,8 @@ void compare(const std::vector<Pulled>& recovery, int cell, double scale, double
   for (std::size_t i = 0; i < data.time.size(); ++i) {
     const double here = interpolated(ours.time, ours.ratio, data.time[i] / scale);
     squares += std::pow(here - data.ratio[i], 2);
-    if (!(std::abs(here - data.ratio[i]) <= largest)) largest = std::abs(here - data.ratio[i]);
+    const double difference = std::abs(here - data.ratio[i]);
+    if (!std::isnan(largest) && !(difference <= largest)) largest = difference;  // once not a number, for good
   }
 }
 

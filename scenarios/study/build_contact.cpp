@@ -56,7 +56,7 @@ void check_keys(BuildContext& c, const draft::ContactPair& pair, const Place& pl
                         "give the shortest range as `contact.range`, and longer ones by pair: steps are measured by the shortest");
 }
 
-/// Contact bears the pressure of a cell, p = 2 tension/R: an elastic repulsion gives way by (π √R p/E*)² (decision 0012).
+/// Contact bears the pressure of a cell, p = 2 tension/R: an elastic repulsion gives way by (π √R p/E*)² (decision 0018).
 void check_depth(BuildContext& c, const draft::ContactPair& pair, const Materials& materials) {
   if (pair.law.value != "maugis_dugdale" || !pair.reduced_modulus.known() || !c.draft.limits.overlap.known()) return;
   double curvature = 0.0, pressure = 0.0;

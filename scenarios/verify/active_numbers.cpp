@@ -92,7 +92,7 @@ double net_force_of_fluid() {
 
 void add_active_numbers(std::vector<ReferenceNumber>& out) {
   constexpr const char* kClosedForm = "closed form";
-  out.push_back({"dcm 4", "part of a sphere in a cone of 60 degrees, by faces of 642 nodes", 0.25, 0.01, kClosedForm, &cap_area});
+  out.push_back({"dcm 4", "part of a sphere in a cone of 60 degrees, by faces of 642 nodes", 0.25, 0.005, kClosedForm, &cap_area});
   out.push_back({"T4.2", "tension of a region by the virial of its forces [nN/um]", 1.1, 1e-9, kClosedForm, &tension_by_virial});
   out.push_back({"T9.2", "drag per area of a rigid cell, friction 0.3 across and 0.06 along its surface [nN s/um^3]", 0.14, 1e-10,
                  kClosedForm, &directed_drag});
