@@ -19,10 +19,10 @@ constexpr double kLastResortStep = 0.2;    // in units of the contact range
 constexpr int kMaxLinearIterations = 400;
 
 /// Which forces hold a node that nothing can move: words for the message.
-std::string forces_at_worst(const Vec3d& contacts, const Vec3d& shell) {
+std::string forces_at_worst(const Vec3d& contacts, const Vec3d& left) {
   char text[160];
-  std::snprintf(text, sizeof text, "; at its worst node contacts act with %.3g nN, the laws of the shell with %.3g nN", norm(contacts),
-                norm(shell));
+  std::snprintf(text, sizeof text, "; at its worst node contacts act with %.3g nN, and %.3g nN are left without balance", norm(contacts),
+                norm(left));
   return text;
 }
 
@@ -185,7 +185,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
                 fault.cell = body.id;
                 at = i;
               }
-          if (at < scene_.owned_nodes()) fault.what += forces_at_worst(gradient_.force[at], shells_.forces().force[at]);
+          if (at < scene_.owned_nodes() && at < gradient_.force.size()) fault.what += forces_at_worst(gradient_.force[at], force_[at]);
           return undo(start, fault);
         }
         break;

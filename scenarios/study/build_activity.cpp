@@ -45,7 +45,7 @@ void build_activity(BuildContext& c) {
     if (a.has_fluctuations) {
       type.fluctuations = {a.energy.value, a.resolve.value};
       // The rigid motion of a cell is what the linear solver resolves last; with random forces nothing makes up for what it leaves.
-      if (!c.draft.numerics.tolerance.given) c.study.model.step.first_tolerance = std::min(c.study.model.step.first_tolerance, 1e-4);
+      c.study.model.step.first_tolerance = std::min(c.study.model.step.first_tolerance, 1e-4);
       if (a.resolve.value > 0.0) c.study.model.step.max_step = std::min(c.study.model.step.max_step, type.fluctuations.longest_step());
     }
     type.polarity.set = a.has_polarity;

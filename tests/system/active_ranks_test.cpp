@@ -106,7 +106,7 @@ TEST(ActiveTerms, AreTheSameBitsOnAnyNumberOfRanksAndOverARestart) {
   ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "one-two", "--until", "45 s"}, folder.path(), on_ranks(0)).exit_code, 0);
   expect_same("one-two", run_morula({"resume", "one-two"}, folder.path(), on_ranks(2)));
 
-  const Outcome vtk = run_morula({"export", "vtk", "first"}, folder.path(), on_ranks(0));
+  const Outcome vtk = run_morula({"export", "first", "vtk"}, folder.path(), on_ranks(0));
   ASSERT_EQ(vtk.exit_code, 0) << vtk.all();
   bool found = false;
   for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
