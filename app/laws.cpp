@@ -5,10 +5,12 @@
 
 #include "app/words.h"
 #include "cbm/builtin.h"
+#include "cbm/packing.h"
 #include "core/numbers/number_text.h"
 #include "coupling/behaviours/builtin.h"
 #include "coupling/builtin.h"
 #include "dcm/builtin.h"
+#include "dcm/interior_laws.h"
 #include "fields/builtin.h"
 
 namespace morula::app {
@@ -41,11 +43,13 @@ std::string in_cell(const std::string& text) {
 std::vector<ListedLaw> all_laws() {
   std::vector<ListedLaw> laws;
   for (auto& entry : cbm::contact_laws()) laws.push_back({"contact of spheres", std::move(entry.info)});
+  laws.push_back({"contact of spheres", cbm::packing_law()});
   for (const auto& entry : dcm::shell_laws()) laws.push_back({"shells", entry.info});
   const auto add = [&laws](const char* group, std::vector<LawInfo> infos) {
     for (LawInfo& info : infos) laws.push_back({group, std::move(info)});
   };
   add("contact of surfaces", surface_contact_laws());
+  add("interior of shells", dcm::interior_laws());
   add("behaviours", behaviour_laws());
   add("fields", fields::field_laws());
   add("loads", load_laws());

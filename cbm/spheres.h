@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cbm/packing.h"
 #include "cbm/partners.h"
 #include "core/vec3.h"
 
@@ -21,9 +22,10 @@ struct Spheres {
 
 /// Elastic parameters of a sphere, for the contact laws.
 struct SphereParameters {
-  double young = 0.45;   ///< E [kPa]
-  double poisson = 0.4;  ///< ν
-  bool adhesive = true;  ///< JKR; false: Hertz, spheres of this type do not adhere to spheres
+  double young = 0.45;     ///< E [kPa]
+  double poisson = 0.4;    ///< ν
+  bool adhesive = true;    ///< JKR; false: Hertz, spheres of this type do not adhere to spheres
+  PackingCurve packing{};  ///< pressure by packing; empty: none
 };
 
 }  // namespace morula::cbm

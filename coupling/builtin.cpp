@@ -22,13 +22,13 @@ std::vector<LawInfo> surface_contact_laws() {
           {.name = "maugis_dugdale",
            .title = "Constant adhesive stress, elastic repulsion",
            .equation = "σ = W/(0.9 c) (0.1 c < g < 0.9 c), linear to 0 at g = 0 and g = c; p = E*/(π √R) √|g| (g < 0), 1/R = 1/R_a + 1/R_b",
-           .source = "Odenthal et al. 2013, doi:10.1371/journal.pcbi.1003267, as a local traction (decision 0012); Maugis 1992, "
+           .source = "Odenthal et al. 2013, doi:10.1371/journal.pcbi.1003267, as a local traction (decision 0018); Maugis 1992, "
                      "doi:10.1016/0021-9797(92)90285-T",
            .parameters = {range, given_by_study("modulus", "pressure", "kPa", "Reduced modulus E* of what lies behind both surfaces.")}},
           {.name = "falling",
            .title = "Traction that falls from contact",
            .equation = "σ = 2W/c · (c − g)/(0.9 c) (0.1 c < g < c), linear to 0 at g = 0; p = k_r |g| (g < 0)",
-           .source = "after Cuvelier et al. 2023: W and a short range instead of a pressure by curvature (decision 0012)",
+           .source = "after Cuvelier et al. 2023: W and a short range instead of a pressure by curvature (decision 0018)",
            .parameters = {range, repulsion}},
           {.name = "contact_pair",
            .title = "Adhesion and friction of a pair",
@@ -41,26 +41,32 @@ std::vector<LawInfo> surface_contact_laws() {
 
 std::vector<LawInfo> load_laws() {
   const LawParameter part = given_by_study("part", "number", "1", "Part of the nodes, at an end of the axis.");
-  return {{.name = "traction",
-           .title = "Stress of two opposed beams (optical stretcher)",
-           .equation = "F_T = s0 cos²θ A_T n_T, θ between the axis and the way from the cell's centroid to the face's",
-           .source = "Guck et al. 2001, doi:10.1016/S0006-3495(01)75740-2",
-           .parameters = {given_by_study("stress", "pressure", "kPa", "Peak stress s0, on the axis.")}},
-          {.name = "pull",
-           .title = "Pull at both ends of a cell (optical tweezers)",
-           .equation = "F_i = ±F a/m on the m nodes of an end of the axis a",
-           .source = "Dao, Lim & Suresh 2003, doi:10.1016/j.jmps.2003.09.019",
-           .parameters = {given_by_study("force", "force", "nN", "F at each end."), part}},
-          {.name = "pressure",
-           .title = "Pressure on a cell or on its ends",
-           .equation = "F_T = −p A_T n_T",
-           .source = kOurs,
-           .parameters = {given_by_study("pressure", "pressure", "kPa", "p, against the outward normal."), part}},
-          {.name = "body_force",
-           .title = "Force on whole cells",
-           .equation = "F_i = F a_i/A, a_i the area of node i",
-           .source = kOurs,
-           .parameters = {given_by_study("force", "force", "nN", "Size of F on each cell.")}}};
+  return {
+      {.name = "traction",
+       .title = "Stress of two opposed beams (optical stretcher)",
+       .equation = "F_T = s0 cos²θ A_T n_T, θ between the axis and the way from the cell's centroid to the face's",
+       .source = "Guck et al. 2001, doi:10.1016/S0006-3495(01)75740-2",
+       .parameters = {given_by_study("stress", "pressure", "kPa", "Peak stress s0, on the axis.")}},
+      {.name = "pull",
+       .title = "Pull at both ends of a cell (optical tweezers)",
+       .equation = "F_i = ±F a/m on the m nodes of an end of the axis a",
+       .source = "Dao, Lim & Suresh 2003, doi:10.1016/j.jmps.2003.09.019",
+       .parameters = {given_by_study("force", "force", "nN", "F at each end."), part}},
+      {.name = "pressure",
+       .title = "Pressure on a cell or on its ends",
+       .equation = "F_T = −p A_T n_T",
+       .source = kOurs,
+       .parameters = {given_by_study("pressure", "pressure", "kPa", "p, against the outward normal."), part}},
+      {.name = "grip",
+       .title = "Springs that hold or move the ends of a cell",
+       .equation = "E = ½ K/m Σ |x_i − X_i(t)|² over the m nodes of an end; X_i: where they are on the undeformed cell at the grip's place",
+       .source = kOurs,
+       .parameters = {given_by_study("stiffness", "tension", "nN/µm", "K of the springs of an end together."), part}},
+      {.name = "body_force",
+       .title = "Force on whole cells",
+       .equation = "F_i = F a_i/A, a_i the area of node i",
+       .source = kOurs,
+       .parameters = {given_by_study("force", "force", "nN", "Size of F on each cell.")}}};
 }
 
 }  // namespace morula

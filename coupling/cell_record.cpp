@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/mesh/shape_bytes.h"
+
 namespace morula {
 
 Vec3d CellRecord::center() const { return sphere ? sphere->position : volume_centroid(shell->shape->topology->faces(), shell->position); }
@@ -32,6 +34,7 @@ std::vector<CellRecord> take_apart(Tissue& tissue) {
                       nodes(shells.velocity),
                       std::vector(shells.rest_length.begin() + shells.first_edge[i], shells.rest_length.begin() + shells.first_edge[i + 1]),
                       std::as_const(shells).faces_of(i)};
+      if (const Vec3d* nucleus = shells.nucleus_of(i)) record.shell->nucleus = *nucleus;
     } else {
       const std::size_t i = next_sphere++;
       const auto partners = spheres.attached[i];
@@ -76,6 +79,7 @@ void put_together(Tissue& tissue, std::vector<CellRecord> cells) {
       shells.rest_length.insert(shells.rest_length.end(), body.rest_length.begin(), body.rest_length.end());
       shells.first_node.push_back(static_cast<std::uint32_t>(shells.position.size()));
       shells.first_edge.push_back(static_cast<std::uint32_t>(shells.rest_length.size()));
+      shells.nucleus.push_back(body.nucleus);
       if (!body.face.empty()) shells.faces_of(shells.size() - 1) = body.face;
     } else {
       SphereRecord& body = *cell.sphere;
@@ -100,6 +104,11 @@ ShellRecord spherical_shell(std::shared_ptr<const ReferenceShape> shape, const V
   body.rest_volume = volume;
   body.shape = std::move(shape);
   return body;
+}
+
+void place_nucleus(ShellRecord& shell, const dcm::InteriorParameters& interior) {
+  shell.nucleus.reset();
+  if (interior.has_nucleus()) shell.nucleus = volume_centroid(shell.shape->topology->faces(), shell.position);
 }
 
 namespace {
@@ -144,13 +153,15 @@ void append_bytes(const CellRecord& cell, std::vector<std::byte>& out) {
     append(out, body.attached.data(), body.attached.size());
   } else {
     const ShellRecord& body = *cell.shell;
-    const std::uint32_t nodes = body.shape->topology->node_count();
-    append(out, &nodes, 1);
+    append_shape(*body.shape, out);
     append(out, &body.reference_volume, 1);
     append(out, &body.rest_volume, 1);
     append(out, body.position.data(), body.position.size());
     append(out, body.velocity.data(), body.velocity.size());
     append(out, body.rest_length.data(), body.rest_length.size());
+    const std::uint8_t has_nucleus = body.nucleus.has_value();
+    append(out, &has_nucleus, 1);
+    if (body.nucleus) append(out, &*body.nucleus, 1);
     const std::uint32_t marks[2] = {static_cast<std::uint32_t>(body.face.mark.size()),
                                     static_cast<std::uint32_t>(body.face.contact.size())};
     append(out, marks, 2);
@@ -174,13 +185,14 @@ std::vector<CellRecord> read_records(std::span<const std::byte> bytes, ShapeLibr
       cell.sphere = std::move(body);
     } else {
       ShellRecord body;
-      const auto nodes = reader.one<std::uint32_t>();
-      body.shape = shapes.icosphere(nodes).value();
+      body.shape = read_shape(reader.rest, shapes);
+      const std::uint32_t nodes = body.shape->topology->node_count();
       body.reference_volume = reader.one<double>();
       body.rest_volume = reader.one<double>();
       body.position = reader.many<Vec3d>(nodes);
       body.velocity = reader.many<Vec3f>(nodes);
       body.rest_length = reader.many<double>(body.shape->edge_length.size());
+      if (reader.one<std::uint8_t>() != 0) body.nucleus = reader.one<Vec3d>();
       const auto marks = reader.one<std::uint32_t>(), contacts = reader.one<std::uint32_t>();
       body.face.mark = reader.many<std::uint8_t>(marks);
       body.face.contact = reader.many<float>(contacts);

@@ -28,6 +28,7 @@ struct ShellRecord {
   std::vector<Vec3f> velocity;
   std::vector<double> rest_length;
   dcm::FaceState face{};
+  std::optional<Vec3d> nucleus{};  ///< centre of its rigid nucleus
 };
 
 /// One cell whole: its row and its body. What events, swaps and moves between ranks work on.
@@ -48,7 +49,10 @@ void put_together(Tissue& tissue, std::vector<CellRecord> cells);
 /// A spherical shell around `center` whose mesh encloses `volume`, with stress-free membrane at that volume and velocity zero.
 ShellRecord spherical_shell(std::shared_ptr<const ReferenceShape> shape, const Vec3d& center, double volume, double reference_volume);
 
-/// A cell as bytes and back. Shapes travel by their node count.
+/// Give a shell the nucleus of its type, at its centroid; none where the type has none.
+void place_nucleus(ShellRecord& shell, const dcm::InteriorParameters& interior);
+
+/// A cell as bytes and back. An icosphere travels by its node count, any other shape whole.
 void append_bytes(const CellRecord& cell, std::vector<std::byte>& out);
 std::vector<CellRecord> read_records(std::span<const std::byte> bytes, ShapeLibrary& shapes);
 

@@ -32,7 +32,7 @@ struct CellRow {
   double pressure = 0.0;           ///< averaged over the last minute [kPa]
   double death_time = -1.0;        ///< when it began to die, or -1 [s]
   double last_swap_time = -1e300;  ///< when its body was last exchanged [s]
-  double reference_excess = 0.0;   ///< what is left of ln V0 beyond that of a free shell; eases after a swap
+  double reference_excess = 0.0;   ///< what is left of ln V0 beyond that of a free shell: eases after a swap, or follows the osmotic flux
   double inflation_left = 0.0;     ///< volume still to come of an inflating start [µm³]
   double inflation_rate = 0.0;     ///< [µm³/s]
   Vec3d polarity{};

@@ -45,11 +45,19 @@ void add_pressure(const CellLoad& load, const ReferenceShape& shape, std::span<c
   if (load.part < 1.0 && load.end != LoadEnd::kLow) choose(load.axis);
   if (load.part < 1.0 && load.end != LoadEnd::kHigh) choose(load.axis * -1.0);
   for_faces(*shape.topology, x, [&](const Triangle& t, const Vec3d& area) {
-    if (chosen[t[0]] && chosen[t[1]] && chosen[t[2]]) add_to_corners(t, area * -p, force);
+    if (!chosen[t[0]] || !chosen[t[1]] || !chosen[t[2]]) return;
+    if (load.within && !lies_within(load, (x[t[0]] + x[t[1]] + x[t[2]]) * (1.0 / 3.0))) return;
+    add_to_corners(t, area * -p, force);
   });
 }
 
 }  // namespace
+
+bool lies_within(const CellLoad& load, const Vec3d& point) {
+  const Vec3d axis = load.high_end - load.low_end, from = point - load.low_end;
+  const double along = dot(from, axis) / norm2(axis);
+  return along >= 0.0 && along <= 1.0 && norm2(from - axis * along) <= load.radius * load.radius;
+}
 
 std::vector<std::uint32_t> end_nodes(const ReferenceShape& shape, const Vec3d& axis, double part) {
   const std::size_t all = shape.position.size();
@@ -75,7 +83,8 @@ void add_shell_load(const CellLoad& load, const ReferenceShape& shape, std::span
     case LoadKind::kPressure:
       return add_pressure(load, shape, position, load.size * strength, force);
     case LoadKind::kBodyForce:
-      return;  // on the whole cell: body_force()
+    case LoadKind::kGrip:
+      return;  // on the whole cell: body_force(); held within the step: grip_anchors()
   }
 }
 
@@ -89,7 +98,7 @@ Vec3d body_force(const Model& model, std::uint16_t type, double time) {
 void add_surface_loads(const Model& model, const Tissue& tissue, double time, std::span<Vec3d> external) {
   for (const CellLoad& load : model.loads) {
     const double strength = load.course.at(time);
-    if (strength == 0.0 || load.kind == LoadKind::kBodyForce) continue;
+    if (strength == 0.0 || load.kind == LoadKind::kBodyForce || load.kind == LoadKind::kGrip) continue;
     std::size_t shell = 0;
     for (const CellRow& row : tissue.cells.rows) {
       if (row.body == BodyKind::kSphere) continue;
@@ -104,14 +113,16 @@ void add_surface_loads(const Model& model, const Tissue& tissue, double time, st
 
 double next_corner(const Model& model, double time) {
   double next = kNever;
-  for (const CellLoad& load : model.loads) next = std::min(next, load.course.next_point(time));
+  for (const CellLoad& load : model.loads) next = std::min({next, load.course.next_point(time), load.way.next_point(time)});
   for (const ObstacleSpec& obstacle : model.obstacles) next = std::min(next, obstacle.distance.next_point(time));
   for (const Lumen& lumen : model.lumens) {
     next = std::min(next, lumen.course.next_point(time));
     if (lumen.from > time) next = std::min(next, lumen.from);
   }
-  for (const CellType& type : model.types)
+  for (const CellType& type : model.types) {
+    next = std::min(next, type.osmosis.course.next_point(time));
     for (const TensionRegion& region : type.regional_tension.regions) next = std::min(next, region.course.next_point(time));
+  }
   return next;
 }
 

@@ -17,14 +17,18 @@ namespace morula {
 /// part: of all nodes, 0 to 1; at least one node is taken.
 std::vector<std::uint32_t> end_nodes(const ReferenceShape& shape, const Vec3d& axis, double part);
 
+/// Whether a point lies in the cylinder that bounds a pressure.
+bool lies_within(const CellLoad& load, const Vec3d& point);
+
 /// Forces of a load on the nodes of one shell at present positions, at full strength (course 1), added to `force` [nN].
 ///
 /// - traction: s0 cos²θ along the outward normal of every face, θ the angle between the axis and the way from the cell's centroid to the
 ///   face's (optical stretcher: Guck et al. 2001, doi:10.1016/S0006-3495(01)75740-2);
 /// - pull: the force, in equal parts, on the end nodes: along the axis at the high end, against it at the low end;
-/// - pressure: p A_T against the outward normal of every face whose three nodes are chosen (all of the cell, or an end of it).
+/// - pressure: p A_T against the outward normal of every face whose three nodes are chosen (all of the cell, or an end of it) and, where the
+///   load is `within` a cylinder, whose middle lies in it (suction in a pipette).
 ///
-/// A body force acts on the whole cell and adds nothing here.
+/// A body force acts on the whole cell, a grip is a spring (coupling/grips.h): both add nothing here.
 /// Directions and areas are those of `position`: a step that is given these forces holds them as dead loads.
 void add_shell_load(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> position, double strength,
                     std::span<Vec3d> force);

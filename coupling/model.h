@@ -10,6 +10,7 @@
 #include "coupling/active_terms.h"
 #include "coupling/face_regions.h"
 #include "coupling/time_course.h"
+#include "dcm/interior.h"
 #include "dcm/shells.h"
 #include "fields/field_spec.h"
 
@@ -23,6 +24,18 @@ enum class BodyKind : std::uint8_t { kSphere = 0, kShell = 1 };
 struct Distribution {
   double mean = 0.0;
   double relative_spread = 0.0;
+};
+
+/// Osmotic control of the volume of a cell type (behaviours/osmosis.h).
+struct Osmosis {
+  double permeability = 0.0;  ///< L_p of water; 0: the volume is the target volume [µm/(s kPa)]
+  double inactive = 0.3;      ///< f_b = V_b/V_t
+  double inside = 300.0;      ///< c_i: osmolarity inside at the target volume [mM]
+  double outside = 300.0;     ///< of the medium [mM]
+  TimeCourse course;          ///< factor of `outside` over time; empty: 1
+  int field = -1;             ///< whose concentration at the cell adds to `outside`, or -1
+
+  [[nodiscard]] bool acts() const { return permeability > 0.0; }
 };
 
 /// Everything the step needs to know of a cell type, in internal units.
@@ -43,6 +56,7 @@ struct CellType {
   double migration_speed = 0.0;                   ///< S, root mean square in three dimensions [µm/s]
   double migration_persistence = 1800.0;          ///< P [s]
 
+  Osmosis osmosis;
   int migration_substrate = -1;  ///< material that must be touched, to which the force of migration is tangential; -1: none
   Fluctuations fluctuations;
   Protrusion protrusion;
@@ -59,10 +73,11 @@ struct CellType {
   std::uint32_t shell_nodes = 162;
   cbm::SphereParameters sphere;
   dcm::ShellParameters shell;
+  dcm::InteriorParameters interior;  ///< of a shell
   RegionalTension regional_tension;  ///< of shells; empty: shell.tension everywhere
 };
 
-/// Traction between two surfaces over their gap (core/contact/traction_law.h; decision 0012).
+/// Traction between two surfaces over their gap (core/contact/traction_law.h; decision 0018).
 enum class SurfaceLaw : std::uint8_t {
   kTent,           ///< rises to the middle of the range and falls again; linear repulsion
   kMaugisDugdale,  ///< nearly constant over the range; Hertz-like repulsion
@@ -113,6 +128,7 @@ enum class LoadKind : std::uint8_t {
   kPull,       ///< a force spread over the nodes at the ends of `axis`
   kPressure,   ///< against the outward normal, on the whole cell or at the ends of `axis`
   kBodyForce,  ///< on the whole cell
+  kGrip,       ///< springs that hold the nodes at the ends of `axis` in place, or move them (coupling/grips.h)
 };
 enum class LoadEnd : std::uint8_t { kBoth, kHigh, kLow };
 
@@ -122,11 +138,17 @@ struct CellLoad {
   std::uint16_t type = 0;
   LoadKind kind = LoadKind::kBodyForce;
   Vec3d axis{1, 0, 0};           ///< of length 1
-  double size = 0.0;             ///< peak stress or pressure [kPa]; force at an end [nN]
+  double size = 0.0;             ///< peak stress or pressure [kPa]; force at an end [nN]; stiffness of a grip at an end [nN/µm]
   Vec3d force{};                 ///< kBodyForce [nN]
   double part = 1.0;             ///< of the nodes, at an end
   LoadEnd end = LoadEnd::kBoth;  ///< which ends
   TimeCourse course;             ///< factor over time; empty: 1
+  bool within = false;           ///< kPressure: only faces whose middle lies in the cylinder from low_end to high_end
+  Vec3d low_end{}, high_end{};   ///< [µm]
+  double radius = 0.0;           ///< [µm]
+  Vec3d center{};                ///< kGrip: of the undeformed cell whose end nodes the grip holds, before it moves [µm]
+  Vec3d direction{0, 0, 1};      ///< kGrip: of `way`, of length 1
+  TimeCourse way;                ///< kGrip: how far it has moved; empty: it stays [µm]
 };
 
 enum class RegionShape : std::uint8_t { kSphere, kBox, kHalfSpace, kEverything };

@@ -62,7 +62,7 @@ Result<StepOutcome> Simulation::step(double land_on) {
       set_bodies_to_targets(dt);
     }
     // mechanics: ghosts, candidates, contacts, forces, system, solve, advance
-    const auto moved = mechanics_->step(tissue_, dt, external_forces(clock.time + dt, dt));
+    const auto moved = mechanics_->step(tissue_, dt, external_forces(clock.time + dt, dt), grip_anchors(model_, tissue_, clock.time + dt));
     if (moved) {
       outcome.mechanics = *moved;
       break;
@@ -72,9 +72,11 @@ Result<StepOutcome> Simulation::step(double land_on) {
     if (!moved.error().smaller_step_may_help || dt * 0.25 < kSmallestStep) {
       char when[64];
       std::snprintf(when, sizeof when, " at %.6g h", clock.time / 3600.0);
-      return Error{
-          ErrorKind::kPhysics, moved.error().what + (moved.error().cell.valid() ? " (cell " + moved.error().cell.text() + ")" : "") + when,
-          "the step was cut to " + std::to_string(dt) + " s without success; weaker adhesion, more tension or a finer mesh may help"};
+      return Error{ErrorKind::kPhysics,
+                   moved.error().what + (moved.error().cell.valid() ? " (cell " + moved.error().cell.text() + ")" : "") + when,
+                   "the step was cut to " + std::to_string(dt) +
+                       " s without success; weaker adhesion, more tension, a larger `shape_stiffness` or `fold_barrier`, or another number "
+                       "of nodes may help"};
     }
     dt *= outcome.retries < 2 ? 0.5 : 0.25;
   }

@@ -8,6 +8,8 @@
 #include "cbm/partners.h"
 #include "coupling/behaviours/division.h"
 #include "coupling/behaviours/life.h"
+#include "coupling/behaviours/migration.h"
+#include "coupling/behaviours/osmosis.h"
 #include "coupling/behaviours/pressure_filter.h"
 #include "coupling/cell_record.h"
 #include "coupling/face_marks.h"
@@ -20,12 +22,49 @@ namespace {
 
 /// Time over which V0 (or a sphere's volume) goes back to that of a free cell after a swap: about ten mechanical relaxation times [s].
 constexpr double kEasing = 600.0;
+/// A promoted cell that is left this deep within a neighbour has no room: it stays a sphere for now [µm].
+constexpr double kNoRoom = 0.5;
 
 template <class T>
 std::vector<std::byte> bytes_of(const std::vector<T>& items) {
   std::vector<std::byte> out(items.size() * sizeof(T));
   if (!out.empty()) std::memcpy(out.data(), items.data(), out.size());
   return out;
+}
+
+/// The cells of this list that lie deeper than this within another surface, as the contacts were found last. `these` is sorted; so is the answer.
+std::vector<CellId> too_deep(const Mechanics& mechanics, std::span<const CellId> these, double depth) {
+  const auto bodies = mechanics.scene().bodies();
+  std::vector<CellId> out;
+  const auto offer = [&](CellId id) {
+    if (std::binary_search(these.begin(), these.end(), id)) out.push_back(id);
+  };
+  for (const SurfacePair& pair : mechanics.contacts().pairs()) {
+    const bool surfaces = pair.rigid || (bodies[pair.a].shape == BodyShape::kSurface && bodies[pair.b].shape == BodyShape::kSurface);
+    if (!surfaces || !(pair.overlap > depth)) continue;
+    offer(bodies[pair.a].id);
+    if (!pair.rigid) offer(bodies[pair.b].id);
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+/// Cells just promoted that found no room (`back`, sorted) become again the spheres they were; their events say so.
+void take_back(Tissue& tissue, std::vector<CellRecord> before, std::span<const CellId> back, std::vector<Event>& events) {
+  const auto goes_back = [&](CellId id) { return std::binary_search(back.begin(), back.end(), id); };
+  auto cells = take_apart(tissue);
+  for (CellRecord& cell : cells) {
+    if (!goes_back(cell.row.id)) continue;
+    cell = std::move(*std::find_if(before.begin(), before.end(), [&](const CellRecord& b) { return b.row.id == cell.row.id; }));
+    cell.row.last_swap_time = tissue.clock.time;
+  }
+  put_together(tissue, std::move(cells));
+  for (Event& event : events) {
+    if (event.kind != EventKind::kPromotion || !goes_back(event.cell)) continue;
+    event.kind = EventKind::kWarning;
+    event.text = "no room among its neighbours to become a shell (" + event.text + "); it stays a sphere until the hold time is over";
+  }
 }
 
 }  // namespace
@@ -85,22 +124,36 @@ std::vector<Vec3d> Simulation::centers() const {
 }
 
 void Simulation::set_bodies_to_targets(double dt) {
-  const double keep = std::exp(-dt / kEasing);
+  const double keep = std::exp(-dt / kEasing), time = tissue_.clock.time + dt;
+  const auto osmotic = [](const CellType& type) { return type.osmosis.acts(); };
+  BodyValues body;
+  if (std::any_of(model_.types.begin(), model_.types.end(), osmotic)) body = mechanics_->values(tissue_);
   std::size_t shell = 0, sphere = 0;
   for (CellRow& row : tissue_.cells.rows) {
+    const CellType& type = model_.types[row.type];
     if (row.inflation_left > 0.0) {
       const double gain = std::min(row.inflation_left, row.inflation_rate * dt);
       row.target_volume += gain;
       row.inflation_left -= gain;
     }
-    row.reference_excess *= keep;
-    const double excess = std::exp(row.reference_excess);
+    if (!type.osmosis.acts()) row.reference_excess *= keep;
     if (row.body == BodyKind::kShell) {
+      const double free = free_reference_volume(row.target_volume, type);
+      double& reference = tissue_.shells.reference_volume[shell];
+      if (type.osmosis.acts()) {  // growth brings its water along: what has grown begins at the same concentrations
+        const double grown = free * std::exp(row.reference_excess) / reference;
+        exchange_water(row, type, time, dt, grown * body.volume[shell], body.area[shell], body.pressure[shell]);
+      }
       if (tissue_.shells.rest_volume[shell] != row.target_volume) dcm::set_rest_volume(tissue_.shells, shell, row.target_volume);
-      tissue_.shells.reference_volume[shell] = free_reference_volume(row.target_volume, model_.types[row.type]) * excess;
+      reference = free * std::exp(row.reference_excess);
       ++shell;
     } else {
-      tissue_.spheres.radius[sphere++] = std::cbrt(3.0 * row.target_volume * excess / (4.0 * std::numbers::pi));
+      if (type.osmosis.acts()) {
+        const double volume = row.target_volume * std::exp(row.reference_excess);
+        const std::size_t i = tissue_.shells.size() + sphere;
+        exchange_water(row, type, time, dt, volume, body.area[i], body.pressure[i]);
+      }
+      tissue_.spheres.radius[sphere++] = std::cbrt(3.0 * row.target_volume * std::exp(row.reference_excess) / (4.0 * std::numbers::pi));
     }
   }
   mechanics_->parameters_changed();
@@ -153,10 +206,13 @@ Result<std::vector<Event>> Simulation::swap_bodies() {
   if (!leaving.empty()) touching = mechanics_->touching(tissue_, leaving);
   auto cells = take_apart(tissue_);
   std::vector<CellId> fresh;
+  std::vector<CellRecord> before;                 // of the promoted, should they find no room
+  const bool may_stay = tissue_.clock.steps > 0;  // at the very beginning cells become what the study says
   for (std::size_t k = 0; k < orders.size(); ++k) {
     CellRecord& cell = cells[orders[k].row];
     const bool up = orders[k].to == BodyKind::kShell;
     if (up) {
+      if (may_stay) before.push_back(cell);
       promote(cell, model_.types[cell.row.type], pressure[k], tissue_.clock.time, shapes_);
       fresh.push_back(cell.row.id);
     } else {
@@ -165,6 +221,7 @@ Result<std::vector<Event>> Simulation::swap_bodies() {
     events.push_back({tissue_.clock.time, up ? EventKind::kPromotion : EventKind::kDemotion, cell.row.id, {}, {}, orders[k].reason});
   }
   attach_touching(cells, touching);  // what adhered as a shell goes on adhering
+  attach_touching(before, touching);
   put_together(tissue_, std::move(cells));
   mark_new_shells(model_, tissue_);
   mechanics_->bodies_changed();
@@ -181,12 +238,25 @@ Result<std::vector<Event>> Simulation::swap_bodies() {
       moves.push_back(is_fresh);
     }
     moves.resize(moves.size() + tissue_.spheres.size(), 0);
+    const bool capped = tissue_.clock.capped;
     MORULA_TRY(mechanics_->relax(tissue_, moves));
     for (const auto& [shell, v] : kept) set_enclosed_volume(tissue_.shells.topology(shell), tissue_.shells.nodes(shell), v);
     mechanics_->bodies_changed();
+    if (may_stay) {
+      const std::vector<CellId> back = too_deep(*mechanics_, fresh, kNoRoom);
+      if (comm_.any(!back.empty())) {
+        take_back(tissue_, std::move(before), back, events);
+        mechanics_->bodies_changed();
+      }
+      // Where all have gone back the tissue is as it was; others that are left in an overlap go on with the capped start.
+      if (comm_.all(back.size() == fresh.size())) tissue_.clock.capped = capped;
+    }
   }
   std::int64_t ups = 0, downs = 0;
-  for (const Event& event : events) ++(event.kind == EventKind::kPromotion ? ups : downs);
+  for (const Event& event : events) {
+    ups += event.kind == EventKind::kPromotion;
+    downs += event.kind == EventKind::kDemotion;
+  }
   tissue_.ledger.promotions += static_cast<std::uint64_t>(comm_.sum(ups));
   tissue_.ledger.demotions += static_cast<std::uint64_t>(comm_.sum(downs));
   return events;
@@ -267,6 +337,7 @@ void Simulation::wrap_cells() {
       const Vec3d shift = model_.space.wrapped(center) - center;
       if (norm2(shift) > 1e-6) {
         for (Vec3d& p : nodes) p += shift;
+        if (tissue_.shells.nucleus_of(shell) != nullptr) *tissue_.shells.nucleus[shell] += shift;
         moved = true;
       }
       ++shell;

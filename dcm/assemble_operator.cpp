@@ -104,7 +104,8 @@ bool assemble_edges(Assembly<W>& a, const ShellFriction::Block& friction, Lane<f
     const auto left = FaceRecord<W>::load(a.ws.face, edge.left), right = FaceRecord<W>::load(a.ws.face, edge.right);
     const auto e = xj - xi;
     const Real length = norm(e), rest_length = load_scalar<float, W>(a.ws.rest_length.data(), k);
-    SymMat3<Real> m = damper.friction(to_float<W>(load_vec3<double, W>(friction.direction.data(), k)));
+    SymMat3<Real> m =
+        damper.friction(normalized(load_vec3<float, W>(a.ws.start.data(), edge.j) - load_vec3<float, W>(a.ws.start.data(), edge.i)));
     m += a.dt * spring.stiffness_psd(e * (Real(1.0f) / length), length, rest_length);
     // ½ cot of the angle opposite to the edge, times n nᵀ; 1/|N|³ is in the record
     m += outer(left.tension * dot(xi - xk, xj - xk), left.n);
@@ -148,9 +149,9 @@ void assemble_barrier(Assembly<W>& a, Lane<float, W> cos_onset) noexcept {
   }
 }
 
-/// Bring positions (relative to node 0), rest lengths and contact energies of the block into lanes of float.
+/// Bring positions (now and at the step's start, relative to node 0), rest lengths and contact energies of the block into lanes of float.
 template <int W>
-void load_inputs(Assembly<W>& a, std::span<const Vec3d> position, const ShellBlocks& blocks,
+void load_inputs(Assembly<W>& a, std::span<const Vec3d> position, std::span<const Vec3d> start, const ShellBlocks& blocks,
                  std::span<const double> contact_energy) noexcept {
   const std::size_t nodes = a.topology.node_count(), edges = a.topology.edge_count(), faces = a.topology.face_count();
   const auto convert = [](const LaneVector<double>& in, std::size_t count, LaneVector<float>& out) {
@@ -158,8 +159,12 @@ void load_inputs(Assembly<W>& a, std::span<const Vec3d> position, const ShellBlo
     for (std::size_t i = 0; i < count; i += W) to_float<W>(Lane<double, W>::load(in.data() + i)).store(out.data() + i);
   };
   a.ws.position.resize(std::max(a.ws.position.size(), nodes * 3 * W));
-  load_relative_positions<W>(a.block, lane_pointers<W>(&position.data()->x, a.block, a.shells.first_node, 3), a.ws.position.data());
-  convert(a.ws.position, nodes * 3 * W, a.ws.local);
+  const auto relative = [&](std::span<const Vec3d> x, LaneVector<float>& out) {
+    load_relative_positions<W>(a.block, lane_pointers<W>(&x.data()->x, a.block, a.shells.first_node, 3), a.ws.position.data());
+    convert(a.ws.position, nodes * 3 * W, out);
+  };
+  relative(start, a.ws.start);
+  relative(position, a.ws.local);
   a.ws.rest_length_double.resize(std::max(a.ws.rest_length_double.size(), edges * W));
   load_lanes<W, double>(lane_pointers<W>(a.shells.rest_length.data(), a.block, a.shells.first_edge), edges, a.ws.rest_length_double.data());
   convert(a.ws.rest_length_double, edges * W, a.ws.rest_length);
@@ -175,12 +180,12 @@ void load_inputs(Assembly<W>& a, std::span<const Vec3d> position, const ShellBlo
 
 template <int W>
 void assemble_block(const ShellBlocks& blocks, const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types,
-                    std::span<const Vec3d> position, const ShellFriction::Block& friction, std::span<const double> contact_energy,
-                    double time_step, ShellOperator::Block& out, OperatorWorkspace& ws) noexcept {
+                    std::span<const Vec3d> position, const ShellFriction::Block& friction, std::span<const Vec3d> start,
+                    std::span<const double> contact_energy, double time_step, ShellOperator::Block& out, OperatorWorkspace& ws) noexcept {
   const Topology& topology = *block.topology;
   const std::size_t nodes = topology.node_count();
   Assembly<W> a{block, shells, types, topology, ws, out, Lane<float, W>(static_cast<float>(time_step))};
-  load_inputs(a, position, blocks, contact_energy);
+  load_inputs(a, position, start, blocks, contact_energy);
   out.edge.resize(std::size_t{topology.edge_count()} * 6 * W);
   out.volume_gradient.assign(nodes * 3 * W, 0.0f);
   out.diagonal.resize(nodes * W);
@@ -211,7 +216,8 @@ void assemble_shell_operator(const ShellBlocks& blocks, const Shells& shells, st
                              double time_step, ShellOperator& out) {
   out.blocks.resize(blocks.blocks.size());
   for_each_block<OperatorWorkspace>(blocks, [&]<int W>(std::size_t b, const LaneBlock& block, OperatorWorkspace& ws) {
-    assemble_block<W>(blocks, block, shells, types, position, friction.blocks[b], face_contact_energy, time_step, out.blocks[b], ws);
+    assemble_block<W>(blocks, block, shells, types, position, friction.blocks[b], friction.start, face_contact_energy, time_step,
+                      out.blocks[b], ws);
   });
 }
 

@@ -183,7 +183,7 @@ void write_shell_results(const BlockState<W>& state, const Shells& shells, std::
 
 template <int W>
 void block_mechanics(const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types, std::span<const Vec3d> position,
-                     ShellMechanics& out, ForceWorkspace& ws) noexcept {
+                     std::span<Vec3d> force, ShellMechanics& out, ForceWorkspace& ws) noexcept {
   using Real = Lane<double, W>;
   const Topology& topology = *block.topology;
   ws.fit(topology, W);
@@ -218,7 +218,7 @@ void block_mechanics(const LaneBlock& block, const Shells& shells, std::span<con
   if (any_has<W>(block, shells, types, &ShellParameters::helfrich_rigidity)) add_helfrich<W>(state, shells, types);
   state.energy += volume_energy + area_energy;
   store_lanes<W, double>(ws.force.data(), std::size_t{topology.node_count()} * 3,
-                         lane_pointers<W>(&out.force.data()->x, block, shells.first_node, 3));
+                         lane_pointers<W>(&force.data()->x, block, shells.first_node, 3));
   write_shell_results(state, shells, position, out);
 }
 
@@ -227,11 +227,16 @@ void block_mechanics(const LaneBlock& block, const Shells& shells, std::span<con
 void internal_forces(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
                      std::span<const Vec3d> position, ShellMechanics& out) {
   out.force.resize(shells.node_count());
+  internal_forces(blocks, shells, types, position, out.force, out);
+}
+
+void internal_forces(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
+                     std::span<const Vec3d> position, std::span<Vec3d> force, ShellMechanics& out) {
   for (std::vector<double>* array : {&out.energy, &out.volume, &out.pressure, &out.min_quality, &out.max_angle})
     array->resize(shells.size());
   out.fault.resize(shells.size());
   for_each_block<ForceWorkspace>(blocks, [&]<int W>(std::size_t, const LaneBlock& block, ForceWorkspace& ws) {
-    block_mechanics<W>(block, shells, types, position, out, ws);
+    block_mechanics<W>(block, shells, types, position, force, out, ws);
   });
 }
 

@@ -10,7 +10,7 @@ namespace morula::dcm {
 
 /// What the membrane and the pressure of every shell do at some positions.
 struct ShellMechanics {
-  std::vector<Vec3d> force;         ///< −∂E/∂x by node [nN]
+  std::vector<Vec3d> force;         ///< −∂E/∂x by node [nN]; empty where they went elsewhere
   std::vector<double> energy;       ///< E by shell [fJ]
   std::vector<double> volume;       ///< enclosed, by shell [µm³]
   std::vector<double> pressure;     ///< −K_V ln(V/V0), by shell [kPa]
@@ -25,5 +25,8 @@ struct ShellMechanics {
 /// Lanes over shells of one Topology, in parallel over blocks: the same bits for every lane width and number of threads.
 void internal_forces(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
                      std::span<const Vec3d> position, ShellMechanics& out);
+/// The same, with the forces to `force` (by node).
+void internal_forces(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
+                     std::span<const Vec3d> position, std::span<Vec3d> force, ShellMechanics& out);
 
 }  // namespace morula::dcm

@@ -10,7 +10,7 @@ namespace morula::dcm {
 /// Arrays of one thread for assemble_shell_operator().
 struct OperatorWorkspace {
   LaneVector<double> position;
-  LaneVector<float> local, face, rest_length, contact_energy, node_area;
+  LaneVector<float> local, start, face, rest_length, contact_energy, node_area;
   LaneVector<double> rest_length_double, contact_energy_double;
 };
 

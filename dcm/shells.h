@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,7 +30,8 @@ struct Shells {
   std::vector<Vec3d> position;                               ///< by node [µm]
   std::vector<Vec3f> velocity;                               ///< by node: last solution, the solver's start [µm/s]
   std::vector<double> rest_length;                           ///< by edge; those of a face are its reference metric [µm]
-  std::vector<FaceState> face;                               ///< by shell; may end early: the shells after have none
+  std::vector<std::optional<Vec3d>> nucleus;  ///< by shell: centre of its rigid nucleus; shells beyond the end have none [µm]
+  std::vector<FaceState> face;                ///< by shell; empty: no shell has any
 
   [[nodiscard]] std::size_t size() const { return shape.size(); }
   [[nodiscard]] std::uint32_t node_count() const { return first_node.back(); }
@@ -38,6 +40,9 @@ struct Shells {
   }
   [[nodiscard]] std::span<const Vec3d> nodes(std::size_t shell) const {
     return std::span(position).subspan(first_node[shell], first_node[shell + 1] - first_node[shell]);
+  }
+  [[nodiscard]] const Vec3d* nucleus_of(std::size_t shell) const {
+    return shell < nucleus.size() && nucleus[shell] ? &*nucleus[shell] : nullptr;
   }
   [[nodiscard]] const Topology& topology(std::size_t shell) const { return *shape[shell]->topology; }
   /// What the faces of a shell carry.

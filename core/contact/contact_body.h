@@ -29,7 +29,7 @@ struct ContactBody {
   [[nodiscard]] bool active() const { return owned && moves; }
 };
 
-/// Bodies at some positions. `geometry` is that of the surfaces at these positions; its node arrays are indexed as `position`.
+/// Bodies at some positions. `geometry` is that of the surfaces at these positions: normals of nodes, indexed as `position`.
 struct ContactScene {
   std::span<const ContactBody> bodies;
   std::span<const Vec3d> position;

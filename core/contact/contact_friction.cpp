@@ -4,71 +4,87 @@ namespace morula {
 
 void ContactLayer::begin_step() {
   step_offsets_ = offsets_;
-  for (SurfacePair& pair : pairs_)
-    for (int d = 0; d < 2; ++d) pair.step_elements[d] = pair.elements[d];
+  for (SurfacePair& pair : pairs_) {
+    if (pair.at_start) continue;
+    for (int d = 0; d < 2; ++d) std::swap(pair.step_elements[d], pair.elements[d]);
+    pair.at_start = true;
+  }
 }
 
 namespace {
 
-/// Adds a·u + b (n·u) n of one element to its points' sums and returns uᵀ(…)u; u is the jump of the displacement.
-struct FrictionScatter {
-  const FaceQuadrature& quadrature;
-  std::span<const Vec3d> displacement;
-  std::span<Vec3d> out;
-  const ContactBody& source;
-  const ContactBody* target;  ///< null: an obstacle
-  double normal_friction, tangential_friction;
-  Vec3d rigid_displacement;
+/// A body's points in a friction sum; null where it is an obstacle.
+struct RubbingBody {
+  const ContactBody* body;
+  const Vec3d *position, *start;  ///< of its first point
+  Vec3d* out;                     ///< of its first point; null: not written
 
-  double operator()(const ContactElement& e) const {
-    const Triangle& s = source.topology->faces()[e.source_face()];
-    const auto& beta = quadrature.weight[e.point()];
-    Vec3d u = -rigid_displacement;
-    for (std::size_t i = 0; i < 3; ++i) u += displacement[source.first_point + s[i]] * beta[i];
-    Triangle t{0, 0, 0};
-    double mu[3] = {1.0, 0.0, 0.0};
-    if (target != nullptr) {
-      if (target->topology != nullptr) {
-        t = target->topology->faces()[e.target];
-        e.weights(mu);
-      }
-      for (std::size_t j = 0; j < 3; ++j) u -= displacement[target->first_point + t[j]] * mu[j];
-    }
-    const Vec3d n = e.normal<double>();
-    const double w = e.w;
-    const Vec3d f = u * (w * tangential_friction) + n * (w * (normal_friction - tangential_friction) * dot(n, u));
-    if (source.active())
-      for (std::size_t i = 0; i < 3; ++i) out[source.first_point + s[i]] += f * beta[i];
-    if (target != nullptr && target->active())
-      for (std::size_t j = 0; j < 3; ++j) out[target->first_point + t[j]] -= f * mu[j];
-    return dot(f, u);
-  }
+  RubbingBody(const ContactBody* b, std::span<const Vec3d> positions, std::span<const Vec3d> starts, std::span<Vec3d> outs)
+      : body(b),
+        position(b == nullptr ? nullptr : positions.data() + b->first_point),
+        start(b == nullptr ? nullptr : starts.data() + b->first_point),
+        out(b == nullptr || !b->active() ? nullptr : outs.data() + b->first_point) {}
+  [[nodiscard]] PaddedVec3::Vector way(std::uint32_t node) const { return PaddedVec3::of(position[node]) - PaddedVec3::of(start[node]); }
 };
+
+/// Adds a·u + b (n·u) n of all points of one body against the other to their nodes and returns the sum of uᵀ(…)u; u is the jump of the
+/// displacement. The points of a face come one after the other.
+double rub(std::span<const ContactElement> elements, const FaceQuadrature& quadrature, const ContactMaterial& contact,
+           const RubbingBody& source, const RubbingBody& target, const Vec3d& rigid_displacement) {
+  using Vector = PaddedVec3::Vector;
+  const double normal = contact.normal_friction, tangential = contact.tangential_friction;
+  const Vector rest = -PaddedVec3::of(rigid_displacement);
+  const auto dot3 = [](Vector a, Vector b) {
+    const Vector m = a * b;
+    return m[0] + m[1] + m[2];
+  };
+  const auto add = [](Vec3d& to, Vector v) { to += Vec3d{v[0], v[1], v[2]}; };
+  double sum = 0.0;
+  for (std::size_t k = 0; k < elements.size();) {
+    const std::uint32_t face = elements[k].source_face();
+    const Triangle& s = source.body->topology->faces()[face];
+    const Vector d[3] = {source.way(s[0]), source.way(s[1]), source.way(s[2])};
+    Vector of_face[3] = {};
+    for (; k < elements.size() && elements[k].source_face() == face; ++k) {
+      const ContactElement& e = elements[k];
+      const auto& beta = quadrature.weight[e.point()];
+      Vector u = rest + d[0] * beta[0] + d[1] * beta[1] + d[2] * beta[2];
+      Triangle t{0, 0, 0};
+      double mu[3] = {1.0, 0.0, 0.0};
+      if (target.body != nullptr && target.body->topology != nullptr) {
+        t = target.body->topology->faces()[e.target];
+        e.weights(mu);
+        u -= target.way(t[0]) * mu[0] + target.way(t[1]) * mu[1] + target.way(t[2]) * mu[2];
+      } else if (target.body != nullptr) {
+        u -= target.way(0);
+      }
+      const Vector n = PaddedVec3::of(e.normal<double>());
+      const double w = e.w;
+      const Vector f = u * (w * tangential) + n * (w * (normal - tangential) * dot3(n, u));
+      for (std::size_t i = 0; i < 3; ++i) of_face[i] += f * beta[i];
+      if (target.out != nullptr)
+        for (std::size_t j = 0; j < 3; ++j)
+          if (mu[j] != 0.0) add(target.out[t[j]], f * -mu[j]);
+      sum += dot3(f, u);
+    }
+    if (source.out != nullptr)
+      for (std::size_t i = 0; i < 3; ++i) add(source.out[s[i]], of_face[i]);
+  }
+  return sum;
+}
 
 }  // namespace
 
-void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const Vec3d> displacement, std::span<Vec3d> out,
+void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const Vec3d> start, bool moved, std::span<Vec3d> out,
                                      OrderFreeSum& quadratic) const {
   const auto& quadrature = FaceQuadrature::with_points(settings_.points_per_face);
   for (const SurfacePair& pair : pairs_) {
+    if (!moved && !pair.rigid) continue;
+    const RubbingBody body[2] = {{&scene.bodies[pair.a], scene.position, start, out},
+                                 {pair.rigid ? nullptr : &scene.bodies[pair.b], scene.position, start, out}};
+    const Vec3d rigid = pair.rigid ? offsets_[pair.b] - step_offsets_[pair.b] : Vec3d{};
     double sum = 0.0;
-    for (int d = 0; d < 2; ++d) {
-      const ContactBody& a = scene.bodies[pair.a];
-      const ContactBody* b = pair.rigid ? nullptr : &scene.bodies[pair.b];
-      const ContactBody* source = d == 0 ? &a : b;
-      const ContactBody* target = d == 0 ? b : &a;
-      if (source == nullptr) continue;
-      const ContactMaterial& contact = material_of(scene, pair);
-      const FrictionScatter scatter{quadrature,
-                                    displacement,
-                                    out,
-                                    *source,
-                                    target,
-                                    contact.normal_friction,
-                                    contact.tangential_friction,
-                                    pair.rigid ? offsets_[pair.b] - step_offsets_[pair.b] : Vec3d{}};
-      for (const ContactElement& e : pair.step_elements[d]) sum += scatter(e);
-    }
+    for (int d = 0; d < 2; ++d) sum += rub(pair.step_elements[d], quadrature, material_of(scene, pair), body[d], body[1 - d], rigid);
     if (scene.bodies[pair.a].owned) quadratic.add(sum);
   }
 }
@@ -77,7 +93,7 @@ std::vector<ElementGroup> ContactLayer::element_groups(const ContactScene& scene
   std::vector<ElementGroup> groups;
   groups.reserve(pairs_.size());
   for (const SurfacePair& pair : pairs_) {
-    if (pair.elements[0].empty() && pair.elements[1].empty()) continue;
+    if (pair.present(0).empty() && pair.present(1).empty()) continue;
     const ContactMaterial& contact = material_of(scene, pair);
     ElementGroup& group = groups.emplace_back();
     group.rigid = pair.rigid;
@@ -86,7 +102,7 @@ std::vector<ElementGroup> ContactLayer::element_groups(const ContactScene& scene
     for (std::size_t side = 0; side < (pair.rigid ? 1 : 2); ++side) {
       const std::uint32_t number = side == 0 ? pair.a : pair.b;
       const ContactBody& body = scene.bodies[number];
-      group.elements[side] = pair.elements[side];
+      group.elements[side] = pair.present(side);
       group.topology[side] = body.topology;
       group.body[side] = number;
       group.first[side] = body.first_point;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace morula {
 namespace {
@@ -9,6 +10,7 @@ namespace {
 constexpr double kFloatRounding = 1.0 / (1 << 24);  // relative, of a number kept as float
 
 Vec3f to_float(const Vec3d& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+Vec3d to_double(const Vec3f& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
@@ -36,27 +38,13 @@ void ContactLayer::set_cap(double cap) {
 PairBody ContactLayer::view(const ContactScene& scene, const SurfacePair& pair, int which) const {
   if (which == 1 && pair.rigid) {
     const RigidSurface& obstacle = obstacles_[pair.b];
-    return {obstacle.topology.get(),
-            obstacle.position,
-            obstacle.geometry.face_normal,
-            obstacle.geometry.face_area,
-            obstacle.geometry.node_normal,
-            offsets_[pair.b],
-            0.0};
+    return {obstacle.topology.get(), obstacle.position, obstacle.geometry.node_normal, offsets_[pair.b], 0.0};
   }
   const ContactBody& body = scene.bodies[which == 0 ? pair.a : pair.b];
   const Vec3d shift = which == 0 ? Vec3d{} : pair.shift;
   const auto points = scene.position.subspan(body.first_point, body.point_count);
-  if (body.shape == BodyShape::kSphere) return {nullptr, points, {}, {}, {}, shift, body.radius};
-  const SurfaceGeometry& geometry = *scene.geometry;
-  const std::size_t faces = body.topology->face_count();
-  return {body.topology,
-          points,
-          std::span(geometry.face_normal).subspan(body.first_face, faces),
-          std::span(geometry.face_area).subspan(body.first_face, faces),
-          std::span(geometry.node_normal).subspan(body.first_point, body.point_count),
-          shift,
-          0.0};
+  if (body.shape == BodyShape::kSphere) return {nullptr, points, {}, shift, body.radius};
+  return {body.topology, points, std::span(scene.geometry->node_normal).subspan(body.first_point, body.point_count), shift, 0.0};
 }
 
 double ContactLayer::patch_motion(const ContactScene& scene, const SurfacePair& pair) const {
@@ -73,17 +61,17 @@ double ContactLayer::patch_motion(const ContactScene& scene, const SurfacePair& 
     }
     Box box;
     const std::uint32_t first = scene.bodies[body].first_point;
-    for (const std::uint16_t node : pair.node[which]) box.include(scene.position[first + node] - last_position_[first + node]);
+    for (const std::uint16_t node : pair.node[which]) box.include(scene.position[first + node] - to_double(known_at_[first + node]));
     if (pair.node[which].empty()) continue;
-    side[which] = {box.center(), 0.5 * norm(box.high - box.low)};
+    side[which] = {box.center(), 0.5 * norm(box.high - box.low) + rounding_};
   }
   return (norm(side[0].mean - side[1].mean) + side[0].deviation + side[1].deviation) * 1.000001;
 }
 
 bool ContactLayer::note_motion(const ContactScene& scene) {
   if (fresh_ || last_radius_.size() != scene.bodies.size()) return true;
-  if (pairs_.empty()) return listed_at_.size() != scene.position.size() || note_travel(scene);
-  if (last_position_.size() != scene.position.size()) return true;
+  if (known_at_.size() != scene.position.size()) return true;
+  if (pairs_.empty()) return note_travel(scene);
   double most = 0.0;
   const double limit = 0.5 * settings_.body_skin;
 #pragma omp parallel for schedule(static) num_threads(settings_.threads) reduction(max : most)
@@ -91,12 +79,12 @@ bool ContactLayer::note_motion(const ContactScene& scene) {
     const ContactBody& body = scene.bodies[i];
     BodyMotion motion;
     for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p)
-      motion.mean += scene.position[p] - last_position_[p];
+      motion.mean += scene.position[p] - to_double(known_at_[p]);
     motion.mean *= 1.0 / body.point_count;
     double deviation2 = 0.0;
     for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p)
-      deviation2 = std::max(deviation2, norm2(scene.position[p] - last_position_[p] - motion.mean));
-    motion.deviation = std::sqrt(deviation2) + std::abs(body.radius - last_radius_[i]);
+      deviation2 = std::max(deviation2, norm2(scene.position[p] - to_double(known_at_[p]) - motion.mean));
+    motion.deviation = std::sqrt(deviation2) + rounding_ + std::abs(body.radius - last_radius_[i]);
     last_radius_[i] = body.radius;
     motion_[i] = motion;
     travel_[i] += (norm(motion.mean) + motion.deviation) * 1.000001;
@@ -114,10 +102,21 @@ bool ContactLayer::note_motion(const ContactScene& scene) {
     pair.motion += whole;
     pair.patch_motion += std::min(whole, patch_motion(scene, pair));
   }
-  std::copy(scene.position.begin(), scene.position.end(), last_position_.begin());
+  know_positions(scene);
   last_offsets_ = offsets_;
   wear_ = std::max(most, obstacle_travel_) / limit;
   return wear_ > 1.0;
+}
+
+void ContactLayer::know_positions(const ContactScene& scene) {
+  known_at_.resize(scene.position.size());
+  double largest = 0.0;
+  for (std::size_t p = 0; p < known_at_.size(); ++p) {
+    const Vec3d& x = scene.position[p];
+    known_at_[p] = to_float(x);
+    largest = std::max({largest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+  }
+  rounding_ = kFloatRounding * std::numbers::sqrt3 * largest;
 }
 
 bool ContactLayer::note_travel(const ContactScene& scene) {
@@ -127,8 +126,7 @@ bool ContactLayer::note_travel(const ContactScene& scene) {
     const ContactBody& body = scene.bodies[i];
     const double growth = std::abs(body.radius - last_radius_[i]);
     for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p) {
-      const Vec3d there{listed_at_[p].x, listed_at_[p].y, listed_at_[p].z};
-      most = std::max(most, norm(scene.position[p] - there) + kFloatRounding * norm(there) + growth);
+      most = std::max(most, norm(scene.position[p] - to_double(known_at_[p])) + rounding_ + growth);
     }
   }
   for (std::size_t i = 0; i < offsets_.size(); ++i) most = std::max(most, norm(offsets_[i] - last_offsets_[i]));
@@ -195,6 +193,7 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
     }
   }
   add_obstacle_pairs(scene);
+  pairs_.shrink_to_fit();
 
   if (!fresh_) {  // keep the lists of pairs that stay; both sequences come in canonical order, obstacles last
     const auto key = [&](const SurfacePair& pair) {
@@ -213,17 +212,13 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
     pairs_of_kind_[with_sphere ? 1 : 0].push_back(k);
   }
   if (pairs_.empty()) {  // spheres alone: they need no motions
-    std::vector<Vec3d>().swap(last_position_);
     std::vector<BodyMotion>().swap(motion_);
     std::vector<double>().swap(travel_);
-    listed_at_.resize(scene.position.size());
-    for (std::size_t p = 0; p < listed_at_.size(); ++p) listed_at_[p] = to_float(scene.position[p]);
   } else {
-    std::vector<Vec3f>().swap(listed_at_);
-    last_position_.assign(scene.position.begin(), scene.position.end());
     motion_.assign(n, {});
     travel_.assign(n, 0.0);
   }
+  know_positions(scene);
   last_offsets_ = offsets_;
   last_radius_.resize(n);
   for (std::size_t i = 0; i < n; ++i) last_radius_[i] = scene.bodies[i].radius;
@@ -252,16 +247,19 @@ void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {
       if (box.overlaps(other)) faces[which].push_back(face);
     }
   }
+  PointsAgainstBody lists[2], old;
   for (int d = 0; d < 2; ++d) {
-    if (body[d].topology == nullptr || (pair.rigid && d == 1)) {
-      pair.points[d] = {};
-      continue;
+    lists[d].clear();
+    if (body[d].topology != nullptr && !(pair.rigid && d == 1)) {
+      pair.points[d].unpack(old);
+      build_point_lists(body[d], body[1 - d], reach(), settings_.points_per_face, faces[1 - d], old, pair.patch_motion,
+                        pair.motion - pair.built_at, lists[d]);
     }
-    build_point_lists(body[d], body[1 - d], reach(), settings_.points_per_face, faces[1 - d], pair.patch_motion,
-                      pair.motion - pair.built_at, pair.points[d]);
+    pair.points[d].pack(lists[d]);
   }
-  collect_pair_nodes(body[0].topology, body[1].topology, pair);
+  collect_pair_nodes(body[0].topology, body[1].topology, lists, pair);
   pair.built_at = pair.motion;
+  pair.patch_motion = 0.0;
 }
 
 void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& workspace) {
@@ -284,15 +282,39 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
   contact.normal_friction *= hold_;
   contact.tangential_friction *= hold_;
   for (int d = 0; d < 2; ++d) {
-    if (pair.points[d].source_face.empty()) continue;
+    if (pair.points[d].empty()) continue;
     evaluate_points({body[d], body[1 - d], contact, FaceQuadrature::with_points(settings_.points_per_face), reach(), both ? 0.5 : 1.0,
                      pair.patch_motion, pair.motion - pair.built_at, !pair.rigid},
                     d, pair, gradient, workspace);
+    if (!both && !pair.rigid && !packing_.empty())
+      add_packing(body[d], body[1 - d], FaceQuadrature::with_points(settings_.points_per_face), packing_[d == 0 ? pair.b : pair.a], d, pair,
+                  gradient);
   }
   pair.area = gradient[0].contact_area + gradient[1].contact_area;
   if (!pair.rigid) return;
   // Areas and normals belong to the cell: their share of its force is zero in sum.
   for (const std::uint16_t node : pair.node[0]) pair.push -= gradient[0].force[node].value();
+}
+
+void ContactLayer::find_penetration(const ContactScene& scene, std::span<Penetration> by_body) {
+  const std::vector<std::uint32_t>& list = pairs_of_kind_[static_cast<std::size_t>(SurfacePairKind::kWithSphere)];
+  std::vector<Penetration> of_pair(list.size());
+#pragma omp parallel for schedule(dynamic, 8) num_threads(settings_.threads)
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    SurfacePair& pair = pairs_[list[k]];
+    if (pair.motion - pair.built_at > settings_.skin) rebuild_lists(scene, pair);
+    const PairBody body[2] = {view(scene, pair, 0), view(scene, pair, 1)};
+    const int d = body[0].topology != nullptr ? 0 : 1;
+    std::vector<std::uint32_t> faces;
+    pair.points[d].unpack_source_faces(faces);
+    of_pair[k] = penetration(body[d], body[1 - d], FaceQuadrature::with_points(settings_.points_per_face), faces);
+  }
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const SurfacePair& pair = pairs_[list[k]];
+    Penetration& sum = by_body[scene.bodies[pair.a].topology == nullptr ? pair.a : pair.b];
+    sum.volume += of_pair[k].volume;
+    sum.slope += of_pair[k].slope;
+  }
 }
 
 void ContactLayer::evaluate(const ContactScene& scene, SurfacePairKind kind, ContactGradient& gradient) {
@@ -329,8 +351,8 @@ void ContactLayer::collect(const ContactScene& scene, const SurfacePair& pair, i
   for (const std::uint16_t node : pair.node[side]) gradient.force[body.first_point + node] += part.force[node].value();
   if (part.has_node_normal)
     for (const std::uint16_t node : pair.node[side]) gradient.node_normal[body.first_point + node] += part.node_normal[node];
-  const auto& faces = pair.points[side].source_face;
-  for (std::size_t m = 0; m < faces.size(); ++m) gradient.face_energy[body.first_face + faces[m]] += part.face_energy[m];
+  for (std::size_t m = 0; m < part.source_face.size(); ++m)
+    gradient.face_energy[body.first_face + part.source_face[m]] += part.face_energy[m];
   if (body.shape == BodyShape::kSurface) gradient.contact_area[number] += part.contact_area;
 }
 
@@ -363,13 +385,11 @@ const SurfacePair* ContactLayer::deepest(const ContactScene& scene) const {
 
 std::size_t ContactLayer::memory() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
-  std::size_t total = bytes(pairs_) + bytes(spheres_) + bytes(pairs_of_kind_[0]) + bytes(pairs_of_kind_[1]) + bytes(last_position_) +
-                      bytes(motion_) + bytes(last_radius_) + bytes(travel_) + bytes(listed_at_);
+  std::size_t total = bytes(pairs_) + bytes(spheres_) + bytes(pairs_of_kind_[0]) + bytes(pairs_of_kind_[1]) + bytes(motion_) +
+                      bytes(last_radius_) + bytes(travel_) + bytes(known_at_);
   for (const SurfacePair& pair : pairs_)
     for (int d = 0; d < 2; ++d) {
-      const PointsAgainstBody& p = pair.points[d];
-      total += bytes(p.source_face) + bytes(p.target_face) + bytes(p.first_candidate) + bytes(p.candidate) + bytes(p.nearest) +
-               bytes(p.good_until) + bytes(pair.node[d]) + bytes(pair.elements[d]) + bytes(pair.step_elements[d]);
+      total += pair.points[d].memory() + bytes(pair.node[d]) + bytes(pair.elements[d]) + bytes(pair.step_elements[d]);
     }
   return total;
 }

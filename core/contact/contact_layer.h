@@ -6,6 +6,7 @@
 
 #include "core/contact/broad_phase.h"
 #include "core/contact/contact_body.h"
+#include "core/contact/packing_points.h"
 #include "core/contact/surface_pair.h"
 #include "core/friction/contact_element.h"
 #include "core/mesh/triangle_tree.h"
@@ -80,6 +81,10 @@ class ContactLayer {
 
   /// Narrow phase of the surface pairs of one kind at the present positions: energies and elements, kept; gradients are added to `gradient`.
   void evaluate(const ContactScene& scene, SurfacePairKind kind, ContactGradient& gradient);
+  /// What surfaces take of each sphere at the present positions, added to `by_body` in canonical order; before evaluate() of that kind.
+  void find_penetration(const ContactScene& scene, std::span<Penetration> by_body);
+  /// Pressures of spheres by body (of surfaces: ignored), from here on; none: spheres do not resist their packing.
+  void set_packing(std::span<const SpherePressure> by_body) { packing_.assign(by_body.begin(), by_body.end()); }
   [[nodiscard]] bool has_pairs(SurfacePairKind kind) const { return !pairs_of_kind_[static_cast<std::size_t>(kind)].empty(); }
 
   /// Energy of the pairs that this rank counts (those whose first body it owns), added to an order-free sum.
@@ -89,8 +94,9 @@ class ContactLayer {
 
   /// Keep the present friction as that of the step (Γ_n).
   void begin_step();
-  /// Friction of the step's start applied to a displacement (obstacles have moved since begin_step()): adds Γ_n d to `out` (owned points) and returns dᵀΓ_n d of the counted pairs.
-  void add_step_friction(const ContactScene& scene, std::span<const Vec3d> displacement, std::span<Vec3d> out,
+  /// Friction of the step's start applied to the way d of all points from `start` (obstacles have moved since begin_step()): adds Γ_n d to `out`
+  /// (owned points) and dᵀΓ_n d of the counted pairs to the sum. `moved`: false where all points are at the start.
+  void add_step_friction(const ContactScene& scene, std::span<const Vec3d> start, bool moved, std::span<Vec3d> out,
                          OrderFreeSum& quadratic) const;
   /// Element groups for the friction system, in canonical order.
   [[nodiscard]] std::vector<ElementGroup> element_groups(const ContactScene& scene) const;
@@ -117,6 +123,7 @@ class ContactLayer {
   /// note_motion() where there are no pairs of surfaces: nothing but the distance from where the list was built is of interest.
   [[nodiscard]] bool note_travel(const ContactScene& scene);
   [[nodiscard]] double patch_motion(const ContactScene& scene, const SurfacePair& pair) const;
+  void know_positions(const ContactScene& scene);
   void add_obstacle_pairs(const ContactScene& scene);
   [[nodiscard]] ListReach reach() const { return {settings_.range, settings_.skin, settings_.depth}; }
 
@@ -134,10 +141,11 @@ class ContactLayer {
   bool fresh_ = true;
 
   std::vector<SurfacePair> pairs_;
+  std::vector<SpherePressure> packing_;  ///< by body; empty: none
   std::vector<SphereNeighbours> spheres_;
   std::vector<std::uint32_t> pairs_of_kind_[2];  ///< by SurfacePairKind
-  std::vector<Vec3d> last_position_;             ///< at the last note_motion(); empty if there are no pairs
-  std::vector<Vec3f> listed_at_;                 ///< where the points were at the last rebuild(), if there are no pairs
+  std::vector<Vec3f> known_at_;  ///< where the points were at the last note_motion(); if there are no pairs, at the last rebuild()
+  double rounding_ = 0.0;        ///< how far that may be off [µm]
   std::vector<BodyMotion> motion_;
   std::vector<double> last_radius_;  ///< of spheres: growth counts as motion
   std::vector<double> travel_;       ///< by body: bound on the way of its points since the list of pairs was built

@@ -42,6 +42,12 @@ struct TargetNormal {
   double length;  ///< of the interpolated vector
 };
 
+/// Face that a point lies on.
+struct SourceFace {
+  Vec3d normal;  ///< n_T
+  double area;   ///< A_T
+};
+
 /// Gradient through the weights μ_j of the foot point, which slides on its feature: c_j = ∂E/∂μ_j.
 void add_foot_gradient(const PointsEvaluation& e, int q, const Triangle& t, const PointGap& gap, const double (&c)[3], Sink& sink) {
   const Vec3d y[3] = {e.target.node(t[0]), e.target.node(t[1]), e.target.node(t[2])};
@@ -72,9 +78,9 @@ void add_foot_gradient(const PointsEvaluation& e, int q, const Triangle& t, cons
 }
 
 /// Forces on the corners of the source face from h = ∂E/∂n_T: F_c = e_c × w, w = (I − n_T n_Tᵀ) h/(2 A_T), e_c the edge opposite to c.
-void add_face_normal_gradient(const PairBody& source, std::uint32_t face, const Vec3d& h, Sink& sink) {
-  const Vec3d& n = source.face_normal[face];
-  const Vec3d w = (h - n * dot(n, h)) * (0.5 / source.face_area[face]);
+void add_face_normal_gradient(const PairBody& source, const SourceFace& face, const Vec3d& h, Sink& sink) {
+  const Vec3d& n = face.normal;
+  const Vec3d w = (h - n * dot(n, h)) * (0.5 / face.area);
   const Vec3d& x0 = source.position[sink.source_node[0]];
   const Vec3d& x1 = source.position[sink.source_node[1]];
   const Vec3d& x2 = source.position[sink.source_node[2]];
@@ -85,10 +91,10 @@ void add_face_normal_gradient(const PairBody& source, std::uint32_t face, const 
 }
 
 /// Gradient through the opposed-normal weight: `h0` = ∂E/∂m with m = −n_T·n_y.
-void add_weight_gradient(const PointsEvaluation& e, int q, std::uint32_t face, const Triangle* t, const PointGap& gap,
+void add_weight_gradient(const PointsEvaluation& e, int q, const SourceFace& face, const Triangle* t, const PointGap& gap,
                          const TargetNormal& normal, double h0, Sink& sink) {
   add_face_normal_gradient(e.source, face, normal.unit * -h0, sink);
-  const Vec3d h = e.source.face_normal[face] * -h0;  // ∂E/∂n_y
+  const Vec3d h = face.normal * -h0;  // ∂E/∂n_y
   const Vec3d across = (h - normal.unit * dot(normal.unit, h)) * (1.0 / normal.length);
   if (t == nullptr) {  // n_y = (x_q − x)/|x_q − x| of a sphere
     const Vec3d force = across * (1.0 / (gap.gap + e.target.radius));
@@ -112,9 +118,10 @@ using Vector = Vec3<Real>;
 
 /// Up to 8 points and their nearest faces, in lanes.
 struct alignas(64) Batch {
-  double point[3][kLanes], source_normal[3][kLanes], area[kLanes];
+  double point[3][kLanes], source_corner[3][3][kLanes];
   double corner[3][3][kLanes], node_normal[3][3][kLanes];
   // results
+  double source_normal[3][kLanes], face_area[kLanes], area[kLanes];  ///< of the source's face; what the point stands for
   double gap[kLanes], normal[3][kLanes], mu[3][kLanes];
   double unit[3][kLanes], length[kLanes];  ///< normal of the target at the foot point
   double weight_slope[kLanes], attraction[kLanes], density[kLanes], ramp[kLanes], pull[3][kLanes];
@@ -192,16 +199,22 @@ void gaps_to_sphere(const PairBody& target, Batch& batch) {
 /// Energies, tractions and stiffness at the gaps.
 void respond(const PointsEvaluation& e, Batch& batch) {
   const TractionLaw& law = e.material.law;
+  const Vector x0 = load(batch.source_corner[0]);
+  const Vector twice = cross(load(batch.source_corner[1]) - x0, load(batch.source_corner[2]) - x0);
+  const Real length = norm(twice), face_area = length * Real(0.5);
+  const Vector source_normal = twice * (Real(1.0) / length);
+  store(batch.source_normal, source_normal);
+  face_area.store(batch.face_area);
   const Real gap = Real::load(batch.gap);
-  const auto weight = OpposedWeight::of(-dot(load(batch.source_normal), load(batch.unit)));
+  const auto weight = OpposedWeight::of(-dot(source_normal, load(batch.unit)));
   const auto attraction = law.attraction(gap);
   const auto repulsion = law.repulse(gap);
   const Real part(1.0 / e.quadrature.count);
-  const Real area = Real::load(batch.area) * Real(e.share) * part;
+  const Real area = face_area * Real(e.share) * part;
   weight.slope.store(batch.weight_slope);
   (area * attraction.energy).store(batch.attraction);
   (weight.value * attraction.energy + repulsion.energy).store(batch.density);
-  (Real::load(batch.area) * part * contact_ramp(gap, law.range)).store(batch.ramp);
+  (face_area * part * contact_ramp(gap, law.range)).store(batch.ramp);
   store(batch.pull, load(batch.normal) * (area * (weight.value * attraction.slope + repulsion.slope)));
   (area * friction_weight(gap, law.range)).store(batch.bearing);
   (area * (weight.value * attraction.curvature + repulsion.curvature)).store(batch.stiffness);
@@ -216,7 +229,7 @@ Vec3d quadrature_point(const PointsEvaluation& e, const Triangle& t, int q) {
   return e.source.node(t[0]) * beta[0] + e.source.node(t[1]) * beta[1] + e.source.node(t[2]) * beta[2];
 }
 
-/// The points that may be in range, with their nearest faces; those that surely are not are left out.
+/// The points that may be in range, with the nearest faces known; those that surely are not are left out.
 void collect_points(const PointsEvaluation& e, PointsAgainstBody& lists, PointsWorkspace& ws) {
   ws.points.clear();
   ws.search.clear();
@@ -234,14 +247,12 @@ void collect_points(const PointsEvaluation& e, PointsAgainstBody& lists, PointsW
       ws.points.push_back({quadrature_point(e, t, static_cast<int>(q)), k, static_cast<std::uint16_t>(q), guess});
     }
   }
-  find_nearest_faces(e, lists, ws);
 }
 
 void fill(const PointsEvaluation& e, const PointsAgainstBody& lists, const ContactPoint& p, int lane, Batch& batch) {
-  const std::uint32_t face = lists.source_face[p.source_place];
   put(batch.point, lane, p.position);
-  put(batch.source_normal, lane, e.source.face_normal[face]);
-  batch.area[lane] = e.source.face_area[face];
+  const Triangle& s = e.source.topology->faces()[lists.source_face[p.source_place]];
+  for (std::size_t k = 0; k < 3; ++k) put(batch.source_corner[k], lane, e.source.position[s[k]]);
   if (e.target.topology == nullptr) return;
   const Triangle& t = e.target.topology->faces()[lists.target_face[p.place]];
   for (std::size_t k = 0; k < 3; ++k) {
@@ -251,9 +262,8 @@ void fill(const PointsEvaluation& e, const PointsAgainstBody& lists, const Conta
 }
 
 /// Add one point's share to the pair.
-void add_point(const PointsEvaluation& e, int d, const ContactPoint& p, const Batch& batch, int lane, SurfacePair& pair,
-               PairGradient (&gradient)[2], std::vector<ContactElement>& elements) {
-  const PointsAgainstBody& lists = pair.points[d];
+void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists, const ContactPoint& p, const Batch& batch, int lane,
+               SurfacePair& pair, PairGradient (&gradient)[2], std::vector<ContactElement>& elements) {
   const std::uint32_t face = lists.source_face[p.source_place];
   const bool sphere = e.target.topology == nullptr;
   Sink sink{gradient[d], e.target_moves ? &gradient[1 - d] : nullptr, e.source.topology->faces()[face], {0, 0, 0}};
@@ -276,8 +286,8 @@ void add_point(const PointsEvaluation& e, int d, const ContactPoint& p, const Ba
     sink.push_target(gap.mu, pull);
   if (batch.weight_slope[lane] != 0.0) {
     const Triangle* target_face = sphere ? nullptr : &e.target.topology->faces()[lists.target_face[p.place]];
-    add_weight_gradient(e, p.q, face, target_face, gap, {get(batch.unit, lane), batch.length[lane]},
-                        batch.weight_slope[lane] * batch.attraction[lane], sink);
+    add_weight_gradient(e, p.q, {get(batch.source_normal, lane), batch.face_area[lane]}, target_face, gap,
+                        {get(batch.unit, lane), batch.length[lane]}, batch.weight_slope[lane] * batch.attraction[lane], sink);
   }
   ContactElement& element = elements.emplace_back();
   element.source = 4 * face + p.q;
@@ -285,14 +295,19 @@ void add_point(const PointsEvaluation& e, int d, const ContactPoint& p, const Ba
   element.set_weights(batch.rounded_mu[0][lane], batch.rounded_mu[1][lane]);
   for (std::size_t k = 0; k < 3; ++k) element.n[k] = static_cast<std::int16_t>(batch.rounded_normal[k][lane]);
   element.w = static_cast<float>(batch.bearing[lane]);
-  element.k = static_cast<float>(batch.stiffness[lane]);
+  element.set_stiffness(static_cast<float>(batch.stiffness[lane]));
 }
 
 }  // namespace
 
 void evaluate_points(const PointsEvaluation& e, int d, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& ws) {
-  PointsAgainstBody& lists = pair.points[d];
+  PointsAgainstBody& lists = ws.lists;
+  pair.points[d].unpack(lists);
   collect_points(e, lists, ws);
+  if (!ws.search.empty()) {
+    pair.points[d].unpack_candidates(lists);
+    find_nearest_faces(e, lists, ws);
+  }
   if (e.target.topology != nullptr) {  // what has no face within reach is out of range
     const auto index = [&](const ContactPoint& p) { return p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q; };
     std::erase_if(ws.points, [&](const ContactPoint& p) {
@@ -319,9 +334,11 @@ void evaluate_points(const PointsEvaluation& e, int d, SurfacePair& pair, PairGr
       const ContactPoint& p = ws.points[first + static_cast<std::size_t>(lane)];
       const double gap = batch.gap[lane];
       if (p.second >= 0.0) remember(p, gap, p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q, e, lists);
-      if (gap < e.material.law.range) add_point(e, d, p, batch, lane, pair, gradient, ws.elements);
+      if (gap < e.material.law.range) add_point(e, d, lists, p, batch, lane, pair, gradient, ws.elements);
     }
   }
+  pair.points[d].update(lists);
+  std::swap(gradient[d].source_face, lists.source_face);
   pair.elements[d].assign(ws.elements.begin(), ws.elements.end());  // no more room than needed: they live long
 }
 

@@ -14,12 +14,12 @@ namespace {
 /// node (Bærentzen & Aanæs 2005, doi:10.1109/TVCG.2005.49).
 Vec3d pseudonormal(const PairBody& target, std::uint32_t face, const double (&mu)[3]) {
   const int zeros = (mu[0] == 0.0) + (mu[1] == 0.0) + (mu[2] == 0.0);
-  if (zeros == 0) return target.face_normal[face];
+  if (zeros == 0) return target.face_normal(face);
   const Topology& topology = *target.topology;
   if (zeros == 1) {
     const int opposite = mu[0] == 0.0 ? 0 : mu[1] == 0.0 ? 1 : 2;
     const Edge& edge = topology.edges()[topology.face_edges()[face][static_cast<std::size_t>(opposite)]];
-    return target.face_normal[edge.left] + target.face_normal[edge.right];
+    return target.face_normal(edge.left) + target.face_normal(edge.right);
   }
   const int corner = mu[0] != 0.0 ? 0 : mu[1] != 0.0 ? 1 : 2;
   const std::uint32_t node = topology.faces()[face][static_cast<std::size_t>(corner)];
@@ -27,7 +27,7 @@ Vec3d pseudonormal(const PairBody& target, std::uint32_t face, const double (&mu
   for (const std::uint32_t f : topology.faces_of_node(node)) {
     const Triangle& t = topology.faces()[f];
     const int c = t[0] == node ? 0 : t[1] == node ? 1 : 2;
-    sum += target.face_normal[f] * corner_angle(t, c, target.position);
+    sum += target.face_normal(f) * corner_angle(t, c, target.position);
   }
   return sum;
 }
@@ -172,7 +172,7 @@ void remember(const ContactPoint& point, double gap, std::size_t index, const Po
   else  // no other face can be nearer while twice the motion is less than the lead of the nearest one
     clear = 0.5 * (std::min(point.second, reach) - std::abs(gap));
   lists.nearest[index] = static_cast<std::uint16_t>(asleep ? point.place | kAsleep : point.place);
-  lists.good_until[index] = static_cast<float>((e.motion + clear * kSafety) * (1.0 - 1e-6));
+  lists.good_until[index] = static_cast<float>(std::max(0.0, (e.motion + clear * kSafety) * (1.0 - 1e-6)));
 }
 
 }  // namespace morula

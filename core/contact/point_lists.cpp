@@ -90,8 +90,10 @@ void sort_unique(std::vector<std::uint16_t>& nodes) {
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 }
 
-/// Carry over the nearest faces as guesses, and let points sleep on: at most until `longest`, since there are new candidates.
-void keep_what_is_known(const PointsAgainstBody& old, std::size_t points_per_face, double longest, PointsAgainstBody& lists) {
+/// Carry over the nearest faces as guesses, and let points sleep on: at most until `longest`, since there are new candidates. `motion` is
+/// that since the old lists were built.
+void keep_what_is_known(const PointsAgainstBody& old, std::size_t points_per_face, double motion, double longest,
+                        PointsAgainstBody& lists) {
   std::size_t k = 0;
   for (std::size_t m = 0; m < lists.source_face.size(); ++m) {
     while (k < old.source_face.size() && old.source_face[k] < lists.source_face[m]) ++k;
@@ -108,7 +110,7 @@ void keep_what_is_known(const PointsAgainstBody& old, std::size_t points_per_fac
       if (!(known & kAsleep)) continue;
       now |= kAsleep;
       lists.good_until[m * points_per_face + q] =
-          std::min(old.good_until[k * points_per_face + q], static_cast<float>(longest * (1.0 - 1e-6)));
+          static_cast<float>(std::min(old.good_until[k * points_per_face + q] - motion, longest) * (1.0 - 1e-6));
     }
   }
 }
@@ -116,11 +118,9 @@ void keep_what_is_known(const PointsAgainstBody& old, std::size_t points_per_fac
 }  // namespace
 
 void build_point_lists(const PairBody& source, const PairBody& target, const ListReach& reach, int points_per_face,
-                       std::span<const std::uint32_t> target_faces, double motion, double motion_since_built, PointsAgainstBody& lists) {
-  PointsAgainstBody old;
-  std::swap(old, lists);
-  lists.first_candidate.assign(1, 0);
-
+                       std::span<const std::uint32_t> target_faces, const PointsAgainstBody& old, double motion, double motion_since_built,
+                       PointsAgainstBody& lists) {
+  lists.clear();
   const double distance = reach.candidates();
   Balls balls;
   Box near;
@@ -169,15 +169,12 @@ void build_point_lists(const PairBody& source, const PairBody& target, const Lis
   for (std::uint16_t& m : lists.candidate) m = place[m];
   const std::size_t points = lists.source_face.size() * static_cast<std::size_t>(points_per_face);
   lists.nearest.assign(points, kNoFace);
-  lists.good_until.assign(points, -1e30f);
+  lists.good_until.assign(points, 0.0f);
   // Faces that were in no list were beyond its reach, and the bodies have moved since.
-  keep_what_is_known(old, static_cast<std::size_t>(points_per_face), motion + 0.999 * (distance - motion_since_built - reach.range), lists);
-  for (auto* list : {&lists.source_face, &lists.target_face, &lists.first_candidate}) list->shrink_to_fit();  // they live long
-  for (auto* list : {&lists.candidate, &lists.nearest}) list->shrink_to_fit();
-  lists.good_until.shrink_to_fit();
+  keep_what_is_known(old, static_cast<std::size_t>(points_per_face), motion, 0.999 * (distance - motion_since_built - reach.range), lists);
 }
 
-void collect_pair_nodes(const Topology* topology_a, const Topology* topology_b, SurfacePair& pair) {
+void collect_pair_nodes(const Topology* topology_a, const Topology* topology_b, const PointsAgainstBody (&lists)[2], SurfacePair& pair) {
   const Topology* topology[2] = {topology_a, topology_b};
   std::vector<std::uint16_t> nodes;
   for (int body = 0; body < 2; ++body) {
@@ -185,8 +182,8 @@ void collect_pair_nodes(const Topology* topology_a, const Topology* topology_b, 
     if (topology[body] == nullptr) {
       nodes.push_back(0);
     } else if (!(pair.rigid && body == 1)) {
-      collect_nodes(topology[body], pair.points[body].source_face, nodes);
-      collect_nodes(topology[body], pair.points[1 - body].target_face, nodes);
+      collect_nodes(topology[body], lists[body].source_face, nodes);
+      collect_nodes(topology[body], lists[1 - body].target_face, nodes);
       sort_unique(nodes);
     }
     pair.node[body].assign(nodes.begin(), nodes.end());
@@ -194,6 +191,7 @@ void collect_pair_nodes(const Topology* topology_a, const Topology* topology_b, 
 }
 
 void clear_results(SurfacePair& pair, const std::size_t (&node_count)[2], PairGradient (&gradient)[2]) {
+  pair.at_start = false;
   pair.energy = 0.0;
   pair.overlap = 0.0;
   for (int body = 0; body < 2; ++body) {
@@ -205,7 +203,8 @@ void clear_results(SurfacePair& pair, const std::size_t (&node_count)[2], PairGr
       g.node_normal[node] = {};
     }
     g.has_node_normal = false;
-    g.face_energy.assign(pair.points[body].source_face.size(), 0.0);
+    g.face_energy.assign(pair.points[body].source_count(), 0.0);
+    g.source_face.clear();
     g.contact_area = 0.0;
     pair.elements[body].clear();
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/contact/contact_body.h"
+#include "core/contact/packed_points.h"
 #include "core/contact/traction_law.h"
 #include "core/friction/contact_element.h"
 #include "core/space/space.h"
@@ -25,13 +26,16 @@ struct ContactMaterial {
 struct PairBody {
   const Topology* topology = nullptr;
   std::span<const Vec3d> position;
-  std::span<const Vec3d> face_normal;
-  std::span<const double> face_area;
   std::span<const Vec3d> node_normal;
   Vec3d shift{};        ///< added to the positions: periodic image, or how far an obstacle has moved
   double radius = 0.0;  ///< of a sphere
 
   [[nodiscard]] Vec3d node(std::uint32_t i) const { return position[i] + shift; }
+  /// Unit and outward.
+  [[nodiscard]] Vec3d face_normal(std::uint32_t face) const {
+    const Triangle& t = topology->faces()[face];
+    return normalized(cross(position[t[1]] - position[t[0]], position[t[2]] - position[t[0]]));
+  }
   [[nodiscard]] Vec3d centroid(std::uint32_t face) const {
     const Triangle& t = topology->faces()[face];
     return (position[t[0]] + position[t[1]] + position[t[2]]) * (1.0 / 3.0) + shift;
@@ -49,21 +53,6 @@ struct ListReach {
   [[nodiscard]] double candidates() const { return (depth > range + skin ? depth : range + skin) + skin; }
 };
 
-/// Points of one body (the source) against the other (the target): candidate lists, and what can be kept between evaluations.
-///
-/// Lists and caches only save work: the nearest face is the exact nearest one whatever they hold, so that results do not depend on when
-/// they were built.
-struct PointsAgainstBody {
-  std::vector<std::uint32_t> source_face;      ///< faces of the source within reach of the target
-  std::vector<std::uint32_t> target_face;      ///< faces of the target that are a candidate of any source face
-  std::vector<std::uint32_t> first_candidate;  ///< by source face, one more at the end
-  std::vector<std::uint16_t> candidate;        ///< places in target_face, increasing
-  std::vector<std::uint16_t> nearest;          ///< by point: place of the nearest face in target_face; see kAsleep, kNoFace
-  std::vector<float> good_until;               ///< by point: the pair's patch_motion up to which `nearest` is sure
-};
-inline constexpr std::uint16_t kAsleep = 0x8000;  ///< flag: the point is out of range
-inline constexpr std::uint16_t kNoFace = 0x7FFF;  ///< no face is known
-
 /// A vector and a zero: one register.
 struct alignas(32) PaddedVec3 {
   using Vector [[gnu::vector_size(32)]] = double;
@@ -76,28 +65,32 @@ struct alignas(32) PaddedVec3 {
 /// Gradient of a pair's energy with respect to one of its bodies, good until the next pair is evaluated.
 struct PairGradient {
   std::vector<PaddedVec3> force;  ///< −∂E/∂x by node of the body, at fixed face areas and node normals [nN]; zero but at the pair's nodes
-  std::vector<Vec3d> node_normal;   ///< ∂E/∂n_v likewise [nN·µm]
-  bool has_node_normal = false;     ///< false: all of node_normal is zero
-  std::vector<double> face_energy;  ///< ∂E/∂A_T by source face [nN/µm]
-  double contact_area = 0.0;        ///< of the faces of this body (ramp c/2 .. c) [µm²]
+  std::vector<Vec3d> node_normal;          ///< ∂E/∂n_v likewise [nN·µm]
+  bool has_node_normal = false;            ///< false: all of node_normal is zero
+  std::vector<double> face_energy;         ///< ∂E/∂A_T by source face [nN/µm]
+  std::vector<std::uint32_t> source_face;  ///< these faces
+  double contact_area = 0.0;               ///< of the faces of this body (ramp c/2 .. c) [µm²]
 };
 
 /// Two bodies in touch, at least one of them a surface; body a comes first in the canonical order. A rigid obstacle is always b.
 struct SurfacePair {
   std::uint32_t a = 0, b = 0;  ///< bodies; b is the obstacle's number when `rigid`
   bool rigid = false;
-  Vec3d shift{};                ///< image of b
-  double motion = 0.0;          ///< how far the bodies have moved against each other since the pair came to be (an upper bound) [µm]
-  double built_at = -1e300;     ///< motion when the lists were built
-  double patch_motion = 0.0;    ///< the same of the nodes in the lists alone
-  PointsAgainstBody points[2];  ///< [0]: points of a against b; [1]: points of b against a
+  bool at_start = false;      ///< not evaluated since the step began: the elements are those of its start
+  Vec3d shift{};              ///< image of b
+  double motion = 0.0;        ///< how far the bodies have moved against each other since the pair came to be (an upper bound) [µm]
+  double built_at = -1e300;   ///< motion when the lists were built
+  double patch_motion = 0.0;  ///< that of the nodes in the lists alone, since the lists were built
+  PackedPoints points[2];     ///< [0]: points of a against b; [1]: points of b against a
   std::vector<std::uint16_t> node[2];            ///< nodes of a and of b in these lists, increasing; a sphere has node 0, an obstacle none
-  std::vector<ContactElement> elements[2];       ///< at the present positions
+  std::vector<ContactElement> elements[2];       ///< at the present positions; see present()
   std::vector<ContactElement> step_elements[2];  ///< at the start of the step: its friction
   double energy = 0.0;                           ///< [nN·µm]
   double overlap = 0.0;                          ///< deepest penetration [µm]
   double area = 0.0;                             ///< of both surfaces in contact [µm²]
   Vec3d push;                                    ///< force on b where it is rigid [nN]
+
+  [[nodiscard]] const std::vector<ContactElement>& present(std::size_t d) const { return at_start ? step_elements[d] : elements[d]; }
 };
 
 /// Everything that evaluating one direction of a pair reads.
@@ -108,7 +101,7 @@ struct PointsEvaluation {
   const FaceQuadrature& quadrature;
   ListReach reach;
   double share;               ///< ½ when both bodies are sources, else 1
-  double motion;              ///< of the nodes in the pair's lists
+  double motion;              ///< of the nodes in the pair's lists since these were built
   double motion_since_built;  ///< of the whole bodies
   bool target_moves;          ///< false for rigid obstacles: no gradient of the target is wanted
 };
@@ -139,15 +132,18 @@ struct PointsWorkspace {
   std::vector<double> distance2;  ///< by job
   std::vector<double> guessed;    ///< of the guesses
   std::vector<ContactElement> elements;
+  PointsAgainstBody lists;
 };
 
 /// Fill the candidate lists of one direction. `target_faces` are the faces of the target that may be near, in increasing order (empty for
-/// a sphere). `motion` is that of the pair's nodes, `motion_since_built` that of the whole bodies since `lists` were last built.
+/// a sphere). `old` are the lists before; since they were built, the pair's nodes have moved by `motion` and the whole bodies by
+/// `motion_since_built`.
 void build_point_lists(const PairBody& source, const PairBody& target, const ListReach& reach, int points_per_face,
-                       std::span<const std::uint32_t> target_faces, double motion, double motion_since_built, PointsAgainstBody& lists);
+                       std::span<const std::uint32_t> target_faces, const PointsAgainstBody& old, double motion, double motion_since_built,
+                       PointsAgainstBody& lists);
 
 /// Note the nodes of both bodies that the lists of both directions can touch.
-void collect_pair_nodes(const Topology* topology_a, const Topology* topology_b, SurfacePair& pair);
+void collect_pair_nodes(const Topology* topology_a, const Topology* topology_b, const PointsAgainstBody (&lists)[2], SurfacePair& pair);
 
 /// Set energy and overlap of a pair to zero, drop its elements, and make the gradients of its bodies (`node_count` of each) zero.
 void clear_results(SurfacePair& pair, const std::size_t (&node_count)[2], PairGradient (&gradient)[2]);

@@ -1,4 +1,5 @@
 #pragma once
+#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -11,14 +12,14 @@ namespace morula {
 ///
 /// With the relative velocity u = Σ β_i v(source node i) − Σ μ_j v(target node j), the element's force on the source point is
 /// −(a u + (b + Δt k) (n·u) n) with a = w γ_t, b = w (γ_n − γ_t). It enters the operator only, never the forces, so that weights and
-/// normal are rounded to 16 bits (weights still sum to one exactly, so that rigid motion feels nothing).
+/// normal are rounded to 16 bits, stiffness to 8 (weights still sum to one exactly, so that rigid motion feels nothing).
 struct ContactElement {
   std::uint32_t source;  ///< 4 × source face + quadrature point, which gives β
   std::uint32_t target;  ///< target face; 0 for a sphere, whose centre has all the weight
   std::uint16_t mu[2];   ///< weights of target nodes 0 and 1 in units of 1/65535; the third is the rest
   std::int16_t n[3];     ///< unit normal in units of 1/32767
+  std::uint16_t k;       ///< contact stiffness: upper half of a float, rounded [nN/µm]
   float w;               ///< area that bears friction [µm²]
-  float k;               ///< contact stiffness [nN/µm]
 
   static constexpr std::int32_t kWeightUnits = 65535, kNormalUnits = 32767;
 
@@ -36,13 +37,15 @@ struct ContactElement {
     mu[0] = static_cast<std::uint16_t>(mu0);
     mu[1] = static_cast<std::uint16_t>(mu1 < kWeightUnits - mu0 ? mu1 : kWeightUnits - mu0);
   }
+  void set_stiffness(float stiffness) { k = static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(stiffness) + 0x8000u) >> 16); }
+  [[nodiscard]] float stiffness() const { return std::bit_cast<float>(std::uint32_t{k} << 16); }
   template <class Real>
   [[nodiscard]] Vec3<Real> normal() const {
     constexpr Real unit = Real(1.0) / Real(kNormalUnits);
     return {static_cast<Real>(n[0]) * unit, static_cast<Real>(n[1]) * unit, static_cast<Real>(n[2]) * unit};
   }
 };
-static_assert(sizeof(ContactElement) == 28);
+static_assert(sizeof(ContactElement) == 24);
 
 /// All contact points of a pair of bodies, both directions. Groups come in canonical order; only the points of active bodies are written.
 struct ElementGroup {

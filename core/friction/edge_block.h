@@ -5,7 +5,7 @@
 
 namespace morula {
 
-/// A symmetric 3×3 block xx xy xz yy yz zz, and two zeros: one register.
+/// A symmetric 3×3 block xx xy xz yy yz zz, and two numbers that nobody reads: one register.
 struct alignas(32) EdgeBlock {
   float m[8] = {};
 };

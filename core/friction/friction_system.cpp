@@ -73,6 +73,7 @@ void FrictionSystem::set_layout(Layout layout, int threads) {
   pairs_.clear();
   for (auto& arena : blocks_) arena.clear();
   sphere_pairs_ = nullptr;
+  interior_ = nullptr;
 }
 
 void FrictionSystem::set_elements(std::span<const ElementGroup> groups, const FaceQuadrature& quadrature) {
@@ -86,11 +87,14 @@ void FrictionSystem::set_elements(std::span<const ElementGroup> groups, const Fa
 #pragma omp for schedule(dynamic, 8)
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const ElementGroup& group = groups[g];
-      const std::size_t begin = blocks_[arena].size();
-      condenser.add_pair_blocks(group, blocks_[arena]);
+      NodePairArena& out = blocks_[arena];
+      const std::size_t begin = out.blocks.size(), first_row = out.rows.size();
+      condenser.add_pair_blocks(group, out);
       pairs_[g] = {arena,
-                   static_cast<std::uint32_t>(blocks_[arena].size() - begin),
+                   static_cast<std::uint32_t>(out.blocks.size() - begin),
+                   static_cast<std::uint32_t>(out.rows.size() - first_row),
                    begin,
+                   first_row,
                    {group.body[0], group.body[1]},
                    {group.first[0], group.first[1]},
                    {group.write[0], group.write[1] && !group.rigid},
@@ -150,6 +154,7 @@ void FrictionSystem::apply(std::span<const Float4> p, std::span<Float4> q) const
 #pragma omp parallel for schedule(static, 1) num_threads(threads_)
   for (int t = 0; t < threads_; ++t) apply_contacts(t, p, q);
   if (sphere_pairs_ != nullptr) sphere_pairs_->add_product(p, q, dt_);
+  if (interior_ != nullptr) interior_->add_product(p, q);
 }
 
 void FrictionSystem::add_contact_diagonal(int thread) {
@@ -159,7 +164,11 @@ void FrictionSystem::add_contact_diagonal(int thread) {
     for (int side = 0; side < 2; ++side) {
       if (!pair.write[side] || !work.has(pair.body[side])) continue;
       SymMat3<float>* const diagonal = inverse_.data() + pair.first[side];
-      for (const NodePairBlock& b : blocks_of(pair)) diagonal[side == 0 ? b.i : b.j] += {b.c[0], b.c[1], b.c[2], b.c[3], b.c[4], b.c[5]};
+      const NodePairBlocks blocks = blocks_of(pair);
+      const NodePairBlock* block = blocks.blocks.data();
+      for (const NodePairRow& row : blocks.rows)
+        for (const NodePairBlock* const end = block + row.count; block != end; ++block)
+          diagonal[side == 0 ? row.i : block->j] += block->matrix(row.unit);
     }
   }
 }
@@ -170,6 +179,7 @@ void FrictionSystem::build_preconditioner() {
 #pragma omp parallel for schedule(static, 1) num_threads(threads_)
   for (int t = 0; t < threads_; ++t) add_contact_diagonal(t);
   if (sphere_pairs_ != nullptr) sphere_pairs_->add_diagonal(inverse_, dt_);
+  if (interior_ != nullptr) interior_->add_diagonal(inverse_);
   for_owned_bodies([&](int, std::uint32_t body) {
     const BodyPoints& points = layout_.bodies[body];
     for (std::uint32_t i = points.first; i < points.first + points.count; ++i) inverse_[i] = inverse_of(inverse_[i]);
@@ -262,7 +272,7 @@ std::size_t FrictionSystem::memory() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
   std::size_t total = bytes(point_friction_) + bytes(pairs_) + bytes(inverse_) + bytes(p_) + bytes(q_) + bytes(r_) + bytes(layout_.bodies) +
                       bytes(layout_.owned);
-  for (const auto& arena : blocks_) total += bytes(arena);
+  for (const NodePairArena& arena : blocks_) total += bytes(arena.rows) + bytes(arena.blocks);
   for (const ThreadWork& work : work_) total += bytes(work.groups);
   return total;
 }

@@ -35,6 +35,16 @@ class OperatorPart {
   virtual void add_diagonal(std::span<SymMat3<float>> diagonal) const = 0;
 };
 
+/// Something that adds to the matrix on owned points of its own choice.
+class AddedPart {
+ public:
+  virtual ~AddedPart() = default;
+  /// q += A p.
+  virtual void add_product(std::span<const Float4> p, std::span<Float4> q) const = 0;
+  /// Add the 3×3 diagonal blocks.
+  virtual void add_diagonal(std::span<SymMat3<float>> diagonal) const = 0;
+};
+
 struct SolveReport {
   int iterations = 0;
   double residual = 0.0;  ///< ‖r‖/‖b‖ reached
@@ -66,6 +76,8 @@ class FrictionSystem {
   void set_point_friction(std::span<const float> friction) { point_friction_.assign(friction.begin(), friction.end()); }
   /// The shells' own part; before set_elements(), which adds to it.
   void set_shells(OperatorPart* shells) { shells_ = shells; }
+  /// What lives inside the shells; may be null.
+  void set_interior(const AddedPart* interior) { interior_ = interior; }
   void set_step(double dt) { dt_ = static_cast<float>(dt); }
   /// Contacts of surfaces at the present step size; read now, not kept.
   void set_elements(std::span<const ElementGroup> groups, const FaceQuadrature& quadrature);
@@ -87,8 +99,8 @@ class FrictionSystem {
  private:
   /// Blocks of a pair of bodies; those of a thread lie one after the other in blocks_[arena].
   struct PairBlocks {
-    std::uint32_t arena = 0, count = 0;
-    std::size_t begin = 0;
+    std::uint32_t arena = 0, count = 0, row_count = 0;
+    std::size_t begin = 0, first_row = 0;
     std::uint32_t body[2] = {0, 0}, first[2] = {0, 0};
     bool write[2] = {true, true}, rigid = false;
   };
@@ -101,8 +113,9 @@ class FrictionSystem {
   void add_contact_diagonal(int thread);
   /// v += α p, r −= α q; gives (r·r, r·z) with z = M⁻¹ r.
   void advance(float alpha, std::span<Float4> v, const Comm& comm, double (&sums)[2]);
-  [[nodiscard]] std::span<const NodePairBlock> blocks_of(const PairBlocks& pair) const {
-    return std::span(blocks_[pair.arena]).subspan(pair.begin, pair.count);
+  [[nodiscard]] NodePairBlocks blocks_of(const PairBlocks& pair) const {
+    const NodePairArena& arena = blocks_[pair.arena];
+    return {std::span(arena.rows).subspan(pair.first_row, pair.row_count), std::span(arena.blocks).subspan(pair.begin, pair.count)};
   }
 
   struct ThreadWork {
@@ -117,9 +130,10 @@ class FrictionSystem {
   float dt_ = 0.0f;
   std::vector<float> point_friction_;
   std::vector<PairBlocks> pairs_;
-  std::vector<std::vector<NodePairBlock>> blocks_;
+  std::vector<NodePairArena> blocks_;
   const SpherePairs* sphere_pairs_ = nullptr;
   OperatorPart* shells_ = nullptr;
+  const AddedPart* interior_ = nullptr;
   std::vector<ThreadWork> work_;
   std::vector<SymMat3<float>> inverse_;
   std::vector<Float4> p_, q_, r_;

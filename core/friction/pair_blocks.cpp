@@ -19,13 +19,30 @@ void add(EdgeBlock& block, float weight, Float8v matrix) {
   std::memcpy(block.m, &sum, sizeof sum);
 }
 
-/// D = a I + (b + Δt k) n nᵀ of a contact point.
+/// D = a I + (b + Δt k) n nᵀ of a contact point, and its smallest eigenvalue behind.
 Float8v matrix_of(const ContactElement& e, const ElementGroup& group, float time_step) {
   const Vec3f n = e.normal<float>();
   const float a = e.w * group.tangential_friction;
-  const float b = e.w * (group.normal_friction - group.tangential_friction) + time_step * e.k;
+  const float b = e.w * (group.normal_friction - group.tangential_friction) + time_step * e.stiffness();
   const Float8v left{n.x, n.x, n.x, n.y, n.y, n.z, 0.0f, 0.0f}, right{n.x, n.y, n.z, n.y, n.z, n.z, 0.0f, 0.0f};
-  return left * right * b + Float8v{a, 0.0f, 0.0f, a, 0.0f, a, 0.0f, 0.0f};
+  return left * right * b + Float8v{a, 0.0f, 0.0f, a, 0.0f, a, b < 0.0f ? a + b : a, 0.0f};
+}
+
+/// C of a sum of points as it is kept; sum.m[6] bounds its smallest eigenvalue from below.
+NodePairBlock rounded(const EdgeBlock& sum, float per_unit, std::uint16_t j) {
+  using Int8v [[gnu::vector_size(32)]] = std::int32_t;
+  using Short8v [[gnu::vector_size(16)]] = std::int16_t;
+  Float8v units = load8(sum) * per_unit;
+  // an error of half a unit in every entry takes at most 1.5 units from an eigenvalue
+  units += Float8v{1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, 0.0f, 0.0f} * std::max(0.0f, 1.5f - units[6]);
+  units += units < 0.0f ? Float8v{} - 0.5f : Float8v{} + 0.5f;
+  const Int8v whole = __builtin_convertvector(units, Int8v);  // xx xy xz yy yz zz
+  const Short8v packed = __builtin_convertvector(__builtin_shufflevector(whole, whole, 0, 7, 1, 3, 2, 4, 5, 7), Short8v);
+  NodePairBlock out;
+  std::memcpy(&out, &packed, sizeof out);
+  out.j = j;
+  out.unused = 0;
+  return out;
 }
 
 Triangle nodes_of(const Topology* topology, std::uint32_t face) {
@@ -104,7 +121,7 @@ std::uint32_t PairCondenser::number_pairs(const ElementGroup& group) {
   return slots;
 }
 
-void PairCondenser::add_pair_blocks(const ElementGroup& group, std::vector<NodePairBlock>& out) {
+void PairCondenser::add_pair_blocks(const ElementGroup& group, NodePairArena& out) {
   mark_pairs(group);
   const std::uint32_t slots = number_pairs(group);
   sum_.assign(slots, {});
@@ -127,18 +144,26 @@ void PairCondenser::add_pair_blocks(const ElementGroup& group, std::vector<NodeP
       }
     }
   }
-  if (out.capacity() < out.size() + slots) out.reserve(out.size() + out.size() / 8 + slots);
+  const auto make_room = [](auto& vector, std::size_t more) {
+    if (vector.capacity() < vector.size() + more) vector.reserve(vector.size() + vector.size() / 8 + more);
+  };
+  make_room(out.blocks, slots);
   const std::size_t rows = node_count(group.topology[0]);
+  make_room(out.rows, rows);
   std::uint32_t next = 0;
   for (std::size_t i = 0; i < rows; ++i) {
     if (!(row_used_[i / 64] >> (i % 64) & 1u)) continue;
+    const std::uint32_t first = next;
+    float most = 0.0f;  // of all entries, since C is positive
+    for (std::size_t w = 0; w < words_; ++w) next += static_cast<std::uint32_t>(std::popcount(pattern_[i * words_ + w]));
+    for (std::uint32_t k = first; k < next; ++k) most = std::max({most, sum_[k].m[0], sum_[k].m[3], sum_[k].m[5]});
+    const float per_unit = most > 0.0f ? NodePairBlock::kMost / most : 0.0f;
+    out.rows.push_back({static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(next - first), most / NodePairBlock::kMost});
+    std::uint32_t k = first;
     for (std::size_t w = 0; w < words_; ++w)
-      for (std::uint64_t bits = pattern_[i * words_ + w]; bits != 0; bits &= bits - 1) {
-        NodePairBlock& block = out.emplace_back();
-        block.i = static_cast<std::uint16_t>(i);
-        block.j = static_cast<std::uint16_t>(w * 64 + static_cast<std::size_t>(std::countr_zero(bits)));
-        std::memcpy(block.c, sum_[next++].m, sizeof block.c);
-      }
+      for (std::uint64_t bits = pattern_[i * words_ + w]; bits != 0; bits &= bits - 1)
+        out.blocks.push_back(
+            rounded(sum_[k++], per_unit, static_cast<std::uint16_t>(w * 64 + static_cast<std::size_t>(std::countr_zero(bits)))));
   }
 }
 
@@ -167,42 +192,56 @@ void PairCondenser::add_edge_blocks(const ElementGroup& group, int side, std::sp
 
 namespace {
 
-/// C d, with a zero behind.
-Float4v times(const NodePairBlock& block, Float4v d) {
+/// x, y, or z of a point in all components.
+struct Splat {
+  Float4v x, y, z;
+  explicit Splat(const Float4& p) : x{p.x, p.x, p.x, p.x}, y{p.y, p.y, p.y, p.y}, z{p.z, p.z, p.z, p.z} {}
+};
+
+/// C d in units of the row, with anything behind.
+Float4v times(const NodePairBlock& block, Float4v x, Float4v y, Float4v z) {
   using Int4v [[gnu::vector_size(16)]] = std::int32_t;
-  Float4v low, high;  // xx xy xz yy and xz yy yz zz
-  std::memcpy(&low, block.c, sizeof low);
-  std::memcpy(&high, block.c + 2, sizeof high);
-  const Float4v x = __builtin_shufflevector(d, d, 0, 0, 0, 0), y = __builtin_shufflevector(d, d, 1, 1, 1, 1),
-                z = __builtin_shufflevector(d, d, 2, 2, 2, 2);
-  const Float4v sum = x * low + y * __builtin_shufflevector(low, high, 1, 3, 6, 6) + z * __builtin_shufflevector(high, high, 0, 2, 3, 3);
-  return reinterpret_cast<Float4v>(reinterpret_cast<Int4v>(sum) & Int4v{-1, -1, -1, 0});
+  Int4v packed;
+  std::memcpy(&packed, &block, sizeof packed);                                 // two entries in each
+  const Float4v low = __builtin_convertvector((packed << 16) >> 16, Float4v);  // xx xy xz zz
+  const Float4v high = __builtin_convertvector(packed >> 16, Float4v);         // j yy yz
+  return x * low + y * __builtin_shufflevector(low, high, 1, 5, 6, 6) + z * __builtin_shufflevector(low, high, 2, 6, 3, 3);
+}
+
+Float4v without_last(Float4v v) {
+  using Int4v [[gnu::vector_size(16)]] = std::int32_t;
+  return reinterpret_cast<Float4v>(reinterpret_cast<Int4v>(v) & Int4v{-1, -1, -1, 0});
 }
 
 template <bool kFirst, bool kSecond, bool kRest>
-void apply_rows(std::span<const NodePairBlock> blocks, const Float4* p0, Float4* q0, const Float4* p1, Float4* q1) {
-  const NodePairBlock* block = blocks.data();
-  const NodePairBlock* const end = block + blocks.size();
-  while (block != end) {
-    const std::uint16_t i = block->i;
-    const Float4v pi = load(p0[i]);
+void apply_rows(const NodePairBlocks& pair, const Float4* p0, Float4* q0, const Float4* p1, Float4* q1) {
+  const NodePairBlock* block = pair.blocks.data();
+  for (const NodePairRow& row : pair.rows) {
+    const Splat pi(p0[row.i]);
+    const Float4v unit = without_last(Float4v{row.unit, row.unit, row.unit, row.unit});
     Float4v sum{};
-    for (; block != end && block->i == i; ++block) {
-      const Float4v f = times(*block, kRest ? pi : pi - load(p1[block->j]));
+    for (const NodePairBlock* const end = block + row.count; block != end; ++block) {
+      Float4v f;
+      if constexpr (kRest) {
+        f = times(*block, pi.x, pi.y, pi.z);
+      } else {
+        const Splat pj(p1[block->j]);
+        f = times(*block, pi.x - pj.x, pi.y - pj.y, pi.z - pj.z) * unit;
+      }
       if constexpr (kFirst) sum += f;
       if constexpr (kSecond) store(q1[block->j], load(q1[block->j]) - f);
     }
-    if constexpr (kFirst) store(q0[i], load(q0[i]) + sum);
+    if constexpr (kFirst) store(q0[row.i], load(q0[row.i]) + (kRest ? sum * unit : sum));
   }
 }
 
 }  // namespace
 
-void apply_pair_blocks(std::span<const NodePairBlock> blocks, const Float4* p0, Float4* q0, const Float4* p1, Float4* q1) {
-  if (p1 == nullptr) return q0 != nullptr ? apply_rows<true, false, true>(blocks, p0, q0, nullptr, nullptr) : void();
-  if (q0 != nullptr && q1 != nullptr) return apply_rows<true, true, false>(blocks, p0, q0, p1, q1);
-  if (q0 != nullptr) return apply_rows<true, false, false>(blocks, p0, q0, p1, nullptr);
-  if (q1 != nullptr) return apply_rows<false, true, false>(blocks, p0, nullptr, p1, q1);
+void apply_pair_blocks(const NodePairBlocks& pair, const Float4* p0, Float4* q0, const Float4* p1, Float4* q1) {
+  if (p1 == nullptr) return q0 != nullptr ? apply_rows<true, false, true>(pair, p0, q0, nullptr, nullptr) : void();
+  if (q0 != nullptr && q1 != nullptr) return apply_rows<true, true, false>(pair, p0, q0, p1, q1);
+  if (q0 != nullptr) return apply_rows<true, false, false>(pair, p0, q0, p1, nullptr);
+  if (q1 != nullptr) return apply_rows<false, true, false>(pair, p0, nullptr, p1, q1);
 }
 
 }  // namespace morula

@@ -10,11 +10,38 @@
 namespace morula {
 
 /// How contact couples node i of one body with node j of another: the force on i is −C (v_i − v_j), on j the opposite.
-struct NodePairBlock {
-  std::uint16_t i, j;  ///< nodes within their bodies
-  float c[6];          ///< xx xy xz yy yz zz [nN·s/µm]
+///
+/// C is symmetric and positive definite; its entries are kept in units of the row, rounded to 16 bits. What rounding could take from its
+/// smallest eigenvalue is given back on the diagonal where friction alone does not make up for it.
+struct alignas(16) NodePairBlock {
+  std::int16_t xx;
+  std::uint16_t j;  ///< node of the second body
+  std::int16_t xy, yy, xz, yz, zz, unused;
+
+  static constexpr float kMost = 32760.0f;  ///< of an entry: room is left for what is given back
+  [[nodiscard]] SymMat3<float> matrix(float unit) const { return {unit * xx, unit * xy, unit * xz, unit * yy, unit * yz, unit * zz}; }
 };
-static_assert(sizeof(NodePairBlock) == 28);
+static_assert(sizeof(NodePairBlock) == 16);
+
+/// The blocks of node i of the first body come one after the other.
+struct NodePairRow {
+  std::uint16_t i, count;
+  float unit;  ///< [nN·s/µm]
+};
+
+/// Blocks of a pair of bodies, by row.
+struct NodePairBlocks {
+  std::span<const NodePairRow> rows;
+  std::span<const NodePairBlock> blocks;
+};
+
+/// Blocks of many pairs, one after the other.
+struct NodePairArena {
+  std::vector<NodePairRow> rows;
+  std::vector<NodePairBlock> blocks;
+
+  void clear() { rows.clear(), blocks.clear(); }
+};
 
 /// The contact points of a pair of bodies as blocks over pairs of nodes.
 ///
@@ -29,7 +56,7 @@ class PairCondenser {
   PairCondenser(const FaceQuadrature& quadrature, float time_step);
 
   /// Append the blocks across the bodies of a group to `out`, sorted by i, then j.
-  void add_pair_blocks(const ElementGroup& group, std::vector<NodePairBlock>& out);
+  void add_pair_blocks(const ElementGroup& group, NodePairArena& out);
   /// Add the blocks within body `side` (0 or 1) of a group to `edges`, by edge of its Topology.
   void add_edge_blocks(const ElementGroup& group, int side, std::span<EdgeBlock> edges) const;
 
@@ -48,6 +75,6 @@ class PairCondenser {
 
 /// q += the blocks applied to p: `p0`, `q0` at the first point of body 0, `p1`, `q1` of body 1 (null: an obstacle at rest). A side whose q
 /// is null is not written.
-void apply_pair_blocks(std::span<const NodePairBlock> blocks, const Float4* p0, Float4* q0, const Float4* p1, Float4* q1);
+void apply_pair_blocks(const NodePairBlocks& pair, const Float4* p0, Float4* q0, const Float4* p1, Float4* q1);
 
 }  // namespace morula

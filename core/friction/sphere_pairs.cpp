@@ -74,6 +74,63 @@ void SpherePairs::for_entries(float dt, OnPair&& on_pair, OnRigid&& on_rigid) co
   });
 }
 
+template <class OnPair>
+void SpherePairs::for_caps(OnPair&& on_pair) const {
+  for_shares([&](const Share& share) {
+    for (const Run& run : share.runs)
+      for (std::uint32_t k = run.first; k < run.last; ++k)
+        if (packing.slopes[k].a != 0.0f || packing.slopes[k].b != 0.0f) on_pair(share, k);
+  });
+}
+
+void SpherePairs::add_packing_product(std::span<const Float4> p, std::span<Float4> q, float dt) const {
+  // g_i·p first, for every sphere whole: it needs all neighbours, so that those of ghosts come from their owners.
+  std::vector<Float4> swelling(p.size());
+  const Float4* in = p.data() + first_point_;
+  Float4* sum = swelling.data() + first_point_;
+  const auto approach = [&](std::uint32_t k) {
+    const float* n = elements[k].n;
+    const Float4v along = Float4v{n[0], n[1], n[2], 0.0f} * (load(in[pairs[k].a]) - load(in[pairs[k].b]));
+    return along[0] + along[1] + along[2];
+  };
+  for_caps([&](const Share& share, std::uint32_t k) {
+    const SpherePair& pair = pairs[k];
+    const float u = approach(k);
+    if (share.has(pair.a)) sum[pair.a].x += packing.slopes[k].a * u;
+    if (share.has(pair.b)) sum[pair.b].x += packing.slopes[k].b * u;
+  });
+  if (packing.exchange) packing.exchange(swelling);
+  Float4* out = q.data() + first_point_;
+  for_caps([&](const Share& share, std::uint32_t k) {
+    const SpherePair& pair = pairs[k];
+    const float f = dt * (packing.resistance[pair.a] * sum[pair.a].x * packing.slopes[k].a +
+                          packing.resistance[pair.b] * sum[pair.b].x * packing.slopes[k].b);
+    const float* n = elements[k].n;
+    const Float4v force = splat(f) * Float4v{n[0], n[1], n[2], 0.0f};
+    if (share.has(pair.a)) store(out[pair.a], load(out[pair.a]) + force);
+    if (share.has(pair.b)) store(out[pair.b], load(out[pair.b]) - force);
+  });
+}
+
+void SpherePairs::add_packing_diagonal(std::span<SymMat3<float>> diagonal, float dt) const {
+  SymMat3<float>* out = diagonal.data() + first_point_;
+  std::vector<Vec3f> own(owned_);  // the part of g_i that belongs to its own centre
+  for_caps([&](const Share& share, std::uint32_t k) {
+    const SpherePair& pair = pairs[k];
+    const Vec3f n{elements[k].n[0], elements[k].n[1], elements[k].n[2]};
+    const SpherePacking::Slopes& slope = packing.slopes[k];
+    if (share.has(pair.a)) {
+      own[pair.a] += n * slope.a;
+      out[pair.a] += outer(dt * packing.resistance[pair.b] * slope.b * slope.b, n);
+    }
+    if (share.has(pair.b)) {
+      own[pair.b] += n * -slope.b;
+      out[pair.b] += outer(dt * packing.resistance[pair.a] * slope.a * slope.a, n);
+    }
+  });
+  for (std::uint32_t i = 0; i < owned_; ++i) out[i] += outer(dt * packing.resistance[i], own[i]);
+}
+
 void SpherePairs::add_product(std::span<const Float4> p, std::span<Float4> q, float dt) const {
   const Float4* in = p.data() + first_point_;
   Float4* out = q.data() + first_point_;
@@ -87,6 +144,7 @@ void SpherePairs::add_product(std::span<const Float4> p, std::span<Float4> q, fl
       [&](const RigidPairElement& e, float axial) {
         store(out[e.sphere], load(out[e.sphere]) + pair_force(load(in[e.sphere]), e.n, e.isotropic, axial));
       });
+  if (packing.on && dt > 0.0f) add_packing_product(p, q, dt);
 }
 
 void SpherePairs::add_diagonal(std::span<SymMat3<float>> diagonal, float dt) const {
@@ -99,6 +157,7 @@ void SpherePairs::add_diagonal(std::span<SymMat3<float>> diagonal, float dt) con
         if (share.has(pair.b)) out[pair.b] += block;
       },
       [&](const RigidPairElement& e, float axial) { out[e.sphere] += pair_block(e.n, e.isotropic, axial); });
+  if (packing.on && dt > 0.0f) add_packing_diagonal(diagonal, dt);
 }
 
 void SpherePairs::add_friction(std::span<const Vec3d> from, std::span<const Vec3d> to, std::span<Vec3d> out,
@@ -149,7 +208,7 @@ void SpherePairs::add_friction(std::span<const Vec3d> from, std::span<const Vec3
 
 std::size_t SpherePairs::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  std::size_t total = bytes(pairs) + bytes(elements) + bytes(rigid) + bytes(material) + bytes(friction_);
+  std::size_t total = bytes(pairs) + bytes(elements) + bytes(rigid) + bytes(material) + bytes(friction_) + packing.memory();
   for (const Share& share : shares_) total += bytes(share.runs);
   return total;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -41,6 +42,21 @@ struct PairFriction {
   float extra = 0.0f;       ///< γ_n − γ_t [nN·s/µm³]
 };
 
+/// What the operator knows of spheres that resist their packing (cbm.md §3): the positive semi-definite part of ∂²(V_i Ψ(φ_i)), which ties each
+/// sphere to all its neighbours at once, c_i g_i g_iᵀ with g_i the gradient of the volume of its caps.
+struct SpherePacking {
+  /// How fast the caps of a pair grow with its approach [µm²].
+  struct Slopes {
+    float a = 0.0f, b = 0.0f;
+  };
+  bool on = false;                                  ///< of the model: the same on all ranks
+  std::vector<float> resistance;                    ///< c = Ψ″/V by sphere, ghosts too [nN/µm⁵]
+  std::vector<Slopes> slopes;                       ///< by pair
+  std::function<void(std::span<Float4>)> exchange;  ///< fills the ghost points of a vector by point; may be empty
+
+  [[nodiscard]] std::size_t memory() const { return resistance.capacity() * sizeof(float) + slopes.capacity() * sizeof(Slopes); }
+};
+
 /// The list of sphere pairs of a rank in canonical order, and its part of the friction matrix.
 ///
 /// Sums over the pairs of a sphere run in the order of the list. Each thread writes one contiguous range of the owned spheres and visits
@@ -62,6 +78,7 @@ class SpherePairs {
   std::vector<SpherePairElement> elements;  ///< by pair
   std::vector<RigidPairElement> rigid;
   std::vector<std::uint16_t> material;  ///< by sphere, ghosts too; not needed while the table is uniform
+  SpherePacking packing;
 
   /// Friction of material pairs, `count` × `count`, row by row.
   void set_friction(std::vector<PairFriction> friction, std::size_t count);
@@ -76,7 +93,7 @@ class SpherePairs {
     return uniform_ ? friction_[0] : friction(material[pair.a], material[pair.b]);
   }
 
-  /// Add the pairs' part of A p to q, for owned spheres.
+  /// Add the pairs' part of A p to q, for owned spheres. Collective where spheres resist their packing.
   void add_product(std::span<const Float4> p, std::span<Float4> q, float dt) const;
   /// Add the 3×3 diagonal blocks.
   void add_diagonal(std::span<SymMat3<float>> diagonal, float dt) const;
@@ -93,6 +110,12 @@ class SpherePairs {
   /// isotropic, axial: entries of the matrix at this step size.
   template <class OnPair, class OnRigid>
   void for_entries(float dt, OnPair&& on_pair, OnRigid&& on_rigid) const;
+
+  /// on_pair(share, number of the pair) for all pairs with caps.
+  template <class OnPair>
+  void for_caps(OnPair&& on_pair) const;
+  void add_packing_product(std::span<const Float4> p, std::span<Float4> q, float dt) const;
+  void add_packing_diagonal(std::span<SymMat3<float>> diagonal, float dt) const;
 
   std::vector<PairFriction> friction_{PairFriction{}};
   std::size_t materials_ = 1;

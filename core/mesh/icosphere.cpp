@@ -54,7 +54,9 @@ Result<std::shared_ptr<const ReferenceShape>> ShapeLibrary::icosphere(std::uint3
     if (!icospheres_[i]) {
       TriangleMesh mesh = make_icosphere(static_cast<int>(i) + 1);
       MORULA_TRY_ASSIGN(auto topology, Topology::build(nodes, std::move(mesh.faces)));
-      icospheres_[i] = make_reference_shape(std::move(topology), std::move(mesh.position));
+      auto known = std::make_shared<ReferenceShape>(*make_reference_shape(std::move(topology), std::move(mesh.position)));
+      known->icosphere_nodes = nodes;
+      icospheres_[i] = std::move(known);
     }
     return icospheres_[i];
   }

@@ -7,7 +7,9 @@
 #include <cstring>
 #include <fstream>
 
+#include "core/mesh/surface_bytes.h"
 #include "core/mesh/text_words.h"
+#include "core/mesh/vtk_file.h"
 #include "core/mesh/weld_nodes.h"
 #include "core/space/space.h"
 
@@ -34,19 +36,6 @@ std::string quoted(std::string_view word) {
   return out + "'";
 }
 
-Result<std::string> whole_file(const fs::path& file) {
-  std::error_code error;
-  const auto status = fs::status(file, error);
-  if (!fs::exists(status)) return file_error(file, "there is no such file", "check the path; it is relative to the study file");
-  if (fs::is_directory(status)) return file_error(file, "is a folder", "name an STL or OBJ file");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return file_error(file, "cannot be opened", "check its permissions");
-  std::string content{std::istreambuf_iterator<char>(stream), {}};
-  if (stream.bad()) return file_error(file, "cannot be read to its end", "check the disk");
-  if (content.empty()) return file_error(file, "is empty", "write the surface again");
-  return content;
-}
-
 Result<double> coordinate(const fs::path& file, const TextWords& words, std::string_view word) {
   if (word.empty()) return line_error(file, words.line(), "a coordinate is missing", "every node has three coordinates");
   const auto value = parse_number(word);
@@ -69,8 +58,16 @@ Result<TriangleMesh> finished(const fs::path& file, TriangleMesh mesh, const Sur
   return with_welded_nodes(mesh, options.weld * norm(box.size()));
 }
 
-Result<TriangleMesh> parse_text_stl(const fs::path& file, std::string_view content) {
+/// Faces of a text, and the `solid` or object that each belongs to.
+struct Parsed {
   TriangleMesh mesh;
+  std::vector<std::uint32_t> part;
+};
+
+Result<Parsed> parse_text_stl(const fs::path& file, std::string_view content) {
+  TriangleMesh mesh;
+  std::vector<std::uint32_t> part;
+  std::uint32_t solids = 0;
   TextWords words(content);
   const auto expect = [&](std::string_view wanted) -> Status {
     const std::string_view word = words.next();
@@ -83,6 +80,7 @@ Result<TriangleMesh> parse_text_stl(const fs::path& file, std::string_view conte
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
     if (word == "solid" || word == "endsolid") {
       in_solid = word == "solid";
+      solids += in_solid;
       words.skip_line();  // its name
       continue;
     }
@@ -109,9 +107,10 @@ Result<TriangleMesh> parse_text_stl(const fs::path& file, std::string_view conte
     MORULA_TRY(expect("endloop"));
     MORULA_TRY(expect("endfacet"));
     mesh.faces.push_back({first, first + 1, first + 2});
+    part.push_back(solids - 1);
   }
   if (in_solid) return line_error(file, words.line(), "the file ends without 'endsolid'", "it is truncated; write it again");
-  return mesh;
+  return Parsed{std::move(mesh), std::move(part)};
 }
 
 Result<TriangleMesh> parse_binary_stl(const fs::path& file, std::string_view content) {
@@ -153,11 +152,15 @@ bool passed_over(std::string_view keyword) {
   return std::ranges::find(kKeywords, keyword) != std::end(kKeywords);
 }
 
-Result<TriangleMesh> parse_obj(const fs::path& file, std::string_view content) {
+Result<Parsed> parse_obj(const fs::path& file, std::string_view content) {
   TriangleMesh mesh;
+  std::vector<std::uint32_t> object, group;
+  std::uint32_t objects = 0, groups = 0;
   TextWords words(content);
   while (words.next_line()) {
     const std::string_view keyword = words.next_in_line();
+    objects += keyword == "o";
+    groups += keyword == "g";
     if (keyword.empty() || keyword.starts_with('#') || passed_over(keyword)) continue;
     if (keyword == "v") {
       Vec3d p;
@@ -174,30 +177,45 @@ Result<TriangleMesh> parse_obj(const fs::path& file, std::string_view content) {
       if (corners.size() < 3)
         return line_error(file, words.line(), "a face has only " + std::to_string(corners.size()) + " nodes", "a face has at least three");
       for (std::size_t c = 2; c < corners.size(); ++c) mesh.faces.push_back({corners[0], corners[c - 1], corners[c]});
+      object.resize(mesh.faces.size(), objects);
+      group.resize(mesh.faces.size(), groups);
     } else {
       return line_error(file, words.line(), quoted(keyword) + " is not known", "only polygons (v, f) can be read; is this an OBJ file?");
     }
   }
-  return mesh;
+  return Parsed{std::move(mesh), objects > 0 ? std::move(object) : std::move(group)};
+}
+
+/// Parts numbered without gaps, in increasing order.
+LabelledMesh with_dense_parts(TriangleMesh mesh, std::vector<std::uint32_t> part) {
+  LabelledMesh out;
+  std::vector<std::uint32_t> used(part);
+  std::ranges::sort(used);
+  used.erase(std::ranges::unique(used).begin(), used.end());
+  for (std::uint32_t& p : part) p = static_cast<std::uint32_t>(std::ranges::lower_bound(used, p) - used.begin());
+  out.mesh = std::move(mesh);
+  out.part = std::move(part);
+  out.part_count = static_cast<std::uint32_t>(used.size());
+  out.is_closed.assign(used.size(), 1);
+  return out;
 }
 
 }  // namespace
 
-Result<TriangleMesh> read_stl(const fs::path& file, const SurfaceFileOptions& options) {
-  MORULA_TRY_ASSIGN(const std::string content, whole_file(file));
+namespace {
+
+Result<Parsed> parse_stl(const fs::path& file, std::string_view content) {
   std::uint32_t announced = 0;
   if (content.size() >= kStlHeader) std::memcpy(&announced, content.data() + kStlHeader - sizeof announced, sizeof announced);
   const std::size_t binary_size = kStlHeader + kStlFace * std::size_t{announced};
-  const bool is_text = content.find('\0') == std::string::npos && TextWords(content).next() == "solid";
+  const bool is_text = content.find('\0') == std::string_view::npos && TextWords(content).next() == "solid";
   if (content.size() >= kStlHeader && content.size() == binary_size) {
     MORULA_TRY_ASSIGN(TriangleMesh mesh, parse_binary_stl(file, content));
-    return finished(file, std::move(mesh), options);
+    const std::size_t faces = mesh.faces.size();
+    return Parsed{std::move(mesh), std::vector<std::uint32_t>(faces, 0)};
   }
-  if (is_text) {
-    MORULA_TRY_ASSIGN(TriangleMesh mesh, parse_text_stl(file, content));
-    return finished(file, std::move(mesh), options);
-  }
-  if (content.size() < kStlHeader || content.find('\0') == std::string::npos)
+  if (is_text) return parse_text_stl(file, content);
+  if (content.size() < kStlHeader || content.find('\0') == std::string_view::npos)
     return file_error(file, "is no STL file", "it neither begins with 'solid' nor has the size of a binary STL");
   return file_error(file,
                     "announces " + std::to_string(announced) + " faces, which take " + std::to_string(binary_size) + " bytes, but has " +
@@ -205,19 +223,51 @@ Result<TriangleMesh> read_stl(const fs::path& file, const SurfaceFileOptions& op
                     "it is truncated, or no STL file; write it again");
 }
 
+std::string lower_ending(const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+}  // namespace
+
+Result<TriangleMesh> read_stl(const fs::path& file, const SurfaceFileOptions& options) {
+  MORULA_TRY_ASSIGN(const std::string content, read_surface_bytes(file));
+  MORULA_TRY_ASSIGN(Parsed parsed, parse_stl(file, content));
+  return finished(file, std::move(parsed.mesh), options);
+}
+
 Result<TriangleMesh> read_obj(const fs::path& file, const SurfaceFileOptions& options) {
-  MORULA_TRY_ASSIGN(const std::string content, whole_file(file));
+  MORULA_TRY_ASSIGN(const std::string content, read_surface_bytes(file));
   if (content.find('\0') != std::string::npos) return file_error(file, "is binary, not an OBJ text", "write it as Wavefront OBJ");
-  MORULA_TRY_ASSIGN(TriangleMesh mesh, parse_obj(file, content));
-  return finished(file, std::move(mesh), options);
+  MORULA_TRY_ASSIGN(Parsed parsed, parse_obj(file, content));
+  return finished(file, std::move(parsed.mesh), options);
 }
 
 Result<TriangleMesh> read_surface(const fs::path& file, const SurfaceFileOptions& options) {
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = lower_ending(file);
   if (ending == ".stl") return read_stl(file, options);
   if (ending == ".obj") return read_obj(file, options);
   return file_error(file, "its ending tells no known format", "surfaces are read from .stl and .obj files");
+}
+
+Result<LabelledMesh> read_labelled_mesh(const fs::path& file, double scale) {
+  const std::string ending = lower_ending(file);
+  if (ending == ".vtk") return read_vtk(file, scale);
+  if (ending != ".stl" && ending != ".obj")
+    return file_error(file, "its ending tells no known format", "cells are read from .vtk (legacy), .stl and .obj files");
+  MORULA_TRY_ASSIGN(const std::string content, read_surface_bytes(file));
+  const bool is_obj = ending == ".obj";
+  if (is_obj && content.find('\0') != std::string::npos) return file_error(file, "is binary, not an OBJ text", "write it as Wavefront OBJ");
+  MORULA_TRY_ASSIGN(Parsed parsed, is_obj ? parse_obj(file, content) : parse_stl(file, content));
+  if (parsed.mesh.faces.empty()) return file_error(file, "holds no faces", "a surface needs triangles");
+  for (Vec3d& p : parsed.mesh.position) {
+    p *= scale;
+    if (!finite(p)) return file_error(file, "a coordinate is too large for this scale", "check the scale");
+  }
+  LabelledMesh out = with_dense_parts(std::move(parsed.mesh), std::move(parsed.part));
+  out.has_indices = is_obj;
+  return out;
 }
 
 Status write_stl(const fs::path& file, const TriangleMesh& mesh) {

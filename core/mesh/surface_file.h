@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "core/mesh/labelled_mesh.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/result.h"
 
@@ -27,6 +28,10 @@ Result<TriangleMesh> read_stl(const std::filesystem::path& file, const SurfaceFi
 /// Wavefront OBJ: `v` and `f` (i, i/t, i//n, i/t/n, negative from the end, polygons split into a fan); texture, normals, groups and
 /// materials are passed over.
 Result<TriangleMesh> read_obj(const std::filesystem::path& file, const SurfaceFileOptions& options = {});
+
+/// Read the faces of a .vtk (legacy), .stl or .obj file with what the file itself keeps together; nodes are as the file has them, not united.
+/// Coordinates in the file × scale = µm. Errors as those of read_surface() and read_vtk().
+Result<LabelledMesh> read_labelled_mesh(const std::filesystem::path& file, double scale);
 
 /// Write binary STL (single precision), aside first and then renamed: a full disk leaves no half file and keeps an older one.
 Status write_stl(const std::filesystem::path& file, const TriangleMesh& mesh);

@@ -61,9 +61,11 @@ void block_geometry(const LaneBlock& block, const SurfaceList& surfaces, std::sp
     length.store(ws.node_length.data() + i * W);
     store_vec3<double, W>(normal, i, sum * (Real(1.0) / length));
   }
-  store_lanes<W, double>(ws.face_area.data(), faces, lane_pointers<W>(out.face_area.data(), block, surfaces.first_face));
-  store_lanes<W, double>(ws.face_normal.data(), 3 * faces,
-                         lane_pointers<W>(doubles(out.face_normal.data()), block, surfaces.first_face, 3));
+  if (!out.face_area.empty()) {
+    store_lanes<W, double>(ws.face_area.data(), faces, lane_pointers<W>(out.face_area.data(), block, surfaces.first_face));
+    store_lanes<W, double>(ws.face_normal.data(), 3 * faces,
+                           lane_pointers<W>(doubles(out.face_normal.data()), block, surfaces.first_face, 3));
+  }
   store_lanes<W, double>(normal, 3 * nodes, lane_pointers<W>(doubles(out.node_normal.data()), block, surfaces.first_node, 3));
   store_lanes<W, double>(ws.node_length.data(), nodes, lane_pointers<W>(out.node_normal_length.data(), block, surfaces.first_node));
   store_lanes<W, double>(node_area, nodes, lane_pointers<W>(out.node_area.data(), block, surfaces.first_node));
@@ -81,8 +83,8 @@ void block_forces(const LaneBlock& block, const SurfaceList& surfaces, std::span
   const std::size_t nodes = topology.node_count(), faces = topology.face_count();
   for (LaneVector<double>* array : {&ws.position, &ws.node_normal, &ws.gradient_node, &ws.node_gradient})
     Workspace::fit(*array, nodes * 3 * W);
-  for (LaneVector<double>* array : {&ws.face_normal, &ws.gradient_face_normal}) Workspace::fit(*array, faces * 3 * W);
-  for (LaneVector<double>* array : {&ws.face_area, &ws.gradient_face}) Workspace::fit(*array, faces * W);
+  Workspace::fit(ws.gradient_face_normal, faces * 3 * W);
+  Workspace::fit(ws.gradient_face, faces * W);
   Workspace::fit(ws.node_length, nodes * W);
 
   const auto by_face = [&](const double* array, std::size_t stride, LaneVector<double>& out) {
@@ -92,8 +94,6 @@ void block_forces(const LaneBlock& block, const SurfaceList& surfaces, std::span
     load_lanes<W, double>(lane_pointers<W>(array, block, surfaces.first_node, stride), nodes * stride, out.data());
   };
   load_relative_positions<W>(block, lane_pointers<W>(doubles(position.data()), block, surfaces.first_node, 3), ws.position.data());
-  by_face(geometry.face_area.data(), 1, ws.face_area);
-  by_face(doubles(geometry.face_normal.data()), 3, ws.face_normal);
   by_node(doubles(geometry.node_normal.data()), 3, ws.node_normal);
   by_node(geometry.node_normal_length.data(), 1, ws.node_length);
   by_face(gradient.face_area.data(), 1, ws.gradient_face);
@@ -115,12 +115,13 @@ void block_forces(const LaneBlock& block, const SurfaceList& surfaces, std::span
   const auto triangles = topology.faces();
   for (std::size_t f = 0; f < faces; ++f) {
     const Triangle& t = triangles[f];
-    const auto n = load_vec3<double, W>(ws.face_normal.data(), f);
-    const auto h = load_vec3<double, W>(ws.gradient_face_normal.data(), f);
-    const Real half = Real(0.5) / load_scalar<double, W>(ws.face_area.data(), f);
-    const auto w = (load_vec3<double, W>(g, t[0]) + load_vec3<double, W>(g, t[1]) + load_vec3<double, W>(g, t[2])) +
-                   n * (load_scalar<double, W>(ws.gradient_face.data(), f) * 0.5) + (h - n * dot(n, h)) * half;
     const auto x0 = load_vec3<double, W>(x, t[0]), x1 = load_vec3<double, W>(x, t[1]), x2 = load_vec3<double, W>(x, t[2]);
+    const auto twice = cross(x1 - x0, x2 - x0);
+    const Real inverse = Real(1.0) / norm(twice);  // 1 / (2 A)
+    const auto n = twice * inverse;
+    const auto h = load_vec3<double, W>(ws.gradient_face_normal.data(), f);
+    const auto w = (load_vec3<double, W>(g, t[0]) + load_vec3<double, W>(g, t[1]) + load_vec3<double, W>(g, t[2])) +
+                   n * (load_scalar<double, W>(ws.gradient_face.data(), f) * 0.5) + (h - n * dot(n, h)) * inverse;
     const auto f0 = cross(x2 - x1, w), f1 = cross(x0 - x2, w);
     add_vec3<double, W>(out, t[0], f0);
     add_vec3<double, W>(out, t[1], f1);
@@ -154,10 +155,12 @@ void for_each_block(std::span<const LaneBlock> blocks, const Kernel& kernel) {
 
 }  // namespace
 
-void compute_surface_geometry(const SurfaceList& surfaces, std::span<const LaneBlock> blocks, std::span<const Vec3d> position,
-                              SurfaceGeometry& geometry) {
+namespace {
+
+void compute(const SurfaceList& surfaces, std::span<const LaneBlock> blocks, std::span<const Vec3d> position, bool with_faces,
+             SurfaceGeometry& geometry) {
   const std::size_t count = surfaces.topology.size();
-  const std::size_t faces = count == 0 ? 0 : surfaces.first_face[count];
+  const std::size_t faces = !with_faces || count == 0 ? 0 : surfaces.first_face[count];
   geometry.face_area.resize(faces);
   geometry.face_normal.resize(faces);
   geometry.node_normal.assign(position.size(), Vec3d{});
@@ -168,8 +171,19 @@ void compute_surface_geometry(const SurfaceList& surfaces, std::span<const LaneB
   for_each_block(blocks, [&]<int W>(const LaneBlock& block, Workspace& ws) { block_geometry<W>(block, surfaces, position, geometry, ws); });
 }
 
+}  // namespace
+
+void compute_surface_geometry(const SurfaceList& surfaces, std::span<const LaneBlock> blocks, std::span<const Vec3d> position,
+                              SurfaceGeometry& geometry) {
+  compute(surfaces, blocks, position, true, geometry);
+}
+
 void compute_surface_geometry(const SurfaceList& surfaces, std::span<const Vec3d> position, SurfaceGeometry& geometry) {
-  compute_surface_geometry(surfaces, group_by_topology(surfaces.topology), position, geometry);
+  compute(surfaces, group_by_topology(surfaces.topology), position, true, geometry);
+}
+
+void compute_node_geometry(const SurfaceList& surfaces, std::span<const Vec3d> position, SurfaceGeometry& geometry) {
+  compute(surfaces, group_by_topology(surfaces.topology), position, false, geometry);
 }
 
 void add_surface_forces(const SurfaceList& surfaces, std::span<const LaneBlock> blocks, std::span<const Vec3d> position,

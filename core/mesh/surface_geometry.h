@@ -33,6 +33,8 @@ void compute_surface_geometry(const SurfaceList& surfaces, std::span<const LaneB
                               SurfaceGeometry& geometry);
 /// The same; groups the surfaces itself.
 void compute_surface_geometry(const SurfaceList& surfaces, std::span<const Vec3d> position, SurfaceGeometry& geometry);
+/// The same without the arrays by face, which are emptied: what a tissue needs of them is cheaper to find again than to keep.
+void compute_node_geometry(const SurfaceList& surfaces, std::span<const Vec3d> position, SurfaceGeometry& geometry);
 
 /// Derivatives of an energy that depends on areas and normals of surfaces.
 struct SurfaceGradient {
@@ -47,7 +49,7 @@ struct SurfaceGradient {
 /// w_T = ½ Σ_{v∈T} ∂E/∂G_v + ½ n_T ∂E/∂A_T + (I − n_T n_Tᵀ) ∂E/∂n_T / (2 A_T),  F_c −= w_T × e_c with e_c the edge opposite to corner c
 /// (∂A/∂x_c = ½ n × e_c: dcm.md §4). Net force and torque vanish when the gradient is that of an energy invariant under rigid motion.
 ///
-/// `geometry` is that of `position`.
+/// `geometry` is that of `position`; its arrays by face are not read.
 void add_surface_forces(const SurfaceList& surfaces, std::span<const LaneBlock> blocks, std::span<const Vec3d> position,
                         const SurfaceGeometry& geometry, const SurfaceGradient& gradient, std::span<Vec3d> force);
 /// The same; groups the surfaces itself.

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -57,23 +58,37 @@ class Topology {
 /// V^(1/3) × edge_length.
 struct ReferenceShape {
   std::shared_ptr<const Topology> topology;
-  std::vector<Vec3d> position;      ///< by node; volume centroid at the origin, enclosed volume 1
-  std::vector<double> edge_length;  ///< by edge
-  std::vector<double> face_area;    ///< by face
-  std::vector<double> hinge_angle;  ///< by edge: dihedral turning angle, 0 flat, > 0 convex [rad]
+  std::vector<Vec3d> position;        ///< by node; volume centroid at the origin, enclosed volume 1
+  std::vector<double> edge_length;    ///< by edge
+  std::vector<double> face_area;      ///< by face
+  std::vector<double> hinge_angle;    ///< by edge: dihedral turning angle, 0 flat, > 0 convex [rad]
+  std::uint32_t icosphere_nodes = 0;  ///< of the library's icosphere that this is; 0: a shape of its own
 };
 
 /// Reference shape from any positions (they are centred and scaled); null when they enclose no positive volume.
 std::shared_ptr<const ReferenceShape> make_reference_shape(std::shared_ptr<const Topology> topology, std::vector<Vec3d> position);
 
-/// Subdivided icosahedra with 42, 162, 642 and 2562 nodes, built once and shared.
+/// Shapes that shells share: subdivided icosahedra with 42, 162, 642 and 2562 nodes, built once, and shapes of cells that came from elsewhere.
 class ShapeLibrary {
  public:
   /// The icosphere with this number of nodes, or an error that lists the allowed numbers.
   Result<std::shared_ptr<const ReferenceShape>> icosphere(std::uint32_t nodes);
 
+  /// The known shape that equals this one bit for bit, else the shape itself, known from now on as long as somebody has it. A shape whose faces
+  /// are known gets their Topology, so that shells of both are computed in the same lanes.
+  std::shared_ptr<const ReferenceShape> adopt(std::shared_ptr<const ReferenceShape> shape);
+  /// A known shape with these faces (by the hash of their Topology) for which `same` holds; null when there is none.
+  template <class Same>
+  std::shared_ptr<const ReferenceShape> find(std::uint64_t topology_hash, const Same& same) {
+    const auto [begin, end] = own_.equal_range(topology_hash);
+    for (auto at = begin; at != end; ++at)
+      if (auto shape = at->second.lock(); shape && same(*shape)) return shape;
+    return nullptr;
+  }
+
  private:
   std::array<std::shared_ptr<const ReferenceShape>, 4> icospheres_{};
+  std::multimap<std::uint64_t, std::weak_ptr<const ReferenceShape>> own_;  ///< by hash of the topology
 };
 
 /// Signed volume enclosed by a closed mesh; relative to `origin` to avoid cancellation.

@@ -31,8 +31,9 @@ enum class Quantity : std::uint8_t {
   kAmountRate,         ///< amol/s
   kConcentration,      ///< mM = amol/µm³
   kDiffusion,          ///< µm²/s
+  kPermeability,       ///< of a membrane to water, L_p: µm/(s·kPa)
 };
-inline constexpr int kQuantityCount = 21;
+inline constexpr int kQuantityCount = 22;
 
 /// A quantity in words.
 struct QuantityDescription {

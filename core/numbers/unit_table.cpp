@@ -49,6 +49,7 @@ const WrittenUnits& written_units(Quantity quantity) {
       {"amol/s", {"fmol/s", "amol/s", "amol/h"}},
       {"amol/um^3", {"M", "mM", "uM", "nM"}},
       {"um^2/s", {"um^2/s", "um^2/h"}},
+      {"um^2 s/g", {"um/s/kPa", "m/s/Pa"}},
   };
   return kWritten[static_cast<std::size_t>(quantity)];
 }
@@ -95,6 +96,7 @@ QuantityDescription describe(Quantity quantity) noexcept {
       {"an amount of substance per time", "amol/s", "40 amol/s"},
       {"a concentration", "mM", "0.2 mM"},
       {"a diffusion coefficient", "um^2/s", "2e-9 m^2/s"},
+      {"a permeability to water", "um/s/kPa", "1e-12 m/s/Pa"},
   };
   return kDescriptions[static_cast<std::size_t>(quantity)];
 }

@@ -60,12 +60,30 @@ LawInfo migration_law() {
                           "P: time over which direction is kept."}}};
 }
 
+LawInfo osmosis_law() {
+  const Osmosis law;
+  return {
+      .name = "osmosis",
+      .title = "Osmotic control of the volume",
+      .equation =
+          "dV/dt = L_p A (RT (n/(V − V_b) − c_e) − Δp), n = c_i (V_t − V_b), V_b = f_b V_t, V_t the target volume; RT = 2.578731 fJ/amol; "
+          "V0 of a shell follows with V",
+      .source = "Kedem & Katchalsky 1958, doi:10.1016/0006-3002(58)90330-5; rest state: Boyle–van 't Hoff",
+      .parameters = {{"permeability", "permeability", "µm/(s·kPa)", law.permeability, 0.0, 1e3, kOurs, "L_p of water; 0: no osmosis."},
+                     {"inactive", "fraction", "1", law.inactive, 0.0, 0.9, kOurs, "f_b: part of the target volume that is no solvent."},
+                     {"inside", "concentration", "mM", law.inside, 0.0, 1e4, kOurs, "c_i: osmolarity inside at the target volume."},
+                     {"outside", "concentration", "mM", law.outside, 0.0, 1e4, kOurs, "c_e of the medium."}}};
+}
+
 }  // namespace
 
 std::vector<LawInfo> behaviour_laws() {
   return {growth_law("linear_growth", "Linear growth over the cycle", "V = V_b (1 + t/T)"),
-          growth_law("exponential_growth", "Exponential growth over the cycle", "V = V_b 2^(t/T)"), division_law(), death_law(),
-          migration_law()};
+          growth_law("exponential_growth", "Exponential growth over the cycle", "V = V_b 2^(t/T)"),
+          division_law(),
+          death_law(),
+          migration_law(),
+          osmosis_law()};
 }
 
 }  // namespace morula

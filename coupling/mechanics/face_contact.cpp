@@ -4,6 +4,17 @@
 
 namespace morula {
 
+namespace {
+
+/// Normal of a face times twice its area.
+Vec3d twice_area(const dcm::Shells& shells, std::size_t shell, std::uint32_t face) {
+  const Triangle& t = shells.topology(shell).faces()[face];
+  const auto x = shells.nodes(shell);
+  return cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
+}
+
+}  // namespace
+
 std::vector<float> Mechanics::contact_of_faces(const Tissue& tissue, std::span<const char> with_material) {
   prepare(tissue);
   const auto bodies = scene_.bodies();
@@ -17,13 +28,14 @@ std::vector<float> Mechanics::contact_of_faces(const Tissue& tissue, std::span<c
           !pair.rigid && bodies[d == 0 ? pair.b : pair.a].topology != nullptr;  // both bodies are sources, with half of the area each
       const std::uint16_t partner = pair.rigid ? contacts_.obstacles()[pair.b].material : bodies[d == 0 ? pair.b : pair.a].material;
       if (partner >= with_material.size() || !with_material[partner]) continue;
-      for (const ContactElement& element : pair.elements[d]) {
-        const std::size_t face = source.first_face + element.source_face();
-        out[face] += element.w * static_cast<float>((both ? 2.0 : 1.0) / geometry_.face_area[face]);
-      }
+      for (const ContactElement& element : pair.present(static_cast<std::size_t>(d)))
+        out[source.first_face + element.source_face()] += element.w * (both ? 2.0f : 1.0f);
     }
   }
-  for (float& part : out) part = std::min(part, 1.0f);
+  for (std::size_t s = 0; s < scene_.owned_shells(); ++s)
+    for (std::uint32_t f = scene_.first_face()[s]; f < scene_.first_face()[s + 1]; ++f)
+      if (out[f] > 0.0f)
+        out[f] = std::min(out[f] / static_cast<float>(0.5 * norm(twice_area(tissue.shells, s, f - scene_.first_face()[s]))), 1.0f);
   return out;
 }
 
@@ -34,9 +46,9 @@ std::vector<Touch> Mechanics::touch_of_bodies(const Tissue& tissue, std::uint16_
   std::vector<Touch> out(scene_.owned_shells() + scene_.owned_spheres());
   for (std::size_t s = 0; s < scene_.owned_shells(); ++s)
     for (std::uint32_t f = scene_.first_face()[s]; f < scene_.first_face()[s + 1]; ++f) {
-      const double area = geometry_.face_area[f] * static_cast<double>(part[f]);
-      out[s].area += area;
-      out[s].normal += geometry_.face_normal[f] * area;
+      const Vec3d touched = twice_area(tissue.shells, s, f - scene_.first_face()[s]) * (0.5 * static_cast<double>(part[f]));
+      out[s].area += norm(touched);
+      out[s].normal += touched;
     }
   spheres_.for_touched_obstacles([&](std::uint32_t sphere, std::uint32_t obstacle, const Vec3d& normal, double area) {
     if (contacts_.obstacles()[obstacle].material != material) return;

@@ -32,8 +32,7 @@ void FaceTensions::set(const Tissue& tissue, double time) {
   }
 }
 
-void FaceTensions::add_forces(const dcm::Shells& shells, std::span<const Vec3d> x, const SurfaceGeometry& geometry, std::span<Vec3d> force,
-                              OrderFreeSum& energy) const {
+void FaceTensions::add_forces(const dcm::Shells& shells, std::span<const Vec3d> x, std::span<Vec3d> force, OrderFreeSum& energy) const {
   if (!any_) return;
   std::size_t face = 0;
   for (std::size_t s = 0; s < shells.size(); ++s) {
@@ -42,9 +41,11 @@ void FaceTensions::add_forces(const dcm::Shells& shells, std::span<const Vec3d> 
     for (const Triangle& t : shells.topology(s).faces()) {
       const double tension = extra_[face];
       if (tension != 0.0) {
-        of_shell += tension * geometry.face_area[face];
-        const Vec3d n = geometry.face_normal[face] * (-0.5 * tension);
         const Vec3d &x0 = x[first + t[0]], &x1 = x[first + t[1]], &x2 = x[first + t[2]];
+        const Vec3d twice_area = cross(x1 - x0, x2 - x0);
+        const double length = norm(twice_area);
+        of_shell += 0.5 * tension * length;
+        const Vec3d n = twice_area * (-0.5 * tension / length);
         const Vec3d f1 = cross(n, x0 - x2), f2 = cross(n, x1 - x0);
         force[first + t[1]] += f1;
         force[first + t[2]] += f2;

@@ -24,9 +24,8 @@ class FaceTensions {
   /// γ_T − γ of all owned faces at a time [s].
   void set(const Tissue& tissue, double time);
 
-  /// Adds −∂E/∂x_c = −(γ_T − γ) ½ n×e_c to the force of the owned nodes, and Σ (γ_T − γ) A_T by shell to the energy. `geometry` is that of `position`.
-  void add_forces(const dcm::Shells& shells, std::span<const Vec3d> position, const SurfaceGeometry& geometry, std::span<Vec3d> force,
-                  OrderFreeSum& energy) const;
+  /// Adds −∂E/∂x_c = −(γ_T − γ) ½ n×e_c to the force of the owned nodes, and Σ (γ_T − γ) A_T by shell to the energy.
+  void add_forces(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<Vec3d> force, OrderFreeSum& energy) const;
 
   /// Contact energies per area with these tensions on top: what the stiffness of a face's tension is made of (dcm::assemble_shell_operator).
   [[nodiscard]] std::span<const double> on_top_of(std::span<const double> face_energy);

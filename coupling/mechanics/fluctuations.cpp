@@ -164,7 +164,7 @@ void Mechanics::add_contact_noise(const Tissue& tissue, double dt, std::span<Vec
   };
   for (const SurfacePair& pair : contacts_.pairs()) {
     for (int d = 0; d < 2; ++d) {
-      if (pair.elements[d].empty()) continue;
+      if (pair.present(d).empty()) continue;
       const ContactBody& source = bodies[d == 0 ? pair.a : pair.b];
       const ContactBody* target = pair.rigid ? nullptr : &bodies[d == 0 ? pair.b : pair.a];
       const std::uint16_t partner = target != nullptr ? target->material : contacts_.obstacles()[pair.b].material;
@@ -172,7 +172,7 @@ void Mechanics::add_contact_noise(const Tissue& tissue, double dt, std::span<Vec
       if (kt == 0.0) continue;
       const ContactMaterial& material = contacts_.material(source.material, partner);
       const std::uint64_t step = mixed(tissue.clock.steps + std::uint64_t{d == 0 ? 0u : 1u << 30});
-      for (const ContactElement& e : pair.elements[d]) {
+      for (const ContactElement& e : pair.present(d)) {
         const Triangle& face = source.topology->faces()[e.source_face()];
         const Vec3d noise =
             normal_vector(random, source.id, point_draw(step, target != nullptr ? target->id : CellId(pair.b + 1), e.source));

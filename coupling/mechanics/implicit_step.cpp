@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "coupling/mechanics/mechanics.h"
 
@@ -9,10 +10,21 @@ namespace {
 constexpr double kArmijo = 1e-4;
 constexpr int kHalvings = 8;
 constexpr int kGradientHalvings = 20;
-constexpr double kStuckForce = 1e-3;     // largest residual that counts as rest [nN]
-constexpr double kAllowedRise = 0.2;     // of Φ, in the last resort of the freeze rule [nN·µm]
-constexpr double kLastResortStep = 0.2;  // in units of the contact range
+// A step whose residual is not below `newton_stop` may end all the same where little motion is left; both in units of newton_stop:
+constexpr double kMostLeft = 2.5;          // of the residual
+constexpr double kSmallCorrection = 0.15;  // motion that another iteration would bring, in units of the contact range
+constexpr double kStuckForce = 1e-3;       // largest residual that counts as rest [nN]
+constexpr double kAllowedRise = 0.2;       // of Φ, in the last resort of the freeze rule [nN·µm]
+constexpr double kLastResortStep = 0.2;    // in units of the contact range
 constexpr int kMaxLinearIterations = 400;
+
+/// Which forces hold a node that nothing can move: words for the message.
+std::string forces_at_worst(const Vec3d& contacts, const Vec3d& left) {
+  char text[160];
+  std::snprintf(text, sizeof text, "; at its worst node contacts act with %.3g nN, and %.3g nN are left without balance", norm(contacts),
+                norm(left));
+  return text;
+}
 
 }  // namespace
 
@@ -55,19 +67,17 @@ struct Mechanics::Trial {
 };
 
 double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt, bool moved) {
+  auto timed = timer_.scope(Stage::kAdvance);
   const auto& x = scene_.position();
   for_owned_points([&](std::uint32_t i) {  // −Δt (F + external), to which Γ_n d is added
-    const std::size_t e = i < scene_.owned_nodes() ? i : i - scene_.sphere_point() + scene_.owned_nodes();
-    force_[i] = (force_[i] + external[e]) * -dt;
+    force_[i] = (force_[i] + external_on(external, i)) * -dt;
   });
+  for (const Anchor& anchor : anchors_) force_[anchor.node] += (x[anchor.node] - anchor.target) * (anchor.stiffness * dt);
   spent_ = true;
-  displacement_.resize(contacts_.pairs().empty() ? scene_.sphere_point() : x.size());  // spheres alone have no use for it
-  for (std::size_t i = 0; i < displacement_.size(); ++i) displacement_[i] = x[i] - start[i];
   OrderFreeSum sums[2];
-  std::vector<Vec3d>& of_shells = gradient_.node_normal;  // which is found anew before it is used again
-  shells_.set_step_friction(displacement_, of_shells, sums[0]);
-  for (std::size_t i = 0; i < scene_.owned_nodes(); ++i) force_[i] += of_shells[i];
-  contacts_.add_step_friction(contact_scene(), displacement_, force_, sums[0]);
+  if (moved) shells_.add_step_friction(x, force_, sums[0]);
+  if (moved) interior_.add_step_friction(start, x, force_, sums[0]);
+  contacts_.add_step_friction(contact_scene(), start, moved, force_, sums[0]);
   const auto medium = system_.point_friction();
   for (std::size_t i = 0; moved && i < scene_.owned_spheres(); ++i) {
     const std::size_t point = scene_.sphere_point() + i;
@@ -81,12 +91,14 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
     if (!b.active()) continue;
     double work = 0.0;
     for (std::uint32_t i = b.first_point; i < b.first_point + b.point_count; ++i) {
-      const std::size_t e = i < scene_.owned_nodes() ? i : i - scene_.sphere_point() + scene_.owned_nodes();
-      work += morula::dot(external[e], x[i] - start[i]);
+      work += morula::dot(external_on(external, i), x[i] - start[i]);
       force_[i] *= -1.0 / dt;
     }
     sums[1].add(work);
   }
+  for_nuclei([&](std::uint32_t i) { force_[i] *= -1.0 / dt; });
+  for (const Anchor& anchor : anchors_)  // what the springs have given: their energy at the start less that at x
+    sums[1].add(0.5 * anchor.stiffness * (norm2(start[anchor.node] - anchor.target) - norm2(x[anchor.node] - anchor.target)));
   double totals[2];
   comm_.sum(sums, totals);
   friction_energy_ = totals[0];
@@ -165,18 +177,25 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
           StepFault fault{"no step lowers the energy", {}, true};
           if (const auto shape = find_fault()) fault = *shape;
           double worst = 0.0;
+          std::uint32_t at = 0;
           for (const ContactBody& body : scene_.bodies())
             for (std::uint32_t i = body.first_point; body.active() && i < body.first_point + body.point_count; ++i)
               if (norm2(force_[i]) > worst) {
                 worst = norm2(force_[i]);
                 fault.cell = body.id;
+                at = i;
               }
+          if (at < scene_.owned_nodes() && at < gradient_.force.size()) fault.what += forces_at_worst(gradient_.force[at], force_[at]);
           return undo(start, fault);
         }
         break;
       }
     }
-    if (std::sqrt(dot(force_, force_)) <= control.newton_stop * force_norm || converged) break;
+    // Another iteration would move points by about the part of this one's way that the residual has left: where this is little, it is not
+    // worth a matrix and a solve, and the next step sees the residual (time_stepping.md §6.1, §10.5).
+    const double left = std::sqrt(dot(force_, force_)) / force_norm;
+    if (left <= control.newton_stop || converged) break;
+    if (left <= kMostLeft * control.newton_stop && left * longest <= kSmallCorrection * control.newton_stop * range) break;
   }
   report.displacement = furthest(start);
   if (report.displacement > 1.5 * allowed && dt > 1e-3) {

@@ -25,11 +25,14 @@ Mechanics::Mechanics(const Model& model, std::vector<RigidSurface> obstacles, Sh
       threads_(threads),
       contacts_(contact_settings(model, threads), std::move(obstacles), contact_materials(model), contact_material_count(model)),
       shells_(model),
+      interior_(model),
       spheres_(model, threads),
       face_tensions_(model),
       node_terms_(model) {}
 
-ContactScene Mechanics::contact_scene() const { return {scene_.bodies(), scene_.position(), &geometry_}; }
+ContactScene Mechanics::contact_scene() const {
+  return {scene_.bodies(), std::span(scene_.position()).first(scene_.nucleus_point()), &geometry_};
+}
 
 double Mechanics::largest(std::span<const Vec3d> by_point) const {
   double most = 0.0;
@@ -39,6 +42,7 @@ double Mechanics::largest(std::span<const Vec3d> by_point) const {
         const double here = norm2(by_point[i]);
         if (!(here <= most)) most = here;  // not a number wins
       }
+  for_nuclei([&](std::uint32_t i) { most = std::max(most, norm2(by_point[i])); });
   return std::sqrt(comm_.max(most));
 }
 
@@ -50,6 +54,7 @@ double Mechanics::furthest(std::span<const Vec3d> start) const {
         const double here = norm2(scene_.position()[i] - start[i]);
         if (!(here <= most)) most = here;
       }
+  for_nuclei([&](std::uint32_t i) { most = std::max(most, norm2(scene_.position()[i] - start[i])); });
   return std::sqrt(comm_.max(most));
 }
 
@@ -61,6 +66,7 @@ double Mechanics::dot(std::span<const Vec3d> a, std::span<const Vec3d> b) const 
     for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) part += morula::dot(a[i], b[i]);
     sum.add(part);
   }
+  for_nuclei([&](std::uint32_t i) { sum.add(morula::dot(a[i], b[i])); });
   return comm_.sum(sum);
 }
 
@@ -93,6 +99,7 @@ void Mechanics::prepare(const Tissue& tissue) {
     }
     contacts_.reset();
     shells_.set_shells(tissue.shells);
+    interior_.set_shells(tissue.shells, scene_.nucleus_point());
     const std::size_t points = scene_.point_count(), faces = scene_.face_count();
     force_.assign(points, {});
     gradient_.force.assign(scene_.shells() > 0 ? points : 0, {});  // spheres alone add to force_ at once
@@ -136,10 +143,15 @@ void Mechanics::lay_out_system() {
     layout.bodies.push_back({body.first_point, body.point_count});
     layout.owned.push_back(body.active());
   }
+  for (const InteriorSystem::Nucleus& nucleus : interior_.nuclei()) {
+    layout.bodies.push_back({nucleus.point, 1});
+    layout.owned.push_back(scene_.bodies()[nucleus.shell].active());
+  }
   if (comm_.size() > 1) layout.exchange = [this](std::span<Float4> vector) { scene_.exchange(vector); };
   system_.set_layout(std::move(layout), threads_);
   system_.set_shells(&shells_);
   system_.set_sphere_pairs(&spheres_.pairs());
+  if (!interior_.empty()) system_.set_interior(&interior_);
 }
 
 void Mechanics::evaluate(const Tissue& tissue, bool moved) {
@@ -151,9 +163,9 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   {
     auto timed = timer_.scope(Stage::kInternal);
     if (moved)
-      compute_surface_geometry({scene_.topologies(), scene_.first_node(), scene_.first_face()},
-                               std::span(std::as_const(scene_).position()).first(scene_.sphere_point()), geometry_);
-    shells_.evaluate(tissue.shells, scene_.position());
+      compute_node_geometry({scene_.topologies(), scene_.first_node(), scene_.first_face()},
+                            std::span(std::as_const(scene_).position()).first(scene_.sphere_point()), geometry_);
+    shells_.evaluate(tissue.shells, scene_.position(), force_);
   }
   {
     auto timed = timer_.scope(Stage::kCandidates);
@@ -165,6 +177,7 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   }
   auto timed = timer_.scope(Stage::kContacts);
   const bool with_spheres = contacts_.has_pairs(SurfacePairKind::kWithSphere);
+  if (spheres_.packs()) find_packing(scene, with_spheres);
   if (moved || with_spheres) {
     if (moved) {
       gradient_.set_zero();
@@ -177,23 +190,29 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
     const SurfaceList owned{scene_.topologies().first(scene_.owned_shells()), scene_.first_node(), scene_.first_face()};
     add_surface_forces(owned, scene_.position(), geometry_, {gradient_.face_energy, {}, gradient_.node_normal}, gradient_.force);
   }
-  if (gradient_.force.empty())
-    std::fill(force_.begin(), force_.end(), Vec3d{});
-  else
-    std::copy(gradient_.force.begin(), gradient_.force.end(), force_.begin());
+  for (std::size_t i = 0; i < scene_.owned_nodes(); ++i) force_[i] += gradient_.force[i];  // to those within the shells
+  for (std::size_t i = scene_.owned_nodes(); i < force_.size(); ++i) force_[i] = gradient_.force.empty() ? Vec3d{} : gradient_.force[i];
   spent_ = false;
   spheres_.evaluate(scene_, contacts_, force_);
   const auto& internal = shells_.forces();
-  for (std::size_t i = 0; i < scene_.owned_nodes(); ++i) force_[i] += internal.force[i];
+  if (!interior_.empty()) interior_.evaluate(tissue.shells, scene_.position(), force_);
 
   OrderFreeSum sum;
   for (std::size_t i = 0; i < scene_.owned_shells(); ++i) sum.add(internal.energy[i]);
-  face_tensions_.add_forces(tissue.shells, scene_.position(), geometry_, force_, sum);
+  face_tensions_.add_forces(tissue.shells, scene_.position(), force_, sum);
   node_terms_.add_forces(tissue.shells, scene_.position(), force_, sum);
   contacts_.add_energy(scene, sum);
   spheres_.add_energy(sum);
+  interior_.add_energy(sum);
   energy_ = comm_.sum(sum);
   evaluated_ = contacts_current_ = true;
+}
+
+void Mechanics::find_packing(const ContactScene& scene, bool with_surfaces) {
+  std::vector<Penetration> penetration(with_surfaces ? scene.bodies.size() : 0);
+  if (with_surfaces) contacts_.find_penetration(scene, penetration);
+  spheres_.find_packing(scene_, contacts_, penetration);
+  contacts_.set_packing(spheres_.surface_pressure());
 }
 
 StepFault Mechanics::undo(const std::vector<Vec3d>& start, StepFault fault) {
@@ -206,7 +225,8 @@ StepFault Mechanics::undo(const std::vector<Vec3d>& start, StepFault fault) {
 void Mechanics::begin_step(const Tissue& tissue, double dt) {
   auto timed = timer_.scope(Stage::kAssemble);
   contacts_.begin_step();
-  shells_.begin_step(tissue.shells, scene_.position(), geometry_);
+  shells_.begin_step(tissue.shells, geometry_);
+  interior_.begin_step(scene_.position(), geometry_);
   shells_.set_node_friction(node_terms_.friction(tissue, geometry_));
   std::vector<float> friction(scene_.point_count(), 0.0f);
   const std::size_t first = scene_.first_sphere();
@@ -215,6 +235,7 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
     friction[scene_.bodies()[first + i].first_point] =
         static_cast<float>(model_.types[tissue.spheres.type[i]].medium_friction * 4.0 * std::numbers::pi * r * r);
   }
+  for (const Anchor& anchor : anchors_) friction[anchor.node] += static_cast<float>(anchor.stiffness * dt);
   system_.set_point_friction(friction);
   spheres_.begin_step();
   // The last velocity is the solver's start; obstacles go where they will be at the end of the step.
@@ -226,6 +247,7 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
     const Vec3f& v = tissue.spheres.velocity[i];
     solution_[scene_.sphere_point() + i] = {v.x, v.y, v.z, 0.0f};
   }
+  interior_.start_from_cortex(solution_);
   if (relaxing_) {
     std::fill(solution_.begin(), solution_.end(), Float4{});
     return;
@@ -246,6 +268,7 @@ void Mechanics::assemble(const Tissue& tissue, double dt) {
   auto timed = timer_.scope(Stage::kAssemble);
   shells_.set_node_stiffness(node_terms_.stiffness(scene_.position(), scene_.owned_nodes()));
   shells_.assemble(tissue.shells, scene_.position(), face_tensions_.on_top_of(gradient_.face_energy), dt);
+  interior_.assemble(scene_.position(), dt);
   system_.set_step(dt);
   system_.set_elements(contacts_.element_groups(contact_scene()), FaceQuadrature::with_points(contacts_.settings().points_per_face));
 }
@@ -257,7 +280,8 @@ std::optional<StepFault> Mechanics::find_fault() const {
   return std::nullopt;
 }
 
-Result<StepReport, StepFault> Mechanics::step(Tissue& tissue, double dt, std::span<const Vec3d> external) {
+Result<StepReport, StepFault> Mechanics::step(Tissue& tissue, double dt, std::span<const Vec3d> external, std::span<const Anchor> anchors) {
+  anchors_ = anchors;
   if (comm_.any(flags_changed_ || spent_)) evaluated_ = flags_changed_ = false;
   if (node_terms_.has_springs()) evaluated_ = false;  // their spheres are those of the step's start
   if (const double end = tissue.clock.time + dt; !relaxing_ && face_tensions_.vary() && end != tension_time_) {
@@ -354,10 +378,18 @@ BodyValues Mechanics::values(const Tissue& tissue) {
 
 std::vector<double> Mechanics::pressures(const Tissue& tissue) {
   prepare(tissue);
-  if (spheres_.renew_sisters(scene_, contacts_, tissue.clock.time)) flags_changed_ = true;
+  const bool renewed = spheres_.renew_sisters(scene_, contacts_, tissue.clock.time);
+  if (renewed) flags_changed_ = true;
+  if (spheres_.packs() && comm_.any(renewed)) evaluate(tissue, false);  // the packing of sisters counts at their neighbours, too
   std::vector<double> out(scene_.owned_shells() + scene_.owned_spheres());
   for (std::size_t i = 0; i < scene_.owned_shells(); ++i) out[i] = shells_.forces().pressure[i];
   for (std::size_t i = 0; i < scene_.owned_spheres(); ++i) out[scene_.owned_shells() + i] = spheres_.pressure(i, tissue.spheres.radius[i]);
+  return out;
+}
+
+std::vector<double> Mechanics::packing() const {
+  std::vector<double> out(scene_.owned_spheres());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = spheres_.packing(i);
   return out;
 }
 
@@ -387,8 +419,8 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
 
 std::size_t Mechanics::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return contacts_.memory() + shells_.memory() + spheres_.memory() + system_.memory() + scene_.memory() + bytes(force_) +
-         bytes(displacement_) + bytes(solution_) + gradient_.memory() + surfaces_only_.memory() + bytes(geometry_.face_area) +
+  return contacts_.memory() + shells_.memory() + interior_.memory() + spheres_.memory() + system_.memory() + scene_.memory() +
+         bytes(force_) + bytes(solution_) + gradient_.memory() + surfaces_only_.memory() + bytes(geometry_.face_area) +
          bytes(geometry_.face_normal) + bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) +
          bytes(scene_start_);
 }

@@ -9,7 +9,9 @@
 #include "core/friction/friction_system.h"
 #include "core/mesh/topology.h"
 #include "core/parallel/comm.h"
+#include "coupling/grips.h"
 #include "coupling/mechanics/face_tensions.h"
+#include "coupling/mechanics/interior_system.h"
 #include "coupling/mechanics/node_terms.h"
 #include "coupling/mechanics/scene.h"
 #include "coupling/mechanics/shell_system.h"
@@ -66,7 +68,8 @@ class Mechanics {
 
   /// One step of length dt under the given external forces (owned shell nodes, then owned spheres) [nN]. On success the tissue holds
   /// the new positions and velocities; on a fault it is unchanged. Collective.
-  Result<StepReport, StepFault> step(Tissue& tissue, double dt, std::span<const Vec3d> external);
+  /// `anchors`: springs on owned shell nodes, held implicitly at their places of the step's end.
+  Result<StepReport, StepFault> step(Tissue& tissue, double dt, std::span<const Vec3d> external, std::span<const Anchor> anchors = {});
 
   /// Forces on whole cells (by owned body: shells, then spheres) as `external`: on a shell spread over its nodes by their area (dcm.md §11).
   std::vector<Vec3d> spread(const Tissue& tissue, std::span<const Vec3d> by_body);
@@ -101,6 +104,9 @@ class Mechanics {
   /// Force of all cells on each obstacle, friction left out [nN]. Spheres do not touch obstacles. Collective; the same on every rank.
   std::vector<Vec3d> obstacle_forces(const Tissue& tissue);
 
+  /// How tightly the owned spheres are packed, φ (cbm.md §3); 0 where no type has a pressure of packing. After values(), pressures() or a step.
+  [[nodiscard]] std::vector<double> packing() const;
+
   /// Number of external force entries for this tissue: owned shell nodes, then owned spheres.
   [[nodiscard]] static std::size_t external_size(const Tissue& tissue) { return tissue.shells.node_count() + tissue.spheres.size(); }
 
@@ -112,6 +118,8 @@ class Mechanics {
   [[nodiscard]] StageTimer& timer() { return timer_; }
   [[nodiscard]] const ContactLayer& contacts() const { return contacts_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
+  /// What the nucleus of an owned shell feels at the present positions.
+  [[nodiscard]] dcm::InteriorEnergy interior_of(std::uint32_t shell) const { return interior_.of_shell(shell); }
   [[nodiscard]] double deepest_overlap() const;
   /// Bytes of all workspaces of this rank.
   [[nodiscard]] std::size_t memory() const;
@@ -123,13 +131,15 @@ class Mechanics {
   void evaluate(const Tissue& tissue, bool moved = true);
   /// Back to the step's start after a fault.
   StepFault undo(const std::vector<Vec3d>& start, StepFault fault);
+  /// Pressures of the spheres by their packing, for all that press on them.
+  void find_packing(const ContactScene& scene, bool with_surfaces);
   void begin_step(const Tissue& tissue, double dt);
   void hold_all_but(std::span<const char> moves);
   void add_shell_noise(const Tissue& tissue, double dt, std::span<Vec3d> external) const;
   void add_sphere_noise(const Tissue& tissue, double dt, std::span<Vec3d> external) const;
   void add_contact_noise(const Tissue& tissue, double dt, std::span<Vec3d> external) const;
   void lay_out_system();
-  /// `moved`: false at the step's start, where spheres have not rubbed yet.
+  /// `moved`: false at the step's start, where nothing has rubbed yet but obstacles that move.
   [[nodiscard]] double friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt, bool moved = true);
   /// The residual becomes the right side of the system.
   void give_residual();
@@ -139,8 +149,20 @@ class Mechanics {
   void assemble(const Tissue& tissue, double dt);
   void finish(Tissue& tissue, double dt, StepReport& report);
   [[nodiscard]] ContactScene contact_scene() const;
+  /// Where the external force of an owned point is; nuclei have none.
+  [[nodiscard]] Vec3d external_on(std::span<const Vec3d> external, std::uint32_t point) const {
+    if (point >= scene_.nucleus_point()) return {};
+    return external[point < scene_.owned_nodes() ? point : point - scene_.sphere_point() + scene_.owned_nodes()];
+  }
+  /// `function(point)` for the nuclei of shells that move.
+  template <class F>
+  void for_nuclei(F&& function) const {
+    for (const InteriorSystem::Nucleus& nucleus : interior_.nuclei())
+      if (scene_.bodies()[nucleus.shell].active()) function(nucleus.point);
+  }
   template <class F>
   void for_owned_points(F&& function) const {
+    for_nuclei(function);
     const auto bodies = scene_.bodies();
 #pragma omp parallel for schedule(static) num_threads(threads_)
     for (std::size_t b = 0; b < bodies.size(); ++b)
@@ -175,6 +197,7 @@ class Mechanics {
   ContactGradient surfaces_only_;  ///< without the pairs with a sphere; kept only where there are any
   SurfaceGeometry geometry_;
   ShellSystem shells_;
+  InteriorSystem interior_;
   SphereContacts spheres_;
   FaceTensions face_tensions_;
   NodeTerms node_terms_;
@@ -184,7 +207,7 @@ class Mechanics {
   double energy_ = 0.0;              ///< at the present positions, without external work
   std::vector<Vec3d> force_;         ///< by point; friction_residual() makes the residual of it: force + external − Γ_n d/Δt
   bool spent_ = false;               ///< force_ holds a residual: evaluate() before the next step
-  std::vector<Vec3d> displacement_;  ///< d = x − x_n, of what touches surfaces
+  std::span<const Anchor> anchors_;  ///< of the present step
   double friction_energy_ = 0.0;     ///< dᵀΓ_n d
   std::vector<Float4> solution_;
 };

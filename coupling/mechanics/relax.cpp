@@ -38,6 +38,7 @@ Status Mechanics::relax(Tissue& tissue, std::span<const char> moves) {
   relax_moves_.assign(moves.begin(), moves.end());
   hold_all_but(relax_moves_);
   relaxing_ = true;
+  anchors_ = {};
   const Clock clock = tissue.clock;
   tissue.clock.capped = true;
   double largest_volume = 0.0;

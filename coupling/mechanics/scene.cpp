@@ -6,10 +6,12 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/mesh/shape_bytes.h"
+
 namespace morula {
 namespace {
 
-/// What a ghost is announced with; its positions follow by exchange().
+/// What a ghost is announced with; the shapes of the shells stand after all headers, its positions follow by exchange().
 struct GhostHeader {
   CellId id;
   std::uint64_t order;
@@ -21,7 +23,7 @@ struct GhostHeader {
 };
 
 template <class T>
-std::vector<T> unpack(const std::vector<std::byte>& bytes) {
+std::vector<T> unpack(std::span<const std::byte> bytes) {
   std::vector<T> out(bytes.size() / sizeof(T));
   if (!out.empty()) std::memcpy(out.data(), bytes.data(), bytes.size());
   return out;
@@ -81,7 +83,7 @@ std::vector<Scene::Birth> Scene::sphere_births(const Tissue& tissue) const {
   return out;
 }
 
-void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, const Comm& comm) {
+void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, ShapeLibrary& library, const Comm& comm) {
   const auto ranks = static_cast<std::size_t>(comm.size());
   send_bodies_.assign(ranks, {});
   receive_bodies_.assign(ranks, {});
@@ -112,6 +114,7 @@ void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, 
   for (std::size_t r = 0; r < ranks; ++r) {
     if (static_cast<int>(r) == comm.rank() || all[r].empty()) continue;
     std::vector<GhostHeader> headers;
+    std::vector<std::byte> shapes;
     for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
       if (!overlaps_any_image(box[i], all[r], space)) continue;
       send_bodies_[r].push_back(i);
@@ -125,21 +128,34 @@ void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, 
                          bodies_[i].material,
                          bodies_[i].shape,
                          {}});
+      if (bodies_[i].shape == BodyShape::kSurface) append_shape(*shapes_[i], shapes);
     }
-    outgoing[r] = pack(headers);
+    outgoing[r] = pack(std::vector<std::uint64_t>{headers.size()});
+    const auto bytes = pack(headers);
+    outgoing[r].insert(outgoing[r].end(), bytes.begin(), bytes.end());
+    outgoing[r].insert(outgoing[r].end(), shapes.begin(), shapes.end());
   }
   const auto incoming = comm.exchange(outgoing);
 
   struct Arrival {
     GhostHeader header;
     std::size_t rank, at;
+    std::shared_ptr<const ReferenceShape> form;  ///< of a shell
   };
   std::vector<Arrival> ghost_shells, ghost_spheres;
   for (std::size_t r = 0; r < ranks; ++r) {
-    const auto headers = unpack<GhostHeader>(incoming[r]);
+    if (incoming[r].empty()) continue;
+    std::span<const std::byte> rest(incoming[r]);
+    const auto count = unpack<std::uint64_t>(rest.first(sizeof(std::uint64_t)))[0];
+    const auto headers = unpack<GhostHeader>(rest.subspan(sizeof(std::uint64_t), count * sizeof(GhostHeader)));
+    rest = rest.subspan(sizeof(std::uint64_t) + count * sizeof(GhostHeader));
     receive_bodies_[r].resize(headers.size());
-    for (std::size_t k = 0; k < headers.size(); ++k)
-      (headers[k].shape == BodyShape::kSurface ? ghost_shells : ghost_spheres).push_back({headers[k], r, k});
+    for (std::size_t k = 0; k < headers.size(); ++k) {
+      if (headers[k].shape == BodyShape::kSurface)
+        ghost_shells.push_back({headers[k], r, k, read_shape(rest, library)});
+      else
+        ghost_spheres.push_back({headers[k], r, k, nullptr});
+    }
   }
   const auto body_of = [](const GhostHeader& h) {
     ContactBody body;
@@ -155,6 +171,7 @@ void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, 
   for (const Arrival& arrival : ghost_shells) {
     receive_bodies_[arrival.rank][arrival.at] = static_cast<std::uint32_t>(owned_shells_ + shells.size());
     shells.push_back(body_of(arrival.header));
+    shapes_.push_back(arrival.form);
   }
   for (const Arrival& arrival : ghost_spheres) {
     receive_bodies_[arrival.rank][arrival.at] = static_cast<std::uint32_t>(owned_shells_ + shells.size() + owned_spheres_ + spheres.size());
@@ -192,11 +209,10 @@ void Scene::build(const Tissue& tissue, const Space& space, double reach, ShapeL
     receive_bodies_.assign(1, {});
     place_bodies(order);
   } else {
-    find_ghosts(tissue, space, reach, comm);
+    find_ghosts(tissue, space, reach, library, comm);
   }
   shells_ = 0;
   while (shells_ < bodies_.size() && bodies_[shells_].shape == BodyShape::kSurface) ++shells_;
-  for (std::size_t i = owned_shells_; i < shells_; ++i) shapes_.push_back(library.icosphere(bodies_[i].point_count).value());
   topologies_.clear();
   first_node_.assign(1, 0);
   first_face_.assign(1, 0);
@@ -215,6 +231,8 @@ void Scene::build(const Tissue& tissue, const Space& space, double reach, ShapeL
   face_count_ = first_face_.back();
   owned_nodes_ = first_node_[owned_shells_];
   shell_nodes_ = first_node_.back();
+  nucleus_point_ = point;
+  for (std::size_t i = 0; i < owned_shells_; ++i) point += tissue.shells.nucleus_of(i) != nullptr;
   position_.assign(point, Vec3d{});
   take_positions(tissue);
   exchange(position_);
@@ -234,6 +252,9 @@ void Scene::set_moving(std::span<const char> moves) {
 void Scene::take_positions(const Tissue& tissue) {
   std::copy(tissue.shells.position.begin(), tissue.shells.position.end(), position_.begin());
   std::copy(tissue.spheres.position.begin(), tissue.spheres.position.end(), position_.begin() + shell_nodes_);
+  std::size_t nucleus = nucleus_point_;
+  for (std::size_t i = 0; i < owned_shells_; ++i)
+    if (const Vec3d* center = tissue.shells.nucleus_of(i)) position_[nucleus++] = *center;
 }
 
 void Scene::take_radii(const Tissue& tissue) {
@@ -248,6 +269,9 @@ void Scene::take_radii(const Tissue& tissue) {
 void Scene::give_positions(Tissue& tissue) const {
   std::copy_n(position_.begin(), tissue.shells.position.size(), tissue.shells.position.begin());
   std::copy_n(position_.begin() + shell_nodes_, tissue.spheres.position.size(), tissue.spheres.position.begin());
+  std::size_t nucleus = nucleus_point_;
+  for (std::optional<Vec3d>& center : tissue.shells.nucleus)
+    if (center) center = position_[nucleus++];
 }
 
 template <class T>

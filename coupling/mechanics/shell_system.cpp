@@ -14,13 +14,14 @@ void ShellSystem::set_shells(const dcm::Shells& shells) {
   blocks_ = dcm::make_shell_blocks(shells);
 }
 
-void ShellSystem::evaluate(const dcm::Shells& shells, std::span<const Vec3d> position) {
-  dcm::internal_forces(blocks_, shells, parameters_, position.first(shells.node_count()), forces_);
+void ShellSystem::evaluate(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<Vec3d> force) {
+  const std::size_t nodes = shells.node_count();
+  dcm::internal_forces(blocks_, shells, parameters_, position.first(nodes), force.first(nodes), forces_);
 }
 
-void ShellSystem::begin_step(const dcm::Shells& shells, std::span<const Vec3d> position, const SurfaceGeometry& geometry) {
-  const std::size_t nodes = shells.node_count();
-  dcm::compute_shell_friction(blocks_, shells, parameters_, position.first(nodes), std::span(geometry.node_area).first(nodes), friction_);
+void ShellSystem::begin_step(const dcm::Shells& shells, const SurfaceGeometry& geometry) {
+  const auto node_area = std::span(geometry.node_area).first(shells.node_count());
+  dcm::compute_shell_friction(blocks_, shells, parameters_, shells.position, node_area, friction_);
 }
 
 void ShellSystem::assemble(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<const double> face_contact_energy,
@@ -37,18 +38,19 @@ void ShellSystem::assemble(const dcm::Shells& shells, std::span<const Vec3d> pos
   }
 }
 
-void ShellSystem::set_step_friction(std::span<const Vec3d> displacement, std::span<Vec3d> out, OrderFreeSum& quadratic) {
+void ShellSystem::add_step_friction(std::span<const Vec3d> position, std::span<Vec3d> out, OrderFreeSum& quadratic) {
   if (shells_ == nullptr || shells_->size() == 0) return;
   const std::size_t nodes = shells_->node_count();
   friction_quadratic_.resize(shells_->size());
-  dcm::friction_times_displacement(blocks_, *shells_, friction_, displacement.first(nodes), out.first(nodes), friction_quadratic_);
+  dcm::add_friction_of_motion(blocks_, *shells_, friction_, position.first(nodes), out.first(nodes), friction_quadratic_);
   for (const double q : friction_quadratic_) quadratic.add(q);
   for (std::size_t s = 0; s < shells_->size() && !node_friction_.empty(); ++s) {
     double of_shell = 0.0;
     for (std::uint32_t i = shells_->first_node[s]; i < shells_->first_node[s + 1]; ++i) {
-      const Vec3d push = node_friction_[i] * displacement[i];
+      const Vec3d displacement = position[i] - shells_->position[i];
+      const Vec3d push = node_friction_[i] * displacement;
       out[i] += push;
-      of_shell += dot(displacement[i], push);
+      of_shell += dot(displacement, push);
     }
     quadratic.add(of_shell);
   }
@@ -70,15 +72,14 @@ void ShellSystem::add_diagonal(std::span<SymMat3<float>> diagonal) const {
 }
 
 std::size_t ShellSystem::memory() const {
-  std::size_t total = forces_.force.capacity() * sizeof(Vec3d);
+  std::size_t total = 0;
   for (const auto& block : operator_.blocks)
     total += (block.edge.capacity() + block.diagonal.capacity() + block.volume_gradient.capacity() + block.shape.capacity() +
               block.barrier.capacity() + block.membrane.capacity() + block.area_gradient.capacity() + block.bulk_gradient.capacity() +
               block.bending_weight.capacity() + block.bending_normal.capacity()) *
                  sizeof(float) +
              (block.shape_face.capacity() + block.barrier_edge.capacity()) * sizeof(std::uint32_t);
-  for (const auto& block : friction_.blocks)
-    total += (block.direction.capacity() + block.medium.capacity() + block.volume_gradient.capacity()) * sizeof(double);
+  for (const auto& block : friction_.blocks) total += (block.medium.capacity() + block.volume_gradient.capacity()) * sizeof(double);
   return total;
 }
 

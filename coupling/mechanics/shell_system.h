@@ -19,16 +19,17 @@ class ShellSystem : public OperatorPart {
   explicit ShellSystem(const Model& model);
 
   void set_shells(const dcm::Shells& shells);
-  /// Internal forces at `position`; in `forces()` afterwards.
-  void evaluate(const dcm::Shells& shells, std::span<const Vec3d> position);
-  void begin_step(const dcm::Shells& shells, std::span<const Vec3d> position, const SurfaceGeometry& geometry);
+  /// Internal forces at `position` into the first entries of `force`; all else is in `forces()` afterwards.
+  void evaluate(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<Vec3d> force);
+  /// Friction of the step that starts at the shells' positions; these stay until the step is done. `geometry` is that of these positions.
+  void begin_step(const dcm::Shells& shells, const SurfaceGeometry& geometry);
   void assemble(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<const double> face_contact_energy, double dt);
+  /// Adds Γ_n d, d = position − start, of the shells' nodes to `out`, and dᵀΓ_n d to the sum.
+  void add_step_friction(std::span<const Vec3d> position, std::span<Vec3d> out, OrderFreeSum& quadratic);
   /// Friction of single nodes of the step, beside that of the shells' own; empty: none. After begin_step().
   void set_node_friction(std::vector<SymMat3<double>> friction) { node_friction_ = std::move(friction); }
   /// Stiffness of single nodes, positive semi-definite; empty: none. Before assemble().
   void set_node_stiffness(std::vector<SymMat3<double>> stiffness) { node_stiffness_ = std::move(stiffness); }
-  /// Γ_n d of the shells' nodes into `out`, and dᵀΓ_n d added to the sum.
-  void set_step_friction(std::span<const Vec3d> displacement, std::span<Vec3d> out, OrderFreeSum& quadratic);
 
   [[nodiscard]] const dcm::ShellMechanics& forces() const { return forces_; }
   [[nodiscard]] std::span<const dcm::ShellParameters> parameters() const { return parameters_; }

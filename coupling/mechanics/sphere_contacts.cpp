@@ -23,6 +23,8 @@ cbm::ContactTable contact_table(const Model& model) {
   return {types, surfaces};
 }
 
+double ball(double radius) { return (4.0 / 3.0) * std::numbers::pi * radius * radius * radius; }
+
 }  // namespace
 
 SphereContacts::SphereContacts(const Model& model, int threads)
@@ -35,6 +37,8 @@ SphereContacts::SphereContacts(const Model& model, int threads)
           {static_cast<float>(entry.tangential_friction), static_cast<float>(entry.normal_friction - entry.tangential_friction)});
     }
   list_.set_friction(std::move(friction), table_.type_count());
+  for (const CellType& type : model_.types) packs_ = packs_ || !type.sphere.packing.empty();
+  list_.packing.on = packs_;
 }
 
 void SphereContacts::update_sisters(const Scene& scene, double now) {
@@ -100,6 +104,7 @@ void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts, 
   const auto shares = list_.shares();
   std::vector<OrderFreeSum> energy(std::max<std::size_t>(1, shares.size()));
   flips_.resize(shares.size());
+  if (packs_) list_.packing.slopes.assign(list_.pairs.size(), {});
 #pragma omp parallel for schedule(static, 1) num_threads(threads_)
   for (std::size_t t = 0; t < shares.size(); ++t) {
     const SpherePairs::Share& share = shares[t];
@@ -112,8 +117,11 @@ void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts, 
         [&](std::uint32_t k, const cbm::PairBlock& block, int lane) {
           const SpherePair pair = list_.pairs[k];
           const bool has_a = share.has(pair.a), has_b = share.has(pair.b);
-          const Vec3d f = Vec3d{block.normal[0][lane], block.normal[1][lane], block.normal[2][lane]} * block.force[lane];
-          const double virial = block.distance[lane] * block.force[lane];
+          PackingForce pressed;
+          if (packs_) pressed = packing_force(scene, pair, block.distance[lane] + block.offset[lane]);
+          const double size = block.force[lane] + pressed.force;
+          const Vec3d f = Vec3d{block.normal[0][lane], block.normal[1][lane], block.normal[2][lane]} * size;
+          const double virial = block.distance[lane] * size;
           if (has_a) {
             to[pair.a] -= f;
             virial_[pair.a] += virial;
@@ -131,6 +139,10 @@ void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts, 
           if (writes(pair)) {
             if (block.attached_next[lane] != (pair.attached != 0)) flips_[t].push_back(k);
             set_element(list_.elements[k], block, lane);
+            if (packs_) {
+              list_.elements[k].stiffness += static_cast<float>(pressed.stiffness);
+              list_.packing.slopes[k] = {static_cast<float>(pressed.caps.slope_a), static_cast<float>(pressed.caps.slope_b)};
+            }
           }
         },
         [&](std::uint32_t k) {
@@ -151,7 +163,27 @@ void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts, 
     virial_[pair.sphere] += pair.distance * pair.force;
     energy[0].add(pair.energy);
   }
+  if (packs_)
+    for (std::uint32_t i = 0; i < owned; ++i) {
+      const ContactBody& body = scene.bodies()[scene.first_sphere() + i];
+      energy[0].add(ball(body.radius) * model_.types[body.material].sphere.packing.at(packing_[i]).energy);
+    }
   energy_ = energy[0];
+}
+
+bool SphereContacts::locate_rigid(const Scene& scene, const ContactLayer& contacts, RigidPair& pair) const {
+  const ContactBody& body = scene.bodies()[scene.first_sphere() + pair.sphere];
+  const auto& obstacle = contacts.obstacles()[pair.obstacle];
+  const double reach = body.radius + contacts.settings().sphere_reach + contacts.settings().body_skin;
+  const Vec3d center = scene.position()[body.first_point], from = center - contacts.obstacle_offset(pair.obstacle);
+  const auto near = obstacle.tree->nearest(from, reach);
+  if (!near) return false;
+  const double side = signed_distance(*obstacle.topology, obstacle.position, from, near->face, near->closest) < 0.0 ? -1.0 : 1.0;
+  const Vec3d between = near->closest.point + contacts.obstacle_offset(pair.obstacle) - center;
+  const double distance = norm(between);
+  pair.normal = distance > cbm::kCoincident ? between * (side / distance) : -obstacle.geometry.face_normal[near->face];
+  pair.distance = side * distance;
+  return true;
 }
 
 void SphereContacts::evaluate_rigid(const Scene& scene, const ContactLayer& contacts, std::size_t k) {
@@ -163,16 +195,7 @@ void SphereContacts::evaluate_rigid(const Scene& scene, const ContactLayer& cont
   if (!rubs) element.isotropic = element.axial = 0.0f;
   pair.force = pair.energy = pair.area = pair.distance = 0.0;
   pair.attached_next = false;
-  const auto& obstacle = contacts.obstacles()[pair.obstacle];
-  const double reach = body.radius + contacts.settings().sphere_reach + contacts.settings().body_skin;
-  const Vec3d center = scene.position()[body.first_point], from = center - contacts.obstacle_offset(pair.obstacle);
-  const auto near = obstacle.tree->nearest(from, reach);
-  if (!near) return;
-  const double side = signed_distance(*obstacle.topology, obstacle.position, from, near->face, near->closest) < 0.0 ? -1.0 : 1.0;
-  const Vec3d between = near->closest.point + contacts.obstacle_offset(pair.obstacle) - center;
-  const double distance = norm(between);
-  pair.normal = distance > cbm::kCoincident ? between * (side / distance) : -obstacle.geometry.face_normal[near->face];
-  pair.distance = side * distance;
+  if (!locate_rigid(scene, contacts, pair)) return;
   const double overlap = body.radius - pair.distance;
   const std::size_t material = std::min<std::size_t>(model_.types.size() + pair.obstacle, table_.material_count() - 1);
   const auto& entry = table_.entry(body.material, material);
@@ -183,6 +206,13 @@ void SphereContacts::evaluate_rigid(const Scene& scene, const ContactLayer& cont
   pair.area = response.area;
   pair.attached_next = cbm::update_attached(overlap, pair.attached, law);
   element.stiffness = static_cast<float>(response.stiffness);
+  if (packs_ && overlap > 0.0) {  // the wall takes a cap of the sphere; its energy is the sphere's
+    const cbm::PlaneCap cap = cbm::plane_cap(body.radius, overlap);
+    const SpherePressure& pressed = surface_pressure_[scene.first_sphere() + pair.sphere];
+    const double bending = 2.0 * std::numbers::pi * std::max(0.0, pair.distance);
+    pair.force += pressed.pressure * cap.slope;
+    element.stiffness += static_cast<float>(cap.slope * pressed.resistance + bending * pressed.pressure);
+  }
   if (rubs) return;
   element.n[0] = static_cast<float>(pair.normal.x);
   element.n[1] = static_cast<float>(pair.normal.y);
@@ -205,7 +235,8 @@ void SphereContacts::refresh_values(const Scene& scene, const ContactLayer& cont
           const SpherePair pair = list_.pairs[k];
           for (const std::uint32_t i : {pair.a, std::uint32_t{pair.b}}) {
             if (!marked[i] || !share.has(i)) continue;
-            virial_[i] += block.distance[lane] * block.force[lane];
+            const double pressed = packs_ ? packing_force(scene, pair, block.distance[lane] + block.offset[lane]).force : 0.0;
+            virial_[i] += block.distance[lane] * (block.force[lane] + pressed);
           }
         },
         [](std::uint32_t) {});
@@ -261,9 +292,7 @@ bool SphereContacts::renew_sisters(const Scene& scene, const ContactLayer& conta
   return true;
 }
 
-double SphereContacts::pressure(std::size_t i, double radius) const {
-  return cbm::virial_pressure(virial_[i], (4.0 / 3.0) * std::numbers::pi * radius * radius * radius);
-}
+double SphereContacts::pressure(std::size_t i, double radius) const { return cbm::virial_pressure(virial_[i], ball(radius)); }
 
 std::vector<double> SphereContacts::contact_areas(const Scene& scene, const ContactLayer& contacts) const {
   std::vector<double> area(scene.owned_spheres(), 0.0);
@@ -283,7 +312,8 @@ std::vector<double> SphereContacts::contact_areas(const Scene& scene, const Cont
 
 std::size_t SphereContacts::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return list_.memory() + bytes(sisters_) + bytes(rigid_) + bytes(virial_);  // flips: a handful
+  return list_.memory() + bytes(sisters_) + bytes(rigid_) + bytes(virial_) + bytes(packing_) + bytes(pressed_) +
+         bytes(surface_pressure_);  // flips: a handful
 }
 
 }  // namespace morula

@@ -2,6 +2,7 @@
 #include <span>
 #include <vector>
 
+#include "cbm/laws/sphere_caps.h"
 #include "cbm/pair_forces.h"
 #include "core/contact/contact_layer.h"
 #include "core/friction/sphere_pairs.h"
@@ -23,6 +24,15 @@ class SphereContacts {
   void set_pairs(const Scene& scene, ContactLayer& contacts, const Tissue& tissue);
   /// Radii or time have changed: rest distances of young sisters anew.
   void update_sisters(const Scene& scene, double now);
+  /// Whether any type of the model has a pressure of packing (cbm.md §3).
+  [[nodiscard]] bool packs() const { return packs_; }
+  /// Packing and pressure of the spheres at the scene's positions, ghosts too, for evaluate() and for the surfaces that press on them.
+  /// penetration: what surfaces take of the spheres, by body; empty: nothing. Collective. Precondition: packs().
+  void find_packing(const Scene& scene, const ContactLayer& contacts, std::span<const Penetration> penetration);
+  /// By body (surfaces: nothing); valid after find_packing().
+  [[nodiscard]] std::span<const SpherePressure> surface_pressure() const { return surface_pressure_; }
+  /// φ of owned sphere i, and whether it is beyond the calibrated range of its type (packing.h).
+  [[nodiscard]] double packing(std::size_t i) const { return packs_ ? packing_[i] : 0.0; }
   /// Forces on owned spheres at the scene's positions are added to `force` (by point); energy, pressures and the solver's elements follow.
   void evaluate(const Scene& scene, const ContactLayer& contacts, std::span<Vec3d> force);
   void add_energy(OrderFreeSum& sum) const { sum += energy_; }
@@ -64,6 +74,13 @@ class SphereContacts {
     double distance = 0.0, force = 0.0, energy = 0.0, area = 0.0;
   };
 
+  /// What packing adds to a pair at a distance of the centres [µm]: force apart [nN], stiffness [nN/µm].
+  struct PackingForce {
+    double force = 0.0, stiffness = 0.0;
+    cbm::SphereCaps caps;
+  };
+  [[nodiscard]] PackingForce packing_force(const Scene& scene, const SpherePair& pair, double distance) const;
+  void share_pressures(const Scene& scene, std::span<const double> slopes, std::span<const Penetration> others);
   void find_sisters(const Scene& scene, const Tissue& tissue);
   void find_rigid_pairs(const Scene& scene, const ContactLayer& contacts, const Tissue& tissue);
   void keep_step_friction(const Scene& scene, std::vector<SpherePair> old_pairs, std::vector<SpherePairElement> old_elements);
@@ -73,6 +90,8 @@ class SphereContacts {
   void visit(const SpherePairs::Share& share, const Scene& scene, const ContactLayer& contacts, Wanted&& wanted, Sink&& sink,
              FarAway&& far_away) const;
   void set_element(SpherePairElement& element, const cbm::PairBlock& block, int lane) const;
+  /// Where the obstacle is, seen from the sphere: normal and distance of the pair. False: out of reach.
+  bool locate_rigid(const Scene& scene, const ContactLayer& contacts, RigidPair& pair) const;
   void evaluate_rigid(const Scene& scene, const ContactLayer& contacts, std::size_t k);
   /// Pressures of the marked spheres anew, without touching forces.
   void refresh_values(const Scene& scene, const ContactLayer& contacts, const std::vector<char>& marked);
@@ -81,11 +100,15 @@ class SphereContacts {
 
   const Model& model_;
   int threads_;
+  bool packs_ = false;
   cbm::ContactTable table_;  ///< of all materials and walls
   SpherePairs list_;
-  std::vector<Sisters> sisters_;  ///< by pair
-  std::vector<RigidPair> rigid_;  ///< by sphere
-  std::vector<double> virial_;    ///< by owned sphere: Σ d_ij F_ij [nN·µm]
+  std::vector<Sisters> sisters_;                  ///< by pair
+  std::vector<RigidPair> rigid_;                  ///< by sphere
+  std::vector<double> virial_;                    ///< by owned sphere: Σ d_ij F_ij [nN·µm]
+  std::vector<double> packing_;                   ///< by owned sphere: φ; empty where no type packs, as the next two
+  std::vector<double> pressed_;                   ///< by sphere, ghosts too: p [kPa]
+  std::vector<SpherePressure> surface_pressure_;  ///< by body
   OrderFreeSum energy_;
   std::vector<std::vector<std::uint32_t>> flips_;  ///< by share: pairs whose flag changes if the step ends where they were evaluated last
   bool in_step_ = false;

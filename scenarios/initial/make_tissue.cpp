@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <optional>
 
 #include "core/random/philox.h"
 #include "core/space/curve.h"
@@ -12,6 +13,7 @@
 #include "coupling/cell_record.h"
 #include "coupling/swaps.h"
 #include "scenarios/initial/biconcave.h"
+#include "scenarios/initial/cells_from_meshes.h"
 #include "scenarios/initial/packing.h"
 #include "scenarios/initial/rotation.h"
 #include "scenarios/study/csv.h"
@@ -30,9 +32,11 @@ std::string micrometres(double length) {
 /// A cell whose row and place are settled, its body still to be made.
 struct Seedling {
   CellRow row;
-  Vec3d center;
+  Vec3d center{};
   CellShape shape = CellShape::kSphere;
   Orientation orientation = Orientation::kRandom;
+  std::optional<MeshCell> surface{};  ///< its own, instead of a shape
+  const MeshCells* meshes = nullptr;
 };
 
 /// The rows of one entry with the volumes of time 0.
@@ -93,6 +97,9 @@ class Builder {
       case InitialCells::Source::kCsv:
         MORULA_TRY(from_csv(block, first));
         break;
+      case InitialCells::Source::kMeshes:
+        MORULA_TRY(from_meshes(block, first));
+        break;
     }
     for (std::size_t i = before; i < cells_.size(); ++i) {
       cells_[i].shape = block.shape;
@@ -151,6 +158,27 @@ class Builder {
     return {};
   }
 
+  /// The judgement of the surfaces was the check's; here they are only read again.
+  Status from_meshes(const InitialCells& block, std::uint64_t first) {
+    MeshCellsRead read = read_mesh_cells(block.meshes, block.type, false);
+    if (!read.problems.empty()) return Error{ErrorKind::kInput, read.problems.front().text, read.problems.front().help};
+    if (read.cells.size() != block.count)
+      return Error{ErrorKind::kInput,
+                   "the meshes hold " + std::to_string(read.cells.size()) + " cells, but held " + std::to_string(block.count) +
+                       " when the study was checked",
+                   "leave the files alone while the run starts"};
+    for (std::size_t i = 0; i < read.cells.size(); ++i) {
+      MeshCell& cell = read.cells[i];
+      Seedling& made = cells_.emplace_back(Seedling{founder(study_, block, first + i, cell.type), {}});
+      made.center = volume_centroid(cell.mesh.faces, cell.mesh.position);
+      const dcm::ShellParameters& shell = study_.model.types[cell.type].shell;
+      set_volume(made.row, cell.pressure ? target_volume_of(cell.volume, *cell.pressure, shell.tension, shell.bulk_modulus) : cell.volume);
+      made.surface = std::move(cell);
+      made.meshes = &block.meshes;
+    }
+    return {};
+  }
+
   [[nodiscard]] Status inside_domain(std::size_t from, std::size_t number) const {
     const Box& box = study_.model.space.box;
     for (std::size_t i = from; i < cells_.size(); ++i)
@@ -171,18 +199,24 @@ Result<CellRecord> with_body(const Seedling& cell, const Model& model, ShapeLibr
   record.row = cell.row;
   record.row.order = curve_place(cell.center);
   const CellType& type = model.types[cell.row.type];
+  if (cell.surface) {
+    MORULA_TRY_ASSIGN(record.shell,
+                      shell_of_surface(*cell.surface, *cell.meshes, free_reference_volume(cell.row.target_volume, type), shapes));
+    return record;
+  }
   if (cell.row.body == BodyKind::kSphere) {
     record.sphere = SphereRecord{cell.center, radius_of(cell.row.target_volume), {}, {}};
     return record;
   }
   MORULA_TRY_ASSIGN(auto shape, shapes.icosphere(type.shell_nodes));
-  if (cell.shape == CellShape::kBiconcave) shape = biconcave_shape(*shape);
+  if (cell.shape == CellShape::kBiconcave) shape = shapes.adopt(biconcave_shape(*shape));
   ShellRecord shell =
       spherical_shell(std::move(shape), cell.center, cell.row.target_volume, free_reference_volume(cell.row.target_volume, type));
   if (cell.orientation == Orientation::kRandom) {
     const Rotation turn = random_rotation(Random(model.seed, RandomStream::kOrientation), cell.row.id, 0);
     for (Vec3d& p : shell.position) p = cell.center + turn * (p - cell.center);
   }
+  place_nucleus(shell, type.interior);
   record.shell = std::move(shell);
   return record;
 }

@@ -22,7 +22,7 @@ struct InitialTissue {
 /// The tissue at time 0: this rank's share of the cells, by stretches of equal length of the founders' numbers.
 ///
 /// Founders are numbered from 1 over all entries of `initial` in the order of the study, whatever the number of ranks. A cell's place comes
-/// from its entry (packing.h, the given points, or the CSV file with coincident cells moved apart); its row from make_founder, with the
+/// from its entry (packing.h, the given points, the CSV file with coincident cells moved apart, or its surface in a mesh file); its row from make_founder, with the
 /// radius and the phase of the CSV row where given; its body from the CSV row, else the entry, else the type. A shell is a sphere of the
 /// cell's volume at rest, turned at random (stream kOrientation). With start_volume f < 1 the target volume begins at f V and the rest
 /// comes evenly in the inflation time. Fields and obstacles are made by Simulation::create.

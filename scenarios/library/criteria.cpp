@@ -5,6 +5,7 @@
 
 #include "scenarios/library/blastocyst.h"
 #include "scenarios/library/cavity.h"
+#include "scenarios/library/embryo.h"
 #include "scenarios/library/hybrid_spheroid.h"
 #include "scenarios/library/single_cell.h"
 #include "scenarios/library/verdicts.h"
@@ -49,11 +50,15 @@ const std::vector<ScenarioCriteria>& scenario_criteria() {
   static const std::vector<ScenarioCriteria> all{
       {"blastocyst", &judge_blastocyst},
       {"cavity", &judge_cavity},
+      {"cell_shear", &judge_cell_shear, &plot_cell_shear},
       {"doublet", &judge_doublet, &plot_doublet},
+      {"embryo", &judge_embryo, &plot_embryo},
       {"hybrid_spheroid", &judge_hybrid_spheroid},
+      {"micropipette", &judge_micropipette, &plot_micropipette},
       {"optical_stretcher", &judge_optical_stretcher, &plot_optical_stretcher},
       {"optical_tweezers", &judge_optical_tweezers, &plot_optical_tweezers},
       {"parallel_plates", &judge_parallel_plates, &plot_parallel_plates},
+      {"pull_off", &judge_pull_off, &plot_pull_off},
       {"spreading", &judge_spreading, &plot_spreading},
   };
   return all;
@@ -62,8 +67,8 @@ const std::vector<ScenarioCriteria>& scenario_criteria() {
 bool is_passive(const Study& study) {
   const Model& model = study.model;
   for (const CellType& type : model.types)
-    if (type.fluctuations.energy > 0.0 || type.protrusion.force > 0.0 || !type.regional_tension.empty() || type.cycles ||
-        type.migration_speed > 0.0 || (type.death_field >= 0 && type.death_rate > 0.0))
+    if (type.fluctuations.energy > 0.0 || type.protrusion.force > 0.0 || !type.regional_tension.empty() || type.osmosis.acts() ||
+        type.cycles || type.migration_speed > 0.0 || (type.death_field >= 0 && type.death_rate > 0.0))
       return false;
   for (const InitialCells& block : study.initial)
     if (block.start_volume_fraction < 1.0) return false;

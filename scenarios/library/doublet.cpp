@@ -52,13 +52,77 @@ std::vector<Doublet> doublets(const Study& study, const Snapshot& start, const S
   return out;
 }
 
+/// A single cell on a plane that it sticks to with half the adhesion of a doublet is half of it by symmetry (S6.0).
+void judge_halves(const Study& study, const Snapshot& now, const std::vector<Doublet>& pairs, std::vector<Verdict>& out) {
+  const Model& model = study.model;
+  for (std::size_t type = 0; type < model.types.size(); ++type) {
+    const auto cells = shells_of(now, type);
+    if (cells.size() != 1) continue;
+    for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
+      const double adhesion = model.pair(type, model.types.size() + o).adhesion;
+      if (!(adhesion > 0.0)) continue;
+      double top = -1e300;
+      for (const Vec3d& x : model.obstacles[o].position) top = std::max(top, x.z);
+      const auto cap = fit_cap(cells[0], {0, 0, top}, {0, 0, 1});
+      if (!cap) continue;
+      const double r0 = radius_of_volume(cells[0].cell->volume);
+      for (const Doublet& d : pairs) {
+        if (std::abs(d.ratio * model.types[type].shell.tension - 2.0 * adhesion) > 1e-9) continue;
+        const std::string at = ", W/T = " + number_text("%g", d.ratio);
+        out.push_back(at_most("S6.0", ("length of a doublet against twice the height of its half on a plane, relative" + at).c_str(),
+                              std::abs(0.5 * d.length * r0 / cap->height - 1.0), 0.02));
+        out.push_back(at_most("S6.0", ("contact radius of a doublet against that of its half on a plane, relative" + at).c_str(),
+                              std::abs(d.contact_radius * r0 / cap->contact_radius - 1.0), tolerance(d.nodes, 0.04, 0.02)));
+      }
+    }
+  }
+}
+
+/// How far the middle of a cell's contact lies beyond its outer part, towards `axis` [µm]: nodes nearer to the axis than 0.4 and farther than 0.6
+/// of the contact radius, of those within `reach` of the farthest one.
+double bulge(const ShellView& cell, const Vec3d& axis, double contact_radius, double reach) {
+  double far = -1e300;
+  for (const Vec3d& x : cell.nodes) far = std::max(far, dot(x - cell.cell->centroid, axis));
+  double middle = 0.0, rim = 0.0;
+  int in_middle = 0, at_rim = 0;
+  for (const Vec3d& x : cell.nodes) {
+    const Vec3d from = x - cell.cell->centroid;
+    const double along = dot(from, axis), away = norm(from - axis * along);
+    if (along < far - reach || away > 0.9 * contact_radius) continue;
+    if (away < 0.4 * contact_radius) middle += along, ++in_middle;
+    if (away > 0.6 * contact_radius) rim += along, ++at_rim;
+  }
+  return in_middle > 0 && at_rim > 0 ? middle / in_middle - rim / at_rim : std::nan("");
+}
+
+/// Two cells of different tension (S6.2): the tenser one has the higher pressure, and their contact bends into the other.
+void judge_unequal(const Study& study, const Snapshot& now, std::vector<Verdict>& out) {
+  const Model& model = study.model;
+  for (std::size_t a = 0; a < model.types.size(); ++a)
+    for (std::size_t b = 0; b < model.types.size(); ++b) {
+      const double adhesion = model.pair(a, b).adhesion;
+      if (!(adhesion > 0.0) || !(model.types[a].shell.tension > model.types[b].shell.tension)) continue;
+      const auto tense = shells_of(now, a), slack = shells_of(now, b);
+      if (tense.size() != 1 || slack.size() != 1) continue;
+      const Vec3d axis = normalized(slack[0].cell->centroid - tense[0].cell->centroid);
+      const double radius = std::sqrt(tense[0].cell->contact_area / std::numbers::pi);
+      out.push_back(at_least("S6.2", "pressure of the tenser of two cells over that of the other",
+                             tense[0].cell->pressure / slack[0].cell->pressure, 1.05));
+      out.push_back(
+          at_least("S6.2", "bend of the contact into the cell of lower pressure", bulge(tense[0], axis, radius, 0.5 * radius), 0.0, "um"));
+    }
+}
+
 }  // namespace
 
 Result<std::vector<Verdict>> judge_doublet(const Study& study, const std::filesystem::path& run) {
   MORULA_TRY_ASSIGN(const auto snapshots, all_snapshots(run));
   std::vector<Verdict> out;
   double drift = 0.0;
-  for (const Doublet& d : doublets(study, snapshots.front(), snapshots.back())) {
+  const auto ends = doublets(study, snapshots.front(), snapshots.back());
+  judge_halves(study, snapshots.back(), ends, out);
+  judge_unequal(study, snapshots.back(), out);
+  for (const Doublet& d : ends) {
     const std::string at = ", W/T = " + number_text("%g", d.ratio);
     const auto relative = [](double value, double expected) { return std::abs(value / expected - 1.0); };
     out.push_back(at_most("S6.1", ("contact angle against Young's law" + at).c_str(), std::abs(d.angle - d.expected.angle) / kDegree,

@@ -1,6 +1,7 @@
 // S1: spheres under the traction s0 cos²θ, against the closed form for small strains.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/numbers/number_text.h"
 #include "scenarios/library/shape_measures.h"
@@ -47,6 +48,44 @@ Result<std::vector<Stretching>> stretchings(const Study& study, const std::files
   return out;
 }
 
+/// How one cell went back after the light was off.
+struct Recovery {
+  double friction = 0.0;  ///< of the medium [nN·s/µm³]
+  double time = 0.0;      ///< until the strain was 1/e of that at the release [s]
+  double left = 0.0;      ///< strain after eight such times, over that at the release
+};
+
+/// Of every cell whose recovery was seen in steps shorter than its time constant.
+Result<std::vector<Recovery>> recoveries(const Study& study, const std::filesystem::path& run) {
+  MORULA_TRY_ASSIGN(const auto snapshots, all_snapshots(run));
+  std::vector<Recovery> out;
+  for (const CellLoad& load : study.model.loads) {
+    if (load.kind != LoadKind::kTraction || load.course.empty() || load.course.value.back() != 0.0) continue;
+    const auto before = shells_of(snapshots.front(), load.type);
+    Recovery r{study.model.types[load.type].medium_friction, 0.0, std::nan("")};
+    double first_time = 0.0, first = 0.0, last_time = 0.0, last = 0.0;
+    for (const Snapshot& snapshot : snapshots) {
+      const auto now = shells_of(snapshot, load.type);
+      if (snapshot.time < load.course.time.back() * (1.0 - 1e-12) || now.empty() || before.empty()) continue;
+      const double strain = fit_second_mode(before[0], now[0], load.axis).axial;
+      if (first == 0.0) {
+        first_time = snapshot.time;
+        first = strain;
+      } else if (r.time == 0.0 && strain < first / std::numbers::e) {
+        // straight in the logarithm between the two snapshots
+        const double part = std::log(last * std::numbers::e / first) / std::log(last / std::max(strain, 1e-6 * first));
+        r.time = last_time + part * (snapshot.time - last_time) - first_time;
+        if (last == first) break;  // not resolved
+      }
+      if (r.time > 0.0 && std::isnan(r.left) && snapshot.time - first_time >= 8.0 * r.time) r.left = std::abs(strain / first);
+      last_time = snapshot.time;
+      last = strain;
+    }
+    if (std::isfinite(r.left)) out.push_back(r);
+  }
+  return out;
+}
+
 std::string tension_text(double tension) { return "tension " + number_text("%g", 1000.0 * tension) + " uN/m"; }
 
 }  // namespace
@@ -80,6 +119,19 @@ Result<std::vector<Verdict>> judge_optical_stretcher(const Study& study, const s
   if (limit > 0.0) out.insert(out.begin(), at_most("S1.1", "axial strain under tension against the closed form, relative", worst, limit));
   if (with > 0.0 && without > 0.0)
     out.push_back(within("S1.3", "strain at 0.5 Pa: tension 30 uN/m over none", with / without, 0.516, 0.596));
+  for (const Stretching& s : all) {
+    if (s.nodes < 642 || s.tension < 0.029 || s.tension > 0.031 || std::abs(s.stress - 10e-3) > 1e-9) continue;
+    out.push_back(within("S1.8", "axial strain at 10 Pa over the linear value", s.measured.axial / s.expected.axial, 0.95, 1.02));
+    out.push_back(
+        within("S1.8", "transverse strain at 10 Pa over the linear value", s.measured.transverse / s.expected.transverse, 0.90, 0.97));
+  }
+  MORULA_TRY_ASSIGN(const auto back, recoveries(study, run));
+  for (std::size_t i = 0; i < back.size(); ++i) {
+    out.push_back(at_most("S1.7", "strain left eight time constants after the release, relative", back[i].left, 0.02));
+    if (i > 0)
+      out.push_back(at_most("S1.7", "time constants of two cells against their friction, relative difference",
+                            std::abs(back[i].time / back[i - 1].time / (back[i].friction / back[i - 1].friction) - 1.0), 0.05));
+  }
   out.push_back(at_most("S1.5", "change of volume, relative", volume, 0.01));
   if (most > 0.0) out.push_back(at_most("S1.7", "strain left after the release, relative to the largest", left / most, 0.02));
   return out;

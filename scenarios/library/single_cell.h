@@ -9,18 +9,25 @@
 
 namespace morula::scenarios {
 
-/// Experiments on one or two cells: criteria (physics/scenarios.md S1, S2, S4, S6 and a cell between plates) and plots against theory.
+/// Experiments on one or two cells: criteria (physics/scenarios.md S1 to S6, T9 and a cell between plates) and plots against theory.
 Result<std::vector<Verdict>> judge_optical_stretcher(const Study& study, const std::filesystem::path& run);
 Result<std::vector<Verdict>> judge_optical_tweezers(const Study& study, const std::filesystem::path& run);
 Result<std::vector<Verdict>> judge_spreading(const Study& study, const std::filesystem::path& run);
 Result<std::vector<Verdict>> judge_doublet(const Study& study, const std::filesystem::path& run);
 Result<std::vector<Verdict>> judge_parallel_plates(const Study& study, const std::filesystem::path& run);
 
+Result<std::vector<Verdict>> judge_pull_off(const Study& study, const std::filesystem::path& run);
+Result<std::vector<Verdict>> judge_micropipette(const Study& study, const std::filesystem::path& run);
+Result<std::vector<Verdict>> judge_cell_shear(const Study& study, const std::filesystem::path& run);
+
 Result<std::vector<NamedPlot>> plot_optical_stretcher(const Study& study, const std::filesystem::path& run);
 Result<std::vector<NamedPlot>> plot_optical_tweezers(const Study& study, const std::filesystem::path& run);
 Result<std::vector<NamedPlot>> plot_spreading(const Study& study, const std::filesystem::path& run);
 Result<std::vector<NamedPlot>> plot_doublet(const Study& study, const std::filesystem::path& run);
 Result<std::vector<NamedPlot>> plot_parallel_plates(const Study& study, const std::filesystem::path& run);
+Result<std::vector<NamedPlot>> plot_pull_off(const Study& study, const std::filesystem::path& run);
+Result<std::vector<NamedPlot>> plot_micropipette(const Study& study, const std::filesystem::path& run);
+Result<std::vector<NamedPlot>> plot_cell_shear(const Study& study, const std::filesystem::path& run);
 
 /// All snapshots of a run. kFile when there is none.
 Result<std::vector<Snapshot>> all_snapshots(const std::filesystem::path& run);

@@ -21,9 +21,10 @@ struct Spread {
   theory::Cap expected;
   double angle = 0.0, contact_radius = 0.0, height = 0.0, pressure = 0.0;  ///< in the units of theory::Cap
   double contact_area = 0.0;                                               ///< as the contact law counts it [µm²]
+  std::size_t obstacle = 0;
 };
 
-/// The plane that the cells sit on: the top of the first obstacle, seen along the third axis.
+/// The plane that cells sit on: the top of an obstacle, seen along the third axis.
 double top_of(const ObstacleSpec& obstacle) {
   double top = -1e300;
   for (const Vec3d& x : obstacle.position) top = std::max(top, x.z);
@@ -33,11 +34,15 @@ double top_of(const ObstacleSpec& obstacle) {
 std::vector<Spread> spreads(const Study& study, const Snapshot& snapshot) {
   std::vector<Spread> out;
   const Model& model = study.model;
-  if (model.obstacles.empty()) return out;
-  const Vec3d point{0, 0, top_of(model.obstacles[0])}, normal{0, 0, 1};
+  const Vec3d normal{0, 0, 1};
   for (std::size_t type = 0; type < model.types.size(); ++type) {
     const CellType& t = model.types[type];
-    const double adhesion = model.pair(type, model.types.size()).adhesion;
+    std::size_t under = 0;  // the obstacle that the cells of this type stick to
+    for (std::size_t o = 1; o < model.obstacles.size(); ++o)
+      if (model.pair(type, model.types.size() + o).adhesion > model.pair(type, model.types.size() + under).adhesion) under = o;
+    if (under >= model.obstacles.size()) continue;
+    const Vec3d point{0, 0, top_of(model.obstacles[under])};
+    const double adhesion = model.pair(type, model.types.size() + under).adhesion;
     if (!(t.shell.tension > 0.0) || adhesion > 2.0 * t.shell.tension) continue;
     for (const ShellView& shell : shells_of(snapshot, type)) {
       const auto cap = fit_cap(shell, point, normal);
@@ -45,7 +50,7 @@ std::vector<Spread> spreads(const Study& study, const Snapshot& snapshot) {
       const double r0 = radius_of_volume(shell.cell->volume);
       out.push_back({snapshot.time, adhesion / t.shell.tension, spring_modulus(t) / t.shell.tension, t.shell_nodes,
                      theory::on_plane(adhesion, t.shell.tension), cap->angle, cap->contact_radius / r0, cap->height / r0,
-                     shell.cell->pressure * r0 / t.shell.tension, shell.cell->contact_area});
+                     shell.cell->pressure * r0 / t.shell.tension, shell.cell->contact_area, under});
     }
   }
   return out;
@@ -104,6 +109,11 @@ Result<std::vector<Verdict>> judge_spreading(const Study& study, const std::file
     }
   }
   judge_order(ends, out);
+  for (const Spread& a : ends)
+    for (const Spread& b : ends)
+      if (a.obstacle < b.obstacle && a.ratio == b.ratio && a.modulus == b.modulus && a.nodes == b.nodes)
+        out.push_back(at_most("S4.5", "contact area on a plane of small triangles against one of large triangles, relative",
+                              std::abs(b.contact_area / a.contact_area - 1.0), 0.02));
   double fall = 0.0;  // of the contact area of the fluid cells from one output to the next, over the last one
   for (std::size_t k = 2; k < snapshots.size(); ++k) {
     const auto before = spreads(study, snapshots[k - 1]), after = spreads(study, snapshots[k]);

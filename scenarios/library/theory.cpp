@@ -89,4 +89,18 @@ double maugis_pull_off(double lambda) {
   return -load(1.0 + std::exp(0.5 * (low + high)));
 }
 
+double critical_aspiration(double tension, double pipette_radius, double cell_radius) {
+  const double rp = pipette_radius;
+  const auto volume = [&](double rc) {  // over π/3
+    const double sagitta = rc - std::sqrt(std::max(0.0, rc * rc - rp * rp));
+    return 4.0 * rc * rc * rc - sagitta * sagitta * (3.0 * rc - sagitta) + 2.0 * rp * rp * rp;
+  };
+  double low = rp, high = 2.0 * cell_radius;
+  for (int i = 0; i < 80; ++i) {
+    const double middle = 0.5 * (low + high);
+    (volume(middle) < 4.0 * cell_radius * cell_radius * cell_radius ? low : high) = middle;
+  }
+  return 2.0 * tension * (1.0 / rp - 1.0 / (0.5 * (low + high)));
+}
+
 }  // namespace morula::scenarios::theory

@@ -46,4 +46,8 @@ PressedDrop pressed_drop(double height);
 /// adhesive stress σ0: between 2 (DMT, small λ) and 3/2 (JKR, large λ). λ = 2σ0 (R/(πWK²))^(1/3), K = 4E*/3.
 double maugis_pull_off(double lambda);
 
+/// Suction above which a cell with a surface tension has no rest in a pipette: its projection is a hemisphere, dp = 2γ (1/Rp − 1/Rc). Rc, the
+/// radius of the part outside, follows from the volume: a sphere less the cap that its opening of radius Rp cuts off, and the hemisphere.
+double critical_aspiration(double tension, double pipette_radius, double cell_radius);
+
 }  // namespace morula::scenarios::theory

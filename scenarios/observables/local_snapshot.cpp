@@ -51,6 +51,9 @@ Snapshot local_snapshot(Simulation& simulation) {
     out.shells.push_back(
         {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(out.nodes.size()), static_cast<std::uint32_t>(nodes.size()), number});
     out.nodes.insert(out.nodes.end(), nodes.begin(), nodes.end());
+    if (const Vec3d* nucleus = tissue.shells.nucleus_of(shell))
+      out.nuclei.push_back(
+          {static_cast<std::uint32_t>(i), *nucleus, dcm::nucleus_radius(model.types[row.type].interior, tissue.shells.rest_volume[shell])});
     if (!model.mark_names.empty()) {
       const auto& marks = tissue.shells.faces_of(shell).mark;
       out.face_marks.insert(out.face_marks.end(), marks.begin(), marks.end());

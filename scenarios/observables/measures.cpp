@@ -5,6 +5,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "coupling/grips.h"
 #include "coupling/swaps.h"
 
 namespace morula::scenarios {
@@ -67,6 +68,26 @@ void measure_fields(const Simulation& simulation, Measures& out) {
   }
 }
 
+/// Spheres against the calibrated range of their type's packing curve. Collective.
+void measure_packing(Simulation& simulation, Measures& out) {
+  const Model& model = simulation.model();
+  if (std::all_of(model.types.begin(), model.types.end(), [](const CellType& type) { return type.sphere.packing.empty(); })) return;
+  const std::vector<double> packing = simulation.mechanics().packing();
+  Extreme most;
+  std::size_t sphere = 0;
+  for (const CellRow& row : simulation.tissue().cells.rows) {
+    if (row.body == BodyKind::kShell) continue;
+    const double here = packing[sphere++], last = model.types[row.type].sphere.packing.last();
+    if (last == 0.0) continue;
+    offer(most, here / last, row.id);
+    out.packed_beyond += here > last;
+  }
+  out.packed_beyond = simulation.comm().sum(out.packed_beyond);
+  most = over_ranks(most, simulation.comm());
+  out.packing = most.value;
+  out.packing_cell = most.cell;
+}
+
 enum Sum { kVolume, kVolumeX, kVolumeY, kVolumeZ, kVolumeSquare, kPressure, kShellPressure, kContactArea, kLawVolume, kSums };
 
 }  // namespace
@@ -118,7 +139,9 @@ Measures measure(Simulation& simulation) {
   out.volume_error = over_ranks(volume_error, comm);
   out.overlap = over_ranks(deepest_overlap(simulation), comm);
   measure_fields(simulation, out);
+  measure_packing(simulation, out);
   out.obstacle_force = simulation.mechanics().obstacle_forces(tissue);
+  out.grip_force = grip_forces(model, tissue, comm);
   if (out.cells == 0) return out;
   const auto cells = static_cast<double>(out.cells);
   const Vec3d mean = Vec3d{total[kVolumeX], total[kVolumeY], total[kVolumeZ]} * (1.0 / total[kVolume]);

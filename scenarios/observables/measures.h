@@ -31,9 +31,13 @@ struct Measures {
   /// exchange of bodies x; V_t e^x for a sphere, V_t exp(2γ/(R K_V) + x − p/K_V) for a shell of pressure p (dcm.md: p = −K_V ln(V/V0)).
   /// Rounding, unless growth, division or a swap lost volume on the way from the row to the body.
   Extreme volume_error;
-  double total_volume_error = 0.0;               ///< |Σ V_i − Σ V_i^law| / Σ V_i^law
+  double total_volume_error = 0.0;  ///< |Σ V_i − Σ V_i^law| / Σ V_i^law
+  double packing = 0.0;  ///< largest φ of a sphere over the end of its type's calibrated range; 0: no type has one (cbm/packing.h)
+  CellId packing_cell;   ///< which
+  std::int64_t packed_beyond = 0;                ///< spheres beyond the calibrated range
   std::vector<Vec3d> obstacle_force;             ///< of all cells on each obstacle [nN]
   std::vector<LumenState> lumens;                ///< by lumen of the model
+  std::vector<Vec3d> grip_force;                 ///< of each load that is a grip on its cells; 0 for other loads [nN]
   std::array<double, kMaxFields> mean_field{};   ///< over voxels [mM]
   std::array<double, kMaxFields> least_field{};  ///< over voxels [mM]
   /// |A − A_0 + taken + decayed − inflow| / max(A, A_0, taken, decayed, |inflow|) since time 0, A the amount in the field.

@@ -75,6 +75,15 @@ std::vector<Observable> observables(const Model& model) {
     out.push_back({"open_" + name, "1", "Part of the directions from the centre of the cavity " + name + " in which it has no wall.",
                    [k](const Moment& m) { return 1.0 - m.measures.lumens[k].covered; }});
   }
+  for (std::size_t l = 0; l < model.loads.size(); ++l) {
+    if (model.loads[l].kind != LoadKind::kGrip) continue;
+    const std::string& name = model.loads[l].name;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::string letter(1, "xyz"[axis]);
+      out.push_back({"grip_" + letter + "_" + name, "nN", "Force of the grip " + name + " on its cells along " + letter + ".",
+                     [l, axis](const Moment& m) { return m.measures.grip_force[l][axis]; }});
+    }
+  }
   for (std::size_t f = 0; f < model.fields.size(); ++f) {
     const std::string& name = model.fields[f].name;
     out.push_back({"mean_" + name, "mM", "Mean concentration of " + name + ".", [f](const Moment& m) { return m.measures.mean_field[f]; }});

@@ -115,6 +115,37 @@ std::vector<Disc> discs_of(const Snapshot& snapshot, const Projection& projectio
   return discs;
 }
 
+/// A nucleus in the cut face of its cell.
+struct CutNucleus {
+  Disc disc;
+  std::int32_t cell_face;
+};
+std::vector<CutNucleus> nuclei_of(const Snapshot& snapshot, const Projection& projection) {
+  std::vector<CutNucleus> out;
+  for (std::size_t k = 0; k < snapshot.nuclei.size(); ++k) {
+    const Vec3d p = projection.pixel(snapshot.nuclei[k].center);
+    out.push_back({{p.x, p.y, p.z, snapshot.nuclei[k].radius, static_cast<std::int32_t>(2 * (snapshot.cells.size() + k) + 1)},
+                   static_cast<std::int32_t>(2 * snapshot.nuclei[k].cell + 1)});
+  }
+  return out;
+}
+
+void draw_nucleus(const CutNucleus& nucleus, const ClipDepth& clip, const Band& band, double pixels_per_um, PixelBuffer& pixels) {
+  const Disc& disc = nucleus.disc;
+  const double radius_px = disc.radius * pixels_per_um;
+  const int y0 = std::max(band.first, static_cast<int>(std::ceil(disc.y - radius_px - 0.5)));
+  const int y1 = std::min(band.last - 1, static_cast<int>(std::floor(disc.y + radius_px - 0.5)));
+  const int x0 = std::max(0, static_cast<int>(std::ceil(disc.x - radius_px - 0.5)));
+  const int x1 = std::min(pixels.width - 1, static_cast<int>(std::floor(disc.x + radius_px - 0.5)));
+  for (int y = y0; y <= y1; ++y)
+    for (int x = x0; x <= x1; ++x) {
+      const std::size_t i = pixels.index(x, y);
+      const double dx = (x + 0.5 - disc.x) / pixels_per_um, dy = (y + 0.5 - disc.y) / pixels_per_um, dz = clip.at(x, y) - disc.depth;
+      if (pixels.surface[i] == nucleus.cell_face && dx * dx + dy * dy + dz * dz < disc.radius * disc.radius)
+        pixels.surface[i] = disc.surface;
+    }
+}
+
 }  // namespace
 
 PixelBuffer::PixelBuffer(int width_, int height_) : width(width_), height(height_) {
@@ -135,6 +166,7 @@ void rasterize(const Snapshot& snapshot, const Camera& camera, const std::option
   std::vector<DrawnTriangle> triangles;
   for (const auto& shell : snapshot.shells) add_shell(snapshot, shell, projection, triangles);
   const CutFaces faces = cut ? CutFaces(snapshot, projection, *cut) : CutFaces();
+  const std::vector<CutNucleus> nuclei = cut ? nuclei_of(snapshot, projection) : std::vector<CutNucleus>();
 
   constexpr int kBandRows = 64;
   const int bands = (pixels.height + kBandRows - 1) / kBandRows;
@@ -144,6 +176,7 @@ void rasterize(const Snapshot& snapshot, const Camera& camera, const std::option
     for (const Disc& disc : discs) draw_sphere(disc, clip, band, camera.pixels_per_um, pixels);
     for (const DrawnTriangle& triangle : triangles) draw_triangle(triangle, clip, band, pixels);
     if (cut) faces.draw(band.first, band.last, discs, clip, pixels);
+    for (const CutNucleus& nucleus : nuclei) draw_nucleus(nucleus, clip, band, camera.pixels_per_um, pixels);
   }
 }
 

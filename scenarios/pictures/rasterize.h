@@ -13,7 +13,7 @@ struct PixelBuffer {
 
   int width = 0, height = 0;
   std::vector<float> depth;                      ///< towards the eye; −infinity where nothing is seen [µm]
-  std::vector<std::int32_t> surface;             ///< 2 × cell number, + 1 on a cut face; kNothing
+  std::vector<std::int32_t> surface;             ///< 2 × cell number, + 1 on a cut face; nuclei are numbered after the cells; kNothing
   std::vector<std::int16_t> normal_x, normal_y;  ///< of the unit normal in the view frame × 32767 (its z is positive)
 
   PixelBuffer(int width_, int height_);
@@ -34,7 +34,7 @@ struct PixelBuffer {
 /// With a cut plane, what lies on the side of its normal is removed and the faces of the cut are closed: each pixel of the plane
 /// belongs to the shell whose cross-section covers it, else to the sphere with the smallest power distance |x − c|² − R², if that is
 /// negative; two overlapping spheres meet in a straight line (the radical plane, Aurenhammer 1987, doi:10.1137/0216006).
-/// The plane's normal must point towards the eye.
+/// A nucleus is seen where the plane cuts it and its cell. The plane's normal must point towards the eye.
 ///
 /// The result does not depend on the number of threads.
 void rasterize(const Snapshot& snapshot, const Camera& camera, const std::optional<CutPlane>& cut, PixelBuffer& pixels);

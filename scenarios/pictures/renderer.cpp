@@ -48,7 +48,8 @@ Image render(const Snapshot& snapshot, const RenderOptions& options) {
   camera.pixels_per_um *= samples;
   PixelBuffer pixels(options.width * samples, rows * samples);
   rasterize(snapshot, camera, options.cut, pixels);
-  const auto colors = cell_colors(snapshot, options.color_by, options.scale, options.field);
+  auto colors = cell_colors(snapshot, options.color_by, options.scale, options.field);
+  for (const Snapshot::Nucleus& nucleus : snapshot.nuclei) colors.push_back(colors[nucleus.cell] * 0.6f);
   shade(pixels, colors,
         {samples, camera.pixels_per_um, median_radius(snapshot), options.outlines,
          is_number(options.color_by)              ? 0.06f

@@ -131,6 +131,22 @@ Status read_shell_arrays(const Hdf5Reader& file, std::uint64_t first_node, std::
   return {};
 }
 
+/// Nuclei are in the file only where some shell has one.
+Status read_nucleus_flags(const Hdf5Reader& file, std::uint64_t first, std::uint64_t count, std::vector<std::uint8_t>& out) {
+  if (!file.exists("shells/has_nucleus")) return {};
+  MORULA_TRY_ASSIGN(out, file.read<std::uint8_t>("shells/has_nucleus", first, count));
+  return {};
+}
+
+Status read_nuclei(const Hdf5Reader& file, std::uint64_t first, const std::vector<std::uint8_t>& has_nucleus, dcm::Shells& out) {
+  if (has_nucleus.empty()) return {};
+  const auto count = static_cast<std::uint64_t>(std::count(has_nucleus.begin(), has_nucleus.end(), 1));
+  MORULA_TRY_ASSIGN(const auto centers, file.read<Vec3d>("shells/nucleus", first, count));
+  auto next = centers.begin();
+  for (const std::uint8_t has : has_nucleus) out.nucleus.push_back(has != 0 ? std::optional(*next++) : std::nullopt);
+  return {};
+}
+
 /// Marks and contact of the faces, where any shell had them.
 Status read_faces(const Hdf5Reader& file, std::uint64_t first_shell, const Comm& comm, dcm::Shells& out) {
   if (!file.exists("shells/mark_count")) return {};
@@ -178,6 +194,10 @@ Status read_cells(const Hdf5Reader& file, ShapeLibrary& library, const Comm& com
   MORULA_TRY(agree(read_partners(file, first_partner, partner_count, out.spheres), comm));
 
   MORULA_TRY(agree(read_shell_heads(file, first_shell, shells, library, out.shells), comm));
+  std::vector<std::uint8_t> has_nucleus;
+  MORULA_TRY(agree(read_nucleus_flags(file, first_shell, shells, has_nucleus), comm));
+  const std::uint64_t first_nucleus = before_mine(static_cast<std::uint64_t>(std::count(has_nucleus.begin(), has_nucleus.end(), 1)), comm);
+  MORULA_TRY(agree(read_nuclei(file, first_nucleus, has_nucleus, out.shells), comm));
   const std::uint64_t first_node = before_mine(out.shells.first_node.back(), comm),
                       first_edge = before_mine(out.shells.first_edge.back(), comm);
   MORULA_TRY(agree(read_shell_arrays(file, first_node, first_edge, out.shells), comm));
@@ -216,6 +236,7 @@ void put_in_canonical_order(Tissue& tissue) {
                            from.rest_length.begin() + from.first_edge[b + 1]);
       h.first_node.push_back(static_cast<std::uint32_t>(h.position.size()));
       h.first_edge.push_back(static_cast<std::uint32_t>(h.rest_length.size()));
+      h.nucleus.push_back(from.nucleus_of(b) != nullptr ? std::optional(*from.nucleus_of(b)) : std::nullopt);
       if (!from.face.empty()) h.face.push_back(from.face[b]);
     }
   }
@@ -262,6 +283,10 @@ Status check_against(const Model& model, const Tissue& tissue) {
   if (tissue.lumens.size() > model.lumens.size()) return differs("lumens", tissue.lumens.size(), model.lumens.size());
   for (const CellRow& row : tissue.cells.rows)
     if (row.type >= model.types.size()) return differs("cell types or more", row.type + std::size_t{1}, model.types.size());
+  for (std::size_t s = 0; s < tissue.shells.size(); ++s) {
+    const bool has = tissue.shells.nucleus_of(s) != nullptr, wanted = model.types[tissue.shells.type[s]].interior.has_nucleus();
+    if (has != wanted) return differs("nuclei in a shell", has, wanted);
+  }
   return {};
 }
 

@@ -21,6 +21,8 @@ struct SortedCells {
   std::vector<CellId> partners;
   std::vector<std::uint32_t> shape;
   dcm::Shells shells;
+  std::vector<std::uint8_t> has_nucleus;                 ///< by shell
+  std::vector<Vec3d> nucleus;                            ///< of those that have one
   std::vector<std::uint32_t> mark_count, contact_count;  ///< by shell
   std::vector<std::uint8_t> mark;
   std::vector<float> contact;
@@ -56,6 +58,9 @@ Parcels pack_cells(const Tissue& tissue, const ShapeNumbers& numbers) {
       out.put_all(std::span(s.position).subspan(node, nodes));
       out.put_all(std::span(s.velocity).subspan(node, nodes));
       out.put_all(std::span(s.rest_length).subspan(edge, edges));
+      const Vec3d* nucleus = s.nucleus_of(shell);
+      out.put(std::uint8_t{nucleus != nullptr});
+      if (nucleus != nullptr) out.put(*nucleus);
       const dcm::FaceState& face = s.faces_of(shell);
       out.put(static_cast<std::uint32_t>(face.mark.size()));
       out.put(static_cast<std::uint32_t>(face.contact.size()));
@@ -89,6 +94,8 @@ SortedCells unpack_cells(const Parcels& parcels) {
       in.get_all(nodes, out.shells.position);
       in.get_all(nodes, out.shells.velocity);
       in.get_all(edges, out.shells.rest_length);
+      out.has_nucleus.push_back(in.get<std::uint8_t>());
+      if (out.has_nucleus.back() != 0) out.nucleus.push_back(in.get<Vec3d>());
       out.mark_count.push_back(in.get<std::uint32_t>());
       out.contact_count.push_back(in.get<std::uint32_t>());
       in.get_all(out.mark_count.back(), out.mark);
@@ -117,6 +124,10 @@ void add_cells(StoragePlan& plan, const SortedCells& cells, const Comm& comm) {
   plan.add("shells/position", "um", cells.shells.position);
   plan.add("shells/velocity", "um/s", cells.shells.velocity);
   plan.add("shells/rest_length", "um", cells.shells.rest_length);
+  if (comm.any(!cells.nucleus.empty())) {
+    plan.add("shells/has_nucleus", "1", cells.has_nucleus);
+    plan.add("shells/nucleus", "um", cells.nucleus);
+  }
   if (!comm.any(!cells.mark.empty() || !cells.contact.empty())) return;
   plan.add("shells/mark_count", "1", cells.mark_count);
   plan.add("shells/mark", "1", cells.mark);
@@ -190,7 +201,8 @@ Status write_checkpoint(const std::filesystem::path& path, const Tissue& tissue,
   StoragePlan plan(comm);
   add_globals(plan, tissue, info);
   const ShapeNumbers numbers = add_shapes(plan, tissue.shells.shape, comm);
-  add_cells(plan, unpack_cells(sort_over_ranks(pack_cells(tissue, numbers), comm)), comm);
+  const SortedCells cells = unpack_cells(sort_over_ranks(pack_cells(tissue, numbers), comm));
+  add_cells(plan, cells, comm);
   for (std::size_t f = 0; f < tissue.fields.size(); ++f) MORULA_TRY(add_field(plan, "fields/" + std::to_string(f), tissue.fields[f], comm));
   return create_file(path, std::move(plan), comm);
 }

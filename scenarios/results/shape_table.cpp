@@ -128,7 +128,7 @@ Result<std::map<std::uint32_t, std::shared_ptr<const ReferenceShape>>> read_shap
       return Error{ErrorKind::kFile, "the checkpoint names shape " + std::to_string(number) + ", which it does not hold", ""};
     MORULA_TRY_ASSIGN(std::shared_ptr<const ReferenceShape> shape, read_shape(file, places, number));
     const auto known = library.icosphere(shape->topology->node_count());
-    if (known.ok() && shape_hash(**known) == shape_hash(*shape)) shape = *known;
+    shape = known.ok() && shape_hash(**known) == shape_hash(*shape) ? *known : library.adopt(std::move(shape));
     out[number] = std::move(shape);
   }
   return out;

@@ -33,6 +33,12 @@ struct Snapshot {
     std::uint32_t first_node = 0, node_count = 0;
     std::uint32_t topology = 0;
   };
+  /// The rigid nucleus of a shell.
+  struct Nucleus {
+    std::uint32_t cell = 0;
+    Vec3d center;         ///< [µm]
+    double radius = 0.0;  ///< [µm]
+  };
   struct Grid {
     std::string name;
     Vec3d low, spacing;  ///< [µm]
@@ -40,9 +46,10 @@ struct Snapshot {
     std::vector<double> concentration;  ///< x fastest [mM]
   };
 
-  double time = 0.0;          ///< [s]
-  std::vector<Cell> cells;    ///< sorted by id
-  std::vector<Shell> shells;  ///< in the order of their cells
+  double time = 0.0;            ///< [s]
+  std::vector<Cell> cells;      ///< sorted by id
+  std::vector<Shell> shells;    ///< in the order of their cells
+  std::vector<Nucleus> nuclei;  ///< in the order of their cells
   std::vector<Vec3d> nodes;
   std::vector<std::vector<Triangle>> topologies;
   std::vector<std::string> mark_names;   ///< of the bits of a face's marks

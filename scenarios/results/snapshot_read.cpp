@@ -58,6 +58,18 @@ Status read_shells(const Hdf5Reader& file, const std::string& group, Snapshot& o
   return {};
 }
 
+Status read_nuclei(const Hdf5Reader& file, const std::string& group, Snapshot& out) {
+  if (!file.exists(group + "nuclei/cell")) return {};
+  MORULA_TRY_ASSIGN(const auto cell, file.read<std::uint64_t>(group + "nuclei/cell"));
+  MORULA_TRY_ASSIGN(const auto center, file.read<Vec3d>(group + "nuclei/center", 0, cell.size()));
+  MORULA_TRY_ASSIGN(const auto radius, file.read<double>(group + "nuclei/radius", 0, cell.size()));
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    if (cell[i] >= out.cells.size()) return Error{ErrorKind::kFile, "a nucleus in " + group + " belongs to no cell", ""};
+    out.nuclei.push_back({static_cast<std::uint32_t>(cell[i]), center[i], radius[i]});
+  }
+  return {};
+}
+
 Status read_fields(const Hdf5Reader& file, const std::string& group, Snapshot& out) {
   MORULA_TRY_ASSIGN(const std::vector<std::string> names, file.texts(group + "field_names"));
   for (const std::string& name : names) {
@@ -101,6 +113,7 @@ Result<Snapshot> read_snapshot(const std::filesystem::path& path, std::size_t in
   MORULA_TRY_ASSIGN(out.type_names, file.texts(group + "type_names"));
   MORULA_TRY(read_cells(file, group, out));
   MORULA_TRY(read_shells(file, group, out));
+  MORULA_TRY(read_nuclei(file, group, out));
   MORULA_TRY(read_fields(file, group, out));
   return out;
 }

@@ -62,6 +62,8 @@ std::vector<std::uint32_t> add_topologies(StoragePlan& plan, const Snapshot& loc
 Parcels pack_cells(const Snapshot& local, const std::vector<std::uint32_t>& topology_number) {
   std::vector<const Snapshot::Shell*> shell_of(local.cells.size(), nullptr);
   for (const Snapshot::Shell& shell : local.shells) shell_of[shell.cell] = &shell;
+  std::vector<const Snapshot::Nucleus*> nucleus_of(local.cells.size(), nullptr);
+  for (const Snapshot::Nucleus& nucleus : local.nuclei) nucleus_of[nucleus.cell] = &nucleus;
   std::vector<std::size_t> first_face(local.cells.size(), 0);
   std::size_t faces = 0;
   for (const Snapshot::Shell& shell : local.shells) {
@@ -78,6 +80,11 @@ Parcels pack_cells(const Snapshot& local, const std::vector<std::uint32_t>& topo
     if (shell != nullptr) {
       out.put(topology_number[shell->topology]);
       out.put_all(std::span(local.nodes).subspan(shell->first_node, shell->node_count));
+      out.put(std::uint8_t{nucleus_of[c] != nullptr});
+      if (nucleus_of[c] != nullptr) {
+        out.put(nucleus_of[c]->center);
+        out.put(nucleus_of[c]->radius);
+      }
       if (!local.mark_names.empty())
         out.put_all(std::span(local.face_marks).subspan(first_face[c], local.topologies[shell->topology].size()));
     }
@@ -90,7 +97,9 @@ void add_cells(StoragePlan& plan, const Parcels& sorted, bool marks, const Comm&
   std::vector<Snapshot::Cell> cells;
   std::vector<std::uint64_t> shell_cell, first_node;
   std::vector<std::uint32_t> node_count, topology;
-  std::vector<Vec3d> nodes;
+  std::vector<Vec3d> nodes, nucleus_center;
+  std::vector<std::uint64_t> nucleus_cell;
+  std::vector<double> nucleus_radius;
   std::vector<std::uint8_t> face_marks;
   const auto first_cell = static_cast<std::uint64_t>(comm.exclusive_scan(static_cast<std::int64_t>(sorted.size())));
   for (std::size_t i = 0; i < sorted.size(); ++i) {
@@ -103,6 +112,11 @@ void add_cells(StoragePlan& plan, const Parcels& sorted, bool marks, const Comm&
     node_count.push_back(count);
     topology.push_back(in.get<std::uint32_t>());
     in.get_all(count, nodes);
+    if (in.get<std::uint8_t>() != 0) {
+      nucleus_cell.push_back(first_cell + i);
+      nucleus_center.push_back(in.get<Vec3d>());
+      nucleus_radius.push_back(in.get<double>());
+    }
     if (marks) in.get_all(in.rest(), face_marks);
   }
   const auto nodes_before = static_cast<std::uint64_t>(comm.exclusive_scan(static_cast<std::int64_t>(nodes.size())));
@@ -118,6 +132,10 @@ void add_cells(StoragePlan& plan, const Parcels& sorted, bool marks, const Comm&
   plan.add("shells/topology", "1", topology);
   plan.add("shells/node", "um", nodes);
   if (marks) plan.add("shells/face_marks", "1", face_marks);
+  if (!comm.any(!nucleus_cell.empty())) return;
+  plan.add("nuclei/cell", "1", nucleus_cell);
+  plan.add("nuclei/center", "um", nucleus_center);
+  plan.add("nuclei/radius", "um", nucleus_radius);
 }
 
 /// The voxels of all bricks as one array over the whole grid, x fastest: rows of voxels are sorted by where they belong.
@@ -164,6 +182,9 @@ Status check_local(const Snapshot& local, std::span<const fields::Field> fields)
     if (shell.cell >= local.cells.size() || shell.topology >= local.topologies.size() || shell.node_count == 0 ||
         std::size_t{shell.first_node} + shell.node_count > local.nodes.size())
       return Error{ErrorKind::kInternal, "a snapshot's shell points outside its arrays", ""};
+  for (const Snapshot::Nucleus& nucleus : local.nuclei)
+    if (nucleus.cell >= local.cells.size() || local.cells[nucleus.cell].body != BodyKind::kShell)
+      return Error{ErrorKind::kInternal, "a snapshot's nucleus is in no shell", ""};
   return {};
 }
 

@@ -39,6 +39,7 @@ void put_shell(ByteWriter& out, const dcm::Shells& shells, std::size_t i, const 
   out.put_all(std::span(shells.position).subspan(node, nodes));
   out.put_all(std::span(shells.velocity).subspan(node, nodes));
   out.put_all(std::span(shells.rest_length).subspan(edge, edges));
+  if (const Vec3d* nucleus = shells.nucleus_of(i)) out.put(*nucleus);
   const dcm::FaceState& face = shells.faces_of(i);  // shells without have the bytes that they had before there were marks
   if (face.empty()) return;
   out.put(std::uint64_t{face.mark.size()});

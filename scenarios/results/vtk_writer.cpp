@@ -157,6 +157,23 @@ std::string spheres_file(const Snapshot& s) {
   return mesh_file(s, mesh, cell_arrays(s, cell_of_point), "");
 }
 
+/// Centres and radii of nuclei: glyphs of spheres.
+std::string nuclei_file(const Snapshot& s) {
+  constexpr std::uint8_t kVertex = 1;  // VTK_VERTEX
+  Mesh mesh;
+  std::vector<double> radius;
+  std::vector<std::uint64_t> id;
+  for (const Snapshot::Nucleus& nucleus : s.nuclei) {
+    mesh.connectivity.push_back(static_cast<std::int64_t>(mesh.points.size()));
+    mesh.points.push_back(nucleus.center);
+    mesh.offsets.push_back(static_cast<std::int64_t>(mesh.points.size()));
+    mesh.types.push_back(kVertex);
+    radius.push_back(nucleus.radius);
+    id.push_back(s.cells[nucleus.cell].id.bits());
+  }
+  return mesh_file(s, mesh, data_array("cell_id", id) + data_array("radius [um]", radius), "");
+}
+
 std::string grid_file(const Snapshot& s, const Snapshot::Grid& grid) {
   std::string extent, origin, spacing;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -206,6 +223,7 @@ Status write_vtk(const Snapshot& snapshot, const fs::path& folder, std::size_t n
   if (error) return file_error(folder, "create folder", error.value());
   MORULA_TRY(write_file_atomically(folder / numbered("shells", number, ".vtu"), shells_file(snapshot)));
   MORULA_TRY(write_file_atomically(folder / numbered("spheres", number, ".vtu"), spheres_file(snapshot)));
+  if (!snapshot.nuclei.empty()) MORULA_TRY(write_file_atomically(folder / numbered("nuclei", number, ".vtu"), nuclei_file(snapshot)));
   for (const Snapshot::Grid& grid : snapshot.fields)
     MORULA_TRY(write_file_atomically(folder / numbered("field_" + grid.name, number, ".vti"), grid_file(snapshot, grid)));
   return {};
@@ -215,6 +233,11 @@ Status write_vtk_collections(const fs::path& folder, const std::vector<std::size
                              const std::vector<std::string>& field_names) {
   MORULA_TRY(write_collection(folder, "shells", ".vtu", numbers, times));
   MORULA_TRY(write_collection(folder, "spheres", ".vtu", numbers, times));
+  std::vector<std::size_t> with_nuclei;
+  std::vector<double> when;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    if (fs::exists(folder / numbered("nuclei", numbers[i], ".vtu"))) with_nuclei.push_back(numbers[i]), when.push_back(times[i]);
+  if (!with_nuclei.empty()) MORULA_TRY(write_collection(folder, "nuclei", ".vtu", with_nuclei, when));
   for (const std::string& name : field_names) MORULA_TRY(write_collection(folder, "field_" + name, ".vti", numbers, times));
   return {};
 }

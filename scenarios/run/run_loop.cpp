@@ -241,12 +241,27 @@ Status RunLoop::check_limits(const Measures& m) {
     if (!(m.overlap.value <= limits.overlap)) return crossed(overlap, m.overlap);
     if (m.overlap.value > kWarnAt * limits.overlap) warn_near_limit(overlap_warned_, overlap + " at cell " + m.overlap.cell.text());
   }
+  MORULA_TRY(check_packing(m));
   for (std::size_t f = 0; f < study_.model.fields.size(); ++f) {
     const std::string balance = "balance of " + study_.model.fields[f].name + " off by " + number_text("%.2g", m.field_balance[f]) +
                                 " (limit " + number_text("%.2g)", limits.field_balance);
     if (!(m.field_balance[f] <= limits.field_balance)) return crossed(balance, {});
     if (m.field_balance[f] > kWarnAt * limits.field_balance) warn_near_limit(balance_warned_, balance);
   }
+  return {};
+}
+
+/// The pressure of packing holds within the range it was calibrated in (cbm.md §3).
+Status RunLoop::check_packing(const Measures& m) {
+  constexpr double kMost = 1.5, kPartBeyond = 0.01;
+  if (m.packing > kMost && !simulation_->tissue().clock.capped)
+    return Error{ErrorKind::kPhysics,
+                 "cell " + m.packing_cell.text() + " is packed " + number_text("%.3g", m.packing) +
+                     " times as tightly as the end of its packing curve at " + time_text(m.time),
+                 "knots of `cbm.packing` for such compressions, stiffer spheres, or less load"};
+  if (static_cast<double>(m.packed_beyond) > kPartBeyond * static_cast<double>(m.spheres))
+    warn_near_limit(packing_warned_, std::to_string(m.packed_beyond) + " of " + std::to_string(m.spheres) +
+                                         " spheres are packed more tightly than their packing curve is calibrated for");
   return {};
 }
 

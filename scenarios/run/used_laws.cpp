@@ -6,6 +6,7 @@
 #include "coupling/behaviours/builtin.h"
 #include "coupling/builtin.h"
 #include "dcm/builtin.h"
+#include "dcm/interior_laws.h"
 #include "fields/builtin.h"
 
 namespace morula::scenarios {
@@ -77,6 +78,24 @@ const char* law_name(SurfaceLaw law) {
   return "";
 }
 
+/// Nucleus and links of one type.
+void add_interior_laws(const CellType& type, std::vector<UsedLaw>& out) {
+  const dcm::InteriorParameters& p = type.interior;
+  const auto links = [&](const dcm::LinkParameters& l) {
+    return Values{{"number", std::min(l.count, type.shell_nodes)}, {"stiffness", l.stiffness}, {"damping", l.damping}};
+  };
+  for (LawInfo& law : dcm::interior_laws()) {
+    const bool to_nucleus = law.name == "nucleus_links", across = law.name == "cortex_links";
+    const bool used = across ? p.cortex_links.act() : p.has_nucleus() && (!to_nucleus || p.nucleus_links.act());
+    if (!used) continue;
+    Values values = to_nucleus ? links(p.nucleus_links)
+                    : across   ? links(p.cortex_links)
+                               : Values{{"nucleus_fraction", p.nucleus_fraction}, {"cytoplasm_viscosity", p.cytoplasm_viscosity}};
+    if (across && p.cortex_links.count > type.shell_nodes / 2) values[0].second = type.shell_nodes / 2;
+    out.push_back({"inside shells of " + type.name, std::move(law), std::move(values)});
+  }
+}
+
 void add_contacts(const Model& model, bool shells, bool spheres, std::vector<UsedLaw>& out) {
   const auto name = [&](std::size_t m) {
     return m < model.types.size() ? model.types[m].name : model.obstacles[m - model.types.size()].name;
@@ -104,6 +123,11 @@ void add_contacts(const Model& model, bool shells, bool spheres, std::vector<Use
         out.push_back({"spheres of " + type.name,
                        law.info,
                        {{"young", type.sphere.young}, {"poisson", type.sphere.poisson}, {"adhesion", model.pair(t, t).adhesion}}});
+    if (const cbm::PackingCurve& curve = type.sphere.packing; !curve.empty())
+      out.push_back(
+          {"spheres of " + type.name,
+           cbm::packing_law(),
+           {{"packing_onset", curve.onset()}, {"packing_last", curve.last()}, {"packing_last_pressure", curve.knots().back().pressure}}});
   }
 }
 
@@ -115,13 +139,18 @@ void add_behaviours(const CellType& type, std::vector<UsedLaw>& out) {
                       {"apoptosis_time", type.apoptosis_time},
                       {"removal_fraction", type.removal_fraction},
                       {"migration_speed", type.migration_speed},
-                      {"migration_persistence", type.migration_persistence}};
+                      {"migration_persistence", type.migration_persistence},
+                      {"permeability", type.osmosis.permeability},
+                      {"inactive", type.osmosis.inactive},
+                      {"inside", type.osmosis.inside},
+                      {"outside", type.osmosis.outside}};
   for (LawInfo& law : behaviour_laws()) {
     const bool used = law.name == "linear_growth"        ? type.cycles && !type.exponential_growth
                       : law.name == "exponential_growth" ? type.cycles && type.exponential_growth
                       : law.name == "instant_division"   ? type.cycles
                       : law.name == "starvation"         ? type.death_field >= 0 && type.death_rate > 0.0
                       : law.name == "persistent_walk"    ? type.migration_speed > 0.0
+                      : law.name == "osmosis"            ? type.osmosis.acts()
                                                          : false;
     if (used) out.push_back({"life of " + type.name, std::move(law), values});
   }
@@ -150,6 +179,8 @@ const char* load_name(LoadKind kind) {
       return "pressure";
     case LoadKind::kBodyForce:
       return "body_force";
+    case LoadKind::kGrip:
+      return "grip";
   }
   return "";
 }
@@ -159,7 +190,7 @@ void add_loads(const Model& model, std::vector<UsedLaw>& out) {
     const double size = load.kind == LoadKind::kBodyForce ? norm(load.force) : load.size;
     out.push_back({"load " + load.name + " on " + model.types[load.type].name,
                    law_named(load_laws(), load_name(load.kind)),
-                   {{"stress", size}, {"pressure", size}, {"force", size}, {"part", load.part}}});
+                   {{"stress", size}, {"pressure", size}, {"force", size}, {"stiffness", size}, {"part", load.part}}});
   }
 }
 
@@ -180,8 +211,11 @@ std::vector<UsedLaw> used_laws(const Study& study) {
   for (std::size_t t = 0; t < model.types.size(); ++t)
     if (given[t]) (model.types[t].initial_body == BodyKind::kShell ? shells : spheres) = true;
   std::vector<UsedLaw> out;
-  for (const CellType& type : model.types)
-    if (shells) add_shell_laws(type, out);
+  for (const CellType& type : model.types) {
+    if (!shells) break;
+    add_shell_laws(type, out);
+    add_interior_laws(type, out);
+  }
   add_contacts(model, shells, spheres, out);
   for (const CellType& type : model.types) add_behaviours(type, out);
   add_fields(model, out);

@@ -22,9 +22,15 @@ void build_domain(BuildContext& context);
 void build_cell_types(BuildContext& context);
 /// The shell of one cell type, and whether its laws go together: E513–E515.
 dcm::ShellParameters build_shell(BuildContext& context, const std::string& type_name, const draft::CellType& draft);
+/// The pressure of packing of one cell type's spheres: E515, E530, E531; empty where the study gives none.
+cbm::PackingCurve build_packing(BuildContext& context, const std::string& type_name, const draft::CellType& draft);
 void build_geometry(BuildContext& context);
 /// The prescribed way of an obstacle over time.
 void build_motion_course(BuildContext& context, const draft::Obstacle& draft, ObstacleSpec& obstacle);
+/// Osmosis of a cell type: E535, E536.
+void build_osmosis(BuildContext& context, const draft::CellType& draft, CellType& type);
+/// Nucleus and links of the shells of a type: E111, E537–E540.
+dcm::InteriorParameters build_interior(BuildContext& context, const draft::CellType& draft, const std::string& type_name);
 /// The points of a course as a table; E510 where their times do not increase, or there is only one.
 TimeCourse build_course(BuildContext& context, const std::vector<Named<draft::CoursePoint>>& points);
 /// Marks of faces, tension by region, cavities, springs: E555–E557; after types, obstacles, pairs and domain.
@@ -42,6 +48,8 @@ void build_initial(BuildContext& context);
 void build_coupling(BuildContext& context);
 /// Checks that need the whole study: contact range, friction, step, domain size.
 void check_whole(BuildContext& context);
+/// Measured limits of meshes under strong adhesion, and cells whose volume does not bear their tension: E571, E572.
+void check_resolution(BuildContext& context);
 
 /// Index of a cell type or field by name, or −1 and an error with suggestions.
 int find_type(BuildContext& context, const std::string& name, const Place& place);

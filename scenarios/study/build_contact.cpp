@@ -56,7 +56,7 @@ void check_keys(BuildContext& c, const draft::ContactPair& pair, const Place& pl
                         "give the shortest range as `contact.range`, and longer ones by pair: steps are measured by the shortest");
 }
 
-/// Contact bears the pressure of a cell, p = 2 tension/R: an elastic repulsion gives way by (π √R p/E*)² (decision 0012).
+/// Contact bears the pressure of a cell, p = 2 tension/R: an elastic repulsion gives way by (π √R p/E*)² (decision 0018).
 void check_depth(BuildContext& c, const draft::ContactPair& pair, const Materials& materials) {
   if (pair.law.value != "maugis_dugdale" || !pair.reduced_modulus.known() || !c.draft.limits.overlap.known()) return;
   double curvature = 0.0, pressure = 0.0;
@@ -71,8 +71,8 @@ void check_depth(BuildContext& c, const draft::ContactPair& pair, const Material
   if (pair.reduced_modulus.value >= least) return;
   const double depth = std::pow(std::numbers::pi * pressure / pair.reduced_modulus.value, 2) / curvature;
   c.diagnostics.warning(517, pair.reduced_modulus.place,
-                        "cells under their own pressure sink into each other by about " + short_number(std::round(depth * 100.0) / 100.0) + " um: modulus " +
-                            pair.reduced_modulus.text + " is that of soft bodies",
+                        "cells under their own pressure sink into each other by about " + short_number(std::round(depth * 100.0) / 100.0) +
+                            " um: modulus " + pair.reduced_modulus.text + " is that of soft bodies",
                         "at least " + short_number(std::ceil(least * 10.0) / 10.0) + " kPa keeps the overlap below `limits.overlap` (" +
                             c.draft.limits.overlap.text + ")");
 }

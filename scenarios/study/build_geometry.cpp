@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/mesh/pipette.h"
 #include "core/mesh/primitives.h"
 #include "scenarios/study/build.h"
 
@@ -35,6 +36,7 @@ class PrimitiveBuilder {
     if (o.sphere.present) return sphere(o.sphere);
     if (o.box.present) return box(o.box);
     if (o.cylinder.present) return round(o.cylinder, false);
+    if (o.pipette.present) return pipette(o);
     return round(o.capsule, true);
   }
 
@@ -79,6 +81,18 @@ class PrimitiveBuilder {
                   (d.low_end.value + d.high_end.value) * 0.5);
   }
 
+  TriangleMesh pipette(const draft::Obstacle& o) {
+    const draft::Shape& d = o.pipette;
+    if (!d.low_end.known() || !d.high_end.known() || !d.radius.known()) return {};
+    const Vec3d axis = d.high_end.value - d.low_end.value;
+    if (norm2(axis) == 0.0) {
+      c_.diagnostics.error(302, d.high_end.place, "'from' and 'to' are the same point", "give the two ends of the axis");
+      return {};
+    }
+    return placed(take(make_pipette(d.radius.value, o.pipette_wall.value, o.pipette_lip.value, norm(axis), o.pipette_edge.value)), axis,
+                  d.low_end.value);
+  }
+
   BuildContext& c_;
   const Place& place_;
 };
@@ -96,13 +110,13 @@ void check_place(BuildContext& c, const std::string& name, const Place& place, c
 
 void build_geometry(BuildContext& c) {
   for (auto& [name, place, o] : c.draft.geometry) {
-    const std::array<bool, 7> kinds{o.stl.given,        o.obj.given,       o.plane.present, o.sphere.present,
-                                    o.cylinder.present, o.capsule.present, o.box.present};
+    const std::array<bool, 8> kinds{o.stl.given,        o.obj.given,       o.plane.present, o.sphere.present,
+                                    o.cylinder.present, o.capsule.present, o.box.present,   o.pipette.present};
     int count = 0;
     for (const bool kind : kinds) count += kind;
     if (count != 1)
       c.diagnostics.error(111, place, "obstacle '" + name + "' has " + (count == 0 ? "no shape" : "more than one shape"),
-                          "give one of `stl`, `obj`, `plane`, `sphere`, `cylinder`, `capsule`, `box`");
+                          "give one of `stl`, `obj`, `plane`, `sphere`, `cylinder`, `capsule`, `box`, `pipette`");
     const bool from_file = o.stl.given || o.obj.given;
     if (o.scale.given && !from_file)
       c.diagnostics.error(111, o.scale.place, "'scale' has no meaning without `stl` or `obj`", "leave it away");

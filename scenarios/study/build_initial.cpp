@@ -3,6 +3,7 @@
 
 #include "core/mesh/convex_hull.h"
 #include "scenarios/study/build.h"
+#include "scenarios/study/build_meshes.h"
 #include "scenarios/study/csv.h"
 #include "scenarios/study/read_section.h"
 
@@ -20,11 +21,11 @@ class InitialBuilder {
   InitialBuilder(BuildContext& context, const UnitSystem& units) : c_(context), units_(units), domain_(context.study.model.space.box) {}
 
   void build(draft::Initial& d, const Place& place) {
-    const int sources = (d.fill.given || d.count.given) + d.at.given + d.csv.given;
+    const int sources = (d.fill.given || d.count.given) + d.at.given + d.csv.given + d.has_meshes;
     if (sources != 1) {
       c_.diagnostics.error(111, place,
-                           sources == 0 ? "an entry of `initial` needs `fill`, `at` or `csv`"
-                                        : "an entry of `initial` has only one of `fill`, `at` and `csv`",
+                           sources == 0 ? "an entry of `initial` needs `fill`, `at`, `csv` or `meshes`"
+                                        : "an entry of `initial` has only one of `fill`, `at`, `csv` and `meshes`",
                            "for example `{type: hepatocyte, count: 400, fill: sphere, radius: 60 um}`");
       return;
     }
@@ -39,12 +40,15 @@ class InitialBuilder {
     check_inflation(d, place);
     int type = -1;
     if (!d.csv.given) {
-      if (!d.type.given) c_.diagnostics.error(103, place, "key 'type' is missing in an entry of `initial`", "name one of the cell types");
+      if (!d.type.given && !d.has_meshes)
+        c_.diagnostics.error(103, place, "key 'type' is missing in an entry of `initial`", "name one of the cell types");
       if (d.type.known()) type = find_type(c_, d.type.value, d.type.place);
       cells.type = static_cast<std::uint16_t>(std::max(0, type));
     }
     refuse_strays(d);
-    if (d.csv.given)
+    if (d.has_meshes)
+      build_meshes(c_, d, place, cells);
+    else if (d.csv.given)
       build_csv(d, cells);
     else if (d.at.given)
       build_positions(d, cells);
@@ -63,7 +67,7 @@ class InitialBuilder {
   }
   /// Keys of another source of cells are errors; their defaults are no part of the resolved study.
   void refuse_strays(draft::Initial& d) {
-    const char* with = d.csv.given ? "csv" : d.at.given ? "at" : nullptr;
+    const char* with = d.has_meshes ? "meshes" : d.csv.given ? "csv" : d.at.given ? "at" : nullptr;
     if (with) {
       stray(d.radius.given, d.radius.place, "radius", with);
       stray(d.size.given, d.size.place, "size", with);

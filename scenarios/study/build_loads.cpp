@@ -22,7 +22,7 @@ LoadEnd end_of(const Given<std::string>& word) {
 void check_bodies(BuildContext& c, const std::string& name, const Place& place, const CellLoad& load) {
   if (load.kind == LoadKind::kBodyForce) return;
   const std::string who = "load '" + name + "' acts on the surface of '" + c.study.model.types[load.type].name + "'";
-  const bool chosen = load.kind == LoadKind::kPull || load.part < 1.0;
+  const bool chosen = load.kind == LoadKind::kPull || load.kind == LoadKind::kGrip || load.part < 1.0;
   for (const InitialCells& block : c.study.initial) {
     if (block.type != load.type && block.source != InitialCells::Source::kCsv) continue;
     const BodyKind body = block.body_given ? block.body : c.study.model.types[load.type].initial_body;
@@ -41,6 +41,27 @@ void check_bodies(BuildContext& c, const std::string& name, const Place& place, 
   if (chosen && (swaps || c.study.model.types[load.type].cycles))
     c.diagnostics.error(520, place, who + " at chosen nodes, which a cell that divides or changes its body would not keep",
                         "use a load on the whole cell, or cells that stay as they are");
+}
+
+void build_grip(BuildContext& c, draft::Load& d, CellLoad& load) {
+  load.center = d.grip_center.value;
+  load.direction = unit_axis(c, d.grip_direction, "direction");
+  load.way = build_course(c, d.way);
+  for (int axis = 0; axis < 3; ++axis)
+    if (c.study.model.space.periodic(axis)) {
+      c.diagnostics.error(570, d.grip_center.place, std::string("a grip holds places, but the domain is periodic along ") + "xyz"[axis],
+                          "use `open` or `wall` faces");
+      return;
+    }
+}
+
+void build_within(BuildContext& c, const draft::Shape& shape, CellLoad& load) {
+  load.within = true;
+  load.low_end = shape.low_end.value;
+  load.high_end = shape.high_end.value;
+  load.radius = shape.radius.value;
+  if (shape.low_end.known() && shape.high_end.known() && norm2(load.high_end - load.low_end) == 0.0)
+    c.diagnostics.error(302, shape.high_end.place, "'from' and 'to' are the same point", "give the two ends of the cylinder's axis");
 }
 
 }  // namespace
@@ -71,10 +92,10 @@ void build_motion_course(BuildContext& c, const draft::Obstacle& o, ObstacleSpec
 
 void build_loads(BuildContext& c) {
   for (auto& [name, place, d] : c.draft.loads) {
-    const int kinds = d.traction + d.pull + d.pressure + d.body_force.given;
+    const int kinds = d.traction + d.pull + d.pressure + d.grip + d.body_force.given;
     if (kinds != 1) {
       c.diagnostics.error(111, place, "load '" + name + "' " + (kinds == 0 ? "says nothing of a force" : "has more than one kind of force"),
-                          "give one of `traction`, `pull`, `pressure`, `body_force`");
+                          "give one of `traction`, `pull`, `pressure`, `grip`, `body_force`");
       continue;
     }
     const int type = d.type.known() ? find_type(c, d.type.value, d.type.place) : -1;
@@ -85,13 +106,15 @@ void build_loads(BuildContext& c) {
       load.kind = LoadKind::kTraction;
       load.size = d.peak.value;
       load.axis = unit_axis(c, d.traction_axis, "axis");
-    } else if (d.pull || d.pressure) {
-      const draft::LoadEnds& ends = d.pull ? d.pull_ends : d.pressure_ends;
-      load.kind = d.pull ? LoadKind::kPull : LoadKind::kPressure;
-      load.size = d.pull ? d.pull_force.value : d.pressure_value.value;
+    } else if (d.pull || d.pressure || d.grip) {
+      const draft::LoadEnds& ends = d.pull ? d.pull_ends : d.pressure ? d.pressure_ends : d.grip_ends;
+      load.kind = d.pull ? LoadKind::kPull : d.pressure ? LoadKind::kPressure : LoadKind::kGrip;
+      load.size = d.pull ? d.pull_force.value : d.pressure ? d.pressure_value.value : d.grip_stiffness.value;
       load.axis = unit_axis(c, ends.axis, "axis");
       load.part = ends.part.value;
       load.end = end_of(ends.ends);
+      if (d.grip) build_grip(c, d, load);
+      if (d.pressure_within.present) build_within(c, d.pressure_within, load);
     } else {
       load.force = d.body_force.value;
     }

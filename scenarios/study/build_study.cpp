@@ -101,7 +101,7 @@ bool may_have_shells(const draft::Study& study) {
   for (const auto& type : study.cell_types)
     if (type.content.body.value == "shell") return true;
   for (const auto& initial : study.initial)
-    if (initial.content.body.value == "shell") return true;
+    if (initial.content.body.value == "shell" || initial.content.has_meshes) return true;
   for (const auto& region : study.coupling.regions)
     if (region.content.body.value == "shell") return true;
   return !study.coupling.triggers.empty();

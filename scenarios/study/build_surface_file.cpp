@@ -1,9 +1,9 @@
 #include "core/mesh/mesh_check.h"
 #include "core/mesh/surface_file.h"
 #include "scenarios/study/build.h"
+#include "scenarios/study/mesh_problem_codes.h"
 
 namespace morula::scenarios {
-namespace {
 
 int code_of(MeshProblemKind kind) {
   switch (kind) {
@@ -29,8 +29,6 @@ int code_of(MeshProblemKind kind) {
   }
   return 620;
 }
-
-}  // namespace
 
 TriangleMesh surface_from_file(BuildContext& c, Given<std::string>& written, const Given<double>& scale) {
   if (!written.known() || !scale.known()) return {};

@@ -100,6 +100,7 @@ void build_cell_types(BuildContext& c) {
     }
     type.inhibit_pressure = t.pressure_above.value;
     build_death(c, t, place, type);
+    build_osmosis(c, t, type);
     type.migration_speed = t.migration_speed.value;
     type.migration_persistence = t.persistence.value;
     type.medium_friction = t.friction_medium.value;
@@ -108,7 +109,9 @@ void build_cell_types(BuildContext& c) {
     type.sphere.young = t.sphere_young.value;
     type.sphere.poisson = t.sphere_poisson.value;
     type.sphere.adhesive = t.sphere_law.value != "hertz";
+    type.sphere.packing = build_packing(c, name, t);
     type.shell = build_shell(c, name, t);
+    type.interior = build_interior(c, t, name);
     c.study.model.types.push_back(std::move(type));
   }
 }

@@ -4,6 +4,7 @@
 
 #include "dcm/derived_parameters.h"
 #include "scenarios/study/build.h"
+#include "scenarios/study/build_meshes.h"
 #include "scenarios/study/read_section.h"
 
 namespace morula::scenarios {
@@ -24,9 +25,10 @@ double mean_edge(std::uint64_t nodes) {
 /// Whether a range fits the meshes of the types that it holds for; empty `names`: of all.
 void check_range(BuildContext& c, const Given<double>& range, const std::vector<std::string>& names, const char* key) {
   if (!range.known()) return;
-  for (const auto& [name, place, t] : c.draft.cell_types) {
+  for (std::size_t type = 0; type < c.draft.cell_types.size(); ++type) {
+    const auto& [name, place, t] = c.draft.cell_types[type];
     if (!names.empty() && std::ranges::find(names, name) == names.end()) continue;
-    if (!t.nodes.known() || !t.radius.mean.known()) continue;
+    if (!t.nodes.known() || !t.radius.mean.known() || only_from_meshes(c.study, type)) continue;
     const double edge = mean_edge(t.nodes.value) * t.radius.mean.value;
     // Half an edge is where faces begin to feel more than their opposite; the rule is exact to how mean_edge rounds (0.55 L was measured good).
     const bool too_long = range.value > 0.56 * edge, too_short = range.value < 0.25 * edge;
@@ -65,6 +67,18 @@ void check_friction(BuildContext& c) {
     else
       c.diagnostics.warning(504, t.friction_medium.place,
                             "cells of '" + name + "' have no friction with the medium: alone, their velocity is not determined", help);
+  }
+}
+
+/// A biconcave cell is thinner than any nucleus is wide.
+void check_nuclei(BuildContext& c) {
+  for (std::size_t i = 0; i < c.study.initial.size() && i < c.draft.initial.size(); ++i) {
+    const InitialCells& block = c.study.initial[i];
+    if (block.shape != CellShape::kBiconcave || block.type >= c.study.model.types.size()) continue;
+    const CellType& type = c.study.model.types[block.type];
+    if (type.interior.has_nucleus())
+      c.diagnostics.error(537, c.draft.initial[i].content.shape.place, "biconcave cells of '" + type.name + "' have no room for a nucleus",
+                          "`nucleus: {kind: none}`, or spherical cells");
   }
 }
 
@@ -130,6 +144,37 @@ double surface_limit(const draft::CellType& t, double friction, double node_area
   return rate > 0.0 ? 2.0 * friction / rate : 1e300;
 }
 
+/// Stiffness of a cubic close packing's breath by the pressure of packing: each sphere's Ψ″/V (Σ |∂v/∂d|)² counts once at its centre and again at
+/// its neighbours', 2 (12 · ½π a_g²)² Ψ″/V with a_g² = 0.1815 R² where cells fill space [nN/µm].
+double packing_stiffness(const draft::CellType& t, double radius) {
+  if (!t.has_packing) return 0.0;
+  double steepest = 0.0;
+  if (t.packing_law.value == "knots") {
+    for (std::size_t k = 1; k < t.packing_knots.size(); ++k) {
+      const auto &low = t.packing_knots[k - 1].content, &high = t.packing_knots[k].content;
+      const double width = high.packing.value - low.packing.value;
+      if (width > 0.0) steepest = std::max(steepest, 1.5 * (high.pressure.value - low.pressure.value) / width);
+    }
+  } else if (const auto knots =
+                 cbm::ideal_filled_cell(t.packing_bulk_modulus.value >= 0.0 ? t.packing_bulk_modulus.value : t.bulk_modulus.value,
+                                        t.sphere_young.value, t.sphere_poisson.value)) {
+    if (const auto curve = cbm::PackingCurve::through(*knots)) steepest = curve->steepest();
+  }
+  const double slopes = 6.0 * std::numbers::pi * 0.1815;
+  return 2.0 * slopes * slopes * steepest / (4.0 / 3.0 * std::numbers::pi) * radius;
+}
+
+/// Limit by what holds a nucleus against the little friction it has: its links, and the repulsion over a tenth of its cross-section.
+double nucleus_limit(const draft::CellType& t, double repulsion) {
+  const draft::Nucleus& n = t.nucleus;
+  if (!n.present || n.kind.value != "rigid" || n.radius.given == n.volume_fraction.given) return 1e300;
+  const double radius = n.radius.given ? n.radius.value : std::cbrt(n.volume_fraction.value) * t.radius.mean.value;
+  const draft::Links& l = t.nucleus_links;
+  const double links = l.present ? static_cast<double>(std::min(l.number.value, t.nodes.value)) : 0.0;
+  const double friction = 6.0 * std::numbers::pi * n.viscosity.value * radius + links * l.damping.value / 3.0;
+  return 2.0 * friction / (links * l.stiffness.value / 3.0 + 0.1 * std::numbers::pi * radius * radius * repulsion);
+}
+
 }  // namespace
 
 double explicit_step_limit(const draft::Study& study) {
@@ -145,11 +190,13 @@ double explicit_step_limit(const draft::Study& study) {
       const double node_area = 4.0 * std::numbers::pi * radius * radius / std::max(1.0, static_cast<double>(t.nodes.value));
       limit = std::min(limit, 2.0 * friction * radius / (3.0 * t.bulk_modulus.value));
       limit = std::min({limit, in_plane_limit(t, friction * node_area), surface_limit(t, friction, node_area, radius)});
+      limit = std::min(limit, nucleus_limit(t, study.contact.repulsion.value));
       if (study.contact.repulsion.value > 0.0)
         limit = std::min(limit, 2.0 * std::max(friction, t.friction_cell_cell.value) / study.contact.repulsion.value);
     }
     // A sphere with 12 neighbours at contact radius R/2: stiffness 2 E* a each, E* = E/(2 (1 − ν²)).
-    const double contact = 12.0 * t.sphere_young.value / (1.0 - t.sphere_poisson.value * t.sphere_poisson.value) * 0.5 * radius;
+    double contact = 12.0 * t.sphere_young.value / (1.0 - t.sphere_poisson.value * t.sphere_poisson.value) * 0.5 * radius;
+    contact += packing_stiffness(t, radius);
     if (contact > 0.0) limit = std::min(limit, 2.0 * friction * 4.0 * std::numbers::pi * radius * radius / contact);
   }
   return limit;
@@ -160,6 +207,8 @@ void check_whole(BuildContext& c) {
   check_contact_ranges(c);
   check_friction(c);
   check_periodic_size(c);
+  check_nuclei(c);
+  check_resolution(c);
 }
 
 }  // namespace morula::scenarios

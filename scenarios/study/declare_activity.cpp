@@ -49,8 +49,8 @@ void declare_protrusion(Section& p, draft::Activity& a) {
 void declare_activity(Section& s, draft::CellType& t) {
   draft::Activity& a = t.activity;
   s.group({.name = "fluctuations",
-           .doc = "Random forces that belong to the friction by the fluctuation-dissipation theorem. `numerics.tolerance` is at most "
-                  "1e-4 then.",
+           .doc = "Random forces that belong to the friction by the fluctuation-dissipation theorem. `numerics.tolerance` is at most 1e-4 "
+                  "then.",
            .optional_section = true,
            .example = "{energy: 4e-18 J}"},
           a.has_fluctuations, [&a](Section& f) {

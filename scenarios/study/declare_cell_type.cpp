@@ -207,6 +207,7 @@ void declare_cell_type(Section& s, draft::CellType& t) {
           .source = "chosen"},
          t.body);
   declare_life(s, t);
+  declare_osmosis(s, t);
   s.group({.name = "friction", .doc = "Friction with what is around."}, present, [&t](Section& f) { declare_friction(f, t); });
   s.quantities(
       {.name = "adhesion",
@@ -244,6 +245,7 @@ void declare_cell_type(Section& s, draft::CellType& t) {
                 .example = "0.4",
                 .source = "Galle et al. 2005, doi:10.1529/biophysj.104.041459"},
                t.sphere_poisson);
+    declare_packing(c, t);
   });
   s.group({.name = "dcm", .doc = "The cell as a deformable shell."}, present, [&t](Section& d) { declare_shell(d, t); });
 }

@@ -18,7 +18,7 @@ void declare_pair(Section& s, draft::ContactPair& pair) {
           .fallback = "traction",
           .words = {"traction", "maugis_dugdale", "falling"},
           .example = "maugis_dugdale",
-          .source = "Odenthal et al. 2013, doi:10.1371/journal.pcbi.1003267; Cuvelier et al. 2023; docs/decisions/0012"},
+          .source = "Odenthal et al. 2013, doi:10.1371/journal.pcbi.1003267; Cuvelier et al. 2023; docs/decisions/0018"},
          pair.law);
   s.quantity({.name = "range",
               .doc = "Range c of this pair, not below `contact.range`; without it that range.",

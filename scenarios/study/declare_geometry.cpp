@@ -22,6 +22,26 @@ void radius(Section& s, Given<double>& value) {
       value);
 }
 
+void declare_pipette(Section& p, draft::Obstacle& o) {
+  point(p, "from", "Centre of the mouth.", o.pipette.low_end);
+  point(p, "to", "Centre of the far end.", o.pipette.high_end);
+  radius(p, o.pipette.radius);
+  const auto length = [&p](const char* name, const char* doc, const char* fallback, Given<double>& value) {
+    p.quantity({.name = name,
+                .doc = doc,
+                .quantity = Q::kLength,
+                .fallback = fallback,
+                .low = 0.0,
+                .low_open = true,
+                .example = fallback,
+                .source = "chosen"},
+               value);
+  };
+  length("wall", "Thickness of the wall.", "1 um", o.pipette_wall);
+  length("lip", "Radius with which the edges of the mouth are rounded, at most half the wall.", "0.5 um", o.pipette_lip);
+  length("edge", "Edge length of the triangles near the mouth.", "0.4 um", o.pipette_edge);
+}
+
 }  // namespace
 
 void declare_obstacle(Section& s, draft::Obstacle& o) {
@@ -83,6 +103,11 @@ void declare_obstacle(Section& s, draft::Obstacle& o) {
               .example = "[50 um, 50 um, 10 um]"},
              o.box.size);
   });
+  s.group({.name = "pipette",
+           .doc = "A tube with a rounded mouth, open along its axis.",
+           .optional_section = true,
+           .example = "{from: [0 um, 0 um, 0 um], to: [0 um, 0 um, 15 um], radius: 2.5 um}"},
+          o.pipette.present, [&o](Section& p) { declare_pipette(p, o); });
   s.word({.name = "side",
           .doc = "Where the cells are: outside the surface, or inside it (a capsule, a mould).",
           .fallback = "outside",
@@ -221,6 +246,11 @@ void declare_initial(Section& s, draft::Initial& i) {
           .example = "aligned",
           .source = "chosen"},
          i.orientation);
+  s.group({.name = "meshes",
+           .doc = "Cells with surfaces of their own, from files: closed surfaces in VTK, STL or OBJ, one for each cell.",
+           .optional_section = true,
+           .example = "{file: embryo.vtk, scale: 1 um}"},
+          i.has_meshes, [&i](Section& m) { declare_meshes(m, i.meshes); });
 }
 
 }  // namespace morula::scenarios

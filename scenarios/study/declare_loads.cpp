@@ -29,12 +29,6 @@ void ends(Section& s, draft::LoadEnds& e, const char* part, const char* doc) {
          e.ends);
 }
 
-void declare_course_point(Section& s, draft::CoursePoint& point) {
-  s.quantity({.name = "time", .doc = "When.", .quantity = Q::kTime, .required = true, .low = 0.0, .example = "10 s"}, point.time);
-  s.quantity({.name = "factor", .doc = "Part of the full load at that time.", .required = true, .low = -1e6, .high = 1e6, .example = "1"},
-             point.value);
-}
-
 void declare_distance_point(Section& s, draft::CoursePoint& point) {
   s.quantity({.name = "time", .doc = "When.", .quantity = Q::kTime, .required = true, .low = 0.0, .example = "10 s"}, point.time);
   s.quantity(
@@ -42,7 +36,58 @@ void declare_distance_point(Section& s, draft::CoursePoint& point) {
       point.value);
 }
 
+void declare_within(Section& s, draft::Shape& shape) {
+  const auto end = [&s](const char* name, const char* doc, Given<Vec3d>& value) {
+    s.vector({.name = name, .doc = doc, .quantity = Q::kLength, .required = true, .example = "[0 um, 0 um, 0 um]"}, value);
+  };
+  end("from", "Centre of one end of the cylinder.", shape.low_end);
+  end("to", "Centre of the other end.", shape.high_end);
+  s.quantity(
+      {.name = "radius", .doc = "Radius.", .quantity = Q::kLength, .required = true, .low = 0.0, .low_open = true, .example = "3 um"},
+      shape.radius);
+}
+
+void declare_grip(Section& g, draft::Load& load) {
+  g.quantity({.name = "stiffness",
+              .doc = "Stiffness of the springs of one end together.",
+              .quantity = Q::kTension,
+              .fallback = "10 mN/m",
+              .low = 0.0,
+              .high = 1e6,
+              .low_open = true,
+              .example = "10 mN/m",
+              .source = "chosen: 1 nN moves a grip by 0.1 um"},
+             load.grip_stiffness);
+  g.vector(
+      {.name = "center",
+       .doc = "Centre of the undeformed cell whose end nodes the grip holds; where the cell is placed, unless the grip shall push at once.",
+       .quantity = Q::kLength,
+       .required = true,
+       .example = "[0 um, 0 um, 6 um]"},
+      load.grip_center);
+  axis(g, load.grip_ends.axis, "Axis that tells the ends.");
+  ends(g, load.grip_ends, "10 %", "Part of the nodes at each end that are held: a fixed set, ties taken in.");
+  g.vector({.name = "direction",
+            .doc = "Direction of `way`; need not have length 1.",
+            .fallback = "[0, 0, 1]",
+            .example = "[0, 0, 1]",
+            .source = "chosen"},
+           load.grip_direction);
+  g.list({.name = "way",
+          .doc = "How far the grip has moved along `direction` over time: straight lines between these points, at rest before the first "
+                 "and after "
+                 "the last. Steps land on the points.",
+          .example = "[{time: 0 s, distance: 0 um}, {time: 5 min, distance: 6 um}]"},
+         load.way, &declare_distance_point);
+}
+
 }  // namespace
+
+void declare_course_point(Section& s, draft::CoursePoint& point) {
+  s.quantity({.name = "time", .doc = "When.", .quantity = Q::kTime, .required = true, .low = 0.0, .example = "10 s"}, point.time);
+  s.quantity({.name = "factor", .doc = "Part of the full value at that time.", .required = true, .low = -1e6, .high = 1e6, .example = "1"},
+             point.value);
+}
 
 void declare_motion_course(Section& s, draft::Obstacle& o) {
   s.vector({.name = "direction",
@@ -90,7 +135,19 @@ void declare_load(Section& s, draft::Load& load) {
                        load.pressure_value);
             axis(p, load.pressure_ends.axis, "Axis that tells the ends.");
             ends(p, load.pressure_ends, "100 %", "Part of the nodes at each end; faces between such nodes bear the pressure.");
+            p.group({.name = "within",
+                     .doc = "Only faces whose middle lies in this cylinder bear the pressure: suction in a pipette.",
+                     .optional_section = true,
+                     .example = "{from: [0 um, 0 um, 0 um], to: [0 um, 0 um, 15 um], radius: 2.75 um}"},
+                    load.pressure_within.present, [&load](Section& w) { declare_within(w, load.pressure_within); });
           });
+  s.group(
+      {.name = "grip",
+       .doc = "Springs that hold the nodes at the ends of an axis where they are on an undeformed cell, and move them: a holding pipette, "
+              "a glued bead. `course` is a factor of the stiffness.",
+       .optional_section = true,
+       .example = "{stiffness: 10 mN/m, center: [0 um, 0 um, 6 um], part: 10 %, ends: high}"},
+      load.grip, [&load](Section& g) { declare_grip(g, load); });
   s.vector({.name = "body_force",
             .doc = "A force on the whole cell; on a shell spread over its surface.",
             .quantity = Q::kForce,

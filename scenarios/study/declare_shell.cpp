@@ -193,7 +193,6 @@ void declare_shell(Section& s, draft::CellType& t) {
               .fallback = "2.5 kPa",
               .low = 0.0,
               .high = 1e4,
-              .low_open = true,
               .example = "2.5 kPa",
               .source = kTable1},
              t.bulk_modulus);
@@ -215,6 +214,7 @@ void declare_shell(Section& s, draft::CellType& t) {
               .example = "0.3 mN/m",
               .source = "measured: clusters up to W/(2 tension) = 0.9"},
              t.shape_stiffness);
+  declare_interior(s, t);
   s.group({.name = "fold_barrier", .doc = "Keeps edges from folding through."}, present, [&t](Section& f) {
     f.quantity({.name = "stiffness",
                 .doc = "Energy scale of the barrier.",

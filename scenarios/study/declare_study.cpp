@@ -71,7 +71,8 @@ void declare_numerics(Section& s, draft::Numerics& n) {
            .source = "measured: clusters of shells need 1.9 on average"},
           n.newton);
   s.quantity({.name = "newton_stop",
-              .doc = "Newton stops when the residual is below this part of the force.",
+              .doc = "Newton stops when the residual is below this part of the force; or below 2.5 times as much, where another iteration "
+                     "would move points by less than 0.15 times this number in units of the contact range.",
               .fallback = "0.2",
               .low = 0.0,
               .high = 1.0,

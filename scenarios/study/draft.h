@@ -33,6 +33,30 @@ struct Spread {
   Given<double> mean, spread;
 };
 
+struct PackingKnot {
+  Given<double> packing, pressure;
+};
+
+/// Osmotic control of the volume.
+struct Osmosis {
+  bool present = false;
+  Given<double> permeability, inactive, inside, outside;
+  Given<std::string> field;
+  std::vector<Named<CoursePoint>> course;
+};
+
+struct Nucleus {
+  bool present = false;
+  Given<std::string> kind;
+  Given<double> radius, volume_fraction, viscosity;
+};
+struct Links {
+  bool present = false;
+  Given<std::uint64_t> number;
+  Given<double> stiffness, damping;
+  Given<bool> tension_only;
+};
+
 struct CellType {
   Spread radius;
   Given<std::string> body;
@@ -44,10 +68,17 @@ struct CellType {
   Given<std::string> death_field;
   Given<double> death_below, death_rate, shrink_time, removed_below;
   Given<double> migration_speed, persistence;
+  Osmosis osmosis;
+  Nucleus nucleus;
+  Links nucleus_links, cortex_links;
   Given<double> friction_cell_cell, friction_obstacle, friction_medium;
   std::vector<Named<Given<double>>> adhesion;
   Given<std::string> sphere_law;
   Given<double> sphere_young, sphere_poisson;
+  bool has_packing = false;
+  Given<std::string> packing_law;
+  Given<double> packing_bulk_modulus;
+  std::vector<Named<PackingKnot>> packing_knots;
   Given<std::uint64_t> nodes;
   Given<std::string> elastic, bending_law;
   Given<double> young, thickness, poisson, shear_modulus, area_ratio, tension, turnover, damping, isotropic_damping;
@@ -82,6 +113,8 @@ struct Obstacle {
   Given<std::string> stl, obj;
   Given<double> scale;
   Shape plane, sphere, cylinder, capsule, box;
+  Shape pipette;  ///< from: the mouth; to: the far end; radius: inside
+  Given<double> pipette_wall, pipette_lip, pipette_edge;
   Given<std::string> side;
   Given<Vec3d> velocity, direction;
   std::vector<Named<CoursePoint>> course;
@@ -95,11 +128,29 @@ struct LoadEnds {
 
 struct Load {
   Given<std::string> type;
-  bool traction = false, pull = false, pressure = false;
-  Given<double> peak, pull_force, pressure_value;
-  Given<Vec3d> traction_axis, body_force;
-  LoadEnds pull_ends, pressure_ends;
+  bool traction = false, pull = false, pressure = false, grip = false;
+  Given<double> peak, pull_force, pressure_value, grip_stiffness;
+  Given<Vec3d> traction_axis, body_force, grip_center, grip_direction;
+  LoadEnds pull_ends, pressure_ends, grip_ends;
+  Shape pressure_within;  ///< low_end, high_end and radius of a cylinder
+  std::vector<Named<CoursePoint>> way;
   std::vector<Named<CoursePoint>> course;
+};
+
+/// Cells that come with surfaces of their own.
+struct Meshes {
+  Given<std::string> file;
+  Given<std::vector<std::string>> files;
+  Given<double> scale;
+  Given<std::string> cell_is, id_array;
+  Given<std::vector<std::string>> types;
+  Given<std::string> type_array, pressure_array;
+  Given<double> pressure_unit;
+  Given<std::uint64_t> nodes;
+  Given<double> edge;
+  Given<bool> repair;
+  Given<double> overlap;
+  Given<Vec3d> center;
 };
 
 struct Initial {
@@ -118,6 +169,8 @@ struct Initial {
   Given<std::string> body;
   Given<double> start_volume, inflate;
   Given<std::string> shape, orientation;
+  bool has_meshes = false;
+  Meshes meshes;
 };
 
 struct FieldBoundary {

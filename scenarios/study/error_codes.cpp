@@ -69,6 +69,32 @@ constexpr ErrorCode kCodes[] = {
      "The repulsion is so soft that the pressure within the cells pushes their surfaces through each other (warning)."},
     {520, "load that cells cannot bear",
      "Tractions, pulls and pressures act on surfaces: they need shells, and chosen nodes need shells that keep their mesh and place."},
+    {530, "packing curve that is none",
+     "Pressure by packing needs three knots or more, whose packing increases from above 0, and whose pressure begins with 0 and never "
+     "falls."},
+    {531, "packing softer than the spheres",
+     "The ideal filled cell adds what Hertz contacts lack of K_V ln(V0/V). With so small a bulk modulus they lack nothing."},
+    {535, "nothing holds the volume",
+     "A shell whose bulk modulus is 0 has no pressure: its tension would shrink it to a point. With `osmosis`, too, the bulk modulus ties "
+     "the "
+     "volume to what water and solutes ask for."},
+    {536, "cell that bursts or dries out",
+     "The osmolarity around a cell must leave it a volume that its shell can have, between a fifth of the target volume and ten times it."},
+    {537, "nucleus does not fit",
+     "The nucleus must lie inside its cell with room to float: at most 80 % of the cell's radius, half of its volume."},
+    {538, "links without a nucleus",
+     "Links from the cortex to the nucleus need a nucleus: give the shell one, or link the cortex to itself."},
+    {539, "more links than nodes", "Each node has one link to the nucleus at most, and one across the cell."},
+    {540, "nucleus that water would have to leave", "A rigid nucleus is no solvent: the inactive part of the volume must hold it."},
+    {545, "array of a mesh file", "A VTK file has no array of this name, or the array does not give every cell one finite number."},
+    {546, "cells reach into each other", "Two surfaces of the files overlap deeper than `meshes.overlap` allows."},
+    {547, "cells cannot be told apart",
+     "The files hold no cell, or what is said to be one cell consists of several closed surfaces, or of polygons that enclose nothing."},
+    {548, "mesh cannot be remeshed",
+     "The wanted triangles are too large for this surface, or so small that a cell would have more than 15000 nodes."},
+    {549, "types do not fit the cells",
+     "`meshes.types` names more or fewer cell types than there are cells, or than `type_array` has values."},
+    {550, "size that no cell has", "A surface encloses a ball smaller than 0.1 um or larger than 1 mm: the `scale` is wrong."},
     {555, "mark that no face can carry",
      "Marks are of the faces of shells; a face has room for 8. A cone about the polarity needs cells with a polarity. `lateral`, `whole` "
      "and "
@@ -80,6 +106,14 @@ constexpr ErrorCode kCodes[] = {
     {557, "cavity without walls or pressure", "A cavity presses on faces of shells. One that keeps its solute has a positive pressure."},
     {558, "nothing to move along",
      "The leading edge is where the polarity points to: cells that protrude need one. What cells move along is an obstacle."},
+    {570, "grip in a periodic domain",
+     "A grip holds nodes at places of the laboratory; a cell that leaves through a periodic face would be torn back."},
+    {571, "mesh too fine for this adhesion",
+     "Where more than two cells meet, adhesion of nearly the tension of both surfaces folds the surfaces; meshes of 642 nodes and more "
+     "were "
+     "measured to stall on these folds (13 cells at W = 0.9 times both tensions), meshes of 162 nodes were not."},
+    {572, "volume that does not bear the tension",
+     "A sphere of tension T and bulk modulus K shrinks without end when K is below 2 T/(3 R)."},
     {601, "file missing", "A file that the study names does not exist. Paths are relative to the folder of the study."},
     {602, "file cannot be read", "It is a folder, a device, or its permissions forbid reading."},
     {603, "file too large", "Study files are read up to 5 MiB, CSV files up to 500 MiB."},

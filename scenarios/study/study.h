@@ -6,6 +6,7 @@
 
 #include "coupling/model.h"
 #include "scenarios/study/diagnostics.h"
+#include "scenarios/study/mesh_cells.h"
 
 namespace morula::scenarios {
 
@@ -16,7 +17,7 @@ enum class Orientation : std::uint8_t { kRandom, kAligned };
 
 /// How cells are placed at time 0.
 struct InitialCells {
-  enum class Source { kFill, kPositions, kCsv } source = Source::kFill;
+  enum class Source { kFill, kPositions, kCsv, kMeshes } source = Source::kFill;
 
   // fill: `count` cells of `type` in a shape, relaxed from a regular packing with a seeded jitter
   std::uint16_t type = 0;
@@ -35,6 +36,9 @@ struct InitialCells {
   double shared_volume = 0.0;      ///< of each cell at time 0, from the hull of all places; 0: as its type or its row says [µm³]
   Vec3d cavity_center{};           ///< of the ball that is no cell's room [µm]
   double cavity_radius = 0.0;      ///< 0: none [µm]
+
+  // meshes: surfaces from files; read with read_mesh_cells (initial/cells_from_meshes.h)
+  MeshCells meshes;
 
   // body of these cells before any region is looked at; empty in the file: as the type says
   bool body_given = false;

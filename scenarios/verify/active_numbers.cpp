@@ -55,7 +55,7 @@ double tension_by_virial() {
   tensions.set(c.tissue, 0.0);
   std::vector<Vec3d> force(c.tissue.shells.node_count());
   OrderFreeSum energy;
-  tensions.add_forces(c.tissue.shells, c.tissue.shells.position, c.geometry, force, energy);
+  tensions.add_forces(c.tissue.shells, c.tissue.shells.position, force, energy);
   double virial = 0.0;
   for (std::size_t i = 0; i < force.size(); ++i) virial -= dot(force[i], c.tissue.shells.position[i]);
   return 0.5 + virial / (2.0 * c.geometry.area[0]);

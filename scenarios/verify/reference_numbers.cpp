@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "cbm/laws/jkr.h"
+#include "cbm/laws/sphere_caps.h"
+#include "cbm/packing.h"
 #include "core/mesh/surface_geometry.h"
 #include "dcm/blocks.h"
 #include "dcm/derived_parameters.h"
@@ -178,12 +180,44 @@ void add_spheres(std::vector<ReferenceNumber>& out) {
   }
 }
 
+/// Pressure of face-centred cubic spheres (R 6, E 0.45, ν 0.4) with the packing of an ideal filled cell (K_V 2.5), 2√2 F/d² [kPa].
+double packed_pressure(double s) {
+  const auto curve = cbm::PackingCurve::through(cbm::ideal_filled_cell(kBulk, 0.45, 0.4).value()).value();
+  const double d = 2.0 * kRadius * (1.0 - s);
+  const auto hertz =
+      cbm::hertz_contact(cbm::make_pair_law(cbm::ContactMaterial::elastic(0.45, 0.4, 0.45, 0.4, 0.0), kRadius, kRadius), 2.0 * kRadius - d);
+  const auto caps = cbm::sphere_caps(kRadius, kRadius, d);
+  const double pressure = curve.at(12.0 * caps.volume_a / ball(kRadius)).pressure;
+  return 2.0 * std::numbers::sqrt2 * (hertz.force + pressure * (caps.slope_a + caps.slope_b)) / (d * d);
+}
+
+void add_packing(std::vector<ReferenceNumber>& out) {
+  out.push_back({"cbm 3", "cap of a sphere of 6 um behind the plane it shares with one of 5 um at 9.5 um [um^3]", 8.1717292, 5.1e-8,
+                 kIndependent, [] { return cbm::sphere_caps(6.0, 5.0, 9.5).volume_a; }});
+  out.push_back({"cbm 3", "its change with the distance [um^2]", -10.4861986, 5.1e-8, kIndependent,
+                 [] { return -cbm::sphere_caps(6.0, 5.0, 9.5).slope_a; }});
+  out.push_back({"cbm 3", "packing at which an ideal filled cell presses, E 450 Pa, K_V 2.5 kPa", 0.0829053, 5.1e-8, kIndependent,
+                 [] { return cbm::ideal_filled_cell(kBulk, 0.45, 0.4).value().front().packing; }});
+  struct Point {
+    double s, pressure;
+  };
+  for (const Point& p : {Point{0.05, 6.257e-3}, Point{0.115, 165.5e-3}, Point{0.12, 207.61e-3}, Point{0.20, 922.44e-3}}) {
+    char what[96];
+    std::snprintf(what, sizeof what, "pressure of cubic close packed filled cells at overlap %g of the diameter [kPa]", p.s);
+    out.push_back({"cbm 3", what, p.pressure, 0.005 * p.pressure, "computed independently; 0.5 % for eight knots",
+                   [p] { return packed_pressure(p.s); }});
+  }
+}
+
 }  // namespace
 
 std::vector<ReferenceNumber> physics_numbers() {
   std::vector<ReferenceNumber> out;
   add_shells(out);
   add_spheres(out);
+  add_packing(out);
+  add_interior_numbers(out);
+  add_contact_numbers(out);
   add_active_numbers(out);
   return out;
 }

@@ -19,6 +19,10 @@ struct ReferenceNumber {
 /// A number belongs here when it is not ours; to add one, add a line.
 std::vector<ReferenceNumber> physics_numbers();
 
+/// Those of water, nucleus and cytoskeleton.
+void add_interior_numbers(std::vector<ReferenceNumber>& out);
+/// Those of contacts and pipettes (contact_numbers.cpp), which physics_numbers() adds.
+void add_contact_numbers(std::vector<ReferenceNumber>& out);
 /// Those of what acts on marked faces and single nodes (verify/active_numbers.cpp), appended.
 void add_active_numbers(std::vector<ReferenceNumber>& out);
 

@@ -12,7 +12,7 @@ namespace morula::scenarios {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kStudies[] = {"doublet", "optical_stretcher", "optical_tweezers", "parallel_plates", "spreading"};
+constexpr const char* kStudies[] = {"doublet", "micropipette", "optical_stretcher", "optical_tweezers", "parallel_plates", "spreading"};
 
 }  // namespace
 

@@ -42,7 +42,7 @@ struct RandomContacts {
           const Vec3d n = normalized(Vec3d{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)});
           for (std::size_t k = 0; k < 3; ++k) e.n[k] = static_cast<std::int16_t>(n[k] * ContactElement::kNormalUnits);
           e.w = static_cast<float>(uniform(0, 0.5));
-          e.k = static_cast<float>(uniform(0, 2.0));
+          e.set_stiffness(static_cast<float>(uniform(0, 2.0)));
           elements[d].push_back(e);
         }
       group.elements[d] = elements[d];
@@ -71,7 +71,7 @@ void apply_points(const RandomContacts& c, const std::vector<Vec3d> (&v)[2], std
         if (!c.group.rigid) u -= v[1 - d][t[k]] * mu[k];
       }
       const Vec3d n = e.normal<double>();
-      const double a = e.w * 15.0, b = e.w * 25.0 + double(kStep) * e.k;
+      const double a = e.w * 15.0, b = e.w * 25.0 + double(kStep) * e.stiffness();
       const Vec3d f = u * a + n * (b * dot(n, u));
       for (std::size_t k = 0; k < 3; ++k) {
         q[d][s[k]] += f * quadrature.weight[e.point()][k];
@@ -87,18 +87,25 @@ struct Applied {
 
 Applied apply_condensed(const RandomContacts& c, const std::vector<Vec3d> (&v)[2], bool write0 = true, bool write1 = true) {
   PairCondenser condenser(FaceQuadrature::with_points(3), kStep);
-  std::vector<NodePairBlock> blocks;
+  NodePairArena blocks;
   condenser.add_pair_blocks(c.group, blocks);
   std::vector<Float4> p[2];
   Applied out;
-  out.blocks = blocks.size();
+  out.blocks = blocks.blocks.size();
   for (std::size_t side = 0; side < 2; ++side) {
     for (const Vec3d& x : v[side]) p[side].push_back({float(x.x), float(x.y), float(x.z), 0.0f});
     out.q[side].resize(v[side].size());
   }
-  EXPECT_TRUE(std::is_sorted(blocks.begin(), blocks.end(),
-                             [](const NodePairBlock& a, const NodePairBlock& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; }));
-  apply_pair_blocks(blocks, p[0].data(), write0 ? out.q[0].data() : nullptr, c.group.rigid ? nullptr : p[1].data(),
+  std::size_t next = 0;
+  for (std::size_t r = 0; r < blocks.rows.size(); ++r) {
+    if (r > 0) {
+      EXPECT_LT(blocks.rows[r - 1].i, blocks.rows[r].i);
+    }
+    for (std::size_t k = 1; k < blocks.rows[r].count; ++k) EXPECT_LT(blocks.blocks[next + k - 1].j, blocks.blocks[next + k].j);
+    next += blocks.rows[r].count;
+  }
+  EXPECT_EQ(next, blocks.blocks.size());
+  apply_pair_blocks({blocks.rows, blocks.blocks}, p[0].data(), write0 ? out.q[0].data() : nullptr, c.group.rigid ? nullptr : p[1].data(),
                     write1 && !c.group.rigid ? out.q[1].data() : nullptr);
   for (int side = 0; side < (c.group.rigid ? 1 : 2); ++side) {
     if (c.group.topology[side] == nullptr) continue;
@@ -140,7 +147,7 @@ TEST_P(EveryKindOfTarget, BlocksActAsTheContactPointsDo) {
   for (std::size_t side = 0; side < 2; ++side)
     for (std::size_t i = 0; i < expected[side].size(); ++i) {
       const Float4& q = got.q[side][i];
-      EXPECT_NEAR(norm(Vec3d{q.x, q.y, q.z} - expected[side][i]), 0.0, 2e-6 * largest) << side << ' ' << i;
+      EXPECT_NEAR(norm(Vec3d{q.x, q.y, q.z} - expected[side][i]), 0.0, 5e-5 * largest) << side << ' ' << i;
       EXPECT_EQ(q.w, 0.0f);
     }
 }
@@ -154,6 +161,25 @@ TEST(PairBlocks, FeelNothingOfACommonTranslation) {
   const Applied got = apply_condensed(c, v);
   for (const auto& side : got.q)
     for (const Float4& q : side) EXPECT_EQ((std::array<float, 3>{q.x, q.y, q.z}), (std::array<float, 3>{0, 0, 0}));
+}
+
+TEST(PairBlocks, StayPositiveThoughRounded) {  // without friction C is of rank one: rounding alone would make it indefinite
+  RandomContacts c(false, false);
+  for (auto& elements : c.elements)
+    for (ContactElement& e : elements) e.w = 0.0f;
+  PairCondenser condenser(FaceQuadrature::with_points(3), kStep);
+  NodePairArena blocks;
+  condenser.add_pair_blocks(c.group, blocks);
+  ASSERT_GT(blocks.blocks.size(), 30u);
+  std::size_t row = 0, last = blocks.rows[0].count;
+  for (std::size_t k = 0; k < blocks.blocks.size(); ++k) {
+    if (k == last) last += blocks.rows[++row].count;
+    const SymMat3<float> m = blocks.blocks[k].matrix(1.0f);  // in units of the row: exact
+    const double xx = m.xx, yy = m.yy, zz = m.zz, xy = m.xy, xz = m.xz, yz = m.yz;
+    EXPECT_GE(xx * yy - xy * xy, 0.0);
+    EXPECT_GE(xx * zz - xz * xz, 0.0);
+    EXPECT_GE(xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz), 0.0);
+  }
 }
 
 TEST(PairBlocks, WriteOneSideWithTheSameBits) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/mesh/primitives.h"
 #include "coupling/simulation.h"
 #include "tests/coupling/tissue_fixture.h"
 
@@ -152,6 +153,48 @@ TEST(Promotion, FindsAShapeForEveryCellOfADeeplyOverlappingCluster) {
   EXPECT_FALSE(simulation.tissue().clock.capped);
 }
 
+/// Thirteen cells in 37 % of the room that their volumes need: the third has none to become a shell. It stays what it was and says so, and the
+/// run goes on; before, it went on as a shell 3.7 µm inside its neighbours until no step lowered the energy.
+TEST(Promotion, WithoutRoomIsPutOffWithAWarning) {
+  Model model = resting_model(11.8, 0.3, 0.19, 0.5);
+  model.pairs = {ContactPair{0.1, 50.0, 50.0}};
+  model.swaps.regions = {ball_of_shells(100.0, 0.0, kNever)};
+  model.swaps.hold = 300.0;
+  ShapeLibrary shapes;
+  Tissue tissue = make_tissue(model, shapes, lattice(13, 1.3 * 11.8), std::vector<BodyKind>(13, kSphere), 162, 11.8);
+  for (CellRow& row : tissue.cells.rows) row.phase = Phase::kResting;
+  tissue.clock.steps = 1;  // the run has begun: one exchange a step
+  auto made = Simulation::create(model, std::move(tissue), Comm(), 1);
+  ASSERT_TRUE(made.ok());
+  Simulation& simulation = **made;
+  CellId put_off;
+  for (int k = 0; k < 8 && !put_off.valid(); ++k) {
+    const auto done = simulation.step(60.0);
+    ASSERT_TRUE(done.ok()) << done.error().message;
+    for (const Event& event : done->events)
+      if (event.kind == EventKind::kWarning) {
+        put_off = event.cell;
+        EXPECT_NE(event.text.find("no room"), std::string::npos);
+      }
+  }
+  ASSERT_TRUE(put_off.valid());
+  const Tissue& now = simulation.tissue();
+  EXPECT_FALSE(now.clock.capped);
+  EXPECT_EQ(now.ledger.promotions, now.shells.size());
+  std::size_t sphere = 0;
+  for (const CellRow& row : now.cells.rows) {
+    if (row.id == put_off) {
+      EXPECT_EQ(row.body, kSphere);
+      EXPECT_EQ(row.last_swap_time, now.clock.time);
+      EXPECT_DOUBLE_EQ(now.spheres.radius[sphere], 11.8);
+    }
+    sphere += row.body == kSphere;
+  }
+  const auto next = simulation.step(60.0);
+  ASSERT_TRUE(next.ok()) << next.error().message;
+  for (const Event& event : next->events) EXPECT_NE(event.cell, put_off);  // not before its hold time is over
+}
+
 TEST(Demotion, LeavesAttachedWhatWasInTouch) {
   Model model = resting_model(6.0, 0.3, 0.45, 0.5);
   model.swaps.regions = {ball_of_shells(100.0, 0.0, 1.0)};
@@ -168,6 +211,46 @@ TEST(Demotion, LeavesAttachedWhatWasInTouch) {
   for (std::size_t i = 0; i < 2; ++i) {
     ASSERT_EQ(attached[i].size(), 1u);
     EXPECT_EQ(attached[i][0], simulation.tissue().cells.rows[1 - i].id);
+  }
+}
+
+TEST(Demotion, LeavesAttachedToAnObstacleWhatTouchedIt) {
+  Model model = resting_model(6.0, 0.3, 0.45, 0.5);
+  const TriangleMesh mesh = make_box({40, 40, 4}, 4.0).value();
+  ObstacleSpec plate{"plate", mesh.position, mesh.faces, false, {}};
+  model.obstacles = {plate, plate};
+  for (Vec3d& x : model.obstacles[1].position) x += Vec3d{0, 0, -8.3};  // the second lies below, its upper side at −6.3
+  for (Vec3d& x : model.obstacles[0].position) x += Vec3d{0, 0, 100};
+  model.pairs.assign(9, ContactPair{0.1, 0.5, 0.5});
+  ShapeLibrary shapes;
+  // As a sphere it would reach down to −6 only; as a shell the second plate is within its range of 0.5 µm. The other one touches nothing.
+  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}, {0, 0, 40}}, {kShell, kShell});
+  tissue.obstacle_offset.resize(2);
+  const std::vector<CellId> both{CellId::founder(1), CellId::founder(2)};
+  Mechanics mechanics(model, contact_obstacles(model).value(), shapes, Comm(), 1);
+  const auto touching = mechanics.touching(tissue, both);
+  ASSERT_EQ(touching.size(), 1u);
+  EXPECT_EQ(touching[0].first, CellId::founder(1));
+  EXPECT_EQ(touching[0].second, CellId(2));  // the second obstacle
+  EXPECT_TRUE(mechanics.touching(tissue, std::vector<CellId>{CellId::founder(2)}).empty());
+
+  model.swaps.regions = {ball_of_shells(100.0, 0.0, 1.0)};
+  model.swaps.hold = 0.0;
+  for (CellRow& row : tissue.cells.rows) {
+    row.phase = Phase::kResting;
+    row.own_body = kSphere;
+  }
+  auto made = Simulation::create(model, std::move(tissue), Comm(), 1);
+  ASSERT_TRUE(made.ok());
+  Simulation& simulation = **made;
+  while (simulation.tissue().spheres.size() < 2) ASSERT_TRUE(simulation.step(simulation.tissue().clock.time + 0.5).ok());
+  const Tissue& after = simulation.tissue();
+  for (std::size_t i = 0; i < 2; ++i) {
+    const bool near = after.cells.rows[i].id == CellId::founder(1);
+    ASSERT_EQ(after.spheres.attached[i].size(), near ? 1u : 0u);
+    if (near) {
+      EXPECT_EQ(after.spheres.attached[i][0], CellId(2));
+    }
   }
 }
 

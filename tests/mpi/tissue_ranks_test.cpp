@@ -13,7 +13,8 @@
 namespace morula {
 namespace {
 
-Model hybrid_model() {
+/// `interior`: shells have a nucleus on links, and water flows.
+Model hybrid_model(bool interior = false) {
   Model model;
   model.seed = 5;
   model.space.box = {{-80, -80, -80}, {80, 80, 80}};
@@ -26,6 +27,14 @@ Model hybrid_model() {
   type.shell.spring_stiffness = 0.173;
   type.shell.tension = 0.2;
   type.shell.hinge_stiffness = 1e-3;
+  if (interior) {
+    type.interior.nucleus_fraction = 0.1;
+    type.interior.nucleus_links = {20, 0.01, 0.1, false};
+    type.interior.cortex_links = {dcm::LinkParameters::kAll, 0.005, 0.0, true};
+    type.osmosis.permeability = 1e-3;
+    type.osmosis.outside = 270.0;
+    type.osmosis.field = 0;
+  }
   model.types = {type};
   model.pairs = {ContactPair{0.05, 50.0, 50.0}};
   model.contact.range = 0.8;
@@ -92,8 +101,8 @@ std::map<std::uint64_t, std::vector<std::byte>> everything(const Simulation& sim
   return out;
 }
 
-std::map<std::uint64_t, std::vector<std::byte>> run(const Comm& comm, int steps, int threads, std::vector<double>* field_total = nullptr) {
-  const Model model = hybrid_model();
+std::map<std::uint64_t, std::vector<std::byte>> run(const Model& model, const Comm& comm, int steps, int threads,
+                                                    std::vector<double>* field_total = nullptr, Ledger* ledger = nullptr) {
   auto created = Simulation::create(model, hybrid_tissue(model, comm), comm, threads);
   EXPECT_TRUE(created.ok());
   Simulation& simulation = **created;
@@ -105,18 +114,15 @@ std::map<std::uint64_t, std::vector<std::byte>> run(const Comm& comm, int steps,
       break;
     }
   }
+  if (ledger != nullptr) *ledger = simulation.tissue().ledger;
   if (field_total != nullptr) field_total->push_back(fields::total_amount(simulation.tissue().fields[0], comm));
   return everything(simulation);
 }
 
-TEST(TissueOnRanks, HasTheSameBitsAsOnOne) {
-  const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
-  std::vector<double> amount;
-  const auto together = run(world, 60, 1, &amount);
-  const auto single = run(alone, 60, 1, &amount);
+using Everything = std::map<std::uint64_t, std::vector<std::byte>>;
+
+void expect_same(const Everything& together, const Everything& single) {
   ASSERT_EQ(together.size(), single.size());
-  EXPECT_GT(together.size(), 19u);
-  EXPECT_EQ(amount[0], amount[1]);
   std::size_t different = 0;
   for (const auto& [id, bytes] : single) {
     const auto found = together.find(id);
@@ -124,6 +130,49 @@ TEST(TissueOnRanks, HasTheSameBitsAsOnOne) {
     if (found->second != bytes && ++different < 4) ADD_FAILURE() << "cell " << CellId(id).text() << " differs";
   }
   EXPECT_EQ(different, 0u);
+}
+
+TEST(TissueOnRanks, HasTheSameBitsAsOnOne) {
+  const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
+  std::vector<double> amount;
+  const auto together = run(hybrid_model(), world, 60, 1, &amount);
+  const auto single = run(hybrid_model(), alone, 60, 1, &amount);
+  EXPECT_GT(together.size(), 19u);
+  EXPECT_EQ(amount[0], amount[1]);
+  expect_same(together, single);
+}
+
+/// Shells all over the tissue give way to spheres while their neighbours lie on other ranks: who adheres to whom comes from there.
+TEST(TissueOnRanks, DemotesWithTheSameBitsAsOnOne) {
+  const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
+  Model model = hybrid_model();
+  model.types[0].cycles = false;
+  model.swaps.regions[0].shape = RegionShape::kEverything;
+  model.swaps.regions[0].until = 60.0;
+  model.swaps.hold = 60.0;
+  model.step.max_step = 15.0;
+  Ledger ledger;
+  const auto together = run(model, world, 22, 1, nullptr, &ledger);
+  const auto single = run(model, alone, 22, 1);
+  EXPECT_GE(ledger.demotions, 5u);
+  EXPECT_LT(ledger.demotions, together.size());  // the last state holds both bodies
+  expect_same(together, single);
+}
+
+/// The pressure of a sphere's packing comes from all its neighbours, those of other ranks and shells, too.
+TEST(TissueOnRanks, PacksWithTheSameBitsAsOnOne) {
+  const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
+  Model model = hybrid_model();
+  model.types[0].sphere.packing =
+      cbm::PackingCurve::through(std::vector<cbm::PackingKnot>{{0.005, 0.0}, {0.02, 0.05}, {0.05, 0.2}, {0.2, 0.5}}).value();
+  expect_same(run(model, world, 40, 1), run(model, alone, 40, 1));
+}
+
+TEST(TissueOnRanks, WithNucleiLinksAndOsmosisHasTheSameBitsAsOnOne) {
+  const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
+  const Everything single = run(hybrid_model(true), alone, 25, 2);
+  expect_same(run(hybrid_model(true), world, 25, 1), single);
+  EXPECT_NE(single, run(hybrid_model(), alone, 25, 1)) << "the interior acts";
 }
 
 }  // namespace

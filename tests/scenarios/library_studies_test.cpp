@@ -60,9 +60,9 @@ const Verdict* find(const RunSummary& run, const std::string& quantity) {
 }
 
 TEST(LibraryStudies, AreThoseThatWereAskedFor) {
-  EXPECT_EQ(template_names(),
-            (std::vector<std::string>{"blastocyst", "cavity", "cluster", "doublet", "hybrid_spheroid", "optical_stretcher",
-                                      "optical_tweezers", "pair", "parallel_plates", "spreading", "tissue"}));
+  EXPECT_EQ(template_names(), (std::vector<std::string>{"blastocyst", "cavity", "cell_shear", "cluster", "doublet", "embryo",
+                                                        "hybrid_spheroid", "micropipette", "optical_stretcher", "optical_tweezers", "pair",
+                                                        "parallel_plates", "pull_off", "spreading", "tissue"}));
 }
 
 TEST(LibraryStudies, PassTheCheckerWithoutAWarning) {
@@ -74,7 +74,10 @@ TEST(LibraryStudies, PassTheCheckerWithoutAWarning) {
       if (!file.path.ends_with(".yaml")) continue;
       const auto study = made.read({}, std::string(file.path));
       ASSERT_TRUE(study.ok()) << study.error().text();
-      EXPECT_TRUE(study->warnings.empty()) << study->warnings.text();
+      // Elastic cells that stick by more than twice their tension are what pull_off is about: there the warning of that is right.
+      if (one.name != "pull_off") {
+        EXPECT_TRUE(study->warnings.empty()) << study->warnings.text();
+      }
       EXPECT_EQ(study->scenario, one.name);
       EXPECT_FALSE(study->title.empty());
     }

@@ -96,6 +96,7 @@ inline std::shared_ptr<const ReferenceShape> tetrahedron() {
 inline Model model_of_test_tissue() {
   Model model;
   model.types.resize(3);
+  model.types[1].interior.nucleus_fraction = 0.07;
   model.obstacles.resize(2);
   model.fields.resize(2);
   model.lumens.resize(2);
@@ -149,6 +150,7 @@ inline void add_shell(dcm::Shells& shells, CellId id, const std::shared_ptr<cons
     shells.velocity.push_back(numbers.vector_f());
   }
   for (std::uint32_t e = 0; e < shape->topology->edge_count(); ++e) shells.rest_length.push_back(numbers.next());
+  shells.nucleus.push_back(id.bits() % 3 == 1 ? std::optional(numbers.vector()) : std::nullopt);
   if (id.bits() % 2 == 0) return;  // some shells have no marks
   for (std::uint32_t f = 0; f < shape->topology->face_count(); ++f) {
     shells.faces_of(shells.size() - 1).mark.push_back(static_cast<std::uint8_t>((id.bits() + 3 * f) % 256));

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "scenarios/report/series_reader.h"
@@ -167,6 +168,48 @@ TEST_F(Runs, AHybridWithARegionRunsAndSplits) {
   EXPECT_TRUE(fs::exists(*this / "whole/vtk/shells.pvd"));
   EXPECT_NE(slurp(*this / "whole/events.jsonl").find("\"kind\":\"promotion\""), std::string::npos);
   EXPECT_EQ(run_split(kHybrid, "split", 600.0).final_state.state_hash, whole.final_state.state_hash);
+}
+
+/// Two spheres 11 µm apart take 1.9 % of each other at time 0.
+std::string packed_pair(const std::string& knots) {
+  return R"(schema: 1
+study: packed
+time: {end: 4 min, output: 1 min}
+domain: {size: [100 um, 100 um, 100 um]}
+cell_types:
+  cell: {radius: 6 um, cbm: {packing: {law: knots, knots: [)" +
+         knots + R"(]}}}
+initial:
+  - {type: cell, at: [[-5.5 um, 0 um, 0 um], [5.5 um, 0 um, 0 um]]}
+output: {report: false}
+)";
+}
+
+TEST_F(Runs, WithPackingSplitAsWhole) {
+  const std::string text =
+      packed_pair("{packing: 0.1 %, pressure: 0 Pa}, {packing: 1 %, pressure: 20 Pa}, {packing: 5 %, pressure: 90 Pa}");
+  const RunSummary whole = run_whole(text, "whole");
+  EXPECT_TRUE(whole.passed());
+  EXPECT_EQ(slurp(*this / "whole/log.txt").find("packed more tightly"), std::string::npos);
+  EXPECT_NE(slurp(*this / "whole/methods.md").find("Pressure of packing"), std::string::npos);
+  EXPECT_EQ(run_split(text, "split", 120.0).final_state.state_hash, whole.final_state.state_hash);
+}
+
+TEST_F(Runs, WarnsBeyondThePackingCurveAndStopsFarBeyond) {
+  const double packing = 0.25 * std::pow(1.0 / 12.0, 2) * (3.0 - 1.0 / 12.0);  // ¼ s²(3 − s) of each
+  const auto knots = [&](double last) {
+    std::string out;
+    for (const double part : {0.1, 0.5, 1.0})
+      out += "{packing: " + std::to_string(100.0 * part * last) + " %, pressure: " + std::to_string(part - 0.1) + " mPa}, ";
+    return out.substr(0, out.size() - 2);
+  };
+  (void)run_whole(packed_pair(knots(packing / 1.2)), "warned");
+  EXPECT_NE(slurp(*this / "warned/log.txt").find("2 of 2 spheres are packed more tightly"), std::string::npos);
+  const auto stopped = run(study(packed_pair(knots(packing / 1.6))), request("stopped"), Comm());
+  ASSERT_FALSE(stopped.ok());
+  EXPECT_EQ(stopped.error().kind, ErrorKind::kPhysics);
+  EXPECT_NE(stopped.error().message.find("is packed 1.6 times as tightly as the end of its packing curve"), std::string::npos)
+      << stopped.error().message;
 }
 
 TEST_F(Runs, AWishToStopIsHonouredBetweenStepsAndCostsNoBit) {

@@ -1,4 +1,4 @@
-// The single-cell experiments of the library, whole, in their quick version: every criterion holds (physics/scenarios.md S1, S2, S4, S6).
+// The single-cell experiments of the library, whole, in their quick version: every criterion holds (physics/scenarios.md S1 to S6, S17).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,7 +38,8 @@ TEST_P(SingleCell, StudyMeetsAllItsCriteriaAndIsPlottedAgainstTheory) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Quick, SingleCell,
-                         testing::Values("doublet", "optical_stretcher", "optical_tweezers", "parallel_plates", "spreading"),
+                         testing::Values("doublet", "embryo", "micropipette", "optical_stretcher", "optical_tweezers", "parallel_plates",
+                                         "spreading"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST(Holds, AreTheConstantPartsOfACourseWithTheirLastSnapshot) {

@@ -83,5 +83,39 @@ TEST(Loads, OnWholeSpheresAreFine) {
   EXPECT_DOUBLE_EQ(study->model.loads[0].force.z, -1.0);
 }
 
+constexpr const char* kGrip =
+    "grip: {stiffness: 5 mN/m, center: [0 um, 0 um, 1 um], axis: [0, 0, 2], ends: low, way: [{time: 1 s, distance: 0 um}, {time: 2 s, "
+    "distance: 3 um}]}";
+
+TEST(Loads, GripsAreReadAndHoldPlacesOfTheLaboratoryOnly) {
+  const std::string text = test::changed("pull: {force: 193 pN, axis: [0, 3, 0], part: 2 %, ends: high}", kGrip, kStudy);
+  const auto study = test::read(text);
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  const CellLoad& load = study->model.loads[0];
+  EXPECT_EQ(load.kind, LoadKind::kGrip);
+  EXPECT_DOUBLE_EQ(load.size, 5.0);
+  EXPECT_DOUBLE_EQ(load.part, 0.1);
+  EXPECT_DOUBLE_EQ(load.center.z, 1.0);
+  EXPECT_DOUBLE_EQ(load.way.at(1.5), 1.5);
+  const auto again = test::read(study->resolved_text);
+  ASSERT_TRUE(again.ok()) << again.error().text();
+  EXPECT_EQ(again->model.loads[0].way.value, load.way.value);
+  EXPECT_NE(test::errors_of(test::changed("size: [100 um, 100 um, 100 um]", "size: [100 um, 100 um, 100 um], boundary: periodic", text))
+                .find("[E570]"),
+            std::string::npos);
+  EXPECT_NE(test::errors_of(test::changed(", orientation: aligned", "", text)).find("[E520]"), std::string::npos);
+}
+
+TEST(Loads, SuctionActsWithinACylinder) {
+  const std::string text =
+      test::changed("pull: {force: 193 pN, axis: [0, 3, 0], part: 2 %, ends: high}",
+                    "pressure: {value: -50 Pa, within: {from: [0 um, 0 um, 4 um], to: [0 um, 0 um, 9 um], radius: 2 um}}", kStudy);
+  const auto study = test::read(text);
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  EXPECT_TRUE(study->model.loads[0].within);
+  EXPECT_DOUBLE_EQ(study->model.loads[0].size, -0.05);
+  EXPECT_NE(test::errors_of(test::changed("to: [0 um, 0 um, 9 um]", "to: [0 um, 0 um, 4 um]", text)).find("same point"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace morula::scenarios

@@ -99,5 +99,13 @@ TEST(Theory, OfMaugisGoesFromDmtToJkr) {  // dcm.md T7.1
   for (const auto& [lambda, pull] : table) EXPECT_NEAR(theory::maugis_pull_off(lambda), pull, 6e-4) << lambda;
 }
 
+/// Computed independently (radius 6 µm); with a pipette that is thin against the cell, 2γ (1/Rp − 1/R).
+TEST(CriticalAspiration, IsThatOfAHemisphere) {
+  EXPECT_NEAR(theory::critical_aspiration(0.1, 2.5, 6.0), 0.046326, 1e-6);
+  EXPECT_NEAR(theory::critical_aspiration(0.1, 4.0, 6.0), 0.015460, 1e-6);
+  EXPECT_NEAR(theory::critical_aspiration(0.4, 2.0, 6.0), 0.265943, 1e-6);
+  EXPECT_NEAR(theory::critical_aspiration(1.0, 0.01, 6.0), 2.0 * (100.0 - 1.0 / 6.0), 1e-6);
+}
+
 }  // namespace
 }  // namespace morula::scenarios

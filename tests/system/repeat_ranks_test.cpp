@@ -115,5 +115,20 @@ TEST(Loads, GiveTheSameBitsOnRanksAndOverARestart) {
   EXPECT_EQ(info_of(folder / "broken")["state_hash"], reference["state_hash"]);
 }
 
+/// Nuclei move between ranks with their shells, and a restart finds them where they were.
+TEST(Interior, GivesTheSameBitsOnRanksAndOverARestart) {
+  const TestFolder folder;
+  folder.write("study.yaml", interior_study());
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "one"}, folder.path(), on_ranks(0)).exit_code, 0);
+  const json reference = info_of(folder / "one");
+  ASSERT_GT(reference["shells"].get<int>(), 0) << "the study must have shells";
+  const Outcome outcome = run_morula({"run", "study.yaml", "--out", "ranks"}, folder.path(), on_ranks(2));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.all();
+  EXPECT_EQ(info_of(folder / "ranks")["state_hash"], reference["state_hash"]);
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "broken", "--until", "5 min"}, folder.path(), on_ranks(2)).exit_code, 0);
+  ASSERT_EQ(run_morula({"resume", "broken"}, folder.path(), on_ranks(0)).exit_code, 0);
+  EXPECT_EQ(info_of(folder / "broken")["state_hash"], reference["state_hash"]);
+}
+
 }  // namespace
 }  // namespace morula::test

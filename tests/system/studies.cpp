@@ -52,6 +52,18 @@ output: {report: false}
 )";
 }
 
+std::string interior_study() {
+  const std::string inside = R"(      bulk_modulus: 2.5 kPa
+      nucleus: {radius: 2 um}
+      cytoskeleton:
+        nucleus_links: {number: 40, stiffness: 0.01 nN/um, damping: 1e-5 N s/m}
+        cortex_links: {stiffness: 0.005 nN/um, tension_only: true}
+    osmosis: {permeability: 1e-13 m/s/Pa, field: oxygen, course: [{time: 4 min, factor: 1}, {time: 7 min, factor: 0.8}]}
+)";
+  std::string text = changed(hybrid_study(), "      bulk_modulus: 2.5 kPa\n", inside);
+  return changed(changed(text, "end: 40 min", "end: 16 min"), "checkpoint: 10 min", "checkpoint: 5 min");
+}
+
 std::string loaded_study() {
   return R"(schema: 1
 study: loaded

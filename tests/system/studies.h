@@ -9,6 +9,8 @@ namespace morula::test {
 [[nodiscard]] std::string hybrid_study();
 /// Shells that are pulled, stretched and pressed by a moving plate, and a sphere that sinks: every kind of load, with courses.
 [[nodiscard]] std::string loaded_study();
+/// The hybrid study with nuclei, links and osmosis in a medium that thins out.
+[[nodiscard]] std::string interior_study();
 /// A text with the first `from` replaced by `to`; a test failure when it does not hold `from`.
 [[nodiscard]] std::string changed(std::string text, const std::string& from, const std::string& to);
 

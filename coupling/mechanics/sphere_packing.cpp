@@ -1,0 +1,95 @@
+/// Packing of the spheres: how much of each is taken by its neighbours, and the pressure that answers (cbm.md §3).
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "coupling/mechanics/sphere_contacts.h"
+
+namespace morula {
+
+void SphereContacts::find_packing(const Scene& scene, const ContactLayer& contacts, std::span<const Penetration> penetration) {
+  const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
+  const Vec3d* x = scene.position().data() + scene.sphere_point();
+  const ContactBody* body = scene.bodies().data() + scene.first_sphere();
+  const bool periodic = model_.space.any_periodic();
+  std::vector<double> taken(owned, 0.0), slopes(owned, 0.0);
+  const auto shares = list_.shares();
+#pragma omp parallel for schedule(static, 1) num_threads(threads_)
+  for (std::size_t t = 0; t < shares.size(); ++t) {
+    const SpherePairs::Share& share = shares[t];
+    for (const SpherePairs::Run& run : share.runs) {
+      auto sisters =
+          std::lower_bound(sisters_.begin(), sisters_.end(), run.first, [](const Sisters& s, std::uint32_t k) { return s.pair < k; });
+      for (std::uint32_t k = run.first; k < run.last; ++k) {
+        const SpherePair pair = list_.pairs[k];
+        double offset = 0.0;
+        if (sisters != sisters_.end() && sisters->pair == k) offset = (sisters++)->offset;
+        Vec3d between = x[pair.b] - x[pair.a];
+        if (periodic) between = model_.space.nearest_image(between);
+        const double a = body[pair.a].radius, b = body[pair.b].radius;
+        if (norm2(between) >= (a + b) * (a + b)) continue;
+        const cbm::SphereCaps caps = cbm::sphere_caps(a, b, norm(between) + offset);
+        if (share.has(pair.a)) {
+          taken[pair.a] += caps.volume_a;
+          slopes[pair.a] += caps.slope_a;
+        }
+        if (share.has(pair.b)) {
+          taken[pair.b] += caps.volume_b;
+          slopes[pair.b] += caps.slope_b;
+        }
+      }
+    }
+  }
+  std::vector<Penetration> others(owned);  // surfaces and walls
+  for (std::uint32_t i = 0; i < owned && !penetration.empty(); ++i) others[i] = penetration[scene.first_sphere() + i];
+  for (RigidPair& pair : rigid_) {
+    if (!locate_rigid(scene, contacts, pair)) continue;
+    const double r = body[pair.sphere].radius;
+    const cbm::PlaneCap cap = cbm::plane_cap(r, r - pair.distance);
+    others[pair.sphere].volume += cap.volume;
+    others[pair.sphere].slope += cap.slope;
+  }
+  packing_.resize(owned);
+  for (std::uint32_t i = 0; i < owned; ++i) {
+    const double r = body[i].radius;
+    packing_[i] = (taken[i] + others[i].volume) / ((4.0 / 3.0) * std::numbers::pi * r * r * r);
+  }
+  share_pressures(scene, slopes, others);
+}
+
+void SphereContacts::share_pressures(const Scene& scene, std::span<const double> slopes, std::span<const Penetration> others) {
+  // The operator's Ψ″/V (g_s + g_o)(g_s + g_o)ᵀ, spheres s exactly and the others o by their points alone: with S and T the sums of their
+  // slopes, (u + w)² ≤ (1 + T/S) u² + (1 + S/T) w², and w² ≤ T Σ |slope| w_k² (Cauchy and Schwarz).
+  const std::size_t first = scene.first_sphere(), count = scene.bodies().size() - first;
+  std::vector<Vec3d> shared(scene.point_count());  // p, resistance among spheres, resistance against others
+  for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
+    const ContactBody& body = scene.bodies()[first + i];
+    const auto value = model_.types[body.material].sphere.packing.at(packing_[i]);
+    const double stiffness = value.slope / ((4.0 / 3.0) * std::numbers::pi * body.radius * body.radius * body.radius);
+    const double s = slopes[i], t = others[i].slope;
+    shared[body.first_point] = {value.pressure, s > 0.0 ? stiffness * (1.0 + t / s) : 0.0, stiffness * (s + t)};
+  }
+  scene.exchange(std::span(shared));
+  pressed_.resize(count);
+  list_.packing.resistance.resize(count);
+  surface_pressure_.assign(scene.bodies().size(), {});
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3d& here = shared[scene.bodies()[first + i].first_point];
+    pressed_[i] = here.x;
+    list_.packing.resistance[i] = static_cast<float>(here.y);
+    surface_pressure_[first + i] = {here.x, here.z};
+  }
+  list_.packing.exchange = [&scene](std::span<Float4> by_point) { scene.exchange(by_point); };
+}
+
+SphereContacts::PackingForce SphereContacts::packing_force(const Scene& scene, const SpherePair& pair, double distance) const {
+  const ContactBody* body = scene.bodies().data() + scene.first_sphere();
+  const double p_a = pressed_[pair.a], p_b = pressed_[pair.b];
+  PackingForce out;
+  out.caps = cbm::sphere_caps(body[pair.a].radius, body[pair.b].radius, distance);
+  out.force = p_a * out.caps.slope_a + p_b * out.caps.slope_b;
+  out.stiffness = std::max(0.0, p_a * out.caps.curvature_a + p_b * out.caps.curvature_b);
+  return out;
+}
+
+}  // namespace morula

@@ -1,0 +1,194 @@
+// A nucleus and links in the implicit step: what floats changes nothing, what is squeezed pushes back, and a nucleus stays inside.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "core/mesh/primitives.h"
+#include "coupling/simulation.h"
+#include "coupling/swaps.h"
+#include "tests/coupling/tissue_fixture.h"
+
+namespace morula {
+namespace {
+
+using namespace test;
+
+constexpr double kRadius = 6.0, kVolume = 904.778684233860;
+
+double fraction(double nucleus) { return nucleus * nucleus * nucleus / (kRadius * kRadius * kRadius); }
+
+std::unique_ptr<Simulation> one_cell(const Model& model) {
+  ShapeLibrary shapes;
+  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell});
+  return std::move(Simulation::create(model, std::move(tissue), Comm(), 1)).value();
+}
+
+void run(Simulation& simulation, double time) {
+  while (simulation.tissue().clock.time < time) {
+    const auto step = simulation.step(time);
+    ASSERT_TRUE(step.ok()) << step.error().message;
+  }
+}
+
+Vec3d mean(std::span<const Vec3d> nodes) {
+  Vec3d out;
+  for (const Vec3d& x : nodes) out += x * (1.0 / static_cast<double>(nodes.size()));
+  return out;
+}
+
+/// Smallest distance of the nucleus' centre behind the faces' planes: > 0 inside a cell that is star-shaped about it.
+double behind_faces(const dcm::Shells& shells) {
+  double least = 1e300;
+  const auto x = shells.nodes(0);
+  for (const Triangle& t : shells.topology(0).faces())
+    least = std::min(least, dot(x[t[0]] - *shells.nucleus_of(0), normalized(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]))));
+  return least;
+}
+
+Model stretched_model() {  // S1: T 3e-5 N/m, 1 Pa
+  Model model = clusters_model(0.0);
+  model.types[0].shell.tension = 0.03;
+  model.types[0].shell.bulk_modulus = 2.5;
+  CellLoad load;
+  load.kind = LoadKind::kTraction;
+  load.size = 1e-3;
+  model.loads = {load};
+  model.step.max_step = 5.0;
+  return model;
+}
+
+double axial_strain(const Model& model, double time) {
+  const auto simulation = one_cell(model);
+  run(*simulation, time);
+  double length = 0.0, before = 0.0;
+  for (const Vec3d& x : simulation->tissue().shells.position) length = std::max(length, std::abs(x.x));
+  ShapeLibrary shapes;
+  for (const Vec3d& x : make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell}).shells.position)
+    before = std::max(before, std::abs(x.x));
+  return length / before - 1.0;
+}
+
+TEST(FloatingNucleus, ChangesTheStretcherByLessThanOnePercent) {  // S1.6
+  Model model = stretched_model();
+  for (const double time : {15.0, 150.0}) {
+    model.types[0].interior = {};
+    const double without = axial_strain(model, time);
+    model.types[0].interior.nucleus_fraction = fraction(2.5);
+    EXPECT_GT(without, 0.003);
+    EXPECT_NEAR(axial_strain(model, time) / without, 1.0, 0.01) << "after " << time << " s";
+  }
+}
+
+TEST(NucleusLinks, StiffenTheStretchedCellMonotonically) {  // O7.1
+  Model model = stretched_model();
+  double last = 1e300;
+  for (const double stiffness : {0.0, 0.003, 0.03}) {
+    model.types[0].interior.nucleus_fraction = fraction(2.5);
+    model.types[0].interior.nucleus_links = {dcm::LinkParameters::kAll, stiffness, 0.0, false};
+    const double strain = axial_strain(model, 150.0);
+    EXPECT_LT(strain, 0.97 * last) << stiffness;
+    last = strain;
+  }
+  model.types[0].interior = {};
+  const double free = axial_strain(model, 150.0);
+  model.types[0].interior.cortex_links = {dcm::LinkParameters::kAll, 0.01, 0.0, false};
+  EXPECT_LT(axial_strain(model, 150.0), 0.9 * free);
+}
+
+TEST(FloatingNucleus, GoesWithItsCellAndCostsItNothing) {
+  Model model = clusters_model(0.0);
+  CellLoad load;
+  load.force = {0.9, 0, 0};
+  model.loads = {load};
+  model.step.max_step = 10.0;
+  const auto bare = one_cell(model);
+  run(*bare, 200.0);
+  model.types[0].interior.nucleus_fraction = fraction(2.5);
+  const auto with = one_cell(model);
+  run(*with, 200.0);
+  const Vec3d there = mean(std::as_const(with->tissue().shells).nodes(0));
+  EXPECT_GT(there.x, 3.5) << "T9.2: 0.0221 µm/s per nN";
+  EXPECT_NEAR(there.x, mean(std::as_const(bare->tissue().shells).nodes(0)).x, 1e-3);
+  EXPECT_LT(norm(*with->tissue().shells.nucleus_of(0) - there), 0.01);
+}
+
+/// Gap and force of the upper plate, pushed down on a cell on a plate.
+struct Squeeze {
+  std::vector<double> gap, force;
+  double imbalance = 0.0, overlap = 0.0, inside = 1e300;
+  double at(double wanted) const {
+    for (std::size_t k = 1; k < gap.size(); ++k)
+      if (gap[k] <= wanted) return force[k] + (force[k - 1] - force[k]) * (wanted - gap[k]) / (gap[k - 1] - gap[k]);
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+};
+
+Squeeze squeeze(double nucleus) {
+  Model model = clusters_model(0.0);
+  model.contact.range = 0.5;
+  model.contact.repulsion = 100.0;
+  model.contact.points_per_face = 3;
+  model.types[0].interior.nucleus_fraction = nucleus > 0.0 ? fraction(nucleus) : 0.0;
+  TriangleMesh lower = make_box({40, 40, 4}, 10.0).value(), upper = lower;
+  for (Vec3d& x : lower.position) x.z -= 8.2;
+  for (Vec3d& x : upper.position) x.z += 8.2;
+  const double speed = 0.02;
+  model.obstacles = {{"lower", lower.position, lower.faces, false, {}, {}, {}},
+                     {"upper", upper.position, upper.faces, false, {0, 0, -speed}, {}, {}}};
+  model.pairs.assign(9, ContactPair{0.0, 0.1, 0.1});
+  model.step.max_step = 1.0;
+  model.step.newton_stop = 0.01;  // the plates bear the residual
+  const auto simulation = one_cell(model);
+  Squeeze out;
+  while (out.gap.empty() || out.gap.back() > 8.0) {
+    const auto step = simulation->step(1e6);
+    if (!step.ok()) {
+      ADD_FAILURE() << step.error().message;
+      break;
+    }
+    const auto force = simulation->mechanics().obstacle_forces(simulation->tissue());
+    out.gap.push_back(12.4 - speed * simulation->tissue().clock.time);
+    out.force.push_back(force[1].z);
+    if (nucleus == 0.0) continue;
+    const auto inside = simulation->mechanics().interior_of(0);
+    out.overlap = std::max(out.overlap, inside.overlap);
+    out.inside = std::min(out.inside, behind_faces(simulation->tissue().shells));
+  }
+  return out;
+}
+
+TEST(SqueezedNucleus, PushesBackWhenThePlatesAreCloserThanItsWidth) {  // T12.3, T12.4
+  const Squeeze bare = squeeze(0.0), with = squeeze(4.2);
+  for (const double gap : {11.0, 9.5, 8.75}) EXPECT_NEAR(with.at(gap) / bare.at(gap), 1.0, 1e-3) << "nothing touches above 2 R_n = 8.4 µm";
+  EXPECT_GT(with.at(8.25), 1.5 * bare.at(8.25));
+  EXPECT_GT(with.at(8.05), 3.0 * bare.at(8.05)) << "below it the nucleus pushes";
+  EXPECT_GT(with.overlap, 0.0);
+  EXPECT_LT(with.overlap, 0.1);
+  EXPECT_GT(with.inside, 3.9) << "the nucleus is inside, at its radius from every face";
+}
+
+TEST(Nucleus, ComesWithAPromotionAndTravelsInARecord) {
+  CellType type = clusters_model().types[0];
+  type.interior.nucleus_fraction = 0.07;
+  CellRow row;
+  row.id = CellId::founder(1);
+  row.target_volume = kVolume;
+  CellRecord cell{row, SphereRecord{{1, 2, 3}, kRadius, {}, {}}, std::nullopt};
+  ShapeLibrary shapes;
+  promote(cell, type, 0.0, 0.0, shapes);
+  ASSERT_TRUE(cell.shell->nucleus);
+  EXPECT_LT(norm(*cell.shell->nucleus - Vec3d{1, 2, 3}), 1e-9);
+  *cell.shell->nucleus += Vec3d{0.5, 0, 0};
+  std::vector<std::byte> bytes;
+  append_bytes(cell, bytes);
+  Tissue tissue;
+  put_together(tissue, read_records(bytes, shapes));
+  ASSERT_NE(tissue.shells.nucleus_of(0), nullptr);
+  EXPECT_EQ(*tissue.shells.nucleus_of(0), *cell.shell->nucleus);
+  EXPECT_EQ(take_apart(tissue)[0].shell->nucleus, cell.shell->nucleus);
+  demote(cell, 1.0);
+  EXPECT_FALSE(cell.shell);
+}
+
+}  // namespace
+}  // namespace morula
