@@ -45,9 +45,9 @@ static_assert(std::is_trivially_copyable_v<CellRow>);
 struct CellSides {
   double death_time = -1.0;        ///< when it began to die, or -1 [s]
   double last_swap_time = -1e300;  ///< when its body was last exchanged [s]
-  double reference_excess = 0.0;  ///< what is left of ln V0 beyond that of a free shell: eases after a swap, or follows the osmotic flux
-  double inflation_left = 0.0;    ///< volume still to come of an inflating start [µm³]
-  double inflation_rate = 0.0;    ///< [µm³/s]
+  double reference_excess = 0.0;   ///< what is left of ln V0 beyond that of a free shell: eases after a swap, or follows the osmotic flux
+  double inflation_left = 0.0;     ///< volume still to come of an inflating start [µm³]
+  double inflation_rate = 0.0;     ///< [µm³/s]
   Vec3d polarity{};
   Vec3d migration_velocity{};                      ///< u of the persistent walk [µm/s]
   std::array<double, kMaxFields> amount{};         ///< taken from each field so far [amol]

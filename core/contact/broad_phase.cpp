@@ -63,11 +63,28 @@ struct BinGrid {
   }
 };
 
-bool touching(const Extent& a, const Extent& b, const Vec3d& shift, const Vec3d& between) {
-  const double reach = a.radius + b.radius;
-  if (norm2(between) > reach * reach) return false;
-  return a.box.overlaps(Box{b.box.low + shift, b.box.high + shift});
-}
+/// A body as its neighbours meet it; those of a bin lie one behind the other.
+struct Member {
+  Vec3d center;
+  double radius;
+  std::uint32_t body, place;
+};
+
+/// The bodies in the order of their bins: those of bin k are begin[k] .. begin[k + 1]−1.
+struct BinnedBodies {
+  std::vector<std::uint32_t> begin;
+  std::vector<Member> members;
+
+  BinnedBodies(const BinGrid& grid, std::span<const Extent> extents, std::span<const std::uint32_t> place, const Space& space)
+      : begin(grid.size() + 1, 0), members(extents.size()) {
+    const auto bin_of = [&](const Extent& e) { return grid.index(grid.bin_of(space.wrapped(e.center))); };
+    for (const Extent& e : extents) ++begin[bin_of(e) + 1];
+    for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+    for (std::uint32_t i = 0; i < extents.size(); ++i)
+      members[next[bin_of(extents[i])]++] = {extents[i].center, extents[i].radius, i, place[i]};
+  }
+};
 
 }  // namespace
 
@@ -75,40 +92,37 @@ void find_body_pairs(std::span<const Extent> extents, std::span<const std::uint3
                      const std::function<void(const BodyPair&)>& found) {
   if (extents.empty()) return;
   const BinGrid grid(extents, space);
-  std::vector<std::uint32_t> begin(grid.size() + 1, 0), member(extents.size());
-  std::vector<Bin> bin(extents.size());
-  for (std::size_t i = 0; i < extents.size(); ++i) {
-    bin[i] = grid.bin_of(space.wrapped(extents[i].center));
-    ++begin[grid.index(bin[i]) + 1];
-  }
-  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
-  {
-    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-    for (std::size_t i = 0; i < extents.size(); ++i) member[next[grid.index(bin[i])]++] = static_cast<std::uint32_t>(i);
-  }
-
+  const BinnedBodies bins(grid, extents, place, space);
   std::vector<std::uint32_t> by_place(extents.size());
   for (std::size_t i = 0; i < extents.size(); ++i) by_place[place[i]] = static_cast<std::uint32_t>(i);
 
+  const bool periodic = space.any_periodic();
   std::vector<BodyPair> of_body;
   for (const std::uint32_t i : by_place) {
     of_body.clear();
+    const Extent& mine = extents[i];
+    const auto look_at = [&](const Member& other) {
+      if (other.place <= place[i] || !(owned[i] || owned[other.body])) return;
+      const Vec3d direct = other.center - mine.center, nearest = periodic ? space.nearest_image(direct) : direct;
+      const double reach = mine.radius + other.radius;
+      if (norm2(nearest) > reach * reach) return;
+      const Vec3d shift = periodic ? nearest - direct : Vec3d{};
+      const Box& box = extents[other.body].box;
+      if (mine.box.overlaps({box.low + shift, box.high + shift})) of_body.push_back({i, other.body, shift});
+    };
+    const Bin bin = grid.bin_of(space.wrapped(mine.center));
     std::array<std::array<int, 3>, 3> near{};
     std::array<int, 3> n{};
-    for (std::size_t axis = 0; axis < 3; ++axis) n[axis] = grid.neighbours(axis, bin[i][axis], near[axis]);
-    for (int z = 0; z < n[2]; ++z)
-      for (int y = 0; y < n[1]; ++y)
-        for (int x = 0; x < n[0]; ++x) {
-          const std::size_t cell = grid.index(
-              {near[0][static_cast<std::size_t>(x)], near[1][static_cast<std::size_t>(y)], near[2][static_cast<std::size_t>(z)]});
-          for (std::uint32_t k = begin[cell]; k < begin[cell + 1]; ++k) {
-            const std::uint32_t j = member[k];
-            if (place[j] <= place[i] || !(owned[i] || owned[j])) continue;
-            const Vec3d direct = extents[j].center - extents[i].center;
-            const Vec3d nearest = space.nearest_image(direct);
-            const Vec3d shift = space.any_periodic() ? nearest - direct : Vec3d{};
-            if (touching(extents[i], extents[j], shift, nearest)) of_body.push_back({i, j, shift});
-          }
+    for (std::size_t axis = 0; axis < 3; ++axis) n[axis] = grid.neighbours(axis, bin[axis], near[axis]);
+    const auto& [xs, ys, zs] = near;
+    for (std::size_t z = 0; z < static_cast<std::size_t>(n[2]); ++z)
+      for (std::size_t y = 0; y < static_cast<std::size_t>(n[1]); ++y)
+        for (std::size_t x = 0; x < static_cast<std::size_t>(n[0]);) {
+          std::size_t last = x;  // bins that follow each other along x are one stretch of members
+          while (last + 1 < static_cast<std::size_t>(n[0]) && xs[last + 1] == xs[last] + 1) ++last;
+          const std::size_t from = grid.index({xs[x], ys[y], zs[z]}), to = from + (last - x) + 1;
+          for (std::uint32_t k = bins.begin[from]; k < bins.begin[to]; ++k) look_at(bins.members[k]);
+          x = last + 1;
         }
     std::sort(of_body.begin(), of_body.end(), [&](const BodyPair& a, const BodyPair& b) { return place[a.b] < place[b.b]; });
     for (const BodyPair& pair : of_body) found(pair);

@@ -191,10 +191,17 @@ void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, 
 }
 
 void Scene::place_bodies(std::span<const std::uint64_t> order) {
+  const auto before = [&](std::uint32_t a, std::uint32_t b) {
+    return order[a] != order[b] ? order[a] < order[b] : bodies_[a].id < bodies_[b].id;
+  };
   std::vector<std::uint32_t> sorted(bodies_.size());
   std::iota(sorted.begin(), sorted.end(), 0u);
-  std::sort(sorted.begin(), sorted.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return order[a] != order[b] ? order[a] < order[b] : bodies_[a].id < bodies_[b].id; });
+  // Shells and spheres of one rank come in canonical order: a few runs to merge.
+  for (auto done = sorted.begin(); done != sorted.end();) {
+    const auto end = std::is_sorted_until(done, sorted.end(), before);
+    std::inplace_merge(sorted.begin(), done, end, before);
+    done = end;
+  }
   for (std::uint32_t place = 0; place < sorted.size(); ++place) bodies_[sorted[place]].place = place;
 }
 
@@ -258,10 +265,10 @@ void Scene::take_positions(const Tissue& tissue) {
 void Scene::take_radii(const Tissue& tissue) {
   for (std::size_t i = 0; i < owned_spheres_; ++i) bodies_[shells_ + i].radius = tissue.spheres.radius[i];
   if (comm_->size() == 1) return;
-  std::vector<Vec3d> radius(position_.size());
-  for (std::size_t i = 0; i < owned_spheres_; ++i) radius[bodies_[shells_ + i].first_point].x = tissue.spheres.radius[i];
-  exchange(std::span(radius));
-  for (std::size_t i = shells_ + owned_spheres_; i < bodies_.size(); ++i) bodies_[i].radius = radius[bodies_[i].first_point].x;
+  std::vector<double> radius(position_.size());
+  for (std::size_t i = 0; i < owned_spheres_; ++i) radius[bodies_[shells_ + i].first_point] = tissue.spheres.radius[i];
+  exchange_points(std::span(radius));
+  for (std::size_t i = shells_ + owned_spheres_; i < bodies_.size(); ++i) bodies_[i].radius = radius[bodies_[i].first_point];
 }
 
 void Scene::give_positions(Tissue& tissue) const {

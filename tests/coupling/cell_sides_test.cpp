@@ -80,8 +80,7 @@ TEST(CellSides, GoWithTheirCellThroughSortingAndBytes) {
   for (std::uint64_t n = 1; n <= 6; ++n) EXPECT_TRUE(same(cells[6 - n].row, n == 2 ? restless(n) : plain(n))) << n;
   std::erase_if(cells, [](const CellRecord& cell) { return cell.row.id == CellId::founder(4); });  // rows move up
   put_together(tissue, std::move(cells));
-  for (std::size_t i = 0; i < 5; ++i)
-    EXPECT_EQ(tissue.cells.side.amount[3][i], tissue.cells.rows[i].id == CellId::founder(2) ? 4.0 : 0.0);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(tissue.cells.side.amount[3][i], tissue.cells.rows[i].id == CellId::founder(2) ? 4.0 : 0.0);
 }
 
 TEST(CellRecords, CopyTheirShellDeeply) {
