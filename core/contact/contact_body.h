@@ -34,6 +34,7 @@ struct ContactScene {
   std::span<const ContactBody> bodies;
   std::span<const Vec3d> position;
   const SurfaceGeometry* geometry = nullptr;
+  std::span<const std::uint8_t> mark{};  ///< sets of marks by face of the surfaces; empty: no adhesion asks for them
 };
 
 }  // namespace morula
