@@ -15,7 +15,6 @@ void ContactLayer::begin_step(const ContactScene& scene) {
   step_offsets_ = offsets_;
   for (SurfacePair& pair : pairs_) {
     pair.step_overlap = pair.overlap;
-    pair.step_motion = pair.motion;
     if (pair.at_start) continue;
     for (int d = 0; d < 2; ++d) std::swap(pair.step_elements[d], pair.elements[d]);
     pair.at_start = true;

@@ -410,10 +410,16 @@ const SurfacePair* ContactLayer::deepest(const ContactScene& scene) const {
   return worst;
 }
 
-const SurfacePair* ContactLayer::crossed() const {
+const SurfacePair* ContactLayer::crossed(const ContactScene& scene, std::span<const Vec3d> start) const {
   if (cap() > 0.0) return nullptr;
-  for (const SurfacePair& pair : pairs_)
+  for (const SurfacePair& pair : pairs_) {
     if (pair.crossed > 0) return &pair;
+    if (pair.crossed_at == 1e300) continue;
+    const ContactBody& body = scene.bodies[pair.a];  // no two of its points have moved against each other by more than the diagonal
+    Box ways;
+    for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p) ways.include(scene.position[p] - start[p]);
+    if (pair.crossed_at <= norm(ways.high - ways.low)) return &pair;
+  }
   return nullptr;
 }
 

@@ -88,8 +88,8 @@ class ContactLayer {
   /// Pressures of spheres by body (of surfaces: ignored), from here on; none: spheres do not resist their packing.
   void set_packing(std::span<const SpherePressure> by_body) { packing_.assign(by_body.begin(), by_body.end()); }
   /// A pair with a point that changed its side since the step began though its gap cannot have passed through zero (crossing.h), as the
-  /// contacts were found last; null: none, or a start from overlap, where nearest faces may jump.
-  [[nodiscard]] const SurfacePair* crossed() const;
+  /// contacts were found last; null: none, or a start from overlap, where nearest faces may jump. `start`: positions at the start of the step.
+  [[nodiscard]] const SurfacePair* crossed(const ContactScene& scene, std::span<const Vec3d> start) const;
   [[nodiscard]] bool has_pairs(SurfacePairKind kind) const { return !pairs_of_kind_[static_cast<std::size_t>(kind)].empty(); }
 
   /// Energy of the pairs that this rank counts (those whose first body it owns), added to an order-free sum.

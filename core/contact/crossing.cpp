@@ -18,19 +18,21 @@ CrossingWatch::CrossingWatch(const SurfacePair& pair, const PointsEvaluation& ev
     : on_(evaluation.target.topology != nullptr),
       own_(evaluation.with_itself),
       was_deep_(pair.step_overlap > 0.5 * evaluation.material.law.range),
-      reach_(own_ ? pair.motion - pair.step_motion : 0.5 * evaluation.material.law.range) {}
+      deep_(0.5 * evaluation.material.law.range) {}
 
-std::uint32_t CrossingWatch::count(std::span<const ContactElement> step, std::span<const ContactElement> present,
-                                   std::span<const SuspectPoint> suspects) const {
-  std::uint32_t out = 0;
+void CrossingWatch::look(std::span<const ContactElement> step, std::span<const ContactElement> present,
+                         std::span<const SuspectPoint> suspects, SurfacePair& pair) const {
   for (const SuspectPoint& point : suspects) {
     const ContactElement* before = find(step, point.source);
-    if (own_ && before == nullptr) continue;  // out of range of its own surface, on whatever side
-    out += point.inside != (before != nullptr && before->inside());  // what was out of range was outside
+    if (own_ && before == nullptr) continue;                                        // out of range of its own surface, on whatever side
+    if (point.inside == (before != nullptr && before->inside())) continue;  // what was out of range was outside
+    if (own_)
+      pair.crossed_at = std::min(pair.crossed_at, point.distance);
+    else
+      ++pair.crossed;
   }
-  if (!on_ || own_ || !was_deep_) return out;
-  for (const ContactElement& e : step) out += e.inside() && find(present, e.source) == nullptr;  // out of range in one step
-  return out;
+  if (!on_ || own_ || !was_deep_) return;
+  for (const ContactElement& e : step) pair.crossed += e.inside() && find(present, e.source) == nullptr;  // out of range in one step
 }
 
 }  // namespace morula

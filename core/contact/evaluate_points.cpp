@@ -386,11 +386,11 @@ void evaluate_points(const PointsEvaluation& e, int d, SurfacePair& pair, PairGr
       if (p.second >= 0.0) remember(p, gap + touch, p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q, e, lists);
       if (gap < e.material.law.range) {
         add_point(e, d, lists, p, batch, lane, pair, gradient, ws.elements);
-        if (watch.suspects(gap + touch)) ws.suspects.push_back({ws.elements.back().source, batch.inside[lane]});
+        if (watch.suspects(gap + touch)) ws.suspects.push_back({ws.elements.back().source, batch.inside[lane], std::abs(gap + touch)});
       }
     }
   }
-  pair.crossed += watch.count(pair.step_elements[d], ws.elements, ws.suspects);
+  watch.look(pair.step_elements[d], ws.elements, ws.suspects, pair);
   pair.points[d].update(lists);
   std::swap(gradient[d].source_face, lists.source_face);
   pair.elements[d].assign(ws.elements.begin(), ws.elements.end());  // no more room than needed: they live long

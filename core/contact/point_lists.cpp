@@ -203,6 +203,7 @@ void clear_results(SurfacePair& pair, const std::size_t (&node_count)[2], PairGr
   pair.energy = 0.0;
   pair.overlap = 0.0;
   pair.crossed = 0;
+  pair.crossed_at = 1e300;
   for (int body = 0; body < 2; ++body) {
     PairGradient& g = gradient[body];
     if (g.force.size() < node_count[body]) g.force.resize(node_count[body]);

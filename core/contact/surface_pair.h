@@ -98,8 +98,8 @@ struct SurfacePair {
   double area = 0.0;                             ///< of both surfaces in contact [µm²]
   Vec3d push;                                    ///< force on b where it is rigid [nN]
   double step_overlap = 0.0;                     ///< `overlap` at the start of the step [µm]
-  double step_motion = 0.0;                      ///< `motion` then [µm]
   std::uint32_t crossed = 0;                     ///< points that are on another side than at the start of the step; see crossing.h
+  double crossed_at = 1e300;                     ///< of a surface against itself: the least distance of such a point from the other side [µm]
 
   [[nodiscard]] bool with_itself() const { return !rigid && a == b; }
   [[nodiscard]] const std::vector<ContactElement>& present(std::size_t d) const { return at_start ? step_elements[d] : elements[d]; }
@@ -132,6 +132,7 @@ struct ContactPoint {
 struct SuspectPoint {
   std::uint32_t source;  ///< as in ContactElement
   bool inside;           ///< the gap is negative now
+  double distance;       ///< |g| [µm]
 };
 
 /// What one thread needs to evaluate pairs.

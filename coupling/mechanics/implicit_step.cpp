@@ -52,7 +52,7 @@ struct Mechanics::Trial {
       auto& x = m.scene_.position();
       m.for_owned_points([&](std::uint32_t i) { x[i] = from[i] + direction[i] * fraction; });
       const double next = measure();
-      const SurfacePair* crossed = m.contacts_.crossed();
+      const SurfacePair* crossed = m.contacts_.crossed(m.contact_scene(), start);
       const bool sound = std::isfinite(next) && !m.find_fault().has_value() && crossed == nullptr;
       report.crossings += crossed != nullptr;
       const bool lower = next <= phi + kArmijo * fraction * slope;
@@ -229,7 +229,7 @@ Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt
     return undo(start, StepFault{"points moved too far in one explicit step", {}, true});
   }
   evaluate(tissue);
-  if (comm_.any(contacts_.crossed() != nullptr)) return undo(start, StepFault{"a surface would pass through another", {}, true});
+  if (comm_.any(contacts_.crossed(contact_scene(), start) != nullptr)) return undo(start, StepFault{"a surface would pass through another", {}, true});
   if (const auto fault = find_fault(); comm_.any(fault.has_value())) {
     return undo(start, fault.value_or(StepFault{"a cell on another rank is too distorted", {}, true}));
   }

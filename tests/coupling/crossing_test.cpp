@@ -28,6 +28,7 @@ class TwoShells {
     layer_.rebuild(scene(), space());
     measure();
     layer_.begin_step(scene());
+    start_ = position_;
   }
 
   /// Move the second shell along x and look at the contacts there.
@@ -35,7 +36,7 @@ class TwoShells {
     for (std::size_t i = position_.size() / 2; i < position_.size(); ++i) position_[i].x += by;
     (void)layer_.note_motion(scene());
     measure();
-    return layer_.crossed() != nullptr;
+    return layer_.crossed(scene(), start_) != nullptr;
   }
   ContactLayer& layer() { return layer_; }
 
@@ -69,7 +70,7 @@ class TwoShells {
 
   ShapeLibrary shapes_;
   std::vector<ContactBody> bodies_;
-  std::vector<Vec3d> position_;
+  std::vector<Vec3d> position_, start_;
   SurfaceGeometry geometry_;
   ContactLayer layer_;
 };
