@@ -92,6 +92,57 @@ double adhesion_from_work() {
   return work / (std::numbers::pi * kRadius * kRange);
 }
 
+/// Two blocks whose flat faces of 4 × 4 µm lie 0.1 µm apart, in a contact layer of their own with friction alone.
+class TwoBlocks {
+ public:
+  explicit TwoBlocks(bool objective)
+      : layer_({.range = 0.2, .skin = 1.0, .body_skin = 2.0, .objective_friction = objective}, {}, {material()}, 1) {
+    const TriangleMesh mesh = make_box({4.0, 4.0, 2.0}, 0.8).value();
+    topology_ = Topology::build(static_cast<std::uint32_t>(mesh.position.size()), mesh.faces).value();
+    const std::uint32_t nodes = topology_->node_count(), faces = topology_->face_count();
+    for (std::uint32_t k = 0; k < 2; ++k) {
+      ContactBody& body = bodies_.emplace_back();
+      body.id = CellId::founder(k + 1);
+      body.place = k;
+      body.shape = BodyShape::kSurface;
+      body.topology = topology_.get();
+      body.point_count = nodes;
+      body.first_point = k * nodes;
+      body.first_face = k * faces;
+      for (const Vec3d& x : mesh.position) position_.push_back(x + Vec3d{0.0, 0.0, 2.1 * k});
+    }
+    const Topology* const topologies[2] = {topology_.get(), topology_.get()};
+    const std::uint32_t first_node[3] = {0, nodes, 2 * nodes}, first_face[3] = {0, faces, 2 * faces};
+    compute_surface_geometry({topologies, first_node, first_face}, position_, geometry_);
+    ContactGradient gradient{std::vector<Vec3d>(2 * nodes), std::vector<Vec3d>(2 * nodes), std::vector<double>(2 * faces), {0.0, 0.0}};
+    const ContactScene scene{bodies_, position_, &geometry_};
+    layer_.rebuild(scene, {.box = {{-50, -50, -50}, {50, 50, 50}}});
+    layer_.evaluate(scene, SurfacePairKind::kSurfaces, gradient);
+    layer_.begin_step(scene);
+  }
+  /// dᵀΓ d for a common rotation of both blocks.
+  double turn() {
+    std::vector<Vec3d> turned = position_, drag(position_.size());
+    for (Vec3d& x : turned) x += cross(Vec3d{3e-3, -2e-3, 1e-3}, x);
+    OrderFreeSum sum;
+    layer_.add_step_friction({bodies_, turned, &geometry_}, position_, true, drag, sum);
+    return Comm().sum(sum);
+  }
+
+ private:
+  static ContactMaterial material() {
+    ContactMaterial out;
+    out.law.range = 0.2;
+    out.normal_friction = out.tangential_friction = 50.0;
+    return out;
+  }
+  std::shared_ptr<const Topology> topology_;
+  std::vector<ContactBody> bodies_;
+  std::vector<Vec3d> position_;
+  SurfaceGeometry geometry_;
+  ContactLayer layer_;
+};
+
 }  // namespace
 
 void add_contact_numbers(std::vector<ReferenceNumber>& out) {
@@ -101,6 +152,8 @@ void add_contact_numbers(std::vector<ReferenceNumber>& out) {
                  "closed form; the plane meets the cap alone", [] { return largest_pull(true); }});
   out.push_back({"S5", "W recovered from the work of lifting that ball off [nN/um]", kAdhesion, 0.02 * kAdhesion,
                  "closed form: work pi R c W from touching to out of the range c", [] { return adhesion_from_work(); }});
+  out.push_back({"T9.4", "friction of a contact of parallel faces that turns as a whole, objective form, in parts of the plain one", 0.0, 1e-6,
+                 "closed form: exact for opposed parallel faces", [] { return TwoBlocks(true).turn() / TwoBlocks(false).turn(); }});
   struct Pipette {
     double tension, radius, suction;
   };
