@@ -36,7 +36,22 @@ std::vector<LawInfo> surface_contact_laws() {
            .source = "Van Liedekerke et al. 2020, doi:10.1007/s10237-019-01204-7",
            .parameters = {given_by_study("adhesion", "tension", "nN/µm", "Adhesion energy W per contact area of the pair."),
                           given_by_study("normal_friction", "friction per area", "nN·s/µm³", "γ_n per contact area."),
-                          given_by_study("tangential_friction", "friction per area", "nN·s/µm³", "γ_t per contact area.")}}};
+                          given_by_study("tangential_friction", "friction per area", "nN·s/µm³", "γ_t per contact area.")}},
+          {.name = "regional_adhesion",
+           .title = "Adhesion by part of the surface",
+           .equation = "W(T, y) = Σ_j μ_j ⟨W(marks of T, marks of T')⟩_j over the faces T' around the corners j of the nearest face; U_a goes with W",
+           .source = "choice of this project: no jump where the nearest point crosses the border of a region",
+           .parameters = {given_by_study("adhesion", "tension", "nN/µm", "W of faces with these marks.")}},
+          {.name = "objective_friction",
+           .title = "Contact friction without common rotations",
+           .equation = "u = v_x − v_y − ½ g (ṅ_y − ṅ_x), ṅ = −Σ_c (n×e_c)(n·v_c)/(2A); Γ = Σ Jᵀ D J with u = J v",
+           .source = "choice of this project: exact for opposed parallel faces",
+           .parameters = {}},
+          {.name = "self_contact",
+           .title = "A surface against itself",
+           .equation = "U_r(|g| − d) ½ by both sides, faces apart by more than the range along the surface; the sign of g never changes",
+           .source = "choice of this project",
+           .parameters = {given_by_study("self_contact", "length", "µm", "Distance d at which two parts of a surface touch.")}}};
 }
 
 std::vector<LawInfo> load_laws() {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cbm/spheres.h"
+#include "core/contact/regional_adhesion.h"
 #include "core/mesh/topology.h"
 #include "core/space/space.h"
 #include "coupling/active_terms.h"
@@ -75,6 +76,7 @@ struct CellType {
   dcm::ShellParameters shell;
   dcm::InteriorParameters interior;  ///< of a shell
   RegionalTension regional_tension;  ///< of shells; empty: shell.tension everywhere
+  double self_contact = 0.0;         ///< of shells: distance at which a surface touches itself; 0: it passes through itself [µm]
 };
 
 /// Traction between two surfaces over their gap (core/contact/traction_law.h; decision 0018).
@@ -93,6 +95,7 @@ struct ContactPair {
   double range = 0.0;            ///< c; 0: that of ContactNumerics [µm]
   double repulsion = 0.0;        ///< k_r; 0: that of ContactNumerics [kPa/µm]
   double reduced_modulus = 0.0;  ///< E* of kMaugisDugdale [kPa]
+  std::vector<AdhesionRule> regions{};  ///< W by the marks of the faces, first material first; the first that holds; else `adhesion`
 };
 
 /// Numbers of the traction law, for pairs that have none of their own.
@@ -101,6 +104,7 @@ struct ContactNumerics {
   double repulsion = 100.0;  ///< k_r [kPa/µm]
   int points_per_face = 3;   ///< interior quadrature points, 3 or 4
   double skin = 0.5;         ///< of the candidate lists [µm]
+  bool objective_friction = false;  ///< contacts do not rub when both surfaces turn together (core/contact/objective_friction.h)
 };
 
 /// A rigid obstacle.

@@ -2,13 +2,24 @@
 
 namespace morula {
 
-void ContactLayer::begin_step() {
+ObjectiveFriction ContactLayer::friction_now(const ContactScene& scene) const {
+  ObjectiveFriction out;
+  out.clear(scene.bodies, settings_.threads);
+  for (const SurfacePair& pair : pairs_)
+    out.add(pair, {view(scene, pair, 0), view(scene, pair, 1)}, scene, material_of(scene, pair),
+            FaceQuadrature::with_points(settings_.points_per_face));
+  return out;
+}
+
+void ContactLayer::begin_step(const ContactScene& scene) {
   step_offsets_ = offsets_;
   for (SurfacePair& pair : pairs_) {
+    pair.step_overlap = pair.overlap;
     if (pair.at_start) continue;
     for (int d = 0; d < 2; ++d) std::swap(pair.step_elements[d], pair.elements[d]);
     pair.at_start = true;
   }
+  if (settings_.objective_friction) objective_ = friction_now(scene);
 }
 
 namespace {
@@ -80,6 +91,11 @@ double rub(std::span<const ContactElement> elements, const FaceQuadrature& quadr
 
 void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const Vec3d> start, bool moved, std::span<Vec3d> out,
                                      OrderFreeSum& quadratic) const {
+  if (settings_.objective_friction) {
+    std::vector<Vec3d> way(offsets_.size());
+    for (std::size_t i = 0; i < way.size(); ++i) way[i] = offsets_[i] - step_offsets_[i];
+    return objective_.rub(scene.position, start, way, out, quadratic);
+  }
   const auto& quadrature = FaceQuadrature::with_points(settings_.points_per_face);
   for (const SurfacePair& pair : pairs_) {
     if (!moved && !pair.rigid) continue;
@@ -99,8 +115,10 @@ std::vector<ElementGroup> ContactLayer::element_groups(const ContactScene& scene
     const ContactMaterial& contact = material_of(scene, pair);
     ElementGroup& group = groups.emplace_back();
     group.rigid = pair.rigid;
-    group.normal_friction = static_cast<float>(contact.normal_friction);
-    group.tangential_friction = static_cast<float>(contact.tangential_friction);
+    if (!settings_.objective_friction) {
+      group.normal_friction = static_cast<float>(contact.normal_friction);
+      group.tangential_friction = static_cast<float>(contact.tangential_friction);
+    }
     for (std::size_t side = 0; side < (pair.rigid ? 1 : 2); ++side) {
       const std::uint32_t number = side == 0 ? pair.a : pair.b;
       const ContactBody& body = scene.bodies[number];

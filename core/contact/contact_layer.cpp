@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/contact/self_contact.h"
+
 namespace morula {
 namespace {
 
@@ -50,7 +52,8 @@ PairBody ContactLayer::view(const ContactScene& scene, const SurfacePair& pair, 
   const Vec3d shift = which == 0 ? Vec3d{} : pair.shift;
   const auto points = scene.position.subspan(body.first_point, body.point_count);
   if (body.shape == BodyShape::kSphere) return {nullptr, points, {}, shift, body.radius};
-  return {scene.topology[number], points, std::span(scene.geometry->node_normal).subspan(body.first_point, body.point_count), shift, 0.0};
+  const auto marks = scene.mark.empty() ? scene.mark : scene.mark.subspan(scene.first_face[number], scene.topology[number]->face_count());
+  return {scene.topology[number], points, std::span(scene.geometry->node_normal).subspan(body.first_point, body.point_count), shift, 0.0, marks};
 }
 
 double ContactLayer::patch_motion(const ContactScene& scene, const SurfacePair& pair) const {
@@ -163,6 +166,19 @@ void ContactLayer::add_obstacle_pairs(const ContactScene& scene) {
   }
 }
 
+void ContactLayer::add_self_pairs(const ContactScene& scene) {
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
+    const ContactBody& body = scene.bodies[i];
+    if (body.shape == BodyShape::kSurface && body.owned && material(body.material, body.material).self_distance > 0.0) found.push_back(i);
+  }
+  std::sort(found.begin(), found.end(), [&](std::uint32_t i, std::uint32_t j) { return scene.bodies[i].place < scene.bodies[j].place; });
+  for (const std::uint32_t i : found) {
+    SurfacePair& pair = pairs_.emplace_back();
+    pair.a = pair.b = i;
+  }
+}
+
 void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
   const std::size_t n = scene.bodies.size();
   std::vector<Extent> extents(n);
@@ -201,11 +217,13 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
   });
   sphere_pairs_before_ = spheres_.size();
   add_obstacle_pairs(scene);
+  add_self_pairs(scene);
   pairs_.shrink_to_fit();
 
-  if (!fresh_) {  // keep the lists of pairs that stay; both sequences come in canonical order, obstacles last
+  if (!fresh_) {  // keep the lists of pairs that stay; both sequences come in canonical order, obstacles and then surfaces themselves last
     const auto key = [&](const SurfacePair& pair) {
-      return std::array<std::uint64_t, 3>{pair.rigid, scene.bodies[pair.a].place, pair.rigid ? pair.b : scene.bodies[pair.b].place};
+      const std::uint64_t kind = pair.rigid ? 1 : pair.with_itself() ? 2 : 0;
+      return std::array<std::uint64_t, 3>{kind, scene.bodies[pair.a].place, pair.rigid ? pair.b : scene.bodies[pair.b].place};
     };
     std::size_t k = 0;
     for (SurfacePair& pair : pairs_) {
@@ -236,6 +254,8 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
 
 void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {
   const PairBody body[2] = {view(scene, pair, 0), view(scene, pair, 1)};
+  const ContactMaterial& contact = material_of(scene, pair);
+  const ListReach reach = reach_of(pair, contact);
   std::vector<std::uint32_t> faces[2];
   for (int which = 0; which < 2; ++which) {
     if (body[which].topology == nullptr) continue;
@@ -243,7 +263,7 @@ void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {
     const PairBody& o = body[1 - which];
     if (pair.rigid && which == 0) continue;  // nothing is held against the cell's faces
     for (std::uint32_t i = 0; i < o.position.size(); ++i) other.include(o.node(i));
-    other = other.inflated(o.radius + reach().candidates());
+    other = other.inflated(o.radius + reach.candidates());
     if (pair.rigid) {
       const Box there{other.low - body[1].shift, other.high - body[1].shift};
       faces[1] = obstacles_[pair.b].tree->faces_in(there);
@@ -258,10 +278,11 @@ void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {
   PointsAgainstBody lists[2], old;
   for (int d = 0; d < 2; ++d) {
     lists[d].clear();
-    if (body[d].topology != nullptr && !(pair.rigid && d == 1)) {
+    if (body[d].topology != nullptr && !(d == 1 && (pair.rigid || pair.with_itself()))) {
+      const int rings = pair.with_itself() ? self_contact_rings(body[0].topology->face_count(), contact.self_radius, reach.range) : 0;
       pair.points[d].unpack(old);
-      build_point_lists(body[d], body[1 - d], reach(), settings_.points_per_face, faces[1 - d], old, pair.patch_motion,
-                        pair.motion - pair.built_at, lists[d]);
+      build_point_lists(body[d], body[1 - d], reach, settings_.points_per_face, faces[1 - d], old, pair.patch_motion,
+                        pair.motion - pair.built_at, lists[d], rings);
     }
     pair.points[d].pack(lists[d]);
   }
@@ -279,6 +300,7 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
   const PairBody body[2] = {view(scene, pair, 0), view(scene, pair, 1)};
   const bool both = !pair.rigid && body[0].topology != nullptr && body[1].topology != nullptr;
   ContactMaterial contact = material_of(scene, pair);
+  const ListReach reach = reach_of(pair, contact);
   if (!both && !pair.rigid) {  // a sphere gives way by its own foundation (fields_and_coupling.md, D)
     const bool first = body[0].topology == nullptr;
     const double modulus = (first ? contact : material(scene.bodies[pair.b].material, scene.bodies[pair.a].material)).sphere_modulus;
@@ -286,13 +308,18 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
     contact.law.hertz = 0.0;
     contact.law.cap = 0.0;
   }
+  if (contact.regional) contact.law.adhesion = 1.0;  // W comes with the faces
+  if (pair.with_itself()) {
+    contact.regional.reset();
+    contact.law.adhesion = contact.law.cap = 0.0;
+  }
   contact.law.adhesion *= hold_;
   contact.normal_friction *= hold_;
   contact.tangential_friction *= hold_;
   for (int d = 0; d < 2; ++d) {
     if (pair.points[d].empty()) continue;
-    evaluate_points({body[d], body[1 - d], contact, FaceQuadrature::with_points(settings_.points_per_face), reach(), both ? 0.5 : 1.0,
-                     pair.patch_motion, pair.motion - pair.built_at, !pair.rigid},
+    evaluate_points({body[d], body[1 - d], contact, FaceQuadrature::with_points(settings_.points_per_face), reach, both ? 0.5 : 1.0,
+                     pair.patch_motion, pair.motion - pair.built_at, !pair.rigid, pair.with_itself()},
                     d, pair, gradient, workspace);
     if (!both && !pair.rigid && !packing_.empty())
       add_packing(body[d], body[1 - d], FaceQuadrature::with_points(settings_.points_per_face), packing_[d == 0 ? pair.b : pair.a], d, pair,
@@ -391,10 +418,23 @@ const SurfacePair* ContactLayer::deepest(const ContactScene& scene) const {
   return worst;
 }
 
+const SurfacePair* ContactLayer::crossed(const ContactScene& scene, std::span<const Vec3d> start) const {
+  if (cap() > 0.0) return nullptr;
+  for (const SurfacePair& pair : pairs_) {
+    if (pair.crossed > 0) return &pair;
+    if (pair.crossed_at == 1e300) continue;
+    const ContactBody& body = scene.bodies[pair.a];  // no two of its points have moved against each other by more than the diagonal
+    Box ways;
+    for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p) ways.include(scene.position[p] - start[p]);
+    if (pair.crossed_at <= norm(ways.high - ways.low)) return &pair;
+  }
+  return nullptr;
+}
+
 std::size_t ContactLayer::memory() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
   std::size_t total = bytes(pairs_) + bytes(spheres_) + bytes(pairs_of_kind_[0]) + bytes(pairs_of_kind_[1]) + bytes(motion_) +
-                      bytes(last_radius_) + bytes(travel_) + bytes(known_at_);
+                      bytes(last_radius_) + bytes(travel_) + bytes(known_at_) + objective_.memory();
   for (const SurfacePair& pair : pairs_)
     for (int d = 0; d < 2; ++d) {
       total += pair.points[d].memory() + bytes(pair.node[d]) + bytes(pair.elements[d]) + bytes(pair.step_elements[d]);

@@ -6,6 +6,7 @@
 
 #include "core/contact/broad_phase.h"
 #include "core/contact/contact_body.h"
+#include "core/contact/objective_friction.h"
 #include "core/contact/packing_points.h"
 #include "core/contact/surface_pair.h"
 #include "core/friction/contact_element.h"
@@ -36,6 +37,7 @@ struct ContactSettings {
   double depth = 0.0;         ///< overlap that must be seen; 0: what the skin allows [µm]
   int points_per_face = 3;
   int threads = 1;
+  bool objective_friction = false;  ///< friction that does not feel common rotations (core/contact/objective_friction.h)
 };
 
 /// Gradients that contacts leave on the points and faces of all bodies; sized like the scene. Only owned bodies are written.
@@ -85,6 +87,9 @@ class ContactLayer {
   void find_penetration(const ContactScene& scene, std::span<Penetration> by_body);
   /// Pressures of spheres by body (of surfaces: ignored), from here on; none: spheres do not resist their packing.
   void set_packing(std::span<const SpherePressure> by_body) { packing_.assign(by_body.begin(), by_body.end()); }
+  /// A pair with a point that changed its side since the step began though its gap cannot have passed through zero (crossing.h), as the
+  /// contacts were found last; null: none, or a start from overlap, where nearest faces may jump. `start`: positions at the start of the step.
+  [[nodiscard]] const SurfacePair* crossed(const ContactScene& scene, std::span<const Vec3d> start) const;
   [[nodiscard]] bool has_pairs(SurfacePairKind kind) const { return !pairs_of_kind_[static_cast<std::size_t>(kind)].empty(); }
 
   /// Energy of the pairs that this rank counts (those whose first body it owns), added to an order-free sum.
@@ -93,7 +98,11 @@ class ContactLayer {
   [[nodiscard]] const SurfacePair* deepest(const ContactScene& scene) const;
 
   /// Keep the present friction as that of the step (Γ_n).
-  void begin_step();
+  void begin_step(const ContactScene& scene);
+  /// Friction that is beside the element groups, as begin_step() found it; null where it is within them.
+  [[nodiscard]] const ObjectiveFriction* own_friction() const { return settings_.objective_friction ? &objective_ : nullptr; }
+  /// The same of the contacts as they were found last.
+  [[nodiscard]] ObjectiveFriction friction_now(const ContactScene& scene) const;
   /// Friction of the step's start applied to the way d of all points from `start` (obstacles have moved since begin_step()): adds Γ_n d to `out`
   /// (owned points) and dᵀΓ_n d of the counted pairs to the sum. `moved`: false where all points are at the start.
   void add_step_friction(const ContactScene& scene, std::span<const Vec3d> start, bool moved, std::span<Vec3d> out,
@@ -125,7 +134,13 @@ class ContactLayer {
   [[nodiscard]] double patch_motion(const ContactScene& scene, const SurfacePair& pair) const;
   void know_positions(const ContactScene& scene);
   void add_obstacle_pairs(const ContactScene& scene);
+  /// Surfaces that may touch themselves, after all other pairs.
+  void add_self_pairs(const ContactScene& scene);
   [[nodiscard]] ListReach reach() const { return {settings_.range, settings_.skin, settings_.depth}; }
+  /// Of a pair: a surface keeps a distance from itself.
+  [[nodiscard]] ListReach reach_of(const SurfacePair& pair, const ContactMaterial& material) const {
+    return pair.with_itself() ? ListReach{settings_.range + material.self_distance, settings_.skin, 0.0} : reach();
+  }
 
   struct BodyMotion {
     Vec3d mean;              ///< since the last call of note_motion()
@@ -141,6 +156,7 @@ class ContactLayer {
   bool fresh_ = true;
 
   std::vector<SurfacePair> pairs_;
+  ObjectiveFriction objective_;
   std::vector<SpherePressure> packing_;  ///< by body; empty: none
   std::vector<SphereNeighbours> spheres_;
   std::size_t sphere_pairs_before_ = 0;          ///< how many the last rebuild() found

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/contact/closest_foot.h"
+#include "core/contact/crossing.h"
 #include "core/contact/nearest_face.h"
 #include "core/contact/surface_pair.h"
 
@@ -126,6 +127,8 @@ struct alignas(64) Batch {
   double unit[3][kLanes], length[kLanes];  ///< normal of the target at the foot point
   double weight_slope[kLanes], attraction[kLanes], density[kLanes], ramp[kLanes], pull[3][kLanes];
   double bearing[kLanes], stiffness[kLanes];
+  bool inside[kLanes];                                           ///< the gap is negative
+  double corner_adhesion[3][kLanes], per_adhesion[kLanes];       ///< where W differs by marks: W at the target's nodes, and energy by W
   std::int32_t rounded_mu[2][kLanes], rounded_normal[3][kLanes];  ///< as ContactElement keeps them
 };
 
@@ -196,6 +199,34 @@ void gaps_to_sphere(const PairBody& target, Batch& batch) {
   }
 }
 
+/// W of a face with these marks of body d against the faces around a node of the other, on average: it changes without a jump as the nearest
+/// point moves on.
+double adhesion_at_node(const PointsEvaluation& e, int d, std::uint8_t marks, std::uint32_t node) {
+  const auto faces = e.target.topology->faces_of_node(node);
+  double sum = 0.0;
+  for (const std::uint32_t face : faces) {
+    const std::uint8_t other = e.target.marks(face);
+    sum += d == 0 ? e.material.regional->between(marks, other) : e.material.regional->between(other, marks);
+  }
+  return sum / static_cast<double>(faces.size());
+}
+
+/// W at the nodes of the nearest face, for one point of a face with these marks. A sphere and an obstacle carry none.
+void find_adhesion(const PointsEvaluation& e, int d, std::uint8_t marks, const Triangle* face, int lane, Batch& batch) {
+  for (std::size_t j = 0; j < 3; ++j)
+    batch.corner_adhesion[j][lane] = face != nullptr && !e.target.mark.empty() ? adhesion_at_node(e, d, marks, (*face)[j])
+                                     : d == 0                                  ? e.material.regional->between(marks, 0)
+                                                                               : e.material.regional->between(0, marks);
+}
+
+/// A surface against itself acts by the unsigned distance, less that of touch (self_contact.h).
+void take_distances(double touch, Batch& batch) {
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (batch.inside[lane]) put(batch.normal, lane, -get(batch.normal, lane));
+    batch.gap[lane] = std::abs(batch.gap[lane]) - touch;
+  }
+}
+
 /// Energies, tractions and stiffness at the gaps.
 void respond(const PointsEvaluation& e, Batch& batch) {
   const TractionLaw& law = e.material.law;
@@ -207,10 +238,16 @@ void respond(const PointsEvaluation& e, Batch& batch) {
   face_area.store(batch.face_area);
   const Real gap = Real::load(batch.gap);
   const auto weight = OpposedWeight::of(-dot(source_normal, load(batch.unit)));
-  const auto attraction = law.attraction(gap);
+  auto attraction = law.attraction(gap);
   const auto repulsion = law.repulse(gap);
   const Real part(1.0 / e.quadrature.count);
   const Real area = face_area * Real(e.share) * part;
+  if (e.material.regional) {
+    (area * weight.value * attraction.energy).store(batch.per_adhesion);
+    Real adhesion(0.0);
+    for (std::size_t j = 0; j < 3; ++j) adhesion = adhesion + Real::load(batch.corner_adhesion[j]) * Real::load(batch.mu[j]);
+    attraction = {attraction.energy * adhesion, attraction.slope * adhesion, attraction.curvature * adhesion};
+  }
   weight.slope.store(batch.weight_slope);
   (area * attraction.energy).store(batch.attraction);
   (weight.value * attraction.energy + repulsion.energy).store(batch.density);
@@ -275,8 +312,8 @@ void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists,
   const double scale = e.share * (1.0 / e.quadrature.count);
   pair.energy += batch.area[lane] * batch.density[lane];
   sink.source.face_energy[p.source_place] += scale * batch.density[lane];
-  sink.source.contact_area += batch.ramp[lane];
-  pair.overlap = gap.gap < -pair.overlap ? -gap.gap : pair.overlap;
+  if (!e.with_itself) sink.source.contact_area += batch.ramp[lane];
+  if (!e.with_itself) pair.overlap = gap.gap < -pair.overlap ? -gap.gap : pair.overlap;
 
   const Vec3d pull = get(batch.pull, lane);
   sink.push_source(e.quadrature, p.q, -pull);
@@ -289,13 +326,18 @@ void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists,
     add_weight_gradient(e, p.q, {get(batch.source_normal, lane), batch.face_area[lane]}, target_face, gap,
                         {get(batch.unit, lane), batch.length[lane]}, batch.weight_slope[lane] * batch.attraction[lane], sink);
   }
+  if (e.material.regional && !e.target.mark.empty()) {
+    double c[3];
+    for (std::size_t j = 0; j < 3; ++j) c[j] = batch.per_adhesion[lane] * batch.corner_adhesion[j][lane];
+    if (c[0] != c[1] || c[1] != c[2]) add_foot_gradient(e, p.q, sink.target_node, gap, c, sink);
+  }
   ContactElement& element = elements.emplace_back();
   element.source = 4 * face + p.q;
   element.target = sphere ? 0 : lists.target_face[p.place];
   element.set_weights(batch.rounded_mu[0][lane], batch.rounded_mu[1][lane]);
   for (std::size_t k = 0; k < 3; ++k) element.n[k] = static_cast<std::int16_t>(batch.rounded_normal[k][lane]);
   element.w = static_cast<float>(batch.bearing[lane]);
-  element.set_stiffness(static_cast<float>(batch.stiffness[lane]));
+  element.set_stiffness(static_cast<float>(batch.stiffness[lane]), batch.inside[lane]);
 }
 
 }  // namespace
@@ -316,6 +358,9 @@ void evaluate_points(const PointsEvaluation& e, int d, SurfacePair& pair, PairGr
     });
   }
   ws.elements.clear();
+  ws.suspects.clear();
+  const CrossingWatch watch(pair, e);
+  const double touch = e.with_itself ? e.material.self_distance : 0.0;
   Batch batch;
   for (std::size_t first = 0; first < ws.points.size(); first += kLanes) {
     const int count = static_cast<int>(std::min<std::size_t>(kLanes, ws.points.size() - first));
@@ -324,19 +369,28 @@ void evaluate_points(const PointsEvaluation& e, int d, SurfacePair& pair, PairGr
       const ContactPoint& p = ws.points[first + static_cast<std::size_t>(std::min(lane, count - 1))];
       fill(e, lists, p, lane, batch);
       if (e.target.topology != nullptr) face[lane] = lists.target_face[p.place];
+      if (e.material.regional)
+        find_adhesion(e, d, e.source.marks(lists.source_face[p.source_place]),
+                      e.target.topology != nullptr ? &e.target.topology->faces()[face[lane]] : nullptr, lane, batch);
     }
     if (e.target.topology == nullptr)
       gaps_to_sphere(e.target, batch);
     else
       gaps_to_faces(e, face, batch);
+    for (int lane = 0; lane < kLanes; ++lane) batch.inside[lane] = batch.gap[lane] < 0.0;
+    if (e.with_itself) take_distances(touch, batch);
     respond(e, batch);
     for (int lane = 0; lane < count; ++lane) {
       const ContactPoint& p = ws.points[first + static_cast<std::size_t>(lane)];
       const double gap = batch.gap[lane];
-      if (p.second >= 0.0) remember(p, gap, p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q, e, lists);
-      if (gap < e.material.law.range) add_point(e, d, lists, p, batch, lane, pair, gradient, ws.elements);
+      if (p.second >= 0.0) remember(p, gap + touch, p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q, e, lists);
+      if (gap < e.material.law.range) {
+        add_point(e, d, lists, p, batch, lane, pair, gradient, ws.elements);
+        if (watch.suspects(gap + touch)) ws.suspects.push_back({ws.elements.back().source, batch.inside[lane], std::abs(gap + touch)});
+      }
     }
   }
+  watch.look(pair.step_elements[d], ws.elements, ws.suspects, pair);
   pair.points[d].update(lists);
   std::swap(gradient[d].source_face, lists.source_face);
   pair.elements[d].assign(ws.elements.begin(), ws.elements.end());  // no more room than needed: they live long

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/contact/closest_foot.h"
+#include "core/contact/self_contact.h"
 #include "core/contact/surface_pair.h"
 #include "core/simd/transpose.h"
 
@@ -119,7 +120,7 @@ void keep_what_is_known(const PointsAgainstBody& old, std::size_t points_per_fac
 
 void build_point_lists(const PairBody& source, const PairBody& target, const ListReach& reach, int points_per_face,
                        std::span<const std::uint32_t> target_faces, const PointsAgainstBody& old, double motion, double motion_since_built,
-                       PointsAgainstBody& lists) {
+                       PointsAgainstBody& lists, int rings) {
   lists.clear();
   const double distance = reach.candidates();
   Balls balls;
@@ -137,6 +138,7 @@ void build_point_lists(const PairBody& source, const PairBody& target, const Lis
     if (balls.count == 0) return;
   }
   near = near.inflated(distance);
+  NodesAround around(*source.topology);
 
   for (std::uint32_t face = 0; face < source.topology->face_count(); ++face) {
     const Triangle& t = source.topology->faces()[face];
@@ -151,6 +153,12 @@ void build_point_lists(const PairBody& source, const PairBody& target, const Lis
     } else {
       const std::size_t before = lists.candidate.size();
       add_candidates_of_face(ball, target, target_faces, balls, distance, lists.candidate);
+      if (rings > 0 && lists.candidate.size() > before) {
+        around.find(face, rings);
+        const auto first = lists.candidate.begin() + static_cast<std::ptrdiff_t>(before);
+        lists.candidate.erase(std::remove_if(first, lists.candidate.end(), [&](std::uint16_t m) { return around.touch(target_faces[m]); }),
+                              lists.candidate.end());
+      }
       if (lists.candidate.size() == before) continue;
     }
     lists.source_face.push_back(face);
@@ -194,6 +202,8 @@ void clear_results(SurfacePair& pair, const std::size_t (&node_count)[2], PairGr
   pair.at_start = false;
   pair.energy = 0.0;
   pair.overlap = 0.0;
+  pair.crossed = 0;
+  pair.crossed_at = 1e300;
   for (int body = 0; body < 2; ++body) {
     PairGradient& g = gradient[body];
     if (g.force.size() < node_count[body]) g.force.resize(node_count[body]);

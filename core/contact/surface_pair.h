@@ -1,11 +1,13 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/contact/contact_body.h"
 #include "core/contact/packed_points.h"
+#include "core/contact/regional_adhesion.h"
 #include "core/contact/traction_law.h"
 #include "core/friction/contact_element.h"
 #include "core/space/space.h"
@@ -19,6 +21,9 @@ struct ContactMaterial {
   double sphere_modulus = 0.5;       ///< E/(1 − ν²) of the first material's spheres: they meet surfaces with sphere_foundation() [kPa]
   double normal_friction = 0.0;      ///< γ_n per contact area [nN·s/µm³]
   double tangential_friction = 0.0;  ///< γ_t per contact area [nN·s/µm³]
+  std::shared_ptr<const RegionalAdhesion> regional{};  ///< W by the marks of the faces, in place of that of the law; null: everywhere the same
+  double self_distance = 0.0;  ///< of a material with itself: how near a surface lets parts of its own come (core/contact/self_contact.h); 0: off [µm]
+  double self_radius = 0.0;    ///< typical radius of its bodies, from which the length of their edges follows [µm]
 };
 
 /// A body of a pair at present positions: a surface (its quadrature points are held against the other body, its faces are what the
@@ -29,7 +34,9 @@ struct PairBody {
   std::span<const Vec3d> node_normal;
   Vec3d shift{};        ///< added to the positions: periodic image, or how far an obstacle has moved
   double radius = 0.0;  ///< of a sphere
+  std::span<const std::uint8_t> mark{};  ///< sets of marks by face; empty: none
 
+  [[nodiscard]] std::uint8_t marks(std::uint32_t face) const { return mark.empty() ? std::uint8_t{0} : mark[face]; }
   [[nodiscard]] Vec3d node(std::uint32_t i) const { return position[i] + shift; }
   /// Unit and outward.
   [[nodiscard]] Vec3d face_normal(std::uint32_t face) const {
@@ -72,7 +79,8 @@ struct PairGradient {
   double contact_area = 0.0;               ///< of the faces of this body (ramp c/2 .. c) [µm²]
 };
 
-/// Two bodies in touch, at least one of them a surface; body a comes first in the canonical order. A rigid obstacle is always b.
+/// Two bodies in touch, at least one of them a surface; body a comes first in the canonical order. A rigid obstacle is always b. A surface that
+/// may touch itself is a pair with itself, with points in the first direction only.
 struct SurfacePair {
   std::uint32_t a = 0, b = 0;  ///< bodies; b is the obstacle's number when `rigid`
   bool rigid = false;
@@ -89,7 +97,11 @@ struct SurfacePair {
   double overlap = 0.0;                          ///< deepest penetration [µm]
   double area = 0.0;                             ///< of both surfaces in contact [µm²]
   Vec3d push;                                    ///< force on b where it is rigid [nN]
+  double step_overlap = 0.0;                     ///< `overlap` at the start of the step [µm]
+  std::uint32_t crossed = 0;                     ///< points that are on another side than at the start of the step; see crossing.h
+  double crossed_at = 1e300;                     ///< of a surface against itself: the least distance of such a point from the other side [µm]
 
+  [[nodiscard]] bool with_itself() const { return !rigid && a == b; }
   [[nodiscard]] const std::vector<ContactElement>& present(std::size_t d) const { return at_start ? step_elements[d] : elements[d]; }
 };
 
@@ -104,6 +116,7 @@ struct PointsEvaluation {
   double motion;              ///< of the nodes in the pair's lists since these were built
   double motion_since_built;  ///< of the whole bodies
   bool target_moves;          ///< false for rigid obstacles: no gradient of the target is wanted
+  bool with_itself = false;   ///< source and target are one surface (core/contact/self_contact.h)
 };
 
 /// A quadrature point under evaluation.
@@ -113,6 +126,13 @@ struct ContactPoint {
   std::uint16_t q;
   std::uint16_t place = kNoFace;  ///< of the nearest face in the pair's target faces; kNoFace: none within the reach of the lists
   double second = -1.0;           ///< no other face is nearer than this [µm]; < 0 where nothing was searched
+};
+
+/// A point of a contact that may be on another side of its target than it was at the start of the step (crossing.h).
+struct SuspectPoint {
+  std::uint32_t source;  ///< as in ContactElement
+  bool inside;           ///< the gap is negative now
+  double distance;       ///< |g| [µm]
 };
 
 /// What one thread needs to evaluate pairs.
@@ -132,15 +152,16 @@ struct PointsWorkspace {
   std::vector<double> distance2;  ///< by job
   std::vector<double> guessed;    ///< of the guesses
   std::vector<ContactElement> elements;
+  std::vector<SuspectPoint> suspects;  ///< points that may have changed their side
   PointsAgainstBody lists;
 };
 
 /// Fill the candidate lists of one direction. `target_faces` are the faces of the target that may be near, in increasing order (empty for
 /// a sphere). `old` are the lists before; since they were built, the pair's nodes have moved by `motion` and the whole bodies by
-/// `motion_since_built`.
+/// `motion_since_built`. With `rings` > 0 source and target are one surface, and faces within so many edges of the source face are left out.
 void build_point_lists(const PairBody& source, const PairBody& target, const ListReach& reach, int points_per_face,
                        std::span<const std::uint32_t> target_faces, const PointsAgainstBody& old, double motion, double motion_since_built,
-                       PointsAgainstBody& lists);
+                       PointsAgainstBody& lists, int rings = 0);
 
 /// Note the nodes of both bodies that the lists of both directions can touch.
 void collect_pair_nodes(const Topology* topology_a, const Topology* topology_b, const PointsAgainstBody (&lists)[2], SurfacePair& pair);

@@ -18,7 +18,7 @@ struct ContactElement {
   std::uint32_t target;  ///< target face; 0 for a sphere, whose centre has all the weight
   std::uint16_t mu[2];   ///< weights of target nodes 0 and 1 in units of 1/65535; the third is the rest
   std::int16_t n[3];     ///< unit normal in units of 1/32767
-  std::uint16_t k;       ///< contact stiffness: upper half of a float, rounded [nN/µm]
+  std::uint16_t k;       ///< contact stiffness: upper half of a float, rounded [nN/µm]; where a sign would be: 1 when the point is inside
   float w;               ///< area that bears friction [µm²]
 
   static constexpr std::int32_t kWeightUnits = 65535, kNormalUnits = 32767;
@@ -37,8 +37,12 @@ struct ContactElement {
     mu[0] = static_cast<std::uint16_t>(mu0);
     mu[1] = static_cast<std::uint16_t>(mu1 < kWeightUnits - mu0 ? mu1 : kWeightUnits - mu0);
   }
-  void set_stiffness(float stiffness) { k = static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(stiffness) + 0x8000u) >> 16); }
-  [[nodiscard]] float stiffness() const { return std::bit_cast<float>(std::uint32_t{k} << 16); }
+  /// Stiffness, which is not negative, and on which side of the target the point is.
+  void set_stiffness(float stiffness, bool inside = false) {
+    k = static_cast<std::uint16_t>(((std::bit_cast<std::uint32_t>(stiffness) + 0x8000u) >> 16) | (inside ? 0x8000u : 0u));
+  }
+  [[nodiscard]] float stiffness() const { return std::bit_cast<float>((k & 0x7FFFu) << 16); }
+  [[nodiscard]] bool inside() const { return (k & 0x8000u) != 0; }  ///< the gap is negative
   template <class Real>
   [[nodiscard]] Vec3<Real> normal() const {
     constexpr Real unit = Real(1.0) / Real(kNormalUnits);

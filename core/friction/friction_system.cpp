@@ -73,7 +73,7 @@ void FrictionSystem::set_layout(Layout layout, int threads) {
   pairs_.clear();
   for (auto& arena : blocks_) arena.clear();
   sphere_pairs_ = nullptr;
-  interior_ = nullptr;
+  added_.clear();
 }
 
 void FrictionSystem::set_elements(std::span<const ElementGroup> groups, const FaceQuadrature& quadrature) {
@@ -160,7 +160,7 @@ void FrictionSystem::apply(std::span<const Float4> p, std::span<Float4> q) const
 #pragma omp parallel for schedule(static, 1) num_threads(threads_)
   for (int t = 0; t < threads_; ++t) apply_contacts(t, p, q);
   if (sphere_pairs_ != nullptr) sphere_pairs_->add_product(p, q, dt_);
-  if (interior_ != nullptr) interior_->add_product(p, q);
+  for (const AddedPart* part : added_) part->add_product(p, q);
 }
 
 void FrictionSystem::add_contact_diagonal(int thread) {
@@ -185,7 +185,7 @@ void FrictionSystem::build_preconditioner() {
 #pragma omp parallel for schedule(static, 1) num_threads(threads_)
   for (int t = 0; t < threads_; ++t) add_contact_diagonal(t);
   if (sphere_pairs_ != nullptr) sphere_pairs_->add_diagonal(inverse_, dt_);
-  if (interior_ != nullptr) interior_->add_diagonal(inverse_);
+  for (const AddedPart* part : added_) part->add_diagonal(inverse_);
   for_owned_bodies([&](int, const BodyPoints& points) {
     for (std::uint32_t i = points.first; i < points.first + points.count; ++i) inverse_[i] = inverse_of(inverse_[i]);
   });

@@ -83,8 +83,8 @@ class FrictionSystem {
   void set_point_friction(std::span<const float> friction) { point_friction_.assign(friction.begin(), friction.end()); }
   /// The shells' own part; before set_elements(), which adds to it.
   void set_shells(OperatorPart* shells) { shells_ = shells; }
-  /// What lives inside the shells; may be null.
-  void set_interior(const AddedPart* interior) { interior_ = interior; }
+  /// Something that adds to the matrix: what lives inside the shells, friction of its own form. In this order; set_layout() forgets all.
+  void add_part(const AddedPart* part) { added_.push_back(part); }
   void set_step(double dt) { dt_ = static_cast<float>(dt); }
   /// Contacts of surfaces at the present step size; read now, not kept.
   void set_elements(std::span<const ElementGroup> groups, const FaceQuadrature& quadrature);
@@ -140,7 +140,7 @@ class FrictionSystem {
   std::vector<NodePairArena> blocks_;
   const SpherePairs* sphere_pairs_ = nullptr;
   OperatorPart* shells_ = nullptr;
-  const AddedPart* interior_ = nullptr;
+  std::vector<const AddedPart*> added_;
   std::vector<ThreadWork> work_;
   std::vector<SymMat3<float>> inverse_;
   std::vector<Float4> p_, q_, r_;

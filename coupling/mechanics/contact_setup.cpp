@@ -110,6 +110,12 @@ std::vector<ContactMaterial> contact_materials(const Model& model) {
         material.sphere_modulus = sphere.young / (1.0 - sphere.poisson * sphere.poisson);
       }
       material.law = traction_law(model, a, b);
+      if (!pair.regions.empty())
+        material.regional = std::make_shared<const RegionalAdhesion>(pair.adhesion, pair.regions, static_cast<int>(model.mark_names.size()));
+      if (a == b && a < model.types.size()) {
+        material.self_distance = model.types[a].self_contact;
+        material.self_radius = model.types[a].radius.mean;
+      }
       material.normal_friction = pair.normal_friction;
       material.tangential_friction = pair.tangential_friction;
     }
@@ -148,6 +154,7 @@ ContactSettings contact_settings(const Model& model, int threads) {
   settings.body_skin = 2.0 * model.contact.skin;
   settings.points_per_face = model.contact.points_per_face;
   settings.threads = threads;
+  settings.objective_friction = model.contact.objective_friction;
   // Spheres that adhere hold on up to 0.75 X, X = (π² W² R*/E*²)^(1/3) (cbm.md §2), at the largest radius a cell of the type reaches.
   for (std::size_t a = 0; a < model.types.size(); ++a)
     for (std::size_t b = a; b < model.types.size(); ++b) {

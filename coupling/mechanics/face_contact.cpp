@@ -20,6 +20,7 @@ std::vector<float> Mechanics::contact_of_faces(const Tissue& tissue, std::span<c
   const auto bodies = scene_.bodies();
   std::vector<float> out(scene_.first_face()[scene_.owned_shells()], 0.0f);
   for (const SurfacePair& pair : contacts_.pairs()) {
+    if (pair.with_itself()) continue;
     for (int d = 0; d < 2; ++d) {
       if (d == 1 && pair.rigid) break;
       const std::uint32_t number = d == 0 ? pair.a : pair.b;

@@ -162,8 +162,13 @@ void Mechanics::add_contact_noise(const Tissue& tissue, double dt, std::span<Vec
   const auto energy = [&](std::uint16_t material) {
     return material < model_.types.size() ? model_.types[material].fluctuations.energy : 0.0;
   };
+  const bool objective = contacts_.own_friction() != nullptr;
+  const ObjectiveFriction friction = objective ? contacts_.friction_now(contact_scene()) : ObjectiveFriction();
+  std::size_t next = 0;  // of its elements, which come in the order of this loop
   for (const SurfacePair& pair : contacts_.pairs()) {
     for (int d = 0; d < 2; ++d) {
+      const std::size_t first = next;
+      next += pair.present(d).size();
       if (pair.present(d).empty()) continue;
       const std::uint32_t from = d == 0 ? pair.a : pair.b, to = d == 0 ? pair.b : pair.a;
       const ContactBody& source = bodies[from];
@@ -180,6 +185,14 @@ void Mechanics::add_contact_noise(const Tissue& tissue, double dt, std::span<Vec
         const double across = static_cast<double>(e.w) * material.tangential_friction,
                      along = static_cast<double>(e.w) * material.normal_friction;
         const Vec3d f = along_and_across(noise, normalized(e.normal<double>()), across, along) * std::sqrt(2.0 * kt / dt);
+        if (objective) {
+          const ObjectiveElement& element = friction.elements()[first + static_cast<std::size_t>(&e - pair.present(d).data())];
+          for (int c = 0; c < element.count; ++c) {
+            const ContactBody& body = c < 3 ? source : *target;
+            add(body, element.point[c] - body.first_point, element.share(c, f));
+          }
+          continue;
+        }
         for (std::size_t k = 0; k < 3; ++k) add(source, face[k], f * quadrature.weight[e.point()][k]);
         if (target == nullptr) continue;
         if (target->shape == BodyShape::kSphere) {

@@ -52,7 +52,9 @@ struct Mechanics::Trial {
       auto& x = m.scene_.position();
       m.for_owned_points([&](std::uint32_t i) { x[i] = from[i] + direction[i] * fraction; });
       const double next = measure();
-      const bool sound = std::isfinite(next) && !m.find_fault().has_value();
+      const SurfacePair* crossed = m.contacts_.crossed(m.contact_scene(), start);
+      const bool sound = std::isfinite(next) && !m.find_fault().has_value() && crossed == nullptr;
+      report.crossings += crossed != nullptr;
       const bool lower = next <= phi + kArmijo * fraction * slope;
       if (m.comm_.all(sound && (lower || next <= phi + allowed_rise))) {
         if (next > phi) report.allowed_rise += next - phi;
@@ -174,7 +176,10 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
         evaluate(tissue);
         (void)friction_residual(start, external, dt);
         if (largest(force_) > kStuckForce) {
-          StepFault fault{"no step lowers the energy", {}, true};
+          StepFault fault{comm_.any(report.crossings > 0) ? "no step lowers the energy without a surface passing through another"
+                                                : "no step lowers the energy",
+                          {},
+                          true};
           if (const auto shape = find_fault()) fault = *shape;
           double worst = 0.0;
           std::uint32_t at = 0;
@@ -224,6 +229,7 @@ Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt
     return undo(start, StepFault{"points moved too far in one explicit step", {}, true});
   }
   evaluate(tissue);
+  if (comm_.any(contacts_.crossed(contact_scene(), start) != nullptr)) return undo(start, StepFault{"a surface would pass through another", {}, true});
   if (const auto fault = find_fault(); comm_.any(fault.has_value())) {
     return undo(start, fault.value_or(StepFault{"a cell on another rank is too distorted", {}, true}));
   }

@@ -28,11 +28,13 @@ Mechanics::Mechanics(const Model& model, std::vector<RigidSurface> obstacles, Sh
       interior_(model),
       spheres_(model, threads),
       face_tensions_(model),
-      node_terms_(model) {}
+      node_terms_(model) {
+  for (const ContactPair& pair : model.pairs) has_regional_adhesion_ = has_regional_adhesion_ || !pair.regions.empty();
+}
 
 ContactScene Mechanics::contact_scene() const {
   return {scene_.bodies(), std::span(scene_.position()).first(scene_.nucleus_point()), scene_.topologies(), scene_.first_face(),
-          &geometry_};
+          &geometry_,      scene_.marks()};
 }
 
 double Mechanics::largest(std::span<const Vec3d> by_point) const {
@@ -114,6 +116,10 @@ void Mechanics::prepare(const Tissue& tissue) {
     else
       lay_out_system();
   }
+  if (has_regional_adhesion_ && comm_.any(scene_.marks_differ(tissue))) {
+    scene_.take_marks(tissue);
+    evaluated_ = contacts_current_ = false;
+  }
   if (!evaluated_) {
     const double cap = tissue.clock.capped ? (relaxing_                     ? relax_cap_
                                               : model_.step.start_cap > 0.0 ? model_.step.start_cap
@@ -150,7 +156,8 @@ void Mechanics::lay_out_system() {
   system_.set_layout(std::move(layout), threads_);
   system_.set_shells(&shells_);
   system_.set_sphere_pairs(&spheres_.pairs());
-  if (!interior_.empty()) system_.set_interior(&interior_);
+  if (!interior_.empty()) system_.add_part(&interior_);
+  if (const AddedPart* friction = contacts_.own_friction()) system_.add_part(friction);
 }
 
 void Mechanics::evaluate(const Tissue& tissue, bool moved) {
@@ -223,7 +230,7 @@ StepFault Mechanics::undo(const std::vector<Vec3d>& start, StepFault fault) {
 
 void Mechanics::begin_step(const Tissue& tissue, double dt) {
   auto timed = timer_.scope(Stage::kAssemble);
-  contacts_.begin_step();
+  contacts_.begin_step(contact_scene());
   shells_.begin_step(tissue.shells, geometry_);
   interior_.begin_step(scene_.position(), geometry_);
   shells_.set_node_friction(node_terms_.friction(tissue, geometry_));
@@ -343,7 +350,7 @@ std::vector<std::pair<CellId, CellId>> Mechanics::touching(const Tissue& tissue,
   const auto wanted = [&](CellId id) { return std::binary_search(these.begin(), these.end(), id); };
   std::vector<std::pair<CellId, CellId>> out;
   for (const SurfacePair& pair : contacts_.pairs()) {
-    if (!(pair.area > 0.0)) continue;
+    if (!(pair.area > 0.0) || pair.with_itself()) continue;
     const ContactBody& a = bodies[pair.a];
     const CellId partner = pair.rigid ? CellId(pair.b + 1) : bodies[pair.b].id;
     if (!wanted(a.id) && (pair.rigid || !wanted(partner))) continue;

@@ -38,6 +38,7 @@ struct StepReport {
   double energy = 0.0;        ///< at the end [nN·µm]
   double allowed_rise = 0.0;  ///< rise of Φ that the freeze rule let pass [nN·µm]
   double overlap = 0.0;       ///< deepest penetration of a surface [µm]
+  int crossings = 0;          ///< searches cut short because a surface of this rank would have passed through another
 };
 
 /// What mechanics knows of each cell at the present positions, in the order of the rank's bodies (shells, then spheres).
@@ -181,6 +182,7 @@ class Mechanics {
 
   Scene scene_;
   bool scene_valid_ = false;
+  bool has_regional_adhesion_ = false;
   bool renew_soon_ = false;         ///< the next evaluation for new parameters is a good time to renew ghosts and pairs
   double wear_ = 0.0;               ///< of the list of pairs, at the end of the last step
   bool evaluated_ = false;          ///< energy and forces belong to the scene's positions and the tissue's parameters

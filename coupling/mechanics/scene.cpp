@@ -238,6 +238,7 @@ void Scene::build(const Tissue& tissue, const Space& space, double reach, ShapeL
   shell_nodes_ = first_node_.back();
   nucleus_point_ = point;
   for (std::size_t i = 0; i < owned_shells_; ++i) point += tissue.shells.nucleus_of(i) != nullptr;
+  mark_.clear();
   position_.assign(point, Vec3d{});
   take_positions(tissue);
   exchange(position_);
@@ -277,6 +278,45 @@ void Scene::give_positions(Tissue& tissue) const {
   std::size_t nucleus = nucleus_point_;
   for (std::optional<Vec3d>& center : tissue.shells.nucleus)
     if (center) center = position_[nucleus++];
+}
+
+bool Scene::marks_differ(const Tissue& tissue) const {
+  if (mark_.size() != face_count_) return true;
+  for (std::size_t s = 0; s < owned_shells_; ++s) {
+    const auto& mark = tissue.shells.faces_of(s).mark;
+    const auto here = std::span(mark_).subspan(first_face_[s], topologies_[s]->face_count());
+    if (mark.empty() ? std::any_of(here.begin(), here.end(), [](std::uint8_t m) { return m != 0; })
+                     : !std::equal(here.begin(), here.end(), mark.begin()))
+      return true;
+  }
+  return false;
+}
+
+void Scene::take_marks(const Tissue& tissue) {
+  mark_.assign(face_count_, 0);
+  for (std::size_t s = 0; s < owned_shells_; ++s) {
+    const auto& mark = tissue.shells.faces_of(s).mark;
+    std::copy(mark.begin(), mark.end(), mark_.begin() + first_face_[s]);
+  }
+  if (comm_->size() == 1) return;
+  const auto marks_of = [&](std::uint32_t body) { return std::span(mark_).subspan(first_face_[body], topologies_[body]->face_count()); };
+  std::vector<std::vector<std::byte>> outgoing(send_bodies_.size());
+  for (std::size_t r = 0; r < outgoing.size(); ++r)
+    for (const std::uint32_t body : send_bodies_[r]) {
+      if (body >= shells_) continue;
+      const auto bytes = std::as_bytes(marks_of(body));
+      outgoing[r].insert(outgoing[r].end(), bytes.begin(), bytes.end());
+    }
+  const auto incoming = comm_->exchange(outgoing);
+  for (std::size_t r = 0; r < incoming.size(); ++r) {
+    const std::byte* next = incoming[r].data();
+    for (const std::uint32_t body : receive_bodies_[r]) {
+      if (body >= shells_) continue;
+      const auto marks = marks_of(body);
+      std::memcpy(marks.data(), next, marks.size());
+      next += marks.size();
+    }
+  }
 }
 
 template <class T>

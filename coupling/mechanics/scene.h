@@ -44,6 +44,13 @@ class Scene {
   /// Births of the spheres, ghosts too: sisters push each other apart slowly.
   [[nodiscard]] std::vector<Birth> sphere_births(const Tissue& tissue) const;
 
+  /// Sets of marks by face, ghosts too; empty until take_marks().
+  [[nodiscard]] std::span<const std::uint8_t> marks() const { return mark_; }
+  /// Whether the marks of owned shells are others than at the last take_marks(), or bodies have changed since.
+  [[nodiscard]] bool marks_differ(const Tissue& tissue) const;
+  /// Marks of owned shells from the tissue, and of ghosts from their owners. Collective.
+  void take_marks(const Tissue& tissue);
+
   std::vector<Vec3d>& position() { return position_; }
   [[nodiscard]] const std::vector<Vec3d>& position() const { return position_; }
 
@@ -79,6 +86,7 @@ class Scene {
   std::vector<const Topology*> topologies_;
   std::vector<std::uint32_t> first_node_, first_face_;
   std::vector<Vec3d> position_;
+  std::vector<std::uint8_t> mark_;
   std::vector<std::vector<std::uint32_t>> send_bodies_;     ///< by rank: owned bodies that go there
   std::vector<std::vector<std::uint32_t>> receive_bodies_;  ///< by rank: ghosts that come from there, in the sender's order
 };

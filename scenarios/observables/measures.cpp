@@ -46,6 +46,11 @@ Extreme deepest_overlap(Simulation& simulation) {
     if (!surfaces || pair.overlap <= 0.0) continue;
     offer(out, pair.overlap, pair.rigid ? bodies[pair.a].id : std::min(bodies[pair.a].id, bodies[pair.b].id));
   }
+  for (std::uint32_t s = 0; s < simulation.mechanics().scene().owned_shells(); ++s) {
+    if (simulation.tissue().shells.nucleus_of(s) == nullptr) continue;
+    const double overlap = simulation.mechanics().interior_of(s).overlap;
+    if (overlap > 0.0) offer(out, overlap, bodies[s].id);
+  }
   return out;
 }
 

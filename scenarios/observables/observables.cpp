@@ -29,7 +29,7 @@ std::vector<Observable> general() {
       {"shell_pressure", "kPa", "Mean pressure over the shells.", [](M m) { return m.measures.shell_pressure; }},
       {"max_pressure", "kPa", "Largest pressure of a cell.", [](M m) { return m.measures.pressure.value; }},
       {"mean_contact_area", "um^2", "Mean area of a cell that is in contact.", [](M m) { return m.measures.mean_contact_area; }},
-      {"overlap", "um", "Deepest penetration of a shell or obstacle at this time.", [](M m) { return m.measures.overlap.value; }},
+      {"overlap", "um", "Deepest penetration of a shell, obstacle or nucleus at this time.", [](M m) { return m.measures.overlap.value; }},
       {"worst_overlap", "um", "Deepest penetration in any step since the last output.",
        [](M m) { return std::max(m.interval.worst_overlap, m.measures.overlap.value); }},
       {"volume_error", "1", "Largest relative difference of a cell's volume from what its row and its pressure ask for.",

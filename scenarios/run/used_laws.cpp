@@ -108,6 +108,10 @@ void add_contacts(const Model& model, bool shells, bool spheres, std::vector<Use
           {purpose,
            law_named(surface_contact_laws(), "contact_pair"),
            {{"adhesion", pair.adhesion}, {"normal_friction", pair.normal_friction}, {"tangential_friction", pair.tangential_friction}}});
+      for (const AdhesionRule& rule : pair.regions)
+        if (shells) out.push_back({purpose, law_named(surface_contact_laws(), "regional_adhesion"), {{"adhesion", rule.adhesion}}});
+      if (shells && a == b && model.types[a].self_contact > 0.0)
+        out.push_back({purpose, law_named(surface_contact_laws(), "self_contact"), {{"self_contact", model.types[a].self_contact}}});
       if (!shells && b < model.types.size()) continue;
       out.push_back({purpose,
                      law_named(surface_contact_laws(), law_name(pair.law)),
@@ -115,6 +119,8 @@ void add_contacts(const Model& model, bool shells, bool spheres, std::vector<Use
                       {"repulsion", pair.repulsion > 0.0 ? pair.repulsion : model.contact.repulsion},
                       {"modulus", pair.reduced_modulus}}});
     }
+  if (shells && model.contact.objective_friction)
+    out.push_back({"contact of surfaces", law_named(surface_contact_laws(), "objective_friction"), {}});
   if (!spheres) return;
   for (std::size_t t = 0; t < model.types.size(); ++t) {
     const CellType& type = model.types[t];

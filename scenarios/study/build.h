@@ -31,6 +31,8 @@ void build_motion_course(BuildContext& context, const draft::Obstacle& draft, Ob
 void build_osmosis(BuildContext& context, const draft::CellType& draft, CellType& type);
 /// Nucleus and links of the shells of a type: E111, E537–E540.
 dcm::InteriorParameters build_interior(BuildContext& context, const draft::CellType& draft, const std::string& type_name);
+/// Distance at which shells of a type touch themselves: E582 [µm].
+double build_self_contact(BuildContext& context, const draft::CellType& draft);
 /// The points of a course as a table; E510 where their times do not increase, or there is only one.
 TimeCourse build_course(BuildContext& context, const std::vector<Named<draft::CoursePoint>>& points);
 /// Marks of faces, tension by region, cavities, springs: E555–E557; after types, obstacles, pairs and domain.
@@ -43,6 +45,8 @@ void build_loads(BuildContext& context);
 void build_pairs(BuildContext& context);
 /// What `contact.pairs` says of them, after build_pairs(): E515–E517.
 void build_contact_pairs(BuildContext& context);
+/// Adhesion by marks, after build_contact_pairs() and build_regions(): E580, E581.
+void build_adhesion_regions(BuildContext& context);
 void build_fields(BuildContext& context);
 void build_initial(BuildContext& context);
 void build_coupling(BuildContext& context);
@@ -55,6 +59,10 @@ void check_resolution(BuildContext& context);
 int find_type(BuildContext& context, const std::string& name, const Place& place);
 /// Index of a cell type, or of an obstacle after the types, by name; −1 and an error with suggestions.
 int find_cell_or_obstacle(BuildContext& context, const std::string& name, const Place& place);
+/// Bit of a mark by name; −1 and an error with suggestions.
+int find_mark(BuildContext& context, const std::string& name, const Place& place);
+/// Whether cells of a type may be shells at some time.
+bool may_be_shell(const BuildContext& context, std::size_t type);
 int find_field(BuildContext& context, const std::string& name, const Place& place);
 /// Whether any cell may have this body: by its type, by `as`, or by coupling.
 bool may_have_shells(const draft::Study& draft);

@@ -7,31 +7,10 @@
 namespace morula::scenarios {
 namespace {
 
-/// Whether cells of a type may be shells at some time.
-bool may_be_shell(const BuildContext& c, std::size_t type) {
-  const draft::Study& d = c.draft;
-  if (d.cell_types[type].content.body.value == "shell" || !d.coupling.triggers.empty()) return true;
-  for (const auto& region : d.coupling.regions)
-    if (region.content.body.value == "shell") return true;
-  for (const auto& initial : d.initial)
-    if (initial.content.body.value == "shell" && (initial.content.csv.given || initial.content.type.value == d.cell_types[type].name))
-      return true;
-  return false;
-}
-
 Vec3d direction_of(BuildContext& c, const Given<Vec3d>& axis, const char* key) {
   if (norm2(axis.value) > 0.0) return normalized(axis.value);
   if (axis.known()) c.diagnostics.error(302, axis.place, std::string("'") + key + "' has no direction", "for example `[0, 0, 1]`");
   return {0, 0, 1};
-}
-
-/// Bit of a mark by name, or −1 and an error.
-int find_mark(BuildContext& c, const std::string& name, const Place& place) {
-  const auto& names = c.study.model.mark_names;
-  const auto at = std::find(names.begin(), names.end(), name);
-  if (at != names.end()) return static_cast<int>(at - names.begin());
-  c.diagnostics.error(401, place, "there is no mark '" + name + "'", names.empty() ? "declare it under `marks`" : suggest(name, names));
-  return -1;
 }
 
 /// Names the bits: marks first, then cavities whose faces are found by sight.
@@ -205,6 +184,25 @@ void build_springs(BuildContext& c) {
 }
 
 }  // namespace
+
+bool may_be_shell(const BuildContext& c, std::size_t type) {
+  const draft::Study& d = c.draft;
+  if (d.cell_types[type].content.body.value == "shell" || !d.coupling.triggers.empty()) return true;
+  for (const auto& region : d.coupling.regions)
+    if (region.content.body.value == "shell") return true;
+  for (const auto& initial : d.initial)
+    if (initial.content.body.value == "shell" && (initial.content.csv.given || initial.content.type.value == d.cell_types[type].name))
+      return true;
+  return false;
+}
+
+int find_mark(BuildContext& c, const std::string& name, const Place& place) {
+  const auto& names = c.study.model.mark_names;
+  const auto at = std::find(names.begin(), names.end(), name);
+  if (at != names.end()) return static_cast<int>(at - names.begin());
+  c.diagnostics.error(401, place, "there is no mark '" + name + "'", names.empty() ? "declare it under `marks`" : suggest(name, names));
+  return -1;
+}
 
 int find_cell_or_obstacle(BuildContext& c, const std::string& name, const Place& place) {
   std::vector<std::string> names;

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "dcm/derived_parameters.h"
 #include "scenarios/study/build.h"
+#include "scenarios/study/read_section.h"
 
 namespace morula::scenarios {
 namespace {
@@ -75,6 +77,18 @@ void set_bending(BuildContext& c, const draft::CellType& t, dcm::ShellParameters
 }
 
 }  // namespace
+
+double build_self_contact(BuildContext& c, const draft::CellType& t) {
+  if (!t.self_contact.known() || t.self_contact.value == 0.0 || !t.radius.mean.known() || !t.nodes.known()) return 0.0;
+  const double faces = 2.0 * static_cast<double>(t.nodes.value) - 4.0;
+  const double edge = 4.0 * t.radius.mean.value * std::sqrt(std::numbers::pi / (std::numbers::sqrt3 * faces));
+  if (t.self_contact.value <= 0.5 * edge) return t.self_contact.value;
+  c.diagnostics.error(582, t.self_contact.place,
+                      "a self-contact at " + t.self_contact.text + " reaches the neighbouring faces: edges of " + t.nodes.text + " nodes are " +
+                          short_number(std::round(100.0 * edge) / 100.0) + " um long",
+                      "at most " + short_number(std::floor(50.0 * edge) / 100.0) + " um, or fewer `nodes`");
+  return 0.0;
+}
 
 dcm::ShellParameters build_shell(BuildContext& c, const std::string& type_name, const draft::CellType& t) {
   dcm::ShellParameters p;

@@ -46,7 +46,8 @@ void build_time_and_numerics(BuildContext& c) {
     step.initial_step = step.max_step;
   }
   ContactNumerics& contact = c.study.model.contact;
-  contact = {c.draft.contact.range.value, c.draft.contact.repulsion.value, static_cast<int>(c.draft.contact.points.value), n.skin.value};
+  contact = {c.draft.contact.range.value, c.draft.contact.repulsion.value, static_cast<int>(c.draft.contact.points.value), n.skin.value,
+             c.draft.contact.friction.value == "objective"};
   const draft::Limits& limits = c.draft.limits;
   c.study.model.limits = {limits.overlap.value, limits.volume_error.value, limits.field_balance.value};
   c.study.model.seed = static_cast<std::uint32_t>(c.draft.seed.value);

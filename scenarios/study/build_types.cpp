@@ -112,6 +112,7 @@ void build_cell_types(BuildContext& c) {
     type.sphere.packing = build_packing(c, name, t);
     type.shell = build_shell(c, name, t);
     type.interior = build_interior(c, t, name);
+    type.self_contact = build_self_contact(c, t);
     c.study.model.types.push_back(std::move(type));
   }
 }

@@ -5,6 +5,23 @@ namespace {
 
 using Q = Quantity;
 
+void declare_adhesion_region(Section& s, draft::AdhesionRegion& r) {
+  s.words({.name = "faces",
+           .doc = "Marks that the faces carry, in the order of `between`; `any`: all faces, as of what has no marks (obstacles, spheres). The second "
+                  "may be left away: `any`.",
+           .required = true,
+           .example = "[apical, any]"},
+          r.faces);
+  s.quantity({.name = "adhesion",
+              .doc = "Adhesion energy W of such faces, in place of that of the pair.",
+              .quantity = Q::kTension,
+              .required = true,
+              .low = 0.0,
+              .high = 10.0,
+              .example = "0 mJ/m^2"},
+             r.adhesion);
+}
+
 void declare_pair(Section& s, draft::ContactPair& pair) {
   s.words({.name = "between",
            .doc = "Names of two cell types, of one and an obstacle, or of one alone with itself.",
@@ -56,6 +73,10 @@ void declare_pair(Section& s, draft::ContactPair& pair) {
               .high = 1e6,
               .example = "5e10 N s/m^3"},
              pair.tangential_friction);
+  s.list({.name = "regions",
+          .doc = "Adhesion by part of the surface: of these the first holds whose marks both faces carry; other faces have the adhesion of the pair.",
+          .example = "[{faces: [apical, any], adhesion: 0 mJ/m^2}]"},
+         pair.regions, &declare_adhesion_region);
 }
 
 }  // namespace
@@ -80,6 +101,14 @@ void declare_contact(Section& s, draft::Contact& contact) {
               .example = "100 kPa/um",
               .source = "measured: overlap below 0.15 um at 1 kPa and W = 0.5 mJ/m^2"},
              contact.repulsion);
+  s.word({.name = "friction",
+          .doc = "Friction of surfaces in contact. simple: by the relative velocity of the two points of a contact, which is not zero where a pair of "
+                 "cells turns as a whole, since the points lie apart; objective: that part is taken off.",
+          .fallback = "simple",
+          .words = {"simple", "objective"},
+          .example = "objective",
+          .source = "chosen: cheaper, and the difference matters where pairs of cells turn freely"},
+         contact.friction);
   s.whole({.name = "points",
            .doc = "Quadrature points on a face, 3 or 4; 4 for strong adhesion (W >= tension) in clusters.",
            .fallback = "3",

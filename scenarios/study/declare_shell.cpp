@@ -214,6 +214,18 @@ void declare_shell(Section& s, draft::CellType& t) {
               .example = "0.3 mN/m",
               .source = "measured: clusters up to W/(2 tension) = 0.9"},
              t.shape_stiffness);
+  s.quantity({.name = "self_contact",
+              .doc = "Distance at which a surface touches other parts of itself, from inside or outside, such as the thickness of its cortex; at most half of "
+                     "an edge of its mesh. `off`: it passes through itself.",
+              .quantity = Q::kLength,
+              .fallback = "off",
+              .low = 0.0,
+              .high = 5.0,
+              .low_open = true,
+              .specials = {{"off", 0.0}},
+              .example = "200 nm",
+              .source = "chosen: off; cells under pressure do not fold"},
+             t.self_contact);
   declare_interior(s, t);
   s.group({.name = "fold_barrier", .doc = "Keeps edges from folding through."}, present, [&t](Section& f) {
     f.quantity({.name = "stiffness",

@@ -212,7 +212,7 @@ void declare_limits(Section& s, draft::Limits& limits) {
               .source = "chosen"},
              limits.volume_error);
   s.quantity({.name = "overlap",
-              .doc = "Deepest penetration between shells, or of a shell and an obstacle.",
+              .doc = "Deepest penetration between shells, of a shell and an obstacle, or of a nucleus and the cortex around it.",
               .quantity = Q::kLength,
               .fallback = "0.3 um",
               .low = 0.0,

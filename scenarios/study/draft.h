@@ -82,7 +82,7 @@ struct CellType {
   Given<std::uint64_t> nodes;
   Given<std::string> elastic, bending_law;
   Given<double> young, thickness, poisson, shear_modulus, area_ratio, tension, turnover, damping, isotropic_damping;
-  Given<double> local_area, global_area;
+  Given<double> local_area, global_area, self_contact;
   Given<bool> area_on_top;
   std::vector<Named<TensionRegion>> tension_regions;
   Given<double> lateral_easing;
@@ -91,14 +91,22 @@ struct CellType {
   Given<double> bending, spontaneous_radius, bulk_modulus, bulk_viscosity, shape_stiffness, fold_stiffness, fold_angle;
 };
 
+/// Adhesion of faces with certain marks.
+struct AdhesionRegion {
+  Given<std::vector<std::string>> faces;
+  Given<double> adhesion;
+};
+
 struct ContactPair {
   Given<std::vector<std::string>> between;
   Given<std::string> law;
   Given<double> range, repulsion, reduced_modulus, normal_friction, tangential_friction;
+  std::vector<Named<AdhesionRegion>> regions;
 };
 
 struct Contact {
   Given<double> range, repulsion;
+  Given<std::string> friction;
   Given<std::uint64_t> points;
   std::vector<Named<ContactPair>> pairs;
 };

@@ -28,6 +28,7 @@ void build(BuildContext& context) {
   build_time_and_numerics(context);
   build_activity(context);
   build_regions(context);
+  build_adhesion_regions(context);
   check_whole(context);
   Study& study = context.study;
   const draft::Study& draft = context.draft;

@@ -5,6 +5,7 @@
 
 #include "core/mesh/primitives.h"
 #include "coupling/cell_record.h"
+#include "coupling/face_marks.h"
 #include "coupling/mechanics/contact_setup.h"
 #include "coupling/mechanics/mechanics.h"
 #include "scenarios/library/theory.h"
@@ -15,10 +16,10 @@ namespace {
 
 constexpr double kRadius = 6.0, kAdhesion = 0.1, kRange = 0.5;
 
-/// A ball of 642 nodes above a plane, moved as one rigid body.
+/// A ball of 642 nodes above a plane, moved as one rigid body. `capped`: its lower cap has the adhesion, all else three times as much.
 class RigidBall {
  public:
-  RigidBall() : model_(model()), mechanics_(model_, contact_obstacles(model_).value(), shapes_, Comm(), 1) {
+  explicit RigidBall(bool capped = false) : model_(model(capped)), mechanics_(model_, contact_obstacles(model_).value(), shapes_, Comm(), 1) {
     CellRecord cell;
     const double volume = 4.0 / 3.0 * std::numbers::pi * kRadius * kRadius * kRadius;
     cell.row.id = CellId::founder(1);
@@ -29,6 +30,7 @@ class RigidBall {
     cells.push_back(std::move(cell));
     put_together(tissue_, std::move(cells));
     tissue_.obstacle_offset.resize(1);
+    mark_new_shells(model_, tissue_);
   }
 
   /// Pull of the plane on the ball when the sphere that the mesh stands for (of its volume) is `gap` above the plane [nN].
@@ -41,7 +43,7 @@ class RigidBall {
   }
 
  private:
-  static Model model() {
+  static Model model(bool capped) {
     Model out;
     out.space.box = {{-50, -50, -50}, {50, 50, 50}};
     CellType type;
@@ -56,6 +58,15 @@ class RigidBall {
     out.obstacles = {std::move(plane)};
     out.pairs.assign(4, ContactPair{kAdhesion, 0.0, 0.0});
     out.contact.range = kRange;
+    if (!capped) return out;
+    FaceMark low;
+    low.axis = {0, 0, -1};
+    low.angle = 1.0;
+    out.mark_names = {"low"};
+    out.marks = {low};
+    for (ContactPair& pair : out.pairs) pair.adhesion = 3.0 * kAdhesion;
+    out.pairs[1].regions = {{1, 0, kAdhesion}};
+    out.pairs[2].regions = {{0, 1, kAdhesion}};
     return out;
   }
 
@@ -65,8 +76,8 @@ class RigidBall {
   Mechanics mechanics_;
 };
 
-double largest_pull() {
-  RigidBall ball;
+double largest_pull(bool capped) {
+  RigidBall ball(capped);
   double out = 0.0;
   for (int i = -20; i <= 40; ++i) out = std::max(out, ball.pull(0.005 * i));
   return out;
@@ -81,13 +92,68 @@ double adhesion_from_work() {
   return work / (std::numbers::pi * kRadius * kRange);
 }
 
+/// Two blocks whose flat faces of 4 × 4 µm lie 0.1 µm apart, in a contact layer of their own with friction alone.
+class TwoBlocks {
+ public:
+  explicit TwoBlocks(bool objective)
+      : layer_({.range = 0.2, .skin = 1.0, .body_skin = 2.0, .objective_friction = objective}, {}, {material()}, 1) {
+    const TriangleMesh mesh = make_box({4.0, 4.0, 2.0}, 0.8).value();
+    topology_ = Topology::build(static_cast<std::uint32_t>(mesh.position.size()), mesh.faces).value();
+    const std::uint32_t nodes = topology_->node_count(), faces = topology_->face_count();
+    for (std::uint32_t k = 0; k < 2; ++k) {
+      ContactBody& body = bodies_.emplace_back();
+      body.id = CellId::founder(k + 1);
+      body.place = k;
+      body.shape = BodyShape::kSurface;
+      body.topology = topology_.get();
+      body.point_count = nodes;
+      body.first_point = k * nodes;
+      body.first_face = k * faces;
+      for (const Vec3d& x : mesh.position) position_.push_back(x + Vec3d{0.0, 0.0, 2.1 * k});
+    }
+    const Topology* const topologies[2] = {topology_.get(), topology_.get()};
+    const std::uint32_t first_node[3] = {0, nodes, 2 * nodes}, first_face[3] = {0, faces, 2 * faces};
+    compute_surface_geometry({topologies, first_node, first_face}, position_, geometry_);
+    ContactGradient gradient{std::vector<Vec3d>(2 * nodes), std::vector<Vec3d>(2 * nodes), std::vector<double>(2 * faces), {0.0, 0.0}};
+    const ContactScene scene{bodies_, position_, &geometry_};
+    layer_.rebuild(scene, {.box = {{-50, -50, -50}, {50, 50, 50}}});
+    layer_.evaluate(scene, SurfacePairKind::kSurfaces, gradient);
+    layer_.begin_step(scene);
+  }
+  /// dᵀΓ d for a common rotation of both blocks.
+  double turn() {
+    std::vector<Vec3d> turned = position_, drag(position_.size());
+    for (Vec3d& x : turned) x += cross(Vec3d{3e-3, -2e-3, 1e-3}, x);
+    OrderFreeSum sum;
+    layer_.add_step_friction({bodies_, turned, &geometry_}, position_, true, drag, sum);
+    return Comm().sum(sum);
+  }
+
+ private:
+  static ContactMaterial material() {
+    ContactMaterial out;
+    out.law.range = 0.2;
+    out.normal_friction = out.tangential_friction = 50.0;
+    return out;
+  }
+  std::shared_ptr<const Topology> topology_;
+  std::vector<ContactBody> bodies_;
+  std::vector<Vec3d> position_;
+  SurfaceGeometry geometry_;
+  ContactLayer layer_;
+};
+
 }  // namespace
 
 void add_contact_numbers(std::vector<ReferenceNumber>& out) {
   out.push_back({"T7.2", "pull-off force of a rigid ball of 642 nodes from a plane, 2 pi R W, R 6 um, W 0.1 nN/um [nN]", 3.7699,
-                 0.02 * 3.7699, "closed form (Derjaguin), any range below 2 R; 2 % for the mesh", [] { return largest_pull(); }});
+                 0.02 * 3.7699, "closed form (Derjaguin), any range below 2 R; 2 % for the mesh", [] { return largest_pull(false); }});
+  out.push_back({"T7.2", "the same where only the ball's lower cap has that W, and all else three times as much [nN]", 3.7699, 0.02 * 3.7699,
+                 "closed form; the plane meets the cap alone", [] { return largest_pull(true); }});
   out.push_back({"S5", "W recovered from the work of lifting that ball off [nN/um]", kAdhesion, 0.02 * kAdhesion,
                  "closed form: work pi R c W from touching to out of the range c", [] { return adhesion_from_work(); }});
+  out.push_back({"T9.4", "friction of a contact of parallel faces that turns as a whole, objective form, in parts of the plain one", 0.0, 1e-6,
+                 "closed form: exact for opposed parallel faces", [] { return TwoBlocks(true).turn() / TwoBlocks(false).turn(); }});
   struct Pipette {
     double tension, radius, suction;
   };

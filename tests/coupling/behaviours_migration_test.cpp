@@ -45,6 +45,31 @@ TEST(Migration, SmallStepsApproachTheContinuousReference) {
   EXPECT_NEAR(mean_square_displacement(10000, 60, 10.0, 3), 26.487320, 3 * 0.0082 * 26.487320);
 }
 
+/// dcm.md T11.1: a force of σ = 1 nN a component that is forgotten in τ = 60 s, against the drag Γ = 45.239 nN·s/µm of a cell of 6 µm, makes it
+/// diffuse with D = σ² τ/Γ² = 0.029318 µm²/s a component; ⟨x²⟩ = 2D (t − τ (1 − e^(−t/τ))), ±5 %.
+TEST(Migration, ForceOnACellMakesItDiffuseAsItsDragSays) {
+  constexpr double kDrag = 45.239, kForce = 1.0, kTime = 60.0, kDiffusion = 0.029318;
+  CellType type;
+  type.migration_speed = std::sqrt(3.0) * kForce / kDrag;
+  type.migration_persistence = kTime;
+  constexpr int kCells = 4000, kSteps = 600;
+  constexpr double kStep = 2.0;  // 20 τ in all
+  double square = 0.0, speed = 0.0;
+  for (int k = 1; k <= kCells; ++k) {
+    const CellId id = CellId::founder(static_cast<std::uint64_t>(k));
+    Vec3d velocity = initial_migration_velocity(id, type, 4), place{};
+    for (int n = 0; n < kSteps; ++n) {
+      place += kStep * velocity;
+      velocity = next_migration_velocity(velocity, id, type, 4, static_cast<std::uint64_t>(n), kStep);
+    }
+    square += norm2(place) / (3.0 * kCells);
+    speed += norm2(velocity) / (3.0 * kCells);
+  }
+  EXPECT_NEAR(std::sqrt(speed), 0.0221, 0.05 * 0.0221);
+  const double t = kSteps * kStep, expected = 2.0 * kDiffusion * (t - kTime * (1.0 - std::exp(-t / kTime)));
+  EXPECT_NEAR(square, expected, 0.05 * expected);
+}
+
 TEST(Migration, StaysStationaryAndForgetsExactly) {
   const CellType type = walker();
   const int n = 20000;

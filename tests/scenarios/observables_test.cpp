@@ -71,6 +71,22 @@ TEST(Observables, VolumeErrorSeesAVolumeThatGotLost) {
   EXPECT_NEAR(measures.total_volume_error, 0.025 / 1.025, 1e-3);
 }
 
+TEST(Observables, OverlapCountsANucleusThatReachesThroughTheCortex) {
+  Model model = test::clusters_model();
+  model.types[0].interior.nucleus_fraction = 0.072;
+  ShapeLibrary shapes;
+  Tissue tissue = test::make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell});
+  const auto inside = std::move(Simulation::create(model, tissue, Comm(), 1)).value();
+  EXPECT_EQ(measure(*inside).overlap.value, 0.0);
+  const double radius = std::cbrt(0.072) * 6.0;
+  tissue.shells.nucleus[0] = Vec3d{0, 0, 6.0 - radius + 0.4};
+  const auto outside = std::move(Simulation::create(model, std::move(tissue), Comm(), 1)).value();
+  const Measures measures = measure(*outside);
+  EXPECT_GT(measures.overlap.value, 0.15);  // less than 0.4: points of faces lie within the sphere of the nodes
+  EXPECT_LT(measures.overlap.value, 0.6);
+  EXPECT_EQ(measures.overlap.cell, CellId::founder(1));
+}
+
 TEST(Observables, OverlapNamesTheCell) {
   const auto simulation = simulation_of({{0, 0, 0}, {11.7, 0, 0}}, {BodyKind::kShell, BodyKind::kShell});
   const Measures measures = measure(*simulation);

@@ -16,7 +16,14 @@ study: active
 seed: 5
 time: {end: 90 s, output: 15 s, checkpoint: 30 s, step: 5 s}
 domain: {size: [160 um, 160 um, 160 um], boundary: open}
-contact: {range: 1.2 um}
+contact:
+  range: 1.2 um
+  friction: objective
+  pairs:
+    - between: [wall, wall]
+      regions: [{faces: [inner, any], adhesion: 2e-5 J/m^2}]
+    - between: [crawler, floor]
+      regions: [{faces: [front, any], adhesion: 2e-4 J/m^2}]
 cell_types:
   wall:
     radius: 6 um
@@ -25,6 +32,7 @@ cell_types:
     fluctuations: {energy: 1e-17 J}
     dcm:
       nodes: 42
+      self_contact: 200 nm
       cortex:
         tension: 0.3 mN/m
         lateral_easing: 20 s

@@ -1,0 +1,179 @@
+/// Friction of contacts that does not feel a common rotation (dcm.md §1, T9.4).
+#include "core/contact/objective_friction.h"
+
+#include <gtest/gtest.h>
+
+#include "core/mesh/primitives.h"
+#include "core/random/philox.h"
+#include "tests/coupling/tissue_fixture.h"
+
+namespace morula {
+namespace {
+
+/// Two blocks with flat faces a gap of 0.1 µm apart, meeting over 4 × 4 µm. The range ends before the points of their sides.
+class Blocks {
+ public:
+  explicit Blocks(bool objective)
+      : layer_({.range = 0.2, .skin = 1.0, .body_skin = 2.0, .objective_friction = objective}, {}, materials(), 1) {
+    const TriangleMesh mesh = *make_box({4.0, 4.0, 2.0}, 0.8);
+    topology_ = Topology::build(static_cast<std::uint32_t>(mesh.position.size()), mesh.faces).value();
+    for (int k = 0; k < 2; ++k) {
+      ContactBody& body = bodies_.emplace_back();
+      body.id = CellId::founder(static_cast<std::uint64_t>(k + 1));
+      body.place = static_cast<std::uint32_t>(k);
+      body.shape = BodyShape::kSurface;
+      body.topology = topology_.get();
+      body.point_count = topology_->node_count();
+      body.first_point = static_cast<std::uint32_t>(position.size());
+      body.first_face = static_cast<std::uint32_t>(k) * topology_->face_count();
+      for (const Vec3d& x : mesh.position) position.push_back(x + Vec3d{0.1 * k, 0.05 * k, 2.1 * k});
+    }
+    layer_.rebuild(scene(), {.box = {{-50, -50, -50}, {50, 50, 50}}});
+    ContactGradient gradient;
+    gradient.force.resize(position.size());
+    gradient.node_normal.resize(position.size());
+    gradient.face_energy.resize(2 * topology_->face_count());
+    gradient.contact_area.resize(2);
+    layer_.evaluate(scene(), SurfacePairKind::kSurfaces, gradient);
+    area_ = 0.5 * (gradient.contact_area[0] + gradient.contact_area[1]);
+    layer_.begin_step(scene());
+  }
+
+  /// dᵀΓ d for a way d(x) of all points; Γ d in `drag`.
+  template <class Way>
+  double dissipation(Way&& way) {
+    std::vector<Vec3d> start = position;
+    for (Vec3d& x : position) x += way(x);
+    drag.assign(position.size(), {});
+    OrderFreeSum sum;
+    layer_.add_step_friction(scene(), start, true, drag, sum);
+    position = start;
+    return Comm().sum(sum);
+  }
+  ContactScene scene() {
+    const Topology* const topologies[2] = {topology_.get(), topology_.get()};
+    const std::uint32_t nodes = topology_->node_count(), faces = topology_->face_count();
+    const std::uint32_t first_node[3] = {0, nodes, 2 * nodes}, first_face[3] = {0, faces, 2 * faces};
+    compute_surface_geometry({topologies, first_node, first_face}, position, geometry_);
+    return {bodies_, position, &geometry_};
+  }
+  ContactLayer& layer() { return layer_; }
+  [[nodiscard]] double area() const { return area_; }
+
+  std::vector<Vec3d> position, drag;
+
+ private:
+  static std::vector<ContactMaterial> materials() {
+    ContactMaterial material;
+    material.law.range = 0.2;
+    material.normal_friction = 20.0;
+    material.tangential_friction = 50.0;
+    return {material};
+  }
+
+  std::shared_ptr<const Topology> topology_;
+  std::vector<ContactBody> bodies_;
+  SurfaceGeometry geometry_;
+  ContactLayer layer_;
+  double area_ = 0.0;
+};
+
+TEST(ObjectiveFriction, DoesNotFeelAPairThatTurnsAsAWhole) {
+  const auto turn = [](const Vec3d& x) { return cross(Vec3d{0.003, -0.002, 0.001}, x); };
+  Blocks plain(false), objective(true);
+  const double parasitic = plain.dissipation(turn);
+  // γ_t g² per area and square of the part of the rotation along the surface
+  EXPECT_NEAR(parasitic, 50.0 * 0.01 * 13e-6 * plain.area(), 0.1 * parasitic);
+  EXPECT_LT(objective.dissipation(turn), 1e-7 * parasitic);
+}
+
+/// dcm.md T9.1: |F_t| = γ_t S v, and the same across with γ_n; translations feel no difference.
+TEST(ObjectiveFriction, IsThePlainOneForSurfacesThatSlideOrPart) {
+  for (const Vec3d& v : {Vec3d{0.01, 0, 0}, Vec3d{0, 0, 0.01}}) {
+    const auto slide = [&](const Vec3d& x) { return x.z > 1.05 ? v : Vec3d{}; };
+    Blocks plain(false), objective(true);
+    const double expected = (v.z > 0.0 ? 20.0 : 50.0) * 1e-4 * plain.area();
+    EXPECT_NEAR(objective.dissipation(slide), expected, 0.02 * expected);
+    EXPECT_NEAR(objective.dissipation(slide), plain.dissipation(slide), 1e-5 * expected);
+  }
+}
+
+TEST(ObjectiveFriction, HasNoNetForceAndNoNetTorque) {
+  Blocks blocks(true);
+  const Random random(3, RandomStream::kInitialPosition);
+  std::uint64_t n = 0;
+  EXPECT_GT(blocks.dissipation([&](const Vec3d&) { return random.direction(CellId(1), n++) * 0.01; }), 0.0);
+  Vec3d sum, torque;
+  double size = 0.0, lever = 0.0;
+  for (std::size_t i = 0; i < blocks.drag.size(); ++i) {
+    sum += blocks.drag[i], torque += cross(blocks.position[i], blocks.drag[i]);
+    size += norm(blocks.drag[i]), lever += norm(blocks.position[i]) * norm(blocks.drag[i]);
+  }
+  EXPECT_LT(norm(sum), 1e-6 * size);  // coefficients are floats
+  EXPECT_LT(norm(torque), 1e-5 * lever);
+}
+
+TEST(ObjectiveFriction, IsSymmetricAndTheSameInTheMatrix) {
+  Blocks blocks(true);
+  const Random random(3, RandomStream::kInitialPosition);
+  std::vector<Vec3d> way[2];
+  std::vector<Vec3d> drag[2];
+  for (int k = 0; k < 2; ++k) {
+    std::uint64_t n = 1000 * static_cast<std::uint64_t>(k);
+    for (std::size_t i = 0; i < blocks.position.size(); ++i) way[k].push_back(random.direction(CellId(1), n++) * 0.01);
+    std::size_t i = 0;
+    (void)blocks.dissipation([&](const Vec3d&) { return way[k][i++]; });
+    drag[k] = blocks.drag;
+  }
+  double ab = 0.0, ba = 0.0, aa = 0.0;
+  for (std::size_t i = 0; i < way[0].size(); ++i) {
+    ab += dot(way[0][i], drag[1][i]), ba += dot(way[1][i], drag[0][i]), aa += dot(way[0][i], drag[0][i]);
+  }
+  EXPECT_NEAR(ab, ba, 1e-6 * aa);
+  const ObjectiveFriction& part = *blocks.layer().own_friction();
+  std::vector<Float4> p, q(way[0].size());
+  for (const Vec3d& v : way[0]) p.push_back({static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0.0f});
+  part.add_product(p, q);
+  std::vector<SymMat3<float>> diagonal(p.size());
+  part.add_diagonal(diagonal);
+  double most = 0.0;
+  for (const Vec3d& f : drag[0]) most = std::max(most, norm(f));
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    EXPECT_LT(norm(Vec3d{q[i].x, q[i].y, q[i].z} - drag[0][i]), 1e-5 * most) << i;
+    std::vector<Float4> one(p.size()), column(p.size());
+    one[i] = {0.3f, -0.5f, 0.8f, 0.0f};
+    part.add_product(one, column);
+    const Vec3f d = diagonal[i] * Vec3f{0.3f, -0.5f, 0.8f};
+    EXPECT_LT(std::abs(d.x - column[i].x) + std::abs(d.y - column[i].y) + std::abs(d.z - column[i].z), 1e-4f * (norm(d) + 1e-3f)) << i;
+  }
+}
+
+/// T9.4 for cells: surfaces in contact are nearly parallel, so that little is left of what the plain form takes from a doublet that turns.
+TEST(ObjectiveFriction, LeavesLittleOfWhatHoldsATurningDoubletBack) {
+  double held[2];
+  for (const bool objective : {false, true}) {
+    Model model = test::clusters_model(0.1);
+    model.contact.range = 0.5;
+    model.contact.objective_friction = objective;
+    ShapeLibrary shapes;
+    Tissue tissue = test::make_tissue(model, shapes, {{0, 0, 0}, {12.1, 0, 0}}, {BodyKind::kShell, BodyKind::kShell});
+    Mechanics mechanics(model, {}, shapes, Comm(), 1);
+    const std::vector<Vec3d> none(Mechanics::external_size(tissue));
+    for (int k = 0; k < 30; ++k) {
+      const auto report = mechanics.step(tissue, 2.0, none);
+      ASSERT_TRUE(report.ok()) << report.error().what;
+      EXPECT_EQ(report->halvings, 0);
+      tissue.clock.time += 2.0;
+    }
+    std::vector<Vec3d> turned = tissue.shells.position, drag(turned.size());
+    for (Vec3d& x : turned) x += cross(Vec3d{0, 0, 1e-3}, x);
+    OrderFreeSum sum;
+    mechanics.contacts().add_step_friction({mechanics.scene().bodies(), turned, nullptr}, tissue.shells.position, true, drag, sum);
+    held[objective] = Comm().sum(sum);
+  }
+  EXPECT_GT(held[0], 0.0);
+  EXPECT_LT(held[1], 0.1 * held[0]);
+}
+
+}  // namespace
+}  // namespace morula
