@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "core/numbers/number_text.h"
 #include "scenarios/library/shape_measures.h"
@@ -25,6 +26,7 @@ struct Specimen {
   bool on_plane = false;
   double adhesion = 0.0, tension = 0.0, friction = 0.0, speed = 0.0;  ///< W, γ [nN/µm]; γ_ext [nN·s/µm³]; of the retraction [µm/s]
   std::uint32_t nodes = 0;
+  std::size_t plate = 0;                      ///< material that it is pulled off, when on_plane
   double radius = 0.0;                        ///< of the free cell [µm]
   std::vector<double> time, distance, force;  ///< while the grip goes back: [s], way since it turned [µm], less the drag of the medium [nN]
   double peak = 0.0, pressure = 0.0;          ///< F* [nN], pressure of the cell then [kPa]
@@ -46,15 +48,27 @@ std::pair<double, double> retraction(const TimeCourse& way) {
   return {0.0, 0.0};
 }
 
-/// What the cell sticks to most: a cell type or an obstacle.
-void find_partner(const Model& model, Specimen& s, std::size_t type) {
-  for (std::size_t other = 0; other < model.material_count(); ++other) {
-    const ContactPair& pair = model.pair(type, other);
-    if (other == type || !(pair.adhesion > s.adhesion)) continue;
-    s.adhesion = pair.adhesion;
-    s.friction = pair.normal_friction;
-    s.on_plane = other >= model.types.size();
+/// What the cell is pulled off: the cell that the nearest grip at rest holds, where one is within two diameters; else the obstacle that it
+/// sticks to most.
+void find_partner(const Model& model, const CellLoad& load, Specimen& s) {
+  std::size_t partner = load.type;
+  double nearest = 4.0 * model.types[load.type].radius.mean;
+  for (const CellLoad& other : model.loads) {
+    const double distance = norm(other.center - load.center);
+    if (other.kind != LoadKind::kGrip || !other.way.empty() || other.type == load.type || distance > nearest) continue;
+    nearest = distance;
+    partner = other.type;
   }
+  for (std::size_t obstacle = model.types.size(); partner == load.type && obstacle < model.material_count(); ++obstacle) {
+    const double adhesion = model.pair(load.type, obstacle).adhesion;
+    if (!(adhesion > s.adhesion)) continue;
+    s.adhesion = adhesion;
+    s.plate = obstacle;
+  }
+  s.on_plane = partner == load.type;
+  const ContactPair& pair = model.pair(load.type, s.on_plane ? s.plate : partner);
+  s.adhesion = pair.adhesion;
+  s.friction = pair.normal_friction;
 }
 
 void read_curve(const SeriesTable& series, const CellLoad& load, double drag_coefficient, Specimen& s) {
@@ -106,7 +120,7 @@ Result<std::vector<Specimen>> specimens(const Study& study, const std::filesyste
     s.tension = type.shell.tension;
     s.cortex = spring_modulus(type) <= kFluidRatio * type.shell.tension ? Cortex::kFluid : Cortex::kElastic;
     s.nodes = type.shell_nodes;
-    find_partner(study.model, s, load.type);
+    find_partner(study.model, load, s);
     const double size = type.radius.mean;
     read_curve(series, load, type.medium_friction * 4.0 * kPi * size * size, s);
     read_states(snapshots, load.type, s);
@@ -115,14 +129,28 @@ Result<std::vector<Specimen>> specimens(const Study& study, const std::filesyste
   return out;
 }
 
-/// R² and intercept (over the largest F*) of F* against W over the slowest elastic pairs of cells.
+bool alike(const Specimen& a, const Specimen& b) {
+  return a.cortex == b.cortex && a.on_plane == b.on_plane && a.adhesion == b.adhesion && a.tension == b.tension;
+}
+bool same_speed(const Specimen& a, const Specimen& b) { return std::abs(a.speed / b.speed - 1.0) < 0.01; }
+
+/// Whether none of the same kind, mesh and friction is slower.
+bool is_slowest(const std::vector<Specimen>& all, const Specimen& s) {
+  return std::none_of(all.begin(), all.end(), [&](const Specimen& o) {
+    return alike(o, s) && o.nodes == s.nodes && o.friction == s.friction && o.speed < 0.99 * s.speed;
+  });
+}
+
+/// R² and intercept (over the largest F*) of F* against W: elastic pairs at the lowest speed, without the most friction, on one mesh.
 void judge_line(const std::vector<Specimen>& all, std::vector<Verdict>& out) {
-  double slowest = 1e300, friction = 1e300;
+  const Specimen* first = nullptr;
   for (const Specimen& s : all)
-    if (s.cortex == Cortex::kElastic && !s.on_plane) slowest = std::min(slowest, s.speed), friction = std::min(friction, s.friction);
+    if (s.cortex == Cortex::kElastic && !s.on_plane && (!first || s.speed < 0.99 * first->speed)) first = &s;
+  if (!first) return;
   double n = 0, sx = 0, sy = 0, sxx = 0, syy = 0, sxy = 0, largest = 0;
   for (const Specimen& s : all) {
-    if (s.cortex != Cortex::kElastic || s.on_plane || s.speed > 1.01 * slowest || s.friction > 1.01 * friction) continue;
+    if (s.cortex != Cortex::kElastic || s.on_plane || !same_speed(s, *first) || s.friction != first->friction || s.nodes != first->nodes)
+      continue;
     n += 1;
     sx += s.adhesion;
     sy += s.peak;
@@ -137,22 +165,37 @@ void judge_line(const std::vector<Specimen>& all, std::vector<Verdict>& out) {
   out.push_back(at_most("S5.2", "intercept of that line over the largest force", std::abs((sy - slope * sx) / n) / largest, 0.10));
 }
 
+/// F* at speed 0, on the line through it at the two lowest speeds; nothing with one speed only.
+std::optional<double> force_at_rest(const std::vector<Specimen>& all, const Specimen& slowest) {
+  const Specimen* next = nullptr;
+  for (const Specimen& s : all)
+    if (alike(s, slowest) && s.nodes == slowest.nodes && s.friction == slowest.friction && s.speed > 1.01 * slowest.speed &&
+        (!next || s.speed < next->speed))
+      next = &s;
+  if (!next) return std::nullopt;
+  return slowest.peak - slowest.speed * (next->peak - slowest.peak) / (next->speed - slowest.speed);
+}
+
 /// Pairs of specimens that differ in one thing.
 void judge_pairs(const std::vector<Specimen>& all, std::vector<Verdict>& out) {
   for (const Specimen& a : all)
     for (const Specimen& b : all) {
-      if (a.cortex != b.cortex || a.on_plane != b.on_plane || a.adhesion != b.adhesion || a.tension != b.tension) continue;
+      if (!alike(a, b)) continue;
       const bool speed = a.speed < 0.99 * b.speed, friction = a.friction < 0.99 * b.friction, nodes = a.nodes < b.nodes;
-      if (speed && a.friction == b.friction && a.nodes == b.nodes)
-        out.push_back(at_least(
-            "S5.3", ("pull-off force at " + number_text("%g", b.speed) + " over that at " + number_text("%g", a.speed) + " um/s").c_str(),
-            b.peak / a.peak, 0.99));
-      if (friction && std::abs(a.speed / b.speed - 1.0) < 0.01 && a.nodes == b.nodes)
-        out.push_back(within("S5.4",
-                             ("pull-off force with contact friction over that without, " + number_text("%g", a.speed) + " um/s").c_str(),
-                             b.peak / a.peak, 0.9, 1.1));
-      if (nodes && std::abs(a.speed / b.speed - 1.0) < 0.01 && a.friction == b.friction)
-        out.push_back(within("S5.7", "pull-off force of the finer mesh over that of the coarser", b.peak / a.peak, 0.85, 1.15));
+      const std::string names = ", " + b.name + " over " + a.name;
+      if (speed && a.friction == b.friction && a.nodes == b.nodes && is_slowest(all, a))
+        out.push_back(at_least("S5.3",
+                               ("pull-off force at " + number_text("%g", b.speed) + " over that at " + number_text("%g", a.speed) +
+                                " um/s" + names)
+                                   .c_str(),
+                               b.peak / a.peak, 0.99));
+      if (friction && same_speed(a, b) && a.nodes == b.nodes && is_slowest(all, a) && is_slowest(all, b))
+        if (const auto without = force_at_rest(all, a), with = force_at_rest(all, b); without && with)
+          out.push_back(within("S5.4", ("pull-off force at rest with contact friction over that without" + names).c_str(), *with / *without,
+                               0.9, 1.1));
+      if (nodes && same_speed(a, b) && a.friction == b.friction)
+        out.push_back(within("S5.7", ("pull-off force of the finer mesh over that of the coarser" + names).c_str(), b.peak / a.peak, 0.85,
+                             1.15));
     }
 }
 
@@ -164,7 +207,8 @@ Result<std::vector<Verdict>> judge_pull_off(const Study& study, const std::files
   out.push_back(at_least("S5.0", "pairs that were pulled apart", static_cast<double>(all.size()), 1.0));
   for (const Specimen& s : all) {
     const std::string at = ", " + s.name;
-    if (s.cortex == Cortex::kElastic && !s.on_plane)
+    const bool rubs = std::any_of(all.begin(), all.end(), [&](const Specimen& o) { return alike(o, s) && o.friction < s.friction; });
+    if (s.cortex == Cortex::kElastic && !s.on_plane && !rubs && is_slowest(all, s))
       out.push_back(
           within("S5.1", ("pull-off force of an elastic pair over W R" + at).c_str(), s.peak / (s.adhesion * s.radius), 2.0, 3.6));
     if (s.cortex == Cortex::kFluid)
@@ -181,13 +225,16 @@ Result<std::vector<Verdict>> judge_pull_off(const Study& study, const std::files
 
 Result<std::vector<NamedPlot>> plot_pull_off(const Study& study, const std::filesystem::path& run) {
   MORULA_TRY_ASSIGN(const auto all, specimens(study, run));
-  CurvePlot curves, peaks;
+  CurvePlot curves, peaks, speeds;
   curves.title = "Pull-off: force against the way of the grip";
   curves.x = {"way", "um", false, 0.0, {}};
   curves.y = {"force", "nN", false, {}, {}};
   peaks.title = "Pull-off force over adhesion (lines: 3/2 and 2 pi W R/2; fluid cortex: theory)";
   peaks.x = {"W", "mN/m", false, 0.0, {}};
   peaks.y = {"force", "nN", false, 0.0, {}};
+  speeds.title = "Pull-off force over speed";
+  speeds.x = {"speed", "um/s", true, {}, {}};
+  speeds.y = {"force", "nN", false, 0.0, {}};
   Curve elastic{"elastic cortex", {}, {}, CurveStyle::kPoints, 0}, fluid{"fluid cortex", {}, {}, CurveStyle::kPoints, 1},
       expected{"fluid cortex, theory", {}, {}, CurveStyle::kLine, 1}, jkr{"3/2 pi W R/2 (JKR)", {0.0}, {0.0}, CurveStyle::kLine, 3},
       dmt{"2 pi W R/2", {0.0}, {0.0}, CurveStyle::kLine, 4};
@@ -219,7 +266,18 @@ Result<std::vector<NamedPlot>> plot_pull_off(const Study& study, const std::file
     peaks.curves.push_back(std::move(jkr));
     peaks.curves.push_back(std::move(dmt));
   }
-  return std::vector<NamedPlot>{{"force_distance", std::move(curves)}, {"pull_off_force", std::move(peaks)}};
+  for (const Specimen& s : all) {
+    if (!is_slowest(all, s)) continue;
+    std::vector<const Specimen*> row;
+    for (const Specimen& o : all)
+      if (alike(o, s) && o.nodes == s.nodes && o.friction == s.friction) row.push_back(&o);
+    std::sort(row.begin(), row.end(), [](const Specimen* a, const Specimen* b) { return a->speed < b->speed; });
+    Curve curve{s.name, {}, {}, CurveStyle::kPoints};
+    for (const Specimen* o : row) curve.x.push_back(o->speed), curve.y.push_back(o->peak);
+    speeds.curves.push_back(std::move(curve));
+  }
+  return std::vector<NamedPlot>{
+      {"force_distance", std::move(curves)}, {"pull_off_force", std::move(peaks)}, {"pull_off_speed", std::move(speeds)}};
 }
 
 }  // namespace morula::scenarios
