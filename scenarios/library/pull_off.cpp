@@ -196,13 +196,14 @@ void judge_fluid(const std::vector<Specimen>& all, const Specimen& s, std::vecto
     if (o.range < 0.99 * s.range) narrower = &o;
   }
   if (!wider && !narrower)
-    out.push_back(at_most("T8.2", ("pull-off force against pi gamma^2 sin^2(theta)/p, relative, " + s.name).c_str(), std::abs(direct - 1.0),
-                          limit));
+    out.push_back(
+        at_most("T8.2", ("pull-off force against pi gamma^2 sin^2(theta)/p, relative, " + s.name).c_str(), std::abs(direct - 1.0), limit));
   if (!wider || narrower) return;
   const double there = wider->peak / wider->fluid_peak();
   const double at_contact = direct - s.range * (there - direct) / (wider->range - s.range);
   out.push_back(at_most(
-      "T8.2", ("pull-off force, range of the contact to 0, against pi gamma^2 sin^2(theta)/p, relative, " + s.name + " and " + wider->name).c_str(),
+      "T8.2",
+      ("pull-off force, range of the contact to 0, against pi gamma^2 sin^2(theta)/p, relative, " + s.name + " and " + wider->name).c_str(),
       std::abs(at_contact - 1.0), limit));
 }
 
@@ -214,18 +215,17 @@ void judge_pairs(const std::vector<Specimen>& all, std::vector<Verdict>& out) {
       const bool speed = a.speed < 0.99 * b.speed, friction = a.friction < 0.99 * b.friction, nodes = a.nodes < b.nodes;
       const std::string names = ", " + b.name + " over " + a.name;
       if (speed && a.friction == b.friction && a.nodes == b.nodes && is_slowest(all, a))
-        out.push_back(at_least("S5.3",
-                               ("pull-off force at " + number_text("%g", b.speed) + " over that at " + number_text("%g", a.speed) +
-                                " um/s" + names)
-                                   .c_str(),
-                               b.peak / a.peak, 0.99));
+        out.push_back(at_least(
+            "S5.3",
+            ("pull-off force at " + number_text("%g", b.speed) + " over that at " + number_text("%g", a.speed) + " um/s" + names).c_str(),
+            b.peak / a.peak, 0.99));
       if (friction && same_speed(a, b) && a.nodes == b.nodes && is_slowest(all, a) && is_slowest(all, b))
         if (const auto without = force_at_rest(all, a), with = force_at_rest(all, b); without && with)
           out.push_back(within("S5.4", ("pull-off force at rest with contact friction over that without" + names).c_str(), *with / *without,
                                0.9, 1.1));
       if (nodes && same_speed(a, b) && a.friction == b.friction)
-        out.push_back(within("S5.7", ("pull-off force of the finer mesh over that of the coarser" + names).c_str(), b.peak / a.peak, 0.85,
-                             1.15));
+        out.push_back(
+            within("S5.7", ("pull-off force of the finer mesh over that of the coarser" + names).c_str(), b.peak / a.peak, 0.85, 1.15));
     }
 }
 
