@@ -12,7 +12,8 @@ namespace morula::scenarios {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kStudies[] = {"doublet", "micropipette", "optical_stretcher", "optical_tweezers", "parallel_plates", "spreading"};
+constexpr const char* kStudies[] = {"cell_shear",       "doublet",         "micropipette", "optical_stretcher",
+                                    "optical_tweezers", "parallel_plates", "pull_off",     "spreading"};
 
 }  // namespace
 
