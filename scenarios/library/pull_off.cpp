@@ -264,8 +264,8 @@ Result<std::vector<NamedPlot>> plot_pull_off(const Study& study, const std::file
   speeds.x = {"speed", "um/s", true, {}, {}};
   speeds.y = {"force", "nN", false, 0.0, {}};
   Curve elastic{"elastic cortex", {}, {}, CurveStyle::kPoints, 0}, fluid{"fluid cortex", {}, {}, CurveStyle::kPoints, 1},
-      expected{"fluid cortex, theory", {}, {}, CurveStyle::kLine, 1}, jkr{"3/2 pi W R/2 (JKR)", {0.0}, {0.0}, CurveStyle::kLine, 3},
-      dmt{"2 pi W R/2", {0.0}, {0.0}, CurveStyle::kLine, 4};
+      jkr{"3/2 pi W R/2 (JKR)", {0.0}, {0.0}, CurveStyle::kLine, 3}, dmt{"2 pi W R/2", {0.0}, {0.0}, CurveStyle::kLine, 4};
+  std::vector<Curve> expected;
   double most = 0.0, radius = 0.0;
   for (const Specimen& s : all) {
     curves.curves.push_back({s.name + ", " + number_text("%g", s.speed) + " um/s", s.distance, s.force, CurveStyle::kLine});
@@ -275,21 +275,21 @@ Result<std::vector<NamedPlot>> plot_pull_off(const Study& study, const std::file
     most = std::max(most, s.adhesion);
     radius = s.radius;
     if (s.cortex != Cortex::kFluid) continue;
+    Curve& theory = expected.emplace_back(Curve{"fluid cortex, theory", {}, {}, CurveStyle::kLine, 1});
     for (int i = 0; i <= 20; ++i) {
       Specimen other = s;
       other.adhesion = s.adhesion * i / 20.0;
-      expected.x.push_back(other.adhesion);
-      expected.y.push_back(other.fluid_peak());
+      theory.x.push_back(other.adhesion);
+      theory.y.push_back(other.fluid_peak());
     }
-    expected.x.push_back(s.adhesion);
-    expected.y.push_back(std::nan(""));
   }
   jkr.x.push_back(most);
   dmt.x.push_back(most);
   jkr.y.push_back(0.75 * kPi * most * radius);
   dmt.y.push_back(kPi * most * radius);
-  for (Curve* curve : {&elastic, &fluid, &expected})
+  for (Curve* curve : {&elastic, &fluid})
     if (!curve->x.empty()) peaks.curves.push_back(std::move(*curve));
+  for (Curve& curve : expected) peaks.curves.push_back(std::move(curve));
   if (!all.empty()) {
     peaks.curves.push_back(std::move(jkr));
     peaks.curves.push_back(std::move(dmt));
