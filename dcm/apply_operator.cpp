@@ -269,6 +269,15 @@ void apply_shell_operator(const ShellBlocks& blocks, const Shells& shells, const
   });
 }
 
+void apply_shell_operator(const ShellBlocks& blocks, std::size_t first, std::size_t last, const Shells& shells, const ShellOperator& matrix,
+                          std::span<const Float4> p, std::span<Float4> q) {
+  Workspace workspace;
+  const auto kernel = [&]<int W>(std::size_t b, const LaneBlock& block, Workspace& ws) {
+    apply_block<W>(block, shells, matrix.blocks[b], p, q, ws);
+  };
+  for (std::size_t b = first; b < last; ++b) for_block(blocks, b, kernel, workspace);
+}
+
 void add_block_diagonal(const ShellBlocks& blocks, const Shells& shells, const ShellOperator& matrix, std::span<SymMat3<float>> diagonal) {
   for_each_block<Workspace>(blocks, [&]<int W>(std::size_t b, const LaneBlock& block, Workspace& ws) {
     add_diagonal_block<W>(block, shells, matrix.blocks[b], diagonal, ws);

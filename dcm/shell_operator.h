@@ -62,6 +62,9 @@ void add_edge_blocks(const ShellBlocks& blocks, const EdgeBlockSource& source, S
 /// q = A p by node of the shells; p and q are indexed as the shells' nodes, and q is overwritten. Fourth components come out as zero.
 void apply_shell_operator(const ShellBlocks& blocks, const Shells& shells, const ShellOperator& matrix, std::span<const Float4> p,
                           std::span<Float4> q);
+/// The same for the blocks first .. last−1, by one thread.
+void apply_shell_operator(const ShellBlocks& blocks, std::size_t first, std::size_t last, const Shells& shells, const ShellOperator& matrix,
+                          std::span<const Float4> p, std::span<Float4> q);
 
 /// Add the 3×3 diagonal blocks of A to `diagonal`, by node of the shells, for block-Jacobi. The volume term is left out: with it the
 /// iterations are the same (time_stepping.md §5).

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <numeric>
+
 #include "core/contact/contact_layer.h"
 
 namespace morula {
@@ -92,7 +95,13 @@ void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const 
 std::vector<ElementGroup> ContactLayer::element_groups(const ContactScene& scene) const {
   std::vector<ElementGroup> groups;
   groups.reserve(pairs_.size());
-  for (const SurfacePair& pair : pairs_) {
+  // Pairs come by their first body; for each body, the order of its partners is the same in both.
+  std::vector<std::uint32_t> order(pairs_.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto later = [&](std::uint32_t k) { return pairs_[k].rigid ? ~0u : scene.bodies[pairs_[k].b].place; };
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t k, std::uint32_t l) { return later(k) < later(l); });
+  for (const std::uint32_t k : order) {
+    const SurfacePair& pair = pairs_[k];
     if (pair.present(0).empty() && pair.present(1).empty()) continue;
     const ContactMaterial& contact = material_of(scene, pair);
     ElementGroup& group = groups.emplace_back();

@@ -98,7 +98,7 @@ class ContactLayer {
   /// (owned points) and dᵀΓ_n d of the counted pairs to the sum. `moved`: false where all points are at the start.
   void add_step_friction(const ContactScene& scene, std::span<const Vec3d> start, bool moved, std::span<Vec3d> out,
                          OrderFreeSum& quadratic) const;
-  /// Element groups for the friction system, in canonical order.
+  /// Element groups for the friction system: by the later of their bodies in canonical order, then by the other; obstacles last.
   [[nodiscard]] std::vector<ElementGroup> element_groups(const ContactScene& scene) const;
 
   /// Pairs of spheres that rebuild() has found, in canonical order; handed over, for the layer has no use for them.

@@ -71,6 +71,7 @@ void FrictionSystem::set_layout(Layout layout, int threads) {
     }
   }
   pairs_.clear();
+  portions_.clear();
   for (auto& arena : blocks_) arena.clear();
   sphere_pairs_ = nullptr;
   interior_ = nullptr;
@@ -107,6 +108,8 @@ void FrictionSystem::set_elements(std::span<const ElementGroup> groups, const Fa
       if ((pairs_[g].write[0] && work.has(pairs_[g].body[0])) || (pairs_[g].write[1] && work.has(pairs_[g].body[1])))
         work.groups.push_back(g);
   }
+  lay_out_portions();
+  schedule_contacts();
   if (shells_ == nullptr || shells_->point_count() == 0) return;
 
   std::vector<std::uint32_t> begin(layout_.bodies.size() + 1, 0), incident;
@@ -125,6 +128,73 @@ void FrictionSystem::set_elements(std::span<const ElementGroup> groups, const Fa
   });
 }
 
+void FrictionSystem::lay_out_portions() {
+  constexpr std::uint32_t kBatches = 4, kBodies = 4096;  // vectors of a portion: some 200 kB
+  portions_.clear();
+  runs_.clear();
+  const std::size_t points = shells_ == nullptr ? 0 : shells_->point_count();
+  const auto batches = static_cast<std::uint32_t>(points == 0 ? 0 : shells_->batch_count());
+  const auto add_body = [&](Portion& portion, std::uint32_t body) {
+    if (portion.last_run > portion.first_run && runs_.back().last == body)
+      ++runs_.back().last;
+    else
+      runs_.push_back({body, body + 1}), ++portion.last_run;
+  };
+  for (std::uint32_t batch = 0; batch < batches; batch += kBatches) {
+    Portion& portion = portions_.emplace_back();
+    portion.first_batch = batch;
+    portion.last_batch = std::min(batches, batch + kBatches);
+    portion.first_run = portion.last_run = static_cast<std::uint32_t>(runs_.size());
+    for (std::uint32_t b = batch; b < portion.last_batch; ++b)
+      for (const std::uint32_t body : shells_->bodies_of(b)) add_body(portion, body);
+  }
+  std::uint32_t in_portion = kBodies;
+  for (std::uint32_t body = 0; body < layout_.bodies.size(); ++body) {
+    if (layout_.bodies[body].first < points || !layout_.owned[body]) continue;
+    if (in_portion++ == kBodies) {
+      in_portion = 1;
+      portions_.emplace_back().first_run = portions_.back().last_run = static_cast<std::uint32_t>(runs_.size());
+    }
+    add_body(portions_.back(), body);
+  }
+}
+
+void FrictionSystem::schedule_contacts() {
+  done_.clear();
+  if (threads_ > 1) return;  // contacts of a thread wait until all have their directions
+  // Contacts in their order, each as soon as its bodies, and those of all before it, are there: sums keep the canonical order.
+  std::vector<std::uint32_t> there(layout_.bodies.size(), 0), last(layout_.bodies.size(), 0);  // ghosts are there from the start
+  bool all_shells = interior_ == nullptr;
+  for (std::uint32_t k = 0; k < portions_.size(); ++k) {
+    all_shells = all_shells && portions_[k].first_batch < portions_[k].last_batch;
+    for (std::uint32_t r = portions_[k].first_run; r < portions_[k].last_run; ++r)
+      for (std::uint32_t body = runs_[r].first; body < runs_[r].last; ++body) there[body] = last[body] = k;
+  }
+  const std::vector<std::uint32_t>& groups = work_[0].groups;
+  std::uint32_t next = 0;
+  for (std::uint32_t k = 0; k < portions_.size(); ++k) {
+    portions_[k].first_group = next;
+    for (; next < groups.size(); ++next) {
+      const PairBlocks& pair = pairs_[groups[next]];
+      if (there[pair.body[0]] > k || (!pair.rigid && there[pair.body[1]] > k)) break;
+      last[pair.body[0]] = k;
+      if (!pair.rigid) last[pair.body[1]] = k;
+    }
+    portions_[k].last_group = next;
+  }
+  if (!all_shells) return;
+  std::vector<std::uint32_t> first(portions_.size() + 1, 0);
+  for (std::uint32_t body = 0; body < last.size(); ++body)
+    if (layout_.owned[body]) ++first[last[body] + 1];
+  for (std::size_t k = 0; k < portions_.size(); ++k) {
+    first[k + 1] += first[k];
+    portions_[k].first_done = first[k], portions_[k].last_done = first[k + 1];
+  }
+  done_.resize(first.back());
+  for (std::uint32_t body = 0; body < last.size(); ++body)
+    if (layout_.owned[body]) done_[first[last[body]]++] = body;
+}
+
 template <class Body>
 void FrictionSystem::for_owned_bodies(Body&& function) const {
 #pragma omp parallel for schedule(static, 1) num_threads(threads_)
@@ -133,28 +203,82 @@ void FrictionSystem::for_owned_bodies(Body&& function) const {
       if (layout_.owned[body]) function(t, body);
 }
 
-void FrictionSystem::apply_contacts(int thread, std::span<const Float4> p, std::span<Float4> q) const {
+template <class Point>
+void FrictionSystem::for_points_of(const Portion& portion, Point&& point) const {
+  for (std::uint32_t r = portion.first_run; r < portion.last_run; ++r)
+    for (std::uint32_t body = runs_[r].first; body < runs_[r].last; ++body) {
+      if (!layout_.owned[body]) continue;
+      const BodyPoints& points = layout_.bodies[body];
+      for (std::uint32_t i = points.first; i < points.first + points.count; ++i) point(i);
+    }
+}
+
+void FrictionSystem::multiply(const Portion& portion, std::span<const Float4> p, std::span<Float4> q) const {
+  if (portion.first_batch < portion.last_batch) return shells_->multiply(portion.first_batch, portion.last_batch, p, q);
+  for_points_of(portion, [&](std::uint32_t i) { store(q[i], splat(point_friction_[i]) * load(p[i])); });
+}
+
+void FrictionSystem::apply_contacts(int thread, std::size_t first, std::size_t last, std::span<const Float4> p, std::span<Float4> q) const {
   const ThreadWork& work = work_[static_cast<std::size_t>(thread)];
-  for (const std::uint32_t g : work.groups) {
-    const PairBlocks& pair = pairs_[g];
+  for (std::size_t k = first; k < last; ++k) {
+    const PairBlocks& pair = pairs_[work.groups[k]];
     const bool write[2] = {pair.write[0] && work.has(pair.body[0]), pair.write[1] && work.has(pair.body[1])};
     apply_pair_blocks(blocks_of(pair), p.data() + pair.first[0], write[0] ? q.data() + pair.first[0] : nullptr,
                       pair.rigid ? nullptr : p.data() + pair.first[1], write[1] ? q.data() + pair.first[1] : nullptr);
   }
 }
 
-void FrictionSystem::apply(std::span<const Float4> p, std::span<Float4> q) const {
-  if (shells_ != nullptr && shells_->point_count() > 0) shells_->multiply(p, q);
-  const std::size_t done = shells_ != nullptr ? shells_->point_count() : 0;
-  for_owned_bodies([&](int, std::uint32_t body) {
-    const BodyPoints& points = layout_.bodies[body];
-    if (points.first < done) return;
-    for (std::uint32_t i = points.first; i < points.first + points.count; ++i) store(q[i], splat(point_friction_[i]) * load(p[i]));
-  });
-#pragma omp parallel for schedule(static, 1) num_threads(threads_)
-  for (int t = 0; t < threads_; ++t) apply_contacts(t, p, q);
+void FrictionSystem::add_others(std::span<const Float4> p, std::span<Float4> q) const {
   if (sphere_pairs_ != nullptr) sphere_pairs_->add_product(p, q, dt_);
   if (interior_ != nullptr) interior_->add_product(p, q);
+}
+
+void FrictionSystem::apply(std::span<const Float4> p, std::span<Float4> q) const {
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (std::size_t k = 0; k < portions_.size(); ++k) multiply(portions_[k], p, q);
+#pragma omp parallel for schedule(static, 1) num_threads(threads_)
+  for (int t = 0; t < threads_; ++t) apply_contacts(t, 0, work_[static_cast<std::size_t>(t)].groups.size(), p, q);
+  add_others(p, q);
+}
+
+double FrictionSystem::turn(float alpha, float beta, std::span<Float4> v, const Comm& comm) {
+  const Float4v a = splat(alpha), b = splat(beta);
+  const auto renew = [&](const Portion& portion) {
+    for_points_of(portion, [&](std::uint32_t i) {
+      const Float4v p = load(p_[i]);
+      store(v[i], load(v[i]) + a * p);
+      store(p_[i], times(inverse_[i], load(r_[i])) + b * p);
+    });
+  };
+  if (layout_.exchange) {
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (std::size_t k = 0; k < portions_.size(); ++k) renew(portions_[k]);
+    layout_.exchange(p_);
+  }
+  if (threads_ > 1) {
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (std::size_t k = 0; k < portions_.size(); ++k) {
+      if (!layout_.exchange) renew(portions_[k]);
+      multiply(portions_[k], p_, q_);
+    }
+#pragma omp parallel for schedule(static, 1) num_threads(threads_)
+    for (int t = 0; t < threads_; ++t) apply_contacts(t, 0, work_[static_cast<std::size_t>(t)].groups.size(), p_, q_);
+    add_others(p_, q_);
+    return dot(p_, q_, comm);
+  }
+  OrderFreeSum sum;
+  for (const Portion& portion : portions_) {
+    if (!layout_.exchange) renew(portion);
+    multiply(portion, p_, q_);
+    apply_contacts(0, portion.first_group, portion.last_group, p_, q_);
+    for (std::uint32_t k = portion.first_done; k < portion.last_done; ++k) {
+      const BodyPoints& points = layout_.bodies[done_[k]];
+      sum.add(dot_of_body(p_.data() + points.first, q_.data() + points.first, points.count));
+    }
+  }
+  if (!done_.empty()) return comm.sum(sum);
+  add_others(p_, q_);
+  return dot(p_, q_, comm);
 }
 
 void FrictionSystem::add_contact_diagonal(int thread) {
@@ -196,14 +320,13 @@ double FrictionSystem::dot(std::span<const Float4> a, std::span<const Float4> b,
   return comm.sum(sums[0]);
 }
 
-void FrictionSystem::advance(float alpha, std::span<Float4> v, const Comm& comm, double (&totals)[2]) {
+void FrictionSystem::reduce(float alpha, const Comm& comm, double (&totals)[2]) {
   std::vector<std::array<OrderFreeSum, 2>> sums(static_cast<std::size_t>(threads_));
   const Float4v a = splat(alpha);
   for_owned_bodies([&](int t, std::uint32_t body) {
     const BodyPoints& points = layout_.bodies[body];
     Double4 rr{}, rz{};
     for (std::uint32_t i = points.first; i < points.first + points.count; ++i) {
-      store(v[i], load(v[i]) + a * load(p_[i]));
       const Float4v r = load(r_[i]) - a * load(q_[i]);
       store(r_[i], r);
       const Double4 wide = to_double(r);
@@ -246,23 +369,22 @@ Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<Float4> v, doubl
     if (!helps) v[i] = q_[i] = {};
   });
   double sums[2];  // r·r, r·z
-  advance(1.0f, v, comm, sums);
+  reduce(1.0f, comm, sums);
   double residual = std::sqrt(sums[0]);
   const double goal = tolerance * b_norm;
   SolveReport report{0, residual / b_norm, residual <= goal};
-  float beta = 0.0f;
+  float alpha = 0.0f, beta = 0.0f;
   while (residual > goal && report.iterations < max_iterations) {
-    for_owned_points([&](std::uint32_t i) { store(p_[i], times(inverse_[i], load(r_[i])) + splat(beta) * load(p_[i])); });
-    exchange(p_);
-    apply(p_, q_);
-    const double pq = dot(p_, q_, comm);
+    const double pq = turn(alpha, beta, v, comm);
     if (!(pq > 0.0)) return SolveFault{"the friction matrix is not positive definite"};
     const double rz = sums[1];
-    advance(static_cast<float>(rz / pq), v, comm, sums);
+    alpha = static_cast<float>(rz / pq);
+    reduce(alpha, comm, sums);
     residual = std::sqrt(sums[0]);
     beta = static_cast<float>(sums[1] / rz);
     ++report.iterations;
   }
+  for_owned_points([&](std::uint32_t i) { store(v[i], load(v[i]) + splat(alpha) * load(p_[i])); });
   report.residual = residual / b_norm;
   report.converged = residual <= goal;
   return report;
@@ -271,7 +393,7 @@ Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<Float4> v, doubl
 std::size_t FrictionSystem::memory() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
   std::size_t total = bytes(point_friction_) + bytes(pairs_) + bytes(inverse_) + bytes(p_) + bytes(q_) + bytes(r_) + bytes(layout_.bodies) +
-                      bytes(layout_.owned);
+                      bytes(layout_.owned) + bytes(portions_) + bytes(runs_) + bytes(done_);
   for (const NodePairArena& arena : blocks_) total += bytes(arena.rows) + bytes(arena.blocks);
   for (const ThreadWork& work : work_) total += bytes(work.groups);
   return total;

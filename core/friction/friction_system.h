@@ -22,15 +22,17 @@ struct BodyPoints {
 };
 
 /// A part of the matrix that somebody else can apply: the shells' own mechanics. It acts on the first point_count() points, all owned,
-/// which belong to the first bodies.
+/// which belong to the first bodies; a few bodies at a time, which are called a batch.
 class OperatorPart {
  public:
   virtual ~OperatorPart() = default;
   [[nodiscard]] virtual std::size_t point_count() const = 0;
+  [[nodiscard]] virtual std::size_t batch_count() const = 0;
+  [[nodiscard]] virtual std::span<const std::uint32_t> bodies_of(std::size_t batch) const = 0;
   /// Add blocks to the edges of its bodies: m (v_i − v_j) on node i of an edge, the opposite on j.
   virtual void add_edge_blocks(const EdgeBlockSource& source) = 0;
-  /// q = A p on its points.
-  virtual void multiply(std::span<const Float4> p, std::span<Float4> q) const = 0;
+  /// q = A p on the points of the batches first .. last−1; by one thread.
+  virtual void multiply(std::size_t first, std::size_t last, std::span<const Float4> p, std::span<Float4> q) const = 0;
   /// Add the 3×3 diagonal blocks.
   virtual void add_diagonal(std::span<SymMat3<float>> diagonal) const = 0;
 };
@@ -61,6 +63,9 @@ struct SolveFault {
 ///
 /// Vectors are float, sums are double in fixed order within a body and order-free over bodies, so that the solution has the same bits on
 /// any number of threads and ranks. Ghost points of p are refreshed through `exchange` before each product.
+///
+/// A large tissue waits for memory. An iteration therefore goes over it twice only: once portion by portion (direction, shells, the contacts
+/// whose bodies are done by then, p·q of the bodies whose contacts are), once for the residual.
 class FrictionSystem {
  public:
   struct Layout {
@@ -79,7 +84,8 @@ class FrictionSystem {
   /// What lives inside the shells; may be null.
   void set_interior(const AddedPart* interior) { interior_ = interior; }
   void set_step(double dt) { dt_ = static_cast<float>(dt); }
-  /// Contacts of surfaces at the present step size; read now, not kept.
+  /// Contacts of surfaces at the present step size; read now, not kept. Groups come in canonical order: by the later of their bodies, then by
+  /// the other, so that those of early bodies come early.
   void set_elements(std::span<const ElementGroup> groups, const FaceQuadrature& quadrature);
   /// The spheres' own part; may be null.
   void set_sphere_pairs(const SpherePairs* pairs) { sphere_pairs_ = pairs; }
@@ -105,14 +111,34 @@ class FrictionSystem {
     bool write[2] = {true, true}, rigid = false;
   };
 
+  /// What is worked on while it is in cache: batches of the shells, or bodies of one point.
+  struct Portion {
+    std::uint32_t first_batch = 0, last_batch = 0;
+    std::uint32_t first_run = 0, last_run = 0;    ///< its owned bodies, in runs_
+    std::uint32_t first_group = 0, last_group = 0;  ///< of contacts that can be applied when it is done (one thread)
+    std::uint32_t first_done = 0, last_done = 0;  ///< bodies whose last contact is then done, in done_ (one thread)
+  };
+  /// Bodies first <= body < last.
+  struct BodyRun {
+    std::uint32_t first, last;
+  };
+
+  void lay_out_portions();
+  void schedule_contacts();
   void build_preconditioner();
   template <class Body>
   void for_owned_bodies(Body&& body) const;
+  template <class Point>
+  void for_points_of(const Portion& portion, Point&& point) const;
   [[nodiscard]] double dot(std::span<const Float4> a, std::span<const Float4> b, const Comm& comm) const;
-  void apply_contacts(int thread, std::span<const Float4> p, std::span<Float4> q) const;
+  void multiply(const Portion& portion, std::span<const Float4> p, std::span<Float4> q) const;
+  void apply_contacts(int thread, std::size_t first, std::size_t last, std::span<const Float4> p, std::span<Float4> q) const;
   void add_contact_diagonal(int thread);
-  /// v += α p, r −= α q; gives (r·r, r·z) with z = M⁻¹ r.
-  void advance(float alpha, std::span<Float4> v, const Comm& comm, double (&sums)[2]);
+  void add_others(std::span<const Float4> p, std::span<Float4> q) const;
+  /// v += α p, p = M⁻¹ r + β p, q = A p; gives p·q.
+  [[nodiscard]] double turn(float alpha, float beta, std::span<Float4> v, const Comm& comm);
+  /// r −= α q; gives (r·r, r·z) with z = M⁻¹ r.
+  void reduce(float alpha, const Comm& comm, double (&sums)[2]);
   [[nodiscard]] NodePairBlocks blocks_of(const PairBlocks& pair) const {
     const NodePairArena& arena = blocks_[pair.arena];
     return {std::span(arena.rows).subspan(pair.first_row, pair.row_count), std::span(arena.blocks).subspan(pair.begin, pair.count)};
@@ -135,6 +161,9 @@ class FrictionSystem {
   OperatorPart* shells_ = nullptr;
   const AddedPart* interior_ = nullptr;
   std::vector<ThreadWork> work_;
+  std::vector<Portion> portions_;
+  std::vector<BodyRun> runs_;
+  std::vector<std::uint32_t> done_;  ///< owned bodies, in the order in which they are done; empty where more is added to q in the end
   std::vector<SymMat3<float>> inverse_;
   std::vector<Float4> p_, q_, r_;
 };

@@ -58,12 +58,15 @@ void ShellSystem::add_step_friction(std::span<const Vec3d> position, std::span<V
 
 void ShellSystem::add_edge_blocks(const EdgeBlockSource& source) { dcm::add_edge_blocks(blocks_, source, operator_); }
 
-void ShellSystem::multiply(std::span<const Float4> p, std::span<Float4> q) const {
-  dcm::apply_shell_operator(blocks_, *shells_, operator_, p.first(point_count()), q.first(point_count()));
-  for (std::size_t i = 0; i < node_block_.size(); ++i) {
-    const Vec3f add = node_block_[i] * Vec3f{p[i].x, p[i].y, p[i].z};
-    q[i].x += add.x, q[i].y += add.y, q[i].z += add.z;
-  }
+void ShellSystem::multiply(std::size_t first, std::size_t last, std::span<const Float4> p, std::span<Float4> q) const {
+  dcm::apply_shell_operator(blocks_, first, last, *shells_, operator_, p.first(point_count()), q.first(point_count()));
+  if (node_block_.empty()) return;
+  for (std::size_t batch = first; batch < last; ++batch)
+    for (const std::uint32_t shell : bodies_of(batch))
+      for (std::uint32_t i = shells_->first_node[shell]; i < shells_->first_node[shell + 1]; ++i) {
+        const Vec3f add = node_block_[i] * Vec3f{p[i].x, p[i].y, p[i].z};
+        q[i].x += add.x, q[i].y += add.y, q[i].z += add.z;
+      }
 }
 
 void ShellSystem::add_diagonal(std::span<SymMat3<float>> diagonal) const {

@@ -37,7 +37,12 @@ class ShellSystem : public OperatorPart {
 
   [[nodiscard]] std::size_t point_count() const override { return shells_ == nullptr ? 0 : shells_->node_count(); }
   void add_edge_blocks(const EdgeBlockSource& source) override;
-  void multiply(std::span<const Float4> p, std::span<Float4> q) const override;
+  [[nodiscard]] std::size_t batch_count() const override { return blocks_.blocks.size(); }
+  [[nodiscard]] std::span<const std::uint32_t> bodies_of(std::size_t batch) const override {
+    const LaneBlock& block = blocks_.blocks[batch];
+    return std::span(block.member).first(static_cast<std::size_t>(block.count));
+  }
+  void multiply(std::size_t first, std::size_t last, std::span<const Float4> p, std::span<Float4> q) const override;
   void add_diagonal(std::span<SymMat3<float>> diagonal) const override;
 
  private:
