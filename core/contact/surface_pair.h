@@ -83,14 +83,14 @@ struct SurfacePair {
   double patch_motion = 0.0;  ///< that of the nodes in the lists alone, since the lists were built
   PackedPoints points[2];     ///< [0]: points of a against b; [1]: points of b against a
   std::vector<std::uint16_t> node[2];            ///< nodes of a and of b in these lists, increasing; a sphere has node 0, an obstacle none
-  std::vector<ContactElement> elements[2];       ///< at the present positions; see present()
-  std::vector<ContactElement> step_elements[2];  ///< at the start of the step: its friction
-  double energy = 0.0;                           ///< [nN·µm]
-  double overlap = 0.0;                          ///< deepest penetration [µm]
-  double area = 0.0;                             ///< of both surfaces in contact [µm²]
-  Vec3d push;                                    ///< force on b where it is rigid [nN]
+  std::span<const ContactElement> elements[2];       ///< at the present positions; see present(). In the layer's stores.
+  std::span<const ContactElement> step_elements[2];  ///< at the start of the step: its friction
+  double energy = 0.0;                               ///< [nN·µm]
+  double overlap = 0.0;                              ///< deepest penetration [µm]
+  double area = 0.0;                                 ///< of both surfaces in contact [µm²]
+  Vec3d push;                                        ///< force on b where it is rigid [nN]
 
-  [[nodiscard]] const std::vector<ContactElement>& present(std::size_t d) const { return at_start ? step_elements[d] : elements[d]; }
+  [[nodiscard]] std::span<const ContactElement> present(std::size_t d) const { return at_start ? step_elements[d] : elements[d]; }
 };
 
 /// Everything that evaluating one direction of a pair reads.
@@ -131,7 +131,7 @@ struct PointsWorkspace {
   std::vector<Job> jobs;
   std::vector<double> distance2;  ///< by job
   std::vector<double> guessed;    ///< of the guesses
-  std::vector<ContactElement> elements;
+  std::vector<ContactElement> elements;  ///< of one direction of a pair
   PointsAgainstBody lists;
 };
 
@@ -148,7 +148,7 @@ void collect_pair_nodes(const Topology* topology_a, const Topology* topology_b, 
 /// Set energy and overlap of a pair to zero, drop its elements, and make the gradients of its bodies (`node_count` of each) zero.
 void clear_results(SurfacePair& pair, const std::size_t (&node_count)[2], PairGradient (&gradient)[2]);
 
-/// Add energy, gradients and elements of direction d (points of body d against the other) at the present positions.
+/// Add energy and gradients of direction d (points of body d against the other) at the present positions; elements go to the workspace.
 void evaluate_points(const PointsEvaluation& evaluation, int d, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& workspace);
 
 }  // namespace morula

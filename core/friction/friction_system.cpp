@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace morula {
@@ -11,11 +12,6 @@ namespace {
 
 /// One number in all components.
 Float4v splat(float s) { return Float4v{s, s, s, s}; }
-
-float dot3(Float4v a, Float4v b) {
-  const Float4v m = a * b;
-  return m[0] + m[1] + m[2];
-}
 
 SymMat3<float> inverse_of(const SymMat3<float>& a) {
   const double c00 = double(a.yy) * a.zz - double(a.yz) * a.yz;
@@ -42,20 +38,39 @@ double dot_of_body(const Float4* a, const Float4* b, std::uint32_t count) {
   return total(sum);
 }
 
-Float4v times(const SymMat3<float>& m, Float4v r) {
-  return splat(r[0]) * Float4v{m.xx, m.xy, m.xz, 0.0f} + splat(r[1]) * Float4v{m.xy, m.yy, m.yz, 0.0f} +
-         splat(r[2]) * Float4v{m.xz, m.yz, m.zz, 0.0f};
+Float4v times(const NodeInverse& m, Float4v r) {
+  using Int4v [[gnu::vector_size(16)]] = std::int32_t;
+  const Int4v words = *reinterpret_cast<const Int4v*>(m.word);                // NOLINT: same layout and alignment; vector types may alias
+  const Float4v low = __builtin_convertvector((words << 16) >> 16, Float4v);  // xx xy xz, then anything
+  const Float4v high = __builtin_convertvector(words >> 16, Float4v);         // yy yz zz
+  const float unit = std::bit_cast<float>(m.word[3]);
+  return (splat(r[0]) * low + splat(r[1]) * __builtin_shufflevector(low, high, 1, 4, 5, 3) +
+          splat(r[2]) * __builtin_shufflevector(low, high, 2, 5, 6, 3)) *
+         Float4v{unit, unit, unit, 0.0f};
 }
 
-inline Float4v response(Float4v u, Float4v n, float a, float b) { return splat(a) * u + splat(b * dot3(n, u)) * n; }
-
 }  // namespace
+
+NodeInverse::NodeInverse(const SymMat3<float>& m) {
+  const float unit = std::max({m.xx, m.yy, m.zz}) / 32764.0f;  // the matrix is positive
+  const float per_unit = 1.0f / unit;
+  const auto whole = [&](float entry, float back) {
+    const float scaled = entry * per_unit + back;
+    return static_cast<std::int32_t>(scaled + (scaled < 0.0f ? -0.5f : 0.5f));
+  };
+  const auto both = [](std::int32_t low, std::int32_t high) {
+    return static_cast<std::int32_t>((static_cast<std::uint32_t>(low) & 0xFFFFu) | (static_cast<std::uint32_t>(high) << 16));
+  };
+  word[0] = both(whole(m.xx, 1.5f), whole(m.yy, 1.5f));
+  word[1] = both(whole(m.xy, 0.0f), whole(m.yz, 0.0f));
+  word[2] = both(whole(m.xz, 0.0f), whole(m.zz, 1.5f));
+  word[3] = std::bit_cast<std::int32_t>(unit);
+}
 
 void FrictionSystem::set_layout(Layout layout, int threads) {
   layout_ = std::move(layout);
   threads_ = std::max(1, threads);
-  inverse_.assign(layout_.point_count, {});
-  for (auto* vector : {&p_, &q_, &r_}) vector->assign(layout_.point_count, Float4{});
+  drop_matrix();
   // Contiguous ranges of bodies of about equal numbers of points.
   std::size_t owned_points = 0;
   for (std::size_t body = 0; body < layout_.bodies.size(); ++body)
@@ -70,25 +85,34 @@ void FrictionSystem::set_layout(Layout layout, int threads) {
       work_[thread].first_body = work_[thread].last_body = static_cast<std::uint32_t>(body + 1);
     }
   }
-  pairs_.clear();
   portions_.clear();
-  for (auto& arena : blocks_) arena.clear();
   sphere_pairs_ = nullptr;
   interior_ = nullptr;
 }
 
 void FrictionSystem::set_elements(std::span<const ElementGroup> groups, const FaceQuadrature& quadrature) {
   pairs_.assign(groups.size(), {});
+  std::size_t points = 0;
+  for (const ElementGroup& group : groups) points += group.elements[0].size() + group.elements[1].size();
   blocks_.resize(static_cast<std::size_t>(threads_));
   for (auto& arena : blocks_) arena.clear();
 #pragma omp parallel num_threads(threads_)
   {
     const auto arena = static_cast<std::uint32_t>(omp_get_thread_num());
     PairCondenser condenser(quadrature, dt_);
+    std::size_t points_done = 0;
+    bool foreseen = false;
 #pragma omp for schedule(dynamic, 8)
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const ElementGroup& group = groups[g];
       NodePairArena& out = blocks_[arena];
+      if (!foreseen && points_done > 1000) {  // room for all, foreseen from the first: to grow by and by would copy them many times
+        foreseen = true;
+        const double more = 1.05 * static_cast<double>(points) / static_cast<double>(points_done) / threads_;
+        out.blocks.reserve(static_cast<std::size_t>(more * static_cast<double>(out.blocks.size())));
+        out.rows.reserve(static_cast<std::size_t>(more * static_cast<double>(out.rows.size())));
+      }
+      points_done += group.elements[0].size() + group.elements[1].size();
       const std::size_t begin = out.blocks.size(), first_row = out.rows.size();
       condenser.add_pair_blocks(group, out);
       pairs_[g] = {arena,
@@ -110,22 +134,6 @@ void FrictionSystem::set_elements(std::span<const ElementGroup> groups, const Fa
   }
   lay_out_portions();
   schedule_contacts();
-  if (shells_ == nullptr || shells_->point_count() == 0) return;
-
-  std::vector<std::uint32_t> begin(layout_.bodies.size() + 1, 0), incident;
-  for (const ElementGroup& group : groups)
-    for (std::size_t side = 0; side < (group.rigid ? 1 : 2); ++side) ++begin[group.body[side] + 1];
-  for (std::size_t body = 1; body < begin.size(); ++body) begin[body] += begin[body - 1];
-  incident.resize(begin.back());
-  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-  for (std::uint32_t g = 0; g < groups.size(); ++g)
-    for (std::uint32_t side = 0; side < (groups[g].rigid ? 1u : 2u); ++side) incident[next[groups[g].body[side]]++] = 2 * g + side;
-  const PairCondenser condenser(quadrature, dt_);
-  shells_->add_edge_blocks([&](std::uint32_t body, std::span<EdgeBlock> edges) {
-    for (std::uint32_t k = begin[body]; k < begin[body + 1]; ++k)
-      condenser.add_edge_blocks(groups[incident[k] / 2], static_cast<int>(incident[k] % 2), edges);
-    return begin[body] < begin[body + 1];
-  });
 }
 
 void FrictionSystem::lay_out_portions() {
@@ -281,13 +289,13 @@ double FrictionSystem::turn(float alpha, float beta, std::span<Float4> v, const 
   return dot(p_, q_, comm);
 }
 
-void FrictionSystem::add_contact_diagonal(int thread) {
+void FrictionSystem::add_contact_diagonal(int thread, std::span<SymMat3<float>> sum) const {
   const ThreadWork& work = work_[static_cast<std::size_t>(thread)];
   for (const std::uint32_t g : work.groups) {
     const PairBlocks& pair = pairs_[g];
     for (int side = 0; side < 2; ++side) {
       if (!pair.write[side] || !work.has(pair.body[side])) continue;
-      SymMat3<float>* const diagonal = inverse_.data() + pair.first[side];
+      SymMat3<float>* const diagonal = sum.data() + pair.first[side];
       const NodePairBlocks blocks = blocks_of(pair);
       const NodePairBlock* block = blocks.blocks.data();
       for (const NodePairRow& row : blocks.rows)
@@ -298,16 +306,23 @@ void FrictionSystem::add_contact_diagonal(int thread) {
 }
 
 void FrictionSystem::build_preconditioner() {
-  for (std::size_t i = 0; i < layout_.point_count; ++i) inverse_[i] = isotropic(point_friction_[i]);
-  if (shells_ != nullptr && shells_->point_count() > 0) shells_->add_diagonal(inverse_);
+  std::vector<SymMat3<float>> diagonal(layout_.point_count);
+  for (std::size_t i = 0; i < layout_.point_count; ++i) diagonal[i] = isotropic(point_friction_[i]);
+  if (shells_ != nullptr && shells_->point_count() > 0) shells_->add_diagonal(diagonal);
 #pragma omp parallel for schedule(static, 1) num_threads(threads_)
-  for (int t = 0; t < threads_; ++t) add_contact_diagonal(t);
-  if (sphere_pairs_ != nullptr) sphere_pairs_->add_diagonal(inverse_, dt_);
-  if (interior_ != nullptr) interior_->add_diagonal(inverse_);
+  for (int t = 0; t < threads_; ++t) add_contact_diagonal(t, diagonal);
+  if (sphere_pairs_ != nullptr) sphere_pairs_->add_diagonal(diagonal, dt_);
+  if (interior_ != nullptr) interior_->add_diagonal(diagonal);
+  inverse_.resize(layout_.point_count);
   for_owned_bodies([&](int, std::uint32_t body) {
     const BodyPoints& points = layout_.bodies[body];
-    for (std::uint32_t i = points.first; i < points.first + points.count; ++i) inverse_[i] = inverse_of(inverse_[i]);
+    for (std::uint32_t i = points.first; i < points.first + points.count; ++i) inverse_[i] = NodeInverse(inverse_of(diagonal[i]));
   });
+}
+
+void FrictionSystem::drop_matrix() {
+  const auto give_back = [](auto& vector) { std::remove_reference_t<decltype(vector)>().swap(vector); };
+  give_back(inverse_), give_back(p_), give_back(q_), give_back(r_), give_back(pairs_), give_back(blocks_);
 }
 
 double FrictionSystem::dot(std::span<const Float4> a, std::span<const Float4> b, const Comm& comm) const {
@@ -343,6 +358,8 @@ void FrictionSystem::reduce(float alpha, const Comm& comm, double (&totals)[2]) 
 
 Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<Float4> v, double tolerance, int max_iterations, const Comm& comm) {
   build_preconditioner();
+  p_.assign(layout_.point_count, {});
+  q_.assign(layout_.point_count, {});
   const auto exchange = [&](std::span<Float4> vector) {
     if (layout_.exchange) layout_.exchange(vector);
   };

@@ -29,8 +29,6 @@ class OperatorPart {
   [[nodiscard]] virtual std::size_t point_count() const = 0;
   [[nodiscard]] virtual std::size_t batch_count() const = 0;
   [[nodiscard]] virtual std::span<const std::uint32_t> bodies_of(std::size_t batch) const = 0;
-  /// Add blocks to the edges of its bodies: m (v_i − v_j) on node i of an edge, the opposite on j.
-  virtual void add_edge_blocks(const EdgeBlockSource& source) = 0;
   /// q = A p on the points of the batches first .. last−1; by one thread.
   virtual void multiply(std::size_t first, std::size_t last, std::span<const Float4> p, std::span<Float4> q) const = 0;
   /// Add the 3×3 diagonal blocks.
@@ -45,6 +43,15 @@ class AddedPart {
   virtual void add_product(std::span<const Float4> p, std::span<Float4> q) const = 0;
   /// Add the 3×3 diagonal blocks.
   virtual void add_diagonal(std::span<SymMat3<float>> diagonal) const = 0;
+};
+
+/// A symmetric positive definite 3×3 matrix in 16 bytes: words xx|yy, xy|yz, xz|zz of 16 bits each, and their unit, 1/32764 of the largest. What
+/// rounding may take from an eigenvalue is given back, so that it stays positive definite.
+struct alignas(16) NodeInverse {
+  std::int32_t word[4] = {};
+
+  NodeInverse() = default;
+  explicit NodeInverse(const SymMat3<float>& m);
 };
 
 struct SolveReport {
@@ -79,7 +86,7 @@ class FrictionSystem {
 
   /// Diagonal friction [nN·s/µm] by point: of the spheres, and 0 where the shells' part has its own; ghosts are ignored.
   void set_point_friction(std::span<const float> friction) { point_friction_.assign(friction.begin(), friction.end()); }
-  /// The shells' own part; before set_elements(), which adds to it.
+  /// The shells' own part, with what contacts couple within a shell (edge_blocks_of()).
   void set_shells(OperatorPart* shells) { shells_ = shells; }
   /// What lives inside the shells; may be null.
   void set_interior(const AddedPart* interior) { interior_ = interior; }
@@ -92,9 +99,15 @@ class FrictionSystem {
   [[nodiscard]] std::span<const float> point_friction() const { return point_friction_; }
 
   /// Where the caller puts b by point (owned points), anew before each solve().
-  [[nodiscard]] std::span<Float4> right() { return r_; }
+  [[nodiscard]] std::span<Float4> right() {
+    r_.resize(layout_.point_count);
+    return r_;
+  }
   /// Solve A v = b from the start in v, until ‖r‖ ≤ tolerance ‖b‖. v of ghost points is not written; b is used up.
   Result<SolveReport, SolveFault> solve(std::span<Float4> v, double tolerance, int max_iterations, const Comm& comm);
+
+  /// Give back the memory of the matrix and the vectors until the next set_elements(): forces need as much.
+  void drop_matrix();
 
   /// q = A p on owned points (p must hold the ghosts). For tests and for the residual.
   void apply(std::span<const Float4> p, std::span<Float4> q) const;
@@ -133,7 +146,7 @@ class FrictionSystem {
   [[nodiscard]] double dot(std::span<const Float4> a, std::span<const Float4> b, const Comm& comm) const;
   void multiply(const Portion& portion, std::span<const Float4> p, std::span<Float4> q) const;
   void apply_contacts(int thread, std::size_t first, std::size_t last, std::span<const Float4> p, std::span<Float4> q) const;
-  void add_contact_diagonal(int thread);
+  void add_contact_diagonal(int thread, std::span<SymMat3<float>> sum) const;
   void add_others(std::span<const Float4> p, std::span<Float4> q) const;
   /// v += α p, p = M⁻¹ r + β p, q = A p; gives p·q.
   [[nodiscard]] double turn(float alpha, float beta, std::span<Float4> v, const Comm& comm);
@@ -164,7 +177,7 @@ class FrictionSystem {
   std::vector<Portion> portions_;
   std::vector<BodyRun> runs_;
   std::vector<std::uint32_t> done_;  ///< owned bodies, in the order in which they are done; empty where more is added to q in the end
-  std::vector<SymMat3<float>> inverse_;
+  std::vector<NodeInverse> inverse_;
   std::vector<Float4> p_, q_, r_;
 };
 

@@ -175,9 +175,9 @@ void Mechanics::add_contact_noise(const Tissue& tissue, double dt, std::span<Vec
       for (const ContactElement& e : pair.present(d)) {
         const Triangle& face = source.topology->faces()[e.source_face()];
         const Vec3d noise =
-            normal_vector(random, source.id, point_draw(step, target != nullptr ? target->id : CellId(pair.b + 1), e.source));
-        const double across = static_cast<double>(e.w) * material.tangential_friction,
-                     along = static_cast<double>(e.w) * material.normal_friction;
+            normal_vector(random, source.id, point_draw(step, target != nullptr ? target->id : CellId(pair.b + 1), 4 * e.source_face() + e.point()));
+        const double across = static_cast<double>(e.area()) * material.tangential_friction,
+                     along = static_cast<double>(e.area()) * material.normal_friction;
         const Vec3d f = along_and_across(noise, normalized(e.normal<double>()), across, along) * std::sqrt(2.0 * kt / dt);
         for (std::size_t k = 0; k < 3; ++k) add(source, face[k], f * quadrature.weight[e.point()][k]);
         if (target == nullptr) continue;
@@ -187,7 +187,7 @@ void Mechanics::add_contact_noise(const Tissue& tissue, double dt, std::span<Vec
         }
         double mu[3];
         e.weights(mu);
-        const Triangle& opposite = target->topology->faces()[e.target];
+        const Triangle& opposite = target->topology->faces()[e.target()];
         for (std::size_t k = 0; k < 3; ++k) add(*target, opposite[k], f * -mu[k]);
       }
     }

@@ -18,6 +18,14 @@ constexpr double kAllowedRise = 0.2;       // of Φ, in the last resort of the f
 constexpr double kLastResortStep = 0.2;    // in units of the contact range
 constexpr int kMaxLinearIterations = 400;
 
+/// Where a linear solve wants to go: velocities times a length of time, by point.
+struct Direction {
+  std::span<const Float4> velocity;
+  double factor;
+
+  Vec3d operator[](std::size_t i) const { return Vec3d{velocity[i].x, velocity[i].y, velocity[i].z} * factor; }
+};
+
 /// Which forces hold a node that nothing can move: words for the message.
 std::string forces_at_worst(const Vec3d& contacts, const Vec3d& left) {
   char text[160];
@@ -44,13 +52,17 @@ struct Mechanics::Trial {
     return m.energy_ - work + m.friction_energy_ / (2.0 * dt);
   }
 
-  /// Move along `direction` until Φ falls enough. On success the workspace is evaluated at the new state; else positions are restored.
-  bool search(const std::vector<Vec3d>& direction, double slope, int halvings, double allowed_rise) {
-    const std::vector<Vec3d> from = m.scene_.position();
-    double fraction = 1.0;
-    for (int k = 0; k <= halvings; ++k, fraction *= 0.5) {
+  /// Move along `direction` until Φ falls enough. On success the workspace is evaluated at the new state; else positions are restored, but
+  /// for rounding.
+  bool search(const Direction& direction, double slope, int halvings, double allowed_rise) {
+    double at = 0.0, fraction = 1.0;
+    const auto go_to = [&](double there) {
       auto& x = m.scene_.position();
-      m.for_owned_points([&](std::uint32_t i) { x[i] = from[i] + direction[i] * fraction; });
+      m.for_owned_points([&](std::uint32_t i) { x[i] += direction[i] * (there - at); });
+      at = there;
+    };
+    for (int k = 0; k <= halvings; ++k, fraction *= 0.5) {
+      go_to(fraction);
       const double next = measure();
       const bool sound = std::isfinite(next) && !m.find_fault().has_value();
       const bool lower = next <= phi + kArmijo * fraction * slope;
@@ -61,7 +73,7 @@ struct Mechanics::Trial {
       }
       ++report.halvings;
     }
-    m.scene_.position() = from;
+    go_to(0.0);
     return false;
   }
 };
@@ -116,7 +128,10 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
   const StepControl& control = model_.step;
   const double range = model_.contact.range;
   begin_step(tissue, dt);
-  const std::vector<Vec3d> start = scene_.position();
+  // Without ghosts, spheres and nuclei the start is what the tissue holds.
+  std::vector<Vec3d> copy;
+  if (scene_.point_count() != tissue.shells.node_count()) copy = scene_.position();
+  const std::span<const Vec3d> start = copy.empty() ? std::span<const Vec3d>(tissue.shells.position) : copy;
   StepReport report;
   report.step = dt;
   Trial trial{*this, tissue, start, external, dt, 0.0, report};
@@ -125,20 +140,22 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
   const double force_norm = std::sqrt(dot(force_, force_));
   if (!std::isfinite(trial.phi) || !std::isfinite(force_norm)) return StepFault{"forces are not numbers", {}, false};
 
-  std::vector<Vec3d> direction(start.size());
+  Direction direction{solution_, dt};
   const auto solve = [&](double step, double tolerance) -> Result<SolveReport, StepFault> {
     assemble(tissue, step);
     auto timed = timer_.scope(Stage::kSolve);
     give_residual();
     auto solved = system_.solve(solution_, tolerance, kMaxLinearIterations, comm_);
+    drop_matrix();
     if (!solved) return StepFault{solved.error().what, {}, true};
     report.linear_iterations += solved->iterations;
-    for_owned_points([&](std::uint32_t i) { direction[i] = Vec3d{solution_[i].x, solution_[i].y, solution_[i].z} * dt; });
+    direction.factor = dt;
+    if (!std::isfinite(largest(direction))) return StepFault{"the velocities are not numbers", {}, true};
     return *solved;
   };
   const auto limit_direction = [&](double most) {
     const double longest = largest(direction);
-    if (longest > most) for_owned_points([&](std::uint32_t i) { direction[i] *= most / longest; });
+    if (longest > most) direction.factor *= most / longest;
     return longest;
   };
   const double allowed = control.max_displacement * range;
@@ -158,7 +175,8 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
       // Freeze rule (time_stepping.md §9.3): the gradient in the metric of friction, then a short Newton step with an allowed rise.
       evaluate(tissue);
       (void)friction_residual(start, external, dt);
-      const std::vector<Vec3d> newton_direction = direction;
+      const std::vector<Float4> newton_solution = solution_;
+      const double newton_factor = direction.factor;
       std::fill(solution_.begin(), solution_.end(), Float4{});
       solved = solve(0.0, control.first_tolerance);
       if (!solved) return undo(start, solved.error());
@@ -166,7 +184,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
       slope = -dot(force_, direction);
       bool moved = trial.search(direction, slope, kGradientHalvings, 0.0);
       if (!moved) {
-        direction = newton_direction;
+        direction = {newton_solution, newton_factor};
         limit_direction(kLastResortStep * range);
         moved = trial.search(direction, -dot(force_, direction), 2, kAllowedRise);
       }
@@ -214,6 +232,7 @@ Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt
   assemble(tissue, 0.0);
   give_residual();
   auto solved = system_.solve(solution_, 1e-4, kMaxLinearIterations, comm_);
+  drop_matrix();
   if (!solved) return undo(start, StepFault{solved.error().what, {}, true});
   report.linear_iterations = solved->iterations;
   report.newton = 1;

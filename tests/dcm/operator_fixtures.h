@@ -21,7 +21,7 @@ inline Assembled assemble(const Shells& shells, const std::vector<ShellParameter
   Assembled a;
   a.blocks = make_shell_blocks(shells, lanes);
   a.friction = friction_of(shells, a.blocks, types, shells.position);
-  assemble_shell_operator(a.blocks, shells, types, shells.position, a.friction, contact_energy, dt, a.matrix);
+  assemble_shell_operator(a.blocks, shells, types, shells.position, a.friction, contact_energy, dt, {}, a.matrix);
   return a;
 }
 
