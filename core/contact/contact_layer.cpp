@@ -115,6 +115,7 @@ bool ContactLayer::note_motion(const ContactScene& scene) {
 void ContactLayer::know_positions(const ContactScene& scene) {
   known_at_.resize(scene.position.size());
   double largest = 0.0;
+#pragma omp parallel for schedule(static) num_threads(settings_.threads) reduction(max : largest)
   for (std::size_t p = 0; p < known_at_.size(); ++p) {
     const Vec3d& x = scene.position[p];
     known_at_[p] = to_float(x);

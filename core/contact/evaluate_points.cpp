@@ -126,7 +126,7 @@ struct alignas(64) Batch {
   double unit[3][kLanes], length[kLanes];  ///< normal of the target at the foot point
   double weight_slope[kLanes], attraction[kLanes], density[kLanes], ramp[kLanes], pull[3][kLanes];
   double bearing[kLanes], stiffness[kLanes];
-  std::int32_t rounded_mu[2][kLanes], cut_normal[3][kLanes];  ///< as ContactElement keeps them
+  std::int32_t rounded_mu[2][kLanes];  ///< as ContactElement keeps them
 };
 
 /// What is behind the point is cut off.
@@ -219,7 +219,6 @@ void respond(const PointsEvaluation& e, Batch& batch) {
   (area * (weight.value * attraction.curvature + repulsion.curvature)).store(batch.stiffness);
   area.store(batch.area);
   for (std::size_t k = 0; k < 2; ++k) store_cut(batch.rounded_mu[k], Real::load(batch.mu[k]) * Real(ContactElement::kWeightUnits) + Real(0.5));
-  for (std::size_t k = 0; k < 3; ++k) store_cut(batch.cut_normal[k], Real::load(batch.normal[k]) * Real(ContactElement::kNormalUnits));
 }
 
 Vec3d quadrature_point(const PointsEvaluation& e, const Triangle& t, int q) {
@@ -289,7 +288,7 @@ void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists,
   }
   ContactElement& element = elements.emplace_back(face, p.q, sphere || !e.target_moves ? 0 : lists.target_face[p.place]);
   element.set_weights(batch.rounded_mu[0][lane], batch.rounded_mu[1][lane]);
-  element.set_normal(batch.cut_normal[0][lane], batch.cut_normal[1][lane], batch.cut_normal[2][lane]);
+  element.set_normal(gap.normal);
   element.set_area(static_cast<float>(batch.bearing[lane]));
   element.set_stiffness(static_cast<float>(batch.stiffness[lane]));
 }

@@ -24,8 +24,6 @@ void for_points_within(const PairBody& surface, const PairBody& sphere, const Fa
   }
 }
 
-std::int32_t in_units(double component) { return static_cast<std::int32_t>(component * ContactElement::kNormalUnits); }
-
 }  // namespace
 
 Penetration penetration(const PairBody& surface, const PairBody& sphere, const FaceQuadrature& quadrature,
@@ -58,7 +56,7 @@ void add_packing(const PairBody& surface, const PairBody& sphere, const FaceQuad
     gradient[d].face_energy[k] += part * pressure.pressure * f.depth;
     ContactElement& element = elements.emplace_back(face, static_cast<std::uint32_t>(q), 0);  // no area: the pair's own element rubs
     element.set_weights(ContactElement::kWeightUnits, 0);
-    element.set_normal(in_units(normal.x), in_units(normal.y), in_units(normal.z));
+    element.set_normal(normal);
     element.set_stiffness(static_cast<float>(area * (pressure.pressure * f.curvature + pressure.resistance * f.slope)));
   });
 }

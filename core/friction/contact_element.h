@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -13,17 +14,17 @@ namespace morula {
 ///
 /// With the relative velocity u = Σ β_i v(source node i) − Σ μ_j v(target node j), the element's force on the source point is
 /// −(a u + (b + Δt k) (n·u) n) with a = w γ_t, b = w (γ_n − γ_t). It enters the operator and friction only, never other forces, so that it is
-/// kept in 16 bytes: weights in 14 bits (they still sum to one exactly, so that rigid motion feels nothing), the normal in 11 bits an axis (cut,
-/// not rounded, so that it is never longer than 1 and a I + b n nᵀ stays positive whatever γ_n/γ_t), w to 1 in 4096, k to 1 in 256. Faces
-/// go up to kMostFaces.
+/// kept in 16 bytes: weights in 14 bits (they still sum to one exactly, so that rigid motion feels nothing), the two smaller components of the
+/// normal in 15 bits (to 3e-5: a stiff contact that slides would feel more; the largest makes its length 1, so that a I + b n nᵀ stays
+/// positive whatever γ_n/γ_t), w to 1 in 2048, k to 1 in 256. Faces go up to kMostFaces.
 struct ContactElement {
-  static constexpr std::int32_t kWeightUnits = 16383, kNormalUnits = 1023;
+  static constexpr std::int32_t kWeightUnits = 16383;
   static constexpr std::uint32_t kMostFaces = 1u << 17;
 
   ContactElement() = default;
   /// Point q of face `source` against face `target` (0 for a sphere, whose centre has all the weight).
   ContactElement(std::uint32_t source, std::uint32_t q, std::uint32_t target)
-      : source_(source), point_(q), target_(target), mu0_(0), mu1_(0), nx_(0), ny_(0), nz_(0), k_(0), w_(0) {}
+      : source_(source), point_(q), target_(target), mu0_(0), mu1_(0), next_(0), other_(0), axis_(0), k_(0), w_(0) {}
 
   [[nodiscard]] std::uint32_t source_face() const { return static_cast<std::uint32_t>(source_); }
   [[nodiscard]] std::uint32_t point() const { return static_cast<std::uint32_t>(point_); }
@@ -44,12 +45,30 @@ struct ContactElement {
   }
   template <class Real>
   [[nodiscard]] Vec3<Real> normal() const {
-    constexpr Real unit = Real(1.0) / Real(kNormalUnits);
-    return {static_cast<Real>(static_cast<std::int32_t>(nx_)) * unit, static_cast<Real>(static_cast<std::int32_t>(ny_)) * unit,
-            static_cast<Real>(static_cast<std::int32_t>(nz_)) * unit};
+    using std::sqrt;
+    constexpr Real unit = Real(1.0 / kNormalUnits);
+    const Real next = static_cast<Real>(static_cast<std::int32_t>(next_)) * unit,
+               other = static_cast<Real>(static_cast<std::int32_t>(other_)) * unit;
+    const auto axis = static_cast<std::uint32_t>(axis_);
+    const Real size = sqrt(Real(1.0) - next * next - other * other), largest = axis >= 4 ? -size : size;
+    switch (axis & 3u) {
+      case 0:
+        return {largest, next, other};
+      case 1:
+        return {other, largest, next};
+      default:
+        return {next, other, largest};
+    }
   }
-  /// In units of 1/kNormalUnits, cut.
-  void set_normal(std::int32_t x, std::int32_t y, std::int32_t z) { nx_ = x, ny_ = y, nz_ = z; }
+  /// Of length 1.
+  void set_normal(const Vec3d& n) {
+    const Vec3d size{std::abs(n.x), std::abs(n.y), std::abs(n.z)};
+    const std::size_t axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const auto in_units = [](double a) { return static_cast<std::int32_t>(a * kNormalUnits + (a < 0.0 ? -0.5 : 0.5)); };
+    next_ = in_units(n[(axis + 1) % 3]);
+    other_ = in_units(n[(axis + 2) % 3]);
+    axis_ = static_cast<std::uint32_t>(axis) + (n[axis] < 0.0 ? 4u : 0u);
+  }
   /// w: area that bears friction [µm²]; 0 below 1e-13.
   [[nodiscard]] float area() const {
     const auto code = static_cast<std::uint32_t>(w_);
@@ -64,10 +83,11 @@ struct ContactElement {
   void set_stiffness(float stiffness) { k_ = (std::bit_cast<std::uint32_t>(stiffness) + 0x8000u) >> 16; }
 
  private:
+  static constexpr double kNormalUnits = 16383 * 1.41421356;  // none of the smaller components exceeds 1/√2
   static constexpr std::uint32_t kAreaBase = (127u - 44u) << 23;  // 6 bits of exponent, 10 of fraction: from 2⁻⁴⁴ to 2²⁰
   std::uint64_t source_ : 17, point_ : 2, target_ : 17, mu0_ : 14, mu1_ : 14;
-  std::int64_t nx_ : 11, ny_ : 11, nz_ : 11;
-  std::uint64_t k_ : 15, w_ : 16;
+  std::int64_t next_ : 15, other_ : 15;     // the components after the largest, in cyclic order
+  std::uint64_t axis_ : 3, k_ : 15, w_ : 16;  // which is the largest, and 4 where it is negative
 };
 static_assert(sizeof(ContactElement) == 16);
 

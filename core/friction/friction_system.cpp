@@ -161,7 +161,8 @@ void FrictionSystem::lay_out_portions() {
     if (layout_.bodies[body].first < points || !layout_.owned[body]) continue;
     if (in_portion++ == kBodies) {
       in_portion = 1;
-      portions_.emplace_back().first_run = portions_.back().last_run = static_cast<std::uint32_t>(runs_.size());
+      Portion& portion = portions_.emplace_back();
+      portion.first_run = portion.last_run = static_cast<std::uint32_t>(runs_.size());
     }
     add_body(portions_.back(), body);
   }
@@ -307,6 +308,7 @@ void FrictionSystem::add_contact_diagonal(int thread, std::span<SymMat3<float>> 
 
 void FrictionSystem::build_preconditioner() {
   std::vector<SymMat3<float>> diagonal(layout_.point_count);
+#pragma omp parallel for schedule(static) num_threads(threads_)
   for (std::size_t i = 0; i < layout_.point_count; ++i) diagonal[i] = isotropic(point_friction_[i]);
   if (shells_ != nullptr && shells_->point_count() > 0) shells_->add_diagonal(diagonal);
 #pragma omp parallel for schedule(static, 1) num_threads(threads_)

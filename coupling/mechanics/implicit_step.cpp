@@ -1,3 +1,5 @@
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -98,6 +100,8 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
     sums[0].add(static_cast<double>(medium[point]) * norm2(d));
   }
   if (moved) spheres_.pairs().add_friction(start, x, force_, sums[0]);
+  std::vector<OrderFreeSum> works(static_cast<std::size_t>(threads_));
+#pragma omp parallel for schedule(static) num_threads(threads_)
   for (std::size_t body = 0; body < scene_.bodies().size(); ++body) {
     const ContactBody& b = scene_.bodies()[body];
     if (!b.active()) continue;
@@ -106,8 +110,9 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
       work += morula::dot(external_on(external, i), x[i] - start[i]);
       force_[i] *= -1.0 / dt;
     }
-    sums[1].add(work);
+    works[static_cast<std::size_t>(omp_get_thread_num())].add(work);
   }
+  for (const OrderFreeSum& work : works) sums[1] += work;
   for_nuclei([&](std::uint32_t i) { force_[i] *= -1.0 / dt; });
   for (const Anchor& anchor : anchors_)  // what the springs have given: their energy at the start less that at x
     sums[1].add(0.5 * anchor.stiffness * (norm2(start[anchor.node] - anchor.target) - norm2(x[anchor.node] - anchor.target)));

@@ -183,7 +183,7 @@ class Mechanics {
       if (body.active())
         for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) {
           const double here = norm2(by_point[i]);
-          if (!(here <= most)) most = here;
+          if (!(here <= most) && !std::isnan(most)) most = here;
         }
     for_nuclei([&](std::uint32_t i) { most = std::max(most, norm2(by_point[i])); });
     return std::sqrt(comm_.max(most));
