@@ -35,10 +35,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT MORULA_HAS_AVX512)
 endif()
 
 if(MORULA_SANITIZE)
-  add_compile_options(-fsanitize=${MORULA_SANITIZE} -fno-omit-frame-pointer)
-  # With its checks in between, GCC 12 loses sight of how long the arrays of a lane are.
+  add_compile_options(-fsanitize=${MORULA_SANITIZE} -fno-omit-frame-pointer -UNDEBUG)
+  # With its checks in between, GCC 12 loses sight of how long the arrays of a lane are, and of what a loop has set.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    add_compile_options(-Wno-stringop-overflow -Wno-array-bounds)
+    add_compile_options(-Wno-stringop-overflow -Wno-array-bounds -Wno-maybe-uninitialized)
   endif()
   add_link_options(-fsanitize=${MORULA_SANITIZE})
 endif()

@@ -36,17 +36,20 @@ void ContactLayer::make_room() {
 
 namespace {
 
-/// A body's points in a friction sum; null where it is an obstacle.
+/// A body's points in a friction sum; all null where it is an obstacle.
 struct RubbingBody {
-  const ContactBody* body;
-  const Vec3d *position, *start;  ///< of its first point
-  Vec3d* out;                     ///< of its first point; null: not written
+  const Topology* topology = nullptr;                   ///< null too: a sphere
+  const Vec3d *position = nullptr, *start = nullptr;  ///< of its first point
+  Vec3d* out = nullptr;                                 ///< of its first point; null: not written
 
-  RubbingBody(const ContactBody* b, std::span<const Vec3d> positions, std::span<const Vec3d> starts, std::span<Vec3d> outs, bool write)
-      : body(b),
-        position(b == nullptr ? nullptr : positions.data() + b->first_point),
-        start(b == nullptr ? nullptr : starts.data() + b->first_point),
-        out(write ? outs.data() + b->first_point : nullptr) {}
+  RubbingBody() = default;
+  RubbingBody(const ContactScene& scene, std::uint32_t number, std::span<const Vec3d> starts, std::span<Vec3d> outs, bool write)
+      : topology(scene.topology_of(number)) {
+    const std::uint32_t first = scene.bodies[number].first_point;
+    position = scene.position.data() + first;
+    start = starts.data() + first;
+    if (write) out = outs.data() + first;
+  }
   [[nodiscard]] PaddedVec3::Vector way(std::uint32_t node) const { return PaddedVec3::of(position[node]) - PaddedVec3::of(start[node]); }
 };
 
@@ -65,7 +68,7 @@ double rub(std::span<const ContactElement> elements, const FaceQuadrature& quadr
   double sum = 0.0;
   for (std::size_t k = 0; k < elements.size();) {
     const std::uint32_t face = elements[k].source_face();
-    const Triangle& s = source.body->topology->faces()[face];
+    const Triangle& s = source.topology->faces()[face];
     const Vector d[3] = {source.way(s[0]), source.way(s[1]), source.way(s[2])};
     Vector of_face[3] = {};
     for (; k < elements.size() && elements[k].source_face() == face; ++k) {
@@ -74,11 +77,11 @@ double rub(std::span<const ContactElement> elements, const FaceQuadrature& quadr
       Vector u = rest + d[0] * beta[0] + d[1] * beta[1] + d[2] * beta[2];
       Triangle t{0, 0, 0};
       double mu[3] = {1.0, 0.0, 0.0};
-      if (target.body != nullptr && target.body->topology != nullptr) {
-        t = target.body->topology->faces()[e.target()];
+      if (target.topology != nullptr) {
+        t = target.topology->faces()[e.target()];
         e.weights(mu);
         u -= target.way(t[0]) * mu[0] + target.way(t[1]) * mu[1] + target.way(t[2]) * mu[2];
-      } else if (target.body != nullptr) {
+      } else if (target.position != nullptr) {
         u -= target.way(0);
       }
       const Vector n = PaddedVec3::of(e.normal<double>());
@@ -114,7 +117,8 @@ void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const 
       const bool write[2] = {a.active() && has(pair.a), b != nullptr && b->active() && has(pair.b)};
       const bool count = a.owned && has(pair.a);
       if (!write[0] && !write[1] && !count) continue;
-      const RubbingBody body[2] = {{&a, scene.position, start, out, write[0]}, {b, scene.position, start, out, write[1]}};
+      const RubbingBody body[2] = {{scene, pair.a, start, out, write[0]},
+                                   b == nullptr ? RubbingBody() : RubbingBody(scene, pair.b, start, out, write[1])};
       const Vec3d rigid = pair.rigid ? offsets_[pair.b] - step_offsets_[pair.b] : Vec3d{};
       double sum = 0.0;
       for (int d = 0; d < 2; ++d) sum += rub(pair.step_elements[d], quadrature, material_of(scene, pair), body[d], body[1 - d], rigid);
@@ -144,7 +148,7 @@ std::vector<ElementGroup> ContactLayer::element_groups(const ContactScene& scene
       const std::uint32_t number = side == 0 ? pair.a : pair.b;
       const ContactBody& body = scene.bodies[number];
       group.elements[side] = pair.present(side);
-      group.topology[side] = body.topology;
+      group.topology[side] = scene.topology_of(number);
       group.body[side] = number;
       group.first[side] = body.first_point;
       group.write[side] = body.active();

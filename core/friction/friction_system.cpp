@@ -73,12 +73,12 @@ void FrictionSystem::set_layout(Layout layout, int threads) {
   drop_matrix();
   // Contiguous ranges of bodies of about equal numbers of points.
   std::size_t owned_points = 0;
-  for (std::size_t body = 0; body < layout_.bodies.size(); ++body)
-    if (layout_.owned[body]) owned_points += layout_.bodies[body].count;
+  for (std::size_t body = 0; body < layout_.body_count(); ++body)
+    if (layout_.owned[body]) owned_points += layout_.points_of(body).count;
   work_.assign(static_cast<std::size_t>(threads_), {});
   std::size_t seen = 0, thread = 0;
-  for (std::size_t body = 0; body < layout_.bodies.size(); ++body) {
-    if (layout_.owned[body]) seen += layout_.bodies[body].count;
+  for (std::size_t body = 0; body < layout_.body_count(); ++body) {
+    if (layout_.owned[body]) seen += layout_.points_of(body).count;
     work_[thread].last_body = static_cast<std::uint32_t>(body + 1);
     if (thread + 1 < work_.size() && seen * work_.size() >= owned_points * (thread + 1)) {
       ++thread;
@@ -157,8 +157,8 @@ void FrictionSystem::lay_out_portions() {
       for (const std::uint32_t body : shells_->bodies_of(b)) add_body(portion, body);
   }
   std::uint32_t in_portion = kBodies;
-  for (std::uint32_t body = 0; body < layout_.bodies.size(); ++body) {
-    if (layout_.bodies[body].first < points || !layout_.owned[body]) continue;
+  for (std::uint32_t body = 0; body < layout_.body_count(); ++body) {
+    if (!layout_.owned[body] || layout_.points_of(body).first < points) continue;
     if (in_portion++ == kBodies) {
       in_portion = 1;
       Portion& portion = portions_.emplace_back();
@@ -172,7 +172,7 @@ void FrictionSystem::schedule_contacts() {
   done_.clear();
   if (threads_ > 1) return;  // contacts of a thread wait until all have their directions
   // Contacts in their order, each as soon as its bodies, and those of all before it, are there: sums keep the canonical order.
-  std::vector<std::uint32_t> there(layout_.bodies.size(), 0), last(layout_.bodies.size(), 0);  // ghosts are there from the start
+  std::vector<std::uint32_t> there(layout_.body_count(), 0), last(layout_.body_count(), 0);  // ghosts are there from the start
   bool all_shells = interior_ == nullptr;
   for (std::uint32_t k = 0; k < portions_.size(); ++k) {
     all_shells = all_shells && portions_[k].first_batch < portions_[k].last_batch;
@@ -207,9 +207,16 @@ void FrictionSystem::schedule_contacts() {
 template <class Body>
 void FrictionSystem::for_owned_bodies(Body&& function) const {
 #pragma omp parallel for schedule(static, 1) num_threads(threads_)
-  for (int t = 0; t < threads_; ++t)
-    for (std::uint32_t body = work_[static_cast<std::size_t>(t)].first_body; body < work_[static_cast<std::size_t>(t)].last_body; ++body)
-      if (layout_.owned[body]) function(t, body);
+  for (int t = 0; t < threads_; ++t) {
+    const std::uint32_t last = work_[static_cast<std::size_t>(t)].last_body;
+    const auto with_many = static_cast<std::uint32_t>(layout_.bodies.size());
+    std::uint32_t body = work_[static_cast<std::size_t>(t)].first_body;
+    for (; body < std::min(last, with_many); ++body)
+      if (layout_.owned[body]) function(t, layout_.bodies[body]);
+    const char* const owned = layout_.owned.data();
+    for (std::uint32_t point = layout_.points_of(body).first; body < last; ++body, ++point)
+      if (owned[body]) function(t, BodyPoints{point, 1});
+  }
 }
 
 template <class Point>
@@ -217,7 +224,7 @@ void FrictionSystem::for_points_of(const Portion& portion, Point&& point) const 
   for (std::uint32_t r = portion.first_run; r < portion.last_run; ++r)
     for (std::uint32_t body = runs_[r].first; body < runs_[r].last; ++body) {
       if (!layout_.owned[body]) continue;
-      const BodyPoints& points = layout_.bodies[body];
+      const BodyPoints points = layout_.points_of(body);
       for (std::uint32_t i = points.first; i < points.first + points.count; ++i) point(i);
     }
 }
@@ -281,7 +288,7 @@ double FrictionSystem::turn(float alpha, float beta, std::span<Float4> v, const 
     multiply(portion, p_, q_);
     apply_contacts(0, portion.first_group, portion.last_group, p_, q_);
     for (std::uint32_t k = portion.first_done; k < portion.last_done; ++k) {
-      const BodyPoints& points = layout_.bodies[done_[k]];
+      const BodyPoints points = layout_.points_of(done_[k]);
       sum.add(dot_of_body(p_.data() + points.first, q_.data() + points.first, points.count));
     }
   }
@@ -316,8 +323,7 @@ void FrictionSystem::build_preconditioner() {
   if (sphere_pairs_ != nullptr) sphere_pairs_->add_diagonal(diagonal, dt_);
   if (interior_ != nullptr) interior_->add_diagonal(diagonal);
   inverse_.resize(layout_.point_count);
-  for_owned_bodies([&](int, std::uint32_t body) {
-    const BodyPoints& points = layout_.bodies[body];
+  for_owned_bodies([&](int, const BodyPoints& points) {
     for (std::uint32_t i = points.first; i < points.first + points.count; ++i) inverse_[i] = NodeInverse(inverse_of(diagonal[i]));
   });
 }
@@ -329,8 +335,7 @@ void FrictionSystem::drop_matrix() {
 
 double FrictionSystem::dot(std::span<const Float4> a, std::span<const Float4> b, const Comm& comm) const {
   std::vector<OrderFreeSum> sums(static_cast<std::size_t>(threads_));
-  for_owned_bodies([&](int t, std::uint32_t body) {
-    const BodyPoints& points = layout_.bodies[body];
+  for_owned_bodies([&](int t, const BodyPoints& points) {
     sums[static_cast<std::size_t>(t)].add(dot_of_body(a.data() + points.first, b.data() + points.first, points.count));
   });
   for (std::size_t t = 1; t < sums.size(); ++t) sums[0] += sums[t];
@@ -340,8 +345,7 @@ double FrictionSystem::dot(std::span<const Float4> a, std::span<const Float4> b,
 void FrictionSystem::reduce(float alpha, const Comm& comm, double (&totals)[2]) {
   std::vector<std::array<OrderFreeSum, 2>> sums(static_cast<std::size_t>(threads_));
   const Float4v a = splat(alpha);
-  for_owned_bodies([&](int t, std::uint32_t body) {
-    const BodyPoints& points = layout_.bodies[body];
+  for_owned_bodies([&](int t, const BodyPoints& points) {
     Double4 rr{}, rz{};
     for (std::uint32_t i = points.first; i < points.first + points.count; ++i) {
       const Float4v r = load(r_[i]) - a * load(q_[i]);
@@ -366,8 +370,7 @@ Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<Float4> v, doubl
     if (layout_.exchange) layout_.exchange(vector);
   };
   const auto for_owned_points = [&](auto&& function) {
-    for_owned_bodies([&](int, std::uint32_t body) {
-      const BodyPoints& points = layout_.bodies[body];
+    for_owned_bodies([&](int, const BodyPoints& points) {
       for (std::uint32_t i = points.first; i < points.first + points.count; ++i) function(i);
     });
   };

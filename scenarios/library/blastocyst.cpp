@@ -60,6 +60,13 @@ Result<Embryo> read_embryo(const Study& study, const std::filesystem::path& run)
   return out;
 }
 
+/// The last moment not after a time.
+std::size_t moment_at(const Embryo& embryo, double time) {
+  std::size_t k = 0;
+  while (k + 1 < embryo.moments.size() && embryo.moments[k + 1].time <= time + 1e-6) ++k;
+  return k;
+}
+
 /// S18.1. Rows at one place are counted here by comparing all, not by the reader's search.
 void judge_import(const Study& study, const Embryo& embryo, std::vector<Verdict>& out) {
   out.push_back(equal("S18.1", "cells at time 0, against rows of the CSV file", embryo.first().cells.size(), embryo.rows.size()));
@@ -75,29 +82,29 @@ void judge_import(const Study& study, const Embryo& embryo, std::vector<Verdict>
   out.push_back(equal("S18.1", "groups of coincident cells named, against groups in the CSV file", named, groups));
 }
 
-/// S18.2
+/// S18.2, which speaks of the embryo after inflation; what relaxing does to it is S18.3.
 void judge_shape(const Study& study, const Embryo& embryo, std::vector<Verdict>& out) {
-  const Snapshot& last = embryo.last();
-  double volume = 0.0;
-  for (const auto& cell : last.cells) volume += cell.volume;
-  if (const double target = study.initial.front().shared_volume * static_cast<double>(last.cells.size()); target > 0.0)
-    out.push_back(at_most("S18.2", "total volume against the target, relative", std::abs(volume / target - 1.0), kVolumeError));
   const InitialCells& start = study.initial.front();
-  const double cell_radius = std::cbrt(0.75 / std::numbers::pi * volume / static_cast<double>(last.cells.size()));
-  const std::vector<double> free = outer_surface_fractions(last, cell_radius, {start.cavity_center, start.cavity_radius});
+  const Snapshot& inflated = start.inflate_time > 0.0 ? embryo.moments[moment_at(embryo, start.inflate_time)] : embryo.last();
+  double volume = 0.0;
+  for (const auto& cell : inflated.cells) volume += cell.volume;
+  if (const double target = start.shared_volume * static_cast<double>(inflated.cells.size()); target > 0.0)
+    out.push_back(
+        at_most("S18.2", "total volume after inflation against the target, relative", std::abs(volume / target - 1.0), kVolumeError));
+  const double cell_radius = std::cbrt(0.75 / std::numbers::pi * volume / static_cast<double>(inflated.cells.size()));
+  const std::vector<double> free = outer_surface_fractions(inflated, cell_radius, {start.cavity_center, start.cavity_radius});
   std::size_t covered = 0, outside = 0;
   double most = 0.0;
   for (std::size_t i = 0; i < free.size(); ++i) {
-    if (embryo.is_outer(last.cells[i])) {
+    if (embryo.is_outer(inflated.cells[i])) {
       covered += free[i] == 0.0;
     } else {
       outside += free[i] > kInnerFree;
       most = std::max(most, free[i]);
     }
   }
-  out.push_back(equal("S18.2", "trophectoderm cells that such a ball does not touch", covered, 0));
-  out.push_back(
-      equal("S18.2", "inner cells that a ball of a cell's size, rolling outside, touches on more than 10 % of their surface", outside, 0));
+  out.push_back(equal("S18.2", "trophectoderm cells that a ball of a cell's size, rolling outside, does not touch", covered, 0));
+  out.push_back(equal("S18.2", "inner cells that such a ball touches on more than 10 % of their surface", outside, 0));
   out.push_back(at_most("S18.2", "largest part of an inner cell's surface that such a ball touches", most, kInnerFree));
 }
 
@@ -118,13 +125,6 @@ void judge_places(const Embryo& embryo, std::vector<Verdict>& out) {
   for (const auto& cell : embryo.last().cells) (embryo.is_outer(cell) ? outer : inner).push_back(hull->depth(cell.centroid));
   out.push_back(at_most("S18.3", "trophectoderm lies outside the inner cells (depth below the hull, Mann-Whitney p)",
                         mann_whitney_p(outer, inner), kOrder));
-}
-
-/// The last moment not after a time.
-std::size_t moment_at(const Embryo& embryo, double time) {
-  std::size_t k = 0;
-  while (k + 1 < embryo.moments.size() && embryo.moments[k + 1].time <= time + 1e-6) ++k;
-  return k;
 }
 
 /// The last moment before a time.

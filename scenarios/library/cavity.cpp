@@ -1,7 +1,5 @@
 #include "scenarios/library/cavity.h"
 
-#include <algorithm>
-
 #include "scenarios/library/verdicts.h"
 #include "scenarios/report/series_reader.h"
 
@@ -32,24 +30,6 @@ Result<std::vector<Verdict>> judge_cavity(const Study& study, const std::filesys
   out.push_back(at_least("S18.4", "pressure of the cavity at the end", pressure->values.back(), 1e-6, "kPa"));
   out.push_back(at_most("S18.4", "part of the directions from the centre of the cavity without a wall", open->values.back(), kLeak));
   return out;
-}
-
-double mean_height(const Snapshot& moment, std::uint16_t type, const Vec3d& cavity) {
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (const Snapshot::Shell& shell : moment.shells) {
-    const Snapshot::Cell& cell = moment.cells[shell.cell];
-    if (cell.type != type) continue;
-    const Vec3d axis = normalized(cell.centroid - cavity);
-    double low = 1e300, high = -1e300;
-    for (std::uint32_t i = shell.first_node; i < shell.first_node + shell.node_count; ++i) {
-      const double along = dot(moment.nodes[i], axis);
-      low = std::min(low, along), high = std::max(high, along);
-    }
-    sum += high - low;
-    ++count;
-  }
-  return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
 }  // namespace morula::scenarios

@@ -125,7 +125,7 @@ TEST(LibraryStudies, BlastocystRunsShortened) {
   const auto run = NewStudy("blastocyst").run({"time.end=6 min", "time.output=3 min", "time.checkpoint=6 min"});
   expect_sound(run);
   ASSERT_TRUE(run.ok());
-  for (const char* quantity : {"cells at time 0", "groups of coincident cells", "that such a ball does not touch",
+  for (const char* quantity : {"cells at time 0", "groups of coincident cells", "rolling outside, does not touch",
                                "trophectoderm lies outside", "root mean square"}) {
     const Verdict* v = find(*run, quantity);
     ASSERT_NE(v, nullptr) << quantity;
