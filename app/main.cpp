@@ -1,3 +1,4 @@
+#include <malloc.h>
 #include <mpi.h>
 #include <unistd.h>
 
@@ -97,9 +98,19 @@ void wait_briefly(char** argv) {
   execv(program.c_str(), argv);  // comes back only when it fails
 }
 
+/// Forces and the matrix of a step take turns in the same memory: it stays with the program instead of going back to the system, and coming back as
+/// new pages, in every step.
+void keep_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 512 << 20);
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_memory();
   wait_briefly(argv);
   quiet_mpi();
   int provided = MPI_THREAD_SINGLE;

@@ -271,6 +271,9 @@ bool compare_with_small_steps(const Case& c, const Comm& comm, int threads) {
 }  // namespace
 
 int main(int argc, char** argv) {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 32 << 20), mallopt(M_TRIM_THRESHOLD, 512 << 20);  // as the command does
+#endif
   MPI_Init(&argc, &argv);
   int status = 0;
   {

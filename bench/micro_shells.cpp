@@ -56,7 +56,7 @@ struct Bed {
     assemble();
   }
   [[nodiscard]] SurfaceList surfaces() const { return {topology, shells.first_node, blocks.first_face}; }
-  void assemble() { assemble_shell_operator(blocks, shells, types, shells.position, friction, contact_energy, 60.0, matrix); }
+  void assemble() { assemble_shell_operator(blocks, shells, types, shells.position, friction, contact_energy, 60.0, {}, matrix); }
 };
 
 void report(benchmark::State& state, const Bed& bed) {

@@ -1,18 +1,12 @@
 #include <algorithm>
 
 #include "core/mesh/lane_surface.h"
-#include "dcm/shell_operator.h"
+#include "dcm/operator_assembly.h"
 
 namespace morula::dcm {
-namespace {
-
-struct Workspace {
-  std::vector<EdgeBlock> cell[LaneBlock::kMaxLanes];  ///< by lane: its edges
-  LaneVector<float> lanes;
-};
 
 template <int W>
-void add_block(const LaneBlock& block, const EdgeBlockSource& source, ShellOperator::Block& out, Workspace& ws) {
+void add_contact_edges(const LaneBlock& block, const EdgeBlockSource& contacts, OperatorWorkspace& ws) {
   using Real = Lane<float, W>;
   constexpr std::size_t kSize = sizeof(EdgeBlock) / sizeof(float);
   const std::size_t edges = block.topology->edge_count();
@@ -21,25 +15,22 @@ void add_block(const LaneBlock& block, const EdgeBlockSource& source, ShellOpera
   for (int lane = 0; lane < W; ++lane) {
     if (lane < block.count) {
       ws.cell[lane].assign(edges, {});
-      any = source(block.member[lane], ws.cell[lane]) || any;
+      any = contacts(block.member[lane], ws.cell[lane]) || any;
     }
     cell[lane] = ws.cell[std::min(lane, block.count - 1)].data()->m;  // empty lanes repeat the last shell
   }
   if (!any) return;
-  ws.lanes.resize(std::max(ws.lanes.size(), edges * kSize * W));
-  load_lanes<W, float>(cell, edges * kSize, ws.lanes.data());
+  ws.contact_lanes.resize(std::max(ws.contact_lanes.size(), edges * kSize * W));
+  load_lanes<W, float>(cell, edges * kSize, ws.contact_lanes.data());
   for (std::size_t k = 0; k < edges; ++k)
     for (std::size_t c = 0; c < 6; ++c) {
-      float* const m = out.edge.data() + (k * 6 + c) * W;
-      (Real::load(m) + Real::load(ws.lanes.data() + (k * kSize + c) * W)).store(m);
+      float* const m = ws.edge.data() + (k * 6 + c) * W;
+      (Real::load(m) + Real::load(ws.contact_lanes.data() + (k * kSize + c) * W)).store(m);
     }
 }
 
-}  // namespace
-
-void add_edge_blocks(const ShellBlocks& blocks, const EdgeBlockSource& source, ShellOperator& out) {
-  for_each_block<Workspace>(
-      blocks, [&]<int W>(std::size_t b, const LaneBlock& block, Workspace& ws) { add_block<W>(block, source, out.blocks[b], ws); });
-}
+template void add_contact_edges<1>(const LaneBlock&, const EdgeBlockSource&, OperatorWorkspace&);
+template void add_contact_edges<4>(const LaneBlock&, const EdgeBlockSource&, OperatorWorkspace&);
+template void add_contact_edges<8>(const LaneBlock&, const EdgeBlockSource&, OperatorWorkspace&);
 
 }  // namespace morula::dcm

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/mesh/lane_surface.h"
+#include "dcm/packed_edges.h"
 #include "dcm/shell_operator.h"
 
 namespace morula::dcm {
@@ -26,12 +27,6 @@ struct NodeVectors {
   }
   void add(std::size_t node, const Vec3<Real>& value) const noexcept { set(node, (*this)[node] + value); }
 };
-
-template <int W>
-SymMat3<Lane<float, W>> load_matrix(const float* m) noexcept {
-  using Real = Lane<float, W>;
-  return {Real::load(m), Real::load(m + W), Real::load(m + 2 * W), Real::load(m + 3 * W), Real::load(m + 4 * W), Real::load(m + 5 * W)};
-}
 
 /// q = diagonal · p; returns g·p of every lane, summed in double.
 template <int W>
@@ -72,7 +67,8 @@ void apply_edges(const ShellOperator::Block& matrix, std::span<const Edge> edges
     const auto pi = p[i];
     auto qi = q[i];
     for (; k < edges.size() && edges[k].i == i; ++k) {
-      const auto force = load_matrix<W>(matrix.edge.data() + k * 6 * W) * (pi - p[edges[k].j]);
+      const auto m = PackedEdge<W>::load(matrix.edge.data(), k);
+      const auto force = m.units * ((pi - p[edges[k].j]) * m.unit);
       qi += force;
       q.add(edges[k].j, -force);
     }
@@ -228,13 +224,14 @@ void add_diagonal_block(const LaneBlock& block, const Shells& shells, const Shel
   load_lanes<W, float>(lane_pointers<W>(static_cast<const float*>(&diagonal.data()->xx), block, shells.first_node, 6), nodes * 6, sum);
   const auto add = [&](std::size_t node, const SymMat3<Real>& m) {
     float* d = sum + node * 6 * W;
-    const auto total = load_matrix<W>(d) + m;
+    const auto total = load_sym_mat3<float, W>(d, 0) + m;
     total.xx.store(d), total.xy.store(d + W), total.xz.store(d + 2 * W);
     total.yy.store(d + 3 * W), total.yz.store(d + 4 * W), total.zz.store(d + 5 * W);
   };
   for (std::size_t i = 0; i < nodes; ++i) add(i, isotropic(load_scalar<float, W>(matrix.diagonal.data(), i)));
   for (std::size_t k = 0; k < topology.edges().size(); ++k) {
-    const auto m = load_matrix<W>(matrix.edge.data() + k * 6 * W);
+    const auto edge = PackedEdge<W>::load(matrix.edge.data(), k);
+    const auto m = edge.unit * edge.units;
     add(topology.edges()[k].i, m);
     add(topology.edges()[k].j, m);
   }
@@ -267,6 +264,15 @@ void apply_shell_operator(const ShellBlocks& blocks, const Shells& shells, const
   for_each_block<Workspace>(blocks, [&]<int W>(std::size_t b, const LaneBlock& block, Workspace& ws) {
     apply_block<W>(block, shells, matrix.blocks[b], p, q, ws);
   });
+}
+
+void apply_shell_operator(const ShellBlocks& blocks, std::size_t first, std::size_t last, const Shells& shells, const ShellOperator& matrix,
+                          std::span<const Float4> p, std::span<Float4> q) {
+  Workspace workspace;
+  const auto kernel = [&]<int W>(std::size_t b, const LaneBlock& block, Workspace& ws) {
+    apply_block<W>(block, shells, matrix.blocks[b], p, q, ws);
+  };
+  for (std::size_t b = first; b < last; ++b) for_block(blocks, b, kernel, workspace);
 }
 
 void add_block_diagonal(const ShellBlocks& blocks, const Shells& shells, const ShellOperator& matrix, std::span<SymMat3<float>> diagonal) {

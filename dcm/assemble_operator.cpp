@@ -10,6 +10,7 @@
 #include "dcm/laws/volume_pressure.h"
 #include "dcm/membrane.h"
 #include "dcm/operator_assembly.h"
+#include "dcm/packed_edges.h"
 #include "dcm/stencils/face.h"
 #include "dcm/stencils/hinge.h"
 
@@ -112,7 +113,7 @@ bool assemble_edges(Assembly<W>& a, const ShellFriction::Block& friction, Lane<f
     m += outer(right.tension * dot(xi - xl, xj - xl), right.n);
     m += isotropic(left.isotropic + right.isotropic + isotropic_damper.damping);
     margin = min(margin, dot(left.n, right.n) * left.inverse_norm * right.inverse_norm - cos_onset);
-    float* p = a.out.edge.data() + k * 6 * W;
+    float* p = a.ws.edge.data() + k * 6 * W;
     m.xx.store(p), m.xy.store(p + W), m.xz.store(p + 2 * W), m.yy.store(p + 3 * W), m.yz.store(p + 4 * W), m.zz.store(p + 5 * W);
   }
   return any_lane<W>(margin < Real(0.0f));
@@ -181,12 +182,14 @@ void load_inputs(Assembly<W>& a, std::span<const Vec3d> position, std::span<cons
 template <int W>
 void assemble_block(const ShellBlocks& blocks, const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types,
                     std::span<const Vec3d> position, const ShellFriction::Block& friction, std::span<const Vec3d> start,
-                    std::span<const double> contact_energy, double time_step, ShellOperator::Block& out, OperatorWorkspace& ws) noexcept {
+                    std::span<const double> contact_energy, double time_step, const EdgeBlockSource& contacts, ShellOperator::Block& out,
+                    OperatorWorkspace& ws) noexcept {
   const Topology& topology = *block.topology;
   const std::size_t nodes = topology.node_count();
   Assembly<W> a{block, shells, types, topology, ws, out, Lane<float, W>(static_cast<float>(time_step))};
   load_inputs(a, position, start, blocks, contact_energy);
-  out.edge.resize(std::size_t{topology.edge_count()} * 6 * W);
+  const std::size_t edges = topology.edge_count();
+  ws.edge.resize(std::max(ws.edge.size(), edges * 6 * W));
   out.volume_gradient.assign(nodes * 3 * W, 0.0f);
   out.diagonal.resize(nodes * W);
   out.shape_face.clear(), out.shape.clear(), out.barrier_edge.clear(), out.barrier.clear();
@@ -207,16 +210,19 @@ void assemble_block(const ShellBlocks& blocks, const LaneBlock& block, const She
   out.bulk_gradient.resize(friction.volume_gradient.size());
   for (std::size_t i = 0; i < out.bulk_gradient.size(); ++i) out.bulk_gradient[i] = static_cast<float>(friction.volume_gradient[i]);
   for (int lane = 0; lane < W; ++lane) out.bulk_friction[lane] = static_cast<float>(friction.bulk_friction[lane]);
+  if (contacts) add_contact_edges<W>(block, contacts, ws);
+  out.edge.resize(edges * PackedEdge<W>::kWords * W);
+  for (std::size_t k = 0; k < edges; ++k) PackedEdge<W>::store(load_sym_mat3<float, W>(ws.edge.data(), k), out.edge.data(), k);
 }
 
 }  // namespace
 
 void assemble_shell_operator(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
                              std::span<const Vec3d> position, const ShellFriction& friction, std::span<const double> face_contact_energy,
-                             double time_step, ShellOperator& out) {
+                             double time_step, const EdgeBlockSource& contacts, ShellOperator& out) {
   out.blocks.resize(blocks.blocks.size());
   for_each_block<OperatorWorkspace>(blocks, [&]<int W>(std::size_t b, const LaneBlock& block, OperatorWorkspace& ws) {
-    assemble_block<W>(blocks, block, shells, types, position, friction.blocks[b], friction.start, face_contact_energy, time_step,
+    assemble_block<W>(blocks, block, shells, types, position, friction.blocks[b], friction.start, face_contact_energy, time_step, contacts,
                       out.blocks[b], ws);
   });
 }

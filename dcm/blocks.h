@@ -18,7 +18,21 @@ struct ShellBlocks {
 /// Group the shells by Topology in their order, `max_lanes` (1, 4 or 8) at a time. Results do not depend on the width.
 ShellBlocks make_shell_blocks(const Shells& shells, int max_lanes = LaneBlock::kMaxLanes);
 
-/// Run `kernel.operator()<W>(block number, block, workspace)` for every block, in parallel; each thread has one Workspace.
+/// Run `kernel.operator()<W>(block number, block, workspace)` for one block.
+template <class Workspace, class Kernel>
+void for_block(const ShellBlocks& blocks, std::size_t b, const Kernel& kernel, Workspace& workspace) {
+  const LaneBlock& block = blocks.blocks[b];
+  switch (block.lanes) {
+    case 8:
+      return kernel.template operator()<8>(b, block, workspace);
+    case 4:
+      return kernel.template operator()<4>(b, block, workspace);
+    default:
+      return kernel.template operator()<1>(b, block, workspace);
+  }
+}
+
+/// The same for every block, in parallel; each thread has one Workspace.
 template <class Workspace, class Kernel>
 void for_each_block(const ShellBlocks& blocks, const Kernel& kernel) {
   const std::size_t count = blocks.blocks.size();
@@ -26,20 +40,7 @@ void for_each_block(const ShellBlocks& blocks, const Kernel& kernel) {
   {
     Workspace workspace;
 #pragma omp for schedule(static)
-    for (std::size_t b = 0; b < count; ++b) {
-      const LaneBlock& block = blocks.blocks[b];
-      switch (block.lanes) {
-        case 8:
-          kernel.template operator()<8>(b, block, workspace);
-          break;
-        case 4:
-          kernel.template operator()<4>(b, block, workspace);
-          break;
-        default:
-          kernel.template operator()<1>(b, block, workspace);
-          break;
-      }
-    }
+    for (std::size_t b = 0; b < count; ++b) for_block(blocks, b, kernel, workspace);
   }
 }
 

@@ -27,7 +27,7 @@ namespace morula::dcm {
 /// Hinge bending is explicit: with it the iterations and the result stay the same (time_stepping.md §10.1).
 struct ShellOperator {
   struct Block {
-    LaneVector<float> edge;             ///< xx xy xz yy yz zz of M: [edge][6][lane]
+    LaneVector<std::int32_t> edge;      ///< M, with what contacts add: PackedEdge
     LaneVector<float> diagonal;         ///< medium friction: [node][lane]
     LaneVector<float> volume_gradient;  ///< g: [node][3][lane]
     std::array<float, LaneBlock::kMaxLanes> volume_stiffness{};
@@ -50,18 +50,18 @@ struct ShellOperator {
 ///
 /// `face_contact_energy` is the contact energy per area that lowers the tension of each face, ∂E_contact/∂A_T [nN/µm] by face
 /// (ShellBlocks::first_face); empty when there is no contact. Where tension and contact energy sum to less than zero, their stiffness is
-/// left out.
+/// left out. `contacts` fills what contacts couple within a shell, blocks xx xy xz yy yz zz on the edges in the order of the shell's Topology;
+/// it may be empty.
 void assemble_shell_operator(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
                              std::span<const Vec3d> position, const ShellFriction& friction, std::span<const double> face_contact_energy,
-                             double time_step, ShellOperator& out);
-
-/// Add blocks xx xy xz yy yz zz to the edges of the shells, in the order of each shell's Topology: what contacts couple within one shell.
-/// `source(shell, blocks)` fills them (zero before) and says whether there are any.
-void add_edge_blocks(const ShellBlocks& blocks, const EdgeBlockSource& source, ShellOperator& out);
+                             double time_step, const EdgeBlockSource& contacts, ShellOperator& out);
 
 /// q = A p by node of the shells; p and q are indexed as the shells' nodes, and q is overwritten. Fourth components come out as zero.
 void apply_shell_operator(const ShellBlocks& blocks, const Shells& shells, const ShellOperator& matrix, std::span<const Float4> p,
                           std::span<Float4> q);
+/// The same for the blocks first .. last−1, by one thread.
+void apply_shell_operator(const ShellBlocks& blocks, std::size_t first, std::size_t last, const Shells& shells, const ShellOperator& matrix,
+                          std::span<const Float4> p, std::span<Float4> q);
 
 /// Add the 3×3 diagonal blocks of A to `diagonal`, by node of the shells, for block-Jacobi. The volume term is left out: with it the
 /// iterations are the same (time_stepping.md §5).

@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
 #include "core/contact/contact_layer.h"
 
 namespace morula {
@@ -13,13 +17,32 @@ ObjectiveFriction ContactLayer::friction_now(const ContactScene& scene) const {
 
 void ContactLayer::begin_step(const ContactScene& scene) {
   step_offsets_ = offsets_;
-  for (SurfacePair& pair : pairs_) {
-    pair.step_overlap = pair.overlap;
-    if (pair.at_start) continue;
-    for (int d = 0; d < 2; ++d) std::swap(pair.step_elements[d], pair.elements[d]);
-    pair.at_start = true;
+  for (SurfacePair& pair : pairs_) pair.step_overlap = pair.overlap;
+  for (int kind = 0; kind < 2; ++kind) {  // all pairs of a kind are evaluated at once
+    const auto& list = pairs_of_kind_[kind];
+    if (list.empty() || pairs_[list.front()].at_start) continue;
+    for (const std::uint32_t k : list) {
+      SurfacePair& pair = pairs_[k];
+      for (int d = 0; d < 2; ++d) pair.step_elements[d] = std::exchange(pair.elements[d], {});
+      pair.at_start = true;
+    }
+    step_[kind] = std::exchange(present_[kind], {});
   }
   if (settings_.objective_friction) objective_ = friction_now(scene);
+}
+
+void ContactLayer::end_step() {
+  for (int kind = 0; kind < 2; ++kind) {
+    const auto& list = pairs_of_kind_[kind];
+    if (!list.empty() && pairs_[list.front()].at_start) continue;
+    for (const std::uint32_t k : list) pairs_[k].step_elements[0] = pairs_[k].step_elements[1] = {};
+    step_[kind].clear();
+  }
+}
+
+void ContactLayer::make_room() {
+  for (SurfacePair& pair : pairs_) pair.elements[0] = pair.elements[1] = {};
+  for (auto& stores : present_) stores.clear();
 }
 
 namespace {
@@ -31,12 +54,12 @@ struct RubbingBody {
   Vec3d* out = nullptr;                               ///< of its first point; null: not written
 
   RubbingBody() = default;
-  RubbingBody(const ContactScene& scene, std::uint32_t number, std::span<const Vec3d> starts, std::span<Vec3d> outs)
+  RubbingBody(const ContactScene& scene, std::uint32_t number, std::span<const Vec3d> starts, std::span<Vec3d> outs, bool write)
       : topology(scene.topology_of(number)) {
-    const ContactBody& body = scene.bodies[number];
-    position = scene.position.data() + body.first_point;
-    start = starts.data() + body.first_point;
-    if (body.active()) out = outs.data() + body.first_point;
+    const std::uint32_t first = scene.bodies[number].first_point;
+    position = scene.position.data() + first;
+    start = starts.data() + first;
+    if (write) out = outs.data() + first;
   }
   [[nodiscard]] PaddedVec3::Vector way(std::uint32_t node) const { return PaddedVec3::of(position[node]) - PaddedVec3::of(start[node]); }
 };
@@ -66,14 +89,14 @@ double rub(std::span<const ContactElement> elements, const FaceQuadrature& quadr
       Triangle t{0, 0, 0};
       double mu[3] = {1.0, 0.0, 0.0};
       if (target.topology != nullptr) {
-        t = target.topology->faces()[e.target];
+        t = target.topology->faces()[e.target()];
         e.weights(mu);
         u -= target.way(t[0]) * mu[0] + target.way(t[1]) * mu[1] + target.way(t[2]) * mu[2];
       } else if (target.position != nullptr) {
         u -= target.way(0);
       }
       const Vector n = PaddedVec3::of(e.normal<double>());
-      const double w = e.w;
+      const double w = e.area();
       const Vector f = u * (w * tangential) + n * (w * (normal - tangential) * dot3(n, u));
       for (std::size_t i = 0; i < 3; ++i) of_face[i] += f * beta[i];
       if (target.out != nullptr)
@@ -97,20 +120,40 @@ void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const 
     return objective_.rub(scene.position, start, way, out, quadratic);
   }
   const auto& quadrature = FaceQuadrature::with_points(settings_.points_per_face);
-  for (const SurfacePair& pair : pairs_) {
-    if (!moved && !pair.rigid) continue;
-    const RubbingBody body[2] = {{scene, pair.a, start, out}, pair.rigid ? RubbingBody() : RubbingBody(scene, pair.b, start, out)};
-    const Vec3d rigid = pair.rigid ? offsets_[pair.b] - step_offsets_[pair.b] : Vec3d{};
-    double sum = 0.0;
-    for (int d = 0; d < 2; ++d) sum += rub(pair.step_elements[d], quadrature, material_of(scene, pair), body[d], body[1 - d], rigid);
-    if (scene.bodies[pair.a].owned) quadratic.add(sum);
+  const std::size_t threads = static_cast<std::size_t>(settings_.threads);
+  std::vector<OrderFreeSum> sums(threads);
+  // A thread writes a range of bodies and visits all pairs that touch it, in order: the bits do not depend on the number of threads.
+#pragma omp parallel for schedule(static, 1) num_threads(settings_.threads)
+  for (std::size_t thread = 0; thread < threads; ++thread) {
+    const auto has = [&](std::size_t body) { return body * threads / scene.bodies.size() == thread; };
+    for (const SurfacePair& pair : pairs_) {
+      if (!moved && !pair.rigid) continue;
+      const ContactBody& a = scene.bodies[pair.a];
+      const ContactBody* const b = pair.rigid ? nullptr : &scene.bodies[pair.b];
+      const bool write[2] = {a.active() && has(pair.a), b != nullptr && b->active() && has(pair.b)};
+      const bool count = a.owned && has(pair.a);
+      if (!write[0] && !write[1] && !count) continue;
+      const RubbingBody body[2] = {{scene, pair.a, start, out, write[0]},
+                                   b == nullptr ? RubbingBody() : RubbingBody(scene, pair.b, start, out, write[1])};
+      const Vec3d rigid = pair.rigid ? offsets_[pair.b] - step_offsets_[pair.b] : Vec3d{};
+      double sum = 0.0;
+      for (int d = 0; d < 2; ++d) sum += rub(pair.step_elements[d], quadrature, material_of(scene, pair), body[d], body[1 - d], rigid);
+      if (count) sums[thread].add(sum);
+    }
   }
+  for (const OrderFreeSum& sum : sums) quadratic += sum;
 }
 
 std::vector<ElementGroup> ContactLayer::element_groups(const ContactScene& scene) const {
   std::vector<ElementGroup> groups;
   groups.reserve(pairs_.size());
-  for (const SurfacePair& pair : pairs_) {
+  // Pairs come by their first body; for each body, the order of its partners is the same in both.
+  std::vector<std::uint32_t> order(pairs_.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto later = [&](std::uint32_t k) { return pairs_[k].rigid ? ~0u : scene.bodies[pairs_[k].b].place; };
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t k, std::uint32_t l) { return later(k) < later(l); });
+  for (const std::uint32_t k : order) {
+    const SurfacePair& pair = pairs_[k];
     if (pair.present(0).empty() && pair.present(1).empty()) continue;
     const ContactMaterial& contact = material_of(scene, pair);
     ElementGroup& group = groups.emplace_back();

@@ -1,9 +1,12 @@
 #include "core/contact/contact_layer.h"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "core/contact/faces_in_box.h"
 #include "core/contact/self_contact.h"
 
 namespace morula {
@@ -53,7 +56,12 @@ PairBody ContactLayer::view(const ContactScene& scene, const SurfacePair& pair, 
   const auto points = scene.position.subspan(body.first_point, body.point_count);
   if (body.shape == BodyShape::kSphere) return {nullptr, points, {}, shift, body.radius};
   const auto marks = scene.mark.empty() ? scene.mark : scene.mark.subspan(scene.first_face[number], scene.topology[number]->face_count());
-  return {scene.topology[number], points, std::span(scene.geometry->node_normal).subspan(body.first_point, body.point_count), shift, 0.0, marks};
+  return {scene.topology[number],
+          points,
+          std::span(scene.geometry->node_normal).subspan(body.first_point, body.point_count),
+          shift,
+          0.0,
+          marks};
 }
 
 double ContactLayer::patch_motion(const ContactScene& scene, const SurfacePair& pair) const {
@@ -120,6 +128,7 @@ bool ContactLayer::note_motion(const ContactScene& scene) {
 void ContactLayer::know_positions(const ContactScene& scene) {
   known_at_.resize(scene.position.size());
   double largest = 0.0;
+#pragma omp parallel for schedule(static) num_threads(settings_.threads) reduction(max : largest)
   for (std::size_t p = 0; p < known_at_.size(); ++p) {
     const Vec3d& x = scene.position[p];
     known_at_[p] = to_float(x);
@@ -237,6 +246,8 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
     const bool with_sphere = !pairs_[k].rigid && (is_sphere(pairs_[k].a) || is_sphere(pairs_[k].b));
     pairs_of_kind_[with_sphere ? 1 : 0].push_back(k);
   }
+  for (int kind = 0; kind < 2; ++kind)
+    if (pairs_of_kind_[kind].empty()) present_[kind].clear(), step_[kind].clear();
   if (pairs_.empty()) {  // spheres alone: they need no motions
     std::vector<BodyMotion>().swap(motion_);
     std::vector<double>().swap(travel_);
@@ -269,11 +280,7 @@ void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {
       faces[1] = obstacles_[pair.b].tree->faces_in(there);
       continue;
     }
-    for (std::uint32_t face = 0; face < body[which].topology->face_count(); ++face) {
-      Box box;
-      for (const std::uint32_t node : body[which].topology->faces()[face]) box.include(body[which].node(node));
-      if (box.overlaps(other)) faces[which].push_back(face);
-    }
+    faces_in_box(body[which], other, faces[which]);
   }
   PointsAgainstBody lists[2], old;
   for (int d = 0; d < 2; ++d) {
@@ -291,7 +298,8 @@ void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {
   pair.patch_motion = 0.0;
 }
 
-void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& workspace) {
+void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& workspace,
+                                 ElementStore& store) {
   if (pair.motion - pair.built_at > settings_.skin) rebuild_lists(scene, pair);
   clear_results(pair, {scene.bodies[pair.a].point_count, pair.rigid ? 0 : scene.bodies[pair.b].point_count}, gradient);
   pair.area = 0.0;
@@ -323,7 +331,8 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
                     d, pair, gradient, workspace);
     if (!both && !pair.rigid && !packing_.empty())
       add_packing(body[d], body[1 - d], FaceQuadrature::with_points(settings_.points_per_face), packing_[d == 0 ? pair.b : pair.a], d, pair,
-                  gradient);
+                  gradient, workspace.elements);
+    pair.elements[d] = store.keep(workspace.elements);
   }
   pair.area = gradient[0].contact_area + gradient[1].contact_area;
   if (!pair.rigid) return;
@@ -360,13 +369,17 @@ void ContactLayer::evaluate(const ContactScene& scene, SurfacePairKind kind, Con
     PairGradient gradient[2];
   };
   std::vector<Slot> slot(slots);
+  std::vector<ElementStore>& stores = present_[static_cast<std::size_t>(kind)];
+  stores.clear();
+  stores.resize(threads);
 #pragma omp parallel num_threads(settings_.threads)
   {
     PointsWorkspace workspace;
     for (std::size_t first = 0; first < list.size(); first += slots) {
       const std::size_t count = std::min(slots, list.size() - first);
 #pragma omp for schedule(dynamic, 1)
-      for (std::size_t k = 0; k < count; ++k) evaluate_pair(scene, pairs_[list[first + k]], slot[k].gradient, workspace);
+      for (std::size_t k = 0; k < count; ++k)
+        evaluate_pair(scene, pairs_[list[first + k]], slot[k].gradient, workspace, stores[static_cast<std::size_t>(omp_get_thread_num())]);
 #pragma omp for schedule(static, 1)
       for (std::size_t t = 0; t < threads; ++t)
         for (std::size_t k = 0; k < count; ++k) {
@@ -391,11 +404,11 @@ void ContactLayer::collect(const ContactScene& scene, const SurfacePair& pair, i
   if (body.shape == BodyShape::kSurface) gradient.contact_area[number] += part.contact_area;
 }
 
-void ContactGradient::set_zero() {
-  std::fill(force.begin(), force.end(), Vec3d{});
-  std::fill(node_normal.begin(), node_normal.end(), Vec3d{});
-  std::fill(face_energy.begin(), face_energy.end(), 0.0);
-  std::fill(contact_area.begin(), contact_area.end(), 0.0);
+void ContactGradient::set_zero(std::size_t points, std::size_t surface_points, std::size_t faces, std::size_t surfaces) {
+  force.assign(points, {});
+  node_normal.assign(surface_points, {});
+  face_energy.assign(faces, 0.0);
+  contact_area.assign(surfaces, 0.0);
 }
 
 std::size_t ContactGradient::memory() const {
@@ -437,8 +450,11 @@ std::size_t ContactLayer::memory() const {
                       bytes(last_radius_) + bytes(travel_) + bytes(known_at_) + objective_.memory();
   for (const SurfacePair& pair : pairs_)
     for (int d = 0; d < 2; ++d) {
-      total += pair.points[d].memory() + bytes(pair.node[d]) + bytes(pair.elements[d]) + bytes(pair.step_elements[d]);
+      total += pair.points[d].memory() + bytes(pair.node[d]);
     }
+  for (int kind = 0; kind < 2; ++kind)
+    for (const auto* stores : {&present_[kind], &step_[kind]})
+      for (const ElementStore& store : *stores) total += store.memory();
   return total;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/contact/broad_phase.h"
 #include "core/contact/contact_body.h"
+#include "core/contact/element_store.h"
 #include "core/contact/objective_friction.h"
 #include "core/contact/packing_points.h"
 #include "core/contact/surface_pair.h"
@@ -47,7 +48,8 @@ struct ContactGradient {
   std::vector<double> face_energy;   ///< ∂E/∂A_T by face
   std::vector<double> contact_area;  ///< by surface: its area that is in contact [µm²]
 
-  void set_zero();
+  /// Zero for so many points, of which the first `surface_points` may belong to surfaces, faces and surfaces.
+  void set_zero(std::size_t points, std::size_t surface_points, std::size_t faces, std::size_t surfaces);
   [[nodiscard]] std::size_t memory() const;
 };
 
@@ -99,6 +101,10 @@ class ContactLayer {
 
   /// Keep the present friction as that of the step (Γ_n).
   void begin_step(const ContactScene& scene);
+  /// The friction of the step's start is not needed any more.
+  void end_step();
+  /// The matrix is made: forget the present points (not those of the step's start) until the next evaluate().
+  void make_room();
   /// Friction that is beside the element groups, as begin_step() found it; null where it is within them.
   [[nodiscard]] const ObjectiveFriction* own_friction() const { return settings_.objective_friction ? &objective_ : nullptr; }
   /// The same of the contacts as they were found last.
@@ -107,7 +113,7 @@ class ContactLayer {
   /// (owned points) and dᵀΓ_n d of the counted pairs to the sum. `moved`: false where all points are at the start.
   void add_step_friction(const ContactScene& scene, std::span<const Vec3d> start, bool moved, std::span<Vec3d> out,
                          OrderFreeSum& quadratic) const;
-  /// Element groups for the friction system, in canonical order.
+  /// Element groups for the friction system: by the later of their bodies in canonical order, then by the other; obstacles last.
   [[nodiscard]] std::vector<ElementGroup> element_groups(const ContactScene& scene) const;
 
   /// Pairs of spheres that rebuild() has found, in canonical order; handed over, for the layer has no use for them.
@@ -126,7 +132,8 @@ class ContactLayer {
   }
   [[nodiscard]] PairBody view(const ContactScene& scene, const SurfacePair& pair, int which) const;
   void rebuild_lists(const ContactScene& scene, SurfacePair& pair);
-  void evaluate_pair(const ContactScene& scene, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& workspace);
+  void evaluate_pair(const ContactScene& scene, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& workspace,
+                     ElementStore& store);
   void collect(const ContactScene& scene, const SurfacePair& pair, int side, const PairGradient& part, ContactGradient& gradient) const;
   /// Bound on how far the nodes in a pair's lists have moved against each other since the last call of note_motion().
   /// note_motion() where there are no pairs of surfaces: nothing but the distance from where the list was built is of interest.
@@ -159,8 +166,9 @@ class ContactLayer {
   ObjectiveFriction objective_;
   std::vector<SpherePressure> packing_;  ///< by body; empty: none
   std::vector<SphereNeighbours> spheres_;
-  std::size_t sphere_pairs_before_ = 0;          ///< how many the last rebuild() found
-  std::vector<std::uint32_t> pairs_of_kind_[2];  ///< by SurfacePairKind
+  std::size_t sphere_pairs_before_ = 0;             ///< how many the last rebuild() found
+  std::vector<std::uint32_t> pairs_of_kind_[2];     ///< by SurfacePairKind
+  std::vector<ElementStore> present_[2], step_[2];  ///< of the pairs of a kind, by thread: their elements and step_elements
   std::vector<Vec3f> known_at_;  ///< where the points were at the last note_motion(); if there are no pairs, at the last rebuild()
   double rounding_ = 0.0;        ///< how far that may be off [µm]
   std::vector<BodyMotion> motion_;

@@ -127,17 +127,16 @@ struct alignas(64) Batch {
   double unit[3][kLanes], length[kLanes];  ///< normal of the target at the foot point
   double weight_slope[kLanes], attraction[kLanes], density[kLanes], ramp[kLanes], pull[3][kLanes];
   double bearing[kLanes], stiffness[kLanes];
-  bool inside[kLanes];                                           ///< the gap is negative
-  double corner_adhesion[3][kLanes], per_adhesion[kLanes];       ///< where W differs by marks: W at the target's nodes, and energy by W
-  std::int32_t rounded_mu[2][kLanes], rounded_normal[3][kLanes];  ///< as ContactElement keeps them
+  bool inside[kLanes];                                      ///< the gap is negative
+  double corner_adhesion[3][kLanes], per_adhesion[kLanes];  ///< where W differs by marks: W at the target's nodes, and energy by W
+  std::int32_t rounded_mu[2][kLanes];                       ///< as ContactElement keeps them
 };
 
-/// Rounded to the nearest integer, halves away from zero.
-void store_rounded(std::int32_t (&out)[kLanes], Real value) {
+/// What is behind the point is cut off.
+void store_cut(std::int32_t (&out)[kLanes], Real value) {
   using Int [[gnu::vector_size(kLanes * sizeof(std::int32_t))]] = std::int32_t;
-  const Real half = select(value < Real(0.0), Real(-0.5), Real(0.5));
-  const Int rounded = __builtin_convertvector((value + half).v, Int);
-  __builtin_memcpy(out, &rounded, sizeof rounded);
+  const Int cut = __builtin_convertvector(value.v, Int);
+  __builtin_memcpy(out, &cut, sizeof cut);
 }
 
 void put(double (&array)[3][kLanes], int lane, const Vec3d& v) { array[0][lane] = v.x, array[1][lane] = v.y, array[2][lane] = v.z; }
@@ -256,9 +255,8 @@ void respond(const PointsEvaluation& e, Batch& batch) {
   (area * friction_weight(gap, law.range)).store(batch.bearing);
   (area * (weight.value * attraction.curvature + repulsion.curvature)).store(batch.stiffness);
   area.store(batch.area);
-  for (std::size_t k = 0; k < 2; ++k) store_rounded(batch.rounded_mu[k], Real::load(batch.mu[k]) * Real(ContactElement::kWeightUnits));
-  for (std::size_t k = 0; k < 3; ++k)
-    store_rounded(batch.rounded_normal[k], Real::load(batch.normal[k]) * Real(ContactElement::kNormalUnits));
+  for (std::size_t k = 0; k < 2; ++k)
+    store_cut(batch.rounded_mu[k], Real::load(batch.mu[k]) * Real(ContactElement::kWeightUnits) + Real(0.5));
 }
 
 Vec3d quadrature_point(const PointsEvaluation& e, const Triangle& t, int q) {
@@ -331,13 +329,13 @@ void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists,
     for (std::size_t j = 0; j < 3; ++j) c[j] = batch.per_adhesion[lane] * batch.corner_adhesion[j][lane];
     if (c[0] != c[1] || c[1] != c[2]) add_foot_gradient(e, p.q, sink.target_node, gap, c, sink);
   }
-  ContactElement& element = elements.emplace_back();
-  element.source = 4 * face + p.q;
-  element.target = sphere ? 0 : lists.target_face[p.place];
+  const std::uint32_t target = sphere ? 0 : lists.target_face[p.place];
+  ContactElement& element = elements.emplace_back(face, p.q, target < ContactElement::kMostTargetFaces ? target : 0);
   element.set_weights(batch.rounded_mu[0][lane], batch.rounded_mu[1][lane]);
-  for (std::size_t k = 0; k < 3; ++k) element.n[k] = static_cast<std::int16_t>(batch.rounded_normal[k][lane]);
-  element.w = static_cast<float>(batch.bearing[lane]);
-  element.set_stiffness(static_cast<float>(batch.stiffness[lane]), batch.inside[lane]);
+  element.set_normal(gap.normal);
+  element.set_area(static_cast<float>(batch.bearing[lane]));
+  element.set_stiffness(static_cast<float>(batch.stiffness[lane]));
+  element.set_inside(batch.inside[lane]);
 }
 
 }  // namespace
@@ -386,14 +384,13 @@ void evaluate_points(const PointsEvaluation& e, int d, SurfacePair& pair, PairGr
       if (p.second >= 0.0) remember(p, gap + touch, p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q, e, lists);
       if (gap < e.material.law.range) {
         add_point(e, d, lists, p, batch, lane, pair, gradient, ws.elements);
-        if (watch.suspects(gap + touch)) ws.suspects.push_back({ws.elements.back().source, batch.inside[lane], std::abs(gap + touch)});
+        if (watch.suspects(gap + touch)) ws.suspects.push_back({ws.elements.back().place(), batch.inside[lane], std::abs(gap + touch)});
       }
     }
   }
   watch.look(pair.step_elements[d], ws.elements, ws.suspects, pair);
   pair.points[d].update(lists);
   std::swap(gradient[d].source_face, lists.source_face);
-  pair.elements[d].assign(ws.elements.begin(), ws.elements.end());  // no more room than needed: they live long
 }
 
 }  // namespace morula

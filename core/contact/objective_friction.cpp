@@ -43,8 +43,8 @@ void ObjectiveFriction::add(const SurfacePair& pair, const PairBody (&body)[2], 
       e.body[0] = number[d];
       e.body[1] = number[1 - d];
       e.n = given.normal<float>();
-      e.across = given.w * tangential;
-      e.along = given.w * more;
+      e.across = given.area() * tangential;
+      e.along = given.area() * more;
       const Triangle& s = source.topology->faces()[given.source_face()];
       const std::uint32_t first_source = scene.bodies[number[d]].first_point;
       Vec3d apart;  // x − y
@@ -62,7 +62,7 @@ void ObjectiveFriction::add(const SurfacePair& pair, const PairBody (&body)[2], 
         e.count = 4;
         continue;
       }
-      const Triangle& t = target.topology->faces()[given.target];
+      const Triangle& t = target.topology->faces()[given.target()];
       double mu[3];
       given.weights(mu);
       for (std::size_t j = 0; j < 3; ++j) apart -= target.node(t[j]) * mu[j];
@@ -77,7 +77,8 @@ void ObjectiveFriction::add(const SurfacePair& pair, const PairBody (&body)[2], 
       set_levers(e, 3, TurningFace(target, t), 0.5 * gap);  // −½ g ṅ_B
     }
   }
-  if (elements_.size() > begin) pairs_.push_back({begin, elements_.size(), scene.bodies[pair.a].owned, pair.rigid, pair.rigid ? pair.b : 0});
+  if (elements_.size() > begin)
+    pairs_.push_back({begin, elements_.size(), scene.bodies[pair.a].owned, pair.rigid, pair.rigid ? pair.b : 0});
 }
 
 void ObjectiveFriction::rub(std::span<const Vec3d> position, std::span<const Vec3d> start, std::span<const Vec3d> obstacle_way,
@@ -111,7 +112,7 @@ void ObjectiveFriction::for_corners(F&& function) const {
 }
 
 void ObjectiveFriction::add_product(std::span<const Float4> p, std::span<Float4> q) const {
-  for_corners([&](const ObjectiveElement& e, const bool (&mine)[2]) {
+  for_corners([&](const ObjectiveElement& e, const bool(&mine)[2]) {
     const Vec3f u = e.jump([&](std::uint32_t i) { return Vec3f{p[i].x, p[i].y, p[i].z}; });
     const Vec3f f = e.drag(u);
     for (int c = 0; c < e.count; ++c) {
@@ -124,7 +125,7 @@ void ObjectiveFriction::add_product(std::span<const Float4> p, std::span<Float4>
 }
 
 void ObjectiveFriction::add_diagonal(std::span<SymMat3<float>> diagonal) const {
-  for_corners([&](const ObjectiveElement& e, const bool (&mine)[2]) {
+  for_corners([&](const ObjectiveElement& e, const bool(&mine)[2]) {
     for (int c = 0; c < e.count; ++c) {
       if (!mine[c < 3 ? 0 : 1]) continue;
       // J_cᵀ D J_c column by column

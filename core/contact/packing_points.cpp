@@ -24,8 +24,6 @@ void for_points_within(const PairBody& surface, const PairBody& sphere, const Fa
   }
 }
 
-std::int16_t rounded(double component) { return static_cast<std::int16_t>(std::lround(component * ContactElement::kNormalUnits)); }
-
 }  // namespace
 
 Penetration penetration(const PairBody& surface, const PairBody& sphere, const FaceQuadrature& quadrature,
@@ -41,7 +39,7 @@ Penetration penetration(const PairBody& surface, const PairBody& sphere, const F
 }
 
 void add_packing(const PairBody& surface, const PairBody& sphere, const FaceQuadrature& quadrature, const SpherePressure& pressure, int d,
-                 SurfacePair& pair, PairGradient (&gradient)[2]) {
+                 const SurfacePair& pair, PairGradient (&gradient)[2], std::vector<ContactElement>& elements) {
   if (pressure.pressure == 0.0 && pressure.resistance == 0.0) return;
   std::vector<std::uint32_t> faces;
   pair.points[d].unpack_source_faces(faces);
@@ -56,12 +54,9 @@ void add_packing(const PairBody& surface, const PairBody& sphere, const FaceQuad
     for (std::size_t i = 0; i < 3; ++i) gradient[d].force[t[i]].v += push * quadrature.weight[q][i];
     gradient[1 - d].force[0].v -= push;
     gradient[d].face_energy[k] += part * pressure.pressure * f.depth;
-    ContactElement& element = pair.elements[d].emplace_back();
-    element.source = 4 * face + static_cast<std::uint32_t>(q);
-    element.target = 0;
+    ContactElement& element = elements.emplace_back(face, static_cast<std::uint32_t>(q), 0);  // no area: the pair's own element rubs
     element.set_weights(ContactElement::kWeightUnits, 0);
-    for (std::size_t axis = 0; axis < 3; ++axis) element.n[axis] = rounded(normal[axis]);
-    element.w = 0.0f;  // the pair's own element rubs
+    element.set_normal(normal);
     element.set_stiffness(static_cast<float>(area * (pressure.pressure * f.curvature + pressure.resistance * f.slope)));
   });
 }

@@ -34,6 +34,6 @@ Penetration penetration(const PairBody& surface, const PairBody& sphere, const F
 /// Forces of the pressure on the points of body d (a surface) within body 1 − d (a sphere), and elements for the operator, beside those of
 /// evaluate_points(), after it. The energy V Ψ(φ) is the sphere's, not the pair's.
 void add_packing(const PairBody& surface, const PairBody& sphere, const FaceQuadrature& quadrature, const SpherePressure& pressure, int d,
-                 SurfacePair& pair, PairGradient (&gradient)[2]);
+                 const SurfacePair& pair, PairGradient (&gradient)[2], std::vector<ContactElement>& elements);
 
 }  // namespace morula

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/contact/closest_foot.h"
+#include "core/contact/faces_in_box.h"
 #include "core/contact/self_contact.h"
 #include "core/contact/surface_pair.h"
 #include "core/simd/transpose.h"
@@ -81,14 +82,9 @@ void add_candidates_of_face(const Ball& points, const PairBody& target, std::spa
   if (count > 0) measure();
 }
 
-void collect_nodes(const Topology* topology, std::span<const std::uint32_t> faces, std::vector<std::uint16_t>& nodes) {
+void mark_nodes(const Topology& topology, std::span<const std::uint32_t> faces, std::vector<char>& marked) {
   for (const std::uint32_t face : faces)
-    for (const std::uint32_t node : topology->faces()[face]) nodes.push_back(static_cast<std::uint16_t>(node));
-}
-
-void sort_unique(std::vector<std::uint16_t>& nodes) {
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    for (const std::uint32_t node : topology.faces()[face]) marked[node] = 1;
 }
 
 /// Carry over the nearest faces as guesses, and let points sleep on: at most until `longest`, since there are new candidates. `motion` is
@@ -140,11 +136,9 @@ void build_point_lists(const PairBody& source, const PairBody& target, const Lis
   near = near.inflated(distance);
   NodesAround around(*source.topology);
 
-  for (std::uint32_t face = 0; face < source.topology->face_count(); ++face) {
-    const Triangle& t = source.topology->faces()[face];
-    Box box;
-    for (const std::uint32_t node : t) box.include(source.node(node));
-    if (!box.overlaps(near)) continue;
+  std::vector<std::uint32_t> source_faces;
+  faces_in_box(source, near, source_faces);
+  for (const std::uint32_t face : source_faces) {
     Ball ball = face_ball(source, face);
     ball.radius *= 0.5;  // of its points, at (2/3, 1/6, 1/6) and at the centroid
     if (target.topology == nullptr) {
@@ -185,14 +179,17 @@ void build_point_lists(const PairBody& source, const PairBody& target, const Lis
 void collect_pair_nodes(const Topology* topology_a, const Topology* topology_b, const PointsAgainstBody (&lists)[2], SurfacePair& pair) {
   const Topology* topology[2] = {topology_a, topology_b};
   std::vector<std::uint16_t> nodes;
+  std::vector<char> marked;
   for (int body = 0; body < 2; ++body) {
     nodes.clear();
     if (topology[body] == nullptr) {
       nodes.push_back(0);
     } else if (!(pair.rigid && body == 1)) {
-      collect_nodes(topology[body], lists[body].source_face, nodes);
-      collect_nodes(topology[body], lists[1 - body].target_face, nodes);
-      sort_unique(nodes);
+      marked.assign(topology[body]->node_count(), 0);
+      mark_nodes(*topology[body], lists[body].source_face, marked);
+      mark_nodes(*topology[body], lists[1 - body].target_face, marked);
+      for (std::size_t i = 0; i < marked.size(); ++i)
+        if (marked[i]) nodes.push_back(static_cast<std::uint16_t>(i));
     }
     pair.node[body].assign(nodes.begin(), nodes.end());
   }
@@ -216,7 +213,7 @@ void clear_results(SurfacePair& pair, const std::size_t (&node_count)[2], PairGr
     g.face_energy.assign(pair.points[body].source_count(), 0.0);
     g.source_face.clear();
     g.contact_area = 0.0;
-    pair.elements[body].clear();
+    pair.elements[body] = {};
   }
 }
 

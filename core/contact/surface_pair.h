@@ -21,9 +21,11 @@ struct ContactMaterial {
   double sphere_modulus = 0.5;       ///< E/(1 − ν²) of the first material's spheres: they meet surfaces with sphere_foundation() [kPa]
   double normal_friction = 0.0;      ///< γ_n per contact area [nN·s/µm³]
   double tangential_friction = 0.0;  ///< γ_t per contact area [nN·s/µm³]
-  std::shared_ptr<const RegionalAdhesion> regional{};  ///< W by the marks of the faces, in place of that of the law; null: everywhere the same
-  double self_distance = 0.0;  ///< of a material with itself: how near a surface lets parts of its own come (core/contact/self_contact.h); 0: off [µm]
-  double self_radius = 0.0;    ///< typical radius of its bodies, from which the length of their edges follows [µm]
+  std::shared_ptr<const RegionalAdhesion>
+      regional{};  ///< W by the marks of the faces, in place of that of the law; null: everywhere the same
+  double self_distance =
+      0.0;  ///< of a material with itself: how near a surface lets parts of its own come (core/contact/self_contact.h); 0: off [µm]
+  double self_radius = 0.0;  ///< typical radius of its bodies, from which the length of their edges follows [µm]
 };
 
 /// A body of a pair at present positions: a surface (its quadrature points are held against the other body, its faces are what the
@@ -32,8 +34,8 @@ struct PairBody {
   const Topology* topology = nullptr;
   std::span<const Vec3d> position;
   std::span<const Vec3d> node_normal;
-  Vec3d shift{};        ///< added to the positions: periodic image, or how far an obstacle has moved
-  double radius = 0.0;  ///< of a sphere
+  Vec3d shift{};                         ///< added to the positions: periodic image, or how far an obstacle has moved
+  double radius = 0.0;                   ///< of a sphere
   std::span<const std::uint8_t> mark{};  ///< sets of marks by face; empty: none
 
   [[nodiscard]] std::uint8_t marks(std::uint32_t face) const { return mark.empty() ? std::uint8_t{0} : mark[face]; }
@@ -90,19 +92,19 @@ struct SurfacePair {
   double built_at = -1e300;   ///< motion when the lists were built
   double patch_motion = 0.0;  ///< that of the nodes in the lists alone, since the lists were built
   PackedPoints points[2];     ///< [0]: points of a against b; [1]: points of b against a
-  std::vector<std::uint16_t> node[2];            ///< nodes of a and of b in these lists, increasing; a sphere has node 0, an obstacle none
-  std::vector<ContactElement> elements[2];       ///< at the present positions; see present()
-  std::vector<ContactElement> step_elements[2];  ///< at the start of the step: its friction
-  double energy = 0.0;                           ///< [nN·µm]
-  double overlap = 0.0;                          ///< deepest penetration [µm]
-  double area = 0.0;                             ///< of both surfaces in contact [µm²]
-  Vec3d push;                                    ///< force on b where it is rigid [nN]
-  double step_overlap = 0.0;                     ///< `overlap` at the start of the step [µm]
-  std::uint32_t crossed = 0;                     ///< points that are on another side than at the start of the step; see crossing.h
-  double crossed_at = 1e300;                     ///< of a surface against itself: the least distance of such a point from the other side [µm]
+  std::vector<std::uint16_t> node[2];           ///< nodes of a and of b in these lists, increasing; a sphere has node 0, an obstacle none
+  std::span<const ContactElement> elements[2];  ///< at the present positions; see present(). In the layer's stores.
+  std::span<const ContactElement> step_elements[2];  ///< at the start of the step: its friction
+  double energy = 0.0;                               ///< [nN·µm]
+  double overlap = 0.0;                              ///< deepest penetration [µm]
+  double area = 0.0;                                 ///< of both surfaces in contact [µm²]
+  Vec3d push;                                        ///< force on b where it is rigid [nN]
+  double step_overlap = 0.0;                         ///< `overlap` at the start of the step [µm]
+  std::uint32_t crossed = 0;                         ///< points that are on another side than at the start of the step; see crossing.h
+  double crossed_at = 1e300;  ///< of a surface against itself: the least distance of such a point from the other side [µm]
 
   [[nodiscard]] bool with_itself() const { return !rigid && a == b; }
-  [[nodiscard]] const std::vector<ContactElement>& present(std::size_t d) const { return at_start ? step_elements[d] : elements[d]; }
+  [[nodiscard]] std::span<const ContactElement> present(std::size_t d) const { return at_start ? step_elements[d] : elements[d]; }
 };
 
 /// Everything that evaluating one direction of a pair reads.
@@ -149,10 +151,10 @@ struct PointsWorkspace {
   std::vector<std::uint32_t> search;  ///< points whose nearest face is not sure
   std::vector<Ball> ball;             ///< around the target's faces
   std::vector<Job> jobs;
-  std::vector<double> distance2;  ///< by job
-  std::vector<double> guessed;    ///< of the guesses
-  std::vector<ContactElement> elements;
-  std::vector<SuspectPoint> suspects;  ///< points that may have changed their side
+  std::vector<double> distance2;         ///< by job
+  std::vector<double> guessed;           ///< of the guesses
+  std::vector<ContactElement> elements;  ///< of one direction of a pair
+  std::vector<SuspectPoint> suspects;    ///< points that may have changed their side
   PointsAgainstBody lists;
 };
 
@@ -169,7 +171,7 @@ void collect_pair_nodes(const Topology* topology_a, const Topology* topology_b, 
 /// Set energy and overlap of a pair to zero, drop its elements, and make the gradients of its bodies (`node_count` of each) zero.
 void clear_results(SurfacePair& pair, const std::size_t (&node_count)[2], PairGradient (&gradient)[2]);
 
-/// Add energy, gradients and elements of direction d (points of body d against the other) at the present positions.
+/// Add energy and gradients of direction d (points of body d against the other) at the present positions; elements go to the workspace.
 void evaluate_points(const PointsEvaluation& evaluation, int d, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& workspace);
 
 }  // namespace morula

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace morula {
@@ -11,11 +12,6 @@ namespace {
 
 /// One number in all components.
 Float4v splat(float s) { return Float4v{s, s, s, s}; }
-
-float dot3(Float4v a, Float4v b) {
-  const Float4v m = a * b;
-  return m[0] + m[1] + m[2];
-}
 
 SymMat3<float> inverse_of(const SymMat3<float>& a) {
   const double c00 = double(a.yy) * a.zz - double(a.yz) * a.yz;
@@ -42,20 +38,39 @@ double dot_of_body(const Float4* a, const Float4* b, std::uint32_t count) {
   return total(sum);
 }
 
-Float4v times(const SymMat3<float>& m, Float4v r) {
-  return splat(r[0]) * Float4v{m.xx, m.xy, m.xz, 0.0f} + splat(r[1]) * Float4v{m.xy, m.yy, m.yz, 0.0f} +
-         splat(r[2]) * Float4v{m.xz, m.yz, m.zz, 0.0f};
+Float4v times(const NodeInverse& m, Float4v r) {
+  using Int4v [[gnu::vector_size(16)]] = std::int32_t;
+  const Int4v words = *reinterpret_cast<const Int4v*>(m.word);                // NOLINT: same layout and alignment; vector types may alias
+  const Float4v low = __builtin_convertvector((words << 16) >> 16, Float4v);  // xx xy xz, then anything
+  const Float4v high = __builtin_convertvector(words >> 16, Float4v);         // yy yz zz
+  const float unit = std::bit_cast<float>(m.word[3]);
+  return (splat(r[0]) * low + splat(r[1]) * __builtin_shufflevector(low, high, 1, 4, 5, 3) +
+          splat(r[2]) * __builtin_shufflevector(low, high, 2, 5, 6, 3)) *
+         Float4v{unit, unit, unit, 0.0f};
 }
 
-inline Float4v response(Float4v u, Float4v n, float a, float b) { return splat(a) * u + splat(b * dot3(n, u)) * n; }
-
 }  // namespace
+
+NodeInverse::NodeInverse(const SymMat3<float>& m) {
+  const float unit = std::max({m.xx, m.yy, m.zz}) / 32764.0f;  // the matrix is positive
+  const float per_unit = 1.0f / unit;
+  const auto whole = [&](float entry, float back) {
+    const float scaled = entry * per_unit + back;
+    return static_cast<std::int32_t>(scaled + (scaled < 0.0f ? -0.5f : 0.5f));
+  };
+  const auto both = [](std::int32_t low, std::int32_t high) {
+    return static_cast<std::int32_t>((static_cast<std::uint32_t>(low) & 0xFFFFu) | (static_cast<std::uint32_t>(high) << 16));
+  };
+  word[0] = both(whole(m.xx, 1.5f), whole(m.yy, 1.5f));
+  word[1] = both(whole(m.xy, 0.0f), whole(m.yz, 0.0f));
+  word[2] = both(whole(m.xz, 0.0f), whole(m.zz, 1.5f));
+  word[3] = std::bit_cast<std::int32_t>(unit);
+}
 
 void FrictionSystem::set_layout(Layout layout, int threads) {
   layout_ = std::move(layout);
   threads_ = std::max(1, threads);
-  inverse_.assign(layout_.point_count, {});
-  for (auto* vector : {&p_, &q_, &r_}) vector->assign(layout_.point_count, Float4{});
+  drop_matrix();
   // Contiguous ranges of bodies of about equal numbers of points.
   std::size_t owned_points = 0;
   for (std::size_t body = 0; body < layout_.body_count(); ++body)
@@ -70,24 +85,34 @@ void FrictionSystem::set_layout(Layout layout, int threads) {
       work_[thread].first_body = work_[thread].last_body = static_cast<std::uint32_t>(body + 1);
     }
   }
-  pairs_.clear();
-  for (auto& arena : blocks_) arena.clear();
+  portions_.clear();
   sphere_pairs_ = nullptr;
   added_.clear();
 }
 
 void FrictionSystem::set_elements(std::span<const ElementGroup> groups, const FaceQuadrature& quadrature) {
   pairs_.assign(groups.size(), {});
+  std::size_t points = 0;
+  for (const ElementGroup& group : groups) points += group.elements[0].size() + group.elements[1].size();
   blocks_.resize(static_cast<std::size_t>(threads_));
   for (auto& arena : blocks_) arena.clear();
 #pragma omp parallel num_threads(threads_)
   {
     const auto arena = static_cast<std::uint32_t>(omp_get_thread_num());
     PairCondenser condenser(quadrature, dt_);
+    std::size_t points_done = 0;
+    bool foreseen = false;
 #pragma omp for schedule(dynamic, 8)
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const ElementGroup& group = groups[g];
       NodePairArena& out = blocks_[arena];
+      if (!foreseen && points_done > 1000) {  // room for all, foreseen from the first: to grow by and by would copy them many times
+        foreseen = true;
+        const double more = 1.05 * static_cast<double>(points) / static_cast<double>(points_done) / threads_;
+        out.blocks.reserve(static_cast<std::size_t>(more * static_cast<double>(out.blocks.size())));
+        out.rows.reserve(static_cast<std::size_t>(more * static_cast<double>(out.rows.size())));
+      }
+      points_done += group.elements[0].size() + group.elements[1].size();
       const std::size_t begin = out.blocks.size(), first_row = out.rows.size();
       condenser.add_pair_blocks(group, out);
       pairs_[g] = {arena,
@@ -107,22 +132,76 @@ void FrictionSystem::set_elements(std::span<const ElementGroup> groups, const Fa
       if ((pairs_[g].write[0] && work.has(pairs_[g].body[0])) || (pairs_[g].write[1] && work.has(pairs_[g].body[1])))
         work.groups.push_back(g);
   }
-  if (shells_ == nullptr || shells_->point_count() == 0) return;
+  lay_out_portions();
+  schedule_contacts();
+}
 
-  std::vector<std::uint32_t> begin(layout_.body_count() + 1, 0), incident;
-  for (const ElementGroup& group : groups)
-    for (std::size_t side = 0; side < (group.rigid ? 1 : 2); ++side) ++begin[group.body[side] + 1];
-  for (std::size_t body = 1; body < begin.size(); ++body) begin[body] += begin[body - 1];
-  incident.resize(begin.back());
-  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-  for (std::uint32_t g = 0; g < groups.size(); ++g)
-    for (std::uint32_t side = 0; side < (groups[g].rigid ? 1u : 2u); ++side) incident[next[groups[g].body[side]]++] = 2 * g + side;
-  const PairCondenser condenser(quadrature, dt_);
-  shells_->add_edge_blocks([&](std::uint32_t body, std::span<EdgeBlock> edges) {
-    for (std::uint32_t k = begin[body]; k < begin[body + 1]; ++k)
-      condenser.add_edge_blocks(groups[incident[k] / 2], static_cast<int>(incident[k] % 2), edges);
-    return begin[body] < begin[body + 1];
-  });
+void FrictionSystem::lay_out_portions() {
+  constexpr std::uint32_t kBatches = 4, kBodies = 4096;  // vectors of a portion: some 200 kB
+  portions_.clear();
+  runs_.clear();
+  const std::size_t points = shells_ == nullptr ? 0 : shells_->point_count();
+  const auto batches = static_cast<std::uint32_t>(points == 0 ? 0 : shells_->batch_count());
+  const auto add_body = [&](Portion& portion, std::uint32_t body) {
+    if (portion.last_run > portion.first_run && runs_.back().last == body)
+      ++runs_.back().last;
+    else
+      runs_.push_back({body, body + 1}), ++portion.last_run;
+  };
+  for (std::uint32_t batch = 0; batch < batches; batch += kBatches) {
+    Portion& portion = portions_.emplace_back();
+    portion.first_batch = batch;
+    portion.last_batch = std::min(batches, batch + kBatches);
+    portion.first_run = portion.last_run = static_cast<std::uint32_t>(runs_.size());
+    for (std::uint32_t b = batch; b < portion.last_batch; ++b)
+      for (const std::uint32_t body : shells_->bodies_of(b)) add_body(portion, body);
+  }
+  std::uint32_t in_portion = kBodies;
+  for (std::uint32_t body = 0; body < layout_.body_count(); ++body) {
+    if (!layout_.owned[body] || layout_.points_of(body).first < points) continue;
+    if (in_portion++ == kBodies) {
+      in_portion = 1;
+      Portion& portion = portions_.emplace_back();
+      portion.first_run = portion.last_run = static_cast<std::uint32_t>(runs_.size());
+    }
+    add_body(portions_.back(), body);
+  }
+}
+
+void FrictionSystem::schedule_contacts() {
+  done_.clear();
+  if (threads_ > 1) return;  // contacts of a thread wait until all have their directions
+  // Contacts in their order, each as soon as its bodies, and those of all before it, are there: sums keep the canonical order.
+  std::vector<std::uint32_t> there(layout_.body_count(), 0), last(layout_.body_count(), 0);  // ghosts are there from the start
+  bool all_shells = added_.empty();
+  for (std::uint32_t k = 0; k < portions_.size(); ++k) {
+    all_shells = all_shells && portions_[k].first_batch < portions_[k].last_batch;
+    for (std::uint32_t r = portions_[k].first_run; r < portions_[k].last_run; ++r)
+      for (std::uint32_t body = runs_[r].first; body < runs_[r].last; ++body) there[body] = last[body] = k;
+  }
+  const std::vector<std::uint32_t>& groups = work_[0].groups;
+  std::uint32_t next = 0;
+  for (std::uint32_t k = 0; k < portions_.size(); ++k) {
+    portions_[k].first_group = next;
+    for (; next < groups.size(); ++next) {
+      const PairBlocks& pair = pairs_[groups[next]];
+      if (there[pair.body[0]] > k || (!pair.rigid && there[pair.body[1]] > k)) break;
+      last[pair.body[0]] = k;
+      if (!pair.rigid) last[pair.body[1]] = k;
+    }
+    portions_[k].last_group = next;
+  }
+  if (!all_shells) return;
+  std::vector<std::uint32_t> first(portions_.size() + 1, 0);
+  for (std::uint32_t body = 0; body < last.size(); ++body)
+    if (layout_.owned[body]) ++first[last[body] + 1];
+  for (std::size_t k = 0; k < portions_.size(); ++k) {
+    first[k + 1] += first[k];
+    portions_[k].first_done = first[k], portions_[k].last_done = first[k + 1];
+  }
+  done_.resize(first.back());
+  for (std::uint32_t body = 0; body < last.size(); ++body)
+    if (layout_.owned[body]) done_[first[last[body]]++] = body;
 }
 
 template <class Body>
@@ -140,36 +219,91 @@ void FrictionSystem::for_owned_bodies(Body&& function) const {
   }
 }
 
-void FrictionSystem::apply_contacts(int thread, std::span<const Float4> p, std::span<Float4> q) const {
+template <class Point>
+void FrictionSystem::for_points_of(const Portion& portion, Point&& point) const {
+  for (std::uint32_t r = portion.first_run; r < portion.last_run; ++r)
+    for (std::uint32_t body = runs_[r].first; body < runs_[r].last; ++body) {
+      if (!layout_.owned[body]) continue;
+      const BodyPoints points = layout_.points_of(body);
+      for (std::uint32_t i = points.first; i < points.first + points.count; ++i) point(i);
+    }
+}
+
+void FrictionSystem::multiply(const Portion& portion, std::span<const Float4> p, std::span<Float4> q) const {
+  if (portion.first_batch < portion.last_batch) return shells_->multiply(portion.first_batch, portion.last_batch, p, q);
+  for_points_of(portion, [&](std::uint32_t i) { store(q[i], splat(point_friction_[i]) * load(p[i])); });
+}
+
+void FrictionSystem::apply_contacts(int thread, std::size_t first, std::size_t last, std::span<const Float4> p, std::span<Float4> q) const {
   const ThreadWork& work = work_[static_cast<std::size_t>(thread)];
-  for (const std::uint32_t g : work.groups) {
-    const PairBlocks& pair = pairs_[g];
+  for (std::size_t k = first; k < last; ++k) {
+    const PairBlocks& pair = pairs_[work.groups[k]];
     const bool write[2] = {pair.write[0] && work.has(pair.body[0]), pair.write[1] && work.has(pair.body[1])};
     apply_pair_blocks(blocks_of(pair), p.data() + pair.first[0], write[0] ? q.data() + pair.first[0] : nullptr,
                       pair.rigid ? nullptr : p.data() + pair.first[1], write[1] ? q.data() + pair.first[1] : nullptr);
   }
 }
 
-void FrictionSystem::apply(std::span<const Float4> p, std::span<Float4> q) const {
-  if (shells_ != nullptr && shells_->point_count() > 0) shells_->multiply(p, q);
-  const std::size_t done = shells_ != nullptr ? shells_->point_count() : 0;
-  for_owned_bodies([&](int, const BodyPoints& points) {
-    if (points.first < done) return;
-    for (std::uint32_t i = points.first; i < points.first + points.count; ++i) store(q[i], splat(point_friction_[i]) * load(p[i]));
-  });
-#pragma omp parallel for schedule(static, 1) num_threads(threads_)
-  for (int t = 0; t < threads_; ++t) apply_contacts(t, p, q);
+void FrictionSystem::add_others(std::span<const Float4> p, std::span<Float4> q) const {
   if (sphere_pairs_ != nullptr) sphere_pairs_->add_product(p, q, dt_);
   for (const AddedPart* part : added_) part->add_product(p, q);
 }
 
-void FrictionSystem::add_contact_diagonal(int thread) {
+void FrictionSystem::apply(std::span<const Float4> p, std::span<Float4> q) const {
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (std::size_t k = 0; k < portions_.size(); ++k) multiply(portions_[k], p, q);
+#pragma omp parallel for schedule(static, 1) num_threads(threads_)
+  for (int t = 0; t < threads_; ++t) apply_contacts(t, 0, work_[static_cast<std::size_t>(t)].groups.size(), p, q);
+  add_others(p, q);
+}
+
+double FrictionSystem::turn(float alpha, float beta, std::span<Float4> v, const Comm& comm) {
+  const Float4v a = splat(alpha), b = splat(beta);
+  const auto renew = [&](const Portion& portion) {
+    for_points_of(portion, [&](std::uint32_t i) {
+      const Float4v p = load(p_[i]);
+      store(v[i], load(v[i]) + a * p);
+      store(p_[i], times(inverse_[i], load(r_[i])) + b * p);
+    });
+  };
+  if (layout_.exchange) {
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (std::size_t k = 0; k < portions_.size(); ++k) renew(portions_[k]);
+    layout_.exchange(p_);
+  }
+  if (threads_ > 1) {
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (std::size_t k = 0; k < portions_.size(); ++k) {
+      if (!layout_.exchange) renew(portions_[k]);
+      multiply(portions_[k], p_, q_);
+    }
+#pragma omp parallel for schedule(static, 1) num_threads(threads_)
+    for (int t = 0; t < threads_; ++t) apply_contacts(t, 0, work_[static_cast<std::size_t>(t)].groups.size(), p_, q_);
+    add_others(p_, q_);
+    return dot(p_, q_, comm);
+  }
+  OrderFreeSum sum;
+  for (const Portion& portion : portions_) {
+    if (!layout_.exchange) renew(portion);
+    multiply(portion, p_, q_);
+    apply_contacts(0, portion.first_group, portion.last_group, p_, q_);
+    for (std::uint32_t k = portion.first_done; k < portion.last_done; ++k) {
+      const BodyPoints points = layout_.points_of(done_[k]);
+      sum.add(dot_of_body(p_.data() + points.first, q_.data() + points.first, points.count));
+    }
+  }
+  if (!done_.empty()) return comm.sum(sum);
+  add_others(p_, q_);
+  return dot(p_, q_, comm);
+}
+
+void FrictionSystem::add_contact_diagonal(int thread, std::span<SymMat3<float>> sum) const {
   const ThreadWork& work = work_[static_cast<std::size_t>(thread)];
   for (const std::uint32_t g : work.groups) {
     const PairBlocks& pair = pairs_[g];
     for (int side = 0; side < 2; ++side) {
       if (!pair.write[side] || !work.has(pair.body[side])) continue;
-      SymMat3<float>* const diagonal = inverse_.data() + pair.first[side];
+      SymMat3<float>* const diagonal = sum.data() + pair.first[side];
       const NodePairBlocks blocks = blocks_of(pair);
       const NodePairBlock* block = blocks.blocks.data();
       for (const NodePairRow& row : blocks.rows)
@@ -180,15 +314,23 @@ void FrictionSystem::add_contact_diagonal(int thread) {
 }
 
 void FrictionSystem::build_preconditioner() {
-  for (std::size_t i = 0; i < layout_.point_count; ++i) inverse_[i] = isotropic(point_friction_[i]);
-  if (shells_ != nullptr && shells_->point_count() > 0) shells_->add_diagonal(inverse_);
+  std::vector<SymMat3<float>> diagonal(layout_.point_count);
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (std::size_t i = 0; i < layout_.point_count; ++i) diagonal[i] = isotropic(point_friction_[i]);
+  if (shells_ != nullptr && shells_->point_count() > 0) shells_->add_diagonal(diagonal);
 #pragma omp parallel for schedule(static, 1) num_threads(threads_)
-  for (int t = 0; t < threads_; ++t) add_contact_diagonal(t);
-  if (sphere_pairs_ != nullptr) sphere_pairs_->add_diagonal(inverse_, dt_);
-  for (const AddedPart* part : added_) part->add_diagonal(inverse_);
+  for (int t = 0; t < threads_; ++t) add_contact_diagonal(t, diagonal);
+  if (sphere_pairs_ != nullptr) sphere_pairs_->add_diagonal(diagonal, dt_);
+  for (const AddedPart* part : added_) part->add_diagonal(diagonal);
+  inverse_.resize(layout_.point_count);
   for_owned_bodies([&](int, const BodyPoints& points) {
-    for (std::uint32_t i = points.first; i < points.first + points.count; ++i) inverse_[i] = inverse_of(inverse_[i]);
+    for (std::uint32_t i = points.first; i < points.first + points.count; ++i) inverse_[i] = NodeInverse(inverse_of(diagonal[i]));
   });
+}
+
+void FrictionSystem::drop_matrix() {
+  const auto give_back = [](auto& vector) { std::remove_reference_t<decltype(vector)>().swap(vector); };
+  give_back(inverse_), give_back(p_), give_back(q_), give_back(r_), give_back(pairs_), give_back(blocks_);
 }
 
 double FrictionSystem::dot(std::span<const Float4> a, std::span<const Float4> b, const Comm& comm) const {
@@ -200,13 +342,12 @@ double FrictionSystem::dot(std::span<const Float4> a, std::span<const Float4> b,
   return comm.sum(sums[0]);
 }
 
-void FrictionSystem::advance(float alpha, std::span<Float4> v, const Comm& comm, double (&totals)[2]) {
+void FrictionSystem::reduce(float alpha, const Comm& comm, double (&totals)[2]) {
   std::vector<std::array<OrderFreeSum, 2>> sums(static_cast<std::size_t>(threads_));
   const Float4v a = splat(alpha);
   for_owned_bodies([&](int t, const BodyPoints& points) {
     Double4 rr{}, rz{};
     for (std::uint32_t i = points.first; i < points.first + points.count; ++i) {
-      store(v[i], load(v[i]) + a * load(p_[i]));
       const Float4v r = load(r_[i]) - a * load(q_[i]);
       store(r_[i], r);
       const Double4 wide = to_double(r);
@@ -223,6 +364,8 @@ void FrictionSystem::advance(float alpha, std::span<Float4> v, const Comm& comm,
 
 Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<Float4> v, double tolerance, int max_iterations, const Comm& comm) {
   build_preconditioner();
+  p_.assign(layout_.point_count, {});
+  q_.assign(layout_.point_count, {});
   const auto exchange = [&](std::span<Float4> vector) {
     if (layout_.exchange) layout_.exchange(vector);
   };
@@ -248,23 +391,22 @@ Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<Float4> v, doubl
     if (!helps) v[i] = q_[i] = {};
   });
   double sums[2];  // r·r, r·z
-  advance(1.0f, v, comm, sums);
+  reduce(1.0f, comm, sums);
   double residual = std::sqrt(sums[0]);
   const double goal = tolerance * b_norm;
   SolveReport report{0, residual / b_norm, residual <= goal};
-  float beta = 0.0f;
+  float alpha = 0.0f, beta = 0.0f;
   while (residual > goal && report.iterations < max_iterations) {
-    for_owned_points([&](std::uint32_t i) { store(p_[i], times(inverse_[i], load(r_[i])) + splat(beta) * load(p_[i])); });
-    exchange(p_);
-    apply(p_, q_);
-    const double pq = dot(p_, q_, comm);
+    const double pq = turn(alpha, beta, v, comm);
     if (!(pq > 0.0)) return SolveFault{"the friction matrix is not positive definite"};
     const double rz = sums[1];
-    advance(static_cast<float>(rz / pq), v, comm, sums);
+    alpha = static_cast<float>(rz / pq);
+    reduce(alpha, comm, sums);
     residual = std::sqrt(sums[0]);
     beta = static_cast<float>(sums[1] / rz);
     ++report.iterations;
   }
+  for_owned_points([&](std::uint32_t i) { store(v[i], load(v[i]) + splat(alpha) * load(p_[i])); });
   report.residual = residual / b_norm;
   report.converged = residual <= goal;
   return report;
@@ -273,7 +415,7 @@ Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<Float4> v, doubl
 std::size_t FrictionSystem::memory() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
   std::size_t total = bytes(point_friction_) + bytes(pairs_) + bytes(inverse_) + bytes(p_) + bytes(q_) + bytes(r_) + bytes(layout_.bodies) +
-                      bytes(layout_.owned);
+                      bytes(layout_.owned) + bytes(portions_) + bytes(runs_) + bytes(done_);
   for (const NodePairArena& arena : blocks_) total += bytes(arena.rows) + bytes(arena.blocks);
   for (const ThreadWork& work : work_) total += bytes(work.groups);
   return total;

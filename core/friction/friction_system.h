@@ -22,15 +22,15 @@ struct BodyPoints {
 };
 
 /// A part of the matrix that somebody else can apply: the shells' own mechanics. It acts on the first point_count() points, all owned,
-/// which belong to the first bodies.
+/// which belong to the first bodies; a few bodies at a time, which are called a batch.
 class OperatorPart {
  public:
   virtual ~OperatorPart() = default;
   [[nodiscard]] virtual std::size_t point_count() const = 0;
-  /// Add blocks to the edges of its bodies: m (v_i − v_j) on node i of an edge, the opposite on j.
-  virtual void add_edge_blocks(const EdgeBlockSource& source) = 0;
-  /// q = A p on its points.
-  virtual void multiply(std::span<const Float4> p, std::span<Float4> q) const = 0;
+  [[nodiscard]] virtual std::size_t batch_count() const = 0;
+  [[nodiscard]] virtual std::span<const std::uint32_t> bodies_of(std::size_t batch) const = 0;
+  /// q = A p on the points of the batches first .. last−1; by one thread.
+  virtual void multiply(std::size_t first, std::size_t last, std::span<const Float4> p, std::span<Float4> q) const = 0;
   /// Add the 3×3 diagonal blocks.
   virtual void add_diagonal(std::span<SymMat3<float>> diagonal) const = 0;
 };
@@ -43,6 +43,15 @@ class AddedPart {
   virtual void add_product(std::span<const Float4> p, std::span<Float4> q) const = 0;
   /// Add the 3×3 diagonal blocks.
   virtual void add_diagonal(std::span<SymMat3<float>> diagonal) const = 0;
+};
+
+/// A symmetric positive definite 3×3 matrix in 16 bytes: words xx|yy, xy|yz, xz|zz of 16 bits each, and their unit, 1/32764 of the largest. What
+/// rounding may take from an eigenvalue is given back, so that it stays positive definite.
+struct alignas(16) NodeInverse {
+  std::int32_t word[4] = {};
+
+  NodeInverse() = default;
+  explicit NodeInverse(const SymMat3<float>& m);
 };
 
 struct SolveReport {
@@ -61,6 +70,9 @@ struct SolveFault {
 ///
 /// Vectors are float, sums are double in fixed order within a body and order-free over bodies, so that the solution has the same bits on
 /// any number of threads and ranks. Ghost points of p are refreshed through `exchange` before each product.
+///
+/// A large tissue waits for memory. An iteration therefore goes over it twice only: once portion by portion (direction, shells, the contacts
+/// whose bodies are done by then, p·q of the bodies whose contacts are), once for the residual.
 class FrictionSystem {
  public:
   struct Layout {
@@ -81,21 +93,28 @@ class FrictionSystem {
 
   /// Diagonal friction [nN·s/µm] by point: of the spheres, and 0 where the shells' part has its own; ghosts are ignored.
   void set_point_friction(std::span<const float> friction) { point_friction_.assign(friction.begin(), friction.end()); }
-  /// The shells' own part; before set_elements(), which adds to it.
+  /// The shells' own part, with what contacts couple within a shell (edge_blocks_of()).
   void set_shells(OperatorPart* shells) { shells_ = shells; }
   /// Something that adds to the matrix: what lives inside the shells, friction of its own form. In this order; set_layout() forgets all.
   void add_part(const AddedPart* part) { added_.push_back(part); }
   void set_step(double dt) { dt_ = static_cast<float>(dt); }
-  /// Contacts of surfaces at the present step size; read now, not kept.
+  /// Contacts of surfaces at the present step size; read now, not kept. Groups come in canonical order: by the later of their bodies, then by
+  /// the other, so that those of early bodies come early.
   void set_elements(std::span<const ElementGroup> groups, const FaceQuadrature& quadrature);
   /// The spheres' own part; may be null.
   void set_sphere_pairs(const SpherePairs* pairs) { sphere_pairs_ = pairs; }
   [[nodiscard]] std::span<const float> point_friction() const { return point_friction_; }
 
   /// Where the caller puts b by point (owned points), anew before each solve().
-  [[nodiscard]] std::span<Float4> right() { return r_; }
+  [[nodiscard]] std::span<Float4> right() {
+    r_.resize(layout_.point_count);
+    return r_;
+  }
   /// Solve A v = b from the start in v, until ‖r‖ ≤ tolerance ‖b‖. v of ghost points is not written; b is used up.
   Result<SolveReport, SolveFault> solve(std::span<Float4> v, double tolerance, int max_iterations, const Comm& comm);
+
+  /// Give back the memory of the matrix and the vectors until the next set_elements(): forces need as much.
+  void drop_matrix();
 
   /// q = A p on owned points (p must hold the ghosts). For tests and for the residual.
   void apply(std::span<const Float4> p, std::span<Float4> q) const;
@@ -112,14 +131,34 @@ class FrictionSystem {
     bool write[2] = {true, true}, rigid = false;
   };
 
+  /// What is worked on while it is in cache: batches of the shells, or bodies of one point.
+  struct Portion {
+    std::uint32_t first_batch = 0, last_batch = 0;
+    std::uint32_t first_run = 0, last_run = 0;      ///< its owned bodies, in runs_
+    std::uint32_t first_group = 0, last_group = 0;  ///< of contacts that can be applied when it is done (one thread)
+    std::uint32_t first_done = 0, last_done = 0;    ///< bodies whose last contact is then done, in done_ (one thread)
+  };
+  /// Bodies first <= body < last.
+  struct BodyRun {
+    std::uint32_t first, last;
+  };
+
+  void lay_out_portions();
+  void schedule_contacts();
   void build_preconditioner();
   template <class Body>
   void for_owned_bodies(Body&& body) const;
+  template <class Point>
+  void for_points_of(const Portion& portion, Point&& point) const;
   [[nodiscard]] double dot(std::span<const Float4> a, std::span<const Float4> b, const Comm& comm) const;
-  void apply_contacts(int thread, std::span<const Float4> p, std::span<Float4> q) const;
-  void add_contact_diagonal(int thread);
-  /// v += α p, r −= α q; gives (r·r, r·z) with z = M⁻¹ r.
-  void advance(float alpha, std::span<Float4> v, const Comm& comm, double (&sums)[2]);
+  void multiply(const Portion& portion, std::span<const Float4> p, std::span<Float4> q) const;
+  void apply_contacts(int thread, std::size_t first, std::size_t last, std::span<const Float4> p, std::span<Float4> q) const;
+  void add_contact_diagonal(int thread, std::span<SymMat3<float>> sum) const;
+  void add_others(std::span<const Float4> p, std::span<Float4> q) const;
+  /// v += α p, p = M⁻¹ r + β p, q = A p; gives p·q.
+  [[nodiscard]] double turn(float alpha, float beta, std::span<Float4> v, const Comm& comm);
+  /// r −= α q; gives (r·r, r·z) with z = M⁻¹ r.
+  void reduce(float alpha, const Comm& comm, double (&sums)[2]);
   [[nodiscard]] NodePairBlocks blocks_of(const PairBlocks& pair) const {
     const NodePairArena& arena = blocks_[pair.arena];
     return {std::span(arena.rows).subspan(pair.first_row, pair.row_count), std::span(arena.blocks).subspan(pair.begin, pair.count)};
@@ -142,7 +181,10 @@ class FrictionSystem {
   OperatorPart* shells_ = nullptr;
   std::vector<const AddedPart*> added_;
   std::vector<ThreadWork> work_;
-  std::vector<SymMat3<float>> inverse_;
+  std::vector<Portion> portions_;
+  std::vector<BodyRun> runs_;
+  std::vector<std::uint32_t> done_;  ///< owned bodies, in the order in which they are done; empty where more is added to q in the end
+  std::vector<NodeInverse> inverse_;
   std::vector<Float4> p_, q_, r_;
 };
 

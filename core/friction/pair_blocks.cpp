@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
+
+#include "core/simd/lane.h"
 
 namespace morula {
 namespace {
@@ -22,8 +25,8 @@ void add(EdgeBlock& block, float weight, Float8v matrix) {
 /// D = a I + (b + Δt k) n nᵀ of a contact point, and its smallest eigenvalue behind.
 Float8v matrix_of(const ContactElement& e, const ElementGroup& group, float time_step) {
   const Vec3f n = e.normal<float>();
-  const float a = e.w * group.tangential_friction;
-  const float b = e.w * (group.normal_friction - group.tangential_friction) + time_step * e.stiffness();
+  const float a = e.area() * group.tangential_friction;
+  const float b = e.area() * (group.normal_friction - group.tangential_friction) + time_step * e.stiffness();
   const Float8v left{n.x, n.x, n.x, n.y, n.y, n.z, 0.0f, 0.0f}, right{n.x, n.y, n.z, n.y, n.z, n.z, 0.0f, 0.0f};
   return left * right * b + Float8v{a, 0.0f, 0.0f, a, 0.0f, a, b < 0.0f ? a + b : a, 0.0f};
 }
@@ -88,7 +91,7 @@ void PairCondenser::mark_pairs(const ElementGroup& group) {
   for (int d = 0; d < 2; ++d) {
     const Topology* const target = target_of(group, d);
     for (const ContactElement& e : group.elements[d]) {
-      const Triangle source = nodes_of(group.topology[d], e.source_face()), t = nodes_of(target, e.target);
+      const Triangle source = nodes_of(group.topology[d], e.source_face()), t = nodes_of(target, e.target());
       float mu[3];
       target_weights(e, target, mu);
       if (d == 0) {
@@ -132,7 +135,7 @@ void PairCondenser::add_pair_blocks(const ElementGroup& group, NodePairArena& ou
   for (int d = 0; d < 2; ++d) {
     const Topology* const target = target_of(group, d);
     for (const ContactElement& e : group.elements[d]) {
-      const Triangle source = nodes_of(group.topology[d], e.source_face()), t = nodes_of(target, e.target);
+      const Triangle source = nodes_of(group.topology[d], e.source_face()), t = nodes_of(target, e.target());
       const Float8v matrix = matrix_of(e, group, time_step_);
       const float* const beta = beta_[e.point()];
       float mu[3];
@@ -185,53 +188,104 @@ void PairCondenser::add_edge_blocks(const ElementGroup& group, int side, std::sp
     const Float8v matrix = matrix_of(e, group, time_step_);
     float mu[3];
     e.weights(mu);
-    const auto& edge = edges_of_face[e.target];
+    const auto& edge = edges_of_face[e.target()];
     for (std::size_t c = 0; c < 3; ++c) add(edges[edge[c]], -mu[(c + 1) % 3] * mu[(c + 2) % 3], matrix);
   }
 }
 
-namespace {
-
-/// x, y, or z of a point in all components.
-struct Splat {
-  Float4v x, y, z;
-  explicit Splat(const Float4& p) : x{p.x, p.x, p.x, p.x}, y{p.y, p.y, p.y, p.y}, z{p.z, p.z, p.z, p.z} {}
-};
-
-/// C d in units of the row, with anything behind.
-Float4v times(const NodePairBlock& block, Float4v x, Float4v y, Float4v z) {
-  using Int4v [[gnu::vector_size(16)]] = std::int32_t;
-  Int4v packed;
-  std::memcpy(&packed, &block, sizeof packed);                                 // two entries in each
-  const Float4v low = __builtin_convertvector((packed << 16) >> 16, Float4v);  // xx xy xz zz
-  const Float4v high = __builtin_convertvector(packed >> 16, Float4v);         // j yy yz
-  return x * low + y * __builtin_shufflevector(low, high, 1, 5, 6, 6) + z * __builtin_shufflevector(low, high, 2, 6, 3, 3);
+EdgeBlockSource edge_blocks_of(std::span<const ElementGroup> groups, std::size_t bodies, const FaceQuadrature& quadrature,
+                               float time_step) {
+  std::vector<std::uint32_t> begin(bodies + 1, 0), incident;
+  for (const ElementGroup& group : groups)
+    for (std::size_t side = 0; side < (group.rigid ? 1 : 2); ++side) ++begin[group.body[side] + 1];
+  for (std::size_t body = 1; body < begin.size(); ++body) begin[body] += begin[body - 1];
+  incident.resize(begin.back());
+  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+  for (std::uint32_t g = 0; g < groups.size(); ++g)
+    for (std::uint32_t side = 0; side < (groups[g].rigid ? 1u : 2u); ++side) incident[next[groups[g].body[side]]++] = 2 * g + side;
+  return [groups, begin = std::move(begin), incident = std::move(incident), condenser = PairCondenser(quadrature, time_step)](
+             std::uint32_t body, std::span<EdgeBlock> edges) {
+    for (std::uint32_t k = begin[body]; k < begin[body + 1]; ++k)
+      condenser.add_edge_blocks(groups[incident[k] / 2], static_cast<int>(incident[k] % 2), edges);
+    return begin[body] < begin[body + 1];
+  };
 }
 
-Float4v without_last(Float4v v) {
-  using Int4v [[gnu::vector_size(16)]] = std::int32_t;
-  return reinterpret_cast<Float4v>(reinterpret_cast<Int4v>(v) & Int4v{-1, -1, -1, 0});
+namespace {
+
+/// N blocks of a row at once: their vectors side by side in one register.
+template <int N>
+struct Side {
+  using Vector = typename Lane<float, 4 * N>::Vector;
+  using Words = typename Lane<float, 4 * N>::Mask;
+
+  /// The same numbers of each four: lane l gets number pick[l % 4] of its four in `a`, or of `b` where that is 4 to 7.
+  template <int P0, int P1, int P2, int P3, int... L>
+  static Vector pick(Vector a, Vector b, std::integer_sequence<int, L...>) {
+    constexpr int from[4] = {P0, P1, P2, P3};
+    return __builtin_shufflevector(a, b, (from[L % 4] < 4 ? L / 4 * 4 + from[L % 4] : 4 * N + L / 4 * 4 + from[L % 4] - 4)...);
+  }
+  template <int P0, int P1, int P2, int P3>
+  static Vector pick(Vector a, Vector b) {
+    return pick<P0, P1, P2, P3>(a, b, std::make_integer_sequence<int, 4 * N>{});
+  }
+
+  /// The vectors `get(0)` .. `get(N − 1)` side by side. Not through memory: what was stored in pieces can not be loaded as a whole at once.
+  template <class Get>
+  static Vector gather(const Get& get) {
+    if constexpr (N == 1) {
+      return get(0);
+    } else if constexpr (N == 2) {
+      return __builtin_shufflevector(get(0), get(1), 0, 1, 2, 3, 4, 5, 6, 7);
+    } else {
+      const auto half = Side<2>::gather(get), rest = Side<2>::gather([&](int k) { return get(k + 2); });
+      return __builtin_shufflevector(half, rest, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    }
+  }
+  template <int K>
+  static Float4v part(Vector v) {
+    return __builtin_shufflevector(v, v, 4 * K, 4 * K + 1, 4 * K + 2, 4 * K + 3);
+  }
+
+  /// C d in units of the row, with anything behind.
+  static Vector times(const NodePairBlock* block, Vector d) {
+    Words packed;
+    std::memcpy(&packed, block, sizeof packed);  // two entries in each
+    const Words lower = (packed << 16) >> 16, upper = packed >> 16;
+    const Vector low = __builtin_convertvector(lower, Vector);   // xx xy xz zz
+    const Vector high = __builtin_convertvector(upper, Vector);  // j yy yz
+    return pick<0, 0, 0, 0>(d, d) * low + pick<1, 1, 1, 1>(d, d) * pick<1, 5, 6, 6>(low, high) +
+           pick<2, 2, 2, 2>(d, d) * pick<2, 6, 3, 3>(low, high);
+  }
+};
+
+/// What N blocks of a row do to its own node, added to `sum`, and to the others.
+template <int N, bool kFirst, bool kSecond, bool kRest>
+inline void apply_blocks(const NodePairBlock* block, Float4v pi, Float4v unit, Float4v& sum, const Float4* p1, Float4* q1) {
+  using S = Side<N>;
+  typename S::Vector d = S::gather([&](int) { return pi; });
+  if constexpr (!kRest) d -= S::gather([&](int k) { return load(p1[block[k].j]); });
+  const typename S::Vector f = S::times(block, d) * S::gather([&](int) { return unit; });
+  const auto give = [&]<int K>() {
+    if constexpr (kFirst) sum += S::template part<K>(f);
+    if constexpr (kSecond) store(q1[block[K].j], load(q1[block[K].j]) - S::template part<K>(f));
+  };
+  give.template operator()<0>();
+  if constexpr (N > 1) give.template operator()<1>();
+  if constexpr (N > 2) give.template operator()<2>(), give.template operator()<3>();
 }
 
 template <bool kFirst, bool kSecond, bool kRest>
 void apply_rows(const NodePairBlocks& pair, const Float4* p0, Float4* q0, const Float4* p1, Float4* q1) {
   const NodePairBlock* block = pair.blocks.data();
   for (const NodePairRow& row : pair.rows) {
-    const Splat pi(p0[row.i]);
-    const Float4v unit = without_last(Float4v{row.unit, row.unit, row.unit, row.unit});
+    const Float4v pi = load(p0[row.i]), unit{row.unit, row.unit, row.unit, 0.0f};
     Float4v sum{};
-    for (const NodePairBlock* const end = block + row.count; block != end; ++block) {
-      Float4v f;
-      if constexpr (kRest) {
-        f = times(*block, pi.x, pi.y, pi.z);
-      } else {
-        const Splat pj(p1[block->j]);
-        f = times(*block, pi.x - pj.x, pi.y - pj.y, pi.z - pj.z) * unit;
-      }
-      if constexpr (kFirst) sum += f;
-      if constexpr (kSecond) store(q1[block->j], load(q1[block->j]) - f);
-    }
-    if constexpr (kFirst) store(q0[row.i], load(q0[row.i]) + (kRest ? sum * unit : sum));
+    const NodePairBlock* const end = block + row.count;
+    for (; end - block >= 4; block += 4) apply_blocks<4, kFirst, kSecond, kRest>(block, pi, unit, sum, p1, q1);
+    for (; end - block >= 2; block += 2) apply_blocks<2, kFirst, kSecond, kRest>(block, pi, unit, sum, p1, q1);
+    if (end != block) apply_blocks<1, kFirst, kSecond, kRest>(block++, pi, unit, sum, p1, q1);
+    if constexpr (kFirst) store(q0[row.i], load(q0[row.i]) + sum);
   }
 }
 

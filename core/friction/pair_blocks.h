@@ -73,6 +73,10 @@ class PairCondenser {
   std::vector<EdgeBlock> sum_;
 };
 
+/// What the points of all groups couple within one body; `groups` and their points must live as long as the result is used. By number of
+/// body, of which there are `bodies`.
+EdgeBlockSource edge_blocks_of(std::span<const ElementGroup> groups, std::size_t bodies, const FaceQuadrature& quadrature, float time_step);
+
 /// q += the blocks applied to p: `p0`, `q0` at the first point of body 0, `p1`, `q1` of body 1 (null: an obstacle at rest). A side whose q
 /// is null is not written.
 void apply_pair_blocks(const NodePairBlocks& pair, const Float4* p0, Float4* q0, const Float4* p1, Float4* q1);

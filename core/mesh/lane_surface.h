@@ -30,6 +30,13 @@ Lane<T, W> load_scalar(const T* array, std::size_t index) noexcept {
   return Lane<T, W>::load(array + index * W);
 }
 
+template <class T, int W>
+SymMat3<Lane<T, W>> load_sym_mat3(const T* array, std::size_t index) noexcept {
+  using Real = Lane<T, W>;
+  const T* p = array + index * 6 * W;
+  return {Real::load(p), Real::load(p + W), Real::load(p + 2 * W), Real::load(p + 3 * W), Real::load(p + 4 * W), Real::load(p + 5 * W)};
+}
+
 /// Where an array of a block's surfaces starts, by lane: `array` plus the surface's first element times `stride`.
 template <int W, class T, class Offsets>
 std::array<T*, W> lane_pointers(T* array, const LaneBlock& block, const Offsets& first, std::size_t stride = 1) noexcept {

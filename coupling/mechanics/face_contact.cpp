@@ -31,7 +31,7 @@ std::vector<float> Mechanics::contact_of_faces(const Tissue& tissue, std::span<c
       const std::uint16_t partner = pair.rigid ? contacts_.obstacles()[pair.b].material : bodies[d == 0 ? pair.b : pair.a].material;
       if (partner >= with_material.size() || !with_material[partner]) continue;
       for (const ContactElement& element : pair.present(static_cast<std::size_t>(d)))
-        out[scene_.first_face()[number] + element.source_face()] += element.w * (both ? 2.0f : 1.0f);
+        out[scene_.first_face()[number] + element.source_face()] += element.area() * (both ? 2.0f : 1.0f);
     }
   }
   for (std::size_t s = 0; s < scene_.owned_shells(); ++s)

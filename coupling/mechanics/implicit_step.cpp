@@ -1,3 +1,5 @@
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -17,6 +19,14 @@ constexpr double kStuckForce = 1e-3;       // largest residual that counts as re
 constexpr double kAllowedRise = 0.2;       // of Φ, in the last resort of the freeze rule [nN·µm]
 constexpr double kLastResortStep = 0.2;    // in units of the contact range
 constexpr int kMaxLinearIterations = 400;
+
+/// Where a linear solve wants to go: velocities times a length of time, by point.
+struct Direction {
+  std::span<const Float4> velocity;
+  double factor;
+
+  Vec3d operator[](std::size_t i) const { return Vec3d{velocity[i].x, velocity[i].y, velocity[i].z} * factor; }
+};
 
 /// Which forces hold a node that nothing can move: words for the message.
 std::string forces_at_worst(const Vec3d& contacts, const Vec3d& left) {
@@ -44,13 +54,17 @@ struct Mechanics::Trial {
     return m.energy_ - work + m.friction_energy_ / (2.0 * dt);
   }
 
-  /// Move along `direction` until Φ falls enough. On success the workspace is evaluated at the new state; else positions are restored.
-  bool search(const std::vector<Vec3d>& direction, double slope, int halvings, double allowed_rise) {
-    const std::vector<Vec3d> from = m.scene_.position();
-    double fraction = 1.0;
-    for (int k = 0; k <= halvings; ++k, fraction *= 0.5) {
+  /// Move along `direction` until Φ falls enough. On success the workspace is evaluated at the new state; else positions are restored, but
+  /// for rounding.
+  bool search(const Direction& direction, double slope, int halvings, double allowed_rise) {
+    double at = 0.0, fraction = 1.0;
+    const auto go_to = [&](double there) {
       auto& x = m.scene_.position();
-      m.for_owned_points([&](std::uint32_t i) { x[i] = from[i] + direction[i] * fraction; });
+      m.for_owned_points([&](std::uint32_t i) { x[i] += direction[i] * (there - at); });
+      at = there;
+    };
+    for (int k = 0; k <= halvings; ++k, fraction *= 0.5) {
+      go_to(fraction);
       const double next = measure();
       const SurfacePair* crossed = m.contacts_.crossed(m.contact_scene(), start);
       const bool sound = std::isfinite(next) && !m.find_fault().has_value() && crossed == nullptr;
@@ -63,7 +77,7 @@ struct Mechanics::Trial {
       }
       ++report.halvings;
     }
-    m.scene_.position() = from;
+    go_to(0.0);
     return false;
   }
 };
@@ -88,6 +102,8 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
     sums[0].add(static_cast<double>(medium[point]) * norm2(d));
   }
   if (moved) spheres_.pairs().add_friction(start, x, force_, sums[0]);
+  std::vector<OrderFreeSum> works(static_cast<std::size_t>(threads_));
+#pragma omp parallel for schedule(static) num_threads(threads_)
   for (std::size_t body = 0; body < scene_.bodies().size(); ++body) {
     const ContactBody& b = scene_.bodies()[body];
     if (!b.active()) continue;
@@ -96,8 +112,9 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
       work += morula::dot(external_on(external, i), x[i] - start[i]);
       force_[i] *= -1.0 / dt;
     }
-    sums[1].add(work);
+    works[static_cast<std::size_t>(omp_get_thread_num())].add(work);
   }
+  for (const OrderFreeSum& work : works) sums[1] += work;
   for_nuclei([&](std::uint32_t i) { force_[i] *= -1.0 / dt; });
   for (const Anchor& anchor : anchors_)  // what the springs have given: their energy at the start less that at x
     sums[1].add(0.5 * anchor.stiffness * (norm2(start[anchor.node] - anchor.target) - norm2(x[anchor.node] - anchor.target)));
@@ -118,7 +135,10 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
   const StepControl& control = model_.step;
   const double range = model_.contact.range;
   begin_step(tissue, dt);
-  const std::vector<Vec3d> start = scene_.position();
+  // Without ghosts, spheres and nuclei the start is what the tissue holds.
+  std::vector<Vec3d> copy;
+  if (scene_.point_count() != tissue.shells.node_count()) copy = scene_.position();
+  const std::span<const Vec3d> start = copy.empty() ? std::span<const Vec3d>(tissue.shells.position) : copy;
   StepReport report;
   report.step = dt;
   Trial trial{*this, tissue, start, external, dt, 0.0, report};
@@ -127,20 +147,22 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
   const double force_norm = std::sqrt(dot(force_, force_));
   if (!std::isfinite(trial.phi) || !std::isfinite(force_norm)) return StepFault{"forces are not numbers", {}, false};
 
-  std::vector<Vec3d> direction(start.size());
+  Direction direction{solution_, dt};
   const auto solve = [&](double step, double tolerance) -> Result<SolveReport, StepFault> {
     assemble(tissue, step);
     auto timed = timer_.scope(Stage::kSolve);
     give_residual();
     auto solved = system_.solve(solution_, tolerance, kMaxLinearIterations, comm_);
+    drop_matrix();
     if (!solved) return StepFault{solved.error().what, {}, true};
     report.linear_iterations += solved->iterations;
-    for_owned_points([&](std::uint32_t i) { direction[i] = Vec3d{solution_[i].x, solution_[i].y, solution_[i].z} * dt; });
+    direction.factor = dt;
+    if (!std::isfinite(largest(direction))) return StepFault{"the velocities are not numbers", {}, true};
     return *solved;
   };
   const auto limit_direction = [&](double most) {
     const double longest = largest(direction);
-    if (longest > most) for_owned_points([&](std::uint32_t i) { direction[i] *= most / longest; });
+    if (longest > most) direction.factor *= most / longest;
     return longest;
   };
   const double allowed = control.max_displacement * range;
@@ -160,7 +182,8 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
       // Freeze rule (time_stepping.md §9.3): the gradient in the metric of friction, then a short Newton step with an allowed rise.
       evaluate(tissue);
       (void)friction_residual(start, external, dt);
-      const std::vector<Vec3d> newton_direction = direction;
+      const std::vector<Float4> newton_solution = solution_;
+      const double newton_factor = direction.factor;
       std::fill(solution_.begin(), solution_.end(), Float4{});
       solved = solve(0.0, control.first_tolerance);
       if (!solved) return undo(start, solved.error());
@@ -168,7 +191,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
       slope = -dot(force_, direction);
       bool moved = trial.search(direction, slope, kGradientHalvings, 0.0);
       if (!moved) {
-        direction = newton_direction;
+        direction = {newton_solution, newton_factor};
         limit_direction(kLastResortStep * range);
         moved = trial.search(direction, -dot(force_, direction), 2, kAllowedRise);
       }
@@ -177,7 +200,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
         (void)friction_residual(start, external, dt);
         if (largest(force_) > kStuckForce) {
           StepFault fault{comm_.any(report.crossings > 0) ? "no step lowers the energy without a surface passing through another"
-                                                : "no step lowers the energy",
+                                                          : "no step lowers the energy",
                           {},
                           true};
           if (const auto shape = find_fault()) fault = *shape;
@@ -219,6 +242,7 @@ Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt
   assemble(tissue, 0.0);
   give_residual();
   auto solved = system_.solve(solution_, 1e-4, kMaxLinearIterations, comm_);
+  drop_matrix();
   if (!solved) return undo(start, StepFault{solved.error().what, {}, true});
   report.linear_iterations = solved->iterations;
   report.newton = 1;
@@ -229,7 +253,8 @@ Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt
     return undo(start, StepFault{"points moved too far in one explicit step", {}, true});
   }
   evaluate(tissue);
-  if (comm_.any(contacts_.crossed(contact_scene(), start) != nullptr)) return undo(start, StepFault{"a surface would pass through another", {}, true});
+  if (comm_.any(contacts_.crossed(contact_scene(), start) != nullptr))
+    return undo(start, StepFault{"a surface would pass through another", {}, true});
   if (const auto fault = find_fault(); comm_.any(fault.has_value())) {
     return undo(start, fault.value_or(StepFault{"a cell on another rank is too distorted", {}, true}));
   }

@@ -14,6 +14,11 @@ namespace {
 constexpr double kCappedDepth = 5.0;      // overlap that the capped start can undo [µm]
 constexpr double kCapWithoutStart = 0.1;  // δ after a promotion into too little room, where the study has no capped start [µm]
 
+template <class T>
+void give_back(std::vector<T>& vector) {
+  std::vector<T>().swap(vector);
+}
+
 double step_margin(const Model& model) { return 2.0 * model.step.max_displacement * model.contact.range; }
 
 }  // namespace
@@ -33,44 +38,25 @@ Mechanics::Mechanics(const Model& model, std::vector<RigidSurface> obstacles, Sh
 }
 
 ContactScene Mechanics::contact_scene() const {
-  return {scene_.bodies(), std::span(scene_.position()).first(scene_.nucleus_point()), scene_.topologies(), scene_.first_face(),
-          &geometry_,      scene_.marks()};
-}
-
-double Mechanics::largest(std::span<const Vec3d> by_point) const {
-  double most = 0.0;
-  for (const ContactBody& body : scene_.bodies())
-    if (body.active())
-      for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) {
-        const double here = norm2(by_point[i]);
-        if (!(here <= most)) most = here;  // not a number wins
-      }
-  for_nuclei([&](std::uint32_t i) { most = std::max(most, norm2(by_point[i])); });
-  return std::sqrt(comm_.max(most));
+  return {scene_.bodies(), std::span(scene_.position()).first(scene_.nucleus_point()), scene_.topologies(), scene_.first_face(), &geometry_,
+          scene_.marks()};
 }
 
 double Mechanics::furthest(std::span<const Vec3d> start) const {
-  double most = 0.0;
-  for (const ContactBody& body : scene_.bodies())
-    if (body.active())
-      for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) {
+  const auto bodies = scene_.bodies();
+  std::vector<double> by_thread(static_cast<std::size_t>(threads_), 0.0);
+#pragma omp parallel for schedule(static, 1) num_threads(threads_)
+  for (std::size_t t = 0; t < by_thread.size(); ++t)
+    for (std::size_t k = bodies.size() * t / by_thread.size(); k < bodies.size() * (t + 1) / by_thread.size(); ++k)
+      for (std::uint32_t i = bodies[k].first_point; bodies[k].active() && i < bodies[k].first_point + bodies[k].point_count; ++i) {
         const double here = norm2(scene_.position()[i] - start[i]);
-        if (!(here <= most)) most = here;
+        if (!(here <= by_thread[t]) && !std::isnan(by_thread[t])) by_thread[t] = here;  // not a number wins
       }
+  double most = 0.0;
+  for (const double here : by_thread)
+    if (!(here <= most) && !std::isnan(most)) most = here;
   for_nuclei([&](std::uint32_t i) { most = std::max(most, norm2(scene_.position()[i] - start[i])); });
   return std::sqrt(comm_.max(most));
-}
-
-double Mechanics::dot(std::span<const Vec3d> a, std::span<const Vec3d> b) const {
-  OrderFreeSum sum;
-  for (const ContactBody& body : scene_.bodies()) {
-    if (!body.active()) continue;
-    double part = 0.0;
-    for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) part += morula::dot(a[i], b[i]);
-    sum.add(part);
-  }
-  for_nuclei([&](std::uint32_t i) { sum.add(morula::dot(a[i], b[i])); });
-  return comm_.sum(sum);
 }
 
 void Mechanics::prepare(const Tissue& tissue) {
@@ -103,14 +89,8 @@ void Mechanics::prepare(const Tissue& tissue) {
     contacts_.reset();
     shells_.set_shells(tissue.shells);
     interior_.set_shells(tissue.shells, scene_.nucleus_point());
-    const std::size_t points = scene_.point_count(), faces = scene_.face_count();
-    force_.assign(points, {});
-    gradient_.force.assign(scene_.shells() > 0 ? points : 0, {});  // spheres alone add to force_ at once
-    gradient_.node_normal.assign(scene_.sphere_point(), {});       // spheres have none
-    solution_.assign(points, {});
-    gradient_.face_energy.assign(faces, 0.0);
-    gradient_.contact_area.assign(scene_.shells(), 0.0);  // a sphere's contacts with shells are counted on their faces
-
+    force_.assign(scene_.point_count(), {});
+    solution_.assign(scene_.point_count(), {});
     if (relaxing_)
       hold_all_but(relax_moves_);  // the new scene knows nothing of who is held
     else
@@ -186,7 +166,8 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   if (spheres_.packs()) find_packing(scene, with_spheres);
   if (moved || with_spheres) {
     if (moved) {
-      gradient_.set_zero();
+      // spheres alone add to force_ at once; they have no normals, and their contacts with shells are counted on the shells' faces
+      gradient_.set_zero(scene_.shells() > 0 ? scene_.point_count() : 0, scene_.sphere_point(), scene_.face_count(), scene_.shells());
       contacts_.evaluate(scene, SurfacePairKind::kSurfaces, gradient_);
       if (with_spheres) surfaces_only_ = gradient_;
     } else {
@@ -195,9 +176,17 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
     if (with_spheres) contacts_.evaluate(scene, SurfacePairKind::kWithSphere, gradient_);
     const SurfaceList owned{scene_.topologies().first(scene_.owned_shells()), scene_.first_node(), scene_.first_face()};
     add_surface_forces(owned, scene_.position(), geometry_, {gradient_.face_energy, {}, gradient_.node_normal}, gradient_.force);
+    note_memory();
+    give_back(gradient_.node_normal);
   }
-  for (std::size_t i = 0; i < scene_.owned_nodes(); ++i) force_[i] += gradient_.force[i];  // to those within the shells
-  for (std::size_t i = scene_.owned_nodes(); i < force_.size(); ++i) force_[i] = gradient_.force.empty() ? Vec3d{} : gradient_.force[i];
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (std::size_t i = 0; i < force_.size(); ++i) {
+    const Vec3d of_contacts = gradient_.force.empty() ? Vec3d{} : gradient_.force[i];
+    if (i < scene_.owned_nodes())
+      force_[i] += of_contacts;  // to those within the shells
+    else
+      force_[i] = of_contacts;
+  }
   spent_ = false;
   spheres_.evaluate(scene_, contacts_, force_);
   const auto& internal = shells_.forces();
@@ -221,8 +210,8 @@ void Mechanics::find_packing(const ContactScene& scene, bool with_surfaces) {
   contacts_.set_packing(spheres_.surface_pressure());
 }
 
-StepFault Mechanics::undo(const std::vector<Vec3d>& start, StepFault fault) {
-  scene_.position() = start;
+StepFault Mechanics::undo(std::span<const Vec3d> start, StepFault fault) {
+  scene_.position().assign(start.begin(), start.end());
   spheres_.end_step();
   evaluated_ = contacts_current_ = false;
   return fault;
@@ -230,6 +219,7 @@ StepFault Mechanics::undo(const std::vector<Vec3d>& start, StepFault fault) {
 
 void Mechanics::begin_step(const Tissue& tissue, double dt) {
   auto timed = timer_.scope(Stage::kAssemble);
+  most_bytes_ = 0;
   contacts_.begin_step(contact_scene());
   shells_.begin_step(tissue.shells, geometry_);
   interior_.begin_step(scene_.position(), geometry_);
@@ -245,6 +235,7 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
   system_.set_point_friction(friction);
   spheres_.begin_step();
   // The last velocity is the solver's start; obstacles go where they will be at the end of the step.
+#pragma omp parallel for schedule(static) num_threads(threads_)
   for (std::size_t i = 0; i < tissue.shells.velocity.size(); ++i) {
     const Vec3f& v = tissue.shells.velocity[i];
     solution_[i] = {v.x, v.y, v.z, 0.0f};
@@ -272,11 +263,25 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
 
 void Mechanics::assemble(const Tissue& tissue, double dt) {
   auto timed = timer_.scope(Stage::kAssemble);
+  give_back(gradient_.force), give_back(geometry_.node_normal), give_back(geometry_.node_normal_length), give_back(geometry_.node_area);
+  surfaces_only_ = {};
+  const FaceQuadrature& quadrature = FaceQuadrature::with_points(contacts_.settings().points_per_face);
+  const std::vector<ElementGroup> groups = contacts_.element_groups(contact_scene());
   shells_.set_node_stiffness(node_terms_.stiffness(scene_.position(), scene_.owned_nodes()));
-  shells_.assemble(tissue.shells, scene_.position(), face_tensions_.on_top_of(gradient_.face_energy), dt);
+  shells_.assemble(tissue.shells, scene_.position(), face_tensions_.on_top_of(gradient_.face_energy), dt,
+                   edge_blocks_of(groups, scene_.bodies().size(), quadrature, static_cast<float>(dt)));
   interior_.assemble(scene_.position(), dt);
   system_.set_step(dt);
-  system_.set_elements(contacts_.element_groups(contact_scene()), FaceQuadrature::with_points(contacts_.settings().points_per_face));
+  system_.set_elements(groups, quadrature);
+  contacts_.make_room();
+  give_back(gradient_.face_energy);
+}
+
+void Mechanics::drop_matrix() {
+  note_memory();
+  if (scene_.shells() == 0) return;  // spheres alone have no use for the room
+  system_.drop_matrix();
+  shells_.drop_matrix();
 }
 
 std::optional<StepFault> Mechanics::find_fault() const {
@@ -305,6 +310,7 @@ void Mechanics::finish(Tissue& tissue, double dt, StepReport& report) {
     const Vec3d v = (scene_.position()[point] - start) * rate;
     return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
   };
+#pragma omp parallel for schedule(static) num_threads(threads_)
   for (std::size_t i = 0; i < tissue.shells.velocity.size(); ++i) tissue.shells.velocity[i] = velocity(i, tissue.shells.position[i]);
   for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i)
     tissue.spheres.velocity[i] = velocity(scene_.sphere_point() + i, tissue.spheres.position[i]);
@@ -315,6 +321,7 @@ void Mechanics::finish(Tissue& tissue, double dt, StepReport& report) {
     flags_changed_ = comm_.any(spheres_.update_attached(scene_, contacts_, tissue));
   }
   spheres_.end_step();
+  contacts_.end_step();
   // Where there are ghosts, a list of pairs that would wear out within the next step is made together with them, before that step: else
   // the list is made in the middle of the step, and the ghosts soon after.
   renew_soon_ = comm_.size() > 1 && comm_.any(2.0 * contacts_.wear() - wear_ > 1.0);
@@ -423,7 +430,7 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
   return energy_;
 }
 
-std::size_t Mechanics::memory() const {
+std::size_t Mechanics::bytes_now() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return contacts_.memory() + shells_.memory() + interior_.memory() + spheres_.memory() + system_.memory() + scene_.memory() +
          bytes(force_) + bytes(solution_) + gradient_.memory() + surfaces_only_.memory() + bytes(geometry_.face_area) +

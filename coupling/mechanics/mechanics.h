@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -122,8 +124,8 @@ class Mechanics {
   /// What the nucleus of an owned shell feels at the present positions.
   [[nodiscard]] dcm::InteriorEnergy interior_of(std::uint32_t shell) const { return interior_.of_shell(shell); }
   [[nodiscard]] double deepest_overlap() const;
-  /// Bytes of all workspaces of this rank.
-  [[nodiscard]] std::size_t memory() const;
+  /// Bytes of all workspaces of this rank: the most at any time of the last step.
+  [[nodiscard]] std::size_t memory() const { return std::max(most_bytes_, bytes_now()); }
 
  private:
   struct Trial;  // a point of the line search
@@ -131,7 +133,9 @@ class Mechanics {
   /// Energy and forces at the scene's positions; `moved`: positions differ from those of the last call.
   void evaluate(const Tissue& tissue, bool moved = true);
   /// Back to the step's start after a fault.
-  StepFault undo(const std::vector<Vec3d>& start, StepFault fault);
+  StepFault undo(std::span<const Vec3d> start, StepFault fault);
+  [[nodiscard]] std::size_t bytes_now() const;
+  void note_memory() { most_bytes_ = std::max(most_bytes_, bytes_now()); }
   /// Pressures of the spheres by their packing, for all that press on them.
   void find_packing(const ContactScene& scene, bool with_surfaces);
   void begin_step(const Tissue& tissue, double dt);
@@ -147,7 +151,9 @@ class Mechanics {
   [[nodiscard]] std::optional<StepFault> find_fault() const;
   Result<StepReport, StepFault> implicit_step(Tissue& tissue, double dt, std::span<const Vec3d> external);
   Result<StepReport, StepFault> explicit_step(Tissue& tissue, double dt, std::span<const Vec3d> external);
+  /// The matrix, in the place of what only forces need: after this, the next evaluate() is one with `moved`.
   void assemble(const Tissue& tissue, double dt);
+  void drop_matrix();
   void finish(Tissue& tissue, double dt, StepReport& report);
   [[nodiscard]] ContactScene contact_scene() const;
   /// Where the external force of an owned point is; nuclei have none.
@@ -170,9 +176,37 @@ class Mechanics {
       if (bodies[b].active())
         for (std::uint32_t i = bodies[b].first_point; i < bodies[b].first_point + bodies[b].point_count; ++i) function(i);
   }
-  [[nodiscard]] double largest(std::span<const Vec3d> by_point) const;
+  /// Largest norm of owned points; not a number wins.
+  template <class Vectors>
+  [[nodiscard]] double largest(const Vectors& by_point) const {
+    double most = 0.0;
+    for (const ContactBody& body : scene_.bodies())
+      if (body.active())
+        for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) {
+          const double here = norm2(by_point[i]);
+          if (!(here <= most) && !std::isnan(most)) most = here;
+        }
+    for_nuclei([&](std::uint32_t i) { most = std::max(most, norm2(by_point[i])); });
+    return std::sqrt(comm_.max(most));
+  }
   [[nodiscard]] double furthest(std::span<const Vec3d> start) const;  ///< largest way from there [µm]
-  [[nodiscard]] double dot(std::span<const Vec3d> a, std::span<const Vec3d> b) const;
+  template <class Vectors>
+  [[nodiscard]] double dot(const std::vector<Vec3d>& a, const Vectors& b) const {
+    const auto bodies = scene_.bodies();
+    std::vector<OrderFreeSum> sums(static_cast<std::size_t>(threads_));
+#pragma omp parallel for schedule(static, 1) num_threads(threads_)
+    for (std::size_t t = 0; t < sums.size(); ++t)
+      for (std::size_t k = bodies.size() * t / sums.size(); k < bodies.size() * (t + 1) / sums.size(); ++k) {
+        if (!bodies[k].active()) continue;
+        double part = 0.0;
+        for (std::uint32_t i = bodies[k].first_point; i < bodies[k].first_point + bodies[k].point_count; ++i)
+          part += morula::dot(a[i], b[i]);
+        sums[t].add(part);
+      }
+    for (std::size_t t = 1; t < sums.size(); ++t) sums[0] += sums[t];
+    for_nuclei([&](std::uint32_t i) { sums[0].add(morula::dot(a[i], b[i])); });
+    return comm_.sum(sums[0]);
+  }
 
   const Model& model_;
   ShapeLibrary& shapes_;
@@ -212,6 +246,7 @@ class Mechanics {
   std::span<const Anchor> anchors_;  ///< of the present step
   double friction_energy_ = 0.0;     ///< dᵀΓ_n d
   std::vector<Float4> solution_;
+  std::size_t most_bytes_ = 0;  ///< at any time of the present step
 };
 
 }  // namespace morula

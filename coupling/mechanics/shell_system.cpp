@@ -25,9 +25,9 @@ void ShellSystem::begin_step(const dcm::Shells& shells, const SurfaceGeometry& g
 }
 
 void ShellSystem::assemble(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<const double> face_contact_energy,
-                           double dt) {
+                           double dt, const EdgeBlockSource& contacts) {
   dcm::assemble_shell_operator(blocks_, shells, parameters_, position.first(shells.node_count()), friction_,
-                               face_contact_energy.first(blocks_.face_count()), dt, operator_);
+                               face_contact_energy.first(blocks_.face_count()), dt, contacts, operator_);
   node_block_.assign(node_friction_.empty() && node_stiffness_.empty() ? 0 : shells.node_count(), {});
   for (std::size_t i = 0; i < node_block_.size(); ++i) {
     SymMat3<double> sum;
@@ -56,14 +56,15 @@ void ShellSystem::add_step_friction(std::span<const Vec3d> position, std::span<V
   }
 }
 
-void ShellSystem::add_edge_blocks(const EdgeBlockSource& source) { dcm::add_edge_blocks(blocks_, source, operator_); }
-
-void ShellSystem::multiply(std::span<const Float4> p, std::span<Float4> q) const {
-  dcm::apply_shell_operator(blocks_, *shells_, operator_, p.first(point_count()), q.first(point_count()));
-  for (std::size_t i = 0; i < node_block_.size(); ++i) {
-    const Vec3f add = node_block_[i] * Vec3f{p[i].x, p[i].y, p[i].z};
-    q[i].x += add.x, q[i].y += add.y, q[i].z += add.z;
-  }
+void ShellSystem::multiply(std::size_t first, std::size_t last, std::span<const Float4> p, std::span<Float4> q) const {
+  dcm::apply_shell_operator(blocks_, first, last, *shells_, operator_, p.first(point_count()), q.first(point_count()));
+  if (node_block_.empty()) return;
+  for (std::size_t batch = first; batch < last; ++batch)
+    for (const std::uint32_t shell : bodies_of(batch))
+      for (std::uint32_t i = shells_->first_node[shell]; i < shells_->first_node[shell + 1]; ++i) {
+        const Vec3f add = node_block_[i] * Vec3f{p[i].x, p[i].y, p[i].z};
+        q[i].x += add.x, q[i].y += add.y, q[i].z += add.z;
+      }
 }
 
 void ShellSystem::add_diagonal(std::span<SymMat3<float>> diagonal) const {
@@ -74,8 +75,9 @@ void ShellSystem::add_diagonal(std::span<SymMat3<float>> diagonal) const {
 std::size_t ShellSystem::memory() const {
   std::size_t total = 0;
   for (const auto& block : operator_.blocks)
-    total += (block.edge.capacity() + block.diagonal.capacity() + block.volume_gradient.capacity() + block.shape.capacity() +
-              block.barrier.capacity() + block.membrane.capacity() + block.area_gradient.capacity() + block.bulk_gradient.capacity() +
+    total += block.edge.capacity() * sizeof(std::int32_t) +
+             (block.diagonal.capacity() + block.volume_gradient.capacity() + block.shape.capacity() + block.barrier.capacity() +
+              block.membrane.capacity() + block.area_gradient.capacity() + block.bulk_gradient.capacity() +
               block.bending_weight.capacity() + block.bending_normal.capacity()) *
                  sizeof(float) +
              (block.shape_face.capacity() + block.barrier_edge.capacity()) * sizeof(std::uint32_t);

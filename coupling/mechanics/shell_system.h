@@ -23,7 +23,11 @@ class ShellSystem : public OperatorPart {
   void evaluate(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<Vec3d> force);
   /// Friction of the step that starts at the shells' positions; these stay until the step is done. `geometry` is that of these positions.
   void begin_step(const dcm::Shells& shells, const SurfaceGeometry& geometry);
-  void assemble(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<const double> face_contact_energy, double dt);
+  /// `contacts`: what they couple within a shell.
+  void assemble(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<const double> face_contact_energy, double dt,
+                const EdgeBlockSource& contacts);
+  /// The matrix is not needed any more.
+  void drop_matrix() { operator_ = {}; }
   /// Adds Γ_n d, d = position − start, of the shells' nodes to `out`, and dᵀΓ_n d to the sum.
   void add_step_friction(std::span<const Vec3d> position, std::span<Vec3d> out, OrderFreeSum& quadratic);
   /// Friction of single nodes of the step, beside that of the shells' own; empty: none. After begin_step().
@@ -36,8 +40,12 @@ class ShellSystem : public OperatorPart {
   [[nodiscard]] std::size_t memory() const;
 
   [[nodiscard]] std::size_t point_count() const override { return shells_ == nullptr ? 0 : shells_->node_count(); }
-  void add_edge_blocks(const EdgeBlockSource& source) override;
-  void multiply(std::span<const Float4> p, std::span<Float4> q) const override;
+  [[nodiscard]] std::size_t batch_count() const override { return blocks_.blocks.size(); }
+  [[nodiscard]] std::span<const std::uint32_t> bodies_of(std::size_t batch) const override {
+    const LaneBlock& block = blocks_.blocks[batch];
+    return std::span(block.member).first(static_cast<std::size_t>(block.count));
+  }
+  void multiply(std::size_t first, std::size_t last, std::span<const Float4> p, std::span<Float4> q) const override;
   void add_diagonal(std::span<SymMat3<float>> diagonal) const override;
 
  private:

@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/friction/contact_element.h"
 #include "core/mesh/pipette.h"
 #include "core/mesh/primitives.h"
 #include "scenarios/study/build.h"
@@ -132,6 +133,12 @@ void build_geometry(BuildContext& c) {
     check_place(c, name, place, surface.position);
     obstacle.position = std::move(surface.position);
     obstacle.faces = std::move(surface.faces);
+    if (c.draft.contact.friction.value == "objective" && obstacle.faces.size() > ContactElement::kMostTargetFaces)
+      c.diagnostics.error(583, place,
+                          "obstacle '" + name + "' has " + std::to_string(obstacle.faces.size()) +
+                              " faces; with `contact: {friction: objective}` " + std::to_string(ContactElement::kMostTargetFaces) +
+                              " is the most",
+                          "use `friction: simple`, or a coarser surface");
     c.study.model.obstacles.push_back(std::move(obstacle));
   }
 }

@@ -19,7 +19,8 @@ constexpr double kRadius = 6.0, kAdhesion = 0.1, kRange = 0.5;
 /// A ball of 642 nodes above a plane, moved as one rigid body. `capped`: its lower cap has the adhesion, all else three times as much.
 class RigidBall {
  public:
-  explicit RigidBall(bool capped = false) : model_(model(capped)), mechanics_(model_, contact_obstacles(model_).value(), shapes_, Comm(), 1) {
+  explicit RigidBall(bool capped = false)
+      : model_(model(capped)), mechanics_(model_, contact_obstacles(model_).value(), shapes_, Comm(), 1) {
     CellRecord cell;
     const double volume = 4.0 / 3.0 * std::numbers::pi * kRadius * kRadius * kRadius;
     cell.row.id = CellId::founder(1);
@@ -148,12 +149,12 @@ class TwoBlocks {
 void add_contact_numbers(std::vector<ReferenceNumber>& out) {
   out.push_back({"T7.2", "pull-off force of a rigid ball of 642 nodes from a plane, 2 pi R W, R 6 um, W 0.1 nN/um [nN]", 3.7699,
                  0.02 * 3.7699, "closed form (Derjaguin), any range below 2 R; 2 % for the mesh", [] { return largest_pull(false); }});
-  out.push_back({"T7.2", "the same where only the ball's lower cap has that W, and all else three times as much [nN]", 3.7699, 0.02 * 3.7699,
-                 "closed form; the plane meets the cap alone", [] { return largest_pull(true); }});
+  out.push_back({"T7.2", "the same where only the ball's lower cap has that W, and all else three times as much [nN]", 3.7699,
+                 0.02 * 3.7699, "closed form; the plane meets the cap alone", [] { return largest_pull(true); }});
   out.push_back({"S5", "W recovered from the work of lifting that ball off [nN/um]", kAdhesion, 0.02 * kAdhesion,
                  "closed form: work pi R c W from touching to out of the range c", [] { return adhesion_from_work(); }});
-  out.push_back({"T9.4", "friction of a contact of parallel faces that turns as a whole, objective form, in parts of the plain one", 0.0, 1e-6,
-                 "closed form: exact for opposed parallel faces", [] { return TwoBlocks(true).turn() / TwoBlocks(false).turn(); }});
+  out.push_back({"T9.4", "friction of a contact of parallel faces that turns as a whole, objective form, in parts of the plain one", 0.0,
+                 1e-6, "closed form: exact for opposed parallel faces", [] { return TwoBlocks(true).turn() / TwoBlocks(false).turn(); }});
   struct Pipette {
     double tension, radius, suction;
   };

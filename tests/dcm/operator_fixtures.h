@@ -17,11 +17,11 @@ struct Assembled {
 };
 
 inline Assembled assemble(const Shells& shells, const std::vector<ShellParameters>& types, double dt, int lanes = 8,
-                          std::span<const double> contact_energy = {}) {
+                          std::span<const double> contact_energy = {}, const EdgeBlockSource& contacts = {}) {
   Assembled a;
   a.blocks = make_shell_blocks(shells, lanes);
   a.friction = friction_of(shells, a.blocks, types, shells.position);
-  assemble_shell_operator(a.blocks, shells, types, shells.position, a.friction, contact_energy, dt, a.matrix);
+  assemble_shell_operator(a.blocks, shells, types, shells.position, a.friction, contact_energy, dt, contacts, a.matrix);
   return a;
 }
 

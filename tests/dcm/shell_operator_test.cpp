@@ -172,7 +172,10 @@ TEST(ShellOperator, WithoutStepIsTheFrictionOfTheResidual) {
   std::vector<double> quadratic(shells.size());
   friction_times_displacement(a.blocks, shells, a.friction, d, expected, quadratic);
   const auto q = apply(a, shells, d);
-  for (std::size_t i = 0; i < d.size(); ++i) EXPECT_LE(morula::norm(q[i] - expected[i]), 1e-6 * norm(expected));
+  double largest = 0.0;
+  for (const Vec3d& f : expected) largest = std::max(largest, morula::norm(f));
+  // an edge is off by at most 3 units, 1/32764 of its largest entry each (PackedEdge)
+  for (std::size_t i = 0; i < d.size(); ++i) EXPECT_LE(morula::norm(q[i] - expected[i]), 3e-4 * largest);
   EXPECT_NEAR(sum(quadratic), dot(d, expected), 1e-10 * sum(quadratic));
 }
 
@@ -231,10 +234,8 @@ TEST(ShellOperator, TakesBlocksOfContactsOnItsEdgesInEveryWidth) {
   const auto p = random_vectors(shells.position.size(), 9);
   std::vector<Vec3d> first;
   for (const int lanes : {1, 4, 8}) {
-    Assembled a = assemble(shells, types, 10.0, lanes);
-    const auto before = apply(a, shells, p);
-    add_edge_blocks(a.blocks, source, a.matrix);
-    const auto after = apply(a, shells, p);
+    const auto before = apply(assemble(shells, types, 10.0, lanes), shells, p);
+    const auto after = apply(assemble(shells, types, 10.0, lanes, {}, source), shells, p);
     if (lanes == 1) first = after;
     EXPECT_EQ(std::memcmp(first.data(), after.data(), first.size() * sizeof(Vec3d)), 0) << lanes;
     std::vector<Vec3d> expected(p.size());
@@ -252,7 +253,7 @@ TEST(ShellOperator, TakesBlocksOfContactsOnItsEdgesInEveryWidth) {
     }
     double largest = 0.0;
     for (const Vec3d& v : after) largest = std::max(largest, norm(v));
-    for (std::size_t i = 0; i < p.size(); ++i) EXPECT_NEAR(norm(after[i] - before[i] - expected[i]), 0.0, 3e-6 * largest) << i;
+    for (std::size_t i = 0; i < p.size(); ++i) EXPECT_NEAR(norm(after[i] - before[i] - expected[i]), 0.0, 3e-4 * largest) << i;
   }
 }
 

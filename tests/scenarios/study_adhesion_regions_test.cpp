@@ -91,10 +91,18 @@ TEST(AdhesionRegions, StrongerThanTheTensionThereAreRefused) {
   EXPECT_EQ(test::warnings_of(kStudy).find("581"), std::string::npos);
 }
 
+TEST(ObjectiveFriction, OfASurfaceWithTooManyFacesIsRefused) {
+  const std::string fine = test::changed(
+      "geometry:\n", "geometry:\n  wire: {cylinder: {from: [-45 um, 0 um, -30 um], to: [45 um, 0 um, -30 um], radius: 0.2 um}}\n", kStudy);
+  EXPECT_NE(test::errors_of(fine).find("[E583]"), std::string::npos);
+  EXPECT_EQ(test::errors_of(test::changed("friction: objective", "friction: simple", fine)).find("[E583]"), std::string::npos);
+}
+
 TEST(SelfContact, ThatReachesNeighbouringFacesIsRefused) {
   const auto message = [](const std::string& to) { return test::errors_of(test::changed("self_contact: 200 nm", to, kStudy)); };
   EXPECT_NE(message("self_contact: 1 um").find("[E582]"), std::string::npos);
-  EXPECT_NE(message("self_contact: 200 nm, nodes: 2562").find("[E5"), std::string::npos) << "edges of 0.45 um: contact.range does not fit, either";
+  EXPECT_NE(message("self_contact: 200 nm, nodes: 2562").find("[E5"), std::string::npos)
+      << "edges of 0.45 um: contact.range does not fit, either";
   EXPECT_NE(message("self_contact: 0 um").find("[E302]"), std::string::npos);
   EXPECT_NE(message("self_contact: -1 um").find("[E302]"), std::string::npos);
 }
