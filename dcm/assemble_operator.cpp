@@ -222,8 +222,8 @@ void assemble_shell_operator(const ShellBlocks& blocks, const Shells& shells, st
                              double time_step, const EdgeBlockSource& contacts, ShellOperator& out) {
   out.blocks.resize(blocks.blocks.size());
   for_each_block<OperatorWorkspace>(blocks, [&]<int W>(std::size_t b, const LaneBlock& block, OperatorWorkspace& ws) {
-    assemble_block<W>(blocks, block, shells, types, position, friction.blocks[b], friction.start, face_contact_energy, time_step,
-                      contacts, out.blocks[b], ws);
+    assemble_block<W>(blocks, block, shells, types, position, friction.blocks[b], friction.start, face_contact_energy, time_step, contacts,
+                      out.blocks[b], ws);
   });
 }
 

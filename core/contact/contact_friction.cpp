@@ -38,9 +38,9 @@ namespace {
 
 /// A body's points in a friction sum; all null where it is an obstacle.
 struct RubbingBody {
-  const Topology* topology = nullptr;                   ///< null too: a sphere
+  const Topology* topology = nullptr;                 ///< null too: a sphere
   const Vec3d *position = nullptr, *start = nullptr;  ///< of its first point
-  Vec3d* out = nullptr;                                 ///< of its first point; null: not written
+  Vec3d* out = nullptr;                               ///< of its first point; null: not written
 
   RubbingBody() = default;
   RubbingBody(const ContactScene& scene, std::uint32_t number, std::span<const Vec3d> starts, std::span<Vec3d> outs, bool write)

@@ -347,7 +347,7 @@ void ContactLayer::evaluate(const ContactScene& scene, SurfacePairKind kind, Con
     for (std::size_t first = 0; first < list.size(); first += slots) {
       const std::size_t count = std::min(slots, list.size() - first);
 #pragma omp for schedule(dynamic, 1)
-      for (std::size_t k = 0; k < count; ++k) 
+      for (std::size_t k = 0; k < count; ++k)
         evaluate_pair(scene, pairs_[list[first + k]], slot[k].gradient, workspace, stores[static_cast<std::size_t>(omp_get_thread_num())]);
 #pragma omp for schedule(static, 1)
       for (std::size_t t = 0; t < threads; ++t)

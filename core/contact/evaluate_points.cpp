@@ -218,7 +218,8 @@ void respond(const PointsEvaluation& e, Batch& batch) {
   (area * friction_weight(gap, law.range)).store(batch.bearing);
   (area * (weight.value * attraction.curvature + repulsion.curvature)).store(batch.stiffness);
   area.store(batch.area);
-  for (std::size_t k = 0; k < 2; ++k) store_cut(batch.rounded_mu[k], Real::load(batch.mu[k]) * Real(ContactElement::kWeightUnits) + Real(0.5));
+  for (std::size_t k = 0; k < 2; ++k)
+    store_cut(batch.rounded_mu[k], Real::load(batch.mu[k]) * Real(ContactElement::kWeightUnits) + Real(0.5));
 }
 
 Vec3d quadrature_point(const PointsEvaluation& e, const Triangle& t, int q) {

@@ -82,8 +82,8 @@ struct SurfacePair {
   double built_at = -1e300;   ///< motion when the lists were built
   double patch_motion = 0.0;  ///< that of the nodes in the lists alone, since the lists were built
   PackedPoints points[2];     ///< [0]: points of a against b; [1]: points of b against a
-  std::vector<std::uint16_t> node[2];            ///< nodes of a and of b in these lists, increasing; a sphere has node 0, an obstacle none
-  std::span<const ContactElement> elements[2];       ///< at the present positions; see present(). In the layer's stores.
+  std::vector<std::uint16_t> node[2];           ///< nodes of a and of b in these lists, increasing; a sphere has node 0, an obstacle none
+  std::span<const ContactElement> elements[2];  ///< at the present positions; see present(). In the layer's stores.
   std::span<const ContactElement> step_elements[2];  ///< at the start of the step: its friction
   double energy = 0.0;                               ///< [nN·µm]
   double overlap = 0.0;                              ///< deepest penetration [µm]
@@ -129,8 +129,8 @@ struct PointsWorkspace {
   std::vector<std::uint32_t> search;  ///< points whose nearest face is not sure
   std::vector<Ball> ball;             ///< around the target's faces
   std::vector<Job> jobs;
-  std::vector<double> distance2;  ///< by job
-  std::vector<double> guessed;    ///< of the guesses
+  std::vector<double> distance2;         ///< by job
+  std::vector<double> guessed;           ///< of the guesses
   std::vector<ContactElement> elements;  ///< of one direction of a pair
   PointsAgainstBody lists;
 };

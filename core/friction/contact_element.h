@@ -83,10 +83,10 @@ struct ContactElement {
   void set_stiffness(float stiffness) { k_ = (std::bit_cast<std::uint32_t>(stiffness) + 0x8000u) >> 16; }
 
  private:
-  static constexpr double kNormalUnits = 16383 * 1.41421356;  // none of the smaller components exceeds 1/√2
+  static constexpr double kNormalUnits = 16383 * 1.41421356;      // none of the smaller components exceeds 1/√2
   static constexpr std::uint32_t kAreaBase = (127u - 44u) << 23;  // 6 bits of exponent, 10 of fraction: from 2⁻⁴⁴ to 2²⁰
   std::uint64_t source_ : 17, point_ : 2, target_ : 17, mu0_ : 14, mu1_ : 14;
-  std::int64_t next_ : 15, other_ : 15;     // the components after the largest, in cyclic order
+  std::int64_t next_ : 15, other_ : 15;       // the components after the largest, in cyclic order
   std::uint64_t axis_ : 3, k_ : 15, w_ : 16;  // which is the largest, and 4 where it is negative
 };
 static_assert(sizeof(ContactElement) == 16);

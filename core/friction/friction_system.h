@@ -134,9 +134,9 @@ class FrictionSystem {
   /// What is worked on while it is in cache: batches of the shells, or bodies of one point.
   struct Portion {
     std::uint32_t first_batch = 0, last_batch = 0;
-    std::uint32_t first_run = 0, last_run = 0;    ///< its owned bodies, in runs_
+    std::uint32_t first_run = 0, last_run = 0;      ///< its owned bodies, in runs_
     std::uint32_t first_group = 0, last_group = 0;  ///< of contacts that can be applied when it is done (one thread)
-    std::uint32_t first_done = 0, last_done = 0;  ///< bodies whose last contact is then done, in done_ (one thread)
+    std::uint32_t first_done = 0, last_done = 0;    ///< bodies whose last contact is then done, in done_ (one thread)
   };
   /// Bodies first <= body < last.
   struct BodyRun {

@@ -193,7 +193,8 @@ void PairCondenser::add_edge_blocks(const ElementGroup& group, int side, std::sp
   }
 }
 
-EdgeBlockSource edge_blocks_of(std::span<const ElementGroup> groups, std::size_t bodies, const FaceQuadrature& quadrature, float time_step) {
+EdgeBlockSource edge_blocks_of(std::span<const ElementGroup> groups, std::size_t bodies, const FaceQuadrature& quadrature,
+                               float time_step) {
   std::vector<std::uint32_t> begin(bodies + 1, 0), incident;
   for (const ElementGroup& group : groups)
     for (std::size_t side = 0; side < (group.rigid ? 1 : 2); ++side) ++begin[group.body[side] + 1];

@@ -25,8 +25,8 @@ std::vector<float> Mechanics::contact_of_faces(const Tissue& tissue, std::span<c
       const std::uint32_t number = d == 0 ? pair.a : pair.b;
       const ContactBody& source = bodies[number];
       if (!source.owned || source.shape == BodyShape::kSphere) continue;
-      const bool both =
-          !pair.rigid && bodies[d == 0 ? pair.b : pair.a].shape == BodyShape::kSurface;  // both bodies are sources, with half of the area each
+      const bool both = !pair.rigid && bodies[d == 0 ? pair.b : pair.a].shape ==
+                                           BodyShape::kSurface;  // both bodies are sources, with half of the area each
       const std::uint16_t partner = pair.rigid ? contacts_.obstacles()[pair.b].material : bodies[d == 0 ? pair.b : pair.a].material;
       if (partner >= with_material.size() || !with_material[partner]) continue;
       for (const ContactElement& element : pair.present(static_cast<std::size_t>(d)))

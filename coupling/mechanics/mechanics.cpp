@@ -36,7 +36,8 @@ Mechanics::Mechanics(const Model& model, std::vector<RigidSurface> obstacles, Sh
       node_terms_(model) {}
 
 ContactScene Mechanics::contact_scene() const {
-  return {scene_.bodies(), std::span(scene_.position()).first(scene_.nucleus_point()), scene_.topologies(), scene_.first_face(), &geometry_};
+  return {scene_.bodies(), std::span(scene_.position()).first(scene_.nucleus_point()), scene_.topologies(), scene_.first_face(),
+          &geometry_};
 }
 
 double Mechanics::furthest(std::span<const Vec3d> start) const {

@@ -220,7 +220,8 @@ TEST(ContactElement, KeepsWhatItIsGivenToItsRounding) {
   EXPECT_EQ(e.source_face(), 131071u);
   EXPECT_EQ(e.point(), 3u);
   EXPECT_EQ(e.target(), 130000u);
-  for (const Vec3d& direction : {Vec3d{0.3, -2.0, 0.7}, Vec3d{1, 1, 1}, Vec3d{0, 0, -1}, Vec3d{-1, 1, 0}, Vec3d{0, -1, -1}, Vec3d{5, 1e-9, -4}}) {
+  for (const Vec3d& direction :
+       {Vec3d{0.3, -2.0, 0.7}, Vec3d{1, 1, 1}, Vec3d{0, 0, -1}, Vec3d{-1, 1, 0}, Vec3d{0, -1, -1}, Vec3d{5, 1e-9, -4}}) {
     e.set_normal(normalized(direction));
     EXPECT_NEAR(norm(e.normal<double>() - normalized(direction)), 0.0, 5e-5);
     EXPECT_NEAR(norm(e.normal<double>()), 1.0, 1e-15);
