@@ -152,8 +152,8 @@ void add_contact_numbers(std::vector<ReferenceNumber>& out) {
                  "closed form; the plane meets the cap alone", [] { return largest_pull(true); }});
   out.push_back({"S5", "W recovered from the work of lifting that ball off [nN/um]", kAdhesion, 0.02 * kAdhesion,
                  "closed form: work pi R c W from touching to out of the range c", [] { return adhesion_from_work(); }});
-  out.push_back({"T9.4", "friction of a contact of parallel faces that turns as a whole, objective form, in parts of the plain one", 0.0, 1e-6,
-                 "closed form: exact for opposed parallel faces", [] { return TwoBlocks(true).turn() / TwoBlocks(false).turn(); }});
+  out.push_back({"T9.4", "part of the friction of a contact of parallel faces that turns as a whole which the objective form takes off", 1.0, 1e-6,
+                 "closed form: exact for opposed parallel faces", [] { return 1.0 - TwoBlocks(true).turn() / TwoBlocks(false).turn(); }});
   struct Pipette {
     double tension, radius, suction;
   };
