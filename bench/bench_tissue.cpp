@@ -82,14 +82,14 @@ std::vector<Vec3d> packing(std::size_t count, double spacing) {
     if (std::abs(d) > 1e-9) return d < 0.0;
     return std::lexicographical_compare(&p.x, &p.x + 3, &q.x, &q.x + 3);
   });
-  points.resize(std::min(count, points.size()));
-  return points;
+  return {points.begin(), points.begin() + static_cast<std::ptrdiff_t>(std::min(count, points.size()))};
 }
 
 Tissue make_tissue(const Model& model, const Case& c, const Comm& comm) {
   ShapeLibrary shapes;
   std::vector<CellRecord> cells;
   const auto centers = packing(c.cells, c.body == BodyKind::kShell ? 12.0 : 11.4);
+  cells.reserve(centers.size() / static_cast<std::size_t>(comm.size()) + 1);
   for (std::size_t i = 0; i < centers.size(); ++i) {
     if (static_cast<int>(i * static_cast<std::size_t>(comm.size()) / centers.size()) != comm.rank()) continue;
     CellRecord& cell = cells.emplace_back();
@@ -126,7 +126,7 @@ std::size_t state_bytes(const Tissue& tissue) {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   const auto& s = tissue.spheres;
   const auto& h = tissue.shells;
-  return bytes(tissue.cells.rows) + bytes(s.position) + bytes(s.radius) + bytes(s.type) + bytes(s.velocity) + s.attached.memory() +
+  return tissue.cells.memory() + bytes(s.position) + bytes(s.radius) + bytes(s.type) + bytes(s.velocity) + s.attached.memory() +
          bytes(h.position) + bytes(h.velocity) + bytes(h.rest_length) + bytes(h.shape) + bytes(h.type) + bytes(h.reference_volume) +
          bytes(h.rest_volume) + bytes(h.first_node) + bytes(h.first_edge);
 }

@@ -46,14 +46,16 @@ std::vector<Vec3d> Simulation::forces_on_cells(double time) {
   const auto touch = touches(model_, tissue_, *mechanics_);
   std::vector<Vec3d> shells, spheres;
   std::size_t shell = 0, sphere = tissue_.shells.size();
-  for (const CellRow& row : tissue_.cells.rows) {
+  const SideColumns& side = tissue_.cells.side;
+  for (std::size_t i = 0; i < tissue_.cells.size(); ++i) {
+    const CellRow& row = tissue_.cells.rows[i];
     const CellType& type = model_.types[row.type];
     const bool is_shell = row.body == BodyKind::kShell;
     const std::size_t body = is_shell ? shell++ : sphere++;
-    Vec3d force = migration_force(row, type, row.target_volume);
+    Vec3d force = migration_force(side.migration_velocity[i], type, row.target_volume);
     if (type.migration_substrate >= 0) force = along_surface(force, touch.at(type.migration_substrate)[body]);
     if (!is_shell && type.protrusion.force > 0.0 && !type.protrusion.internal) {  // a sphere has no front: the force is that of the whole
-      Vec3d push = row.polarity * type.protrusion.force;
+      Vec3d push = side.polarity[i] * type.protrusion.force;
       if (type.protrusion.substrate >= 0) {
         const Touch& on = touch.at(type.protrusion.substrate)[body];
         push = along_surface(push, on) * (type.protrusion.contact_area > 0.0 ? std::min(1.0, on.area / type.protrusion.contact_area) : 1.0);
@@ -75,14 +77,16 @@ void Simulation::add_protrusions(std::span<Vec3d> external) {
     if (const int m = type.protrusion.substrate; active(type) && m >= 0 && !nodes.contains(m))
       nodes[m] = nodes_in_touch(model_, tissue_, *mechanics_, m);
   std::size_t shell = 0;
-  for (const CellRow& row : tissue_.cells.rows) {
+  for (std::size_t i = 0; i < tissue_.cells.size(); ++i) {
+    const CellRow& row = tissue_.cells.rows[i];
     if (row.body == BodyKind::kSphere) continue;
     const std::size_t s = shell++;
     const Protrusion& law = model_.types[row.type].protrusion;
     if (law.force == 0.0) continue;
     const std::uint32_t first = tissue_.shells.first_node[s], count = tissue_.shells.first_node[s + 1] - first;
     double size = law.force;
-    Vec3d direction = row.polarity;
+    const Vec3d polarity = tissue_.cells.side.polarity[i];
+    Vec3d direction = polarity;
     std::span<const char> front;
     if (law.substrate >= 0) {
       const Touch& on = touch.at(law.substrate)[s];
@@ -90,7 +94,7 @@ void Simulation::add_protrusions(std::span<Vec3d> external) {
       if (law.contact_area > 0.0) size *= std::min(1.0, on.area / law.contact_area);
       front = std::span(nodes.at(law.substrate)).subspan(first, count);
     }
-    (void)add_protrusion(law, tissue_.shells.topology(s), std::as_const(tissue_.shells).nodes(s), row.polarity, front, direction, size,
+    (void)add_protrusion(law, tissue_.shells.topology(s), std::as_const(tissue_.shells).nodes(s), polarity, front, direction, size,
                          external.subspan(first, count));
   }
 }
@@ -105,8 +109,11 @@ std::vector<Vec3d> Simulation::external_forces(double time, double dt) {
 }
 
 void Simulation::turn_polarities(std::uint64_t step, double dt) {
+  SideColumn<Vec3d>& polarity = tissue_.cells.side.polarity;
+  if (polarity.empty()) return;
   std::size_t shell = 0, sphere = 0;
-  for (CellRow& row : tissue_.cells.rows) {
+  for (std::size_t i = 0; i < tissue_.cells.size(); ++i) {
+    const CellRow& row = tissue_.cells.rows[i];
     const CellType& type = model_.types[row.type];
     Vec3d velocity{};
     if (row.body == BodyKind::kSphere) {
@@ -116,12 +123,12 @@ void Simulation::turn_polarities(std::uint64_t step, double dt) {
       const std::uint32_t first = tissue_.shells.first_node[shell], last = tissue_.shells.first_node[shell + 1];
       ++shell;
       if (type.polarity.follow_velocity > 0.0)
-        for (std::uint32_t i = first; i < last; ++i) {
-          const Vec3f& v = tissue_.shells.velocity[i];
+        for (std::uint32_t n = first; n < last; ++n) {
+          const Vec3f& v = tissue_.shells.velocity[n];
           velocity += Vec3d{v.x, v.y, v.z};
         }
     }
-    row.polarity = next_polarity(row.polarity, velocity, row.id, type, model_.seed, step, dt);
+    polarity.set(i, next_polarity(polarity[i], velocity, row.id, type, model_.seed, step, dt));
   }
 }
 

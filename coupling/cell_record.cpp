@@ -18,9 +18,10 @@ std::vector<CellRecord> take_apart(Tissue& tissue) {
   auto& shells = tissue.shells;
   auto& spheres = tissue.spheres;
   std::size_t next_shell = 0, next_sphere = 0;
-  for (const CellRow& row : tissue.cells.rows) {
+  for (std::size_t k = 0; k < tissue.cells.size(); ++k) {
     CellRecord& record = out.emplace_back();
-    record.row = row;
+    record.row = tissue.cells.full(k);
+    const CellRow& row = record.row;
     if (row.body == BodyKind::kShell) {
       const std::size_t i = next_shell++;
       const auto nodes = [&](const auto& array) {
@@ -67,7 +68,7 @@ void put_together(Tissue& tissue, std::vector<CellRecord> cells) {
   for (const std::size_t place : sorted) {
     CellRecord& cell = cells[place];
     cell.row.body = cell.shell ? BodyKind::kShell : BodyKind::kSphere;
-    tissue.cells.rows.push_back(cell.row);
+    tissue.cells.push_back(cell.row);
     if (cell.shell) {
       const ShellRecord& body = *cell.shell;
       shells.shape.push_back(body.shape);
@@ -175,7 +176,7 @@ std::vector<CellRecord> read_records(std::span<const std::byte> bytes, ShapeLibr
   Reader reader{bytes};
   while (!reader.rest.empty()) {
     CellRecord& cell = out.emplace_back();
-    cell.row = reader.one<CellRow>();
+    cell.row = reader.one<FullRow>();
     if (cell.row.body == BodyKind::kSphere) {
       SphereRecord body;
       body.position = reader.one<Vec3d>();

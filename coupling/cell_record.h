@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/boxed.h"
 #include "core/mesh/topology.h"
 #include "core/result.h"
 #include "coupling/tissue.h"
@@ -33,9 +34,9 @@ struct ShellRecord {
 
 /// One cell whole: its row and its body. What events, swaps and moves between ranks work on.
 struct CellRecord {
-  CellRow row;
+  FullRow row;
   std::optional<SphereRecord> sphere;
-  std::optional<ShellRecord> shell;
+  Boxed<ShellRecord> shell;  ///< boxed: a hundred thousand spheres shall not have the room for one each
 
   [[nodiscard]] Vec3d center() const;
 };

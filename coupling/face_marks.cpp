@@ -25,12 +25,12 @@ void set_mark(std::uint8_t& marks, int mark, bool on, bool keep) {
     marks = static_cast<std::uint8_t>(marks & ~bit);
 }
 
-/// Function(row, shell number) for the rows with a shell.
+/// function(type, shell number, row number) for the rows with a shell.
 template <class F>
 void for_shells(const Tissue& tissue, F&& function) {
   std::size_t shell = 0;
-  for (const CellRow& row : tissue.cells.rows)
-    if (row.body == BodyKind::kShell) function(row, shell++);
+  for (std::size_t i = 0; i < tissue.cells.size(); ++i)
+    if (const CellRow& row = tissue.cells.rows[i]; row.body == BodyKind::kShell) function(row.type, shell++, i);
 }
 
 bool type_has_marks(const Model& model, std::uint16_t type) {
@@ -71,14 +71,14 @@ std::vector<char> faces_by_place(const FaceMark& rule, const Topology& topology,
 
 void mark_new_shells(const Model& model, Tissue& tissue) {
   if (model.marks.empty() && model.lumens.empty()) return;
-  for_shells(tissue, [&](const CellRow& row, std::size_t shell) {
-    if (!type_has_marks(model, row.type) || !tissue.shells.faces_of(shell).mark.empty()) return;
+  for_shells(tissue, [&](std::uint16_t type, std::size_t shell, std::size_t i) {
+    if (!type_has_marks(model, type) || !tissue.shells.faces_of(shell).mark.empty()) return;
     const Topology& topology = tissue.shells.topology(shell);
     std::vector<std::uint8_t>& mark = tissue.shells.faces_of(shell).mark;
     mark.assign(topology.face_count(), 0);
     for (const FaceMark& rule : model.marks) {
-      if (rule.type != row.type) continue;
-      const auto faces = faces_by_place(rule, topology, std::as_const(tissue.shells).nodes(shell), row.polarity);
+      if (rule.type != type) continue;
+      const auto faces = faces_by_place(rule, topology, std::as_const(tissue.shells).nodes(shell), tissue.cells.side.polarity[i]);
       for (std::size_t f = 0; f < faces.size(); ++f) set_mark(mark[f], rule.mark, faces[f] != 0, true);
     }
   });
@@ -90,22 +90,22 @@ bool has_marks_that_follow(const Model& model) {
 
 void renew_marks(const Model& model, Tissue& tissue, std::span<const std::vector<char>> touched) {
   std::size_t first_face = 0;
-  for_shells(tissue, [&](const CellRow& row, std::size_t shell) {
+  for_shells(tissue, [&](std::uint16_t type, std::size_t shell, std::size_t i) {
     const Topology& topology = tissue.shells.topology(shell);
     const std::size_t begin = first_face;
     first_face += topology.face_count();
-    if (!type_has_marks(model, row.type)) return;
+    if (!type_has_marks(model, type)) return;
     std::vector<std::uint8_t>& mark = tissue.shells.faces_of(shell).mark;
     std::uint8_t cleared = 0;  // of several rules for one mark the first clears, and all add
     for (std::size_t r = 0; r < model.marks.size(); ++r) {
       const FaceMark& rule = model.marks[r];
-      if (rule.type != row.type || !rule.always) continue;
+      if (rule.type != type || !rule.always) continue;
       std::vector<char> faces;
       if (rule.rule == FaceMark::Rule::kTouched)
         faces.assign(touched[r].begin() + static_cast<std::ptrdiff_t>(begin),
                      touched[r].begin() + static_cast<std::ptrdiff_t>(begin + topology.face_count()));
       else
-        faces = faces_by_place(rule, topology, std::as_const(tissue.shells).nodes(shell), row.polarity);
+        faces = faces_by_place(rule, topology, std::as_const(tissue.shells).nodes(shell), tissue.cells.side.polarity[i]);
       const bool keep = rule.keep || (cleared >> rule.mark & 1);
       for (std::size_t f = 0; f < faces.size(); ++f) set_mark(mark[f], rule.mark, faces[f] != 0, keep);
       cleared = static_cast<std::uint8_t>(cleared | 1u << rule.mark);
@@ -115,10 +115,10 @@ void renew_marks(const Model& model, Tissue& tissue, std::span<const std::vector
 
 void ease_contact(const Model& model, Tissue& tissue, std::span<const float> now, double dt) {
   std::size_t first_face = 0;
-  for_shells(tissue, [&](const CellRow& row, std::size_t shell) {
+  for_shells(tissue, [&](std::uint16_t type, std::size_t shell, std::size_t) {
     const std::size_t count = tissue.shells.topology(shell).face_count(), begin = first_face;
     first_face += count;
-    const RegionalTension& tension = model.types[row.type].regional_tension;
+    const RegionalTension& tension = model.types[type].regional_tension;
     if (!tension.has_lateral()) return;
     std::vector<float>& contact = tissue.shells.faces_of(shell).contact;
     contact.resize(count, 0.0f);

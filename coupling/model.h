@@ -92,18 +92,18 @@ struct ContactPair {
   double normal_friction = 50.0;      ///< γ_n per contact area [nN·s/µm³]
   double tangential_friction = 50.0;  ///< γ_t per contact area [nN·s/µm³]
   SurfaceLaw law = SurfaceLaw::kTent;
-  double range = 0.0;            ///< c; 0: that of ContactNumerics [µm]
-  double repulsion = 0.0;        ///< k_r; 0: that of ContactNumerics [kPa/µm]
-  double reduced_modulus = 0.0;  ///< E* of kMaugisDugdale [kPa]
+  double range = 0.0;                   ///< c; 0: that of ContactNumerics [µm]
+  double repulsion = 0.0;               ///< k_r; 0: that of ContactNumerics [kPa/µm]
+  double reduced_modulus = 0.0;         ///< E* of kMaugisDugdale [kPa]
   std::vector<AdhesionRule> regions{};  ///< W by the marks of the faces, first material first; the first that holds; else `adhesion`
 };
 
 /// Numbers of the traction law, for pairs that have none of their own.
 struct ContactNumerics {
-  double range = 0.5;        ///< c; no pair has a smaller one [µm]
-  double repulsion = 100.0;  ///< k_r [kPa/µm]
-  int points_per_face = 3;   ///< interior quadrature points, 3 or 4
-  double skin = 0.5;         ///< of the candidate lists [µm]
+  double range = 0.5;               ///< c; no pair has a smaller one [µm]
+  double repulsion = 100.0;         ///< k_r [kPa/µm]
+  int points_per_face = 3;          ///< interior quadrature points, 3 or 4
+  double skin = 0.5;                ///< of the candidate lists [µm]
   bool objective_friction = false;  ///< contacts do not rub when both surfaces turn together (core/contact/objective_friction.h)
 };
 

@@ -25,17 +25,17 @@ double fit_step(double wanted, double time, double land_on) {
 
 /// What growth may change before a step, so that it can be taken back.
 struct Growing {
-  std::vector<CellRow> rows;
+  Cells cells;
   std::vector<double> reference_volume, rest_volume, rest_length, radius;
 
   explicit Growing(const Tissue& t)
-      : rows(t.cells.rows),
+      : cells(t.cells),
         reference_volume(t.shells.reference_volume),
         rest_volume(t.shells.rest_volume),
         rest_length(t.shells.rest_length),
         radius(t.spheres.radius) {}
   void restore(Tissue& t) const {
-    t.cells.rows = rows;
+    t.cells = cells;
     t.shells.reference_volume = reference_volume;
     t.shells.rest_volume = rest_volume;
     t.shells.rest_length = rest_length;
@@ -58,7 +58,7 @@ Result<StepOutcome> Simulation::step(double land_on) {
   for (;; ++outcome.retries) {
     {  // behaviours: growth, cycle, death, migration
       auto timed = timer().scope(Stage::kBehaviours);
-      life = live(tissue_.cells.rows, model_.types, {model_.seed, clock.steps, clock.time + dt, dt});
+      life = live(tissue_.cells, model_.types, {model_.seed, clock.steps, clock.time + dt, dt});
       set_bodies_to_targets(dt);
     }
     // mechanics: ghosts, candidates, contacts, forces, system, solve, advance

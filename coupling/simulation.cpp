@@ -84,7 +84,8 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Model model, Tissue tissu
       const auto owner = fields::owners_along_curve(grid, comm.size());
       out->tissue_.fields.push_back(fields::uniform_field(grid, spec.initial, owner, comm.rank()));
       out->tissue_.ledger.field_start[f] = fields::total_amount(out->tissue_.fields.back(), comm);
-      for (CellRow& row : out->tissue_.cells.rows) row.concentration[f] = spec.initial;
+      Cells& cells = out->tissue_.cells;
+      for (std::size_t i = 0; i < cells.size(); ++i) cells.side.concentration[f].set(i, spec.initial, cells.size());
     }
   }
   out->distribute();
@@ -129,32 +130,37 @@ void Simulation::set_bodies_to_targets(double dt) {
   BodyValues body;
   if (std::any_of(model_.types.begin(), model_.types.end(), osmotic)) body = mechanics_->values(tissue_);
   std::size_t shell = 0, sphere = 0;
-  for (CellRow& row : tissue_.cells.rows) {
+  SideColumns& side = tissue_.cells.side;
+  for (std::size_t k = 0; k < tissue_.cells.size(); ++k) {
+    CellRow& row = tissue_.cells.rows[k];
     const CellType& type = model_.types[row.type];
-    if (row.inflation_left > 0.0) {
-      const double gain = std::min(row.inflation_left, row.inflation_rate * dt);
+    if (const double left = side.inflation_left[k]; left > 0.0) {
+      const double gain = std::min(left, side.inflation_rate[k] * dt);
       row.target_volume += gain;
-      row.inflation_left -= gain;
+      side.inflation_left.set(k, left - gain);
     }
-    if (!type.osmosis.acts()) row.reference_excess *= keep;
+    double excess = side.reference_excess[k];
+    if (!type.osmosis.acts()) excess *= keep;
+    const auto exchange = [&](double volume, std::size_t b) {
+      FullRow full = tissue_.cells.full(k);
+      exchange_water(full, type, time, dt, volume, body.area[b], body.pressure[b]);
+      excess = full.reference_excess;
+    };
     if (row.body == BodyKind::kShell) {
       const double free = free_reference_volume(row.target_volume, type);
       double& reference = tissue_.shells.reference_volume[shell];
       if (type.osmosis.acts()) {  // growth brings its water along: what has grown begins at the same concentrations
-        const double grown = free * std::exp(row.reference_excess) / reference;
-        exchange_water(row, type, time, dt, grown * body.volume[shell], body.area[shell], body.pressure[shell]);
+        const double grown = free * std::exp(excess) / reference;
+        exchange(grown * body.volume[shell], shell);
       }
       if (tissue_.shells.rest_volume[shell] != row.target_volume) dcm::set_rest_volume(tissue_.shells, shell, row.target_volume);
-      reference = free * std::exp(row.reference_excess);
+      reference = free * std::exp(excess);
       ++shell;
     } else {
-      if (type.osmosis.acts()) {
-        const double volume = row.target_volume * std::exp(row.reference_excess);
-        const std::size_t i = tissue_.shells.size() + sphere;
-        exchange_water(row, type, time, dt, volume, body.area[i], body.pressure[i]);
-      }
-      tissue_.spheres.radius[sphere++] = std::cbrt(3.0 * row.target_volume * std::exp(row.reference_excess) / (4.0 * std::numbers::pi));
+      if (type.osmosis.acts()) exchange(row.target_volume * std::exp(excess), tissue_.shells.size() + sphere);
+      tissue_.spheres.radius[sphere++] = std::cbrt(3.0 * row.target_volume * std::exp(excess) / (4.0 * std::numbers::pi));
     }
+    side.reference_excess.set(k, excess, tissue_.cells.size());
   }
   mechanics_->parameters_changed();
 }
@@ -176,12 +182,13 @@ Status Simulation::advance_fields(double dt, StepOutcome& outcome) {
     sources.push_back({row.id, row.type, center[i], std::cbrt(3.0 * row.target_volume / (4.0 * std::numbers::pi))});
   }
   std::vector<double> taken(sources.size()), seen(sources.size());
+  SideColumns& side = tissue_.cells.side;
   for (std::size_t f = 0; f < model_.fields.size(); ++f) {
     MORULA_TRY_ASSIGN(auto report,
                       field_solver_.advance(tissue_.fields[f], model_.fields[f], model_.space, sources, dt, comm_, taken, seen));
     for (std::size_t i = 0; i < sources.size(); ++i) {
-      tissue_.cells.rows[i].amount[f] += taken[i];
-      tissue_.cells.rows[i].concentration[f] = seen[i];
+      side.amount[f].set(i, side.amount[f][i] + taken[i], sources.size());
+      side.concentration[f].set(i, seen[i], sources.size());
     }
     tissue_.ledger.field_in[f] += report.total_inflow();
     tissue_.ledger.field_taken[f] += report.taken;
@@ -264,8 +271,9 @@ Result<std::vector<Event>> Simulation::swap_bodies() {
 
 Result<std::vector<Event>> Simulation::first_swaps() {
   MORULA_TRY_ASSIGN(auto events, swap_bodies());
-  for (CellRow& row : tissue_.cells.rows)
-    if (row.last_swap_time == tissue_.clock.time) row.last_swap_time = -1e300;  // being placed is no exchange
+  SideColumn<double>& last_swap = tissue_.cells.side.last_swap_time;
+  for (std::size_t i = 0; i < tissue_.cells.size(); ++i)
+    if (last_swap[i] == tissue_.clock.time) last_swap.set(i, CellSides().last_swap_time);  // being placed is no exchange
   return all_events(std::move(events));
 }
 

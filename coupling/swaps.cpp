@@ -51,12 +51,14 @@ struct Wish {
   std::string reason;
 };
 
-double trigger_value(const Trigger& trigger, const CellRow& row) {
-  return trigger.value == Trigger::Value::kPressure ? row.pressure : row.concentration[static_cast<std::size_t>(trigger.field)];
+double trigger_value(const Trigger& trigger, const Cells& cells, std::size_t i) {
+  return trigger.value == Trigger::Value::kPressure ? cells.rows[i].pressure
+                                                    : cells.side.concentration[static_cast<std::size_t>(trigger.field)][i];
 }
 
 /// What body a cell is to have: the first region it is in decides, then the triggers, then what it was at the start.
-Wish wish(const Model& model, double time, const CellRow& row, const Vec3d& center, const Vec3d& tissue_center) {
+Wish wish(const Model& model, double time, const Cells& cells, std::size_t i, const Vec3d& center, const Vec3d& tissue_center) {
+  const CellRow& row = cells.rows[i];
   const bool shell = row.body == BodyKind::kShell;
   for (const Region& region : model.swaps.regions) {
     if (!region.exists_at(time)) continue;
@@ -70,7 +72,7 @@ Wish wish(const Model& model, double time, const CellRow& row, const Vec3d& cent
       continue;
     }
     hold = std::max(hold, trigger.hold);
-    const double value = trigger_value(trigger, row);
+    const double value = trigger_value(trigger, cells, i);
     const double threshold = shell ? trigger.demote : trigger.promote;
     const bool wants = trigger.promote_above ? value > threshold : value < threshold;
     if (wants)
@@ -100,8 +102,8 @@ std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, st
     const CellRow& row = tissue.cells.rows[i];
     if (row.body == BodyKind::kShell) ++shells;
     if (row.phase == Phase::kDying) continue;
-    const Wish wanted = wish(model, tissue.clock.time, row, center[i], tissue_center);
-    if (wanted.body == row.body || tissue.clock.time - row.last_swap_time < wanted.hold) continue;
+    const Wish wanted = wish(model, tissue.clock.time, tissue.cells, i, center[i], tissue_center);
+    if (wanted.body == row.body || tissue.clock.time - tissue.cells.side.last_swap_time[i] < wanted.hold) continue;
     orders.push_back({i, wanted.body, wanted.reason});
   }
   shells = comm.sum(shells);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace morula {
 namespace {
@@ -70,9 +71,9 @@ bool touching(const Extent& a, const Extent& b, const Vec3d& shift, const Vec3d&
 
 }  // namespace
 
-std::vector<BodyPair> find_body_pairs(std::span<const Extent> extents, std::span<const std::uint32_t> place, std::span<const char> owned,
-                                      const Space& space) {
-  if (extents.empty()) return {};
+void find_body_pairs(std::span<const Extent> extents, std::span<const std::uint32_t> place, std::span<const char> owned, const Space& space,
+                     const std::function<void(const BodyPair&)>& found) {
+  if (extents.empty()) return;
   const BinGrid grid(extents, space);
   std::vector<std::uint32_t> begin(grid.size() + 1, 0), member(extents.size());
   std::vector<Bin> bin(extents.size());
@@ -89,7 +90,6 @@ std::vector<BodyPair> find_body_pairs(std::span<const Extent> extents, std::span
   std::vector<std::uint32_t> by_place(extents.size());
   for (std::size_t i = 0; i < extents.size(); ++i) by_place[place[i]] = static_cast<std::uint32_t>(i);
 
-  std::vector<BodyPair> pairs;
   std::vector<BodyPair> of_body;
   for (const std::uint32_t i : by_place) {
     of_body.clear();
@@ -111,9 +111,8 @@ std::vector<BodyPair> find_body_pairs(std::span<const Extent> extents, std::span
           }
         }
     std::sort(of_body.begin(), of_body.end(), [&](const BodyPair& a, const BodyPair& b) { return place[a.b] < place[b.b]; });
-    pairs.insert(pairs.end(), of_body.begin(), of_body.end());
+    for (const BodyPair& pair : of_body) found(pair);
   }
-  return pairs;
 }
 
 }  // namespace morula

@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <span>
-#include <vector>
 
 #include "core/space/space.h"
 #include "core/vec3.h"
@@ -21,11 +21,11 @@ struct BodyPair {
   Vec3d shift{};
 };
 
-/// All pairs whose boxes and balls overlap, at least one of the two owned, in canonical order (place of a, place of b).
+/// Calls found(pair) for all pairs whose boxes and balls overlap, at least one of the two owned, in canonical order (place of a, place of b).
 ///
 /// `place` is the canonical place of each body, a permutation. Bodies are binned by their centres into a grid as wide as the largest
 /// body, so that the cost grows with the number of bodies. On periodic axes the nearest image counts.
-std::vector<BodyPair> find_body_pairs(std::span<const Extent> extents, std::span<const std::uint32_t> place, std::span<const char> owned,
-                                      const Space& space);
+void find_body_pairs(std::span<const Extent> extents, std::span<const std::uint32_t> place, std::span<const char> owned, const Space& space,
+                     const std::function<void(const BodyPair&)>& found);
 
 }  // namespace morula

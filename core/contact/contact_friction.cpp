@@ -24,17 +24,20 @@ void ContactLayer::begin_step(const ContactScene& scene) {
 
 namespace {
 
-/// A body's points in a friction sum; null where it is an obstacle.
+/// A body's points in a friction sum; all null where it is an obstacle.
 struct RubbingBody {
-  const ContactBody* body;
-  const Vec3d *position, *start;  ///< of its first point
-  Vec3d* out;                     ///< of its first point; null: not written
+  const Topology* topology = nullptr;                 ///< null too: a sphere
+  const Vec3d *position = nullptr, *start = nullptr;  ///< of its first point
+  Vec3d* out = nullptr;                               ///< of its first point; null: not written
 
-  RubbingBody(const ContactBody* b, std::span<const Vec3d> positions, std::span<const Vec3d> starts, std::span<Vec3d> outs)
-      : body(b),
-        position(b == nullptr ? nullptr : positions.data() + b->first_point),
-        start(b == nullptr ? nullptr : starts.data() + b->first_point),
-        out(b == nullptr || !b->active() ? nullptr : outs.data() + b->first_point) {}
+  RubbingBody() = default;
+  RubbingBody(const ContactScene& scene, std::uint32_t number, std::span<const Vec3d> starts, std::span<Vec3d> outs)
+      : topology(scene.topology_of(number)) {
+    const ContactBody& body = scene.bodies[number];
+    position = scene.position.data() + body.first_point;
+    start = starts.data() + body.first_point;
+    if (body.active()) out = outs.data() + body.first_point;
+  }
   [[nodiscard]] PaddedVec3::Vector way(std::uint32_t node) const { return PaddedVec3::of(position[node]) - PaddedVec3::of(start[node]); }
 };
 
@@ -53,7 +56,7 @@ double rub(std::span<const ContactElement> elements, const FaceQuadrature& quadr
   double sum = 0.0;
   for (std::size_t k = 0; k < elements.size();) {
     const std::uint32_t face = elements[k].source_face();
-    const Triangle& s = source.body->topology->faces()[face];
+    const Triangle& s = source.topology->faces()[face];
     const Vector d[3] = {source.way(s[0]), source.way(s[1]), source.way(s[2])};
     Vector of_face[3] = {};
     for (; k < elements.size() && elements[k].source_face() == face; ++k) {
@@ -62,11 +65,11 @@ double rub(std::span<const ContactElement> elements, const FaceQuadrature& quadr
       Vector u = rest + d[0] * beta[0] + d[1] * beta[1] + d[2] * beta[2];
       Triangle t{0, 0, 0};
       double mu[3] = {1.0, 0.0, 0.0};
-      if (target.body != nullptr && target.body->topology != nullptr) {
-        t = target.body->topology->faces()[e.target];
+      if (target.topology != nullptr) {
+        t = target.topology->faces()[e.target];
         e.weights(mu);
         u -= target.way(t[0]) * mu[0] + target.way(t[1]) * mu[1] + target.way(t[2]) * mu[2];
-      } else if (target.body != nullptr) {
+      } else if (target.position != nullptr) {
         u -= target.way(0);
       }
       const Vector n = PaddedVec3::of(e.normal<double>());
@@ -96,8 +99,7 @@ void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const 
   const auto& quadrature = FaceQuadrature::with_points(settings_.points_per_face);
   for (const SurfacePair& pair : pairs_) {
     if (!moved && !pair.rigid) continue;
-    const RubbingBody body[2] = {{&scene.bodies[pair.a], scene.position, start, out},
-                                 {pair.rigid ? nullptr : &scene.bodies[pair.b], scene.position, start, out}};
+    const RubbingBody body[2] = {{scene, pair.a, start, out}, pair.rigid ? RubbingBody() : RubbingBody(scene, pair.b, start, out)};
     const Vec3d rigid = pair.rigid ? offsets_[pair.b] - step_offsets_[pair.b] : Vec3d{};
     double sum = 0.0;
     for (int d = 0; d < 2; ++d) sum += rub(pair.step_elements[d], quadrature, material_of(scene, pair), body[d], body[1 - d], rigid);
@@ -121,7 +123,7 @@ std::vector<ElementGroup> ContactLayer::element_groups(const ContactScene& scene
       const std::uint32_t number = side == 0 ? pair.a : pair.b;
       const ContactBody& body = scene.bodies[number];
       group.elements[side] = pair.present(side);
-      group.topology[side] = body.topology;
+      group.topology[side] = scene.topology_of(number);
       group.body[side] = number;
       group.first[side] = body.first_point;
       group.write[side] = body.active();

@@ -14,6 +14,11 @@ constexpr double kFloatRounding = 1.0 / (1 << 24);  // relative, of a number kep
 Vec3f to_float(const Vec3d& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 Vec3d to_double(const Vec3f& v) { return {v.x, v.y, v.z}; }
 
+/// How far the surface of a sphere has moved since it had this radius, at most.
+double growth(const ContactBody& body, float last_radius) {
+  return body.radius == 0.0 ? 0.0 : std::abs(body.radius - static_cast<double>(last_radius)) + kFloatRounding * body.radius;
+}
+
 }  // namespace
 
 ContactLayer::ContactLayer(ContactSettings settings, std::vector<RigidSurface> obstacles, std::vector<ContactMaterial> materials,
@@ -42,12 +47,14 @@ PairBody ContactLayer::view(const ContactScene& scene, const SurfacePair& pair, 
     const RigidSurface& obstacle = obstacles_[pair.b];
     return {obstacle.topology.get(), obstacle.position, obstacle.geometry.node_normal, offsets_[pair.b], 0.0};
   }
-  const ContactBody& body = scene.bodies[which == 0 ? pair.a : pair.b];
+  const std::uint32_t number = which == 0 ? pair.a : pair.b;
+  const ContactBody& body = scene.bodies[number];
   const Vec3d shift = which == 0 ? Vec3d{} : pair.shift;
   const auto points = scene.position.subspan(body.first_point, body.point_count);
   if (body.shape == BodyShape::kSphere) return {nullptr, points, {}, shift, body.radius};
-  const auto marks = scene.mark.empty() ? scene.mark : scene.mark.subspan(body.first_face, body.topology->face_count());
-  return {body.topology, points, std::span(scene.geometry->node_normal).subspan(body.first_point, body.point_count), shift, 0.0, marks};
+  const Topology* topology = scene.topology[number];
+  const auto marks = scene.mark.empty() ? scene.mark : scene.mark.subspan(scene.first_face[number], topology->face_count());
+  return {topology, points, std::span(scene.geometry->node_normal).subspan(body.first_point, body.point_count), shift, 0.0, marks};
 }
 
 double ContactLayer::patch_motion(const ContactScene& scene, const SurfacePair& pair) const {
@@ -87,8 +94,8 @@ bool ContactLayer::note_motion(const ContactScene& scene) {
     double deviation2 = 0.0;
     for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p)
       deviation2 = std::max(deviation2, norm2(scene.position[p] - to_double(known_at_[p]) - motion.mean));
-    motion.deviation = std::sqrt(deviation2) + rounding_ + std::abs(body.radius - last_radius_[i]);
-    last_radius_[i] = body.radius;
+    motion.deviation = std::sqrt(deviation2) + rounding_ + growth(body, last_radius_[i]);
+    last_radius_[i] = static_cast<float>(body.radius);
     motion_[i] = motion;
     travel_[i] += (norm(motion.mean) + motion.deviation) * 1.000001;
     most = std::max(most, travel_[i]);
@@ -127,9 +134,9 @@ bool ContactLayer::note_travel(const ContactScene& scene) {
 #pragma omp parallel for schedule(static) num_threads(settings_.threads) reduction(max : most)
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const ContactBody& body = scene.bodies[i];
-    const double growth = std::abs(body.radius - last_radius_[i]);
+    const double grown = growth(body, last_radius_[i]);
     for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p) {
-      most = std::max(most, norm(scene.position[p] - to_double(known_at_[p])) + rounding_ + growth);
+      most = std::max(most, norm(scene.position[p] - to_double(known_at_[p])) + rounding_ + grown);
     }
   }
   for (std::size_t i = 0; i < offsets_.size(); ++i) most = std::max(most, norm(offsets_[i] - last_offsets_[i]));
@@ -195,9 +202,10 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
     extent.radius = std::sqrt(radius2) + reach + body.radius;
   }
   spheres_.clear();
+  spheres_.reserve(sphere_pairs_before_ + sphere_pairs_before_ / 64);  // no growth by doubling in most rebuilds
   std::vector<SurfacePair> old = std::move(pairs_);
   pairs_.clear();
-  for (const BodyPair& found : find_body_pairs(extents, place, owned, space)) {
+  find_body_pairs(extents, place, owned, space, [&](const BodyPair& found) {
     const bool spheres = scene.bodies[found.a].shape == BodyShape::kSphere && scene.bodies[found.b].shape == BodyShape::kSphere;
     if (spheres) {
       spheres_.push_back({found.a, found.b});
@@ -207,7 +215,8 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
       pair.b = found.b;
       pair.shift = found.shift;
     }
-  }
+  });
+  sphere_pairs_before_ = spheres_.size();
   add_obstacle_pairs(scene);
   add_self_pairs(scene);
   pairs_.shrink_to_fit();
@@ -239,7 +248,7 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
   know_positions(scene);
   last_offsets_ = offsets_;
   last_radius_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) last_radius_[i] = scene.bodies[i].radius;
+  for (std::size_t i = 0; i < n; ++i) last_radius_[i] = static_cast<float>(scene.bodies[i].radius);
   obstacle_travel_ = 0.0;
   fresh_ = false;
 }
@@ -338,7 +347,7 @@ void ContactLayer::find_penetration(const ContactScene& scene, std::span<Penetra
   }
   for (std::size_t k = 0; k < list.size(); ++k) {
     const SurfacePair& pair = pairs_[list[k]];
-    Penetration& sum = by_body[scene.bodies[pair.a].topology == nullptr ? pair.a : pair.b];
+    Penetration& sum = by_body[scene.bodies[pair.a].shape == BodyShape::kSphere ? pair.a : pair.b];
     sum.volume += of_pair[k].volume;
     sum.slope += of_pair[k].slope;
   }
@@ -379,7 +388,7 @@ void ContactLayer::collect(const ContactScene& scene, const SurfacePair& pair, i
   if (part.has_node_normal)
     for (const std::uint16_t node : pair.node[side]) gradient.node_normal[body.first_point + node] += part.node_normal[node];
   for (std::size_t m = 0; m < part.source_face.size(); ++m)
-    gradient.face_energy[body.first_face + part.source_face[m]] += part.face_energy[m];
+    gradient.face_energy[scene.first_face[number] + part.source_face[m]] += part.face_energy[m];
   if (body.shape == BodyShape::kSurface) gradient.contact_area[number] += part.contact_area;
 }
 

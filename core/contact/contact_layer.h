@@ -159,12 +159,13 @@ class ContactLayer {
   ObjectiveFriction objective_;
   std::vector<SpherePressure> packing_;  ///< by body; empty: none
   std::vector<SphereNeighbours> spheres_;
+  std::size_t sphere_pairs_before_ = 0;          ///< how many the last rebuild() found
   std::vector<std::uint32_t> pairs_of_kind_[2];  ///< by SurfacePairKind
   std::vector<Vec3f> known_at_;  ///< where the points were at the last note_motion(); if there are no pairs, at the last rebuild()
   double rounding_ = 0.0;        ///< how far that may be off [µm]
   std::vector<BodyMotion> motion_;
-  std::vector<double> last_radius_;  ///< of spheres: growth counts as motion
-  std::vector<double> travel_;       ///< by body: bound on the way of its points since the list of pairs was built
+  std::vector<float> last_radius_;  ///< of spheres: growth counts as motion
+  std::vector<double> travel_;      ///< by body: bound on the way of its points since the list of pairs was built
   double obstacle_travel_ = 0.0;
   double wear_ = 0.0;
 };

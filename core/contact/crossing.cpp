@@ -24,7 +24,7 @@ void CrossingWatch::look(std::span<const ContactElement> step, std::span<const C
                          std::span<const SuspectPoint> suspects, SurfacePair& pair) const {
   for (const SuspectPoint& point : suspects) {
     const ContactElement* before = find(step, point.source);
-    if (own_ && before == nullptr) continue;                                        // out of range of its own surface, on whatever side
+    if (own_ && before == nullptr) continue;                                // out of range of its own surface, on whatever side
     if (point.inside == (before != nullptr && before->inside())) continue;  // what was out of range was outside
     if (own_)
       pair.crossed_at = std::min(pair.crossed_at, point.distance);

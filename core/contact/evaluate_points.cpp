@@ -127,8 +127,8 @@ struct alignas(64) Batch {
   double unit[3][kLanes], length[kLanes];  ///< normal of the target at the foot point
   double weight_slope[kLanes], attraction[kLanes], density[kLanes], ramp[kLanes], pull[3][kLanes];
   double bearing[kLanes], stiffness[kLanes];
-  bool inside[kLanes];                                           ///< the gap is negative
-  double corner_adhesion[3][kLanes], per_adhesion[kLanes];       ///< where W differs by marks: W at the target's nodes, and energy by W
+  bool inside[kLanes];                                            ///< the gap is negative
+  double corner_adhesion[3][kLanes], per_adhesion[kLanes];        ///< where W differs by marks: W at the target's nodes, and energy by W
   std::int32_t rounded_mu[2][kLanes], rounded_normal[3][kLanes];  ///< as ContactElement keeps them
 };
 

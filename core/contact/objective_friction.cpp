@@ -77,7 +77,8 @@ void ObjectiveFriction::add(const SurfacePair& pair, const PairBody (&body)[2], 
       set_levers(e, 3, TurningFace(target, t), 0.5 * gap);  // −½ g ṅ_B
     }
   }
-  if (elements_.size() > begin) pairs_.push_back({begin, elements_.size(), scene.bodies[pair.a].owned, pair.rigid, pair.rigid ? pair.b : 0});
+  if (elements_.size() > begin)
+    pairs_.push_back({begin, elements_.size(), scene.bodies[pair.a].owned, pair.rigid, pair.rigid ? pair.b : 0});
 }
 
 void ObjectiveFriction::rub(std::span<const Vec3d> position, std::span<const Vec3d> start, std::span<const Vec3d> obstacle_way,
@@ -111,7 +112,7 @@ void ObjectiveFriction::for_corners(F&& function) const {
 }
 
 void ObjectiveFriction::add_product(std::span<const Float4> p, std::span<Float4> q) const {
-  for_corners([&](const ObjectiveElement& e, const bool (&mine)[2]) {
+  for_corners([&](const ObjectiveElement& e, const bool(&mine)[2]) {
     const Vec3f u = e.jump([&](std::uint32_t i) { return Vec3f{p[i].x, p[i].y, p[i].z}; });
     const Vec3f f = e.drag(u);
     for (int c = 0; c < e.count; ++c) {
@@ -124,7 +125,7 @@ void ObjectiveFriction::add_product(std::span<const Float4> p, std::span<Float4>
 }
 
 void ObjectiveFriction::add_diagonal(std::span<SymMat3<float>> diagonal) const {
-  for_corners([&](const ObjectiveElement& e, const bool (&mine)[2]) {
+  for_corners([&](const ObjectiveElement& e, const bool(&mine)[2]) {
     for (int c = 0; c < e.count; ++c) {
       if (!mine[c < 3 ? 0 : 1]) continue;
       // J_cᵀ D J_c column by column

@@ -16,7 +16,8 @@ struct AdhesionRule {
 class RegionalAdhesion {
  public:
   /// `otherwise`: W of faces that no rule is for [nN/µm]; `marks`: how many marks there are, at most 8.
-  RegionalAdhesion(double otherwise, std::span<const AdhesionRule> rules, int marks) : shift_(marks), table_(std::size_t{1} << (2 * marks)) {
+  RegionalAdhesion(double otherwise, std::span<const AdhesionRule> rules, int marks)
+      : shift_(marks), table_(std::size_t{1} << (2 * marks)) {
     const std::size_t sets = std::size_t{1} << marks;
     for (std::size_t a = 0; a < sets; ++a)
       for (std::size_t b = 0; b < sets; ++b) {

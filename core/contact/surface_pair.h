@@ -21,9 +21,11 @@ struct ContactMaterial {
   double sphere_modulus = 0.5;       ///< E/(1 − ν²) of the first material's spheres: they meet surfaces with sphere_foundation() [kPa]
   double normal_friction = 0.0;      ///< γ_n per contact area [nN·s/µm³]
   double tangential_friction = 0.0;  ///< γ_t per contact area [nN·s/µm³]
-  std::shared_ptr<const RegionalAdhesion> regional{};  ///< W by the marks of the faces, in place of that of the law; null: everywhere the same
-  double self_distance = 0.0;  ///< of a material with itself: how near a surface lets parts of its own come (core/contact/self_contact.h); 0: off [µm]
-  double self_radius = 0.0;    ///< typical radius of its bodies, from which the length of their edges follows [µm]
+  std::shared_ptr<const RegionalAdhesion>
+      regional{};  ///< W by the marks of the faces, in place of that of the law; null: everywhere the same
+  double self_distance =
+      0.0;  ///< of a material with itself: how near a surface lets parts of its own come (core/contact/self_contact.h); 0: off [µm]
+  double self_radius = 0.0;  ///< typical radius of its bodies, from which the length of their edges follows [µm]
 };
 
 /// A body of a pair at present positions: a surface (its quadrature points are held against the other body, its faces are what the
@@ -32,8 +34,8 @@ struct PairBody {
   const Topology* topology = nullptr;
   std::span<const Vec3d> position;
   std::span<const Vec3d> node_normal;
-  Vec3d shift{};        ///< added to the positions: periodic image, or how far an obstacle has moved
-  double radius = 0.0;  ///< of a sphere
+  Vec3d shift{};                         ///< added to the positions: periodic image, or how far an obstacle has moved
+  double radius = 0.0;                   ///< of a sphere
   std::span<const std::uint8_t> mark{};  ///< sets of marks by face; empty: none
 
   [[nodiscard]] std::uint8_t marks(std::uint32_t face) const { return mark.empty() ? std::uint8_t{0} : mark[face]; }
@@ -99,7 +101,7 @@ struct SurfacePair {
   Vec3d push;                                    ///< force on b where it is rigid [nN]
   double step_overlap = 0.0;                     ///< `overlap` at the start of the step [µm]
   std::uint32_t crossed = 0;                     ///< points that are on another side than at the start of the step; see crossing.h
-  double crossed_at = 1e300;                     ///< of a surface against itself: the least distance of such a point from the other side [µm]
+  double crossed_at = 1e300;  ///< of a surface against itself: the least distance of such a point from the other side [µm]
 
   [[nodiscard]] bool with_itself() const { return !rigid && a == b; }
   [[nodiscard]] const std::vector<ContactElement>& present(std::size_t d) const { return at_start ? step_elements[d] : elements[d]; }

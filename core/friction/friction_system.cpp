@@ -58,12 +58,12 @@ void FrictionSystem::set_layout(Layout layout, int threads) {
   for (auto* vector : {&p_, &q_, &r_}) vector->assign(layout_.point_count, Float4{});
   // Contiguous ranges of bodies of about equal numbers of points.
   std::size_t owned_points = 0;
-  for (std::size_t body = 0; body < layout_.bodies.size(); ++body)
-    if (layout_.owned[body]) owned_points += layout_.bodies[body].count;
+  for (std::size_t body = 0; body < layout_.body_count(); ++body)
+    if (layout_.owned[body]) owned_points += layout_.points_of(body).count;
   work_.assign(static_cast<std::size_t>(threads_), {});
   std::size_t seen = 0, thread = 0;
-  for (std::size_t body = 0; body < layout_.bodies.size(); ++body) {
-    if (layout_.owned[body]) seen += layout_.bodies[body].count;
+  for (std::size_t body = 0; body < layout_.body_count(); ++body) {
+    if (layout_.owned[body]) seen += layout_.points_of(body).count;
     work_[thread].last_body = static_cast<std::uint32_t>(body + 1);
     if (thread + 1 < work_.size() && seen * work_.size() >= owned_points * (thread + 1)) {
       ++thread;
@@ -109,7 +109,7 @@ void FrictionSystem::set_elements(std::span<const ElementGroup> groups, const Fa
   }
   if (shells_ == nullptr || shells_->point_count() == 0) return;
 
-  std::vector<std::uint32_t> begin(layout_.bodies.size() + 1, 0), incident;
+  std::vector<std::uint32_t> begin(layout_.body_count() + 1, 0), incident;
   for (const ElementGroup& group : groups)
     for (std::size_t side = 0; side < (group.rigid ? 1 : 2); ++side) ++begin[group.body[side] + 1];
   for (std::size_t body = 1; body < begin.size(); ++body) begin[body] += begin[body - 1];
@@ -128,9 +128,16 @@ void FrictionSystem::set_elements(std::span<const ElementGroup> groups, const Fa
 template <class Body>
 void FrictionSystem::for_owned_bodies(Body&& function) const {
 #pragma omp parallel for schedule(static, 1) num_threads(threads_)
-  for (int t = 0; t < threads_; ++t)
-    for (std::uint32_t body = work_[static_cast<std::size_t>(t)].first_body; body < work_[static_cast<std::size_t>(t)].last_body; ++body)
-      if (layout_.owned[body]) function(t, body);
+  for (int t = 0; t < threads_; ++t) {
+    const std::uint32_t last = work_[static_cast<std::size_t>(t)].last_body;
+    const auto with_many = static_cast<std::uint32_t>(layout_.bodies.size());
+    std::uint32_t body = work_[static_cast<std::size_t>(t)].first_body;
+    for (; body < std::min(last, with_many); ++body)
+      if (layout_.owned[body]) function(t, layout_.bodies[body]);
+    const char* const owned = layout_.owned.data();
+    for (std::uint32_t point = layout_.points_of(body).first; body < last; ++body, ++point)
+      if (owned[body]) function(t, BodyPoints{point, 1});
+  }
 }
 
 void FrictionSystem::apply_contacts(int thread, std::span<const Float4> p, std::span<Float4> q) const {
@@ -146,8 +153,7 @@ void FrictionSystem::apply_contacts(int thread, std::span<const Float4> p, std::
 void FrictionSystem::apply(std::span<const Float4> p, std::span<Float4> q) const {
   if (shells_ != nullptr && shells_->point_count() > 0) shells_->multiply(p, q);
   const std::size_t done = shells_ != nullptr ? shells_->point_count() : 0;
-  for_owned_bodies([&](int, std::uint32_t body) {
-    const BodyPoints& points = layout_.bodies[body];
+  for_owned_bodies([&](int, const BodyPoints& points) {
     if (points.first < done) return;
     for (std::uint32_t i = points.first; i < points.first + points.count; ++i) store(q[i], splat(point_friction_[i]) * load(p[i]));
   });
@@ -180,16 +186,14 @@ void FrictionSystem::build_preconditioner() {
   for (int t = 0; t < threads_; ++t) add_contact_diagonal(t);
   if (sphere_pairs_ != nullptr) sphere_pairs_->add_diagonal(inverse_, dt_);
   for (const AddedPart* part : added_) part->add_diagonal(inverse_);
-  for_owned_bodies([&](int, std::uint32_t body) {
-    const BodyPoints& points = layout_.bodies[body];
+  for_owned_bodies([&](int, const BodyPoints& points) {
     for (std::uint32_t i = points.first; i < points.first + points.count; ++i) inverse_[i] = inverse_of(inverse_[i]);
   });
 }
 
 double FrictionSystem::dot(std::span<const Float4> a, std::span<const Float4> b, const Comm& comm) const {
   std::vector<OrderFreeSum> sums(static_cast<std::size_t>(threads_));
-  for_owned_bodies([&](int t, std::uint32_t body) {
-    const BodyPoints& points = layout_.bodies[body];
+  for_owned_bodies([&](int t, const BodyPoints& points) {
     sums[static_cast<std::size_t>(t)].add(dot_of_body(a.data() + points.first, b.data() + points.first, points.count));
   });
   for (std::size_t t = 1; t < sums.size(); ++t) sums[0] += sums[t];
@@ -199,8 +203,7 @@ double FrictionSystem::dot(std::span<const Float4> a, std::span<const Float4> b,
 void FrictionSystem::advance(float alpha, std::span<Float4> v, const Comm& comm, double (&totals)[2]) {
   std::vector<std::array<OrderFreeSum, 2>> sums(static_cast<std::size_t>(threads_));
   const Float4v a = splat(alpha);
-  for_owned_bodies([&](int t, std::uint32_t body) {
-    const BodyPoints& points = layout_.bodies[body];
+  for_owned_bodies([&](int t, const BodyPoints& points) {
     Double4 rr{}, rz{};
     for (std::uint32_t i = points.first; i < points.first + points.count; ++i) {
       store(v[i], load(v[i]) + a * load(p_[i]));
@@ -224,8 +227,7 @@ Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<Float4> v, doubl
     if (layout_.exchange) layout_.exchange(vector);
   };
   const auto for_owned_points = [&](auto&& function) {
-    for_owned_bodies([&](int, std::uint32_t body) {
-      const BodyPoints& points = layout_.bodies[body];
+    for_owned_bodies([&](int, const BodyPoints& points) {
       for (std::uint32_t i = points.first; i < points.first + points.count; ++i) function(i);
     });
   };

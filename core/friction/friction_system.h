@@ -65,9 +65,16 @@ class FrictionSystem {
  public:
   struct Layout {
     std::size_t point_count = 0;                      ///< owned and ghost points
-    std::vector<BodyPoints> bodies;                   ///< all bodies; ghosts too
-    std::vector<char> owned;                          ///< by body
+    std::vector<BodyPoints> bodies;                   ///< those of several points, in their order; ghosts too
+    std::vector<char> owned;                          ///< by body; those after `bodies` have one point each, from where these end
     std::function<void(std::span<Float4>)> exchange;  ///< fills the ghost points; may be empty
+
+    [[nodiscard]] std::size_t body_count() const { return owned.size(); }
+    [[nodiscard]] BodyPoints points_of(std::size_t body) const {
+      if (body < bodies.size()) return bodies[body];
+      const std::uint32_t end = bodies.empty() ? 0 : bodies.back().first + bodies.back().count;
+      return {end + static_cast<std::uint32_t>(body - bodies.size()), 1};
+    }
   };
 
   void set_layout(Layout layout, int threads);

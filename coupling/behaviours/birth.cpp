@@ -10,8 +10,8 @@
 
 namespace morula {
 
-CellRow make_founder(CellId id, std::uint16_t type_index, const CellType& type, std::uint32_t seed, double time, bool random_age) {
-  CellRow row;
+FullRow make_founder(CellId id, std::uint16_t type_index, const CellType& type, std::uint32_t seed, double time, bool random_age) {
+  FullRow row;
   row.id = id;
   row.type = type_index;
   row.body = row.own_body = type.initial_body;
@@ -32,8 +32,8 @@ CellRow make_founder(CellId id, std::uint16_t type_index, const CellType& type, 
   return row;
 }
 
-CellRow make_daughter(const CellRow& mother, int which, const CellType& type, std::uint32_t seed, double time, double birth_volume) {
-  CellRow row;
+FullRow make_daughter(const FullRow& mother, int which, const CellType& type, std::uint32_t seed, double time, double birth_volume) {
+  FullRow row;
   row.id = mother.id.daughter(which);
   row.parent = mother.id;
   row.order = mother.order;

@@ -8,7 +8,7 @@
 
 namespace morula {
 
-SphereDivision divide_sphere(const CellRow& mother, const SphereBody& body, const CellType& type, std::uint32_t seed, double time,
+SphereDivision divide_sphere(const FullRow& mother, const SphereBody& body, const CellType& type, std::uint32_t seed, double time,
                              double late, double fraction) {
   const double volume_1 = fraction * mother.target_volume;
   const double volume_2 = mother.target_volume - volume_1;

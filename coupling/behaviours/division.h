@@ -15,7 +15,7 @@ struct SphereBody {
 
 /// The two cells that a sphere becomes.
 struct SphereDivision {
-  CellRow first, second;
+  FullRow first, second;
   SphereBody first_body, second_body;
 };
 
@@ -29,7 +29,7 @@ struct SphereDivision {
 /// time: end of the step [s]; late: how long before that the division volume was reached [s]. The daughters are born at time − late, and
 /// their target volumes have already grown for `late`; their bodies have not: the first step drives them there.
 /// Precondition: mother.id.can_divide(), 0 < fraction < 1.
-SphereDivision divide_sphere(const CellRow& mother, const SphereBody& body, const CellType& type, std::uint32_t seed, double time,
+SphereDivision divide_sphere(const FullRow& mother, const SphereBody& body, const CellType& type, std::uint32_t seed, double time,
                              double late, double fraction = 0.5);
 
 }  // namespace morula

@@ -1,5 +1,7 @@
 #include "coupling/behaviours/life.h"
 
+#include <algorithm>
+
 #include "coupling/behaviours/death.h"
 #include "coupling/behaviours/growth.h"
 #include "coupling/behaviours/migration.h"
@@ -53,27 +55,42 @@ Event describe(const CellRow& row, const CellType& type, const LifeStep& step, c
 
 }  // namespace
 
-LifeDecision live(CellRow& row, const CellType& type, const LifeStep& step) {
+LifeDecision live(CellRow& row, LifeSides& sides, const CellType& type, const LifeStep& step) {
   if (row.phase == Phase::kDying) {
     shrink(row, type, step.dt);
-    return {is_gone(row, type, step.time) ? Kind::kRemove : Kind::kNone, 0.0};
+    return {is_gone(sides.death_time, type, step.time) ? Kind::kRemove : Kind::kNone, 0.0};
   }
-  if (begins_to_die(row, type, step.seed, step.step, step.dt)) {
-    start_dying(row, step.time);
+  if (begins_to_die(row, sides.seen, type, step.seed, step.step, step.dt)) {
+    row.phase = Phase::kDying;
+    sides.death_time = step.time;
+    sides.migration_velocity = {};
     return {Kind::kBeginDying, 0.0};
   }
-  row.migration_velocity = next_migration_velocity(row.migration_velocity, row.id, type, step.seed, step.step, step.dt);
+  sides.migration_velocity = next_migration_velocity(sides.migration_velocity, row.id, type, step.seed, step.step, step.dt);
   if (row.phase == Phase::kResting) return {};
   if (row.phase == Phase::kWaiting) return at_division_volume(row, 0.0);
   const Growth growth = grow(row, type, step.dt);
   return growth.reached ? at_division_volume(row, growth.late) : LifeDecision{};
 }
 
-LifeReport live(std::span<CellRow> rows, std::span<const CellType> types, const LifeStep& step) {
+LifeReport live(Cells& cells, std::span<const CellType> types, const LifeStep& step) {
+  const std::vector<CellRow>& rows = cells.rows;
   std::vector<LifeDecision> decisions(rows.size());
   const auto count = static_cast<std::int64_t>(rows.size());
+  SideColumns& side = cells.side;
+  const auto migrates = [](const CellType& type) { return type.migration_speed > 0.0; };
+  const auto may_die = [](const CellType& type) { return type.death_field >= 0; };
+  if (std::any_of(types.begin(), types.end(), migrates)) side.migration_velocity.make_room(rows.size());
+  if (std::any_of(types.begin(), types.end(), may_die)) side.death_time.make_room(rows.size());
 #pragma omp parallel for schedule(static) if (count > 1000)
-  for (std::int64_t k = 0; k < count; ++k) decisions[k] = live(rows[k], types[rows[k].type], step);
+  for (std::int64_t k = 0; k < count; ++k) {
+    const CellType& type = types[rows[k].type];
+    LifeSides sides{side.migration_velocity[k], side.death_time[k], 0.0};
+    if (type.death_field >= 0) sides.seen = side.concentration[static_cast<std::size_t>(type.death_field)][k];
+    decisions[k] = live(cells.rows[k], sides, type, step);
+    side.migration_velocity.set(k, sides.migration_velocity);
+    side.death_time.set(k, sides.death_time);
+  }
 
   LifeReport report;
   for (std::size_t k = 0; k < rows.size(); ++k) {

@@ -30,12 +30,19 @@ struct LifeDecision {
   double late = 0.0;  ///< time between the event and the end of the step [s]
 };
 
-/// One step in the life of one cell: growth, cycle, death and the wanted velocity. Reads and writes this row only, as it was at the
-/// beginning of the stage: nothing depends on the order of cells.
+/// The sides of a cell that its life is about.
+struct LifeSides {
+  Vec3d migration_velocity{};  ///< read and written [µm/s]
+  double death_time = -1.0;    ///< read and written [s]
+  double seen = 0.0;           ///< concentration of the field without which it dies [mM]
+};
+
+/// One step in the life of one cell: growth, cycle, death and the wanted velocity. Reads and writes this row and its sides only, as they
+/// were at the beginning of the stage: nothing depends on the order of cells.
 ///
 /// A dying cell shrinks and is removed at last. Any other may begin to die; if it does not, it grows unless it rests or waits. Division at
 /// the division volume: a sphere divides, a shell waits (and divides if it becomes a sphere later).
-LifeDecision live(CellRow& row, const CellType& type, const LifeStep& step);
+LifeDecision live(CellRow& row, LifeSides& sides, const CellType& type, const LifeStep& step);
 
 struct DivisionOrder {
   std::size_t row = 0;
@@ -49,7 +56,7 @@ struct LifeReport {
   std::vector<std::size_t> removals;     ///< rows to remove
 };
 
-/// One step in the life of all cells. Rows are changed in place; divisions and removals are only asked for. types: by row.type.
-LifeReport live(std::span<CellRow> rows, std::span<const CellType> types, const LifeStep& step);
+/// One step in the life of all cells, which are changed in place; divisions and removals are only asked for. types: by row.type.
+LifeReport live(Cells& cells, std::span<const CellType> types, const LifeStep& step);
 
 }  // namespace morula

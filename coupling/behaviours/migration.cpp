@@ -40,8 +40,8 @@ double medium_friction_of(double friction, double volume) {
   return friction * 4.0 * std::numbers::pi * radius * radius;
 }
 
-Vec3d migration_force(const CellRow& row, const CellType& type, double volume) {
-  return medium_friction_of(type.medium_friction, volume) * row.migration_velocity;
+Vec3d migration_force(const Vec3d& wanted, const CellType& type, double volume) {
+  return medium_friction_of(type.medium_friction, volume) * wanted;
 }
 
 }  // namespace morula

@@ -21,7 +21,7 @@ Vec3d initial_migration_velocity(CellId cell, const CellType& type, std::uint32_
 /// friction: γ_med [nN·s/µm³]; volume [µm³].
 double medium_friction_of(double friction, double volume);
 
-/// F = Γ_cm u: the force under which the isolated cell moves with its wanted velocity [nN]. volume: of the body [µm³].
-Vec3d migration_force(const CellRow& row, const CellType& type, double volume);
+/// F = Γ_cm u: the force under which the isolated cell moves with its wanted velocity u [nN]. volume: of the body [µm³].
+Vec3d migration_force(const Vec3d& wanted, const CellType& type, double volume);
 
 }  // namespace morula

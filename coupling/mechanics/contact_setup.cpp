@@ -111,7 +111,8 @@ std::vector<ContactMaterial> contact_materials(const Model& model) {
       }
       material.law = traction_law(model, a, b);
       if (!pair.regions.empty())
-        material.regional = std::make_shared<const RegionalAdhesion>(pair.adhesion, pair.regions, static_cast<int>(model.mark_names.size()));
+        material.regional =
+            std::make_shared<const RegionalAdhesion>(pair.adhesion, pair.regions, static_cast<int>(model.mark_names.size()));
       if (a == b && a < model.types.size()) {
         material.self_distance = model.types[a].self_contact;
         material.self_radius = model.types[a].radius.mean;

@@ -23,14 +23,15 @@ std::vector<float> Mechanics::contact_of_faces(const Tissue& tissue, std::span<c
     if (pair.with_itself()) continue;
     for (int d = 0; d < 2; ++d) {
       if (d == 1 && pair.rigid) break;
-      const ContactBody& source = bodies[d == 0 ? pair.a : pair.b];
-      if (!source.owned || source.topology == nullptr) continue;
-      const bool both =
-          !pair.rigid && bodies[d == 0 ? pair.b : pair.a].topology != nullptr;  // both bodies are sources, with half of the area each
+      const std::uint32_t number = d == 0 ? pair.a : pair.b;
+      const ContactBody& source = bodies[number];
+      if (!source.owned || source.shape == BodyShape::kSphere) continue;
+      const bool both = !pair.rigid && bodies[d == 0 ? pair.b : pair.a].shape ==
+                                           BodyShape::kSurface;  // both bodies are sources, with half of the area each
       const std::uint16_t partner = pair.rigid ? contacts_.obstacles()[pair.b].material : bodies[d == 0 ? pair.b : pair.a].material;
       if (partner >= with_material.size() || !with_material[partner]) continue;
       for (const ContactElement& element : pair.present(static_cast<std::size_t>(d)))
-        out[source.first_face + element.source_face()] += element.w * (both ? 2.0f : 1.0f);
+        out[scene_.first_face()[number] + element.source_face()] += element.w * (both ? 2.0f : 1.0f);
     }
   }
   for (std::size_t s = 0; s < scene_.owned_shells(); ++s)

@@ -157,7 +157,7 @@ void Mechanics::add_contact_noise(const Tissue& tissue, double dt, std::span<Vec
   const auto add = [&](const ContactBody& body, std::uint32_t node, const Vec3d& f) {
     if (!body.owned) return;
     const std::uint32_t point = body.first_point + node;
-    external[body.topology != nullptr ? point : point - scene_.sphere_point() + scene_.owned_nodes()] += f;
+    external[body.shape == BodyShape::kSurface ? point : point - scene_.sphere_point() + scene_.owned_nodes()] += f;
   };
   const auto energy = [&](std::uint16_t material) {
     return material < model_.types.size() ? model_.types[material].fluctuations.energy : 0.0;
@@ -170,15 +170,16 @@ void Mechanics::add_contact_noise(const Tissue& tissue, double dt, std::span<Vec
       const std::size_t first = next;
       next += pair.present(d).size();
       if (pair.present(d).empty()) continue;
-      const ContactBody& source = bodies[d == 0 ? pair.a : pair.b];
-      const ContactBody* target = pair.rigid ? nullptr : &bodies[d == 0 ? pair.b : pair.a];
+      const std::uint32_t from = d == 0 ? pair.a : pair.b, to = d == 0 ? pair.b : pair.a;
+      const ContactBody& source = bodies[from];
+      const ContactBody* target = pair.rigid ? nullptr : &bodies[to];
       const std::uint16_t partner = target != nullptr ? target->material : contacts_.obstacles()[pair.b].material;
       const double kt = target != nullptr ? 0.5 * (energy(source.material) + energy(partner)) : energy(source.material);
       if (kt == 0.0) continue;
       const ContactMaterial& material = contacts_.material(source.material, partner);
       const std::uint64_t step = mixed(tissue.clock.steps + std::uint64_t{d == 0 ? 0u : 1u << 30});
       for (const ContactElement& e : pair.present(d)) {
-        const Triangle& face = source.topology->faces()[e.source_face()];
+        const Triangle& face = scene_.topologies()[from]->faces()[e.source_face()];
         const Vec3d noise =
             normal_vector(random, source.id, point_draw(step, target != nullptr ? target->id : CellId(pair.b + 1), e.source));
         const double across = static_cast<double>(e.w) * material.tangential_friction,
@@ -194,13 +195,13 @@ void Mechanics::add_contact_noise(const Tissue& tissue, double dt, std::span<Vec
         }
         for (std::size_t k = 0; k < 3; ++k) add(source, face[k], f * quadrature.weight[e.point()][k]);
         if (target == nullptr) continue;
-        if (target->topology == nullptr) {
+        if (target->shape == BodyShape::kSphere) {
           add(*target, 0, -f);
           continue;
         }
         double mu[3];
         e.weights(mu);
-        const Triangle& opposite = target->topology->faces()[e.target];
+        const Triangle& opposite = scene_.topologies()[to]->faces()[e.target];
         for (std::size_t k = 0; k < 3; ++k) add(*target, opposite[k], f * -mu[k]);
       }
     }

@@ -177,7 +177,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
         (void)friction_residual(start, external, dt);
         if (largest(force_) > kStuckForce) {
           StepFault fault{comm_.any(report.crossings > 0) ? "no step lowers the energy without a surface passing through another"
-                                                : "no step lowers the energy",
+                                                          : "no step lowers the energy",
                           {},
                           true};
           if (const auto shape = find_fault()) fault = *shape;
@@ -229,7 +229,8 @@ Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt
     return undo(start, StepFault{"points moved too far in one explicit step", {}, true});
   }
   evaluate(tissue);
-  if (comm_.any(contacts_.crossed(contact_scene(), start) != nullptr)) return undo(start, StepFault{"a surface would pass through another", {}, true});
+  if (comm_.any(contacts_.crossed(contact_scene(), start) != nullptr))
+    return undo(start, StepFault{"a surface would pass through another", {}, true});
   if (const auto fault = find_fault(); comm_.any(fault.has_value())) {
     return undo(start, fault.value_or(StepFault{"a cell on another rank is too distorted", {}, true}));
   }

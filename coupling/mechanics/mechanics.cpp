@@ -33,7 +33,8 @@ Mechanics::Mechanics(const Model& model, std::vector<RigidSurface> obstacles, Sh
 }
 
 ContactScene Mechanics::contact_scene() const {
-  return {scene_.bodies(), std::span(scene_.position()).first(scene_.nucleus_point()), &geometry_, scene_.marks()};
+  return {scene_.bodies(), std::span(scene_.position()).first(scene_.nucleus_point()), scene_.topologies(), scene_.first_face(), &geometry_,
+          scene_.marks()};
 }
 
 double Mechanics::largest(std::span<const Vec3d> by_point) const {
@@ -145,14 +146,12 @@ void Mechanics::prepare(const Tissue& tissue) {
 void Mechanics::lay_out_system() {
   FrictionSystem::Layout layout;
   layout.point_count = scene_.point_count();
+  layout.owned.reserve(scene_.bodies().size() + interior_.nuclei().size());
   for (const ContactBody& body : scene_.bodies()) {
-    layout.bodies.push_back({body.first_point, body.point_count});
+    if (body.shape == BodyShape::kSurface) layout.bodies.push_back({body.first_point, body.point_count});
     layout.owned.push_back(body.active());
   }
-  for (const InteriorSystem::Nucleus& nucleus : interior_.nuclei()) {
-    layout.bodies.push_back({nucleus.point, 1});
-    layout.owned.push_back(scene_.bodies()[nucleus.shell].active());
-  }
+  for (const InteriorSystem::Nucleus& nucleus : interior_.nuclei()) layout.owned.push_back(scene_.bodies()[nucleus.shell].active());
   if (comm_.size() > 1) layout.exchange = [this](std::span<Float4> vector) { scene_.exchange(vector); };
   system_.set_layout(std::move(layout), threads_);
   system_.set_shells(&shells_);

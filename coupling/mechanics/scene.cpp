@@ -222,11 +222,9 @@ void Scene::build(const Tissue& tissue, const Space& space, double reach, ShapeL
     body.first_point = point;
     point += body.point_count;
     if (i >= shells_) continue;
-    body.topology = shapes_[i]->topology.get();
-    topologies_.push_back(body.topology);
-    body.first_face = first_face_.back();
+    topologies_.push_back(shapes_[i]->topology.get());
     first_node_.push_back(point);
-    first_face_.push_back(first_face_.back() + body.topology->face_count());
+    first_face_.push_back(first_face_.back() + topologies_.back()->face_count());
   }
   face_count_ = first_face_.back();
   owned_nodes_ = first_node_[owned_shells_];

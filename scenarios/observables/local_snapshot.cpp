@@ -34,7 +34,7 @@ Snapshot local_snapshot(Simulation& simulation) {
     cell.pressure = values.pressure[body];
     cell.contact_area = values.contact_area[body];
     cell.age = out.time - row.birth_time;
-    cell.concentration = row.concentration;
+    for (std::size_t f = 0; f < kMaxFields; ++f) cell.concentration[f] = tissue.cells.side.concentration[f][i];
     cell.radius = is_shell ? std::cbrt(3.0 * cell.volume / (4.0 * std::numbers::pi)) : tissue.spheres.radius[sphere];
     if (!is_shell) {
       ++sphere;

@@ -30,9 +30,9 @@ Extreme over_ranks(const Extreme& mine, const Comm& comm) {
   return out;
 }
 
-/// Volume that the cell's row and its pressure ask for [µm³].
-double volume_by_law(const CellRow& row, const CellType& type, double pressure) {
-  const double excess = std::exp(row.reference_excess);
+/// Volume that the cell's row, its reference_excess and its pressure ask for [µm³].
+double volume_by_law(const CellRow& row, double reference_excess, const CellType& type, double pressure) {
+  const double excess = std::exp(reference_excess);
   if (row.body == BodyKind::kSphere) return row.target_volume * excess;
   return free_reference_volume(row.target_volume, type) * excess * std::exp(-pressure / type.shell.bulk_modulus);
 }
@@ -119,7 +119,7 @@ Measures measure(Simulation& simulation) {
     const CellType& type = model.types[row.type];
     const double volume = values.volume[body], p = values.pressure[body];
     const Vec3d from = center[i] - middle;
-    const double r = radius_of(volume), law = volume_by_law(row, type, p);
+    const double r = radius_of(volume), law = volume_by_law(row, tissue.cells.side.reference_excess[i], type, p);
     sums[kVolume].add(volume);
     sums[kVolumeX].add(volume * from.x);
     sums[kVolumeY].add(volume * from.y);

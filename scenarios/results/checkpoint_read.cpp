@@ -74,9 +74,9 @@ Status read_globals(const Hdf5Reader& file, LoadedCheckpoint& out) {
   });
 }
 
-Status read_rows(const Hdf5Reader& file, const Stretch& mine, std::vector<CellRow>& rows) {
-  rows.resize(mine.size());
-  return first_failure([&](auto note) {
+Status read_rows(const Hdf5Reader& file, const Stretch& mine, Cells& cells) {
+  std::vector<FullRow> rows(mine.size());
+  Status read = first_failure([&](auto note) {
     for_each_row_field([&](const std::string& name, const char*, auto member) {
       using Value = std::remove_cvref_t<decltype(rows.front().*member)>;
       auto column = file.read<Value>("cells/" + name, mine.begin, mine.size());
@@ -86,6 +86,9 @@ Status read_rows(const Hdf5Reader& file, const Stretch& mine, std::vector<CellRo
         note(std::move(column).error());
     });
   });
+  cells.rows.reserve(rows.size());
+  for (const FullRow& row : rows) cells.push_back(row);
+  return read;
 }
 
 Status read_spheres(const Hdf5Reader& file, std::uint64_t first, std::uint64_t count, std::vector<std::uint32_t>& partner_count,
@@ -182,7 +185,7 @@ Status read_faces(const Hdf5Reader& file, std::uint64_t first_shell, const Comm&
 Status read_cells(const Hdf5Reader& file, ShapeLibrary& library, const Comm& comm, Tissue& out) {
   std::uint64_t total = 0;
   MORULA_TRY_ASSIGN(total, file.rows("cells/id"));
-  MORULA_TRY(agree(read_rows(file, Stretch(total, comm), out.cells.rows), comm));
+  MORULA_TRY(agree(read_rows(file, Stretch(total, comm), out.cells), comm));
   const auto is_sphere = [](const CellRow& row) { return row.body == BodyKind::kSphere; };
   const auto spheres = static_cast<std::uint64_t>(std::count_if(out.cells.rows.begin(), out.cells.rows.end(), is_sphere));
   const std::uint64_t shells = out.cells.rows.size() - spheres;
@@ -213,10 +216,11 @@ void put_in_canonical_order(Tissue& tissue) {
   for (std::size_t i = 0; i < rows.size(); ++i) body[i] = rows[i].body == BodyKind::kSphere ? spheres++ : shells++;
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return before(rows[a], rows[b]); });
   Cells sorted;
+  sorted.rows.reserve(rows.size());
   cbm::Spheres s;
   dcm::Shells h;
   for (const std::size_t i : order) {
-    sorted.rows.push_back(rows[i]);
+    sorted.push_back(tissue.cells.full(i));
     const std::size_t b = body[i];
     if (rows[i].body == BodyKind::kSphere) {
       s.position.push_back(tissue.spheres.position[b]);

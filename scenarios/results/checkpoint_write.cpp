@@ -15,7 +15,7 @@ namespace {
 
 /// Flat arrays of this rank's stretch of the sorted cells.
 struct SortedCells {
-  std::vector<CellRow> rows;
+  std::vector<FullRow> rows;
   cbm::Spheres spheres;
   std::vector<std::uint32_t> partner_count;
   std::vector<CellId> partners;
@@ -32,7 +32,8 @@ Parcels pack_cells(const Tissue& tissue, const ShapeNumbers& numbers) {
   Parcels parcels;
   ByteWriter out;
   std::size_t sphere = 0, shell = 0;
-  for (const CellRow& row : tissue.cells.rows) {
+  for (std::size_t i = 0; i < tissue.cells.size(); ++i) {
+    const FullRow row = tissue.cells.full(i);
     out.clear();
     out.put(row);
     if (row.body == BodyKind::kSphere) {
@@ -77,7 +78,7 @@ SortedCells unpack_cells(const Parcels& parcels) {
   SortedCells out;
   for (std::size_t i = 0; i < parcels.size(); ++i) {
     ByteReader in(parcels.bytes(i));
-    out.rows.push_back(in.get<CellRow>());
+    out.rows.push_back(in.get<FullRow>());
     if (out.rows.back().body == BodyKind::kSphere) {
       out.spheres.position.push_back(in.get<Vec3d>());
       out.spheres.radius.push_back(in.get<double>());
@@ -108,7 +109,7 @@ SortedCells unpack_cells(const Parcels& parcels) {
 void add_cells(StoragePlan& plan, const SortedCells& cells, const Comm& comm) {
   for_each_row_field([&](const std::string& name, const char* units, auto member) {
     std::vector<std::remove_cvref_t<decltype(cells.rows.front().*member)>> column;
-    for (const CellRow& row : cells.rows) column.push_back(row.*member);
+    for (const FullRow& row : cells.rows) column.push_back(row.*member);
     plan.add("cells/" + name, units, column);
   });
   plan.add("spheres/position", "um", cells.spheres.position);

@@ -15,7 +15,7 @@ enum class Part : std::uint64_t { kCell = 1, kBrick, kGrid, kGlobal, kShape };
 
 Hash128 hash_of(const ByteWriter& writer, Part part) { return hash128(writer.bytes(), static_cast<std::uint64_t>(part)); }
 
-void put_row(ByteWriter& out, const CellRow& row) {
+void put_row(ByteWriter& out, const FullRow& row) {
   for_each_row_field([&](const char*, const char*, auto member) { out.put(row.*member); });
 }
 
@@ -52,7 +52,8 @@ Hash128 hash_of_cells(const Tissue& tissue) {
   Hash128 sum;
   ByteWriter bytes;
   std::size_t sphere = 0, shell = 0;
-  for (const CellRow& row : tissue.cells.rows) {
+  for (std::size_t i = 0; i < tissue.cells.size(); ++i) {
+    const FullRow row = tissue.cells.full(i);
     bytes.clear();
     put_row(bytes, row);
     if (row.body == BodyKind::kSphere) {

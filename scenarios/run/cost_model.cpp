@@ -55,8 +55,9 @@ Result<Estimate> estimate(const Study& study) {
   out.cells = static_cast<std::int64_t>(tissue.cells.size());
   out.nodes = tissue.shells.node_count();
   out.shells = static_cast<std::int64_t>(tissue.shells.size());
-  for (CellRow& row : tissue.cells.rows)
-    for (std::size_t f = 0; f < study.model.fields.size(); ++f) row.concentration[f] = study.model.fields[f].initial;
+  for (std::size_t f = 0; f < study.model.fields.size(); ++f)
+    for (std::size_t i = 0; i < tissue.cells.size(); ++i)
+      tissue.cells.side.concentration[f].set(i, study.model.fields[f].initial, tissue.cells.size());
   std::vector<Vec3d> center;
   std::vector<std::int64_t> of_type(study.model.types.size(), 0);
   std::size_t shell = 0, sphere = 0;

@@ -84,8 +84,8 @@ double build_self_contact(BuildContext& c, const draft::CellType& t) {
   const double edge = 4.0 * t.radius.mean.value * std::sqrt(std::numbers::pi / (std::numbers::sqrt3 * faces));
   if (t.self_contact.value <= 0.5 * edge) return t.self_contact.value;
   c.diagnostics.error(582, t.self_contact.place,
-                      "a self-contact at " + t.self_contact.text + " reaches the neighbouring faces: edges of " + t.nodes.text + " nodes are " +
-                          short_number(std::round(100.0 * edge) / 100.0) + " um long",
+                      "a self-contact at " + t.self_contact.text + " reaches the neighbouring faces: edges of " + t.nodes.text +
+                          " nodes are " + short_number(std::round(100.0 * edge) / 100.0) + " um long",
                       "at most " + short_number(std::floor(50.0 * edge) / 100.0) + " um, or fewer `nodes`");
   return 0.0;
 }

@@ -7,7 +7,8 @@ using Q = Quantity;
 
 void declare_adhesion_region(Section& s, draft::AdhesionRegion& r) {
   s.words({.name = "faces",
-           .doc = "Marks that the faces carry, in the order of `between`; `any`: all faces, as of what has no marks (obstacles, spheres). The second "
+           .doc = "Marks that the faces carry, in the order of `between`; `any`: all faces, as of what has no marks (obstacles, spheres). "
+                  "The second "
                   "may be left away: `any`.",
            .required = true,
            .example = "[apical, any]"},
@@ -74,7 +75,8 @@ void declare_pair(Section& s, draft::ContactPair& pair) {
               .example = "5e10 N s/m^3"},
              pair.tangential_friction);
   s.list({.name = "regions",
-          .doc = "Adhesion by part of the surface: of these the first holds whose marks both faces carry; other faces have the adhesion of the pair.",
+          .doc = "Adhesion by part of the surface: of these the first holds whose marks both faces carry; other faces have the adhesion of "
+                 "the pair.",
           .example = "[{faces: [apical, any], adhesion: 0 mJ/m^2}]"},
          pair.regions, &declare_adhesion_region);
 }
@@ -102,7 +104,8 @@ void declare_contact(Section& s, draft::Contact& contact) {
               .source = "measured: overlap below 0.15 um at 1 kPa and W = 0.5 mJ/m^2"},
              contact.repulsion);
   s.word({.name = "friction",
-          .doc = "Friction of surfaces in contact. simple: by the relative velocity of the two points of a contact, which is not zero where a pair of "
+          .doc = "Friction of surfaces in contact. simple: by the relative velocity of the two points of a contact, which is not zero "
+                 "where a pair of "
                  "cells turns as a whole, since the points lie apart; objective: that part is taken off.",
           .fallback = "simple",
           .words = {"simple", "objective"},

@@ -215,7 +215,8 @@ void declare_shell(Section& s, draft::CellType& t) {
               .source = "measured: clusters up to W/(2 tension) = 0.9"},
              t.shape_stiffness);
   s.quantity({.name = "self_contact",
-              .doc = "Distance at which a surface touches other parts of itself, from inside or outside, such as the thickness of its cortex; at most half of "
+              .doc = "Distance at which a surface touches other parts of itself, from inside or outside, such as the thickness of its "
+                     "cortex; at most half of "
                      "an edge of its mesh. `off`: it passes through itself.",
               .quantity = Q::kLength,
               .fallback = "off",

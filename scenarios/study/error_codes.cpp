@@ -115,13 +115,16 @@ constexpr ErrorCode kCodes[] = {
     {572, "volume that does not bear the tension",
      "A sphere of tension T and bulk modulus K shrinks without end when K is below 2 T/(3 R)."},
     {580, "region of adhesion that no face has",
-     "`regions` of a pair name marks of faces, one for each of the two materials at most: only shells of the types that a mark is for carry it; "
+     "`regions` of a pair name marks of faces, one for each of the two materials at most: only shells of the types that a mark is for "
+     "carry it; "
      "obstacles carry none."},
     {581, "adhesion of a region stronger than the cortex",
-     "With W of twice the tension there or more, faces of this region spread on each other until something elastic stops them (warning); a cortex "
+     "With W of twice the tension there or more, faces of this region spread on each other until something elastic stops them (warning); a "
+     "cortex "
      "with `elastic: none` has no equilibrium (error)."},
     {582, "self-contact that reaches the neighbouring faces",
-     "A surface touches itself at a distance of less than half an edge of its mesh: parts of the surface that belong together would push each other "
+     "A surface touches itself at a distance of less than half an edge of its mesh: parts of the surface that belong together would push "
+     "each other "
      "away."},
     {601, "file missing", "A file that the study names does not exist. Paths are relative to the folder of the study."},
     {602, "file cannot be read", "It is a folder, a device, or its permissions forbid reading."},

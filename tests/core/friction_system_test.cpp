@@ -22,8 +22,7 @@ std::vector<Vec3d> velocities(std::size_t count, double g, const std::vector<Pai
                               int threads = 1) {
   FrictionSystem::Layout layout;
   layout.point_count = count;
-  for (std::uint32_t i = 0; i < count; ++i) layout.bodies.push_back({i, 1});
-  layout.owned.assign(count, 1);
+  layout.owned.assign(count, 1);  // bodies of one point each
   FrictionSystem system;
   system.set_layout(layout, threads);
   system.set_point_friction(std::vector<float>(count, static_cast<float>(g)));

@@ -18,8 +18,8 @@ CellType cycling() {
   return type;
 }
 
-CellRow mother_row(std::uint64_t number = 17) {
-  CellRow row = make_founder(CellId::founder(number), 2, cycling(), 9, 0.0, false);
+FullRow mother_row(std::uint64_t number = 17) {
+  FullRow row = make_founder(CellId::founder(number), 2, cycling(), 9, 0.0, false);
   row.target_volume = row.division_volume;
   row.amount = {3.7, 1e5 / 3, 0.0, 1e-9};
   row.concentration = {0.2, 0.01, 0, 0};
@@ -35,7 +35,7 @@ const SphereBody kBody{{10, -20, 5}, 7.5595263};
 
 TEST(Division, KeepsVolumeAndAmountsToTheLastBit) {
   for (const double fraction : {0.5, 0.3, 0.61803}) {
-    const CellRow mother = mother_row();
+    const FullRow mother = mother_row();
     const auto out = divide_sphere(mother, kBody, cycling(), 9, 1000.0, 0.0, fraction);
     EXPECT_NEAR((out.first.target_volume + out.second.target_volume) / mother.target_volume, 1.0, 1e-15);
     EXPECT_NEAR(out.first.target_volume / mother.target_volume, fraction, 1e-15);
@@ -66,11 +66,11 @@ TEST(Division, EqualDaughtersStartAtTheReferenceDistance) {
 }
 
 TEST(Division, DaughtersInheritAndBeginACycle) {
-  const CellRow mother = mother_row();
+  const FullRow mother = mother_row();
   const auto out = divide_sphere(mother, kBody, cycling(), 9, 1000.0, 0.0);
   EXPECT_EQ(out.first.id, mother.id.daughter(0));
   EXPECT_EQ(out.second.id, mother.id.daughter(1));
-  for (const CellRow& row : {out.first, out.second}) {
+  for (const FullRow& row : {out.first, out.second}) {
     EXPECT_EQ(row.parent, mother.id);
     EXPECT_EQ(row.type, mother.type);
     EXPECT_EQ(row.polarity, mother.polarity);
@@ -93,7 +93,7 @@ TEST(Division, DaughtersInheritAndBeginACycle) {
 TEST(Division, DaughtersOfALateStepHaveGrownForTheRest) {
   CellType type = cycling();
   type.cycle_duration.relative_spread = 0.0;
-  const CellRow mother = mother_row();
+  const FullRow mother = mother_row();
   const auto out = divide_sphere(mother, kBody, type, 9, 1000.0, 648.0);
   EXPECT_EQ(out.first.birth_time, 352.0);
   EXPECT_NEAR(out.first.target_volume / out.first.birth_volume, 1.01, 1e-12);  // 648 s of 64800 s
@@ -130,7 +130,7 @@ TEST(Founder, HasTheVolumeOfItsAge) {
   const double birth_volume = 4.0 / 3.0 * std::numbers::pi * 216.0;
   const int n = 20000;
   for (int k = 1; k <= n; ++k) {
-    const CellRow row = make_founder(CellId::founder(k), 0, type, 4, 500.0, true);
+    const FullRow row = make_founder(CellId::founder(k), 0, type, 4, 500.0, true);
     const double point = (500.0 - row.birth_time) / row.cycle_duration;
     ASSERT_GT(point, 0.0);
     ASSERT_LT(point, 1.0);
@@ -150,7 +150,7 @@ TEST(Founder, RestsWhereItsTypeDoesNotCycle) {
   type.initial_body = BodyKind::kShell;
   std::set<double> volumes;
   for (int k = 1; k <= 100; ++k) {
-    const CellRow row = make_founder(CellId::founder(k), 3, type, 4, 0.0, true);
+    const FullRow row = make_founder(CellId::founder(k), 3, type, 4, 0.0, true);
     EXPECT_EQ(row.phase, Phase::kResting);
     EXPECT_EQ(row.body, BodyKind::kShell);
     EXPECT_EQ(row.birth_time, 0.0);

@@ -19,7 +19,7 @@ constexpr double kHour = 3600.0;
 
 /// A population of spheres without mechanics.
 struct Population {
-  std::vector<CellRow> rows;
+  std::vector<FullRow> rows;
   std::vector<CellType> types;
   std::vector<Event> events;
   double time = 0.0;
@@ -27,9 +27,12 @@ struct Population {
 
   void advance(double dt) {
     time += dt;
-    const LifeReport report = live(rows, types, {1, step++, time, dt});
+    Cells cells;
+    for (const FullRow& row : rows) cells.push_back(row);
+    const LifeReport report = live(cells, types, {1, step++, time, dt});
+    for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = cells.full(k);
     events.insert(events.end(), report.events.begin(), report.events.end());
-    std::vector<CellRow> next;
+    std::vector<FullRow> next;
     auto division = report.divisions.begin();
     auto removal = report.removals.begin();
     for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -52,7 +55,7 @@ struct Population {
   }
   [[nodiscard]] double volume() const {
     double sum = 0.0;
-    for (const CellRow& row : rows) sum += row.target_volume;
+    for (const FullRow& row : rows) sum += row.target_volume;
     return sum;
   }
 };
@@ -175,7 +178,7 @@ TEST(Death, PoissonSurvivorsAfterNinetySixHours) {
     for (int k = 1; k <= n; ++k) population.rows.push_back(make_founder(CellId::founder(k), 0, type, 1, 0.0, false));
     population.run_to(96 * kHour, dt);
     const auto alive =
-        std::count_if(population.rows.begin(), population.rows.end(), [](const CellRow& r) { return r.phase != Phase::kDying; });
+        std::count_if(population.rows.begin(), population.rows.end(), [](const FullRow& r) { return r.phase != Phase::kDying; });
     EXPECT_NEAR(static_cast<double>(alive) / n, 0.736210, 4 * std::sqrt(0.7362 * 0.2638 / n));
     EXPECT_EQ(population.events.size(), n - static_cast<std::size_t>(alive));
   }
@@ -184,13 +187,18 @@ TEST(Death, PoissonSurvivorsAfterNinetySixHours) {
 TEST(Death, NeedsALackOfTheNamedField) {
   CellType type = starving();
   type.death_rate = 1e6;  // certain
-  CellRow row = make_founder(CellId::founder(1), 0, type, 1, 0.0, false);
-  row.concentration = {0.0, 0.02, 0.0, 0.0};
-  EXPECT_FALSE(begins_to_die(row, type, 1, 0, 60.0));
-  row.concentration[1] = 0.0199;
-  EXPECT_TRUE(begins_to_die(row, type, 1, 0, 60.0));
-  type.death_field = -1;
-  EXPECT_FALSE(begins_to_die(row, type, 1, 0, 60.0));
+  Cells cells;
+  cells.push_back(make_founder(CellId::founder(1), 0, type, 1, 0.0, false));
+  const auto dies = [&] { return !live(cells, std::span(&type, 1), {1, 0, 60.0, 60.0}).events.empty(); };
+  cells.side.concentration[1].set(0, 0.02);
+  EXPECT_FALSE(begins_to_die(cells.rows[0], 0.02, type, 1, 0, 60.0));
+  EXPECT_FALSE(dies()) << "the other fields are at 0";
+  cells.side.concentration[1].set(0, 0.0199);
+  EXPECT_TRUE(begins_to_die(cells.rows[0], 0.0199, type, 1, 0, 60.0));
+  CellType carefree = type;
+  carefree.death_field = -1;
+  EXPECT_FALSE(begins_to_die(cells.rows[0], 0.0, carefree, 1, 0, 60.0));
+  EXPECT_TRUE(dies());
 }
 
 TEST(Death, ADyingCellShrinksAndIsRemovedAtItsFraction) {
@@ -233,11 +241,11 @@ TEST(Life, DoesNotDependOnTheOrderOfCells) {
   other.run_to(30 * kHour, 300.0);
   ASSERT_GT(one.rows.size(), 300u);
   ASSERT_EQ(one.rows.size(), other.rows.size());
-  const auto by_id = [](const CellRow& a, const CellRow& b) { return a.id < b.id; };
+  const auto by_id = [](const FullRow& a, const FullRow& b) { return a.id < b.id; };
   std::sort(one.rows.begin(), one.rows.end(), by_id);
   std::sort(other.rows.begin(), other.rows.end(), by_id);
   for (std::size_t k = 0; k < one.rows.size(); ++k) {
-    EXPECT_EQ(std::memcmp(&one.rows[k], &other.rows[k], sizeof(CellRow)), 0) << one.rows[k].id.text();
+    EXPECT_EQ(std::memcmp(&one.rows[k], &other.rows[k], sizeof(FullRow)), 0) << one.rows[k].id.text();
   }
 }
 

@@ -122,12 +122,11 @@ TEST(Migration, SuccessiveStepsAndTheStartAreUncorrelated) {
 
 TEST(Migration, ForceMovesTheIsolatedCellWithItsWantedVelocity) {
   CellType type = walker();
-  CellRow row = make_founder(CellId::founder(3), 0, type, 1, 0.0, false);
-  row.migration_velocity = {0.01, -0.02, 0.03};
+  const FullRow row = make_founder(CellId::founder(3), 0, type, 1, 0.0, false);
   // Γ_cm = 0.1·4π·36 = 45.24 nN·s/µm for R = 6 and 31.416 for R = 5 (physics page).
   EXPECT_NEAR(medium_friction_of(0.1, row.target_volume), 45.24, 0.005);
   EXPECT_NEAR(medium_friction_of(0.1, 523.5987755983), 31.41592654, 1e-8);
-  const Vec3d force = migration_force(row, type, row.target_volume);
+  const Vec3d force = migration_force({0.01, -0.02, 0.03}, type, row.target_volume);
   EXPECT_NEAR(force.x, 0.4523893421, 1e-9);
   EXPECT_NEAR(force.y / force.x, -2.0, 1e-14);
   EXPECT_NEAR(force.z / force.x, 3.0, 1e-14);

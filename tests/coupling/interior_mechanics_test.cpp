@@ -170,7 +170,7 @@ TEST(SqueezedNucleus, PushesBackWhenThePlatesAreCloserThanItsWidth) {  // T12.3,
 TEST(Nucleus, ComesWithAPromotionAndTravelsInARecord) {
   CellType type = clusters_model().types[0];
   type.interior.nucleus_fraction = 0.07;
-  CellRow row;
+  FullRow row;
   row.id = CellId::founder(1);
   row.target_volume = kVolume;
   CellRecord cell{row, SphereRecord{{1, 2, 3}, kRadius, {}, {}}, std::nullopt};

@@ -97,7 +97,7 @@ TEST(Protrusion, MovesAFreeCellOnlyWithItsReactionOutside) {
   for (const bool internal : {false, true}) {
     const Model model = protruding(internal);
     Tissue tissue = test::make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell}, 162);
-    tissue.cells.rows[0].polarity = {1, 0, 0};
+    tissue.cells.side.polarity.set(0, {1, 0, 0});
     auto simulation = Simulation::create(model, std::move(tissue), Comm(), 1).value();
     // The centre that friction by area moves is that of the nodes by area: its velocity is ΣF/(γ A) at every instant.
     double moved = 0.0, expected = 0.0, scale = 0.0;

@@ -115,7 +115,8 @@ TEST_P(EveryRegionOfBodies, HasAForceThatIsMinusTheGradientOfTheEnergy) {
 
 TEST_P(EveryRegionOfBodies, IsThePairItselfWhereTheRegionIsEverything) {
   Model regional = model_of(GetParam()), plain = regional;
-  for (ContactPair& pair : regional.pairs) pair.regions = {{0, 0, pair.adhesion}}, pair.adhesion = GetParam().kinds[1] == kSphere ? 0.3 : 0.0;
+  for (ContactPair& pair : regional.pairs)
+    pair.regions = {{0, 0, pair.adhesion}}, pair.adhesion = GetParam().kinds[1] == kSphere ? 0.3 : 0.0;
   for (ContactPair& pair : plain.pairs) pair.regions.clear();
   ShapeLibrary shapes;
   const Tissue tissue = marked_at_random(plain, shapes, GetParam().kinds);

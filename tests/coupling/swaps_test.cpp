@@ -182,7 +182,8 @@ TEST(Promotion, WithoutRoomIsPutOffWithAWarning) {
   EXPECT_FALSE(now.clock.capped);
   EXPECT_EQ(now.ledger.promotions, now.shells.size());
   std::size_t sphere = 0;
-  for (const CellRow& row : now.cells.rows) {
+  for (std::size_t i = 0; i < now.cells.size(); ++i) {
+    const FullRow row = now.cells.full(i);
     if (row.id == put_off) {
       EXPECT_EQ(row.body, kSphere);
       EXPECT_EQ(row.last_swap_time, now.clock.time);

@@ -44,7 +44,8 @@ TEST(Hash128, TableChecksumOfSlicesIsThatOfTheWhole) {
 /// Order of cells in memory turned around, bricks too.
 Tissue turned_around(const Tissue& from) {
   Tissue to = from;
-  std::reverse(to.cells.rows.begin(), to.cells.rows.end());
+  to.cells = {};
+  for (std::size_t i = from.cells.size(); i-- > 0;) to.cells.push_back(from.cells.full(i));
   std::reverse(to.spheres.position.begin(), to.spheres.position.end());
   std::reverse(to.spheres.radius.begin(), to.spheres.radius.end());
   std::reverse(to.spheres.type.begin(), to.spheres.type.end());
@@ -99,7 +100,7 @@ TEST(StateHash, SeesEveryPartOfTheState) {
   after([](Tissue& t) { t.clock.capped = false; });
   after([](Tissue& t) { t.ledger.demotions++; });
   after([](Tissue& t) { t.ledger.field_start[0] = 0.0; });  // was −0.0
-  after([](Tissue& t) { t.cells.rows[5].concentration[2] = 0.0; });
+  after([](Tissue& t) { t.cells.side.concentration[2].set(5, 0.0); });
   after([](Tissue& t) { t.cells.rows[5].draws++; });
   after([](Tissue& t) {
     t.cells.rows[5].phase = Phase::kDying;

@@ -103,9 +103,9 @@ inline Model model_of_test_tissue() {
   return model;
 }
 
-inline CellRow make_row(CellId id, BodyKind body) {
+inline FullRow make_row(CellId id, BodyKind body) {
   CellNumbers numbers(id.bits());
-  CellRow row;
+  FullRow row;
   row.id = id;
   row.parent = CellId::founder(3);
   row.order = (id.bits() * 7919) % 64;  // many cells share a place along the curve
@@ -210,13 +210,15 @@ inline Tissue make_tissue(const Comm& comm, ShapeLibrary& library, int cells = 6
   tissue.obstacle_offset = {{1, 2, 3}, {4, 5, 6}};
   tissue.lumens = {{10.5, 3.25, 1e5, 0.02, 4e3, 0.97}, {-1e300, 7.0, 0.0, 0.0, 0.0, 0.0}};
   const auto tetra = tetrahedron();
+  std::vector<FullRow> rows;
   for (int c = 0; c < cells; ++c) {
     if ((c * spread) % comm.size() != comm.rank()) continue;
     CellId id = CellId::founder(static_cast<std::uint64_t>(cells - c));
     if (c % 5 == 0) id = id.daughter(c % 2);
-    tissue.cells.rows.push_back(make_row(id, c % 3 == 0 ? BodyKind::kShell : BodyKind::kSphere));
+    rows.push_back(make_row(id, c % 3 == 0 ? BodyKind::kShell : BodyKind::kSphere));
   }
-  std::sort(tissue.cells.rows.begin(), tissue.cells.rows.end(), before);
+  std::sort(rows.begin(), rows.end(), before);
+  for (const FullRow& row : rows) tissue.cells.push_back(row);
   for (const CellRow& row : tissue.cells.rows) {
     if (row.body == BodyKind::kSphere)
       add_sphere(tissue.spheres, row.id);

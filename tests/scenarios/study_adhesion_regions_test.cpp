@@ -68,7 +68,7 @@ TEST(AdhesionRegions, AreReadAndReachTheLaw) {
   int found = 0;
   for (const UsedLaw& use : used_laws(*study))
     found += use.law.name == "regional_adhesion" || use.law.name == "objective_friction" || use.law.name == "self_contact";
-  EXPECT_EQ(found, 3 + 1 + 1 + 1) << "methods name them: three rules of the walls, one of the dish";
+  EXPECT_EQ(found, 2 + 1 + 1 + 1) << "methods name them: two rules of the walls, one of the dish, friction and self-contact";
 }
 
 TEST(AdhesionRegions, ThatNoFaceHasAreRefusedWithTheirPlace) {
@@ -94,7 +94,8 @@ TEST(AdhesionRegions, StrongerThanTheTensionThereAreRefused) {
 TEST(SelfContact, ThatReachesNeighbouringFacesIsRefused) {
   const auto message = [](const std::string& to) { return test::errors_of(test::changed("self_contact: 200 nm", to, kStudy)); };
   EXPECT_NE(message("self_contact: 1 um").find("[E582]"), std::string::npos);
-  EXPECT_NE(message("self_contact: 200 nm, nodes: 2562").find("[E5"), std::string::npos) << "edges of 0.45 um: contact.range does not fit, either";
+  EXPECT_NE(message("self_contact: 200 nm, nodes: 2562").find("[E5"), std::string::npos)
+      << "edges of 0.45 um: contact.range does not fit, either";
   EXPECT_NE(message("self_contact: 0 um").find("[E302]"), std::string::npos);
   EXPECT_NE(message("self_contact: -1 um").find("[E302]"), std::string::npos);
 }
