@@ -55,13 +55,9 @@ PairBody ContactLayer::view(const ContactScene& scene, const SurfacePair& pair, 
   const Vec3d shift = which == 0 ? Vec3d{} : pair.shift;
   const auto points = scene.position.subspan(body.first_point, body.point_count);
   if (body.shape == BodyShape::kSphere) return {nullptr, points, {}, shift, body.radius};
-  const auto marks = scene.mark.empty() ? scene.mark : scene.mark.subspan(scene.first_face[number], scene.topology[number]->face_count());
-  return {scene.topology[number],
-          points,
-          std::span(scene.geometry->node_normal).subspan(body.first_point, body.point_count),
-          shift,
-          0.0,
-          marks};
+  const Topology* topology = scene.topology[number];
+  const auto marks = scene.mark.empty() ? scene.mark : scene.mark.subspan(scene.first_face[number], topology->face_count());
+  return {topology, points, std::span(scene.geometry->node_normal).subspan(body.first_point, body.point_count), shift, 0.0, marks};
 }
 
 double ContactLayer::patch_motion(const ContactScene& scene, const SurfacePair& pair) const {

@@ -108,8 +108,13 @@ void add_contacts(const Model& model, bool shells, bool spheres, std::vector<Use
           {purpose,
            law_named(surface_contact_laws(), "contact_pair"),
            {{"adhesion", pair.adhesion}, {"normal_friction", pair.normal_friction}, {"tangential_friction", pair.tangential_friction}}});
-      for (const AdhesionRule& rule : pair.regions)
-        if (shells) out.push_back({purpose, law_named(surface_contact_laws(), "regional_adhesion"), {{"adhesion", rule.adhesion}}});
+      for (std::size_t r = 0; shells && r < pair.regions.size(); ++r) {
+        const AdhesionRule& rule = pair.regions[r];  // between cells of one type a rule stands both ways round
+        const AdhesionRule before = r > 0 ? pair.regions[r - 1] : AdhesionRule{};
+        if (a == b && r > 0 && before.marks_a == rule.marks_b && before.marks_b == rule.marks_a && before.marks_a != before.marks_b)
+          continue;
+        out.push_back({purpose, law_named(surface_contact_laws(), "regional_adhesion"), {{"adhesion", rule.adhesion}}});
+      }
       if (shells && a == b && model.types[a].self_contact > 0.0)
         out.push_back({purpose, law_named(surface_contact_laws(), "self_contact"), {{"self_contact", model.types[a].self_contact}}});
       if (!shells && b < model.types.size()) continue;

@@ -19,10 +19,10 @@ class TwoShells {
       body.id = CellId::founder(static_cast<std::uint64_t>(k + 1));
       body.place = static_cast<std::uint32_t>(k);
       body.shape = BodyShape::kSurface;
-      body.topology = shape->topology.get();
-      body.point_count = body.topology->node_count();
+      topology_[k] = shape->topology.get();
+      first_face_[k + 1] = first_face_[k] + topology_[k]->face_count();
+      body.point_count = topology_[k]->node_count();
       body.first_point = static_cast<std::uint32_t>(position_.size());
-      body.first_face = static_cast<std::uint32_t>(k) * body.topology->face_count();
       for (const Vec3d& x : shape->position) position_.push_back(normalized(x) * 6.0 + Vec3d{k * apart, 0, 0});
     }
     layer_.rebuild(scene(), space());
@@ -53,23 +53,23 @@ class TwoShells {
     return out;
   }
   ContactScene scene() {
-    const Topology* const topologies[2] = {bodies_[0].topology, bodies_[1].topology};
-    const std::uint32_t nodes = bodies_[0].point_count, faces = bodies_[0].topology->face_count();
-    const std::uint32_t first_node[3] = {0, nodes, 2 * nodes}, first_face[3] = {0, faces, 2 * faces};
-    compute_surface_geometry({topologies, first_node, first_face}, position_, geometry_);
-    return {bodies_, position_, &geometry_};
+    const std::uint32_t nodes = bodies_[0].point_count, first_node[3] = {0, nodes, 2 * nodes};
+    compute_surface_geometry({topology_, first_node, first_face_}, position_, geometry_);
+    return {bodies_, position_, topology_, first_face_, &geometry_};
   }
   void measure() {
     ContactGradient gradient;
     gradient.force.resize(position_.size());
     gradient.node_normal.resize(position_.size());
-    gradient.face_energy.resize(2 * bodies_[0].topology->face_count());
+    gradient.face_energy.resize(first_face_[2]);
     gradient.contact_area.resize(2);
     layer_.evaluate(scene(), SurfacePairKind::kSurfaces, gradient);
   }
 
   ShapeLibrary shapes_;
   std::vector<ContactBody> bodies_;
+  const Topology* topology_[2] = {};
+  std::uint32_t first_face_[3] = {};
   std::vector<Vec3d> position_, start_;
   SurfaceGeometry geometry_;
   ContactLayer layer_;

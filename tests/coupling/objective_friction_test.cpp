@@ -22,10 +22,8 @@ class Blocks {
       body.id = CellId::founder(static_cast<std::uint64_t>(k + 1));
       body.place = static_cast<std::uint32_t>(k);
       body.shape = BodyShape::kSurface;
-      body.topology = topology_.get();
       body.point_count = topology_->node_count();
       body.first_point = static_cast<std::uint32_t>(position.size());
-      body.first_face = static_cast<std::uint32_t>(k) * topology_->face_count();
       for (const Vec3d& x : mesh.position) position.push_back(x + Vec3d{0.1 * k, 0.05 * k, 2.1 * k});
     }
     layer_.rebuild(scene(), {.box = {{-50, -50, -50}, {50, 50, 50}}});
@@ -51,11 +49,11 @@ class Blocks {
     return Comm().sum(sum);
   }
   ContactScene scene() {
-    const Topology* const topologies[2] = {topology_.get(), topology_.get()};
-    const std::uint32_t nodes = topology_->node_count(), faces = topology_->face_count();
-    const std::uint32_t first_node[3] = {0, nodes, 2 * nodes}, first_face[3] = {0, faces, 2 * faces};
-    compute_surface_geometry({topologies, first_node, first_face}, position, geometry_);
-    return {bodies_, position, &geometry_};
+    const std::uint32_t nodes = topology_->node_count(), faces = topology_->face_count(), first_node[3] = {0, nodes, 2 * nodes};
+    topologies_[0] = topologies_[1] = topology_.get();
+    first_face_[1] = faces, first_face_[2] = 2 * faces;
+    compute_surface_geometry({topologies_, first_node, first_face_}, position, geometry_);
+    return {bodies_, position, topologies_, first_face_, &geometry_};
   }
   ContactLayer& layer() { return layer_; }
   [[nodiscard]] double area() const { return area_; }
@@ -72,6 +70,8 @@ class Blocks {
   }
 
   std::shared_ptr<const Topology> topology_;
+  const Topology* topologies_[2] = {};
+  std::uint32_t first_face_[3] = {};
   std::vector<ContactBody> bodies_;
   SurfaceGeometry geometry_;
   ContactLayer layer_;
@@ -168,7 +168,9 @@ TEST(ObjectiveFriction, LeavesLittleOfWhatHoldsATurningDoubletBack) {
     std::vector<Vec3d> turned = tissue.shells.position, drag(turned.size());
     for (Vec3d& x : turned) x += cross(Vec3d{0, 0, 1e-3}, x);
     OrderFreeSum sum;
-    mechanics.contacts().add_step_friction({mechanics.scene().bodies(), turned, nullptr}, tissue.shells.position, true, drag, sum);
+    mechanics.contacts().add_step_friction(
+        {mechanics.scene().bodies(), turned, mechanics.scene().topologies(), mechanics.scene().first_face()}, tissue.shells.position, true,
+        drag, sum);
     held[objective] = Comm().sum(sum);
   }
   EXPECT_GT(held[0], 0.0);

@@ -68,7 +68,7 @@ TEST(AdhesionRegions, AreReadAndReachTheLaw) {
   int found = 0;
   for (const UsedLaw& use : used_laws(*study))
     found += use.law.name == "regional_adhesion" || use.law.name == "objective_friction" || use.law.name == "self_contact";
-  EXPECT_EQ(found, 3 + 1 + 1 + 1) << "methods name them: three rules of the walls, one of the dish";
+  EXPECT_EQ(found, 2 + 1 + 1 + 1) << "methods name them: two rules of the walls, one of the dish, friction and self-contact";
 }
 
 TEST(AdhesionRegions, ThatNoFaceHasAreRefusedWithTheirPlace) {
