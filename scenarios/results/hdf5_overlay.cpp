@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "scenarios/results/file_io.h"
+#include "scenarios/results/hdf5_handle.h"
 
 namespace morula::scenarios {
 namespace {
@@ -127,7 +128,11 @@ Overlay::~Overlay() {
 }
 
 hid_t Overlay::create() {
-  return with_driver(this, [](hid_t access) { return H5Fcreate("new", H5F_ACC_TRUNC, H5P_DEFAULT, access); });
+  return with_driver(this, [](hid_t access) {
+    const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+    H5Pset_obj_track_times(creation.get(), false);  // of the root group
+    return H5Fcreate("new", H5F_ACC_TRUNC, creation.get(), access);
+  });
 }
 
 hid_t Overlay::open(bool for_writing) {

@@ -83,10 +83,20 @@ bool write_text_attribute(hid_t object, const char* name, const std::string& val
   return attribute.ok() && H5Awrite(attribute.get(), type.get(), value.empty() ? "\0" : value.data()) >= 0;
 }
 
+/// Makes the groups above a dataset that are missing, without times: HDF5 would note the second in which it makes them itself.
+bool make_groups(hid_t file, const std::string& path) {
+  const Hdf5Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation.get(), false);
+  for (std::size_t end = path.find('/', 1); end != std::string::npos; end = path.find('/', end + 1)) {
+    const std::string group = path.substr(0, end);
+    if (H5Lexists(file, group.c_str(), H5P_DEFAULT) > 0) continue;
+    if (!Hdf5Handle(H5Gcreate2(file, group.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), H5Gclose).ok()) return false;
+  }
+  return true;
+}
+
 /// Makes the datasets, without their values, and notes where in the file the values belong.
 Status declare(hid_t file, const fs::path& path, const std::vector<Dataset>& datasets, std::vector<Extent>& extents) {
-  const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  H5Pset_create_intermediate_group(links.get(), 1);
   const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_layout(creation.get(), H5D_CONTIGUOUS);
   H5Pset_alloc_time(creation.get(), H5D_ALLOC_TIME_EARLY);
@@ -97,7 +107,8 @@ Status declare(hid_t file, const fs::path& path, const std::vector<Dataset>& dat
     const Hdf5Handle type(file_type(d.type, d.width), H5Tclose);
     const hsize_t dims[2] = {extents[i].rows, d.width};
     const Hdf5Handle space(H5Screate_simple(d.type != StoredType::kText && d.width > 1 ? 2 : 1, dims, nullptr), H5Sclose);
-    const Hdf5Handle dataset(H5Dcreate2(file, d.path.c_str(), type.get(), space.get(), links.get(), creation.get(), H5P_DEFAULT), H5Dclose);
+    if (!make_groups(file, d.path)) return hdf5_error(path, "make the group of " + d.path + " in");
+    const Hdf5Handle dataset(H5Dcreate2(file, d.path.c_str(), type.get(), space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), H5Dclose);
     if (!dataset.ok() || !write_text_attribute(dataset.get(), "units", d.units)) return hdf5_error(path, "make dataset " + d.path + " in");
     const haddr_t place = H5Dget_offset(dataset.get());
     if (extents[i].rows != 0 && place == HADDR_UNDEF) return hdf5_error(path, "find room for dataset " + d.path + " in");
