@@ -226,7 +226,8 @@ void take_distances(double touch, Batch& batch) {
   }
 }
 
-/// Energies, tractions and stiffness at the gaps.
+/// Energies, tractions and stiffness at the gaps. `kPlain`: one W everywhere, and two different bodies.
+template <bool kPlain>
 void respond(const PointsEvaluation& e, Batch& batch) {
   const TractionLaw& law = e.material.law;
   const Vector x0 = load(batch.source_corner[0]);
@@ -241,7 +242,7 @@ void respond(const PointsEvaluation& e, Batch& batch) {
   const auto repulsion = law.repulse(gap);
   const Real part(1.0 / e.quadrature.count);
   const Real area = face_area * Real(e.share) * part;
-  if (e.material.regional) {
+  if (!kPlain && e.material.regional) {
     (area * weight.value * attraction.energy).store(batch.per_adhesion);
     Real adhesion(0.0);
     for (std::size_t j = 0; j < 3; ++j) adhesion = adhesion + Real::load(batch.corner_adhesion[j]) * Real::load(batch.mu[j]);
@@ -297,6 +298,7 @@ void fill(const PointsEvaluation& e, const PointsAgainstBody& lists, const Conta
 }
 
 /// Add one point's share to the pair.
+template <bool kPlain>
 void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists, const ContactPoint& p, const Batch& batch, int lane,
                SurfacePair& pair, PairGradient (&gradient)[2], std::vector<ContactElement>& elements) {
   const std::uint32_t face = lists.source_face[p.source_place];
@@ -310,8 +312,8 @@ void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists,
   const double scale = e.share * (1.0 / e.quadrature.count);
   pair.energy += batch.area[lane] * batch.density[lane];
   sink.source.face_energy[p.source_place] += scale * batch.density[lane];
-  if (!e.with_itself) sink.source.contact_area += batch.ramp[lane];
-  if (!e.with_itself) pair.overlap = gap.gap < -pair.overlap ? -gap.gap : pair.overlap;
+  if (kPlain || !e.with_itself) sink.source.contact_area += batch.ramp[lane];
+  if (kPlain || !e.with_itself) pair.overlap = gap.gap < -pair.overlap ? -gap.gap : pair.overlap;
 
   const Vec3d pull = get(batch.pull, lane);
   sink.push_source(e.quadrature, p.q, -pull);
@@ -324,7 +326,7 @@ void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists,
     add_weight_gradient(e, p.q, {get(batch.source_normal, lane), batch.face_area[lane]}, target_face, gap,
                         {get(batch.unit, lane), batch.length[lane]}, batch.weight_slope[lane] * batch.attraction[lane], sink);
   }
-  if (e.material.regional && !e.target.mark.empty()) {
+  if (!kPlain && e.material.regional && !e.target.mark.empty()) {
     double c[3];
     for (std::size_t j = 0; j < 3; ++j) c[j] = batch.per_adhesion[lane] * batch.corner_adhesion[j][lane];
     if (c[0] != c[1] || c[1] != c[2]) add_foot_gradient(e, p.q, sink.target_node, gap, c, sink);
@@ -335,7 +337,47 @@ void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists,
   element.set_normal(gap.normal);
   element.set_area(static_cast<float>(batch.bearing[lane]));
   element.set_stiffness(static_cast<float>(batch.stiffness[lane]));
-  element.set_inside(batch.inside[lane]);
+  element.set_inside(kPlain ? gap.gap < 0.0 : batch.inside[lane]);
+}
+
+/// All points of `ws`, eight at a time.
+template <bool kPlain>
+void evaluate_batches(const PointsEvaluation& e, int d, const CrossingWatch& watch, SurfacePair& pair, PairGradient (&gradient)[2],
+                      PointsWorkspace& ws) {
+  PointsAgainstBody& lists = ws.lists;
+  const double touch = !kPlain && e.with_itself ? e.material.self_distance : 0.0;
+  Batch batch;
+  for (std::size_t first = 0; first < ws.points.size(); first += kLanes) {
+    const int count = static_cast<int>(std::min<std::size_t>(kLanes, ws.points.size() - first));
+    std::uint32_t face[kLanes] = {};
+    for (int lane = 0; lane < kLanes; ++lane) {  // empty lanes repeat the last point
+      const ContactPoint& p = ws.points[first + static_cast<std::size_t>(std::min(lane, count - 1))];
+      fill(e, lists, p, lane, batch);
+      if (e.target.topology != nullptr) face[lane] = lists.target_face[p.place];
+      if (!kPlain && e.material.regional)
+        find_adhesion(e, d, e.source.marks(lists.source_face[p.source_place]),
+                      e.target.topology != nullptr ? &e.target.topology->faces()[face[lane]] : nullptr, lane, batch);
+    }
+    if (e.target.topology == nullptr)
+      gaps_to_sphere(e.target, batch);
+    else
+      gaps_to_faces(e, face, batch);
+    if constexpr (!kPlain) {
+      for (int lane = 0; lane < kLanes; ++lane) batch.inside[lane] = batch.gap[lane] < 0.0;
+      if (e.with_itself) take_distances(touch, batch);
+    }
+    respond<kPlain>(e, batch);
+    for (int lane = 0; lane < count; ++lane) {
+      const ContactPoint& p = ws.points[first + static_cast<std::size_t>(lane)];
+      const double gap = batch.gap[lane];
+      if (p.second >= 0.0) remember(p, gap + touch, p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q, e, lists);
+      if (gap < e.material.law.range) {
+        add_point<kPlain>(e, d, lists, p, batch, lane, pair, gradient, ws.elements);
+        if (watch.suspects(gap + touch))
+          ws.suspects.push_back({ws.elements.back().place(), kPlain ? gap < 0.0 : batch.inside[lane], std::abs(gap + touch)});
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -358,36 +400,10 @@ void evaluate_points(const PointsEvaluation& e, int d, SurfacePair& pair, PairGr
   ws.elements.clear();
   ws.suspects.clear();
   const CrossingWatch watch(pair, e);
-  const double touch = e.with_itself ? e.material.self_distance : 0.0;
-  Batch batch;
-  for (std::size_t first = 0; first < ws.points.size(); first += kLanes) {
-    const int count = static_cast<int>(std::min<std::size_t>(kLanes, ws.points.size() - first));
-    std::uint32_t face[kLanes] = {};
-    for (int lane = 0; lane < kLanes; ++lane) {  // empty lanes repeat the last point
-      const ContactPoint& p = ws.points[first + static_cast<std::size_t>(std::min(lane, count - 1))];
-      fill(e, lists, p, lane, batch);
-      if (e.target.topology != nullptr) face[lane] = lists.target_face[p.place];
-      if (e.material.regional)
-        find_adhesion(e, d, e.source.marks(lists.source_face[p.source_place]),
-                      e.target.topology != nullptr ? &e.target.topology->faces()[face[lane]] : nullptr, lane, batch);
-    }
-    if (e.target.topology == nullptr)
-      gaps_to_sphere(e.target, batch);
-    else
-      gaps_to_faces(e, face, batch);
-    for (int lane = 0; lane < kLanes; ++lane) batch.inside[lane] = batch.gap[lane] < 0.0;
-    if (e.with_itself) take_distances(touch, batch);
-    respond(e, batch);
-    for (int lane = 0; lane < count; ++lane) {
-      const ContactPoint& p = ws.points[first + static_cast<std::size_t>(lane)];
-      const double gap = batch.gap[lane];
-      if (p.second >= 0.0) remember(p, gap + touch, p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q, e, lists);
-      if (gap < e.material.law.range) {
-        add_point(e, d, lists, p, batch, lane, pair, gradient, ws.elements);
-        if (watch.suspects(gap + touch)) ws.suspects.push_back({ws.elements.back().place(), batch.inside[lane], std::abs(gap + touch)});
-      }
-    }
-  }
+  if (e.with_itself || e.material.regional)
+    evaluate_batches<false>(e, d, watch, pair, gradient, ws);
+  else
+    evaluate_batches<true>(e, d, watch, pair, gradient, ws);
   watch.look(pair.step_elements[d], ws.elements, ws.suspects, pair);
   pair.points[d].update(lists);
   std::swap(gradient[d].source_face, lists.source_face);
