@@ -156,7 +156,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
     drop_matrix();
     if (!solved) return StepFault{solved.error().what, {}, true};
     report.linear_iterations += solved->iterations;
-    direction.factor = dt;
+    direction = {solution_, dt};  // after the freeze rule it was that of a copy
     if (!std::isfinite(largest(direction))) return StepFault{"the velocities are not numbers", {}, true};
     return *solved;
   };
