@@ -6,7 +6,7 @@
 namespace morula::dcm {
 
 template <int W>
-void add_contact_edges(const LaneBlock& block, const EdgeBlockSource& contacts, OperatorWorkspace& ws) {
+void add_contact_edges(const LaneBlock& block, const EdgeBlockSource& contacts, OperatorWorkspace& ws, LaneVector<float>& edge) {
   using Real = Lane<float, W>;
   constexpr std::size_t kSize = sizeof(EdgeBlock) / sizeof(float);
   const std::size_t edges = block.topology->edge_count();
@@ -24,13 +24,13 @@ void add_contact_edges(const LaneBlock& block, const EdgeBlockSource& contacts, 
   load_lanes<W, float>(cell, edges * kSize, ws.contact_lanes.data());
   for (std::size_t k = 0; k < edges; ++k)
     for (std::size_t c = 0; c < 6; ++c) {
-      float* const m = ws.edge.data() + (k * 6 + c) * W;
+      float* const m = edge.data() + (k * 6 + c) * W;
       (Real::load(m) + Real::load(ws.contact_lanes.data() + (k * kSize + c) * W)).store(m);
     }
 }
 
-template void add_contact_edges<1>(const LaneBlock&, const EdgeBlockSource&, OperatorWorkspace&);
-template void add_contact_edges<4>(const LaneBlock&, const EdgeBlockSource&, OperatorWorkspace&);
-template void add_contact_edges<8>(const LaneBlock&, const EdgeBlockSource&, OperatorWorkspace&);
+template void add_contact_edges<1>(const LaneBlock&, const EdgeBlockSource&, OperatorWorkspace&, LaneVector<float>&);
+template void add_contact_edges<4>(const LaneBlock&, const EdgeBlockSource&, OperatorWorkspace&, LaneVector<float>&);
+template void add_contact_edges<8>(const LaneBlock&, const EdgeBlockSource&, OperatorWorkspace&, LaneVector<float>&);
 
 }  // namespace morula::dcm

@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "core/mesh/lane_surface.h"
-#include "dcm/packed_edges.h"
 #include "dcm/shell_operator.h"
 
 namespace morula::dcm {
@@ -67,7 +66,7 @@ void apply_edges(const ShellOperator::Block& matrix, std::span<const Edge> edges
     const auto pi = p[i];
     auto qi = q[i];
     for (; k < edges.size() && edges[k].i == i; ++k) {
-      const auto force = PackedEdge<W>::load(matrix.edge.data(), k) * (pi - p[edges[k].j]);
+      const auto force = load_sym_mat3<float, W>(matrix.edge.data(), k) * (pi - p[edges[k].j]);
       qi += force;
       q.add(edges[k].j, -force);
     }
@@ -229,7 +228,7 @@ void add_diagonal_block(const LaneBlock& block, const Shells& shells, const Shel
   };
   for (std::size_t i = 0; i < nodes; ++i) add(i, isotropic(load_scalar<float, W>(matrix.diagonal.data(), i)));
   for (std::size_t k = 0; k < topology.edges().size(); ++k) {
-    const auto m = PackedEdge<W>::load(matrix.edge.data(), k);
+    const auto m = load_sym_mat3<float, W>(matrix.edge.data(), k);
     add(topology.edges()[k].i, m);
     add(topology.edges()[k].j, m);
   }

@@ -10,7 +10,6 @@
 #include "dcm/laws/volume_pressure.h"
 #include "dcm/membrane.h"
 #include "dcm/operator_assembly.h"
-#include "dcm/packed_edges.h"
 #include "dcm/stencils/face.h"
 #include "dcm/stencils/hinge.h"
 
@@ -113,7 +112,7 @@ bool assemble_edges(Assembly<W>& a, const ShellFriction::Block& friction, Lane<f
     m += outer(right.tension * dot(xi - xl, xj - xl), right.n);
     m += isotropic(left.isotropic + right.isotropic + isotropic_damper.damping);
     margin = min(margin, dot(left.n, right.n) * left.inverse_norm * right.inverse_norm - cos_onset);
-    float* p = a.ws.edge.data() + k * 6 * W;
+    float* p = a.out.edge.data() + k * 6 * W;
     m.xx.store(p), m.xy.store(p + W), m.xz.store(p + 2 * W), m.yy.store(p + 3 * W), m.yz.store(p + 4 * W), m.zz.store(p + 5 * W);
   }
   return any_lane<W>(margin < Real(0.0f));
@@ -189,7 +188,7 @@ void assemble_block(const ShellBlocks& blocks, const LaneBlock& block, const She
   Assembly<W> a{block, shells, types, topology, ws, out, Lane<float, W>(static_cast<float>(time_step))};
   load_inputs(a, position, start, blocks, contact_energy);
   const std::size_t edges = topology.edge_count();
-  ws.edge.resize(std::max(ws.edge.size(), edges * 6 * W));
+  out.edge.resize(edges * 6 * W);
   out.volume_gradient.assign(nodes * 3 * W, 0.0f);
   out.diagonal.resize(nodes * W);
   out.shape_face.clear(), out.shape.clear(), out.barrier_edge.clear(), out.barrier.clear();
@@ -210,9 +209,7 @@ void assemble_block(const ShellBlocks& blocks, const LaneBlock& block, const She
   out.bulk_gradient.resize(friction.volume_gradient.size());
   for (std::size_t i = 0; i < out.bulk_gradient.size(); ++i) out.bulk_gradient[i] = static_cast<float>(friction.volume_gradient[i]);
   for (int lane = 0; lane < W; ++lane) out.bulk_friction[lane] = static_cast<float>(friction.bulk_friction[lane]);
-  if (contacts) add_contact_edges<W>(block, contacts, ws);
-  out.edge.resize(edges * PackedEdge<W>::kWords * W);
-  for (std::size_t k = 0; k < edges; ++k) PackedEdge<W>::store(load_sym_mat3<float, W>(ws.edge.data(), k), out.edge.data(), k);
+  if (contacts) add_contact_edges<W>(block, contacts, ws, out.edge);
 }
 
 }  // namespace

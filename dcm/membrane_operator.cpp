@@ -30,7 +30,7 @@ struct StrainedFace {
 template <int W>
 void add_to_edge(Assembly<W>& a, std::size_t edge, const SymMat3<Lane<float, W>>& m) noexcept {
   using Real = Lane<float, W>;
-  float* p = a.ws.edge.data() + edge * 6 * W;
+  float* p = a.out.edge.data() + edge * 6 * W;
   const auto add = [&](int entry, Real value) { (Real::load(p + entry * W) + value).store(p + entry * W); };
   add(0, m.xx), add(1, m.xy), add(2, m.xz), add(3, m.yy), add(4, m.yz), add(5, m.zz);
 }

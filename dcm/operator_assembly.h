@@ -12,8 +12,7 @@ struct OperatorWorkspace {
   LaneVector<double> position;
   LaneVector<float> local, start, face, rest_length, contact_energy, node_area;
   LaneVector<double> rest_length_double, contact_energy_double;
-  LaneVector<float> edge;                             ///< xx xy xz yy yz zz of every edge: [edge][6][lane]
-  LaneVector<float> contact_lanes;                    ///< what contacts add to it
+  LaneVector<float> contact_lanes;                    ///< what contacts add to the edges: [edge][8][lane]
   std::vector<EdgeBlock> cell[LaneBlock::kMaxLanes];  ///< the same by lane
 };
 
@@ -61,9 +60,9 @@ struct Assembly {
   Real of_type(double ShellParameters::*member) const noexcept { return parameter<float, W>(block, shells, types, member); }
 };
 
-/// Add what contacts couple within the shells to `edge`.
+/// Add what contacts couple within the shells to `edge`, the edge blocks of the matrix.
 template <int W>
-void add_contact_edges(const LaneBlock& block, const EdgeBlockSource& contacts, OperatorWorkspace& ws);
+void add_contact_edges(const LaneBlock& block, const EdgeBlockSource& contacts, OperatorWorkspace& ws, LaneVector<float>& edge);
 
 /// Add to every face's contact energy the tensions of local and global area; then their stiffness is that of a tension. For blocks in which
 /// a shell has one of them, before the faces are assembled.

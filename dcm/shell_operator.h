@@ -27,7 +27,7 @@ namespace morula::dcm {
 /// Hinge bending is explicit: with it the iterations and the result stay the same (time_stepping.md §10.1).
 struct ShellOperator {
   struct Block {
-    LaneVector<std::int32_t> edge;      ///< M, with what contacts add: PackedEdge
+    LaneVector<float> edge;             ///< M, with what contacts add, xx xy xz yy yz zz: [edge][6][lane]
     LaneVector<float> diagonal;         ///< medium friction: [node][lane]
     LaneVector<float> volume_gradient;  ///< g: [node][3][lane]
     std::array<float, LaneBlock::kMaxLanes> volume_stiffness{};
