@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "core/random/philox.h"
+#include "tests/coupling/energy_gradient.h"
 #include "tests/coupling/tissue_fixture.h"
 
 namespace morula {
 namespace {
 
 using test::clusters_model;
+using test::expect_minus_gradient;
 using test::make_tissue;
 
 /// Moves every point of a tissue by a small pseudo-random amount, so that nothing is symmetric.
@@ -54,30 +56,10 @@ TEST_P(EveryPairOfBodies, ForceIsMinusTheGradientOfTheWholeEnergy) {
     total += f;
   }
   EXPECT_LT(norm(total), 1e-12 * largest * static_cast<double>(force.size()));
-  const Random random(11, RandomStream::kInitialPosition);
-  std::uint64_t draw = 0;
-  for (int direction = 0; direction < 20; ++direction) {
-    std::vector<Vec3d> along(force.size());
-    double predicted = 0.0;
-    for (std::size_t i = 0; i < along.size(); ++i) {
-      along[i] = random.direction(CellId(2), draw++);
-      predicted -= dot(along[i], force[i]);
-    }
-    const double h = 1e-5;
-    const auto energy_at = [&](double s) {
-      Tissue moved = tissue;
-      for (std::size_t i = 0; i < along.size(); ++i) {
-        Vec3d& p = i < moved.shells.position.size() ? moved.shells.position[i] : moved.spheres.position[i - moved.shells.position.size()];
-        p += along[i] * s;
-      }
-      Mechanics fresh(model, {}, shapes, Comm(), 1);
-      return fresh.energy_and_forces(moved, unused);
-    };
-    const double measured = (energy_at(h) - energy_at(-h)) / (2.0 * h);
-    double scale = 0.0;
-    for (const Vec3d& f : force) scale += norm2(f);
-    EXPECT_NEAR(measured, predicted, 1e-7 * std::sqrt(scale)) << "direction " << direction;
-  }
+  expect_minus_gradient(tissue, force, 20, 1e-7, [&](const Tissue& moved) {
+    Mechanics fresh(model, {}, shapes, Comm(), 1);
+    return fresh.energy_and_forces(moved, unused);
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, EveryPairOfBodies, testing::ValuesIn(kBodies),

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random/philox.h"
+#include "tests/coupling/energy_gradient.h"
 #include "tests/coupling/tissue_fixture.h"
 
 namespace morula {
@@ -60,32 +61,17 @@ TEST(SelfContact, ForceIsMinusTheGradientAndHasNoSumAndNoTorque) {
       std::vector<Vec3d> unused;
       return energy_of(with, shapes, at, unused) - energy_of(without, shapes, at, unused);
     };
-    double size = 0.0, lever = 0.0, square = 0.0;
+    double size = 0.0, lever = 0.0;
     Vec3d sum, torque;
     for (std::size_t i = 0; i < force.size(); ++i) {
       force[i] -= other[i];
       sum += force[i], torque += cross(tissue.shells.position[i], force[i]);
-      size += norm(force[i]), square += norm2(force[i]), lever += norm(tissue.shells.position[i]) * norm(force[i]);
+      size += norm(force[i]), lever += norm(tissue.shells.position[i]) * norm(force[i]);
     }
     EXPECT_LT(norm(sum), 1e-12 * size);
     EXPECT_LT(norm(torque), 1e-12 * lever);
-    const Random random(11, RandomStream::kInitialPosition);
-    std::uint64_t draw = 0;
-    for (int direction = 0; direction < 12; ++direction) {
-      std::vector<Vec3d> along(force.size());
-      double predicted = 0.0;
-      for (std::size_t i = 0; i < along.size(); ++i) {
-        along[i] = random.direction(CellId(2), draw++);
-        predicted -= dot(along[i], force[i]);
-      }
-      const double h = 1e-5;
-      const auto at = [&](double s) {
-        Tissue moved = tissue;
-        for (std::size_t i = 0; i < along.size(); ++i) moved.shells.position[i] += along[i] * s;
-        return contact_energy(moved);
-      };
-      EXPECT_NEAR((at(h) - at(-h)) / (2.0 * h), predicted, 2e-7 * std::sqrt(square)) << thickness << ' ' << direction;
-    }
+    SCOPED_TRACE(thickness);
+    test::expect_minus_gradient(tissue, force, 12, 2e-7, contact_energy);
   }
 }
 

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/system/morula_command.h"
+#include "tests/system/runs_on_ranks.h"
 
 namespace morula::test {
 
@@ -80,23 +80,12 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-json info_of(const fs::path& run) {
-  const Outcome outcome = run_morula({"info", run.string(), "--json"}, run.parent_path());
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
-  return json::parse(outcome.out, nullptr, false);
-}
-
-CommandOptions on_ranks(int ranks) {
-  CommandOptions options;
-  options.ranks = ranks;
-  options.timeout = std::chrono::seconds(150);
-  return options;
-}
+CommandOptions given_time(int ranks) { return on_ranks(ranks, std::chrono::seconds(150)); }
 
 TEST(ActiveTerms, AreTheSameBitsOnAnyNumberOfRanksAndOverARestart) {
   const TestFolder folder;
   folder.write("study.yaml", active_study());
-  const Outcome first = run_morula({"run", "study.yaml", "--out", "first"}, folder.path(), on_ranks(0));
+  const Outcome first = run_morula({"run", "study.yaml", "--out", "first"}, folder.path(), given_time(0));
   ASSERT_EQ(first.exit_code, 0) << first.all();
   const json reference = info_of(folder / "first");
   EXPECT_EQ(reference["shells"].get<int>(), 15);
@@ -107,14 +96,14 @@ TEST(ActiveTerms, AreTheSameBitsOnAnyNumberOfRanksAndOverARestart) {
   };
   for (const int ranks : {2, 4}) {
     const std::string name = "ranks" + std::to_string(ranks);
-    expect_same(name, run_morula({"run", "study.yaml", "--out", name}, folder.path(), on_ranks(ranks)));
+    expect_same(name, run_morula({"run", "study.yaml", "--out", name}, folder.path(), given_time(ranks)));
   }
-  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "two-one", "--until", "45 s"}, folder.path(), on_ranks(2)).exit_code, 0);
-  expect_same("two-one", run_morula({"resume", "two-one"}, folder.path(), on_ranks(0)));
-  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "one-two", "--until", "45 s"}, folder.path(), on_ranks(0)).exit_code, 0);
-  expect_same("one-two", run_morula({"resume", "one-two"}, folder.path(), on_ranks(2)));
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "two-one", "--until", "45 s"}, folder.path(), given_time(2)).exit_code, 0);
+  expect_same("two-one", run_morula({"resume", "two-one"}, folder.path(), given_time(0)));
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "one-two", "--until", "45 s"}, folder.path(), given_time(0)).exit_code, 0);
+  expect_same("one-two", run_morula({"resume", "one-two"}, folder.path(), given_time(2)));
 
-  const Outcome vtk = run_morula({"export", "first", "vtk"}, folder.path(), on_ranks(0));
+  const Outcome vtk = run_morula({"export", "first", "vtk"}, folder.path(), given_time(0));
   ASSERT_EQ(vtk.exit_code, 0) << vtk.all();
   bool found = false;
   for (const auto& entry : fs::recursive_directory_iterator(folder.path()))

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "tests/system/morula_command.h"
+#include "tests/system/runs_on_ranks.h"
 #include "tests/system/studies.h"
 
 namespace morula::test {
@@ -14,19 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-json info_of(const fs::path& run) {
-  const Outcome outcome = run_morula({"info", run.string(), "--json"}, run.parent_path());
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
-  return json::parse(outcome.out, nullptr, false);
-}
-
-CommandOptions on_ranks(int ranks) {
-  CommandOptions options;
-  options.ranks = ranks;
-  options.timeout = std::chrono::seconds(120);
-  return options;
-}
 
 /// The hash of the hybrid study after one rank and one thread ran it without a break.
 class Repeat : public testing::Test {
