@@ -31,7 +31,7 @@ struct InteriorParameters {
   LinkParameters nucleus_links;       ///< from nodes to the centre of a rigid nucleus, or to the nodes of one that is a shell
   LinkParameters cortex_links;        ///< across the cell, between opposite nodes
   std::uint32_t nucleus_nodes = 0;    ///< of the nucleus' own mesh; 0: it is rigid
-  ShellParameters nucleus_shell;      ///< its mechanics; medium_friction is 0: it lies in the cytoplasm
+  ShellParameters nucleus_shell;      ///< its mechanics; what it rubs on is the cytoplasm, so that medium_friction does not act
 
   [[nodiscard]] bool has_nucleus() const { return nucleus_fraction > 0.0; }
   [[nodiscard]] bool has_nuclear_shell() const { return has_nucleus() && nucleus_nodes > 0; }

@@ -46,19 +46,38 @@ void volume_gradient(const Topology& topology, std::span<const Vec3d> node, std:
   }
 }
 
+/// Σ w (r² I − r rᵀ).
+SymMat3<double> inertia_of(std::span<const double> weight, std::span<const Vec3d> arm) {
+  SymMat3<double> out;
+  for (std::size_t k = 0; k < arm.size(); ++k) out += isotropic(weight[k] * norm2(arm[k])) + outer(-weight[k], arm[k]);
+  return out;
+}
+
+/// v̄ + ω̄ × r.
+struct RigidMotion {
+  Vec3d shift, turn;
+
+  Vec3d at(const Vec3d& arm) const { return shift + cross(turn, arm); }
+};
+/// The nearest one to these motions; weights add up to one, and arms by weight to nothing.
+RigidMotion nearest_rigid_motion(std::span<const double> weight, std::span<const Vec3d> arm, const SymMat3<double>& inverse_inertia,
+                                 std::span<const Vec3d> motion) {
+  Vec3d shift, moment;
+  for (std::size_t k = 0; k < motion.size(); ++k) {
+    shift += motion[k] * weight[k];
+    moment += cross(arm[k], motion[k]) * weight[k];
+  }
+  return {shift, inverse_inertia * moment};
+}
+
 /// Friction of the drag on motions `way`, added to `result`; gives way·result.
 double add_drag(const NuclearFriction& friction, std::span<const Vec3d> cell_way, std::span<const Vec3d> nucleus_way,
                 std::span<Vec3d> cell_result, std::span<Vec3d> nucleus_result) {
-  Vec3d shift, moment;
-  for (std::size_t k = 0; k < cell_way.size(); ++k) {
-    shift += cell_way[k] * friction.share[k];
-    moment += cross(friction.arm[k], cell_way[k]) * friction.share[k];
-  }
-  const Vec3d turn = friction.inverse_inertia * moment;
+  const RigidMotion cytoplasm = nearest_rigid_motion(friction.share, friction.arm, friction.inverse_inertia, cell_way);
   Vec3d force, torque;
   double quadratic = 0.0;
   for (std::size_t i = 0; i < nucleus_way.size(); ++i) {
-    const Vec3d relative = nucleus_way[i] - shift - cross(turn, friction.nucleus_arm[i]), drag = relative * friction.friction[i];
+    const Vec3d relative = nucleus_way[i] - cytoplasm.at(friction.nucleus_arm[i]), drag = relative * friction.friction[i];
     nucleus_result[i] += drag;
     force += drag;
     torque += cross(friction.nucleus_arm[i], drag);
@@ -159,20 +178,32 @@ void find_nuclear_friction(const NucleusView& view, std::span<const double> cell
     out.share.push_back(cell_node_area[k] / area);
     out.center += view.cell[k] * out.share[k];
   }
-  SymMat3<double> inertia;
-  for (std::size_t k = 0; k < view.cell.size(); ++k) {
-    const Vec3d& r = out.arm.emplace_back(view.cell[k] - out.center);
-    inertia += isotropic(out.share[k] * norm2(r)) + outer(-out.share[k], r);
-  }
-  out.inverse_inertia = inverse(inertia);
-  const double radius = nucleus_radius(*view.parameters, view.rest_volume);
-  const double per_area =
-      CytoplasmDrag{view.parameters->cytoplasm_viscosity}.coefficient(radius) / (4.0 * std::numbers::pi * radius * radius);
+  for (const Vec3d& x : view.cell) out.arm.push_back(x - out.center);
+  out.inverse_inertia = inverse(inertia_of(out.share, out.arm));
+  double nucleus_area = 0.0;
+  for (const double a : nucleus_node_area) nucleus_area += a;
+  const double drag = CytoplasmDrag{view.parameters->cytoplasm_viscosity}.coefficient(nucleus_radius(*view.parameters, view.rest_volume));
   for (std::size_t i = 0; i < view.nucleus.size(); ++i) {
-    out.friction.push_back(per_area * nucleus_node_area[i]);
+    out.friction.push_back(drag * (nucleus_node_area[i] / nucleus_area));
     out.nucleus_arm.push_back(view.nucleus[i] - out.center);
   }
   for (const InteriorLink& link : view.links) out.direction.push_back(stretched(view, link).direction);
+}
+
+void move_with_cell(const NuclearFriction& friction, std::span<const Vec3d> cell_velocity, std::span<Vec3d> nucleus_velocity) {
+  const RigidMotion cell = nearest_rigid_motion(friction.share, friction.arm, friction.inverse_inertia, cell_velocity);
+  double all = 0.0;
+  for (const double f : friction.friction) all += f;
+  std::vector<double> weight;
+  std::vector<Vec3d> arm = friction.nucleus_arm;
+  Vec3d center;
+  for (std::size_t i = 0; i < arm.size(); ++i) {
+    weight.push_back(friction.friction[i] / all);
+    center += arm[i] * weight[i];
+  }
+  for (Vec3d& r : arm) r -= center;
+  const RigidMotion own = nearest_rigid_motion(weight, arm, inverse(inertia_of(weight, arm)), nucleus_velocity);
+  for (std::size_t i = 0; i < arm.size(); ++i) nucleus_velocity[i] += cell.at(friction.nucleus_arm[i]) - own.at(arm[i]);
 }
 
 double add_nuclear_friction(const NucleusView& view, const NuclearFriction& friction, NucleusVectors way, NucleusVectors result) {

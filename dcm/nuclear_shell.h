@@ -58,19 +58,21 @@ void add_cytosol_pressure(const NucleusView& view, double pressure, std::span<Ve
 /// Friction of a nucleus with its cell, frozen at the start of a step: drag of the cytoplasm and the dampers of the links.
 ///
 /// The cytoplasm moves as the rigid motion v̄ + ω̄ × (x − c) that is nearest to the motion of the cortex (least squares by area); every node of the
-/// nucleus rubs on it with γ a_i, γ = 3η/(2R_n), the traction of Stokes' sphere, which is even over the surface: 6πηR_n in all (dcm.md §12).
+/// nucleus rubs on it with its share a_i/A_n of 6πηR_n (dcm.md §12): the traction of Stokes' sphere is even over its surface.
 /// Opposite forces go to the cortex by the same rule: no net force, no net torque, and a rigid motion of both feels nothing.
 struct NuclearFriction {
   Vec3d center;                     ///< c: of the cortex, by area [µm]
   std::vector<double> share;        ///< a_k/A of the cortex
   std::vector<Vec3d> arm;           ///< x_k − c of the cortex
   SymMat3<double> inverse_inertia;  ///< of Σ (a_k/A) (r² I − r rᵀ) [1/µm²]
-  std::vector<double> friction;     ///< γ a_i of the nucleus [nN·s/µm]
+  std::vector<double> friction;     ///< 6πηR_n a_i/A_n of the nucleus [nN·s/µm]
   std::vector<Vec3d> nucleus_arm;   ///< x_i − c
   std::vector<Vec3d> direction;     ///< of the links
 };
 void find_nuclear_friction(const NucleusView& view, std::span<const double> cell_node_area, std::span<const double> nucleus_node_area,
                            NuclearFriction& out);
+/// Puts the rigid motion of the cell in the place of that of the nucleus: where a solver starts, since the drag is too weak to count in a residual.
+void move_with_cell(const NuclearFriction& friction, std::span<const Vec3d> cell_velocity, std::span<Vec3d> nucleus_velocity);
 /// Adds Γ_n d to the results and returns dᵀΓ_n d; `way` are displacements since the step's start.
 double add_nuclear_friction(const NucleusView& view, const NuclearFriction& friction, NucleusVectors way, NucleusVectors result);
 

@@ -254,10 +254,7 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
     solution_[scene_.sphere_point() + i] = {v.x, v.y, v.z, 0.0f};
   }
   interior_.start_from_cortex(solution_);
-  for (std::size_t i = 0; i < tissue.nuclei.shells.velocity.size(); ++i) {
-    const Vec3f& v = tissue.nuclei.shells.velocity[i];
-    solution_[scene_.nuclear_node() + i] = {v.x, v.y, v.z, 0.0f};
-  }
+  nuclei_.start_with_cells(tissue, solution_);
   if (relaxing_) {
     std::fill(solution_.begin(), solution_.end(), Float4{});
     return;

@@ -9,7 +9,10 @@ namespace {
 
 std::vector<dcm::ShellParameters> nucleus_parameters(const Model& model) {
   std::vector<dcm::ShellParameters> out;
-  for (const CellType& type : model.types) out.push_back(type.interior.nucleus_shell);
+  for (const CellType& type : model.types) {
+    out.push_back(type.interior.nucleus_shell);
+    out.back().medium_friction = 0.0;  // what it rubs on is the cytoplasm
+  }
   return out;
 }
 
@@ -184,6 +187,20 @@ void NucleusSystem::add_step_friction(std::span<const Vec3d> start, std::span<co
     of_item[k] = dcm::add_nuclear_friction(view(k), item.friction, {cell, nucleus}, {of_cell(out, item), of_nucleus(out, item)});
   }
   for (const double q : of_item) quadratic.add(q);
+}
+
+void NucleusSystem::start_with_cells(const Tissue& tissue, std::span<Float4> velocity) const {
+  for (const Item& item : items_) {
+    std::vector<Vec3d> cell, nucleus;
+    for (const Float4& v : of_cell(velocity, item)) cell.push_back({v.x, v.y, v.z});
+    for (const Vec3f& v : std::span(tissue.nuclei.shells.velocity).subspan(item.first_point - first_point_, item.node_count))
+      nucleus.push_back({v.x, v.y, v.z});
+    dcm::move_with_cell(item.friction, cell, nucleus);
+    for (std::uint32_t i = 0; i < item.node_count; ++i) {
+      const Vec3d& v = nucleus[i];
+      velocity[item.first_point + i] = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0.0f};
+    }
+  }
 }
 
 void NucleusSystem::assemble(const Tissue& tissue, std::span<const Vec3d> position, double dt) {

@@ -70,6 +70,8 @@ class NucleusSystem : public AddedPart {
   void end_step() { contacts_.end_step(); }
   /// Γ_n d added to `out`, and dᵀΓ_n d to the sum.
   void add_step_friction(std::span<const Vec3d> start, std::span<const Vec3d> position, std::span<Vec3d> out, OrderFreeSum& quadratic);
+  /// Where the solver starts: the last velocity, but going with the cell.
+  void start_with_cells(const Tissue& tissue, std::span<Float4> velocity) const;
   void assemble(const Tissue& tissue, std::span<const Vec3d> position, double dt);
   void drop_matrix() { shells_.drop_matrix(); }
 
