@@ -7,7 +7,8 @@ namespace morula {
 namespace {
 
 double local_weight(const Tissue& tissue) {
-  return static_cast<double>(tissue.spheres.size()) + 3.0 * static_cast<double>(tissue.shells.node_count() + tissue.nuclei.shells.node_count());
+  return static_cast<double>(tissue.spheres.size()) +
+         3.0 * static_cast<double>(tissue.shells.node_count() + tissue.nuclei.shells.node_count());
 }
 
 std::size_t node_count(const ShellRecord& shell) {

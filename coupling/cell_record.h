@@ -29,8 +29,8 @@ struct ShellRecord {
   std::vector<Vec3f> velocity;
   std::vector<double> rest_length;
   dcm::FaceState face{};
-  std::optional<Vec3d> nucleus{};         ///< centre of its rigid nucleus
-  Boxed<ShellRecord> nuclear_shell{};     ///< its nucleus that is a shell
+  std::optional<Vec3d> nucleus{};      ///< centre of its rigid nucleus
+  Boxed<ShellRecord> nuclear_shell{};  ///< its nucleus that is a shell
 };
 
 /// One cell whole: its row and its body. What events, swaps and moves between ranks work on.

@@ -160,8 +160,8 @@ std::span<const double> rest_lengths(const Shells& shells, std::uint32_t shell) 
 }
 
 template <int W>
-void write_shell_results(const BlockState<W>& state, const Shells& shells, std::span<const Vec3d> position,
-                         const Lane<double, W>& cytosol, ShellMechanics& out) noexcept {
+void write_shell_results(const BlockState<W>& state, const Shells& shells, std::span<const Vec3d> position, const Lane<double, W>& cytosol,
+                         ShellMechanics& out) noexcept {
   for (int lane = 0; lane < state.block.count; ++lane) {
     const std::uint32_t shell = state.block.member[lane];
     const double volume = state.volume[lane], energy = state.energy[lane];

@@ -29,12 +29,7 @@ Stretched stretched(const NucleusView& view, const InteriorLink& link) {
 SymMat3<double> inverse(const SymMat3<double>& a) {
   const double c00 = a.yy * a.zz - a.yz * a.yz, c01 = a.xz * a.yz - a.xy * a.zz, c02 = a.xy * a.yz - a.xz * a.yy;
   const double s = 1.0 / (a.xx * c00 + a.xy * c01 + a.xz * c02);
-  return {c00 * s,
-          c01 * s,
-          c02 * s,
-          (a.xx * a.zz - a.xz * a.xz) * s,
-          (a.xy * a.xz - a.xx * a.yz) * s,
-          (a.xx * a.yy - a.xy * a.xy) * s};
+  return {c00 * s, c01 * s, c02 * s, (a.xx * a.zz - a.xz * a.xz) * s, (a.xy * a.xz - a.xx * a.yz) * s, (a.xx * a.yy - a.xy * a.xy) * s};
 }
 
 /// ∂V/∂x of a closed surface: a sixth of the doubled area vectors around each node.
@@ -84,8 +79,7 @@ double add_drag(const NuclearFriction& friction, std::span<const Vec3d> cell_way
     quadratic += dot(relative, drag);
   }
   const Vec3d twist = friction.inverse_inertia * torque;
-  for (std::size_t k = 0; k < cell_way.size(); ++k)
-    cell_result[k] -= (force + cross(twist, friction.arm[k])) * friction.share[k];
+  for (std::size_t k = 0; k < cell_way.size(); ++k) cell_result[k] -= (force + cross(twist, friction.arm[k])) * friction.share[k];
   return quadratic;
 }
 
@@ -162,8 +156,7 @@ double add_nuclear_link_forces(const NucleusView& view, NucleusVectors force) {
 
 void add_cytosol_pressure(const NucleusView& view, double pressure, std::span<Vec3d> nucleus_force) {
   for (const Triangle& t : view.nucleus_topology->faces()) {
-    const Vec3d push =
-        cross(view.nucleus[t[1]] - view.nucleus[t[0]], view.nucleus[t[2]] - view.nucleus[t[0]]) * (pressure * (1.0 / 6.0));
+    const Vec3d push = cross(view.nucleus[t[1]] - view.nucleus[t[0]], view.nucleus[t[2]] - view.nucleus[t[0]]) * (pressure * (1.0 / 6.0));
     for (const std::uint32_t corner : t) nucleus_force[corner] -= push;
   }
 }
@@ -331,8 +324,7 @@ double nucleus_clearance(const NucleusView& view) {
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
       const double far = nearest + ball[f].radius;
       if (norm2(ball[f].center - p) > far * far) continue;
-      const ClosestPoint here =
-          closest_point_on_triangle(p, view.cell[faces[f][0]], view.cell[faces[f][1]], view.cell[faces[f][2]]);
+      const ClosestPoint here = closest_point_on_triangle(p, view.cell[faces[f][0]], view.cell[faces[f][1]], view.cell[faces[f][2]]);
       if (!(here.distance2 < nearest * nearest)) continue;
       nearest = std::sqrt(here.distance2), foot = here, face = f;
     }

@@ -86,7 +86,7 @@ struct NuclearOperator {
     bool of_cell = false;    ///< the source is the cell
   };
   const NuclearFriction* friction = nullptr;
-  std::vector<SymMat3<double>> link;                 ///< dampers and springs
+  std::vector<SymMat3<double>> link;  ///< dampers and springs
   std::vector<Contact> contact;
   std::vector<Vec3d> cell_gradient, nucleus_gradient;  ///< ∂V/∂x of the cell and of the nucleus [µm²]
   double cytosol_stiffness = 0.0;                      ///< Δt K_V/(V − V_n) [nN·s/µm⁵]

@@ -55,8 +55,7 @@ struct ShellOperator {
 /// it may be empty. `held` is as in internal_forces().
 void assemble_shell_operator(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
                              std::span<const Vec3d> position, const ShellFriction& friction, std::span<const double> face_contact_energy,
-                             double time_step, const EdgeBlockSource& contacts, ShellOperator& out,
-                             std::span<const HeldVolume> held = {});
+                             double time_step, const EdgeBlockSource& contacts, ShellOperator& out, std::span<const HeldVolume> held = {});
 
 /// q = A p by node of the shells; p and q are indexed as the shells' nodes, and q is overwritten. Fourth components come out as zero.
 void apply_shell_operator(const ShellBlocks& blocks, const Shells& shells, const ShellOperator& matrix, std::span<const Float4> p,

@@ -448,8 +448,8 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
 
 std::size_t Mechanics::bytes_now() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return contacts_.memory() + shells_.memory() + interior_.memory() + nuclei_.memory() + spheres_.memory() + system_.memory() + scene_.memory() +
-         bytes(force_) + bytes(solution_) + gradient_.memory() + surfaces_only_.memory() + bytes(geometry_.face_area) +
+  return contacts_.memory() + shells_.memory() + interior_.memory() + nuclei_.memory() + spheres_.memory() + system_.memory() +
+         scene_.memory() + bytes(force_) + bytes(solution_) + gradient_.memory() + surfaces_only_.memory() + bytes(geometry_.face_area) +
          bytes(geometry_.face_normal) + bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) +
          bytes(scene_start_);
 }

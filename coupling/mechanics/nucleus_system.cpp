@@ -100,10 +100,8 @@ void NucleusSystem::set_moving(std::span<const ContactBody> bodies) {
 
 dcm::NucleusView NucleusSystem::view(std::size_t k) const {
   const Item& item = items_[k];
-  return {&model_.types[item.type].interior,      *item.links,
-          item.cell_topology,                     item.topology,
-          part(std::span(position_), 2 * k),      part(std::span(position_), 2 * k + 1),
-          item.rest_volume};
+  return {&model_.types[item.type].interior,     *item.links,     item.cell_topology, item.topology, part(std::span(position_), 2 * k),
+          part(std::span(position_), 2 * k + 1), item.rest_volume};
 }
 
 std::span<const dcm::HeldVolume> NucleusSystem::evaluate_shells(const Tissue& tissue, std::span<const Vec3d> position) {
@@ -218,7 +216,8 @@ void NucleusSystem::assemble(const Tissue& tissue, std::span<const Vec3d> positi
 }
 
 std::optional<NucleusState> NucleusSystem::of_shell(std::uint32_t shell) const {
-  const auto found = std::lower_bound(items_.begin(), items_.end(), shell, [](const Item& item, std::uint32_t s) { return item.shell < s; });
+  const auto found =
+      std::lower_bound(items_.begin(), items_.end(), shell, [](const Item& item, std::uint32_t s) { return item.shell < s; });
   if (found == items_.end() || found->shell != shell) return std::nullopt;
   const auto k = static_cast<std::size_t>(found - items_.begin());
   const SurfacePair& pair = contacts_.pairs()[k];

@@ -86,7 +86,7 @@ class NucleusSystem : public AddedPart {
  private:
   struct Item {
     std::uint32_t shell = 0, first_cell_point = 0, cell_node_count = 0;  ///< who holds it
-    std::uint32_t first_point = 0, node_count = 0;                      ///< its nodes
+    std::uint32_t first_point = 0, node_count = 0;                       ///< its nodes
     bool moves = true;
     std::uint16_t type = 0;
     double rest_volume = 0.0;  ///< of the cell [µm³]

@@ -21,11 +21,7 @@ CutFaces::CutFaces(const Snapshot& snapshot, const Projection& projection, const
   std::size_t number = snapshot.cells.size() + snapshot.nuclei.size();  // as the renderer colours them
   for (const auto& nucleus : snapshot.nuclear_shells)
     add_outline(snapshot, nucleus, snapshot.nuclear_nodes, projection, cut,
-                {{},
-                 1e300,
-                 -1e300,
-                 static_cast<std::int32_t>(2 * number++ + 1),
-                 static_cast<std::int32_t>(2 * nucleus.cell + 1)});
+                {{}, 1e300, -1e300, static_cast<std::int32_t>(2 * number++ + 1), static_cast<std::int32_t>(2 * nucleus.cell + 1)});
 }
 
 void CutFaces::add_outline(const Snapshot& snapshot, const Snapshot::Shell& shell, std::span<const Vec3d> nodes,

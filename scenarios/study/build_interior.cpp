@@ -91,7 +91,8 @@ void set_nuclear_shell(BuildContext& c, const draft::CellType& t, const std::str
   if (range.known() && depth > 0.5 * range.value)
     c.diagnostics.error(592, d.nodes.given ? d.nodes.place : t.nucleus.kind.place,
                         whose + " is too coarse with " + d.nodes.text + " nodes: its faces lie up to " +
-                            short_number(std::round(100.0 * depth) / 100.0) + " um under the ball that they stand for, more than half of the contact range",
+                            short_number(std::round(100.0 * depth) / 100.0) +
+                            " um under the ball that they stand for, more than half of the contact range",
                         d.nodes.value < 162 ? "`nodes: 162`" : "more `nodes`, or a longer `contact.range`");
 }
 

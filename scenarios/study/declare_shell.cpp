@@ -8,14 +8,22 @@ constexpr const char* kTable1 = "Van Liedekerke et al., Table 1";
 
 /// What stands where nothing is given, for the cortex of a cell or the lamina of a nucleus.
 struct Defaults {
-  const char *young, *young_source, *tension, *tension_source, *bulk, *bulk_source;
+  const char *young, *young_source, *tension, *tension_doc, *tension_source, *bulk, *bulk_source;
 };
-constexpr Defaults kCell{"1 kPa", kTable1, "0.1 mN/m",
-                         "chosen between 0.03 mN/m (neutrophil, Hochmuth 2000) and 0.4 mN/m (fibroblast, Tinevez et al. 2009)", "2.5 kPa",
+constexpr Defaults kCell{"1 kPa",
+                         kTable1,
+                         "0.1 mN/m",
+                         "Active cortical tension.",
+                         "chosen between 0.03 mN/m (neutrophil, Hochmuth 2000) and 0.4 mN/m (fibroblast, Tinevez et al. 2009)",
+                         "2.5 kPa",
                          kTable1};
-constexpr Defaults kNucleus{"5 kPa",  "chosen: five times the cortex; a nucleus is 2 to 10 times stiffer (Guilak et al. 2000)",
-                            "0 mN/m", "chosen: off",
-                            "10 kPa", "chosen: four times the cell"};
+constexpr Defaults kNucleus{"5 kPa",
+                            "chosen: five times the cortex; a nucleus is 2 to 10 times stiffer (Guilak et al. 2000)",
+                            "0 mN/m",
+                            "Active tension of the lamina.",
+                            "chosen: off",
+                            "10 kPa",
+                            "chosen: four times the cell"};
 
 void declare_cortex(Section& c, draft::ShellKeys& t, const Defaults& fallback, draft::CellType* cell) {
   c.word(
@@ -78,7 +86,7 @@ void declare_cortex(Section& c, draft::ShellKeys& t, const Defaults& fallback, d
               .source = "Skalak et al. 1973, doi:10.1016/S0006-3495(73)85983-1"},
              t.area_ratio);
   c.quantity({.name = "tension",
-              .doc = "Active tension of the layer.",
+              .doc = fallback.tension_doc,
               .quantity = Q::kTension,
               .fallback = fallback.tension,
               .low = 0.0,
@@ -106,15 +114,16 @@ void declare_cortex(Section& c, draft::ShellKeys& t, const Defaults& fallback, d
               .example = "1e-4 N s/m",
               .source = kTable1},
              t.damping);
-  c.quantity({.name = "isotropic_damping",
-              .doc = "Friction of an edge against any relative motion of its ends; unlike `damping` it resists rigid rotation of the whole.",
-              .quantity = Q::kFriction,
-              .fallback = "0 N s/m",
-              .low = 0.0,
-              .high = 1e4,
-              .example = "1e-5 N s/m",
-              .source = "chosen: off"},
-             t.isotropic_damping);
+  c.quantity(
+      {.name = "isotropic_damping",
+       .doc = "Friction of an edge against any relative motion of its ends; unlike `damping` it resists rigid rotation of the whole.",
+       .quantity = Q::kFriction,
+       .fallback = "0 N s/m",
+       .low = 0.0,
+       .high = 1e4,
+       .example = "1e-5 N s/m",
+       .source = "chosen: off"},
+      t.isotropic_damping);
   if (cell != nullptr) declare_tension_regions(c, *cell);
 }
 
@@ -194,8 +203,9 @@ void declare_shell_keys(Section& s, draft::ShellKeys& t, draft::CellType* cell) 
            .source = "Van Liedekerke et al.: 160 to 2600 nodes a cell"},
           t.nodes);
   const KeySpec layer =
-      cell != nullptr ? KeySpec{.name = "cortex", .doc = "The cell's cortex: a thin elastic layer under active tension."}
-                      : KeySpec{.name = "lamina", .doc = "The nucleus' envelope with its lamina: a thin elastic layer, perhaps under tension."};
+      cell != nullptr
+          ? KeySpec{.name = "cortex", .doc = "The cell's cortex: a thin elastic layer under active tension."}
+          : KeySpec{.name = "lamina", .doc = "The nucleus' envelope with its lamina: a thin elastic layer, perhaps under tension."};
   s.group(layer, present, [&](Section& c) { declare_cortex(c, t, fallback, cell); });
   s.group({.name = "area", .doc = "Elasticity of the area, apart from that of the layer."}, present,
           [&t](Section& a) { declare_area(a, t); });
@@ -230,18 +240,18 @@ void declare_shell_keys(Section& s, draft::ShellKeys& t, draft::CellType* cell) 
              t.shape_stiffness);
   if (cell != nullptr) {
     s.quantity({.name = "self_contact",
-              .doc = "Distance at which a surface touches other parts of itself, from inside or outside, such as the thickness of its "
-                     "cortex; at most half of "
-                     "an edge of its mesh. `off`: it passes through itself.",
-              .quantity = Q::kLength,
-              .fallback = "off",
-              .low = 0.0,
-              .high = 5.0,
-              .low_open = true,
-              .specials = {{"off", 0.0}},
-              .example = "200 nm",
-              .source = "chosen: off; cells under pressure do not fold"},
-             cell->self_contact);
+                .doc = "Distance at which a surface touches other parts of itself, from inside or outside, such as the thickness of its "
+                       "cortex; at most half of "
+                       "an edge of its mesh. `off`: it passes through itself.",
+                .quantity = Q::kLength,
+                .fallback = "off",
+                .low = 0.0,
+                .high = 5.0,
+                .low_open = true,
+                .specials = {{"off", 0.0}},
+                .example = "200 nm",
+                .source = "chosen: off; cells under pressure do not fold"},
+               cell->self_contact);
     declare_interior(s, *cell);
   }
   s.group({.name = "fold_barrier", .doc = "Keeps edges from folding through."}, present, [&t](Section& f) {

@@ -207,7 +207,8 @@ TEST(NuclearFriction, FeelsNoRigidMotionAndDragsAsStokesHasIt) {
   EXPECT_LT(norm(on_nucleus + on_cell), 1e-12);
   EXPECT_LT(norm(torque), 1e-11);
   EXPECT_NEAR(sinking.quadratic, on_nucleus.z, 1e-12);
-  EXPECT_GT(linked.quadratic, sinking.quadratic + 0.5) << "40 dampers of 0.1 nN s/µm, in all directions: at most 4, a third of that on average";
+  EXPECT_GT(linked.quadratic, sinking.quadratic + 0.5)
+      << "40 dampers of 0.1 nN s/µm, in all directions: at most 4, a third of that on average";
   EXPECT_LT(linked.quadratic, sinking.quadratic + 4.0);
 }
 
@@ -251,7 +252,8 @@ TEST(FloatingNuclearShell, GoesWithItsCell) {
   run(*simulation, 200.0);
   const Vec3d cell = mean(simulation->tissue().shells.position);
   EXPECT_GT(cell.x, 3.5) << "T9.2: 0.0221 µm/s per nN";
-  EXPECT_LT(norm(mean(simulation->tissue().nuclei.shells.position) - cell), 0.1) << "it starts a step after the cell, and floats: nothing brings it back";
+  EXPECT_LT(norm(mean(simulation->tissue().nuclei.shells.position) - cell), 0.1)
+      << "it starts a step after the cell, and floats: nothing brings it back";
 }
 
 /// A cell between two plates that come as near as 8 µm: gap, force, and the shape of the nucleus.
@@ -312,8 +314,7 @@ TEST(SqueezedNuclearShell, PushesBackAsARigidOneAndFlattensWhenSoft) {  // T12.3
   const Squeeze stiff = squeeze(model);
   give_nuclear_shell(model, 4.2, 5.0);
   const Squeeze soft = squeeze(model);
-  for (const double gap : {11.0, 9.5, 8.75})
-    EXPECT_NEAR(stiff.at(gap) / bare.at(gap), 1.0, 0.04) << "nothing touches above 2 R_n = 8.4 µm";
+  for (const double gap : {11.0, 9.5, 8.75}) EXPECT_NEAR(stiff.at(gap) / bare.at(gap), 1.0, 0.04) << "nothing touches above 2 R_n = 8.4 µm";
   const double jump = rigid.at(8.05) - bare.at(8.05);
   EXPECT_GT(jump, 2.0 * bare.at(8.05)) << "below it the nucleus pushes";
   EXPECT_NEAR((stiff.at(8.05) - bare.at(8.05)) / jump, 1.0, 0.25);

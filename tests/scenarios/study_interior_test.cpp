@@ -3,11 +3,11 @@
 
 #include <numbers>
 
+#include "dcm/derived_parameters.h"
 #include "scenarios/library/library.h"
 #include "scenarios/pictures/rasterize.h"
 #include "scenarios/results/snapshot_file.h"
 #include "scenarios/results/vtk_writer.h"
-#include "dcm/derived_parameters.h"
 #include "scenarios/run/driver.h"
 #include "tests/scenarios/study_fixture.h"
 
@@ -181,7 +181,8 @@ TEST(NuclearShellKeys, AreThoseOfAShellWithDefaultsOfANucleus) {
   EXPECT_EQ(plain.interior.nucleus_shell.medium_friction, 0.0);
 
   const CellType given = read_type(with_shell_key(
-      "nucleus:\n        kind: shell\n        volume_fraction: 20 %\n        nodes: 42\n        lamina: {elastic: neo_hooke, young: 3 kPa, thickness: "
+      "nucleus:\n        kind: shell\n        volume_fraction: 20 %\n        nodes: 42\n        lamina: {elastic: neo_hooke, young: 3 kPa, "
+      "thickness: "
       "100 nm, poisson: 0.4, tension: 0.02 mN/m}\n        bending: {law: helfrich, rigidity: 2e-19 J}\n        bulk_modulus: 20 kPa"));
   EXPECT_EQ(given.interior.nucleus_nodes, 42u);
   EXPECT_DOUBLE_EQ(given.interior.nucleus_shell.neo_hooke_shear, dcm::sheet_shear_modulus(3.0, 0.1, 0.4));
@@ -205,8 +206,9 @@ TEST(NuclearShellKeys, AreRefusedWhereTheyMakeNoSense) {
   EXPECT_THAT(refused("{kind: shell, radius: 3 um, bulk_modulus: 0 kPa}"), AllOf(HasSubstr("no resistance"), HasSubstr("[E591]")));
   EXPECT_THAT(refused("{kind: shell, radius: 3 um, bulk_modulus: 1 kPa, lamina: {tension: 5 mN/m}}"),
               AllOf(HasSubstr("would collapse"), HasSubstr("[E591]")));
-  EXPECT_THAT(errors_of(changed("radius: 6 um", "radius: 20 um", with_shell_key("nucleus: {kind: shell, radius: 10 um, nodes: 42}"))),
-              AllOf(HasSubstr("too coarse"), HasSubstr("nodes: 162"), HasSubstr("[E592]")));
+  EXPECT_THAT(
+      errors_of(changed("radius: {mean: 6 um", "radius: {mean: 20 um", with_shell_key("nucleus: {kind: shell, radius: 10 um, nodes: 42}"))),
+      AllOf(HasSubstr("too coarse"), HasSubstr("nodes: 162"), HasSubstr("[E592]")));
 }
 
 TEST(NuclearShellKeys, AreWrittenAndReadAgain) {

@@ -121,8 +121,8 @@ void expect_same_bits_on_ranks_and_over_a_restart(const std::string& study) {
 TEST(Interior, GivesTheSameBitsOnRanksAndOverARestart) { expect_same_bits_on_ranks_and_over_a_restart(interior_study()); }
 
 TEST(NuclearShells, GiveTheSameBitsOnRanksAndOverARestart) {
-  expect_same_bits_on_ranks_and_over_a_restart(
-      changed(interior_study(), "nucleus: {radius: 2 um}", "nucleus: {kind: shell, radius: 2 um, nodes: 42, lamina: {tension: 0.02 mN/m}}"));
+  expect_same_bits_on_ranks_and_over_a_restart(changed(interior_study(), "nucleus: {radius: 2 um}",
+                                                       "nucleus: {kind: shell, radius: 2 um, nodes: 42, lamina: {tension: 0.02 mN/m}}"));
 }
 
 }  // namespace
