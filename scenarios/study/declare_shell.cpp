@@ -18,7 +18,7 @@ constexpr Defaults kCell{"1 kPa",
                          "2.5 kPa",
                          kTable1};
 constexpr Defaults kNucleus{"5 kPa",
-                            "chosen: five times the cortex; a nucleus is 2 to 10 times stiffer (Guilak et al. 2000)",
+                            "chosen: five times the cortex",
                             "0 mN/m",
                             "Active tension of the lamina.",
                             "chosen: off",
