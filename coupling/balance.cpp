@@ -7,7 +7,12 @@ namespace morula {
 namespace {
 
 double local_weight(const Tissue& tissue) {
-  return static_cast<double>(tissue.spheres.size()) + 3.0 * static_cast<double>(tissue.shells.node_count());
+  return static_cast<double>(tissue.spheres.size()) +
+         3.0 * static_cast<double>(tissue.shells.node_count() + tissue.nuclei.shells.node_count());
+}
+
+std::size_t node_count(const ShellRecord& shell) {
+  return shell.position.size() + (shell.nuclear_shell ? shell.nuclear_shell->position.size() : 0);
 }
 
 }  // namespace
@@ -33,7 +38,7 @@ BalanceReport balance(Tissue& tissue, Partition& partition, ShapeLibrary& shapes
   std::vector<double> weight;
   for (const CellRecord& cell : cells) {
     position.push_back(cell.center());
-    weight.push_back(cell_weight(cell.row, cell.shell ? cell.shell->position.size() : 1));
+    weight.push_back(cell_weight(cell.row, cell.shell ? node_count(*cell.shell) : 1));
   }
   const std::vector<int> owner = partition.balance(position, weight, comm);
   std::vector<CellRecord> kept;

@@ -29,7 +29,8 @@ struct ShellRecord {
   std::vector<Vec3f> velocity;
   std::vector<double> rest_length;
   dcm::FaceState face{};
-  std::optional<Vec3d> nucleus{};  ///< centre of its rigid nucleus
+  std::optional<Vec3d> nucleus{};      ///< centre of its rigid nucleus
+  Boxed<ShellRecord> nuclear_shell{};  ///< its nucleus that is a shell
 };
 
 /// One cell whole: its row and its body. What events, swaps and moves between ranks work on.
@@ -50,8 +51,8 @@ void put_together(Tissue& tissue, std::vector<CellRecord> cells);
 /// A spherical shell around `center` whose mesh encloses `volume`, with stress-free membrane at that volume and velocity zero.
 ShellRecord spherical_shell(std::shared_ptr<const ReferenceShape> shape, const Vec3d& center, double volume, double reference_volume);
 
-/// Give a shell the nucleus of its type, at its centroid; none where the type has none.
-void place_nucleus(ShellRecord& shell, const dcm::InteriorParameters& interior);
+/// Give a shell the nucleus of its type, at its centroid and at rest in a cell at rest; none where the type has none.
+void place_nucleus(ShellRecord& shell, const CellType& type, ShapeLibrary& shapes);
 
 /// A cell as bytes and back. An icosphere travels by its node count, any other shape whole.
 void append_bytes(const CellRecord& cell, std::vector<std::byte>& out);

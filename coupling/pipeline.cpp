@@ -27,19 +27,26 @@ double fit_step(double wanted, double time, double land_on) {
 struct Growing {
   Cells cells;
   std::vector<double> reference_volume, rest_volume, rest_length, radius;
+  std::vector<double> nucleus_reference_volume, nucleus_rest_volume, nucleus_rest_length;
 
   explicit Growing(const Tissue& t)
       : cells(t.cells),
         reference_volume(t.shells.reference_volume),
         rest_volume(t.shells.rest_volume),
         rest_length(t.shells.rest_length),
-        radius(t.spheres.radius) {}
+        radius(t.spheres.radius),
+        nucleus_reference_volume(t.nuclei.shells.reference_volume),
+        nucleus_rest_volume(t.nuclei.shells.rest_volume),
+        nucleus_rest_length(t.nuclei.shells.rest_length) {}
   void restore(Tissue& t) const {
     t.cells = cells;
     t.shells.reference_volume = reference_volume;
     t.shells.rest_volume = rest_volume;
     t.shells.rest_length = rest_length;
     t.spheres.radius = radius;
+    t.nuclei.shells.reference_volume = nucleus_reference_volume;
+    t.nuclei.shells.rest_volume = nucleus_rest_volume;
+    t.nuclei.shells.rest_length = nucleus_rest_length;
   }
 };
 
@@ -95,6 +102,7 @@ Result<StepOutcome> Simulation::step(double land_on) {
   }
   wrap_cells();
   dcm::turn_over(tissue_.shells, mechanics_->shell_parameters(), dt);
+  dcm::turn_over(tissue_.nuclei.shells, mechanics_->nucleus_parameters(), dt);
   average_pressures(dt);
   turn_polarities(clock.steps - 1, dt);
   renew_faces(dt);

@@ -155,6 +155,8 @@ void Simulation::set_bodies_to_targets(double dt) {
       }
       if (tissue_.shells.rest_volume[shell] != row.target_volume) dcm::set_rest_volume(tissue_.shells, shell, row.target_volume);
       reference = free * std::exp(excess);
+      if (const std::size_t n = tissue_.nuclei.of_shell(shell); n < tissue_.nuclei.size())
+        dcm::set_nucleus_target(tissue_.nuclei.shells, n, type.interior, type.shell, row.target_volume);
       ++shell;
     } else {
       if (type.osmosis.acts()) exchange(row.target_volume * std::exp(excess), tissue_.shells.size() + sphere);
@@ -346,6 +348,8 @@ void Simulation::wrap_cells() {
       if (norm2(shift) > 1e-6) {
         for (Vec3d& p : nodes) p += shift;
         if (tissue_.shells.nucleus_of(shell) != nullptr) *tissue_.shells.nucleus[shell] += shift;
+        if (const std::size_t n = tissue_.nuclei.of_shell(shell); n < tissue_.nuclei.size())
+          for (Vec3d& p : tissue_.nuclei.shells.nodes(n)) p += shift;
         moved = true;
       }
       ++shell;

@@ -146,7 +146,7 @@ void promote(CellRecord& cell, const CellType& type, double pressure, double tim
   const double reference = free_reference_volume(volume, type) * std::exp(std::max(0.0, pressure) / type.shell.bulk_modulus);
   ShellRecord shell = spherical_shell(shapes.icosphere(type.shell_nodes).value(), sphere.position, volume, reference);
   std::fill(shell.velocity.begin(), shell.velocity.end(), sphere.velocity);
-  place_nucleus(shell, type.interior);
+  place_nucleus(shell, type, shapes);
   cell.row.reference_excess = std::log(reference / free_reference_volume(cell.row.target_volume, type));
   cell.row.last_swap_time = time;
   cell.row.body = BodyKind::kShell;

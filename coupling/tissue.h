@@ -5,6 +5,7 @@
 #include "cbm/spheres.h"
 #include "coupling/cells.h"
 #include "coupling/model.h"
+#include "dcm/nuclear_shell.h"
 #include "dcm/shells.h"
 #include "fields/field.h"
 
@@ -44,6 +45,7 @@ struct Tissue {
   Cells cells;
   cbm::Spheres spheres;
   dcm::Shells shells;
+  dcm::NuclearShells nuclei;           ///< those that are shells of their own; in no count of cells or shells
   std::vector<Vec3d> obstacle_offset;  ///< how far each obstacle has moved [µm]
   std::vector<fields::Field> fields;
   std::vector<LumenState> lumens;  ///< by lumen of the model

@@ -83,8 +83,9 @@ void assemble_faces(Assembly<W>& a) noexcept {
     record.store(a.ws.face, f);
   }
   for (int lane = 0; lane < W; ++lane) {
-    const VolumePressure law{a.types[a.shells.type[a.block.member[lane]]].bulk_modulus};
-    const double volume = six_volumes[lane] / 6.0;
+    const std::uint32_t shell = a.block.member[lane];
+    const VolumePressure law{a.types[a.shells.type[shell]].bulk_modulus};
+    const double volume = six_volumes[lane] / 6.0 - (a.held.empty() ? 0.0 : a.held[shell].volume);
     a.out.volume_stiffness[lane] = volume > 0.0 ? static_cast<float>(law.curvature_psd(volume)) * a.dt[lane] : 0.0f;
   }
 }
@@ -181,11 +182,11 @@ void load_inputs(Assembly<W>& a, std::span<const Vec3d> position, std::span<cons
 template <int W>
 void assemble_block(const ShellBlocks& blocks, const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types,
                     std::span<const Vec3d> position, const ShellFriction::Block& friction, std::span<const Vec3d> start,
-                    std::span<const double> contact_energy, double time_step, const EdgeBlockSource& contacts, ShellOperator::Block& out,
-                    OperatorWorkspace& ws) noexcept {
+                    std::span<const double> contact_energy, double time_step, const EdgeBlockSource& contacts,
+                    std::span<const HeldVolume> held, ShellOperator::Block& out, OperatorWorkspace& ws) noexcept {
   const Topology& topology = *block.topology;
   const std::size_t nodes = topology.node_count();
-  Assembly<W> a{block, shells, types, topology, ws, out, Lane<float, W>(static_cast<float>(time_step))};
+  Assembly<W> a{block, shells, types, topology, ws, out, Lane<float, W>(static_cast<float>(time_step)), held};
   load_inputs(a, position, start, blocks, contact_energy);
   const std::size_t edges = topology.edge_count();
   out.edge.resize(edges * 6 * W);
@@ -216,11 +217,11 @@ void assemble_block(const ShellBlocks& blocks, const LaneBlock& block, const She
 
 void assemble_shell_operator(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
                              std::span<const Vec3d> position, const ShellFriction& friction, std::span<const double> face_contact_energy,
-                             double time_step, const EdgeBlockSource& contacts, ShellOperator& out) {
+                             double time_step, const EdgeBlockSource& contacts, ShellOperator& out, std::span<const HeldVolume> held) {
   out.blocks.resize(blocks.blocks.size());
   for_each_block<OperatorWorkspace>(blocks, [&]<int W>(std::size_t b, const LaneBlock& block, OperatorWorkspace& ws) {
     assemble_block<W>(blocks, block, shells, types, position, friction.blocks[b], friction.start, face_contact_energy, time_step, contacts,
-                      out.blocks[b], ws);
+                      held, out.blocks[b], ws);
   });
 }
 

@@ -8,6 +8,7 @@
 #include "core/mesh/topology.h"
 #include "core/vec3.h"
 #include "dcm/laws/cytoskeleton_link.h"
+#include "dcm/shells.h"
 
 namespace morula::dcm {
 
@@ -23,18 +24,23 @@ struct LinkParameters {
   [[nodiscard]] CytoskeletonLink law() const { return {stiffness, damping, tension_only}; }
 };
 
-/// What the shells of a cell type have inside: a rigid nucleus that floats, and a cytoskeleton of links.
+/// What the shells of a cell type have inside: a nucleus that floats, rigid or a shell of its own, and a cytoskeleton of links.
 struct InteriorParameters {
   double nucleus_fraction = 0.0;      ///< volume of the nucleus in parts of the membrane's rest volume; 0: no nucleus
   double cytoplasm_viscosity = 1e-3;  ///< η of the drag on the nucleus [kPa·s]
-  LinkParameters nucleus_links;       ///< from nodes to the centre of the nucleus
+  LinkParameters nucleus_links;       ///< from nodes to the centre of a rigid nucleus, or to the nodes of one that is a shell
   LinkParameters cortex_links;        ///< across the cell, between opposite nodes
+  std::uint32_t nucleus_nodes = 0;    ///< of the nucleus' own mesh; 0: it is rigid
+  ShellParameters nucleus_shell;      ///< its mechanics; what it rubs on is the cytoplasm, so that medium_friction does not act
 
   [[nodiscard]] bool has_nucleus() const { return nucleus_fraction > 0.0; }
-  [[nodiscard]] bool acts() const { return has_nucleus() || cortex_links.act(); }
+  [[nodiscard]] bool has_nuclear_shell() const { return has_nucleus() && nucleus_nodes > 0; }
+  [[nodiscard]] bool has_rigid_nucleus() const { return has_nucleus() && nucleus_nodes == 0; }
+  /// Beside a nucleus that is a shell (nuclear_shell.h).
+  [[nodiscard]] bool acts() const { return has_rigid_nucleus() || cortex_links.act(); }
 };
 
-/// R_n of a nucleus: a ball of nucleus_fraction × rest volume [µm].
+/// R_n of a nucleus at rest: a ball of nucleus_fraction × rest volume [µm].
 double nucleus_radius(const InteriorParameters& parameters, double rest_volume);
 
 /// A link of the undeformed cell: its rest length is `rest` × (rest volume)^{1/3}, so that it grows with the cell.

@@ -17,6 +17,24 @@ LawInfo repulsion() {
                           "Volume f of the nucleus in parts of the cell's; 0: no nucleus."}}};
 }
 
+LawInfo shell_contact() {
+  return {
+      .name = "nuclear_shell_contact",
+      .title = "A nucleus that is a shell meets the cortex from inside",
+      .equation = "U(g) per area of either surface, half of each: ½ k_r g² (g < 0), g the distance of the surfaces; V_rest = f V_target",
+      .source = kNucleus,
+      .parameters = {{"nucleus_fraction", "fraction", "1", 0.0, 0.0, 0.512, kNucleus, "Volume f of the nucleus in parts of the cell's."}}};
+}
+
+LawInfo cytosol() {
+  return {
+      .name = "cytosol_pressure",
+      .title = "The pressure of a cell is that of its cytosol, which presses on the nucleus, too",
+      .equation = "p = −K_V ln((V − V_n)/((1 − f) V0)); force p ∂V/∂x on the cortex, −p ∂V_n/∂x on a nucleus that is a shell",
+      .source = kOurs,
+      .parameters = {{"nucleus_fraction", "fraction", "1", 0.0, 0.0, 0.512, kNucleus, "Volume f of the nucleus in parts of the cell's."}}};
+}
+
 LawInfo drag() {
   return {.name = "cytoplasm_drag",
           .title = "The cytoplasm drags on the nucleus",
@@ -40,9 +58,14 @@ LawInfo links(const char* name, const char* title, const char* doc) {
 }  // namespace
 
 std::vector<LawInfo> interior_laws() {
-  return {repulsion(), drag(),
-          links("nucleus_links", "Cytoskeleton: links from the cortex to the centre of the nucleus", "How many nodes have a link."),
-          links("cortex_links", "Cytoskeleton: links across the cell", "How many pairs of opposite nodes have a link.")};
+  return {
+      repulsion(),
+      shell_contact(),
+      cytosol(),
+      drag(),
+      links("nucleus_links", "Cytoskeleton: links from the cortex to the nucleus: to its centre, or to the nodes of one that is a shell",
+            "How many nodes have a link."),
+      links("cortex_links", "Cytoskeleton: links across the cell", "How many pairs of opposite nodes have a link.")};
 }
 
 }  // namespace morula::dcm

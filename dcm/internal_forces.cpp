@@ -160,7 +160,8 @@ std::span<const double> rest_lengths(const Shells& shells, std::uint32_t shell) 
 }
 
 template <int W>
-void write_shell_results(const BlockState<W>& state, const Shells& shells, std::span<const Vec3d> position, ShellMechanics& out) noexcept {
+void write_shell_results(const BlockState<W>& state, const Shells& shells, std::span<const Vec3d> position, const Lane<double, W>& cytosol,
+                         ShellMechanics& out) noexcept {
   for (int lane = 0; lane < state.block.count; ++lane) {
     const std::uint32_t shell = state.block.member[lane];
     const double volume = state.volume[lane], energy = state.energy[lane];
@@ -168,22 +169,22 @@ void write_shell_results(const BlockState<W>& state, const Shells& shells, std::
     out.energy[shell] = energy;
     out.min_quality[shell] = 1.0 / state.max_inverse_quality[lane];
     out.max_angle[shell] = state.max_angle[lane];
-    const bool good = std::isfinite(energy) && volume > 0.0 && state.max_inverse_quality[lane] <= 1.0 / ShellLimits::kQuality &&
+    const bool good = std::isfinite(energy) && cytosol[lane] > 0.0 && state.max_inverse_quality[lane] <= 1.0 / ShellLimits::kQuality &&
                       state.max_angle[lane] <= ShellLimits::kAngle && state.stretch_excess[lane] <= 0.0;
     if (good) {
       out.fault[shell] = {};
       continue;
     }
     const auto x = position.subspan(shells.first_node[shell], state.topology.node_count());
-    out.fault[shell] = state.stretch_excess[lane] > 0.0 && std::isfinite(energy) && volume > 0.0
+    out.fault[shell] = state.stretch_excess[lane] > 0.0 && std::isfinite(energy) && cytosol[lane] > 0.0
                            ? ShellFault{ShellFaultKind::kStretch, overstretched_face(state.topology, x, rest_lengths(shells, shell))}
-                           : locate_fault(state.topology, x, volume);
+                           : locate_fault(state.topology, x, cytosol[lane]);
   }
 }
 
 template <int W>
 void block_mechanics(const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types, std::span<const Vec3d> position,
-                     std::span<Vec3d> force, ShellMechanics& out, ForceWorkspace& ws) noexcept {
+                     std::span<Vec3d> force, ShellMechanics& out, std::span<const HeldVolume> held, ForceWorkspace& ws) noexcept {
   using Real = Lane<double, W>;
   const Topology& topology = *block.topology;
   ws.fit(topology, W);
@@ -195,13 +196,15 @@ void block_mechanics(const LaneBlock& block, const Shells& shells, std::span<con
   BlockState<W> state{block, topology, ws};
   const auto of_type = [&](double ShellParameters::*member) { return parameter<double, W>(block, shells, types, member); };
   measure_faces(state);
-  Real pressure(0.0), volume_energy(0.0);
+  Real pressure(0.0), volume_energy(0.0), cytosol(0.0);
   for (int lane = 0; lane < W; ++lane) {
     const std::uint32_t shell = block.member[lane];
     const VolumePressure law{types[shells.type[shell]].bulk_modulus};
-    const double volume = state.volume[lane], reference = shells.reference_volume[shell];
+    const HeldVolume inside = held.empty() ? HeldVolume{} : held[shell];
+    const double volume = inside.cytosol(state.volume[lane]), reference = shells.reference_volume[shell];
+    cytosol.set(lane, volume);
     pressure.set(lane, volume > 0.0 ? law.pressure(volume, reference) : 0.0);
-    volume_energy.set(lane, volume > 0.0 ? law.energy(volume, reference) : 0.0);
+    volume_energy.set(lane, volume > 0.0 ? (1.0 - inside.part) * law.energy(volume, reference) : 0.0);
     out.pressure[shell] = pressure[lane];
   }
   Real global_tension(0.0), area_energy(0.0);
@@ -219,7 +222,7 @@ void block_mechanics(const LaneBlock& block, const Shells& shells, std::span<con
   state.energy += volume_energy + area_energy;
   store_lanes<W, double>(ws.force.data(), std::size_t{topology.node_count()} * 3,
                          lane_pointers<W>(&force.data()->x, block, shells.first_node, 3));
-  write_shell_results(state, shells, position, out);
+  write_shell_results(state, shells, position, cytosol, out);
 }
 
 }  // namespace
@@ -231,12 +234,12 @@ void internal_forces(const ShellBlocks& blocks, const Shells& shells, std::span<
 }
 
 void internal_forces(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
-                     std::span<const Vec3d> position, std::span<Vec3d> force, ShellMechanics& out) {
+                     std::span<const Vec3d> position, std::span<Vec3d> force, ShellMechanics& out, std::span<const HeldVolume> held) {
   for (std::vector<double>* array : {&out.energy, &out.volume, &out.pressure, &out.min_quality, &out.max_angle})
     array->resize(shells.size());
   out.fault.resize(shells.size());
   for_each_block<ForceWorkspace>(blocks, [&]<int W>(std::size_t, const LaneBlock& block, ForceWorkspace& ws) {
-    block_mechanics<W>(block, shells, types, position, force, out, ws);
+    block_mechanics<W>(block, shells, types, position, force, out, held, ws);
   });
 }
 

@@ -19,14 +19,26 @@ struct ShellMechanics {
   std::vector<ShellFault> fault;    ///< by shell; energy and force of a faulty shell are not to be used
 };
 
+/// What a shell holds that is not its cytosol, such as a nucleus with a membrane of its own: the pressure is that of the cytosol, whose volume
+/// V − V_h is 1 − f of the shell's at rest (dcm.md §12): p = −K_V ln(V'/V0) and E = (1 − f) K_V [V' ln(V'/V0) − V' + V0] with
+/// V' = (V − V_h)/(1 − f).
+struct HeldVolume {
+  double volume = 0.0;  ///< V_h [µm³]
+  double part = 0.0;    ///< f
+
+  /// V': that of the shell if it were all cytosol [µm³].
+  [[nodiscard]] double cytosol(double shell_volume) const { return (shell_volume - volume) / (1.0 - part); }
+};
+
 /// Energies and forces of all internal laws (the conservative ones of shell_laws()) at `position`, which need not be that of the shells (a
 /// trial state); rest lengths, rest volumes and reference volumes are the shells'. `types[t]` are the parameters of cell type t.
 ///
-/// Lanes over shells of one Topology, in parallel over blocks: the same bits for every lane width and number of threads.
+/// Lanes over shells of one Topology, in parallel over blocks: the same bits for every lane width and number of threads. `held`: by shell, or
+/// empty: nothing.
 void internal_forces(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
                      std::span<const Vec3d> position, ShellMechanics& out);
 /// The same, with the forces to `force` (by node).
 void internal_forces(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
-                     std::span<const Vec3d> position, std::span<Vec3d> force, ShellMechanics& out);
+                     std::span<const Vec3d> position, std::span<Vec3d> force, ShellMechanics& out, std::span<const HeldVolume> held = {});
 
 }  // namespace morula::dcm

@@ -55,6 +55,7 @@ struct Assembly {
   OperatorWorkspace& ws;
   ShellOperator::Block& out;
   Real dt;
+  std::span<const HeldVolume> held;
 
   Vec3<Real> x(std::size_t node) const noexcept { return load_vec3<float, W>(ws.local.data(), node); }
   Real of_type(double ShellParameters::*member) const noexcept { return parameter<float, W>(block, shells, types, member); }

@@ -9,6 +9,7 @@
 #include "core/simd/transpose.h"
 #include "core/vec3.h"
 #include "dcm/blocks.h"
+#include "dcm/internal_forces.h"
 #include "dcm/shell_friction.h"
 #include "dcm/shells.h"
 
@@ -51,10 +52,10 @@ struct ShellOperator {
 /// `face_contact_energy` is the contact energy per area that lowers the tension of each face, ∂E_contact/∂A_T [nN/µm] by face
 /// (ShellBlocks::first_face); empty when there is no contact. Where tension and contact energy sum to less than zero, their stiffness is
 /// left out. `contacts` fills what contacts couple within a shell, blocks xx xy xz yy yz zz on the edges in the order of the shell's Topology;
-/// it may be empty.
+/// it may be empty. `held` is as in internal_forces().
 void assemble_shell_operator(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
                              std::span<const Vec3d> position, const ShellFriction& friction, std::span<const double> face_contact_energy,
-                             double time_step, const EdgeBlockSource& contacts, ShellOperator& out);
+                             double time_step, const EdgeBlockSource& contacts, ShellOperator& out, std::span<const HeldVolume> held = {});
 
 /// q = A p by node of the shells; p and q are indexed as the shells' nodes, and q is overwritten. Fourth components come out as zero.
 void apply_shell_operator(const ShellBlocks& blocks, const Shells& shells, const ShellOperator& matrix, std::span<const Float4> p,

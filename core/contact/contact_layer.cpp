@@ -223,8 +223,24 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
   sphere_pairs_before_ = spheres_.size();
   add_obstacle_pairs(scene);
   add_self_pairs(scene);
-  pairs_.shrink_to_fit();
+  keep_lists(scene, std::move(old));
+}
 
+void ContactLayer::rebuild(const ContactScene& scene, std::span<const std::pair<std::uint32_t, std::uint32_t>> pairs) {
+  std::vector<SurfacePair> old = std::move(pairs_);
+  pairs_.clear();
+  spheres_.clear();
+  for (const auto& [a, b] : pairs) {
+    SurfacePair& pair = pairs_.emplace_back();
+    pair.a = a;
+    pair.b = b;
+  }
+  keep_lists(scene, std::move(old));
+}
+
+void ContactLayer::keep_lists(const ContactScene& scene, std::vector<SurfacePair> old) {
+  const std::size_t n = scene.bodies.size();
+  pairs_.shrink_to_fit();
   if (!fresh_) {  // keep the lists of pairs that stay; both sequences come in canonical order, obstacles and then surfaces themselves last
     const auto key = [&](const SurfacePair& pair) {
       const std::uint64_t kind = pair.rigid ? 1 : pair.with_itself() ? 2 : 0;

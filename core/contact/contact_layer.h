@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/contact/broad_phase.h"
@@ -82,6 +83,8 @@ class ContactLayer {
   [[nodiscard]] double wear() const { return wear_; }
   /// Find the pairs of bodies again. On several ranks the ghosts must be renewed first.
   void rebuild(const ContactScene& scene, const Space& space);
+  /// The same with these pairs of surfaces (first and second body, in canonical order) and no others.
+  void rebuild(const ContactScene& scene, std::span<const std::pair<std::uint32_t, std::uint32_t>> pairs);
 
   /// Narrow phase of the surface pairs of one kind at the present positions: energies and elements, kept; gradients are added to `gradient`.
   void evaluate(const ContactScene& scene, SurfacePairKind kind, ContactGradient& gradient);
@@ -140,6 +143,8 @@ class ContactLayer {
   [[nodiscard]] bool note_travel(const ContactScene& scene);
   [[nodiscard]] double patch_motion(const ContactScene& scene, const SurfacePair& pair) const;
   void know_positions(const ContactScene& scene);
+  /// After the pairs were found: take over the lists of those that were there before, and begin to count motion.
+  void keep_lists(const ContactScene& scene, std::vector<SurfacePair> old);
   void add_obstacle_pairs(const ContactScene& scene);
   /// Surfaces that may touch themselves, after all other pairs.
   void add_self_pairs(const ContactScene& scene);

@@ -74,8 +74,9 @@ struct Mechanics::Trial {
       go_to(fraction);
       double next = measure();
       const SurfacePair* crossed = m.contacts_.crossed(m.contact_scene(), start);
-      const bool sound = m.comm_.all(std::isfinite(next) && !m.find_fault().has_value() && crossed == nullptr);
-      report.crossings += crossed != nullptr;
+      const bool through = crossed != nullptr || m.nuclei_.crossed();
+      const bool sound = m.comm_.all(std::isfinite(next) && !m.find_fault().has_value() && !through);
+      report.crossings += through;
       // Higher nearer to the start: a jump of the contact energy lies between, and beyond it the way leads down.
       const bool jumped = sound && next > before && before <= phi + kAllowedJump;
       if (jumped) {
@@ -127,6 +128,7 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
   OrderFreeSum sums[2];
   if (moved) shells_.add_step_friction(x, force_, sums[0]);
   if (moved) interior_.add_step_friction(start, x, force_, sums[0]);
+  if (moved) nuclei_.add_step_friction(start, x, force_, sums[0]);
   contacts_.add_step_friction(contact_scene(), start, moved, force_, sums[0]);
   const auto medium = system_.point_friction();
   for (std::size_t i = 0; moved && i < scene_.owned_spheres(); ++i) {
@@ -297,7 +299,7 @@ Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt
     return undo(start, StepFault{"points moved too far in one explicit step", {}, true});
   }
   evaluate(tissue);
-  if (comm_.any(contacts_.crossed(contact_scene(), start) != nullptr))
+  if (comm_.any(contacts_.crossed(contact_scene(), start) != nullptr || nuclei_.crossed()))
     return undo(start, StepFault{"a surface would pass through another", {}, true});
   if (const auto fault = find_fault(); comm_.any(fault.has_value())) {
     return undo(start, fault.value_or(StepFault{"a cell on another rank is too distorted", {}, true}));

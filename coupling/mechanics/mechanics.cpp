@@ -31,6 +31,7 @@ Mechanics::Mechanics(const Model& model, std::vector<RigidSurface> obstacles, Sh
       contacts_(contact_settings(model, threads), std::move(obstacles), contact_materials(model), contact_material_count(model)),
       shells_(model),
       interior_(model),
+      nuclei_(model, threads),
       spheres_(model, threads),
       face_tensions_(model),
       node_terms_(model) {
@@ -89,6 +90,7 @@ void Mechanics::prepare(const Tissue& tissue) {
     contacts_.reset();
     shells_.set_shells(tissue.shells);
     interior_.set_shells(tissue.shells, scene_.nucleus_point());
+    nuclei_.set_shells(tissue, scene_.nuclear_node());
     force_.assign(scene_.point_count(), {});
     solution_.assign(scene_.point_count(), {});
     if (relaxing_)
@@ -132,11 +134,14 @@ void Mechanics::lay_out_system() {
     layout.owned.push_back(body.active());
   }
   for (const InteriorSystem::Nucleus& nucleus : interior_.nuclei()) layout.owned.push_back(scene_.bodies()[nucleus.shell].active());
+  nuclei_.set_moving(scene_.bodies());
+  nuclei_.for_all_points([&](std::uint32_t, bool moves) { layout.owned.push_back(moves); });
   if (comm_.size() > 1) layout.exchange = [this](std::span<Float4> vector) { scene_.exchange(vector); };
   system_.set_layout(std::move(layout), threads_);
   system_.set_shells(&shells_);
   system_.set_sphere_pairs(&spheres_.pairs());
   if (!interior_.empty()) system_.add_part(&interior_);
+  if (!nuclei_.empty()) system_.add_part(&nuclei_);
   if (const AddedPart* friction = contacts_.own_friction()) system_.add_part(friction);
   system_.add_part(&held_);
 }
@@ -152,7 +157,8 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
     if (moved)
       compute_node_geometry({scene_.topologies(), scene_.first_node(), scene_.first_face()},
                             std::span(std::as_const(scene_).position()).first(scene_.sphere_point()), geometry_);
-    shells_.evaluate(tissue.shells, scene_.position(), force_);
+    const auto held = nuclei_.evaluate_shells(tissue, scene_.position());
+    shells_.evaluate(tissue.shells, scene_.position(), force_, held);
   }
   {
     auto timed = timer_.scope(Stage::kCandidates);
@@ -192,6 +198,7 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   spheres_.evaluate(scene_, contacts_, force_);
   const auto& internal = shells_.forces();
   if (!interior_.empty()) interior_.evaluate(tissue.shells, scene_.position(), force_);
+  if (!nuclei_.empty()) nuclei_.evaluate(tissue, scene_.position(), internal.pressure, force_);
 
   OrderFreeSum sum;
   for (std::size_t i = 0; i < scene_.owned_shells(); ++i) sum.add(internal.energy[i]);
@@ -200,6 +207,7 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
   contacts_.add_energy(scene, sum);
   spheres_.add_energy(sum);
   interior_.add_energy(sum);
+  nuclei_.add_energy(sum);
   energy_ = comm_.sum(sum);
   evaluated_ = contacts_current_ = true;
 }
@@ -224,6 +232,7 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
   contacts_.begin_step(contact_scene());
   shells_.begin_step(tissue.shells, geometry_);
   interior_.begin_step(scene_.position(), geometry_);
+  nuclei_.begin_step(tissue);
   shells_.set_node_friction(node_terms_.friction(tissue, geometry_));
   std::vector<float> friction(scene_.point_count(), 0.0f);
   const std::size_t first = scene_.first_sphere();
@@ -248,6 +257,7 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
     solution_[scene_.sphere_point() + i] = {v.x, v.y, v.z, 0.0f};
   }
   interior_.start_from_cortex(solution_);
+  nuclei_.start_with_cells(tissue, solution_);
   if (relaxing_) {
     std::fill(solution_.begin(), solution_.end(), Float4{});
     return;
@@ -274,6 +284,7 @@ void Mechanics::assemble(const Tissue& tissue, double dt) {
   shells_.assemble(tissue.shells, scene_.position(), face_tensions_.on_top_of(gradient_.face_energy), dt,
                    edge_blocks_of(groups, scene_.bodies().size(), quadrature, static_cast<float>(dt)));
   interior_.assemble(scene_.position(), dt);
+  nuclei_.assemble(tissue, scene_.position(), dt);
   held_.set_step(dt);
   system_.set_step(dt);
   system_.set_elements(groups, quadrature);
@@ -286,12 +297,14 @@ void Mechanics::drop_matrix() {
   if (scene_.shells() == 0) return;  // spheres alone have no use for the room
   system_.drop_matrix();
   shells_.drop_matrix();
+  nuclei_.drop_matrix();
 }
 
 std::optional<StepFault> Mechanics::find_fault() const {
   const auto& faults = shells_.forces().fault;
   for (std::size_t i = 0; i < faults.size(); ++i)
     if (faults[i]) return StepFault{dcm::describe(faults[i]), scene_.bodies()[i].id, true};
+  if (const auto fault = nuclei_.find_fault()) return StepFault{fault->second, scene_.bodies()[fault->first].id, true};
   return std::nullopt;
 }
 
@@ -318,6 +331,8 @@ void Mechanics::finish(Tissue& tissue, double dt, StepReport& report) {
   for (std::size_t i = 0; i < tissue.shells.velocity.size(); ++i) tissue.shells.velocity[i] = velocity(i, tissue.shells.position[i]);
   for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i)
     tissue.spheres.velocity[i] = velocity(scene_.sphere_point() + i, tissue.spheres.position[i]);
+  for (std::size_t i = 0; i < tissue.nuclei.shells.velocity.size(); ++i)
+    tissue.nuclei.shells.velocity[i] = velocity(scene_.nuclear_node() + i, tissue.nuclei.shells.position[i]);
   scene_.give_positions(tissue);
   if (!relaxing_) {
     for (std::size_t i = 0; i < model_.obstacles.size(); ++i)
@@ -326,6 +341,7 @@ void Mechanics::finish(Tissue& tissue, double dt, StepReport& report) {
   }
   spheres_.end_step();
   contacts_.end_step();
+  nuclei_.end_step();
   // Where there are ghosts, a list of pairs that would wear out within the next step is made together with them, before that step: else
   // the list is made in the middle of the step, and the ghosts soon after.
   renew_soon_ = comm_.size() > 1 && comm_.any(2.0 * contacts_.wear() - wear_ > 1.0);
@@ -436,8 +452,8 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
 
 std::size_t Mechanics::bytes_now() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return contacts_.memory() + shells_.memory() + interior_.memory() + spheres_.memory() + system_.memory() + scene_.memory() +
-         bytes(force_) + bytes(solution_) + gradient_.memory() + surfaces_only_.memory() + bytes(geometry_.face_area) +
+  return contacts_.memory() + shells_.memory() + interior_.memory() + nuclei_.memory() + spheres_.memory() + system_.memory() +
+         scene_.memory() + bytes(force_) + bytes(solution_) + gradient_.memory() + surfaces_only_.memory() + bytes(geometry_.face_area) +
          bytes(geometry_.face_normal) + bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) +
          bytes(scene_start_);
 }

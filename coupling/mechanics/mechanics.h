@@ -16,6 +16,7 @@
 #include "coupling/mechanics/held_nodes.h"
 #include "coupling/mechanics/interior_system.h"
 #include "coupling/mechanics/node_terms.h"
+#include "coupling/mechanics/nucleus_system.h"
 #include "coupling/mechanics/scene.h"
 #include "coupling/mechanics/shell_system.h"
 #include "coupling/mechanics/sphere_contacts.h"
@@ -119,11 +120,17 @@ class Mechanics {
 
   /// Parameters of the single-cell mechanics by cell type.
   [[nodiscard]] std::span<const dcm::ShellParameters> shell_parameters() const { return shells_.parameters(); }
+  /// The same of nuclei that are shells.
+  [[nodiscard]] std::span<const dcm::ShellParameters> nucleus_parameters() const { return nuclei_.parameters(); }
   [[nodiscard]] StageTimer& timer() { return timer_; }
   [[nodiscard]] const ContactLayer& contacts() const { return contacts_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
-  /// What the nucleus of an owned shell feels at the present positions.
+  /// What the rigid nucleus of an owned shell feels at the present positions.
   [[nodiscard]] dcm::InteriorEnergy interior_of(std::uint32_t shell) const { return interior_.of_shell(shell); }
+  /// How the nucleus of an owned shell stands at the present positions, if it is a shell.
+  [[nodiscard]] std::optional<NucleusState> nucleus_of(std::uint32_t shell) const { return nuclei_.of_shell(shell); }
+  /// Forces on the nodes of the nuclei that are shells, in their order, as energy_and_forces() found them.
+  [[nodiscard]] std::span<const Vec3d> forces_on_nuclei() const { return std::span(force_).subspan(scene_.nuclear_node()); }
   [[nodiscard]] double deepest_overlap() const;
   /// Bytes of all workspaces of this rank: the most at any time of the last step.
   [[nodiscard]] std::size_t memory() const { return std::max(most_bytes_, bytes_now()); }
@@ -165,11 +172,12 @@ class Mechanics {
     if (point >= scene_.nucleus_point()) return {};
     return external[point < scene_.owned_nodes() ? point : point - scene_.sphere_point() + scene_.owned_nodes()];
   }
-  /// `function(point)` for the nuclei of shells that move.
+  /// `function(point)` for the nuclei of shells that move, and for the nodes of those that are shells.
   template <class F>
   void for_nuclei(F&& function) const {
     for (const InteriorSystem::Nucleus& nucleus : interior_.nuclei())
       if (scene_.bodies()[nucleus.shell].active()) function(nucleus.point);
+    nuclei_.for_points(function);
   }
   template <class F>
   void for_owned_points(F&& function) const {
@@ -238,6 +246,7 @@ class Mechanics {
   SurfaceGeometry geometry_;
   ShellSystem shells_;
   InteriorSystem interior_;
+  NucleusSystem nuclei_;
   SphereContacts spheres_;
   FaceTensions face_tensions_;
   NodeTerms node_terms_;

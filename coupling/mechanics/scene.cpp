@@ -238,6 +238,8 @@ void Scene::build(const Tissue& tissue, const Space& space, double reach, ShapeL
   shell_nodes_ = first_node_.back();
   nucleus_point_ = point;
   for (std::size_t i = 0; i < owned_shells_; ++i) point += tissue.shells.nucleus_of(i) != nullptr;
+  nuclear_node_ = point;
+  point += tissue.nuclei.shells.node_count();
   mark_.clear();
   position_.assign(point, Vec3d{});
   take_positions(tissue);
@@ -261,6 +263,7 @@ void Scene::take_positions(const Tissue& tissue) {
   std::size_t nucleus = nucleus_point_;
   for (std::size_t i = 0; i < owned_shells_; ++i)
     if (const Vec3d* center = tissue.shells.nucleus_of(i)) position_[nucleus++] = *center;
+  std::copy(tissue.nuclei.shells.position.begin(), tissue.nuclei.shells.position.end(), position_.begin() + nuclear_node_);
 }
 
 void Scene::take_radii(const Tissue& tissue) {
@@ -278,6 +281,7 @@ void Scene::give_positions(Tissue& tissue) const {
   std::size_t nucleus = nucleus_point_;
   for (std::optional<Vec3d>& center : tissue.shells.nucleus)
     if (center) center = position_[nucleus++];
+  std::copy_n(position_.begin() + nuclear_node_, tissue.nuclei.shells.position.size(), tissue.nuclei.shells.position.begin());
 }
 
 bool Scene::marks_differ(const Tissue& tissue) const {

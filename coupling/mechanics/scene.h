@@ -15,7 +15,8 @@ namespace morula {
 /// The bodies that a rank sees during mechanics: its own and read-only ghosts of the neighbours' that may touch them.
 ///
 /// Bodies and points come in this order: owned shells, ghost shells, owned spheres, ghost spheres. After all of them come the nuclei of owned
-/// shells: points that are no bodies, since nothing but their own shell touches them. A workspace: rebuilt from the Tissue.
+/// shells, the rigid ones and then the nodes of those that are shells: points that are no bodies, since nothing but their own cell touches them.
+/// A workspace: rebuilt from the Tissue.
 class Scene {
  public:
   /// Collect owned bodies and exchange ghosts: every body within `reach` of another rank's bodies goes there. Collective.
@@ -31,6 +32,7 @@ class Scene {
   [[nodiscard]] std::uint32_t sphere_point() const { return shell_nodes_; }  ///< first point of the owned spheres
   [[nodiscard]] std::size_t point_count() const { return position_.size(); }
   [[nodiscard]] std::uint32_t nucleus_point() const { return nucleus_point_; }  ///< first of the nuclei: all points before are of bodies
+  [[nodiscard]] std::uint32_t nuclear_node() const { return nuclear_node_; }    ///< first of the nodes of nuclei that are shells
   [[nodiscard]] std::size_t face_count() const { return face_count_; }
   [[nodiscard]] std::span<const std::shared_ptr<const ReferenceShape>> shapes() const { return shapes_; }  ///< of shells, ghosts too
   [[nodiscard]] std::span<const Topology* const> topologies() const { return topologies_; }                ///< of shells, ghosts too
@@ -81,7 +83,7 @@ class Scene {
   std::vector<ContactBody> bodies_;
   std::vector<Birth> ghost_birth_;  ///< of ghost spheres
   std::size_t owned_shells_ = 0, shells_ = 0, owned_spheres_ = 0, face_count_ = 0;
-  std::uint32_t owned_nodes_ = 0, shell_nodes_ = 0, nucleus_point_ = 0;
+  std::uint32_t owned_nodes_ = 0, shell_nodes_ = 0, nucleus_point_ = 0, nuclear_node_ = 0;
   std::vector<std::shared_ptr<const ReferenceShape>> shapes_;
   std::vector<const Topology*> topologies_;
   std::vector<std::uint32_t> first_node_, first_face_;

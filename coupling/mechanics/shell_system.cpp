@@ -14,9 +14,11 @@ void ShellSystem::set_shells(const dcm::Shells& shells) {
   blocks_ = dcm::make_shell_blocks(shells);
 }
 
-void ShellSystem::evaluate(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<Vec3d> force) {
+void ShellSystem::evaluate(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<Vec3d> force,
+                           std::span<const dcm::HeldVolume> held) {
+  held_ = held;
   const std::size_t nodes = shells.node_count();
-  dcm::internal_forces(blocks_, shells, parameters_, position.first(nodes), force.first(nodes), forces_);
+  dcm::internal_forces(blocks_, shells, parameters_, position.first(nodes), force.first(nodes), forces_, held);
 }
 
 void ShellSystem::begin_step(const dcm::Shells& shells, const SurfaceGeometry& geometry) {
@@ -27,7 +29,8 @@ void ShellSystem::begin_step(const dcm::Shells& shells, const SurfaceGeometry& g
 void ShellSystem::assemble(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<const double> face_contact_energy,
                            double dt, const EdgeBlockSource& contacts) {
   dcm::assemble_shell_operator(blocks_, shells, parameters_, position.first(shells.node_count()), friction_,
-                               face_contact_energy.first(blocks_.face_count()), dt, contacts, operator_);
+                               face_contact_energy.first(face_contact_energy.empty() ? 0 : blocks_.face_count()), dt, contacts, operator_,
+                               held_);
   node_block_.assign(node_friction_.empty() && node_stiffness_.empty() ? 0 : shells.node_count(), {});
   for (std::size_t i = 0; i < node_block_.size(); ++i) {
     SymMat3<double> sum;

@@ -17,13 +17,17 @@ namespace morula {
 class ShellSystem : public OperatorPart {
  public:
   explicit ShellSystem(const Model& model);
+  /// Shells with these parameters by cell type.
+  explicit ShellSystem(std::vector<dcm::ShellParameters> parameters) : parameters_(std::move(parameters)) {}
 
   void set_shells(const dcm::Shells& shells);
-  /// Internal forces at `position` into the first entries of `force`; all else is in `forces()` afterwards.
-  void evaluate(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<Vec3d> force);
+  /// Internal forces at `position` into the first entries of `force`; all else is in `forces()` afterwards. `held`: what is in the shells that is
+  /// not cytosol, by shell, good until assemble(); empty: nothing.
+  void evaluate(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<Vec3d> force,
+                std::span<const dcm::HeldVolume> held = {});
   /// Friction of the step that starts at the shells' positions; these stay until the step is done. `geometry` is that of these positions.
   void begin_step(const dcm::Shells& shells, const SurfaceGeometry& geometry);
-  /// `contacts`: what they couple within a shell.
+  /// `face_contact_energy`: by face, or empty: no contact. `contacts`: what they couple within a shell.
   void assemble(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<const double> face_contact_energy, double dt,
                 const EdgeBlockSource& contacts);
   /// The matrix is not needed any more.
@@ -51,6 +55,7 @@ class ShellSystem : public OperatorPart {
  private:
   std::vector<dcm::ShellParameters> parameters_;  ///< by cell type
   const dcm::Shells* shells_ = nullptr;
+  std::span<const dcm::HeldVolume> held_;
   dcm::ShellBlocks blocks_;
   dcm::ShellMechanics forces_;
   dcm::ShellFriction friction_;

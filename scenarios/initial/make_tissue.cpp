@@ -216,7 +216,7 @@ Result<CellRecord> with_body(const Seedling& cell, const Model& model, ShapeLibr
     const Rotation turn = random_rotation(Random(model.seed, RandomStream::kOrientation), cell.row.id, 0);
     for (Vec3d& p : shell.position) p = cell.center + turn * (p - cell.center);
   }
-  place_nucleus(shell, type.interior);
+  place_nucleus(shell, type, shapes);
   record.shell = std::move(shell);
   return record;
 }

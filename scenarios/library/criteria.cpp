@@ -87,6 +87,12 @@ Result<std::vector<Verdict>> common_criteria(const Study& study, const std::file
   if (const auto* overlap = series.find("worst_overlap"))
     out.push_back(at_most("INV.4", "deepest penetration of a surface in any step", largest(*overlap, first_settled_row(study, *overlap)),
                           limits.overlap, "um"));
+  if (const auto* clearance = series.find("nucleus_clearance")) {
+    double outside = 0.0;  // a value that is no number passes no limit
+    for (const double value : clearance->values)
+      if (!(-value <= outside)) outside = -value;
+    out.push_back(at_most("INV.5", "how far a node of a nucleus is outside its cortex, at any output", outside, limits.overlap, "um"));
+  }
   if (const auto* energy = series.find("energy"); energy && is_passive(study) && energy->values.size() > 2)
     out.push_back(at_most("INV.7", "rise of the energy between outputs, relative to its range", largest_rise(*energy), kEnergyRise));
   if (const auto* balance = series.find("field_balance"))

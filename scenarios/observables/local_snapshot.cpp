@@ -40,24 +40,29 @@ Snapshot local_snapshot(Simulation& simulation) {
       ++sphere;
       continue;
     }
-    const Topology* topology = &tissue.shells.topology(shell);
-    const auto found = std::find(known.begin(), known.end(), topology);
-    const auto number = static_cast<std::uint32_t>(found - known.begin());
-    if (found == known.end()) {
-      known.push_back(topology);
-      out.topologies.emplace_back(topology->faces().begin(), topology->faces().end());
-    }
-    const auto nodes = std::as_const(tissue.shells).nodes(shell);
-    out.shells.push_back(
-        {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(out.nodes.size()), static_cast<std::uint32_t>(nodes.size()), number});
-    out.nodes.insert(out.nodes.end(), nodes.begin(), nodes.end());
+    const auto add_surface = [&](const dcm::Shells& from, std::size_t s, std::vector<Snapshot::Shell>& shells, std::vector<Vec3d>& all) {
+      const Topology* topology = &from.topology(s);
+      const auto found = std::find(known.begin(), known.end(), topology);
+      const auto number = static_cast<std::uint32_t>(found - known.begin());
+      if (found == known.end()) {
+        known.push_back(topology);
+        out.topologies.emplace_back(topology->faces().begin(), topology->faces().end());
+      }
+      const auto nodes = from.nodes(s);
+      shells.push_back(
+          {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(all.size()), static_cast<std::uint32_t>(nodes.size()), number});
+      all.insert(all.end(), nodes.begin(), nodes.end());
+    };
+    add_surface(tissue.shells, shell, out.shells, out.nodes);
+    if (const std::size_t n = tissue.nuclei.of_shell(shell); n < tissue.nuclei.size())
+      add_surface(tissue.nuclei.shells, n, out.nuclear_shells, out.nuclear_nodes);
     if (const Vec3d* nucleus = tissue.shells.nucleus_of(shell))
       out.nuclei.push_back(
           {static_cast<std::uint32_t>(i), *nucleus, dcm::nucleus_radius(model.types[row.type].interior, tissue.shells.rest_volume[shell])});
     if (!model.mark_names.empty()) {
       const auto& marks = tissue.shells.faces_of(shell).mark;
       out.face_marks.insert(out.face_marks.end(), marks.begin(), marks.end());
-      if (marks.empty()) out.face_marks.resize(out.face_marks.size() + topology->face_count(), 0);
+      if (marks.empty()) out.face_marks.resize(out.face_marks.size() + tissue.shells.topology(shell).face_count(), 0);
     }
     ++shell;
   }

@@ -30,11 +30,13 @@ Extreme over_ranks(const Extreme& mine, const Comm& comm) {
   return out;
 }
 
-/// Volume that the cell's row, its reference_excess and its pressure ask for [µm³].
-double volume_by_law(const CellRow& row, double reference_excess, const CellType& type, double pressure) {
+/// Volume that the cell's row, its reference_excess and its pressure ask for, beside the present one of a nucleus that is a shell [µm³].
+double volume_by_law(const CellRow& row, double reference_excess, const CellType& type, double pressure,
+                     const std::optional<NucleusState>& nucleus) {
   const double excess = std::exp(reference_excess);
   if (row.body == BodyKind::kSphere) return row.target_volume * excess;
-  return free_reference_volume(row.target_volume, type) * excess * std::exp(-pressure / type.shell.bulk_modulus);
+  const double volume = free_reference_volume(row.target_volume, type) * excess * std::exp(-pressure / type.shell.bulk_modulus);
+  return nucleus ? nucleus->volume + (1.0 - type.interior.nucleus_fraction) * volume : volume;
 }
 
 Extreme deepest_overlap(Simulation& simulation) {
@@ -47,11 +49,27 @@ Extreme deepest_overlap(Simulation& simulation) {
     offer(out, pair.overlap, pair.rigid ? bodies[pair.a].id : std::min(bodies[pair.a].id, bodies[pair.b].id));
   }
   for (std::uint32_t s = 0; s < simulation.mechanics().scene().owned_shells(); ++s) {
-    if (simulation.tissue().shells.nucleus_of(s) == nullptr) continue;
-    const double overlap = simulation.mechanics().interior_of(s).overlap;
+    const auto nuclear = simulation.mechanics().nucleus_of(s);
+    if (!nuclear && simulation.tissue().shells.nucleus_of(s) == nullptr) continue;
+    const double overlap = nuclear ? nuclear->overlap : simulation.mechanics().interior_of(s).overlap;
     if (overlap > 0.0) offer(out, overlap, bodies[s].id);
   }
   return out;
+}
+
+/// How near the nuclei that are shells have come to their cortex. Collective.
+double least_clearance(const Simulation& simulation) {
+  const Tissue& tissue = simulation.tissue();
+  double least = 1e300;
+  for (std::size_t n = 0; n < tissue.nuclei.size(); ++n) {
+    dcm::NucleusView view;
+    view.cell_topology = &tissue.shells.topology(tissue.nuclei.owner[n]);
+    view.cell = tissue.shells.nodes(tissue.nuclei.owner[n]);
+    view.nucleus = tissue.nuclei.shells.nodes(n);
+    least = std::min(least, dcm::nucleus_clearance(view));
+  }
+  least = simulation.comm().min(least);
+  return least < 1e300 ? least : 0.0;
 }
 
 void measure_fields(const Simulation& simulation, Measures& out) {
@@ -115,11 +133,12 @@ Measures measure(Simulation& simulation) {
   for (std::size_t i = 0; i < center.size(); ++i) {
     const CellRow& row = tissue.cells.rows[i];
     const bool is_shell = row.body == BodyKind::kShell;
+    const auto nucleus = is_shell ? simulation.mechanics().nucleus_of(static_cast<std::uint32_t>(shell)) : std::nullopt;
     const std::size_t body = is_shell ? shell++ : sphere++;
     const CellType& type = model.types[row.type];
     const double volume = values.volume[body], p = values.pressure[body];
     const Vec3d from = center[i] - middle;
-    const double r = radius_of(volume), law = volume_by_law(row, tissue.cells.side.reference_excess[i], type, p);
+    const double r = radius_of(volume), law = volume_by_law(row, tissue.cells.side.reference_excess[i], type, p, nucleus);
     sums[kVolume].add(volume);
     sums[kVolumeX].add(volume * from.x);
     sums[kVolumeY].add(volume * from.y);
@@ -145,6 +164,8 @@ Measures measure(Simulation& simulation) {
   out.overlap = over_ranks(deepest_overlap(simulation), comm);
   measure_fields(simulation, out);
   measure_packing(simulation, out);
+  if (std::any_of(model.types.begin(), model.types.end(), [](const CellType& type) { return type.interior.has_nuclear_shell(); }))
+    out.nucleus_clearance = least_clearance(simulation);
   out.obstacle_force = simulation.mechanics().obstacle_forces(tissue);
   out.grip_force = grip_forces(model, tissue, comm);
   if (out.cells == 0) return out;

@@ -26,7 +26,9 @@ struct Measures {
   double shell_pressure = 0.0;     ///< over shells [kPa]
   Extreme pressure;                ///< [kPa]
   double mean_contact_area = 0.0;  ///< per cell [µm²]
-  Extreme overlap;                 ///< deepest penetration of a surface (not of two spheres) [µm]
+  double nucleus_clearance =
+      0.0;          ///< least distance of a node of a nucleus that is a shell from its cortex, < 0 outside; 0: there is none [µm]
+  Extreme overlap;  ///< deepest penetration of a surface (not of two spheres) [µm]
   /// |V_i − V_i^law| / V_i^law of the worst cell. V^law is built from the cell's row alone: target volume V_t and what is left of an
   /// exchange of bodies x; V_t e^x for a sphere, V_t exp(2γ/(R K_V) + x − p/K_V) for a shell of pressure p (dcm.md: p = −K_V ln(V/V0)).
   /// Rounding, unless growth, division or a swap lost volume on the way from the row to the body.

@@ -16,29 +16,35 @@ Vec3d crossing(std::uint32_t i, std::uint32_t j, const Vec3d* x, const std::vect
 
 CutFaces::CutFaces(const Snapshot& snapshot, const Projection& projection, const CutPlane& cut)
     : normal_(projection.direction(cut.normal)), pixels_per_um_(projection.camera.pixels_per_um) {
-  std::vector<double> height;
-  for (const auto& shell : snapshot.shells) {
-    const Vec3d* x = snapshot.nodes.data() + shell.first_node;
-    height.resize(shell.node_count);
-    for (std::size_t i = 0; i < shell.node_count; ++i) height[i] = dot(x[i] - cut.point, cut.normal);
-    Outline outline{{}, 1e300, -1e300, static_cast<std::int32_t>(2 * shell.cell + 1)};
-    for (const Triangle& face : snapshot.topologies[shell.topology]) {
-      // A node on the plane counts as above it: then every crossed face has exactly one falling and one rising edge.
-      Vec3d fall, rise;
-      int crossed = 0;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const auto i = face[c], j = face[(c + 1) % 3];
-        if ((height[i] >= 0.0) == (height[j] >= 0.0)) continue;
-        ++crossed;
-        (height[i] >= 0.0 ? fall : rise) = projection.pixel(crossing(i, j, x, height));
-      }
-      if (crossed != 2) continue;
-      outline.segments.push_back({fall.x, fall.y, rise.x, rise.y});
-      outline.low_y = std::min({outline.low_y, fall.y, rise.y});
-      outline.high_y = std::max({outline.high_y, fall.y, rise.y});
+  for (const auto& shell : snapshot.shells)
+    add_outline(snapshot, shell, snapshot.nodes, projection, cut, {{}, 1e300, -1e300, static_cast<std::int32_t>(2 * shell.cell + 1)});
+  std::size_t number = snapshot.cells.size() + snapshot.nuclei.size();  // as the renderer colours them
+  for (const auto& nucleus : snapshot.nuclear_shells)
+    add_outline(snapshot, nucleus, snapshot.nuclear_nodes, projection, cut,
+                {{}, 1e300, -1e300, static_cast<std::int32_t>(2 * number++ + 1), static_cast<std::int32_t>(2 * nucleus.cell + 1)});
+}
+
+void CutFaces::add_outline(const Snapshot& snapshot, const Snapshot::Shell& shell, std::span<const Vec3d> nodes,
+                           const Projection& projection, const CutPlane& cut, Outline outline) {
+  const Vec3d* x = nodes.data() + shell.first_node;
+  std::vector<double> height(shell.node_count);
+  for (std::size_t i = 0; i < shell.node_count; ++i) height[i] = dot(x[i] - cut.point, cut.normal);
+  for (const Triangle& face : snapshot.topologies[shell.topology]) {
+    // A node on the plane counts as above it: then every crossed face has exactly one falling and one rising edge.
+    Vec3d fall, rise;
+    int crossed = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto i = face[c], j = face[(c + 1) % 3];
+      if ((height[i] >= 0.0) == (height[j] >= 0.0)) continue;
+      ++crossed;
+      (height[i] >= 0.0 ? fall : rise) = projection.pixel(crossing(i, j, x, height));
     }
-    if (!outline.segments.empty()) outlines_.push_back(std::move(outline));
+    if (crossed != 2) continue;
+    outline.segments.push_back({fall.x, fall.y, rise.x, rise.y});
+    outline.low_y = std::min({outline.low_y, fall.y, rise.y});
+    outline.high_y = std::max({outline.high_y, fall.y, rise.y});
   }
+  if (!outline.segments.empty()) outlines_.push_back(std::move(outline));
 }
 
 void CutFaces::draw(int first, int last, std::span<const Disc> spheres, const ClipDepth& clip, PixelBuffer& pixels) const {
@@ -87,7 +93,11 @@ void CutFaces::fill(const Outline& outline, int first, int last, const ClipDepth
       if (winding == 0) continue;
       const int x0 = std::max(0, static_cast<int>(std::ceil(hits[h].x - 0.5)));
       const int x1 = std::min(pixels.width - 1, static_cast<int>(std::ceil(hits[h + 1].x - 0.5)) - 1);
-      for (int x = x0; x <= x1; ++x) pixels.put(pixels.index(x, y), static_cast<float>(clip.at(x, y)), outline.surface, normal_);
+      for (int x = x0; x <= x1; ++x) {
+        const std::size_t i = pixels.index(x, y);
+        if (outline.within != PixelBuffer::kNothing && pixels.surface[i] != outline.within) continue;
+        pixels.put(i, static_cast<float>(clip.at(x, y)), outline.surface, normal_);
+      }
     }
   }
 }

@@ -7,7 +7,7 @@
 
 namespace morula::scenarios {
 
-/// The faces that a cut plane leaves on the cells it goes through.
+/// The faces that a cut plane leaves on the cells it goes through, and within them on nuclei that are shells.
 class CutFaces {
  public:
   CutFaces() = default;
@@ -25,7 +25,10 @@ class CutFaces {
     std::vector<Segment> segments;  ///< closed loops, in no order
     double low_y, high_y;
     std::int32_t surface;
+    std::int32_t within = PixelBuffer::kNothing;  ///< of a nucleus: only where this was drawn
   };
+  void add_outline(const Snapshot& snapshot, const Snapshot::Shell& shell, std::span<const Vec3d> nodes, const Projection& projection,
+                   const CutPlane& cut, Outline outline);
   void fill(const Outline& outline, int first, int last, const ClipDepth& clip, PixelBuffer& pixels) const;
 
   std::vector<Outline> outlines_;

@@ -112,11 +112,13 @@ Status read_partners(const Hdf5Reader& file, std::uint64_t first, const std::vec
   return {};
 }
 
-Status read_shell_heads(const Hdf5Reader& file, std::uint64_t first, std::uint64_t count, ShapeLibrary& library, dcm::Shells& out) {
-  MORULA_TRY_ASSIGN(const std::vector<std::uint32_t> shape, file.read<std::uint32_t>("shells/shape", first, count));
-  MORULA_TRY_ASSIGN(out.type, file.read<std::uint16_t>("shells/type", first, count));
-  MORULA_TRY_ASSIGN(out.reference_volume, file.read<double>("shells/reference_volume", first, count));
-  MORULA_TRY_ASSIGN(out.rest_volume, file.read<double>("shells/rest_volume", first, count));
+/// `group`: `shells/`, or that of the nuclei that are shells.
+Status read_shell_heads(const Hdf5Reader& file, const std::string& group, std::uint64_t first, std::uint64_t count, ShapeLibrary& library,
+                        dcm::Shells& out) {
+  MORULA_TRY_ASSIGN(const std::vector<std::uint32_t> shape, file.read<std::uint32_t>(group + "shape", first, count));
+  MORULA_TRY_ASSIGN(out.type, file.read<std::uint16_t>(group + "type", first, count));
+  MORULA_TRY_ASSIGN(out.reference_volume, file.read<double>(group + "reference_volume", first, count));
+  MORULA_TRY_ASSIGN(out.rest_volume, file.read<double>(group + "rest_volume", first, count));
   const std::set<std::uint32_t> used(shape.begin(), shape.end());
   MORULA_TRY_ASSIGN(const auto shapes, read_shapes(file, {used.begin(), used.end()}, library));
   for (const std::uint32_t number : shape) {
@@ -127,17 +129,19 @@ Status read_shell_heads(const Hdf5Reader& file, std::uint64_t first, std::uint64
   return {};
 }
 
-Status read_shell_arrays(const Hdf5Reader& file, std::uint64_t first_node, std::uint64_t first_edge, dcm::Shells& out) {
-  MORULA_TRY_ASSIGN(out.position, file.read<Vec3d>("shells/position", first_node, out.first_node.back()));
-  MORULA_TRY_ASSIGN(out.velocity, file.read<Vec3f>("shells/velocity", first_node, out.first_node.back()));
-  MORULA_TRY_ASSIGN(out.rest_length, file.read<double>("shells/rest_length", first_edge, out.first_edge.back()));
+Status read_shell_arrays(const Hdf5Reader& file, const std::string& group, std::uint64_t first_node, std::uint64_t first_edge,
+                         dcm::Shells& out) {
+  MORULA_TRY_ASSIGN(out.position, file.read<Vec3d>(group + "position", first_node, out.first_node.back()));
+  MORULA_TRY_ASSIGN(out.velocity, file.read<Vec3f>(group + "velocity", first_node, out.first_node.back()));
+  MORULA_TRY_ASSIGN(out.rest_length, file.read<double>(group + "rest_length", first_edge, out.first_edge.back()));
   return {};
 }
 
-/// Nuclei are in the file only where some shell has one.
-Status read_nucleus_flags(const Hdf5Reader& file, std::uint64_t first, std::uint64_t count, std::vector<std::uint8_t>& out) {
-  if (!file.exists("shells/has_nucleus")) return {};
-  MORULA_TRY_ASSIGN(out, file.read<std::uint8_t>("shells/has_nucleus", first, count));
+/// Nuclei of a kind are in the file only where some shell has one.
+Status read_nucleus_flags(const Hdf5Reader& file, const char* name, std::uint64_t first, std::uint64_t count,
+                          std::vector<std::uint8_t>& out) {
+  if (!file.exists(name)) return {};
+  MORULA_TRY_ASSIGN(out, file.read<std::uint8_t>(name, first, count));
   return {};
 }
 
@@ -148,6 +152,21 @@ Status read_nuclei(const Hdf5Reader& file, std::uint64_t first, const std::vecto
   auto next = centers.begin();
   for (const std::uint8_t has : has_nucleus) out.nucleus.push_back(has != 0 ? std::optional(*next++) : std::nullopt);
   return {};
+}
+
+/// Nuclei that are shells, in the order of the shells. Collective.
+Status read_nuclear_shells(const Hdf5Reader& file, std::uint64_t first_shell, std::uint64_t shells, ShapeLibrary& library, const Comm& comm,
+                           dcm::NuclearShells& out) {
+  std::vector<std::uint8_t> has;
+  MORULA_TRY(agree(read_nucleus_flags(file, "shells/has_nuclear_shell", first_shell, shells, has), comm));
+  for (std::uint32_t s = 0; s < has.size(); ++s)
+    if (has[s] != 0) out.owner.push_back(s);
+  if (!file.exists("shells/has_nuclear_shell")) return {};
+  const std::string group = "nuclear_shells/";
+  MORULA_TRY(agree(read_shell_heads(file, group, before_mine(out.size(), comm), out.size(), library, out.shells), comm));
+  const std::uint64_t first_node = before_mine(out.shells.first_node.back(), comm),
+                      first_edge = before_mine(out.shells.first_edge.back(), comm);
+  return agree(read_shell_arrays(file, group, first_node, first_edge, out.shells), comm);
 }
 
 /// Marks and contact of the faces, where any shell had them.
@@ -196,15 +215,30 @@ Status read_cells(const Hdf5Reader& file, ShapeLibrary& library, const Comm& com
   const std::uint64_t first_partner = before_mine(std::accumulate(partner_count.begin(), partner_count.end(), std::uint64_t{0}), comm);
   MORULA_TRY(agree(read_partners(file, first_partner, partner_count, out.spheres), comm));
 
-  MORULA_TRY(agree(read_shell_heads(file, first_shell, shells, library, out.shells), comm));
+  MORULA_TRY(agree(read_shell_heads(file, "shells/", first_shell, shells, library, out.shells), comm));
   std::vector<std::uint8_t> has_nucleus;
-  MORULA_TRY(agree(read_nucleus_flags(file, first_shell, shells, has_nucleus), comm));
+  MORULA_TRY(agree(read_nucleus_flags(file, "shells/has_nucleus", first_shell, shells, has_nucleus), comm));
   const std::uint64_t first_nucleus = before_mine(static_cast<std::uint64_t>(std::count(has_nucleus.begin(), has_nucleus.end(), 1)), comm);
   MORULA_TRY(agree(read_nuclei(file, first_nucleus, has_nucleus, out.shells), comm));
   const std::uint64_t first_node = before_mine(out.shells.first_node.back(), comm),
                       first_edge = before_mine(out.shells.first_edge.back(), comm);
-  MORULA_TRY(agree(read_shell_arrays(file, first_node, first_edge, out.shells), comm));
+  MORULA_TRY(agree(read_shell_arrays(file, "shells/", first_node, first_edge, out.shells), comm));
+  MORULA_TRY(read_nuclear_shells(file, first_shell, shells, library, comm, out.nuclei));
   return read_faces(file, first_shell, comm, out.shells);
+}
+
+/// Adds what a shell and a nucleus that is one have alike.
+void copy_shell(const dcm::Shells& from, std::size_t b, dcm::Shells& to) {
+  to.shape.push_back(from.shape[b]);
+  to.type.push_back(from.type[b]);
+  to.reference_volume.push_back(from.reference_volume[b]);
+  to.rest_volume.push_back(from.rest_volume[b]);
+  to.position.insert(to.position.end(), from.position.begin() + from.first_node[b], from.position.begin() + from.first_node[b + 1]);
+  to.velocity.insert(to.velocity.end(), from.velocity.begin() + from.first_node[b], from.velocity.begin() + from.first_node[b + 1]);
+  to.rest_length.insert(to.rest_length.end(), from.rest_length.begin() + from.first_edge[b],
+                        from.rest_length.begin() + from.first_edge[b + 1]);
+  to.first_node.push_back(static_cast<std::uint32_t>(to.position.size()));
+  to.first_edge.push_back(static_cast<std::uint32_t>(to.rest_length.size()));
 }
 
 /// The same cells in canonical order, bodies with them.
@@ -219,6 +253,7 @@ void put_in_canonical_order(Tissue& tissue) {
   sorted.rows.reserve(rows.size());
   cbm::Spheres s;
   dcm::Shells h;
+  dcm::NuclearShells nuclei;
   for (const std::size_t i : order) {
     sorted.push_back(tissue.cells.full(i));
     const std::size_t b = body[i];
@@ -230,16 +265,11 @@ void put_in_canonical_order(Tissue& tissue) {
       s.attached.push_back(tissue.spheres.attached[b]);
     } else {
       const dcm::Shells& from = tissue.shells;
-      h.shape.push_back(from.shape[b]);
-      h.type.push_back(from.type[b]);
-      h.reference_volume.push_back(from.reference_volume[b]);
-      h.rest_volume.push_back(from.rest_volume[b]);
-      h.position.insert(h.position.end(), from.position.begin() + from.first_node[b], from.position.begin() + from.first_node[b + 1]);
-      h.velocity.insert(h.velocity.end(), from.velocity.begin() + from.first_node[b], from.velocity.begin() + from.first_node[b + 1]);
-      h.rest_length.insert(h.rest_length.end(), from.rest_length.begin() + from.first_edge[b],
-                           from.rest_length.begin() + from.first_edge[b + 1]);
-      h.first_node.push_back(static_cast<std::uint32_t>(h.position.size()));
-      h.first_edge.push_back(static_cast<std::uint32_t>(h.rest_length.size()));
+      copy_shell(from, b, h);
+      if (const std::size_t n = tissue.nuclei.of_shell(b); n < tissue.nuclei.size()) {
+        copy_shell(tissue.nuclei.shells, n, nuclei.shells);
+        nuclei.owner.push_back(static_cast<std::uint32_t>(h.size() - 1));
+      }
       h.nucleus.push_back(from.nucleus_of(b) != nullptr ? std::optional(*from.nucleus_of(b)) : std::nullopt);
       if (!from.face.empty()) h.face.push_back(from.face[b]);
     }
@@ -247,6 +277,7 @@ void put_in_canonical_order(Tissue& tissue) {
   tissue.cells = std::move(sorted);
   tissue.spheres = std::move(s);
   tissue.shells = std::move(h);
+  tissue.nuclei = std::move(nuclei);
 }
 
 Status read_field(const Hdf5Reader& file, const std::string& group, const Comm& comm, fields::Field& field) {
@@ -288,8 +319,13 @@ Status check_against(const Model& model, const Tissue& tissue) {
   for (const CellRow& row : tissue.cells.rows)
     if (row.type >= model.types.size()) return differs("cell types or more", row.type + std::size_t{1}, model.types.size());
   for (std::size_t s = 0; s < tissue.shells.size(); ++s) {
-    const bool has = tissue.shells.nucleus_of(s) != nullptr, wanted = model.types[tissue.shells.type[s]].interior.has_nucleus();
-    if (has != wanted) return differs("nuclei in a shell", has, wanted);
+    const dcm::InteriorParameters& interior = model.types[tissue.shells.type[s]].interior;
+    const bool has = tissue.shells.nucleus_of(s) != nullptr, wanted = interior.has_rigid_nucleus();
+    if (has != wanted) return differs("rigid nuclei in a shell", has, wanted);
+    const std::size_t n = tissue.nuclei.of_shell(s);
+    const std::size_t nodes = n < tissue.nuclei.size() ? tissue.nuclei.shells.topology(n).node_count() : 0;
+    const std::size_t wanted_nodes = interior.has_nuclear_shell() ? interior.nucleus_nodes : 0;
+    if (nodes != wanted_nodes) return differs("nodes in the nucleus of a shell", nodes, wanted_nodes);
   }
   return {};
 }

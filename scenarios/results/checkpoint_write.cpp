@@ -23,10 +23,39 @@ struct SortedCells {
   dcm::Shells shells;
   std::vector<std::uint8_t> has_nucleus;                 ///< by shell
   std::vector<Vec3d> nucleus;                            ///< of those that have one
+  std::vector<std::uint8_t> has_nuclear_shell;           ///< by shell
+  std::vector<std::uint32_t> nuclear_shape;              ///< of those that have one
+  dcm::Shells nuclei;                                    ///< likewise
   std::vector<std::uint32_t> mark_count, contact_count;  ///< by shell
   std::vector<std::uint8_t> mark;
   std::vector<float> contact;
 };
+
+/// What a shell and a nucleus that is one have alike.
+void pack_shell(const dcm::Shells& s, std::size_t shell, const ShapeNumbers& numbers, ByteWriter& out) {
+  const std::uint32_t node = s.first_node[shell], edge = s.first_edge[shell];
+  const std::uint32_t nodes = s.first_node[shell + 1] - node, edges = s.first_edge[shell + 1] - edge;
+  out.put(numbers.by_pointer.at(s.shape[shell].get()));
+  out.put(s.type[shell]);
+  out.put(s.reference_volume[shell]);
+  out.put(s.rest_volume[shell]);
+  out.put(nodes);
+  out.put(edges);
+  out.put_all(std::span(s.position).subspan(node, nodes));
+  out.put_all(std::span(s.velocity).subspan(node, nodes));
+  out.put_all(std::span(s.rest_length).subspan(edge, edges));
+}
+
+void unpack_shell(ByteReader& in, std::vector<std::uint32_t>& shape, dcm::Shells& out) {
+  shape.push_back(in.get<std::uint32_t>());
+  out.type.push_back(in.get<std::uint16_t>());
+  out.reference_volume.push_back(in.get<double>());
+  out.rest_volume.push_back(in.get<double>());
+  const auto nodes = in.get<std::uint32_t>(), edges = in.get<std::uint32_t>();
+  in.get_all(nodes, out.position);
+  in.get_all(nodes, out.velocity);
+  in.get_all(edges, out.rest_length);
+}
 
 Parcels pack_cells(const Tissue& tissue, const ShapeNumbers& numbers) {
   Parcels parcels;
@@ -48,17 +77,10 @@ Parcels pack_cells(const Tissue& tissue, const ShapeNumbers& numbers) {
       ++sphere;
     } else {
       const dcm::Shells& s = tissue.shells;
-      const std::uint32_t node = s.first_node[shell], edge = s.first_edge[shell];
-      const std::uint32_t nodes = s.first_node[shell + 1] - node, edges = s.first_edge[shell + 1] - edge;
-      out.put(numbers.by_pointer.at(s.shape[shell].get()));
-      out.put(s.type[shell]);
-      out.put(s.reference_volume[shell]);
-      out.put(s.rest_volume[shell]);
-      out.put(nodes);
-      out.put(edges);
-      out.put_all(std::span(s.position).subspan(node, nodes));
-      out.put_all(std::span(s.velocity).subspan(node, nodes));
-      out.put_all(std::span(s.rest_length).subspan(edge, edges));
+      pack_shell(s, shell, numbers, out);
+      const std::size_t nuclear = tissue.nuclei.of_shell(shell);
+      out.put(std::uint8_t{nuclear < tissue.nuclei.size()});
+      if (nuclear < tissue.nuclei.size()) pack_shell(tissue.nuclei.shells, nuclear, numbers, out);
       const Vec3d* nucleus = s.nucleus_of(shell);
       out.put(std::uint8_t{nucleus != nullptr});
       if (nucleus != nullptr) out.put(*nucleus);
@@ -87,14 +109,9 @@ SortedCells unpack_cells(const Parcels& parcels) {
       out.partner_count.push_back(in.get<std::uint32_t>());
       in.get_all(out.partner_count.back(), out.partners);
     } else {
-      out.shape.push_back(in.get<std::uint32_t>());
-      out.shells.type.push_back(in.get<std::uint16_t>());
-      out.shells.reference_volume.push_back(in.get<double>());
-      out.shells.rest_volume.push_back(in.get<double>());
-      const auto nodes = in.get<std::uint32_t>(), edges = in.get<std::uint32_t>();
-      in.get_all(nodes, out.shells.position);
-      in.get_all(nodes, out.shells.velocity);
-      in.get_all(edges, out.shells.rest_length);
+      unpack_shell(in, out.shape, out.shells);
+      out.has_nuclear_shell.push_back(in.get<std::uint8_t>());
+      if (out.has_nuclear_shell.back() != 0) unpack_shell(in, out.nuclear_shape, out.nuclei);
       out.has_nucleus.push_back(in.get<std::uint8_t>());
       if (out.has_nucleus.back() != 0) out.nucleus.push_back(in.get<Vec3d>());
       out.mark_count.push_back(in.get<std::uint32_t>());
@@ -104,6 +121,16 @@ SortedCells unpack_cells(const Parcels& parcels) {
     }
   }
   return out;
+}
+
+void add_shells(StoragePlan& plan, const std::string& group, const std::vector<std::uint32_t>& shape, const dcm::Shells& shells) {
+  plan.add(group + "shape", "1", shape);
+  plan.add(group + "type", "1", shells.type);
+  plan.add(group + "reference_volume", "um^3", shells.reference_volume);
+  plan.add(group + "rest_volume", "um^3", shells.rest_volume);
+  plan.add(group + "position", "um", shells.position);
+  plan.add(group + "velocity", "um/s", shells.velocity);
+  plan.add(group + "rest_length", "um", shells.rest_length);
 }
 
 void add_cells(StoragePlan& plan, const SortedCells& cells, const Comm& comm) {
@@ -118,13 +145,11 @@ void add_cells(StoragePlan& plan, const SortedCells& cells, const Comm& comm) {
   plan.add("spheres/velocity", "um/s", cells.spheres.velocity);
   plan.add("spheres/partner_count", "1", cells.partner_count);
   plan.add("spheres/partners", "1", cells.partners);
-  plan.add("shells/shape", "1", cells.shape);
-  plan.add("shells/type", "1", cells.shells.type);
-  plan.add("shells/reference_volume", "um^3", cells.shells.reference_volume);
-  plan.add("shells/rest_volume", "um^3", cells.shells.rest_volume);
-  plan.add("shells/position", "um", cells.shells.position);
-  plan.add("shells/velocity", "um/s", cells.shells.velocity);
-  plan.add("shells/rest_length", "um", cells.shells.rest_length);
+  add_shells(plan, "shells/", cells.shape, cells.shells);
+  if (comm.any(!cells.nuclear_shape.empty())) {
+    plan.add("shells/has_nuclear_shell", "1", cells.has_nuclear_shell);
+    add_shells(plan, "nuclear_shells/", cells.nuclear_shape, cells.nuclei);
+  }
   if (comm.any(!cells.nucleus.empty())) {
     plan.add("shells/has_nucleus", "1", cells.has_nucleus);
     plan.add("shells/nucleus", "um", cells.nucleus);
@@ -201,7 +226,9 @@ std::size_t brick_voxel_count(const fields::Grid& grid, std::int64_t brick) {
 Status write_checkpoint(const std::filesystem::path& path, const Tissue& tissue, const CheckpointInfo& info, const Comm& comm) {
   StoragePlan plan(comm);
   add_globals(plan, tissue, info);
-  const ShapeNumbers numbers = add_shapes(plan, tissue.shells.shape, comm);
+  auto shapes = tissue.shells.shape;
+  shapes.insert(shapes.end(), tissue.nuclei.shells.shape.begin(), tissue.nuclei.shells.shape.end());
+  const ShapeNumbers numbers = add_shapes(plan, shapes, comm);
   const SortedCells cells = unpack_cells(sort_over_ranks(pack_cells(tissue, numbers), comm));
   add_cells(plan, cells, comm);
   for (std::size_t f = 0; f < tissue.fields.size(); ++f) MORULA_TRY(add_field(plan, "fields/" + std::to_string(f), tissue.fields[f], comm));

@@ -39,6 +39,8 @@ struct Snapshot {
     Vec3d center;         ///< [µm]
     double radius = 0.0;  ///< [µm]
   };
+  /// A nucleus that is a shell: nodes of `nuclear_nodes`, faces of topologies[topology].
+  using NuclearShell = Shell;
   struct Grid {
     std::string name;
     Vec3d low, spacing;  ///< [µm]
@@ -49,8 +51,10 @@ struct Snapshot {
   double time = 0.0;            ///< [s]
   std::vector<Cell> cells;      ///< sorted by id
   std::vector<Shell> shells;    ///< in the order of their cells
-  std::vector<Nucleus> nuclei;  ///< in the order of their cells
+  std::vector<Nucleus> nuclei;  ///< the rigid ones, in the order of their cells
   std::vector<Vec3d> nodes;
+  std::vector<NuclearShell> nuclear_shells;  ///< in the order of their cells
+  std::vector<Vec3d> nuclear_nodes;
   std::vector<std::vector<Triangle>> topologies;
   std::vector<std::string> mark_names;   ///< of the bits of a face's marks
   std::vector<std::uint8_t> face_marks;  ///< by face, in the order of the shells; empty when the study has no marks

@@ -28,12 +28,26 @@ Status read_cells(const Hdf5Reader& file, const std::string& group, Snapshot& ou
   return status;
 }
 
+/// Surfaces of cells, or of nuclei.
+Status read_surfaces(const Hdf5Reader& file, const std::string& group, const Snapshot& snapshot, std::vector<Snapshot::Shell>& shells,
+                     std::vector<Vec3d>& nodes) {
+  MORULA_TRY_ASSIGN(const auto cell, file.read<std::uint64_t>(group + "cell"));
+  MORULA_TRY_ASSIGN(const auto first, file.read<std::uint64_t>(group + "first_node", 0, cell.size()));
+  MORULA_TRY_ASSIGN(const auto count, file.read<std::uint32_t>(group + "node_count", 0, cell.size()));
+  MORULA_TRY_ASSIGN(const auto topology, file.read<std::uint32_t>(group + "topology", 0, cell.size()));
+  MORULA_TRY_ASSIGN(nodes, file.read<Vec3d>(group + "node"));
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    if (cell[i] >= snapshot.cells.size() || topology[i] >= snapshot.topologies.size() || first[i] + count[i] > nodes.size())
+      return Error{ErrorKind::kFile, "a shell in " + group + " points outside its arrays", ""};
+    for (const Triangle& face : snapshot.topologies[topology[i]])
+      for (const std::uint32_t node : face)
+        if (node >= count[i]) return Error{ErrorKind::kFile, "a face in " + group + " points outside its shell", ""};
+    shells.push_back({static_cast<std::uint32_t>(cell[i]), static_cast<std::uint32_t>(first[i]), count[i], topology[i]});
+  }
+  return {};
+}
+
 Status read_shells(const Hdf5Reader& file, const std::string& group, Snapshot& out) {
-  MORULA_TRY_ASSIGN(const auto cell, file.read<std::uint64_t>(group + "shells/cell"));
-  MORULA_TRY_ASSIGN(const auto first, file.read<std::uint64_t>(group + "shells/first_node", 0, cell.size()));
-  MORULA_TRY_ASSIGN(const auto count, file.read<std::uint32_t>(group + "shells/node_count", 0, cell.size()));
-  MORULA_TRY_ASSIGN(const auto topology, file.read<std::uint32_t>(group + "shells/topology", 0, cell.size()));
-  MORULA_TRY_ASSIGN(out.nodes, file.read<Vec3d>(group + "shells/node"));
   MORULA_TRY_ASSIGN(const auto face_count, file.read<std::uint32_t>(group + "topologies/face_count"));
   std::uint64_t place = 0;
   for (const std::uint32_t faces : face_count) {
@@ -41,14 +55,9 @@ Status read_shells(const Hdf5Reader& file, const std::string& group, Snapshot& o
     out.topologies.push_back(std::move(list));
     place += faces;
   }
-  for (std::size_t i = 0; i < cell.size(); ++i) {
-    if (cell[i] >= out.cells.size() || topology[i] >= out.topologies.size() || first[i] + count[i] > out.nodes.size())
-      return Error{ErrorKind::kFile, "a shell in " + group + " points outside its arrays", ""};
-    for (const Triangle& face : out.topologies[topology[i]])
-      for (const std::uint32_t node : face)
-        if (node >= count[i]) return Error{ErrorKind::kFile, "a face in " + group + " points outside its shell", ""};
-    out.shells.push_back({static_cast<std::uint32_t>(cell[i]), static_cast<std::uint32_t>(first[i]), count[i], topology[i]});
-  }
+  MORULA_TRY(read_surfaces(file, group + "shells/", out, out.shells, out.nodes));
+  if (file.exists(group + "nuclear_shells/cell"))
+    MORULA_TRY(read_surfaces(file, group + "nuclear_shells/", out, out.nuclear_shells, out.nuclear_nodes));
   if (!file.exists(group + "mark_names")) return {};
   MORULA_TRY_ASSIGN(out.mark_names, file.texts(group + "mark_names"));
   MORULA_TRY_ASSIGN(out.face_marks, file.read<std::uint8_t>(group + "shells/face_marks"));

@@ -64,6 +64,8 @@ Parcels pack_cells(const Snapshot& local, const std::vector<std::uint32_t>& topo
   for (const Snapshot::Shell& shell : local.shells) shell_of[shell.cell] = &shell;
   std::vector<const Snapshot::Nucleus*> nucleus_of(local.cells.size(), nullptr);
   for (const Snapshot::Nucleus& nucleus : local.nuclei) nucleus_of[nucleus.cell] = &nucleus;
+  std::vector<const Snapshot::NuclearShell*> nuclear_shell_of(local.cells.size(), nullptr);
+  for (const Snapshot::NuclearShell& nucleus : local.nuclear_shells) nuclear_shell_of[nucleus.cell] = &nucleus;
   std::vector<std::size_t> first_face(local.cells.size(), 0);
   std::size_t faces = 0;
   for (const Snapshot::Shell& shell : local.shells) {
@@ -85,6 +87,12 @@ Parcels pack_cells(const Snapshot& local, const std::vector<std::uint32_t>& topo
         out.put(nucleus_of[c]->center);
         out.put(nucleus_of[c]->radius);
       }
+      const Snapshot::NuclearShell* nuclear = nuclear_shell_of[c];
+      out.put(std::uint32_t{nuclear == nullptr ? 0 : nuclear->node_count});
+      if (nuclear != nullptr) {
+        out.put(topology_number[nuclear->topology]);
+        out.put_all(std::span(local.nuclear_nodes).subspan(nuclear->first_node, nuclear->node_count));
+      }
       if (!local.mark_names.empty())
         out.put_all(std::span(local.face_marks).subspan(first_face[c], local.topologies[shell->topology].size()));
     }
@@ -93,11 +101,34 @@ Parcels pack_cells(const Snapshot& local, const std::vector<std::uint32_t>& topo
   return parcels;
 }
 
+/// Surfaces as columns: those of cells, or of nuclei.
+struct SurfaceColumns {
+  std::vector<std::uint64_t> cell, first_node;
+  std::vector<std::uint32_t> node_count, topology;
+  std::vector<Vec3d> nodes;
+
+  void take(std::uint64_t of_cell, std::uint32_t count, ByteReader& in) {
+    cell.push_back(of_cell);
+    first_node.push_back(nodes.size());
+    node_count.push_back(count);
+    topology.push_back(in.get<std::uint32_t>());
+    in.get_all(count, nodes);
+  }
+  void add_to(StoragePlan& plan, const std::string& group, const Comm& comm) {
+    const auto before = static_cast<std::uint64_t>(comm.exclusive_scan(static_cast<std::int64_t>(nodes.size())));
+    for (std::uint64_t& first : first_node) first += before;
+    plan.add(group + "cell", "1", cell);
+    plan.add(group + "first_node", "1", first_node);
+    plan.add(group + "node_count", "1", node_count);
+    plan.add(group + "topology", "1", topology);
+    plan.add(group + "node", "um", nodes);
+  }
+};
+
 void add_cells(StoragePlan& plan, const Parcels& sorted, bool marks, const Comm& comm) {
   std::vector<Snapshot::Cell> cells;
-  std::vector<std::uint64_t> shell_cell, first_node;
-  std::vector<std::uint32_t> node_count, topology;
-  std::vector<Vec3d> nodes, nucleus_center;
+  SurfaceColumns shells, nuclear_shells;
+  std::vector<Vec3d> nucleus_center;
   std::vector<std::uint64_t> nucleus_cell;
   std::vector<double> nucleus_radius;
   std::vector<std::uint8_t> face_marks;
@@ -107,31 +138,23 @@ void add_cells(StoragePlan& plan, const Parcels& sorted, bool marks, const Comm&
     cells.push_back(in.get<Snapshot::Cell>());
     const auto count = in.get<std::uint32_t>();
     if (count == 0) continue;
-    shell_cell.push_back(first_cell + i);
-    first_node.push_back(nodes.size());
-    node_count.push_back(count);
-    topology.push_back(in.get<std::uint32_t>());
-    in.get_all(count, nodes);
+    shells.take(first_cell + i, count, in);
     if (in.get<std::uint8_t>() != 0) {
       nucleus_cell.push_back(first_cell + i);
       nucleus_center.push_back(in.get<Vec3d>());
       nucleus_radius.push_back(in.get<double>());
     }
+    if (const auto nuclear = in.get<std::uint32_t>(); nuclear > 0) nuclear_shells.take(first_cell + i, nuclear, in);
     if (marks) in.get_all(in.rest(), face_marks);
   }
-  const auto nodes_before = static_cast<std::uint64_t>(comm.exclusive_scan(static_cast<std::int64_t>(nodes.size())));
-  for (std::uint64_t& first : first_node) first += nodes_before;
   for_each_snapshot_column([&](const std::string& name, const char* units, auto member) {
     std::vector<std::remove_cvref_t<decltype(cells.front().*member)>> column;
     for (const Snapshot::Cell& cell : cells) column.push_back(cell.*member);
     plan.add("cells/" + name, units, column);
   });
-  plan.add("shells/cell", "1", shell_cell);
-  plan.add("shells/first_node", "1", first_node);
-  plan.add("shells/node_count", "1", node_count);
-  plan.add("shells/topology", "1", topology);
-  plan.add("shells/node", "um", nodes);
+  shells.add_to(plan, "shells/", comm);
   if (marks) plan.add("shells/face_marks", "1", face_marks);
+  if (comm.any(!nuclear_shells.cell.empty())) nuclear_shells.add_to(plan, "nuclear_shells/", comm);
   if (!comm.any(!nucleus_cell.empty())) return;
   plan.add("nuclei/cell", "1", nucleus_cell);
   plan.add("nuclei/center", "um", nucleus_center);
@@ -185,6 +208,11 @@ Status check_local(const Snapshot& local, std::span<const fields::Field> fields)
   for (const Snapshot::Nucleus& nucleus : local.nuclei)
     if (nucleus.cell >= local.cells.size() || local.cells[nucleus.cell].body != BodyKind::kShell)
       return Error{ErrorKind::kInternal, "a snapshot's nucleus is in no shell", ""};
+  for (const Snapshot::NuclearShell& nucleus : local.nuclear_shells)
+    if (nucleus.cell >= local.cells.size() || local.cells[nucleus.cell].body != BodyKind::kShell ||
+        nucleus.topology >= local.topologies.size() || nucleus.node_count == 0 ||
+        std::size_t{nucleus.first_node} + nucleus.node_count > local.nuclear_nodes.size())
+      return Error{ErrorKind::kInternal, "a snapshot's nucleus points outside its arrays", ""};
   return {};
 }
 

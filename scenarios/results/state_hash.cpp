@@ -61,7 +61,12 @@ Hash128 hash_of_cells(const Tissue& tissue) {
     } else {
       const auto [shape, is_new] = shapes.try_emplace(tissue.shells.shape[shell].get());
       if (is_new) shape->second = shape_hash(*shape->first);
-      put_shell(bytes, tissue.shells, shell++, shape->second);
+      put_shell(bytes, tissue.shells, shell, shape->second);
+      if (const std::size_t n = tissue.nuclei.of_shell(shell++); n < tissue.nuclei.size()) {
+        const auto [nuclear, is_new_too] = shapes.try_emplace(tissue.nuclei.shells.shape[n].get());
+        if (is_new_too) nuclear->second = shape_hash(*nuclear->first);
+        put_shell(bytes, tissue.nuclei.shells, n, nuclear->second);
+      }
     }
     sum += hash_of(bytes, Part::kCell);
   }

@@ -121,18 +121,25 @@ std::string mesh_file(const Snapshot& s, const Mesh& mesh, const std::string& po
          data_array("types", mesh.types) + "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
-std::string shells_file(const Snapshot& s) {
+/// The triangles of these surfaces, and which cell each belongs to.
+Mesh triangles(const Snapshot& s, const std::vector<Snapshot::Shell>& shells, const std::vector<Vec3d>& nodes,
+               std::vector<std::uint32_t>& cell_of_face) {
   constexpr std::uint8_t kTriangle = 5;  // VTK_TRIANGLE
   Mesh mesh;
-  std::vector<std::uint32_t> cell_of_face;
-  mesh.points = s.nodes;
-  for (const Snapshot::Shell& shell : s.shells)
+  mesh.points = nodes;
+  for (const Snapshot::Shell& shell : shells)
     for (const Triangle& face : s.topologies[shell.topology]) {
       for (const std::uint32_t node : face) mesh.connectivity.push_back(std::int64_t{shell.first_node} + node);
       mesh.offsets.push_back(static_cast<std::int64_t>(mesh.connectivity.size()));
       mesh.types.push_back(kTriangle);
       cell_of_face.push_back(shell.cell);
     }
+  return mesh;
+}
+
+std::string shells_file(const Snapshot& s) {
+  std::vector<std::uint32_t> cell_of_face;
+  const Mesh mesh = triangles(s, s.shells, s.nodes, cell_of_face);
   std::string marks;
   for (std::size_t bit = 0; bit < s.mark_names.size(); ++bit) {
     std::vector<std::uint8_t> column;
@@ -172,6 +179,13 @@ std::string nuclei_file(const Snapshot& s) {
     id.push_back(s.cells[nucleus.cell].id.bits());
   }
   return mesh_file(s, mesh, data_array("cell_id", id) + data_array("radius [um]", radius), "");
+}
+
+/// Nuclei that are shells, with the numbers of their cells.
+std::string nuclear_shells_file(const Snapshot& s) {
+  std::vector<std::uint32_t> cell_of_face;
+  const Mesh mesh = triangles(s, s.nuclear_shells, s.nuclear_nodes, cell_of_face);
+  return mesh_file(s, mesh, "", cell_arrays(s, cell_of_face));
 }
 
 std::string grid_file(const Snapshot& s, const Snapshot::Grid& grid) {
@@ -224,6 +238,8 @@ Status write_vtk(const Snapshot& snapshot, const fs::path& folder, std::size_t n
   MORULA_TRY(write_file_atomically(folder / numbered("shells", number, ".vtu"), shells_file(snapshot)));
   MORULA_TRY(write_file_atomically(folder / numbered("spheres", number, ".vtu"), spheres_file(snapshot)));
   if (!snapshot.nuclei.empty()) MORULA_TRY(write_file_atomically(folder / numbered("nuclei", number, ".vtu"), nuclei_file(snapshot)));
+  if (!snapshot.nuclear_shells.empty())
+    MORULA_TRY(write_file_atomically(folder / numbered("nuclear_shells", number, ".vtu"), nuclear_shells_file(snapshot)));
   for (const Snapshot::Grid& grid : snapshot.fields)
     MORULA_TRY(write_file_atomically(folder / numbered("field_" + grid.name, number, ".vti"), grid_file(snapshot, grid)));
   return {};
@@ -233,11 +249,13 @@ Status write_vtk_collections(const fs::path& folder, const std::vector<std::size
                              const std::vector<std::string>& field_names) {
   MORULA_TRY(write_collection(folder, "shells", ".vtu", numbers, times));
   MORULA_TRY(write_collection(folder, "spheres", ".vtu", numbers, times));
-  std::vector<std::size_t> with_nuclei;
-  std::vector<double> when;
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    if (fs::exists(folder / numbered("nuclei", numbers[i], ".vtu"))) with_nuclei.push_back(numbers[i]), when.push_back(times[i]);
-  if (!with_nuclei.empty()) MORULA_TRY(write_collection(folder, "nuclei", ".vtu", with_nuclei, when));
+  for (const char* stem : {"nuclei", "nuclear_shells"}) {
+    std::vector<std::size_t> with_nuclei;
+    std::vector<double> when;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      if (fs::exists(folder / numbered(stem, numbers[i], ".vtu"))) with_nuclei.push_back(numbers[i]), when.push_back(times[i]);
+    if (!with_nuclei.empty()) MORULA_TRY(write_collection(folder, stem, ".vtu", with_nuclei, when));
+  }
   for (const std::string& name : field_names) MORULA_TRY(write_collection(folder, "field_" + name, ".vti", numbers, times));
   return {};
 }

@@ -36,8 +36,7 @@ std::vector<LawParameter> held_parameters(const std::string& law) {
 }
 
 /// The values of one type by parameter name, where the model holds them.
-void add_shell_laws(const CellType& type, std::vector<UsedLaw>& out) {
-  const dcm::ShellParameters& p = type.shell;
+void add_shell_laws(const std::string& whose, const dcm::ShellParameters& p, std::vector<UsedLaw>& out) {
   const Values values{{"edge_damping", p.edge_damping},
                       {"isotropic_damping", p.isotropic_damping},
                       {"tension", p.tension},
@@ -62,7 +61,7 @@ void add_shell_laws(const CellType& type, std::vector<UsedLaw>& out) {
     if (p.*law.strength == 0.0) continue;
     LawInfo info = law.info;
     if (auto held = held_parameters(info.name); !held.empty()) info.parameters = std::move(held);
-    out.push_back({"shell of " + type.name, std::move(info), values});
+    out.push_back({whose, std::move(info), values});
   }
 }
 
@@ -87,6 +86,8 @@ void add_interior_laws(const CellType& type, std::vector<UsedLaw>& out) {
   for (LawInfo& law : dcm::interior_laws()) {
     const bool to_nucleus = law.name == "nucleus_links", across = law.name == "cortex_links";
     const bool used = across ? p.cortex_links.act() : p.has_nucleus() && (!to_nucleus || p.nucleus_links.act());
+    const bool of_shells = law.name == "nuclear_shell_contact" || law.name == "cytosol_pressure", of_rigid = law.name == "nucleus_contact";
+    if ((of_shells && !p.has_nuclear_shell()) || (of_rigid && !p.has_rigid_nucleus())) continue;
     if (!used) continue;
     Values values = to_nucleus ? links(p.nucleus_links)
                     : across   ? links(p.cortex_links)
@@ -224,7 +225,8 @@ std::vector<UsedLaw> used_laws(const Study& study) {
   std::vector<UsedLaw> out;
   for (const CellType& type : model.types) {
     if (!shells) break;
-    add_shell_laws(type, out);
+    add_shell_laws("shell of " + type.name, type.shell, out);
+    if (type.interior.has_nuclear_shell()) add_shell_laws("nucleus of " + type.name, type.interior.nucleus_shell, out);
     add_interior_laws(type, out);
   }
   add_contacts(model, shells, spheres, out);

@@ -20,8 +20,9 @@ struct BuildContext {
 void build_time_and_numerics(BuildContext& context);
 void build_domain(BuildContext& context);
 void build_cell_types(BuildContext& context);
-/// The shell of one cell type, and whether its laws go together: E513–E515.
-dcm::ShellParameters build_shell(BuildContext& context, const std::string& type_name, const draft::CellType& draft);
+/// The shell of one cell type, or of a nucleus, and whether its laws go together: E513–E515.
+dcm::ShellParameters build_shell(BuildContext& context, const std::string& type_name, const draft::ShellKeys& draft,
+                                 double medium_friction);
 /// The pressure of packing of one cell type's spheres: E515, E530, E531; empty where the study gives none.
 cbm::PackingCurve build_packing(BuildContext& context, const std::string& type_name, const draft::CellType& draft);
 void build_geometry(BuildContext& context);
@@ -29,8 +30,10 @@ void build_geometry(BuildContext& context);
 void build_motion_course(BuildContext& context, const draft::Obstacle& draft, ObstacleSpec& obstacle);
 /// Osmosis of a cell type: E535, E536.
 void build_osmosis(BuildContext& context, const draft::CellType& draft, CellType& type);
-/// Nucleus and links of the shells of a type: E111, E537–E540.
+/// Nucleus and links of the shells of a type: E111, E537–E540, E590–E593.
 dcm::InteriorParameters build_interior(BuildContext& context, const draft::CellType& draft, const std::string& type_name);
+/// Mean edge of an icosphere of this many nodes whose enclosed volume is that of a sphere of radius 1; 0 for another number of nodes.
+double mean_edge(std::uint64_t nodes);
 /// Distance at which shells of a type touch themselves: E582 [µm].
 double build_self_contact(BuildContext& context, const draft::CellType& draft);
 /// The points of a course as a table; E510 where their times do not increase, or there is only one.

@@ -68,11 +68,45 @@ void set_nucleus(BuildContext& c, const draft::CellType& t, const std::string& t
                       d.radius.given ? "at most " + short_number(kWidest * cell) + " um" : "at most 50 %");
 }
 
+/// Mesh and mechanics of a nucleus that is a shell, whose size is known.
+void set_nuclear_shell(BuildContext& c, const draft::CellType& t, const std::string& type_name, dcm::InteriorParameters& out) {
+  const draft::ShellKeys& d = t.nucleus.shell;
+  const std::string whose = "the nucleus of '" + type_name + "'";
+  out.nucleus_shell = build_shell(c, type_name, d, 0.0);
+  if (!d.nodes.known() || !t.radius.mean.known() || out.nucleus_fraction == 0.0) return;
+  out.nucleus_nodes = static_cast<std::uint32_t>(d.nodes.value);
+  if (d.bulk_modulus.known() && d.bulk_modulus.value == 0.0)
+    c.diagnostics.error(591, d.bulk_modulus.place, whose + " has no resistance to changes of its volume",
+                        "a `bulk_modulus` above 0, for example `10 kPa`");
+  const double radius = std::cbrt(out.nucleus_fraction) * t.radius.mean.value;
+  // The pressure of the cytosol and of its own tension: the volume gives way without end where that rises faster than the volume's (E572).
+  const double least = 2.0 * d.tension.value / (3.0 * radius), cytosol = 2.0 * t.tension.value / t.radius.mean.value;
+  if (d.bulk_modulus.value > 0.0 && d.bulk_modulus.value <= std::max(least, cytosol))
+    c.diagnostics.error(591, d.bulk_modulus.given ? d.bulk_modulus.place : d.tension.place,
+                        whose + " would collapse: its volume (K = " + d.bulk_modulus.text + ") does not resist the tension around it",
+                        "`bulk_modulus` of at least " + short_number(3.0 * std::max(least, cytosol)) + " kPa, or less tension");
+  // Between its nodes the surface lies as deep as edge²/(8 R) under the ball; the contact is to see that.
+  const double edge = mean_edge(d.nodes.value) * radius, depth = edge * edge / (8.0 * radius);
+  const Given<double>& range = c.draft.contact.range;
+  if (range.known() && depth > 0.5 * range.value)
+    c.diagnostics.error(592, d.nodes.given ? d.nodes.place : t.nucleus.kind.place,
+                        whose + " is too coarse with " + d.nodes.text + " nodes: its faces lie up to " +
+                            short_number(std::round(100.0 * depth) / 100.0) +
+                            " um under the ball that they stand for, more than half of the contact range",
+                        d.nodes.value < 162 ? "`nodes: 162`" : "more `nodes`, or a longer `contact.range`");
+}
+
 }  // namespace
 
 dcm::InteriorParameters build_interior(BuildContext& c, const draft::CellType& t, const std::string& type_name) {
   dcm::InteriorParameters out;
-  if (t.nucleus.present && t.nucleus.kind.value == "rigid") set_nucleus(c, t, type_name, out);
+  const bool is_shell = t.nucleus.present && t.nucleus.kind.value == "shell";
+  const bool has_nucleus = is_shell || (t.nucleus.present && t.nucleus.kind.value == "rigid");
+  if (has_nucleus) set_nucleus(c, t, type_name, out);
+  if (is_shell) set_nuclear_shell(c, t, type_name, out);
+  for (const Named<bool>& key : t.nucleus.no_effect)
+    c.diagnostics.error(590, key.place, "'" + key.name + "' has no effect on a nucleus of `kind: " + t.nucleus.kind.value + "`",
+                        "`kind: shell`, or leave it away");
   if (t.osmosis.present && t.osmosis.inactive.known() && out.nucleus_fraction > t.osmosis.inactive.value)
     c.diagnostics.error(540, t.osmosis.inactive.given ? t.osmosis.inactive.place : t.nucleus.kind.place,
                         "the nucleus of '" + type_name + "' is " + short_number(100.0 * out.nucleus_fraction) +
@@ -81,7 +115,6 @@ dcm::InteriorParameters build_interior(BuildContext& c, const draft::CellType& t
   const std::uint64_t nodes = t.nodes.known() ? t.nodes.value : 0;
   out.nucleus_links = links_of(c, t.nucleus_links, nodes, type_name);
   out.cortex_links = links_of(c, t.cortex_links, nodes, type_name);
-  const bool has_nucleus = t.nucleus.present && t.nucleus.kind.value == "rigid";
   if (t.nucleus_links.present && !has_nucleus)
     c.diagnostics.error(538, t.nucleus_links.stiffness.place, "shells of '" + type_name + "' have links to a nucleus, but no nucleus",
                         "add for example `nucleus: {radius: 2.5 um}` to `dcm`, or use `cortex_links`");

@@ -12,7 +12,7 @@ namespace {
 bool is_sheet(const std::string& elastic) { return elastic == "neo_hooke" || elastic == "stvk" || elastic == "skalak"; }
 
 /// Laws of one shell that resist changes of its area may add only when the study says so.
-void check_area(BuildContext& c, const std::string& type, const draft::CellType& t) {
+void check_area(BuildContext& c, const std::string& type, const draft::ShellKeys& t) {
   if (t.area_on_top.value) return;
   const bool membrane = is_sheet(t.elastic.value) || t.elastic.value == "springs_with_area";
   const bool local = t.local_area.value > 0.0, global = t.global_area.value > 0.0;
@@ -25,7 +25,7 @@ void check_area(BuildContext& c, const std::string& type, const draft::CellType&
 }
 
 /// Keys of a law that is not the chosen one; their default may stand there, as in a resolved study.
-void check_effect(BuildContext& c, const draft::CellType& t) {
+void check_effect(BuildContext& c, const draft::ShellKeys& t) {
   const auto without_effect = [&](const Given<double>& key, const char* name, const std::string& needs) {
     const bool is_default = key.value == -1.0 || std::isinf(key.value);  // auto; flat, never
     if (key.given && !is_default)
@@ -42,7 +42,7 @@ void check_effect(BuildContext& c, const draft::CellType& t) {
     without_effect(t.turnover, "turnover", "a cortex that is elastic in its plane");
 }
 
-void set_elasticity(BuildContext& c, const draft::CellType& t, dcm::ShellParameters& p) {
+void set_elasticity(BuildContext& c, const draft::ShellKeys& t, dcm::ShellParameters& p) {
   const double young = t.young.value, thickness = t.thickness.value, poisson = t.poisson.value;
   const std::string& law = t.elastic.value;
   const double shear = dcm::sheet_shear_modulus(young, thickness, poisson);
@@ -64,7 +64,7 @@ void set_elasticity(BuildContext& c, const draft::CellType& t, dcm::ShellParamet
                         "`poisson` between 0.3334 and 0.5, or `elastic: neo_hooke`, which takes 0 to 0.5");
 }
 
-void set_bending(BuildContext& c, const draft::CellType& t, dcm::ShellParameters& p) {
+void set_bending(BuildContext& c, const draft::ShellKeys& t, dcm::ShellParameters& p) {
   const double rigidity =
       t.bending.value >= 0.0 ? t.bending.value : dcm::bending_modulus(t.young.value, t.thickness.value, t.poisson.value);
   if (t.bending_law.value == "hinge") p.hinge_stiffness = dcm::hinge_stiffness(rigidity);
@@ -90,7 +90,7 @@ double build_self_contact(BuildContext& c, const draft::CellType& t) {
   return 0.0;
 }
 
-dcm::ShellParameters build_shell(BuildContext& c, const std::string& type_name, const draft::CellType& t) {
+dcm::ShellParameters build_shell(BuildContext& c, const std::string& type_name, const draft::ShellKeys& t, double medium_friction) {
   dcm::ShellParameters p;
   set_elasticity(c, t, p);
   set_bending(c, t, p);
@@ -106,7 +106,7 @@ dcm::ShellParameters build_shell(BuildContext& c, const std::string& type_name, 
   p.shape_stiffness = t.shape_stiffness.value;
   p.barrier_stiffness = t.fold_stiffness.value;
   p.barrier_angle = t.fold_angle.value;
-  p.medium_friction = t.friction_medium.value;
+  p.medium_friction = medium_friction;
   return p;
 }
 

@@ -110,7 +110,7 @@ void build_cell_types(BuildContext& c) {
     type.sphere.poisson = t.sphere_poisson.value;
     type.sphere.adhesive = t.sphere_law.value != "hertz";
     type.sphere.packing = build_packing(c, name, t);
-    type.shell = build_shell(c, name, t);
+    type.shell = build_shell(c, name, t, t.friction_medium.value);
     type.interior = build_interior(c, t, name);
     type.self_contact = build_self_contact(c, t);
     c.study.model.types.push_back(std::move(type));

@@ -8,9 +8,7 @@
 #include "scenarios/study/read_section.h"
 
 namespace morula::scenarios {
-namespace {
 
-/// Mean edge of an icosphere of this many nodes whose enclosed volume is that of a sphere of radius 1.
 double mean_edge(std::uint64_t nodes) {
   struct Level {
     std::uint64_t nodes;
@@ -21,6 +19,8 @@ double mean_edge(std::uint64_t nodes) {
     if (level.nodes == nodes) return level.edge / std::cbrt(level.volume);
   return 0.0;
 }
+
+namespace {
 
 /// Whether a range fits the meshes of the types that it holds for; empty `names`: of all.
 void check_range(BuildContext& c, const Given<double>& range, const std::vector<std::string>& names, const char* key) {
@@ -70,12 +70,16 @@ void check_friction(BuildContext& c) {
   }
 }
 
-/// A biconcave cell is thinner than any nucleus is wide.
+/// A biconcave cell is thinner than any nucleus is wide, and nothing says where a cell from a mesh has room for one.
 void check_nuclei(BuildContext& c) {
   for (std::size_t i = 0; i < c.study.initial.size() && i < c.draft.initial.size(); ++i) {
     const InitialCells& block = c.study.initial[i];
-    if (block.shape != CellShape::kBiconcave || block.type >= c.study.model.types.size()) continue;
+    if (block.type >= c.study.model.types.size()) continue;
     const CellType& type = c.study.model.types[block.type];
+    if (c.draft.initial[i].content.has_meshes && type.interior.has_nucleus())
+      c.diagnostics.error(593, c.draft.initial[i].place, "cells of '" + type.name + "' that come from meshes get no nucleus",
+                          "`nucleus: {kind: none}`, or cells that are placed by `at`");
+    if (block.shape != CellShape::kBiconcave) continue;
     if (type.interior.has_nucleus())
       c.diagnostics.error(537, c.draft.initial[i].content.shape.place, "biconcave cells of '" + type.name + "' have no room for a nucleus",
                           "`nucleus: {kind: none}`, or spherical cells");
@@ -123,7 +127,7 @@ void check_names(BuildContext& c) {
 
 /// Limit by the elasticity in the plane: springs at most 6 k, sheets 7.2 E h, an area modulus likewise, against the friction of a node (and
 /// of its edges along themselves).
-double in_plane_limit(const draft::CellType& t, double node_friction) {
+double in_plane_limit(const draft::ShellKeys& t, double node_friction) {
   const bool springs = t.elastic.value == "springs" || t.elastic.value == "springs_with_area";
   double sheet = t.young.value * t.thickness.value;
   if (t.elastic.value == "skalak" && t.shear_modulus.value >= 0.0) sheet = 3.0 * t.shear_modulus.value;
@@ -134,7 +138,7 @@ double in_plane_limit(const draft::CellType& t, double node_friction) {
 }
 
 /// Limit by tension, global area and bending (dcm.md §1): 7.5 γ/(γ_med L²), 4 K_G/(γ_med R²), 46 k_h/(γ_med a L²), 56 κ/(γ_med L⁴).
-double surface_limit(const draft::CellType& t, double friction, double node_area, double radius) {
+double surface_limit(const draft::ShellKeys& t, double friction, double node_area, double radius) {
   const double edge_square = std::pow(mean_edge(t.nodes.value) * radius, 2);
   const double rigidity =
       t.bending.value >= 0.0 ? t.bending.value : dcm::bending_modulus(t.young.value, t.thickness.value, t.poisson.value);
@@ -167,12 +171,18 @@ double packing_stiffness(const draft::CellType& t, double radius) {
 /// Limit by what holds a nucleus against the little friction it has: its links, and the repulsion over a tenth of its cross-section.
 double nucleus_limit(const draft::CellType& t, double repulsion) {
   const draft::Nucleus& n = t.nucleus;
-  if (!n.present || n.kind.value != "rigid" || n.radius.given == n.volume_fraction.given) return 1e300;
+  if (!n.present || n.kind.value == "none" || n.radius.given == n.volume_fraction.given) return 1e300;
   const double radius = n.radius.given ? n.radius.value : std::cbrt(n.volume_fraction.value) * t.radius.mean.value;
   const draft::Links& l = t.nucleus_links;
   const double links = l.present ? static_cast<double>(std::min(l.number.value, t.nodes.value)) : 0.0;
   const double friction = 6.0 * std::numbers::pi * n.viscosity.value * radius + links * l.damping.value / 3.0;
-  return 2.0 * friction / (links * l.stiffness.value / 3.0 + 0.1 * std::numbers::pi * radius * radius * repulsion);
+  double limit = 2.0 * friction / (links * l.stiffness.value / 3.0 + 0.1 * std::numbers::pi * radius * radius * repulsion);
+  if (n.kind.value != "shell" || !(n.shell.nodes.value > 0)) return limit;
+  // Of a nucleus that is a shell the modes of shells, each node with its share of the drag.
+  const double area = 4.0 * std::numbers::pi * radius * radius, per_area = 6.0 * std::numbers::pi * n.viscosity.value * radius / area;
+  const double node_area = area / static_cast<double>(n.shell.nodes.value);
+  limit = std::min(limit, 2.0 * per_area * radius / (3.0 * std::max(n.shell.bulk_modulus.value, 1e-300)));
+  return std::min({limit, in_plane_limit(n.shell, per_area * node_area), surface_limit(n.shell, per_area, node_area, radius)});
 }
 
 }  // namespace

@@ -8,6 +8,8 @@ void declare_study(Section& section, draft::Study& study);
 
 void declare_cell_type(Section& section, draft::CellType& type);
 void declare_shell(Section& section, draft::CellType& type);
+/// Mesh and mechanics of a shell; `cell` is null for those of a nucleus, whose defaults are others and which has no regions.
+void declare_shell_keys(Section& section, draft::ShellKeys& shell, draft::CellType* cell);
 /// `cbm.packing`.
 void declare_packing(Section& section, draft::CellType& type);
 /// `regions` and `lateral_easing` of the cortex.

@@ -58,9 +58,10 @@ void declare_osmosis_keys(Section& o, draft::Osmosis& osmosis) {
 
 void declare_nucleus(Section& n, draft::Nucleus& nucleus) {
   n.word({.name = "kind",
-          .doc = "rigid: a sphere that floats in the cell, meets the cortex from inside and grows with the cell; none.",
+          .doc = "rigid: a sphere that floats in the cell, meets the cortex from inside and grows with the cell; shell: the same as a "
+                 "deformable shell of its own, with the keys of `dcm` for its mesh and mechanics (`lamina` for `cortex`); none.",
           .fallback = "rigid",
-          .words = {"none", "rigid"},
+          .words = {"none", "rigid", "shell"},
           .example = "rigid",
           .source = "Van Liedekerke et al."},
          nucleus.kind);
@@ -90,6 +91,21 @@ void declare_nucleus(Section& n, draft::Nucleus& nucleus) {
               .example = "1 Pa s",
               .source = "chosen: cytoplasm at the size of organelles"},
              nucleus.viscosity);
+  // Keys of its mechanics that stand beside another kind are noted, so that they can be refused.
+  const bool is_shell = nucleus.kind.value != "rigid" && nucleus.kind.value != "none";
+  draft::ShellKeys unused;
+  declare_shell_keys(n, is_shell ? nucleus.shell : unused, nullptr);
+  const auto note = [&](const char* name, const auto& key) {
+    if (key.given) nucleus.no_effect.push_back({name, key.place, true});
+  };
+  note("nodes", unused.nodes), note("elastic", unused.elastic), note("young", unused.young), note("thickness", unused.thickness);
+  note("poisson", unused.poisson), note("shear_modulus", unused.shear_modulus), note("area_ratio", unused.area_ratio);
+  note("tension", unused.tension), note("turnover", unused.turnover), note("damping", unused.damping);
+  note("isotropic_damping", unused.isotropic_damping), note("local", unused.local_area), note("global", unused.global_area);
+  note("on_top", unused.area_on_top), note("law", unused.bending_law), note("rigidity", unused.bending);
+  note("spontaneous_radius", unused.spontaneous_radius), note("bulk_modulus", unused.bulk_modulus);
+  note("bulk_viscosity", unused.bulk_viscosity), note("shape_stiffness", unused.shape_stiffness);
+  note("stiffness", unused.fold_stiffness), note("angle", unused.fold_angle);
 }
 
 void declare_links(Section& l, draft::Links& links, const char* number) {
@@ -136,7 +152,7 @@ void declare_interior(Section& s, draft::CellType& t) {
   s.group({.name = "cytoskeleton", .doc = "Viscoelastic links inside the cell. They are at rest in the undeformed cell and grow with it."},
           present, [&t](Section& c) {
             c.group({.name = "nucleus_links",
-                     .doc = "Links from nodes of the cortex to the centre of the nucleus.",
+                     .doc = "Links from nodes of the cortex to the centre of the nucleus, or to its nodes where it is a shell.",
                      .optional_section = true,
                      .example = "{stiffness: 0.01 nN/um, damping: 1e-5 N s/m}"},
                     t.nucleus_links.present,

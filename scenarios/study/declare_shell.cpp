@@ -6,7 +6,26 @@ namespace {
 using Q = Quantity;
 constexpr const char* kTable1 = "Van Liedekerke et al., Table 1";
 
-void declare_cortex(Section& c, draft::CellType& t) {
+/// What stands where nothing is given, for the cortex of a cell or the lamina of a nucleus.
+struct Defaults {
+  const char *young, *young_source, *tension, *tension_doc, *tension_source, *bulk, *bulk_source;
+};
+constexpr Defaults kCell{"1 kPa",
+                         kTable1,
+                         "0.1 mN/m",
+                         "Active cortical tension.",
+                         "chosen between 0.03 mN/m (neutrophil, Hochmuth 2000) and 0.4 mN/m (fibroblast, Tinevez et al. 2009)",
+                         "2.5 kPa",
+                         kTable1};
+constexpr Defaults kNucleus{"5 kPa",
+                            "chosen: five times the cortex",
+                            "0 mN/m",
+                            "Active tension of the lamina.",
+                            "chosen: off",
+                            "10 kPa",
+                            "chosen: four times the cell"};
+
+void declare_cortex(Section& c, draft::ShellKeys& t, const Defaults& fallback, draft::CellType* cell) {
   c.word(
       {.name = "elastic",
        .doc =
@@ -19,16 +38,16 @@ void declare_cortex(Section& c, draft::CellType& t) {
        .source = "Van Liedekerke et al."},
       t.elastic);
   c.quantity({.name = "young",
-              .doc = "Young's modulus E of the cortex.",
+              .doc = "Young's modulus E of the layer.",
               .quantity = Q::kPressure,
-              .fallback = "1 kPa",
+              .fallback = fallback.young,
               .low = 0.0,
               .high = 1e4,
               .example = "1 kPa",
-              .source = kTable1},
+              .source = fallback.young_source},
              t.young);
   c.quantity({.name = "thickness",
-              .doc = "Thickness h of the cortex.",
+              .doc = "Thickness h of the layer.",
               .quantity = Q::kLength,
               .fallback = "200 nm",
               .low = 0.0,
@@ -38,7 +57,7 @@ void declare_cortex(Section& c, draft::CellType& t) {
               .source = kTable1},
              t.thickness);
   c.quantity({.name = "poisson",
-              .doc = "Poisson ratio of the cortex: of its bending stiffness, and of its plane where `elastic` can have it (not in a net of "
+              .doc = "Poisson ratio of the layer: of its bending stiffness, and of its plane where `elastic` can have it (not in a net of "
                      "springs).",
               .fallback = "0.5",
               .low = 0.0,
@@ -67,16 +86,16 @@ void declare_cortex(Section& c, draft::CellType& t) {
               .source = "Skalak et al. 1973, doi:10.1016/S0006-3495(73)85983-1"},
              t.area_ratio);
   c.quantity({.name = "tension",
-              .doc = "Active cortical tension.",
+              .doc = fallback.tension_doc,
               .quantity = Q::kTension,
-              .fallback = "0.1 mN/m",
+              .fallback = fallback.tension,
               .low = 0.0,
               .high = 100.0,
               .example = "0.2 mN/m",
-              .source = "chosen between 0.03 mN/m (neutrophil, Hochmuth 2000) and 0.4 mN/m (fibroblast, Tinevez et al. 2009)"},
+              .source = fallback.tension_source},
              t.tension);
   c.quantity({.name = "turnover",
-              .doc = "Time after which 1/e of the elastic stress in the plane is left at constant shape, because the cortex is renewed; "
+              .doc = "Time after which 1/e of the elastic stress in the plane is left at constant shape, because the layer is renewed; "
                      "`never`: it is permanent.",
               .quantity = Q::kTime,
               .fallback = "never",
@@ -95,19 +114,20 @@ void declare_cortex(Section& c, draft::CellType& t) {
               .example = "1e-4 N s/m",
               .source = kTable1},
              t.damping);
-  c.quantity({.name = "isotropic_damping",
-              .doc = "Friction of an edge against any relative motion of its ends; unlike `damping` it resists rigid rotation of the cell.",
-              .quantity = Q::kFriction,
-              .fallback = "0 N s/m",
-              .low = 0.0,
-              .high = 1e4,
-              .example = "1e-5 N s/m",
-              .source = "chosen: off"},
-             t.isotropic_damping);
-  declare_tension_regions(c, t);
+  c.quantity(
+      {.name = "isotropic_damping",
+       .doc = "Friction of an edge against any relative motion of its ends; unlike `damping` it resists rigid rotation of the whole.",
+       .quantity = Q::kFriction,
+       .fallback = "0 N s/m",
+       .low = 0.0,
+       .high = 1e4,
+       .example = "1e-5 N s/m",
+       .source = "chosen: off"},
+      t.isotropic_damping);
+  if (cell != nullptr) declare_tension_regions(c, *cell);
 }
 
-void declare_area(Section& a, draft::CellType& t) {
+void declare_area(Section& a, draft::ShellKeys& t) {
   a.quantity({.name = "local",
               .doc = "Modulus of the area of every face.",
               .quantity = Q::kTension,
@@ -118,7 +138,7 @@ void declare_area(Section& a, draft::CellType& t) {
               .source = "chosen: off"},
              t.local_area);
   a.quantity({.name = "global",
-              .doc = "Modulus of the area of the whole cell.",
+              .doc = "Modulus of the area of the whole surface.",
               .quantity = Q::kTension,
               .fallback = "0 mN/m",
               .low = 0.0,
@@ -135,7 +155,7 @@ void declare_area(Section& a, draft::CellType& t) {
          t.area_on_top);
 }
 
-void declare_bending(Section& b, draft::CellType& t) {
+void declare_bending(Section& b, draft::ShellKeys& t) {
   b.word(
       {.name = "law",
        .doc = "hinge: springs at the edges with the angles of the sphere at rest; helfrich: mean curvature by the cotangent formula, flat "
@@ -146,7 +166,7 @@ void declare_bending(Section& b, draft::CellType& t) {
        .source = "chosen"},
       t.bending_law);
   b.quantity({.name = "rigidity",
-              .doc = "Bending rigidity D of the cortex; `auto`: E h^3/(12 (1 - poisson^2)).",
+              .doc = "Bending rigidity D of the layer; `auto`: E h^3/(12 (1 - poisson^2)).",
               .quantity = Q::kEnergy,
               .fallback = "auto",
               .low = 0.0,
@@ -170,7 +190,8 @@ void declare_bending(Section& b, draft::CellType& t) {
 
 }  // namespace
 
-void declare_shell(Section& s, draft::CellType& t) {
+void declare_shell_keys(Section& s, draft::ShellKeys& t, draft::CellType* cell) {
+  const Defaults& fallback = cell != nullptr ? kCell : kNucleus;
   bool present = false;
   s.whole({.name = "nodes",
            .doc = "Nodes of the shell's mesh: 42, 162, 642 or 2562 (subdivided icosahedra).",
@@ -181,20 +202,23 @@ void declare_shell(Section& s, draft::CellType& t) {
            .example = "162",
            .source = "Van Liedekerke et al.: 160 to 2600 nodes a cell"},
           t.nodes);
-  s.group({.name = "cortex", .doc = "The cell's cortex: a thin elastic layer under active tension."}, present,
-          [&t](Section& c) { declare_cortex(c, t); });
-  s.group({.name = "area", .doc = "Elasticity of the area, apart from that of the cortex."}, present,
+  const KeySpec layer =
+      cell != nullptr
+          ? KeySpec{.name = "cortex", .doc = "The cell's cortex: a thin elastic layer under active tension."}
+          : KeySpec{.name = "lamina", .doc = "The nucleus' envelope with its lamina: a thin elastic layer, perhaps under tension."};
+  s.group(layer, present, [&](Section& c) { declare_cortex(c, t, fallback, cell); });
+  s.group({.name = "area", .doc = "Elasticity of the area, apart from that of the layer."}, present,
           [&t](Section& a) { declare_area(a, t); });
-  s.group({.name = "bending", .doc = "Bending of the cortex.", .shorthand = "rigidity", .example = "{law: helfrich, rigidity: 2e-19 J}"},
+  s.group({.name = "bending", .doc = "Bending of the layer.", .shorthand = "rigidity", .example = "{law: helfrich, rigidity: 2e-19 J}"},
           present, [&t](Section& b) { declare_bending(b, t); });
   s.quantity({.name = "bulk_modulus",
               .doc = "Stiffness K of the volume: p = -K ln(V/V0).",
               .quantity = Q::kPressure,
-              .fallback = "2.5 kPa",
+              .fallback = fallback.bulk,
               .low = 0.0,
               .high = 1e4,
               .example = "2.5 kPa",
-              .source = kTable1},
+              .source = fallback.bulk_source},
              t.bulk_modulus);
   s.quantity({.name = "bulk_viscosity",
               .doc = "Viscosity of the volume: adds -eta (dV/dt)/V to the pressure.",
@@ -214,20 +238,22 @@ void declare_shell(Section& s, draft::CellType& t) {
               .example = "0.3 mN/m",
               .source = "measured: clusters up to W/(2 tension) = 0.9"},
              t.shape_stiffness);
-  s.quantity({.name = "self_contact",
-              .doc = "Distance at which a surface touches other parts of itself, from inside or outside, such as the thickness of its "
-                     "cortex; at most half of "
-                     "an edge of its mesh. `off`: it passes through itself.",
-              .quantity = Q::kLength,
-              .fallback = "off",
-              .low = 0.0,
-              .high = 5.0,
-              .low_open = true,
-              .specials = {{"off", 0.0}},
-              .example = "200 nm",
-              .source = "chosen: off; cells under pressure do not fold"},
-             t.self_contact);
-  declare_interior(s, t);
+  if (cell != nullptr) {
+    s.quantity({.name = "self_contact",
+                .doc = "Distance at which a surface touches other parts of itself, from inside or outside, such as the thickness of its "
+                       "cortex; at most half of "
+                       "an edge of its mesh. `off`: it passes through itself.",
+                .quantity = Q::kLength,
+                .fallback = "off",
+                .low = 0.0,
+                .high = 5.0,
+                .low_open = true,
+                .specials = {{"off", 0.0}},
+                .example = "200 nm",
+                .source = "chosen: off; cells under pressure do not fold"},
+               cell->self_contact);
+    declare_interior(s, *cell);
+  }
   s.group({.name = "fold_barrier", .doc = "Keeps edges from folding through."}, present, [&t](Section& f) {
     f.quantity({.name = "stiffness",
                 .doc = "Energy scale of the barrier.",
@@ -248,5 +274,7 @@ void declare_shell(Section& s, draft::CellType& t) {
                t.fold_angle);
   });
 }
+
+void declare_shell(Section& s, draft::CellType& t) { declare_shell_keys(s, t, &t); }
 
 }  // namespace morula::scenarios

@@ -45,10 +45,22 @@ struct Osmosis {
   std::vector<Named<CoursePoint>> course;
 };
 
+/// The mesh of a shell and its mechanics: of a cell, or of a nucleus that is a shell.
+struct ShellKeys {
+  Given<std::uint64_t> nodes;
+  Given<std::string> elastic, bending_law;
+  Given<double> young, thickness, poisson, shear_modulus, area_ratio, tension, turnover, damping, isotropic_damping;
+  Given<double> local_area, global_area;
+  Given<bool> area_on_top;
+  Given<double> bending, spontaneous_radius, bulk_modulus, bulk_viscosity, shape_stiffness, fold_stiffness, fold_angle;
+};
+
 struct Nucleus {
   bool present = false;
   Given<std::string> kind;
   Given<double> radius, volume_fraction, viscosity;
+  ShellKeys shell;                     ///< of `kind: shell`
+  std::vector<Named<bool>> no_effect;  ///< keys of a shell that stand where the nucleus is none
 };
 struct Links {
   bool present = false;
@@ -57,7 +69,7 @@ struct Links {
   Given<bool> tension_only;
 };
 
-struct CellType {
+struct CellType : ShellKeys {
   Spread radius;
   Given<std::string> body;
   bool has_cycle = false;
@@ -79,16 +91,11 @@ struct CellType {
   Given<std::string> packing_law;
   Given<double> packing_bulk_modulus;
   std::vector<Named<PackingKnot>> packing_knots;
-  Given<std::uint64_t> nodes;
-  Given<std::string> elastic, bending_law;
-  Given<double> young, thickness, poisson, shear_modulus, area_ratio, tension, turnover, damping, isotropic_damping;
-  Given<double> local_area, global_area, self_contact;
-  Given<bool> area_on_top;
+  Given<double> self_contact;
   std::vector<Named<TensionRegion>> tension_regions;
   Given<double> lateral_easing;
   Activity activity;
   Given<double> tangential_cell_cell, tangential_obstacle, tangential_medium;
-  Given<double> bending, spontaneous_radius, bulk_modulus, bulk_viscosity, shape_stiffness, fold_stiffness, fold_angle;
 };
 
 /// Adhesion of faces with certain marks.

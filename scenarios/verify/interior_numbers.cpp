@@ -1,10 +1,12 @@
 // Reference numbers of water, nucleus and cytoskeleton: T6.1–T6.5 and T12.1 of the physics pages.
+#include <cmath>
 #include <cstdio>
 #include <numbers>
 
 #include "coupling/behaviours/osmosis.h"
 #include "dcm/interior.h"
 #include "dcm/laws/nucleus_repulsion.h"
+#include "dcm/nuclear_shell.h"
 #include "scenarios/verify/reference_numbers.h"
 
 namespace morula::scenarios {
@@ -40,6 +42,54 @@ double hold_of_links() {
   return -pull.x / nucleus.x;
 }
 
+/// A nucleus of 162 nodes and 2.5 um radius in a cell of 6 um with as many, links from all nodes.
+struct NucleusAtRest {
+  ShapeLibrary shapes;
+  std::shared_ptr<const ReferenceShape> shape = shapes.icosphere(162).value();
+  dcm::InteriorParameters parameters;
+  std::vector<dcm::InteriorLink> links;
+  std::vector<Vec3d> cell, nucleus;
+
+  NucleusAtRest() {
+    parameters.nucleus_fraction = 2.5 * 2.5 * 2.5 / (kRadius * kRadius * kRadius);
+    parameters.nucleus_links = {dcm::LinkParameters::kAll, 0.01, 0.0, false};
+    links = dcm::choose_nuclear_links(*shape, *shape, parameters);
+    for (const Vec3d& x : shape->position) {
+      cell.push_back(x * std::cbrt(kVolume));
+      nucleus.push_back(x * std::cbrt(kVolume * parameters.nucleus_fraction));
+    }
+  }
+  [[nodiscard]] dcm::NucleusView view() const {
+    return {&parameters, links, shape->topology.get(), shape->topology.get(), cell, nucleus, kVolume};
+  }
+};
+
+/// Force per displacement of the nucleus as a whole.
+double hold_of_links_to_a_shell() {
+  NucleusAtRest rest;
+  constexpr double shift = 1e-5;
+  for (Vec3d& x : rest.nucleus) x.x += shift;
+  std::vector<Vec3d> on_cell(162), on_nucleus(162);
+  (void)dcm::add_nuclear_link_forces(rest.view(), {on_cell, on_nucleus});
+  double sum = 0.0;
+  for (const Vec3d& f : on_nucleus) sum += f.x;
+  return -sum / shift;
+}
+
+/// Force per velocity of the nucleus as a whole, without its links.
+double drag_of_a_shell() {
+  NucleusAtRest rest;
+  rest.links.clear();
+  dcm::NuclearFriction friction;
+  const std::vector<double> areas(162, 1.0);  // what counts is how they compare
+  dcm::find_nuclear_friction(rest.view(), areas, areas, friction);
+  std::vector<Vec3d> still(162), way(162, Vec3d{1, 0, 0}), on_cell(162), on_nucleus(162);
+  (void)dcm::add_nuclear_friction(rest.view(), friction, {still, way}, {on_cell, on_nucleus});
+  double sum = 0.0;
+  for (const Vec3d& f : on_nucleus) sum += f.x;
+  return sum;
+}
+
 }  // namespace
 
 void add_interior_numbers(std::vector<ReferenceNumber>& out) {
@@ -66,6 +116,10 @@ void add_interior_numbers(std::vector<ReferenceNumber>& out) {
                  [] { return dcm::CytoplasmDrag{1e-3}.coefficient(2.5); }});
   out.push_back({"T12.1", "stiffness that 162 links of 0.01 nN/um give a nucleus: N k/3 [nN/um]", 0.540, 1e-5, kClosedForm,
                  [] { return hold_of_links(); }});
+  out.push_back({"T12", "drag of a nucleus of 2.5 um that is a shell, in 1 Pa s [nN s/um]", 0.04712, 5e-6, "Stokes",
+                 [] { return drag_of_a_shell(); }});
+  out.push_back({"T12.1", "stiffness that 162 links of 0.01 nN/um give a nucleus that is a shell: N k/3 [nN/um]", 0.540, 1e-5, kClosedForm,
+                 [] { return hold_of_links_to_a_shell(); }});
 }
 
 }  // namespace morula::scenarios

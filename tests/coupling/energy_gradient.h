@@ -9,7 +9,7 @@
 
 namespace morula::test {
 
-/// `force`, of the owned points, is −∂E/∂x of `energy`, a function of a tissue: along random directions, by central differences, to `tolerance` of
+/// `force`, of the owned points and then of the nodes of nuclei that are shells, or of the first of them, is −∂E/∂x of `energy`, a function of a tissue: along random directions, by central differences, to `tolerance` of
 /// the length of all forces.
 template <class Energy>
 void expect_minus_gradient(const Tissue& tissue, const std::vector<Vec3d>& force, int directions, double tolerance, Energy&& energy) {
@@ -28,7 +28,10 @@ void expect_minus_gradient(const Tissue& tissue, const std::vector<Vec3d>& force
     const auto energy_at = [&](double s) {
       Tissue moved = tissue;
       for (std::size_t i = 0; i < along.size(); ++i) {
-        Vec3d& p = i < moved.shells.position.size() ? moved.shells.position[i] : moved.spheres.position[i - moved.shells.position.size()];
+        const std::size_t shells = moved.shells.position.size(), bodies = shells + moved.spheres.size();
+        Vec3d& p = i < shells   ? moved.shells.position[i]
+                   : i < bodies ? moved.spheres.position[i - shells]
+                                : moved.nuclei.shells.position[i - bodies];
         p += along[i] * s;
       }
       return energy(moved);

@@ -47,7 +47,7 @@ inline Tissue make_tissue(const Model& model, ShapeLibrary& shapes, const std::v
       const auto& p = model.types[0].shell;
       cell.shell = spherical_shell(shapes.icosphere(nodes).value(), centers[i], volume,
                                    dcm::pressure_free_reference(volume, p.tension, p.bulk_modulus));
-      place_nucleus(*cell.shell, model.types[0].interior);
+      place_nucleus(*cell.shell, model.types[0], shapes);
     } else {
       cell.sphere = SphereRecord{centers[i], radius, {}, {}};
     }

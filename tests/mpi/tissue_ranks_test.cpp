@@ -175,5 +175,19 @@ TEST(TissueOnRanks, WithNucleiLinksAndOsmosisHasTheSameBitsAsOnOne) {
   EXPECT_NE(single, run(hybrid_model(), alone, 25, 1)) << "the interior acts";
 }
 
+/// Nuclei that are shells come with promotions, go with demotions, and move between ranks with their cells.
+TEST(TissueOnRanks, WithNucleiThatAreShellsHasTheSameBitsAsOnOne) {
+  const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
+  Model model = hybrid_model(true);
+  dcm::InteriorParameters& p = model.types[0].interior;
+  p.nucleus_nodes = 42;
+  p.nucleus_shell.spring_stiffness = 0.8;
+  p.nucleus_shell.tension = 0.05;
+  p.nucleus_shell.bulk_modulus = 10.0;
+  const Everything single = run(model, alone, 25, 2);
+  expect_same(run(model, world, 25, 1), single);
+  EXPECT_NE(single, run(hybrid_model(true), alone, 25, 1)) << "they are no rigid ones";
+}
+
 }  // namespace
 }  // namespace morula

@@ -68,6 +68,21 @@ Tissue turned_around(const Tissue& from) {
     to.shells.nucleus.push_back(s.nucleus[i]);
     if (!s.faces_of(i).empty()) to.shells.faces_of(to.shells.size() - 1) = s.faces_of(i);
   }
+  to.nuclei = {};
+  for (std::size_t n = from.nuclei.size(); n-- > 0;) {
+    const dcm::Shells& s = from.nuclei.shells;
+    dcm::Shells& t = to.nuclei.shells;
+    t.shape.push_back(s.shape[n]);
+    t.type.push_back(s.type[n]);
+    t.reference_volume.push_back(s.reference_volume[n]);
+    t.rest_volume.push_back(s.rest_volume[n]);
+    t.position.insert(t.position.end(), s.position.begin() + s.first_node[n], s.position.begin() + s.first_node[n + 1]);
+    t.velocity.insert(t.velocity.end(), s.velocity.begin() + s.first_node[n], s.velocity.begin() + s.first_node[n + 1]);
+    t.rest_length.insert(t.rest_length.end(), s.rest_length.begin() + s.first_edge[n], s.rest_length.begin() + s.first_edge[n + 1]);
+    t.first_node.push_back(static_cast<std::uint32_t>(t.position.size()));
+    t.first_edge.push_back(static_cast<std::uint32_t>(t.rest_length.size()));
+    to.nuclei.owner.push_back(static_cast<std::uint32_t>(from.shells.size() - 1 - from.nuclei.owner[n]));
+  }
   for (fields::Field& field : to.fields) {
     std::reverse(field.owned_bricks.begin(), field.owned_bricks.end());
     std::reverse(field.concentration.begin(), field.concentration.end());
@@ -125,6 +140,8 @@ TEST(StateHash, SeesEveryPartOfTheState) {
     for (auto& nucleus : t.shells.nucleus)
       if (nucleus) nucleus->y += 1e-13;
   });
+  after([](Tissue& t) { t.nuclei.shells.position[7].z += 1e-13; });
+  after([](Tissue& t) { t.nuclei.shells.rest_length[7] *= 2; });
   after([](Tissue& t) { t.shells.faces_of(0).mark.assign(5, 1); });
   after([](Tissue& t) { t.shells.faces_of(0).mark.assign(5, 2); });
   after([](Tissue& t) { t.shells.faces_of(0).contact.assign(5, 0.5f); });

@@ -97,6 +97,8 @@ inline Model model_of_test_tissue() {
   Model model;
   model.types.resize(3);
   model.types[1].interior.nucleus_fraction = 0.07;
+  model.types[2].interior.nucleus_fraction = 0.05;
+  model.types[2].interior.nucleus_nodes = 42;
   model.obstacles.resize(2);
   model.fields.resize(2);
   model.lumens.resize(2);
@@ -226,6 +228,13 @@ inline Tissue make_tissue(const Comm& comm, ShapeLibrary& library, int cells = 6
       add_shell(tissue.shells, row.id, tetra);
     else
       add_shell(tissue.shells, row.id, library.icosphere(42).value());
+    if (row.body == BodyKind::kShell && row.type == 2) {
+      add_shell(tissue.nuclei.shells, CellId::founder(row.id.founder_number() + 300), library.icosphere(42).value());
+      tissue.nuclei.shells.type.back() = row.type;
+      tissue.nuclei.shells.nucleus.clear();
+      tissue.nuclei.shells.face.clear();
+      tissue.nuclei.owner.push_back(static_cast<std::uint32_t>(tissue.shells.size() - 1));
+    }
   }
   for (int f = 0; f < 2; ++f) tissue.fields.push_back(make_field(f, comm, spread));
   return tissue;

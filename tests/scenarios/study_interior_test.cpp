@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "dcm/derived_parameters.h"
 #include "scenarios/library/library.h"
 #include "scenarios/pictures/rasterize.h"
 #include "scenarios/results/snapshot_file.h"
@@ -168,6 +169,85 @@ TEST(OpticalStretcher, IsTheSameWithAFloatingNucleusToOnePercentOfItsStrain) {  
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "nuclei_000000.vtu"));
 }
 
+TEST(NuclearShellKeys, AreThoseOfAShellWithDefaultsOfANucleus) {
+  const CellType plain = read_type(with_shell_key("nucleus: {kind: shell, radius: 3 um}"));
+  EXPECT_TRUE(plain.interior.has_nuclear_shell());
+  EXPECT_FALSE(plain.interior.has_rigid_nucleus());
+  EXPECT_EQ(plain.interior.nucleus_nodes, 162u);
+  EXPECT_DOUBLE_EQ(plain.interior.nucleus_fraction, 0.125);
+  EXPECT_DOUBLE_EQ(plain.interior.nucleus_shell.spring_stiffness, dcm::spring_stiffness(5.0, 0.2));
+  EXPECT_DOUBLE_EQ(plain.interior.nucleus_shell.bulk_modulus, 10.0);
+  EXPECT_EQ(plain.interior.nucleus_shell.tension, 0.0);
+  EXPECT_EQ(plain.interior.nucleus_shell.medium_friction, 0.0);
+
+  const CellType given = read_type(with_shell_key(
+      "nucleus:\n        kind: shell\n        volume_fraction: 20 %\n        nodes: 42\n        lamina: {elastic: neo_hooke, young: 3 kPa, "
+      "thickness: "
+      "100 nm, poisson: 0.4, tension: 0.02 mN/m}\n        bending: {law: helfrich, rigidity: 2e-19 J}\n        bulk_modulus: 20 kPa"));
+  EXPECT_EQ(given.interior.nucleus_nodes, 42u);
+  EXPECT_DOUBLE_EQ(given.interior.nucleus_shell.neo_hooke_shear, dcm::sheet_shear_modulus(3.0, 0.1, 0.4));
+  EXPECT_EQ(given.interior.nucleus_shell.spring_stiffness, 0.0);
+  EXPECT_DOUBLE_EQ(given.interior.nucleus_shell.helfrich_rigidity, 2e-4);
+  EXPECT_DOUBLE_EQ(given.interior.nucleus_shell.tension, 0.02);
+  EXPECT_DOUBLE_EQ(given.interior.nucleus_shell.bulk_modulus, 20.0);
+  EXPECT_EQ(read_type(with_shell_key("nucleus: {radius: 3 um}")).interior.nucleus_nodes, 0u) << "rigid";
+}
+
+TEST(NuclearShellKeys, AreRefusedWhereTheyMakeNoSense) {
+  const auto refused = [](const std::string& keys) { return errors_of(with_shell_key("nucleus: " + keys)); };
+  EXPECT_THAT(refused("{radius: 3 um, nodes: 42}"), AllOf(HasSubstr("'nodes' has no effect"), HasSubstr("[E590]")));
+  EXPECT_THAT(refused("{radius: 3 um, lamina: {young: 3 kPa}}"), AllOf(HasSubstr("'young' has no effect"), HasSubstr("[E590]")));
+  EXPECT_THAT(refused("{kind: none, bulk_modulus: 3 kPa}"), HasSubstr("[E590]"));
+  EXPECT_THAT(refused("{kind: shell, radius: 7 um}"), AllOf(HasSubstr("larger than the cell"), HasSubstr("[E537]")));
+  EXPECT_THAT(refused("{kind: shell, radius: 3 um, nodes: 100}"), HasSubstr("42"));
+  EXPECT_THAT(refused("{kind: shell, radius: 3 um, lamina: {young: -1 kPa}}"), HasSubstr("[E302]"));
+  EXPECT_THAT(refused("{kind: shell, radius: 3 um, lamina: {tension: -1 mN/m}}"), HasSubstr("[E302]"));
+  EXPECT_THAT(refused("{kind: shell, radius: 3 um, lamina: {elastic: springs_with_area, poisson: 0.2}}"), HasSubstr("[E514]"));
+  EXPECT_THAT(refused("{kind: shell, radius: 3 um, bulk_modulus: 0 kPa}"), AllOf(HasSubstr("no resistance"), HasSubstr("[E591]")));
+  EXPECT_THAT(refused("{kind: shell, radius: 3 um, bulk_modulus: 1 kPa, lamina: {tension: 5 mN/m}}"),
+              AllOf(HasSubstr("would collapse"), HasSubstr("[E591]")));
+  EXPECT_THAT(
+      errors_of(changed("radius: {mean: 6 um", "radius: {mean: 20 um", with_shell_key("nucleus: {kind: shell, radius: 10 um, nodes: 42}"))),
+      AllOf(HasSubstr("too coarse"), HasSubstr("nodes: 162"), HasSubstr("[E592]")));
+}
+
+TEST(NuclearShellKeys, AreWrittenAndReadAgain) {
+  for (const char* nucleus : {"nucleus: {kind: shell, radius: 3 um, nodes: 42, lamina: {young: 3 kPa}}", "nucleus: {radius: 3 um}"}) {
+    const auto first = read(with_shell_key(nucleus));
+    ASSERT_TRUE(first.ok()) << first.error().text();
+    const auto again = read(first->resolved_text);
+    ASSERT_TRUE(again.ok()) << again.error().text();
+    const dcm::InteriorParameters &a = first->model.types[0].interior, &b = again->model.types[0].interior;
+    EXPECT_EQ(a.nucleus_nodes, b.nucleus_nodes);
+    EXPECT_EQ(a.nucleus_shell.spring_stiffness, b.nucleus_shell.spring_stiffness);
+    EXPECT_EQ(a.nucleus_shell.hinge_stiffness, b.nucleus_shell.hinge_stiffness);
+  }
+}
+
+TEST(OpticalStretcher, TakesNucleiThatAreShells) {
+  std::vector<std::string> nuclei{"time.end=20 s", "time.checkpoint=20 s"};
+  for (const char* type : {"tension_0", "tension_10", "tension_30", "tension_100"})
+    nuclei.push_back("cell_types." + std::string(type) + ".dcm.nucleus={kind: shell, radius: 2.5 um, nodes: 42}");
+  Snapshot last;
+  (void)stretched_lengths(nuclei, &last);
+  ASSERT_EQ(last.nuclear_shells.size(), 4u) << "they are in the results";
+  EXPECT_EQ(last.shells.size(), 4u);
+  EXPECT_EQ(last.cells.size(), 4u);
+  EXPECT_EQ(last.nuclear_nodes.size(), 4u * 42u);
+  EXPECT_TRUE(last.nuclei.empty());
+  for (const Snapshot::NuclearShell& nucleus : last.nuclear_shells) {
+    const auto faces = last.topologies[nucleus.topology];
+    const std::span<const Vec3d> nodes = std::span(last.nuclear_nodes).subspan(nucleus.first_node, nucleus.node_count);
+    EXPECT_EQ(faces.size(), 80u);
+    const Vec3d center = volume_centroid(faces, nodes);
+    EXPECT_LT(norm(center - last.cells[nucleus.cell].centroid), 0.3);
+    EXPECT_NEAR(enclosed_volume(faces, nodes, center) / (4.0 / 3.0 * std::numbers::pi * 2.5 * 2.5 * 2.5), 1.0, 0.01);
+  }
+  const Folder folder;
+  ASSERT_TRUE(write_vtk(last, folder.path(), 0).ok());
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "nuclear_shells_000000.vtu"));
+}
+
 TEST(Pictures, ShowANucleusInTheCutFaceOfItsCellOnly) {
   ShapeLibrary shapes;
   const auto shape = shapes.icosphere(162).value();
@@ -192,6 +272,18 @@ TEST(Pictures, ShowANucleusInTheCutFaceOfItsCellOnly) {
   EXPECT_NEAR(static_cast<double>(count(cut, 3)), std::numbers::pi * 4.0 * 400.0, 60.0);
   EXPECT_GT(count(cut, 1), count(cut, 3)) << "the cell's own cut face around it";
   EXPECT_EQ(count(whole, 3), 0);
+
+  // The same as a shell, its nodes on a ball of about the same size: 162 of them enclose 0.966 of the volume of their ball.
+  snapshot.nuclear_shells.push_back({0, 0, 162, 0});
+  for (const Vec3d& x : shape->position)
+    snapshot.nuclear_nodes.push_back(snapshot.nuclei[0].center + x * std::cbrt(4.0 / 3.0 * std::numbers::pi * 2.5 * 2.5 * 2.5));
+  const Vec3d middle = snapshot.nuclei[0].center;
+  snapshot.nuclei.clear();
+  PixelBuffer cut_shell(400, 400), whole_shell(400, 400);
+  rasterize(snapshot, camera, CutPlane{middle + depth * to_eye, to_eye}, cut_shell);
+  rasterize(snapshot, camera, std::nullopt, whole_shell);
+  EXPECT_NEAR(static_cast<double>(count(cut_shell, 3)), std::numbers::pi * 4.0 * 400.0, 300.0);
+  EXPECT_EQ(count(whole_shell, 3), 0);
 }
 
 }  // namespace

@@ -104,9 +104,9 @@ TEST(Loads, GiveTheSameBitsOnRanksAndOverARestart) {
 }
 
 /// Nuclei move between ranks with their shells, and a restart finds them where they were.
-TEST(Interior, GivesTheSameBitsOnRanksAndOverARestart) {
+void expect_same_bits_on_ranks_and_over_a_restart(const std::string& study) {
   const TestFolder folder;
-  folder.write("study.yaml", interior_study());
+  folder.write("study.yaml", study);
   ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "one"}, folder.path(), on_ranks(0)).exit_code, 0);
   const json reference = info_of(folder / "one");
   ASSERT_GT(reference["shells"].get<int>(), 0) << "the study must have shells";
@@ -116,6 +116,13 @@ TEST(Interior, GivesTheSameBitsOnRanksAndOverARestart) {
   ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "broken", "--until", "5 min"}, folder.path(), on_ranks(2)).exit_code, 0);
   ASSERT_EQ(run_morula({"resume", "broken"}, folder.path(), on_ranks(0)).exit_code, 0);
   EXPECT_EQ(info_of(folder / "broken")["state_hash"], reference["state_hash"]);
+}
+
+TEST(Interior, GivesTheSameBitsOnRanksAndOverARestart) { expect_same_bits_on_ranks_and_over_a_restart(interior_study()); }
+
+TEST(NuclearShells, GiveTheSameBitsOnRanksAndOverARestart) {
+  expect_same_bits_on_ranks_and_over_a_restart(changed(interior_study(), "nucleus: {radius: 2 um}",
+                                                       "nucleus: {kind: shell, radius: 2 um, nodes: 42, lamina: {tension: 0.02 mN/m}}"));
 }
 
 }  // namespace
