@@ -61,30 +61,51 @@ std::vector<Doublet> doublets(const Study& study, const Snapshot& start, const S
   return out;
 }
 
-/// A single cell on a plane that it sticks to with half the adhesion of a doublet is half of it by symmetry (S6.0).
-void judge_halves(const Study& study, const Snapshot& now, const std::vector<Doublet>& pairs, std::vector<Verdict>& out) {
+/// A single cell on a plane.
+struct Half {
+  double ratio = 0.0;  ///< W/γ of the doublet that it is half of
+  double range = 0.0;  ///< of contact [µm]
+  std::uint32_t nodes = 0;
+  double contact_radius = 0.0, height = 0.0;  ///< over the radius of a ball of its volume
+};
+
+std::vector<Half> halves(const Study& study, const Snapshot& now) {
   const Model& model = study.model;
+  std::vector<Half> out;
   for (std::size_t type = 0; type < model.types.size(); ++type) {
     const auto cells = shells_of(now, type);
     if (cells.size() != 1) continue;
     for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
-      const double adhesion = model.pair(type, model.types.size() + o).adhesion;
+      const std::size_t obstacle = model.types.size() + o;
+      const double adhesion = model.pair(type, obstacle).adhesion;
       if (!(adhesion > 0.0)) continue;
       double top = -1e300;
       for (const Vec3d& x : model.obstacles[o].position) top = std::max(top, x.z);
       const auto cap = fit_cap(cells[0], {0, 0, top}, {0, 0, 1});
       if (!cap) continue;
-      const double r0 = radius_of_volume(cells[0].cell->volume), range = range_of(model, type, model.types.size() + o);
-      for (const Doublet& d : pairs) {
-        if (std::abs(d.ratio * model.types[type].shell.tension - 2.0 * adhesion) > 1e-9) continue;
-        if (d.came_back || d.range != range || d.nodes != model.types[type].shell_nodes) continue;
-        const std::string at = d.text();
-        out.push_back(at_most("S6.0", ("length of a doublet against twice the height of its half on a plane, relative" + at).c_str(),
-                              std::abs(0.5 * d.length * r0 / cap->height - 1.0), 0.02));
-        out.push_back(at_most("S6.0", ("contact radius of a doublet against that of its half on a plane, relative" + at).c_str(),
-                              std::abs(d.contact_radius * r0 / cap->contact_radius - 1.0), tolerance(d.nodes, 0.04, 0.02)));
-      }
+      const double r0 = radius_of_volume(cells[0].cell->volume);
+      out.push_back({2.0 * adhesion / model.types[type].shell.tension, range_of(model, type, obstacle), model.types[type].shell_nodes,
+                     cap->contact_radius / r0, cap->height / r0});
     }
+  }
+  return out;
+}
+
+/// A cell on a plane that it sticks to with half the adhesion of a doublet is half of it by symmetry (S6.0). The gap of the doublet is twice that of
+/// its half, so that a doublet of twice the range is the exact image (dcm.md §8); without one, that of the same range must do.
+void judge_halves(const std::vector<Half>& halves, const std::vector<Doublet>& pairs, std::vector<Verdict>& out) {
+  for (const Half& half : halves) {
+    const auto matches = [&](const Doublet& d, double range) {
+      return std::abs(d.ratio - half.ratio) < 1e-6 && d.nodes == half.nodes && !d.came_back && std::abs(d.range - range) < 1e-6 * range;
+    };
+    auto found = std::find_if(pairs.begin(), pairs.end(), [&](const Doublet& d) { return matches(d, 2.0 * half.range); });
+    if (found == pairs.end()) found = std::find_if(pairs.begin(), pairs.end(), [&](const Doublet& d) { return matches(d, half.range); });
+    if (found == pairs.end()) continue;
+    const std::string at = found->text();
+    out.push_back(at_most("S6.0", ("length of a doublet against twice the height of its half on a plane, relative" + at).c_str(),
+                          std::abs(0.5 * found->length / half.height - 1.0), 0.02));
+    out.push_back(at_most("S6.0", ("contact radius of a doublet against that of its half on a plane, relative" + at).c_str(),
+                          std::abs(found->contact_radius / half.contact_radius - 1.0), tolerance(found->nodes, 0.04, 0.02)));
   }
 }
 
@@ -136,7 +157,7 @@ Result<std::vector<Verdict>> judge_doublet(const Study& study, const std::filesy
   std::vector<Verdict> out;
   double drift = 0.0;
   const auto ends = doublets(study, snapshots.front(), snapshots.back());
-  judge_halves(study, snapshots.back(), ends, out);
+  judge_halves(halves(study, snapshots.back()), ends, out);
   judge_unequal(study, snapshots.back(), out);
   judge_ways({ends.begin(), ends.end()}, out);
   for (const Doublet& d : ends) {
