@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/numbers/number_text.h"
+#include "scenarios/library/single_cell.h"
 #include "scenarios/library/verdicts.h"
 
 namespace morula::scenarios {
@@ -26,9 +27,7 @@ CapTolerance cap_tolerance(const CapTolerance& of_study, std::uint32_t nodes, do
   return out;
 }
 
-std::string ReachedAngle::text() const {
-  return ", W/T = " + number_text("%g", ratio) + (came_back ? ", back from a larger contact" : "");
-}
+std::string ReachedAngle::text() const { return ", W/T = " + number_text("%g", ratio) + (came_back ? ", back from a larger contact" : ""); }
 
 void judge_ways(const std::vector<ReachedAngle>& angles, std::vector<Verdict>& out) {
   for (const ReachedAngle& a : angles)
@@ -37,14 +36,14 @@ void judge_ways(const std::vector<ReachedAngle>& angles, std::vector<Verdict>& o
       const double difference = std::abs(a.angle - b.angle) / kDegree;
       const std::string at = ", W/T = " + number_text("%g", b.ratio) + ", " + std::to_string(a.nodes) + " nodes";
       if (a.came_back && !b.came_back && a.range == b.range)
-        out.push_back(
-            at_most("T8.1", ("angle reached from a larger contact against that from touching" + at).c_str(), difference, 1.0, "deg"));
+        out.push_back(at_most("T8.1", ("angle reached from a larger contact against that from touching" + at).c_str(), difference,
+                              tolerance(a.nodes, 2.0, 1.0), "deg"));
       if (!a.came_back && !b.came_back && a.range < 0.6 * b.range)
         out.push_back(
             at_most("S6.4",
                     ("change of the angle from a range of " + number_text("%g", b.range) + " to " + number_text("%g", a.range) + " um" + at)
                         .c_str(),
-                    difference, 2.0, "deg"));
+                    difference, tolerance(a.nodes, 4.0, 2.0), "deg"));
     }
 }
 

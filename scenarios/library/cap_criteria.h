@@ -21,16 +21,16 @@ CapTolerance cap_tolerance(const CapTolerance& of_study, std::uint32_t nodes, do
 
 /// A contact angle and the way to it.
 struct ReachedAngle {
-  double ratio = 0.0;           ///< W/γ
-  double range = 0.0;           ///< of contact [µm]
-  std::uint32_t nodes = 0;      ///< of a cell
-  bool came_back = false;       ///< from a larger contact, under a tension that was lower at first
-  double angle = 0.0;           ///< [rad]
+  double ratio = 0.0;                      ///< W/γ
+  double range = 0.0;                      ///< of contact [µm]
+  std::uint32_t nodes = 0;                 ///< of a cell
+  bool came_back = false;                  ///< from a larger contact, under a tension that was lower at first
+  double angle = 0.0;                      ///< [rad]
   [[nodiscard]] std::string text() const;  ///< ", W/T = 1, back from a larger contact"
 };
 
 /// Angles that must not depend on the way to them: from small and from large contacts (T8.1, dcm.md §8: 1 degree), nor on the range of contact where
-/// one is about twice the other (S6.4: 2 degrees).
+/// one is about twice the other (S6.4: 2 degrees). Cells of fewer than 642 nodes have twice the tolerance (physics/scenarios.md S6, quick).
 void judge_ways(const std::vector<ReachedAngle>& angles, std::vector<Verdict>& out);
 
 /// Tension of the free surface of a type at a time [nN/µm].

@@ -120,8 +120,7 @@ Result<std::vector<Verdict>> judge_spreading(const Study& study, const std::file
       out.push_back(at_most("S4.1", ("contact radius against Young's law, relative" + at).c_str(),
                             relative(s.contact_radius, s.expected.contact_radius), limits.contact_radius));
       out.push_back(at_most("S4.1", ("height, relative" + at).c_str(), relative(s.height, s.expected.height), limits.height));
-      out.push_back(
-          at_most("S4.1", ("contact angle" + at).c_str(), std::abs(s.angle - s.expected.angle) / kDegree, limits.angle, "deg"));
+      out.push_back(at_most("S4.1", ("contact angle" + at).c_str(), std::abs(s.angle - s.expected.angle) / kDegree, limits.angle, "deg"));
       out.push_back(
           at_most("S4.2", ("pressure, relative" + at).c_str(), relative(s.pressure, s.expected.pressure), tolerance(s.nodes, 0.10, 0.05)));
     } else if (s.nodes >= 642) {
@@ -143,7 +142,8 @@ Result<std::vector<Verdict>> judge_spreading(const Study& study, const std::file
   for (std::size_t k = 2; k < snapshots.size(); ++k) {
     const auto before = spreads(study, snapshots[k - 1]), after = spreads(study, snapshots[k]);
     for (std::size_t i = 0; i < std::min({before.size(), after.size(), ends.size()}); ++i)
-      if (ends[i].modulus <= kFluid && !ends[i].came_back) fall = std::max(fall, (before[i].contact_area - after[i].contact_area) / ends[i].contact_area);
+      if (ends[i].modulus <= kFluid && !ends[i].came_back)
+        fall = std::max(fall, (before[i].contact_area - after[i].contact_area) / ends[i].contact_area);
   }
   out.push_back(at_most("S4.3", "fall of the contact area between outputs, relative to the last one", fall, 0.01));
   return out;
