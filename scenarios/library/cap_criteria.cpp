@@ -13,14 +13,15 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::uint32_t kMeasuredNodes = 642;  // of dcm.md §8
+constexpr double kHemisphere = 90.001 * kDegree;
 constexpr double kRounding = 1.02;             // R0 follows from the volume under pressure, not from the study's radius
 
 }  // namespace
 
-CapTolerance cap_tolerance(const CapTolerance& of_study, std::uint32_t nodes, double range, double r0) {
+CapTolerance cap_tolerance(const CapTolerance& of_study, double expected, std::uint32_t nodes, double range, double r0) {
   CapTolerance out = of_study;
   const double part = range / (r0 * kRounding);
-  if (nodes < kMeasuredNodes || part > 1.0 / 12.0) return out;
+  if (nodes < kMeasuredNodes || part > 1.0 / 12.0 || expected > kHemisphere) return out;
   const bool fine = part <= 1.0 / 24.0;
   out.angle = std::min(out.angle, fine ? 2.0 : 3.0);
   out.height = std::min(out.height, fine ? 0.005 : 0.015);

@@ -147,7 +147,7 @@ void judge_unequal(const Study& study, const Snapshot& now, std::vector<Verdict>
 /// Limits of the shape (S6.1, dcm.md §8).
 CapTolerance limits_of(const Doublet& d) {
   const CapTolerance study{tolerance(d.nodes, 8.0, 4.0), tolerance(d.nodes, 0.10, 0.05), tolerance(d.nodes, 0.06, 0.03)};
-  return cap_tolerance(study, d.nodes, d.range, d.r0);
+  return cap_tolerance(study, d.expected.angle, d.nodes, d.range, d.r0);
 }
 
 }  // namespace

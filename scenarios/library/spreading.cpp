@@ -93,7 +93,7 @@ void judge_order(const std::vector<Spread>& cells, std::vector<Verdict>& out) {
 /// Limits of the shape (S4.1, dcm.md §8).
 CapTolerance limits_of(const Spread& s) {
   const CapTolerance study{tolerance(s.nodes, 10.0, 5.0), tolerance(s.nodes, 0.10, 0.06), tolerance(s.nodes, 0.10, 0.05)};
-  return cap_tolerance(study, s.nodes, s.range, s.r0);
+  return cap_tolerance(study, s.expected.angle, s.nodes, s.range, s.r0);
 }
 
 /// Contact radius and height of E = 1 kPa, h = 200 nm, γ = 0.1 mN/m at 642 nodes (static minimisation, spreading_reference.csv).
