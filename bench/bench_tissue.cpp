@@ -255,6 +255,9 @@ bool compare_with_small_steps(const Case& c, const Comm& comm, int threads) {
   const auto usual = shapes_of(c, model, comm, threads);
   model.step.max_step = 10.0;
   model.step.max_displacement *= 0.1;
+  model.step.newton_stop *= 0.1;
+  model.step.first_tolerance *= 0.1;
+  model.step.later_tolerance *= 0.1;
   const auto fine = shapes_of(c, model, comm, threads);
   if (usual.size() != 3 || fine.size() != 3) return false;
   std::printf("%s against steps of at most 10 s and %.3f c\n", c.name.c_str(), model.step.max_displacement);
