@@ -14,7 +14,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::uint32_t kMeasuredNodes = 642;  // of dcm.md §8
 constexpr double kHemisphere = 90.001 * kDegree;
-constexpr double kRounding = 1.02;             // R0 follows from the volume under pressure, not from the study's radius
+constexpr double kRounding = 1.02;  // R0 follows from the volume under pressure, not from the study's radius
 
 }  // namespace
 

@@ -36,7 +36,7 @@ class ContactAngles : public testing::TestWithParam<const char*> {};
 TEST_P(ContactAngles, AreThoseOfYoungFromSmallAndFromLargeContacts) {
   const test::Folder folder;
   ReadOptions options;
-  options.overrides = {"output.report=false"};
+  options.overrides = {"output.report=false", "time.end=20 min", "time.checkpoint=20 min", "numerics.tolerance=0.01"};
   const auto study = test::read(on_coarse_meshes(GetParam(), "angles.yaml"), options);
   ASSERT_TRUE(study.ok()) << study.error().text();
   RunRequest request;
@@ -101,7 +101,8 @@ Shape shape_of(Simulation& simulation, bool doublet) {
   Shape out;
   for (std::size_t s = 0; s < center.size(); ++s) {
     const Snapshot::Cell cell{};
-    const auto cap = fit_cap({tissue.shells.nodes(s), tissue.shells.topology(s).faces(), &cell}, point, axis * (s == 0 && doublet ? -1.0 : 1.0));
+    const auto cap =
+        fit_cap({tissue.shells.nodes(s), tissue.shells.topology(s).faces(), &cell}, point, axis * (s == 0 && doublet ? -1.0 : 1.0));
     if (!cap) return {};
     out.angle += cap->angle * 180.0 / std::numbers::pi / static_cast<double>(center.size());
     out.contact_radius += cap->contact_radius / radius_of_volume(values.volume[s]) / static_cast<double>(center.size());
@@ -132,30 +133,32 @@ std::uint64_t go_on(std::unique_ptr<Simulation>& simulation, const Study& study,
 class StepLength : public testing::TestWithParam<bool> {};
 
 /// Twice halved, the steps lead from the same ball to the same angle: within a fifth of a degree, a tenth of what is asked of the angle itself, and 0.3 %
-/// of the contact radius. Then each goes on for as long with steps halved once more, and moves by less than half of that angle.
+/// of the contact radius. The relaxed cells go on for as long with steps halved once and twice, and keep their angle within a tenth of a degree.
 TEST_P(StepLength, ChangesNeitherTheAngleThatIsReachedNorThatWhichIsKept) {
   const bool doublet = GetParam();
+  const double duration = doublet ? 900.0 : 1800.0;
   const auto study = test::read(one_contact(doublet));
   ASSERT_TRUE(study.ok()) << study.error().text();
-  std::array<Shape, 3> reached, kept;
+  std::array<Shape, 3> reached;
   std::array<std::uint64_t, 3> steps{};
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 2; k >= 0; --k) {
+    const auto at = static_cast<std::size_t>(k);
     ShapeLibrary shapes;
     auto initial = make_tissue(*study, shapes, Comm());
     ASSERT_TRUE(initial.ok());
     auto made = Simulation::create(study->model, std::move(initial->tissue), Comm(), 1);
     ASSERT_TRUE(made.ok());
-    steps[static_cast<std::size_t>(k)] = go_on(*made, *study, 1 << k, 1800.0);
-    reached[static_cast<std::size_t>(k)] = shape_of(**made, doublet);
-    go_on(*made, *study, 2 << k, 1800.0);
-    kept[static_cast<std::size_t>(k)] = shape_of(**made, doublet);
-  }
-  for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_NEAR(reached[k].angle, 60.0, 2.0);
-    EXPECT_NEAR(reached[k].angle, reached[2].angle, 0.2) << k;
-    EXPECT_NEAR(reached[k].contact_radius / reached[2].contact_radius, 1.0, 0.003) << k;
-    EXPECT_NEAR(kept[k].angle, reached[k].angle, 0.1) << k;
-    EXPECT_NEAR(kept[k].contact_radius / reached[k].contact_radius, 1.0, 0.003) << k;
+    steps[at] = go_on(*made, *study, 1 << k, duration);
+    reached[at] = shape_of(**made, doublet);
+    EXPECT_NEAR(reached[at].angle, 60.0, 2.0);
+    EXPECT_NEAR(reached[at].angle, reached[2].angle, 0.2) << k;
+    EXPECT_NEAR(reached[at].contact_radius / reached[2].contact_radius, 1.0, 0.003) << k;
+    for (int divided = 2; k == 0 && divided <= 4; divided *= 2) {
+      go_on(*made, *study, divided, duration);
+      const Shape kept = shape_of(**made, doublet);
+      EXPECT_NEAR(kept.angle, reached[0].angle, 0.1) << divided;
+      EXPECT_NEAR(kept.contact_radius / reached[0].contact_radius, 1.0, 0.003) << divided;
+    }
   }
   EXPECT_GT(steps[1], steps[0]);
   EXPECT_GT(steps[2], steps[1]);
@@ -163,21 +166,6 @@ TEST_P(StepLength, ChangesNeitherTheAngleThatIsReachedNorThatWhichIsKept) {
 
 INSTANTIATE_TEST_SUITE_P(DoubletAndCellOnGlass, StepLength, testing::Bool(),
                          [](const auto& instance) { return instance.param ? "doublet" : "on_glass"; });
-
-/// At rest on a kink of the contact energy the search along a direction is short, whatever the step; a smaller step would only stop the clock. Where
-/// rest was a thousandth of the allowed displacement, and not a hundredth, this doublet took 600 steps.
-TEST(StepAtRest, IsNotCutWhereKinksOfTheContactEnergyHoldPoints) {
-  auto study = test::read(one_contact(true));
-  ASSERT_TRUE(study.ok()) << study.error().text();
-  study->model.step.max_displacement = 1.0;
-  ShapeLibrary shapes;
-  auto initial = make_tissue(*study, shapes, Comm());
-  ASSERT_TRUE(initial.ok());
-  auto made = Simulation::create(study->model, std::move(initial->tissue), Comm(), 1);
-  ASSERT_TRUE(made.ok());
-  EXPECT_LT(go_on(*made, *study, 1, 1800.0), 250u);
-  EXPECT_NEAR(shape_of(**made, true).angle, 60.0, 1.0);
-}
 
 }  // namespace
 }  // namespace morula::scenarios
