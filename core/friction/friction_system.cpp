@@ -174,7 +174,8 @@ void FrictionSystem::schedule_contacts() {
   // Contacts in their order, each as soon as its bodies, and those of all before it, are there: sums keep the canonical order.
   std::vector<std::uint32_t> there(layout_.body_count(), 0), last(layout_.body_count(), 0);  // ghosts are there from the start
   // What spheres that pack add is collective: no rank may leave it out.
-  bool all_shells = added_.empty() && (sphere_pairs_ == nullptr || !sphere_pairs_->packing.on);
+  bool all_shells = std::all_of(added_.begin(), added_.end(), [](const AddedPart* part) { return part->empty(); }) &&
+                    (sphere_pairs_ == nullptr || !sphere_pairs_->packing.on);
   for (std::uint32_t k = 0; k < portions_.size(); ++k) {
     all_shells = all_shells && portions_[k].first_batch < portions_[k].last_batch;
     for (std::uint32_t r = portions_[k].first_run; r < portions_[k].last_run; ++r)

@@ -39,6 +39,8 @@ class OperatorPart {
 class AddedPart {
  public:
   virtual ~AddedPart() = default;
+  /// Adds nothing at all to the present matrix; on this rank, so that what is collective must not say so.
+  [[nodiscard]] virtual bool empty() const { return false; }
   /// q += A p.
   virtual void add_product(std::span<const Float4> p, std::span<Float4> q) const = 0;
   /// Add the 3×3 diagonal blocks.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "coupling/mechanics/mechanics.h"
 
@@ -17,16 +18,13 @@ constexpr double kMostLeft = 2.5;          // of the residual
 constexpr double kSmallCorrection = 0.15;  // motion that another iteration would bring, in units of the contact range
 constexpr double kStuckForce = 1e-3;       // largest residual that counts as rest [nN]
 constexpr double kAllowedRise = 0.2;       // of Φ, in the last resort of the freeze rule [nN·µm]
+constexpr double kAllowedJump = 0.02;      // of Φ, where a point of contact takes another nearest face [nN·µm]
+constexpr int kShortSearch = 2;            // halvings before nodes at kinks are held
+constexpr int kMostHolds = 3;              // times that nodes may be held in one iteration
+constexpr double kHeldShare = 0.1;         // of the force that drives a node back, over the largest such force, from which on it is held
+constexpr double kHold = 100.0;            // stiffness that holds a node, over the secant one
 constexpr double kLastResortStep = 0.2;    // in units of the contact range
 constexpr int kMaxLinearIterations = 400;
-
-/// Where a linear solve wants to go: velocities times a length of time, by point.
-struct Direction {
-  std::span<const Float4> velocity;
-  double factor;
-
-  Vec3d operator[](std::size_t i) const { return Vec3d{velocity[i].x, velocity[i].y, velocity[i].z} * factor; }
-};
 
 /// Which forces hold a node that nothing can move: words for the message.
 std::string forces_at_worst(const Vec3d& contacts, const Vec3d& left) {
@@ -38,6 +36,14 @@ std::string forces_at_worst(const Vec3d& contacts, const Vec3d& left) {
 
 }  // namespace
 
+/// Where a linear solve wants to go: velocities times a length of time, by point.
+struct Mechanics::Direction {
+  std::span<const Float4> velocity;
+  double factor;
+
+  Vec3d operator[](std::size_t i) const { return Vec3d{velocity[i].x, velocity[i].y, velocity[i].z} * factor; }
+};
+
 /// One Newton iteration's search along a direction. Φ(x) = E(x) − f·d + dᵀΓ_n d/(2Δt).
 struct Mechanics::Trial {
   Mechanics& m;
@@ -47,6 +53,7 @@ struct Mechanics::Trial {
   double dt;
   double phi;  ///< at the accepted state
   StepReport& report;
+  bool held = false;  ///< a search that did not end well has nodes to be held in the next
 
   [[nodiscard]] double measure() {
     m.evaluate(tissue);
@@ -57,7 +64,7 @@ struct Mechanics::Trial {
   /// Move along `direction` until Φ falls enough. On success the workspace is evaluated at the new state; else positions are restored, but
   /// for rounding.
   bool search(const Direction& direction, double slope, int halvings, double allowed_rise) {
-    double at = 0.0, fraction = 1.0;
+    double at = 0.0, fraction = 1.0, before = std::numeric_limits<double>::infinity();
     const auto go_to = [&](double there) {
       auto& x = m.scene_.position();
       m.for_owned_points([&](std::uint32_t i) { x[i] += direction[i] * (there - at); });
@@ -65,22 +72,49 @@ struct Mechanics::Trial {
     };
     for (int k = 0; k <= halvings; ++k, fraction *= 0.5) {
       go_to(fraction);
-      const double next = measure();
+      double next = measure();
       const SurfacePair* crossed = m.contacts_.crossed(m.contact_scene(), start);
-      const bool sound = std::isfinite(next) && !m.find_fault().has_value() && crossed == nullptr;
+      const bool sound = m.comm_.all(std::isfinite(next) && !m.find_fault().has_value() && crossed == nullptr);
       report.crossings += crossed != nullptr;
-      const bool lower = next <= phi + kArmijo * fraction * slope;
-      if (m.comm_.all(sound && (lower || next <= phi + allowed_rise))) {
+      // Higher nearer to the start: a jump of the contact energy lies between, and beyond it the way leads down.
+      const bool jumped = sound && next > before && before <= phi + kAllowedJump;
+      if (jumped) {
+        go_to(2.0 * fraction);
+        next = measure();
+      }
+      if (sound && (jumped || next <= phi + std::max(kArmijo * fraction * slope, allowed_rise))) {
+        report.halvings = std::max(report.halvings, k);
         if (next > phi) report.allowed_rise += next - phi;
         phi = next;
         return true;
       }
-      ++report.halvings;
+      // Not before: where the matrix is only too soft, a quarter of the way does not go too far.
+      if (k == kShortSearch) held = sound && m.hold_driven_back({direction.velocity, direction.factor * fraction});
+      before = sound ? next : std::numeric_limits<double>::infinity();
     }
     go_to(0.0);
     return false;
   }
 };
+
+bool Mechanics::hold_driven_back(const Direction& direction) {
+  const auto for_nodes_back = [&](auto&& function) {  // function(node, way, force against it)
+    for (const ContactBody& body : scene_.bodies())
+      if (body.active() && body.first_point < scene_.owned_nodes())
+        for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) {
+          const Vec3d way = direction[i];
+          const double length = norm(way), back = -morula::dot(force_[i], way);
+          if (back > 0.0) function(i, length, back / length);
+        }
+  };
+  double most = 0.0;
+  for_nodes_back([&](std::uint32_t, double, double back) { most = std::max(most, back); });
+  most = comm_.max(most);
+  for_nodes_back([&](std::uint32_t i, double length, double back) {
+    if (back >= kHeldShare * most) held_.hold(i, force_[i] * (1.0 / norm(force_[i])), kHold * back / length);
+  });
+  return most > 0.0;
+}
 
 double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt, bool moved) {
   auto timed = timer_.scope(Stage::kAdvance);
@@ -168,28 +202,38 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
   const double allowed = control.max_displacement * range;
 
   for (int iteration = 0; iteration < control.max_newton; ++iteration) {
+    bool moved = false, converged = false;
+    double slope = 0.0, longest = 0.0;
     if (iteration > 0) std::fill(solution_.begin(), solution_.end(), Float4{});
-    auto solved = solve(dt, iteration == 0 ? control.first_tolerance : control.later_tolerance);
-    if (!solved) return undo(start, solved.error());
-    ++report.newton;
-    const double longest = limit_direction(range);
-    if (iteration == 0 && longest > 4.0 * allowed && dt > 1e-3) {
-      return undo(start, StepFault{"points would move too far in one step", {}, true});
+    for (int holds = 0;; ++holds) {
+      auto solved = solve(dt, iteration == 0 ? control.first_tolerance : control.later_tolerance);
+      if (!solved) return undo(start, solved.error());
+      longest = limit_direction(range);
+      if (iteration + holds == 0 && longest > 4.0 * allowed && dt > 1e-3) {
+        return undo(start, StepFault{"points would move too far in one step", {}, true});
+      }
+      slope = -dot(force_, direction);
+      converged = -0.5 * slope <= 1e-12 * (1.0 + std::abs(trial.phi));
+      const double rise = converged ? 1e-9 * (1.0 + std::abs(trial.phi)) : 0.0;
+      moved = trial.search(direction, slope, holds < kMostHolds ? kShortSearch : kHalvings, rise);
+      if (!moved && !trial.held && holds < kMostHolds) moved = trial.search(direction, slope, kHalvings, rise);
+      if (moved || !trial.held || holds == kMostHolds) break;
+      evaluate(tissue);
+      (void)friction_residual(start, external, dt);
     }
-    double slope = -dot(force_, direction);
-    const bool converged = -0.5 * slope <= 1e-12 * (1.0 + std::abs(trial.phi));
-    if (!trial.search(direction, slope, kHalvings, converged ? 1e-9 * (1.0 + std::abs(trial.phi)) : 0.0)) {
+    ++report.newton;
+    if (!moved) {
       // Freeze rule (time_stepping.md §9.3): the gradient in the metric of friction, then a short Newton step with an allowed rise.
       evaluate(tissue);
       (void)friction_residual(start, external, dt);
       const std::vector<Float4> newton_solution = solution_;
       const double newton_factor = direction.factor;
       std::fill(solution_.begin(), solution_.end(), Float4{});
-      solved = solve(0.0, control.first_tolerance);
+      auto solved = solve(0.0, control.first_tolerance);
       if (!solved) return undo(start, solved.error());
       limit_direction(range);
       slope = -dot(force_, direction);
-      bool moved = trial.search(direction, slope, kGradientHalvings, 0.0);
+      moved = trial.search(direction, slope, kGradientHalvings, 0.0);
       if (!moved) {
         direction = {newton_solution, newton_factor};
         limit_direction(kLastResortStep * range);

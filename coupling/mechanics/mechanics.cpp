@@ -138,6 +138,7 @@ void Mechanics::lay_out_system() {
   system_.set_sphere_pairs(&spheres_.pairs());
   if (!interior_.empty()) system_.add_part(&interior_);
   if (const AddedPart* friction = contacts_.own_friction()) system_.add_part(friction);
+  system_.add_part(&held_);
 }
 
 void Mechanics::evaluate(const Tissue& tissue, bool moved) {
@@ -231,8 +232,10 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
     friction[scene_.bodies()[first + i].first_point] =
         static_cast<float>(model_.types[tissue.spheres.type[i]].medium_friction * 4.0 * std::numbers::pi * r * r);
   }
-  for (const Anchor& anchor : anchors_) friction[anchor.node] += static_cast<float>(anchor.stiffness * dt);
   system_.set_point_friction(friction);
+  held_.clear();
+  for (const Anchor& anchor : anchors_)
+    for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}) held_.hold(anchor.node, axis, anchor.stiffness);
   spheres_.begin_step();
   // The last velocity is the solver's start; obstacles go where they will be at the end of the step.
 #pragma omp parallel for schedule(static) num_threads(threads_)
@@ -271,6 +274,7 @@ void Mechanics::assemble(const Tissue& tissue, double dt) {
   shells_.assemble(tissue.shells, scene_.position(), face_tensions_.on_top_of(gradient_.face_energy), dt,
                    edge_blocks_of(groups, scene_.bodies().size(), quadrature, static_cast<float>(dt)));
   interior_.assemble(scene_.position(), dt);
+  held_.set_step(dt);
   system_.set_step(dt);
   system_.set_elements(groups, quadrature);
   contacts_.make_room();

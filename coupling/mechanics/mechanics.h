@@ -13,6 +13,7 @@
 #include "core/parallel/comm.h"
 #include "coupling/grips.h"
 #include "coupling/mechanics/face_tensions.h"
+#include "coupling/mechanics/held_nodes.h"
 #include "coupling/mechanics/interior_system.h"
 #include "coupling/mechanics/node_terms.h"
 #include "coupling/mechanics/scene.h"
@@ -35,7 +36,7 @@ struct StepReport {
   double step = 0.0;  ///< done [s]
   int newton = 0;     ///< iterations
   int linear_iterations = 0;
-  int halvings = 0;           ///< of the line search
+  int halvings = 0;           ///< of the way that a search took, at most
   double displacement = 0.0;  ///< largest of any point [µm]
   double energy = 0.0;        ///< at the end [nN·µm]
   double allowed_rise = 0.0;  ///< rise of Φ that the freeze rule let pass [nN·µm]
@@ -148,6 +149,9 @@ class Mechanics {
   [[nodiscard]] double friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt, bool moved = true);
   /// The residual becomes the right side of the system.
   void give_residual();
+  struct Direction;
+  /// Hold the nodes that a full step along `direction` took over a kink: its residual, in force_, drives them back. Says whether there are any.
+  bool hold_driven_back(const Direction& direction);
   [[nodiscard]] std::optional<StepFault> find_fault() const;
   Result<StepReport, StepFault> implicit_step(Tissue& tissue, double dt, std::span<const Vec3d> external);
   Result<StepReport, StepFault> explicit_step(Tissue& tissue, double dt, std::span<const Vec3d> external);
@@ -246,6 +250,7 @@ class Mechanics {
   std::span<const Anchor> anchors_;  ///< of the present step
   double friction_energy_ = 0.0;     ///< dᵀΓ_n d
   std::vector<Float4> solution_;
+  HeldNodes held_;              ///< in the present step
   std::size_t most_bytes_ = 0;  ///< at any time of the present step
 };
 

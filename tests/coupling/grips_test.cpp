@@ -69,8 +69,8 @@ TEST(Grip, TakesTheCellAlongItsWayAndLandsOnItsCorners) {
   model.loads = {load};
   auto s = simulation(model);
   bool corner = false;
-  while (s->tissue().clock.time < 400.0) {
-    ASSERT_TRUE(s->step(400.0).ok());
+  while (s->tissue().clock.time < 600.0) {
+    ASSERT_TRUE(s->step(600.0).ok());
     corner = corner || s->tissue().clock.time == 25.0;
   }
   EXPECT_TRUE(corner);
