@@ -83,8 +83,9 @@ cell_types:
       fold_barrier: {stiffness: 0.2 fJ, angle: 1.6 rad}
 contact: {range: 0.5 um, repulsion: 20 kPa/um, points: 3}
 )";
-  return std::string("schema: 1\nstudy: drift\nseed: 1\ntime: {end: 2 h, step: 20 s}\ndomain: {size: [60 um, 60 um, 60 um], boundary: open}") + cell +
-         (doublet ? "" : ", glass: 0.05 mJ/m^2") + shell +
+  return std::string(
+             "schema: 1\nstudy: drift\nseed: 1\ntime: {end: 2 h, step: 20 s}\ndomain: {size: [60 um, 60 um, 60 um], boundary: open}") +
+         cell + (doublet ? "" : ", glass: 0.05 mJ/m^2") + shell +
          (doublet ? "initial:\n  - {type: cell, at: [[0 um, 0 um, -6 um], [0 um, 0 um, 6 um]], as: shell}\n"
                   : "geometry:\n  glass: {plane: {center: [0 um, 0 um, -6 um], normal: [0, 0, 1], size: 60 um}}\n"
                     "initial:\n  - {type: cell, at: [[0 um, 0 um, 0.1 um]], as: shell}\n");
