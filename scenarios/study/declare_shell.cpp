@@ -17,13 +17,8 @@ constexpr Defaults kCell{"1 kPa",
                          "chosen between 0.03 mN/m (neutrophil, Hochmuth 2000) and 0.4 mN/m (fibroblast, Tinevez et al. 2009)",
                          "2.5 kPa",
                          kTable1};
-constexpr Defaults kNucleus{"5 kPa",
-                            "chosen: five times the cortex",
-                            "0 mN/m",
-                            "Active tension of the lamina.",
-                            "chosen: off",
-                            "10 kPa",
-                            "chosen: four times the cell"};
+constexpr Defaults kNucleus{"5 kPa",  "chosen: five times the cortex", "0 mN/m", "Active tension of the lamina.", "chosen: off",
+                            "10 kPa", "chosen: four times the cell"};
 
 void declare_cortex(Section& c, draft::ShellKeys& t, const Defaults& fallback, draft::CellType* cell) {
   c.word(

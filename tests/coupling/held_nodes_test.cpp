@@ -44,8 +44,8 @@ TEST(HeldNodes, LetCellsWithFluidCorticesComeToRestInLargeSteps) {
   model.contact.points_per_face = 3;
   ShapeLibrary shapes;
   const double a = 3.9;  // neighbours 2√2 a = 11.03 µm apart: touching, of radius 6
-  const Tissue tissue = test::make_tissue(model, shapes, {{a, a, a}, {a, -a, -a}, {-a, a, -a}, {-a, -a, a}},
-                                          std::vector<BodyKind>(4, BodyKind::kShell));
+  const Tissue tissue =
+      test::make_tissue(model, shapes, {{a, a, a}, {a, -a, -a}, {-a, a, -a}, {-a, -a, a}}, std::vector<BodyKind>(4, BodyKind::kShell));
   auto s = std::move(Simulation::create(model, tissue, Comm(), 1)).value();
   double largest = 0.0, motion = 0.0;
   std::vector<Vec3d> at_half;
