@@ -78,7 +78,8 @@ TEST(LibraryStudies, PassTheCheckerWithoutAWarning) {
       if (one.name != "pull_off") {
         EXPECT_TRUE(study->warnings.empty()) << study->warnings.text();
       }
-      EXPECT_EQ(study->scenario, one.name);
+      // A variant that asks another question than the scenario's judge has none.
+      EXPECT_TRUE(study->scenario == one.name || study->scenario.empty()) << study->scenario;
       EXPECT_FALSE(study->title.empty());
     }
     EXPECT_EQ(readme, 1) << one.name;
