@@ -5,8 +5,8 @@
 ///
 /// Prints a table and writes the same as JSON: wall time split by stage, µs per node-step (or cell-step), steps per simulated hour, CPU
 /// seconds per simulated hour and 1000 nodes (or cells), bytes per node (or cell). Under mpirun the tissue is shared by the ranks.
-/// --accuracy runs a case of shells twice, as always and with steps of at most 10 s and a tenth of the displacement, and prints how
-/// contact area and shapes differ.
+/// --accuracy runs a case of shells twice, as always and with steps of at most 10 s and a tenth of the displacement and of all
+/// tolerances, and prints how contact area and shapes differ.
 #include <malloc.h>
 #include <mpi.h>
 #include <omp.h>

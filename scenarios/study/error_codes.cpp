@@ -109,9 +109,9 @@ constexpr ErrorCode kCodes[] = {
     {570, "grip in a periodic domain",
      "A grip holds nodes at places of the laboratory; a cell that leaves through a periodic face would be torn back."},
     {571, "mesh too fine for this adhesion",
-     "Where more than two cells meet, adhesion of nearly the tension of both surfaces folds the surfaces; meshes of 642 nodes and more "
-     "were "
-     "measured to stall on these folds (13 cells at W = 0.9 times both tensions), meshes of 162 nodes were not."},
+     "Where more than two cells meet, adhesion of nearly the tension of both surfaces folds the surfaces; 13 cells of 642 nodes were "
+     "measured to "
+     "stall on these folds at W = 0.95 times both tensions, and not at 0.9; meshes of 162 nodes were not."},
     {572, "volume that does not bear the tension",
      "A sphere of tension T and bulk modulus K shrinks without end when K is below 2 T/(3 R)."},
     {580, "region of adhesion that no face has",

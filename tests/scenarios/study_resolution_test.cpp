@@ -13,7 +13,7 @@ domain: {size: [100 um, 100 um, 100 um]}
 cell_types:
   cell:
     radius: 6 um
-    adhesion: {cell: 0.9 mJ/m^2}
+    adhesion: {cell: 0.95 mJ/m^2}
     dcm:
       nodes: 642
       cortex: {tension: 0.5 mN/m}
@@ -33,7 +33,7 @@ TEST(Resolution, AdhesionThatAFineMeshStallsOnNamesTheNodesThatDoNot) {
 TEST(Resolution, PairsAndCoarserMeshesAndWeakerAdhesionAreAccepted) {
   EXPECT_TRUE(test::read(test::changed(", [6 um, 10 um, 0 um]", "", kStudy)).ok());
   EXPECT_TRUE(test::read(test::changed("range: 0.45", "range: 0.5", test::changed("nodes: 642", "nodes: 162", kStudy))).ok());
-  EXPECT_TRUE(test::read(test::changed("cell: 0.9", "cell: 0.8", kStudy)).ok());
+  EXPECT_TRUE(test::read(test::changed("cell: 0.95", "cell: 0.9", kStudy)).ok());
 }
 
 TEST(Resolution, VolumeThatDoesNotBearTheTensionIsRefused) {  // 2 γ/(3 R) = 0.0556 kPa
