@@ -99,10 +99,11 @@ struct Mechanics::Trial {
 };
 
 bool Mechanics::hold_driven_back(const Direction& direction) {
-  const auto for_nodes_back = [&](auto&& function) {  // function(node, way, force against it)
+  const auto for_nodes_back = [&](auto&& function) {  // function(node, way, force against it), for nodes that touch something
     for (const ContactBody& body : scene_.bodies())
       if (body.active() && body.first_point < scene_.owned_nodes())
         for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) {
+          if (i >= gradient_.force.size() || norm2(gradient_.force[i]) == 0.0) continue;
           const Vec3d way = direction[i];
           const double length = norm(way), back = -morula::dot(force_[i], way);
           if (back > 0.0) function(i, length, back / length);
