@@ -62,8 +62,8 @@ struct Mechanics::Trial {
   }
 
   /// Move along `direction` until Φ falls enough. On success the workspace is evaluated at the new state; else positions are restored, but
-  /// for rounding.
-  bool search(const Direction& direction, double slope, int halvings, double allowed_rise) {
+  /// for rounding. `give_up_to_hold`: not more than the short search where nodes are held after it.
+  bool search(const Direction& direction, double slope, int halvings, double allowed_rise, bool give_up_to_hold = false) {
     double at = 0.0, fraction = 1.0, before = std::numeric_limits<double>::infinity();
     const auto go_to = [&](double there) {
       auto& x = m.scene_.position();
@@ -91,6 +91,7 @@ struct Mechanics::Trial {
       }
       // Not before: where the matrix is only too soft, a quarter of the way does not go too far.
       if (k == kShortSearch) held = sound && m.hold_driven_back({direction.velocity, direction.factor * fraction});
+      if (k == kShortSearch && held && give_up_to_hold) break;
       before = sound ? next : std::numeric_limits<double>::infinity();
     }
     go_to(0.0);
@@ -218,8 +219,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
       slope = -dot(force_, direction);
       converged = -0.5 * slope <= 1e-12 * (1.0 + std::abs(trial.phi));
       const double rise = converged ? 1e-9 * (1.0 + std::abs(trial.phi)) : 0.0;
-      moved = trial.search(direction, slope, holds < kMostHolds ? kShortSearch : kHalvings, rise);
-      if (!moved && !trial.held && holds < kMostHolds) moved = trial.search(direction, slope, kHalvings, rise);
+      moved = trial.search(direction, slope, kHalvings, rise, holds < kMostHolds);
       if (moved || !trial.held || holds == kMostHolds) break;
       evaluate(tissue);
       (void)friction_residual(start, external, dt);

@@ -4,37 +4,13 @@
 #include <numbers>
 
 #include "core/mesh/primitives.h"
-#include "coupling/simulation.h"
 #include "coupling/swaps.h"
-#include "tests/coupling/tissue_fixture.h"
+#include "tests/coupling/one_cell_fixture.h"
 
 namespace morula {
 namespace {
 
 using namespace test;
-
-constexpr double kRadius = 6.0, kVolume = 904.778684233860;
-
-double fraction(double nucleus) { return nucleus * nucleus * nucleus / (kRadius * kRadius * kRadius); }
-
-std::unique_ptr<Simulation> one_cell(const Model& model) {
-  ShapeLibrary shapes;
-  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell});
-  return std::move(Simulation::create(model, std::move(tissue), Comm(), 1)).value();
-}
-
-void run(Simulation& simulation, double time) {
-  while (simulation.tissue().clock.time < time) {
-    const auto step = simulation.step(time);
-    ASSERT_TRUE(step.ok()) << step.error().message;
-  }
-}
-
-Vec3d mean(std::span<const Vec3d> nodes) {
-  Vec3d out;
-  for (const Vec3d& x : nodes) out += x * (1.0 / static_cast<double>(nodes.size()));
-  return out;
-}
 
 /// Smallest distance of the nucleus' centre behind the faces' planes: > 0 inside a cell that is star-shaped about it.
 double behind_faces(const dcm::Shells& shells) {

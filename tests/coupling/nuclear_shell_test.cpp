@@ -7,20 +7,15 @@
 #include "core/mesh/mesh_check.h"
 #include "core/mesh/primitives.h"
 #include "core/random/philox.h"
-#include "coupling/simulation.h"
 #include "coupling/swaps.h"
 #include "dcm/derived_parameters.h"
 #include "tests/coupling/energy_gradient.h"
-#include "tests/coupling/tissue_fixture.h"
+#include "tests/coupling/one_cell_fixture.h"
 
 namespace morula {
 namespace {
 
 using namespace test;
-
-constexpr double kRadius = 6.0, kVolume = 904.778684233860;
-
-double fraction(double nucleus) { return nucleus * nucleus * nucleus / (kRadius * kRadius * kRadius); }
 
 /// A nucleus of this radius, with springs and hinges of a lamina of Young's modulus `young` [kPa], 0.2 µm thick.
 void give_nuclear_shell(Model& model, double radius, double young, std::uint32_t nodes = 162) {
@@ -32,25 +27,6 @@ void give_nuclear_shell(Model& model, double radius, double young, std::uint32_t
   p.nucleus_shell.spring_stiffness = dcm::spring_stiffness(young, thickness);
   p.nucleus_shell.hinge_stiffness = dcm::hinge_stiffness(dcm::bending_modulus(young, thickness, 0.5));
   p.nucleus_shell.bulk_modulus = 10.0;
-}
-
-std::unique_ptr<Simulation> one_cell(const Model& model) {
-  ShapeLibrary shapes;
-  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell});
-  return std::move(Simulation::create(model, std::move(tissue), Comm(), 1)).value();
-}
-
-void run(Simulation& simulation, double time) {
-  while (simulation.tissue().clock.time < time) {
-    const auto step = simulation.step(time);
-    ASSERT_TRUE(step.ok()) << step.error().message;
-  }
-}
-
-Vec3d mean(std::span<const Vec3d> nodes) {
-  Vec3d out;
-  for (const Vec3d& x : nodes) out += x * (1.0 / static_cast<double>(nodes.size()));
-  return out;
 }
 
 double extent(std::span<const Vec3d> nodes, std::size_t axis) {
