@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "cbm/partners.h"
+#include "core/parallel/threads.h"
 #include "coupling/behaviours/division.h"
 #include "coupling/behaviours/life.h"
 #include "coupling/behaviours/migration.h"
@@ -112,15 +113,17 @@ void Simulation::distribute() {
 
 std::vector<Vec3d> Simulation::centers() const {
   std::vector<Vec3d> out(tissue_.cells.size());
-  std::size_t shell = 0, sphere = 0;
+  std::vector<std::size_t> with_shell;
+  std::size_t sphere = 0;
   for (std::size_t i = 0; i < out.size(); ++i) {
-    if (tissue_.cells.rows[i].body == BodyKind::kShell) {
-      out[i] = volume_centroid(tissue_.shells.topology(shell).faces(), tissue_.shells.nodes(shell));
-      ++shell;
-    } else {
+    if (tissue_.cells.rows[i].body == BodyKind::kShell)
+      with_shell.push_back(i);
+    else
       out[i] = tissue_.spheres.position[sphere++];
-    }
   }
+  parallel_for(threads_, with_shell.size(), [&](std::size_t shell) {
+    out[with_shell[shell]] = volume_centroid(tissue_.shells.topology(shell).faces(), tissue_.shells.nodes(shell));
+  });
   return out;
 }
 

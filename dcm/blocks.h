@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/mesh/lane_blocks.h"
+#include "core/parallel/threads.h"
 #include "dcm/shells.h"
 
 namespace morula::dcm {
@@ -35,13 +36,8 @@ void for_block(const ShellBlocks& blocks, std::size_t b, const Kernel& kernel, W
 /// The same for every block, in parallel; each thread has one Workspace.
 template <class Workspace, class Kernel>
 void for_each_block(const ShellBlocks& blocks, const Kernel& kernel) {
-  const std::size_t count = blocks.blocks.size();
-#pragma omp parallel if (count > 1)
-  {
-    Workspace workspace;
-#pragma omp for schedule(static)
-    for (std::size_t b = 0; b < count; ++b) for_block(blocks, b, kernel, workspace);
-  }
+  parallel_for_with<Workspace>(omp_get_max_threads(), blocks.blocks.size(),
+                               [&](std::size_t b, Workspace& workspace) { for_block(blocks, b, kernel, workspace); });
 }
 
 }  // namespace morula::dcm

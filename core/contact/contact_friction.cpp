@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/contact/contact_layer.h"
+#include "core/parallel/threads.h"
 
 namespace morula {
 
@@ -123,8 +124,7 @@ void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const 
   const std::size_t threads = static_cast<std::size_t>(settings_.threads);
   std::vector<OrderFreeSum> sums(threads);
   // A thread writes a range of bodies and visits all pairs that touch it, in order: the bits do not depend on the number of threads.
-#pragma omp parallel for schedule(static, 1) num_threads(settings_.threads)
-  for (std::size_t thread = 0; thread < threads; ++thread) {
+  on_each_thread(settings_.threads, [&](std::size_t thread) {
     const auto has = [&](std::size_t body) { return body * threads / scene.bodies.size() == thread; };
     for (const SurfacePair& pair : pairs_) {
       if (!moved && !pair.rigid) continue;
@@ -140,7 +140,7 @@ void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const 
       for (int d = 0; d < 2; ++d) sum += rub(pair.step_elements[d], quadrature, material_of(scene, pair), body[d], body[1 - d], rigid);
       if (count) sums[thread].add(sum);
     }
-  }
+  });
   for (const OrderFreeSum& sum : sums) quadratic += sum;
 }
 

@@ -8,11 +8,13 @@
 
 #include "core/contact/faces_in_box.h"
 #include "core/contact/self_contact.h"
+#include "core/parallel/threads.h"
 
 namespace morula {
 namespace {
 
 constexpr double kFloatRounding = 1.0 / (1 << 24);  // relative, of a number kept as float
+constexpr std::size_t kPairsOfShare = 16;           // evaluated by each of several threads before their gradients are collected
 
 Vec3f to_float(const Vec3d& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 Vec3d to_double(const Vec3f& v) { return {v.x, v.y, v.z}; }
@@ -85,10 +87,8 @@ bool ContactLayer::note_motion(const ContactScene& scene) {
   if (fresh_ || last_radius_.size() != scene.bodies.size()) return true;
   if (known_at_.size() != scene.position.size()) return true;
   if (pairs_.empty()) return note_travel(scene);
-  double most = 0.0;
   const double limit = 0.5 * settings_.body_skin;
-#pragma omp parallel for schedule(static) num_threads(settings_.threads) reduction(max : most)
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+  const double most = parallel_max(settings_.threads, scene.bodies.size(), [&](std::size_t i) {
     const ContactBody& body = scene.bodies[i];
     BodyMotion motion;
     for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p)
@@ -101,20 +101,19 @@ bool ContactLayer::note_motion(const ContactScene& scene) {
     last_radius_[i] = static_cast<float>(body.radius);
     motion_[i] = motion;
     travel_[i] += (norm(motion.mean) + motion.deviation) * 1.000001;
-    most = std::max(most, travel_[i]);
-  }
+    return travel_[i];
+  });
   double fastest_obstacle = 0.0;
   for (std::size_t i = 0; i < offsets_.size(); ++i) fastest_obstacle = std::max(fastest_obstacle, norm(offsets_[i] - last_offsets_[i]));
   obstacle_travel_ += fastest_obstacle;
-#pragma omp parallel for schedule(static) num_threads(settings_.threads)
-  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+  parallel_for(settings_.threads, pairs_.size(), [&](std::size_t k) {
     SurfacePair& pair = pairs_[k];
     const BodyMotion& a = motion_[pair.a];
     const BodyMotion b = pair.rigid ? BodyMotion{offsets_[pair.b] - last_offsets_[pair.b], 0.0} : motion_[pair.b];
     const double whole = (norm(a.mean - b.mean) + a.deviation + b.deviation) * 1.000001;
     pair.motion += whole;
     pair.patch_motion += std::min(whole, patch_motion(scene, pair));
-  }
+  });
   know_positions(scene);
   last_offsets_ = offsets_;
   wear_ = std::max(most, obstacle_travel_) / limit;
@@ -123,26 +122,24 @@ bool ContactLayer::note_motion(const ContactScene& scene) {
 
 void ContactLayer::know_positions(const ContactScene& scene) {
   known_at_.resize(scene.position.size());
-  double largest = 0.0;
-#pragma omp parallel for schedule(static) num_threads(settings_.threads) reduction(max : largest)
-  for (std::size_t p = 0; p < known_at_.size(); ++p) {
+  const double largest = parallel_max(settings_.threads, known_at_.size(), [&](std::size_t p) {
     const Vec3d& x = scene.position[p];
     known_at_[p] = to_float(x);
-    largest = std::max({largest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
-  }
+    return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+  });
   rounding_ = kFloatRounding * std::numbers::sqrt3 * largest;
 }
 
 bool ContactLayer::note_travel(const ContactScene& scene) {
   double most = 0.0;
-#pragma omp parallel for schedule(static) num_threads(settings_.threads) reduction(max : most)
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+  most = parallel_max(settings_.threads, scene.bodies.size(), [&](std::size_t i) {
     const ContactBody& body = scene.bodies[i];
     const double grown = growth(body, last_radius_[i]);
-    for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p) {
-      most = std::max(most, norm(scene.position[p] - to_double(known_at_[p])) + rounding_ + grown);
-    }
-  }
+    double furthest = 0.0;
+    for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p)
+      furthest = std::max(furthest, norm(scene.position[p] - to_double(known_at_[p])) + rounding_ + grown);
+    return furthest;
+  });
   for (std::size_t i = 0; i < offsets_.size(); ++i) most = std::max(most, norm(offsets_[i] - last_offsets_[i]));
   wear_ = most * 1.000001 / (0.5 * settings_.body_skin);
   return wear_ > 1.0;
@@ -189,8 +186,7 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
   std::vector<Extent> extents(n);
   std::vector<std::uint32_t> place(n);
   std::vector<char> owned(n);
-#pragma omp parallel for schedule(static) num_threads(settings_.threads)
-  for (std::size_t i = 0; i < n; ++i) {
+  parallel_for(settings_.threads, n, [&](std::size_t i) {
     const ContactBody& body = scene.bodies[i];
     place[i] = body.place;
     owned[i] = body.owned;
@@ -204,7 +200,7 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
     for (std::uint32_t p = 0; p < body.point_count; ++p)
       radius2 = std::max(radius2, norm2(scene.position[body.first_point + p] - extent.center));
     extent.radius = std::sqrt(radius2) + reach + body.radius;
-  }
+  });
   spheres_.clear();
   spheres_.reserve(sphere_pairs_before_ + sphere_pairs_before_ / 64);  // no growth by doubling in most rebuilds
   std::vector<SurfacePair> old = std::move(pairs_);
@@ -355,8 +351,7 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
 void ContactLayer::find_penetration(const ContactScene& scene, std::span<Penetration> by_body) {
   const std::vector<std::uint32_t>& list = pairs_of_kind_[static_cast<std::size_t>(SurfacePairKind::kWithSphere)];
   std::vector<Penetration> of_pair(list.size());
-#pragma omp parallel for schedule(dynamic, 8) num_threads(settings_.threads)
-  for (std::size_t k = 0; k < list.size(); ++k) {
+  parallel_for(settings_.threads, list.size(), [&](std::size_t k) {
     SurfacePair& pair = pairs_[list[k]];
     if (pair.motion - pair.built_at > settings_.skin) rebuild_lists(scene, pair);
     const PairBody body[2] = {view(scene, pair, 0), view(scene, pair, 1)};
@@ -364,7 +359,7 @@ void ContactLayer::find_penetration(const ContactScene& scene, std::span<Penetra
     std::vector<std::uint32_t> faces;
     pair.points[d].unpack_source_faces(faces);
     of_pair[k] = penetration(body[d], body[1 - d], FaceQuadrature::with_points(settings_.points_per_face), faces);
-  }
+  });
   for (std::size_t k = 0; k < list.size(); ++k) {
     const SurfacePair& pair = pairs_[list[k]];
     Penetration& sum = by_body[scene.bodies[pair.a].shape == BodyShape::kSphere ? pair.a : pair.b];
@@ -374,31 +369,43 @@ void ContactLayer::find_penetration(const ContactScene& scene, std::span<Penetra
 }
 
 void ContactLayer::evaluate(const ContactScene& scene, SurfacePairKind kind, ContactGradient& gradient) {
-  // A few pairs at a time: their gradients go to the bodies while they are in cache, those of a body by one thread and in canonical order.
   const std::vector<std::uint32_t>& list = pairs_of_kind_[static_cast<std::size_t>(kind)];
-  const std::size_t threads = static_cast<std::size_t>(settings_.threads), slots = threads == 1 ? 1 : 8 * threads;
-  struct Slot {
-    PairGradient gradient[2];
-  };
-  std::vector<Slot> slot(slots);
+  const std::size_t threads = static_cast<std::size_t>(settings_.threads);
   std::vector<ElementStore>& stores = present_[static_cast<std::size_t>(kind)];
   stores.clear();
   stores.resize(threads);
+  struct Gradients {
+    PairGradient of[2];
+  };
+  if (threads == 1) {
+    PointsWorkspace workspace;
+    Gradients found;
+    for (const std::uint32_t k : list) {
+      evaluate_pair(scene, pairs_[k], found.of, workspace, stores[0]);
+      for (int side = 0; side < (pairs_[k].rigid ? 1 : 2); ++side) collect(scene, pairs_[k], side, found.of[side], gradient);
+    }
+    return;
+  }
+  // A share of the pairs at a time. Their gradients go to the bodies while the next are found, those of a body by one thread and in canonical
+  // order.
+  const std::size_t share = kPairsOfShare * threads, shares = (list.size() + share - 1) / share;
+  std::vector<Gradients> found[2] = {std::vector<Gradients>(share), std::vector<Gradients>(share)};
+  const auto last_of = [&](std::size_t number) { return std::min(list.size(), (number + 1) * share); };
 #pragma omp parallel num_threads(settings_.threads)
   {
     PointsWorkspace workspace;
-    for (std::size_t first = 0; first < list.size(); first += slots) {
-      const std::size_t count = std::min(slots, list.size() - first);
-#pragma omp for schedule(dynamic, 1)
-      for (std::size_t k = 0; k < count; ++k)
-        evaluate_pair(scene, pairs_[list[first + k]], slot[k].gradient, workspace, stores[static_cast<std::size_t>(omp_get_thread_num())]);
-#pragma omp for schedule(static, 1)
-      for (std::size_t t = 0; t < threads; ++t)
-        for (std::size_t k = 0; k < count; ++k) {
-          const SurfacePair& pair = pairs_[list[first + k]];
-          if (pair.a % threads == t) collect(scene, pair, 0, slot[k].gradient[0], gradient);
-          if (!pair.rigid && pair.b % threads == t) collect(scene, pair, 1, slot[k].gradient[1], gradient);
+    const auto thread = static_cast<std::size_t>(omp_get_thread_num());
+    for (std::size_t now = 0; now <= shares; ++now) {
+      if (now > 0)
+        for (std::size_t k = (now - 1) * share; k < last_of(now - 1); ++k) {
+          const SurfacePair& pair = pairs_[list[k]];
+          const Gradients& of_pair = found[(now - 1) % 2][k - (now - 1) * share];
+          if (pair.a % threads == thread) collect(scene, pair, 0, of_pair.of[0], gradient);
+          if (!pair.rigid && pair.b % threads == thread) collect(scene, pair, 1, of_pair.of[1], gradient);
         }
+#pragma omp for schedule(dynamic, 1)
+      for (std::size_t k = now * share; k < last_of(now); ++k)
+        evaluate_pair(scene, pairs_[list[k]], found[now % 2][k - now * share].of, workspace, stores[thread]);
     }
   }
 }

@@ -1,4 +1,5 @@
 #include "core/contact/objective_friction.h"
+#include "core/parallel/threads.h"
 
 namespace morula {
 namespace {
@@ -101,14 +102,14 @@ void ObjectiveFriction::rub(std::span<const Vec3d> position, std::span<const Vec
 template <class F>
 void ObjectiveFriction::for_corners(F&& function) const {
   const auto threads = static_cast<std::uint32_t>(threads_);
-#pragma omp parallel for schedule(static, 1) num_threads(threads_)
-  for (std::uint32_t thread = 0; thread < threads; ++thread)
+  on_each_thread(threads_, [&](std::size_t thread) {
     for (const ObjectiveElement& e : elements_) {
       const bool mine[2] = {e.body[0] % threads == thread && bodies_[e.body[0]].active(),
                             e.count > 3 && e.body[1] % threads == thread && bodies_[e.body[1]].active()};
       if (!mine[0] && !mine[1]) continue;
       function(e, mine);
     }
+  });
 }
 
 void ObjectiveFriction::add_product(std::span<const Float4> p, std::span<Float4> q) const {

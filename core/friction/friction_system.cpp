@@ -1,4 +1,5 @@
 #include "core/friction/friction_system.h"
+#include "core/parallel/threads.h"
 
 #include <omp.h>
 
@@ -9,6 +10,9 @@
 
 namespace morula {
 namespace {
+
+constexpr std::size_t kWorkOfPoint = 8;  // in units of that of a block between two nodes
+constexpr std::uint16_t kNoThread = 0xFFFF;
 
 /// One number in all components.
 Float4v splat(float s) { return Float4v{s, s, s, s}; }
@@ -71,20 +75,6 @@ void FrictionSystem::set_layout(Layout layout, int threads) {
   layout_ = std::move(layout);
   threads_ = std::max(1, threads);
   drop_matrix();
-  // Contiguous ranges of bodies of about equal numbers of points.
-  std::size_t owned_points = 0;
-  for (std::size_t body = 0; body < layout_.body_count(); ++body)
-    if (layout_.owned[body]) owned_points += layout_.points_of(body).count;
-  work_.assign(static_cast<std::size_t>(threads_), {});
-  std::size_t seen = 0, thread = 0;
-  for (std::size_t body = 0; body < layout_.body_count(); ++body) {
-    if (layout_.owned[body]) seen += layout_.points_of(body).count;
-    work_[thread].last_body = static_cast<std::uint32_t>(body + 1);
-    if (thread + 1 < work_.size() && seen * work_.size() >= owned_points * (thread + 1)) {
-      ++thread;
-      work_[thread].first_body = work_[thread].last_body = static_cast<std::uint32_t>(body + 1);
-    }
-  }
   portions_.clear();
   sphere_pairs_ = nullptr;
   added_.clear();
@@ -96,16 +86,14 @@ void FrictionSystem::set_elements(std::span<const ElementGroup> groups, const Fa
   for (const ElementGroup& group : groups) points += group.elements[0].size() + group.elements[1].size();
   blocks_.resize(static_cast<std::size_t>(threads_));
   for (auto& arena : blocks_) arena.clear();
-#pragma omp parallel num_threads(threads_)
-  {
-    const auto arena = static_cast<std::uint32_t>(omp_get_thread_num());
+  WorkQueue queue(groups.size(), 8);
+  on_each_thread(threads_, [&](std::size_t arena) {
     PairCondenser condenser(quadrature, dt_);
+    NodePairArena& out = blocks_[arena];
     std::size_t points_done = 0;
     bool foreseen = false;
-#pragma omp for schedule(dynamic, 8)
-    for (std::size_t g = 0; g < groups.size(); ++g) {
+    queue.work_off([&](std::size_t g) {
       const ElementGroup& group = groups[g];
-      NodePairArena& out = blocks_[arena];
       if (!foreseen && points_done > 1000) {  // room for all, foreseen from the first: to grow by and by would copy them many times
         foreseen = true;
         const double more = 1.05 * static_cast<double>(points) / static_cast<double>(points_done) / threads_;
@@ -115,7 +103,7 @@ void FrictionSystem::set_elements(std::span<const ElementGroup> groups, const Fa
       points_done += group.elements[0].size() + group.elements[1].size();
       const std::size_t begin = out.blocks.size(), first_row = out.rows.size();
       condenser.add_pair_blocks(group, out);
-      pairs_[g] = {arena,
+      pairs_[g] = {static_cast<std::uint32_t>(arena),
                    static_cast<std::uint32_t>(out.blocks.size() - begin),
                    static_cast<std::uint32_t>(out.rows.size() - first_row),
                    begin,
@@ -124,42 +112,40 @@ void FrictionSystem::set_elements(std::span<const ElementGroup> groups, const Fa
                    {group.first[0], group.first[1]},
                    {group.write[0], group.write[1] && !group.rigid},
                    group.rigid};
-    }
-  }
-  for (ThreadWork& work : work_) {
-    work.groups.clear();
-    for (std::uint32_t g = 0; g < pairs_.size(); ++g)
-      if ((pairs_[g].write[0] && work.has(pairs_[g].body[0])) || (pairs_[g].write[1] && work.has(pairs_[g].body[1])))
-        work.groups.push_back(g);
-  }
+    });
+  });
   lay_out_portions();
-  schedule_contacts();
+  divide_work();
+  for (ThreadWork& work : work_) schedule_contacts(work);
 }
 
 void FrictionSystem::lay_out_portions() {
-  constexpr std::uint32_t kBatches = 4, kBodies = 4096;  // vectors of a portion: some 200 kB
   portions_.clear();
   runs_.clear();
   const std::size_t points = shells_ == nullptr ? 0 : shells_->point_count();
   const auto batches = static_cast<std::uint32_t>(points == 0 ? 0 : shells_->batch_count());
+  // Vectors of a portion: some 200 kB; and several portions for each of several threads.
+  const auto threads = static_cast<std::uint32_t>(threads_), bodies = static_cast<std::uint32_t>(layout_.body_count());
+  const std::uint32_t batches_each = threads == 1 ? 4 : std::clamp(batches / (4 * threads), 1u, 4u);
+  const std::uint32_t bodies_each = threads == 1 ? 4096 : std::clamp(bodies / (4 * threads), 1u, 4096u);
   const auto add_body = [&](Portion& portion, std::uint32_t body) {
     if (portion.last_run > portion.first_run && runs_.back().last == body)
       ++runs_.back().last;
     else
       runs_.push_back({body, body + 1}), ++portion.last_run;
   };
-  for (std::uint32_t batch = 0; batch < batches; batch += kBatches) {
+  for (std::uint32_t batch = 0; batch < batches; batch += batches_each) {
     Portion& portion = portions_.emplace_back();
     portion.first_batch = batch;
-    portion.last_batch = std::min(batches, batch + kBatches);
+    portion.last_batch = std::min(batches, batch + batches_each);
     portion.first_run = portion.last_run = static_cast<std::uint32_t>(runs_.size());
     for (std::uint32_t b = batch; b < portion.last_batch; ++b)
       for (const std::uint32_t body : shells_->bodies_of(b)) add_body(portion, body);
   }
-  std::uint32_t in_portion = kBodies;
+  std::uint32_t in_portion = bodies_each;
   for (std::uint32_t body = 0; body < layout_.body_count(); ++body) {
     if (!layout_.owned[body] || layout_.points_of(body).first < points) continue;
-    if (in_portion++ == kBodies) {
+    if (in_portion++ == bodies_each) {
       in_portion = 1;
       Portion& portion = portions_.emplace_back();
       portion.first_run = portion.last_run = static_cast<std::uint32_t>(runs_.size());
@@ -168,67 +154,103 @@ void FrictionSystem::lay_out_portions() {
   }
 }
 
-void FrictionSystem::schedule_contacts() {
-  done_.clear();
-  if (threads_ > 1) return;  // contacts of a thread wait until all have their directions
-  // Contacts in their order, each as soon as its bodies, and those of all before it, are there: sums keep the canonical order.
-  std::vector<std::uint32_t> there(layout_.body_count(), 0), last(layout_.body_count(), 0);  // ghosts are there from the start
-  // What spheres that pack add is collective: no rank may leave it out.
-  bool all_shells = std::all_of(added_.begin(), added_.end(), [](const AddedPart* part) { return part->empty(); }) &&
-                    (sphere_pairs_ == nullptr || !sphere_pairs_->packing.on);
-  for (std::uint32_t k = 0; k < portions_.size(); ++k) {
-    all_shells = all_shells && portions_[k].first_batch < portions_[k].last_batch;
-    for (std::uint32_t r = portions_[k].first_run; r < portions_[k].last_run; ++r)
-      for (std::uint32_t body = runs_[r].first; body < runs_[r].last; ++body) there[body] = last[body] = k;
+void FrictionSystem::divide_work() {
+  work_.assign(static_cast<std::size_t>(threads_), {});
+  work_[0].last_portion = static_cast<std::uint32_t>(portions_.size());
+  thread_of_.clear();
+  // What is added elsewhere comes after the portions. What spheres that pack add is collective: no rank may leave it out.
+  complete_ =
+      std::all_of(added_.begin(), added_.end(), [](const AddedPart* part) { return part->empty(); }) &&
+      (sphere_pairs_ == nullptr || !sphere_pairs_->packing.on) &&
+      std::all_of(portions_.begin(), portions_.end(), [](const Portion& portion) { return portion.first_batch < portion.last_batch; });
+  if (threads_ > 1) {  // neighbouring portions, about as many points and blocks to each
+    std::vector<std::size_t> weight(layout_.body_count(), 0);
+    for (const PairBlocks& pair : pairs_)
+      for (int side = 0; side < (pair.rigid ? 1 : 2); ++side) weight[pair.body[side]] += pair.count;
+    std::size_t all = 0;
+    for (std::size_t body = 0; body < weight.size(); ++body)
+      if (layout_.owned[body]) all += weight[body] += kWorkOfPoint * layout_.points_of(body).count;
+    thread_of_.assign(layout_.body_count(), kNoThread);
+    std::size_t seen = 0, thread = 0;
+    for (std::uint32_t k = 0; k < portions_.size(); ++k) {
+      for_bodies_of(portions_[k], [&](std::uint32_t body) {
+        thread_of_[body] = static_cast<std::uint16_t>(thread);
+        seen += weight[body];
+      });
+      work_[thread].last_portion = k + 1;
+      if (thread + 1 < work_.size() && seen * work_.size() >= all * (thread + 1)) {
+        ++thread;
+        work_[thread].first_portion = work_[thread].last_portion = k + 1;
+      }
+    }
   }
-  const std::vector<std::uint32_t>& groups = work_[0].groups;
+  for (std::size_t t = 0; t < work_.size(); ++t) {
+    work_[t].number = static_cast<std::uint16_t>(t);
+    for (std::uint32_t g = 0; g < pairs_.size(); ++g)
+      if (writes(work_[t], pairs_[g], 0) || writes(work_[t], pairs_[g], 1)) work_[t].groups.push_back(g);
+  }
+}
+
+void FrictionSystem::schedule_contacts(ThreadWork& work) {
+  // Contacts in their order, each as soon as its bodies, and those of all before it, are there: sums keep the canonical order. Other threads'
+  // bodies, and ghosts, are there from the start.
+  std::vector<std::uint32_t> there(layout_.body_count(), 0), last(layout_.body_count(), 0);
+  const auto for_own_bodies = [&](auto&& function) {
+    for (std::uint32_t k = work.first_portion; k < work.last_portion; ++k)
+      for_bodies_of(portions_[k], [&](std::uint32_t body) { function(k, body); });
+  };
+  for_own_bodies([&](std::uint32_t k, std::uint32_t body) { there[body] = last[body] = k; });
   std::uint32_t next = 0;
-  for (std::uint32_t k = 0; k < portions_.size(); ++k) {
+  for (std::uint32_t k = work.first_portion; k < work.last_portion; ++k) {
     portions_[k].first_group = next;
-    for (; next < groups.size(); ++next) {
-      const PairBlocks& pair = pairs_[groups[next]];
+    for (; next < work.groups.size(); ++next) {
+      const PairBlocks& pair = pairs_[work.groups[next]];
       if (there[pair.body[0]] > k || (!pair.rigid && there[pair.body[1]] > k)) break;
       last[pair.body[0]] = k;
       if (!pair.rigid) last[pair.body[1]] = k;
     }
     portions_[k].last_group = next;
   }
-  if (!all_shells) return;
+  if (!complete_) return;
   std::vector<std::uint32_t> first(portions_.size() + 1, 0);
-  for (std::uint32_t body = 0; body < last.size(); ++body)
-    if (layout_.owned[body]) ++first[last[body] + 1];
-  for (std::size_t k = 0; k < portions_.size(); ++k) {
-    first[k + 1] += first[k];
+  for_own_bodies([&](std::uint32_t, std::uint32_t body) { ++first[last[body] + 1]; });
+  for (std::size_t k = 0; k < portions_.size(); ++k) first[k + 1] += first[k];
+  for (std::uint32_t k = work.first_portion; k < work.last_portion; ++k)
     portions_[k].first_done = first[k], portions_[k].last_done = first[k + 1];
-  }
-  done_.resize(first.back());
-  for (std::uint32_t body = 0; body < last.size(); ++body)
-    if (layout_.owned[body]) done_[first[last[body]]++] = body;
+  work.done.resize(first.back());
+  for_own_bodies([&](std::uint32_t, std::uint32_t body) { work.done[first[last[body]]++] = body; });
+}
+
+template <class Body>
+void FrictionSystem::for_bodies_of(const Portion& portion, Body&& body) const {
+  for (std::uint32_t r = portion.first_run; r < portion.last_run; ++r)
+    for (std::uint32_t number = runs_[r].first; number < runs_[r].last; ++number)
+      if (layout_.owned[number]) body(number);
 }
 
 template <class Body>
 void FrictionSystem::for_owned_bodies(Body&& function) const {
-#pragma omp parallel for schedule(static, 1) num_threads(threads_)
-  for (int t = 0; t < threads_; ++t) {
-    const std::uint32_t last = work_[static_cast<std::size_t>(t)].last_body;
+  on_each_thread(threads_, [&](std::size_t t) {
     const auto with_many = static_cast<std::uint32_t>(layout_.bodies.size());
-    std::uint32_t body = work_[static_cast<std::size_t>(t)].first_body;
-    for (; body < std::min(last, with_many); ++body)
-      if (layout_.owned[body]) function(t, layout_.bodies[body]);
     const char* const owned = layout_.owned.data();
-    for (std::uint32_t point = layout_.points_of(body).first; body < last; ++body, ++point)
-      if (owned[body]) function(t, BodyPoints{point, 1});
-  }
+    for (std::uint32_t k = work_[t].first_portion; k < work_[t].last_portion; ++k)
+      for (std::uint32_t r = portions_[k].first_run; r < portions_[k].last_run; ++r) {
+        std::uint32_t body = runs_[r].first;
+        const std::uint32_t last = runs_[r].last;
+        for (; body < std::min(last, with_many); ++body)
+          if (owned[body]) function(t, layout_.bodies[body]);
+        for (std::uint32_t point = layout_.points_of(body).first; body < last; ++body, ++point)
+          if (owned[body]) function(t, BodyPoints{point, 1});
+      }
+  });
 }
 
 template <class Point>
 void FrictionSystem::for_points_of(const Portion& portion, Point&& point) const {
-  for (std::uint32_t r = portion.first_run; r < portion.last_run; ++r)
-    for (std::uint32_t body = runs_[r].first; body < runs_[r].last; ++body) {
-      if (!layout_.owned[body]) continue;
-      const BodyPoints points = layout_.points_of(body);
-      for (std::uint32_t i = points.first; i < points.first + points.count; ++i) point(i);
-    }
+  for_bodies_of(portion, [&](std::uint32_t body) {
+    const BodyPoints points = layout_.points_of(body);
+    for (std::uint32_t i = points.first; i < points.first + points.count; ++i) point(i);
+  });
 }
 
 void FrictionSystem::multiply(const Portion& portion, std::span<const Float4> p, std::span<Float4> q) const {
@@ -236,13 +258,11 @@ void FrictionSystem::multiply(const Portion& portion, std::span<const Float4> p,
   for_points_of(portion, [&](std::uint32_t i) { store(q[i], splat(point_friction_[i]) * load(p[i])); });
 }
 
-void FrictionSystem::apply_contacts(int thread, std::size_t first, std::size_t last, std::span<const Float4> p, std::span<Float4> q) const {
-  const ThreadWork& work = work_[static_cast<std::size_t>(thread)];
-  for (std::size_t k = first; k < last; ++k) {
+void FrictionSystem::apply_contacts(const ThreadWork& work, const Portion& portion, std::span<const Float4> p, std::span<Float4> q) const {
+  for (std::uint32_t k = portion.first_group; k < portion.last_group; ++k) {
     const PairBlocks& pair = pairs_[work.groups[k]];
-    const bool write[2] = {pair.write[0] && work.has(pair.body[0]), pair.write[1] && work.has(pair.body[1])};
-    apply_pair_blocks(blocks_of(pair), p.data() + pair.first[0], write[0] ? q.data() + pair.first[0] : nullptr,
-                      pair.rigid ? nullptr : p.data() + pair.first[1], write[1] ? q.data() + pair.first[1] : nullptr);
+    apply_pair_blocks(blocks_of(pair), p.data() + pair.first[0], writes(work, pair, 0) ? q.data() + pair.first[0] : nullptr,
+                      pair.rigid ? nullptr : p.data() + pair.first[1], writes(work, pair, 1) ? q.data() + pair.first[1] : nullptr);
   }
 }
 
@@ -251,11 +271,21 @@ void FrictionSystem::add_others(std::span<const Float4> p, std::span<Float4> q) 
   for (const AddedPart* part : added_) part->add_product(p, q);
 }
 
+template <class Before, class After>
+void FrictionSystem::multiply_own(std::span<const Float4> p, std::span<Float4> q, const Before& before, const After& after) const {
+  on_each_thread(threads_, [&](std::size_t t) {
+    for (std::uint32_t k = work_[t].first_portion; k < work_[t].last_portion; ++k) {
+      before(portions_[k]);
+      multiply(portions_[k], p, q);
+      apply_contacts(work_[t], portions_[k], p, q);
+      after(t, portions_[k]);
+    }
+  });
+}
+
 void FrictionSystem::apply(std::span<const Float4> p, std::span<Float4> q) const {
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (std::size_t k = 0; k < portions_.size(); ++k) multiply(portions_[k], p, q);
-#pragma omp parallel for schedule(static, 1) num_threads(threads_)
-  for (int t = 0; t < threads_; ++t) apply_contacts(t, 0, work_[static_cast<std::size_t>(t)].groups.size(), p, q);
+  multiply_own(
+      p, q, [](const Portion&) {}, [](std::size_t, const Portion&) {});
   add_others(p, q);
 }
 
@@ -268,43 +298,37 @@ double FrictionSystem::turn(float alpha, float beta, std::span<Float4> v, const 
       store(p_[i], times(inverse_[i], load(r_[i])) + b * p);
     });
   };
-  if (layout_.exchange) {
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (std::size_t k = 0; k < portions_.size(); ++k) renew(portions_[k]);
-    layout_.exchange(p_);
-  }
-  if (threads_ > 1) {
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (std::size_t k = 0; k < portions_.size(); ++k) {
-      if (!layout_.exchange) renew(portions_[k]);
-      multiply(portions_[k], p_, q_);
-    }
-#pragma omp parallel for schedule(static, 1) num_threads(threads_)
-    for (int t = 0; t < threads_; ++t) apply_contacts(t, 0, work_[static_cast<std::size_t>(t)].groups.size(), p_, q_);
+  const bool alone = threads_ == 1 && !layout_.exchange;
+  if (!alone)  // contacts need what other threads and ranks renew
+    on_each_thread(threads_, [&](std::size_t t) {
+      for (std::uint32_t k = work_[t].first_portion; k < work_[t].last_portion; ++k) renew(portions_[k]);
+    });
+  if (layout_.exchange) layout_.exchange(p_);
+  std::vector<OrderFreeSum> sums(work_.size());
+  multiply_own(
+      p_, q_,
+      [&](const Portion& portion) {
+        if (alone) renew(portion);
+      },
+      [&](std::size_t t, const Portion& portion) {
+        for (std::uint32_t k = portion.first_done; k < portion.last_done; ++k) {
+          const BodyPoints points = layout_.points_of(work_[t].done[k]);
+          sums[t].add(dot_of_body(p_.data() + points.first, q_.data() + points.first, points.count));
+        }
+      });
+  if (!complete_) {
     add_others(p_, q_);
     return dot(p_, q_, comm);
   }
-  OrderFreeSum sum;
-  for (const Portion& portion : portions_) {
-    if (!layout_.exchange) renew(portion);
-    multiply(portion, p_, q_);
-    apply_contacts(0, portion.first_group, portion.last_group, p_, q_);
-    for (std::uint32_t k = portion.first_done; k < portion.last_done; ++k) {
-      const BodyPoints points = layout_.points_of(done_[k]);
-      sum.add(dot_of_body(p_.data() + points.first, q_.data() + points.first, points.count));
-    }
-  }
-  if (!done_.empty()) return comm.sum(sum);
-  add_others(p_, q_);
-  return dot(p_, q_, comm);
+  for (std::size_t t = 1; t < sums.size(); ++t) sums[0] += sums[t];
+  return comm.sum(sums[0]);
 }
 
-void FrictionSystem::add_contact_diagonal(int thread, std::span<SymMat3<float>> sum) const {
-  const ThreadWork& work = work_[static_cast<std::size_t>(thread)];
+void FrictionSystem::add_contact_diagonal(const ThreadWork& work, std::span<SymMat3<float>> sum) const {
   for (const std::uint32_t g : work.groups) {
     const PairBlocks& pair = pairs_[g];
     for (int side = 0; side < 2; ++side) {
-      if (!pair.write[side] || !work.has(pair.body[side])) continue;
+      if (!writes(work, pair, side)) continue;
       SymMat3<float>* const diagonal = sum.data() + pair.first[side];
       const NodePairBlocks blocks = blocks_of(pair);
       const NodePairBlock* block = blocks.blocks.data();
@@ -317,15 +341,13 @@ void FrictionSystem::add_contact_diagonal(int thread, std::span<SymMat3<float>> 
 
 void FrictionSystem::build_preconditioner() {
   std::vector<SymMat3<float>> diagonal(layout_.point_count);
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (std::size_t i = 0; i < layout_.point_count; ++i) diagonal[i] = isotropic(point_friction_[i]);
+  parallel_for(threads_, layout_.point_count, [&](std::size_t i) { diagonal[i] = isotropic(point_friction_[i]); });
   if (shells_ != nullptr && shells_->point_count() > 0) shells_->add_diagonal(diagonal);
-#pragma omp parallel for schedule(static, 1) num_threads(threads_)
-  for (int t = 0; t < threads_; ++t) add_contact_diagonal(t, diagonal);
+  on_each_thread(threads_, [&](std::size_t t) { add_contact_diagonal(work_[t], diagonal); });
   if (sphere_pairs_ != nullptr) sphere_pairs_->add_diagonal(diagonal, dt_);
   for (const AddedPart* part : added_) part->add_diagonal(diagonal);
   inverse_.resize(layout_.point_count);
-  for_owned_bodies([&](int, const BodyPoints& points) {
+  for_owned_bodies([&](std::size_t, const BodyPoints& points) {
     for (std::uint32_t i = points.first; i < points.first + points.count; ++i) inverse_[i] = NodeInverse(inverse_of(diagonal[i]));
   });
 }
@@ -337,8 +359,8 @@ void FrictionSystem::drop_matrix() {
 
 double FrictionSystem::dot(std::span<const Float4> a, std::span<const Float4> b, const Comm& comm) const {
   std::vector<OrderFreeSum> sums(static_cast<std::size_t>(threads_));
-  for_owned_bodies([&](int t, const BodyPoints& points) {
-    sums[static_cast<std::size_t>(t)].add(dot_of_body(a.data() + points.first, b.data() + points.first, points.count));
+  for_owned_bodies([&](std::size_t t, const BodyPoints& points) {
+    sums[t].add(dot_of_body(a.data() + points.first, b.data() + points.first, points.count));
   });
   for (std::size_t t = 1; t < sums.size(); ++t) sums[0] += sums[t];
   return comm.sum(sums[0]);
@@ -347,7 +369,7 @@ double FrictionSystem::dot(std::span<const Float4> a, std::span<const Float4> b,
 void FrictionSystem::reduce(float alpha, const Comm& comm, double (&totals)[2]) {
   std::vector<std::array<OrderFreeSum, 2>> sums(static_cast<std::size_t>(threads_));
   const Float4v a = splat(alpha);
-  for_owned_bodies([&](int t, const BodyPoints& points) {
+  for_owned_bodies([&](std::size_t t, const BodyPoints& points) {
     Double4 rr{}, rz{};
     for (std::uint32_t i = points.first; i < points.first + points.count; ++i) {
       const Float4v r = load(r_[i]) - a * load(q_[i]);
@@ -356,8 +378,8 @@ void FrictionSystem::reduce(float alpha, const Comm& comm, double (&totals)[2]) 
       rr += wide * wide;
       rz += wide * to_double(times(inverse_[i], r));
     }
-    sums[static_cast<std::size_t>(t)][0].add(total(rr));
-    sums[static_cast<std::size_t>(t)][1].add(total(rz));
+    sums[t][0].add(total(rr));
+    sums[t][1].add(total(rz));
   });
   for (std::size_t t = 1; t < sums.size(); ++t)
     for (int k = 0; k < 2; ++k) sums[0][k] += sums[t][k];
@@ -372,7 +394,7 @@ Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<Float4> v, doubl
     if (layout_.exchange) layout_.exchange(vector);
   };
   const auto for_owned_points = [&](auto&& function) {
-    for_owned_bodies([&](int, const BodyPoints& points) {
+    for_owned_bodies([&](std::size_t, const BodyPoints& points) {
       for (std::uint32_t i = points.first; i < points.first + points.count; ++i) function(i);
     });
   };
@@ -417,9 +439,9 @@ Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<Float4> v, doubl
 std::size_t FrictionSystem::memory() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
   std::size_t total = bytes(point_friction_) + bytes(pairs_) + bytes(inverse_) + bytes(p_) + bytes(q_) + bytes(r_) + bytes(layout_.bodies) +
-                      bytes(layout_.owned) + bytes(portions_) + bytes(runs_) + bytes(done_);
+                      bytes(layout_.owned) + bytes(portions_) + bytes(runs_) + bytes(thread_of_);
   for (const NodePairArena& arena : blocks_) total += bytes(arena.rows) + bytes(arena.blocks);
-  for (const ThreadWork& work : work_) total += bytes(work.groups);
+  for (const ThreadWork& work : work_) total += bytes(work.groups) + bytes(work.done);
   return total;
 }
 

@@ -137,26 +137,44 @@ class FrictionSystem {
   struct Portion {
     std::uint32_t first_batch = 0, last_batch = 0;
     std::uint32_t first_run = 0, last_run = 0;      ///< its owned bodies, in runs_
-    std::uint32_t first_group = 0, last_group = 0;  ///< of contacts that can be applied when it is done (one thread)
-    std::uint32_t first_done = 0, last_done = 0;    ///< bodies whose last contact is then done, in done_ (one thread)
+    std::uint32_t first_group = 0, last_group = 0;  ///< contacts that its thread can apply when it is done, in the thread's groups
+    std::uint32_t first_done = 0, last_done = 0;    ///< bodies whose last contact is then done, in the thread's `done`
   };
   /// Bodies first <= body < last.
   struct BodyRun {
     std::uint32_t first, last;
   };
 
+  /// What one thread works on: portions first <= k < last, and the contacts of their bodies.
+  struct ThreadWork {
+    std::uint32_t first_portion = 0, last_portion = 0;
+    std::uint16_t number = 0;
+    std::vector<std::uint32_t> groups;  ///< that touch its bodies, in canonical order
+    std::vector<std::uint32_t> done;    ///< its bodies, in the order in which they are done; empty unless complete_
+  };
+
   void lay_out_portions();
-  void schedule_contacts();
+  void divide_work();
+  void schedule_contacts(ThreadWork& work);
   void build_preconditioner();
+  template <class Body>
+  void for_bodies_of(const Portion& portion, Body&& body) const;
   template <class Body>
   void for_owned_bodies(Body&& body) const;
   template <class Point>
   void for_points_of(const Portion& portion, Point&& point) const;
+  /// A side of a pair that this thread writes.
+  [[nodiscard]] bool writes(const ThreadWork& work, const PairBlocks& pair, int side) const {
+    return pair.write[side] && (thread_of_.empty() || thread_of_[pair.body[side]] == work.number);
+  }
   [[nodiscard]] double dot(std::span<const Float4> a, std::span<const Float4> b, const Comm& comm) const;
   void multiply(const Portion& portion, std::span<const Float4> p, std::span<Float4> q) const;
-  void apply_contacts(int thread, std::size_t first, std::size_t last, std::span<const Float4> p, std::span<Float4> q) const;
-  void add_contact_diagonal(int thread, std::span<SymMat3<float>> sum) const;
+  void apply_contacts(const ThreadWork& work, const Portion& portion, std::span<const Float4> p, std::span<Float4> q) const;
+  void add_contact_diagonal(const ThreadWork& work, std::span<SymMat3<float>> sum) const;
   void add_others(std::span<const Float4> p, std::span<Float4> q) const;
+  /// q = A p but for what add_others() adds; before(portion) and after(thread, portion) come with each portion.
+  template <class Before, class After>
+  void multiply_own(std::span<const Float4> p, std::span<Float4> q, const Before& before, const After& after) const;
   /// v += α p, p = M⁻¹ r + β p, q = A p; gives p·q.
   [[nodiscard]] double turn(float alpha, float beta, std::span<Float4> v, const Comm& comm);
   /// r −= α q; gives (r·r, r·z) with z = M⁻¹ r.
@@ -165,13 +183,6 @@ class FrictionSystem {
     const NodePairArena& arena = blocks_[pair.arena];
     return {std::span(arena.rows).subspan(pair.first_row, pair.row_count), std::span(arena.blocks).subspan(pair.begin, pair.count)};
   }
-
-  struct ThreadWork {
-    std::uint32_t first_body = 0, last_body = 0;  ///< owned bodies of this thread: first <= body < last
-    std::vector<std::uint32_t> groups;            ///< that touch them, in canonical order
-
-    [[nodiscard]] bool has(std::uint32_t body) const { return body >= first_body && body < last_body; }
-  };
 
   Layout layout_;
   int threads_ = 1;
@@ -185,7 +196,8 @@ class FrictionSystem {
   std::vector<ThreadWork> work_;
   std::vector<Portion> portions_;
   std::vector<BodyRun> runs_;
-  std::vector<std::uint32_t> done_;  ///< owned bodies, in the order in which they are done; empty where more is added to q in the end
+  std::vector<std::uint16_t> thread_of_;  ///< by body, with several threads
+  bool complete_ = false;                 ///< portions and contacts are all that there is to q
   std::vector<NodeInverse> inverse_;
   std::vector<Float4> p_, q_, r_;
 };

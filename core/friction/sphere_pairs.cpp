@@ -1,4 +1,5 @@
 #include "core/friction/sphere_pairs.h"
+#include "core/parallel/threads.h"
 
 #include <algorithm>
 
@@ -39,8 +40,7 @@ void SpherePairs::set_layout(std::uint32_t first_point, std::uint32_t owned, int
     shares_[0].runs.push_back({0, static_cast<std::uint32_t>(pairs.size())});
     return;
   }
-#pragma omp parallel for schedule(static, 1) num_threads(threads)
-  for (std::uint32_t t = 0; t < count; ++t) {
+  on_each_thread(threads, [&](std::size_t t) {
     Share& share = shares_[t];
     for (std::uint32_t k = 0; k < pairs.size(); ++k) {
       if (!share.has(pairs[k].a) && !share.has(pairs[k].b)) continue;
@@ -49,14 +49,13 @@ void SpherePairs::set_layout(std::uint32_t first_point, std::uint32_t owned, int
       else
         share.runs.push_back({k, k + 1});
     }
-  }
+  });
 }
 
 template <class F>
 void SpherePairs::for_shares(F&& function) const {
   const int threads = static_cast<int>(shares_.size());
-#pragma omp parallel for schedule(static, 1) num_threads(threads)
-  for (int t = 0; t < threads; ++t) function(shares_[static_cast<std::size_t>(t)]);
+  on_each_thread(threads, [&](std::size_t t) { function(shares_[t]); });
 }
 
 template <class OnPair, class OnRigid>
@@ -167,10 +166,9 @@ void SpherePairs::add_friction(std::span<const Vec3d> from, std::span<const Vec3
   std::vector<OrderFreeSum> sums(shares_.size());
   const bool slippery = uniform_ && friction_[0].tangential == 0.0f && friction_[0].extra == 0.0f;
   const int threads = static_cast<int>(shares_.size());
-#pragma omp parallel for schedule(static, 1) num_threads(threads)
-  for (int t = 0; t < threads; ++t) {
-    const Share& share = shares_[static_cast<std::size_t>(t)];
-    OrderFreeSum& sum = sums[static_cast<std::size_t>(t)];
+  on_each_thread(threads, [&](std::size_t t) {
+    const Share& share = shares_[t];
+    OrderFreeSum& sum = sums[t];
     std::uint32_t sphere = 0;
     double of_sphere = 0.0;  // pairs that come first under one sphere: their order is canonical, so they may be added up in double
     for (const Run& run : slippery ? std::span<const Run>() : std::span(share.runs))
@@ -202,7 +200,7 @@ void SpherePairs::add_friction(std::span<const Vec3d> from, std::span<const Vec3
       force[e.sphere] += f;
       sum.add(dot(f, d));
     }
-  }
+  });
   for (const OrderFreeSum& sum : sums) quadratic += sum;
 }
 

@@ -1,10 +1,9 @@
 #include "core/mesh/surface_geometry.h"
 
-#include <omp.h>
-
 #include <algorithm>
 
 #include "core/mesh/lane_surface.h"
+#include "core/parallel/threads.h"
 
 namespace morula {
 namespace {
@@ -133,24 +132,16 @@ void block_forces(const LaneBlock& block, const SurfaceList& surfaces, std::span
 /// Run `kernel<W>(block, workspace)` for every block, in parallel.
 template <class Kernel>
 void for_each_block(std::span<const LaneBlock> blocks, const Kernel& kernel) {
-#pragma omp parallel if (blocks.size() > 1)
-  {
-    Workspace ws;
-#pragma omp for schedule(static)
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      switch (blocks[b].lanes) {
-        case 8:
-          kernel.template operator()<8>(blocks[b], ws);
-          break;
-        case 4:
-          kernel.template operator()<4>(blocks[b], ws);
-          break;
-        default:
-          kernel.template operator()<1>(blocks[b], ws);
-          break;
-      }
+  parallel_for_with<Workspace>(omp_get_max_threads(), blocks.size(), [&](std::size_t b, Workspace& ws) {
+    switch (blocks[b].lanes) {
+      case 8:
+        return kernel.template operator()<8>(blocks[b], ws);
+      case 4:
+        return kernel.template operator()<4>(blocks[b], ws);
+      default:
+        return kernel.template operator()<1>(blocks[b], ws);
     }
-  }
+  });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "core/parallel/threads.h"
 #include "coupling/mechanics/mechanics.h"
 
 namespace morula {
@@ -141,17 +142,16 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
   }
   if (moved) spheres_.pairs().add_friction(start, x, force_, sums[0]);
   std::vector<OrderFreeSum> works(static_cast<std::size_t>(threads_));
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (std::size_t body = 0; body < scene_.bodies().size(); ++body) {
+  parallel_for(threads_, scene_.bodies().size(), [&](std::size_t body) {
     const ContactBody& b = scene_.bodies()[body];
-    if (!b.active()) continue;
+    if (!b.active()) return;
     double work = 0.0;
     for (std::uint32_t i = b.first_point; i < b.first_point + b.point_count; ++i) {
       work += morula::dot(external_on(external, i), x[i] - start[i]);
       force_[i] *= -1.0 / dt;
     }
     works[static_cast<std::size_t>(omp_get_thread_num())].add(work);
-  }
+  });
   for (const OrderFreeSum& work : works) sums[1] += work;
   for_nuclei([&](std::uint32_t i) { force_[i] *= -1.0 / dt; });
   for (const Anchor& anchor : anchors_)  // what the springs have given: their energy at the start less that at x

@@ -1,4 +1,5 @@
 #include "coupling/mechanics/interior_system.h"
+#include "core/parallel/threads.h"
 
 namespace morula {
 
@@ -42,13 +43,12 @@ dcm::InteriorView InteriorSystem::view(const Item& item, std::span<const Vec3d> 
 }
 
 void InteriorSystem::evaluate(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<Vec3d> force) {
-#pragma omp parallel for schedule(static) if (items_.size() > 1)
-  for (std::size_t k = 0; k < items_.size(); ++k) {
+  parallel_for(omp_get_max_threads(), items_.size(), [&](std::size_t k) {
     Item& item = items_[k];
     item.rest_volume = shells.rest_volume[item.shell];
     item.energy = dcm::add_interior_forces(view(item, position), force.subspan(item.first_node, item.node_count),
                                            item.has_nucleus ? &force[item.nucleus] : nullptr);
-  }
+  });
 }
 
 void InteriorSystem::add_energy(OrderFreeSum& sum) const {
@@ -71,33 +71,30 @@ std::size_t InteriorSystem::memory() const {
 }
 
 void InteriorSystem::begin_step(std::span<const Vec3d> position, const SurfaceGeometry& geometry) {
-#pragma omp parallel for schedule(static) if (items_.size() > 1)
-  for (std::size_t k = 0; k < items_.size(); ++k) {
+  parallel_for(omp_get_max_threads(), items_.size(), [&](std::size_t k) {
     Item& item = items_[k];
     dcm::find_interior_friction(view(item, position), std::span(geometry.node_area).subspan(item.first_node, item.node_count),
                                 item.friction);
-  }
+  });
 }
 
 void InteriorSystem::add_step_friction(std::span<const Vec3d> start, std::span<const Vec3d> position, std::span<Vec3d> out,
                                        OrderFreeSum& quadratic) {
   std::vector<double> part(items_.size());
-#pragma omp parallel for schedule(static) if (items_.size() > 1)
-  for (std::size_t k = 0; k < items_.size(); ++k) {
+  parallel_for(omp_get_max_threads(), items_.size(), [&](std::size_t k) {
     const Item& item = items_[k];
     std::vector<Vec3d> way(item.node_count);
     for (std::uint32_t i = 0; i < item.node_count; ++i) way[i] = position[item.first_node + i] - start[item.first_node + i];
     const Vec3d nucleus_way = item.has_nucleus ? position[item.nucleus] - start[item.nucleus] : Vec3d{};
     part[k] = dcm::add_interior_friction(view(item, position), item.friction, way, item.has_nucleus ? &nucleus_way : nullptr,
                                          out.subspan(item.first_node, item.node_count), item.has_nucleus ? &out[item.nucleus] : nullptr);
-  }
+  });
   for (const double q : part) quadratic.add(q);
 }
 
 void InteriorSystem::assemble(std::span<const Vec3d> position, double dt) {
-#pragma omp parallel for schedule(static) if (items_.size() > 1)
-  for (std::size_t k = 0; k < items_.size(); ++k)
-    dcm::assemble_interior(view(items_[k], position), items_[k].friction, dt, items_[k].matrix);
+  parallel_for(omp_get_max_threads(), items_.size(),
+               [&](std::size_t k) { dcm::assemble_interior(view(items_[k], position), items_[k].friction, dt, items_[k].matrix); });
 }
 
 void InteriorSystem::start_from_cortex(std::span<Float4> velocity) const {
@@ -112,13 +109,12 @@ void InteriorSystem::start_from_cortex(std::span<Float4> velocity) const {
 }
 
 void InteriorSystem::add_product(std::span<const Float4> p, std::span<Float4> q) const {
-#pragma omp parallel for schedule(static) if (items_.size() > 1)
-  for (std::size_t k = 0; k < items_.size(); ++k) {
+  parallel_for(omp_get_max_threads(), items_.size(), [&](std::size_t k) {
     const Item& item = items_[k];
     dcm::add_interior_product(view(item, {}), item.matrix, p.subspan(item.first_node, item.node_count),
                               q.subspan(item.first_node, item.node_count), item.has_nucleus ? &p[item.nucleus] : nullptr,
                               item.has_nucleus ? &q[item.nucleus] : nullptr);
-  }
+  });
 }
 
 void InteriorSystem::add_diagonal(std::span<SymMat3<float>> diagonal) const {

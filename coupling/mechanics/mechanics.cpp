@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/parallel/threads.h"
 #include "coupling/mechanics/contact_setup.h"
 
 namespace morula {
@@ -41,23 +42,6 @@ Mechanics::Mechanics(const Model& model, std::vector<RigidSurface> obstacles, Sh
 ContactScene Mechanics::contact_scene() const {
   return {scene_.bodies(), std::span(scene_.position()).first(scene_.nucleus_point()), scene_.topologies(), scene_.first_face(), &geometry_,
           scene_.marks()};
-}
-
-double Mechanics::furthest(std::span<const Vec3d> start) const {
-  const auto bodies = scene_.bodies();
-  std::vector<double> by_thread(static_cast<std::size_t>(threads_), 0.0);
-#pragma omp parallel for schedule(static, 1) num_threads(threads_)
-  for (std::size_t t = 0; t < by_thread.size(); ++t)
-    for (std::size_t k = bodies.size() * t / by_thread.size(); k < bodies.size() * (t + 1) / by_thread.size(); ++k)
-      for (std::uint32_t i = bodies[k].first_point; bodies[k].active() && i < bodies[k].first_point + bodies[k].point_count; ++i) {
-        const double here = norm2(scene_.position()[i] - start[i]);
-        if (!(here <= by_thread[t]) && !std::isnan(by_thread[t])) by_thread[t] = here;  // not a number wins
-      }
-  double most = 0.0;
-  for (const double here : by_thread)
-    if (!(here <= most) && !std::isnan(most)) most = here;
-  for_nuclei([&](std::uint32_t i) { most = std::max(most, norm2(scene_.position()[i] - start[i])); });
-  return std::sqrt(comm_.max(most));
 }
 
 void Mechanics::prepare(const Tissue& tissue) {
@@ -186,14 +170,13 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
     note_memory();
     give_back(gradient_.node_normal);
   }
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (std::size_t i = 0; i < force_.size(); ++i) {
+  parallel_for(threads_, force_.size(), [&](std::size_t i) {
     const Vec3d of_contacts = gradient_.force.empty() ? Vec3d{} : gradient_.force[i];
     if (i < scene_.owned_nodes())
       force_[i] += of_contacts;  // to those within the shells
     else
       force_[i] = of_contacts;
-  }
+  });
   spent_ = false;
   spheres_.evaluate(scene_, contacts_, force_);
   const auto& internal = shells_.forces();
@@ -247,11 +230,10 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
     for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}) held_.hold(anchor.node, axis, anchor.stiffness);
   spheres_.begin_step();
   // The last velocity is the solver's start; obstacles go where they will be at the end of the step.
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (std::size_t i = 0; i < tissue.shells.velocity.size(); ++i) {
+  parallel_for(threads_, tissue.shells.velocity.size(), [&](std::size_t i) {
     const Vec3f& v = tissue.shells.velocity[i];
     solution_[i] = {v.x, v.y, v.z, 0.0f};
-  }
+  });
   for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i) {
     const Vec3f& v = tissue.spheres.velocity[i];
     solution_[scene_.sphere_point() + i] = {v.x, v.y, v.z, 0.0f};
@@ -327,8 +309,8 @@ void Mechanics::finish(Tissue& tissue, double dt, StepReport& report) {
     const Vec3d v = (scene_.position()[point] - start) * rate;
     return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
   };
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (std::size_t i = 0; i < tissue.shells.velocity.size(); ++i) tissue.shells.velocity[i] = velocity(i, tissue.shells.position[i]);
+  parallel_for(threads_, tissue.shells.velocity.size(),
+               [&](std::size_t i) { tissue.shells.velocity[i] = velocity(i, tissue.shells.position[i]); });
   for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i)
     tissue.spheres.velocity[i] = velocity(scene_.sphere_point() + i, tissue.spheres.position[i]);
   for (std::size_t i = 0; i < tissue.nuclei.shells.velocity.size(); ++i)

@@ -11,6 +11,7 @@
 #include "core/friction/friction_system.h"
 #include "core/mesh/topology.h"
 #include "core/parallel/comm.h"
+#include "core/parallel/threads.h"
 #include "coupling/grips.h"
 #include "coupling/mechanics/face_tensions.h"
 #include "coupling/mechanics/held_nodes.h"
@@ -183,31 +184,43 @@ class Mechanics {
   void for_owned_points(F&& function) const {
     for_nuclei(function);
     const auto bodies = scene_.bodies();
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (std::size_t b = 0; b < bodies.size(); ++b)
+    parallel_for(threads_, bodies.size(), [&](std::size_t b) {
       if (bodies[b].active())
         for (std::uint32_t i = bodies[b].first_point; i < bodies[b].first_point + bodies[b].point_count; ++i) function(i);
+    });
   }
-  /// Largest norm of owned points; not a number wins.
-  template <class Vectors>
-  [[nodiscard]] double largest(const Vectors& by_point) const {
+  /// Largest norm of vector(point) over owned points; not a number wins.
+  template <class Vector>
+  [[nodiscard]] double largest_of(const Vector& vector) const {
+    const auto more = [](double here, double most) { return !(here <= most) && !std::isnan(most); };
+    const auto bodies = scene_.bodies();
+    std::vector<double> by_thread(static_cast<std::size_t>(threads_), 0.0);
+    on_each_thread(threads_, [&](std::size_t t) {
+      double most = 0.0;
+      for (std::size_t k = bodies.size() * t / by_thread.size(); k < bodies.size() * (t + 1) / by_thread.size(); ++k)
+        for (std::uint32_t i = bodies[k].first_point; bodies[k].active() && i < bodies[k].first_point + bodies[k].point_count; ++i)
+          if (const double here = norm2(vector(i)); more(here, most)) most = here;
+      by_thread[t] = most;
+    });
     double most = 0.0;
-    for (const ContactBody& body : scene_.bodies())
-      if (body.active())
-        for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) {
-          const double here = norm2(by_point[i]);
-          if (!(here <= most) && !std::isnan(most)) most = here;
-        }
-    for_nuclei([&](std::uint32_t i) { most = std::max(most, norm2(by_point[i])); });
+    for (const double here : by_thread)
+      if (more(here, most)) most = here;
+    for_nuclei([&](std::uint32_t i) { most = std::max(most, norm2(vector(i))); });
     return std::sqrt(comm_.max(most));
   }
-  [[nodiscard]] double furthest(std::span<const Vec3d> start) const;  ///< largest way from there [µm]
+  template <class Vectors>
+  [[nodiscard]] double largest(const Vectors& by_point) const {
+    return largest_of([&](std::uint32_t i) { return by_point[i]; });
+  }
+  /// Largest way from `start` [µm].
+  [[nodiscard]] double furthest(std::span<const Vec3d> start) const {
+    return largest_of([&](std::uint32_t i) { return scene_.position()[i] - start[i]; });
+  }
   template <class Vectors>
   [[nodiscard]] double dot(const std::vector<Vec3d>& a, const Vectors& b) const {
     const auto bodies = scene_.bodies();
     std::vector<OrderFreeSum> sums(static_cast<std::size_t>(threads_));
-#pragma omp parallel for schedule(static, 1) num_threads(threads_)
-    for (std::size_t t = 0; t < sums.size(); ++t)
+    on_each_thread(threads_, [&](std::size_t t) {
       for (std::size_t k = bodies.size() * t / sums.size(); k < bodies.size() * (t + 1) / sums.size(); ++k) {
         if (!bodies[k].active()) continue;
         double part = 0.0;
@@ -215,6 +228,7 @@ class Mechanics {
           part += morula::dot(a[i], b[i]);
         sums[t].add(part);
       }
+    });
     for (std::size_t t = 1; t < sums.size(); ++t) sums[0] += sums[t];
     for_nuclei([&](std::uint32_t i) { sums[0].add(morula::dot(a[i], b[i])); });
     return comm_.sum(sums[0]);

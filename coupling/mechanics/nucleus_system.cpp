@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/parallel/threads.h"
 #include "coupling/mechanics/contact_setup.h"
 
 namespace morula {
@@ -126,8 +127,7 @@ void NucleusSystem::evaluate(const Tissue& tissue, std::span<const Vec3d> positi
   gradient_.set_zero(position_.size(), position_.size(), first_face_.back(), topologies_.size());
   contacts_.evaluate(scene, SurfacePairKind::kSurfaces, gradient_);
   add_surface_forces(surfaces(), position_, geometry_, {gradient_.face_energy, {}, gradient_.node_normal}, gradient_.force);
-#pragma omp parallel for schedule(static) if (items_.size() > 1)
-  for (std::size_t k = 0; k < items_.size(); ++k) {
+  parallel_for(omp_get_max_threads(), items_.size(), [&](std::size_t k) {
     Item& item = items_[k];
     const std::span<Vec3d> on_cell = part(std::span(gradient_.force), 2 * k), on_nucleus = part(std::span(gradient_.force), 2 * k + 1);
     item.energy = dcm::add_nuclear_link_forces(view(k), {on_cell, on_nucleus});
@@ -135,7 +135,7 @@ void NucleusSystem::evaluate(const Tissue& tissue, std::span<const Vec3d> positi
     const std::span<Vec3d> cell = of_cell(force, item), nucleus = of_nucleus(force, item);
     for (std::size_t i = 0; i < cell.size(); ++i) cell[i] += on_cell[i];
     for (std::size_t i = 0; i < nucleus.size(); ++i) nucleus[i] += on_nucleus[i] + own_force_[item.first_point - first_point_ + i];
-  }
+  });
 }
 
 void NucleusSystem::add_energy(OrderFreeSum& sum) const {
@@ -161,10 +161,10 @@ void NucleusSystem::begin_step(const Tissue& tissue) {
     geometry.node_area.insert(geometry.node_area.end(), area.begin(), area.end());
   }
   shells_.begin_step(tissue.nuclei.shells, geometry);
-#pragma omp parallel for schedule(static) if (items_.size() > 1)
-  for (std::size_t k = 0; k < items_.size(); ++k)
+  parallel_for(omp_get_max_threads(), items_.size(), [&](std::size_t k) {
     dcm::find_nuclear_friction(view(k), part(std::span<const double>(geometry_.node_area), 2 * k),
                                part(std::span<const double>(geometry_.node_area), 2 * k + 1), items_[k].friction);
+  });
 }
 
 void NucleusSystem::add_step_friction(std::span<const Vec3d> start, std::span<const Vec3d> position, std::span<Vec3d> out,
@@ -172,8 +172,7 @@ void NucleusSystem::add_step_friction(std::span<const Vec3d> start, std::span<co
   if (empty()) return;
   shells_.add_step_friction(position.subspan(first_point_), out.subspan(first_point_), quadratic);
   std::vector<double> of_item(items_.size());
-#pragma omp parallel for schedule(static) if (items_.size() > 1)
-  for (std::size_t k = 0; k < items_.size(); ++k) {
+  parallel_for(omp_get_max_threads(), items_.size(), [&](std::size_t k) {
     const Item& item = items_[k];
     const auto way = [](std::span<const Vec3d> from, std::span<const Vec3d> to) {
       std::vector<Vec3d> d(to.begin(), to.end());
@@ -183,7 +182,7 @@ void NucleusSystem::add_step_friction(std::span<const Vec3d> start, std::span<co
     std::vector<Vec3d> cell = way(of_cell(start, item), of_cell(position, item));
     std::vector<Vec3d> nucleus = way(of_nucleus(start, item), of_nucleus(position, item));
     of_item[k] = dcm::add_nuclear_friction(view(k), item.friction, {cell, nucleus}, {of_cell(out, item), of_nucleus(out, item)});
-  }
+  });
   for (const double q : of_item) quadratic.add(q);
 }
 
@@ -205,14 +204,13 @@ void NucleusSystem::assemble(const Tissue& tissue, std::span<const Vec3d> positi
   if (empty()) return;
   shells_.assemble(tissue.nuclei.shells, position.subspan(first_point_), {}, dt, {});
   const auto pairs = contacts_.pairs();
-#pragma omp parallel for schedule(static) if (items_.size() > 1)
-  for (std::size_t k = 0; k < items_.size(); ++k) {
+  parallel_for(omp_get_max_threads(), items_.size(), [&](std::size_t k) {
     Item& item = items_[k];
     dcm::assemble_nuclear_operator(view(k), item.friction, model_.types[item.type].shell.bulk_modulus, dt, item.matrix);
     for (std::size_t d = 0; d < 2; ++d)
       dcm::add_nuclear_contacts(pairs[k].present(d), *topologies_[2 * k + d], *topologies_[2 * k + 1 - d], d == 0,
                                 contacts_.settings().points_per_face, dt, item.matrix);
-  }
+  });
 }
 
 std::optional<NucleusState> NucleusSystem::of_shell(std::uint32_t shell) const {
@@ -240,11 +238,10 @@ void NucleusSystem::add_product(std::span<const Float4> p, std::span<Float4> q) 
   if (empty()) return;
   // The nodes of nuclei are in no other part, and have no friction as points: what is in q there is zero.
   shells_.multiply(0, shells_.batch_count(), p.subspan(first_point_), q.subspan(first_point_));
-#pragma omp parallel for schedule(static) if (items_.size() > 1)
-  for (std::size_t k = 0; k < items_.size(); ++k) {
+  parallel_for(omp_get_max_threads(), items_.size(), [&](std::size_t k) {
     const Item& item = items_[k];
     dcm::add_nuclear_product(view(k), item.matrix, of_cell(p, item), of_nucleus(p, item), of_cell(q, item), of_nucleus(q, item));
-  }
+  });
 }
 
 void NucleusSystem::add_diagonal(std::span<SymMat3<float>> diagonal) const {

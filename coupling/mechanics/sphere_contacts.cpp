@@ -6,6 +6,7 @@
 
 #include "cbm/division_ramp.h"
 #include "core/mesh/pseudonormal.h"
+#include "core/parallel/threads.h"
 
 namespace morula {
 namespace {
@@ -105,8 +106,7 @@ void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts, 
   std::vector<OrderFreeSum> energy(std::max<std::size_t>(1, shares.size()));
   flips_.resize(shares.size());
   if (packs_) list_.packing.slopes.assign(list_.pairs.size(), {});
-#pragma omp parallel for schedule(static, 1) num_threads(threads_)
-  for (std::size_t t = 0; t < shares.size(); ++t) {
+  on_each_thread(threads_, [&](std::size_t t) {
     const SpherePairs::Share& share = shares[t];
     const auto writes = [&](const SpherePair& pair) { return pair.a < owned ? share.has(pair.a) : share.has(pair.b); };  // one thread only
     flips_[t].clear();
@@ -153,11 +153,10 @@ void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts, 
           if (!in_step_) list_.elements[k].area = 0.0f;
         });
     energy[t].add(of_sphere);
-  }
+  });
   for (std::size_t t = 1; t < energy.size(); ++t) energy[0] += energy[t];
 
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (std::size_t k = 0; k < rigid_.size(); ++k) evaluate_rigid(scene, contacts, k);
+  parallel_for(threads_, rigid_.size(), [&](std::size_t k) { evaluate_rigid(scene, contacts, k); });
   for (const RigidPair& pair : rigid_) {
     to[pair.sphere] -= pair.normal * pair.force;
     virial_[pair.sphere] += pair.distance * pair.force;
@@ -226,8 +225,7 @@ void SphereContacts::refresh_values(const Scene& scene, const ContactLayer& cont
   for (std::size_t i = 0; i < scene.owned_spheres(); ++i)
     if (marked[i]) virial_[i] = 0.0;
   const auto shares = list_.shares();
-#pragma omp parallel for schedule(static, 1) num_threads(threads_)
-  for (std::size_t t = 0; t < shares.size(); ++t) {
+  on_each_thread(threads_, [&](std::size_t t) {
     const SpherePairs::Share& share = shares[t];
     visit(
         share, scene, contacts, [&](const SpherePair& pair) { return marked[pair.a] || marked[pair.b]; },
@@ -240,7 +238,7 @@ void SphereContacts::refresh_values(const Scene& scene, const ContactLayer& cont
           }
         },
         [](std::uint32_t) {});
-  }
+  });
   for (std::size_t k = 0; k < rigid_.size(); ++k) {
     const RigidPair& pair = rigid_[k];
     if (!marked[pair.sphere]) continue;
@@ -297,8 +295,7 @@ double SphereContacts::pressure(std::size_t i, double radius) const { return cbm
 std::vector<double> SphereContacts::contact_areas(const Scene& scene, const ContactLayer& contacts) const {
   std::vector<double> area(scene.owned_spheres(), 0.0);
   const auto shares = list_.shares();
-#pragma omp parallel for schedule(static, 1) num_threads(threads_)
-  for (std::size_t t = 0; t < shares.size(); ++t)
+  on_each_thread(threads_, [&](std::size_t t) {
     visit(
         shares[t], scene, contacts, [](const SpherePair&) { return true; },
         [&](std::uint32_t k, const cbm::PairBlock& block, int lane) {
@@ -306,6 +303,7 @@ std::vector<double> SphereContacts::contact_areas(const Scene& scene, const Cont
             if (shares[t].has(i)) area[i] += block.area[lane];
         },
         [](std::uint32_t) {});
+  });
   for (const RigidPair& pair : rigid_) area[pair.sphere] += pair.area;
   return area;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/parallel/threads.h"
 #include "coupling/mechanics/sphere_contacts.h"
 
 namespace morula {
@@ -14,8 +15,7 @@ void SphereContacts::find_packing(const Scene& scene, const ContactLayer& contac
   const bool periodic = model_.space.any_periodic();
   std::vector<double> taken(owned, 0.0), slopes(owned, 0.0);
   const auto shares = list_.shares();
-#pragma omp parallel for schedule(static, 1) num_threads(threads_)
-  for (std::size_t t = 0; t < shares.size(); ++t) {
+  on_each_thread(threads_, [&](std::size_t t) {
     const SpherePairs::Share& share = shares[t];
     for (const SpherePairs::Run& run : share.runs) {
       auto sisters =
@@ -39,7 +39,7 @@ void SphereContacts::find_packing(const Scene& scene, const ContactLayer& contac
         }
       }
     }
-  }
+  });
   std::vector<Penetration> others(owned);  // surfaces and walls
   for (std::uint32_t i = 0; i < owned && !penetration.empty(); ++i) others[i] = penetration[scene.first_sphere() + i];
   for (RigidPair& pair : rigid_) {
