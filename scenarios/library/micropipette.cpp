@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "core/numbers/number_text.h"
 #include "coupling/loads.h"
@@ -135,14 +137,23 @@ Result<std::vector<Verdict>> judge_micropipette(const Study& study, const std::f
       rises = rises && a.length < b.length;
     }
   }
+  std::vector<std::pair<const Aspiration*, double>> critical;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const bool first = i == 0 || !same_cell(all[i], all[i - 1]);
     if (!first || !all[i].fluid) continue;
     const double found = measured_critical(all, all[i]);
-    if (std::isfinite(found))
-      out.push_back(at_most("S3.2", ("critical suction against 2 gamma (1/Rp - 1/Rc), relative, " + all[i].name).c_str(),
-                            std::abs(found / all[i].critical - 1.0), 0.08));
+    if (!std::isfinite(found)) continue;
+    critical.emplace_back(&all[i], found);
+    out.push_back(at_most("S3.2", ("critical suction against 2 gamma (1/Rp - 1/Rc), relative, " + all[i].name).c_str(),
+                          std::abs(found / all[i].critical - 1.0), 0.08));
   }
+  for (std::size_t i = 0; i < critical.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Aspiration &a = *critical[i].first, &b = *critical[j].first;
+      if (std::abs(a.pipette / b.pipette - 1.0) > 1e-6 || a.tension == b.tension) continue;
+      out.push_back(at_most("S3.2", ("critical suction over tension, " + a.name + " against " + b.name + ", relative").c_str(),
+                            std::abs(critical[i].second * b.tension / (critical[j].second * a.tension) - 1.0), 0.05));
+    }
   if (pairs > 0) out.push_back(at_least("S3.3", "tongue of an elastic cell rises with the suction (1: yes)", rises, 1.0));
   for (const Aspiration& soft : all)
     for (const Aspiration& hard : all)
