@@ -62,7 +62,7 @@ Model make_model(const Case& c) {
   model.contact.range = c.range;
   model.contact.points_per_face = 3;  // the default; time_stepping.md §9.6 for W ≤ 0.3
   model.contact.repulsion = 40.0;
-  model.contact.skin = 0.3;
+  model.contact.skin = 0.2;  // as fast as 0.3, with fewer candidates to keep
   model.step.max_step = 60.0;
   model.step.initial_step = 1.0;
   return model;

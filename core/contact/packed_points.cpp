@@ -74,7 +74,9 @@ void PackedPoints::pack(const PointsAgainstBody& lists) {
   point_count_ = static_cast<std::uint32_t>(lists.nearest.size());
   width_[0] = width_of(largest_of(lists.source_face));
   width_[1] = width_of(largest_of(lists.target_face));
-  width_[2] = width_of(candidate_count_);
+  std::vector<std::uint32_t> candidates(source_count_);
+  for (std::uint32_t k = 0; k < source_count_; ++k) candidates[k] = lists.first_candidate[k + 1] - lists.first_candidate[k];
+  width_[2] = width_of(largest_of(candidates));
   width_[3] = target_count_ <= kNoFaceInByte ? 1 : 2;
   const std::size_t size = source_count_ == 0 ? 0 : good_until().begin + std::size_t{2} * point_count_;
   if (data_.capacity() != size) data_ = std::vector<std::uint8_t>(size);  // no more room than needed: it lives long
@@ -82,7 +84,7 @@ void PackedPoints::pack(const PointsAgainstBody& lists) {
   if (size == 0) return;
   write(data_.data() + source_face().begin, width_[0], lists.source_face);
   write(data_.data() + target_face().begin, width_[1], lists.target_face);
-  write(data_.data() + first_candidate().begin, width_[2], lists.first_candidate);
+  write(data_.data() + candidates_of_face().begin, width_[2], candidates);
   write(data_.data() + candidate().begin, width_[3], lists.candidate);
   update(lists);
 }
@@ -110,7 +112,10 @@ void PackedPoints::unpack(PointsAgainstBody& lists) const {
 
 void PackedPoints::unpack_candidates(PointsAgainstBody& lists) const {
   if (empty()) return;
-  read(data_.data() + first_candidate().begin, width_[2], source_count_ + std::size_t{1}, lists.first_candidate);
+  std::vector<std::uint32_t>& first = lists.first_candidate;
+  read(data_.data() + candidates_of_face().begin, width_[2], source_count_, first);
+  first.insert(first.begin(), 0);
+  for (std::uint32_t k = 0; k < source_count_; ++k) first[k + 1] += first[k];
   read(data_.data() + candidate().begin, width_[3], candidate_count_, lists.candidate);
 }
 

@@ -46,8 +46,8 @@ class PackedPoints {
   };
   [[nodiscard]] Part source_face() const { return {0, width_[0]}; }
   [[nodiscard]] Part target_face() const { return {source_count_ * width_[0], width_[1]}; }
-  [[nodiscard]] Part first_candidate() const { return {target_face().begin + target_count_ * width_[1], width_[2]}; }
-  [[nodiscard]] Part candidate() const { return {first_candidate().begin + (source_count_ + 1) * width_[2], width_[3]}; }
+  [[nodiscard]] Part candidates_of_face() const { return {target_face().begin + target_count_ * width_[1], width_[2]}; }
+  [[nodiscard]] Part candidate() const { return {candidates_of_face().begin + source_count_ * width_[2], width_[3]}; }
   [[nodiscard]] Part nearest() const { return {candidate().begin + candidate_count_ * width_[3], width_[3]}; }
   [[nodiscard]] Part good_until() const { return {nearest().begin + point_count_ * width_[3], 2}; }
 

@@ -255,7 +255,7 @@ void FrictionSystem::for_points_of(const Portion& portion, Point&& point) const 
 
 void FrictionSystem::multiply(const Portion& portion, std::span<const Float4> p, std::span<Float4> q) const {
   if (portion.first_batch < portion.last_batch) return shells_->multiply(portion.first_batch, portion.last_batch, p, q);
-  for_points_of(portion, [&](std::uint32_t i) { store(q[i], splat(point_friction_[i]) * load(p[i])); });
+  for_points_of(portion, [&](std::uint32_t i) { store(q[i], splat(point_friction_[i - layout_.first_single()]) * load(p[i])); });
 }
 
 void FrictionSystem::apply_contacts(const ThreadWork& work, const Portion& portion, std::span<const Float4> p, std::span<Float4> q) const {
@@ -341,7 +341,8 @@ void FrictionSystem::add_contact_diagonal(const ThreadWork& work, std::span<SymM
 
 void FrictionSystem::build_preconditioner() {
   std::vector<SymMat3<float>> diagonal(layout_.point_count);
-  parallel_for(threads_, layout_.point_count, [&](std::size_t i) { diagonal[i] = isotropic(point_friction_[i]); });
+  parallel_for(threads_, point_friction_.size(),
+               [&](std::size_t i) { diagonal[layout_.first_single() + i] = isotropic(point_friction_[i]); });
   if (shells_ != nullptr && shells_->point_count() > 0) shells_->add_diagonal(diagonal);
   on_each_thread(threads_, [&](std::size_t t) { add_contact_diagonal(work_[t], diagonal); });
   if (sphere_pairs_ != nullptr) sphere_pairs_->add_diagonal(diagonal, dt_);

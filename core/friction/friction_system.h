@@ -86,14 +86,15 @@ class FrictionSystem {
     [[nodiscard]] std::size_t body_count() const { return owned.size(); }
     [[nodiscard]] BodyPoints points_of(std::size_t body) const {
       if (body < bodies.size()) return bodies[body];
-      const std::uint32_t end = bodies.empty() ? 0 : bodies.back().first + bodies.back().count;
-      return {end + static_cast<std::uint32_t>(body - bodies.size()), 1};
+      return {first_single() + static_cast<std::uint32_t>(body - bodies.size()), 1};
     }
+    /// First point of the bodies that have one each.
+    [[nodiscard]] std::uint32_t first_single() const { return bodies.empty() ? 0 : bodies.back().first + bodies.back().count; }
   };
 
   void set_layout(Layout layout, int threads);
 
-  /// Diagonal friction [nN·s/µm] by point: of the spheres, and 0 where the shells' part has its own; ghosts are ignored.
+  /// Diagonal friction [nN·s/µm] of the bodies of one point, in their order; ghosts are ignored. The shells' part has its own.
   void set_point_friction(std::span<const float> friction) { point_friction_.assign(friction.begin(), friction.end()); }
   /// The shells' own part, with what contacts couple within a shell (edge_blocks_of()).
   void set_shells(OperatorPart* shells) { shells_ = shells; }

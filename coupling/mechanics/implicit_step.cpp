@@ -137,8 +137,8 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
   for (std::size_t i = 0; moved && i < scene_.owned_spheres(); ++i) {
     const std::size_t point = scene_.sphere_point() + i;
     const Vec3d d = x[point] - start[point];
-    force_[point] += d * static_cast<double>(medium[point]);
-    sums[0].add(static_cast<double>(medium[point]) * norm2(d));
+    force_[point] += d * static_cast<double>(medium[i]);
+    sums[0].add(static_cast<double>(medium[i]) * norm2(d));
   }
   if (moved) spheres_.pairs().add_friction(start, x, force_, sums[0]);
   std::vector<OrderFreeSum> works(static_cast<std::size_t>(threads_));

@@ -217,12 +217,10 @@ void Mechanics::begin_step(const Tissue& tissue, double dt) {
   interior_.begin_step(scene_.position(), geometry_);
   nuclei_.begin_step(tissue);
   shells_.set_node_friction(node_terms_.friction(tissue, geometry_));
-  std::vector<float> friction(scene_.point_count(), 0.0f);
-  const std::size_t first = scene_.first_sphere();
+  std::vector<float> friction(scene_.point_count() - scene_.sphere_point(), 0.0f);
   for (std::size_t i = 0; i < scene_.owned_spheres(); ++i) {
     const double r = tissue.spheres.radius[i];
-    friction[scene_.bodies()[first + i].first_point] =
-        static_cast<float>(model_.types[tissue.spheres.type[i]].medium_friction * 4.0 * std::numbers::pi * r * r);
+    friction[i] = static_cast<float>(model_.types[tissue.spheres.type[i]].medium_friction * 4.0 * std::numbers::pi * r * r);
   }
   system_.set_point_friction(friction);
   held_.clear();

@@ -134,7 +134,6 @@ TEST(FrictionSystem, RefusesForcesThatAreNoNumbers) {
   FrictionSystem system;
   FrictionSystem::Layout layout;
   layout.point_count = 1;
-  layout.bodies = {{0, 1}};
   layout.owned = {1};
   system.set_layout(layout, 1);
   const float friction[1] = {1.0f};
