@@ -53,7 +53,7 @@ Result<Estimate> estimate(const Study& study) {
   Tissue& tissue = initial.tissue;
   Estimate out;
   out.cells = static_cast<std::int64_t>(tissue.cells.size());
-  out.nodes = tissue.shells.node_count();
+  out.nodes = tissue.shells.node_count() + tissue.nuclei.shells.node_count();
   out.shells = static_cast<std::int64_t>(tissue.shells.size());
   for (std::size_t f = 0; f < study.model.fields.size(); ++f)
     for (std::size_t i = 0; i < tissue.cells.size(); ++i)
@@ -73,7 +73,8 @@ Result<Estimate> estimate(const Study& study) {
   for (const SwapOrder& order : choose_swaps(study.model, tissue, center, alone)) {
     const std::int64_t change = order.to == BodyKind::kShell ? 1 : -1;
     out.shells += change;
-    out.nodes += change * study.model.types[tissue.cells.rows[order.row].type].shell_nodes;
+    const CellType& type = study.model.types[tissue.cells.rows[order.row].type];
+    out.nodes += change * (type.shell_nodes + (type.interior.has_nuclear_shell() ? type.interior.nucleus_nodes : 0));
   }
   for (const auto& spec : study.model.fields) {
     MORULA_TRY_ASSIGN(const fields::Grid grid, fields::grid_for(spec, study.model.space));

@@ -40,7 +40,7 @@ class CostModel {
 
 /// What a study will need, before it is run.
 struct Estimate {
-  std::int64_t cells = 0, shells = 0, nodes = 0, voxels = 0;  ///< at time 0
+  std::int64_t cells = 0, shells = 0, nodes = 0, voxels = 0;  ///< at time 0; nodes of nuclei that are shells, too
   double cells_at_end = 0.0;                                  ///< if nothing inhibits growth
   double memory = 0.0;                                        ///< at the end [bytes]
   WallRange wall;                                             ///< on one thread [s]

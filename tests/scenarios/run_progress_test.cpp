@@ -49,6 +49,15 @@ TEST(CostModel, EstimatesAStudyBeforeItRuns) {
   EXPECT_LT(guess->wall.low, guess->wall.high);
 }
 
+TEST(CostModel, CountsTheNodesOfNucleiThatAreShells) {
+  const auto study = test::read(test::changed("bulk_modulus: 2.5 kPa", "nucleus: {kind: shell, radius: 3 um, nodes: 42}"));
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  const auto guess = estimate(*study);
+  ASSERT_TRUE(guess.ok()) << guess.error().message;
+  EXPECT_GT(guess->shells, 20);
+  EXPECT_EQ(guess->nodes, (162 + 42) * guess->shells);
+}
+
 TEST(Progress, LiveLineReadsAsInTheGuide) {
   Progress p;
   p.time = 39.4 * 3600.0;
