@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <map>
 
@@ -50,8 +51,9 @@ void add_making_verbs(CLI::App& program, Parsed& p) {
   verb->add_option("DIR", p.make_new.folder, "Folder to make; it must not exist (default: the template's name)");
 
   verb = add_verb(program, "check", "Check studies and show all their mistakes at once; nothing is run",
-                  "morula check study.yaml --estimate", "morula check --schema > study.schema.json");
-  verb->add_option("STUDY", p.check.studies, "Study files");
+                  "morula check study.yaml initial.0.count=1000 --estimate", "morula check --schema > study.schema.json");
+  verb->add_option("STUDY|KEY=VALUE", p.check.arguments,
+                   "Study files, and values that replace those of all of them, by the path of the key");
   verb->add_flag("--estimate", p.check.estimate, "Also print size, memory and time of the run");
   verb->add_flag("--schema", p.check.schema, "Print the JSON Schema of study files, for editors");
   verb->add_flag("--strict", p.check.strict, "Warnings are errors");
@@ -182,10 +184,18 @@ std::string version_text() {
   return "morula " + build.version + " (" + build.git_hash + ", " + build.compiler + ", " + build.build_type + ")\n";
 }
 
+}  // namespace
+
+bool is_override(const std::string& argument) { return argument.find('=') != std::string::npos && !std::filesystem::exists(argument); }
+
+namespace {
+
 /// Options that CLI11 cannot check by itself.
 Status check_combinations(const std::string& verb, const Parsed& p) {
   const auto wrong = [&](const std::string& message) { return Error{ErrorKind::kInput, message, "see `morula " + verb + " --help`"}; };
-  if (verb == "check" && p.check.studies.empty() && !p.check.schema) return wrong("`check` needs a study file");
+  const auto is_file = [](const std::string& argument) { return !is_override(argument); };
+  if (verb == "check" && std::none_of(p.check.arguments.begin(), p.check.arguments.end(), is_file) && !p.check.schema)
+    return wrong("`check` needs a study file");
   if (verb == "explain" && p.explain.id.empty() == p.explain.markdown.empty())
     return wrong("`explain` needs one of: a key, law or error code; --markdown");
   if (verb == "info" && p.info.target.empty() && !p.info.defaults)

@@ -37,8 +37,8 @@ void for_faces(const Tissue& tissue, int mark, F&& function) {
   }
 }
 
-/// Returns the part of all directions in which there is a wall of any kind.
-double mark_by_sight(const Lumen& lumen, Tissue& tissue, const Comm& comm) {
+/// Marks the faces, and notes what else is a wall.
+void mark_by_sight(const Lumen& lumen, Tissue& tissue, LumenState& state, const Comm& comm) {
   SightMap map(lumen.center, lumen.reach);
   dcm::Shells& shells = tissue.shells;
   std::uint32_t number = 0;
@@ -63,7 +63,10 @@ double mark_by_sight(const Lumen& lumen, Tissue& tissue, const Comm& comm) {
     std::vector<std::uint8_t>& marks = shells.faces_of(s).mark;
     marks[face - first_face[s]] = static_cast<std::uint8_t>(marks[face - first_face[s]] | bit);
   }
-  return map.covered();
+  state.covered = map.covered();
+  const SightMap::Balls balls = map.balls(comm);
+  state.before_spheres = balls.volume;
+  state.sphere_directions = balls.directions;
 }
 
 }  // namespace
@@ -94,7 +97,8 @@ void measure_lumens(const Model& model, Tissue& tissue, const Comm& comm) {
     const double of_shells = total[2] / (4.0 * std::numbers::pi);
     if (!lumen.by_sight) state.covered = of_shells;
     state.area = total[1];
-    state.volume = state.covered >= kBurst && of_shells > 0.0 ? std::max(0.0, total[0] / of_shells) : 0.0;
+    const double of_walls = of_shells + state.sphere_directions;
+    state.volume = state.covered >= kBurst && of_walls > 0.0 ? std::max(0.0, (total[0] + state.before_spheres) / of_walls) : 0.0;
     state.pressure = lumen_pressure(lumen, state, tissue.clock.time);
   }
 }
@@ -111,7 +115,7 @@ void look_into_lumens(const Model& model, Tissue& tissue, const Comm& comm) {
     const bool first = state.looked_at < lumen.from;
     state.looked_at = time;
     looked = true;
-    if (lumen.by_sight) state.covered = mark_by_sight(lumen, tissue, comm);
+    if (lumen.by_sight) mark_by_sight(lumen, tissue, state, comm);
     if (!first) continue;
     measure_lumens(model, tissue, comm);
     if (lumen.keeps_solute) state.amount = lumen.pressure * state.volume / kGasEnergy;

@@ -22,8 +22,9 @@ void look_into_lumens(const Model& model, Tissue& tissue, const Comm& comm);
 /// Volume, area, cover and pressure of the lumens at the present positions and time. Collective.
 ///
 /// With A_T n_T outward from the cells, c the centre and w = Σ Ω_T/(4π) the winding number of the faces about c (1 for any cavity that shells close):
-/// V = −⅓ Σ A_T n_T·(x_T − c)/w, so that gaps between shells and walls that are spheres count like their surroundings. Covered is the part of all
-/// directions in which there was a wall, shell or sphere, when the cavity was last looked into; w for faces that are not found by sight.
+/// V = (V_s − ⅓ Σ A_T n_T·(x_T − c))/(w + w_s), so that gaps count like their surroundings. V_s = ∫ r³/3 dΩ and w_s are those of the spheres that
+/// were seen when the cavity was last looked into, and covered is the part of all directions in which there was a wall then, shell or sphere; for faces that
+/// are not found by sight it is w, and spheres do not count.
 void measure_lumens(const Model& model, Tissue& tissue, const Comm& comm);
 
 /// Pressure of the fluid of a lumen at a time [kPa]: 0 before it exists and after it has burst; else P·course, or R T n·course/V.

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <numbers>
 
+#include "core/parallel/order_free_sum.h"
+
 namespace morula {
 namespace {
 
@@ -39,7 +41,7 @@ void SightMap::cast(int side, const Window& w, std::uint32_t number, const Hit& 
       const double along = hit(ray);
       if (!(along > 0.0)) continue;
       const double distance = along * norm(ray);
-      if (number != kNothing) ++met_[number];
+      if (number < kBall) ++met_[number];
       const std::size_t place =
           (static_cast<std::size_t>(side) * kSide + static_cast<std::size_t>(j)) * kSide + static_cast<std::size_t>(i);
       if (distance > reach_ || !(distance < own_[place] || (distance == own_[place] && number < number_[place]))) continue;
@@ -82,7 +84,7 @@ void SightMap::add_ball(const Vec3d& center, double radius) {
       const auto most = [&](double x) { return std::max((x + radius) / low, (x + radius) / high); };
       w = {first_ray(least(p.x)), first_ray(most(p.x)), first_ray(least(p.y)), first_ray(most(p.y))};
     }
-    cast(side, w, kNothing, [&](const Vec3d& ray) {  // |t ray − p| = r
+    cast(side, w, kBall, [&](const Vec3d& ray) {  // |t ray − p| = r
       const double square = norm2(ray), half = dot(ray, p), root = half * half - square * (norm2(p) - radius * radius);
       if (root < 0.0) return -1.0;
       const double near = (half - std::sqrt(root)) / square;
@@ -106,19 +108,38 @@ void SightMap::join(const Comm& comm) {
 std::vector<std::uint32_t> SightMap::seen() const {
   std::vector<std::uint32_t> nearest(met_.size(), 0), out;
   for (std::size_t i = 0; i < own_.size(); ++i)
-    if (number_[i] != kNothing && own_[i] == distance_[i]) ++nearest[number_[i]];
+    if (number_[i] < kBall && own_[i] == distance_[i]) ++nearest[number_[i]];
   for (std::uint32_t k = 0; k < met_.size(); ++k)
     if (met_[k] > 0 && 2 * nearest[k] >= met_[k]) out.push_back(k);
   return out;
 }
 
+double SightMap::weight(std::size_t ray) {
+  const double u = ray_coordinate(static_cast<int>(ray % kSide)), v = ray_coordinate(static_cast<int>(ray / kSide % kSide));
+  return std::pow(1.0 + u * u + v * v, -1.5);
+}
+
+SightMap::Balls SightMap::balls(const Comm& comm) const {
+  OrderFreeSum sums[2];
+  double all = 0.0;
+  for (std::size_t i = 0; i < own_.size(); ++i) {
+    const double part = weight(i);
+    all += part;
+    if (number_[i] != kBall || own_[i] != distance_[i]) continue;
+    sums[0].add(part * own_[i] * own_[i] * own_[i] / 3.0);
+    sums[1].add(part);
+  }
+  double total[2];
+  comm.sum(sums, total);
+  return {4.0 * std::numbers::pi * total[0] / all, total[1] / all};
+}
+
 double SightMap::covered() const {
   double hit = 0.0, all = 0.0;
   for (std::size_t i = 0; i < distance_.size(); ++i) {
-    const double u = ray_coordinate(static_cast<int>(i % kSide)), v = ray_coordinate(static_cast<int>(i / kSide % kSide));
-    const double weight = std::pow(1.0 + u * u + v * v, -1.5);  // solid angle of a ray's pixel
-    all += weight;
-    if (distance_[i] < kFar) hit += weight;
+    const double part = weight(i);
+    all += part;
+    if (distance_[i] < kFar) hit += part;
   }
   return hit / all;
 }

@@ -17,7 +17,7 @@ namespace morula {
 class SightMap {
  public:
   static constexpr int kSide = 128;
-  static constexpr std::uint32_t kNothing = 0xFFFFFFFFu;
+  static constexpr std::uint32_t kNothing = 0xFFFFFFFFu, kBall = kNothing - 1;
 
   /// reach: what is further away is not seen [µm].
   SightMap(const Vec3d& eye, double reach);
@@ -35,11 +35,18 @@ class SightMap {
   [[nodiscard]] std::vector<std::uint32_t> seen() const;
   /// Part of the sphere of directions along which something is seen.
   [[nodiscard]] double covered() const;
+  /// What is seen of balls, over all ranks: ∫ r³/3 dΩ [µm³], and the part of the sphere of directions. Collective.
+  struct Balls {
+    double volume, directions;
+  };
+  [[nodiscard]] Balls balls(const Comm& comm) const;
 
  private:
   struct Window {  ///< rays [u0, u1) × [v0, v1) of one face of the cube
     int u0, u1, v0, v1;
   };
+  /// Solid angle of a ray's pixel, but for a factor.
+  static double weight(std::size_t ray);
   template <class Hit>
   void cast(int side, const Window& window, std::uint32_t number, const Hit& hit);
 

@@ -30,12 +30,14 @@ struct Ledger {
 
 /// A cavity (Lumen) as it was when it was last looked at. The same on every rank.
 struct LumenState {
-  double looked_at = -1e300;  ///< when its faces were last found [s]
-  double amount = 0.0;        ///< of solute, where it is kept [amol]
-  double volume = 0.0;        ///< [µm³]
-  double pressure = 0.0;      ///< [kPa]
-  double area = 0.0;          ///< of its faces [µm²]
-  double covered = 0.0;       ///< part of all directions in which its faces are seen
+  double looked_at = -1e300;       ///< when its faces were last found [s]
+  double amount = 0.0;             ///< of solute, where it is kept [amol]
+  double volume = 0.0;             ///< [µm³]
+  double pressure = 0.0;           ///< [kPa]
+  double area = 0.0;               ///< of its faces [µm²]
+  double covered = 0.0;            ///< part of all directions in which there is a wall
+  double before_spheres = 0.0;     ///< volume between the centre and the spheres that are seen, when it was last looked at [µm³]
+  double sphere_directions = 0.0;  ///< part of all directions in which they are seen
 };
 
 /// All state of a run on this rank: what a checkpoint holds. No hidden state exists elsewhere; workspaces can be rebuilt from it.

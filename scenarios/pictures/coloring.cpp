@@ -13,6 +13,8 @@ namespace {
 // Bodies use two colours of the categorical list that differ in lightness as well.
 Rgb body_color(BodyKind body) { return body == BodyKind::kShell ? categorical_color(1) : categorical_color(0); }
 
+constexpr Rgb kUnmarked{0.80f, 0.80f, 0.82f};
+
 std::string type_name(const Snapshot& snapshot, std::size_t type) {
   return type < snapshot.type_names.size() ? snapshot.type_names[type] : "type " + std::to_string(type);
 }
@@ -120,10 +122,19 @@ std::vector<Rgb> cell_colors(const Snapshot& snapshot, ColorBy by, const ColorSc
       case ColorBy::kIdentity:
         colors.push_back(identity_color(cell.id));
         break;
+      case ColorBy::kMarks:
+        colors.push_back(varied(kUnmarked, cell.id));
+        break;
       default:
         colors.push_back(scale_color(scale, color_value(cell, by, field)));
     }
   }
+  return colors;
+}
+
+std::vector<Rgb> mark_colors(const Snapshot& snapshot, ColorBy by) {
+  std::vector<Rgb> colors;
+  for (std::size_t k = 0; by == ColorBy::kMarks && k < snapshot.mark_names.size(); ++k) colors.push_back(categorical_color(k));
   return colors;
 }
 
@@ -140,6 +151,11 @@ std::vector<LegendEntry> legend_entries(const Snapshot& snapshot, ColorBy by) {
     for (const auto& cell : snapshot.cells) ++count[cell.body == BodyKind::kShell ? 1 : 0];
     if (count[1]) entries.push_back({"deformable shell (" + std::to_string(count[1]) + ")", body_color(BodyKind::kShell)});
     if (count[0]) entries.push_back({"sphere (" + std::to_string(count[0]) + ")", body_color(BodyKind::kSphere)});
+  } else if (by == ColorBy::kMarks) {
+    unsigned seen = 0;
+    for (const std::uint8_t marks : snapshot.face_marks) seen |= marks;
+    for (std::size_t k = 0; k < snapshot.mark_names.size(); ++k)
+      if (seen >> k & 1u) entries.push_back({snapshot.mark_names[k], categorical_color(k)});
   }
   return entries;
 }

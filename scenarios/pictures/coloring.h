@@ -8,7 +8,7 @@
 
 namespace morula::scenarios {
 
-enum class ColorBy { kType, kBody, kIdentity, kPressure, kVolume, kConcentration };
+enum class ColorBy { kType, kBody, kIdentity, kPressure, kVolume, kConcentration, kMarks };
 
 /// How a number of a cell becomes a colour, and what the colour bar says.
 struct ColorScale {
@@ -41,7 +41,10 @@ Rgb scale_color(const ColorScale& scale, double value);
 /// Colour of every cell; kinds vary a little in lightness from cell to cell, so that neighbours can be told apart.
 std::vector<Rgb> cell_colors(const Snapshot& snapshot, ColorBy by, const ColorScale& scale, std::size_t field = 0);
 
-/// Legend for kinds: the cell types that occur, or the bodies; empty otherwise.
+/// Colours of the marks of faces (bit k of a set of marks: colour k); empty unless pictures are coloured by them. A face with several has their mean.
+std::vector<Rgb> mark_colors(const Snapshot& snapshot, ColorBy by);
+
+/// Legend for kinds: the cell types that occur, the bodies, or the marks; empty otherwise.
 std::vector<LegendEntry> legend_entries(const Snapshot& snapshot, ColorBy by);
 
 }  // namespace morula::scenarios

@@ -14,6 +14,7 @@ struct DrawnTriangle {
   std::array<Vec3d, 3> corner;  // x, y in pixels (y down), z in µm
   std::array<Vec3d, 3> normal;  // in the view frame
   std::int32_t surface;
+  std::uint8_t marks;
 };
 
 // What is drawn into the rows [first, last); every band is drawn by one thread.
@@ -69,7 +70,7 @@ void draw_triangle(const DrawnTriangle& t, const ClipDepth& clip, const Band& ba
       Vec3d normal = t.normal[0] * u + t.normal[1] * v + t.normal[2] * w;
       normal.z = std::max(normal.z, 0.0);  // an interpolated normal may point away just before the silhouette
       const double length = norm(normal);
-      pixels.put(i, static_cast<float>(depth), t.surface, length > 0.0 ? normal / length : Vec3d{0.0, 0.0, 1.0});
+      pixels.put(i, static_cast<float>(depth), t.surface, length > 0.0 ? normal / length : Vec3d{0.0, 0.0, 1.0}, t.marks);
     }
   }
 }
@@ -89,18 +90,25 @@ std::vector<Vec3d> node_normals(const Snapshot& snapshot, const Snapshot::Shell&
   return normals;
 }
 
-void add_shell(const Snapshot& snapshot, const Snapshot::Shell& shell, const Projection& projection, std::vector<DrawnTriangle>& out) {
+/// `marks`: by face of the shell; empty: none.
+void add_shell(const Snapshot& snapshot, const Snapshot::Shell& shell, std::span<const std::uint8_t> marks, const Projection& projection,
+               std::vector<DrawnTriangle>& out) {
   const auto normals = node_normals(snapshot, shell);
   std::vector<Vec3d> corner(shell.node_count), normal(shell.node_count);
   for (std::size_t i = 0; i < shell.node_count; ++i) {
     corner[i] = projection.pixel(snapshot.nodes[shell.first_node + i]);
     normal[i] = projection.direction(normals[i]);
   }
-  for (const Triangle& f : snapshot.topologies[shell.topology]) {
+  const std::vector<Triangle>& faces = snapshot.topologies[shell.topology];
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const Triangle& f = faces[k];
     const auto &a = corner[f[0]], &b = corner[f[1]], &c = corner[f[2]];
     // Seen from behind (y points down: the sign is reversed). The mesh is closed, so that a front face always hides it.
     if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) >= 0.0) continue;
-    out.push_back({{a, b, c}, {normal[f[0]], normal[f[1]], normal[f[2]]}, static_cast<std::int32_t>(2 * shell.cell)});
+    out.push_back({{a, b, c},
+                   {normal[f[0]], normal[f[1]], normal[f[2]]},
+                   static_cast<std::int32_t>(2 * shell.cell),
+                   marks.empty() ? std::uint8_t{0} : marks[k]});
   }
 }
 
@@ -154,6 +162,7 @@ PixelBuffer::PixelBuffer(int width_, int height_) : width(width_), height(height
   surface.assign(count, kNothing);
   normal_x.assign(count, 0);
   normal_y.assign(count, 0);
+  marks.assign(count, 0);
 }
 
 void rasterize(const Snapshot& snapshot, const Camera& camera, const std::optional<CutPlane>& cut, PixelBuffer& pixels) {
@@ -164,7 +173,12 @@ void rasterize(const Snapshot& snapshot, const Camera& camera, const std::option
   // Nearest first: what is hidden is then rejected before its square root is taken. Ties keep the order of ids.
   std::stable_sort(discs.begin(), discs.end(), [](const Disc& a, const Disc& b) { return a.depth + a.radius > b.depth + b.radius; });
   std::vector<DrawnTriangle> triangles;
-  for (const auto& shell : snapshot.shells) add_shell(snapshot, shell, projection, triangles);
+  std::span<const std::uint8_t> marks = snapshot.face_marks;
+  for (const auto& shell : snapshot.shells) {
+    const std::size_t own = marks.empty() ? 0 : snapshot.topologies[shell.topology].size();
+    add_shell(snapshot, shell, marks.first(own), projection, triangles);
+    marks = marks.subspan(own);
+  }
   const CutFaces faces = cut ? CutFaces(snapshot, projection, *cut) : CutFaces();
   const std::vector<CutNucleus> nuclei = cut ? nuclei_of(snapshot, projection) : std::vector<CutNucleus>();
 

@@ -51,7 +51,7 @@ Image render(const Snapshot& snapshot, const RenderOptions& options) {
   auto colors = cell_colors(snapshot, options.color_by, options.scale, options.field);
   for (const Snapshot::Nucleus& nucleus : snapshot.nuclei) colors.push_back(colors[nucleus.cell] * 0.6f);
   for (const Snapshot::NuclearShell& nucleus : snapshot.nuclear_shells) colors.push_back(colors[nucleus.cell] * 0.6f);
-  shade(pixels, colors,
+  shade(pixels, colors, mark_colors(snapshot, options.color_by),
         {samples, camera.pixels_per_um, median_radius(snapshot), options.outlines,
          is_number(options.color_by)              ? 0.06f
          : options.color_by == ColorBy::kIdentity ? 0.12f

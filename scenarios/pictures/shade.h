@@ -20,7 +20,8 @@ struct ShadeOptions {
 /// (estimator: McGuire et al. 2011, eq. 10, doi:10.1145/2018323.2018327; its samples are rotated from sub-pixel to sub-pixel), a
 /// slight fade with depth, and a thin dark line where one cell ends and another one begins. Cut faces are flat and a little lighter.
 ///
-/// `colors` are indexed by cell.
-void shade(const PixelBuffer& pixels, std::span<const Rgb> colors, const ShadeOptions& options, Image& image, int left, int top);
+/// `colors` are indexed by cell; `mark_colors` by bit of a face's marks, empty to leave these out.
+void shade(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const Rgb> mark_colors, const ShadeOptions& options,
+           Image& image, int left, int top);
 
 }  // namespace morula::scenarios

@@ -1,5 +1,6 @@
 #include "scenarios/pictures/standard_pictures.h"
 
+#include <algorithm>
 #include <numbers>
 #include <set>
 
@@ -72,6 +73,10 @@ std::vector<Picture> standard_pictures(std::span<const Snapshot> snapshots) {
     const std::string& name = last.fields[field].name;
     set.add(last, "cut_" + name + "_final", "cut through the middle, coloured by " + name,
             colored(ColorBy::kConcentration, common_scale(snapshots, ColorBy::kConcentration, field, name), field), true, false);
+  }
+  if (std::any_of(last.face_marks.begin(), last.face_marks.end(), [](std::uint8_t marks) { return marks != 0; })) {
+    set.add(last, "marks_final", "faces coloured by their marks", colored(ColorBy::kMarks), false, false);
+    set.add(last, "cut_marks_final", "cut through the middle, faces coloured by their marks", colored(ColorBy::kMarks), true, false);
   }
   return std::move(set.pictures);
 }

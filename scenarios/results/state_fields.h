@@ -52,8 +52,10 @@ void for_each_lumen_field(Visit&& visit) {
   visit("pressure", "kPa", &LumenState::pressure);
   visit("area", "um^2", &LumenState::area);
   visit("covered", "1", &LumenState::covered);
+  visit("before_spheres", "um^3", &LumenState::before_spheres);
+  visit("sphere_directions", "1", &LumenState::sphere_directions);
 }
-static_assert(sizeof(LumenState) == 6 * 8, "list every member of LumenState in for_each_lumen_field");
+static_assert(sizeof(LumenState) == 8 * 8, "list every member of LumenState in for_each_lumen_field");
 
 /// `array(name, units, member)` for the values by field, `count(name, units, member)` for the counters.
 template <class Array, class Count>

@@ -43,8 +43,7 @@ Tissue closed_cavity(const Model& model, ShapeLibrary& shapes, std::uint32_t nod
 }
 
 /// ∫ ρ³/3 dΩ over directions, ρ the way to the nearest of the balls: the volume that the balls enclose about the origin.
-double enclosed_between_balls() {
-  const auto center = walls();
+double enclosed_between_balls(const std::vector<Vec3d>& center = walls()) {
   double sum = 0.0;
   constexpr int kCount = 20000;
   for (int i = 0; i < kCount; ++i) {  // Fibonacci points
@@ -82,6 +81,20 @@ TEST(Lumen, FacesInSightCloseTheCavityAndEncloseItsVolume) {
   }
   EXPECT_GT(marked, 200u);
   EXPECT_EQ(back, 0u);
+}
+
+TEST(Lumen, SpheresAmongItsWallsBoundItToo) {
+  const Model model = model_of_cavity();
+  ShapeLibrary shapes;
+  std::vector<BodyKind> bodies(12, BodyKind::kShell);
+  bodies[0] = bodies[3] = bodies[7] = BodyKind::kSphere;
+  auto centers = walls();
+  centers[3] = centers[3] * 0.8;  // bulges into the cavity
+  Tissue tissue = test::make_tissue(model, shapes, centers, bodies, 642, kRadius);
+  mark_new_shells(model, tissue);
+  look_into_lumens(model, tissue, Comm());
+  EXPECT_NEAR(tissue.lumens[0].covered, 1.0, 0.04);
+  EXPECT_NEAR(tissue.lumens[0].volume / enclosed_between_balls(centers), 1.0, 0.04);
 }
 
 TEST(Lumen, PushesOutwardsWithoutDrivingTheTissue) {
@@ -176,6 +189,14 @@ TEST(SightMap, SeesTheNearestTriangleAndMeasuresTheSky) {
   ball.join(Comm());
   EXPECT_NEAR(ball.covered(), 0.5 * (1.0 - std::sqrt(0.75)), 1e-3);
   EXPECT_TRUE(ball.seen().empty());
+  // Between the eye and the ball: the cone that touches it, without the cap that reaches into the cone.
+  const double side = std::sqrt(20.0 * 20.0 - 10.0 * 10.0), height = side * side / 20.0, base = side * 10.0 / 20.0, cap = height - 10.0;
+  const double between = std::numbers::pi * (base * base * height - cap * cap * (30.0 - cap)) / 3.0;
+  EXPECT_NEAR(ball.balls(Comm()).volume / between, 1.0, 1e-2);
+  EXPECT_NEAR(ball.balls(Comm()).directions, ball.covered(), 1e-12);
+  ball.add_triangle({-30, 5, -30}, {30, 5, -30}, {0, 5, 60}, 0);  // before the ball
+  ball.join(Comm());
+  EXPECT_EQ(ball.balls(Comm()).volume, 0.0);
 }
 
 /// A cavity that is kept open by its fluid: it grows under pressure, and steps stay sound.

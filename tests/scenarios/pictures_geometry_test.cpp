@@ -77,6 +77,52 @@ TEST(PicturesGeometry, ObliqueCutIsForeshortenedByItsCosine) {
   }
 }
 
+/// Two shells side by side; marks by face: of the first none, of the second `mark` on the upper half.
+Snapshot half_marked(std::uint8_t mark) {
+  Snapshot snapshot;
+  add_shell(snapshot, {-8.0, 0.0, 0.0}, 6.0);
+  add_shell(snapshot, {8.0, 0.0, 0.0}, 6.0);
+  snapshot.mark_names = {"basal", "apical"};
+  for (const Snapshot::Shell& shell : snapshot.shells)
+    for (const Triangle& t : snapshot.topologies[shell.topology]) {
+      double height = 0.0;
+      for (const std::uint32_t node : t) height += snapshot.nodes[shell.first_node + node].z / 3.0;
+      snapshot.face_marks.push_back(shell.cell == 1 && height > 0.0 ? mark : std::uint8_t{0});
+    }
+  return snapshot;
+}
+
+TEST(PicturesGeometry, PixelsKnowTheMarksOfTheirFace) {
+  PixelBuffer pixels(400, 400);
+  rasterize(half_marked(2), straight(10.0), std::nullopt, pixels);
+  double marked = 0.0;
+  for (std::size_t i = 0; i < pixels.marks.size(); ++i) {
+    if (pixels.marks[i] == 0) continue;
+    ++marked;
+    EXPECT_EQ(pixels.marks[i], 2);
+    EXPECT_EQ(pixels.surface[i], 2) << "the second cell";
+  }
+  EXPECT_NEAR(marked, 0.5 * kPi * 36.0 * 100.0, 0.04 * kPi * 36.0 * 100.0);
+  rasterize(half_marked(2), straight(10.0), CutPlane{{0.0, -5.0, 0.0}, {0.0, -1.0, 0.0}}, pixels = PixelBuffer(400, 400));
+  for (std::size_t i = 0; i < pixels.marks.size(); ++i)
+    if (pixels.surface[i] == 3) {
+      EXPECT_EQ(pixels.marks[i], 0) << "a cut face has none";
+    }
+}
+
+TEST(PicturesGeometry, MarksThatAreThereGetPicturesAndALegend) {
+  const Snapshot with[] = {half_marked(2)}, without[] = {half_marked(0)};
+  const auto legend = legend_entries(with[0], ColorBy::kMarks);
+  ASSERT_EQ(legend.size(), 1u) << "only marks that occur";
+  EXPECT_EQ(legend[0].text, "apical");
+  const auto has = [](std::span<const Snapshot> snapshots) {
+    const auto pictures = standard_pictures(snapshots);
+    return std::count_if(pictures.begin(), pictures.end(), [](const Picture& p) { return p.name.find("marks") != std::string::npos; });
+  };
+  EXPECT_EQ(has(with), 2);
+  EXPECT_EQ(has(without), 0);
+}
+
 TEST(PicturesGeometry, NothingIsSeenOfWhatTheCutRemoves) {
   Snapshot snapshot;
   add_sphere(snapshot, {0.0, -10.0, 0.0}, 6.0);

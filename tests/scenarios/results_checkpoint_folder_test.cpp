@@ -68,7 +68,7 @@ TEST_F(CheckpointFolder, WithoutAGoodOneIsAnErrorThatNamesTheFiles) {
 TEST_F(CheckpointFolder, AnotherVersionIsRefusedAndNotPassedOver) {
   save(1.0);
   StoragePlan plan(comm);
-  plan.add_value("format_version", "1", std::uint32_t{2});
+  plan.add_value("format_version", "1", kCheckpointFormat + 1);
   ASSERT_TRUE(create_file(checkpoints / "cp_000002.h5", std::move(plan), comm).ok());
   const auto loaded = load_newest_checkpoint(checkpoints, model, library, comm);
   ASSERT_FALSE(loaded.ok());

@@ -142,6 +142,19 @@ TEST(BadStudy, StrictTurnsWarningsIntoErrors) {
   EXPECT_EQ(run_morula({"check", "study.yaml", "--strict"}, folder.path()).exit_code, 2);
 }
 
+TEST(BadStudy, IsFoundInValuesOfTheCommandLineToo) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  EXPECT_EQ(run_morula({"check", "study.yaml", "seed=3"}, folder.path()).exit_code, 0);
+  const Outcome estimated = run_morula({"check", "study.yaml", "initial.0.count=17", "--estimate"}, folder.path());
+  EXPECT_EQ(estimated.exit_code, 0) << estimated.all();
+  EXPECT_THAT(estimated.out, HasSubstr("17 at the start"));
+  const Outcome wrong = run_morula({"check", "seed=-3", "study.yaml"}, folder.path());
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("seed"));
+  EXPECT_EQ(run_morula({"check", "seed=3"}, folder.path()).exit_code, 2) << "no study";
+}
+
 TEST(BadGeometry, MissingStlIsAMissingFile) {
   expect_refused(with_geometry("{stl: nowhere.stl}"), 3, AllOf(HasSubstr("[E601]"), HasSubstr("nowhere.stl")));
 }
