@@ -154,7 +154,7 @@ Options chosen_options(const std::string& verb, Parsed&& p) {
   if (verb == "plot") return std::move(p.plot);
   if (verb == "export") return std::move(p.export_results);
   if (verb == "verify") return std::move(p.verify);
-  return std::move(p.doctor);
+  return p.doctor;
 }
 
 /// The flags of a verb, for suggestions.

@@ -23,7 +23,7 @@ class InteriorSystem : public AddedPart {
 
   /// `first_point`: of the first nucleus.
   void set_shells(const dcm::Shells& shells, std::uint32_t first_point);
-  [[nodiscard]] bool empty() const { return items_.empty(); }
+  [[nodiscard]] bool empty() const override { return items_.empty(); }
   /// Points of the nuclei, in the order of their shells: (point, shell).
   struct Nucleus {
     std::uint32_t point, shell;

@@ -41,7 +41,7 @@ class NucleusSystem : public AddedPart {
   void set_shells(const Tissue& tissue, std::uint32_t first_point);
   /// Nuclei are held with their cells. `bodies` begin with the owned shells.
   void set_moving(std::span<const ContactBody> bodies);
-  [[nodiscard]] bool empty() const { return items_.empty(); }
+  [[nodiscard]] bool empty() const override { return items_.empty(); }
   /// function(point) for all nodes of nuclei that move.
   template <class F>
   void for_points(F&& function) const {

@@ -17,7 +17,7 @@ struct Set {
   std::span<const Snapshot> snapshots;
   std::vector<Picture> pictures;
 
-  void add(const Snapshot& snapshot, std::string name, std::string what, RenderOptions options, bool cut, bool frame) {
+  void add(const Snapshot& snapshot, std::string name, const std::string& what, RenderOptions options, bool cut, bool frame) {
     options.width = options.height = frame ? 640 : 900;
     options.camera = make_camera(kAzimuth, kElevation);
     fit_camera(options.camera, snapshots, options.width, view_height(options));

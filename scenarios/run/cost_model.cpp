@@ -106,7 +106,8 @@ std::string duration_text(double seconds) {
 
 std::string duration_text(const WallRange& range) {
   if (range.low < 0.0) return "unknown";
-  const std::string low = duration_text(range.low), high = duration_text(range.high);
+  std::string low = duration_text(range.low);
+  const std::string high = duration_text(range.high);
   if (low == high) return low;
   const auto unit = [](const std::string& text) { return text.substr(text.rfind(' ') + 1); };
   const bool simple = low.find(' ') == low.rfind(' ') && high.find(' ') == high.rfind(' ') && unit(low) == unit(high);
