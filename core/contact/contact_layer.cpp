@@ -233,13 +233,14 @@ void ContactLayer::evaluate(const ContactScene& scene, SurfacePairKind kind, Con
   {
     PointsWorkspace workspace;
     const auto thread = static_cast<std::size_t>(omp_get_thread_num());
+    const auto team = static_cast<std::size_t>(omp_get_num_threads());  // OMP_THREAD_LIMIT may give fewer than were asked for
     for (std::size_t now = 0; now <= shares; ++now) {
       if (now > 0)
         for (std::size_t k = (now - 1) * share; k < last_of(now - 1); ++k) {
           const SurfacePair& pair = pairs_[list[k]];
           const Gradients& of_pair = found[(now - 1) % 2][k - (now - 1) * share];
-          if (pair.a % threads == thread) collect(scene, pair, 0, of_pair.of[0], gradient);
-          if (!pair.rigid && pair.b % threads == thread) collect(scene, pair, 1, of_pair.of[1], gradient);
+          if (pair.a % team == thread) collect(scene, pair, 0, of_pair.of[0], gradient);
+          if (!pair.rigid && pair.b % team == thread) collect(scene, pair, 1, of_pair.of[1], gradient);
         }
 #pragma omp for schedule(dynamic, 1)
       for (std::size_t k = now * share; k < last_of(now); ++k)
