@@ -49,6 +49,9 @@ Outcome Repeat::first;
 // One test, because each test is a process of its own and the reference is run once.
 TEST_F(Repeat, SameBitsOnThreadsAndRanksAndOverRestarts) {
   expect_same("threads", run_morula({"run", "study.yaml", "--out", "threads", "--threads", "2"}, folder->path(), on_ranks(0)));
+  CommandOptions limited = on_ranks(0);
+  limited.environment.emplace_back("OMP_THREAD_LIMIT", "2");
+  expect_same("fewer", run_morula({"run", "study.yaml", "--out", "fewer", "--threads", "3"}, folder->path(), limited));
   for (const int ranks : {1, 2, 4}) {
     const std::string name = "ranks" + std::to_string(ranks);
     expect_same(name, run_morula({"run", "study.yaml", "--out", name}, folder->path(), on_ranks(ranks)));
