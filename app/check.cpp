@@ -8,11 +8,9 @@ namespace morula::app {
 
 Status check(const CheckOptions& options, const Context& context) {
   if (options.schema) context.console.result(scenarios::study_json_schema());
-  std::vector<std::string> studies, overrides;
-  for (const std::string& argument : options.arguments) (is_override(argument) ? overrides : studies).push_back(argument);
   Status outcome;
-  for (const std::string& path : studies) {
-    const auto study = read_study_and_tell(path, overrides, options.strict, context);
+  for (const std::string& path : options.studies) {
+    const auto study = read_study_and_tell(path, options.overrides, options.strict, context);
     if (!study.ok()) {
       if (outcome.ok() || study.error().kind != ErrorKind::kFile)
         outcome = study.error();  // a wrong study counts for more than a missing file

@@ -52,8 +52,7 @@ void add_making_verbs(CLI::App& program, Parsed& p) {
 
   verb = add_verb(program, "check", "Check studies and show all their mistakes at once; nothing is run",
                   "morula check study.yaml initial.0.count=1000 --estimate", "morula check --schema > study.schema.json");
-  verb->add_option("STUDY|KEY=VALUE", p.check.arguments,
-                   "Study files, and values that replace those of all of them, by the path of the key");
+  verb->add_option("STUDY|KEY=VALUE", p.check.studies, "Study files, and values that replace those of all of them, by the path of the key");
   verb->add_flag("--estimate", p.check.estimate, "Also print size, memory and time of the run");
   verb->add_flag("--schema", p.check.schema, "Print the JSON Schema of study files, for editors");
   verb->add_flag("--strict", p.check.strict, "Warnings are errors");
@@ -184,18 +183,20 @@ std::string version_text() {
   return "morula " + build.version + " (" + build.git_hash + ", " + build.compiler + ", " + build.build_type + ")\n";
 }
 
-}  // namespace
-
-bool is_override(const std::string& argument) { return argument.find('=') != std::string::npos && !std::filesystem::exists(argument); }
-
-namespace {
+/// What `check` was given has KEY=VALUE among its studies: what has a '=' and is no file.
+void part_overrides(CheckOptions& check) {
+  const auto is_study = [](const std::string& argument) {
+    return argument.find('=') == std::string::npos || std::filesystem::exists(argument);
+  };
+  const auto first = std::stable_partition(check.studies.begin(), check.studies.end(), is_study);
+  check.overrides.assign(first, check.studies.end());
+  check.studies.erase(first, check.studies.end());
+}
 
 /// Options that CLI11 cannot check by itself.
 Status check_combinations(const std::string& verb, const Parsed& p) {
   const auto wrong = [&](const std::string& message) { return Error{ErrorKind::kInput, message, "see `morula " + verb + " --help`"}; };
-  const auto is_file = [](const std::string& argument) { return !is_override(argument); };
-  if (verb == "check" && std::none_of(p.check.arguments.begin(), p.check.arguments.end(), is_file) && !p.check.schema)
-    return wrong("`check` needs a study file");
+  if (verb == "check" && p.check.studies.empty() && !p.check.schema) return wrong("`check` needs a study file");
   if (verb == "explain" && p.explain.id.empty() == p.explain.markdown.empty())
     return wrong("`explain` needs one of: a key, law or error code; --markdown");
   if (verb == "info" && p.info.target.empty() && !p.info.defaults)
@@ -238,6 +239,7 @@ Result<std::variant<Options, Answer>> read_command_line(const std::vector<std::s
     return usage_error(program, arguments, problem);
   }
   const std::string verb = program.get_subcommands().front()->get_name();
+  part_overrides(parsed.check);
   MORULA_TRY(check_combinations(verb, parsed));
   return std::variant<Options, Answer>(chosen_options(verb, std::move(parsed)));
 }

@@ -13,11 +13,9 @@ struct NewOptions {
   std::string folder;         ///< empty: the template's name
 };
 
-/// An argument that names a value of the study and not a file: KEY=VALUE.
-bool is_override(const std::string& argument);
-
 struct CheckOptions {
-  std::vector<std::string> arguments;  ///< study files, and key.path=value for all of them
+  std::vector<std::string> studies;
+  std::vector<std::string> overrides;  ///< key.path=value, for all of them
   bool estimate = false;
   bool schema = false;
   bool strict = false;

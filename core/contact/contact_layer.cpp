@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/contact/self_contact.h"
 #include "core/parallel/threads.h"
 
 namespace morula {
@@ -130,8 +129,7 @@ void ContactLayer::know_positions(const ContactScene& scene) {
 }
 
 bool ContactLayer::note_travel(const ContactScene& scene) {
-  double most = 0.0;
-  most = parallel_max(settings_.threads, scene.bodies.size(), [&](std::size_t i) {
+  double most = parallel_max(settings_.threads, scene.bodies.size(), [&](std::size_t i) {
     const ContactBody& body = scene.bodies[i];
     const double grown = growth(body, last_radius_[i]);
     double furthest = 0.0;

@@ -1,4 +1,5 @@
 #include "core/contact/objective_friction.h"
+
 #include "core/parallel/threads.h"
 
 namespace morula {

@@ -1,12 +1,11 @@
 #include "core/friction/friction_system.h"
-#include "core/parallel/threads.h"
-
-#include <omp.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+
+#include "core/parallel/threads.h"
 
 namespace morula {
 namespace {

@@ -1,7 +1,8 @@
 #include "core/friction/sphere_pairs.h"
-#include "core/parallel/threads.h"
 
 #include <algorithm>
+
+#include "core/parallel/threads.h"
 
 namespace morula {
 namespace {

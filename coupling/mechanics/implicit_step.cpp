@@ -1,5 +1,3 @@
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -142,15 +140,13 @@ double Mechanics::friction_residual(std::span<const Vec3d> start, std::span<cons
   }
   if (moved) spheres_.pairs().add_friction(start, x, force_, sums[0]);
   std::vector<OrderFreeSum> works(static_cast<std::size_t>(threads_));
-  parallel_for(threads_, scene_.bodies().size(), [&](std::size_t body) {
-    const ContactBody& b = scene_.bodies()[body];
-    if (!b.active()) return;
+  for_active_bodies([&](std::size_t t, const ContactBody& body) {
     double work = 0.0;
-    for (std::uint32_t i = b.first_point; i < b.first_point + b.point_count; ++i) {
+    for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) {
       work += morula::dot(external_on(external, i), x[i] - start[i]);
       force_[i] *= -1.0 / dt;
     }
-    works[static_cast<std::size_t>(omp_get_thread_num())].add(work);
+    works[t].add(work);
   });
   for (const OrderFreeSum& work : works) sums[1] += work;
   for_nuclei([&](std::uint32_t i) { force_[i] *= -1.0 / dt; });

@@ -1,4 +1,5 @@
 #include "coupling/mechanics/interior_system.h"
+
 #include "core/parallel/threads.h"
 
 namespace morula {

@@ -180,26 +180,32 @@ class Mechanics {
       if (scene_.bodies()[nucleus.shell].active()) function(nucleus.point);
     nuclei_.for_points(function);
   }
+  /// `function(thread, body)` for the bodies that are active; neighbours go to one thread.
+  template <class F>
+  void for_active_bodies(F&& function) const {
+    const auto bodies = scene_.bodies();
+    const auto threads = static_cast<std::size_t>(threads_);
+    on_each_thread(threads_, [&](std::size_t t) {
+      for (std::size_t k = bodies.size() * t / threads; k < bodies.size() * (t + 1) / threads; ++k)
+        if (bodies[k].active()) function(t, bodies[k]);
+    });
+  }
   template <class F>
   void for_owned_points(F&& function) const {
     for_nuclei(function);
-    const auto bodies = scene_.bodies();
-    parallel_for(threads_, bodies.size(), [&](std::size_t b) {
-      if (bodies[b].active())
-        for (std::uint32_t i = bodies[b].first_point; i < bodies[b].first_point + bodies[b].point_count; ++i) function(i);
+    for_active_bodies([&](std::size_t, const ContactBody& body) {
+      for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) function(i);
     });
   }
   /// Largest norm of vector(point) over owned points; not a number wins.
   template <class Vector>
   [[nodiscard]] double largest_of(const Vector& vector) const {
     const auto more = [](double here, double most) { return !(here <= most) && !std::isnan(most); };
-    const auto bodies = scene_.bodies();
     std::vector<double> by_thread(static_cast<std::size_t>(threads_), 0.0);
-    on_each_thread(threads_, [&](std::size_t t) {
-      double most = 0.0;
-      for (std::size_t k = bodies.size() * t / by_thread.size(); k < bodies.size() * (t + 1) / by_thread.size(); ++k)
-        for (std::uint32_t i = bodies[k].first_point; bodies[k].active() && i < bodies[k].first_point + bodies[k].point_count; ++i)
-          if (const double here = norm2(vector(i)); more(here, most)) most = here;
+    for_active_bodies([&](std::size_t t, const ContactBody& body) {
+      double most = by_thread[t];
+      for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i)
+        if (const double here = norm2(vector(i)); more(here, most)) most = here;
       by_thread[t] = most;
     });
     double most = 0.0;
@@ -218,16 +224,11 @@ class Mechanics {
   }
   template <class Vectors>
   [[nodiscard]] double dot(const std::vector<Vec3d>& a, const Vectors& b) const {
-    const auto bodies = scene_.bodies();
     std::vector<OrderFreeSum> sums(static_cast<std::size_t>(threads_));
-    on_each_thread(threads_, [&](std::size_t t) {
-      for (std::size_t k = bodies.size() * t / sums.size(); k < bodies.size() * (t + 1) / sums.size(); ++k) {
-        if (!bodies[k].active()) continue;
-        double part = 0.0;
-        for (std::uint32_t i = bodies[k].first_point; i < bodies[k].first_point + bodies[k].point_count; ++i)
-          part += morula::dot(a[i], b[i]);
-        sums[t].add(part);
-      }
+    for_active_bodies([&](std::size_t t, const ContactBody& body) {
+      double part = 0.0;
+      for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) part += morula::dot(a[i], b[i]);
+      sums[t].add(part);
     });
     for (std::size_t t = 1; t < sums.size(); ++t) sums[0] += sums[t];
     for_nuclei([&](std::uint32_t i) { sums[0].add(morula::dot(a[i], b[i])); });

@@ -152,10 +152,11 @@ std::vector<LegendEntry> legend_entries(const Snapshot& snapshot, ColorBy by) {
     if (count[1]) entries.push_back({"deformable shell (" + std::to_string(count[1]) + ")", body_color(BodyKind::kShell)});
     if (count[0]) entries.push_back({"sphere (" + std::to_string(count[0]) + ")", body_color(BodyKind::kSphere)});
   } else if (by == ColorBy::kMarks) {
+    const std::vector<Rgb> colors = mark_colors(snapshot, by);
     unsigned seen = 0;
     for (const std::uint8_t marks : snapshot.face_marks) seen |= marks;
     for (std::size_t k = 0; k < snapshot.mark_names.size(); ++k)
-      if (seen >> k & 1u) entries.push_back({snapshot.mark_names[k], categorical_color(k)});
+      if (seen >> k & 1u) entries.push_back({snapshot.mark_names[k], colors[k]});
   }
   return entries;
 }
