@@ -85,9 +85,9 @@ void apply_rank_one_terms(const ShellOperator::Block& matrix, const Topology& to
     q.add(t[2], b2 * s);
     q.add(t[0], -((b1 + b2) * s));
   }
-  for (std::size_t entry = 0; entry < matrix.barrier_edge.size(); ++entry) {
-    const Edge& edge = topology.edges()[matrix.barrier_edge[entry]];
-    const float* b = matrix.barrier.data();
+  for (std::size_t entry = 0; entry < matrix.hinge_edge.size(); ++entry) {
+    const Edge& edge = topology.edges()[matrix.hinge_edge[entry]];
+    const float* b = matrix.hinge.data();
     const auto bj = load_vec3<float, W>(b, 3 * entry), bk = load_vec3<float, W>(b, 3 * entry + 1),
                bl = load_vec3<float, W>(b, 3 * entry + 2);
     const auto pi = p[edge.i];
@@ -239,9 +239,9 @@ void add_diagonal_block(const LaneBlock& block, const Shells& shells, const Shel
     add(t[1], outer(Real(1.0f), b1));
     add(t[2], outer(Real(1.0f), b2));
   }
-  for (std::size_t entry = 0; entry < matrix.barrier_edge.size(); ++entry) {
-    const Edge& edge = topology.edges()[matrix.barrier_edge[entry]];
-    const float* b = matrix.barrier.data();
+  for (std::size_t entry = 0; entry < matrix.hinge_edge.size(); ++entry) {
+    const Edge& edge = topology.edges()[matrix.hinge_edge[entry]];
+    const float* b = matrix.hinge.data();
     const auto bj = load_vec3<float, W>(b, 3 * entry), bk = load_vec3<float, W>(b, 3 * entry + 1),
                bl = load_vec3<float, W>(b, 3 * entry + 2);
     add(edge.i, outer(Real(1.0f), bj + bk + bl));

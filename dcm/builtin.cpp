@@ -154,7 +154,6 @@ ShellLaw hinge_bending() {
                                   {"poisson_ratio", "number", "1", 0.5, -0.99, 0.5, kCortex,
                                    "Poisson ratio of the cortex ν, for bending only."}}},
           .stencil = LawStencil::kHinge,
-          .in_operator = false,
           .strength = &ShellParameters::hinge_stiffness};
 }
 

@@ -20,12 +20,12 @@ namespace morula::dcm {
 /// Everything but the medium friction acts on differences of velocities, so that rigid translation feels nothing whatever the rounding:
 ///   edge     M (v_i − v_j): damper, spring, tension on the normal part of differences (½ cot per face), isotropic part of triangle_shape
 ///   shape    b bᵀ per face: Gauss–Newton part of triangle_shape, only where it counts
-///   barrier  b bᵀ per edge: Gauss–Newton part of dihedral_barrier, only where it acts
+///   hinge    b bᵀ per edge: Gauss–Newton part of dihedral_barrier where it acts, and of hinge_bending where it is stiff against the tension
 ///   membrane the three edge strains of a face among each other; what an edge strain does to itself is in the edge blocks
 ///   bending  κ/a h hᵀ per node: Gauss–Newton part of the Helfrich law
 ///   volume   (Δt K_V/V) g gᵀ per shell, g = ∂V/∂x; likewise the global area, and the bulk viscosity with the g of the step's start
 /// What no shell of a block has is empty and costs nothing.
-/// Hinge bending is explicit: with it the iterations and the result stay the same (time_stepping.md §10.1).
+/// Weak hinges are explicit: with them the iterations and the result stay the same (time_stepping.md §10.1).
 struct ShellOperator {
   struct Block {
     LaneVector<float> edge;             ///< M, with what contacts add, xx xy xz yy yz zz: [edge][6][lane]
@@ -37,12 +37,12 @@ struct ShellOperator {
     std::array<float, LaneBlock::kMaxLanes> area_stiffness{};
     LaneVector<float> bulk_gradient;  ///< ∂V/∂x of the step's start: [node][3][lane]
     std::array<float, LaneBlock::kMaxLanes> bulk_friction{};
-    LaneVector<float> bending_weight;         ///< ½ Σ cot of every edge: [edge][lane]
-    LaneVector<float> bending_normal;         ///< √(Δt κ/a) n of every node: [node][3][lane]
-    std::vector<std::uint32_t> shape_face;    ///< faces with a shape term
-    LaneVector<float> shape;                  ///< b at corners 1 and 2 (at 0 minus their sum): [entry][2][3][lane]
-    std::vector<std::uint32_t> barrier_edge;  ///< edges with a barrier term
-    LaneVector<float> barrier;                ///< b at nodes j, k, l (at i minus their sum): [entry][3][3][lane]
+    LaneVector<float> bending_weight;       ///< ½ Σ cot of every edge: [edge][lane]
+    LaneVector<float> bending_normal;       ///< √(Δt κ/a) n of every node: [node][3][lane]
+    std::vector<std::uint32_t> shape_face;  ///< faces with a shape term
+    LaneVector<float> shape;                ///< b at corners 1 and 2 (at 0 minus their sum): [entry][2][3][lane]
+    std::vector<std::uint32_t> hinge_edge;  ///< edges with a hinge term
+    LaneVector<float> hinge;                ///< b at nodes j, k, l (at i minus their sum): [entry][3][3][lane]
   };
   std::vector<Block> blocks;
 };

@@ -19,7 +19,7 @@ struct HingeBending {
     return Real(0.5) * stiffness * turn * turn;
   }
   Real slope(Real angle, Real rest_angle) const noexcept { return stiffness * (angle - rest_angle); }
-  /// ∂²E/∂θ²; Gauss–Newton: K = k_h ∇θ ∇θᵀ. The step treats the hinge explicitly (time_stepping.md §10.1).
+  /// ∂²E/∂θ²; Gauss–Newton: K = k_h ∇θ ∇θᵀ. The step treats hinges explicitly that are weak against the tension (time_stepping.md §10.1).
   Real curvature_psd() const noexcept { return stiffness; }
 };
 

@@ -288,17 +288,21 @@ TEST(SqueezedNuclearShell, PushesBackAsARigidOneAndFlattensWhenSoft) {  // T12.3
   dcm::ShellParameters& p = model.types[0].interior.nucleus_shell;
   p.spring_stiffness = 1000.0, p.helfrich_rigidity = 100.0, p.spontaneous_curvature = 2.0 / 4.2, p.bulk_modulus = 500.0;
   const Squeeze stiff = squeeze(model);
+  p.helfrich_rigidity = 0.0, p.hinge_stiffness = 100.0;
+  const Squeeze hinged = squeeze(model);
   give_nuclear_shell(model, 4.2, 5.0);
   const Squeeze soft = squeeze(model);
   for (const double gap : {11.0, 9.5, 8.75}) EXPECT_NEAR(stiff.at(gap) / bare.at(gap), 1.0, 0.04) << "nothing touches above 2 R_n = 8.4 µm";
   const double jump = rigid.at(8.05) - bare.at(8.05);
   EXPECT_GT(jump, 2.0 * bare.at(8.05)) << "below it the nucleus pushes";
   EXPECT_NEAR((stiff.at(8.05) - bare.at(8.05)) / jump, 1.0, 0.25);
+  EXPECT_NEAR((hinged.at(8.05) - bare.at(8.05)) / jump, 1.0, 0.25);
+  EXPECT_LT(hinged.gap.size(), 2 * stiff.gap.size()) << "stiff hinges take the steps of all others";
   EXPECT_LT(soft.at(8.05) - bare.at(8.05), 0.5 * jump);
   EXPECT_GT(soft.at(8.05), 1.02 * bare.at(8.05));
   EXPECT_GT(soft.aspect, stiff.aspect + 0.01);
   EXPECT_GT(stiff.aspect, 0.99);
-  for (const Squeeze& one : {stiff, soft}) {
+  for (const Squeeze& one : {stiff, hinged, soft}) {
     EXPECT_GT(one.overlap, 0.0);
     EXPECT_LT(one.overlap, 0.1);
     EXPECT_NEAR(one.winding, 1.0, 1e-9) << "its centre is never outside";

@@ -159,8 +159,25 @@ TEST(ShellOperator, BarrierTermIsGaussNewton) {
     active += std::abs(angle(0.0)) > 0.6;
   }
   ASSERT_GT(active, 0u);
-  EXPECT_EQ(a.matrix.blocks[0].barrier_edge.size(), active) << "only active edges are stored";
+  EXPECT_EQ(a.matrix.blocks[0].hinge_edge.size(), active) << "only active edges are stored";
   EXPECT_NEAR(dot(d, q), expected, 1e-4 * expected);
+}
+
+TEST(ShellOperator, HoldsHingesThatAreStiffAgainstTheTension) {
+  const Shells shells = one_shell(42, 3.0);  // at rest: the Gauss–Newton matrix of hinges is the derivative of their force
+  ShellParameters p = nothing();
+  p.hinge_stiffness = 2.0;
+  expect_force_derivative(shells, {p}, 1e-4);
+
+  const std::size_t edges = shells.topology(0).edge_count();
+  const auto terms = [&](double hinge, double tension) {
+    p.hinge_stiffness = hinge, p.tension = tension;
+    return assemble(shells, {p}, 10.0).matrix.blocks[0].hinge_edge.size();
+  };
+  EXPECT_EQ(terms(0.0, 0.0), 0u);
+  EXPECT_EQ(terms(1.0264e-3, 0.5), 0u) << "the cortex of dcm.md Table 1: not worth its memory";
+  EXPECT_EQ(terms(0.5, 0.5), edges);
+  EXPECT_EQ(terms(1.0264e-3, 0.0), edges) << "nothing else resists out of the plane";
 }
 
 TEST(ShellOperator, WithoutStepIsTheFrictionOfTheResidual) {
@@ -202,7 +219,7 @@ TEST(ShellOperator, DiagonalBlocksAreThoseOfTheMatrixWithoutTheVolumeTerm) {
   types[0].isotropic_damping = 0.05;
   const auto a = assemble(shells, types, 10.0);
   ASSERT_FALSE(a.matrix.blocks[0].shape_face.empty());
-  ASSERT_FALSE(a.matrix.blocks[0].barrier_edge.empty());
+  ASSERT_FALSE(a.matrix.blocks[0].hinge_edge.empty());
   std::vector<SymMat3<float>> diagonal(shells.position.size(), isotropic(1.0f));
   add_block_diagonal(a.blocks, shells, a.matrix, diagonal);
   const Eigen::MatrixXd matrix = dense(a, shells);
