@@ -9,10 +9,20 @@ namespace {
 
 constexpr double kTie = 1e-9;  // of a shape that encloses the volume 1
 
-/// Function(face, its three nodes, area vector ½ (b − a) × (c − a)) for every face.
+Vec3d area_vector(const Triangle& t, std::span<const Vec3d> x) { return cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]) * 0.5; }
+Vec3d middle(const Triangle& t, std::span<const Vec3d> x) { return (x[t[0]] + x[t[1]] + x[t[2]]) * (1.0 / 3.0); }
+
+/// Function(face, area vector) for every face.
 template <class F>
 void for_faces(const Topology& topology, std::span<const Vec3d> x, F&& function) {
-  for (const Triangle& t : topology.faces()) function(t, cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]) * 0.5);
+  for (const Triangle& t : topology.faces()) function(t, area_vector(t, x));
+}
+
+/// Function(face, area vector) for every face with a mark.
+template <class F>
+void for_marked_faces(const Topology& topology, std::span<const Vec3d> x, std::span<const std::uint8_t> marks, int mark, F&& function) {
+  for (std::size_t f = 0; f < marks.size(); ++f)
+    if (marks[f] >> mark & 1) function(topology.faces()[f], area_vector(topology.faces()[f], x));
 }
 
 void add_to_corners(const Triangle& t, const Vec3d& whole, std::span<Vec3d> force) {
@@ -22,7 +32,7 @@ void add_to_corners(const Triangle& t, const Vec3d& whole, std::span<Vec3d> forc
 void add_traction(const CellLoad& load, const Topology& topology, std::span<const Vec3d> x, double peak, std::span<Vec3d> force) {
   const Vec3d center = volume_centroid(topology.faces(), x);
   for_faces(topology, x, [&](const Triangle& t, const Vec3d& area) {
-    const Vec3d from = (x[t[0]] + x[t[1]] + x[t[2]]) * (1.0 / 3.0) - center;
+    const Vec3d from = middle(t, x) - center;
     const double along = dot(from, load.axis);
     add_to_corners(t, area * (peak * along * along / norm2(from)), force);
   });
@@ -37,7 +47,27 @@ void add_pull(const CellLoad& load, const ReferenceShape& shape, double size, st
   if (load.end != LoadEnd::kHigh) add(load.axis * -1.0);
 }
 
-void add_pressure(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> x, double p, std::span<Vec3d> force) {
+void add_patch(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> x, std::span<const std::uint8_t> marks,
+               double strength, std::span<Vec3d> force) {
+  if (load.mark < 0) {
+    const auto nodes = end_nodes(shape, load.axis, load.part);
+    for (const std::uint32_t node : nodes) force[node] += load.force * (strength / static_cast<double>(nodes.size()));
+    return;
+  }
+  double whole = 0.0;
+  for_marked_faces(*shape.topology, x, marks, load.mark, [&](const Triangle&, const Vec3d& area) { whole += norm(area); });
+  for_marked_faces(*shape.topology, x, marks, load.mark,
+                   [&](const Triangle& t, const Vec3d& area) { add_to_corners(t, load.force * (strength * norm(area) / whole), force); });
+}
+
+void add_pressure(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> x, std::span<const std::uint8_t> marks,
+                  double strength, std::span<Vec3d> force) {
+  const auto press = [&](const Triangle& t, const Vec3d& area) {
+    const Vec3d at = middle(t, x);
+    if (load.within && !lies_within(load, at)) return;
+    add_to_corners(t, area * (-strength * (load.size + dot(load.gradient, at - load.origin))), force);
+  };
+  if (load.mark >= 0) return for_marked_faces(*shape.topology, x, marks, load.mark, press);
   std::vector<char> chosen(x.size(), load.part >= 1.0);
   const auto choose = [&](const Vec3d& outward) {
     for (const std::uint32_t node : end_nodes(shape, outward, load.part)) chosen[node] = 1;
@@ -45,9 +75,7 @@ void add_pressure(const CellLoad& load, const ReferenceShape& shape, std::span<c
   if (load.part < 1.0 && load.end != LoadEnd::kLow) choose(load.axis);
   if (load.part < 1.0 && load.end != LoadEnd::kHigh) choose(load.axis * -1.0);
   for_faces(*shape.topology, x, [&](const Triangle& t, const Vec3d& area) {
-    if (!chosen[t[0]] || !chosen[t[1]] || !chosen[t[2]]) return;
-    if (load.within && !lies_within(load, (x[t[0]] + x[t[1]] + x[t[2]]) * (1.0 / 3.0))) return;
-    add_to_corners(t, area * -p, force);
+    if (chosen[t[0]] && chosen[t[1]] && chosen[t[2]]) press(t, area);
   });
 }
 
@@ -73,15 +101,17 @@ std::vector<std::uint32_t> end_nodes(const ReferenceShape& shape, const Vec3d& a
   return out;
 }
 
-void add_shell_load(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> position, double strength,
-                    std::span<Vec3d> force) {
+void add_shell_load(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> position, std::span<const std::uint8_t> marks,
+                    double strength, std::span<Vec3d> force) {
   switch (load.kind) {
     case LoadKind::kTraction:
       return add_traction(load, *shape.topology, position, load.size * strength, force);
     case LoadKind::kPull:
       return add_pull(load, shape, load.size * strength, force);
+    case LoadKind::kPatch:
+      return add_patch(load, shape, position, marks, strength, force);
     case LoadKind::kPressure:
-      return add_pressure(load, shape, position, load.size * strength, force);
+      return add_pressure(load, shape, position, marks, strength, force);
     case LoadKind::kBodyForce:
     case LoadKind::kGrip:
       return;  // on the whole cell: body_force(); held within the step: grip_anchors()
@@ -104,7 +134,8 @@ void add_surface_loads(const Model& model, const Tissue& tissue, double time, st
       if (row.body == BodyKind::kSphere) continue;
       if (row.type == load.type) {
         const std::uint32_t first = tissue.shells.first_node[shell], count = tissue.shells.first_node[shell + 1] - first;
-        add_shell_load(load, *tissue.shells.shape[shell], tissue.shells.nodes(shell), strength, external.subspan(first, count));
+        add_shell_load(load, *tissue.shells.shape[shell], tissue.shells.nodes(shell), tissue.shells.faces_of(shell).mark, strength,
+                       external.subspan(first, count));
       }
       ++shell;
     }

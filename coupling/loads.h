@@ -25,13 +25,17 @@ bool lies_within(const CellLoad& load, const Vec3d& point);
 /// - traction: s0 cos²θ along the outward normal of every face, θ the angle between the axis and the way from the cell's centroid to the
 ///   face's (optical stretcher: Guck et al. 2001, doi:10.1016/S0006-3495(01)75740-2);
 /// - pull: the force, in equal parts, on the end nodes: along the axis at the high end, against it at the low end;
-/// - pressure: p A_T against the outward normal of every face whose three nodes are chosen (all of the cell, or an end of it) and, where the
-///   load is `within` a cylinder, whose middle lies in it (suction in a pipette).
+/// - patch: a force of any direction, in equal parts on the nodes of one end (a single one where `part` is that small), or by area on the
+///   faces with its mark; none while no face has it;
+/// - pressure: p A_T against the outward normal of every face whose three nodes are chosen (all of the cell, or an end of it) or that has the
+///   load's mark and, where the load is `within` a cylinder, whose middle lies in it (suction in a pipette). p at the face's middle, where it
+///   has a gradient.
 ///
 /// A body force acts on the whole cell, a grip is a spring (coupling/grips.h): both add nothing here.
 /// Directions and areas are those of `position`: a step that is given these forces holds them as dead loads.
-void add_shell_load(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> position, double strength,
-                    std::span<Vec3d> force);
+/// marks: of the shell's faces (Shells::faces_of()); empty: none.
+void add_shell_load(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> position, std::span<const std::uint8_t> marks,
+                    double strength, std::span<Vec3d> force);
 
 /// The body forces of the model on one cell of a type at a time [nN]; Mechanics::spread() puts them on its nodes.
 Vec3d body_force(const Model& model, std::uint16_t type, double time);

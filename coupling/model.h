@@ -130,7 +130,8 @@ struct ObstacleSpec {
 enum class LoadKind : std::uint8_t {
   kTraction,   ///< s0 cos²θ along the outward normal, θ from `axis`
   kPull,       ///< a force spread over the nodes at the ends of `axis`
-  kPressure,   ///< against the outward normal, on the whole cell or at the ends of `axis`
+  kPatch,      ///< a force in any direction on a side of the cell, down to one node, or on its marked faces
+  kPressure,   ///< against the outward normal, on the whole cell, at the ends of `axis` or on marked faces
   kBodyForce,  ///< on the whole cell
   kGrip,       ///< springs that hold the nodes at the ends of `axis` in place, or move them (coupling/grips.h)
 };
@@ -143,13 +144,16 @@ struct CellLoad {
   LoadKind kind = LoadKind::kBodyForce;
   Vec3d axis{1, 0, 0};           ///< of length 1
   double size = 0.0;             ///< peak stress or pressure [kPa]; force at an end [nN]; stiffness of a grip at an end [nN/µm]
-  Vec3d force{};                 ///< kBodyForce [nN]
+  Vec3d force{};                 ///< kBodyForce, kPatch [nN]
   double part = 1.0;             ///< of the nodes, at an end
+  int mark = -1;                 ///< kPatch, kPressure: of the faces that bear the load; −1: by place
   LoadEnd end = LoadEnd::kBoth;  ///< which ends
   TimeCourse course;             ///< factor over time; empty: 1
   bool within = false;           ///< kPressure: only faces whose middle lies in the cylinder from low_end to high_end
   Vec3d low_end{}, high_end{};   ///< [µm]
   double radius = 0.0;           ///< [µm]
+  Vec3d gradient{};              ///< kPressure: of the pressure in space; `size` at `origin` [kPa/µm]
+  Vec3d origin{};                ///< [µm]
   Vec3d center{};                ///< kGrip: of the undeformed cell whose end nodes the grip holds, before it moves [µm]
   Vec3d direction{0, 0, 1};      ///< kGrip: of `way`, of length 1
   TimeCourse way;                ///< kGrip: how far it has moved; empty: it stays [µm]

@@ -187,6 +187,8 @@ const char* load_name(LoadKind kind) {
       return "traction";
     case LoadKind::kPull:
       return "pull";
+    case LoadKind::kPatch:
+      return "patch";
     case LoadKind::kPressure:
       return "pressure";
     case LoadKind::kBodyForce:
@@ -199,10 +201,15 @@ const char* load_name(LoadKind kind) {
 
 void add_loads(const Model& model, std::vector<UsedLaw>& out) {
   for (const CellLoad& load : model.loads) {
-    const double size = load.kind == LoadKind::kBodyForce ? norm(load.force) : load.size;
+    const double size = load.kind == LoadKind::kBodyForce || load.kind == LoadKind::kPatch ? norm(load.force) : load.size;
     out.push_back({"load " + load.name + " on " + model.types[load.type].name,
                    law_named(load_laws(), load_name(load.kind)),
-                   {{"stress", size}, {"pressure", size}, {"force", size}, {"stiffness", size}, {"part", load.part}}});
+                   {{"stress", size},
+                    {"pressure", size},
+                    {"force", size},
+                    {"stiffness", size},
+                    {"gradient", norm(load.gradient)},
+                    {"part", load.part}}});
   }
 }
 

@@ -64,6 +64,8 @@ int find_type(BuildContext& context, const std::string& name, const Place& place
 int find_cell_or_obstacle(BuildContext& context, const std::string& name, const Place& place);
 /// Bit of a mark by name; −1 and an error with suggestions.
 int find_mark(BuildContext& context, const std::string& name, const Place& place);
+/// Whether shells of a material ever carry a mark, after build_regions(); obstacles do not.
+bool may_carry_mark(const BuildContext& context, int material, int mark);
 /// Whether cells of a type may be shells at some time.
 bool may_be_shell(const BuildContext& context, std::size_t type);
 int find_field(BuildContext& context, const std::string& name, const Place& place);

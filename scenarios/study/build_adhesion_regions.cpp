@@ -5,10 +5,8 @@
 #include "scenarios/study/read_section.h"
 
 namespace morula::scenarios {
-namespace {
 
-/// Whether shells of a material ever carry a mark; obstacles do not.
-bool carries(const BuildContext& c, int material, int mark) {
+bool may_carry_mark(const BuildContext& c, int material, int mark) {
   const Model& model = c.study.model;
   if (material >= static_cast<int>(model.types.size()) || !may_be_shell(c, static_cast<std::size_t>(material))) return false;
   for (const FaceMark& rule : model.marks)
@@ -16,12 +14,14 @@ bool carries(const BuildContext& c, int material, int mark) {
   return std::any_of(model.lumens.begin(), model.lumens.end(), [mark](const Lumen& l) { return l.mark == mark && l.by_sight; });
 }
 
+namespace {
+
 /// Set of marks that `name` stands for (0: any face), or −1 and an error.
 int marks_of(BuildContext& c, int material, const std::string& name, const Place& place) {
   if (name == "any") return 0;
   const int mark = find_mark(c, name, place);
   if (mark < 0) return -1;
-  if (carries(c, material, mark)) return 1 << mark;
+  if (may_carry_mark(c, material, mark)) return 1 << mark;
   const std::size_t types = c.draft.cell_types.size(), number = static_cast<std::size_t>(material);
   const std::string& owner = number < types ? c.draft.cell_types[number].name : c.draft.geometry[number - types].name;
   c.diagnostics.error(580, place, "no face of '" + owner + "' ever carries the mark '" + name + "'",

@@ -22,7 +22,8 @@ LoadEnd end_of(const Given<std::string>& word) {
 void check_bodies(BuildContext& c, const std::string& name, const Place& place, const CellLoad& load) {
   if (load.kind == LoadKind::kBodyForce) return;
   const std::string who = "load '" + name + "' acts on the surface of '" + c.study.model.types[load.type].name + "'";
-  const bool chosen = load.kind == LoadKind::kPull || load.kind == LoadKind::kGrip || load.part < 1.0;
+  const bool chosen =
+      load.mark < 0 && (load.kind == LoadKind::kPull || load.kind == LoadKind::kPatch || load.kind == LoadKind::kGrip || load.part < 1.0);
   for (const InitialCells& block : c.study.initial) {
     if (block.type != load.type && block.source != InitialCells::Source::kCsv) continue;
     const BodyKind body = block.body_given ? block.body : c.study.model.types[load.type].initial_body;
@@ -53,6 +54,53 @@ void build_grip(BuildContext& c, draft::Load& d, CellLoad& load) {
                           "use `open` or `wall` faces");
       return;
     }
+}
+
+/// The mark of the faces that bear a load, −1 where `name` is not given. `placed`: keys beside it that say where a load acts; a value that is
+/// not the default contradicts it (the resolved study writes defaults out).
+struct Placed {
+  const Place& place;
+  bool is_default;
+};
+
+int mark_of_load(BuildContext& c, const CellLoad& load, const Given<std::string>& name, std::initializer_list<Placed> placed) {
+  if (!name.given) return -1;
+  for (const Placed& key : placed)
+    if (!key.is_default)
+      c.diagnostics.error(594, key.place, "load '" + load.name + "' acts on the faces marked '" + name.value + "', wherever they are",
+                          "remove this key or `marked`");
+  const int mark = find_mark(c, name.value, name.place);
+  if (mark >= 0 && !may_carry_mark(c, load.type, mark))
+    c.diagnostics.error(580, name.place,
+                        "no face of '" + c.draft.cell_types[load.type].name + "' ever carries the mark '" + name.value + "'",
+                        "give the mark to shells of this type (`marks: " + name.value + ": types`)");
+  return mark;
+}
+
+void build_patch(BuildContext& c, const draft::Load& d, CellLoad& load) {
+  load.kind = LoadKind::kPatch;
+  load.force = d.patch_force.value;
+  load.axis = unit_axis(c, d.patch_ends.axis, "toward");
+  load.part = d.patch_ends.part.value;
+  load.end = LoadEnd::kHigh;
+  const draft::LoadEnds& at = d.patch_ends;
+  load.mark =
+      mark_of_load(c, load, d.patch_mark, {{at.axis.place, at.axis.value == Vec3d{1, 0, 0}}, {at.part.place, at.part.value == 0.02}});
+}
+
+void build_pressure(BuildContext& c, const draft::Load& d, CellLoad& load) {
+  load.gradient = d.pressure_gradient.value;
+  load.origin = d.pressure_origin.value;
+  const draft::LoadEnds& at = d.pressure_ends;
+  load.mark = mark_of_load(
+      c, load, d.pressure_mark,
+      {{at.axis.place, at.axis.value == Vec3d{1, 0, 0}}, {at.part.place, at.part.value == 1.0}, {at.ends.place, at.ends.value == "both"}});
+  const double along[3] = {load.gradient.x, load.gradient.y, load.gradient.z};
+  for (int axis = 0; axis < 3; ++axis)
+    if (along[axis] != 0.0 && c.study.model.space.periodic(axis))
+      c.diagnostics.error(570, d.pressure_gradient.place,
+                          std::string("the pressure changes along ") + "xyz"[axis] + ", along which the domain is periodic",
+                          "use `open` or `wall` faces");
 }
 
 void build_within(BuildContext& c, const draft::Shape& shape, CellLoad& load) {
@@ -92,10 +140,10 @@ void build_motion_course(BuildContext& c, const draft::Obstacle& o, ObstacleSpec
 
 void build_loads(BuildContext& c) {
   for (auto& [name, place, d] : c.draft.loads) {
-    const int kinds = d.traction + d.pull + d.pressure + d.grip + d.body_force.given;
+    const int kinds = d.traction + d.pull + d.patch + d.pressure + d.grip + d.body_force.given;
     if (kinds != 1) {
       c.diagnostics.error(111, place, "load '" + name + "' " + (kinds == 0 ? "says nothing of a force" : "has more than one kind of force"),
-                          "give one of `traction`, `pull`, `pressure`, `grip`, `body_force`");
+                          "give one of `traction`, `pull`, `patch`, `pressure`, `grip`, `body_force`");
       continue;
     }
     const int type = d.type.known() ? find_type(c, d.type.value, d.type.place) : -1;
@@ -106,6 +154,8 @@ void build_loads(BuildContext& c) {
       load.kind = LoadKind::kTraction;
       load.size = d.peak.value;
       load.axis = unit_axis(c, d.traction_axis, "axis");
+    } else if (d.patch) {
+      build_patch(c, d, load);
     } else if (d.pull || d.pressure || d.grip) {
       const draft::LoadEnds& ends = d.pull ? d.pull_ends : d.pressure ? d.pressure_ends : d.grip_ends;
       load.kind = d.pull ? LoadKind::kPull : d.pressure ? LoadKind::kPressure : LoadKind::kGrip;
@@ -114,6 +164,7 @@ void build_loads(BuildContext& c) {
       load.part = ends.part.value;
       load.end = end_of(ends.ends);
       if (d.grip) build_grip(c, d, load);
+      if (d.pressure) build_pressure(c, d, load);
       if (d.pressure_within.present) build_within(c, d.pressure_within, load);
     } else {
       load.force = d.body_force.value;

@@ -9,17 +9,21 @@ void axis(Section& s, Given<Vec3d>& value, const char* doc) {
   s.vector({.name = "axis", .doc = doc, .fallback = "[1, 0, 0]", .example = "[1, 0, 0]", .source = "chosen"}, value);
 }
 
-void ends(Section& s, draft::LoadEnds& e, const char* part, const char* doc) {
+void part(Section& s, draft::LoadEnds& e, const char* fallback, const char* doc) {
   s.quantity({.name = "part",
               .doc = doc,
               .quantity = Q::kFraction,
-              .fallback = part,
+              .fallback = fallback,
               .low = 0.0,
               .high = 1.0,
               .low_open = true,
               .example = "2 %",
               .source = "chosen"},
              e.part);
+}
+
+void ends(Section& s, draft::LoadEnds& e, const char* fallback, const char* doc) {
+  part(s, e, fallback, doc);
   s.word({.name = "ends",
           .doc = "The nodes of the undeformed cell with the largest coordinate along the axis (`high`), the smallest (`low`), or both.",
           .fallback = "both",
@@ -45,6 +49,51 @@ void declare_within(Section& s, draft::Shape& shape) {
   s.quantity(
       {.name = "radius", .doc = "Radius.", .quantity = Q::kLength, .required = true, .low = 0.0, .low_open = true, .example = "3 um"},
       shape.radius);
+}
+
+void marked(Section& s, Given<std::string>& value, const char* doc) { s.text({.name = "marked", .doc = doc, .example = "apical"}, value); }
+
+void declare_patch(Section& p, draft::Load& load) {
+  p.vector(
+      {.name = "force", .doc = "The force, in any direction.", .quantity = Q::kForce, .required = true, .example = "[0 nN, 0 nN, -1 nN]"},
+      load.patch_force);
+  p.vector({.name = "toward",
+            .doc = "The side of the undeformed cell that bears it: direction from the centre.",
+            .fallback = "[1, 0, 0]",
+            .example = "[0, 0, 1]",
+            .source = "chosen"},
+           load.patch_ends.axis);
+  part(p, load.patch_ends, "2 %",
+       "Part of the nodes, those furthest to that side, in equal parts: a fixed set, ties taken in; one node, a point force, where that is "
+       "less than one and a half.");
+  marked(p, load.patch_mark, "In place of `toward`: the faces with this mark bear the force, each its share by area.");
+}
+
+void declare_pressure(Section& p, draft::Load& load) {
+  p.quantity({.name = "value", .doc = "The pressure.", .quantity = Q::kPressure, .required = true, .example = "10 Pa"},
+             load.pressure_value);
+  p.vector({.name = "gradient",
+            .doc = "How the pressure changes in space; `value` is that at `origin`. The weight of a medium, the field of a flow.",
+            .quantity = Q::kPressurePerLength,
+            .fallback = "[0 Pa/um, 0 Pa/um, 0 Pa/um]",
+            .example = "[0 Pa/um, 0 Pa/um, -1 Pa/um]",
+            .source = "chosen"},
+           load.pressure_gradient);
+  p.vector({.name = "origin",
+            .doc = "Where the pressure is `value`.",
+            .quantity = Q::kLength,
+            .fallback = "[0 um, 0 um, 0 um]",
+            .example = "[0 um, 0 um, 0 um]",
+            .source = "chosen"},
+           load.pressure_origin);
+  axis(p, load.pressure_ends.axis, "Axis that tells the ends.");
+  ends(p, load.pressure_ends, "100 %", "Part of the nodes at each end; faces between such nodes bear the pressure.");
+  marked(p, load.pressure_mark, "In place of `part`: faces with this mark bear the pressure.");
+  p.group({.name = "within",
+           .doc = "Only faces whose middle lies in this cylinder bear the pressure: suction in a pipette.",
+           .optional_section = true,
+           .example = "{from: [0 um, 0 um, 0 um], to: [0 um, 0 um, 15 um], radius: 2.75 um}"},
+          load.pressure_within.present, [&load](Section& w) { declare_within(w, load.pressure_within); });
 }
 
 void declare_grip(Section& g, draft::Load& load) {
@@ -126,21 +175,18 @@ void declare_load(Section& s, draft::Load& load) {
             axis(p, load.pull_ends.axis, "Axis along which the force acts.");
             ends(p, load.pull_ends, "2 %", "Part of the nodes at each end that bear the force: a fixed set, ties taken in.");
           });
-  s.group({.name = "pressure",
-           .doc = "A uniform pressure against the outward normal, on the whole surface or at the ends of an axis; negative: suction.",
+  s.group({.name = "patch",
+           .doc = "A force in any direction on one side of the cell, on a single node, or on marked faces: a needle, a bead, a cilium.",
            .optional_section = true,
-           .example = "{value: 10 Pa}"},
-          load.pressure, [&load](Section& p) {
-            p.quantity({.name = "value", .doc = "The pressure.", .quantity = Q::kPressure, .required = true, .example = "10 Pa"},
-                       load.pressure_value);
-            axis(p, load.pressure_ends.axis, "Axis that tells the ends.");
-            ends(p, load.pressure_ends, "100 %", "Part of the nodes at each end; faces between such nodes bear the pressure.");
-            p.group({.name = "within",
-                     .doc = "Only faces whose middle lies in this cylinder bear the pressure: suction in a pipette.",
-                     .optional_section = true,
-                     .example = "{from: [0 um, 0 um, 0 um], to: [0 um, 0 um, 15 um], radius: 2.75 um}"},
-                    load.pressure_within.present, [&load](Section& w) { declare_within(w, load.pressure_within); });
-          });
+           .example = "{force: [0 nN, 0 nN, -1 nN], toward: [0, 0, 1], part: 2 %}"},
+          load.patch, [&load](Section& p) { declare_patch(p, load); });
+  s.group(
+      {.name = "pressure",
+       .doc = "A pressure against the outward normal, on the whole surface, at the ends of an axis or on marked faces, uniform or with a "
+              "gradient in space; negative: suction.",
+       .optional_section = true,
+       .example = "{value: 10 Pa}"},
+      load.pressure, [&load](Section& p) { declare_pressure(p, load); });
   s.group(
       {.name = "grip",
        .doc = "Springs that hold the nodes at the ends of an axis where they are on an undeformed cell, and move them: a holding pipette, "

@@ -143,10 +143,11 @@ struct LoadEnds {
 
 struct Load {
   Given<std::string> type;
-  bool traction = false, pull = false, pressure = false, grip = false;
+  bool traction = false, pull = false, patch = false, pressure = false, grip = false;
   Given<double> peak, pull_force, pressure_value, grip_stiffness;
-  Given<Vec3d> traction_axis, body_force, grip_center, grip_direction;
-  LoadEnds pull_ends, pressure_ends, grip_ends;
+  Given<Vec3d> traction_axis, body_force, patch_force, pressure_gradient, pressure_origin, grip_center, grip_direction;
+  Given<std::string> patch_mark, pressure_mark;
+  LoadEnds pull_ends, patch_ends, pressure_ends, grip_ends;
   Shape pressure_within;  ///< low_end, high_end and radius of a cylinder
   std::vector<Named<CoursePoint>> way;
   std::vector<Named<CoursePoint>> course;

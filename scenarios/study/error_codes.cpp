@@ -106,8 +106,10 @@ constexpr ErrorCode kCodes[] = {
     {557, "cavity without walls or pressure", "A cavity presses on faces of shells. One that keeps its solute has a positive pressure."},
     {558, "nothing to move along",
      "The leading edge is where the polarity points to: cells that protrude need one. What cells move along is an obstacle."},
-    {570, "grip in a periodic domain",
-     "A grip holds nodes at places of the laboratory; a cell that leaves through a periodic face would be torn back."},
+    {570, "load by place in a periodic domain",
+     "A grip holds nodes at places of the laboratory, and a pressure with a gradient differs from place to place; a cell that leaves "
+     "through "
+     "a periodic face would be torn back, or feel a jump."},
     {571, "mesh too fine for this adhesion",
      "Where more than two cells meet, adhesion of nearly the tension of both surfaces folds the surfaces; 13 cells of 642 nodes were "
      "measured to "
@@ -136,6 +138,8 @@ constexpr ErrorCode kCodes[] = {
      "Between its nodes the surface of a mesh lies edge^2/(8 R) under the ball that it stands for; more than half of the contact range is "
      "not resolved."},
     {593, "nucleus in cells from meshes", "A cell that comes from a surface file gets no nucleus: nothing says where it has room for one."},
+    {594, "load both by place and by mark",
+     "Faces with a mark bear the load wherever they are on the cell; an axis or a part of the nodes has no effect then."},
     {601, "file missing", "A file that the study names does not exist. Paths are relative to the folder of the study."},
     {602, "file cannot be read", "It is a folder, a device, or its permissions forbid reading."},
     {603, "file too large", "Study files are read up to 5 MiB, CSV files up to 500 MiB."},

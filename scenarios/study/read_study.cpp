@@ -23,12 +23,12 @@ void build(BuildContext& context) {
   build_contact_pairs(context);
   build_fields(context);
   build_initial(context);
-  build_loads(context);
   build_coupling(context);
   build_time_and_numerics(context);
   build_activity(context);
   build_regions(context);
   build_adhesion_regions(context);
+  build_loads(context);
   check_whole(context);
   Study& study = context.study;
   const draft::Study& draft = context.draft;

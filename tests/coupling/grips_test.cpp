@@ -101,7 +101,7 @@ TEST(Load, PressureWithinACylinderActsOnTheFacesThereOnly) {
   load.radius = 3.0;
   std::vector<Vec3d> x, force(642);
   for (const Vec3d& p : shape->position) x.push_back(p * std::cbrt(904.779));
-  add_shell_load(load, *shape, x, 1.0, force);
+  add_shell_load(load, *shape, x, {}, 1.0, force);
   Vec3d whole{};
   for (std::size_t i = 0; i < x.size(); ++i) {
     whole += force[i];

@@ -28,7 +28,7 @@ std::vector<Vec3d> ball(const ReferenceShape& shape, const Vec3d& center = {3, -
 std::vector<Vec3d> forces(const CellLoad& load, std::uint32_t nodes, double strength = 1.0) {
   const auto shape = icosphere(nodes);
   std::vector<Vec3d> out(nodes);
-  add_shell_load(load, *shape, ball(*shape), strength, out);
+  add_shell_load(load, *shape, ball(*shape), {}, strength, out);
   return out;
 }
 
@@ -121,6 +121,95 @@ TEST(Load, PressureOnACapIsThatOfItsProjection) {  // ∫ over a cap of n dA is 
   // A quarter of the nodes is a quarter of the surface: (1 − cos φ)/2 = 1/4, a = R sin φ = R √3/2; faces cut by the rim are left out.
   EXPECT_NEAR(total.z / (0.01 * std::numbers::pi * 0.75 * kRadius * kRadius), 1.0, 0.06);
   EXPECT_LT(std::abs(total.x) + std::abs(total.y), 1e-3 * total.z);
+}
+
+/// A load on the upper half of the faces, marked with bit 2, of a ball of 642 nodes.
+struct MarkedBall {
+  std::shared_ptr<const ReferenceShape> shape = icosphere(642);
+  std::vector<Vec3d> x = ball(*shape);
+  std::vector<std::uint8_t> marks;
+  double area = 0.0;
+  Vec3d area_vector{};
+
+  MarkedBall() {
+    for (const Triangle& t : shape->topology->faces()) {
+      const bool upper = shape->position[t[0]].z + shape->position[t[1]].z + shape->position[t[2]].z > 0.0;
+      marks.push_back(upper ? 0b101 : 0b001);
+      const Vec3d face = cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]) * 0.5;
+      if (upper) area += norm(face), area_vector += face;
+    }
+  }
+
+  [[nodiscard]] std::vector<Vec3d> forces(CellLoad load) const {
+    load.mark = 2;
+    std::vector<Vec3d> out(x.size());
+    add_shell_load(load, *shape, x, marks, 1.0, out);
+    return out;
+  }
+};
+
+TEST(Load, PatchIsItsForceOnOneSideDownToANode) {
+  CellLoad load;
+  load.kind = LoadKind::kPatch;
+  load.force = {0.1, -0.2, 0.3};
+  load.axis = {0, 0, 1};
+  load.end = LoadEnd::kHigh;
+  load.part = 0.1;
+  const auto shape = icosphere(642);
+  const auto loaded = end_nodes(*shape, load.axis, load.part);
+  const auto f = forces(load, 642, 2.0);
+  EXPECT_LT(norm(sum(f) - load.force * 2.0), 1e-15);
+  for (std::uint32_t i = 0; i < 642; ++i) EXPECT_EQ(norm(f[i]) > 0.0, std::binary_search(loaded.begin(), loaded.end(), i)) << i;
+
+  load.part = 1e-6;
+  load.axis = normalized(shape->position[17]);  // a direction that one node lies in, without mirror images about it
+  const auto point = forces(load, 642);
+  EXPECT_EQ(point[17], load.force);
+  EXPECT_EQ(sum(point), load.force);
+}
+
+TEST(Load, PatchOnMarkedFacesIsSharedByArea) {
+  CellLoad load;
+  load.kind = LoadKind::kPatch;
+  load.force = {0.1, -0.2, 0.3};
+  const MarkedBall cell;
+  const auto f = cell.forces(load);
+  EXPECT_LT(norm(sum(f) - load.force), 1e-14);
+  // A node deep in the patch bears a third of the areas of its faces, of the whole.
+  std::vector<double> share(642);
+  for (std::size_t k = 0; k < cell.marks.size(); ++k) {
+    const Triangle& t = cell.shape->topology->faces()[k];
+    const double area = 0.5 * norm(cross(cell.x[t[1]] - cell.x[t[0]], cell.x[t[2]] - cell.x[t[0]]));
+    for (int corner = 0; corner < 3; ++corner) share[t[corner]] += (cell.marks[k] >> 2 & 1) * area / (3.0 * cell.area);
+  }
+  for (std::size_t i = 0; i < 642; ++i) EXPECT_LT(norm(f[i] - load.force * share[i]), 1e-15) << i;
+
+  std::vector<Vec3d> none(642);
+  load.mark = 3;  // no face has it: no force, and no division by an area of nothing
+  add_shell_load(load, *cell.shape, cell.x, cell.marks, 1.0, none);
+  add_shell_load(load, *cell.shape, cell.x, {}, 1.0, none);
+  EXPECT_EQ(none, std::vector<Vec3d>(642));
+}
+
+TEST(Load, PressureOnMarkedFacesIsThatOfTheirAreaVector) {
+  CellLoad load;
+  load.kind = LoadKind::kPressure;
+  load.size = 0.02;
+  const MarkedBall cell;
+  EXPECT_LT(norm(sum(cell.forces(load)) + cell.area_vector * 0.02), 1e-13);
+}
+
+/// −∮ (g·x) n dA = −g V (Archimedes), whatever the mesh: p is linear and its mean over a face is that at its middle.
+TEST(Load, PressureWithAGradientIsTheBuoyancyOfTheVolume) {
+  CellLoad load;
+  load.kind = LoadKind::kPressure;
+  load.size = 5.0;
+  load.gradient = {1e-3, 0.0, -2e-3};
+  load.origin = {3, -2, 7};
+  const double volume = 4.0 / 3.0 * std::numbers::pi * kRadius * kRadius * kRadius;
+  for (const std::uint32_t nodes : {42u, 162u}) EXPECT_LT(norm(sum(forces(load, nodes)) + load.gradient * volume), 1e-11) << nodes;
+  // At the centre the pressure is `size`: the virial about it is that of a uniform pressure, as the gradient is odd there.
+  EXPECT_NEAR(virial(forces(load, 162), 162), -3.0 * 5.0 * volume, 1e-8);
 }
 
 /// T9.2 of dcm.md: a force F on a cell moves it with V = F/(γ_ECM A), A the area of the mesh: 45.023 nN·s/µm at 642 nodes on R = 6, γ = 0.1.

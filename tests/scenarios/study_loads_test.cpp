@@ -83,6 +83,65 @@ TEST(Loads, OnWholeSpheresAreFine) {
   EXPECT_DOUBLE_EQ(study->model.loads[0].force.z, -1.0);
 }
 
+constexpr const char* kPull = "pull: {force: 193 pN, axis: [0, 3, 0], part: 2 %, ends: high}";
+
+/// The study with another load, and a mark that the cell may carry.
+std::string with_load(const std::string& load) {
+  const std::string marked = "marks: {apical: {types: [cell], cone: {toward: [0 um, 0 um, 90 um], angle: 60 deg}}}\nloads:\n";
+  return test::changed("loads:\n", marked, test::changed(kPull, load, kStudy));
+}
+
+TEST(Loads, APatchIsAForceOnASideOrOnMarkedFaces) {
+  const auto study = test::read(with_load("patch: {force: [0 nN, 2 nN, 0 nN], toward: [0, 0, 5], part: 1 %}"));
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  const CellLoad& load = study->model.loads[0];
+  EXPECT_EQ(load.kind, LoadKind::kPatch);
+  EXPECT_EQ(load.force, (Vec3d{0, 2, 0}));
+  EXPECT_EQ(load.axis, (Vec3d{0, 0, 1}));
+  EXPECT_EQ(load.end, LoadEnd::kHigh);
+  EXPECT_EQ(load.part, 0.01);
+  EXPECT_EQ(load.mark, -1);
+
+  const auto marked = test::read(with_load("patch: {force: [0 nN, 2 nN, 0 nN], marked: apical}"));
+  ASSERT_TRUE(marked.ok()) << marked.error().text();
+  EXPECT_EQ(marked->model.loads[0].mark, 0);
+  const auto again = test::read(marked->resolved_text);
+  ASSERT_TRUE(again.ok()) << again.error().text();
+  EXPECT_EQ(again->model.loads[0].mark, 0);
+}
+
+TEST(Loads, APressureMayChangeInSpaceAndActOnMarkedFaces) {
+  const auto study =
+      test::read(with_load("pressure: {value: 10 Pa, gradient: [0 Pa/um, 0 Pa/um, -2 Pa/um], origin: [1 um, 2 um, 3 um], marked: apical}"));
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  const CellLoad& load = study->model.loads[0];
+  EXPECT_DOUBLE_EQ(load.size, 0.01);
+  EXPECT_DOUBLE_EQ(load.gradient.z, -0.002);
+  EXPECT_EQ(load.origin, (Vec3d{1, 2, 3}));
+  EXPECT_EQ(load.mark, 0);
+  const auto again = test::read(study->resolved_text);
+  ASSERT_TRUE(again.ok()) << again.error().text();
+  EXPECT_EQ(again->model.loads[0].gradient, load.gradient);
+  EXPECT_EQ(again->model.loads[0].mark, 0);
+}
+
+TEST(Loads, OnMarkedFacesAreRefusedWhereTheyContradictThemselves) {
+  const auto message = [](const std::string& load) { return test::errors_of(with_load(load)); };
+  EXPECT_NE(message("patch: {force: [0 nN, 2 nN, 0 nN], toward: [0, 0, 1], marked: apical}").find("[E594]"), std::string::npos);
+  EXPECT_NE(message("patch: {force: [0 nN, 2 nN, 0 nN], part: 3 %, marked: apical}").find("[E594]"), std::string::npos);
+  EXPECT_NE(message("pressure: {value: 10 Pa, part: 3 %, marked: apical}").find("[E594]"), std::string::npos);
+  EXPECT_NE(message("pressure: {value: 10 Pa, marked: apicall}").find("apical"), std::string::npos);
+  EXPECT_NE(message("patch: {toward: [0, 0, 1]}").find("force"), std::string::npos);
+  const std::string other = test::changed("types: [cell]", "types: [other]", with_load("pressure: {value: 10 Pa, marked: apical}"));
+  EXPECT_NE(
+      test::errors_of(test::changed("  cell: {radius: 6 um}\n", "  cell: {radius: 6 um}\n  other: {radius: 6 um}\n", other)).find("[E580]"),
+      std::string::npos);
+  const std::string periodic = with_load("pressure: {value: 10 Pa, gradient: [0 Pa/um, 0 Pa/um, 2 Pa/um]}");
+  EXPECT_NE(test::errors_of(test::changed("size: [100 um, 100 um, 100 um]", "size: [100 um, 100 um, 100 um], boundary: periodic", periodic))
+                .find("[E570]"),
+            std::string::npos);
+}
+
 constexpr const char* kGrip =
     "grip: {stiffness: 5 mN/m, center: [0 um, 0 um, 1 um], axis: [0, 0, 2], ends: low, way: [{time: 1 s, distance: 0 um}, {time: 2 s, "
     "distance: 3 um}]}";
