@@ -14,6 +14,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::uint32_t kMeasuredNodes = 642;  // of dcm.md §8
 constexpr double kHemisphere = 90.001 * kDegree;
+constexpr ElasticCap kElastic[] = {{0.5, 2.0, 0.839, 1.687}, {1.0, 2.0, 1.104, 1.464}};
 constexpr double kRounding = 1.02;  // R0 follows from the volume under pressure, not from the study's radius
 
 }  // namespace
@@ -46,6 +47,12 @@ void judge_ways(const std::vector<ReachedAngle>& angles, std::vector<Verdict>& o
                         .c_str(),
                     difference, tolerance(a.nodes, 4.0, 2.0), "deg"));
     }
+}
+
+const ElasticCap* elastic_cap(double ratio, double modulus, std::uint32_t nodes) {
+  for (const ElasticCap& cap : kElastic)
+    if (nodes >= kMeasuredNodes && std::abs(cap.ratio - ratio) < 1e-9 && std::abs(cap.modulus - modulus) < 1e-9) return &cap;
+  return nullptr;
 }
 
 double tension_at(const CellType& type, double time) { return type.regional_tension.of_face(type.shell.tension, 0, 0.0, time); }

@@ -34,6 +34,16 @@ struct ReachedAngle {
 /// one is about twice the other (S6.4: 2 degrees). Cells of fewer than 642 nodes have twice the tolerance (physics/scenarios.md S6, quick).
 void judge_ways(const std::vector<ReachedAngle>& angles, std::vector<Verdict>& out);
 
+/// Contact radius and height of a cell on a plane, over the radius of a ball of its volume.
+struct ElasticCap {
+  double ratio, modulus;  ///< W/γ, Y/γ
+  double contact_radius, height;
+};
+
+/// Static minimisation of an elastic cell of 642 nodes (E = 1 kPa, h = 200 nm, γ = 0.1 mN/m: spreading_static_reference.csv); null where there is none for
+/// this ratio, modulus and mesh. Two such cells that stick to each other with twice the ratio are its mirror images (S6.0).
+const ElasticCap* elastic_cap(double ratio, double modulus, std::uint32_t nodes);
+
 /// Tension of the free surface of a type at a time [nN/µm].
 double tension_at(const CellType& type, double time);
 

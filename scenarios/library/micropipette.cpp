@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -16,7 +17,6 @@ namespace morula::scenarios {
 namespace {
 
 constexpr double kElasticSuction = 5.0;  // over the critical one of the tension: from here on the tension bears little of it
-constexpr double kFluid = 0.1;           // Y/γ up to which the cortex counts as fluid
 
 /// One cell at one hold of its suction.
 struct Aspiration {
@@ -30,10 +30,12 @@ struct Aspiration {
   double drawn = 0.0;                   ///< length less that without suction [µm]
   double rate = 0.0;                    ///< at which it still grows at the end of the hold [µm/s]
   double volume_change = 0.0;
+  double sucked = 0.0, sucked_outside = 0.0;  ///< area under suction, and the part of it that is not inside the glass [µm²]
 };
 
 struct Mouth {
   double radius = 0.0, throat = 0.0;  ///< of the narrowest place [µm]; its distance from the plane of the mouth [µm]
+  double lip = 0.0, edge = 0.0;  ///< radius of the circle that the glass begins with [µm]; its distance from the plane of the mouth [µm]
 };
 
 /// The obstacle around the axis of a load: the one whose nodes come nearest to it without lying on it.
@@ -48,9 +50,32 @@ Mouth mouth_of(const Model& model, const CellLoad& load) {
       if (radius < here.radius - 1e-9) here = {radius, along};
       if (radius < here.radius + 1e-9) here.throat = std::min(here.throat, along);
     }
-    if (best.radius == 0.0 || here.radius < best.radius) best = here;
+    if (best.radius != 0.0 && !(here.radius < best.radius)) continue;
+    best = here;
+    best.edge = 1e300;
+    for (const Vec3d& x : obstacle.position) {
+      const Vec3d from = x - load.low_end;
+      const double along = dot(from, axis), radius = norm(from - axis * along);
+      if (along > best.edge + 1e-9) continue;
+      best.lip = along < best.edge - 1e-9 ? radius : std::min(best.lip, radius);
+      best.edge = std::min(best.edge, along);
+    }
   }
   return best;
+}
+
+/// Area of the faces that bear the suction, and of those of them that lie before the glass or beside its first circle (S3.5).
+std::pair<double, double> sucked_area(const ShellView& shell, const CellLoad& load, const Mouth& mouth) {
+  const Vec3d axis = normalized(load.high_end - load.low_end);
+  double all = 0.0, outside = 0.0;
+  for (const Triangle& t : shell.faces) {
+    const Vec3d &a = shell.nodes[t[0]], &b = shell.nodes[t[1]], &c = shell.nodes[t[2]], at = (a + b + c) * (1.0 / 3.0);
+    if (!lies_within(load, at)) continue;
+    const double along = dot(at - load.low_end, axis), area = 0.5 * norm(cross(b - a, c - a));
+    all += area;
+    if (along < mouth.edge || norm(at - load.low_end - axis * along) > mouth.lip) outside += area;
+  }
+  return {all, outside};
 }
 
 double tongue(const ShellView& shell, const CellLoad& load, const Mouth& mouth) {
@@ -79,7 +104,7 @@ Result<std::vector<Aspiration>> aspirations(const Study& study, const std::files
       a.name = type.name;
       a.tension = type.shell.tension;
       a.modulus = spring_modulus(type);
-      a.fluid = a.modulus <= kFluid * a.tension;
+      a.fluid = is_fluid(a.modulus / a.tension);
       a.pipette = mouth.radius;
       a.suction = -load.size * hold.value;
       a.critical = theory::critical_aspiration(a.tension, mouth.radius, radius_of_volume(start[0].cell->volume));
@@ -88,6 +113,7 @@ Result<std::vector<Aspiration>> aspirations(const Study& study, const std::files
       if (!before.empty())
         a.rate = (a.length - tongue(before[0], load, mouth)) / (snapshots[hold.snapshot].time - snapshots[hold.snapshot - 1].time);
       a.volume_change = now[0].cell->volume / start[0].cell->volume - 1.0;
+      std::tie(a.sucked, a.sucked_outside) = sucked_area(now[0], load, mouth);
       out.push_back(std::move(a));
     }
   }
@@ -113,13 +139,15 @@ double measured_critical(const std::vector<Aspiration>& all, const Aspiration& c
 Result<std::vector<Verdict>> judge_micropipette(const Study& study, const std::filesystem::path& run) {
   MORULA_TRY_ASSIGN(const auto all, aspirations(study, run));
   std::vector<Verdict> out;
-  double volume = 0.0;
+  double volume = 0.0, outside = 0.0, least = 1e300;
   out.push_back(at_least("S3.0", "states under suction", static_cast<double>(all.size()), 2.0));
   bool rises = true;
   int pairs = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Aspiration& a = all[i];
     volume = std::max(volume, std::abs(a.volume_change));
+    outside = std::max(outside, a.sucked_outside);
+    if (a.suction > 0.0) least = std::min(least, a.sucked / (std::numbers::pi * a.pipette * a.pipette));
     const std::string at = ", " + a.name + " at " + number_text("%.3g", 1000.0 * a.suction) + " Pa";
     if (a.fluid && a.suction > 0.0 && a.suction < 0.92 * a.critical) {
       out.push_back(
@@ -164,6 +192,8 @@ Result<std::vector<Verdict>> judge_micropipette(const Study& study, const std::f
                    ("what is drawn in at twice the modulus over that at once, " + number_text("%g", 1000.0 * soft.suction) + " Pa").c_str(),
                    hard.drawn / soft.drawn, 0.40, 0.65));
   out.push_back(at_most("S3.4", "change of volume, relative", volume, 0.01));
+  out.push_back(at_most("S3.5", "area under suction that is not inside the glass", outside, 0.0, "um^2"));
+  out.push_back(at_least("S3.5", "area under suction over the cross section of the pipette", least, 0.8));
   return out;
 }
 

@@ -15,7 +15,6 @@ namespace morula::scenarios {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kFluidRatio = 0.1;  // Y/γ up to which the cortex counts as fluid
 
 enum class Cortex { kElastic, kFluid };
 
@@ -125,7 +124,7 @@ Result<std::vector<Specimen>> specimens(const Study& study, const std::filesyste
     Specimen s;
     s.name = type.name;
     s.tension = type.shell.tension;
-    s.cortex = spring_modulus(type) <= kFluidRatio * type.shell.tension ? Cortex::kFluid : Cortex::kElastic;
+    s.cortex = is_fluid(spring_modulus(type) / type.shell.tension) ? Cortex::kFluid : Cortex::kElastic;
     s.nodes = type.shell_nodes;
     find_partner(study.model, load, s);
     const double size = type.radius.mean;

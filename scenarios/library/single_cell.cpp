@@ -39,4 +39,6 @@ std::vector<Hold> holds_of(const TimeCourse& course, const std::vector<Snapshot>
 
 double spring_modulus(const CellType& type) { return 2.0 / std::numbers::sqrt3 * type.shell.spring_stiffness; }
 
+bool is_fluid(double modulus) { return modulus <= 0.1; }
+
 }  // namespace morula::scenarios

@@ -47,4 +47,8 @@ inline double tolerance(std::uint32_t nodes, double coarse, double fine) { retur
 /// Two-dimensional Young modulus Y = 2k/√3 of the springs of a type [nN/µm], and its Poisson ratio 1/3.
 double spring_modulus(const CellType& type);
 
+/// Whether a cortex of elastic modulus Y = `modulus` γ counts as fluid: its shapes are then those of its tension alone (physics/scenarios.md S4:
+/// Y = 0.05 γ).
+bool is_fluid(double modulus);
+
 }  // namespace morula::scenarios

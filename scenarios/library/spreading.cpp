@@ -14,7 +14,6 @@ namespace morula::scenarios {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kFluid = 0.1;  // Y/γ up to which the cortex counts as fluid (physics/scenarios.md S4: Y = 0.05 γ)
 
 struct Spread : ReachedAngle {
   double time = 0.0, modulus = 0.0;  ///< [s], Y/γ
@@ -71,17 +70,41 @@ std::vector<Spread> spreads(const Study& study, const Snapshot& snapshot) {
   return out;
 }
 
-/// The elastic cells at their largest modulus: contact area must rise with W; and fall with the modulus at equal W.
-void judge_order(const std::vector<Spread>& cells, std::vector<Verdict>& out) {
+/// A cell on a plane, with or without tension.
+struct Sitting {
+  double adhesion = 0.0, tension = 0.0, modulus = 0.0;  ///< W, γ, Y [nN/µm]
+  std::uint32_t nodes = 0;
+  double contact_area = 0.0;  ///< as the contact law counts it [µm²]
+  double touching = 0.0;      ///< what a ball that touches has within the range, 2π R c [µm²]
+};
+
+std::vector<Sitting> sitting(const Study& study, const Snapshot& snapshot) {
+  std::vector<Sitting> out;
+  const Model& model = study.model;
+  for (std::size_t type = 0; type < model.types.size(); ++type) {
+    const CellType& t = model.types[type];
+    double adhesion = 0.0;
+    for (std::size_t o = 0; o < model.obstacles.size(); ++o)
+      adhesion = std::max(adhesion, model.pair(type, model.types.size() + o).adhesion);
+    for (const ShellView& shell : shells_of(snapshot, type))
+      out.push_back({adhesion, tension_at(t, snapshot.time), spring_modulus(t), t.shell_nodes, shell.cell->contact_area,
+                     2.0 * std::numbers::pi * radius_of_volume(shell.cell->volume) * model.contact.range});
+  }
+  return out;
+}
+
+/// Of cells that differ in nothing else, the contact area must rise with W, and fall with the modulus where the contact is more than touching.
+void judge_order(const std::vector<Sitting>& cells, std::vector<Verdict>& out) {
   bool with_adhesion = true, with_modulus = true;
   int pairs_w = 0, pairs_e = 0;
-  for (const Spread& a : cells)
-    for (const Spread& b : cells) {
-      if (a.modulus == b.modulus && a.ratio < b.ratio) {
+  for (const Sitting& a : cells)
+    for (const Sitting& b : cells) {
+      if (a.tension != b.tension || a.nodes != b.nodes) continue;
+      if (a.modulus == b.modulus && a.adhesion < b.adhesion) {
         ++pairs_w;
         with_adhesion = with_adhesion && a.contact_area < b.contact_area;
       }
-      if (a.ratio == b.ratio && a.modulus < b.modulus) {
+      if (a.adhesion == b.adhesion && a.modulus < b.modulus && b.contact_area > b.touching) {
         ++pairs_e;
         with_modulus = with_modulus && a.contact_area > b.contact_area;
       }
@@ -96,12 +119,6 @@ CapTolerance limits_of(const Spread& s) {
   return cap_tolerance(study, s.expected.angle, s.nodes, s.range, s.r0);
 }
 
-/// Contact radius and height of E = 1 kPa, h = 200 nm, γ = 0.1 mN/m at 642 nodes (static minimisation, spreading_reference.csv).
-struct ElasticReference {
-  double ratio, contact_radius, height;
-};
-constexpr ElasticReference kElastic[] = {{0.5, 0.839, 1.687}, {1.0, 1.104, 1.464}};
-
 }  // namespace
 
 Result<std::vector<Verdict>> judge_spreading(const Study& study, const std::filesystem::path& run) {
@@ -111,11 +128,11 @@ Result<std::vector<Verdict>> judge_spreading(const Study& study, const std::file
   const auto ends = spreads(study, snapshots.back());
   std::vector<ReachedAngle> fluid;
   for (const Spread& s : ends)
-    if (s.modulus <= kFluid) fluid.push_back(s);
+    if (is_fluid(s.modulus)) fluid.push_back(s);
   judge_ways(fluid, out);
   for (const Spread& s : ends) {
     const std::string at = s.text();
-    if (s.modulus <= kFluid) {
+    if (is_fluid(s.modulus)) {
       const CapTolerance limits = limits_of(s);
       out.push_back(at_most("S4.1", ("contact radius against Young's law, relative" + at).c_str(),
                             relative(s.contact_radius, s.expected.contact_radius), limits.contact_radius));
@@ -123,16 +140,13 @@ Result<std::vector<Verdict>> judge_spreading(const Study& study, const std::file
       out.push_back(at_most("S4.1", ("contact angle" + at).c_str(), std::abs(s.angle - s.expected.angle) / kDegree, limits.angle, "deg"));
       out.push_back(
           at_most("S4.2", ("pressure, relative" + at).c_str(), relative(s.pressure, s.expected.pressure), tolerance(s.nodes, 0.10, 0.05)));
-    } else if (s.nodes >= 642) {
-      for (const ElasticReference& r : kElastic)
-        if (std::abs(r.ratio - s.ratio) < 1e-9 && std::abs(s.modulus - 2.0) < 1e-9) {
-          out.push_back(at_most("S4.4", ("contact radius of an elastic cortex, relative" + at).c_str(),
-                                relative(s.contact_radius, r.contact_radius), 0.04));
-          out.push_back(at_most("S4.4", ("height of an elastic cortex, relative" + at).c_str(), relative(s.height, r.height), 0.04));
-        }
+    } else if (const ElasticCap* r = elastic_cap(s.ratio, s.modulus, s.nodes)) {
+      out.push_back(at_most("S4.4", ("contact radius of an elastic cortex, relative" + at).c_str(),
+                            relative(s.contact_radius, r->contact_radius), 0.04));
+      out.push_back(at_most("S4.4", ("height of an elastic cortex, relative" + at).c_str(), relative(s.height, r->height), 0.04));
     }
   }
-  judge_order(ends, out);
+  judge_order(sitting(study, snapshots.back()), out);
   for (const Spread& a : ends)
     for (const Spread& b : ends)
       if (a.obstacle < b.obstacle && a.ratio == b.ratio && a.modulus == b.modulus && a.nodes == b.nodes)
@@ -142,7 +156,7 @@ Result<std::vector<Verdict>> judge_spreading(const Study& study, const std::file
   for (std::size_t k = 2; k < snapshots.size(); ++k) {
     const auto before = spreads(study, snapshots[k - 1]), after = spreads(study, snapshots[k]);
     for (std::size_t i = 0; i < std::min({before.size(), after.size(), ends.size()}); ++i)
-      if (ends[i].modulus <= kFluid && !ends[i].came_back)
+      if (is_fluid(ends[i].modulus) && !ends[i].came_back)
         fall = std::max(fall, (before[i].contact_area - after[i].contact_area) / ends[i].contact_area);
   }
   out.push_back(at_most("S4.3", "fall of the contact area between outputs, relative to the last one", fall, 0.01));
@@ -168,7 +182,7 @@ Result<std::vector<NamedPlot>> plot_spreading(const Study& study, const std::fil
     const std::string who = fluid ? "fluid cortex" : "elastic cortex";
     Curve radius{"contact radius, " + who, {}, {}, CurveStyle::kPoints}, height{"height, " + who, {}, {}, CurveStyle::kPoints};
     for (const Spread& s : ends) {
-      if ((s.modulus <= kFluid) != fluid) continue;
+      if (is_fluid(s.modulus) != fluid) continue;
       radius.x.push_back(s.ratio);
       height.x.push_back(s.ratio);
       radius.y.push_back(s.contact_radius);
@@ -189,7 +203,7 @@ Result<std::vector<NamedPlot>> plot_spreading(const Study& study, const std::fil
   over_time.y = {"contact area", "um^2", false, 0.0, {}};
   for (std::size_t i = 0; i < ends.size(); ++i) {
     Curve curve{
-        "W/T = " + number_text("%g", ends[i].ratio) + (ends[i].modulus <= kFluid ? ", fluid" : ", elastic"), {}, {}, CurveStyle::kLine};
+        "W/T = " + number_text("%g", ends[i].ratio) + (is_fluid(ends[i].modulus) ? ", fluid" : ", elastic"), {}, {}, CurveStyle::kLine};
     for (const Snapshot& snapshot : snapshots) {
       const auto cells = spreads(study, snapshot);
       if (i >= cells.size()) continue;
