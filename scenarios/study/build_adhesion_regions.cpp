@@ -37,7 +37,7 @@ struct Hold {
 };
 Hold hold_of(const BuildContext& c, std::size_t type, int marks) {
   const draft::CellType& t = c.draft.cell_types[type].content;
-  Hold out{t.tension.value, t.elastic.value != "none" || t.local_area.value + t.global_area.value > 0.0};
+  Hold out{t.tension.value, resists_in_plane(t)};
   for (const TensionRegion& region : c.study.model.types[type].regional_tension.regions)
     if (region.mark >= 0 && (marks >> region.mark & 1)) return {region.tension, out.elastic};
   return out;

@@ -107,7 +107,7 @@ void check_tension(BuildContext& c, std::size_t type, const TensionRegion& regio
   const std::string what = "the tension of '" + item.name + "' falls to " + short_number(least) +
                            " mN/m, half of the adhesion between cells (" + short_number(most) + " mJ/m^2) or less: ";
   const std::string help = "more tension there, or less adhesion";
-  if (t.elastic.value == "none" && t.local_area.value + t.global_area.value == 0.0)
+  if (!resists_in_plane(t))
     c.diagnostics.error(556, item.content.tension.place, what + "a cortex that is not elastic has no rest there", help);
   else
     c.diagnostics.warning(556, item.content.tension.place, what + "only the elasticity of the cortex holds contacts there", help);

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "dcm/derived_parameters.h"
 #include "scenarios/study/build.h"
@@ -14,13 +16,16 @@ bool is_sheet(const std::string& elastic) { return elastic == "neo_hooke" || ela
 /// Laws of one shell that resist changes of its area may add only when the study says so.
 void check_area(BuildContext& c, const std::string& type, const draft::ShellKeys& t) {
   if (t.area_on_top.value) return;
-  const bool membrane = is_sheet(t.elastic.value) || t.elastic.value == "springs_with_area";
-  const bool local = t.local_area.value > 0.0, global = t.global_area.value > 0.0;
-  if (membrane + local + global < 2) return;
-  const std::string first = membrane ? "`cortex.elastic: " + t.elastic.value + "`" : "`area.local`";
-  const std::string second = global ? "`area.global`" : "`area.local`";
-  c.diagnostics.error(513, global ? t.global_area.place : t.local_area.place,
-                      "shells of '" + type + "' resist changes of area twice: by " + first + " and by " + second,
+  std::vector<std::pair<std::string, Place>> laws;
+  if (is_sheet(t.elastic.value) || t.elastic.value == "springs_with_area")
+    laws.emplace_back("`cortex.elastic: " + t.elastic.value + "`", t.elastic.place);
+  if (t.has_membrane && is_sheet(t.membrane.elastic.value))
+    laws.emplace_back("`membrane.elastic: " + t.membrane.elastic.value + "`", t.membrane.elastic.place);
+  if (t.local_area.value > 0.0) laws.emplace_back("`area.local`", t.local_area.place);
+  if (t.global_area.value > 0.0) laws.emplace_back("`area.global`", t.global_area.place);
+  if (laws.size() < 2) return;
+  c.diagnostics.error(513, laws.back().second,
+                      "shells of '" + type + "' resist changes of area twice: by " + laws.front().first + " and by " + laws.back().first,
                       "leave one away, or write `area: {on_top: true, ...}` if the moduli shall add");
 }
 
@@ -38,8 +43,7 @@ void check_effect(BuildContext& c, const draft::ShellKeys& t) {
   if (t.bending_law.value != "helfrich")
     without_effect(t.spontaneous_radius, "spontaneous_radius", "`law: helfrich`; hinges are at rest in the angles of the sphere");
   if (t.bending_law.value == "none") without_effect(t.bending, "rigidity", "`law: hinge` or `law: helfrich`");
-  if (t.elastic.value == "none" && t.local_area.value == 0.0 && t.global_area.value == 0.0)
-    without_effect(t.turnover, "turnover", "a cortex that is elastic in its plane");
+  if (!resists_in_plane(t)) without_effect(t.turnover, "turnover", "a cortex that is elastic in its plane");
 }
 
 void set_elasticity(BuildContext& c, const draft::ShellKeys& t, dcm::ShellParameters& p) {
@@ -64,6 +68,12 @@ void set_elasticity(BuildContext& c, const draft::ShellKeys& t, dcm::ShellParame
                         "`poisson` between 0.3334 and 0.5, or `elastic: neo_hooke`, which takes 0 to 0.5");
 }
 
+void check_curvature(BuildContext& c, const draft::Layer& layer) {
+  if (std::abs(layer.spontaneous_radius.value) < 0.02)
+    c.diagnostics.error(302, layer.spontaneous_radius.place,
+                        "'spontaneous_radius' is " + layer.spontaneous_radius.text + ", too small a sphere", "at least 0.02 um, or `flat`");
+}
+
 void set_bending(BuildContext& c, const draft::ShellKeys& t, dcm::ShellParameters& p) {
   const double rigidity =
       t.bending.value >= 0.0 ? t.bending.value : dcm::bending_modulus(t.young.value, t.thickness.value, t.poisson.value);
@@ -71,12 +81,60 @@ void set_bending(BuildContext& c, const draft::ShellKeys& t, dcm::ShellParameter
   if (t.bending_law.value != "helfrich") return;
   p.helfrich_rigidity = rigidity;
   p.spontaneous_curvature = 2.0 / t.spontaneous_radius.value;
-  if (std::abs(t.spontaneous_radius.value) < 0.02)
-    c.diagnostics.error(302, t.spontaneous_radius.place, "'spontaneous_radius' is " + t.spontaneous_radius.text + ", too small a sphere",
-                        "at least 0.02 um, or `flat`");
+  check_curvature(c, t);
+}
+
+/// What a second layer must say of itself, and what it must not.
+void check_membrane(BuildContext& c, const draft::ShellKeys& t) {
+  const draft::Layer& m = t.membrane;
+  const auto need = [&](const Given<double>& key, const std::string& name, const Given<std::string>& word, bool needed,
+                        const std::string& law) {
+    if (needed && !key.given)
+      c.diagnostics.error(103, word.place, "the membrane's '" + word.value + "' needs '" + name + "'", "add `" + name + "`");
+    if (!needed && key.given) c.diagnostics.error(515, key.place, "'" + name + "' has no effect here", "it belongs to " + law);
+  };
+  need(m.shear_modulus, "shear_modulus", m.elastic, m.elastic.value != "none", "an `elastic` law");
+  need(m.area_ratio, "area_ratio", m.elastic, is_sheet(m.elastic.value), "`elastic: neo_hooke`, `stvk` or `skalak`");
+  need(m.bending, "rigidity", m.bending_law, m.bending_law.value != "none", "a law of `bending`");
+  if (m.bending_law.value != "helfrich" && !std::isinf(m.spontaneous_radius.value))
+    c.diagnostics.error(515, m.spontaneous_radius.place, "'spontaneous_radius' has no effect here", "it belongs to `bending: helfrich`");
+  if (m.elastic.value == "none" && m.bending_law.value == "none")
+    c.diagnostics.error(515, m.elastic.place, "a membrane without a law has no effect", "give it `elastic` or `bending`, or remove it");
+}
+
+/// Adds the laws of the second layer. Sheets of one shell have one area ratio, and Helfrich layers one curvature: the model holds each once.
+void add_membrane(BuildContext& c, const draft::ShellKeys& t, dcm::ShellParameters& p) {
+  const draft::Layer& m = t.membrane;
+  check_membrane(c, t);
+  if (m.elastic.value == "springs") p.spring_stiffness += 4.0 / std::numbers::sqrt3 * m.shear_modulus.value;
+  if (m.elastic.value == "neo_hooke") p.neo_hooke_shear += m.shear_modulus.value;
+  if (m.elastic.value == "stvk") p.stvk_shear += m.shear_modulus.value;
+  if (m.elastic.value == "skalak") p.skalak_shear += m.shear_modulus.value;
+  if (is_sheet(m.elastic.value)) {
+    if (is_sheet(t.elastic.value) && std::abs(m.area_ratio.value - p.membrane_area_ratio) > 1e-9 * p.membrane_area_ratio)
+      c.diagnostics.error(595, m.area_ratio.place,
+                          "the area ratio of the membrane (" + m.area_ratio.text + ") is not that of the layer below (" +
+                              short_number(p.membrane_area_ratio) + ")",
+                          "make them equal, or let one of the two be `springs`, or give the rest of the resistance as `area.local`");
+    p.membrane_area_ratio = m.area_ratio.value;
+  }
+  if (m.bending_law.value == "hinge") p.hinge_stiffness += dcm::hinge_stiffness(m.bending.value);
+  if (m.bending_law.value != "helfrich") return;
+  const double curvature = 2.0 / m.spontaneous_radius.value;
+  if (p.helfrich_rigidity > 0.0 && curvature != p.spontaneous_curvature)
+    c.diagnostics.error(595, m.spontaneous_radius.place, "the spontaneous curvature of the membrane is not that of the layer below",
+                        "make them equal, or let the layer below have `law: hinge`");
+  check_curvature(c, m);
+  p.helfrich_rigidity += m.bending.value;
+  p.spontaneous_curvature = curvature;
 }
 
 }  // namespace
+
+bool resists_in_plane(const draft::ShellKeys& t) {
+  return t.elastic.value != "none" || (t.has_membrane && t.membrane.elastic.value != "none") ||
+         t.local_area.value + t.global_area.value > 0.0;
+}
 
 double build_self_contact(BuildContext& c, const draft::CellType& t) {
   if (!t.self_contact.known() || t.self_contact.value == 0.0 || !t.radius.mean.known() || !t.nodes.known()) return 0.0;
@@ -94,6 +152,7 @@ dcm::ShellParameters build_shell(BuildContext& c, const std::string& type_name, 
   dcm::ShellParameters p;
   set_elasticity(c, t, p);
   set_bending(c, t, p);
+  if (t.has_membrane) add_membrane(c, t, p);
   check_area(c, type_name, t);
   check_effect(c, t);
   p.global_area_modulus = t.global_area.value;

@@ -147,10 +147,7 @@ void build_pairs(BuildContext& c) {
       const Given<double>& other = j < types ? c.draft.cell_types[j].content.tension : a.tension;
       const Given<double>& w = table.at(i, j);
       if (w.value == 0.0 || !a.tension.known() || !other.known() || w.value < a.tension.value + other.value) continue;
-      const auto flows = [](const draft::CellType& t) {
-        return t.elastic.value == "none" && t.local_area.value + t.global_area.value == 0.0;
-      };
-      const bool no_rest = flows(a) || (j < types && flows(c.draft.cell_types[j].content));
+      const bool no_rest = !resists_in_plane(a) || (j < types && !resists_in_plane(c.draft.cell_types[j].content));
       const std::string partner = j < types ? c.draft.cell_types[j].name : c.draft.geometry[j - types].name;
       const Place& place = w.given ? w.place : a.tension.place;
       const std::string what = "shells of '" + c.draft.cell_types[i].name + "' adhere to '" + partner + "' by " + w.text +

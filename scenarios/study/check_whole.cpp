@@ -134,6 +134,9 @@ double in_plane_limit(const draft::ShellKeys& t, double node_friction) {
   if (t.elastic.value == "skalak" && t.area_ratio.value > 1.0) sheet *= t.area_ratio.value;
   double stiffness = 7.2 * t.local_area.value;
   if (t.elastic.value != "none") stiffness += springs ? 3.0 * std::numbers::sqrt3 * sheet : 7.2 * sheet;
+  if (t.has_membrane && t.membrane.shear_modulus.value > 0.0)  // springs: k = 4 G/√3
+    stiffness += t.membrane.elastic.value == "springs" ? 24.0 / std::numbers::sqrt3 * t.membrane.shear_modulus.value
+                                                       : 21.6 * t.membrane.shear_modulus.value * std::max(1.0, t.membrane.area_ratio.value);
   return stiffness > 0.0 ? 2.0 * (node_friction + t.damping.value) / stiffness : 1e300;
 }
 
@@ -143,8 +146,12 @@ double surface_limit(const draft::ShellKeys& t, double friction, double node_are
   const double rigidity =
       t.bending.value >= 0.0 ? t.bending.value : dcm::bending_modulus(t.young.value, t.thickness.value, t.poisson.value);
   double rate = std::max(7.5 * t.tension.value / edge_square, 4.0 * t.global_area.value / (radius * radius));
-  if (t.bending_law.value == "hinge") rate = std::max(rate, 46.0 * dcm::hinge_stiffness(rigidity) / (node_area * edge_square));
-  if (t.bending_law.value == "helfrich") rate = std::max(rate, 56.0 * rigidity / (edge_square * edge_square));
+  const auto bends = [&](const std::string& law, double of) {
+    if (law == "hinge") rate = std::max(rate, 46.0 * dcm::hinge_stiffness(of) / (node_area * edge_square));
+    if (law == "helfrich") rate = std::max(rate, 56.0 * of / (edge_square * edge_square));
+  };
+  bends(t.bending_law.value, rigidity);
+  if (t.has_membrane) bends(t.membrane.bending_law.value, t.membrane.bending.value);
   return rate > 0.0 ? 2.0 * friction / rate : 1e300;
 }
 

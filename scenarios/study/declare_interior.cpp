@@ -98,12 +98,15 @@ void declare_nucleus(Section& n, draft::Nucleus& nucleus) {
   const auto note = [&](const char* name, const auto& key) {
     if (key.given) nucleus.no_effect.push_back({name, key.place, true});
   };
-  note("nodes", unused.nodes), note("elastic", unused.elastic), note("young", unused.young), note("thickness", unused.thickness);
-  note("poisson", unused.poisson), note("shear_modulus", unused.shear_modulus), note("area_ratio", unused.area_ratio);
+  for (const draft::Layer* layer : {static_cast<const draft::Layer*>(&unused), static_cast<const draft::Layer*>(&unused.membrane)}) {
+    note("elastic", layer->elastic), note("shear_modulus", layer->shear_modulus), note("area_ratio", layer->area_ratio);
+    note(layer == &unused ? "law" : "bending", layer->bending_law), note("rigidity", layer->bending);
+    note("spontaneous_radius", layer->spontaneous_radius);
+  }
+  note("nodes", unused.nodes), note("young", unused.young), note("thickness", unused.thickness), note("poisson", unused.poisson);
   note("tension", unused.tension), note("turnover", unused.turnover), note("damping", unused.damping);
   note("isotropic_damping", unused.isotropic_damping), note("local", unused.local_area), note("global", unused.global_area);
-  note("on_top", unused.area_on_top), note("law", unused.bending_law), note("rigidity", unused.bending);
-  note("spontaneous_radius", unused.spontaneous_radius), note("bulk_modulus", unused.bulk_modulus);
+  note("on_top", unused.area_on_top), note("bulk_modulus", unused.bulk_modulus);
   note("bulk_viscosity", unused.bulk_viscosity), note("shape_stiffness", unused.shape_stiffness);
   note("stiffness", unused.fold_stiffness), note("angle", unused.fold_angle);
 }

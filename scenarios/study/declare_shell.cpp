@@ -150,7 +150,7 @@ void declare_area(Section& a, draft::ShellKeys& t) {
          t.area_on_top);
 }
 
-void declare_bending(Section& b, draft::ShellKeys& t) {
+void declare_bending(Section& b, draft::Layer& t) {
   b.word(
       {.name = "law",
        .doc = "hinge: springs at the edges with the angles of the sphere at rest; helfrich: mean curvature by the cotangent formula, flat "
@@ -183,6 +183,52 @@ void declare_bending(Section& b, draft::ShellKeys& t) {
       t.spontaneous_radius);
 }
 
+void declare_membrane(Section& m, draft::Layer& t) {
+  m.word({.name = "elastic",
+          .doc = "Elasticity in the plane: the laws of `elastic` of the layer below.",
+          .fallback = "none",
+          .words = {"none", "springs", "neo_hooke", "stvk", "skalak"},
+          .example = "skalak",
+          .source = "chosen"},
+         t.elastic);
+  m.quantity({.name = "shear_modulus",
+              .doc = "Its shear modulus G; springs have k = 4 G/sqrt(3).",
+              .quantity = Q::kTension,
+              .low = 0.0,
+              .high = 1e4,
+              .low_open = true,
+              .example = "5.5 uN/m"},
+             t.shear_modulus);
+  m.quantity(
+      {.name = "area_ratio",
+       .doc =
+           "Its resistance to change of area C, for neo_hooke and stvk poisson/(1 - poisson) of the sheet. Springs have none of their own.",
+       .low = 0.0,
+       .high = 1e6,
+       .example = "50"},
+      t.area_ratio);
+  m.word({.name = "bending",
+          .doc = "Bending: the laws of `bending`.",
+          .fallback = "none",
+          .words = {"none", "hinge", "helfrich"},
+          .example = "helfrich",
+          .source = "chosen"},
+         t.bending_law);
+  m.quantity(
+      {.name = "rigidity", .doc = "Its bending rigidity.", .quantity = Q::kEnergy, .low = 0.0, .low_open = true, .example = "2e-19 J"},
+      t.bending);
+  m.quantity({.name = "spontaneous_radius",
+              .doc = "With `bending: helfrich`, as in `bending`.",
+              .quantity = Q::kLength,
+              .fallback = "flat",
+              .low = -1e6,
+              .high = 1e6,
+              .specials = {{"flat", std::numeric_limits<double>::infinity()}},
+              .example = "3 um",
+              .source = "Helfrich 1973, doi:10.1515/znc-1973-11-1209"},
+             t.spontaneous_radius);
+}
+
 }  // namespace
 
 void declare_shell_keys(Section& s, draft::ShellKeys& t, draft::CellType* cell) {
@@ -202,6 +248,11 @@ void declare_shell_keys(Section& s, draft::ShellKeys& t, draft::CellType* cell) 
           ? KeySpec{.name = "cortex", .doc = "The cell's cortex: a thin elastic layer under active tension."}
           : KeySpec{.name = "lamina", .doc = "The nucleus' envelope with its lamina: a thin elastic layer, perhaps under tension."};
   s.group(layer, present, [&](Section& c) { declare_cortex(c, t, fallback, cell); });
+  s.group({.name = "membrane",
+           .doc = "A second layer on the first, such as the plasma membrane: its laws add to those of the first.",
+           .optional_section = true,
+           .example = "{elastic: skalak, shear_modulus: 5.5 uN/m, area_ratio: 50, bending: helfrich, rigidity: 2e-19 J}"},
+          t.has_membrane, [&t](Section& m) { declare_membrane(m, t.membrane); });
   s.group({.name = "area", .doc = "Elasticity of the area, apart from that of the layer."}, present,
           [&t](Section& a) { declare_area(a, t); });
   s.group({.name = "bending", .doc = "Bending of the layer.", .shorthand = "rigidity", .example = "{law: helfrich, rigidity: 2e-19 J}"},

@@ -46,13 +46,21 @@ struct Osmosis {
 };
 
 /// The mesh of a shell and its mechanics: of a cell, or of a nucleus that is a shell.
-struct ShellKeys {
-  Given<std::uint64_t> nodes;
+/// What a layer of a shell resists: shear and stretch in its plane, bending.
+struct Layer {
   Given<std::string> elastic, bending_law;
-  Given<double> young, thickness, poisson, shear_modulus, area_ratio, tension, turnover, damping, isotropic_damping;
+  Given<double> shear_modulus, area_ratio, bending, spontaneous_radius;
+};
+
+/// A shell: the cortex of a cell or the lamina of a nucleus, and perhaps a membrane on it.
+struct ShellKeys : Layer {
+  Given<std::uint64_t> nodes;
+  Given<double> young, thickness, poisson, tension, turnover, damping, isotropic_damping;
+  bool has_membrane = false;
+  Layer membrane;
   Given<double> local_area, global_area;
   Given<bool> area_on_top;
-  Given<double> bending, spontaneous_radius, bulk_modulus, bulk_viscosity, shape_stiffness, fold_stiffness, fold_angle;
+  Given<double> bulk_modulus, bulk_viscosity, shape_stiffness, fold_stiffness, fold_angle;
 };
 
 struct Nucleus {

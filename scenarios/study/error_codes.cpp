@@ -140,6 +140,8 @@ constexpr ErrorCode kCodes[] = {
     {593, "nucleus in cells from meshes", "A cell that comes from a surface file gets no nucleus: nothing says where it has room for one."},
     {594, "load both by place and by mark",
      "Faces with a mark bear the load wherever they are on the cell; an axis or a part of the nodes has no effect then."},
+    {595, "layers that do not go together",
+     "The model holds one area ratio for all sheets of a shell and one spontaneous curvature for all its Helfrich layers."},
     {601, "file missing", "A file that the study names does not exist. Paths are relative to the folder of the study."},
     {602, "file cannot be read", "It is a folder, a device, or its permissions forbid reading."},
     {603, "file too large", "Study files are read up to 5 MiB, CSV files up to 500 MiB."},

@@ -74,8 +74,8 @@ TEST(LibraryStudies, PassTheCheckerWithoutAWarning) {
       if (!file.path.ends_with(".yaml")) continue;
       const auto study = made.read({}, std::string(file.path));
       ASSERT_TRUE(study.ok()) << study.error().text();
-      // Elastic cells that stick by more than twice their tension are what pull_off is about: there the warning of that is right.
-      if (one.name != "pull_off") {
+      // Elastic cells that stick by more than twice their tension are what these are about: there the warning of that is right.
+      if (one.name != "pull_off" && !(one.name == "spreading" && file.path == "elastic.yaml")) {
         EXPECT_TRUE(study->warnings.empty()) << study->warnings.text();
       }
       // A variant that asks another question than the scenario's judge has none.

@@ -98,6 +98,32 @@ TEST(StudyReader, BendingIsHingesOrHelfrich) {
   EXPECT_EQ(none.hinge_stiffness + none.helfrich_rigidity, 0.0);
 }
 
+TEST(StudyReader, AMembraneAddsItsLawsToThoseOfTheCortex) {
+  const std::string cortex = "cortex: {young: 1 kPa, thickness: 200 nm, poisson: 0.5, tension: 0.2 mN/m}\n      ";
+  const auto both =
+      shell_with(cortex + "membrane: {elastic: skalak, shear_modulus: 5.5 uN/m, area_ratio: 50, bending: helfrich, rigidity: 2e-19 J}");
+  EXPECT_NEAR(both.spring_stiffness, 0.173205, 1e-6);
+  EXPECT_DOUBLE_EQ(both.skalak_shear, 5.5e-3);
+  EXPECT_DOUBLE_EQ(both.membrane_area_ratio, 50.0);
+  EXPECT_NEAR(both.hinge_stiffness, 1.0264e-3, 1e-6);
+  EXPECT_DOUBLE_EQ(both.helfrich_rigidity, 2e-4);
+  EXPECT_EQ(both.spontaneous_curvature, 0.0);
+  // A triangular net of springs k has the shear modulus (√3/4) k: both nets have k = E h √3/2 when G is that of the cortex, (√3/4)(√3/2) E h.
+  const auto nets = shell_with(cortex + "membrane: {elastic: springs, shear_modulus: 0.075 mN/m}");
+  EXPECT_NEAR(nets.spring_stiffness, 2.0 * 0.173205, 1e-6);
+  const auto sheets = shell_with(
+      "cortex: {elastic: neo_hooke, poisson: 0.5}\n      membrane: {elastic: skalak, shear_modulus: 5 uN/m, area_ratio: 1}\n      area: "
+      "{on_top: true}");
+  EXPECT_NEAR(sheets.neo_hooke_shear, 0.066667, 1e-6);
+  EXPECT_DOUBLE_EQ(sheets.skalak_shear, 5e-3);
+  const auto study = good(changed("cortex: {young: 1 kPa, thickness: 200 nm, poisson: 0.5, tension: 0.2 mN/m}",
+                                  cortex + "membrane: {bending: hinge, rigidity: 8.8889e-19 J}"));
+  EXPECT_NEAR(study.model.types[0].shell.hinge_stiffness, 2.0 * 1.0264e-3, 1e-6);
+  const auto again = read(study.resolved_text);
+  ASSERT_TRUE(again.ok()) << again.error().text();
+  EXPECT_EQ(again->model.types[0].shell.hinge_stiffness, study.model.types[0].shell.hinge_stiffness);
+}
+
 TEST(StudyReader, AreaTurnoverAndViscosityAreOffUnlessGiven) {
   const auto p = good().model.types[0].shell;
   EXPECT_EQ(p.local_area_modulus + p.global_area_modulus + p.turnover_rate + p.bulk_viscosity + p.isotropic_damping, 0.0);

@@ -22,7 +22,12 @@ TEST_P(StrongAdhesion, KeepsSurfacesApartInLongSteps) {
   ASSERT_EQ(run_morula({"new", "cluster", "study"}, folder.path()).exit_code, 0);
   CommandOptions options;
   options.timeout = std::chrono::seconds(1500);
-  std::vector<std::string> arguments{"run", "study/study.yaml", "--out", "run", "output.report=false", "cell_types.blastomere.dcm.cortex.tension=0.5 mN/m",
+  std::vector<std::string> arguments{"run",
+                                     "study/study.yaml",
+                                     "--out",
+                                     "run",
+                                     "output.report=false",
+                                     "cell_types.blastomere.dcm.cortex.tension=0.5 mN/m",
                                      "limits.overlap=" + std::to_string(GetParam().deepest) + " um"};
   arguments.insert(arguments.end(), GetParam().changes.begin(), GetParam().changes.end());
   const Outcome outcome = run_morula(arguments, folder.path(), options);
@@ -39,8 +44,6 @@ TEST_P(StrongAdhesion, KeepsSurfacesApartInLongSteps) {
   const auto run = nlohmann::json::parse(read_text(folder / "run/status.json"), nullptr, false);
   EXPECT_LT(run["steps"].get<int>(), GetParam().most_steps);
 }
-
-
 
 std::vector<std::string> fifty_five(const std::string& adhesion) {
   return {"initial.0.count=55", "initial.0.radius=27.5 um", "cell_types.blastomere.adhesion={blastomere: " + adhesion + "}"};
