@@ -238,7 +238,14 @@ Status RunLoop::check_limits(const Measures& m) {
     warn_near_limit(volume_warned_, volume + " in cell " + m.volume_error.cell.text());
   if (!simulation_->tissue().clock.capped) {  // a capped start may overlap until it has come apart
     const std::string overlap = "overlap " + number_text("%.2g um", m.overlap.value) + " (limit " + number_text("%.2g um)", limits.overlap);
-    if (!(m.overlap.value <= limits.overlap)) return crossed(overlap, m.overlap);
+    if (!(m.overlap.value <= limits.overlap)) {
+      Error error = crossed(overlap, m.overlap);
+      if (m.time == 0.0)
+        error.help =
+            "cells lie in each other at the start: let them come apart first (`numerics: start_cap: 0.2 um`), place fewer, or start "
+            "them smaller (`start_volume`, `inflate`)";
+      return error;
+    }
     if (m.overlap.value > kWarnAt * limits.overlap) warn_near_limit(overlap_warned_, overlap + " at cell " + m.overlap.cell.text());
   }
   MORULA_TRY(check_packing(m));

@@ -6,6 +6,7 @@
 #include "tests/coupling/tissue_fixture.h"
 
 #include <filesystem>
+#include <fstream>
 
 namespace morula {
 namespace {
@@ -59,17 +60,17 @@ double leading_x(const Tissue& tissue) {
   return x;
 }
 
-/// The model with one obstacle material of weak adhesion.
-Model with_obstacle(Model model, const TriangleMesh& mesh) {
+/// The model with one obstacle material of weak adhesion; `inside`: cells are inside its surface.
+Model with_obstacle(Model model, const TriangleMesh& mesh, bool inside = false) {
   const ContactPair cells = model.pairs[0], wall{0.001, 0.1, 0.1};
-  model.obstacles = {ObstacleSpec{"obstacle", mesh.position, mesh.faces, false, {}}};
+  model.obstacles = {ObstacleSpec{"obstacle", mesh.position, mesh.faces, inside, {}}};
   model.pairs = {cells, wall, wall, wall};
   return model;
 }
 
 /// A shell pushed against an obstacle, after the push; it never goes deeper than 0.1 µm.
-Tissue push_against(const TriangleMesh& obstacle) {
-  const Model model = with_obstacle(pushed_model(), obstacle);
+Tissue push_against(const TriangleMesh& obstacle, bool inside = false) {
+  const Model model = with_obstacle(pushed_model(), obstacle, inside);
   ShapeLibrary shapes;
   Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell});
   tissue.obstacle_offset.resize(1);
@@ -119,18 +120,50 @@ TEST(PushedShell, StopsAtAPlane) {
   EXPECT_GT(leading_x(tissue), 6.0);
 }
 
-TEST(PushedShell, StopsAtASurfaceFromAnStlFile) {
-  const auto sphere = make_sphere(8.0, 3);
-  ASSERT_TRUE(sphere.ok());
-  const auto path = std::filesystem::temp_directory_path() / "morula_push.stl";
-  ASSERT_TRUE(write_stl(path, *sphere).ok());
-  auto read = read_surface(path);
-  ASSERT_TRUE(read.ok());
-  TriangleMesh mesh = *read;
-  for (Vec3d& p : mesh.position) p.x += 15.0;  // begins at x = 7
-  const Tissue tissue = push_against(mesh);
-  const Vec3d center = volume_centroid(tissue.shells.topology(0).faces(), tissue.shells.nodes(0));
-  EXPECT_GT(norm(center - Vec3d{15, 0, 0}), 10.0);  // it may slip aside, but not through
+TriangleMesh moved(const Result<TriangleMesh>& mesh, double along_x) {
+  EXPECT_TRUE(mesh.ok());
+  TriangleMesh out = *mesh;
+  for (Vec3d& p : out.position) p.x += along_x;
+  return out;
+}
+
+TEST(PushedShell, StopsAtTheWallOfAMouldOfEightyThousandFaces) {
+  const TriangleMesh mould = moved(make_sphere(30.0, 6), -23.0);  // its wall is at x = 7
+  ASSERT_EQ(mould.faces.size(), 81920u);
+  const Tissue tissue = push_against(mould, true);
+  double farthest = 0.0;
+  for (const Vec3d& x : tissue.shells.nodes(0)) farthest = std::max(farthest, norm(x - Vec3d{-23, 0, 0}));
+  EXPECT_GT(farthest, 29.5);
+  EXPECT_LT(farthest, 30.1);
+}
+
+TEST(PushedShell, StopsAtARodAndAtOneWithRoundEnds) {
+  for (const auto& [name, rod] : {std::pair{"cylinder", make_cylinder(4.0, 40.0, 1.0)}, {"capsule", make_capsule(4.0, 40.0, 1.0)}}) {
+    SCOPED_TRACE(name);
+    const Tissue tissue = push_against(moved(rod, 11.0));  // begins at x = 7
+    const Vec3d center = volume_centroid(tissue.shells.topology(0).faces(), tissue.shells.nodes(0));
+    EXPECT_LT(center.x, 4.0) << "it may wrap itself around, but goes not through";
+    EXPECT_GT(leading_x(tissue), 6.5);
+  }
+}
+
+TEST(PushedShell, StopsAtASurfaceFromAFile) {
+  for (const char* name : {"morula_push.stl", "morula_push.obj"}) {
+    SCOPED_TRACE(name);
+    const auto sphere = make_sphere(8.0, 3);
+    ASSERT_TRUE(sphere.ok());
+    const auto path = std::filesystem::temp_directory_path() / name;
+    if (path.extension() == ".obj") {
+      std::ofstream out(path);
+      for (const Vec3d& p : sphere->position) out << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
+      for (const Triangle& t : sphere->faces) out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+    } else {
+      ASSERT_TRUE(write_stl(path, *sphere).ok());
+    }
+    const Tissue tissue = push_against(moved(read_surface(path), 15.0));  // begins at x = 7
+    const Vec3d center = volume_centroid(tissue.shells.topology(0).faces(), tissue.shells.nodes(0));
+    EXPECT_GT(norm(center - Vec3d{15, 0, 0}), 10.0);  // it may slip aside, but not through
+  }
 }
 
 }  // namespace
