@@ -364,7 +364,8 @@ Result<ShellRecord> shell_of_surface(const MeshCell& cell, const MeshCells& spec
 }
 
 std::string text_of_place(const Vec3d& p) {
-  return "(" + text_of(p.x, "%.4g") + ", " + text_of(p.y, "%.4g") + ", " + text_of(p.z, "%.4g") + ") um";
+  const auto text = [](double value) { return text_of(std::abs(value) < 1e-9 ? 0.0 : value, "%.4g"); };
+  return "(" + text(p.x) + ", " + text(p.y) + ", " + text(p.z) + ") um";
 }
 
 double target_volume_of(double volume, double pressure, double tension, double bulk_modulus) {

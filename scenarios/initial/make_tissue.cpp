@@ -202,6 +202,7 @@ Result<CellRecord> with_body(const Seedling& cell, const Model& model, ShapeLibr
   if (cell.surface) {
     MORULA_TRY_ASSIGN(record.shell,
                       shell_of_surface(*cell.surface, *cell.meshes, free_reference_volume(cell.row.target_volume, type), shapes));
+    place_nucleus(*record.shell, type, shapes);
     return record;
   }
   if (cell.row.body == BodyKind::kSphere) {

@@ -2,8 +2,12 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/mesh/closest_point.h"
+#include "core/mesh/mesh_check.h"
 #include "core/mesh/surface_overlap.h"
+#include "core/mesh/topology.h"
 #include "core/space/space.h"
+#include "dcm/interior.h"
 #include "scenarios/initial/cells_from_meshes.h"
 #include "scenarios/study/build.h"
 #include "scenarios/study/build_meshes.h"
@@ -42,6 +46,7 @@ class MeshesBuilder {
   void read();
   void note_remeshing(std::span<const TriangleMesh> meshes, std::size_t nodes, double shortest, double longest, double changed);
   void check_edge(const Given<double>& range, double shortest, double longest);
+  void check_nucleus(const MeshCell& cell, const TriangleMesh& surface, const Place& at);
 
   BuildContext& c_;
   draft::Meshes& d_;
@@ -161,6 +166,7 @@ void MeshesBuilder::read() {
       error(505, at, cell.name + " reaches out of the domain: from " + text_of_place(box.low) + " to " + text_of_place(box.high),
             "the domain reaches from " + text_of_place(domain.low) + " to " + text_of_place(domain.high) +
                 "; `meshes.center` can move the cells");
+    check_nucleus(cell, surface->mesh, at);
     meshes.push_back(std::move(surface->mesh));
   }
   if (spec_.remeshes()) note_remeshing(meshes, nodes, shortest, longest, changed);
@@ -200,6 +206,25 @@ void MeshesBuilder::check_edge(const Given<double>& range, double shortest, doub
     error(503, at, what, help);
   else
     c_.diagnostics.warning(503, at, what, help);
+}
+
+/// A nucleus begins at the centroid, where its links are at rest: the ball must lie inside the surface there.
+void MeshesBuilder::check_nucleus(const MeshCell& cell, const TriangleMesh& surface, const Place& at) {
+  const dcm::InteriorParameters& interior = c_.study.model.types[cell.type].interior;
+  if (!interior.has_nucleus()) return;
+  const Vec3d center = volume_centroid(surface.faces, surface.position);
+  double room = std::lround(winding_number(surface.position, surface.faces, center)) == 1 ? 1e300 : 0.0;
+  for (const Triangle& t : surface.faces) {
+    const Vec3d foot = closest_point_on_triangle(center, surface.position[t[0]], surface.position[t[1]], surface.position[t[2]]).point;
+    room = std::min(room, norm(foot - center));
+  }
+  const double radius = dcm::nucleus_radius(interior, cell.volume);
+  if (room >= radius) return;
+  error(593, at,
+        cell.name + " has no room for its nucleus of radius " + short_number(std::round(radius * 100) / 100) + " um at its centroid " +
+            text_of_place(center) + ", which is " +
+            (room > 0.0 ? short_number(std::floor(room * 100) / 100) + " um from its surface" : "outside"),
+        "a smaller `volume_fraction` of the nucleus, or `nucleus: {kind: none}` for a type of such cells");
 }
 
 }  // namespace

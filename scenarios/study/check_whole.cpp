@@ -70,15 +70,12 @@ void check_friction(BuildContext& c) {
   }
 }
 
-/// A biconcave cell is thinner than any nucleus is wide, and nothing says where a cell from a mesh has room for one.
+/// A biconcave cell is thinner than any nucleus is wide.
 void check_nuclei(BuildContext& c) {
   for (std::size_t i = 0; i < c.study.initial.size() && i < c.draft.initial.size(); ++i) {
     const InitialCells& block = c.study.initial[i];
     if (block.type >= c.study.model.types.size()) continue;
     const CellType& type = c.study.model.types[block.type];
-    if (c.draft.initial[i].content.has_meshes && type.interior.has_nucleus())
-      c.diagnostics.error(593, c.draft.initial[i].place, "cells of '" + type.name + "' that come from meshes get no nucleus",
-                          "`nucleus: {kind: none}`, or cells that are placed by `at`");
     if (block.shape != CellShape::kBiconcave) continue;
     if (type.interior.has_nucleus())
       c.diagnostics.error(537, c.draft.initial[i].content.shape.place, "biconcave cells of '" + type.name + "' have no room for a nucleus",

@@ -137,7 +137,8 @@ constexpr ErrorCode kCodes[] = {
     {592, "nucleus too coarse for its contact",
      "Between its nodes the surface of a mesh lies edge^2/(8 R) under the ball that it stands for; more than half of the contact range is "
      "not resolved."},
-    {593, "nucleus in cells from meshes", "A cell that comes from a surface file gets no nucleus: nothing says where it has room for one."},
+    {593, "no room for the nucleus",
+     "A nucleus begins at the centroid of its cell; a cell from a surface file may have no room for it there."},
     {594, "load both by place and by mark",
      "Faces with a mark bear the load wherever they are on the cell; an axis or a part of the nodes has no effect then."},
     {595, "layers that do not go together",

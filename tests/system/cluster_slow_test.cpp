@@ -13,6 +13,7 @@ struct Cluster {
   std::vector<std::string> changes;  ///< of the library's study `cluster`, W with them
   double deepest;                    ///< any surface in another, at any step [µm]
   int most_steps;
+  friend void PrintTo(const Cluster& cluster, std::ostream* out) { *out << cluster.name; }
 };
 
 class StrongAdhesion : public testing::TestWithParam<Cluster> {};
