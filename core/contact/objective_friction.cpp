@@ -1,5 +1,8 @@
 #include "core/contact/objective_friction.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/parallel/threads.h"
 
 namespace morula {
@@ -21,9 +24,18 @@ struct TurningFace {
   }
 };
 
+/// Rounded to a multiple of `unit`, a power of two: the sums of few such numbers are exact.
+float in_units(double value, double unit) { return static_cast<float>(std::nearbyint(value / unit) * unit); }
+constexpr double kWeightUnit = 0x1p-24;
+
+/// Σ w_c = ±1 and Σ k_c = 0 to the last bit: contacts give no momentum to a pair.
 void set_levers(ObjectiveElement& e, int first, const TurningFace& face, double size) {
   e.normal[first == 0 ? 0 : 1] = to_float(face.normal);
-  const Vec3f a = to_float(face.rate[0] * size), b = to_float(face.rate[1] * size);
+  double most = 0.0;
+  for (const Vec3d& rate : face.rate) most = std::max({most, std::abs(rate.x), std::abs(rate.y), std::abs(rate.z)});
+  const double unit = std::ldexp(1.0, std::ilogb(std::max(std::abs(size) * most, 1e-30)) - 22);
+  const auto rounded = [&](const Vec3d& k) { return Vec3f{in_units(k.x, unit), in_units(k.y, unit), in_units(k.z, unit)}; };
+  const Vec3f a = rounded(face.rate[0] * size), b = rounded(face.rate[1] * size);
   e.lever[first] = a;
   e.lever[first + 1] = b;
   e.lever[first + 2] = Vec3f{} - a - b;
@@ -52,7 +64,7 @@ void ObjectiveFriction::add(const SurfacePair& pair, const PairBody (&body)[2], 
       Vec3d apart;  // x − y
       for (std::size_t c = 0; c < 3; ++c) {
         e.point[c] = first_source + s[c];
-        e.weight[c] = static_cast<float>(quadrature.weight[given.point()][c]);
+        e.weight[c] = in_units(quadrature.weight[given.point()][c], kWeightUnit);
         apart += source.node(s[c]) * quadrature.weight[given.point()][c];
       }
       e.weight[2] = 1.0f - e.weight[0] - e.weight[1];
@@ -72,8 +84,8 @@ void ObjectiveFriction::add(const SurfacePair& pair, const PairBody (&body)[2], 
       set_levers(e, 0, TurningFace(source, s), -0.5 * gap);  // +½ g ṅ_A
       if (pair.rigid) continue;
       for (std::size_t j = 0; j < 3; ++j) e.point[3 + j] = first_target + t[j];
-      e.weight[3] = static_cast<float>(-mu[0]);
-      e.weight[4] = static_cast<float>(-mu[1]);
+      e.weight[3] = in_units(-mu[0], kWeightUnit);
+      e.weight[4] = in_units(-mu[1], kWeightUnit);
       e.weight[5] = -1.0f - e.weight[3] - e.weight[4];
       e.count = 6;
       set_levers(e, 3, TurningFace(target, t), 0.5 * gap);  // −½ g ṅ_B

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "coupling/simulation.h"
+#include "tests/coupling/friction_sums.h"
 #include "tests/coupling/tissue_fixture.h"
 
 namespace morula {
@@ -24,17 +25,6 @@ Model doublet_model() {
   return model;
 }
 
-std::vector<double> node_areas(const dcm::Shells& shells) {
-  std::vector<double> area(shells.position.size(), 0.0);
-  for (std::size_t s = 0; s < shells.size(); ++s) {
-    const std::uint32_t first = shells.first_node[s];
-    const Vec3d* const x = shells.position.data() + first;
-    for (const Triangle& t : shells.shape[s]->topology->faces())
-      for (const std::uint32_t node : t) area[first + node] += norm(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]])) / 6.0;
-  }
-  return area;
-}
-
 /// How far the pair as a whole has been pushed and turned in ten minutes, in radii: displacements weighted by the friction with the medium,
 /// the only force from outside. Without inertia this is what has to be zero; the centre of mass is free to move with a mesh that flows unevenly.
 struct Drift {
@@ -49,7 +39,7 @@ Drift drift_of_doublet(const Model& model) {
   Vec3d push{}, turn{};
   while (s->tissue().clock.time < 600.0) {
     const dcm::Shells& shells = s->tissue().shells;
-    const auto area = node_areas(shells);
+    const auto area = test::node_areas(shells);
     const auto before = shells.position;
     if (!s->step(600.0).ok()) return {1e300, 1e300};
     double all = 0.0;
