@@ -39,7 +39,8 @@ double dissipation(const dcm::Shells& shells, const std::vector<test::RubbingPoi
     double volume = 0.0, change = 0.0;
     const Vec3d& origin = shells.position[first];
     for (const Triangle& t : shells.topology(s).faces()) {
-      const Vec3d x[3] = {shells.position[first + t[0]] - origin, shells.position[first + t[1]] - origin, shells.position[first + t[2]] - origin};
+      const Vec3d x[3] = {shells.position[first + t[0]] - origin, shells.position[first + t[1]] - origin,
+                          shells.position[first + t[2]] - origin};
       volume += dot(x[0], cross(x[1], x[2])) / 6.0;
       for (std::size_t c = 0; c < 3; ++c) change += dot(v[first + t[c]] - v[first], cross(x[(c + 1) % 3], x[(c + 2) % 3])) / 6.0;
     }

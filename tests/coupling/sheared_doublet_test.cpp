@@ -120,8 +120,7 @@ TEST(ShearedDoublet, MovesWithTheForceOverItsFrictionWithTheMediumAndTwiceThatOf
     const auto v = velocities(model, tissue, shapes, push);
     const double tolerance = integrator == Integrator::kImplicit ? 1e-5 : 1e-2;
     double worst = 0.0;
-    for (std::size_t i = 0; i < v.size(); ++i)
-      worst = std::max(worst, norm(v[i] - Vec3d{i < nodes ? -expected : expected, 0.0, 0.0}));
+    for (std::size_t i = 0; i < v.size(); ++i) worst = std::max(worst, norm(v[i] - Vec3d{i < nodes ? -expected : expected, 0.0, 0.0}));
     EXPECT_LT(worst, tolerance * expected);
   }
 }
