@@ -23,8 +23,8 @@ Model model_with_all_friction() {
   return model;
 }
 
-/// vᵀΓv by the definitions of dcm.md §1 and §5: Σ γ a |v|² of nodes + Σ γ_int (t·(v_i − v_j))² of edges + (η_V/V)(u·v)² with u = ∂V/∂x of cells
-/// + Σ w γ |u|² of contact points.
+/// vᵀΓv by the definitions of dcm.md §1 and §5: Σ γ a |v|² of nodes + Σ γ_int (t·(v_i − v_j))² of edges + (η_V/V)(u·v)² with u = ∂V/∂x of
+/// cells + Σ w γ |u|² of contact points.
 double dissipation(const dcm::Shells& shells, const std::vector<test::RubbingPoint>& contacts, const std::vector<Vec3d>& v) {
   double sum = test::contact_dissipation(contacts, kContact, v);
   const auto area = test::node_areas(shells);

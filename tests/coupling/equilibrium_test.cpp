@@ -58,8 +58,8 @@ BodyValues values_of(const Model& model, const Tissue& tissue) {
   return Mechanics(model, {}, shapes, Comm(), 1).values(tissue);
 }
 
-/// T4.2: p = 2γA/(3V) in equilibrium, by the virial, ± 1e-6; T4.3: V = V0 exp(−p/K_V) with that p. All nodes of a mesh of 42 lie on axes of its
-/// symmetry: tension and pressure alone hold them.
+/// T4.2: p = 2γA/(3V) in equilibrium, by the virial, ± 1e-6; T4.3: V = V0 exp(−p/K_V) with that p. All nodes of a mesh of 42 lie on axes of
+/// its symmetry: tension and pressure alone hold them.
 TEST(Equilibrium, OfTensionAndPressureAloneFulfilsTheVirialAndTheLawOfTheVolume) {
   const Model model = tense_model(0.0);
   Tissue tissue = unstressed_cell(model, 42);
@@ -74,7 +74,8 @@ TEST(Equilibrium, OfTensionAndPressureAloneFulfilsTheVirialAndTheLawOfTheVolume)
 }
 
 /// T4.3 with Table 1 and γ = 0.5: V/V0 ≈ 0.935 and R − 2.2 %. On a sphere s times as large as at rest a lattice of springs has the tension
-/// √3 k (1 − 1/s) (dcm.md §2), so that K_V ln(1/s³) = 2 (γ + √3 k (1 − 1/s))/(R s). The mesh adds 0.34 % to the pressure (T4.1), 2.3e-4 to V/V0.
+/// √3 k (1 − 1/s) (dcm.md §2), so that K_V ln(1/s³) = 2 (γ + √3 k (1 − 1/s))/(R s). The mesh adds 0.34 % to the pressure (T4.1), 2.3e-4 to
+/// V/V0.
 TEST(Equilibrium, OfATenseCellOfTableOneIsThePublishedOne) {
   constexpr double kSprings = 0.173205;
   double s = 1.0;
@@ -120,8 +121,8 @@ double furthest(const Tissue& a, const Tissue& b) {
   return most;
 }
 
-/// A squeezed cell of springs, membrane, hinges, tension and pressure. Forces of 1e-8 nN are left, and its softest change of shape, shear of the
-/// springs over the whole cell, has a stiffness of k (L/R)² = 0.01 nN/µm by node: 1e-6 µm.
+/// A squeezed cell of springs, membrane, hinges, tension and pressure. Forces of 1e-8 nN are left, and its softest change of shape, shear
+/// of the springs over the whole cell, has a stiffness of k (L/R)² = 0.01 nN/µm by node: 1e-6 µm.
 TEST(Equilibrium, OfACellDoesNotDependOnFriction) {
   Model model = tense_model(0.173205);
   model.types[0].shell.hinge_stiffness = 1e-3;
@@ -144,7 +145,8 @@ const Friction kOthers[] = {{1.0, 0.0, 0.1, 0.0, 0.1, 0.1},   // medium
                             {0.1, 0.0, 0.1, 0.0, 1.0, 50.0},  // contact that sticks
                             {0.1, 0.3, 2.0, 1.0, 0.1, 0.1}};  // medium across the surface, edges, volume
 
-/// Two cells that adhere and have nothing but this beside volume and tension; the shape of triangles matters a little, so that nodes know where to be.
+/// Two cells that adhere and have nothing but this beside volume and tension; the shape of triangles matters a little, so that nodes know
+/// where to be.
 Model doublet_model(double tension, double springs) {
   Model model = tense_model(springs);
   dcm::ShellParameters& shell = model.types[0].shell;
@@ -162,8 +164,8 @@ Tissue touching_cells(const Model& model, std::uint32_t nodes) {
   return test::make_tissue(model, shapes, {{0, 0, -kRadius}, {0, 0, kRadius}}, {BodyKind::kShell, BodyKind::kShell}, nodes);
 }
 
-/// Node by node, for cells of 42 nodes. Forces of 1e-6 nN are left (the energy of 90 fJ has no more digits), and the softest node has 0.01 nN/µm, of
-/// a face that only the term for its shape holds: each state is known to 1e-4 µm.
+/// Node by node, for cells of 42 nodes. Forces of 1e-6 nN are left (the energy of 90 fJ has no more digits), and the softest node has 0.01
+/// nN/µm, of a face that only the term for its shape holds: each state is known to 1e-4 µm.
 TEST(Equilibrium, OfADoubletDoesNotDependOnFriction) {
   const Model model = doublet_model(0.1, 0.0);
   const Tissue start = touching_cells(model, 42);
@@ -177,8 +179,8 @@ TEST(Equilibrium, OfADoubletDoesNotDependOnFriction) {
   }
 }
 
-/// The same of elastic cells of 162 nodes by what is seen from outside. Their contact has states of rest next to each other, for a point of one cell
-/// may have either of two faces of the other as its nearest: a contact that sticks ends in one whose energy is 5e-5 higher.
+/// The same of elastic cells of 162 nodes by what is seen from outside. Their contact has states of rest next to each other, for a point of
+/// one cell may have either of two faces of the other as its nearest: a contact that sticks ends in one whose energy is 5e-5 higher.
 TEST(Equilibrium, OfAnElasticDoubletDoesNotDependOnFriction) {
   const Model model = doublet_model(kTension, 0.173205);
   const Tissue start = touching_cells(model, 162);

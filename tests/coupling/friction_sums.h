@@ -18,7 +18,8 @@ inline std::vector<double> node_areas(const dcm::Shells& shells) {
   return area;
 }
 
-/// A contact point as friction sees it: nodes of both surfaces by their number in the scene, with weights β and −μ, and the area w it stands for.
+/// A contact point as friction sees it: nodes of both surfaces by their number in the scene, with weights β and −μ, and the area w it
+/// stands for.
 struct RubbingPoint {
   std::uint32_t node[6];
   double weight[6];

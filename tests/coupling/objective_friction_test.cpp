@@ -106,8 +106,8 @@ TEST(ObjectiveFriction, DoesNotFeelAPairThatTurnsAsAWhole) {
 }
 
 /// dcm.md T9.1: plates of S = 10 µm² that slide with 0.01 µm/s drag each other with γ_t S v = 50 · 10 · 0.01 = 5 nN, once and not from each
-/// side (10 nN); those that part with it, with γ_n S v = 2 nN. With 80 faces a plate and 4 points a face each point stands for 10/(2 · 320) =
-/// 1/64 µm², which a friction element keeps without rounding (its area has 11 bits), so that 1e-10 can be asked for.
+/// side (10 nN); those that part with it, with γ_n S v = 2 nN. With 80 faces a plate and 4 points a face each point stands for 10/(2 · 320)
+/// = 1/64 µm², which a friction element keeps without rounding (its area has 11 bits), so that 1e-10 can be asked for.
 TEST(ContactFriction, OfPlatesIsTheFrictionPerAreaTimesTheAreaTimesTheSpeed) {
   const Plates ten{.length = 4.0, .width = 2.5, .edge = 0.5, .gap = 0.03125, .range = 0.1, .aside = {}, .points_per_face = 4};
   for (const bool objective : {false, true}) {
@@ -124,8 +124,8 @@ TEST(ContactFriction, OfPlatesIsTheFrictionPerAreaTimesTheAreaTimesTheSpeed) {
   }
 }
 
-/// The area that the code finds in contact is that over which the plates overlap: shifts by whole edges leave every point either right above the
-/// other plate or out of range. Friction has it to 1 in 2048, as its elements are kept.
+/// The area that the code finds in contact is that over which the plates overlap: shifts by whole edges leave every point either right
+/// above the other plate or out of range. Friction has it to 1 in 2048, as its elements are kept.
 TEST(ContactFriction, ActsOverTheAreaOnWhichPlatesOverlap) {
   struct Shift {
     Vec3d aside;
@@ -142,8 +142,8 @@ TEST(ContactFriction, ActsOverTheAreaOnWhichPlatesOverlap) {
   }
 }
 
-/// Away from T9.1's plates: translations feel no difference between the two forms, here with a rim whose points are partly in range, which the
-/// measured area counts by a straight ramp and friction by a smooth one (2 %).
+/// Away from T9.1's plates: translations feel no difference between the two forms, here with a rim whose points are partly in range, which
+/// the measured area counts by a straight ramp and friction by a smooth one (2 %).
 TEST(ObjectiveFriction, IsThePlainOneForSurfacesThatSlideOrPart) {
   for (const Vec3d& v : {Vec3d{0.01, 0, 0}, Vec3d{0, 0, 0.01}}) {
     const auto slide = [&](const Vec3d& x) { return x.z > 1.05 ? v : Vec3d{}; };
@@ -154,8 +154,8 @@ TEST(ObjectiveFriction, IsThePlainOneForSurfacesThatSlideOrPart) {
   }
 }
 
-/// dcm.md T9.4: |Σ (Γ_nn v)_i| ≤ 1e-12 in both forms. The torque is that of the objective form alone; it is zero but for where the nearest point
-/// lies on its face, which an element keeps to 1 in 16383 of a side, and for coefficients in single precision.
+/// dcm.md T9.4: |Σ (Γ_nn v)_i| ≤ 1e-12 in both forms. The torque is that of the objective form alone; it is zero but for where the nearest
+/// point lies on its face, which an element keeps to 1 in 16383 of a side, and for coefficients in single precision.
 TEST(ContactFriction, HasNoNetForceAndInItsObjectiveFormNoNetTorque) {
   for (const bool objective : {false, true}) {
     Blocks blocks(objective);

@@ -39,8 +39,8 @@ Vec3d flattened(Vec3d p, double edge) {
   return angle < rim ? p * (kFlat / p.z) : p;
 }
 
-/// Two spheres that are pressed flat against each other at the plane z = 0, `gap` apart; the upper one is the lower one turned over. An icosphere is
-/// its own mirror image, so that faces of the contact lie on faces.
+/// Two spheres that are pressed flat against each other at the plane z = 0, `gap` apart; the upper one is the lower one turned over. An
+/// icosphere is its own mirror image, so that faces of the contact lie on faces.
 Tissue flat_doublet(const Model& model, ShapeLibrary& shapes, std::uint32_t nodes, double gap) {
   const double edge = kRadius * std::sqrt(8.0 * std::numbers::pi / std::sqrt(3.0) / nodes);  // of equilateral triangles, two by node
   Tissue tissue = test::make_tissue(model, shapes, {{0, 0, -6}, {0, 0, 6}}, {BodyKind::kShell, BodyKind::kShell}, nodes);
@@ -79,8 +79,8 @@ double total(const std::vector<double>& values, std::size_t first, std::size_t l
   return sum;
 }
 
-/// T9.3: v1 = F/(Γ + 2Γ_c), Γ = γ_ECM A, Γ_c = γ_et A_c. F is shared among the nodes as a rigid cell hands it on, the medium's part by their area
-/// and the contact's part by what of them is in contact: nothing turns then, and every node has to move with ±v1.
+/// T9.3: v1 = F/(Γ + 2Γ_c), Γ = γ_ECM A, Γ_c = γ_et A_c. F is shared among the nodes as a rigid cell hands it on, the medium's part by
+/// their area and the contact's part by what of them is in contact: nothing turns then, and every node has to move with ±v1.
 TEST(ShearedDoublet, MovesWithTheForceOverItsFrictionWithTheMediumAndTwiceThatOfItsContact) {
   Model model = passive_model(0.05);
   ShapeLibrary shapes;
@@ -113,8 +113,8 @@ TEST(ShearedDoublet, MovesWithTheForceOverItsFrictionWithTheMediumAndTwiceThatOf
   }
   EXPECT_NEAR(sum[0].x, -force, 1e-5);
   EXPECT_NEAR(sum[1].x, force, 1e-5);
-  // Newton's second solve is for what the first has left. Explicit Euler has one solve, to 1e-6 of all forces, of which those on a free node are a
-  // thousandth (2γ_ext/γ_ECM = 1000): its velocities hold to a hundredth.
+  // Newton's second solve is for what the first has left. Explicit Euler has one solve, to 1e-6 of all forces, of which those on a free
+  // node are a thousandth (2γ_ext/γ_ECM = 1000): its velocities hold to a hundredth.
   for (const Integrator integrator : {Integrator::kImplicit, Integrator::kExplicitEuler}) {
     model.step.integrator = integrator;
     const auto v = velocities(model, tissue, shapes, push);

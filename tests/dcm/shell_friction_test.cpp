@@ -27,8 +27,8 @@ std::vector<Vec3d> drag(const Shells& shells, const std::vector<ShellParameters>
   return out;
 }
 
-/// T1.1: F spread over the nodes of a cell by their area moves all of them with F/(γ_ECM ΣA). Γ is positive definite, so that this velocity is the
-/// only one if Γ V is the force, node by node.
+/// T1.1: F spread over the nodes of a cell by their area moves all of them with F/(γ_ECM ΣA). Γ is positive definite, so that this velocity
+/// is the only one if Γ V is the force, node by node.
 TEST(ShellFriction, LetsAForceSpreadByAreaMoveAllNodesAlike) {
   const Shells shells = rough_shells();
   const auto geometry = geometry_of(shells, make_shell_blocks(shells), shells.position);
@@ -45,8 +45,8 @@ TEST(ShellFriction, LetsAForceSpreadByAreaMoveAllNodesAlike) {
   for (std::size_t i = 0; i < found.size(); ++i) EXPECT_LT(morula::norm(found[i] - expected[i]), 1e-12 * most) << i;
 }
 
-/// T9.4: |Σ (Γ_nn v)_i| and the torque, for velocities that differ from node to node. Dampers that act in all directions have no net force, but
-/// resist a rotation: dcm.md §1 flags them.
+/// T9.4: |Σ (Γ_nn v)_i| and the torque, for velocities that differ from node to node. Dampers that act in all directions have no net force,
+/// but resist a rotation: dcm.md §1 flags them.
 TEST(ShellFriction, OfDampersAndOfTheVolumeHasNoNetForceAndNoNetTorque) {
   const Shells shells = rough_shells();
   const auto v = random_vectors(shells.position.size(), 5);

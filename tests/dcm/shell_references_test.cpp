@@ -33,8 +33,8 @@ TEST(HingeBending, OfASphereWithFlatRestStateIsAThirdOfTheHelfrichEnergy) {  // 
   }
 }
 
-/// T4.1: p = γ (∂A·∂V)/|∂V|², R = 6 on the nodes; its error is of second order in the edge length, and what this pressure does not balance, of the
-/// pull of the tension, is of first: 3.1 %, 1.6 %, 0.8 %.
+/// T4.1: p = γ (∂A·∂V)/|∂V|², R = 6 on the nodes; its error is of second order in the edge length, and what this pressure does not balance,
+/// of the pull of the tension, is of first: 3.1 %, 1.6 %, 0.8 %.
 TEST(CorticalTension, NeedsTheLaplacePressureOnASphere) {
   const double expected[] = {0.168954, 0.167236, 0.166809}, left[] = {0.031, 0.016, 0.008}, exact = 2.0 * 0.5 / kRadius;
   double error = 0.0;
