@@ -4,33 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/coupling/exact_steps.h"
 #include "tests/coupling/tissue_fixture.h"
 
 namespace morula {
 namespace {
 
 constexpr double kRadius = 6.0, kTension = 0.5, kBulk = 2.5;
-
-/// Relaxes until the largest force on a node is below `most` [nN], in steps that grow to `longest` [s]; gives that force.
-double relax(const Model& model, Tissue& tissue, double most, double longest) {
-  ShapeLibrary shapes;
-  Mechanics mechanics(model, {}, shapes, Comm(), 1);
-  const std::vector<Vec3d> none(Mechanics::external_size(tissue));
-  double dt = 0.05, left = 1e300;
-  for (int k = 0; k < 400 && left > most && dt > 1e-6; ++k) {
-    if (!mechanics.step(tissue, dt, none).ok()) {
-      dt *= 0.5;
-      continue;
-    }
-    tissue.clock.time += dt;
-    dt = std::min(longest, 1.3 * dt);
-    std::vector<Vec3d> force;
-    (void)mechanics.energy_and_forces(tissue, force);
-    left = 0.0;
-    for (const Vec3d& f : force) left = std::max(left, norm(f));
-  }
-  return left;
-}
 
 /// Table 1 of dcm.md with a cortical tension of 0.5 nN/µm that nothing holds: V0 is the volume of a sphere of 6 µm.
 Model tense_model(double springs) {
@@ -41,9 +21,7 @@ Model tense_model(double springs) {
   shell.spring_stiffness = springs;
   shell.hinge_stiffness = shell.shape_stiffness = shell.barrier_stiffness = 0.0;
   model.contact.range = 1.0;
-  model.step.first_tolerance = model.step.later_tolerance = 1e-6;
-  model.step.newton_stop = 1e-9;
-  model.step.max_newton = 20;
+  test::solve_exactly(model.step);
   return model;
 }
 Tissue unstressed_cell(const Model& model, std::uint32_t nodes) {
@@ -64,7 +42,7 @@ TEST(Equilibrium, OfTensionAndPressureAloneFulfilsTheVirialAndTheLawOfTheVolume)
   const Model model = tense_model(0.0);
   Tissue tissue = unstressed_cell(model, 42);
   const double reference = tissue.shells.reference_volume[0];
-  ASSERT_LT(relax(model, tissue, 1e-8, 5.0), 1e-8);
+  ASSERT_LT(test::relax(model, tissue, 1e-8, 5.0), 1e-8);
   const BodyValues values = values_of(model, tissue);
   const double virial = 2.0 * kTension * values.area[0] / (3.0 * values.volume[0]);
   EXPECT_NEAR(values.pressure[0] / virial, 1.0, 1e-6);
@@ -87,7 +65,7 @@ TEST(Equilibrium, OfATenseCellOfTableOneIsThePublishedOne) {
   const Model model = tense_model(kSprings);
   Tissue tissue = unstressed_cell(model, 642);
   const double reference = tissue.shells.reference_volume[0];
-  ASSERT_LT(relax(model, tissue, 1e-6, 5.0), 1e-6);
+  ASSERT_LT(test::relax(model, tissue, 1e-6, 5.0), 1e-6);
   const double ratio = values_of(model, tissue).volume[0] / reference;
   EXPECT_NEAR(ratio, s * s * s, 2.3e-4);
   EXPECT_NEAR(ratio, 0.935, 5e-4);
@@ -111,7 +89,7 @@ Rest at_rest(Model model, const Friction& friction, Tissue tissue, double most) 
   type.shell.bulk_viscosity = friction.volume;
   model.pairs[0].normal_friction = friction.contact_normal;
   model.pairs[0].tangential_friction = friction.contact_tangential;
-  const double left = relax(model, tissue, most, 200.0);
+  const double left = test::relax(model, tissue, most, 200.0);
   return {std::move(tissue), left};
 }
 

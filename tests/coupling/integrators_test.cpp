@@ -5,19 +5,13 @@
 #include <numbers>
 
 #include "core/random/philox.h"
+#include "tests/coupling/exact_steps.h"
 #include "tests/coupling/tissue_fixture.h"
 
 namespace morula {
 namespace {
 
 constexpr double kMedium = 0.1;  // friction per area [nN·s/µm³]
-
-/// Newton to the end, so that what is left is the error of the step itself.
-void solve_exactly(StepControl& step) {
-  step.first_tolerance = step.later_tolerance = 1e-6;
-  step.newton_stop = 1e-9;
-  step.max_newton = 20;
-}
 
 /// Nodes after so many steps of equal length.
 std::vector<Vec3d> run(const Model& model, Tissue tissue, double time, int steps) {
@@ -42,7 +36,7 @@ TEST(ImplicitStep, MovesAllNodesAlikeUnderAForceSpreadByArea) {
   shell.tension = shell.shape_stiffness = 0.0;  // at rest as it is made: springs, hinges, volume
   shell.edge_damping = 0.4;
   shell.bulk_viscosity = 0.3;
-  solve_exactly(model.step);
+  test::solve_exactly(model.step);
   ShapeLibrary shapes;
   Tissue tissue = test::make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell});
   tissue.shells.reference_volume = tissue.shells.rest_volume;
@@ -101,7 +95,7 @@ TEST_P(KelvinVoigtShell, CreepsUnderAStepOfForce) {
   shell.bulk_modulus = shell.shape_stiffness = shell.barrier_stiffness = 0.0;
   shell.medium_friction = model.types[0].medium_friction = 1e-6;  // for rigid motion; γ a is 1e-4 of the damper
   model.step.integrator = GetParam();
-  solve_exactly(model.step);
+  test::solve_exactly(model.step);
   ShapeLibrary shapes;
   Tissue tissue = test::make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell}, 42);
   tissue.shells.reference_volume = tissue.shells.rest_volume;
@@ -137,7 +131,7 @@ Model rich_model() {
   type.shell.bulk_viscosity = 0.1;
   type.medium_normal_extra = 0.05;
   model.contact.range = 1.0;
-  solve_exactly(model.step);
+  test::solve_exactly(model.step);
   return model;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/coupling/exact_steps.h"
 #include "tests/coupling/friction_sums.h"
 #include "tests/coupling/tissue_fixture.h"
 
@@ -24,9 +25,7 @@ Model passive_model(double range) {
   shell.medium_friction = model.types[0].medium_friction = kMedium;
   model.pairs = {ContactPair{0.0, kContact, kContact}};
   model.contact.range = range;
-  model.step.first_tolerance = model.step.later_tolerance = 1e-6;
-  model.step.newton_stop = 1e-12;
-  model.step.max_newton = 20;
+  test::solve_exactly(model.step);
   return model;
 }
 
@@ -79,6 +78,14 @@ double total(const std::vector<double>& values, std::size_t first, std::size_t l
   return sum;
 }
 
+/// Area of a node in contact, counted from both sides [µm²].
+std::vector<double> areas_in_contact(const Mechanics& mechanics, std::size_t nodes) {
+  std::vector<double> out(nodes, 0.0);
+  for (const test::RubbingPoint& point : test::rubbing_points(mechanics.contacts(), scene_of(mechanics)))
+    for (int c = 0; c < 6; ++c) out[point.node[c]] += point.area * std::abs(point.weight[c]);
+  return out;
+}
+
 /// T9.3: v1 = F/(Γ + 2Γ_c), Γ = γ_ECM A, Γ_c = γ_et A_c. F is shared among the nodes as a rigid cell hands it on, the medium's part by
 /// their area and the contact's part by what of them is in contact: nothing turns then, and every node has to move with ±v1.
 TEST(ShearedDoublet, MovesWithTheForceOverItsFrictionWithTheMediumAndTwiceThatOfItsContact) {
@@ -87,19 +94,14 @@ TEST(ShearedDoublet, MovesWithTheForceOverItsFrictionWithTheMediumAndTwiceThatOf
   const Tissue tissue = flat_doublet(model, shapes, 2562, 0.0125);
   Mechanics mechanics(model, {}, shapes, Comm(), 1);
   const BodyValues values = mechanics.values(tissue);
-  const auto points = test::rubbing_points(mechanics.contacts(), scene_of(mechanics));
   const auto area = test::node_areas(tissue.shells);
   const std::size_t nodes = area.size() / 2;
-  std::vector<double> in_contact(area.size(), 0.0);
-  double rubbing = 0.0;
-  for (const test::RubbingPoint& point : points) {
-    rubbing += point.area;
-    for (int c = 0; c < 6; ++c) in_contact[point.node[c]] += point.area * std::abs(point.weight[c]);
-  }
+  const auto in_contact = areas_in_contact(mechanics, area.size());
+  const double rubbing = total(in_contact, 0, nodes);
   // A_c = π a² = 41.49 µm², to 3 %: the rim of the mesh is made of edges of 0.45 µm
   EXPECT_NEAR(kContactRadius * kContactRadius * std::numbers::pi, 41.49, 0.01);
   for (const double found : {rubbing, values.contact_area[0], values.contact_area[1]}) EXPECT_NEAR(found, 41.49, 0.03 * 41.49);
-  EXPECT_NEAR(total(in_contact, 0, nodes), rubbing, 1e-6 * rubbing);  // each node once, not once by each side
+  EXPECT_NEAR(total(in_contact, nodes, 2 * nodes), rubbing, 1e-6 * rubbing);
 
   const double force = 1.0, medium = kMedium * total(area, 0, nodes), contact = kContact * rubbing;
   const double expected = force / (medium + 2.0 * contact);
@@ -122,6 +124,37 @@ TEST(ShearedDoublet, MovesWithTheForceOverItsFrictionWithTheMediumAndTwiceThatOf
     double worst = 0.0;
     for (std::size_t i = 0; i < v.size(); ++i) worst = std::max(worst, norm(v[i] - Vec3d{i < nodes ? -expected : expected, 0.0, 0.0}));
     EXPECT_LT(worst, tolerance * expected);
+  }
+}
+
+/// T9.3 in cells at rest that adhere, w = W/2γ = 0.2, and can change their shape: what the load adds to their motion. ± 3 % is asked for.
+TEST(ShearedDoublet, ThatAdheresMovesWithTheSameSpeed) {
+  Model model = test::clusters_model(0.2);
+  dcm::ShellParameters& shell = model.types[0].shell;
+  shell.medium_friction = model.types[0].medium_friction = kMedium;
+  model.contact.range = 0.5;
+  test::solve_exactly(model.step);
+  ShapeLibrary shapes;
+  Tissue tissue = test::make_tissue(model, shapes, {{0, 0, -6}, {0, 0, 6}}, {BodyKind::kShell, BodyKind::kShell});
+  ASSERT_LT(test::relax(model, tissue, 1e-4, 50.0), 1e-4);
+  Mechanics mechanics(model, {}, shapes, Comm(), 1);
+  (void)mechanics.values(tissue);
+  const auto area = test::node_areas(tissue.shells);
+  const std::size_t nodes = area.size() / 2;
+  const auto in_contact = areas_in_contact(mechanics, area.size());
+  EXPECT_GT(total(in_contact, 0, nodes), 10.0);
+  const double expected[2] = {1.0 / (kMedium * total(area, 0, nodes) + 2.0 * kContact * total(in_contact, 0, nodes)),
+                              1.0 / (kMedium * total(area, nodes, 2 * nodes) + 2.0 * kContact * total(in_contact, nodes, 2 * nodes))};
+  std::vector<Vec3d> push(area.size());
+  for (std::size_t i = 0; i < push.size(); ++i) {
+    const std::size_t cell = i < nodes ? 0 : 1;
+    push[i].x = (cell == 0 ? -1.0 : 1.0) * expected[cell] * (kMedium * area[i] + 2.0 * kContact * in_contact[i]);
+  }
+  const auto loaded = velocities(model, tissue, shapes, push), free = velocities(model, tissue, shapes, std::vector<Vec3d>(push.size()));
+  for (const std::size_t cell : {0u, 1u}) {
+    double speed = 0.0, whole = 0.0;
+    for (std::size_t i = cell * nodes; i < (cell + 1) * nodes; ++i) speed += area[i] * (loaded[i].x - free[i].x), whole += area[i];
+    EXPECT_NEAR(speed / whole / ((cell == 0 ? -1.0 : 1.0) * expected[cell]), 1.0, 1e-3);
   }
 }
 
