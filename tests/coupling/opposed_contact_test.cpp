@@ -1,0 +1,144 @@
+// Attraction fades between faces that look away from each other (time_stepping.md §9: O), in the whole contact layer; and nothing in it jumps.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/random/philox.h"
+#include "tests/coupling/energy_gradient.h"
+#include "tests/coupling/tissue_fixture.h"
+
+namespace morula {
+namespace {
+
+using test::clusters_model;
+using test::make_tissue;
+
+Model contacts_only(SurfaceLaw law) {
+  Model model = clusters_model(0.3);
+  dcm::ShellParameters& p = model.types[0].shell;
+  p.shape_stiffness = p.barrier_stiffness = p.spring_stiffness = p.tension = p.hinge_stiffness = p.bulk_modulus = 0.0;
+  model.contact.range = 1.5;
+  model.pairs[0].law = law;
+  model.pairs[0].reduced_modulus = 1.0;
+  return model;
+}
+
+/// Two shells whose faces are turned at random by tens of degrees: at a border of contact all angles occur.
+Tissue crumpled(ShapeLibrary& shapes) {
+  Tissue tissue = make_tissue(clusters_model(), shapes, {{0, 0, 0}, {11.8, 0.3, 0.2}}, {BodyKind::kShell, BodyKind::kShell});
+  const Random random(5, RandomStream::kInitialPosition);
+  std::uint64_t n = 0;
+  for (Vec3d& x : tissue.shells.position) x += random.direction(CellId(1), n++) * 1.0;
+  return tissue;
+}
+
+/// Points of contact by the weight that they have: none, a part, all.
+struct Weights {
+  int none = 0, part = 0, all = 0;
+};
+Weights weights_in(const Mechanics& mechanics, const dcm::Shells& shells) {
+  Weights out;
+  const auto twice_area = [&](std::uint32_t s, std::uint32_t f) {
+    const Triangle& t = shells.topology(s).faces()[f];
+    const auto x = shells.nodes(s);
+    return cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
+  };
+  for (const SurfacePair& pair : mechanics.contacts().pairs())
+    for (std::uint32_t d = 0; d < 2; ++d)
+      for (const ContactElement& e : pair.present(d)) {
+        const std::uint32_t source = d == 0 ? pair.a : pair.b, target = d == 0 ? pair.b : pair.a;
+        double mu[3];
+        e.weights(mu);
+        const Topology& topology = shells.topology(target);
+        Vec3d normal;  // of the nodes, by area, at the nearest point
+        for (std::size_t j = 0; j < 3; ++j) {
+          Vec3d of_node;
+          for (const std::uint32_t f : topology.faces_of_node(topology.faces()[e.target()][j])) of_node += twice_area(target, f);
+          normal += normalized(of_node) * mu[j];
+        }
+        const double opposed = -dot(normalized(twice_area(source, e.source_face())), normalized(normal));
+        ++(opposed <= -0.3 ? out.none : opposed >= 0.5 ? out.all : out.part);
+      }
+  return out;
+}
+
+class EveryLawOfContact : public testing::TestWithParam<SurfaceLaw> {};
+
+TEST_P(EveryLawOfContact, HasAForceThatIsMinusTheGradientWhereFacesTurnAway) {
+  const Model model = contacts_only(GetParam());
+  ShapeLibrary shapes;
+  const Tissue tissue = crumpled(shapes);
+  Mechanics mechanics(model, {}, shapes, Comm(), 1);
+  std::vector<Vec3d> force, unused;
+  (void)mechanics.energy_and_forces(tissue, force);
+  const Weights weights = weights_in(mechanics, tissue.shells);
+  ASSERT_GT(weights.part, 20) << "points whose attraction is partly off";
+  ASSERT_GT(weights.all, 20);
+  Vec3d sum, torque;
+  double size = 0.0;
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    sum += force[i];
+    torque += cross(tissue.shells.position[i], force[i]);
+    size += norm(force[i]);
+  }
+  EXPECT_LT(norm(sum), 1e-12 * size);
+  EXPECT_LT(norm(torque), 1e-12 * 12.0 * size);
+  test::expect_minus_gradient(tissue, force, 20, 1e-7, [&](const Tissue& moved) {
+    Mechanics fresh(model, {}, shapes, Comm(), 1);
+    return fresh.energy_and_forces(moved, unused);
+  });
+}
+
+/// One shell goes past the other while it comes nearer, from out of range to a gap of a tenth of it: nearest faces, edges and nodes change all
+/// the way. dcm.md §16.9: no jump of the energy above 1e-9; the work of the force along the way is the change of the energy.
+TEST_P(EveryLawOfContact, HasAnEnergyWithoutJumpsAlongAnyApproach) {
+  const Model model = contacts_only(GetParam());
+  ShapeLibrary shapes;
+  const Tissue start = make_tissue(clusters_model(), shapes, {{0, 0, 0}, {13.8, 0.3, 0.2}}, {BodyKind::kShell, BodyKind::kShell}, 42);
+  const std::size_t half = start.shells.position.size() / 2;
+  const double to_left = start.shells.position[half].x > start.shells.position[0].x ? -1.0 : 1.0;
+  const auto way = [&](std::size_t i) {  // of the second half: nearer, aside, and turning
+    const Vec3d& x = start.shells.position[i];
+    return Vec3d{1.9 * to_left, 0.9, -0.4} + cross(Vec3d{0.02, -0.03, 0.05}, x);
+  };
+  Mechanics mechanics(model, {}, shapes, Comm(), 1);
+  struct State {
+    double s, energy, slope;
+  };
+  const auto at = [&](double s) {
+    Tissue moved = start;
+    for (std::size_t i = half; i < 2 * half; ++i) moved.shells.position[i] += way(i) * s;
+    std::vector<Vec3d> force;
+    mechanics.bodies_changed();
+    State out{s, mechanics.energy_and_forces(moved, force), 0.0};
+    for (std::size_t i = half; i < 2 * half; ++i) out.slope -= dot(force[i], way(i));
+    return out;
+  };
+  // What the trapezium of the slopes leaves over an interval: a jump in it stays however short the interval is made.
+  const auto left = [](const State& a, const State& b) { return std::abs(b.energy - a.energy - 0.5 * (a.slope + b.slope) * (b.s - a.s)); };
+  constexpr int kParts = 1000;
+  EXPECT_EQ(at(0.0).energy, 0.0);
+  EXPECT_LT(at(1.0).energy, -0.5);
+  State last = at(0.0);
+  double largest = 0.0;
+  for (int i = 1; i <= kParts; ++i) {
+    State a = last, b = last = at(static_cast<double>(i) / kParts);
+    for (int cut = 0; cut < 14 && left(a, b) > 1e-9; ++cut) {
+      const State middle = at(0.5 * (a.s + b.s));
+      (left(a, middle) > left(middle, b) ? b : a) = middle;
+    }
+    largest = std::max(largest, left(a, b));
+  }
+  EXPECT_LT(largest, 1e-9);
+}
+
+std::string name_of(const testing::TestParamInfo<SurfaceLaw>& given) {
+  const char* const names[] = {"Tent", "MaugisDugdale", "Falling"};
+  return names[static_cast<std::size_t>(given.param)];
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, EveryLawOfContact, testing::Values(SurfaceLaw::kTent, SurfaceLaw::kMaugisDugdale, SurfaceLaw::kFalling),
+                         name_of);
+
+}  // namespace
+}  // namespace morula
