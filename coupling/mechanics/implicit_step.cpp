@@ -54,7 +54,8 @@ struct Mechanics::Trial {
   double dt;
   double phi;  ///< at the accepted state
   StepReport& report;
-  bool held = false;  ///< a search that did not end well has nodes to be held in the next
+  bool held = false;   ///< a search that did not end well has nodes to be held in the next
+  bool whole = false;  ///< the last search went all of its way
 
   [[nodiscard]] double measure() {
     m.evaluate(tissue);
@@ -66,6 +67,7 @@ struct Mechanics::Trial {
   /// for rounding. `give_up_to_hold`: not more than the short search where nodes are held after it.
   bool search(const Direction& direction, double slope, int halvings, double allowed_rise, bool give_up_to_hold = false) {
     double at = 0.0, fraction = 1.0, before = std::numeric_limits<double>::infinity();
+    whole = false;
     const auto go_to = [&](double there) {
       auto& x = m.scene_.position();
       m.for_owned_points([&](std::uint32_t i) { x[i] += direction[i] * (there - at); });
@@ -86,6 +88,7 @@ struct Mechanics::Trial {
       }
       if (sound && (jumped || next <= phi + std::max(kArmijo * fraction * slope, allowed_rise))) {
         report.halvings = std::max(report.halvings, k);
+        whole = k == 0;
         if (next > phi) report.allowed_rise += next - phi;
         phi = next;
         return true;
@@ -203,8 +206,10 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
   };
   const double allowed = control.max_displacement * range;
 
+  bool cut = false;  // the last iteration's way was cut to the contact range, gone to its end, and did not suffice
   for (int iteration = 0; iteration < control.max_newton; ++iteration) {
     bool moved = false, converged = false;
+    cut = false;
     double slope = 0.0, longest = 0.0;
     if (iteration > 0) std::fill(solution_.begin(), solution_.end(), Float4{});
     for (int holds = 0;; ++holds) {
@@ -269,9 +274,10 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
     const double left = std::sqrt(dot(force_, force_)) / force_norm;
     if (left <= control.newton_stop || converged) break;
     if (left <= kMostLeft * control.newton_stop && left * longest <= kSmallCorrection * control.newton_stop * range) break;
+    cut = trial.whole && longest > range;
   }
   report.displacement = furthest(start);
-  if (report.displacement > 1.5 * allowed && dt > 1e-3) {
+  if ((cut || report.displacement > 1.5 * allowed) && dt > 1e-3) {
     return undo(start, StepFault{"points moved too far in one step", {}, true});
   }
   finish(tissue, dt, report);
