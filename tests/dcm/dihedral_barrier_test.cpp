@@ -28,7 +28,8 @@ TEST(DihedralBarrier, IsThePublishedFunctionOfTheAngle) {  // k_d z²/(1 − z²
 TEST(DihedralBarrier, SlopeAndCurvatureAreDerivativesOnBothSidesOfItsOnset) {
   constexpr double h = 1e-6;
   for (double angle = -3.0; angle <= 3.0; angle += 0.0173) {
-    EXPECT_NEAR((kBarrier.energy(angle + h) - kBarrier.energy(angle - h)) / (2.0 * h), kBarrier.slope(angle), 1e-7 * (1.0 + std::abs(kBarrier.slope(angle))))
+    EXPECT_NEAR((kBarrier.energy(angle + h) - kBarrier.energy(angle - h)) / (2.0 * h), kBarrier.slope(angle),
+                1e-7 * (1.0 + std::abs(kBarrier.slope(angle))))
         << angle;
     if (std::abs(std::abs(angle) - kOnset) < 2.0 * h) continue;  // the curvature begins with a step
     EXPECT_NEAR((kBarrier.slope(angle + h) - kBarrier.slope(angle - h)) / (2.0 * h), kBarrier.curvature_psd(angle),
@@ -64,8 +65,7 @@ TEST(DihedralBarrier, HoldsAFoldOfAShellOpen) {
     for (const std::uint32_t i : {edge.i, edge.j}) x[i] = shells.position[i] + lift * out;
     const auto at = mechanics(shells, {p}, x);
     const Vec3d along = x[edge.j] - x[edge.i];
-    const double angle =
-        hinge_angle(cross(along, x[edge.k] - x[edge.i]), cross(x[edge.l] - x[edge.i], along), normalized(along));
+    const double angle = hinge_angle(cross(along, x[edge.k] - x[edge.i]), cross(x[edge.l] - x[edge.i], along), normalized(along));
     ASSERT_GT(angle, kOnset);
     EXPECT_GT(at.energy[0], kBarrier.energy(angle) * (1.0 - 1e-12)) << "at least that of this edge";
     EXPECT_GT(at.energy[0], last);
