@@ -102,6 +102,52 @@ TEST_P(EveryShellLaw, GivesTheSameBitsInOneFourAndEightLanes) {
   }
 }
 
+/// dcm.md §16.4: neither the order of the shells, of which eight share lanes, nor the numbers of nodes and faces matter.
+TEST_P(EveryShellLaw, GivesTheSameBitsInAnyOrderOfShells) {
+  const Shells shells = rough_shells();
+  Shells turned;
+  for (std::size_t s = shells.size(); s-- > 0;) {
+    add_shell(turned, shells.shape[s], shells.rest_volume[s], {}, shells.type[s]);
+    turned.reference_volume.back() = shells.reference_volume[s];
+    std::copy(shells.nodes(s).begin(), shells.nodes(s).end(), turned.nodes(turned.size() - 1).begin());
+  }
+  const auto types = only(GetParam());
+  const auto at = mechanics(shells, types, shells.position), there = mechanics(turned, types, turned.position);
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    const std::size_t place = shells.size() - 1 - s;
+    EXPECT_EQ(there.energy[place], at.energy[s]);
+    for (std::uint32_t i = 0; i < shells.topology(s).node_count(); ++i)
+      EXPECT_EQ(there.force[turned.first_node[place] + i], at.force[shells.first_node[s] + i]) << "shell " << s;
+  }
+}
+
+TEST_P(EveryShellLaw, DoesNotKnowTheNumbersOfNodesAndFaces) {
+  const auto shape = icosphere(162);
+  std::mt19937_64 engine(13);
+  std::vector<std::uint32_t> place(162);  // of each node in the other numbering
+  for (std::uint32_t i = 0; i < place.size(); ++i) place[i] = i;
+  std::shuffle(place.begin(), place.end(), engine);
+  std::vector<Triangle> faces;
+  for (const Triangle& t : shape->topology->faces()) {
+    const std::size_t first = engine() % 3;
+    faces.push_back({place[t[first]], place[t[(first + 1) % 3]], place[t[(first + 2) % 3]]});
+  }
+  std::shuffle(faces.begin(), faces.end(), engine);
+  std::vector<Vec3d> reference(162);
+  for (std::size_t i = 0; i < place.size(); ++i) reference[place[i]] = shape->position[i];
+  Shells shells = one_shell(162), renamed;
+  add_shell(renamed, make_reference_shape(Topology::build(162, faces).value(), reference), sphere_volume(6.0));
+  for (Shells* each : {&shells, &renamed}) each->reference_volume[0] *= 1.1;
+  const auto noise = random_vectors(162, 8);
+  for (std::size_t i = 0; i < place.size(); ++i) shells.position[i] += 0.12 * noise[i];
+  for (std::size_t i = 0; i < place.size(); ++i) renamed.position[place[i]] = shells.position[i];
+  const auto types = only(GetParam());
+  const auto at = mechanics(shells, types, shells.position), there = mechanics(renamed, types, renamed.position);
+  ASSERT_GT(norm(at.force), 1e-3);
+  EXPECT_NEAR(there.energy[0], at.energy[0], 1e-12 * std::abs(at.energy[0]));
+  for (std::size_t i = 0; i < place.size(); ++i) EXPECT_LE(morula::norm(there.force[place[i]] - at.force[i]), 1e-12 * norm(at.force));
+}
+
 TEST_P(EveryShellLaw, GivesNothingToTheShellsOfATypeWithoutIt) {
   const Shells shells = rough_shells();
   auto types = only(GetParam());
