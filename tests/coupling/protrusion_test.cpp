@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/mesh/primitives.h"
+#include "core/random/philox.h"
 #include "coupling/behaviours/polarity.h"
 #include "coupling/simulation.h"
 #include "tests/coupling/tissue_fixture.h"
@@ -78,6 +80,66 @@ TEST(Protrusion, IsBorneByTheFrontAndAnInternalOneHasNoSum) {
   EXPECT_FALSE(add_protrusion(law, *shape->topology, shape->position, p, nowhere, p, law.force, force));
 }
 
+/// T11.2: ΣF = 0 of an internal reaction, whatever the shape, so that V = ΣF/(γ A) < 1e-10 F_p/Γ in a uniform medium; T11.3: F_p with it outside.
+/// T11.4: a mesh that is turned with the polarity is pushed in the same way, and whatever the polarity is to the mesh the push has no other
+/// direction.
+TEST(Protrusion, IsTheSameInAllDirectionsOfARoughCell) {
+  ShapeLibrary shapes;
+  const auto shape = shapes.icosphere(162).value();
+  const Random random(3, RandomStream::kInitialPosition);
+  std::uint64_t draw = 0;
+  std::vector<Vec3d> x;
+  for (const Vec3d& place : shape->position)
+    x.push_back(Vec3d{1.2 * place.x, place.y, 0.8 * place.z} * 9.0 + random.direction(CellId(1), draw++) * 0.3);
+  Protrusion law;
+  law.force = 2.0;
+  law.angle = 0.7;
+  for (int trial = 0; trial < 50; ++trial) {
+    const Vec3d p = random.direction(CellId(2), draw++), axis = random.direction(CellId(3), draw++);
+    const auto turn = [&](const Vec3d& v) {  // by 1 rad about the axis
+      return v * std::cos(1.0) + cross(axis, v) * std::sin(1.0) + axis * (dot(axis, v) * (1.0 - std::cos(1.0)));
+    };
+    std::vector<Vec3d> turned;
+    for (const Vec3d& v : x) turned.push_back(turn(v) + Vec3d{5, -3, 8});
+    for (const bool internal : {false, true}) {
+      law.internal = internal;
+      std::vector<Vec3d> here(x.size()), there(x.size());
+      ASSERT_TRUE(add_protrusion(law, *shape->topology, x, p, {}, p, law.force, here));
+      ASSERT_TRUE(add_protrusion(law, *shape->topology, turned, turn(p), {}, turn(p), law.force, there));
+      for (std::size_t i = 0; i < x.size(); ++i) EXPECT_LT(norm(there[i] - turn(here[i])), 1e-12 * law.force);
+      EXPECT_LT(norm(sum_of(here) - (internal ? Vec3d{} : p * law.force)), 1e-10 * law.force);
+    }
+  }
+}
+
+/// T11.4: the front that carries the force is a round cap about the polarity on a fine mesh, so that it turns the cell by no more than the mesh
+/// makes it, and on average over all directions not at all.
+TEST(Protrusion, HasNoPreferredDirectionOnTheMesh) {
+  ShapeLibrary shapes;
+  const auto shape = shapes.icosphere(642).value();
+  std::vector<Vec3d> x;
+  for (const Vec3d& place : shape->position) x.push_back(normalized(place) * 6.0);
+  Protrusion law;
+  law.force = 1.0;
+  const Random random(4, RandomStream::kInitialPosition);
+  constexpr int kTrials = 400;
+  Vec3d mean;
+  double square = 0.0, largest = 0.0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const Vec3d p = random.direction(CellId(2), static_cast<std::uint64_t>(trial));
+    std::vector<Vec3d> force(x.size());
+    ASSERT_TRUE(add_protrusion(law, *shape->topology, x, p, {}, p, law.force, force));
+    Vec3d lever;  // of the front, over the radius; along p but for the mesh
+    for (std::size_t i = 0; i < x.size(); ++i) lever += x[i] * (dot(force[i], p) / 6.0);
+    const Vec3d aside = lever - p * dot(lever, p);
+    mean += aside * (1.0 / kTrials);
+    square += norm2(aside) / kTrials;
+    largest = std::max(largest, norm(aside));
+  }
+  EXPECT_LT(largest, 0.005);
+  EXPECT_LT(norm(mean), 3.0 * std::sqrt(square / kTrials));
+}
+
 Model protruding(bool internal) {
   Model model = test::clusters_model();
   model.types[0].polarity.set = true;
@@ -85,13 +147,13 @@ Model protruding(bool internal) {
   model.types[0].protrusion.internal = internal;
   model.types[0].shell.spring_stiffness = 2.0;
   model.step.first_tolerance = model.step.later_tolerance = 1e-7;
-  model.step.newton_stop = 1e-5;
-  model.step.max_newton = 12;
+  model.step.newton_stop = 1e-11;
+  model.step.max_newton = 50;
   model.step.max_step = 5.0;
   return model;
 }
 
-/// T11.2 and T11.3: with the reaction outside V = F_p/(γ A); with it inside a uniform medium does not carry the cell anywhere.
+/// T11.2 and T11.3: with the reaction outside V = F_p/(γ A); with it inside a uniform medium does not carry the cell anywhere, |V| < 1e-10 F_p/Γ.
 TEST(Protrusion, MovesAFreeCellOnlyWithItsReactionOutside) {
   ShapeLibrary shapes;
   for (const bool internal : {false, true}) {
@@ -119,9 +181,53 @@ TEST(Protrusion, MovesAFreeCellOnlyWithItsReactionOutside) {
       scale += 0.2 * dt / (0.1 * whole);
       if (!internal) expected += 0.2 * dt / (0.1 * whole);
     }
-    EXPECT_NEAR(moved, expected, 1e-4 * scale);
+    EXPECT_NEAR(moved, expected, 1e-10 * scale);
     EXPECT_GT(scale, 0.2);
   }
+}
+
+/// T11.3: V = F_p/(γ_ECM A + γ_sub A_c), A_c the area of contact with its taper at the rim. A cell between two plates, which it touches alike,
+/// slides and does not roll.
+TEST(Protrusion, MovesACellOnASubstrateAgainstBothFrictions) {
+  constexpr double kSubstrate = 5.0;
+  Model model = protruding(false);
+  model.types[0].protrusion.force = 0.1;
+  model.contact.range = 0.5;
+  model.contact.repulsion = 100.0;
+  TriangleMesh lower = make_box({60, 60, 4}, 20.0).value(), upper = lower;
+  for (Vec3d& x : lower.position) x.z -= 7.6;
+  for (Vec3d& x : upper.position) x.z += 7.6;
+  model.obstacles = {{"lower", lower.position, lower.faces, false, {}, {}, {}}, {"upper", upper.position, upper.faces, false, {}, {}, {}}};
+  model.pairs.assign(9, ContactPair{0.02, kSubstrate, kSubstrate});
+  ShapeLibrary shapes;
+  Tissue tissue = test::make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell}, 162);
+  tissue.obstacle_offset.resize(2);
+  tissue.cells.side.polarity.set(0, {1, 0, 0});
+  auto simulation = Simulation::create(model, std::move(tissue), Comm(), 1).value();
+  const auto to = [&](double time) {
+    while (simulation->tissue().clock.time < time) ASSERT_TRUE(simulation->step(time).ok());
+  };
+  to(600.0);
+  const std::vector<Vec3d> before = simulation->tissue().shells.position;
+  double area = 0.0, contact = 0.0;
+  int count = 0;
+  for (double time = 650.0; time <= 900.0; time += 50.0, ++count) {
+    to(time);
+    Mechanics& mechanics = simulation->mechanics();
+    area += mechanics.values(simulation->tissue()).area[0];
+    for (const std::uint16_t plate : {1, 2}) contact += mechanics.touch_of_bodies(simulation->tissue(), plate)[0].area;
+  }
+  area /= count, contact /= count;
+  Vec3d way;
+  double most = 0.0, least = 1e300;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const Vec3d d = simulation->tissue().shells.position[i] - before[i];
+    way += d * (1.0 / static_cast<double>(before.size()));
+    most = std::max(most, d.x), least = std::min(least, d.x);
+  }
+  const double expected = 0.1 / (0.1 * area + kSubstrate * contact);
+  EXPECT_GT(contact, 10.0);
+  EXPECT_NEAR(way.x / 300.0 / expected, 1.0, 1e-3);
 }
 
 }  // namespace
