@@ -143,6 +143,63 @@ TEST(SqueezedNucleus, PushesBackWhenThePlatesAreCloserThanItsWidth) {  // T12.3,
   EXPECT_GT(with.inside, 3.9) << "the nucleus is inside, at its radius from every face";
 }
 
+/// T12.3: the balance of forces between cell, nucleus and plates is closed to 1e-8 of what a plate bears, in any state; the force on the nucleus is
+/// that of the energy. Plates come down until the nucleus bears load, and stop: at rest each bears what the other does, to 1e-5, for a step has
+/// converged when the energy cannot fall by more than 1e-12 of itself (here some 1e-4 nN between the plates).
+TEST(SqueezedNucleus, IsHeldInBalanceByThePlates) {
+  Model model = clusters_model(0.0);
+  model.contact.range = 0.5;
+  model.contact.repulsion = 100.0;
+  model.contact.points_per_face = 3;
+  model.types[0].interior.nucleus_fraction = fraction(4.2);
+  TriangleMesh lower = make_box({40, 40, 4}, 10.0).value(), upper = lower;
+  for (Vec3d& x : lower.position) x.z -= 8.2;
+  for (Vec3d& x : upper.position) x.z += 8.2;
+  const TimeCourse down{{0.0, 217.5}, {0.0, -4.35}};  // from 12.4 µm to 8.05 µm, and the nucleus is 8.4 µm wide
+  model.obstacles = {{"lower", lower.position, lower.faces, false, {}, {}, {}},
+                     {"upper", upper.position, upper.faces, false, {}, {0, 0, 1}, down}};
+  model.pairs.assign(9, ContactPair{0.0, 0.1, 0.1});
+  model.step.first_tolerance = model.step.later_tolerance = 1e-6;
+  model.step.newton_stop = 1e-9;
+  model.step.max_newton = 50;
+  model.step.max_step = 20.0;
+  const auto simulation = one_cell(model);
+  run(*simulation, 216.0);
+  ShapeLibrary shapes;
+  Mechanics& mechanics = simulation->mechanics();
+  const auto imbalance = [&] {
+    const auto force = mechanics.obstacle_forces(simulation->tissue());
+    return (force[0].z + force[1].z) / force[1].z;
+  };
+  EXPECT_GT(std::abs(imbalance()), 0.01) << "the cell moves in the medium";
+  {
+    const Tissue& tissue = simulation->tissue();
+    Mechanics other(simulation->model(), contact_obstacles(simulation->model()).value(), shapes, Comm(), 1);
+    std::vector<Vec3d> force, unused;
+    (void)other.energy_and_forces(tissue, force);
+    Vec3d sum, nucleus;
+    for (const Vec3d& f : force) sum += f;
+    for (const Vec3d& f : other.obstacle_forces(tissue)) sum += f;
+    EXPECT_GT(norm(sum), 1e-4) << "the nucleus is pushed";
+    constexpr double h = 1e-5;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      double energy[2];
+      for (const int side : {0, 1}) {
+        Tissue moved = tissue;
+        (*moved.shells.nucleus[0])[axis] += side ? h : -h;
+        other.bodies_changed();
+        energy[side] = other.energy_and_forces(moved, unused);
+      }
+      nucleus[axis] = (energy[0] - energy[1]) / (2.0 * h);
+    }
+    other.bodies_changed();
+    EXPECT_LT(norm(sum + nucleus), 1e-8 * other.obstacle_forces(tissue)[1].z);
+  }
+  run(*simulation, 600.0);
+  EXPECT_GT(mechanics.interior_of(0).overlap, 0.01);
+  EXPECT_LT(std::abs(imbalance()), 1e-5);
+}
+
 TEST(Nucleus, ComesWithAPromotionAndTravelsInARecord) {
   CellType type = clusters_model().types[0];
   type.interior.nucleus_fraction = 0.07;
