@@ -44,6 +44,62 @@ TEST_P(EveryContactLaw, PullsARigidSphereOffAPlaneAtTwoPiRW) {
   EXPECT_NEAR(strongest, exact, 0.015 * exact);                       // table of dcm.md §7: 0.999 ± 0.002, and steps of the gap
 }
 
+/// T7.2: the same for any range below 2 R: Archimedes, a zone of a sphere between two planes has the area 2π R times their distance.
+TEST(RigidSphere, IsPulledOffAPlaneByTheSameForceWhateverTheRange) {
+  for (const double range : {0.25, 1.0, 2.0}) {
+    Model model = above_a_plate(SurfaceLaw::kTent);
+    model.contact.range = range;
+    ShapeLibrary shapes;
+    Tissue tissue = test::make_tissue(model, shapes, {{0.3, 0.2, kRadius}}, {BodyKind::kShell}, 2562, kRadius);
+    tissue.obstacle_offset.resize(1);
+    Mechanics mechanics(model, contact_obstacles(model).value(), shapes, Comm(), 1);
+    double strongest = 0.0;
+    for (int k = -4; k <= 12; ++k) {
+      Tissue at = tissue;
+      for (Vec3d& x : at.shells.position) x.z += 0.01 * range * k;
+      mechanics.bodies_changed();
+      strongest = std::max(strongest, mechanics.obstacle_forces(at)[0].z);
+    }
+    EXPECT_NEAR(strongest / 3.7699, 1.0, 0.006) << range;  // table of dcm.md §7 at c = 0.2 µm: 1.000 ± 0.006
+  }
+}
+
+/// T7.2: two spheres by 2π R_eff W, R_eff = R1 R2/(R1 + R2), to O(c/R). The terms beyond: points of sphere 1 at the distance r from the centre of
+/// sphere 2, D away, have the area 2π R1 r dr/D, so that E1 = (2π R1/D) ∫ U(g) (g + R2) dg and at contact dE1/dD = 2π R_eff W − E1/D. With
+/// ∫ U dg = −W c/2 and ∫ g U dg = −7 W c²/48 of the tent, both spheres being sources of half the energy,
+/// F = 2π R_eff W [1 + c/(2D) + 7c² (1/R1 + 1/R2)/(96 D)].
+TEST(RigidSphere, IsPulledOffASphereByItsEffectiveRadius) {
+  for (const double other : {6.0, 3.0}) {
+    for (const double range : {0.4, 0.8}) {
+      Model model = test::clusters_model(kAdhesion);
+      model.contact.range = range;
+      ShapeLibrary shapes;
+      Tissue tissue = test::make_tissue(model, shapes, {{0, 0, 0}, {0, 0, kRadius + other}}, {BodyKind::kShell, BodyKind::kShell}, 2562);
+      dcm::ShellParameters& p = model.types[0].shell;
+      p.spring_stiffness = p.hinge_stiffness = p.tension = p.bulk_modulus = p.shape_stiffness = p.barrier_stiffness = 0.0;
+      const std::size_t upper = tissue.shells.nodes(0)[0].z > kRadius ? 0 : 1;
+      const Vec3d center{0, 0, kRadius + other};
+      for (Vec3d& x : tissue.shells.nodes(upper)) x = center + (x - center) * (other / kRadius);
+      Mechanics mechanics(model, {}, shapes, Comm(), 1);
+      double strongest = 0.0;
+      for (int k = -3; k <= 8; ++k) {
+        Tissue at = tissue;
+        for (Vec3d& x : at.shells.nodes(upper)) x.z += 0.01 * range * k;
+        mechanics.bodies_changed();
+        std::vector<Vec3d> force;
+        (void)mechanics.energy_and_forces(at, force);
+        double pull = 0.0;
+        for (std::uint32_t i = at.shells.first_node[upper]; i < at.shells.first_node[upper + 1]; ++i) pull -= force[i].z;
+        strongest = std::max(strongest, pull);
+      }
+      const double apart = kRadius + other, curvature = 1.0 / kRadius + 1.0 / other;
+      const double exact =
+          2.0 * std::numbers::pi / curvature * kAdhesion * (1.0 + range / (2.0 * apart) + 7.0 * range * range * curvature / (96.0 * apart));
+      EXPECT_NEAR(strongest / exact, 1.0, 0.006) << other << ' ' << range;  // the mesh, as for the plane
+    }
+  }
+}
+
 /// A shell let go beside a plate sticks to it and rests, without deep overlap, and the plate holds it with no net force.
 TEST_P(EveryContactLaw, LetsAShellRestOnAPlane) {
   const Model model = above_a_plate(GetParam());
