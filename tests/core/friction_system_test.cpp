@@ -176,6 +176,23 @@ TEST(TractionLaw, SlopesAreDerivativesOfEnergies) {
     }
 }
 
+/// dcm.md §16.9: neither the energy nor the traction jumps where one piece of the law meets the next.
+TEST(TractionLaw, IsContinuousWhereItsPiecesMeet) {
+  for (TractionLaw law : kLaws)
+    for (const double cap : {0.0, 0.05}) {
+      law.cap = cap;
+      for (const double joint : {0.0, law.flat_from * law.range, law.flat_to * law.range, law.range, -0.05, -0.02 * law.range}) {
+        constexpr double kNear = 1e-12;
+        for (const bool attracts : {true, false}) {
+          const auto at = [&](double g) { return attracts ? law.attraction(g) : law.repulse(g); };
+          EXPECT_NEAR(at(joint - kNear).energy, at(joint + kNear).energy, 1e-10) << joint;
+          EXPECT_NEAR(at(joint - kNear).slope, at(joint + kNear).slope, joint == 0.0 && law.hertz > 0.0 ? 1e-4 : 1e-9)
+              << joint;  // √g there
+        }
+      }
+    }
+}
+
 TEST(TractionLaw, OfHertzCarriesWhatASphereInAPlaneCarries) {  // 4/3 E* √R δ^{3/2}
   const double modulus = 1.5, radius = 6.0, depth = 0.3;
   TractionLaw law;

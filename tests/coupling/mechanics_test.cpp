@@ -62,6 +62,36 @@ TEST_P(EveryPairOfBodies, ForceIsMinusTheGradientOfTheWholeEnergy) {
   });
 }
 
+/// dcm.md §16.4: cells that change places among themselves feel what those felt whose places they took, to rounding; which body of a pair comes
+/// first, and which point is held against which face first, does not matter.
+TEST_P(EveryPairOfBodies, ForcesDoNotKnowTheOrderOfTheBodies) {
+  Model model = clusters_model(0.3);
+  model.contact.range = 0.8;
+  model.pairs[0].law = GetParam().law;
+  model.pairs[0].reduced_modulus = 1.0;
+  ShapeLibrary shapes;
+  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}, {11.6, 0.3, 0.2}, {5.2, 10.4, 0.4}}, GetParam().kinds);
+  shake(tissue, 0.05);
+  Tissue turned = tissue;
+  const std::size_t shells = tissue.shells.size(), nodes = tissue.shells.position.size(), spheres = tissue.spheres.size();
+  for (std::size_t s = 0; s < shells; ++s) {
+    const auto from = std::as_const(tissue.shells).nodes(shells - 1 - s);
+    std::copy(from.begin(), from.end(), turned.shells.nodes(s).begin());
+  }
+  for (std::size_t s = 0; s < spheres; ++s) turned.spheres.position[s] = tissue.spheres.position[spheres - 1 - s];
+  std::vector<Vec3d> force, there;
+  const double energy = Mechanics(model, {}, shapes, Comm(), 1).energy_and_forces(tissue, force);
+  EXPECT_NEAR(Mechanics(model, {}, shapes, Comm(), 1).energy_and_forces(turned, there), energy, 1e-12 * std::abs(energy));
+  double largest = 0.0;
+  for (const Vec3d& f : force) largest = std::max(largest, norm(f));
+  for (std::size_t s = 0; s < shells; ++s)
+    for (std::uint32_t i = 0; i < 162; ++i) {
+      const Vec3d &a = force[tissue.shells.first_node[shells - 1 - s] + i], &b = there[tissue.shells.first_node[s] + i];
+      EXPECT_LT(norm(b - a), 1e-12 * largest) << "shell " << s << ", node " << i;
+    }
+  for (std::size_t s = 0; s < spheres; ++s) EXPECT_LT(norm(there[nodes + s] - force[nodes + spheres - 1 - s]), 1e-12 * largest);
+}
+
 INSTANTIATE_TEST_SUITE_P(Every, EveryPairOfBodies, testing::ValuesIn(kBodies),
                          [](const testing::TestParamInfo<Bodies>& given) { return std::string(given.param.name); });
 
