@@ -88,7 +88,20 @@ SymMat3<Real> isotropic(Real s) {
   return {s, Real(0.0), Real(0.0), s, Real(0.0), s};
 }
 
+/// Inverse of a matrix that has one.
+inline SymMat3<double> inverse(const SymMat3<double>& a) {
+  const double c00 = a.yy * a.zz - a.yz * a.yz, c01 = a.xz * a.yz - a.xy * a.zz, c02 = a.xy * a.yz - a.xz * a.yy;
+  const double s = 1.0 / (a.xx * c00 + a.xy * c01 + a.xz * c02);
+  return {c00 * s, c01 * s, c02 * s, (a.xx * a.zz - a.xz * a.xz) * s, (a.xy * a.xz - a.xx * a.yz) * s, (a.xx * a.yy - a.xy * a.xy) * s};
+}
+
 using Vec3d = Vec3<double>;
 using Vec3f = Vec3<float>;
+
+inline Vec3f to_float(const Vec3d& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+inline SymMat3<float> to_float(const SymMat3<double>& a) {
+  return {static_cast<float>(a.xx), static_cast<float>(a.xy), static_cast<float>(a.xz),
+          static_cast<float>(a.yy), static_cast<float>(a.yz), static_cast<float>(a.zz)};
+}
 
 }  // namespace morula

@@ -25,13 +25,6 @@ Stretched stretched(const NucleusView& view, const InteriorLink& link) {
   return {length > 0.0 ? d * (1.0 / length) : Vec3d{}, length};
 }
 
-/// Inverse of a positive definite matrix.
-SymMat3<double> inverse(const SymMat3<double>& a) {
-  const double c00 = a.yy * a.zz - a.yz * a.yz, c01 = a.xz * a.yz - a.xy * a.zz, c02 = a.xy * a.yz - a.xz * a.yy;
-  const double s = 1.0 / (a.xx * c00 + a.xy * c01 + a.xz * c02);
-  return {c00 * s, c01 * s, c02 * s, (a.xx * a.zz - a.xz * a.xz) * s, (a.xy * a.xz - a.xx * a.yz) * s, (a.xx * a.yy - a.xy * a.xy) * s};
-}
-
 /// ∂V/∂x of a closed surface: a sixth of the doubled area vectors around each node.
 void volume_gradient(const Topology& topology, std::span<const Vec3d> node, std::vector<Vec3d>& out) {
   out.assign(node.size(), {});

@@ -14,7 +14,6 @@ namespace {
 constexpr double kFloatRounding = 1.0 / (1 << 24);  // relative, of a number kept as float
 constexpr std::size_t kPairsOfShare = 16;           // evaluated by each of several threads before their gradients are collected
 
-Vec3f to_float(const Vec3d& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 Vec3d to_double(const Vec3f& v) { return {v.x, v.y, v.z}; }
 
 /// How far the surface of a sphere has moved since it had this radius, at most.

@@ -8,8 +8,6 @@
 namespace morula {
 namespace {
 
-Vec3f to_float(const Vec3d& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
-
 /// Normal of a face, and (n × e_c)/(2A) of its corners, whose sum is zero to the last bit.
 struct TurningFace {
   Vec3d normal, rate[3];

@@ -16,19 +16,8 @@ constexpr std::uint16_t kNoThread = 0xFFFF;
 /// One number in all components.
 Float4v splat(float s) { return Float4v{s, s, s, s}; }
 
-SymMat3<float> inverse_of(const SymMat3<float>& a) {
-  const double c00 = double(a.yy) * a.zz - double(a.yz) * a.yz;
-  const double c01 = double(a.xz) * a.yz - double(a.xy) * a.zz;
-  const double c02 = double(a.xy) * a.yz - double(a.xz) * a.yy;
-  const double det = a.xx * c00 + a.xy * c01 + a.xz * c02;
-  const double s = 1.0 / det;
-  return {static_cast<float>(c00 * s),
-          static_cast<float>(c01 * s),
-          static_cast<float>(c02 * s),
-          static_cast<float>((double(a.xx) * a.zz - double(a.xz) * a.xz) * s),
-          static_cast<float>((double(a.xy) * a.xz - double(a.xx) * a.yz) * s),
-          static_cast<float>((double(a.xx) * a.yy - double(a.xy) * a.xy) * s)};
-}
+/// In double: a float's determinant would cancel.
+SymMat3<float> inverse_of(const SymMat3<float>& a) { return to_float(inverse(SymMat3<double>{a.xx, a.xy, a.xz, a.yy, a.yz, a.zz})); }
 
 using Double4 [[gnu::vector_size(32)]] = double;
 Double4 to_double(Float4v v) { return __builtin_convertvector(v, Double4); }

@@ -303,10 +303,7 @@ Result<StepReport, StepFault> Mechanics::step(Tissue& tissue, double dt, std::sp
 void Mechanics::finish(Tissue& tissue, double dt, StepReport& report) {
   auto timed = timer_.scope(Stage::kAdvance);
   const double rate = 1.0 / dt;
-  const auto velocity = [&](std::size_t point, const Vec3d& start) {
-    const Vec3d v = (scene_.position()[point] - start) * rate;
-    return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-  };
+  const auto velocity = [&](std::size_t point, const Vec3d& start) { return to_float((scene_.position()[point] - start) * rate); };
   parallel_for(threads_, tissue.shells.velocity.size(),
                [&](std::size_t i) { tissue.shells.velocity[i] = velocity(i, tissue.shells.position[i]); });
   for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i)

@@ -3,6 +3,7 @@
 #include <set>
 #include <type_traits>
 
+#include "coupling/cell_record.h"
 #include "scenarios/results/build_info.h"
 #include "scenarios/results/checkpoint.h"
 #include "scenarios/results/file_io.h"
@@ -227,57 +228,10 @@ Status read_cells(const Hdf5Reader& file, ShapeLibrary& library, const Comm& com
   return read_faces(file, first_shell, comm, out.shells);
 }
 
-/// Adds what a shell and a nucleus that is one have alike.
-void copy_shell(const dcm::Shells& from, std::size_t b, dcm::Shells& to) {
-  to.shape.push_back(from.shape[b]);
-  to.type.push_back(from.type[b]);
-  to.reference_volume.push_back(from.reference_volume[b]);
-  to.rest_volume.push_back(from.rest_volume[b]);
-  to.position.insert(to.position.end(), from.position.begin() + from.first_node[b], from.position.begin() + from.first_node[b + 1]);
-  to.velocity.insert(to.velocity.end(), from.velocity.begin() + from.first_node[b], from.velocity.begin() + from.first_node[b + 1]);
-  to.rest_length.insert(to.rest_length.end(), from.rest_length.begin() + from.first_edge[b],
-                        from.rest_length.begin() + from.first_edge[b + 1]);
-  to.first_node.push_back(static_cast<std::uint32_t>(to.position.size()));
-  to.first_edge.push_back(static_cast<std::uint32_t>(to.rest_length.size()));
-}
-
 /// The same cells in canonical order, bodies with them.
 void put_in_canonical_order(Tissue& tissue) {
-  const std::vector<CellRow>& rows = tissue.cells.rows;
-  std::vector<std::size_t> order(rows.size()), body(rows.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::size_t spheres = 0, shells = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) body[i] = rows[i].body == BodyKind::kSphere ? spheres++ : shells++;
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return before(rows[a], rows[b]); });
-  Cells sorted;
-  sorted.rows.reserve(rows.size());
-  cbm::Spheres s;
-  dcm::Shells h;
-  dcm::NuclearShells nuclei;
-  for (const std::size_t i : order) {
-    sorted.push_back(tissue.cells.full(i));
-    const std::size_t b = body[i];
-    if (rows[i].body == BodyKind::kSphere) {
-      s.position.push_back(tissue.spheres.position[b]);
-      s.radius.push_back(tissue.spheres.radius[b]);
-      s.type.push_back(tissue.spheres.type[b]);
-      s.velocity.push_back(tissue.spheres.velocity[b]);
-      s.attached.push_back(tissue.spheres.attached[b]);
-    } else {
-      const dcm::Shells& from = tissue.shells;
-      copy_shell(from, b, h);
-      if (const std::size_t n = tissue.nuclei.of_shell(b); n < tissue.nuclei.size()) {
-        copy_shell(tissue.nuclei.shells, n, nuclei.shells);
-        nuclei.owner.push_back(static_cast<std::uint32_t>(h.size() - 1));
-      }
-      h.nucleus.push_back(from.nucleus_of(b) != nullptr ? std::optional(*from.nucleus_of(b)) : std::nullopt);
-      if (!from.face.empty()) h.face.push_back(from.face[b]);
-    }
-  }
-  tissue.cells = std::move(sorted);
-  tissue.spheres = std::move(s);
-  tissue.shells = std::move(h);
-  tissue.nuclei = std::move(nuclei);
+  std::vector<CellRecord> cells = take_apart(tissue);
+  put_together(tissue, std::move(cells));
 }
 
 Status read_field(const Hdf5Reader& file, const std::string& group, const Comm& comm, fields::Field& field) {

@@ -41,6 +41,20 @@ TEST(Hash128, TableChecksumOfSlicesIsThatOfTheWhole) {
   EXPECT_NE(table_checksum(bytes, 24, 0), whole);
 }
 
+/// What shells of cells and of nuclei have alike.
+void append_shell(const dcm::Shells& from, std::size_t i, dcm::Shells& to) {
+  to.shape.push_back(from.shape[i]);
+  to.type.push_back(from.type[i]);
+  to.reference_volume.push_back(from.reference_volume[i]);
+  to.rest_volume.push_back(from.rest_volume[i]);
+  to.position.insert(to.position.end(), from.position.begin() + from.first_node[i], from.position.begin() + from.first_node[i + 1]);
+  to.velocity.insert(to.velocity.end(), from.velocity.begin() + from.first_node[i], from.velocity.begin() + from.first_node[i + 1]);
+  to.rest_length.insert(to.rest_length.end(), from.rest_length.begin() + from.first_edge[i],
+                        from.rest_length.begin() + from.first_edge[i + 1]);
+  to.first_node.push_back(static_cast<std::uint32_t>(to.position.size()));
+  to.first_edge.push_back(static_cast<std::uint32_t>(to.rest_length.size()));
+}
+
 /// Order of cells in memory turned around, bricks too.
 Tissue turned_around(const Tissue& from) {
   Tissue to = from;
@@ -54,33 +68,13 @@ Tissue turned_around(const Tissue& from) {
   for (std::size_t i = from.spheres.size(); i-- > 0;) to.spheres.attached.push_back(from.spheres.attached[i]);
   to.shells = {};
   for (std::size_t i = from.shells.size(); i-- > 0;) {
-    const dcm::Shells& s = from.shells;
-    to.shells.shape.push_back(s.shape[i]);
-    to.shells.type.push_back(s.type[i]);
-    to.shells.reference_volume.push_back(s.reference_volume[i]);
-    to.shells.rest_volume.push_back(s.rest_volume[i]);
-    to.shells.position.insert(to.shells.position.end(), s.position.begin() + s.first_node[i], s.position.begin() + s.first_node[i + 1]);
-    to.shells.velocity.insert(to.shells.velocity.end(), s.velocity.begin() + s.first_node[i], s.velocity.begin() + s.first_node[i + 1]);
-    to.shells.rest_length.insert(to.shells.rest_length.end(), s.rest_length.begin() + s.first_edge[i],
-                                 s.rest_length.begin() + s.first_edge[i + 1]);
-    to.shells.first_node.push_back(static_cast<std::uint32_t>(to.shells.position.size()));
-    to.shells.first_edge.push_back(static_cast<std::uint32_t>(to.shells.rest_length.size()));
-    to.shells.nucleus.push_back(s.nucleus[i]);
-    if (!s.faces_of(i).empty()) to.shells.faces_of(to.shells.size() - 1) = s.faces_of(i);
+    append_shell(from.shells, i, to.shells);
+    to.shells.nucleus.push_back(from.shells.nucleus[i]);
+    if (!from.shells.faces_of(i).empty()) to.shells.faces_of(to.shells.size() - 1) = from.shells.faces_of(i);
   }
   to.nuclei = {};
   for (std::size_t n = from.nuclei.size(); n-- > 0;) {
-    const dcm::Shells& s = from.nuclei.shells;
-    dcm::Shells& t = to.nuclei.shells;
-    t.shape.push_back(s.shape[n]);
-    t.type.push_back(s.type[n]);
-    t.reference_volume.push_back(s.reference_volume[n]);
-    t.rest_volume.push_back(s.rest_volume[n]);
-    t.position.insert(t.position.end(), s.position.begin() + s.first_node[n], s.position.begin() + s.first_node[n + 1]);
-    t.velocity.insert(t.velocity.end(), s.velocity.begin() + s.first_node[n], s.velocity.begin() + s.first_node[n + 1]);
-    t.rest_length.insert(t.rest_length.end(), s.rest_length.begin() + s.first_edge[n], s.rest_length.begin() + s.first_edge[n + 1]);
-    t.first_node.push_back(static_cast<std::uint32_t>(t.position.size()));
-    t.first_edge.push_back(static_cast<std::uint32_t>(t.rest_length.size()));
+    append_shell(from.nuclei.shells, n, to.nuclei.shells);
     to.nuclei.owner.push_back(static_cast<std::uint32_t>(from.shells.size() - 1 - from.nuclei.owner[n]));
   }
   for (fields::Field& field : to.fields) {
