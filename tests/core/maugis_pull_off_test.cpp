@@ -81,29 +81,48 @@ class BallOnHalfSpace {
     return {slope(g), (slope(g + h) - slope(g - h)) / (2.0 * h)};
   }
 
-  /// Gaps at which g = r²/2R − d − (displacement towards the ball by the pull), by Newton's method.
+  /// Gaps at which g = r²/2R − d − (displacement towards the ball by the pull): by Newton's method, and where a ring jumps on or off, after the
+  /// surfaces have crept until it has.
   bool settle(double depth) {
-    const std::size_t n = place_.size();
-    for (int iteration = 0; iteration < 60; ++iteration) {
-      std::vector<double> residual(n);
-      std::vector<std::vector<double>> matrix(n, std::vector<double>(n));
-      std::vector<Traction> pull(n);
-      for (std::size_t j = 0; j < n; ++j) pull[j] = traction(j);
-      double worst = 0.0;
-      for (std::size_t i = 0; i < n; ++i) {
-        residual[i] = gap_[i] - place_[i] * place_[i] / (2.0 * kRadius) + depth;
-        for (std::size_t j = 0; j < n; ++j) {
-          residual[i] += give_[i][j] * pull[j].slope;
-          matrix[i][j] = (i == j ? 1.0 : 0.0) + give_[i][j] * pull[j].curvature;
-        }
-        worst = std::max(worst, std::abs(residual[i]));
+    constexpr double kCreep = 0.03;  // below 2 over the stiffness of a ring that is pressed, in units of that of the half space
+    for (int attempt = 0; attempt < 40; ++attempt) {
+      const std::vector<double> start = gap_;
+      if (newton(depth)) return true;
+      gap_ = start;
+      for (int k = 0; k < 100; ++k) {
+        const std::vector<double> off = residual(depth);
+        for (std::size_t i = 0; i < gap_.size(); ++i) gap_[i] -= kCreep * off[i];
       }
-      if (worst < 1e-10) return true;
-      const std::vector<double> way = solved(std::move(matrix), residual);
-      double longest = 0.0;
-      for (const double w : way) longest = std::max(longest, std::abs(w));
-      const double part = std::min(1.0, 0.2 * law_.range / longest);
-      for (std::size_t i = 0; i < n; ++i) gap_[i] -= part * way[i];
+    }
+    return false;
+  }
+  [[nodiscard]] std::vector<double> residual(double depth) const {
+    const std::size_t n = place_.size();
+    std::vector<double> out(n), pull(n);
+    for (std::size_t j = 0; j < n; ++j) pull[j] = traction(j).slope;
+    for (std::size_t i = 0; i < n; ++i) {
+      out[i] = gap_[i] - place_[i] * place_[i] / (2.0 * kRadius) + depth;
+      for (std::size_t j = 0; j < n; ++j) out[i] += give_[i][j] * pull[j];
+    }
+    return out;
+  }
+  bool newton(double depth) {
+    const std::size_t n = place_.size();
+    double before = 1e300;
+    for (int iteration = 0; iteration < 12; ++iteration) {
+      std::vector<double> off = residual(depth);
+      double worst = 0.0;
+      for (const double r : off) worst = std::max(worst, std::abs(r));
+      if (worst < 1e-9) return true;
+      if (worst > before && iteration > 4) return false;
+      before = worst;
+      std::vector<std::vector<double>> matrix(n, std::vector<double>(n));
+      for (std::size_t j = 0; j < n; ++j) {
+        const double curvature = traction(j).curvature;
+        for (std::size_t i = 0; i < n; ++i) matrix[i][j] = (i == j ? 1.0 : 0.0) + give_[i][j] * curvature;
+      }
+      const std::vector<double> way = solved(std::move(matrix), std::move(off));
+      for (std::size_t i = 0; i < n; ++i) gap_[i] -= way[i];
     }
     return false;
   }
@@ -125,21 +144,22 @@ TractionLaw dugdale() {
 }
 
 /// |F|/(πRW) at λ = 2σ0 (R/(πWK²))^{1/3}, σ0 the plateau and K = 4E*/3.
-double pull_off(double lambda) {
+double pull_off(double lambda, int rings) {
   TractionLaw law = dugdale();
   const double plateau = law.attraction(0.25).slope;
   const double k = std::pow(2.0 * plateau / lambda, 1.5) * std::sqrt(kRadius / (kPi * kAdhesion)), modulus = 0.75 * k;
   const double unit = std::cbrt(kPi * kAdhesion * kRadius * kRadius / k);  // of radii; depths in unit²/R
   law.repulsion = 20.0 * modulus / unit;  // stiff against the half space: surfaces overlap by a few per cent of what they give
   const double depth = unit * unit / kRadius, reach = 2.0 * unit + 1.5 * std::sqrt(2.0 * kRadius * law.range);
-  return BallOnHalfSpace(law, modulus, reach, 160).pull_off(0.5 * depth, 0.02 * depth + 0.002 * law.range) / (kPi * kRadius * kAdhesion);
+  return BallOnHalfSpace(law, modulus, reach, rings).pull_off(0.5 * depth, 0.02 * depth + 0.002 * law.range) / (kPi * kRadius * kAdhesion);
 }
 
-// T7.1; 3 %: flanks, an overlap that is not zero, and rings. Beyond λ = 0.5 single rings jump on and off and Newton's method does not follow; the
-// end of soft balls, 1.5, is that of the law of spheres (Jkr.GivesTheSphereOnARigidPlane), and all of the table is in Theory.OfMaugisGoesFromDmtToJkr.
+// T7.1; 3 %: flanks, an overlap that is not zero, and rings, which pin the rim. Beyond λ = 1 the rings would have to be too fine; the end of soft
+// balls, 1.5, is that of the law of spheres (Jkr.GivesTheSphereOnARigidPlane), and all of the table is in Theory.OfMaugisGoesFromDmtToJkr.
 TEST(TractionLaw, WithAHalfSpaceBehindItPullsOffAsMaugisHasIt) {
-  const double table[][2] = {{0.1, 1.951}, {0.5, 1.718}};
-  for (const auto& [lambda, pull] : table) EXPECT_NEAR(pull_off(lambda) / pull, 1.0, 0.03) << "lambda " << lambda;
+  EXPECT_NEAR(pull_off(0.1, 120) / 1.951, 1.0, 0.03);
+  EXPECT_NEAR(pull_off(0.5, 160) / 1.718, 1.0, 0.03);
+  EXPECT_NEAR(pull_off(1.0, 200) / 1.601, 1.0, 0.03);
 }
 
 }  // namespace
