@@ -134,6 +134,60 @@ TEST(FaceTensions, ForceIsMinusTheGradientAndHasNoSumAndNoTorque) {
   }
 }
 
+/// dcm.md §16.3 and §16.4: a pair that is turned and moved has the same energy and turned forces; cells that change places, with their marks, feel
+/// what those felt whose places they took.
+TEST(FaceTensions, FeelNeitherRigidMotionNorTheOrderOfCells) {
+  const Model model = model_with_regions();
+  ShapeLibrary shapes;
+  const Tissue tissue = rough_pair(model, shapes);
+  std::vector<Vec3d> force, there;
+  const double energy = make_mechanics(model, shapes).energy_and_forces(tissue, force);
+  double size = 0.0;
+  for (const Vec3d& f : force) size += norm(f);
+
+  const auto turn = [](const Vec3d& v) {
+    return Vec3d{std::cos(0.9) * v.x - std::sin(0.9) * v.y, std::sin(0.9) * v.x + std::cos(0.9) * v.y, v.z};
+  };
+  Tissue turned = tissue;
+  for (Vec3d& x : turned.shells.position) x = turn(x) + Vec3d{3, -7, 11};
+  EXPECT_NEAR(make_mechanics(model, shapes).energy_and_forces(turned, there), energy, 1e-12 * std::abs(energy));
+  for (std::size_t i = 0; i < force.size(); ++i) EXPECT_LT(norm(there[i] - turn(force[i])), 1e-12 * size);
+
+  Tissue swapped = tissue;
+  for (std::size_t s = 0; s < 2; ++s) {
+    const auto from = std::as_const(tissue.shells).nodes(1 - s);
+    std::copy(from.begin(), from.end(), swapped.shells.nodes(s).begin());
+    swapped.shells.face[s] = tissue.shells.face[1 - s];
+  }
+  EXPECT_NEAR(make_mechanics(model, shapes).energy_and_forces(swapped, there), energy, 1e-12 * std::abs(energy));
+  for (std::size_t i = 0; i < force.size(); ++i) EXPECT_LT(norm(there[i] - force[(i + 162) % 324]), 1e-12 * size);
+}
+
+/// The stiffness of a region is positive semi-definite whatever its tension, beside the own one and under adhesion: long steps from a rough shape lower
+/// the energy at once, also where a region pulls much less than the cell's own tension, or not at all.
+TEST(FaceTensions, LowerTheEnergyInLongStepsWhateverTheRegion) {
+  for (const double cap : {0.0, 0.05, 5.0}) {
+    Model model = model_with_regions();
+    model.types[0].regional_tension.regions[0].tension = cap;
+    model.step.max_displacement = 10.0;
+    model.step.max_newton = 30;
+    ShapeLibrary shapes;
+    Tissue tissue = rough_pair(model, shapes);
+    Mechanics mechanics = make_mechanics(model, shapes);
+    std::vector<Vec3d> force;
+    double energy = mechanics.energy_and_forces(tissue, force);
+    const std::vector<Vec3d> none(Mechanics::external_size(tissue));
+    for (int k = 0; k < 5; ++k) {
+      const auto done = mechanics.step(tissue, 2.0, none);
+      ASSERT_TRUE(done.ok()) << done.error().what;
+      EXPECT_LT(done->energy, energy);
+      EXPECT_EQ(done->halvings, 0) << cap;
+      EXPECT_LE(done->newton, 12) << cap << ": with the region's own stiffness in the matrix few iterations do";
+      energy = done->energy;
+    }
+  }
+}
+
 /// Young and Laplace: every region is held by its own 2γ/R (dcm.md T4.1: 0.34 % at 642 nodes).
 TEST(FaceTensions, EachRegionOfASphereNeedsItsOwnLaplacePressure) {
   Model with = test::clusters_model();
