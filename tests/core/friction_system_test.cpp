@@ -193,8 +193,8 @@ TEST(TractionLaw, IsContinuousWhereItsPiecesMeet) {
     }
 }
 
-/// The same wherever the pieces may meet: over any small way the traction changes by no more than the steepest slope of the law, 41 kPa/µm for these
-/// (½ κ/√|g| of Hertz' overlap), and the energy by the traction times the way.
+/// The same wherever the pieces may meet: over any small way the traction changes by no more than the steepest slope of the law, 41 kPa/µm
+/// for these (½ κ/√|g| of Hertz' overlap), and the energy by the traction times the way.
 TEST(TractionLaw, NeverJumps) {
   constexpr double h = 1e-4;
   for (TractionLaw law : kLaws)

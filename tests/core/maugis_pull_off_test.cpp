@@ -81,8 +81,8 @@ class BallOnHalfSpace {
     return {slope(g), (slope(g + h) - slope(g - h)) / (2.0 * h)};
   }
 
-  /// Gaps at which g = r²/2R − d − (displacement towards the ball by the pull): by Newton's method, and where a ring jumps on or off, after the
-  /// surfaces have crept until it has.
+  /// Gaps at which g = r²/2R − d − (displacement towards the ball by the pull): by Newton's method, and where a ring jumps on or off,
+  /// after the surfaces have crept until it has.
   bool settle(double depth) {
     constexpr double kCreep = 0.03;  // below 2 over the stiffness of a ring that is pressed, in units of that of the half space
     for (int attempt = 0; attempt < 40; ++attempt) {
@@ -154,8 +154,9 @@ double pull_off(double lambda, int rings) {
   return BallOnHalfSpace(law, modulus, reach, rings).pull_off(0.5 * depth, 0.02 * depth + 0.002 * law.range) / (kPi * kRadius * kAdhesion);
 }
 
-// T7.1; 3 %: flanks, an overlap that is not zero, and rings, which pin the rim. Beyond λ = 1 the rings would have to be too fine; the end of soft
-// balls, 1.5, is that of the law of spheres (Jkr.GivesTheSphereOnARigidPlane), and all of the table is in Theory.OfMaugisGoesFromDmtToJkr.
+// T7.1; 3 %: flanks, an overlap that is not zero, and rings, which pin the rim. Beyond λ = 1 the rings would have to be too fine; the end
+// of soft balls, 1.5, is that of the law of spheres (Jkr.GivesTheSphereOnARigidPlane), and all of the table is in
+// Theory.OfMaugisGoesFromDmtToJkr.
 TEST(TractionLaw, WithAHalfSpaceBehindItPullsOffAsMaugisHasIt) {
   EXPECT_NEAR(pull_off(0.1, 120) / 1.951, 1.0, 0.03);
   EXPECT_NEAR(pull_off(0.5, 160) / 1.718, 1.0, 0.03);

@@ -64,9 +64,9 @@ TEST(RigidSphere, IsPulledOffAPlaneByTheSameForceWhateverTheRange) {
   }
 }
 
-/// T7.2: two spheres by 2π R_eff W, R_eff = R1 R2/(R1 + R2), to O(c/R). The terms beyond: points of sphere 1 at the distance r from the centre of
-/// sphere 2, D away, have the area 2π R1 r dr/D, so that E1 = (2π R1/D) ∫ U(g) (g + R2) dg and at contact dE1/dD = 2π R_eff W − E1/D. With
-/// ∫ U dg = −W c/2 and ∫ g U dg = −7 W c²/48 of the tent, both spheres being sources of half the energy,
+/// T7.2: two spheres by 2π R_eff W, R_eff = R1 R2/(R1 + R2), to O(c/R). The terms beyond: points of sphere 1 at the distance r from the
+/// centre of sphere 2, D away, have the area 2π R1 r dr/D, so that E1 = (2π R1/D) ∫ U(g) (g + R2) dg and at contact dE1/dD = 2π R_eff W −
+/// E1/D. With ∫ U dg = −W c/2 and ∫ g U dg = −7 W c²/48 of the tent, both spheres being sources of half the energy,
 /// F = 2π R_eff W [1 + c/(2D) + 7c² (1/R1 + 1/R2)/(96 D)].
 TEST(RigidSphere, IsPulledOffASphereByItsEffectiveRadius) {
   for (const double other : {6.0, 3.0}) {

@@ -134,8 +134,8 @@ TEST(FaceTensions, ForceIsMinusTheGradientAndHasNoSumAndNoTorque) {
   }
 }
 
-/// dcm.md §16.3 and §16.4: a pair that is turned and moved has the same energy and turned forces; cells that change places, with their marks, feel
-/// what those felt whose places they took.
+/// dcm.md §16.3 and §16.4: a pair that is turned and moved has the same energy and turned forces; cells that change places, with their
+/// marks, feel what those felt whose places they took.
 TEST(FaceTensions, FeelNeitherRigidMotionNorTheOrderOfCells) {
   const Model model = model_with_regions();
   ShapeLibrary shapes;
@@ -163,8 +163,8 @@ TEST(FaceTensions, FeelNeitherRigidMotionNorTheOrderOfCells) {
   for (std::size_t i = 0; i < force.size(); ++i) EXPECT_LT(norm(there[i] - force[(i + 162) % 324]), 1e-12 * size);
 }
 
-/// The stiffness of a region is positive semi-definite whatever its tension, beside the own one and under adhesion: long steps from a rough shape lower
-/// the energy at once, also where a region pulls much less than the cell's own tension, or not at all.
+/// The stiffness of a region is positive semi-definite whatever its tension, beside the own one and under adhesion: long steps from a
+/// rough shape lower the energy at once, also where a region pulls much less than the cell's own tension, or not at all.
 TEST(FaceTensions, LowerTheEnergyInLongStepsWhateverTheRegion) {
   for (const double cap : {0.0, 0.05, 5.0}) {
     Model model = model_with_regions();

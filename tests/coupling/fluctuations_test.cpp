@@ -267,8 +267,9 @@ TEST(Fluctuations, HoldNodesOnSpringsAtTheirThermalVariance) {
   }
 }
 
-/// T10.1 without tension: a mode l = 2 that bending alone resists, and that a force h deflects by χ h, fluctuates by k_B T χ. That χ of a fine
-/// mesh is 1/(24 κ), from which 2.007e-4 follows, is in dcm/sphere_modes_test.cpp; on 42 nodes, where nodes can also give way along the surface, χ is measured.
+/// T10.1 without tension: a mode l = 2 that bending alone resists, and that a force h deflects by χ h, fluctuates by k_B T χ. That χ of a
+/// fine mesh is 1/(24 κ), from which 2.007e-4 follows, is in dcm/sphere_modes_test.cpp; on 42 nodes, where nodes can also give way along
+/// the surface, χ is measured.
 TEST(Fluctuations, OfABendingModeAreThoseOfItsResponse) {
   constexpr double kRigidity = 8.8889e-4, kRadius = 6.0, kCold = 1e-4;  // part of the temperature, at which all is linear
   Model model = fluctuating();

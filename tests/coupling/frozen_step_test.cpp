@@ -67,8 +67,8 @@ struct Doublet {
   }
 };
 
-/// Without what keeps triangles in shape the rim of a flowing cortex folds, and no motion of the nodes lowers the energy any more, with forces of
-/// tenths of nN left. Accepted steps of no length would let the clock run on and the state look stable.
+/// Without what keeps triangles in shape the rim of a flowing cortex folds, and no motion of the nodes lowers the energy any more, with
+/// forces of tenths of nN left. Accepted steps of no length would let the clock run on and the state look stable.
 TEST(FrozenStep, IsRefusedWithTheNameOfTheCell) {
   for (const double range : {0.25, 0.5}) {
     Doublet doublet(range, false, 1.0 / 60.0);
@@ -99,8 +99,8 @@ TEST(FrozenStep, IsNotOneAtRest) {
   EXPECT_GT(end.resting, 10);
 }
 
-/// A way that the iterations of a step cannot go to its end is not done by halves: a free cell goes as far as force and drag say, in shorter
-/// steps, or the step is refused (dcm.md T9.2: V = F/(γ_ECM A) with 45.239 nN·s/µm for a sphere of 6 µm).
+/// A way that the iterations of a step cannot go to its end is not done by halves: a free cell goes as far as force and drag say, in
+/// shorter steps, or the step is refused (dcm.md T9.2: V = F/(γ_ECM A) with 45.239 nN·s/µm for a sphere of 6 µm).
 TEST(CutStep, IsRefused) {
   for (const double allowed : {0.3, 1.0, 2.0})
     for (const int iterations : {1, 3}) {

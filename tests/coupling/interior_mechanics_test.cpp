@@ -143,9 +143,9 @@ TEST(SqueezedNucleus, PushesBackWhenThePlatesAreCloserThanItsWidth) {  // T12.3,
   EXPECT_GT(with.inside, 3.9) << "the nucleus is inside, at its radius from every face";
 }
 
-/// T12.3: the balance of forces between cell, nucleus and plates is closed to 1e-8 of what a plate bears, in any state; the force on the nucleus is
-/// that of the energy. Plates come down until the nucleus bears load, and stop: at rest each bears what the other does, to 1e-5, for a step has
-/// converged when the energy cannot fall by more than 1e-12 of itself (here some 1e-4 nN between the plates).
+/// T12.3: the balance of forces between cell, nucleus and plates is closed to 1e-8 of what a plate bears, in any state; the force on the
+/// nucleus is that of the energy. Plates come down until the nucleus bears load, and stop: at rest each bears what the other does, to
+/// 1e-5, for a step has converged when the energy cannot fall by more than 1e-12 of itself (here some 1e-4 nN between the plates).
 TEST(SqueezedNucleus, IsHeldInBalanceByThePlates) {
   Model model = clusters_model(0.0);
   model.contact.range = 0.5;

@@ -62,8 +62,8 @@ TEST_P(EveryPairOfBodies, ForceIsMinusTheGradientOfTheWholeEnergy) {
   });
 }
 
-/// dcm.md §16.4: cells that change places among themselves feel what those felt whose places they took, to rounding; which body of a pair comes
-/// first, and which point is held against which face first, does not matter.
+/// dcm.md §16.4: cells that change places among themselves feel what those felt whose places they took, to rounding; which body of a pair
+/// comes first, and which point is held against which face first, does not matter.
 TEST_P(EveryPairOfBodies, ForcesDoNotKnowTheOrderOfTheBodies) {
   Model model = clusters_model(0.3);
   model.contact.range = 0.8;

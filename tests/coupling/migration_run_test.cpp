@@ -12,8 +12,8 @@ constexpr double kForce = 1.0, kPersistence = 60.0;  // σ_F [nN], τ [s]
 constexpr double kDrag = 45.239;                     // Γ = γ_ECM 4π R² [nN·s/µm]
 constexpr double kDiffusion = 0.029318;              // σ_F² τ/Γ² a component [µm²/s]
 
-/// T11.1: D = 0.029318 µm²/s = 105.5 µm²/h, and ⟨x²⟩ = 2D (t − τ (1 − e^(−t/τ))) on the way there, ±5 %. The mean of 6000 components is good to
-/// 1.8 %. Forces are held over a step of τ/6, which adds (1/6)²/12 to D.
+/// T11.1: D = 0.029318 µm²/s = 105.5 µm²/h, and ⟨x²⟩ = 2D (t − τ (1 − e^(−t/τ))) on the way there, ±5 %. The mean of 6000 components is
+/// good to 1.8 %. Forces are held over a step of τ/6, which adds (1/6)²/12 to D.
 TEST(Migration, ForceMakesTheCellsOfARunDiffuseAsTheirDragSays) {
   Model model = test::clusters_model(0.0);
   model.space.box = {{-1000, -1000, -1000}, {1000, 1000, 1000}};

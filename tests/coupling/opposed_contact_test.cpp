@@ -1,4 +1,5 @@
-// Attraction fades between faces that look away from each other (time_stepping.md §9: O), in the whole contact layer; and nothing in it jumps.
+// Attraction fades between faces that look away from each other (time_stepping.md §9: O), in the whole contact layer; and nothing in it
+// jumps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -89,8 +90,9 @@ TEST_P(EveryLawOfContact, HasAForceThatIsMinusTheGradientWhereFacesTurnAway) {
   });
 }
 
-/// One shell goes past another, or past a sphere, while it comes nearer, from out of range to a gap of a tenth of it: nearest faces, edges and nodes
-/// change all the way. dcm.md §16.9: no jump of the energy above 1e-9; the work of the force along the way is the change of the energy.
+/// One shell goes past another, or past a sphere, while it comes nearer, from out of range to a gap of a tenth of it: nearest faces, edges
+/// and nodes change all the way. dcm.md §16.9: no jump of the energy above 1e-9; the work of the force along the way is the change of the
+/// energy.
 TEST_P(EveryLawOfContact, HasAnEnergyWithoutJumpsAlongAnyApproach) {
   for (const BodyKind other : {BodyKind::kShell, BodyKind::kSphere}) {
     const Model model = contacts_only(GetParam());

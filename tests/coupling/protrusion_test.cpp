@@ -80,9 +80,9 @@ TEST(Protrusion, IsBorneByTheFrontAndAnInternalOneHasNoSum) {
   EXPECT_FALSE(add_protrusion(law, *shape->topology, shape->position, p, nowhere, p, law.force, force));
 }
 
-/// T11.2: ΣF = 0 of an internal reaction, whatever the shape, so that V = ΣF/(γ A) < 1e-10 F_p/Γ in a uniform medium; T11.3: F_p with it outside.
-/// T11.4: a mesh that is turned with the polarity is pushed in the same way, and whatever the polarity is to the mesh the push has no other
-/// direction.
+/// T11.2: ΣF = 0 of an internal reaction, whatever the shape, so that V = ΣF/(γ A) < 1e-10 F_p/Γ in a uniform medium; T11.3: F_p with it
+/// outside. T11.4: a mesh that is turned with the polarity is pushed in the same way, and whatever the polarity is to the mesh the push
+/// has no other direction.
 TEST(Protrusion, IsTheSameInAllDirectionsOfARoughCell) {
   ShapeLibrary shapes;
   const auto shape = shapes.icosphere(162).value();
@@ -112,8 +112,8 @@ TEST(Protrusion, IsTheSameInAllDirectionsOfARoughCell) {
   }
 }
 
-/// T11.4: the front that carries the force is a round cap about the polarity on a fine mesh, so that it turns the cell by no more than the mesh
-/// makes it, and on average over all directions not at all.
+/// T11.4: the front that carries the force is a round cap about the polarity on a fine mesh, so that it turns the cell by no more than the
+/// mesh makes it, and on average over all directions not at all.
 TEST(Protrusion, HasNoPreferredDirectionOnTheMesh) {
   ShapeLibrary shapes;
   const auto shape = shapes.icosphere(642).value();
@@ -153,7 +153,8 @@ Model protruding(bool internal) {
   return model;
 }
 
-/// T11.2 and T11.3: with the reaction outside V = F_p/(γ A); with it inside a uniform medium does not carry the cell anywhere, |V| < 1e-10 F_p/Γ.
+/// T11.2 and T11.3: with the reaction outside V = F_p/(γ A); with it inside a uniform medium does not carry the cell anywhere, |V| < 1e-10
+/// F_p/Γ.
 TEST(Protrusion, MovesAFreeCellOnlyWithItsReactionOutside) {
   ShapeLibrary shapes;
   for (const bool internal : {false, true}) {
@@ -186,8 +187,8 @@ TEST(Protrusion, MovesAFreeCellOnlyWithItsReactionOutside) {
   }
 }
 
-/// T11.3: V = F_p/(γ_ECM A + γ_sub A_c), A_c the area of contact with its taper at the rim. A cell between two plates, which it touches alike,
-/// slides and does not roll.
+/// T11.3: V = F_p/(γ_ECM A + γ_sub A_c), A_c the area of contact with its taper at the rim. A cell between two plates, which it touches
+/// alike, slides and does not roll.
 TEST(Protrusion, MovesACellOnASubstrateAgainstBothFrictions) {
   constexpr double kSubstrate = 5.0;
   Model model = protruding(false);

@@ -49,8 +49,8 @@ TEST(DihedralBarrier, GrowsWithoutBoundTowardsPi) {
   EXPECT_GT(last, 1e7);
 }
 
-/// Two faces of a shell are folded towards each other about their edge: the energy of the whole shell goes as the angle of that edge says, and the
-/// force on the tips drives them apart.
+/// An edge of a shell is lifted to the crest of a steep ridge: the energy of the shell is at least what the angle of that edge says, and the crest
+/// is drawn down.
 TEST(DihedralBarrier, HoldsAFoldOfAShellOpen) {
   Shells shells = one_shell(42, 3.0);
   ShellParameters p = nothing();

@@ -1,4 +1,5 @@
-// Stiffness of the modes of a sphere, and with it how far they fluctuate: T10.1 (dcm.md §10; Milner & Safran 1987, doi:10.1103/PhysRevA.36.4371).
+// Stiffness of the modes of a sphere, and with it how far they fluctuate: T10.1 (dcm.md §10; Milner & Safran 1987,
+// doi:10.1103/PhysRevA.36.4371).
 #include <gtest/gtest.h>
 
 #include "tests/dcm/shell_fixtures.h"
@@ -9,7 +10,7 @@ namespace {
 constexpr double kRadius = 6.0, kRigidity = 8.8889e-4, kTension = 0.5;
 constexpr double kThermal = 4.2821e-6;  // k_B T at 310.15 K [nN·µm] (dcm.md, Units)
 
-/// Real spherical harmonics of degree 2, 3 and 4 of unit mean square over the sphere times 4π, without and with a pole on the z axis.
+/// Real spherical harmonics of degree 2, 3 and 4, ∫ Y² dΩ = 1: the zonal one about z, and one that is not.
 double harmonic(int degree, bool at_pole, const Vec3d& n) {
   const double pi = std::numbers::pi, z = n.z;
   switch (degree) {
@@ -64,8 +65,8 @@ TEST(ModesOfASphere, HaveTheStiffnessOfMilnerAndSafran) {  // κ (l + 2)(l − 1
   }
 }
 
-/// dcm.md §16.6, and the parts of the exact stiffness that §10 gives for l = 2 and 10242 nodes, 0.9967 (bending) and 0.9995 (tension): with a quarter
-/// of the nodes four times as much is missing. On 162 nodes bending is a fifth too soft, on 642 a twentieth.
+/// dcm.md §16.6, and the parts of the exact stiffness that §10 gives for l = 2 and 10242 nodes, 0.9967 (bending) and 0.9995 (tension):
+/// with a quarter of the nodes four times as much is missing. On 162 nodes bending is a fifth too soft, on 642 a twentieth.
 TEST(ModesOfASphere, ConvergeWithTheSquareOfTheEdges) {
   for (const double tension : {0.0, kTension}) {
     const double exact = tension > 0.0 ? 4.0 * tension * kRadius * kRadius : 24.0 * kRigidity, published = tension > 0.0 ? 0.9995 : 0.9967;
