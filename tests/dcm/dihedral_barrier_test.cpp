@@ -49,8 +49,8 @@ TEST(DihedralBarrier, GrowsWithoutBoundTowardsPi) {
   EXPECT_GT(last, 1e7);
 }
 
-/// An edge of a shell is lifted to the crest of a steep ridge: the energy of the shell is at least what the angle of that edge says, and the crest
-/// is drawn down.
+/// An edge of a shell is lifted to the crest of a steep ridge: the energy of the shell is at least what the angle of that edge says, and the
+/// crest is drawn down.
 TEST(DihedralBarrier, HoldsAFoldOfAShellOpen) {
   Shells shells = one_shell(42, 3.0);
   ShellParameters p = nothing();
