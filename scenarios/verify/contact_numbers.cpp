@@ -1,4 +1,4 @@
-// Numbers of contacts that are known whatever the cell: a rigid ball that leaves a plane, and pipettes.
+// Contacts: T7.1–T7.3 of dcm.md §7, and pipettes.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,12 +9,14 @@
 #include "coupling/mechanics/contact_setup.h"
 #include "coupling/mechanics/mechanics.h"
 #include "scenarios/library/theory.h"
+#include "scenarios/verify/lone_shell.h"
 #include "scenarios/verify/reference_numbers.h"
+#include "scenarios/verify/two_bodies.h"
 
 namespace morula::scenarios {
 namespace {
 
-constexpr double kRadius = 6.0, kAdhesion = 0.1, kRange = 0.5;
+constexpr double kAdhesion = 0.1, kRange = 0.5;
 
 /// A ball of 642 nodes above a plane, moved as one rigid body. `capped`: its lower cap has the adhesion, all else three times as much.
 class RigidBall {
@@ -93,70 +95,49 @@ double adhesion_from_work() {
   return work / (std::numbers::pi * kRadius * kRange);
 }
 
-/// Two blocks whose flat faces of 4 × 4 µm lie 0.1 µm apart, in a contact layer of their own with friction alone.
-class TwoBlocks {
- public:
-  explicit TwoBlocks(bool objective)
-      : layer_({.range = 0.2, .skin = 1.0, .body_skin = 2.0, .objective_friction = objective}, {}, {material()}, 1) {
-    const TriangleMesh mesh = make_box({4.0, 4.0, 2.0}, 0.8).value();
-    topology_ = Topology::build(static_cast<std::uint32_t>(mesh.position.size()), mesh.faces).value();
-    const std::uint32_t nodes = topology_->node_count(), faces = topology_->face_count();
-    for (std::uint32_t k = 0; k < 2; ++k) {
-      ContactBody& body = bodies_.emplace_back();
-      body.id = CellId::founder(k + 1);
-      body.place = k;
-      body.shape = BodyShape::kSurface;
-      body.point_count = nodes;
-      body.first_point = k * nodes;
-      for (const Vec3d& x : mesh.position) position_.push_back(x + Vec3d{0.0, 0.0, 2.1 * k});
-    }
-    const std::uint32_t first_node[3] = {0, nodes, 2 * nodes};
-    topologies_[0] = topologies_[1] = topology_.get();
-    first_face_[1] = faces, first_face_[2] = 2 * faces;
-    compute_surface_geometry({topologies_, first_node, first_face_}, position_, geometry_);
-    ContactGradient gradient{std::vector<Vec3d>(2 * nodes), std::vector<Vec3d>(2 * nodes), std::vector<double>(2 * faces), {0.0, 0.0}};
-    const ContactScene scene{bodies_, position_, topologies_, first_face_, &geometry_};
-    layer_.rebuild(scene, {.box = {{-50, -50, -50}, {50, 50, 50}}});
-    layer_.evaluate(scene, SurfacePairKind::kSurfaces, gradient);
-    layer_.begin_step(scene);
-  }
-  /// dᵀΓ d for a common rotation of both blocks.
-  double turn() {
-    std::vector<Vec3d> turned = position_, drag(position_.size());
-    for (Vec3d& x : turned) x += cross(Vec3d{3e-3, -2e-3, 1e-3}, x);
-    OrderFreeSum sum;
-    layer_.add_step_friction({bodies_, turned, topologies_, first_face_, &geometry_}, position_, true, drag, sum);
-    return Comm().sum(sum);
-  }
+/// ∫ F dg/A of two plates of 4 × 4 µm pulled apart from touching to out of range, by a trapezoid rule whose nodes are where the traction bends.
+double work_between_plates(double flat_from, double flat_to) {
+  ContactMaterial material;
+  material.law.adhesion = kAdhesion;
+  material.law.range = 0.1;
+  material.law.flat_from = flat_from;
+  material.law.flat_to = flat_to;
+  const TriangleMesh mesh = make_box({4.0, 4.0, 2.0}, 0.8).value();
+  constexpr int kSteps = 20;
+  const double step = material.law.range / kSteps;
+  double work = 0.0;
+  for (int i = 0; i <= kSteps; ++i) work -= TwoBodies(mesh, 2.0, i * step, material).force().z * step * (i == 0 || i == kSteps ? 0.5 : 1.0);
+  return work / 16.0;
+}
 
- private:
-  static ContactMaterial material() {
-    ContactMaterial out;
-    out.law.range = 0.2;
-    out.normal_friction = out.tangential_friction = 50.0;
-    return out;
-  }
-  std::shared_ptr<const Topology> topology_;
-  const Topology* topologies_[2] = {};
-  std::uint32_t first_face_[3] = {};
-  std::vector<ContactBody> bodies_;
-  std::vector<Vec3d> position_;
-  SurfaceGeometry geometry_;
-  ContactLayer layer_;
-};
+void add_pull_off(std::vector<ReferenceNumber>& out) {
+  struct Maugis {
+    double lambda, pull;
+  };
+  for (const Maugis& m : {Maugis{0.01, 1.998}, {0.1, 1.951}, {0.5, 1.718}, {1.0, 1.601}, {2.0, 1.535}, {5.0, 1.506}})
+    out.push_back({"T7.1",
+                   "pull-off force of elastic spheres at a Maugis parameter of " + std::to_string(m.lambda).substr(0, 4) + ", over pi R W",
+                   m.pull, 6e-4, "Maugis 1992, doi:10.1016/0021-9797(92)90285-T", [m] { return theory::maugis_pull_off(m.lambda); }});
+  out.push_back({"T7.2", "pull-off force of a rigid ball of 642 nodes from a plane, 2 pi R W, R 6 um, W 0.1 nN/um [nN]", 3.7699,
+                 0.01 * 3.7699, "closed form (Derjaguin), any range below 2 R; 0.3 % for nodes outside the sphere, 0.4 % from mesh to mesh",
+                 [] { return largest_pull(false); }});
+  out.push_back({"T7.2", "the same where only the ball's lower cap has that W, and all else three times as much [nN]", 3.7699,
+                 0.01 * 3.7699, "closed form; the plane meets the cap alone", [] { return largest_pull(true); }});
+  struct Law {
+    const char* name;
+    double from, to;
+  };
+  for (const Law& law : {Law{"tent", 0.5, 0.5}, Law{"Maugis-Dugdale", 0.1, 0.9}, Law{"falling", 0.1, 0.1}})
+    out.push_back({"T7.3", std::string("work of pulling parallel plates apart per area, ") + law.name + " traction [nN/um]", kAdhesion,
+                   1e-6 * kAdhesion, "closed form: W; dcm.md: 1e-6", [law] { return work_between_plates(law.from, law.to); }});
+}
 
 }  // namespace
 
 void add_contact_numbers(std::vector<ReferenceNumber>& out) {
-  out.push_back({"T7.2", "pull-off force of a rigid ball of 642 nodes from a plane, 2 pi R W, R 6 um, W 0.1 nN/um [nN]", 3.7699,
-                 0.02 * 3.7699, "closed form (Derjaguin), any range below 2 R; 2 % for the mesh", [] { return largest_pull(false); }});
-  out.push_back({"T7.2", "the same where only the ball's lower cap has that W, and all else three times as much [nN]", 3.7699,
-                 0.02 * 3.7699, "closed form; the plane meets the cap alone", [] { return largest_pull(true); }});
+  add_pull_off(out);
   out.push_back({"S5", "W recovered from the work of lifting that ball off [nN/um]", kAdhesion, 0.02 * kAdhesion,
                  "closed form: work pi R c W from touching to out of the range c", [] { return adhesion_from_work(); }});
-  out.push_back({"T9.4", "part of the friction of a contact of parallel faces that turns as a whole which the objective form takes off",
-                 1.0, 1e-6, "closed form: exact for opposed parallel faces",
-                 [] { return 1.0 - TwoBlocks(true).turn() / TwoBlocks(false).turn(); }});
   struct Pipette {
     double tension, radius, suction;
   };

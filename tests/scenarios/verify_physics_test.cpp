@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "scenarios/verify/reference_numbers.h"
 #include "scenarios/verify/verify.h"
@@ -8,26 +9,58 @@
 namespace morula::scenarios {
 namespace {
 
-TEST(ReferenceNumbers, AreMet) {
-  const auto numbers = physics_numbers();
-  EXPECT_GE(numbers.size(), 30u);
-  for (const ReferenceNumber& number : numbers) {
-    EXPECT_NEAR(number.compute(), number.reference, number.tolerance) << number.id << ": " << number.quantity;
-    EXPECT_GT(number.tolerance, 0.0) << number.quantity;
-    EXPECT_LE(number.tolerance, 0.02 * std::abs(number.reference) + 1e-12) << number.quantity << ": a tolerance that anything passes";
-    EXPECT_FALSE(number.source.empty());
-  }
+/// Largest tolerance that a row may have: what dcm.md allows for its number, else 2 % of the reference, or 1e-5 where the reference is zero. Anything
+/// wider needs its line here.
+double widest(const ReferenceNumber& number) {
+  struct Exception {
+    const char* id;
+    double relative, absolute;
+  };
+  static constexpr Exception kExceptions[] = {
+      {"T1.4", 0.05, 0.0},    // ± 5 %
+      {"T2.2", 0.01, 0.01},   // ± 1 %, Poisson ratio ± 0.01
+      {"T3.3", 0.30, 1e-3},   // stationary "up to the discretisation"
+      {"T4.1", 0.0, 5.1e-4},  // residuals have one or two digits: 3.1 %, 1.6 %, 0.8 %
+      {"T9.5", 0.05, 0.0},    // an order
+      {"T10.1", 0.10, 0.0},   // ± 10 %
+      {"T10.2", 0.05, 0.0},   // three standard errors
+      {"T11.1", 0.05, 0.0},   // ± 5 %
+  };
+  for (const Exception& e : kExceptions)
+    if (number.id == e.id) return e.relative * std::abs(number.reference) + e.absolute;
+  return number.reference == 0.0 ? 1e-5 : 0.02 * std::abs(number.reference);
 }
 
-TEST(ReferenceNumbers, AreTheRowsOfTheVerification) {
+TEST(ReferenceNumbers, AreMet) {
   const auto numbers = physics_numbers();
   const auto rows = verify_physics();
   ASSERT_EQ(rows.size(), numbers.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     EXPECT_EQ(rows[i].id, numbers[i].id);
     EXPECT_EQ(rows[i].reference, numbers[i].reference);
-    EXPECT_TRUE(rows[i].passed) << rows[i].quantity;
+    EXPECT_TRUE(rows[i].passed) << rows[i].id << ": " << rows[i].quantity << ": " << rows[i].value;
+    EXPECT_LE(std::abs(rows[i].value - numbers[i].reference), numbers[i].tolerance) << rows[i].id << ": " << rows[i].quantity;
   }
+}
+
+TEST(ReferenceNumbers, HaveTolerancesThatNotAnythingPasses) {
+  for (const ReferenceNumber& number : physics_numbers()) {
+    EXPECT_GT(number.tolerance, 0.0) << number.quantity;
+    EXPECT_LE(number.tolerance, widest(number) * (1.0 + 1e-9)) << number.id << ": " << number.quantity;
+    EXPECT_FALSE(number.source.empty()) << number.quantity;
+  }
+}
+
+/// The numbers of dcm.md that one or two cells show. T7.4, T8.1, T8.2 and T9.6 are equilibria and slow pulls, which the studies of single cells have
+/// (`morula verify physics --studies`).
+TEST(ReferenceNumbers, HaveARowForEachNumberOfThePhysicsPage) {
+  std::set<std::string> ids;
+  for (const ReferenceNumber& number : physics_numbers()) ids.insert(number.id);
+  for (const char* id : {"T1.1",  "T1.2",  "T1.3",  "T1.4",  "T2.1",  "T2.2",  "T2.3",  "T2.4",  "T3.1",  "T3.2",  "T3.3",  "T4.1",
+                         "T4.2",  "T4.3",  "T5.1",  "T5.2",  "T5.3",  "T5.4",  "T5.5",  "T6.1",  "T6.2",  "T6.3",  "T6.4",  "T6.5",
+                         "T6.6",  "T7.1",  "T7.2",  "T7.3",  "T9.1",  "T9.2",  "T9.3",  "T9.4",  "T9.5",  "T10.1", "T10.2", "T11.1",
+                         "T11.2", "T11.3", "T11.4", "T12.1", "T12.2", "T12.3", "T12.4", "T13.1", "T15.2", "T15.3"})
+    EXPECT_TRUE(ids.contains(id)) << id;
 }
 
 }  // namespace
