@@ -90,7 +90,8 @@ void add_bending_numbers(std::vector<ReferenceNumber>& out) {
   out.push_back({"T3.3", "its work on a smooth dent of one radius over 8 pi kappa, 2562 nodes", 0.0, 1e-3,
                  "stationary; the discretisation leaves 1e-3, as it leaves 1.1e-3 of the energy", [] { return work_on_a_dent(2562); }});
   out.push_back({"T3.3", "that work with 642 nodes over that with 2562", 4.0, 1.2,
-                 "second order; the orders 1.5 to 2.4 are within the tolerance", [] { return work_on_a_dent(642) / work_on_a_dent(2562); }});
+                 "second order; the orders 1.5 to 2.4 are within the tolerance",
+                 [] { return work_on_a_dent(642) / work_on_a_dent(2562); }});
 }
 
 }  // namespace morula::scenarios

@@ -101,7 +101,9 @@ Balance balance_of_dampers() {
   return balance_of(dampers.shells().position, dampers.times(random_directions(162, 2)));
 }
 Balance balance_of_contact() {
-  TwoBodies two = plates(true);
+  // Aside, for meshes that mirror each other would balance whatever each point does; by less than the distance of points from the rim (1/12 µm), for
+  // the objective form has no torque where faces are opposed, but some where a point is nearest to an edge.
+  TwoBodies two(make_box({2.5, 4.0, 2.0}, 0.5).value(), 2.0, kGap, rubbing(), true, {0.07, 0.05, 0.0});
   return balance_of(two.position(), two.drag(scaled(random_directions(two.position().size(), 2), 0.01)).force);
 }
 
@@ -130,16 +132,17 @@ double excess_of_dissipation(double dt) {
 
 void add_balances(std::vector<ReferenceNumber>& out) {
   constexpr const char* kBound = "dcm.md: 1e-12";
-  constexpr const char* kSingleBound = "dcm.md: none; the points of contacts are kept in single precision";
-  out.push_back({"T9.4", "net force of the dampers over the sum of their forces", 0.0, 1e-12, kBound, [] { return balance_of_dampers().force; }});
+  constexpr const char* kSingleBound = "dcm.md: 1e-12; weights in single precision";
+  out.push_back(
+      {"T9.4", "net force of the dampers over the sum of their forces", 0.0, 1e-12, kBound, [] { return balance_of_dampers().force; }});
   out.push_back(
       {"T9.4", "net torque of the dampers over the sum of their levers", 0.0, 1e-12, kBound, [] { return balance_of_dampers().torque; }});
   out.push_back({"T9.4", "net force of the friction of a contact over the sum of its forces", 0.0, kSingle, kSingleBound,
                  [] { return balance_of_contact().force; }});
   out.push_back({"T9.4", "net torque of its objective form over the sum of the levers", 0.0, kSingle, kSingleBound,
                  [] { return balance_of_contact().torque; }});
-  out.push_back({"T9.4", "part of the friction of a contact of parallel faces that turns as a whole which the objective form takes off", 1.0,
-                 1e-6, "closed form: exact for opposed parallel faces", [] { return part_that_turns_taken_off(); }});
+  out.push_back({"T9.4", "part of the friction of a contact of parallel faces that turns as a whole which the objective form takes off",
+                 1.0, 1e-6, "closed form: exact for opposed parallel faces", [] { return part_that_turns_taken_off(); }});
 }
 
 }  // namespace
@@ -148,9 +151,10 @@ void add_contact_friction_numbers(std::vector<ReferenceNumber>& out) {
   out.push_back({"T9.1", "force between plates of 10 um^2 that slide at 0.01 um/s, friction 50 nN s/um^3 [nN]", 5.0, 5.0 * kPacked,
                  "closed form gamma S v; areas of points are kept to 1 in 4096", [] { return force_between(plates()); }});
   out.push_back({"T9.1", "the same between plates of 9 um^2, whose points have areas that are kept exactly (3/32 um^2) [nN]", 4.5, 4.5e-10,
-                 "closed form; dcm.md: 1e-10",
-                 [] { return force_between({make_box({3.0, 3.0, 2.0}, 0.75).value(), 2.0, kGap, rubbing()}); }});
-  out.push_back({"T9.1", "area in contact of these plates [um^2]", 10.0, 10.0 * kSingle, kClosedForm, [] { return plates().area(); }});
+                 "closed form; dcm.md: 1e-10", [] {
+                   return force_between({make_box({3.0, 3.0, 2.0}, 0.75).value(), 2.0, kGap, rubbing()});
+                 }});
+  out.push_back({"T9.1", "area in contact of these plates [um^2]", 10.0, 1e-9, kClosedForm, [] { return plates().area(); }});
   out.push_back({"T9.2", "drag of a cell with all its laws under 1 nN, 642 nodes [nN s/um]", 45.023, 5.1e-4,
                  "area of the mesh computed independently", [] { return drag_of_a_cell(); }});
   out.push_back({"T9.2", "drag per area of a rigid cell, friction 0.3 across and 0.06 along its surface [nN s/um^3]", 0.14, 1e-10,
@@ -159,8 +163,8 @@ void add_contact_friction_numbers(std::vector<ReferenceNumber>& out) {
                  "closed form F/(Gamma + 2 Gamma_c); the ends of 38 edges have 0.5 % less area; dcm.md: 3 %",
                  [] { return Doublet().velocity(); }});
   add_balances(out);
-  out.push_back({"T9.5", "energy that a stretched cell loses in explicit steps over its dissipation, extrapolated from 0.005 and 0.01 s", 1.0,
-                 1e-3, "closed form: -dE/dt = v Gamma v",
+  out.push_back({"T9.5", "energy that a stretched cell loses in explicit steps over its dissipation, extrapolated from 0.005 and 0.01 s",
+                 1.0, 1e-3, "closed form: -dE/dt = v Gamma v",
                  [] { return 1.0 + 2.0 * excess_of_dissipation(0.005) - excess_of_dissipation(0.01); }});
   out.push_back({"T9.5", "what is more of it at 0.01 s over that at 0.005 s", 2.0, 0.1, "closed form: first order",
                  [] { return excess_of_dissipation(0.01) / excess_of_dissipation(0.005); }});

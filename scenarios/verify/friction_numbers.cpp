@@ -125,9 +125,10 @@ void add_friction_numbers(std::vector<ReferenceNumber>& out) {
                  [] { return sum_of(velocities_under_even_force()).x / 642.0; }});
   out.push_back({"T1.1", "largest difference of a node's velocity from the mean, relative", 0.0, 1e-10, "dcm.md: rigid translation",
                  [] { return largest_deviation(velocities_under_even_force()); }});
-  out.push_back({"T1.2", "friction of the dampers with a rigid rotation over that with any motion", 0.0, 1e-12, "dcm.md: dampers along the edges",
-                 [] { return friction_of_a_rotation(); }});
-  out.push_back({"T1.3", "asymmetry of the friction of a shell, relative", 0.0, 1e-12, "dcm.md: symmetric", [] { return asymmetry_of_friction(); }});
+  out.push_back({"T1.2", "friction of the dampers with a rigid rotation over that with any motion", 0.0, 1e-12,
+                 "dcm.md: dampers along the edges", [] { return friction_of_a_rotation(); }});
+  out.push_back(
+      {"T1.3", "asymmetry of the friction of a shell, relative", 0.0, 1e-12, "dcm.md: symmetric", [] { return asymmetry_of_friction(); }});
   out.push_back({"T1.3", "least friction of any motion over that of the medium alone, which is that of rigid motion", 1.0, 1e-3,
                  "closed form: positive definite", [] { return least_friction_over_the_medium(); }});
   add_explicit_steps(out);

@@ -105,8 +105,8 @@ double force_after_rotation() {
   std::vector<Vec3d> x = shells.position;
   for (Vec3d& v : x) v = {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
   double most = 0.0;
-  for (const auto law : {&dcm::ShellParameters::spring_stiffness, &dcm::ShellParameters::neo_hooke_shear, &dcm::ShellParameters::skalak_shear,
-                         &dcm::ShellParameters::stvk_shear, &dcm::ShellParameters::local_area_modulus})
+  for (const auto law : {&dcm::ShellParameters::spring_stiffness, &dcm::ShellParameters::neo_hooke_shear,
+                         &dcm::ShellParameters::skalak_shear, &dcm::ShellParameters::stvk_shear, &dcm::ShellParameters::local_area_modulus})
     for (const Vec3d& f : mechanics(shells, one_law(law, kSheet), x).force) most = larger(most, norm(f));
   return most;
 }
@@ -119,10 +119,10 @@ void add_inflation(std::vector<ReferenceNumber>& out) {
     const char* source;
   };
   // dcm.md gives 0.255124 for Skalak's at 1.3; the formula beside it 0.2551206, which is what the tolerance allows for
-  for (const Law& law :
-       {Law{"neo-Hookean", &dcm::ShellParameters::neo_hooke_shear, 0.029035, 0.052855, 5e-7, "closed form, dcm.md 2"},
-        Law{"Skalak", &dcm::ShellParameters::skalak_shear, 0.051437, 0.255124, 4e-6, "Skalak et al. 1973, doi:10.1016/S0006-3495(73)85983-1"},
-        Law{"St Venant-Kirchhoff", &dcm::ShellParameters::stvk_shear, 0.0420, 0.1380, 5e-5, "closed form, dcm.md 2"}}) {
+  for (const Law& law : {Law{"neo-Hookean", &dcm::ShellParameters::neo_hooke_shear, 0.029035, 0.052855, 5e-7, "closed form, dcm.md 2"},
+                         Law{"Skalak", &dcm::ShellParameters::skalak_shear, 0.051437, 0.255124, 4e-6,
+                             "Skalak et al. 1973, doi:10.1016/S0006-3495(73)85983-1"},
+                         Law{"St Venant-Kirchhoff", &dcm::ShellParameters::stvk_shear, 0.0420, 0.1380, 5e-5, "closed form, dcm.md 2"}}) {
     const dcm::ShellParameters p = one_law(law.shear, dcm::sheet_shear_modulus(kYoung, kThickness, kPoisson));
     const std::string name = std::string(", ") + law.name + " membrane [nN/um]";
     out.push_back({"T2.1", "tension at a stretch of 1.1 in all directions" + name, law.at_1_1, law.digits, law.source,
@@ -159,7 +159,8 @@ void add_membrane_numbers(std::vector<ReferenceNumber>& out) {
   add_sheets(out);
   for (const double times : {1.0, 3.0}) {
     const double exact = 0.01 / kSpring * (1.0 - std::exp(-times));
-    out.push_back({"T2.3", "extension of an edge with its damper under 0.01 nN after " + std::to_string(static_cast<int>(times)) + " tau [um]",
+    out.push_back({"T2.3",
+                   "extension of an edge with its damper under 0.01 nN after " + std::to_string(static_cast<int>(times)) + " tau [um]",
                    exact, 0.01 * exact, "closed form (f/k) (1 - exp(-t/tau)); dcm.md: 1 % at steps of tau/200",
                    [times] { return creep_of_an_edge(times); }});
   }

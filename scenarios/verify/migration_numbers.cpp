@@ -75,7 +75,8 @@ double speed_on_a_substrate() {
   std::vector<Vec3d> force(nodes);
   Protrusion law;
   if (!add_protrusion(law, shells.topology(0), mesh.position, x, {}, x, kProtrusion, force)) return NAN;
-  return sum_of(force).x / (LoneFriction(shells, p).dissipation(all_alike(nodes, x)) + on_substrate.drag(on_substrate.slide(true, x)).dissipation);
+  return sum_of(force).x /
+         (LoneFriction(shells, p).dissipation(all_alike(nodes, x)) + on_substrate.drag(on_substrate.slide(true, x)).dissipation);
 }
 
 /// Mean square of one component of the first polarity of 20,000 cells.
@@ -130,12 +131,15 @@ void add_migration_numbers(std::vector<ReferenceNumber>& out) {
                  1e-5 * free_speed, "closed form; A of the mesh computed independently, five digits",
                  [] { return speed_of_protruding_cell(false); }});
   const double held_speed = kProtrusion / (kMedium * 452.389 + 50.0 * 41.49);
-  out.push_back({"T11.3", "speed of a rigid cell on a substrate, F_p/(gamma A + gamma_s A_c), F_p 0.2 nN, A_c 41.49 um^2 [um/s]", held_speed,
-                 0.01 * held_speed, "closed form; an end of 38 edges has 0.5 % less area", [] { return speed_on_a_substrate(); }});
+  out.push_back({"T11.3", "speed of a rigid cell on a substrate, F_p/(gamma A + gamma_s A_c), F_p 0.2 nN, A_c 41.49 um^2 [um/s]",
+                 held_speed, 0.01 * held_speed, "closed form; an end of 38 edges has 0.5 % less area",
+                 [] { return speed_on_a_substrate(); }});
   constexpr const char* kIsotropy = "closed form 1/3; three standard errors of 20,000 cells";
   const double error = 3.0 * std::sqrt(4.0 / 45.0 / 20000.0);  // ⟨p_x⁴⟩ − ⟨p_x²⟩² = 1/5 − 1/9
-  out.push_back({"T11.4", "mean square of the polarity along x", 1.0 / 3.0, error, kIsotropy, [] { return square_of_polarity(&Vec3d::x); }});
-  out.push_back({"T11.4", "mean square of the polarity along z", 1.0 / 3.0, error, kIsotropy, [] { return square_of_polarity(&Vec3d::z); }});
+  out.push_back(
+      {"T11.4", "mean square of the polarity along x", 1.0 / 3.0, error, kIsotropy, [] { return square_of_polarity(&Vec3d::x); }});
+  out.push_back(
+      {"T11.4", "mean square of the polarity along z", 1.0 / 3.0, error, kIsotropy, [] { return square_of_polarity(&Vec3d::z); }});
   out.push_back({"T11.4", "largest difference of protrusions that a rotation of the mesh makes, over F_p", 0.0, 1e-12, "closed form",
                  [] { return unlikeness_of_rotated_protrusions(); }});
 }

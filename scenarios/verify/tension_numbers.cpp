@@ -98,7 +98,8 @@ void add_tension_numbers(std::vector<ReferenceNumber>& out) {
   out.push_back({"T4.2", "pressure over 2 gamma A/(3 V), rough surface of 162 nodes", 1.0, 1e-6, kClosedForm,
                  [] { return virial_of_a_rough_cell(); }});
   out.push_back({"T4.2", "the same of a cell of 642 nodes that has come to rest", 1.0, 1e-6, kClosedForm, [] { return virial_at_rest(); }});
-  out.push_back({"T4.2", "tension of a region by the virial of its forces [nN/um]", 1.1, 1e-9, kClosedForm, [] { return tension_of_a_region(); }});
+  out.push_back(
+      {"T4.2", "tension of a region by the virial of its forces [nN/um]", 1.1, 1e-9, kClosedForm, [] { return tension_of_a_region(); }});
   // dcm.md gives V/V0 for p = 2γ/R at R = 6 µm, which V0 = V exp(2γ/(R K_V)) leads to. From V0 = 4/3 π (6 µm)³ the cell shrinks and its pressure
   // rises with 1/R: ln x = −2γ/(R0 K_V) x^{−1/3}.
   out.push_back({"T4.3", "volume over V0 of a cell at rest, V0 for a radius of 6 um; 642 nodes", 0.9355, 5e-4,

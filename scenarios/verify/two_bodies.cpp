@@ -2,7 +2,8 @@
 
 namespace morula::scenarios {
 
-TwoBodies::TwoBodies(const TriangleMesh& mesh, double height, double gap, const ContactMaterial& material, bool objective)
+TwoBodies::TwoBodies(const TriangleMesh& mesh, double height, double gap, const ContactMaterial& material, bool objective,
+                     const Vec3d& aside)
     : layer_({.range = material.law.range, .skin = 1.0, .body_skin = 2.0, .objective_friction = objective}, {}, {material}, 1) {
   topology_ = Topology::build(static_cast<std::uint32_t>(mesh.position.size()), mesh.faces).value();
   const std::uint32_t nodes = topology_->node_count(), faces = topology_->face_count();
@@ -13,7 +14,7 @@ TwoBodies::TwoBodies(const TriangleMesh& mesh, double height, double gap, const 
     body.shape = BodyShape::kSurface;
     body.point_count = nodes;
     body.first_point = k * nodes;
-    for (const Vec3d& x : mesh.position) position_.push_back(x + Vec3d{0.0, 0.0, (height + gap) * k});
+    for (const Vec3d& x : mesh.position) position_.push_back(x + (aside + Vec3d{0.0, 0.0, height + gap}) * static_cast<double>(k));
   }
   const std::uint32_t first_node[3] = {0, nodes, 2 * nodes};
   topologies_[0] = topologies_[1] = topology_.get();

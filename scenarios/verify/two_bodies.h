@@ -11,8 +11,9 @@ namespace morula::scenarios {
 /// Two bodies of one mesh with flat ends, the second above the first, in a contact layer of their own.
 class TwoBodies {
  public:
-  /// `height`: of the mesh along z. The range of the contact ends before the points on the sides of the mesh.
-  TwoBodies(const TriangleMesh& mesh, double height, double gap, const ContactMaterial& material, bool objective = false);
+  /// `height`: of the mesh along z; `aside`: how far the upper one is moved. The range of the contact ends before the points on the sides of the mesh.
+  TwoBodies(const TriangleMesh& mesh, double height, double gap, const ContactMaterial& material, bool objective = false,
+            const Vec3d& aside = {});
   TwoBodies(const TwoBodies&) = delete;
   TwoBodies& operator=(const TwoBodies&) = delete;
 

@@ -76,7 +76,8 @@ void add_volume_numbers(std::vector<ReferenceNumber>& out) {
   out.push_back({"T5.2", "difference of the force of a pressure and the slope of its energy, relative", 0.0, 1e-6,
                  "dcm.md 16: central differences of 1e-5 um", [] { return error_of_the_gradient(); }});
   out.push_back({"T5.3", "net force of a pressure over the sum of its forces", 0.0, 1e-12, kClosedForm, [] { return net_force(); }});
-  out.push_back({"T5.3", "net torque of a pressure over R times the sum of its forces", 0.0, 1e-12, kClosedForm, [] { return net_torque(); }});
+  out.push_back(
+      {"T5.3", "net torque of a pressure over R times the sum of its forces", 0.0, 1e-12, kClosedForm, [] { return net_torque(); }});
   out.push_back({"T5.4", "pressure of a cell at V/V0 = 0.9, K_V 2.5 kPa [kPa]", 0.263401, 5e-7, kClosedForm,
                  [] { return pressure_at_nine_tenths(); }});
   struct PerMesh {
