@@ -1,5 +1,6 @@
 // Cortical tension: T4.1–T4.3 of dcm.md §4.
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "coupling/mechanics/face_tensions.h"
@@ -51,32 +52,38 @@ double tension_of_a_region() {
   return kTension - dot_of(force, tissue.shells.position) / (2.0 * geometry(tissue.shells).area[0]);
 }
 
-/// A cell that has only tension and pressure, come to rest from 6 µm with this V0: by ten implicit steps of a minute.
-struct AtRest {
-  double volume, pressure, area;
+/// A cell of 642 nodes that has only tension and pressure, come to rest from 6 µm with this V0: by ten implicit steps of a minute.
+class FluidCell {
+ public:
+  explicit FluidCell(double reference_volume) : reference_(reference_volume) {}
+
+  /// V/V0
+  [[nodiscard]] double volume_ratio() { return at_rest().volume / reference_; }
+  [[nodiscard]] double radius() { return std::cbrt(at_rest().volume / ball(1.0)); }
+  /// p over 2γA/(3V)
+  [[nodiscard]] double virial() { return at_rest().pressure * 3.0 * at_rest().volume / (2.0 * kTension * at_rest().area); }
+
+ private:
+  struct AtRest {
+    double volume = NAN, pressure = NAN, area = NAN;
+  };
+  const AtRest& at_rest() {
+    if (at_rest_) return *at_rest_;
+    at_rest_.emplace();
+    Model model = lone_cell_model();
+    model.types[0].shell.spring_stiffness = model.types[0].shell.hinge_stiffness = 0.0;
+    solve_tightly(model);
+    LoneCell cell(model, 642);
+    cell.tissue.shells.reference_volume[0] = reference_;
+    for (int k = 0; k < 10; ++k)
+      if (!cell.step(60.0)) return *at_rest_;
+    const BodyValues now = cell.values();
+    *at_rest_ = {now.volume[0], now.pressure[0], now.area[0]};
+    return *at_rest_;
+  }
+  double reference_;
+  std::optional<AtRest> at_rest_;
 };
-std::optional<AtRest> fluid_cell_at_rest(double reference_volume) {
-  Model model = lone_cell_model();
-  model.types[0].shell.spring_stiffness = model.types[0].shell.hinge_stiffness = 0.0;
-  solve_tightly(model);
-  LoneCell cell(model, 642);
-  cell.tissue.shells.reference_volume[0] = reference_volume;
-  for (int k = 0; k < 10; ++k)
-    if (!cell.step(60.0)) return std::nullopt;
-  const BodyValues now = cell.values();
-  return AtRest{now.volume[0], now.pressure[0], now.area[0]};
-}
-
-double virial_at_rest() {
-  const auto cell = fluid_cell_at_rest(ball(kRadius));
-  return cell ? cell->pressure * 3.0 * cell->volume / (2.0 * kTension * cell->area) : NAN;
-}
-
-/// V/V0 at rest when V0 is this.
-double shrunk_to(double reference_volume) {
-  const auto cell = fluid_cell_at_rest(reference_volume);
-  return cell ? cell->volume / reference_volume : NAN;
-}
 
 }  // namespace
 
@@ -97,20 +104,20 @@ void add_tension_numbers(std::vector<ReferenceNumber>& out) {
                  1e-3 * 2.0 * kTension / kRadius, "Laplace's law; dcm.md: 0.086 %", [] { return laplace(2562).pressure; }});
   out.push_back({"T4.2", "pressure over 2 gamma A/(3 V), rough surface of 162 nodes", 1.0, 1e-6, kClosedForm,
                  [] { return virial_of_a_rough_cell(); }});
-  out.push_back({"T4.2", "the same of a cell of 642 nodes that has come to rest", 1.0, 1e-6, kClosedForm, [] { return virial_at_rest(); }});
+  const auto shrunk = std::make_shared<FluidCell>(ball(kRadius)),
+             held = std::make_shared<FluidCell>(dcm::pressure_free_reference(ball(kRadius), kTension, kBulk));
+  out.push_back(
+      {"T4.2", "the same of a cell of 642 nodes that has come to rest", 1.0, 1e-6, kClosedForm, [shrunk] { return shrunk->virial(); }});
   out.push_back(
       {"T4.2", "tension of a region by the virial of its forces [nN/um]", 1.1, 1e-9, kClosedForm, [] { return tension_of_a_region(); }});
   // dcm.md gives V/V0 for p = 2γ/R at R = 6 µm, which V0 = V exp(2γ/(R K_V)) leads to. From V0 = 4/3 π (6 µm)³ the cell shrinks and its pressure
   // rises with 1/R: ln x = −2γ/(R0 K_V) x^{−1/3}.
   out.push_back({"T4.3", "volume over V0 of a cell at rest, V0 for a radius of 6 um; 642 nodes", 0.9355, 5e-4,
-                 "closed form exp(-2 gamma/(R K_V)); dcm.md: 0.935 to 0.936",
-                 [] { return shrunk_to(dcm::pressure_free_reference(ball(kRadius), kTension, kBulk)); }});
-  out.push_back({"T4.3", "radius of that cell [um]", kRadius, 1e-3 * kRadius, "closed form; the mesh has 0.1 % more pressure", [] {
-                   const auto cell = fluid_cell_at_rest(dcm::pressure_free_reference(ball(kRadius), kTension, kBulk));
-                   return cell ? std::cbrt(cell->volume / ball(1.0)) : NAN;
-                 }});
+                 "closed form exp(-2 gamma/(R K_V)); dcm.md: 0.935 to 0.936", [held] { return held->volume_ratio(); }});
+  out.push_back({"T4.3", "radius of that cell [um]", kRadius, 1e-3 * kRadius, "closed form; the mesh has 0.1 % more pressure",
+                 [held] { return held->radius(); }});
   out.push_back({"T4.3", "volume over V0 of a cell at rest, V0 that of 6 um; 642 nodes", 0.934074, 5e-4,
-                 "root of ln x = -2 gamma/(R0 K_V) x^(-1/3)", [] { return shrunk_to(ball(kRadius)); }});
+                 "root of ln x = -2 gamma/(R0 K_V) x^(-1/3)", [shrunk] { return shrunk->volume_ratio(); }});
 }
 
 }  // namespace morula::scenarios
