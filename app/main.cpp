@@ -12,6 +12,7 @@
 
 #include "app/command_line.h"
 #include "app/verbs.h"
+#include "core/parallel/quiet_mpi.h"
 #include "scenarios/run/exit_code.h"
 
 namespace {
@@ -74,17 +75,6 @@ int guarded(const std::vector<std::string>& arguments, const Context& context) {
     code = scenarios::exit_code(ErrorKind::kResources);
   }
   return code;
-}
-
-/// Open MPI talks about networks that a machine does not have, and about containers; none of that is a user's concern. Without a launcher
-/// (mpirun, srun) it would start a daemon of its own for one rank, which takes longer than most verbs and hears the signals meant for us.
-void quiet_mpi() {
-  setenv("OMPI_MCA_btl_base_warn_component_unused", "0", 0);
-  setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
-  setenv("OMPI_MCA_shmem_mmap_enable_nfs_warning", "0", 0);
-  const auto launched_by = [](const char* variable) { return std::getenv(variable) != nullptr; };
-  if (!launched_by("OMPI_COMM_WORLD_RANK") && !launched_by("PMIX_RANK") && !launched_by("PMI_RANK"))
-    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
 }
 
 /// A thread that waits for another spins for a few microseconds and then sleeps, unless the user has said otherwise. The default of the OpenMP

@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "core/parallel/quiet_mpi.h"
 #include "core/space/curve.h"
 #include "coupling/behaviours/birth.h"
 #include "coupling/cell_record.h"
@@ -278,6 +279,7 @@ int main(int argc, char** argv) {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 32 << 20), mallopt(M_TRIM_THRESHOLD, 512 << 20);  // as the command does
 #endif
+  quiet_mpi();
   MPI_Init(&argc, &argv);
   int status = 0;
   {

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "core/parallel/quiet_mpi.h"
 #include "core/random/philox.h"
 #include "fields/field_solver.h"
 
@@ -17,6 +18,7 @@ Comm alone() {
   int started = 0;
   MPI_Initialized(&started);
   if (started == 0) {
+    quiet_mpi();
     MPI_Init(nullptr, nullptr);
     std::atexit([] { MPI_Finalize(); });
   }

@@ -2,6 +2,8 @@
 #include <mpi.h>
 #include <omp.h>
 
+#include "core/parallel/quiet_mpi.h"
+
 namespace {
 
 /// Starts MPI for the tests of this program; every test works on MPI_COMM_SELF, with one thread unless it says otherwise: tests run
@@ -9,6 +11,7 @@ namespace {
 class MpiEnvironment : public testing::Environment {
  public:
   void SetUp() override {
+    morula::quiet_mpi();
     MPI_Init(nullptr, nullptr);
     omp_set_num_threads(1);
   }

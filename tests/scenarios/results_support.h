@@ -12,6 +12,7 @@
 #include <string>
 
 #include "core/parallel/comm.h"
+#include "core/parallel/quiet_mpi.h"
 #include "coupling/tissue.h"
 #include "scenarios/results/checkpoint.h"
 
@@ -24,6 +25,7 @@ class MpiEnvironment : public ::testing::Environment {
     int running = 0;
     MPI_Initialized(&running);
     if (running == 0) {
+      quiet_mpi();
       MPI_Init(nullptr, nullptr);
       ours_ = true;
     }

@@ -93,6 +93,15 @@ TEST(Run, SaysWhenAFolderCannotBeWritten) {
   EXPECT_THAT(outcome.err, HasSubstr("locked/run"));
 }
 
+TEST(Run, NeedsNoFolderThatOtherRunsShare) {
+  // Under /proc nobody can make one, as when another run of the same user has just removed it.
+  const TestFolder folder;
+  CommandOptions options;
+  options.environment = {{"TMPDIR", "/proc"}};
+  const Outcome outcome = run_morula({"list"}, folder.path(), options);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
+}
+
 TEST(Run, DryRunWritesNothing) {
   const TestFolder folder;
   folder.write("study.yaml", sphere_study());
