@@ -9,7 +9,6 @@
 namespace morula {
 namespace {
 
-constexpr double kArmijo = 1e-4;
 constexpr int kHalvings = 8;
 constexpr int kGradientHalvings = 20;
 // A step whose residual is not below `newton_stop` may end all the same where little motion is left; both in units of newton_stop:
@@ -63,9 +62,9 @@ struct Mechanics::Trial {
     return m.energy_ - work + m.friction_energy_ / (2.0 * dt);
   }
 
-  /// Move along `direction` until Φ falls enough. On success the workspace is evaluated at the new state; else positions are restored, but
+  /// Move along `direction` until Φ is no higher than before, or by `allowed_rise` at most. On success the workspace is evaluated at the new state; else positions are restored, but
   /// for rounding. `give_up_to_hold`: not more than the short search where nodes are held after it.
-  bool search(const Direction& direction, double slope, int halvings, double allowed_rise, bool give_up_to_hold = false) {
+  bool search(const Direction& direction, int halvings, double allowed_rise, bool give_up_to_hold = false) {
     double at = 0.0, fraction = 1.0, before = std::numeric_limits<double>::infinity();
     whole = false;
     const auto go_to = [&](double there) {
@@ -86,7 +85,7 @@ struct Mechanics::Trial {
         go_to(2.0 * fraction);
         next = measure();
       }
-      if (sound && (jumped || next <= phi + std::max(kArmijo * fraction * slope, allowed_rise))) {
+      if (sound && (jumped || next <= phi + allowed_rise)) {
         report.halvings = std::max(report.halvings, k);
         whole = k == 0;
         if (next > phi) report.allowed_rise += next - phi;
@@ -210,7 +209,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
   for (int iteration = 0; iteration < control.max_newton; ++iteration) {
     bool moved = false, converged = false;
     cut = false;
-    double slope = 0.0, longest = 0.0;
+    double longest = 0.0;
     if (iteration > 0) std::fill(solution_.begin(), solution_.end(), Float4{});
     for (int holds = 0;; ++holds) {
       auto solved = solve(dt, iteration == 0 ? control.first_tolerance : control.later_tolerance);
@@ -219,10 +218,9 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
       if (iteration + holds == 0 && longest > 4.0 * allowed && dt > 1e-3) {
         return undo(start, StepFault{"points would move too far in one step", {}, true});
       }
-      slope = -dot(force_, direction);
-      converged = -0.5 * slope <= 1e-12 * (1.0 + std::abs(trial.phi));
+      converged = 0.5 * dot(force_, direction) <= 1e-12 * (1.0 + std::abs(trial.phi));
       const double rise = converged ? 1e-9 * (1.0 + std::abs(trial.phi)) : 0.0;
-      moved = trial.search(direction, slope, kHalvings, rise, holds < kMostHolds);
+      moved = trial.search(direction, kHalvings, rise, holds < kMostHolds);
       if (moved || !trial.held || holds == kMostHolds) break;
       evaluate(tissue);
       (void)friction_residual(start, external, dt);
@@ -238,12 +236,11 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
       auto solved = solve(0.0, control.first_tolerance);
       if (!solved) return undo(start, solved.error());
       limit_direction(range);
-      slope = -dot(force_, direction);
-      moved = trial.search(direction, slope, kGradientHalvings, 0.0);
+      moved = trial.search(direction, kGradientHalvings, 0.0);
       if (!moved) {
         direction = {newton_solution, newton_factor};
         limit_direction(kLastResortStep * range);
-        moved = trial.search(direction, -dot(force_, direction), 2, kAllowedRise);
+        moved = trial.search(direction, 2, kAllowedRise);
       }
       if (!moved) {
         evaluate(tissue);
