@@ -91,11 +91,12 @@ void assemble_faces(Assembly<W>& a) noexcept {
   }
 }
 
+/// A hinge resists its two opposite nodes with k_h (1/h₁² + 1/h₂²), and the stiffest mode of a net of hinges is twenty times as stiff; that of
+/// the tension, which the matrix has, is 3.5 γ. Below γ/20 (kStiffHinge) the net adds less than γ to that and needs no term: a term that is left out
+/// changes the path of the iteration, never the state it ends in.
+constexpr float kStiffHinge = 0.05f;
+
 /// Which edges of a block need a term of their own: beyond the onset of the barrier, or with a hinge that is stiff against the tension.
-///
-/// A hinge moves its two opposite nodes with k_h (1/h₁² + 1/h₂²). Without a term in the matrix steps stay stable up to about a thirtieth of
-/// the tension (the stiffest mode of a net of hinges has twenty times that, tension alone 3.5 γ); a term that is left out changes the path of
-/// the iteration, never the state it ends in.
 template <int W>
 struct HingeChoice {
   using Real = Lane<float, W>;
@@ -106,7 +107,8 @@ struct HingeChoice {
       const ShellParameters& p = a.types[a.shells.type[shell]];
       return p.barrier_stiffness > 0.0 ? std::cos(p.barrier_angle) : -2.0;
     });
-    return {cos_onset, a.of_type(&ShellParameters::hinge_stiffness), max(Real(1e-30f), Real(0.05f) * a.of_type(&ShellParameters::tension))};
+    return {cos_onset, a.of_type(&ShellParameters::hinge_stiffness),
+            max(Real(1e-30f), Real(kStiffHinge) * a.of_type(&ShellParameters::tension))};
   }
   [[nodiscard]] Real cos_margin(const FaceRecord<W>& left, const FaceRecord<W>& right) const noexcept {
     return dot(left.n, right.n) * left.inverse_norm * right.inverse_norm - cos_onset;

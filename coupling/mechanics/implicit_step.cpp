@@ -25,6 +25,7 @@ constexpr double kLastResortStep = 0.2;    // in units of the contact range
 constexpr int kMaxLinearIterations = 400;
 // Explicit Euler is the reference and has no second solve: forces on nodes without contact may be a thousandth of those in it (dcm.md §1).
 constexpr double kExplicitTolerance = 1e-6;
+constexpr int kMostExplicitIterations = 4000;
 
 /// Which forces hold a node that nothing can move: words for the message.
 std::string forces_at_worst(const Vec3d& contacts, const Vec3d& left) {
@@ -62,7 +63,8 @@ struct Mechanics::Trial {
     return m.energy_ - work + m.friction_energy_ / (2.0 * dt);
   }
 
-  /// Move along `direction` until Φ is no higher than before, or by `allowed_rise` at most. On success the workspace is evaluated at the new state; else positions are restored, but
+  /// Move along `direction` until Φ is no higher than before, or by `allowed_rise` at most; a jump of the contact energy on the way is
+  /// passed. On success the workspace is evaluated at the new state; else positions are restored, but
   /// for rounding. `give_up_to_hold`: not more than the short search where nodes are held after it.
   bool search(const Direction& direction, int halvings, double allowed_rise, bool give_up_to_hold = false) {
     double at = 0.0, fraction = 1.0, before = std::numeric_limits<double>::infinity();
@@ -87,7 +89,7 @@ struct Mechanics::Trial {
       }
       if (sound && (jumped || next <= phi + allowed_rise)) {
         report.halvings = std::max(report.halvings, k);
-        whole = k == 0;
+        whole = k == 0 || (jumped && k == 1);
         if (next > phi) report.allowed_rise += next - phi;
         phi = next;
         return true;
@@ -242,6 +244,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
         limit_direction(kLastResortStep * range);
         moved = trial.search(direction, 2, kAllowedRise);
       }
+      trial.whole = false;  // of another way than the iteration's
       if (!moved) {
         evaluate(tissue);
         (void)friction_residual(start, external, dt);
@@ -289,9 +292,11 @@ Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt
   (void)friction_residual(start, external, dt, false);
   assemble(tissue, 0.0);
   give_residual();
-  auto solved = system_.solve(solution_, kExplicitTolerance, kMaxLinearIterations, comm_);
+  auto solved = system_.solve(solution_, kExplicitTolerance, kMostExplicitIterations, comm_);
   drop_matrix();
   if (!solved) return undo(start, StepFault{solved.error().what, {}, true});
+  if (!solved->converged)
+    return undo(start, StepFault{"the velocities are not found in " + std::to_string(kMostExplicitIterations) + " iterations", {}, false});
   report.linear_iterations = solved->iterations;
   report.newton = 1;
   auto& x = scene_.position();

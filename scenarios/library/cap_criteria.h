@@ -41,7 +41,7 @@ struct ElasticCap {
 };
 
 /// Static minimisation of an elastic cell of 642 nodes (E = 1 kPa, h = 200 nm, γ = 0.1 mN/m: spreading_static_reference.csv); null where there is none for
-/// this ratio, modulus and mesh. Two such cells that stick to each other with twice the ratio are its mirror images (S6.0).
+/// this ratio and modulus, or the mesh is coarser. Two such cells that stick to each other with twice the ratio are its mirror images (S6.0).
 const ElasticCap* elastic_cap(double ratio, double modulus, std::uint32_t nodes);
 
 /// Tension of the free surface of a type at a time [nN/µm].

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kUncapped = 0.1;     // overlap at which the capped start ends [µm]
 constexpr double kEnergyRise = 1e-3;  // of the range (INV.7)
+constexpr double kRest = 1e-9;        // range of the energy over its size, below which a tissue is at rest and what is left is rounding
 
 /// Largest value of a column from a row on; NaN (which passes no limit) where a value is no number.
 double largest(const SeriesColumn& column, std::size_t from = 0) {
@@ -41,7 +42,7 @@ double largest_rise(const SeriesColumn& energy) {
     high = std::max(high, energy.values[i]);
     if (i > 1) rise = std::max(rise, energy.values[i] - energy.values[i - 1]);
   }
-  return high > low ? rise / (high - low) : 0.0;
+  return high > low ? rise / std::max(high - low, kRest * std::max(std::abs(low), std::abs(high))) : 0.0;
 }
 
 }  // namespace

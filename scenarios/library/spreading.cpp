@@ -83,12 +83,13 @@ std::vector<Sitting> sitting(const Study& study, const Snapshot& snapshot) {
   const Model& model = study.model;
   for (std::size_t type = 0; type < model.types.size(); ++type) {
     const CellType& t = model.types[type];
-    double adhesion = 0.0;
-    for (std::size_t o = 0; o < model.obstacles.size(); ++o)
-      adhesion = std::max(adhesion, model.pair(type, model.types.size() + o).adhesion);
+    double adhesion = 0.0, range = 0.0;
+    for (std::size_t o = model.types.size(); o < model.types.size() + model.obstacles.size(); ++o)
+      if (model.pair(type, o).adhesion > adhesion) adhesion = model.pair(type, o).adhesion, range = range_of(model, type, o);
+    if (adhesion == 0.0) continue;
     for (const ShellView& shell : shells_of(snapshot, type))
       out.push_back({adhesion, tension_at(t, snapshot.time), spring_modulus(t), t.shell_nodes, shell.cell->contact_area,
-                     2.0 * std::numbers::pi * radius_of_volume(shell.cell->volume) * model.contact.range});
+                     2.0 * std::numbers::pi * radius_of_volume(shell.cell->volume) * range});
   }
   return out;
 }

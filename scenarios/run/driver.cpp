@@ -111,6 +111,10 @@ Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest&
                  "the checkpoint belongs to another study than '" + (folder.path() / "study.resolved.yaml").string() + "'",
                  "the resolved study of a run must not be changed; start a new run instead"};
   const double time = restored.checkpoint.tissue.clock.time;
+  if (request.until && *request.until < time)
+    return Error{ErrorKind::kInput, "the run is at " + time_text(time) + " already, later than --until " + time_text(*request.until),
+                 "give a later time, or `--from` an earlier checkpoint"};
+  const std::string failure = record.state == RunState::kFailed ? record.message : "";
   MORULA_TRY_ASSIGN(auto simulation, Simulation::create(study.model, std::move(restored.checkpoint.tissue), comm, request.threads));
   record.state = RunState::kRunning;
   record.message.clear();
@@ -125,6 +129,7 @@ Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest&
   RunLoop loop(study, request, comm, std::move(folder), std::move(columns), std::move(record), std::move(simulation));
   for (const std::string& warning : restored.warnings) loop.note(Note::Kind::kWarning, warning);
   loop.note(Note::Kind::kNote, "resumed from the checkpoint at " + time_text(time));
+  if (!failure.empty()) loop.note(Note::Kind::kWarning, "the run had ended with an error, and goes on unchanged: " + failure);
   if (time >= loop.end()) loop.note(Note::Kind::kNote, "nothing is left to do: the run ends at " + time_text(loop.end()));
   if (request.until) loop.note(Note::Kind::kNote, end_note(request, loop.end()));
   if (Status back = loop.go_back(); !back.ok()) return loop.fail(back.error(), false);

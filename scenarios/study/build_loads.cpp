@@ -19,11 +19,12 @@ LoadEnd end_of(const Given<std::string>& word) {
 }
 
 /// A load on the surface needs shells; one on chosen nodes needs to know where these were at the start.
-void check_bodies(BuildContext& c, const std::string& name, const Place& place, const CellLoad& load) {
+/// `marked`: the load is for faces with a mark, known or not.
+void check_bodies(BuildContext& c, const std::string& name, const Place& place, const CellLoad& load, bool marked) {
   if (load.kind == LoadKind::kBodyForce) return;
   const std::string who = "load '" + name + "' acts on the surface of '" + c.study.model.types[load.type].name + "'";
   const bool chosen =
-      load.mark < 0 && (load.kind == LoadKind::kPull || load.kind == LoadKind::kPatch || load.kind == LoadKind::kGrip || load.part < 1.0);
+      !marked && (load.kind == LoadKind::kPull || load.kind == LoadKind::kPatch || load.kind == LoadKind::kGrip || load.part < 1.0);
   for (const InitialCells& block : c.study.initial) {
     if (block.type != load.type && block.source != InitialCells::Source::kCsv) continue;
     const BodyKind body = block.body_given ? block.body : c.study.model.types[load.type].initial_body;
@@ -63,21 +64,22 @@ struct Placed {
   bool is_default;
 };
 
-int mark_of_load(BuildContext& c, const CellLoad& load, const Given<std::string>& name, std::initializer_list<Placed> placed) {
+int mark_of_load(BuildContext& c, const CellLoad& load, int type, const Given<std::string>& name, std::initializer_list<Placed> placed) {
   if (!name.given) return -1;
   for (const Placed& key : placed)
     if (!key.is_default)
       c.diagnostics.error(594, key.place, "load '" + load.name + "' acts on the faces marked '" + name.value + "', wherever they are",
                           "remove this key or `marked`");
   const int mark = find_mark(c, name.value, name.place);
-  if (mark >= 0 && !may_carry_mark(c, load.type, mark))
-    c.diagnostics.error(580, name.place,
-                        "no face of '" + c.draft.cell_types[load.type].name + "' ever carries the mark '" + name.value + "'",
-                        "give the mark to shells of this type (`marks: " + name.value + ": types`)");
+  if (mark >= 0 && type >= 0 && !may_carry_mark(c, type, mark))
+    c.diagnostics.error(
+        580, name.place,
+        "no face of '" + c.draft.cell_types[static_cast<std::size_t>(type)].name + "' ever carries the mark '" + name.value + "'",
+        "give the mark to shells of this type (`marks: " + name.value + ": types`)");
   return mark;
 }
 
-void build_patch(BuildContext& c, const draft::Load& d, CellLoad& load) {
+void build_patch(BuildContext& c, const draft::Load& d, int type, CellLoad& load) {
   load.kind = LoadKind::kPatch;
   load.force = d.patch_force.value;
   load.axis = unit_axis(c, d.patch_ends.axis, "toward");
@@ -85,16 +87,19 @@ void build_patch(BuildContext& c, const draft::Load& d, CellLoad& load) {
   load.end = LoadEnd::kHigh;
   const draft::LoadEnds& at = d.patch_ends;
   load.mark =
-      mark_of_load(c, load, d.patch_mark, {{at.axis.place, at.axis.value == Vec3d{1, 0, 0}}, {at.part.place, at.part.value == 0.02}});
+      mark_of_load(c, load, type, d.patch_mark, {{at.axis.place, at.axis.value == Vec3d{1, 0, 0}}, {at.part.place, at.part.value == 0.02}});
 }
 
-void build_pressure(BuildContext& c, const draft::Load& d, CellLoad& load) {
+void build_pressure(BuildContext& c, const draft::Load& d, int type, CellLoad& load) {
   load.gradient = d.pressure_gradient.value;
   load.origin = d.pressure_origin.value;
   const draft::LoadEnds& at = d.pressure_ends;
   load.mark = mark_of_load(
-      c, load, d.pressure_mark,
+      c, load, type, d.pressure_mark,
       {{at.axis.place, at.axis.value == Vec3d{1, 0, 0}}, {at.part.place, at.part.value == 1.0}, {at.ends.place, at.ends.value == "both"}});
+  if (norm2(load.gradient) == 0.0 && norm2(load.origin) > 0.0)
+    c.diagnostics.error(515, d.pressure_origin.place, "'origin' has no effect here",
+                        "it is where a pressure with a `gradient` has its `value`");
   const double along[3] = {load.gradient.x, load.gradient.y, load.gradient.z};
   for (int axis = 0; axis < 3; ++axis)
     if (along[axis] != 0.0 && c.study.model.space.periodic(axis))
@@ -155,7 +160,7 @@ void build_loads(BuildContext& c) {
       load.size = d.peak.value;
       load.axis = unit_axis(c, d.traction_axis, "axis");
     } else if (d.patch) {
-      build_patch(c, d, load);
+      build_patch(c, d, type, load);
     } else if (d.pull || d.pressure || d.grip) {
       const draft::LoadEnds& ends = d.pull ? d.pull_ends : d.pressure ? d.pressure_ends : d.grip_ends;
       load.kind = d.pull ? LoadKind::kPull : d.pressure ? LoadKind::kPressure : LoadKind::kGrip;
@@ -164,13 +169,14 @@ void build_loads(BuildContext& c) {
       load.part = ends.part.value;
       load.end = end_of(ends.ends);
       if (d.grip) build_grip(c, d, load);
-      if (d.pressure) build_pressure(c, d, load);
+      if (d.pressure) build_pressure(c, d, type, load);
       if (d.pressure_within.present) build_within(c, d.pressure_within, load);
     } else {
       load.force = d.body_force.value;
     }
     load.course = build_course(c, d.course);
-    if (type >= 0 && static_cast<std::size_t>(type) < c.study.model.types.size()) check_bodies(c, name, place, load);
+    if (type >= 0 && static_cast<std::size_t>(type) < c.study.model.types.size())
+      check_bodies(c, name, place, load, d.patch_mark.given || d.pressure_mark.given);
     c.study.model.loads.push_back(std::move(load));
   }
 }

@@ -210,6 +210,9 @@ void MeshesBuilder::check_edge(const Given<double>& range, double shortest, doub
 
 /// A nucleus begins at the centroid, where its links are at rest: the ball must lie inside the surface there.
 void MeshesBuilder::check_nucleus(const MeshCell& cell, const TriangleMesh& surface, const Place& at) {
+  const auto& types = c_.draft.cell_types;
+  const auto is_this = [&](const auto& type) { return type.name == entry_.type.value; };
+  if (!d_.types.given && std::none_of(types.begin(), types.end(), is_this)) return;  // told already
   const dcm::InteriorParameters& interior = c_.study.model.types[cell.type].interior;
   if (!interior.has_nucleus()) return;
   const Vec3d center = volume_centroid(surface.faces, surface.position);

@@ -111,11 +111,12 @@ void add_membrane(BuildContext& c, const draft::ShellKeys& t, dcm::ShellParamete
   if (m.elastic.value == "stvk") p.stvk_shear += m.shear_modulus.value;
   if (m.elastic.value == "skalak") p.skalak_shear += m.shear_modulus.value;
   if (is_sheet(m.elastic.value)) {
-    if (is_sheet(t.elastic.value) && std::abs(m.area_ratio.value - p.membrane_area_ratio) > 1e-9 * p.membrane_area_ratio)
+    if (is_sheet(t.elastic.value) && m.area_ratio.given && t.poisson.known() &&
+        std::abs(m.area_ratio.value - p.membrane_area_ratio) > 1e-9 * p.membrane_area_ratio)
       c.diagnostics.error(595, m.area_ratio.place,
                           "the area ratio of the membrane (" + m.area_ratio.text + ") is not that of the layer below (" +
                               short_number(p.membrane_area_ratio) + ")",
-                          "make them equal, or let one of the two be `springs`, or give the rest of the resistance as `area.local`");
+                          "make them equal and give the rest of the resistance as `area.local`, or let one of the two be `springs`");
     p.membrane_area_ratio = m.area_ratio.value;
   }
   if (m.bending_law.value == "hinge") p.hinge_stiffness += dcm::hinge_stiffness(m.bending.value);

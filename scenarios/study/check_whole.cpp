@@ -143,12 +143,12 @@ double surface_limit(const draft::ShellKeys& t, double friction, double node_are
   const double rigidity =
       t.bending.value >= 0.0 ? t.bending.value : dcm::bending_modulus(t.young.value, t.thickness.value, t.poisson.value);
   double rate = std::max(7.5 * t.tension.value / edge_square, 4.0 * t.global_area.value / (radius * radius));
-  const auto bends = [&](const std::string& law, double of) {
-    if (law == "hinge") rate = std::max(rate, 46.0 * dcm::hinge_stiffness(of) / (node_area * edge_square));
-    if (law == "helfrich") rate = std::max(rate, 56.0 * of / (edge_square * edge_square));
+  const auto bending = [&](const std::string& law, double of) {
+    if (law == "hinge") return 46.0 * dcm::hinge_stiffness(of) / (node_area * edge_square);
+    return law == "helfrich" ? 56.0 * of / (edge_square * edge_square) : 0.0;
   };
-  bends(t.bending_law.value, rigidity);
-  if (t.has_membrane) bends(t.membrane.bending_law.value, t.membrane.bending.value);
+  rate = std::max(rate, bending(t.bending_law.value, rigidity) +
+                            (t.has_membrane ? bending(t.membrane.bending_law.value, t.membrane.bending.value) : 0.0));
   return rate > 0.0 ? 2.0 * friction / rate : 1e300;
 }
 

@@ -66,7 +66,8 @@ void declare_patch(Section& p, draft::Load& load) {
   part(p, load.patch_ends, "2 %",
        "Part of the nodes, those furthest to that side, in equal parts: a fixed set, ties taken in; one node, a point force, where that is "
        "less than one and a half.");
-  marked(p, load.patch_mark, "In place of `toward`: the faces with this mark bear the force, each its share by area.");
+  marked(p, load.patch_mark,
+         "In place of `toward` and `part`: the faces with this mark bear the force, each its share by area; none while no face has it.");
 }
 
 void declare_pressure(Section& p, draft::Load& load) {
@@ -88,7 +89,7 @@ void declare_pressure(Section& p, draft::Load& load) {
            load.pressure_origin);
   axis(p, load.pressure_ends.axis, "Axis that tells the ends.");
   ends(p, load.pressure_ends, "100 %", "Part of the nodes at each end; faces between such nodes bear the pressure.");
-  marked(p, load.pressure_mark, "In place of `part`: faces with this mark bear the pressure.");
+  marked(p, load.pressure_mark, "In place of `axis`, `part` and `ends`: faces with this mark bear the pressure.");
   p.group({.name = "within",
            .doc = "Only faces whose middle lies in this cylinder bear the pressure: suction in a pipette.",
            .optional_section = true,

@@ -248,11 +248,13 @@ void declare_shell_keys(Section& s, draft::ShellKeys& t, draft::CellType* cell) 
           ? KeySpec{.name = "cortex", .doc = "The cell's cortex: a thin elastic layer under active tension."}
           : KeySpec{.name = "lamina", .doc = "The nucleus' envelope with its lamina: a thin elastic layer, perhaps under tension."};
   s.group(layer, present, [&](Section& c) { declare_cortex(c, t, fallback, cell); });
-  s.group({.name = "membrane",
-           .doc = "A second layer on the first, such as the plasma membrane: its laws add to those of the first.",
-           .optional_section = true,
-           .example = "{elastic: skalak, shear_modulus: 5.5 uN/m, area_ratio: 50, bending: helfrich, rigidity: 2e-19 J}"},
-          t.has_membrane, [&t](Section& m) { declare_membrane(m, t.membrane); });
+  s.group(
+      {.name = "membrane",
+       .doc = "A second layer on the first, such as the plasma membrane: its laws add to those of the first. Where both resist changes of "
+              "area, `area: {on_top: true}` says that they shall; `turnover` renews both.",
+       .optional_section = true,
+       .example = "{elastic: skalak, shear_modulus: 5.5 uN/m, area_ratio: 50, bending: helfrich, rigidity: 2e-19 J}"},
+      t.has_membrane, [&t](Section& m) { declare_membrane(m, t.membrane); });
   s.group({.name = "area", .doc = "Elasticity of the area, apart from that of the layer."}, present,
           [&t](Section& a) { declare_area(a, t); });
   s.group({.name = "bending", .doc = "Bending of the layer.", .shorthand = "rigidity", .example = "{law: helfrich, rigidity: 2e-19 J}"},

@@ -45,14 +45,13 @@ struct Osmosis {
   std::vector<Named<CoursePoint>> course;
 };
 
-/// The mesh of a shell and its mechanics: of a cell, or of a nucleus that is a shell.
 /// What a layer of a shell resists: shear and stretch in its plane, bending.
 struct Layer {
   Given<std::string> elastic, bending_law;
   Given<double> shear_modulus, area_ratio, bending, spontaneous_radius;
 };
 
-/// A shell: the cortex of a cell or the lamina of a nucleus, and perhaps a membrane on it.
+/// The mesh of a shell and its mechanics: the cortex of a cell or the lamina of a nucleus that is a shell, and perhaps a membrane on it.
 struct ShellKeys : Layer {
   Given<std::uint64_t> nodes;
   Given<double> young, thickness, poisson, tension, turnover, damping, isotropic_damping;

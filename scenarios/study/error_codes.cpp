@@ -116,10 +116,10 @@ constexpr ErrorCode kCodes[] = {
      "stall on these folds at W = 0.95 times both tensions, and not at 0.9; meshes of 162 nodes were not."},
     {572, "volume that does not bear the tension",
      "A sphere of tension T and bulk modulus K shrinks without end when K is below 2 T/(3 R)."},
-    {580, "region of adhesion that no face has",
-     "`regions` of a pair name marks of faces, one for each of the two materials at most: only shells of the types that a mark is for "
-     "carry it; "
-     "obstacles carry none."},
+    {580, "region that no face has",
+     "`regions` of a pair name marks of faces, one for each of the two materials at most, and so do loads with `marked`: only shells of "
+     "the "
+     "types that a mark is for carry it; obstacles carry none."},
     {581, "adhesion of a region stronger than the cortex",
      "With W of twice the tension there or more, faces of this region spread on each other until something elastic stops them (warning); a "
      "cortex "
@@ -143,6 +143,9 @@ constexpr ErrorCode kCodes[] = {
      "Faces with a mark bear the load wherever they are on the cell; an axis or a part of the nodes has no effect then."},
     {595, "layers that do not go together",
      "The model holds one area ratio for all sheets of a shell and one spontaneous curvature for all its Helfrich layers."},
+    {596, "cell within another body",
+     "Surfaces that lie in each other push each other apart near where they cross; a cell whose centre is within another body stays "
+     "there."},
     {601, "file missing", "A file that the study names does not exist. Paths are relative to the folder of the study."},
     {602, "file cannot be read", "It is a folder, a device, or its permissions forbid reading."},
     {603, "file too large", "Study files are read up to 5 MiB, CSV files up to 500 MiB."},

@@ -258,6 +258,7 @@ void ReadSection::words(const KeySpec& key, Given<std::vector<std::string>>& val
   const Node::Entry* entry = take(key);
   value.given = entry != nullptr;
   value.place = entry ? entry->value.place : place_;
+  if (!entry && !key.fallback) return;
   Node storage;
   if (!entry) {
     Diagnostics none;

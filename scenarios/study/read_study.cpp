@@ -29,6 +29,7 @@ void build(BuildContext& context) {
   build_regions(context);
   build_adhesion_regions(context);
   build_loads(context);
+  check_places(context);
   check_whole(context);
   Study& study = context.study;
   const draft::Study& draft = context.draft;

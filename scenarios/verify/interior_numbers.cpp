@@ -90,16 +90,6 @@ double drag_of_a_shell() {
   return sum;
 }
 
-/// Net force and torque over the sums of forces and levers, of a cell and its nucleus.
-struct Balance {
-  double force, torque;
-};
-Balance balance_of(std::span<const Vec3d> position, std::span<const Vec3d> force) {
-  double lever = 0.0;
-  for (std::size_t i = 0; i < force.size(); ++i) lever += norm(position[i]) * norm(force[i]);
-  return {norm(sum_of(force)) / size_of(force), norm(torque_of(position, force)) / lever};
-}
-
 /// A rough cell of 162 nodes with a rigid nucleus of 2.5 µm that overlaps its cortex, on links, and links across.
 Balance balance_with_rigid_nucleus() {
   const dcm::Shells shells = rough(sphere(162, Size::kVolume));

@@ -125,6 +125,12 @@ Vec3d torque_of(std::span<const Vec3d> position, std::span<const Vec3d> force) {
   return out;
 }
 
+Balance balance_of(std::span<const Vec3d> position, std::span<const Vec3d> force) {
+  double lever = 0.0;
+  for (std::size_t i = 0; i < force.size(); ++i) lever += norm(position[i]) * norm(force[i]);
+  return {norm(sum_of(force)) / size_of(force), norm(torque_of(position, force)) / lever};
+}
+
 std::vector<Vec3d> scaled(std::span<const Vec3d> a, double factor) {
   std::vector<Vec3d> out(a.begin(), a.end());
   for (Vec3d& v : out) v *= factor;

@@ -66,6 +66,11 @@ Vec3d sum_of(std::span<const Vec3d> a);
 /// Σ |a_i|
 double size_of(std::span<const Vec3d> a);
 Vec3d torque_of(std::span<const Vec3d> position, std::span<const Vec3d> force);
+/// Net force and torque over the sums of forces and levers.
+struct Balance {
+  double force, torque;
+};
+Balance balance_of(std::span<const Vec3d> position, std::span<const Vec3d> force);
 std::vector<Vec3d> scaled(std::span<const Vec3d> a, double factor);
 /// a + factor·b
 std::vector<Vec3d> plus(std::span<const Vec3d> a, std::span<const Vec3d> b, double factor = 1.0);

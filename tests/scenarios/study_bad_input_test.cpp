@@ -150,6 +150,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"MembraneWithoutLaw", "bulk_modulus: 2.5 kPa", "membrane: {}", "a membrane without a law has no effect [E515]"},
         Case{"MembraneWithoutModulus", "bulk_modulus: 2.5 kPa", "membrane: {elastic: springs}",
              "the membrane's 'springs' needs 'shear_modulus' [E103]"},
+        Case{"MembraneWithoutAreaRatio", "bulk_modulus: 2.5 kPa", "membrane: {elastic: stvk, shear_modulus: 5 uN/m}",
+             "the membrane's 'stvk' needs 'area_ratio' [E103]"},
         Case{"MembraneAreaRatio", "bulk_modulus: 2.5 kPa", "membrane: {elastic: springs, shear_modulus: 5 uN/m, area_ratio: 2}",
              "'area_ratio' has no effect here [E515]"},
         Case{"MembraneRigidity", "bulk_modulus: 2.5 kPa", "membrane: {elastic: springs, shear_modulus: 5 uN/m, rigidity: 2e-19 J}",

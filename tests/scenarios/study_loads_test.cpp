@@ -130,12 +130,19 @@ TEST(Loads, OnMarkedFacesAreRefusedWhereTheyContradictThemselves) {
   EXPECT_NE(message("patch: {force: [0 nN, 2 nN, 0 nN], toward: [0, 0, 1], marked: apical}").find("[E594]"), std::string::npos);
   EXPECT_NE(message("patch: {force: [0 nN, 2 nN, 0 nN], part: 3 %, marked: apical}").find("[E594]"), std::string::npos);
   EXPECT_NE(message("pressure: {value: 10 Pa, part: 3 %, marked: apical}").find("[E594]"), std::string::npos);
-  EXPECT_NE(message("pressure: {value: 10 Pa, marked: apicall}").find("apical"), std::string::npos);
+  const std::string unknown = message("pressure: {value: 10 Pa, marked: apicall, part: 100 %}");
+  EXPECT_NE(unknown.find("did you mean `apical`"), std::string::npos) << unknown;
+  EXPECT_EQ(unknown.find("orientation"), std::string::npos) << "where it acts is not known yet";
+  EXPECT_NE(message("pressure: {value: 10 Pa, origin: [1 um, 0 um, 0 um]}").find("'origin' has no effect here [E515]"), std::string::npos);
   EXPECT_NE(message("patch: {toward: [0, 0, 1]}").find("force"), std::string::npos);
   const std::string other = test::changed("types: [cell]", "types: [other]", with_load("pressure: {value: 10 Pa, marked: apical}"));
   EXPECT_NE(
       test::errors_of(test::changed("  cell: {radius: 6 um}\n", "  cell: {radius: 6 um}\n  other: {radius: 6 um}\n", other)).find("[E580]"),
       std::string::npos);
+  // Of a type that does not exist nothing else is said, and nothing is looked up.
+  const std::string nobody = test::changed("type: cell\n", "type: cel\n", with_load("pressure: {value: 10 Pa, marked: apical}"));
+  EXPECT_NE(test::errors_of(nobody).find("[E401]"), std::string::npos);
+  EXPECT_EQ(test::errors_of(nobody).find("[E580]"), std::string::npos) << test::errors_of(nobody);
   const std::string periodic = with_load("pressure: {value: 10 Pa, gradient: [0 Pa/um, 0 Pa/um, 2 Pa/um]}");
   EXPECT_NE(test::errors_of(test::changed("size: [100 um, 100 um, 100 um]", "size: [100 um, 100 um, 100 um], boundary: periodic", periodic))
                 .find("[E570]"),

@@ -52,6 +52,11 @@ apical:
 
 std::string errors(const std::string& from, const std::string& to) { return test::errors_of(test::changed(from, to, kStudy)); }
 
+TEST(Regions, NeedTheirTypesNamed) {
+  EXPECT_NE(errors("apical: {types: [wall], cone", "apical: {cone").find("key 'types' is missing in `marks.apical` [E103]"),
+            std::string::npos);
+}
+
 TEST(Regions, AreReadInInternalUnits) {
   const auto study = test::read(kStudy);
   ASSERT_TRUE(study.ok()) << study.error().text();

@@ -201,6 +201,45 @@ TEST(Run, ThatCrossesALimitFailsWithExitFour) {
   EXPECT_FALSE(fs::is_empty(folder / "run/checkpoints")) << "there is a state to look at";
 }
 
+constexpr const char* kLoneCell = R"(schema: 1
+study: lone
+time: {end: 2 min, output: 20 s, checkpoint: 20 s}
+domain: {size: [60 um, 60 um, 60 um]}
+cell_types: {a: {radius: 6 um, body: shell}}
+initial:
+  - {type: a, at: [[0 um, 0 um, 0 um]]}
+output: {report: false}
+)";
+
+TEST(Run, OfACellAtRestPassesItsChecks) {  // what its energy still rises by is rounding
+  const TestFolder folder;
+  folder.write("study.yaml", kLoneCell);
+  const Outcome outcome = run_morula({"run", "study.yaml", "--out", "run"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
+  EXPECT_THAT(outcome.all(), HasSubstr("checks passed"));
+  EXPECT_THAT(read_text(folder / "run/verdict.json"), HasSubstr("INV.7"));
+}
+
+TEST(Resume, UntilATimeThatHasPassedIsRefused) {
+  const TestFolder folder;
+  folder.write("study.yaml", kLoneCell);
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "run", "--until", "1 min"}, folder.path()).exit_code, 0);
+  const Outcome outcome = run_morula({"resume", "run", "--until", "40 s"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.all();
+  EXPECT_THAT(outcome.err, HasSubstr("later than --until"));
+  EXPECT_EQ(run_morula({"resume", "run", "--until", "80 s"}, folder.path()).exit_code, 0);
+}
+
+TEST(Resume, OfARunThatFailedSaysSo) {
+  const TestFolder folder;
+  folder.write("study.yaml", changed(kLoneCell, "[[0 um, 0 um, 0 um]]", "[[0 um, 0 um, 0 um], [8 um, 0 um, 0 um]]"));
+  const Outcome failed = run_morula({"run", "study.yaml", "--out", "run"}, folder.path());
+  ASSERT_EQ(failed.exit_code, 4) << failed.all();
+  EXPECT_THAT(failed.err, HasSubstr("start_cap"));
+  const Outcome resumed = run_morula({"resume", "run", "--until", "40 s"}, folder.path());
+  EXPECT_THAT(resumed.all(), HasSubstr("the run had ended with an error, and goes on unchanged: overlap"));
+}
+
 TEST(Resume, FromACheckpointThatIsNotThereListsThoseThatAre) {
   const TestFolder folder;
   folder.write("study.yaml", sphere_study());
