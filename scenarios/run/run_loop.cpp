@@ -96,8 +96,25 @@ Status RunLoop::begin() {
   std::vector<Vec3d> ignored;
   interval_.energy = simulation_->mechanics().energy_and_forces(simulation_->tissue(), ignored);
   count_cells();
+  tell_idle_loads();
   MORULA_TRY(output());
   return checkpoint();
+}
+
+/// Loads on marked faces that no face bears yet.
+void RunLoop::tell_idle_loads() {
+  const Model& model = study_.model;
+  const dcm::Shells& shells = simulation_->tissue().shells;
+  for (const CellLoad& load : model.loads) {
+    if (load.mark < 0) continue;
+    bool borne = false;
+    for (std::size_t i = 0; i < shells.size(); ++i)
+      if (shells.type[i] == load.type)
+        for (const std::uint8_t marks : shells.faces_of(i).mark) borne = borne || (marks >> load.mark & 1) != 0;
+    if (!comm_.any(borne))
+      note(Note::Kind::kWarning, "load '" + load.name + "' acts nowhere: no face of '" + model.types[load.type].name + "' has the mark '" +
+                                     model.mark_names[static_cast<std::size_t>(load.mark)] + "' at the start");
+  }
 }
 
 Status RunLoop::go_back() {

@@ -50,6 +50,7 @@ class RunLoop {
   void warn(const std::string& text);
   Status write_events();
   void warn_near_limit(bool& warned, const std::string& text);
+  void tell_idle_loads();
   void tell_events();
   Status checkpoint();
   Status finish(RunState state, ErrorKind kind, RunSummary& summary);

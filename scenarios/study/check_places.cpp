@@ -60,10 +60,10 @@ void check_obstacles(BuildContext& c, const std::vector<Placed>& cells) {
     for (const Placed& cell : cells) {
       const bool within = box.contains(cell.at) && std::lround(winding_number(obstacle.position, obstacle.faces, cell.at)) != 0;
       if (within == obstacle.inside) continue;
-      c.diagnostics.error(596, cell.place,
-                          "a cell at " + place_text(cell.at) + " has its centre " + (within ? "inside" : "outside") + " obstacle '" +
-                              obstacle.name + "'",
-                          within ? "place it outside, or write `side: inside`" : "with `side: inside` cells begin within the surface");
+      c.diagnostics.error(
+          596, cell.place,
+          "a cell at " + place_text(cell.at) + " has its centre " + (within ? "inside" : "outside") + " obstacle '" + obstacle.name + "'",
+          within ? "place it outside, or write `side: inside`" : "with `side: inside` cells begin within the surface");
       break;
     }
   }

@@ -29,15 +29,18 @@ TEST(Places, OfShellsThatTouchOrOverlapALittleAreFine) {
 }
 
 TEST(Places, OfShellsWithinOthersAreRefused) {
-  EXPECT_NE(errors("[0 um, 0 um, 20 um]", "[0 um, 0 um, 0 um]").find("lies within another one: its centre is 0 um from [0, 0, 0] um [E596]"),
-            std::string::npos);
+  EXPECT_NE(
+      errors("[0 um, 0 um, 20 um]", "[0 um, 0 um, 0 um]").find("lies within another one: its centre is 0 um from [0, 0, 0] um [E596]"),
+      std::string::npos);
   EXPECT_NE(errors("[0 um, 0 um, 20 um]", "[0 um, -3 um, 5 um]").find("[E596]"), std::string::npos);
-  EXPECT_NE(errors("[[0 um, 0 um, 20 um]]", "[[0 um, 0 um, 30 um], [1 um, 0 um, 30 um]]").find("its centre is 1 um from"), std::string::npos);
+  EXPECT_NE(errors("[[0 um, 0 um, 20 um]]", "[[0 um, 0 um, 30 um], [1 um, 0 um, 30 um]]").find("its centre is 1 um from"),
+            std::string::npos);
 }
 
 TEST(Places, OfShellsInTheWrongPartOfAnObstacleAreRefused) {
-  EXPECT_NE(errors("[0 um, 0 um, 20 um]", "[1 um, 0 um, -38 um]").find("a cell at [1, 0, -38] um has its centre inside obstacle 'stone' [E596]"),
-            std::string::npos);
+  EXPECT_NE(
+      errors("[0 um, 0 um, 20 um]", "[1 um, 0 um, -38 um]").find("a cell at [1, 0, -38] um has its centre inside obstacle 'stone' [E596]"),
+      std::string::npos);
   EXPECT_NE(errors("[0 um, 0 um, 20 um]", "[0 um, 35 um, 35 um]").find("has its centre outside obstacle 'dish' [E596]"), std::string::npos);
 }
 

@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -218,6 +219,17 @@ TEST(Run, OfACellAtRestPassesItsChecks) {  // what its energy still rises by is 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
   EXPECT_THAT(outcome.all(), HasSubstr("checks passed"));
   EXPECT_THAT(read_text(folder / "run/verdict.json"), HasSubstr("INV.7"));
+}
+
+TEST(Run, SaysWhenNoFaceBearsALoad) {
+  const TestFolder folder;
+  const std::string marked = changed(kLoneCell, "output: {report", R"(marks: {top: {types: [a], cone: {axis: [0, 0, 1], angle: 40 deg}}}
+loads: {wind: {type: a, patch: {force: [0 nN, 0.1 nN, 0 nN], marked: top}}}
+output: {report)");
+  folder.write("study.yaml", marked);
+  folder.write("none.yaml", changed(marked, "40 deg", "0.1 deg"));
+  EXPECT_THAT(run_morula({"run", "study.yaml", "--until", "20 s"}, folder.path()).all(), Not(HasSubstr("acts nowhere")));
+  EXPECT_THAT(run_morula({"run", "none.yaml", "--until", "20 s"}, folder.path()).all(), HasSubstr("load 'wind' acts nowhere"));
 }
 
 TEST(Resume, UntilATimeThatHasPassedIsRefused) {
