@@ -81,9 +81,9 @@ Result<StepOutcome> Simulation::step(double land_on) {
       std::snprintf(when, sizeof when, " at %.6g h", clock.time / 3600.0);
       return Error{ErrorKind::kPhysics,
                    moved.error().what + (moved.error().cell.valid() ? " (cell " + moved.error().cell.text() + ")" : "") + when,
-                   "the step was cut to " + std::to_string(dt) +
-                       " s without success; weaker adhesion, more tension, a larger `shape_stiffness` or `fold_barrier`, or another number "
-                       "of nodes may help"};
+                   "the step was cut to " + std::to_string(dt) + " s without success; " +
+                       (model_.loads.empty() ? "" : "smaller loads, or loads that grow slowly (`course`), ") +
+                       "weaker adhesion, more tension, a larger `shape_stiffness` or `fold_barrier`, or another number of nodes may help"};
     }
     dt *= outcome.retries < 2 ? 0.5 : 0.25;
   }

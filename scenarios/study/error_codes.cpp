@@ -43,7 +43,8 @@ constexpr ErrorCode kCodes[] = {
      "A trigger needs a demote threshold on the other side of the promote threshold, with a gap between."},
     {502, "outside the domain", "A region, an obstacle or a shape to fill does not lie where cells can be."},
     {503, "contact range does not fit the mesh",
-     "The adhesive range c must be between a quarter and a half of the mean edge of the shell's mesh: below, adhesion depends on "
+     "The adhesive range c must be between a quarter and about a half (0.56) of the mean edge of the shell's mesh: below, adhesion depends "
+     "on "
      "where the nodes are (warning); above, faces feel more than their opposite (error)."},
     {504, "no friction with the surroundings",
      "A cell that touches nothing would have no friction at all, and the force balance no unique solution."},

@@ -11,6 +11,7 @@ namespace {
 struct StudyFile {
   const char* study;
   const char* file;
+  friend void PrintTo(const StudyFile& study, std::ostream* out) { *out << study.study << '/' << study.file; }
 };
 
 class FullStudy : public testing::TestWithParam<StudyFile> {};
