@@ -10,6 +10,7 @@ namespace morula::scenarios {
 namespace {
 
 constexpr double kWithin = 0.5;     // of the larger radius: nearer centres are not driven apart by the contact of the surfaces
+constexpr double kCertain = 2.0;    // times the limit: meshes lie a little within their balls
 constexpr double kMostFaces = 3e7;  // that are looked at: seconds
 
 struct Placed {
@@ -29,7 +30,7 @@ std::vector<Placed> placed_shells(const BuildContext& c) {
     if (block.source != InitialCells::Source::kPositions || block.type >= c.draft.cell_types.size()) continue;
     const Given<double>& radius = c.draft.cell_types[block.type].content.radius.mean;
     const BodyKind body = block.body_given ? block.body : study.model.types[block.type].initial_body;
-    if (body != BodyKind::kShell || !radius.known()) continue;
+    if (body != BodyKind::kShell || !radius.known() || block.shape != CellShape::kSphere) continue;
     for (const Vec3d& at : block.positions)
       out.push_back({at, radius.value * std::cbrt(block.start_volume_fraction), c.draft.initial[i].content.at.place});
   }
@@ -40,9 +41,17 @@ void check_each_other(BuildContext& c, std::vector<Placed> cells) {
   std::sort(cells.begin(), cells.end(), [](const Placed& a, const Placed& b) { return a.at.x < b.at.x; });
   double largest = 0.0;
   for (const Placed& cell : cells) largest = std::max(largest, cell.radius);
+  const double allowed = c.study.model.step.start_cap > 0.0 ? 1e300 : kCertain * c.study.model.limits.overlap;
   for (std::size_t i = 0; i < cells.size(); ++i)
-    for (std::size_t j = i + 1; j < cells.size() && cells[j].at.x - cells[i].at.x < kWithin * largest; ++j) {
+    for (std::size_t j = i + 1; j < cells.size() && cells[j].at.x - cells[i].at.x < 2.0 * largest; ++j) {
       const double apart = norm(cells[j].at - cells[i].at), reach = std::max(cells[i].radius, cells[j].radius);
+      const double depth = cells[i].radius + cells[j].radius - apart;
+      if (apart >= kWithin * reach && depth > allowed)
+        return c.diagnostics.error(597, cells[j].place,
+                                   "cells at " + place_text(cells[i].at) + " and " + place_text(cells[j].at) + " overlap by " +
+                                       short_number(std::round(100.0 * depth) / 100.0) + " um: the run would stop at its limit",
+                                   "place them " + short_number(std::ceil(10.0 * (cells[i].radius + cells[j].radius)) / 10.0) +
+                                       " um apart, or let them come apart first with `numerics: {start_cap: 0.2 um}`");
       if (apart >= kWithin * reach) continue;
       return c.diagnostics.error(
           596, cells[j].place,

@@ -147,6 +147,9 @@ constexpr ErrorCode kCodes[] = {
     {596, "cell within another body",
      "Surfaces that lie in each other push each other apart near where they cross; a cell whose centre is within another body stays "
      "there."},
+    {597, "deep overlap at the start",
+     "Shells that lie deeper in each other than `limits.overlap` at time 0 stop a run at once, unless `numerics.start_cap` lets them come "
+     "apart."},
     {601, "file missing", "A file that the study names does not exist. Paths are relative to the folder of the study."},
     {602, "file cannot be read", "It is a folder, a device, or its permissions forbid reading."},
     {603, "file too large", "Study files are read up to 5 MiB, CSV files up to 500 MiB."},

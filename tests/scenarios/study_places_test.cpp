@@ -25,7 +25,14 @@ std::string errors(const std::string& from, const std::string& to) { return test
 TEST(Places, OfShellsThatTouchOrOverlapALittleAreFine) {
   const auto study = test::read(kStudy);
   EXPECT_TRUE(study.ok()) << study.error().text();
-  EXPECT_TRUE(test::read(test::changed("[0 um, 0 um, 20 um]", "[0 um, 0 um, 6.1 um]", kStudy)).ok()) << "half of the larger radius";
+  EXPECT_TRUE(test::read(test::changed("[0 um, 0 um, 20 um]", "[0 um, 0 um, 16.5 um]", kStudy)).ok()) << "within twice the limit of 0.3 um";
+  const std::string deep = test::changed("[0 um, 0 um, 20 um]", "[0 um, 0 um, 6.1 um]", kStudy);
+  EXPECT_TRUE(test::read(test::changed("initial:", "numerics: {start_cap: 0.2 um}\ninitial:", deep)).ok()) << "half of the larger radius";
+}
+
+TEST(Places, OfShellsThatWouldStopTheRunAreRefused) {
+  EXPECT_NE(errors("[0 um, 0 um, 20 um]", "[0 um, 0 um, 15 um]").find("overlap by 2 um: the run would stop at its limit [E597]"),
+            std::string::npos);
 }
 
 TEST(Places, OfShellsWithinOthersAreRefused) {

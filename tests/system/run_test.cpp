@@ -243,8 +243,8 @@ TEST(Resume, UntilATimeThatHasPassedIsRefused) {
 }
 
 TEST(Resume, OfARunThatFailedSaysSo) {
-  const TestFolder folder;
-  folder.write("study.yaml", changed(kLoneCell, "[[0 um, 0 um, 0 um]]", "[[0 um, 0 um, 0 um], [8 um, 0 um, 0 um]]"));
+  const TestFolder folder;  // cells that are 0.55 um deep in each other: less than what `check` is sure of, more than the limit
+  folder.write("study.yaml", changed(kLoneCell, "[[0 um, 0 um, 0 um]]", "[[0 um, 0 um, 0 um], [11.45 um, 0 um, 0 um]]"));
   const Outcome failed = run_morula({"run", "study.yaml", "--out", "run"}, folder.path());
   ASSERT_EQ(failed.exit_code, 4) << failed.all();
   EXPECT_THAT(failed.err, HasSubstr("start_cap"));
