@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <functional>
+#include <span>
 
 #include "scenarios/results/file_io.h"
 #include "scenarios/results/hdf5_reader.h"
@@ -28,8 +28,8 @@ std::vector<fs::path> shared_list(const fs::path& folder, const Comm& comm) {
   std::string text;
   if (comm.is_root())
     for (const fs::path& path : checkpoints_in(folder)) text += path.string() + '\n';
-  std::vector<std::byte> bytes(text.size());
-  std::memcpy(bytes.data(), text.data(), text.size());
+  const auto whole = std::as_bytes(std::span(text));
+  std::vector<std::byte> bytes(whole.begin(), whole.end());
   comm.broadcast(bytes);
   std::vector<fs::path> out;
   std::string line;

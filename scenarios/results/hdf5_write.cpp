@@ -34,6 +34,7 @@ std::vector<Extent> extents_over_ranks(const std::vector<Dataset>& datasets, con
   for (const Dataset& d : datasets) rows.push_back(static_cast<std::int64_t>(d.bytes.size() / row_size(d)));
   const std::vector<std::byte> gathered = comm.gather_to_all(std::as_bytes(std::span(rows)));
   std::vector<Extent> extents(datasets.size());
+  if (datasets.empty()) return extents;
   for (int rank = 0; rank < comm.size(); ++rank) {
     std::memcpy(rows.data(), gathered.data() + static_cast<std::size_t>(rank) * rows.size() * sizeof(std::int64_t),
                 rows.size() * sizeof(std::int64_t));

@@ -278,7 +278,7 @@ TEST_F(Runs, ATargetThatExistsIsLeftAlone) {
 
 TEST_F(Runs, ACrossedLimitFailsTheRunAndNamesTheCell) {
   std::string text = kShells;
-  text = test::changed("[-6 um, 0 um, 0 um], [6 um, 0 um, 0 um]", "[-5.3 um, 0 um, 0 um], [5.3 um, 0 um, 0 um]", text);
+  text = test::changed("[-6 um, 0 um, 0 um], [6 um, 0 um, 0 um]", "[-5.72 um, 0 um, 0 um], [5.72 um, 0 um, 0 um]", text);
   const auto failed = run(study(text), request("a"), Comm());
   ASSERT_FALSE(failed.ok());
   EXPECT_EQ(failed.error().kind, ErrorKind::kPhysics);
