@@ -150,6 +150,19 @@ void declare_area(Section& a, draft::ShellKeys& t) {
          t.area_on_top);
 }
 
+void spontaneous_radius(Section& s, draft::Layer& t, const char* doc) {
+  s.quantity({.name = "spontaneous_radius",
+              .doc = doc,
+              .quantity = Q::kLength,
+              .fallback = "flat",
+              .low = -1e6,
+              .high = 1e6,
+              .specials = {{"flat", std::numeric_limits<double>::infinity()}},
+              .example = "3 um",
+              .source = "Helfrich 1973, doi:10.1515/znc-1973-11-1209"},
+             t.spontaneous_radius);
+}
+
 void declare_bending(Section& b, draft::Layer& t) {
   b.word(
       {.name = "law",
@@ -169,18 +182,10 @@ void declare_bending(Section& b, draft::Layer& t) {
               .example = "8.9e-19 J",
               .source = "Kirchhoff plate"},
              t.bending);
-  b.quantity(
-      {.name = "spontaneous_radius",
-       .doc = "With `law: helfrich`, the radius of the sphere that has no bending moment (c0 = 2/R; negative: bent inwards); `flat`: "
-              "no spontaneous curvature.",
-       .quantity = Q::kLength,
-       .fallback = "flat",
-       .low = -1e6,
-       .high = 1e6,
-       .specials = {{"flat", std::numeric_limits<double>::infinity()}},
-       .example = "3 um",
-       .source = "Helfrich 1973, doi:10.1515/znc-1973-11-1209"},
-      t.spontaneous_radius);
+  spontaneous_radius(
+      b, t,
+      "With `law: helfrich`, the radius of the sphere that has no bending moment (c0 = 2/R; negative: bent inwards); `flat`: "
+      "no spontaneous curvature.");
 }
 
 void declare_membrane(Section& m, draft::Layer& t) {
@@ -217,16 +222,7 @@ void declare_membrane(Section& m, draft::Layer& t) {
   m.quantity(
       {.name = "rigidity", .doc = "Its bending rigidity.", .quantity = Q::kEnergy, .low = 0.0, .low_open = true, .example = "2e-19 J"},
       t.bending);
-  m.quantity({.name = "spontaneous_radius",
-              .doc = "With `bending: helfrich`, as in `bending`.",
-              .quantity = Q::kLength,
-              .fallback = "flat",
-              .low = -1e6,
-              .high = 1e6,
-              .specials = {{"flat", std::numeric_limits<double>::infinity()}},
-              .example = "3 um",
-              .source = "Helfrich 1973, doi:10.1515/znc-1973-11-1209"},
-             t.spontaneous_radius);
+  spontaneous_radius(m, t, "With `bending: helfrich`, as in `bending`.");
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "coupling/simulation.h"
-#include "tests/coupling/tissue_fixture.h"
+#include "tests/coupling/patient_doublet.h"
 
 namespace morula {
 namespace {
@@ -26,18 +26,11 @@ double largest_force(const Model& model, const Tissue& tissue) {
 
 /// Two cells that are drawn flat onto each other by W/2γ = 0.9. `held`: their triangles keep their shape and their edges do not fold.
 struct Doublet {
-  Model model = test::clusters_model(0.9);
+  Model model;
   ShapeLibrary shapes;
   std::unique_ptr<Simulation> simulation;
 
-  Doublet(double range, bool held, double turnover_rate) {
-    model.contact.range = range;
-    model.contact.repulsion = 100.0;
-    model.contact.points_per_face = 3;
-    model.step.max_newton = 8;
-    model.step.newton_stop = 0.1;
-    model.step.initial_step = 0.1;
-    model.step.max_displacement = 1.0;
+  Doublet(double range, bool held, double turnover_rate) : model(test::patient_doublet(0.9, range)) {
     dcm::ShellParameters& p = model.types[0].shell;
     p.turnover_rate = turnover_rate;
     if (!held) p.shape_stiffness = p.barrier_stiffness = 0.0;

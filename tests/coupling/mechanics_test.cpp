@@ -36,16 +36,23 @@ const Bodies kBodies[] = {
     {"ShellsByAFallingTraction", {BodyKind::kShell, BodyKind::kShell, BodyKind::kShell}, SurfaceLaw::kFalling},
 };
 
-class EveryPairOfBodies : public testing::TestWithParam<Bodies> {};
+/// Three bodies that touch each other, out of shape.
+class EveryPairOfBodies : public testing::TestWithParam<Bodies> {
+ protected:
+  void SetUp() override {
+    model.contact.range = 0.8;
+    model.pairs[0].law = GetParam().law;
+    model.pairs[0].reduced_modulus = 1.0;
+    tissue = make_tissue(model, shapes, {{0, 0, 0}, {11.6, 0.3, 0.2}, {5.2, 10.4, 0.4}}, GetParam().kinds);
+    shake(tissue, 0.05);
+  }
+
+  Model model = clusters_model(0.3);
+  ShapeLibrary shapes;
+  Tissue tissue;
+};
 
 TEST_P(EveryPairOfBodies, ForceIsMinusTheGradientOfTheWholeEnergy) {
-  Model model = clusters_model(0.3);
-  model.contact.range = 0.8;
-  model.pairs[0].law = GetParam().law;
-  model.pairs[0].reduced_modulus = 1.0;
-  ShapeLibrary shapes;
-  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}, {11.6, 0.3, 0.2}, {5.2, 10.4, 0.4}}, GetParam().kinds);
-  shake(tissue, 0.05);
   Mechanics mechanics(model, {}, shapes, Comm(), 1);
   std::vector<Vec3d> force, unused;
   ASSERT_LT(mechanics.energy_and_forces(tissue, force), 1e6);
@@ -65,13 +72,6 @@ TEST_P(EveryPairOfBodies, ForceIsMinusTheGradientOfTheWholeEnergy) {
 /// dcm.md §16.4: cells that change places among themselves feel what those felt whose places they took, to rounding; which body of a pair
 /// comes first, and which point is held against which face first, does not matter.
 TEST_P(EveryPairOfBodies, ForcesDoNotKnowTheOrderOfTheBodies) {
-  Model model = clusters_model(0.3);
-  model.contact.range = 0.8;
-  model.pairs[0].law = GetParam().law;
-  model.pairs[0].reduced_modulus = 1.0;
-  ShapeLibrary shapes;
-  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}, {11.6, 0.3, 0.2}, {5.2, 10.4, 0.4}}, GetParam().kinds);
-  shake(tissue, 0.05);
   Tissue turned = tissue;
   const std::size_t shells = tissue.shells.size(), nodes = tissue.shells.position.size(), spheres = tissue.spheres.size();
   for (std::size_t s = 0; s < shells; ++s) {

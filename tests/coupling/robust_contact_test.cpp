@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "coupling/simulation.h"
-#include "tests/coupling/tissue_fixture.h"
+#include "tests/coupling/patient_doublet.h"
 
 namespace morula {
 namespace {
@@ -31,19 +31,7 @@ double smallest_quality(const Tissue& tissue) {
   return out;
 }
 
-/// Two cells of tension 0.5 with W/2γ given, `distance` apart at the start.
-Model doublet_model(double strength) {
-  Model model = test::clusters_model(strength);  // W = 2 γ w with γ = 0.5
-  model.contact.range = 0.5;
-  model.contact.repulsion = 100.0;
-  model.contact.points_per_face = 3;
-  model.step.max_newton = 8;
-  model.step.newton_stop = 0.1;
-  model.step.initial_step = 0.1;
-  model.step.max_displacement = 1.0;
-  return model;
-}
-
+/// Two cells of the model, `distance` apart at the start.
 Outcome run_doublet(const Model& model, double distance, double end) {
   ShapeLibrary shapes;
   Tissue tissue = test::make_tissue(model, shapes, {{0, 0, -0.5 * distance}, {0, 0, 0.5 * distance}}, {BodyKind::kShell, BodyKind::kShell});
@@ -79,7 +67,7 @@ Outcome run_doublet(const Model& model, double distance, double end) {
 
 /// Rim folding, and what came of it: a step that nothing can make is an error that names the cell, never a step of length zero.
 TEST(RobustContact, RimDoesNotFoldWhileTrianglesKeepTheirShape) {
-  Model model = doublet_model(0.9);
+  Model model = test::patient_doublet(0.9, 0.5);
   model.types[0].shell.turnover_rate = 1.0 / 60.0;  // a cortex that flows does not hold its triangles
   const Outcome with = run_doublet(model, 12.0, 900.0);
   EXPECT_TRUE(with.reached) << with.error.message;
@@ -95,7 +83,7 @@ TEST(RobustContact, RimDoesNotFoldWhileTrianglesKeepTheirShape) {
 /// Springs with fixed rest lengths pin the contact line: with a cortex that is renewed the doublet reaches the length of Young's law, 1.5874 R0
 /// per cell at W/2γ = 0.5 (dcm.md §8), without it stays 4 % and more above.
 TEST(RobustContact, ContactLineIsNotPinnedWhereTheCortexTurnsOver) {
-  Model model = doublet_model(0.5);
+  Model model = test::patient_doublet(0.5, 0.5);
   model.types[0].shell.turnover_rate = 1.0 / 60.0;
   const Outcome with = run_doublet(model, 12.0, 1800.0);
   ASSERT_TRUE(with.reached) << with.error.message;
@@ -108,7 +96,7 @@ TEST(RobustContact, ContactLineIsNotPinnedWhereTheCortexTurnsOver) {
 
 /// Two balls of 12 µm that start 4 µm within each other: a capped traction lets them out, the full one folds them.
 TEST(RobustContact, DeepOverlapIsLeftWithACappedStart) {
-  Model model = doublet_model(0.5);
+  Model model = test::patient_doublet(0.5, 0.5);
   model.step.start_cap = 0.1;
   const Outcome with = run_doublet(model, 8.0, 120.0);
   ASSERT_TRUE(with.reached) << with.error.message;
