@@ -1,6 +1,8 @@
 #include "cbm/pair_forces.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <numbers>
 
 namespace morula::cbm {
@@ -86,6 +88,23 @@ PairResponse evaluate_pair(const ContactMaterial& material, const Vec3d& between
           block.area[0],
           block.energy[0],
           block.attached_next[0]};
+}
+
+double pressed_volume(double pressure, double free_volume, double bulk_modulus) noexcept {
+  return bulk_modulus > 0.0 ? free_volume * std::exp(-std::min(pressure / bulk_modulus, 1.0)) : free_volume;
+}
+
+double sphere_pressure(double virial, double free_volume, double bulk_modulus) noexcept {
+  const double at_rest = virial_pressure(virial, free_volume);  // p with V = V0
+  if (at_rest == 0.0 || !(bulk_modulus > 0.0)) return at_rest;
+  if (at_rest * std::numbers::e >= bulk_modulus) return at_rest * std::numbers::e;  // p V(p) is largest at V0/e
+  double p = at_rest;
+  for (int k = 0; k < 50; ++k) {  // Newton: monotone from the second iterate on, since p − p0 e^(p/K) is concave or convex
+    const double grown = at_rest * std::exp(p / bulk_modulus), change = (grown - p) / (1.0 - grown / bulk_modulus);
+    p += change;
+    if (std::abs(change) <= 1e-14 * std::abs(p)) break;
+  }
+  return p;
 }
 
 }  // namespace morula::cbm

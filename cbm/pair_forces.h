@@ -90,8 +90,20 @@ struct PairResponse {
 PairResponse evaluate_pair(const ContactMaterial& material, const Vec3d& between, double radius_a, double radius_b, bool attached,
                            double offset) noexcept;
 
-/// Virial pressure of a cell, p = (1/6V) Σ_j d_ij F_ij: half of each pair's virial goes to each cell (positive when compressed).
-/// virial: Σ_j d_ij F_ij over its contacts [nN·µm]; volume: that of the cell itself, for no tessellation is built [µm³]. [kPa]
-[[nodiscard]] constexpr double virial_pressure(double virial, double volume) noexcept { return virial / (6.0 * volume); }
+/// How far the contact with a sphere of radius b at distance d lies from the centre of one of radius a: in the middle of their overlap [µm].
+/// Of two alike it is d/2; the two ways sum to d, so that the pair's virial d F is shared without rest.
+[[nodiscard]] constexpr double contact_arm(double distance, double a, double b) noexcept { return 0.5 * (distance + a - b); }
+
+/// Pressure of a cell of this volume, p = −tr σ/3 with σ = (1/V) Σ_k (x_k − x) ⊗ f_k (fields_and_coupling.md, D); positive when compressed.
+/// virial: Σ_k (x − x_k)·f_k over its contacts, arm times force for two spheres [nN·µm]; volume [µm³]. [kPa]
+[[nodiscard]] constexpr double virial_pressure(double virial, double volume) noexcept { return virial / (3.0 * volume); }
+
+/// Volume that a pressure [kPa] leaves of the ball V0 of a sphere: V0 e^(−p/K_V), as a shell has it by p = −K_V ln(V/V0), and V0/e at least.
+/// The ball itself keeps the size of the free cell and overlaps its neighbours. K_V [kPa], 0: the ball.
+[[nodiscard]] double pressed_volume(double pressure, double free_volume, double bulk_modulus) noexcept;
+
+/// virial_pressure() of a sphere with pressed_volume(): p V(p) = virial/3. In the cubic close packing of ideal filled cells V is the volume of a
+/// cell of the lattice (cbm.md §3), and p its pressure.
+[[nodiscard]] double sphere_pressure(double virial, double free_volume, double bulk_modulus) noexcept;
 
 }  // namespace morula::cbm

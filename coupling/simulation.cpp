@@ -146,7 +146,7 @@ void Simulation::set_bodies_to_targets(double dt) {
     if (!type.osmosis.acts()) excess *= keep;
     const auto exchange = [&](double volume, std::size_t b) {
       FullRow full = tissue_.cells.full(k);
-      exchange_water(full, type, time, dt, volume, body.area[b], body.pressure[b]);
+      exchange_water(full, type, time, dt, volume, body.area[b], body.inner_pressure[b]);
       excess = full.reference_excess;
     };
     if (row.body == BodyKind::kShell) {
@@ -279,6 +279,7 @@ Result<std::vector<Event>> Simulation::first_swaps() {
   SideColumn<double>& last_swap = tissue_.cells.side.last_swap_time;
   for (std::size_t i = 0; i < tissue_.cells.size(); ++i)
     if (last_swap[i] == tissue_.clock.time) last_swap.set(i, CellSides().last_swap_time);  // being placed is no exchange
+  mechanics_->attach(tissue_);
   return all_events(std::move(events));
 }
 

@@ -32,7 +32,7 @@ class Simulation {
   /// and time; the tissue is that before the step. Collective.
   Result<StepOutcome> step(double land_on);
 
-  /// Swaps that regions and triggers ask for at the very beginning. Collective.
+  /// Swaps that regions and triggers ask for at the very beginning; then spheres that touch adhere. Collective.
   Result<std::vector<Event>> first_swaps();
 
   [[nodiscard]] const Model& model() const { return model_; }

@@ -142,8 +142,8 @@ void set_enclosed_volume(const Topology& topology, std::span<Vec3d> nodes, doubl
 void promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes) {
   const SphereRecord& sphere = *cell.sphere;
   const double volume = 4.0 / 3.0 * std::numbers::pi * sphere.radius * sphere.radius * sphere.radius;
-  // p = −K_V ln(V/V0) = p_i + 2γ/R: the shell pushes back as hard as the sphere was pushed.
-  const double reference = free_reference_volume(volume, type) * std::exp(std::max(0.0, pressure) / type.shell.bulk_modulus);
+  // −K_V ln(V/V0) = p + 2γ/R: the shell pushes back as hard as the sphere was pushed, or pulls where it was pulled.
+  const double reference = free_reference_volume(volume, type) * std::exp(pressure / type.shell.bulk_modulus);
   ShellRecord shell = spherical_shell(shapes.icosphere(type.shell_nodes).value(), sphere.position, volume, reference);
   std::fill(shell.velocity.begin(), shell.velocity.end(), sphere.velocity);
   place_nucleus(shell, type, shapes);

@@ -178,7 +178,11 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
     pair.elements[d] = store.keep(workspace.elements);
   }
   pair.area = gradient[0].contact_area + gradient[1].contact_area;
-  if (!pair.rigid) return;
+  if (both) return;
+  if (!pair.rigid) {
+    pair.push = gradient[body[0].topology == nullptr ? 0 : 1].force[0].value();
+    return;
+  }
   // Areas and normals belong to the cell: their share of its force is zero in sum.
   for (const std::uint16_t node : pair.node[0]) pair.push -= gradient[0].force[node].value();
 }
@@ -201,6 +205,30 @@ void ContactLayer::find_penetration(const ContactScene& scene, std::span<Penetra
     sum.volume += of_pair[k].volume;
     sum.slope += of_pair[k].slope;
   }
+}
+
+std::vector<SphereTouch> ContactLayer::touches_of_spheres(const ContactScene& scene) const {
+  const std::vector<std::uint32_t>& list = pairs_of_kind_[static_cast<std::size_t>(SurfacePairKind::kWithSphere)];
+  const FaceQuadrature& quadrature = FaceQuadrature::with_points(settings_.points_per_face);
+  std::vector<SphereTouch> out(list.size());
+  parallel_for(settings_.threads, list.size(), [&](std::size_t k) {
+    const SurfacePair& pair = pairs_[list[k]];
+    const int d = scene.bodies[pair.a].shape == BodyShape::kSurface ? 0 : 1;
+    const PairBody surface = view(scene, pair, d);
+    const Vec3d center = view(scene, pair, 1 - d).node(0);
+    Vec3d sum;
+    double weight = 0.0;
+    for (const ContactElement& element : pair.present(static_cast<std::size_t>(d))) {
+      const auto area = static_cast<double>(element.area());
+      if (area == 0.0) continue;
+      const Triangle& t = surface.topology->faces()[element.source_face()];
+      const auto& beta = quadrature.weight[element.point()];
+      for (std::size_t i = 0; i < 3; ++i) sum += (surface.node(t[i]) - center) * (area * beta[i]);
+      weight += area;
+    }
+    out[k] = {d == 0 ? pair.b : pair.a, weight > 0.0 ? sum * (1.0 / weight) : Vec3d{}, pair.push, pair.area};
+  });
+  return out;
 }
 
 void ContactLayer::evaluate(const ContactScene& scene, SurfacePairKind kind, ContactGradient& gradient) {

@@ -10,21 +10,12 @@
 #include "core/contact/element_store.h"
 #include "core/contact/objective_friction.h"
 #include "core/contact/packing_points.h"
+#include "core/contact/rigid_surface.h"
 #include "core/contact/surface_pair.h"
 #include "core/friction/contact_element.h"
-#include "core/mesh/triangle_tree.h"
 #include "core/parallel/comm.h"
 
 namespace morula {
-
-/// A rigid triangulated obstacle. Its shape never changes; it may move as a whole.
-struct RigidSurface {
-  std::shared_ptr<const Topology> topology;
-  std::vector<Vec3d> position;
-  SurfaceGeometry geometry;
-  std::unique_ptr<TriangleTree> tree;
-  std::uint16_t material = 0;
-};
 
 /// Two spheres that may touch; body a comes first in the canonical order. On periodic axes the nearest image counts.
 struct SphereNeighbours {
@@ -52,6 +43,14 @@ struct ContactGradient {
   /// Zero for so many points, of which the first `surface_points` may belong to surfaces, faces and surfaces.
   void set_zero(std::size_t points, std::size_t surface_points, std::size_t faces, std::size_t surfaces);
   [[nodiscard]] std::size_t memory() const;
+};
+
+/// How one surface touches a sphere.
+struct SphereTouch {
+  std::uint32_t sphere = 0;  ///< body
+  Vec3d place;               ///< middle of the contact, from the sphere's centre [µm]
+  Vec3d force;               ///< on the sphere [nN]
+  double area = 0.0;         ///< of the surface in contact [µm²]
 };
 
 /// Which pairs are meant: surfaces with surfaces and obstacles, or with spheres.
@@ -101,6 +100,10 @@ class ContactLayer {
   void add_energy(const ContactScene& scene, OrderFreeSum& sum) const;
   /// Deepest penetration of a surface into another surface or obstacle [µm], and which pair has it.
   [[nodiscard]] const SurfacePair* deepest(const ContactScene& scene) const;
+
+  /// How surfaces touch spheres as the contacts were found last, in canonical order; ghosts, too. The middle of a contact is that of the area that
+  /// bears friction; without any it is the centre.
+  [[nodiscard]] std::vector<SphereTouch> touches_of_spheres(const ContactScene& scene) const;
 
   /// Keep the present friction as that of the step (Γ_n).
   void begin_step(const ContactScene& scene);

@@ -98,7 +98,7 @@ struct SurfacePair {
   double energy = 0.0;                               ///< [nN·µm]
   double overlap = 0.0;                              ///< deepest penetration [µm]
   double area = 0.0;                                 ///< of both surfaces in contact [µm²]
-  Vec3d push;                                        ///< force on b where it is rigid [nN]
+  Vec3d push;                                        ///< force on the obstacle or the sphere of the pair [nN]
   double step_overlap = 0.0;                         ///< `overlap` at the start of the step [µm]
   std::uint32_t crossed = 0;                         ///< points that are on another side than at the start of the step; see crossing.h
   double crossed_at = 1e300;  ///< of a surface against itself: the least distance of such a point from the other side [µm]

@@ -14,7 +14,7 @@ struct Growth {
 };
 
 /// Let a cell grow for dt [s]: its target volume moves on by the law of its type over its own cycle duration, and stops at the division
-/// volume. A cell whose averaged pressure is above inhibit_pressure, and one whose type does not cycle, keeps its target volume.
+/// volume. A cell whose averaged pressure (from outside: BodyValues) is above inhibit_pressure, and one whose type does not cycle, keeps its target volume.
 /// Only the row itself is read.
 Growth grow(CellRow& row, const CellType& type, double dt);
 

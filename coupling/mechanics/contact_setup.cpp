@@ -26,6 +26,7 @@ Result<RigidSurface> rigid_surface(const std::string& name, std::vector<Vec3d> p
   const std::uint32_t first_face[2] = {0, out.topology->face_count()};
   compute_surface_geometry({topologies, first_node, first_face}, out.position, out.geometry);
   out.tree = std::make_unique<TriangleTree>(out.position, out.topology->faces());
+  find_smooth_parts(out);
   return out;
 }
 

@@ -366,58 +366,6 @@ std::vector<std::pair<CellId, CellId>> Mechanics::touching(const Tissue& tissue,
   return out;
 }
 
-BodyValues Mechanics::values(const Tissue& tissue) {
-  BodyValues values;
-  values.pressure = pressures(tissue);
-  const std::size_t shells = scene_.owned_shells(), spheres = scene_.owned_spheres();
-  for (auto* v : {&values.volume, &values.area, &values.contact_area}) v->assign(shells + spheres, 0.0);
-  for (std::size_t i = 0; i < shells; ++i) {
-    values.volume[i] = geometry_.volume[i];
-    values.area[i] = geometry_.area[i];
-    values.contact_area[i] = gradient_.contact_area[i];
-  }
-  const std::vector<double> contact_area = spheres_.contact_areas(scene_, contacts_);
-  for (std::size_t i = 0; i < spheres; ++i) {
-    const double r = tissue.spheres.radius[i];
-    values.volume[shells + i] = 4.0 / 3.0 * std::numbers::pi * r * r * r;
-    values.area[shells + i] = 4.0 * std::numbers::pi * r * r;
-    values.contact_area[shells + i] = contact_area[i];
-  }
-  return values;
-}
-
-std::vector<double> Mechanics::pressures(const Tissue& tissue) {
-  prepare(tissue);
-  const bool renewed = spheres_.renew_sisters(scene_, contacts_, tissue.clock.time);
-  if (renewed) flags_changed_ = true;
-  if (spheres_.packs() && comm_.any(renewed)) evaluate(tissue, false);  // the packing of sisters counts at their neighbours, too
-  std::vector<double> out(scene_.owned_shells() + scene_.owned_spheres());
-  for (std::size_t i = 0; i < scene_.owned_shells(); ++i) out[i] = shells_.forces().pressure[i];
-  for (std::size_t i = 0; i < scene_.owned_spheres(); ++i) out[scene_.owned_shells() + i] = spheres_.pressure(i, tissue.spheres.radius[i]);
-  return out;
-}
-
-std::vector<double> Mechanics::packing() const {
-  std::vector<double> out(scene_.owned_spheres());
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = spheres_.packing(i);
-  return out;
-}
-
-std::vector<Vec3d> Mechanics::obstacle_forces(const Tissue& tissue) {
-  std::vector<Vec3d> out(model_.obstacles.size());
-  if (out.empty()) return out;
-  prepare(tissue);
-  std::vector<OrderFreeSum> sums(3 * out.size());
-  for (const SurfacePair& pair : contacts_.pairs()) {
-    if (!pair.rigid || !scene_.bodies()[pair.a].owned) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) sums[3 * pair.b + axis].add(pair.push[axis]);
-  }
-  std::vector<double> totals(sums.size());
-  comm_.sum(sums, totals);
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = {totals[3 * i], totals[3 * i + 1], totals[3 * i + 2]};
-  return out;
-}
-
 double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& force) {
   evaluated_ = false;
   prepare(tissue);

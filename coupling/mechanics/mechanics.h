@@ -48,10 +48,14 @@ struct StepReport {
 
 /// What mechanics knows of each cell at the present positions, in the order of the rank's bodies (shells, then spheres).
 struct BodyValues {
-  std::vector<double> volume;        ///< [µm³]
-  std::vector<double> area;          ///< [µm²]
-  std::vector<double> pressure;      ///< shells: −K_V ln(V/V0); spheres: virial [kPa]
-  std::vector<double> contact_area;  ///< [µm²]
+  std::vector<double> volume;  ///< [µm³]
+  std::vector<double> area;    ///< [µm²]
+  /// What the cell bears from outside, σ = (1/V) Σ_k (x_k − x) ⊗ f_k over the forces that neighbours, obstacles, walls and loads exert on it
+  /// (fields_and_coupling.md, D; decision 0023); symmetric part, tension positive [kPa].
+  std::vector<SymMat3<double>> stress;
+  std::vector<double> pressure;        ///< −tr σ/3, of shells and spheres alike [kPa]
+  std::vector<double> inner_pressure;  ///< shells: −K_V ln(V/V0), which bears the cortex, too; spheres, which have none: the pressure [kPa]
+  std::vector<double> contact_area;    ///< [µm²]
 };
 
 /// How a body touches a material.
@@ -102,12 +106,15 @@ class Mechanics {
   /// k_B T is the mean of theirs. Random numbers are those of (cell, step, element). Collective.
   void add_fluctuations(const Tissue& tissue, double dt, std::span<Vec3d> external);
 
-  /// Volumes, areas, pressures and contact areas at the tissue's present positions. Collective.
+  /// Spheres that touch adhere from the beginning: their flags at the tissue's positions, before anything is told of them. Collective.
+  void attach(Tissue& tissue);
+
+  /// What mechanics knows of each cell at the tissue's present positions and time. Collective.
   BodyValues values(const Tissue& tissue);
   /// The pressures alone.
   std::vector<double> pressures(const Tissue& tissue);
 
-  /// Force of all cells on each obstacle, friction left out [nN]. Spheres do not touch obstacles. Collective; the same on every rank.
+  /// Force of all cells on each obstacle, friction left out [nN]. Collective; the same on every rank.
   std::vector<Vec3d> obstacle_forces(const Tissue& tissue);
 
   /// How tightly the owned spheres are packed, φ (cbm.md §3); 0 where no type has a pressure of packing. After values(), pressures() or a step.
@@ -145,6 +152,11 @@ class Mechanics {
   StepFault undo(std::span<const Vec3d> start, StepFault fault);
   [[nodiscard]] std::size_t bytes_now() const;
   void note_memory() { most_bytes_ = std::max(most_bytes_, bytes_now()); }
+  /// Everything at the tissue's positions and time, as values() tells it.
+  void look(const Tissue& tissue);
+  [[nodiscard]] std::vector<SymMat3<double>> stresses_of_shells(const Tissue& tissue) const;
+  [[nodiscard]] std::vector<double> pressures_from(const Tissue& tissue, std::span<const SymMat3<double>> of_shells,
+                                                   std::span<const SphereTouch> touches) const;
   /// Pressures of the spheres by their packing, for all that press on them.
   void find_packing(const ContactScene& scene, bool with_surfaces);
   void begin_step(const Tissue& tissue, double dt);

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "cbm/division_ramp.h"
-#include "core/mesh/pseudonormal.h"
 #include "core/parallel/threads.h"
 
 namespace morula {
@@ -25,6 +24,13 @@ cbm::ContactTable contact_table(const Model& model) {
 }
 
 double ball(double radius) { return (4.0 / 3.0) * std::numbers::pi * radius * radius * radius; }
+
+double arm_of_a(const cbm::PairBlock& block, int lane) {
+  return cbm::contact_arm(block.distance[lane], block.radius_a[lane], block.radius_b[lane]);
+}
+double arm_of_b(const cbm::PairBlock& block, int lane) {
+  return cbm::contact_arm(block.distance[lane], block.radius_b[lane], block.radius_a[lane]);
+}
 
 }  // namespace
 
@@ -121,10 +127,9 @@ void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts, 
           if (packs_) pressed = packing_force(scene, pair, block.distance[lane] + block.offset[lane]);
           const double size = block.force[lane] + pressed.force;
           const Vec3d f = Vec3d{block.normal[0][lane], block.normal[1][lane], block.normal[2][lane]} * size;
-          const double virial = block.distance[lane] * size;
           if (has_a) {
             to[pair.a] -= f;
-            virial_[pair.a] += virial;
+            virial_[pair.a] += arm_of_a(block, lane) * size;
             if (pair.a != sphere) {
               energy[t].add(of_sphere);
               of_sphere = 0.0;
@@ -134,7 +139,7 @@ void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts, 
           }
           if (has_b) {
             to[pair.b] += f;
-            virial_[pair.b] += virial;
+            virial_[pair.b] += arm_of_b(block, lane) * size;
           }
           if (writes(pair)) {
             if (block.attached_next[lane] != (pair.attached != 0)) flips_[t].push_back(k);
@@ -175,12 +180,11 @@ bool SphereContacts::locate_rigid(const Scene& scene, const ContactLayer& contac
   const auto& obstacle = contacts.obstacles()[pair.obstacle];
   const double reach = body.radius + contacts.settings().sphere_reach + contacts.settings().body_skin;
   const Vec3d center = scene.position()[body.first_point], from = center - contacts.obstacle_offset(pair.obstacle);
-  const auto near = obstacle.tree->nearest(from, reach);
-  if (!near) return false;
-  const double side = signed_distance(*obstacle.topology, obstacle.position, from, near->face, near->closest) < 0.0 ? -1.0 : 1.0;
-  const Vec3d between = near->closest.point + contacts.obstacle_offset(pair.obstacle) - center;
-  const double distance = norm(between);
-  pair.normal = distance > cbm::kCoincident ? between * (side / distance) : -obstacle.geometry.face_normal[near->face];
+  const auto foot = foot_on_part(obstacle, pair.part, from, reach);
+  if (!foot) return false;
+  const Vec3d between = foot->point - from;
+  const double distance = norm(between), side = foot->distance < 0.0 ? -1.0 : 1.0;
+  pair.normal = distance > cbm::kCoincident ? between * (side / distance) : -obstacle.geometry.face_normal[foot->face];
   pair.distance = side * distance;
   return true;
 }
@@ -234,7 +238,7 @@ void SphereContacts::refresh_values(const Scene& scene, const ContactLayer& cont
           for (const std::uint32_t i : {pair.a, std::uint32_t{pair.b}}) {
             if (!marked[i] || !share.has(i)) continue;
             const double pressed = packs_ ? packing_force(scene, pair, block.distance[lane] + block.offset[lane]).force : 0.0;
-            virial_[i] += block.distance[lane] * (block.force[lane] + pressed);
+            virial_[i] += (i == pair.a ? arm_of_a(block, lane) : arm_of_b(block, lane)) * (block.force[lane] + pressed);
           }
         },
         [](std::uint32_t) {});
@@ -262,10 +266,12 @@ bool SphereContacts::update_attached(const Scene& scene, const ContactLayer& con
     }
     flips.clear();
   }
-  for (RigidPair& pair : rigid_) {
-    if (pair.attached == pair.attached_next) continue;
-    pair.attached = pair.attached_next;
-    mark(pair.sphere);
+  for (std::size_t k = 0, next = 0; k < rigid_.size(); k = next) {
+    bool attached = false;
+    for (; next < rigid_.size() && rigid_[next].same_bodies(rigid_[k]); ++next) attached = attached || rigid_[next].attached_next;
+    if (attached == rigid_[k].attached) continue;
+    for (std::size_t part = k; part < next; ++part) rigid_[part].attached = attached;
+    mark(rigid_[k].sphere);
   }
   const bool changed = !marked.empty();
   if (changed) refresh_values(scene, contacts, marked);
@@ -290,22 +296,30 @@ bool SphereContacts::renew_sisters(const Scene& scene, const ContactLayer& conta
   return true;
 }
 
-double SphereContacts::pressure(std::size_t i, double radius) const { return cbm::virial_pressure(virial_[i], ball(radius)); }
-
-std::vector<double> SphereContacts::contact_areas(const Scene& scene, const ContactLayer& contacts) const {
-  std::vector<double> area(scene.owned_spheres(), 0.0);
+std::vector<SphereContacts::Pressing> SphereContacts::pressing(const Scene& scene, const ContactLayer& contacts) const {
+  std::vector<Pressing> out(scene.owned_spheres());
   const auto shares = list_.shares();
   on_each_thread(threads_, [&](std::size_t t) {
     visit(
         shares[t], scene, contacts, [](const SpherePair&) { return true; },
         [&](std::uint32_t k, const cbm::PairBlock& block, int lane) {
-          for (const std::uint32_t i : {list_.pairs[k].a, std::uint32_t{list_.pairs[k].b}})
-            if (shares[t].has(i)) area[i] += block.area[lane];
+          const SpherePair pair = list_.pairs[k];
+          const Vec3d normal{block.normal[0][lane], block.normal[1][lane], block.normal[2][lane]};
+          double force = block.force[lane];
+          if (packs_) force += packing_force(scene, pair, block.distance[lane] + block.offset[lane]).force;
+          for (const std::uint32_t i : {pair.a, std::uint32_t{pair.b}}) {
+            if (!shares[t].has(i)) continue;
+            out[i].area += block.area[lane];
+            out[i].virial += outer((i == pair.a ? arm_of_a(block, lane) : arm_of_b(block, lane)) * force, normal);
+          }
         },
         [](std::uint32_t) {});
   });
-  for (const RigidPair& pair : rigid_) area[pair.sphere] += pair.area;
-  return area;
+  for (const RigidPair& pair : rigid_) {
+    out[pair.sphere].area += pair.area;
+    out[pair.sphere].virial += outer(pair.distance * pair.force, pair.normal);
+  }
+  return out;
 }
 
 std::size_t SphereContacts::memory() const {

@@ -47,15 +47,25 @@ class SphereContacts {
   bool update_attached(const Scene& scene, const ContactLayer& contacts, Tissue& tissue);
   /// The time has moved on: rest distances and pressures of young sisters anew. Returns whether any has changed.
   bool renew_sisters(const Scene& scene, const ContactLayer& contacts, double now);
-  /// Virial pressure p_i = Σ d_ij F_ij/(6 V_i) of owned sphere i of this radius (cbm.md §3) [kPa].
-  [[nodiscard]] double pressure(std::size_t i, double radius) const;
-  /// Contact areas of owned spheres [µm²]; evaluates the pairs, for nobody needs them in a step.
-  [[nodiscard]] std::vector<double> contact_areas(const Scene& scene, const ContactLayer& contacts) const;
+  /// Σ_k (x_i − x_k)·f_k over the contacts of owned sphere i with spheres and obstacles [nN·µm].
+  [[nodiscard]] double virial(std::size_t i) const { return virial_[i]; }
+  /// What spheres and obstacles do to a sphere.
+  struct Pressing {
+    double area = 0.0;         ///< in contact [µm²]
+    SymMat3<double> virial{};  ///< Σ_k (x_i − x_k) ⊗ f_k [nN·µm]
+  };
+  /// Of the owned spheres; evaluates the pairs, for nobody needs this in a step.
+  [[nodiscard]] std::vector<Pressing> pressing(const Scene& scene, const ContactLayer& contacts) const;
   /// function(owned sphere, obstacle, normal, area) for the spheres that touch obstacles.
   template <class F>
   void for_touched_obstacles(F&& function) const {
     for (const RigidPair& pair : rigid_)
       if (pair.area > 0.0) function(pair.sphere, pair.obstacle, pair.normal, pair.area);
+  }
+  /// function(obstacle, force on it) for every contact of an owned sphere with an obstacle [nN].
+  template <class F>
+  void for_pushed_obstacles(F&& function) const {
+    for (const RigidPair& pair : rigid_) function(pair.obstacle, pair.normal * pair.force);
   }
   [[nodiscard]] std::size_t memory() const;
 
@@ -66,12 +76,13 @@ class SphereContacts {
     double birth_radius_a, birth_radius_b, birth_time;
     double offset = 0.0;  ///< the law sees δ − offset [µm]
   };
-  /// An owned sphere near an obstacle.
+  /// An owned sphere near a smooth part of an obstacle. A sphere adheres to an obstacle as a whole: the pairs of both share the flag.
   struct RigidPair {
-    std::uint32_t sphere, obstacle;
+    std::uint32_t sphere, obstacle, part;
     bool attached = false, attached_next = false;
     Vec3d normal{};
     double distance = 0.0, force = 0.0, energy = 0.0, area = 0.0;
+    [[nodiscard]] bool same_bodies(const RigidPair& other) const { return sphere == other.sphere && obstacle == other.obstacle; }
   };
 
   /// What packing adds to a pair at a distance of the centres [µm]: force apart [nN], stiffness [nN/µm].
@@ -90,7 +101,7 @@ class SphereContacts {
   void visit(const SpherePairs::Share& share, const Scene& scene, const ContactLayer& contacts, Wanted&& wanted, Sink&& sink,
              FarAway&& far_away) const;
   void set_element(SpherePairElement& element, const cbm::PairBlock& block, int lane) const;
-  /// Where the obstacle is, seen from the sphere: normal and distance of the pair. False: out of reach.
+  /// Where the part of the obstacle bears the sphere, seen from its centre: normal and distance of the pair. False: it does not (foot_on_part()).
   bool locate_rigid(const Scene& scene, const ContactLayer& contacts, RigidPair& pair) const;
   void evaluate_rigid(const Scene& scene, const ContactLayer& contacts, std::size_t k);
   /// Pressures of the marked spheres anew, without touching forces.
@@ -104,8 +115,8 @@ class SphereContacts {
   cbm::ContactTable table_;  ///< of all materials and walls
   SpherePairs list_;
   std::vector<Sisters> sisters_;                  ///< by pair
-  std::vector<RigidPair> rigid_;                  ///< by sphere
-  std::vector<double> virial_;                    ///< by owned sphere: Σ d_ij F_ij [nN·µm]
+  std::vector<RigidPair> rigid_;                  ///< by sphere, obstacle and part
+  std::vector<double> virial_;                    ///< by owned sphere [nN·µm]
   std::vector<double> packing_;                   ///< by owned sphere: φ; empty where no type packs, as the next two
   std::vector<double> pressed_;                   ///< by sphere, ghosts too: p [kPa]
   std::vector<SpherePressure> surface_pressure_;  ///< by body

@@ -1,5 +1,6 @@
 /// The lists of SphereContacts: which pairs there are, and who adheres to whom.
 #include <algorithm>
+#include <tuple>
 
 #include "cbm/division_ramp.h"
 #include "coupling/mechanics/sphere_contacts.h"
@@ -9,6 +10,8 @@ namespace {
 
 /// An obstacle is a partner too: its number stands where a cell's id would; no founder has so small a one.
 CellId obstacle_partner(std::uint32_t obstacle) { return CellId(obstacle + 1); }
+
+bool rubs(const RigidPairElement& element) { return element.isotropic != 0.0f || element.axial != 0.0f; }
 
 }  // namespace
 
@@ -51,7 +54,8 @@ void SphereContacts::set_pairs(const Scene& scene, ContactLayer& contacts, const
     if (pair.b < owned) ++known[pair.b];
   }
   find_rigid_pairs(scene, contacts, tissue);
-  for (const RigidPair& pair : rigid_) known[pair.sphere] += pair.attached;
+  for (std::size_t k = 0; k < rigid_.size(); ++k)
+    if (k == 0 || !rigid_[k].same_bodies(rigid_[k - 1])) known[rigid_[k].sphere] += rigid_[k].attached;
   partners_stale_ = false;
   for (std::uint32_t i = 0; i < owned; ++i) partners_stale_ = partners_stale_ || known[i] != tissue.spheres.attached[i].size();
   find_sisters(scene, tissue);
@@ -93,25 +97,39 @@ void SphereContacts::find_rigid_pairs(const Scene& scene, const ContactLayer& co
   const auto obstacles = contacts.obstacles();
   const auto spheres = scene.bodies().subspan(scene.first_sphere());
   std::size_t k = 0;
+  std::vector<std::uint32_t> faces, parts;
   for (std::uint32_t i = 0; i < scene.owned_spheres(); ++i)
     for (std::uint32_t o = 0; o < obstacles.size(); ++o) {
       const double reach = spheres[i].radius + contacts.settings().sphere_reach + contacts.settings().body_skin;
       Box box;
       box.include(scene.position()[spheres[i].first_point] - contacts.obstacle_offset(o));
-      RigidPairElement kept{};
-      kept.sphere = i;
-      while (in_step_ && k < old.size() && (old[k].sphere != i ? old[k].sphere < i : old[k].obstacle < o)) ++k;
-      const bool rubs = in_step_ && k < old.size() && old[k].sphere == i && old[k].obstacle == o &&
-                        (old_elements[k].isotropic != 0.0f || old_elements[k].axial != 0.0f);
-      if (rubs) kept = old_elements[k];
-      if (!rubs && obstacles[o].tree->faces_in(box.inflated(reach)).empty()) continue;
-      const bool attached = cbm::adheres(tissue.spheres.attached[i], obstacle_partner(o));
-      RigidPair& pair = rigid_.emplace_back();
-      pair.sphere = i;
-      pair.obstacle = o;
-      pair.attached = pair.attached_next = attached;
-      list_.rigid.push_back(kept);
+      obstacles[o].tree->faces_in(box.inflated(reach), faces);
+      parts.clear();
+      for (const std::uint32_t face : faces) parts.push_back(obstacles[o].part_of_face[face]);
+      for (; k < old.size() && (old[k].sphere != i ? old[k].sphere < i : old[k].obstacle <= o); ++k)  // what rubs goes on to the step's end
+        if (in_step_ && old[k].sphere == i && old[k].obstacle == o && rubs(old_elements[k])) parts.push_back(old[k].part);
+      std::sort(parts.begin(), parts.end());
+      parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+      const bool attached = !parts.empty() && cbm::adheres(tissue.spheres.attached[i], obstacle_partner(o));
+      for (const std::uint32_t part : parts) {
+        RigidPair& pair = rigid_.emplace_back();
+        pair.sphere = i;
+        pair.obstacle = o;
+        pair.part = part;
+        pair.attached = pair.attached_next = attached;
+        RigidPairElement& element = list_.rigid.emplace_back();
+        element.sphere = i;
+      }
     }
+  if (!in_step_) return;
+  const auto before = [](const RigidPair& a, const RigidPair& b) {
+    return std::tie(a.sphere, a.obstacle, a.part) < std::tie(b.sphere, b.obstacle, b.part);
+  };
+  for (std::size_t n = 0; n < old.size(); ++n) {
+    if (!rubs(old_elements[n])) continue;
+    list_.rigid[static_cast<std::size_t>(std::lower_bound(rigid_.begin(), rigid_.end(), old[n], before) - rigid_.begin())] =
+        old_elements[n];
+  }
 }
 
 void SphereContacts::find_sisters(const Scene& scene, const Tissue& tissue) {
@@ -137,8 +155,9 @@ void SphereContacts::write_partners(const Scene& scene, const std::vector<char>&
       if (pair.a < owned && marked[pair.a]) function(pair.a, partner_id(scene, pair.b));
       if (pair.b < owned && marked[pair.b]) function(pair.b, partner_id(scene, pair.a));
     }
-    for (const RigidPair& pair : rigid_)
-      if (pair.attached && marked[pair.sphere]) function(pair.sphere, obstacle_partner(pair.obstacle));
+    for (std::size_t k = 0; k < rigid_.size(); ++k)
+      if (rigid_[k].attached && marked[rigid_[k].sphere] && (k == 0 || !rigid_[k].same_bodies(rigid_[k - 1])))
+        function(rigid_[k].sphere, obstacle_partner(rigid_[k].obstacle));
   };
   for_attached([&](std::uint32_t i, CellId) { ++end[i]; });
   std::uint32_t total = 0;

@@ -126,8 +126,8 @@ void judge_hold(const Aggregate& all, double factor, std::vector<Verdict>& out) 
   out.push_back(
       at_most("S17.3", "share of the surfaces in contact against 0.619", std::abs(end.contact_fraction - kContactFraction), factor * 0.03));
   double pressure = 0.0;
-  for (const auto& cell : all.moments.back().cells) pressure += cell.pressure / static_cast<double>(all.moments.back().cells.size());
-  out.push_back(at_most("S17.3", "mean pressure against 117.7 Pa", 1000.0 * std::abs(pressure - kMeanPressure), factor * 6.0, "Pa"));
+  for (const auto& cell : all.moments.back().cells) pressure += cell.inner_pressure / static_cast<double>(all.moments.back().cells.size());
+  out.push_back(at_most("S17.3", "mean inner pressure against 117.7 Pa", 1000.0 * std::abs(pressure - kMeanPressure), factor * 6.0, "Pa"));
   std::size_t inner = 0, still = 0;
   for (std::size_t c = 0; c < after.size(); ++c) {
     if (all.file_shape.contact_part[c] <= kInner) continue;
@@ -248,14 +248,14 @@ Result<std::vector<NamedPlot>> plot_embryo(const Study& study, const std::filesy
   for (auto& [shape, name] : {std::pair(&all.file_shape, "in the file"), std::pair(&end, "at the end")})
     if (Curve curve = sorted_angles(*shape, name); !curve.x.empty()) angles.curves.push_back(std::move(curve));
   fraction.title = "Embryo: share of the surfaces in contact";
-  pressure.title = "Embryo: mean pressure";
+  pressure.title = "Embryo: mean inner pressure";
   fraction.x = pressure.x = {"time", "s", false, {}, {}};
   fraction.y = {"contact", "", false, 0.0, 1.0};
-  pressure.y = {"pressure", "Pa", false, 0.0, {}};
+  pressure.y = {"inner pressure", "Pa", false, 0.0, {}};
   Curve f{"cells", {}, {}, CurveStyle::kLine}, p{"cells", {}, {}, CurveStyle::kLine};
   for (const Snapshot& moment : all.moments) {
     double mean = 0.0;
-    for (const auto& cell : moment.cells) mean += 1000.0 * cell.pressure / static_cast<double>(moment.cells.size());
+    for (const auto& cell : moment.cells) mean += 1000.0 * cell.inner_pressure / static_cast<double>(moment.cells.size());
     f.x.push_back(moment.time);
     p.x.push_back(moment.time);
     f.y.push_back(measure_aggregate(surfaces(moment)).contact_fraction);

@@ -54,7 +54,7 @@ Result<std::vector<Pressing>> pressings(const Study& study, const std::filesyste
       p.expected = theory::pressed_drop(p.height);
       p.nodes = type.shell_nodes;
       const double b = 0.25 * (extent(shell.nodes, {1, 0, 0}) + extent(shell.nodes, {0, 1, 0}));
-      const double pressure = shell.cell->pressure, contact = std::abs(force) / (std::numbers::pi * pressure);  // a²
+      const double pressure = shell.cell->inner_pressure, contact = std::abs(force) / (std::numbers::pi * pressure);  // a²
       p.tension = pressure * (b * b - contact) / (2.0 * b) / gamma;
       out.push_back(p);
     }

@@ -104,7 +104,7 @@ void read_states(const std::vector<Snapshot>& snapshots, std::size_t type, Speci
     const auto cells = shells_of(snapshot, type);
     if (cells.empty() || snapshot.time < s.time.front()) continue;
     const Snapshot::Cell& cell = *cells[0].cell;
-    if (std::abs(snapshot.time - s.time[peak]) < 1e-6) s.pressure = cell.pressure;
+    if (std::abs(snapshot.time - s.time[peak]) < 1e-6) s.pressure = cell.inner_pressure;
     if (cell.contact_area > 0.0) s.last_radius = std::sqrt(cell.contact_area / kPi);
     s.sphericity = std::cbrt(kPi) * std::pow(6.0 * cell.volume, 2.0 / 3.0) / cell.area;
     s.radius = radius_of_volume(cell.volume);

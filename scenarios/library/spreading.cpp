@@ -60,7 +60,7 @@ std::vector<Spread> spreads(const Study& study, const Snapshot& snapshot) {
       one.expected = theory::on_plane(adhesion, tension);
       one.contact_radius = cap->contact_radius / r0;
       one.height = cap->height / r0;
-      one.pressure = shell.cell->pressure * r0 / tension;
+      one.pressure = shell.cell->inner_pressure * r0 / tension;
       one.contact_area = shell.cell->contact_area;
       one.type = type;
       one.obstacle = under;
@@ -139,8 +139,8 @@ Result<std::vector<Verdict>> judge_spreading(const Study& study, const std::file
                             relative(s.contact_radius, s.expected.contact_radius), limits.contact_radius));
       out.push_back(at_most("S4.1", ("height, relative" + at).c_str(), relative(s.height, s.expected.height), limits.height));
       out.push_back(at_most("S4.1", ("contact angle" + at).c_str(), std::abs(s.angle - s.expected.angle) / kDegree, limits.angle, "deg"));
-      out.push_back(
-          at_most("S4.2", ("pressure, relative" + at).c_str(), relative(s.pressure, s.expected.pressure), tolerance(s.nodes, 0.10, 0.05)));
+      out.push_back(at_most("S4.2", ("inner pressure, relative" + at).c_str(), relative(s.pressure, s.expected.pressure),
+                            tolerance(s.nodes, 0.10, 0.05)));
     } else if (const ElasticCap* r = elastic_cap(s.ratio, s.modulus, s.nodes)) {
       out.push_back(at_most("S4.4", ("contact radius of an elastic cortex, relative" + at).c_str(),
                             relative(s.contact_radius, r->contact_radius), 0.04));

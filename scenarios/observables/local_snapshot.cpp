@@ -32,6 +32,10 @@ Snapshot local_snapshot(Simulation& simulation) {
     cell.volume = values.volume[body];
     cell.area = values.area[body];
     cell.pressure = values.pressure[body];
+    cell.inner_pressure = values.inner_pressure[body];
+    const SymMat3<double>& stress = values.stress[body];
+    cell.stress_xx = stress.xx, cell.stress_xy = stress.xy, cell.stress_xz = stress.xz;
+    cell.stress_yy = stress.yy, cell.stress_yz = stress.yz, cell.stress_zz = stress.zz;
     cell.contact_area = values.contact_area[body];
     cell.age = out.time - row.birth_time;
     for (std::size_t f = 0; f < kMaxFields; ++f) cell.concentration[f] = tissue.cells.side.concentration[f][i];

@@ -30,12 +30,12 @@ Extreme over_ranks(const Extreme& mine, const Comm& comm) {
   return out;
 }
 
-/// Volume that the cell's row, its reference_excess and its pressure ask for, beside the present one of a nucleus that is a shell [µm³].
-double volume_by_law(const CellRow& row, double reference_excess, const CellType& type, double pressure,
+/// Volume that the cell's row, its reference_excess and its inner pressure ask for, beside the present one of a nucleus that is a shell [µm³].
+double volume_by_law(const CellRow& row, double reference_excess, const CellType& type, double inner_pressure,
                      const std::optional<NucleusState>& nucleus) {
   const double excess = std::exp(reference_excess);
   if (row.body == BodyKind::kSphere) return row.target_volume * excess;
-  const double volume = free_reference_volume(row.target_volume, type) * excess * std::exp(-pressure / type.shell.bulk_modulus);
+  const double volume = free_reference_volume(row.target_volume, type) * excess * std::exp(-inner_pressure / type.shell.bulk_modulus);
   return nucleus ? nucleus->volume + (1.0 - type.interior.nucleus_fraction) * volume : volume;
 }
 
@@ -111,7 +111,19 @@ void measure_packing(Simulation& simulation, Measures& out) {
   out.packing_cell = most.cell;
 }
 
-enum Sum { kVolume, kVolumeX, kVolumeY, kVolumeZ, kVolumeSquare, kPressure, kShellPressure, kContactArea, kLawVolume, kSums };
+enum Sum {
+  kVolume,
+  kVolumeX,
+  kVolumeY,
+  kVolumeZ,
+  kVolumeSquare,
+  kPressure,
+  kShellPressure,
+  kInnerPressure,
+  kContactArea,
+  kLawVolume,
+  kSums
+};
 
 }  // namespace
 
@@ -136,9 +148,9 @@ Measures measure(Simulation& simulation) {
     const auto nucleus = is_shell ? simulation.mechanics().nucleus_of(static_cast<std::uint32_t>(shell)) : std::nullopt;
     const std::size_t body = is_shell ? shell++ : sphere++;
     const CellType& type = model.types[row.type];
-    const double volume = values.volume[body], p = values.pressure[body];
+    const double volume = values.volume[body], p = values.pressure[body], inner = values.inner_pressure[body];
     const Vec3d from = center[i] - middle;
-    const double r = radius_of(volume), law = volume_by_law(row, tissue.cells.side.reference_excess[i], type, p, nucleus);
+    const double r = radius_of(volume), law = volume_by_law(row, tissue.cells.side.reference_excess[i], type, inner, nucleus);
     sums[kVolume].add(volume);
     sums[kVolumeX].add(volume * from.x);
     sums[kVolumeY].add(volume * from.y);
@@ -146,6 +158,7 @@ Measures measure(Simulation& simulation) {
     sums[kVolumeSquare].add(volume * (norm2(from) + 0.6 * r * r));
     sums[kPressure].add(p);
     if (is_shell) sums[kShellPressure].add(p);
+    if (is_shell) sums[kInnerPressure].add(inner);
     sums[kContactArea].add(values.contact_area[body]);
     sums[kLawVolume].add(law);
     offer(pressure, p, row.id);
@@ -174,7 +187,8 @@ Measures measure(Simulation& simulation) {
   out.total_volume = total[kVolume];
   out.spheroid_radius = std::sqrt(5.0 / 3.0 * std::max(0.0, total[kVolumeSquare] / total[kVolume] - norm2(mean)));
   out.mean_pressure = total[kPressure] / cells;
-  out.shell_pressure = out.shells > 0 ? total[kShellPressure] / static_cast<double>(out.shells) : 0.0;
+  if (out.shells > 0) out.shell_pressure = total[kShellPressure] / static_cast<double>(out.shells);
+  if (out.shells > 0) out.inner_pressure = total[kInnerPressure] / static_cast<double>(out.shells);
   out.mean_contact_area = total[kContactArea] / cells;
   out.total_volume_error = std::abs(total[kVolume] - total[kLawVolume]) / total[kLawVolume];
   double extent = 0.0;

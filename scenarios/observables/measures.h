@@ -24,13 +24,14 @@ struct Measures {
   double largest_extent = 0.0;     ///< max |c_i − c̄| + r_i [µm]
   double mean_pressure = 0.0;      ///< over cells [kPa]
   double shell_pressure = 0.0;     ///< over shells [kPa]
+  double inner_pressure = 0.0;     ///< mean over shells [kPa]
   Extreme pressure;                ///< [kPa]
   double mean_contact_area = 0.0;  ///< per cell [µm²]
   double nucleus_clearance =
       0.0;          ///< least distance of a node of a nucleus that is a shell from its cortex, < 0 outside; 0: there is none [µm]
   Extreme overlap;  ///< deepest penetration of a surface (not of two spheres) [µm]
   /// |V_i − V_i^law| / V_i^law of the worst cell. V^law is built from the cell's row alone: target volume V_t and what is left of an
-  /// exchange of bodies x; V_t e^x for a sphere, V_t exp(2γ/(R K_V) + x − p/K_V) for a shell of pressure p (dcm.md: p = −K_V ln(V/V0)).
+  /// exchange of bodies x; V_t e^x for a sphere, V_t exp(2γ/(R K_V) + x − p/K_V) for a shell of inner pressure p (dcm.md: p = −K_V ln(V/V0)).
   /// Rounding, unless growth, division or a swap lost volume on the way from the row to the body.
   Extreme volume_error;
   double total_volume_error = 0.0;  ///< |Σ V_i − Σ V_i^law| / Σ V_i^law

@@ -18,10 +18,13 @@ struct Snapshot {
     std::uint16_t type = 0;
     BodyKind body = BodyKind::kSphere;
     Phase phase = Phase::kGrowing;
-    Vec3d centroid;                                  ///< [µm]
-    double volume = 0.0;                             ///< [µm³]
-    double area = 0.0;                               ///< surface [µm²]
-    double pressure = 0.0;                           ///< [kPa]
+    Vec3d centroid;                           ///< [µm]
+    double volume = 0.0;                      ///< [µm³]
+    double area = 0.0;                        ///< surface [µm²]
+    double pressure = 0.0;                    ///< −tr σ/3 [kPa]
+    double inner_pressure = 0.0;              ///< of shells; of spheres their pressure [kPa]
+    double stress_xx = 0.0, stress_xy = 0.0;  ///< σ: what neighbours, obstacles and loads put on the cell [kPa]
+    double stress_xz = 0.0, stress_yy = 0.0, stress_yz = 0.0, stress_zz = 0.0;
     double contact_area = 0.0;                       ///< [µm²]
     double age = 0.0;                                ///< [s]
     std::array<double, kMaxFields> concentration{};  ///< seen [mM]

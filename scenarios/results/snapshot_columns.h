@@ -16,11 +16,18 @@ void for_each_snapshot_column(Visit&& visit) {
   visit("volume", "um^3", &Cell::volume);
   visit("area", "um^2", &Cell::area);
   visit("pressure", "kPa", &Cell::pressure);
+  visit("inner_pressure", "kPa", &Cell::inner_pressure);
+  visit("stress_xx", "kPa", &Cell::stress_xx);
+  visit("stress_xy", "kPa", &Cell::stress_xy);
+  visit("stress_xz", "kPa", &Cell::stress_xz);
+  visit("stress_yy", "kPa", &Cell::stress_yy);
+  visit("stress_yz", "kPa", &Cell::stress_yz);
+  visit("stress_zz", "kPa", &Cell::stress_zz);
   visit("contact_area", "um^2", &Cell::contact_area);
   visit("age", "s", &Cell::age);
   visit("concentration", "mM", &Cell::concentration);
   visit("radius", "um", &Cell::radius);
 }
-static_assert(sizeof(Snapshot::Cell) == 2 * 8 + 8 + sizeof(Vec3d) + 6 * 8 + kMaxFields * 8, "list every member of Snapshot::Cell");
+static_assert(sizeof(Snapshot::Cell) == 2 * 8 + 8 + sizeof(Vec3d) + 13 * 8 + kMaxFields * 8, "list every member of Snapshot::Cell");
 
 }  // namespace morula::scenarios

@@ -66,7 +66,7 @@ void declare_life(Section& s, draft::CellType& t) {
           });
   s.group({.name = "inhibit_growth", .doc = "What stops growth for as long as it lasts."}, present, [&t](Section& g) {
     g.quantity({.name = "pressure_above",
-                .doc = "Growth stops above this pressure; `never`: no inhibition.",
+                .doc = "Growth stops while neighbours, obstacles and loads press on the cell with more than this; `never`: no inhibition.",
                 .quantity = Q::kPressure,
                 .fallback = "1 kPa",
                 .low = 0.0,

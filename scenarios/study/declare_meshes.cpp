@@ -41,7 +41,7 @@ void declare_meshes(Section& s, draft::Meshes& m) {
   s.text({.name = "type_array", .doc = "Array of the VTK file with the number of each cell's type in `types`.", .example = "cell_type_id"},
          m.type_array);
   s.text({.name = "pressure_array",
-          .doc = "Array of the VTK file with each cell's pressure at time 0; without it, that of a free cell of this volume.",
+          .doc = "Array of the VTK file with the pressure inside each cell at time 0; without it, that of a free cell of this volume.",
           .example = "cell_pressure"},
          m.pressure_array);
   s.quantity({.name = "pressure_unit",

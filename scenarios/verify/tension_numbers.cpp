@@ -78,7 +78,7 @@ class FluidCell {
     for (int k = 0; k < 10; ++k)
       if (!cell.step(60.0)) return *at_rest_;
     const BodyValues now = cell.values();
-    *at_rest_ = {now.volume[0], now.pressure[0], now.area[0]};
+    *at_rest_ = {now.volume[0], now.inner_pressure[0], now.area[0]};
     return *at_rest_;
   }
   double reference_;

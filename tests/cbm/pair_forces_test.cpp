@@ -222,7 +222,22 @@ TEST(PairForces, FlagsChangeOnlyWhereAPairTouchesOrBreaks) {
 TEST(PairForces, VirialPressureOfAnFccCrystalIsTheLatticeSum) {
   // Twelve neighbours at distance d with force F: p = 2√2 F/d² for the lattice cell d³/√2.
   const double d = 10.0, force = 0.7;
-  EXPECT_NEAR(virial_pressure(12 * d * force, d * d * d / std::sqrt(2.0)), 2.0 * std::sqrt(2.0) * force / (d * d), 1e-15);
+  EXPECT_NEAR(virial_pressure(12 * contact_arm(d, 6.0, 6.0) * force, d * d * d / std::sqrt(2.0)), 2.0 * std::sqrt(2.0) * force / (d * d),
+              1e-15);
+}
+
+TEST(PairForces, PressureOfASphereIsThatOfTheVolumeThatItLeaves) {
+  const double ball = 900.0, modulus = 2.5;
+  for (const double ratio : {1.2, 1.0, 0.95, 0.9, 0.85, 0.5, 0.37}) {
+    const double p = -modulus * std::log(ratio);  // p V = virial/3
+    EXPECT_NEAR(sphere_pressure(3.0 * p * ratio * ball, ball, modulus), p, 1e-9) << ratio;
+    EXPECT_NEAR(pressed_volume(p, ball, modulus), ratio * ball, 1e-9 * ball) << ratio;
+  }
+  const double most = 3.0 * modulus * ball / std::numbers::e;  // no volume has more: it stays at V0/e
+  EXPECT_NEAR(sphere_pressure(0.999999 * most, ball, modulus), modulus, 5e-3);
+  EXPECT_NEAR(sphere_pressure(2.0 * most, ball, modulus), 2.0 * modulus, 1e-12);
+  EXPECT_EQ(sphere_pressure(0.0, ball, modulus), 0.0);
+  EXPECT_EQ(sphere_pressure(30.0, 10.0, 0.0), 1.0);
 }
 
 TEST(PairForces, VirialPressureOfHertzSpheresInFcc) {
@@ -244,7 +259,7 @@ TEST(PairForces, VirialPressureOfHertzSpheresInFcc) {
   double virial = 0.0, area = 0.0;
   for (std::size_t k = 1; k < 13; ++k) {
     const auto r = evaluate_pair(table.entry(0, 0).material, cluster.position[k], radius, radius, false, 0.0);
-    virial += r.distance * r.force;
+    virial += contact_arm(r.distance, radius, radius) * r.force;
     area += r.area;
   }
   EXPECT_NEAR(1000.0 * virial_pressure(virial, d * d * d / std::sqrt(2.0)), 27.11, 0.005);

@@ -159,7 +159,7 @@ End run(BodyKind body, double outside, double time, double max_step, const char*
   const double reference = body == BodyKind::kShell ? simulation->tissue().shells.reference_volume[0] : 0.0;
   const BodyValues now = simulation->values();
   const OsmoticCell cell =
-      osmotic_cell(simulation->tissue().cells.full(0), model.types[0], simulation->tissue().clock.time, now.area[0], now.pressure[0]);
+      osmotic_cell(simulation->tissue().cells.full(0), model.types[0], simulation->tissue().clock.time, now.area[0], now.inner_pressure[0]);
   return {now.volume[0] / kVolume, reference / kVolume, now.volume[0] / osmotic_volume(cell) - 1.0};
 }
 

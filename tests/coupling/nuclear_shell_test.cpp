@@ -115,7 +115,7 @@ TEST(NuclearShell, RestsInACellAtRest) {
   const NucleusState state = *simulation->mechanics().nucleus_of(0);
   EXPECT_NEAR(state.volume / (4.0 / 3.0 * std::numbers::pi * 2.5 * 2.5 * 2.5), 1.0, 2e-3);
   // Laplace for both: 2γ_n/R_n over the pressure of the cytosol, 2γ/R; meshes of 162 nodes are within 2 % of a sphere's curvature
-  const double cytosol = simulation->mechanics().pressures(simulation->tissue())[0];
+  const double cytosol = simulation->values().inner_pressure[0];
   EXPECT_NEAR(cytosol, 2.0 * 0.5 / kRadius, 0.02 * 2.0 * 0.5 / kRadius);
   EXPECT_NEAR(state.pressure - cytosol, 2.0 * 0.2 / 2.5, 0.03 * 2.0 * 0.2 / 2.5);
   EXPECT_LT(norm(mean(simulation->tissue().nuclei.shells.position)), 1e-3);

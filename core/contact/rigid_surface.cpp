@@ -1,0 +1,117 @@
+#include "core/contact/rigid_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/mesh/pseudonormal.h"
+
+namespace morula {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr double kTie = 1e-12;  // relative, of squared distances from one point that lies on two faces
+
+std::unique_ptr<TriangleTree> tree_of(const RigidSurface& surface, std::span<const std::uint32_t> part) {
+  std::vector<std::uint32_t> nodes;
+  for (const std::uint32_t face : part)
+    for (const std::uint32_t node : surface.topology->faces()[face]) nodes.push_back(node);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::vector<Vec3d> position;
+  for (const std::uint32_t node : nodes) position.push_back(surface.position[node]);
+  std::vector<Triangle> faces;
+  for (const std::uint32_t face : part) {
+    Triangle& own = faces.emplace_back();
+    for (std::size_t c = 0; c < 3; ++c)
+      own[c] = static_cast<std::uint32_t>(std::lower_bound(nodes.begin(), nodes.end(), surface.topology->faces()[face][c]) - nodes.begin());
+  }
+  return std::make_unique<TriangleTree>(position, faces);
+}
+
+std::optional<NearestFace> nearest_on_part(const RigidSurface& surface, std::uint32_t number, const Vec3d& p, double cutoff) {
+  const SmoothPart& part = surface.parts[number];
+  auto near = (part.tree ? *part.tree : *surface.tree).nearest(p, cutoff);
+  if (near && part.tree) near->face = part.face[near->face];
+  return near;
+}
+
+/// Faces that share the feature of a face that the nearest point lies on, that face among them.
+std::vector<std::uint32_t> faces_at(const Topology& topology, const NearestFace& near) {
+  const auto feature = static_cast<int>(near.closest.feature);
+  if (near.closest.feature == TriangleFeature::kFace) return {};
+  if (feature >= static_cast<int>(TriangleFeature::kVertex0)) {
+    const auto corner = static_cast<std::size_t>(feature - static_cast<int>(TriangleFeature::kVertex0));
+    const auto around = topology.faces_of_node(topology.faces()[near.face][corner]);
+    return {around.begin(), around.end()};
+  }
+  const auto side = static_cast<std::size_t>(feature - static_cast<int>(TriangleFeature::kEdge0));
+  const Edge& edge = topology.edges()[topology.face_edges()[near.face][side]];
+  return {edge.left, edge.right};
+}
+
+/// Whether a ball around p that touches the part at its nearest point rests there, as far as the other parts around this point go.
+bool rests(const RigidSurface& surface, std::uint32_t part, const NearestFace& near, const Vec3d& p) {
+  const double here = near.closest.distance2;
+  for (const std::uint32_t face : faces_at(*surface.topology, near)) {
+    const std::uint32_t other = surface.part_of_face[face];
+    if (other == part) continue;
+    const auto& [a, b, c] = surface.topology->faces()[face];
+    if (closest_point_on_triangle(p, surface.position[a], surface.position[b], surface.position[c]).distance2 < here * (1.0 - kTie))
+      return false;
+    if (other > part) continue;
+    const auto its = nearest_on_part(surface, other, p, std::sqrt(here) * (1.0 + kTie));
+    if (its && its->closest.distance2 >= here * (1.0 - kTie)) return false;  // the point is that part's, too, and it comes first
+  }
+  return true;
+}
+
+}  // namespace
+
+void find_smooth_parts(RigidSurface& surface) {
+  const Topology& topology = *surface.topology;
+  const double least = std::cos(kSharpTurn);
+  std::vector<Vec3d> normal;
+  for (const Triangle& t : topology.faces()) normal.push_back(unit_face_normal(t, surface.position));
+  surface.part_of_face.assign(topology.face_count(), kNone);
+  surface.parts.clear();
+  std::vector<std::uint32_t> waiting;
+  for (std::uint32_t first = 0; first < topology.face_count(); ++first) {
+    if (surface.part_of_face[first] != kNone) continue;
+    const auto number = static_cast<std::uint32_t>(surface.parts.size());
+    SmoothPart& part = surface.parts.emplace_back();
+    surface.part_of_face[first] = number;
+    waiting = {first};
+    while (!waiting.empty()) {
+      const std::uint32_t face = waiting.back();
+      waiting.pop_back();
+      part.face.push_back(face);
+      for (const std::uint32_t e : topology.face_edges()[face]) {
+        const Edge& edge = topology.edges()[e];
+        const std::uint32_t next = edge.left == face ? edge.right : edge.left;
+        if (surface.part_of_face[next] != kNone || dot(normal[face], normal[next]) < least) continue;
+        surface.part_of_face[next] = number;
+        waiting.push_back(next);
+      }
+    }
+    std::sort(part.face.begin(), part.face.end());
+  }
+  if (surface.parts.size() == 1) return;
+  for (SmoothPart& part : surface.parts) part.tree = tree_of(surface, part.face);
+}
+
+std::optional<Foot> foot_on_part(const RigidSurface& surface, std::uint32_t part, const Vec3d& p, double cutoff) {
+  const auto near = nearest_on_part(surface, part, p, cutoff);
+  if (!near) return std::nullopt;
+  const double distance = signed_distance(*surface.topology, surface.position, p, near->face, near->closest);
+  if (surface.parts.size() > 1) {
+    if (!rests(surface, part, *near, p)) return std::nullopt;
+    if (distance < 0.0) {
+      const auto first = surface.tree->nearest(p, cutoff);
+      if (first && surface.part_of_face[first->face] != part) return std::nullopt;
+    }
+  }
+  return Foot{near->closest.point, distance, near->face};
+}
+
+}  // namespace morula

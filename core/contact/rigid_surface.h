@@ -1,0 +1,50 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/mesh/surface_geometry.h"
+#include "core/mesh/topology.h"
+#include "core/mesh/triangle_tree.h"
+
+namespace morula {
+
+/// A smooth part of a rigid surface: faces that are joined across edges at which the surface turns by less than kSharpTurn.
+struct SmoothPart {
+  std::vector<std::uint32_t> face;     ///< of the whole surface, increasing
+  std::unique_ptr<TriangleTree> tree;  ///< of these faces; null where the part is the whole surface
+};
+
+/// Turn of a surface from which on the two sides of an edge are two parts: a regular octagon has eight walls, a regular decagon is a curve [rad].
+inline constexpr double kSharpTurn = 0.7;
+
+/// A rigid triangulated obstacle. Its shape never changes; it may move as a whole.
+struct RigidSurface {
+  std::shared_ptr<const Topology> topology;
+  std::vector<Vec3d> position;
+  SurfaceGeometry geometry;
+  std::unique_ptr<TriangleTree> tree;
+  std::vector<SmoothPart> parts;            ///< by their lowest face
+  std::vector<std::uint32_t> part_of_face;  ///< by face
+  std::uint16_t material = 0;
+};
+
+/// Finds the smooth parts of a surface that has its topology, positions and tree.
+void find_smooth_parts(RigidSurface& surface);
+
+/// Where a ball around p touches a part of a surface.
+struct Foot {
+  Vec3d point;            ///< the point of the part that is nearest to p
+  double distance = 0.0;  ///< from p, < 0 where p lies behind the surface [µm]
+  std::uint32_t face = 0;
+};
+
+/// The foot of p on one part of a surface, if a ball around p rests there: a smooth part bears a ball at its nearest point alone, however many
+/// faces it has, and the parts of a corner bear it each for itself (decision 0023). None where the part is farther than `cutoff` [µm]; where
+/// a neighbouring part comes nearer from that point on (p is beyond a convex edge; of parts that share the nearest point of an edge the first has
+/// it); where p sees the part from behind, unless p lies within the obstacle, whose nearest part then drives it out.
+std::optional<Foot> foot_on_part(const RigidSurface& surface, std::uint32_t part, const Vec3d& p, double cutoff);
+
+}  // namespace morula
