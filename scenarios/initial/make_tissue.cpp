@@ -138,7 +138,7 @@ class Builder {
     for (const CellType& type : study_.model.types) names.push_back(type.name);
     const UnitSystem units;
     Diagnostics diagnostics;
-    const auto csv = read_cells_csv(block.csv_path, block.csv_path, names, {}, units, diagnostics);
+    const auto csv = read_cells_csv(block.csv_path, block.csv_path, names, {}, units, diagnostics, block.csv_unit);
     if (!csv) return diagnostics.as_error();
     if (csv->cells.size() != block.count)
       return Error{ErrorKind::kInput,

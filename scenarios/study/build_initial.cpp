@@ -81,6 +81,7 @@ class InitialBuilder {
       stray(d.coincident_below.given, d.coincident_below.place, "coincident_below", with ? with : "fill");
       stray(d.has_hull, d.hull_margin.place, "volume_from_hull", with ? with : "fill");
       d.coincident_shift.text.clear();
+      stray(d.units.given, d.units.place, "units", with ? with : "fill");
       d.coincident_below.text.clear();
     }
   }
@@ -114,8 +115,16 @@ class InitialBuilder {
     const std::string shown = d.csv.value;
     cells.csv_path = add_input_file(c_, d.csv);
     std::vector<std::string> names;
+    if (d.units.known()) {
+      if (const auto factor = units_.factor(d.units.value, Quantity::kLength); !factor.ok()) {
+        c_.diagnostics.error(factor.error().kind == UnitError::Kind::kWrongDimension ? 203 : 202, d.units.place,
+                             "'units' " + factor.error().message, "for example `units: um`");
+        return;
+      }
+      cells.csv_unit = d.units.value;
+    }
     for (const auto& type : c_.draft.cell_types) names.push_back(type.name);
-    const auto csv = read_cells_csv(cells.csv_path, shown, names, d.csv.place, units_, c_.diagnostics);
+    const auto csv = read_cells_csv(cells.csv_path, shown, names, d.csv.place, units_, c_.diagnostics, cells.csv_unit);
     if (!csv) return;
     cells.count = csv->cells.size();
     if (!csv->ignored_columns.empty()) {

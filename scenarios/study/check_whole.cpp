@@ -102,6 +102,14 @@ void check_periodic_size(BuildContext& c) {
 
 void check_names(BuildContext& c) {
   for (const auto& obstacle : c.draft.geometry)
+  const auto check_reserved = [&c](const auto& things) {
+    for (const auto& thing : things)
+      if (thing.name == "others")
+        c.diagnostics.error(112, thing.place, "'others' cannot be a name: in `adhesion` it means all that are not named",
+                            "take another name");
+  };
+  check_reserved(c.draft.cell_types);
+  check_reserved(c.draft.geometry);
     for (const auto& type : c.draft.cell_types)
       if (type.name == obstacle.name)
         c.diagnostics.error(112, obstacle.place, "'" + obstacle.name + "' is a cell type and an obstacle",

@@ -168,7 +168,7 @@ void declare_initial(Section& s, draft::Initial& i) {
           .source = "chosen"},
          i.age);
   s.text({.name = "csv",
-          .doc = "Cells from a CSV file with the columns x,y,z,type[,radius,phase,model]; units in the header, `x [um]`.",
+          .doc = "Cells from a CSV file with the columns x,y,z,type[,radius,phase,model]; units in the header, `x [um]`, or as `units`.",
           .example = "cells.csv"},
          i.csv);
   s.quantity({.name = "coincident_shift",
@@ -191,6 +191,7 @@ void declare_initial(Section& s, draft::Initial& i) {
   s.group(
       {.name = "volume_from_hull",
        .doc = "The cells of a CSV file share evenly the room they were measured in: the convex hull of their places, inflated by a margin, "
+  s.text({.name = "units", .doc = "Unit of the lengths of a CSV file whose header has none.", .example = "um"}, i.units);
               "less a cavity.",
        .optional_section = true,
        .example = "{margin: 6 um}"},

@@ -77,6 +77,7 @@ struct Links {
 };
 
 struct CellType : ShellKeys {
+  Given<std::string> like;
   Spread radius;
   Given<std::string> body;
   bool has_cycle = false;
@@ -184,7 +185,7 @@ struct Initial {
   Given<double> radius;
   Given<std::vector<Vec3d>> at;
   Given<std::string> age;
-  Given<std::string> csv;
+  Given<std::string> csv, units;
   Given<double> coincident_shift, coincident_below;
   bool has_hull = false, has_cavity = false;
   Given<double> hull_margin, cavity_radius;

@@ -169,6 +169,12 @@ constexpr ErrorCode kCodes[] = {
     {623, "mesh crosses itself", "Two faces that are not neighbours intersect."},
     {624, "mesh has degenerate or double faces", "A face has no area, or the same face stands twice."},
     {625, "mesh is not a surface", "An edge has three or more faces, or two parts of the surface touch in one node."},
+    {655, "column without a unit",
+     "Lengths in a CSV file carry their unit in the header, `x [um]`, or the entry of `initial` says it for all of them, `units: um`."},
+    {656, "cell types like each other without end",
+     "`like` names a type that says its own keys, or is itself like another; the row must end, after 32 types at most."},
+    {657, "adhesion that could be two things",
+     "Two types take the adhesion of this pair from the types they are like, or from `others`, and these disagree."},
 };
 
 }  // namespace

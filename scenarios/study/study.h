@@ -52,6 +52,7 @@ struct InitialCells {
   Orientation orientation = Orientation::kRandom;
 };
 
+  std::string csv_unit;            ///< of lengths whose column has none; empty: all have
 struct TimeSpec {
   double end = 0.0;                ///< [s]
   double output = 3600.0;          ///< series and snapshots [s]
