@@ -16,7 +16,7 @@ struct Time {
 
 struct Numerics {
   Given<std::uint64_t> newton;
-  Given<double> newton_stop, tolerance, later_tolerance, max_displacement, initial_step, skin, start_cap;
+  Given<double> newton_stop, tolerance, later_tolerance, max_displacement, initial_step, skin, start_cap, start_cap_within;
 };
 
 /// `all`, an axis, or one face; the most particular one holds.
@@ -179,6 +179,8 @@ struct Meshes {
 
 struct Initial {
   Given<std::string> type;
+  std::vector<Named<Given<double>>> types;
+  Given<std::string> on;
   Given<std::uint64_t> count;
   Given<std::string> fill;
   Given<Vec3d> center, size;

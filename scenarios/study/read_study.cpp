@@ -30,7 +30,6 @@ void build(BuildContext& context) {
   build_regions(context);
   build_adhesion_regions(context);
   build_loads(context);
-  check_places(context);
   check_whole(context);
   Study& study = context.study;
   const draft::Study& draft = context.draft;
@@ -38,6 +37,7 @@ void build(BuildContext& context) {
   study.title = draft.title.value;
   study.scenario = draft.scenario.value;
   study.output = {draft.output.series.value, draft.output.formats.value, draft.output.report.value};
+  check_places(context);
 }
 
 Result<Study, Diagnostics> read_source(const std::shared_ptr<const SourceText>& source, const std::filesystem::path& folder,

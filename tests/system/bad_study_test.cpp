@@ -169,6 +169,17 @@ TEST(BadStudy, WithVeryManyMistakesIsToldByAHundredAndTheirNumber) {
   EXPECT_LT(outcome.err.size(), 100000u);
 }
 
+TEST(BadStudy, OfTwoFillsInTheSamePlaceIsNoMistake) {
+  const TestFolder folder;
+  const std::string fill = "{type: round, count: 20, fill: sphere, radius: 20 um, as: sphere}";
+  folder.write("study.yaml", changed(sphere_study(), fill,
+                                     "{type: round, count: 9, fill: sphere, radius: 30 um, as: shell}\n  - " +
+                                         changed(fill, "radius: 20 um", "radius: 30 um")));
+  EXPECT_EQ(run_morula({"check", "study.yaml"}, folder.path()).exit_code, 0);
+  const Outcome run = run_morula({"run", "study.yaml", "--until", "10 min"}, folder.path());
+  EXPECT_EQ(run.exit_code, 0) << run.all();
+}
+
 TEST(BadGeometry, MissingStlIsAMissingFile) {
   expect_refused(with_geometry("{stl: nowhere.stl}"), 3, AllOf(HasSubstr("[E601]"), HasSubstr("nowhere.stl")));
 }
