@@ -24,7 +24,7 @@ std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::er
 /// The Tissue of the newest good checkpoint of a run, counted and hashed; nothing if there is no checkpoint yet.
 Result<scenarios::FinalState> newest_state(const scenarios::RunFolder& run, const Context& context) {
   const Comm alone;
-  const auto study = scenarios::read_study(run.path() / "study.resolved.yaml");
+  const auto study = scenarios::read_study(run.path() / "study.resolved.yaml", {.judge_places = false});
   if (!study.ok()) return study.error().as_error();
   ShapeLibrary shapes;
   MORULA_TRY_ASSIGN(const scenarios::RestoredCheckpoint restored,

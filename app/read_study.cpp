@@ -8,11 +8,12 @@
 namespace morula::app {
 
 Result<scenarios::Study> read_study_and_tell(const std::string& path, const std::vector<std::string>& overrides, bool strict,
-                                             const Context& context) {
+                                             const Context& context, bool judge_places) {
   scenarios::ReadOptions options;
   options.overrides = overrides;
   options.scenario_names = scenarios::template_names();
   options.strict = strict;
+  options.judge_places = judge_places;
   auto study = scenarios::read_study(path, options);
   if (study.ok() && !study->output.series.empty()) {  // which observables exist depends on the cell types and fields of the study
     options.series_names = scenarios::observable_names(study->model);

@@ -33,7 +33,7 @@ bool is_newest(const fs::path& run, const fs::path& checkpoint) {
 
 Status resume(const ResumeOptions& options, const Context& context) {
   MORULA_TRY_ASSIGN(const scenarios::RunFolder folder, scenarios::RunFolder::open(options.run, context.comm));
-  auto study = read_study_and_tell((folder.path() / "study.resolved.yaml").string(), options.overrides, false, context);
+  auto study = read_study_and_tell((folder.path() / "study.resolved.yaml").string(), options.overrides, false, context, false);
   MORULA_TRY(agree_on(study, (folder.path() / "study.resolved.yaml").string(), context));
   scenarios::ResumeRequest request;
   MORULA_TRY(fill_request(options.limits, context, request));

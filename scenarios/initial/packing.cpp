@@ -1,12 +1,11 @@
 #include "scenarios/initial/packing.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "core/random/philox.h"
+#include "scenarios/initial/cell_grid.h"
 #include "scenarios/initial/rotation.h"
 
 namespace morula::scenarios {
@@ -55,82 +54,35 @@ std::vector<Site> lattice_sites(const InitialCells& block, double spacing, doubl
   return sites;
 }
 
-/// The `count` innermost sites, with the largest spacing that lets them lie within the shape.
-std::vector<Site> choose_sites(const InitialCells& block, std::size_t count, double spacing, double inset, const Rotation& turn) {
+/// Sites, the innermost first, and whether all that the shape has were free.
+struct ChosenSites {
   std::vector<Site> sites;
+  bool all_free = true;
+};
+
+/// The `count` innermost free sites, with the largest spacing that lets them lie within the shape; fewer where what is around leaves no room.
+template <class IsFree>
+ChosenSites choose_sites(const InitialCells& block, std::size_t count, double spacing, double inset, const Rotation& turn,
+                         IsFree&& is_free) {
+  ChosenSites out;
+  std::size_t all = 0;  // free or not
+  const auto look = [&](double part, double most) {
+    out.sites = lattice_sites(block, part * spacing, inset, most, turn);
+    all = out.sites.size();
+    std::erase_if(out.sites, [&](const Site& site) { return !is_free(block.center + site.position); });
+    out.all_free = out.sites.size() == all;
+  };
   for (double part = 1.0; part > kSmallestSpacing - 1e-9; part -= 0.02) {
-    sites = lattice_sites(block, part * spacing, inset, 1.0, turn);
-    if (sites.size() >= count) break;
+    look(part, 1.0);
+    if (out.sites.size() >= count) break;
   }
-  for (double most = 1.05; sites.size() < count; most *= 1.05) sites = lattice_sites(block, kSmallestSpacing * spacing, inset, most, turn);
-  std::stable_sort(sites.begin(), sites.end(), [](const Site& a, const Site& b) { return a.gauge < b.gauge; });
-  sites.resize(count);
-  return sites;
+  for (double most = 1.05; all < count; most *= 1.05) look(kSmallestSpacing, most);
+  std::stable_sort(out.sites.begin(), out.sites.end(), [](const Site& a, const Site& b) { return a.gauge < b.gauge; });
+  out.sites.resize(std::min(count, out.sites.size()));
+  return out;
 }
 
-/// Cells sorted into cubes that are as large as the longest distance that matters.
-class CellGrid {
- public:
-  CellGrid(const std::vector<Vec3d>& center, double reach, const Space& space) {
-    Box box;
-    for (const Vec3d& c : center) box.include(c);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      periodic_[axis] = space.periodic(static_cast<int>(axis));
-      low_[axis] = periodic_[axis] ? space.box.low[axis] : box.low[axis];
-      const double size = (periodic_[axis] ? space.box.high[axis] : box.high[axis]) - low_[axis];
-      count_[axis] = std::clamp<std::int64_t>(static_cast<std::int64_t>(size / reach), 1, 1024);
-      width_[axis] = std::max(size / static_cast<double>(count_[axis]), reach);
-    }
-    first_.assign(static_cast<std::size_t>(count_[0] * count_[1] * count_[2]) + 1, 0);
-    cube_.resize(center.size());
-    for (std::size_t i = 0; i < center.size(); ++i) ++first_[(cube_[i] = number(place(center[i]))) + 1];
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-    item_.resize(center.size());
-    for (std::size_t i = 0; i < center.size(); ++i) item_[next[cube_[i]]++] = i;
-  }
-
-  /// function(j) for every cell j near to a point, each once, in an order that depends on the positions alone.
-  template <class F>
-  void near(const Vec3d& point, F&& function) const {
-    const auto at = place(point);
-    std::array<std::array<std::int64_t, 3>, 3> along{};
-    std::array<int, 3> used{};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      for (std::int64_t d = -1; d <= 1; ++d) {
-        std::int64_t p = at[axis] + d;
-        if (periodic_[axis]) p = (p + count_[axis]) % count_[axis];
-        if (p < 0 || p >= count_[axis]) continue;
-        auto& list = along[axis];
-        const auto end = list.begin() + used[axis];
-        if (std::find(list.begin(), end, p) == end) list[static_cast<std::size_t>(used[axis]++)] = p;
-      }
-    for (int z = 0; z < used[2]; ++z)
-      for (int y = 0; y < used[1]; ++y)
-        for (int x = 0; x < used[0]; ++x) {
-          const auto cube =
-              number({along[0][static_cast<std::size_t>(x)], along[1][static_cast<std::size_t>(y)], along[2][static_cast<std::size_t>(z)]});
-          for (std::size_t k = first_[cube]; k < first_[cube + 1]; ++k) function(item_[k]);
-        }
-  }
-
- private:
-  [[nodiscard]] std::array<std::int64_t, 3> place(const Vec3d& p) const {
-    std::array<std::int64_t, 3> out{};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      out[axis] =
-          std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor((p[axis] - low_[axis]) / width_[axis])), 0, count_[axis] - 1);
-    return out;
-  }
-  [[nodiscard]] std::size_t number(const std::array<std::int64_t, 3>& p) const {
-    return static_cast<std::size_t>((p[2] * count_[1] + p[1]) * count_[0] + p[0]);
-  }
-
-  Vec3d low_, width_;
-  std::array<bool, 3> periodic_{};
-  std::array<std::int64_t, 3> count_{};
-  std::vector<std::size_t> first_, cube_, item_;
-};
+}  // namespace
 
 void keep_within_walls(Vec3d& p, double radius, const Space& space) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -142,16 +94,22 @@ void keep_within_walls(Vec3d& p, double radius, const Space& space) {
   p = space.wrapped(p);
 }
 
-}  // namespace
+double mean_radius(std::span<const double> radius) {
+  double cubes = 0.0;
+  for (const double r : radius) cubes += r * r * r;
+  return std::cbrt(cubes / static_cast<double>(radius.size()));
+}
 
-double push_apart(std::vector<Vec3d>& center, std::span<const double> radius, const PushApart& how, const Space& space) {
+double push_apart(std::vector<Vec3d>& center, std::span<const double> radius, const PushApart& how, const Space& space,
+                  double* worst_intrusion) {
   if (center.empty()) return 0.0;
   const double reach = 2.0 * how.touch * *std::max_element(radius.begin(), radius.end());
+  const bool beside = how.around && !how.around->empty();
   std::vector<Vec3d> push(center.size());
-  double worst = -1e300;
+  double worst = -1e300, intrusion = -1e300;
   for (int pass = 0; pass <= how.most_passes; ++pass) {
     const CellGrid grid(center, reach, space);
-    worst = -1e300;
+    worst = intrusion = -1e300;
     for (std::size_t i = 0; i < center.size(); ++i) {
       push[i] = {};
       grid.near(center[i], [&](std::size_t j) {
@@ -163,31 +121,43 @@ double push_apart(std::vector<Vec3d>& center, std::span<const double> radius, co
         // Both move by a little less than half: a cell with many neighbours would overshoot.
         if (overlap > 0.0 && distance > 0.0) push[i] += away * (0.4 * overlap / distance);
       });
+      if (!beside) continue;
+      Vec3d out{};
+      intrusion = std::max(intrusion, how.around->push(center[i], radius[i], how.touch, out));
+      push[i] += out * 0.8;  // what is there does not move
     }
     const double draw = pass < how.drawn_passes ? kDraw * (1.0 - static_cast<double>(pass) / how.drawn_passes) : 0.0;
-    if ((worst <= how.slack && draw == 0.0) || pass == how.most_passes) break;
+    if ((std::max(worst, intrusion) <= how.slack && draw == 0.0) || pass == how.most_passes) break;
     for (std::size_t i = 0; i < center.size(); ++i) {
       center[i] += push[i] + (how.middle - center[i]) * draw;
+      if (how.plane) center[i] += how.plane->normal * (radius[i] - dot(center[i] - how.plane->point, how.plane->normal));
       keep_within_walls(center[i], radius[i], space);
     }
   }
+  if (worst_intrusion) *worst_intrusion = intrusion;
   return worst;
 }
 
 Packing pack_cells(const InitialCells& block, std::span<const double> radius, double touch, const Space& space, std::uint64_t first_number,
-                   std::uint32_t seed) {
+                   std::uint32_t seed, const Surroundings& around) {
   Packing out;
   if (radius.empty()) return out;
   const Random random(seed, RandomStream::kInitialPosition);
-  double cubes = 0.0;
-  for (const double r : radius) cubes += r * r * r;
-  const double mean = std::cbrt(cubes / static_cast<double>(radius.size()));
+  const double mean = mean_radius(radius);
   const double spacing = 2.0 * touch * mean;
   const Rotation turn = random_rotation(random, CellId::founder(first_number), 0);
-  const auto sites = choose_sites(block, radius.size(), spacing, mean, turn);
+  const auto is_free = [&](const Vec3d& p) {
+    Vec3d ignored;
+    return around.empty() || around.push(p, mean, touch, ignored) <= 0.0;
+  };
+  const auto [sites, all_free] = choose_sites(block, radius.size(), spacing, mean, turn, is_free);
+  out.room = sites.size();
+  if (out.room < radius.size()) return out;
   Vec3d middle{};
-  for (const Site& site : sites) middle += site.position;
-  middle *= 1.0 / static_cast<double>(sites.size());
+  if (all_free) {
+    for (const Site& site : sites) middle += site.position;
+    middle *= 1.0 / static_cast<double>(sites.size());
+  }
   for (std::size_t i = 0; i < sites.size(); ++i) {
     const CellId id = CellId::founder(first_number + i);
     const Vec3d jitter = random.direction(id, 2) * (kJitter * spacing * random.uniform(id, 3).first);
@@ -197,7 +167,8 @@ Packing pack_cells(const InitialCells& block, std::span<const double> radius, do
   }
   const int passes = std::clamp(static_cast<int>(kCellPasses / static_cast<double>(radius.size())), 60, kMostPasses);
   const int drawn = block.fill == RegionShape::kSphere && !space.any_periodic() && radius.size() > 1 ? passes / 3 : 0;
-  out.worst_overlap = push_apart(out.center, radius, {touch, kSlack * mean, passes, drawn, block.center}, space);
+  const PushApart how{touch, kSlack * mean, passes, drawn, block.center, &around, nullptr};
+  out.worst_overlap = push_apart(out.center, radius, how, space, &out.worst_intrusion);
   for (std::size_t i = 0; i < radius.size(); ++i) {
     const Vec3d from = out.center[i] - block.center;
     double beyond = norm(from) + radius[i] - block.radius;

@@ -14,24 +14,15 @@
 namespace morula::scenarios {
 namespace {
 
-constexpr double kUncapped = 0.1;     // overlap at which the capped start ends [µm]
 constexpr double kEnergyRise = 1e-3;  // of the range (INV.7)
 constexpr double kRest = 1e-9;        // range of the energy over its size, below which a tissue is at rest and what is left is rounding
 
-/// Largest value of a column from a row on; NaN (which passes no limit) where a value is no number.
-double largest(const SeriesColumn& column, std::size_t from = 0) {
+/// Largest value of a column; NaN (which passes no limit) where a value is no number.
+double largest(const SeriesColumn& column) {
   double out = 0.0;
-  for (std::size_t i = from; i < column.values.size(); ++i)
-    if (!(column.values[i] <= out)) out = column.values[i];
+  for (const double value : column.values)
+    if (!(value <= out)) out = value;
   return out;
-}
-
-/// The row from which overlaps count: with a capped start, the first one after it.
-std::size_t first_settled_row(const Study& study, const SeriesColumn& overlap) {
-  if (!(study.model.step.start_cap > 0.0)) return 0;
-  std::size_t row = 0;
-  while (row < overlap.values.size() && !(overlap.values[row] < kUncapped)) ++row;
-  return std::min(row + 1, overlap.values.empty() ? 0 : overlap.values.size() - 1);
 }
 
 /// Largest rise between two rows, relative to the range. The row of time 0 has no step before it and is left out.
@@ -86,8 +77,8 @@ Result<std::vector<Verdict>> common_criteria(const Study& study, const std::file
   if (const auto* error = series.find("volume_error"))
     out.push_back(at_most("INV.3", "volume of any cell against its pressure law, relative", largest(*error), limits.volume_error));
   if (const auto* overlap = series.find("worst_overlap"))
-    out.push_back(at_most("INV.4", "deepest penetration of a surface in any step", largest(*overlap, first_settled_row(study, *overlap)),
-                          limits.overlap, "um"));
+    out.push_back(
+        at_most("INV.4", "deepest penetration of a surface at the start and in any step", largest(*overlap), limits.overlap, "um"));
   if (const auto* clearance = series.find("nucleus_clearance")) {
     double outside = 0.0;  // a value that is no number passes no limit
     for (const double value : clearance->values)

@@ -39,24 +39,6 @@ double volume_by_law(const CellRow& row, double reference_excess, const CellType
   return nucleus ? nucleus->volume + (1.0 - type.interior.nucleus_fraction) * volume : volume;
 }
 
-Extreme deepest_overlap(Simulation& simulation) {
-  const auto& contacts = simulation.mechanics().contacts();
-  const auto bodies = simulation.mechanics().scene().bodies();
-  Extreme out;
-  for (const SurfacePair& pair : contacts.pairs()) {
-    const bool surfaces = pair.rigid || (bodies[pair.a].shape == BodyShape::kSurface && bodies[pair.b].shape == BodyShape::kSurface);
-    if (!surfaces || pair.overlap <= 0.0) continue;
-    offer(out, pair.overlap, pair.rigid ? bodies[pair.a].id : std::min(bodies[pair.a].id, bodies[pair.b].id));
-  }
-  for (std::uint32_t s = 0; s < simulation.mechanics().scene().owned_shells(); ++s) {
-    const auto nuclear = simulation.mechanics().nucleus_of(s);
-    if (!nuclear && simulation.tissue().shells.nucleus_of(s) == nullptr) continue;
-    const double overlap = nuclear ? nuclear->overlap : simulation.mechanics().interior_of(s).overlap;
-    if (overlap > 0.0) offer(out, overlap, bodies[s].id);
-  }
-  return out;
-}
-
 /// How near the nuclei that are shells have come to their cortex. Collective.
 double least_clearance(const Simulation& simulation) {
   const Tissue& tissue = simulation.tissue();
@@ -126,6 +108,24 @@ enum Sum {
 };
 
 }  // namespace
+
+Extreme deepest_overlap(Simulation& simulation) {
+  const auto& contacts = simulation.mechanics().contacts();
+  const auto bodies = simulation.mechanics().scene().bodies();
+  Extreme out;
+  for (const SurfacePair& pair : contacts.pairs()) {
+    const bool surfaces = pair.rigid || (bodies[pair.a].shape == BodyShape::kSurface && bodies[pair.b].shape == BodyShape::kSurface);
+    if (!surfaces || pair.overlap <= 0.0) continue;
+    offer(out, pair.overlap, pair.rigid ? bodies[pair.a].id : std::min(bodies[pair.a].id, bodies[pair.b].id));
+  }
+  for (std::uint32_t s = 0; s < simulation.mechanics().scene().owned_shells(); ++s) {
+    const auto nuclear = simulation.mechanics().nucleus_of(s);
+    if (!nuclear && simulation.tissue().shells.nucleus_of(s) == nullptr) continue;
+    const double overlap = nuclear ? nuclear->overlap : simulation.mechanics().interior_of(s).overlap;
+    if (overlap > 0.0) offer(out, overlap, bodies[s].id);
+  }
+  return out;
+}
 
 Measures measure(Simulation& simulation) {
   const BodyValues& values = simulation.values();

@@ -47,6 +47,9 @@ struct Measures {
   std::array<double, kMaxFields> field_balance{};
 };
 
+/// The deepest penetration of a surface on this rank, after an evaluation of the contacts.
+Extreme deepest_overlap(Simulation& simulation);
+
 /// Collective.
 Measures measure(Simulation& simulation);
 

@@ -46,7 +46,8 @@ Result<InitialTissue> initial_tissue(const Study& study, const Comm& comm) {
 void tell(RunLoop& loop, const Study& study, const std::vector<std::string>& more) {
   for (const Diagnostic& warning : study.warnings.list()) loop.note(Note::Kind::kWarning, warning.text);
   for (const std::string& text : study.notes) loop.note(Note::Kind::kNote, text);
-  for (const std::string& text : more) loop.note(Note::Kind::kNote, text);
+  for (const std::string& text : more)
+    if (std::find(study.notes.begin(), study.notes.end(), text) == study.notes.end()) loop.note(Note::Kind::kNote, text);
 }
 
 std::string end_note(const RunRequest& request, double end) {

@@ -140,7 +140,7 @@ Result<std::vector<Snapshot>> snapshots_over_time(const fs::path& results) {
 }
 
 Result<Study> read_run_study(const fs::path& run) {
-  auto study = read_study(run / "study.resolved.yaml");
+  auto study = read_study(run / "study.resolved.yaml", {.judge_places = false});
   if (!study.ok()) return study.error().as_error();
   return std::move(study).value();
 }

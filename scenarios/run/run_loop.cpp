@@ -174,8 +174,24 @@ Status RunLoop::step() {
   progress_.step = outcome.mechanics.step;
   events_.insert(events_.end(), std::make_move_iterator(outcome.events.begin()), std::make_move_iterator(outcome.events.end()));
   count_cells();
+  MORULA_TRY(check_capped_start());
   tell_progress(clock.time - before, std::chrono::duration<double>(SteadyClock::now() - began).count());
   return {};
+}
+
+/// A capped start ends in its time. What is capped later, by cells that have become shells, is no start: such a cell has been exchanged.
+Status RunLoop::check_capped_start() const {
+  const Tissue& tissue = simulation_->tissue();
+  const bool late = study_.model.step.start_cap > 0.0 && tissue.clock.capped && tissue.clock.time >= study_.time.capped_start;
+  if (!late) return {};
+  const double never = CellSides().last_swap_time;
+  bool exchanged = false;
+  for (std::size_t i = 0; i < tissue.cells.size(); ++i) exchanged = exchanged || tissue.cells.side.last_swap_time[i] != never;
+  if (comm_.any(exchanged)) return {};
+  return Error{
+      ErrorKind::kPhysics,
+      "the capped start has not ended by " + time_text(tissue.clock.time) + ": cells still lie deeper in each other than 0.1 um [E662]",
+      "place them further apart, or start them smaller (`start_volume`, `inflate`); `numerics.start_cap_within` is the time it has"};
 }
 
 void RunLoop::count_cells() {

@@ -46,6 +46,7 @@ class RunLoop {
   Status write_moment(const Measures& measures);
   Status check_limits(const Measures& measures);
   Status check_packing(const Measures& measures);
+  [[nodiscard]] Status check_capped_start() const;
   /// A warning of the run itself: for people, and into events.jsonl.
   void warn(const std::string& text);
   Status write_events();

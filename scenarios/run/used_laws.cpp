@@ -223,10 +223,8 @@ std::vector<UsedLaw> used_laws(const Study& study) {
   for (const InitialCells& block : study.initial)
     if (block.body_given)
       (block.body == BodyKind::kShell ? shells : spheres) = true;
-    else if (block.source != InitialCells::Source::kCsv)
-      given[block.type] = true;
     else
-      std::fill(given.begin(), given.end(), true);
+      for (std::size_t t = 0; t < model.types.size(); ++t) given[t] = given[t] || block.may_have(t);
   for (std::size_t t = 0; t < model.types.size(); ++t)
     if (given[t]) (model.types[t].initial_body == BodyKind::kShell ? shells : spheres) = true;
   std::vector<UsedLaw> out;

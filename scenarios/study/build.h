@@ -66,7 +66,7 @@ int find_cell_or_obstacle(BuildContext& context, const std::string& name, const 
 int find_mark(BuildContext& context, const std::string& name, const Place& place);
 /// Whether shells of a material ever carry a mark, after build_regions(); obstacles do not.
 bool may_carry_mark(const BuildContext& context, int material, int mark);
-/// Shells with given places must not begin within each other or in obstacles: E596, E597.
+/// The places of all cells, found as the run finds them and judged: E505, E596, E597, E658, E659, E661; after all else, without errors only.
 void check_places(BuildContext& context);
 /// Whether a shell resists being stretched in its plane by anything but its tension.
 bool resists_in_plane(const draft::ShellKeys& t);

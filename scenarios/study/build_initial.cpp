@@ -40,8 +40,9 @@ class InitialBuilder {
     check_inflation(d, place);
     int type = -1;
     if (!d.csv.given) {
-      if (!d.type.given && !d.has_meshes)
+      if (!d.type.given && !d.has_meshes && d.types.empty())
         c_.diagnostics.error(103, place, "key 'type' is missing in an entry of `initial`", "name one of the cell types");
+      if (!d.types.empty()) type = build_mixture(d, cells);
       if (d.type.known()) type = find_type(c_, d.type.value, d.type.place);
       cells.type = static_cast<std::uint16_t>(std::max(0, type));
     }
@@ -72,12 +73,15 @@ class InitialBuilder {
       stray(d.radius.given, d.radius.place, "radius", with);
       stray(d.size.given, d.size.place, "size", with);
       stray(d.center.given, d.center.place, "center", with);
+      if (!d.types.empty()) stray(true, d.types[0].place, "types", with);
+      stray(d.on.given, d.on.place, "on", with);
       d.center.text.clear();
     }
     if (d.csv.given) {
       stray(d.type.given, d.type.place, "type", with);
     } else {
       stray(d.coincident_shift.given, d.coincident_shift.place, "coincident_shift", with ? with : "fill");
+      stray(d.units.given, d.units.place, "units", with ? with : "fill");
       stray(d.coincident_below.given, d.coincident_below.place, "coincident_below", with ? with : "fill");
       stray(d.has_hull, d.hull_margin.place, "volume_from_hull", with ? with : "fill");
       d.coincident_shift.text.clear();
@@ -111,11 +115,19 @@ class InitialBuilder {
     cells.coincident_shift = d.coincident_shift.value;
     cells.coincident_below = d.coincident_below.value;
     if (!d.csv.known()) return;
+    if (d.units.known()) {
+      if (const auto factor = units_.factor(d.units.value, Quantity::kLength); !factor.ok()) {
+        c_.diagnostics.error(factor.error().kind == UnitError::Kind::kWrongDimension ? 203 : 202, d.units.place,
+                             "'units' " + factor.error().message, "for example `units: um`");
+        return;
+      }
+      cells.csv_unit = d.units.value;
+    }
     const std::string shown = d.csv.value;
     cells.csv_path = add_input_file(c_, d.csv);
     std::vector<std::string> names;
     for (const auto& type : c_.draft.cell_types) names.push_back(type.name);
-    const auto csv = read_cells_csv(cells.csv_path, shown, names, d.csv.place, units_, c_.diagnostics);
+    const auto csv = read_cells_csv(cells.csv_path, shown, names, d.csv.place, units_, c_.diagnostics, cells.csv_unit);
     if (!csv) return;
     cells.count = csv->cells.size();
     if (!csv->ignored_columns.empty()) {
@@ -199,25 +211,50 @@ class InitialBuilder {
                            domain_text(domain_));
   }
 
+  /// The parts of a mixture; the first of its types, or −1.
+  int build_mixture(const draft::Initial& d, InitialCells& cells) {
+    const Place& place = d.types[0].place;
+    if (d.type.given)
+      c_.diagnostics.error(111, d.type.place, "'type' and 'types' both say the type of the cells", "leave one of them away");
+    double sum = 0.0;
+    for (const auto& share : d.types) {
+      const int type = find_type(c_, share.name, share.place);
+      if (type < 0) return -1;
+      sum += share.content.value;
+      cells.mixture.push_back({static_cast<std::uint16_t>(type), share.content.value});
+    }
+    if (std::abs(sum - 1.0) > 1e-6) {
+      c_.diagnostics.error(660, place, "the parts of the mixture add up to " + short_number(100.0 * sum) + " %",
+                           "make them 100 % together");
+      return -1;
+    }
+    cells.type = cells.mixture[0].type;
+    return cells.type;
+  }
+
   void build_fill(const draft::Initial& d, const Place& place, int type, InitialCells& cells) {
     cells.source = InitialCells::Source::kFill;
     cells.count = d.count.value;
     cells.center = d.center.value;
     cells.radius = d.radius.value;
     cells.size = d.size.value;
-    cells.fill = d.fill.value == "box" ? RegionShape::kBox : RegionShape::kSphere;
-    const bool sphere = d.fill.value == "sphere";
+    const bool random = d.fill.value == "random", layer = d.fill.value == "layer";
+    cells.pattern = layer ? FillPattern::kLayer : random ? FillPattern::kRandom : FillPattern::kPacked;
+    const bool box = d.fill.value == "box" || (random && d.size.given), sphere = !box;
+    cells.fill = box ? RegionShape::kBox : RegionShape::kSphere;
     const auto missing = [&](bool given, const char* key) {
       if (!given)
         c_.diagnostics.error(103, place, std::string("key '") + key + "' is missing in an entry of `initial`",
-                             "a filled shape needs `count`, `fill`, and `radius` (sphere) or `size` (box)");
+                             "a filled shape needs `count`, `fill`, and `radius` (sphere), `size` (box) or `on` (layer)");
     };
     missing(d.count.given, "count");
     missing(d.fill.given, "fill");
     if (!d.fill.known()) return;
+    if (layer) return build_layer(d, place, cells);
     missing(sphere ? d.radius.given : d.size.given, sphere ? "radius" : "size");
-    stray(sphere ? d.size.given : d.radius.given, sphere ? d.size.place : d.radius.place, sphere ? "size" : "radius",
-          sphere ? "fill: sphere" : "fill: box");
+    const std::string with = random ? "size" : "fill: " + d.fill.value;
+    stray(sphere ? d.size.given : d.radius.given, sphere ? d.size.place : d.radius.place, sphere ? "size" : "radius", with.c_str());
+    stray(d.on.given, d.on.place, "on", ("fill: " + d.fill.value).c_str());
     if (!(sphere ? d.radius.known() : d.size.known()) || !d.center.known()) return;
     const Vec3d half = sphere ? Vec3d{cells.radius, cells.radius, cells.radius} : cells.size * 0.5;
     const Box shape{cells.center - half, cells.center + half};
@@ -227,19 +264,57 @@ class InitialBuilder {
     if (type >= 0 && d.count.known()) check_room(d, type, cells, sphere);
   }
 
+  void build_layer(const draft::Initial& d, const Place& place, InitialCells& cells) {
+    stray(d.size.given, d.size.place, "size", "fill: layer");
+    if (!d.on.given)
+      c_.diagnostics.error(103, place, "key 'on' is missing in an entry of `initial`",
+                           "a layer lies on a plane or wall: for example `on: z_low`");
+    if (!d.on.known()) return;
+    const std::string& on = d.on.value;
+    const auto& space = c_.study.model.space;
+    std::vector<std::string> known;
+    for (const auto& [name, at, obstacle] : c_.draft.geometry) {
+      known.push_back(name);
+      if (name != on) continue;
+      if (obstacle.plane.present && norm2(obstacle.plane.normal.value) > 0.0)
+        cells.plane = {obstacle.plane.center.value, normalized(obstacle.plane.normal.value)};
+      else
+        c_.diagnostics.error(660, d.on.place, "obstacle '" + on + "' is no plane", "a layer lies on a `plane`, or on a wall of the domain");
+      return;
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t side = 0; side < 2; ++side) {
+        const std::string face = std::string(1, "xyz"[axis]) + (side == 0 ? "_low" : "_high");
+        known.push_back(face);
+        if (face != on) continue;
+        cells.plane = {};
+        cells.plane.normal = {};
+        cells.plane.normal[axis] = side == 0 ? 1.0 : -1.0;
+        cells.plane.point = side == 0 ? domain_.low : domain_.high;
+        if (space.boundary[axis][side] != BoundaryKind::kWall)
+          c_.diagnostics.error(660, d.on.place, "the face '" + face + "' of the domain is no wall: a layer would lie on nothing",
+                               "write `domain: {boundary: {" + face + ": wall}}`");
+        return;
+      }
+    c_.diagnostics.error(660, d.on.place, "there is nothing called '" + on + "' to lie on", suggest(on, known));
+  }
+
   /// Spheres of the type's radius need more room than the shape has.
   void check_room(const draft::Initial& d, int type, const InitialCells& cells, bool sphere) {
     const Given<double>& radius = c_.draft.cell_types[static_cast<std::size_t>(type)].content.radius.mean;
-    if (!radius.known() || !d.start_volume.known()) return;
+    if (!radius.known() || !d.start_volume.known() || !cells.mixture.empty()) return;
     const double ball = 4.0 / 3.0 * std::numbers::pi;
     const double need = static_cast<double>(cells.count) * ball * std::pow(radius.value, 3) * cells.start_volume_fraction;
     const double room = sphere ? ball * std::pow(cells.radius, 3) : cells.size.x * cells.size.y * cells.size.z;
-    if (need <= room) return;
-    const std::string fits = sphere ? "a radius of at least " + short_number(std::ceil(std::cbrt(need / 0.64 / ball))) + " um"
-                                    : "a volume of at least " + short_number(need / 0.64) + " um^3";
+    // Balls placed at random, one after the other, end at 38 % of the volume; shaken together they fill 64 %.
+    const bool random = cells.pattern == FillPattern::kRandom;
+    const double most = random ? 0.38 : 0.64;
+    if (need <= (random ? most : 1.0) * room) return;
+    const std::string fits = sphere ? "a radius of at least " + short_number(std::ceil(std::cbrt(need / most / ball))) + " um"
+                                    : "a volume of at least " + short_number(need / most) + " um^3";
     c_.diagnostics.error(506, d.count.place,
                          std::to_string(cells.count) + " cells of radius " + radius.text + " have " + short_number(need / room) +
-                             " times the volume of the shape they fill",
+                             " times the volume of the shape they fill" + (random ? std::string(": at random they fill 0.38 of it") : ""),
                          "give the shape " + fits + ", or fewer cells");
   }
 

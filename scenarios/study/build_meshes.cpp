@@ -240,10 +240,7 @@ bool only_from_meshes(const Study& study, std::size_t type) {
   if (!study.model.swaps.regions.empty() || !study.model.swaps.triggers.empty()) return false;
   bool from_meshes = false;
   for (const InitialCells& cells : study.initial) {
-    const bool own = cells.source == InitialCells::Source::kMeshes;
-    const auto& types = cells.meshes.types;
-    const bool here = own && !types.empty() ? std::find(types.begin(), types.end(), type) != types.end()
-                                            : cells.source == InitialCells::Source::kCsv || cells.type == type;
+    const bool own = cells.source == InitialCells::Source::kMeshes, here = cells.may_have(type);
     if (here && !own) return false;
     from_meshes = from_meshes || here;
   }

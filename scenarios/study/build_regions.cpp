@@ -190,8 +190,10 @@ bool may_be_shell(const BuildContext& c, std::size_t type) {
   if (d.cell_types[type].content.body.value == "shell" || !d.coupling.triggers.empty()) return true;
   for (const auto& region : d.coupling.regions)
     if (region.content.body.value == "shell") return true;
+  const auto is_this = [&](const auto& share) { return share.name == d.cell_types[type].name; };
   for (const auto& initial : d.initial)
-    if (initial.content.body.value == "shell" && (initial.content.csv.given || initial.content.type.value == d.cell_types[type].name))
+    if (initial.content.body.value == "shell" && (initial.content.csv.given || initial.content.type.value == d.cell_types[type].name ||
+                                                  std::ranges::any_of(initial.content.types, is_this)))
       return true;
   return false;
 }

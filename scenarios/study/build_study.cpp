@@ -8,7 +8,7 @@ namespace morula::scenarios {
 
 void build_time_and_numerics(BuildContext& c) {
   const draft::Time& time = c.draft.time;
-  c.study.time = {time.end.value, time.output.value, time.checkpoint.value, time.rest.value};
+  c.study.time = {time.end.value, time.output.value, time.checkpoint.value, c.draft.numerics.start_cap_within.value, time.rest.value};
   const auto check_interval = [&](const Given<double>& interval, const char* what) {
     if (interval.given && interval.known() && time.end.known() && interval.value > time.end.value)
       c.diagnostics.warning(508, interval.place,

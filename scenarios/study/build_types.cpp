@@ -1,11 +1,14 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "scenarios/study/build.h"
 #include "scenarios/study/read_section.h"
 
 namespace morula::scenarios {
 namespace {
+
+constexpr std::size_t kMaxTypes = 256;
 
 void build_death(BuildContext& c, const draft::CellType& draft, const Place& type_place, CellType& type) {
   if (!draft.has_death) return;
@@ -21,53 +24,61 @@ void build_death(BuildContext& c, const draft::CellType& draft, const Place& typ
   type.removal_fraction = draft.removed_below.value;
 }
 
-/// W of every pair by material index; what the file says twice must agree.
+/// W of every pair by material index. What the file says twice must agree. A pair is what one of the two says of the other by name, else what
+/// one of them says of `others`, else what the types say that the two are like, else the default.
 class PairTable {
  public:
   explicit PairTable(BuildContext& context)
       : c_(context), types_(c_.draft.cell_types.size()), materials_(types_ + c_.draft.geometry.size()) {
-    given_.resize(types_ * materials_);
+    named_.resize(types_ * materials_);
+    others_.resize(types_);
   }
 
   void read() {
-    for (std::size_t i = 0; i < types_; ++i)
-      for (const auto& item : c_.draft.cell_types[i].content.adhesion) read_one(i, item);
+    for (std::size_t i = 0; i < types_; ++i) {
+      auto& items = c_.draft.cell_types[i].content.adhesion;
+      for (const auto& item : items)
+        if (item.name == kOthers)
+          others_[i] = item.content;
+        else
+          read_one(i, item);
+      std::erase_if(items, [](const auto& item) { return item.name == kOthers; });
+    }
+    all_ = named_;
+    for (std::size_t material = 0; material < materials_; ++material) row_.push_back(row_of(material));
   }
 
-  void fill_defaults() {
+  void fill_unnamed() {
     for (std::size_t i = 0; i < types_; ++i)
       for (std::size_t j = i; j < materials_; ++j) {
-        if (slot(i, j)) continue;
-        const bool cells = j < types_;
-        Given<double> value;  // Table 1 of Van Liedekerke et al.
-        value.value = cells ? 0.1 : 0.01;
-        value.text = cells ? "1e-4 J/m^2" : "1e-5 J/m^2";
-        value.place = c_.draft.cell_types[i].place;
+        if (named_[slot(i, j)]) continue;
+        Given<double> value = unnamed(i, j);
         c_.draft.cell_types[i].content.adhesion.push_back({name(j), value.place, value});
-        set(i, j, value);
+        all_[slot(i, j)] = std::move(value);
       }
+    for (auto& type : c_.draft.cell_types) type.content.like.text.clear();  // all of it is written out in the resolved study
   }
 
-  [[nodiscard]] const Given<double>& at(std::size_t i, std::size_t j) const {
-    return *given_[std::min(i, j) * materials_ + std::max(i, j)];
-  }
+  [[nodiscard]] const Given<double>& at(std::size_t i, std::size_t j) const { return *all_[slot(i, j)]; }
 
  private:
+  static constexpr const char* kOthers = "others";
+
   [[nodiscard]] std::string name(std::size_t material) const {
     return material < types_ ? c_.draft.cell_types[material].name : c_.draft.geometry[material - types_].name;
   }
-  std::optional<Given<double>>& slot(std::size_t i, std::size_t j) { return given_[std::min(i, j) * materials_ + std::max(i, j)]; }
-  void set(std::size_t i, std::size_t j, const Given<double>& value) { slot(i, j) = value; }
+  [[nodiscard]] std::size_t slot(std::size_t i, std::size_t j) const { return std::min(i, j) * materials_ + std::max(i, j); }
 
   void read_one(std::size_t i, const Named<Given<double>>& item) {
     std::vector<std::string> names;
     std::size_t j = 0;
     for (; j < materials_ && name(j) != item.name; ++j) names.push_back(name(j));
     if (j == materials_) {
+      names.emplace_back(kOthers);
       c_.diagnostics.error(401, item.place, "there is no cell type or obstacle '" + item.name + "'", suggest(item.name, names));
       return;
     }
-    const auto& before = slot(i, j);
+    auto& before = named_[slot(i, j)];
     if (before && before->value != item.content.value) {
       c_.diagnostics.error(510, item.content.place,
                            "the adhesion of '" + name(i) + "' and '" + name(j) + "' is " + item.content.text + " here, but " +
@@ -75,18 +86,73 @@ class PairTable {
                            "give each pair once");
       return;
     }
-    set(i, j, item.content);
+    before = item.content;
+  }
+
+  /// A material, the type it is like, the type that one is like ...
+  [[nodiscard]] std::vector<std::size_t> row_of(std::size_t material) const {
+    std::vector<std::size_t> row{material};
+    while (row.back() < types_) {
+      const auto& types = c_.draft.cell_types;
+      const std::string& like = types[row.back()].content.like.value;
+      const auto other = std::find_if(types.begin(), types.end(), [&](const auto& type) { return type.name == like; });
+      const auto index = static_cast<std::size_t>(other - types.begin());
+      if (other == types.end() || std::find(row.begin(), row.end(), index) != row.end()) break;
+      row.push_back(index);
+    }
+    return row;
+  }
+
+  /// What is said of a pair itself: by name, else by `others` of one of the two.
+  [[nodiscard]] std::vector<Given<double>> said_of(std::size_t i, std::size_t j) const {
+    if (i >= types_ && j >= types_) return {};
+    if (const auto& value = named_[slot(i, j)]) return {*value};
+    std::vector<Given<double>> found;
+    for (const std::size_t k : {i, j})
+      if (k < types_ && others_[k]) found.push_back(*others_[k]);
+    return found;
+  }
+
+  /// What is said of the pair; else of one of them and the type that the other is like; and so on, the nearest first.
+  Given<double> unnamed(std::size_t i, std::size_t j) {
+    const std::vector<std::size_t>&a = row_[i], &b = row_[j];
+    for (std::size_t steps = 0; steps + 1 < a.size() + b.size(); ++steps) {
+      std::vector<Given<double>> found;
+      for (std::size_t k = 0; k < a.size() && k <= steps; ++k)
+        if (steps - k < b.size())
+          for (Given<double>& value : said_of(a[k], b[steps - k])) found.push_back(std::move(value));
+      if (!found.empty()) return one_of(found, i, j);
+    }
+    Given<double> value;  // Table 1 of Van Liedekerke et al.
+    value.value = j < types_ ? 0.1 : 0.01;
+    value.text = j < types_ ? "1e-4 J/m^2" : "1e-5 J/m^2";
+    value.place = c_.draft.cell_types[i].place;
+    return value;
+  }
+
+  Given<double> one_of(const std::vector<Given<double>>& found, std::size_t i, std::size_t j) {
+    for (const Given<double>& other : found)
+      if (other.value != found[0].value) {
+        c_.diagnostics.error(657, c_.draft.cell_types[i].place,
+                             "the adhesion of '" + name(i) + "' and '" + name(j) + "' could be " + found[0].text + " (line " +
+                                 std::to_string(found[0].place.line) + ") or " + other.text + " (line " + std::to_string(other.place.line) +
+                                 ")",
+                             "name this pair in the `adhesion` of one of them");
+        break;
+      }
+    return found[0];
   }
 
   BuildContext& c_;
   std::size_t types_, materials_;
-  std::vector<std::optional<Given<double>>> given_;
+  std::vector<std::optional<Given<double>>> named_, all_;
+  std::vector<std::optional<Given<double>>> others_;
+  std::vector<std::vector<std::size_t>> row_;  ///< row_of() each
 };
 
 }  // namespace
 
 void build_cell_types(BuildContext& c) {
-  constexpr std::size_t kMaxTypes = 256;
   if (c.draft.cell_types.size() > kMaxTypes)
     c.diagnostics.error(404, c.draft.cell_types[kMaxTypes].place, "more than " + std::to_string(kMaxTypes) + " cell types", "");
   for (const auto& [name, place, t] : c.draft.cell_types) {
@@ -119,11 +185,12 @@ void build_cell_types(BuildContext& c) {
 
 void build_pairs(BuildContext& c) {
   const std::size_t types = c.draft.cell_types.size(), materials = types + c.draft.geometry.size();
-  PairTable table(c);
-  table.read();
-  table.fill_defaults();
   auto& pairs = c.study.model.pairs;
   pairs.assign(materials * materials, ContactPair{0.0, 0.0, 0.0});
+  if (types > kMaxTypes) return;  // told
+  PairTable table(c);
+  table.read();
+  table.fill_unnamed();
   for (std::size_t i = 0; i < types; ++i) {
     for (std::size_t j = 0; j < materials; ++j) {
       const draft::CellType& a = c.draft.cell_types[i].content;

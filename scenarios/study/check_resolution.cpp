@@ -17,6 +17,8 @@ std::uint64_t cells_of_type(const draft::Study& study, const std::string& type) 
   std::uint64_t out = 0;
   for (const auto& block : study.initial) {
     if (block.content.csv.given) return 1000;  // as many as the file says
+    for (const auto& share : block.content.types)
+      if (share.name == type) out += static_cast<std::uint64_t>(share.content.value * static_cast<double>(block.content.count.value));
     if (block.content.type.value == type) out += block.content.at.given ? block.content.at.value.size() : block.content.count.value;
   }
   return out;

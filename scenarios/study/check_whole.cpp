@@ -74,12 +74,13 @@ void check_friction(BuildContext& c) {
 void check_nuclei(BuildContext& c) {
   for (std::size_t i = 0; i < c.study.initial.size() && i < c.draft.initial.size(); ++i) {
     const InitialCells& block = c.study.initial[i];
-    if (block.type >= c.study.model.types.size()) continue;
-    const CellType& type = c.study.model.types[block.type];
     if (block.shape != CellShape::kBiconcave) continue;
-    if (type.interior.has_nucleus())
+    for (std::size_t t = 0; t < c.study.model.types.size(); ++t) {
+      const CellType& type = c.study.model.types[t];
+      if (!block.may_have(t) || !type.interior.has_nucleus()) continue;
       c.diagnostics.error(537, c.draft.initial[i].content.shape.place, "biconcave cells of '" + type.name + "' have no room for a nucleus",
                           "`nucleus: {kind: none}`, or spherical cells");
+    }
   }
 }
 
@@ -101,6 +102,14 @@ void check_periodic_size(BuildContext& c) {
 }
 
 void check_names(BuildContext& c) {
+  const auto check_reserved = [&c](const auto& things) {
+    for (const auto& thing : things)
+      if (thing.name == "others")
+        c.diagnostics.error(112, thing.place, "'others' cannot be a name: in `adhesion` it means all that are not named",
+                            "take another name");
+  };
+  check_reserved(c.draft.cell_types);
+  check_reserved(c.draft.geometry);
   for (const auto& obstacle : c.draft.geometry)
     for (const auto& type : c.draft.cell_types)
       if (type.name == obstacle.name)

@@ -43,8 +43,8 @@ constexpr std::array<const char*, kColumns> kNames{"x", "y", "z", "type", "radiu
 class CsvReader {
  public:
   CsvReader(std::shared_ptr<const SourceText> source, const std::vector<std::string>& types, const UnitSystem& units,
-            Diagnostics& diagnostics)
-      : source_(std::move(source)), types_(types), units_(units), diagnostics_(diagnostics) {
+            Diagnostics& diagnostics, std::string unit)
+      : source_(std::move(source)), types_(types), units_(units), diagnostics_(diagnostics), unit_(std::move(unit)) {
     cells_.source = source_;
     at_.fill(-1);
     factor_.fill(1.0);
@@ -54,7 +54,7 @@ class CsvReader {
     std::size_t line = 0;
     while (line < source_->line_begin.size() && skipped(line)) ++line;
     if (line == source_->line_begin.size()) {
-      error(613, {"", 0}, "the file holds no cells", "the first line names the columns: x,y,z,type");
+      error(613, {"", 0}, "the file holds no cells", "the first line names the columns: x [um],y [um],z [um],type");
       return std::nullopt;
     }
     read_header(line);
@@ -101,7 +101,7 @@ class CsvReader {
     const auto column = static_cast<std::size_t>(known - kNames.begin());
     if (at_[column] >= 0) error(610, field, "column '" + name + "' stands twice in the header", "keep one of them");
     at_[column] = static_cast<int>(i);
-    if (bracket == std::string_view::npos) return;
+    if (bracket == std::string_view::npos) return take_common_unit(column, field);
     const std::size_t close = field.text.find(']', bracket);
     if (close == std::string_view::npos || column == kType || column == kModel) {
       error(610, field, "column '" + std::string(field.text) + "' cannot be read",
@@ -115,6 +115,16 @@ class CsvReader {
     else
       error(factor.error().kind == UnitError::Kind::kWrongDimension ? 203 : 202, field, "'" + name + "' " + factor.error().message,
             "for example `x [um]`");
+  }
+
+  void take_common_unit(std::size_t column, Field field) {
+    if (column == kType || column == kModel || column == kPhase) return;
+    const auto factor = units_.factor(unit_, Quantity::kLength);  // that of the entry has been checked
+    if (factor.ok())
+      factor_[column] = *factor;
+    else
+      error(655, field, "column '" + std::string(kNames[column]) + "' has no unit",
+            "write `" + std::string(kNames[column]) + " [um]` in the header, or `units: um` beside `csv` in the study");
   }
 
   std::optional<double> number(Column column) {
@@ -190,6 +200,7 @@ class CsvReader {
   const std::vector<std::string>& types_;
   const UnitSystem& units_;
   Diagnostics& diagnostics_;
+  std::string unit_;  ///< of lengths without one of their own; empty: they must have one
   CsvCells cells_;
   std::vector<Field> fields_;
   std::array<int, kColumns> at_;
@@ -202,10 +213,10 @@ class CsvReader {
 
 std::optional<CsvCells> read_cells_csv(const std::filesystem::path& path, const std::string& shown_name,
                                        const std::vector<std::string>& type_names, const Place& referred_from, const UnitSystem& units,
-                                       Diagnostics& diagnostics) {
+                                       Diagnostics& diagnostics, const std::string& unit) {
   auto source = read_text_file(path, shown_name, kMaxCsvBytes, referred_from, diagnostics);
   if (!source) return std::nullopt;
-  return CsvReader(std::move(source), type_names, units, diagnostics).read();
+  return CsvReader(std::move(source), type_names, units, diagnostics, unit).read();
 }
 
 }  // namespace morula::scenarios

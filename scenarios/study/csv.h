@@ -30,12 +30,12 @@ struct CsvCells {
 };
 
 /// Read cells from a CSV file: the header names the columns `x`, `y`, `z`, `type` and optionally `radius`, `phase`, `model` in any order, each
-/// with its unit as `x [um]` (µm when it has none); other columns are listed and left aside. Lines that are empty or begin with `#` are
+/// lengths with their unit as `x [um]`, or all in `unit` where that is not empty (E655 where neither is said); other columns are listed and left aside. Lines that are empty or begin with `#` are
 /// skipped. All errors are added with file, line and column: E601–E605 (file), E610 (header), E611 (short or long row), E612 (a value is not a
 /// number, is NA or not finite), E613 (no rows), E401 (unknown type). `referred_from` is where the study names the file.
 std::optional<CsvCells> read_cells_csv(const std::filesystem::path& path, const std::string& shown_name,
                                        const std::vector<std::string>& type_names, const Place& referred_from, const UnitSystem& units,
-                                       Diagnostics& diagnostics);
+                                       Diagnostics& diagnostics, const std::string& unit = "");
 
 /// Groups of cells (indices, increasing) that lie closer than `below` [µm] to another of their group; groups in the order of their first cell.
 std::vector<std::vector<std::size_t>> coincident_groups(const std::vector<Vec3d>& positions, double below);

@@ -196,6 +196,11 @@ void declare_friction(Section& s, draft::CellType& t) {
 
 void declare_cell_type(Section& s, draft::CellType& t) {
   bool present = false;
+  s.text({.name = "like",
+          .doc = "Another cell type: what is not said here is as there, key by key in all sections. Adhesion, too, is that of the other, "
+                 "where neither of two types names the pair.",
+          .example = "hepatocyte"},
+         t.like);
   s.group({.name = "radius", .doc = "Radius of a cell at birth.", .shorthand = "mean", .example = "{mean: 6 um, spread: 10 %}"}, present,
           [&t](Section& r) { declare_spread(r, t.radius, Q::kLength, "6 um", "Mean over cells.", kTable1, 0.5, 100.0); });
   s.word({.name = "body",
@@ -211,8 +216,10 @@ void declare_cell_type(Section& s, draft::CellType& t) {
   s.group({.name = "friction", .doc = "Friction with what is around."}, present, [&t](Section& f) { declare_friction(f, t); });
   s.quantities(
       {.name = "adhesion",
-       .doc = "Adhesion energy W per contact area of the pair, by name of a cell type or obstacle; holds for both bodies. Give a pair "
-              "once. Pairs that no type names have 1e-4 J/m^2 between cells and 1e-5 J/m^2 with obstacles.",
+       .doc =
+           "Adhesion energy W per contact area of the pair, by name of a cell type or obstacle; holds for both bodies. Give a pair "
+           "once. `others`: all cell types and obstacles that neither side names. Pairs without either have 1e-4 J/m^2 between cells and "
+           "1e-5 J/m^2 with obstacles.",
        .quantity = Q::kTension,
        .low = 0.0,
        .high = 100.0,

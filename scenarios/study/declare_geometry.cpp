@@ -133,21 +133,41 @@ void declare_obstacle(Section& s, draft::Obstacle& o) {
 void declare_initial(Section& s, draft::Initial& i) {
   s.text({.name = "type", .doc = "Cell type of these cells (a CSV file names them itself).", .example = "hepatocyte"}, i.type);
   s.whole({.name = "count", .doc = "How many cells fill the shape.", .low = 1, .high = 2.0e8, .example = "400"}, i.count);
-  s.word({.name = "fill",
-          .doc = "Fill a shape with `count` cells from a regular packing with a seeded jitter.",
-          .words = {"sphere", "box"},
-          .example = "sphere"},
-         i.fill);
+  s.word(
+      {.name = "fill",
+       .doc = "Fill a shape with `count` cells, beside what is there already. `sphere`, `box`: close together, from a regular packing with "
+              "a seeded jitter. `random`: anywhere with room, in a sphere (`radius`) or box (`size`). `layer`: side by side, hexagonal, "
+              "on the plane or wall that `on` names.",
+       .words = {"sphere", "box", "random", "layer"},
+       .example = "sphere"},
+      i.fill);
+  s.quantities(
+      {.name = "types",
+       .doc = "Instead of `type`: a mixture. The parts of the cells that fill the shape, by cell type; they add up to 100 %. Counts "
+              "are exact (largest remainders), the order is drawn by `seed`.",
+       .quantity = Q::kFraction,
+       .low = 0.0,
+       .high = 1.0,
+       .example = "{red: 50 %, green: 50 %}"},
+      i.types);
+  s.text({.name = "on",
+          .doc = "What a layer lies on: an obstacle that is a plane, or a face of the domain with a wall, such as `z_low`.",
+          .example = "z_low"},
+         i.on);
   s.vector({.name = "center",
-            .doc = "Centre of the shape.",
+            .doc = "Centre of the shape; a layer begins below it.",
             .quantity = Q::kLength,
             .fallback = "[0 um, 0 um, 0 um]",
             .example = "[0 um, 0 um, 0 um]",
             .source = "chosen"},
            i.center);
-  s.quantity(
-      {.name = "radius", .doc = "Radius of a sphere to fill.", .quantity = Q::kLength, .low = 0.0, .low_open = true, .example = "60 um"},
-      i.radius);
+  s.quantity({.name = "radius",
+              .doc = "Radius of a sphere to fill; of the disc that a layer keeps to.",
+              .quantity = Q::kLength,
+              .low = 0.0,
+              .low_open = true,
+              .example = "60 um"},
+             i.radius);
   s.vector({.name = "size",
             .doc = "Edges of a box to fill.",
             .quantity = Q::kLength,
@@ -168,9 +188,10 @@ void declare_initial(Section& s, draft::Initial& i) {
           .source = "chosen"},
          i.age);
   s.text({.name = "csv",
-          .doc = "Cells from a CSV file with the columns x,y,z,type[,radius,phase,model]; units in the header, `x [um]`.",
+          .doc = "Cells from a CSV file with the columns x,y,z,type[,radius,phase,model]; units in the header, `x [um]`, or as `units`.",
           .example = "cells.csv"},
          i.csv);
+  s.text({.name = "units", .doc = "Unit of the lengths of a CSV file whose header has none.", .example = "um"}, i.units);
   s.quantity({.name = "coincident_shift",
               .doc = "Cells of a CSV file at the same place are named and moved apart by this distance.",
               .quantity = Q::kLength,

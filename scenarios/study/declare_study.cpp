@@ -135,6 +135,15 @@ void declare_numerics(Section& s, draft::Numerics& n) {
               .example = "0.1 um",
               .source = "chosen"},
              n.start_cap);
+  s.quantity({.name = "start_cap_within",
+              .doc = "A capped start that has not ended by this time stops the run: some cells have no way out of each other.",
+              .quantity = Q::kTime,
+              .fallback = "30 min",
+              .low = 0.0,
+              .low_open = true,
+              .example = "30 min",
+              .source = "chosen: cells that start half a radius deep come apart within minutes"},
+             n.start_cap_within);
 }
 
 void declare_domain(Section& s, draft::Domain& domain) {

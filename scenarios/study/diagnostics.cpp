@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 namespace morula::scenarios {
 namespace {
+
+constexpr std::size_t kKept = 1000;  // messages of each severity
+constexpr std::size_t kShown = 100;  // messages in all
+constexpr std::size_t kBlock = 256;  // bytes
 
 bool continues_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
 
@@ -18,16 +23,16 @@ struct Excerpt {
   int column;
 };
 
-Excerpt excerpt_around(std::string_view line, int column) {
-  constexpr int kBefore = 100, kShown = 200;
-  std::vector<std::size_t> begin;  // byte of each character
-  for (std::size_t i = 0; i < line.size(); ++i)
-    if (!continues_character(line[i])) begin.push_back(i);
-  begin.push_back(line.size());
-  const int count = static_cast<int>(begin.size()) - 1;
-  const int first = count <= kShown ? 0 : std::clamp(column - 1 - kBefore, 0, count - 1);
-  const int last = std::min(count, first + kShown);
-  std::string text(line.substr(begin[first], begin[last] - begin[first]));
+Excerpt excerpt_around(const SourceText& source, int number, int column) {
+  constexpr int kBefore = 100, kMost = 200;
+  const std::string_view line = source.line(number);
+  const std::size_t begin = source.line_begin[static_cast<std::size_t>(number) - 1], before = source.characters_before(begin);
+  const int count = static_cast<int>(source.characters_before(begin + line.size()) - before);
+  const int first = count <= kMost ? 0 : std::clamp(column - 1 - kBefore, 0, count - 1);
+  const int last = std::min(count, first + kMost);
+  const auto byte_of = [&](int character) { return source.byte_of(before + static_cast<std::size_t>(character)) - begin; };
+  const std::size_t from = byte_of(first), to = last < count ? byte_of(last) : line.size();
+  std::string text(line.substr(from, to - from));
   for (char& c : text)
     if (c == '\t' || static_cast<unsigned char>(c) < 0x20) c = ' ';  // one cell wide, and no escape sequences reach the terminal
   if (first > 0) text = "…" + text;
@@ -46,6 +51,26 @@ std::string visible(std::string text) {
 SourceText::SourceText(std::string name_, std::string bytes_) : name(std::move(name_)), bytes(std::move(bytes_)), line_begin{0} {
   for (std::size_t i = 0; i < bytes.size(); ++i)
     if (bytes[i] == '\n') line_begin.push_back(i + 1);
+  std::size_t characters = 0;
+  for (std::size_t at = 0; at < bytes.size(); at += kBlock) {
+    block_characters_.push_back(characters);
+    characters += static_cast<std::size_t>(count_characters(std::string_view(bytes).substr(at, kBlock)));
+  }
+  block_characters_.push_back(characters);
+}
+
+std::size_t SourceText::characters_before(std::size_t byte) const {
+  const std::size_t block = std::min(byte / kBlock, block_characters_.size() - 1), from = std::min(block * kBlock, bytes.size());
+  return block_characters_[block] + static_cast<std::size_t>(count_characters(std::string_view(bytes).substr(from, byte - from)));
+}
+
+std::size_t SourceText::byte_of(std::size_t character) const {
+  const auto next = std::upper_bound(block_characters_.begin(), block_characters_.end(), character);
+  const auto block = static_cast<std::size_t>(next - block_characters_.begin()) - 1;
+  std::size_t byte = block * kBlock, passed = block_characters_[block];
+  for (; byte < bytes.size(); ++byte)
+    if (!continues_character(bytes[byte]) && passed++ == character) break;
+  return std::min(byte, bytes.size());
 }
 
 std::string_view SourceText::line(int number) const {
@@ -64,26 +89,35 @@ Place place_at(std::shared_ptr<const SourceText> source, std::size_t byte, std::
   const std::size_t begin = source->line_begin[static_cast<std::size_t>(line) - 1];
   const std::string_view text = source->line(line);
   const std::size_t offset = std::min(byte - begin, text.size());
-  const int column = 1 + count_characters(text.substr(0, offset));
+  const int column = 1 + static_cast<int>(source->characters_before(begin + offset) - source->characters_before(begin));
   const int length = count_characters(text.substr(offset, bytes));
   return {std::move(source), line, column, std::max(1, length)};
 }
 
+void Diagnostics::add(Diagnostic&& diagnostic) {
+  const bool is_error = diagnostic.severity == Severity::kError;
+  ++(is_error ? errors_ : warnings_);
+  std::size_t& kept = is_error ? kept_errors_ : kept_warnings_;
+  if (kept == kKept) return;
+  ++kept;
+  list_.push_back(std::move(diagnostic));
+}
+
+bool Diagnostics::full() const { return kept_errors_ == kKept; }
+
 void Diagnostics::error(int code, Place place, std::string text, std::string help) {
-  list_.push_back({Severity::kError, code, std::move(place), std::move(text), std::move(help)});
+  add({Severity::kError, code, std::move(place), std::move(text), std::move(help)});
 }
 
 void Diagnostics::warning(int code, Place place, std::string text, std::string help) {
-  list_.push_back({Severity::kWarning, code, std::move(place), std::move(text), std::move(help)});
+  add({Severity::kWarning, code, std::move(place), std::move(text), std::move(help)});
 }
 
 void Diagnostics::append(Diagnostics other) {
-  list_.insert(list_.end(), std::make_move_iterator(other.list_.begin()), std::make_move_iterator(other.list_.end()));
-}
-
-std::size_t Diagnostics::error_count() const {
-  return static_cast<std::size_t>(
-      std::count_if(list_.begin(), list_.end(), [](const Diagnostic& d) { return d.severity == Severity::kError; }));
+  const std::size_t errors = errors_ + other.errors_, warnings = warnings_ + other.warnings_;
+  for (Diagnostic& diagnostic : other.list_) add(std::move(diagnostic));
+  errors_ = errors;
+  warnings_ = warnings;
 }
 
 void Diagnostics::sort() {
@@ -96,38 +130,69 @@ void Diagnostics::sort() {
     if (a.place.line != b.place.line) return a.place.line < b.place.line;
     return a.place.column < b.place.column;
   });
+  const auto same = [](const Diagnostic& a, const Diagnostic& b) {
+    return a.place.source && a.place.source == b.place.source && a.place.line == b.place.line && a.place.column == b.place.column &&
+           a.severity == b.severity && a.code == b.code && a.text == b.text;
+  };
+  const auto end = std::unique(list_.begin(), list_.end(), same);
+  list_.erase(end, list_.end());
+  const auto is_error = [](const Diagnostic& d) { return d.severity == Severity::kError; };
+  const auto errors = static_cast<std::size_t>(std::count_if(list_.begin(), list_.end(), is_error));
+  errors_ -= std::exchange(kept_errors_, errors) - errors;
+  warnings_ -= std::exchange(kept_warnings_, list_.size() - errors) - (list_.size() - errors);
 }
 
 void Diagnostics::warnings_to_errors() {
   for (Diagnostic& d : list_) d.severity = Severity::kError;
+  errors_ += std::exchange(warnings_, 0);
+  kept_errors_ += std::exchange(kept_warnings_, 0);
 }
 
-std::string Diagnostics::text(bool colour) const {
+namespace {
+
+void append_message(std::string& out, const Diagnostic& d, bool colour) {
   const auto paint = [colour](const char* code, const std::string& words) {
     return colour ? "\033[" + std::string(code) + "m" + words + "\033[0m" : words;
   };
-  std::string out;
-  for (const Diagnostic& d : list_) {
-    const bool is_error = d.severity == Severity::kError;
-    const char* shade = is_error ? "1;31" : "1;35";
-    if (d.place.source) {
-      std::string where = d.place.source->name;
-      if (d.place.line > 0) where += ":" + std::to_string(d.place.line) + ":" + std::to_string(d.place.column);
-      out += paint("1", visible(where) + ":") + " ";
-    }
-    out += paint(shade, is_error ? "error:" : "warning:") + " " + visible(d.text) + " [E" + std::to_string(d.code) + "]\n";
-    const std::string_view line = d.place.source ? d.place.source->line(d.place.line) : std::string_view{};
-    if (!line.empty()) {
-      char gutter[16];
-      std::snprintf(gutter, sizeof gutter, "%5d", d.place.line);
-      const Excerpt excerpt = excerpt_around(line, d.place.column);
-      const int width = std::max(1, std::min(d.place.length, count_characters(excerpt.text) - excerpt.column + 1));
-      out += std::string(gutter) + " | " + excerpt.text + "\n";
-      out += "      | " + std::string(static_cast<std::size_t>(std::max(0, excerpt.column - 1)), ' ') +
-             paint(shade, "^" + std::string(static_cast<std::size_t>(width - 1), '~')) + "\n";
-    }
-    if (!d.help.empty()) out += "      = help: " + visible(d.help) + "\n";
+  const bool is_error = d.severity == Severity::kError;
+  const char* shade = is_error ? "1;31" : "1;35";
+  if (d.place.source) {
+    std::string where = d.place.source->name;
+    if (d.place.line > 0) where += ":" + std::to_string(d.place.line) + ":" + std::to_string(d.place.column);
+    out += paint("1", visible(where) + ":") + " ";
   }
+  out += paint(shade, is_error ? "error:" : "warning:") + " " + visible(d.text) + " [E" + std::to_string(d.code) + "]\n";
+  if (d.place.source && !d.place.source->line(d.place.line).empty()) {
+    char gutter[16];
+    std::snprintf(gutter, sizeof gutter, "%5d", d.place.line);
+    const Excerpt excerpt = excerpt_around(*d.place.source, d.place.line, d.place.column);
+    const int width = std::max(1, std::min(d.place.length, count_characters(excerpt.text) - excerpt.column + 1));
+    out += std::string(gutter) + " | " + excerpt.text + "\n";
+    out += "      | " + std::string(static_cast<std::size_t>(std::max(0, excerpt.column - 1)), ' ') +
+           paint(shade, "^" + std::string(static_cast<std::size_t>(width - 1), '~')) + "\n";
+  }
+  if (!d.help.empty()) out += "      = help: " + visible(d.help) + "\n";
+}
+
+std::string with_thousands(std::size_t number) {
+  std::string out = std::to_string(number);
+  for (std::size_t at = out.size(); at > 3;) out.insert(at -= 3, ",");
+  return out;
+}
+
+}  // namespace
+
+std::string Diagnostics::text(bool colour) const {
+  std::string out;
+  std::size_t errors_left = kShown, warnings_left = kShown - std::min(kShown, kept_errors_), shown = 0;
+  for (const Diagnostic& d : list_) {
+    std::size_t& left = d.severity == Severity::kError ? errors_left : warnings_left;
+    if (left == 0) continue;
+    --left;
+    ++shown;
+    append_message(out, d, colour);
+  }
+  if (const std::size_t more = errors_ + warnings_ - shown; more > 0) out += "and " + with_thousands(more) + " more\n";
   return out;
 }
 

@@ -19,6 +19,13 @@ struct SourceText {
   SourceText(std::string name, std::string bytes);
   /// The line with this number (from 1), without its end.
   [[nodiscard]] std::string_view line(int number) const;
+  /// Number of characters that begin before this byte; quick at any place of a line of any length.
+  [[nodiscard]] std::size_t characters_before(std::size_t byte) const;
+  /// The first byte of the character with this number (from 0), or the end.
+  [[nodiscard]] std::size_t byte_of(std::size_t character) const;
+
+ private:
+  std::vector<std::size_t> block_characters_;  ///< that begin before each block of bytes
 };
 
 /// A stretch of an input text. Lines and columns count from 1, columns and lengths in characters (code points); line 0 means the whole file.
@@ -43,7 +50,7 @@ struct Diagnostic {
   std::string help;
 };
 
-/// All messages of a check, as a compiler would give them.
+/// All messages of a check, as a compiler would give them. Of very many only the first thousand are kept, the others counted.
 class Diagnostics {
  public:
   void error(int code, Place place, std::string text, std::string help = {});
@@ -52,15 +59,19 @@ class Diagnostics {
 
   [[nodiscard]] bool empty() const { return list_.empty(); }
   [[nodiscard]] bool has_errors() const { return error_count() > 0; }
-  [[nodiscard]] std::size_t error_count() const;
-  [[nodiscard]] std::size_t warning_count() const { return list_.size() - error_count(); }
+  [[nodiscard]] std::size_t error_count() const { return errors_; }
+  [[nodiscard]] std::size_t warning_count() const { return warnings_; }
+  /// Whether further errors are only counted: their words need not be made.
+  [[nodiscard]] bool full() const;
   [[nodiscard]] const std::vector<Diagnostic>& list() const { return list_; }
 
-  /// Order by place, the study file first; messages of one place stay in the order they were found.
+  /// Order by place, the study file first; messages of one place stay in the order they were found, and the same message of one place
+  /// (a value that several sections share) is kept once.
   void sort();
   /// `--strict`: every warning becomes an error.
   void warnings_to_errors();
-  /// All messages in the form `file:line:col: error: text [Ennn]`, source line, caret, help; ANSI colours if asked.
+  /// The messages in the form `file:line:col: error: text [Ennn]`, source line, caret, help; ANSI colours if asked. At most a hundred,
+  /// errors before warnings, and then how many more there are.
   [[nodiscard]] std::string text(bool colour = false) const;
   /// What the program's exit code follows from: kFile if all errors are missing files, else kInput.
   [[nodiscard]] ErrorKind kind() const;
@@ -68,7 +79,11 @@ class Diagnostics {
   [[nodiscard]] Error as_error() const;
 
  private:
+  void add(Diagnostic&& diagnostic);
+
   std::vector<Diagnostic> list_;
+  std::size_t errors_ = 0, warnings_ = 0;            ///< all of them
+  std::size_t kept_errors_ = 0, kept_warnings_ = 0;  ///< in the list
 };
 
 /// Limits of what is read at all.

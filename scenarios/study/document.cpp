@@ -5,8 +5,8 @@
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
-#include <charconv>
 #include <sstream>
+#include <unordered_map>
 
 namespace morula::scenarios {
 namespace {
@@ -58,6 +58,7 @@ class TreeBuilder : public YAML::EventHandler {
     bool has_key = false;
     std::string key;
     Place key_place;
+    std::unordered_map<std::string, int> line_of;  ///< of each key so far
   };
 
   [[nodiscard]] std::size_t byte(const YAML::Mark& mark) const { return mark.pos < 0 ? 0 : static_cast<std::size_t>(mark.pos); }
@@ -115,17 +116,12 @@ class TreeBuilder : public YAML::EventHandler {
       diagnostics_.error(106, node.place, "merge keys (`<<`) are not allowed in a study", "write the keys out");
     } else if (node.kind != Node::Kind::kScalar || as_key.empty()) {
       if (as_key != "*") diagnostics_.error(112, node.place, "a key must be a word", "write `name: value`");
-    } else if (const Node::Entry* first = find_entry(parent.node, as_key)) {
-      diagnostics_.error(102, node.place, "key '" + as_key + "' is given twice, first in line " + std::to_string(first->key_place.line),
+    } else if (const auto [first, fresh] = parent.line_of.try_emplace(as_key, node.place.line); !fresh) {
+      diagnostics_.error(102, node.place, "key '" + as_key + "' is given twice, first in line " + std::to_string(first->second),
                          "keep one of them");
     } else {
       parent.key = as_key;
     }
-  }
-
-  static const Node::Entry* find_entry(const Node& map, std::string_view key) {
-    const auto found = std::find_if(map.entries.begin(), map.entries.end(), [&](const Node::Entry& e) { return e.key == key; });
-    return found == map.entries.end() ? nullptr : &*found;
   }
 
   std::shared_ptr<const SourceText> source_;
@@ -178,71 +174,6 @@ Node parse_document(const std::shared_ptr<const SourceText>& source, Diagnostics
                       "check the indentation, colons, quotes and brackets at this place and just before it");
     return {};
   }
-}
-
-namespace {
-
-Node* descend(Node& at, const std::string& part) {
-  if (at.kind == Node::Kind::kNull) at.kind = Node::Kind::kMap;
-  if (at.kind == Node::Kind::kMap) {
-    if (Node* found = at.find(part)) return found;
-    return nullptr;
-  }
-  if (at.kind != Node::Kind::kList) return nullptr;
-  std::size_t index = 0;
-  const auto [end, code] = std::from_chars(part.data(), part.data() + part.size(), index);
-  if (code != std::errc() || end != part.data() + part.size() || index >= at.items.size()) return nullptr;
-  return &at.items[index];
-}
-
-}  // namespace
-
-void apply_override(Node& document, const std::string& assignment, Diagnostics& diagnostics) {
-  const auto whole = std::make_shared<const SourceText>("command line", assignment);
-  const std::size_t equals = assignment.find('=');
-  const std::string example = "write `key.path=value`, for example `cell_types.hepatocyte.radius=\"7 um\"` or `time.end=2h`";
-  if (equals == std::string::npos || equals == 0) {
-    diagnostics.error(110, place_at(whole, 0, assignment.size()), "'" + assignment + "' does not set a key", example);
-    return;
-  }
-  // The value keeps its column: blanks stand where the key path was.
-  const auto value_text = std::make_shared<const SourceText>("command line", std::string(equals + 1, ' ') + assignment.substr(equals + 1));
-  Diagnostics of_value;
-  Node value = parse_document(value_text, of_value);
-  if (of_value.has_errors()) {
-    diagnostics.error(110, place_at(whole, equals + 1, assignment.size()), "the value of '" + assignment + "' cannot be read", example);
-    return;
-  }
-  // Errors about the value shall show the argument as it was typed.
-  const auto retarget = [&whole](auto& self, Node& node) -> void {
-    node.place.source = whole;
-    for (Node::Entry& entry : node.entries) entry.key_place.source = whole, self(self, entry.value);
-    for (Node& item : node.items) self(self, item);
-  };
-  retarget(retarget, value);
-
-  Node* at = &document;
-  std::size_t begin = 0;
-  while (true) {
-    const std::size_t dot = std::min(assignment.find('.', begin), equals);
-    const std::string part = assignment.substr(begin, dot - begin);
-    const Place here = place_at(whole, begin, dot - begin);
-    Node* next = part.empty() ? nullptr : descend(*at, part);
-    if (!next && !part.empty() && at->kind == Node::Kind::kMap) {
-      Node fresh;
-      fresh.place = here;
-      at->entries.push_back({part, here, std::move(fresh)});
-      next = &at->entries.back().value;
-    }
-    if (!next) {
-      diagnostics.error(110, here, "'" + assignment.substr(0, dot) + "' is not a place in the study", example);
-      return;
-    }
-    at = next;
-    if (dot == equals) break;
-    begin = dot + 1;
-  }
-  *at = std::move(value);
 }
 
 }  // namespace morula::scenarios

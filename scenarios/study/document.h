@@ -34,8 +34,15 @@ struct Node::Entry {
 /// keys and tags (E106), more than one document or none (E107), keys that are not words (E112). What could be parsed is returned.
 Node parse_document(const std::shared_ptr<const SourceText>& source, Diagnostics& diagnostics);
 
+struct Declaration;
+
 /// Put `key.path=value` of the command line into the document, as if it were written there. Parts of the path are keys, or numbers (from 0)
-/// of list items. Errors (E110) point at the command line.
-void apply_override(Node& document, const std::string& assignment, Diagnostics& diagnostics);
+/// of list items; what stands there as a bare value is opened. The user's names (of cell types, fields ...) must exist: a new thing comes
+/// only with all of it, `fields.drug={...}`, and not by a name within two edits of another. Errors (E110) point at the command line.
+void apply_override(Node& document, const Declaration& declared, const std::string& assignment, Diagnostics& diagnostics);
+
+/// Give every cell type with `like: other` the keys of the other that it does not have itself, section by section; `adhesion` is left to
+/// the table of pairs. E401: no such type; E656: types like each other in a circle, or too many in a row; E404: too much in all.
+void expand_likes(Node& document, const Declaration& declared, Diagnostics& diagnostics);
 
 }  // namespace morula::scenarios

@@ -16,7 +16,7 @@ struct Time {
 
 struct Numerics {
   Given<std::uint64_t> newton;
-  Given<double> newton_stop, tolerance, later_tolerance, max_displacement, initial_step, skin, start_cap;
+  Given<double> newton_stop, tolerance, later_tolerance, max_displacement, initial_step, skin, start_cap, start_cap_within;
 };
 
 /// `all`, an axis, or one face; the most particular one holds.
@@ -77,6 +77,7 @@ struct Links {
 };
 
 struct CellType : ShellKeys {
+  Given<std::string> like;
   Spread radius;
   Given<std::string> body;
   bool has_cycle = false;
@@ -178,13 +179,15 @@ struct Meshes {
 
 struct Initial {
   Given<std::string> type;
+  std::vector<Named<Given<double>>> types;
+  Given<std::string> on;
   Given<std::uint64_t> count;
   Given<std::string> fill;
   Given<Vec3d> center, size;
   Given<double> radius;
   Given<std::vector<Vec3d>> at;
   Given<std::string> age;
-  Given<std::string> csv;
+  Given<std::string> csv, units;
   Given<double> coincident_shift, coincident_below;
   bool has_hull = false, has_cavity = false;
   Given<double> hull_margin, cavity_radius;

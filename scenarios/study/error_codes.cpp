@@ -169,6 +169,24 @@ constexpr ErrorCode kCodes[] = {
     {623, "mesh crosses itself", "Two faces that are not neighbours intersect."},
     {624, "mesh has degenerate or double faces", "A face has no area, or the same face stands twice."},
     {625, "mesh is not a surface", "An edge has three or more faces, or two parts of the surface touch in one node."},
+    {655, "column without a unit",
+     "Lengths in a CSV file carry their unit in the header, `x [um]`, or the entry of `initial` says it for all of them, `units: um`."},
+    {656, "cell types like each other without end",
+     "`like` names a type that says its own keys, or is itself like another; the row must end, after 32 types at most."},
+    {657, "adhesion that could be two things",
+     "Two types take the adhesion of this pair from the types they are like, or from `others`, and these disagree."},
+    {658, "no room for cells",
+     "Cells that fill a shape keep off obstacles and off cells of earlier entries; what is left of the shape does not hold them all."},
+    {659, "cells cannot be placed",
+     "An obstacle or a file does not let the cells of time 0 be made; a run would stop for the same reason."},
+    {660, "layer or mixture that cannot be made",
+     "A layer lies on a plane or on a face of the domain that is a wall; the parts of a mixture are of known types and add up to 100 %."},
+    {661, "spheres deep in other cells",
+     "Cells begin at less than half of the distance at which they touch: the contact laws are made for small overlaps, and the first steps "
+     "throw such cells apart (warning)."},
+    {662, "capped start that does not end",
+     "With `numerics.start_cap` cells that overlap at time 0 come apart slowly. What has not by `numerics.start_cap_within` has no way "
+     "out."},
 };
 
 }  // namespace

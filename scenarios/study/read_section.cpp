@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/numbers/decimal_number.h"
+#include "scenarios/study/key_range.h"
 
 namespace morula::scenarios {
 namespace {
@@ -19,21 +20,6 @@ const Special* find_special(const KeySpec& key, const std::string& text) {
   return nullptr;
 }
 
-std::string range_text(const KeySpec& key) {
-  const std::string unit(describe(key.quantity).internal_unit);
-  const auto bound = [&unit](double x) { return short_number(x) + (unit.empty() ? "" : " " + unit); };
-  const bool low = std::isfinite(key.low), high = std::isfinite(key.high);
-  const std::string low_text = (key.low_open ? "above " : "at least ") + bound(key.low);
-  const std::string high_text = (key.high_open ? "below " : "at most ") + bound(key.high);
-  if (low && high)
-    return key.low_open || key.high_open ? low_text + " and " + high_text : "between " + bound(key.low) + " and " + bound(key.high);
-  return low ? low_text : high_text;
-}
-
-bool in_range(const KeySpec& key, double x) {
-  return (key.low_open ? x > key.low : x >= key.low) && (key.high_open ? x < key.high : x <= key.high);
-}
-
 std::vector<std::string> to_strings(const std::vector<const char*>& words) { return {words.begin(), words.end()}; }
 
 }  // namespace
@@ -44,20 +30,26 @@ bool is_name(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '-'; });
 }
 
+std::string ReadSection::shown_name(const KeySpec& key) const {
+  return short_for_.empty() || key.name != short_key_ ? key.name : short_for_;
+}
+
+std::string ReadSection::shown(const KeySpec& key) const { return quoted(shown_name(key)); }
+
 const Node::Entry* ReadSection::take(const KeySpec& key) {
   declared_.emplace_back(key.name);
   if (!node_) return nullptr;
   for (const Node::Entry& entry : node_->entries)
     if (entry.key == key.name) return &entry;
   if (key.required)
-    diagnostics_.error(103, place_, "key " + quoted(key.name) + " is missing in " + (path_.empty() ? "the study" : "`" + path_ + "`"),
+    diagnostics_.error(103, place_, "key " + shown(key) + " is missing in " + (path_.empty() ? "the study" : "`" + path_ + "`"),
                        *key.example ? "write for example `" + std::string(key.name) + ": " + key.example + "`" : std::string(key.doc));
   return nullptr;
 }
 
 void ReadSection::wrong_shape(const KeySpec& key, const Node& node, const char* expected) {
   static constexpr const char* kFound[] = {"nothing", "a single value", "a list", "a map"};
-  diagnostics_.error(104, node.place, quoted(key.name) + " must be " + expected + ", but here is " + kFound[static_cast<int>(node.kind)],
+  diagnostics_.error(104, node.place, shown(key) + " must be " + expected + ", but here is " + kFound[static_cast<int>(node.kind)],
                      example_of(key));
 }
 
@@ -67,7 +59,7 @@ const Node* ReadSection::scalar(const KeySpec& key, Node& storage, bool& given) 
     given = true;
     if (entry->value.kind == Node::Kind::kScalar) return &entry->value;
     if (entry->value.kind == Node::Kind::kNull)
-      diagnostics_.error(104, entry->key_place, quoted(key.name) + " has no value", example_of(key));
+      diagnostics_.error(104, entry->key_place, shown(key) + " has no value", example_of(key));
     else
       wrong_shape(key, entry->value, "a single value");
     return nullptr;
@@ -84,10 +76,11 @@ bool ReadSection::read_number(const KeySpec& key, const Node& node, double& valu
     value = special->value;
     return true;
   }
-  const auto read = read_quantity(units_, node.text, key.quantity, key.name, key.example, node.place, diagnostics_);
+  const auto read = read_quantity(units_, node.text, key.quantity, shown_name(key), key.example, node.place, diagnostics_);
   if (!read) return false;
-  if (!in_range(key, *read)) {
-    diagnostics_.error(302, node.place, quoted(key.name) + " is " + node.text + ", but must be " + range_text(key), example_of(key));
+  if (const KeyRange range = range_of(key); !range.holds(*read)) {
+    diagnostics_.error(302, node.place, shown(key) + " is " + node.text + ", but must be " + range_words(key) + range.reason_against(*read),
+                       example_of(key));
     return false;
   }
   value = *read;
@@ -115,14 +108,13 @@ void ReadSection::whole(const KeySpec& key, Given<std::uint64_t>& value) {
   const bool digits = !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
   if (!digits) {
     if (is_not_finite_word(text))
-      diagnostics_.error(301, node->place, quoted(key.name) + " is not a finite number: '" + text + "'", example_of(key));
+      diagnostics_.error(301, node->place, shown(key) + " is not a finite number: '" + text + "'", example_of(key));
     else
-      diagnostics_.error(109, node->place, quoted(key.name) + " must be a whole number, but is '" + text + "'", example_of(key));
+      diagnostics_.error(109, node->place, shown(key) + " must be a whole number, but is '" + text + "'", example_of(key));
     return;
   }
   if (text.size() > 1 && text[0] == '0') {
-    diagnostics_.error(304, node->place, quoted(key.name) + " begins with a zero: '" + text + "' could be meant as octal",
-                       "leave the zero away");
+    diagnostics_.error(304, node->place, shown(key) + " begins with a zero: '" + text + "' could be meant as octal", "leave the zero away");
     return;
   }
   std::uint64_t number = 0;
@@ -131,9 +123,9 @@ void ReadSection::whole(const KeySpec& key, Given<std::uint64_t>& value) {
   if (!allowed) {
     std::string list;
     for (const char* word : key.words) list += (list.empty() ? "" : ", ") + std::string(word);
-    diagnostics_.error(302, node->place, quoted(key.name) + " is " + text + ", but must be one of " + list, example_of(key));
-  } else if (code != std::errc() || !in_range(key, static_cast<double>(number))) {
-    diagnostics_.error(302, node->place, quoted(key.name) + " is " + text + ", but must be " + range_text(key), example_of(key));
+    diagnostics_.error(302, node->place, shown(key) + " is " + text + ", but must be one of " + list, example_of(key));
+  } else if (code != std::errc() || !range_of(key).holds(static_cast<double>(number))) {
+    diagnostics_.error(302, node->place, shown(key) + " is " + text + ", but must be " + range_words(key), example_of(key));
   } else {
     value.value = number;
     value.text = text;
@@ -149,7 +141,7 @@ void ReadSection::word(const KeySpec& key, Given<std::string>& value) {
   for (const auto& [other, meant] : key.synonyms)
     if (text == other) text = meant;
   if (std::find(key.words.begin(), key.words.end(), text) == key.words.end()) {
-    diagnostics_.error(108, node->place, quoted(key.name) + " cannot be '" + node->text + "'", suggest(node->text, to_strings(key.words)));
+    diagnostics_.error(108, node->place, shown(key) + " cannot be '" + node->text + "'", suggest(node->text, to_strings(key.words)));
     return;
   }
   value.value = value.text = text;
@@ -161,7 +153,7 @@ void ReadSection::text(const KeySpec& key, Given<std::string>& value) {
   value.place = node ? node->place : place_;
   if (!node) return;
   if (value.given && node->text.empty()) {
-    diagnostics_.error(104, node->place, quoted(key.name) + " is empty", example_of(key));
+    diagnostics_.error(104, node->place, shown(key) + " is empty", example_of(key));
     return;
   }
   value.value = value.text = node->text;
@@ -173,7 +165,7 @@ void ReadSection::flag(const KeySpec& key, Given<bool>& value) {
   value.place = node ? node->place : place_;
   if (!node) return;
   if (node->text != "true" && node->text != "false") {
-    diagnostics_.error(108, node->place, quoted(key.name) + " cannot be '" + node->text + "'", "allowed: true, false");
+    diagnostics_.error(108, node->place, shown(key) + " cannot be '" + node->text + "'", "allowed: true, false");
     return;
   }
   value.value = node->text == "true";
@@ -186,7 +178,7 @@ bool ReadSection::vector_items(const KeySpec& key, const Node& node, Vec3d& valu
     return false;
   }
   if (node.items.size() != 3) {
-    diagnostics_.error(303, node.place, quoted(key.name) + " has " + std::to_string(node.items.size()) + " numbers, but needs 3: [x, y, z]",
+    diagnostics_.error(303, node.place, shown(key) + " has " + std::to_string(node.items.size()) + " numbers, but needs 3: [x, y, z]",
                        example_of(key));
     return false;
   }
@@ -274,7 +266,7 @@ void ReadSection::words(const KeySpec& key, Given<std::vector<std::string>>& val
     if (item.kind != Node::Kind::kScalar) {
       wrong_shape(key, item, "a list of words");
     } else if (!key.words.empty() && std::find(key.words.begin(), key.words.end(), item.text) == key.words.end()) {
-      diagnostics_.error(108, item.place, quoted(key.name) + " cannot hold '" + item.text + "'", suggest(item.text, to_strings(key.words)));
+      diagnostics_.error(108, item.place, shown(key) + " cannot hold '" + item.text + "'", suggest(item.text, to_strings(key.words)));
     } else {
       all += (all.size() > 1 ? ", " : "") + yaml_scalar(item.text);
       value.value.push_back(item.text);

@@ -40,6 +40,9 @@ class ReadSection final : public Section {
   };
 
   const Node::Entry* take(const KeySpec& key);
+  /// The key as the user wrote it: a bare value that stands for a key of this section goes by the section's name.
+  [[nodiscard]] std::string shown_name(const KeySpec& key) const;
+  [[nodiscard]] std::string shown(const KeySpec& key) const;
   [[nodiscard]] std::string path_of(const std::string& name) const { return path_.empty() ? name : path_ + "." + name; }
   /// The scalar of a key as text with its place: from the file, or the default. Null when there is neither, or on an error.
   const Node* scalar(const KeySpec& key, Node& storage, bool& given);
@@ -55,6 +58,7 @@ class ReadSection final : public Section {
   std::string path_;
   const UnitSystem& units_;
   Diagnostics& diagnostics_;
+  std::string short_key_, short_for_;  ///< of a section written as a bare value: the key that it stands for, and the section's name
   std::vector<std::string> declared_;
   std::vector<Suffix> suffixes_;
 };

@@ -5,6 +5,12 @@
 #include "scenarios/study/read_section.h"
 
 namespace morula::scenarios {
+namespace {
+
+// Of sections in one map or list: what is more comes from a script gone wrong, and pairs of types would fill the memory.
+constexpr std::size_t kMostNamed = 1000, kMostListed = 10000;
+
+}  // namespace
 
 std::string yaml_scalar(const std::string& text) {
   const auto plain_first = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '/'; };
@@ -51,6 +57,8 @@ void ReadSection::read_section(const KeySpec& key, const Node& node, const Place
     map.place = node.place;
     map.entries.push_back({key.shorthand, node.place, node});
     ReadSection section(&map, key_place, path, units_, diagnostics_);
+    section.short_key_ = key.shorthand;
+    section.short_for_ = key.name;
     describe(section);
     section.finish();
   } else {
@@ -82,7 +90,12 @@ void ReadSection::named_items(const KeySpec& key, const Container& items) {
   }
   if (entry->value.entries.empty() && key.required)
     diagnostics_.error(104, entry->key_place, "'" + std::string(key.name) + "' is empty", "give at least one");
+  std::size_t count = 0;
   for (const Node::Entry& item : entry->value.entries) {
+    if (++count > kMostNamed) {
+      diagnostics_.error(404, item.key_place, "more than " + std::to_string(kMostNamed) + " entries in " + shown(key), "");
+      break;
+    }
     const std::string path = path_of(key.name) + "." + item.key;
     if (!is_name(item.key))
       diagnostics_.error(112, item.key_place, "'" + item.key + "' cannot be a name",
@@ -104,7 +117,12 @@ void ReadSection::listed_items(const KeySpec& key, const Container& items) {
   }
   if (entry->value.items.empty() && key.required)
     diagnostics_.error(104, entry->key_place, "'" + std::string(key.name) + "' is empty", "give at least one entry");
+  std::size_t count = 0;
   for (const Node& item : entry->value.items) {
+    if (++count > kMostListed) {
+      diagnostics_.error(404, item.place, "more than " + std::to_string(kMostListed) + " entries in " + shown(key), "");
+      break;
+    }
     items.add("", item.place);
     const std::size_t index = items.size() - 1;
     read_section(key, item, item.place, path_of(key.name) + "[" + std::to_string(index) + "]",
@@ -169,10 +187,13 @@ bool ReadSection::take_suffixed(const Node::Entry& entry) {
 
 void ReadSection::finish() {
   if (!node_) return;
+  const std::string where = path_.empty() ? "the study" : "`" + path_ + "`";
   for (const Node::Entry& entry : node_->entries) {
     if (std::find(declared_.begin(), declared_.end(), entry.key) != declared_.end() || take_suffixed(entry)) continue;
-    diagnostics_.error(101, entry.key_place, "unknown key '" + entry.key + "' in " + (path_.empty() ? "the study" : "`" + path_ + "`"),
-                       suggest(entry.key, declared_));
+    if (diagnostics_.full())  // a suggestion for each of very many keys would take minutes, and none would be shown
+      diagnostics_.error(101, entry.key_place, "", "");
+    else
+      diagnostics_.error(101, entry.key_place, "unknown key '" + entry.key + "' in " + where, suggest(entry.key, declared_));
   }
 }
 

@@ -1,4 +1,5 @@
 #include "scenarios/study/build.h"
+#include "scenarios/study/catalogue.h"
 #include "scenarios/study/declare.h"
 #include "scenarios/study/document.h"
 #include "scenarios/study/read_section.h"
@@ -29,7 +30,6 @@ void build(BuildContext& context) {
   build_regions(context);
   build_adhesion_regions(context);
   build_loads(context);
-  check_places(context);
   check_whole(context);
   Study& study = context.study;
   const draft::Study& draft = context.draft;
@@ -37,6 +37,7 @@ void build(BuildContext& context) {
   study.title = draft.title.value;
   study.scenario = draft.scenario.value;
   study.output = {draft.output.series.value, draft.output.formats.value, draft.output.report.value};
+  check_places(context);
 }
 
 Result<Study, Diagnostics> read_source(const std::shared_ptr<const SourceText>& source, const std::filesystem::path& folder,
@@ -47,7 +48,9 @@ Result<Study, Diagnostics> read_source(const std::shared_ptr<const SourceText>& 
     diagnostics.error(104, document.place, "a study is a map (`key: value`)", "`morula new` writes one to start from");
     return diagnostics;
   }
-  for (const std::string& assignment : options.overrides) apply_override(document, assignment, diagnostics);
+  const Declaration declared = study_declarations();
+  for (const std::string& assignment : options.overrides) apply_override(document, declared, assignment, diagnostics);
+  expand_likes(document, declared, diagnostics);
 
   draft::Study draft;
   Study study;

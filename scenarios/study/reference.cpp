@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <cmath>
 
 #include "core/numbers/unit_conversion.h"
 #include "scenarios/study/catalogue.h"
 #include "scenarios/study/error_codes.h"
+#include "scenarios/study/key_range.h"
 #include "scenarios/study/read_section.h"
 
 namespace morula::scenarios {
@@ -50,19 +50,24 @@ std::string kind_text(const Declaration& d) {
   return "";
 }
 
-std::string range_of(const KeySpec& key) {
-  const std::string unit(describe(key.quantity).internal_unit);
-  const auto bound = [&](double x) { return short_number(x) + (unit.empty() ? "" : " " + unit); };
-  std::string text;
-  if (std::isfinite(key.low)) text += (key.low_open ? "> " : ">= ") + bound(key.low);
-  if (std::isfinite(key.high)) text += (text.empty() ? "" : ", ") + std::string(key.high_open ? "< " : "<= ") + bound(key.high);
-  return text;
+/// Both ends where the key has values with ends.
+std::string range_text(const Declaration& d) {
+  switch (d.kind) {
+    case Kind::kQuantity:
+    case Kind::kVector:
+    case Kind::kVectors:
+    case Kind::kQuantities:
+    case Kind::kWhole:
+      return d.spec.words.empty() ? range_words(d.spec) : "";
+    default:
+      return "";
+  }
 }
 
 std::string explain_key(const Declaration& d) {
   std::string out = d.path + "\n  " + d.spec.doc + "\n";
   out += "  kind:     " + kind_text(d) + "\n";
-  if (const std::string range = range_of(d.spec); !range.empty() && d.spec.words.empty()) out += "  range:    " + range + "\n";
+  if (const std::string range = range_text(d); !range.empty()) out += "  range:    " + range + "\n";
   if (d.spec.required)
     out += "  default:  none, must be given\n";
   else if (d.spec.fallback && *d.spec.fallback)
@@ -120,8 +125,8 @@ void table_of(const Declaration& section, std::string& out) {
     const KeySpec& key = child.spec;
     const std::string fallback = key.required ? "required" : key.fallback && *key.fallback ? "`" + std::string(key.fallback) + "`" : "";
     const std::string name = std::string("`") + key.name + "`" + (child.suffix.empty() ? "" : ", or `<field>" + child.suffix + "`");
-    out += "| " + name + " | " + key.doc + " | " + kind_text(child) + " | " + (key.words.empty() ? range_of(key) : "") + " | " + fallback +
-           " | " + key.source + " |\n";
+    out += "| " + name + " | " + key.doc + " | " + kind_text(child) + " | " + range_text(child) + " | " + fallback + " | " + key.source +
+           " |\n";
   }
   for (const Declaration& child : section.children)
     if (is_section(child)) table_of(child, out);

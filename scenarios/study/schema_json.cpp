@@ -1,8 +1,8 @@
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/numbers/unit_conversion.h"
 #include "scenarios/study/catalogue.h"
+#include "scenarios/study/key_range.h"
 
 namespace morula::scenarios {
 namespace {
@@ -26,8 +26,9 @@ Json quantity_schema(const KeySpec& key) {
   Json choices = Json::array();
   if (key.quantity == Quantity::kNumber) {
     Json number{{"type", "number"}};
-    if (std::isfinite(key.low)) number[key.low_open ? "exclusiveMinimum" : "minimum"] = key.low;
-    if (std::isfinite(key.high)) number[key.high_open ? "exclusiveMaximum" : "maximum"] = key.high;
+    const KeyRange range = range_of(key);
+    number[range.low_open ? "exclusiveMinimum" : "minimum"] = range.low;
+    number[range.high_open ? "exclusiveMaximum" : "maximum"] = range.high;
     choices.push_back(number);
   } else {
     if (key.quantity == Quantity::kFraction) choices.push_back({{"type", "number"}});

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -15,22 +16,43 @@ enum class CellShape : std::uint8_t { kSphere, kBiconcave };
 /// How the meshes of shells lie at time 0.
 enum class Orientation : std::uint8_t { kRandom, kAligned };
 
+/// How the places of a fill are found.
+enum class FillPattern : std::uint8_t {
+  kPacked,  ///< as close as they go, from a regular packing with a seeded jitter
+  kRandom,  ///< anywhere where there is room (Poisson disc)
+  kLayer,   ///< side by side on a plane, hexagonal
+};
+
+/// A plane that cells lie on.
+struct LayerPlane {
+  Vec3d point{};
+  Vec3d normal{0, 0, 1};  ///< of length 1, towards the cells
+};
+
 /// How cells are placed at time 0.
 struct InitialCells {
   enum class Source { kFill, kPositions, kCsv, kMeshes } source = Source::kFill;
 
-  // fill: `count` cells of `type` in a shape, relaxed from a regular packing with a seeded jitter
-  std::uint16_t type = 0;
+  // fill: `count` cells of `type` or of a mixture in a shape
+  std::uint16_t type = 0;  ///< of a mixture: the first
+  struct Share {
+    std::uint16_t type = 0;
+    double part = 1.0;
+  };
+  std::vector<Share> mixture;  ///< parts of `count`, their sum 1; empty: all of `type`
+  FillPattern pattern = FillPattern::kPacked;
+  LayerPlane plane;                         ///< of a layer
   std::uint64_t count = 0;                  ///< of any source
   RegionShape fill = RegionShape::kSphere;  ///< kSphere or kBox
   Vec3d center{};
-  double radius = 0.0;           ///< of a sphere [µm]
+  double radius = 0.0;           ///< of a sphere; of the disc that a layer keeps to, 0: none [µm]
   Vec3d size{};                  ///< of a box [µm]
   std::vector<Vec3d> positions;  ///< kPositions, `at: [[x, y, z], ...]` [µm]
   bool random_age = true;        ///< each cell at a random point of its cycle, else at birth
 
   // csv: x,y,z,type[,radius,phase,model]; read with read_cells_csv (csv.h)
   std::string csv_path;            ///< absolute
+  std::string csv_unit;            ///< of lengths whose column has none; empty: all have
   double coincident_shift = 6.0;   ///< coincident cells are moved apart by this distance and named [µm]
   double coincident_below = 1e-3;  ///< closer than this counts as coincident [µm]
   double shared_volume = 0.0;      ///< of each cell at time 0, from the hull of all places; 0: as its type or its row says [µm³]
@@ -50,12 +72,23 @@ struct InitialCells {
 
   CellShape shape = CellShape::kSphere;
   Orientation orientation = Orientation::kRandom;
+
+  /// Whether cells of this type may be among them.
+  [[nodiscard]] bool may_have(std::size_t of_type) const {
+    if (source == Source::kCsv) return true;
+    for (const Share& share : mixture)
+      if (share.type == of_type) return true;
+    if (source == Source::kMeshes && !meshes.types.empty())
+      return std::find(meshes.types.begin(), meshes.types.end(), of_type) != meshes.types.end();
+    return mixture.empty() && type == of_type;
+  }
 };
 
 struct TimeSpec {
   double end = 0.0;                ///< [s]
   double output = 3600.0;          ///< series and snapshots [s]
   double checkpoint = 6 * 3600.0;  ///< [s]; a multiple of output is not required: written at the first output time not before it is due
+  double capped_start = 0.0;       ///< by when a capped start must have ended [s]
   double rest = 0.0;               ///< speed of all points below which the run ends at an output; 0: never [µm/s]
 };
 
@@ -89,10 +122,11 @@ struct Study {
 };
 
 struct ReadOptions {
-  std::vector<std::string> overrides;       ///< `key.path=value`, as if written in the file
-  std::vector<std::string> series_names;    ///< observables that exist; empty: not checked
-  std::vector<std::string> scenario_names;  ///< library studies that exist; empty: not checked
-  bool strict = false;                      ///< warnings are errors
+  std::vector<std::string> overrides{};       ///< `key.path=value`, as if written in the file
+  std::vector<std::string> series_names{};    ///< observables that exist; empty: not checked
+  std::vector<std::string> scenario_names{};  ///< library studies that exist; empty: not checked
+  bool strict = false;                        ///< warnings are errors
+  bool judge_places = true;                   ///< find and judge the places of all cells; false: the study has been checked before
 };
 
 /// Read, check and convert a study file. On failure all errors (and warnings), sorted by place.

@@ -210,7 +210,8 @@ TEST(RegionInTime, ThatEndsBeforeItBeginsIsRefused) {
 TEST(VolumeFromHull, OfACubeOfNucleiIsSharedEqually) {
   const test::Folder folder;
   folder.write("cells.csv",
-               "x,y,z,type\n0,0,0,cell\n20,0,0,cell\n0,20,0,cell\n20,20,0,cell\n0,0,20,cell\n20,0,20,cell\n0,20,20,cell\n20,20,20,cell\n");
+               "x [um],y [um],z "
+               "[um],type\n0,0,0,cell\n20,0,0,cell\n0,20,0,cell\n20,20,0,cell\n0,0,20,cell\n20,0,20,cell\n0,20,20,cell\n20,20,20,cell\n");
   const std::string text = R"(schema: 1
 study: cube
 time: {end: 1 h, output: 30 min, checkpoint: 1 h}
@@ -224,7 +225,8 @@ initial: [{csv: cells.csv, volume_from_hull: {margin: 5 um, cavity: {center: [10
   const double expected = 8000.0 + 2400.0 * 5.0 + 60.0 * std::numbers::pi * 25.0 + ball * 125.0 - ball * 1000.0;
   EXPECT_NEAR(study->initial[0].shared_volume, expected / 8.0, 1e-9);
   folder.write("inputs/cells.csv",
-               "x,y,z,type\n0,0,0,cell\n20,0,0,cell\n0,20,0,cell\n20,20,0,cell\n0,0,20,cell\n20,0,20,cell\n0,20,20,cell\n20,20,20,cell\n");
+               "x [um],y [um],z "
+               "[um],type\n0,0,0,cell\n20,0,0,cell\n0,20,0,cell\n20,20,0,cell\n0,0,20,cell\n20,0,20,cell\n0,20,20,cell\n20,20,20,cell\n");
   const auto resolved = test::read(study->resolved_text, {}, folder.path());
   ASSERT_TRUE(resolved.ok()) << resolved.error().text();
   EXPECT_EQ(resolved->initial[0].shared_volume, study->initial[0].shared_volume);
@@ -232,9 +234,9 @@ initial: [{csv: cells.csv, volume_from_hull: {margin: 5 um, cavity: {center: [10
 
 TEST(VolumeFromHull, IsRefusedWhereItHasNoMeaning) {
   const test::Folder folder;
-  folder.write("flat.csv", "x,y,z,type\n0,0,0,cell\n20,0,0,cell\n0,20,0,cell\n20,20,0,cell\n");
-  folder.write("radius.csv", "x,y,z,type,radius\n0,0,0,cell,5\n20,0,0,cell,5\n0,20,0,cell,5\n20,20,9,cell,5\n");
-  folder.write("good.csv", "x,y,z,type\n0,0,0,cell\n20,0,0,cell\n0,20,0,cell\n0,0,20,cell\n");
+  folder.write("flat.csv", "x [um],y [um],z [um],type\n0,0,0,cell\n20,0,0,cell\n0,20,0,cell\n20,20,0,cell\n");
+  folder.write("radius.csv", "x [um],y [um],z [um],type,radius [um]\n0,0,0,cell,5\n20,0,0,cell,5\n0,20,0,cell,5\n20,20,9,cell,5\n");
+  folder.write("good.csv", "x [um],y [um],z [um],type\n0,0,0,cell\n20,0,0,cell\n0,20,0,cell\n0,0,20,cell\n");
   const std::string text = R"(schema: 1
 study: cube
 time: {end: 1 h, output: 30 min, checkpoint: 1 h}

@@ -44,8 +44,8 @@ TEST(StudyCsv, ReadsUnitsAndOptionalColumnsInAnyOrder) {
 }
 
 TEST(StudyCsv, NamesEveryBadValueWithItsPlace) {
-  const Reading r =
-      read_csv("x,y,z,type\n1,2,TE\n1,NA,3,TE\n1,2,inf,TE\nnan,2,3,TE\n1,2,3,TX\n1,2,3 um,TE\n1,,3,TE\n1,2,3,TE,5\n1,2,1e999,EPI\n");
+  const Reading r = read_csv(
+      "x [um],y [um],z [um],type\n1,2,TE\n1,NA,3,TE\n1,2,inf,TE\nnan,2,3,TE\n1,2,3,TX\n1,2,3 um,TE\n1,,3,TE\n1,2,3,TE,5\n1,2,1e999,EPI\n");
   EXPECT_THAT(r.messages, HasSubstr("cells.csv:2:1: error: row has 3 values, but the header names 4 [E611]"));
   EXPECT_THAT(r.messages, HasSubstr("cells.csv:3:3: error: 'y' is not a number: 'NA' [E612]"));
   EXPECT_THAT(r.messages, HasSubstr("cells.csv:4:5: error: 'z' is not a finite number: 'inf' [E612]"));
@@ -59,15 +59,36 @@ TEST(StudyCsv, NamesEveryBadValueWithItsPlace) {
 
 TEST(StudyCsv, HeaderMustNameTheColumns) {
   EXPECT_THAT(read_csv("1,2,3,TE\n").messages, HasSubstr("cells.csv:1:1: error: the header lacks the columns x, y, z, type [E610]"));
-  EXPECT_THAT(read_csv("x,y,z,type,x\n1,2,3,TE,1\n").messages, HasSubstr("column 'x' stands twice"));
+  EXPECT_THAT(read_csv("x [um],y [um],z [um],type,x\n1,2,3,TE,1\n").messages, HasSubstr("column 'x' stands twice"));
   EXPECT_THAT(read_csv("x [kPa],y,z,type\n1,2,3,TE\n").messages, HasSubstr("[E203]"));
   EXPECT_THAT(read_csv("x [um,y,z,type\n1,2,3,TE\n").messages, HasSubstr("[E610]"));
   EXPECT_THAT(read_csv("").messages, HasSubstr("[E613]"));
-  EXPECT_THAT(read_csv("x,y,z,type\n").messages, HasSubstr("the file has a header but no cells [E613]"));
+  EXPECT_THAT(read_csv("x [um],y [um],z [um],type\n").messages, HasSubstr("the file has a header but no cells [E613]"));
+}
+
+TEST(StudyCsv, ALengthWithoutAUnitIsRefused) {
+  const std::string messages = read_csv("x [um],y,z [mm],type,radius,phase\n1,2,3,TE,6,0.5\n").messages;
+  EXPECT_THAT(messages, HasSubstr("cells.csv:1:8: error: column 'y' has no unit [E655]"));
+  EXPECT_THAT(messages, HasSubstr("column 'radius' has no unit [E655]"));
+  EXPECT_THAT(messages, testing::Not(HasSubstr("'phase'")));
+}
+
+TEST(StudyCsv, UnitsOfTheEntryHoldForColumnsWithoutOne) {
+  const Folder folder;
+  folder.write("cells.csv", "x,y,z [um],type\n0.01,0.02,30,hepatocyte\n");
+  const std::string entry = "{type: hepatocyte, count: 400, fill: sphere, radius: 60 um, as: cbm}";
+  const auto read_with = [&](const std::string& with) { return read(changed(entry, with), {}, folder.path()); };
+  EXPECT_TRUE(read_with("{csv: cells.csv, units: mm}").ok());
+  const auto wrong = read_with("{csv: cells.csv, units: kPa}"), none = read_with("{csv: cells.csv}");
+  ASSERT_FALSE(wrong.ok() || none.ok());
+  EXPECT_THAT(wrong.error().text(), HasSubstr("[E203]"));
+  EXPECT_THAT(none.error().text(), HasSubstr("column 'x' has no unit [E655]"));
+  EXPECT_THAT(none.error().text(), HasSubstr("`units: um` beside `csv` in the study"));
+  ASSERT_FALSE(read(changed("count: 400", "units: um, count: 400")).ok()) << "a key of another source of cells";
 }
 
 TEST(StudyCsv, AMillionEqualErrorsAreCutShort) {
-  std::string bytes = "x,y,z,type\n";
+  std::string bytes = "x [um],y [um],z [um],type\n";
   for (int i = 0; i < 1000; ++i) bytes += "NA,NA,NA,TE\n";
   EXPECT_THAT(read_csv(bytes).messages, HasSubstr("too many errors in this file"));
 }
@@ -101,7 +122,7 @@ std::string csv_study(const std::string& entry) {
 
 TEST(StudyCsv, StudyChecksItsCellsAndNamesCoincidentOnes) {
   const Folder folder;
-  folder.write("a.csv", "x,y,z,type,id\n1,2,3,hepatocyte,7\n4,5,6,hepatocyte,8\n1,2,3,hepatocyte,9\n");
+  folder.write("a.csv", "x [um],y [um],z [um],type,id\n1,2,3,hepatocyte,7\n4,5,6,hepatocyte,8\n1,2,3,hepatocyte,9\n");
   const auto study = read(csv_study("{csv: a.csv, start_volume: 50 %, inflate: 30 min}"), {}, folder.path());
   ASSERT_TRUE(study.ok()) << study.error().text();
   EXPECT_EQ(study->initial[0].count, 3u);
@@ -109,7 +130,7 @@ TEST(StudyCsv, StudyChecksItsCellsAndNamesCoincidentOnes) {
                                         "a.csv: cells 1 (line 2), 3 (line 4) lie at the same place; moved by 6 um: 3"));
   EXPECT_EQ(study->input_files.size(), 1u);
   EXPECT_EQ(study->initial[0].csv_path, (folder.path() / "a.csv").string());
-  folder.write("b.csv", "x,y,z,type\n1,2,300,hepatocyte\n");
+  folder.write("b.csv", "x [um],y [um],z [um],type\n1,2,300,hepatocyte\n");
   EXPECT_THAT(errors_of(csv_study("{csv: b.csv}"), {}, folder.path()),
               HasSubstr("b.csv:2:1: error: a cell at [1 um, 2 um, 300 um] is outside the domain [E505]"));
 }

@@ -65,7 +65,7 @@ TEST(ResolvedStudy, ReadsBackToTheSameStudy) {
 
 TEST(ResolvedStudy, NamesTheCopiesOfItsInputFiles) {
   const Folder folder;
-  folder.write("data/cells.csv", "x,y,z,type\n1,2,3,hepatocyte\n");
+  folder.write("data/cells.csv", "x [um],y [um],z [um],type\n1,2,3,hepatocyte\n");
   const auto first =
       read(changed("{type: hepatocyte, count: 400, fill: sphere, radius: 60 um, as: cbm}", "{csv: data/cells.csv}"), {}, folder.path());
   ASSERT_TRUE(first.ok()) << first.error().text();

@@ -152,7 +152,32 @@ TEST(BadStudy, IsFoundInValuesOfTheCommandLineToo) {
   const Outcome wrong = run_morula({"check", "seed=-3", "study.yaml"}, folder.path());
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_THAT(wrong.err, HasSubstr("seed"));
+  const Outcome slip = run_morula({"check", "study.yaml", "cell_types.rond.radius=6um"}, folder.path());
+  EXPECT_EQ(slip.exit_code, 2) << "a typing error makes no second cell type";
+  EXPECT_THAT(slip.err, AllOf(HasSubstr("there is no 'rond' in `cell_types` [E110]"), HasSubstr("did you mean `round`?")));
   EXPECT_EQ(run_morula({"check", "seed=3"}, folder.path()).exit_code, 2) << "no study";
+}
+
+TEST(BadStudy, WithVeryManyMistakesIsToldByAHundredAndTheirNumber) {
+  const TestFolder folder;
+  std::string keys;
+  for (int i = 0; i < 400000; ++i) keys += "k" + std::to_string(i) + ": 1\n";
+  folder.write("study.yaml", sphere_study() + keys);
+  const Outcome outcome = run_morula({"check", "study.yaml"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("and 399,900 more"), HasSubstr("400000 errors in 'study.yaml'")));
+  EXPECT_LT(outcome.err.size(), 100000u);
+}
+
+TEST(BadStudy, OfTwoFillsInTheSamePlaceIsNoMistake) {
+  const TestFolder folder;
+  const std::string fill = "{type: round, count: 20, fill: sphere, radius: 20 um, as: sphere}";
+  folder.write("study.yaml", changed(sphere_study(), fill,
+                                     "{type: round, count: 9, fill: sphere, radius: 30 um, as: shell}\n  - " +
+                                         changed(fill, "radius: 20 um", "radius: 30 um")));
+  EXPECT_EQ(run_morula({"check", "study.yaml"}, folder.path()).exit_code, 0);
+  const Outcome run = run_morula({"run", "study.yaml", "--until", "10 min"}, folder.path());
+  EXPECT_EQ(run.exit_code, 0) << run.all();
 }
 
 TEST(BadGeometry, MissingStlIsAMissingFile) {
@@ -181,12 +206,12 @@ TEST(BadCsv, EveryWrongRowIsNamedByItsLine) {
     folder.write("cells.csv", csv);
     expect_refused(folder, 2, message);
   };
-  expect_csv_refused("x,y,z,type\n0,0,0,round\n12,0,round\n", AllOf(HasSubstr("cells.csv:3:"), HasSubstr("[E611]")));
-  expect_csv_refused("x,y,z,type\nNA,0,0,round\n", AllOf(HasSubstr("cells.csv:2:"), HasSubstr("[E612]"), HasSubstr("NA")));
-  expect_csv_refused("x,y,z,type\n0,inf,0,round\n", AllOf(HasSubstr("cells.csv:2:"), HasSubstr("[E612]")));
-  expect_csv_refused("x,y,z,type\n0,0,0,rund\n", AllOf(HasSubstr("cells.csv:2:"), HasSubstr("[E401]"), HasSubstr("round")));
+  expect_csv_refused("x [um],y [um],z [um],type\n0,0,0,round\n12,0,round\n", AllOf(HasSubstr("cells.csv:3:"), HasSubstr("[E611]")));
+  expect_csv_refused("x [um],y [um],z [um],type\nNA,0,0,round\n", AllOf(HasSubstr("cells.csv:2:"), HasSubstr("[E612]"), HasSubstr("NA")));
+  expect_csv_refused("x [um],y [um],z [um],type\n0,inf,0,round\n", AllOf(HasSubstr("cells.csv:2:"), HasSubstr("[E612]")));
+  expect_csv_refused("x [um],y [um],z [um],type\n0,0,0,rund\n", AllOf(HasSubstr("cells.csv:2:"), HasSubstr("[E401]"), HasSubstr("round")));
   expect_csv_refused("x,y,type\n0,0,round\n", AllOf(HasSubstr("cells.csv:1:"), HasSubstr("[E610]")));
-  expect_csv_refused("x,y,z,type\n", HasSubstr("[E613]"));
+  expect_csv_refused("x [um],y [um],z [um],type\n", HasSubstr("[E613]"));
 }
 
 TEST(BadCsv, MissingFileIsExitThree) { expect_refused(with_csv(), 3, AllOf(HasSubstr("[E601]"), HasSubstr("cells.csv"))); }
@@ -194,7 +219,7 @@ TEST(BadCsv, MissingFileIsExitThree) { expect_refused(with_csv(), 3, AllOf(HasSu
 TEST(BadCsv, CoincidentCellsAreNamedAndMovedApart) {
   const TestFolder folder;
   folder.write("study.yaml", with_csv());
-  folder.write("cells.csv", "x,y,z,type\n0,0,0,round\n20,0,0,round\n0,0,0,round\n");
+  folder.write("cells.csv", "x [um],y [um],z [um],type\n0,0,0,round\n20,0,0,round\n0,0,0,round\n");
   const Outcome outcome = run_morula({"check", "study.yaml"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("2"), HasSubstr("4"), HasSubstr("moved"))) << "the lines of the two cells are named";

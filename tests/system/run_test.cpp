@@ -243,13 +243,26 @@ TEST(Resume, UntilATimeThatHasPassedIsRefused) {
 }
 
 TEST(Resume, OfARunThatFailedSaysSo) {
-  const TestFolder folder;  // cells that are 0.55 um deep in each other: less than what `check` is sure of, more than the limit
-  folder.write("study.yaml", changed(kLoneCell, "[[0 um, 0 um, 0 um]]", "[[0 um, 0 um, 0 um], [11.45 um, 0 um, 0 um]]"));
+  const TestFolder folder;  // cells that are 3 um deep in each other, and have no time to come apart
+  const std::string deep = changed(kLoneCell, "[[0 um, 0 um, 0 um]]", "[[0 um, 0 um, 0 um], [9 um, 0 um, 0 um]]");
+  folder.write("study.yaml", changed(deep, "initial:", "numerics: {start_cap: 0.1 um, start_cap_within: 2 s}\ninitial:"));
   const Outcome failed = run_morula({"run", "study.yaml", "--out", "run"}, folder.path());
   ASSERT_EQ(failed.exit_code, 4) << failed.all();
-  EXPECT_THAT(failed.err, HasSubstr("start_cap"));
+  EXPECT_THAT(failed.err, AllOf(HasSubstr("the capped start has not ended by"), HasSubstr("start_cap_within")));
   const Outcome resumed = run_morula({"resume", "run", "--until", "40 s"}, folder.path());
-  EXPECT_THAT(resumed.all(), HasSubstr("the run had ended with an error, and goes on unchanged: overlap"));
+  EXPECT_THAT(resumed.all(), HasSubstr("the run had ended with an error, and goes on unchanged: the capped start"));
+}
+
+TEST(Check, NeverSaysOkWhereTheRunRefuses) {
+  const TestFolder folder;  // just within and just beyond the limit of 0.3 um
+  for (const char* apart : {"11.9 um", "11.75 um", "11.65 um", "11.45 um", "9 um"}) {
+    folder.write("study.yaml",
+                 changed(kLoneCell, "[[0 um, 0 um, 0 um]]", std::string("[[0 um, 0 um, 0 um], [") + apart + ", 0 um, 0 um]]"));
+    const int checked = run_morula({"check", "study.yaml"}, folder.path()).exit_code;
+    const Outcome run = run_morula({"run", "study.yaml", "--until", "2 s"}, folder.path());
+    EXPECT_TRUE(checked == 0 || checked == 2);
+    EXPECT_EQ(run.exit_code, checked) << apart << run.all();
+  }
 }
 
 TEST(Resume, FromACheckpointThatIsNotThereListsThoseThatAre) {
