@@ -87,6 +87,9 @@ Result<StepOutcome> Simulation::step(double land_on) {
     }
     dt *= outcome.retries < 2 ? 0.5 : 0.25;
   }
+  tissue_.ledger.drift += outcome.mechanics.motion.drift;
+  tissue_.ledger.rotation += outcome.mechanics.motion.rotation;
+  tissue_.ledger.way += outcome.mechanics.motion.way;
   clock.time = dt == land_on - clock.time ? land_on : clock.time + dt;
   if (std::abs(clock.time - land_on) < 1e-9 * std::max(1.0, land_on)) clock.time = land_on;
   ++clock.steps;

@@ -26,6 +26,10 @@ struct Ledger {
   double field_decayed[kMaxFields] = {};  ///< amount lost by decay [amol]
   double field_start[kMaxFields] = {};    ///< amount in the field at time 0 [amol]
   std::uint64_t divisions = 0, deaths = 0, promotions = 0, demotions = 0;
+  // Common motion (TissueMotion), step by step: what forces from outside and obstacles have done, and the error of the solver.
+  Vec3d drift;       ///< of the centre [µm]
+  Vec3d rotation;    ///< about the centre [rad]
+  double way = 0.0;  ///< mean way of the surfaces [µm]
 };
 
 /// A cavity (Lumen) as it was when it was last looked at. The same on every rank.

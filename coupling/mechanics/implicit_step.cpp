@@ -195,6 +195,7 @@ Result<StepReport, StepFault> Mechanics::implicit_step(Tissue& tissue, double dt
     auto solved = system_.solve(solution_, tolerance, kMaxLinearIterations, comm_);
     drop_matrix();
     if (!solved) return StepFault{solved.error().what, {}, true};
+    conserve_momentum();
     report.linear_iterations += solved->iterations;
     direction = {solution_, dt};  // after the freeze rule it was that of a copy
     if (!std::isfinite(largest(direction))) return StepFault{"the velocities are not numbers", {}, true};
@@ -295,6 +296,7 @@ Result<StepReport, StepFault> Mechanics::explicit_step(Tissue& tissue, double dt
   auto solved = system_.solve(solution_, kExplicitTolerance, kMostExplicitIterations, comm_);
   drop_matrix();
   if (!solved) return undo(start, StepFault{solved.error().what, {}, true});
+  conserve_momentum();
   if (!solved->converged)
     return undo(start, StepFault{"the velocities are not found in " + std::to_string(kMostExplicitIterations) + " iterations", {}, false});
   report.linear_iterations = solved->iterations;

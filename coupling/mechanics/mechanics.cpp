@@ -268,6 +268,7 @@ void Mechanics::assemble(const Tissue& tissue, double dt) {
   held_.set_step(dt);
   system_.set_step(dt);
   system_.set_elements(groups, quadrature);
+  find_clusters(tissue, groups);
   contacts_.make_room();
   give_back(gradient_.face_energy);
 }
@@ -310,6 +311,7 @@ void Mechanics::finish(Tissue& tissue, double dt, StepReport& report) {
     tissue.spheres.velocity[i] = velocity(scene_.sphere_point() + i, tissue.spheres.position[i]);
   for (std::size_t i = 0; i < tissue.nuclei.shells.velocity.size(); ++i)
     tissue.nuclei.shells.velocity[i] = velocity(scene_.nuclear_node() + i, tissue.nuclei.shells.position[i]);
+  report.motion = common_motion(tissue);
   scene_.give_positions(tissue);
   if (!relaxing_) {
     for (std::size_t i = 0; i < model_.obstacles.size(); ++i)
@@ -378,9 +380,9 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
 std::size_t Mechanics::bytes_now() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return contacts_.memory() + shells_.memory() + interior_.memory() + nuclei_.memory() + spheres_.memory() + system_.memory() +
-         scene_.memory() + bytes(force_) + bytes(solution_) + gradient_.memory() + surfaces_only_.memory() + bytes(geometry_.face_area) +
-         bytes(geometry_.face_normal) + bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) + bytes(geometry_.node_area) +
-         bytes(scene_start_);
+         clusters_.memory() + scene_.memory() + bytes(force_) + bytes(solution_) + gradient_.memory() + surfaces_only_.memory() +
+         bytes(geometry_.face_area) + bytes(geometry_.face_normal) + bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) +
+         bytes(geometry_.node_area) + bytes(scene_start_);
 }
 
 }  // namespace morula

@@ -14,6 +14,7 @@
 #include "core/parallel/threads.h"
 #include "coupling/grips.h"
 #include "coupling/mechanics/face_tensions.h"
+#include "coupling/mechanics/free_clusters.h"
 #include "coupling/mechanics/held_nodes.h"
 #include "coupling/mechanics/interior_system.h"
 #include "coupling/mechanics/node_terms.h"
@@ -34,6 +35,14 @@ struct StepFault {
   bool smaller_step_may_help = true;
 };
 
+/// How a tissue moved as a whole in a step, every point weighted by its friction with the medium. Forces between cells leave drift and
+/// rotation as they are, but for friction between cells, which turns them where it feels common rotations (core/contact/objective_friction.h).
+struct TissueMotion {
+  Vec3d drift;       ///< Σ γ d/Σ γ [µm]
+  Vec3d rotation;    ///< θ with (Σ γ (|r|² I − r rᵀ)) θ = Σ r × γ d, r from the centre Σ γ x/Σ γ [rad]; 0 in periodic domains
+  double way = 0.0;  ///< Σ γ |d|/Σ γ [µm]
+};
+
 struct StepReport {
   double step = 0.0;  ///< done [s]
   int newton = 0;     ///< iterations
@@ -44,6 +53,7 @@ struct StepReport {
   double allowed_rise = 0.0;  ///< rise of Φ that the freeze rule let pass [nN·µm]
   double overlap = 0.0;       ///< deepest penetration of a surface [µm]
   int crossings = 0;          ///< searches cut short because a surface of this rank would have passed through another
+  TissueMotion motion;
 };
 
 /// What mechanics knows of each cell at the present positions, in the order of the rank's bodies (shells, then spheres).
@@ -161,6 +171,7 @@ class Mechanics {
   void find_packing(const ContactScene& scene, bool with_surfaces);
   void begin_step(const Tissue& tissue, double dt);
   void hold_all_but(std::span<const char> moves);
+  void find_clusters(const Tissue& tissue, std::span<const ElementGroup> groups);
   void add_shell_noise(const Tissue& tissue, double dt, std::span<Vec3d> external) const;
   void add_sphere_noise(const Tissue& tissue, double dt, std::span<Vec3d> external) const;
   void add_contact_noise(const Tissue& tissue, double dt, std::span<Vec3d> external) const;
@@ -169,6 +180,10 @@ class Mechanics {
   [[nodiscard]] double friction_residual(std::span<const Vec3d> start, std::span<const Vec3d> external, double dt, bool moved = true);
   /// The residual becomes the right side of the system.
   void give_residual();
+  /// After a linear solve: give every cluster that is free of the outside the common velocity that it lacks (FreeClusters).
+  void conserve_momentum();
+  /// Way of the tissue as a whole from the tissue's positions, at the start of the step, to the scene's. Collective.
+  [[nodiscard]] TissueMotion common_motion(const Tissue& tissue) const;
   struct Direction;
   /// Hold the nodes that a full step along `direction` took over a kink: its residual, in force_, drives them back. Says whether there are any.
   bool hold_driven_back(const Direction& direction);
@@ -287,6 +302,7 @@ class Mechanics {
   double friction_energy_ = 0.0;     ///< dᵀΓ_n d
   std::vector<Float4> solution_;
   HeldNodes held_;              ///< in the present step
+  FreeClusters clusters_;       ///< of the present matrix
   std::size_t most_bytes_ = 0;  ///< at any time of the present step
 };
 

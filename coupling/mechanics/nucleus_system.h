@@ -49,6 +49,12 @@ class NucleusSystem : public AddedPart {
       if (item.moves)
         for (std::uint32_t i = item.first_point; i < item.first_point + item.node_count; ++i) function(i);
   }
+  /// function(shell, point) for all nodes of nuclei, shell by shell.
+  template <class F>
+  void for_nodes_of_shells(F&& function) const {
+    for (const Item& item : items_)
+      for (std::uint32_t i = item.first_point; i < item.first_point + item.node_count; ++i) function(item.shell, i);
+  }
   /// function(point, whether it moves) for all nodes.
   template <class F>
   void for_all_points(F&& function) const {

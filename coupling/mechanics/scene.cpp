@@ -323,23 +323,23 @@ void Scene::take_marks(const Tissue& tissue) {
   }
 }
 
-template <class T>
-void Scene::exchange_points(std::span<T> by_point) const {
+template <class T, class PartOf>
+void Scene::exchange_parts(const PartOf& part_of) const {
   if (comm_->size() == 1) return;
   const auto ranks = send_bodies_.size();
   std::vector<std::vector<T>> out(ranks), in(ranks);
   std::vector<MPI_Request> requests;
   for (std::size_t r = 0; r < ranks; ++r) {
     std::size_t count = 0;
-    for (const std::uint32_t body : receive_bodies_[r]) count += bodies_[body].point_count;
+    for (const std::uint32_t body : receive_bodies_[r]) count += part_of(body).size();
     if (count == 0) continue;
     in[r].resize(count);
     MPI_Irecv(in[r].data(), static_cast<int>(count * sizeof(T)), MPI_BYTE, static_cast<int>(r), 72, comm_->raw(), &requests.emplace_back());
   }
   for (std::size_t r = 0; r < ranks; ++r) {
     for (const std::uint32_t body : send_bodies_[r]) {
-      const auto points = by_point.subspan(bodies_[body].first_point, bodies_[body].point_count);
-      out[r].insert(out[r].end(), points.begin(), points.end());
+      const std::span<T> part = part_of(body);
+      out[r].insert(out[r].end(), part.begin(), part.end());
     }
     if (out[r].empty()) continue;
     MPI_Isend(out[r].data(), static_cast<int>(out[r].size() * sizeof(T)), MPI_BYTE, static_cast<int>(r), 72, comm_->raw(),
@@ -349,10 +349,20 @@ void Scene::exchange_points(std::span<T> by_point) const {
   for (std::size_t r = 0; r < ranks; ++r) {
     const T* next = in[r].data();
     for (const std::uint32_t body : receive_bodies_[r]) {
-      std::copy_n(next, bodies_[body].point_count, by_point.begin() + bodies_[body].first_point);
-      next += bodies_[body].point_count;
+      const std::span<T> part = part_of(body);
+      std::copy_n(next, part.size(), part.begin());
+      next += part.size();
     }
   }
+}
+
+template <class T>
+void Scene::exchange_points(std::span<T> by_point) const {
+  exchange_parts<T>([&](std::uint32_t body) { return by_point.subspan(bodies_[body].first_point, bodies_[body].point_count); });
+}
+
+void Scene::exchange_bodies(std::span<std::uint64_t> by_body) const {
+  exchange_parts<std::uint64_t>([&](std::uint32_t body) { return by_body.subspan(body, 1); });
 }
 
 void Scene::exchange(std::span<Vec3d> by_point) const { exchange_points(by_point); }

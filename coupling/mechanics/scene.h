@@ -59,6 +59,8 @@ class Scene {
   /// Refresh ghost entries of a vector over points from their owners. Collective.
   void exchange(std::span<Vec3d> by_point) const;
   void exchange(std::span<Float4> by_point) const;
+  /// The same of one number by body.
+  void exchange_bodies(std::span<std::uint64_t> by_body) const;
 
   /// Hold all bodies in place but those with moves[body] != 0 (of owned ones; ghosts follow their owner); an empty list lets all move. Collective.
   void set_moving(std::span<const char> moves);
@@ -78,6 +80,9 @@ class Scene {
   void place_bodies(std::span<const std::uint64_t> order);
   template <class T>
   void exchange_points(std::span<T> by_point) const;
+  /// part_of(body): what goes from a body to its ghosts.
+  template <class T, class PartOf>
+  void exchange_parts(const PartOf& part_of) const;
 
   const Comm* comm_ = nullptr;
   std::vector<ContactBody> bodies_;

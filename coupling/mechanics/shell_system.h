@@ -39,6 +39,21 @@ class ShellSystem : public OperatorPart {
   /// Stiffness of single nodes, positive semi-definite; empty: none. Before assemble().
   void set_node_stiffness(std::vector<SymMat3<double>> stiffness) { node_stiffness_ = std::move(stiffness); }
 
+  /// function(shell, node, γ) for the nodes of the shells of a batch: friction with the medium of the step [nN·s/µm], shell by shell.
+  template <class F>
+  void for_medium_friction(std::size_t batch, F&& function) const {
+    const LaneBlock& block = blocks_.blocks[batch];
+    const auto lanes = static_cast<std::size_t>(block.lanes);
+    for (std::size_t lane = 0; lane < static_cast<std::size_t>(block.count); ++lane) {
+      const std::uint32_t shell = block.member[lane], first = shells_->first_node[shell];
+      for (std::uint32_t node = first; node < shells_->first_node[shell + 1]; ++node) {
+        SymMat3<double> friction = isotropic(friction_.blocks[batch].medium[(node - first) * lanes + lane]);
+        if (!node_friction_.empty()) friction += node_friction_[node];
+        function(shell, node, friction);
+      }
+    }
+  }
+
   [[nodiscard]] const dcm::ShellMechanics& forces() const { return forces_; }
   [[nodiscard]] std::span<const dcm::ShellParameters> parameters() const { return parameters_; }
   [[nodiscard]] std::size_t memory() const;

@@ -47,6 +47,13 @@ std::vector<Observable> general() {
       {"linear_iterations", "1", "Iterations of the linear solver per step since the last output.",
        [](M m) { return per_step(m.interval.linear, m.interval.steps); }},
       {"retries", "1", "Steps tried again with a smaller size since the last output.", [](M m) { return double(m.interval.retries); }},
+      {"centre_drift", "um",
+       "Way of the tissue's centre since time 0, every point weighted by its friction with the medium: what obstacles and forces from "
+       "outside have moved; where there are none it is the error of the solver.",
+       [](M m) { return norm(m.ledger.drift); }},
+      {"rotation", "rad", "Rotation of the tissue about that centre since time 0, weighted alike; 0 in periodic domains.",
+       [](M m) { return norm(m.ledger.rotation); }},
+      {"mean_way", "um", "Mean length of the way of all points since time 0, weighted alike.", [](M m) { return m.ledger.way; }},
       {"divisions", "1", "Divisions since time 0.", [](M m) { return double(m.ledger.divisions); }},
       {"deaths", "1", "Deaths since time 0.", [](M m) { return double(m.ledger.deaths); }},
       {"promotions", "1", "Spheres that became shells since time 0.", [](M m) { return double(m.ledger.promotions); }},

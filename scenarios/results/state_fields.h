@@ -57,18 +57,21 @@ void for_each_lumen_field(Visit&& visit) {
 }
 static_assert(sizeof(LumenState) == 8 * 8, "list every member of LumenState in for_each_lumen_field");
 
-/// `array(name, units, member)` for the values by field, `count(name, units, member)` for the counters.
-template <class Array, class Count>
-void for_each_ledger_field(Array&& array, Count&& count) {
+/// `array(name, units, member)` for the values by field, `value(name, units, member)` for the others.
+template <class Array, class Value>
+void for_each_ledger_field(Array&& array, Value&& value) {
   array("field_in", "amol", &Ledger::field_in);
   array("field_taken", "amol", &Ledger::field_taken);
   array("field_decayed", "amol", &Ledger::field_decayed);
   array("field_start", "amol", &Ledger::field_start);
-  count("divisions", "1", &Ledger::divisions);
-  count("deaths", "1", &Ledger::deaths);
-  count("promotions", "1", &Ledger::promotions);
-  count("demotions", "1", &Ledger::demotions);
+  value("divisions", "1", &Ledger::divisions);
+  value("deaths", "1", &Ledger::deaths);
+  value("promotions", "1", &Ledger::promotions);
+  value("demotions", "1", &Ledger::demotions);
+  value("drift", "um", &Ledger::drift);
+  value("rotation", "rad", &Ledger::rotation);
+  value("way", "um", &Ledger::way);
 }
-static_assert(sizeof(Ledger) == (4 * kMaxFields + 4) * 8, "list every member of Ledger in for_each_ledger_field");
+static_assert(sizeof(Ledger) == (4 * kMaxFields + 4 + 7) * 8, "list every member of Ledger in for_each_ledger_field");
 
 }  // namespace morula::scenarios

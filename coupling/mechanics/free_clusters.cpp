@@ -1,0 +1,174 @@
+#include "coupling/mechanics/free_clusters.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <numeric>
+
+namespace morula {
+namespace {
+
+constexpr std::uint64_t kTied = 0;       // no cell has this label, and it is smaller than all
+constexpr double kLeastFriction = 1e-9;  // of the determinant, in units of that of isotropic friction of the same trace
+
+/// Disjoint sets of bodies, each known by its smallest number.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  std::uint32_t find(std::uint32_t a) {
+    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
+    return a;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = find(a), b = find(b);
+    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// Calls join(a, b) for the pairs of bodies that have a part in the matrix, and tie(body) for those that touch an obstacle.
+template <class Join, class Tie>
+void for_links(const Scene& scene, std::span<const ElementGroup> groups, const SpherePairs& spheres, Join&& join, Tie&& tie) {
+  for (const ElementGroup& group : groups) {
+    if (group.elements[0].empty() && group.elements[1].empty()) continue;
+    group.rigid ? tie(group.body[0]) : join(group.body[0], group.body[1]);
+  }
+  const auto first = static_cast<std::uint32_t>(scene.first_sphere());
+  const bool packs = !spheres.packing.slopes.empty();
+  for (std::size_t k = 0; k < spheres.pairs.size(); ++k) {
+    const SpherePairElement& e = spheres.elements[k];
+    const bool packed = packs && (spheres.packing.slopes[k].a != 0.0f || spheres.packing.slopes[k].b != 0.0f);
+    if (e.area != 0.0f || e.stiffness != 0.0f || packed) join(first + spheres.pairs[k].a, first + spheres.pairs[k].b);
+  }
+  for (const RigidPairElement& e : spheres.rigid)
+    if (e.isotropic != 0.0f || e.axial != 0.0f || e.stiffness != 0.0f) tie(first + e.sphere);
+}
+
+/// Sums of the bodies of a cluster, order-free.
+struct ClusterSums {
+  static constexpr std::size_t kTerms = 9;
+  using Terms = std::array<double, kTerms>;
+
+  static Terms terms_of(const MediumBalance& b) {
+    const SymMat3<double>& f = b.friction;
+    return {b.missing.x, b.missing.y, b.missing.z, f.xx, f.xy, f.xz, f.yy, f.yz, f.zz};
+  }
+  static void add(const MediumBalance& b, OrderFreeSum* sums) {
+    const Terms terms = terms_of(b);
+    for (std::size_t k = 0; k < kTerms; ++k) sums[k].add(terms[k]);
+  }
+  static Vec3d velocity(const double* t) {
+    const SymMat3<double> friction{t[3], t[4], t[5], t[6], t[7], t[8]};
+    const double mean = (friction.xx + friction.yy + friction.zz) / 3.0;
+    const double determinant = friction.xx * (friction.yy * friction.zz - friction.yz * friction.yz) -
+                               friction.xy * (friction.xy * friction.zz - friction.yz * friction.xz) +
+                               friction.xz * (friction.xy * friction.yz - friction.yy * friction.xz);
+    if (!(mean > 0.0) || !(determinant > kLeastFriction * mean * mean * mean)) return {};
+    return inverse(friction) * Vec3d{t[0], t[1], t[2]};
+  }
+};
+
+std::vector<std::uint64_t> sorted_unique(std::vector<std::uint64_t> list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  return list;
+}
+
+}  // namespace
+
+void FreeClusters::find(const Scene& scene, std::span<const ElementGroup> groups, const SpherePairs& spheres,
+                        std::span<const std::uint32_t> tied, const Comm& comm) {
+  const auto bodies = scene.bodies();
+  std::vector<std::uint64_t> label(bodies.size()), least(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) label[i] = bodies[i].moves ? bodies[i].id.bits() : kTied;
+  for (const std::uint32_t body : tied) label[body] = kTied;
+  Sets sets(bodies.size());
+  for_links(
+      scene, groups, spheres, [&](std::uint32_t a, std::uint32_t b) { sets.join(a, b); }, [&](std::uint32_t body) { label[body] = kTied; });
+  // Each rank knows a part of a cluster: the smallest label goes from rank to rank until nobody finds a smaller one.
+  for (bool changed = true; changed;) {
+    least = label;
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) least[sets.find(i)] = std::min(least[sets.find(i)], label[i]);
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) label[i] = least[sets.find(i)];
+    if (comm.size() == 1) break;
+    least = label;
+    scene.exchange_bodies(std::span(label));
+    changed = comm.any(label != least);
+  }
+  collect(scene, label, comm);
+}
+
+void FreeClusters::collect(const Scene& scene, std::span<const std::uint64_t> label, const Comm& comm) {
+  const auto bodies = scene.bodies();
+  std::vector<std::uint64_t> labels, with_ghosts;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (label[i] == kTied) continue;
+    if (bodies[i].active() && (labels.empty() || labels.back() != label[i])) labels.push_back(label[i]);
+    if (!bodies[i].owned) with_ghosts.push_back(label[i]);
+  }
+  labels = sorted_unique(std::move(labels));
+  clusters_.assign(labels.size(), {});
+  for (std::size_t k = 0; k < labels.size(); ++k) clusters_[k].label = labels[k];
+  const auto cluster_of = [&](std::size_t body) -> Cluster& {
+    return clusters_[static_cast<std::size_t>(std::lower_bound(labels.begin(), labels.end(), label[body]) - labels.begin())];
+  };
+  const auto is_member = [&](std::size_t body) { return label[body] != kTied && bodies[body].active(); };
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (is_member(i)) ++cluster_of(i).last;
+  std::uint32_t next = 0;
+  for (Cluster& cluster : clusters_) {
+    cluster.first = next;
+    next += cluster.last;
+    cluster.last = cluster.first;
+  }
+  members_.resize(next);
+  for (std::uint32_t i = 0; i < bodies.size(); ++i)
+    if (is_member(i)) members_[cluster_of(i).last++] = i;
+  shared_.clear();
+  if (comm.size() == 1) return;
+  with_ghosts = sorted_unique(std::move(with_ghosts));
+  const std::vector<std::byte> all = comm.gather_to_all(std::as_bytes(std::span(with_ghosts)));
+  shared_.resize(all.size() / sizeof(std::uint64_t));
+  if (!all.empty()) std::memcpy(shared_.data(), all.data(), all.size());
+  shared_ = sorted_unique(std::move(shared_));
+}
+
+std::vector<Vec3d> FreeClusters::shifts(std::span<const MediumBalance> by_body, const Comm& comm) const {
+  constexpr std::size_t kTerms = ClusterSums::kTerms;
+  std::vector<Vec3d> out(by_body.size());
+  std::vector<OrderFreeSum> over_ranks(kTerms * shared_.size());
+  std::vector<std::pair<const Cluster*, std::size_t>> wait;  // for the other ranks: a cluster and its place in the list
+  const auto give = [&](const Cluster& cluster, const Vec3d& velocity) {
+    for (std::uint32_t m = cluster.first; m < cluster.last; ++m) out[members_[m]] = velocity;
+  };
+  for (const Cluster& cluster : clusters_) {
+    const auto shared = std::lower_bound(shared_.begin(), shared_.end(), cluster.label);
+    if (shared != shared_.end() && *shared == cluster.label) {
+      const auto place = static_cast<std::size_t>(shared - shared_.begin());
+      for (std::uint32_t m = cluster.first; m < cluster.last; ++m)
+        ClusterSums::add(by_body[members_[m]], over_ranks.data() + kTerms * place);
+      wait.emplace_back(&cluster, place);
+    } else if (cluster.last - cluster.first == 1) {  // most clusters of a dilute tissue; an order-free sum is large
+      give(cluster, ClusterSums::velocity(ClusterSums::terms_of(by_body[members_[cluster.first]]).data()));
+    } else {
+      std::array<OrderFreeSum, kTerms> sums;
+      for (std::uint32_t m = cluster.first; m < cluster.last; ++m) ClusterSums::add(by_body[members_[m]], sums.data());
+      ClusterSums::Terms total;
+      std::transform(sums.begin(), sums.end(), total.begin(), [](const OrderFreeSum& sum) { return sum.value(); });
+      give(cluster, ClusterSums::velocity(total.data()));
+    }
+  }
+  if (shared_.empty()) return out;
+  std::vector<double> totals(over_ranks.size());
+  comm.sum(over_ranks, totals);
+  for (const auto& [cluster, place] : wait) give(*cluster, ClusterSums::velocity(totals.data() + kTerms * place));
+  return out;
+}
+
+std::size_t FreeClusters::memory() const {
+  return members_.capacity() * sizeof(members_[0]) + clusters_.capacity() * sizeof(clusters_[0]) + shared_.capacity() * sizeof(shared_[0]);
+}
+
+}  // namespace morula
