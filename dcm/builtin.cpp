@@ -187,7 +187,7 @@ ShellLaw triangle_shape() {
                .title = "Resistance of triangles to collapse",
                .equation = "E = k_s A_ref (1/q − 1)², q = 4√3 A / Σ l²",
                .source = "choice of this project: regularises faces where the cortex has no shear stiffness",
-               .parameters = {{"shape_stiffness", "tension", "nN/µm", 0.3, 0.0, 100.0, kMeasured, "Stiffness k_s per reference area."}}},
+               .parameters = {{"shape_stiffness", "tension", "nN/µm", 0.03, 0.0, 100.0, kMeasured, "Stiffness k_s per reference area."}}},
       .stencil = LawStencil::kFace,
       .zero_in_reference = false,
       .strength = &ShellParameters::shape_stiffness};

@@ -36,4 +36,17 @@ constexpr double hinge_stiffness(double young_modulus, double thickness, double 
   return hinge_stiffness(bending_modulus(young_modulus, thickness, poisson_ratio));
 }
 
+/// k_s of the triangle shape term: 0.3 γ, which lets a cortex flow (contact radius and angle within 0.4 % and 0.6° at 0.2 γ; 1.5 % and 1.4° short at
+/// 0.6 γ) and still holds 13 cells at W/2γ = 0.9 (0.15 γ does not; time_stepping.md §12.1). A layer that is more elastic than tense, such as that of a
+/// nucleus, takes a tenth of its modulus E h: springs resist shear, but not that a triangle turns inside out. A surface with neither takes as much
+/// as one of 0.1 mN/m. [nN/µm]
+constexpr double shape_stiffness(double tension, double sheet_modulus) {
+  constexpr double kOfTension = 0.3, kOfModulus = 0.1, kOfNothing = 0.03;
+  const double of_tension = kOfTension * tension, of_modulus = kOfModulus * sheet_modulus;
+  const double out = of_tension > of_modulus ? of_tension : of_modulus;
+  return out > 0.0 ? out : kOfNothing;
+}
+/// Part of the tension from which the shape term of a fluid cortex is told to be an elasticity (ibid.).
+inline constexpr double kStiffShape = 0.6;
+
 }  // namespace morula::dcm

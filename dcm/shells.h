@@ -74,7 +74,7 @@ struct ShellParameters {
   double tension = 0.0;                ///< γ [nN/µm]
   double bulk_modulus = 2.5;           ///< K_V [kPa]
   double bulk_viscosity = 0.0;         ///< η_V of the volume [kPa·s]
-  double shape_stiffness = 0.3;        ///< k_s of the triangle shape term k_s A_ref (1/q − 1)² [nN/µm]
+  double shape_stiffness = 0.03;       ///< k_s of the triangle shape term k_s A_ref (1/q − 1)² [nN/µm]
   double barrier_stiffness = 1.0;      ///< k_d of the dihedral barrier k_d z²/(1 − z²) [nN·µm]
   double barrier_angle = 1.6;          ///< |θ| from which the barrier acts [rad]
   double medium_friction = 0.1;        ///< γ_med per area of the node [nN·s/µm³]

@@ -273,15 +273,18 @@ void declare_shell_keys(Section& s, draft::ShellKeys& t, draft::CellType* cell) 
               .example = "100 Pa s",
               .source = "chosen: off"},
              t.bulk_viscosity);
-  s.quantity({.name = "shape_stiffness",
-              .doc = "Keeps triangles from collapsing; no shear modulus in regular triangles.",
-              .quantity = Q::kTension,
-              .fallback = "0.3 mN/m",
-              .low = 0.0,
-              .high = 100.0,
-              .example = "0.3 mN/m",
-              .source = "measured: clusters up to W/(2 tension) = 0.9"},
-             t.shape_stiffness);
+  s.quantity(
+      {.name = "shape_stiffness",
+       .doc = "Keeps triangles from collapsing; no shear modulus in regular triangles, but it holds a cortex back that should flow. "
+              "`auto`: 0.3 times the tension, at least a tenth of the modulus E h of an elastic layer; 0.03 mN/m where there is neither.",
+       .quantity = Q::kTension,
+       .fallback = "auto",
+       .low = 0.0,
+       .high = 100.0,
+       .specials = {{"auto", -1.0}},
+       .example = "0.03 mN/m",
+       .source = "measured: contact angles within 1 deg, clusters up to W/(2 tension) = 0.9"},
+      t.shape_stiffness);
   if (cell != nullptr) {
     s.quantity({.name = "self_contact",
                 .doc = "Distance at which a surface touches other parts of itself, from inside or outside, such as the thickness of its "

@@ -169,6 +169,10 @@ constexpr ErrorCode kCodes[] = {
     {623, "mesh crosses itself", "Two faces that are not neighbours intersect."},
     {624, "mesh has degenerate or double faces", "A face has no area, or the same face stands twice."},
     {625, "mesh is not a surface", "An edge has three or more faces, or two parts of the surface touch in one node."},
+    {640, "shape term like an elastic cortex",
+     "`shape_stiffness` keeps triangles from collapsing. Above 0.6 times the tension it resists the shear of a cortex that should flow, "
+     "and "
+     "contact radii and angles come out too small."},
     {655, "column without a unit",
      "Lengths in a CSV file carry their unit in the header, `x [um]`, or the entry of `initial` says it for all of them, `units: um`."},
     {656, "cell types like each other without end",

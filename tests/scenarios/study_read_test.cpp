@@ -85,6 +85,18 @@ TEST(StudyReader, ElasticityOfTheCortexHonoursThicknessAndPoissonRatio) {
   EXPECT_GT(fluid.hinge_stiffness, 0.0) << "bending is a law of its own";
 }
 
+// time_stepping.md §12.1: 0.3 of the tension; layers more elastic than tense: a tenth of E h.
+TEST(StudyReader, ShapeStiffnessFollowsTheTensionUnlessGiven) {
+  EXPECT_DOUBLE_EQ(shell_with("cortex: {elastic: none, tension: 0.1 mN/m}").shape_stiffness, 0.03);
+  EXPECT_DOUBLE_EQ(shell_with("cortex: {elastic: none, tension: 0.5 mN/m}").shape_stiffness, 0.15);
+  EXPECT_DOUBLE_EQ(shell_with("cortex: {young: 1 kPa, thickness: 200 nm, tension: 0.1 mN/m}").shape_stiffness, 0.03);
+  EXPECT_DOUBLE_EQ(shell_with("cortex: {young: 1 kPa, thickness: 200 nm, tension: 0 mN/m}").shape_stiffness, 0.02);
+  EXPECT_DOUBLE_EQ(shell_with("cortex: {young: 5 kPa, thickness: 200 nm, tension: 0.1 mN/m}").shape_stiffness, 0.1);
+  EXPECT_DOUBLE_EQ(shell_with("cortex: {elastic: none, tension: 0 mN/m}").shape_stiffness, 0.03);
+  EXPECT_DOUBLE_EQ(shell_with("cortex: {tension: 0.1 mN/m}\n      shape_stiffness: 0.2 mN/m").shape_stiffness, 0.2);
+  EXPECT_DOUBLE_EQ(shell_with("cortex: {tension: 0.1 mN/m}\n      shape_stiffness: auto").shape_stiffness, 0.03);
+}
+
 TEST(StudyReader, BendingIsHingesOrHelfrich) {
   EXPECT_NEAR(shell_with("bending: 8.8889e-19 J").hinge_stiffness, 1.0264e-3, 1e-7);  // a bare value is the rigidity
   const auto p = shell_with("bending: {law: helfrich, rigidity: 2e-19 J, spontaneous_radius: 4 um}");

@@ -45,6 +45,21 @@ TEST(Resolution, VolumeThatDoesNotBearTheTensionIsRefused) {  // 2 γ/(3 R) = 0.
   EXPECT_NE(test::errors_of(test::changed("bulk_modulus: 2.5 kPa", "bulk_modulus: 0 kPa", pair)).find("[E535]"), std::string::npos);
 }
 
+TEST(Resolution, AShapeTermThatHoldsAFluidCortexIsTold) {  // from 0.6 of the tension of 0.5 mN/m
+  const auto told = [](const std::string& elastic, const std::string& shape) {
+    const std::string pair = test::changed(", [6 um, 10 um, 0 um]", "", kStudy);
+    return test::warnings_of(test::changed("bulk_modulus", "shape_stiffness: " + shape + "\n      bulk_modulus",
+                                           test::changed("{tension:", "{elastic: " + elastic + ", tension:", pair)));
+  };
+  const std::string text = told("none", "0.31 mN/m");
+  EXPECT_NE(text.find("640"), std::string::npos) << text;
+  EXPECT_NE(text.find("study.yaml:11:"), std::string::npos) << text;
+  EXPECT_NE(text.find("0.62 times the tension"), std::string::npos) << text;
+  EXPECT_EQ(told("none", "0.3 mN/m").find("640"), std::string::npos);
+  EXPECT_EQ(told("none", "auto").find("640"), std::string::npos);
+  EXPECT_EQ(told("springs", "0.31 mN/m").find("640"), std::string::npos);
+}
+
 TEST(Resolution, RangeLongerThanHalfTheMeanEdgeIsRefused) {
   const std::string pair = test::changed(", [6 um, 10 um, 0 um]", "", kStudy);
   EXPECT_NE(test::errors_of(test::changed("range: 0.45 um", "range: 0.6 um", pair)).find("[E503]"), std::string::npos);
