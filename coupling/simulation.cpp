@@ -177,15 +177,27 @@ void Simulation::average_pressures(double dt) {
     row.pressure = averaged_pressure(row.pressure, pressure[row.body == BodyKind::kShell ? shell++ : sphere++], dt);
 }
 
+std::vector<fields::CellSource> Simulation::field_sources() const {
+  const std::vector<Vec3d> center = centers();
+  std::vector<fields::CellSource> out;
+  std::size_t shell = 0, sphere = 0;
+  for (std::size_t i = 0; i < center.size(); ++i) {
+    const CellRow& row = tissue_.cells.rows[i];
+    fields::CellSource& source = out.emplace_back(fields::CellSource{row.id, row.type, center[i]});
+    if (row.body == BodyKind::kShell) {
+      source.faces = tissue_.shells.topology(shell).faces();
+      source.nodes = tissue_.shells.nodes(shell++);
+    } else {
+      source.radius = tissue_.spheres.radius[sphere++];
+    }
+  }
+  return out;
+}
+
 Status Simulation::advance_fields(double dt, StepOutcome& outcome) {
   if (model_.fields.empty()) return {};
   auto timed = timer().scope(Stage::kFields);
-  const std::vector<Vec3d> center = centers();
-  std::vector<fields::CellSource> sources;
-  for (std::size_t i = 0; i < center.size(); ++i) {
-    const CellRow& row = tissue_.cells.rows[i];
-    sources.push_back({row.id, row.type, center[i], std::cbrt(3.0 * row.target_volume / (4.0 * std::numbers::pi))});
-  }
+  const std::vector<fields::CellSource> sources = field_sources();
   std::vector<double> taken(sources.size()), seen(sources.size());
   SideColumns& side = tissue_.cells.side;
   for (std::size_t f = 0; f < model_.fields.size(); ++f) {

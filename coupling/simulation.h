@@ -61,6 +61,8 @@ class Simulation {
   /// After a step: marks that follow their cells, the eased contact of the faces, the lumens.
   void renew_faces(double dt);
   void renew_lumens(double dt);
+  /// The cells as fields see them, at the present positions.
+  [[nodiscard]] std::vector<fields::CellSource> field_sources() const;
   Status advance_fields(double dt, StepOutcome& outcome);
   Result<std::vector<Event>> swap_bodies();
   void divide_and_remove(const struct LifeReport& life, double time, std::vector<Event>& events);

@@ -13,7 +13,13 @@ CellExchange::CellExchange(const Field& field, const Space& space, std::span<con
   const auto ranks = static_cast<std::size_t>(comm.size());
   std::vector<std::vector<VoxelWeight>> weights(cells.size());
 #pragma omp parallel for schedule(static) if (cells.size() > 256)
-  for (std::size_t i = 0; i < cells.size(); ++i) sphere_weights(field.grid, space, cells[i].center, cells[i].radius, weights[i]);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const CellSource& cell = cells[i];
+    if (cell.faces.empty())
+      sphere_weights(field.grid, space, cell.center, cell.radius, weights[i]);
+    else
+      surface_weights(field.grid, space, cell.center, cell.faces, cell.nodes, weights[i]);
+  }
 
   std::vector<std::vector<std::byte>> outgoing(ranks);
   first_sent_.push_back(0);

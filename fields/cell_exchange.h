@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/cell_id.h"
+#include "core/mesh/triangle_mesh.h"
 #include "core/parallel/comm.h"
 #include "core/space/space.h"
 #include "core/vec3.h"
@@ -12,12 +13,14 @@
 
 namespace morula::fields {
 
-/// A cell as a field sees it, whatever its body: for a shell, its centroid and the radius of the ball of its volume.
+/// A cell as a field sees it: a ball, or what its surface encloses.
 struct CellSource {
   CellId id;
   std::uint16_t type = 0;
   Vec3d center{};
-  double radius = 0.0;  ///< [µm]
+  double radius = 0.0;                ///< of a ball [µm]
+  std::span<const Triangle> faces{};  ///< of a closed surface, outward; empty: a ball
+  std::span<const Vec3d> nodes{};     ///< of the surface [µm]; must outlive the exchange
 };
 
 /// Which cell meets which voxel, on both sides: the rank that has the cell and the rank that has the voxel.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 namespace morula::fields {
 
@@ -88,6 +90,94 @@ void spread_trilinear(Spreader& spread, const Vec3d& center) {
   }
 }
 
+constexpr double kLinesAcross = 12.0;   ///< sample lines across the least width of a closed surface
+constexpr int kFewest = 4, kMost = 64;  ///< sample lines per voxel and axis
+
+/// Where a sample line along z goes into a closed surface (sign 1) or comes out of it (−1).
+struct Crossing {
+  std::int64_t line = 0;
+  double z = 0.0;
+  int sign = 0;
+};
+
+/// Whether (x, y) lies to the left of the way from node i to node j. Both faces of an edge agree about it, also for points on the edge, so that a line
+/// that goes into a closed surface comes out of it.
+bool is_left(std::span<const Vec3d> nodes, std::uint32_t i, std::uint32_t j, double x, double y) {
+  const Vec3d &a = nodes[std::min(i, j)], &b = nodes[std::max(i, j)];
+  const bool left = (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x) >= 0.0;
+  return i < j ? left : !left;
+}
+
+/// Sample lines along z through a grid of voxels: `count` per voxel along x and y, at the middles of equal parts.
+struct SampleLines {
+  Vec3d low, h;
+  std::array<int, 2> count;
+  std::array<std::int64_t, 2> first{}, number{};  ///< of the lines that may meet the surface
+
+  [[nodiscard]] double place(std::size_t axis, std::int64_t i) const {
+    return low[axis] + (static_cast<double>(first[axis] + i) + 0.5) * h[axis] / count[axis];
+  }
+  [[nodiscard]] std::int64_t voxel(std::size_t axis, std::int64_t i) const {
+    return static_cast<std::int64_t>(std::floor((static_cast<double>(first[axis] + i) + 0.5) / count[axis]));
+  }
+  /// First of the lines at or beyond a place, from 0 to `number`.
+  [[nodiscard]] std::int64_t from(std::size_t axis, double at) const {
+    const double line = std::ceil((at - low[axis]) * count[axis] / h[axis] - 0.5);
+    return std::clamp(static_cast<std::int64_t>(line) - first[axis], std::int64_t{0}, number[axis]);
+  }
+};
+
+SampleLines lines_through(const Grid& grid, const Vec3d& least, const Vec3d& most) {
+  SampleLines out{grid.box.low, grid.spacing(), {}, {}, {}};
+  const double width = std::min(most.x - least.x, most.y - least.y);
+  for (std::size_t a = 0; a < 2; ++a) {
+    const double wanted = std::ceil(out.h[a] * kLinesAcross / std::max(width, 1e-300));
+    out.count[a] = static_cast<int>(std::clamp(wanted, double{kFewest}, double{kMost}));
+    out.first[a] = static_cast<std::int64_t>(std::floor((least[a] - out.low[a]) * out.count[a] / out.h[a])) - 1;
+    out.number[a] = static_cast<std::int64_t>(std::ceil((most[a] - out.low[a]) * out.count[a] / out.h[a])) + 1 - out.first[a];
+  }
+  return out;
+}
+
+std::vector<Crossing> crossings_of(const SampleLines& lines, std::span<const Triangle> faces, std::span<const Vec3d> nodes) {
+  std::vector<Crossing> out;
+  for (const Triangle& t : faces) {
+    const Vec3d &a = nodes[t[0]], &b = nodes[t[1]], &c = nodes[t[2]];
+    const auto [low_x, high_x] = std::minmax({a.x, b.x, c.x});
+    const auto [low_y, high_y] = std::minmax({a.y, b.y, c.y});
+    const Vec3d normal = cross(b - a, c - a);
+    for (std::int64_t j = lines.from(1, low_y); j < lines.number[1] && lines.place(1, j) <= high_y; ++j)
+      for (std::int64_t i = lines.from(0, low_x); i < lines.number[0] && lines.place(0, i) <= high_x; ++i) {
+        const double x = lines.place(0, i), y = lines.place(1, j);
+        const bool left = is_left(nodes, t[0], t[1], x, y);
+        if (left != is_left(nodes, t[1], t[2], x, y) || left != is_left(nodes, t[2], t[0], x, y)) continue;
+        const double rise = normal.z != 0.0 ? -(normal.x * (x - a.x) + normal.y * (y - a.y)) / normal.z : 0.0;
+        out.push_back(
+            {j * lines.number[0] + i, std::clamp(a.z + rise, std::min({a.z, b.z, c.z}), std::max({a.z, b.z, c.z})), left ? -1 : 1});
+      }
+  }
+  std::sort(out.begin(), out.end(),
+            [](const Crossing& p, const Crossing& q) { return std::tie(p.line, p.z, p.sign) < std::tie(q.line, q.z, q.sign); });
+  return out;
+}
+
+/// Lengths of the sample lines inside the surface, voxel by voxel.
+void spread_inside(Spreader& spread, const SampleLines& lines, const std::vector<Crossing>& crossings) {
+  std::map<std::array<std::int64_t, 3>, double> length;  // by place z, y, x
+  int inside = 0;
+  for (std::size_t k = 0; k + 1 < crossings.size(); ++k) {
+    inside += crossings[k].sign;
+    if (crossings[k + 1].line != crossings[k].line) inside = 0;
+    if (inside <= 0) continue;
+    const std::int64_t x = lines.voxel(0, crossings[k].line % lines.number[0]), y = lines.voxel(1, crossings[k].line / lines.number[0]);
+    const double from = (crossings[k].z - lines.low.z) / lines.h.z, to = (crossings[k + 1].z - lines.low.z) / lines.h.z;
+    for (double v = std::floor(from); v < to; v += 1.0)
+      length[{static_cast<std::int64_t>(v), y, x}] += std::min(to, v + 1.0) - std::max(from, v);
+  }
+  for (const auto& [place, part] : length)
+    if (part > 0.0) spread.add({place[2], place[1], place[0]}, part);
+}
+
 void merge_equal_voxels(std::vector<VoxelWeight>& weights) {
   std::stable_sort(weights.begin(), weights.end(),
                    [](const VoxelWeight& a, const VoxelWeight& b) { return a.brick != b.brick ? a.brick < b.brick : a.voxel < b.voxel; });
@@ -115,6 +205,22 @@ void normalize(std::vector<VoxelWeight>& weights) {
   }
 }
 
+/// A cell that is wholly outside belongs to the nearest voxel; then the weights are sorted and normalised.
+void finish(Spreader& spread, const Vec3d& center) {
+  if (spread.out.empty()) {
+    const Grid& grid = spread.grid;
+    const Vec3d h = grid.spacing();
+    std::array<std::int64_t, 3> nearest{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double place = std::clamp((center[a] - grid.box.low[a]) / h[a], 0.0, static_cast<double>(grid.voxels[a]) - 0.5);
+      nearest[a] = static_cast<std::int64_t>(place);
+    }
+    spread.add(nearest, 1.0);
+  }
+  merge_equal_voxels(spread.out);
+  normalize(spread.out);
+}
+
 }  // namespace
 
 void sphere_weights(const Grid& grid, const Space& space, const Vec3d& center, double radius, std::vector<VoxelWeight>& out) {
@@ -125,16 +231,19 @@ void sphere_weights(const Grid& grid, const Space& space, const Vec3d& center, d
     spread_trilinear(spread, center);
   else
     spread_volume(spread, center, radius);
-  if (out.empty()) {
-    std::array<std::int64_t, 3> nearest{};
-    for (std::size_t a = 0; a < 3; ++a) {
-      const double place = std::clamp((center[a] - grid.box.low[a]) / h[a], 0.0, static_cast<double>(grid.voxels[a]) - 0.5);
-      nearest[a] = static_cast<std::int64_t>(place);
-    }
-    spread.add(nearest, 1.0);
-  }
-  merge_equal_voxels(out);
-  normalize(out);
+  finish(spread, center);
+}
+
+void surface_weights(const Grid& grid, const Space& space, const Vec3d& center, std::span<const Triangle> faces,
+                     std::span<const Vec3d> nodes, std::vector<VoxelWeight>& out) {
+  out.clear();
+  Spreader spread{grid, space, out};
+  Vec3d least = center, most = center;
+  for (const Vec3d& x : nodes)
+    for (std::size_t a = 0; a < 3; ++a) least[a] = std::min(least[a], x[a]), most[a] = std::max(most[a], x[a]);
+  const SampleLines lines = lines_through(grid, least, most);
+  spread_inside(spread, lines, crossings_of(lines, faces, nodes));
+  finish(spread, center);
 }
 
 }  // namespace morula::fields

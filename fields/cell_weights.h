@@ -1,8 +1,10 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "core/mesh/triangle_mesh.h"
 #include "core/space/space.h"
 #include "core/vec3.h"
 #include "fields/field.h"
@@ -23,5 +25,11 @@ struct VoxelWeight {
 /// belongs to the nearest voxel. The round-off of the sum goes to the largest weight (physics: fields_and_coupling.md, A).
 /// `out` is overwritten.
 void sphere_weights(const Grid& grid, const Space& space, const Vec3d& center, double radius, std::vector<VoxelWeight>& out);
+
+/// The same of what a closed surface with outward faces encloses, whatever its shape: along lines parallel to z, at least four per voxel and axis and
+/// twelve across its least width, the lengths inside are exact. Weights are thereby those of the enclosed volume within 1 % of it, and the lines belong
+/// to the grid, so that a cell that does not move keeps its weights to the last bit. `center`: a point inside it, for cells beyond the domain.
+void surface_weights(const Grid& grid, const Space& space, const Vec3d& center, std::span<const Triangle> faces,
+                     std::span<const Vec3d> nodes, std::vector<VoxelWeight>& out);
 
 }  // namespace morula::fields
