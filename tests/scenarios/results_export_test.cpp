@@ -232,8 +232,9 @@ TEST_F(Exports, CsvHasUnitsInTheHeaderAndOneLineACell) {
   const std::string csv = cells_as_csv(small_snapshot(library, 0.0));
   const std::string header = csv.substr(0, csv.find('\n'));
   EXPECT_EQ(header,
-            "id,parent,type,body,phase,x [um],y [um],z [um],volume [um^3],area [um^2],pressure [kPa],contact_area [um^2],age [s],oxygen "
-            "[mM],radius [um]");
+            "id,parent,type,body,phase,x [um],y [um],z [um],volume [um^3],area [um^2],pressure [kPa],"
+            "inner_pressure [kPa],stress_xx [kPa],stress_xy [kPa],stress_xz [kPa],stress_yy [kPa],stress_yz [kPa],stress_zz [kPa],"
+            "contact_area [um^2],age [s],oxygen [mM],radius [um]");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
   EXPECT_NE(csv.find("\n9,0,liver,sphere,growing,1,2,3,"), std::string::npos) << csv;
   const auto commas = std::count(header.begin(), header.end(), ',');

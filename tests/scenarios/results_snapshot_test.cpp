@@ -32,7 +32,8 @@ Snapshot make_snapshot(double time, int cells, const Comm& comm, ShapeLibrary& l
     cell.body = id.bits() % 3 == 0 ? BodyKind::kShell : BodyKind::kSphere;
     cell.phase = Phase::kDying;
     cell.centroid = numbers.vector();
-    for (double* value : {&cell.volume, &cell.area, &cell.pressure, &cell.contact_area, &cell.age, &cell.radius})
+    for (double* value : {&cell.volume, &cell.area, &cell.pressure, &cell.inner_pressure, &cell.stress_xx, &cell.stress_xy, &cell.stress_xz,
+                          &cell.stress_yy, &cell.stress_yz, &cell.stress_zz, &cell.contact_area, &cell.age, &cell.radius})
       *value = numbers.next() + time;
     for (double& value : cell.concentration) value = numbers.next();
     if (cell.body == BodyKind::kShell) {
@@ -56,8 +57,9 @@ std::string description(const Snapshot& s) {
   for (const auto& c : s.cells) {
     out << '\n'
         << c.id.text() << ' ' << c.parent.text() << ' ' << c.type << ' ' << int(c.body) << ' ' << int(c.phase) << ' ' << c.centroid.x << ' '
-        << c.centroid.y << ' ' << c.centroid.z << ' ' << c.volume << ' ' << c.area << ' ' << c.pressure << ' ' << c.contact_area << ' '
-        << c.age << ' ' << c.radius;
+        << c.centroid.y << ' ' << c.centroid.z << ' ' << c.volume << ' ' << c.area << ' ' << c.pressure << ' ' << c.inner_pressure << ' '
+        << c.stress_xx << ' ' << c.stress_xy << ' ' << c.stress_xz << ' ' << c.stress_yy << ' ' << c.stress_yz << ' ' << c.stress_zz << ' '
+        << c.contact_area << ' ' << c.age << ' ' << c.radius;
     for (const double v : c.concentration) out << ' ' << v;
   }
   for (const auto& shell : s.shells) {
