@@ -6,6 +6,53 @@
 
 namespace morula::scenarios {
 
+namespace {
+
+/// Obstacles where they are, and the cavities that exist.
+void add_surroundings(const Model& model, const Tissue& tissue, Snapshot& out) {
+  for (std::size_t i = 0; i < model.obstacles.size(); ++i) {
+    Snapshot::Obstacle& obstacle = out.obstacles.emplace_back();
+    obstacle.name = model.obstacles[i].name;
+    if (i < tissue.obstacle_offset.size()) obstacle.offset = tissue.obstacle_offset[i];
+  }
+  for (const Snapshot::Obstacle& wall : domain_walls(model.space)) out.obstacles.emplace_back().name = wall.name;
+  for (std::size_t i = 0; i < model.lumens.size() && i < tissue.lumens.size(); ++i) {
+    const LumenState& lumen = tissue.lumens[i];
+    if (tissue.clock.time >= model.lumens[i].from && lumen.volume > 0.0)
+      out.lumens.push_back({model.lumens[i].name, model.lumens[i].center, lumen.volume, lumen.pressure});
+  }
+}
+
+}  // namespace
+
+std::vector<Snapshot::Obstacle> domain_walls(const Space& space) {
+  std::vector<Snapshot::Obstacle> walls;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (space.boundary[axis][side] != BoundaryKind::kWall) continue;
+      Snapshot::Obstacle& wall = walls.emplace_back();
+      // Names of the study have no spaces: this one is never an obstacle's.
+      wall.name = std::string("wall ") + "xyz"[axis] + (side == 0 ? " low" : " high");
+      const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+      for (int corner = 0; corner < 4; ++corner) {
+        Vec3d p = side == 0 ? space.box.low : space.box.high;
+        p[u] = corner == 1 || corner == 2 ? space.box.high[u] : space.box.low[u];
+        p[v] = corner >= 2 ? space.box.high[v] : space.box.low[v];
+        wall.position.push_back(p);
+      }
+      // Counter-clockwise as seen from the cells: along +axis from the low face.
+      wall.faces = side == 0 ? std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}} : std::vector<Triangle>{{0, 2, 1}, {0, 3, 2}};
+    }
+  return walls;
+}
+
+std::vector<Snapshot::Obstacle> obstacles_at_start(const Model& model) {
+  std::vector<Snapshot::Obstacle> out;
+  for (const ObstacleSpec& spec : model.obstacles) out.push_back({spec.name, {}, spec.position, spec.faces});
+  for (Snapshot::Obstacle& wall : domain_walls(model.space)) out.push_back(std::move(wall));
+  return out;
+}
+
 Snapshot local_snapshot(Simulation& simulation) {
   const BodyValues& values = simulation.values();
   const Tissue& tissue = simulation.tissue();
@@ -16,6 +63,7 @@ Snapshot local_snapshot(Simulation& simulation) {
   for (const CellType& type : model.types) out.type_names.push_back(type.name);
   for (const auto& spec : model.fields) out.fields.emplace_back().name = spec.name;
   out.mark_names = model.mark_names;
+  add_surroundings(model, tissue, out);
   std::vector<const Topology*> known;
   std::size_t shell = 0, sphere = 0;
   for (std::size_t i = 0; i < center.size(); ++i) {

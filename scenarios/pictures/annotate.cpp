@@ -1,6 +1,7 @@
 #include "scenarios/pictures/annotate.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <string>
@@ -27,6 +28,22 @@ std::string short_number(double value, int digits) {
     text.assign(buffer, std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, decimals).ptr);
   }
   return text;
+}
+
+std::string display_text(std::string_view text) {
+  std::string out;
+  const auto letter = [&](std::size_t i) { return i < text.size() && std::isalnum(static_cast<unsigned char>(text[i])) != 0; };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text.substr(i, 2) == "um" && !(i > 0 && (letter(i - 1) || text[i - 1] == '_')) && !letter(i + 2) && text.substr(i + 2, 1) != "_") {
+      out += "µm";
+      ++i;
+    } else if (text[i] == '^' && (text.substr(i + 1, 1) == "2" || text.substr(i + 1, 1) == "3")) {
+      out += text[++i] == '2' ? "²" : "³";
+    } else {
+      out += text[i];
+    }
+  }
+  return out;
 }
 
 std::string short_time(double seconds) {
@@ -61,11 +78,20 @@ void draw_color_bar(Image& image, double right, double y, double width, const Co
   const double low = scale.low * scale.per_unit, high = scale.high * scale.per_unit;
   const double step = nice_below((high - low) / 2.0);
   const double small = 0.9 * cap_height;
-  for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) {
-    const double x = std::clamp(left + (i * step - low) / (high - low) * width, left + 0.5, right - 0.5);
+  const auto tick = [&](double value) {
+    const double x = std::clamp(left + (value - low) / (high - low) * width, left + 0.5, right - 0.5);
     image.fill_rectangle(x - 0.5, y, x + 0.5, y + 4.0, kInk);
-    draw_text(image, x, y + 7.0 + small, short_number(i * step), small, kInk, Align::kCenter);
-  }
+    draw_text(image, x, y + 7.0 + small, short_number(value), small, kInk, Align::kCenter);
+  };
+  tick(low);
+  tick(high);
+  const double room = text_width(short_number(low), small) + text_width(short_number(high), small);
+  for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i)
+    if (std::min(i * step - low, high - i * step) / (high - low) * width > room) tick(i * step);  // clear of the numbers at the ends
+  if (scale.data_low <= scale.data_high)
+    draw_text(image, 0.5 * (left + right), y + 7.0 + 2.6 * small,
+              "data " + short_number(scale.data_low * scale.per_unit, 3) + " to " + short_number(scale.data_high * scale.per_unit, 3),
+              small, kInk, Align::kCenter);
   const std::string title = scale.unit.empty() ? scale.quantity : scale.quantity + " [" + scale.unit + "]";
   draw_text(image, 0.5 * (left + right), y - height - 0.75 * cap_height, title, cap_height, kInk, Align::kCenter);
 }
@@ -74,6 +100,9 @@ void draw_legend(Image& image, double right, double y, std::span<const LegendEnt
   double widest = 0.0;
   for (const LegendEntry& entry : entries) widest = std::max(widest, text_width(entry.text, cap_height));
   const double text_x = right - widest;
+  if (!entries.empty())  // legible over what lies below
+    image.fill_rectangle(text_x - 2.4 * cap_height, y - 0.7 * cap_height, right + 0.8 * cap_height,
+                         y + (2.1 * static_cast<double>(entries.size()) - 0.3) * cap_height, {1.0f, 1.0f, 1.0f}, 0.8f);
   for (const LegendEntry& entry : entries) {
     image.fill_disc(text_x - 1.3 * cap_height, y + 0.5 * cap_height, 0.62 * cap_height, kInk);
     image.fill_disc(text_x - 1.3 * cap_height, y + 0.5 * cap_height, 0.62 * cap_height - 1.2, entry.color);

@@ -29,6 +29,9 @@ void draw_legend(Image& image, double right, double y, std::span<const LegendEnt
 /// A number as people write it: no needless digits, at most `digits` significant ones.
 std::string short_number(double value, int digits = 4);
 
+/// Units of a text as people write them: µm, µm², µm³ for um, um^2, um^3.
+std::string display_text(std::string_view text);
+
 /// A time with the unit that suits it: "40 s", "12 min", "36 h".
 std::string short_time(double seconds);
 

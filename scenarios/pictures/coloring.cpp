@@ -10,8 +10,11 @@
 namespace morula::scenarios {
 namespace {
 
-// Bodies use two colours of the categorical list that differ in lightness as well.
-Rgb body_color(BodyKind body) { return body == BodyKind::kShell ? categorical_color(1) : categorical_color(0); }
+Rgb body_color(BodyKind body) { return scenarios::body_color(body == BodyKind::kShell); }
+
+Rgb type_color(std::size_t type, const TypeColors& given) {
+  return type < given.size() && given[type] ? *given[type] : categorical_color(type);
+}
 
 constexpr Rgb kUnmarked{0.80f, 0.80f, 0.82f};
 
@@ -83,8 +86,11 @@ ColorScale common_scale(std::span<const Snapshot> snapshots, ColorBy by, std::si
       const double value = color_value(cell, by, field);
       if (std::isfinite(value)) values.push_back(value);
     }
+  scale.data_low = 1.0;  // no data
   if (values.empty()) return choose_unit(scale, by), scale;
   std::sort(values.begin(), values.end());
+  scale.data_low = values.front();
+  scale.data_high = values.back();
   const auto percentile = [&](double p) {
     return values[static_cast<std::size_t>(std::lround(p * static_cast<double>(values.size() - 1)))];
   };
@@ -108,13 +114,14 @@ Rgb scale_color(const ColorScale& scale, double value) {
   return scale.diverging ? diverging_color(t) : sequential_color(t);
 }
 
-std::vector<Rgb> cell_colors(const Snapshot& snapshot, ColorBy by, const ColorScale& scale, std::size_t field) {
+std::vector<Rgb> cell_colors(const Snapshot& snapshot, ColorBy by, const ColorScale& scale, std::size_t field,
+                             const TypeColors& type_colors) {
   std::vector<Rgb> colors;
   colors.reserve(snapshot.cells.size());
   for (const auto& cell : snapshot.cells) {
     switch (by) {
       case ColorBy::kType:
-        colors.push_back(varied(categorical_color(cell.type), cell.id));
+        colors.push_back(varied(type_color(cell.type, type_colors), cell.id));
         break;
       case ColorBy::kBody:
         colors.push_back(varied(body_color(cell.body), cell.id));
@@ -134,22 +141,22 @@ std::vector<Rgb> cell_colors(const Snapshot& snapshot, ColorBy by, const ColorSc
 
 std::vector<Rgb> mark_colors(const Snapshot& snapshot, ColorBy by) {
   std::vector<Rgb> colors;
-  for (std::size_t k = 0; by == ColorBy::kMarks && k < snapshot.mark_names.size(); ++k) colors.push_back(categorical_color(k));
+  for (std::size_t k = 0; by == ColorBy::kMarks && k < snapshot.mark_names.size(); ++k) colors.push_back(mark_color(k));
   return colors;
 }
 
-std::vector<LegendEntry> legend_entries(const Snapshot& snapshot, ColorBy by) {
+std::vector<LegendEntry> legend_entries(const Snapshot& snapshot, ColorBy by, const TypeColors& type_colors) {
   std::vector<LegendEntry> entries;
   if (by == ColorBy::kType) {
     std::vector<std::size_t> count(65536);
     for (const auto& cell : snapshot.cells) ++count[cell.type];
     for (std::size_t type = 0; type < count.size(); ++type)
       if (count[type] > 0)
-        entries.push_back({type_name(snapshot, type) + " (" + std::to_string(count[type]) + ")", categorical_color(type)});
+        entries.push_back({type_name(snapshot, type) + " (" + std::to_string(count[type]) + ")", type_color(type, type_colors)});
   } else if (by == ColorBy::kBody) {
     std::array<std::size_t, 2> count{};
     for (const auto& cell : snapshot.cells) ++count[cell.body == BodyKind::kShell ? 1 : 0];
-    if (count[1]) entries.push_back({"deformable shell (" + std::to_string(count[1]) + ")", body_color(BodyKind::kShell)});
+    if (count[1]) entries.push_back({"shell (" + std::to_string(count[1]) + ")", body_color(BodyKind::kShell)});
     if (count[0]) entries.push_back({"sphere (" + std::to_string(count[0]) + ")", body_color(BodyKind::kSphere)});
   } else if (by == ColorBy::kMarks) {
     const std::vector<Rgb> colors = mark_colors(snapshot, by);

@@ -31,6 +31,7 @@ Ticks ticks_of(const CurveAxis& axis, Range range, int wanted, bool widen) {
   if (!axis.logarithmic && range.low > 0.0 && range.low < 0.4 * range.high) range.low = 0.0;
   if (axis.low) range.low = *axis.low;
   if (axis.high) range.high = *axis.high;
+  if (axis.label == "time" && !axis.logarithmic && !widen) return time_ticks(range.low, range.high, wanted, axis.unit);
   return axis.logarithmic ? log_ticks(range.low, range.high, widen) : linear_ticks(range.low, range.high, wanted, widen);
 }
 
@@ -108,23 +109,25 @@ std::string curves_svg(const CurvePlot& plot, SvgUse use) {
   }
   for (const CurveLimit& limit : plot.limits) y.add(limit.value, plot.y.logarithmic);
 
-  SvgFrame frame(plot.title, plot.width, plot.height, use);
-  frame.axes(plot.x, plot.y, ticks_of(plot.x, x, 7, false), ticks_of(plot.y, y, 5, true));
-  for (const CurveLimit& limit : plot.limits) frame.limit(limit);
+  const auto color_of = [&](std::size_t c) { return plot.curves[c].color >= 0 ? plot.curves[c].color : static_cast<int>(c); };
   std::vector<std::string> names;
   std::vector<int> colors;
   for (std::size_t c = 0; c < plot.curves.size(); ++c) {
+    if (std::find(colors.begin(), colors.end(), color_of(c)) != colors.end()) continue;  // the curve that it belongs to is in the legend
+    names.push_back(plot.curves[c].name);
+    colors.push_back(color_of(c));
+  }
+  SvgFrame frame(plot.title, plot.width, plot.height, use, names, colors);
+  frame.axes(plot.x, plot.y, ticks_of(plot.x, x, 7, false), ticks_of(plot.y, y, 5, true));
+  for (std::size_t c = 0; c < plot.curves.size(); ++c) {
     const Curve& curve = plot.curves[c];
-    const int color = curve.color >= 0 ? curve.color : static_cast<int>(c);
+    const int color = color_of(c);
     if (curve.style == CurveStyle::kPoints)
       draw_points(frame, curve, color);
     else
       draw_line(frame, curve, color);
-    if (std::find(colors.begin(), colors.end(), color) != colors.end()) continue;  // the curve that it belongs to is in the legend
-    names.push_back(curve.name);
-    colors.push_back(color);
   }
-  frame.legend(names, colors);
+  for (const CurveLimit& limit : plot.limits) frame.limit(limit);  // its words lie over the curves
   if (!any) frame.no_data();
   return frame.finish();
 }
@@ -135,7 +138,11 @@ std::string bars_svg(const BarPlot& plot, SvgUse use) {
   bool any = false;
   for (const BarSeries& series : plot.series)
     for (const double height : series.heights) y.add(height, false), any = true;
-  SvgFrame frame(plot.title, plot.width, plot.height, use);
+  std::vector<std::string> names;
+  for (const BarSeries& series : plot.series) names.push_back(series.name);
+  std::vector<int> colors(names.size());
+  std::iota(colors.begin(), colors.end(), 0);
+  SvgFrame frame(plot.title, plot.width, plot.height, use, names, colors);
   const auto groups = static_cast<double>(std::max<std::size_t>(1, plot.categories.size()));
   Ticks along{0.0, groups, {}, {}};
   const std::size_t every = std::max<std::size_t>(1, (plot.categories.size() + 11) / 12);
@@ -146,17 +153,12 @@ std::string bars_svg(const BarPlot& plot, SvgUse use) {
   CurveAxis axis_x{plot.x.label, plot.x.unit, false, {}, {}}, axis_y{plot.y.label, plot.y.unit, false, {}, {}};
   frame.axes(axis_x, axis_y, along, ticks_of(axis_y, y, 5, true));
   const double share = 0.78 / static_cast<double>(std::max<std::size_t>(1, plot.series.size()));
-  std::vector<std::string> names;
   for (std::size_t s = 0; s < plot.series.size(); ++s) {
-    names.push_back(plot.series[s].name);
     for (std::size_t i = 0; i < std::min(plot.categories.size(), plot.series[s].heights.size()); ++i) {
       const double left = static_cast<double>(i) + 0.11 + share * static_cast<double>(s);
       if (std::isfinite(plot.series[s].heights[i])) frame.bar(left, left + share, plot.series[s].heights[i], static_cast<int>(s));
     }
   }
-  std::vector<int> colors(names.size());
-  std::iota(colors.begin(), colors.end(), 0);
-  frame.legend(names, colors);
   if (!any) frame.no_data();
   return frame.finish();
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -88,6 +89,30 @@ Rgb categorical_color(std::size_t i) {
   const Rgb base = kOkabeIto[i % kOkabeIto.size()];
   const auto round = std::min<std::size_t>(i / kOkabeIto.size(), 3);
   return mix(base, {1.0f, 1.0f, 1.0f}, 0.22f * static_cast<float>(round));
+}
+
+Rgb body_color(bool is_shell) { return is_shell ? hex(0x5F5A8C) : hex(0xD8D2C4); }
+
+Rgb mark_color(std::size_t i) {
+  static constexpr std::array<Rgb, 6> kMuted = {hex(0x882255), hex(0x44AA99), hex(0x999933), hex(0x332288), hex(0xCC6677), hex(0x117733)};
+  const auto round = std::min<std::size_t>(i / kMuted.size(), 3);
+  return mix(kMuted[i % kMuted.size()], {1.0f, 1.0f, 1.0f}, 0.25f * static_cast<float>(round));
+}
+
+std::span<const char* const> color_names() {
+  static constexpr std::array<const char*, 7> kNames{"sky", "orange", "green", "pink", "yellow", "blue", "vermilion"};
+  return kNames;
+}
+
+std::optional<Rgb> color_of_text(std::string_view text) {
+  const auto names = color_names();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (text == names[i]) return categorical_color(i);
+  std::uint32_t value = 0;
+  if (text.size() != 7 || text[0] != '#') return std::nullopt;
+  const auto [end, problem] = std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);
+  if (problem != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return hex(value);
 }
 
 Rgb sequential_color(double t) {

@@ -1,5 +1,8 @@
 #pragma once
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
 
 #include "core/cell_id.h"
 #include "scenarios/pictures/image.h"
@@ -9,6 +12,18 @@ namespace morula::scenarios {
 /// Colour number i of a list that people with colour-vision deficiency can tell apart; repeats, lighter, after seven.
 /// Source: Okabe & Ito 2008, "Color Universal Design", jfly.uni-koeln.de/color (black left out: it is the outline).
 Rgb categorical_color(std::size_t i);
+
+/// Colours of bodies, which no type and no mark has: a sphere is light, a shell is dark.
+Rgb body_color(bool is_shell);
+
+/// Colour number i of marks of faces, which no type and no body has. Source: "muted" of Tol 2021, personal.sron.nl/~pault, without the hues
+/// that are near to those of categorical_color.
+Rgb mark_color(std::size_t i);
+
+/// A colour as a study writes it: `#rrggbb`, or the name of a colour of categorical_color (color_names); nothing for any other text.
+std::optional<Rgb> color_of_text(std::string_view text);
+/// sky, orange, green, pink, yellow, blue, vermilion.
+std::span<const char* const> color_names();
 
 /// Perceptually uniform dark-to-light map for numbers without a natural middle; t in 0..1 (clamped).
 /// Control points: ten equidistant colours of "viridis" (van der Walt & Smith 2015, matplotlib, CC0), joined in OKLab.

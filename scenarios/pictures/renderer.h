@@ -16,7 +16,8 @@ struct RenderOptions {
   ColorBy color_by = ColorBy::kType;
   std::size_t field = 0;  ///< for ColorBy::kConcentration
   ColorScale scale;       ///< for numbers; see common_scale()
-  std::string title;      ///< written at the top left
+  TypeColors type_colors;
+  std::string title;  ///< written at the top left
   bool outlines = true;
   bool annotations = true;  ///< title, scale bar, colour bar, legend
 };
@@ -24,7 +25,8 @@ struct RenderOptions {
 /// Rows of the picture that show the tissue: between the title and the scale bar [px].
 int view_height(const RenderOptions& options);
 
-/// A picture of the snapshot. Its bytes depend on the arguments alone, not on threads or time. An empty snapshot gives an empty view.
+/// A picture of the snapshot with its obstacles, walls and cavities; shells are smoothed for the eye (smooth.h). Its bytes depend on the
+/// arguments alone, not on threads or time. An empty snapshot gives an empty view.
 Image render(const Snapshot& snapshot, const RenderOptions& options);
 
 }  // namespace morula::scenarios

@@ -36,8 +36,9 @@ float noise(int x, int y) {
 
 class Shader {
  public:
-  Shader(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const Rgb> mark_colors, const ShadeOptions& options)
-      : pixels_(pixels), colors_(colors), mark_colors_(mark_colors), options_(options), spiral_(spiral()) {
+  Shader(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const Rgb> mark_colors, const Surroundings& around,
+         const ShadeOptions& options)
+      : pixels_(pixels), colors_(colors), mark_colors_(mark_colors), around_(around), options_(options), spiral_(spiral()) {
     reach_px_ = static_cast<float>(std::clamp(1.3 * options.cell_radius * options.pixels_per_um, 2.0, 150.0));
     const double cell_px = 2.0 * options.cell_radius * options.pixels_per_um / options.samples;
     line_opacity_ = static_cast<float>(std::clamp((cell_px - 3.0) / 18.0, 0.12, 0.88));
@@ -57,11 +58,30 @@ class Shader {
     const std::size_t i = pixels_.index(x, y);
     const auto surface = pixels_.surface[i];
     Rgb color = surface == PixelBuffer::kNothing ? kBackground : lit(x, y, i, surface);
-    if (options_.outlines && on_border(x, y, surface)) color = mix(color, kOutline, line_opacity_);
-    return color;
+    if (!around_.fluid.empty() && around_.fluid[i] != 0) color = mix(color, kFluidColor, surface == PixelBuffer::kNothing ? 1.0f : 0.7f);
+    if (options_.outlines && on_border(pixels_, x, y, surface)) color = mix(color, kOutline, line_opacity_);
+    return around_.obstacles ? with_obstacle(x, y, i, color) : color;
   }
 
  private:
+  [[nodiscard]] Rgb with_obstacle(int x, int y, std::size_t i, const Rgb& color) const {
+    const PixelBuffer& obstacles = *around_.obstacles;
+    const auto obstacle = obstacles.surface[i], cell = pixels_.surface[i];
+    const bool hidden = cell != PixelBuffer::kNothing && (obstacle == PixelBuffer::kNothing || obstacles.depth[i] <= pixels_.depth[i]);
+    if (hidden) return color;
+    Rgb seen = color;
+    if (obstacle != PixelBuffer::kNothing) {
+      const bool is_cut = obstacle % 2 == 1;
+      const bool hollow = around_.hollow[static_cast<std::size_t>(obstacle / 2)];
+      const float nx = static_cast<float>(obstacles.normal_x[i]) / 32767.0f, ny = static_cast<float>(obstacles.normal_y[i]) / 32767.0f;
+      const float nz = std::sqrt(std::max(0.0f, 1.0f - nx * nx - ny * ny));
+      const Rgb lit = is_cut ? kObstacleColor * 0.85f : mix({1.0f, 1.0f, 1.0f}, kObstacleColor, 0.75f - 0.4f * nz);
+      const float opacity = is_cut ? (hollow ? 0.0f : 1.0f) : cell == PixelBuffer::kNothing ? 0.9f : 0.25f;
+      seen = mix(seen, lit, opacity);
+    }
+    return on_border(obstacles, x, y, obstacle) ? mix(seen, kOutline, 0.4f) : seen;
+  }
+
   [[nodiscard]] Rgb lit(int x, int y, std::size_t i, std::int32_t surface) const {
     const Rgb base =
         mark_colors_.empty() || pixels_.marks[i] == 0 ? colors_[static_cast<std::size_t>(surface / 2)] : marked(pixels_.marks[i]);
@@ -73,7 +93,7 @@ class Shader {
     const float wrap = 0.5f + 0.5f * (-0.42f * nx + 0.58f * ny + 0.70f * nz);
     const float brightness = (0.46f + 0.62f * wrap * wrap) * (0.34f + 0.66f * open) * (0.86f + 0.14f * nz);
     const float glance = std::max(0.0f, -0.228f * nx + 0.315f * ny + 0.921f * nz);  // half-way vector of light and eye
-    const float shine = 0.10f * std::pow(glance, 30.0f) * open;
+    const float shine = 0.03f * std::pow(glance, 30.0f) * open;
     const Rgb shaded = base * brightness + Rgb{shine, shine, shine};
     const float range = nearest_ - farthest_;
     const float fade = range > 0.0f ? 0.16f * (nearest_ - pixels_.depth[i]) / range : 0.0f;
@@ -108,18 +128,19 @@ class Shader {
     return std::max(0.0f, 1.0f - 0.95f * hidden / kOcclusionSamples);
   }
 
-  [[nodiscard]] bool on_border(int x, int y, std::int32_t surface) const {
+  [[nodiscard]] bool on_border(const PixelBuffer& pixels, int x, int y, std::int32_t surface) const {
     const int r = line_reach_, d = std::max(1, (r * 7 + 5) / 10);  // straight and diagonal reach
     const std::array<std::pair<int, int>, 8> around = {{{r, 0}, {-r, 0}, {0, r}, {0, -r}, {d, d}, {-d, d}, {d, -d}, {-d, -d}}};
     for (const auto& [dx, dy] : around) {
-      const int sx = std::clamp(x + dx, 0, pixels_.width - 1), sy = std::clamp(y + dy, 0, pixels_.height - 1);
-      if (pixels_.surface[pixels_.index(sx, sy)] != surface) return true;
+      const int sx = std::clamp(x + dx, 0, pixels.width - 1), sy = std::clamp(y + dy, 0, pixels.height - 1);
+      if (pixels.surface[pixels.index(sx, sy)] != surface) return true;
     }
     return false;
   }
 
   const PixelBuffer& pixels_;
   std::span<const Rgb> colors_, mark_colors_;
+  const Surroundings& around_;
   ShadeOptions options_;
   std::array<Offset, kOcclusionSamples> spiral_;
   std::array<Offset, 16> turn_{};
@@ -129,9 +150,9 @@ class Shader {
 
 }  // namespace
 
-void shade(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const Rgb> mark_colors, const ShadeOptions& options,
-           Image& image, int left, int top) {
-  const Shader shader(pixels, colors, mark_colors, options);
+void shade(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const Rgb> mark_colors, const Surroundings& around,
+           const ShadeOptions& options, Image& image, int left, int top) {
+  const Shader shader(pixels, colors, mark_colors, around, options);
   const int rows = pixels.height / options.samples, columns = pixels.width / options.samples;
   const float weight = 1.0f / static_cast<float>(options.samples * options.samples);
 #pragma omp parallel for schedule(dynamic, 16)

@@ -3,6 +3,7 @@
 
 #include "scenarios/pictures/image.h"
 #include "scenarios/pictures/rasterize.h"
+#include "scenarios/pictures/surroundings.h"
 
 namespace morula::scenarios {
 
@@ -20,8 +21,11 @@ struct ShadeOptions {
 /// (estimator: McGuire et al. 2011, eq. 10, doi:10.1145/2018323.2018327; its samples are rotated from sub-pixel to sub-pixel), a
 /// slight fade with depth, and a thin dark line where one cell ends and another one begins. Cut faces are flat and a little lighter.
 ///
+/// Obstacles are grey: behind cells they are hidden, before them a thin veil, where no cell is they are seen. Fluid of cavities is a pale
+/// blue.
+///
 /// `colors` are indexed by cell; `mark_colors` by bit of a face's marks, empty to leave these out.
-void shade(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const Rgb> mark_colors, const ShadeOptions& options,
-           Image& image, int left, int top);
+void shade(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const Rgb> mark_colors, const Surroundings& around,
+           const ShadeOptions& options, Image& image, int left, int top);
 
 }  // namespace morula::scenarios

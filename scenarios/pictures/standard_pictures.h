@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/pictures/coloring.h"
 #include "scenarios/pictures/image.h"
 #include "scenarios/results/snapshot.h"
 
@@ -19,9 +20,10 @@ struct Picture {
 
 /// The pictures every run gets. `snapshots` in order of time, usually at 0, 25, 50, 75 and 100 % of a run.
 ///
-/// Frames (640 × 640) of each snapshot: the whole tissue by type (by body where there is but one type and both bodies), and cut in
-/// half by pressure. Large (900 × 900) of the last: whole and cut by body, cut by type or cell, cut by pressure, and each field.
-/// Camera and colour scales are the same in all, fitted to the largest snapshot, so that the frames compare. Deterministic.
-std::vector<Picture> standard_pictures(std::span<const Snapshot> snapshots);
+/// Frames (640 pixels wide) of each snapshot: the whole tissue by type (by body where there is but one type and both bodies), and cut by
+/// pressure. Large (900 pixels wide) of the last: whole and cut by body where there are both, cut by type or cell, cut by pressure, and
+/// each field. The view suits the tissue (view.h); a picture whose cut meets no cell is left out. Cameras and colour scales are the same in
+/// all, fitted to the largest snapshot, so that the frames compare. `type_colors`: as the study gives them. Deterministic.
+std::vector<Picture> standard_pictures(std::span<const Snapshot> snapshots, const TypeColors& type_colors = {});
 
 }  // namespace morula::scenarios

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "scenarios/pictures/annotate.h"
 #include "scenarios/pictures/palette.h"
 
 namespace morula::scenarios {
@@ -27,7 +28,7 @@ std::string color_text(int color) {
   return buffer;
 }
 
-std::string axis_title(const CurveAxis& axis) { return axis.unit.empty() ? axis.label : axis.label + " [" + axis.unit + "]"; }
+std::string axis_title(const CurveAxis& axis) { return axis.unit.empty() ? axis.label : axis.label + " [" + display_text(axis.unit) + "]"; }
 
 double position(double value, const Ticks& ticks, bool logarithmic) {
   if (!logarithmic) return (value - ticks.low) / (ticks.high - ticks.low);
@@ -65,15 +66,41 @@ std::string xml_escaped(std::string_view text) {
   return out;
 }
 
-SvgFrame::SvgFrame(const std::string& title, int width, int height, SvgUse use)
-    : height_(height), left_(70.0), right_(width - 18.0), top_(title.empty() ? 18.0 : 38.0), bottom_(height - 50.0) {
-  out_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + std::to_string(width) + " " + std::to_string(height) + "\" width=\"" +
-         std::to_string(width) + "\" height=\"" + std::to_string(height) +
+namespace {
+
+constexpr double kLegendRow = 18.0;
+double legend_width(const std::string& name) { return 7.0 * static_cast<double>(name.size()) + 34.0; }
+
+/// How many rows a legend takes between these places.
+int legend_rows(const std::vector<std::string>& names, double left, double right) {
+  if (names.size() < 2) return 0;
+  int rows = 1;
+  double at = left;
+  for (const std::string& name : names) {
+    if (at > left && at + legend_width(name) > right) at = left, ++rows;
+    at += legend_width(name);
+  }
+  return rows;
+}
+
+}  // namespace
+
+SvgFrame::SvgFrame(const std::string& title, int width, int height, SvgUse use, const std::vector<std::string>& names,
+                   const std::vector<int>& colors)
+    : right_(width - 18.0) {
+  const double legend_height = kLegendRow * legend_rows(names, left_, right_);
+  height_ = height + static_cast<int>(legend_height);
+  top_ = (title.empty() ? 18.0 : 38.0) + legend_height;
+  bottom_ = height_ - 50.0;
+  out_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + std::to_string(width) + " " + std::to_string(height_) +
+         "\" width=\"" + std::to_string(width) + "\" height=\"" + std::to_string(height_) +
          "\" role=\"img\" font-family=\"system-ui, 'Helvetica Neue', Arial, sans-serif\"" +
          (use == SvgUse::kFile ? " style=\"background:#fff;color:#22252b\"" : "") + ">\n";
-  if (title.empty()) return;
-  out_ += "<title>" + xml_escaped(title) + "</title>\n";
-  text(left_, 22.0, title, "start", 15.0, " font-weight=\"600\"");
+  if (!title.empty()) {
+    out_ += "<title>" + xml_escaped(title) + "</title>\n";
+    text(16.0, 22.0, title, "start", 15.0, " font-weight=\"600\"");
+  }
+  legend(names, colors);
 }
 
 void SvgFrame::text(double x, double y, const std::string& content, const char* anchor, double size, const std::string& more) {
@@ -91,10 +118,13 @@ void SvgFrame::axes(const CurveAxis& x_axis, const CurveAxis& y_axis, const Tick
     out_ += "<path d=\"M" + px(left_) + " " + px(at) + "H" + px(right_) + "\" stroke=\"currentColor\" stroke-opacity=\"0.14\"/>\n";
     text(left_ - 8.0, at + 4.0, upwards.text[i], "end", 12.0);
   }
+  double free_from = -1e300;  // numbers along the axis never touch
   for (std::size_t i = 0; i < along.at.size(); ++i) {
-    const double at = x(along.at[i]);
+    const double at = x(along.at[i]), half = 3.5 * static_cast<double>(along.text[i].size());
     out_ += "<path d=\"M" + px(at) + " " + px(bottom_) + "v5\" stroke=\"currentColor\"/>\n";
+    if (at - half < free_from) continue;
     text(at, bottom_ + 19.0, along.text[i], "middle", 12.0);
+    free_from = at + half + 6.0;
   }
   out_ +=
       "<path d=\"M" + px(left_) + " " + px(top_) + "V" + px(bottom_) + "H" + px(right_) + "\" fill=\"none\" stroke=\"currentColor\"/>\n";
@@ -137,25 +167,22 @@ void SvgFrame::limit(const CurveLimit& limit) {
   const double at = y(limit.value);
   out_ += "<path d=\"M" + px(left_) + " " + px(at) + "H" + px(right_) +
           "\" stroke=\"#c0392b\" stroke-width=\"1.5\" stroke-dasharray=\"7 5\"/>\n";
-  out_ += "<text x=\"" + px(right_ - 4.0) + "\" y=\"" + px(at - 5.0) + "\" text-anchor=\"end\" font-size=\"12\" fill=\"#c0392b\">" +
-          xml_escaped(limit.text) + "</text>\n";
+  out_ += "<text x=\"" + px(right_ - 4.0) + "\" y=\"" + px(at - 5.0) +
+          "\" text-anchor=\"end\" font-size=\"12\" fill=\"#c0392b\" stroke=\"#fff\" stroke-opacity=\"0.85\" stroke-width=\"4\" "
+          "paint-order=\"stroke\">" +
+          xml_escaped(display_text(limit.text)) + "</text>\n";
 }
 
 void SvgFrame::legend(const std::vector<std::string>& names, const std::vector<int>& colors) {
-  if (names.size() < 2) return;
-  // One row over the plot's right part; a second row where the names are long.
-  double at = right_;
-  double row = 22.0;
-  for (std::size_t i = names.size(); i-- > 0;) {
-    const double wide = 7.0 * static_cast<double>(names[i].size()) + 30.0;
-    if (at - wide < left_ + 0.35 * (right_ - left_) && at < right_) {
-      at = right_;
-      row += 17.0;
-    }
-    at -= wide;
+  const int rows = legend_rows(names, left_, right_);
+  if (rows == 0) return;
+  double at = left_, row = top_ - kLegendRow * rows + 4.0;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (at > left_ && at + legend_width(names[i]) > right_) at = left_, row += kLegendRow;
     out_ += "<path d=\"M" + px(at) + " " + px(row - 4.0) + "h16\" stroke=\"" + color_text(colors[i]) +
             "\" stroke-width=\"4\" stroke-linecap=\"round\"/>\n";
     text(at + 22.0, row, names[i], "start", 12.0);
+    at += legend_width(names[i]);
   }
 }
 

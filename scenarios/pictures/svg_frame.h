@@ -11,7 +11,9 @@ namespace morula::scenarios {
 /// The SVG text of one plot while it is drawn: axes first, then what they show.
 class SvgFrame {
  public:
-  SvgFrame(const std::string& title, int width, int height, SvgUse use);
+  /// `names` and `colors` of the legend, a row of its own below the title (more rows where the names are long); nothing for a single name.
+  SvgFrame(const std::string& title, int width, int height, SvgUse use, const std::vector<std::string>& names = {},
+           const std::vector<int>& colors = {});
 
   void axes(const CurveAxis& x, const CurveAxis& y, const Ticks& along, const Ticks& upwards);
 
@@ -28,16 +30,16 @@ class SvgFrame {
 
   void bar(double left, double right, double height, int color);  ///< data coordinates
   void limit(const CurveLimit& limit);
-  void legend(const std::vector<std::string>& names, const std::vector<int>& colors);  ///< nothing for a single name
   void no_data();
   std::string finish();
 
  private:
+  void legend(const std::vector<std::string>& names, const std::vector<int>& colors);
   void text(double x, double y, const std::string& content, const char* anchor, double size, const std::string& more = "");
 
   std::string out_;
   int height_;
-  double left_, right_, top_, bottom_;
+  double left_ = 70.0, right_, top_, bottom_;
   Ticks along_, upwards_;
   bool log_x_ = false, log_y_ = false;
 };

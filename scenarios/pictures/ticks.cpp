@@ -2,11 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "scenarios/pictures/annotate.h"
 #include "scenarios/pictures/camera.h"
 
 namespace morula::scenarios {
+namespace {
+
+/// The range with a number at each multiple of the step.
+Ticks with_step(double low, double high, double step) {
+  Ticks ticks{low, high, {}, {}};
+  for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) {
+    ticks.at.push_back(i * step);
+    ticks.text.push_back(short_number(i * step, 6));
+  }
+  return ticks;
+}
+
+}  // namespace
+
+Ticks time_ticks(double low, double high, int wanted, const std::string& unit) {
+  static constexpr double kHours[] = {0.25, 0.5, 1, 2, 3, 6, 12, 24, 48, 96, 168, 336, 672};
+  static constexpr double kMinutes[] = {0.25, 0.5, 1, 2, 5, 10, 15, 20, 30, 60, 120};
+  const std::span<const double> steps = unit == "h" ? std::span<const double>(kHours) : std::span<const double>(kMinutes);
+  const double raw = (high - low) / std::max(1, wanted);
+  if ((unit != "h" && unit != "min") || !(raw >= 0.6 * steps.front()) || raw > steps.back()) return linear_ticks(low, high, wanted, false);
+  return with_step(low, high, *std::find_if(steps.begin(), steps.end() - 1, [&](double step) { return step >= raw; }));
+}
 
 Ticks linear_ticks(double low, double high, int wanted, bool widen) {
   if (!(high > low)) {
@@ -16,16 +39,7 @@ Ticks linear_ticks(double low, double high, int wanted, bool widen) {
   }
   const double raw = (high - low) / std::max(1, wanted);
   const double step = nice_below(raw * 1.5);
-  Ticks ticks{low, high, {}, {}};
-  if (widen) {
-    ticks.low = std::floor(low / step + 1e-9) * step;
-    ticks.high = std::ceil(high / step - 1e-9) * step;
-  }
-  for (double i = std::ceil(ticks.low / step - 1e-9); i * step <= ticks.high + 1e-9 * step; ++i) {
-    ticks.at.push_back(i * step);
-    ticks.text.push_back(short_number(i * step, 6));
-  }
-  return ticks;
+  return widen ? with_step(std::floor(low / step + 1e-9) * step, std::ceil(high / step - 1e-9) * step, step) : with_step(low, high, step);
 }
 
 Ticks log_ticks(double low, double high, bool widen) {

@@ -1,6 +1,7 @@
 #include "scenarios/report/report.h"
 
 #include <algorithm>
+#include <span>
 #include <string_view>
 
 #include "scenarios/pictures/annotate.h"
@@ -55,13 +56,19 @@ void add_head(std::string& out, const ReportContent& content) {
 void add_verdict(std::string& out, const ReportContent& content) {
   if (content.criteria.empty()) return;
   const auto passed = std::count_if(content.criteria.begin(), content.criteria.end(), [](const auto& c) { return c.passed; });
-  const bool all = passed == static_cast<std::ptrdiff_t>(content.criteria.size());
-  add(out, "<section>\n<h2>Verdict</h2>\n<p class=\"", all ? "badge good" : "badge bad", "\">", std::to_string(passed), " of ",
-      std::to_string(content.criteria.size()), " criteria passed</p>\n");
+  const bool all = passed == static_cast<std::ptrdiff_t>(content.criteria.size()), own = content.scenario.empty();
+  add(out, "<section>\n<h2>", own ? "Numerical checks" : "Verdict", "</h2>\n<p class=\"", all ? "badge good" : "badge bad", "\">",
+      std::to_string(passed), " of ", std::to_string(content.criteria.size()), own ? " checks passed</p>\n" : " criteria passed</p>\n");
   std::vector<Row> rows;
   for (const auto& c : content.criteria)
-    rows.push_back({{c.id, c.text, c.value, c.limit, c.passed ? "✓ passed" : "✗ failed"}, c.passed ? "good" : "bad"});
-  add_table(out, {"id", "criterion", "value", "limit", "result"}, rows);
+    rows.push_back(
+        {{c.id, c.text, display_text(c.value), display_text(c.limit), c.passed ? "✓ passed" : "✗ failed"}, c.passed ? "good" : "bad"});
+  add_table(out, {"id", own ? "check" : "criterion", "value", "limit", "result"}, rows);
+  if (!content.not_checked.empty()) {
+    add(out, "<h3>Not checked</h3>\n<ul>\n");
+    for (const std::string& what : content.not_checked) add(out, "<li>", xml_escaped(what), "</li>\n");
+    add(out, "</ul>\n");
+  }
   add(out, "</section>\n");
 }
 
@@ -73,28 +80,66 @@ void add_key_numbers(std::string& out, const ReportContent& content) {
   add(out, "</dl>\n</section>\n");
 }
 
-Status add_pictures(std::string& out, const ReportContent& content, bool frames) {
-  const auto wanted = [&](const Picture& picture) { return picture.frame == frames; };
-  if (std::none_of(content.pictures.begin(), content.pictures.end(), wanted)) return {};
-  add(out, frames ? "<section>\n<h2>Over time</h2>\n" : "<section>\n<h2>Final state</h2>\n", "<div class=\"", frames ? "frames" : "large",
-      "\">\n");
+Status add_figure(std::string& out, const Picture& picture, bool hidden) {
+  MORULA_TRY_ASSIGN(const auto png, encode_png(picture.image));
+  const std::string caption = xml_escaped(picture.caption);
+  add(out, hidden ? "<figure hidden=\"hidden\">" : "<figure>", "<img src=\"data:image/png;base64,", base64(png), "\" width=\"",
+      std::to_string(picture.image.width), "\" height=\"", std::to_string(picture.image.height), "\" alt=\"", caption, "\"/><figcaption>",
+      caption, "</figcaption></figure>\n");
+  return {};
+}
+
+/// The row a frame belongs to: its name without the number at the end.
+std::string_view row_of(const Picture& picture) {
+  const std::string_view name = picture.name;
+  return name.substr(0, name.find_last_not_of("0123456789") + 1);
+}
+
+/// Frames of one row with a slider; the last is shown first.
+Status add_film(std::string& out, std::span<const Picture* const> frames) {
+  // The slider shows the figure of its number. No `<` and no `&` in the script: the page stays well-formed.
+  static constexpr const char* kShow =
+      "var f=this.parentNode.parentNode.getElementsByTagName('figure');for(var i=0;i!=f.length;i+=1)f[i].hidden=(i!=this.value)";
+  add(out, "<div class=\"film\">\n");
+  for (const Picture* frame : frames) MORULA_TRY(add_figure(out, *frame, frame != frames.back()));
+  if (frames.size() > 1)
+    add(out, "<label>", xml_escaped(short_time(frames.front()->time)), " <input type=\"range\" min=\"0\" max=\"",
+        std::to_string(frames.size() - 1), "\" value=\"", std::to_string(frames.size() - 1), "\" aria-label=\"time\" oninput=\"", kShow,
+        "\"/> ", xml_escaped(short_time(frames.back()->time)), "</label>\n");
+  add(out, "</div>\n");
+  return {};
+}
+
+Status add_films(std::string& out, const ReportContent& content) {
+  std::vector<std::vector<const Picture*>> films;
   for (const Picture& picture : content.pictures) {
-    if (!wanted(picture)) continue;
-    MORULA_TRY_ASSIGN(const auto png, encode_png(picture.image));
-    const std::string caption = xml_escaped(picture.caption);
-    add(out, "<figure><img src=\"data:image/png;base64,", base64(png), "\" width=\"", std::to_string(picture.image.width), "\" height=\"",
-        std::to_string(picture.image.height), "\" alt=\"", caption, "\"/><figcaption>", caption, "</figcaption></figure>\n");
+    if (!picture.frame) continue;
+    if (films.empty() || row_of(*films.back().back()) != row_of(picture)) films.emplace_back();
+    films.back().push_back(&picture);
   }
+  if (films.empty()) return {};
+  add(out, "<section>\n<h2>Over time</h2>\n<div class=\"large\">\n");
+  for (const auto& film : films) MORULA_TRY(add_film(out, film));
   add(out, "</div>\n</section>\n");
   return {};
 }
 
-void add_plots(std::string& out, const ReportContent& content) {
-  if (content.plots.empty()) return;
-  add(out, "<section>\n<h2>Curves</h2>\n<div class=\"plots\">\n");
-  for (const ReportPlot& plot : content.plots)
-    add(out, "<figure>", plot.svg, "<figcaption>", xml_escaped(plot.caption), "</figcaption></figure>\n");
+Status add_final_pictures(std::string& out, const ReportContent& content) {
+  if (std::all_of(content.pictures.begin(), content.pictures.end(), [](const Picture& picture) { return picture.frame; })) return {};
+  add(out, "<section>\n<h2>Final state</h2>\n<div class=\"large\">\n");
+  for (const Picture& picture : content.pictures)
+    if (!picture.frame) MORULA_TRY(add_figure(out, picture, false));
   add(out, "</div>\n</section>\n");
+  return {};
+}
+
+void add_plots(std::string& out, const ReportContent& content, bool numerics) {
+  const auto wanted = [&](const ReportPlot& plot) { return plot.numerics == numerics; };
+  if (std::none_of(content.plots.begin(), content.plots.end(), wanted)) return;
+  add(out, numerics ? "<details>\n<summary>Steps and solver</summary>\n" : "<section>\n<h2>Curves</h2>\n", "<div class=\"plots\">\n");
+  for (const ReportPlot& plot : content.plots)
+    if (wanted(plot)) add(out, "<figure>", plot.svg, "<figcaption>", xml_escaped(plot.caption), "</figcaption></figure>\n");
+  add(out, numerics ? "</div>\n</details>\n" : "</div>\n</section>\n");
 }
 
 void add_limits(std::string& out, const ReportContent& content) {
@@ -147,6 +192,24 @@ void add_methods(std::string& out, const ReportContent& content) {
   add(out, "</section>\n");
 }
 
+void add_folded_text(std::string& out, const char* summary, const std::string& text) {
+  if (!text.empty()) add(out, "<details>\n<summary>", summary, "</summary>\n<pre>", xml_escaped(text), "</pre>\n</details>\n");
+}
+
+void add_study(std::string& out, const ReportContent& content) {
+  if (content.study_text.empty() && content.parameters_text.empty()) return;
+  add(out, "<section>\n<h2>Study</h2>\n");
+  add_folded_text(out, "The study as it was given", content.study_text);
+  add_folded_text(out, "All parameters, with every default", content.parameters_text);
+  add(out, "</section>\n");
+}
+
+void add_citation(std::string& out, const ReportContent& content) {
+  if (content.citation.empty()) return;
+  add(out, "<section>\n<h2>How to cite</h2>\n<p>", xml_escaped(content.citation), "</p>\n<pre>", xml_escaped(content.bibtex),
+      "</pre>\n</section>\n");
+}
+
 void add_provenance(std::string& out, const ReportContent& content) {
   if (content.provenance.empty()) return;
   add(out, "<section>\n<h2>How it was run</h2>\n");
@@ -177,13 +240,16 @@ Result<std::string> report_html(const ReportContent& content) {
   add_head(out, content);
   add_verdict(out, content);
   add_key_numbers(out, content);
-  MORULA_TRY(add_pictures(out, content, true));
-  MORULA_TRY(add_pictures(out, content, false));
-  add_plots(out, content);
-  add_limits(out, content);
+  MORULA_TRY(add_films(out, content));
+  MORULA_TRY(add_final_pictures(out, content));
+  add_plots(out, content, false);
   add_events(out, content);
-  add_provenance(out, content);
+  add_limits(out, content);
+  add_plots(out, content, true);
+  add_study(out, content);
   add_methods(out, content);
+  add_provenance(out, content);
+  add_citation(out, content);
   add(out, "</main>\n</body>\n</html>\n");
   return out;
 }

@@ -42,6 +42,7 @@ struct ReportEvents {
 /// A plot as inline SVG: curves_svg(…, SvgUse::kInline).
 struct ReportPlot {
   std::string caption, svg;
+  bool numerics = false;  ///< about steps and solver: below a fold
 };
 
 /// Everything report.html says: plain data, filled in from a run folder.
@@ -57,11 +58,15 @@ struct ReportContent {
   std::vector<std::pair<double, std::string>> warnings;         ///< time [s], text
   std::vector<std::pair<std::string, std::string>> provenance;  ///< version, command, ranks, threads, seed, wall time, host …
   std::vector<UsedLaw> laws;
+  std::vector<std::string> not_checked;     ///< what the criteria do not tell
+  std::string study_text, parameters_text;  ///< the study as given, and with every default
+  std::string citation, bibtex;             ///< how to cite this version
 };
 
-/// The report as one self-contained HTML page (well-formed XML as well): pictures as base64, curves inline, no script, nothing fetched;
-/// follows the reader's light or dark setting, and prints. All text is escaped; the SVG of plots is taken as it is.
-/// Error: a picture could not be encoded.
+/// The report as one self-contained HTML page (well-formed XML as well): pictures as base64, curves inline, nothing fetched; the only
+/// script is that of the slider over the frames. Criteria of a library study are its verdict, those of a user's study numerical checks.
+/// Follows the reader's light or dark setting, and prints all frames. All text is escaped; the SVG of plots is taken as it is. Error: a
+/// picture could not be encoded.
 Result<std::string> report_html(const ReportContent& content);
 
 /// report_html to a file, which is replaced only when all is written.

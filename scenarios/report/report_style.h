@@ -33,10 +33,14 @@ figure { margin: 0; }
 figcaption { font-size: 0.86rem; margin-top: 4px; }
 img { width: 100%; height: auto; display: block; border: 1px solid var(--line); border-radius: 8px; background: #fff; }
 svg { width: 100%; height: auto; display: block; }
-.frames { display: grid; grid-template-columns: repeat(auto-fill, minmax(210px, 1fr)); gap: 14px; }
+.film label { display: flex; gap: 10px; align-items: center; color: var(--soft); font-size: 0.86rem; }
+.film input { flex: 1; }
+details { margin: 14px 0; }
+summary { cursor: pointer; font-weight: 600; margin-bottom: 8px; }
+pre { background: var(--card); padding: 12px; border-radius: 6px; overflow-x: auto; font-size: 0.85rem; }
 .large, .plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 430px), 1fr)); gap: 22px; }
 @media print { main { max-width: none; padding: 0; } figure, tr, article { break-inside: avoid; }
-  .frames { grid-template-columns: repeat(5, 1fr); } .large, .plots { grid-template-columns: 1fr 1fr; } }
+  figure[hidden] { display: block; } .film label { display: none; } .large, .plots { grid-template-columns: 1fr 1fr; } }
 )";
 
 }  // namespace morula::scenarios

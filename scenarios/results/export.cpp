@@ -29,11 +29,12 @@ std::string quoted(const std::string& text) {
 std::string as_text(const Snapshot& s, std::uint16_t type) {
   return type < s.type_names.size() ? quoted(s.type_names[type]) : std::to_string(type);
 }
-std::string as_text(const Snapshot&, BodyKind body) { return body == BodyKind::kSphere ? "sphere" : "shell"; }
-std::string as_text(const Snapshot&, Phase phase) {
-  static constexpr std::array kNames{"growing", "waiting", "resting", "dying"};
-  return static_cast<std::size_t>(phase) < kNames.size() ? kNames[static_cast<std::size_t>(phase)] : "unknown";
+template <std::size_t kCount>
+std::string name_at(const std::array<const char*, kCount>& names, std::size_t kind) {
+  return kind < kCount ? names[kind] : "unknown";
 }
+std::string as_text(const Snapshot&, BodyKind body) { return name_at(kBodyNames, static_cast<std::size_t>(body)); }
+std::string as_text(const Snapshot&, Phase phase) { return name_at(kPhaseNames, static_cast<std::size_t>(phase)); }
 std::string as_text(const Snapshot&, const Vec3d& v) { return shortest_text(v.x) + ',' + shortest_text(v.y) + ',' + shortest_text(v.z); }
 std::string as_text(const Snapshot& s, const std::array<double, kMaxFields>& values) {
   std::string out;
@@ -73,14 +74,14 @@ std::string file_name(const char* stem, std::size_t number, const char* suffix) 
 
 std::string cells_as_csv(const Snapshot& s) {
   std::string out;
-  for_each_snapshot_column([&](const std::string& name, const std::string& units, auto member) {
+  for_each_snapshot_column([&](const std::string& name, const std::string& units, const char*, auto member) {
     const std::string columns = heading<std::remove_cvref_t<decltype(s.cells.front().*member)>>(s, name, units);
     if (!columns.empty()) out += (out.empty() ? "" : ",") + columns;
   });
   out += '\n';
   for (const Snapshot::Cell& cell : s.cells) {
     std::string line;
-    for_each_snapshot_column([&](const char*, const char*, auto member) {
+    for_each_snapshot_column([&](const char*, const char*, const char*, auto member) {
       const std::string values = as_text(s, cell.*member);
       if (!values.empty()) line += (line.empty() ? "" : ",") + values;
     });

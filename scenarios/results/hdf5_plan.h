@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/cell_id.h"
@@ -60,12 +61,23 @@ struct Stored<std::array<T, N>> {
 template <class Real>
 struct Stored<Vec3<Real>> : Stored<std::array<Real, 3>> {};
 
+/// What is said of a dataset inside the file.
+struct DatasetLabel {
+  std::string units;                 ///< the attribute `units`
+  std::string description;           ///< the attribute `description`; empty: none
+  std::vector<std::string> kinds{};  ///< names of the values 0, 1, ..: the dataset becomes an HDF5 enumeration; empty: plain numbers
+
+  DatasetLabel(std::string units_, std::string description_ = "", std::vector<std::string> kinds_ = {})
+      : units(std::move(units_)), description(std::move(description_)), kinds(std::move(kinds_)) {}
+  DatasetLabel(const char* units_) : units(units_) {}
+};
+
 /// The datasets that one file, or one addition to a file, is to hold: each rank gives its slice. Written by create_file or add_to_file.
 class StoragePlan {
  public:
   struct Dataset {
-    std::string path;   ///< from the root of the file, groups are made as needed
-    std::string units;  ///< the attribute `units`
+    std::string path;  ///< from the root of the file, groups are made as needed
+    DatasetLabel label;
     StoredType type{};
     std::uint32_t width = 1;       ///< values a row; 1: a one-dimensional dataset
     std::vector<std::byte> bytes;  ///< this rank's rows
@@ -76,35 +88,50 @@ class StoragePlan {
 
   /// A table cut over the ranks: slices follow one another in rank order. Collective in the sense that all ranks add the same datasets in the same order.
   template <class T>
-  void add(const std::string& path, const std::string& units, std::span<const T> local) {
+  void add(const std::string& path, const DatasetLabel& label, std::span<const T> local) {
     const auto raw = std::as_bytes(local);
-    datasets_.push_back({prefix_ + path, units, Stored<T>::type, Stored<T>::width, {raw.begin(), raw.end()}});
+    datasets_.push_back({prefix_ + path, label, Stored<T>::type, Stored<T>::width, {raw.begin(), raw.end()}});
   }
   template <class T>
-  void add(const std::string& path, const std::string& units, const std::vector<T>& local) {
-    add(path, units, std::span<const T>(local));
+  void add(const std::string& path, const DatasetLabel& label, const std::vector<T>& local) {
+    add(path, label, std::span<const T>(local));
   }
   /// A table that the root has whole.
   template <class T>
-  void add_from_root(const std::string& path, const std::string& units, std::span<const T> whole) {
-    add(path, units, is_root_ ? whole : std::span<const T>{});
+  void add_from_root(const std::string& path, const DatasetLabel& label, std::span<const T> whole) {
+    add(path, label, is_root_ ? whole : std::span<const T>{});
   }
   /// One row, from the root.
   template <class T>
-  void add_value(const std::string& path, const std::string& units, const T& value) {
-    add_from_root(path, units, std::span<const T>(&value, 1));
+  void add_value(const std::string& path, const DatasetLabel& label, const T& value) {
+    add_from_root(path, label, std::span<const T>(&value, 1));
   }
   /// Strings, from the root.
-  void add_text(const std::string& path, std::span<const std::string> texts);
-  void add_text(const std::string& path, const std::string& text) { add_text(path, std::span(&text, 1)); }
+  void add_text(const std::string& path, std::span<const std::string> texts, const DatasetLabel& label = "");
+  void add_text(const std::string& path, const std::string& text, const DatasetLabel& label = "") {
+    add_text(path, std::span(&text, 1), label);
+  }
+  /// Strings cut over the ranks like the rows of a table; all ranks give the same `width`, no less than the longest string of any rank
+  /// [bytes].
+  void add_text_rows(const std::string& path, const DatasetLabel& label, std::span<const std::string> local, std::uint32_t width);
+  /// An attribute of the root group: a text or a whole number. Written when the file is made; a file that is there keeps its own.
+  void add_attribute(const std::string& name, std::string value) { attributes_.push_back({name, std::move(value), 0, true}); }
+  void add_attribute(const std::string& name, std::uint64_t value) { attributes_.push_back({name, "", value, false}); }
 
+  struct Attribute {
+    std::string name, text;
+    std::uint64_t number = 0;
+    bool is_text = true;
+  };
   [[nodiscard]] const std::vector<Dataset>& datasets() const { return datasets_; }
   [[nodiscard]] std::vector<Dataset>& datasets() { return datasets_; }
+  [[nodiscard]] const std::vector<Attribute>& attributes() const { return attributes_; }
 
  private:
   bool is_root_;
   std::string prefix_;
   std::vector<Dataset> datasets_;
+  std::vector<Attribute> attributes_;
 };
 
 /// Collective. Writes a new file with a `manifest` (the list of datasets with their checksums) and its checksum: aside as `.tmp`, synced,

@@ -50,6 +50,12 @@ std::string text_attribute(hid_t object, const char* name) {
   return value.substr(0, value.find('\0'));
 }
 
+/// The type of the stored values: that of the numbers below an enumeration.
+Hdf5Handle value_type(const Hdf5Handle& dataset) {
+  Hdf5Handle type(H5Dget_type(dataset.get()), H5Tclose);
+  return H5Tget_class(type.get()) == H5T_ENUM ? Hdf5Handle(H5Tget_super(type.get()), H5Tclose) : std::move(type);
+}
+
 }  // namespace
 
 Hdf5Reader::Hdf5Reader(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -103,12 +109,45 @@ Result<std::string> Hdf5Reader::units(const std::string& path) const {
   return text_attribute(dataset.get(), "units");
 }
 
+Result<std::string> Hdf5Reader::description(const std::string& path) const {
+  const Hdf5Handle dataset = open_dataset(state_->file.get(), path);
+  if (!dataset.ok()) return damaged("no dataset '" + path + "'");
+  return text_attribute(dataset.get(), "description");
+}
+
+Result<std::vector<std::string>> Hdf5Reader::kinds(const std::string& path) const {
+  const Hdf5Handle dataset = open_dataset(state_->file.get(), path);
+  if (!dataset.ok()) return damaged("no dataset '" + path + "'");
+  const Hdf5Handle type(H5Dget_type(dataset.get()), H5Tclose);
+  std::vector<std::string> names;
+  const int count = H5Tget_class(type.get()) == H5T_ENUM ? H5Tget_nmembers(type.get()) : 0;
+  for (int i = 0; i < count; ++i) {
+    char* name = H5Tget_member_name(type.get(), static_cast<unsigned>(i));
+    names.emplace_back(name == nullptr ? "" : name);
+    H5free_memory(name);
+  }
+  return names;
+}
+
+std::optional<std::uint64_t> Hdf5Reader::root_number(const std::string& name) const {
+  const Hdf5Handle attribute(H5Aopen(state_->file.get(), name.c_str(), H5P_DEFAULT), H5Aclose);
+  std::uint64_t value = 0;
+  if (!attribute.ok() || H5Aread(attribute.get(), H5T_NATIVE_UINT64, &value) < 0) return std::nullopt;
+  return value;
+}
+
+std::string Hdf5Reader::root_text(const std::string& name) const { return text_attribute(state_->file.get(), name.c_str()); }
+
+bool Hdf5Reader::is_group(const std::string& path) const {
+  return Hdf5Handle(H5Gopen2(state_->file.get(), path.c_str(), H5P_DEFAULT), H5Gclose).ok();
+}
+
 Status Hdf5Reader::check_share(const std::string& path, StoredType type, std::uint32_t width, std::uint64_t first,
                                std::uint64_t count) const {
   const Hdf5Handle dataset = open_dataset(state_->file.get(), path);
   const auto shape = dataset.ok() ? shape_of(dataset) : std::nullopt;
   if (!shape) return damaged("no dataset '" + path + "'");
-  const Hdf5Handle stored(H5Dget_type(dataset.get()), H5Tclose), wanted(file_type(type, width), H5Tclose);
+  const Hdf5Handle stored = value_type(dataset), wanted(file_type(type, width), H5Tclose);
   if (shape->width != width || H5Tequal(stored.get(), wanted.get()) <= 0) return damaged("dataset '" + path + "' is of another type");
   if (first > shape->rows || count > shape->rows - first) return damaged("dataset '" + path + "' is too short");
   return {};
@@ -124,7 +163,7 @@ Status Hdf5Reader::read_raw(const std::string& path, StoredType type, std::uint3
   const Hdf5Handle file_space(H5Dget_space(dataset.get()), H5Sclose);
   H5Sselect_hyperslab(file_space.get(), H5S_SELECT_SET, begin, nullptr, size, nullptr);
   const Hdf5Handle memory_space(H5Screate_simple(wide ? 2 : 1, size, nullptr), H5Sclose);
-  const Hdf5Handle memory_type(file_type(type, width), H5Tclose);
+  const Hdf5Handle memory_type(H5Dget_type(dataset.get()), H5Tclose);  // check_share has seen that it is laid out as `type` is
   if (H5Dread(dataset.get(), memory_type.get(), memory_space.get(), file_space.get(), H5P_DEFAULT, out) < 0)
     return damaged("dataset '" + path + "': " + hdf5_reason());
   return {};

@@ -25,6 +25,14 @@ class Hdf5Reader {
   [[nodiscard]] Result<std::uint64_t> rows(const std::string& path) const;
   /// The attribute `units` of a dataset.
   [[nodiscard]] Result<std::string> units(const std::string& path) const;
+  /// The attribute `description` of a dataset; empty if it has none.
+  [[nodiscard]] Result<std::string> description(const std::string& path) const;
+  /// Names of the values of an enumeration, in the order of their numbers; empty for any other dataset.
+  [[nodiscard]] Result<std::vector<std::string>> kinds(const std::string& path) const;
+  /// An attribute of the root group.
+  [[nodiscard]] std::optional<std::uint64_t> root_number(const std::string& name) const;
+  [[nodiscard]] std::string root_text(const std::string& name) const;
+  [[nodiscard]] bool is_group(const std::string& path) const;
 
   /// Rows first .. first+count−1.
   template <class T>

@@ -1,6 +1,7 @@
 #include "scenarios/results/hdf5_types.h"
 
 #include <algorithm>
+#include <array>
 
 #include "scenarios/results/hdf5_handle.h"
 
@@ -25,7 +26,9 @@ std::size_t size_of(StoredType type) {
   return 1;
 }
 
-hid_t file_type(StoredType type, std::uint32_t width) {
+namespace {
+
+hid_t plain_type(StoredType type, std::uint32_t width) {
   switch (type) {
     case StoredType::kUint8:
       return H5Tcopy(H5T_STD_U8LE);
@@ -53,16 +56,36 @@ hid_t file_type(StoredType type, std::uint32_t width) {
   return text;
 }
 
-void StoragePlan::add_text(const std::string& path, std::span<const std::string> texts) {
-  Dataset dataset{prefix_ + path, "", StoredType::kText, 1, {}};
-  if (is_root_) {
-    for (const std::string& text : texts) dataset.width = std::max(dataset.width, static_cast<std::uint32_t>(text.size()));
-    for (const std::string& text : texts) {
-      const std::size_t old = dataset.bytes.size();
-      dataset.bytes.resize(old + dataset.width);
-      std::copy(text.begin(), text.end(), reinterpret_cast<char*>(dataset.bytes.data()) + old);
-    }
+}  // namespace
+
+hid_t file_type(StoredType type, std::uint32_t width, std::span<const std::string> kinds) {
+  const hid_t plain = plain_type(type, width);
+  if (kinds.empty()) return plain;
+  const hid_t enumeration = H5Tenum_create(plain);
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    // Little-endian bytes of the value: the first bytes are those of every narrower type.
+    std::array<std::uint8_t, 8> value{};
+    for (std::size_t byte = 0; byte < value.size(); ++byte) value[byte] = static_cast<std::uint8_t>(i >> (8 * byte));
+    H5Tenum_insert(enumeration, kinds[i].c_str(), value.data());
   }
+  H5Tclose(plain);
+  return enumeration;
+}
+
+void StoragePlan::add_text(const std::string& path, std::span<const std::string> texts, const DatasetLabel& label) {
+  std::size_t width = 1;
+  if (is_root_)
+    for (const std::string& text : texts) width = std::max(width, text.size());
+  add_text_rows(path, label, is_root_ ? texts : std::span<const std::string>{}, static_cast<std::uint32_t>(width));
+}
+
+void StoragePlan::add_text_rows(const std::string& path, const DatasetLabel& label, std::span<const std::string> local,
+                                std::uint32_t width) {
+  Dataset dataset{prefix_ + path, label, StoredType::kText, width, {}};
+  dataset.bytes.resize(local.size() * width);
+  auto* out = reinterpret_cast<char*>(dataset.bytes.data());
+  for (std::size_t i = 0; i < local.size(); ++i)
+    std::copy_n(local[i].begin(), std::min<std::size_t>(local[i].size(), width), out + i * width);
   datasets_.push_back(std::move(dataset));
 }
 

@@ -65,7 +65,7 @@ std::string manifest_text(const std::vector<Dataset>& datasets, const std::vecto
   for (std::size_t i = 0; i < datasets.size(); ++i) {
     const Dataset& d = datasets[i];
     text += checksums[i].hex() + ' ' + std::to_string(static_cast<int>(d.type)) + ' ' + std::to_string(d.width) + ' ' +
-            std::to_string(extents[i].rows) + ' ' + d.path + ' ' + d.units + '\n';
+            std::to_string(extents[i].rows) + ' ' + d.path + ' ' + d.label.units + '\n';
   }
   return text;
 }
@@ -82,6 +82,17 @@ bool write_text_attribute(hid_t object, const char* name, const std::string& val
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Hdf5Handle attribute(H5Acreate2(object, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   return attribute.ok() && H5Awrite(attribute.get(), type.get(), value.empty() ? "\0" : value.data()) >= 0;
+}
+
+bool write_number_attribute(hid_t object, const char* name, std::uint64_t value) {
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Hdf5Handle attribute(H5Acreate2(object, name, H5T_STD_U64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  return attribute.ok() && H5Awrite(attribute.get(), H5T_STD_U64LE, &value) >= 0;
+}
+
+bool write_label(hid_t dataset, const DatasetLabel& label) {
+  return write_text_attribute(dataset, "units", label.units) &&
+         (label.description.empty() || write_text_attribute(dataset, "description", label.description));
 }
 
 /// Makes the groups above a dataset that are missing, without times: HDF5 would note the second in which it makes them itself.
@@ -105,12 +116,12 @@ Status declare(hid_t file, const fs::path& path, const std::vector<Dataset>& dat
   H5Pset_obj_track_times(creation.get(), false);  // the same content gives the same file
   for (std::size_t i = 0; i < datasets.size(); ++i) {
     const Dataset& d = datasets[i];
-    const Hdf5Handle type(file_type(d.type, d.width), H5Tclose);
+    const Hdf5Handle type(file_type(d.type, d.width, d.label.kinds), H5Tclose);
     const hsize_t dims[2] = {extents[i].rows, d.width};
     const Hdf5Handle space(H5Screate_simple(d.type != StoredType::kText && d.width > 1 ? 2 : 1, dims, nullptr), H5Sclose);
     if (!make_groups(file, d.path)) return hdf5_error(path, "make the group of " + d.path + " in");
     const Hdf5Handle dataset(H5Dcreate2(file, d.path.c_str(), type.get(), space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), H5Dclose);
-    if (!dataset.ok() || !write_text_attribute(dataset.get(), "units", d.units)) return hdf5_error(path, "make dataset " + d.path + " in");
+    if (!dataset.ok() || !write_label(dataset.get(), d.label)) return hdf5_error(path, "make dataset " + d.path + " in");
     const haddr_t place = H5Dget_offset(dataset.get());
     if (extents[i].rows != 0 && place == HADDR_UNDEF) return hdf5_error(path, "find room for dataset " + d.path + " in");
     extents[i].place = extents[i].rows == 0 ? 0 : place;
@@ -212,7 +223,8 @@ Status change_file(const fs::path& path, const std::vector<Dataset>& datasets, s
   return status;
 }
 
-Status create_new(const fs::path& path, const std::vector<Dataset>& datasets, const std::string& manifest_checksum, const Comm& comm) {
+Status create_new(const fs::path& path, const StoragePlan& plan, const std::string& manifest_checksum, const Comm& comm) {
+  const std::vector<Dataset>& datasets = plan.datasets();
   fs::path aside = path;
   aside += ".tmp";
   std::vector<Extent> extents = extents_over_ranks(datasets, comm);
@@ -225,6 +237,10 @@ Status create_new(const fs::path& path, const std::vector<Dataset>& datasets, co
     MORULA_TRY(declare(file.get(), path, datasets, extents));
     if (!manifest_checksum.empty() && !write_text_attribute(file.get(), "manifest_checksum", manifest_checksum))
       return hdf5_error(path, "create");
+    for (const StoragePlan::Attribute& a : plan.attributes())
+      if (!(a.is_text ? write_text_attribute(file.get(), a.name.c_str(), a.text)
+                      : write_number_attribute(file.get(), a.name.c_str(), a.number)))
+        return hdf5_error(path, "create");
     if (!file.close()) return hdf5_error(path, "create");
     structure = overlay.changes();
     length = overlay.new_length();
@@ -243,12 +259,12 @@ Status create_file(const fs::path& path, StoragePlan plan, const Comm& comm) {
   const std::vector<Extent> extents = extents_over_ranks(plan.datasets(), comm);
   const std::string manifest = manifest_text(plan.datasets(), extents, checksums_over_ranks(plan.datasets(), extents, comm));
   plan.add_text("manifest", manifest);
-  return create_new(path, plan.datasets(), hash128(std::as_bytes(std::span(manifest))).hex(), comm);
+  return create_new(path, plan, hash128(std::as_bytes(std::span(manifest))).hex(), comm);
 }
 
 Status add_to_file(const fs::path& path, StoragePlan plan, std::span<const std::string> removed, const Comm& comm) {
   std::error_code ignored;
-  if (!comm.any(fs::exists(path, ignored))) return create_new(path, plan.datasets(), "", comm);
+  if (!comm.any(fs::exists(path, ignored))) return create_new(path, plan, "", comm);
   // Taking out comes first and on its own: new values must never lie where a killed process would still look for old ones.
   if (!removed.empty()) MORULA_TRY(change_file(path, {}, removed, comm));
   if (plan.datasets().empty()) return {};

@@ -11,6 +11,10 @@
 
 namespace morula::scenarios {
 
+/// Names of the kinds of bodies and phases, by their numbers: in results.h5, CSV and on screen.
+inline constexpr std::array<const char*, 2> kBodyNames{"sphere", "shell"};
+inline constexpr std::array<const char*, 4> kPhaseNames{"growing", "waiting", "resting", "dying"};
+
 /// One moment of a run as it is kept in results.h5, on one process: what pictures, exports and plots read.
 struct Snapshot {
   struct Cell {
@@ -44,6 +48,20 @@ struct Snapshot {
   };
   /// A nucleus that is a shell: nodes of `nuclear_nodes`, faces of topologies[topology].
   using NuclearShell = Shell;
+  /// A rigid obstacle or a wall of the domain.
+  struct Obstacle {
+    std::string name;
+    Vec3d offset;                 ///< how far it has moved since time 0 [µm]
+    std::vector<Vec3d> position;  ///< at time 0; of a snapshot of a run, empty until it is read from the file [µm]
+    std::vector<Triangle> faces;
+  };
+  /// A cavity with fluid that exists at this moment.
+  struct Lumen {
+    std::string name;
+    Vec3d center;           ///< where its fluid is looked at from [µm]
+    double volume = 0.0;    ///< [µm³]
+    double pressure = 0.0;  ///< [kPa]
+  };
   struct Grid {
     std::string name;
     Vec3d low, spacing;  ///< [µm]
@@ -61,6 +79,8 @@ struct Snapshot {
   std::vector<std::vector<Triangle>> topologies;
   std::vector<std::string> mark_names;   ///< of the bits of a face's marks
   std::vector<std::uint8_t> face_marks;  ///< by face, in the order of the shells; empty when the study has no marks
+  std::vector<Obstacle> obstacles;       ///< the same on every rank
+  std::vector<Lumen> lumens;             ///< the same on every rank
   std::vector<Grid> fields;
   std::vector<std::string> type_names;
 };

@@ -1,3 +1,5 @@
+#include <charconv>
+#include <string_view>
 #include <type_traits>
 
 #include "scenarios/results/hdf5_reader.h"
@@ -12,13 +14,67 @@ Error no_such_snapshot(const std::filesystem::path& path, std::size_t index, std
                "'" + path.string() + "' has no snapshot " + std::to_string(index) + " (it has " + std::to_string(count) + ")", ""};
 }
 
-Status read_cells(const Hdf5Reader& file, const std::string& group, Snapshot& out) {
+/// The file is of the schema that this program writes.
+Status check_schema(const Hdf5Reader& file, const std::filesystem::path& path) {
+  const std::uint64_t schema = file.root_number("schema").value_or(1);
+  if (schema == kResultsSchema) return {};
+  return Error{
+      ErrorKind::kFile,
+      "'" + path.string() + "' has schema " + std::to_string(schema) + ", this program reads schema " + std::to_string(kResultsSchema),
+      "results are no checkpoint: read the file with the version that wrote it, or move it aside and run or resume again"};
+}
+
+/// The id with this name (CellId::text); invalid for "0" and for what is no name.
+CellId id_of_text(std::string_view text) {
+  const std::size_t point = text.find('.');
+  std::uint64_t founder = 0;
+  const std::string_view number = text.substr(0, point);
+  const auto [end, problem] = std::from_chars(number.data(), number.data() + number.size(), founder);
+  if (problem != std::errc() || end != number.data() + number.size() || founder == 0 || founder >> CellId::kFounderBits != 0) return {};
+  CellId id = CellId::founder(founder);
+  for (const char c : point == std::string_view::npos ? std::string_view() : text.substr(point + 1)) {
+    if ((c != '0' && c != '1') || !id.can_divide()) return {};
+    id = id.daughter(c - '0');
+  }
+  return id;
+}
+
+Result<std::vector<CellId>> read_ids(const Hdf5Reader& file, const std::string& path, std::uint64_t count) {
+  MORULA_TRY_ASSIGN(const std::vector<std::string> texts, file.texts(path));
+  std::vector<CellId> ids;
+  for (const std::string& text : texts) {
+    ids.push_back(id_of_text(text));
+    if (!ids.back().valid() && text != CellId().text()) return Error{ErrorKind::kFile, "'" + text + "' in " + path + " names no cell", ""};
+  }
+  if (ids.size() != count) return Error{ErrorKind::kFile, path + " has another length than its table", ""};
+  return ids;
+}
+
+/// A column of the cells' table, the values of `Value` in the order of the cells.
+template <class Value>
+Result<std::vector<Value>> read_column(const Hdf5Reader& file, const std::string& path, std::uint64_t count,
+                                       const std::vector<std::string>& field_names) {
+  if constexpr (std::is_same_v<Value, CellId>) {
+    return read_ids(file, path, count);
+  } else if constexpr (std::is_same_v<Value, std::array<double, kMaxFields>>) {
+    std::vector<Value> column(count, Value{});
+    for (std::size_t f = 0; f < field_names.size() && f < kMaxFields; ++f) {
+      MORULA_TRY_ASSIGN(const auto of_field, file.read<double>(path + '/' + field_names[f], 0, count));
+      for (std::size_t i = 0; i < count; ++i) column[i][f] = of_field[i];
+    }
+    return column;
+  } else {
+    return file.read<Value>(path, 0, count);
+  }
+}
+
+Status read_cells(const Hdf5Reader& file, const std::string& group, const std::vector<std::string>& field_names, Snapshot& out) {
   MORULA_TRY_ASSIGN(const std::uint64_t count, file.rows(group + "cells/id"));
   out.cells.resize(count);
   Status status;
-  for_each_snapshot_column([&](const std::string& name, const char*, auto member) {
+  for_each_snapshot_column([&](const std::string& name, const char*, const char*, auto member) {
     using Value = std::remove_cvref_t<decltype(out.cells.front().*member)>;
-    auto column = file.read<Value>(group + "cells/" + name, 0, count);
+    auto column = read_column<Value>(file, group + "cells/" + name, count, field_names);
     if (!column.ok()) {
       if (status.ok()) status = std::move(column).error();
       return;
@@ -26,6 +82,33 @@ Status read_cells(const Hdf5Reader& file, const std::string& group, Snapshot& ou
     for (std::size_t i = 0; i < count; ++i) out.cells[i].*member = column.value()[i];
   });
   return status;
+}
+
+/// Obstacles with their surfaces, and cavities.
+Status read_surroundings(const Hdf5Reader& file, const std::string& group, Snapshot& out) {
+  if (file.exists(group + "obstacles/name")) {
+    MORULA_TRY_ASSIGN(const auto names, file.texts(group + "obstacles/name"));
+    MORULA_TRY_ASSIGN(const auto offset, file.read<Vec3d>(group + "obstacles/offset", 0, names.size()));
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      Snapshot::Obstacle& obstacle = out.obstacles.emplace_back();
+      obstacle.name = names[i];
+      obstacle.offset = offset[i];
+      const std::string surface = "obstacles/" + names[i] + '/';
+      if (!file.exists(surface + "faces")) continue;
+      MORULA_TRY_ASSIGN(obstacle.position, file.read<Vec3d>(surface + "position"));
+      MORULA_TRY_ASSIGN(obstacle.faces, file.read<Triangle>(surface + "faces"));
+      for (const Triangle& face : obstacle.faces)
+        for (const std::uint32_t node : face)
+          if (node >= obstacle.position.size()) return Error{ErrorKind::kFile, "a face of obstacle " + names[i] + " points outside it", ""};
+    }
+  }
+  if (!file.exists(group + "lumens/name")) return {};
+  MORULA_TRY_ASSIGN(const auto names, file.texts(group + "lumens/name"));
+  MORULA_TRY_ASSIGN(const auto center, file.read<Vec3d>(group + "lumens/center", 0, names.size()));
+  MORULA_TRY_ASSIGN(const auto volume, file.read<double>(group + "lumens/volume", 0, names.size()));
+  MORULA_TRY_ASSIGN(const auto pressure, file.read<double>(group + "lumens/pressure", 0, names.size()));
+  for (std::size_t i = 0; i < names.size(); ++i) out.lumens.push_back({names[i], center[i], volume[i], pressure[i]});
+  return {};
 }
 
 /// Surfaces of cells, or of nuclei.
@@ -79,8 +162,7 @@ Status read_nuclei(const Hdf5Reader& file, const std::string& group, Snapshot& o
   return {};
 }
 
-Status read_fields(const Hdf5Reader& file, const std::string& group, Snapshot& out) {
-  MORULA_TRY_ASSIGN(const std::vector<std::string> names, file.texts(group + "field_names"));
+Status read_fields(const Hdf5Reader& file, const std::string& group, const std::vector<std::string>& names, Snapshot& out) {
   for (const std::string& name : names) {
     Snapshot::Grid grid;
     const std::string field = group + "fields/" + name;
@@ -98,6 +180,7 @@ Status read_fields(const Hdf5Reader& file, const std::string& group, Snapshot& o
 
 Result<std::vector<SnapshotEntry>> list_snapshots(const std::filesystem::path& path) {
   MORULA_TRY_ASSIGN(const Hdf5Reader file, Hdf5Reader::open(path));
+  MORULA_TRY(check_schema(file, path));
   std::vector<SnapshotEntry> entries;
   if (!file.exists("snapshots")) return entries;
   MORULA_TRY_ASSIGN(const std::vector<std::string> names, file.names("snapshots"));
@@ -113,6 +196,7 @@ Result<std::vector<SnapshotEntry>> list_snapshots(const std::filesystem::path& p
 
 Result<Snapshot> read_snapshot(const std::filesystem::path& path, std::size_t index) {
   MORULA_TRY_ASSIGN(const Hdf5Reader file, Hdf5Reader::open(path));
+  MORULA_TRY(check_schema(file, path));
   if (!file.exists("snapshots")) return no_such_snapshot(path, index, 0);
   MORULA_TRY_ASSIGN(const std::vector<std::string> names, file.names("snapshots"));
   if (index >= names.size()) return no_such_snapshot(path, index, names.size());
@@ -120,10 +204,12 @@ Result<Snapshot> read_snapshot(const std::filesystem::path& path, std::size_t in
   Snapshot out;
   MORULA_TRY_ASSIGN(out.time, file.value<double>(group + "time"));
   MORULA_TRY_ASSIGN(out.type_names, file.texts(group + "type_names"));
-  MORULA_TRY(read_cells(file, group, out));
+  MORULA_TRY_ASSIGN(const std::vector<std::string> field_names, file.texts(group + "field_names"));
+  MORULA_TRY(read_cells(file, group, field_names, out));
   MORULA_TRY(read_shells(file, group, out));
   MORULA_TRY(read_nuclei(file, group, out));
-  MORULA_TRY(read_fields(file, group, out));
+  MORULA_TRY(read_surroundings(file, group, out));
+  MORULA_TRY(read_fields(file, group, field_names, out));
   return out;
 }
 

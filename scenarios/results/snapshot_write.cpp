@@ -5,10 +5,12 @@
 #include <set>
 #include <type_traits>
 
+#include "scenarios/results/build_info.h"
 #include "scenarios/results/checkpoint.h"
 #include "scenarios/results/file_io.h"
 #include "scenarios/results/hash128.h"
 #include "scenarios/results/hdf5_plan.h"
+#include "scenarios/results/hdf5_reader.h"
 #include "scenarios/results/parcels.h"
 #include "scenarios/results/snapshot_columns.h"
 #include "scenarios/results/snapshot_file.h"
@@ -20,6 +22,11 @@ std::string group_name(std::size_t index) {
   char name[40];
   std::snprintf(name, sizeof name, "snapshots/%06zu", index);
   return name;
+}
+
+template <class T>
+void add(StoragePlan& plan, const ResultsDataset& dataset, const std::vector<T>& local, const std::string& group = "") {
+  plan.add(group + dataset.path, dataset.label(), local);
 }
 
 /// Adds every face list of all ranks once; returns the number in the file of each of this rank's.
@@ -48,8 +55,8 @@ std::vector<std::uint32_t> add_topologies(StoragePlan& plan, const Snapshot& loc
     face_count.push_back(static_cast<std::uint32_t>(count));
     reader.get_all(count, all_faces);
   }
-  plan.add("topologies/face_count", "1", face_count);
-  plan.add("topologies/faces", "1", all_faces);
+  add(plan, results::kFaceCount, face_count);
+  add(plan, results::kFaces, all_faces);
 
   const std::vector<std::byte> gathered = comm.gather_to_all(std::as_bytes(std::span(order)));
   std::map<Hash128, std::uint32_t> number;
@@ -117,15 +124,56 @@ struct SurfaceColumns {
   void add_to(StoragePlan& plan, const std::string& group, const Comm& comm) {
     const auto before = static_cast<std::uint64_t>(comm.exclusive_scan(static_cast<std::int64_t>(nodes.size())));
     for (std::uint64_t& first : first_node) first += before;
-    plan.add(group + "cell", "1", cell);
-    plan.add(group + "first_node", "1", first_node);
-    plan.add(group + "node_count", "1", node_count);
-    plan.add(group + "topology", "1", topology);
-    plan.add(group + "node", "um", nodes);
+    add(plan, results::kSurfaceCell, cell, group);
+    add(plan, results::kFirstNode, first_node, group);
+    add(plan, results::kNodeCount, node_count, group);
+    add(plan, results::kTopology, topology, group);
+    add(plan, results::kNode, nodes, group);
   }
 };
 
-void add_cells(StoragePlan& plan, const Parcels& sorted, bool marks, const Comm& comm) {
+void add_ids(StoragePlan& plan, const std::string& path, const DatasetLabel& label, const std::vector<CellId>& ids, const Comm& comm) {
+  std::vector<std::string> texts;
+  std::size_t width = 1;
+  for (const CellId id : ids) width = std::max(width, texts.emplace_back(id.text()).size());
+  plan.add_text_rows(path, label, texts, static_cast<std::uint32_t>(comm.max(static_cast<std::int64_t>(width))));
+}
+
+/// Names of the values of a column, for those that are kinds.
+template <class Value>
+std::vector<std::string> kinds_of(const Snapshot& local) {
+  if constexpr (std::is_same_v<Value, BodyKind>) return {kBodyNames.begin(), kBodyNames.end()};
+  if constexpr (std::is_same_v<Value, Phase>) return {kPhaseNames.begin(), kPhaseNames.end()};
+  // The names stand in the dataset's header, which has room for 64 KiB; beyond that `type_names` tells them.
+  std::size_t length = 0;
+  for (const std::string& name : local.type_names) length += name.size() + 4;
+  if (std::is_same_v<Value, std::uint16_t> && length < 32768) return local.type_names;
+  return {};
+}
+
+/// The columns of the cells' table, each a dataset; concentrations one by field.
+void add_cell_columns(StoragePlan& plan, const Snapshot& local, const std::vector<Snapshot::Cell>& cells, const Comm& comm) {
+  for_each_snapshot_column([&](const std::string& name, const char* units, const char* description, auto member) {
+    using Value = std::remove_cvref_t<decltype(cells.front().*member)>;
+    std::vector<Value> column;
+    for (const Snapshot::Cell& cell : cells) column.push_back(cell.*member);
+    const DatasetLabel label(units, description, kinds_of<Value>(local));
+    if constexpr (std::is_same_v<Value, CellId>) {
+      add_ids(plan, "cells/" + name, label, column, comm);
+    } else if constexpr (std::is_same_v<Value, std::array<double, kMaxFields>>) {
+      for (std::size_t f = 0; f < local.fields.size() && f < kMaxFields; ++f) {
+        std::vector<double> of_field;
+        for (const Value& all : column) of_field.push_back(all[f]);
+        plan.add("cells/" + name + '/' + local.fields[f].name, label, of_field);
+      }
+    } else {
+      plan.add("cells/" + name, label, column);
+    }
+  });
+}
+
+void add_cells(StoragePlan& plan, const Parcels& sorted, const Snapshot& local, const Comm& comm) {
+  const bool marks = !local.mark_names.empty();
   std::vector<Snapshot::Cell> cells;
   SurfaceColumns shells, nuclear_shells;
   std::vector<Vec3d> nucleus_center;
@@ -147,18 +195,38 @@ void add_cells(StoragePlan& plan, const Parcels& sorted, bool marks, const Comm&
     if (const auto nuclear = in.get<std::uint32_t>(); nuclear > 0) nuclear_shells.take(first_cell + i, nuclear, in);
     if (marks) in.get_all(in.rest(), face_marks);
   }
-  for_each_snapshot_column([&](const std::string& name, const char* units, auto member) {
-    std::vector<std::remove_cvref_t<decltype(cells.front().*member)>> column;
-    for (const Snapshot::Cell& cell : cells) column.push_back(cell.*member);
-    plan.add("cells/" + name, units, column);
-  });
+  add_cell_columns(plan, local, cells, comm);
   shells.add_to(plan, "shells/", comm);
-  if (marks) plan.add("shells/face_marks", "1", face_marks);
+  if (marks) add(plan, results::kFaceMarks, face_marks);
   if (comm.any(!nuclear_shells.cell.empty())) nuclear_shells.add_to(plan, "nuclear_shells/", comm);
   if (!comm.any(!nucleus_cell.empty())) return;
-  plan.add("nuclei/cell", "1", nucleus_cell);
-  plan.add("nuclei/center", "um", nucleus_center);
-  plan.add("nuclei/radius", "um", nucleus_radius);
+  add(plan, results::kNucleusCell, nucleus_cell);
+  add(plan, results::kNucleusCenter, nucleus_center);
+  add(plan, results::kNucleusRadius, nucleus_radius);
+}
+
+/// Obstacles and cavities, which every rank knows whole.
+void add_surroundings(StoragePlan& plan, const Snapshot& local) {
+  using results::kObstacleName, results::kObstacleOffset, results::kLumenName, results::kLumenCenter, results::kLumenVolume,
+      results::kLumenPressure;
+  std::vector<std::string> names;
+  std::vector<Vec3d> places;
+  for (const Snapshot::Obstacle& obstacle : local.obstacles) names.push_back(obstacle.name), places.push_back(obstacle.offset);
+  if (!names.empty()) {
+    plan.add_text(kObstacleName.path, names, kObstacleName.label());
+    plan.add_from_root(kObstacleOffset.path, kObstacleOffset.label(), std::span<const Vec3d>(places));
+  }
+  if (local.lumens.empty()) return;
+  names.clear(), places.clear();
+  std::vector<double> volume, pressure;
+  for (const Snapshot::Lumen& lumen : local.lumens) {
+    names.push_back(lumen.name), places.push_back(lumen.center);
+    volume.push_back(lumen.volume), pressure.push_back(lumen.pressure);
+  }
+  plan.add_text(kLumenName.path, names, kLumenName.label());
+  plan.add_from_root(kLumenCenter.path, kLumenCenter.label(), std::span<const Vec3d>(places));
+  plan.add_from_root(kLumenVolume.path, kLumenVolume.label(), std::span<const double>(volume));
+  plan.add_from_root(kLumenPressure.path, kLumenPressure.label(), std::span<const double>(pressure));
 }
 
 /// The voxels of all bricks as one array over the whole grid, x fastest: rows of voxels are sorted by where they belong.
@@ -185,11 +253,11 @@ void add_field(StoragePlan& plan, const std::string& name, const fields::Field& 
   const Parcels sorted = sort_over_ranks(rows, comm);
   std::vector<double> values;
   for (std::size_t i = 0; i < sorted.size(); ++i) ByteReader(sorted.bytes(i)).get_all(sorted.bytes(i).size() / sizeof(double), values);
-  const std::string group = "fields/" + name;
-  plan.add_value(group + "/low", "um", grid.box.low);
-  plan.add_value(group + "/spacing", "um", grid.spacing());
-  plan.add_value(group + "/voxels", "1", grid.voxels);
-  plan.add(group + "/concentration", "mM", values);
+  const std::string group = "fields/" + name + '/';
+  plan.add_value(group + results::kFieldLow.path, results::kFieldLow.label(), grid.box.low);
+  plan.add_value(group + results::kFieldSpacing.path, results::kFieldSpacing.label(), grid.spacing());
+  plan.add_value(group + results::kFieldVoxels.path, results::kFieldVoxels.label(), grid.voxels);
+  add(plan, results::kFieldConcentration, values, group);
 }
 
 Status check_local(const Snapshot& local, std::span<const fields::Field> fields) {
@@ -238,6 +306,18 @@ Result<std::vector<SnapshotEntry>> list_on_all(const std::filesystem::path& path
   return entries;
 }
 
+/// The groups of write_results_tables that are in the file, the root's list on all ranks.
+std::vector<std::string> tables_in(const std::filesystem::path& path, const Comm& comm) {
+  std::array<bool, 2> has{};
+  std::error_code ignored;
+  if (comm.is_root() && std::filesystem::exists(path, ignored))
+    if (const auto file = Hdf5Reader::open(path); file.ok()) has = {file->exists("series"), file->exists("events")};
+  std::vector<std::string> out;
+  if (comm.any(has[0])) out.emplace_back("series");
+  if (comm.any(has[1])) out.emplace_back("events");
+  return out;
+}
+
 std::vector<std::string> groups_from(const std::vector<SnapshotEntry>& entries, double time, bool with_equal) {
   std::vector<std::string> groups;
   for (const SnapshotEntry& entry : entries)
@@ -245,28 +325,57 @@ std::vector<std::string> groups_from(const std::vector<SnapshotEntry>& entries, 
   return groups;
 }
 
+/// What every results.h5 says of itself, also one whose run is not known.
+void add_program(StoragePlan& plan) {
+  const BuildInfo build = build_info();
+  plan.add_attribute("program", "Morula");
+  plan.add_attribute("version", build.version);
+  plan.add_attribute("schema", kResultsSchema);
+}
+
 }  // namespace
+
+Status begin_results(const std::filesystem::path& path, const ResultsHead& head, const Comm& comm) {
+  std::error_code ignored;
+  if (comm.any(comm.is_root() && std::filesystem::exists(path, ignored))) return {};
+  StoragePlan plan(comm);
+  add_program(plan);
+  plan.add_attribute("study", head.study);
+  plan.add_attribute("title", head.title);
+  plan.add_attribute("seed", head.seed);
+  plan.add_text(results::kSourceStudy.path, head.source_study, results::kSourceStudy.label());
+  plan.add_text(results::kResolvedStudy.path, head.resolved_study, results::kResolvedStudy.label());
+  for (const Snapshot::Obstacle& obstacle : head.obstacles) {
+    const std::string group = "obstacles/" + obstacle.name + '/';
+    plan.add_from_root(group + results::kObstaclePosition.path, results::kObstaclePosition.label(), std::span(obstacle.position));
+    plan.add_from_root(group + results::kObstacleFaces.path, results::kObstacleFaces.label(), std::span(obstacle.faces));
+  }
+  return add_to_file(path, std::move(plan), {}, comm);
+}
 
 Status append_snapshot(const std::filesystem::path& path, const Snapshot& local, std::span<const fields::Field> fields, const Comm& comm) {
   MORULA_TRY(agree(check_local(local, fields), comm));
   MORULA_TRY_ASSIGN(const auto entries, list_on_all(path, comm));
   const std::vector<std::string> removed = groups_from(entries, local.time, true);
   StoragePlan plan(comm, group_name(entries.size() - removed.size()) + '/');
-  plan.add_value("time", "s", local.time);
-  plan.add_text("type_names", local.type_names);
+  add_program(plan);
+  plan.add_value(results::kTime.path, results::kTime.label(), local.time);
+  plan.add_text(results::kTypeNames.path, local.type_names, results::kTypeNames.label());
   std::vector<std::string> names;
   for (const Snapshot::Grid& grid : local.fields) names.push_back(grid.name);
-  plan.add_text("field_names", names);
+  plan.add_text(results::kFieldNames.path, names, results::kFieldNames.label());
   const std::vector<std::uint32_t> numbers = add_topologies(plan, local, comm);
-  if (!local.mark_names.empty()) plan.add_text("mark_names", local.mark_names);
-  add_cells(plan, sort_over_ranks(pack_cells(local, numbers), comm), !local.mark_names.empty(), comm);
+  if (!local.mark_names.empty()) plan.add_text(results::kMarkNames.path, local.mark_names, results::kMarkNames.label());
+  add_cells(plan, sort_over_ranks(pack_cells(local, numbers), comm), local, comm);
+  add_surroundings(plan, local);
   for (std::size_t f = 0; f < fields.size(); ++f) add_field(plan, names[f], fields[f], comm);
   return add_to_file(path, std::move(plan), removed, comm);
 }
 
 Status truncate_snapshots(const std::filesystem::path& path, double time, const Comm& comm) {
   MORULA_TRY_ASSIGN(const auto entries, list_on_all(path, comm));
-  const std::vector<std::string> removed = groups_from(entries, time, false);
+  std::vector<std::string> removed = groups_from(entries, time, false);
+  for (const std::string& table : tables_in(path, comm)) removed.push_back(table);
   return removed.empty() ? Status{} : add_to_file(path, StoragePlan(comm), removed, comm);
 }
 

@@ -71,25 +71,24 @@ std::string file_head(const char* type) {
          "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
 }
 
-/// Time, and the names of the cell types by number as one text each.
+/// Time, and what the numbers of kinds mean: one array each, `type liver` = 1. No array of strings: not all readers know them.
 std::string field_data(const Snapshot& s) {
-  std::string names;
-  for (const std::string& name : s.type_names) {
-    for (const char c : name) names += std::to_string(static_cast<unsigned char>(c)) + ' ';
-    names += "0 ";
-  }
-  std::string out = "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">" +
-                    shortest_text(s.time) + "</DataArray>\n";
-  if (!s.type_names.empty())
-    out += "<Array type=\"String\" Name=\"type_names\" NumberOfTuples=\"" + std::to_string(s.type_names.size()) + "\" format=\"ascii\">" +
-           names + "</Array>\n";
+  std::string out = "<FieldData>\n";
+  const auto add = [&out](const char* type, const std::string& name, const std::string& value) {
+    out += std::string("<DataArray type=\"") + type + "\" Name=\"" + escaped(name) + "\" NumberOfTuples=\"1\" format=\"ascii\">" + value +
+           "</DataArray>\n";
+  };
+  add("Float64", "TimeValue", shortest_text(s.time));
+  for (std::size_t i = 0; i < s.type_names.size(); ++i) add("Int32", "type " + s.type_names[i], std::to_string(i));
+  for (std::size_t i = 0; i < kBodyNames.size(); ++i) add("Int32", std::string("body ") + kBodyNames[i], std::to_string(i));
+  for (std::size_t i = 0; i < kPhaseNames.size(); ++i) add("Int32", std::string("phase ") + kPhaseNames[i], std::to_string(i));
   return out + "</FieldData>\n";
 }
 
 /// All numbers of the cells with these indices, one array each; concentrations by the names of the fields.
 std::string cell_arrays(const Snapshot& s, const std::vector<std::uint32_t>& cell_of_item) {
   std::string out;
-  for_each_snapshot_column([&](const std::string& name, const std::string& units, auto member) {
+  for_each_snapshot_column([&](const std::string& name, const std::string& units, const char*, auto member) {
     using Value = std::remove_cvref_t<decltype(s.cells.front().*member)>;
     if constexpr (std::is_same_v<Value, std::array<double, kMaxFields>>) {
       for (std::size_t f = 0; f < s.fields.size() && f < kMaxFields; ++f) {
@@ -188,6 +187,24 @@ std::string nuclear_shells_file(const Snapshot& s) {
   return mesh_file(s, mesh, "", cell_arrays(s, cell_of_face));
 }
 
+/// The surfaces of obstacles and walls where they are, each face with the number of its obstacle.
+std::string obstacles_file(const Snapshot& s) {
+  constexpr std::uint8_t kTriangle = 5;  // VTK_TRIANGLE
+  Mesh mesh;
+  std::vector<std::int32_t> number;
+  for (std::size_t i = 0; i < s.obstacles.size(); ++i) {
+    const auto first = static_cast<std::int64_t>(mesh.points.size());
+    for (const Vec3d& p : s.obstacles[i].position) mesh.points.push_back(p + s.obstacles[i].offset);
+    for (const Triangle& face : s.obstacles[i].faces) {
+      for (const std::uint32_t node : face) mesh.connectivity.push_back(first + node);
+      mesh.offsets.push_back(static_cast<std::int64_t>(mesh.connectivity.size()));
+      mesh.types.push_back(kTriangle);
+      number.push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  return mesh_file(s, mesh, "", data_array("obstacle", number));
+}
+
 std::string grid_file(const Snapshot& s, const Snapshot::Grid& grid) {
   std::string extent, origin, spacing;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -240,6 +257,8 @@ Status write_vtk(const Snapshot& snapshot, const fs::path& folder, std::size_t n
   if (!snapshot.nuclei.empty()) MORULA_TRY(write_file_atomically(folder / numbered("nuclei", number, ".vtu"), nuclei_file(snapshot)));
   if (!snapshot.nuclear_shells.empty())
     MORULA_TRY(write_file_atomically(folder / numbered("nuclear_shells", number, ".vtu"), nuclear_shells_file(snapshot)));
+  if (!snapshot.obstacles.empty())
+    MORULA_TRY(write_file_atomically(folder / numbered("obstacles", number, ".vtu"), obstacles_file(snapshot)));
   for (const Snapshot::Grid& grid : snapshot.fields)
     MORULA_TRY(write_file_atomically(folder / numbered("field_" + grid.name, number, ".vti"), grid_file(snapshot, grid)));
   return {};
@@ -249,12 +268,12 @@ Status write_vtk_collections(const fs::path& folder, const std::vector<std::size
                              const std::vector<std::string>& field_names) {
   MORULA_TRY(write_collection(folder, "shells", ".vtu", numbers, times));
   MORULA_TRY(write_collection(folder, "spheres", ".vtu", numbers, times));
-  for (const char* stem : {"nuclei", "nuclear_shells"}) {
-    std::vector<std::size_t> with_nuclei;
+  for (const char* stem : {"nuclei", "nuclear_shells", "obstacles"}) {
+    std::vector<std::size_t> written;
     std::vector<double> when;
     for (std::size_t i = 0; i < numbers.size(); ++i)
-      if (fs::exists(folder / numbered(stem, numbers[i], ".vtu"))) with_nuclei.push_back(numbers[i]), when.push_back(times[i]);
-    if (!with_nuclei.empty()) MORULA_TRY(write_collection(folder, stem, ".vtu", with_nuclei, when));
+      if (fs::exists(folder / numbered(stem, numbers[i], ".vtu"))) written.push_back(numbers[i]), when.push_back(times[i]);
+    if (!written.empty()) MORULA_TRY(write_collection(folder, stem, ".vtu", written, when));
   }
   for (const std::string& name : field_names) MORULA_TRY(write_collection(folder, "field_" + name, ".vti", numbers, times));
   return {};

@@ -11,7 +11,7 @@ double fraction(const Progress& p) { return p.end > 0.0 ? std::clamp(p.time / p.
 
 std::string numbers(const Progress& p) {
   std::string out = "t " + time_text(p.time) + " of " + time_text(p.end) + " · " + std::to_string(p.cells) + " cells";
-  if (p.shells > 0) out += " (" + std::to_string(p.shells) + " DCM)";
+  if (p.shells > 0) out += " (" + std::to_string(p.shells) + " shells)";
   char step[32];
   std::snprintf(step, sizeof step, " · dt %.3g s", p.step);
   if (p.step > 0.0) out += step;

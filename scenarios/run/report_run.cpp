@@ -75,12 +75,12 @@ void add_key_numbers(const RunRecord& record, const SeriesTable& series, ReportC
     if (std::isfinite(last(column))) out.push_back({name, short_text(scale * last(column)), unit});
   };
   add("cell_count", "cells", "");
-  add("shell_count", "deformable shells", "");
+  add("shell_count", "shells", "");
   const double time = last("time");
   if (std::isfinite(time)) out.push_back({"simulated", time_text(time), ""});
   if (record.wall_time > 0.0) {
     out.push_back({"wall time", duration_text(record.wall_time), ""});
-    if (std::isfinite(time)) out.push_back({"speed", short_text(time / record.wall_time), "simulated s per s"});
+    if (std::isfinite(time)) out.push_back({"speed", time_text(time / record.wall_time), "of tissue per second"});
   }
   add("spheroid_radius", "radius", "µm");
   add("mean_pressure", "mean pressure", "Pa", 1000.0);
@@ -104,6 +104,33 @@ void add_provenance(const RunRecord& r, ReportContent& content) {
   for (const auto& [name, version] : r.libraries) out.emplace_back(name, version);
   if (!r.parent.empty()) out.emplace_back("goes on from", r.parent);
   if (r.final_state) out.emplace_back("state hash", r.final_state->state_hash);
+}
+
+std::string text_of(const fs::path& path) {
+  auto text = read_file(path);
+  return text.ok() ? std::move(text).value() : "";
+}
+
+/// What nobody has looked at, so that a reader of passed checks knows what they do not tell.
+std::vector<std::string> not_checked(const Study& study) {
+  std::vector<std::string> out;
+  if (!is_passive(study)) out.emplace_back("that the energy only falls: something drives this tissue");
+  out.emplace_back(
+      "the error of step, tolerance and mesh: run again with half the `time.step`, and with more `nodes` where cells are shells");
+  out.emplace_back("how much the result differs from seed to seed: run again with other values of `seed`");
+  out.emplace_back("the parameters: whether they are those of the cells that are meant");
+  if (study.scenario.empty()) out.emplace_back("agreement with theory or measurements: a study of your own has no reference");
+  return out;
+}
+
+void add_citation(const RunRecord& r, ReportContent& content) {
+  content.citation = "The Morula authors. Morula: hybrid simulation of tissues made of spheres and deformable shells, version " +
+                     r.version + " (" + r.git_hash + "). The laws that were used have their own sources, above.";
+  content.bibtex =
+      "@software{morula,\n  author  = {{The Morula authors}},\n"
+      "  title   = {Morula: hybrid simulation of tissues made of spheres and deformable shells},\n"
+      "  version = {" +
+      r.version + "},\n  note    = {commit " + r.git_hash + "},\n  year    = {" + r.started.substr(0, 4) + "}\n}\n";
 }
 
 std::string state_text(const RunRecord& record) {
@@ -156,9 +183,9 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
   for (const Verdict& v : verdicts) content.criteria.push_back({v.id, v.quantity, short_text(v.value), v.limit, v.passed});
   MORULA_TRY_ASSIGN(std::vector<NamedPlot> plots, scenario_plots(study, run));
   for (NamedPlot& plot : standard_plots(study, series)) plots.push_back(std::move(plot));
-  for (const auto& [name, plot] : plots) {
-    MORULA_TRY(write_curves(plot, run / "plots" / name));
-    content.plots.push_back({plot.title, curves_svg(plot, SvgUse::kInline)});
+  for (const NamedPlot& one : plots) {
+    MORULA_TRY(write_curves(one.plot, run / "plots" / one.name));
+    content.plots.push_back({one.plot.title, curves_svg(one.plot, SvgUse::kInline), one.numerics});
   }
   MORULA_TRY_ASSIGN(const auto snapshots, snapshots_over_time(run / "results.h5"));
   content.pictures = standard_pictures(snapshots);
@@ -170,6 +197,10 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
   read_events(run / "events.jsonl", content);
   add_provenance(record, content);
   content.laws = used_laws(study);
+  content.not_checked = not_checked(study);
+  content.study_text = text_of(run / "study.yaml");
+  content.parameters_text = text_of(run / "study.resolved.yaml");
+  add_citation(record, content);
   MORULA_TRY(write_report(content, run / "report.html"));
   return run / "report.html";
 }

@@ -29,6 +29,10 @@ double next_multiple(double time, double interval) {
   return k * interval;
 }
 
+ResultsHead results_head(const Study& study) {
+  return {study.name, study.title, study.model.seed, study.source_text, study.resolved_text, obstacles_at_start(study.model)};
+}
+
 }  // namespace
 
 double next_output(double time, double interval, double end) { return std::min(next_multiple(time, interval), end); }
@@ -97,6 +101,7 @@ Status RunLoop::begin() {
   interval_.energy = simulation_->mechanics().energy_and_forces(simulation_->tissue(), ignored);
   count_cells();
   tell_idle_loads();
+  MORULA_TRY(begin_results(folder_.results(), results_head(study_), comm_));
   MORULA_TRY(output());
   return checkpoint();
 }
@@ -123,7 +128,8 @@ Status RunLoop::go_back() {
   MORULA_TRY(agree(folder_.begin_series(header), comm_));
   const double time = simulation_->tissue().clock.time;
   MORULA_TRY(agree(folder_.cut_back(time), comm_));
-  return truncate_snapshots(folder_.results(), time, comm_);
+  MORULA_TRY(truncate_snapshots(folder_.results(), time, comm_));
+  return begin_results(folder_.results(), results_head(study_), comm_);  // where the file is gone
 }
 
 int RunLoop::wish_to_stop() const {
@@ -248,7 +254,7 @@ void RunLoop::tell_events() {
     if (event.kind == EventKind::kPromotion || event.kind == EventKind::kDemotion) ++counts[{event.kind, event.text}];
   for (const auto& [what, count] : counts)
     note(Note::Kind::kNote, std::to_string(count) + (count == 1 ? " cell" : " cells") +
-                                (what.first == EventKind::kPromotion ? " promoted to DCM (" : " demoted to CBM (") + what.second + ")");
+                                (what.first == EventKind::kPromotion ? " became shells (" : " became spheres (") + what.second + ")");
   for (const Event& event : events_)
     if (event.kind == EventKind::kWarning) note(Note::Kind::kWarning, "cell " + event.cell.text() + ": " + event.text);
 }
@@ -256,6 +262,19 @@ void RunLoop::tell_events() {
 void RunLoop::warn_near_limit(bool& warned, const std::string& text) {
   if (!warned) warn(text);
   warned = true;
+}
+
+Status RunLoop::write_tables() {
+  std::string series, events;
+  const auto read = [&]() -> Status {
+    MORULA_TRY_ASSIGN(series, read_file(folder_.series()));
+    MORULA_TRY_ASSIGN(events, read_file(folder_.events()));
+    return {};
+  };
+  MORULA_TRY(agree(comm_.is_root() ? read() : Status{}, comm_));
+  std::map<std::string, std::string> descriptions{{"time", "Simulated time."}};
+  for (const Observable& column : columns_) descriptions[column.name] = column.doc;
+  return write_results_tables(folder_.results(), series, events, descriptions, comm_);
 }
 
 Status RunLoop::check_limits(const Measures& m) {
@@ -345,6 +364,7 @@ Status RunLoop::finish(RunState state, ErrorKind kind, RunSummary& summary) {
   tell_events();
   MORULA_TRY(agree(write_events(), comm_));
   MORULA_TRY(checkpoint());
+  MORULA_TRY(write_tables());
   record_.state = state;
   record_.exit_code = done ? 0 : exit_code(kind);
   record_.message = done ? ""

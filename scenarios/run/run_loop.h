@@ -44,6 +44,8 @@ class RunLoop {
   [[nodiscard]] bool at_rest() const;
   Status output();
   Status write_moment(const Measures& measures);
+  /// series.csv and events.jsonl into results.h5. Collective.
+  Status write_tables();
   Status check_limits(const Measures& measures);
   Status check_packing(const Measures& measures);
   [[nodiscard]] Status check_capped_start() const;

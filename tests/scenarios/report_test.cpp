@@ -3,11 +3,14 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
+#include <regex>
 #include <sstream>
 
 #include "scenarios/pictures/curves.h"
 #include "scenarios/report/report.h"
 #include "scenarios/report/series_reader.h"
+#include "scenarios/run/run_plots.h"
 
 namespace morula::scenarios {
 namespace {
@@ -171,6 +174,123 @@ TEST(Report, IsWellFormedSelfContainedAndEscaped) {
   EXPECT_NE(html->find("1 of 2 criteria passed"), std::string::npos);
   EXPECT_NE(html->find("data:image/png;base64,iVBORw0KGgo"), std::string::npos);  // the PNG signature
   EXPECT_EQ(*html, *report_html(full_content()));
+}
+
+std::size_t count_of(const std::string& text, const std::string& what) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++count;
+  return count;
+}
+
+TEST(Report, FramesOfARowHaveOneSliderAndShowTheLast) {
+  ReportContent content;
+  for (const char* name : {"cells_00", "cells_01", "cells_02", "cut_pressure_00", "cut_pressure_01", "alone_00"})
+    content.pictures.push_back({name, name, 60.0 * static_cast<double>(content.pictures.size()), true, Image(3, 2, {})});
+  const auto html = report_html(content);
+  ASSERT_TRUE(html.ok());
+  EXPECT_EQ(xml_fault(*html), "");
+  EXPECT_EQ(count_of(*html, "class=\"film\""), 3u);
+  EXPECT_EQ(count_of(*html, "type=\"range\" min=\"0\" max=\"2\" value=\"2\""), 1u);
+  EXPECT_EQ(count_of(*html, "type=\"range\" min=\"0\" max=\"1\" value=\"1\""), 1u);
+  EXPECT_EQ(count_of(*html, "type=\"range\""), 2u) << "a single frame needs none";
+  EXPECT_EQ(count_of(*html, "<figure hidden=\"hidden\">"), 3u);
+  EXPECT_EQ(count_of(*html, "<figure><img"), 3u);
+}
+
+TEST(Report, SolverPlotsLieBelowAFold) {
+  ReportContent content;
+  content.plots = {{"size of the tissue", "<svg id=\"a\"></svg>", false}, {"step size", "<svg id=\"b\"></svg>", true}};
+  const auto html = report_html(content);
+  ASSERT_TRUE(html.ok());
+  EXPECT_EQ(xml_fault(*html), "");
+  const std::size_t fold = html->find("<details>"), first = html->find("id=\"a\""), second = html->find("id=\"b\"");
+  EXPECT_LT(first, fold);
+  EXPECT_LT(fold, second);
+  EXPECT_LT(second, html->find("</details>"));
+}
+
+TEST(Report, ChecksOfAUsersStudySayWhatTheyDoNotTell) {
+  ReportContent content;
+  content.criteria = {{"INV.4", "overlap", "0.1 um", "<= 0.3 um", true}};
+  content.not_checked = {"the parameters"};
+  std::string html = *report_html(content);
+  EXPECT_NE(html.find("<h2>Numerical checks</h2>"), std::string::npos);
+  EXPECT_EQ(html.find("<h2>Verdict</h2>"), std::string::npos);
+  EXPECT_NE(html.find("1 of 1 checks passed"), std::string::npos);
+  EXPECT_NE(html.find("<li>the parameters</li>"), std::string::npos);
+  EXPECT_NE(html.find("&lt;= 0.3 µm"), std::string::npos);
+  content.scenario = "doublet";
+  html = *report_html(content);
+  EXPECT_NE(html.find("<h2>Verdict</h2>"), std::string::npos);
+  EXPECT_NE(html.find("1 of 1 criteria passed"), std::string::npos);
+}
+
+TEST(Report, HoldsTheStudyAndHowToCite) {
+  ReportContent content;
+  content.study_text = "study: <mine>";
+  content.parameters_text = "radius: 6 um";
+  content.citation = "Morula 0.1.0";
+  content.bibtex = "@software{morula,\n}";
+  const auto html = report_html(content);
+  ASSERT_TRUE(html.ok());
+  EXPECT_EQ(xml_fault(*html), "");
+  for (const char* part : {"study: &lt;mine&gt;", "radius: 6 um", "Morula 0.1.0", "@software{morula,"})
+    EXPECT_NE(html->find(part), std::string::npos) << part;
+}
+
+TEST(Curves, LegendHasItsOwnRowsBelowTheTitle) {
+  CurvePlot plot;
+  plot.title = "A title that is long enough to reach far into the right half of the plot";
+  for (const char* name : {"the first of some long names", "the second of some long names", "the third of some long names", "fourth"})
+    plot.curves.push_back({name, {0.0, 1.0}, {0.0, 1.0}});
+  const std::string svg = curves_svg(plot);
+  EXPECT_EQ(xml_fault(svg), "");
+  EXPECT_NE(svg.find("height=\"396\""), std::string::npos) << "two rows of 18 more than 360";
+  for (const char* row : {"y=\"42\"", "y=\"60\""}) EXPECT_NE(svg.find(row), std::string::npos) << row;
+}
+
+TEST(Curves, NumbersAlongTheAxisDoNotTouchAndUnitsHaveTheirSigns) {
+  CurvePlot plot;
+  plot.x = {"volume", "um^3", false, 0.0, 0.0012};
+  plot.width = 260;  // too narrow for all numbers
+  plot.curves = {{"only", {0.0, 0.0012}, {0.0, 1.0}}};
+  const std::string svg = curves_svg(plot);
+  EXPECT_NE(svg.find("volume [µm³]"), std::string::npos);
+  // numbers along x: middle-anchored texts of size 12, 7 pixels a character
+  static const std::regex kNumber("<text x=\"([0-9.]+)\" y=\"[0-9.]+\" text-anchor=\"middle\" font-size=\"12\"[^>]*>([^<]*)<");
+  double free_from = -1e300;
+  int numbers = 0;
+  for (std::sregex_iterator it(svg.begin(), svg.end(), kNumber), end; it != end; ++it, ++numbers) {
+    const double at = std::stod((*it)[1]), half = 3.5 * static_cast<double>((*it)[2].length());
+    EXPECT_GT(at - half, free_from);
+    free_from = at + half;
+  }
+  EXPECT_GE(numbers, 2);
+}
+
+TEST(StandardPlots, ShowNothingWhereNothingHappens) {
+  Study study;
+  study.model.types.resize(2);
+  study.model.types[0].name = "a";
+  study.model.types[1].name = "b";
+  const auto series = parse_series(
+      "time [s],cell_count [1],sphere_count [1],shell_count [1],count_a [1],count_b [1],divisions [1],deaths [1],spheroid_radius [um],"
+      "step_size [s],volume_error [1]\n"
+      "0,2,2,0,2,0,0,0,5,1,0\n86400,4,4,0,4,0,2,0,5,1,0\n",
+      "test");
+  ASSERT_TRUE(series.ok());
+  std::map<std::string, NamedPlot> plots;
+  for (NamedPlot& plot : standard_plots(study, *series)) plots.emplace(plot.name, plot);
+  ASSERT_EQ(plots.count("cells_by_body"), 1u);
+  EXPECT_EQ(plots.at("cells_by_body").plot.curves.size(), 1u) << "spheres are all cells, and there is no shell";
+  EXPECT_EQ(plots.at("cells_by_body").plot.curves[0].style, CurveStyle::kSteps);
+  ASSERT_EQ(plots.at("events").plot.curves.size(), 1u);
+  EXPECT_EQ(plots.at("events").plot.curves[0].name, "divisions");
+  EXPECT_EQ(plots.count("size"), 0u) << "it does not change";
+  ASSERT_EQ(plots.count("step"), 1u);
+  EXPECT_TRUE(plots.at("step").numerics);
+  EXPECT_TRUE(plots.at("volume_error").numerics) << "against its limit, also at zero";
+  EXPECT_FALSE(plots.at("events").numerics);
 }
 
 TEST(Report, LimitThatIsCrossedOrNotANumberIsNotKept) {

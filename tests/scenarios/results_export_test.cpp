@@ -191,6 +191,28 @@ TEST_F(Exports, FieldsBecomeVoxels) {
   }
 }
 
+TEST_F(Exports, FieldDataSaysWhatTheNumbersOfKindsMeanWithoutStrings) {
+  ASSERT_TRUE(write_vtk(small_snapshot(library, 60.0), folder.path(), 0).ok());
+  std::map<std::string, std::string> numbers;
+  for (const Element& e : parsed("shells_000000.vtu")) {
+    EXPECT_NE(e.name, "Array") << "meshio reads no arrays of strings";
+    if (e.name == "DataArray" && e.attributes.at("format") == "ascii") numbers[e.attributes.at("Name")] = e.text;
+  }
+  EXPECT_EQ(numbers.at("type liver"), "1");
+  EXPECT_EQ(numbers.at("body shell"), "1");
+  EXPECT_EQ(numbers.at("phase dying"), "3");
+  EXPECT_EQ(numbers.at("TimeValue"), "60");
+}
+
+TEST_F(Exports, ObstaclesAreWhereTheyHaveMovedTo) {
+  Snapshot s = small_snapshot(library, 60.0);
+  s.obstacles = {{"plate", {0, 0, 3}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}};
+  ASSERT_TRUE(write_vtk(s, folder.path(), 0).ok());
+  const auto elements = parsed("obstacles_000000.vtu");
+  EXPECT_EQ(values_of<double>(elements, "Points"), (std::vector<double>{0, 0, 3, 1, 0, 3, 0, 1, 3}));
+  EXPECT_EQ(values_of<std::int32_t>(elements, "obstacle"), std::vector<std::int32_t>{0});
+}
+
 TEST_F(Exports, AllArraysAreInEveryFileAlsoInAnEmptyOne) {
   Snapshot empty = small_snapshot(library, 0.0);
   empty.cells.clear();

@@ -66,8 +66,8 @@ TEST(Progress, LiveLineReadsAsInTheGuide) {
   p.shells = 87;
   p.step = 18.0;
   p.left = {35 * 60.0, 50 * 60.0};
-  EXPECT_EQ(live_line(p), " 41 % ▕███████▍          ▏ t 39.4 h of 96 h · 1212 cells (87 DCM) · dt 18 s · left 35–50 min");
-  EXPECT_EQ(plain_line(p), " 41 %  t 39.4 h of 96 h · 1212 cells (87 DCM) · dt 18 s · left 35–50 min");
+  EXPECT_EQ(live_line(p), " 41 % ▕███████▍          ▏ t 39.4 h of 96 h · 1212 cells (87 shells) · dt 18 s · left 35–50 min");
+  EXPECT_EQ(plain_line(p), " 41 %  t 39.4 h of 96 h · 1212 cells (87 shells) · dt 18 s · left 35–50 min");
 }
 
 TEST(Progress, PlainLinesComeEachTwentieth) {

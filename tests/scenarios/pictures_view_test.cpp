@@ -1,0 +1,251 @@
+// From where a tissue is looked at, where it is cut, and what is drawn beside cells.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "scenarios/pictures/annotate.h"
+#include "scenarios/pictures/palette.h"
+#include "scenarios/pictures/renderer.h"
+#include "scenarios/pictures/smooth.h"
+#include "scenarios/pictures/standard_pictures.h"
+#include "scenarios/pictures/surroundings.h"
+#include "scenarios/pictures/ticks.h"
+#include "scenarios/pictures/view.h"
+#include "tests/scenarios/pictures_scene.h"
+
+namespace morula::scenarios {
+namespace {
+
+using test::add_shell;
+using test::add_sphere;
+
+Snapshot grid(int nx, int ny, int nz) {
+  Snapshot out;
+  for (int x = 0; x < nx; ++x)
+    for (int y = 0; y < ny; ++y)
+      for (int z = 0; z < nz; ++z) add_sphere(out, {10.0 * x, 10.0 * y, 10.0 * z}, 5.0);
+  return out;
+}
+
+TEST(PicturesView, LayerIsSeenFromAboveAndCutAtItsHeight) {
+  const Snapshot layer = grid(6, 6, 1);
+  const View view = choose_view(std::span(&layer, 1));
+  EXPECT_EQ(view.layout, Layout::kLayer);
+  EXPECT_EQ(view.whole.toward.z, 1.0);
+  EXPECT_EQ(view.whole.up.y, 1.0);
+  EXPECT_EQ(view.whole.right.x, 1.0);
+  const auto cut = place_cut(layer, view.cut_normal);
+  ASSERT_TRUE(cut);
+  EXPECT_NEAR(dot(cut->point, cut->normal), 0.0, 1e-9);
+}
+
+TEST(PicturesView, UprightLayerIsSeenFromItsFront) {
+  const Snapshot layer = grid(6, 1, 6);
+  const View view = choose_view(std::span(&layer, 1));
+  EXPECT_EQ(view.layout, Layout::kLayer);
+  EXPECT_EQ(view.whole.toward.y, -1.0);
+  EXPECT_EQ(view.whole.up.z, 1.0);
+  EXPECT_NEAR(norm(cross(view.whole.right, view.whole.up) - view.whole.toward), 0.0, 1e-14);
+}
+
+TEST(PicturesView, RowLiesAcrossThePictureAndIsNotCutObliquely) {
+  for (const Vec3d along : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}}) {
+    Snapshot row;
+    for (int i = 0; i < 5; ++i) add_sphere(row, along * (20.0 * i), 6.0);
+    const View view = choose_view(std::span(&row, 1));
+    EXPECT_EQ(view.layout, Layout::kRow);
+    EXPECT_NEAR(std::abs(dot(view.cut.right, along)), 1.0, 1e-12);
+    EXPECT_NEAR(norm(view.cut.toward - view.cut_normal), 0.0, 1e-12) << "the cut is seen face to face";
+    const auto cut = place_cut(row, view.cut_normal);
+    ASSERT_TRUE(cut);
+    for (const auto& cell : row.cells) EXPECT_NEAR(dot(cell.centroid - cut->point, cut->normal), 0.0, 1e-9) << "through every cell";
+  }
+}
+
+TEST(PicturesView, BallIsSeenFromTheSide) {
+  const Snapshot ball = grid(4, 4, 4);
+  const View view = choose_view(std::span(&ball, 1));
+  EXPECT_EQ(view.layout, Layout::kBall);
+  EXPECT_GT(dot(view.cut.toward, view.cut_normal), 0.9) << "the cut is seen nearly face to face";
+  EXPECT_GT(dot(view.whole.toward, view.cut_normal), 0.0);
+}
+
+TEST(PicturesView, CutThatMeetsNoCellIsMovedOrLeftOut) {
+  Snapshot two;  // nothing lies half way between them
+  add_sphere(two, {0, -20, 0}, 6.0);
+  add_sphere(two, {0, 20, 0}, 6.0);
+  const auto cut = place_cut(two, {0, 1, 0});
+  ASSERT_TRUE(cut);
+  EXPECT_NEAR(std::abs(dot(cut->point, cut->normal)), 20.0, 1.0) << "moved to the middle of a cell";
+  EXPECT_FALSE(place_cut(Snapshot{}, {0, 1, 0}));
+  const Snapshot none;
+  for (const Picture& picture : standard_pictures(std::span(&none, 1))) EXPECT_EQ(picture.name.find("cut"), std::string::npos);
+}
+
+TEST(PicturesView, PictureIsAsWideAsTheTissue) {
+  Snapshot row;
+  for (int i = 0; i < 5; ++i) add_sphere(row, {20.0 * i, 0, 0}, 6.0);
+  EXPECT_EQ(aspect_of(make_camera(0.0, 0.0), std::span(&row, 1)), 0.4);  // 12 µm high, 92 µm wide: no flatter than that
+  const Snapshot ball = grid(2, 2, 2);
+  EXPECT_NEAR(aspect_of(make_camera(0.0, 0.0), std::span(&ball, 1)), 1.0, 1e-12);
+}
+
+/// Largest distance of the surface of all faces from the unit sphere, at the middles of faces and edges.
+double roundness(const Snapshot& s) {
+  double worst = 0.0;
+  for (const Triangle& f : s.topologies[0]) {
+    const Vec3d &a = s.nodes[f[0]], &b = s.nodes[f[1]], &c = s.nodes[f[2]];
+    for (const Vec3d& p : {(a + b + c) / 3.0, (a + b) / 2.0, (b + c) / 2.0}) worst = std::max(worst, std::abs(norm(p) - 1.0));
+  }
+  return worst;
+}
+
+TEST(PicturesSmooth, CoarseBallBecomesRoundAndStaysClosed) {
+  Snapshot coarse;
+  add_sphere(coarse, {}, 1.0);
+  coarse.cells[0].body = BodyKind::kShell;
+  const auto [x, faces] = test::icosphere(1);
+  coarse.topologies = {faces};
+  coarse.shells = {{0, 0, static_cast<std::uint32_t>(x.size()), 0}};
+  coarse.nodes = x;
+  coarse.face_marks.assign(faces.size(), 0);
+  coarse.face_marks[7] = 1;
+  const Snapshot fine = smoothed(coarse, 4);
+  EXPECT_EQ(fine.topologies[0].size(), 16 * faces.size());
+  EXPECT_EQ(std::count(fine.face_marks.begin(), fine.face_marks.end(), 1), 16);
+  EXPECT_GT(roundness(coarse), 0.05);
+  EXPECT_LT(roundness(fine), 0.01);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;  // every edge once in each direction: closed and oriented
+  for (const Triangle& f : fine.topologies[0])
+    for (std::size_t c = 0; c < 3; ++c) ++edges[{f[c], f[(c + 1) % 3]}];
+  for (const auto& [edge, count] : edges) {
+    EXPECT_EQ(count, 1);
+    EXPECT_EQ(edges.count({edge.second, edge.first}), 1u);
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) EXPECT_EQ(norm(fine.nodes[i] - x[i]), 0.0) << "the nodes themselves stay";
+}
+
+Snapshot::Obstacle box(const std::string& name, const Vec3d& low, const Vec3d& high) {
+  Snapshot::Obstacle out;
+  out.name = name;
+  for (int i = 0; i < 8; ++i) out.position.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
+  out.faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+               {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return out;
+}
+
+RenderOptions from_front(const Snapshot& snapshot, bool cut) {
+  RenderOptions options;
+  options.width = options.height = 200;
+  options.samples = 1;
+  options.annotations = options.outlines = false;
+  options.camera = make_camera(0.0, 0.0);
+  options.camera.pixels_per_um = 5.0;
+  if (cut) options.cut = place_cut(snapshot, options.camera.toward);
+  return options;
+}
+
+constexpr Rgb kPaper{1.0f, 1.0f, 1.0f};
+bool grey(const Rgb& c) { return std::abs(c.r - c.b) < 0.12f && c.r < 0.95f; }
+
+TEST(PicturesSurroundings, PlateIsSeenBesideACellBehindAndBeforeIt) {
+  Snapshot snapshot;
+  add_sphere(snapshot, {}, 6.0);
+  snapshot.obstacles = {box("plate", {-12, -12, -10}, {12, 12, -6})};
+  for (const bool cut : {false, true}) {
+    const Image image = render(snapshot, from_front(snapshot, cut));
+    EXPECT_TRUE(grey(image.at(100, 100 + 40))) << "8 µm below the middle";
+    EXPECT_TRUE(grey(image.at(50, 100 + 40))) << "and 10 µm to the left";
+    EXPECT_EQ(image.at(100, 100 - 60), kPaper);
+  }
+  snapshot.obstacles[0].offset = {0, 0, 30};  // it has moved
+  const Image moved = render(snapshot, from_front(snapshot, false));
+  EXPECT_EQ(moved.at(100, 100 + 40), kPaper);
+  // A cell behind a plate is still seen through it.
+  snapshot.obstacles = {box("before", {-12, -20, -12}, {12, -16, 12})};
+  const Image through = render(snapshot, from_front(snapshot, false));
+  const Rgb cell = through.at(100, 100), plate = through.at(50, 100);
+  EXPECT_GT(cell.b - cell.r, 0.1f) << "the blue of the first type";
+  EXPECT_TRUE(grey(plate));
+}
+
+TEST(PicturesSurroundings, ContainerDoesNotHideWhatIsInIt) {
+  Snapshot snapshot;
+  add_sphere(snapshot, {}, 6.0);
+  const Image alone = render(snapshot, from_front(snapshot, false));
+  snapshot.obstacles = {box("mould", {-15, -15, -15}, {15, 15, 15})};
+  const Image within = render(snapshot, from_front(snapshot, false));
+  EXPECT_EQ(within.at(100, 100), alone.at(100, 100));
+  EXPECT_TRUE(grey(within.at(40, 100))) << "its far side is seen";
+}
+
+TEST(PicturesSurroundings, CavityIsFilledWithFluidInTheCut) {
+  Snapshot ring;  // closed in the plane of the cut
+  for (int i = 0; i < 12; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / 12.0;
+    add_sphere(ring, {12.0 * std::cos(angle), 0.0, 12.0 * std::sin(angle)}, 4.0);
+  }
+  ring.lumens = {{"cavity", {}, 1500.0, 0.0}};
+  const Image image = render(ring, from_front(ring, true));
+  const auto near = [](const Rgb& a, const Rgb& b) { return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b) < 0.02f; };
+  EXPECT_TRUE(near(image.at(100, 100), kFluidColor));
+  EXPECT_TRUE(near(image.at(100, 70), kFluidColor)) << "up to the cells";
+  EXPECT_EQ(image.at(5, 5), kPaper) << "and not outside";
+  // A gap in the ring: a disc of the cavity's volume, radius 7.1 µm.
+  ring.cells.erase(ring.cells.begin());
+  const Image open = render(ring, from_front(ring, true));
+  EXPECT_TRUE(near(open.at(100, 100), kFluidColor));
+  EXPECT_EQ(open.at(195, 100), kPaper);
+  EXPECT_EQ(surroundings_legend(ring, true).back().text, "fluid of cavity");
+}
+
+TEST(PicturesColours, OneColourHasOneMeaning) {
+  const auto apart = [](const Rgb& a, const Rgb& b) { return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b); };
+  for (std::size_t type = 0; type < 7; ++type) {
+    for (const bool shell : {false, true}) EXPECT_GT(apart(categorical_color(type), body_color(shell)), 0.25f) << type;
+    for (std::size_t mark = 0; mark < 6; ++mark) EXPECT_GT(apart(categorical_color(type), mark_color(mark)), 0.2f) << type << ' ' << mark;
+    EXPECT_GT(apart(categorical_color(type), kFluidColor), 0.25f);
+  }
+}
+
+TEST(PicturesColours, TypesTakeTheColoursTheyAreGiven) {
+  Snapshot snapshot;
+  add_sphere(snapshot, {}, 5.0);
+  snapshot.type_names = {"liver"};
+  const TypeColors given{color_of_text("#d55e00")};
+  ASSERT_TRUE(given[0]);
+  EXPECT_EQ(legend_entries(snapshot, ColorBy::kType, given)[0].color, *given[0]);
+  EXPECT_EQ(*color_of_text("vermilion"), *given[0]);
+  for (const char* wrong : {"", "red!", "#d55e0", "#d55e0g", "d55e00"}) EXPECT_FALSE(color_of_text(wrong)) << wrong;
+}
+
+TEST(PicturesColours, ScaleKnowsTheRangeOfItsData) {
+  Snapshot snapshot;
+  for (int i = 0; i < 200; ++i) add_sphere(snapshot, {}, 5.0), snapshot.cells.back().pressure = 0.001 * i;
+  snapshot.cells.back().pressure = 5.0;  // beyond the 99th percentile
+  const ColorScale scale = common_scale(std::span(&snapshot, 1), ColorBy::kPressure);
+  EXPECT_LT(scale.high, 1.0);
+  EXPECT_EQ(scale.data_high, 5.0);
+  EXPECT_EQ(scale.data_low, 0.0);
+}
+
+TEST(PicturesText, UnitsReadAsPeopleWriteThem) {
+  EXPECT_EQ(display_text("<= 0.3 um"), "<= 0.3 µm");
+  EXPECT_EQ(display_text("um^2"), "µm²");
+  EXPECT_EQ(display_text("nN um"), "nN µm");
+  EXPECT_EQ(display_text("number, umbrella, um_x, maximum"), "number, umbrella, um_x, maximum");
+}
+
+TEST(PicturesTicks, TimesAreThoseOfClocks) {
+  EXPECT_EQ(time_ticks(0, 24, 7, "h").at, (std::vector<double>{0, 6, 12, 18, 24}));
+  EXPECT_EQ(time_ticks(0, 4, 7, "h").at, (std::vector<double>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(time_ticks(0, 90, 7, "min").at, (std::vector<double>{0, 15, 30, 45, 60, 75, 90}));
+  EXPECT_EQ(time_ticks(0, 10, 7, "s").at, linear_ticks(0, 10, 7, false).at);
+}
+
+}  // namespace
+}  // namespace morula::scenarios
