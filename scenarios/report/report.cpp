@@ -55,13 +55,25 @@ void add_head(std::string& out, const ReportContent& content) {
 void add_verdict(std::string& out, const ReportContent& content) {
   if (content.criteria.empty()) return;
   const auto passed = std::count_if(content.criteria.begin(), content.criteria.end(), [](const auto& c) { return c.passed; });
+  // What holds for every run says nothing about what the study is meant to show.
+  const bool general = std::all_of(content.criteria.begin(), content.criteria.end(),
+                                   [](const auto& c) { return c.id.starts_with("INV.") || c.id.starts_with("LIMIT."); });
   const bool all = passed == static_cast<std::ptrdiff_t>(content.criteria.size());
-  add(out, "<section>\n<h2>Verdict</h2>\n<p class=\"", all ? "badge good" : "badge bad", "\">", std::to_string(passed), " of ",
-      std::to_string(content.criteria.size()), " criteria passed</p>\n");
+  add(out, "<section>\n<h2>", general ? "Numerical checks" : "Verdict", "</h2>\n<p class=\"", all ? "badge good" : "badge bad", "\">",
+      std::to_string(passed), " of ", std::to_string(content.criteria.size()), general ? " checks passed</p>\n" : " criteria passed</p>\n");
   std::vector<Row> rows;
   for (const auto& c : content.criteria)
     rows.push_back({{c.id, c.text, c.value, c.limit, c.passed ? "✓ passed" : "✗ failed"}, c.passed ? "good" : "bad"});
   add_table(out, {"id", "criterion", "value", "limit", "result"}, rows);
+  add(out, "</section>\n");
+}
+
+void add_not_checked(std::string& out, const ReportContent& content) {
+  if (content.not_checked.empty()) return;
+  add(out, "<section>\n<h2>Not checked</h2>\n");
+  std::vector<Row> rows;
+  for (const NotChecked& n : content.not_checked) rows.push_back({{n.id, n.what, n.why}});
+  add_table(out, {"id", "what", "why"}, rows);
   add(out, "</section>\n");
 }
 
@@ -182,6 +194,7 @@ Result<std::string> report_html(const ReportContent& content) {
   add_plots(out, content);
   add_limits(out, content);
   add_events(out, content);
+  add_not_checked(out, content);
   add_provenance(out, content);
   add_methods(out, content);
   add(out, "</main>\n</body>\n</html>\n");

@@ -7,6 +7,7 @@
 #include "core/result.h"
 #include "scenarios/pictures/standard_pictures.h"
 #include "scenarios/report/methods.h"
+#include "scenarios/results/run_record.h"
 
 namespace morula::scenarios {
 
@@ -49,6 +50,7 @@ struct ReportContent {
   std::string title, study, scenario, summary;
   std::string state;  ///< "done", "stopped early", "failed"; not "done" is shown as a warning
   std::vector<ReportCriterion> criteria;
+  std::vector<NotChecked> not_checked;  ///< what a reader of the criteria must not take for granted
   std::vector<ReportNumber> key_numbers;
   std::vector<Picture> pictures;
   std::vector<ReportPlot> plots;

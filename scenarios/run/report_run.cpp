@@ -145,7 +145,7 @@ Result<Study> read_run_study(const fs::path& run) {
   return std::move(study).value();
 }
 
-Result<fs::path> write_run_report(const Study& study, const RunRecord& record, const fs::path& run, const std::vector<Verdict>& verdicts) {
+Result<fs::path> write_run_report(const Study& study, const RunRecord& record, const fs::path& run, const Judgement& judgement) {
   MORULA_TRY_ASSIGN(const SeriesTable series, read_series(run / "series.csv"));
   MORULA_TRY(make_folder(run / "plots"));
   ReportContent content;
@@ -153,7 +153,8 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
   content.study = study.name;
   content.scenario = study.scenario;
   content.state = state_text(record);
-  for (const Verdict& v : verdicts) content.criteria.push_back({v.id, v.quantity, short_text(v.value), v.limit, v.passed});
+  for (const Verdict& v : judgement.verdicts) content.criteria.push_back({v.id, v.quantity, value_text(v), v.limit, v.passed});
+  content.not_checked = judgement.not_checked;
   MORULA_TRY_ASSIGN(std::vector<NamedPlot> plots, scenario_plots(study, run));
   for (NamedPlot& plot : standard_plots(study, series)) plots.push_back(std::move(plot));
   for (const auto& [name, plot] : plots) {
@@ -176,8 +177,8 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
 
 Result<RunOutputs> finish_outputs(const Study& study, const RunRecord& record, const RunFolder& folder) {
   RunOutputs out;
-  MORULA_TRY_ASSIGN(out.verdicts, judge(study, folder.path()));
-  MORULA_TRY(folder.write_verdict(out.verdicts));
+  MORULA_TRY_ASSIGN(out.judgement, judge(study, folder.path()));
+  MORULA_TRY(folder.write_verdict(out.judgement));
   const auto laws = used_laws(study);
   MORULA_TRY(write_methods(study.title.empty() ? study.name : study.title, laws, folder.path() / "methods.md"));
   if (std::find(study.output.formats.begin(), study.output.formats.end(), "vtk") != study.output.formats.end()) {
@@ -185,7 +186,7 @@ Result<RunOutputs> finish_outputs(const Study& study, const RunRecord& record, c
     if (!exported.ok()) return std::move(exported).error();
   }
   if (study.output.report) {
-    MORULA_TRY_ASSIGN(out.report, write_run_report(study, record, folder.path(), out.verdicts));
+    MORULA_TRY_ASSIGN(out.report, write_run_report(study, record, folder.path(), out.judgement));
   }
   return out;
 }
@@ -193,8 +194,8 @@ Result<RunOutputs> finish_outputs(const Study& study, const RunRecord& record, c
 Result<fs::path> plot_run(const fs::path& run) {
   MORULA_TRY_ASSIGN(const RunRecord record, read_run_record(run / "run.json"));
   MORULA_TRY_ASSIGN(const Study study, read_run_study(run));
-  MORULA_TRY_ASSIGN(const auto verdicts, judge(study, run));
-  return write_run_report(study, record, run, verdicts);
+  MORULA_TRY_ASSIGN(const Judgement judgement, judge(study, run));
+  return write_run_report(study, record, run, judgement);
 }
 
 }  // namespace morula::scenarios

@@ -169,6 +169,10 @@ constexpr ErrorCode kCodes[] = {
     {623, "mesh crosses itself", "Two faces that are not neighbours intersect."},
     {624, "mesh has degenerate or double faces", "A face has no area, or the same face stands twice."},
     {625, "mesh is not a surface", "An edge has three or more faces, or two parts of the surface touch in one node."},
+    {685, "study that does not fit its scenario",
+     "`scenario` names the library study whose criteria are judged at the end; they need what that study has (its loads, obstacles, "
+     "regions), and "
+     "`criteria` names some of them."},
 };
 
 }  // namespace

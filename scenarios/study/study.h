@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -75,7 +76,8 @@ struct InputFile {
 struct Study {
   std::string name;
   std::string title;
-  std::string scenario;  ///< library study it was made from, or "" (gives the criteria that go to verdict.json)
+  std::string scenario;               ///< library study it was made from, or "" (gives the criteria that go to verdict.json)
+  std::vector<std::string> criteria;  ///< those of the scenario that must be judged; empty: whichever it finds, one at least
   Model model;
   TimeSpec time;
   std::vector<InitialCells> initial;
@@ -89,10 +91,11 @@ struct Study {
 };
 
 struct ReadOptions {
-  std::vector<std::string> overrides;       ///< `key.path=value`, as if written in the file
-  std::vector<std::string> series_names;    ///< observables that exist; empty: not checked
-  std::vector<std::string> scenario_names;  ///< library studies that exist; empty: not checked
-  bool strict = false;                      ///< warnings are errors
+  std::vector<std::string> overrides;                 ///< `key.path=value`, as if written in the file
+  std::vector<std::string> series_names;              ///< observables that exist; empty: not checked
+  std::vector<std::string> scenario_names;            ///< library studies that exist; empty: not checked
+  std::function<Status(const Study&)> fits_scenario;  ///< whether a study has what its scenario's criteria judge; null: not checked
+  bool strict = false;                                ///< warnings are errors
 };
 
 /// Read, check and convert a study file. On failure all errors (and warnings), sorted by place.
