@@ -145,15 +145,17 @@ void add_events(std::string& out, const ReportContent& content) {
 
 void add_methods(std::string& out, const ReportContent& content) {
   if (content.laws.empty()) return;
-  add(out, "<section>\n<h2>Methods</h2>\n<p>Laws this run used. Lengths in µm, forces in nN, times in s, amounts in amol.</p>\n");
+  add(out,
+      "<section>\n<h2>Methods</h2>\n<p>Laws this run used. Lengths in µm, forces in nN, times in s, amounts in amol. "
+      "<code>methods.md</code> says which values the study gave and where the others come from.</p>\n");
   for (const UsedLaw& use : content.laws) {
     add(out, "<article>\n<h3>", xml_escaped(use.law.title.empty() ? use.law.name : use.law.title), " <small>", xml_escaped(use.purpose),
         "</small></h3>\n");
     if (!use.law.equation.empty()) add(out, "<p class=\"equation\">", xml_escaped(use.law.equation), "</p>\n");
     if (!use.law.source.empty()) add(out, "<p class=\"source\">", xml_escaped(use.law.source), "</p>\n");
     std::vector<Row> rows;
-    for (const LawParameter& p : use.law.parameters) rows.push_back({{p.name, used_value(use, p), p.unit, p.doc, p.source}});
-    if (!rows.empty()) add_table(out, {"parameter", "value", "unit", "meaning", "source of the default"}, rows);
+    for (const LawParameter& p : use.law.parameters) rows.push_back({{p.name, used_value(use, p), p.unit, p.doc}});
+    if (!rows.empty()) add_table(out, {"parameter", "value", "unit", "meaning"}, rows);
     add(out, "</article>\n");
   }
   add(out, "</section>\n");

@@ -179,8 +179,9 @@ Result<RunOutputs> finish_outputs(const Study& study, const RunRecord& record, c
   RunOutputs out;
   MORULA_TRY_ASSIGN(out.judgement, judge(study, folder.path()));
   MORULA_TRY(folder.write_verdict(out.judgement));
-  const auto laws = used_laws(study);
-  MORULA_TRY(write_methods(study.title.empty() ? study.name : study.title, laws, folder.path() / "methods.md"));
+  MORULA_TRY_ASSIGN(const std::string resolved, read_file(folder.path() / "study.resolved.yaml"));
+  MORULA_TRY(write_file_atomically(folder.path() / "methods.md",
+                                   methods_text(study.title.empty() ? study.name : study.title, used_laws(study), resolved)));
   if (std::find(study.output.formats.begin(), study.output.formats.end(), "vtk") != study.output.formats.end()) {
     auto exported = export_snapshots(folder.results(), folder.vtk(), ExportFormat::kVtk, {});
     if (!exported.ok()) return std::move(exported).error();

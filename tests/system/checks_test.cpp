@@ -86,5 +86,27 @@ TEST(UsersStudy, GetsNumericalChecksAndIsToldWhatWasNotChecked) {
   for (const char* id : {"INV.1", "INV.4", "INV.7"}) EXPECT_THAT(ids, testing::Contains(id));
 }
 
+TEST(Methods, SayWhichValuesTheStudyGaveAndWhereTheOthersComeFrom) {
+  const TestFolder folder;
+  folder.write("study.yaml", R"(schema: 1
+study: lone
+time: {end: 20 s, output: 20 s, checkpoint: 20 s}
+domain: {size: [60 um, 60 um, 60 um]}
+cell_types: {a: {radius: 6 um, body: shell, dcm: {cortex: {tension: 0.2 mN/m}}}}
+initial:
+  - {type: a, at: [[0 um, 0 um, 0 um]]}
+output: {report: false}
+)");
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "run"}, folder.path()).exit_code, 0);
+  const std::string methods = read_text(folder / "run/methods.md");
+  EXPECT_THAT(methods, AllOf(HasSubstr("| tension | 0.2 | nN/µm |"), HasSubstr("| spring_stiffness | 0.173205 |"),
+                             Not(HasSubstr("not set")), Not(HasSubstr("the study |"))));
+  EXPECT_THAT(methods, AllOf(HasSubstr("tension: 0.2 mN/m\n"), HasSubstr("young: 1 kPa  # default: Van Liedekerke et al., Table 1\n"),
+                             HasSubstr("range: 0.5 um  # default: ")));
+  // Laws have formulas and units; what a value is by default, and why, stands with the key of the study alone.
+  const std::string laws = run_morula({"explain", "--markdown", "laws"}, folder.path()).out;
+  EXPECT_THAT(laws, AllOf(HasSubstr("| parameter | unit | what |"), Not(HasSubstr("default |")), Not(HasSubstr("the study |"))));
+}
+
 }  // namespace
 }  // namespace morula::test
