@@ -1,5 +1,7 @@
 #include <sys/mount.h>
 
+#include <cmath>
+
 #include "scenarios/results/file_io.h"
 #include "scenarios/results/run_folder.h"
 #include "tests/scenarios/results_support.h"
