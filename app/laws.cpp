@@ -1,12 +1,10 @@
 #include "app/laws.h"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/words.h"
 #include "cbm/builtin.h"
 #include "cbm/packing.h"
-#include "core/numbers/number_text.h"
 #include "coupling/behaviours/builtin.h"
 #include "coupling/builtin.h"
 #include "dcm/builtin.h"
@@ -15,21 +13,6 @@
 
 namespace morula::app {
 namespace {
-
-std::string with_unit(double value, const std::string& unit) {
-  return number_text("%.6g", value) + (unit == "1" || unit.empty() ? "" : " " + unit);
-}
-
-std::string default_of(const LawParameter& parameter) {
-  return parameter.fallback ? with_unit(*parameter.fallback, parameter.unit) : "none";
-}
-
-std::string range_of(const LawParameter& parameter) {
-  const bool low = std::isfinite(parameter.minimum), high = std::isfinite(parameter.maximum);
-  if (!low && !high) return "any";
-  if (low && high) return with_unit(parameter.minimum, "1") + " to " + with_unit(parameter.maximum, parameter.unit);
-  return low ? "at least " + with_unit(parameter.minimum, parameter.unit) : "at most " + with_unit(parameter.maximum, parameter.unit);
-}
 
 /// A text within a cell of a Markdown table.
 std::string in_cell(const std::string& text) {
@@ -76,9 +59,7 @@ std::string law_text(const ListedLaw& law) {
   if (law.info.parameters.empty()) return out;
   out += "  parameters:\n";
   for (const LawParameter& p : law.info.parameters) {
-    out += "    " + p.name + " [" + (p.unit.empty() ? "1" : p.unit) + "]: " + p.doc + "\n      default " + default_of(p) + ", range " +
-           range_of(p);
-    out += p.source.empty() ? "\n" : "; source: " + p.source + "\n";
+    out += "    " + p.name + " [" + (p.unit.empty() ? "1" : p.unit) + "]: " + p.doc + "\n";
   }
   return out;
 }
@@ -86,11 +67,7 @@ std::string law_text(const ListedLaw& law) {
 std::string law_json(const ListedLaw& law) {
   nlohmann::ordered_json parameters = nlohmann::ordered_json::array();
   for (const LawParameter& p : law.info.parameters) {
-    nlohmann::ordered_json one{{"name", p.name}, {"quantity", p.quantity}, {"unit", p.unit}, {"doc", p.doc}, {"source", p.source}};
-    one["default"] = p.fallback ? nlohmann::ordered_json(*p.fallback) : nlohmann::ordered_json(nullptr);
-    one["minimum"] = std::isfinite(p.minimum) ? nlohmann::ordered_json(p.minimum) : nlohmann::ordered_json(nullptr);
-    one["maximum"] = std::isfinite(p.maximum) ? nlohmann::ordered_json(p.maximum) : nlohmann::ordered_json(nullptr);
-    parameters.push_back(std::move(one));
+    parameters.push_back({{"name", p.name}, {"quantity", p.quantity}, {"unit", p.unit}, {"doc", p.doc}});
   }
   const nlohmann::ordered_json json{{"law", law.info.name},          {"title", law.info.title},   {"group", law.group},
                                     {"equation", law.info.equation}, {"source", law.info.source}, {"parameters", parameters}};
@@ -101,7 +78,9 @@ std::string law_reference() {
   std::string out =
       "# Laws\n\nGenerated from the registries (`cbm/builtin.cpp`, `dcm/builtin.cpp`, `coupling/builtin.cpp`, "
       "`coupling/behaviours/builtin.cpp`, `fields/builtin.cpp`); do not edit.\n"
-      "Units inside are µm, nN, s and amol; 1 kPa = 1 nN/µm².\n";
+      "Units inside are µm, nN, s and amol; 1 kPa = 1 nN/µm². Values, ranges, defaults and where these come from belong to the keys of the "
+      "study\n"
+      "and stand in [study_reference.md](study_reference.md) alone; `methods.md` of a run has the values it used.\n";
   std::string group;
   for (const ListedLaw& law : all_laws()) {
     if (law.group != group) {
@@ -110,10 +89,9 @@ std::string law_reference() {
     }
     out += "\n### `" + law.info.name + "`: " + law.info.title + "\n\n    " + law.info.equation + "\n\nSource: " + law.info.source + "\n";
     if (law.info.parameters.empty()) continue;
-    out += "\n| parameter | unit | default | range | what | source |\n|---|---|---|---|---|---|\n";
+    out += "\n| parameter | unit | what |\n|---|---|---|\n";
     for (const LawParameter& p : law.info.parameters)
-      out += "| `" + p.name + "` | " + (p.unit.empty() ? "1" : p.unit) + " | " + default_of(p) + " | " + range_of(p) + " | " +
-             in_cell(p.doc) + " | " + in_cell(p.source) + " |\n";
+      out += "| `" + p.name + "` | " + (p.unit.empty() ? "1" : p.unit) + " | " + in_cell(p.doc) + " |\n";
   }
   return out;
 }

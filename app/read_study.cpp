@@ -1,6 +1,7 @@
 #include "app/read_study.h"
 
 #include "app/words.h"
+#include "scenarios/library/criteria.h"
 #include "scenarios/library/library.h"
 #include "scenarios/observables/observables.h"
 #include "scenarios/results/file_io.h"
@@ -12,6 +13,7 @@ Result<scenarios::Study> read_study_and_tell(const std::string& path, const std:
   scenarios::ReadOptions options;
   options.overrides = overrides;
   options.scenario_names = scenarios::template_names();
+  options.fits_scenario = &scenarios::fits_scenario;
   options.strict = strict;
   options.judge_places = judge_places;
   auto study = scenarios::read_study(path, options);

@@ -78,13 +78,13 @@ void RunDisplay::end(const scenarios::RunSummary& summary) {
     console_.message("stopped at " + where + ", with a checkpoint\n  go on with `morula resume " + summary.path.string() + "`\n");
   } else {
     std::string line = "done   " + where;
-    if (!summary.verdicts.empty()) line += summary.passed() ? " · checks passed" : " · checks FAILED";
+    if (!summary.verdicts.empty()) line += summary.passed ? " · checks passed" : " · checks FAILED";
     if (!summary.report.empty()) line += " · report: " + summary.report.string();
     console_.message(line + "\n");
     for (const scenarios::Verdict& verdict : summary.verdicts)
       if (!verdict.passed)
-        console_.warning("check " + verdict.id + " failed: " + verdict.quantity + " is " + number_text("%.4g", verdict.value) +
-                         ", wanted " + verdict.limit);
+        console_.warning("check " + verdict.id + " failed: " + verdict.quantity + ": " + scenarios::value_text(verdict) + ", wanted " +
+                         verdict.limit);
   }
   if (!summary.timings.empty()) console_.message(summary.timings);
   console_.result(summary.path.string() + "\n");

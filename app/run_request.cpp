@@ -31,6 +31,8 @@ std::string first_line(const scenarios::Study& study, int threads, const Context
 
 Status outcome_of(const scenarios::RunSummary& summary) {
   if (summary.stopped) return Error{*summary.stopped, "", ""};
+  // What failed has been told; the results are whole.
+  if (!summary.passed) return Error{ErrorKind::kVerification, "", ""};
   return {};
 }
 

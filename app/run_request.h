@@ -13,7 +13,8 @@ Status fill_request(const RunLimits& limits, const Context& context, scenarios::
 /// "morula 0.1.0 · spheroid_core · seed 20261121 · 2 ranks × 1 thread"
 [[nodiscard]] std::string first_line(const scenarios::Study& study, int threads, const Context& context);
 
-/// Success for a run that is done; for one that was stopped an error without text (all was told), whose kind gives the exit code.
+/// Success for a run that is done and passed its checks; else (a check failed, or it was stopped) an error without text, as all was told, whose kind
+/// gives the exit code.
 [[nodiscard]] Status outcome_of(const scenarios::RunSummary& summary);
 
 }  // namespace morula::app

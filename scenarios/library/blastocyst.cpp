@@ -35,16 +35,10 @@ struct Embryo {
 };
 
 Result<Embryo> read_embryo(const Study& study, const std::filesystem::path& run) {
-  if (study.initial.size() != 1 || study.initial.front().source != InitialCells::Source::kCsv)
-    return Error{ErrorKind::kInput, "the criteria of a blastocyst need its cells from one CSV file",
-                 "leave `scenario` away for other studies"};
   Embryo out;
   std::vector<std::string> names;
   for (const CellType& type : study.model.types) names.push_back(type.name);
-  const auto outer = std::find(names.begin(), names.end(), "TE");
-  if (outer == names.end())
-    return Error{ErrorKind::kInput, "the criteria of a blastocyst need the cell type `TE`", "leave `scenario` away for other studies"};
-  out.outer = static_cast<std::uint16_t>(outer - names.begin());
+  out.outer = static_cast<std::uint16_t>(std::find(names.begin(), names.end(), "TE") - names.begin());
   const UnitSystem units;
   Diagnostics diagnostics;
   const std::string& path = study.initial.front().csv_path;
@@ -88,24 +82,24 @@ void judge_shape(const Study& study, const Embryo& embryo, std::vector<Verdict>&
   const Snapshot& inflated = start.inflate_time > 0.0 ? embryo.moments[moment_at(embryo, start.inflate_time)] : embryo.last();
   double volume = 0.0;
   for (const auto& cell : inflated.cells) volume += cell.volume;
-  if (const double target = start.shared_volume * static_cast<double>(inflated.cells.size()); target > 0.0)
-    out.push_back(
-        at_most("S18.2", "total volume after inflation against the target, relative", std::abs(volume / target - 1.0), kVolumeError));
+  const double target = start.shared_volume * static_cast<double>(inflated.cells.size());
+  out.push_back(
+      at_most("S18.2", "total volume after inflation against the target, relative", std::abs(volume / target - 1.0), kVolumeError));
   const double cell_radius = std::cbrt(0.75 / std::numbers::pi * volume / static_cast<double>(inflated.cells.size()));
   const std::vector<double> free = outer_surface_fractions(inflated, cell_radius, {start.cavity_center, start.cavity_radius});
   std::size_t covered = 0, outside = 0;
-  double most = 0.0;
+  Largest most;
   for (std::size_t i = 0; i < free.size(); ++i) {
     if (embryo.is_outer(inflated.cells[i])) {
       covered += free[i] == 0.0;
     } else {
       outside += free[i] > kInnerFree;
-      most = std::max(most, free[i]);
+      most.add(free[i]);
     }
   }
   out.push_back(equal("S18.2", "trophectoderm cells that a ball of a cell's size, rolling outside, does not touch", covered, 0));
   out.push_back(equal("S18.2", "inner cells that such a ball touches on more than 10 % of their surface", outside, 0));
-  out.push_back(at_most("S18.2", "largest part of an inner cell's surface that such a ball touches", most, kInnerFree));
+  out.push_back(at_most("S18.2", "largest part of an inner cell's surface that such a ball touches", most.value(), kInnerFree));
 }
 
 /// S18.3
@@ -118,19 +112,19 @@ void judge_places(const Embryo& embryo, std::vector<Verdict>& out) {
     measured.push_back(embryo.rows[number - 1].position);
     now.push_back(cell.centroid);
   }
-  out.push_back(at_most("S18.3", "root mean square way of the cells from the measured nuclei", rms_after_rigid_motion(measured, now),
-                        kRmsDisplacement, "um"));
-  const auto hull = convex_hull(now);
-  if (!hull) return;
-  for (const auto& cell : embryo.last().cells) (embryo.is_outer(cell) ? outer : inner).push_back(hull->depth(cell.centroid));
+  out.push_back(at_most("S18.3", "root mean square way of the cells from the measured nuclei",
+                        now.empty() ? kNothing : rms_after_rigid_motion(measured, now), kRmsDisplacement, "um"));
+  if (const auto hull = convex_hull(now))
+    for (const auto& cell : embryo.last().cells) (embryo.is_outer(cell) ? outer : inner).push_back(hull->depth(cell.centroid));
   out.push_back(at_most("S18.3", "trophectoderm lies outside the inner cells (depth below the hull, Mann-Whitney p)",
-                        mann_whitney_p(outer, inner), kOrder));
+                        outer.empty() || inner.empty() ? kNothing : mann_whitney_p(outer, inner), kOrder));
 }
 
 /// The last moment before a time.
 std::size_t moment_before(const Embryo& embryo, double time) { return moment_at(embryo, time - 2e-6); }
 
-/// Largest way of a TE centre in the window of an exchange that begins at `time`, beyond what it went on as in the window before.
+/// Largest way of a TE centre in the window of an exchange that begins at `time`, beyond what it went on as in the window before; kNothing without
+/// snapshots before and after.
 double motion_by_exchange(const Embryo& embryo, double time) {
   // At the moment of an exchange the first cell has its new body, and nobody has moved yet.
   const std::size_t at = moment_at(embryo, time);
@@ -139,21 +133,21 @@ double motion_by_exchange(const Embryo& embryo, double time) {
   std::map<CellId, Vec3d> start, past;
   for (const auto& cell : embryo.moments[at].cells) start[cell.id] = cell.centroid;
   for (const auto& cell : embryo.moments[before].cells) past[cell.id] = cell.centroid;
-  const double span = embryo.moments[at].time - embryo.moments[before].time;
-  const double ratio = span > 0.0 ? (embryo.moments[after].time - embryo.moments[at].time) / span : 0.0;
-  double most = 0.0;
+  if (before == at || after == at) return kNothing;
+  const double ratio = (embryo.moments[after].time - embryo.moments[at].time) / (embryo.moments[at].time - embryo.moments[before].time);
+  Largest most;
   for (const auto& cell : embryo.moments[after].cells) {
     if (!embryo.is_outer(cell) || !start.contains(cell.id) || !past.contains(cell.id)) continue;
     const Vec3d drift = (start[cell.id] - past[cell.id]) * ratio;
-    most = std::max(most, norm(cell.centroid - start[cell.id] - drift));
+    most.add(norm(cell.centroid - start[cell.id] - drift));
   }
-  return most;
+  return most.value();
 }
 
 /// S18.6
 void judge_exchange(const Region& region, const Embryo& embryo, std::vector<Verdict>& out) {
   std::size_t lost = 0, inner = 0, shells = 0, shells_at_end = 0;
-  double volume = 0.0;
+  Largest volume;
   const auto has = [](const Snapshot& moment, CellId id) {
     return std::any_of(moment.cells.begin(), moment.cells.end(), [&](const auto& cell) { return cell.id == id; });
   };
@@ -170,11 +164,12 @@ void judge_exchange(const Region& region, const Embryo& embryo, std::vector<Verd
   if (at + 1 < embryo.moments.size() && embryo.moments[at + 1].time == region.from)
     for (const auto& now : embryo.moments[at + 1].cells)
       for (const auto& then : embryo.moments[at].cells)
-        if (now.id == then.id && now.body != then.body) volume = std::max(volume, std::abs(now.volume / then.volume - 1.0));
+        if (now.id == then.id && now.body != then.body) volume.add(std::abs(now.volume / then.volume - 1.0));
   out.push_back(equal("S18.6", "ids that came or went", lost, 0));
-  out.push_back(equal("S18.6", "inner cells that are shells before the region ends", shells, inner));
+  out.push_back(at_least("S18.6", "part of the inner cells that are shells before the region ends",
+                         static_cast<double>(shells) / static_cast<double>(inner), 1.0));
   out.push_back(equal("S18.6", "inner cells that are shells at the end", shells_at_end, 0));
-  out.push_back(at_most("S18.6", "volume of the cells just promoted, relative change", volume, kSwapVolume));
+  out.push_back(at_most("S18.6", "volume of the cells just promoted, relative change", volume.value(), kSwapVolume));
   out.push_back(at_most("S18.6", "way of a trophectoderm cell in the 20 min of promotion, beyond its drift",
                         motion_by_exchange(embryo, region.from), kSwapMotion, "um"));
   out.push_back(at_most("S18.6", "way of a trophectoderm cell in the 20 min of demotion, beyond its drift",
@@ -182,6 +177,15 @@ void judge_exchange(const Region& region, const Embryo& embryo, std::vector<Verd
 }
 
 }  // namespace
+
+Status blastocyst_needs(const Study& study) {
+  if (study.initial.size() != 1 || study.initial.front().source != InitialCells::Source::kCsv ||
+      !(study.initial.front().shared_volume > 0.0))
+    return Error{ErrorKind::kInput, "its cells from one CSV file, with `volume_from_hull`", ""};
+  for (const CellType& type : study.model.types)
+    if (type.name == "TE") return {};
+  return Error{ErrorKind::kInput, "a cell type `TE`", ""};
+}
 
 Result<std::vector<Verdict>> judge_blastocyst(const Study& study, const std::filesystem::path& run) {
   MORULA_TRY_ASSIGN(const Embryo embryo, read_embryo(study, run));

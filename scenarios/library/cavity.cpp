@@ -11,8 +11,11 @@ constexpr double kLeak = 0.05;    // S18.4: part of the directions from the cent
 
 }  // namespace
 
+Status cavity_needs(const Study& study) {
+  return study.model.lumens.empty() ? Status(Error{ErrorKind::kInput, "a cavity (`lumens`)", ""}) : Status{};
+}
+
 Result<std::vector<Verdict>> judge_cavity(const Study& study, const std::filesystem::path& run) {
-  if (study.model.lumens.empty()) return std::vector<Verdict>{};
   MORULA_TRY_ASSIGN(const SeriesTable series, read_series(run / "series.csv"));
   const std::string& name = study.model.lumens.front().name;
   const SeriesColumn* volume = series.find("volume_" + name);

@@ -17,41 +17,105 @@ namespace {
 constexpr double kEnergyRise = 1e-3;  // of the range (INV.7)
 constexpr double kRest = 1e-9;        // range of the energy over its size, below which a tissue is at rest and what is left is rounding
 
-/// Largest value of a column; NaN (which passes no limit) where a value is no number.
-double largest(const SeriesColumn& column) {
-  double out = 0.0;
-  for (const double value : column.values)
-    if (!(value <= out)) out = value;
-  return out;
+/// Largest value of a column; kNothing, which passes no limit, without a row or where a value is no number.
+double largest(const SeriesColumn* column) {
+  Largest out;
+  for (std::size_t i = 0; column != nullptr && i < column->values.size(); ++i) out.add(column->values[i]);
+  return out.value();
 }
 
-/// Largest rise between two rows, relative to the range. The row of time 0 has no step before it and is left out.
-double largest_rise(const SeriesColumn& energy) {
-  double rise = 0.0, low = 1e300, high = -1e300;
-  for (std::size_t i = 1; i < energy.values.size(); ++i) {
-    low = std::min(low, energy.values[i]);
-    high = std::max(high, energy.values[i]);
-    if (i > 1) rise = std::max(rise, energy.values[i] - energy.values[i - 1]);
+/// Largest rise between two rows, relative to the range. The row of time 0 has no step before it and is left out; kNothing without two others.
+double largest_rise(const SeriesColumn* energy) {
+  Largest rise, high, minus_low;
+  for (std::size_t i = 1; energy != nullptr && i < energy->values.size(); ++i) {
+    high.add(energy->values[i]);
+    minus_low.add(-energy->values[i]);
+    if (i > 1) rise.add(std::max(0.0, energy->values[i] - energy->values[i - 1]));
   }
-  return high > low ? rise / std::max(high - low, kRest * std::max(std::abs(low), std::abs(high))) : 0.0;
+  const double range = high.value() + minus_low.value();
+  const double size = std::max(std::abs(high.value()), std::abs(minus_low.value()));
+  return range == 0.0 ? rise.value() : rise.value() / std::max(range, kRest * size);
+}
+
+Status has_load(const Study& study, LoadKind kind, const char* what) {
+  for (const CellLoad& load : study.model.loads)
+    if (load.kind == kind) return {};
+  return Error{ErrorKind::kInput, what, ""};
+}
+
+Status plates_need(const Study& study) {
+  const auto& obstacles = study.model.obstacles;
+  const bool moves = std::any_of(obstacles.begin(), obstacles.end(), [](const ObstacleSpec& o) { return !o.distance.empty(); });
+  return moves && obstacles.size() == 2
+             ? Status{}
+             : Status(Error{ErrorKind::kInput, "two obstacles, one of which has a `motion` with a `course`", ""});
+}
+
+Status spreading_needs(const Study& study) {
+  return study.model.obstacles.empty() ? Status(Error{ErrorKind::kInput, "a plane to spread on (`geometry`)", ""}) : Status{};
+}
+
+Status doublet_needs(const Study& study) {
+  std::int64_t cells = 0;
+  for (const InitialCells& block : study.initial) cells += block.count;
+  return cells >= 2 ? Status{} : Status(Error{ErrorKind::kInput, "two cells", ""});
+}
+
+/// The criteria of the study's scenario; null where it has none.
+const ScenarioCriteria* criteria_of(const Study& study) {
+  for (const ScenarioCriteria& criteria : scenario_criteria())
+    if (criteria.scenario == study.scenario) return &criteria;
+  return nullptr;
+}
+
+/// What no row of a series shows, for any run.
+std::vector<NotChecked> never_checked(const Study& study) {
+  const char* tests = "held by the tests of the program, not looked at in a run";
+  std::vector<NotChecked> out{{"INV.1", "forces between cells and within them add up to nothing", tests},
+                              {"INV.2", "surfaces stay closed, with well-shaped faces", tests},
+                              {"INV.6", "residual of the linear systems", tests},
+                              {"INV.8, INV.9", "the same bits on any number of threads and ranks, and over a restart", tests},
+                              {"", "errors of step, mesh and tolerance",
+                               "run the study again with half the step, with a finer mesh, with other seeds: docs/convergence.md"}};
+  if (criteria_of(study) == nullptr)
+    out.push_back({"", "agreement with a theory, with data, or with what the study is meant to show",
+                   "the study names no scenario that has criteria; its parameters are as good as their sources (methods.md)"});
+  return out;
 }
 
 }  // namespace
 
 const std::vector<ScenarioCriteria>& scenario_criteria() {
+  const auto grips = [](const Study& study) { return has_load(study, LoadKind::kGrip, "a grip (`loads` with `grip`)"); };
   static const std::vector<ScenarioCriteria> all{
-      {"blastocyst", &judge_blastocyst},
-      {"cavity", &judge_cavity},
-      {"cell_shear", &judge_cell_shear, &plot_cell_shear},
-      {"doublet", &judge_doublet, &plot_doublet},
-      {"embryo", &judge_embryo, &plot_embryo},
-      {"hybrid_spheroid", &judge_hybrid_spheroid},
-      {"micropipette", &judge_micropipette, &plot_micropipette},
-      {"optical_stretcher", &judge_optical_stretcher, &plot_optical_stretcher},
-      {"optical_tweezers", &judge_optical_tweezers, &plot_optical_tweezers},
-      {"parallel_plates", &judge_parallel_plates, &plot_parallel_plates},
-      {"pull_off", &judge_pull_off, &plot_pull_off},
-      {"spreading", &judge_spreading, &plot_spreading},
+      {"blastocyst", &judge_blastocyst, &blastocyst_needs, {"S18.1", "S18.2", "S18.3", "S18.6"}},
+      {"cavity", &judge_cavity, &cavity_needs, {"S18.4"}},
+      {"cell_shear", &judge_cell_shear, grips, {"SHEAR.0", "S4.6", "S6.5", "T9.6"}, &plot_cell_shear},
+      {"doublet", &judge_doublet, &doublet_needs, {"S6.0", "S6.1", "S6.2", "S6.4", "T8.1", "DOUBLET.drift"}, &plot_doublet},
+      {"embryo", &judge_embryo, &embryo_needs, {"S17.1", "S17.2", "S17.3", "S17.4", "S17.5", "S17.6"}, &plot_embryo},
+      {"hybrid_spheroid", &judge_hybrid_spheroid, &hybrid_spheroid_needs, {"DEMO.1", "DEMO.2", "DEMO.3", "DEMO.4", "S7.8"}},
+      {"micropipette",
+       &judge_micropipette,
+       [](const Study& study) { return has_load(study, LoadKind::kPressure, "a suction (`loads` with `pressure`)"); },
+       {"S3.0", "S3.1", "S3.2", "S3.3", "S3.4", "S3.5"},
+       &plot_micropipette},
+      {"optical_stretcher",
+       &judge_optical_stretcher,
+       [](const Study& study) { return has_load(study, LoadKind::kTraction, "light that pulls (`loads` with `traction`)"); },
+       {"S1.1", "S1.2", "S1.3", "S1.4", "S1.5", "S1.7", "S1.8"},
+       &plot_optical_stretcher},
+      {"optical_tweezers",
+       &judge_optical_tweezers,
+       [](const Study& study) { return has_load(study, LoadKind::kPull, "a pull at two poles (`loads` with `pull`)"); },
+       {"S2.1", "S2.2", "S2.3", "S2.4", "S2.4b", "S2.5", "S2.6"},
+       &plot_optical_tweezers},
+      {"parallel_plates",
+       &judge_parallel_plates,
+       &plates_need,
+       {"PLATES.0", "PLATES.1", "PLATES.2", "PLATES.3", "PLATES.4"},
+       &plot_parallel_plates},
+      {"pull_off", &judge_pull_off, grips, {"S5.0", "S5.1", "S5.2", "S5.3", "S5.4", "S5.5", "S5.6", "S5.7", "T8.2"}, &plot_pull_off},
+      {"spreading", &judge_spreading, &spreading_needs, {"S4.1", "S4.2", "S4.3", "S4.4", "S4.5", "S6.4", "T8.1"}, &plot_spreading},
   };
   return all;
 }
@@ -70,43 +134,83 @@ bool is_passive(const Study& study) {
          model.swaps.triggers.empty();
 }
 
-Result<std::vector<Verdict>> common_criteria(const Study& study, const std::filesystem::path& run) {
+Status fits_scenario(const Study& study) {
+  const ScenarioCriteria* const scenario = criteria_of(study);
+  if (scenario == nullptr)
+    return study.criteria.empty()
+               ? Status{}
+               : Status(Error{ErrorKind::kInput, "`criteria` has no effect: the study names no scenario that has criteria",
+                              "name the library study in `scenario`, or leave `criteria` away"});
+  for (const std::string& id : study.criteria)
+    if (std::find(scenario->ids.begin(), scenario->ids.end(), id) == scenario->ids.end())
+      return Error{ErrorKind::kInput, "'" + study.scenario + "' has no criterion '" + id + "'", suggest(id, scenario->ids)};
+  if (scenario->needs == nullptr) return {};
+  const Status needs = scenario->needs(study);
+  if (needs.ok()) return {};
+  return Error{ErrorKind::kInput, "the criteria of '" + study.scenario + "' need " + needs.error().message,
+               "leave `scenario` away for studies of another kind"};
+}
+
+Result<Judgement> common_criteria(const Study& study, const std::filesystem::path& run) {
   MORULA_TRY_ASSIGN(const SeriesTable series, read_series(run / "series.csv"));
   const Limits& limits = study.model.limits;
-  std::vector<Verdict> out;
-  if (const auto* error = series.find("volume_error"))
-    out.push_back(at_most("INV.3", "volume of any cell against its pressure law, relative", largest(*error), limits.volume_error));
-  if (const auto* overlap = series.find("worst_overlap"))
-    out.push_back(
-        at_most("INV.4", "deepest penetration of a surface at the start and in any step", largest(*overlap), limits.overlap, "um"));
+  Judgement out;
+  out.not_checked = never_checked(study);
+  out.verdicts.push_back(
+      at_most("INV.3", "volume of any cell against its pressure law, relative", largest(series.find("volume_error")), limits.volume_error));
+  const char* penetration = "deepest penetration of a surface at the start and in any step";
+  if (largest(series.find("shell_count")) == 0.0)
+    out.not_checked.push_back({"INV.4", penetration, "no cell was a shell at any output: spheres of a pair law overlap"});
+  else
+    out.verdicts.push_back(at_most("INV.4", penetration, largest(series.find("worst_overlap")), limits.overlap, "um"));
   if (const auto* clearance = series.find("nucleus_clearance")) {
-    double outside = 0.0;  // a value that is no number passes no limit
-    for (const double value : clearance->values)
-      if (!(-value <= outside)) outside = -value;
-    out.push_back(at_most("INV.5", "how far a node of a nucleus is outside its cortex, at any output", outside, limits.overlap, "um"));
+    Largest outside;
+    for (const double value : clearance->values) outside.add(std::isnan(value) ? value : std::max(0.0, -value));
+    out.verdicts.push_back(
+        at_most("INV.5", "how far a node of a nucleus is outside its cortex, at any output", outside.value(), limits.overlap, "um"));
   }
-  if (const auto* energy = series.find("energy"); energy && is_passive(study) && energy->values.size() > 2)
-    out.push_back(at_most("INV.7", "rise of the energy between outputs, relative to its range", largest_rise(*energy), kEnergyRise));
-  if (const auto* balance = series.find("field_balance"))
-    out.push_back(
-        at_most("LIMIT.field_balance", "balance of the amounts of every field, relative", largest(*balance), limits.field_balance));
+  const char* rise = "rise of the energy between outputs, relative to its range";
+  if (!is_passive(study))
+    out.not_checked.push_back({"INV.7", rise, "something drives the tissue (growth, motion, loads, exchanges): its energy may rise"});
+  else if (series.rows() < 3)
+    out.not_checked.push_back({"INV.7", rise, "the run has fewer than two outputs after its start"});
+  else
+    out.verdicts.push_back(at_most("INV.7", rise, largest_rise(series.find("energy")), kEnergyRise));
+  if (!study.model.fields.empty())
+    out.verdicts.push_back(at_most("LIMIT.field_balance", "balance of the amounts of every field, relative",
+                                   largest(series.find("field_balance")), limits.field_balance));
   return out;
 }
 
-Result<std::vector<Verdict>> judge(const Study& study, const std::filesystem::path& run) {
-  MORULA_TRY_ASSIGN(std::vector<Verdict> out, common_criteria(study, run));
-  for (const ScenarioCriteria& criteria : scenario_criteria()) {
-    if (criteria.scenario != study.scenario) continue;
-    MORULA_TRY_ASSIGN(const std::vector<Verdict> more, criteria.judge(study, run));
-    out.insert(out.end(), more.begin(), more.end());
+Result<Judgement> judge(const Study& study, const std::filesystem::path& run) {
+  MORULA_TRY_ASSIGN(Judgement out, common_criteria(study, run));
+  const ScenarioCriteria* const scenario = criteria_of(study);
+  if (scenario == nullptr) return out;
+  std::vector<Verdict> found;
+  if (const Status fits = fits_scenario(study); fits.ok()) {
+    MORULA_TRY_ASSIGN(found, scenario->judge(study, run));
+  } else {
+    found.push_back({"SCENARIO", fits.error().message, kNothing, "what it needs", false});
   }
+  const auto is_judged = [&](const std::string& id) {
+    return std::any_of(found.begin(), found.end(), [&](const Verdict& v) { return v.id == id; });
+  };
+  for (const std::string& id : study.criteria)
+    if (!is_judged(id))
+      out.verdicts.push_back({id, "named by the study, and nothing in its results to judge it on", kNothing, "judged", false});
+  if (found.empty() && study.criteria.empty())
+    out.verdicts.push_back({"SCENARIO", "criteria of '" + study.scenario + "' that could be judged", 0.0, ">= 1", false});
+  for (const std::string& id : scenario->ids)
+    if (!is_judged(id) && std::find(study.criteria.begin(), study.criteria.end(), id) == study.criteria.end())
+      out.not_checked.push_back({id, "criterion of '" + study.scenario + "'", "another version of the study, or other settings, show it"});
+  out.verdicts.insert(out.verdicts.end(), found.begin(), found.end());
   return out;
 }
 
 Result<std::vector<NamedPlot>> scenario_plots(const Study& study, const std::filesystem::path& run) {
-  for (const ScenarioCriteria& criteria : scenario_criteria())
-    if (criteria.scenario == study.scenario && criteria.plots != nullptr) return criteria.plots(study, run);
-  return std::vector<NamedPlot>{};
+  const ScenarioCriteria* const scenario = criteria_of(study);
+  if (scenario == nullptr || scenario->plots == nullptr || !fits_scenario(study).ok()) return std::vector<NamedPlot>{};
+  return scenario->plots(study, run);
 }
 
 }  // namespace morula::scenarios

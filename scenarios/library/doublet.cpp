@@ -176,7 +176,7 @@ CapTolerance limits_of(const Doublet& d) {
 Result<std::vector<Verdict>> judge_doublet(const Study& study, const std::filesystem::path& run) {
   MORULA_TRY_ASSIGN(const auto snapshots, all_snapshots(run));
   std::vector<Verdict> out;
-  double drift = 0.0;
+  Largest drift;
   const auto ends = doublets(study, snapshots.front(), snapshots.back());
   judge_halves(halves(study, snapshots.back()), ends, out);
   judge_unequal(study, snapshots.back(), out);
@@ -188,7 +188,7 @@ Result<std::vector<Verdict>> judge_doublet(const Study& study, const std::filesy
     const CapTolerance limits = limits_of(d);
     const std::string at = d.text() + (d.range == study.model.contact.range ? "" : ", range " + number_text("%g", d.range) + " um");
     const auto relative = [](double value, double expected) { return std::abs(value / expected - 1.0); };
-    drift = std::max(drift, d.drift);
+    drift.add(d.drift);
     if (!is_fluid(d.modulus)) {
       const ElasticCap* half = elastic_cap(0.5 * d.ratio, d.modulus, d.nodes);
       if (half == nullptr) continue;
@@ -210,7 +210,8 @@ Result<std::vector<Verdict>> judge_doublet(const Study& study, const std::filesy
   // The forces add up to nothing, but the overdamped surface of a coarse mesh does not move evenly: a part of an edge, that finer meshes lose.
   std::uint32_t nodes = 642;
   for (const Doublet& d : ends) nodes = std::min(nodes, d.nodes);
-  out.push_back(at_most("DOUBLET.drift", "drift of the centre of mass over the cell's radius", drift, tolerance(nodes, 0.06, 0.05)));
+  out.push_back(
+      at_most("DOUBLET.drift", "drift of the centre of mass over the cell's radius", drift.value(), tolerance(nodes, 0.06, 0.05)));
   return out;
 }
 

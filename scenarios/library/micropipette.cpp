@@ -139,15 +139,15 @@ double measured_critical(const std::vector<Aspiration>& all, const Aspiration& c
 Result<std::vector<Verdict>> judge_micropipette(const Study& study, const std::filesystem::path& run) {
   MORULA_TRY_ASSIGN(const auto all, aspirations(study, run));
   std::vector<Verdict> out;
-  double volume = 0.0, outside = 0.0, least = 1e300;
+  Largest volume, outside, least_sucked;  // of the last the smallest is judged
   out.push_back(at_least("S3.0", "states under suction", static_cast<double>(all.size()), 2.0));
   bool rises = true;
   int pairs = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Aspiration& a = all[i];
-    volume = std::max(volume, std::abs(a.volume_change));
-    outside = std::max(outside, a.sucked_outside);
-    if (a.suction > 0.0) least = std::min(least, a.sucked / (std::numbers::pi * a.pipette * a.pipette));
+    volume.add(std::abs(a.volume_change));
+    outside.add(a.sucked_outside);
+    if (a.suction > 0.0) least_sucked.add(-a.sucked / (std::numbers::pi * a.pipette * a.pipette));
     const std::string at = ", " + a.name + " at " + number_text("%.3g", 1000.0 * a.suction) + " Pa";
     if (a.fluid && a.suction > 0.0 && a.suction < 0.92 * a.critical) {
       out.push_back(
@@ -191,9 +191,9 @@ Result<std::vector<Verdict>> judge_micropipette(const Study& study, const std::f
             within("S3.3",
                    ("what is drawn in at twice the modulus over that at once, " + number_text("%g", 1000.0 * soft.suction) + " Pa").c_str(),
                    hard.drawn / soft.drawn, 0.40, 0.65));
-  out.push_back(at_most("S3.4", "change of volume, relative", volume, 0.01));
-  out.push_back(at_most("S3.5", "area under suction that is not inside the glass", outside, 0.0, "um^2"));
-  if (least < 1e300) out.push_back(at_least("S3.5", "area under suction over the cross section of the pipette", least, 0.8));
+  out.push_back(at_most("S3.4", "change of volume, relative", volume.value(), 0.01));
+  out.push_back(at_most("S3.5", "area under suction that is not inside the glass", outside.value(), 0.0, "um^2"));
+  out.push_back(at_least("S3.5", "area under suction over the cross section of the pipette", -least_sucked.value(), 0.8));
   return out;
 }
 

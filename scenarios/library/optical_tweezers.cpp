@@ -69,17 +69,18 @@ void judge_pulled(const PulledCell& cell, const std::string& who, std::vector<Ve
   const std::vector<Pulled>& all = cell.at_rest;
   std::vector<double> force, strain;
   bool longer = true, thinner = true;
-  double volume = 0.0, left = 0.0, most = 0.0, largest = 0.0;
+  Largest volume, most;
+  double left = kNothing, largest = 0.0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Pulled& p = all[i];
     const double s = p.axial / all[0].axial - 1.0;
-    volume = std::max(volume, std::abs(p.volume_change));
-    most = std::max(most, s);
+    volume.add(std::abs(p.volume_change));
+    most.add(s);
     if (i > 0 && p.force > largest) {
       longer = longer && p.axial > all[i - 1].axial;
       thinner = thinner && p.transverse < all[i - 1].transverse;
     }
-    if (i > 0 && p.force == 0.0) left = std::abs(s);
+    if (i > 0 && p.force == 0.0) left = std::abs(s);  // the last state without force, after the release
     if (s <= kLinear && p.force >= largest) {
       force.push_back(p.force);
       strain.push_back(s);
@@ -88,11 +89,11 @@ void judge_pulled(const PulledCell& cell, const std::string& who, std::vector<Ve
   }
   out.push_back(at_least("S2.1", ("axial diameter rises with the force (1: yes)" + who).c_str(), longer && all.size() > 2, 1.0));
   out.push_back(at_least("S2.1", ("transverse diameter falls with the force (1: yes)" + who).c_str(), thinner && all.size() > 2, 1.0));
-  out.push_back(at_most("S2.4", ("change of volume, relative" + who).c_str(), volume, 0.01));
+  out.push_back(at_most("S2.4", ("change of volume, relative" + who).c_str(), volume.value(), 0.01));
   if (!cell.red_cell && force.size() > 2)
     out.push_back(at_least("S2.6", ("R^2 of a straight line, strains up to 5 %" + who).c_str(), straightness(force, strain), 0.999));
-  if (!cell.red_cell && most > 0.0)
-    out.push_back(at_most("S2.5", ("strain left after the release, relative to the largest" + who).c_str(), left / most, 0.02));
+  if (!cell.red_cell)
+    out.push_back(at_most("S2.5", ("strain left after the release, relative to the largest" + who).c_str(), left / most.value(), 0.02));
 }
 
 }  // namespace

@@ -67,19 +67,21 @@ Result<std::vector<Pressing>> pressings(const Study& study, const std::filesyste
 Result<std::vector<Verdict>> judge_parallel_plates(const Study& study, const std::filesystem::path& run) {
   MORULA_TRY_ASSIGN(const auto all, pressings(study, run));
   std::vector<Verdict> out;
-  double force = 0.0, tension = 0.0, balance = 0.0, limit = 0.05, flattest = 2.0;
+  Largest force, tension, balance;
+  double limit = 0.05, flattest = kNothing;
   for (const Pressing& p : all) {
-    balance = std::max(balance, p.balance);
-    flattest = std::min(flattest, p.height);
+    balance.add(p.balance);
+    flattest = std::fmin(flattest, p.height);
     limit = tolerance(p.nodes, 0.06, 0.03);
-    tension = std::max(tension, std::abs(p.tension - 1.0));
-    force = std::max(force, std::abs(p.force - p.expected.force) / std::max(1.0, p.expected.force));
+    tension.add(std::abs(p.tension - 1.0));
+    force.add(std::abs(p.force - p.expected.force) / std::max(1.0, p.expected.force));
   }
   out.push_back(at_least("PLATES.0", "states at rest between the plates", static_cast<double>(all.size()), 3.0));
   out.push_back(
-      at_most("PLATES.1", "force on the plate against the pressed drop, over the larger of it and tension times R0", force, limit));
-  out.push_back(at_most("PLATES.2", "tension found from force, pressure and equator, relative error", tension, limit));
-  out.push_back(at_most("PLATES.3", "sum of the forces on both plates, over the larger of one and tension times R0", balance, 0.01));
+      at_most("PLATES.1", "force on the plate against the pressed drop, over the larger of it and tension times R0", force.value(), limit));
+  out.push_back(at_most("PLATES.2", "tension found from force, pressure and equator, relative error", tension.value(), limit));
+  out.push_back(
+      at_most("PLATES.3", "sum of the forces on both plates, over the larger of one and tension times R0", balance.value(), 0.01));
   out.push_back(at_most("PLATES.4", "height of the flattest state over R0", flattest, 1.3));
   return out;
 }

@@ -99,7 +99,7 @@ void read_states(const std::vector<Snapshot>& snapshots, std::size_t type, Speci
     if (s.force[i] > s.force[peak]) peak = i;
   if (s.force.empty()) return;
   s.peak = s.force[peak];
-  double after = 0.0;
+  Largest after;
   for (const Snapshot& snapshot : snapshots) {
     const auto cells = shells_of(snapshot, type);
     if (cells.empty() || snapshot.time < s.time.front()) continue;
@@ -109,9 +109,8 @@ void read_states(const std::vector<Snapshot>& snapshots, std::size_t type, Speci
     s.sphericity = std::cbrt(kPi) * std::pow(6.0 * cell.volume, 2.0 / 3.0) / cell.area;
     s.radius = radius_of_volume(cell.volume);
   }
-  for (std::size_t i = s.force.size() - std::min<std::size_t>(3, s.force.size()); i < s.force.size(); ++i)
-    after = std::max(after, std::abs(s.force[i]));
-  s.left = after / s.peak;
+  for (std::size_t i = s.force.size() - std::min<std::size_t>(3, s.force.size()); i < s.force.size(); ++i) after.add(std::abs(s.force[i]));
+  s.left = after.value() / s.peak;
 }
 
 Result<std::vector<Specimen>> specimens(const Study& study, const std::filesystem::path& run) {

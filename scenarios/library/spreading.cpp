@@ -153,14 +153,15 @@ Result<std::vector<Verdict>> judge_spreading(const Study& study, const std::file
       if (a.obstacle < b.obstacle && a.ratio == b.ratio && a.modulus == b.modulus && a.nodes == b.nodes)
         out.push_back(at_most("S4.5", "contact area on a plane of small triangles against one of large triangles, relative",
                               std::abs(b.contact_area / a.contact_area - 1.0), 0.02));
-  double fall = 0.0;  // of the contact area of the fluid cells from one output to the next, over the last one
+  Largest fall;  // of the contact area of the fluid cells from one output to the next, over the last one
   for (std::size_t k = 2; k < snapshots.size(); ++k) {
     const auto before = spreads(study, snapshots[k - 1]), after = spreads(study, snapshots[k]);
     for (std::size_t i = 0; i < std::min({before.size(), after.size(), ends.size()}); ++i)
       if (is_fluid(ends[i].modulus) && !ends[i].came_back)
-        fall = std::max(fall, (before[i].contact_area - after[i].contact_area) / ends[i].contact_area);
+        fall.add((before[i].contact_area - after[i].contact_area) / ends[i].contact_area);
   }
-  out.push_back(at_most("S4.3", "fall of the contact area between outputs, relative to the last one", fall, 0.01));
+  if (fall.shown())
+    out.push_back(at_most("S4.3", "fall of the contact area between outputs, relative to the last one", fall.value(), 0.01));
   return out;
 }
 

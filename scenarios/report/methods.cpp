@@ -1,7 +1,6 @@
 #include "scenarios/report/methods.h"
 
 #include "scenarios/pictures/annotate.h"
-#include "scenarios/pictures/png.h"
 
 namespace morula::scenarios {
 namespace {
@@ -22,10 +21,10 @@ std::string table_cell(const std::string& text) {
 
 void add_parameters(const UsedLaw& use, std::string& out) {
   if (use.law.parameters.empty()) return;
-  out += "\n| parameter | value | unit | meaning | source of the default |\n|---|---|---|---|---|\n";
+  out += "\n| parameter | value | unit | meaning |\n|---|---|---|---|\n";
   for (const LawParameter& parameter : use.law.parameters)
     for (const std::string& cell : {std::string("| ") + table_cell(parameter.name), table_cell(used_value(use, parameter)),
-                                    table_cell(parameter.unit), table_cell(parameter.doc), table_cell(parameter.source) + " |\n"})
+                                    table_cell(parameter.unit), table_cell(parameter.doc) + " |\n"})
       out.append(cell).append(cell.ends_with("\n") ? "" : " | ");
 }
 
@@ -34,13 +33,16 @@ void add_parameters(const UsedLaw& use, std::string& out) {
 std::string used_value(const UsedLaw& use, const LawParameter& parameter) {
   for (const auto& [name, value] : use.values)
     if (name == parameter.name) return short_number(value, 6);
-  return parameter.fallback ? short_number(*parameter.fallback, 6) : "not set";
+  return "not set";
 }
 
-std::string methods_text(const std::string& title, std::span<const UsedLaw> laws) {
+std::string methods_text(const std::string& title, std::span<const UsedLaw> laws, const std::string& resolved) {
   std::string out = "# Methods: ";
   out.append(table_cell(title))
-      .append("\n\nLaws this run used. Lengths in µm, forces in nN, times in s, amounts in amol, unless said otherwise.\n");
+      .append(
+          "\n\nLaws this run used, with the values that the model had. Lengths in µm, forces in nN, times in s, amounts in amol, unless "
+          "said "
+          "otherwise. Which of them the study gave, which are defaults and where those come from is said at the end.\n");
   const std::string* purpose = nullptr;
   for (const UsedLaw& use : laws) {
     if (!purpose || *purpose != use.purpose) out.append("\n## ").append(table_cell(use.purpose)).append("\n");
@@ -54,12 +56,11 @@ std::string methods_text(const std::string& title, std::span<const UsedLaw> laws
     if (!use.law.source.empty()) out.append("Source: ").append(table_cell(use.law.source)).append("\n");
     add_parameters(use, out);
   }
-  return out;
-}
-
-Status write_methods(const std::string& title, std::span<const UsedLaw> laws, const std::filesystem::path& path) {
-  const std::string text = methods_text(title, laws);
-  return write_bytes(path, text.data(), text.size());
+  out +=
+      "\n## Where the values come from\n\nThe study with all its keys. A value without a remark was given; `default` is followed by the "
+      "source of the "
+      "default. What a law names and no key does (such as the stiffness of an edge) follows from these by the law's equation.\n\n```yaml\n";
+  return out + resolved + (resolved.ends_with('\n') ? "```\n" : "\n```\n");
 }
 
 }  // namespace morula::scenarios

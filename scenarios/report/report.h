@@ -7,6 +7,7 @@
 #include "core/result.h"
 #include "scenarios/pictures/standard_pictures.h"
 #include "scenarios/report/methods.h"
+#include "scenarios/results/run_record.h"
 
 namespace morula::scenarios {
 
@@ -50,6 +51,7 @@ struct ReportContent {
   std::string title, study, scenario, summary;
   std::string state;  ///< "done", "stopped early", "failed"; not "done" is shown as a warning
   std::vector<ReportCriterion> criteria;
+  std::vector<NotChecked> not_checked;  ///< what a reader of the criteria must not take for granted
   std::vector<ReportNumber> key_numbers;
   std::vector<Picture> pictures;
   std::vector<ReportPlot> plots;
@@ -58,7 +60,6 @@ struct ReportContent {
   std::vector<std::pair<double, std::string>> warnings;         ///< time [s], text
   std::vector<std::pair<std::string, std::string>> provenance;  ///< version, command, ranks, threads, seed, wall time, host …
   std::vector<UsedLaw> laws;
-  std::vector<std::string> not_checked;     ///< what the criteria do not tell
   std::string study_text, parameters_text;  ///< the study as given, and with every default
   std::string citation, bibtex;             ///< how to cite this version
 };

@@ -149,8 +149,9 @@ Status RunFolder::write_record(const RunRecord& run) const {
   if (!is_root_) return {};
   MORULA_TRY(write_file_atomically(record(), to_json(run)));
   std::error_code ignored;
-  for (const auto& [marker, state] : {std::pair{"DONE", RunState::kDone}, std::pair{"FAILED", RunState::kFailed}}) {
-    if (run.state == state)
+  const bool failed = run.state == RunState::kFailed || (run.state == RunState::kDone && run.exit_code != 0);
+  for (const auto& [marker, holds] : {std::pair{"DONE", run.state == RunState::kDone && !failed}, std::pair{"FAILED", failed}}) {
+    if (holds)
       MORULA_TRY(write_file_atomically(path_ / marker, run.message.empty() ? "" : run.message + '\n'));
     else
       fs::remove(path_ / marker, ignored);  // from before a resume
@@ -162,8 +163,8 @@ Status RunFolder::write_status(const RunStatus& run_status) const {
   return is_root_ ? write_file_atomically(status(), to_json(run_status)) : Status{};
 }
 
-Status RunFolder::write_verdict(std::span<const Verdict> verdicts) const {
-  return is_root_ ? write_file_atomically(path_ / "verdict.json", to_json(verdicts)) : Status{};
+Status RunFolder::write_verdict(const Judgement& judgement) const {
+  return is_root_ ? write_file_atomically(path_ / "verdict.json", to_json(judgement)) : Status{};
 }
 
 Status RunFolder::add_to_log(const std::string& line) const { return is_root_ ? append_to_text(log(), line + '\n') : Status{}; }

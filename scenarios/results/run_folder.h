@@ -41,10 +41,11 @@ class RunFolder {
 
   /// study.yaml, study.resolved.yaml and inputs/; fills the record's inputs with their SHA-256.
   Status write_study(const Study& study, RunRecord& record) const;
-  /// run.json, and DONE or FAILED when the run has ended so (a stopped run has neither).
+  /// run.json, and for scripts an empty file DONE, or FAILED with the reason in it (a stopped run has neither). A run that came to its end with a
+  /// criterion that failed is done, and FAILED stands beside its verdict.json.
   Status write_record(const RunRecord& record) const;
   Status write_status(const RunStatus& status) const;
-  Status write_verdict(std::span<const Verdict> verdicts) const;
+  Status write_verdict(const Judgement& judgement) const;
   Status add_to_log(const std::string& line) const;
   Status add_events(std::span<const Event> events) const;
   /// Header of series.csv (`time [s]` first). When the file is there already (a resumed run), its header must be the same: kInput.

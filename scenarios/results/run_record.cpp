@@ -2,11 +2,13 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "core/numbers/number_text.h"
 #include "scenarios/results/build_info.h"
 #include "scenarios/results/file_io.h"
 
@@ -233,14 +235,29 @@ std::optional<double> time_of_event_line(const std::string& line) {
   return time->get<double>();
 }
 
-std::string to_json(std::span<const Verdict> verdicts) {
-  bool all = true;
-  Json list = Json::array();
-  for (const Verdict& v : verdicts) {
-    all = all && v.passed;
-    list.push_back({{"id", v.id}, {"quantity", v.quantity}, {"value", number(v.value)}, {"limit", v.limit}, {"passed", v.passed}});
-  }
-  return text_of(Json{{"passed", all}, {"criteria", list}}, 2);
+std::string value_text(const Verdict& verdict) {
+  return std::isnan(verdict.value) ? "nothing to judge" : number_text("%.4g", verdict.value);
+}
+
+bool Judgement::passed() const {
+  return std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.passed; });
+}
+
+std::string Judgement::failures() const {
+  std::vector<std::string> ids;
+  for (const Verdict& v : verdicts)
+    if (!v.passed && std::find(ids.begin(), ids.end(), v.id) == ids.end()) ids.push_back(v.id);
+  std::string out;
+  for (const std::string& id : ids) out += (out.empty() ? "checks failed: " : ", ") + id;
+  return out;
+}
+
+std::string to_json(const Judgement& judgement) {
+  Json criteria = Json::array(), not_checked = Json::array();
+  for (const Verdict& v : judgement.verdicts)
+    criteria.push_back({{"id", v.id}, {"quantity", v.quantity}, {"value", number(v.value)}, {"limit", v.limit}, {"passed", v.passed}});
+  for (const NotChecked& n : judgement.not_checked) not_checked.push_back({{"id", n.id}, {"what", n.what}, {"why", n.why}});
+  return text_of(Json{{"passed", judgement.passed()}, {"criteria", criteria}, {"not_checked", not_checked}}, 2);
 }
 
 }  // namespace morula::scenarios

@@ -79,14 +79,32 @@ Result<RunStatus> read_run_status(const std::filesystem::path& status_json);
 [[nodiscard]] std::optional<double> time_of_event_line(const std::string& line);
 [[nodiscard]] std::string name_of(EventKind kind);
 
-/// One criterion of a library study.
+/// One criterion of a run.
 struct Verdict {
   std::string id;  ///< as `S18.1`
   std::string quantity;
-  double value = 0.0;
-  std::string limit;  ///< as `<= 0.3 um`
+  double value = 0.0;  ///< no number where the criterion found nothing to judge: then it has failed
+  std::string limit;   ///< as `<= 0.3 um`
   bool passed = false;
 };
-[[nodiscard]] std::string to_json(std::span<const Verdict> verdicts);
+/// The value for people: `0.0123`, or `nothing to judge`.
+[[nodiscard]] std::string value_text(const Verdict& verdict);
+
+/// What a green verdict says nothing about.
+struct NotChecked {
+  std::string id;  ///< as `INV.7`; may be empty
+  std::string what, why;
+};
+
+/// What the criteria say about a run, and what they do not.
+struct Judgement {
+  std::vector<Verdict> verdicts;
+  std::vector<NotChecked> not_checked;
+
+  [[nodiscard]] bool passed() const;
+  [[nodiscard]] std::string failures() const;  ///< "checks failed: S6.1, S18.3"; empty when all passed
+};
+/// verdict.json.
+[[nodiscard]] std::string to_json(const Judgement& judgement);
 
 }  // namespace morula::scenarios

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
+#include <limits>
 #include <numbers>
+#include <optional>
 
+#include "coupling/simulation.h"
 #include "coupling/swaps.h"
 #include "scenarios/initial/make_tissue.h"
 
@@ -14,8 +18,13 @@ namespace {
 constexpr double kFade = 0.97;  // memory of about 30 steps
 constexpr double kCostPerLoadHour =
     4.0e-5;  // CPU s per simulated hour and unit of load: 0.12 s per 1,000 nodes (measured on clusters at W = 0.1 mN/m)
-constexpr double kBytesPerNode = 800.0, kBytesPerSphere = 600.0, kBytesPerVoxel = 120.0;
-constexpr double kBytesAlways = 6e7;
+constexpr double kBytesPerNode = 1500.0, kBytesPerSphere = 600.0, kBytesPerVoxel = 120.0;
+constexpr double kBytesAlways = 1.35e8;                          // measured: program, libraries and the pictures of the report
+constexpr std::int64_t kSampled = 20'000;                        // cells up to which places are made and steps are tried
+constexpr double kSampleTime = 2.0;                              // CPU time of the steps that are tried [s]
+constexpr double kReportTime = 4.0, kStartTime = 0.15;           // CPU, measured on single-cell studies [s]
+constexpr double kOutputTime = 3e-3, kOutputTimePerNode = 1e-6;  // CPU of one output [s]
+constexpr double kPacked = 0.74;                                 // part of a volume that its cells fill
 
 /// ∫_0^τ (3 nodes + spheres e^{g t}) dt
 double load_integral(const Load& load, double growth, double duration) {
@@ -46,23 +55,33 @@ WallRange CostModel::left(double simulated, const Load& load, double growth_rate
   return {0.85 * cost() * load_integral(load, 0.5 * growth_rate, simulated), 1.25 * cost() * load_integral(load, growth_rate, simulated)};
 }
 
-Result<Estimate> estimate(const Study& study) {
-  ShapeLibrary shapes;
-  const Comm alone;
-  MORULA_TRY_ASSIGN(InitialTissue initial, make_tissue(study, shapes, alone));
-  Tissue& tissue = initial.tissue;
-  Estimate out;
+namespace {
+
+/// What the tissue of time 0 consists of.
+struct Counts {
+  std::int64_t cells = 0, shells = 0, nodes = 0;
+  std::vector<std::int64_t> of_type;
+  [[nodiscard]] Load load() const { return {static_cast<double>(cells - shells), static_cast<double>(nodes)}; }
+};
+
+std::int64_t nodes_of(const CellType& type) {
+  return type.shell_nodes + (type.interior.has_nuclear_shell() ? type.interior.nucleus_nodes : 0);
+}
+
+/// From the places of the cells, and the bodies that the regions give them.
+Counts count_cells(const Study& study, Tissue& tissue) {
+  Counts out;
   out.cells = static_cast<std::int64_t>(tissue.cells.size());
-  out.nodes = tissue.shells.node_count() + tissue.nuclei.shells.node_count();
   out.shells = static_cast<std::int64_t>(tissue.shells.size());
+  out.nodes = static_cast<std::int64_t>(tissue.shells.node_count() + tissue.nuclei.shells.node_count());
+  out.of_type.assign(study.model.types.size(), 0);
   for (std::size_t f = 0; f < study.model.fields.size(); ++f)
     for (std::size_t i = 0; i < tissue.cells.size(); ++i)
       tissue.cells.side.concentration[f].set(i, study.model.fields[f].initial, tissue.cells.size());
   std::vector<Vec3d> center;
-  std::vector<std::int64_t> of_type(study.model.types.size(), 0);
   std::size_t shell = 0, sphere = 0;
   for (const CellRow& row : tissue.cells.rows) {
-    ++of_type[row.type];
+    ++out.of_type[row.type];
     if (row.body == BodyKind::kSphere)
       center.push_back(tissue.spheres.position[sphere++]);
     else {
@@ -70,23 +89,116 @@ Result<Estimate> estimate(const Study& study) {
       ++shell;
     }
   }
-  for (const SwapOrder& order : choose_swaps(study.model, tissue, center, alone)) {
+  for (const SwapOrder& order : choose_swaps(study.model, tissue, center, Comm())) {
     const std::int64_t change = order.to == BodyKind::kShell ? 1 : -1;
     out.shells += change;
-    const CellType& type = study.model.types[tissue.cells.rows[order.row].type];
-    out.nodes += change * (type.shell_nodes + (type.interior.has_nuclear_shell() ? type.interior.nucleus_nodes : 0));
+    out.nodes += change * nodes_of(study.model.types[tissue.cells.rows[order.row].type]);
   }
+  return out;
+}
+
+/// The cells that a region can hold, of this volume each.
+double room_of(const Region& region, double cell_volume) {
+  const double volume = region.shape == RegionShape::kSphere ? 4.0 / 3.0 * std::numbers::pi * std::pow(region.radius, 3)
+                        : region.shape == RegionShape::kBox  ? region.size.x * region.size.y * region.size.z
+                                                             : std::numeric_limits<double>::infinity();
+  return kPacked * volume / cell_volume;
+}
+
+/// From the numbers of the study alone, at no cost: regions hold as many cells as they have room for.
+Counts count_entries(const Study& study) {
+  const Model& model = study.model;
+  Counts out;
+  out.of_type.assign(model.types.size(), 0);
+  std::vector<std::int64_t> spheres(model.types.size(), 0);
+  for (const InitialCells& block : study.initial) {
+    const auto count = static_cast<std::int64_t>(block.count);
+    const CellType& type = model.types[block.type];
+    out.cells += count;
+    out.of_type[block.type] += count;
+    if ((block.body_given ? block.body : type.initial_body) == BodyKind::kShell)
+      out.shells += count, out.nodes += count * nodes_of(type);
+    else
+      spheres[block.type] += count;
+  }
+  for (const Region& region : model.swaps.regions) {
+    if (region.body != BodyKind::kShell || !region.exists_at(0.0)) continue;
+    for (std::size_t t = 0; t < spheres.size(); ++t) {
+      const double room = room_of(region, 4.0 / 3.0 * std::numbers::pi * std::pow(model.types[t].radius.mean, 3));
+      const double left = static_cast<double>(model.swaps.max_shells) - static_cast<double>(out.shells);
+      const auto promoted = static_cast<std::int64_t>(std::max(0.0, std::min({room, left, static_cast<double>(spheres[t])})));
+      spheres[t] -= promoted;
+      out.shells += promoted;
+      out.nodes += promoted * nodes_of(model.types[t]);
+    }
+  }
+  return out;
+}
+
+double cpu_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// The first steps of a run, for kSampleTime.
+struct Sample {
+  double simulated = 0.0;  ///< [s]
+  double cost = 0.0;       ///< CPU [s]
+  double rate = 0.0;       ///< CPU per simulated second of its last third of steps, when the first step is forgotten
+};
+
+Result<Sample> try_steps(const Study& study, Tissue tissue) {
+  const double begin = cpu_time();
+  MORULA_TRY_ASSIGN(auto simulation, Simulation::create(study.model, std::move(tissue), Comm(), 1));
+  std::vector<std::pair<double, double>> steps;  // simulated and CPU time at the end of each
+  const auto time = [&] { return simulation->tissue().clock.time; };
+  while (time() < study.time.end && cpu_time() - begin < kSampleTime) {
+    const double landing = std::min(study.time.end, study.time.output * (std::floor(time() / study.time.output * (1.0 + 1e-12)) + 1.0));
+    if (!simulation->step(landing).ok()) break;  // the run will tell; what was tried is what there is
+    steps.emplace_back(time(), cpu_time() - begin);
+  }
+  if (steps.empty()) return Sample{};
+  const auto& from = steps[(2 * steps.size()) / 3 - (steps.size() > 1 ? 1 : 0)];
+  const double simulated = steps.back().first - from.first;
+  return Sample{time(), cpu_time() - begin,
+                simulated > 0.0 ? (steps.back().second - from.second) / simulated : steps.back().second / steps.back().first};
+}
+
+/// CPU time of a whole run [s].
+Result<double> cost_of_run(const Study& study, const Counts& counts, double growth, Tissue* tissue) {
+  const Load load = counts.load();
+  double cost = kStartTime + (study.output.report ? kReportTime : 0.0) +
+                study.time.end / study.time.output * (kOutputTime + kOutputTimePerNode * (load.nodes + load.spheres));
+  if (tissue == nullptr) return cost + kCostPerLoadHour / 3600.0 * load_integral(load, growth, study.time.end);
+  MORULA_TRY_ASSIGN(const Sample sample, try_steps(study, std::move(*tissue)));
+  const double left = study.time.end - sample.simulated;
+  return cost + sample.cost + sample.rate * load_integral(load, growth, left) / load.total();
+}
+
+}  // namespace
+
+Result<Estimate> estimate(const Study& study) {
+  std::int64_t cells = 0;
+  for (const InitialCells& block : study.initial) cells += static_cast<std::int64_t>(block.count);
+  std::optional<Tissue> tissue;
+  if (cells <= kSampled) {
+    ShapeLibrary shapes;
+    MORULA_TRY_ASSIGN(InitialTissue initial, make_tissue(study, shapes, Comm()));
+    tissue = std::move(initial.tissue);
+  }
+  const Counts counts = tissue ? count_cells(study, *tissue) : count_entries(study);
+  Estimate out;
+  out.cells = counts.cells;
+  out.shells = counts.shells;
+  out.nodes = counts.nodes;
   for (const auto& spec : study.model.fields) {
     MORULA_TRY_ASSIGN(const fields::Grid grid, fields::grid_for(spec, study.model.space));
     out.voxels += grid.voxel_count();
   }
-  const double growth = free_growth_rate(study.model, of_type);
-  const Load load{static_cast<double>(out.cells - out.shells), static_cast<double>(out.nodes)};
+  const double growth = free_growth_rate(study.model, counts.of_type);
+  const Load load = counts.load();
   const double grown = load.spheres * std::exp(std::min(growth * study.time.end, 60.0));
   out.cells_at_end = static_cast<double>(out.shells) + grown;
   out.memory = kBytesAlways + kBytesPerNode * load.nodes + kBytesPerSphere * grown + kBytesPerVoxel * static_cast<double>(out.voxels);
-  const double middle = kCostPerLoadHour / 3600.0 * load_integral(load, growth, study.time.end);
-  out.wall = {middle / 3.0, middle * 3.0};
+  MORULA_TRY_ASSIGN(const double middle, cost_of_run(study, counts, growth, tissue ? &*tissue : nullptr));
+  out.wall = {middle / 1.6, middle * 1.6};
   return out;
 }
 

@@ -43,11 +43,12 @@ struct Estimate {
   std::int64_t cells = 0, shells = 0, nodes = 0, voxels = 0;  ///< at time 0; nodes of nuclei that are shells, too
   double cells_at_end = 0.0;                                  ///< if nothing inhibits growth
   double memory = 0.0;                                        ///< at the end [bytes]
-  WallRange wall;                                             ///< on one thread [s]
+  WallRange wall;                                             ///< of one core [s]
 };
 
-/// Places the cells of time 0 (no mechanics) and counts them. Costs per load and step are those measured on a 2020s workstation core;
-/// the range is a factor of 3 each way, for machines and tissues differ.
+/// Up to 20,000 cells: places the cells of time 0, counts them and tries the first steps for two seconds; what a simulated second costs at their end
+/// is taken for the rest, as the load will grow, with what outputs and report cost. Larger tissues are counted by the numbers of the study alone, at
+/// once, at a cost per load measured on a 2020s core. A run that comes to rest (`time.rest`) ends earlier. The range: 1.6 times each way.
 Result<Estimate> estimate(const Study& study);
 
 /// "9 min", "1 h 21 min", "35–50 min" for people.

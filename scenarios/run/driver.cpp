@@ -75,10 +75,6 @@ Result<Restored> restore(const RunFolder& folder, const ResumeRequest& request, 
 
 }  // namespace
 
-bool RunSummary::passed() const {
-  return std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.passed; });
-}
-
 Result<RunSummary> run(const Study& study, const RunRequest& request, const Comm& comm) {
   MORULA_TRY_ASSIGN(auto columns, columns_of(study));
   MORULA_TRY_ASSIGN(InitialTissue initial, initial_tissue(study, comm));

@@ -55,11 +55,10 @@ struct RunSummary {
   std::optional<ErrorKind> stopped;  ///< kStoppedEarly or kInterrupted
   FinalState final_state;
   double wall_time = 0.0;         ///< of this call [s]
-  std::vector<Verdict> verdicts;  ///< of a run that is done
+  std::vector<Verdict> verdicts;  ///< of a run that is done, on the root
+  bool passed = true;             ///< none of them failed; the same on every rank
   std::string timings;            ///< the table, if asked for
   std::filesystem::path report;   ///< empty: none written
-
-  [[nodiscard]] bool passed() const;
 };
 
 /// Run a study into a new folder. Collective.

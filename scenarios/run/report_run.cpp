@@ -111,18 +111,6 @@ std::string text_of(const fs::path& path) {
   return text.ok() ? std::move(text).value() : "";
 }
 
-/// What nobody has looked at, so that a reader of passed checks knows what they do not tell.
-std::vector<std::string> not_checked(const Study& study) {
-  std::vector<std::string> out;
-  if (!is_passive(study)) out.emplace_back("that the energy only falls: something drives this tissue");
-  out.emplace_back(
-      "the error of step, tolerance and mesh: run again with half the `time.step`, and with more `nodes` where cells are shells");
-  out.emplace_back("how much the result differs from seed to seed: run again with other values of `seed`");
-  out.emplace_back("the parameters: whether they are those of the cells that are meant");
-  if (study.scenario.empty()) out.emplace_back("agreement with theory or measurements: a study of your own has no reference");
-  return out;
-}
-
 void add_citation(const RunRecord& r, ReportContent& content) {
   content.citation = "The Morula authors. Morula: hybrid simulation of tissues made of spheres and deformable shells, version " +
                      r.version + " (" + r.git_hash + "). The laws that were used have their own sources, above.";
@@ -172,7 +160,7 @@ Result<Study> read_run_study(const fs::path& run) {
   return std::move(study).value();
 }
 
-Result<fs::path> write_run_report(const Study& study, const RunRecord& record, const fs::path& run, const std::vector<Verdict>& verdicts) {
+Result<fs::path> write_run_report(const Study& study, const RunRecord& record, const fs::path& run, const Judgement& judgement) {
   MORULA_TRY_ASSIGN(const SeriesTable series, read_series(run / "series.csv"));
   MORULA_TRY(make_folder(run / "plots"));
   ReportContent content;
@@ -180,7 +168,8 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
   content.study = study.name;
   content.scenario = study.scenario;
   content.state = state_text(record);
-  for (const Verdict& v : verdicts) content.criteria.push_back({v.id, v.quantity, short_text(v.value), v.limit, v.passed});
+  for (const Verdict& v : judgement.verdicts) content.criteria.push_back({v.id, v.quantity, value_text(v), v.limit, v.passed});
+  content.not_checked = judgement.not_checked;
   MORULA_TRY_ASSIGN(std::vector<NamedPlot> plots, scenario_plots(study, run));
   for (NamedPlot& plot : standard_plots(study, series)) plots.push_back(std::move(plot));
   for (const NamedPlot& one : plots) {
@@ -197,7 +186,6 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
   read_events(run / "events.jsonl", content);
   add_provenance(record, content);
   content.laws = used_laws(study);
-  content.not_checked = not_checked(study);
   content.study_text = text_of(run / "study.yaml");
   content.parameters_text = text_of(run / "study.resolved.yaml");
   add_citation(record, content);
@@ -207,16 +195,17 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
 
 Result<RunOutputs> finish_outputs(const Study& study, const RunRecord& record, const RunFolder& folder) {
   RunOutputs out;
-  MORULA_TRY_ASSIGN(out.verdicts, judge(study, folder.path()));
-  MORULA_TRY(folder.write_verdict(out.verdicts));
-  const auto laws = used_laws(study);
-  MORULA_TRY(write_methods(study.title.empty() ? study.name : study.title, laws, folder.path() / "methods.md"));
+  MORULA_TRY_ASSIGN(out.judgement, judge(study, folder.path()));
+  MORULA_TRY(folder.write_verdict(out.judgement));
+  MORULA_TRY_ASSIGN(const std::string resolved, read_file(folder.path() / "study.resolved.yaml"));
+  MORULA_TRY(write_file_atomically(folder.path() / "methods.md",
+                                   methods_text(study.title.empty() ? study.name : study.title, used_laws(study), resolved)));
   if (std::find(study.output.formats.begin(), study.output.formats.end(), "vtk") != study.output.formats.end()) {
     auto exported = export_snapshots(folder.results(), folder.vtk(), ExportFormat::kVtk, {});
     if (!exported.ok()) return std::move(exported).error();
   }
   if (study.output.report) {
-    MORULA_TRY_ASSIGN(out.report, write_run_report(study, record, folder.path(), out.verdicts));
+    MORULA_TRY_ASSIGN(out.report, write_run_report(study, record, folder.path(), out.judgement));
   }
   return out;
 }
@@ -224,8 +213,8 @@ Result<RunOutputs> finish_outputs(const Study& study, const RunRecord& record, c
 Result<fs::path> plot_run(const fs::path& run) {
   MORULA_TRY_ASSIGN(const RunRecord record, read_run_record(run / "run.json"));
   MORULA_TRY_ASSIGN(const Study study, read_run_study(run));
-  MORULA_TRY_ASSIGN(const auto verdicts, judge(study, run));
-  return write_run_report(study, record, run, verdicts);
+  MORULA_TRY_ASSIGN(const Judgement judgement, judge(study, run));
+  return write_run_report(study, record, run, judgement);
 }
 
 }  // namespace morula::scenarios

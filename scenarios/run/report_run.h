@@ -12,7 +12,7 @@ namespace morula::scenarios {
 
 /// What stands beside the results when a run is done.
 struct RunOutputs {
-  std::vector<Verdict> verdicts;
+  Judgement judgement;
   std::filesystem::path report;  ///< empty: the study wants none
 };
 
@@ -22,7 +22,7 @@ Result<RunOutputs> finish_outputs(const Study& study, const RunRecord& record, c
 /// plots/*.svg (with their numbers as CSV), plots/*.png and report.html from what is in a run's folder, also of a run that goes on or
 /// failed. Returns the path of the report. On one process.
 Result<std::filesystem::path> write_run_report(const Study& study, const RunRecord& record, const std::filesystem::path& run,
-                                               const std::vector<Verdict>& verdicts);
+                                               const Judgement& judgement);
 
 /// The same for a run on disk, its study and record read from there: `morula plot RUN`.
 Result<std::filesystem::path> plot_run(const std::filesystem::path& run);

@@ -382,7 +382,9 @@ Status RunLoop::finish(RunState state, ErrorKind kind, RunSummary& summary) {
   if (written.ok() && comm_.is_root() && done) {
     auto outputs = finish_outputs(study_, record_, folder_);
     if (outputs.ok()) {
-      summary.verdicts = std::move(outputs->verdicts);
+      record_.message = outputs->judgement.failures();
+      record_.exit_code = record_.message.empty() ? 0 : exit_code(ErrorKind::kVerification);
+      summary.verdicts = std::move(outputs->judgement.verdicts);
       summary.report = std::move(outputs->report);
     } else {
       written = std::move(outputs).error();
@@ -390,6 +392,7 @@ Status RunLoop::finish(RunState state, ErrorKind kind, RunSummary& summary) {
   }
   if (written.ok()) written = folder_.write_record(record_);
   MORULA_TRY(agree(std::move(written), comm_));
+  summary.passed = !comm_.any(record_.exit_code == exit_code(ErrorKind::kVerification));
   if (!done) note(Note::Kind::kNote, record_.message);
   summary.path = folder_.path();
   summary.state = state;

@@ -258,6 +258,15 @@ void declare_study(Section& s, draft::Study& study) {
           .fallback = "",
           .example = "hybrid_spheroid"},
          study.scenario);
+  s.words(
+      {.name = "criteria",
+       .doc =
+           "Criteria of the scenario that this study must be judged on: one that finds nothing in the results has failed. An empty list: "
+           "whichever can be judged, and one at least.",
+       .fallback = "[]",
+       .example = "[S6.1, DOUBLET.drift]",
+       .source = "chosen"},
+      study.criteria);
   s.whole({.name = "seed",
            .doc = "Seed of all random numbers; the same seed gives the same bits.",
            .fallback = "1",

@@ -244,6 +244,7 @@ struct Limits {
 struct Study {
   Given<std::uint64_t> schema, seed;
   Given<std::string> name, title, scenario;
+  Given<std::vector<std::string>> criteria;
   Time time;
   Numerics numerics;
   Domain domain;

@@ -36,6 +36,7 @@ void build(BuildContext& context) {
   study.name = draft.name.value;
   study.title = draft.title.value;
   study.scenario = draft.scenario.value;
+  study.criteria = draft.criteria.value;
   study.output = {draft.output.series.value, draft.output.formats.value, draft.output.report.value};
   check_places(context);
 }
@@ -57,6 +58,9 @@ Result<Study, Diagnostics> read_source(const std::shared_ptr<const SourceText>& 
   read_draft(document, source, draft, diagnostics);
   BuildContext context{draft, study, diagnostics, folder, options};
   build(context);
+  if (options.fits_scenario && !diagnostics.has_errors())
+    if (const Status fits = options.fits_scenario(study); !fits.ok())
+      diagnostics.error(685, (draft.criteria.given ? draft.criteria.place : draft.scenario.place), fits.error().message, fits.error().help);
   diagnostics.sort();
   if (options.strict) diagnostics.warnings_to_errors();
   if (diagnostics.has_errors()) return diagnostics;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -108,7 +109,8 @@ struct InputFile {
 struct Study {
   std::string name;
   std::string title;
-  std::string scenario;  ///< library study it was made from, or "" (gives the criteria that go to verdict.json)
+  std::string scenario;               ///< library study it was made from, or "" (gives the criteria that go to verdict.json)
+  std::vector<std::string> criteria;  ///< those of the scenario that must be judged; empty: whichever it finds, one at least
   Model model;
   TimeSpec time;
   std::vector<InitialCells> initial;
@@ -122,11 +124,12 @@ struct Study {
 };
 
 struct ReadOptions {
-  std::vector<std::string> overrides{};       ///< `key.path=value`, as if written in the file
-  std::vector<std::string> series_names{};    ///< observables that exist; empty: not checked
-  std::vector<std::string> scenario_names{};  ///< library studies that exist; empty: not checked
-  bool strict = false;                        ///< warnings are errors
-  bool judge_places = true;                   ///< find and judge the places of all cells; false: the study has been checked before
+  std::vector<std::string> overrides{};                 ///< `key.path=value`, as if written in the file
+  std::vector<std::string> series_names{};              ///< observables that exist; empty: not checked
+  std::vector<std::string> scenario_names{};            ///< library studies that exist; empty: not checked
+  std::function<Status(const Study&)> fits_scenario{};  ///< whether a study has what its scenario's criteria judge; null: not checked
+  bool strict = false;                                  ///< warnings are errors
+  bool judge_places = true;  ///< find and judge the places of all cells; false: the study has been checked before
 };
 
 /// Read, check and convert a study file. On failure all errors (and warnings), sorted by place.

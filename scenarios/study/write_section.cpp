@@ -28,7 +28,7 @@ class WriteSection final : public Section {
     if (items.empty()) return;
     out += indent_ + key.name + ":\n";
     for (const Named<Given<double>>& item : items)
-      out += indent_ + "  " + item.name + ": " + yaml_scalar(item.content.text) + (item.content.given ? "\n" : "  # default\n");
+      out += indent_ + "  " + item.name + ": " + yaml_scalar(item.content.text) + origin(key, item.content.given);
   }
   void group(const KeySpec& key, bool& present, const std::function<void(Section&)>& describe) override {
     if (key.optional_section && !present) return;
@@ -57,8 +57,13 @@ class WriteSection final : public Section {
   }
 
  private:
+  /// What follows a value: nothing where the study gave it, else that it is a default and where that comes from.
+  static std::string origin(const KeySpec& key, bool given) {
+    if (given) return "\n";
+    return std::string("  # default") + (*key.source ? ": " : "") + key.source + "\n";
+  }
   void line(const KeySpec& key, const std::string& value, bool known, bool given) {
-    if (known) out += indent_ + key.name + ": " + value + (given ? "\n" : "  # default\n");
+    if (known) out += indent_ + key.name + ": " + value + origin(key, given);
   }
   void nested(const std::string& head, const char* when_empty, const std::function<void(Section&)>& describe) {
     WriteSection inner(static_cast<int>(indent_.size()) + 2);

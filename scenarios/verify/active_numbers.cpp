@@ -85,8 +85,6 @@ void add_active_numbers(std::vector<ReferenceNumber>& out) {
       {"T15.2", "marked part of a closed cavity between twelve cells of 2562 nodes", 1.0, 1e-3, "dcm.md: 100 %", &marked_part_of_a_cavity});
   out.push_back(
       {"T15.3", "net force of a fluid around a closed surface over pressure times area", 0.0, 1e-12, kClosedForm, &net_force_of_fluid});
-  out.push_back(
-      {"lumen", "pressure of 19.389 uM of solute at 310 K [kPa]", 0.050, 5e-6, "van 't Hoff 1887", [] { return kGasEnergy * 19.389e-3; }});
 }
 
 }  // namespace morula::scenarios

@@ -1,4 +1,4 @@
-// Contacts: T7.1–T7.3 of dcm.md §7, and pipettes.
+// Contacts: T7.2 and T7.3 of dcm.md §7. T7.1 and S3 are theory that studies are held against; its own numbers are held by theory_test.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,7 +8,6 @@
 #include "coupling/face_marks.h"
 #include "coupling/mechanics/contact_setup.h"
 #include "coupling/mechanics/mechanics.h"
-#include "scenarios/library/theory.h"
 #include "scenarios/verify/lone_shell.h"
 #include "scenarios/verify/reference_numbers.h"
 #include "scenarios/verify/two_bodies.h"
@@ -111,13 +110,6 @@ double work_between_plates(double flat_from, double flat_to) {
 }
 
 void add_pull_off(std::vector<ReferenceNumber>& out) {
-  struct Maugis {
-    double lambda, pull;
-  };
-  for (const Maugis& m : {Maugis{0.01, 1.998}, {0.1, 1.951}, {0.5, 1.718}, {1.0, 1.601}, {2.0, 1.535}, {5.0, 1.506}})
-    out.push_back({"T7.1",
-                   "pull-off force of elastic spheres at a Maugis parameter of " + std::to_string(m.lambda).substr(0, 4) + ", over pi R W",
-                   m.pull, 6e-4, "Maugis 1992, doi:10.1016/0021-9797(92)90285-T", [m] { return theory::maugis_pull_off(m.lambda); }});
   out.push_back({"T7.2", "pull-off force of a rigid ball of 642 nodes from a plane, 2 pi R W, R 6 um, W 0.1 nN/um [nN]", 3.7699,
                  0.01 * 3.7699, "closed form (Derjaguin), any range below 2 R; 0.3 % for nodes outside the sphere, 0.4 % from mesh to mesh",
                  [] { return largest_pull(false); }});
@@ -138,15 +130,6 @@ void add_contact_numbers(std::vector<ReferenceNumber>& out) {
   add_pull_off(out);
   out.push_back({"S5", "W recovered from the work of lifting that ball off [nN/um]", kAdhesion, 0.02 * kAdhesion,
                  "closed form: work pi R c W from touching to out of the range c", [] { return adhesion_from_work(); }});
-  struct Pipette {
-    double tension, radius, suction;
-  };
-  for (const Pipette& p : {Pipette{0.03, 2.5, 13.898}, {0.1, 2.0, 66.486}, {0.1, 2.5, 46.326}, {0.1, 3.0, 32.766}, {0.4, 2.5, 185.302}})
-    out.push_back({"S3",
-                   "critical suction of a cell of 6 um, tension " + std::to_string(p.tension).substr(0, 4) + " mN/m, pipette " +
-                       std::to_string(p.radius).substr(0, 3) + " um [Pa]",
-                   p.suction, 1e-3, "computed independently from the closed form",
-                   [p] { return 1000.0 * theory::critical_aspiration(p.tension, p.radius, kRadius); }});
 }
 
 }  // namespace morula::scenarios

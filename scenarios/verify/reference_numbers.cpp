@@ -2,6 +2,7 @@
 
 #include "dcm/derived_parameters.h"
 #include "scenarios/verify/lone_shell.h"
+#include "scenarios/verify/study_numbers.h"
 
 namespace morula::scenarios {
 namespace {
@@ -36,6 +37,7 @@ std::vector<ReferenceNumber> physics_numbers() {
   add_growth_numbers(out);
   add_active_numbers(out);
   add_sphere_numbers(out);
+  add_study_numbers(out);
   return out;
 }
 

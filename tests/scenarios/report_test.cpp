@@ -212,17 +212,18 @@ TEST(Report, SolverPlotsLieBelowAFold) {
 TEST(Report, ChecksOfAUsersStudySayWhatTheyDoNotTell) {
   ReportContent content;
   content.criteria = {{"INV.4", "overlap", "0.1 um", "<= 0.3 um", true}};
-  content.not_checked = {"the parameters"};
+  content.not_checked = {{"", "the parameters", "nobody has measured them"}};
   std::string html = *report_html(content);
   EXPECT_NE(html.find("<h2>Numerical checks</h2>"), std::string::npos);
   EXPECT_EQ(html.find("<h2>Verdict</h2>"), std::string::npos);
   EXPECT_NE(html.find("1 of 1 checks passed"), std::string::npos);
-  EXPECT_NE(html.find("<li>the parameters</li>"), std::string::npos);
+  EXPECT_NE(html.find("<h2>Not checked</h2>"), std::string::npos);
+  EXPECT_NE(html.find("the parameters"), std::string::npos);
   EXPECT_NE(html.find("&lt;= 0.3 µm"), std::string::npos);
-  content.scenario = "doublet";
+  content.criteria.push_back({"S6.1", "angle", "60 deg", "58 to 62 deg", true});
   html = *report_html(content);
   EXPECT_NE(html.find("<h2>Verdict</h2>"), std::string::npos);
-  EXPECT_NE(html.find("1 of 1 criteria passed"), std::string::npos);
+  EXPECT_NE(html.find("2 of 2 criteria passed"), std::string::npos);
 }
 
 TEST(Report, HoldsTheStudyAndHowToCite) {
@@ -327,12 +328,13 @@ TEST(Methods, NameEveryLawWithEquationSourceAndTheValueUsed) {
   use.law.parameters = {{"work_of_adhesion", "surface energy", "nN/µm", 0.2, 0.0, 1.0, "a source", "energy | area"},
                         {"young", "pressure", "kPa", 0.45, 0.0, 9.0, "b source", "stiffness"},
                         {"radius", "length", "µm", {}, 0.0, 9.0, "", "no fallback"}};
-  const std::string text = methods_text("a study", std::span(&use, 1));
+  const std::string text = methods_text("a study", std::span(&use, 1), "seed: 1  # default: chosen\n");
   EXPECT_NE(text.find("F = 4/3 E* …"), std::string::npos);
   EXPECT_NE(text.find("Johnson 1971"), std::string::npos);
-  EXPECT_NE(text.find("| work_of_adhesion | 0.1 | nN/µm | energy \\| area | a source |\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("| young | 0.45 | kPa |"), std::string::npos);
+  EXPECT_NE(text.find("| work_of_adhesion | 0.1 | nN/µm | energy \\| area |\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("| young | not set | kPa |"), std::string::npos);  // not the law's own default, which the model need not have
   EXPECT_NE(text.find("| radius | not set |"), std::string::npos);
+  EXPECT_NE(text.find("```yaml\nseed: 1  # default: chosen\n```\n"), std::string::npos);
 }
 
 TEST(SeriesReader, ReadsNamesUnitsAndValues) {

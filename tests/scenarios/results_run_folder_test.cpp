@@ -1,5 +1,7 @@
 #include <sys/mount.h>
 
+#include <cmath>
+
 #include "scenarios/results/file_io.h"
 #include "scenarios/results/run_folder.h"
 #include "tests/scenarios/results_support.h"
@@ -187,10 +189,15 @@ TEST_F(RunFolders, SeriesAndEventsAreCutBackToTheCheckpoint) {
 TEST_F(RunFolders, VerdictSaysWhetherAllPassed) {
   const RunFolder run = make();
   if (!comm.is_root()) return;
-  ASSERT_TRUE(run.write_verdict(
-                     std::vector<Verdict>{{"S18.1", "overlap", 0.2, "<= 0.3 um", true}, {"S18.2", "volume error", 0.05, "<= 2 %", false}})
-                  .ok());
+  const Judgement judgement{{{"S18.1", "overlap", 0.2, "<= 0.3 um", true},
+                             {"S18.2", "volume error", 0.05, "<= 2 %", false},
+                             {"S18.3", "way", std::nan(""), "<= 5 um", false}},
+                            {{"INV.7", "rise of the energy", "something drives the tissue"}}};
+  ASSERT_TRUE(run.write_verdict(judgement).ok());
+  EXPECT_EQ(judgement.failures(), "checks failed: S18.2, S18.3");
+  EXPECT_EQ(value_text(judgement.verdicts[2]), "nothing to judge");
   const std::string text = slurp(run.path() / "verdict.json");
+  EXPECT_NE(text.find("something drives the tissue"), std::string::npos);
   EXPECT_NE(text.find("\"passed\": false"), std::string::npos);
   EXPECT_NE(text.find("S18.2"), std::string::npos);
 }

@@ -123,7 +123,7 @@ TEST_F(Runs, GrowingSpheresLeaveAWholeFolder) {
   EXPECT_EQ(summary.state, RunState::kDone);
   EXPECT_EQ(summary.final_state.time, 7200.0);
   EXPECT_GE(summary.final_state.cells, 9u);  // of 8 cells with a cycle of 4 h about 3 divide in 2 h
-  EXPECT_TRUE(summary.passed());
+  EXPECT_TRUE(summary.passed);
   for (const char* name : {"study.yaml", "study.resolved.yaml", "run.json", "status.json", "events.jsonl", "series.csv", "verdict.json",
                            "methods.md", "results.h5", "DONE"})
     EXPECT_TRUE(fs::exists((*this / "a") / name)) << name;
@@ -152,7 +152,7 @@ TEST_F(Runs, ASplitRunEndsInTheSameBits) {
 
 TEST_F(Runs, TwoShellsAdhereAndASplitRunIsTheSame) {
   const RunSummary whole = run_whole(kShells, "whole");
-  EXPECT_TRUE(whole.passed());
+  EXPECT_TRUE(whole.passed);
   const auto series = read_series(*this / "whole/series.csv");
   ASSERT_TRUE(series.ok());
   const auto& area = series->find("mean_contact_area")->values;
@@ -164,7 +164,7 @@ TEST_F(Runs, AHybridWithARegionRunsAndSplits) {
   const RunSummary whole = run_whole(kHybrid, "whole");
   EXPECT_GE(whole.final_state.shells, 1u);
   EXPECT_LT(whole.final_state.shells, whole.final_state.cells);
-  EXPECT_TRUE(whole.passed());
+  EXPECT_TRUE(whole.passed);
   EXPECT_TRUE(fs::exists(*this / "whole/vtk/shells.pvd"));
   EXPECT_NE(slurp(*this / "whole/events.jsonl").find("\"kind\":\"promotion\""), std::string::npos);
   EXPECT_EQ(run_split(kHybrid, "split", 600.0).final_state.state_hash, whole.final_state.state_hash);
@@ -189,7 +189,7 @@ TEST_F(Runs, WithPackingSplitAsWhole) {
   const std::string text =
       packed_pair("{packing: 0.1 %, pressure: 0 Pa}, {packing: 1 %, pressure: 20 Pa}, {packing: 5 %, pressure: 90 Pa}");
   const RunSummary whole = run_whole(text, "whole");
-  EXPECT_TRUE(whole.passed());
+  EXPECT_TRUE(whole.passed);
   EXPECT_EQ(slurp(*this / "whole/log.txt").find("packed more tightly"), std::string::npos);
   EXPECT_NE(slurp(*this / "whole/methods.md").find("Pressure of packing"), std::string::npos);
   EXPECT_EQ(run_split(text, "split", 120.0).final_state.state_hash, whole.final_state.state_hash);

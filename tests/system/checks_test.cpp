@@ -1,0 +1,112 @@
+// Checks at the end of a run: what fails is told with exit code 5, what finds nothing to judge has failed, and what was not checked is named.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/system/morula_command.h"
+#include "tests/system/studies.h"
+
+namespace morula::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+/// A run of the library's study `spreading`, ended long before its cells have spread.
+class CutShort : public testing::Test {
+ protected:
+  void SetUp() override { ASSERT_EQ(run_morula({"new", "spreading", "study"}, folder_.path()).exit_code, 0); }
+  [[nodiscard]] Outcome run(std::vector<std::string> more) const {
+    std::vector<std::string> arguments{"run", "study/study.yaml", "--out", "run", "time.end=4 s", "time.output=2 s", "time.checkpoint=2 s"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_morula(arguments, folder_.path());
+  }
+  [[nodiscard]] json verdict() const { return json::parse(read_text(folder_ / "run/verdict.json"), nullptr, false); }
+  [[nodiscard]] json criterion(const std::string& id) const {
+    for (const json& one : verdict()["criteria"])
+      if (one["id"] == id) return one;
+    return {};
+  }
+  TestFolder folder_;
+};
+
+TEST_F(CutShort, FailsItsChecksWithExitCode5AndFailedForScriptsAndSoDoesResume) {
+  const Outcome outcome = run({"output.report=false"});
+  EXPECT_EQ(outcome.exit_code, 5) << outcome.all();
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("done   "), HasSubstr("checks FAILED"), HasSubstr("check S4.1 failed")));
+  EXPECT_FALSE(verdict()["passed"].get<bool>());
+  EXPECT_FALSE(fs::exists(folder_ / "run/DONE"));
+  EXPECT_THAT(read_text(folder_ / "run/FAILED"), HasSubstr("checks failed: S4.1"));
+  const json record = json::parse(read_text(folder_ / "run/run.json"));
+  EXPECT_EQ(record["state"], "done");
+  EXPECT_EQ(record["exit_code"], 5);
+  const Outcome again = run_morula({"resume", "run"}, folder_.path());
+  EXPECT_EQ(again.exit_code, 5) << again.all();
+}
+
+TEST_F(CutShort, FailsACriterionThatFindsNothingToJudge) {
+  // No two of its cells reach one angle from two sides (T8.1).
+  EXPECT_EQ(run({"output.report=false", "criteria=[S4.2, T8.1]"}).exit_code, 5);
+  const json missing = criterion("T8.1");
+  ASSERT_TRUE(missing.is_object()) << verdict();
+  EXPECT_FALSE(missing["passed"].get<bool>());
+  EXPECT_TRUE(missing["value"].is_null());
+  EXPECT_TRUE(criterion("S4.2").is_object());
+}
+
+TEST_F(CutShort, IsRefusedWhereTheScenarioHasNoSuchCriterionOrTheStudyNoneOfItsThings) {
+  const Outcome unknown = run_morula({"check", "study/study.yaml", "criteria=[S4.1, S4.9]"}, folder_.path());
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.all(), AllOf(HasSubstr("'spreading' has no criterion 'S4.9'"), HasSubstr("E685"), HasSubstr("S4.1")));
+  const Outcome other = run_morula({"check", "study/study.yaml", "scenario=micropipette", "criteria=[]"}, folder_.path());
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.all(), AllOf(HasSubstr("the criteria of 'micropipette' need a suction"), HasSubstr("E685")));
+  const Outcome none = run_morula({"check", "study/study.yaml", "scenario=pair"}, folder_.path());
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.all(), HasSubstr("`criteria` has no effect"));
+}
+
+TEST(UsersStudy, GetsNumericalChecksAndIsToldWhatWasNotChecked) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  const Outcome outcome = run_morula({"run", "study.yaml", "--out", "run", "time.end=20 min", "output.report=true"}, folder.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.all();
+  EXPECT_THAT(read_text(folder / "run/report.html"),
+              AllOf(HasSubstr("<h2>Numerical checks</h2>"), HasSubstr("<h2>Not checked</h2>"), Not(HasSubstr("<h2>Verdict</h2>"))));
+  std::vector<std::string> ids;
+  for (const json& one : json::parse(read_text(folder / "run/verdict.json"))["not_checked"]) {
+    EXPECT_FALSE(one["why"].get<std::string>().empty());
+    ids.push_back(one["id"]);
+  }
+  // Spheres have no surface that penetrates, and growth drives the energy.
+  for (const char* id : {"INV.1", "INV.4", "INV.7"}) EXPECT_THAT(ids, testing::Contains(id));
+}
+
+TEST(Methods, SayWhichValuesTheStudyGaveAndWhereTheOthersComeFrom) {
+  const TestFolder folder;
+  folder.write("study.yaml", R"(schema: 1
+study: lone
+time: {end: 20 s, output: 20 s, checkpoint: 20 s}
+domain: {size: [60 um, 60 um, 60 um]}
+cell_types: {a: {radius: 6 um, body: shell, dcm: {cortex: {tension: 0.2 mN/m}}}}
+initial:
+  - {type: a, at: [[0 um, 0 um, 0 um]]}
+output: {report: false}
+)");
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "run"}, folder.path()).exit_code, 0);
+  const std::string methods = read_text(folder / "run/methods.md");
+  EXPECT_THAT(methods, AllOf(HasSubstr("| tension | 0.2 | nN/µm |"), HasSubstr("| spring_stiffness | 0.173205 |"),
+                             Not(HasSubstr("not set")), Not(HasSubstr("the study |"))));
+  EXPECT_THAT(methods, AllOf(HasSubstr("tension: 0.2 mN/m\n"), HasSubstr("young: 1 kPa  # default: Van Liedekerke et al., Table 1\n"),
+                             HasSubstr("range: 0.5 um  # default: ")));
+  // Laws have formulas and units; what a value is by default, and why, stands with the key of the study alone.
+  const std::string laws = run_morula({"explain", "--markdown", "laws"}, folder.path()).out;
+  EXPECT_THAT(laws, AllOf(HasSubstr("| parameter | unit | what |"), Not(HasSubstr("default |")), Not(HasSubstr("the study |"))));
+}
+
+}  // namespace
+}  // namespace morula::test
