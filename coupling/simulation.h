@@ -53,6 +53,8 @@ class Simulation {
   /// step's end, directions and areas those of its start, and the step holds them as dead loads.
   /// dt: of the step, which fluctuations depend on.
   [[nodiscard]] std::vector<Vec3d> external_forces(double time, double dt);
+  /// Forces of the migrating cells, by shell node, then by sphere.
+  void add_crawling(std::span<Vec3d> external);
   /// Protrusions of the shells, by shell node.
   void add_protrusions(std::span<Vec3d> external);
   /// Polarities after the step with this number.
