@@ -42,6 +42,8 @@ class Simulation {
   [[nodiscard]] StageTimer& timer() { return mechanics_->timer(); }
   [[nodiscard]] BodyValues values() { return mechanics_->values(tissue_); }
   [[nodiscard]] std::vector<Vec3d> centers() const;  ///< of the cells, by row
+  /// What will still happen by itself if nothing moves any more (coupling/still_to_come.h). Collective.
+  [[nodiscard]] std::vector<std::string> still_to_come() const;
   [[nodiscard]] double imbalance() const { return morula::imbalance(tissue_, comm_); }
 
  private:
