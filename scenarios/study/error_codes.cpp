@@ -169,6 +169,14 @@ constexpr ErrorCode kCodes[] = {
     {623, "mesh crosses itself", "Two faces that are not neighbours intersect."},
     {624, "mesh has degenerate or double faces", "A face has no area, or the same face stands twice."},
     {625, "mesh is not a surface", "An edge has three or more faces, or two parts of the surface touch in one node."},
+    {645, "noise that leaves the inside cold",
+     "Random forces belong to friction. Nuclei and links inside a shell have friction without them, so that the cell would fluctuate less "
+     "than "
+     "its energy says."},
+    {646, "shells that would divide",
+     "Shells grow but cannot divide yet. One that reaches its division volume waits there, as the event `division_waits` says, until its "
+     "body "
+     "is exchanged for a sphere."},
 };
 
 }  // namespace
