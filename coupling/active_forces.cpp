@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "coupling/behaviours/migration.h"
 #include "coupling/behaviours/polarity.h"
@@ -17,13 +18,31 @@ Vec3d along_surface(const Vec3d& force, const Touch& touch) {
   return force - touch.normal * dot(force, touch.normal);
 }
 
-/// Touch of all bodies with the materials that some type needs it for.
-std::map<int, std::vector<Touch>> touches(const Model& model, const Tissue& tissue, Mechanics& mechanics) {
-  std::map<int, std::vector<Touch>> out;
-  for (const CellType& type : model.types)
-    for (const int material : {type.migration_substrate, type.protrusion.substrate})
-      if (material >= 0 && !out.contains(material)) out[material] = mechanics.touch_of_bodies(tissue, static_cast<std::uint16_t>(material));
+using Touches = std::map<int, std::vector<Touch>>;  ///< of all bodies, by material
+constexpr int kAnyObstacle = -1;                    // as CellType::migration_substrate
+
+/// Touch of all bodies with each of some materials, or with any obstacle. Collective.
+template <class MaterialOf>
+Touches find_touches(const Model& model, const Tissue& tissue, Mechanics& mechanics, MaterialOf&& material_of) {
+  Touches out;
+  if (model.obstacles.empty()) return out;
+  for (const CellType& type : model.types) {
+    const std::optional<int> material = material_of(type);
+    if (!material || out.contains(*material)) continue;
+    std::vector<char> materials(model.material_count(), 0);
+    if (*material == kAnyObstacle)
+      std::fill(materials.begin() + static_cast<std::ptrdiff_t>(model.types.size()), materials.end(), 1);
+    else
+      materials[static_cast<std::size_t>(*material)] = 1;
+    out[*material] = mechanics.touch_of_bodies(tissue, materials);
+  }
   return out;
+}
+
+Touches touches_of_protrusions(const Model& model, const Tissue& tissue, Mechanics& mechanics) {
+  return find_touches(model, tissue, mechanics, [](const CellType& type) {
+    return type.protrusion.substrate >= 0 ? std::optional(type.protrusion.substrate) : std::nullopt;
+  });
 }
 
 /// Nodes of faces in contact with a material, by node of the rank's shells.
@@ -43,7 +62,7 @@ std::vector<char> nodes_in_touch(const Model& model, const Tissue& tissue, Mecha
 }  // namespace
 
 std::vector<Vec3d> Simulation::forces_on_cells(double time) {
-  const auto touch = touches(model_, tissue_, *mechanics_);
+  const auto touch = touches_of_protrusions(model_, tissue_, *mechanics_);
   std::vector<Vec3d> shells, spheres;
   std::size_t shell = 0, sphere = tissue_.shells.size();
   const SideColumns& side = tissue_.cells.side;
@@ -52,8 +71,7 @@ std::vector<Vec3d> Simulation::forces_on_cells(double time) {
     const CellType& type = model_.types[row.type];
     const bool is_shell = row.body == BodyKind::kShell;
     const std::size_t body = is_shell ? shell++ : sphere++;
-    Vec3d force = migration_force(side.migration_velocity[i], type, row.target_volume);
-    if (type.migration_substrate >= 0) force = along_surface(force, touch.at(type.migration_substrate)[body]);
+    Vec3d force = body_force(model_, row.type, time);
     if (!is_shell && type.protrusion.force > 0.0 && !type.protrusion.internal) {  // a sphere has no front: the force is that of the whole
       Vec3d push = side.polarity[i] * type.protrusion.force;
       if (type.protrusion.substrate >= 0) {
@@ -62,16 +80,36 @@ std::vector<Vec3d> Simulation::forces_on_cells(double time) {
       }
       force += push;
     }
-    (is_shell ? shells : spheres).push_back(force + body_force(model_, row.type, time));
+    (is_shell ? shells : spheres).push_back(force);
   }
   shells.insert(shells.end(), spheres.begin(), spheres.end());
   return shells;
 }
 
+void Simulation::add_crawling(std::span<Vec3d> external) {
+  const auto walks = [](const CellType& type) { return type.migration_speed > 0.0; };
+  if (std::none_of(model_.types.begin(), model_.types.end(), walks)) return;
+  const Touches touch = find_touches(model_, tissue_, *mechanics_, [&](const CellType& type) {
+    return walks(type) ? std::optional(type.migration_substrate) : std::nullopt;
+  });
+  std::vector<Vec3d> velocity(tissue_.cells.size());
+  std::size_t shell = 0, sphere = tissue_.shells.size();
+  for (std::size_t i = 0; i < tissue_.cells.size(); ++i) {
+    const CellRow& row = tissue_.cells.rows[i];
+    const CellType& type = model_.types[row.type];
+    const std::size_t body = row.body == BodyKind::kShell ? shell++ : sphere++;
+    if (!walks(type)) continue;
+    const auto found = touch.find(type.migration_substrate);
+    const Touch on = found != touch.end() ? found->second[body] : Touch{};
+    velocity[body] = crawling_velocity(tissue_.cells.side.migration_velocity[i], on.area > 0.0, on.normal, type.migration_substrate >= 0);
+  }
+  mechanics_->add_crawling(tissue_, velocity, external);
+}
+
 void Simulation::add_protrusions(std::span<Vec3d> external) {
   const auto active = [](const CellType& type) { return type.protrusion.force > 0.0; };
   if (std::none_of(model_.types.begin(), model_.types.end(), active)) return;
-  const auto touch = touches(model_, tissue_, *mechanics_);
+  const auto touch = touches_of_protrusions(model_, tissue_, *mechanics_);
   std::map<int, std::vector<char>> nodes;
   for (const CellType& type : model_.types)
     if (const int m = type.protrusion.substrate; active(type) && m >= 0 && !nodes.contains(m))
@@ -104,6 +142,7 @@ std::vector<Vec3d> Simulation::external_forces(double time, double dt) {
   add_surface_loads(model_, tissue_, time, out);
   add_lumen_forces(model_, tissue_, time, comm_, out);
   add_protrusions(out);
+  add_crawling(out);
   mechanics_->add_fluctuations(tissue_, dt, out);
   return out;
 }

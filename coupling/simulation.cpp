@@ -15,6 +15,7 @@
 #include "coupling/cell_record.h"
 #include "coupling/face_marks.h"
 #include "coupling/mechanics/contact_setup.h"
+#include "coupling/still_to_come.h"
 #include "coupling/swaps.h"
 #include "dcm/growth.h"
 
@@ -169,6 +170,8 @@ void Simulation::set_bodies_to_targets(double dt) {
   }
   mechanics_->parameters_changed();
 }
+
+std::vector<std::string> Simulation::still_to_come() const { return morula::still_to_come(model_, tissue_, *mechanics_, centers(), comm_); }
 
 void Simulation::average_pressures(double dt) {
   const std::vector<double> pressure = mechanics_->pressures(tissue_);

@@ -42,6 +42,8 @@ class Simulation {
   [[nodiscard]] StageTimer& timer() { return mechanics_->timer(); }
   [[nodiscard]] BodyValues values() { return mechanics_->values(tissue_); }
   [[nodiscard]] std::vector<Vec3d> centers() const;  ///< of the cells, by row
+  /// What will still happen by itself if nothing moves any more (coupling/still_to_come.h). Collective.
+  [[nodiscard]] std::vector<std::string> still_to_come() const;
   [[nodiscard]] double imbalance() const { return morula::imbalance(tissue_, comm_); }
 
  private:
@@ -53,6 +55,8 @@ class Simulation {
   /// step's end, directions and areas those of its start, and the step holds them as dead loads.
   /// dt: of the step, which fluctuations depend on.
   [[nodiscard]] std::vector<Vec3d> external_forces(double time, double dt);
+  /// Forces of the migrating cells, by shell node, then by sphere.
+  void add_crawling(std::span<Vec3d> external);
   /// Protrusions of the shells, by shell node.
   void add_protrusions(std::span<Vec3d> external);
   /// Polarities after the step with this number.

@@ -129,6 +129,22 @@ std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, st
   return orders;
 }
 
+bool swaps_wait(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm) {
+  if (model.swaps.regions.empty() && model.swaps.triggers.empty()) return false;
+  const Vec3d tissue_center = needs_center(model.swaps) ? tissue_centroid(center, comm) : Vec3d{};
+  bool up = false, down = false;
+  std::int64_t shells = 0;
+  for (std::size_t i = 0; i < tissue.cells.size(); ++i) {
+    const CellRow& row = tissue.cells.rows[i];
+    if (row.body == BodyKind::kShell) ++shells;
+    if (row.phase == Phase::kDying) continue;
+    const BodyKind wanted = wish(model, tissue.clock.time, tissue.cells, i, center[i], tissue_center).body;
+    if (wanted != row.body) (wanted == BodyKind::kShell ? up : down) = true;
+  }
+  const bool has_place = static_cast<std::uint64_t>(comm.sum(shells)) < model.swaps.max_shells;
+  return comm.any(down || (up && has_place));
+}
+
 double free_reference_volume(double target_volume, const CellType& type) {
   return dcm::pressure_free_reference(target_volume, type.shell.tension, type.shell.bulk_modulus);
 }

@@ -21,6 +21,9 @@ struct SwapOrder {
 /// not more than one in a hundred cells (at least one) a step once the run has begun (fields_and_coupling.md, D). Collective.
 std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm);
 
+/// Whether any cell is to exchange its body as soon as its hold time is over, or when it is its turn. Collective.
+bool swaps_wait(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm);
+
 /// The sphere becomes a shell of the same volume, its mesh a sphere; V0 such that its inner pressure bears `pressure` (negative: tension) and the cortex.
 void promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes);
 /// The shell becomes a sphere of the same volume at its centroid.

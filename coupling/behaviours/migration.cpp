@@ -4,7 +4,6 @@
 #include <limits>
 #include <numbers>
 
-#include "core/numbers/cube_root.h"
 #include "core/random/philox.h"
 
 namespace morula {
@@ -35,13 +34,11 @@ Vec3d initial_migration_velocity(CellId cell, const CellType& type, std::uint32_
   return deviation(type) * normal_vector(cell, seed, kBeforeAllSteps);
 }
 
-double medium_friction_of(double friction, double volume) {
-  const double radius = cube_root(0.75 * volume / std::numbers::pi);
-  return friction * 4.0 * std::numbers::pi * radius * radius;
-}
-
-Vec3d migration_force(const Vec3d& wanted, const CellType& type, double volume) {
-  return medium_friction_of(type.medium_friction, volume) * wanted;
+Vec3d crawling_velocity(const Vec3d& wanted, bool touches, const Vec3d& normal, bool needs_substrate) {
+  if (!touches) return needs_substrate ? Vec3d{} : wanted;
+  const Vec3d across = normal * dot(wanted, normal);
+  const Vec3d along = (wanted - across) * std::sqrt(1.5);  // two of three components
+  return needs_substrate ? along : along + across;
 }
 
 }  // namespace morula

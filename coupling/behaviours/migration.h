@@ -17,11 +17,10 @@ Vec3d next_migration_velocity(const Vec3d& velocity, CellId cell, const CellType
 /// u of a new founder: from the stationary law, a normal vector of σ per component.
 Vec3d initial_migration_velocity(CellId cell, const CellType& type, std::uint32_t seed);
 
-/// Friction of an isolated cell with the medium, Γ_cm = γ_med·4πR² with R the radius of a sphere of this volume [nN·s/µm].
-/// friction: γ_med [nN·s/µm³]; volume [µm³].
-double medium_friction_of(double friction, double volume);
-
-/// F = Γ_cm u: the force under which the isolated cell moves with its wanted velocity u [nN]. volume: of the body [µm³].
-Vec3d migration_force(const Vec3d& wanted, const CellType& type, double volume);
+/// Velocity with which a cell crawls where it is, relative to what it crawls on [µm/s]. In the open it is u. Where the cell touches an obstacle
+/// (`touches`, with the normal of the contact) it is √(3/2) of the part of u along the surface, so that the root mean square of the speed is S there,
+/// too, and the part of u across it. A walk that needs a substrate has nothing across it, and nothing where the cell does not touch it.
+/// The force that belongs to it is Γ times this velocity, Γ all friction of the body with what stands still: Mechanics::add_crawling().
+Vec3d crawling_velocity(const Vec3d& wanted, bool touches, const Vec3d& normal, bool needs_substrate);
 
 }  // namespace morula

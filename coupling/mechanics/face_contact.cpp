@@ -41,10 +41,8 @@ std::vector<float> Mechanics::contact_of_faces(const Tissue& tissue, std::span<c
   return out;
 }
 
-std::vector<Touch> Mechanics::touch_of_bodies(const Tissue& tissue, std::uint16_t material) {
-  std::vector<char> materials(model_.material_count(), 0);
-  materials[material] = 1;
-  const std::vector<float> part = contact_of_faces(tissue, materials);
+std::vector<Touch> Mechanics::touch_of_bodies(const Tissue& tissue, std::span<const char> with_material) {
+  const std::vector<float> part = contact_of_faces(tissue, with_material);
   std::vector<Touch> out(scene_.owned_shells() + scene_.owned_spheres());
   for (std::size_t s = 0; s < scene_.owned_shells(); ++s)
     for (std::uint32_t f = scene_.first_face()[s]; f < scene_.first_face()[s + 1]; ++f) {
@@ -53,7 +51,8 @@ std::vector<Touch> Mechanics::touch_of_bodies(const Tissue& tissue, std::uint16_
       out[s].normal += touched;
     }
   spheres_.for_touched_obstacles([&](std::uint32_t sphere, std::uint32_t obstacle, const Vec3d& normal, double area) {
-    if (contacts_.obstacles()[obstacle].material != material) return;
+    const std::uint16_t material = contacts_.obstacles()[obstacle].material;
+    if (material >= with_material.size() || !with_material[material]) return;
     Touch& touch = out[scene_.owned_shells() + sphere];
     touch.area += area;
     touch.normal += normal * area;

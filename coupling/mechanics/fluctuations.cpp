@@ -75,7 +75,7 @@ void Mechanics::add_fluctuations(const Tissue& tissue, double dt, std::span<Vec3
   bool any = false;
   for (const CellType& type : model_.types) any = any || type.fluctuations.energy > 0.0;
   if (!any) return;
-  prepare(tissue);
+  prepare_step(tissue);
   add_shell_noise(tissue, dt, external);
   add_sphere_noise(tissue, dt, external);
   add_contact_noise(tissue, dt, external);

@@ -289,6 +289,11 @@ std::optional<StepFault> Mechanics::find_fault() const {
   return std::nullopt;
 }
 
+void Mechanics::prepare_step(const Tissue& tissue) {
+  if (comm_.any(flags_changed_ || spent_)) evaluated_ = flags_changed_ = false;
+  prepare(tissue);
+}
+
 Result<StepReport, StepFault> Mechanics::step(Tissue& tissue, double dt, std::span<const Vec3d> external, std::span<const Anchor> anchors) {
   anchors_ = anchors;
   if (comm_.any(flags_changed_ || spent_)) evaluated_ = flags_changed_ = false;

@@ -108,8 +108,14 @@ class Mechanics {
   /// with_material[material] != 0, at the tissue's positions; 0 to 1, with the taper of contact friction at the rim. Collective.
   std::vector<float> contact_of_faces(const Tissue& tissue, std::span<const char> with_material);
 
-  /// How every owned body (shells, then spheres) touches a material; spheres: obstacles only. Collective.
-  std::vector<Touch> touch_of_bodies(const Tissue& tissue, std::uint16_t material);
+  /// How every owned body (shells, then spheres) touches the materials with with_material[material] != 0; spheres: obstacles only. Collective.
+  std::vector<Touch> touch_of_bodies(const Tissue& tissue, std::span<const char> with_material);
+
+  /// Adds to `external` the forces that move every owned body with a velocity (shells, then spheres) [µm/s] against all friction with what is no
+  /// cell: Γ v on each point, Γ its friction with the medium and that of its contacts with obstacles, along their surface. A body that touches no
+  /// other cell moves so as a whole, without turning (cbm.md §1, rigid co-motion); what friction with neighbours takes is not made up for.
+  /// Collective.
+  void add_crawling(const Tissue& tissue, std::span<const Vec3d> velocity, std::span<Vec3d> external);
 
   /// Random forces of a step of dt [s] on all owned points, added to `external` [nN]: ⟨f fᵀ⟩ = (2 k_B T/Δt) Γ with the friction Γ of the
   /// tissue's positions, element by element (dcm.md §10), so that what acts between points has no net force. Between two types
@@ -156,6 +162,8 @@ class Mechanics {
  private:
   struct Trial;  // a point of the line search
   void prepare(const Tissue& tissue);
+  /// As prepare(), and friction is that of the tissue's positions: that of the step which begins there.
+  void prepare_step(const Tissue& tissue);
   /// Energy and forces at the scene's positions; `moved`: positions differ from those of the last call.
   void evaluate(const Tissue& tissue, bool moved = true);
   /// Back to the step's start after a fault.

@@ -7,7 +7,6 @@
 #include <map>
 
 #include "core/numbers/number_text.h"
-#include "coupling/loads.h"
 #include "scenarios/observables/local_snapshot.h"
 #include "scenarios/results/checkpoint_folder.h"
 #include "scenarios/results/file_io.h"
@@ -159,13 +158,21 @@ Result<RunSummary> RunLoop::go() {
   return summary;
 }
 
-bool RunLoop::at_rest() const {
+bool RunLoop::at_rest() {
+  if (!(study_.time.rest > 0.0)) return false;
   const Tissue& tissue = simulation_->tissue();
-  if (!(study_.time.rest > 0.0) || next_corner(study_.model, tissue.clock.time) < kNever) return false;
   double fastest = 0.0;
   for (const auto* velocities : {&tissue.shells.velocity, &tissue.spheres.velocity})
     for (const Vec3f& v : *velocities) fastest = std::max(fastest, static_cast<double>(norm2(v)));
-  return std::sqrt(comm_.max(fastest)) < study_.time.rest;
+  if (!(std::sqrt(comm_.max(fastest)) < study_.time.rest)) return false;
+  const std::vector<std::string> coming = simulation_->still_to_come();
+  if (!coming.empty() && coming != awaited_) {
+    std::string all;
+    for (const std::string& what : coming) all += (all.empty() ? "" : ", ") + what;
+    note(Note::Kind::kNote, "nothing moves, but there is still to come: " + all);
+  }
+  awaited_ = coming;
+  return coming.empty();
 }
 
 Status RunLoop::step() {

@@ -41,7 +41,7 @@ class RunLoop {
 
   Status step();
   /// The study asks to end at rest, and nothing moves or will move any more. Collective.
-  [[nodiscard]] bool at_rest() const;
+  [[nodiscard]] bool at_rest();
   Status output();
   Status write_moment(const Measures& measures);
   /// series.csv and events.jsonl into results.h5. Collective.
@@ -80,9 +80,10 @@ class RunLoop {
   CostModel cost_;
   Progress progress_;
   Load load_;
-  double growth_rate_ = 0.0;     ///< of the spheres, if nothing inhibits it [1/s]
-  std::vector<Event> events_;    ///< of the tissue, not yet written
-  std::vector<Event> warnings_;  ///< of the run, not yet written
+  double growth_rate_ = 0.0;          ///< of the spheres, if nothing inhibits it [1/s]
+  std::vector<Event> events_;         ///< of the tissue, not yet written
+  std::vector<std::string> awaited_;  ///< what was still to come when nothing moved, as last told
+  std::vector<Event> warnings_;       ///< of the run, not yet written
   bool state_is_whole_ = true;
   Status text_status_;  ///< the first failure of a text written between outputs
   bool packing_warned_ = false, volume_warned_ = false, overlap_warned_ = false, balance_warned_ = false;

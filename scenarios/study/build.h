@@ -57,6 +57,8 @@ void build_coupling(BuildContext& context);
 void check_whole(BuildContext& context);
 /// Measured limits of meshes under strong adhesion, and cells whose volume does not bear their tension: E571, E572.
 void check_resolution(BuildContext& context);
+/// What bodies cannot do: noise inside shells, division of shells: E645, E646.
+void check_bodies(BuildContext& context);
 
 /// Index of a cell type or field by name, or −1 and an error with suggestions.
 int find_type(BuildContext& context, const std::string& name, const Place& place);

@@ -232,6 +232,7 @@ void check_whole(BuildContext& c) {
   check_periodic_size(c);
   check_nuclei(c);
   check_resolution(c);
+  check_bodies(c);
 }
 
 }  // namespace morula::scenarios

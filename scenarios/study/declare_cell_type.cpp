@@ -116,7 +116,9 @@ void declare_life(Section& s, draft::CellType& t) {
           });
   s.group({.name = "migration", .doc = "Persistent random walk."}, present, [&t](Section& m) {
     m.quantity({.name = "speed",
-                .doc = "Root mean square speed in three dimensions; 0: no migration.",
+                .doc = "Root mean square speed of an otherwise free cell, in three dimensions in the open and along the surface of an "
+                       "obstacle that it touches: the force is that against all friction with the medium and with obstacles. A cell "
+                       "among others is slower, for its force does not make up for friction with neighbours. 0: no migration.",
                 .quantity = Q::kSpeed,
                 .fallback = "0 um/h",
                 .low = 0.0,

@@ -43,15 +43,17 @@ void declare_time(Section& s, draft::Time& time) {
               .example = "6 h",
               .source = "chosen"},
              time.checkpoint);
-  s.quantity({.name = "rest",
-              .doc = "The run ends at the first output at which no point moves faster than this and nothing prescribed over time is still "
-                     "to come; 0: only at `end`.",
-              .quantity = Q::kSpeed,
-              .fallback = "0 um/s",
-              .low = 0.0,
-              .example = "1e-5 um/s",
-              .source = "chosen"},
-             time.rest);
+  s.quantity(
+      {.name = "rest",
+       .doc = "The run ends at the first output at which no point moves faster than this and nothing will still happen by itself "
+              "(inflation, growth, dying cells, courses over time, exchanges of bodies that wait, fields that cells answer to); 0: only "
+              "at `end`.",
+       .quantity = Q::kSpeed,
+       .fallback = "0 um/s",
+       .low = 0.0,
+       .example = "1e-5 um/s",
+       .source = "chosen"},
+      time.rest);
   s.word({.name = "integrator",
           .doc = "Implicit step (Newton on the incremental energy) or explicit Euler, which needs steps near 0.1 s.",
           .fallback = "implicit",

@@ -173,6 +173,14 @@ constexpr ErrorCode kCodes[] = {
      "`shape_stiffness` keeps triangles from collapsing. Above 0.6 times the tension it resists the shear of a cortex that should flow, "
      "and "
      "contact radii and angles come out too small."},
+    {645, "noise that leaves the inside cold",
+     "Random forces belong to friction. Nuclei and links inside a shell have friction without them, so that the cell would fluctuate less "
+     "than "
+     "its energy says."},
+    {646, "shells that would divide",
+     "Shells grow but cannot divide yet. One that reaches its division volume waits there, as the event `division_waits` says, until its "
+     "body "
+     "is exchanged for a sphere."},
     {655, "column without a unit",
      "Lengths in a CSV file carry their unit in the header, `x [um]`, or the entry of `initial` says it for all of them, `units: um`."},
     {656, "cell types like each other without end",

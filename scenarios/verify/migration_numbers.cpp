@@ -2,9 +2,12 @@
 #include <cmath>
 
 #include "core/mesh/primitives.h"
+#include "core/space/curve.h"
 #include "coupling/behaviours/migration.h"
 #include "coupling/behaviours/polarity.h"
+#include "coupling/cell_record.h"
 #include "coupling/protrusion.h"
+#include "coupling/simulation.h"
 #include "scenarios/verify/lone_shell.h"
 #include "scenarios/verify/reference_numbers.h"
 #include "scenarios/verify/two_bodies.h"
@@ -15,28 +18,41 @@ namespace {
 constexpr double kDrag = 45.239, kForce = 1.0, kTime = 60.0;  // Γ [nN·s/µm], σ_F [nN], τ [s] of T11.1
 constexpr double kProtrusion = 0.2;                           // F_p [nN]
 
-/// 2000 cells under the force of migration against the drag Γ, for 20 τ in 200 steps.
+/// 2000 cells that crawl far from each other in a simulation with the drag Γ, for 20 τ in 200 steps.
 struct Walk {
   double diffusion = 0.0, speed = 0.0;  ///< D of ⟨x²⟩ = 2D (t − τ (1 − e^(−t/τ))) and v_rms, per component
 };
 Walk walk_of_cells() {
-  constexpr int kCells = 2000, kSteps = 200;
-  constexpr double kStep = 6.0, kEnd = kSteps * kStep;
-  CellType type = lone_cell_model().types[0];
-  type.migration_speed = std::sqrt(3.0) * kForce / kDrag;
-  type.migration_persistence = kTime;
-  double square = 0.0, speed = 0.0;
-  for (std::uint64_t k = 1; k <= kCells; ++k) {
-    const CellId id = CellId::founder(k);
-    Vec3d wanted = initial_migration_velocity(id, type, 1), place{};
-    for (std::uint64_t n = 0; n < kSteps; ++n) {
-      const Vec3d velocity = migration_force(wanted, type, ball(kRadius)) * (1.0 / kDrag);
-      place += velocity * kStep;
-      speed += norm2(velocity) / (3.0 * kCells * kSteps);
-      wanted = next_migration_velocity(wanted, id, type, 1, n, kStep);
-    }
-    square += norm2(place) / (3.0 * kCells);
+  constexpr int kCells = 2000, kSteps = 200, kAlong = 20;
+  constexpr double kStep = 6.0, kEnd = kSteps * kStep, kApart = 60.0;
+  Model model = lone_cell_model();
+  model.space.box = {{-1000, -1000, -1000}, {1000, 1000, 1000}};
+  model.contact.range = 5.0;  // nobody is near, and steps are long as the range is
+  model.step.initial_step = model.step.max_step = kStep;
+  model.types[0].migration_speed = std::sqrt(3.0) * kForce / kDrag;
+  model.types[0].migration_persistence = kTime;
+  std::vector<CellRecord> cells(kCells);
+  for (int i = 0; i < kCells; ++i) {
+    CellRecord& cell = cells[static_cast<std::size_t>(i)];
+    cell.row.id = CellId::founder(static_cast<std::uint64_t>(i) + 1);
+    cell.row.target_volume = cell.row.birth_volume = ball(kRadius);
+    cell.sphere = SphereRecord{Vec3d{i % kAlong - 10.0, i / kAlong % kAlong - 10.0, i / (kAlong * kAlong) - 2.0} * kApart, kRadius, {}, {}};
+    cell.row.order = curve_place(cell.sphere->position);
+    cell.row.migration_velocity = initial_migration_velocity(cell.row.id, model.types[0], model.seed);
   }
+  Tissue tissue;
+  tissue.clock.next_step = kStep;
+  put_together(tissue, std::move(cells));
+  const std::vector<Vec3d> start = tissue.spheres.position;
+  auto made = Simulation::create(std::move(model), std::move(tissue), Comm(), 1);
+  if (!made.ok()) return {NAN, NAN};
+  Simulation& simulation = **made;
+  double square = 0.0, speed = 0.0;
+  while (simulation.tissue().clock.time < kEnd) {
+    if (!simulation.step(kEnd).ok()) return {NAN, NAN};
+    for (const Vec3f& v : simulation.tissue().spheres.velocity) speed += static_cast<double>(norm2(v)) / (3.0 * kCells * kSteps);
+  }
+  for (std::size_t i = 0; i < start.size(); ++i) square += norm2(simulation.tissue().spheres.position[i] - start[i]) / (3.0 * kCells);
   return {square / (2.0 * (kEnd - kTime * (1.0 - std::exp(-kEnd / kTime)))), std::sqrt(speed)};
 }
 

