@@ -78,7 +78,7 @@ struct Links {
 
 struct CellType : ShellKeys {
   Spread radius;
-  Given<std::string> body;
+  Given<std::string> body, color;
   bool has_cycle = false;
   Given<std::string> cycle_model, growth, axis;
   Spread cycle_duration;

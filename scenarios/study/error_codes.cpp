@@ -169,6 +169,7 @@ constexpr ErrorCode kCodes[] = {
     {623, "mesh crosses itself", "Two faces that are not neighbours intersect."},
     {624, "mesh has degenerate or double faces", "A face has no area, or the same face stands twice."},
     {625, "mesh is not a surface", "An edge has three or more faces, or two parts of the surface touch in one node."},
+    {680, "not a colour", "The colour of a cell type is one of the palette's names, or # with six hexadecimal digits."},
 };
 
 }  // namespace
