@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "scenarios/library/criteria.h"
+#include "scenarios/pictures/palette.h"
 #include "scenarios/pictures/png.h"
 #include "scenarios/report/report.h"
 #include "scenarios/results/export.h"
@@ -154,6 +155,12 @@ Result<std::vector<Snapshot>> snapshots_over_time(const fs::path& results) {
   return out;
 }
 
+TypeColors type_colors(const Study& study) {
+  TypeColors out;
+  for (const std::string& text : study.type_colors) out.push_back(color_of_text(text));
+  return out;
+}
+
 Result<Study> read_run_study(const fs::path& run) {
   auto study = read_study(run / "study.resolved.yaml", {.judge_places = false});
   if (!study.ok()) return study.error().as_error();
@@ -177,7 +184,7 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
     content.plots.push_back({one.plot.title, curves_svg(one.plot, SvgUse::kInline), one.numerics});
   }
   MORULA_TRY_ASSIGN(const auto snapshots, snapshots_over_time(run / "results.h5"));
-  content.pictures = standard_pictures(snapshots);
+  content.pictures = standard_pictures(snapshots, type_colors(study));
   for (const Picture& picture : content.pictures) MORULA_TRY(write_png(picture.image, run / "plots" / (picture.name + ".png")));
   add_key_numbers(record, series, content);
   add_limit(series, "volume_error", "volume error", study.model.limits.volume_error, "", content);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "scenarios/pictures/coloring.h"
 #include "scenarios/results/run_folder.h"
 #include "scenarios/results/run_record.h"
 #include "scenarios/results/snapshot.h"
@@ -29,6 +30,9 @@ Result<std::filesystem::path> plot_run(const std::filesystem::path& run);
 
 /// The snapshots nearest to 0, 25, 50, 75 and 100 % of the time, each once.
 Result<std::vector<Snapshot>> snapshots_over_time(const std::filesystem::path& results);
+
+/// The colours that the study gives to its types.
+TypeColors type_colors(const Study& study);
 
 /// The study of a run as it was resolved, with the run's copies of its input files.
 Result<Study> read_run_study(const std::filesystem::path& run);

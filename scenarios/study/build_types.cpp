@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include "scenarios/pictures/palette.h"
 #include "scenarios/study/build.h"
 #include "scenarios/study/read_section.h"
 
@@ -22,6 +23,16 @@ void build_death(BuildContext& c, const draft::CellType& draft, const Place& typ
   type.death_rate = draft.death_rate.value;
   type.apoptosis_time = draft.shrink_time.value;
   type.removal_fraction = draft.removed_below.value;
+}
+
+void build_color(BuildContext& c, const draft::CellType& draft) {
+  if (draft.color.known() && !color_of_text(draft.color.value)) {
+    std::vector<std::string> names;
+    for (const char* name : color_names()) names.emplace_back(name);
+    c.diagnostics.error(680, draft.color.place, "'" + draft.color.value + "' is no colour",
+                        suggest(draft.color.value, names) + "; or write for example \"#d55e00\", in quotes");
+  }
+  c.study.type_colors.push_back(draft.color.value);
 }
 
 /// W of every pair by material index. What the file says twice must agree. A pair is what one of the two says of the other by name, else what
@@ -179,6 +190,7 @@ void build_cell_types(BuildContext& c) {
     type.shell = build_shell(c, name, t, t.friction_medium.value);
     type.interior = build_interior(c, t, name);
     type.self_contact = build_self_contact(c, t);
+    build_color(c, t);
     c.study.model.types.push_back(std::move(type));
   }
 }

@@ -213,6 +213,12 @@ void declare_cell_type(Section& s, draft::CellType& t) {
           .example = "sphere",
           .source = "chosen"},
          t.body);
+  s.text(
+      {.name = "color",
+       .doc = "Colour of these cells in pictures: sky, orange, green, pink, yellow, blue, vermilion, or \"#rrggbb\" in quotes. Without it "
+              "types take these colours in turn.",
+       .example = "vermilion"},
+      t.color);
   declare_life(s, t);
   declare_osmosis(s, t);
   s.group({.name = "friction", .doc = "Friction with what is around."}, present, [&t](Section& f) { declare_friction(f, t); });

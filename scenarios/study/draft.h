@@ -79,7 +79,7 @@ struct Links {
 struct CellType : ShellKeys {
   Given<std::string> like;
   Spread radius;
-  Given<std::string> body;
+  Given<std::string> body, color;
   bool has_cycle = false;
   Given<std::string> cycle_model, growth, axis;
   Spread cycle_duration;

@@ -199,6 +199,7 @@ constexpr ErrorCode kCodes[] = {
     {662, "capped start that does not end",
      "With `numerics.start_cap` cells that overlap at time 0 come apart slowly. What has not by `numerics.start_cap_within` has no way "
      "out."},
+    {680, "not a colour", "The colour of a cell type is one of the palette's names, or # with six hexadecimal digits."},
     {685, "study that does not fit its scenario",
      "`scenario` names the library study whose criteria are judged at the end; they need what that study has (its loads, obstacles, "
      "regions), and "

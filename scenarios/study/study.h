@@ -115,9 +115,10 @@ struct Study {
   TimeSpec time;
   std::vector<InitialCells> initial;
   OutputSpec output;
-  std::string source_path;    ///< the file as given
-  std::string source_text;    ///< its bytes
-  std::string resolved_text;  ///< YAML with every default; beside the copies of its input files it reads to this same study
+  std::vector<std::string> type_colors;  ///< in pictures, by cell type, as pictures/palette.h reads them; empty text: of the palette
+  std::string source_path;               ///< the file as given
+  std::string source_text;               ///< its bytes
+  std::string resolved_text;             ///< YAML with every default; beside the copies of its input files it reads to this same study
   std::vector<InputFile> input_files;
   Diagnostics warnings;
   std::vector<std::string> notes;  ///< for the log: coincident cells that are moved, CSV columns left aside
