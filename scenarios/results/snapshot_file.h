@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/parallel/comm.h"
@@ -27,6 +28,9 @@ Status append_snapshot(const std::filesystem::path& path, const Snapshot& local,
 
 /// Collective. Takes the snapshots later than `time` out of the file; after a restart from a checkpoint of that time. A missing file is fine.
 Status truncate_snapshots(const std::filesystem::path& path, double time, const Comm& comm);
+
+/// The group of a snapshot in the file: `snapshots/000012`. Their numbers have no gaps.
+[[nodiscard]] std::string snapshot_group(std::size_t index);
 
 /// What is in the file. Also while a run writes it or after it was killed.
 Result<std::vector<SnapshotEntry>> list_snapshots(const std::filesystem::path& path);

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <map>
 #include <set>
 #include <type_traits>
@@ -15,12 +14,6 @@
 
 namespace morula::scenarios {
 namespace {
-
-std::string group_name(std::size_t index) {
-  char name[40];
-  std::snprintf(name, sizeof name, "snapshots/%06zu", index);
-  return name;
-}
 
 /// Adds every face list of all ranks once; returns the number in the file of each of this rank's.
 std::vector<std::uint32_t> add_topologies(StoragePlan& plan, const Snapshot& local, const Comm& comm) {
@@ -241,7 +234,7 @@ Result<std::vector<SnapshotEntry>> list_on_all(const std::filesystem::path& path
 std::vector<std::string> groups_from(const std::vector<SnapshotEntry>& entries, double time, bool with_equal) {
   std::vector<std::string> groups;
   for (const SnapshotEntry& entry : entries)
-    if (entry.time > time || (with_equal && entry.time == time)) groups.push_back(group_name(entry.index));
+    if (entry.time > time || (with_equal && entry.time == time)) groups.push_back(snapshot_group(entry.index));
   return groups;
 }
 
@@ -251,7 +244,7 @@ Status append_snapshot(const std::filesystem::path& path, const Snapshot& local,
   MORULA_TRY(agree(check_local(local, fields), comm));
   MORULA_TRY_ASSIGN(const auto entries, list_on_all(path, comm));
   const std::vector<std::string> removed = groups_from(entries, local.time, true);
-  StoragePlan plan(comm, group_name(entries.size() - removed.size()) + '/');
+  StoragePlan plan(comm, snapshot_group(entries.size() - removed.size()) + '/');
   plan.add_value("time", "s", local.time);
   plan.add_text("type_names", local.type_names);
   std::vector<std::string> names;
