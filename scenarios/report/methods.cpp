@@ -1,7 +1,7 @@
 #include "scenarios/report/methods.h"
 
 #include "scenarios/pictures/annotate.h"
-#include "scenarios/pictures/png.h"
+#include "scenarios/results/file_io.h"
 
 namespace morula::scenarios {
 namespace {
@@ -59,7 +59,7 @@ std::string methods_text(const std::string& title, std::span<const UsedLaw> laws
 
 Status write_methods(const std::string& title, std::span<const UsedLaw> laws, const std::filesystem::path& path) {
   const std::string text = methods_text(title, laws);
-  return write_bytes(path, text.data(), text.size());
+  return write_file_atomically(path, text);
 }
 
 }  // namespace morula::scenarios
