@@ -1,5 +1,6 @@
 #include "app/console.h"
 
+#include <poll.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -12,6 +13,12 @@ bool terminal_with_colour() {
   const char* no_colour = std::getenv("NO_COLOR");
   const char* terminal = std::getenv("TERM");
   return isatty(STDERR_FILENO) && !(no_colour && *no_colour) && !(terminal && std::string_view(terminal) == "dumb");
+}
+
+/// The other end of a pipe is closed, or the terminal is gone: what is printed reaches nobody, and is dropped.
+bool nobody_reads(int descriptor) {
+  pollfd asked{descriptor, POLLOUT, 0};
+  return poll(&asked, 1, 0) > 0 && (asked.revents & (POLLERR | POLLHUP)) != 0;
 }
 
 void write(std::FILE* stream, std::string_view text) { std::fwrite(text.data(), 1, text.size(), stream); }
@@ -50,6 +57,9 @@ void Console::warning(std::string_view text) const { labelled("warning:", "1;33"
 
 void Console::note(std::string_view text) const { labelled("note:", "1;36", text); }
 
-bool Console::finish() const { return std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
+bool Console::finish() const {
+  const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  return written || nobody_reads(STDOUT_FILENO);
+}
 
 }  // namespace morula::app

@@ -25,7 +25,7 @@ class Console {
   [[nodiscard]] bool colour() const { return colour_; }
   /// Standard error is a terminal: the live line may be used.
   [[nodiscard]] bool live() const { return live_; }
-  /// Whether all results reached standard output; false on a full disk.
+  /// Whether all results reached standard output, as far as anybody reads it; false on a full disk.
   [[nodiscard]] bool finish() const;
 
  private:

@@ -33,8 +33,11 @@ Status write_plots(const scenarios::Study& study, const fs::path& run, const std
   return {};
 }
 
-Status write_pictures(const scenarios::Study& study, const fs::path& run, const std::vector<std::string>& only, std::string& written) {
-  MORULA_TRY_ASSIGN(const auto snapshots, scenarios::snapshots_over_time(run / "results.h5"));
+Status write_pictures(const scenarios::Study& study, const fs::path& run, const std::vector<std::string>& only, const Context& context,
+                      std::string& written) {
+  std::vector<std::pair<double, std::string>> damaged;
+  MORULA_TRY_ASSIGN(const auto snapshots, scenarios::snapshots_over_time(run / "results.h5", damaged));
+  for (const auto& [time, what] : damaged) context.console.warning(what);
   for (const scenarios::Picture& picture : scenarios::standard_pictures(snapshots, scenarios::type_colors(study))) {
     if (!wanted(picture.name, only)) continue;
     const fs::path path = run / "plots" / (picture.name + ".png");
@@ -55,7 +58,7 @@ Status plot_some(const fs::path& run, const PlotOptions& options, const Context&
   if (error) return scenarios::file_error(run / "plots", "create folder", error.value());
   std::string written;
   if (has("svg")) MORULA_TRY(write_plots(study, run, options.only, written));
-  if (has("png")) MORULA_TRY(write_pictures(study, run, options.only, written));
+  if (has("png")) MORULA_TRY(write_pictures(study, run, options.only, context, written));
   if (written.empty())
     return Error{ErrorKind::kInput, "no plot or picture has a name that begins so",
                  "`morula plot " + run.string() + "` writes all; their names are those of the files in plots/"};

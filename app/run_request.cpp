@@ -2,6 +2,7 @@
 
 #include <omp.h>
 
+#include "app/cores.h"
 #include "app/signals.h"
 #include "app/words.h"
 #include "scenarios/results/build_info.h"
@@ -20,6 +21,7 @@ Status fill_request(const RunLimits& limits, const Context& context, scenarios::
   request.timings = limits.timings;
   request.stop = &watch_signals();
   omp_set_num_threads(limits.threads);
+  if (const std::string crowded = crowded_cores(limits.threads, context.comm); !crowded.empty()) request.warnings.push_back(crowded);
   return {};
 }
 

@@ -7,7 +7,7 @@
 
 namespace morula::app {
 
-/// Fills in what `run` and `resume` have in common: threads, times, signals. kInput for a time that cannot be read.
+/// Fills in what `run` and `resume` have in common: threads, times, signals. kInput for a time that cannot be read. Collective.
 Status fill_request(const RunLimits& limits, const Context& context, scenarios::RunRequest& request);
 
 /// "morula 0.1.0 · spheroid_core · seed 20261121 · 2 ranks × 1 thread"

@@ -52,7 +52,18 @@ struct Growing {
 
 }  // namespace
 
-Result<StepOutcome> Simulation::step(double land_on) {
+Result<StepOutcome> Simulation::step(double land_on, const std::function<bool()>& give_up) {
+  if (!give_up || model_.fields.empty()) return whole_step(land_on, {});
+  Tissue before = tissue_;  // small beside the workspaces of a step
+  auto done = whole_step(land_on, give_up);
+  if (!done.ok() && done.error().kind == ErrorKind::kStoppedEarly) {
+    tissue_ = std::move(before);
+    mechanics_->bodies_changed();
+  }
+  return done;
+}
+
+Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<bool()>& give_up) {
   StepOutcome outcome;
   Clock& clock = tissue_.clock;
   const Growing before(tissue_);
@@ -109,7 +120,7 @@ Result<StepOutcome> Simulation::step(double land_on) {
   average_pressures(dt);
   turn_polarities(clock.steps - 1, dt);
   renew_faces(dt);
-  MORULA_TRY(advance_fields(dt, outcome));
+  MORULA_TRY(advance_fields(dt, give_up, outcome));
   {
     auto timed = timer().scope(Stage::kBehaviours);
     divide_and_remove(life, clock.time, outcome.events);

@@ -197,7 +197,7 @@ std::vector<fields::CellSource> Simulation::field_sources() const {
   return out;
 }
 
-Status Simulation::advance_fields(double dt, StepOutcome& outcome) {
+Status Simulation::advance_fields(double dt, const std::function<bool()>& give_up, StepOutcome& outcome) {
   if (model_.fields.empty()) return {};
   auto timed = timer().scope(Stage::kFields);
   const std::vector<fields::CellSource> sources = field_sources();
@@ -205,7 +205,7 @@ Status Simulation::advance_fields(double dt, StepOutcome& outcome) {
   SideColumns& side = tissue_.cells.side;
   for (std::size_t f = 0; f < model_.fields.size(); ++f) {
     MORULA_TRY_ASSIGN(auto report,
-                      field_solver_.advance(tissue_.fields[f], model_.fields[f], model_.space, sources, dt, comm_, taken, seen));
+                      field_solver_.advance(tissue_.fields[f], model_.fields[f], model_.space, sources, dt, comm_, taken, seen, give_up));
     for (std::size_t i = 0; i < sources.size(); ++i) {
       side.amount[f].set(i, side.amount[f][i] + taken[i], sources.size());
       side.concentration[f].set(i, seen[i], sources.size());

@@ -29,8 +29,9 @@ class Simulation {
   static Result<std::unique_ptr<Simulation>> create(Model model, Tissue tissue, const Comm& comm, int threads);
 
   /// One step, not beyond `land_on` [s]; lands there exactly when it is near. kPhysics when no step size works: the message names cell, law
-  /// and time; the tissue is that before the step. Collective.
-  Result<StepOutcome> step(double land_on);
+  /// and time; the tissue is that before the step. A step may be broken off between two steps of the integration of a field, which can take
+  /// long: `give_up` is asked there, by all ranks together, and true is kStoppedEarly with the tissue as it was before the step. Collective.
+  Result<StepOutcome> step(double land_on, const std::function<bool()>& give_up = {});
 
   /// Swaps that regions and triggers ask for at the very beginning; then spheres that touch adhere. Collective.
   Result<std::vector<Event>> first_swaps();
@@ -48,6 +49,7 @@ class Simulation {
 
  private:
   Simulation(Model model, Tissue tissue, const Comm& comm, int threads);
+  Result<StepOutcome> whole_step(double land_on, const std::function<bool()>& give_up);
   void distribute();
   void set_bodies_to_targets(double dt);
   [[nodiscard]] std::vector<Vec3d> forces_on_cells(double time);
@@ -67,7 +69,7 @@ class Simulation {
   void renew_lumens(double dt);
   /// The cells as fields see them, at the present positions.
   [[nodiscard]] std::vector<fields::CellSource> field_sources() const;
-  Status advance_fields(double dt, StepOutcome& outcome);
+  Status advance_fields(double dt, const std::function<bool()>& give_up, StepOutcome& outcome);
   Result<std::vector<Event>> swap_bodies();
   void divide_and_remove(const struct LifeReport& life, double time, std::vector<Event>& events);
   /// Partners of a mother become partners of her daughters, also on other ranks. `events` are those of all ranks.

@@ -116,7 +116,8 @@ Status check_cells(const Field& field, std::span<const CellSource> cells, const 
 }  // namespace
 
 Result<IntervalReport> FieldSolver::advance(Field& field, const FieldSpec& spec, const Space& space, std::span<const CellSource> cells,
-                                            double interval, const Comm& comm, std::span<double> taken, std::span<double> seen) {
+                                            double interval, const Comm& comm, std::span<double> taken, std::span<double> seen,
+                                            const std::function<bool()>& give_up) {
   MORULA_TRY(check(spec));
   MORULA_TRY(check_cells(field, cells, comm));
   MORULA_TRY_ASSIGN(const std::vector<int> owner, owners_of(field, comm));
@@ -140,6 +141,8 @@ Result<IntervalReport> FieldSolver::advance(Field& field, const FieldSpec& spec,
   settings.absolute_tolerance = std::max(1e-3 * spec.relative_tolerance * concentration_scale(field, spec, comm), 1e-30);
   settings.largest_rate = comm.max(op.largest_rate());
   settings.method = cheaper_method(interval, settings.largest_rate, slowest_rate(field.grid, spec, space));
+
+  settings.give_up = give_up;
 
   auto& unknowns = workspace_->unknowns;
   unknowns.assign(layout.unknowns(), 0.0);

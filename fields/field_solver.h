@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -48,9 +49,11 @@ class FieldSolver {
   /// The absolute tolerance is 10⁻³ of the relative one times the largest of initial, boundary and present concentrations.
   ///
   /// Errors: kInput for a spec that makes no sense (negative diffusion, decay, rate; K_m not positive), kPhysics when the integrator
-  /// gives up or the field is not finite; the field is then unchanged.
+  /// gives up or the field is not finite, kStoppedEarly when `give_up` (asked between the integrator's steps, by all ranks together) says
+  /// so; the field is then unchanged.
   Result<IntervalReport> advance(Field& field, const FieldSpec& spec, const Space& space, std::span<const CellSource> cells,
-                                 double interval, const Comm& comm, std::span<double> taken, std::span<double> seen);
+                                 double interval, const Comm& comm, std::span<double> taken, std::span<double> seen,
+                                 const std::function<bool()>& give_up = {});
 
  private:
   struct Workspace;

@@ -200,6 +200,7 @@ Result<IntegrationReport> integrate(BrickOperator& op, const BrickVectorSpace& s
     if (report.steps == 0) report.next_step = next_first_step(s, time);
     if (++report.steps > kMostSteps) return failure("more than a million steps in one interval");
     if (flag == ARK_TSTOP_RETURN) break;
+    if (settings.give_up && settings.give_up()) return Error{ErrorKind::kStoppedEarly, "the integration of a field was broken off", ""};
   }
   count_work(s, report);
   std::copy_n(unknowns_of(s.y), unknowns.size(), unknowns.begin());

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 
 #include "core/parallel/comm.h"
 #include "core/result.h"
@@ -39,13 +40,14 @@ struct IntegrationSettings {
   double relative_tolerance = 0.0;
   double absolute_tolerance = 0.0;  ///< [mM]
   double largest_rate = 0.0;        ///< of all ranks [1/s]
+  std::function<bool()> give_up;    ///< asked after every step, by all ranks together; true: the integration ends there with kStoppedEarly
 };
 
 /// Integrate the unknowns (Layout) over an interval with ARKODE (Reynolds et al. 2023, doi:10.1145/3594632); collective.
 ///
 /// The amounts get the same stage weights as the concentrations, so that Σ V c + taken + decayed − inflow is kept to rounding,
 /// whatever the tolerances. Every call starts afresh: no history, the result is a function of the arguments.
-/// Errors: kPhysics when the integrator gives up, with its own message.
+/// Errors: kPhysics when the integrator gives up, with its own message; kStoppedEarly. The unknowns are unchanged then.
 Result<IntegrationReport> integrate(BrickOperator& op, const BrickVectorSpace& space, const IntegrationSettings& settings,
                                     std::vector<double>& unknowns);
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -6,7 +7,11 @@
 
 namespace morula {
 
-/// The bytes of a file of a surface. Errors (kFile): missing, a folder, unreadable, empty.
+/// The largest file of a surface that is read [bytes]: some ten million faces, and few enough that their number and that of the nodes fit 32 bits.
+inline constexpr std::uintmax_t kMaxSurfaceBytes = std::uintmax_t{1} << 30;
+
+/// The bytes of a file of a surface. Errors (kFile): missing, no regular file (a folder, pipe or device: never waited for), larger than
+/// kMaxSurfaceBytes, unreadable, empty.
 Result<std::string> read_surface_bytes(const std::filesystem::path& file);
 
 }  // namespace morula

@@ -59,7 +59,7 @@ class VtkParser {
   Result<CellLists> read_cells();
   Status read_array(std::string_view keyword);
   Status read_field();
-  Status skip_strings(std::size_t n);
+  Status skip_strings(std::size_t rows, std::size_t width);
   Status keep(std::string_view name, std::size_t components, std::size_t tuples, std::string_view type);
   Status assemble();
   Status add_cell(std::uint32_t part, std::int64_t type, std::span<const std::int64_t> nodes);
@@ -149,7 +149,7 @@ Status VtkParser::read_block(std::string_view keyword) {
 Status VtkParser::read_points() {
   MORULA_TRY_ASSIGN(const std::size_t n, words_.count("the number of points"));
   const std::string_view type = words_.word();
-  MORULA_TRY_ASSIGN(const std::vector<double> numbers, words_.numbers(3 * n, type));
+  MORULA_TRY_ASSIGN(const std::vector<double> numbers, words_.numbers(n, 3, type));
   out_.mesh.position.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3d p = Vec3d{numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]} * scale_;
@@ -194,16 +194,18 @@ Result<CellLists> VtkParser::read_cells() {
   return out;
 }
 
-Status VtkParser::skip_strings(std::size_t n) {
+Status VtkParser::skip_strings(std::size_t rows, std::size_t width) {
   if (words_.is_binary()) return words_.error("arrays of strings in a binary file cannot be read", "write the file without them");
-  for (std::size_t i = 0; i < n; ++i) words_.word();
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t i = 0; i < width; ++i)
+      if (words_.word().empty()) return words_.error("the file ends before the strings that are announced", kWriteAgain);
   return {};
 }
 
 /// An array of the present section; arrays of the whole data set are passed over.
 Status VtkParser::keep(std::string_view name, std::size_t components, std::size_t tuples, std::string_view type) {
-  if (type == "string") return skip_strings(components * tuples);
-  MORULA_TRY_ASSIGN(std::vector<double> values, words_.numbers(components * tuples, type == "bit" ? "unsigned_char" : type));
+  if (type == "string") return skip_strings(tuples, components);
+  MORULA_TRY_ASSIGN(std::vector<double> values, words_.numbers(tuples, components, type == "bit" ? "unsigned_char" : type));
   MeshArray array{plain_name(name), components, std::move(values)};
   if (where_ == Where::kCells) out_.part_arrays.push_back(std::move(array));
   if (where_ == Where::kPoints) out_.point_arrays.push_back(std::move(array));
@@ -248,7 +250,7 @@ Status VtkParser::read_array(std::string_view keyword) {
   if (keyword == "LOOKUP_TABLE") {
     words_.word();  // its name
     MORULA_TRY_ASSIGN(const std::size_t size, words_.count("the size of a lookup table"));
-    const auto table = words_.numbers(4 * size, words_.is_binary() ? "unsigned_char" : "float");
+    const auto table = words_.numbers(size, 4, words_.is_binary() ? "unsigned_char" : "float");
     return table.ok() ? Status{} : Status(table.error());
   }
   return words_.error(quoted_word(keyword) + " is not known",

@@ -173,7 +173,11 @@ Result<std::vector<Number>> VtkWords::block(std::size_t n, std::string_view type
   return out;
 }
 
-Result<std::vector<double>> VtkWords::numbers(std::size_t n, std::string_view type) { return block<double>(n, type); }
+Result<std::vector<double>> VtkWords::numbers(std::size_t rows, std::size_t width, std::string_view type) {
+  // Their product may be more than a size can be: then it is more than the file holds.
+  const bool too_many = width > 0 && rows > std::numeric_limits<std::size_t>::max() / width;
+  return block<double>(too_many ? std::numeric_limits<std::size_t>::max() : rows * width, type);
+}
 Result<std::vector<std::int64_t>> VtkWords::wholes(std::size_t n, std::string_view type) { return block<std::int64_t>(n, type); }
 
 }  // namespace morula

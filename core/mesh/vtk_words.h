@@ -30,8 +30,8 @@ class VtkWords {
 
   /// A whole number ≥ 0; `what` names it in the message.
   Result<std::size_t> count(const char* what);
-  /// `n` numbers of a type by its VTK name (`float`, `vtktypeint64`, …).
-  Result<std::vector<double>> numbers(std::size_t n, std::string_view type);
+  /// `rows` × `width` numbers of a type by its VTK name (`float`, `vtktypeint64`, …).
+  Result<std::vector<double>> numbers(std::size_t rows, std::size_t width, std::string_view type);
   /// `n` whole numbers of a type.
   Result<std::vector<std::int64_t>> wholes(std::size_t n, std::string_view type);
 

@@ -9,6 +9,7 @@ void quiet_mpi() {
   setenv("OMPI_MCA_btl_base_warn_component_unused", "0", 0);
   setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
   setenv("OMPI_MCA_shmem_mmap_enable_nfs_warning", "0", 0);
+  setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
   for (const char* launched : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
     if (std::getenv(launched) != nullptr) return;
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);

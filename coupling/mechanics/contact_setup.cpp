@@ -148,6 +148,13 @@ Result<std::vector<RigidSurface>> contact_obstacles(const Model& model) {
   return out;
 }
 
+std::size_t contact_obstacle_count(const Model& model) {
+  std::size_t walls = 0;
+  for (const auto& axis : model.space.boundary)
+    for (const BoundaryKind kind : axis) walls += kind == BoundaryKind::kWall;
+  return model.obstacles.size() + walls;
+}
+
 ContactSettings contact_settings(const Model& model, int threads) {
   ContactSettings settings;
   settings.range = model.contact.range;

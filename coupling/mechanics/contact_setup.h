@@ -16,6 +16,9 @@ std::vector<ContactMaterial> contact_materials(const Model& model);
 /// surface, or has more faces near one cell than a pair's lists can hold.
 Result<std::vector<RigidSurface>> contact_obstacles(const Model& model);
 
+/// How many surfaces contact_obstacles() makes: what `Tissue::obstacle_offset` has one entry each for.
+[[nodiscard]] std::size_t contact_obstacle_count(const Model& model);
+
 /// Ranges and skins of the contact layer for this model.
 ContactSettings contact_settings(const Model& model, int threads);
 

@@ -10,6 +10,7 @@
 #include "scenarios/pictures/camera.h"
 #include "scenarios/pictures/png.h"
 #include "scenarios/pictures/svg_frame.h"
+#include "scenarios/results/file_io.h"
 
 namespace morula::scenarios {
 namespace {
@@ -90,8 +91,8 @@ std::string bars_csv(const BarPlot& plot) {
 }
 
 Status write_both(const std::filesystem::path& stem, const std::string& svg, const std::string& csv) {
-  MORULA_TRY(write_bytes(stem.string() + ".csv", csv.data(), csv.size()));
-  return write_bytes(stem.string() + ".svg", svg.data(), svg.size());
+  MORULA_TRY(write_file_atomically(stem.string() + ".csv", csv));
+  return write_file_atomically(stem.string() + ".svg", svg);
 }
 
 }  // namespace

@@ -2,9 +2,7 @@
 
 #include <png.h>
 
-#include <cstdio>
-#include <cstring>
-#include <system_error>
+#include "scenarios/results/file_io.h"
 
 namespace morula::scenarios {
 namespace {
@@ -42,24 +40,9 @@ Result<std::vector<std::uint8_t>> encode_png(const Image& image) {
   return out;
 }
 
-Status write_bytes(const std::filesystem::path& path, const void* data, std::size_t size) {
-  const std::filesystem::path aside = path.string() + ".part";
-  std::FILE* file = std::fopen(aside.c_str(), "wb");
-  if (!file)
-    return Error{ErrorKind::kFile, "cannot write " + path.string() + ": " + std::strerror(errno), "is the folder there and writable?"};
-  bool good = std::fwrite(data, 1, size, file) == size;
-  good = std::fclose(file) == 0 && good;
-  std::error_code failed;
-  if (good) std::filesystem::rename(aside, path, failed);
-  if (good && !failed) return {};
-  std::error_code ignored;
-  std::filesystem::remove(aside, ignored);
-  return Error{ErrorKind::kResources, "cannot write all of " + path.string(), "is the disk full?"};
-}
-
 Status write_png(const Image& image, const std::filesystem::path& path) {
   MORULA_TRY_ASSIGN(const auto bytes, encode_png(image));
-  return write_bytes(path, bytes.data(), bytes.size());
+  return write_file_atomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace morula::scenarios

@@ -10,9 +10,6 @@ namespace morula::scenarios {
 /// The image as the bytes of a PNG file (8-bit RGB, no time stamp: the same image gives the same bytes).
 Result<std::vector<std::uint8_t>> encode_png(const Image& image);
 
-/// Write bytes to a file; an existing file is replaced only once all bytes are on disk beside it.
-Status write_bytes(const std::filesystem::path& path, const void* data, std::size_t size);
-
 /// encode_png to a file.
 Status write_png(const Image& image, const std::filesystem::path& path);
 

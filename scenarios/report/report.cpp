@@ -8,6 +8,7 @@
 #include "scenarios/pictures/curves.h"
 #include "scenarios/pictures/png.h"
 #include "scenarios/report/report_style.h"
+#include "scenarios/results/file_io.h"
 
 namespace morula::scenarios {
 namespace {
@@ -266,7 +267,7 @@ Result<std::string> report_html(const ReportContent& content) {
 
 Status write_report(const ReportContent& content, const std::filesystem::path& path) {
   MORULA_TRY_ASSIGN(const std::string html, report_html(content));
-  return write_bytes(path, html.data(), html.size());
+  return write_file_atomically(path, html);
 }
 
 }  // namespace morula::scenarios

@@ -8,6 +8,7 @@
 #include "core/result.h"
 #include "coupling/tissue.h"
 #include "scenarios/results/hdf5_reader.h"
+#include "scenarios/results/text_lengths.h"
 
 namespace morula::scenarios {
 
@@ -20,6 +21,8 @@ struct CheckpointInfo {
   std::string study_hash;      ///< SHA-256 of the resolved study
   double wall_time = 0.0;      ///< spent on the run so far [s]
   std::string morula_version;  ///< filled by write_checkpoint
+  std::uint32_t warned = 0;    ///< what the run has warned of once and will not again; bits of the run loop
+  TextLengths texts;
 };
 
 struct LoadedCheckpoint {

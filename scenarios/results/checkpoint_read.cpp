@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "coupling/cell_record.h"
+#include "coupling/mechanics/contact_setup.h"
 #include "scenarios/results/build_info.h"
 #include "scenarios/results/checkpoint.h"
 #include "scenarios/results/file_io.h"
@@ -41,6 +42,11 @@ Status read_globals(const Hdf5Reader& file, LoadedCheckpoint& out) {
   MORULA_TRY_ASSIGN(out.info.run_name, file.text("info/run_name"));
   MORULA_TRY_ASSIGN(out.info.study_hash, file.text("info/study_hash"));
   MORULA_TRY_ASSIGN(out.info.wall_time, file.value<double>("info/wall_time"));
+  if (file.exists("info/warned")) {
+    MORULA_TRY_ASSIGN(out.info.warned, file.value<std::uint32_t>("info/warned"));
+    MORULA_TRY_ASSIGN(out.info.texts.events, file.value<std::uint64_t>("info/events_length"));
+    MORULA_TRY_ASSIGN(out.info.texts.log, file.value<std::uint64_t>("info/log_length"));
+  }
   MORULA_TRY_ASSIGN(out.tissue.obstacle_offset, file.read<Vec3d>("obstacles/offset"));
   const auto read_one = [&](const std::string& path, auto& member) -> Status {
     using Value = std::remove_cvref_t<decltype(member)>;
@@ -267,8 +273,8 @@ Status check_against(const Model& model, const Tissue& tissue) {
                  "resume with the study that the run was started with"};
   };
   if (tissue.fields.size() != model.fields.size()) return differs("fields", tissue.fields.size(), model.fields.size());
-  if (tissue.obstacle_offset.size() != model.obstacles.size())
-    return differs("obstacles", tissue.obstacle_offset.size(), model.obstacles.size());
+  const std::size_t obstacles = contact_obstacle_count(model);
+  if (tissue.obstacle_offset.size() != obstacles) return differs("obstacles and walls", tissue.obstacle_offset.size(), obstacles);
   if (tissue.lumens.size() > model.lumens.size()) return differs("lumens", tissue.lumens.size(), model.lumens.size());
   for (const CellRow& row : tissue.cells.rows)
     if (row.type >= model.types.size()) return differs("cell types or more", row.type + std::size_t{1}, model.types.size());

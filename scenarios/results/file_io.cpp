@@ -15,6 +15,9 @@ namespace fs = std::filesystem;
 
 Error file_error(const fs::path& path, std::string_view doing, int error_number) {
   Error error;
+  if (error_number == ELOOP)
+    return {ErrorKind::kFile, "cannot " + std::string(doing) + " '" + path.string() + "': it is a symbolic link",
+            "a run writes its files through no link: remove it, or move the run's folder as a whole"};
   const bool no_room = error_number == ENOSPC || error_number == EDQUOT || error_number == EFBIG;
   error.kind = no_room ? ErrorKind::kResources : ErrorKind::kFile;
   error.message = "cannot " + std::string(doing) + " '" + path.string() + "': " + std::strerror(error_number);
@@ -25,9 +28,22 @@ Error file_error(const fs::path& path, std::string_view doing, int error_number)
   return error;
 }
 
+namespace {
+
+/// A descriptor to write with; never through a link, never into a pipe or device (which could hold us up for ever).
+Result<int> open_to_write(const fs::path& path, int flags, std::string_view doing) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | flags, 0644);
+  if (descriptor < 0) return file_error(path, doing, errno);
+  struct stat info {};
+  if (::fstat(descriptor, &info) == 0 && S_ISREG(info.st_mode)) return descriptor;
+  ::close(descriptor);
+  return Error{ErrorKind::kFile, "cannot " + std::string(doing) + " '" + path.string() + "': it is not a regular file", "remove it"};
+}
+
+}  // namespace
+
 Result<OutputFile> OutputFile::open(const fs::path& path, bool create) {
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | (create ? O_CREAT | O_TRUNC : 0), 0644);
-  if (descriptor < 0) return file_error(path, create ? "create" : "open", errno);
+  MORULA_TRY_ASSIGN(const int descriptor, open_to_write(path, create ? O_CREAT | O_TRUNC : 0, create ? "create" : "open"));
   return OutputFile(path, descriptor);
 }
 
@@ -78,15 +94,30 @@ Result<std::string> read_file(const fs::path& path) {
   return text;
 }
 
+void sync_folder_of(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
 Status rename_durably(const fs::path& from, const fs::path& to) {
   if (::rename(from.c_str(), to.c_str()) != 0) return file_error(to, "write", errno);
-  const fs::path folder = to.has_parent_path() ? to.parent_path() : fs::path(".");
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor >= 0) {  // not every file system lets a folder be synced; the rename itself has happened
-    ::fsync(descriptor);
-    ::close(descriptor);
-  }
+  sync_folder_of(to);
   return {};
+}
+
+Result<std::uint64_t> sync_text(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  if (descriptor < 0 && errno == ENOENT) return std::uint64_t{0};
+  if (descriptor < 0) return file_error(path, "write", errno);
+  struct stat info {};
+  const bool synced = ::fstat(descriptor, &info) == 0 && (::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS);
+  const int reason = errno;
+  ::close(descriptor);
+  if (!synced) return file_error(path, "write", reason);
+  return static_cast<std::uint64_t>(info.st_size);
 }
 
 Status write_file_atomically(const fs::path& path, std::string_view text) {
@@ -104,8 +135,7 @@ Status write_file_atomically(const fs::path& path, std::string_view text) {
 }
 
 Status append_to_text(const fs::path& path, std::string_view text) {
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  if (descriptor < 0) return file_error(path, "write", errno);
+  MORULA_TRY_ASSIGN(const int descriptor, open_to_write(path, O_CREAT | O_APPEND, "write"));
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor, text.data(), text.size());
     if (written < 0 && errno == EINTR) continue;

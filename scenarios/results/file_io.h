@@ -14,7 +14,7 @@ namespace morula::scenarios {
 /// The error for a failed system call on a file: kResources when disk, quota or size limit ran out, else kFile.
 Error file_error(const std::filesystem::path& path, std::string_view doing, int error_number);
 
-/// A file open for writing at given places. Failures are values; nothing is buffered here.
+/// A regular file open for writing at given places, never through a symbolic link. Failures are values; nothing is buffered here.
 class OutputFile {
  public:
   /// Opens, with `create` also creates or empties.
@@ -38,8 +38,12 @@ class OutputFile {
 Result<std::string> read_file(const std::filesystem::path& path);
 /// Writes aside (`.tmp`), syncs and renames: a reader sees the old or the new text, never a part.
 Status write_file_atomically(const std::filesystem::path& path, std::string_view text);
-/// Adds to the end of a file (created if missing).
+/// Adds to the end of a regular file (created if missing; never through a symbolic link).
 Status append_to_text(const std::filesystem::path& path, std::string_view text);
+/// Makes the entries of the folder that a file is in last. Not every file system lets a folder be synced: what it cannot is left.
+void sync_folder_of(const std::filesystem::path& path);
+/// Makes what was added to a text last; its length in bytes, 0 if it is not there.
+Result<std::uint64_t> sync_text(const std::filesystem::path& path);
 /// Renames and makes the renaming last (fsync of the folder).
 Status rename_durably(const std::filesystem::path& from, const std::filesystem::path& to);
 /// SHA-256 of a file's bytes, 64 hexadecimal digits (FIPS 180-4).

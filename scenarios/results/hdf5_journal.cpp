@@ -36,7 +36,9 @@ Status write_journal(const fs::path& file, const Journal& journal) {
   const auto write = [&]() -> Status {
     MORULA_TRY_ASSIGN(OutputFile out, OutputFile::open(journal_path(file), true));
     MORULA_TRY(out.write_at(0, writer.bytes()));
-    return out.sync();
+    MORULA_TRY(out.sync());
+    sync_folder_of(journal_path(file));  // the file must not change on the disk before its journal can be found there
+    return {};
   };
   Status status = write();
   if (!status.ok()) ::unlink(journal_path(file).c_str());

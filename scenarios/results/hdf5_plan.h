@@ -21,6 +21,9 @@ enum class StoredType : std::uint8_t { kUint8, kUint16, kUint32, kUint64, kInt32
 
 [[nodiscard]] std::size_t size_of(StoredType type);
 
+/// Attribute of a dataset of add_to_file: the checksum of all its rows, which Hdf5Reader checks whenever it reads them all.
+inline constexpr const char* kChecksumAttribute = "checksum";
+
 /// How a C++ type is stored: the type of a value and how many values make a row.
 template <class T>
 struct Stored {
@@ -139,7 +142,7 @@ class StoragePlan {
 /// kResources when the disk, a quota or a file size limit is full, else kFile.
 Status create_file(const std::filesystem::path& path, StoragePlan plan, const Comm& comm);
 
-/// Collective. Adds datasets to a file (made if missing), after taking the groups `removed` out of it. A process that is killed at any moment leaves
+/// Collective. Adds datasets, each with its checksum, to a file (made if missing), after taking the groups `removed` out of it. A process that is killed at any moment leaves
 /// the file as it was or with everything added: changes to the existing part go through a journal beside the file (`.journal`). On failure
 /// the file is as it was before.
 Status add_to_file(const std::filesystem::path& path, StoragePlan plan, std::span<const std::string> removed, const Comm& comm);

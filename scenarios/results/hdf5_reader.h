@@ -20,8 +20,8 @@ class Hdf5Reader {
   ~Hdf5Reader();
 
   [[nodiscard]] bool exists(const std::string& path) const;
-  /// Names in a group, sorted.
-  [[nodiscard]] Result<std::vector<std::string>> names(const std::string& group) const;
+  /// How many groups and datasets a group holds.
+  [[nodiscard]] Result<std::uint64_t> links(const std::string& group) const;
   [[nodiscard]] Result<std::uint64_t> rows(const std::string& path) const;
   /// The attribute `units` of a dataset.
   [[nodiscard]] Result<std::string> units(const std::string& path) const;

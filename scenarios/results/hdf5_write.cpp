@@ -25,6 +25,7 @@ struct Extent {
   std::uint64_t rows = 0;       ///< of all ranks
   std::uint64_t first_row = 0;  ///< of this rank's slice
   std::uint64_t place = 0;      ///< in the file
+  std::string checksum;         ///< of all rows, kept with the dataset; empty where the file's manifest has it
 };
 
 std::size_t row_size(const Dataset& dataset) { return size_of(dataset.type) * dataset.width; }
@@ -57,6 +58,14 @@ std::vector<Hash128> checksums_over_ranks(const std::vector<Dataset>& datasets, 
   while (!reader.empty())
     for (Hash128& sum : sums) sum += reader.get<Hash128>();
   return sums;
+}
+
+/// Extents of datasets that carry their checksums themselves.
+std::vector<Extent> signed_extents(const std::vector<Dataset>& datasets, const Comm& comm) {
+  std::vector<Extent> extents = extents_over_ranks(datasets, comm);
+  const std::vector<Hash128> sums = checksums_over_ranks(datasets, extents, comm);
+  for (std::size_t i = 0; i < extents.size(); ++i) extents[i].checksum = sums[i].hex();
+  return extents;
 }
 
 /// A table of contents that a reader can check everything against.
@@ -122,6 +131,8 @@ Status declare(hid_t file, const fs::path& path, const std::vector<Dataset>& dat
     if (!make_groups(file, d.path)) return hdf5_error(path, "make the group of " + d.path + " in");
     const Hdf5Handle dataset(H5Dcreate2(file, d.path.c_str(), type.get(), space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), H5Dclose);
     if (!dataset.ok() || !write_label(dataset.get(), d.label)) return hdf5_error(path, "make dataset " + d.path + " in");
+    if (!extents[i].checksum.empty() && !write_text_attribute(dataset.get(), kChecksumAttribute, extents[i].checksum))
+      return hdf5_error(path, "sign dataset " + d.path + " in");
     const haddr_t place = H5Dget_offset(dataset.get());
     if (extents[i].rows != 0 && place == HADDR_UNDEF) return hdf5_error(path, "find room for dataset " + d.path + " in");
     extents[i].place = extents[i].rows == 0 ? 0 : place;
@@ -203,7 +214,7 @@ Result<Addition> plan_addition(const fs::path& path, const std::vector<Dataset>&
 
 /// One change of an existing file: new parts first, then the old part through the journal. Collective.
 Status change_file(const fs::path& path, const std::vector<Dataset>& datasets, std::span<const std::string> removed, const Comm& comm) {
-  std::vector<Extent> extents = extents_over_ranks(datasets, comm);
+  std::vector<Extent> extents = signed_extents(datasets, comm);
   Addition addition;
   const auto prepare = [&]() -> Status {
     MORULA_TRY(finish_journal(path));
@@ -227,7 +238,7 @@ Status create_new(const fs::path& path, const StoragePlan& plan, const std::stri
   const std::vector<Dataset>& datasets = plan.datasets();
   fs::path aside = path;
   aside += ".tmp";
-  std::vector<Extent> extents = extents_over_ranks(datasets, comm);
+  std::vector<Extent> extents = manifest_checksum.empty() ? signed_extents(datasets, comm) : extents_over_ranks(datasets, comm);
   std::vector<Overlay::Range> structure;
   std::uint64_t length = 0;
   const auto prepare = [&]() -> Status {

@@ -2,6 +2,7 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
@@ -71,14 +72,14 @@ Result<fs::path> make_folder(const fs::path& parent, const fs::path& out, const 
   }
 }
 
-/// Keeps the whole lines that `keep` likes.
-Status filter_lines(const fs::path& path, const std::function<bool(const std::string&, std::size_t)>& keep) {
+/// Keeps the whole lines that begin before `length` and that `keep` likes.
+Status filter_lines(const fs::path& path, std::uint64_t length, const std::function<bool(const std::string&, std::size_t)>& keep) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return {};
   MORULA_TRY_ASSIGN(const std::string text, read_file(path));
   std::string kept;
   std::size_t number = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
+  for (std::size_t begin = 0; begin < std::min<std::uint64_t>(text.size(), length);) {
     const std::size_t end = text.find('\n', begin);
     if (end == std::string::npos) break;  // written by halves
     const std::string line = text.substr(begin, end - begin);
@@ -147,16 +148,25 @@ Status RunFolder::write_study(const Study& study, RunRecord& record) const {
 
 Status RunFolder::write_record(const RunRecord& run) const {
   if (!is_root_) return {};
-  MORULA_TRY(write_file_atomically(record(), to_json(run)));
   std::error_code ignored;
+  if (run.state == RunState::kRunning) fs::remove(path_ / "FAILED", ignored);  // from before a resume
+  Status written = write_file_atomically(record(), to_json(run));
+  if (!written.ok() && run.state == RunState::kFailed) {
+    fs::remove(status(), ignored);  // room on a full disk: it says nothing that run.json does not
+    written = write_file_atomically(record(), to_json(run));
+  }
+  if (!written.ok() && run.state != RunState::kFailed) return written;
   const bool failed = run.state == RunState::kFailed || (run.state == RunState::kDone && run.exit_code != 0);
   for (const auto& [marker, holds] : {std::pair{"DONE", run.state == RunState::kDone && !failed}, std::pair{"FAILED", failed}}) {
-    if (holds)
-      MORULA_TRY(write_file_atomically(path_ / marker, run.message.empty() ? "" : run.message + '\n'));
-    else
+    if (!holds) {
       fs::remove(path_ / marker, ignored);  // from before a resume
+      continue;
+    }
+    Status marked = write_file_atomically(path_ / marker, run.message.empty() ? "" : run.message + '\n');
+    // An empty file takes no room: the mark alone says how the run ended.
+    if (!marked.ok() && !OutputFile::open(path_ / marker, true).ok()) return marked;
   }
-  return {};
+  return written;
 }
 
 Status RunFolder::write_status(const RunStatus& run_status) const {
@@ -196,15 +206,25 @@ Status RunFolder::add_to_series(double time, std::span<const double> values) con
   return append_to_text(series(), line + '\n');
 }
 
-Status RunFolder::cut_back(double time) const {
+Result<TextLengths> RunFolder::sync_texts() const {
+  TextLengths out;
+  if (!is_root_) return out;
+  MORULA_TRY(sync_text(series()));
+  MORULA_TRY_ASSIGN(out.events, sync_text(events()));
+  MORULA_TRY_ASSIGN(out.log, sync_text(log()));
+  return out;
+}
+
+Status RunFolder::cut_back(double time, const TextLengths& lengths) const {
   if (!is_root_) return {};
-  MORULA_TRY(filter_lines(series(), [&](const std::string& line, std::size_t number) {
+  MORULA_TRY(filter_lines(log(), lengths.log, [](const std::string&, std::size_t) { return true; }));
+  MORULA_TRY(filter_lines(series(), kWholeText, [&](const std::string& line, std::size_t number) {
     if (number == 0) return true;  // the header
     double at = 0.0;
     const auto [end, problem] = std::from_chars(line.data(), line.data() + line.size(), at);
     return problem == std::errc() && at <= time;
   }));
-  return filter_lines(events(), [&](const std::string& line, std::size_t) {
+  return filter_lines(events(), lengths.events, [&](const std::string& line, std::size_t) {
     const std::optional<double> at = time_of_event_line(line);
     return at && *at <= time;
   });

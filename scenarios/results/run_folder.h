@@ -9,6 +9,7 @@
 #include "core/result.h"
 #include "coupling/events.h"
 #include "scenarios/results/run_record.h"
+#include "scenarios/results/text_lengths.h"
 #include "scenarios/study/study.h"
 
 namespace morula::scenarios {
@@ -43,6 +44,7 @@ class RunFolder {
   Status write_study(const Study& study, RunRecord& record) const;
   /// run.json, and for scripts an empty file DONE, or FAILED with the reason in it (a stopped run has neither). A run that came to its end with a
   /// criterion that failed is done, and FAILED stands beside its verdict.json.
+  /// On a disk too full even for run.json a failed run gets the mark alone, which read_run_record() believes.
   Status write_record(const RunRecord& record) const;
   Status write_status(const RunStatus& status) const;
   Status write_verdict(const Judgement& judgement) const;
@@ -51,8 +53,11 @@ class RunFolder {
   /// Header of series.csv (`time [s]` first). When the file is there already (a resumed run), its header must be the same: kInput.
   Status begin_series(std::span<const SeriesHeader> columns) const;
   Status add_to_series(double time, std::span<const double> values) const;
-  /// After a restart: takes from series.csv and events.jsonl what is later than `time`, and what was written by halves.
-  Status cut_back(double time) const;
+  /// Makes the texts that grow with the run last, as a checkpoint does its state; their lengths then, on the root.
+  Result<TextLengths> sync_texts() const;
+  /// After a restart: takes from series.csv and events.jsonl what is later than `time`, from events.jsonl and log.txt what came after the
+  /// checkpoint that had these lengths, and what was written by halves.
+  Status cut_back(double time, const TextLengths& lengths) const;
 
  private:
   RunFolder(std::filesystem::path path, bool is_root) : path_(std::move(path)), is_root_(is_root) {}

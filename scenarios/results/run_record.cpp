@@ -18,6 +18,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr std::array kStates{RunState::kRunning, RunState::kDone, RunState::kStopped, RunState::kFailed};
 
+/// Exit code of a run that could leave nothing but its mark (exit_code.h: kResources).
+constexpr int kFullDisk = 6;
+
 /// Text of a document; bytes that are not UTF-8 are replaced, not an error.
 std::string text_of(const Json& json, int indent) { return json.dump(indent, ' ', false, Json::error_handler_t::replace) + '\n'; }
 
@@ -131,6 +134,12 @@ Result<RunRecord> read_run_record(const std::filesystem::path& run_json) {
   r.state = *state_at(json);
   r.exit_code = number_at(json, "exit_code", 0);
   r.message = text_at(json, "message");
+  std::error_code ignored;
+  if (r.state == RunState::kRunning && std::filesystem::exists(run_json.parent_path() / "FAILED", ignored)) {
+    r.state = RunState::kFailed;
+    r.exit_code = kFullDisk;
+    r.message = "the disk was too full to say why";
+  }
   r.study = text_at(json, "study");
   r.title = text_at(json, "title");
   r.seed = number_at(json, "seed", std::uint64_t{0});

@@ -46,6 +46,8 @@ Status truncate_snapshots(const std::filesystem::path& path, double time, const 
 /// columns, `series/` and `events/`, in the place of those that are there. truncate_snapshots takes them out again.
 Status write_results_tables(const std::filesystem::path& path, const std::string& series_csv, const std::string& event_lines,
                             const std::map<std::string, std::string>& descriptions, const Comm& comm);
+/// The group of a snapshot in the file: `snapshots/000012`. Their numbers have no gaps.
+[[nodiscard]] std::string snapshot_group(std::size_t index);
 
 /// What is in the file. Also while a run writes it or after it was killed.
 Result<std::vector<SnapshotEntry>> list_snapshots(const std::filesystem::path& path);

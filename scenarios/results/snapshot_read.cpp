@@ -1,4 +1,5 @@
 #include <charconv>
+#include <cstdio>
 #include <string_view>
 #include <type_traits>
 
@@ -178,17 +179,24 @@ Status read_fields(const Hdf5Reader& file, const std::string& group, const std::
 
 }  // namespace
 
+std::string snapshot_group(std::size_t index) {
+  char name[40];
+  std::snprintf(name, sizeof name, "snapshots/%06zu", index);
+  return name;
+}
+
 Result<std::vector<SnapshotEntry>> list_snapshots(const std::filesystem::path& path) {
   MORULA_TRY_ASSIGN(const Hdf5Reader file, Hdf5Reader::open(path));
   MORULA_TRY(check_schema(file, path));
   std::vector<SnapshotEntry> entries;
   if (!file.exists("snapshots")) return entries;
-  MORULA_TRY_ASSIGN(const std::vector<std::string> names, file.names("snapshots"));
-  for (const std::string& name : names) {
+  MORULA_TRY_ASSIGN(const std::uint64_t count, file.links("snapshots"));
+  while (entries.size() < count) {
     SnapshotEntry entry;
     entry.index = entries.size();
-    MORULA_TRY_ASSIGN(entry.time, file.value<double>("snapshots/" + name + "/time"));
-    MORULA_TRY_ASSIGN(entry.cells, file.rows("snapshots/" + name + "/cells/id"));
+    const std::string group = snapshot_group(entry.index);
+    MORULA_TRY_ASSIGN(entry.time, file.value<double>(group + "/time"));
+    MORULA_TRY_ASSIGN(entry.cells, file.rows(group + "/cells/id"));
     entries.push_back(entry);
   }
   return entries;
@@ -198,9 +206,9 @@ Result<Snapshot> read_snapshot(const std::filesystem::path& path, std::size_t in
   MORULA_TRY_ASSIGN(const Hdf5Reader file, Hdf5Reader::open(path));
   MORULA_TRY(check_schema(file, path));
   if (!file.exists("snapshots")) return no_such_snapshot(path, index, 0);
-  MORULA_TRY_ASSIGN(const std::vector<std::string> names, file.names("snapshots"));
-  if (index >= names.size()) return no_such_snapshot(path, index, names.size());
-  const std::string group = "snapshots/" + names[index] + '/';
+  MORULA_TRY_ASSIGN(const std::uint64_t count, file.links("snapshots"));
+  if (index >= count) return no_such_snapshot(path, index, count);
+  const std::string group = snapshot_group(index) + '/';
   Snapshot out;
   MORULA_TRY_ASSIGN(out.time, file.value<double>(group + "time"));
   MORULA_TRY_ASSIGN(out.type_names, file.texts(group + "type_names"));

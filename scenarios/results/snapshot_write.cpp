@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <map>
 #include <set>
 #include <type_traits>
@@ -17,12 +16,6 @@
 
 namespace morula::scenarios {
 namespace {
-
-std::string group_name(std::size_t index) {
-  char name[40];
-  std::snprintf(name, sizeof name, "snapshots/%06zu", index);
-  return name;
-}
 
 template <class T>
 void add(StoragePlan& plan, const ResultsDataset& dataset, const std::vector<T>& local, const std::string& group = "") {
@@ -321,7 +314,7 @@ std::vector<std::string> tables_in(const std::filesystem::path& path, const Comm
 std::vector<std::string> groups_from(const std::vector<SnapshotEntry>& entries, double time, bool with_equal) {
   std::vector<std::string> groups;
   for (const SnapshotEntry& entry : entries)
-    if (entry.time > time || (with_equal && entry.time == time)) groups.push_back(group_name(entry.index));
+    if (entry.time > time || (with_equal && entry.time == time)) groups.push_back(snapshot_group(entry.index));
   return groups;
 }
 
@@ -357,7 +350,7 @@ Status append_snapshot(const std::filesystem::path& path, const Snapshot& local,
   MORULA_TRY(agree(check_local(local, fields), comm));
   MORULA_TRY_ASSIGN(const auto entries, list_on_all(path, comm));
   const std::vector<std::string> removed = groups_from(entries, local.time, true);
-  StoragePlan plan(comm, group_name(entries.size() - removed.size()) + '/');
+  StoragePlan plan(comm, snapshot_group(entries.size() - removed.size()) + '/');
   add_program(plan);
   plan.add_value(results::kTime.path, results::kTime.label(), local.time);
   plan.add_text(results::kTypeNames.path, local.type_names, results::kTypeNames.label());

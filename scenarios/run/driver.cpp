@@ -43,7 +43,8 @@ Result<InitialTissue> initial_tissue(const Study& study, const Comm& comm) {
 }
 
 /// Tell the study's warnings and notes, and what placing the cells had to say.
-void tell(RunLoop& loop, const Study& study, const std::vector<std::string>& more) {
+void tell(RunLoop& loop, const Study& study, const RunRequest& request, const std::vector<std::string>& more) {
+  for (const std::string& text : request.warnings) loop.note(Note::Kind::kWarning, text);
   for (const Diagnostic& warning : study.warnings.list()) loop.note(Note::Kind::kWarning, warning.text);
   for (const std::string& text : study.notes) loop.note(Note::Kind::kNote, text);
   for (const std::string& text : more)
@@ -87,7 +88,7 @@ Result<RunSummary> run(const Study& study, const RunRequest& request, const Comm
   MORULA_TRY(agree(std::move(written), comm));
   if (comm.is_root() && request.on_start) request.on_start(folder.path());
   RunLoop loop(study, request, comm, std::move(folder), std::move(columns), std::move(record), std::move(simulation));
-  tell(loop, study, initial.notes);
+  tell(loop, study, request, initial.notes);
   if (request.until) loop.note(Note::Kind::kNote, end_note(request, loop.end()));
   if (Status begun = loop.begin(); !begun.ok()) return loop.fail(begun.error(), true);
   return loop.go();
@@ -124,12 +125,14 @@ Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest&
   MORULA_TRY(agree(folder.write_record(record), comm));
   if (comm.is_root() && request.on_start) request.on_start(folder.path());
   RunLoop loop(study, request, comm, std::move(folder), std::move(columns), std::move(record), std::move(simulation));
+  // First what lies beyond the checkpoint goes, from the log too; then the log says so.
+  if (Status back = loop.go_back(restored.checkpoint.info); !back.ok()) return loop.fail(back.error(), false);
+  for (const std::string& warning : request.warnings) loop.note(Note::Kind::kWarning, warning);
   for (const std::string& warning : restored.warnings) loop.note(Note::Kind::kWarning, warning);
   loop.note(Note::Kind::kNote, "resumed from the checkpoint at " + time_text(time));
   if (!failure.empty()) loop.note(Note::Kind::kWarning, "the run had ended with an error, and goes on unchanged: " + failure);
   if (time >= loop.end()) loop.note(Note::Kind::kNote, "nothing is left to do: the run ends at " + time_text(loop.end()));
   if (request.until) loop.note(Note::Kind::kNote, end_note(request, loop.end()));
-  if (Status back = loop.go_back(); !back.ok()) return loop.fail(back.error(), false);
   return loop.go();
 }
 
@@ -148,7 +151,7 @@ Result<RunSummary> branch(const std::filesystem::path& parent, const Study& stud
   MORULA_TRY(agree(std::move(written), comm));
   if (comm.is_root() && request.on_start) request.on_start(folder.path());
   RunLoop loop(study, request, comm, std::move(folder), std::move(columns), std::move(record), std::move(simulation));
-  tell(loop, study, restored.warnings);
+  tell(loop, study, request, restored.warnings);
   loop.note(Note::Kind::kNote, "goes on from '" + from.path().string() + "' at " + time_text(time));
   if (request.until) loop.note(Note::Kind::kNote, end_note(request, loop.end()));
   if (Status begun = loop.begin(); !begun.ok()) return loop.fail(begun.error(), true);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/parallel/comm.h"
 #include "core/result.h"
@@ -38,6 +39,7 @@ struct RunRequest {
   double max_wall = std::numeric_limits<double>::infinity();   ///< [s]
   const std::atomic<int>* stop = nullptr;                      ///< a StopWish
   bool timings = false;                                        ///< write the budget per stage into run.json
+  std::vector<std::string> warnings;                           ///< what the caller has to say of this machine; told first
   std::function<void(const std::filesystem::path&)> on_start;  ///< on the root, when the run's folder is there
   std::function<void(const Progress&)> on_progress;            ///< on the root, after every step
   std::function<void(const Note&)> on_note;                    ///< on the root

@@ -138,7 +138,7 @@ std::string state_text(const RunRecord& record) {
 
 }  // namespace
 
-Result<std::vector<Snapshot>> snapshots_over_time(const fs::path& results) {
+Result<std::vector<Snapshot>> snapshots_over_time(const fs::path& results, std::vector<std::pair<double, std::string>>& damaged) {
   MORULA_TRY_ASSIGN(const auto entries, list_snapshots(results));
   std::vector<Snapshot> out;
   std::size_t last = entries.size();
@@ -149,8 +149,13 @@ Result<std::vector<Snapshot>> snapshots_over_time(const fs::path& results) {
       if (std::abs(entries[i].time - wanted) < std::abs(entries[nearest].time - wanted)) nearest = i;
     if (nearest == last) continue;
     last = nearest;
-    MORULA_TRY_ASSIGN(Snapshot snapshot, read_snapshot(results, entries[nearest].index));
-    out.push_back(std::move(snapshot));
+    auto snapshot = read_snapshot(results, entries[nearest].index);
+    if (snapshot.ok())
+      out.push_back(std::move(snapshot).value());
+    else if (snapshot.error().kind == ErrorKind::kFile)
+      damaged.emplace_back(entries[nearest].time, "a snapshot is left out of the pictures: " + snapshot.error().message);
+    else
+      return std::move(snapshot).error();
   }
   return out;
 }
@@ -183,7 +188,7 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
     MORULA_TRY(write_curves(one.plot, run / "plots" / one.name));
     content.plots.push_back({one.plot.title, curves_svg(one.plot, SvgUse::kInline), one.numerics});
   }
-  MORULA_TRY_ASSIGN(const auto snapshots, snapshots_over_time(run / "results.h5"));
+  MORULA_TRY_ASSIGN(const auto snapshots, snapshots_over_time(run / "results.h5", content.warnings));
   content.pictures = standard_pictures(snapshots, type_colors(study));
   for (const Picture& picture : content.pictures) MORULA_TRY(write_png(picture.image, run / "plots" / (picture.name + ".png")));
   add_key_numbers(record, series, content);

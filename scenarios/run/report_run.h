@@ -1,5 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/result.h"
@@ -28,8 +30,9 @@ Result<std::filesystem::path> write_run_report(const Study& study, const RunReco
 /// The same for a run on disk, its study and record read from there: `morula plot RUN`.
 Result<std::filesystem::path> plot_run(const std::filesystem::path& run);
 
-/// The snapshots nearest to 0, 25, 50, 75 and 100 % of the time, each once.
-Result<std::vector<Snapshot>> snapshots_over_time(const std::filesystem::path& results);
+/// The snapshots nearest to 0, 25, 50, 75 and 100 % of the time, each once. One that is damaged is left out; `damaged` gets its time [s] and why.
+Result<std::vector<Snapshot>> snapshots_over_time(const std::filesystem::path& results,
+                                                  std::vector<std::pair<double, std::string>>& damaged);
 
 /// The colours that the study gives to its types.
 TypeColors type_colors(const Study& study);

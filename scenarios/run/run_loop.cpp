@@ -9,6 +9,7 @@
 #include "core/numbers/number_text.h"
 #include "scenarios/observables/local_snapshot.h"
 #include "scenarios/results/checkpoint_folder.h"
+#include "scenarios/results/damaged_file.h"
 #include "scenarios/results/file_io.h"
 #include "scenarios/results/snapshot_file.h"
 #include "scenarios/results/state_hash.h"
@@ -121,14 +122,26 @@ void RunLoop::tell_idle_loads() {
   }
 }
 
-Status RunLoop::go_back() {
+Status RunLoop::go_back(const CheckpointInfo& checkpoint) {
+  warned_ = checkpoint.warned;
   std::vector<SeriesHeader> header;
   for (const Observable& column : columns_) header.push_back({column.name, column.unit});
   MORULA_TRY(agree(folder_.begin_series(header), comm_));
   const double time = simulation_->tissue().clock.time;
-  MORULA_TRY(agree(folder_.cut_back(time), comm_));
-  MORULA_TRY(truncate_snapshots(folder_.results(), time, comm_));
+  MORULA_TRY(agree(folder_.cut_back(time, checkpoint.texts), comm_));
+  MORULA_TRY(write_results([&] { return truncate_snapshots(folder_.results(), time, comm_); }));
   return begin_results(folder_.results(), results_head(study_), comm_);  // where the file is gone
+}
+
+Status RunLoop::write_results(const std::function<Status()>& write) {
+  Status written = write();
+  if (written.ok() || written.error().kind != ErrorKind::kFile) return written;
+  MORULA_TRY_ASSIGN(const std::filesystem::path aside, set_aside(folder_.results(), comm_));
+  if (aside.empty()) return written;
+  warn(written.error().message + "; it is kept as '" + aside.filename().string() +
+       "', and the snapshots from here on go into a new results.h5");
+  MORULA_TRY(begin_results(folder_.results(), results_head(study_), comm_));
+  return write();
 }
 
 int RunLoop::wish_to_stop() const {
@@ -147,7 +160,10 @@ Result<RunSummary> RunLoop::go() {
       return summary;
     }
     const std::uint64_t steps = clock.steps;
-    if (Status done = step(); !done.ok()) return fail(done.error(), clock.steps == steps);
+    if (Status done = step(); !done.ok()) {
+      if (done.error().kind == ErrorKind::kStoppedEarly) continue;  // broken off by a wish to stop; the state is that before the step
+      return fail(done.error(), clock.steps == steps);
+    }
     if (clock.time < next_output(std::nextafter(clock.time, 0.0), study_.time.output, end_)) continue;
     if (Status done = output(); !done.ok()) return fail(done.error(), true);
     if (at_rest()) break;
@@ -179,7 +195,8 @@ Status RunLoop::step() {
   const Clock& clock = simulation_->tissue().clock;
   const double before = clock.time;
   const auto began = SteadyClock::now();
-  MORULA_TRY_ASSIGN(StepOutcome outcome, simulation_->step(next_output(clock.time, study_.time.output, end_)));
+  MORULA_TRY_ASSIGN(StepOutcome outcome,
+                    simulation_->step(next_output(clock.time, study_.time.output, end_), [this] { return wish_to_stop() != kGoOn; }));
   interval_.add(outcome);
   ++work_.steps;
   work_.node_steps += load_.nodes;
@@ -237,7 +254,9 @@ Status RunLoop::output() {
     MORULA_TRY(write_moment(measures));
   }
   interval_ = Interval{.energy = interval_.energy};
-  return check_limits(measures);
+  Status within = check_limits(measures);
+  MORULA_TRY(agree(write_events(), comm_));  // what the limits warn of belongs to this moment: a checkpoint comes after it
+  return within;
 }
 
 Status RunLoop::write_moment(const Measures& measures) {
@@ -245,7 +264,8 @@ Status RunLoop::write_moment(const Measures& measures) {
   const Moment moment{measures, interval_, tissue.clock, tissue.ledger};
   std::vector<double> row;
   for (const Observable& column : columns_) row.push_back(column.value(moment));
-  MORULA_TRY(append_snapshot(folder_.results(), local_snapshot(*simulation_), tissue.fields, comm_));
+  const Snapshot snapshot = local_snapshot(*simulation_);
+  MORULA_TRY(write_results([&] { return append_snapshot(folder_.results(), snapshot, tissue.fields, comm_); }));
   tell_events();
   Status written = std::exchange(text_status_, {});
   if (written.ok()) written = folder_.add_to_series(measures.time, row);
@@ -266,9 +286,9 @@ void RunLoop::tell_events() {
     if (event.kind == EventKind::kWarning) note(Note::Kind::kWarning, "cell " + event.cell.text() + ": " + event.text);
 }
 
-void RunLoop::warn_near_limit(bool& warned, const std::string& text) {
-  if (!warned) warn(text);
-  warned = true;
+void RunLoop::warn_near_limit(Warned what, const std::string& text) {
+  if ((warned_ & what) == 0) warn(text);
+  warned_ |= what;
 }
 
 Status RunLoop::write_tables() {
@@ -293,8 +313,7 @@ Status RunLoop::check_limits(const Measures& m) {
   const std::string volume = "volume error " + number_text("%.2g %%", 100.0 * m.volume_error.value) + " (limit " +
                              number_text("%.2g %%)", 100.0 * limits.volume_error);
   if (!(m.volume_error.value <= limits.volume_error)) return crossed(volume, m.volume_error);
-  if (m.volume_error.value > kWarnAt * limits.volume_error)
-    warn_near_limit(volume_warned_, volume + " in cell " + m.volume_error.cell.text());
+  if (m.volume_error.value > kWarnAt * limits.volume_error) warn_near_limit(kVolume, volume + " in cell " + m.volume_error.cell.text());
   if (!simulation_->tissue().clock.capped) {  // a capped start may overlap until it has come apart
     const std::string overlap = "overlap " + number_text("%.2g um", m.overlap.value) + " (limit " + number_text("%.2g um)", limits.overlap);
     if (!(m.overlap.value <= limits.overlap)) {
@@ -305,14 +324,14 @@ Status RunLoop::check_limits(const Measures& m) {
             "them smaller (`start_volume`, `inflate`)";
       return error;
     }
-    if (m.overlap.value > kWarnAt * limits.overlap) warn_near_limit(overlap_warned_, overlap + " at cell " + m.overlap.cell.text());
+    if (m.overlap.value > kWarnAt * limits.overlap) warn_near_limit(kOverlap, overlap + " at cell " + m.overlap.cell.text());
   }
   MORULA_TRY(check_packing(m));
   for (std::size_t f = 0; f < study_.model.fields.size(); ++f) {
     const std::string balance = "balance of " + study_.model.fields[f].name + " off by " + number_text("%.2g", m.field_balance[f]) +
                                 " (limit " + number_text("%.2g)", limits.field_balance);
     if (!(m.field_balance[f] <= limits.field_balance)) return crossed(balance, {});
-    if (m.field_balance[f] > kWarnAt * limits.field_balance) warn_near_limit(balance_warned_, balance);
+    if (m.field_balance[f] > kWarnAt * limits.field_balance) warn_near_limit(kBalance, balance);
   }
   return {};
 }
@@ -326,8 +345,8 @@ Status RunLoop::check_packing(const Measures& m) {
                      " times as tightly as the end of its packing curve at " + time_text(m.time),
                  "knots of `cbm.packing` for such compressions, stiffer spheres, or less load"};
   if (static_cast<double>(m.packed_beyond) > kPartBeyond * static_cast<double>(m.spheres))
-    warn_near_limit(packing_warned_, std::to_string(m.packed_beyond) + " of " + std::to_string(m.spheres) +
-                                         " spheres are packed more tightly than their packing curve is calibrated for");
+    warn_near_limit(kPacking, std::to_string(m.packed_beyond) + " of " + std::to_string(m.spheres) +
+                                  " spheres are packed more tightly than their packing curve is calibrated for");
   return {};
 }
 
@@ -335,7 +354,9 @@ Status RunLoop::checkpoint() {
   auto timed = simulation_->timer().scope(Stage::kObserve);
   const Tissue& tissue = simulation_->tissue();
   checkpoint_due_ = next_multiple(tissue.clock.time, study_.time.checkpoint);
-  const CheckpointInfo info{record_.study, record_.study_hash, wall_before_ + wall(), {}};
+  auto texts = folder_.sync_texts();  // they are on the disk before the checkpoint that counts on them
+  MORULA_TRY(agree(texts.ok() ? Status{} : Status(texts.error()), comm_));
+  const CheckpointInfo info{record_.study, record_.study_hash, wall_before_ + wall(), {}, warned_, *texts};
   auto saved = save_checkpoint(folder_.checkpoints(), tissue, info, comm_);
   return saved.ok() ? Status{} : Status(std::move(saved).error());
 }
@@ -368,15 +389,17 @@ FinalState RunLoop::final_state() const {
 
 Status RunLoop::finish(RunState state, ErrorKind kind, RunSummary& summary) {
   const bool done = state == RunState::kDone;
+  const std::string how = done ? "" : kind == ErrorKind::kInterrupted ? "interrupted" : "stopped early";
+  if (!done) note(Note::Kind::kNote, how + " at " + time_text(progress_.time));
   tell_events();
-  MORULA_TRY(agree(write_events(), comm_));
+  Status told = std::exchange(text_status_, {});
+  if (told.ok()) told = write_events();
+  MORULA_TRY(agree(std::move(told), comm_));
   MORULA_TRY(checkpoint());
-  MORULA_TRY(write_tables());
+  MORULA_TRY(write_results([&] { return write_tables(); }));
   record_.state = state;
   record_.exit_code = done ? 0 : exit_code(kind);
-  record_.message = done ? ""
-                         : std::string(kind == ErrorKind::kInterrupted ? "interrupted" : "stopped early") + " at " +
-                               time_text(progress_.time) + ", with a checkpoint";
+  record_.message = done ? "" : how + " at " + time_text(progress_.time) + ", with a checkpoint";
   record_.finished = utc_now();
   record_.wall_time = wall_before_ + wall();
   record_.final_state = final_state();
@@ -400,7 +423,6 @@ Status RunLoop::finish(RunState state, ErrorKind kind, RunSummary& summary) {
   if (written.ok()) written = folder_.write_record(record_);
   MORULA_TRY(agree(std::move(written), comm_));
   summary.passed = !comm_.any(record_.exit_code == exit_code(ErrorKind::kVerification));
-  if (!done) note(Note::Kind::kNote, record_.message);
   summary.path = folder_.path();
   summary.state = state;
   if (!done) summary.stopped = kind;
@@ -411,10 +433,12 @@ Status RunLoop::finish(RunState state, ErrorKind kind, RunSummary& summary) {
 
 Error RunLoop::fail(Error error, bool state_is_sound) {
   state_is_sound = state_is_sound && state_is_whole_;
+  // A step that broke off midway left no state to keep. Where something could not be written (disk full, folder gone), a checkpoint would be of
+  // a moment whose row or snapshot is missing: the run goes on from the earlier one, and writes it then. The error itself comes after the
+  // checkpoint: a run that goes on from there tells it anew if it meets it again.
+  if (state_is_sound && error.kind == ErrorKind::kPhysics && agree(write_events(), comm_).ok()) (void)checkpoint().ok();
   warn(error.message);
   (void)write_events().ok();
-  // A full disk has no room for a checkpoint, and the earlier one is whole; a step that broke off midway left no state to keep.
-  if (state_is_sound && error.kind != ErrorKind::kResources) (void)checkpoint().ok();
   record_.state = RunState::kFailed;
   record_.exit_code = exit_code(error.kind);
   record_.message = error.message;

@@ -1,11 +1,13 @@
 #pragma once
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "coupling/simulation.h"
 #include "scenarios/observables/observables.h"
+#include "scenarios/results/checkpoint.h"
 #include "scenarios/results/run_folder.h"
 #include "scenarios/run/driver.h"
 #include "scenarios/run/timings.h"
@@ -26,7 +28,7 @@ class RunLoop {
   /// Time 0: the first exchange of bodies, the first row, snapshot and checkpoint.
   Status begin();
   /// After a restart: take away what is later than the checkpoint.
-  Status go_back();
+  Status go_back(const CheckpointInfo& checkpoint);
   /// To the end, a wish to stop, or an error.
   Result<RunSummary> go();
   /// Mark the run as failed; the error with the run's name in it.
@@ -52,7 +54,11 @@ class RunLoop {
   /// A warning of the run itself: for people, and into events.jsonl.
   void warn(const std::string& text);
   Status write_events();
-  void warn_near_limit(bool& warned, const std::string& text);
+  /// Things of which a run warns once; the bits of CheckpointInfo::warned.
+  enum Warned : std::uint32_t { kPacking = 1, kVolume = 2, kOverlap = 4, kBalance = 8 };
+  void warn_near_limit(Warned what, const std::string& text);
+  /// Writes into results.h5; where its content is in the way, once more into a new one. Collective.
+  Status write_results(const std::function<Status()>& write);
   void tell_idle_loads();
   void tell_events();
   Status checkpoint();
@@ -85,8 +91,8 @@ class RunLoop {
   std::vector<std::string> awaited_;  ///< what was still to come when nothing moved, as last told
   std::vector<Event> warnings_;       ///< of the run, not yet written
   bool state_is_whole_ = true;
-  Status text_status_;  ///< the first failure of a text written between outputs
-  bool packing_warned_ = false, volume_warned_ = false, overlap_warned_ = false, balance_warned_ = false;
+  Status text_status_;        ///< the first failure of a text written between outputs
+  std::uint32_t warned_ = 0;  ///< bits of Warned
 };
 
 }  // namespace morula::scenarios

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "core/mesh/closest_point.h"
 #include "core/mesh/mesh_check.h"
+#include "core/mesh/surface_bytes.h"
 #include "core/mesh/surface_overlap.h"
 #include "core/mesh/topology.h"
 #include "core/space/space.h"
@@ -11,6 +11,7 @@
 #include "scenarios/initial/cells_from_meshes.h"
 #include "scenarios/study/build.h"
 #include "scenarios/study/build_meshes.h"
+#include "scenarios/study/input_file.h"
 #include "scenarios/study/read_section.h"
 
 namespace morula::scenarios {
@@ -110,11 +111,7 @@ void MeshesBuilder::take_files() {
     const std::string shown = file.value;
     const std::string path = add_input_file(c_, file);
     copies += (copies.empty() ? "" : ", ") + yaml_scalar(file.text);
-    std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored))
-      error(601, file.place, "file '" + shown + "' does not exist", "paths are relative to the folder of the study");
-    else if (std::filesystem::is_directory(path, ignored))
-      error(602, file.place, "'" + shown + "' is a folder, not a file", "name the file in it");
+    check_input_file(path, shown, kMaxSurfaceBytes, file.place, c_.diagnostics);
     spec_.path.push_back(path);
     spec_.shown.push_back(shown);
   }

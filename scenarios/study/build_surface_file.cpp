@@ -1,6 +1,8 @@
 #include "core/mesh/mesh_check.h"
+#include "core/mesh/surface_bytes.h"
 #include "core/mesh/surface_file.h"
 #include "scenarios/study/build.h"
+#include "scenarios/study/input_file.h"
 #include "scenarios/study/mesh_problem_codes.h"
 
 namespace morula::scenarios {
@@ -34,15 +36,7 @@ TriangleMesh surface_from_file(BuildContext& c, Given<std::string>& written, con
   if (!written.known() || !scale.known()) return {};
   const std::string shown = written.value;
   const std::filesystem::path path = add_input_file(c, written);
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) {
-    c.diagnostics.error(601, written.place, "file '" + shown + "' does not exist", "paths are relative to the folder of the study");
-    return {};
-  }
-  if (std::filesystem::is_directory(path, ignored)) {
-    c.diagnostics.error(602, written.place, "'" + shown + "' is a folder, not a file", "name the file in it");
-    return {};
-  }
+  if (!check_input_file(path, shown, kMaxSurfaceBytes, written.place, c.diagnostics)) return {};
   auto mesh = read_surface(path, {.scale = scale.value});
   if (!mesh.ok()) {
     c.diagnostics.error(620, written.place, mesh.error().message, mesh.error().help);

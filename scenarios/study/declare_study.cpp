@@ -25,15 +25,18 @@ void declare_time(Section& s, draft::Time& time) {
               .example = "60 s",
               .source = "measured: growing clusters of shells at 60 s against small steps"},
              time.step);
-  s.quantity({.name = "output",
-              .doc = "Time between entries of the series and between snapshots.",
-              .quantity = Q::kTime,
-              .fallback = "1 h",
-              .low = 0.0,
-              .low_open = true,
-              .example = "30 min",
-              .source = "chosen"},
-             time.output);
+  s.quantity(
+      {.name = "output",
+       .doc = "Time between entries of the series and between snapshots. Steps land on these times, so that what is written is the state "
+              "itself and not a value between two: like a limit of the step, and by no more than half the step would, the interval changes "
+              "results. Keep it where runs are compared.",
+       .quantity = Q::kTime,
+       .fallback = "1 h",
+       .low = 0.0,
+       .low_open = true,
+       .example = "30 min",
+       .source = "chosen"},
+      time.output);
   s.quantity({.name = "checkpoint",
               .doc = "Time between checkpoints; written at the first output time at which one is due.",
               .quantity = Q::kTime,

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "scenarios/study/diagnostics.h"
+#include "scenarios/study/input_file.h"
 
 namespace morula::scenarios {
 namespace {
@@ -41,14 +41,12 @@ std::string readable_size(std::uintmax_t bytes) {
 
 }  // namespace
 
-std::shared_ptr<const SourceText> read_text_file(const std::filesystem::path& path, const std::string& shown_name, std::uintmax_t max_bytes,
-                                                 const Place& referred_from, Diagnostics& diagnostics) {
+bool check_input_file(const std::filesystem::path& path, const std::string& shown_name, std::uintmax_t max_bytes, const Place& place,
+                      Diagnostics& diagnostics) {
   namespace fs = std::filesystem;
-  Place at = referred_from;
-  if (!at.source) at.source = std::make_shared<SourceText>(shown_name, "");
   const auto fail = [&](int code, const std::string& what, const std::string& help) {
-    diagnostics.error(code, at, what, help);
-    return nullptr;
+    diagnostics.error(code, place, what, help);
+    return false;
   };
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
@@ -56,12 +54,27 @@ std::shared_ptr<const SourceText> read_text_file(const std::filesystem::path& pa
     return fail(601, "file '" + shown_name + "' does not exist", "paths are relative to the folder of the study");
   if (code) return fail(602, "file '" + shown_name + "' cannot be looked at: " + code.message(), "");
   if (fs::is_directory(status)) return fail(602, "'" + shown_name + "' is a folder, not a file", "name the file in it");
-  if (!fs::is_regular_file(status)) return fail(602, "'" + shown_name + "' is not a regular file", "give a plain text file");
+  if (!fs::is_regular_file(status)) return fail(602, "'" + shown_name + "' is a pipe or device, not a regular file", "name a file");
   const std::uintmax_t size = fs::file_size(path, code);
   if (code) return fail(602, "file '" + shown_name + "' cannot be read: " + code.message(), "");
   if (size > max_bytes)
     return fail(603, "file '" + shown_name + "' is too large: " + readable_size(size) + ", at most " + readable_size(max_bytes),
                 "many cells belong into a CSV file, surfaces into STL or OBJ");
+  return true;
+}
+
+std::shared_ptr<const SourceText> read_text_file(const std::filesystem::path& path, const std::string& shown_name, std::uintmax_t max_bytes,
+                                                 const Place& referred_from, Diagnostics& diagnostics) {
+  Place at = referred_from;
+  if (!at.source) at.source = std::make_shared<SourceText>(shown_name, "");
+  const auto fail = [&](int code, const std::string& what, const std::string& help) {
+    diagnostics.error(code, at, what, help);
+    return nullptr;
+  };
+  if (!check_input_file(path, shown_name, max_bytes, at, diagnostics)) return nullptr;
+  std::error_code code;
+  const std::uintmax_t size = std::filesystem::file_size(path, code);
+  if (code) return fail(602, "file '" + shown_name + "' cannot be read: " + code.message(), "");
 
   errno = 0;
   std::ifstream in(path, std::ios::binary);

@@ -1,3 +1,5 @@
+#include <sys/stat.h>
+
 #include <sys/mount.h>
 
 #include <cmath>
@@ -10,6 +12,7 @@ namespace morula::scenarios {
 namespace {
 
 using namespace testing_support;
+namespace fs = std::filesystem;
 using ::testing::Test;
 
 struct RunFolders : Test {
@@ -176,7 +179,7 @@ TEST_F(RunFolders, SeriesAndEventsAreCutBackToTheCheckpoint) {
   ASSERT_TRUE(run.add_events(events).ok());
   ASSERT_TRUE(append_to_text(run.events(), "{\"time_s\": 0.1, \"ki").ok());  // the process was killed here
   ASSERT_TRUE(append_to_text(run.series(), "0.2").ok());
-  ASSERT_TRUE(run.cut_back(0.1 * 2).ok());
+  ASSERT_TRUE(run.cut_back(0.1 * 2, {}).ok());
   EXPECT_EQ(slurp(run.series()),
             "time [s],cell_count [1],pressure [kPa]\n0,0,0.3333333333333333\n0.1,1,0.3333333333333333\n0.2,2,0.3333333333333333\n");
   const std::string lines = slurp(run.events());
@@ -184,6 +187,50 @@ TEST_F(RunFolders, SeriesAndEventsAreCutBackToTheCheckpoint) {
   EXPECT_EQ(lines.substr(0, lines.find('\n')), R"({"time_s":0.0,"kind":"division","cell":"7","daughters":["7.0","7.1"],"text":"grown"})");
   EXPECT_TRUE(run.begin_series(columns).ok());
   EXPECT_EQ(run.begin_series(std::vector<SeriesHeader>{{"other", "1"}}).error().kind, ErrorKind::kInput);
+}
+
+TEST_F(RunFolders, WhatCameAfterACheckpointIsCutWhateverItsTime) {
+  const RunFolder run = make();
+  if (!comm.is_root()) return;
+  const auto event = [](double time, const char* text) { return Event{time, EventKind::kWarning, {}, {}, {}, text}; };
+  ASSERT_TRUE(run.begin_series(std::vector<SeriesHeader>{{"cell_count", "1"}}).ok());
+  ASSERT_TRUE(run.add_events(std::vector<Event>{event(1.0, "first"), event(2.0, "second")}).ok());
+  ASSERT_TRUE(run.add_to_log("before").ok());
+  const auto lengths = run.sync_texts();
+  ASSERT_TRUE(lengths.ok());
+  EXPECT_EQ(lengths->events, slurp(run.events()).size());
+  // After the checkpoint at 2 s: an event of a moment before it (a division that was late), one of that very moment, and a line of the log.
+  ASSERT_TRUE(run.add_events(std::vector<Event>{event(1.9, "late"), event(2.0, "failed")}).ok());
+  ASSERT_TRUE(run.add_to_log("after").ok());
+  ASSERT_TRUE(run.cut_back(2.0, *lengths).ok());
+  const std::string events = slurp(run.events());
+  EXPECT_EQ(std::count(events.begin(), events.end(), '\n'), 2) << events;
+  EXPECT_NE(events.find("second"), std::string::npos);
+  EXPECT_EQ(slurp(run.log()), "before\n");
+}
+
+TEST_F(RunFolders, NothingIsWrittenThroughALink) {
+  const RunFolder run = make();
+  if (!comm.is_root()) return;
+  const fs::path precious = folder / "precious";
+  spit(precious, "data");
+  const auto refused = [&](const Status& status) {
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().kind, ErrorKind::kFile);
+    EXPECT_NE(status.error().message.find("symbolic link"), std::string::npos) << status.error().message;
+  };
+  for (const fs::path& file : {run.log(), run.events(), run.series()}) fs::create_symlink(precious, file);
+  refused(run.add_to_log("a line"));
+  refused(run.add_events(std::vector<Event>(1)));
+  refused(run.add_to_series(0.0, {}));
+  fs::path aside = run.status();
+  aside += ".tmp";
+  fs::create_symlink(precious, aside);
+  refused(run.write_status(RunStatus{}));
+  EXPECT_TRUE(run.write_status(RunStatus{}).ok()) << "what was written aside, the link, is gone";
+  EXPECT_EQ(slurp(precious), "data");
+  ASSERT_EQ(::mkfifo((run.path() / "pipe").c_str(), 0600), 0);
+  EXPECT_EQ(append_to_text(run.path() / "pipe", "text").error().kind, ErrorKind::kFile) << "and it does not wait for a reader";
 }
 
 TEST_F(RunFolders, VerdictSaysWhetherAllPassed) {

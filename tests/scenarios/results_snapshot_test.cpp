@@ -4,6 +4,7 @@
 #include <csignal>
 #include <set>
 
+#include "scenarios/results/damaged_file.h"
 #include "scenarios/results/hdf5_journal.h"
 #include "scenarios/results/hdf5_reader.h"
 #include "scenarios/results/snapshot_file.h"
@@ -174,6 +175,46 @@ TEST_F(Snapshots, SurviveAFullDisk) {
   EXPECT_EQ(times(path).size(), 2u);
 }
 
+TEST_F(Snapshots, NoAlteredByteIsReadAsIfItWereWhole) {
+  if (!comm.is_root()) return;
+  for (const double time : {0.0, 1.0}) ASSERT_TRUE(append(path, time, 10, alone).ok());
+  const std::string whole = slurp(path);
+  const std::string first = description(*read_snapshot(path, 0)), second = description(*read_snapshot(path, 1));
+  std::mt19937_64 random(1);
+  int noticed = 0;
+  for (int i = 0; i < 500; ++i) {
+    std::string bytes = whole;
+    bytes[random() % bytes.size()] ^= static_cast<char>(1u << random() % 8);
+    spit(path, bytes);
+    for (const std::size_t index : {0u, 1u}) {
+      const auto read = read_snapshot(path, index);
+      if (read.ok())
+        ASSERT_EQ(description(*read), index == 0 ? first : second) << "change " << i;
+      else
+        ++noticed, EXPECT_EQ(read.error().kind, ErrorKind::kFile);
+    }
+  }
+  EXPECT_GT(noticed, 100) << "most bytes are read";
+}
+
+TEST_F(Snapshots, AreSetAsideWithTheirJournalUnderANameOfTheirOwn) {
+  if (!comm.is_root()) return;
+  for (const char* name : {"results.damaged-1.h5", "results.damaged-2.h5"}) {
+    spit(path, name);
+    spit(journal_path(path), "journal");
+    const auto aside = set_aside(path, alone);
+    ASSERT_TRUE(aside.ok());
+    EXPECT_EQ(*aside, folder / name);
+    EXPECT_EQ(slurp(folder / name), name);
+    EXPECT_EQ(slurp(journal_path(folder / name)), "journal");
+    EXPECT_FALSE(std::filesystem::exists(path));
+    EXPECT_FALSE(std::filesystem::exists(journal_path(path)));
+  }
+  EXPECT_TRUE(set_aside(path, alone)->empty()) << "there is nothing";
+  std::filesystem::create_symlink(folder / "results.damaged-1.h5", path);
+  EXPECT_TRUE(set_aside(path, alone)->empty()) << "a link is not followed";
+}
+
 TEST_F(Snapshots, AJournalLeftByAKilledProcessIsFinishedOrDropped) {
   if (!comm.is_root()) return;
   ASSERT_TRUE(append(path, 0.0, 10, alone).ok());
@@ -211,7 +252,7 @@ TEST_F(Snapshots, SurviveSigkillAtAnyMoment) {
   if (!comm.is_root() || comm.size() > 1) return;
   std::mt19937 engine(5);
   std::size_t most = 0;
-  for (int round = 0; round < 12; ++round) {
+  for (int round = 0; round < rounds(12); ++round) {
     std::error_code ignored;
     std::filesystem::remove(path, ignored);
     int ends[2];

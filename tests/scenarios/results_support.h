@@ -65,6 +65,12 @@ class Folder {
   std::filesystem::path path_;
 };
 
+/// How often something is tried at random: MORULA_ROUNDS=100 tries it a hundred times as often.
+inline int rounds(int count) {
+  const char* more = std::getenv("MORULA_ROUNDS");
+  return count * (more != nullptr ? std::max(1, std::atoi(more)) : 1);
+}
+
 inline std::string slurp(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};

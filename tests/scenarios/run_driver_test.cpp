@@ -3,9 +3,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "scenarios/initial/make_tissue.h"
 #include "scenarios/report/series_reader.h"
 #include "scenarios/results/file_io.h"
 #include "scenarios/results/snapshot_file.h"
+#include "scenarios/results/state_hash.h"
 #include "scenarios/run/driver.h"
 #include "scenarios/run/report_run.h"
 #include "scenarios/run/run_loop.h"
@@ -265,6 +267,64 @@ TEST_F(Runs, WhatIsLaterThanTheCheckpointIsTakenAway) {
   EXPECT_EQ(done->final_state.state_hash, whole.final_state.state_hash);
   EXPECT_EQ(slurp(*this / "killed/series.csv"), slurp(*this / "whole/series.csv"));
   EXPECT_EQ(list_snapshots(*this / "killed/results.h5")->size(), 5u);
+}
+
+TEST_F(Runs, WhatWasToldAfterTheCheckpointIsToldOnce) {
+  run_whole(kSpheres, "whole");
+  run_whole(kSpheres, "killed");
+  // As if killed after the output at 2 h, events and log of 1 h to 2 h written; one event is of a moment before the checkpoint of 1 h.
+  std::vector<fs::path> files(fs::directory_iterator(*this / "killed/checkpoints"), {});
+  std::sort(files.begin(), files.end());
+  fs::remove(files.back());
+  const std::string line = R"({"time_s":1.0,"kind":"warning","text":"late"})";
+  spit(*this / "killed/events.jsonl", slurp(*this / "killed/events.jsonl") + line + "\n");
+  ASSERT_TRUE(resume(*this / "killed", {}, Comm()).ok());
+  EXPECT_EQ(slurp(*this / "killed/events.jsonl"), slurp(*this / "whole/events.jsonl"));
+  EXPECT_EQ(slurp(*this / "killed/series.csv"), slurp(*this / "whole/series.csv"));
+}
+
+TEST_F(Runs, ADamagedResultsFileIsSetAsideAndTheRunGoesOn) {
+  const RunSummary whole = run_whole(kHybrid, "whole");
+  RunRequest half = request("half");
+  half.until = 600.0;
+  ASSERT_TRUE(run(study(kHybrid), half, Comm()).ok());
+  const std::string results = slurp(*this / "half/results.h5");
+  spit(*this / "half/results.h5", results.substr(0, results.size() / 3));
+  const auto done = resume(*this / "half", {}, Comm());
+  ASSERT_TRUE(done.ok()) << done.error().message;
+  EXPECT_EQ(done->final_state.state_hash, whole.final_state.state_hash);
+  EXPECT_EQ(slurp(*this / "half/results.damaged-1.h5").size(), results.size() / 3) << "nothing is thrown away";
+  EXPECT_EQ(list_snapshots(*this / "half/results.h5")->size(), 2u) << "those of 15 min and 20 min";
+  EXPECT_NE(slurp(*this / "half/log.txt").find("results.damaged-1.h5"), std::string::npos);
+  EXPECT_NE(slurp(*this / "half/events.jsonl").find("results.damaged-1.h5"), std::string::npos);
+}
+
+TEST_F(Runs, AWishToStopBreaksOffTheIntegrationOfAField) {
+  const std::string slow = test::changed("voxel: 20 um}", "voxel: 10 um, tolerance: 1e-9}", kHybrid);
+  const Study read = study(slow);
+  auto made = [&] {
+    ShapeLibrary shapes;
+    return Simulation::create(read.model, make_tissue(read, shapes, Comm())->tissue, Comm(), 1).value();
+  };
+  const std::unique_ptr<Simulation> broken = made(), left = made();
+  ASSERT_TRUE(broken->first_swaps().ok() && left->first_swaps().ok());
+  const std::string before = state_hash(broken->tissue(), Comm()).hex();
+  int asked = 0;
+  const auto stopped = broken->step(1200.0, [&] { return ++asked == 3; });
+  ASSERT_FALSE(stopped.ok());
+  EXPECT_EQ(stopped.error().kind, ErrorKind::kStoppedEarly);
+  EXPECT_EQ(asked, 3);
+  EXPECT_EQ(state_hash(broken->tissue(), Comm()).hex(), before) << "the state is that before the step";
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(broken->step(1200.0).ok() && left->step(1200.0).ok());
+  EXPECT_EQ(state_hash(broken->tissue(), Comm()).hex(), state_hash(left->tissue(), Comm()).hex()) << "and goes on as if nothing had been";
+  // The run leaves a checkpoint of that state, and says that it was stopped.
+  std::atomic<int> stop{kGoOn};
+  RunRequest hurried = request("hurried");
+  hurried.stop = &stop;
+  hurried.on_progress = [&](const Progress&) { stop = kStopEarly; };
+  const auto run_stopped = run(read, hurried, Comm());
+  ASSERT_TRUE(run_stopped.ok()) << run_stopped.error().message;
+  EXPECT_EQ(run_stopped->stopped, ErrorKind::kStoppedEarly);
 }
 
 TEST_F(Runs, ATargetThatExistsIsLeftAlone) {

@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include "tests/scenarios/study_fixture.h"
 
@@ -209,6 +210,25 @@ TEST(BadStudyFile, HundredMegabytesAreRefusedUnread) {
   const auto path = folder.write("study.yaml", "schema: 1\n");
   std::filesystem::resize_file(path, 100u << 20);  // a sparse file: reading it would find zero bytes instead
   EXPECT_THAT(file_error(path), HasSubstr("is too large: 100 MiB, at most 5 MiB [E603]"));
+}
+
+TEST(BadStudyFile, SurfacesThatArePipesDevicesOrHugeAreRefusedUnread) {
+  const Folder folder;
+  ASSERT_EQ(::mkfifo((folder.path() / "pipe.stl").c_str(), 0600), 0);
+  std::filesystem::create_symlink("/dev/zero", folder.path() / "zero.stl");
+  std::filesystem::resize_file(folder.write("huge.stl", "solid"), std::uintmax_t{3} << 30);
+  for (const auto& [name, says] : {std::pair("pipe", "is a pipe or device, not a regular file [E602]"),
+                                   std::pair("zero", "is a pipe or device, not a regular file [E602]"),
+                                   std::pair("huge", "is too large: 3072 MiB, at most 1024 MiB [E603]")}) {
+    const std::string file = std::string(name) + ".stl";
+    EXPECT_THAT(file_error(folder.write("study.yaml", changed("sphere: {radius: 150 um}", "stl: " + file))), HasSubstr(says));
+    const std::string meshes = "initial: [{type: round, meshes: {file: " + file + ", scale: 1 um}}]\n";
+    EXPECT_THAT(file_error(folder.write("study.yaml",
+                                        "schema: 1\nstudy: a\ntime: {end: 1 h}\ndomain: {size: [90 um, 90 um, 90 um]}\n"
+                                        "cell_types: {round: {radius: 6 um, dcm: {nodes: 42}}}\n" +
+                                            meshes)),
+                HasSubstr(says));
+  }
 }
 
 TEST(BadStudyFile, DeepNestingDoesNotOverflowTheStack) {

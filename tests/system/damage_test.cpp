@@ -94,17 +94,63 @@ TEST_F(Damage, OfTheResolvedStudyIsRefused) {
   EXPECT_THAT(resumed.err, HasSubstr("another study"));
 }
 
+TEST_F(Damage, OfTheResultsSetsThemAsideAndTheRunGoesOn) {
+  fs::resize_file(folder / "run/results.h5", fs::file_size(folder / "run/results.h5") / 2);
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "whole", "--until", "2 h"}, folder.path()).exit_code, 0);
+  const Outcome resumed = run_morula({"resume", "run", "--until", "2 h"}, folder.path());
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.all();
+  EXPECT_THAT(resumed.err, AllOf(HasSubstr("damaged"), HasSubstr("results.damaged-1.h5"), HasSubstr("warn")));
+  EXPECT_EQ(info_of(folder / "run")["state_hash"], info_of(folder / "whole")["state_hash"]);
+  EXPECT_TRUE(fs::exists(folder / "run/results.damaged-1.h5"));
+  const Outcome exported = run_morula({"export", "run", "csv"}, folder.path());
+  EXPECT_EQ(exported.exit_code, 0) << "the snapshots from then on\n" << exported.all();
+}
+
 TEST_F(Damage, ByAFileSizeLimitLeavesTheCheckpointsWhole) {
   // The limit holds for each file: results.h5 reaches it first, as on a disk that is full.
   const auto limit = fs::file_size(folder / "run/results.h5") / 1024 * 4 / 3;
-  CommandOptions options;
-  options.shell_before = "trap '' XFSZ; ulimit -f " + std::to_string(limit) + ";";
-  const Outcome full = run_morula({"run", "study.yaml", "--out", "full", "--until", "20 h"}, folder.path(), options);
-  EXPECT_EQ(full.exit_code, 6) << full.all();
-  EXPECT_THAT(full.err, AllOf(HasSubstr("error: "), HasSubstr("full")));
-  EXPECT_FALSE(full.timed_out);
-  const Outcome resumed = run_morula({"resume", "full", "--until", "2 h"}, folder.path());
-  EXPECT_EQ(resumed.exit_code, 0) << "with room on the disk the run goes on\n" << resumed.all();
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "whole", "--until", "2 h"}, folder.path()).exit_code, 0);
+  for (const std::string trap : {"", "trap '' XFSZ; "}) {  // the signal that the limit sends is caught, or ignored by the caller
+    SCOPED_TRACE(trap);
+    CommandOptions options;
+    options.shell_before = trap + "ulimit -f " + std::to_string(limit) + ";";
+    const std::string name = trap.empty() ? "caught" : "ignored";
+    const Outcome full = run_morula({"run", "study.yaml", "--out", name, "--until", "20 h"}, folder.path(), options);
+    EXPECT_EQ(full.exit_code, 6) << full.all();
+    EXPECT_THAT(full.err, AllOf(HasSubstr("error: "), HasSubstr(name)));
+    EXPECT_FALSE(full.timed_out);
+    EXPECT_EQ(info_of(folder / name)["state"], "failed");
+    EXPECT_TRUE(fs::exists(folder / name / "FAILED"));
+    const Outcome resumed = run_morula({"resume", name, "--until", "2 h"}, folder.path());
+    EXPECT_EQ(resumed.exit_code, 0) << "with room on the disk the run goes on\n" << resumed.all();
+    EXPECT_EQ(read_text(folder / name / "series.csv"), read_text(folder / "whole/series.csv")) << "no row is missing, none stands twice";
+    EXPECT_EQ(read_text(folder / name / "events.jsonl"), read_text(folder / "whole/events.jsonl"));
+  }
+}
+
+TEST(FullDisk, LeavesFailedWhereverItIsMet) {
+  if (geteuid() != 0) GTEST_SKIP() << "mounting a small disk needs root";
+  const TestFolder folder;
+  fs::create_directory(folder / "disk");
+  int full = 0;
+  // A run with a report, on disks that are full at its start, at any output, at its end and after it.
+  for (int kilobytes = 40; kilobytes <= 520; kilobytes += 24) {
+    SCOPED_TRACE(kilobytes);
+    const std::string size = "size=" + std::to_string(kilobytes) + "k";
+    if (mount("none", (folder / "disk").c_str(), "tmpfs", 0, size.c_str()) != 0) GTEST_SKIP() << "no disk can be mounted here";
+    folder.write("disk/study.yaml", changed(sphere_study(), "report: false", "report: true"));
+    const Outcome outcome = run_morula({"run", "study.yaml", "--out", "run"}, folder / "disk");
+    const std::string said = run_morula({"status", "run", "--json"}, folder / "disk").out;
+    const bool begun = fs::exists(folder / "disk/run/run.json");
+    const bool marked = fs::exists(folder / "disk/run/FAILED");
+    umount((folder / "disk").c_str());
+    EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 6) << outcome.all();
+    if (outcome.exit_code != 6 || !begun) continue;
+    ++full;
+    EXPECT_TRUE(marked) << outcome.all();
+    EXPECT_EQ(json::parse(said)["state"], "failed") << outcome.all();
+  }
+  EXPECT_GE(full, 5);
 }
 
 TEST(FullDisk, LeavesTheCheckpointsWhole) {

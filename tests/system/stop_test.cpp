@@ -53,6 +53,56 @@ TEST(Stop, Sigusr1LeavesACheckpointAndExit75) {
   expect_stopped(folder, signalled(folder, SIGUSR1), 75);
 }
 
+TEST(Stop, AGoneTerminalAClosedPipeAndTheLimitOfCpuTimeLeaveACheckpointAndExit75) {
+  for (const int signal : {SIGHUP, SIGPIPE, SIGXCPU, SIGXFSZ}) {
+    SCOPED_TRACE(signal);
+    const TestFolder folder;
+    expect_stopped(folder, signalled(folder, signal), 75);
+  }
+}
+
+TEST(Stop, TheLimitOfCpuTimeOfTheShellLeavesACheckpoint) {
+  const TestFolder folder;
+  folder.write("study.yaml", changed(long_study(), "end: 200 h", "end: 2000 h"));
+  CommandOptions limited;
+  limited.shell_before = "ulimit -S -t 2;";
+  expect_stopped(folder, run_morula({"run", "study.yaml", "--out", "run"}, folder.path(), limited), 75);
+}
+
+TEST(Stop, WhatNobodyReadsIsDroppedAndTheRunStopsWithACheckpoint) {
+  const TestFolder folder;
+  folder.write("study.yaml", changed(long_study(), "end: 200 h", "end: 2000 h"));
+  CommandOptions piped;
+  piped.shell_before = "exec 2> >(head -n 1 > /dev/null);";
+  const Outcome outcome = run_morula({"run", "study.yaml", "--out", "run"}, folder.path(), piped);
+  EXPECT_EQ(outcome.exit_code, 75) << outcome.all();
+  EXPECT_EQ(info_of(folder / "run")["state"], "stopped");
+  EXPECT_EQ(run_morula({"resume", "run", "--max-wall", "1 ms"}, folder.path()).exit_code, 75);
+}
+
+TEST(Stop, ADoneRunWhoseNameNobodyReadsIsDone) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  CommandOptions piped;
+  piped.shell_before = "exec > >(true); sleep 0.2;";
+  const Outcome outcome = run_morula({"run", "study.yaml", "--out", "run"}, folder.path(), piped);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
+  EXPECT_EQ(info_of(folder / "run")["state"], "done");
+}
+
+TEST(Stop, NohupKeepsARunGoing) {
+  const TestFolder folder;
+  folder.write("study.yaml", long_study());
+  CommandOptions nohup;
+  nohup.shell_before = "trap '' HUP;";
+  RunningCommand command({"run", "study.yaml", "--out", "run"}, folder.path(), nohup);
+  ASSERT_TRUE(command.wait_for(folder / "run/checkpoints/cp_000003.h5"));
+  command.send(SIGHUP);
+  EXPECT_TRUE(command.wait_for(folder / "run/checkpoints/cp_000020.h5")) << "it goes on";
+  command.send(SIGTERM);
+  EXPECT_EQ(command.wait().exit_code, 75);
+}
+
 TEST(Stop, ControlCLeavesACheckpointAndExit130) {
   const TestFolder folder;
   expect_stopped(folder, signalled(folder, SIGINT), 130);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstring>
@@ -12,6 +13,7 @@
 #include "core/mesh/icosphere.h"
 #include "core/mesh/mesh_check.h"
 #include "core/mesh/primitives.h"
+#include "core/mesh/surface_bytes.h"
 #include "core/mesh/weld_nodes.h"
 
 namespace morula {
@@ -141,6 +143,18 @@ TEST_F(SurfaceFile, NamesMissingEmptyAndForeignFiles) {
   EXPECT_THAT(message(write("noise.stl", noise)), HasSubstr("announces"));
   fs::create_directories(folder_ / "folder.stl");
   EXPECT_THAT(message(folder_ / "folder.stl"), HasSubstr("is a folder"));
+}
+
+TEST_F(SurfaceFile, RefusesPipesDevicesAndHugeFilesWithoutReadingThem) {
+  const fs::path pipe = folder_ / "pipe.stl", zero = folder_ / "zero.obj", huge = folder_ / "huge.stl";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  fs::create_symlink("/dev/zero", zero);
+  std::ofstream(huge) << "solid";
+  fs::resize_file(huge, kMaxSurfaceBytes + 1);  // sparse: reading it would find zero bytes
+  EXPECT_THAT(read_surface(pipe).error().message, testing::HasSubstr("is a pipe or device"));
+  EXPECT_THAT(read_surface(zero).error().message, testing::HasSubstr("is a pipe or device"));
+  EXPECT_THAT(read_surface(huge).error().message, testing::HasSubstr("is too large: 1024 MiB, at most 1024 MiB"));
+  EXPECT_THAT(read_labelled_mesh(pipe, 1.0).error().message, testing::HasSubstr("is a pipe or device"));
 }
 
 TEST_F(SurfaceFile, NamesATruncatedBinaryStl) {

@@ -109,6 +109,18 @@ TEST(VtkFile, SplitsPolygonsIntoFansAndTurnsEverySecondTriangleOfAStrip) {
   EXPECT_THAT(strip.part, ElementsAre(1, 1, 1, 1)) << "the line is cell 0";
 }
 
+TEST(VtkFile, CountsThatDoNotFitASizeAreNoSmallNumbers) {
+  // 6148914691236517206 × 3 and 4611686018427387904 × 4 are 2 and 0 in 64 bits.
+  for (const std::string& text :
+       {polydata("POINTS 6148914691236517206 float\n0 0\n"),
+        polydata(kPoints + kPolygons + "CELL_DATA 4611686018427387904\nSCALARS a float 4\nLOOKUP_TABLE default\n"),
+        polydata(kPoints + kPolygons + "FIELD f 1\na 4 4611686018427387904 float\n1\n"),
+        polydata(kPoints + kPolygons + "LOOKUP_TABLE t 4611686018427387904\n1\n"),
+        polydata(kPoints + "POLYGONS 9223372036854775807 9223372036854775807\n3 0 1 2\n"),
+        polydata(kPoints + kPolygons + "FIELD f 1\na 9223372036854775807 9223372036854775807 string\nx\n")})
+    EXPECT_THAT(failure(text), HasSubstr("the file ends")) << text;
+}
+
 TEST(VtkFile, NamesWhatIsWrongAndWhere) {
   EXPECT_THAT(failure("<?xml version=\"1.0\"?>\n<VTKFile>"), HasSubstr("XML"));
   EXPECT_THAT(failure(std::string("\x7f\x45\x00\x01\xff", 5)), HasSubstr("is no legacy VTK file"));
