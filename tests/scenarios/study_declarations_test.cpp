@@ -46,7 +46,8 @@ TEST(ResolvedStudy, ReadsBackToTheSameStudy) {
   for (const std::string& text : {std::string(kGoodStudy), changed("boundary: open", "boundary: {x: periodic, z_low: wall}"),
                                   changed("title: Spheroid", "title: 'quotes \" and: colons # and \\ ü'\nscenario: null_x #"),
                                   changed("mean: 18 h", "mean: 18.123456789012345 h"),
-                                  changed("{sphere: {radius: 150 um}", "{plane: {size: 1 mm, normal: [0.1, 0.2, 0.3]}")}) {
+                                  changed("{sphere: {radius: 150 um}, side: inside",
+                                          "{plane: {size: 1 mm, center: [0 um, 0 um, -90 um], normal: [0.1, 0.2, 0.3]}, side: outside")}) {
     const auto first = read(text);
     ASSERT_TRUE(first.ok()) << first.error().text();
     const auto second = read(first->resolved_text);

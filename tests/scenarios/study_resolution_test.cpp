@@ -20,7 +20,7 @@ cell_types:
       bulk_modulus: 2.5 kPa
 contact: {range: 0.45 um}
 initial:
-  - {type: cell, at: [[0 um, 0 um, 0 um], [12 um, 0 um, 0 um], [6 um, 10 um, 0 um]], as: shell}
+  - {type: cell, at: [[0 um, 0 um, 0 um], [12 um, 0 um, 0 um], [6 um, 10.4 um, 0 um]], as: shell}
 )";
 
 TEST(Resolution, AdhesionThatAFineMeshStallsOnNamesTheNodesThatDoNot) {
@@ -31,13 +31,13 @@ TEST(Resolution, AdhesionThatAFineMeshStallsOnNamesTheNodesThatDoNot) {
 }
 
 TEST(Resolution, PairsAndCoarserMeshesAndWeakerAdhesionAreAccepted) {
-  EXPECT_TRUE(test::read(test::changed(", [6 um, 10 um, 0 um]", "", kStudy)).ok());
+  EXPECT_TRUE(test::read(test::changed(", [6 um, 10.4 um, 0 um]", "", kStudy)).ok());
   EXPECT_TRUE(test::read(test::changed("range: 0.45", "range: 0.5", test::changed("nodes: 642", "nodes: 162", kStudy))).ok());
   EXPECT_TRUE(test::read(test::changed("cell: 0.95", "cell: 0.9", kStudy)).ok());
 }
 
 TEST(Resolution, VolumeThatDoesNotBearTheTensionIsRefused) {  // 2 γ/(3 R) = 0.0556 kPa
-  const std::string pair = test::changed(", [6 um, 10 um, 0 um]", "", kStudy);
+  const std::string pair = test::changed(", [6 um, 10.4 um, 0 um]", "", kStudy);
   const std::string text = test::errors_of(test::changed("bulk_modulus: 2.5 kPa", "bulk_modulus: 0.05 kPa", pair));
   EXPECT_NE(text.find("[E572]"), std::string::npos) << text;
   EXPECT_NE(text.find("0.167 kPa"), std::string::npos) << text;
@@ -61,12 +61,12 @@ TEST(Resolution, AShapeTermThatHoldsAFluidCortexIsTold) {  // from 0.6 of the te
 }
 
 TEST(Resolution, RangeLongerThanHalfTheMeanEdgeIsRefused) {
-  const std::string pair = test::changed(", [6 um, 10 um, 0 um]", "", kStudy);
+  const std::string pair = test::changed(", [6 um, 10.4 um, 0 um]", "", kStudy);
   EXPECT_NE(test::errors_of(test::changed("range: 0.45 um", "range: 0.6 um", pair)).find("[E503]"), std::string::npos);
 }
 
 TEST(Resolution, MembraneLawsThatBothResistAreaAndImpossiblePoissonRatiosAreRefused) {
-  const std::string pair = test::changed(", [6 um, 10 um, 0 um]", "", kStudy);
+  const std::string pair = test::changed(", [6 um, 10.4 um, 0 um]", "", kStudy);
   EXPECT_NE(
       test::errors_of(test::changed("bulk_modulus", "area: {local: 0.1 mN/m, global: 1 mN/m}\n      bulk_modulus", pair)).find("[E513]"),
       std::string::npos);
