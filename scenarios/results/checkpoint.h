@@ -22,7 +22,7 @@ struct CheckpointInfo {
   double wall_time = 0.0;      ///< spent on the run so far [s]
   std::string morula_version;  ///< filled by write_checkpoint
   std::uint32_t warned = 0;    ///< what the run has warned of once and will not again; bits of the run loop
-  TextLengths texts;
+  TextLengths texts{};
 };
 
 struct LoadedCheckpoint {

@@ -107,7 +107,7 @@ TEST_F(MutatedInputs, StudiesAreRefusedWithMessagesOrRead) {
   on_altered(studies, rounds(200), [&](const std::string& text) {
     const auto study = test::read(text, {}, folder.path());
     good += study.ok();
-    if (!study.ok()) ASSERT_FALSE(study.error().text().empty());
+    ASSERT_TRUE(study.ok() || !study.error().text().empty());
   });
   EXPECT_GT(good, 0) << "some alterations, as of a comment, leave a study right";
 }
@@ -139,7 +139,7 @@ TEST_F(MutatedInputs, SurfacesAreRefusedWithMessagesOrRead) {
     on_altered(texts, rounds(100), [&](const std::string& text) {
       spit(path, text);
       const auto labelled = read_labelled_mesh(path, 1.0);
-      if (!labelled.ok()) ASSERT_FALSE(labelled.error().message.empty());
+      ASSERT_TRUE(labelled.ok() || !labelled.error().message.empty());
       if (labelled.ok()) (void)check_mesh(labelled->mesh.position, labelled->mesh.faces);
       if (path.extension() == ".vtk") return;
       const auto surface = read_surface(path);
@@ -172,7 +172,7 @@ TEST_F(MutatedInputs, CheckpointsAreReadWholeOrRefused) {
   on_altered({slurp(path)}, rounds(50), [&](const std::string& bytes) {
     spit(path, bytes);
     const auto read = read_checkpoint(path, model, library, alone);
-    if (read.ok()) ASSERT_EQ(state_hash(read->tissue, alone).hex(), hash);
+    ASSERT_TRUE(!read.ok() || state_hash(read->tissue, alone).hex() == hash);
     refused += !read.ok();
   });
   EXPECT_GT(refused, 0);
@@ -205,8 +205,9 @@ TEST_F(MutatedInputs, ResultsAreReadWholeOrRefusedAndNeverStopAWriter) {
     for (const std::size_t index : {0u, 2u}) {
       const auto read = read_snapshot(path, index);
       refused += !read.ok();
-      if (read.ok() && read->time == static_cast<double>(index))  // an altered file may have lost its last snapshots, and no more
-        for (int c = 1; c <= 5; ++c) ASSERT_EQ(read->cells.at(static_cast<std::size_t>(c - 1)).volume, c + static_cast<double>(index));
+      if (!read.ok() || read->time != static_cast<double>(index))
+        continue;  // an altered file may have lost its last snapshots, and no more
+      for (std::size_t c = 0; c < 5; ++c) ASSERT_EQ(read->cells.at(c).volume, static_cast<double>(c + 1 + index));
     }
     (void)append_snapshot(path, snapshot(3.0), {}, alone);  // a value or an error
   });
@@ -235,7 +236,7 @@ TEST_F(MutatedInputs, RecordsOfRunsAreReadOrRefused) {
   on_altered({"time [s],cell_count [1]\n0,20\n60,21\n120,22.5\n"}, rounds(50), [&](const std::string& text) {
     spit(folder / "series.csv", text);
     const auto series = read_series(folder / "series.csv");
-    if (!series.ok()) ASSERT_FALSE(series.error().message.empty());
+    ASSERT_TRUE(series.ok() || !series.error().message.empty());
   });
 }
 

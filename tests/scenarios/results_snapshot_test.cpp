@@ -184,14 +184,17 @@ TEST_F(Snapshots, NoAlteredByteIsReadAsIfItWereWhole) {
   int noticed = 0;
   for (int i = 0; i < 500; ++i) {
     std::string bytes = whole;
-    bytes[random() % bytes.size()] ^= static_cast<char>(1u << random() % 8);
+    char& byte = bytes[random() % bytes.size()];
+    byte = static_cast<char>(byte ^ (1 << random() % 8));
     spit(path, bytes);
     for (const std::size_t index : {0u, 1u}) {
       const auto read = read_snapshot(path, index);
-      if (read.ok())
+      if (read.ok()) {
         ASSERT_EQ(description(*read), index == 0 ? first : second) << "change " << i;
-      else
-        ++noticed, EXPECT_EQ(read.error().kind, ErrorKind::kFile);
+      } else {
+        ++noticed;
+        EXPECT_EQ(read.error().kind, ErrorKind::kFile);
+      }
     }
   }
   EXPECT_GT(noticed, 100) << "most bytes are read";
