@@ -118,7 +118,8 @@ TEST(PicturesSmooth, CoarseBallBecomesRoundAndStaysClosed) {
   EXPECT_EQ(fine.topologies[0].size(), 16 * faces.size());
   EXPECT_EQ(std::count(fine.face_marks.begin(), fine.face_marks.end(), 1), 16);
   EXPECT_GT(roundness(coarse), 0.05);
-  EXPECT_LT(roundness(fine), 0.01);
+  // A sixteenth of the coarse sag is left between the small faces, and a tenth is the error of a cubic patch over 36 degrees.
+  EXPECT_LT(roundness(fine), 0.2 * roundness(coarse));
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;  // every edge once in each direction: closed and oriented
   for (const Triangle& f : fine.topologies[0])
     for (std::size_t c = 0; c < 3; ++c) ++edges[{f[c], f[(c + 1) % 3]}];
