@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/random/philox.h"
+#include "core/random/rotation.h"
 #include "core/space/curve.h"
 #include "coupling/behaviours/birth.h"
 #include "coupling/behaviours/growth.h"
@@ -15,7 +16,6 @@
 #include "scenarios/initial/biconcave.h"
 #include "scenarios/initial/cells_from_meshes.h"
 #include "scenarios/initial/packing.h"
-#include "scenarios/initial/rotation.h"
 #include "scenarios/study/csv.h"
 
 namespace morula::scenarios {

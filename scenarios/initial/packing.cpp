@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "core/random/philox.h"
-#include "scenarios/initial/rotation.h"
+#include "core/random/rotation.h"
 
 namespace morula::scenarios {
 namespace {
