@@ -29,6 +29,8 @@ std::vector<Observable> general() {
       {"shell_pressure", "kPa", "Mean pressure over the shells.", [](M m) { return m.measures.shell_pressure; }},
       {"max_pressure", "kPa", "Largest pressure of a cell.", [](M m) { return m.measures.pressure.value; }},
       {"mean_contact_area", "um^2", "Mean area of a cell that is in contact.", [](M m) { return m.measures.mean_contact_area; }},
+      {"contacts_beyond_range", "1", "Part of the contacts of two spheres whose radius is above 0.45 of the smaller sphere's.",
+       [](M m) { return m.measures.sphere_contacts > 0 ? double(m.measures.contacts_beyond) / double(m.measures.sphere_contacts) : 0.0; }},
       {"overlap", "um", "Deepest penetration of a shell, obstacle or nucleus at this time.", [](M m) { return m.measures.overlap.value; }},
       {"worst_overlap", "um", "Deepest penetration in any step since the last output.",
        [](M m) { return std::max(m.interval.worst_overlap, m.measures.overlap.value); }},

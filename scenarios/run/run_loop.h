@@ -46,6 +46,7 @@ class RunLoop {
   Status write_moment(const Measures& measures);
   Status check_limits(const Measures& measures);
   Status check_packing(const Measures& measures);
+  void tell_contacts_beyond(const Measures& measures);
   /// A warning of the run itself: for people, and into events.jsonl.
   void warn(const std::string& text);
   Status write_events();
@@ -83,7 +84,7 @@ class RunLoop {
   std::vector<Event> warnings_;       ///< of the run, not yet written
   bool state_is_whole_ = true;
   Status text_status_;  ///< the first failure of a text written between outputs
-  bool packing_warned_ = false, volume_warned_ = false, overlap_warned_ = false, balance_warned_ = false;
+  bool packing_warned_ = false, volume_warned_ = false, overlap_warned_ = false, balance_warned_ = false, beyond_told_ = false;
 };
 
 }  // namespace morula::scenarios
