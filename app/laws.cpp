@@ -26,6 +26,7 @@ std::string in_cell(const std::string& text) {
 std::vector<ListedLaw> all_laws() {
   std::vector<ListedLaw> laws;
   for (auto& entry : cbm::contact_laws()) laws.push_back({"contact of spheres", std::move(entry.info)});
+  laws.push_back({"contact of spheres", cbm::jkr_range_law()});
   laws.push_back({"contact of spheres", cbm::packing_law()});
   for (const auto& entry : dcm::shell_laws()) laws.push_back({"shells", entry.info});
   const auto add = [&laws](const char* group, std::vector<LawInfo> infos) {

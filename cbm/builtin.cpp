@@ -2,6 +2,7 @@
 
 #include "cbm/laws/hertz.h"
 #include "cbm/laws/jkr.h"
+#include "cbm/sphere_range.h"
 
 namespace morula::cbm {
 namespace {
@@ -10,10 +11,10 @@ LawParameter young_parameter() {
   return {.name = "young",
           .quantity = "pressure",
           .unit = "kPa",
-          .fallback = 0.45,
+          .fallback = 1.5,
           .minimum = 1e-4,
           .maximum = 1e4,
-          .source = "Galle 2005, doi:10.1529/biophysj.104.041459",
+          .source = "3 K (1 - 2 nu) with K = 2.5 kPa of shells",
           .doc = "Young's modulus of the cell as a whole."};
 }
 
@@ -63,6 +64,16 @@ ContactLawEntry jkr_entry() {
 }
 
 }  // namespace
+
+LawInfo jkr_range_law() {
+  return {.name = "jkr_range",
+          .title = "Range of the JKR law",
+          .equation = "a_0/R ≲ 0.4 at rest, a_0 = (9πWR*²/(2E*))^(1/3), δ_0 = a_0²/(3R*); twelve contacts cover 3 (a_0/R)² of the surface",
+          .source = "small strains: Johnson 1985, Contact Mechanics, ch. 5; the limit is a choice of this project",
+          .parameters = {given_by_study("contact_ratio", "number", "1", "a_0/R of two cells of the type."),
+                         given_by_study("overlap_ratio", "number", "1", "δ_0/(2R)."),
+                         given_by_study("covered", "number", "1", "Part of the surface that twelve such contacts cover.")}};
+}
 
 std::vector<ContactLawEntry> contact_laws() { return {hertz_entry(), jkr_entry()}; }
 

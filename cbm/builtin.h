@@ -21,4 +21,7 @@ struct ContactLawEntry {
 /// All contact laws of spheres: the only place that knows which exist.
 std::vector<ContactLawEntry> contact_laws();
 
+/// How far a study is within the range of JKR, as `methods.md` tells it (cbm/sphere_range.h).
+LawInfo jkr_range_law();
+
 }  // namespace morula::cbm

@@ -240,7 +240,7 @@ Result<std::vector<Event>> Simulation::swap_bodies() {
     const bool up = orders[k].to == BodyKind::kShell;
     if (up) {
       if (may_stay) before.push_back(cell);
-      promote(cell, model_.types[cell.row.type], pressure[k], tissue_.clock.time, shapes_);
+      promote(cell, model_.types[cell.row.type], pressure[k], tissue_.clock.time, shapes_, model_.seed);
       fresh.push_back(cell.row.id);
     } else {
       demote(cell, tissue_.clock.time);

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "core/random/rotation.h"
 #include "dcm/growth.h"
 
 namespace morula {
@@ -155,12 +156,14 @@ void set_enclosed_volume(const Topology& topology, std::span<Vec3d> nodes, doubl
   for (Vec3d& p : nodes) p = center + (p - center) * scale;
 }
 
-void promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes) {
+void promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes, std::uint32_t seed) {
   const SphereRecord& sphere = *cell.sphere;
   const double volume = 4.0 / 3.0 * std::numbers::pi * sphere.radius * sphere.radius * sphere.radius;
   // −K_V ln(V/V0) = p + 2γ/R: the shell pushes back as hard as the sphere was pushed, or pulls where it was pulled.
   const double reference = free_reference_volume(volume, type) * std::exp(pressure / type.shell.bulk_modulus);
   ShellRecord shell = spherical_shell(shapes.icosphere(type.shell_nodes).value(), sphere.position, volume, reference);
+  const Rotation turn = random_rotation(Random(seed, RandomStream::kOrientation), cell.row.id, 0);
+  for (Vec3d& p : shell.position) p = sphere.position + turn * (p - sphere.position);
   std::fill(shell.velocity.begin(), shell.velocity.end(), sphere.velocity);
   place_nucleus(shell, type, shapes);
   cell.row.reference_excess = std::log(reference / free_reference_volume(cell.row.target_volume, type));

@@ -24,8 +24,9 @@ std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, st
 /// Whether any cell is to exchange its body as soon as its hold time is over, or when it is its turn. Collective.
 bool swaps_wait(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm);
 
-/// The sphere becomes a shell of the same volume, its mesh a sphere; V0 such that its inner pressure bears `pressure` (negative: tension) and the cortex.
-void promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes);
+/// The sphere becomes a shell of the same volume, its mesh a sphere in the orientation that the seed gives to its id, so that no direction of the
+/// lattice is common to the shells of a tissue; V0 such that its inner pressure bears `pressure` (negative: tension) and the cortex.
+void promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes, std::uint32_t seed);
 /// The shell becomes a sphere of the same volume at its centroid.
 void demote(CellRecord& cell, double time);
 

@@ -133,6 +133,9 @@ class Mechanics {
   /// Force of all cells on each obstacle, friction left out [nN]. Collective; the same on every rank.
   std::vector<Vec3d> obstacle_forces(const Tissue& tissue);
 
+  /// Contacts of spheres that this rank counts, and those beyond the range of their law. After values(), pressures() or a step.
+  [[nodiscard]] SphereContacts::RangeCount contacts_beyond_range() const { return spheres_.count_beyond_range(scene_, contacts_); }
+
   /// How tightly the owned spheres are packed, φ (cbm.md §3); 0 where no type has a pressure of packing. After values(), pressures() or a step.
   [[nodiscard]] std::vector<double> packing() const;
 

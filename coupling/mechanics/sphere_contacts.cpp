@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "cbm/division_ramp.h"
+#include "cbm/sphere_range.h"
 #include "core/parallel/threads.h"
 
 namespace morula {
@@ -319,6 +320,26 @@ std::vector<SphereContacts::Pressing> SphereContacts::pressing(const Scene& scen
     out[pair.sphere].area += pair.area;
     out[pair.sphere].virial += outer(pair.distance * pair.force, pair.normal);
   }
+  return out;
+}
+
+SphereContacts::RangeCount SphereContacts::count_beyond_range(const Scene& scene, const ContactLayer& contacts) const {
+  const ContactBody* body = scene.bodies().data() + scene.first_sphere();
+  const auto shares = list_.shares();
+  std::vector<RangeCount> by_thread(shares.size());
+  on_each_thread(threads_, [&](std::size_t t) {
+    visit(
+        shares[t], scene, contacts, [&](const SpherePair& pair) { return shares[t].has(pair.a); },
+        [&](std::uint32_t k, const cbm::PairBlock& block, int lane) {
+          if (!(block.area[lane] > 0.0)) return;
+          const SpherePair pair = list_.pairs[k];
+          ++by_thread[t].contacts;
+          by_thread[t].beyond += cbm::is_beyond_range(block.area[lane], std::min(body[pair.a].radius, body[pair.b].radius));
+        },
+        [](std::uint32_t) {});
+  });
+  RangeCount out;
+  for (const RangeCount& count : by_thread) out.contacts += count.contacts, out.beyond += count.beyond;
   return out;
 }
 

@@ -56,6 +56,11 @@ class SphereContacts {
   };
   /// Of the owned spheres; evaluates the pairs, for nobody needs this in a step.
   [[nodiscard]] std::vector<Pressing> pressing(const Scene& scene, const ContactLayer& contacts) const;
+  /// Contacts of spheres with spheres that this rank counts, and those of them that are larger than their law allows for (cbm/sphere_range.h).
+  struct RangeCount {
+    std::int64_t contacts = 0, beyond = 0;
+  };
+  [[nodiscard]] RangeCount count_beyond_range(const Scene& scene, const ContactLayer& contacts) const;
   /// function(owned sphere, obstacle, normal, area) for the spheres that touch obstacles.
   template <class F>
   void for_touched_obstacles(F&& function) const {

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "core/random/philox.h"
+#include "core/random/rotation.h"
 #include "scenarios/initial/cell_grid.h"
-#include "scenarios/initial/rotation.h"
 
 namespace morula::scenarios {
 namespace {

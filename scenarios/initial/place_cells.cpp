@@ -6,13 +6,13 @@
 #include <numbers>
 
 #include "core/random/philox.h"
+#include "core/random/rotation.h"
 #include "core/space/curve.h"
 #include "coupling/behaviours/birth.h"
 #include "coupling/behaviours/growth.h"
 #include "coupling/swaps.h"
 #include "scenarios/initial/biconcave.h"
 #include "scenarios/initial/packing.h"
-#include "scenarios/initial/rotation.h"
 #include "scenarios/study/csv.h"
 
 namespace morula::scenarios {

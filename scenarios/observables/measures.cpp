@@ -177,6 +177,9 @@ Measures measure(Simulation& simulation) {
   out.overlap = over_ranks(deepest_overlap(simulation), comm);
   measure_fields(simulation, out);
   measure_packing(simulation, out);
+  const auto range = simulation.mechanics().contacts_beyond_range();
+  out.sphere_contacts = comm.sum(range.contacts);
+  out.contacts_beyond = comm.sum(range.beyond);
   if (std::any_of(model.types.begin(), model.types.end(), [](const CellType& type) { return type.interior.has_nuclear_shell(); }))
     out.nucleus_clearance = least_clearance(simulation);
   out.obstacle_force = simulation.mechanics().obstacle_forces(tissue);

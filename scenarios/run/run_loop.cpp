@@ -327,6 +327,7 @@ Status RunLoop::check_limits(const Measures& m) {
     if (m.overlap.value > kWarnAt * limits.overlap) warn_near_limit(kOverlap, overlap + " at cell " + m.overlap.cell.text());
   }
   MORULA_TRY(check_packing(m));
+  tell_contacts_beyond(m);
   for (std::size_t f = 0; f < study_.model.fields.size(); ++f) {
     const std::string balance = "balance of " + study_.model.fields[f].name + " off by " + number_text("%.2g", m.field_balance[f]) +
                                 " (limit " + number_text("%.2g)", limits.field_balance);
@@ -334,6 +335,17 @@ Status RunLoop::check_limits(const Measures& m) {
     if (m.field_balance[f] > kWarnAt * limits.field_balance) warn_near_limit(kBalance, balance);
   }
   return {};
+}
+
+/// Elastic spheres are spheres as long as their contacts are small (cbm.md §2).
+void RunLoop::tell_contacts_beyond(const Measures& m) {
+  constexpr double kMostBeyond = 0.1;
+  if ((warned_ & kBeyondRange) != 0 || !(static_cast<double>(m.contacts_beyond) > kMostBeyond * static_cast<double>(m.sphere_contacts)))
+    return;
+  note(Note::Kind::kNote, std::to_string(m.contacts_beyond) + " of " + std::to_string(m.sphere_contacts) +
+                              " contacts of spheres have a radius above 0.45 R, where the law of elastic spheres is no more than a fit "
+                              "(`contacts_beyond_range` in series.csv)");
+  warned_ |= kBeyondRange;
 }
 
 /// The pressure of packing holds within the range it was calibrated in (cbm.md §3).

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cbm/builtin.h"
+#include "cbm/sphere_range.h"
 #include "coupling/behaviours/builtin.h"
 #include "coupling/builtin.h"
 #include "dcm/builtin.h"
@@ -135,6 +136,13 @@ void add_contacts(const Model& model, bool shells, bool spheres, std::vector<Use
         out.push_back({"spheres of " + type.name,
                        law.info,
                        {{"young", type.sphere.young}, {"poisson", type.sphere.poisson}, {"adhesion", model.pair(t, t).adhesion}}});
+    if (type.sphere.adhesive && model.pair(t, t).adhesion > 0.0) {
+      const cbm::RestingContact rest =
+          cbm::resting_contact(type.sphere, type.radius.mean, type.sphere, type.radius.mean, model.pair(t, t).adhesion);
+      out.push_back({"spheres of " + type.name,
+                     cbm::jkr_range_law(),
+                     {{"contact_ratio", rest.radius_ratio}, {"overlap_ratio", rest.overlap_ratio}, {"covered", rest.covered}}});
+    }
     if (const cbm::PackingCurve& curve = type.sphere.packing; !curve.empty())
       out.push_back(
           {"spheres of " + type.name,

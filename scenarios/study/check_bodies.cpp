@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cbm/sphere_range.h"
 #include "scenarios/study/build.h"
 #include "scenarios/study/read_section.h"
 
@@ -45,11 +46,51 @@ void check_division_of_shells(BuildContext& c) {
   }
 }
 
+bool may_be_sphere(const BuildContext& c, std::size_t type) {
+  const draft::Study& d = c.draft;
+  if (std::ranges::any_of(d.coupling.regions, [](const auto& r) { return r.content.body.value == "sphere"; })) return true;
+  for (const auto& block : d.initial) {
+    const draft::Initial& b = block.content;
+    if (b.has_meshes || (!b.csv.given && b.type.value != d.cell_types[type].name)) continue;
+    if ((b.body.known() && !b.body.value.empty() ? b.body.value : d.cell_types[type].content.body.value) != "shell") return true;
+  }
+  return false;
+}
+
+/// Where spheres adhere so much that their contacts are no small part of them. Of a type's pairs the worst is told.
+void check_jkr_range(BuildContext& c) {
+  const Model& model = c.study.model;
+  for (std::size_t i = 0; i < model.types.size(); ++i) {
+    if (!model.types[i].sphere.adhesive || !may_be_sphere(c, i)) continue;
+    std::size_t worst = i;
+    cbm::RestingContact most{};
+    for (std::size_t j = i; j < model.types.size(); ++j) {
+      if (!model.types[j].sphere.adhesive || !may_be_sphere(c, j)) continue;
+      const cbm::RestingContact at = cbm::resting_contact(model.types[i].sphere, model.types[i].radius.mean, model.types[j].sphere,
+                                                          model.types[j].radius.mean, model.pair(i, j).adhesion);
+      if (at.radius_ratio > most.radius_ratio) most = at, worst = j;
+    }
+    if (!(most.radius_ratio > cbm::kJkrRange)) continue;
+    const auto& [name, place, t] = c.draft.cell_types[i];
+    const auto percent = [](double part) { return short_number(std::round(100.0 * part)) + " %"; };
+    const double softest = std::min(model.types[i].sphere.young, model.types[worst].sphere.young);
+    const double needed = softest * std::pow(most.radius_ratio / cbm::kJkrAsked, 3);
+    c.diagnostics.warning(
+        647, t.sphere_young.given ? t.sphere_young.place : place,
+        "spheres of '" + name + "' and '" + model.types[worst].name + "' adhere beyond the range of JKR: at rest the contact radius is " +
+            short_number(std::round(100.0 * most.radius_ratio) / 100.0) + " R (JKR asks for about 0.4), the overlap " +
+            percent(most.overlap_ratio) + " of the distance, and twelve contacts would cover " + percent(most.covered) + " of the surface",
+        "`cbm.young` of " + short_number(std::ceil(needed * 10.0) / 10.0) + " kPa, or adhesion weaker by " +
+            short_number(std::ceil(10.0 * std::pow(most.radius_ratio / cbm::kJkrAsked, 3)) / 10.0) + " times");
+  }
+}
+
 }  // namespace
 
 void check_bodies(BuildContext& c) {
   check_noise_inside(c);
   check_division_of_shells(c);
+  check_jkr_range(c);
 }
 
 }  // namespace morula::scenarios

@@ -245,12 +245,13 @@ void declare_cell_type(Section& s, draft::CellType& t) {
     c.quantity({.name = "young",
                 .doc = "Young's modulus of the sphere.",
                 .quantity = Q::kPressure,
-                .fallback = "450 Pa",
+                .fallback = "1.5 kPa",
                 .low = 0.0,
                 .high = 1e4,
                 .low_open = true,
-                .example = "450 Pa",
-                .source = "Galle et al. 2005, doi:10.1529/biophysj.104.041459; Drasdo & Hoehme 2005, doi:10.1088/1478-3975/2/3/001"},
+                .example = "1.5 kPa",
+                .source = "3 K (1 - 2 nu) with the bulk modulus K = 2.5 kPa of shells (Van Liedekerke et al. 2020, "
+                          "doi:10.1007/s10237-019-01204-7): one material in both bodies, and a contact radius of 0.40 R at 1e-4 J/m^2"},
                t.sphere_young);
     c.quantity({.name = "poisson",
                 .doc = "Poisson ratio of the sphere.",

@@ -181,6 +181,10 @@ constexpr ErrorCode kCodes[] = {
      "Shells grow but cannot divide yet. One that reaches its division volume waits there, as the event `division_waits` says, until its "
      "body "
      "is exchanged for a sphere."},
+    {647, "adhesion beyond the range of JKR",
+     "The JKR law of elastic spheres is one of small contacts: a contact radius up to about 0.4 R. Beyond it spheres overlap by more than "
+     "a "
+     "tenth, and the areas of their contacts add up to more than their surface."},
     {655, "column without a unit",
      "Lengths in a CSV file carry their unit in the header, `x [um]`, or the entry of `initial` says it for all of them, `units: um`."},
     {656, "cell types like each other without end",

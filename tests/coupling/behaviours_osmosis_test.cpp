@@ -121,7 +121,7 @@ TEST(Osmosis, SolutesAreKeptOverASwapAndSharedByDaughters) {
   const double radius = std::cbrt(3.0 * 1.7 * kVolume / (4.0 * std::numbers::pi));
   CellRecord cell{row, SphereRecord{{0, 0, 0}, radius, {}, {}}, std::nullopt};
   ShapeLibrary shapes;
-  promote(cell, type, 0.0, 0.0, shapes);
+  promote(cell, type, 0.0, 0.0, shapes, 1);
   EXPECT_EQ(osmotic_cell(cell.row, type, 0.0, kArea, 0.0).osmolytes, before);
   demote(cell, 1.0);
   EXPECT_EQ(osmotic_cell(cell.row, type, 0.0, kArea, 0.0).osmolytes, before);

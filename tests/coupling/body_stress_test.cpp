@@ -163,7 +163,7 @@ TEST(BodyStress, OfASphereUnderTensionIsKeptByItsShell) {
   for (const double p : {-0.03, 0.0, 0.2}) {
     Tissue copy = tissue;
     auto cells = take_apart(copy);
-    promote(cells[0], model.types[0], p, 0.0, shapes);
+    promote(cells[0], model.types[0], p, 0.0, shapes, 1);
     const double volume = cells[0].row.target_volume;
     // −K_V ln(V/V0) = p + 2γ/R
     EXPECT_NEAR(2.5 * std::log(cells[0].shell->reference_volume / volume), p + 2.0 * 0.5 / 6.0, 1e-9);

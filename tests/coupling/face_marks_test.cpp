@@ -86,7 +86,7 @@ TEST(FaceMarks, AreGivenOnceAndGoWithTheMesh) {
   for (const CellRecord& cell : take_apart(tissue)) append_bytes(cell, bytes);
   std::vector<CellRecord> cells = read_records(bytes, shapes);
   EXPECT_EQ(cells[0].shell->face.mark, marks);
-  promote(cells[1], model.types[0], 0.0, 10.0, shapes);
+  promote(cells[1], model.types[0], 0.0, 10.0, shapes, 1);
   put_together(tissue, std::move(cells));
   mark_new_shells(model, tissue);
   EXPECT_EQ(tissue.shells.faces_of(0).mark, marks);

@@ -209,7 +209,7 @@ TEST(Nucleus, ComesWithAPromotionAndTravelsInARecord) {
   row.target_volume = kVolume;
   CellRecord cell{row, SphereRecord{{1, 2, 3}, kRadius, {}, {}}, std::nullopt};
   ShapeLibrary shapes;
-  promote(cell, type, 0.0, 0.0, shapes);
+  promote(cell, type, 0.0, 0.0, shapes, 1);
   ASSERT_TRUE(cell.shell->nucleus);
   EXPECT_LT(norm(*cell.shell->nucleus - Vec3d{1, 2, 3}), 1e-9);
   *cell.shell->nucleus += Vec3d{0.5, 0, 0};

@@ -319,7 +319,7 @@ TEST(NuclearShell, ComesWithAPromotionTravelsInARecordAndGoesWithADemotion) {
   row.target_volume = kVolume;
   CellRecord cell{row, SphereRecord{{1, 2, 3}, kRadius, {0.5f, 0, 0}, {}}, std::nullopt};
   ShapeLibrary shapes;
-  promote(cell, type, 0.0, 0.0, shapes);
+  promote(cell, type, 0.0, 0.0, shapes, 1);
   ASSERT_TRUE(cell.shell->nuclear_shell);
   EXPECT_FALSE(cell.shell->nucleus) << "there is no rigid one";
   EXPECT_LT(norm(mean(cell.shell->nuclear_shell->position) - Vec3d{1, 2, 3}), 1e-9);

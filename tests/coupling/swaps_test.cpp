@@ -276,7 +276,7 @@ TEST(Swap, ThereAndBackKeepsVolumeAndCentroid) {
   Tissue tissue = make_tissue(model, shapes, {{1, 2, 3}}, {kSphere});
   auto cells = take_apart(tissue);
   CellRecord cell = cells[0];
-  promote(cell, model.types[0], 0.05, 10.0, shapes);
+  promote(cell, model.types[0], 0.05, 10.0, shapes, 1);
   ASSERT_TRUE(cell.shell.has_value());
   demote(cell, 20.0);
   EXPECT_NEAR(cell.sphere->radius, 6.0, 1e-10 * 6.0);

@@ -2,6 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numbers>
+
+#include "cbm/sphere_range.h"
+#include "scenarios/run/used_laws.h"
 #include "tests/scenarios/study_fixture.h"
 
 namespace morula::scenarios {
@@ -60,6 +65,52 @@ TEST(Bodies, ShellsThatOnlyGrowAreNotWarnedOf) {
   const std::string grows = test::changed("radius: 40 um}", "radius: 40 um, as: shell, age: birth}", with("cycle: {duration: 18 h}"));
   EXPECT_THAT(test::warnings_of(grows), Not(HasSubstr("E646")));
   EXPECT_THAT(test::warnings_of(test::changed("10 h", "20 h", grows)), HasSubstr("E646"));
+}
+
+/// cbm.md §2, reference pair: R 5 µm, E 450 Pa, ν 0.4, W 0.1 nN/µm: a_0 = 3.207104, δ_0 = 1.371402 µm.
+TEST(Bodies, ARestingContactIsThatOfTheReferencePair) {
+  const cbm::SphereParameters sphere{.young = 0.45, .poisson = 0.4};
+  const cbm::RestingContact rest = cbm::resting_contact(sphere, 5.0, sphere, 5.0, 0.1);
+  EXPECT_NEAR(rest.radius_ratio, 3.207104 / 5.0, 1e-7);
+  EXPECT_NEAR(rest.overlap_ratio, 1.371402 / 10.0, 1e-7);
+  EXPECT_NEAR(rest.covered, 12.0 * 32.31290 / (4.0 * std::numbers::pi * 25.0), 1e-6);
+  const cbm::RestingContact unequal = cbm::resting_contact({.young = 0.45, .poisson = 0.4}, 5.0, {.young = 1.0, .poisson = 0.3}, 6.5, 0.05);
+  EXPECT_NEAR(unequal.radius_ratio, 2.502701533 / 5.0, 1e-9);
+  EXPECT_NEAR(unequal.overlap_ratio, 0.738773560 / 11.5, 1e-9);
+}
+
+TEST(Bodies, DefaultsLieWithinTheRangeOfJkr) {
+  EXPECT_EQ(test::warnings_of(kStudy), "");
+  const CellType type = test::read(kStudy)->model.types[0];
+  const cbm::RestingContact rest = cbm::resting_contact(type.sphere, 6.0, type.sphere, 6.0, test::read(kStudy)->model.pair(0, 0).adhesion);
+  EXPECT_NEAR(rest.radius_ratio, 0.40, 0.005);
+  EXPECT_LT(rest.overlap_ratio, 0.06);
+  EXPECT_LT(rest.covered, 0.5);
+  EXPECT_NEAR(type.sphere.young / (3.0 * (1.0 - 2.0 * type.sphere.poisson)), type.shell.bulk_modulus, 1e-12) << "one material";
+}
+
+/// The default of before: a_0/R = 0.604, 12.1 % of overlap, 3·0.604² = 1.09 of the surface.
+TEST(Bodies, AdhesionBeyondJkrIsToldWithItsNumbers) {
+  const std::string soft = test::warnings_of(with("cbm: {young: 450 Pa}"));
+  EXPECT_THAT(soft, HasSubstr("[E647]"));
+  EXPECT_THAT(soft, HasSubstr("study.yaml:8:18"));
+  EXPECT_THAT(soft, HasSubstr("0.6 R"));
+  EXPECT_THAT(soft, HasSubstr("12 %"));
+  EXPECT_THAT(soft, HasSubstr("109 %"));
+  EXPECT_THAT(soft, HasSubstr("1.6 kPa"));
+  EXPECT_THAT(test::warnings_of(with("cbm: {young: 1.6 kPa}")), Not(HasSubstr("E647"))) << "what the help says helps";
+  EXPECT_THAT(test::warnings_of(with("adhesion: {cell: 2e-4 J/m^2}")), HasSubstr("[E647]"));
+  EXPECT_THAT(test::warnings_of(with("cbm: {young: 450 Pa, law: hertz}")), Not(HasSubstr("E647")));
+  EXPECT_THAT(test::warnings_of(test::changed("radius: 40 um}", kAsShell, with("cbm: {young: 450 Pa}"))), Not(HasSubstr("E647")));
+}
+
+TEST(Bodies, MethodsTellHowFarAStudyIsWithinJkr) {
+  const auto study = test::read(kStudy);
+  ASSERT_TRUE(study.ok());
+  const std::vector<UsedLaw> laws = used_laws(*study);
+  const auto found = std::ranges::find(laws, std::string("jkr_range"), [](const UsedLaw& use) { return use.law.name; });
+  ASSERT_NE(found, laws.end());
+  for (const LawParameter& parameter : found->law.parameters) EXPECT_NE(used_value(*found, parameter), "not set") << parameter.name;
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include "core/random/philox.h"
 #include "core/vec3.h"
 
-namespace morula::scenarios {
+namespace morula {
 
 /// A rotation as its three rows.
 struct Rotation {
@@ -26,4 +26,4 @@ inline Rotation random_rotation(const Random& random, CellId cell, std::uint64_t
           {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
 }
 
-}  // namespace morula::scenarios
+}  // namespace morula
