@@ -16,7 +16,7 @@ namespace morula {
 /// ψ = [1 − Π(1 − n_q)] [1 − Π(1 − f_q)] with smoothsteps: n_q (near) from 0 at the range c to 1 at kNear c, f_q (far) from 0 at kTouch c to 1 at
 /// kFar c.
 struct RimWeight {
-  static constexpr double kNear = 0.9, kTouch = 0.05, kFar = 0.2;
+  static constexpr double kNear = 0.75, kTouch = 0.1, kFar = 0.35;
   static constexpr std::size_t kMostPoints = 4;
 
   double value = 0.0;              ///< ψ
