@@ -173,8 +173,8 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
                      pair.patch_motion, pair.motion - pair.built_at, !pair.rigid, pair.with_itself()},
                     d, pair, gradient, workspace);
     if (!both && !pair.rigid && !packing_.empty())
-      add_packing(body[d], body[1 - d], FaceQuadrature::with_points(settings_.points_per_face), packing_[d == 0 ? pair.b : pair.a], d, pair,
-                  gradient, workspace.elements);
+      add_packing(body[d], body[1 - d], FaceQuadrature::with_points(settings_.points_per_face), packing_[d == 0 ? pair.b : pair.a],
+                  kPackingOnset * settings_.range, d, pair, gradient, workspace.elements);
     pair.elements[d] = store.keep(workspace.elements);
   }
   pair.area = gradient[0].contact_area + gradient[1].contact_area;
@@ -197,7 +197,8 @@ void ContactLayer::find_penetration(const ContactScene& scene, std::span<Penetra
     const int d = body[0].topology != nullptr ? 0 : 1;
     std::vector<std::uint32_t> faces;
     pair.points[d].unpack_source_faces(faces);
-    of_pair[k] = penetration(body[d], body[1 - d], FaceQuadrature::with_points(settings_.points_per_face), faces);
+    of_pair[k] =
+        penetration(body[d], body[1 - d], FaceQuadrature::with_points(settings_.points_per_face), faces, kPackingOnset * settings_.range);
   });
   for (std::size_t k = 0; k < list.size(); ++k) {
     const SurfacePair& pair = pairs_[list[k]];

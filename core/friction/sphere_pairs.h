@@ -49,7 +49,7 @@ struct SpherePacking {
   struct Slopes {
     float a = 0.0f, b = 0.0f;
   };
-  bool on = false;                                  ///< of the model: the same on all ranks
+  bool on = false;                                  ///< some sphere resists: the same on all ranks
   std::vector<float> resistance;                    ///< c = Ψ″/V by sphere, ghosts too [nN/µm⁵]
   std::vector<Slopes> slopes;                       ///< by pair
   std::function<void(std::span<Float4>)> exchange;  ///< fills the ghost points of a vector by point; may be empty

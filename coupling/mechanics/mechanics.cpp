@@ -198,7 +198,7 @@ void Mechanics::evaluate(const Tissue& tissue, bool moved) {
 void Mechanics::find_packing(const ContactScene& scene, bool with_surfaces) {
   std::vector<Penetration> penetration(with_surfaces ? scene.bodies.size() : 0);
   if (with_surfaces) contacts_.find_penetration(scene, penetration);
-  spheres_.find_packing(scene_, contacts_, penetration);
+  spheres_.find_packing(scene_, contacts_, penetration, comm_);
   contacts_.set_packing(spheres_.surface_pressure());
 }
 

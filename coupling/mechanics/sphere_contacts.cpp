@@ -46,7 +46,6 @@ SphereContacts::SphereContacts(const Model& model, int threads)
     }
   list_.set_friction(std::move(friction), table_.type_count());
   for (const CellType& type : model_.types) packs_ = packs_ || !type.sphere.packing.empty();
-  list_.packing.on = packs_;
 }
 
 void SphereContacts::update_sisters(const Scene& scene, double now) {

@@ -28,7 +28,7 @@ class SphereContacts {
   [[nodiscard]] bool packs() const { return packs_; }
   /// Packing and pressure of the spheres at the scene's positions, ghosts too, for evaluate() and for the surfaces that press on them.
   /// penetration: what surfaces take of the spheres, by body; empty: nothing. Collective. Precondition: packs().
-  void find_packing(const Scene& scene, const ContactLayer& contacts, std::span<const Penetration> penetration);
+  void find_packing(const Scene& scene, const ContactLayer& contacts, std::span<const Penetration> penetration, const Comm& comm);
   /// By body (surfaces: nothing); valid after find_packing().
   [[nodiscard]] std::span<const SpherePressure> surface_pressure() const { return surface_pressure_; }
   /// φ of owned sphere i, and whether it is beyond the calibrated range of its type (packing.h).
@@ -96,7 +96,7 @@ class SphereContacts {
     cbm::SphereCaps caps;
   };
   [[nodiscard]] PackingForce packing_force(const Scene& scene, const SpherePair& pair, double distance) const;
-  void share_pressures(const Scene& scene, std::span<const double> slopes, std::span<const Penetration> others);
+  void share_pressures(const Scene& scene, std::span<const double> slopes, std::span<const Penetration> others, const Comm& comm);
   void find_sisters(const Scene& scene, const Tissue& tissue);
   void find_rigid_pairs(const Scene& scene, const ContactLayer& contacts, const Tissue& tissue);
   void keep_step_friction(const Scene& scene, std::vector<SpherePair> old_pairs, std::vector<SpherePairElement> old_elements);

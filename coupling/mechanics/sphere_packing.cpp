@@ -8,7 +8,8 @@
 
 namespace morula {
 
-void SphereContacts::find_packing(const Scene& scene, const ContactLayer& contacts, std::span<const Penetration> penetration) {
+void SphereContacts::find_packing(const Scene& scene, const ContactLayer& contacts, std::span<const Penetration> penetration,
+                                  const Comm& comm) {
   const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
   const Vec3d* x = scene.position().data() + scene.sphere_point();
   const ContactBody* body = scene.bodies().data() + scene.first_sphere();
@@ -54,21 +55,25 @@ void SphereContacts::find_packing(const Scene& scene, const ContactLayer& contac
     const double r = body[i].radius;
     packing_[i] = (taken[i] + others[i].volume) / ((4.0 / 3.0) * std::numbers::pi * r * r * r);
   }
-  share_pressures(scene, slopes, others);
+  share_pressures(scene, slopes, others, comm);
 }
 
-void SphereContacts::share_pressures(const Scene& scene, std::span<const double> slopes, std::span<const Penetration> others) {
+void SphereContacts::share_pressures(const Scene& scene, std::span<const double> slopes, std::span<const Penetration> others,
+                                     const Comm& comm) {
   // The operator's Ψ″/V (g_s + g_o)(g_s + g_o)ᵀ, spheres s exactly and the others o by their points alone: with S and T the sums of their
   // slopes, (u + w)² ≤ (1 + T/S) u² + (1 + S/T) w², and w² ≤ T Σ |slope| w_k² (Cauchy and Schwarz).
   const std::size_t first = scene.first_sphere(), count = scene.bodies().size() - first;
   std::vector<Vec3d> shared(scene.point_count());  // p, resistance among spheres, resistance against others
+  bool resists = false;
   for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
     const ContactBody& body = scene.bodies()[first + i];
     const auto value = model_.types[body.material].sphere.packing.at(packing_[i]);
     const double stiffness = value.slope / ((4.0 / 3.0) * std::numbers::pi * body.radius * body.radius * body.radius);
     const double s = slopes[i], t = others[i].slope;
     shared[body.first_point] = {value.pressure, s > 0.0 ? stiffness * (1.0 + t / s) : 0.0, stiffness * (s + t)};
+    resists = resists || stiffness > 0.0;
   }
+  list_.packing.on = comm.any(resists);
   scene.exchange(std::span(shared));
   pressed_.resize(count);
   list_.packing.resistance.resize(count);
@@ -86,6 +91,7 @@ SphereContacts::PackingForce SphereContacts::packing_force(const Scene& scene, c
   const ContactBody* body = scene.bodies().data() + scene.first_sphere();
   const double p_a = pressed_[pair.a], p_b = pressed_[pair.b];
   PackingForce out;
+  if (p_a == 0.0 && p_b == 0.0 && list_.packing.resistance[pair.a] == 0.0f && list_.packing.resistance[pair.b] == 0.0f) return out;
   out.caps = cbm::sphere_caps(body[pair.a].radius, body[pair.b].radius, distance);
   out.force = p_a * out.caps.slope_a + p_b * out.caps.slope_b;
   out.stiffness = std::max(0.0, p_a * out.caps.curvature_a + p_b * out.caps.curvature_b);

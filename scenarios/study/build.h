@@ -23,7 +23,7 @@ void build_cell_types(BuildContext& context);
 /// The shell of one cell type, or of a nucleus, and whether its laws go together: E513–E515.
 dcm::ShellParameters build_shell(BuildContext& context, const std::string& type_name, const draft::ShellKeys& draft,
                                  double medium_friction);
-/// The pressure of packing of one cell type's spheres: E515, E530, E531; empty where the study gives none.
+/// The pressure of packing of one cell type's spheres: E515, E530, E531; empty where there is none.
 cbm::PackingCurve build_packing(BuildContext& context, const std::string& type_name, const draft::CellType& draft);
 void build_geometry(BuildContext& context);
 /// The prescribed way of an obstacle over time.

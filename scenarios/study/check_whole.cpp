@@ -164,7 +164,7 @@ double surface_limit(const draft::ShellKeys& t, double friction, double node_are
 /// Stiffness of a cubic close packing's breath by the pressure of packing: each sphere's Ψ″/V (Σ |∂v/∂d|)² counts once at its centre and again at
 /// its neighbours', 2 (12 · ½π a_g²)² Ψ″/V with a_g² = 0.1815 R² where cells fill space [nN/µm].
 double packing_stiffness(const draft::CellType& t, double radius) {
-  if (!t.has_packing) return 0.0;
+  if (t.packing_law.value == "none") return 0.0;
   double steepest = 0.0;
   if (t.packing_law.value == "knots") {
     for (std::size_t k = 1; k < t.packing_knots.size(); ++k) {

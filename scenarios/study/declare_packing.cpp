@@ -30,33 +30,36 @@ void declare_knot(Section& s, draft::PackingKnot& knot) {
 }  // namespace
 
 void declare_packing(Section& s, draft::CellType& t) {
+  bool present = false;
   s.group(
       {.name = "packing",
        .doc = "Pressure of packing: a cell keeps its volume, so that its neighbours push each other apart, which pairs of spheres do not "
-              "know. "
-              "Without it spheres in a dense tissue are as if they could be squeezed to nothing.",
-       .optional_section = true,
+              "know. Without it (`packing: none`) spheres in a dense tissue are as if they could be squeezed to nothing, and softer than "
+              "shells.",
+       .shorthand = "law",
        .example = "{law: ideal_filled_cell, bulk_modulus: 2.5 kPa}"},
-      t.has_packing, [&t](Section& p) {
+      present, [&t](Section& p) {
         p.word({.name = "law",
                 .doc = "ideal_filled_cell: knots with which a cubic close packing of these spheres (without adhesion) has the pressure "
-                       "K_V ln(V0/V); knots: as given, fitted to shells.",
+                       "K_V ln(V0/V), where they alone have less; knots: as given, fitted to shells; none: pairs alone.",
                 .fallback = "ideal_filled_cell",
-                .words = {"ideal_filled_cell", "knots"},
+                .words = {"ideal_filled_cell", "knots", "none"},
                 .example = "knots",
                 .source = "choice of this project after Van Liedekerke et al. 2019, doi:10.1371/journal.pcbi.1006273"},
                t.packing_law);
-        p.quantity({.name = "bulk_modulus",
-                    .doc = "K_V of the ideal filled cell; `shell`: that of the cell as a shell.",
-                    .quantity = Q::kPressure,
-                    .fallback = "shell",
-                    .low = 0.0,
-                    .high = 1e4,
-                    .low_open = true,
-                    .specials = {{"shell", -1.0}},
-                    .example = "2.5 kPa",
-                    .source = "chosen"},
-                   t.packing_bulk_modulus);
+        p.quantity(
+            {.name = "bulk_modulus",
+             .doc = "K_V of the ideal filled cell; `shell`: that of the cell as a shell, so that both bodies resist compression alike; "
+                    "spheres that are stiffer than that have no pressure of packing.",
+             .quantity = Q::kPressure,
+             .fallback = "shell",
+             .low = 0.0,
+             .high = 1e4,
+             .low_open = true,
+             .specials = {{"shell", -1.0}},
+             .example = "2.5 kPa",
+             .source = "chosen"},
+            t.packing_bulk_modulus);
         p.list(
             {.name = "knots",
              .doc =

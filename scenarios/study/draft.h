@@ -95,7 +95,6 @@ struct CellType : ShellKeys {
   std::vector<Named<Given<double>>> adhesion;
   Given<std::string> sphere_law;
   Given<double> sphere_young, sphere_poisson;
-  bool has_packing = false;
   Given<std::string> packing_law;
   Given<double> packing_bulk_modulus;
   std::vector<Named<PackingKnot>> packing_knots;

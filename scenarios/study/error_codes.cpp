@@ -74,7 +74,8 @@ constexpr ErrorCode kCodes[] = {
      "Pressure by packing needs three knots or more, whose packing increases from above 0, and whose pressure begins with 0 and never "
      "falls."},
     {531, "packing softer than the spheres",
-     "The ideal filled cell adds what Hertz contacts lack of K_V ln(V0/V). With so small a bulk modulus they lack nothing."},
+     "The ideal filled cell adds what Hertz contacts lack of K_V ln(V0/V). With so small a bulk modulus they lack nothing (told where "
+     "`packing.bulk_modulus` is given; the default then adds nothing)."},
     {535, "nothing holds the volume",
      "A shell whose bulk modulus is 0 has no pressure: its tension would shrink it to a point. With `osmosis`, too, the bulk modulus ties "
      "the "

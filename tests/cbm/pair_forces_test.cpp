@@ -288,13 +288,13 @@ TEST(DivisionRamp, SistersAreBornWithoutLoadAndEndAsAnOrdinaryPair) {
   const auto& material = table.entry(0, 0).material;
   const auto law = make_pair_law(material, r, r);
   const double born = sister_distance(r, r), ordinary = 2 * r - zero_load_overlap(law);
-  for (const double age : {0.0, 150.0, 300.0, 600.0, 1e6}) {
+  for (const double age : {0.0, 450.0, 900.0, 1800.0, 1e6}) {
     const double offset = sister_overlap_offset(law, r, r, r, r, age);
-    const double rest = born + (ordinary - born) * std::min(1.0, age / 600.0);  // grows linearly
+    const double rest = born + (ordinary - born) * std::min(1.0, age / 1800.0);  // grows linearly
     EXPECT_NEAR(evaluate_pair(material, {rest, 0, 0}, r, r, true, offset).force, 0.0, 1e-12) << age;
     EXPECT_GE(offset, 0.0);
   }
-  EXPECT_EQ(sister_overlap_offset(law, r, r, r, r, 600.0), 0.0);
+  EXPECT_EQ(sister_overlap_offset(law, r, r, r, r, 1800.0), 0.0);
 }
 
 TEST(DivisionRamp, KnowsSistersByTheirIds) {

@@ -244,6 +244,26 @@ TEST(SpherePacking, BetweenShellsSpheresAndAWallForcesAreTheGradientAndBalance) 
     }
 }
 
+/// The onset has no kink, leaves what is deeper as it is, and takes 2πR w²/24 more of a cap: ∫(h − d) over the onset is w²/24 of a length.
+TEST(SpherePacking, SetsInSmoothly) {
+  const double w = 0.2;
+  for (const double end : {6.0 - 0.5 * w, 6.0 + 0.5 * w}) {
+    const auto before = PackingDepth::of(end - 1e-9, 6.0, w), after = PackingDepth::of(end + 1e-9, 6.0, w);
+    EXPECT_NEAR(before.depth, after.depth, 1e-8);
+    EXPECT_NEAR(before.slope, after.slope, 1e-7);
+  }
+  EXPECT_EQ(PackingDepth::of(6.1001, 6.0, w).slope, 0.0);
+  EXPECT_DOUBLE_EQ(PackingDepth::of(5.8, 6.0, w).depth, PackingDepth::of(5.8, 6.0, 0.0).depth);
+  double more = 0.0;
+  const int rings = 20000;
+  for (int k = 0; k < rings; ++k) {
+    const double r = 5.8 + 0.4 * (k + 0.5) / rings;
+    more += (PackingDepth::of(r, 6.0, w).depth - PackingDepth::of(r, 6.0, 0.0).depth) * 2.0 * std::numbers::pi * r * 0.4 / rings;
+  }
+  const double expected = 2.0 * std::numbers::pi * 6.0 * w * w / 24.0;
+  EXPECT_NEAR(more, expected, 0.02 * expected);  // w/R of it: the disc is curved
+}
+
 /// A flat shell face counts as the radical plane of two equal spheres does.
 TEST(SpherePacking, AFlatSurfaceTakesTheCapOfItsPlane) {
   for (const double l : {5.9, 5.5, 5.0, 4.0}) {
@@ -251,16 +271,18 @@ TEST(SpherePacking, AFlatSurfaceTakesTheCapOfItsPlane) {
     const int rings = 20000;
     for (int k = 0; k < rings; ++k) {
       const double r = l + (6.0 - l) * (k + 0.5) / rings;
-      sum += PackingDepth::of(r, 6.0).depth * 2.0 * std::numbers::pi * r * (6.0 - l) / rings;
+      sum += PackingDepth::of(r, 6.0, 0.0).depth * 2.0 * std::numbers::pi * r * (6.0 - l) / rings;
     }
     EXPECT_NEAR(sum, cbm::plane_cap(6.0, 6.0 - l).volume, 1e-7 * (1.0 + sum));
   }
   const double h = 1e-6;
-  for (const double r : {2.0, 4.0, 5.9}) {
-    const auto low = PackingDepth::of(r - h, 6.0), here = PackingDepth::of(r, 6.0), high = PackingDepth::of(r + h, 6.0);
-    EXPECT_NEAR(-(high.depth - low.depth) / (2.0 * h), here.slope, 1e-8);
-    EXPECT_NEAR(-(high.slope - low.slope) / (2.0 * h), here.curvature, 1e-8);
-  }
+  for (const double onset : {0.0, 0.2, 0.5})
+    for (const double r : {2.0, 4.0, 5.85, 5.95, 6.02, 6.09, 6.2}) {
+      const auto low = PackingDepth::of(r - h, 6.0, onset), here = PackingDepth::of(r, 6.0, onset),
+                 high = PackingDepth::of(r + h, 6.0, onset);
+      EXPECT_NEAR(-(high.depth - low.depth) / (2.0 * h), here.slope, 1e-8);
+      EXPECT_NEAR(-(high.slope - low.slope) / (2.0 * h), here.curvature, 1e-8);
+    }
 }
 
 }  // namespace

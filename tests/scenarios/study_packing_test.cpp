@@ -12,10 +12,31 @@ std::string with_packing(const std::string& packing) {
   return test::changed(kCbm, "cbm: {law: jkr, young: 450 Pa, poisson: 0.4, packing: " + packing + "}");
 }
 
-TEST(StudyPacking, IsOffWithoutItsSection) {
+TEST(StudyPacking, IsOnByItselfFromTheTypesOwnModuli) {
   const auto study = test::read(test::kGoodStudy);
   ASSERT_TRUE(study.ok()) << study.error().text();
+  EXPECT_NEAR(study->model.types[0].sphere.packing.onset(), 0.0829053, 5e-8);  // cbm.md §3, E 450 Pa, K_V 2.5 kPa
+  const auto again = test::read(study->resolved_text);
+  ASSERT_TRUE(again.ok()) << again.error().text();
+  EXPECT_EQ(again->model.types[0].sphere.packing.onset(), study->model.types[0].sphere.packing.onset());
+}
+
+TEST(StudyPacking, NoneSwitchesItOff) {
+  for (const char* none : {"none", "{law: none}"}) {
+    const auto study = test::read(with_packing(none));
+    ASSERT_TRUE(study.ok()) << study.error().text();
+    EXPECT_TRUE(study->model.types[0].sphere.packing.empty());
+    const auto again = test::read(study->resolved_text);
+    ASSERT_TRUE(again.ok()) << again.error().text();
+    EXPECT_TRUE(again->model.types[0].sphere.packing.empty());
+  }
+}
+
+TEST(StudyPacking, SpheresAsStiffAsTheShellHaveNone) {
+  const auto study = test::read(test::changed(kCbm, "cbm: {law: hertz, young: 50 kPa, poisson: 0.4}"));
+  ASSERT_TRUE(study.ok()) << study.error().text();
   EXPECT_TRUE(study->model.types[0].sphere.packing.empty());
+  EXPECT_TRUE(study->warnings.empty()) << study->warnings.text();
 }
 
 TEST(StudyPacking, IdealFilledCellTakesTheBulkModulusOfTheShellOrItsOwn) {
@@ -65,12 +86,12 @@ TEST(StudyPacking, CurvesThatAreNoneAreRefusedWithTheirPlace) {
 
 TEST(StudyPacking, MakesTheExplicitLimitShorter) {
   const auto step_error = [](const std::string& packing) {
-    std::string text = packing.empty() ? test::kGoodStudy : with_packing(packing);
+    std::string text = with_packing(packing);
     text = test::changed("time: {end: 96 h, step: auto,", "time: {end: 96 h, integrator: explicit_euler, step: 10 h,", text);
     return test::errors_of(text);
   };
-  EXPECT_NE(step_error("").find("[E507]"), std::string::npos);
-  EXPECT_NE(step_error("{bulk_modulus: 2500 kPa}"), step_error(""));  // the limit that the message names is another
+  EXPECT_NE(step_error("none").find("[E507]"), std::string::npos);
+  EXPECT_NE(step_error("{bulk_modulus: 2500 kPa}"), step_error("none"));  // the limit that the message names is another
 }
 
 }  // namespace

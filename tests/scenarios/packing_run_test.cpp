@@ -1,0 +1,85 @@
+/// Packing is on without being asked for: studies with default parameters, results read back (decision 0025).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "scenarios/report/series_reader.h"
+#include "scenarios/run/driver.h"
+#include "tests/scenarios/study_fixture.h"
+
+namespace morula::scenarios {
+namespace {
+
+struct Ran {
+  double pressure = 0.0, steps = 0.0;
+  std::string hash;
+};
+
+Ran run_study(const std::string& text, const std::filesystem::path& out) {
+  auto study = test::read(text);
+  EXPECT_TRUE(study.ok()) << study.error().text();
+  RunRequest request;
+  request.out = out;
+  const auto done = run(*study, request, Comm());
+  EXPECT_TRUE(done.ok()) << done.error().message;
+  const auto series = read_series(out / "series.csv");
+  EXPECT_TRUE(series.ok());
+  return {series->find("mean_pressure")->values.back(), series->find("step_count")->values.back(), done->final_state.state_hash};
+}
+
+/// 108 spheres in cubic close packing in a periodic box with 0.9 of their volume, inflated into it; `cbm`: of the type.
+std::string block(const std::string& cbm) {
+  const double lattice = std::cbrt(4.0 * 0.9 * 4.0 / 3.0 * std::acos(-1.0) * 216.0), size = 3.0 * lattice;
+  std::string at;
+  for (int x = 0; x < 3; ++x)
+    for (int y = 0; y < 3; ++y)
+      for (int z = 0; z < 3; ++z)
+        for (int k = 0; k < 4; ++k) {
+          const double base[3] = {x + (k == 1 || k == 2 ? 0.75 : 0.25), y + (k == 1 || k == 3 ? 0.75 : 0.25), z + (k >= 2 ? 0.75 : 0.25)};
+          char text[96];
+          std::snprintf(text, sizeof text, "%s[%.6f um, %.6f um, %.6f um]", at.empty() ? "" : ", ", base[0] * lattice - 0.5 * size,
+                        base[1] * lattice - 0.5 * size, base[2] * lattice - 0.5 * size);
+          at += text;
+        }
+  const std::string length = std::to_string(size) + " um";
+  return "schema: 1\nstudy: block\ntime: {end: 30 min, output: 30 min}\ndomain: {size: [" + length + ", " + length + ", " + length +
+         "], boundary: periodic}\ncell_types:\n  cell: {radius: 6 um, adhesion: {cell: 0 J/m^2}" + cbm +
+         "}\ninitial:\n  - {type: cell, start_volume: 50 %, inflate: 15 min, as: cbm, at: [" + at + "]}\noutput: {report: false}\n";
+}
+
+TEST(PackingRuns, ABlockOfDefaultSpheresHasThePressureOfItsVolume) {
+  const test::Folder folder;
+  const Ran packed = run_study(block(""), folder.path() / "packed");
+  const Ran none = run_study(block(", cbm: {packing: none}"), folder.path() / "none");
+  // p = K_V ln(V0/V), K_V = 2.5 kPa (the default of the shell); series tells the virial over V0, the tissue has 0.9 V0. Knots of the curve: 1 %.
+  const double ideal = 2.5 * std::log(1.0 / 0.9);
+  EXPECT_NEAR(packed.pressure / 0.9, ideal, 0.012 * ideal);
+  EXPECT_LT(none.pressure / 0.9, 0.2 * ideal);
+  EXPECT_LE(packed.steps, 1.5 * none.steps);
+}
+
+TEST(PackingRuns, AGrowingTissueTakesNotManyMoreSteps) {
+  const test::Folder folder;
+  const auto tissue = [](const std::string& cbm) {
+    return "schema: 1\nstudy: tissue\nseed: 1\ntime: {end: 3 h, output: 3 h}\ndomain: {size: [300 um, 300 um, 300 um]}\ncell_types:\n"
+           "  cell: {radius: 5 um, cycle: {model: volume_threshold, duration: {mean: 18 h, spread: 10 %}}" +
+           cbm + "}\ninitial:\n  - {type: cell, count: 300, fill: sphere, radius: 40 um}\noutput: {report: false}\n";
+  };
+  const Ran packed = run_study(tissue(""), folder.path() / "packed");
+  const Ran none = run_study(tissue(", cbm: {packing: none}"), folder.path() / "none");
+  EXPECT_LE(packed.steps, 1.5 * none.steps);
+}
+
+TEST(PackingRuns, PairsDoNotFeelIt) {
+  const test::Folder folder;
+  const auto pair = [](const std::string& cbm) {
+    return "schema: 1\nstudy: pair\ntime: {end: 1 h, output: 1 h}\ndomain: {size: [100 um, 100 um, 100 um]}\ncell_types:\n  cell: {radius: "
+           "6 um" +
+           cbm + "}\ninitial:\n  - {type: cell, at: [[-5.5 um, 0 um, 0 um], [5.5 um, 0 um, 0 um]], as: cbm}\noutput: {report: false}\n";
+  };
+  EXPECT_EQ(run_study(pair(""), folder.path() / "packed").hash, run_study(pair(", cbm: {packing: none}"), folder.path() / "none").hash);
+}
+
+}  // namespace
+}  // namespace morula::scenarios
