@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <numbers>
+#include <tuple>
 
 #include "cbm/sphere_range.h"
+#include "scenarios/report/series_reader.h"
+#include "scenarios/run/driver.h"
 #include "scenarios/run/used_laws.h"
+#include "tests/scenarios/results_support.h"
 #include "tests/scenarios/study_fixture.h"
 
 namespace morula::scenarios {
@@ -102,6 +106,23 @@ TEST(Bodies, AdhesionBeyondJkrIsToldWithItsNumbers) {
   EXPECT_THAT(test::warnings_of(with("adhesion: {cell: 2e-4 J/m^2}")), HasSubstr("[E647]"));
   EXPECT_THAT(test::warnings_of(with("cbm: {young: 450 Pa, law: hertz}")), Not(HasSubstr("E647")));
   EXPECT_THAT(test::warnings_of(test::changed("radius: 40 um}", kAsShell, with("cbm: {young: 450 Pa}"))), Not(HasSubstr("E647")));
+}
+
+/// Two spheres that are put where they rest: by default a contact of 0.40 R, with 450 Pa one of 0.60 R.
+TEST(Bodies, ARunTellsItsContactsBeyondTheRange) {
+  const test::Folder folder;
+  for (const auto& [young, distance, beyond] : {std::tuple{"1.5 kPa", "11.35", 0.0}, {"450 Pa", "10.54", 1.0}}) {
+    const std::string at = std::string("at: [[0 um, 0 um, 0 um], [") + distance + " um, 0 um, 0 um]]}";
+    const std::string text = test::changed("count: 10, fill: sphere, radius: 40 um}", at, with(std::string("cbm: {young: ") + young + "}"));
+    const auto study = test::read(test::changed("{end: 10 h}", "{end: 10 min, output: 5 min}", text) + "output: {report: false}\n");
+    ASSERT_TRUE(study.ok()) << study.error().text();
+    RunRequest request;
+    request.out = folder.path() / distance;
+    request.command = "a test";
+    const auto done = run(*study, request, Comm());
+    ASSERT_TRUE(done.ok()) << done.error().message;
+    EXPECT_EQ(read_series(request.out / "series.csv")->find("contacts_beyond_range")->values.back(), beyond) << young;
+  }
 }
 
 TEST(Bodies, MethodsTellHowFarAStudyIsWithinJkr) {
