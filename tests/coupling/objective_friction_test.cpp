@@ -114,7 +114,7 @@ TEST(ObjectiveFriction, DoesNotFeelAPairThatTurnsAsAWhole) {
 /// side (10 nN); those that part with it, with γ_n S v = 2 nN. With 80 faces a plate and 4 points a face each point stands for 10/(2 · 320)
 /// = 1/64 µm², which a friction element keeps without rounding (its area has 11 bits), so that 1e-10 can be asked for.
 TEST(ContactFriction, OfPlatesIsTheFrictionPerAreaTimesTheAreaTimesTheSpeed) {
-  const Plates ten{.length = 4.0, .width = 2.5, .edge = 0.5, .gap = 0.0078125, .range = 0.1, .aside = {}, .points_per_face = 4};
+  const Plates ten{.length = 4.0, .width = 2.5, .edge = 0.5, .gap = 0.0078125, .range = 0.08, .aside = {}, .points_per_face = 4};
   for (const bool objective : {false, true}) {
     Blocks blocks(objective, ten);
     const auto upper_moves = [&](const Vec3d& v) { return blocks.dissipation([&](const Vec3d& x) { return x.z > 1.004 ? v : Vec3d{}; }); };
