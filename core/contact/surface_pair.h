@@ -8,6 +8,7 @@
 #include "core/contact/contact_body.h"
 #include "core/contact/packed_points.h"
 #include "core/contact/regional_adhesion.h"
+#include "core/contact/rim_points.h"
 #include "core/contact/traction_law.h"
 #include "core/friction/contact_element.h"
 #include "core/space/space.h"
@@ -78,7 +79,7 @@ struct PairGradient {
   bool has_node_normal = false;            ///< false: all of node_normal is zero
   std::vector<double> face_energy;         ///< ∂E/∂A_T by source face [nN/µm]
   std::vector<std::uint32_t> source_face;  ///< these faces
-  double contact_area = 0.0;               ///< of the faces of this body (ramp c/2 .. c) [µm²]
+  double contact_area = 0.0;               ///< of the faces of this body, see SurfacePair::area [µm²]
 };
 
 /// Two bodies in touch, at least one of them a surface; body a comes first in the canonical order. A rigid obstacle is always b. A surface that
@@ -97,10 +98,13 @@ struct SurfacePair {
   std::span<const ContactElement> step_elements[2];  ///< at the start of the step: its friction
   double energy = 0.0;                               ///< [nN·µm]
   double overlap = 0.0;                              ///< deepest penetration [µm]
-  double area = 0.0;                                 ///< of both surfaces in contact [µm²]
-  Vec3d push;                                        ///< force on b where it is rigid [nN]
-  double step_overlap = 0.0;                         ///< `overlap` at the start of the step [µm]
-  std::uint32_t crossed = 0;                         ///< points that are on another side than at the start of the step; see crossing.h
+  /// Of both surfaces in contact: what is nearer than half the range (contact_share() in traction_law.h), with adhesion or without. In the wedge
+  /// beside a contact of radius a and angle θ it is too large by a part c/(2 a tan θ); the bevel that a coarse mesh has for its rim takes some of it
+  /// away (doublets of 162 nodes: time_stepping.md §12.3). [µm²]
+  double area = 0.0;
+  Vec3d push;                 ///< force on b where it is rigid [nN]
+  double step_overlap = 0.0;  ///< `overlap` at the start of the step [µm]
+  std::uint32_t crossed = 0;  ///< points that are on another side than at the start of the step; see crossing.h
   double crossed_at = 1e300;  ///< of a surface against itself: the least distance of such a point from the other side [µm]
 
   [[nodiscard]] bool with_itself() const { return !rigid && a == b; }
@@ -155,12 +159,13 @@ struct PointsWorkspace {
   std::vector<double> guessed;           ///< of the guesses
   std::vector<ContactElement> elements;  ///< of one direction of a pair
   std::vector<SuspectPoint> suspects;    ///< points that may have changed their side
+  std::vector<RimFace> rim;              ///< faces with finer points
   PointsAgainstBody lists;
 };
 
 /// Fill the candidate lists of one direction. `target_faces` are the faces of the target that may be near, in increasing order (empty for
 /// a sphere). `old` are the lists before; since they were built, the pair's nodes have moved by `motion` and the whole bodies by
-/// `motion_since_built`. With `rings` > 0 source and target are one surface, and faces within so many edges of the source face are left out.
+/// `motion_since_built`. `points_per_face`: of which something is kept. With `rings` > 0 source and target are one surface, and faces within so many edges of the source face are left out.
 void build_point_lists(const PairBody& source, const PairBody& target, const ListReach& reach, int points_per_face,
                        std::span<const std::uint32_t> target_faces, const PointsAgainstBody& old, double motion, double motion_since_built,
                        PointsAgainstBody& lists, int rings = 0);

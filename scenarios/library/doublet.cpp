@@ -20,8 +20,10 @@ struct Doublet : ReachedAngle {
   double r0 = 0.0;       ///< radius of a ball of a cell's volume [µm]
   double modulus = 0.0;  ///< Y/γ
   theory::Cap expected;
-  double contact_radius = 0.0, length = 0.0, contact_part = 0.0, pressure = 0.0;  ///< in the units of theory::Cap
-  double drift = 0.0;                                                             ///< of the centre of mass since time 0, over R0
+  double contact_radius = 0.0, length = 0.0, pressure = 0.0;  ///< in the units of theory::Cap
+  double contact_part = 0.0;                                  ///< of the surface, by the contact area that is told
+  double contact_area = 0.0;                                  ///< that over the one of theory
+  double drift = 0.0;                                         ///< of the centre of mass since time 0, over R0
 };
 
 /// The two cells of a type as caps on the plane half way between them.
@@ -49,8 +51,9 @@ std::optional<Doublet> measure_doublet(const Study& study, std::size_t type, con
   out.angle = 0.5 * (low->angle + high->angle);
   out.contact_radius = 0.5 * (low->contact_radius + high->contact_radius) / r0;
   out.length = (low->height + high->height) / r0;
-  const double contact = std::numbers::pi * out.contact_radius * out.contact_radius * r0 * r0;
+  const double contact = 0.5 * (cells[0].cell->contact_area + cells[1].cell->contact_area);
   out.contact_part = contact / (0.5 * (cells[0].cell->area + cells[1].cell->area));
+  out.contact_area = contact / (std::numbers::pi * out.expected.contact_radius * out.expected.contact_radius * r0 * r0);
   out.pressure = 0.5 * (cells[0].cell->pressure + cells[1].cell->pressure) * r0 / tension;
   out.drift = norm(middle - (before[0].cell->centroid + before[1].cell->centroid) * 0.5) / r0;
   return out;
@@ -154,7 +157,7 @@ void judge_unequal(const Study& study, const Snapshot& now, std::vector<Verdict>
       const double more = tense[0].cell->pressure - slack[0].cell->pressure;
       out.push_back(at_least("S6.2", "pressure of the tenser of two cells over that of the other",
                              tense[0].cell->pressure / slack[0].cell->pressure, 1.05));
-      // The area that the law counts reaches beyond the line of contact by a part of the range, hence less than 1.
+      // The area that is told reaches beyond the line of contact by a part of the range, hence less than 1.
       const double apart = tolerance(model.types[a].shell_nodes, 0.4, 0.2);
       out.push_back(within("S6.2", "bend of the contact into the cell of lower pressure over that of Laplace's law",
                            bulge(tense[0], axis, radius, 0.5 * radius) / bulge_of_cap(radius, 2.0 * (high + low - adhesion) / more),

@@ -20,7 +20,7 @@ struct Spread : ReachedAngle {
   double r0 = 0.0;                   ///< radius of a ball of the cell's volume [µm]
   theory::Cap expected;
   double contact_radius = 0.0, height = 0.0, pressure = 0.0;  ///< in the units of theory::Cap
-  double contact_area = 0.0;                                  ///< as the contact law counts it [µm²]
+  double contact_area = 0.0;                                  ///< as it is told [µm²]
   std::size_t type = 0, obstacle = 0;
 };
 
@@ -74,8 +74,8 @@ std::vector<Spread> spreads(const Study& study, const Snapshot& snapshot) {
 struct Sitting {
   double adhesion = 0.0, tension = 0.0, modulus = 0.0;  ///< W, γ, Y [nN/µm]
   std::uint32_t nodes = 0;
-  double contact_area = 0.0;  ///< as the contact law counts it [µm²]
-  double touching = 0.0;      ///< what a ball that touches has within the range, 2π R c [µm²]
+  double contact_area = 0.0;  ///< as it is told [µm²]
+  double touching = 0.0;      ///< what is told of a ball that touches: half the range counts, π R c [µm²]
 };
 
 std::vector<Sitting> sitting(const Study& study, const Snapshot& snapshot) {
@@ -89,7 +89,7 @@ std::vector<Sitting> sitting(const Study& study, const Snapshot& snapshot) {
     if (adhesion == 0.0) continue;
     for (const ShellView& shell : shells_of(snapshot, type))
       out.push_back({adhesion, tension_at(t, snapshot.time), spring_modulus(t), t.shell_nodes, shell.cell->contact_area,
-                     2.0 * std::numbers::pi * radius_of_volume(shell.cell->volume) * range});
+                     std::numbers::pi * radius_of_volume(shell.cell->volume) * range});
   }
   return out;
 }

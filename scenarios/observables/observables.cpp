@@ -28,7 +28,10 @@ std::vector<Observable> general() {
       {"mean_pressure", "kPa", "Mean pressure over all cells.", [](M m) { return m.measures.mean_pressure; }},
       {"shell_pressure", "kPa", "Mean pressure over the shells.", [](M m) { return m.measures.shell_pressure; }},
       {"max_pressure", "kPa", "Largest pressure of a cell.", [](M m) { return m.measures.pressure.value; }},
-      {"mean_contact_area", "um^2", "Mean area of a cell that is in contact.", [](M m) { return m.measures.mean_contact_area; }},
+      {"mean_contact_area", "um^2",
+       "Mean area of a cell that is in contact. Of shells: what is nearer than half the range. Too large at small contact angles, by "
+       "c/(2 a tan(angle)) of a contact of radius a; doublets of 162 nodes: 17, 8, 2, -2 % at W/2T = 0.1, 0.3, 0.5, 0.75.",
+       [](M m) { return m.measures.mean_contact_area; }},
       {"overlap", "um", "Deepest penetration of a shell, obstacle or nucleus at this time.", [](M m) { return m.measures.overlap.value; }},
       {"worst_overlap", "um", "Deepest penetration in any step since the last output.",
        [](M m) { return std::max(m.interval.worst_overlap, m.measures.overlap.value); }},

@@ -17,7 +17,7 @@ constexpr const char* kClosedForm = "closed form";
 constexpr double kSingle = 1e-6;
 /// Areas of contact points are kept to 1 in 4096 (core/friction/contact_element.h).
 constexpr double kPacked = 1.0 / 4096.0;
-constexpr double kGap = 0.03, kRange = 0.1;  // friction acts whole up to half the range
+constexpr double kGap = 0.008, kRange = 0.085;  // friction acts whole up to half the range
 
 ContactMaterial rubbing() {
   ContactMaterial out;
