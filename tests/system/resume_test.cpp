@@ -166,7 +166,7 @@ TEST_P(Resume, HalfwayEndsInTheBitsOfAWholeRun) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Resume, testing::ValuesIn(all_features()),
-                         [](const testing::TestParamInfo<Feature>& info) { return info.param.name; });
+                         [](const testing::TestParamInfo<Feature>& one) { return one.param.name; });
 
 }  // namespace
 }  // namespace morula::test
