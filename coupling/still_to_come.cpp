@@ -55,7 +55,7 @@ bool any_water_flows(const Model& model, const Tissue& tissue, Mechanics& mechan
     const CellType& type = model.types[row.type];
     const std::size_t b = row.body == BodyKind::kShell ? shell++ : sphere++;
     if (!type.osmosis.acts()) continue;
-    const OsmoticCell cell = osmotic_cell(tissue.cells.full(k), type, tissue.clock.time, body.area[b], body.pressure[b]);
+    const OsmoticCell cell = osmotic_cell(tissue.cells.full(k), type, tissue.clock.time, body.area[b], body.inner_pressure[b]);
     if (std::abs(osmotic_volume(cell) / body.volume[b] - 1.0) > kEased) return true;
   }
   return false;
