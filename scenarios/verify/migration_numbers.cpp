@@ -1,5 +1,6 @@
 // Migration: T11.1–T11.4 of dcm.md §11.
 #include <cmath>
+#include <map>
 
 #include "core/mesh/primitives.h"
 #include "core/space/curve.h"
@@ -43,7 +44,8 @@ Walk walk_of_cells() {
   Tissue tissue;
   tissue.clock.next_step = kStep;
   put_together(tissue, std::move(cells));
-  const std::vector<Vec3d> start = tissue.spheres.position;
+  std::map<CellId, Vec3d> start;  // by id: rows are put in a new order now and then
+  for (std::size_t i = 0; i < tissue.cells.size(); ++i) start[tissue.cells.rows[i].id] = tissue.spheres.position[i];
   auto made = Simulation::create(std::move(model), std::move(tissue), Comm(), 1);
   if (!made.ok()) return {NAN, NAN};
   Simulation& simulation = **made;
@@ -52,7 +54,9 @@ Walk walk_of_cells() {
     if (!simulation.step(kEnd).ok()) return {NAN, NAN};
     for (const Vec3f& v : simulation.tissue().spheres.velocity) speed += static_cast<double>(norm2(v)) / (3.0 * kCells * kSteps);
   }
-  for (std::size_t i = 0; i < start.size(); ++i) square += norm2(simulation.tissue().spheres.position[i] - start[i]) / (3.0 * kCells);
+  const Tissue& end = simulation.tissue();
+  for (std::size_t i = 0; i < end.cells.size(); ++i)
+    square += norm2(end.spheres.position[i] - start[end.cells.rows[i].id]) / (3.0 * kCells);
   return {square / (2.0 * (kEnd - kTime * (1.0 - std::exp(-kEnd / kTime)))), std::sqrt(speed)};
 }
 

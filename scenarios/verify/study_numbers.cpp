@@ -83,7 +83,7 @@ std::string spheres_of_hertz(const char* end, const char* output, double step) {
 }
 
 std::string sphere_type(const std::string& name, const std::string& adhesion) {
-  return "  " + name + ": {radius: 5 um, cbm: {law: hertz, young: 450 Pa, poisson: 0.4}, adhesion: {" + adhesion +
+  return "  " + name + ": {radius: 5 um, cbm: {law: hertz, young: 450 Pa, poisson: 0.4, packing: none}, adhesion: {" + adhesion +
          "}, friction: {cell_cell: 0 N s/m^3, medium: 1e8 N s/m^3}}\n";
 }
 
