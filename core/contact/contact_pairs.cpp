@@ -161,8 +161,8 @@ void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {
     if (body[d].topology != nullptr && !(d == 1 && (pair.rigid || pair.with_itself()))) {
       const int rings = pair.with_itself() ? self_contact_rings(body[0].topology->face_count(), contact.self_radius, reach.range) : 0;
       pair.points[d].unpack(old);
-      build_point_lists(body[d], body[1 - d], reach, FaceQuadrature::with_points(settings_.points_per_face).kept(), faces[1 - d], old,
-                        pair.patch_motion, pair.motion - pair.built_at, lists[d], rings);
+      build_point_lists(body[d], body[1 - d], reach, settings_.points_per_face, faces[1 - d], old, pair.patch_motion,
+                        pair.motion - pair.built_at, lists[d], rings);
     }
     pair.points[d].pack(lists[d]);
   }

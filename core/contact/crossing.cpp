@@ -32,8 +32,7 @@ void CrossingWatch::look(std::span<const ContactElement> step, std::span<const C
       ++pair.crossed;
   }
   if (!on_ || own_ || !was_deep_) return;
-  for (const ContactElement& e : step)  // out of range in one step; finer points come and go with the rim
-    pair.crossed += e.inside() && e.point() < FaceQuadrature::kFirstFine && find(present, e.place()) == nullptr;
+  for (const ContactElement& e : step) pair.crossed += e.inside() && find(present, e.place()) == nullptr;  // out of range in one step
 }
 
 }  // namespace morula

@@ -8,7 +8,6 @@
 #include "core/contact/contact_body.h"
 #include "core/contact/packed_points.h"
 #include "core/contact/regional_adhesion.h"
-#include "core/contact/rim_points.h"
 #include "core/contact/traction_law.h"
 #include "core/friction/contact_element.h"
 #include "core/space/space.h"
@@ -159,13 +158,12 @@ struct PointsWorkspace {
   std::vector<double> guessed;           ///< of the guesses
   std::vector<ContactElement> elements;  ///< of one direction of a pair
   std::vector<SuspectPoint> suspects;    ///< points that may have changed their side
-  std::vector<RimFace> rim;              ///< faces with finer points
   PointsAgainstBody lists;
 };
 
 /// Fill the candidate lists of one direction. `target_faces` are the faces of the target that may be near, in increasing order (empty for
 /// a sphere). `old` are the lists before; since they were built, the pair's nodes have moved by `motion` and the whole bodies by
-/// `motion_since_built`. `points_per_face`: of which something is kept. With `rings` > 0 source and target are one surface, and faces within so many edges of the source face are left out.
+/// `motion_since_built`. With `rings` > 0 source and target are one surface, and faces within so many edges of the source face are left out.
 void build_point_lists(const PairBody& source, const PairBody& target, const ListReach& reach, int points_per_face,
                        std::span<const std::uint32_t> target_faces, const PointsAgainstBody& old, double motion, double motion_since_built,
                        PointsAgainstBody& lists, int rings = 0);

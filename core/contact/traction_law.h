@@ -1,6 +1,5 @@
 #pragma once
 #include <cmath>
-#include <cstddef>
 #include <numbers>
 
 #include "core/simd/lane.h"
@@ -122,44 +121,18 @@ Real contact_share(Real g, double range) noexcept {
   return select(t >= one, one, select(t <= zero, zero, t));
 }
 
-/// Interior quadrature points of a face by number: `count` points that every face has, from 0 on, and nine finer ones from kFirstFine on, that
-/// faces at the rim of a contact have besides (rim_points.h). Barycentric weights; every point of a set stands for the same part of the area.
+/// Interior quadrature points of a face: barycentric weights; every point stands for the same part of the area.
 struct FaceQuadrature {
-  static constexpr int kFirstFine = 4, kFine = 9, kNumbers = kFirstFine + kFine;
   int count;
-  double weight[kNumbers][3];
+  double weight[4][3];
 
-  /// 3 points at (2/3, 1/6, 1/6), or 4 centroids of the four sub-triangles; the finer ones are the centroids of nine.
-  static const FaceQuadrature& with_points(int points) noexcept;
-  /// Points of a face for which something may have to be kept, and the place of a point among them.
-  [[nodiscard]] int kept() const noexcept { return count + kFine; }
-  [[nodiscard]] std::size_t kept_at(std::size_t q) const noexcept {
-    return q < kFirstFine ? q : q - kFirstFine + static_cast<std::size_t>(count);
-  }
-
- private:
-  static constexpr FaceQuadrature made(int points) noexcept {
-    constexpr double a = 2.0 / 3.0, b = 1.0 / 6.0, c = 1.0 / 3.0, n = 1.0 / 9.0;
-    return {points,
-            {{a, b, b},
-             {b, a, b},
-             {b, b, a},
-             {c, c, c},  //
-             {7 * n, n, n},
-             {n, 7 * n, n},
-             {n, n, 7 * n},  //
-             {n, 4 * n, 4 * n},
-             {4 * n, n, 4 * n},
-             {4 * n, 4 * n, n},  //
-             {5 * n, 2 * n, 2 * n},
-             {2 * n, 5 * n, 2 * n},
-             {2 * n, 2 * n, 5 * n}}};
+  /// 3 points at (2/3, 1/6, 1/6), or 4 centroids of the four sub-triangles.
+  static const FaceQuadrature& with_points(int points) noexcept {
+    static constexpr double a = 2.0 / 3.0, b = 1.0 / 6.0, c = 1.0 / 3.0;
+    static constexpr FaceQuadrature three{3, {{a, b, b}, {b, a, b}, {b, b, a}, {c, c, c}}};
+    static constexpr FaceQuadrature four{4, {{a, b, b}, {b, a, b}, {b, b, a}, {c, c, c}}};
+    return points == 4 ? four : three;
   }
 };
-
-inline const FaceQuadrature& FaceQuadrature::with_points(int points) noexcept {
-  static constexpr FaceQuadrature three = made(3), four = made(4);
-  return points == 4 ? four : three;
-}
 
 }  // namespace morula

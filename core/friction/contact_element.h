@@ -14,23 +14,23 @@ namespace morula {
 ///
 /// With the relative velocity u = Σ β_i v(source node i) − Σ μ_j v(target node j), the element's force on the source point is
 /// −(a u + (b + Δt k) (n·u) n) with a = w γ_t, b = w (γ_n − γ_t). It enters the operator and friction only, never other forces, so that it is
-/// kept in 16 bytes: weights in 13 bits (they still sum to one exactly, so that rigid motion feels nothing), the two smaller components of the
+/// kept in 16 bytes: weights in 14 bits (they still sum to one exactly, so that rigid motion feels nothing), the two smaller components of the
 /// normal in 15 bits (to 3e-5: a stiff contact that slides would feel more; the largest makes its length 1, so that a I + b n nᵀ stays
 /// positive whatever γ_n/γ_t), w to 1 in 2048, k to 1 in 256. Faces are numbered below
 /// kMostSourceFaces and kMostTargetFaces.
 struct ContactElement {
-  static constexpr std::int32_t kWeightUnits = 8191;
+  static constexpr std::int32_t kWeightUnits = 16383;
   static constexpr std::uint32_t kMostSourceFaces = 1u << 16, kMostTargetFaces = 1u << 17;
 
   ContactElement() = default;
-  /// Point q (as FaceQuadrature numbers them, below 16) of face `source` against face `target` (0 for a sphere, whose centre has all the weight).
+  /// Point q of face `source` against face `target` (0 for a sphere, whose centre has all the weight).
   ContactElement(std::uint32_t source, std::uint32_t q, std::uint32_t target)
       : source_(source), point_(q), target_(target), mu0_(0), mu1_(0), inside_(0), next_(0), other_(0), axis_(0), k_(0), w_(0) {}
 
   [[nodiscard]] std::uint32_t source_face() const { return static_cast<std::uint32_t>(source_); }
   [[nodiscard]] std::uint32_t point() const { return static_cast<std::uint32_t>(point_); }
   /// Place of the point among those of its surface: elements of a pair are sorted by it.
-  [[nodiscard]] std::uint32_t place() const { return 16 * source_face() + point(); }
+  [[nodiscard]] std::uint32_t place() const { return 4 * source_face() + point(); }
   [[nodiscard]] std::uint32_t target() const { return static_cast<std::uint32_t>(target_); }
   /// μ of the target's nodes.
   template <class Real>
@@ -91,7 +91,7 @@ struct ContactElement {
  private:
   static constexpr double kNormalUnits = 16383 * 1.41421356;      // none of the smaller components exceeds 1/√2
   static constexpr std::uint32_t kAreaBase = (127u - 44u) << 23;  // 6 bits of exponent, 10 of fraction: from 2⁻⁴⁴ to 2²⁰
-  std::uint64_t source_ : 16, point_ : 4, target_ : 17, mu0_ : 13, mu1_ : 13, inside_ : 1;
+  std::uint64_t source_ : 16, point_ : 2, target_ : 17, mu0_ : 14, mu1_ : 14, inside_ : 1;
   std::int64_t next_ : 15, other_ : 15;       // the components after the largest, in cyclic order
   std::uint64_t axis_ : 3, k_ : 15, w_ : 16;  // which is the largest, and 4 where it is negative
 };

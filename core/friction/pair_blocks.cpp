@@ -67,7 +67,7 @@ std::size_t node_count(const Topology* topology) { return topology == nullptr ? 
 }  // namespace
 
 PairCondenser::PairCondenser(const FaceQuadrature& quadrature, float time_step) : time_step_(time_step) {
-  for (int q = 0; q < FaceQuadrature::kNumbers; ++q)
+  for (int q = 0; q < 4; ++q)
     for (int i = 0; i < 3; ++i) beta_[q][i] = static_cast<float>(quadrature.weight[q][i]);
 }
 

@@ -64,7 +64,7 @@ class PairCondenser {
   void mark_pairs(const ElementGroup& group);
   std::uint32_t number_pairs(const ElementGroup& group);
 
-  float beta_[FaceQuadrature::kNumbers][3];
+  float beta_[4][3];
   float time_step_;
   std::size_t words_ = 1;                  ///< of a row of the pattern
   std::vector<std::uint64_t> pattern_;     ///< by row (node of body 0): one bit for each node of body 1

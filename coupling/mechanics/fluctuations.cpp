@@ -180,8 +180,8 @@ void Mechanics::add_contact_noise(const Tissue& tissue, double dt, std::span<Vec
       const std::uint64_t step = mixed(tissue.clock.steps + std::uint64_t{d == 0 ? 0u : 1u << 30});
       for (const ContactElement& e : pair.present(d)) {
         const Triangle& face = scene_.topologies()[from]->faces()[e.source_face()];
-        const Vec3d noise = normal_vector(
-            random, source.id, point_draw(step, target != nullptr ? target->id : CellId(pair.b + 1), e.place()));
+        const Vec3d noise =
+            normal_vector(random, source.id, point_draw(step, target != nullptr ? target->id : CellId(pair.b + 1), e.place()));
         const double across = static_cast<double>(e.area()) * material.tangential_friction,
                      along = static_cast<double>(e.area()) * material.normal_friction;
         const Vec3d f = along_and_across(noise, normalized(e.normal<double>()), across, along) * std::sqrt(2.0 * kt / dt);

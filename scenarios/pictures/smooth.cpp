@@ -34,7 +34,12 @@ class FineNodes {
       if (weight[c] > 0 && count < 2) ends[count] = faces_[face][c], parts[count] = weight[c];
       count += weight[c] > 0;
     }
-    if (count == 3) return add({face, weight});
+    if (count == 3) {
+      const auto [found, is_new] =
+          within_.try_emplace({face, static_cast<std::uint32_t>(weight[0]), static_cast<std::uint32_t>(weight[1])}, 0);
+      if (is_new) found->second = add({face, weight});
+      return found->second;
+    }
     if (ends[0] > ends[1]) std::swap(ends[0], ends[1]), std::swap(parts[0], parts[1]);
     const auto [found, is_new] = on_edge_.try_emplace({ends[0], ends[1], static_cast<std::uint32_t>(parts[0])}, 0);
     if (is_new) found->second = add({face, weight});
@@ -50,7 +55,7 @@ class FineNodes {
   std::uint32_t coarse_;
   int level_;
   std::vector<Place>& added_;
-  std::map<std::array<std::uint32_t, 3>, std::uint32_t> on_edge_;
+  std::map<std::array<std::uint32_t, 3>, std::uint32_t> on_edge_, within_;
 };
 
 FineTopology refine(const std::vector<Triangle>& faces, std::uint32_t nodes, int level) {

@@ -114,25 +114,24 @@ class PairTable {
     return row;
   }
 
-  /// What is said of a pair itself: by name, else by `others` of one of the two.
-  [[nodiscard]] std::vector<Given<double>> said_of(std::size_t i, std::size_t j) const {
-    if (i >= types_ && j >= types_) return {};
-    if (const auto& value = named_[slot(i, j)]) return {*value};
-    std::vector<Given<double>> found;
+  /// What `others` of one of the two says of a pair.
+  void add_others(std::size_t i, std::size_t j, std::vector<Given<double>>& found) const {
     for (const std::size_t k : {i, j})
       if (k < types_ && others_[k]) found.push_back(*others_[k]);
-    return found;
   }
 
-  /// What is said of the pair; else of one of them and the type that the other is like; and so on, the nearest first.
+  /// What is said of the pair; else of one of them and the type that the other is like; and so on, the nearest first, and names before `others`.
   Given<double> unnamed(std::size_t i, std::size_t j) {
     const std::vector<std::size_t>&a = row_[i], &b = row_[j];
     for (std::size_t steps = 0; steps + 1 < a.size() + b.size(); ++steps) {
-      std::vector<Given<double>> found;
-      for (std::size_t k = 0; k < a.size() && k <= steps; ++k)
-        if (steps - k < b.size())
-          for (Given<double>& value : said_of(a[k], b[steps - k])) found.push_back(std::move(value));
-      if (!found.empty()) return one_of(found, i, j);
+      std::vector<Given<double>> by_name, by_others;
+      for (std::size_t k = 0; k < a.size() && k <= steps; ++k) {
+        if (steps - k >= b.size() || (a[k] >= types_ && b[steps - k] >= types_)) continue;
+        if (const auto& value = named_[slot(a[k], b[steps - k])]) by_name.push_back(*value);
+        add_others(a[k], b[steps - k], by_others);
+      }
+      if (!by_name.empty()) return one_of(by_name, i, j);
+      if (!by_others.empty()) return one_of(by_others, i, j);
     }
     Given<double> value;  // Table 1 of Van Liedekerke et al.
     value.value = j < types_ ? 0.1 : 0.01;

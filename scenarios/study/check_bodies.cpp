@@ -88,6 +88,7 @@ void check_jkr_range(BuildContext& c) {
 }  // namespace
 
 void check_bodies(BuildContext& c) {
+  if (c.diagnostics.has_errors()) return;  // what a wrong study would be like is not worth a warning
   check_noise_inside(c);
   check_division_of_shells(c);
   check_jkr_range(c);

@@ -115,7 +115,7 @@ TEST(StillToCome, WhatCellsDo) {
   EXPECT_THAT(coming(model, of_sphere([](Tissue&, CellRow& row, std::size_t) { row.phase = Phase::kWaiting; })), ElementsAre("a division"));
   EXPECT_THAT(coming(model, of_sphere([](Tissue& t, CellRow&, std::size_t i) { t.cells.side.reference_excess.set(i, 0.05, 2); })),
               ElementsAre("easing after an exchange of bodies"));
-  for (const auto& [age, what] : {std::pair{599.0, 1u}, {601.0, 0u}})
+  for (const auto& [age, what] : {std::pair{1799.0, 1u}, {1801.0, 0u}})
     EXPECT_EQ(coming(model, of_sphere([age = age](Tissue&, CellRow& row, std::size_t) {
                        row.id = CellId::founder(7).daughter(0);
                        row.birth_time = 1000.0 - age;

@@ -75,7 +75,7 @@ TEST(Fills, SayWithLineAndCodeThatThereIsNoRoom) {
   const std::string full = with_cells(
       "  - {type: big, count: 30, fill: box, size: [36 um, 36 um, 36 um]}\n"
       "  - {type: red, count: 25, fill: box, size: [36 um, 36 um, 36 um]}\n");
-  EXPECT_THAT(errors_of(full), AllOf(HasSubstr("study.yaml:13:"),
+  EXPECT_THAT(errors_of(full), AllOf(HasSubstr("study.yaml:14:"),
                                      HasSubstr("25 cells of red find no room beside what is there already: there are "
                                                "places for "),
                                      HasSubstr("[E658]")));
@@ -106,7 +106,7 @@ TEST(Mixture, RefusesPartsThatAreNoWhole) {
   const auto error = [](const std::string& types) {
     return errors_of(with_cells("  - {types: " + types + ", count: 33, fill: sphere, radius: 35 um}\n"));
   };
-  EXPECT_THAT(error("{red: 50 %, green: 40 %}"), AllOf(HasSubstr("add up to 90 %"), HasSubstr("[E660]"), HasSubstr("study.yaml:12:")));
+  EXPECT_THAT(error("{red: 50 %, green: 40 %}"), AllOf(HasSubstr("add up to 90 %"), HasSubstr("[E660]"), HasSubstr("study.yaml:13:")));
   EXPECT_THAT(error("{red: 50 %, gren: 50 %}"), AllOf(HasSubstr("[E401]"), HasSubstr("did you mean `green`?")));
   EXPECT_THAT(error("{red: 50 %, green: 50 %}, type: red"), HasSubstr("[E111]"));
   EXPECT_THAT(errors_of(with_cells("  - {types: {red: 100 %}, at: [[0 um, 0 um, 0 um]]}\n")), HasSubstr("[E111]"));

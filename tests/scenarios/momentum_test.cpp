@@ -82,7 +82,7 @@ TEST(Momentum, APairOfUnequalSpheresKeepsItsCentre) {
 TEST(Momentum, SixtySpheresKeepTheirCentre) {
   const test::Folder folder;
   const Moved moved = run_study(study("  - {type: cell, count: 60, fill: sphere, radius: 27 um, as: cbm}\n", "1 h"), folder.path());
-  EXPECT_GT(moved.mean_way, 0.2);
+  EXPECT_GT(moved.mean_way, 0.05);
   EXPECT_LE(moved.centre, kMost * moved.mean_way);
   EXPECT_LE(moved.drift, kMost * moved.way);
 }

@@ -1,5 +1,6 @@
 // results.h5 of a run describes itself, and docs/formats.md describes it: a study with every kind of dataset, run and read back.
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -52,15 +53,17 @@ marks:
 output: {report: false, formats: [hdf5, vtk]}
 )";
 
-/// Paths of all datasets below a group.
-void collect(const Hdf5Reader& file, const std::string& group, std::vector<std::string>& out) {
-  for (const std::string& name : file.names(group.empty() ? "/" : group).value()) {
-    const std::string path = group.empty() ? name : group + '/' + name;
-    if (file.is_group(path))
-      collect(file, path, out);
-    else
-      out.push_back(path);
-  }
+/// Paths of all datasets of a file.
+std::vector<std::string> dataset_paths(const fs::path& path) {
+  std::vector<std::string> out;
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const auto add = [](hid_t, const char* name, const H5O_info_t* info, void* to) -> herr_t {
+    if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(to)->emplace_back(name);
+    return 0;
+  };
+  if (file < 0 || H5Ovisit(file, H5_INDEX_NAME, H5_ITER_INC, add, &out) < 0) out.clear();
+  if (file >= 0) H5Fclose(file);
+  return out;
 }
 
 /// The path as docs/formats.md writes it: without the snapshot, names of the study replaced by what they are names of.
@@ -106,8 +109,8 @@ test::Folder* Formats::folder_ = nullptr;
 
 TEST_F(Formats, EveryDatasetIsDescribedInTheFileAndOnThePage) {
   const Hdf5Reader file = results();
-  std::vector<std::string> paths;
-  collect(file, "", paths);
+  const std::vector<std::string> paths = dataset_paths(run_folder() / "results.h5");
+  ASSERT_FALSE(paths.empty());
   std::set<std::string> documented, seen;
   const std::string text = page();
   const std::regex quoted("`([a-z_]+/[a-z_<>/]+|time|[a-z]+_names)`");
@@ -119,7 +122,7 @@ TEST_F(Formats, EveryDatasetIsDescribedInTheFileAndOnThePage) {
   }
   // The study has no cavity that is old enough to be seen; all else on the page is there.
   for (const std::string& path : documented)
-    if (!path.starts_with("lumens/")) EXPECT_TRUE(seen.count(path) == 1) << path << " is on the page but not in the file";
+    EXPECT_TRUE(path.starts_with("lumens/") || seen.count(path) == 1) << path << " is on the page but not in the file";
 }
 
 TEST_F(Formats, RootSaysWhatWasRun) {

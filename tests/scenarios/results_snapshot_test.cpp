@@ -61,7 +61,7 @@ std::string description(const Snapshot& s) {
         << c.centroid.y << ' ' << c.centroid.z << ' ' << c.volume << ' ' << c.area << ' ' << c.pressure << ' ' << c.inner_pressure << ' '
         << c.stress_xx << ' ' << c.stress_xy << ' ' << c.stress_xz << ' ' << c.stress_yy << ' ' << c.stress_yz << ' ' << c.stress_zz << ' '
         << c.contact_area << ' ' << c.age << ' ' << c.radius;
-    for (const double v : c.concentration) out << ' ' << v;
+    for (std::size_t f = 0; f < s.fields.size(); ++f) out << ' ' << c.concentration[f];
   }
   for (const auto& shell : s.shells) {
     out << "\nshell of " << s.cells[shell.cell].id.text();

@@ -85,9 +85,10 @@ inline std::string warnings_of(const std::string& text, const ReadOptions& optio
 class Folder {
  public:
   Folder() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() /
-            (std::string("morula_") + info->test_suite_name() + "_" + info->name() + "_" + std::to_string(::getpid()));
+    const auto& unit = *testing::UnitTest::GetInstance();
+    const auto* info = unit.current_test_info();  // none while a whole suite is set up
+    path_ = std::filesystem::temp_directory_path() / (std::string("morula_") + unit.current_test_suite()->name() + "_" +
+                                                      (info != nullptr ? info->name() : "suite") + "_" + std::to_string(::getpid()));
     std::filesystem::create_directories(path_);
   }
   ~Folder() {

@@ -154,7 +154,7 @@ TEST(StudyReader, DefaultsAreTheModelsDefaults) {
       "schema: 1\nstudy: s\ntime: 1 h\ndomain: {size: [100 um, 100 um, 100 um]}\ncell_types: {a: {}}\ninitial: [{type: a, at: [[0 um, 0 "
       "um, 0 um]]}]\n"
       "",
-      {{"time={end: 1 h}"}, {}, {}, false});
+      {.overrides = {"time={end: 1 h}"}});
   const CellType &t = s.model.types[0], d;
   EXPECT_FALSE(t.cycles);
   EXPECT_EQ(t.death_field, -1);
@@ -164,7 +164,7 @@ TEST(StudyReader, DefaultsAreTheModelsDefaults) {
   EXPECT_DOUBLE_EQ(t.shell.barrier_stiffness, d.shell.barrier_stiffness);
   EXPECT_DOUBLE_EQ(t.shell.barrier_angle, d.shell.barrier_angle);
   EXPECT_DOUBLE_EQ(t.medium_friction, d.medium_friction);
-  EXPECT_DOUBLE_EQ(t.sphere.young, d.sphere.young);
+  EXPECT_DOUBLE_EQ(t.sphere.young, 3.0 * d.shell.bulk_modulus * (1.0 - 2.0 * t.sphere.poisson)) << "one material (decision 0027)";
   const StepControl step;
   EXPECT_DOUBLE_EQ(s.model.step.max_step, step.max_step);
   EXPECT_DOUBLE_EQ(s.model.step.max_displacement, step.max_displacement);
