@@ -43,7 +43,7 @@ class Surroundings {
   std::vector<const RigidSurface*> surfaces_;
   struct Ball {
     Vec3d center{};
-    double radius = 0.0;
+    double radius = -1.0;  ///< negative: none
   };
   std::vector<Ball> clear_;  ///< of each surface: a ball on the side where cells live
   std::size_t obstacles_ = 0;

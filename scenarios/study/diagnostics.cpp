@@ -76,8 +76,7 @@ std::size_t SourceText::byte_of(std::size_t character) const {
 std::string_view SourceText::line(int number) const {
   if (number < 1 || static_cast<std::size_t>(number) > line_begin.size()) return {};
   const std::size_t begin = line_begin[static_cast<std::size_t>(number) - 1];
-  std::size_t end = bytes.find('\n', begin);
-  if (end == std::string::npos) end = bytes.size();
+  std::size_t end = static_cast<std::size_t>(number) < line_begin.size() ? line_begin[static_cast<std::size_t>(number)] - 1 : bytes.size();
   if (end > begin && bytes[end - 1] == '\r') --end;
   return std::string_view(bytes).substr(begin, end - begin);
 }

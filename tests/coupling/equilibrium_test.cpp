@@ -178,7 +178,8 @@ TEST(Equilibrium, OfAnElasticDoubletDoesNotDependOnFriction) {
     const BodyValues found = values_of(model, other.tissue);
     EXPECT_NEAR(energy_of(other.tissue) / energy_of(usual.tissue), 1.0, 1e-4);
     for (const std::size_t cell : {0u, 1u}) {
-      EXPECT_NEAR(found.contact_area[cell] / expected.contact_area[cell], 1.0, 2e-3);
+      // told by points that each stand for a third of a face, 1 to 3 % of this contact, whose gaps of about half the range count in part
+      EXPECT_NEAR(found.contact_area[cell] / expected.contact_area[cell], 1.0, 0.025);
       EXPECT_NEAR(found.inner_pressure[cell] / expected.inner_pressure[cell], 1.0, 5e-4);
       EXPECT_NEAR(found.area[cell] / expected.area[cell], 1.0, 1e-4);
     }

@@ -95,7 +95,7 @@ TEST(ObjectiveFriction, OfASurfaceWithTooManyFacesIsRefused) {
   const std::string fine = test::changed(
       "geometry:\n", "geometry:\n  wire: {cylinder: {from: [-45 um, 0 um, -30 um], to: [45 um, 0 um, -30 um], radius: 0.2 um}}\n", kStudy);
   EXPECT_NE(test::errors_of(fine).find("[E583]"), std::string::npos);
-  EXPECT_TRUE(test::read(test::changed("friction: objective", "friction: simple", fine)).ok());
+  EXPECT_TRUE(test::read(test::changed("friction: objective", "friction: simple", fine), {.judge_places = false}).ok());
 }
 
 TEST(SelfContact, ThatReachesNeighbouringFacesIsRefused) {

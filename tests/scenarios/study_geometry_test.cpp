@@ -56,7 +56,7 @@ TEST(StudyGeometry, MotionIsFixedOrAVelocity) {
   const auto study = read(changed("motion: fixed", "motion: {velocity: [0 um/h, 0 um/h, 36 um/h]}"));
   ASSERT_TRUE(study.ok()) << study.error().text();
   EXPECT_DOUBLE_EQ(study->model.obstacles[0].velocity.z, 0.01);
-  EXPECT_THAT(errors_of(changed("motion: fixed", "motion: moving")), HasSubstr("'velocity' must be a list [x, y, z]"));
+  EXPECT_THAT(errors_of(changed("motion: fixed", "motion: moving")), HasSubstr("'motion' must be a list [x, y, z]"));
 }
 
 /// A study with this surface as an obstacle: its messages, or "" when it is accepted.
