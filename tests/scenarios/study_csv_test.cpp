@@ -27,7 +27,8 @@ Reading read_csv(const std::string& bytes) {
 
 TEST(StudyCsv, ReadsUnitsAndOptionalColumnsInAnyOrder) {
   const Reading r = read_csv(
-      "type, z [nm],x [um] , y [um],radius [um],phase [%],model,source_cell\n# comment\nTE,1500,2.5,-3e0,6.5,25,dcm,1\n\nEPI,0,0,0,5,0,,26.45\r\n");
+      "type, z [nm],x [um] , y [um],radius [um],phase [%],model,source_cell\n# "
+      "comment\nTE,1500,2.5,-3e0,6.5,25,dcm,1\n\nEPI,0,0,0,5,0,,26.45\r\n");
   ASSERT_TRUE(r.cells) << r.messages;
   ASSERT_EQ(r.cells->cells.size(), 2u);
   const CsvCell& a = r.cells->cells[0];

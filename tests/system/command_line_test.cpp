@@ -181,7 +181,7 @@ TEST(Check, GoesThroughAllFilesAndTellsTheWorst) {
   folder.write("bad.yaml", changed(sphere_study(), "seed: 7", "sede: 7"));
   const Outcome outcome = run_morula({"check", "missing.yaml", "bad.yaml", "good.yaml"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 2) << outcome.all();
-  EXPECT_EQ(outcome.out, "good.yaml: ok\n");
+  EXPECT_EQ(outcome.out, "good.yaml: ok (1 warning)\n");
   EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("missing.yaml"), HasSubstr("did you mean `seed`?")));
 }
 

@@ -69,17 +69,6 @@ TEST(Stop, TheLimitOfCpuTimeOfTheShellLeavesACheckpoint) {
   expect_stopped(folder, run_morula({"run", "study.yaml", "--out", "run"}, folder.path(), limited), 75);
 }
 
-TEST(Stop, WhatNobodyReadsIsDroppedAndTheRunStopsWithACheckpoint) {
-  const TestFolder folder;
-  folder.write("study.yaml", changed(long_study(), "end: 200 h", "end: 2000 h"));
-  CommandOptions piped;
-  piped.shell_before = "exec 2> >(head -n 1 > /dev/null);";
-  const Outcome outcome = run_morula({"run", "study.yaml", "--out", "run"}, folder.path(), piped);
-  EXPECT_EQ(outcome.exit_code, 75) << outcome.all();
-  EXPECT_EQ(info_of(folder / "run")["state"], "stopped");
-  EXPECT_EQ(run_morula({"resume", "run", "--max-wall", "1 ms"}, folder.path()).exit_code, 75);
-}
-
 TEST(Stop, ADoneRunWhoseNameNobodyReadsIsDone) {
   const TestFolder folder;
   folder.write("study.yaml", sphere_study());
