@@ -29,7 +29,6 @@ class CutShort : public testing::Test {
   [[nodiscard]] json criterion(const std::string& id) const {
     const json all = verdict();
     for (const json& one : all["criteria"])
-      for (const json& one : all["criteria"])
         if (one["id"] == id) return one;
     return {};
   }
