@@ -29,7 +29,7 @@ class CutShort : public testing::Test {
   [[nodiscard]] json criterion(const std::string& id) const {
     const json all = verdict();
     for (const json& one : all["criteria"])
-        if (one["id"] == id) return one;
+      if (one["id"] == id) return one;
     return {};
   }
   TestFolder folder_;
