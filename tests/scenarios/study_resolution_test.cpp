@@ -53,7 +53,7 @@ TEST(Resolution, AShapeTermThatHoldsAFluidCortexIsTold) {  // from 0.6 of the te
   };
   const std::string text = told("none", "0.31 mN/m");
   EXPECT_NE(text.find("640"), std::string::npos) << text;
-  EXPECT_NE(text.find("study.yaml:11:"), std::string::npos) << text;
+  EXPECT_NE(text.find("study.yaml:12:"), std::string::npos) << text;
   EXPECT_NE(text.find("0.62 times the tension"), std::string::npos) << text;
   EXPECT_EQ(told("none", "0.3 mN/m").find("640"), std::string::npos);
   EXPECT_EQ(told("none", "auto").find("640"), std::string::npos);
