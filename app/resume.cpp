@@ -3,6 +3,7 @@
 #include "app/read_study.h"
 #include "app/run_display.h"
 #include "app/run_request.h"
+#include "app/signals.h"
 #include "app/verbs.h"
 #include "scenarios/results/checkpoint_folder.h"
 #include "scenarios/results/file_io.h"
@@ -32,6 +33,7 @@ bool is_newest(const fs::path& run, const fs::path& checkpoint) {
 }  // namespace
 
 Status resume(const ResumeOptions& options, const Context& context) {
+  outlive_closed_pipes();
   MORULA_TRY_ASSIGN(const scenarios::RunFolder folder, scenarios::RunFolder::open(options.run, context.comm));
   auto study = read_study_and_tell((folder.path() / "study.resolved.yaml").string(), options.overrides, false, context, false);
   MORULA_TRY(agree_on(study, (folder.path() / "study.resolved.yaml").string(), context));

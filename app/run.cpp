@@ -2,12 +2,14 @@
 #include "app/read_study.h"
 #include "app/run_display.h"
 #include "app/run_request.h"
+#include "app/signals.h"
 #include "app/verbs.h"
 #include "scenarios/results/file_io.h"
 
 namespace morula::app {
 
 Status run(const RunOptions& options, const Context& context) {
+  outlive_closed_pipes();
   std::vector<std::string> overrides = options.overrides;
   if (options.seed) overrides.push_back("seed=" + std::to_string(*options.seed));
   auto study = read_study_and_tell(options.study, overrides, false, context);

@@ -22,19 +22,27 @@ void on_signal(int signal) {
   wish.compare_exchange_strong(none, scenarios::kStopEarly);
 }
 
-}  // namespace
-
-const std::atomic<int>& watch_signals() {
+void take(int signal) {
   struct sigaction action {};
   action.sa_handler = on_signal;
   sigemptyset(&action.sa_mask);
   action.sa_flags = SA_RESTART;
-  for (const int signal : {SIGTERM, SIGUSR1, SIGINT}) sigaction(signal, &action, nullptr);
-  for (const int signal : {SIGHUP, SIGPIPE, SIGXCPU, SIGXFSZ}) {
-    struct sigaction before {};
-    sigaction(signal, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
-  }
+  sigaction(signal, &action, nullptr);
+}
+
+void take_unless_ignored(int signal) {
+  struct sigaction before {};
+  sigaction(signal, nullptr, &before);
+  if (before.sa_handler != SIG_IGN) take(signal);
+}
+
+}  // namespace
+
+void outlive_closed_pipes() { take_unless_ignored(SIGPIPE); }
+
+const std::atomic<int>& watch_signals() {
+  for (const int signal : {SIGTERM, SIGUSR1, SIGINT}) take(signal);
+  for (const int signal : {SIGHUP, SIGPIPE, SIGXCPU, SIGXFSZ}) take_unless_ignored(signal);
   return wish;
 }
 

@@ -11,10 +11,16 @@
 namespace morula::scenarios {
 namespace {
 
+/// The way out of the parser where there are too many nodes.
+struct TooManyNodes {
+  YAML::Mark mark;
+};
+
 /// Builds our Node tree from the parser's events. Events carry everything that yaml-cpp's own node tree loses: double keys, anchors, marks.
 class TreeBuilder : public YAML::EventHandler {
  public:
-  TreeBuilder(std::shared_ptr<const SourceText> source, Diagnostics& diagnostics) : source_(std::move(source)), diagnostics_(diagnostics) {}
+  TreeBuilder(std::shared_ptr<const SourceText> source, std::size_t max_nodes, Diagnostics& diagnostics)
+      : source_(std::move(source)), diagnostics_(diagnostics), nodes_left_(max_nodes) {}
 
   Node root;
   bool any = false;
@@ -22,18 +28,21 @@ class TreeBuilder : public YAML::EventHandler {
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    count(mark);
     refuse_anchor(mark, anchor);
     Node node;
     node.place = open_.empty() || !open_.back().has_key ? place(mark, 1) : open_.back().key_place;
     add(std::move(node), "");
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    count(mark);
     diagnostics_.error(106, place(mark, token_length(mark)), "aliases (`*name`) are not allowed in a study", "write the value out");
     Node node;
     node.place = place(mark, 1);
     add(std::move(node), "*");
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, const std::string& value) override {
+    count(mark);
     refuse_anchor(mark, anchor);
     refuse_tag(mark, tag);
     Node node;
@@ -51,6 +60,14 @@ class TreeBuilder : public YAML::EventHandler {
     begin(mark, tag, anchor, Node::Kind::kMap);
   }
   void OnMapEnd() override { end(); }
+
+  /// Close what is open, without its end.
+  void cut_off() {
+    while (!open_.empty()) {
+      open_.back().node.cut_off = true;
+      end();
+    }
+  }
 
  private:
   struct Open {
@@ -77,7 +94,12 @@ class TreeBuilder : public YAML::EventHandler {
       diagnostics_.error(106, place(mark, token_length(mark)), "tags (`!name`) are not allowed in a study", "leave the tag away");
   }
 
+  void count(const YAML::Mark& mark) {
+    if (nodes_left_-- == 0) throw TooManyNodes{mark};
+  }
+
   void begin(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, Node::Kind kind) {
+    count(mark);
     refuse_anchor(mark, anchor);
     refuse_tag(mark, tag);
     Open open;
@@ -127,6 +149,7 @@ class TreeBuilder : public YAML::EventHandler {
   std::shared_ptr<const SourceText> source_;
   Diagnostics& diagnostics_;
   std::vector<Open> open_;
+  std::size_t nodes_left_;
 };
 
 /// Tabs may not indent YAML; found here because the parser's own message depends on what follows the tab.
@@ -134,9 +157,11 @@ bool refuse_tabs(const std::shared_ptr<const SourceText>& source, Diagnostics& d
   bool found = false;
   for (const std::size_t begin : source->line_begin) {
     const std::size_t word = source->bytes.find_first_not_of(" \t", begin);
-    const std::size_t tab = source->bytes.find('\t', begin);
-    if (word == std::string::npos || tab > word || source->bytes[word] == '\n' || source->bytes[word] == '\r') continue;
-    diagnostics.error(105, place_at(source, tab, 1), "a tab is used for indentation", "indent with spaces");
+    if (word == std::string::npos || source->bytes[word] == '\n' || source->bytes[word] == '\r') continue;
+    // Within the indentation only: a search to the end of the file from each of its lines takes seconds in a large one.
+    const std::size_t tab = std::string_view(source->bytes).substr(begin, word - begin).find('\t');
+    if (tab == std::string_view::npos) continue;
+    diagnostics.error(105, place_at(source, begin + tab, 1), "a tab is used for indentation", "indent with spaces");
     found = true;
   }
   return found;
@@ -152,9 +177,9 @@ const Node* Node::find(std::string_view key) const {
 
 Node* Node::find(std::string_view key) { return const_cast<Node*>(std::as_const(*this).find(key)); }
 
-Node parse_document(const std::shared_ptr<const SourceText>& source, Diagnostics& diagnostics) {
+Node parse_document(const std::shared_ptr<const SourceText>& source, Diagnostics& diagnostics, std::size_t max_nodes) {
   if (refuse_tabs(source, diagnostics)) return {};
-  TreeBuilder builder(source, diagnostics);
+  TreeBuilder builder(source, max_nodes, diagnostics);
   const Place start{source, 1, 1, 1};
   try {
     std::istringstream stream(source->bytes);
@@ -168,6 +193,14 @@ Node parse_document(const std::shared_ptr<const SourceText>& source, Diagnostics
       diagnostics.error(107, builder.root.place, "a study is one YAML document, but another one follows",
                         "remove the line `---` and what comes after");
     return first;
+  } catch (const TooManyNodes& end) {
+    builder.cut_off();
+    diagnostics.error(690, Place{source, 0, 0, 1},
+                      "the study has more than " + std::to_string(max_nodes) + " keys and values: of its " +
+                          std::to_string(source->line_begin.size()) + " lines, those from line " + std::to_string(end.mark.line + 1) +
+                          " on are not read",
+                      "a table of cells belongs into a file of its own: `csv: cells.csv`");
+    return std::move(builder.root);
   } catch (const YAML::Exception& e) {  // the parser's way to report syntax errors; it ends here
     const Place at = e.mark.is_null() ? start : place_at(source, static_cast<std::size_t>(std::max(0, e.mark.pos)), 1);
     diagnostics.error(100, at, "not valid YAML: " + e.msg,

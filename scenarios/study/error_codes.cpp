@@ -209,6 +209,10 @@ constexpr ErrorCode kCodes[] = {
      "`scenario` names the library study whose criteria are judged at the end; they need what that study has (its loads, obstacles, "
      "regions), and "
      "`criteria` names some of them."},
+    {690, "more keys and values than are read",
+     "A study holds at most 200,000 keys, values and lists, enough for the places of 50,000 cells. What is beyond is not read: the other "
+     "messages "
+     "are about what comes before."},
 };
 
 }  // namespace

@@ -41,7 +41,7 @@ const Node::Entry* ReadSection::take(const KeySpec& key) {
   if (!node_) return nullptr;
   for (const Node::Entry& entry : node_->entries)
     if (entry.key == key.name) return &entry;
-  if (key.required)
+  if (key.required && !node_->cut_off)
     diagnostics_.error(103, place_, "key " + shown(key) + " is missing in " + (path_.empty() ? "the study" : "`" + path_ + "`"),
                        *key.example ? "write for example `" + std::string(key.name) + ": " + key.example + "`" : std::string(key.doc));
   return nullptr;

@@ -9,6 +9,9 @@
 namespace morula::scenarios {
 namespace {
 
+/// How much larger a study may be that a run has written itself: all its defaults are written out.
+constexpr unsigned kResolvedGrows = 20;
+
 void read_draft(const Node& document, const std::shared_ptr<const SourceText>& source, draft::Study& draft, Diagnostics& diagnostics) {
   const UnitSystem units;
   ReadSection section(&document, Place{source, 1, 1, 1}, "", units, diagnostics);
@@ -43,17 +46,22 @@ void build(BuildContext& context) {
 
 Result<Study, Diagnostics> read_source(const std::shared_ptr<const SourceText>& source, const std::filesystem::path& folder,
                                        const ReadOptions& options, Diagnostics diagnostics) {
-  Node document = parse_document(source, diagnostics);
+  Node document = parse_document(source, diagnostics, options.judge_places ? kMaxNodes : kResolvedGrows * kMaxNodes);
   if (document.kind == Node::Kind::kNull) return diagnostics;  // what could not be parsed has been told
   if (document.kind != Node::Kind::kMap) {
     diagnostics.error(104, document.place, "a study is a map (`key: value`)", "`morula new` writes one to start from");
+    return diagnostics;
+  }
+  draft::Study draft;
+  if (document.cut_off) {  // the mistakes in what was read are told; what it means together cannot be judged
+    read_draft(document, source, draft, diagnostics);
+    diagnostics.sort();
     return diagnostics;
   }
   const Declaration declared = study_declarations();
   for (const std::string& assignment : options.overrides) apply_override(document, declared, assignment, diagnostics);
   expand_likes(document, declared, diagnostics);
 
-  draft::Study draft;
   Study study;
   read_draft(document, source, draft, diagnostics);
   BuildContext context{draft, study, diagnostics, folder, options};
@@ -75,7 +83,8 @@ Result<Study, Diagnostics> read_source(const std::shared_ptr<const SourceText>& 
 
 Result<Study, Diagnostics> read_study(const std::filesystem::path& path, const ReadOptions& options) {
   Diagnostics diagnostics;
-  const auto source = read_text_file(path, path.string(), kMaxStudyBytes, {}, diagnostics);
+  const std::uintmax_t most = options.judge_places ? kMaxStudyBytes : kResolvedGrows * kMaxStudyBytes;
+  const auto source = read_text_file(path, path.string(), most, {}, diagnostics);
   if (!source) return diagnostics;
   std::error_code ignored;
   return read_source(source, std::filesystem::absolute(path, ignored).parent_path(), options, std::move(diagnostics));

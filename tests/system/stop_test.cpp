@@ -69,6 +69,32 @@ TEST(Stop, TheLimitOfCpuTimeOfTheShellLeavesACheckpoint) {
   expect_stopped(folder, run_morula({"run", "study.yaml", "--out", "run"}, folder.path(), limited), 75);
 }
 
+TEST(Stop, WhatNobodyReadsIsDroppedAndTheRunStopsWithACheckpoint) {
+  // Adhesion beyond the range of the law: a warning stands before everything that the run itself says, and is the first message that finds no reader.
+  const std::string study = changed(long_study(), "end: 200 h", "end: 2000 h");
+  for (const char* streams : {"exec 2> >(true)", "exec 2> >(head -n 1 > /dev/null)", "exec > >(head -n 1 > /dev/null) 2>&1"}) {
+    SCOPED_TRACE(streams);
+    const TestFolder folder;
+    folder.write("study.yaml", study);
+    ASSERT_THAT(run_morula({"check", "study.yaml"}, folder.path()).all(), HasSubstr("warning:"));
+    CommandOptions piped;
+    piped.shell_before = streams + std::string("; sleep 0.2;");
+    const Outcome outcome = run_morula({"run", "study.yaml", "--out", "run"}, folder.path(), piped);
+    EXPECT_EQ(outcome.exit_code, 75) << outcome.all();
+    ASSERT_TRUE(fs::exists(folder / "run/run.json"));
+    EXPECT_EQ(info_of(folder / "run")["state"], "stopped");
+    EXPECT_EQ(run_morula({"resume", "run", "--max-wall", "1 ms"}, folder.path()).exit_code, 75);
+  }
+}
+
+TEST(Stop, ARefusedStudyWhoseMessagesNobodyReadsIsRefused) {
+  const TestFolder folder;
+  folder.write("study.yaml", changed(sphere_study(), "seed: 7", "sead: 7"));
+  CommandOptions piped;
+  piped.shell_before = "exec 2> >(true); sleep 0.2;";
+  EXPECT_EQ(run_morula({"run", "study.yaml", "--out", "run"}, folder.path(), piped).exit_code, 2);
+}
+
 TEST(Stop, ADoneRunWhoseNameNobodyReadsIsDone) {
   const TestFolder folder;
   folder.write("study.yaml", sphere_study());
