@@ -1,6 +1,7 @@
 // Spheres that push each other, a chain of them, a walk, growth, an exchange of bodies.
 #include "scenarios/verify/study_numbers.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -142,12 +143,48 @@ void add_growth_and_exchange(std::vector<ReferenceNumber>& out) {
                  [=] { return exchanged([](const auto& then, const auto& now) { return norm(now.centroid - then.centroid); }); }});
 }
 
+/// Interface test (c) of fields_and_coupling.md D with default parameters: 64 spheres in cubic close packing at about the distance at which they rest find it
+/// within an hour, then the one in the middle is promoted, and its neighbours rest again three hours later.
+void add_neighbours_of_a_promotion(std::vector<ReferenceNumber>& out) {
+  constexpr double kDistance = 11.35, kPromoted = 3660.0, kBefore = 3600.0, kEnd = 5.0 * 3600.0, kRadius = 6.0;
+  std::vector<Vec3d> places;
+  for (int i = -4; i <= 4; ++i)
+    for (int j = -4; j <= 4; ++j)
+      for (int k = -4; k <= 4; ++k)
+        if ((i + j + k) % 2 == 0) places.push_back(Vec3d{1.0 * i, 1.0 * j, 1.0 * k} * (kDistance / std::numbers::sqrt2));
+  std::stable_sort(places.begin(), places.end(), [](const Vec3d& a, const Vec3d& b) { return norm2(a) < norm2(b) - 1e-6; });
+  std::string at;
+  for (std::size_t i = 0; i < 64; ++i)
+    at += (i > 0 ? ", [" : "[") + number_text("%.6f", places[i].x) + " um, " + number_text("%.6f", places[i].y) + " um, " +
+          number_text("%.6f", places[i].z) + " um]";
+  const auto swap = study_to_run("neighbours",
+                                 "time: {end: 5 h, output: 1 h, checkpoint: 5 h}\ndomain: {size: [200 um, 200 um, 200 um]}\n"
+                                 "cell_types: {cell: {radius: 6 um}}\ninitial:\n  - {type: cell, as: sphere, at: [" +
+                                     at +
+                                     "]}\ncoupling: {regions: [{name: middle, shape: sphere, center: [0 um, 0 um, 0 um], radius: 1 um, "
+                                     "margin: 20 um, as: shell, from: " +
+                                     number_text("%g", kPromoted) + " s}]}\n");
+  const auto way = [swap] {
+    const Snapshot *before = swap->found().at(kBefore), *end = swap->found().at(kEnd);
+    if (before == nullptr || end == nullptr || !before->shells.empty() || end->shells.size() != 1) return std::nan("");
+    double most = 0.0;
+    for (std::size_t i = 0; i < end->cells.size(); ++i)
+      most = std::max(most, norm(end->cells[i].centroid - before->cells[i].centroid) / kRadius);
+    return most;
+  };
+  // A shell among spheres keeps its volume, spheres of a pair law may overlap: with the default adhesion and tension they rest nearer to each other than
+  // to a shell. 0.05 is what is, not what is wanted: a change that moves neighbours further is to be seen here.
+  out.push_back({"D (c)", "study: largest way of a neighbour of a promoted cell, 64 cells, default parameters [R]; aim 0.02, not met yet",
+                 0.0, 0.05, "fields_and_coupling.md D (c); limit: what default parameters do today, rounded up", way});
+}
+
 }  // namespace
 
 void add_study_numbers(std::vector<ReferenceNumber>& out) {
   add_motion(out);
   add_walk(out);
   add_growth_and_exchange(out);
+  add_neighbours_of_a_promotion(out);
   add_contact_study_numbers(out);
   add_field_study_numbers(out);
 }
