@@ -17,7 +17,9 @@ Result<std::string> estimate_text(const scenarios::Study& study, int ranks) {
   if (estimate.voxels > 0) out += "  voxels  " + std::to_string(estimate.voxels) + "\n";
   out += "  memory  about " + bytes_words(estimate.memory) + "\n";
   const scenarios::WallRange wall{estimate.wall.low / ranks, estimate.wall.high / ranks};
-  out += "  time    " + scenarios::duration_text(wall) + " on " + count_words(static_cast<std::uint64_t>(ranks), "core", "cores") + "\n";
+  const std::string time =
+      wall.high < 10.0 ? number_text("%.1f", wall.low) + "–" + number_text("%.1f", wall.high) + " s" : scenarios::duration_text(wall);
+  out += "  time    " + time + " on " + count_words(static_cast<std::uint64_t>(ranks), "core", "cores") + "\n";
   return out;
 }
 

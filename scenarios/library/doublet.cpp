@@ -22,7 +22,7 @@ struct Doublet : ReachedAngle {
   theory::Cap expected;
   double contact_radius = 0.0, length = 0.0, pressure = 0.0;  ///< in the units of theory::Cap
   double contact_part = 0.0;                                  ///< of the surface, by the contact area that is told
-  double contact_area = 0.0;                                  ///< that over the one of theory
+  double expected_part = 0.0;                                 ///< what is nearer than half the range to the other of two caps
   double drift = 0.0;                                         ///< of the centre of mass since time 0, over R0
 };
 
@@ -53,7 +53,7 @@ std::optional<Doublet> measure_doublet(const Study& study, std::size_t type, con
   out.length = (low->height + high->height) / r0;
   const double contact = 0.5 * (cells[0].cell->contact_area + cells[1].cell->contact_area);
   out.contact_part = contact / (0.5 * (cells[0].cell->area + cells[1].cell->area));
-  out.contact_area = contact / (std::numbers::pi * out.expected.contact_radius * out.expected.contact_radius * r0 * r0);
+  out.expected_part = theory::part_nearer_than(out.expected, 0.5 * out.range / r0);
   out.pressure = 0.5 * (cells[0].cell->inner_pressure + cells[1].cell->inner_pressure) * r0 / tension;
   out.drift = norm(middle - (before[0].cell->centroid + before[1].cell->centroid) * 0.5) / r0;
   return out;
@@ -202,8 +202,10 @@ Result<std::vector<Verdict>> judge_doublet(const Study& study, const std::filesy
     out.push_back(at_most("S6.1", ("contact radius, relative" + at).c_str(), relative(d.contact_radius, d.expected.contact_radius),
                           limits.contact_radius));
     out.push_back(at_most("S6.1", ("length, relative" + at).c_str(), relative(d.length, 2.0 * d.expected.height), limits.height));
-    out.push_back(at_most("S6.1", ("part of the surface in contact" + at).c_str(), std::abs(d.contact_part - d.expected.contact_part),
-                          tolerance(d.nodes, 0.035, 0.0175)));
+    // The told area is what is nearer than half the range. Of the caps this is the contact and a wedge beside it, 3 to 25 % of it, which is no error of
+    // the mesh: both sides are taken alike, so that the limit of scenarios.md (S6.1) is left to the mesh alone.
+    out.push_back(at_most("S6.1", ("part of the surface nearer than half the range" + at).c_str(),
+                          std::abs(d.contact_part - d.expected_part), tolerance(d.nodes, 0.03, 0.015)));
     out.push_back(at_most("S6.1", ("inner pressure, relative" + at).c_str(), relative(d.pressure, d.expected.pressure),
                           tolerance(d.nodes, 0.06, 0.03)));
   }

@@ -45,6 +45,22 @@ Cap cap_of_angle(double cosine) {
   return out;
 }
 
+double part_nearer_than(const Cap& cap, double gap) {
+  const double r = cap.radius, center = r * std::cos(cap.angle);  // centres at ± center, the contact in the plane z = 0
+  const auto distance = [&](double polar) {                       // of the point at this angle from the axis, seen from its centre
+    const double x = r * std::sin(polar), z = center - r * std::cos(polar), away = std::hypot(x, z + center);
+    const bool faces_cap = r * (z + center) <= away * center;  // the foot on the other's sphere lies beyond the plane
+    return faces_cap ? away - r : std::hypot(x - cap.contact_radius, z);
+  };
+  double low = cap.angle, high = kPi;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (distance(middle) < gap ? low : high) = middle;
+  }
+  const double contact = cap.contact_radius * cap.contact_radius;  // all areas over π R0²
+  return (contact + 2.0 * r * r * (std::cos(cap.angle) - std::cos(low))) / (contact + 2.0 * r * cap.height);
+}
+
 Stretch stretched_sphere(double peak_stress, double radius, double modulus, double poisson, double tension, double bulk_modulus) {
   const double square = radius * radius;
   const double u2 = 2.0 / 3.0 * peak_stress / (4.0 * modulus / ((5.0 + poisson) * square) + 4.0 * tension / square);

@@ -17,6 +17,10 @@ struct Cap {
 Cap cap_of_angle(double cosine);
 /// Two equal cells: cos(angle) = 1 − W/(2γ). W: adhesion energy per contact area of the pair.
 inline Cap doublet(double adhesion, double tension) { return cap_of_angle(1.0 - adhesion / (2.0 * tension)); }
+/// Part of the surface of such a cell that is nearer to its mirror image than `gap` (over R0): its contact, and the free surface beside it until it is
+/// that far from the other's cap or, where the two open by more than a right angle, from the line where they part. With half the range of contact
+/// this is the contact area that a run tells (decision 0026; the ramp of the points changes it by 2e-5).
+double part_nearer_than(const Cap& cap, double gap);
 /// A cell on a rigid plane: cos(angle) = 1 − W/γ.
 inline Cap on_plane(double adhesion, double tension) { return cap_of_angle(1.0 - adhesion / tension); }
 

@@ -11,6 +11,7 @@
 #include "coupling/simulation.h"
 #include "coupling/swaps.h"
 #include "scenarios/initial/make_tissue.h"
+#include "scenarios/run/tried_steps.h"
 
 namespace morula::scenarios {
 namespace {
@@ -18,11 +19,11 @@ namespace {
 constexpr double kFade = 0.97;  // memory of about 30 steps
 constexpr double kCostPerLoadHour =
     4.0e-5;  // CPU s per simulated hour and unit of load: 0.12 s per 1,000 nodes (measured on clusters at W = 0.1 mN/m)
-constexpr double kBytesPerNode = 1500.0, kBytesPerSphere = 600.0, kBytesPerVoxel = 120.0;
-constexpr double kBytesAlways = 1.35e8;                          // measured: program, libraries and the pictures of the report
+constexpr double kBytesPerNode = 2200.0, kBytesPerSphere = 600.0, kBytesPerVoxel = 120.0;
+constexpr double kBytesAlways = 3.0e7, kBytesReport = 6.5e7;     // measured: program and libraries; the pictures of the report
 constexpr std::int64_t kSampled = 20'000;                        // cells up to which places are made and steps are tried
-constexpr double kSampleTime = 2.0;                              // CPU time of the steps that are tried [s]
-constexpr double kReportTime = 4.0, kStartTime = 0.15;           // CPU, measured on single-cell studies [s]
+constexpr double kSampleTime = 3.0;                              // CPU time of the steps that are tried [s]
+constexpr double kReportTime = 2.2, kStartTime = 0.15;           // CPU, measured on single-cell studies [s]
 constexpr double kOutputTime = 3e-3, kOutputTimePerNode = 1e-6;  // CPU of one output [s]
 constexpr double kPacked = 0.74;                                 // part of a volume that its cells fill
 
@@ -68,9 +69,10 @@ std::int64_t nodes_of(const CellType& type) {
   return type.shell_nodes + (type.interior.has_nuclear_shell() ? type.interior.nucleus_nodes : 0);
 }
 
-/// From the places of the cells, and the bodies that the regions give them.
-Counts count_cells(const Study& study, Tissue& tissue) {
+/// From the places of the cells, and the bodies that the regions of a time give them.
+Counts count_cells(const Study& study, Tissue& tissue, double time) {
   Counts out;
+  tissue.clock.time = time;
   out.cells = static_cast<std::int64_t>(tissue.cells.size());
   out.shells = static_cast<std::int64_t>(tissue.shells.size());
   out.nodes = static_cast<std::int64_t>(tissue.shells.node_count() + tissue.nuclei.shells.node_count());
@@ -138,38 +140,58 @@ Counts count_entries(const Study& study) {
 double cpu_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// The first steps of a run, for kSampleTime.
-struct Sample {
-  double simulated = 0.0;  ///< [s]
-  double cost = 0.0;       ///< CPU [s]
-  double rate = 0.0;       ///< CPU per simulated second of its last third of steps, when the first step is forgotten
-};
-
-Result<Sample> try_steps(const Study& study, Tissue tissue) {
+Result<std::vector<TriedStep>> try_steps(const Study& study, Tissue tissue) {
   const double begin = cpu_time();
   MORULA_TRY_ASSIGN(auto simulation, Simulation::create(study.model, std::move(tissue), Comm(), 1));
-  std::vector<std::pair<double, double>> steps;  // simulated and CPU time at the end of each
+  std::vector<TriedStep> out;
   const auto time = [&] { return simulation->tissue().clock.time; };
   while (time() < study.time.end && cpu_time() - begin < kSampleTime) {
     const double landing = std::min(study.time.end, study.time.output * (std::floor(time() / study.time.output * (1.0 + 1e-12)) + 1.0));
     if (!simulation->step(landing).ok()) break;  // the run will tell; what was tried is what there is
-    steps.emplace_back(time(), cpu_time() - begin);
+    out.push_back({time(), cpu_time() - begin});
   }
-  if (steps.empty()) return Sample{};
-  const auto& from = steps[(2 * steps.size()) / 3 - (steps.size() > 1 ? 1 : 0)];
-  const double simulated = steps.back().first - from.first;
-  return Sample{time(), cpu_time() - begin,
-                simulated > 0.0 ? (steps.back().second - from.second) / simulated : steps.back().second / steps.back().first};
+  return out;
+}
+
+/// Bodies that regions exchange later on, cells being where they are at first.
+struct LaterBodies {
+  std::vector<std::pair<double, Load>> from;  ///< the load from a time on [s], in order, the first from 0
+  double most_nodes = 0.0;
+};
+LaterBodies later_bodies(const Study& study, const Counts& first, Tissue* tissue) {
+  std::vector<double> times;
+  for (const Region& region : study.model.swaps.regions)
+    for (const double time : {region.from, region.until})
+      if (time > 0.0 && time < study.time.end) times.push_back(time);
+  std::sort(times.begin(), times.end());
+  LaterBodies out{{{0.0, first.load()}}, first.load().nodes};
+  for (std::size_t i = 0; tissue != nullptr && i < times.size(); ++i) {
+    out.from.emplace_back(times[i], count_cells(study, *tissue, times[i]).load());
+    out.most_nodes = std::max(out.most_nodes, out.from.back().second.nodes);
+  }
+  if (tissue != nullptr) tissue->clock.time = 0.0;
+  return out;
 }
 
 /// CPU time of a whole run [s].
-Result<double> cost_of_run(const Study& study, const Counts& counts, double growth, Tissue* tissue) {
-  const Load load = counts.load();
+Result<double> cost_of_run(const Study& study, const LaterBodies& bodies, double growth, Tissue* tissue) {
+  const Load load = bodies.from.front().second;
   double cost = kStartTime + (study.output.report ? kReportTime : 0.0) +
                 study.time.end / study.time.output * (kOutputTime + kOutputTimePerNode * (load.nodes + load.spheres));
   if (tissue == nullptr) return cost + kCostPerLoadHour / 3600.0 * load_integral(load, growth, study.time.end);
-  MORULA_TRY_ASSIGN(const Sample sample, try_steps(study, std::move(*tissue)));
-  const double left = study.time.end - sample.simulated;
-  return cost + sample.cost + sample.rate * load_integral(load, growth, left) / load.total();
+  MORULA_TRY_ASSIGN(const std::vector<TriedStep> steps, try_steps(study, std::move(*tissue)));
+  if (steps.empty()) return cost;
+  // what each piece of the time ahead costs, by its load
+  const double tried = steps.back().end, most = std::min(study.model.step.max_step, study.time.output);
+  double ahead = 0.0;
+  for (std::size_t i = 0; i < bodies.from.size(); ++i) {
+    const double from = std::max(tried, bodies.from[i].first),
+                 until = i + 1 < bodies.from.size() ? bodies.from[i + 1].first : study.time.end;
+    if (until > from)
+      ahead += (cost_ahead(steps, until, most) - cost_ahead(steps, from, most)) * bodies.from[i].second.total() / load.total();
+  }
+  const double left = study.time.end - tried;
+  return cost + steps.back().cost + (left > 0.0 ? ahead * load_integral(load, growth, left) / (load.total() * left) : 0.0);
 }
 
 }  // namespace
@@ -183,7 +205,8 @@ Result<Estimate> estimate(const Study& study) {
     MORULA_TRY_ASSIGN(InitialTissue initial, make_tissue(study, shapes, Comm()));
     tissue = std::move(initial.tissue);
   }
-  const Counts counts = tissue ? count_cells(study, *tissue) : count_entries(study);
+  const Counts counts = tissue ? count_cells(study, *tissue, 0.0) : count_entries(study);
+  const LaterBodies later = later_bodies(study, counts, tissue ? &*tissue : nullptr);
   Estimate out;
   out.cells = counts.cells;
   out.shells = counts.shells;
@@ -196,8 +219,9 @@ Result<Estimate> estimate(const Study& study) {
   const Load load = counts.load();
   const double grown = load.spheres * std::exp(std::min(growth * study.time.end, 60.0));
   out.cells_at_end = static_cast<double>(out.shells) + grown;
-  out.memory = kBytesAlways + kBytesPerNode * load.nodes + kBytesPerSphere * grown + kBytesPerVoxel * static_cast<double>(out.voxels);
-  MORULA_TRY_ASSIGN(const double middle, cost_of_run(study, counts, growth, tissue ? &*tissue : nullptr));
+  out.memory = kBytesAlways + (study.output.report ? kBytesReport : 0.0) + kBytesPerNode * later.most_nodes + kBytesPerSphere * grown +
+               kBytesPerVoxel * static_cast<double>(out.voxels);
+  MORULA_TRY_ASSIGN(const double middle, cost_of_run(study, later, growth, tissue ? &*tissue : nullptr));
   out.wall = {middle / 1.6, middle * 1.6};
   return out;
 }

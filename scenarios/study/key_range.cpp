@@ -69,6 +69,7 @@ std::string range_words(const KeySpec& key) {
   const KeyRange range = range_of(key);
   const std::string unit(describe(key.quantity).internal_unit);
   const auto bound = [&unit](double x) { return short_number(x) + (unit.empty() ? "" : " " + unit); };
+  if (range.low == range.high) return bound(range.low);
   if (!range.low_open && !range.high_open) return "between " + bound(range.low) + " and " + bound(range.high);
   return (range.low_open ? "above " : "at least ") + bound(range.low) + " and " + (range.high_open ? "below " : "at most ") +
          bound(range.high);

@@ -20,7 +20,7 @@ struct KeyRange {
 /// tissue has, or that double precision bears. A value that must be above 0 is at least the quantity's smallest.
 KeyRange range_of(const KeySpec& key);
 
-/// The range in words: "between 1e-09 s and 3.2e+09 s".
+/// The range in words: "between 1e-09 s and 3.2e+09 s"; "1" where it is one value, as the version of the file's format.
 std::string range_words(const KeySpec& key);
 
 }  // namespace morula::scenarios

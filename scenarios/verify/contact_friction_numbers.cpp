@@ -27,7 +27,9 @@ ContactMaterial rubbing() {
 }
 
 /// Two plates of 2.5 × 4 µm.
-TwoBodies plates(bool objective = false) { return {make_box({2.5, 4.0, 2.0}, 0.5).value(), 2.0, kGap, rubbing(), objective}; }
+TwoBodies plates(bool objective = false, double gap = kGap) {
+  return {make_box({2.5, 4.0, 2.0}, 0.5).value(), 2.0, gap, rubbing(), objective};
+}
 
 /// Force on the upper plate that slides at 0.01 µm/s [nN].
 double force_between(TwoBodies&& two) {
@@ -145,8 +147,12 @@ void add_contact_friction_numbers(std::vector<ReferenceNumber>& out) {
                  "closed form; dcm.md: 1e-10", [] {
                    return force_between({make_box({3.0, 3.0, 2.0}, 0.75).value(), 2.0, kGap, rubbing()});
                  }});
-  out.push_back({"T9.1", "told area in contact of these plates of 10 um^2, at a gap of 0.3 of the range [um^2]", 9.0, 1e-9,
-                 "closed form: half the range counts, by a ramp from c/4 to 3c/4", [] { return plates().area(); }});
+  // Told is what is nearer than half the range. Points count whole up to a quarter of it and not at all from three quarters: at these gaps the area is that
+  // of the overlap, and none, but for the rounding of 1e-16 of each of some hundred points.
+  out.push_back({"T9.1", "told area in contact of these plates of 10 um^2 at a gap of 0.2 of the range [um^2]", 10.0, 1e-12,
+                 "closed form: the faces overlap whole", [] { return plates(false, 0.2 * kRange).area(); }});
+  out.push_back({"T9.1", "the same at a gap of 0.8 of the range [um^2]", 0.0, 1e-12, "closed form: no point is nearer than half the range",
+                 [] { return plates(false, 0.8 * kRange).area(); }});
   out.push_back({"T9.2", "drag of a cell with all its laws under 1 nN, 642 nodes [nN s/um]", 45.023, 5.1e-4,
                  "area of the mesh computed independently", [] { return drag_of_a_cell(); }});
   out.push_back({"T9.2", "drag per area of a rigid cell, friction 0.3 across and 0.06 along its surface [nN s/um^3]", 0.14, 1e-10,

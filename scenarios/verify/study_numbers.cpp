@@ -1,78 +1,16 @@
+// Spheres that push each other, a chain of them, a walk, growth, an exchange of bodies.
 #include "scenarios/verify/study_numbers.h"
 
-#include <unistd.h>
-
+#include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <memory>
 #include <numbers>
 
 #include "core/numbers/number_text.h"
 #include "scenarios/library/single_cell.h"
-#include "scenarios/report/series_reader.h"
-#include "scenarios/run/driver.h"
-#include "scenarios/study/study.h"
+#include "scenarios/verify/run_study.h"
 
 namespace morula::scenarios {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// What a run left in its folder.
-struct Found {
-  std::vector<Snapshot> moments;
-  SeriesTable series;
-
-  [[nodiscard]] const Snapshot* at(double time) const {
-    for (const Snapshot& moment : moments)
-      if (std::abs(moment.time - time) < 1e-6) return &moment;
-    return nullptr;
-  }
-  /// A column at a time; not a number where there is none.
-  [[nodiscard]] double column(const char* name, double time) const {
-    const SeriesColumn *values = series.find(name), *times = series.find("time");
-    for (std::size_t i = 0; values != nullptr && times != nullptr && i < times->values.size(); ++i)
-      if (std::abs(times->values[i] - time) < 1e-6) return values->values[i];
-    return std::nan("");
-  }
-};
-
-Found run_text(const std::string& name, const std::string& text) {
-  const fs::path folder = fs::temp_directory_path() / ("morula-verify-" + std::to_string(getpid()) + "-" + name);
-  Found out;
-  const auto study = read_study_text(name, text, folder);
-  if (study.ok()) {
-    RunRequest request;
-    request.out = folder / "run";
-    std::error_code ignored;
-    fs::create_directories(folder, ignored);
-    if (const auto done = run(*study, request, Comm()); done.ok()) {
-      auto moments = all_snapshots(done->path);
-      auto series = read_series(done->path / "series.csv");
-      if (moments.ok() && series.ok()) out = {std::move(*moments), std::move(*series)};
-    }
-    fs::remove_all(folder, ignored);
-  }
-  return out;
-}
-
-/// A study that is run when the first of its numbers is asked for.
-class Lazy {
- public:
-  Lazy(std::string name, std::string text) : name_(std::move(name)), text_(std::move(text)) {}
-  const Found& found() {
-    if (!found_) found_ = std::make_unique<Found>(run_text(name_, text_));
-    return *found_;
-  }
-
- private:
-  std::string name_, text_;
-  std::unique_ptr<Found> found_;
-};
-
-std::shared_ptr<Lazy> study(const char* name, const std::string& text) {
-  return std::make_shared<Lazy>(name, "schema: 1\nstudy: " + std::string(name) + "\n" + text + "output: {report: false}\n");
-}
 
 /// Inert spheres of 5 µm whose drag is that of 10 µm/min under 5.236 nN, by Hertz alone; steps of `step` seconds, solved until nothing is left.
 std::string spheres_of_hertz(const char* end, const char* output, double step) {
@@ -87,30 +25,32 @@ std::string sphere_type(const std::string& name, const std::string& adhesion) {
          "}, friction: {cell_cell: 0 N s/m^3, medium: 1e8 N s/m^3}}\n";
 }
 
-std::shared_ptr<Lazy> pushed_pair(double step) {
-  return study("push", spheres_of_hertz("4 min", "6 s", step) + "cell_types:\n" + sphere_type("left", "left: 0 J/m^2, right: 0 J/m^2") +
-                           sphere_type("right", "right: 0 J/m^2") +
-                           "initial:\n  - {type: left, at: [[-15 um, 0 um, 0 um]], as: sphere}\n"
-                           "  - {type: right, at: [[15 um, 0 um, 0 um]], as: sphere}\n"
-                           "loads:\n  a: {type: left, body_force: [5.2359878 nN, 0 nN, 0 nN]}\n"
-                           "  b: {type: right, body_force: [-5.2359878 nN, 0 nN, 0 nN]}\n");
+std::shared_ptr<StudyToRun> pushed_pair(double step) {
+  return study_to_run("push", spheres_of_hertz("4 min", "6 s", step) + "cell_types:\n" +
+                                  sphere_type("left", "left: 0 J/m^2, right: 0 J/m^2") + sphere_type("right", "right: 0 J/m^2") +
+                                  "initial:\n  - {type: left, at: [[-15 um, 0 um, 0 um]], as: sphere}\n"
+                                  "  - {type: right, at: [[15 um, 0 um, 0 um]], as: sphere}\n"
+                                  "loads:\n  a: {type: left, body_force: [5.2359878 nN, 0 nN, 0 nN]}\n"
+                                  "  b: {type: right, body_force: [-5.2359878 nN, 0 nN, 0 nN]}\n");
 }
 
-std::shared_ptr<Lazy> chain(double step) {
+std::shared_ptr<StudyToRun> chain(double step) {
   std::string at;
   for (int i = -5; i <= 5; ++i) at += (i > -5 ? ", [" : "[") + std::to_string(5 * i) + " um, 0 um, 0 um]";
-  return study("chain", spheres_of_hertz("2 min", "20 s", step) + "cell_types:\n" + sphere_type("cell", "cell: 0 J/m^2") +
-                            "initial:\n  - {type: cell, at: [" + at + "], as: sphere}\n");
+  return study_to_run("chain", spheres_of_hertz("2 min", "20 s", step) + "cell_types:\n" + sphere_type("cell", "cell: 0 J/m^2") +
+                                   "initial:\n  - {type: cell, at: [" + at + "], as: sphere}\n");
 }
 
 /// Distance of the first and the last cell along x [µm].
-double width(const Found& found, double time) {
+double width(const FoundInRun& found, double time) {
   const Snapshot* moment = found.at(time);
   return moment != nullptr && !moment->cells.empty() ? moment->cells.back().centroid.x - moment->cells.front().centroid.x : std::nan("");
 }
 
 /// Backward Euler errs in the first order of the step: the line through two steps at step 0 errs in the second.
-double width_without_step(Lazy& coarse, Lazy& fine, double time) { return 2.0 * width(fine.found(), time) - width(coarse.found(), time); }
+double width_without_step(StudyToRun& coarse, StudyToRun& fine, double time) {
+  return 2.0 * width(fine.found(), time) - width(coarse.found(), time);
+}
 
 void add_motion(std::vector<ReferenceNumber>& out) {
   constexpr const char* kPush = "cbm.md 7.2, Hertz 1882: radial integration of the two cells' equation";
@@ -146,11 +86,11 @@ void add_walk(std::vector<ReferenceNumber>& out) {
     at += (i > 0 ? ", [" : "[") + place(i % kSide) + ", " + place(i / kSide % kSide) + ", " + place(i / kSide / kSide) + "]";
   }
   const auto walk =
-      study("walk",
-            "time: {end: 3 h, output: 1 h, checkpoint: 3 h}\ndomain: {size: [900 um, 900 um, 900 um], boundary: open}\n"
-            "cell_types: {cell: {radius: 5 um, adhesion: {cell: 0 J/m^2}, migration: {speed: 20 um/h, persistence: 30 min}}}\n"
-            "initial:\n  - {type: cell, at: [" +
-                at + "], as: sphere}\n");
+      study_to_run("walk",
+                   "time: {end: 3 h, output: 1 h, checkpoint: 3 h}\ndomain: {size: [900 um, 900 um, 900 um], boundary: open}\n"
+                   "cell_types: {cell: {radius: 5 um, adhesion: {cell: 0 J/m^2}, migration: {speed: 20 um/h, persistence: 30 min}}}\n"
+                   "initial:\n  - {type: cell, at: [" +
+                       at + "], as: sphere}\n");
   const double three_errors = 3.0 * std::sqrt(2.0 / (3.0 * kSide * kSide * kSide));
   for (const double hours : {1.0, 3.0}) {
     const double speed = 20.0, persistence = 0.5;  // [µm/h], [h]
@@ -167,10 +107,11 @@ void add_walk(std::vector<ReferenceNumber>& out) {
 }
 
 void add_growth_and_exchange(std::vector<ReferenceNumber>& out) {
-  const auto growth = study("growth",
-                            "time: {end: 48 h, output: 6 h, checkpoint: 48 h}\ndomain: {size: [200 um, 200 um, 200 um], boundary: open}\n"
-                            "cell_types: {cell: {radius: 5 um, cycle: {duration: 18 h}}}\n"
-                            "initial:\n  - {type: cell, at: [[0 um, 0 um, 0 um]], age: birth, as: sphere}\n");
+  const auto growth =
+      study_to_run("growth",
+                   "time: {end: 48 h, output: 6 h, checkpoint: 48 h}\ndomain: {size: [200 um, 200 um, 200 um], boundary: open}\n"
+                   "cell_types: {cell: {radius: 5 um, cycle: {duration: 18 h}}}\n"
+                   "initial:\n  - {type: cell, at: [[0 um, 0 um, 0 um]], age: birth, as: sphere}\n");
   const double birth = 500.0 / 3.0 * std::numbers::pi;
   struct Moment {
     double hours, cells, volume;
@@ -183,11 +124,11 @@ void add_growth_and_exchange(std::vector<ReferenceNumber>& out) {
                    [=] { return growth->found().column("total_volume", 3600.0 * m.hours) / birth; }});
   }
   // The exchange comes at the end of the step that lands on an output time, whose snapshot shows the new body before anything moved.
-  const auto swap =
-      study("exchange",
-            "time: {end: 10 min, output: 10 min, checkpoint: 10 min}\ndomain: {size: [100 um, 100 um, 100 um], boundary: open}\n"
-            "cell_types: {cell: {radius: 6 um}}\ninitial:\n  - {type: cell, at: [[1 um, 2 um, 3 um]], as: sphere}\n"
-            "coupling: {regions: [{name: all, shape: sphere, center: [0 um, 0 um, 0 um], radius: 20 um, as: shell, from: 10 min}]}\n");
+  const auto swap = study_to_run(
+      "exchange",
+      "time: {end: 10 min, output: 10 min, checkpoint: 10 min}\ndomain: {size: [100 um, 100 um, 100 um], boundary: open}\n"
+      "cell_types: {cell: {radius: 6 um}}\ninitial:\n  - {type: cell, at: [[1 um, 2 um, 3 um]], as: sphere}\n"
+      "coupling: {regions: [{name: all, shape: sphere, center: [0 um, 0 um, 0 um], radius: 20 um, as: shell, from: 10 min}]}\n");
   const auto exchanged = [swap](auto&& value) {
     const Snapshot *then = swap->found().at(0.0), *now = swap->found().at(600.0);
     const bool whole = then != nullptr && now != nullptr && then->cells.size() == 1 && now->cells.size() == 1 && now->shells.size() == 1 &&
@@ -202,55 +143,39 @@ void add_growth_and_exchange(std::vector<ReferenceNumber>& out) {
                  [=] { return exchanged([](const auto& then, const auto& now) { return norm(now.centroid - then.centroid); }); }});
 }
 
-/// A slab of half thickness 100 µm with first order loss, Thiele modulus 2, held at 1 mM at both ends.
-std::shared_ptr<Lazy> slab(int voxel) {
-  return study("slab",
-               "time: {end: 40 s, step: 10 s, output: 40 s, checkpoint: 40 s}\ndomain: {size: [200 um, 40 um, 40 um], boundary: open}\n"
-               "cell_types: {cell: {radius: 5 um}}\ninitial:\n  - {type: cell, at: [[0 um, 0 um, 0 um]], as: sphere}\n"
-               "fields:\n  food: {diffusion: 2e-9 m^2/s, decay: 0.8 1/s, initial: 1 mM, voxel: " +
-                   std::to_string(voxel) + " um, boundary: {all: no_flux, x_low: 1 mM, x_high: 1 mM}}\n");
-}
-
-/// Uptake of zero order in a ball of radius R: what the profile of the field says that the ball takes up, over what the study says. Within the ball the
-/// concentration rises by Q r²/(8πDR³), outside as Q/(4πD)(3/(2R) − 1/r); walls far away add what is harmonic and has the symmetry of a cube, which no
-/// mean over directions shows. Least squares over the voxels within 1.4 R.
-double uptake_from_profile(const Found& found, double radius, double diffusion, double rate) {
-  const Snapshot* end = found.at(100.0);
-  if (end == nullptr || end->fields.size() != 1) return std::nan("");
-  const Snapshot::Grid& grid = end->fields[0];
-  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
-  std::size_t i = 0;
-  for (int z = 0; z < grid.voxels[2]; ++z)
-    for (int y = 0; y < grid.voxels[1]; ++y)
-      for (int x = 0; x < grid.voxels[0]; ++x, ++i) {
-        const Vec3d at = grid.low + Vec3d{(x + 0.5) * grid.spacing.x, (y + 0.5) * grid.spacing.y, (z + 0.5) * grid.spacing.z};
-        const double r = norm(at);
-        if (r > 1.4 * radius) continue;
-        const double shape =
-            rate / (4.0 * std::numbers::pi * diffusion) * (r < radius ? 0.5 * r * r / (radius * radius * radius) : 1.5 / radius - 1.0 / r);
-        const double c = grid.concentration[i];
-        n += 1.0, sx += shape, sy += c, sxx += shape * shape, sxy += shape * c;
-      }
-  return (sxy - sx * sy / n) / (sxx - sx * sx / n);
-}
-
-void add_fields(std::vector<ReferenceNumber>& out) {
-  const auto coarse = slab(20), middle = slab(10), fine = slab(5);
-  const auto mean = [](Lazy& run) { return run.found().column("mean_food", 40.0); };
-  // Voxels err by (phi h/L)^2/12 of the slope at the wall: 5e-3 at 10 um; what is left of the line in h^2 at h = 0 is its square.
-  out.push_back({"A 4", "study: part that diffusion lets through to a slab of Thiele modulus 2, voxel to 0", 0.482014, 3e-5,
-                 "tanh(phi)/phi, Thiele 1939; six digits, fourth order left", [=] { return (4.0 * mean(*fine) - mean(*middle)) / 3.0; }});
-  out.push_back({"A 4", "study: its error with voxels of 20 um over that of 10 um", 4.0, 0.15, "second order; 4 % of the next order",
-                 [=] { return (mean(*coarse) - 0.482014) / (mean(*middle) - 0.482014); }});
-  const auto ball = study("ball",
-                          "time: {end: 100 s, step: 20 s, output: 100 s, checkpoint: 100 s}\n"
-                          "domain: {size: [420 um, 420 um, 420 um], boundary: open}\ncell_types: {cell: {radius: 100 um}}\n"
-                          "initial:\n  - {type: cell, at: [[0 um, 0 um, 0 um]], as: sphere}\n"
-                          "fields:\n  food: {diffusion: 2e-9 m^2/s, initial: 0.2 mM, voxel: 20 um, boundary: {all: 0.2 mM}, "
-                          "uptake: {cell: {rate: 185185.12 amol/s, half_saturation: 1e-9 mM}}}\n");
-  out.push_back({"A 5", "study: uptake of a ball of 100 um by the profile of the field around and in it, over that of the study", 1.0, 0.02,
-                 "closed form q (R^2 - r^2)/(6 D); voxels of R/5 that the rim cuts: (h/R)^2/2",
-                 [ball] { return uptake_from_profile(ball->found(), 100.0, 2000.0, 185185.12); }});
+/// Interface test (c) of fields_and_coupling.md D with default parameters: 64 spheres in cubic close packing at about the distance at which they rest find it
+/// within an hour, then the one in the middle is promoted, and its neighbours rest again three hours later.
+void add_neighbours_of_a_promotion(std::vector<ReferenceNumber>& out) {
+  constexpr double kDistance = 11.35, kPromoted = 3660.0, kBefore = 3600.0, kEnd = 5.0 * 3600.0, kRadius = 6.0;
+  std::vector<Vec3d> places;
+  for (int i = -4; i <= 4; ++i)
+    for (int j = -4; j <= 4; ++j)
+      for (int k = -4; k <= 4; ++k)
+        if ((i + j + k) % 2 == 0) places.push_back(Vec3d{1.0 * i, 1.0 * j, 1.0 * k} * (kDistance / std::numbers::sqrt2));
+  std::stable_sort(places.begin(), places.end(), [](const Vec3d& a, const Vec3d& b) { return norm2(a) < norm2(b) - 1e-6; });
+  std::string at;
+  for (std::size_t i = 0; i < 64; ++i)
+    at += (i > 0 ? ", [" : "[") + number_text("%.6f", places[i].x) + " um, " + number_text("%.6f", places[i].y) + " um, " +
+          number_text("%.6f", places[i].z) + " um]";
+  const auto swap = study_to_run("neighbours",
+                                 "time: {end: 5 h, output: 1 h, checkpoint: 5 h}\ndomain: {size: [200 um, 200 um, 200 um]}\n"
+                                 "cell_types: {cell: {radius: 6 um}}\ninitial:\n  - {type: cell, as: sphere, at: [" +
+                                     at +
+                                     "]}\ncoupling: {regions: [{name: middle, shape: sphere, center: [0 um, 0 um, 0 um], radius: 1 um, "
+                                     "margin: 20 um, as: shell, from: " +
+                                     number_text("%g", kPromoted) + " s}]}\n");
+  const auto way = [swap] {
+    const Snapshot *before = swap->found().at(kBefore), *end = swap->found().at(kEnd);
+    if (before == nullptr || end == nullptr || !before->shells.empty() || end->shells.size() != 1) return std::nan("");
+    double most = 0.0;
+    for (std::size_t i = 0; i < end->cells.size(); ++i)
+      most = std::max(most, norm(end->cells[i].centroid - before->cells[i].centroid) / kRadius);
+    return most;
+  };
+  // A shell among spheres keeps its volume, spheres of a pair law may overlap: with the default adhesion and tension they rest nearer to each other than
+  // to a shell. 0.05 is what is, not what is wanted: a change that moves neighbours further is to be seen here.
+  out.push_back({"D (c)", "study: largest way of a neighbour of a promoted cell, 64 cells, default parameters [R]; aim 0.02, not met yet",
+                 0.0, 0.05, "fields_and_coupling.md D (c); limit: what default parameters do today, rounded up", way});
 }
 
 }  // namespace
@@ -259,7 +184,9 @@ void add_study_numbers(std::vector<ReferenceNumber>& out) {
   add_motion(out);
   add_walk(out);
   add_growth_and_exchange(out);
-  add_fields(out);
+  add_neighbours_of_a_promotion(out);
+  add_contact_study_numbers(out);
+  add_field_study_numbers(out);
 }
 
 }  // namespace morula::scenarios

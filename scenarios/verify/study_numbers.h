@@ -5,8 +5,12 @@
 
 namespace morula::scenarios {
 
-/// Numbers that are found as a user finds them: the text of a study is read and run, and its results are read back from the files. Spheres that push
-/// each other, a chain of them, a walk, growth, an exchange of bodies, and fields in a slab and around a ball.
+/// Numbers that are found as a user finds them: the text of a study is read and run, and its results are read back from the files (run_study.h).
 void add_study_numbers(std::vector<ReferenceNumber>& out);
+
+/// Those of them that are about contact: a packing under pressure, a sphere pushed onto a shell.
+void add_contact_study_numbers(std::vector<ReferenceNumber>& out);
+/// And about fields: a slab, balls that consume.
+void add_field_study_numbers(std::vector<ReferenceNumber>& out);
 
 }  // namespace morula::scenarios

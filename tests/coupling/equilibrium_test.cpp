@@ -176,10 +176,13 @@ TEST(Equilibrium, OfAnElasticDoubletDoesNotDependOnFriction) {
     const Rest other = at_rest(model, friction, start, 1e-4);
     EXPECT_LT(other.left, 1e-4);
     const BodyValues found = values_of(model, other.tissue);
-    EXPECT_NEAR(energy_of(other.tissue) / energy_of(usual.tissue), 1.0, 1e-4);
+    const double energy = energy_of(other.tissue) / energy_of(usual.tissue);
+    const bool sticks = friction.contact_tangential > 1.0;
+    EXPECT_NEAR(energy, 1.0, sticks ? 1e-4 : 1e-6);
     for (const std::size_t cell : {0u, 1u}) {
-      // told by points that each stand for a third of a face, 1 to 3 % of this contact, whose gaps of about half the range count in part
-      EXPECT_NEAR(found.contact_area[cell] / expected.contact_area[cell], 1.0, 0.025);
+      // The same state: forces of 1e-4 nN are left. The state of a contact that sticks: were the energy by which it may lie higher, 1e-4 of 463 fJ, all
+      // adhesion not gained (0.1 nN/µm), 0.46 of the 16.8 µm² would be missing, 2.8 %.
+      EXPECT_NEAR(found.contact_area[cell] / expected.contact_area[cell], 1.0, sticks ? 0.025 : 2e-3);
       EXPECT_NEAR(found.inner_pressure[cell] / expected.inner_pressure[cell], 1.0, 5e-4);
       EXPECT_NEAR(found.area[cell] / expected.area[cell], 1.0, 1e-4);
     }

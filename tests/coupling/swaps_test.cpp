@@ -108,8 +108,9 @@ Region ball_of_shells(double radius, double from, double until) {
   return region;
 }
 
-/// Interface test (c): less than 0.02 R within ten relaxation times.
-TEST(Promotion, DoesNotMoveTheNeighboursInARelaxedCluster) {
+/// Interface test (c): less than 0.02 R within ten relaxation times, from before the step at whose end the cell is promoted. The parameters are those
+/// with which spheres rest like shells in pairs; with the default ones the way is 0.045 R, which `morula verify physics` tells and holds ("D (c)").
+TEST(Promotion, DoesNotMoveTheNeighboursInARelaxedClusterOfSpheresThatRestLikeShells) {
   Model model = resting_model(6.0, 0.5, 0.8, 0.5);
   const double reduced = 0.8 / (2.0 * (1.0 - 0.16));
   const double a0 = std::cbrt(9.0 * std::numbers::pi * 0.1 * 9.0 / (2.0 * reduced));
@@ -122,13 +123,18 @@ TEST(Promotion, DoesNotMoveTheNeighboursInARelaxedCluster) {
   auto made = Simulation::create(model, std::move(tissue), Comm(), 1);
   ASSERT_TRUE(made.ok());
   Simulation& simulation = **made;
-  while (simulation.tissue().clock.time < 60.0) ASSERT_TRUE(simulation.step(60.0).ok());
-  ASSERT_EQ(simulation.tissue().shells.size(), 1u);
-  const auto before = centers_of(simulation.tissue());
+  std::map<CellId, Vec3d> before;
+  while (simulation.tissue().shells.size() == 0) {
+    ASSERT_LT(simulation.tissue().clock.time, 120.0);
+    before = centers_of(simulation.tissue());
+    ASSERT_TRUE(simulation.step(120.0).ok());
+  }
+  ASSERT_GE(simulation.tissue().clock.time, 60.0);
   while (simulation.tissue().clock.time < 660.0) ASSERT_TRUE(simulation.step(660.0).ok());
   double most = 0.0;
   for (const auto& [id, center] : centers_of(simulation.tissue())) most = std::max(most, norm(center - before.at(id)));
   EXPECT_LT(most, 0.02 * 6.0);
+  EXPECT_GT(most, 0.0);
 }
 
 TEST(Promotion, FindsAShapeForEveryCellOfADeeplyOverlappingCluster) {

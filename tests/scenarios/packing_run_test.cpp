@@ -48,6 +48,17 @@ std::string block(const std::string& cbm) {
          "}\ninitial:\n  - {type: cell, start_volume: 50 %, inflate: 15 min, as: cbm, at: [" + at + "]}\noutput: {report: false}\n";
 }
 
+/// Pressure that is told of a cell of this block without packing [kPa]: pairs of Hertz (E 1.5 kPa, ν 0.4) in cubic close packing, whose lattice has
+/// p = (4√2/3) E* s^{3/2}/(1 − s)² at the overlap s of a diameter, 0.0953001 where V = V0 (cbm.md §3), and V0 exp(−p/K_V) as the volume of a cell
+/// (decision 0023): 99.3 Pa of the lattice are told as 92.7.
+double told_of_hertz() {
+  const double modulus = 1.5 / (2.0 * (1.0 - 0.4 * 0.4)), s = 1.0 - std::cbrt(0.9) * (1.0 - 0.0953001);
+  const double lattice = 4.0 * std::sqrt(2.0) / 3.0 * modulus * std::pow(s, 1.5) / ((1.0 - s) * (1.0 - s));
+  double told = 0.0;
+  for (int i = 0; i < 50; ++i) told = 0.9 * lattice * std::exp(told / 2.5);
+  return told;
+}
+
 TEST(PackingRuns, ABlockOfDefaultSpheresHasThePressureOfItsVolume) {
   const test::Folder folder;
   const Ran packed = run_study(block(""), folder.path() / "packed");
@@ -55,7 +66,8 @@ TEST(PackingRuns, ABlockOfDefaultSpheresHasThePressureOfItsVolume) {
   // p = K_V ln(V0/V), K_V = 2.5 kPa (the default of the shell). Knots of the curve: 1 %.
   const double ideal = 2.5 * std::log(1.0 / 0.9);
   EXPECT_NEAR(packed.pressure, ideal, 0.012 * ideal);
-  EXPECT_LT(none.pressure, 0.5 * ideal);
+  EXPECT_NEAR(none.pressure, told_of_hertz(), 1e-4 * told_of_hertz());
+  EXPECT_LT(none.pressure, 0.4 * ideal);
   EXPECT_LE(packed.steps, 1.5 * none.steps);
 }
 

@@ -43,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"MergeKey", "    radius:", "    <<: {mean: 1 um}\n    radius:", "merge keys (`<<`) are not allowed in a study [E106]"},
         Case{"Tag", "seed: 20261121", "seed: !!int 20261121", "tags (`!name`) are not allowed"},
         Case{"TwoDocuments", "title: S", "---\ntitle: S", "a study is one YAML document, but another one follows [E107]"},
-        Case{"Version", "schema: 1", "schema: 2", "'schema' is 2, but must be between 1 and 1 [E302]"},
+        Case{"Version", "schema: 1", "schema: 2", "'schema' is 2, but must be 1 [E302]"},
         Case{"StudyName", "study: spheroid_core", "study: ../../etc", "'../../etc' cannot be the name of a study [E112]"},
         Case{"TypeName", "hepatocyte:\n", "\"hepato cyte\":\n", "'hepato cyte' cannot be a name [E112]"},
         Case{"UnclosedBracket", "limits: {volume", "limits: {{volume", "[E100]"}),

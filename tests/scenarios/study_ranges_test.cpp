@@ -35,7 +35,12 @@ TEST(Ranges, OfEveryKeyHaveBothEndsAndHoldItsDefaultAndExample) {
     if (!number) continue;
     ++numbers;
     const KeyRange range = range_of(d->spec);
-    EXPECT_TRUE(std::isfinite(range.low) && std::isfinite(range.high) && range.low <= range.high) << d->path;
+    EXPECT_TRUE(std::isfinite(range.low) && std::isfinite(range.high)) << d->path;
+    // Nobody could choose a value of a key that allows only one; of the file's format there is only one version yet.
+    if (d->path == "schema")
+      EXPECT_EQ(range.low, range.high);
+    else
+      EXPECT_LT(range.low, range.high) << d->path;
     EXPECT_FALSE(range.holds(1e300)) << d->path;
     EXPECT_FALSE(range.holds(-1e300)) << d->path;
     if (d->kind == Kind::kWhole) continue;

@@ -40,6 +40,23 @@ TEST(Theory, OfTheDoubletIsItsTable) {
   }
 }
 
+/// What is near is known in closed form for two balls that touch, where the gap at the angle α is R (√(5 − 4 cos α) − 1), and for two halves of a ball,
+/// where it is the chord 2 R sin(β/2) from the line of contact; without a gap it is the contact.
+TEST(Theory, OfWhatIsNearerThanAGapIsExactForBallsThatTouchAndForHalvesOfABall) {
+  for (const double gap : {0.01, 0.1, 0.5}) {
+    EXPECT_NEAR(theory::part_nearer_than(theory::cap_of_angle(1.0), gap), 0.5 * (1.0 - 0.25 * (5.0 - (1.0 + gap) * (1.0 + gap))), 1e-12);
+    const theory::Cap half = theory::cap_of_angle(0.0);
+    const double beyond = 2.0 * std::asin(0.5 * gap / half.radius);
+    EXPECT_NEAR(theory::part_nearer_than(half, gap), (1.0 + 2.0 * std::sin(beyond)) / 3.0, 1e-12);
+  }
+  const theory::Cap cap = theory::doublet(1.0, 1.0);
+  EXPECT_NEAR(theory::part_nearer_than(cap, 0.0), cap.contact_part, 1e-12);
+  // A wedge that opens by 2θ: a gap g is g/sin 2θ beside the line, g/(a sin θ cos θ) of the contact, to the first order.
+  const theory::Cap flat = theory::doublet(0.2, 1.0);
+  EXPECT_NEAR(theory::part_nearer_than(flat, 1e-4) / flat.contact_part - 1.0,
+              1e-4 / (flat.contact_radius * std::sin(flat.angle) * std::cos(flat.angle)), 2e-6);
+}
+
 TEST(Theory, OfSpreadingIsItsTable) {
   const SeriesTable t = table("spreading", "spreading_equilibrium.csv");
   const auto at = [&](const char* name, std::size_t i) { return t.find(name)->values[i]; };
