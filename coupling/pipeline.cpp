@@ -93,6 +93,7 @@ Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<b
       return Error{ErrorKind::kPhysics,
                    moved.error().what + (moved.error().cell.valid() ? " (cell " + moved.error().cell.text() + ")" : "") + when,
                    "the step was cut to " + std::to_string(dt) + " s without success; " +
+                       (clock.capped && model_.step.start_cap > 0.0 ? "`numerics: {start_cap: auto}` or a smaller cap, " : "") +
                        (model_.loads.empty() ? "" : "smaller loads, or loads that grow slowly (`course`), ") +
                        "weaker adhesion, more tension, a larger `shape_stiffness` or `fold_barrier`, or another number of nodes may help"};
     }

@@ -102,7 +102,7 @@ class Judge {
                  {.text = "a cell at " + place_text(center_[j]) + " lies within another one: its centre is " + short_number(apart) +
                           " um from " + place_text(center_[i]),
                   .help = "place them at least " + short_number(larger) +
-                          " um apart; smaller overlaps come apart with `numerics: {start_cap: 0.2 um}`"});
+                          " um apart; smaller overlaps come apart with `numerics: {start_cap: auto}`"});
     if (!shells) {
       if (apart < kDeepSpheres * touch)
         add(661, entry, other, depth,
@@ -119,7 +119,7 @@ class Judge {
                  {.text = "cells at " + place_text(center_[i]) + " and " + place_text(center_[j]) + " overlap by " + rounded(depth) +
                           ": the run would stop at its limit",
                   .help = "place them " + short_number(std::ceil(10.0 * touch) / 10.0) +
-                          " um apart, or let them come apart first with `numerics: {start_cap: 0.2 um}`"});
+                          " um apart, or let them come apart first with `numerics: {start_cap: auto}`"});
     if (bound_[i] + bound_[j] - apart > limit) suspects_.insert({i, j});
   }
 
@@ -146,7 +146,7 @@ class Judge {
     if (is_ball(cells_[i]) && depth > kCertain * limit)
       return add(597, entry, surface, depth,
                  {.text = who + " reaches " + rounded(depth) + " deep into " + around_.name(surface) + ": the run would stop at its limit",
-                  .help = "move it away, or let it come out first with `numerics: {start_cap: 0.2 um}`"});
+                  .help = "move it away, or let it come out first with `numerics: {start_cap: auto}`"});
     if (bound_[i] - apart > limit) suspects_.insert({i});
   }
 
@@ -183,7 +183,7 @@ class Judge {
     add(597, cell == cells_.end() ? 0 : cell->entry, cells_.size(), overlap.value,
         {.text = "the surface of the cell at " + place_text(at) + " begins " + rounded(overlap.value) +
                  " deep in another one: the run would stop at its limit (" + short_number(study_.model.limits.overlap) + " um)",
-         .help = "place it further away, or let it come out first with `numerics: {start_cap: 0.2 um}`"});
+         .help = "place it further away, or let it come out first with `numerics: {start_cap: auto}`"});
     return {};
   }
 

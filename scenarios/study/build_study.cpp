@@ -5,6 +5,25 @@
 #include "scenarios/study/read_section.h"
 
 namespace morula::scenarios {
+namespace {
+
+/// Depth of a capped start that no cell type's mesh folds under [µm]. The traction p = k_r δ on a patch of one edge L pushes with p L²; over its rim the
+/// tension and the stiffness in the plane S hold it with S L. Cells 4 µm deep in each other come out unfolded up to p L/S = 28 and, with some meshes,
+/// 60; 10 leaves room for finer meshes and more neighbours (decision 0029).
+double gentle_cap(const BuildContext& c) {
+  constexpr double kGentle = 10.0, kMost = 0.1;  // µm, the overlap at which the capped start ends
+  double cap = kMost;
+  for (std::size_t i = 0; i < c.draft.cell_types.size() && i < c.study.model.types.size(); ++i) {
+    const draft::CellType& t = c.draft.cell_types[i].content;
+    const dcm::ShellParameters& p = c.study.model.types[i].shell;
+    const double held = p.tension + p.shape_stiffness + p.spring_stiffness + p.neo_hooke_shear + p.stvk_shear + p.skalak_shear;
+    const double edge = mean_edge(t.nodes.value) * t.radius.mean.value;
+    if (edge > 0.0 && held > 0.0) cap = std::min(cap, kGentle * held / (edge * c.draft.contact.repulsion.value));
+  }
+  return cap;
+}
+
+}  // namespace
 
 void build_time_and_numerics(BuildContext& c) {
   const draft::Time& time = c.draft.time;
@@ -27,7 +46,7 @@ void build_time_and_numerics(BuildContext& c) {
   step.newton_stop = n.newton_stop.value;
   step.first_tolerance = n.tolerance.value;
   step.later_tolerance = n.later_tolerance.value;
-  step.start_cap = n.start_cap.value;
+  step.start_cap = n.start_cap.value >= 0.0 ? n.start_cap.value : gentle_cap(c);
   constexpr double kImplicitMaxStep = 60.0;  // growing clusters of shells: the error at 60 s is below that of the mesh (measured)
   step.max_step = time.step.value > 0.0 ? time.step.value : kImplicitMaxStep;
   if (step.integrator == Integrator::kExplicitEuler) {

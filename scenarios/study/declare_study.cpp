@@ -130,16 +130,20 @@ void declare_numerics(Section& s, draft::Numerics& n) {
               .example = "0.5 um",
               .source = "measured"},
              n.skin);
-  s.quantity({.name = "start_cap",
-              .doc = "Start from overlapping shells: the contact traction is held at this depth until the overlap is "
-                     "below 0.1 um. 0: no cap.",
-              .quantity = Q::kLength,
-              .fallback = "0 um",
-              .low = 0.0,
-              .high = 1.0,
-              .example = "0.1 um",
-              .source = "chosen"},
-             n.start_cap);
+  s.quantity(
+      {.name = "start_cap",
+       .doc = "Start from overlapping shells: the contact traction is held at that of this depth until the overlap is "
+              "below 0.1 um. Too large a traction folds soft meshes; `auto` takes one that the softest cell type's tension and stiffness "
+              "bear: cells 4 um deep in each other take some minutes to come out. 0: no cap. The check INV.4 counts the start too: "
+              "`limits.overlap` must allow for it.",
+       .quantity = Q::kLength,
+       .fallback = "0 um",
+       .low = 0.0,
+       .high = 1.0,
+       .specials = {{"auto", -1.0}},
+       .example = "auto",
+       .source = "chosen; `auto` measured: traction times edge over tension and stiffness is 10, meshes fold beyond 28"},
+      n.start_cap);
   s.quantity({.name = "start_cap_within",
               .doc = "A capped start that has not ended by this time stops the run: some cells have no way out of each other.",
               .quantity = Q::kTime,

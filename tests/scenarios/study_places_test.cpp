@@ -27,7 +27,7 @@ TEST(Places, OfShellsThatTouchOrOverlapALittleAreFine) {
   EXPECT_TRUE(study.ok()) << study.error().text();
   EXPECT_TRUE(test::read(test::changed("[0 um, 0 um, 20 um]", "[0 um, 0 um, 16.9 um]", kStudy)).ok()) << "within the limit of 0.3 um";
   const std::string deep = test::changed("[0 um, 0 um, 20 um]", "[0 um, 0 um, 6.1 um]", kStudy);
-  EXPECT_TRUE(test::read(test::changed("initial:", "numerics: {start_cap: 0.2 um}\ninitial:", deep)).ok()) << "half of the larger radius";
+  EXPECT_TRUE(test::read(test::changed("initial:", "numerics: {start_cap: auto}\ninitial:", deep)).ok()) << "half of the larger radius";
 }
 
 TEST(Places, OfShellsThatWouldStopTheRunAreRefused) {

@@ -242,15 +242,49 @@ TEST(Resume, UntilATimeThatHasPassedIsRefused) {
   EXPECT_EQ(run_morula({"resume", "run", "--until", "80 s"}, folder.path()).exit_code, 0);
 }
 
-TEST(Resume, OfARunThatFailedSaysSo) {
-  const TestFolder folder;  // cells that are 3 um deep in each other, and have no time to come apart
+/// Two default shells, 3 um deep in each other.
+std::string deep_cells(const std::string& numerics) {
   const std::string deep = changed(kLoneCell, "[[0 um, 0 um, 0 um]]", "[[0 um, 0 um, 0 um], [9 um, 0 um, 0 um]]");
-  folder.write("study.yaml", changed(deep, "initial:", "numerics: {start_cap: 0.1 um, start_cap_within: 2 s}\ninitial:"));
+  return changed(deep, "initial:", "numerics: {" + numerics + "}\nlimits: {overlap: 4 um}\ninitial:");
+}
+
+TEST(CappedStart, OfItsOwnDepthLetsDeepCellsOutUnfolded) {
+  const TestFolder folder;
+  folder.write("study.yaml", deep_cells("start_cap: auto"));
+  const Outcome outcome = run_morula({"run", "study.yaml", "--out", "run"}, folder.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.all();
+  const auto series = read_text(folder / "run/series.csv");
+  const auto column_of = [](const std::string& row, std::size_t column) {
+    std::size_t at = 0;
+    for (; column > 0; --column) at = row.find(',', at) + 1;
+    return row.substr(at, row.find_first_of(",\n", at) - at);
+  };
+  const std::string header = series.substr(0, series.find('\n'));
+  const auto overlap =
+      static_cast<std::size_t>(std::count(header.begin(), header.begin() + static_cast<long>(header.find(",overlap [um]") + 1), ','));
+  EXPECT_GT(std::stod(column_of(series.substr(header.size() + 1), overlap)), 2.9);
+  EXPECT_LT(std::stod(column_of(series.substr(series.rfind('\n', series.size() - 2) + 1), overlap)), 0.1);
+}
+
+TEST(CappedStart, ThatFoldsSoftMeshesSaysWhatDoesNot) {
+  const TestFolder folder;
+  folder.write("study.yaml", deep_cells("start_cap: 0.2 um"));
+  const Outcome outcome = run_morula({"run", "study.yaml", "--out", "run"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.all();
+  EXPECT_THAT(outcome.err, HasSubstr("start_cap: auto"));
+}
+
+TEST(CappedStart, ThatDoesNotEndInItsTimeStopsTheRun) {
+  const TestFolder folder;  // the cells need about a minute
+  folder.write("study.yaml", deep_cells("start_cap: auto, start_cap_within: 20 s"));
   const Outcome failed = run_morula({"run", "study.yaml", "--out", "run"}, folder.path());
   ASSERT_EQ(failed.exit_code, 4) << failed.all();
-  EXPECT_THAT(failed.err, HasSubstr("no step lowers the energy"));
-  const Outcome resumed = run_morula({"resume", "run", "--until", "40 s"}, folder.path());
-  EXPECT_THAT(resumed.all(), HasSubstr("the run had ended with an error, and goes on unchanged: no step lowers the energy"));
+  EXPECT_THAT(failed.err, AllOf(HasSubstr("the capped start has not ended by"), HasSubstr("[E662]"), HasSubstr("start_cap_within")));
+  const Outcome again = run_morula({"resume", "run"}, folder.path());
+  EXPECT_EQ(again.exit_code, 4) << "it is no better for a second try\n" << again.all();
+  EXPECT_THAT(again.all(), HasSubstr("the run had ended with an error, and goes on unchanged: the capped start has not ended"));
+  const Outcome longer = run_morula({"resume", "run", "--set", "numerics.start_cap_within=10 min", "--out", "longer"}, folder.path());
+  EXPECT_EQ(longer.exit_code, 0) << longer.all();
 }
 
 TEST(Check, NeverSaysOkWhereTheRunRefuses) {
