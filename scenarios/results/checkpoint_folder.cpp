@@ -54,6 +54,7 @@ Result<GoodCheckpoint> first_good(const fs::path& folder, const Comm& comm, cons
     }
     if (status.error().kind != ErrorKind::kFile) return status.error();
     good.warnings.push_back("checkpoint passed over: " + status.error().message);
+    good.damaged.push_back(path);
   }
   std::string message = "no usable checkpoint in '" + folder.string() + "'";
   for (const std::string& warning : good.warnings) message += "\n  " + warning;
@@ -98,6 +99,7 @@ Result<RestoredCheckpoint> load_newest_checkpoint(const fs::path& folder, const 
                     }));
   out.path = std::move(good.path);
   out.warnings = std::move(good.warnings);
+  out.damaged = std::move(good.damaged);
   return out;
 }
 

@@ -17,7 +17,8 @@ std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& f
 struct RestoredCheckpoint {
   LoadedCheckpoint checkpoint;
   std::filesystem::path path;
-  std::vector<std::string> warnings;  ///< which newer ones were damaged and what is used in their stead
+  std::vector<std::string> warnings;             ///< which newer ones were damaged and what is used in their stead
+  std::vector<std::filesystem::path> damaged{};  ///< those newer ones
 };
 
 /// Collective. Loads the newest checkpoint that is whole. A damaged one is passed over, and a warning says so. One of another
@@ -29,6 +30,7 @@ Result<RestoredCheckpoint> load_newest_checkpoint(const std::filesystem::path& f
 struct GoodCheckpoint {
   std::filesystem::path path;
   std::vector<std::string> warnings;
+  std::vector<std::filesystem::path> damaged{};
 };
 Result<GoodCheckpoint> newest_good_checkpoint(const std::filesystem::path& folder, const Comm& comm);
 

@@ -4,6 +4,7 @@
 
 #include "scenarios/initial/make_tissue.h"
 #include "scenarios/results/checkpoint_folder.h"
+#include "scenarios/results/damaged_file.h"
 #include "scenarios/results/file_io.h"
 #include "scenarios/run/report_run.h"
 #include "scenarios/run/run_lock.h"
@@ -59,6 +60,7 @@ std::string end_note(const RunRequest& request, double end) {
 struct Restored {
   LoadedCheckpoint checkpoint;
   std::vector<std::string> warnings;
+  std::vector<std::filesystem::path> damaged;  ///< newer checkpoints that could not be used
 };
 
 Result<Restored> restore(const RunFolder& folder, const ResumeRequest& request, const Study& study, const Comm& comm) {
@@ -70,8 +72,18 @@ Result<Restored> restore(const RunFolder& folder, const ResumeRequest& request, 
     MORULA_TRY_ASSIGN(RestoredCheckpoint newest, load_newest_checkpoint(folder.checkpoints(), study.model, shapes, comm));
     out.checkpoint = std::move(newest.checkpoint);
     out.warnings = std::move(newest.warnings);
+    out.damaged = std::move(newest.damaged);
   }
   return out;
+}
+
+/// Takes damaged checkpoints out of the row: of those that are kept both must be usable.
+Status set_aside_damaged(Restored& restored, const Comm& comm) {
+  for (const std::filesystem::path& path : restored.damaged) {
+    MORULA_TRY_ASSIGN(const std::filesystem::path aside, set_aside(path, comm));
+    if (!aside.empty()) restored.warnings.push_back("'" + path.filename().string() + "' is kept as '" + aside.filename().string() + "'");
+  }
+  return {};
 }
 
 }  // namespace
@@ -112,6 +124,7 @@ Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest&
   if (request.until && *request.until < time)
     return Error{ErrorKind::kInput, "the run is at " + time_text(time) + " already, later than --until " + time_text(*request.until),
                  "give a later time, or `--from` an earlier checkpoint"};
+  MORULA_TRY(set_aside_damaged(restored, comm));
   const std::string failure = record.state == RunState::kFailed ? record.message : "";
   MORULA_TRY_ASSIGN(auto simulation, Simulation::create(study.model, std::move(restored.checkpoint.tissue), comm, request.threads));
   record.state = RunState::kRunning;

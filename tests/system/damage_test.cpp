@@ -65,6 +65,22 @@ TEST_F(Damage, OfOneAlteredByteIsNoticedAndTheOlderOneIsUsed) {
   expect_older_is_used();
 }
 
+TEST_F(Damage, OfOneCheckpointAfterAnotherAlwaysLeavesOneThatCanBeUsed) {
+  fs::resize_file(checkpoints[1], fs::file_size(checkpoints[1]) / 2);
+  const Outcome first = run_morula({"resume", "run", "--until", "70 min"}, folder.path());
+  ASSERT_EQ(first.exit_code, 0) << first.all();
+  EXPECT_THAT(first.err, HasSubstr("is kept as 'cp_00000"));
+  std::vector<fs::path> usable;
+  for (const fs::path& path : checkpoints_of(folder / "run"))
+    if (path.filename().string().find("damaged") == std::string::npos) usable.push_back(path);
+  ASSERT_EQ(usable.size(), 2u) << "the damaged one is none of the two that are kept";
+  fs::resize_file(usable[1], fs::file_size(usable[1]) / 2);
+  const Outcome second = run_morula({"resume", "run", "--until", "2 h"}, folder.path());
+  ASSERT_EQ(second.exit_code, 0) << second.all();
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "whole", "--until", "2 h"}, folder.path()).exit_code, 0);
+  EXPECT_EQ(info_of(folder / "run")["state_hash"], info_of(folder / "whole")["state_hash"]);
+}
+
 TEST_F(Damage, OfNothingButTheVersionIsRefusedWithBothVersions) {
   const std::uint32_t other = 99;
   const hid_t file = H5Fopen(checkpoints[1].c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
