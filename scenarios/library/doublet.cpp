@@ -117,33 +117,11 @@ void judge_halves(const std::vector<Half>& halves, const std::vector<Doublet>& p
   }
 }
 
-/// Where the contact of a cell bends: nodes nearer to the axis than kMiddle of the contact radius against those between kRimFrom and kRimTo of it.
-constexpr double kMiddle = 0.4, kRimFrom = 0.6, kRimTo = 0.9;
-
-/// How far the middle of a cell's contact lies beyond its outer part, towards `axis` [µm]: of the nodes within `reach` of the farthest one.
-double bulge(const ShellView& cell, const Vec3d& axis, double contact_radius, double reach) {
-  double far = -1e300;
-  for (const Vec3d& x : cell.nodes) far = std::max(far, dot(x - cell.cell->centroid, axis));
-  double middle = 0.0, rim = 0.0;
-  int in_middle = 0, at_rim = 0;
-  for (const Vec3d& x : cell.nodes) {
-    const Vec3d from = x - cell.cell->centroid;
-    const double along = dot(from, axis), away = norm(from - axis * along);
-    if (along < far - reach || away > kRimTo * contact_radius) continue;
-    if (away < kMiddle * contact_radius) middle += along, ++in_middle;
-    if (away > kRimFrom * contact_radius) rim += along, ++at_rim;
-  }
-  return in_middle > 0 && at_rim > 0 ? middle / in_middle - rim / at_rim : std::nan("");
-}
-
-/// The same of a cap of radius R, z = −r²/(2R) about its top: means of r² over a disc and a ring.
-double bulge_of_cap(double contact_radius, double radius) {
-  const double disc = 0.5 * kMiddle * kMiddle, ring = 0.5 * (kRimFrom * kRimFrom + kRimTo * kRimTo);
-  return (ring - disc) * contact_radius * contact_radius / (2.0 * radius);
-}
+/// The part of a contact's radius in which its curvature is measured: the rim is rounded over the range of contact.
+constexpr double kOfContact = 0.9;
 
 /// Two cells of different tension (S6.2): the tenser one has the higher pressure, and their contact bends into the other as Laplace's law
-/// says: Δp = 2 (γ_A + γ_B − W)/R.
+/// says: Δp = 2 (γ_A + γ_B − W)/R. Measured on both cells, whose surfaces lie on each other.
 void judge_unequal(const Study& study, const Snapshot& now, std::vector<Verdict>& out) {
   const Model& model = study.model;
   for (std::size_t a = 0; a < model.types.size(); ++a)
@@ -157,10 +135,11 @@ void judge_unequal(const Study& study, const Snapshot& now, std::vector<Verdict>
       const double more = tense[0].cell->inner_pressure - slack[0].cell->inner_pressure;
       out.push_back(at_least("S6.2", "inner pressure of the tenser of two cells over that of the other",
                              tense[0].cell->inner_pressure / slack[0].cell->inner_pressure, 1.05));
-      // The area that is told reaches beyond the line of contact by a part of the range, hence less than 1.
-      const double apart = tolerance(model.types[a].shell_nodes, 0.4, 0.2);
-      out.push_back(within("S6.2", "bend of the contact into the cell of lower pressure over that of Laplace's law",
-                           bulge(tense[0], axis, radius, 0.5 * radius) / bulge_of_cap(radius, 2.0 * (high + low - adhesion) / more),
+      const auto outwards = curvature_along(tense[0], axis, kOfContact * radius),
+                 inwards = curvature_along(slack[0], axis * -1.0, kOfContact * radius);
+      const double laplace = more / (2.0 * (high + low - adhesion)), apart = tolerance(model.types[a].shell_nodes, 0.4, 0.2);
+      const double found = outwards && inwards ? 0.5 * (*outwards - *inwards) : std::nan("");
+      out.push_back(within("S6.2", "bend of the contact into the cell of lower pressure over that of Laplace's law", found / laplace,
                            1.0 - apart, 1.0 + apart));
     }
 }

@@ -38,6 +38,19 @@ std::optional<std::array<double, 4>> solve4(std::array<std::array<double, 5>, 4>
   return std::array<double, 4>{m[0][4] / m[0][0], m[1][4] / m[1][1], m[2][4] / m[2][2], m[3][4] / m[3][3]};
 }
 
+/// Four unknowns by linear least squares: the normal equations of Σ (row · unknowns − value)².
+struct LeastSquares4 {
+  std::array<std::array<double, 5>, 4> equations{};
+
+  void add(const std::array<double, 4>& row, double value) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) equations[i][j] += row[i] * row[j];
+      equations[i][4] += row[i] * value;
+    }
+  }
+  [[nodiscard]] std::optional<std::array<double, 4>> solved() const { return solve4(equations); }
+};
+
 }  // namespace
 
 std::vector<ShellView> shells_of(const Snapshot& snapshot, std::size_t type) {
@@ -102,17 +115,12 @@ SecondMode fit_second_mode(const ShellView& unloaded, const ShellView& loaded, c
 std::optional<CapFit> fit_cap(const ShellView& shell, const Vec3d& point, const Vec3d& normal) {
   double top = 0.0;
   for (const Vec3d& x : shell.nodes) top = std::max(top, dot(x - point, normal));
-  std::array<std::array<double, 5>, 4> m{};
+  LeastSquares4 fit;
   for (const Vec3d& node : shell.nodes) {
     const Vec3d x = node - point;  // near the origin: no cancellation
-    if (dot(x, normal) < 0.5 * top) continue;
-    const std::array<double, 4> row{2.0 * x.x, 2.0 * x.y, 2.0 * x.z, 1.0};
-    for (std::size_t i = 0; i < 4; ++i) {
-      for (std::size_t j = 0; j < 4; ++j) m[i][j] += row[i] * row[j];
-      m[i][4] += row[i] * norm2(x);
-    }
+    if (dot(x, normal) >= 0.5 * top) fit.add({2.0 * x.x, 2.0 * x.y, 2.0 * x.z, 1.0}, norm2(x));
   }
-  const auto found = solve4(m);
+  const auto found = fit.solved();
   if (!found) return std::nullopt;
   const Vec3d center{(*found)[0], (*found)[1], (*found)[2]};
   const double square = (*found)[3] + norm2(center);
@@ -124,6 +132,21 @@ std::optional<CapFit> fit_cap(const ShellView& shell, const Vec3d& point, const 
   out.contact_radius = out.radius * std::sin(out.angle);
   out.height = out.radius * (1.0 + cosine);
   return out;
+}
+
+std::optional<double> curvature_along(const ShellView& shell, const Vec3d& axis, double radius) {
+  const Vec3d across = normalized(cross(axis, std::abs(axis.x) < 0.5 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0})), third = cross(axis, across);
+  LeastSquares4 fit;
+  int nodes = 0;
+  for (const Vec3d& x : shell.nodes) {
+    const Vec3d from = x - shell.cell->centroid;
+    const double along = dot(from, axis), u = dot(from, across), v = dot(from, third), square = u * u + v * v;
+    if (along < 0.0 || square > radius * radius) continue;
+    fit.add({1.0, u, v, -0.5 * square}, along);
+    ++nodes;
+  }
+  const auto found = fit.solved();
+  return nodes >= 6 && found ? std::optional((*found)[3]) : std::nullopt;
 }
 
 double flat_radius(const ShellView& shell, const Vec3d& point, const Vec3d& normal, double distance) {

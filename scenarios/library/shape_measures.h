@@ -56,4 +56,8 @@ std::optional<CapFit> fit_cap(const ShellView& shell, const Vec3d& point, const 
 /// their largest distance from the normal through their mean [µm]. 0: none.
 double flat_radius(const ShellView& shell, const Vec3d& point, const Vec3d& normal, double distance);
 
+/// Mean curvature 1/R of the side of a shell that looks along `axis` (of length 1), positive where it bulges outwards [1/µm]: a paraboloid, however tilted,
+/// by least squares through the nodes nearer than `radius` to the line through the centroid [µm]. Nothing when fewer than six nodes lie there.
+std::optional<double> curvature_along(const ShellView& shell, const Vec3d& axis, double radius);
+
 }  // namespace morula::scenarios

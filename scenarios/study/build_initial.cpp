@@ -47,6 +47,7 @@ class InitialBuilder {
       cells.type = static_cast<std::uint16_t>(std::max(0, type));
     }
     refuse_strays(d);
+    if (!d.has_meshes && !d.csv.given) refuse_meshes_of_spheres(d, cells, type);
     if (d.has_meshes)
       build_meshes(c_, d, place, cells);
     else if (d.csv.given)
@@ -87,6 +88,18 @@ class InitialBuilder {
       d.coincident_shift.text.clear();
       d.coincident_below.text.clear();
     }
+  }
+
+  /// A sphere has no mesh yet; one that it is given later is an icosphere, turned by the cell's id.
+  void refuse_meshes_of_spheres(const draft::Initial& d, const InitialCells& cells, int type) {
+    if (type < 0 || (cells.body_given && cells.body == BodyKind::kShell)) return;
+    if (!cells.body_given)
+      for (std::size_t t = 0; t < c_.study.model.types.size(); ++t)
+        if (cells.may_have(t) && c_.study.model.types[t].initial_body == BodyKind::kShell) return;
+    for (const auto& [key, name] : {std::pair{&d.shape, "shape"}, std::pair{&d.orientation, "orientation"}})
+      if (key->given)
+        c_.diagnostics.error(111, key->place, std::string("'") + name + "' has no meaning for cells that begin as spheres",
+                             "leave it away, or begin with shells: `as: shell`");
   }
 
   void check_inflation(const draft::Initial& d, const Place& place) {

@@ -57,6 +57,21 @@ TEST(CapFit, FindsTheSphereThatACapIsPartOf) {
   }
 }
 
+TEST(CurvatureAlong, IsThatOfAParaboloidHoweverTiltedAndOfASphere) {
+  const Body dent(642, [](const Vec3d& n) {
+    const Vec3d x = n * 7.0;
+    return x.z > 0.0 ? Vec3d{x.x, x.y, 3.0 + 0.1 * x.x + (x.x * x.x + x.y * x.y) / 24.0} : x;
+  });
+  const auto inwards = curvature_along(dent.view(), {0, 0, 1}, 3.0);
+  ASSERT_TRUE(inwards.has_value());
+  EXPECT_NEAR(*inwards, -1.0 / 12.0, 1e-9);
+  const Body ball(642, [](const Vec3d& n) { return n * 7.0; });
+  const auto outwards = curvature_along(ball.view(), normalized(Vec3d{1, 2, -1}), 2.0);
+  ASSERT_TRUE(outwards.has_value());
+  EXPECT_NEAR(*outwards * 7.0, 1.0, 0.05);  // r⁴/(8 R³), which a paraboloid has not, is 2 % of r²/(2 R) at the rim
+  EXPECT_FALSE(curvature_along(ball.view(), {0, 0, 1}, 0.1).has_value());
+}
+
 TEST(CapFit, DoesNotDependOnWhereThePlaneIs) {
   const Body body = cap(162, 6.0, 1.0);
   std::vector<Vec3d> turned;

@@ -30,6 +30,15 @@ TEST(Places, OfShellsThatTouchOrOverlapALittleAreFine) {
   EXPECT_TRUE(test::read(test::changed("initial:", "numerics: {start_cap: auto}\ninitial:", deep)).ok()) << "half of the larger radius";
 }
 
+TEST(Places, SpheresHaveNoMeshToTurn) {
+  const std::string spheres = test::changed("small: {radius: 5 um, body: shell}", "small: {radius: 5 um}", kStudy);
+  EXPECT_NE(test::errors_of(test::changed("20 um]]}", "20 um]], orientation: aligned}", spheres))
+                .find("'orientation' has no meaning for cells that begin as spheres [E111]"),
+            std::string::npos);
+  EXPECT_TRUE(test::read(test::changed("20 um]]}", "20 um]], as: shell, orientation: aligned}", spheres)).ok());
+  EXPECT_TRUE(test::read(test::changed("20 um]]}", "20 um]], orientation: aligned}", kStudy)).ok());
+}
+
 TEST(Places, OfShellsThatWouldStopTheRunAreRefused) {
   EXPECT_NE(errors("[0 um, 0 um, 20 um]", "[0 um, 0 um, 15 um]").find("overlap by 2 um: the run would stop at its limit [E597]"),
             std::string::npos);
