@@ -117,9 +117,6 @@ void judge_halves(const std::vector<Half>& halves, const std::vector<Doublet>& p
   }
 }
 
-/// The part of a contact's radius in which its curvature is measured: the rim is rounded over the range of contact.
-constexpr double kOfContact = 0.9;
-
 /// Two cells of different tension (S6.2): the tenser one has the higher pressure, and their contact bends into the other as Laplace's law
 /// says: Δp = 2 (γ_A + γ_B − W)/R. Measured on both cells, whose surfaces lie on each other.
 void judge_unequal(const Study& study, const Snapshot& now, std::vector<Verdict>& out) {
@@ -135,8 +132,7 @@ void judge_unequal(const Study& study, const Snapshot& now, std::vector<Verdict>
       const double more = tense[0].cell->inner_pressure - slack[0].cell->inner_pressure;
       out.push_back(at_least("S6.2", "inner pressure of the tenser of two cells over that of the other",
                              tense[0].cell->inner_pressure / slack[0].cell->inner_pressure, 1.05));
-      const auto outwards = curvature_along(tense[0], axis, kOfContact * radius),
-                 inwards = curvature_along(slack[0], axis * -1.0, kOfContact * radius);
+      const auto outwards = curvature_along(tense[0], axis, radius), inwards = curvature_along(slack[0], axis * -1.0, radius);
       const double laplace = more / (2.0 * (high + low - adhesion)), apart = tolerance(model.types[a].shell_nodes, 0.4, 0.2);
       const double found = outwards && inwards ? 0.5 * (*outwards - *inwards) : std::nan("");
       out.push_back(within("S6.2", "bend of the contact into the cell of lower pressure over that of Laplace's law", found / laplace,
