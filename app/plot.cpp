@@ -53,9 +53,7 @@ Status plot_some(const fs::path& run, const PlotOptions& options, const Context&
     return options.formats.empty() || std::find(options.formats.begin(), options.formats.end(), format) != options.formats.end();
   };
   MORULA_TRY_ASSIGN(const scenarios::Study study, scenarios::read_run_study(run));
-  std::error_code error;
-  fs::create_directories(run / "plots", error);
-  if (error) return scenarios::file_error(run / "plots", "create folder", error.value());
+  MORULA_TRY(scenarios::make_folder(run / "plots"));
   std::string written;
   if (has("svg")) MORULA_TRY(write_plots(study, run, options.only, written));
   if (has("png")) MORULA_TRY(write_pictures(study, run, options.only, context, written));

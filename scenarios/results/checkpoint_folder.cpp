@@ -74,11 +74,7 @@ std::vector<fs::path> checkpoints_in(const fs::path& folder) {
 
 Result<fs::path> save_checkpoint(const fs::path& folder, const Tissue& tissue, const CheckpointInfo& info, const Comm& comm) {
   Status made;
-  if (comm.is_root()) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) made = file_error(folder, "create", error.value());
-  }
+  if (comm.is_root()) made = make_folder(folder);
   MORULA_TRY(agree(std::move(made), comm));
   const std::vector<fs::path> old = shared_list(folder, comm);
   char name[32];

@@ -76,8 +76,13 @@ Status OutputFile::sync() {
 }
 
 Result<std::string> read_file(const fs::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) return file_error(path, "read", errno);
+  struct stat info {};
+  if (::fstat(descriptor, &info) != 0 || !S_ISREG(info.st_mode)) {
+    ::close(descriptor);
+    return Error{ErrorKind::kFile, "cannot read '" + path.string() + "': it is not a regular file", ""};
+  }
   std::string text;
   std::array<char, 65536> block;
   ssize_t got = 0;
@@ -92,6 +97,13 @@ Result<std::string> read_file(const fs::path& path) {
   }
   ::close(descriptor);
   return text;
+}
+
+Status make_folder(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_symlink(path, error)) return file_error(path, "create folder", ELOOP);
+  fs::create_directories(path, error);
+  return error ? Status(file_error(path, "create folder", error.value())) : Status{};
 }
 
 void sync_folder_of(const fs::path& path) {

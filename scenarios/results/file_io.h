@@ -35,7 +35,10 @@ class OutputFile {
   int descriptor_;
 };
 
+/// The bytes of a regular file: a pipe or device, which could hold us up for ever, is an error.
 Result<std::string> read_file(const std::filesystem::path& path);
+/// Makes a folder of a run where it is missing, with its parents. A symbolic link in its place is an error: a run writes through none.
+Status make_folder(const std::filesystem::path& path);
 /// Writes aside (`.tmp`), syncs and renames: a reader sees the old or the new text, never a part.
 Status write_file_atomically(const std::filesystem::path& path, std::string_view text);
 /// Adds to the end of a regular file (created if missing; never through a symbolic link).

@@ -114,7 +114,7 @@ Overlay::Overlay() = default;
 
 Result<std::unique_ptr<Overlay>> Overlay::over(const std::filesystem::path& path) {
   auto overlay = std::make_unique<Overlay>();
-  overlay->descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  overlay->descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // does not wait at a pipe
   if (overlay->descriptor_ < 0) return file_error(path, "open", errno);
   struct stat info {};
   if (::fstat(overlay->descriptor_, &info) != 0) return file_error(path, "open", errno);

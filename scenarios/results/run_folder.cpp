@@ -51,7 +51,7 @@ Status make_parents(const fs::path& path) {
 }
 
 /// mkdir is atomic: of two runs that start together, each gets its own folder.
-Result<fs::path> make_folder(const fs::path& parent, const fs::path& out, const std::string& study) {
+Result<fs::path> make_run(const fs::path& parent, const fs::path& out, const std::string& study) {
   if (!out.empty()) {
     const fs::path clean = out.has_filename() ? out : out.parent_path();
     MORULA_TRY(make_parents(clean.parent_path()));
@@ -103,7 +103,7 @@ Result<RunFolder> RunFolder::create(const fs::path& parent, const fs::path& out,
   std::string made;
   Status status;
   if (comm.is_root()) {
-    auto folder = make_folder(parent, out, study);
+    auto folder = make_run(parent, out, study);
     if (folder.ok())
       made = folder->string();
     else
@@ -136,9 +136,7 @@ Status RunFolder::write_study(const Study& study, RunRecord& record) const {
   MORULA_TRY_ASSIGN(const std::string source_hash, sha256_of_text(study.source_text));
   MORULA_TRY_ASSIGN(record.study_hash, sha256_of_text(study.resolved_text));
   record.inputs = {{study.source_path, "study.yaml", source_hash}};
-  std::error_code error;
-  fs::create_directory(path_ / "inputs", error);
-  if (error) return file_error(path_ / "inputs", "create folder", error.value());
+  MORULA_TRY(make_folder(path_ / "inputs"));
   for (const InputFile& input : study.input_files) {
     MORULA_TRY_ASSIGN(InputRecord copied, copy_input(input, path_));
     record.inputs.push_back(std::move(copied));

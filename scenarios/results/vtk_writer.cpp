@@ -249,9 +249,7 @@ std::string base64(std::span<const std::byte> bytes) {
 }
 
 Status write_vtk(const Snapshot& snapshot, const fs::path& folder, std::size_t number) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) return file_error(folder, "create folder", error.value());
+  MORULA_TRY(make_folder(folder));
   MORULA_TRY(write_file_atomically(folder / numbered("shells", number, ".vtu"), shells_file(snapshot)));
   MORULA_TRY(write_file_atomically(folder / numbered("spheres", number, ".vtu"), spheres_file(snapshot)));
   if (!snapshot.nuclei.empty()) MORULA_TRY(write_file_atomically(folder / numbered("nuclei", number, ".vtu"), nuclei_file(snapshot)));

@@ -28,12 +28,6 @@ std::string short_text(double value) {
   return text;
 }
 
-Status make_folder(const fs::path& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  return error ? Status(file_error(path, "create folder", error.value())) : Status{};
-}
-
 /// Counts by kind and the warnings of events.jsonl; lines that are not whole are left out.
 void read_events(const fs::path& path, ReportContent& content) {
   const auto text = read_file(path);

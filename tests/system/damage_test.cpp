@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 #include <sys/mount.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -101,6 +102,31 @@ TEST_F(Damage, OfAllCheckpointsIsExitThree) {
   EXPECT_EQ(resumed.exit_code, 3) << resumed.all();
   EXPECT_THAT(resumed.err, HasSubstr("no usable checkpoint"));
   EXPECT_FALSE(resumed.timed_out);
+}
+
+TEST_F(Damage, ByALinkInPlaceOfTheFolderOfCheckpointsTouchesNothingBehindIt) {
+  fs::rename(folder / "run/checkpoints", folder / "elsewhere");
+  fs::create_directory_symlink(folder / "elsewhere", folder / "run/checkpoints");
+  const Outcome resumed = run_morula({"resume", "run", "--until", "2 h"}, folder.path());
+  EXPECT_EQ(resumed.exit_code, 3) << resumed.all();
+  EXPECT_THAT(resumed.err, AllOf(HasSubstr("symbolic link"), HasSubstr("checkpoints")));
+  for (const fs::path& path : checkpoints) EXPECT_TRUE(fs::exists(folder / "elsewhere" / path.filename())) << path;
+}
+
+TEST_F(Damage, ByPipesInPlaceOfFilesIsToldAndNotWaitedFor) {
+  for (const char* name : {"run.json", "study.resolved.yaml", "results.h5", "series.csv"}) {
+    SCOPED_TRACE(name);
+    const fs::path path = folder / "run" / name, aside = folder / "aside";
+    fs::rename(path, aside);
+    ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+    CommandOptions options;
+    options.timeout = std::chrono::seconds(30);
+    const Outcome resumed = run_morula({"resume", "run", "--until", "2 h"}, folder.path(), options);
+    EXPECT_FALSE(resumed.timed_out);
+    EXPECT_EQ(resumed.exit_code, std::string_view(name) == "study.resolved.yaml" ? 2 : 3) << resumed.all();
+    EXPECT_THAT(resumed.err, HasSubstr(name));
+    fs::rename(aside, path);
+  }
 }
 
 TEST_F(Damage, OfTheResolvedStudyIsRefused) {
