@@ -90,8 +90,9 @@ class InitialBuilder {
     }
   }
 
-  /// A sphere has no mesh yet; one that it is given later is an icosphere, turned by the cell's id.
-  void refuse_meshes_of_spheres(const draft::Initial& d, const InitialCells& cells, int type) {
+  /// A sphere has no mesh yet; one that it is given later is an icosphere, turned by the cell's id. Their defaults are
+  /// no part of the resolved study.
+  void refuse_meshes_of_spheres(draft::Initial& d, const InitialCells& cells, int type) {
     if (type < 0 || (cells.body_given && cells.body == BodyKind::kShell)) return;
     if (!cells.body_given)
       for (std::size_t t = 0; t < c_.study.model.types.size(); ++t)
@@ -100,6 +101,8 @@ class InitialBuilder {
       if (key->given)
         c_.diagnostics.error(111, key->place, std::string("'") + name + "' has no meaning for cells that begin as spheres",
                              "leave it away, or begin with shells: `as: shell`");
+    d.shape.text.clear();
+    d.orientation.text.clear();
   }
 
   void check_inflation(const draft::Initial& d, const Place& place) {

@@ -35,6 +35,9 @@ TEST(Places, SpheresHaveNoMeshToTurn) {
   EXPECT_NE(test::errors_of(test::changed("20 um]]}", "20 um]], orientation: aligned}", spheres))
                 .find("'orientation' has no meaning for cells that begin as spheres [E111]"),
             std::string::npos);
+  const auto both = test::read(spheres);
+  ASSERT_TRUE(both.ok()) << both.error().text();
+  EXPECT_TRUE(test::read(both->resolved_text).ok()) << "a resolved study is a study";
   EXPECT_TRUE(test::read(test::changed("20 um]]}", "20 um]], as: shell, orientation: aligned}", spheres)).ok());
   EXPECT_TRUE(test::read(test::changed("20 um]]}", "20 um]], orientation: aligned}", kStudy)).ok());
 }
