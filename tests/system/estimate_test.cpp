@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A hundred million cells, with a limit of 2 s of CPU time and of 1 GB of memory: their places alone would be 2.4 GB.
+/// A hundred million cells, with a limit of 2 s of CPU time and of 3 GB of memory: their places and radii alone would be 3.2 GB.
 Outcome check_of_many(const std::string& body) {
   const TestFolder folder;
   folder.write("study.yaml",
@@ -22,7 +22,7 @@ Outcome check_of_many(const std::string& body) {
 #ifdef __SANITIZE_ADDRESS__
   options.shell_before = "ulimit -t 20;";  // the sanitizer reserves terabytes of addresses
 #else
-  options.shell_before = "ulimit -t 2; ulimit -v 1000000;";
+  options.shell_before = "ulimit -t 2; ulimit -v 3000000;";
 #endif
   return run_morula({"check", "study.yaml", "--estimate"}, folder.path(), options);
 }
