@@ -20,7 +20,7 @@ double friction_part(double gap, double range) {
 /// ∫ φ dA of one face, `gap` a function of the point.
 template <class Gap>
 double bearing_part(const ShellView& shell, const Triangle& t, double range, const Gap& gap) {
-  constexpr int kParts = 8;  // along an edge
+  constexpr int kParts = 4;  // along an edge
   const Vec3d a = shell.nodes[t[0]], u = (shell.nodes[t[1]] - a) * (1.0 / kParts), v = (shell.nodes[t[2]] - a) * (1.0 / kParts);
   double out = 0.0;
   const auto add = [&](double i, double j) { out += 0.5 * norm(cross(u, v)) * friction_part(gap(a + u * i + v * j), range); };

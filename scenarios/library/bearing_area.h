@@ -4,8 +4,8 @@
 namespace morula::scenarios {
 
 /// Area of a shell that bears the friction of a contact [µm²]: ∫ φ(g) dA over its faces, g the gap, φ the part of the friction that acts there, 1 up
-/// to half the range c and falling smoothly to 0 at c (dcm.md §1). Each face is taken in 64 equal parts weighed at their centroids, which errs by less than
-/// 1e-3; the few points by face of the contact layer err by some per cent. The area that is told ends at half the range instead (decision 0026): it is
+/// to half the range c and falling smoothly to 0 at c (dcm.md §1). Each face is taken in 16 equal parts weighed at their centroids, which errs by less than
+/// 5e-3; the few points by face of the contact layer err by some per cent. The area that is told ends at half the range instead (decision 0026): it is
 /// what touches and not what rubs.
 
 /// On a plane that looks towards z, at this height [µm].

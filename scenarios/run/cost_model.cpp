@@ -17,14 +17,16 @@ namespace morula::scenarios {
 namespace {
 
 constexpr double kFade = 0.97;  // memory of about 30 steps
-constexpr double kCostPerLoadHour =
-    4.0e-5;  // CPU s per simulated hour and unit of load: 0.12 s per 1,000 nodes (measured on clusters at W = 0.1 mN/m)
-constexpr double kBytesPerNode = 2200.0, kBytesPerSphere = 600.0, kBytesPerVoxel = 120.0;
+// CPU of a step, measured on clusters of shells at W = 0.1 mN/m and on 25,000 and 100,000 packed spheres [s]
+constexpr double kCostPerNode = 4e-6, kCostPerSphere = 1.2e-5;
+constexpr double kPlacing = 3e-4;  // CPU of finding the place of a cell, on these [s]
+constexpr double kBytesPerNode = 2200.0, kBytesPerSphere = 2500.0, kBytesPerVoxel = 120.0;
 constexpr double kBytesAlways = 3.0e7, kBytesReport = 6.5e7;     // measured: program and libraries; the pictures of the report
 constexpr std::int64_t kSampled = 20'000;                        // cells up to which places are made and steps are tried
 constexpr double kSampleTime = 3.0;                              // CPU time of the steps that are tried [s]
-constexpr double kReportTime = 2.2, kStartTime = 0.15;           // CPU, measured on single-cell studies [s]
+constexpr double kReportTime = 2.2, kStartTime = 0.3;            // CPU, measured on single-cell studies [s]
 constexpr double kOutputTime = 3e-3, kOutputTimePerNode = 1e-6;  // CPU of one output [s]
+constexpr double kOutputTimePerOutput = 1.1e-4;                  // and of finding one's way among those before, measured on 150 to 280 [s]
 constexpr double kPacked = 0.74;                                 // part of a volume that its cells fill
 
 /// ∫_0^τ (3 nodes + spheres e^{g t}) dt
@@ -174,15 +176,20 @@ LaterBodies later_bodies(const Study& study, const Counts& first, Tissue* tissue
 }
 
 /// CPU time of a whole run [s].
-Result<double> cost_of_run(const Study& study, const LaterBodies& bodies, double growth, Tissue* tissue) {
+Result<double> cost_of_run(const Study& study, double cells, const LaterBodies& bodies, double growth, Tissue* tissue) {
   const Load load = bodies.from.front().second;
+  const double outputs = study.time.end / study.time.output;
   double cost = kStartTime + (study.output.report ? kReportTime : 0.0) +
-                study.time.end / study.time.output * (kOutputTime + kOutputTimePerNode * (load.nodes + load.spheres));
-  if (tissue == nullptr) return cost + kCostPerLoadHour / 3600.0 * load_integral(load, growth, study.time.end);
+                outputs * (kOutputTime + kOutputTimePerNode * (load.nodes + load.spheres) + kOutputTimePerOutput * outputs);
+  const double most = std::min(study.model.step.max_step, study.time.output);
+  if (tissue == nullptr) {
+    const Load each{kCostPerSphere * load.spheres, kCostPerNode / 3.0 * load.nodes};  // CPU of a step
+    return cost + kPlacing * cells + load_integral(each, growth, study.time.end) / most;
+  }
   MORULA_TRY_ASSIGN(const std::vector<TriedStep> steps, try_steps(study, std::move(*tissue)));
   if (steps.empty()) return cost;
   // what each piece of the time ahead costs, by its load
-  const double tried = steps.back().end, most = std::min(study.model.step.max_step, study.time.output);
+  const double tried = steps.back().end;
   double ahead = 0.0;
   for (std::size_t i = 0; i < bodies.from.size(); ++i) {
     const double from = std::max(tried, bodies.from[i].first),
@@ -221,8 +228,9 @@ Result<Estimate> estimate(const Study& study) {
   out.cells_at_end = static_cast<double>(out.shells) + grown;
   out.memory = kBytesAlways + (study.output.report ? kBytesReport : 0.0) + kBytesPerNode * later.most_nodes + kBytesPerSphere * grown +
                kBytesPerVoxel * static_cast<double>(out.voxels);
-  MORULA_TRY_ASSIGN(const double middle, cost_of_run(study, later, growth, tissue ? &*tissue : nullptr));
-  out.wall = {middle / 1.6, middle * 1.6};
+  MORULA_TRY_ASSIGN(const double middle, cost_of_run(study, static_cast<double>(counts.cells), later, growth, tissue ? &*tissue : nullptr));
+  const double range = tissue ? 1.6 : 3.0;
+  out.wall = {middle / range, middle * range};
   return out;
 }
 

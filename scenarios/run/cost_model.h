@@ -46,9 +46,10 @@ struct Estimate {
   WallRange wall;                                             ///< of one core [s]
 };
 
-/// Up to 20,000 cells: places the cells of time 0, counts them and tries the first steps for two seconds; what a simulated second costs at their end
-/// is taken for the rest, as the load will grow, with what outputs and report cost. Larger tissues are counted by the numbers of the study alone, at
-/// once, at a cost per load measured on a 2020s core. A run that comes to rest (`time.rest`) ends earlier. The range: 1.6 times each way.
+/// Up to 20,000 cells: places the cells of time 0, counts them and tries the first steps for three seconds; the rest is told by how these steps grow
+/// (tried_steps.h) and by the load, as cells multiply and regions exchange bodies later on, with what outputs and report cost. The range: 1.6 times each way.
+/// Larger tissues are counted by the numbers of the study alone, at once, at a cost per cell and step measured on a 2020s core, in steps as large as they may be;
+/// the range: 3 times each way. A run that comes to rest (`time.rest`) ends earlier, and what begins later than the steps that are tried is not foreseen.
 Result<Estimate> estimate(const Study& study);
 
 /// "9 min", "1 h 21 min", "35–50 min" for people.

@@ -26,9 +26,11 @@ double cost_ahead(std::span<const TriedStep> steps, double end, double most) {
   // the late steps fill half of the time: n1 = (t/d)(1 − 2^(−q))/q
   const double size = q < 1e-9 ? t * std::log(2.0) / late : t * (1.0 - std::pow(0.5, q)) / (q * late);
   const double each = (steps.back().cost - (half > 0 ? steps[half - 1].cost : 0.0)) / late;
-  if (size >= most || p <= 0.0) return each * (end - t) / std::min(size, most);
+  const double stay = (end - t) / std::min(size, most);
+  if (size >= most || p <= 0.0) return each * stay;
   const double full = std::min(end, t * std::pow(most / size, 1.0 / p));  // from here the steps are as large as they may be
-  return each * (steps_until(t, size, q, full) + (end - full) / most);
+  const double grow = steps_until(t, size, q, full) + (end - full) / most;
+  return each * std::sqrt(stay * grow);
 }
 
 }  // namespace morula::scenarios
