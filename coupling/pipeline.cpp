@@ -89,7 +89,8 @@ Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<b
     mechanics_->parameters_changed();
     if (!moved.error().smaller_step_may_help || dt * 0.25 < kSmallestStep) {
       char when[64];
-      std::snprintf(when, sizeof when, " at %.6g h", clock.time / 3600.0);
+      const bool early = clock.time < 3600.0;  // seconds say more than 2.981e-05 h
+      std::snprintf(when, sizeof when, early ? " at %.4g s" : " at %.6g h", early ? clock.time : clock.time / 3600.0);
       return Error{ErrorKind::kPhysics,
                    moved.error().what + (moved.error().cell.valid() ? " (cell " + moved.error().cell.text() + ")" : "") + when,
                    "the step was cut to " + std::to_string(dt) + " s without success; " +

@@ -1,6 +1,7 @@
 #include "scenarios/pictures/annotate.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -13,6 +14,22 @@ namespace morula::scenarios {
 namespace {
 
 constexpr Rgb kInk{0.13f, 0.14f, 0.18f};
+constexpr double kRoundSteps[] = {1.0, 2.0, 2.5, 3.0, 4.0, 5.0};
+constexpr double kDot = 1.9, kEntryGap = 1.5;  // of a legend's entry: from its left end to the text, and from the text to the next
+
+double entry_width(const LegendEntry& entry, double cap_height) {
+  return text_width(entry.text, cap_height) + (kDot + kEntryGap) * cap_height;
+}
+
+/// Least and largest value, rounded to three digits of the larger of the two.
+std::string data_range(const ColorScale& scale) {
+  const double low = scale.data_low * scale.per_unit, high = scale.data_high * scale.per_unit;
+  const double size = std::max(std::abs(low), std::abs(high));
+  if (!(size > 0.0)) return "0 to 0";
+  const double digit = std::pow(10.0, std::floor(std::log10(size)) - 2.0);
+  const auto rounded = [&](double value) { return short_number(std::round(value / digit) * digit, 3); };
+  return rounded(low) + " to " + rounded(high);
+}
 
 }  // namespace
 
@@ -31,25 +48,32 @@ std::string short_number(double value, int digits) {
 }
 
 std::string display_text(std::string_view text) {
+  static constexpr std::pair<std::string_view, std::string_view> kWords[] = {{"um", "µm"}, {"uN", "µN"}, {"deg", "°"}};
   std::string out;
-  const auto letter = [&](std::size_t i) { return i < text.size() && std::isalnum(static_cast<unsigned char>(text[i])) != 0; };
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text.substr(i, 2) == "um" && !(i > 0 && (letter(i - 1) || text[i - 1] == '_')) && !letter(i + 2) && text.substr(i + 2, 1) != "_") {
-      out += "µm";
-      ++i;
+  const auto letter = [&](std::size_t i) {
+    return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) != 0 || text[i] == '_');
+  };
+  for (std::size_t i = 0; i < text.size();) {
+    const auto* word = std::find_if(std::begin(kWords), std::end(kWords), [&](const auto& w) {
+      return text.substr(i).starts_with(w.first) && !(i > 0 && letter(i - 1)) && !letter(i + w.first.size());
+    });
+    if (word != std::end(kWords)) {
+      out += word->second;
+      i += word->first.size();
     } else if (text[i] == '^' && (text.substr(i + 1, 1) == "2" || text.substr(i + 1, 1) == "3")) {
-      out += text[++i] == '2' ? "²" : "³";
+      out += text[i + 1] == '2' ? "²" : "³";
+      i += 2;
     } else {
-      out += text[i];
+      out += text[i++];
     }
   }
   return out;
 }
 
 std::string short_time(double seconds) {
-  if (std::abs(seconds) < 120.0) return short_number(seconds) + " s";
-  if (std::abs(seconds) < 7200.0) return short_number(seconds / 60.0) + " min";
-  return short_number(seconds / 3600.0) + " h";
+  const double size = std::abs(seconds);
+  const auto text = [](double value, const char* unit) { return short_number(value, std::abs(value) < 100.0 ? 3 : 4) + unit; };
+  return size < 120.0 ? text(seconds, " s") : size < 7200.0 ? text(seconds / 60.0, " min") : text(seconds / 3600.0, " h");
 }
 
 ScaleBar make_scale_bar(double pixels_per_um, double widest) {
@@ -68,6 +92,22 @@ void draw_scale_bar(Image& image, double x, double y, const ScaleBar& bar, doubl
   draw_text(image, x + 0.5 * bar.pixels, y - thickness - 0.75 * cap_height, bar.label, cap_height, kInk, Align::kCenter);
 }
 
+std::vector<double> color_bar_numbers(const ColorScale& scale) {
+  const double low = scale.low * scale.per_unit, high = scale.high * scale.per_unit, span = high - low;
+  for (const int intervals : {4, 5, 3, 6, 2}) {
+    const double step = span / intervals, decade = std::pow(10.0, std::floor(std::log10(step) + 1e-9));
+    const auto whole = [](double ratio) { return std::abs(ratio - std::round(ratio)) < 1e-6; };
+    const bool round =
+        std::any_of(std::begin(kRoundSteps), std::end(kRoundSteps), [&](double s) { return std::abs(step / decade - s) < 1e-6; });
+    if (!round || !whole(low / step)) continue;
+    std::vector<double> out;
+    for (int i = 0; i <= intervals; ++i) out.push_back((std::round(low / step) + i) * step / scale.per_unit);
+    return out;
+  }
+  if (scale.diverging) return {scale.low, 0.0, scale.high};
+  return {scale.low, scale.high};
+}
+
 void draw_color_bar(Image& image, double right, double y, double width, const ColorScale& scale, double cap_height) {
   const double height = 1.1 * cap_height, left = right - width;
   for (int x = static_cast<int>(left); x < static_cast<int>(right); ++x)
@@ -75,39 +115,84 @@ void draw_color_bar(Image& image, double right, double y, double width, const Co
   for (const double edge : {y - height, y - 1.0}) image.fill_rectangle(left, edge, right, edge + 1.0, kInk, 0.6f);
   for (const double edge : {left, right - 1.0}) image.fill_rectangle(edge, y - height, edge + 1.0, y, kInk, 0.6f);
 
-  const double low = scale.low * scale.per_unit, high = scale.high * scale.per_unit;
-  const double step = nice_below((high - low) / 2.0);
   const double small = 0.9 * cap_height;
-  const auto tick = [&](double value) {
-    const double x = std::clamp(left + (value - low) / (high - low) * width, left + 0.5, right - 0.5);
+  double free_from = -1e300;  // numbers never touch
+  for (const double value : color_bar_numbers(scale)) {
+    const double x = std::clamp(left + (value - scale.low) / (scale.high - scale.low) * width, left + 0.5, right - 0.5);
     image.fill_rectangle(x - 0.5, y, x + 0.5, y + 4.0, kInk);
-    draw_text(image, x, y + 7.0 + small, short_number(value), small, kInk, Align::kCenter);
-  };
-  tick(low);
-  tick(high);
-  const double room = text_width(short_number(low), small) + text_width(short_number(high), small);
-  for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i)
-    if (std::min(i * step - low, high - i * step) / (high - low) * width > room) tick(i * step);  // clear of the numbers at the ends
+    const std::string text = short_number(value * scale.per_unit);
+    const double half = 0.5 * text_width(text, small);
+    if (x - half < free_from) continue;
+    draw_text(image, x, y + 7.0 + small, text, small, kInk, Align::kCenter);
+    free_from = x + half + small;
+  }
   if (scale.data_low <= scale.data_high)
-    draw_text(image, 0.5 * (left + right), y + 7.0 + 2.6 * small,
-              "data " + short_number(scale.data_low * scale.per_unit, 3) + " to " + short_number(scale.data_high * scale.per_unit, 3),
-              small, kInk, Align::kCenter);
+    draw_text(image, 0.5 * (left + right), y + 7.0 + 2.6 * small, "data " + data_range(scale), small, kInk, Align::kCenter);
   const std::string title = scale.unit.empty() ? scale.quantity : scale.quantity + " [" + scale.unit + "]";
   draw_text(image, 0.5 * (left + right), y - height - 0.75 * cap_height, title, cap_height, kInk, Align::kCenter);
 }
 
-void draw_legend(Image& image, double right, double y, std::span<const LegendEntry> entries, double cap_height) {
-  double widest = 0.0;
-  for (const LegendEntry& entry : entries) widest = std::max(widest, text_width(entry.text, cap_height));
-  const double text_x = right - widest;
-  if (!entries.empty())  // legible over what lies below
-    image.fill_rectangle(text_x - 2.4 * cap_height, y - 0.7 * cap_height, right + 0.8 * cap_height,
-                         y + (2.1 * static_cast<double>(entries.size()) - 0.3) * cap_height, {1.0f, 1.0f, 1.0f}, 0.8f);
+std::vector<std::size_t> legend_rows(std::span<const LegendEntry> entries, double first_width, double width, double cap_height) {
+  std::vector<std::size_t> rows;
+  double room = first_width;
   for (const LegendEntry& entry : entries) {
-    image.fill_disc(text_x - 1.3 * cap_height, y + 0.5 * cap_height, 0.62 * cap_height, kInk);
-    image.fill_disc(text_x - 1.3 * cap_height, y + 0.5 * cap_height, 0.62 * cap_height - 1.2, entry.color);
-    draw_text(image, text_x, y + cap_height, entry.text, cap_height, kInk);
-    y += 2.1 * cap_height;
+    const double needed = entry_width(entry, cap_height);
+    if (rows.empty() || (needed > room && rows.back() > 0)) {
+      room = rows.empty() ? first_width : width;
+      rows.push_back(0);
+    }
+    if (rows.size() == 1 && rows.back() == 0 && needed > room) room = width, rows.push_back(0);  // none fits beside the title
+    ++rows.back();
+    room -= needed;
+  }
+  return rows;
+}
+
+void draw_legend(Image& image, double right, double y, std::span<const LegendEntry> entries, std::span<const std::size_t> rows,
+                 double cap_height) {
+  for (const std::size_t count : rows) {
+    double x = right + kEntryGap * cap_height;
+    for (const LegendEntry& entry : entries.first(count)) x -= entry_width(entry, cap_height);
+    for (const LegendEntry& entry : entries.first(count)) {
+      image.fill_disc(x + 0.62 * cap_height, y + 0.5 * cap_height, 0.62 * cap_height, kInk);
+      image.fill_disc(x + 0.62 * cap_height, y + 0.5 * cap_height, 0.62 * cap_height - 1.2, entry.color);
+      draw_text(image, x + kDot * cap_height, y + cap_height, entry.text, cap_height, kInk);
+      x += entry_width(entry, cap_height);
+    }
+    entries = entries.subspan(count);
+    y += kLegendLine * cap_height;
+  }
+}
+
+void draw_triad(Image& image, double x, double y, double reach, const Camera& camera, double cap_height) {
+  const double line = std::max(1.5, 0.14 * cap_height), ring = 0.6 * cap_height;
+  static constexpr const char* kNames[] = {"x", "y", "z"};
+  const auto length_of = [&](std::size_t axis) { return std::hypot(camera.right[axis], camera.up[axis]); };
+  std::array<std::size_t, 3> order{0, 1, 2};
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return length_of(a) > length_of(b); });  // shortest on top
+  for (const std::size_t axis : order) {
+    const double across = camera.right[axis], up = camera.up[axis], length = length_of(axis);
+    if (length < 0.3) {  // nearly along the line of sight
+      image.fill_disc(x, y, ring, kInk);
+      image.fill_disc(x, y, ring - line, {1.0f, 1.0f, 1.0f});
+      const double d = 0.6 * ring;
+      if (camera.toward[axis] > 0.0) {
+        image.fill_disc(x, y, 1.2 * line, kInk);
+      } else {
+        image.stroke(x - d, y - d, x + d, y + d, line, kInk);
+        image.stroke(x - d, y + d, x + d, y - d, line, kInk);
+      }
+      draw_text(image, x - 1.1 * cap_height, y + 1.3 * cap_height, kNames[axis], cap_height, kInk, Align::kRight);
+      continue;
+    }
+    const double end_x = x + reach * across, end_y = y - reach * up, ux = across / length, uy = -up / length;
+    image.stroke(x, y, end_x, end_y, line, kInk);
+    for (const double side : {-1.0, 1.0})
+      image.stroke(end_x, end_y, end_x - 0.4 * cap_height * (ux - 0.6 * side * uy), end_y - 0.4 * cap_height * (uy + 0.6 * side * ux), line,
+                   kInk);
+    draw_text(image, end_x + 0.9 * cap_height * ux, end_y + 0.9 * cap_height * uy + 0.45 * cap_height, kNames[axis], cap_height, kInk,
+              Align::kCenter);
   }
 }
 

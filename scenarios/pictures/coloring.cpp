@@ -41,15 +41,39 @@ void choose_unit(ColorScale& scale, ColorBy by) {
 void widen(ColorScale& scale) {
   const double span = scale.high - scale.low;
   const double size = std::max(std::abs(scale.low), std::abs(scale.high));
-  if (span <= 1e-6 * size || span == 0.0) {  // all the same: a scale around it
-    const double half = size > 0.0 ? 0.5 * nice_below(size) : 0.5;
-    scale.low = scale.low >= 0.0 ? std::max(0.0, scale.low - half) : scale.low - half;
-    scale.high += half;
-    return;
+  if (span <= 1e-6 * size) {  // all the same: a scale from zero
+    if (size == 0.0) scale.high = 1.0;
+    (scale.low < 0.0 ? scale.high : scale.low) = 0.0;
   }
-  const double step = nice_below(span / 4.0);
-  scale.low = std::floor(scale.low / step + 1e-9) * step;
-  scale.high = std::ceil(scale.high / step - 1e-9) * step;
+  const double step = nice_below((scale.high - scale.low) / 4.0);
+  constexpr double kNothing = 1e-3;  // of a step: no reason to widen by a whole one
+  scale.low = std::floor(scale.low / step + kNothing) * step;
+  scale.high = std::ceil(scale.high / step - kNothing) * step;
+}
+
+/// The scale that suits these values, those that are not numbers left out; `beyond` is the part of them that may lie outside at each end.
+ColorScale scale_of(std::vector<double> values, double beyond) {
+  ColorScale scale;
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  scale.data_low = 1.0;  // no data
+  if (values.empty()) return scale;
+  std::sort(values.begin(), values.end());
+  scale.data_low = values.front();
+  scale.data_high = values.back();
+  const auto percentile = [&](double p) {
+    return values[static_cast<std::size_t>(std::lround(p * static_cast<double>(values.size() - 1)))];
+  };
+  scale.low = percentile(beyond);
+  scale.high = percentile(1.0 - beyond);
+  if (scale.low < 0.0 && -scale.low > 0.1 * scale.high) {
+    scale.diverging = true;
+    scale.high = std::max(-scale.low, scale.high);
+    scale.low = -scale.high;
+  } else if (scale.low > 0.0 && scale.low < 0.35 * scale.high) {
+    scale.low = 0.0;  // zero is near: show it
+  }
+  widen(scale);
+  return scale;
 }
 
 // A little lighter or darker from cell to cell, so that neighbours of one kind differ: −1..1 from the id.
@@ -61,7 +85,9 @@ Rgb varied(const Rgb& color, CellId id) {
 
 }  // namespace
 
-bool is_number(ColorBy by) { return by == ColorBy::kPressure || by == ColorBy::kVolume || by == ColorBy::kConcentration; }
+bool is_number(ColorBy by) {
+  return by == ColorBy::kPressure || by == ColorBy::kVolume || by == ColorBy::kConcentration || by == ColorBy::kField;
+}
 
 double color_value(const Snapshot::Cell& cell, ColorBy by, std::size_t field) {
   switch (by) {
@@ -77,34 +103,21 @@ double color_value(const Snapshot::Cell& cell, ColorBy by, std::size_t field) {
 }
 
 ColorScale common_scale(std::span<const Snapshot> snapshots, ColorBy by, std::size_t field, const std::string& name) {
-  ColorScale scale;
-  if (!is_number(by)) return scale;
-  scale.quantity = by == ColorBy::kPressure ? "pressure" : by == ColorBy::kVolume ? "volume" : name;
+  if (!is_number(by)) return {};
   std::vector<double> values;
   for (const Snapshot& snapshot : snapshots)
-    for (const auto& cell : snapshot.cells) {
-      const double value = color_value(cell, by, field);
-      if (std::isfinite(value)) values.push_back(value);
-    }
-  scale.data_low = 1.0;  // no data
-  if (values.empty()) return choose_unit(scale, by), scale;
-  std::sort(values.begin(), values.end());
-  scale.data_low = values.front();
-  scale.data_high = values.back();
-  const auto percentile = [&](double p) {
-    return values[static_cast<std::size_t>(std::lround(p * static_cast<double>(values.size() - 1)))];
-  };
-  scale.low = percentile(0.01);
-  scale.high = percentile(0.99);
-  if (scale.low < 0.0 && scale.high > 0.0 && std::min(-scale.low, scale.high) > 0.1 * std::max(-scale.low, scale.high)) {
-    scale.diverging = true;
-    scale.high = std::max(-scale.low, scale.high);
-    scale.low = -scale.high;
-  } else if (scale.low > 0.0 && scale.low < 0.35 * scale.high) {
-    scale.low = 0.0;  // zero is near: show it
-  }
-  widen(scale);
+    for (const auto& cell : snapshot.cells) values.push_back(color_value(cell, by, field));
+  ColorScale scale = scale_of(std::move(values), 0.01);
+  scale.quantity = by == ColorBy::kPressure ? "pressure" : by == ColorBy::kVolume ? "volume" : name;
   choose_unit(scale, by);
+  return scale;
+}
+
+ColorScale field_scale(const Snapshot& snapshot, std::size_t field) {
+  if (field >= snapshot.fields.size()) return {};
+  ColorScale scale = scale_of(snapshot.fields[field].concentration, 0.0);
+  scale.quantity = snapshot.fields[field].name;
+  choose_unit(scale, ColorBy::kField);
   return scale;
 }
 

@@ -9,7 +9,8 @@
 
 namespace morula::scenarios {
 
-enum class ColorBy { kType, kBody, kIdentity, kPressure, kVolume, kConcentration, kMarks };
+/// kConcentration: what each cell sees; kField: the concentration in the plane of the cut itself.
+enum class ColorBy { kType, kBody, kIdentity, kPressure, kVolume, kConcentration, kField, kMarks };
 
 /// How a number of a cell becomes a colour, and what the colour bar says.
 struct ColorScale {
@@ -37,8 +38,12 @@ bool is_number(ColorBy by);
 double color_value(const Snapshot::Cell& cell, ColorBy by, std::size_t field);
 
 /// One scale for all of these snapshots, so that their pictures compare: from the 1st to the 99th percentile of all cells, widened to
-/// round numbers; diverging when values of both signs matter. `name`: of the field.
+/// round numbers; diverging when negative values matter, so that zero is white and both signs have their own colours. `name`: of the
+/// field.
 ColorScale common_scale(std::span<const Snapshot> snapshots, ColorBy by, std::size_t field = 0, const std::string& name = "");
+
+/// Scale of a field from its least to its largest concentration in the snapshot, widened to round numbers.
+ColorScale field_scale(const Snapshot& snapshot, std::size_t field);
 
 /// Colour of a scale at a value.
 Rgb scale_color(const ColorScale& scale, double value);

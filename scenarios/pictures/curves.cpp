@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <optional>
 
 #include "core/numbers/number_text.h"
 #include "scenarios/pictures/annotate.h"
@@ -90,6 +90,99 @@ std::string bars_csv(const BarPlot& plot) {
   return out;
 }
 
+/// Numbers along both axes.
+struct PlotTicks {
+  Ticks along, upwards;
+  bool any = false;  ///< whether there is a point to show
+};
+
+PlotTicks ticks_of(const CurvePlot& plot) {
+  Range x, y, points;
+  PlotTicks out;
+  for (const Curve& curve : plot.curves) {
+    for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
+      if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i])) continue;
+      x.add(curve.x[i], plot.x.logarithmic);
+      y.add(curve.y[i], plot.y.logarithmic);
+      if (curve.style == CurveStyle::kPoints) points.add(curve.x[i], plot.x.logarithmic);
+      out.any = true;
+    }
+  }
+  for (const CurveLimit& limit : plot.limits) y.add(limit.value, plot.y.logarithmic);
+  if (!points.empty() && !plot.x.logarithmic && !plot.x.low && !plot.x.high) {  // no point lies on the border, but at zero
+    const double rim = 0.03 * (x.high - x.low);
+    if (points.low < x.low + rim && x.low != 0.0) x.low -= rim;
+    if (points.high > x.high - rim) x.high += rim;
+  }
+  out.along = ticks_of(plot.x, x, 7, false);
+  out.upwards = ticks_of(plot.y, y, 5, true);
+  return out;
+}
+
+/// A curve whose name is to be told: the first of those that share its colour.
+struct Named {
+  const Curve* curve;
+  int color;
+};
+
+int color_of(const CurvePlot& plot, std::size_t c) { return plot.curves[c].color >= 0 ? plot.curves[c].color : static_cast<int>(c); }
+
+std::vector<Named> named_curves(const CurvePlot& plot) {
+  std::vector<Named> out;
+  for (std::size_t c = 0; c < plot.curves.size(); ++c) {
+    const int color = color_of(plot, c);
+    if (std::none_of(out.begin(), out.end(), [&](const Named& n) { return n.color == color; })) out.push_back({&plot.curves[c], color});
+  }
+  return out;
+}
+
+/// Number of the last point of a line that has a place; none: it has no end.
+std::optional<std::size_t> end_of(const Curve& curve, const SvgFrame& frame) {
+  for (std::size_t i = std::min(curve.x.size(), curve.y.size()); i-- > 0;)
+    if (frame.shows(curve.x[i], curve.y[i])) return i;
+  return std::nullopt;
+}
+
+/// The plot with the names of lines at their ends, or all in a legend. Nothing where they have no room at their ends: when a line ends
+/// before the right end of the axis, when many end at one place, or where a name is long.
+std::optional<std::string> drawn(const CurvePlot& plot, SvgUse use, bool at_ends) {
+  const PlotTicks ticks = ticks_of(plot);
+  std::vector<PlotEntry> legend;
+  std::vector<Named> ends;
+  double room = 0.0;
+  for (const Named& named : named_curves(plot)) {
+    const bool points = named.curve->style == CurveStyle::kPoints;
+    if (points || !at_ends) {
+      legend.push_back({named.curve->name, named.color, points});
+    } else if (named.curve->name != plot.y.label) {
+      ends.push_back(named);
+      room = std::max(room, 7.0 * static_cast<double>(named.curve->name.size()) + 8.0);
+    }
+  }
+  if (legend.size() == 1 && ends.empty()) legend.clear();  // the axis says what it is
+  constexpr double kWidest = 0.3;
+  if (room > kWidest * plot.width) return std::nullopt;
+  SvgFrame frame(plot.title, plot.width, plot.height, use, legend, room);
+  frame.axes(plot.x, plot.y, ticks.along, ticks.upwards);
+  std::vector<LineEnd> places;
+  for (const Named& named : ends) {
+    const auto end = end_of(*named.curve, frame);
+    if (!end || frame.x(named.curve->x[*end]) < frame.x(ticks.along.high) - 6.0) return std::nullopt;
+    places.push_back({named.curve->name, named.color, frame.y(named.curve->y[*end]), 0.0});
+  }
+  if (!frame.line_ends(std::move(places))) return std::nullopt;
+  for (std::size_t c = 0; c < plot.curves.size(); ++c) {
+    const Curve& curve = plot.curves[c];
+    if (curve.style == CurveStyle::kPoints)
+      draw_points(frame, curve, color_of(plot, c));
+    else
+      draw_line(frame, curve, color_of(plot, c));
+  }
+  for (const CurveLimit& limit : plot.limits) frame.limit(limit);  // its words lie over the curves
+  if (!ticks.any) frame.no_data();
+  return frame.finish();
+}
+
 Status write_both(const std::filesystem::path& stem, const std::string& svg, const std::string& csv) {
   MORULA_TRY(write_file_atomically(stem.string() + ".csv", csv));
   return write_file_atomically(stem.string() + ".svg", svg);
@@ -98,39 +191,8 @@ Status write_both(const std::filesystem::path& stem, const std::string& svg, con
 }  // namespace
 
 std::string curves_svg(const CurvePlot& plot, SvgUse use) {
-  Range x, y;
-  bool any = false;
-  for (const Curve& curve : plot.curves) {
-    for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
-      if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i])) continue;
-      x.add(curve.x[i], plot.x.logarithmic);
-      y.add(curve.y[i], plot.y.logarithmic);
-      any = true;
-    }
-  }
-  for (const CurveLimit& limit : plot.limits) y.add(limit.value, plot.y.logarithmic);
-
-  const auto color_of = [&](std::size_t c) { return plot.curves[c].color >= 0 ? plot.curves[c].color : static_cast<int>(c); };
-  std::vector<std::string> names;
-  std::vector<int> colors;
-  for (std::size_t c = 0; c < plot.curves.size(); ++c) {
-    if (std::find(colors.begin(), colors.end(), color_of(c)) != colors.end()) continue;  // the curve that it belongs to is in the legend
-    names.push_back(plot.curves[c].name);
-    colors.push_back(color_of(c));
-  }
-  SvgFrame frame(plot.title, plot.width, plot.height, use, names, colors);
-  frame.axes(plot.x, plot.y, ticks_of(plot.x, x, 7, false), ticks_of(plot.y, y, 5, true));
-  for (std::size_t c = 0; c < plot.curves.size(); ++c) {
-    const Curve& curve = plot.curves[c];
-    const int color = color_of(c);
-    if (curve.style == CurveStyle::kPoints)
-      draw_points(frame, curve, color);
-    else
-      draw_line(frame, curve, color);
-  }
-  for (const CurveLimit& limit : plot.limits) frame.limit(limit);  // its words lie over the curves
-  if (!any) frame.no_data();
-  return frame.finish();
+  if (auto with_ends = drawn(plot, use, true)) return *std::move(with_ends);
+  return *drawn(plot, use, false);
 }
 
 std::string bars_svg(const BarPlot& plot, SvgUse use) {
@@ -139,11 +201,10 @@ std::string bars_svg(const BarPlot& plot, SvgUse use) {
   bool any = false;
   for (const BarSeries& series : plot.series)
     for (const double height : series.heights) y.add(height, false), any = true;
-  std::vector<std::string> names;
-  for (const BarSeries& series : plot.series) names.push_back(series.name);
-  std::vector<int> colors(names.size());
-  std::iota(colors.begin(), colors.end(), 0);
-  SvgFrame frame(plot.title, plot.width, plot.height, use, names, colors);
+  std::vector<PlotEntry> legend;
+  for (const BarSeries& series : plot.series) legend.push_back({series.name, static_cast<int>(legend.size())});
+  if (legend.size() == 1) legend.clear();
+  SvgFrame frame(plot.title, plot.width, plot.height, use, legend);
   const auto groups = static_cast<double>(std::max<std::size_t>(1, plot.categories.size()));
   Ticks along{0.0, groups, {}, {}};
   const std::size_t every = std::max<std::size_t>(1, (plot.categories.size() + 11) / 12);

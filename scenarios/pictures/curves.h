@@ -21,7 +21,7 @@ struct Curve {
   std::string name;
   std::vector<double> x, y;  ///< same length; a NaN interrupts the line
   CurveStyle style = CurveStyle::kLine;
-  int color = -1;  ///< number in the palette; curves that share one have one entry in the legend, the first's; −1: its own
+  int color = -1;  ///< number in the palette; of curves that share one only the first is named; −1: its own
 };
 
 /// A horizontal dashed line that must not be crossed.
@@ -56,7 +56,8 @@ struct BarPlot {
 /// How the SVG will be used: as a file (white background) or within a page (no background, ink in the page's text colour).
 enum class SvgUse { kFile, kInline };
 
-/// The plot as SVG text. Without data: axes and the words "no data". Deterministic.
+/// The plot as SVG text. Lines are named at their right ends where there is room, else in a legend; points in a legend. Without data: axes
+/// and the words "no data". Deterministic.
 std::string curves_svg(const CurvePlot& plot, SvgUse use = SvgUse::kFile);
 std::string bars_svg(const BarPlot& plot, SvgUse use = SvgUse::kFile);
 

@@ -36,7 +36,7 @@ float noise(int x, int y) {
 
 class Shader {
  public:
-  Shader(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const Rgb> mark_colors, const Surroundings& around,
+  Shader(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const Rgb> mark_colors, const DrawnSurroundings& around,
          const ShadeOptions& options)
       : pixels_(pixels), colors_(colors), mark_colors_(mark_colors), around_(around), options_(options), spiral_(spiral()) {
     reach_px_ = static_cast<float>(std::clamp(1.3 * options.cell_radius * options.pixels_per_um, 2.0, 150.0));
@@ -140,7 +140,7 @@ class Shader {
 
   const PixelBuffer& pixels_;
   std::span<const Rgb> colors_, mark_colors_;
-  const Surroundings& around_;
+  const DrawnSurroundings& around_;
   ShadeOptions options_;
   std::array<Offset, kOcclusionSamples> spiral_;
   std::array<Offset, 16> turn_{};
@@ -150,7 +150,7 @@ class Shader {
 
 }  // namespace
 
-void shade(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const Rgb> mark_colors, const Surroundings& around,
+void shade(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const Rgb> mark_colors, const DrawnSurroundings& around,
            const ShadeOptions& options, Image& image, int left, int top) {
   const Shader shader(pixels, colors, mark_colors, around, options);
   const int rows = pixels.height / options.samples, columns = pixels.width / options.samples;

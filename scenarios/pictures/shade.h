@@ -25,7 +25,7 @@ struct ShadeOptions {
 /// blue.
 ///
 /// `colors` are indexed by cell; `mark_colors` by bit of a face's marks, empty to leave these out.
-void shade(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const Rgb> mark_colors, const Surroundings& around,
+void shade(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const Rgb> mark_colors, const DrawnSurroundings& around,
            const ShadeOptions& options, Image& image, int left, int top);
 
 }  // namespace morula::scenarios

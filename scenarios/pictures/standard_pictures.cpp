@@ -20,14 +20,18 @@ struct Set {
     options.camera = cut ? view.cut : view.whole;
     if (cut && !(options.cut = place_cut(snapshot, view.cut_normal))) return;
     options.width = options.height = frame ? 640 : 900;
+    options.legend_rows = 1;
+    for (const Snapshot& each : frame ? snapshots : std::span(&snapshot, 1))
+      options.legend_rows = std::max(options.legend_rows, rows_of_legend(each, options));
     const int margins = options.height - view_height(options);
     options.height = margins + static_cast<int>(aspect_of(options.camera, snapshots) * view_height(options));
     fit_camera(options.camera, snapshots, options.width, view_height(options));
+    if (options.color_by == ColorBy::kField) options.camera.pixels_per_um *= 0.7;  // the field around the cells, too
     options.type_colors = type_colors;
     options.title = "t = " + short_time(snapshot.time);
     const std::string cells = std::to_string(snapshot.cells.size()) + (snapshot.cells.size() == 1 ? " cell, " : " cells, ");
-    pictures.push_back(
-        {std::move(name), options.title + ", " + cells + (cut ? "cut, " : "") + what, snapshot.time, frame, render(snapshot, options)});
+    pictures.push_back({std::move(name), options.title + ", " + cells + (cut && options.color_by != ColorBy::kField ? "cut, " : "") + what,
+                        snapshot.time, frame, render(snapshot, options)});
   }
 };
 
@@ -67,13 +71,18 @@ std::vector<Picture> standard_pictures(std::span<const Snapshot> snapshots, cons
   set.add(last, "cells_final", both_bodies ? "coloured by body" : "coloured by type",
           colored(both_bodies ? ColorBy::kBody : ColorBy::kType), false, false);
   if (both_bodies) set.add(last, "cut_body_final", "coloured by body", colored(ColorBy::kBody), true, false);
-  set.add(last, one_type ? "cut_cells_final" : "cut_type_final", one_type ? "each cell in its own colour" : "coloured by type",
-          colored(one_type ? ColorBy::kIdentity : ColorBy::kType), true, false);
-  set.add(last, "cut_pressure_final", "coloured by pressure", colored(ColorBy::kPressure, pressure), true, false);
+  if (!one_type)
+    set.add(last, "cut_type_final", "coloured by type", colored(ColorBy::kType), true, false);
+  else if (last.cells.size() > 1)
+    set.add(last, "cut_cells_final", "each cell in its own colour", colored(ColorBy::kIdentity), true, false);
+  set.add(last, "cut_pressure_final", "coloured by pressure", colored(ColorBy::kPressure, common_scale({&last, 1}, ColorBy::kPressure)),
+          true, false);
   for (std::size_t field = 0; field < last.fields.size() && field < kMaxFields; ++field) {
     const std::string& name = last.fields[field].name;
-    set.add(last, "cut_" + name + "_final", "coloured by " + name,
-            colored(ColorBy::kConcentration, common_scale(snapshots, ColorBy::kConcentration, field, name), field), true, false);
+    const ColorScale scale = field_scale(last, field);  // of both pictures: what cells see, and what is around them
+    set.add(last, "cut_" + name + "_final", "coloured by the " + name + " they see", colored(ColorBy::kConcentration, scale, field), true,
+            false);
+    set.add(last, "slice_" + name + "_final", name + " in the plane of the cut", colored(ColorBy::kField, scale, field), true, false);
   }
   if (std::any_of(last.face_marks.begin(), last.face_marks.end(), [](std::uint8_t marks) { return marks != 0; })) {
     set.add(last, "marks_final", "faces coloured by their marks", colored(ColorBy::kMarks), false, false);

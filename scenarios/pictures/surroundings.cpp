@@ -22,11 +22,44 @@ double winding(const Snapshot::Obstacle& obstacle, const Vec3d& point) {
   return angle / (4.0 * std::numbers::pi);
 }
 
+/// The surface with the nodes on its edges doubled: faces that meet at more than 40 degrees share none, so that each side of a plate is
+/// shaded as flat as it is and a tube as round.
+Snapshot::Obstacle creased(const Snapshot::Obstacle& smooth) {
+  constexpr double kCosine = 0.766;
+  std::vector<Vec3d> normal;
+  std::vector<std::vector<std::size_t>> around(smooth.position.size());
+  for (std::size_t f = 0; f < smooth.faces.size(); ++f) {
+    const auto& [a, b, c] = smooth.faces[f];
+    const Vec3d n = cross(smooth.position[b] - smooth.position[a], smooth.position[c] - smooth.position[a]);
+    normal.push_back(norm(n) > 0.0 ? n / norm(n) : n);
+    for (const std::uint32_t node : smooth.faces[f]) around[node].push_back(f);
+  }
+  Snapshot::Obstacle out = smooth;
+  for (std::uint32_t node = 0; node < around.size(); ++node) {
+    std::vector<std::size_t> left = around[node];
+    for (bool first = true; !left.empty(); first = false) {
+      std::vector<std::size_t> side{left.back()};  // all faces that smooth steps lead to
+      left.pop_back();
+      for (std::size_t i = 0; i < side.size(); ++i)
+        for (std::size_t k = left.size(); k-- > 0;)
+          if (dot(normal[side[i]], normal[left[k]]) > kCosine) {
+            side.push_back(left[k]);
+            left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
+          }
+      if (first) continue;  // the node itself
+      const auto copy = static_cast<std::uint32_t>(out.position.size());
+      out.position.push_back(smooth.position[node]);
+      for (const std::size_t f : side) std::replace(out.faces[f].begin(), out.faces[f].end(), node, copy);
+    }
+  }
+  return out;
+}
+
 /// Obstacles as if they were shells, for rasterize.
 Snapshot as_shells(const Snapshot& snapshot, const std::vector<bool>& hollow) {
   Snapshot out;
   for (std::size_t i = 0; i < snapshot.obstacles.size(); ++i) {
-    const Snapshot::Obstacle& obstacle = snapshot.obstacles[i];
+    const Snapshot::Obstacle obstacle = creased(snapshot.obstacles[i]);
     const auto number = static_cast<std::uint32_t>(i);
     out.cells.emplace_back().body = BodyKind::kShell;
     out.shells.push_back(
@@ -94,9 +127,9 @@ void draw_fluid(const Snapshot& snapshot, const Camera& camera, const CutPlane& 
 
 }  // namespace
 
-Surroundings draw_surroundings(const Snapshot& snapshot, const Camera& camera, const std::optional<CutPlane>& cut,
-                               const PixelBuffer& cells) {
-  Surroundings out;
+DrawnSurroundings draw_surroundings(const Snapshot& snapshot, const Camera& camera, const std::optional<CutPlane>& cut,
+                                    const PixelBuffer& cells) {
+  DrawnSurroundings out;
   bool any = false;
   for (const Snapshot::Obstacle& obstacle : snapshot.obstacles) {
     constexpr std::size_t kAsked = 32;  // cells are on the same side of an obstacle: a few tell
@@ -117,10 +150,10 @@ Surroundings draw_surroundings(const Snapshot& snapshot, const Camera& camera, c
 std::vector<LegendEntry> surroundings_legend(const Snapshot& snapshot, bool with_cut) {
   std::vector<LegendEntry> entries;
   constexpr std::size_t kNamed = 3;
-  if (snapshot.obstacles.size() <= kNamed)
-    for (const Snapshot::Obstacle& obstacle : snapshot.obstacles) entries.push_back({obstacle.name, kObstacleColor});
-  else
-    entries.push_back({std::to_string(snapshot.obstacles.size()) + " obstacles", kObstacleColor});
+  std::string names;  // they share a colour
+  for (const Snapshot::Obstacle& obstacle : snapshot.obstacles) names += (names.empty() ? "" : ", ") + obstacle.name;
+  if (snapshot.obstacles.size() > kNamed) names = std::to_string(snapshot.obstacles.size()) + " obstacles";
+  if (!names.empty()) entries.push_back({names, kObstacleColor});
   if (with_cut)
     for (const Snapshot::Lumen& lumen : snapshot.lumens) entries.push_back({"fluid of " + lumen.name, kFluidColor});
   return entries;

@@ -9,7 +9,7 @@
 namespace morula::scenarios {
 
 /// What is seen beside cells: obstacles and walls, and the fluid of cavities in a cut.
-struct Surroundings {
+struct DrawnSurroundings {
   std::optional<PixelBuffer> obstacles;  ///< surface: 2 × number of the obstacle, + 1 where it is cut; none: there are none
   std::vector<bool> hollow;              ///< by obstacle: cells are inside, so that its cut is only an outline
   std::vector<std::uint8_t> fluid;       ///< by pixel, 1 where a cavity is cut; empty: none is
@@ -19,8 +19,8 @@ struct Surroundings {
 /// that they never hide the tissue. With a cut, what of the plane is within a cavity of `cells` (as drawn by rasterize with the same camera
 /// and cut): the part of the plane around the cavity's centre that no cell covers, or a disc of the cavity's volume where that part is open
 /// to outside.
-Surroundings draw_surroundings(const Snapshot& snapshot, const Camera& camera, const std::optional<CutPlane>& cut,
-                               const PixelBuffer& cells);
+DrawnSurroundings draw_surroundings(const Snapshot& snapshot, const Camera& camera, const std::optional<CutPlane>& cut,
+                                    const PixelBuffer& cells);
 
 /// Legend of obstacles and cavities.
 std::vector<LegendEntry> surroundings_legend(const Snapshot& snapshot, bool with_cut);

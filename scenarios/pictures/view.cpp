@@ -19,11 +19,12 @@ Camera along_axis(std::size_t axis, std::size_t up_axis, double sign) {
   return camera;
 }
 
-View ball_view() {
+/// Obstacles are mostly plates and tubes along the axes: from above, one of them would lie before the cells.
+View ball_view(bool obstacles) {
   View view;
-  view.whole = make_camera(30.0 * kDegree, 22.0 * kDegree);
-  view.cut_normal = make_camera(8.0 * kDegree, 0.0).toward;
-  view.cut = make_camera(18.0 * kDegree, 12.0 * kDegree);  // the cut is seen nearly face to face
+  view.whole = obstacles ? make_camera(0.0, 0.0) : make_camera(30.0 * kDegree, 22.0 * kDegree);
+  view.cut = make_camera(0.0, 0.0);
+  view.cut_normal = view.cut.toward;
   return view;
 }
 
@@ -37,11 +38,11 @@ View layer_view(std::size_t thin) {
 }
 
 /// The row goes across the picture and is cut along itself. An upright row is seen from the front.
-View row_view(std::size_t along) {
+View row_view(std::size_t along, bool obstacles) {
   View view;
   view.layout = Layout::kRow;
   const double azimuth = along == 1 ? 90.0 * kDegree : 0.0;
-  view.whole = make_camera(azimuth, 12.0 * kDegree);
+  view.whole = make_camera(azimuth, (obstacles ? 5.0 : 12.0) * kDegree);
   view.cut = make_camera(azimuth, 0.0);
   view.cut_normal = view.cut.toward;
   return view;
@@ -68,14 +69,15 @@ View choose_view(std::span<const Snapshot> snapshots) {
         low[axis] = std::min(low[axis], cell.centroid[axis] - cell.radius);
         high[axis] = std::max(high[axis], cell.centroid[axis] + cell.radius);
       }
-  if (!(low.x <= high.x)) return ball_view();
+  const bool obstacles = std::any_of(snapshots.begin(), snapshots.end(), [](const Snapshot& s) { return !s.obstacles.empty(); });
+  if (!(low.x <= high.x)) return ball_view(obstacles);
   const Vec3d size = high - low;
   std::array<std::size_t, 3> order{0, 1, 2};
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return size[a] < size[b]; });
   constexpr double kLong = 1.6, kThin = 0.4;
-  if (size[order[2]] > kLong * size[order[1]]) return row_view(order[2]);
+  if (size[order[2]] > kLong * size[order[1]]) return row_view(order[2], obstacles);
   if (size[order[0]] < kThin * size[order[1]]) return layer_view(order[0]);
-  return ball_view();
+  return ball_view(obstacles);
 }
 
 std::optional<CutPlane> place_cut(const Snapshot& snapshot, const Vec3d& normal) {
@@ -105,7 +107,7 @@ double aspect_of(const Camera& camera, std::span<const Snapshot> snapshots) {
   fit_camera(fitted, snapshots, 1.0, 1e9);
   const double across = 1.0 / fitted.pixels_per_um;
   fit_camera(fitted, snapshots, 1e9, 1.0);
-  return std::clamp(1.0 / fitted.pixels_per_um / across, 0.4, 1.0);
+  return std::clamp(1.0 / fitted.pixels_per_um / across, 0.25, 1.0);
 }
 
 }  // namespace morula::scenarios

@@ -146,7 +146,9 @@ void add_plots(std::string& out, const ReportContent& content, bool numerics) {
   if (std::none_of(content.plots.begin(), content.plots.end(), wanted)) return;
   add(out, numerics ? "<details>\n<summary>Steps and solver</summary>\n" : "<section>\n<h2>Curves</h2>\n", "<div class=\"plots\">\n");
   for (const ReportPlot& plot : content.plots)
-    if (wanted(plot)) add(out, "<figure>", plot.svg, "<figcaption>", xml_escaped(plot.caption), "</figcaption></figure>\n");
+    if (wanted(plot))
+      add(out, "<figure>", plot.svg, plot.caption.empty() ? "" : "<figcaption>" + xml_escaped(plot.caption) + "</figcaption>",
+          "</figure>\n");
   add(out, numerics ? "</div>\n</details>\n" : "</div>\n</section>\n");
 }
 

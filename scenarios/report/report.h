@@ -42,7 +42,8 @@ struct ReportEvents {
 
 /// A plot as inline SVG: curves_svg(…, SvgUse::kInline).
 struct ReportPlot {
-  std::string caption, svg;
+  std::string caption;  ///< empty where the plot's own title says enough
+  std::string svg;
   bool numerics = false;  ///< about steps and solver: below a fold
 };
 

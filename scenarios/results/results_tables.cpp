@@ -30,7 +30,7 @@ void add_events(StoragePlan& plan, const std::string& lines) {
   const std::vector<std::string> kinds = event_kinds();
   std::vector<double> time;
   std::vector<std::uint8_t> kind;
-  std::vector<std::string> cell, text;
+  std::vector<std::string> cell, daughters, text;
   std::istringstream stream(lines);
   for (std::string line; std::getline(stream, line);) {
     const auto json = nlohmann::json::parse(line, nullptr, false);
@@ -40,12 +40,16 @@ void add_events(StoragePlan& plan, const std::string& lines) {
     time.push_back(json["time_s"]);
     kind.push_back(static_cast<std::uint8_t>(found - kinds.begin()));
     cell.push_back(json.value("cell", ""));
+    std::string& names = daughters.emplace_back();
+    for (const auto& name : json.value("daughters", nlohmann::json::array()))
+      if (name.is_string()) names += (names.empty() ? "" : " ") + name.get<std::string>();
     text.push_back(json.value("text", ""));
   }
   plan.add_from_root(results::kEventTime.path, results::kEventTime.label(), std::span<const double>(time));
   plan.add_from_root(results::kEventKind.path, {results::kEventKind.units, results::kEventKind.description, kinds},
                      std::span<const std::uint8_t>(kind));
   plan.add_text(results::kEventCell.path, cell, results::kEventCell.label());
+  plan.add_text(results::kEventDaughters.path, daughters, results::kEventDaughters.label());
   plan.add_text(results::kEventText.path, text, results::kEventText.label());
 }
 

@@ -52,6 +52,8 @@ inline constexpr ResultsDataset kObstacleFaces{"faces", "1", "three nodes of eac
 inline constexpr ResultsDataset kEventTime{"events/time", "s", "when it happened"};
 inline constexpr ResultsDataset kEventKind{"events/kind", "1", "what happened"};
 inline constexpr ResultsDataset kEventCell{"events/cell", "1", "the cell, named as in cells/id; empty for the run itself"};
+inline constexpr ResultsDataset kEventDaughters{"events/daughters", "1",
+                                                "the two cells of a division, named as in cells/id, with a space between; else empty"};
 inline constexpr ResultsDataset kEventText{"events/text", "1", "the reason, for people"};
 // of a snapshot
 inline constexpr ResultsDataset kTime{"time", "s", "simulated time of this snapshot"};

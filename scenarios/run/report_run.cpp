@@ -28,6 +28,13 @@ std::string short_text(double value) {
   return text;
 }
 
+/// The value with the unit that its limit has: "<= 0.3 um" is a sign, a number and a unit.
+std::string with_unit_of_limit(const Verdict& verdict) {
+  const std::size_t unit = verdict.limit.find(' ', 3);
+  const bool has_unit = (verdict.limit.starts_with("<= ") || verdict.limit.starts_with(">= ")) && unit != std::string::npos;
+  return value_text(verdict) + (has_unit && std::isfinite(verdict.value) ? verdict.limit.substr(unit) : "");
+}
+
 /// Counts by kind and the warnings of events.jsonl; lines that are not whole are left out.
 void read_events(const fs::path& path, ReportContent& content) {
   const auto text = read_file(path);
@@ -174,13 +181,13 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
   content.study = study.name;
   content.scenario = study.scenario;
   content.state = state_text(record);
-  for (const Verdict& v : judgement.verdicts) content.criteria.push_back({v.id, v.quantity, value_text(v), v.limit, v.passed});
+  for (const Verdict& v : judgement.verdicts) content.criteria.push_back({v.id, v.quantity, with_unit_of_limit(v), v.limit, v.passed});
   content.not_checked = judgement.not_checked;
   MORULA_TRY_ASSIGN(std::vector<NamedPlot> plots, scenario_plots(study, run));
   for (NamedPlot& plot : standard_plots(study, series)) plots.push_back(std::move(plot));
   for (const NamedPlot& one : plots) {
     MORULA_TRY(write_curves(one.plot, run / "plots" / one.name));
-    content.plots.push_back({one.plot.title, curves_svg(one.plot, SvgUse::kInline), one.numerics});
+    content.plots.push_back({"", curves_svg(one.plot, SvgUse::kInline), one.numerics});  // the plot has its title
   }
   MORULA_TRY_ASSIGN(const auto snapshots, snapshots_over_time(run / "results.h5", content.warnings));
   content.pictures = standard_pictures(snapshots, type_colors(study));

@@ -15,7 +15,7 @@ struct NamedPlot {
 };
 
 /// The curves every run gets (UX, section 6), of the columns that are in the series: cells by body and by type, size, step, volume error,
-/// overlap and field balance against their limits, pressure, contact, energy, fields. Time in hours, or minutes for short runs. A curve
+/// overlap and field balance against their limits, pressure, contact, energy, cavities, fields. Time in seconds, minutes or hours. A curve
 /// that is zero all the time or the same as one before it is left out, and so is a plot in which nothing changes (but those against
 /// limits).
 std::vector<NamedPlot> standard_plots(const Study& study, const SeriesTable& series);

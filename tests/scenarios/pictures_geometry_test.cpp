@@ -198,9 +198,9 @@ TEST(PicturesGeometry, ScaleBarIsDrawnAsLongAsTheSphereItMeasures) {
   };
   int longest_row = 0;
   for (int y = options.height - 1; y > view_height(options); --y)
-    if (darkness(y, 0, 450) > darkness(longest_row == 0 ? options.height - 1 : longest_row, 0, 450)) longest_row = y;
-  const double ink = 1.0 - 0.14;  // of the bar, in green
-  const double bar_px = darkness(longest_row, 0, 450) / ink;
+    if (darkness(y, 0, 250) > darkness(longest_row == 0 ? options.height - 1 : longest_row, 0, 250)) longest_row = y;
+  const double ink = 1.0 - 0.14;                              // of the bar, in green
+  const double bar_px = darkness(longest_row, 0, 250) / ink;  // the triad stands to the right of it
   const ScaleBar bar = make_scale_bar(7.3, 0.24 * options.width);
   EXPECT_EQ(bar.label, "20 µm");
   EXPECT_NEAR(bar_px, 20.0 * 7.3, 1.0);

@@ -162,6 +162,8 @@ TEST(PicturesText, NumbersAndTimesReadAsPeopleWriteThem) {
   EXPECT_EQ(short_time(40.0), "40 s");
   EXPECT_EQ(short_time(1800.0), "30 min");
   EXPECT_EQ(short_time(36.0 * 3600.0), "36 h");
+  EXPECT_EQ(short_time(320.0), "5.33 min");
+  EXPECT_EQ(short_time(119.5 * 3600.0), "119.5 h");
 }
 
 TEST(PicturesText, BrokenUtf8IsDrawnAsABoxAndEveryGlyphLeavesInk) {

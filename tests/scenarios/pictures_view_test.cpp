@@ -31,6 +31,15 @@ Snapshot grid(int nx, int ny, int nz) {
   return out;
 }
 
+Snapshot::Obstacle box(const std::string& name, const Vec3d& low, const Vec3d& high) {
+  Snapshot::Obstacle out;
+  out.name = name;
+  for (int i = 0; i < 8; ++i) out.position.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
+  out.faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+               {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return out;
+}
+
 TEST(PicturesView, LayerIsSeenFromAboveAndCutAtItsHeight) {
   const Snapshot layer = grid(6, 6, 1);
   const View view = choose_view(std::span(&layer, 1));
@@ -70,8 +79,22 @@ TEST(PicturesView, BallIsSeenFromTheSide) {
   const Snapshot ball = grid(4, 4, 4);
   const View view = choose_view(std::span(&ball, 1));
   EXPECT_EQ(view.layout, Layout::kBall);
-  EXPECT_GT(dot(view.cut.toward, view.cut_normal), 0.9) << "the cut is seen nearly face to face";
+  EXPECT_EQ(norm(view.cut.toward - view.cut_normal), 0.0) << "the cut is seen face to face";
   EXPECT_GT(dot(view.whole.toward, view.cut_normal), 0.0);
+  EXPECT_GT(view.whole.toward.z, 0.1) << "a little from above";
+}
+
+TEST(PicturesView, BallBetweenPlatesIsSeenFromTheFrontSoThatNoPlateHidesIt) {
+  Snapshot snapshot;
+  add_sphere(snapshot, {}, 6.0);
+  snapshot.obstacles = {box("upper", {-20, -20, 6}, {20, 20, 10}), box("lower", {-20, -20, -10}, {20, 20, -6})};
+  const std::vector<Picture> pictures = standard_pictures(std::span(&snapshot, 1));
+  ASSERT_EQ(pictures[0].name, "cells_00");
+  const Image& image = pictures[0].image;
+  int blue = 0;  // of the cell, across its middle
+  for (int x = 0; x < image.width; ++x) blue += image.at(x, image.height / 2).b - image.at(x, image.height / 2).r > 0.15f;
+  EXPECT_EQ(choose_view(std::span(&snapshot, 1)).whole.toward.z, 0.0);
+  EXPECT_GT(blue, static_cast<int>(0.5 * image.height));
 }
 
 TEST(PicturesView, CutThatMeetsNoCellIsMovedOrLeftOut) {
@@ -89,7 +112,7 @@ TEST(PicturesView, CutThatMeetsNoCellIsMovedOrLeftOut) {
 TEST(PicturesView, PictureIsAsWideAsTheTissue) {
   Snapshot row;
   for (int i = 0; i < 5; ++i) add_sphere(row, {20.0 * i, 0, 0}, 6.0);
-  EXPECT_EQ(aspect_of(make_camera(0.0, 0.0), std::span(&row, 1)), 0.4);  // 12 µm high, 92 µm wide: no flatter than that
+  EXPECT_EQ(aspect_of(make_camera(0.0, 0.0), std::span(&row, 1)), 0.25);  // 12 µm high, 92 µm wide: no flatter than that
   const Snapshot ball = grid(2, 2, 2);
   EXPECT_NEAR(aspect_of(make_camera(0.0, 0.0), std::span(&ball, 1)), 1.0, 1e-12);
 }
@@ -130,15 +153,6 @@ TEST(PicturesSmooth, CoarseBallBecomesRoundAndStaysClosed) {
   for (std::size_t i = 0; i < x.size(); ++i) EXPECT_EQ(norm(fine.nodes[i] - x[i]), 0.0) << "the nodes themselves stay";
 }
 
-Snapshot::Obstacle box(const std::string& name, const Vec3d& low, const Vec3d& high) {
-  Snapshot::Obstacle out;
-  out.name = name;
-  for (int i = 0; i < 8; ++i) out.position.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
-  out.faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-               {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return out;
-}
-
 RenderOptions from_front(const Snapshot& snapshot, bool cut) {
   RenderOptions options;
   options.width = options.height = 200;
@@ -172,6 +186,42 @@ TEST(PicturesSurroundings, PlateIsSeenBesideACellBehindAndBeforeIt) {
   const Rgb cell = through.at(100, 100), plate = through.at(50, 100);
   EXPECT_GT(cell.b - cell.r, 0.1f) << "the blue of the first type";
   EXPECT_TRUE(grey(plate));
+}
+
+TEST(PicturesSurroundings, SidesOfAPlateAreFlatAndTubesRound) {
+  Snapshot snapshot;
+  add_sphere(snapshot, {0, 0, 40}, 1.0);  // away from what is looked at
+  snapshot.obstacles = {box("plate", {-12, -12, -10}, {12, 12, -6})};
+  RenderOptions options = from_front(snapshot, false);
+  options.camera = make_camera(0.0, 0.6);
+  options.camera.pixels_per_um = 4.0;
+  options.camera.center = {0, 0, -6};
+  const Image plate = render(snapshot, options);
+  for (const int x : {70, 100, 130})
+    for (const int y : {80, 100, 118})
+      EXPECT_EQ(plate.at(x, y), plate.at(100, 90)) << x << ' ' << y << ": one grey all over its upper side";
+  EXPECT_NE(plate.at(100, 134), plate.at(100, 90)) << "and another one at its front, 12 µm towards the eye";
+  Snapshot::Obstacle tube;  // 24 sides around z, without ends
+  tube.name = "tube";
+  for (int i = 0; i < 24; ++i)
+    for (const double z : {-20.0, 20.0}) {
+      const double angle = 2.0 * std::numbers::pi * i / 24.0;
+      tube.position.push_back({10.0 * std::cos(angle), 10.0 * std::sin(angle), z});
+    }
+  for (std::uint32_t i = 0; i < 24; ++i) {
+    const std::uint32_t a = 2 * i, b = 2 * ((i + 1) % 24);
+    tube.faces.push_back({a, b, a + 1});
+    tube.faces.push_back({b, b + 1, a + 1});
+  }
+  snapshot.obstacles = {tube};
+  options.camera = make_camera(0.0, 0.0);
+  options.camera.pixels_per_um = 8.0;
+  const Image round = render(snapshot, options);
+  // Facets would be bands of one grey, 20 pixels wide in the middle.
+  float largest = 0.0f;
+  for (int x = 105; x < 150; ++x) largest = std::max(largest, std::abs(round.at(x + 1, 100).r - round.at(x, 100).r));
+  EXPECT_LT(largest, 0.0065f) << "no step between two sides: those of 15 degrees would be 0.009 and 0.018";
+  EXPECT_NE(round.at(105, 100), round.at(145, 100));
 }
 
 TEST(PicturesSurroundings, ContainerDoesNotHideWhatIsInIt) {
@@ -234,11 +284,33 @@ TEST(PicturesColours, ScaleKnowsTheRangeOfItsData) {
   EXPECT_EQ(scale.data_low, 0.0);
 }
 
+TEST(PicturesColours, PressureBelowZeroIsBlueAndZeroWhiteAlsoWhereNoneIsAbove) {
+  Snapshot snapshot;
+  for (const double pressure : {-0.0047, -0.001, 0.0}) add_sphere(snapshot, {}, 5.0), snapshot.cells.back().pressure = pressure;
+  const ColorScale scale = common_scale(std::span(&snapshot, 1), ColorBy::kPressure);
+  EXPECT_TRUE(scale.diverging);
+  EXPECT_EQ(scale.low, -scale.high);
+  const Rgb tension = scale_color(scale, -0.0047), none = scale_color(scale, 0.0);
+  EXPECT_GT(tension.b - tension.r, 0.3f);
+  EXPECT_NEAR(none.r, none.b, 0.01f);
+}
+
+TEST(PicturesColours, ScaleOfOneValueStartsAtZeroAndIsRound) {
+  Snapshot snapshot;
+  add_sphere(snapshot, {}, 5.0);
+  snapshot.cells[0].pressure = 0.0999;
+  const ColorScale scale = common_scale(std::span(&snapshot, 1), ColorBy::kPressure);
+  EXPECT_EQ(scale.low, 0.0);
+  EXPECT_NEAR(scale.high, 0.1, 1e-12);
+}
+
 TEST(PicturesText, UnitsReadAsPeopleWriteThem) {
   EXPECT_EQ(display_text("<= 0.3 um"), "<= 0.3 µm");
   EXPECT_EQ(display_text("um^2"), "µm²");
   EXPECT_EQ(display_text("nN um"), "nN µm");
-  EXPECT_EQ(display_text("number, umbrella, um_x, maximum"), "number, umbrella, um_x, maximum");
+  EXPECT_EQ(display_text("tension 30 uN/m"), "tension 30 µN/m");
+  EXPECT_EQ(display_text("angle [deg]"), "angle [°]");
+  EXPECT_EQ(display_text("number, umbrella, um_x, maximum, degree"), "number, umbrella, um_x, maximum, degree");
 }
 
 TEST(PicturesTicks, TimesAreThoseOfClocks) {
