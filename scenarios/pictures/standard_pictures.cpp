@@ -1,6 +1,7 @@
 #include "scenarios/pictures/standard_pictures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "scenarios/pictures/annotate.h"
@@ -40,6 +41,13 @@ std::string two_digits(std::size_t i) {
   return text += std::to_string(i);
 }
 
+/// Scale of the last state by itself; that of all states where its values are a hundredth of theirs or less, which are errors of the solver.
+ColorScale own_scale(const Snapshot& last, const ColorScale& of_all) {
+  const auto size = [](const ColorScale& scale) { return std::max(std::abs(scale.low), std::abs(scale.high)); };
+  const ColorScale own = common_scale({&last, 1}, ColorBy::kPressure);
+  return size(own) > 0.01 * size(of_all) ? own : of_all;
+}
+
 RenderOptions colored(ColorBy by, const ColorScale& scale = {}, std::size_t field = 0) {
   RenderOptions options;
   options.color_by = by;
@@ -75,8 +83,7 @@ std::vector<Picture> standard_pictures(std::span<const Snapshot> snapshots, cons
     set.add(last, "cut_type_final", "coloured by type", colored(ColorBy::kType), true, false);
   else if (last.cells.size() > 1)
     set.add(last, "cut_cells_final", "each cell in its own colour", colored(ColorBy::kIdentity), true, false);
-  set.add(last, "cut_pressure_final", "coloured by pressure", colored(ColorBy::kPressure, common_scale({&last, 1}, ColorBy::kPressure)),
-          true, false);
+  set.add(last, "cut_pressure_final", "coloured by pressure", colored(ColorBy::kPressure, own_scale(last, pressure)), true, false);
   for (std::size_t field = 0; field < last.fields.size() && field < kMaxFields; ++field) {
     const std::string& name = last.fields[field].name;
     const ColorScale scale = field_scale(last, field);  // of both pictures: what cells see, and what is around them

@@ -195,6 +195,8 @@ TEST(StandardPictures, TheLastStateHasAScaleOfItsOwn) {
   };
   EXPECT_GT(difference("cut_pressure_final"), 0.3f);
   EXPECT_LT(difference("cut_pressure_01"), 0.1f) << "frames have one scale";
+  snapshots[1].cells[0].pressure = -1e-6, snapshots[1].cells[1].pressure = 2e-6;  // free cells: errors of the solver
+  EXPECT_LT(difference("cut_pressure_final"), 0.1f);
 }
 
 }  // namespace
