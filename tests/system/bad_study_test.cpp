@@ -160,13 +160,18 @@ TEST(BadStudy, IsFoundInValuesOfTheCommandLineToo) {
 
 TEST(BadStudy, WithVeryManyMistakesIsToldByAHundredAndTheirNumber) {
   const TestFolder folder;
-  std::string keys;
-  for (int i = 0; i < 400000; ++i) keys += "k" + std::to_string(i) + ": 1\n";
-  folder.write("study.yaml", sphere_study() + keys);
-  const Outcome outcome = run_morula({"check", "study.yaml"}, folder.path());
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("and 399,900 more"), HasSubstr("400000 errors in 'study.yaml'")));
-  EXPECT_LT(outcome.err.size(), 100000u);
+  const auto told = [&](int count) {
+    std::string keys;
+    for (int i = 0; i < count; ++i) keys += "k" + std::to_string(i) + ": 1\n";
+    folder.write("study.yaml", sphere_study() + keys);
+    const Outcome outcome = run_morula({"check", "study.yaml"}, folder.path());
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_LT(outcome.err.size(), 100000u);
+    return outcome.err;
+  };
+  EXPECT_THAT(told(90000), AllOf(HasSubstr("and 89,900 more"), HasSubstr("90000 errors in 'study.yaml'")));
+  // Beyond 200,000 keys and values the rest is not read, and so not counted: that takes seconds.
+  EXPECT_THAT(told(400000), AllOf(HasSubstr("[E690]"), HasSubstr("are not read"), HasSubstr("and 99,")));
 }
 
 TEST(BadStudy, OfTwoFillsInTheSamePlaceIsNoMistake) {
