@@ -261,7 +261,8 @@ void declare_initial(Section& s, draft::Initial& i) {
           .source = "disc: Evans & Fung 1972, doi:10.1016/0026-2862(72)90069-6"},
          i.shape);
   s.word({.name = "orientation",
-          .doc = "Each mesh turned by the id of its cell, or all along the axes of the domain. A cell that becomes a shell later is turned by its id.",
+          .doc = "Each mesh turned by the id of its cell, or all along the axes of the domain. A cell that becomes a shell later is turned "
+                 "by its id.",
           .fallback = "random",
           .words = {"random", "aligned"},
           .example = "aligned",

@@ -77,8 +77,9 @@ TEST(Loads, ThatContradictTheStudyAreRefusedWithTheirPlace) {
 }
 
 TEST(Loads, OnWholeSpheresAreFine) {
-  const auto study = test::read(test::changed("pull: {force: 193 pN, axis: [0, 3, 0], part: 2 %, ends: high}",
-                                              "body_force: [0 nN, 0 nN, -1 nN]", test::changed("as: shell, orientation: aligned", "as: sphere", kStudy)));
+  const auto study =
+      test::read(test::changed("pull: {force: 193 pN, axis: [0, 3, 0], part: 2 %, ends: high}", "body_force: [0 nN, 0 nN, -1 nN]",
+                               test::changed("as: shell, orientation: aligned", "as: sphere", kStudy)));
   ASSERT_TRUE(study.ok()) << study.error().text();
   EXPECT_DOUBLE_EQ(study->model.loads[0].force.z, -1.0);
 }
