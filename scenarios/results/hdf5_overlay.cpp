@@ -93,18 +93,23 @@ const H5FD_class_t& driver_class() {
   return driver;
 }
 
+/// The driver, registered once and kept: H5Fclose gives the file's reference back before it calls the driver's close, so that a driver held by its files
+/// alone would be freed before it is called (1.10).
+hid_t registered_driver() {
+  static const hid_t driver = H5FDregister(&driver_class());
+  return driver;
+}
+
 /// Opens or creates through the driver; the newest file version, whose structure carries HDF5's own checksums.
 template <class Opening>
 hid_t with_driver(Overlay* overlay, Opening opening) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors come back as values; HDF5 prints nothing
-  const hid_t driver = H5FDregister(&driver_class());
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-  H5Pset_driver(access, driver, &overlay);
+  H5Pset_driver(access, registered_driver(), &overlay);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
   const hid_t file = opening(access);
   H5Pclose(access);
-  H5FDunregister(driver);
   return file;
 }
 
