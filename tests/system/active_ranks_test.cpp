@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-CommandOptions given_time(int ranks) { return on_ranks(ranks, std::chrono::seconds(150)); }
+CommandOptions given_time(int ranks) { return on_ranks(ranks, std::chrono::seconds(500)); }
 
 TEST(ActiveTerms, AreTheSameBitsOnAnyNumberOfRanksAndOverARestart) {
   const TestFolder folder;
