@@ -11,7 +11,7 @@
 namespace morula::scenarios {
 namespace {
 
-/// φ of dcm.md §1.
+/// φ of dcm.md §1, written out: what judges the friction of contacts does not take its weight from them.
 double friction_part(double gap, double range) {
   const double s = std::clamp(2.0 - 2.0 * gap / range, 0.0, 1.0);
   return s * s * (3.0 - 2.0 * s);

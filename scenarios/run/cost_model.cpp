@@ -152,8 +152,7 @@ struct Tried {
 Result<Tried> try_steps(const Study& study, Tissue tissue) {
   const double start = cpu_time();
   MORULA_TRY_ASSIGN(auto simulation, Simulation::create(study.model, std::move(tissue), Comm(), 1));
-  MORULA_TRY_ASSIGN(const auto exchanged, simulation->first_swaps());
-  static_cast<void>(exchanged);
+  MORULA_TRY(simulation->first_swaps());
   const double begin = cpu_time();
   std::vector<TriedStep> out;
   const auto time = [&] { return simulation->tissue().clock.time; };

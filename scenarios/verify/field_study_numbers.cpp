@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scenarios/pictures/field_slice.h"
 #include "scenarios/verify/run_study.h"
 #include "scenarios/verify/study_numbers.h"
 
@@ -41,29 +42,6 @@ double uptake_from_profile(const FoundInRun& found, double radius, double diffus
   return (sxy - sx * sy / n) / (sxx - sx * sx / n);
 }
 
-/// A field where it is asked for, linear between the centres of voxels.
-double interpolated(const Snapshot::Grid& grid, const Vec3d& at) {
-  double place[3];
-  int first[3];
-  for (std::size_t k = 0; k < 3; ++k) {
-    place[k] = (at[k] - grid.low[k]) / grid.spacing[k] - 0.5;
-    first[k] = static_cast<int>(std::floor(place[k]));
-    place[k] -= first[k];
-  }
-  double out = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    double weight = 1.0;
-    int voxel[3];
-    for (int k = 0; k < 3; ++k) {
-      const bool upper = (corner >> k & 1) != 0;
-      voxel[k] = first[k] + (upper ? 1 : 0);
-      weight *= upper ? place[k] : 1.0 - place[k];
-    }
-    out += weight * grid.concentration[static_cast<std::size_t>((voxel[2] * grid.voxels[1] + voxel[1]) * grid.voxels[0] + voxel[0])];
-  }
-  return out;
-}
-
 /// Mean over 400 directions, evenly spread along a spiral, at a distance from the origin.
 double mean_at(const FoundInRun& found, double time, double distance) {
   const Snapshot* end = found.at(time);
@@ -72,7 +50,7 @@ double mean_at(const FoundInRun& found, double time, double distance) {
   double sum = 0.0;
   for (int i = 0; i < kDirections; ++i) {
     const double z = 1.0 - (2.0 * i + 1.0) / kDirections, turn = i * std::numbers::pi * (3.0 - std::sqrt(5.0)), r = std::sqrt(1.0 - z * z);
-    sum += interpolated(end->fields[0], Vec3d{r * std::cos(turn), r * std::sin(turn), z} * distance);
+    sum += concentration_at(end->fields[0], Vec3d{r * std::cos(turn), r * std::sin(turn), z} * distance);
   }
   return sum / kDirections;
 }

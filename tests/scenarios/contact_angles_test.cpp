@@ -6,12 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "coupling/simulation.h"
-#include "scenarios/initial/make_tissue.h"
 #include "scenarios/library/criteria.h"
 #include "scenarios/library/library.h"
 #include "scenarios/library/shape_measures.h"
 #include "scenarios/run/driver.h"
+#include "tests/scenarios/simulation_of.h"
 #include "tests/scenarios/study_fixture.h"
 
 namespace morula::scenarios {
@@ -144,10 +143,7 @@ TEST_P(StepLength, ChangesNeitherTheAngleThatIsReachedNorThatWhichIsKept) {
   std::array<std::uint64_t, 3> steps{};
   for (int k = 2; k >= 0; --k) {
     const auto at = static_cast<std::size_t>(k);
-    ShapeLibrary shapes;
-    auto initial = make_tissue(*study, shapes, Comm());
-    ASSERT_TRUE(initial.ok());
-    auto made = Simulation::create(study->model, std::move(initial->tissue), Comm(), 1);
+    auto made = test::simulation_of(*study);
     ASSERT_TRUE(made.ok());
     steps[at] = go_on(*made, *study, 1 << k, kTime);
     reached[at] = shape_of(**made, doublet);

@@ -6,12 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "coupling/simulation.h"
-#include "scenarios/initial/make_tissue.h"
 #include "scenarios/library/shape_measures.h"
 #include "scenarios/library/single_cell.h"
 #include "scenarios/library/theory.h"
 #include "scenarios/run/driver.h"
+#include "tests/scenarios/simulation_of.h"
 #include "tests/scenarios/study_fixture.h"
 
 namespace morula::scenarios {
@@ -125,10 +124,7 @@ TEST(ContactLines, OfFourEqualCellsAreAlike) {
       "    at: [[4.25 um, 4.25 um, 4.25 um], [4.25 um, -4.25 um, -4.25 um], [-4.25 um, 4.25 um, -4.25 um], [-4.25 um, -4.25 um, 4.25 "
       "um]]\n");
   ASSERT_TRUE(study.ok()) << study.error().text();
-  ShapeLibrary shapes;
-  auto initial = make_tissue(*study, shapes, Comm());
-  ASSERT_TRUE(initial.ok());
-  auto made = Simulation::create(study->model, std::move(initial->tissue), Comm(), 1);
+  auto made = test::simulation_of(*study);
   ASSERT_TRUE(made.ok());
   Simulation& simulation = **made;
   while (simulation.tissue().clock.time < 7200.0) {

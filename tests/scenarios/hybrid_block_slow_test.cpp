@@ -8,6 +8,7 @@
 
 #include "scenarios/results/snapshot_file.h"
 #include "scenarios/run/driver.h"
+#include "tests/scenarios/close_packing.h"
 #include "tests/scenarios/study_fixture.h"
 
 namespace morula::scenarios {
@@ -33,17 +34,7 @@ double lattice_constant(double ratio) { return std::cbrt(4.0 * ratio * 4.0 / 3.0
 
 /// Centres of the half of the block that begins at this cubic cell, as a list of the study.
 std::string half(int first, double lattice) {
-  std::string at;
-  for (int x = first; x < first + kLattice[0] / 2; ++x)
-    for (int y = 0; y < kLattice[1]; ++y)
-      for (int z = 0; z < kLattice[2]; ++z)
-        for (const Vec3d& base : {Vec3d{0, 0, 0}, Vec3d{0.5, 0.5, 0}, Vec3d{0.5, 0, 0.5}, Vec3d{0, 0.5, 0.5}}) {
-          const Vec3d place =
-              (base + Vec3d{x + 0.25 - 0.5 * kLattice[0], y + 0.25 - 0.5 * kLattice[1], z + 0.25 - 0.5 * kLattice[2]}) * lattice;
-          at += (at.empty() ? "[" : ", [") + std::to_string(place.x) + " um, " + std::to_string(place.y) + " um, " +
-                std::to_string(place.z) + " um]";
-        }
-  return at;
+  return test::close_packed_places({first, 0, 0}, {first + kLattice[0] / 2, kLattice[1], kLattice[2]}, kLattice, lattice);
 }
 
 /// A cubic close packing whose cells have this part of their free volume, with a fluid cortex and without adhesion.

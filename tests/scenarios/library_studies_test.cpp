@@ -4,11 +4,11 @@
 #include <map>
 #include <numbers>
 
-#include "coupling/simulation.h"
 #include "scenarios/initial/make_tissue.h"
 #include "scenarios/library/criteria.h"
 #include "scenarios/library/library.h"
 #include "scenarios/run/driver.h"
+#include "tests/scenarios/simulation_of.h"
 #include "tests/scenarios/study_fixture.h"
 
 namespace morula::scenarios {
@@ -162,10 +162,7 @@ TEST(RegionInTime, ExchangesBodiesAndBackAndKeepsIdsAndVolumes) {
                                   "initial.0.radius=13 um", "cell_types.epithelial.cycle.model=none", "coupling.hold=0 s",
                                   "coupling.regions=[{name: all, shape: everything, from: 1 min, until: 4 min}]"});
   ASSERT_TRUE(study.ok()) << study.error().text();
-  ShapeLibrary shapes;
-  auto initial = make_tissue(*study, shapes, Comm());
-  ASSERT_TRUE(initial.ok());
-  auto made = Simulation::create(study->model, std::move(initial->tissue), Comm(), 1);
+  auto made = test::simulation_of(*study);
   ASSERT_TRUE(made.ok());
   Simulation& simulation = **made;
   ASSERT_TRUE(simulation.first_swaps().ok());

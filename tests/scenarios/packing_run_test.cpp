@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 
 #include "scenarios/report/series_reader.h"
 #include "scenarios/run/driver.h"
+#include "tests/scenarios/close_packing.h"
 #include "tests/scenarios/study_fixture.h"
 
 namespace morula::scenarios {
@@ -31,17 +31,7 @@ Ran run_study(const std::string& text, const std::filesystem::path& out) {
 /// 108 spheres in cubic close packing in a periodic box with 0.9 of their volume, inflated into it; `cbm`: of the type.
 std::string block(const std::string& cbm) {
   const double lattice = std::cbrt(4.0 * 0.9 * 4.0 / 3.0 * std::acos(-1.0) * 216.0), size = 3.0 * lattice;
-  std::string at;
-  for (int x = 0; x < 3; ++x)
-    for (int y = 0; y < 3; ++y)
-      for (int z = 0; z < 3; ++z)
-        for (int k = 0; k < 4; ++k) {
-          const double base[3] = {x + (k == 1 || k == 2 ? 0.75 : 0.25), y + (k == 1 || k == 3 ? 0.75 : 0.25), z + (k >= 2 ? 0.75 : 0.25)};
-          char text[96];
-          std::snprintf(text, sizeof text, "%s[%.6f um, %.6f um, %.6f um]", at.empty() ? "" : ", ", base[0] * lattice - 0.5 * size,
-                        base[1] * lattice - 0.5 * size, base[2] * lattice - 0.5 * size);
-          at += text;
-        }
+  const std::string at = test::close_packed_places({0, 0, 0}, {3, 3, 3}, {3, 3, 3}, lattice);
   const std::string length = std::to_string(size) + " um";
   return "schema: 1\nstudy: block\ntime: {end: 30 min, output: 30 min}\ndomain: {size: [" + length + ", " + length + ", " + length +
          "], boundary: periodic}\ncell_types:\n  cell: {radius: 6 um, adhesion: {cell: 0 J/m^2}" + cbm +
