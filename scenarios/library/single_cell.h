@@ -9,7 +9,7 @@
 
 namespace morula::scenarios {
 
-/// Experiments on one or two cells: criteria (physics/scenarios.md S1 to S6, T9 and a cell between plates) and plots against theory.
+/// Experiments on one or two cells: criteria (physics/scenarios.md S1 to S6; dcm.md T9.6; a cell between plates) and plots against theory.
 Result<std::vector<Verdict>> judge_optical_stretcher(const Study& study, const std::filesystem::path& run);
 Result<std::vector<Verdict>> judge_optical_tweezers(const Study& study, const std::filesystem::path& run);
 Result<std::vector<Verdict>> judge_spreading(const Study& study, const std::filesystem::path& run);
