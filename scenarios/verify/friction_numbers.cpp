@@ -107,7 +107,7 @@ void add_explicit_steps(std::vector<ReferenceNumber>& out) {
                          Law{"tension", &dcm::ShellParameters::tension, kTension, 0.191, 0.0449},
                          Law{"pressure", &dcm::ShellParameters::bulk_modulus, kBulk, 0.162, 0.161},
                          Law{"hinges", &dcm::ShellParameters::hinge_stiffness, 1.0264e-3, 42.8, 2.52},
-                         Law{"Helfrich bending", &dcm::ShellParameters::helfrich_rigidity, 8.8889e-4, 54.0, 2.87}})
+                         Law{"Helfrich bending", &dcm::ShellParameters::helfrich_rigidity, 8.8889e-4, 54.1, 2.87}})
     for (const auto& [nodes, step] : {std::pair{162u, law.step_162}, std::pair{642u, law.step_642}}) {
       dcm::ShellParameters p = nothing();
       p.*law.strength = law.value;

@@ -67,7 +67,7 @@ void add_packing(std::vector<ReferenceNumber>& out) {
   struct Point {
     double s, pressure;
   };
-  for (const Point& p : {Point{0.05, 6.257e-3}, Point{0.115, 165.5e-3}, Point{0.12, 207.61e-3}, Point{0.20, 922.44e-3}}) {
+  for (const Point& p : {Point{0.05, 6.257e-3}, Point{0.115, 165.12e-3}, Point{0.12, 207.61e-3}, Point{0.20, 922.44e-3}}) {
     char what[96];
     std::snprintf(what, sizeof what, "pressure of cubic close packed filled cells at overlap %g of the diameter [kPa]", p.s);
     out.push_back({"cbm 3", what, p.pressure, 0.005 * p.pressure, "computed independently; 0.5 % for eight knots",

@@ -89,7 +89,7 @@ TEST(SpherePacking, PeriodicCubicPackingHasTheReferencePressures) {
   struct Point {
     double s, pressure;
   };
-  for (const Point& p : {Point{0.05, 6.257e-3}, Point{0.115, 165.5e-3}, Point{0.12, 207.61e-3}, Point{0.20, 922.44e-3}}) {
+  for (const Point& p : {Point{0.05, 6.257e-3}, Point{0.115, 165.12e-3}, Point{0.12, 207.61e-3}, Point{0.20, 922.44e-3}}) {
     Model model = packing_model(0.0);
     const double d = 2.0 * 6.0 * (1.0 - p.s), a = d * std::numbers::sqrt2, size = 4.0 * a;
     model.space.box = {{0, 0, 0}, {size, size, size}};
