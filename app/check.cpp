@@ -2,7 +2,7 @@
 #include "app/read_study.h"
 #include "app/verbs.h"
 #include "app/words.h"
-#include "scenarios/study/catalogue.h"
+#include "study/catalogue.h"
 
 namespace morula::app {
 

@@ -6,8 +6,8 @@
 #include <functional>
 #include <map>
 
-#include "scenarios/results/build_info.h"
-#include "scenarios/study/diagnostics.h"
+#include "results/build_info.h"
+#include "study/diagnostics.h"
 
 namespace morula::app {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "app/verbs.h"
 #include "app/words.h"
-#include "scenarios/results/build_info.h"
-#include "scenarios/results/file_io.h"
+#include "results/build_info.h"
+#include "results/file_io.h"
 
 namespace morula::app {
 namespace fs = std::filesystem;

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "core/result.h"
-#include "scenarios/study/study.h"
+#include "study/study.h"
 
 namespace morula::app {
 

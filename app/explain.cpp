@@ -1,7 +1,7 @@
 #include "app/laws.h"
 #include "app/verbs.h"
-#include "scenarios/study/catalogue.h"
-#include "scenarios/study/diagnostics.h"
+#include "study/catalogue.h"
+#include "study/diagnostics.h"
 
 namespace morula::app {
 

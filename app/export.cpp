@@ -2,9 +2,9 @@
 
 #include "app/verbs.h"
 #include "app/words.h"
-#include "scenarios/results/export.h"
-#include "scenarios/results/file_io.h"
-#include "scenarios/results/run_folder.h"
+#include "results/export.h"
+#include "results/file_io.h"
+#include "results/run_folder.h"
 
 namespace morula::app {
 namespace fs = std::filesystem;

@@ -6,13 +6,13 @@
 #include "app/run_state.h"
 #include "app/verbs.h"
 #include "app/words.h"
-#include "scenarios/results/checkpoint_folder.h"
-#include "scenarios/results/file_io.h"
-#include "scenarios/results/run_folder.h"
-#include "scenarios/results/state_hash.h"
+#include "results/checkpoint_folder.h"
+#include "results/file_io.h"
+#include "results/run_folder.h"
+#include "results/state_hash.h"
 #include "scenarios/run/progress.h"
-#include "scenarios/study/catalogue.h"
-#include "scenarios/study/diagnostics.h"
+#include "study/catalogue.h"
+#include "study/diagnostics.h"
 
 namespace morula::app {
 namespace fs = std::filesystem;

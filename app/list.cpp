@@ -5,7 +5,7 @@
 #include "app/run_state.h"
 #include "app/verbs.h"
 #include "app/words.h"
-#include "scenarios/results/file_io.h"
+#include "results/file_io.h"
 #include "scenarios/run/progress.h"
 
 namespace morula::app {

@@ -2,9 +2,9 @@
 
 #include "app/verbs.h"
 #include "app/words.h"
+#include "results/file_io.h"
 #include "scenarios/library/library.h"
-#include "scenarios/results/file_io.h"
-#include "scenarios/study/diagnostics.h"
+#include "study/diagnostics.h"
 
 namespace morula::app {
 namespace fs = std::filesystem;

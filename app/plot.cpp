@@ -3,14 +3,14 @@
 
 #include "app/verbs.h"
 #include "app/words.h"
+#include "report/pictures/png.h"
+#include "report/pictures/standard_pictures.h"
+#include "report/run_plots.h"
+#include "results/file_io.h"
+#include "results/run_folder.h"
+#include "results/series_reader.h"
 #include "scenarios/library/criteria.h"
-#include "scenarios/pictures/png.h"
-#include "scenarios/pictures/standard_pictures.h"
-#include "scenarios/report/series_reader.h"
-#include "scenarios/results/file_io.h"
-#include "scenarios/results/run_folder.h"
 #include "scenarios/run/report_run.h"
-#include "scenarios/run/run_plots.h"
 
 namespace morula::app {
 namespace fs = std::filesystem;

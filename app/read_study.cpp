@@ -1,10 +1,10 @@
 #include "app/read_study.h"
 
 #include "app/words.h"
+#include "results/file_io.h"
+#include "results/observables/observables.h"
 #include "scenarios/library/criteria.h"
 #include "scenarios/library/library.h"
-#include "scenarios/observables/observables.h"
-#include "scenarios/results/file_io.h"
 
 namespace morula::app {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/verbs.h"
-#include "scenarios/study/study.h"
+#include "study/study.h"
 
 namespace morula::app {
 

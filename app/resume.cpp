@@ -5,9 +5,9 @@
 #include "app/run_request.h"
 #include "app/signals.h"
 #include "app/verbs.h"
-#include "scenarios/results/checkpoint_folder.h"
-#include "scenarios/results/file_io.h"
-#include "scenarios/results/run_folder.h"
+#include "results/checkpoint_folder.h"
+#include "results/file_io.h"
+#include "results/run_folder.h"
 
 namespace morula::app {
 namespace fs = std::filesystem;

@@ -4,7 +4,7 @@
 #include "app/run_request.h"
 #include "app/signals.h"
 #include "app/verbs.h"
-#include "scenarios/results/file_io.h"
+#include "results/file_io.h"
 
 namespace morula::app {
 

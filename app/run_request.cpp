@@ -5,7 +5,7 @@
 #include "app/cores.h"
 #include "app/signals.h"
 #include "app/words.h"
-#include "scenarios/results/build_info.h"
+#include "results/build_info.h"
 
 namespace morula::app {
 

@@ -6,7 +6,7 @@
 #include <cerrno>
 
 #include "core/parallel/comm.h"
-#include "scenarios/results/run_folder.h"
+#include "results/run_folder.h"
 
 namespace morula::app {
 namespace {

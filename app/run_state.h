@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/result.h"
-#include "scenarios/results/run_record.h"
+#include "results/run_record.h"
 
 namespace morula::app {
 

@@ -4,7 +4,7 @@
 #include "app/verbs.h"
 #include "app/words.h"
 #include "core/numbers/number_text.h"
-#include "scenarios/results/run_folder.h"
+#include "results/run_folder.h"
 #include "scenarios/run/progress.h"
 
 namespace morula::app {

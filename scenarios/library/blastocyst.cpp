@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "core/mesh/convex_hull.h"
+#include "results/snapshot_file.h"
 #include "scenarios/library/embryo_measures.h"
 #include "scenarios/library/verdicts.h"
-#include "scenarios/results/snapshot_file.h"
-#include "scenarios/study/csv.h"
+#include "study/csv.h"
 
 namespace morula::scenarios {
 namespace {

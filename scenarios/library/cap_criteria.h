@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "coupling/model.h"
-#include "scenarios/results/run_record.h"
+#include "results/run_record.h"
 
 namespace morula::scenarios {
 

@@ -1,7 +1,7 @@
 #include "scenarios/library/cavity.h"
 
+#include "results/series_reader.h"
 #include "scenarios/library/verdicts.h"
-#include "scenarios/report/series_reader.h"
 
 namespace morula::scenarios {
 namespace {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "results/series_reader.h"
 #include "scenarios/library/blastocyst.h"
 #include "scenarios/library/cavity.h"
 #include "scenarios/library/embryo.h"
 #include "scenarios/library/hybrid_spheroid.h"
 #include "scenarios/library/single_cell.h"
 #include "scenarios/library/verdicts.h"
-#include "scenarios/report/series_reader.h"
 
 namespace morula::scenarios {
 namespace {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "core/result.h"
-#include "scenarios/results/run_record.h"
-#include "scenarios/run/run_plots.h"
-#include "scenarios/study/study.h"
+#include "report/run_plots.h"
+#include "results/run_record.h"
+#include "study/study.h"
 
 namespace morula::scenarios {
 

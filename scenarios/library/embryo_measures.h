@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/vec3.h"
-#include "scenarios/results/snapshot.h"
+#include "results/snapshot.h"
 
 namespace morula::scenarios {
 

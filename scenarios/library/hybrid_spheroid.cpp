@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "results/series_reader.h"
 #include "scenarios/library/verdicts.h"
-#include "scenarios/report/series_reader.h"
 
 namespace morula::scenarios {
 namespace {

@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "core/numbers/number_text.h"
+#include "results/series_reader.h"
 #include "scenarios/library/shape_measures.h"
 #include "scenarios/library/single_cell.h"
 #include "scenarios/library/theory.h"
 #include "scenarios/library/verdicts.h"
-#include "scenarios/report/series_reader.h"
 
 namespace morula::scenarios {
 namespace {

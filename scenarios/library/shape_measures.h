@@ -5,7 +5,7 @@
 
 #include "core/mesh/topology.h"
 #include "core/vec3.h"
-#include "scenarios/results/snapshot.h"
+#include "results/snapshot.h"
 
 namespace morula::scenarios {
 

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "scenarios/results/snapshot_file.h"
+#include "results/snapshot_file.h"
 
 namespace morula::scenarios {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "coupling/time_course.h"
+#include "results/snapshot.h"
 #include "scenarios/library/criteria.h"
-#include "scenarios/results/snapshot.h"
 
 namespace morula::scenarios {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/numbers/number_text.h"
-#include "scenarios/results/run_record.h"
+#include "results/run_record.h"
 
 namespace morula::scenarios {
 

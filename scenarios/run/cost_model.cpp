@@ -10,8 +10,8 @@
 
 #include "coupling/simulation.h"
 #include "coupling/swaps.h"
-#include "scenarios/initial/make_tissue.h"
 #include "scenarios/run/tried_steps.h"
+#include "study/initial/make_tissue.h"
 
 namespace morula::scenarios {
 namespace {

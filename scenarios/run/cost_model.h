@@ -4,7 +4,7 @@
 
 #include "core/result.h"
 #include "coupling/model.h"
-#include "scenarios/study/study.h"
+#include "study/study.h"
 
 namespace morula::scenarios {
 

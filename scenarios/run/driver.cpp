@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "scenarios/initial/make_tissue.h"
-#include "scenarios/results/checkpoint_folder.h"
-#include "scenarios/results/damaged_file.h"
-#include "scenarios/results/file_io.h"
+#include "results/checkpoint_folder.h"
+#include "results/damaged_file.h"
+#include "results/file_io.h"
 #include "scenarios/run/report_run.h"
 #include "scenarios/run/run_lock.h"
 #include "scenarios/run/run_loop.h"
+#include "study/initial/make_tissue.h"
 
 namespace morula::scenarios {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "core/parallel/comm.h"
 #include "core/result.h"
-#include "scenarios/results/run_record.h"
+#include "results/run_record.h"
 #include "scenarios/run/progress.h"
-#include "scenarios/study/study.h"
+#include "study/study.h"
 
 namespace morula::scenarios {
 

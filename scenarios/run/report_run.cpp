@@ -7,15 +7,15 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "report/pictures/palette.h"
+#include "report/pictures/png.h"
+#include "report/report.h"
+#include "report/run_plots.h"
+#include "results/export.h"
+#include "results/file_io.h"
+#include "results/snapshot_file.h"
 #include "scenarios/library/criteria.h"
-#include "scenarios/pictures/palette.h"
-#include "scenarios/pictures/png.h"
-#include "scenarios/report/report.h"
-#include "scenarios/results/export.h"
-#include "scenarios/results/file_io.h"
-#include "scenarios/results/snapshot_file.h"
 #include "scenarios/run/progress.h"
-#include "scenarios/run/run_plots.h"
 #include "scenarios/run/used_laws.h"
 
 namespace morula::scenarios {

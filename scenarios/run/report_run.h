@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "core/result.h"
-#include "scenarios/pictures/coloring.h"
-#include "scenarios/results/run_folder.h"
-#include "scenarios/results/run_record.h"
-#include "scenarios/results/snapshot.h"
-#include "scenarios/study/study.h"
+#include "report/pictures/coloring.h"
+#include "results/run_folder.h"
+#include "results/run_record.h"
+#include "results/snapshot.h"
+#include "study/study.h"
 
 namespace morula::scenarios {
 

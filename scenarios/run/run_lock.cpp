@@ -6,7 +6,7 @@
 
 #include <cerrno>
 
-#include "scenarios/results/file_io.h"
+#include "results/file_io.h"
 
 namespace morula::scenarios {
 

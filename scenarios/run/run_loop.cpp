@@ -7,12 +7,12 @@
 #include <map>
 
 #include "core/numbers/number_text.h"
-#include "scenarios/observables/local_snapshot.h"
-#include "scenarios/results/checkpoint_folder.h"
-#include "scenarios/results/damaged_file.h"
-#include "scenarios/results/file_io.h"
-#include "scenarios/results/snapshot_file.h"
-#include "scenarios/results/state_hash.h"
+#include "results/checkpoint_folder.h"
+#include "results/damaged_file.h"
+#include "results/file_io.h"
+#include "results/observables/local_snapshot.h"
+#include "results/snapshot_file.h"
+#include "results/state_hash.h"
 #include "scenarios/run/exit_code.h"
 #include "scenarios/run/report_run.h"
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "coupling/simulation.h"
-#include "scenarios/observables/observables.h"
-#include "scenarios/results/checkpoint.h"
-#include "scenarios/results/run_folder.h"
+#include "results/checkpoint.h"
+#include "results/observables/observables.h"
+#include "results/run_folder.h"
 #include "scenarios/run/driver.h"
 #include "scenarios/run/timings.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "scenarios/report/methods.h"
-#include "scenarios/study/study.h"
+#include "report/methods.h"
+#include "study/study.h"
 
 namespace morula::scenarios {
 

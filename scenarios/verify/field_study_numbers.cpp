@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenarios/pictures/field_slice.h"
+#include "report/pictures/field_slice.h"
 #include "scenarios/verify/run_study.h"
 #include "scenarios/verify/study_numbers.h"
 

@@ -7,7 +7,7 @@
 
 #include "scenarios/library/single_cell.h"
 #include "scenarios/run/driver.h"
-#include "scenarios/study/study.h"
+#include "study/study.h"
 
 namespace morula::scenarios {
 namespace {

@@ -2,8 +2,8 @@
 #include <memory>
 #include <string>
 
-#include "scenarios/report/series_reader.h"
-#include "scenarios/results/snapshot.h"
+#include "results/series_reader.h"
+#include "results/snapshot.h"
 
 namespace morula::scenarios {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "core/numbers/number_text.h"
+#include "results/file_io.h"
 #include "scenarios/library/library.h"
-#include "scenarios/results/file_io.h"
 #include "scenarios/run/driver.h"
 #include "scenarios/verify/reference_numbers.h"
 

@@ -5,8 +5,8 @@
 #include <cstring>
 
 #include "scenarios/run/driver.h"
-#include "tests/scenarios/mesh_files.h"
-#include "tests/scenarios/results_support.h"
+#include "tests/results/results_support.h"
+#include "tests/study/mesh_files.h"
 
 namespace morula::scenarios {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "scenarios/run/driver.h"
-#include "tests/scenarios/results_support.h"
+#include "tests/results/results_support.h"
 
 namespace morula::scenarios {
 namespace {

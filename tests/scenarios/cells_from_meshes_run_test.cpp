@@ -4,12 +4,12 @@
 #include <fstream>
 #include <iterator>
 
-#include "scenarios/initial/cells_from_meshes.h"
-#include "scenarios/results/export.h"
-#include "scenarios/results/snapshot_file.h"
+#include "results/export.h"
+#include "results/snapshot_file.h"
 #include "scenarios/run/driver.h"
-#include "tests/scenarios/mesh_files.h"
-#include "tests/scenarios/study_fixture.h"
+#include "study/initial/cells_from_meshes.h"
+#include "tests/study/mesh_files.h"
+#include "tests/study/study_fixture.h"
 
 namespace morula::scenarios {
 namespace {

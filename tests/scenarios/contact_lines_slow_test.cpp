@@ -11,7 +11,7 @@
 #include "scenarios/library/theory.h"
 #include "scenarios/run/driver.h"
 #include "tests/scenarios/simulation_of.h"
-#include "tests/scenarios/study_fixture.h"
+#include "tests/study/study_fixture.h"
 
 namespace morula::scenarios {
 namespace {

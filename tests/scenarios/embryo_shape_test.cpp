@@ -9,10 +9,10 @@
 #include <filesystem>
 #include <numbers>
 
-#include "scenarios/initial/cells_from_meshes.h"
 #include "scenarios/library/library.h"
-#include "tests/scenarios/mesh_files.h"
-#include "tests/scenarios/study_fixture.h"
+#include "study/initial/cells_from_meshes.h"
+#include "tests/study/mesh_files.h"
+#include "tests/study/study_fixture.h"
 
 namespace morula::scenarios {
 namespace {

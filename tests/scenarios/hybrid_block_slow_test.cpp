@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenarios/results/snapshot_file.h"
+#include "results/snapshot_file.h"
 #include "scenarios/run/driver.h"
 #include "tests/scenarios/close_packing.h"
-#include "tests/scenarios/study_fixture.h"
+#include "tests/study/study_fixture.h"
 
 namespace morula::scenarios {
 namespace {

@@ -5,10 +5,10 @@
 
 #include "core/mesh/topology.h"
 #include "core/random/philox.h"
-#include "scenarios/initial/make_tissue.h"
 #include "scenarios/library/embryo_measures.h"
 #include "scenarios/library/library.h"
-#include "tests/scenarios/study_fixture.h"
+#include "study/initial/make_tissue.h"
+#include "tests/study/study_fixture.h"
 
 namespace morula::scenarios {
 namespace {

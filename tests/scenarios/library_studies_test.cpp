@@ -4,12 +4,12 @@
 #include <map>
 #include <numbers>
 
-#include "scenarios/initial/make_tissue.h"
 #include "scenarios/library/criteria.h"
 #include "scenarios/library/library.h"
 #include "scenarios/run/driver.h"
+#include "study/initial/make_tissue.h"
 #include "tests/scenarios/simulation_of.h"
-#include "tests/scenarios/study_fixture.h"
+#include "tests/study/study_fixture.h"
 
 namespace morula::scenarios {
 namespace {

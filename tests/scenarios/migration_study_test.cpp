@@ -5,10 +5,10 @@
 #include <string>
 
 #include "coupling/behaviours/migration.h"
-#include "scenarios/results/snapshot_file.h"
+#include "results/snapshot_file.h"
 #include "scenarios/run/driver.h"
-#include "tests/scenarios/results_support.h"
-#include "tests/scenarios/study_fixture.h"
+#include "tests/results/results_support.h"
+#include "tests/study/study_fixture.h"
 
 namespace morula::scenarios {
 namespace {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenarios/report/series_reader.h"
-#include "scenarios/results/snapshot_file.h"
+#include "results/series_reader.h"
+#include "results/snapshot_file.h"
 #include "scenarios/run/driver.h"
-#include "tests/scenarios/study_fixture.h"
+#include "tests/study/study_fixture.h"
 
 namespace morula::scenarios {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <numbers>
 
-#include "scenarios/report/series_reader.h"
+#include "results/series_reader.h"
 #include "scenarios/run/driver.h"
-#include "tests/scenarios/results_support.h"
-#include "tests/scenarios/study_fixture.h"
+#include "tests/results/results_support.h"
+#include "tests/study/study_fixture.h"
 
 namespace morula::scenarios {
 namespace {

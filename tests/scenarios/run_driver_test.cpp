@@ -3,16 +3,16 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "scenarios/initial/make_tissue.h"
-#include "scenarios/report/series_reader.h"
-#include "scenarios/results/file_io.h"
-#include "scenarios/results/snapshot_file.h"
-#include "scenarios/results/state_hash.h"
+#include "results/file_io.h"
+#include "results/series_reader.h"
+#include "results/snapshot_file.h"
+#include "results/state_hash.h"
 #include "scenarios/run/driver.h"
 #include "scenarios/run/report_run.h"
 #include "scenarios/run/run_loop.h"
-#include "tests/scenarios/results_support.h"
-#include "tests/scenarios/study_fixture.h"
+#include "study/initial/make_tissue.h"
+#include "tests/results/results_support.h"
+#include "tests/study/study_fixture.h"
 
 namespace morula::scenarios {
 namespace {

@@ -5,7 +5,7 @@
 #include "scenarios/run/cost_model.h"
 #include "scenarios/run/progress.h"
 #include "scenarios/run/timings.h"
-#include "tests/scenarios/study_fixture.h"
+#include "tests/study/study_fixture.h"
 
 namespace morula::scenarios {
 namespace {

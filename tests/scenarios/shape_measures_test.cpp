@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenarios/initial/biconcave.h"
+#include "study/initial/biconcave.h"
 
 namespace morula::scenarios {
 namespace {

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "coupling/simulation.h"
-#include "scenarios/initial/make_tissue.h"
+#include "study/initial/make_tissue.h"
 
 namespace morula::scenarios::test {
 

@@ -7,7 +7,7 @@
 #include "scenarios/library/library.h"
 #include "scenarios/library/single_cell.h"
 #include "scenarios/run/driver.h"
-#include "tests/scenarios/study_fixture.h"
+#include "tests/study/study_fixture.h"
 
 namespace morula::scenarios {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "results/series_reader.h"
 #include "scenarios/library/library.h"
-#include "scenarios/report/series_reader.h"
 
 namespace morula::scenarios {
 namespace {

@@ -1,0 +1,25 @@
+#include "coupling/overlap.h"
+
+#include <algorithm>
+
+namespace morula {
+
+Extreme deepest_overlap(Simulation& simulation) {
+  const auto& contacts = simulation.mechanics().contacts();
+  const auto bodies = simulation.mechanics().scene().bodies();
+  Extreme out;
+  for (const SurfacePair& pair : contacts.pairs()) {
+    const bool surfaces = pair.rigid || (bodies[pair.a].shape == BodyShape::kSurface && bodies[pair.b].shape == BodyShape::kSurface);
+    if (!surfaces || pair.overlap <= 0.0) continue;
+    out.offer(pair.overlap, pair.rigid ? bodies[pair.a].id : std::min(bodies[pair.a].id, bodies[pair.b].id));
+  }
+  for (std::uint32_t s = 0; s < simulation.mechanics().scene().owned_shells(); ++s) {
+    const auto nuclear = simulation.mechanics().nucleus_of(s);
+    if (!nuclear && simulation.tissue().shells.nucleus_of(s) == nullptr) continue;
+    const double overlap = nuclear ? nuclear->overlap : simulation.mechanics().interior_of(s).overlap;
+    if (overlap > 0.0) out.offer(overlap, bodies[s].id);
+  }
+  return out;
+}
+
+}  // namespace morula

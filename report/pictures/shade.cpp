@@ -1,0 +1,169 @@
+#include "report/pictures/shade.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace morula::scenarios {
+namespace {
+
+constexpr Rgb kBackground{1.0f, 1.0f, 1.0f};
+constexpr Rgb kOutline{0.10f, 0.11f, 0.15f};
+constexpr int kOcclusionSamples = 8;
+
+struct Offset {
+  float x, y;
+};
+
+// Spiral of points in the unit disc, evenly spread (Vogel 1979).
+std::array<Offset, kOcclusionSamples> spiral() {
+  std::array<Offset, kOcclusionSamples> out{};
+  for (int k = 0; k < kOcclusionSamples; ++k) {
+    const double r = std::sqrt((k + 0.5) / kOcclusionSamples), angle = k * std::numbers::pi * (3.0 - std::sqrt(5.0));
+    out[static_cast<std::size_t>(k)] = {static_cast<float>(r * std::cos(angle)), static_cast<float>(r * std::sin(angle))};
+  }
+  return out;
+}
+
+// Interleaved gradient noise in 0..1 (Jimenez 2014, "Next generation post processing", SIGGRAPH course): even over each 3×3 block.
+float noise(int x, int y) {
+  const float f = 0.06711056f * static_cast<float>(x) + 0.00583715f * static_cast<float>(y);
+  const float g = 52.9829189f * (f - std::floor(f));
+  return g - std::floor(g);
+}
+
+class Shader {
+ public:
+  Shader(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const Rgb> mark_colors, const DrawnSurroundings& around,
+         const ShadeOptions& options)
+      : pixels_(pixels), colors_(colors), mark_colors_(mark_colors), around_(around), options_(options), spiral_(spiral()) {
+    reach_px_ = static_cast<float>(std::clamp(1.3 * options.cell_radius * options.pixels_per_um, 2.0, 150.0));
+    const double cell_px = 2.0 * options.cell_radius * options.pixels_per_um / options.samples;
+    line_opacity_ = static_cast<float>(std::clamp((cell_px - 3.0) / 18.0, 0.12, 0.88));
+    line_reach_ = std::max(1, (2 * options.samples + 1) / 3);
+    for (const float depth : pixels.depth) {
+      if (!std::isfinite(depth)) continue;
+      nearest_ = std::max(nearest_, depth);
+      farthest_ = std::min(farthest_, depth);
+    }
+    for (int i = 0; i < 16; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / 16.0;
+      turn_[static_cast<std::size_t>(i)] = {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
+    }
+  }
+
+  [[nodiscard]] Rgb operator()(int x, int y) const {
+    const std::size_t i = pixels_.index(x, y);
+    const auto surface = pixels_.surface[i];
+    Rgb color = surface == PixelBuffer::kNothing ? kBackground : lit(x, y, i, surface);
+    if (!around_.fluid.empty() && around_.fluid[i] != 0) color = mix(color, kFluidColor, surface == PixelBuffer::kNothing ? 1.0f : 0.7f);
+    if (options_.outlines && on_border(pixels_, x, y, surface)) color = mix(color, kOutline, line_opacity_);
+    return around_.obstacles ? with_obstacle(x, y, i, color) : color;
+  }
+
+ private:
+  [[nodiscard]] Rgb with_obstacle(int x, int y, std::size_t i, const Rgb& color) const {
+    const PixelBuffer& obstacles = *around_.obstacles;
+    const auto obstacle = obstacles.surface[i], cell = pixels_.surface[i];
+    const bool hidden = cell != PixelBuffer::kNothing && (obstacle == PixelBuffer::kNothing || obstacles.depth[i] <= pixels_.depth[i]);
+    if (hidden) return color;
+    Rgb seen = color;
+    if (obstacle != PixelBuffer::kNothing) {
+      const bool is_cut = obstacle % 2 == 1;
+      const bool hollow = around_.hollow[static_cast<std::size_t>(obstacle / 2)];
+      const float nx = static_cast<float>(obstacles.normal_x[i]) / 32767.0f, ny = static_cast<float>(obstacles.normal_y[i]) / 32767.0f;
+      const float nz = std::sqrt(std::max(0.0f, 1.0f - nx * nx - ny * ny));
+      const Rgb lit = is_cut ? kObstacleColor * 0.85f : mix({1.0f, 1.0f, 1.0f}, kObstacleColor, 0.75f - 0.4f * nz);
+      const float opacity = is_cut ? (hollow ? 0.0f : 1.0f) : cell == PixelBuffer::kNothing ? 0.9f : 0.25f;
+      seen = mix(seen, lit, opacity);
+    }
+    return on_border(obstacles, x, y, obstacle) ? mix(seen, kOutline, 0.4f) : seen;
+  }
+
+  [[nodiscard]] Rgb lit(int x, int y, std::size_t i, std::int32_t surface) const {
+    const Rgb base =
+        mark_colors_.empty() || pixels_.marks[i] == 0 ? colors_[static_cast<std::size_t>(surface / 2)] : marked(pixels_.marks[i]);
+    if (surface % 2 == 1) return mix(base, {1.0f, 1.0f, 1.0f}, options_.cut_lightening);
+    const float nx = static_cast<float>(pixels_.normal_x[i]) / 32767.0f, ny = static_cast<float>(pixels_.normal_y[i]) / 32767.0f;
+    const float nz = std::sqrt(std::max(0.0f, 1.0f - nx * nx - ny * ny));
+    const float open = openness(x, y, i, nx, ny, nz);
+    // light from (−0.42, 0.58, 0.70); half Lambert keeps the shadow side readable
+    const float wrap = 0.5f + 0.5f * (-0.42f * nx + 0.58f * ny + 0.70f * nz);
+    const float brightness = (0.46f + 0.62f * wrap * wrap) * (0.34f + 0.66f * open) * (0.86f + 0.14f * nz);
+    const float glance = std::max(0.0f, -0.228f * nx + 0.315f * ny + 0.921f * nz);  // half-way vector of light and eye
+    const float shine = 0.03f * std::pow(glance, 30.0f) * open;
+    const Rgb shaded = base * brightness + Rgb{shine, shine, shine};
+    const float range = nearest_ - farthest_;
+    const float fade = range > 0.0f ? 0.16f * (nearest_ - pixels_.depth[i]) / range : 0.0f;
+    return mix(shaded, kBackground, fade);
+  }
+
+  [[nodiscard]] Rgb marked(std::uint8_t marks) const {
+    Rgb sum;
+    int count = 0;
+    for (std::size_t k = 0; k < mark_colors_.size(); ++k)
+      if (marks >> k & 1) sum = sum + mark_colors_[k], ++count;
+    return count > 0 ? sum * (1.0f / static_cast<float>(count)) : kBackground;
+  }
+
+  // 1 where nothing stands around the point, 0 in a deep furrow.
+  [[nodiscard]] float openness(int x, int y, std::size_t i, float nx, float ny, float nz) const {
+    const float um_per_px = 1.0f / static_cast<float>(options_.pixels_per_um);
+    const float reach = reach_px_ * um_per_px, depth = pixels_.depth[i];
+    const Offset turn = turn_[static_cast<std::size_t>(noise(x, y) * 16.0f) & 15u];
+    float hidden = 0.0f;
+    for (const Offset& s : spiral_) {
+      const int dx = static_cast<int>(std::lrint((s.x * turn.x - s.y * turn.y) * reach_px_));
+      const int dy = static_cast<int>(std::lrint((s.x * turn.y + s.y * turn.x) * reach_px_));
+      const int sx = x + dx, sy = y + dy;
+      if (sx < 0 || sy < 0 || sx >= pixels_.width || sy >= pixels_.height) continue;
+      const float other = pixels_.depth[pixels_.index(sx, sy)];
+      if (!(other > -1e30f)) continue;
+      const float vx = static_cast<float>(dx) * um_per_px, vy = -static_cast<float>(dy) * um_per_px, vz = other - depth;
+      const float rise = vx * nx + vy * ny + vz * nz - 0.02f * reach;
+      if (rise > 0.0f) hidden += rise * reach / (vx * vx + vy * vy + vz * vz + 0.01f * reach * reach);
+    }
+    return std::max(0.0f, 1.0f - 0.95f * hidden / kOcclusionSamples);
+  }
+
+  [[nodiscard]] bool on_border(const PixelBuffer& pixels, int x, int y, std::int32_t surface) const {
+    const int r = line_reach_, d = std::max(1, (r * 7 + 5) / 10);  // straight and diagonal reach
+    const std::array<std::pair<int, int>, 8> around = {{{r, 0}, {-r, 0}, {0, r}, {0, -r}, {d, d}, {-d, d}, {d, -d}, {-d, -d}}};
+    for (const auto& [dx, dy] : around) {
+      const int sx = std::clamp(x + dx, 0, pixels.width - 1), sy = std::clamp(y + dy, 0, pixels.height - 1);
+      if (pixels.surface[pixels.index(sx, sy)] != surface) return true;
+    }
+    return false;
+  }
+
+  const PixelBuffer& pixels_;
+  std::span<const Rgb> colors_, mark_colors_;
+  const DrawnSurroundings& around_;
+  ShadeOptions options_;
+  std::array<Offset, kOcclusionSamples> spiral_;
+  std::array<Offset, 16> turn_{};
+  float reach_px_, line_opacity_, nearest_ = -1e30f, farthest_ = 1e30f;
+  int line_reach_;
+};
+
+}  // namespace
+
+void shade(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const Rgb> mark_colors, const DrawnSurroundings& around,
+           const ShadeOptions& options, Image& image, int left, int top) {
+  const Shader shader(pixels, colors, mark_colors, around, options);
+  const int rows = pixels.height / options.samples, columns = pixels.width / options.samples;
+  const float weight = 1.0f / static_cast<float>(options.samples * options.samples);
+#pragma omp parallel for schedule(dynamic, 16)
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      Rgb sum;
+      for (int sy = 0; sy < options.samples; ++sy)
+        for (int sx = 0; sx < options.samples; ++sx) sum = sum + shader(column * options.samples + sx, row * options.samples + sy);
+      image.set(left + column, top + row, sum * weight);
+    }
+  }
+}
+
+}  // namespace morula::scenarios

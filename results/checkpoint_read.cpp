@@ -1,0 +1,321 @@
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <type_traits>
+
+#include "coupling/cell_record.h"
+#include "coupling/mechanics/contact_setup.h"
+#include "results/build_info.h"
+#include "results/checkpoint.h"
+#include "results/file_io.h"
+#include "results/hdf5_reader.h"
+#include "results/shape_table.h"
+#include "results/state_fields.h"
+
+namespace morula::scenarios {
+namespace {
+
+/// This rank's stretch of `count` things.
+struct Stretch {
+  std::uint64_t begin, end;
+  Stretch(std::uint64_t count, const Comm& comm)
+      : begin(count * static_cast<std::uint64_t>(comm.rank()) / static_cast<std::uint64_t>(comm.size())),
+        end(count * (static_cast<std::uint64_t>(comm.rank()) + 1) / static_cast<std::uint64_t>(comm.size())) {}
+  [[nodiscard]] std::uint64_t size() const { return end - begin; }
+};
+
+std::uint64_t before_mine(std::uint64_t mine, const Comm& comm) {
+  return static_cast<std::uint64_t>(comm.exclusive_scan(static_cast<std::int64_t>(mine)));
+}
+
+template <class Visit>
+Status first_failure(Visit&& each) {
+  Status status;
+  each([&](Status next) {
+    if (status.ok() && !next.ok()) status = std::move(next);
+  });
+  return status;
+}
+
+Status read_globals(const Hdf5Reader& file, LoadedCheckpoint& out) {
+  MORULA_TRY_ASSIGN(out.info.morula_version, file.text("info/morula_version"));
+  MORULA_TRY_ASSIGN(out.info.run_name, file.text("info/run_name"));
+  MORULA_TRY_ASSIGN(out.info.study_hash, file.text("info/study_hash"));
+  MORULA_TRY_ASSIGN(out.info.wall_time, file.value<double>("info/wall_time"));
+  if (file.exists("info/warned")) {
+    MORULA_TRY_ASSIGN(out.info.warned, file.value<std::uint32_t>("info/warned"));
+    MORULA_TRY_ASSIGN(out.info.texts.events, file.value<std::uint64_t>("info/events_length"));
+    MORULA_TRY_ASSIGN(out.info.texts.log, file.value<std::uint64_t>("info/log_length"));
+  }
+  MORULA_TRY_ASSIGN(out.tissue.obstacle_offset, file.read<Vec3d>("obstacles/offset"));
+  const auto read_one = [&](const std::string& path, auto& member) -> Status {
+    using Value = std::remove_cvref_t<decltype(member)>;
+    using Kept = std::conditional_t<std::is_same_v<Value, bool>, std::uint8_t, Value>;  // a vector of bool has no bytes
+    MORULA_TRY_ASSIGN(const Kept kept, file.value<Kept>(path));
+    member = static_cast<Value>(kept);
+    return {};
+  };
+  const auto read_array = [&](const std::string& path, auto& member) -> Status {
+    MORULA_TRY_ASSIGN(const auto values, (file.value<std::array<double, kMaxFields>>(path)));
+    std::copy(values.begin(), values.end(), std::begin(member));
+    return {};
+  };
+  Status lumens;
+  for_each_lumen_field([&](const std::string& name, const char*, auto member) {
+    if (!lumens.ok() || !file.exists("lumens/" + name)) return;
+    auto column = file.read<double>("lumens/" + name);
+    if (!column.ok()) {
+      lumens = std::move(column).error();
+      return;
+    }
+    out.tissue.lumens.resize(column.value().size());
+    for (std::size_t i = 0; i < out.tissue.lumens.size(); ++i) out.tissue.lumens[i].*member = column.value()[i];
+  });
+  MORULA_TRY(lumens);
+  Clock& clock = out.tissue.clock;
+  Ledger& ledger = out.tissue.ledger;
+  return first_failure([&](auto note) {
+    for_each_clock_field([&](const std::string& name, const char*, auto member) { note(read_one("clock/" + name, clock.*member)); });
+    for_each_ledger_field([&](const std::string& name, const char*, auto member) { note(read_array("ledger/" + name, ledger.*member)); },
+                          [&](const std::string& name, const char*, auto member) { note(read_one("ledger/" + name, ledger.*member)); });
+  });
+}
+
+Status read_rows(const Hdf5Reader& file, const Stretch& mine, Cells& cells) {
+  std::vector<FullRow> rows(mine.size());
+  Status read = first_failure([&](auto note) {
+    for_each_row_field([&](const std::string& name, const char*, auto member) {
+      using Value = std::remove_cvref_t<decltype(rows.front().*member)>;
+      auto column = file.read<Value>("cells/" + name, mine.begin, mine.size());
+      if (column.ok())
+        for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*member = column.value()[i];
+      else
+        note(std::move(column).error());
+    });
+  });
+  cells.rows.reserve(rows.size());
+  for (const FullRow& row : rows) cells.push_back(row);
+  return read;
+}
+
+Status read_spheres(const Hdf5Reader& file, std::uint64_t first, std::uint64_t count, std::vector<std::uint32_t>& partner_count,
+                    cbm::Spheres& out) {
+  MORULA_TRY_ASSIGN(out.position, file.read<Vec3d>("spheres/position", first, count));
+  MORULA_TRY_ASSIGN(out.radius, file.read<double>("spheres/radius", first, count));
+  MORULA_TRY_ASSIGN(out.type, file.read<std::uint16_t>("spheres/type", first, count));
+  MORULA_TRY_ASSIGN(out.velocity, file.read<Vec3f>("spheres/velocity", first, count));
+  MORULA_TRY_ASSIGN(partner_count, file.read<std::uint32_t>("spheres/partner_count", first, count));
+  return {};
+}
+
+Status read_partners(const Hdf5Reader& file, std::uint64_t first, const std::vector<std::uint32_t>& counts, cbm::Spheres& out) {
+  const std::uint64_t total = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+  MORULA_TRY_ASSIGN(const std::vector<CellId> partners, file.read<CellId>("spheres/partners", first, total));
+  auto next = partners.begin();
+  for (const std::uint32_t count : counts) {
+    out.attached.push_back(std::span(next, count));
+    next += count;
+  }
+  return {};
+}
+
+/// `group`: `shells/`, or that of the nuclei that are shells.
+Status read_shell_heads(const Hdf5Reader& file, const std::string& group, std::uint64_t first, std::uint64_t count, ShapeLibrary& library,
+                        dcm::Shells& out) {
+  MORULA_TRY_ASSIGN(const std::vector<std::uint32_t> shape, file.read<std::uint32_t>(group + "shape", first, count));
+  MORULA_TRY_ASSIGN(out.type, file.read<std::uint16_t>(group + "type", first, count));
+  MORULA_TRY_ASSIGN(out.reference_volume, file.read<double>(group + "reference_volume", first, count));
+  MORULA_TRY_ASSIGN(out.rest_volume, file.read<double>(group + "rest_volume", first, count));
+  const std::set<std::uint32_t> used(shape.begin(), shape.end());
+  MORULA_TRY_ASSIGN(const auto shapes, read_shapes(file, {used.begin(), used.end()}, library));
+  for (const std::uint32_t number : shape) {
+    out.shape.push_back(shapes.at(number));
+    out.first_node.push_back(out.first_node.back() + out.shape.back()->topology->node_count());
+    out.first_edge.push_back(out.first_edge.back() + out.shape.back()->topology->edge_count());
+  }
+  return {};
+}
+
+Status read_shell_arrays(const Hdf5Reader& file, const std::string& group, std::uint64_t first_node, std::uint64_t first_edge,
+                         dcm::Shells& out) {
+  MORULA_TRY_ASSIGN(out.position, file.read<Vec3d>(group + "position", first_node, out.first_node.back()));
+  MORULA_TRY_ASSIGN(out.velocity, file.read<Vec3f>(group + "velocity", first_node, out.first_node.back()));
+  MORULA_TRY_ASSIGN(out.rest_length, file.read<double>(group + "rest_length", first_edge, out.first_edge.back()));
+  return {};
+}
+
+/// Nuclei of a kind are in the file only where some shell has one.
+Status read_nucleus_flags(const Hdf5Reader& file, const char* name, std::uint64_t first, std::uint64_t count,
+                          std::vector<std::uint8_t>& out) {
+  if (!file.exists(name)) return {};
+  MORULA_TRY_ASSIGN(out, file.read<std::uint8_t>(name, first, count));
+  return {};
+}
+
+Status read_nuclei(const Hdf5Reader& file, std::uint64_t first, const std::vector<std::uint8_t>& has_nucleus, dcm::Shells& out) {
+  if (has_nucleus.empty()) return {};
+  const auto count = static_cast<std::uint64_t>(std::count(has_nucleus.begin(), has_nucleus.end(), 1));
+  MORULA_TRY_ASSIGN(const auto centers, file.read<Vec3d>("shells/nucleus", first, count));
+  auto next = centers.begin();
+  for (const std::uint8_t has : has_nucleus) out.nucleus.push_back(has != 0 ? std::optional(*next++) : std::nullopt);
+  return {};
+}
+
+/// Nuclei that are shells, in the order of the shells. Collective.
+Status read_nuclear_shells(const Hdf5Reader& file, std::uint64_t first_shell, std::uint64_t shells, ShapeLibrary& library, const Comm& comm,
+                           dcm::NuclearShells& out) {
+  std::vector<std::uint8_t> has;
+  MORULA_TRY(agree(read_nucleus_flags(file, "shells/has_nuclear_shell", first_shell, shells, has), comm));
+  for (std::uint32_t s = 0; s < has.size(); ++s)
+    if (has[s] != 0) out.owner.push_back(s);
+  if (!file.exists("shells/has_nuclear_shell")) return {};
+  const std::string group = "nuclear_shells/";
+  MORULA_TRY(agree(read_shell_heads(file, group, before_mine(out.size(), comm), out.size(), library, out.shells), comm));
+  const std::uint64_t first_node = before_mine(out.shells.first_node.back(), comm),
+                      first_edge = before_mine(out.shells.first_edge.back(), comm);
+  return agree(read_shell_arrays(file, group, first_node, first_edge, out.shells), comm);
+}
+
+/// Marks and contact of the faces, where any shell had them.
+Status read_faces(const Hdf5Reader& file, std::uint64_t first_shell, const Comm& comm, dcm::Shells& out) {
+  if (!file.exists("shells/mark_count")) return {};
+  std::vector<std::uint32_t> counts[2];
+  const auto read_counts = [&]() -> Status {
+    MORULA_TRY_ASSIGN(counts[0], file.read<std::uint32_t>("shells/mark_count", first_shell, out.size()));
+    MORULA_TRY_ASSIGN(counts[1], file.read<std::uint32_t>("shells/face_contact_count", first_shell, out.size()));
+    return {};
+  };
+  MORULA_TRY(agree(read_counts(), comm));
+  std::uint64_t total[2], first[2];
+  for (int k = 0; k < 2; ++k) {
+    total[k] = std::accumulate(counts[k].begin(), counts[k].end(), std::uint64_t{0});
+    first[k] = before_mine(total[k], comm);
+  }
+  const auto read_values = [&]() -> Status {
+    MORULA_TRY_ASSIGN(const auto marks, file.read<std::uint8_t>("shells/mark", first[0], total[0]));
+    MORULA_TRY_ASSIGN(const auto contacts, file.read<float>("shells/face_contact", first[1], total[1]));
+    out.face.resize(out.size());
+    auto mark = marks.begin();
+    auto contact = contacts.begin();
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out.face[i].mark.assign(mark, mark + counts[0][i]);
+      out.face[i].contact.assign(contact, contact + counts[1][i]);
+      mark += counts[0][i], contact += counts[1][i];
+    }
+    return {};
+  };
+  return agree(read_values(), comm);
+}
+
+/// Rows and bodies of this rank in the order of ids. Collective: where a rank's bodies begin follows from the ranks before it.
+Status read_cells(const Hdf5Reader& file, ShapeLibrary& library, const Comm& comm, Tissue& out) {
+  std::uint64_t total = 0;
+  MORULA_TRY_ASSIGN(total, file.rows("cells/id"));
+  MORULA_TRY(agree(read_rows(file, Stretch(total, comm), out.cells), comm));
+  const auto is_sphere = [](const CellRow& row) { return row.body == BodyKind::kSphere; };
+  const auto spheres = static_cast<std::uint64_t>(std::count_if(out.cells.rows.begin(), out.cells.rows.end(), is_sphere));
+  const std::uint64_t shells = out.cells.rows.size() - spheres;
+  const std::uint64_t first_sphere = before_mine(spheres, comm), first_shell = before_mine(shells, comm);
+
+  std::vector<std::uint32_t> partner_count;
+  MORULA_TRY(agree(read_spheres(file, first_sphere, spheres, partner_count, out.spheres), comm));
+  const std::uint64_t first_partner = before_mine(std::accumulate(partner_count.begin(), partner_count.end(), std::uint64_t{0}), comm);
+  MORULA_TRY(agree(read_partners(file, first_partner, partner_count, out.spheres), comm));
+
+  MORULA_TRY(agree(read_shell_heads(file, "shells/", first_shell, shells, library, out.shells), comm));
+  std::vector<std::uint8_t> has_nucleus;
+  MORULA_TRY(agree(read_nucleus_flags(file, "shells/has_nucleus", first_shell, shells, has_nucleus), comm));
+  const std::uint64_t first_nucleus = before_mine(static_cast<std::uint64_t>(std::count(has_nucleus.begin(), has_nucleus.end(), 1)), comm);
+  MORULA_TRY(agree(read_nuclei(file, first_nucleus, has_nucleus, out.shells), comm));
+  const std::uint64_t first_node = before_mine(out.shells.first_node.back(), comm),
+                      first_edge = before_mine(out.shells.first_edge.back(), comm);
+  MORULA_TRY(agree(read_shell_arrays(file, "shells/", first_node, first_edge, out.shells), comm));
+  MORULA_TRY(read_nuclear_shells(file, first_shell, shells, library, comm, out.nuclei));
+  return read_faces(file, first_shell, comm, out.shells);
+}
+
+/// The same cells in canonical order, bodies with them.
+void put_in_canonical_order(Tissue& tissue) {
+  std::vector<CellRecord> cells = take_apart(tissue);
+  put_together(tissue, std::move(cells));
+}
+
+Status read_field(const Hdf5Reader& file, const std::string& group, const Comm& comm, fields::Field& field) {
+  MORULA_TRY_ASSIGN(field.grid.box.low, file.value<Vec3d>(group + "/low"));
+  MORULA_TRY_ASSIGN(field.grid.box.high, file.value<Vec3d>(group + "/high"));
+  MORULA_TRY_ASSIGN(field.grid.voxels, (file.value<std::array<std::int32_t, 3>>(group + "/voxels")));
+  MORULA_TRY_ASSIGN(field.grid.bricks, (file.value<std::array<std::int32_t, 3>>(group + "/bricks")));
+  MORULA_TRY_ASSIGN(field.next_step, file.value<double>(group + "/next_step"));
+  const Stretch mine(static_cast<std::uint64_t>(field.grid.brick_count()), comm);
+  std::uint64_t place = 0;
+  for (std::uint64_t b = 0; b < mine.begin; ++b) place += brick_voxel_count(field.grid, static_cast<std::int64_t>(b));
+  for (std::uint64_t b = mine.begin; b < mine.end; ++b) {
+    const std::size_t count = brick_voxel_count(field.grid, static_cast<std::int64_t>(b));
+    field.owned_bricks.push_back(static_cast<std::int64_t>(b));
+    MORULA_TRY_ASSIGN(std::vector<double> values, file.read<double>(group + "/concentration", place, count));
+    field.concentration.push_back(std::move(values));
+    place += count;
+  }
+  return {};
+}
+
+Status read_fields(const Hdf5Reader& file, const Comm& comm, Tissue& out) {
+  MORULA_TRY_ASSIGN(const std::uint32_t count, file.value<std::uint32_t>("info/field_count"));
+  out.fields.resize(count);
+  for (std::uint32_t f = 0; f < count; ++f) MORULA_TRY(read_field(file, "fields/" + std::to_string(f), comm, out.fields[f]));
+  return {};
+}
+
+Status check_against(const Model& model, const Tissue& tissue) {
+  const auto differs = [](const char* what, std::size_t in_file, std::size_t in_study) {
+    return Error{ErrorKind::kInput,
+                 "the checkpoint has " + std::to_string(in_file) + ' ' + what + ", the study " + std::to_string(in_study),
+                 "resume with the study that the run was started with"};
+  };
+  if (tissue.fields.size() != model.fields.size()) return differs("fields", tissue.fields.size(), model.fields.size());
+  const std::size_t obstacles = contact_obstacle_count(model);
+  if (tissue.obstacle_offset.size() != obstacles) return differs("obstacles and walls", tissue.obstacle_offset.size(), obstacles);
+  if (tissue.lumens.size() > model.lumens.size()) return differs("lumens", tissue.lumens.size(), model.lumens.size());
+  for (const CellRow& row : tissue.cells.rows)
+    if (row.type >= model.types.size()) return differs("cell types or more", row.type + std::size_t{1}, model.types.size());
+  for (std::size_t s = 0; s < tissue.shells.size(); ++s) {
+    const dcm::InteriorParameters& interior = model.types[tissue.shells.type[s]].interior;
+    const bool has = tissue.shells.nucleus_of(s) != nullptr, wanted = interior.has_rigid_nucleus();
+    if (has != wanted) return differs("rigid nuclei in a shell", has, wanted);
+    const std::size_t n = tissue.nuclei.of_shell(s);
+    const std::size_t nodes = n < tissue.nuclei.size() ? tissue.nuclei.shells.topology(n).node_count() : 0;
+    const std::size_t wanted_nodes = interior.has_nuclear_shell() ? interior.nucleus_nodes : 0;
+    if (nodes != wanted_nodes) return differs("nodes in the nucleus of a shell", nodes, wanted_nodes);
+  }
+  return {};
+}
+
+}  // namespace
+
+Status check_checkpoint_version(const std::filesystem::path& path, const Hdf5Reader& file) {
+  MORULA_TRY_ASSIGN(const std::uint32_t version, file.value<std::uint32_t>("format_version"));
+  if (version == kCheckpointFormat) return {};
+  std::string writer = "another Morula";
+  if (const auto text = file.text("info/morula_version"); text.ok()) writer = "Morula " + text.value();
+  return Error{ErrorKind::kInput,
+               "checkpoint '" + path.string() + "' has format version " + std::to_string(version) + " (written by " + writer +
+                   "), and this Morula " + build_info().version + " reads version " + std::to_string(kCheckpointFormat),
+               "resume with the version of Morula that wrote it"};
+}
+
+Result<LoadedCheckpoint> read_checkpoint(const std::filesystem::path& path, const Model& model, ShapeLibrary& shapes, const Comm& comm) {
+  auto opened = Hdf5Reader::open(path);
+  MORULA_TRY(agree(opened.ok() ? Status{} : Status(opened.error()), comm));
+  const Hdf5Reader file = std::move(opened).value();
+  MORULA_TRY(agree(check_checkpoint_version(path, file), comm));
+  MORULA_TRY(file.verify(comm));
+  LoadedCheckpoint out;
+  MORULA_TRY(agree(read_globals(file, out), comm));
+  MORULA_TRY(read_cells(file, shapes, comm, out.tissue));
+  MORULA_TRY(agree(read_fields(file, comm, out.tissue), comm));
+  MORULA_TRY(agree(check_against(model, out.tissue), comm));
+  put_in_canonical_order(out.tissue);
+  return out;
+}
+
+}  // namespace morula::scenarios

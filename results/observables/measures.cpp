@@ -1,0 +1,195 @@
+#include "results/observables/measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "coupling/grips.h"
+#include "coupling/swaps.h"
+
+namespace morula::scenarios {
+namespace {
+
+double radius_of(double volume) { return std::cbrt(3.0 * volume / (4.0 * std::numbers::pi)); }
+
+/// The winner over all ranks.
+Extreme over_ranks(const Extreme& mine, const Comm& comm) {
+  const auto* bytes = reinterpret_cast<const std::byte*>(&mine);  // NOLINT: plain data
+  const auto all = comm.gather_to_all(std::span(bytes, sizeof mine));
+  Extreme out;
+  for (std::size_t at = 0; at < all.size(); at += sizeof(Extreme)) {
+    Extreme one;
+    std::memcpy(static_cast<void*>(&one), all.data() + at, sizeof one);
+    if (one.cell.valid()) out.offer(one.value, one.cell);
+  }
+  return out;
+}
+
+/// Volume that the cell's row, its reference_excess and its inner pressure ask for, beside the present one of a nucleus that is a shell [µm³].
+double volume_by_law(const CellRow& row, double reference_excess, const CellType& type, double inner_pressure,
+                     const std::optional<NucleusState>& nucleus) {
+  const double excess = std::exp(reference_excess);
+  if (row.body == BodyKind::kSphere) return row.target_volume * excess;
+  const double volume = free_reference_volume(row.target_volume, type) * excess * std::exp(-inner_pressure / type.shell.bulk_modulus);
+  return nucleus ? nucleus->volume + (1.0 - type.interior.nucleus_fraction) * volume : volume;
+}
+
+/// How near the nuclei that are shells have come to their cortex. Collective.
+double least_clearance(const Simulation& simulation) {
+  const Tissue& tissue = simulation.tissue();
+  double least = 1e300;
+  for (std::size_t n = 0; n < tissue.nuclei.size(); ++n) {
+    dcm::NucleusView view;
+    view.cell_topology = &tissue.shells.topology(tissue.nuclei.owner[n]);
+    view.cell = tissue.shells.nodes(tissue.nuclei.owner[n]);
+    view.nucleus = tissue.nuclei.shells.nodes(n);
+    least = std::min(least, dcm::nucleus_clearance(view));
+  }
+  least = simulation.comm().min(least);
+  return least < 1e300 ? least : 0.0;
+}
+
+void measure_fields(const Simulation& simulation, Measures& out) {
+  const Tissue& tissue = simulation.tissue();
+  const Comm& comm = simulation.comm();
+  for (std::size_t f = 0; f < tissue.fields.size(); ++f) {
+    const fields::Field& field = tissue.fields[f];
+    double least = 1e300;
+    for (const auto& brick : field.concentration)
+      for (const double c : brick) least = std::min(least, c);
+    out.least_field[f] = comm.min(least);
+    const double amount = fields::total_amount(field, comm);
+    out.mean_field[f] = amount / (field.grid.voxel_volume() * static_cast<double>(field.grid.voxel_count()));
+    const Ledger& l = tissue.ledger;
+    const double residual = amount - l.field_start[f] + l.field_taken[f] + l.field_decayed[f] - l.field_in[f];
+    const double scale = std::max(
+        {std::abs(amount), std::abs(l.field_start[f]), std::abs(l.field_taken[f]), std::abs(l.field_decayed[f]), std::abs(l.field_in[f])});
+    out.field_balance[f] = scale > 0.0 ? std::abs(residual) / scale : 0.0;
+  }
+}
+
+/// Spheres against the calibrated range of their type's packing curve. Collective.
+void measure_packing(Simulation& simulation, Measures& out) {
+  const Model& model = simulation.model();
+  if (std::all_of(model.types.begin(), model.types.end(), [](const CellType& type) { return type.sphere.packing.empty(); })) return;
+  const std::vector<double> packing = simulation.mechanics().packing();
+  Extreme most;
+  std::size_t sphere = 0;
+  for (const CellRow& row : simulation.tissue().cells.rows) {
+    if (row.body == BodyKind::kShell) continue;
+    const double here = packing[sphere++], last = model.types[row.type].sphere.packing.last();
+    if (last == 0.0) continue;
+    most.offer(here / last, row.id);
+    out.packed_beyond += here > last;
+  }
+  out.packed_beyond = simulation.comm().sum(out.packed_beyond);
+  most = over_ranks(most, simulation.comm());
+  out.packing = most.value;
+  out.packing_cell = most.cell;
+}
+
+enum Sum {
+  kVolume,
+  kVolumeX,
+  kVolumeY,
+  kVolumeZ,
+  kVolumeSquare,
+  kPressure,
+  kShellPressure,
+  kInnerPressure,
+  kContactArea,
+  kLawVolume,
+  kSums
+};
+
+}  // namespace
+
+Measures measure(Simulation& simulation) {
+  const BodyValues& values = simulation.values();
+  const Tissue& tissue = simulation.tissue();
+  const Model& model = simulation.model();
+  const Comm& comm = simulation.comm();
+  const std::vector<Vec3d> center = simulation.centers();
+  const Vec3d middle = model.space.box.center();
+  Measures out;
+  out.time = tissue.clock.time;
+  out.of_type.assign(model.types.size(), 0);
+  out.lumens = tissue.lumens;
+  out.lumens.resize(model.lumens.size());
+  OrderFreeSum sums[kSums];
+  Extreme pressure, volume_error;
+  std::size_t shell = 0, sphere = tissue.shells.size();
+  for (std::size_t i = 0; i < center.size(); ++i) {
+    const CellRow& row = tissue.cells.rows[i];
+    const bool is_shell = row.body == BodyKind::kShell;
+    const auto nucleus = is_shell ? simulation.mechanics().nucleus_of(static_cast<std::uint32_t>(shell)) : std::nullopt;
+    const std::size_t body = is_shell ? shell++ : sphere++;
+    const CellType& type = model.types[row.type];
+    const double volume = values.volume[body], p = values.pressure[body], inner = values.inner_pressure[body];
+    const Vec3d from = center[i] - middle;
+    const double r = radius_of(volume), law = volume_by_law(row, tissue.cells.side.reference_excess[i], type, inner, nucleus);
+    sums[kVolume].add(volume);
+    sums[kVolumeX].add(volume * from.x);
+    sums[kVolumeY].add(volume * from.y);
+    sums[kVolumeZ].add(volume * from.z);
+    sums[kVolumeSquare].add(volume * (norm2(from) + 0.6 * r * r));
+    sums[kPressure].add(p);
+    if (is_shell) sums[kShellPressure].add(p);
+    if (is_shell) sums[kInnerPressure].add(inner);
+    sums[kContactArea].add(values.contact_area[body]);
+    sums[kLawVolume].add(law);
+    pressure.offer(p, row.id);
+    volume_error.offer(std::abs(volume - law) / law, row.id);
+    ++out.of_type[row.type];
+  }
+  double total[kSums];
+  comm.sum(sums, total);
+  out.spheres = comm.sum(static_cast<std::int64_t>(tissue.spheres.size()));
+  out.shells = comm.sum(static_cast<std::int64_t>(tissue.shells.size()));
+  out.nodes = comm.sum(static_cast<std::int64_t>(tissue.shells.node_count()));
+  out.cells = out.spheres + out.shells;
+  for (std::int64_t& count : out.of_type) count = comm.sum(count);
+  out.pressure = over_ranks(pressure, comm);
+  out.volume_error = over_ranks(volume_error, comm);
+  out.overlap = over_ranks(deepest_overlap(simulation), comm);
+  measure_fields(simulation, out);
+  measure_packing(simulation, out);
+  const auto range = simulation.mechanics().contacts_beyond_range();
+  out.sphere_contacts = comm.sum(range.contacts);
+  out.contacts_beyond = comm.sum(range.beyond);
+  if (std::any_of(model.types.begin(), model.types.end(), [](const CellType& type) { return type.interior.has_nuclear_shell(); }))
+    out.nucleus_clearance = least_clearance(simulation);
+  out.obstacle_force = simulation.mechanics().obstacle_forces(tissue);
+  out.grip_force = grip_forces(model, tissue, comm);
+  if (out.cells == 0) return out;
+  const auto cells = static_cast<double>(out.cells);
+  const Vec3d mean = Vec3d{total[kVolumeX], total[kVolumeY], total[kVolumeZ]} * (1.0 / total[kVolume]);
+  out.total_volume = total[kVolume];
+  out.spheroid_radius = std::sqrt(5.0 / 3.0 * std::max(0.0, total[kVolumeSquare] / total[kVolume] - norm2(mean)));
+  out.mean_pressure = total[kPressure] / cells;
+  if (out.shells > 0) out.shell_pressure = total[kShellPressure] / static_cast<double>(out.shells);
+  if (out.shells > 0) out.inner_pressure = total[kInnerPressure] / static_cast<double>(out.shells);
+  out.mean_contact_area = total[kContactArea] / cells;
+  out.total_volume_error = std::abs(total[kVolume] - total[kLawVolume]) / total[kLawVolume];
+  double extent = 0.0;
+  shell = 0, sphere = tissue.shells.size();
+  for (std::size_t i = 0; i < center.size(); ++i) {
+    const std::size_t body = tissue.cells.rows[i].body == BodyKind::kShell ? shell++ : sphere++;
+    extent = std::max(extent, norm(center[i] - middle - mean) + radius_of(values.volume[body]));
+  }
+  out.largest_extent = comm.max(extent);
+  return out;
+}
+
+void Interval::add(const StepOutcome& outcome) {
+  ++steps;
+  time += outcome.mechanics.step;
+  newton += static_cast<std::uint64_t>(outcome.mechanics.newton);
+  linear += static_cast<std::uint64_t>(outcome.mechanics.linear_iterations);
+  retries += static_cast<std::uint64_t>(outcome.retries);
+  worst_overlap = std::max(worst_overlap, outcome.mechanics.overlap);
+  energy = outcome.mechanics.energy;
+}
+
+}  // namespace morula::scenarios

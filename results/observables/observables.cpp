@@ -1,0 +1,141 @@
+#include "results/observables/observables.h"
+
+#include <algorithm>
+
+#include "study/diagnostics.h"
+
+namespace morula::scenarios {
+namespace {
+
+double per_step(std::uint64_t count, std::uint64_t steps) {
+  return steps > 0 ? static_cast<double>(count) / static_cast<double>(steps) : 0.0;
+}
+
+/// The general ones: one line each.
+std::vector<Observable> general() {
+  using M = const Moment&;
+  return {
+      {"cell_count", "1", "Number of cells.", [](M m) { return double(m.measures.cells); }},
+      {"sphere_count", "1", "Cells whose body is a sphere.", [](M m) { return double(m.measures.spheres); }},
+      {"shell_count", "1", "Cells whose body is a deformable shell.", [](M m) { return double(m.measures.shells); }},
+      {"shell_fraction", "1", "Part of the cells whose body is a shell.",
+       [](M m) { return m.measures.cells > 0 ? double(m.measures.shells) / double(m.measures.cells) : 0.0; }},
+      {"spheroid_radius", "um", "Radius of the ball with the tissue's radius of gyration, cells weighted by volume.",
+       [](M m) { return m.measures.spheroid_radius; }},
+      {"largest_extent", "um", "Largest distance of a cell's far side from the tissue's centre.",
+       [](M m) { return m.measures.largest_extent; }},
+      {"total_volume", "um^3", "Volume of all cells.", [](M m) { return m.measures.total_volume; }},
+      {"mean_pressure", "kPa", "Mean pressure that neighbours, obstacles and loads put on a cell.",
+       [](M m) { return m.measures.mean_pressure; }},
+      {"shell_pressure", "kPa", "Mean pressure that neighbours, obstacles and loads put on a shell.",
+       [](M m) { return m.measures.shell_pressure; }},
+      {"inner_pressure", "kPa", "Mean pressure inside the shells, -K ln(V/V0), which bears their cortex, too.",
+       [](M m) { return m.measures.inner_pressure; }},
+      {"max_pressure", "kPa", "Largest pressure of a cell.", [](M m) { return m.measures.pressure.value; }},
+      {"mean_contact_area", "um^2",
+       "Mean area of a cell that is in contact. Of shells: what is nearer than half the range. Too large at small contact angles, by "
+       "c/(2 a tan(angle)) of a contact of radius a; doublets of 162 nodes: 17, 8, 2, -2 % at W/2T = 0.1, 0.3, 0.5, 0.75.",
+       [](M m) { return m.measures.mean_contact_area; }},
+      {"contacts_beyond_range", "1", "Part of the contacts of two spheres whose radius is above 0.45 of the smaller sphere's.",
+       [](M m) { return m.measures.sphere_contacts > 0 ? double(m.measures.contacts_beyond) / double(m.measures.sphere_contacts) : 0.0; }},
+      {"overlap", "um", "Deepest penetration of a shell, obstacle or nucleus at this time.", [](M m) { return m.measures.overlap.value; }},
+      {"worst_overlap", "um", "Deepest penetration in any step since the last output.",
+       [](M m) { return std::max(m.interval.worst_overlap, m.measures.overlap.value); }},
+      {"volume_error", "1", "Largest relative difference of a cell's volume from what its row and its inner pressure ask for.",
+       [](M m) { return m.measures.volume_error.value; }},
+      {"total_volume_error", "1",
+       "Relative difference of the volume of all cells together from what their rows and inner pressures ask for.",
+       [](M m) { return m.measures.total_volume_error; }},
+      {"energy", "nN um", "Elastic, surface and contact energy after the last step.", [](M m) { return m.interval.energy; }},
+      {"step_count", "1", "Steps since time 0.", [](M m) { return double(m.clock.steps); }},
+      {"step_size", "s", "Mean step since the last output.",
+       [](M m) { return m.interval.steps > 0 ? m.interval.time / double(m.interval.steps) : m.clock.next_step; }},
+      {"newton_iterations", "1", "Newton iterations per step since the last output.",
+       [](M m) { return per_step(m.interval.newton, m.interval.steps); }},
+      {"linear_iterations", "1", "Iterations of the linear solver per step since the last output.",
+       [](M m) { return per_step(m.interval.linear, m.interval.steps); }},
+      {"retries", "1", "Steps tried again with a smaller size since the last output.", [](M m) { return double(m.interval.retries); }},
+      {"centre_drift", "um",
+       "Way of the tissue's centre since time 0, every point weighted by its friction with the medium: what obstacles and forces from "
+       "outside have moved; where there are none it is the error of the solver.",
+       [](M m) { return norm(m.ledger.drift); }},
+      {"rotation", "rad", "Rotation of the tissue about that centre since time 0, weighted alike; 0 in periodic domains.",
+       [](M m) { return norm(m.ledger.rotation); }},
+      {"mean_way", "um", "Mean length of the way of all points since time 0, weighted alike.", [](M m) { return m.ledger.way; }},
+      {"divisions", "1", "Divisions since time 0.", [](M m) { return double(m.ledger.divisions); }},
+      {"deaths", "1", "Deaths since time 0.", [](M m) { return double(m.ledger.deaths); }},
+      {"promotions", "1", "Spheres that became shells since time 0.", [](M m) { return double(m.ledger.promotions); }},
+      {"demotions", "1", "Shells that became spheres since time 0.", [](M m) { return double(m.ledger.demotions); }},
+  };
+}
+
+}  // namespace
+
+std::vector<Observable> observables(const Model& model) {
+  std::vector<Observable> out = general();
+  for (std::size_t t = 0; t < model.types.size(); ++t)
+    out.push_back({"count_" + model.types[t].name, "1", "Number of cells of the type " + model.types[t].name + ".",
+                   [t](const Moment& m) { return double(m.measures.of_type[t]); }});
+  if (std::any_of(model.types.begin(), model.types.end(), [](const CellType& type) { return type.interior.has_nuclear_shell(); }))
+    out.push_back({"nucleus_clearance", "um", "Least distance of a node of a nucleus from the cortex around it; negative: outside.",
+                   [](const Moment& m) { return m.measures.nucleus_clearance; }});
+  for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
+    const std::string& name = model.obstacles[o].name;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::string letter(1, "xyz"[axis]);
+      out.push_back({"force_" + letter + "_" + name, "nN", "Force of all cells on the obstacle " + name + " along " + letter + ".",
+                     [o, axis](const Moment& m) { return m.measures.obstacle_force[o][axis]; }});
+    }
+  }
+  for (std::size_t k = 0; k < model.lumens.size(); ++k) {
+    const std::string& name = model.lumens[k].name;
+    const auto of = [k](double LumenState::*member) { return [k, member](const Moment& m) { return m.measures.lumens[k].*member; }; };
+    out.push_back({"volume_" + name, "um^3", "Volume of the cavity " + name + ".", of(&LumenState::volume)});
+    out.push_back({"area_" + name, "um^2", "Area of the faces that bound the cavity " + name + ".", of(&LumenState::area)});
+    out.push_back({"pressure_" + name, "kPa", "Pressure of the fluid in the cavity " + name + ".", of(&LumenState::pressure)});
+    out.push_back({"open_" + name, "1", "Part of the directions from the centre of the cavity " + name + " in which it has no wall.",
+                   [k](const Moment& m) { return 1.0 - m.measures.lumens[k].covered; }});
+  }
+  for (std::size_t l = 0; l < model.loads.size(); ++l) {
+    if (model.loads[l].kind != LoadKind::kGrip) continue;
+    const std::string& name = model.loads[l].name;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::string letter(1, "xyz"[axis]);
+      out.push_back({"grip_" + letter + "_" + name, "nN", "Force of the grip " + name + " on its cells along " + letter + ".",
+                     [l, axis](const Moment& m) { return m.measures.grip_force[l][axis]; }});
+    }
+  }
+  for (std::size_t f = 0; f < model.fields.size(); ++f) {
+    const std::string& name = model.fields[f].name;
+    out.push_back({"mean_" + name, "mM", "Mean concentration of " + name + ".", [f](const Moment& m) { return m.measures.mean_field[f]; }});
+    out.push_back(
+        {"min_" + name, "mM", "Smallest concentration of " + name + ".", [f](const Moment& m) { return m.measures.least_field[f]; }});
+    out.push_back({"balance_" + name, "1", "Relative error of the balance of amounts of " + name + " since time 0.",
+                   [f](const Moment& m) { return m.measures.field_balance[f]; }});
+  }
+  if (!model.fields.empty())
+    out.push_back({"field_balance", "1", "Largest relative error of the balance of amounts over all fields.",
+                   [](const Moment& m) { return *std::max_element(m.measures.field_balance.begin(), m.measures.field_balance.end()); }});
+  return out;
+}
+
+std::vector<std::string> observable_names(const Model& model) {
+  std::vector<std::string> out;
+  for (const Observable& o : observables(model)) out.push_back(o.name);
+  return out;
+}
+
+Result<std::vector<Observable>> select_observables(const Model& model, const std::vector<std::string>& names) {
+  std::vector<Observable> all = observables(model);
+  if (names.empty()) return all;
+  std::vector<Observable> out;
+  for (const std::string& name : names) {
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Observable& o) { return o.name == name; });
+    if (found == all.end())
+      return Error{ErrorKind::kInput, "there is no observable '" + name + "' (output.series)", suggest(name, observable_names(model))};
+    out.push_back(*found);
+  }
+  return out;
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,76 @@
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "results/checkpoint.h"
+#include "results/run_record.h"
+#include "results/series_reader.h"
+#include "results/snapshot_columns.h"
+#include "results/snapshot_file.h"
+
+namespace morula::scenarios {
+namespace {
+
+/// The root's text on every rank.
+std::string from_root(const std::string& text, const Comm& comm) {
+  std::vector<std::byte> bytes(comm.is_root() ? text.size() : 0);
+  if (!bytes.empty()) std::memcpy(bytes.data(), text.data(), bytes.size());
+  comm.broadcast(bytes);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::vector<std::string> event_kinds() {
+  std::vector<std::string> names;
+  for (int kind = 0; kind <= static_cast<int>(EventKind::kWarning); ++kind) names.push_back(name_of(static_cast<EventKind>(kind)));
+  return names;
+}
+
+/// Lines that are not whole are left out.
+void add_events(StoragePlan& plan, const std::string& lines) {
+  const std::vector<std::string> kinds = event_kinds();
+  std::vector<double> time;
+  std::vector<std::uint8_t> kind;
+  std::vector<std::string> cell, daughters, text;
+  std::istringstream stream(lines);
+  for (std::string line; std::getline(stream, line);) {
+    const auto json = nlohmann::json::parse(line, nullptr, false);
+    if (!json.is_object() || !json.contains("time_s") || !json["time_s"].is_number()) continue;
+    const auto found = std::find(kinds.begin(), kinds.end(), json.value("kind", ""));
+    if (found == kinds.end()) continue;
+    time.push_back(json["time_s"]);
+    kind.push_back(static_cast<std::uint8_t>(found - kinds.begin()));
+    cell.push_back(json.value("cell", ""));
+    std::string& names = daughters.emplace_back();
+    for (const auto& name : json.value("daughters", nlohmann::json::array()))
+      if (name.is_string()) names += (names.empty() ? "" : " ") + name.get<std::string>();
+    text.push_back(json.value("text", ""));
+  }
+  plan.add_from_root(results::kEventTime.path, results::kEventTime.label(), std::span<const double>(time));
+  plan.add_from_root(results::kEventKind.path, {results::kEventKind.units, results::kEventKind.description, kinds},
+                     std::span<const std::uint8_t>(kind));
+  plan.add_text(results::kEventCell.path, cell, results::kEventCell.label());
+  plan.add_text(results::kEventDaughters.path, daughters, results::kEventDaughters.label());
+  plan.add_text(results::kEventText.path, text, results::kEventText.label());
+}
+
+}  // namespace
+
+Status write_results_tables(const std::filesystem::path& path, const std::string& series_csv, const std::string& event_lines,
+                            const std::map<std::string, std::string>& descriptions, const Comm& comm) {
+  // Every rank must plan the same datasets: it sees the root's texts.
+  MORULA_TRY_ASSIGN(const SeriesTable series, parse_series(from_root(series_csv, comm), "series.csv"));
+  const std::string events = from_root(event_lines, comm);
+  MORULA_TRY_ASSIGN(const std::vector<SnapshotEntry> entries, list_snapshots(path));
+  // Taking out what is later than the end takes out the tables that are there.
+  MORULA_TRY(truncate_snapshots(path, entries.empty() ? 0.0 : entries.back().time, comm));
+  StoragePlan plan(comm);
+  for (const SeriesColumn& column : series.columns) {
+    const auto found = descriptions.find(column.name);
+    plan.add_from_root("series/" + column.name, {column.unit, found == descriptions.end() ? "" : found->second},
+                       std::span<const double>(column.values));
+  }
+  add_events(plan, events);
+  return add_to_file(path, std::move(plan), {}, comm);
+}
+
+}  // namespace morula::scenarios

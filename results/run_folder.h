@@ -1,0 +1,68 @@
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/parallel/comm.h"
+#include "core/result.h"
+#include "coupling/events.h"
+#include "results/run_record.h"
+#include "results/text_lengths.h"
+#include "study/study.h"
+
+namespace morula::scenarios {
+
+/// A column of series.csv as its header names it.
+struct SeriesHeader {
+  std::string name;
+  std::string unit;  ///< "1" for a number
+};
+
+/// The folder of one run (UX, section 5): where each file is, and how the texts are written. Only the root rank touches texts: on the other
+/// ranks the calls do nothing and succeed; pass the result to agree() where all ranks must know.
+class RunFolder {
+ public:
+  /// Collective. Makes `<parent>/<study>-NNNN` with the next free number, or exactly `out` if given. Never an existing folder: kFile.
+  static Result<RunFolder> create(const std::filesystem::path& parent, const std::filesystem::path& out, const std::string& study,
+                                  const Comm& comm);
+  /// Collective. An existing run, to resume or to look at: kFile if it is none.
+  static Result<RunFolder> open(const std::filesystem::path& path, const Comm& comm);
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::filesystem::path results() const { return path_ / "results.h5"; }
+  [[nodiscard]] std::filesystem::path checkpoints() const { return path_ / "checkpoints"; }
+  [[nodiscard]] std::filesystem::path record() const { return path_ / "run.json"; }
+  [[nodiscard]] std::filesystem::path status() const { return path_ / "status.json"; }
+  [[nodiscard]] std::filesystem::path series() const { return path_ / "series.csv"; }
+  [[nodiscard]] std::filesystem::path events() const { return path_ / "events.jsonl"; }
+  [[nodiscard]] std::filesystem::path log() const { return path_ / "log.txt"; }
+  [[nodiscard]] std::filesystem::path vtk() const { return path_ / "vtk"; }
+
+  /// study.yaml, study.resolved.yaml and inputs/; fills the record's inputs with their SHA-256.
+  Status write_study(const Study& study, RunRecord& record) const;
+  /// run.json, and for scripts an empty file DONE, or FAILED with the reason in it (a stopped run has neither). A run that came to its end with a
+  /// criterion that failed is done, and FAILED stands beside its verdict.json.
+  /// On a disk too full even for run.json a failed run gets the mark alone, which read_run_record() believes.
+  Status write_record(const RunRecord& record) const;
+  Status write_status(const RunStatus& status) const;
+  Status write_verdict(const Judgement& judgement) const;
+  Status add_to_log(const std::string& line) const;
+  Status add_events(std::span<const Event> events) const;
+  /// Header of series.csv (`time [s]` first). When the file is there already (a resumed run), its header must be the same: kInput.
+  Status begin_series(std::span<const SeriesHeader> columns) const;
+  Status add_to_series(double time, std::span<const double> values) const;
+  /// Makes the texts that grow with the run last, as a checkpoint does its state; their lengths then, on the root.
+  Result<TextLengths> sync_texts() const;
+  /// After a restart: takes from series.csv and events.jsonl what is later than `time`, from events.jsonl and log.txt what came after the
+  /// checkpoint that had these lengths, and what was written by halves.
+  Status cut_back(double time, const TextLengths& lengths) const;
+
+ private:
+  RunFolder(std::filesystem::path path, bool is_root) : path_(std::move(path)), is_root_(is_root) {}
+  std::filesystem::path path_;
+  bool is_root_;
+};
+
+}  // namespace morula::scenarios

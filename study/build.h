@@ -1,0 +1,87 @@
+#pragma once
+#include <optional>
+
+#include "core/mesh/triangle_mesh.h"
+#include "study/draft.h"
+#include "study/study.h"
+
+namespace morula::scenarios {
+
+/// What the steps from the draft to the model share. Each step checks its part against the rest of the study (E4xx, E5xx, E6xx) and fills the
+/// model; it runs even when other parts have errors, and looks only at values that are known.
+struct BuildContext {
+  draft::Study& draft;
+  Study& study;
+  Diagnostics& diagnostics;
+  std::filesystem::path folder;  ///< of the study, for relative paths
+  const ReadOptions& options;
+};
+
+void build_time_and_numerics(BuildContext& context);
+void build_domain(BuildContext& context);
+void build_cell_types(BuildContext& context);
+/// The shell of one cell type, or of a nucleus, and whether its laws go together: E513–E515.
+dcm::ShellParameters build_shell(BuildContext& context, const std::string& type_name, const draft::ShellKeys& draft,
+                                 double medium_friction);
+/// The pressure of packing of one cell type's spheres: E515, E530, E531; empty where there is none.
+cbm::PackingCurve build_packing(BuildContext& context, const std::string& type_name, const draft::CellType& draft);
+void build_geometry(BuildContext& context);
+/// The prescribed way of an obstacle over time.
+void build_motion_course(BuildContext& context, const draft::Obstacle& draft, ObstacleSpec& obstacle);
+/// Osmosis of a cell type: E535, E536.
+void build_osmosis(BuildContext& context, const draft::CellType& draft, CellType& type);
+/// Nucleus and links of the shells of a type: E111, E537–E540, E590–E593.
+dcm::InteriorParameters build_interior(BuildContext& context, const draft::CellType& draft, const std::string& type_name);
+/// Mean edge of an icosphere of this many nodes whose enclosed volume is that of a sphere of radius 1; 0 for another number of nodes.
+double mean_edge(std::uint64_t nodes);
+/// Distance at which shells of a type touch themselves: E582 [µm].
+double build_self_contact(BuildContext& context, const draft::CellType& draft);
+/// The points of a course as a table; E510 where their times do not increase, or there is only one.
+TimeCourse build_course(BuildContext& context, const std::vector<Named<draft::CoursePoint>>& points);
+/// Marks of faces, tension by region, cavities, springs: E555–E557; after types, obstacles, pairs and domain.
+void build_regions(BuildContext& context);
+/// Fluctuations, polarity, protrusion, what migrates on what, directions of friction: E558; after types and obstacles.
+void build_activity(BuildContext& context);
+/// External loads; after the cells of time 0.
+void build_loads(BuildContext& context);
+/// Adhesion and friction of all pairs of materials; missing pairs get their default, in the draft, too.
+void build_pairs(BuildContext& context);
+/// What `contact.pairs` says of them, after build_pairs(): E515–E517.
+void build_contact_pairs(BuildContext& context);
+/// Adhesion by marks, after build_contact_pairs() and build_regions(): E580, E581.
+void build_adhesion_regions(BuildContext& context);
+void build_fields(BuildContext& context);
+void build_initial(BuildContext& context);
+void build_coupling(BuildContext& context);
+/// Checks that need the whole study: contact range, friction, step, domain size.
+void check_whole(BuildContext& context);
+/// Measured limits of meshes under strong adhesion, and cells whose volume does not bear their tension: E571, E572.
+void check_resolution(BuildContext& context);
+/// What bodies cannot do: noise inside shells, division of shells, adhesion of spheres beyond JKR: E645–E647.
+void check_bodies(BuildContext& context);
+
+/// Index of a cell type or field by name, or −1 and an error with suggestions.
+int find_type(BuildContext& context, const std::string& name, const Place& place);
+/// Index of a cell type, or of an obstacle after the types, by name; −1 and an error with suggestions.
+int find_cell_or_obstacle(BuildContext& context, const std::string& name, const Place& place);
+/// Bit of a mark by name; −1 and an error with suggestions.
+int find_mark(BuildContext& context, const std::string& name, const Place& place);
+/// Whether shells of a material ever carry a mark, after build_regions(); obstacles do not.
+bool may_carry_mark(const BuildContext& context, int material, int mark);
+/// The places of all cells, found as the run finds them and judged: E505, E596, E597, E658, E659, E661; after all else, without errors only.
+void check_places(BuildContext& context);
+/// Whether a shell resists being stretched in its plane by anything but its tension.
+bool resists_in_plane(const draft::ShellKeys& t);
+/// Whether cells of a type may be shells at some time.
+bool may_be_shell(const BuildContext& context, std::size_t type);
+int find_field(BuildContext& context, const std::string& name, const Place& place);
+/// Whether any cell may have this body: by its type, by `as`, or by coupling.
+bool may_have_shells(const draft::Study& draft);
+/// Note a file the study refers to; `written` is replaced by the place of its copy, for the resolved study.
+std::string add_input_file(BuildContext& context, Given<std::string>& written);
+/// Read the closed surface of an STL or OBJ file, in µm, and check it: E601–E602 and E620–E624; then the mesh is empty.
+TriangleMesh surface_from_file(BuildContext& context, Given<std::string>& written, const Given<double>& scale);
+/// Largest explicit Euler step that is stable for the types of this study [s] (estimate).
+double explicit_step_limit(const draft::Study& draft);
+
+}  // namespace morula::scenarios

@@ -1,0 +1,62 @@
+#include <cmath>
+
+#include "coupling/cells.h"
+#include "study/build.h"
+#include "study/read_section.h"
+
+namespace morula::scenarios {
+namespace {
+
+fields::FaceCondition condition(const Given<double>& face, const Given<double>& all) {
+  const double value = face.known() ? face.value : all.value;
+  if (value < 0.0) return {fields::FaceCondition::Kind::kNoFlux, 0.0};  // the word `no_flux`
+  return {fields::FaceCondition::Kind::kValue, value};
+}
+
+void check_voxels(BuildContext& c, const draft::Field& f) {
+  if (!f.voxel.known() || !c.draft.domain.size.known()) return;
+  const Vec3d size = c.draft.domain.size.value;
+  constexpr double kMaxVoxels = 1e9;
+  double voxels = 1.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) voxels *= std::ceil(size[axis] / f.voxel.value);
+  if (voxels > kMaxVoxels)
+    c.diagnostics.error(
+        512, f.voxel.place,
+        "voxels of " + f.voxel.text + " in this domain are " + short_number(voxels) + ", more than " + short_number(kMaxVoxels),
+        "make the voxels larger or the domain smaller");
+  if (f.voxel.value > std::fmin(size.x, std::fmin(size.y, size.z)))
+    c.diagnostics.warning(512, f.voxel.place,
+                          "a voxel (" + f.voxel.text + ") is larger than the domain: the field is uniform along an axis",
+                          "make the voxels smaller");
+}
+
+}  // namespace
+
+void build_fields(BuildContext& c) {
+  if (c.draft.fields.size() > kMaxFields)
+    c.diagnostics.error(404, c.draft.fields[kMaxFields].place, "more than " + std::to_string(kMaxFields) + " fields", "");
+  for (const auto& [name, place, f] : c.draft.fields) {
+    if (name == "pressure" || name == "type")
+      c.diagnostics.error(112, place, "a field cannot be called '" + name + "'", "triggers use this word for the cell's own value");
+    fields::FieldSpec spec;
+    spec.name = name;
+    spec.diffusion = f.diffusion.value;
+    spec.decay = f.decay.value;
+    spec.initial = f.initial.value;
+    spec.voxel = f.voxel.value;
+    spec.relative_tolerance = f.tolerance.value;
+    const draft::FieldBoundary& b = f.boundary;
+    spec.boundary = {{{condition(b.x_low, b.all), condition(b.x_high, b.all)},
+                      {condition(b.y_low, b.all), condition(b.y_high, b.all)},
+                      {condition(b.z_low, b.all), condition(b.z_high, b.all)}}};
+    spec.uptake.resize(c.draft.cell_types.size());
+    for (const auto& [type_name, type_place, uptake] : f.uptake) {
+      const int type = find_type(c, type_name, type_place);
+      if (type >= 0) spec.uptake[static_cast<std::size_t>(type)] = {uptake.rate.value, uptake.half_saturation.value};
+    }
+    check_voxels(c, f);
+    c.study.model.fields.push_back(std::move(spec));
+  }
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,38 @@
+#include "study/build.h"
+
+namespace morula::scenarios {
+
+cbm::PackingCurve build_packing(BuildContext& c, const std::string& type_name, const draft::CellType& t) {
+  const std::string& law = t.packing_law.value;
+  const bool own_modulus = t.packing_bulk_modulus.value >= 0.0;
+  if (law != "ideal_filled_cell" && t.packing_bulk_modulus.given && own_modulus)
+    c.diagnostics.error(515, t.packing_bulk_modulus.place, "'bulk_modulus' has no effect here", "it belongs to `law: ideal_filled_cell`");
+  if (law != "knots" && !t.packing_knots.empty())
+    c.diagnostics.error(515, t.packing_knots.front().place, "'knots' have no effect here", "they belong to `law: knots`");
+  if (law == "none") return {};
+  std::vector<cbm::PackingKnot> knots;
+  if (law == "knots") {
+    for (const auto& [name, place, knot] : t.packing_knots) {
+      if (!knot.packing.known() || !knot.pressure.known()) return {};  // the error has been told
+      knots.push_back({knot.packing.value, knot.pressure.value});
+    }
+  } else {
+    const double bulk = own_modulus ? t.packing_bulk_modulus.value : t.bulk_modulus.value;
+    if (!(bulk > 0.0) || !(t.sphere_young.value > 0.0)) return {};
+    auto made = cbm::ideal_filled_cell(bulk, t.sphere_young.value, t.sphere_poisson.value);
+    if (!made) {  // such spheres resist as much as the shell does: nothing is missing, but where a modulus was asked for
+      if (own_modulus)
+        c.diagnostics.error(531, t.packing_bulk_modulus.place, "packing of '" + type_name + "': " + made.error().message,
+                            made.error().help);
+      return {};
+    }
+    knots = std::move(made).value();
+  }
+  auto curve = cbm::PackingCurve::through(knots);
+  if (curve) return std::move(curve).value();
+  c.diagnostics.error(530, t.packing_knots.empty() ? t.packing_law.place : t.packing_knots.front().place,
+                      "packing of '" + type_name + "': " + curve.error().message, curve.error().help);
+  return {};
+}
+
+}  // namespace morula::scenarios

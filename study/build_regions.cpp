@@ -1,0 +1,228 @@
+#include <algorithm>
+#include <cmath>
+
+#include "study/build.h"
+#include "study/read_section.h"
+
+namespace morula::scenarios {
+namespace {
+
+Vec3d direction_of(BuildContext& c, const Given<Vec3d>& axis, const char* key) {
+  if (norm2(axis.value) > 0.0) return normalized(axis.value);
+  if (axis.known()) c.diagnostics.error(302, axis.place, std::string("'") + key + "' has no direction", "for example `[0, 0, 1]`");
+  return {0, 0, 1};
+}
+
+/// Names the bits: marks first, then cavities whose faces are found by sight.
+void name_marks(BuildContext& c) {
+  std::vector<std::string>& names = c.study.model.mark_names;
+  const auto add = [&](const std::string& name, const Place& place) {
+    if (name == "lateral" || name == "whole" || name == "seen")
+      c.diagnostics.error(555, place, "'" + name + "' has a meaning of its own and cannot be the name of a mark", "choose another name");
+    else if (std::find(names.begin(), names.end(), name) != names.end())
+      c.diagnostics.error(112, place, "a mark and a cavity are both called '" + name + "'", "each has a name of its own");
+    else if (names.size() == kMaxMarks)
+      c.diagnostics.error(555, place, "more than " + std::to_string(kMaxMarks) + " marks and cavities", "a face has room for as many");
+    names.push_back(name);
+  };
+  for (const auto& [name, place, mark] : c.draft.marks) add(name, place);
+  for (const auto& [name, place, lumen] : c.draft.lumens)
+    if (lumen.faces.value == "seen") add(name, place);
+}
+
+FaceMark rule_of(BuildContext& c, const std::string& name, const Place& place, const draft::Mark& m) {
+  FaceMark rule;
+  rule.always = m.when.value == "always" || m.touched;
+  if (m.cone + m.band + m.ball + m.box + m.touched != 1) {
+    c.diagnostics.error(111, place, "mark '" + name + "' needs exactly one rule",
+                        "give one of `cone`, `band`, `ball`, `box`, `touched_by`");
+    return rule;
+  }
+  if (m.cone) {
+    rule.angle = m.angle.value;
+    if (m.cone_axis.given) rule.axis = direction_of(c, m.cone_axis, "axis");
+    if (m.cone_toward.given) rule.axis_from = FaceMark::Axis::kTowardPoint;
+    if (m.cone_polarity.value) rule.axis_from = FaceMark::Axis::kPolarity;
+    rule.center = m.cone_toward.value;
+    if (m.cone_axis.given + m.cone_toward.given + m.cone_polarity.value != 1)
+      c.diagnostics.error(111, place, "the cone of mark '" + name + "' needs exactly one axis",
+                          "give one of `axis`, `toward`, `polarity: true`");
+  } else if (m.band) {
+    rule.rule = FaceMark::Rule::kBand;
+    rule.axis = direction_of(c, m.band_axis, "axis");
+    rule.half_width = m.half_width.value;
+  } else if (m.ball) {
+    rule.rule = FaceMark::Rule::kBall;
+    rule.center = m.ball_center.value;
+    rule.radius = m.ball_radius.value;
+  } else if (m.box) {
+    rule.rule = FaceMark::Rule::kBox;
+    rule.center = m.box_center.value;
+    rule.size = m.box_size.value;
+  } else {
+    rule.rule = FaceMark::Rule::kTouched;
+    rule.keep = m.keep.value;
+    if (m.material.known()) rule.material = find_cell_or_obstacle(c, m.material.value, m.material.place);
+  }
+  return rule;
+}
+
+void build_marks(BuildContext& c) {
+  int bit = 0;
+  for (const auto& [name, place, m] : c.draft.marks) {
+    FaceMark rule = rule_of(c, name, place, m);
+    rule.mark = bit++;
+    for (const std::string& type_name : m.types.value) {
+      const int type = find_type(c, type_name, m.types.place);
+      if (type < 0) continue;
+      rule.type = static_cast<std::uint16_t>(type);
+      if (!may_be_shell(c, static_cast<std::size_t>(type)))
+        c.diagnostics.error(555, m.types.place, "mark '" + name + "' is for faces, and cells of '" + type_name + "' are always spheres",
+                            "give the type `body: shell`");
+      if (rule.axis_from == FaceMark::Axis::kPolarity && !c.draft.cell_types[static_cast<std::size_t>(type)].content.activity.has_polarity)
+        c.diagnostics.error(555, place, "mark '" + name + "' lies about the polarity, and cells of '" + type_name + "' have none",
+                            "give the type a `polarity`");
+      if (rule.rule == FaceMark::Rule::kTouched && rule.material < 0) continue;
+      c.study.model.marks.push_back(rule);
+    }
+  }
+}
+
+/// Least tension of a region at any time.
+double least_tension(const TensionRegion& region) {
+  double factor = 1.0;
+  if (!region.course.empty()) factor = *std::min_element(region.course.value.begin(), region.course.value.end());
+  return region.tension * factor * (1.0 - (region.period > 0.0 ? region.amplitude : 0.0));
+}
+
+/// Contacts need a tension above half of the adhesion of their own, or something elastic.
+void check_tension(BuildContext& c, std::size_t type, const TensionRegion& region, const Named<draft::TensionRegion>& item) {
+  const Model& model = c.study.model;
+  const draft::CellType& t = c.draft.cell_types[type].content;
+  double most = 0.0;
+  for (std::size_t other = 0; other < model.types.size() && !model.pairs.empty(); ++other)
+    most = std::max(most, model.pair(type, other).adhesion);
+  const double least = least_tension(region);
+  if (most == 0.0 || 2.0 * least > most) return;
+  const std::string what = "the tension of '" + item.name + "' falls to " + short_number(least) +
+                           " mN/m, half of the adhesion between cells (" + short_number(most) + " mJ/m^2) or less: ";
+  const std::string help = "more tension there, or less adhesion";
+  if (!resists_in_plane(t))
+    c.diagnostics.error(556, item.content.tension.place, what + "a cortex that is not elastic has no rest there", help);
+  else
+    c.diagnostics.warning(556, item.content.tension.place, what + "only the elasticity of the cortex holds contacts there", help);
+}
+
+void build_tensions(BuildContext& c) {
+  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
+    const draft::CellType& t = c.draft.cell_types[i].content;
+    RegionalTension& out = c.study.model.types[i].regional_tension;
+    out.easing = t.lateral_easing.value;
+    for (const auto& item : t.tension_regions) {
+      TensionRegion region;
+      region.tension = item.content.tension.value;
+      region.amplitude = item.content.amplitude.value;
+      region.period = item.content.period.value;
+      region.phase = item.content.phase.value;
+      region.course = build_course(c, item.content.course);
+      if (item.content.amplitude.value > 0.0 && region.period == 0.0)
+        c.diagnostics.error(515, item.content.amplitude.place, "'amplitude' has no effect without a period", "give `period`");
+      if (item.name == "lateral")
+        region.mark = TensionRegion::kLateral;
+      else if (item.name == "whole")
+        region.mark = TensionRegion::kWhole;
+      else if ((region.mark = find_mark(c, item.name, item.place)) < 0)
+        continue;
+      if (region.period > 0.0) c.study.model.step.max_step = std::min(c.study.model.step.max_step, region.period / 20.0);
+      check_tension(c, i, region, item);
+      out.regions.push_back(std::move(region));
+    }
+    if (!out.empty() && !may_be_shell(c, i))
+      c.diagnostics.error(555, t.tension_regions.front().place,
+                          "regions are of a surface, and cells of '" + c.draft.cell_types[i].name + "' are always spheres",
+                          "give the type `body: shell`");
+  }
+}
+
+void build_lumens(BuildContext& c) {
+  for (const auto& [name, place, d] : c.draft.lumens) {
+    Lumen lumen;
+    lumen.name = name;
+    lumen.by_sight = d.faces.value == "seen";
+    lumen.mark = find_mark(c, lumen.by_sight ? name : d.faces.value, d.faces.given ? d.faces.place : place);
+    lumen.center = d.center.value;
+    lumen.reach = d.reach.value;
+    lumen.renewed = d.renewed.value;
+    lumen.from = d.from.value;
+    lumen.pressure = d.pressure.value;
+    lumen.keeps_solute = d.solute.value == "kept";
+    lumen.course = build_course(c, d.course);
+    if (d.center.known() && !c.study.model.space.box.contains(lumen.center))
+      c.diagnostics.error(502, d.center.place, "the cavity '" + name + "' lies outside the domain", "a point between the cells");
+    if (d.pressure.known() && lumen.keeps_solute && lumen.pressure <= 0.0)
+      c.diagnostics.error(557, d.pressure.place, "a cavity that keeps its solute has a positive pressure", "for example `20 Pa`");
+    if (!may_have_shells(c.draft))
+      c.diagnostics.error(557, place, "the cavity '" + name + "' has no walls: no cell of this study is a shell",
+                          "cells with `body: shell`");
+    if (c.study.model.space.any_periodic())
+      c.diagnostics.error(557, place, "the cavity '" + name + "' is in a domain with periodic faces, where nothing is outside",
+                          "open faces or walls");
+    if (lumen.mark >= 0) c.study.model.lumens.push_back(std::move(lumen));
+  }
+}
+
+void build_springs(BuildContext& c) {
+  for (const auto& [name, place, d] : c.draft.apical) {
+    ApicalSpring spring;
+    spring.name = name;
+    if (!d.mark.known()) continue;
+    spring.mark = find_mark(c, d.mark.value, d.mark.place);
+    spring.stiffness = d.stiffness.value;
+    spring.friction = d.friction.value;
+    if (spring.mark >= 0) c.study.model.apical_springs.push_back(std::move(spring));
+  }
+}
+
+}  // namespace
+
+bool may_be_shell(const BuildContext& c, std::size_t type) {
+  const draft::Study& d = c.draft;
+  if (d.cell_types[type].content.body.value == "shell" || !d.coupling.triggers.empty()) return true;
+  for (const auto& region : d.coupling.regions)
+    if (region.content.body.value == "shell") return true;
+  const auto is_this = [&](const auto& share) { return share.name == d.cell_types[type].name; };
+  for (const auto& initial : d.initial)
+    if (initial.content.body.value == "shell" && (initial.content.csv.given || initial.content.type.value == d.cell_types[type].name ||
+                                                  std::ranges::any_of(initial.content.types, is_this)))
+      return true;
+  return false;
+}
+
+int find_mark(BuildContext& c, const std::string& name, const Place& place) {
+  const auto& names = c.study.model.mark_names;
+  const auto at = std::find(names.begin(), names.end(), name);
+  if (at != names.end()) return static_cast<int>(at - names.begin());
+  c.diagnostics.error(401, place, "there is no mark '" + name + "'", names.empty() ? "declare it under `marks`" : suggest(name, names));
+  return -1;
+}
+
+int find_cell_or_obstacle(BuildContext& c, const std::string& name, const Place& place) {
+  std::vector<std::string> names;
+  for (const auto& type : c.draft.cell_types) names.push_back(type.name);
+  for (const auto& obstacle : c.draft.geometry) names.push_back(obstacle.name);
+  const auto at = std::find(names.begin(), names.end(), name);
+  if (at != names.end()) return static_cast<int>(at - names.begin());
+  c.diagnostics.error(401, place, "there is no cell type or obstacle '" + name + "'", suggest(name, names));
+  return -1;
+}
+
+void build_regions(BuildContext& c) {
+  name_marks(c);
+  if (c.study.model.mark_names.size() > kMaxMarks) return;
+  build_marks(c);
+  build_tensions(c);
+  build_lumens(c);
+  build_springs(c);
+}
+
+}  // namespace morula::scenarios

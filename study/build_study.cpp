@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <cmath>
+
+#include "study/build.h"
+#include "study/read_section.h"
+
+namespace morula::scenarios {
+namespace {
+
+/// Depth of a capped start that no cell type's mesh folds under [µm]. The traction p = k_r δ on a patch of one edge L pushes with p L²; over its rim the
+/// tension and the stiffness in the plane S hold it with S L. Cells 4 µm deep in each other come out unfolded up to p L/S = 28 and, with some meshes,
+/// 60; 10 leaves room for finer meshes and more neighbours (decision 0029).
+double gentle_cap(const BuildContext& c) {
+  constexpr double kGentle = 10.0, kMost = 0.1;  // µm, the overlap at which the capped start ends
+  double cap = kMost;
+  for (std::size_t i = 0; i < c.draft.cell_types.size() && i < c.study.model.types.size(); ++i) {
+    const draft::CellType& t = c.draft.cell_types[i].content;
+    const dcm::ShellParameters& p = c.study.model.types[i].shell;
+    const double held = p.tension + p.shape_stiffness + p.spring_stiffness + p.neo_hooke_shear + p.stvk_shear + p.skalak_shear;
+    const double edge = mean_edge(t.nodes.value) * t.radius.mean.value;
+    if (edge > 0.0 && held > 0.0) cap = std::min(cap, kGentle * held / (edge * c.draft.contact.repulsion.value));
+  }
+  return cap;
+}
+
+}  // namespace
+
+void build_time_and_numerics(BuildContext& c) {
+  const draft::Time& time = c.draft.time;
+  c.study.time = {time.end.value, time.output.value, time.checkpoint.value, c.draft.numerics.start_cap_within.value, time.rest.value};
+  const auto check_interval = [&](const Given<double>& interval, const char* what) {
+    if (interval.given && interval.known() && time.end.known() && interval.value > time.end.value)
+      c.diagnostics.warning(508, interval.place,
+                            std::string("the ") + what + " interval (" + interval.text + ") is longer than the run (" + time.end.text + ")",
+                            std::string("make `") + what + "` at most `end`");
+  };
+  check_interval(time.output, "output");
+  check_interval(time.checkpoint, "checkpoint");
+
+  const draft::Numerics& n = c.draft.numerics;
+  StepControl& step = c.study.model.step;
+  step.integrator = time.integrator.value == "explicit_euler" ? Integrator::kExplicitEuler : Integrator::kImplicit;
+  step.initial_step = n.initial_step.value;
+  step.max_displacement = n.max_displacement.value;
+  step.max_newton = static_cast<int>(n.newton.value);
+  step.newton_stop = n.newton_stop.value;
+  step.first_tolerance = n.tolerance.value;
+  step.later_tolerance = n.later_tolerance.value;
+  step.start_cap = n.start_cap.value >= 0.0 ? n.start_cap.value : gentle_cap(c);
+  constexpr double kImplicitMaxStep = 60.0;  // growing clusters of shells: the error at 60 s is below that of the mesh (measured)
+  step.max_step = time.step.value > 0.0 ? time.step.value : kImplicitMaxStep;
+  if (step.integrator == Integrator::kExplicitEuler) {
+    const double limit = explicit_step_limit(c.draft);
+    if (time.step.value == 0.0) step.max_step = std::min(kImplicitMaxStep, 0.5 * limit);
+    if (time.step.known() && time.step.value > limit)
+      c.diagnostics.error(
+          507, time.step.place,
+          "explicit Euler is unstable with a step of " + time.step.text + ": the limit is near " + short_number(limit) + " s",
+          "use `step: auto`, a smaller step, or `integrator: implicit`");
+  }
+  if (step.initial_step > step.max_step) {
+    if (n.initial_step.given && n.initial_step.known() && time.step.known())
+      c.diagnostics.warning(510, n.initial_step.place, "the first step (" + n.initial_step.text + ") is larger than the largest step",
+                            "make `numerics.initial_step` at most `time.step`");
+    step.initial_step = step.max_step;
+  }
+  ContactNumerics& contact = c.study.model.contact;
+  contact = {c.draft.contact.range.value, c.draft.contact.repulsion.value, static_cast<int>(c.draft.contact.points.value), n.skin.value,
+             c.draft.contact.friction.value == "objective"};
+  const draft::Limits& limits = c.draft.limits;
+  c.study.model.limits = {limits.overlap.value, limits.volume_error.value, limits.field_balance.value};
+  c.study.model.seed = static_cast<std::uint32_t>(c.draft.seed.value);
+}
+
+void build_domain(BuildContext& c) {
+  const draft::Domain& d = c.draft.domain;
+  Space& space = c.study.model.space;
+  space.box = {d.center.value - d.size.value * 0.5, d.center.value + d.size.value * 0.5};
+  const auto kind = [](const std::string& word) {
+    return word == "periodic" ? BoundaryKind::kPeriodic : word == "wall" ? BoundaryKind::kWall : BoundaryKind::kOpen;
+  };
+  const draft::DomainBoundary& b = d.boundary;
+  const Given<std::string>* axes[3] = {&b.x, &b.y, &b.z};
+  const Given<std::string>* faces[3][2] = {{&b.x_low, &b.x_high}, {&b.y_low, &b.y_high}, {&b.z_low, &b.z_high}};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Given<std::string>& word = faces[axis][side]->known() ? *faces[axis][side] : axes[axis]->known() ? *axes[axis] : b.all;
+      space.boundary[axis][side] = kind(word.value);
+    }
+    const bool low = space.boundary[axis][0] == BoundaryKind::kPeriodic, high = space.boundary[axis][1] == BoundaryKind::kPeriodic;
+    if (low != high) {
+      const char name[2] = {"xyz"[axis], 0};
+      const Given<std::string>& at = faces[axis][low ? 0 : 1]->known() ? *faces[axis][low ? 0 : 1] : *faces[axis][low ? 1 : 0];
+      c.diagnostics.error(510, at.place, std::string("only one of the faces across ") + name + " is periodic",
+                          std::string("write `") + name + ": periodic`");
+    }
+  }
+}
+
+int find_type(BuildContext& c, const std::string& name, const Place& place) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
+    if (c.draft.cell_types[i].name == name) return static_cast<int>(i);
+    names.push_back(c.draft.cell_types[i].name);
+  }
+  c.diagnostics.error(401, place, "there is no cell type '" + name + "'", suggest(name, names));
+  return -1;
+}
+
+int find_field(BuildContext& c, const std::string& name, const Place& place) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < c.draft.fields.size(); ++i) {
+    if (c.draft.fields[i].name == name) return static_cast<int>(i);
+    names.push_back(c.draft.fields[i].name);
+  }
+  c.diagnostics.error(402, place, "there is no field '" + name + "'", names.empty() ? "declare it under `fields`" : suggest(name, names));
+  return -1;
+}
+
+bool may_have_shells(const draft::Study& study) {
+  for (const auto& type : study.cell_types)
+    if (type.content.body.value == "shell") return true;
+  for (const auto& initial : study.initial)
+    if (initial.content.body.value == "shell" || initial.content.has_meshes) return true;
+  for (const auto& region : study.coupling.regions)
+    if (region.content.body.value == "shell") return true;
+  return !study.coupling.triggers.empty();
+}
+
+std::string add_input_file(BuildContext& c, Given<std::string>& written) {
+  namespace fs = std::filesystem;
+  fs::path path(written.value);
+  if (path.is_relative()) path = c.folder / path;
+  std::error_code ignored;
+  const std::string absolute = fs::absolute(path, ignored).lexically_normal().string();
+  for (const InputFile& file : c.study.input_files)
+    if (file.path == absolute) {
+      written.text = file.copy;
+      return absolute;
+    }
+  const std::string stem = fs::path(absolute).stem().string(), extension = fs::path(absolute).extension().string();
+  std::string copy = "inputs/" + stem + extension;
+  const auto taken = [&](const std::string& name) {
+    return std::any_of(c.study.input_files.begin(), c.study.input_files.end(), [&](const InputFile& f) { return f.copy == name; });
+  };
+  for (int i = 2; taken(copy); ++i) copy = "inputs/" + stem + "-" + std::to_string(i) + extension;
+  c.study.input_files.push_back({absolute, copy});
+  written.text = copy;
+  return absolute;
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,242 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "study/build.h"
+#include "study/color.h"
+#include "study/read_section.h"
+
+namespace morula::scenarios {
+namespace {
+
+constexpr std::size_t kMaxTypes = 256;
+
+void build_death(BuildContext& c, const draft::CellType& draft, const Place& type_place, CellType& type) {
+  if (!draft.has_death) return;
+  if (!draft.death_field.known() || !draft.death_below.known()) {
+    if (!draft.death_field.given || !draft.death_below.given)  // else the error has been told
+      c.diagnostics.error(103, type_place, "`death` needs a field and a concentration", "write for example `oxygen_below: 0.02 mM`");
+    return;
+  }
+  type.death_field = find_field(c, draft.death_field.value, draft.death_field.place);
+  type.death_below = draft.death_below.value;
+  type.death_rate = draft.death_rate.value;
+  type.apoptosis_time = draft.shrink_time.value;
+  type.removal_fraction = draft.removed_below.value;
+}
+
+void build_color(BuildContext& c, const draft::CellType& draft) {
+  if (draft.color.known() && !color_of_text(draft.color.value)) {
+    std::vector<std::string> names;
+    for (const char* name : color_names()) names.emplace_back(name);
+    c.diagnostics.error(680, draft.color.place, "'" + draft.color.value + "' is no colour",
+                        suggest(draft.color.value, names) + "; or write for example \"#d55e00\", in quotes");
+  }
+  c.study.type_colors.push_back(draft.color.value);
+}
+
+/// W of every pair by material index. What the file says twice must agree. A pair is what one of the two says of the other by name, else what
+/// one of them says of `others`, else what the types say that the two are like, else the default.
+class PairTable {
+ public:
+  explicit PairTable(BuildContext& context)
+      : c_(context), types_(c_.draft.cell_types.size()), materials_(types_ + c_.draft.geometry.size()) {
+    named_.resize(types_ * materials_);
+    others_.resize(types_);
+  }
+
+  void read() {
+    for (std::size_t i = 0; i < types_; ++i) {
+      auto& items = c_.draft.cell_types[i].content.adhesion;
+      for (const auto& item : items)
+        if (item.name == kOthers)
+          others_[i] = item.content;
+        else
+          read_one(i, item);
+      std::erase_if(items, [](const auto& item) { return item.name == kOthers; });
+    }
+    all_ = named_;
+    for (std::size_t material = 0; material < materials_; ++material) row_.push_back(row_of(material));
+  }
+
+  void fill_unnamed() {
+    for (std::size_t i = 0; i < types_; ++i)
+      for (std::size_t j = i; j < materials_; ++j) {
+        if (named_[slot(i, j)]) continue;
+        Given<double> value = unnamed(i, j);
+        c_.draft.cell_types[i].content.adhesion.push_back({name(j), value.place, value});
+        all_[slot(i, j)] = std::move(value);
+      }
+    for (auto& type : c_.draft.cell_types) type.content.like.text.clear();  // all of it is written out in the resolved study
+  }
+
+  [[nodiscard]] const Given<double>& at(std::size_t i, std::size_t j) const { return *all_[slot(i, j)]; }
+
+ private:
+  static constexpr const char* kOthers = "others";
+
+  [[nodiscard]] std::string name(std::size_t material) const {
+    return material < types_ ? c_.draft.cell_types[material].name : c_.draft.geometry[material - types_].name;
+  }
+  [[nodiscard]] std::size_t slot(std::size_t i, std::size_t j) const { return std::min(i, j) * materials_ + std::max(i, j); }
+
+  void read_one(std::size_t i, const Named<Given<double>>& item) {
+    std::vector<std::string> names;
+    std::size_t j = 0;
+    for (; j < materials_ && name(j) != item.name; ++j) names.push_back(name(j));
+    if (j == materials_) {
+      names.emplace_back(kOthers);
+      c_.diagnostics.error(401, item.place, "there is no cell type or obstacle '" + item.name + "'", suggest(item.name, names));
+      return;
+    }
+    auto& before = named_[slot(i, j)];
+    if (before && before->value != item.content.value) {
+      c_.diagnostics.error(510, item.content.place,
+                           "the adhesion of '" + name(i) + "' and '" + name(j) + "' is " + item.content.text + " here, but " +
+                               before->text + " in line " + std::to_string(before->place.line),
+                           "give each pair once");
+      return;
+    }
+    before = item.content;
+  }
+
+  /// A material, the type it is like, the type that one is like ...
+  [[nodiscard]] std::vector<std::size_t> row_of(std::size_t material) const {
+    std::vector<std::size_t> row{material};
+    while (row.back() < types_) {
+      const auto& types = c_.draft.cell_types;
+      const std::string& like = types[row.back()].content.like.value;
+      const auto other = std::find_if(types.begin(), types.end(), [&](const auto& type) { return type.name == like; });
+      const auto index = static_cast<std::size_t>(other - types.begin());
+      if (other == types.end() || std::find(row.begin(), row.end(), index) != row.end()) break;
+      row.push_back(index);
+    }
+    return row;
+  }
+
+  /// What `others` of one of the two says of a pair.
+  void add_others(std::size_t i, std::size_t j, std::vector<Given<double>>& found) const {
+    for (const std::size_t k : {i, j})
+      if (k < types_ && others_[k]) found.push_back(*others_[k]);
+  }
+
+  /// What is said of the pair; else of one of them and the type that the other is like; and so on, the nearest first, and names before `others`.
+  Given<double> unnamed(std::size_t i, std::size_t j) {
+    const std::vector<std::size_t>&a = row_[i], &b = row_[j];
+    for (std::size_t steps = 0; steps + 1 < a.size() + b.size(); ++steps) {
+      std::vector<Given<double>> by_name, by_others;
+      for (std::size_t k = 0; k < a.size() && k <= steps; ++k) {
+        if (steps - k >= b.size() || (a[k] >= types_ && b[steps - k] >= types_)) continue;
+        if (const auto& value = named_[slot(a[k], b[steps - k])]) by_name.push_back(*value);
+        add_others(a[k], b[steps - k], by_others);
+      }
+      if (!by_name.empty()) return one_of(by_name, i, j);
+      if (!by_others.empty()) return one_of(by_others, i, j);
+    }
+    Given<double> value;  // Table 1 of Van Liedekerke et al.
+    value.value = j < types_ ? 0.1 : 0.01;
+    value.text = j < types_ ? "1e-4 J/m^2" : "1e-5 J/m^2";
+    value.place = c_.draft.cell_types[i].place;
+    return value;
+  }
+
+  Given<double> one_of(const std::vector<Given<double>>& found, std::size_t i, std::size_t j) {
+    for (const Given<double>& other : found)
+      if (other.value != found[0].value) {
+        c_.diagnostics.error(657, c_.draft.cell_types[i].place,
+                             "the adhesion of '" + name(i) + "' and '" + name(j) + "' could be " + found[0].text + " (line " +
+                                 std::to_string(found[0].place.line) + ") or " + other.text + " (line " + std::to_string(other.place.line) +
+                                 ")",
+                             "name this pair in the `adhesion` of one of them");
+        break;
+      }
+    return found[0];
+  }
+
+  BuildContext& c_;
+  std::size_t types_, materials_;
+  std::vector<std::optional<Given<double>>> named_, all_;
+  std::vector<std::optional<Given<double>>> others_;
+  std::vector<std::vector<std::size_t>> row_;  ///< row_of() each
+};
+
+}  // namespace
+
+void build_cell_types(BuildContext& c) {
+  if (c.draft.cell_types.size() > kMaxTypes)
+    c.diagnostics.error(404, c.draft.cell_types[kMaxTypes].place, "more than " + std::to_string(kMaxTypes) + " cell types", "");
+  for (const auto& [name, place, t] : c.draft.cell_types) {
+    CellType type;
+    type.name = name;
+    type.radius = {t.radius.mean.value, t.radius.spread.value};
+    type.cycles = t.has_cycle && t.cycle_model.value == "volume_threshold";
+    if (t.has_cycle) {
+      type.cycle_duration = {t.cycle_duration.mean.value, t.cycle_duration.spread.value};
+      type.exponential_growth = t.growth.value == "exponential";
+    }
+    type.inhibit_pressure = t.pressure_above.value;
+    build_death(c, t, place, type);
+    build_osmosis(c, t, type);
+    type.migration_speed = t.migration_speed.value;
+    type.migration_persistence = t.persistence.value;
+    type.medium_friction = t.friction_medium.value;
+    type.initial_body = t.body.value == "shell" ? BodyKind::kShell : BodyKind::kSphere;
+    type.shell_nodes = static_cast<std::uint32_t>(t.nodes.value);
+    type.sphere.young = t.sphere_young.value;
+    type.sphere.poisson = t.sphere_poisson.value;
+    type.sphere.adhesive = t.sphere_law.value != "hertz";
+    type.sphere.packing = build_packing(c, name, t);
+    type.shell = build_shell(c, name, t, t.friction_medium.value);
+    type.interior = build_interior(c, t, name);
+    type.self_contact = build_self_contact(c, t);
+    build_color(c, t);
+    c.study.model.types.push_back(std::move(type));
+  }
+}
+
+void build_pairs(BuildContext& c) {
+  const std::size_t types = c.draft.cell_types.size(), materials = types + c.draft.geometry.size();
+  auto& pairs = c.study.model.pairs;
+  pairs.assign(materials * materials, ContactPair{0.0, 0.0, 0.0});
+  if (types > kMaxTypes) return;  // told
+  PairTable table(c);
+  table.read();
+  table.fill_unnamed();
+  for (std::size_t i = 0; i < types; ++i) {
+    for (std::size_t j = 0; j < materials; ++j) {
+      const draft::CellType& a = c.draft.cell_types[i].content;
+      const double friction = j < types ? 0.5 * (a.friction_cell_cell.value + c.draft.cell_types[j].content.friction_cell_cell.value)
+                                        : a.friction_obstacle.value;
+      const auto along = [](const Given<double>& tangential, const Given<double>& same) {
+        return tangential.value < 0.0 ? same.value : tangential.value;
+      };
+      double tangential = along(a.tangential_obstacle, a.friction_obstacle);
+      if (j < types) {
+        const draft::CellType& b = c.draft.cell_types[j].content;
+        tangential = 0.5 * (along(a.tangential_cell_cell, a.friction_cell_cell) + along(b.tangential_cell_cell, b.friction_cell_cell));
+      }
+      pairs[i * materials + j] = pairs[j * materials + i] = {table.at(i, j).value, friction, tangential};
+    }
+  }
+  if (!may_have_shells(c.draft)) return;
+  for (std::size_t i = 0; i < types; ++i) {
+    for (std::size_t j = i; j < materials; ++j) {
+      const draft::CellType& a = c.draft.cell_types[i].content;
+      const Given<double>& other = j < types ? c.draft.cell_types[j].content.tension : a.tension;
+      const Given<double>& w = table.at(i, j);
+      if (w.value == 0.0 || !a.tension.known() || !other.known() || w.value < a.tension.value + other.value) continue;
+      const bool no_rest = !resists_in_plane(a) || (j < types && !resists_in_plane(c.draft.cell_types[j].content));
+      const std::string partner = j < types ? c.draft.cell_types[j].name : c.draft.geometry[j - types].name;
+      const Place& place = w.given ? w.place : a.tension.place;
+      const std::string what = "shells of '" + c.draft.cell_types[i].name + "' adhere to '" + partner + "' by " + w.text +
+                               ", not less than twice the cortical tension (" + a.tension.text + "): ";
+      const std::string help = "raise `dcm.cortex.tension` above half of the adhesion, or lower the adhesion";
+      if (no_rest)
+        c.diagnostics.error(509, place, what + "a cortex that is not elastic spreads without end", help);
+      else
+        c.diagnostics.warning(509, place, what + "only the elasticity of the cortex stops the spreading", help);
+    }
+  }
+}
+
+}  // namespace morula::scenarios

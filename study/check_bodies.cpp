@@ -1,0 +1,97 @@
+// What a body cannot do yet, or can do only outside the range of its law.
+#include <algorithm>
+#include <cmath>
+
+#include "cbm/sphere_range.h"
+#include "study/build.h"
+#include "study/read_section.h"
+
+namespace morula::scenarios {
+namespace {
+
+/// Random forces belong to the friction element by element; those inside a cell have none.
+void check_noise_inside(BuildContext& c) {
+  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
+    const auto& [name, place, t] = c.draft.cell_types[i];
+    const CellType& type = c.study.model.types[i];
+    if (!t.activity.has_fluctuations || !(type.fluctuations.energy > 0.0) || !may_be_shell(c, i)) continue;
+    const bool nucleus = type.interior.has_nucleus();
+    if (!nucleus && !type.interior.cortex_links.act()) continue;
+    c.diagnostics.error(645, t.activity.energy.place,
+                        "cells of '" + name + "' fluctuate, but the friction of their " + (nucleus ? "nucleus" : "cytoskeleton") +
+                            " has no noise: it would cool the cortex",
+                        nucleus ? "leave out `fluctuations`, or the nucleus" : "leave out `fluctuations`, or `cytoskeleton`");
+  }
+}
+
+/// Whether a cell of the type can reach its division volume before the run ends.
+bool may_divide(const BuildContext& c, std::size_t type) {
+  const CellType& of = c.study.model.types[type];
+  if (!of.cycles) return false;
+  const double shortest = of.cycle_duration.mean * (1.0 - 3.0 * of.cycle_duration.relative_spread);
+  if (shortest < c.study.time.end) return true;
+  return std::ranges::any_of(c.study.initial, [&](const InitialCells& block) { return block.random_age && block.type == type; }) ||
+         std::ranges::any_of(c.draft.initial, [](const auto& block) { return block.content.csv.given; });
+}
+
+void check_division_of_shells(BuildContext& c) {
+  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
+    const auto& [name, place, t] = c.draft.cell_types[i];
+    if (!may_be_shell(c, i) || !may_divide(c, i)) continue;
+    const bool always = c.study.model.types[i].initial_body == BodyKind::kShell && c.study.model.swaps.regions.empty();
+    c.diagnostics.warning(646, t.cycle_duration.mean.given ? t.cycle_duration.mean.place : place,
+                          "cells of '" + name + "' have a cycle, but " + (always ? "are shells" : "may be shells") +
+                              ", which cannot divide yet: at its division volume a shell stops growing and waits until it is a sphere",
+                          "leave out `cycle`, let cells that divide be spheres, or end the run before");
+  }
+}
+
+bool may_be_sphere(const BuildContext& c, std::size_t type) {
+  const draft::Study& d = c.draft;
+  if (std::ranges::any_of(d.coupling.regions, [](const auto& r) { return r.content.body.value == "sphere"; })) return true;
+  for (const auto& block : d.initial) {
+    const draft::Initial& b = block.content;
+    if (b.has_meshes || (!b.csv.given && b.type.value != d.cell_types[type].name)) continue;
+    if ((b.body.known() && !b.body.value.empty() ? b.body.value : d.cell_types[type].content.body.value) != "shell") return true;
+  }
+  return false;
+}
+
+/// Where spheres adhere so much that their contacts are no small part of them. Of a type's pairs the worst is told.
+void check_jkr_range(BuildContext& c) {
+  const Model& model = c.study.model;
+  for (std::size_t i = 0; i < model.types.size(); ++i) {
+    if (!model.types[i].sphere.adhesive || !may_be_sphere(c, i)) continue;
+    std::size_t worst = i;
+    cbm::RestingContact most{};
+    for (std::size_t j = i; j < model.types.size(); ++j) {
+      if (!model.types[j].sphere.adhesive || !may_be_sphere(c, j)) continue;
+      const cbm::RestingContact at = cbm::resting_contact(model.types[i].sphere, model.types[i].radius.mean, model.types[j].sphere,
+                                                          model.types[j].radius.mean, model.pair(i, j).adhesion);
+      if (at.radius_ratio > most.radius_ratio) most = at, worst = j;
+    }
+    if (!(most.radius_ratio > cbm::kJkrRange)) continue;
+    const auto& [name, place, t] = c.draft.cell_types[i];
+    const auto percent = [](double part) { return short_number(std::round(100.0 * part)) + " %"; };
+    const double softest = std::min(model.types[i].sphere.young, model.types[worst].sphere.young);
+    const double needed = softest * std::pow(most.radius_ratio / cbm::kJkrAsked, 3);
+    c.diagnostics.warning(
+        647, t.sphere_young.given ? t.sphere_young.place : place,
+        "spheres of '" + name + "' and '" + model.types[worst].name + "' adhere beyond the range of JKR: at rest the contact radius is " +
+            short_number(std::round(100.0 * most.radius_ratio) / 100.0) + " R (JKR asks for about 0.4), the overlap " +
+            percent(most.overlap_ratio) + " of the distance, and twelve contacts would cover " + percent(most.covered) + " of the surface",
+        "`cbm.young` of " + short_number(std::ceil(needed * 10.0) / 10.0) + " kPa, or adhesion weaker by " +
+            short_number(std::ceil(10.0 * std::pow(most.radius_ratio / cbm::kJkrAsked, 3)) / 10.0) + " times");
+  }
+}
+
+}  // namespace
+
+void check_bodies(BuildContext& c) {
+  if (c.diagnostics.has_errors()) return;  // what a wrong study would be like is not worth a warning
+  check_noise_inside(c);
+  check_division_of_shells(c);
+  check_jkr_range(c);
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,238 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dcm/derived_parameters.h"
+#include "study/build.h"
+#include "study/build_meshes.h"
+#include "study/read_section.h"
+
+namespace morula::scenarios {
+
+double mean_edge(std::uint64_t nodes) {
+  struct Level {
+    std::uint64_t nodes;
+    double edge, volume;  ///< with nodes on the unit sphere: mean edge, part of the sphere's volume
+  };
+  static constexpr Level kLevels[] = {{42, 0.5817, 0.873}, {162, 0.29933, 0.96616}, {642, 0.15073, 0.99139}, {2562, 0.0755, 0.99784}};
+  for (const Level& level : kLevels)
+    if (level.nodes == nodes) return level.edge / std::cbrt(level.volume);
+  return 0.0;
+}
+
+namespace {
+
+/// Whether a range fits the meshes of the types that it holds for; empty `names`: of all.
+void check_range(BuildContext& c, const Given<double>& range, const std::vector<std::string>& names, const char* key) {
+  if (!range.known()) return;
+  for (std::size_t type = 0; type < c.draft.cell_types.size(); ++type) {
+    const auto& [name, place, t] = c.draft.cell_types[type];
+    if (!names.empty() && std::ranges::find(names, name) == names.end()) continue;
+    if (!t.nodes.known() || !t.radius.mean.known() || only_from_meshes(c.study, type)) continue;
+    const double edge = mean_edge(t.nodes.value) * t.radius.mean.value;
+    // Half an edge is where faces begin to feel more than their opposite; the rule is exact to how mean_edge rounds (0.55 L was measured good).
+    const bool too_long = range.value > 0.56 * edge, too_short = range.value < 0.25 * edge;
+    if (!too_long && !too_short) continue;
+    const Place at = range.given ? range.place : t.nodes.given ? t.nodes.place : place;
+    const std::string what = "the contact range (" + range.text + ") is " + (too_long ? "more than half" : "less than a quarter") +
+                             " of the mean edge (" + short_number(std::round(edge * 100) / 100) + " um) of a shell of '" + name +
+                             "' with " + t.nodes.text + " nodes";
+    const std::string help = std::string("`") + key + "` between " + short_number(std::round(edge * 25) / 100) + " um and " +
+                             short_number(std::floor(edge * 50) / 100) + " um fits this mesh";
+    if (too_long)
+      c.diagnostics.error(503, at, what, help);
+    else
+      c.diagnostics.warning(503, at, what, help);
+  }
+}
+
+void check_contact_ranges(BuildContext& c) {
+  if (!may_have_shells(c.draft)) return;
+  check_range(c, c.draft.contact.range, {}, "contact.range");
+  for (const auto& pair : c.draft.contact.pairs)
+    if (pair.content.range.given && pair.content.between.known()) check_range(c, pair.content.range, pair.content.between.value, "range");
+}
+
+void check_friction(BuildContext& c) {
+  std::size_t without = 0;
+  for (const auto& type : c.draft.cell_types)
+    if (type.content.friction_medium.known() && type.content.friction_medium.value == 0.0) ++without;
+  if (without == 0) return;
+  for (const auto& [name, place, t] : c.draft.cell_types) {
+    if (!t.friction_medium.known() || t.friction_medium.value > 0.0) continue;
+    const std::string help = "give `friction.medium` at least 1e5 N s/m^3";
+    if (without == c.draft.cell_types.size())
+      c.diagnostics.error(504, t.friction_medium.place,
+                          "no cell has friction with the medium: the velocities of cells without contact are not determined", help);
+    else
+      c.diagnostics.warning(504, t.friction_medium.place,
+                            "cells of '" + name + "' have no friction with the medium: alone, their velocity is not determined", help);
+  }
+}
+
+/// A biconcave cell is thinner than any nucleus is wide.
+void check_nuclei(BuildContext& c) {
+  for (std::size_t i = 0; i < c.study.initial.size() && i < c.draft.initial.size(); ++i) {
+    const InitialCells& block = c.study.initial[i];
+    if (block.shape != CellShape::kBiconcave) continue;
+    for (std::size_t t = 0; t < c.study.model.types.size(); ++t) {
+      const CellType& type = c.study.model.types[t];
+      if (!block.may_have(t) || !type.interior.has_nucleus()) continue;
+      c.diagnostics.error(537, c.draft.initial[i].content.shape.place, "biconcave cells of '" + type.name + "' have no room for a nucleus",
+                          "`nucleus: {kind: none}`, or spherical cells");
+    }
+  }
+}
+
+void check_periodic_size(BuildContext& c) {
+  if (!c.draft.domain.size.known() || !c.draft.contact.range.known()) return;
+  double radius = 0.0;
+  for (const auto& type : c.draft.cell_types)
+    radius = std::max(radius, type.content.radius.mean.value * (1.0 + 3.0 * type.content.radius.spread.value));
+  // A dividing cell is 2^(1/3) times as wide as a newborn; a pair of such cells may not meet around the domain.
+  double range = c.draft.contact.range.value;
+  for (const auto& pair : c.draft.contact.pairs) range = std::max(range, pair.content.range.value);
+  const double needed = 2.0 * (2.0 * std::cbrt(2.0) * radius + range);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (c.study.model.space.periodic(static_cast<int>(axis)) && c.draft.domain.size.value[axis] < needed)
+      c.diagnostics.error(
+          511, c.draft.domain.size.place,
+          std::string("the domain is too small along ") + "xyz"[axis] + ": with periodic faces a cell would touch its own image",
+          "at least " + short_number(std::ceil(needed)) + " um, or a `wall`");
+}
+
+void check_names(BuildContext& c) {
+  const auto check_reserved = [&c](const auto& things) {
+    for (const auto& thing : things)
+      if (thing.name == "others")
+        c.diagnostics.error(112, thing.place, "'others' cannot be a name: in `adhesion` it means all that are not named",
+                            "take another name");
+  };
+  check_reserved(c.draft.cell_types);
+  check_reserved(c.draft.geometry);
+  for (const auto& obstacle : c.draft.geometry)
+    for (const auto& type : c.draft.cell_types)
+      if (type.name == obstacle.name)
+        c.diagnostics.error(112, obstacle.place, "'" + obstacle.name + "' is a cell type and an obstacle",
+                            "give the obstacle another name");
+  const auto check_name = [&](const Given<std::string>& name, const char* what) {
+    if (name.known() && !is_name(name.value))
+      c.diagnostics.error(112, name.place, "'" + name.value + "' cannot be " + what,
+                          "names begin with a letter and hold letters, digits, `_` and `-`");
+  };
+  check_name(c.draft.name, "the name of a study");
+  for (const auto& region : c.draft.coupling.regions) check_name(region.content.name, "the name of a region");
+  const auto check_known = [&](const std::string& word, const Place& place, const std::vector<std::string>& known, const char* what) {
+    if (!known.empty() && std::find(known.begin(), known.end(), word) == known.end())
+      c.diagnostics.error(403, place, std::string("there is no ") + what + " '" + word + "'", suggest(word, known));
+  };
+  if (c.draft.scenario.known()) check_known(c.draft.scenario.value, c.draft.scenario.place, c.options.scenario_names, "library study");
+  for (const std::string& name : c.draft.output.series.value)
+    check_known(name, c.draft.output.series.place, c.options.series_names, "observable");
+}
+
+/// Limit by the elasticity in the plane: springs at most 6 k, sheets 7.2 E h, an area modulus likewise, against the friction of a node (and
+/// of its edges along themselves).
+double in_plane_limit(const draft::ShellKeys& t, double node_friction) {
+  const bool springs = t.elastic.value == "springs" || t.elastic.value == "springs_with_area";
+  double sheet = t.young.value * t.thickness.value;
+  if (t.elastic.value == "skalak" && t.shear_modulus.value >= 0.0) sheet = 3.0 * t.shear_modulus.value;
+  if (t.elastic.value == "skalak" && t.area_ratio.value > 1.0) sheet *= t.area_ratio.value;
+  double stiffness = 7.2 * t.local_area.value;
+  if (t.elastic.value != "none") stiffness += springs ? 3.0 * std::numbers::sqrt3 * sheet : 7.2 * sheet;
+  if (t.has_membrane && t.membrane.shear_modulus.value > 0.0)  // springs: k = 4 G/√3
+    stiffness += t.membrane.elastic.value == "springs" ? 24.0 / std::numbers::sqrt3 * t.membrane.shear_modulus.value
+                                                       : 21.6 * t.membrane.shear_modulus.value * std::max(1.0, t.membrane.area_ratio.value);
+  return stiffness > 0.0 ? 2.0 * (node_friction + t.damping.value) / stiffness : 1e300;
+}
+
+/// Limit by tension, global area and bending (dcm.md §1): 7.5 γ/(γ_med L²), 4 K_G/(γ_med R²), 46 k_h/(γ_med a L²), 56 κ/(γ_med L⁴).
+double surface_limit(const draft::ShellKeys& t, double friction, double node_area, double radius) {
+  const double edge_square = std::pow(mean_edge(t.nodes.value) * radius, 2);
+  const double rigidity =
+      t.bending.value >= 0.0 ? t.bending.value : dcm::bending_modulus(t.young.value, t.thickness.value, t.poisson.value);
+  double rate = std::max(7.5 * t.tension.value / edge_square, 4.0 * t.global_area.value / (radius * radius));
+  const auto bending = [&](const std::string& law, double of) {
+    if (law == "hinge") return 46.0 * dcm::hinge_stiffness(of) / (node_area * edge_square);
+    return law == "helfrich" ? 56.0 * of / (edge_square * edge_square) : 0.0;
+  };
+  rate = std::max(rate, bending(t.bending_law.value, rigidity) +
+                            (t.has_membrane ? bending(t.membrane.bending_law.value, t.membrane.bending.value) : 0.0));
+  return rate > 0.0 ? 2.0 * friction / rate : 1e300;
+}
+
+/// Stiffness of a cubic close packing's breath by the pressure of packing: each sphere's Ψ″/V (Σ |∂v/∂d|)² counts once at its centre and again at
+/// its neighbours', 2 (12 · ½π a_g²)² Ψ″/V with a_g² = 0.1815 R² where cells fill space [nN/µm].
+double packing_stiffness(const draft::CellType& t, double radius) {
+  if (t.packing_law.value == "none") return 0.0;
+  double steepest = 0.0;
+  if (t.packing_law.value == "knots") {
+    for (std::size_t k = 1; k < t.packing_knots.size(); ++k) {
+      const auto &low = t.packing_knots[k - 1].content, &high = t.packing_knots[k].content;
+      const double width = high.packing.value - low.packing.value;
+      if (width > 0.0) steepest = std::max(steepest, 1.5 * (high.pressure.value - low.pressure.value) / width);
+    }
+  } else if (const auto knots =
+                 cbm::ideal_filled_cell(t.packing_bulk_modulus.value >= 0.0 ? t.packing_bulk_modulus.value : t.bulk_modulus.value,
+                                        t.sphere_young.value, t.sphere_poisson.value)) {
+    if (const auto curve = cbm::PackingCurve::through(*knots)) steepest = curve->steepest();
+  }
+  const double slopes = 6.0 * std::numbers::pi * 0.1815;
+  return 2.0 * slopes * slopes * steepest / (4.0 / 3.0 * std::numbers::pi) * radius;
+}
+
+/// Limit by what holds a nucleus against the little friction it has: its links, and the repulsion over a tenth of its cross-section.
+double nucleus_limit(const draft::CellType& t, double repulsion) {
+  const draft::Nucleus& n = t.nucleus;
+  if (!n.present || n.kind.value == "none" || n.radius.given == n.volume_fraction.given) return 1e300;
+  const double radius = n.radius.given ? n.radius.value : std::cbrt(n.volume_fraction.value) * t.radius.mean.value;
+  const draft::Links& l = t.nucleus_links;
+  const double links = l.present ? static_cast<double>(std::min(l.number.value, t.nodes.value)) : 0.0;
+  const double friction = 6.0 * std::numbers::pi * n.viscosity.value * radius + links * l.damping.value / 3.0;
+  double limit = 2.0 * friction / (links * l.stiffness.value / 3.0 + 0.1 * std::numbers::pi * radius * radius * repulsion);
+  if (n.kind.value != "shell" || !(n.shell.nodes.value > 0)) return limit;
+  // Of a nucleus that is a shell the modes of shells, each node with its share of the drag.
+  const double area = 4.0 * std::numbers::pi * radius * radius, per_area = 6.0 * std::numbers::pi * n.viscosity.value * radius / area;
+  const double node_area = area / static_cast<double>(n.shell.nodes.value);
+  limit = std::min(limit, 2.0 * per_area * radius / (3.0 * std::max(n.shell.bulk_modulus.value, 1e-300)));
+  return std::min({limit, in_plane_limit(n.shell, per_area * node_area), surface_limit(n.shell, per_area, node_area, radius)});
+}
+
+}  // namespace
+
+double explicit_step_limit(const draft::Study& study) {
+  double limit = 1e300;
+  const bool shells = may_have_shells(study);
+  for (const auto& type : study.cell_types) {
+    const draft::CellType& t = type.content;
+    const double friction = t.friction_medium.value, radius = t.radius.mean.value;
+    if (!(friction > 0.0) || !(radius > 0.0)) continue;
+    if (shells && t.bulk_modulus.value > 0.0 && mean_edge(t.nodes.value) > 0.0) {
+      // Fastest modes of a free shell of N nodes: the volume, stiffness K A²/(V N) against γ A/N for each node; the membrane; tension and
+      // bending; the repulsion, k_r against the contact friction.
+      const double node_area = 4.0 * std::numbers::pi * radius * radius / std::max(1.0, static_cast<double>(t.nodes.value));
+      limit = std::min(limit, 2.0 * friction * radius / (3.0 * t.bulk_modulus.value));
+      limit = std::min({limit, in_plane_limit(t, friction * node_area), surface_limit(t, friction, node_area, radius)});
+      limit = std::min(limit, nucleus_limit(t, study.contact.repulsion.value));
+      if (study.contact.repulsion.value > 0.0)
+        limit = std::min(limit, 2.0 * std::max(friction, t.friction_cell_cell.value) / study.contact.repulsion.value);
+    }
+    // A sphere with 12 neighbours at contact radius R/2: stiffness 2 E* a each, E* = E/(2 (1 − ν²)).
+    double contact = 12.0 * t.sphere_young.value / (1.0 - t.sphere_poisson.value * t.sphere_poisson.value) * 0.5 * radius;
+    contact += packing_stiffness(t, radius);
+    if (contact > 0.0) limit = std::min(limit, 2.0 * friction * 4.0 * std::numbers::pi * radius * radius / contact);
+  }
+  return limit;
+}
+
+void check_whole(BuildContext& c) {
+  check_names(c);
+  check_contact_ranges(c);
+  check_friction(c);
+  check_periodic_size(c);
+  check_nuclei(c);
+  check_resolution(c);
+  check_bodies(c);
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,38 @@
+#pragma once
+#include "study/draft.h"
+
+namespace morula::scenarios {
+
+/// The one table of all keys of the study file: name, quantity, range, default, source, doc, example.
+void declare_study(Section& section, draft::Study& study);
+
+void declare_cell_type(Section& section, draft::CellType& type);
+void declare_shell(Section& section, draft::CellType& type);
+/// Mesh and mechanics of a shell; `cell` is null for those of a nucleus, whose defaults are others and which has no regions.
+void declare_shell_keys(Section& section, draft::ShellKeys& shell, draft::CellType* cell);
+/// `cbm.packing`.
+void declare_packing(Section& section, draft::CellType& type);
+/// `regions` and `lateral_easing` of the cortex.
+void declare_tension_regions(Section& section, draft::CellType& type);
+void declare_mark(Section& section, draft::Mark& mark);
+void declare_lumen(Section& section, draft::Lumen& lumen);
+void declare_apical_spring(Section& section, draft::ApicalSpring& spring);
+/// `fluctuations`, `polarity` and `protrusion` of a cell type.
+void declare_activity(Section& section, draft::CellType& type);
+void declare_obstacle(Section& section, draft::Obstacle& obstacle);
+/// `direction` and `course` of an obstacle's motion.
+void declare_motion_course(Section& section, draft::Obstacle& obstacle);
+void declare_contact(Section& section, draft::Contact& contact);
+void declare_load(Section& section, draft::Load& load);
+/// A point of a factor over time.
+void declare_course_point(Section& section, draft::CoursePoint& point);
+/// `nucleus` and `cytoskeleton` of a shell.
+void declare_interior(Section& section, draft::CellType& type);
+/// `osmosis` of a cell type.
+void declare_osmosis(Section& section, draft::CellType& type);
+void declare_initial(Section& section, draft::Initial& initial);
+void declare_meshes(Section& section, draft::Meshes& meshes);
+void declare_field(Section& section, draft::Field& field);
+void declare_coupling(Section& section, draft::Coupling& coupling);
+
+}  // namespace morula::scenarios

@@ -1,0 +1,269 @@
+#include "study/declare.h"
+
+namespace morula::scenarios {
+namespace {
+
+using Q = Quantity;
+constexpr const char* kTable1 = "Van Liedekerke et al., Table 1";
+
+void declare_spread(Section& s, draft::Spread& value, Quantity quantity, const char* mean, const char* doc, const char* source, double low,
+                    double high) {
+  s.quantity({.name = "mean",
+              .doc = doc,
+              .quantity = quantity,
+              .fallback = mean,
+              .low = low,
+              .high = high,
+              .low_open = low == 0.0,
+              .example = mean,
+              .source = source},
+             value.mean);
+  s.quantity({.name = "spread",
+              .doc = "Relative standard deviation from cell to cell (Gaussian, cut at 3).",
+              .quantity = Q::kFraction,
+              .fallback = "0 %",
+              .low = 0.0,
+              .high = 0.3,
+              .example = "10 %",
+              .source = "chosen"},
+             value.spread);
+}
+
+void declare_life(Section& s, draft::CellType& t) {
+  bool present = false;
+  s.group({.name = "cycle", .doc = "Growth and division. Without it cells neither grow nor divide.", .optional_section = true}, t.has_cycle,
+          [&t](Section& c) {
+            c.word({.name = "model",
+                    .doc = "volume_threshold: a cell grows from its birth volume to twice that and divides; none: it rests.",
+                    .fallback = "volume_threshold",
+                    .words = {"none", "volume_threshold"},
+                    .example = "volume_threshold",
+                    .source = "chosen"},
+                   t.cycle_model);
+            bool given = false;
+            c.group({.name = "duration",
+                     .doc = "Time from birth to twice the birth volume.",
+                     .shorthand = "mean",
+                     .example = "{mean: 18 h, spread: 10 %}"},
+                    given, [&t](Section& d) {
+                      declare_spread(d, t.cycle_duration, Q::kTime, "24 h", "Mean over cells.", "chosen: human stem cells and epithelia",
+                                     60.0, 1e9);
+                    });
+            c.word({.name = "growth",
+                    .doc = "Volume against time.",
+                    .fallback = "linear",
+                    .words = {"linear", "exponential"},
+                    .example = "linear",
+                    .source = "Van Liedekerke et al."},
+                   t.growth);
+            c.word({.name = "axis",
+                    .doc = "Axis of division.",
+                    .fallback = "random",
+                    .words = {"random"},
+                    .example = "random",
+                    .source = "Van Liedekerke et al."},
+                   t.axis);
+          });
+  s.group({.name = "inhibit_growth", .doc = "What stops growth for as long as it lasts."}, present, [&t](Section& g) {
+    g.quantity({.name = "pressure_above",
+                .doc = "Growth stops while neighbours, obstacles and loads press on the cell with more than this; `never`: no inhibition.",
+                .quantity = Q::kPressure,
+                .fallback = "1 kPa",
+                .low = 0.0,
+                .specials = {{"never", std::numeric_limits<double>::infinity()}},
+                .example = "800 Pa",
+                .source = "chosen; Van Liedekerke et al. 2019 work with volumetric strain"},
+               t.pressure_above);
+  });
+  s.group({.name = "death",
+           .doc = "Death by lack of a field: while the concentration is below a threshold, cells die at a rate.",
+           .optional_section = true},
+          t.has_death, [&t](Section& d) {
+            d.suffixed("_below", {.name = "field", .doc = "The field whose lack kills.", .example = "oxygen"}, t.death_field,
+                       {.name = "below",
+                        .doc = "Concentration below which cells die.",
+                        .quantity = Q::kConcentration,
+                        .low = 0.0,
+                        .example = "0.02 mM"},
+                       t.death_below);
+            d.quantity({.name = "rate",
+                        .doc = "Probability of death per time while below.",
+                        .quantity = Q::kRate,
+                        .required = true,
+                        .low = 0.0,
+                        .example = "0.05 1/h"},
+                       t.death_rate);
+            d.quantity({.name = "shrink_time",
+                        .doc = "A dying cell shrinks as V0 exp(-t/shrink_time).",
+                        .quantity = Q::kTime,
+                        .fallback = "8 h",
+                        .low = 0.0,
+                        .low_open = true,
+                        .example = "8 h",
+                        .source = "chosen: apoptosis takes about 8 h"},
+                       t.shrink_time);
+            d.quantity({.name = "removed_below",
+                        .doc = "Removed when its volume is below this part of that at death.",
+                        .quantity = Q::kFraction,
+                        .fallback = "10 %",
+                        .low = 0.0,
+                        .high = 1.0,
+                        .low_open = true,
+                        .high_open = true,
+                        .example = "10 %",
+                        .source = "chosen"},
+                       t.removed_below);
+          });
+  s.group({.name = "migration", .doc = "Persistent random walk."}, present, [&t](Section& m) {
+    m.quantity({.name = "speed",
+                .doc = "Root mean square speed of an otherwise free cell, in three dimensions in the open and along the surface of an "
+                       "obstacle that it touches: the force is that against all friction with the medium and with obstacles. A cell "
+                       "among others is slower, for its force does not make up for friction with neighbours. 0: no migration.",
+                .quantity = Q::kSpeed,
+                .fallback = "0 um/h",
+                .low = 0.0,
+                .high = 1.0,
+                .example = "2 um/h",
+                .source = "chosen"},
+               t.migration_speed);
+    m.quantity({.name = "persistence",
+                .doc = "Time over which the direction is remembered.",
+                .quantity = Q::kTime,
+                .fallback = "30 min",
+                .low = 0.0,
+                .low_open = true,
+                .example = "30 min",
+                .source = "chosen"},
+               t.persistence);
+    m.text({.name = "substrate",
+            .doc = "Obstacle that the cell must touch, and along which its force acts then; without it the cell is driven "
+                   "everywhere.",
+            .example = "plane"},
+           t.activity.migration_substrate);
+  });
+  declare_activity(s, t);
+}
+
+void declare_friction(Section& s, draft::CellType& t) {
+  s.quantity({.name = "cell_cell",
+              .doc = "Friction with cells per contact area; for two types the mean of theirs.",
+              .quantity = Q::kFrictionPerArea,
+              .fallback = "5e10 N s/m^3",
+              .low = 0.0,
+              .high = 1e6,
+              .example = "5e10 N s/m^3",
+              .source = kTable1},
+             t.friction_cell_cell);
+  s.quantity({.name = "obstacle",
+              .doc = "Friction with obstacles per contact area.",
+              .quantity = Q::kFrictionPerArea,
+              .fallback = "1e11 N s/m^3",
+              .low = 0.0,
+              .high = 1e6,
+              .example = "1e11 N s/m^3",
+              .source = "chosen: order of Galle et al. 2005, doi:10.1529/biophysj.104.041459"},
+             t.friction_obstacle);
+  s.quantity({.name = "medium",
+              .doc = "Friction with the medium or matrix per area of surface.",
+              .quantity = Q::kFrictionPerArea,
+              .fallback = "1e8 N s/m^3",
+              .low = 0.0,
+              .high = 1e6,
+              .example = "1e8 N s/m^3",
+              .source = kTable1},
+             t.friction_medium);
+  const auto tangential = [&s](const char* name, const char* doc, Given<double>& value) {
+    s.quantity({.name = name,
+                .doc = doc,
+                .quantity = Q::kFrictionPerArea,
+                .fallback = "same",
+                .low = 0.0,
+                .high = 1e6,
+                .specials = {{"same", -1.0}},
+                .example = "1e7 N s/m^3",
+                .source = "chosen"},
+               value);
+  };
+  tangential("cell_cell_tangential", "Along the contact; `cell_cell` then is the friction of approach. `same`: both alike.",
+             t.tangential_cell_cell);
+  tangential("obstacle_tangential", "Along the obstacle; `obstacle` then is the friction across. `same`: both alike.",
+             t.tangential_obstacle);
+  tangential("medium_tangential",
+             "Along a shell's surface; `medium` then is the friction across it. A sphere has the mean, (normal + 2 tangential)/3. `same`: "
+             "both alike.",
+             t.tangential_medium);
+}
+
+}  // namespace
+
+void declare_cell_type(Section& s, draft::CellType& t) {
+  bool present = false;
+  s.text({.name = "like",
+          .doc = "Another cell type: what is not said here is as there, key by key in all sections. Adhesion, too, is that of the other, "
+                 "where neither of two types names the pair.",
+          .example = "hepatocyte"},
+         t.like);
+  s.group({.name = "radius", .doc = "Radius of a cell at birth.", .shorthand = "mean", .example = "{mean: 6 um, spread: 10 %}"}, present,
+          [&t](Section& r) { declare_spread(r, t.radius, Q::kLength, "6 um", "Mean over cells.", kTable1, 0.5, 100.0); });
+  s.word({.name = "body",
+          .doc = "Body of these cells before any region or trigger: a sphere, or a deformable shell.",
+          .fallback = "sphere",
+          .words = {"sphere", "shell"},
+          .synonyms = {{"cbm", "sphere"}, {"dcm", "shell"}},
+          .example = "sphere",
+          .source = "chosen"},
+         t.body);
+  s.text(
+      {.name = "color",
+       .doc = "Colour of these cells in pictures: sky, orange, green, pink, yellow, blue, vermilion, or \"#rrggbb\" in quotes. Without it "
+              "types take these colours in turn.",
+       .example = "vermilion"},
+      t.color);
+  declare_life(s, t);
+  declare_osmosis(s, t);
+  s.group({.name = "friction", .doc = "Friction with what is around."}, present, [&t](Section& f) { declare_friction(f, t); });
+  s.quantities(
+      {.name = "adhesion",
+       .doc =
+           "Adhesion energy W per contact area of the pair, by name of a cell type or obstacle; holds for both bodies. Give a pair "
+           "once. `others`: all cell types and obstacles that neither side names. Pairs without either have 1e-4 J/m^2 between cells and "
+           "1e-5 J/m^2 with obstacles.",
+       .quantity = Q::kTension,
+       .low = 0.0,
+       .high = 100.0,
+       .example = "{hepatocyte: 1e-4 J/m^2, capsule: 1e-6 J/m^2}",
+       .source = kTable1},
+      t.adhesion);
+  s.group({.name = "cbm", .doc = "The cell as a sphere."}, present, [&t](Section& c) {
+    c.word({.name = "law",
+            .doc = "Contact of two spheres: JKR (elastic with adhesion) or Hertz (elastic, adhesion ignored).",
+            .fallback = "jkr",
+            .words = {"jkr", "hertz"},
+            .example = "jkr",
+            .source = "Johnson, Kendall & Roberts 1971, doi:10.1098/rspa.1971.0141"},
+           t.sphere_law);
+    c.quantity({.name = "young",
+                .doc = "Young's modulus of the sphere.",
+                .quantity = Q::kPressure,
+                .fallback = "1.5 kPa",
+                .low = 0.0,
+                .high = 1e4,
+                .low_open = true,
+                .example = "1.5 kPa",
+                .source = "3 K (1 - 2 nu) with the bulk modulus K = 2.5 kPa of shells (Van Liedekerke et al. 2020, "
+                          "doi:10.1007/s10237-019-01204-7): one material in both bodies, and a contact radius of 0.40 R at 1e-4 J/m^2"},
+               t.sphere_young);
+    c.quantity({.name = "poisson",
+                .doc = "Poisson ratio of the sphere.",
+                .fallback = "0.4",
+                .low = 0.0,
+                .high = 0.5,
+                .example = "0.4",
+                .source = "Galle et al. 2005, doi:10.1529/biophysj.104.041459"},
+               t.sphere_poisson);
+    declare_packing(c, t);
+  });
+  s.group({.name = "dcm", .doc = "The cell as a deformable shell."}, present, [&t](Section& d) { declare_shell(d, t); });
+}
+
+}  // namespace morula::scenarios

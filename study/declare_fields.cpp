@@ -1,0 +1,204 @@
+#include "study/declare.h"
+
+namespace morula::scenarios {
+namespace {
+
+using Q = Quantity;
+
+void declare_uptake(Section& s, draft::Uptake& u) {
+  s.quantity({.name = "rate",
+              .doc = "Uptake of one cell at plenty.",
+              .quantity = Q::kAmountRate,
+              .required = true,
+              .low = 0.0,
+              .example = "40 amol/s"},
+             u.rate);
+  s.quantity({.name = "half_saturation",
+              .doc = "Concentration at which the uptake is half of that (Michaelis-Menten).",
+              .quantity = Q::kConcentration,
+              .fallback = "0.005 mM",
+              .low = 0.0,
+              .low_open = true,
+              .example = "0.005 mM",
+              .source = "chosen: order of oxygen uptake of mammalian cells"},
+             u.half_saturation);
+}
+
+void declare_region(Section& s, draft::Region& r) {
+  s.text({.name = "name", .doc = "Name of the region in messages and events.", .required = true, .example = "core"}, r.name);
+  s.word({.name = "shape",
+          .doc = "Shape of the region.",
+          .required = true,
+          .words = {"sphere", "box", "half_space", "everything"},
+          .example = "sphere"},
+         r.shape);
+  s.vector({.name = "center",
+            .doc = "Centre; of a half space, a point of its border.",
+            .quantity = Q::kLength,
+            .fallback = "[0 um, 0 um, 0 um]",
+            .example = "[0 um, 0 um, 0 um]",
+            .source = "chosen"},
+           r.center);
+  s.quantity({.name = "radius", .doc = "Radius of a sphere.", .quantity = Q::kLength, .low = 0.0, .low_open = true, .example = "25 um"},
+             r.radius);
+  s.vector(
+      {.name = "size", .doc = "Edges of a box.", .quantity = Q::kLength, .low = 0.0, .low_open = true, .example = "[50 um, 50 um, 50 um]"},
+      r.size);
+  s.vector({.name = "normal", .doc = "Of a half space: direction out of it.", .example = "[0, 0, 1]"}, r.normal);
+  s.word({.name = "as",
+          .doc = "Body of the cells inside.",
+          .fallback = "shell",
+          .words = {"sphere", "shell"},
+          .synonyms = {{"cbm", "sphere"}, {"dcm", "shell"}},
+          .example = "shell",
+          .source = "chosen"},
+         r.body);
+  s.quantity({.name = "margin",
+              .doc = "A cell leaves the region only this far beyond its border.",
+              .quantity = Q::kLength,
+              .fallback = "3 um",
+              .low = 0.0,
+              .example = "3 um",
+              .source = "chosen: half a cell radius"},
+             r.margin);
+  s.flag({.name = "follow_tissue",
+          .doc = "The centre is relative to the centroid of the tissue.",
+          .fallback = "false",
+          .example = "true",
+          .source = "chosen"},
+         r.follow_tissue);
+  s.quantity({.name = "from",
+              .doc = "The region exists from this time.",
+              .quantity = Q::kTime,
+              .fallback = "0 s",
+              .low = 0.0,
+              .example = "1 h",
+              .source = "chosen"},
+             r.from);
+  s.quantity({.name = "until",
+              .doc = "The region ends at this time; cells inside then become what their type says.",
+              .quantity = Q::kTime,
+              .fallback = "never",
+              .low = 0.0,
+              .specials = {{"never", std::numeric_limits<double>::infinity()}},
+              .example = "1.5 h",
+              .source = "chosen"},
+             r.until);
+}
+
+void declare_trigger(Section& s, draft::Trigger& t) {
+  s.comparison({.name = "promote",
+                .doc = "Make a sphere a shell when `pressure` or a field of the cell passes a value.",
+                .example = "pressure > 1 kPa"},
+               t.promote);
+  s.comparison(
+      {.name = "demote", .doc = "Make it a sphere again when it passes a value on the other side.", .example = "pressure < 600 Pa"},
+      t.demote);
+  s.text({.name = "type", .doc = "Instead of promote and demote: all cells of this type are shells.", .example = "trophectoderm"}, t.type);
+  s.quantity({.name = "hold",
+              .doc = "No second exchange of body within this time.",
+              .quantity = Q::kTime,
+              .fallback = "30 min",
+              .low = 0.0,
+              .example = "30 min",
+              .source = "chosen"},
+             t.hold);
+}
+
+}  // namespace
+
+void declare_field(Section& s, draft::Field& f) {
+  s.quantity({.name = "diffusion",
+              .doc = "Diffusion coefficient.",
+              .quantity = Q::kDiffusion,
+              .required = true,
+              .low = 0.0,
+              .example = "2e-9 m^2/s"},
+             f.diffusion);
+  s.quantity({.name = "decay",
+              .doc = "Rate of decay.",
+              .quantity = Q::kRate,
+              .fallback = "0 1/s",
+              .low = 0.0,
+              .example = "0.1 1/h",
+              .source = "chosen"},
+             f.decay);
+  s.quantity({.name = "initial",
+              .doc = "Concentration at time 0.",
+              .quantity = Q::kConcentration,
+              .required = true,
+              .low = 0.0,
+              .example = "0.2 mM"},
+             f.initial);
+  s.quantity({.name = "voxel",
+              .doc = "Edge of a voxel, at most; the domain is divided evenly.",
+              .quantity = Q::kLength,
+              .fallback = "10 um",
+              .low = 0.0,
+              .low_open = true,
+              .example = "10 um",
+              .source = "chosen: about one cell"},
+             f.voxel);
+  s.quantity({.name = "tolerance",
+              .doc = "Relative error tolerance of the time integration.",
+              .fallback = "1e-4",
+              .low = 1e-12,
+              .high = 0.1,
+              .example = "1e-4",
+              .source = "chosen"},
+             f.tolerance);
+  bool present = false;
+  s.group({.name = "boundary",
+           .doc = "At the faces of the domain: a concentration, or `no_flux`; one for all, or by face. Ignored on periodic axes.",
+           .shorthand = "all",
+           .example = "{all: 0.2 mM}"},
+          present, [&f](Section& b) {
+            const auto face = [&b](const char* name, const char* doc, Given<double>& value, const char* fallback = nullptr) {
+              b.quantity({.name = name,
+                          .doc = doc,
+                          .quantity = Q::kConcentration,
+                          .fallback = fallback,
+                          .low = 0.0,
+                          .specials = {{"no_flux", -1.0}},
+                          .example = "0.2 mM",
+                          .source = fallback ? "chosen" : ""},
+                         value);
+            };
+            face("all", "All faces.", f.boundary.all, "no_flux");
+            face("x_low", "The face at the low end of x.", f.boundary.x_low);
+            face("x_high", "The face at the high end of x.", f.boundary.x_high);
+            face("y_low", "The face at the low end of y.", f.boundary.y_low);
+            face("y_high", "The face at the high end of y.", f.boundary.y_high);
+            face("z_low", "The face at the low end of z.", f.boundary.z_low);
+            face("z_high", "The face at the high end of z.", f.boundary.z_high);
+          });
+  s.named({.name = "uptake",
+           .doc = "Uptake by cell type: a rate, or rate and half saturation.",
+           .shorthand = "rate",
+           .example = "{hepatocyte: 40 amol/s}"},
+          f.uptake, &declare_uptake);
+}
+
+void declare_coupling(Section& s, draft::Coupling& c) {
+  s.whole({.name = "max_shells",
+           .doc = "At most this many shells at a time; promotions beyond it wait.",
+           .fallback = "unlimited",
+           .low = 0,
+           .high = 2.0e8,
+           .specials = {{"unlimited", std::numeric_limits<double>::infinity()}},
+           .example = "120",
+           .source = "chosen"},
+          c.max_shells);
+  s.quantity({.name = "hold",
+              .doc = "No second exchange of body by a region within this time.",
+              .quantity = Q::kTime,
+              .fallback = "10 min",
+              .low = 0.0,
+              .example = "10 min",
+              .source = "chosen"},
+             c.hold);
+  s.list({.name = "regions", .doc = "Where cells are shells (or spheres)."}, c.regions, &declare_region);
+  s.list({.name = "triggers", .doc = "When cells become shells, and spheres again."}, c.triggers, &declare_trigger);
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,264 @@
+#pragma once
+#include <vector>
+
+#include "study/draft_regions.h"
+#include "study/section.h"
+
+namespace morula::scenarios::draft {
+
+/// The study as its file says it, key by key, in internal units: the form between the YAML and the Model. Every struct has one declaration in
+/// declare.h and nothing here is looked at by the simulation.
+
+struct Time {
+  Given<double> end, step, output, checkpoint, rest;
+  Given<std::string> integrator;
+};
+
+struct Numerics {
+  Given<std::uint64_t> newton;
+  Given<double> newton_stop, tolerance, later_tolerance, max_displacement, initial_step, skin, start_cap, start_cap_within;
+};
+
+/// `all`, an axis, or one face; the most particular one holds.
+struct DomainBoundary {
+  Given<std::string> all, x, y, z, x_low, x_high, y_low, y_high, z_low, z_high;
+};
+
+struct Domain {
+  Given<Vec3d> size, center;
+  DomainBoundary boundary;
+};
+
+struct Spread {
+  Given<double> mean, spread;
+};
+
+struct PackingKnot {
+  Given<double> packing, pressure;
+};
+
+/// Osmotic control of the volume.
+struct Osmosis {
+  bool present = false;
+  Given<double> permeability, inactive, inside, outside;
+  Given<std::string> field;
+  std::vector<Named<CoursePoint>> course;
+};
+
+/// What a layer of a shell resists: shear and stretch in its plane, bending.
+struct Layer {
+  Given<std::string> elastic, bending_law;
+  Given<double> shear_modulus, area_ratio, bending, spontaneous_radius;
+};
+
+/// The mesh of a shell and its mechanics: the cortex of a cell or the lamina of a nucleus that is a shell, and perhaps a membrane on it.
+struct ShellKeys : Layer {
+  Given<std::uint64_t> nodes;
+  Given<double> young, thickness, poisson, tension, turnover, damping, isotropic_damping;
+  bool has_membrane = false;
+  Layer membrane;
+  Given<double> local_area, global_area;
+  Given<bool> area_on_top;
+  Given<double> bulk_modulus, bulk_viscosity, shape_stiffness, fold_stiffness, fold_angle;
+};
+
+struct Nucleus {
+  bool present = false;
+  Given<std::string> kind;
+  Given<double> radius, volume_fraction, viscosity;
+  ShellKeys shell;                     ///< of `kind: shell`
+  std::vector<Named<bool>> no_effect;  ///< keys of a shell that stand where the nucleus is none
+};
+struct Links {
+  bool present = false;
+  Given<std::uint64_t> number;
+  Given<double> stiffness, damping;
+  Given<bool> tension_only;
+};
+
+struct CellType : ShellKeys {
+  Given<std::string> like;
+  Spread radius;
+  Given<std::string> body, color;
+  bool has_cycle = false;
+  Given<std::string> cycle_model, growth, axis;
+  Spread cycle_duration;
+  Given<double> pressure_above;
+  bool has_death = false;
+  Given<std::string> death_field;
+  Given<double> death_below, death_rate, shrink_time, removed_below;
+  Given<double> migration_speed, persistence;
+  Osmosis osmosis;
+  Nucleus nucleus;
+  Links nucleus_links, cortex_links;
+  Given<double> friction_cell_cell, friction_obstacle, friction_medium;
+  std::vector<Named<Given<double>>> adhesion;
+  Given<std::string> sphere_law;
+  Given<double> sphere_young, sphere_poisson;
+  Given<std::string> packing_law;
+  Given<double> packing_bulk_modulus;
+  std::vector<Named<PackingKnot>> packing_knots;
+  Given<double> self_contact;
+  std::vector<Named<TensionRegion>> tension_regions;
+  Given<double> lateral_easing;
+  Activity activity;
+  Given<double> tangential_cell_cell, tangential_obstacle, tangential_medium;
+};
+
+/// Adhesion of faces with certain marks.
+struct AdhesionRegion {
+  Given<std::vector<std::string>> faces;
+  Given<double> adhesion;
+};
+
+struct ContactPair {
+  Given<std::vector<std::string>> between;
+  Given<std::string> law;
+  Given<double> range, repulsion, reduced_modulus, normal_friction, tangential_friction;
+  std::vector<Named<AdhesionRegion>> regions;
+};
+
+struct Contact {
+  Given<double> range, repulsion;
+  Given<std::string> friction;
+  Given<std::uint64_t> points;
+  std::vector<Named<ContactPair>> pairs;
+};
+
+struct Shape {
+  bool present = false;
+  Given<Vec3d> center, size, normal, low_end, high_end;
+  Given<double> radius;
+};
+
+struct Obstacle {
+  Given<std::string> stl, obj;
+  Given<double> scale;
+  Shape plane, sphere, cylinder, capsule, box;
+  Shape pipette;  ///< from: the mouth; to: the far end; radius: inside
+  Given<double> pipette_wall, pipette_lip, pipette_edge;
+  Given<std::string> side;
+  Given<Vec3d> velocity, direction;
+  std::vector<Named<CoursePoint>> course;
+};
+
+struct LoadEnds {
+  Given<Vec3d> axis;
+  Given<double> part;
+  Given<std::string> ends;
+};
+
+struct Load {
+  Given<std::string> type;
+  bool traction = false, pull = false, patch = false, pressure = false, grip = false;
+  Given<double> peak, pull_force, pressure_value, grip_stiffness;
+  Given<Vec3d> traction_axis, body_force, patch_force, pressure_gradient, pressure_origin, grip_center, grip_direction;
+  Given<std::string> patch_mark, pressure_mark;
+  LoadEnds pull_ends, patch_ends, pressure_ends, grip_ends;
+  Shape pressure_within;  ///< low_end, high_end and radius of a cylinder
+  std::vector<Named<CoursePoint>> way;
+  std::vector<Named<CoursePoint>> course;
+};
+
+/// Cells that come with surfaces of their own.
+struct Meshes {
+  Given<std::string> file;
+  Given<std::vector<std::string>> files;
+  Given<double> scale;
+  Given<std::string> cell_is, id_array;
+  Given<std::vector<std::string>> types;
+  Given<std::string> type_array, pressure_array;
+  Given<double> pressure_unit;
+  Given<std::uint64_t> nodes;
+  Given<double> edge;
+  Given<bool> repair;
+  Given<double> overlap;
+  Given<Vec3d> center;
+};
+
+struct Initial {
+  Given<std::string> type;
+  std::vector<Named<Given<double>>> types;
+  Given<std::string> on;
+  Given<std::uint64_t> count;
+  Given<std::string> fill;
+  Given<Vec3d> center, size;
+  Given<double> radius;
+  Given<std::vector<Vec3d>> at;
+  Given<std::string> age;
+  Given<std::string> csv, units;
+  Given<double> coincident_shift, coincident_below;
+  bool has_hull = false, has_cavity = false;
+  Given<double> hull_margin, cavity_radius;
+  Given<Vec3d> cavity_center;
+  Given<std::string> body;
+  Given<double> start_volume, inflate;
+  Given<std::string> shape, orientation;
+  bool has_meshes = false;
+  Meshes meshes;
+};
+
+struct FieldBoundary {
+  Given<double> all, x_low, x_high, y_low, y_high, z_low, z_high;
+};
+
+struct Uptake {
+  Given<double> rate, half_saturation;
+};
+
+struct Field {
+  Given<double> diffusion, decay, initial, voxel, tolerance;
+  FieldBoundary boundary;
+  std::vector<Named<Uptake>> uptake;
+};
+
+struct Region {
+  Given<std::string> name, shape, body;
+  Given<Vec3d> center, size, normal;
+  Given<double> radius, margin, from, until;
+  Given<bool> follow_tissue;
+};
+
+struct Trigger {
+  Given<std::string> promote, demote, type;
+  Given<double> hold;
+};
+
+struct Coupling {
+  Given<std::uint64_t> max_shells;
+  Given<double> hold;
+  std::vector<Named<Region>> regions;
+  std::vector<Named<Trigger>> triggers;
+};
+
+struct Output {
+  Given<std::vector<std::string>> series, formats;
+  Given<bool> report;
+};
+
+struct Limits {
+  Given<double> volume_error, overlap, field_balance;
+};
+
+struct Study {
+  Given<std::uint64_t> schema, seed;
+  Given<std::string> name, title, scenario;
+  Given<std::vector<std::string>> criteria;
+  Time time;
+  Numerics numerics;
+  Domain domain;
+  std::vector<Named<CellType>> cell_types;
+  Contact contact;
+  std::vector<Named<Obstacle>> geometry;
+  std::vector<Named<Initial>> initial;
+  std::vector<Named<Load>> loads;
+  std::vector<Named<Mark>> marks;
+  std::vector<Named<Lumen>> lumens;
+  std::vector<Named<ApicalSpring>> apical;
+  std::vector<Named<Field>> fields;
+  Coupling coupling;
+  Output output;
+  Limits limits;
+};
+
+}  // namespace morula::scenarios::draft

@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/random/philox.h"
+#include "study/initial/packing.h"
+
+namespace morula::scenarios {
+namespace {
+
+constexpr std::uint64_t kMostTries = 2000;  // of one cell; at 38 % of the volume one try in a thousand still finds a place
+constexpr std::uint64_t kFirstDraw = 16;    // of the stream; lower ones are those of packing
+constexpr int kLayerPasses = 400;
+constexpr double kLayerSlack = 1e-3;  // of the mean radius
+
+/// Two unit vectors along the plane, the first along the axis of the domain that lies flattest.
+std::pair<Vec3d, Vec3d> along(const Vec3d& normal) {
+  std::size_t flattest = 0;
+  for (std::size_t axis = 1; axis < 3; ++axis)
+    if (std::abs(normal[axis]) < std::abs(normal[flattest])) flattest = axis;
+  Vec3d u{};
+  u[flattest] = 1.0;
+  u = normalized(u - normal * dot(u, normal));
+  return {u, cross(normal, u)};
+}
+
+bool within(const InitialCells& block, const Vec3d& from_center, double inset) {
+  if (block.fill == RegionShape::kSphere) return norm(from_center) <= block.radius - inset;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (std::abs(from_center[axis]) > 0.5 * block.size[axis] - inset) return false;
+  return true;
+}
+
+bool keeps_off_walls(const Vec3d& p, double radius, const Space& space) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (space.boundary[axis][0] == BoundaryKind::kWall && p[axis] < space.box.low[axis] + radius) return false;
+    if (space.boundary[axis][1] == BoundaryKind::kWall && p[axis] > space.box.high[axis] - radius) return false;
+  }
+  return true;
+}
+
+/// Balls in cubes of the block's box, to be asked and added to one by one.
+class GrowingGrid {
+ public:
+  GrowingGrid(const InitialCells& block, double width, const Space& space) : space_(space) {
+    const bool ball = block.fill == RegionShape::kSphere;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double size = ball ? 2.0 * block.radius : block.size[axis];
+      low_[axis] = block.center[axis] - 0.5 * size;
+      count_[axis] = std::clamp<std::int64_t>(static_cast<std::int64_t>(size / width), 1, 256);
+      width_[axis] = size / static_cast<double>(count_[axis]);
+    }
+    // Across periodic faces neighbours may lie at the other end of the block.
+    if (space.any_periodic()) count_ = {1, 1, 1};
+    cubes_.resize(static_cast<std::size_t>(count_[0] * count_[1] * count_[2]));
+  }
+
+  [[nodiscard]] bool has_room(const Vec3d& p, double radius, double touch) const {
+    const auto at = place(p);
+    for (std::int64_t z = std::max<std::int64_t>(0, at[2] - 1); z <= std::min(count_[2] - 1, at[2] + 1); ++z)
+      for (std::int64_t y = std::max<std::int64_t>(0, at[1] - 1); y <= std::min(count_[1] - 1, at[1] + 1); ++y)
+        for (std::int64_t x = std::max<std::int64_t>(0, at[0] - 1); x <= std::min(count_[0] - 1, at[0] + 1); ++x)
+          for (const Ball& ball : cubes_[number({x, y, z})])
+            if (norm(space_.nearest_image(p - ball.center)) < touch * (radius + ball.radius)) return false;
+    return true;
+  }
+  void add(const Vec3d& p, double radius) { cubes_[number(place(p))].push_back({p, radius}); }
+
+ private:
+  struct Ball {
+    Vec3d center;
+    double radius;
+  };
+  [[nodiscard]] std::array<std::int64_t, 3> place(const Vec3d& p) const {
+    std::array<std::int64_t, 3> out{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      out[axis] =
+          std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor((p[axis] - low_[axis]) / width_[axis])), 0, count_[axis] - 1);
+    return out;
+  }
+  [[nodiscard]] std::size_t number(const std::array<std::int64_t, 3>& p) const {
+    return static_cast<std::size_t>((p[2] * count_[1] + p[1]) * count_[0] + p[0]);
+  }
+
+  const Space& space_;
+  Vec3d low_, width_;
+  std::array<std::int64_t, 3> count_{};
+  std::vector<std::vector<Ball>> cubes_;
+};
+
+}  // namespace
+
+Packing layer_cells(const InitialCells& block, std::span<const double> radius, double touch, const Space& space,
+                    const Surroundings& around) {
+  Packing out;
+  const double mean = mean_radius(radius), spacing = 2.0 * touch * mean;
+  const LayerPlane& plane = block.plane;
+  const auto [u, v] = along(plane.normal);
+  const Vec3d middle = block.center - plane.normal * dot(block.center - plane.point, plane.normal);
+  const double row = spacing * 0.5 * std::numbers::sqrt3;
+  const double widest = block.radius > 0.0 ? block.radius - mean : 1e300;
+  struct Site {
+    double distance;
+    Vec3d p;
+  };
+  std::vector<Site> sites;
+  // A disc of n hexagonal sites has the radius spacing √(n √3/(2 π)); what is in the way asks for a wider one, up to four times.
+  const double disc = spacing * (std::sqrt(static_cast<double>(radius.size()) * std::numbers::sqrt3 / (2.0 * std::numbers::pi)) + 1.0);
+  for (double reach = disc;; reach *= 1.3) {
+    sites.clear();
+    const double limit = std::min(reach, widest);
+    const auto rows = static_cast<std::int64_t>(limit / row) + 1, columns = static_cast<std::int64_t>(limit / spacing) + 2;
+    for (std::int64_t j = -rows; j <= rows; ++j)
+      for (std::int64_t i = -columns; i <= columns; ++i) {
+        const double x = spacing * (static_cast<double>(i) + (j % 2 != 0 ? 0.5 : 0.0)), y = row * static_cast<double>(j);
+        const double distance = std::hypot(x, y);
+        const Vec3d p = middle + u * x + v * y + plane.normal * mean;
+        Vec3d ignored;
+        if (distance > limit || !space.box.contains(p) || !keeps_off_walls(p, mean * (1.0 - 1e-9), space)) continue;
+        if (around.push(p, mean * (1.0 - 1e-9), touch, ignored) <= 0.0) sites.push_back({distance, p});
+      }
+    if (sites.size() >= radius.size() || reach >= widest || reach > 4.0 * disc) break;
+  }
+  out.room = std::min<std::uint64_t>(sites.size(), radius.size());
+  if (out.room < radius.size()) return out;
+  std::stable_sort(sites.begin(), sites.end(), [](const Site& a, const Site& b) { return a.distance < b.distance - 1e-9; });
+  for (std::size_t i = 0; i < radius.size(); ++i) out.center.push_back(sites[i].p + plane.normal * (radius[i] - mean));
+  const PushApart how{touch, kLayerSlack * mean, kLayerPasses, 0, middle, &around, &plane};
+  out.worst_overlap = push_apart(out.center, radius, how, space, &out.worst_intrusion);
+  if (block.radius > 0.0)
+    for (std::size_t i = 0; i < radius.size(); ++i) {
+      const Vec3d from = out.center[i] - middle;
+      out.reach_beyond = std::max(out.reach_beyond, norm(from - plane.normal * dot(from, plane.normal)) + radius[i] - block.radius);
+    }
+  return out;
+}
+
+Packing scatter_cells(const InitialCells& block, std::span<const double> radius, double touch, const Space& space,
+                      std::uint64_t first_number, std::uint32_t seed, const Surroundings& around) {
+  Packing out;
+  const Random random(seed, RandomStream::kInitialPosition);
+  GrowingGrid grid(block, 2.0 * touch * *std::max_element(radius.begin(), radius.end()), space);
+  const Vec3d half = block.fill == RegionShape::kSphere ? Vec3d{block.radius, block.radius, block.radius} : block.size * 0.5;
+  for (std::size_t i = 0; i < radius.size(); ++i) {
+    const CellId id = CellId::founder(first_number + i);
+    bool placed = false;
+    for (std::uint64_t tries = 0; tries < kMostTries && !placed; ++tries) {
+      const RandomPair a = random.uniform(id, kFirstDraw + 2 * tries), b = random.uniform(id, kFirstDraw + 2 * tries + 1);
+      const Vec3d from{(2.0 * a.first - 1.0) * half.x, (2.0 * a.second - 1.0) * half.y, (2.0 * b.first - 1.0) * half.z};
+      const Vec3d p = block.center + from;
+      Vec3d ignored;
+      if (!within(block, from, radius[i]) || !keeps_off_walls(p, radius[i], space) || !grid.has_room(p, radius[i], touch)) continue;
+      if (!around.empty() && around.push(p, radius[i], touch, ignored) > 0.0) continue;
+      grid.add(p, radius[i]);
+      out.center.push_back(space.wrapped(p));
+      placed = true;
+    }
+    if (!placed) break;
+  }
+  out.room = out.center.size();
+  if (out.room < radius.size()) out.center.clear();
+  return out;
+}
+
+}  // namespace morula::scenarios

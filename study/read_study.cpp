@@ -1,0 +1,98 @@
+#include "study/build.h"
+#include "study/catalogue.h"
+#include "study/declare.h"
+#include "study/document.h"
+#include "study/read_section.h"
+#include "study/study.h"
+#include "study/write_section.h"
+
+namespace morula::scenarios {
+namespace {
+
+/// How much larger a study may be that a run has written itself: all its defaults are written out.
+constexpr unsigned kResolvedGrows = 20;
+
+void read_draft(const Node& document, const std::shared_ptr<const SourceText>& source, draft::Study& draft, Diagnostics& diagnostics) {
+  const UnitSystem units;
+  ReadSection section(&document, Place{source, 1, 1, 1}, "", units, diagnostics);
+  declare_study(section, draft);
+  section.finish();
+}
+
+void build(BuildContext& context) {
+  build_domain(context);
+  build_cell_types(context);
+  build_geometry(context);
+  build_pairs(context);
+  build_contact_pairs(context);
+  build_fields(context);
+  build_initial(context);
+  build_coupling(context);
+  build_time_and_numerics(context);
+  build_activity(context);
+  build_regions(context);
+  build_adhesion_regions(context);
+  build_loads(context);
+  check_whole(context);
+  Study& study = context.study;
+  const draft::Study& draft = context.draft;
+  study.name = draft.name.value;
+  study.title = draft.title.value;
+  study.scenario = draft.scenario.value;
+  study.criteria = draft.criteria.value;
+  study.output = {draft.output.series.value, draft.output.formats.value, draft.output.report.value};
+  check_places(context);
+}
+
+Result<Study, Diagnostics> read_source(const std::shared_ptr<const SourceText>& source, const std::filesystem::path& folder,
+                                       const ReadOptions& options, Diagnostics diagnostics) {
+  Node document = parse_document(source, diagnostics, options.judge_places ? kMaxNodes : kResolvedGrows * kMaxNodes);
+  if (document.kind == Node::Kind::kNull) return diagnostics;  // what could not be parsed has been told
+  if (document.kind != Node::Kind::kMap) {
+    diagnostics.error(104, document.place, "a study is a map (`key: value`)", "`morula new` writes one to start from");
+    return diagnostics;
+  }
+  draft::Study draft;
+  if (document.cut_off) {  // the mistakes in what was read are told; what it means together cannot be judged
+    read_draft(document, source, draft, diagnostics);
+    diagnostics.sort();
+    return diagnostics;
+  }
+  const Declaration declared = study_declarations();
+  for (const std::string& assignment : options.overrides) apply_override(document, declared, assignment, diagnostics);
+  expand_likes(document, declared, diagnostics);
+
+  Study study;
+  read_draft(document, source, draft, diagnostics);
+  BuildContext context{draft, study, diagnostics, folder, options};
+  build(context);
+  if (options.fits_scenario && !diagnostics.has_errors())
+    if (const Status fits = options.fits_scenario(study); !fits.ok())
+      diagnostics.error(685, (draft.criteria.given ? draft.criteria.place : draft.scenario.place), fits.error().message, fits.error().help);
+  diagnostics.sort();
+  if (options.strict) diagnostics.warnings_to_errors();
+  if (diagnostics.has_errors()) return diagnostics;
+  study.source_path = source->name;
+  study.source_text = source->bytes;
+  study.resolved_text = write_study(draft);
+  study.warnings = std::move(diagnostics);
+  return study;
+}
+
+}  // namespace
+
+Result<Study, Diagnostics> read_study(const std::filesystem::path& path, const ReadOptions& options) {
+  Diagnostics diagnostics;
+  const std::uintmax_t most = options.judge_places ? kMaxStudyBytes : kResolvedGrows * kMaxStudyBytes;
+  const auto source = read_text_file(path, path.string(), most, {}, diagnostics);
+  if (!source) return diagnostics;
+  std::error_code ignored;
+  return read_source(source, std::filesystem::absolute(path, ignored).parent_path(), options, std::move(diagnostics));
+}
+
+Result<Study, Diagnostics> read_study_text(const std::string& shown_name, const std::string& text, const std::filesystem::path& folder,
+                                           const ReadOptions& options) {
+  return read_source(std::make_shared<const SourceText>(shown_name, text), folder, options, {});
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,118 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/vec3.h"
+#include "study/diagnostics.h"
+#include "study/quantity_reader.h"
+
+namespace morula::scenarios {
+
+/// A value of the study file: what it means, how it was written, and where.
+template <class T>
+struct Given {
+  T value{};
+  std::string text;    ///< as written, or the default's text; empty when neither exists
+  Place place;         ///< of the value; of the enclosing section when it is a default
+  bool given = false;  ///< written in the file (or on the command line)
+
+  [[nodiscard]] bool known() const { return !text.empty(); }
+};
+
+/// A word that may stand where a number is due, and the number it stands for.
+struct Special {
+  const char* word;
+  double value;
+};
+
+/// What an item of a list or map of the study is, once: the declaration from which reader, checker, JSON Schema, `explain`, the resolved
+/// study and the reference follow.
+struct KeySpec {
+  const char* name = "";
+  const char* doc = "";
+  Quantity quantity = Quantity::kNumber;
+  const char* fallback = nullptr;  ///< default as one would write it; nullptr: none
+  bool required = false;
+  bool optional_section = false;                          ///< of a section: its absence has a meaning, and its defaults hold only within it
+  double low = -std::numeric_limits<double>::infinity();  ///< in internal units
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false, high_open = false;                     ///< the limit itself is not allowed
+  std::vector<Special> specials{};                              ///< words allowed instead of a number
+  std::vector<const char*> words{};                             ///< the allowed words
+  std::vector<std::pair<const char*, const char*>> synonyms{};  ///< (other spelling, word it stands for)
+  const char* shorthand = nullptr;                              ///< for a section: the key that a bare value stands for
+  const char* example = "";
+  const char* source = "";  ///< where the default comes from
+};
+
+class Section;
+
+/// How a section reaches the things of a map or list that it does not know by type.
+struct Container {
+  std::function<std::size_t()> size;
+  std::function<std::string(std::size_t)> name;
+  std::function<void(const std::string& name, const Place&)> add;
+  std::function<void(Section&, std::size_t)> describe;
+};
+
+/// A thing with a name given by the user, such as a cell type.
+template <class T>
+struct Named {
+  std::string name;
+  Place place;
+  T content;
+};
+
+/// One section of the study as its declaration sees it. The declaration (declare.h) calls these functions once for each key; reading, listing
+/// and writing are three implementations, so that a key is declared in one place only.
+class Section {
+ public:
+  virtual ~Section() = default;
+
+  virtual void quantity(const KeySpec& key, Given<double>& value) = 0;
+  virtual void whole(const KeySpec& key, Given<std::uint64_t>& value) = 0;
+  virtual void word(const KeySpec& key, Given<std::string>& value) = 0;  ///< one of key.words
+  virtual void text(const KeySpec& key, Given<std::string>& value) = 0;  ///< any text
+  virtual void flag(const KeySpec& key, Given<bool>& value) = 0;         ///< true or false
+  virtual void vector(const KeySpec& key, Given<Vec3d>& value) = 0;      ///< [x, y, z]
+  virtual void vectors(const KeySpec& key, Given<std::vector<Vec3d>>& value) = 0;
+  virtual void words(const KeySpec& key, Given<std::vector<std::string>>& value) = 0;  ///< list of words; key.words empty: any
+  /// A comparison `subject > quantity` or `subject < quantity`; the text is kept, its meaning depends on the subject.
+  virtual void comparison(const KeySpec& key, Given<std::string>& value) { text(key, value); }
+  /// `<prefix><suffix>: value` with a prefix of the user's choice, such as `oxygen_below: 0.02 mM`: the same as `prefix_key: prefix` and
+  /// `key: value`.
+  virtual void suffixed(const char* suffix, const KeySpec& prefix_key, Given<std::string>& prefix, const KeySpec& key,
+                        Given<double>& value) = 0;
+  /// A section within this one; `present` says whether the file has it (a default section is described, too).
+  virtual void group(const KeySpec& key, bool& present, const std::function<void(Section&)>& describe) = 0;
+
+  /// A map from the user's names to sections.
+  template <class T>
+  void named(const KeySpec& key, std::vector<Named<T>>& items, void (*describe)(Section&, T&)) {
+    named_items(key, {[&items] { return items.size(); }, [&items](std::size_t i) { return items[i].name; },
+                      [&items](const std::string& name, const Place& place) {
+                        items.push_back({name, place, T{}});
+                      },
+                      [&items, describe](Section& section, std::size_t i) { describe(section, items[i].content); }});
+  }
+  /// A list of sections.
+  template <class T>
+  void list(const KeySpec& key, std::vector<Named<T>>& items, void (*describe)(Section&, T&)) {
+    listed_items(key, {[&items] { return items.size(); }, [](std::size_t i) { return std::to_string(i); },
+                       [&items](const std::string& name, const Place& place) {
+                         items.push_back({name, place, T{}});
+                       },
+                       [&items, describe](Section& section, std::size_t i) { describe(section, items[i].content); }});
+  }
+  /// A map from the user's names to quantities.
+  virtual void quantities(const KeySpec& key, std::vector<Named<Given<double>>>& items) = 0;
+
+ protected:
+  virtual void named_items(const KeySpec& key, const Container& items) = 0;
+  virtual void listed_items(const KeySpec& key, const Container& items) = 0;
+};
+
+}  // namespace morula::scenarios

@@ -1,0 +1,138 @@
+// What a body cannot do yet, or only outside the range of its law, is told by `check`.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+#include <tuple>
+
+#include "cbm/sphere_range.h"
+#include "results/series_reader.h"
+#include "scenarios/run/driver.h"
+#include "scenarios/run/used_laws.h"
+#include "tests/results/results_support.h"
+#include "tests/study/study_fixture.h"
+
+namespace morula::scenarios {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* kStudy = R"(schema: 1
+study: bodies
+time: {end: 10 h}
+domain: {size: [200 um, 200 um, 200 um]}
+cell_types:
+  cell:
+    radius: 6 um
+    dcm:
+      nodes: 162
+initial:
+  - {type: cell, count: 10, fill: sphere, radius: 40 um}
+)";
+
+std::string with(const std::string& key, const std::string& text = kStudy) {
+  return test::changed("    dcm:", "    " + key + "\n    dcm:", text);
+}
+const std::string kAsShell = "radius: 40 um, as: shell}";
+
+TEST(Bodies, NoiseOfANucleusOrOfLinksIsRefused) {
+  const std::string noise = with("fluctuations: {energy: 4e-18 J}");
+  const std::string shells = test::changed("radius: 40 um}", kAsShell, noise);
+  EXPECT_TRUE(test::read(shells).ok());
+  for (const char* inside : {"nucleus: {kind: rigid, radius: 3 um}", "nucleus: {kind: shell, radius: 3 um}",
+                             "cytoskeleton: {cortex_links: {number: 40, stiffness: 0.01 mN/m}}"}) {
+    const std::string text = test::errors_of(test::changed("nodes: 162", std::string("nodes: 162\n      ") + inside, shells));
+    EXPECT_THAT(text, HasSubstr("[E645]")) << inside;
+    EXPECT_THAT(text, HasSubstr("study.yaml:8:28")) << inside;
+  }
+  EXPECT_TRUE(test::read(test::changed("nodes: 162", "nodes: 162\n      nucleus: {kind: rigid, radius: 3 um}", noise)).ok())
+      << "spheres have no nucleus";
+}
+
+TEST(Bodies, ShellsThatWouldDivideAreToldWhereverTheyComeFrom) {
+  const std::string cycle = with("cycle: {duration: 18 h}");
+  EXPECT_THAT(test::warnings_of(cycle), Not(HasSubstr("E646")));
+  const std::string by_entry = test::warnings_of(test::changed("radius: 40 um}", kAsShell, cycle));
+  EXPECT_THAT(by_entry, HasSubstr("[E646]"));
+  EXPECT_THAT(by_entry, HasSubstr("study.yaml:8:23"));
+  const std::string coupling = "coupling:\n  ";
+  EXPECT_THAT(test::warnings_of(cycle + coupling + "regions: [{name: core, shape: sphere, radius: 10 um, as: shell}]\n"),
+              HasSubstr("[E646]"));
+  EXPECT_THAT(test::warnings_of(cycle + coupling + "triggers: [{promote: pressure > 1 kPa, demote: pressure < 500 Pa}]\n"),
+              HasSubstr("[E646]"));
+  EXPECT_THAT(test::warnings_of(test::changed("radius: 6 um", "radius: 6 um\n    body: shell", cycle)), HasSubstr("[E646]"));
+}
+
+TEST(Bodies, ShellsThatOnlyGrowAreNotWarnedOf) {
+  const std::string grows = test::changed("radius: 40 um}", "radius: 40 um, as: shell, age: birth}", with("cycle: {duration: 18 h}"));
+  EXPECT_THAT(test::warnings_of(grows), Not(HasSubstr("E646")));
+  EXPECT_THAT(test::warnings_of(test::changed("10 h", "20 h", grows)), HasSubstr("E646"));
+}
+
+/// cbm.md §2, reference pair: R 5 µm, E 450 Pa, ν 0.4, W 0.1 nN/µm: a_0 = 3.207104, δ_0 = 1.371402 µm.
+TEST(Bodies, ARestingContactIsThatOfTheReferencePair) {
+  const cbm::SphereParameters sphere{.young = 0.45, .poisson = 0.4};
+  const cbm::RestingContact rest = cbm::resting_contact(sphere, 5.0, sphere, 5.0, 0.1);
+  EXPECT_NEAR(rest.radius_ratio, 3.207104 / 5.0, 1e-7);
+  EXPECT_NEAR(rest.overlap_ratio, 1.371402 / 10.0, 1e-7);
+  EXPECT_NEAR(rest.covered, 12.0 * 32.31290 / (4.0 * std::numbers::pi * 25.0), 1e-6);
+  const cbm::RestingContact unequal = cbm::resting_contact({.young = 0.45, .poisson = 0.4}, 5.0, {.young = 1.0, .poisson = 0.3}, 6.5, 0.05);
+  EXPECT_NEAR(unequal.radius_ratio, 2.502701533 / 5.0, 1e-9);
+  EXPECT_NEAR(unequal.overlap_ratio, 0.738773560 / 11.5, 1e-9);
+}
+
+TEST(Bodies, DefaultsLieWithinTheRangeOfJkr) {
+  EXPECT_EQ(test::warnings_of(kStudy), "");
+  const CellType type = test::read(kStudy)->model.types[0];
+  const cbm::RestingContact rest = cbm::resting_contact(type.sphere, 6.0, type.sphere, 6.0, test::read(kStudy)->model.pair(0, 0).adhesion);
+  EXPECT_NEAR(rest.radius_ratio, 0.40, 0.005);
+  EXPECT_LT(rest.overlap_ratio, 0.06);
+  EXPECT_LT(rest.covered, 0.5);
+  EXPECT_NEAR(type.sphere.young / (3.0 * (1.0 - 2.0 * type.sphere.poisson)), type.shell.bulk_modulus, 1e-12) << "one material";
+}
+
+/// The default of before: a_0/R = 0.604, 12.1 % of overlap, 3·0.604² = 1.09 of the surface.
+TEST(Bodies, AdhesionBeyondJkrIsToldWithItsNumbers) {
+  const std::string soft = test::warnings_of(with("cbm: {young: 450 Pa}"));
+  EXPECT_THAT(soft, HasSubstr("[E647]"));
+  EXPECT_THAT(soft, HasSubstr("study.yaml:8:18"));
+  EXPECT_THAT(soft, HasSubstr("0.6 R"));
+  EXPECT_THAT(soft, HasSubstr("12 %"));
+  EXPECT_THAT(soft, HasSubstr("109 %"));
+  EXPECT_THAT(soft, HasSubstr("1.6 kPa"));
+  EXPECT_THAT(test::warnings_of(with("cbm: {young: 1.6 kPa}")), Not(HasSubstr("E647"))) << "what the help says helps";
+  EXPECT_THAT(test::warnings_of(with("adhesion: {cell: 2e-4 J/m^2}")), HasSubstr("[E647]"));
+  EXPECT_THAT(test::warnings_of(with("cbm: {young: 450 Pa, law: hertz}")), Not(HasSubstr("E647")));
+  EXPECT_THAT(test::warnings_of(test::changed("radius: 40 um}", kAsShell, with("cbm: {young: 450 Pa}"))), Not(HasSubstr("E647")));
+}
+
+/// Two spheres that are put where they rest: by default a contact of 0.40 R, with 450 Pa one of 0.60 R.
+TEST(Bodies, ARunTellsItsContactsBeyondTheRange) {
+  const test::Folder folder;
+  for (const auto& [young, distance, beyond] : {std::tuple{"1.5 kPa", "11.35", 0.0}, {"450 Pa", "10.54", 1.0}}) {
+    const std::string at = std::string("at: [[0 um, 0 um, 0 um], [") + distance + " um, 0 um, 0 um]]}";
+    const std::string text = test::changed("count: 10, fill: sphere, radius: 40 um}", at, with(std::string("cbm: {young: ") + young + "}"));
+    const auto study = test::read(test::changed("{end: 10 h}", "{end: 10 min, output: 5 min}", text) + "output: {report: false}\n");
+    ASSERT_TRUE(study.ok()) << study.error().text();
+    RunRequest request;
+    request.out = folder.path() / distance;
+    request.command = "a test";
+    const auto done = run(*study, request, Comm());
+    ASSERT_TRUE(done.ok()) << done.error().message;
+    EXPECT_EQ(read_series(request.out / "series.csv")->find("contacts_beyond_range")->values.back(), beyond) << young;
+  }
+}
+
+TEST(Bodies, MethodsTellHowFarAStudyIsWithinJkr) {
+  const auto study = test::read(kStudy);
+  ASSERT_TRUE(study.ok());
+  const std::vector<UsedLaw> laws = used_laws(*study);
+  const auto found = std::ranges::find(laws, std::string("jkr_range"), [](const UsedLaw& use) { return use.law.name; });
+  ASSERT_NE(found, laws.end());
+  for (const LawParameter& parameter : found->law.parameters) EXPECT_NE(used_value(*found, parameter), "not set") << parameter.name;
+}
+
+}  // namespace
+}  // namespace morula::scenarios
