@@ -180,7 +180,8 @@ Error usage_error(const CLI::App& program, const std::vector<std::string>& argum
 
 std::string version_text() {
   const scenarios::BuildInfo build = scenarios::build_info();
-  return "morula " + build.version + " (" + build.git_hash + ", " + build.compiler + ", " + build.build_type + ")\n";
+  return "morula " + build.version + " (" + build.git_hash + ", " + build.compiler + ", " + build.build_type + ")\n" +
+         "licence: " + build.licence + "\n";
 }
 
 /// What `check` was given has KEY=VALUE among its studies: what has a '=' and is no file.

@@ -80,7 +80,8 @@ Finding writing() {
 Status doctor(const DoctorOptions& options, const Context& context) {
   const scenarios::BuildInfo build = scenarios::build_info();
   std::vector<Finding> findings{
-      {"morula", build.version + " (" + build.git_hash + "), " + build.compiler + ", " + build.build_type, true, ""}};
+      {"morula", build.version + " (" + build.git_hash + "), " + build.compiler + ", " + build.build_type, true, ""},
+      {"licence", build.licence, true, ""}};
   for (Finding& finding : std::vector<Finding>{mpi(context.comm), hdf5(), threads(), memory(), disk(), writing()})
     findings.push_back(std::move(finding));
 

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/mesh/remesh.h"
+
 // MORULA_VERSION, MORULA_GIT_HASH and MORULA_BUILD_TYPE are given to this file alone, so that a new commit compiles one file.
 
 namespace morula::scenarios {
@@ -26,6 +28,8 @@ BuildInfo build_info() {
   info.compiler = "g++ " __VERSION__;
 #endif
   info.build_type = MORULA_BUILD_TYPE;
+  info.licence = has_remesher() ? "GPL-3.0-or-later as a whole (source: BSD-3-Clause; linked with CGAL's mesh processing)"
+                                : "BSD-3-Clause (built without code under the GPL: cells from files cannot be remeshed)";
   unsigned major = 0, minor = 0, release = 0;
   H5get_libversion(&major, &minor, &release);
   info.libraries.emplace_back("hdf5", dotted(major, minor, release));

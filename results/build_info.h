@@ -11,6 +11,7 @@ struct BuildInfo {
   std::string git_hash;                                        ///< commit at configuration, or `unknown`
   std::string compiler;                                        ///< name and version
   std::string build_type;                                      ///< as given to CMake, with the target processor
+  std::string licence;                                         ///< of the program as it was linked, for people
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version in use
 };
 

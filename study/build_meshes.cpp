@@ -3,6 +3,7 @@
 
 #include "core/mesh/closest_point.h"
 #include "core/mesh/mesh_check.h"
+#include "core/mesh/remesh.h"
 #include "core/mesh/surface_bytes.h"
 #include "core/mesh/surface_overlap.h"
 #include "core/mesh/topology.h"
@@ -68,6 +69,10 @@ void MeshesBuilder::refuse_contradictions() {
   for (std::string* text : {&entry_.start_volume.text, &entry_.inflate.text, &entry_.shape.text, &entry_.orientation.text}) text->clear();
   if (d_.nodes.value > 0 && d_.edge.given)
     error(111, d_.edge.place, "'edge' and 'nodes' both say how fine the cells are", "leave one of them away");
+  if (!has_remesher() && (d_.nodes.value > 0 || d_.edge.given))
+    error(691, d_.edge.given ? d_.edge.place : d_.nodes.place,
+          "this program cannot remesh cells: it was built without CGAL's mesh processing, which is under the GPL",
+          "leave the key away (the nodes of the file are kept), or build with MORULA_WITH_GPL=ON");
   if (d_.cell_is.given && d_.id_array.given)
     error(111, d_.cell_is.place, "'cell_is' and 'id_array' both say what one cell is", "leave one of them away");
   if (d_.pressure_array.given != d_.pressure_unit.given)

@@ -213,6 +213,9 @@ constexpr ErrorCode kCodes[] = {
      "A study holds at most 200,000 keys, values and lists, enough for the places of 50,000 cells. What is beyond is not read: the other "
      "messages "
      "are about what comes before."},
+    {691, "what this build of the program lacks",
+     "Remeshing uses CGAL's mesh processing, which is under GPL-3-or-later, and with it the program as a whole. A build with "
+     "MORULA_WITH_GPL=OFF leaves it out; cells from files keep their nodes then."},
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The one file that includes CGAL's mesh processing: its headers take long to compile.
+// The one file that includes CGAL's mesh processing: its headers take long to compile, and are under GPL-3-or-later. A build without them has
+// no_remeshing.cpp in its place.
 #include "core/mesh/isotropic_remeshing.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -6,6 +7,8 @@
 #include <CGAL/Surface_mesh.h>
 
 namespace morula {
+
+bool has_isotropic_remeshing() { return true; }
 
 std::optional<TriangleMesh> isotropic_remeshing(const TriangleMesh& mesh, double edge, int iterations) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;

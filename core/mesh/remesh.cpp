@@ -97,7 +97,12 @@ void restore_volume(TriangleMesh& mesh, double volume) {
   for (Vec3d& p : mesh.position) p = center + (p - center) * scale;
 }
 
+bool has_remesher() { return has_isotropic_remeshing(); }
+
 Result<Remeshed> remesh_surface(const TriangleMesh& mesh, const RemeshTarget& target) {
+  if (!has_remesher())
+    return Error{ErrorKind::kInput, "it cannot be remeshed: this program was built without CGAL's mesh processing, which is under the GPL",
+                 "keep the nodes of the file, or build with MORULA_WITH_GPL=ON"};
   const auto closed = Topology::build(static_cast<std::uint32_t>(mesh.position.size()), mesh.faces);
   if (!closed.ok()) return Error{ErrorKind::kInput, "it cannot be remeshed: " + closed.error().message, closed.error().help};
   const double volume = volume_of(mesh);

@@ -19,12 +19,15 @@ struct Remeshed {
   double volume_error = 0.0;  ///< relative change of the volume by the new triangles, before it was given back
 };
 
+/// Whether this build can remesh: the remesher is under GPL-3-or-later, and a build may leave it out (MORULA_WITH_GPL).
+bool has_remesher();
+
 /// The same closed surface with even triangles of the wanted size: edges are split, drawn together and turned, nodes are evened out and put back onto the
 /// given surface (isotropic remeshing: Botsch & Kobbelt 2004, doi:10.1145/1057432.1057457; CGAL's Polygon Mesh Processing). Triangles cut off
 /// what the surface bulges between their nodes: restore_volume() gives the volume back to 10⁻¹². With a wanted number of nodes the edge is tried
 /// anew until the number is met within 2 %, or six times. The same result for the same mesh, whatever else runs.
 ///
-/// Errors (kInput): the surface is not closed, the result would be (a part of) a surface that touches itself, or its volume changes by more than
+/// Errors (kInput): the build has no remesher, the surface is not closed, the result would be (a part of) a surface that touches itself, or its volume changes by more than
 /// 10 % before it is given back: the triangles are too large for this surface.
 Result<Remeshed> remesh_surface(const TriangleMesh& mesh, const RemeshTarget& target);
 

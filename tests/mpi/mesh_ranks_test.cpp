@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "core/mesh/remesh.h"
 #include "scenarios/run/driver.h"
 #include "tests/results/results_support.h"
 #include "tests/study/mesh_files.h"
@@ -63,6 +64,7 @@ RunSummary expect_run(const Study& study, const std::filesystem::path& out, cons
 }
 
 TEST(MeshesOnRanks, EndInTheBitsOfOneRankAndResumeOnAnotherNumber) {
+  if (!has_remesher()) GTEST_SKIP() << "this build has no remesher (MORULA_WITH_GPL)";
   const Comm all(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
   const Folder folder(all);
   if (all.is_root()) std::ofstream(folder / "cells.vtk") << cells_file();

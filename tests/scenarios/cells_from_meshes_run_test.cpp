@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "core/mesh/remesh.h"
 #include "results/export.h"
 #include "results/snapshot_file.h"
 #include "scenarios/run/driver.h"
@@ -15,6 +16,7 @@ namespace morula::scenarios {
 namespace {
 
 TEST(RunOfCellsFromMeshes, WritesTheSurfacesOfAllTopologies) {
+  if (!has_remesher()) GTEST_SKIP() << "this build has no remesher (MORULA_WITH_GPL)";
   const test::Folder folder;
   folder.write("a.vtk", test::as_vtk({test::ball(6.0, {-6.0, 0, 0}, 3), test::ball(5.0, {5.0, 0, 0}, 2)}));
   std::string text = test::mesh_study("file: a.vtk, scale: 1 um, nodes: 100");

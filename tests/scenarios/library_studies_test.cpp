@@ -4,6 +4,7 @@
 #include <map>
 #include <numbers>
 
+#include "core/mesh/remesh.h"
 #include "scenarios/library/criteria.h"
 #include "scenarios/library/library.h"
 #include "scenarios/run/driver.h"
@@ -76,6 +77,7 @@ bool may_warn(const std::string& name, const std::string& file, const std::strin
 
 TEST(LibraryStudies, PassTheCheckerWithoutAWarningThatIsNotAboutThem) {
   for (const Template& one : templates()) {
+    if (!has_remesher() && one.name == "embryo") continue;  // its cells are remeshed
     const NewStudy made{std::string(one.name)};
     int readme = 0;
     for (const TemplateFile& file : one.files) {

@@ -15,12 +15,16 @@ using testing::StartsWith;
 
 const char* const kVerbs[] = {"new", "check", "run", "resume", "status", "list", "info", "explain", "plot", "export", "verify", "doctor"};
 
-TEST(CommandLine, VersionIsOneLineOnStandardOutput) {
+TEST(CommandLine, VersionIsOneLineAndTheLicenceAnotherOnStandardOutput) {
   const TestFolder folder;
   const Outcome outcome = run_morula({"--version"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
   EXPECT_THAT(outcome.out, StartsWith("morula 0."));
-  EXPECT_EQ(outcome.out.find('\n'), outcome.out.size() - 1);
+  const std::size_t end = outcome.out.find('\n');
+  EXPECT_EQ(outcome.out.find('\n', end + 1), outcome.out.size() - 1);
+  const char* const licence =
+      kCanRemesh ? "licence: GPL-3.0-or-later as a whole (source: BSD-3-Clause;" : "licence: BSD-3-Clause (built without";
+  EXPECT_THAT(outcome.out.substr(end + 1), StartsWith(licence));
   EXPECT_EQ(outcome.err, "");
 }
 

@@ -12,6 +12,7 @@ namespace {
 class EmbryoInFull : public testing::Test {
  protected:
   void SetUp() override {
+    if (!kCanRemesh) GTEST_SKIP() << "the program has no remesher (MORULA_WITH_GPL)";
     ASSERT_EQ(run_morula({"new", "embryo", "study"}, folder_.path()).exit_code, 0);
     options_.timeout = std::chrono::seconds(1700);
   }

@@ -9,6 +9,9 @@
 
 namespace morula::test {
 
+/// Whether the program can remesh cells: a build with MORULA_WITH_GPL=OFF cannot.
+inline constexpr bool kCanRemesh = MORULA_CAN_REMESH;
+
 /// A folder of this test alone, removed at its end.
 class TestFolder {
  public:

@@ -135,6 +135,7 @@ TEST(SurfaceOverlaps, NameTheDeepestNodeOfEachPair) {
 }
 
 TEST(Remeshing, MeetsTheNumberOfNodesAndKeepsTheVolume) {
+  if (!has_remesher()) GTEST_SKIP() << "this build has no remesher (MORULA_WITH_GPL)";
   const TriangleMesh mesh = ball(6.0, {10, -3, 2}, 3);
   const auto made = remesh_surface(mesh, {300, 0.0});
   ASSERT_TRUE(made.ok()) << made.error().message;
@@ -148,6 +149,7 @@ TEST(Remeshing, MeetsTheNumberOfNodesAndKeepsTheVolume) {
 }
 
 TEST(Remeshing, MeetsTheEdgeAndIsTheSameEveryTime) {
+  if (!has_remesher()) GTEST_SKIP() << "this build has no remesher (MORULA_WITH_GPL)";
   const TriangleMesh mesh = ball(6.0, {}, 3);
   const auto a = remesh_surface(mesh, {0, 1.5}), b = remesh_surface(mesh, {0, 1.5});
   ASSERT_TRUE(a.ok() && b.ok());
@@ -157,6 +159,7 @@ TEST(Remeshing, MeetsTheEdgeAndIsTheSameEveryTime) {
 }
 
 TEST(Remeshing, KeepsFlatSidesFlatWhenItGivesTheVolumeBack) {
+  if (!has_remesher()) GTEST_SKIP() << "this build has no remesher (MORULA_WITH_GPL)";
   const TriangleMesh box = *make_box({8, 8, 8}, 1.0);
   const auto made = remesh_surface(box, {0, 1.3});
   ASSERT_TRUE(made.ok()) << made.error().message;
@@ -168,6 +171,15 @@ TEST(Remeshing, KeepsFlatSidesFlatWhenItGivesTheVolumeBack) {
     EXPECT_NEAR(p.z, 4.0, 0.1);
   }
   EXPECT_GE(middle, 5u);
+}
+
+TEST(Remeshing, SaysWhyWhereTheBuildLacksIt) {
+  const auto made = remesh_surface(ball(6.0), {0, 1.5});
+  EXPECT_EQ(made.ok(), has_remesher());
+  if (!made.ok()) {
+    EXPECT_THAT(made.error().message, testing::HasSubstr("built without CGAL's mesh processing"));
+    EXPECT_EQ(made.error().kind, ErrorKind::kInput);
+  }
 }
 
 TEST(Remeshing, RefusesTrianglesThatAreTooLargeAndOpenSurfaces) {
