@@ -1,21 +1,24 @@
-# Compiler options that hold for every target of the project.
+# Compiler options of Morula's own targets: morula_options(<target>) gives them to one. Nothing here holds for other projects, neither for one that
+# Morula is a part of nor for one that uses an installed Morula.
 #
 # -ffp-contract=off        the same bits from every loop shape: no fused multiply-add behind our back
 # -fno-math-errno          sqrt becomes one instruction (results unchanged)
 # -fno-trapping-math       comparisons may be vectorised (results unchanged)
 # -ffast-math is never used: it changes results.
-add_compile_options(-Wall -Wextra -Wshadow -Werror -ffp-contract=off -fno-math-errno -fno-trapping-math)
+set(MORULA_COMPILE_OPTIONS -Wall -Wextra -Wshadow -Werror -ffp-contract=off -fno-math-errno -fno-trapping-math)
 # GCC 12 sees overlapping copies in std::string operations that have none (gcc.gnu.org/PR105329, PR105651).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  add_compile_options(-Wno-restrict)
+  list(APPEND MORULA_COMPILE_OPTIONS -Wno-restrict)
 endif()
-set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Kind of build" FORCE)
+endif()
 
-# The deprecated C++ bindings of MPI are not wanted (their headers do not compile without warnings).
-add_compile_definitions(OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
-
+# Options for the processor: what includes headers with lanes and is linked with Morula must be compiled with the same ones, for how lanes are passed
+# depends on them. The package tells them (target morula::processor).
+set(MORULA_PROCESSOR_OPTIONS "")
 if(MORULA_NATIVE)
-  add_compile_options(-march=native)
+  list(APPEND MORULA_PROCESSOR_OPTIONS -march=native)
   include(CheckCXXSourceRuns)
   set(CMAKE_REQUIRED_FLAGS -march=native)
   check_cxx_source_runs("
@@ -25,26 +28,42 @@ if(MORULA_NATIVE)
     int main() { return 0; }" MORULA_HAS_AVX512)
   unset(CMAKE_REQUIRED_FLAGS)
   if(MORULA_HAS_AVX512)
-    add_compile_options(-mprefer-vector-width=512)
+    list(APPEND MORULA_PROCESSOR_OPTIONS -mprefer-vector-width=512)
   endif()
 endif()
+list(APPEND MORULA_COMPILE_OPTIONS ${MORULA_PROCESSOR_OPTIONS})
+add_library(morula_processor INTERFACE)
+add_library(morula::processor ALIAS morula_processor)
+set_target_properties(morula_processor PROPERTIES EXPORT_NAME processor)
+target_compile_options(morula_processor INTERFACE ${MORULA_PROCESSOR_OPTIONS} -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT MORULA_HAS_AVX512)
   # Lanes may be wider than the registers; how such vectors are passed matters only between differently compiled programs. And without wide
   # registers GCC 12 sees copies of 32 bytes into what is left of an array.
-  add_compile_options(-Wno-psabi -Wno-stringop-overflow)
+  list(APPEND MORULA_COMPILE_OPTIONS -Wno-psabi -Wno-stringop-overflow)
 endif()
 
+set(MORULA_LINK_OPTIONS "")
 if(MORULA_SANITIZE)
-  add_compile_options(-fsanitize=${MORULA_SANITIZE} -fno-omit-frame-pointer -UNDEBUG)
+  list(APPEND MORULA_COMPILE_OPTIONS -fsanitize=${MORULA_SANITIZE} -fno-omit-frame-pointer -UNDEBUG)
   # With its checks in between, GCC 12 loses sight of how long the arrays of a lane are, and of what a loop has set.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    add_compile_options(-Wno-stringop-overflow -Wno-array-bounds -Wno-maybe-uninitialized)
+    list(APPEND MORULA_COMPILE_OPTIONS -Wno-stringop-overflow -Wno-array-bounds -Wno-maybe-uninitialized)
   endif()
-  add_link_options(-fsanitize=${MORULA_SANITIZE})
+  list(APPEND MORULA_LINK_OPTIONS -fsanitize=${MORULA_SANITIZE})
 endif()
 
 find_program(CCACHE_PROGRAM ccache)
-if(CCACHE_PROGRAM)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
-  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
-endif()
+
+# The deprecated C++ bindings of MPI are not wanted (their headers do not compile without warnings).
+function(morula_options target)
+  set_target_properties(${target} PROPERTIES CXX_STANDARD 20 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF)
+  if(MORULA_POSITION_INDEPENDENT)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  endif()
+  target_compile_options(${target} PRIVATE ${MORULA_COMPILE_OPTIONS})
+  target_link_options(${target} PRIVATE ${MORULA_LINK_OPTIONS})
+  target_compile_definitions(${target} PRIVATE OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+  if(CCACHE_PROGRAM)
+    set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM} C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  endif()
+endfunction()
