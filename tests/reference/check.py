@@ -4,6 +4,7 @@
 - The rows of `morula verify physics` whose source says that the number was computed independently, integrated or written apart: each must have a value
   here, under the name "id | quantity".
 - The numbers of numbers.txt: each must stand in its file as it is written there, and have a value here.
+- The tables of theory that library studies are judged by (theory.TABLES), column by column.
 A number agrees that differs by no more than one unit of its last digit; a row of the program, besides, by no more than the row's tolerance.
 A file that says "computed independently" and is in neither list fails, too.
 
@@ -92,6 +93,22 @@ def compare_listed(rows, values, faults):
             faults.append(f"{name}: {text} in {file}, recomputed {values[name]!r}")
 
 
+def compare_tables(faults):
+    """How many numbers were compared."""
+    count = 0
+    for file, row_of in theory.TABLES.items():
+        names, *rows = [line.split(",") for line in text_of(file).split()]
+        for row in rows:
+            values = row_of(float(row[0]))
+            for name, text in zip(names[1:], row[1:]):
+                count += 1
+                if name not in values:
+                    faults.append(f"nobody recomputes {name} of {file}")
+                elif not abs(values[name] - number(text)) <= last_unit(text):
+                    faults.append(f"{file}, row {row[0]}: {name} is {text}, recomputed {values[name]!r}")
+    return count
+
+
 def unlisted(files):
     """Sources that say of a number that it was computed apart, and are not in numbers.txt."""
     out = []
@@ -114,10 +131,11 @@ def main():
     faults = []
     compare_rows(rows, values, faults)
     compare_listed(table, values, faults)
+    in_tables = compare_tables(faults)
     faults += [f"{file} speaks of numbers computed independently and is not in numbers.txt" for file in unlisted({file for file, _, _ in table})]
     for fault in faults:
         print(fault, file=sys.stderr)
-    print(f"{len(rows)} numbers of the program and {len(table)} of tests and pages recomputed: {len(faults)} differ or are missing")
+    print(f"{len(rows)} numbers of the program and {len(table)} of tests and pages, {in_tables} of tables recomputed: {len(faults)} differ or are missing")
     return 1 if faults else 0
 
 

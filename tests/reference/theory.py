@@ -76,6 +76,25 @@ def cap(adhesion):
     return math.degrees(math.acos(cosine)), radius, math.sqrt(contact / PI), radius * (1.0 + cosine), contact / (4.0 * PI), 1.0 / radius
 
 
+def doublet_row(ratio):
+    """By column of scenarios/library/doublet/doublet_equilibrium.csv; ratio: W/T."""
+    angle, radius, contact_radius, height, contact, pressure = cap(0.5 * ratio)
+    free = 0.5 * radius * height  # 2 pi R h over 4 pi
+    return {"contact_angle_deg": angle, "cap_radius_over_R0": radius, "contact_radius_over_R0": contact_radius, "doublet_length_over_R0": 2.0 * height,
+            "doublet_width_over_R0": 2.0 * radius, "contact_fraction_of_cell_surface": contact / (contact + free),
+            "pressure_times_R0_over_T": 2.0 * pressure}
+
+
+def spreading_row(ratio):
+    """By column of scenarios/library/spreading/spreading_equilibrium.csv, whose angle is measured through the cell."""
+    angle, radius, contact_radius, height, contact, pressure = cap(ratio)
+    return {"contact_angle_deg": 180.0 - angle, "cap_radius_over_R0": radius, "contact_radius_over_R0": contact_radius, "height_over_R0": height,
+            "contact_area_over_initial_surface": contact, "pressure_times_R0_over_T": 2.0 * pressure}
+
+
+TABLES = {"scenarios/library/doublet/doublet_equilibrium.csv": doublet_row, "scenarios/library/spreading/spreading_equilibrium.csv": spreading_row}
+
+
 def philox(counter, key):
     """Philox4x32-10 of Salmon et al. 2011 in integers of any size."""
     c, k = list(counter), list(key)
