@@ -27,11 +27,10 @@ const Law kLaws[] = {
      {0.029035, 0.052855},
      5e-7,
      [](double G, double l) { return G * (1.0 - std::pow(l, -6.0)); }},
-    // the page gives 0.255124 at λ = 1.3, its formula 0.2551206
     {"skalak",
      &ShellParameters::skalak_shear,
-     {0.051437, 0.255124},
-     4e-6,
+     {0.051437, 0.255121},
+     5e-7,
      [](double G, double l) { return G * ((l * l - 1.0) + l * l * (std::pow(l, 4.0) - 1.0)); }},
     {"stvk", &ShellParameters::stvk_shear, {0.0420, 0.1380}, 5e-5, [](double G, double l) { return 3.0 * G * (l * l - 1.0); }}};
 
