@@ -125,12 +125,7 @@ struct Figures {
 
 /// Bytes of the state itself.
 std::size_t state_bytes(const Tissue& tissue) {
-  const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  const auto& s = tissue.spheres;
-  const auto& h = tissue.shells;
-  return tissue.cells.memory() + bytes(s.position) + bytes(s.radius) + bytes(s.type) + bytes(s.velocity) + s.attached.memory() +
-         bytes(h.position) + bytes(h.velocity) + bytes(h.rest_length) + bytes(h.shape) + bytes(h.type) + bytes(h.reference_volume) +
-         bytes(h.rest_volume) + bytes(h.first_node) + bytes(h.first_edge);
+  return tissue.cells.memory() + cbm::memory_of(tissue.spheres) + dcm::memory_of(tissue.shells);
 }
 
 /// A line of /proc/self/status in kB: VmRSS (resident now) or VmHWM (most so far); 0 where there is no such file.

@@ -4,6 +4,7 @@
 
 #include "cbm/packing.h"
 #include "cbm/partners.h"
+#include "core/column.h"
 #include "core/vec3.h"
 
 namespace morula::cbm {
@@ -19,6 +20,88 @@ struct Spheres {
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };
+
+/// One sphere by itself: what a cell carries along when it divides, changes its body or moves to another rank.
+struct SphereRecord {
+  Vec3d position{};
+  double radius = 0.0;
+  Vec3f velocity{};
+  Partners attached{};
+  std::uint16_t type = 0;  ///< that of its cell, which gives it
+};
+
+// --- Columns: what a sphere has, declared once; records, messages between ranks, checkpoint, state hash and memory walk them. As in dcm/shells.h.
+
+/// One value of each sphere.
+template <class T>
+struct ColumnOfSpheres {
+  using Value = T;
+  static constexpr Fill kFill = Fill::kAll;
+  const char* name;
+  const char* unit;
+  std::vector<T> Spheres::*all;
+  T SphereRecord::*one;
+
+  [[nodiscard]] std::span<const T> values(const Spheres& spheres, std::size_t i) const { return {&(spheres.*all)[i], 1}; }
+  [[nodiscard]] std::span<const T> values(const SphereRecord& sphere) const { return {&(sphere.*one), 1}; }
+  void append(Spheres& spheres, std::span<const T> values) const { (spheres.*all).push_back(values[0]); }
+  void append(Spheres& spheres, const Spheres& from, std::size_t first, std::size_t last) const {
+    const std::span<const T> values = std::span(from.*all).subspan(first, last - first);
+    (spheres.*all).insert((spheres.*all).end(), values.begin(), values.end());
+  }
+  void give(SphereRecord& sphere, std::span<const T> values) const { sphere.*one = values[0]; }
+  void reserve(Spheres& spheres, std::size_t count) const { (spheres.*all).reserve(count); }
+  [[nodiscard]] std::size_t memory(const Spheres& spheres) const { return (spheres.*all).capacity() * sizeof(T); }
+};
+
+/// The cells to which each sphere adheres.
+struct ColumnOfPartners {
+  using Value = CellId;
+  static constexpr Fill kFill = Fill::kAny;
+  const char* name;
+  const char* unit;
+
+  [[nodiscard]] static std::span<const CellId> values(const Spheres& spheres, std::size_t i) { return spheres.attached[i]; }
+  [[nodiscard]] static std::span<const CellId> values(const SphereRecord& sphere) { return sphere.attached; }
+  static void append(Spheres& spheres, std::span<const CellId> values) { spheres.attached.push_back(values); }
+  static void append(Spheres& spheres, const Spheres& from, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) spheres.attached.push_back(from.attached[i]);
+  }
+  static void give(SphereRecord& sphere, std::span<const CellId> values) { sphere.attached.assign(values.begin(), values.end()); }
+  static void reserve(Spheres& spheres, std::size_t count) { spheres.attached.reserve(count, 0); }
+  [[nodiscard]] static std::size_t memory(const Spheres& spheres) { return spheres.attached.memory(); }
+};
+
+/// visit(column) for all columns of spheres, in the order of the state hash.
+template <class Visit>
+void for_each_sphere_column(Visit&& visit) {
+  visit(ColumnOfSpheres<Vec3d>{"position", "um", &Spheres::position, &SphereRecord::position});
+  visit(ColumnOfSpheres<double>{"radius", "um", &Spheres::radius, &SphereRecord::radius});
+  visit(ColumnOfSpheres<std::uint16_t>{"type", "1", &Spheres::type, &SphereRecord::type});
+  visit(ColumnOfSpheres<Vec3f>{"velocity", "um/s", &Spheres::velocity, &SphereRecord::velocity});
+  visit(ColumnOfPartners{"attached", "1"});
+}
+
+/// Sphere i by itself.
+inline SphereRecord sphere_out_of(const Spheres& spheres, std::size_t i) {
+  SphereRecord out;
+  for_each_sphere_column([&](const auto& column) { column.give(out, column.values(spheres, i)); });
+  return out;
+}
+/// Adds a sphere behind the others.
+inline void add_sphere(Spheres& spheres, const SphereRecord& sphere) {
+  for_each_sphere_column([&](const auto& column) { column.append(spheres, column.values(sphere)); });
+}
+/// Adds the spheres first, …, last − 1 of `from` behind the others.
+inline void add_spheres(Spheres& spheres, const Spheres& from, std::size_t first, std::size_t last) {
+  for_each_sphere_column([&](const auto& column) { column.append(spheres, from, first, last); });
+}
+/// Bytes of all columns.
+inline std::size_t memory_of(const Spheres& spheres) {
+  std::size_t bytes = 0;
+  for_each_sphere_column([&](const auto& column) { bytes += column.memory(spheres); });
+  return bytes;
+}
 
 /// Elastic parameters of a sphere, for the contact laws.
 struct SphereParameters {

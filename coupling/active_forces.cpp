@@ -64,13 +64,12 @@ std::vector<char> nodes_in_touch(const Model& model, const Tissue& tissue, Mecha
 std::vector<Vec3d> Simulation::forces_on_cells(double time) {
   const auto touch = touches_of_protrusions(model_, tissue_, *mechanics_);
   std::vector<Vec3d> shells, spheres;
-  std::size_t shell = 0, sphere = tissue_.shells.size();
   const SideColumns& side = tissue_.cells.side;
-  for (std::size_t i = 0; i < tissue_.cells.size(); ++i) {
+  for (const BodyOfRow& owned : bodies_of(tissue_.cells)) {
+    const std::size_t i = owned.row, body = owned.place(tissue_.shells.size());
+    const bool is_shell = owned.is_shell;
     const CellRow& row = tissue_.cells.rows[i];
     const CellType& type = model_.types[row.type];
-    const bool is_shell = row.body == BodyKind::kShell;
-    const std::size_t body = is_shell ? shell++ : sphere++;
     Vec3d force = body_force(model_, row.type, time);
     if (!is_shell && type.protrusion.force > 0.0 && !type.protrusion.internal) {  // a sphere has no front: the force is that of the whole
       Vec3d push = side.polarity[i] * type.protrusion.force;
@@ -93,11 +92,9 @@ void Simulation::add_crawling(std::span<Vec3d> external) {
     return walks(type) ? std::optional(type.migration_substrate) : std::nullopt;
   });
   std::vector<Vec3d> velocity(tissue_.cells.size());
-  std::size_t shell = 0, sphere = tissue_.shells.size();
-  for (std::size_t i = 0; i < tissue_.cells.size(); ++i) {
-    const CellRow& row = tissue_.cells.rows[i];
-    const CellType& type = model_.types[row.type];
-    const std::size_t body = row.body == BodyKind::kShell ? shell++ : sphere++;
+  for (const BodyOfRow& owned : bodies_of(tissue_.cells)) {
+    const std::size_t i = owned.row, body = owned.place(tissue_.shells.size());
+    const CellType& type = model_.types[tissue_.cells.rows[i].type];
     if (!walks(type)) continue;
     const auto found = touch.find(type.migration_substrate);
     const Touch on = found != touch.end() ? found->second[body] : Touch{};
@@ -114,11 +111,9 @@ void Simulation::add_protrusions(std::span<Vec3d> external) {
   for (const CellType& type : model_.types)
     if (const int m = type.protrusion.substrate; active(type) && m >= 0 && !nodes.contains(m))
       nodes[m] = nodes_in_touch(model_, tissue_, *mechanics_, m);
-  std::size_t shell = 0;
-  for (std::size_t i = 0; i < tissue_.cells.size(); ++i) {
+  for (const auto [i, is_shell, s] : bodies_of(tissue_.cells)) {
     const CellRow& row = tissue_.cells.rows[i];
-    if (row.body == BodyKind::kSphere) continue;
-    const std::size_t s = shell++;
+    if (!is_shell) continue;
     const Protrusion& law = model_.types[row.type].protrusion;
     if (law.force == 0.0) continue;
     const std::uint32_t first = tissue_.shells.first_node[s], count = tissue_.shells.first_node[s + 1] - first;
@@ -150,17 +145,15 @@ std::vector<Vec3d> Simulation::external_forces(double time, double dt) {
 void Simulation::turn_polarities(std::uint64_t step, double dt) {
   SideColumn<Vec3d>& polarity = tissue_.cells.side.polarity;
   if (polarity.empty()) return;
-  std::size_t shell = 0, sphere = 0;
-  for (std::size_t i = 0; i < tissue_.cells.size(); ++i) {
+  for (const auto [i, is_shell, number] : bodies_of(tissue_.cells)) {
     const CellRow& row = tissue_.cells.rows[i];
     const CellType& type = model_.types[row.type];
     Vec3d velocity{};
-    if (row.body == BodyKind::kSphere) {
-      const Vec3f& v = tissue_.spheres.velocity[sphere++];
+    if (!is_shell) {
+      const Vec3f& v = tissue_.spheres.velocity[number];
       velocity = {v.x, v.y, v.z};
     } else {
-      const std::uint32_t first = tissue_.shells.first_node[shell], last = tissue_.shells.first_node[shell + 1];
-      ++shell;
+      const std::uint32_t first = tissue_.shells.first_node[number], last = tissue_.shells.first_node[number + 1];
       if (type.polarity.follow_velocity > 0.0)
         for (std::uint32_t n = first; n < last; ++n) {
           const Vec3f& v = tissue_.shells.velocity[n];

@@ -11,103 +11,125 @@
 namespace morula {
 namespace {
 
-/// What a shell and a nucleus that is one have alike.
-ShellRecord shell_out_of(const dcm::Shells& shells, std::size_t i) {
-  const auto nodes = [&](const auto& array) {
-    return std::vector(array.begin() + shells.first_node[i], array.begin() + shells.first_node[i + 1]);
-  };
-  return {shells.shape[i],
-          shells.reference_volume[i],
-          shells.rest_volume[i],
-          nodes(shells.position),
-          nodes(shells.velocity),
-          std::vector(shells.rest_length.begin() + shells.first_edge[i], shells.rest_length.begin() + shells.first_edge[i + 1]),
-          shells.faces_of(i)};
+/// A cell behind the others; its place in canonical order is the caller's.
+void add_cell(Tissue& tissue, CellRecord& cell) {
+  cell.row.body = cell.shell ? BodyKind::kShell : BodyKind::kSphere;
+  tissue.cells.push_back(cell.row);
+  if (cell.sphere) {
+    cell.sphere->type = cell.row.type;
+    cbm::add_sphere(tissue.spheres, *cell.sphere);
+    return;
+  }
+  cell.shell->type = cell.row.type;
+  dcm::add_shell(tissue.shells, *cell.shell);
+  if (!cell.shell->nuclear_shell) return;
+  cell.shell->nuclear_shell->type = cell.row.type;
+  dcm::add_shell(tissue.nuclei.shells, *cell.shell->nuclear_shell);
+  tissue.nuclei.owner.push_back(static_cast<std::uint32_t>(tissue.shells.size() - 1));
 }
 
-void put_into(dcm::Shells& shells, const ShellRecord& body, std::uint16_t type) {
-  shells.shape.push_back(body.shape);
-  shells.type.push_back(type);
-  shells.reference_volume.push_back(body.reference_volume);
-  shells.rest_volume.push_back(body.rest_volume);
-  shells.position.insert(shells.position.end(), body.position.begin(), body.position.end());
-  shells.velocity.insert(shells.velocity.end(), body.velocity.begin(), body.velocity.end());
-  shells.rest_length.insert(shells.rest_length.end(), body.rest_length.begin(), body.rest_length.end());
-  shells.first_node.push_back(static_cast<std::uint32_t>(shells.position.size()));
-  shells.first_edge.push_back(static_cast<std::uint32_t>(shells.rest_length.size()));
-  shells.nucleus.push_back(body.nucleus);
-  if (!body.face.empty()) shells.faces_of(shells.size() - 1) = body.face;
+/// The places of the cells in canonical order.
+std::vector<std::size_t> canonical_order(std::span<const CellRecord> cells) {
+  std::vector<std::size_t> sorted(cells.size());
+  std::iota(sorted.begin(), sorted.end(), std::size_t{0});
+  std::sort(sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) { return before(cells[a].row, cells[b].row); });
+  return sorted;
+}
+
+/// Cells and bodies of a tissue.
+struct Population {
+  Cells cells;
+  cbm::Spheres spheres;
+  dcm::Shells shells;
+  dcm::NuclearShells nuclei;
+};
+
+Population take_population(Tissue& tissue) {
+  return {std::exchange(tissue.cells, {}), std::exchange(tissue.spheres, {}), std::exchange(tissue.shells, {}),
+          std::exchange(tissue.nuclei, {})};
+}
+
+/// Where a stretch of rows begins: its row, and how many shells come before it.
+struct Place {
+  std::size_t row = 0, shells = 0;
+  [[nodiscard]] std::size_t spheres() const { return row - shells; }
+};
+
+/// The cells from `first` to before `last` behind those of the tissue.
+void add_stretch(Tissue& tissue, const Population& from, const Place& first, const Place& last) {
+  tissue.cells.add(from.cells, first.row, last.row);
+  cbm::add_spheres(tissue.spheres, from.spheres, first.spheres(), last.spheres());
+  const auto shift = static_cast<std::uint32_t>(tissue.shells.size());
+  dcm::add_shells(tissue.shells, from.shells, first.shells, last.shells);
+  const auto& owner = from.nuclei.owner;
+  const auto begin = std::lower_bound(owner.begin(), owner.end(), first.shells), end = std::lower_bound(begin, owner.end(), last.shells);
+  dcm::add_shells(tissue.nuclei.shells, from.nuclei.shells, static_cast<std::size_t>(begin - owner.begin()),
+                  static_cast<std::size_t>(end - owner.begin()));
+  for (auto at = begin; at != end; ++at) tissue.nuclei.owner.push_back(*at - static_cast<std::uint32_t>(first.shells) + shift);
 }
 
 }  // namespace
 
 Vec3d CellRecord::center() const { return sphere ? sphere->position : volume_centroid(shell->shape->topology->faces(), shell->position); }
 
+CellRecord record_of(const Tissue& tissue, const BodyOfRow& body) {
+  CellRecord out;
+  out.row = tissue.cells.full(body.row);
+  if (!body.is_shell) {
+    out.sphere = cbm::sphere_out_of(tissue.spheres, body.number);
+    return out;
+  }
+  out.shell = dcm::shell_out_of(tissue.shells, body.number);
+  if (const std::size_t n = tissue.nuclei.of_shell(body.number); n < tissue.nuclei.size())
+    out.shell->nuclear_shell = dcm::shell_out_of(tissue.nuclei.shells, n);
+  return out;
+}
+
 std::vector<CellRecord> take_apart(Tissue& tissue) {
   std::vector<CellRecord> out;
   out.reserve(tissue.cells.size());
-  auto& shells = tissue.shells;
-  auto& spheres = tissue.spheres;
-  std::size_t next_shell = 0, next_sphere = 0;
-  for (std::size_t k = 0; k < tissue.cells.size(); ++k) {
-    CellRecord& record = out.emplace_back();
-    record.row = tissue.cells.full(k);
-    const CellRow& row = record.row;
-    if (row.body == BodyKind::kShell) {
-      const std::size_t i = next_shell++;
-      record.shell = shell_out_of(std::as_const(shells), i);
-      if (const Vec3d* nucleus = shells.nucleus_of(i)) record.shell->nucleus = *nucleus;
-      if (const std::size_t n = tissue.nuclei.of_shell(i); n < tissue.nuclei.size())
-        record.shell->nuclear_shell = shell_out_of(std::as_const(tissue.nuclei.shells), n);
-    } else {
-      const std::size_t i = next_sphere++;
-      const auto partners = spheres.attached[i];
-      record.sphere =
-          SphereRecord{spheres.position[i], spheres.radius[i], spheres.velocity[i], cbm::Partners(partners.begin(), partners.end())};
-    }
-  }
-  tissue.cells = {};
-  tissue.shells = {};
-  tissue.nuclei = {};
-  tissue.spheres = {};
+  for (const BodyOfRow& body : bodies_of(tissue.cells)) out.push_back(record_of(tissue, body));
+  take_population(tissue);
   return out;
 }
 
 void put_together(Tissue& tissue, std::vector<CellRecord> cells) {
-  std::vector<std::size_t> sorted(cells.size());
-  std::iota(sorted.begin(), sorted.end(), std::size_t{0});
-  std::sort(sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) { return before(cells[a].row, cells[b].row); });
-  auto& shells = tissue.shells;
-  auto& spheres = tissue.spheres;
   tissue.cells.rows.reserve(cells.size());
   const auto is_sphere = [](const CellRecord& cell) { return cell.sphere.has_value(); };
-  const auto sphere_count = static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), is_sphere));
-  spheres.position.reserve(sphere_count);
-  spheres.radius.reserve(sphere_count);
-  spheres.type.reserve(sphere_count);
-  spheres.velocity.reserve(sphere_count);
-  std::size_t partners = 0;
-  for (const CellRecord& cell : cells) partners += cell.sphere ? cell.sphere->attached.size() : 0;
-  spheres.attached.reserve(sphere_count, partners);
-  for (const std::size_t place : sorted) {
-    CellRecord& cell = cells[place];
-    cell.row.body = cell.shell ? BodyKind::kShell : BodyKind::kSphere;
-    tissue.cells.push_back(cell.row);
-    if (cell.shell) {
-      put_into(shells, *cell.shell, cell.row.type);
-      if (cell.shell->nuclear_shell) {
-        put_into(tissue.nuclei.shells, *cell.shell->nuclear_shell, cell.row.type);
-        tissue.nuclei.owner.push_back(static_cast<std::uint32_t>(shells.size() - 1));
-      }
-    } else {
-      SphereRecord& body = *cell.sphere;
-      spheres.position.push_back(body.position);
-      spheres.radius.push_back(body.radius);
-      spheres.type.push_back(cell.row.type);
-      spheres.velocity.push_back(body.velocity);
-      spheres.attached.push_back(body.attached);
+  const auto spheres = static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), is_sphere));
+  cbm::for_each_sphere_column([&](const auto& column) { column.reserve(tissue.spheres, spheres); });
+  for (const std::size_t place : canonical_order(cells)) add_cell(tissue, cells[place]);
+}
+
+void replace_cells(Tissue& tissue, std::span<const std::size_t> gone, std::vector<CellRecord> fresh) {
+  const Population old = take_population(tissue);
+  tissue.cells.rows.reserve(old.cells.size() - gone.size() + fresh.size());
+  cbm::for_each_sphere_column([&](const auto& column) { column.reserve(tissue.spheres, old.spheres.size() + fresh.size()); });
+  const auto after = [&](Place at, std::size_t row) {  // the place of a row that is not before
+    for (; at.row < row; ++at.row) at.shells += old.cells.rows[at.row].body == BodyKind::kShell ? 1 : 0;
+    return at;
+  };
+  Place at;
+  std::size_t next_gone = 0;
+  const auto keep_until = [&](std::size_t row) {
+    for (; next_gone < gone.size() && gone[next_gone] < row; ++next_gone) {
+      const Place last = after(at, gone[next_gone]);
+      add_stretch(tissue, old, at, last);
+      at = after(last, last.row + 1);
     }
+    const Place last = after(at, row);
+    add_stretch(tissue, old, at, last);
+    at = last;
+  };
+  for (const std::size_t k : canonical_order(fresh)) {
+    CellRecord& cell = fresh[k];
+    const auto& rows = old.cells.rows;
+    const auto place =
+        std::lower_bound(rows.begin(), rows.end(), cell.row, [](const CellRow& a, const CellRow& b) { return before(a, b); });
+    keep_until(std::max(at.row, static_cast<std::size_t>(place - rows.begin())));
+    add_cell(tissue, cell);
   }
+  keep_until(old.cells.size());
 }
 
 ShellRecord spherical_shell(std::shared_ptr<const ReferenceShape> shape, const Vec3d& center, double volume, double reference_volume) {
@@ -173,38 +195,36 @@ struct Reader {
   }
 };
 
+/// The values of a column, and how many there are where the shape does not say so.
+template <class Column, class Record>
+void append_column(const Column& column, const Record& record, std::vector<std::byte>& out) {
+  const auto values = column.values(record);
+  const auto count = static_cast<std::uint32_t>(values.size());
+  if constexpr (Column::kFill != Fill::kAll) append(out, &count, 1);
+  append(out, values.data(), count);
+}
+
+/// `expected`: how many values a record has where all have as many.
+template <class Column, class Record>
+void read_column(const Column& column, Reader& reader, std::size_t expected, Record& record) {
+  std::size_t count = expected;
+  if constexpr (Column::kFill != Fill::kAll) count = reader.one<std::uint32_t>();
+  column.give(record, reader.many<typename Column::Value>(count));
+}
+
 void append_shell(const ShellRecord& body, std::vector<std::byte>& out) {
   append_shape(*body.shape, out);
-  append(out, &body.reference_volume, 1);
-  append(out, &body.rest_volume, 1);
-  append(out, body.position.data(), body.position.size());
-  append(out, body.velocity.data(), body.velocity.size());
-  append(out, body.rest_length.data(), body.rest_length.size());
-  const std::uint8_t nuclei[2] = {body.nucleus.has_value(), body.nuclear_shell.has_value()};
-  append(out, nuclei, 2);
-  if (body.nucleus) append(out, &*body.nucleus, 1);
-  const std::uint32_t marks[2] = {static_cast<std::uint32_t>(body.face.mark.size()), static_cast<std::uint32_t>(body.face.contact.size())};
-  append(out, marks, 2);
-  append(out, body.face.mark.data(), body.face.mark.size());
-  append(out, body.face.contact.data(), body.face.contact.size());
+  dcm::for_each_shell_column([&](const auto& column) { append_column(column, body, out); });
+  const std::uint8_t nuclear = body.nuclear_shell.has_value();
+  append(out, &nuclear, 1);
   if (body.nuclear_shell) append_shell(*body.nuclear_shell, out);
 }
 
 ShellRecord read_shell(Reader& reader, ShapeLibrary& shapes) {
   ShellRecord body;
   body.shape = read_shape(reader.rest, shapes);
-  const std::uint32_t nodes = body.shape->topology->node_count();
-  body.reference_volume = reader.one<double>();
-  body.rest_volume = reader.one<double>();
-  body.position = reader.many<Vec3d>(nodes);
-  body.velocity = reader.many<Vec3f>(nodes);
-  body.rest_length = reader.many<double>(body.shape->edge_length.size());
-  const bool rigid = reader.one<std::uint8_t>() != 0, shell = reader.one<std::uint8_t>() != 0;
-  if (rigid) body.nucleus = reader.one<Vec3d>();
-  const auto marks = reader.one<std::uint32_t>(), contacts = reader.one<std::uint32_t>();
-  body.face.mark = reader.many<std::uint8_t>(marks);
-  body.face.contact = reader.many<float>(contacts);
-  if (shell) body.nuclear_shell = read_shell(reader, shapes);
+  dcm::for_each_shell_column([&](const auto& column) { read_column(column, reader, dcm::count_of(column.kDomain, *body.shape), body); });
+  if (reader.one<std::uint8_t>() != 0) body.nuclear_shell = read_shell(reader, shapes);
   return body;
 }
 
@@ -212,17 +232,10 @@ ShellRecord read_shell(Reader& reader, ShapeLibrary& shapes) {
 
 void append_bytes(const CellRecord& cell, std::vector<std::byte>& out) {
   append(out, &cell.row, 1);
-  if (cell.sphere) {
-    const SphereRecord& body = *cell.sphere;
-    const std::uint64_t count = body.attached.size();
-    append(out, &body.position, 1);
-    append(out, &body.radius, 1);
-    append(out, &body.velocity, 1);
-    append(out, &count, 1);
-    append(out, body.attached.data(), body.attached.size());
-  } else {
+  if (cell.sphere)
+    cbm::for_each_sphere_column([&](const auto& column) { append_column(column, *cell.sphere, out); });
+  else
     append_shell(*cell.shell, out);
-  }
 }
 
 std::vector<CellRecord> read_records(std::span<const std::byte> bytes, ShapeLibrary& shapes) {
@@ -232,12 +245,8 @@ std::vector<CellRecord> read_records(std::span<const std::byte> bytes, ShapeLibr
     CellRecord& cell = out.emplace_back();
     cell.row = reader.one<FullRow>();
     if (cell.row.body == BodyKind::kSphere) {
-      SphereRecord body;
-      body.position = reader.one<Vec3d>();
-      body.radius = reader.one<double>();
-      body.velocity = reader.one<Vec3f>();
-      body.attached = reader.many<CellId>(reader.one<std::uint64_t>());
-      cell.sphere = std::move(body);
+      cell.sphere.emplace();
+      cbm::for_each_sphere_column([&](const auto& column) { read_column(column, reader, 1, *cell.sphere); });
     } else {
       cell.shell = read_shell(reader, shapes);
     }

@@ -12,26 +12,8 @@
 
 namespace morula {
 
-/// The body of a cell that is a sphere.
-struct SphereRecord {
-  Vec3d position;
-  double radius = 0.0;
-  Vec3f velocity;
-  cbm::Partners attached;
-};
-
-/// The body of a cell that is a shell.
-struct ShellRecord {
-  std::shared_ptr<const ReferenceShape> shape;
-  double reference_volume = 0.0;
-  double rest_volume = 0.0;
-  std::vector<Vec3d> position;
-  std::vector<Vec3f> velocity;
-  std::vector<double> rest_length;
-  dcm::FaceState face{};
-  std::optional<Vec3d> nucleus{};      ///< centre of its rigid nucleus
-  Boxed<ShellRecord> nuclear_shell{};  ///< its nucleus that is a shell
-};
+using cbm::SphereRecord;
+using dcm::ShellRecord;
 
 /// One cell whole: its row and its body. What events, swaps and moves between ranks work on.
 struct CellRecord {
@@ -47,6 +29,13 @@ std::vector<CellRecord> take_apart(Tissue& tissue);
 
 /// Put cells back: sorted into canonical order. The tissue's own cells must be empty.
 void put_together(Tissue& tissue, std::vector<CellRecord> cells);
+
+/// One cell of the tissue as a record.
+CellRecord record_of(const Tissue& tissue, const BodyOfRow& body);
+
+/// The cells of the rows `gone` (increasing) leave the tissue, and `fresh` ones come in at their places in canonical order; all others are moved as
+/// they are, in stretches. What an event of a few cells does: nothing is sorted but them.
+void replace_cells(Tissue& tissue, std::span<const std::size_t> gone, std::vector<CellRecord> fresh);
 
 /// A spherical shell around `center` whose mesh encloses `volume`, with stress-free membrane at that volume and velocity zero.
 ShellRecord spherical_shell(std::shared_ptr<const ReferenceShape> shape, const Vec3d& center, double volume, double reference_volume);

@@ -62,6 +62,55 @@ struct FullRow : CellRow, CellSides {
 };
 static_assert(std::is_trivially_copyable_v<FullRow>);
 
+/// What the two cells of a division have of a value of their mother.
+enum class AtDivision : std::uint8_t {
+  kCopied,  ///< both what she had
+  kShared,  ///< each its part by volume; what rounding leaves goes to the second
+  kUsual,   ///< what a new cell has
+  kSet,     ///< what the division finds for it (make_daughter)
+};
+
+/// A column of the rows or of their sides.
+struct CellColumn {
+  const char* name;
+  const char* unit;
+  AtDivision at_division;
+};
+
+/// visit(column, member of FullRow) for everything that a row and its sides hold, in the order of the state hash: checkpoint, reading back, hash and
+/// division walk this list. At an exchange of bodies the row stays as it is.
+template <class Visit>
+void for_each_cell_column(Visit&& visit) {
+  using enum AtDivision;
+  visit(CellColumn{"id", "1", kSet}, &FullRow::id);
+  visit(CellColumn{"parent", "1", kSet}, &FullRow::parent);
+  visit(CellColumn{"order", "1", kCopied}, &FullRow::order);
+  visit(CellColumn{"birth_time", "s", kSet}, &FullRow::birth_time);
+  visit(CellColumn{"birth_volume", "um^3", kSet}, &FullRow::birth_volume);
+  visit(CellColumn{"target_volume", "um^3", kSet}, &FullRow::target_volume);
+  visit(CellColumn{"division_volume", "um^3", kSet}, &FullRow::division_volume);
+  visit(CellColumn{"cycle_duration", "s", kSet}, &FullRow::cycle_duration);
+  visit(CellColumn{"pressure", "kPa", kCopied}, &FullRow::pressure);
+  visit(CellColumn{"death_time", "s", kUsual}, &FullRow::death_time);
+  visit(CellColumn{"last_swap_time", "s", kCopied}, &FullRow::last_swap_time);
+  visit(CellColumn{"reference_excess", "1", kCopied}, &FullRow::reference_excess);
+  visit(CellColumn{"inflation_left", "um^3", kUsual}, &FullRow::inflation_left);
+  visit(CellColumn{"inflation_rate", "um^3/s", kUsual}, &FullRow::inflation_rate);
+  visit(CellColumn{"polarity", "1", kCopied}, &FullRow::polarity);
+  visit(CellColumn{"migration_velocity", "um/s", kCopied}, &FullRow::migration_velocity);
+  visit(CellColumn{"amount", "amol", kShared}, &FullRow::amount);
+  visit(CellColumn{"concentration", "mM", kCopied}, &FullRow::concentration);
+  visit(CellColumn{"draws", "1", kSet}, &FullRow::draws);
+  visit(CellColumn{"type", "1", kCopied}, &FullRow::type);
+  visit(CellColumn{"phase", "1", kSet}, &FullRow::phase);
+  visit(CellColumn{"body", "1", kCopied}, &FullRow::body);
+  visit(CellColumn{"own_body", "1", kCopied}, &FullRow::own_body);
+}
+
+/// The size of a row that the list above covers, to notice a member that was added to one and not to the other.
+inline constexpr std::size_t kListedRowBytes = 3 * 8 + 11 * 8 + 2 * sizeof(Vec3d) + 2 * kMaxFields * 8 + 8 + 2 + 1 + 1 + 1;
+static_assert(sizeof(FullRow) == kListedRowBytes + sizeof(CellRow::unused_), "list every member of FullRow in for_each_cell_column");
+
 /// The sides of all rows: a column for each, which takes no room while all have the value of CellSides().
 struct SideColumns {
   SideColumn<double> death_time{CellSides().death_time}, last_swap_time{CellSides().last_swap_time};
@@ -109,12 +158,61 @@ struct Cells {
     rows.push_back(row);
     set_sides(rows.size() - 1, row);
   }
+  /// Adds the rows first, …, last − 1 of `from` behind the others.
+  void add(const Cells& from, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      rows.push_back(from.rows[i]);
+      const auto copy = [&](auto& column, const auto& other) {
+        if (!other.empty()) column.set(rows.size() - 1, other[i], rows.capacity());
+      };
+      SideColumns::for_each(side, from.side, copy);
+    }
+  }
   [[nodiscard]] std::size_t memory() const {
     std::size_t total = rows.capacity() * sizeof(CellRow);
     SideColumns::for_each(side, [&](const auto& column) { total += column.memory(); });
     return total;
   }
 };
+
+/// A row and which body it owns.
+struct BodyOfRow {
+  std::size_t row;
+  bool is_shell;
+  std::size_t number;  ///< among the shells, or among the spheres
+
+  /// Its place among all bodies of the rank: the shells, then the spheres.
+  [[nodiscard]] std::size_t place(std::size_t shells) const { return is_shell ? number : shells + number; }
+};
+
+/// The rows in their order, each with its body: for (const BodyOfRow& it : bodies_of(cells)). The only place that knows which body belongs to which row.
+class BodiesOfRows {
+ public:
+  explicit BodiesOfRows(const std::vector<CellRow>& rows) : rows_(&rows) {}
+
+  class Iterator {
+   public:
+    Iterator(const std::vector<CellRow>& rows, std::size_t row) : rows_(&rows), row_(row) {}
+    BodyOfRow operator*() const { return {row_, is_shell(), is_shell() ? shells_ : row_ - shells_}; }
+    Iterator& operator++() {
+      shells_ += is_shell() ? 1 : 0;
+      ++row_;
+      return *this;
+    }
+    bool operator==(const Iterator& other) const { return row_ == other.row_; }
+
+   private:
+    [[nodiscard]] bool is_shell() const { return (*rows_)[row_].body == BodyKind::kShell; }
+    const std::vector<CellRow>* rows_;
+    std::size_t row_, shells_ = 0;
+  };
+  [[nodiscard]] Iterator begin() const { return {*rows_, 0}; }
+  [[nodiscard]] Iterator end() const { return {*rows_, rows_->size()}; }
+
+ private:
+  const std::vector<CellRow>* rows_;
+};
+inline BodiesOfRows bodies_of(const Cells& cells) { return BodiesOfRows(cells.rows); }
 
 /// Canonical order: along the curve, ties by id.
 inline bool before(const CellRow& a, const CellRow& b) { return a.order != b.order ? a.order < b.order : a.id < b.id; }

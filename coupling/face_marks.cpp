@@ -28,9 +28,8 @@ void set_mark(std::uint8_t& marks, int mark, bool on, bool keep) {
 /// function(type, shell number, row number) for the rows with a shell.
 template <class F>
 void for_shells(const Tissue& tissue, F&& function) {
-  std::size_t shell = 0;
-  for (std::size_t i = 0; i < tissue.cells.size(); ++i)
-    if (const CellRow& row = tissue.cells.rows[i]; row.body == BodyKind::kShell) function(row.type, shell++, i);
+  for (const BodyOfRow& body : bodies_of(tissue.cells))
+    if (body.is_shell) function(tissue.cells.rows[body.row].type, body.number, body.row);
 }
 
 bool type_has_marks(const Model& model, std::uint16_t type) {

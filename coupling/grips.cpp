@@ -17,22 +17,20 @@ void for_anchors(const Model& model, const Tissue& tissue, double time, F&& func
     const double stiffness = load.size * load.course.at(time);
     if (!(stiffness > 0.0)) continue;
     const Vec3d center = load.center + (load.way.empty() ? Vec3d{} : load.direction * load.way.at(time));
-    std::size_t shell = 0;
-    for (const CellRow& row : tissue.cells.rows) {
-      if (row.body == BodyKind::kSphere) continue;
-      if (row.type == load.type) {
+    for (const auto [k, is_shell, shell] : bodies_of(tissue.cells)) {
+      const CellRow& row = tissue.cells.rows[k];
+      if (is_shell && row.type == load.type) {
         const ReferenceShape& shape = *tissue.shells.shape[shell];
         const double size = std::cbrt(row.target_volume);
-        const auto hold = [&](const Vec3d& outward) {
+        const auto hold = [&, number = shell](const Vec3d& outward) {
           const auto nodes = end_nodes(shape, outward, load.part);
           for (const std::uint32_t node : nodes)
-            function(l, Anchor{tissue.shells.first_node[shell] + node, stiffness / static_cast<double>(nodes.size()),
+            function(l, Anchor{tissue.shells.first_node[number] + node, stiffness / static_cast<double>(nodes.size()),
                                center + shape.position[node] * size});
         };
         if (load.end != LoadEnd::kLow) hold(load.axis);
         if (load.end != LoadEnd::kHigh) hold(load.axis * -1.0);
       }
-      ++shell;
     }
   }
 }

@@ -129,15 +129,12 @@ void add_surface_loads(const Model& model, const Tissue& tissue, double time, st
   for (const CellLoad& load : model.loads) {
     const double strength = load.course.at(time);
     if (strength == 0.0 || load.kind == LoadKind::kBodyForce || load.kind == LoadKind::kGrip) continue;
-    std::size_t shell = 0;
-    for (const CellRow& row : tissue.cells.rows) {
-      if (row.body == BodyKind::kSphere) continue;
-      if (row.type == load.type) {
+    for (const auto [row, is_shell, shell] : bodies_of(tissue.cells)) {
+      if (is_shell && tissue.cells.rows[row].type == load.type) {
         const std::uint32_t first = tissue.shells.first_node[shell], count = tissue.shells.first_node[shell + 1] - first;
         add_shell_load(load, *tissue.shells.shape[shell], tissue.shells.nodes(shell), tissue.shells.faces_of(shell).mark, strength,
                        external.subspan(first, count));
       }
-      ++shell;
     }
   }
 }

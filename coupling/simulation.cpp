@@ -55,13 +55,12 @@ std::vector<CellId> too_deep(const Mechanics& mechanics, std::span<const CellId>
 /// Cells just promoted that found no room (`back`, sorted) become again the spheres they were; their events say so.
 void take_back(Tissue& tissue, std::vector<CellRecord> before, std::span<const CellId> back, std::vector<Event>& events) {
   const auto goes_back = [&](CellId id) { return std::binary_search(back.begin(), back.end(), id); };
-  auto cells = take_apart(tissue);
-  for (CellRecord& cell : cells) {
-    if (!goes_back(cell.row.id)) continue;
-    cell = std::move(*std::find_if(before.begin(), before.end(), [&](const CellRecord& b) { return b.row.id == cell.row.id; }));
-    cell.row.last_swap_time = tissue.clock.time;
-  }
-  put_together(tissue, std::move(cells));
+  std::erase_if(before, [&](const CellRecord& cell) { return !goes_back(cell.row.id); });
+  for (CellRecord& cell : before) cell.row.last_swap_time = tissue.clock.time;
+  std::vector<std::size_t> gone;
+  for (std::size_t i = 0; i < tissue.cells.size(); ++i)
+    if (goes_back(tissue.cells.rows[i].id)) gone.push_back(i);
+  replace_cells(tissue, gone, std::move(before));
   for (Event& event : events) {
     if (event.kind != EventKind::kPromotion || !goes_back(event.cell)) continue;
     event.kind = EventKind::kWarning;
@@ -115,12 +114,11 @@ void Simulation::distribute() {
 std::vector<Vec3d> Simulation::centers() const {
   std::vector<Vec3d> out(tissue_.cells.size());
   std::vector<std::size_t> with_shell;
-  std::size_t sphere = 0;
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    if (tissue_.cells.rows[i].body == BodyKind::kShell)
-      with_shell.push_back(i);
+  for (const BodyOfRow& body : bodies_of(tissue_.cells)) {
+    if (body.is_shell)
+      with_shell.push_back(body.row);
     else
-      out[i] = tissue_.spheres.position[sphere++];
+      out[body.row] = tissue_.spheres.position[body.number];
   }
   parallel_for(threads_, with_shell.size(), [&](std::size_t shell) {
     out[with_shell[shell]] = volume_centroid(tissue_.shells.topology(shell).faces(), tissue_.shells.nodes(shell));
@@ -133,9 +131,8 @@ void Simulation::set_bodies_to_targets(double dt) {
   const auto osmotic = [](const CellType& type) { return type.osmosis.acts(); };
   BodyValues body;
   if (std::any_of(model_.types.begin(), model_.types.end(), osmotic)) body = mechanics_->values(tissue_);
-  std::size_t shell = 0, sphere = 0;
   SideColumns& side = tissue_.cells.side;
-  for (std::size_t k = 0; k < tissue_.cells.size(); ++k) {
+  for (const auto [k, is_shell, number] : bodies_of(tissue_.cells)) {
     CellRow& row = tissue_.cells.rows[k];
     const CellType& type = model_.types[row.type];
     if (const double left = side.inflation_left[k]; left > 0.0) {
@@ -145,26 +142,25 @@ void Simulation::set_bodies_to_targets(double dt) {
     }
     double excess = side.reference_excess[k];
     if (!type.osmosis.acts()) excess *= keep;
-    const auto exchange = [&](double volume, std::size_t b) {
-      FullRow full = tissue_.cells.full(k);
+    const auto exchange = [&, row_number = k](double volume, std::size_t b) {
+      FullRow full = tissue_.cells.full(row_number);
       exchange_water(full, type, time, dt, volume, body.area[b], body.inner_pressure[b]);
       excess = full.reference_excess;
     };
-    if (row.body == BodyKind::kShell) {
+    if (is_shell) {
       const double free = free_reference_volume(row.target_volume, type);
-      double& reference = tissue_.shells.reference_volume[shell];
+      double& reference = tissue_.shells.reference_volume[number];
       if (type.osmosis.acts()) {  // growth brings its water along: what has grown begins at the same concentrations
         const double grown = free * std::exp(excess) / reference;
-        exchange(grown * body.volume[shell], shell);
+        exchange(grown * body.volume[number], number);
       }
-      if (tissue_.shells.rest_volume[shell] != row.target_volume) dcm::set_rest_volume(tissue_.shells, shell, row.target_volume);
+      if (tissue_.shells.rest_volume[number] != row.target_volume) dcm::set_rest_volume(tissue_.shells, number, row.target_volume);
       reference = free * std::exp(excess);
-      if (const std::size_t n = tissue_.nuclei.of_shell(shell); n < tissue_.nuclei.size())
+      if (const std::size_t n = tissue_.nuclei.of_shell(number); n < tissue_.nuclei.size())
         dcm::set_nucleus_target(tissue_.nuclei.shells, n, type.interior, type.shell, row.target_volume);
-      ++shell;
     } else {
-      if (type.osmosis.acts()) exchange(row.target_volume * std::exp(excess), tissue_.shells.size() + sphere);
-      tissue_.spheres.radius[sphere++] = std::cbrt(3.0 * row.target_volume * std::exp(excess) / (4.0 * std::numbers::pi));
+      if (type.osmosis.acts()) exchange(row.target_volume * std::exp(excess), tissue_.shells.size() + number);
+      tissue_.spheres.radius[number] = std::cbrt(3.0 * row.target_volume * std::exp(excess) / (4.0 * std::numbers::pi));
     }
     side.reference_excess.set(k, excess, tissue_.cells.size());
   }
@@ -175,23 +171,23 @@ std::vector<std::string> Simulation::still_to_come() const { return morula::stil
 
 void Simulation::average_pressures(double dt) {
   const std::vector<double> pressure = mechanics_->pressures(tissue_);
-  std::size_t shell = 0, sphere = tissue_.shells.size();
-  for (CellRow& row : tissue_.cells.rows)
-    row.pressure = averaged_pressure(row.pressure, pressure[row.body == BodyKind::kShell ? shell++ : sphere++], dt);
+  for (const BodyOfRow& body : bodies_of(tissue_.cells)) {
+    double& average = tissue_.cells.rows[body.row].pressure;
+    average = averaged_pressure(average, pressure[body.place(tissue_.shells.size())], dt);
+  }
 }
 
 std::vector<fields::CellSource> Simulation::field_sources() const {
   const std::vector<Vec3d> center = centers();
   std::vector<fields::CellSource> out;
-  std::size_t shell = 0, sphere = 0;
-  for (std::size_t i = 0; i < center.size(); ++i) {
-    const CellRow& row = tissue_.cells.rows[i];
-    fields::CellSource& source = out.emplace_back(fields::CellSource{row.id, row.type, center[i]});
-    if (row.body == BodyKind::kShell) {
-      source.faces = tissue_.shells.topology(shell).faces();
-      source.nodes = tissue_.shells.nodes(shell++);
+  for (const BodyOfRow& body : bodies_of(tissue_.cells)) {
+    const CellRow& row = tissue_.cells.rows[body.row];
+    fields::CellSource& source = out.emplace_back(fields::CellSource{row.id, row.type, center[body.row]});
+    if (body.is_shell) {
+      source.faces = tissue_.shells.topology(body.number).faces();
+      source.nodes = tissue_.shells.nodes(body.number);
     } else {
-      source.radius = tissue_.spheres.radius[sphere++];
+      source.radius = tissue_.spheres.radius[body.number];
     }
   }
   return out;
@@ -231,12 +227,15 @@ Result<std::vector<Event>> Simulation::swap_bodies() {
   leaving = ids_of_all_ranks(leaving, comm_);
   std::vector<std::pair<CellId, CellId>> touching;
   if (!leaving.empty()) touching = mechanics_->touching(tissue_, leaving);
-  auto cells = take_apart(tissue_);
   std::vector<CellId> fresh;
-  std::vector<CellRecord> before;                 // of the promoted, should they find no room
+  std::vector<std::size_t> rows;
+  std::vector<CellRecord> before, changed;        // before: of the promoted, should they find no room
   const bool may_stay = tissue_.clock.steps > 0;  // at the very beginning cells become what the study says
+  std::vector<BodyOfRow> body_of_row;
+  for (const BodyOfRow& body : bodies_of(tissue_.cells)) body_of_row.push_back(body);
   for (std::size_t k = 0; k < orders.size(); ++k) {
-    CellRecord& cell = cells[orders[k].row];
+    rows.push_back(orders[k].row);
+    CellRecord& cell = changed.emplace_back(record_of(tissue_, body_of_row[orders[k].row]));
     const bool up = orders[k].to == BodyKind::kShell;
     if (up) {
       if (may_stay) before.push_back(cell);
@@ -247,9 +246,10 @@ Result<std::vector<Event>> Simulation::swap_bodies() {
     }
     events.push_back({tissue_.clock.time, up ? EventKind::kPromotion : EventKind::kDemotion, cell.row.id, {}, {}, orders[k].reason});
   }
-  attach_touching(cells, touching);  // what adhered as a shell goes on adhering
+  std::sort(rows.begin(), rows.end());
+  replace_cells(tissue_, rows, std::move(changed));
+  attach_touching(tissue_, touching);  // what adhered as a shell goes on adhering
   attach_touching(before, touching);
-  put_together(tissue_, std::move(cells));
   mark_new_shells(model_, tissue_);
   mechanics_->bodies_changed();
 
@@ -303,31 +303,27 @@ void Simulation::divide_and_remove(const LifeReport& life, double time, std::vec
   std::int64_t divisions = static_cast<std::int64_t>(life.divisions.size()), deaths = 0;
   for (const Event& event : life.events) deaths += event.kind == EventKind::kDeath;
   if (!life.divisions.empty() || !life.removals.empty()) {
-    auto cells = take_apart(tissue_);
-    std::vector<CellRecord> next;
-    std::size_t division = 0, removal = 0;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (removal < life.removals.size() && life.removals[removal] == i) {
-        ++removal;
-        continue;
+    std::vector<CellRecord> daughters;
+    std::vector<std::size_t> gone = life.removals;
+    auto order = life.divisions.begin();
+    for (const BodyOfRow& body : bodies_of(tissue_.cells)) {
+      if (order == life.divisions.end()) break;
+      if (order->row != body.row) continue;
+      const CellRecord mother = record_of(tissue_, body);
+      const auto pair = divide_sphere(mother.row, {mother.sphere->position, mother.sphere->radius}, model_.types[mother.row.type],
+                                      model_.seed, time, order->late);
+      for (int which = 0; which < 2; ++which) {
+        CellRecord& daughter = daughters.emplace_back();
+        daughter.row = which == 0 ? pair.first : pair.second;
+        const SphereBody& place = which == 0 ? pair.first_body : pair.second_body;
+        daughter.sphere = SphereRecord{place.position, place.radius, mother.sphere->velocity,
+                                       cbm::daughter_partners(mother.sphere->attached, which == 0 ? pair.second.id : pair.first.id)};
       }
-      if (division < life.divisions.size() && life.divisions[division].row == i) {
-        const SphereRecord& mother = *cells[i].sphere;
-        const auto pair = divide_sphere(cells[i].row, {mother.position, mother.radius}, model_.types[cells[i].row.type], model_.seed, time,
-                                        life.divisions[division].late);
-        for (int which = 0; which < 2; ++which) {
-          CellRecord& daughter = next.emplace_back();
-          daughter.row = which == 0 ? pair.first : pair.second;
-          const SphereBody& body = which == 0 ? pair.first_body : pair.second_body;
-          daughter.sphere = SphereRecord{body.position, body.radius, mother.velocity,
-                                         cbm::daughter_partners(mother.attached, which == 0 ? pair.second.id : pair.first.id)};
-        }
-        ++division;
-        continue;
-      }
-      next.push_back(std::move(cells[i]));
+      gone.push_back(body.row);
+      ++order;
     }
-    put_together(tissue_, std::move(next));
+    std::sort(gone.begin(), gone.end());
+    replace_cells(tissue_, gone, std::move(daughters));
     mechanics_->bodies_changed();
   }
   tissue_.ledger.divisions += static_cast<std::uint64_t>(comm_.sum(divisions));
@@ -358,9 +354,9 @@ void Simulation::rename_partners(const std::vector<Event>& events) {
 void Simulation::wrap_cells() {
   if (!model_.space.any_periodic()) return;
   bool moved = false;
-  std::size_t shell = 0, sphere = 0;
-  for (const CellRow& row : tissue_.cells.rows) {
-    if (row.body == BodyKind::kShell) {
+  for (const BodyOfRow& body : bodies_of(tissue_.cells)) {
+    const std::size_t shell = body.number;
+    if (body.is_shell) {
       const auto nodes = tissue_.shells.nodes(shell);
       const Vec3d center = volume_centroid(tissue_.shells.topology(shell).faces(), nodes);
       const Vec3d shift = model_.space.wrapped(center) - center;
@@ -371,9 +367,8 @@ void Simulation::wrap_cells() {
           for (Vec3d& p : tissue_.nuclei.shells.nodes(n)) p += shift;
         moved = true;
       }
-      ++shell;
     } else {
-      Vec3d& p = tissue_.spheres.position[sphere++];
+      Vec3d& p = tissue_.spheres.position[body.number];
       const Vec3d there = model_.space.wrapped(p);
       moved = moved || !(there == p);
       p = there;

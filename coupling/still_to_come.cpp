@@ -49,13 +49,11 @@ bool is_driven(const CellType& type) {
 bool any_water_flows(const Model& model, const Tissue& tissue, Mechanics& mechanics) {
   if (std::ranges::none_of(model.types, [](const CellType& type) { return type.osmosis.acts(); })) return false;
   const BodyValues body = mechanics.values(tissue);
-  std::size_t shell = 0, sphere = tissue.shells.size();
-  for (std::size_t k = 0; k < tissue.cells.size(); ++k) {
-    const CellRow& row = tissue.cells.rows[k];
-    const CellType& type = model.types[row.type];
-    const std::size_t b = row.body == BodyKind::kShell ? shell++ : sphere++;
+  for (const BodyOfRow& owned : bodies_of(tissue.cells)) {
+    const CellType& type = model.types[tissue.cells.rows[owned.row].type];
+    const std::size_t b = owned.place(tissue.shells.size());
     if (!type.osmosis.acts()) continue;
-    const OsmoticCell cell = osmotic_cell(tissue.cells.full(k), type, tissue.clock.time, body.area[b], body.inner_pressure[b]);
+    const OsmoticCell cell = osmotic_cell(tissue.cells.full(owned.row), type, tissue.clock.time, body.area[b], body.inner_pressure[b]);
     if (std::abs(osmotic_volume(cell) / body.volume[b] - 1.0) > kEased) return true;
   }
   return false;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <utility>
 
 #include "core/random/rotation.h"
 #include "dcm/growth.h"
@@ -191,15 +192,41 @@ void demote(CellRecord& cell, double time) {
   cell.shell.reset();
 }
 
-void attach_touching(std::span<CellRecord> cells, std::span<const std::pair<CellId, CellId>> touching) {
-  for (CellRecord& cell : cells) {
-    if (!cell.sphere) continue;
-    auto& attached = cell.sphere->attached;
-    const auto first = std::lower_bound(touching.begin(), touching.end(), std::pair(cell.row.id, CellId()));
-    for (auto at = first; at != touching.end() && at->first == cell.row.id; ++at) {
-      const auto place = std::lower_bound(attached.begin(), attached.end(), at->second);
-      if (place == attached.end() || *place != at->second) attached.insert(place, at->second);
-    }
+namespace {
+
+using TouchingPairs = std::span<const std::pair<CellId, CellId>>;
+
+TouchingPairs pairs_of(CellId id, TouchingPairs touching) {
+  const auto first = std::lower_bound(touching.begin(), touching.end(), std::pair(id, CellId()));
+  const auto last = std::find_if(first, touching.end(), [id](const auto& pair) { return pair.first != id; });
+  return touching.subspan(static_cast<std::size_t>(first - touching.begin()), static_cast<std::size_t>(last - first));
+}
+
+void add_partners(TouchingPairs pairs, cbm::Partners& attached) {
+  for (const auto& pair : pairs) {
+    const auto place = std::lower_bound(attached.begin(), attached.end(), pair.second);
+    if (place == attached.end() || *place != pair.second) attached.insert(place, pair.second);
+  }
+}
+
+}  // namespace
+
+void attach_touching(std::span<CellRecord> cells, TouchingPairs touching) {
+  for (CellRecord& cell : cells)
+    if (cell.sphere) add_partners(pairs_of(cell.row.id, touching), cell.sphere->attached);
+}
+
+void attach_touching(Tissue& tissue, TouchingPairs touching) {
+  if (touching.empty()) return;
+  const cbm::PartnerLists before = std::exchange(tissue.spheres.attached, {});
+  tissue.spheres.attached.reserve(before.size(), before.partner_count() + touching.size());
+  cbm::Partners partners;
+  for (const BodyOfRow& body : bodies_of(tissue.cells)) {
+    if (body.is_shell) continue;
+    const auto pairs = pairs_of(tissue.cells.rows[body.row].id, touching);
+    partners.assign(before[body.number].begin(), before[body.number].end());
+    add_partners(pairs, partners);
+    tissue.spheres.attached.push_back(partners);
   }
 }
 

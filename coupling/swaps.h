@@ -36,6 +36,7 @@ std::vector<CellId> ids_of_all_ranks(const std::vector<CellId>& mine, const Comm
 /// Spheres among the cells adhere to what they touch: `touching` are pairs (cell, partner), sorted, as Mechanics::touching gives them. An attached
 /// pair is listed with both; partners that are shells are forgotten at the next step.
 void attach_touching(std::span<CellRecord> cells, std::span<const std::pair<CellId, CellId>> touching);
+void attach_touching(Tissue& tissue, std::span<const std::pair<CellId, CellId>> touching);
 
 /// Scale a closed mesh about its centroid so that it encloses exactly this volume.
 void set_enclosed_volume(const Topology& topology, std::span<Vec3d> nodes, double volume);

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "core/boxed.h"
+#include "core/column.h"
 #include "core/mesh/topology.h"
 #include "core/vec3.h"
 
@@ -55,6 +57,151 @@ struct Shells {
     return face[shell];
   }
 };
+
+/// One shell by itself: what a cell carries along when it changes its body, is taken back, or moves to another rank.
+struct ShellRecord {
+  std::shared_ptr<const ReferenceShape> shape;
+  double reference_volume = 0.0;
+  double rest_volume = 0.0;
+  std::vector<Vec3d> position;
+  std::vector<Vec3f> velocity;
+  std::vector<double> rest_length;
+  FaceState face{};
+  std::optional<Vec3d> nucleus{};      ///< centre of its rigid nucleus
+  Boxed<ShellRecord> nuclear_shell{};  ///< its nucleus that is a shell
+  std::uint16_t type = 0;              ///< that of its cell, which gives it
+};
+
+// --- Columns: what a shell has beside its shape, declared once. The walks over them (records, messages between ranks, checkpoint, state hash,
+// memory) need nothing else; what is added here is everywhere. A column of Shells knows: name, unit, T, kDomain, kFill;
+//   values(shells, i), values(record)     the values of one shell; none where it has none
+//   append(shells, values)                those of the shell that was added last (its shape is there already)
+//   give(record, values)
+
+/// One value of each shell.
+template <class T>
+struct ColumnOfShells {
+  using Value = T;
+  static constexpr Domain kDomain = Domain::kBody;
+  static constexpr Fill kFill = Fill::kAll;
+  const char* name;
+  const char* unit;
+  std::vector<T> Shells::*all;
+  T ShellRecord::*one;
+
+  [[nodiscard]] std::span<const T> values(const Shells& shells, std::size_t i) const { return {&(shells.*all)[i], 1}; }
+  [[nodiscard]] std::span<const T> values(const ShellRecord& shell) const { return {&(shell.*one), 1}; }
+  void append(Shells& shells, std::span<const T> values) const { (shells.*all).push_back(values[0]); }
+  void give(ShellRecord& shell, std::span<const T> values) const { shell.*one = values[0]; }
+  [[nodiscard]] std::size_t memory(const Shells& shells) const { return (shells.*all).capacity() * sizeof(T); }
+};
+
+/// One value of each node, or of each edge.
+template <class T, Domain kOf>
+struct ColumnOfMesh {
+  using Value = T;
+  static constexpr Domain kDomain = kOf;
+  static constexpr Fill kFill = Fill::kAll;
+  const char* name;
+  const char* unit;
+  std::vector<T> Shells::*all;
+  std::vector<T> ShellRecord::*one;
+
+  [[nodiscard]] std::span<const T> values(const Shells& shells, std::size_t i) const {
+    const auto& first = kOf == Domain::kNode ? shells.first_node : shells.first_edge;
+    return std::span(shells.*all).subspan(first[i], first[i + 1] - first[i]);
+  }
+  [[nodiscard]] std::span<const T> values(const ShellRecord& shell) const { return shell.*one; }
+  void append(Shells& shells, std::span<const T> values) const { (shells.*all).insert((shells.*all).end(), values.begin(), values.end()); }
+  void give(ShellRecord& shell, std::span<const T> values) const { (shell.*one).assign(values.begin(), values.end()); }
+  [[nodiscard]] std::size_t memory(const Shells& shells) const { return (shells.*all).capacity() * sizeof(T); }
+};
+
+/// One value of each face, for the shells that have any.
+template <class T>
+struct ColumnOfFaces {
+  using Value = T;
+  static constexpr Domain kDomain = Domain::kFace;
+  static constexpr Fill kFill = Fill::kAllOrNone;
+  const char* name;
+  const char* unit;
+  std::vector<T> FaceState::*of;
+
+  [[nodiscard]] std::span<const T> values(const Shells& shells, std::size_t i) const { return shells.faces_of(i).*of; }
+  [[nodiscard]] std::span<const T> values(const ShellRecord& shell) const { return shell.face.*of; }
+  void append(Shells& shells, std::span<const T> values) const {
+    if (!values.empty()) (shells.faces_of(shells.size() - 1).*of).assign(values.begin(), values.end());
+  }
+  void give(ShellRecord& shell, std::span<const T> values) const { (shell.face.*of).assign(values.begin(), values.end()); }
+  [[nodiscard]] std::size_t memory(const Shells& shells) const {
+    std::size_t bytes = 0;
+    for (const FaceState& face : shells.face) bytes += (face.*of).capacity() * sizeof(T);
+    return bytes;
+  }
+};
+
+/// The centres of the rigid nuclei.
+struct ColumnOfNuclei {
+  using Value = Vec3d;
+  static constexpr Domain kDomain = Domain::kBody;
+  static constexpr Fill kFill = Fill::kAllOrNone;
+  const char* name;
+  const char* unit;
+
+  [[nodiscard]] static std::span<const Vec3d> values(const Shells& shells, std::size_t i) {
+    return {shells.nucleus_of(i), shells.nucleus_of(i) != nullptr ? 1u : 0u};
+  }
+  [[nodiscard]] static std::span<const Vec3d> values(const ShellRecord& shell) {
+    return {shell.nucleus ? &*shell.nucleus : nullptr, shell.nucleus ? 1u : 0u};
+  }
+  static void append(Shells& shells, std::span<const Vec3d> values) {
+    if (values.empty()) return;
+    shells.nucleus.resize(shells.size());
+    shells.nucleus.back() = values[0];
+  }
+  static void give(ShellRecord& shell, std::span<const Vec3d> values) {
+    shell.nucleus = values.empty() ? std::nullopt : std::optional(values[0]);
+  }
+  [[nodiscard]] static std::size_t memory(const Shells& shells) { return shells.nucleus.capacity() * sizeof(shells.nucleus[0]); }
+};
+
+/// visit(column) for all columns of shells, in the order of the state hash.
+template <class Visit>
+void for_each_shell_column(Visit&& visit) {
+  visit(ColumnOfShells<std::uint16_t>{"type", "1", &Shells::type, &ShellRecord::type});
+  visit(ColumnOfShells<double>{"reference_volume", "um^3", &Shells::reference_volume, &ShellRecord::reference_volume});
+  visit(ColumnOfShells<double>{"rest_volume", "um^3", &Shells::rest_volume, &ShellRecord::rest_volume});
+  visit(ColumnOfMesh<Vec3d, Domain::kNode>{"position", "um", &Shells::position, &ShellRecord::position});
+  visit(ColumnOfMesh<Vec3f, Domain::kNode>{"velocity", "um/s", &Shells::velocity, &ShellRecord::velocity});
+  visit(ColumnOfMesh<double, Domain::kEdge>{"rest_length", "um", &Shells::rest_length, &ShellRecord::rest_length});
+  visit(ColumnOfNuclei{"nucleus", "um"});
+  visit(ColumnOfFaces<std::uint8_t>{"mark", "1", &FaceState::mark});
+  visit(ColumnOfFaces<float>{"face_contact", "1", &FaceState::contact});
+}
+
+/// How many values of a column a shell of this shape has.
+inline std::size_t count_of(Domain domain, const ReferenceShape& shape) {
+  switch (domain) {
+    case Domain::kNode:
+      return shape.topology->node_count();
+    case Domain::kEdge:
+      return shape.topology->edge_count();
+    case Domain::kFace:
+      return shape.topology->face_count();
+    case Domain::kBody:
+      break;
+  }
+  return 1;
+}
+
+/// Shell i by itself, without a nucleus that is a shell.
+ShellRecord shell_out_of(const Shells& shells, std::size_t i);
+/// Adds a shell behind the others; its nucleus that is a shell is not looked at.
+void add_shell(Shells& shells, const ShellRecord& shell);
+/// Adds the shells first, …, last − 1 of `from` behind the others.
+void add_shells(Shells& shells, const Shells& from, std::size_t first, std::size_t last);
+/// Bytes of all columns.
+std::size_t memory_of(const Shells& shells);
 
 /// Parameters of the single-cell mechanics of one cell type, in internal units (physics: dcm.md, time_stepping.md §9).
 struct ShellParameters {

@@ -84,13 +84,13 @@ Status read_globals(const Hdf5Reader& file, LoadedCheckpoint& out) {
 Status read_rows(const Hdf5Reader& file, const Stretch& mine, Cells& cells) {
   std::vector<FullRow> rows(mine.size());
   Status read = first_failure([&](auto note) {
-    for_each_row_field([&](const std::string& name, const char*, auto member) {
+    for_each_cell_column([&](const CellColumn& column, auto member) {
       using Value = std::remove_cvref_t<decltype(rows.front().*member)>;
-      auto column = file.read<Value>("cells/" + name, mine.begin, mine.size());
-      if (column.ok())
-        for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*member = column.value()[i];
+      auto values = file.read<Value>(std::string("cells/") + column.name, mine.begin, mine.size());
+      if (values.ok())
+        for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*member = values.value()[i];
       else
-        note(std::move(column).error());
+        note(std::move(values).error());
     });
   });
   cells.rows.reserve(rows.size());
@@ -98,113 +98,102 @@ Status read_rows(const Hdf5Reader& file, const Stretch& mine, Cells& cells) {
   return read;
 }
 
-Status read_spheres(const Hdf5Reader& file, std::uint64_t first, std::uint64_t count, std::vector<std::uint32_t>& partner_count,
-                    cbm::Spheres& out) {
-  MORULA_TRY_ASSIGN(out.position, file.read<Vec3d>("spheres/position", first, count));
-  MORULA_TRY_ASSIGN(out.radius, file.read<double>("spheres/radius", first, count));
-  MORULA_TRY_ASSIGN(out.type, file.read<std::uint16_t>("spheres/type", first, count));
-  MORULA_TRY_ASSIGN(out.velocity, file.read<Vec3f>("spheres/velocity", first, count));
-  MORULA_TRY_ASSIGN(partner_count, file.read<std::uint32_t>("spheres/partner_count", first, count));
-  return {};
-}
+/// Where this rank's bodies of a table are in the file.
+struct Rows {
+  std::uint64_t first = 0, count = 0;
+};
 
-Status read_partners(const Hdf5Reader& file, std::uint64_t first, const std::vector<std::uint32_t>& counts, cbm::Spheres& out) {
-  const std::uint64_t total = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
-  MORULA_TRY_ASSIGN(const std::vector<CellId> partners, file.read<CellId>("spheres/partners", first, total));
-  auto next = partners.begin();
-  for (const std::uint32_t count : counts) {
-    out.attached.push_back(std::span(next, count));
-    next += count;
+/// The values of a column by body: `expected(i)` of them where all bodies have it, else as many as its dataset of counts says. Collective.
+template <class Column, class Expected>
+Result<std::vector<std::vector<typename Column::Value>>> read_column(const Hdf5Reader& file, const std::string& group, const Column& column,
+                                                                     const Rows& rows, Expected&& expected, const Comm& comm) {
+  using Value = typename Column::Value;
+  const std::string name = group + column.name;
+  std::vector<std::vector<Value>> out(rows.count);
+  std::vector<std::uint32_t> count(rows.count);
+  if (Column::kFill == Fill::kAll) {
+    for (std::size_t i = 0; i < count.size(); ++i) count[i] = static_cast<std::uint32_t>(expected(i));
+  } else {
+    if (Column::kFill == Fill::kAllOrNone && !file.exists(name)) return out;
+    const auto read_counts = [&]() -> Status {
+      MORULA_TRY_ASSIGN(count, file.read<std::uint32_t>(name + "_count", rows.first, rows.count));
+      return {};
+    };
+    MORULA_TRY(agree(read_counts(), comm));
   }
-  return {};
+  const std::uint64_t total = std::accumulate(count.begin(), count.end(), std::uint64_t{0}), first = before_mine(total, comm);
+  const auto read_values = [&]() -> Status {
+    MORULA_TRY_ASSIGN(const std::vector<Value> values, file.read<Value>(name, first, total));
+    auto next = values.begin();
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out[i].assign(next, next + count[i]);
+      next += count[i];
+    }
+    return {};
+  };
+  MORULA_TRY(agree(read_values(), comm));
+  return out;
 }
 
-/// `group`: `shells/`, or that of the nuclei that are shells.
-Status read_shell_heads(const Hdf5Reader& file, const std::string& group, std::uint64_t first, std::uint64_t count, ShapeLibrary& library,
-                        dcm::Shells& out) {
-  MORULA_TRY_ASSIGN(const std::vector<std::uint32_t> shape, file.read<std::uint32_t>(group + "shape", first, count));
-  MORULA_TRY_ASSIGN(out.type, file.read<std::uint16_t>(group + "type", first, count));
-  MORULA_TRY_ASSIGN(out.reference_volume, file.read<double>(group + "reference_volume", first, count));
-  MORULA_TRY_ASSIGN(out.rest_volume, file.read<double>(group + "rest_volume", first, count));
+/// Collective.
+Status read_spheres(const Hdf5Reader& file, const Rows& rows, const Comm& comm, cbm::Spheres& out) {
+  Status status;
+  cbm::for_each_sphere_column([&](const auto& column) {
+    if (!status.ok()) return;  // the same on all ranks
+    auto values = read_column(
+        file, "spheres/", column, rows, [](std::size_t) { return 1; }, comm);
+    if (!values.ok())
+      status = std::move(values).error();
+    else
+      for (const auto& of_sphere : *values) column.append(out, of_sphere);
+  });
+  return status;
+}
+
+Status read_shell_shapes(const Hdf5Reader& file, const std::string& group, const Rows& rows, ShapeLibrary& library,
+                         std::vector<std::shared_ptr<const ReferenceShape>>& out) {
+  MORULA_TRY_ASSIGN(const std::vector<std::uint32_t> shape, file.read<std::uint32_t>(group + "shape", rows.first, rows.count));
   const std::set<std::uint32_t> used(shape.begin(), shape.end());
   MORULA_TRY_ASSIGN(const auto shapes, read_shapes(file, {used.begin(), used.end()}, library));
-  for (const std::uint32_t number : shape) {
-    out.shape.push_back(shapes.at(number));
-    out.first_node.push_back(out.first_node.back() + out.shape.back()->topology->node_count());
-    out.first_edge.push_back(out.first_edge.back() + out.shape.back()->topology->edge_count());
-  }
+  for (const std::uint32_t number : shape) out.push_back(shapes.at(number));
   return {};
 }
 
-Status read_shell_arrays(const Hdf5Reader& file, const std::string& group, std::uint64_t first_node, std::uint64_t first_edge,
-                         dcm::Shells& out) {
-  MORULA_TRY_ASSIGN(out.position, file.read<Vec3d>(group + "position", first_node, out.first_node.back()));
-  MORULA_TRY_ASSIGN(out.velocity, file.read<Vec3f>(group + "velocity", first_node, out.first_node.back()));
-  MORULA_TRY_ASSIGN(out.rest_length, file.read<double>(group + "rest_length", first_edge, out.first_edge.back()));
-  return {};
-}
-
-/// Nuclei of a kind are in the file only where some shell has one.
-Status read_nucleus_flags(const Hdf5Reader& file, const char* name, std::uint64_t first, std::uint64_t count,
-                          std::vector<std::uint8_t>& out) {
-  if (!file.exists(name)) return {};
-  MORULA_TRY_ASSIGN(out, file.read<std::uint8_t>(name, first, count));
-  return {};
-}
-
-Status read_nuclei(const Hdf5Reader& file, std::uint64_t first, const std::vector<std::uint8_t>& has_nucleus, dcm::Shells& out) {
-  if (has_nucleus.empty()) return {};
-  const auto count = static_cast<std::uint64_t>(std::count(has_nucleus.begin(), has_nucleus.end(), 1));
-  MORULA_TRY_ASSIGN(const auto centers, file.read<Vec3d>("shells/nucleus", first, count));
-  auto next = centers.begin();
-  for (const std::uint8_t has : has_nucleus) out.nucleus.push_back(has != 0 ? std::optional(*next++) : std::nullopt);
+/// `group`: `shells/`, or that of the nuclei that are shells. Collective.
+Status read_shells(const Hdf5Reader& file, const std::string& group, const Rows& rows, ShapeLibrary& library, const Comm& comm,
+                   dcm::Shells& out) {
+  std::vector<ShellRecord> shells(rows.count);
+  std::vector<std::shared_ptr<const ReferenceShape>> shape;
+  Status status = agree(read_shell_shapes(file, group, rows, library, shape), comm);
+  if (status.ok())
+    for (std::size_t i = 0; i < shells.size(); ++i) shells[i].shape = shape[i];
+  dcm::for_each_shell_column([&](const auto& column) {
+    if (!status.ok()) return;  // the same on all ranks
+    const auto expected = [&](std::size_t i) { return dcm::count_of(column.kDomain, *shells[i].shape); };
+    auto values = read_column(file, group, column, rows, expected, comm);
+    if (!values.ok())
+      status = std::move(values).error();
+    else
+      for (std::size_t i = 0; i < shells.size(); ++i) column.give(shells[i], (*values)[i]);
+  });
+  MORULA_TRY(status);
+  for (const ShellRecord& shell : shells) dcm::add_shell(out, shell);
   return {};
 }
 
 /// Nuclei that are shells, in the order of the shells. Collective.
-Status read_nuclear_shells(const Hdf5Reader& file, std::uint64_t first_shell, std::uint64_t shells, ShapeLibrary& library, const Comm& comm,
-                           dcm::NuclearShells& out) {
+Status read_nuclear_shells(const Hdf5Reader& file, const Rows& shells, ShapeLibrary& library, const Comm& comm, dcm::NuclearShells& out) {
+  const char* name = "shells/has_nuclear_shell";
+  if (!file.exists(name)) return {};
   std::vector<std::uint8_t> has;
-  MORULA_TRY(agree(read_nucleus_flags(file, "shells/has_nuclear_shell", first_shell, shells, has), comm));
+  const auto read_flags = [&]() -> Status {
+    MORULA_TRY_ASSIGN(has, file.read<std::uint8_t>(name, shells.first, shells.count));
+    return {};
+  };
+  MORULA_TRY(agree(read_flags(), comm));
   for (std::uint32_t s = 0; s < has.size(); ++s)
     if (has[s] != 0) out.owner.push_back(s);
-  if (!file.exists("shells/has_nuclear_shell")) return {};
-  const std::string group = "nuclear_shells/";
-  MORULA_TRY(agree(read_shell_heads(file, group, before_mine(out.size(), comm), out.size(), library, out.shells), comm));
-  const std::uint64_t first_node = before_mine(out.shells.first_node.back(), comm),
-                      first_edge = before_mine(out.shells.first_edge.back(), comm);
-  return agree(read_shell_arrays(file, group, first_node, first_edge, out.shells), comm);
-}
-
-/// Marks and contact of the faces, where any shell had them.
-Status read_faces(const Hdf5Reader& file, std::uint64_t first_shell, const Comm& comm, dcm::Shells& out) {
-  if (!file.exists("shells/mark_count")) return {};
-  std::vector<std::uint32_t> counts[2];
-  const auto read_counts = [&]() -> Status {
-    MORULA_TRY_ASSIGN(counts[0], file.read<std::uint32_t>("shells/mark_count", first_shell, out.size()));
-    MORULA_TRY_ASSIGN(counts[1], file.read<std::uint32_t>("shells/face_contact_count", first_shell, out.size()));
-    return {};
-  };
-  MORULA_TRY(agree(read_counts(), comm));
-  std::uint64_t total[2], first[2];
-  for (int k = 0; k < 2; ++k) {
-    total[k] = std::accumulate(counts[k].begin(), counts[k].end(), std::uint64_t{0});
-    first[k] = before_mine(total[k], comm);
-  }
-  const auto read_values = [&]() -> Status {
-    MORULA_TRY_ASSIGN(const auto marks, file.read<std::uint8_t>("shells/mark", first[0], total[0]));
-    MORULA_TRY_ASSIGN(const auto contacts, file.read<float>("shells/face_contact", first[1], total[1]));
-    out.face.resize(out.size());
-    auto mark = marks.begin();
-    auto contact = contacts.begin();
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      out.face[i].mark.assign(mark, mark + counts[0][i]);
-      out.face[i].contact.assign(contact, contact + counts[1][i]);
-      mark += counts[0][i], contact += counts[1][i];
-    }
-    return {};
-  };
-  return agree(read_values(), comm);
+  return read_shells(file, "nuclear_shells/", {before_mine(out.size(), comm), out.size()}, library, comm, out.shells);
 }
 
 /// Rows and bodies of this rank in the order of ids. Collective: where a rank's bodies begin follows from the ranks before it.
@@ -215,23 +204,10 @@ Status read_cells(const Hdf5Reader& file, ShapeLibrary& library, const Comm& com
   const auto is_sphere = [](const CellRow& row) { return row.body == BodyKind::kSphere; };
   const auto spheres = static_cast<std::uint64_t>(std::count_if(out.cells.rows.begin(), out.cells.rows.end(), is_sphere));
   const std::uint64_t shells = out.cells.rows.size() - spheres;
-  const std::uint64_t first_sphere = before_mine(spheres, comm), first_shell = before_mine(shells, comm);
-
-  std::vector<std::uint32_t> partner_count;
-  MORULA_TRY(agree(read_spheres(file, first_sphere, spheres, partner_count, out.spheres), comm));
-  const std::uint64_t first_partner = before_mine(std::accumulate(partner_count.begin(), partner_count.end(), std::uint64_t{0}), comm);
-  MORULA_TRY(agree(read_partners(file, first_partner, partner_count, out.spheres), comm));
-
-  MORULA_TRY(agree(read_shell_heads(file, "shells/", first_shell, shells, library, out.shells), comm));
-  std::vector<std::uint8_t> has_nucleus;
-  MORULA_TRY(agree(read_nucleus_flags(file, "shells/has_nucleus", first_shell, shells, has_nucleus), comm));
-  const std::uint64_t first_nucleus = before_mine(static_cast<std::uint64_t>(std::count(has_nucleus.begin(), has_nucleus.end(), 1)), comm);
-  MORULA_TRY(agree(read_nuclei(file, first_nucleus, has_nucleus, out.shells), comm));
-  const std::uint64_t first_node = before_mine(out.shells.first_node.back(), comm),
-                      first_edge = before_mine(out.shells.first_edge.back(), comm);
-  MORULA_TRY(agree(read_shell_arrays(file, "shells/", first_node, first_edge, out.shells), comm));
-  MORULA_TRY(read_nuclear_shells(file, first_shell, shells, library, comm, out.nuclei));
-  return read_faces(file, first_shell, comm, out.shells);
+  const Rows my_spheres{before_mine(spheres, comm), spheres}, my_shells{before_mine(shells, comm), shells};
+  MORULA_TRY(read_spheres(file, my_spheres, comm, out.spheres));
+  MORULA_TRY(read_shells(file, "shells/", my_shells, library, comm, out.shells));
+  return read_nuclear_shells(file, my_shells, library, comm, out.nuclei);
 }
 
 /// The same cells in canonical order, bodies with them.

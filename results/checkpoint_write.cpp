@@ -13,87 +13,77 @@
 namespace morula::scenarios {
 namespace {
 
-/// Flat arrays of this rank's stretch of the sorted cells.
-struct SortedCells {
-  std::vector<FullRow> rows;
-  cbm::Spheres spheres;
-  std::vector<std::uint32_t> partner_count;
-  std::vector<CellId> partners;
-  std::vector<std::uint32_t> shape;
-  dcm::Shells shells;
-  std::vector<std::uint8_t> has_nucleus;                 ///< by shell
-  std::vector<Vec3d> nucleus;                            ///< of those that have one
-  std::vector<std::uint8_t> has_nuclear_shell;           ///< by shell
-  std::vector<std::uint32_t> nuclear_shape;              ///< of those that have one
-  dcm::Shells nuclei;                                    ///< likewise
-  std::vector<std::uint32_t> mark_count, contact_count;  ///< by shell
-  std::vector<std::uint8_t> mark;
-  std::vector<float> contact;
+/// The values of a column, those of all bodies one after the other.
+struct FlatColumn {
+  std::vector<std::byte> bytes;
+  std::vector<std::uint32_t> count;  ///< by body
 };
 
-/// What a shell and a nucleus that is one have alike.
-void pack_shell(const dcm::Shells& s, std::size_t shell, const ShapeNumbers& numbers, ByteWriter& out) {
-  const std::uint32_t node = s.first_node[shell], edge = s.first_edge[shell];
-  const std::uint32_t nodes = s.first_node[shell + 1] - node, edges = s.first_edge[shell + 1] - edge;
-  out.put(numbers.by_pointer.at(s.shape[shell].get()));
-  out.put(s.type[shell]);
-  out.put(s.reference_volume[shell]);
-  out.put(s.rest_volume[shell]);
-  out.put(nodes);
-  out.put(edges);
-  out.put_all(std::span(s.position).subspan(node, nodes));
-  out.put_all(std::span(s.velocity).subspan(node, nodes));
-  out.put_all(std::span(s.rest_length).subspan(edge, edges));
+/// All columns of a table in the order in which they are declared.
+struct FlatTable {
+  std::vector<std::uint32_t> shape;  ///< of shells: number of the shape, by body
+  std::vector<FlatColumn> columns;
+};
+
+/// This rank's stretch of the sorted cells.
+struct SortedCells {
+  std::vector<FullRow> rows;
+  FlatTable spheres, shells, nuclei;            ///< nuclei: those that are shells
+  std::vector<std::uint8_t> has_nuclear_shell;  ///< by shell
+};
+
+/// A body's values of a column, and how many there are.
+template <class Column, class Bodies>
+void pack_column(const Column& column, const Bodies& bodies, std::size_t i, ByteWriter& out) {
+  const auto values = column.values(bodies, i);
+  out.put(static_cast<std::uint32_t>(values.size()));
+  out.put_all(values);
 }
 
-void unpack_shell(ByteReader& in, std::vector<std::uint32_t>& shape, dcm::Shells& out) {
-  shape.push_back(in.get<std::uint32_t>());
-  out.type.push_back(in.get<std::uint16_t>());
-  out.reference_volume.push_back(in.get<double>());
-  out.rest_volume.push_back(in.get<double>());
-  const auto nodes = in.get<std::uint32_t>(), edges = in.get<std::uint32_t>();
-  in.get_all(nodes, out.position);
-  in.get_all(nodes, out.velocity);
-  in.get_all(edges, out.rest_length);
+void pack_shell(const dcm::Shells& shells, std::size_t i, const ShapeNumbers& numbers, ByteWriter& out) {
+  out.put(numbers.by_pointer.at(shells.shape[i].get()));
+  dcm::for_each_shell_column([&](const auto& column) { pack_column(column, shells, i, out); });
 }
 
 Parcels pack_cells(const Tissue& tissue, const ShapeNumbers& numbers) {
   Parcels parcels;
   ByteWriter out;
-  std::size_t sphere = 0, shell = 0;
-  for (std::size_t i = 0; i < tissue.cells.size(); ++i) {
-    const FullRow row = tissue.cells.full(i);
+  for (const BodyOfRow& body : bodies_of(tissue.cells)) {
+    const FullRow row = tissue.cells.full(body.row);
     out.clear();
     out.put(row);
-    if (row.body == BodyKind::kSphere) {
-      const cbm::Spheres& s = tissue.spheres;
-      out.put(s.position[sphere]);
-      out.put(s.radius[sphere]);
-      out.put(s.type[sphere]);
-      out.put(s.velocity[sphere]);
-      const std::span<const CellId> partners = s.attached[sphere];  // sorted
-      out.put(static_cast<std::uint32_t>(partners.size()));
-      out.put_all(partners);
-      ++sphere;
-    } else {
-      const dcm::Shells& s = tissue.shells;
-      pack_shell(s, shell, numbers, out);
-      const std::size_t nuclear = tissue.nuclei.of_shell(shell);
+    if (body.is_shell) {
+      pack_shell(tissue.shells, body.number, numbers, out);
+      const std::size_t nuclear = tissue.nuclei.of_shell(body.number);
       out.put(std::uint8_t{nuclear < tissue.nuclei.size()});
       if (nuclear < tissue.nuclei.size()) pack_shell(tissue.nuclei.shells, nuclear, numbers, out);
-      const Vec3d* nucleus = s.nucleus_of(shell);
-      out.put(std::uint8_t{nucleus != nullptr});
-      if (nucleus != nullptr) out.put(*nucleus);
-      const dcm::FaceState& face = s.faces_of(shell);
-      out.put(static_cast<std::uint32_t>(face.mark.size()));
-      out.put(static_cast<std::uint32_t>(face.contact.size()));
-      out.put_all(std::span(face.mark));
-      out.put_all(std::span(face.contact));
-      ++shell;
+    } else {
+      cbm::for_each_sphere_column([&](const auto& column) { pack_column(column, tissue.spheres, body.number, out); });
     }
     parcels.add(row.id.bits(), out.bytes());
   }
   return parcels;
+}
+
+/// The next column of a body, whose values have this size.
+void unpack_column(ByteReader& in, std::size_t size, std::size_t number, FlatTable& out) {
+  if (out.columns.size() <= number) out.columns.resize(number + 1);
+  FlatColumn& column = out.columns[number];
+  column.count.push_back(in.get<std::uint32_t>());
+  in.get_all(column.count.back() * size, column.bytes);
+}
+
+void unpack_shell(ByteReader& in, FlatTable& out) {
+  out.shape.push_back(in.get<std::uint32_t>());
+  std::size_t number = 0;
+  dcm::for_each_shell_column(
+      [&](const auto& column) { unpack_column(in, sizeof(typename std::remove_cvref_t<decltype(column)>::Value), number++, out); });
+}
+
+void unpack_sphere(ByteReader& in, FlatTable& out) {
+  std::size_t number = 0;
+  cbm::for_each_sphere_column(
+      [&](const auto& column) { unpack_column(in, sizeof(typename std::remove_cvref_t<decltype(column)>::Value), number++, out); });
 }
 
 SortedCells unpack_cells(const Parcels& parcels) {
@@ -102,63 +92,54 @@ SortedCells unpack_cells(const Parcels& parcels) {
     ByteReader in(parcels.bytes(i));
     out.rows.push_back(in.get<FullRow>());
     if (out.rows.back().body == BodyKind::kSphere) {
-      out.spheres.position.push_back(in.get<Vec3d>());
-      out.spheres.radius.push_back(in.get<double>());
-      out.spheres.type.push_back(in.get<std::uint16_t>());
-      out.spheres.velocity.push_back(in.get<Vec3f>());
-      out.partner_count.push_back(in.get<std::uint32_t>());
-      in.get_all(out.partner_count.back(), out.partners);
-    } else {
-      unpack_shell(in, out.shape, out.shells);
-      out.has_nuclear_shell.push_back(in.get<std::uint8_t>());
-      if (out.has_nuclear_shell.back() != 0) unpack_shell(in, out.nuclear_shape, out.nuclei);
-      out.has_nucleus.push_back(in.get<std::uint8_t>());
-      if (out.has_nucleus.back() != 0) out.nucleus.push_back(in.get<Vec3d>());
-      out.mark_count.push_back(in.get<std::uint32_t>());
-      out.contact_count.push_back(in.get<std::uint32_t>());
-      in.get_all(out.mark_count.back(), out.mark);
-      in.get_all(out.contact_count.back(), out.contact);
+      unpack_sphere(in, out.spheres);
+      continue;
     }
+    unpack_shell(in, out.shells);
+    out.has_nuclear_shell.push_back(in.get<std::uint8_t>());
+    if (out.has_nuclear_shell.back() != 0) unpack_shell(in, out.nuclei);
   }
   return out;
 }
 
-void add_shells(StoragePlan& plan, const std::string& group, const std::vector<std::uint32_t>& shape, const dcm::Shells& shells) {
-  plan.add(group + "shape", "1", shape);
-  plan.add(group + "type", "1", shells.type);
-  plan.add(group + "reference_volume", "um^3", shells.reference_volume);
-  plan.add(group + "rest_volume", "um^3", shells.rest_volume);
-  plan.add(group + "position", "um", shells.position);
-  plan.add(group + "velocity", "um/s", shells.velocity);
-  plan.add(group + "rest_length", "um", shells.rest_length);
+/// One dataset for a column that all bodies have; else another with how many values each body has, and none of both where no body has any. Collective.
+template <class Column>
+void add_column(StoragePlan& plan, const std::string& group, const Column& column, const FlatColumn& flat, const Comm& comm) {
+  using Value = typename Column::Value;
+  if (Column::kFill == Fill::kAllOrNone && !comm.any(!flat.bytes.empty())) return;
+  if (Column::kFill != Fill::kAll) plan.add(group + column.name + "_count", "1", flat.count);
+  const auto* values = reinterpret_cast<const Value*>(flat.bytes.data());  // NOLINT: plain data, as they were packed
+  plan.add(group + column.name, column.unit, std::span(values, flat.bytes.size() / sizeof(Value)));
 }
 
-void add_cells(StoragePlan& plan, const SortedCells& cells, const Comm& comm) {
-  for_each_row_field([&](const std::string& name, const char* units, auto member) {
-    std::vector<std::remove_cvref_t<decltype(cells.rows.front().*member)>> column;
-    for (const FullRow& row : cells.rows) column.push_back(row.*member);
-    plan.add("cells/" + name, units, column);
+void add_spheres(StoragePlan& plan, FlatTable& table, const Comm& comm) {
+  std::size_t number = 0;
+  cbm::for_each_sphere_column([&](const auto& column) {
+    if (table.columns.size() <= number) table.columns.resize(number + 1);
+    add_column(plan, "spheres/", column, table.columns[number++], comm);
   });
-  plan.add("spheres/position", "um", cells.spheres.position);
-  plan.add("spheres/radius", "um", cells.spheres.radius);
-  plan.add("spheres/type", "1", cells.spheres.type);
-  plan.add("spheres/velocity", "um/s", cells.spheres.velocity);
-  plan.add("spheres/partner_count", "1", cells.partner_count);
-  plan.add("spheres/partners", "1", cells.partners);
-  add_shells(plan, "shells/", cells.shape, cells.shells);
-  if (comm.any(!cells.nuclear_shape.empty())) {
-    plan.add("shells/has_nuclear_shell", "1", cells.has_nuclear_shell);
-    add_shells(plan, "nuclear_shells/", cells.nuclear_shape, cells.nuclei);
-  }
-  if (comm.any(!cells.nucleus.empty())) {
-    plan.add("shells/has_nucleus", "1", cells.has_nucleus);
-    plan.add("shells/nucleus", "um", cells.nucleus);
-  }
-  if (!comm.any(!cells.mark.empty() || !cells.contact.empty())) return;
-  plan.add("shells/mark_count", "1", cells.mark_count);
-  plan.add("shells/mark", "1", cells.mark);
-  plan.add("shells/face_contact_count", "1", cells.contact_count);
-  plan.add("shells/face_contact", "1", cells.contact);
+}
+
+void add_shells(StoragePlan& plan, const std::string& group, FlatTable& table, const Comm& comm) {
+  plan.add(group + "shape", "1", table.shape);
+  std::size_t number = 0;
+  dcm::for_each_shell_column([&](const auto& column) {
+    if (table.columns.size() <= number) table.columns.resize(number + 1);
+    add_column(plan, group, column, table.columns[number++], comm);
+  });
+}
+
+void add_cells(StoragePlan& plan, SortedCells& cells, const Comm& comm) {
+  for_each_cell_column([&](const CellColumn& column, auto member) {
+    std::vector<std::remove_cvref_t<decltype(cells.rows.front().*member)>> values;
+    for (const FullRow& row : cells.rows) values.push_back(row.*member);
+    plan.add(std::string("cells/") + column.name, column.unit, values);
+  });
+  add_spheres(plan, cells.spheres, comm);
+  add_shells(plan, "shells/", cells.shells, comm);
+  if (!comm.any(!cells.nuclei.shape.empty())) return;
+  plan.add("shells/has_nuclear_shell", "1", cells.has_nuclear_shell);
+  add_shells(plan, "nuclear_shells/", cells.nuclei, comm);
 }
 
 Status add_field(StoragePlan& plan, const std::string& group, const fields::Field& field, const Comm& comm) {
@@ -232,7 +213,7 @@ Status write_checkpoint(const std::filesystem::path& path, const Tissue& tissue,
   auto shapes = tissue.shells.shape;
   shapes.insert(shapes.end(), tissue.nuclei.shells.shape.begin(), tissue.nuclei.shells.shape.end());
   const ShapeNumbers numbers = add_shapes(plan, shapes, comm);
-  const SortedCells cells = unpack_cells(sort_over_ranks(pack_cells(tissue, numbers), comm));
+  SortedCells cells = unpack_cells(sort_over_ranks(pack_cells(tissue, numbers), comm));
   add_cells(plan, cells, comm);
   for (std::size_t f = 0; f < tissue.fields.size(); ++f) MORULA_TRY(add_field(plan, "fields/" + std::to_string(f), tissue.fields[f], comm));
   return create_file(path, std::move(plan), comm);

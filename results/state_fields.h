@@ -3,38 +3,6 @@
 
 namespace morula::scenarios {
 
-/// The members of a row and of its sides, once: checkpoint, reading back and state hash all walk this list. `visit(name, units, member)`.
-template <class Visit>
-void for_each_row_field(Visit&& visit) {
-  visit("id", "1", &FullRow::id);
-  visit("parent", "1", &FullRow::parent);
-  visit("order", "1", &FullRow::order);
-  visit("birth_time", "s", &FullRow::birth_time);
-  visit("birth_volume", "um^3", &FullRow::birth_volume);
-  visit("target_volume", "um^3", &FullRow::target_volume);
-  visit("division_volume", "um^3", &FullRow::division_volume);
-  visit("cycle_duration", "s", &FullRow::cycle_duration);
-  visit("pressure", "kPa", &FullRow::pressure);
-  visit("death_time", "s", &FullRow::death_time);
-  visit("last_swap_time", "s", &FullRow::last_swap_time);
-  visit("reference_excess", "1", &FullRow::reference_excess);
-  visit("inflation_left", "um^3", &FullRow::inflation_left);
-  visit("inflation_rate", "um^3/s", &FullRow::inflation_rate);
-  visit("polarity", "1", &FullRow::polarity);
-  visit("migration_velocity", "um/s", &FullRow::migration_velocity);
-  visit("amount", "amol", &FullRow::amount);
-  visit("concentration", "mM", &FullRow::concentration);
-  visit("draws", "1", &FullRow::draws);
-  visit("type", "1", &FullRow::type);
-  visit("phase", "1", &FullRow::phase);
-  visit("body", "1", &FullRow::body);
-  visit("own_body", "1", &FullRow::own_body);
-}
-
-/// The size of a row that the list above covers, to notice a member that was added to one and not to the other.
-inline constexpr std::size_t kListedRowBytes = 3 * 8 + 11 * 8 + 2 * sizeof(Vec3d) + 2 * kMaxFields * 8 + 8 + 2 + 1 + 1 + 1;
-static_assert(sizeof(FullRow) == kListedRowBytes + sizeof(CellRow::unused_), "list every member of FullRow in for_each_row_field");
-
 template <class Visit>
 void for_each_clock_field(Visit&& visit) {
   visit("time", "s", &Clock::time);

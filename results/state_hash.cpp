@@ -16,57 +16,40 @@ enum class Part : std::uint64_t { kCell = 1, kBrick, kGrid, kGlobal, kShape };
 Hash128 hash_of(const ByteWriter& writer, Part part) { return hash128(writer.bytes(), static_cast<std::uint64_t>(part)); }
 
 void put_row(ByteWriter& out, const FullRow& row) {
-  for_each_row_field([&](const char*, const char*, auto member) { out.put(row.*member); });
+  for_each_cell_column([&](const CellColumn&, auto member) { out.put(row.*member); });
 }
 
-void put_sphere(ByteWriter& out, const cbm::Spheres& spheres, std::size_t i) {
-  out.put(spheres.position[i]);
-  out.put(spheres.radius[i]);
-  out.put(spheres.type[i]);
-  out.put(spheres.velocity[i]);
-  const std::span<const CellId> partners = spheres.attached[i];  // sorted
-  out.put(std::uint64_t{partners.size()});
-  out.put_all(partners);
+/// A body's values of a column; the length of a list goes before it.
+template <class Column, class Bodies>
+void put_column(const Column& column, const Bodies& bodies, std::size_t i, ByteWriter& out) {
+  const auto values = column.values(bodies, i);
+  if constexpr (Column::kFill == Fill::kAny) out.put(std::uint64_t{values.size()});
+  out.put_all(values);
 }
 
-void put_shell(ByteWriter& out, const dcm::Shells& shells, std::size_t i, const Hash128& shape) {
-  const std::size_t node = shells.first_node[i], edge = shells.first_edge[i];
-  const std::size_t nodes = shells.first_node[i + 1] - node, edges = shells.first_edge[i + 1] - edge;
-  out.put(shape);
-  out.put(shells.type[i]);
-  out.put(shells.reference_volume[i]);
-  out.put(shells.rest_volume[i]);
-  out.put_all(std::span(shells.position).subspan(node, nodes));
-  out.put_all(std::span(shells.velocity).subspan(node, nodes));
-  out.put_all(std::span(shells.rest_length).subspan(edge, edges));
-  if (const Vec3d* nucleus = shells.nucleus_of(i)) out.put(*nucleus);
-  const dcm::FaceState& face = shells.faces_of(i);  // shells without have the bytes that they had before there were marks
-  if (face.empty()) return;
-  out.put(std::uint64_t{face.mark.size()});
-  out.put_all(std::span(face.mark));
-  out.put_all(std::span(face.contact));
+/// Hashes of the shapes that were met.
+using ShapeHashes = std::map<const ReferenceShape*, Hash128>;
+
+void put_shell(ByteWriter& out, const dcm::Shells& shells, std::size_t i, ShapeHashes& shapes) {
+  const auto [shape, is_new] = shapes.try_emplace(shells.shape[i].get());
+  if (is_new) shape->second = shape_hash(*shape->first);
+  out.put(shape->second);
+  dcm::for_each_shell_column([&](const auto& column) { put_column(column, shells, i, out); });
 }
 
 Hash128 hash_of_cells(const Tissue& tissue) {
-  std::map<const ReferenceShape*, Hash128> shapes;
+  ShapeHashes shapes;
   Hash128 sum;
   ByteWriter bytes;
-  std::size_t sphere = 0, shell = 0;
-  for (std::size_t i = 0; i < tissue.cells.size(); ++i) {
-    const FullRow row = tissue.cells.full(i);
+  for (const BodyOfRow& body : bodies_of(tissue.cells)) {
     bytes.clear();
-    put_row(bytes, row);
-    if (row.body == BodyKind::kSphere) {
-      put_sphere(bytes, tissue.spheres, sphere++);
+    put_row(bytes, tissue.cells.full(body.row));
+    if (body.is_shell) {
+      put_shell(bytes, tissue.shells, body.number, shapes);
+      if (const std::size_t n = tissue.nuclei.of_shell(body.number); n < tissue.nuclei.size())
+        put_shell(bytes, tissue.nuclei.shells, n, shapes);
     } else {
-      const auto [shape, is_new] = shapes.try_emplace(tissue.shells.shape[shell].get());
-      if (is_new) shape->second = shape_hash(*shape->first);
-      put_shell(bytes, tissue.shells, shell, shape->second);
-      if (const std::size_t n = tissue.nuclei.of_shell(shell++); n < tissue.nuclei.size()) {
-        const auto [nuclear, is_new_too] = shapes.try_emplace(tissue.nuclei.shells.shape[n].get());
-        if (is_new_too) nuclear->second = shape_hash(*nuclear->first);
-        put_shell(bytes, tissue.nuclei.shells, n, nuclear->second);
-      }
+      cbm::for_each_sphere_column([&](const auto& column) { put_column(column, tissue.spheres, body.number, bytes); });
     }
     sum += hash_of(bytes, Part::kCell);
   }

@@ -34,24 +34,17 @@ FullRow make_founder(CellId id, std::uint16_t type_index, const CellType& type, 
 
 FullRow make_daughter(const FullRow& mother, int which, const CellType& type, std::uint32_t seed, double time, double birth_volume) {
   FullRow row;
+  for_each_cell_column([&](const CellColumn& column, auto member) {
+    if (column.at_division == AtDivision::kCopied) row.*member = mother.*member;
+  });
   row.id = mother.id.daughter(which);
   row.parent = mother.id;
-  row.order = mother.order;
   row.birth_time = time;
   row.birth_volume = birth_volume;
   row.target_volume = birth_volume;
   row.division_volume = 2.0 * birth_volume;
   row.cycle_duration = draw_truncated(type.cycle_duration, Random(seed, RandomStream::kDivisionDuration), row.id, row.draws);
-  row.pressure = mother.pressure;
-  row.last_swap_time = mother.last_swap_time;
-  row.reference_excess = mother.reference_excess;
-  row.polarity = mother.polarity;
-  row.migration_velocity = mother.migration_velocity;
-  row.concentration = mother.concentration;
-  row.type = mother.type;
   row.phase = type.cycles ? Phase::kGrowing : Phase::kResting;
-  row.body = mother.body;
-  row.own_body = mother.own_body;
   return row;
 }
 

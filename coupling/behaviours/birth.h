@@ -14,8 +14,8 @@ namespace morula {
 /// so that a founder is the same in whatever order founders are made. Field amounts and concentrations are 0.
 FullRow make_founder(CellId id, std::uint16_t type_index, const CellType& type, std::uint32_t seed, double time, bool random_age);
 
-/// The row of a daughter without its share of volume and amounts: inherits type, polarity, wanted velocity, averaged pressure, seen
-/// concentrations, swap time and order; begins a cycle of newly drawn duration at `time` with the given birth volume.
+/// The row of a daughter without what is shared by volume (AtDivision): what is copied is her mother's, and she begins a cycle of newly drawn
+/// duration at `time` with the given birth volume.
 FullRow make_daughter(const FullRow& mother, int which, const CellType& type, std::uint32_t seed, double time, double birth_volume);
 
 }  // namespace morula

@@ -7,6 +7,26 @@
 #include "coupling/behaviours/growth.h"
 
 namespace morula {
+namespace {
+
+void share(double mothers, double part, double& first, double& second) {
+  first = part * mothers;
+  second = mothers - first;
+}
+template <std::size_t kSize>
+void share(const std::array<double, kSize>& mothers, double part, std::array<double, kSize>& first, std::array<double, kSize>& second) {
+  for (std::size_t i = 0; i < kSize; ++i) share(mothers[i], part, first[i], second[i]);
+}
+
+/// What daughters share of their mother's columns, the first `part` of it.
+void share_columns(const FullRow& mother, double part, FullRow& first, FullRow& second) {
+  for_each_cell_column([&](const CellColumn& column, auto member) {
+    if constexpr (requires { share(mother.*member, part, first.*member, second.*member); })
+      if (column.at_division == AtDivision::kShared) share(mother.*member, part, first.*member, second.*member);
+  });
+}
+
+}  // namespace
 
 SphereDivision divide_sphere(const FullRow& mother, const SphereBody& body, const CellType& type, std::uint32_t seed, double time,
                              double late, double fraction) {
@@ -19,10 +39,7 @@ SphereDivision divide_sphere(const FullRow& mother, const SphereBody& body, cons
   const double birth = time - late;
   out.first = make_daughter(mother, 0, type, seed, birth, volume_1);
   out.second = make_daughter(mother, 1, type, seed, birth, volume_2);
-  for (std::size_t field = 0; field < kMaxFields; ++field) {
-    out.first.amount[field] = share_1 * mother.amount[field];
-    out.second.amount[field] = mother.amount[field] - out.first.amount[field];
-  }
+  share_columns(mother, share_1, out.first, out.second);
   if (late > 0.0) {
     grow(out.first, type, late);
     grow(out.second, type, late);

@@ -102,13 +102,10 @@ void Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, 
   const auto all = unpack<Box>(comm.gather_to_all(pack(std::vector<Box>{mine})));
   std::vector<std::uint64_t> order(bodies_.size());
   std::vector<std::uint32_t> row_of(bodies_.size());
-  {
-    std::size_t shell = 0, sphere = owned_shells_;
-    for (std::uint32_t k = 0; k < tissue.cells.size(); ++k) {
-      const std::size_t body = tissue.cells.rows[k].body == BodyKind::kShell ? shell++ : sphere++;
-      order[body] = tissue.cells.rows[k].order;
-      row_of[body] = k;
-    }
+  for (const BodyOfRow& owned : bodies_of(tissue.cells)) {
+    const std::size_t body = owned.place(owned_shells_);
+    order[body] = tissue.cells.rows[owned.row].order;
+    row_of[body] = static_cast<std::uint32_t>(owned.row);
   }
   std::vector<std::vector<std::byte>> outgoing(ranks);
   for (std::size_t r = 0; r < ranks; ++r) {
@@ -210,8 +207,7 @@ void Scene::build(const Tissue& tissue, const Space& space, double reach, ShapeL
   add_owned(tissue);
   if (comm.size() == 1) {
     std::vector<std::uint64_t> order(bodies_.size());
-    std::size_t shell = 0, sphere = owned_shells_;
-    for (const CellRow& row : tissue.cells.rows) order[row.body == BodyKind::kShell ? shell++ : sphere++] = row.order;
+    for (const BodyOfRow& owned : bodies_of(tissue.cells)) order[owned.place(owned_shells_)] = tissue.cells.rows[owned.row].order;
     send_bodies_.assign(1, {});
     receive_bodies_.assign(1, {});
     place_bodies(order);

@@ -65,11 +65,10 @@ Snapshot local_snapshot(Simulation& simulation) {
   out.mark_names = model.mark_names;
   add_surroundings(model, tissue, out);
   std::vector<const Topology*> known;
-  std::size_t shell = 0, sphere = 0;
-  for (std::size_t i = 0; i < center.size(); ++i) {
+  for (const BodyOfRow& owned : bodies_of(tissue.cells)) {
+    const std::size_t i = owned.row, body = owned.place(tissue.shells.size()), shell = owned.number;
     const CellRow& row = tissue.cells.rows[i];
-    const bool is_shell = row.body == BodyKind::kShell;
-    const std::size_t body = is_shell ? shell : tissue.shells.size() + sphere;
+    const bool is_shell = owned.is_shell;
     Snapshot::Cell& cell = out.cells.emplace_back();
     cell.id = row.id;
     cell.parent = row.parent;
@@ -87,11 +86,8 @@ Snapshot local_snapshot(Simulation& simulation) {
     cell.contact_area = values.contact_area[body];
     cell.age = out.time - row.birth_time;
     for (std::size_t f = 0; f < kMaxFields; ++f) cell.concentration[f] = tissue.cells.side.concentration[f][i];
-    cell.radius = is_shell ? std::cbrt(3.0 * cell.volume / (4.0 * std::numbers::pi)) : tissue.spheres.radius[sphere];
-    if (!is_shell) {
-      ++sphere;
-      continue;
-    }
+    cell.radius = is_shell ? std::cbrt(3.0 * cell.volume / (4.0 * std::numbers::pi)) : tissue.spheres.radius[owned.number];
+    if (!is_shell) continue;
     const auto add_surface = [&](const dcm::Shells& from, std::size_t s, std::vector<Snapshot::Shell>& shells, std::vector<Vec3d>& all) {
       const Topology* topology = &from.topology(s);
       const auto found = std::find(known.begin(), known.end(), topology);
@@ -116,7 +112,6 @@ Snapshot local_snapshot(Simulation& simulation) {
       out.face_marks.insert(out.face_marks.end(), marks.begin(), marks.end());
       if (marks.empty()) out.face_marks.resize(out.face_marks.size() + tissue.shells.topology(shell).face_count(), 0);
     }
-    ++shell;
   }
   return out;
 }

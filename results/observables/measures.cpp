@@ -75,10 +75,10 @@ void measure_packing(Simulation& simulation, Measures& out) {
   if (std::all_of(model.types.begin(), model.types.end(), [](const CellType& type) { return type.sphere.packing.empty(); })) return;
   const std::vector<double> packing = simulation.mechanics().packing();
   Extreme most;
-  std::size_t sphere = 0;
-  for (const CellRow& row : simulation.tissue().cells.rows) {
-    if (row.body == BodyKind::kShell) continue;
-    const double here = packing[sphere++], last = model.types[row.type].sphere.packing.last();
+  for (const BodyOfRow& body : bodies_of(simulation.tissue().cells)) {
+    if (body.is_shell) continue;
+    const CellRow& row = simulation.tissue().cells.rows[body.row];
+    const double here = packing[body.number], last = model.types[row.type].sphere.packing.last();
     if (last == 0.0) continue;
     most.offer(here / last, row.id);
     out.packed_beyond += here > last;
@@ -119,12 +119,11 @@ Measures measure(Simulation& simulation) {
   out.lumens.resize(model.lumens.size());
   OrderFreeSum sums[kSums];
   Extreme pressure, volume_error;
-  std::size_t shell = 0, sphere = tissue.shells.size();
-  for (std::size_t i = 0; i < center.size(); ++i) {
+  for (const BodyOfRow& owned : bodies_of(tissue.cells)) {
+    const std::size_t i = owned.row, body = owned.place(tissue.shells.size());
     const CellRow& row = tissue.cells.rows[i];
-    const bool is_shell = row.body == BodyKind::kShell;
-    const auto nucleus = is_shell ? simulation.mechanics().nucleus_of(static_cast<std::uint32_t>(shell)) : std::nullopt;
-    const std::size_t body = is_shell ? shell++ : sphere++;
+    const bool is_shell = owned.is_shell;
+    const auto nucleus = is_shell ? simulation.mechanics().nucleus_of(static_cast<std::uint32_t>(owned.number)) : std::nullopt;
     const CellType& type = model.types[row.type];
     const double volume = values.volume[body], p = values.pressure[body], inner = values.inner_pressure[body];
     const Vec3d from = center[i] - middle;
@@ -173,11 +172,8 @@ Measures measure(Simulation& simulation) {
   out.mean_contact_area = total[kContactArea] / cells;
   out.total_volume_error = std::abs(total[kVolume] - total[kLawVolume]) / total[kLawVolume];
   double extent = 0.0;
-  shell = 0, sphere = tissue.shells.size();
-  for (std::size_t i = 0; i < center.size(); ++i) {
-    const std::size_t body = tissue.cells.rows[i].body == BodyKind::kShell ? shell++ : sphere++;
-    extent = std::max(extent, norm(center[i] - middle - mean) + radius_of(values.volume[body]));
-  }
+  for (const BodyOfRow& body : bodies_of(tissue.cells))
+    extent = std::max(extent, norm(center[body.row] - middle - mean) + radius_of(values.volume[body.place(tissue.shells.size())]));
   out.largest_extent = comm.max(extent);
   return out;
 }

@@ -84,15 +84,11 @@ Counts count_cells(const Study& study, Tissue& tissue, double time) {
     for (std::size_t i = 0; i < tissue.cells.size(); ++i)
       tissue.cells.side.concentration[f].set(i, study.model.fields[f].initial, tissue.cells.size());
   std::vector<Vec3d> center;
-  std::size_t shell = 0, sphere = 0;
-  for (const CellRow& row : tissue.cells.rows) {
-    ++out.of_type[row.type];
-    if (row.body == BodyKind::kSphere)
-      center.push_back(tissue.spheres.position[sphere++]);
-    else {
-      center.push_back(volume_centroid(tissue.shells.topology(shell).faces(), std::as_const(tissue.shells).nodes(shell)));
-      ++shell;
-    }
+  for (const BodyOfRow& body : bodies_of(tissue.cells)) {
+    ++out.of_type[tissue.cells.rows[body.row].type];
+    center.push_back(body.is_shell
+                         ? volume_centroid(tissue.shells.topology(body.number).faces(), std::as_const(tissue.shells).nodes(body.number))
+                         : tissue.spheres.position[body.number]);
   }
   for (const SwapOrder& order : choose_swaps(study.model, tissue, center, Comm())) {
     const std::int64_t change = order.to == BodyKind::kShell ? 1 : -1;

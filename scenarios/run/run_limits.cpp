@@ -1,0 +1,89 @@
+#include "core/numbers/number_text.h"
+#include "scenarios/run/run_loop.h"
+
+namespace morula::scenarios {
+namespace {
+
+constexpr double kWarnAt = 0.8;  // of a limit
+
+}  // namespace
+
+/// A capped start ends in its time. What is capped later, by cells that have become shells, is no start: such a cell has been exchanged.
+Status RunLoop::check_capped_start() const {
+  const Tissue& tissue = simulation_->tissue();
+  const bool late = study_.model.step.start_cap > 0.0 && tissue.clock.capped && tissue.clock.time >= study_.time.capped_start;
+  if (!late) return {};
+  const double never = CellSides().last_swap_time;
+  bool exchanged = false;
+  for (std::size_t i = 0; i < tissue.cells.size(); ++i) exchanged = exchanged || tissue.cells.side.last_swap_time[i] != never;
+  if (comm_.any(exchanged)) return {};
+  return Error{
+      ErrorKind::kPhysics,
+      "the capped start has not ended by " + time_text(tissue.clock.time) + ": cells still lie deeper in each other than 0.1 um [E662]",
+      "place them further apart, or start them smaller (`start_volume`, `inflate`); `numerics.start_cap_within` is the time it has"};
+}
+
+void RunLoop::warn_near_limit(Warned what, const std::string& text) {
+  if ((warned_ & what) == 0) warn(text);
+  warned_ |= what;
+}
+
+Status RunLoop::check_limits(const Measures& m) {
+  const Limits& limits = study_.model.limits;
+  const auto crossed = [&](const std::string& what, const Extreme& extreme) {
+    return Error{ErrorKind::kPhysics, what + (extreme.cell.valid() ? " in cell " + extreme.cell.text() : "") + " at " + time_text(m.time),
+                 "the limit is in the study: `limits`; the last checkpoint and snapshot show the state"};
+  };
+  const std::string volume = "volume error " + number_text("%.2g %%", 100.0 * m.volume_error.value) + " (limit " +
+                             number_text("%.2g %%)", 100.0 * limits.volume_error);
+  if (!(m.volume_error.value <= limits.volume_error)) return crossed(volume, m.volume_error);
+  if (m.volume_error.value > kWarnAt * limits.volume_error) warn_near_limit(kVolume, volume + " in cell " + m.volume_error.cell.text());
+  if (!simulation_->tissue().clock.capped) {  // a capped start may overlap until it has come apart
+    const std::string overlap = "overlap " + number_text("%.2g um", m.overlap.value) + " (limit " + number_text("%.2g um)", limits.overlap);
+    if (!(m.overlap.value <= limits.overlap)) {
+      Error error = crossed(overlap, m.overlap);
+      if (m.time == 0.0)
+        error.help =
+            "cells lie in each other at the start: let them come apart first (`numerics: start_cap: 0.2 um`), place fewer, or start "
+            "them smaller (`start_volume`, `inflate`)";
+      return error;
+    }
+    if (m.overlap.value > kWarnAt * limits.overlap) warn_near_limit(kOverlap, overlap + " at cell " + m.overlap.cell.text());
+  }
+  MORULA_TRY(check_packing(m));
+  tell_contacts_beyond(m);
+  for (std::size_t f = 0; f < study_.model.fields.size(); ++f) {
+    const std::string balance = "balance of " + study_.model.fields[f].name + " off by " + number_text("%.2g", m.field_balance[f]) +
+                                " (limit " + number_text("%.2g)", limits.field_balance);
+    if (!(m.field_balance[f] <= limits.field_balance)) return crossed(balance, {});
+    if (m.field_balance[f] > kWarnAt * limits.field_balance) warn_near_limit(kBalance, balance);
+  }
+  return {};
+}
+
+/// Elastic spheres are spheres as long as their contacts are small (cbm.md §2).
+void RunLoop::tell_contacts_beyond(const Measures& m) {
+  constexpr double kMostBeyond = 0.1;
+  if ((warned_ & kBeyondRange) != 0 || !(static_cast<double>(m.contacts_beyond) > kMostBeyond * static_cast<double>(m.sphere_contacts)))
+    return;
+  note(Note::Kind::kNote, std::to_string(m.contacts_beyond) + " of " + std::to_string(m.sphere_contacts) +
+                              " contacts of spheres have a radius above 0.45 R, where the law of elastic spheres is no more than a fit "
+                              "(`contacts_beyond_range` in series.csv)");
+  warned_ |= kBeyondRange;
+}
+
+/// The pressure of packing holds within the range it was calibrated in (cbm.md §3).
+Status RunLoop::check_packing(const Measures& m) {
+  constexpr double kMost = 1.5, kPartBeyond = 0.01;
+  if (m.packing > kMost && !simulation_->tissue().clock.capped)
+    return Error{ErrorKind::kPhysics,
+                 "cell " + m.packing_cell.text() + " is packed " + number_text("%.3g", m.packing) +
+                     " times as tightly as the end of its packing curve at " + time_text(m.time),
+                 "knots of `cbm.packing` for such compressions, stiffer spheres, or less load"};
+  if (static_cast<double>(m.packed_beyond) > kPartBeyond * static_cast<double>(m.spheres))
+    warn_near_limit(kPacking, std::to_string(m.packed_beyond) + " of " + std::to_string(m.spheres) +
+                                  " spheres are packed more tightly than their packing curve is calibrated for");
+  return {};
+}
+
+}  // namespace morula::scenarios
