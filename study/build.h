@@ -57,7 +57,7 @@ void build_coupling(BuildContext& context);
 void check_whole(BuildContext& context);
 /// Measured limits of meshes under strong adhesion, and cells whose volume does not bear their tension: E571, E572.
 void check_resolution(BuildContext& context);
-/// What bodies cannot do: noise inside shells, division of shells, adhesion of spheres beyond JKR: E645–E647.
+/// What bodies cannot do: division of shells, adhesion of spheres beyond JKR: E646, E647.
 void check_bodies(BuildContext& context);
 
 /// Index of a cell type or field by name, or −1 and an error with suggestions.

@@ -174,10 +174,6 @@ constexpr ErrorCode kCodes[] = {
      "`shape_stiffness` keeps triangles from collapsing. Above 0.6 times the tension it resists the shear of a cortex that should flow, "
      "and "
      "contact radii and angles come out too small."},
-    {645, "noise that leaves the inside cold",
-     "Random forces belong to friction. Nuclei and links inside a shell have friction without them, so that the cell would fluctuate less "
-     "than "
-     "its energy says."},
     {646, "shells that would divide",
      "Shells grow but cannot divide yet. One that reaches its division volume waits there, as the event `division_waits` says, until its "
      "body "

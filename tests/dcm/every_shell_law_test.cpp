@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cstring>
@@ -217,12 +216,11 @@ TEST(InternalForces, HaveTheSameBitsOnAnyNumberOfThreads) {
   ShellParameters p;
   p.spring_stiffness = 0.17, p.hinge_stiffness = 1e-3, p.tension = 0.5, p.barrier_angle = 0.5;
   const std::vector<ShellParameters> types{p, p};
-  const int threads = omp_get_max_threads();
-  omp_set_num_threads(1);
   const auto one = mechanics(shells, types, shells.position);
-  omp_set_num_threads(3);
-  const auto three = mechanics(shells, types, shells.position);
-  omp_set_num_threads(threads);
+  ShellBlocks blocks = make_shell_blocks(shells);
+  blocks.threads = 3;
+  ShellMechanics three;
+  internal_forces(blocks, shells, types, shells.position, three);
   EXPECT_EQ(one.force, three.force);
   EXPECT_EQ(one.energy, three.energy);
   EXPECT_EQ(one.volume, three.volume);
