@@ -82,6 +82,6 @@ std::string add_input_file(BuildContext& context, Given<std::string>& written);
 /// Read the closed surface of an STL or OBJ file, in µm, and check it: E601–E602 and E620–E624; then the mesh is empty.
 TriangleMesh surface_from_file(BuildContext& context, Given<std::string>& written, const Given<double>& scale);
 /// Largest explicit Euler step that is stable for the types of this study [s] (estimate).
-double explicit_step_limit(const draft::Study& draft);
+double explicit_step_limit(const Laws& laws, const draft::Study& draft);
 
 }  // namespace morula::scenarios
