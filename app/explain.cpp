@@ -11,15 +11,15 @@ Status explain(const ExplainOptions& options, const Context& context) {
     return {};
   }
   if (options.markdown == "study") {
-    context.console.result(scenarios::study_reference());
+    context.console.result(scenarios::study_reference(*builtin_laws()));
     return {};
   }
   std::string text;
   for (const ListedLaw& law : laws_named(options.id)) text += law_text(law);
-  if (const auto found = scenarios::explain_study(options.id)) text += *found;
+  if (const auto found = scenarios::explain_study(options.id, *builtin_laws())) text += *found;
   if (text.empty()) {
     std::vector<std::string> known = law_names();
-    for (std::string& path : scenarios::study_key_paths()) {
+    for (std::string& path : scenarios::study_key_paths(*builtin_laws())) {
       const std::size_t dot = path.rfind('.');
       if (dot != std::string::npos) known.push_back(path.substr(dot + 1));
       known.push_back(std::move(path));

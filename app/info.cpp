@@ -130,7 +130,7 @@ void add_defaults(const scenarios::Declaration& from, std::vector<std::vector<st
 /// Every key that has a default, with the default and where it comes from.
 Status info_of_defaults(const InfoOptions& options, const Context& context) {
   std::vector<std::vector<std::string>> rows;
-  add_defaults(scenarios::study_declarations(), rows);
+  add_defaults(scenarios::study_declarations(*builtin_laws()), rows);
   if (options.json) {
     Json list = Json::array();
     for (const auto& row : rows) list.push_back({{"key", row[0]}, {"default", row[1]}, {"source", row[2]}});

@@ -7,9 +7,10 @@
 #include "cbm/packing.h"
 #include "coupling/behaviours/builtin.h"
 #include "coupling/builtin.h"
-#include "dcm/builtin.h"
+#include "coupling/laws.h"
 #include "dcm/interior_laws.h"
 #include "fields/builtin.h"
+#include "study/key_range.h"
 
 namespace morula::app {
 namespace {
@@ -21,6 +22,11 @@ std::string in_cell(const std::string& text) {
   return out;
 }
 
+std::string fallback_of(const KeySpec& key) {
+  if (key.fallback == nullptr) return key.required ? "none, must be given" : "none";
+  return "`" + std::string(key.fallback) + "`";
+}
+
 }  // namespace
 
 std::vector<ListedLaw> all_laws() {
@@ -28,7 +34,8 @@ std::vector<ListedLaw> all_laws() {
   for (auto& entry : cbm::contact_laws()) laws.push_back({"contact of spheres", std::move(entry.info)});
   laws.push_back({"contact of spheres", cbm::jkr_range_law()});
   laws.push_back({"contact of spheres", cbm::packing_law()});
-  for (const auto& entry : dcm::shell_laws()) laws.push_back({"shells", entry.info});
+  const auto builtin = builtin_laws();
+  for (const auto& law : builtin->shells) laws.push_back({"shells", law.info});
   const auto add = [&laws](const char* group, std::vector<LawInfo> infos) {
     for (LawInfo& info : infos) laws.push_back({group, std::move(info)});
   };
@@ -57,10 +64,14 @@ std::vector<std::string> law_names() {
 std::string law_text(const ListedLaw& law) {
   std::string out = law.info.name + ": " + law.info.title + " (" + law.group + ")\n  equation: " + law.info.equation +
                     "\n  source:   " + law.info.source + "\n";
-  if (law.info.parameters.empty()) return out;
-  out += "  parameters:\n";
+  if (!law.info.parameters.empty()) out += "  parameters:\n";
   for (const LawParameter& p : law.info.parameters) {
     out += "    " + p.name + " [" + (p.unit.empty() ? "1" : p.unit) + "]: " + p.doc + "\n";
+  }
+  if (!law.info.keys.empty()) out += "  from the keys of the study:\n";
+  for (const LawKey& key : law.info.keys) {
+    out += "    " + key.section + "." + key.spec.name + ": " + key.spec.doc + "\n      range:   " + scenarios::range_words(key.spec) +
+           "\n      default: " + fallback_of(key.spec) + "\n";
   }
   return out;
 }
@@ -70,18 +81,26 @@ std::string law_json(const ListedLaw& law) {
   for (const LawParameter& p : law.info.parameters) {
     parameters.push_back({{"name", p.name}, {"quantity", p.quantity}, {"unit", p.unit}, {"doc", p.doc}});
   }
-  const nlohmann::ordered_json json{{"law", law.info.name},          {"title", law.info.title},   {"group", law.group},
-                                    {"equation", law.info.equation}, {"source", law.info.source}, {"parameters", parameters}};
+  nlohmann::ordered_json keys = nlohmann::ordered_json::array();
+  for (const LawKey& key : law.info.keys)
+    keys.push_back({{"key", key.section + "." + key.spec.name},
+                    {"default", key.spec.fallback != nullptr ? key.spec.fallback : ""},
+                    {"range", scenarios::range_words(key.spec)},
+                    {"source", key.spec.source},
+                    {"doc", key.spec.doc}});
+  const nlohmann::ordered_json json{
+      {"law", law.info.name},      {"title", law.info.title},  {"group", law.group}, {"equation", law.info.equation},
+      {"source", law.info.source}, {"parameters", parameters}, {"keys", keys}};
   return json.dump(2) + "\n";
 }
 
 std::string law_reference() {
   std::string out =
-      "# Laws\n\nGenerated from the registries (`cbm/builtin.cpp`, `dcm/builtin.cpp`, `coupling/builtin.cpp`, "
-      "`coupling/behaviours/builtin.cpp`, `fields/builtin.cpp`); do not edit.\n"
-      "Units inside are µm, nN, s and amol; 1 kPa = 1 nN/µm². Values, ranges, defaults and where these come from belong to the keys of the "
-      "study\n"
-      "and stand in [study_reference.md](study_reference.md) alone; `methods.md` of a run has the values it used.\n";
+      "# Laws\n\nGenerated from the declarations of the laws; do not edit.\n"
+      "Units inside are µm, nN, s and amol; 1 kPa = 1 nN/µm². Parameters are the numbers that a law's functions take; they follow from "
+      "keys "
+      "of the\n"
+      "study ([study_reference.md](study_reference.md)), and `methods.md` of a run has the values it used.\n";
   std::string group;
   for (const ListedLaw& law : all_laws()) {
     if (law.group != group) {
@@ -89,10 +108,13 @@ std::string law_reference() {
       out += "\n## Laws of " + group + "\n";
     }
     out += "\n### `" + law.info.name + "`: " + law.info.title + "\n\n    " + law.info.equation + "\n\nSource: " + law.info.source + "\n";
-    if (law.info.parameters.empty()) continue;
-    out += "\n| parameter | unit | what |\n|---|---|---|\n";
+    if (!law.info.parameters.empty()) out += "\n| parameter | unit | what |\n|---|---|---|\n";
     for (const LawParameter& p : law.info.parameters)
       out += "| `" + p.name + "` | " + (p.unit.empty() ? "1" : p.unit) + " | " + in_cell(p.doc) + " |\n";
+    if (!law.info.keys.empty()) out += "\n| key of the study | range | default | source |\n|---|---|---|---|\n";
+    for (const LawKey& key : law.info.keys)
+      out += "| `" + key.section + "." + key.spec.name + "` | " + scenarios::range_words(key.spec) + " | " + fallback_of(key.spec) + " | " +
+             in_cell(key.spec.source) + " |\n";
   }
   return out;
 }

@@ -26,6 +26,7 @@
 #include "core/space/curve.h"
 #include "coupling/behaviours/birth.h"
 #include "coupling/cell_record.h"
+#include "coupling/mechanics/scene.h"
 #include "coupling/simulation.h"
 #include "coupling/swaps.h"
 

@@ -132,13 +132,12 @@ void Simulation::add_protrusions(std::span<Vec3d> external) {
   }
 }
 
-std::vector<Vec3d> Simulation::external_forces(double time, double dt) {
+std::vector<Vec3d> Simulation::external_forces(double time) {
   std::vector<Vec3d> out = mechanics_->spread(tissue_, forces_on_cells(time));
   add_surface_loads(model_, tissue_, time, out);
   add_lumen_forces(model_, tissue_, time, comm_, out);
   add_protrusions(out);
   add_crawling(out);
-  mechanics_->add_fluctuations(tissue_, dt, out);
   return out;
 }
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "core/contact/contact_layer.h"
+#include "coupling/mechanics/scene.h"
+
 namespace morula {
 
 Extreme deepest_overlap(Simulation& simulation) {

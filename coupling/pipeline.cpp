@@ -50,6 +50,30 @@ struct Growing {
   }
 };
 
+/// Why no step size works: cell, law and time.
+Error refused(const Model& model, const Clock& clock, const StepFault& fault, double dt) {
+  char when[64];
+  const bool early = clock.time < 3600.0;  // seconds say more than 2.981e-05 h
+  std::snprintf(when, sizeof when, early ? " at %.4g s" : " at %.6g h", early ? clock.time : clock.time / 3600.0);
+  return {ErrorKind::kPhysics, fault.what + (fault.cell.valid() ? " (cell " + fault.cell.text() + ")" : "") + when,
+          "the step was cut to " + std::to_string(dt) + " s without success; " +
+              (clock.capped && model.step.start_cap > 0.0 ? "`numerics: {start_cap: auto}` or a smaller cap, " : "") +
+              (model.loads.empty() ? "" : "smaller loads, or loads that grow slowly (`course`), ") +
+              "weaker adhesion, more tension, a larger `shape_stiffness` or `fold_barrier`, or another number of nodes may help"};
+}
+
+/// The step after one of dt: towards the allowed displacement, more slowly where Newton had to work. `wanted`: the step that the controller had
+/// wanted, if dt was only cut to land somewhere; else 0.
+double next_step(const StepControl& control, double range, const StepReport& done, double dt, double wanted) {
+  if (control.integrator == Integrator::kExplicitEuler) return control.max_step;
+  const double allowed = control.max_displacement * range;
+  double factor = std::min(kGrowthOfStep, 0.9 * allowed / std::max(done.displacement, 1e-12));
+  // At rest on a kink of the contact energy every search is short, whatever the step: a smaller one would only stop the clock.
+  const bool moving = done.displacement > kAtRest * allowed;
+  if (done.halvings > 3 && moving) factor = std::min(factor, 0.5);
+  return std::max(std::min(control.max_step, dt * std::max(factor, 0.2)), std::min(wanted, control.max_step));
+}
+
 }  // namespace
 
 Result<StepOutcome> Simulation::step(double land_on, const std::function<bool()>& give_up) {
@@ -80,24 +104,14 @@ Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<b
       set_bodies_to_targets(dt);
     }
     // mechanics: ghosts, candidates, contacts, forces, system, solve, advance
-    const auto moved = mechanics_->step(tissue_, dt, external_forces(clock.time + dt, dt), grip_anchors(model_, tissue_, clock.time + dt));
+    const auto moved = mechanics_->step(tissue_, dt, external_forces(clock.time + dt), grip_anchors(model_, tissue_, clock.time + dt));
     if (moved) {
       outcome.mechanics = *moved;
       break;
     }
     before.restore(tissue_);
     mechanics_->parameters_changed();
-    if (!moved.error().smaller_step_may_help || dt * 0.25 < kSmallestStep) {
-      char when[64];
-      const bool early = clock.time < 3600.0;  // seconds say more than 2.981e-05 h
-      std::snprintf(when, sizeof when, early ? " at %.4g s" : " at %.6g h", early ? clock.time : clock.time / 3600.0);
-      return Error{ErrorKind::kPhysics,
-                   moved.error().what + (moved.error().cell.valid() ? " (cell " + moved.error().cell.text() + ")" : "") + when,
-                   "the step was cut to " + std::to_string(dt) + " s without success; " +
-                       (clock.capped && model_.step.start_cap > 0.0 ? "`numerics: {start_cap: auto}` or a smaller cap, " : "") +
-                       (model_.loads.empty() ? "" : "smaller loads, or loads that grow slowly (`course`), ") +
-                       "weaker adhesion, more tension, a larger `shape_stiffness` or `fold_barrier`, or another number of nodes may help"};
-    }
+    if (!moved.error().smaller_step_may_help || dt * 0.25 < kSmallestStep) return refused(model_, clock, moved.error(), dt);
     dt *= outcome.retries < 2 ? 0.5 : 0.25;
   }
   tissue_.ledger.drift += outcome.mechanics.motion.drift;
@@ -106,16 +120,8 @@ Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<b
   clock.time = dt == land_on - clock.time ? land_on : clock.time + dt;
   if (std::abs(clock.time - land_on) < 1e-9 * std::max(1.0, land_on)) clock.time = land_on;
   ++clock.steps;
-  {  // the next step: towards the allowed displacement, more slowly where Newton had to work
-    const double allowed = model_.step.max_displacement * model_.contact.range;
-    double factor = std::min(kGrowthOfStep, 0.9 * allowed / std::max(outcome.mechanics.displacement, 1e-12));
-    // At rest on a kink of the contact energy every search is short, whatever the step: a smaller one would only stop the clock.
-    const bool moving = outcome.mechanics.displacement > kAtRest * allowed;
-    if (outcome.mechanics.halvings > 3 && moving) factor = std::min(factor, 0.5);
-    const double next = std::min(model_.step.max_step, dt * std::max(factor, 0.2));
-    clock.next_step = wanted_less && outcome.retries == 0 ? std::max(next, std::min(clock.next_step, model_.step.max_step)) : next;
-    if (model_.step.integrator == Integrator::kExplicitEuler) clock.next_step = model_.step.max_step;
-  }
+  const double wanted = wanted_less && outcome.retries == 0 ? clock.next_step : 0.0;
+  clock.next_step = next_step(model_.step, model_.contact.range, outcome.mechanics, dt, wanted);
   wrap_cells();
   dcm::turn_over(tissue_.shells, mechanics_->shell_parameters(), dt);
   dcm::turn_over(tissue_.nuclei.shells, mechanics_->nucleus_parameters(), dt);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "cbm/partners.h"
+#include "core/contact/contact_layer.h"
 #include "core/parallel/threads.h"
 #include "coupling/behaviours/division.h"
 #include "coupling/behaviours/life.h"
@@ -15,6 +16,7 @@
 #include "coupling/cell_record.h"
 #include "coupling/face_marks.h"
 #include "coupling/mechanics/contact_setup.h"
+#include "coupling/mechanics/scene.h"
 #include "coupling/still_to_come.h"
 #include "coupling/swaps.h"
 #include "dcm/growth.h"
@@ -66,6 +68,40 @@ void take_back(Tissue& tissue, std::vector<CellRecord> before, std::span<const C
     event.kind = EventKind::kWarning;
     event.text = "no room among its neighbours to become a shell (" + event.text + "); it stays a sphere until the hold time is over";
   }
+}
+
+/// Cells that have just become shells.
+struct NewShells {
+  std::vector<CellId> cells;       ///< sorted
+  std::vector<CellRecord> before;  ///< the spheres that they were
+  bool may_go_back = true;         ///< false: cells become what the study says, however little room they have
+};
+
+/// New shells find their shape between their neighbours, at their volume; those that find no room become again what they were. Collective.
+Status settle_new_shells(Tissue& tissue, Mechanics& mechanics, const Comm& comm, NewShells fresh, std::vector<Event>& events) {
+  std::vector<char> moves;
+  std::vector<std::pair<std::size_t, double>> kept;  // shell, volume
+  for (const CellRow& row : tissue.cells.rows) {
+    if (row.body != BodyKind::kShell) continue;
+    const std::size_t shell = moves.size();
+    const bool is_fresh = std::binary_search(fresh.cells.begin(), fresh.cells.end(), row.id);
+    if (is_fresh) kept.emplace_back(shell, tissue.shells.rest_volume[shell]);
+    moves.push_back(is_fresh);
+  }
+  moves.resize(moves.size() + tissue.spheres.size(), 0);
+  const bool capped = tissue.clock.capped;
+  MORULA_TRY(mechanics.relax(tissue, moves));
+  for (const auto& [shell, v] : kept) set_enclosed_volume(tissue.shells.topology(shell), tissue.shells.nodes(shell), v);
+  mechanics.bodies_changed();
+  if (!fresh.may_go_back) return {};
+  const std::vector<CellId> back = too_deep(mechanics, fresh.cells, kNoRoom);
+  if (comm.any(!back.empty())) {
+    take_back(tissue, std::move(fresh.before), back, events);
+    mechanics.bodies_changed();
+  }
+  // Where all have gone back the tissue is as it was; others that are left in an overlap go on with the capped start.
+  if (comm.all(back.size() == fresh.cells.size())) tissue.clock.capped = capped;
+  return {};
 }
 
 }  // namespace
@@ -253,31 +289,9 @@ Result<std::vector<Event>> Simulation::swap_bodies() {
   mark_new_shells(model_, tissue_);
   mechanics_->bodies_changed();
 
-  if (comm_.any(!fresh.empty())) {  // new shells find their shape between their neighbours, at their volume
+  if (comm_.any(!fresh.empty())) {
     std::sort(fresh.begin(), fresh.end());
-    std::vector<char> moves;
-    std::vector<std::pair<std::size_t, double>> kept;  // shell, volume
-    for (const CellRow& row : tissue_.cells.rows) {
-      if (row.body != BodyKind::kShell) continue;
-      const std::size_t shell = moves.size();
-      const bool is_fresh = std::binary_search(fresh.begin(), fresh.end(), row.id);
-      if (is_fresh) kept.emplace_back(shell, tissue_.shells.rest_volume[shell]);
-      moves.push_back(is_fresh);
-    }
-    moves.resize(moves.size() + tissue_.spheres.size(), 0);
-    const bool capped = tissue_.clock.capped;
-    MORULA_TRY(mechanics_->relax(tissue_, moves));
-    for (const auto& [shell, v] : kept) set_enclosed_volume(tissue_.shells.topology(shell), tissue_.shells.nodes(shell), v);
-    mechanics_->bodies_changed();
-    if (may_stay) {
-      const std::vector<CellId> back = too_deep(*mechanics_, fresh, kNoRoom);
-      if (comm_.any(!back.empty())) {
-        take_back(tissue_, std::move(before), back, events);
-        mechanics_->bodies_changed();
-      }
-      // Where all have gone back the tissue is as it was; others that are left in an overlap go on with the capped start.
-      if (comm_.all(back.size() == fresh.size())) tissue_.clock.capped = capped;
-    }
+    MORULA_TRY(settle_new_shells(tissue_, *mechanics_, comm_, {fresh, std::move(before), may_stay}, events));
   }
   std::int64_t ups = 0, downs = 0;
   for (const Event& event : events) {

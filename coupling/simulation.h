@@ -55,8 +55,7 @@ class Simulation {
   [[nodiscard]] std::vector<Vec3d> forces_on_cells(double time);
   /// Migration and external loads at a time, by shell node, then by sphere. Implicit in time, explicit in shape: strengths are those of the
   /// step's end, directions and areas those of its start, and the step holds them as dead loads.
-  /// dt: of the step, which fluctuations depend on.
-  [[nodiscard]] std::vector<Vec3d> external_forces(double time, double dt);
+  [[nodiscard]] std::vector<Vec3d> external_forces(double time);
   /// Forces of the migrating cells, by shell node, then by sphere.
   void add_crawling(std::span<Vec3d> external);
   /// Protrusions of the shells, by shell node.

@@ -9,8 +9,8 @@
 #include "dcm/laws/hinge_bending.h"
 #include "dcm/laws/triangle_shape.h"
 #include "dcm/laws/volume_pressure.h"
-#include "dcm/membrane.h"
 #include "dcm/operator_assembly.h"
+#include "dcm/sheets_of_block.h"
 #include "dcm/stencils/face.h"
 #include "dcm/stencils/hinge.h"
 
@@ -57,8 +57,7 @@ void assemble_faces(Assembly<W>& a) noexcept {
   const CorticalTension<Real> tension{a.of_type(&ShellParameters::tension)};
   const TriangleShape<Real> shape{a.of_type(&ShellParameters::shape_stiffness)};
   const bool has_shape = any_lane<W>(shape.stiffness > Real(0.0f));
-  const Real sheet_shear =
-      a.of_type(&ShellParameters::neo_hooke_shear) + a.of_type(&ShellParameters::stvk_shear) + a.of_type(&ShellParameters::skalak_shear);
+  const Real sheet_shear = by_lane<float, W>(a.block, [&](std::uint32_t s) { return sheet_strengths<float>(a.types[a.shells.type[s]]); });
   const Real threshold = shape_threshold(a.of_type(&ShellParameters::spring_stiffness), sheet_shear, tension.tension);
   const ShapeArray<float, W> unit_area(a.block, a.shells, &ReferenceShape::face_area);
   const Real scale = by_lane<float, W>(a.block, [&](std::uint32_t s) { return std::pow(std::cbrt(a.shells.rest_volume[s]), 2); });
@@ -232,7 +231,7 @@ void assemble_block(const ShellBlocks& blocks, const LaneBlock& block, const She
   const auto choice = HingeChoice<W>::of(a);
   if (assemble_edges(a, friction, choice)) assemble_hinges(a, choice);
   out.membrane.clear(), out.area_gradient.clear(), out.bending_normal.clear(), out.bending_weight.clear();
-  if (Membrane<float, W>::acts(block, shells, types)) assemble_membrane(a);
+  assemble_sheets(a);
   if (global_area) assemble_global_area(a);
   if (any(&ShellParameters::helfrich_rigidity)) assemble_bending(a);
   out.bulk_gradient.resize(friction.volume_gradient.size());

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/mesh/lane_surface.h"
+#include "dcm/shell_fault.h"
 #include "dcm/shells.h"
 
 namespace morula::dcm {
@@ -49,10 +50,10 @@ struct BlockState {
   void add_force(std::size_t node, const Vec3<Real>& f) noexcept { add_vec3<double, W>(ws.force.data(), node, f); }
 };
 
-/// Membrane laws on constant-strain triangles and local area elasticity; adds to force, energy and stretch_excess. For blocks in which a
-/// shell has one of them.
+/// Sheets (laws of the strain of a face) and local area elasticity, where a shell of the block has one of them; adds to force, energy and
+/// stretch_excess.
 template <int W>
-void add_membrane_laws(BlockState<W>& state, const Shells& shells, std::span<const ShellParameters> types) noexcept;
+void add_sheet_laws(BlockState<W>& state, const Shells& shells, std::span<const ShellParameters> types) noexcept;
 
 /// Helfrich bending. For blocks in which a shell has it; face vectors are those of the positions.
 template <int W>
@@ -63,7 +64,8 @@ template <int W>
 std::array<Lane<double, W>, 2> global_area(const BlockState<W>& state, const Shells& shells,
                                            std::span<const ShellParameters> types) noexcept;
 
-/// The first face whose stretch leaves the range of St Venant–Kirchhoff; face_count when there is none.
-std::uint32_t overstretched_face(const Topology& topology, std::span<const Vec3d> position, std::span<const double> rest_length);
+/// The first face of a shell whose strain leaves the range of one of its sheets; its number is face_count when there is none.
+ShellFault overstretched_face(const Topology& topology, std::span<const Sheet> sheets, std::span<const Vec3d> position,
+                              std::span<const double> rest_length);
 
 }  // namespace morula::dcm

@@ -12,6 +12,7 @@ namespace morula::dcm {
 struct ShellBlocks {
   std::vector<LaneBlock> blocks;
   std::vector<std::uint32_t> first_face{0};  ///< by shell, one more at the end: into arrays by face
+  int threads = 1;                           ///< that work on the blocks; results do not depend on it
 
   [[nodiscard]] std::uint32_t face_count() const { return first_face.back(); }
 };
@@ -36,7 +37,7 @@ void for_block(const ShellBlocks& blocks, std::size_t b, const Kernel& kernel, W
 /// The same for every block, in parallel; each thread has one Workspace.
 template <class Workspace, class Kernel>
 void for_each_block(const ShellBlocks& blocks, const Kernel& kernel) {
-  parallel_for_with<Workspace>(omp_get_max_threads(), blocks.blocks.size(),
+  parallel_for_with<Workspace>(blocks.threads, blocks.blocks.size(),
                                [&](std::size_t b, Workspace& workspace) { for_block(blocks, b, kernel, workspace); });
 }
 

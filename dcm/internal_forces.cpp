@@ -10,7 +10,7 @@
 #include "dcm/laws/hinge_bending.h"
 #include "dcm/laws/triangle_shape.h"
 #include "dcm/laws/volume_pressure.h"
-#include "dcm/membrane.h"
+#include "dcm/sheets_of_block.h"
 #include "dcm/stencils/face.h"
 #include "dcm/stencils/hinge.h"
 
@@ -160,8 +160,8 @@ std::span<const double> rest_lengths(const Shells& shells, std::uint32_t shell) 
 }
 
 template <int W>
-void write_shell_results(const BlockState<W>& state, const Shells& shells, std::span<const Vec3d> position, const Lane<double, W>& cytosol,
-                         ShellMechanics& out) noexcept {
+void write_shell_results(const BlockState<W>& state, const Shells& shells, std::span<const ShellParameters> types,
+                         std::span<const Vec3d> position, const Lane<double, W>& cytosol, ShellMechanics& out) noexcept {
   for (int lane = 0; lane < state.block.count; ++lane) {
     const std::uint32_t shell = state.block.member[lane];
     const double volume = state.volume[lane], energy = state.energy[lane];
@@ -177,7 +177,7 @@ void write_shell_results(const BlockState<W>& state, const Shells& shells, std::
     }
     const auto x = position.subspan(shells.first_node[shell], state.topology.node_count());
     out.fault[shell] = state.stretch_excess[lane] > 0.0 && std::isfinite(energy) && cytosol[lane] > 0.0
-                           ? ShellFault{ShellFaultKind::kStretch, overstretched_face(state.topology, x, rest_lengths(shells, shell))}
+                           ? overstretched_face(state.topology, types[shells.type[shell]].sheets, x, rest_lengths(shells, shell))
                            : locate_fault(state.topology, x, cytosol[lane]);
   }
 }
@@ -217,12 +217,12 @@ void block_mechanics(const LaneBlock& block, const Shells& shells, std::span<con
   add_edge_laws<W>(state, shells, {of_type(&ShellParameters::spring_stiffness)}, {of_type(&ShellParameters::hinge_stiffness)});
   const DihedralBarrier<Real> barrier{of_type(&ShellParameters::barrier_stiffness), of_type(&ShellParameters::barrier_angle)};
   if (any_lane<W>(state.max_angle > barrier.onset)) add_barrier(state, barrier);
-  if (Membrane<double, W>::acts(block, shells, types)) add_membrane_laws<W>(state, shells, types);
+  add_sheet_laws<W>(state, shells, types);
   if (any_has<W>(block, shells, types, &ShellParameters::helfrich_rigidity)) add_helfrich<W>(state, shells, types);
   state.energy += volume_energy + area_energy;
   store_lanes<W, double>(ws.force.data(), std::size_t{topology.node_count()} * 3,
                          lane_pointers<W>(&force.data()->x, block, shells.first_node, 3));
-  write_shell_results(state, shells, position, cytosol, out);
+  write_shell_results(state, shells, types, position, cytosol, out);
 }
 
 }  // namespace

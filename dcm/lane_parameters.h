@@ -23,6 +23,14 @@ Lane<T, W> parameter(const LaneBlock& block, const Shells& shells, std::span<con
   return by_lane<T, W>(block, [&](std::uint32_t shell) { return types[shells.type[shell]].*member; });
 }
 
+/// Whether any shell of a block has this law.
+template <int W>
+bool any_has(const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types, double ShellParameters::*strength) {
+  for (int lane = 0; lane < W; ++lane)
+    if (types[shells.type[block.member[lane]]].*strength > 0.0) return true;
+  return false;
+}
+
 /// An array of the reference shapes as lanes; read once when all shells of the block share one shape.
 template <class T, int W>
 class ShapeArray {

@@ -1,34 +1,23 @@
 #include "dcm/block_state.h"
-#include "dcm/membrane.h"
+#include "dcm/sheet_loops.h"
+#include "dcm/sheets_of_block.h"
 #include "dcm/stencils/face.h"
 
 namespace morula::dcm {
 
 template <int W>
-void add_membrane_laws(BlockState<W>& state, const Shells& shells, std::span<const ShellParameters> types) noexcept {
+void add_sheet_laws(BlockState<W>& state, const Shells& shells, std::span<const ShellParameters> types) noexcept {
   using Real = Lane<double, W>;
-  const auto membrane = Membrane<double, W>::of(state.block, shells, types);
-  const auto faces = state.topology.faces();
-  const auto face_edges = state.topology.face_edges();
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    const Triangle& t = faces[f];
-    const auto x0 = state.x(t[0]), x1 = state.x(t[1]), x2 = state.x(t[2]);
-    const auto e0 = x2 - x1, e1 = x0 - x2, e2 = x1 - x0;
-    const auto rest = rest_squares<Real>(face_edges[f], [&](std::uint32_t edge) { return state.rest_length(edge); });
-    const auto strain = MembraneStrain<Real>::of(rest, {norm2(e0), norm2(e1), norm2(e2)});
-    const auto stress = membrane.stress(strain);
-    state.energy += strain.reference_area * stress.energy;
-    if (membrane.has_stvk) {
-      const Real excess = StVenantKirchhoff<Real>::excess(strain.trace, strain.det);
-      state.stretch_excess = max(state.stretch_excess, select(membrane.stvk.shear > Real(0.0), excess, Real(0.0)));
-    }
-    const Real twice_area = Real(2.0) * strain.reference_area;
-    const auto pull = [&](int c) { return twice_area * (stress.trace * strain.trace_slope[c] + stress.det * strain.det_slope[c]); };
-    const auto f0 = e0 * pull(0), f1 = e1 * pull(1), f2 = e2 * pull(2);
-    state.add_force(t[0], f2 - f1);
-    state.add_force(t[1], f0 - f2);
-    state.add_force(t[2], f1 - f0);
-  }
+  const auto sheets = sheets_of_block<double, W>(state.block, shells, types);
+  const bool has_area = any_has<W>(state.block, shells, types, &ShellParameters::local_area_modulus);
+  const Real modulus = parameter<double, W>(state.block, shells, types, &ShellParameters::local_area_modulus);
+  const Real* const area = has_area ? &modulus : nullptr;
+  if (sheets.size() == 1)
+    sheets[0].law->template in_lanes<W>().add_forces(state, sheets[0].coefficient.data(), area);
+  else if (sheets.size() > 1)
+    add_sheet_forces<W>(state, SheetSum<W>{sheets}, area);
+  else if (has_area)
+    add_sheet_forces<W>(state, OneSheet<NoSheet, Real>{}, area);
 }
 
 template <int W>
@@ -45,19 +34,22 @@ std::array<Lane<double, W>, 2> global_area(const BlockState<W>& state, const She
   return {law.energy(area, reference), law.tension(area, reference)};
 }
 
-std::uint32_t overstretched_face(const Topology& topology, std::span<const Vec3d> x, std::span<const double> rest_length) {
+ShellFault overstretched_face(const Topology& topology, std::span<const Sheet> sheets, std::span<const Vec3d> x,
+                              std::span<const double> rest_length) {
   for (std::uint32_t f = 0; f < topology.face_count(); ++f) {
     const Triangle& t = topology.faces()[f];
     const auto rest = rest_squares<double>(topology.face_edges()[f], [&](std::uint32_t edge) { return rest_length[edge]; });
     const auto strain = MembraneStrain<double>::of(rest, {norm2(x[t[2]] - x[t[1]]), norm2(x[t[0]] - x[t[2]]), norm2(x[t[1]] - x[t[0]])});
-    if (!(StVenantKirchhoff<double>::excess(strain.trace, strain.det) <= 0.0)) return f;
+    for (const Sheet& sheet : sheets)
+      if (sheet.law->excess != nullptr && sheet.coefficient[0] > 0.0 && !(sheet.law->excess(strain.trace, strain.det) <= 0.0))
+        return {ShellFaultKind::kStretch, f, sheet.law.get()};
   }
-  return topology.face_count();
+  return {ShellFaultKind::kStretch, topology.face_count(), nullptr};
 }
 
-template void add_membrane_laws<1>(BlockState<1>&, const Shells&, std::span<const ShellParameters>) noexcept;
-template void add_membrane_laws<4>(BlockState<4>&, const Shells&, std::span<const ShellParameters>) noexcept;
-template void add_membrane_laws<8>(BlockState<8>&, const Shells&, std::span<const ShellParameters>) noexcept;
+template void add_sheet_laws<1>(BlockState<1>&, const Shells&, std::span<const ShellParameters>) noexcept;
+template void add_sheet_laws<4>(BlockState<4>&, const Shells&, std::span<const ShellParameters>) noexcept;
+template void add_sheet_laws<8>(BlockState<8>&, const Shells&, std::span<const ShellParameters>) noexcept;
 template std::array<Lane<double, 1>, 2> global_area<1>(const BlockState<1>&, const Shells&, std::span<const ShellParameters>) noexcept;
 template std::array<Lane<double, 4>, 2> global_area<4>(const BlockState<4>&, const Shells&, std::span<const ShellParameters>) noexcept;
 template std::array<Lane<double, 8>, 2> global_area<8>(const BlockState<8>&, const Shells&, std::span<const ShellParameters>) noexcept;

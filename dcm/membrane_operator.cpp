@@ -1,42 +1,12 @@
 #include <algorithm>
 
 #include "dcm/laws/helfrich.h"
-#include "dcm/membrane.h"
 #include "dcm/operator_assembly.h"
+#include "dcm/sheet_loops.h"
+#include "dcm/sheets_of_block.h"
 #include "dcm/stencils/face.h"
 
 namespace morula::dcm {
-namespace {
-
-/// A face of the block: its edges and its strain.
-template <int W>
-struct StrainedFace {
-  using Real = Lane<float, W>;
-  std::array<Vec3<Real>, 3> e;
-  MembraneStrain<Real> strain;
-
-  static StrainedFace of(const Assembly<W>& a, std::size_t f) noexcept {
-    const Triangle& t = a.topology.faces()[f];
-    const auto x0 = a.x(t[0]), x1 = a.x(t[1]), x2 = a.x(t[2]);
-    StrainedFace out;
-    out.e = {x2 - x1, x0 - x2, x1 - x0};
-    const auto rest = rest_squares<Real>(a.topology.face_edges()[f],
-                                         [&](std::uint32_t edge) { return load_scalar<float, W>(a.ws.rest_length.data(), edge); });
-    out.strain = MembraneStrain<Real>::of(rest, {norm2(out.e[0]), norm2(out.e[1]), norm2(out.e[2])});
-    return out;
-  }
-};
-
-template <int W>
-void add_to_edge(Assembly<W>& a, std::size_t edge, const SymMat3<Lane<float, W>>& m) noexcept {
-  using Real = Lane<float, W>;
-  float* p = a.out.edge.data() + edge * 6 * W;
-  const auto add = [&](int entry, Real value) { (Real::load(p + entry * W) + value).store(p + entry * W); };
-  add(0, m.xx), add(1, m.xy), add(2, m.xz), add(3, m.yy), add(4, m.yz), add(5, m.zz);
-}
-
-}  // namespace
-
 template <int W>
 void add_area_tensions(Assembly<W>& a) noexcept {
   using Real = Lane<float, W>;
@@ -57,31 +27,18 @@ void add_area_tensions(Assembly<W>& a) noexcept {
 }
 
 template <int W>
-void assemble_membrane(Assembly<W>& a) noexcept {
+void assemble_sheets(Assembly<W>& a) noexcept {
   using Real = Lane<float, W>;
-  const auto membrane = Membrane<float, W>::of(a.block, a.shells, a.types);
-  const auto face_edges = a.topology.face_edges();
-  a.out.membrane.resize(face_edges.size() * 9 * W);
-  for (std::size_t f = 0; f < face_edges.size(); ++f) {
-    const auto [e, s] = StrainedFace<W>::of(a, f);
-    const auto moduli = membrane.moduli(s);
-    const auto pull = tensile_part(membrane.elastic_stress(s), s.trace, s.det);
-    const Real area = s.reference_area * a.dt, four_areas = Real(4.0f) * area;
-    // ∂²W/∂q_c∂q_d of the quadratic form in the squared lengths; a squared length changes by 2 e_c·Δv
-    const auto h = [&](int c, int d) {
-      const Real mixed = s.trace_slope[c] * s.det_slope[d] + s.det_slope[c] * s.trace_slope[d];
-      return four_areas * (moduli.tt * (s.trace_slope[c] * s.trace_slope[d]) + moduli.td * mixed +
-                           moduli.dd * (s.det_slope[c] * s.det_slope[d]) + (c == d ? -moduli.d : moduli.d) * s.twist);
-    };
-    for (int c = 0; c < 3; ++c) {
-      const Real across = Real(2.0f) * area * (pull.trace * s.trace_slope[c] + pull.det * s.det_slope[c]);
-      add_to_edge(a, face_edges[f][c], outer(h(c, c), e[c]) + isotropic(across));
-    }
-    float* p = a.out.membrane.data() + f * 9 * W;
-    h(0, 1).store(p), h(1, 2).store(p + W), h(2, 0).store(p + 2 * W);
-    store_vec3<float, W>(p + 3 * W, 0, e[1]);
-    store_vec3<float, W>(p + 3 * W, 1, e[2]);
-  }
+  const auto sheets = sheets_of_block<float, W>(a.block, a.shells, a.types);
+  const bool has_area = any_has<W>(a.block, a.shells, a.types, &ShellParameters::local_area_modulus);
+  const Real modulus = a.of_type(&ShellParameters::local_area_modulus);
+  const Real* const area = has_area ? &modulus : nullptr;
+  if (sheets.size() == 1)
+    sheets[0].law->template in_lanes<W>().assemble(a, sheets[0].coefficient.data(), area);
+  else if (sheets.size() > 1)
+    assemble_sheet_stiffness<W>(a, SheetSumFloat<W>{sheets}, area);
+  else if (has_area)
+    assemble_sheet_stiffness<W>(a, OneSheet<NoSheet, Real>{}, area);
 }
 
 template <int W>
@@ -133,9 +90,9 @@ void assemble_bending(Assembly<W>& a) noexcept {
 template void add_area_tensions<1>(Assembly<1>&) noexcept;
 template void add_area_tensions<4>(Assembly<4>&) noexcept;
 template void add_area_tensions<8>(Assembly<8>&) noexcept;
-template void assemble_membrane<1>(Assembly<1>&) noexcept;
-template void assemble_membrane<4>(Assembly<4>&) noexcept;
-template void assemble_membrane<8>(Assembly<8>&) noexcept;
+template void assemble_sheets<1>(Assembly<1>&) noexcept;
+template void assemble_sheets<4>(Assembly<4>&) noexcept;
+template void assemble_sheets<8>(Assembly<8>&) noexcept;
 template void assemble_global_area<1>(Assembly<1>&) noexcept;
 template void assemble_global_area<4>(Assembly<4>&) noexcept;
 template void assemble_global_area<8>(Assembly<8>&) noexcept;

@@ -70,10 +70,10 @@ void add_contact_edges(const LaneBlock& block, const EdgeBlockSource& contacts, 
 template <int W>
 void add_area_tensions(Assembly<W>& assembly) noexcept;
 
-/// Stiffness of the membrane laws and of the local area: adds to the edge blocks and writes `membrane`. For blocks in which a shell has one
-/// of them, after the edges are assembled.
+/// Stiffness of the sheets and of the local area: adds to the edge blocks and writes `membrane`, where a shell of the block has one of them;
+/// after the edges are assembled.
 template <int W>
-void assemble_membrane(Assembly<W>& assembly) noexcept;
+void assemble_sheets(Assembly<W>& assembly) noexcept;
 
 /// ∂A/∂x and stiffness of the global area.
 template <int W>

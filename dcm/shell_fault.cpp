@@ -1,5 +1,7 @@
 #include "dcm/shell_fault.h"
 
+#include "dcm/sheet_law.h"
+
 namespace morula::dcm {
 
 std::string describe(const ShellFault& fault) {
@@ -16,7 +18,8 @@ std::string describe(const ShellFault& fault) {
     case ShellFaultKind::kDihedral:
       return "dihedral_barrier: edge " + element + " is folded beyond 2.9 rad";
     case ShellFaultKind::kStretch:
-      return "st_venant_kirchhoff: face " + element + " is stretched beyond 0.8 to 1.3, where the law softens; neo_hooke holds there";
+      return (fault.law != nullptr ? fault.law->name : "sheet") + ": face " + element + " " +
+             (fault.law != nullptr ? fault.law->limit : "is strained beyond the range of its law");
   }
   return "unknown fault";
 }

@@ -4,6 +4,8 @@
 
 namespace morula::dcm {
 
+struct SheetLaw;
+
 /// What makes a shell's state unusable; a step that leads there is tried again with a smaller one.
 enum class ShellFaultKind : std::uint8_t {
   kNone,
@@ -11,12 +13,13 @@ enum class ShellFaultKind : std::uint8_t {
   kVolume,         ///< enclosed volume not positive (volume_pressure)
   kTriangleShape,  ///< quality q below ShellLimits::kQuality (triangle_shape); element: face
   kDihedral,       ///< |θ| above ShellLimits::kAngle (dihedral_barrier); element: edge
-  kStretch,        ///< a principal stretch outside the range of st_venant_kirchhoff; element: face
+  kStretch,        ///< strain outside the range of a sheet's law; element: face
 };
 
 struct ShellFault {
   ShellFaultKind kind = ShellFaultKind::kNone;
-  std::uint32_t element = 0;  ///< node, face or edge within the shell
+  std::uint32_t element = 0;      ///< node, face or edge within the shell
+  const SheetLaw* law = nullptr;  ///< of kStretch
 
   explicit operator bool() const { return kind != ShellFaultKind::kNone; }
   friend bool operator==(const ShellFault&, const ShellFault&) = default;

@@ -7,7 +7,6 @@
 #include "dcm/laws/edge_damper.h"
 #include "dcm/laws/medium_friction.h"
 #include "dcm/laws/volume_pressure.h"
-#include "dcm/membrane.h"
 
 namespace morula::dcm {
 namespace {

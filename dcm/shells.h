@@ -9,6 +9,7 @@
 #include "core/column.h"
 #include "core/mesh/topology.h"
 #include "core/vec3.h"
+#include "dcm/sheet_law.h"
 
 namespace morula::dcm {
 
@@ -206,10 +207,6 @@ std::size_t memory_of(const Shells& shells);
 /// Parameters of the single-cell mechanics of one cell type, in internal units (physics: dcm.md, time_stepping.md §9).
 struct ShellParameters {
   double spring_stiffness = 0.0;       ///< k = (√3/2) E h [nN/µm]
-  double neo_hooke_shear = 0.0;        ///< G of the neo-Hookean membrane [nN/µm]
-  double stvk_shear = 0.0;             ///< G of the St Venant–Kirchhoff membrane [nN/µm]
-  double skalak_shear = 0.0;           ///< G of Skalak's membrane [nN/µm]
-  double membrane_area_ratio = 1.0;    ///< of these three: α = C = ν/(1 − ν)
   double local_area_modulus = 0.0;     ///< K_a of every face [nN/µm]
   double global_area_modulus = 0.0;    ///< K_G of the whole surface [nN/µm]
   double turnover_rate = 0.0;          ///< 1/τ at which rest lengths become the present ones [1/s]
@@ -225,6 +222,17 @@ struct ShellParameters {
   double barrier_stiffness = 1.0;      ///< k_d of the dihedral barrier k_d z²/(1 − z²) [nN·µm]
   double barrier_angle = 1.6;          ///< |θ| from which the barrier acts [rad]
   double medium_friction = 0.1;        ///< γ_med per area of the node [nN·s/µm³]
+  std::vector<Sheet> sheets{};         ///< laws of the strain of a face, such as the neo-Hookean
+
+  friend bool operator==(const ShellParameters&, const ShellParameters&) = default;
 };
+
+/// Sum of the strengths of the sheets, which are shear moduli; of `Number`s, as the caller adds them up [nN/µm].
+template <class Number = double>
+Number sheet_strengths(const ShellParameters& p) {
+  Number sum(0);
+  for (const Sheet& sheet : p.sheets) sum += static_cast<Number>(sheet.coefficient[0]);
+  return sum;
+}
 
 }  // namespace morula::dcm

@@ -57,7 +57,7 @@ void build_coupling(BuildContext& context);
 void check_whole(BuildContext& context);
 /// Measured limits of meshes under strong adhesion, and cells whose volume does not bear their tension: E571, E572.
 void check_resolution(BuildContext& context);
-/// What bodies cannot do: noise inside shells, division of shells, adhesion of spheres beyond JKR: E645–E647.
+/// What bodies cannot do: division of shells, adhesion of spheres beyond JKR: E646, E647.
 void check_bodies(BuildContext& context);
 
 /// Index of a cell type or field by name, or −1 and an error with suggestions.
@@ -82,6 +82,6 @@ std::string add_input_file(BuildContext& context, Given<std::string>& written);
 /// Read the closed surface of an STL or OBJ file, in µm, and check it: E601–E602 and E620–E624; then the mesh is empty.
 TriangleMesh surface_from_file(BuildContext& context, Given<std::string>& written, const Given<double>& scale);
 /// Largest explicit Euler step that is stable for the types of this study [s] (estimate).
-double explicit_step_limit(const draft::Study& draft);
+double explicit_step_limit(const Laws& laws, const draft::Study& draft);
 
 }  // namespace morula::scenarios

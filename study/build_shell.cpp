@@ -6,21 +6,25 @@
 
 #include "dcm/derived_parameters.h"
 #include "study/build.h"
+#include "study/layer_words.h"
 #include "study/read_section.h"
 
 namespace morula::scenarios {
 namespace {
 
-bool is_sheet(const std::string& elastic) { return elastic == "neo_hooke" || elastic == "stvk" || elastic == "skalak"; }
+using Of = dcm::LayerWord::Of;
 
 /// Laws of one shell that resist changes of its area may add only when the study says so.
 void check_area(BuildContext& c, const std::string& type, const draft::ShellKeys& t) {
   if (t.area_on_top.value) return;
   std::vector<std::pair<std::string, Place>> laws;
-  if (is_sheet(t.elastic.value) || t.elastic.value == "springs_with_area")
-    laws.emplace_back("`cortex.elastic: " + t.elastic.value + "`", t.elastic.place);
-  if (t.has_membrane && is_sheet(t.membrane.elastic.value))
-    laws.emplace_back("`membrane.elastic: " + t.membrane.elastic.value + "`", t.membrane.elastic.place);
+  const auto add = [&](const Given<std::string>& elastic, const char* section) {
+    const dcm::LayerWord* word = find_layer_word(*c.options.laws, Of::kElastic, elastic.value);
+    if (word != nullptr && word->resists_area)
+      laws.emplace_back(std::string("`") + section + ".elastic: " + elastic.value + "`", elastic.place);
+  };
+  add(t.elastic, "cortex");
+  if (t.has_membrane) add(t.membrane.elastic, "membrane");
   if (t.local_area.value > 0.0) laws.emplace_back("`area.local`", t.local_area.place);
   if (t.global_area.value > 0.0) laws.emplace_back("`area.global`", t.global_area.place);
   if (laws.size() < 2) return;
@@ -29,105 +33,82 @@ void check_area(BuildContext& c, const std::string& type, const draft::ShellKeys
                       "leave one away, or write `area: {on_top: true, ...}` if the moduli shall add");
 }
 
-/// Keys of a law that is not the chosen one; their default may stand there, as in a resolved study.
+/// Keys of laws that are not the chosen one; their default may stand there, as in a resolved study. `choice`: the key that chooses.
+void check_own_keys(BuildContext& c, const draft::Layer& t, Of of, const std::string& chosen, const std::string& choice) {
+  for (const auto& [name, key] : t.own) {
+    std::string owners;
+    bool has_effect = false;
+    const char* fallback = nullptr;
+    for (const dcm::LayerWord* word : layer_words(*c.options.laws, of))
+      for (const KeySpec& own : word->keys) {
+        if (name != own.name) continue;
+        owners += (owners.empty() ? "`" : " or `") + choice + ": " + word->word + "`";
+        has_effect = has_effect || word->word == chosen;
+        fallback = own.fallback;
+      }
+    if (owners.empty() || has_effect || !key.given || (fallback != nullptr && key.text == fallback)) continue;
+    c.diagnostics.error(515, key.place, "'" + name + "' has no effect here", "it belongs to " + owners);
+  }
+}
+
+/// Keys of a law that is not the chosen one.
 void check_effect(BuildContext& c, const draft::ShellKeys& t) {
   const auto without_effect = [&](const Given<double>& key, const char* name, const std::string& needs) {
-    const bool is_default = key.value == -1.0 || std::isinf(key.value);  // auto; flat, never
+    const bool is_default = key.value == kAuto || std::isinf(key.value);  // auto; never
     if (key.given && !is_default)
       c.diagnostics.error(515, key.place, std::string("'") + name + "' has no effect here", "it belongs to " + needs);
   };
-  if (t.elastic.value != "skalak") {
-    without_effect(t.shear_modulus, "shear_modulus", "`elastic: skalak`; other laws take it from `young`, `thickness` and `poisson`");
-    without_effect(t.area_ratio, "area_ratio", "`elastic: skalak`; other laws take it from `poisson`");
-  }
-  if (t.bending_law.value != "helfrich")
-    without_effect(t.spontaneous_radius, "spontaneous_radius", "`law: helfrich`; hinges are at rest in the angles of the sphere");
-  if (t.bending_law.value == "none") without_effect(t.bending, "rigidity", "`law: hinge` or `law: helfrich`");
+  check_own_keys(c, t, Of::kElastic, t.elastic.value, "elastic");
+  check_own_keys(c, t, Of::kBending, t.bending_law.value, "law");
+  if (t.bending_law.value == "none") without_effect(t.bending, "rigidity", "a law of `bending`");
   if (!resists_in_plane(t)) without_effect(t.turnover, "turnover", "a cortex that is elastic in its plane");
-}
-
-void set_elasticity(BuildContext& c, const draft::ShellKeys& t, dcm::ShellParameters& p) {
-  const double young = t.young.value, thickness = t.thickness.value, poisson = t.poisson.value;
-  const std::string& law = t.elastic.value;
-  const double shear = dcm::sheet_shear_modulus(young, thickness, poisson);
-  p.local_area_modulus = t.local_area.value;
-  p.membrane_area_ratio = dcm::sheet_area_ratio(poisson);
-  if (law == "springs") p.spring_stiffness = dcm::spring_stiffness(young, thickness);
-  if (law == "neo_hooke") p.neo_hooke_shear = shear;
-  if (law == "stvk") p.stvk_shear = shear;
-  if (law == "skalak") {
-    p.skalak_shear = t.shear_modulus.value >= 0.0 ? t.shear_modulus.value : shear;
-    if (t.area_ratio.value >= 0.0) p.membrane_area_ratio = t.area_ratio.value;
-  }
-  if (law != "springs_with_area") return;
-  const auto both = dcm::springs_with_area(young, thickness, poisson);
-  p.spring_stiffness = both.spring_stiffness;
-  p.local_area_modulus += std::max(0.0, both.area_modulus);
-  if (poisson < 1.0 / 3.0 - 1e-12)
-    c.diagnostics.error(514, t.poisson.place, "a net of springs with an area modulus cannot have a Poisson ratio of " + t.poisson.text,
-                        "`poisson` between 0.3334 and 0.5, or `elastic: neo_hooke`, which takes 0 to 0.5");
-}
-
-void check_curvature(BuildContext& c, const draft::Layer& layer) {
-  if (std::abs(layer.spontaneous_radius.value) < 0.02)
-    c.diagnostics.error(302, layer.spontaneous_radius.place,
-                        "'spontaneous_radius' is " + layer.spontaneous_radius.text + ", too small a sphere", "at least 0.02 um, or `flat`");
-}
-
-void set_bending(BuildContext& c, const draft::ShellKeys& t, dcm::ShellParameters& p) {
-  const double rigidity =
-      t.bending.value >= 0.0 ? t.bending.value : dcm::bending_modulus(t.young.value, t.thickness.value, t.poisson.value);
-  if (t.bending_law.value == "hinge") p.hinge_stiffness = dcm::hinge_stiffness(rigidity);
-  if (t.bending_law.value != "helfrich") return;
-  p.helfrich_rigidity = rigidity;
-  p.spontaneous_curvature = 2.0 / t.spontaneous_radius.value;
-  check_curvature(c, t);
 }
 
 /// What a second layer must say of itself, and what it must not.
 void check_membrane(BuildContext& c, const draft::ShellKeys& t) {
   const draft::Layer& m = t.membrane;
+  const dcm::LayerWord* elastic = find_layer_word(*c.options.laws, Of::kElastic, m.elastic.value);
   const auto need = [&](const Given<double>& key, const std::string& name, const Given<std::string>& word, bool needed,
                         const std::string& law) {
     if (needed && !key.given)
       c.diagnostics.error(103, word.place, "the membrane's '" + word.value + "' needs '" + name + "'", "add `" + name + "`");
     if (!needed && key.given) c.diagnostics.error(515, key.place, "'" + name + "' has no effect here", "it belongs to " + law);
   };
-  need(m.shear_modulus, "shear_modulus", m.elastic, m.elastic.value != "none", "an `elastic` law");
-  need(m.area_ratio, "area_ratio", m.elastic, is_sheet(m.elastic.value), "`elastic: neo_hooke`, `stvk` or `skalak`");
+  std::string with_ratio;
+  for (const dcm::LayerWord* word : layer_words(*c.options.laws, Of::kElastic))
+    if (word->has_area_ratio) with_ratio += (with_ratio.empty() ? "`elastic: " : ", `") + word->word + "`";
+  need(m.own.at("shear_modulus"), "shear_modulus", m.elastic, elastic != nullptr, "an `elastic` law");
+  need(m.own.at("area_ratio"), "area_ratio", m.elastic, elastic != nullptr && elastic->has_area_ratio, with_ratio);
   need(m.bending, "rigidity", m.bending_law, m.bending_law.value != "none", "a law of `bending`");
-  if (m.bending_law.value != "helfrich" && !std::isinf(m.spontaneous_radius.value))
-    c.diagnostics.error(515, m.spontaneous_radius.place, "'spontaneous_radius' has no effect here", "it belongs to `bending: helfrich`");
+  draft::Layer own = m;  // the two that all sheets have are looked at above
+  own.own.erase("shear_modulus"), own.own.erase("area_ratio");
+  check_own_keys(c, own, Of::kElastic, m.elastic.value, "elastic");
+  check_own_keys(c, own, Of::kBending, m.bending_law.value, "bending");
   if (m.elastic.value == "none" && m.bending_law.value == "none")
     c.diagnostics.error(515, m.elastic.place, "a membrane without a law has no effect", "give it `elastic` or `bending`, or remove it");
 }
 
-/// Adds the laws of the second layer. Sheets of one shell have one area ratio, and Helfrich layers one curvature: the model holds each once.
-void add_membrane(BuildContext& c, const draft::ShellKeys& t, dcm::ShellParameters& p) {
-  const draft::Layer& m = t.membrane;
-  check_membrane(c, t);
-  if (m.elastic.value == "springs") p.spring_stiffness += 4.0 / std::numbers::sqrt3 * m.shear_modulus.value;
-  if (m.elastic.value == "neo_hooke") p.neo_hooke_shear += m.shear_modulus.value;
-  if (m.elastic.value == "stvk") p.stvk_shear += m.shear_modulus.value;
-  if (m.elastic.value == "skalak") p.skalak_shear += m.shear_modulus.value;
-  if (is_sheet(m.elastic.value)) {
-    if (is_sheet(t.elastic.value) && m.area_ratio.given && t.poisson.known() &&
-        std::abs(m.area_ratio.value - p.membrane_area_ratio) > 1e-9 * p.membrane_area_ratio)
-      c.diagnostics.error(595, m.area_ratio.place,
-                          "the area ratio of the membrane (" + m.area_ratio.text + ") is not that of the layer below (" +
-                              short_number(p.membrane_area_ratio) + ")",
-                          "make them equal and give the rest of the resistance as `area.local`, or let one of the two be `springs`");
-    p.membrane_area_ratio = m.area_ratio.value;
+/// The value of a key of a layer, for a message.
+const Given<double>* find_key(const draft::Layer& layer, const draft::ShellKeys& t, const std::string& name) {
+  if (const auto own = layer.own.find(name); own != layer.own.end()) return &own->second;
+  if (name == "rigidity") return &layer.bending;
+  return name == "young" ? &t.young : name == "thickness" ? &t.thickness : name == "poisson" ? &t.poisson : nullptr;
+}
+
+/// Adds the law of a layer to the shell.
+template <class Keys>
+void add_layer(BuildContext& c, const draft::ShellKeys& t, const Keys& layer, Of of, const std::string& chosen, dcm::ShellParameters& p) {
+  const dcm::LayerWord* word = find_layer_word(*c.options.laws, of, chosen);
+  if (word == nullptr) return;
+  const LawValues values = layer_values(layer, *word);
+  if (const auto problem = word->judge != nullptr ? word->judge(values, p) : std::nullopt) {
+    const Given<double>* key = find_key(layer, t, problem->key);
+    std::string what = problem->what;
+    if (const std::size_t gap = what.find("{}"); key != nullptr && gap != std::string::npos) what.replace(gap, 2, key->text);
+    if (key == nullptr || key->known())
+      c.diagnostics.error(problem->code, key != nullptr ? key->place : t.elastic.place, what, problem->help);
   }
-  if (m.bending_law.value == "hinge") p.hinge_stiffness += dcm::hinge_stiffness(m.bending.value);
-  if (m.bending_law.value != "helfrich") return;
-  const double curvature = 2.0 / m.spontaneous_radius.value;
-  if (p.helfrich_rigidity > 0.0 && curvature != p.spontaneous_curvature)
-    c.diagnostics.error(595, m.spontaneous_radius.place, "the spontaneous curvature of the membrane is not that of the layer below",
-                        "make them equal, or let the layer below have `law: hinge`");
-  check_curvature(c, m);
-  p.helfrich_rigidity += m.bending.value;
-  p.spontaneous_curvature = curvature;
+  word->build(values, p);
 }
 
 /// A fluid cortex has no shear modulus but that of the shape term.
@@ -162,24 +143,19 @@ double build_self_contact(BuildContext& c, const draft::CellType& t) {
 
 dcm::ShellParameters build_shell(BuildContext& c, const std::string& type_name, const draft::ShellKeys& t, double medium_friction) {
   dcm::ShellParameters p;
-  set_elasticity(c, t, p);
-  set_bending(c, t, p);
-  if (t.has_membrane) add_membrane(c, t, p);
+  add_layer(c, t, t, Of::kElastic, t.elastic.value, p);
+  add_layer(c, t, t, Of::kBending, t.bending_law.value, p);
+  if (t.has_membrane) {
+    check_membrane(c, t);
+    add_layer(c, t, t.membrane, Of::kElastic, t.membrane.elastic.value, p);
+    add_layer(c, t, t.membrane, Of::kBending, t.membrane.bending_law.value, p);
+  }
   check_area(c, type_name, t);
   check_effect(c, t);
-  p.global_area_modulus = t.global_area.value;
-  p.turnover_rate = 1.0 / t.turnover.value;
-  p.edge_damping = t.damping.value;
-  p.isotropic_damping = t.isotropic_damping.value;
-  p.tension = t.tension.value;
-  p.bulk_modulus = t.bulk_modulus.value;
-  p.bulk_viscosity = t.bulk_viscosity.value;
-  const double sheet = t.elastic.value == "none" ? 0.0 : t.young.value * t.thickness.value;
-  p.shape_stiffness = t.shape_stiffness.value >= 0.0 ? t.shape_stiffness.value : dcm::shape_stiffness(t.tension.value, sheet);
+  const LawValues values = shell_values(t, medium_friction);
+  for (const dcm::ShellLaw& law : c.options.laws->shells)
+    if (law.build != nullptr) law.build(values, p);
   check_shape(c, type_name, t);
-  p.barrier_stiffness = t.fold_stiffness.value;
-  p.barrier_angle = t.fold_angle.value;
-  p.medium_friction = medium_friction;
   return p;
 }
 

@@ -16,7 +16,7 @@ double gentle_cap(const BuildContext& c) {
   for (std::size_t i = 0; i < c.draft.cell_types.size() && i < c.study.model.types.size(); ++i) {
     const draft::CellType& t = c.draft.cell_types[i].content;
     const dcm::ShellParameters& p = c.study.model.types[i].shell;
-    const double held = p.tension + p.shape_stiffness + p.spring_stiffness + p.neo_hooke_shear + p.stvk_shear + p.skalak_shear;
+    const double held = p.tension + p.shape_stiffness + p.spring_stiffness + dcm::sheet_strengths(p);
     const double edge = mean_edge(t.nodes.value) * t.radius.mean.value;
     if (edge > 0.0 && held > 0.0) cap = std::min(cap, kGentle * held / (edge * c.draft.contact.repulsion.value));
   }
@@ -50,7 +50,7 @@ void build_time_and_numerics(BuildContext& c) {
   constexpr double kImplicitMaxStep = 60.0;  // growing clusters of shells: the error at 60 s is below that of the mesh (measured)
   step.max_step = time.step.value > 0.0 ? time.step.value : kImplicitMaxStep;
   if (step.integrator == Integrator::kExplicitEuler) {
-    const double limit = explicit_step_limit(c.draft);
+    const double limit = explicit_step_limit(*c.options.laws, c.draft);
     if (time.step.value == 0.0) step.max_step = std::min(kImplicitMaxStep, 0.5 * limit);
     if (time.step.known() && time.step.value > limit)
       c.diagnostics.error(

@@ -8,7 +8,7 @@ namespace {
 /// Lists the declarations of a section; values are not looked at.
 class ListSection final : public Section {
  public:
-  explicit ListSection(Declaration& into) : into_(into) {}
+  ListSection(Declaration& into, const Laws& laws) : Section(laws), into_(into) {}
 
   void quantity(const KeySpec& key, Given<double>&) override { add(Declaration::Kind::kQuantity, key); }
   void whole(const KeySpec& key, Given<std::uint64_t>&) override { add(Declaration::Kind::kWhole, key); }
@@ -25,7 +25,7 @@ class ListSection final : public Section {
     add(Declaration::Kind::kQuantity, key).suffix = suffix;
   }
   void group(const KeySpec& key, bool&, const std::function<void(Section&)>& describe) override {
-    ListSection inner(add(Declaration::Kind::kGroup, key));
+    ListSection inner(add(Declaration::Kind::kGroup, key), laws());
     describe(inner);
   }
 
@@ -42,7 +42,7 @@ class ListSection final : public Section {
     Declaration& list = add(kind, key);
     list.path += path;
     items.add("", {});
-    ListSection inner(list);
+    ListSection inner(list, laws());
     items.describe(inner, items.size() - 1);
   }
 
@@ -58,17 +58,17 @@ void collect_paths(const Declaration& from, std::vector<std::string>& paths) {
 
 }  // namespace
 
-Declaration study_declarations() {
+Declaration study_declarations(const Laws& laws) {
   Declaration root;
   draft::Study draft;
-  ListSection section(root);
+  ListSection section(root, laws);
   declare_study(section, draft);
   return root;
 }
 
-std::vector<std::string> study_key_paths() {
+std::vector<std::string> study_key_paths(const Laws& laws) {
   std::vector<std::string> paths;
-  collect_paths(study_declarations(), paths);
+  collect_paths(study_declarations(laws), paths);
   return paths;
 }
 

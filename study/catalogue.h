@@ -17,17 +17,17 @@ struct Declaration {
   std::vector<Declaration> children;
 };
 
-/// All keys of the study file, as a tree.
-Declaration study_declarations();
+/// All keys of the study file, as a tree; with those of these laws.
+Declaration study_declarations(const Laws& laws);
 
 /// JSON Schema (draft 2020-12) of the study file, for editors; what `morula check --schema` prints.
-std::string study_json_schema();
+std::string study_json_schema(const Laws& laws);
 /// The reference of the study file, of its error codes and of its units, as Markdown.
-std::string study_reference();
+std::string study_reference(const Laws& laws);
 /// What a key (by full path or by its last parts, such as `dcm.cortex.tension`) or an error code (`E203`) means. Empty when neither exists;
 /// laws are explained by their own registry.
-std::optional<std::string> explain_study(const std::string& id);
+std::optional<std::string> explain_study(const std::string& id, const Laws& laws);
 /// Paths of keys near to a word that is no key, for "did you mean".
-std::vector<std::string> study_key_paths();
+std::vector<std::string> study_key_paths(const Laws& laws);
 
 }  // namespace morula::scenarios

@@ -9,21 +9,6 @@
 namespace morula::scenarios {
 namespace {
 
-/// Random forces belong to the friction element by element; those inside a cell have none.
-void check_noise_inside(BuildContext& c) {
-  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
-    const auto& [name, place, t] = c.draft.cell_types[i];
-    const CellType& type = c.study.model.types[i];
-    if (!t.activity.has_fluctuations || !(type.fluctuations.energy > 0.0) || !may_be_shell(c, i)) continue;
-    const bool nucleus = type.interior.has_nucleus();
-    if (!nucleus && !type.interior.cortex_links.act()) continue;
-    c.diagnostics.error(645, t.activity.energy.place,
-                        "cells of '" + name + "' fluctuate, but the friction of their " + (nucleus ? "nucleus" : "cytoskeleton") +
-                            " has no noise: it would cool the cortex",
-                        nucleus ? "leave out `fluctuations`, or the nucleus" : "leave out `fluctuations`, or `cytoskeleton`");
-  }
-}
-
 /// Whether a cell of the type can reach its division volume before the run ends.
 bool may_divide(const BuildContext& c, std::size_t type) {
   const CellType& of = c.study.model.types[type];
@@ -89,7 +74,6 @@ void check_jkr_range(BuildContext& c) {
 
 void check_bodies(BuildContext& c) {
   if (c.diagnostics.has_errors()) return;  // what a wrong study would be like is not worth a warning
-  check_noise_inside(c);
   check_division_of_shells(c);
   check_jkr_range(c);
 }

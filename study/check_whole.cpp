@@ -5,6 +5,7 @@
 #include "dcm/derived_parameters.h"
 #include "study/build.h"
 #include "study/build_meshes.h"
+#include "study/layer_words.h"
 #include "study/read_section.h"
 
 namespace morula::scenarios {
@@ -131,33 +132,31 @@ void check_names(BuildContext& c) {
     check_known(name, c.draft.output.series.place, c.options.series_names, "observable");
 }
 
+/// What the laws of both layers of a shell say of their stiffness.
+double layer_stiffness(const Laws& laws, const draft::ShellKeys& t, dcm::LayerWord::Of of, double node_area, double edge_square) {
+  double out = 0.0;
+  const auto add = [&](const auto& layer) {
+    const bool elastic = of == dcm::LayerWord::Of::kElastic;
+    const dcm::LayerWord* word = find_layer_word(laws, of, elastic ? layer.elastic.value : layer.bending_law.value);
+    if (word != nullptr && word->stiffness != nullptr) out += word->stiffness(layer_values(layer, *word), node_area, edge_square);
+  };
+  add(t);
+  if (t.has_membrane) add(t.membrane);
+  return out;
+}
+
 /// Limit by the elasticity in the plane: springs at most 6 k, sheets 7.2 E h, an area modulus likewise, against the friction of a node (and
 /// of its edges along themselves).
-double in_plane_limit(const draft::ShellKeys& t, double node_friction) {
-  const bool springs = t.elastic.value == "springs" || t.elastic.value == "springs_with_area";
-  double sheet = t.young.value * t.thickness.value;
-  if (t.elastic.value == "skalak" && t.shear_modulus.value >= 0.0) sheet = 3.0 * t.shear_modulus.value;
-  if (t.elastic.value == "skalak" && t.area_ratio.value > 1.0) sheet *= t.area_ratio.value;
-  double stiffness = 7.2 * t.local_area.value;
-  if (t.elastic.value != "none") stiffness += springs ? 3.0 * std::numbers::sqrt3 * sheet : 7.2 * sheet;
-  if (t.has_membrane && t.membrane.shear_modulus.value > 0.0)  // springs: k = 4 G/√3
-    stiffness += t.membrane.elastic.value == "springs" ? 24.0 / std::numbers::sqrt3 * t.membrane.shear_modulus.value
-                                                       : 21.6 * t.membrane.shear_modulus.value * std::max(1.0, t.membrane.area_ratio.value);
+double in_plane_limit(const Laws& laws, const draft::ShellKeys& t, double node_friction) {
+  const double stiffness = 7.2 * t.local_area.value + layer_stiffness(laws, t, dcm::LayerWord::Of::kElastic, 0.0, 0.0);
   return stiffness > 0.0 ? 2.0 * (node_friction + t.damping.value) / stiffness : 1e300;
 }
 
 /// Limit by tension, global area and bending (dcm.md §1): 7.5 γ/(γ_med L²), 4 K_G/(γ_med R²), 46 k_h/(γ_med a L²), 56 κ/(γ_med L⁴).
-double surface_limit(const draft::ShellKeys& t, double friction, double node_area, double radius) {
+double surface_limit(const Laws& laws, const draft::ShellKeys& t, double friction, double node_area, double radius) {
   const double edge_square = std::pow(mean_edge(t.nodes.value) * radius, 2);
-  const double rigidity =
-      t.bending.value >= 0.0 ? t.bending.value : dcm::bending_modulus(t.young.value, t.thickness.value, t.poisson.value);
-  double rate = std::max(7.5 * t.tension.value / edge_square, 4.0 * t.global_area.value / (radius * radius));
-  const auto bending = [&](const std::string& law, double of) {
-    if (law == "hinge") return 46.0 * dcm::hinge_stiffness(of) / (node_area * edge_square);
-    return law == "helfrich" ? 56.0 * of / (edge_square * edge_square) : 0.0;
-  };
-  rate = std::max(rate, bending(t.bending_law.value, rigidity) +
-                            (t.has_membrane ? bending(t.membrane.bending_law.value, t.membrane.bending.value) : 0.0));
+  const double rate = std::max({7.5 * t.tension.value / edge_square, 4.0 * t.global_area.value / (radius * radius),
+                                layer_stiffness(laws, t, dcm::LayerWord::Of::kBending, node_area, edge_square)});
   return rate > 0.0 ? 2.0 * friction / rate : 1e300;
 }
 
@@ -182,7 +181,7 @@ double packing_stiffness(const draft::CellType& t, double radius) {
 }
 
 /// Limit by what holds a nucleus against the little friction it has: its links, and the repulsion over a tenth of its cross-section.
-double nucleus_limit(const draft::CellType& t, double repulsion) {
+double nucleus_limit(const Laws& laws, const draft::CellType& t, double repulsion) {
   const draft::Nucleus& n = t.nucleus;
   if (!n.present || n.kind.value == "none" || n.radius.given == n.volume_fraction.given) return 1e300;
   const double radius = n.radius.given ? n.radius.value : std::cbrt(n.volume_fraction.value) * t.radius.mean.value;
@@ -195,12 +194,12 @@ double nucleus_limit(const draft::CellType& t, double repulsion) {
   const double area = 4.0 * std::numbers::pi * radius * radius, per_area = 6.0 * std::numbers::pi * n.viscosity.value * radius / area;
   const double node_area = area / static_cast<double>(n.shell.nodes.value);
   limit = std::min(limit, 2.0 * per_area * radius / (3.0 * std::max(n.shell.bulk_modulus.value, 1e-300)));
-  return std::min({limit, in_plane_limit(n.shell, per_area * node_area), surface_limit(n.shell, per_area, node_area, radius)});
+  return std::min({limit, in_plane_limit(laws, n.shell, per_area * node_area), surface_limit(laws, n.shell, per_area, node_area, radius)});
 }
 
 }  // namespace
 
-double explicit_step_limit(const draft::Study& study) {
+double explicit_step_limit(const Laws& laws, const draft::Study& study) {
   double limit = 1e300;
   const bool shells = may_have_shells(study);
   for (const auto& type : study.cell_types) {
@@ -212,8 +211,8 @@ double explicit_step_limit(const draft::Study& study) {
       // bending; the repulsion, k_r against the contact friction.
       const double node_area = 4.0 * std::numbers::pi * radius * radius / std::max(1.0, static_cast<double>(t.nodes.value));
       limit = std::min(limit, 2.0 * friction * radius / (3.0 * t.bulk_modulus.value));
-      limit = std::min({limit, in_plane_limit(t, friction * node_area), surface_limit(t, friction, node_area, radius)});
-      limit = std::min(limit, nucleus_limit(t, study.contact.repulsion.value));
+      limit = std::min({limit, in_plane_limit(laws, t, friction * node_area), surface_limit(laws, t, friction, node_area, radius)});
+      limit = std::min(limit, nucleus_limit(laws, t, study.contact.repulsion.value));
       if (study.contact.repulsion.value > 0.0)
         limit = std::min(limit, 2.0 * std::max(friction, t.friction_cell_cell.value) / study.contact.repulsion.value);
     }

@@ -1,3 +1,4 @@
+#include "dcm/shell_keys.h"
 #include "study/declare.h"
 
 namespace morula::scenarios {
@@ -163,15 +164,7 @@ void declare_friction(Section& s, draft::CellType& t) {
               .example = "1e11 N s/m^3",
               .source = "chosen: order of Galle et al. 2005, doi:10.1529/biophysj.104.041459"},
              t.friction_obstacle);
-  s.quantity({.name = "medium",
-              .doc = "Friction with the medium or matrix per area of surface.",
-              .quantity = Q::kFrictionPerArea,
-              .fallback = "1e8 N s/m^3",
-              .low = 0.0,
-              .high = 1e6,
-              .example = "1e8 N s/m^3",
-              .source = kTable1},
-             t.friction_medium);
+  s.quantity(dcm::keys::medium_friction(), t.friction_medium);
   const auto tangential = [&s](const char* name, const char* doc, Given<double>& value) {
     s.quantity({.name = name,
                 .doc = doc,

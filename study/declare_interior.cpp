@@ -99,9 +99,9 @@ void declare_nucleus(Section& n, draft::Nucleus& nucleus) {
     if (key.given) nucleus.no_effect.push_back({name, key.place, true});
   };
   for (const draft::Layer* layer : {static_cast<const draft::Layer*>(&unused), static_cast<const draft::Layer*>(&unused.membrane)}) {
-    note("elastic", layer->elastic), note("shear_modulus", layer->shear_modulus), note("area_ratio", layer->area_ratio);
+    note("elastic", layer->elastic);
     note(layer == &unused ? "law" : "bending", layer->bending_law), note("rigidity", layer->bending);
-    note("spontaneous_radius", layer->spontaneous_radius);
+    for (const auto& [name, key] : layer->own) note(name.c_str(), key);
   }
   note("nodes", unused.nodes), note("young", unused.young), note("thickness", unused.thickness), note("poisson", unused.poisson);
   note("tension", unused.tension), note("turnover", unused.turnover), note("damping", unused.damping);

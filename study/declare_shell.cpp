@@ -1,198 +1,104 @@
+#include <algorithm>
+
+#include "dcm/shell_keys.h"
 #include "study/declare.h"
+#include "study/layer_words.h"
 
 namespace morula::scenarios {
 namespace {
 
 using Q = Quantity;
-constexpr const char* kTable1 = "Van Liedekerke et al., Table 1";
+namespace keys = dcm::keys;
+using Of = dcm::LayerWord::Of;
 
-/// What stands where nothing is given, for the cortex of a cell or the lamina of a nucleus.
-struct Defaults {
-  const char *young, *young_source, *tension, *tension_doc, *tension_source, *bulk, *bulk_source;
-};
-constexpr Defaults kCell{"1 kPa",
-                         kTable1,
-                         "0.1 mN/m",
-                         "Active cortical tension.",
-                         "chosen between 0.03 mN/m (neutrophil, Hochmuth 2000) and 0.4 mN/m (fibroblast, Tinevez et al. 2009)",
-                         "2.5 kPa",
-                         kTable1};
-constexpr Defaults kNucleus{"5 kPa",  "chosen: five times the cortex", "0 mN/m", "Active tension of the lamina.", "chosen: off",
-                            "10 kPa", "chosen: four times the cell"};
+/// What stands where nothing is given, for the lamina of a nucleus in place of the cortex of a cell.
+KeySpec of_nucleus(KeySpec key, const char* fallback, const char* source, const char* doc = nullptr) {
+  key.fallback = fallback, key.source = source;
+  if (doc != nullptr) key.doc = doc;
+  return key;
+}
+KeySpec young(bool nucleus) { return nucleus ? of_nucleus(keys::young(), "5 kPa", "chosen: five times the cortex") : keys::young(); }
+KeySpec tension(bool nucleus) {
+  return nucleus ? of_nucleus(keys::tension(), "0 mN/m", "chosen: off", "Active tension of the lamina.") : keys::tension();
+}
+KeySpec bulk_modulus(bool nucleus) {
+  return nucleus ? of_nucleus(keys::bulk_modulus(), "10 kPa", "chosen: four times the cell") : keys::bulk_modulus();
+}
 
-void declare_cortex(Section& c, draft::ShellKeys& t, const Defaults& fallback, draft::CellType* cell) {
-  c.word(
-      {.name = "elastic",
-       .doc =
-           "Elasticity in the plane. springs: a net of springs, Poisson ratio 1/3 whatever `poisson` says; springs_with_area: springs and "
-           "the area of every face, Poisson ratio 1/3 to 1/2; neo_hooke, stvk (St Venant-Kirchhoff, stretches 0.8 to 1.3) and skalak: "
-           "triangles of constant strain, Poisson ratio 0 to 1/2; none: a fluid.",
-       .fallback = "springs",
-       .words = {"none", "springs", "springs_with_area", "neo_hooke", "stvk", "skalak"},
-       .example = "neo_hooke",
-       .source = "Van Liedekerke et al."},
-      t.elastic);
-  c.quantity({.name = "young",
-              .doc = "Young's modulus E of the layer.",
-              .quantity = Q::kPressure,
-              .fallback = fallback.young,
-              .low = 0.0,
-              .high = 1e4,
-              .example = "1 kPa",
-              .source = fallback.young_source},
-             t.young);
-  c.quantity({.name = "thickness",
-              .doc = "Thickness h of the layer.",
-              .quantity = Q::kLength,
-              .fallback = "200 nm",
-              .low = 0.0,
-              .high = 5.0,
-              .low_open = true,
-              .example = "200 nm",
-              .source = kTable1},
-             t.thickness);
-  c.quantity({.name = "poisson",
-              .doc = "Poisson ratio of the layer: of its bending stiffness, and of its plane where `elastic` can have it (not in a net of "
-                     "springs).",
-              .fallback = "0.5",
-              .low = 0.0,
-              .high = 0.5,
-              .example = "0.5",
-              .source = kTable1},
-             t.poisson);
-  c.quantity({.name = "shear_modulus",
-              .doc = "Shear modulus G of `elastic: skalak`; `auto`: E h/(2 (1 + poisson)).",
-              .quantity = Q::kTension,
-              .fallback = "auto",
-              .low = 0.0,
-              .high = 1e4,
-              .low_open = true,
-              .specials = {{"auto", -1.0}},
-              .example = "5.5 uN/m",
-              .source = "thin sheet of an isotropic solid"},
-             t.shear_modulus);
-  c.quantity({.name = "area_ratio",
-              .doc = "Resistance to change of area C of `elastic: skalak`; `auto`: poisson/(1 - poisson).",
-              .fallback = "auto",
-              .low = 0.0,
-              .high = 1e6,
-              .specials = {{"auto", -1.0}},
-              .example = "50",
-              .source = "Skalak et al. 1973, doi:10.1016/S0006-3495(73)85983-1"},
-             t.area_ratio);
-  c.quantity({.name = "tension",
-              .doc = fallback.tension_doc,
-              .quantity = Q::kTension,
-              .fallback = fallback.tension,
-              .low = 0.0,
-              .high = 100.0,
-              .example = "0.2 mN/m",
-              .source = fallback.tension_source},
-             t.tension);
-  c.quantity({.name = "turnover",
-              .doc = "Time after which 1/e of the elastic stress in the plane is left at constant shape, because the layer is renewed; "
-                     "`never`: it is permanent.",
-              .quantity = Q::kTime,
-              .fallback = "never",
-              .low = 0.0,
-              .low_open = true,
-              .specials = {{"never", std::numeric_limits<double>::infinity()}},
-              .example = "10 min",
-              .source = "chosen: off"},
-             t.turnover);
-  c.quantity({.name = "damping",
-              .doc = "Friction of an edge against its own lengthening.",
-              .quantity = Q::kFriction,
-              .fallback = "1e-4 N s/m",
-              .low = 0.0,
-              .high = 1e4,
-              .example = "1e-4 N s/m",
-              .source = kTable1},
-             t.damping);
-  c.quantity(
-      {.name = "isotropic_damping",
-       .doc = "Friction of an edge against any relative motion of its ends; unlike `damping` it resists rigid rotation of the whole.",
-       .quantity = Q::kFriction,
-       .fallback = "0 N s/m",
-       .low = 0.0,
-       .high = 1e4,
-       .example = "1e-5 N s/m",
-       .source = "chosen: off"},
-      t.isotropic_damping);
+/// "a: what a is; b: ..." of the laws that can be named here.
+std::string told(const Section& s, Of of, bool in_membrane) {
+  std::string out;
+  for (const dcm::LayerWord* word : layer_words(s.laws(), of))
+    if (!in_membrane || word->in_membrane) out += word->word + ": " + word->doc + "; ";
+  return out;
+}
+std::vector<std::string> names(const Section& s, Of of, bool in_membrane) {
+  std::vector<std::string> out{"none"};
+  for (const dcm::LayerWord* word : layer_words(s.laws(), of))
+    if (!in_membrane || word->in_membrane) out.push_back(word->word);
+  return out;
+}
+
+/// The keys that laws have for themselves, each once, but those that the section has already.
+void own_keys(Section& s, Of of, draft::Layer& t, std::initializer_list<const char*> there) {
+  std::vector<std::string> declared(there.begin(), there.end());
+  for (const dcm::LayerWord* word : layer_words(s.laws(), of))
+    for (const KeySpec& key : word->keys) {
+      if (std::ranges::find(declared, key.name) != declared.end()) continue;
+      declared.emplace_back(key.name);
+      s.quantity(key, t.own[key.name]);
+    }
+}
+
+void declare_cortex(Section& c, draft::ShellKeys& t, draft::CellType* cell) {
+  const bool nucleus = cell == nullptr;
+  c.word({.name = "elastic",
+          .doc = "Elasticity in the plane. " + told(c, Of::kElastic, false) + "none: a fluid.",
+          .fallback = "springs",
+          .words = names(c, Of::kElastic, false),
+          .example = "neo_hooke",
+          .source = "Van Liedekerke et al."},
+         t.elastic);
+  c.quantity(young(nucleus), t.young);
+  c.quantity(keys::thickness(), t.thickness);
+  c.quantity(keys::poisson(), t.poisson);
+  own_keys(c, Of::kElastic, t, {"elastic", "young", "thickness", "poisson"});
+  c.quantity(tension(nucleus), t.tension);
+  c.quantity(keys::turnover(), t.turnover);
+  c.quantity(keys::damping(), t.damping);
+  c.quantity(keys::isotropic_damping(), t.isotropic_damping);
   if (cell != nullptr) declare_tension_regions(c, *cell);
 }
 
 void declare_area(Section& a, draft::ShellKeys& t) {
-  a.quantity({.name = "local",
-              .doc = "Modulus of the area of every face.",
-              .quantity = Q::kTension,
-              .fallback = "0 mN/m",
-              .low = 0.0,
-              .high = 1e6,
-              .example = "0.07 mN/m",
-              .source = "chosen: off"},
-             t.local_area);
-  a.quantity({.name = "global",
-              .doc = "Modulus of the area of the whole surface.",
-              .quantity = Q::kTension,
-              .fallback = "0 mN/m",
-              .low = 0.0,
-              .high = 1e6,
-              .example = "1 mN/m",
-              .source = "chosen: off"},
-             t.global_area);
+  a.quantity(keys::local_area(), t.local_area);
+  a.quantity(keys::global_area(), t.global_area);
   a.flag({.name = "on_top",
-          .doc = "Needed where another law resists changes of area already (springs_with_area, neo_hooke, stvk, skalak, or both moduli "
-                 "here): yes, the moduli shall add.",
+          .doc = "Needed where another law resists changes of area already (" + area_words(a.laws()) +
+                 ", or both moduli here): yes, the moduli shall add.",
           .fallback = "false",
           .example = "true",
           .source = "chosen: nothing is counted twice unasked"},
          t.area_on_top);
 }
 
-void spontaneous_radius(Section& s, draft::Layer& t, const char* doc) {
-  s.quantity({.name = "spontaneous_radius",
-              .doc = doc,
-              .quantity = Q::kLength,
-              .fallback = "flat",
-              .low = -1e6,
-              .high = 1e6,
-              .specials = {{"flat", std::numeric_limits<double>::infinity()}},
-              .example = "3 um",
-              .source = "Helfrich 1973, doi:10.1515/znc-1973-11-1209"},
-             t.spontaneous_radius);
-}
-
 void declare_bending(Section& b, draft::Layer& t) {
-  b.word(
-      {.name = "law",
-       .doc = "hinge: springs at the edges with the angles of the sphere at rest; helfrich: mean curvature by the cotangent formula, flat "
-              "at rest or of `spontaneous_radius`; none.",
-       .fallback = "hinge",
-       .words = {"none", "hinge", "helfrich"},
-       .example = "helfrich",
-       .source = "chosen"},
-      t.bending_law);
-  b.quantity({.name = "rigidity",
-              .doc = "Bending rigidity D of the layer; `auto`: E h^3/(12 (1 - poisson^2)).",
-              .quantity = Q::kEnergy,
-              .fallback = "auto",
-              .low = 0.0,
-              .specials = {{"auto", -1.0}},
-              .example = "8.9e-19 J",
-              .source = "Kirchhoff plate"},
-             t.bending);
-  spontaneous_radius(
-      b, t,
-      "With `law: helfrich`, the radius of the sphere that has no bending moment (c0 = 2/R; negative: bent inwards); `flat`: "
-      "no spontaneous curvature.");
+  b.word({.name = "law",
+          .doc = told(b, Of::kBending, false) + "none.",
+          .fallback = "hinge",
+          .words = names(b, Of::kBending, false),
+          .example = "helfrich",
+          .source = "chosen"},
+         t.bending_law);
+  b.quantity(keys::rigidity(), t.bending);
+  own_keys(b, Of::kBending, t, {"law", "rigidity"});
 }
 
 void declare_membrane(Section& m, draft::Layer& t) {
   m.word({.name = "elastic",
           .doc = "Elasticity in the plane: the laws of `elastic` of the layer below.",
           .fallback = "none",
-          .words = {"none", "springs", "neo_hooke", "stvk", "skalak"},
+          .words = names(m, Of::kElastic, true),
           .example = "skalak",
           .source = "chosen"},
          t.elastic);
@@ -203,32 +109,31 @@ void declare_membrane(Section& m, draft::Layer& t) {
               .high = 1e4,
               .low_open = true,
               .example = "5.5 uN/m"},
-             t.shear_modulus);
-  m.quantity(
-      {.name = "area_ratio",
-       .doc =
-           "Its resistance to change of area C, for neo_hooke and stvk poisson/(1 - poisson) of the sheet. Springs have none of their own.",
-       .low = 0.0,
-       .high = 1e6,
-       .example = "50"},
-      t.area_ratio);
+             t.own["shear_modulus"]);
+  m.quantity({.name = "area_ratio",
+              .doc = "Its resistance to change of area C, for neo_hooke and stvk poisson/(1 - poisson) of the sheet. Springs have none of "
+                     "their own.",
+              .low = 0.0,
+              .high = 1e6,
+              .example = "50"},
+             t.own["area_ratio"]);
+  own_keys(m, Of::kElastic, t, {"elastic", "shear_modulus", "area_ratio", "bending", "rigidity"});
   m.word({.name = "bending",
           .doc = "Bending: the laws of `bending`.",
           .fallback = "none",
-          .words = {"none", "hinge", "helfrich"},
+          .words = names(m, Of::kBending, true),
           .example = "helfrich",
           .source = "chosen"},
          t.bending_law);
   m.quantity(
       {.name = "rigidity", .doc = "Its bending rigidity.", .quantity = Q::kEnergy, .low = 0.0, .low_open = true, .example = "2e-19 J"},
       t.bending);
-  spontaneous_radius(m, t, "With `bending: helfrich`, as in `bending`.");
+  own_keys(m, Of::kBending, t, {"elastic", "shear_modulus", "area_ratio", "bending", "rigidity"});
 }
 
 }  // namespace
 
 void declare_shell_keys(Section& s, draft::ShellKeys& t, draft::CellType* cell) {
-  const Defaults& fallback = cell != nullptr ? kCell : kNucleus;
   bool present = false;
   s.whole({.name = "nodes",
            .doc = "Nodes of the shell's mesh: 42, 162, 642 or 2562 (subdivided icosahedra).",
@@ -243,7 +148,7 @@ void declare_shell_keys(Section& s, draft::ShellKeys& t, draft::CellType* cell) 
       cell != nullptr
           ? KeySpec{.name = "cortex", .doc = "The cell's cortex: a thin elastic layer under active tension."}
           : KeySpec{.name = "lamina", .doc = "The nucleus' envelope with its lamina: a thin elastic layer, perhaps under tension."};
-  s.group(layer, present, [&](Section& c) { declare_cortex(c, t, fallback, cell); });
+  s.group(layer, present, [&](Section& c) { declare_cortex(c, t, cell); });
   s.group(
       {.name = "membrane",
        .doc = "A second layer on the first, such as the plasma membrane: its laws add to those of the first. Where both resist changes of "
@@ -255,36 +160,9 @@ void declare_shell_keys(Section& s, draft::ShellKeys& t, draft::CellType* cell) 
           [&t](Section& a) { declare_area(a, t); });
   s.group({.name = "bending", .doc = "Bending of the layer.", .shorthand = "rigidity", .example = "{law: helfrich, rigidity: 2e-19 J}"},
           present, [&t](Section& b) { declare_bending(b, t); });
-  s.quantity({.name = "bulk_modulus",
-              .doc = "Stiffness K of the volume: p = -K ln(V/V0).",
-              .quantity = Q::kPressure,
-              .fallback = fallback.bulk,
-              .low = 0.0,
-              .high = 1e4,
-              .example = "2.5 kPa",
-              .source = fallback.bulk_source},
-             t.bulk_modulus);
-  s.quantity({.name = "bulk_viscosity",
-              .doc = "Viscosity of the volume: adds -eta (dV/dt)/V to the pressure.",
-              .quantity = Q::kViscosity,
-              .fallback = "0 Pa s",
-              .low = 0.0,
-              .high = 1e9,
-              .example = "100 Pa s",
-              .source = "chosen: off"},
-             t.bulk_viscosity);
-  s.quantity(
-      {.name = "shape_stiffness",
-       .doc = "Keeps triangles from collapsing; no shear modulus in regular triangles, but it holds a cortex back that should flow. "
-              "`auto`: 0.3 times the tension, at least a tenth of the modulus E h of an elastic layer; 0.03 mN/m where there is neither.",
-       .quantity = Q::kTension,
-       .fallback = "auto",
-       .low = 0.0,
-       .high = 100.0,
-       .specials = {{"auto", -1.0}},
-       .example = "0.03 mN/m",
-       .source = "measured: contact angles within 1 deg, clusters up to W/(2 tension) = 0.9"},
-      t.shape_stiffness);
+  s.quantity(bulk_modulus(cell == nullptr), t.bulk_modulus);
+  s.quantity(keys::bulk_viscosity(), t.bulk_viscosity);
+  s.quantity(keys::shape_stiffness(), t.shape_stiffness);
   if (cell != nullptr) {
     s.quantity({.name = "self_contact",
                 .doc = "Distance at which a surface touches other parts of itself, from inside or outside, such as the thickness of its "
@@ -302,23 +180,8 @@ void declare_shell_keys(Section& s, draft::ShellKeys& t, draft::CellType* cell) 
     declare_interior(s, *cell);
   }
   s.group({.name = "fold_barrier", .doc = "Keeps edges from folding through."}, present, [&t](Section& f) {
-    f.quantity({.name = "stiffness",
-                .doc = "Energy scale of the barrier.",
-                .quantity = Q::kEnergy,
-                .fallback = "1 fJ",
-                .low = 0.0,
-                .example = "1 fJ",
-                .source = "measured: clusters up to W/(2 tension) = 0.9"},
-               t.fold_stiffness);
-    f.quantity({.name = "angle",
-                .doc = "Turning angle of an edge from which the barrier acts.",
-                .quantity = Q::kAngle,
-                .fallback = "1.6 rad",
-                .low = 0.2,
-                .high = 3.0,
-                .example = "1.6 rad",
-                .source = "measured"},
-               t.fold_angle);
+    f.quantity(keys::barrier_stiffness(), t.fold_stiffness);
+    f.quantity(keys::barrier_angle(), t.fold_angle);
   });
 }
 

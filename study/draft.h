@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <vector>
 
 #include "study/draft_regions.h"
@@ -48,7 +49,8 @@ struct Osmosis {
 /// What a layer of a shell resists: shear and stretch in its plane, bending.
 struct Layer {
   Given<std::string> elastic, bending_law;
-  Given<double> shear_modulus, area_ratio, bending, spontaneous_radius;
+  Given<double> bending;
+  std::map<std::string, Given<double>> own;  ///< keys that the laws of layers have for themselves, by name
 };
 
 /// The mesh of a shell and its mechanics: the cortex of a cell or the lamina of a nucleus that is a shell, and perhaps a membrane on it.

@@ -143,8 +143,7 @@ constexpr ErrorCode kCodes[] = {
      "A nucleus begins at the centroid of its cell; a cell from a surface file may have no room for it there."},
     {594, "load both by place and by mark",
      "Faces with a mark bear the load wherever they are on the cell; an axis or a part of the nodes has no effect then."},
-    {595, "layers that do not go together",
-     "The model holds one area ratio for all sheets of a shell and one spontaneous curvature for all its Helfrich layers."},
+    {595, "layers that do not go together", "The model holds one spontaneous curvature for all Helfrich layers of a shell."},
     {596, "cell within another body",
      "Surfaces that lie in each other push each other apart near where they cross; a cell whose centre is within another body stays "
      "there."},
@@ -174,10 +173,6 @@ constexpr ErrorCode kCodes[] = {
      "`shape_stiffness` keeps triangles from collapsing. Above 0.6 times the tension it resists the shear of a cortex that should flow, "
      "and "
      "contact radii and angles come out too small."},
-    {645, "noise that leaves the inside cold",
-     "Random forces belong to friction. Nuclei and links inside a shell have friction without them, so that the cell would fluctuate less "
-     "than "
-     "its energy says."},
     {646, "shells that would divide",
      "Shells grow but cannot divide yet. One that reaches its division volume waits there, as the event `division_waits` says, until its "
      "body "

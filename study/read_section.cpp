@@ -20,8 +20,6 @@ const Special* find_special(const KeySpec& key, const std::string& text) {
   return nullptr;
 }
 
-std::vector<std::string> to_strings(const std::vector<const char*>& words) { return {words.begin(), words.end()}; }
-
 }  // namespace
 
 bool is_name(const std::string& text) {
@@ -43,7 +41,7 @@ const Node::Entry* ReadSection::take(const KeySpec& key) {
     if (entry.key == key.name) return &entry;
   if (key.required && !node_->cut_off)
     diagnostics_.error(103, place_, "key " + shown(key) + " is missing in " + (path_.empty() ? "the study" : "`" + path_ + "`"),
-                       *key.example ? "write for example `" + std::string(key.name) + ": " + key.example + "`" : std::string(key.doc));
+                       *key.example ? "write for example `" + std::string(key.name) + ": " + key.example + "`" : key.doc);
   return nullptr;
 }
 
@@ -122,7 +120,7 @@ void ReadSection::whole(const KeySpec& key, Given<std::uint64_t>& value) {
   const bool allowed = key.words.empty() || std::find(key.words.begin(), key.words.end(), text) != key.words.end();
   if (!allowed) {
     std::string list;
-    for (const char* word : key.words) list += (list.empty() ? "" : ", ") + std::string(word);
+    for (const std::string& word : key.words) list += (list.empty() ? "" : ", ") + word;
     diagnostics_.error(302, node->place, shown(key) + " is " + text + ", but must be one of " + list, example_of(key));
   } else if (code != std::errc() || !range_of(key).holds(static_cast<double>(number))) {
     diagnostics_.error(302, node->place, shown(key) + " is " + text + ", but must be " + range_words(key), example_of(key));
@@ -141,7 +139,7 @@ void ReadSection::word(const KeySpec& key, Given<std::string>& value) {
   for (const auto& [other, meant] : key.synonyms)
     if (text == other) text = meant;
   if (std::find(key.words.begin(), key.words.end(), text) == key.words.end()) {
-    diagnostics_.error(108, node->place, shown(key) + " cannot be '" + node->text + "'", suggest(node->text, to_strings(key.words)));
+    diagnostics_.error(108, node->place, shown(key) + " cannot be '" + node->text + "'", suggest(node->text, key.words));
     return;
   }
   value.value = value.text = text;
@@ -266,7 +264,7 @@ void ReadSection::words(const KeySpec& key, Given<std::vector<std::string>>& val
     if (item.kind != Node::Kind::kScalar) {
       wrong_shape(key, item, "a list of words");
     } else if (!key.words.empty() && std::find(key.words.begin(), key.words.end(), item.text) == key.words.end()) {
-      diagnostics_.error(108, item.place, shown(key) + " cannot hold '" + item.text + "'", suggest(item.text, to_strings(key.words)));
+      diagnostics_.error(108, item.place, shown(key) + " cannot hold '" + item.text + "'", suggest(item.text, key.words));
     } else {
       all += (all.size() > 1 ? ", " : "") + yaml_scalar(item.text);
       value.value.push_back(item.text);

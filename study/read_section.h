@@ -8,8 +8,8 @@ namespace morula::scenarios {
 class ReadSection final : public Section {
  public:
   /// `node` is null when the file has no such section; `place` is where messages about the section as a whole point to.
-  ReadSection(const Node* node, Place place, std::string path, const UnitSystem& units, Diagnostics& diagnostics)
-      : node_(node), place_(std::move(place)), path_(std::move(path)), units_(units), diagnostics_(diagnostics) {}
+  ReadSection(const Node* node, Place place, std::string path, const Laws& laws, const UnitSystem& units, Diagnostics& diagnostics)
+      : Section(laws), node_(node), place_(std::move(place)), path_(std::move(path)), units_(units), diagnostics_(diagnostics) {}
 
   void quantity(const KeySpec& key, Given<double>& value) override;
   void whole(const KeySpec& key, Given<std::uint64_t>& value) override;

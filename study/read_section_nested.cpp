@@ -48,7 +48,7 @@ std::string short_number(double value) {
 void ReadSection::read_section(const KeySpec& key, const Node& node, const Place& key_place, const std::string& path,
                                const std::function<void(Section&)>& describe) {
   if (node.kind == Node::Kind::kMap) {
-    ReadSection section(&node, key_place, path, units_, diagnostics_);
+    ReadSection section(&node, key_place, path, laws(), units_, diagnostics_);
     describe(section);
     section.finish();
   } else if (key.shorthand && (node.kind == Node::Kind::kScalar || node.kind == Node::Kind::kList)) {
@@ -56,7 +56,7 @@ void ReadSection::read_section(const KeySpec& key, const Node& node, const Place
     map.kind = Node::Kind::kMap;
     map.place = node.place;
     map.entries.push_back({key.shorthand, node.place, node});
-    ReadSection section(&map, key_place, path, units_, diagnostics_);
+    ReadSection section(&map, key_place, path, laws(), units_, diagnostics_);
     section.short_key_ = key.shorthand;
     section.short_for_ = key.name;
     describe(section);
@@ -76,7 +76,7 @@ void ReadSection::group(const KeySpec& key, bool& present, const std::function<v
   if (entry) {
     read_section(key, entry->value, entry->key_place, path_of(key.name), describe);
   } else if (!key.optional_section) {
-    ReadSection defaults(nullptr, place_, path_of(key.name), units_, diagnostics_);
+    ReadSection defaults(nullptr, place_, path_of(key.name), laws(), units_, diagnostics_);
     describe(defaults);
   }
 }

@@ -12,9 +12,10 @@ namespace {
 /// How much larger a study may be that a run has written itself: all its defaults are written out.
 constexpr unsigned kResolvedGrows = 20;
 
-void read_draft(const Node& document, const std::shared_ptr<const SourceText>& source, draft::Study& draft, Diagnostics& diagnostics) {
+void read_draft(const Node& document, const std::shared_ptr<const SourceText>& source, const Laws& laws, draft::Study& draft,
+                Diagnostics& diagnostics) {
   const UnitSystem units;
-  ReadSection section(&document, Place{source, 1, 1, 1}, "", units, diagnostics);
+  ReadSection section(&document, Place{source, 1, 1, 1}, "", laws, units, diagnostics);
   declare_study(section, draft);
   section.finish();
 }
@@ -54,16 +55,17 @@ Result<Study, Diagnostics> read_source(const std::shared_ptr<const SourceText>& 
   }
   draft::Study draft;
   if (document.cut_off) {  // the mistakes in what was read are told; what it means together cannot be judged
-    read_draft(document, source, draft, diagnostics);
+    read_draft(document, source, *options.laws, draft, diagnostics);
     diagnostics.sort();
     return diagnostics;
   }
-  const Declaration declared = study_declarations();
+  const Declaration declared = study_declarations(*options.laws);
   for (const std::string& assignment : options.overrides) apply_override(document, declared, assignment, diagnostics);
   expand_likes(document, declared, diagnostics);
 
   Study study;
-  read_draft(document, source, draft, diagnostics);
+  study.laws = options.laws;
+  read_draft(document, source, *options.laws, draft, diagnostics);
   BuildContext context{draft, study, diagnostics, folder, options};
   build(context);
   if (options.fits_scenario && !diagnostics.has_errors())
@@ -74,7 +76,7 @@ Result<Study, Diagnostics> read_source(const std::shared_ptr<const SourceText>& 
   if (diagnostics.has_errors()) return diagnostics;
   study.source_path = source->name;
   study.source_text = source->bytes;
-  study.resolved_text = write_study(draft);
+  study.resolved_text = write_study(draft, *options.laws);
   study.warnings = std::move(diagnostics);
   return study;
 }

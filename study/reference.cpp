@@ -16,7 +16,7 @@ bool is_section(const Declaration& d) { return d.kind == Kind::kGroup || d.kind 
 std::string kind_text(const Declaration& d) {
   const KeySpec& key = d.spec;
   std::string words;
-  for (const char* word : key.words) words += (words.empty() ? "" : ", ") + std::string("`") + word + "`";
+  for (const std::string& word : key.words) words += (words.empty() ? "`" : ", `") + word + "`";
   for (const Special& special : key.specials) words += (words.empty() ? "" : ", ") + std::string("`") + special.word + "`";
   const std::string quantity(describe(key.quantity).name);
   switch (d.kind) {
@@ -134,24 +134,24 @@ void table_of(const Declaration& section, std::string& out) {
 
 }  // namespace
 
-std::optional<std::string> explain_study(const std::string& id) {
+std::optional<std::string> explain_study(const std::string& id, const Laws& laws) {
   if (id.size() == 4 && (id[0] == 'E' || id[0] == 'e') && id.find_first_not_of("0123456789", 1) == std::string::npos) {
     const ErrorCode* code = find_error_code(std::stoi(id.substr(1)));
     if (!code) return std::nullopt;
     return "E" + std::to_string(code->code) + ": " + code->title + "\n  " + code->explanation + "\n";
   }
   std::string out;
-  if (!id.empty()) explain_matching(study_declarations(), id, out);
+  if (!id.empty()) explain_matching(study_declarations(laws), id, out);
   if (out.empty()) return std::nullopt;
   return out;
 }
 
-std::string study_reference() {
+std::string study_reference(const Laws& laws) {
   std::string out =
       "# The study file\n\nGenerated from the declarations of the reader (`study/declare_*.cpp`); do not edit.\n\n"
       "A study is one YAML document. Every number with a dimension carries its unit, such as `2.5 kPa`. Keys that are not listed here are "
       "errors.\n";
-  table_of(study_declarations(), out);
+  table_of(study_declarations(laws), out);
   out += "\n## Units\n\nKnown units, with SI prefixes: " + UnitSystem::known_units() + ". Products and powers are written `N s/m^3`.\n";
   out += "\n## Messages\n\n| code | title | meaning |\n|---|---|---|\n";
   for (const ErrorCode& code : error_codes())

@@ -41,7 +41,7 @@ Json quantity_schema(const KeySpec& key) {
 Json words_schema(const KeySpec& key) {
   if (key.words.empty()) return {{"type", "string"}};
   Json words = Json::array();
-  for (const char* word : key.words) words.push_back(word);
+  for (const std::string& word : key.words) words.push_back(word);
   for (const auto& synonym : key.synonyms) words.push_back(synonym.first);
   return {{"enum", words}};
 }
@@ -50,7 +50,7 @@ Json whole_schema(const KeySpec& key) {
   Json schema{{"type", "integer"}, {"minimum", key.low}, {"maximum", key.high}};
   if (!key.words.empty()) {
     Json numbers = Json::array();
-    for (const char* word : key.words) numbers.push_back(std::stoi(word));
+    for (const std::string& word : key.words) numbers.push_back(std::stoi(word));
     schema = {{"enum", numbers}};
   }
   if (key.specials.empty()) return schema;
@@ -130,9 +130,9 @@ Json schema_of(const Declaration& d) {
 
 }  // namespace
 
-std::string study_json_schema() {
+std::string study_json_schema(const Laws& laws) {
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Morula study"}};
-  const Declaration root = study_declarations();
+  const Declaration root = study_declarations(laws);
   schema.update(section_schema(root));
   return schema.dump(2) + "\n";
 }

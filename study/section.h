@@ -1,11 +1,12 @@
 #pragma once
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "core/key_spec.h"
 #include "core/vec3.h"
+#include "coupling/laws.h"
 #include "study/diagnostics.h"
 #include "study/quantity_reader.h"
 
@@ -20,32 +21,6 @@ struct Given {
   bool given = false;  ///< written in the file (or on the command line)
 
   [[nodiscard]] bool known() const { return !text.empty(); }
-};
-
-/// A word that may stand where a number is due, and the number it stands for.
-struct Special {
-  const char* word;
-  double value;
-};
-
-/// What an item of a list or map of the study is, once: the declaration from which reader, checker, JSON Schema, `explain`, the resolved
-/// study and the reference follow.
-struct KeySpec {
-  const char* name = "";
-  const char* doc = "";
-  Quantity quantity = Quantity::kNumber;
-  const char* fallback = nullptr;  ///< default as one would write it; nullptr: none
-  bool required = false;
-  bool optional_section = false;                          ///< of a section: its absence has a meaning, and its defaults hold only within it
-  double low = -std::numeric_limits<double>::infinity();  ///< in internal units
-  double high = std::numeric_limits<double>::infinity();
-  bool low_open = false, high_open = false;                     ///< the limit itself is not allowed
-  std::vector<Special> specials{};                              ///< words allowed instead of a number
-  std::vector<const char*> words{};                             ///< the allowed words
-  std::vector<std::pair<const char*, const char*>> synonyms{};  ///< (other spelling, word it stands for)
-  const char* shorthand = nullptr;                              ///< for a section: the key that a bare value stands for
-  const char* example = "";
-  const char* source = "";  ///< where the default comes from
 };
 
 class Section;
@@ -70,7 +45,13 @@ struct Named {
 /// and writing are three implementations, so that a key is declared in one place only.
 class Section {
  public:
+  explicit Section(const Laws& laws) : laws_(laws) {}
+  Section(const Section&) = delete;
+  Section& operator=(const Section&) = delete;
   virtual ~Section() = default;
+
+  /// The laws that a study may name; their own keys are declared with those of the section.
+  [[nodiscard]] const Laws& laws() const { return laws_; }
 
   virtual void quantity(const KeySpec& key, Given<double>& value) = 0;
   virtual void whole(const KeySpec& key, Given<std::uint64_t>& value) = 0;
@@ -113,6 +94,9 @@ class Section {
  protected:
   virtual void named_items(const KeySpec& key, const Container& items) = 0;
   virtual void listed_items(const KeySpec& key, const Container& items) = 0;
+
+ private:
+  const Laws& laws_;
 };
 
 }  // namespace morula::scenarios

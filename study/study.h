@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/laws.h"
 #include "coupling/model.h"
 #include "study/diagnostics.h"
 #include "study/mesh_cells.h"
@@ -120,11 +121,13 @@ struct Study {
   std::string source_text;               ///< its bytes
   std::string resolved_text;             ///< YAML with every default; beside the copies of its input files it reads to this same study
   std::vector<InputFile> input_files;
+  std::shared_ptr<const Laws> laws = builtin_laws();  ///< that it was read with
   Diagnostics warnings;
   std::vector<std::string> notes;  ///< for the log: coincident cells that are moved, CSV columns left aside
 };
 
 struct ReadOptions {
+  std::shared_ptr<const Laws> laws = builtin_laws();    ///< that the study may name
   std::vector<std::string> overrides{};                 ///< `key.path=value`, as if written in the file
   std::vector<std::string> series_names{};              ///< observables that exist; empty: not checked
   std::vector<std::string> scenario_names{};            ///< library studies that exist; empty: not checked

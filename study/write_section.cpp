@@ -8,7 +8,7 @@ namespace {
 
 class WriteSection final : public Section {
  public:
-  explicit WriteSection(int indent) : indent_(static_cast<std::size_t>(indent), ' ') {}
+  WriteSection(int indent, const Laws& laws) : Section(laws), indent_(static_cast<std::size_t>(indent), ' ') {}
 
   std::string out;
 
@@ -40,7 +40,7 @@ class WriteSection final : public Section {
     if (items.size() == 0) return;
     out += indent_ + key.name + ":\n";
     for (std::size_t i = 0; i < items.size(); ++i) {
-      WriteSection inner(static_cast<int>(indent_.size()) + 4);
+      WriteSection inner(static_cast<int>(indent_.size()) + 4, laws());
       items.describe(inner, i);
       out += indent_ + "  " + items.name(i) + ":" + (inner.out.empty() ? " {}\n" : "\n") + inner.out;
     }
@@ -49,7 +49,7 @@ class WriteSection final : public Section {
     if (items.size() == 0) return;
     out += indent_ + key.name + ":\n";
     for (std::size_t i = 0; i < items.size(); ++i) {
-      WriteSection inner(static_cast<int>(indent_.size()) + 4);
+      WriteSection inner(static_cast<int>(indent_.size()) + 4, laws());
       items.describe(inner, i);
       if (!inner.out.empty()) inner.out.replace(indent_.size() + 2, 1, "-");
       out += inner.out.empty() ? indent_ + "  - {}\n" : inner.out;
@@ -66,7 +66,7 @@ class WriteSection final : public Section {
     if (known) out += indent_ + key.name + ": " + value + origin(key, given);
   }
   void nested(const std::string& head, const char* when_empty, const std::function<void(Section&)>& describe) {
-    WriteSection inner(static_cast<int>(indent_.size()) + 2);
+    WriteSection inner(static_cast<int>(indent_.size()) + 2, laws());
     describe(inner);
     if (!inner.out.empty())
       out += head + inner.out;
@@ -79,8 +79,8 @@ class WriteSection final : public Section {
 
 }  // namespace
 
-std::string write_study(draft::Study& study) {
-  WriteSection section(0);
+std::string write_study(draft::Study& study, const Laws& laws) {
+  WriteSection section(0, laws);
   declare_study(section, study);
   return section.out;
 }

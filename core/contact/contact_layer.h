@@ -127,6 +127,7 @@ class ContactLayer {
   [[nodiscard]] std::span<const SurfacePair> pairs() const { return pairs_; }
   [[nodiscard]] std::span<const RigidSurface> obstacles() const { return obstacles_; }
   [[nodiscard]] const Vec3d& obstacle_offset(std::size_t i) const { return offsets_[i]; }
+  [[nodiscard]] std::span<const Vec3d> offsets() const { return offsets_; }
   [[nodiscard]] const ContactMaterial& material(std::uint16_t a, std::uint16_t b) const { return materials_[a * material_count_ + b]; }
   [[nodiscard]] const ContactSettings& settings() const { return settings_; }
   /// Bytes that lists and results take.

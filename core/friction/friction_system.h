@@ -96,6 +96,11 @@ class FrictionSystem {
 
   /// Diagonal friction [nN·s/µm] of the bodies of one point, in their order; ghosts are ignored. The shells' part has its own.
   void set_point_friction(std::span<const float> friction) { point_friction_.assign(friction.begin(), friction.end()); }
+  /// The same as room for so many, all zero, that the caller fills.
+  [[nodiscard]] std::span<float> clear_point_friction(std::size_t count) {
+    point_friction_.assign(count, 0.0f);
+    return point_friction_;
+  }
   /// The shells' own part, with what contacts couple within a shell (edge_blocks_of()).
   void set_shells(OperatorPart* shells) { shells_ = shells; }
   /// Something that adds to the matrix: what lives inside the shells, friction of its own form. In this order; set_layout() forgets all.

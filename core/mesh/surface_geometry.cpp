@@ -131,8 +131,8 @@ void block_forces(const LaneBlock& block, const SurfaceList& surfaces, std::span
 
 /// Run `kernel<W>(block, workspace)` for every block, in parallel.
 template <class Kernel>
-void for_each_block(std::span<const LaneBlock> blocks, const Kernel& kernel) {
-  parallel_for_with<Workspace>(omp_get_max_threads(), blocks.size(), [&](std::size_t b, Workspace& ws) {
+void for_each_block(int threads, std::span<const LaneBlock> blocks, const Kernel& kernel) {
+  parallel_for_with<Workspace>(threads, blocks.size(), [&](std::size_t b, Workspace& ws) {
     switch (blocks[b].lanes) {
       case 8:
         return kernel.template operator()<8>(blocks[b], ws);
@@ -159,7 +159,8 @@ void compute(const SurfaceList& surfaces, std::span<const LaneBlock> blocks, std
   geometry.node_area.assign(position.size(), 0.0);
   geometry.volume.resize(count);
   geometry.area.resize(count);
-  for_each_block(blocks, [&]<int W>(const LaneBlock& block, Workspace& ws) { block_geometry<W>(block, surfaces, position, geometry, ws); });
+  for_each_block(surfaces.threads, blocks,
+                 [&]<int W>(const LaneBlock& block, Workspace& ws) { block_geometry<W>(block, surfaces, position, geometry, ws); });
 }
 
 }  // namespace
@@ -179,7 +180,7 @@ void compute_node_geometry(const SurfaceList& surfaces, std::span<const Vec3d> p
 
 void add_surface_forces(const SurfaceList& surfaces, std::span<const LaneBlock> blocks, std::span<const Vec3d> position,
                         const SurfaceGeometry& geometry, const SurfaceGradient& gradient, std::span<Vec3d> force) {
-  for_each_block(blocks, [&]<int W>(const LaneBlock& block, Workspace& ws) {
+  for_each_block(surfaces.threads, blocks, [&]<int W>(const LaneBlock& block, Workspace& ws) {
     block_forces<W>(block, surfaces, position, geometry, gradient, force, ws);
   });
 }

@@ -14,6 +14,7 @@ struct SurfaceList {
   std::span<const Topology* const> topology;  ///< by surface
   std::span<const std::uint32_t> first_node;  ///< by surface, at least as many entries
   std::span<const std::uint32_t> first_face;  ///< by surface, one more at the end
+  int threads = 1;                            ///< that work on them; results do not depend on it
 };
 
 /// Areas, normals and volumes at some positions. Node arrays are indexed as the positions; a position that belongs to no surface (the

@@ -6,6 +6,7 @@
 #include "coupling/loads.h"
 #include "coupling/lumens.h"
 #include "coupling/mechanics/mechanics.h"
+#include "coupling/mechanics/workspace.h"
 
 namespace morula {
 namespace {
@@ -31,108 +32,130 @@ std::vector<Vec3d> load_forces(const Model& model, const Tissue& tissue, const C
   return out;
 }
 
-}  // namespace
-
-void Mechanics::attach(Tissue& tissue) {
-  prepare(tissue);
-  if (comm_.any(spheres_.update_attached(scene_, contacts_, tissue))) evaluated_ = false;
-}
-
-void Mechanics::look(const Tissue& tissue) {
-  prepare(tissue);
-  const bool renewed = spheres_.renew_sisters(scene_, contacts_, tissue.clock.time);
-  if (renewed) flags_changed_ = true;
-  if (spheres_.packs() && comm_.any(renewed)) evaluate(tissue, false);  // the packing of sisters counts at their neighbours, too
-}
-
-std::vector<SymMat3<double>> Mechanics::stresses_of_shells(const Tissue& tissue) const {
-  const std::vector<Vec3d> loads = load_forces(model_, tissue, comm_);
-  std::vector<SymMat3<double>> out(scene_.owned_shells());
-  const std::span<const Vec3d> x = scene_.position();
-  parallel_for(threads_, out.size(), [&](std::size_t i) {
-    const ContactBody& body = scene_.bodies()[i];
-    const Vec3d center = volume_centroid(scene_.topologies()[i]->faces(), x.subspan(body.first_point, body.point_count));
+std::vector<SymMat3<double>> stresses_of_shells(const Workspace& work, const Tissue& tissue) {
+  const std::vector<Vec3d> loads = load_forces(work.setting.model, tissue, work.setting.comm);
+  const Scene& scene = work.scene;
+  std::vector<SymMat3<double>> out(scene.owned_shells());
+  const std::span<const Vec3d> x = scene.position(), of_contacts = work.terms.contacts->found().force;
+  parallel_for(work.setting.threads, out.size(), [&](std::size_t i) {
+    const ContactBody& body = scene.bodies()[i];
+    const Vec3d center = volume_centroid(scene.topologies()[i]->faces(), x.subspan(body.first_point, body.point_count));
     SymMat3<double> sum;
     for (std::uint32_t n = body.first_point; n < body.first_point + body.point_count; ++n)
-      sum += symmetric(x[n] - center, loads.empty() ? gradient_.force[n] : gradient_.force[n] + loads[n]);
-    out[i] = (1.0 / geometry_.volume[i]) * sum;
+      sum += symmetric(x[n] - center, loads.empty() ? of_contacts[n] : of_contacts[n] + loads[n]);
+    out[i] = (1.0 / work.geometry.now().volume[i]) * sum;
   });
   return out;
 }
 
-std::vector<double> Mechanics::pressures_from(const Tissue& tissue, std::span<const SymMat3<double>> of_shells,
-                                              std::span<const SphereTouch> touches) const {
+std::vector<SphereTouch> touches_of_spheres(const Workspace& work) {
+  return work.terms.contacts->layer().touches_of_spheres(contact_scene(work.scene, work.geometry.now()));
+}
+
+std::vector<double> pressures_from(const Workspace& work, const Tissue& tissue, std::span<const SymMat3<double>> of_shells,
+                                   std::span<const SphereTouch> touches) {
+  const Scene& scene = work.scene;
   std::vector<double> out;
   for (const SymMat3<double>& stress : of_shells) out.push_back(-trace(stress) / 3.0);
-  std::vector<double> virial(scene_.owned_spheres());
-  for (std::size_t i = 0; i < virial.size(); ++i) virial[i] = spheres_.virial(i);
+  std::vector<double> virial(scene.owned_spheres());
+  for (std::size_t i = 0; i < virial.size(); ++i) virial[i] = work.terms.spheres->virial(i);
   for (const SphereTouch& touch : touches)
-    if (scene_.bodies()[touch.sphere].owned) virial[touch.sphere - scene_.first_sphere()] -= morula::dot(touch.place, touch.force);
+    if (scene.bodies()[touch.sphere].owned) virial[touch.sphere - scene.first_sphere()] -= dot(touch.place, touch.force);
   out.resize(of_shells.size() + virial.size());
-  parallel_for(threads_, virial.size(), [&](std::size_t i) {
-    out[of_shells.size() + i] =
-        cbm::sphere_pressure(virial[i], ball(tissue.spheres.radius[i]), model_.types[tissue.spheres.type[i]].shell.bulk_modulus);
+  parallel_for(work.setting.threads, virial.size(), [&](std::size_t i) {
+    out[of_shells.size() + i] = cbm::sphere_pressure(virial[i], ball(tissue.spheres.radius[i]),
+                                                     work.setting.model.types[tissue.spheres.type[i]].shell.bulk_modulus);
   });
   return out;
 }
 
-std::vector<double> Mechanics::pressures(const Tissue& tissue) {
-  look(tissue);
-  return pressures_from(tissue, stresses_of_shells(tissue), contacts_.touches_of_spheres(contact_scene()));
-}
-
-BodyValues Mechanics::values(const Tissue& tissue) {
-  look(tissue);
-  const std::vector<SphereTouch> touches = contacts_.touches_of_spheres(contact_scene());
-  BodyValues values;
-  values.stress = stresses_of_shells(tissue);
-  values.pressure = values.inner_pressure = pressures_from(tissue, values.stress, touches);
-  const std::size_t shells = scene_.owned_shells(), spheres = scene_.owned_spheres();
-  values.stress.resize(shells + spheres);
-  for (auto* v : {&values.volume, &values.area, &values.contact_area}) v->assign(shells + spheres, 0.0);
-  for (std::size_t i = 0; i < shells; ++i) {
-    values.volume[i] = geometry_.volume[i];
-    values.area[i] = geometry_.area[i];
-    values.inner_pressure[i] = shells_.forces().pressure[i];
-    values.contact_area[i] = gradient_.contact_area[i];
-  }
-  std::vector<SphereContacts::Pressing> pressing = spheres_.pressing(scene_, contacts_);
+/// Of the spheres: volumes, areas, contact and stress, whose pressures are known.
+void add_values_of_spheres(const Workspace& work, const Tissue& tissue, std::span<const SphereTouch> touches, BodyValues& values) {
+  const Scene& scene = work.scene;
+  const std::size_t shells = scene.owned_shells();
+  std::vector<SphereContacts::Pressing> pressing = work.terms.spheres->pressing(scene);
   for (const SphereTouch& touch : touches) {
-    if (!scene_.bodies()[touch.sphere].owned) continue;
-    SphereContacts::Pressing& sum = pressing[touch.sphere - scene_.first_sphere()];
+    if (!scene.bodies()[touch.sphere].owned) continue;
+    SphereContacts::Pressing& sum = pressing[touch.sphere - scene.first_sphere()];
     sum.area += touch.area;
     sum.virial += symmetric(touch.place, touch.force * -1.0);
   }
-  for (std::size_t i = 0; i < spheres; ++i) {
-    const double r = tissue.spheres.radius[i], modulus = model_.types[tissue.spheres.type[i]].shell.bulk_modulus;
+  for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
+    const double r = tissue.spheres.radius[i], modulus = work.setting.model.types[tissue.spheres.type[i]].shell.bulk_modulus;
     values.volume[shells + i] = ball(r);
     values.area[shells + i] = 4.0 * std::numbers::pi * r * r;
     values.contact_area[shells + i] = pressing[i].area;
     values.stress[shells + i] = (-1.0 / cbm::pressed_volume(values.pressure[shells + i], ball(r), modulus)) * pressing[i].virial;
   }
+}
+
+}  // namespace
+
+void Mechanics::attach(Tissue& tissue) {
+  (void)prepare(*work_, tissue);
+  if (work_->setting.comm.any(work_->terms.spheres->update_attached(work_->world(tissue), tissue))) work_->known.reset();
+}
+
+void Mechanics::look(const Tissue& tissue) {
+  (void)prepare(*work_, tissue);
+  SphereContacts& spheres = *work_->terms.spheres;
+  const bool renewed = spheres.renew_sisters(work_->world(tissue));
+  // The packing of sisters counts at their neighbours, too. The forces are those of a step from here on, whose sisters are the same.
+  if (spheres.packs() && work_->setting.comm.any(renewed)) {
+    Evaluation now = evaluate(*work_, tissue, {});
+    work_->known = Known{now.energy, std::move(now.force)};
+  } else if (renewed) {
+    work_->known->force.reset();
+  }
+}
+
+std::vector<double> Mechanics::pressures(const Tissue& tissue) {
+  look(tissue);
+  return pressures_from(*work_, tissue, stresses_of_shells(*work_, tissue), touches_of_spheres(*work_));
+}
+
+BodyValues Mechanics::values(const Tissue& tissue) {
+  look(tissue);
+  const Workspace& work = *work_;
+  const std::vector<SphereTouch> touches = touches_of_spheres(work);
+  BodyValues values;
+  values.stress = stresses_of_shells(work, tissue);
+  values.pressure = values.inner_pressure = pressures_from(work, tissue, values.stress, touches);
+  const std::size_t shells = work.scene.owned_shells(), spheres = work.scene.owned_spheres();
+  values.stress.resize(shells + spheres);
+  for (auto* v : {&values.volume, &values.area, &values.contact_area}) v->assign(shells + spheres, 0.0);
+  for (std::size_t i = 0; i < shells; ++i) {
+    values.volume[i] = work.geometry.now().volume[i];
+    values.area[i] = work.geometry.now().area[i];
+    values.inner_pressure[i] = work.terms.membranes->found().pressure[i];
+    values.contact_area[i] = work.terms.contacts->found().contact_area[i];
+  }
+  add_values_of_spheres(work, tissue, touches, values);
   return values;
 }
 
+SphereRangeCount Mechanics::contacts_beyond_range() const { return work_->terms.spheres->count_beyond_range(work_->scene); }
+
 std::vector<double> Mechanics::packing() const {
-  std::vector<double> out(scene_.owned_spheres());
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = spheres_.packing(i);
+  std::vector<double> out(work_->scene.owned_spheres());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = work_->terms.spheres->packing(i);
   return out;
 }
 
 std::vector<Vec3d> Mechanics::obstacle_forces(const Tissue& tissue) {
-  std::vector<Vec3d> out(model_.obstacles.size());
+  std::vector<Vec3d> out(work_->setting.model.obstacles.size());
   if (out.empty()) return out;
-  prepare(tissue);
+  (void)prepare(*work_, tissue);
   std::vector<OrderFreeSum> sums(3 * out.size());
   const auto add = [&](std::uint32_t obstacle, const Vec3d& force) {
     if (obstacle >= out.size()) return;  // walls of the domain come after the obstacles
     for (std::size_t axis = 0; axis < 3; ++axis) sums[3 * obstacle + axis].add(force[axis]);
   };
-  for (const SurfacePair& pair : contacts_.pairs())
-    if (pair.rigid && scene_.bodies()[pair.a].owned) add(pair.b, pair.push);
-  spheres_.for_pushed_obstacles(add);
+  for (const SurfacePair& pair : contacts().pairs())
+    if (pair.rigid && work_->scene.bodies()[pair.a].owned) add(pair.b, pair.push);
+  work_->terms.spheres->for_pushed_obstacles(add);
   std::vector<double> totals(sums.size());
-  comm_.sum(sums, totals);
+  work_->setting.comm.sum(sums, totals);
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = {totals[3 * i], totals[3 * i + 1], totals[3 * i + 2]};
   return out;
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "coupling/mechanics/mechanics.h"
+#include "coupling/mechanics/workspace.h"
 
 namespace morula {
 
@@ -16,10 +17,10 @@ Vec3d twice_area(const dcm::Shells& shells, std::size_t shell, std::uint32_t fac
 }  // namespace
 
 std::vector<float> Mechanics::contact_of_faces(const Tissue& tissue, std::span<const char> with_material) {
-  prepare(tissue);
-  const auto bodies = scene_.bodies();
-  std::vector<float> out(scene_.first_face()[scene_.owned_shells()], 0.0f);
-  for (const SurfacePair& pair : contacts_.pairs()) {
+  (void)prepare(*work_, tissue);
+  const auto bodies = work_->scene.bodies();
+  std::vector<float> out(work_->scene.first_face()[work_->scene.owned_shells()], 0.0f);
+  for (const SurfacePair& pair : contacts().pairs()) {
     if (pair.with_itself()) continue;
     for (int d = 0; d < 2; ++d) {
       if (d == 1 && pair.rigid) break;
@@ -28,32 +29,32 @@ std::vector<float> Mechanics::contact_of_faces(const Tissue& tissue, std::span<c
       if (!source.owned || source.shape == BodyShape::kSphere) continue;
       const bool both = !pair.rigid && bodies[d == 0 ? pair.b : pair.a].shape ==
                                            BodyShape::kSurface;  // both bodies are sources, with half of the area each
-      const std::uint16_t partner = pair.rigid ? contacts_.obstacles()[pair.b].material : bodies[d == 0 ? pair.b : pair.a].material;
+      const std::uint16_t partner = pair.rigid ? contacts().obstacles()[pair.b].material : bodies[d == 0 ? pair.b : pair.a].material;
       if (partner >= with_material.size() || !with_material[partner]) continue;
       for (const ContactElement& element : pair.present(static_cast<std::size_t>(d)))
-        out[scene_.first_face()[number] + element.source_face()] += element.area() * (both ? 2.0f : 1.0f);
+        out[work_->scene.first_face()[number] + element.source_face()] += element.area() * (both ? 2.0f : 1.0f);
     }
   }
-  for (std::size_t s = 0; s < scene_.owned_shells(); ++s)
-    for (std::uint32_t f = scene_.first_face()[s]; f < scene_.first_face()[s + 1]; ++f)
+  for (std::size_t s = 0; s < work_->scene.owned_shells(); ++s)
+    for (std::uint32_t f = work_->scene.first_face()[s]; f < work_->scene.first_face()[s + 1]; ++f)
       if (out[f] > 0.0f)
-        out[f] = std::min(out[f] / static_cast<float>(0.5 * norm(twice_area(tissue.shells, s, f - scene_.first_face()[s]))), 1.0f);
+        out[f] = std::min(out[f] / static_cast<float>(0.5 * norm(twice_area(tissue.shells, s, f - work_->scene.first_face()[s]))), 1.0f);
   return out;
 }
 
 std::vector<Touch> Mechanics::touch_of_bodies(const Tissue& tissue, std::span<const char> with_material) {
   const std::vector<float> part = contact_of_faces(tissue, with_material);
-  std::vector<Touch> out(scene_.owned_shells() + scene_.owned_spheres());
-  for (std::size_t s = 0; s < scene_.owned_shells(); ++s)
-    for (std::uint32_t f = scene_.first_face()[s]; f < scene_.first_face()[s + 1]; ++f) {
-      const Vec3d touched = twice_area(tissue.shells, s, f - scene_.first_face()[s]) * (0.5 * static_cast<double>(part[f]));
+  std::vector<Touch> out(work_->scene.owned_shells() + work_->scene.owned_spheres());
+  for (std::size_t s = 0; s < work_->scene.owned_shells(); ++s)
+    for (std::uint32_t f = work_->scene.first_face()[s]; f < work_->scene.first_face()[s + 1]; ++f) {
+      const Vec3d touched = twice_area(tissue.shells, s, f - work_->scene.first_face()[s]) * (0.5 * static_cast<double>(part[f]));
       out[s].area += norm(touched);
       out[s].normal += touched;
     }
-  spheres_.for_touched_obstacles([&](std::uint32_t sphere, std::uint32_t obstacle, const Vec3d& normal, double area) {
-    const std::uint16_t material = contacts_.obstacles()[obstacle].material;
+  work_->terms.spheres->for_touched_obstacles([&](std::uint32_t sphere, std::uint32_t obstacle, const Vec3d& normal, double area) {
+    const std::uint16_t material = contacts().obstacles()[obstacle].material;
     if (material >= with_material.size() || !with_material[material]) return;
-    Touch& touch = out[scene_.owned_shells() + sphere];
+    Touch& touch = out[work_->scene.owned_shells() + sphere];
     touch.area += area;
     touch.normal += normal * area;
   });

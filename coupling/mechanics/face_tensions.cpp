@@ -32,6 +32,10 @@ void FaceTensions::set(const Tissue& tissue, double time) {
   }
 }
 
+void FaceTensions::evaluate(const World& world, Forces& out) { add_forces(world.tissue.shells, world.position(), out.force, out.energy); }
+
+void FaceTensions::assemble(const World&, double, Assembly& out) { out.face_energy = on_top_of(out.face_energy); }
+
 void FaceTensions::add_forces(const dcm::Shells& shells, std::span<const Vec3d> x, std::span<Vec3d> force, OrderFreeSum& energy) const {
   if (!any_) return;
   std::size_t face = 0;

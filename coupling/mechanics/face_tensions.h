@@ -3,10 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/mesh/surface_geometry.h"
-#include "core/parallel/order_free_sum.h"
-#include "coupling/model.h"
-#include "coupling/tissue.h"
+#include "coupling/mechanics/term.h"
 
 namespace morula {
 
@@ -14,12 +11,14 @@ namespace morula {
 ///
 /// What every face of a shell of the type has alike is the shells' own law (CorticalTension); here is γ_T − γ, which is zero, and costs nothing,
 /// where no type has regions. γ_T is fixed within a step: marks and eased contact are those of its start, time that of its end.
-class FaceTensions {
+class FaceTensions : public Term {
  public:
   explicit FaceTensions(const Model& model);
 
-  [[nodiscard]] bool any() const { return any_; }    ///< some type has regions
-  [[nodiscard]] bool vary() const { return vary_; }  ///< some tension is a function of time
+  void parameters_changed(const World& world) override { set(world.tissue, world.time); }
+  [[nodiscard]] bool varies_with_time() const override { return vary_; }
+  void evaluate(const World& world, Forces& out) override;
+  void assemble(const World& world, double dt, Assembly& out) override;
 
   /// γ_T − γ of all owned faces at a time [s].
   void set(const Tissue& tissue, double time);

@@ -3,21 +3,21 @@
 #include <span>
 #include <vector>
 
-#include "core/friction/friction_system.h"
-#include "core/vec3.h"
+#include "coupling/grips.h"
+#include "coupling/mechanics/term.h"
 
 namespace morula {
 
-/// Springs between nodes and places, in the matrix of a step: those of grips, and of nodes that are held on a kink of the contact energy while
-/// the others move.
+/// Springs between nodes and places, in the matrix of a step alone: nodes that are held on a kink of the contact energy while the others move.
 ///
 /// Where the nearest face of a contact point changes, the force jumps. A node can rest there although neither side has a balance of forces: the
 /// lowest energy is on the kink itself. Newton's step then goes over the kink, and a search that makes the whole step shorter stops every
 /// other node with it. A stiff spring across the kink, in the matrix only, leaves the others free.
-class HeldNodes : public AddedPart {
+class HeldNodes : public Term {
  public:
+  void begin_step(const World&, StepStart&) override { held_.clear(); }
+  void assemble(const World&, double dt, Assembly&) override { set_step(dt); }
   [[nodiscard]] bool empty() const override { return held_.empty(); }
-  void clear() { held_.clear(); }
   /// Hold a node against motion along the unit vector `along` by `stiffness` [nN/µm].
   void hold(std::uint32_t node, const Vec3d& along, double stiffness);
   void set_step(double dt) { dt_ = static_cast<float>(dt); }
@@ -32,6 +32,25 @@ class HeldNodes : public AddedPart {
   };
   std::vector<Held> held_;
   float dt_ = 0.0f;
+};
+
+/// Springs between nodes and places of the laboratory: those of grips, held implicitly at their places of the step's end.
+class Grips : public Term {
+ public:
+  /// The springs of the next step. They are not copied.
+  void set_anchors(std::span<const Anchor> anchors) { anchors_ = anchors; }
+
+  void begin_step(const World& world, StepStart& start) override;
+  void add_outside(const Way& way, double dt, std::span<Vec3d> out, OrderFreeSum& work) override;
+  void add_tied(const World& world, std::vector<std::uint32_t>& bodies) const override;
+  void assemble(const World& world, double dt, Assembly& out) override { springs_.assemble(world, dt, out); }
+  [[nodiscard]] bool empty() const override { return springs_.empty(); }
+  void add_product(std::span<const Float4> p, std::span<Float4> q) const override { springs_.add_product(p, q); }
+  void add_diagonal(std::span<SymMat3<float>> diagonal) const override { springs_.add_diagonal(diagonal); }
+
+ private:
+  std::span<const Anchor> anchors_;
+  HeldNodes springs_;
 };
 
 }  // namespace morula

@@ -1,12 +1,15 @@
 #include "coupling/mechanics/interior_system.h"
 
 #include "core/parallel/threads.h"
+#include "dcm/interior_noise.h"
 
 namespace morula {
 
-void InteriorSystem::set_shells(const dcm::Shells& shells, std::uint32_t first_point) {
+void InteriorSystem::bodies_changed(const World& world) {
+  const dcm::Shells& shells = world.tissue.shells;
+  std::uint32_t next_nucleus = world.scene.nucleus_point();
+  threads_ = world.threads;
   items_.clear();
-  nuclei_.clear();
   for (std::uint32_t s = 0; s < shells.size(); ++s) {
     const std::uint16_t type = shells.type[s];
     const dcm::InteriorParameters& parameters = model_.types[type].interior;
@@ -18,10 +21,7 @@ void InteriorSystem::set_shells(const dcm::Shells& shells, std::uint32_t first_p
     item.topology = shells.shape[s]->topology.get();
     item.parameters = &parameters;
     item.has_nucleus = shells.nucleus_of(s) != nullptr;
-    if (item.has_nucleus) {
-      item.nucleus = first_point + static_cast<std::uint32_t>(nuclei_.size());
-      nuclei_.push_back({item.nucleus, s});
-    }
+    if (item.has_nucleus) item.nucleus = next_nucleus++;
     auto& links = links_[{shells.shape[s], type}];
     if (!links) links = std::make_shared<const dcm::InteriorLinks>(dcm::choose_links(*shells.shape[s], parameters));
     item.links = links;
@@ -43,17 +43,14 @@ dcm::InteriorView InteriorSystem::view(const Item& item, std::span<const Vec3d> 
   return out;
 }
 
-void InteriorSystem::evaluate(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<Vec3d> force) {
-  parallel_for(omp_get_max_threads(), items_.size(), [&](std::size_t k) {
+void InteriorSystem::evaluate(const World& world, Forces& out) {
+  parallel_for(threads_, items_.size(), [&](std::size_t k) {
     Item& item = items_[k];
-    item.rest_volume = shells.rest_volume[item.shell];
-    item.energy = dcm::add_interior_forces(view(item, position), force.subspan(item.first_node, item.node_count),
-                                           item.has_nucleus ? &force[item.nucleus] : nullptr);
+    item.rest_volume = world.tissue.shells.rest_volume[item.shell];
+    item.energy = dcm::add_interior_forces(view(item, world.position()), out.force.subspan(item.first_node, item.node_count),
+                                           item.has_nucleus ? &out.force[item.nucleus] : nullptr);
   });
-}
-
-void InteriorSystem::add_energy(OrderFreeSum& sum) const {
-  for (const Item& item : items_) sum.add(item.energy.energy);
+  for (const Item& item : items_) out.energy.add(item.energy.energy);
 }
 
 dcm::InteriorEnergy InteriorSystem::of_shell(std::uint32_t shell) const {
@@ -64,53 +61,61 @@ dcm::InteriorEnergy InteriorSystem::of_shell(std::uint32_t shell) const {
 
 std::size_t InteriorSystem::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  std::size_t total = bytes(items_) + bytes(nuclei_);
+  std::size_t total = bytes(items_);
   for (const Item& item : items_)
     total += bytes(item.friction.share) + bytes(item.friction.nucleus_direction) + bytes(item.friction.cortex_direction) +
              bytes(item.matrix.share) + bytes(item.matrix.nucleus_block) + bytes(item.matrix.cortex_block) + bytes(item.matrix.contact);
   return total;
 }
 
-void InteriorSystem::begin_step(std::span<const Vec3d> position, const SurfaceGeometry& geometry) {
-  parallel_for(omp_get_max_threads(), items_.size(), [&](std::size_t k) {
+void InteriorSystem::begin_step(const World& world, StepStart& start) {
+  parallel_for(threads_, items_.size(), [&](std::size_t k) {
     Item& item = items_[k];
-    dcm::find_interior_friction(view(item, position), std::span(geometry.node_area).subspan(item.first_node, item.node_count),
+    dcm::find_interior_friction(view(item, world.position()), std::span(world.geometry.node_area).subspan(item.first_node, item.node_count),
                                 item.friction);
   });
+  for (const Item& item : items_) {
+    if (!item.has_nucleus) continue;
+    Vec3d mean;
+    for (const Float4& v : start.velocity.subspan(item.first_node, item.node_count)) mean += Vec3d{v.x, v.y, v.z};
+    mean *= 1.0 / item.node_count;
+    start.velocity[item.nucleus] = {static_cast<float>(mean.x), static_cast<float>(mean.y), static_cast<float>(mean.z), 0.0f};
+  }
 }
 
-void InteriorSystem::add_step_friction(std::span<const Vec3d> start, std::span<const Vec3d> position, std::span<Vec3d> out,
-                                       OrderFreeSum& quadratic) {
+void InteriorSystem::add_friction(const World&, const Way& way, std::span<Vec3d> out, OrderFreeSum& quadratic) {
+  if (!way.moved) return;
   std::vector<double> part(items_.size());
-  parallel_for(omp_get_max_threads(), items_.size(), [&](std::size_t k) {
+  parallel_for(threads_, items_.size(), [&](std::size_t k) {
     const Item& item = items_[k];
-    std::vector<Vec3d> way(item.node_count);
-    for (std::uint32_t i = 0; i < item.node_count; ++i) way[i] = position[item.first_node + i] - start[item.first_node + i];
-    const Vec3d nucleus_way = item.has_nucleus ? position[item.nucleus] - start[item.nucleus] : Vec3d{};
-    part[k] = dcm::add_interior_friction(view(item, position), item.friction, way, item.has_nucleus ? &nucleus_way : nullptr,
+    std::vector<Vec3d> of_nodes(item.node_count);
+    for (std::uint32_t i = 0; i < item.node_count; ++i) of_nodes[i] = way.position[item.first_node + i] - way.start[item.first_node + i];
+    const Vec3d of_nucleus = item.has_nucleus ? way.position[item.nucleus] - way.start[item.nucleus] : Vec3d{};
+    part[k] = dcm::add_interior_friction(view(item, way.position), item.friction, of_nodes, item.has_nucleus ? &of_nucleus : nullptr,
                                          out.subspan(item.first_node, item.node_count), item.has_nucleus ? &out[item.nucleus] : nullptr);
   });
   for (const double q : part) quadratic.add(q);
 }
 
-void InteriorSystem::assemble(std::span<const Vec3d> position, double dt) {
-  parallel_for(omp_get_max_threads(), items_.size(),
-               [&](std::size_t k) { dcm::assemble_interior(view(items_[k], position), items_[k].friction, dt, items_[k].matrix); });
-}
-
-void InteriorSystem::start_from_cortex(std::span<Float4> velocity) const {
+void InteriorSystem::add_noise(const World& world, const Noise& noise, std::span<Vec3d> force) const {
   for (const Item& item : items_) {
-    if (!item.has_nucleus) continue;
-    Vec3d mean;
-    for (std::uint32_t i = item.first_node; i < item.first_node + item.node_count; ++i)
-      mean += Vec3d{velocity[i].x, velocity[i].y, velocity[i].z};
-    mean *= 1.0 / item.node_count;
-    velocity[item.nucleus] = {static_cast<float>(mean.x), static_cast<float>(mean.y), static_cast<float>(mean.z), 0.0f};
+    const double energy = model_.types[world.tissue.shells.type[item.shell]].fluctuations.energy;
+    if (energy == 0.0) continue;
+    const dcm::InteriorView cell = view(item, world.position());
+    std::vector<double> numbers = noise.normals(world.scene.bodies()[item.shell].id, kDrawsOfInterior, dcm::interior_factor_count(cell));
+    for (double& number : numbers) number *= noise.strength(energy);
+    dcm::add_interior_noise(cell, item.friction, numbers, force.subspan(item.first_node, item.node_count),
+                            item.has_nucleus ? &force[item.nucleus] : nullptr);
   }
 }
 
+void InteriorSystem::assemble(const World& world, double dt, Assembly&) {
+  parallel_for(threads_, items_.size(),
+               [&](std::size_t k) { dcm::assemble_interior(view(items_[k], world.position()), items_[k].friction, dt, items_[k].matrix); });
+}
+
 void InteriorSystem::add_product(std::span<const Float4> p, std::span<Float4> q) const {
-  parallel_for(omp_get_max_threads(), items_.size(), [&](std::size_t k) {
+  parallel_for(threads_, items_.size(), [&](std::size_t k) {
     const Item& item = items_[k];
     dcm::add_interior_product(view(item, {}), item.matrix, p.subspan(item.first_node, item.node_count),
                               q.subspan(item.first_node, item.node_count), item.has_nucleus ? &p[item.nucleus] : nullptr,

@@ -5,46 +5,33 @@
 #include <span>
 #include <vector>
 
-#include "core/friction/friction_system.h"
-#include "core/mesh/surface_geometry.h"
-#include "coupling/model.h"
-#include "coupling/tissue.h"
+#include "coupling/mechanics/term.h"
 #include "dcm/interior.h"
 
 namespace morula {
 
-/// The nuclei and links of the owned shells as the step sees them: their forces, their friction, and their part of the matrix.
+/// Rigid nuclei and links within the owned shells: their forces, their friction, and their part of the matrix (dcm.md §12).
 ///
 /// A nucleus is a point among the unknowns that nothing but its own shell knows of: nuclei come after all other points, and no rank needs
 /// those of another.
-class InteriorSystem : public AddedPart {
+class InteriorSystem : public Term {
  public:
   explicit InteriorSystem(const Model& model) : model_(model) {}
 
-  /// `first_point`: of the first nucleus.
-  void set_shells(const dcm::Shells& shells, std::uint32_t first_point);
+  void bodies_changed(const World& world) override;
+  void evaluate(const World& world, Forces& out) override;
+  /// Γ of the drag on the nuclei and of the dampers along the links. Where the solver starts, nuclei have the mean velocity of their cortex.
+  void begin_step(const World& world, StepStart& start) override;
+  void add_friction(const World& world, const Way& way, std::span<Vec3d> out, OrderFreeSum& quadratic) override;
+  void add_noise(const World& world, const Noise& noise, std::span<Vec3d> force) const override;
+  void assemble(const World& world, double dt, Assembly& out) override;
   [[nodiscard]] bool empty() const override { return items_.empty(); }
-  /// Points of the nuclei, in the order of their shells: (point, shell).
-  struct Nucleus {
-    std::uint32_t point, shell;
-  };
-  [[nodiscard]] std::span<const Nucleus> nuclei() const { return nuclei_; }
-
-  /// Forces at `position`, added by point.
-  void evaluate(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<Vec3d> force);
-  void add_energy(OrderFreeSum& sum) const;
-  void begin_step(std::span<const Vec3d> position, const SurfaceGeometry& geometry);
-  /// Γ_n d added to `out`, and dᵀΓ_n d to the sum.
-  void add_step_friction(std::span<const Vec3d> start, std::span<const Vec3d> position, std::span<Vec3d> out, OrderFreeSum& quadratic);
-  void assemble(std::span<const Vec3d> position, double dt);
-  /// Where the solver starts: nuclei with the mean velocity of their cortex.
-  void start_from_cortex(std::span<Float4> velocity) const;
-  /// What the nucleus of a shell feels; zeros where there is none.
-  [[nodiscard]] dcm::InteriorEnergy of_shell(std::uint32_t shell) const;
-  [[nodiscard]] std::size_t memory() const;
-
   void add_product(std::span<const Float4> p, std::span<Float4> q) const override;
   void add_diagonal(std::span<SymMat3<float>> diagonal) const override;
+  [[nodiscard]] std::size_t memory() const override;
+
+  /// What the nucleus of a shell feels; zeros where there is none.
+  [[nodiscard]] dcm::InteriorEnergy of_shell(std::uint32_t shell) const;
 
  private:
   struct Item {
@@ -61,8 +48,8 @@ class InteriorSystem : public AddedPart {
   [[nodiscard]] dcm::InteriorView view(const Item& item, std::span<const Vec3d> position) const;
 
   const Model& model_;
+  int threads_ = 1;
   std::vector<Item> items_;
-  std::vector<Nucleus> nuclei_;
   /// By shape and type.
   std::map<std::pair<std::shared_ptr<const ReferenceShape>, std::uint16_t>, std::shared_ptr<const dcm::InteriorLinks>> links_;
 };

@@ -2,7 +2,7 @@
 #include <array>
 
 #include "core/parallel/threads.h"
-#include "coupling/mechanics/mechanics.h"
+#include "coupling/mechanics/step.h"
 
 namespace morula {
 namespace {
@@ -59,80 +59,72 @@ TissueMotion motion_of(const std::array<double, MotionSums::kTerms>& t, bool rot
 
 }  // namespace
 
-void Mechanics::find_clusters(const Tissue& tissue, std::span<const ElementGroup> groups) {
-  std::vector<std::uint32_t> tied;
-  const auto first_node = scene_.first_node().first(scene_.owned_shells() + 1);
-  for (const Anchor& anchor : anchors_)
-    tied.push_back(
-        static_cast<std::uint32_t>(std::upper_bound(first_node.begin(), first_node.end(), anchor.node) - first_node.begin() - 1));
-  // Springs on marked faces pull towards a sphere that stands still during the step.
-  for (const ApicalSpring& spring : model_.apical_springs)
-    for (std::uint32_t s = 0; s < scene_.owned_shells(); ++s) {
-      const auto& marks = tissue.shells.faces_of(s).mark;
-      if (std::any_of(marks.begin(), marks.end(), [&](std::uint8_t m) { return (m >> spring.mark & 1) != 0; })) tied.push_back(s);
-    }
-  clusters_.find(scene_, groups, spheres_.pairs(), tied, comm_);
-}
-
-void Mechanics::conserve_momentum() {
-  std::vector<MediumBalance> balance(scene_.bodies().size());
+void conserve_momentum(Workspace& work, std::span<const Vec3d> right) {
+  const Scene& scene = work.scene;
+  const int threads = work.setting.threads;
+  const ShellSystem& shells = work.terms.membranes->shells();
+  std::vector<Float4>& velocity = work.solver.velocity;
+  std::vector<MediumBalance> balance(scene.bodies().size());
   const auto add = [&](std::uint32_t body, std::uint32_t point, const SymMat3<double>& friction) {
-    balance[body].missing += force_[point] - friction * to_double(solution_[point]);
+    balance[body].missing += right[point] - friction * to_double(velocity[point]);
     balance[body].friction += friction;
   };
-  parallel_for(threads_, shells_.batch_count(), [&](std::size_t batch) { shells_.for_medium_friction(batch, add); });
-  for (const InteriorSystem::Nucleus& nucleus : interior_.nuclei()) balance[nucleus.shell].missing += force_[nucleus.point];
-  nuclei_.for_nodes_of_shells([&](std::uint32_t shell, std::uint32_t point) { balance[shell].missing += force_[point]; });
-  const auto medium = system_.point_friction();
-  parallel_for(threads_, scene_.owned_spheres(), [&](std::size_t i) {
-    const auto body = static_cast<std::uint32_t>(scene_.first_sphere() + i);
-    add(body, scene_.bodies()[body].first_point, isotropic(static_cast<double>(medium[i])));
+  parallel_for(threads, shells.batch_count(),
+               [&](std::size_t batch) { shells.for_medium_friction(batch, work.terms.node_friction->friction(), add); });
+  for (const Scene::Inner& inner : scene.inner())
+    for (std::uint32_t i = inner.first_point; i < inner.first_point + inner.point_count; ++i) balance[inner.shell].missing += right[i];
+  const auto medium = work.solver.system.point_friction();
+  parallel_for(threads, scene.owned_spheres(), [&](std::size_t i) {
+    const auto body = static_cast<std::uint32_t>(scene.first_sphere() + i);
+    add(body, scene.bodies()[body].first_point, isotropic(static_cast<double>(medium[i])));
   });
 
-  const std::vector<Vec3d> shift = clusters_.shifts(balance, comm_);
-  const auto move = [&](std::size_t body, std::uint32_t point) {
-    const Vec3f v = to_float(to_double(solution_[point]) + shift[body]);
-    solution_[point] = {v.x, v.y, v.z, 0.0f};
+  const std::vector<Vec3d> shift = work.solver.clusters.shifts(balance, work.setting.comm);
+  const auto move = [&](std::size_t body, std::uint32_t first, std::uint32_t count) {
+    for (std::uint32_t i = first; i < first + count; ++i) {
+      const Vec3f v = to_float(to_double(velocity[i]) + shift[body]);
+      velocity[i] = {v.x, v.y, v.z, 0.0f};
+    }
   };
-  const ContactBody* const bodies = scene_.bodies().data();
-  for_active_bodies([&](std::size_t, const ContactBody& body) {
-    for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i)
-      move(static_cast<std::size_t>(&body - bodies), i);
-  });
-  for (const InteriorSystem::Nucleus& nucleus : interior_.nuclei()) move(nucleus.shell, nucleus.point);
-  nuclei_.for_nodes_of_shells(move);
+  const ContactBody* const bodies = scene.bodies().data();
+  work.points().for_bodies(
+      [&](std::size_t, const ContactBody& body) { move(static_cast<std::size_t>(&body - bodies), body.first_point, body.point_count); });
+  for (const Scene::Inner& inner : scene.inner()) move(inner.shell, inner.first_point, inner.point_count);
 }
 
-TissueMotion Mechanics::common_motion(const Tissue& tissue) const {
+TissueMotion common_motion(const Workspace& work, const Tissue& tissue) {
   constexpr std::size_t kTerms = MotionSums::kTerms;
-  const auto& x = scene_.position();
-  std::vector<MotionSums> of_shell(scene_.owned_shells());
-  parallel_for(threads_, shells_.batch_count(), [&](std::size_t batch) {
-    shells_.for_medium_friction(batch, [&](std::uint32_t shell, std::uint32_t node, const SymMat3<double>& friction) {
-      const Vec3d& from = tissue.shells.position[node];
-      of_shell[shell].add(friction, from, x[node] - from);
-    });
+  const Scene& scene = work.scene;
+  const auto& x = scene.position();
+  const ShellSystem& shells = work.terms.membranes->shells();
+  std::vector<MotionSums> of_shell(scene.owned_shells());
+  parallel_for(work.setting.threads, shells.batch_count(), [&](std::size_t batch) {
+    shells.for_medium_friction(batch, work.terms.node_friction->friction(),
+                               [&](std::uint32_t shell, std::uint32_t node, const SymMat3<double>& friction) {
+                                 const Vec3d& from = tissue.shells.position[node];
+                                 of_shell[shell].add(friction, from, x[node] - from);
+                               });
   });
-  std::vector<std::array<OrderFreeSum, kTerms>> sums(static_cast<std::size_t>(threads_));
+  std::vector<std::array<OrderFreeSum, kTerms>> sums(static_cast<std::size_t>(work.setting.threads));
   const auto count = [&](std::size_t t, const MotionSums& part) {
     for (std::size_t k = 0; k < kTerms; ++k) sums[t][k].add(part.term[k]);
   };
   for (const MotionSums& part : of_shell) count(0, part);
-  const auto medium = system_.point_friction();
-  const std::size_t spheres = scene_.owned_spheres(), threads = sums.size();
-  on_each_thread(threads_, [&](std::size_t t) {
+  const auto medium = work.solver.system.point_friction();
+  const std::size_t spheres = scene.owned_spheres(), threads = sums.size();
+  on_each_thread(work.setting.threads, [&](std::size_t t) {
     for (std::size_t i = spheres * t / threads; i < spheres * (t + 1) / threads; ++i) {
       MotionSums part;
       const Vec3d& from = tissue.spheres.position[i];
-      part.add(isotropic(static_cast<double>(medium[i])), from, x[scene_.sphere_point() + i] - from);
+      part.add(isotropic(static_cast<double>(medium[i])), from, x[scene.sphere_point() + i] - from);
       count(t, part);
     }
   });
   for (std::size_t t = 1; t < threads; ++t)
     for (std::size_t k = 0; k < kTerms; ++k) sums[0][k] += sums[t][k];
   std::array<double, kTerms> totals;
-  comm_.sum(sums[0], totals);
-  return motion_of(totals, !model_.space.any_periodic());
+  work.setting.comm.sum(sums[0], totals);
+  return motion_of(totals, !work.setting.model.space.any_periodic());
 }
 
 }  // namespace morula

@@ -46,6 +46,49 @@ bool NodeTerms::has_friction() const {
                      [](const CellType& t) { return t.medium_normal_extra > 0.0 || t.medium_tangent_extra > 0.0; });
 }
 
+void NodeTerms::parameters_changed(const World& world) {
+  if (!model_.apical_springs.empty()) set_springs(world.tissue, world.comm);
+}
+
+void NodeTerms::evaluate(const World& world, Forces& out) { add_forces(world.tissue.shells, world.position(), out.force, out.energy); }
+
+void NodeTerms::add_tied(const World& world, std::vector<std::uint32_t>& bodies) const {
+  // Springs on marked faces pull towards a sphere that stands still during the step.
+  for (const ApicalSpring& spring : model_.apical_springs)
+    for (std::uint32_t s = 0; s < world.scene.owned_shells(); ++s) {
+      const auto& marks = world.tissue.shells.faces_of(s).mark;
+      if (std::any_of(marks.begin(), marks.end(), [&](std::uint8_t m) { return (m >> spring.mark & 1) != 0; })) bodies.push_back(s);
+    }
+}
+
+void NodeTerms::assemble(const World& world, double dt, Assembly& out) {
+  const std::vector<SymMat3<double>> stiff = stiffness(world.position(), world.scene.owned_nodes());
+  out.node_block.resize(std::max(out.node_block.size(), stiff.size()));
+  for (std::size_t i = 0; i < stiff.size(); ++i) out.node_block[i] += dt * stiff[i];
+}
+
+void NodeFriction::begin_step(const World& world, StepStart&) { friction_ = nodes_.friction(world.tissue, world.geometry); }
+
+void NodeFriction::add_friction(const World& world, const Way& way, std::span<Vec3d> out, OrderFreeSum& quadratic) {
+  if (!way.moved || friction_.empty()) return;
+  const dcm::Shells& shells = world.tissue.shells;
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    double of_shell = 0.0;
+    for (std::uint32_t i = shells.first_node[s]; i < shells.first_node[s + 1]; ++i) {
+      const Vec3d displacement = way.position[i] - way.start[i];
+      const Vec3d push = friction_[i] * displacement;
+      out[i] += push;
+      of_shell += dot(displacement, push);
+    }
+    quadratic.add(of_shell);
+  }
+}
+
+void NodeFriction::assemble(const World&, double, Assembly& out) {
+  out.node_block.resize(std::max(out.node_block.size(), friction_.size()));
+  for (std::size_t i = 0; i < friction_.size(); ++i) out.node_block[i] += friction_[i];
+}
+
 void NodeTerms::set_springs(const Tissue& tissue, const Comm& comm) {
   spheres_.resize(model_.apical_springs.size());
   const std::span<const Vec3d> x = tissue.shells.position;

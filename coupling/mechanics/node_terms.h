@@ -2,12 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "core/mesh/surface_geometry.h"
-#include "core/parallel/comm.h"
-#include "core/parallel/order_free_sum.h"
-#include "core/vec3.h"
-#include "coupling/model.h"
-#include "coupling/tissue.h"
+#include "coupling/mechanics/term.h"
 
 namespace morula {
 
@@ -20,11 +15,15 @@ namespace morula {
 ///
 /// Spring: E = ½ k Σ A_i (|x_i − X| − R)² − Σ A_i m·x_i with X, R the area-weighted centre and mean radius of the marked nodes, A_i and
 /// m = k Σ A_i d_i r̂_i/Σ A_i those of the step's start: the net force of the start is zero.
-class NodeTerms {
+class NodeTerms : public Term {
  public:
   explicit NodeTerms(const Model& model) : model_(model) {}
 
-  [[nodiscard]] bool has_springs() const { return !model_.apical_springs.empty(); }
+  void parameters_changed(const World& world) override;
+  void evaluate(const World& world, Forces& out) override;
+  void add_tied(const World& world, std::vector<std::uint32_t>& bodies) const override;
+  void assemble(const World& world, double dt, Assembly& out) override;
+
   [[nodiscard]] bool has_friction() const;
 
   /// Mean spheres and weights of the springs at the tissue's positions. Collective.
@@ -44,6 +43,29 @@ class NodeTerms {
   };
   const Model& model_;
   std::vector<Sphere> spheres_;  ///< by spring
+};
+
+/// The friction of NodeTerms, a term of its own: sums over terms run in their order, and this friction comes before that of all others. Its
+/// noise is drawn with that of the medium (Membranes).
+class NodeFriction : public Term {
+ public:
+  explicit NodeFriction(const NodeTerms& nodes) : nodes_(nodes) {}
+
+  void begin_step(const World& world, StepStart& start) override;
+  void add_friction(const World& world, const Way& way, std::span<Vec3d> out, OrderFreeSum& quadratic) override;
+  void assemble(const World& world, double dt, Assembly& out) override;
+  [[nodiscard]] std::size_t memory() const override { return friction_.capacity() * sizeof(friction_[0]); }
+
+  /// Blocks at the tissue's positions by owned node; empty where there are none.
+  [[nodiscard]] std::vector<SymMat3<double>> at(const Tissue& tissue, const SurfaceGeometry& geometry) const {
+    return nodes_.friction(tissue, geometry);
+  }
+  /// Those of the step. After begin_step().
+  [[nodiscard]] std::span<const SymMat3<double>> friction() const { return friction_; }
+
+ private:
+  const NodeTerms& nodes_;
+  std::vector<SymMat3<double>> friction_;  ///< of the step, by owned node; empty where there is none
 };
 
 }  // namespace morula

@@ -4,6 +4,7 @@
 
 #include "core/parallel/threads.h"
 #include "coupling/mechanics/contact_setup.h"
+#include "dcm/interior_noise.h"
 
 namespace morula {
 namespace {
@@ -36,8 +37,12 @@ ContactSettings nucleus_contacts(const Model& model, int threads) {
 
 }  // namespace
 
-NucleusSystem::NucleusSystem(const Model& model, int threads)
-    : model_(model), shells_(nucleus_parameters(model)), contacts_(nucleus_contacts(model, threads), {}, nucleus_material(model), 1) {}
+NucleusSystem::NucleusSystem(const Model& model, Membranes& cells, int threads)
+    : model_(model),
+      cells_(cells),
+      threads_(threads),
+      shells_(nucleus_parameters(model)),
+      contacts_(nucleus_contacts(model, threads), {}, nucleus_material(model), 1) {}
 
 const Topology* NucleusSystem::turned_around(const std::shared_ptr<const Topology>& topology) {
   auto& turned = turned_[topology];
@@ -49,25 +54,26 @@ const Topology* NucleusSystem::turned_around(const std::shared_ptr<const Topolog
   return turned.get();
 }
 
-void NucleusSystem::set_shells(const Tissue& tissue, std::uint32_t first_point) {
+void NucleusSystem::bodies_changed(const World& world) {
+  const Tissue& tissue = world.tissue;
   const dcm::NuclearShells& nuclei = tissue.nuclei;
+  const std::uint32_t first_point = world.scene.nuclear_node();
   first_point_ = first_point;
-  node_count_ = nuclei.shells.node_count();
-  items_.clear(), bodies_.clear(), topologies_.clear(), pairs_.clear();
-  first_node_.assign(1, 0);
-  first_face_.assign(1, 0);
+  items_.clear(), surfaces_.body.clear(), surfaces_.topology.clear(), surfaces_.pairs.clear();
+  surfaces_.first_node.assign(1, 0);
+  surfaces_.first_face.assign(1, 0);
   held_.assign(nuclei.size() > 0 ? tissue.shells.size() : 0, {});
-  shells_.set_shells(nuclei.shells);
+  shells_.set_shells(nuclei.shells, threads_);
   contacts_.reset();
   const auto add_surface = [&](const Topology* topology) {
-    ContactBody& body = bodies_.emplace_back();
+    ContactBody& body = surfaces_.body.emplace_back();
     body.shape = BodyShape::kSurface;
-    body.place = static_cast<std::uint32_t>(topologies_.size());
-    body.first_point = first_node_.back();
+    body.place = static_cast<std::uint32_t>(surfaces_.topology.size());
+    body.first_point = surfaces_.first_node.back();
     body.point_count = topology->node_count();
-    topologies_.push_back(topology);
-    first_node_.push_back(first_node_.back() + topology->node_count());
-    first_face_.push_back(first_face_.back() + topology->face_count());
+    surfaces_.topology.push_back(topology);
+    surfaces_.first_node.push_back(surfaces_.first_node.back() + topology->node_count());
+    surfaces_.first_face.push_back(surfaces_.first_face.back() + topology->face_count());
   };
   for (std::uint32_t n = 0; n < nuclei.size(); ++n) {
     Item& item = items_.emplace_back();
@@ -85,105 +91,127 @@ void NucleusSystem::set_shells(const Tissue& tissue, std::uint32_t first_point) 
       links = std::make_shared<const std::vector<dcm::InteriorLink>>(
           dcm::choose_nuclear_links(*shape, *nuclei.shells.shape[n], model_.types[item.type].interior));
     item.links = links;
-    pairs_.emplace_back(2 * n, 2 * n + 1);
+    surfaces_.pairs.emplace_back(2 * n, 2 * n + 1);
     add_surface(turned_around(shape->topology));
     add_surface(item.topology);
   }
-  position_.assign(first_node_.back(), {});
-}
-
-void NucleusSystem::set_moving(std::span<const ContactBody> bodies) {
-  for (std::size_t k = 0; k < items_.size(); ++k) {
-    items_[k].moves = bodies[items_[k].shell].active();
-    bodies_[2 * k].moves = bodies_[2 * k + 1].moves = items_[k].moves;
-  }
+  surfaces_.position.assign(surfaces_.first_node.back(), {});
 }
 
 dcm::NucleusView NucleusSystem::view(std::size_t k) const {
   const Item& item = items_[k];
-  return {&model_.types[item.type].interior,     *item.links,     item.cell_topology, item.topology, part(std::span(position_), 2 * k),
-          part(std::span(position_), 2 * k + 1), item.rest_volume};
+  return {&model_.types[item.type].interior,
+          *item.links,
+          item.cell_topology,
+          item.topology,
+          part(std::span(surfaces_.position), 2 * k),
+          part(std::span(surfaces_.position), 2 * k + 1),
+          item.rest_volume};
 }
 
-std::span<const dcm::HeldVolume> NucleusSystem::evaluate_shells(const Tissue& tissue, std::span<const Vec3d> position) {
-  if (empty()) return {};
-  own_force_.resize(node_count_);
-  shells_.evaluate(tissue.nuclei.shells, position.subspan(first_point_), own_force_);
+void NucleusSystem::measure(const World& world) {
+  cells_.set_held({});
+  if (empty()) return;
+  own_force_.resize(shells_.point_count());
+  shells_.evaluate(world.tissue.nuclei.shells, world.position().subspan(first_point_), own_force_);
   for (std::size_t k = 0; k < items_.size(); ++k)
     held_[items_[k].shell] = {shells_.forces().volume[k], model_.types[items_[k].type].interior.nucleus_fraction};
-  return held_;
+  cells_.set_held(held_);
 }
 
-void NucleusSystem::evaluate(const Tissue& tissue, std::span<const Vec3d> position, std::span<const double> cell_pressure,
-                             std::span<Vec3d> force) {
+void NucleusSystem::evaluate(const World& world, Forces& out) {
+  if (empty()) return;
   for (std::size_t k = 0; k < items_.size(); ++k) {
-    items_[k].rest_volume = tissue.shells.rest_volume[items_[k].shell];
-    std::ranges::copy(of_cell(position, items_[k]), part(std::span(position_), 2 * k).begin());
-    std::ranges::copy(of_nucleus(position, items_[k]), part(std::span(position_), 2 * k + 1).begin());
+    items_[k].rest_volume = world.tissue.shells.rest_volume[items_[k].shell];
+    surfaces_.body[2 * k].moves = surfaces_.body[2 * k + 1].moves =
+        world.scene.bodies()[items_[k].shell].active();  // nuclei are held with their cells
+    std::ranges::copy(of_cell(world.position(), items_[k]), part(std::span(surfaces_.position), 2 * k).begin());
+    std::ranges::copy(of_nucleus(world.position(), items_[k]), part(std::span(surfaces_.position), 2 * k + 1).begin());
   }
-  compute_node_geometry(surfaces(), position_, geometry_);
+  compute_node_geometry(surfaces(), surfaces_.position, surfaces_.geometry);
   const ContactScene scene = contact_scene();
-  if (contacts_.note_motion(scene)) contacts_.rebuild(scene, pairs_);
-  gradient_.set_zero(position_.size(), position_.size(), first_face_.back(), topologies_.size());
-  contacts_.evaluate(scene, SurfacePairKind::kSurfaces, gradient_);
-  add_surface_forces(surfaces(), position_, geometry_, {gradient_.face_energy, {}, gradient_.node_normal}, gradient_.force);
-  parallel_for(omp_get_max_threads(), items_.size(), [&](std::size_t k) {
+  if (contacts_.note_motion(scene)) contacts_.rebuild(scene, surfaces_.pairs);
+  surfaces_.gradient.set_zero(surfaces_.position.size(), surfaces_.position.size(), surfaces_.first_face.back(), surfaces_.topology.size());
+  contacts_.evaluate(scene, SurfacePairKind::kSurfaces, surfaces_.gradient);
+  add_surface_forces(surfaces(), surfaces_.position, surfaces_.geometry,
+                     {surfaces_.gradient.face_energy, {}, surfaces_.gradient.node_normal}, surfaces_.gradient.force);
+  parallel_for(threads_, items_.size(), [&](std::size_t k) {
     Item& item = items_[k];
-    const std::span<Vec3d> on_cell = part(std::span(gradient_.force), 2 * k), on_nucleus = part(std::span(gradient_.force), 2 * k + 1);
+    const std::span<Vec3d> on_cell = part(std::span(surfaces_.gradient.force), 2 * k),
+                           on_nucleus = part(std::span(surfaces_.gradient.force), 2 * k + 1);
     item.energy = dcm::add_nuclear_link_forces(view(k), {on_cell, on_nucleus});
-    dcm::add_cytosol_pressure(view(k), cell_pressure[item.shell], on_nucleus);
-    const std::span<Vec3d> cell = of_cell(force, item), nucleus = of_nucleus(force, item);
+    dcm::add_cytosol_pressure(view(k), cells_.found().pressure[item.shell], on_nucleus);
+    const std::span<Vec3d> cell = of_cell(out.force, item), nucleus = of_nucleus(out.force, item);
     for (std::size_t i = 0; i < cell.size(); ++i) cell[i] += on_cell[i];
     for (std::size_t i = 0; i < nucleus.size(); ++i) nucleus[i] += on_nucleus[i] + own_force_[item.first_point - first_point_ + i];
   });
-}
-
-void NucleusSystem::add_energy(OrderFreeSum& sum) const {
   for (std::size_t k = 0; k < items_.size(); ++k) {
-    sum.add(items_[k].energy);
-    sum.add(shells_.forces().energy[k]);
+    out.energy.add(items_[k].energy);
+    out.energy.add(shells_.forces().energy[k]);
   }
-  if (!empty()) contacts_.add_energy(contact_scene(), sum);
+  contacts_.add_energy(contact_scene(), out.energy);
 }
 
-std::optional<std::pair<std::uint32_t, std::string>> NucleusSystem::find_fault() const {
+std::optional<StepFault> NucleusSystem::fault(const World& world) const {
   for (std::size_t k = 0; k < items_.size(); ++k)
-    if (const auto& fault = shells_.forces().fault[k]) return std::pair(items_[k].shell, "nucleus: " + dcm::describe(fault));
+    if (const auto& fault = shells_.forces().fault[k])
+      return StepFault{"nucleus: " + dcm::describe(fault), world.scene.bodies()[items_[k].shell].id, true};
   return std::nullopt;
 }
 
-void NucleusSystem::begin_step(const Tissue& tissue) {
+bool NucleusSystem::crossed(const World&, std::span<const Vec3d>) const {
+  return !empty() && contacts_.crossed(contact_scene(), {}) != nullptr;
+}
+
+void NucleusSystem::begin_step(const World& world, StepStart& start) {
   if (empty()) return;
   contacts_.begin_step(contact_scene());
   SurfaceGeometry geometry;
   for (std::size_t k = 0; k < items_.size(); ++k) {
-    const auto area = part(std::span<const double>(geometry_.node_area), 2 * k + 1);
+    const auto area = part(std::span<const double>(surfaces_.geometry.node_area), 2 * k + 1);
     geometry.node_area.insert(geometry.node_area.end(), area.begin(), area.end());
   }
-  shells_.begin_step(tissue.nuclei.shells, geometry);
-  parallel_for(omp_get_max_threads(), items_.size(), [&](std::size_t k) {
-    dcm::find_nuclear_friction(view(k), part(std::span<const double>(geometry_.node_area), 2 * k),
-                               part(std::span<const double>(geometry_.node_area), 2 * k + 1), items_[k].friction);
+  shells_.begin_step(world.tissue.nuclei.shells, geometry);
+  parallel_for(threads_, items_.size(), [&](std::size_t k) {
+    dcm::find_nuclear_friction(view(k), part(std::span<const double>(surfaces_.geometry.node_area), 2 * k),
+                               part(std::span<const double>(surfaces_.geometry.node_area), 2 * k + 1), items_[k].friction);
   });
+  start_with_cells(world.tissue, start.velocity);
 }
 
-void NucleusSystem::add_step_friction(std::span<const Vec3d> start, std::span<const Vec3d> position, std::span<Vec3d> out,
-                                      OrderFreeSum& quadratic) {
-  if (empty()) return;
-  shells_.add_step_friction(position.subspan(first_point_), out.subspan(first_point_), quadratic);
+void NucleusSystem::add_friction(const World&, const Way& way, std::span<Vec3d> out, OrderFreeSum& quadratic) {
+  if (empty() || !way.moved) return;
+  shells_.add_step_friction(way.position.subspan(first_point_), out.subspan(first_point_), quadratic);
   std::vector<double> of_item(items_.size());
-  parallel_for(omp_get_max_threads(), items_.size(), [&](std::size_t k) {
+  parallel_for(threads_, items_.size(), [&](std::size_t k) {
     const Item& item = items_[k];
-    const auto way = [](std::span<const Vec3d> from, std::span<const Vec3d> to) {
+    const auto from_to = [](std::span<const Vec3d> from, std::span<const Vec3d> to) {
       std::vector<Vec3d> d(to.begin(), to.end());
       for (std::size_t i = 0; i < d.size(); ++i) d[i] -= from[i];
       return d;
     };
-    std::vector<Vec3d> cell = way(of_cell(start, item), of_cell(position, item));
-    std::vector<Vec3d> nucleus = way(of_nucleus(start, item), of_nucleus(position, item));
+    std::vector<Vec3d> cell = from_to(of_cell(way.start, item), of_cell(way.position, item));
+    std::vector<Vec3d> nucleus = from_to(of_nucleus(way.start, item), of_nucleus(way.position, item));
     of_item[k] = dcm::add_nuclear_friction(view(k), item.friction, {cell, nucleus}, {of_cell(out, item), of_nucleus(out, item)});
   });
   for (const double q : of_item) quadratic.add(q);
+}
+
+void NucleusSystem::add_noise(const World& world, const Noise& noise, std::span<Vec3d> force) const {
+  for (std::size_t k = 0; k < items_.size(); ++k) {
+    const Item& item = items_[k];
+    const double energy = model_.types[item.type].fluctuations.energy;
+    if (energy == 0.0) continue;
+    const CellId cell = world.scene.bodies()[item.shell].id;
+    const ShellNoise own{
+        shells_.parameters()[item.type], *item.topology,      cell, noise.strength(energy), of_nucleus(world.position(), item),
+        of_nucleus(force, item),         kDrawsOfNuclearShell};
+    add_edge_noise(own, noise);
+    add_bulk_noise(own, noise, shells_.forces().volume[k]);
+    std::vector<double> numbers = noise.normals(cell, kDrawsOfNucleus, dcm::nuclear_factor_count(view(k)));
+    for (double& number : numbers) number *= own.strength;
+    dcm::add_nuclear_noise(view(k), item.friction, numbers, {of_cell(force, item), of_nucleus(force, item)});
+  }
 }
 
 void NucleusSystem::start_with_cells(const Tissue& tissue, std::span<Float4> velocity) const {
@@ -200,15 +228,15 @@ void NucleusSystem::start_with_cells(const Tissue& tissue, std::span<Float4> vel
   }
 }
 
-void NucleusSystem::assemble(const Tissue& tissue, std::span<const Vec3d> position, double dt) {
+void NucleusSystem::assemble(const World& world, double dt, Assembly&) {
   if (empty()) return;
-  shells_.assemble(tissue.nuclei.shells, position.subspan(first_point_), {}, dt, {});
+  shells_.assemble(world.tissue.nuclei.shells, world.position().subspan(first_point_), {}, dt, {}, {});
   const auto pairs = contacts_.pairs();
-  parallel_for(omp_get_max_threads(), items_.size(), [&](std::size_t k) {
+  parallel_for(threads_, items_.size(), [&](std::size_t k) {
     Item& item = items_[k];
     dcm::assemble_nuclear_operator(view(k), item.friction, model_.types[item.type].shell.bulk_modulus, dt, item.matrix);
     for (std::size_t d = 0; d < 2; ++d)
-      dcm::add_nuclear_contacts(pairs[k].present(d), *topologies_[2 * k + d], *topologies_[2 * k + 1 - d], d == 0,
+      dcm::add_nuclear_contacts(pairs[k].present(d), *surfaces_.topology[2 * k + d], *surfaces_.topology[2 * k + 1 - d], d == 0,
                                 contacts_.settings().points_per_face, dt, item.matrix);
   });
 }
@@ -225,9 +253,9 @@ std::optional<NucleusState> NucleusSystem::of_shell(std::uint32_t shell) const {
 std::size_t NucleusSystem::memory() const {
   if (empty()) return 0;
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  std::size_t total = contacts_.memory() + shells_.memory() + gradient_.memory() + bytes(items_) + bytes(held_) + bytes(own_force_) +
-                      bytes(bodies_) + bytes(position_) + bytes(geometry_.node_normal) + bytes(geometry_.node_normal_length) +
-                      bytes(geometry_.node_area);
+  std::size_t total = contacts_.memory() + shells_.memory() + surfaces_.gradient.memory() + bytes(items_) + bytes(held_) +
+                      bytes(own_force_) + bytes(surfaces_.body) + bytes(surfaces_.position) + bytes(surfaces_.geometry.node_normal) +
+                      bytes(surfaces_.geometry.node_normal_length) + bytes(surfaces_.geometry.node_area);
   for (const Item& item : items_)
     total += bytes(item.friction.share) + bytes(item.friction.arm) + bytes(item.friction.friction) + bytes(item.friction.nucleus_arm) +
              bytes(item.matrix.link) + bytes(item.matrix.contact) + bytes(item.matrix.cell_gradient) + bytes(item.matrix.nucleus_gradient);
@@ -238,7 +266,7 @@ void NucleusSystem::add_product(std::span<const Float4> p, std::span<Float4> q) 
   if (empty()) return;
   // The nodes of nuclei are in no other part, and have no friction as points: what is in q there is zero.
   shells_.multiply(0, shells_.batch_count(), p.subspan(first_point_), q.subspan(first_point_));
-  parallel_for(omp_get_max_threads(), items_.size(), [&](std::size_t k) {
+  parallel_for(threads_, items_.size(), [&](std::size_t k) {
     const Item& item = items_[k];
     dcm::add_nuclear_product(view(k), item.matrix, of_cell(p, item), of_nucleus(p, item), of_cell(q, item), of_nucleus(q, item));
   });

@@ -1,8 +1,10 @@
+#include "coupling/mechanics/relax.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "coupling/mechanics/mechanics.h"
+#include "coupling/mechanics/step.h"
 
 namespace morula {
 namespace {
@@ -19,50 +21,45 @@ constexpr double kAtRest = 6e-3;        // displacement of a longest step that c
 constexpr double kOverlapAtRest = 0.1;  // [µm]
 constexpr int kMostSteps = 200;
 
-}  // namespace
-
-void Mechanics::hold_all_but(std::span<const char> moves) {
-  std::vector<char> by_body;
-  if (!moves.empty()) {  // owned shells come first, owned spheres after the ghost shells
-    by_body.assign(scene_.bodies().size(), 0);
-    std::copy_n(moves.begin(), scene_.owned_shells(), by_body.begin());
-    std::copy(moves.begin() + static_cast<std::ptrdiff_t>(scene_.owned_shells()), moves.end(),
-              by_body.begin() + static_cast<std::ptrdiff_t>(scene_.first_sphere()));
-  }
-  scene_.set_moving(by_body);
-  lay_out_system();
-}
-
-Status Mechanics::relax(Tissue& tissue, std::span<const char> moves) {
-  prepare(tissue);
-  relax_moves_.assign(moves.begin(), moves.end());
-  hold_all_but(relax_moves_);
-  relaxing_ = true;
-  anchors_ = {};
-  const Clock clock = tissue.clock;
-  tissue.clock.capped = true;
+/// The deepest overlap that there can be: two radii of the largest shell that moves.
+double deepest_possible(const Tissue& tissue, std::span<const char> moves, const Comm& comm) {
   double largest_volume = 0.0;
   for (std::size_t i = 0; i < tissue.shells.size(); ++i)
     if (moves[i]) largest_volume = std::max(largest_volume, tissue.shells.rest_volume[i]);
-  relax_depth_ = 2.0 * std::cbrt(0.75 / std::numbers::pi * comm_.max(largest_volume));
-  relax_cap_ = kFirstCap;
-  relax_hold_ = 0.0;
-  evaluated_ = contacts_current_ = false;
-  const std::vector<Vec3d> none(external_size(tissue));
+  return 2.0 * std::cbrt(0.75 / std::numbers::pi * comm.max(largest_volume));
+}
+
+/// Other bodies move from here on, and contacts have another strength.
+void hold_all_but(Workspace& work, std::span<const char> moves) {
+  lay_out_system(work, moves);
+  work.terms.contacts->forget();
+  work.known.reset();
+}
+
+}  // namespace
+
+Status relax_in_place(Workspace& work, Tissue& tissue, std::span<const char> moves) {
+  (void)prepare(work, tissue);
+  const Clock clock = tissue.clock;
+  tissue.clock.capped = true;
+  Settling settling{{moves.begin(), moves.end()}, {kFirstCap, deepest_possible(tissue, moves, work.setting.comm), 0.0}};
+  hold_all_but(work, settling.moves);
+  const std::vector<Vec3d> none(tissue.shells.node_count() + tissue.spheres.size());
   double dt = kFirstStep, overlap = 0.0;
   for (int k = 0; k < kMostSteps; ++k) {
-    const auto done = step(tissue, dt, none);
+    const auto done = advance(work, tissue, {dt, none, {}, &settling});
     if (!done) {
       dt *= 0.25;
       if (dt < kShortestStep) break;  // as far as it goes
       continue;
     }
     overlap = done->overlap;
-    if (relax_hold_ == 0.0 && overlap > kOverlapAtRest) {
-      relax_cap_ = std::min(kLastCap, kRaiseCap * relax_cap_);
-    } else if (relax_hold_ < 1.0) {
+    ContactStrength& strength = settling.strength;
+    if (strength.hold == 0.0 && overlap > kOverlapAtRest) {
+      strength.cap = std::min(kLastCap, kRaiseCap * strength.cap);
+    } else if (strength.hold < 1.0) {
       tissue.clock.capped = false;
-      relax_hold_ = std::min(1.0, relax_hold_ + 1.0 / kHoldSteps);
+      strength.hold = std::min(1.0, strength.hold + 1.0 / kHoldSteps);
     } else if (dt >= kLongestStep && done->displacement < kAtRest) {
       break;
     }
@@ -70,9 +67,7 @@ Status Mechanics::relax(Tissue& tissue, std::span<const char> moves) {
   }
   tissue.clock = clock;
   tissue.clock.capped = clock.capped || overlap > kOverlapAtRest;
-  relaxing_ = false;
-  hold_all_but({});
-  evaluated_ = contacts_current_ = false;
+  hold_all_but(work, {});
   return {};
 }
 

@@ -23,17 +23,19 @@ class Scene {
   void build(const Tissue& tissue, const Space& space, double reach, ShapeLibrary& shapes, const Comm& comm);
 
   [[nodiscard]] std::span<const ContactBody> bodies() const { return bodies_; }
-  [[nodiscard]] std::size_t owned_shells() const { return owned_shells_; }
-  [[nodiscard]] std::size_t shells() const { return shells_; }  ///< with ghosts
-  [[nodiscard]] std::size_t owned_spheres() const { return owned_spheres_; }
-  [[nodiscard]] std::size_t first_sphere() const { return shells_; }  ///< body number
-  [[nodiscard]] std::size_t ghost_count() const { return bodies_.size() - owned_shells_ - owned_spheres_; }
-  [[nodiscard]] std::uint32_t owned_nodes() const { return owned_nodes_; }   ///< of owned shells: points 0 .. owned_nodes−1
-  [[nodiscard]] std::uint32_t sphere_point() const { return shell_nodes_; }  ///< first point of the owned spheres
-  [[nodiscard]] std::size_t point_count() const { return position_.size(); }
-  [[nodiscard]] std::uint32_t nucleus_point() const { return nucleus_point_; }  ///< first of the nuclei: all points before are of bodies
-  [[nodiscard]] std::uint32_t nuclear_node() const { return nuclear_node_; }    ///< first of the nodes of nuclei that are shells
-  [[nodiscard]] std::size_t face_count() const { return face_count_; }
+  [[nodiscard]] std::size_t owned_shells() const { return count_.owned_shells; }
+  [[nodiscard]] std::size_t shells() const { return count_.shells; }  ///< with ghosts
+  [[nodiscard]] std::size_t owned_spheres() const { return count_.owned_spheres; }
+  [[nodiscard]] std::size_t first_sphere() const { return count_.shells; }  ///< body number
+  [[nodiscard]] std::size_t ghost_count() const { return bodies_.size() - count_.owned_shells - count_.owned_spheres; }
+  [[nodiscard]] std::uint32_t owned_nodes() const { return count_.owned_nodes; }   ///< of owned shells: points 0 .. owned_nodes−1
+  [[nodiscard]] std::uint32_t sphere_point() const { return count_.shell_nodes; }  ///< first point of the owned spheres
+  [[nodiscard]] std::size_t point_count() const { return points_.x.size(); }
+  [[nodiscard]] std::uint32_t nucleus_point() const {
+    return count_.nucleus_point;
+  }  ///< first of the nuclei: all points before are of bodies
+  [[nodiscard]] std::uint32_t nuclear_node() const { return count_.nuclear_node; }  ///< first of the nodes of nuclei that are shells
+  [[nodiscard]] std::size_t face_count() const { return count_.faces; }
   [[nodiscard]] std::span<const std::shared_ptr<const ReferenceShape>> shapes() const { return shapes_; }  ///< of shells, ghosts too
   [[nodiscard]] std::span<const Topology* const> topologies() const { return topologies_; }                ///< of shells, ghosts too
   [[nodiscard]] std::span<const std::uint32_t> first_node() const { return first_node_; }
@@ -53,8 +55,24 @@ class Scene {
   /// Marks of owned shells from the tissue, and of ghosts from their owners. Collective.
   void take_marks(const Tissue& tissue);
 
-  std::vector<Vec3d>& position() { return position_; }
-  [[nodiscard]] const std::vector<Vec3d>& position() const { return position_; }
+  /// Points within an owned shell that are no body: a rigid nucleus, or the nodes of one that is a shell.
+  struct Inner {
+    std::uint32_t first_point, point_count, shell;
+  };
+  /// All of them, by point.
+  [[nodiscard]] std::span<const Inner> inner() const { return inner_; }
+
+  [[nodiscard]] const std::vector<Vec3d>& position() const { return points_.x; }
+  /// A number that no other positions of this scene had: what was found at some positions holds as long as their number is the same.
+  [[nodiscard]] std::uint64_t positions_number() const { return points_.number; }
+  /// Other positions of owned points: function(span of all positions).
+  template <class F>
+  void move_points(F&& function) {
+    ++points_.number;
+    function(std::span(points_.x));
+  }
+  /// Positions of ghosts from their owners. Collective.
+  void renew_ghost_positions() { exchange(std::span(points_.x)); }
 
   /// Refresh ghost entries of a vector over points from their owners. Collective.
   void exchange(std::span<Vec3d> by_point) const;
@@ -76,7 +94,14 @@ class Scene {
 
  private:
   void add_owned(const Tissue& tissue);
-  void find_ghosts(const Tissue& tissue, const Space& space, double reach, ShapeLibrary& library, const Comm& comm);
+  [[nodiscard]] static Birth birth_of(const CellRow& row);
+  /// Several ranks: bodies and shapes of ghosts come in beside the owned ones. Gives the places along the curve, by body.
+  std::vector<std::uint64_t> find_ghosts(const Tissue& tissue, const Space& space, double reach, ShapeLibrary& library, const Comm& comm);
+  /// What owned bodies are announced with. `rows`: the cells by owned body.
+  [[nodiscard]] std::vector<std::byte> pack_ghosts(std::span<const std::uint32_t> bodies, std::span<const CellRow* const> rows) const;
+  /// Tells every rank of the bodies that it may touch; gives what the others tell.
+  std::vector<std::vector<std::byte>> send_to_neighbours(const Tissue& tissue, const Space& space, double reach,
+                                                         std::span<const CellRow* const> rows, const Comm& comm);
   void place_bodies(std::span<const std::uint64_t> order);
   template <class T>
   void exchange_points(std::span<T> by_point) const;
@@ -84,18 +109,33 @@ class Scene {
   template <class T, class PartOf>
   void exchange_parts(const PartOf& part_of) const;
 
+  /// How many there are of what.
+  struct Counts {
+    std::size_t owned_shells = 0, shells = 0, owned_spheres = 0, faces = 0;
+    std::uint32_t owned_nodes = 0, shell_nodes = 0;     ///< of owned shells, and of all
+    std::uint32_t nucleus_point = 0, nuclear_node = 0;  ///< first points of the rigid nuclei, and of those that are shells
+  };
+  /// What goes to other ranks and comes from there.
+  struct Ghosts {
+    std::vector<Birth> birth;                         ///< of ghost spheres
+    std::vector<std::vector<std::uint32_t>> send;     ///< by rank: owned bodies that go there
+    std::vector<std::vector<std::uint32_t>> receive;  ///< by rank: ghosts that come from there, in the sender's order
+  };
+  struct Points {
+    std::vector<Vec3d> x;
+    std::uint64_t number = 0;  ///< of these positions
+  };
+
   const Comm* comm_ = nullptr;
   std::vector<ContactBody> bodies_;
-  std::vector<Birth> ghost_birth_;  ///< of ghost spheres
-  std::size_t owned_shells_ = 0, shells_ = 0, owned_spheres_ = 0, face_count_ = 0;
-  std::uint32_t owned_nodes_ = 0, shell_nodes_ = 0, nucleus_point_ = 0, nuclear_node_ = 0;
+  std::vector<Inner> inner_;
+  Counts count_;
   std::vector<std::shared_ptr<const ReferenceShape>> shapes_;
   std::vector<const Topology*> topologies_;
   std::vector<std::uint32_t> first_node_, first_face_;
-  std::vector<Vec3d> position_;
+  Points points_;
   std::vector<std::uint8_t> mark_;
-  std::vector<std::vector<std::uint32_t>> send_bodies_;     ///< by rank: owned bodies that go there
-  std::vector<std::vector<std::uint32_t>> receive_bodies_;  ///< by rank: ghosts that come from there, in the sender's order
+  Ghosts ghosts_;
 };
 
 }  // namespace morula

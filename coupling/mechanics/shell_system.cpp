@@ -1,5 +1,7 @@
 #include "coupling/mechanics/shell_system.h"
 
+#include <algorithm>
+
 namespace morula {
 
 ShellSystem::ShellSystem(const Model& model) {
@@ -9,9 +11,10 @@ ShellSystem::ShellSystem(const Model& model) {
   }
 }
 
-void ShellSystem::set_shells(const dcm::Shells& shells) {
+void ShellSystem::set_shells(const dcm::Shells& shells, int threads) {
   shells_ = &shells;
   blocks_ = dcm::make_shell_blocks(shells);
+  blocks_.threads = threads;
 }
 
 void ShellSystem::evaluate(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<Vec3d> force,
@@ -27,18 +30,12 @@ void ShellSystem::begin_step(const dcm::Shells& shells, const SurfaceGeometry& g
 }
 
 void ShellSystem::assemble(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<const double> face_contact_energy,
-                           double dt, const EdgeBlockSource& contacts) {
+                           double dt, const EdgeBlockSource& contacts, std::span<const SymMat3<double>> node_block) {
   dcm::assemble_shell_operator(blocks_, shells, parameters_, position.first(shells.node_count()), friction_,
                                face_contact_energy.first(face_contact_energy.empty() ? 0 : blocks_.face_count()), dt, contacts, operator_,
                                held_);
-  node_block_.assign(node_friction_.empty() && node_stiffness_.empty() ? 0 : shells.node_count(), {});
-  for (std::size_t i = 0; i < node_block_.size(); ++i) {
-    SymMat3<double> sum;
-    if (!node_friction_.empty()) sum += node_friction_[i];
-    if (!node_stiffness_.empty()) sum += dt * node_stiffness_[i];
-    const auto f = [](double a) { return static_cast<float>(a); };
-    node_block_[i] = {f(sum.xx), f(sum.xy), f(sum.xz), f(sum.yy), f(sum.yz), f(sum.zz)};
-  }
+  node_block_.resize(node_block.size());
+  std::ranges::transform(node_block, node_block_.begin(), [](const SymMat3<double>& block) { return to_float(block); });
 }
 
 void ShellSystem::add_step_friction(std::span<const Vec3d> position, std::span<Vec3d> out, OrderFreeSum& quadratic) {
@@ -47,16 +44,6 @@ void ShellSystem::add_step_friction(std::span<const Vec3d> position, std::span<V
   friction_quadratic_.resize(shells_->size());
   dcm::add_friction_of_motion(blocks_, *shells_, friction_, position.first(nodes), out.first(nodes), friction_quadratic_);
   for (const double q : friction_quadratic_) quadratic.add(q);
-  for (std::size_t s = 0; s < shells_->size() && !node_friction_.empty(); ++s) {
-    double of_shell = 0.0;
-    for (std::uint32_t i = shells_->first_node[s]; i < shells_->first_node[s + 1]; ++i) {
-      const Vec3d displacement = position[i] - shells_->position[i];
-      const Vec3d push = node_friction_[i] * displacement;
-      out[i] += push;
-      of_shell += dot(displacement, push);
-    }
-    quadratic.add(of_shell);
-  }
 }
 
 void ShellSystem::multiply(std::size_t first, std::size_t last, std::span<const Float4> p, std::span<Float4> q) const {

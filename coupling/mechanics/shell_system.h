@@ -5,7 +5,8 @@
 
 #include "core/friction/friction_system.h"
 #include "core/mesh/surface_geometry.h"
-#include "coupling/tissue.h"
+#include "core/parallel/order_free_sum.h"
+#include "coupling/model.h"
 #include "dcm/blocks.h"
 #include "dcm/internal_forces.h"
 #include "dcm/shell_friction.h"
@@ -20,35 +21,33 @@ class ShellSystem : public OperatorPart {
   /// Shells with these parameters by cell type.
   explicit ShellSystem(std::vector<dcm::ShellParameters> parameters) : parameters_(std::move(parameters)) {}
 
-  void set_shells(const dcm::Shells& shells);
+  void set_shells(const dcm::Shells& shells, int threads);
   /// Internal forces at `position` into the first entries of `force`; all else is in `forces()` afterwards. `held`: what is in the shells that is
   /// not cytosol, by shell, good until assemble(); empty: nothing.
   void evaluate(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<Vec3d> force,
                 std::span<const dcm::HeldVolume> held = {});
   /// Friction of the step that starts at the shells' positions; these stay until the step is done. `geometry` is that of these positions.
   void begin_step(const dcm::Shells& shells, const SurfaceGeometry& geometry);
-  /// `face_contact_energy`: by face, or empty: no contact. `contacts`: what they couple within a shell.
+  /// `face_contact_energy`: by face, or empty: no contact. `contacts`: what they couple within a shell. `node_block`: Γ + Δt K that
+  /// single nodes have more, by node, or empty.
   void assemble(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<const double> face_contact_energy, double dt,
-                const EdgeBlockSource& contacts);
+                const EdgeBlockSource& contacts, std::span<const SymMat3<double>> node_block);
   /// The matrix is not needed any more.
   void drop_matrix() { operator_ = {}; }
   /// Adds Γ_n d, d = position − start, of the shells' nodes to `out`, and dᵀΓ_n d to the sum.
   void add_step_friction(std::span<const Vec3d> position, std::span<Vec3d> out, OrderFreeSum& quadratic);
-  /// Friction of single nodes of the step, beside that of the shells' own; empty: none. After begin_step().
-  void set_node_friction(std::vector<SymMat3<double>> friction) { node_friction_ = std::move(friction); }
-  /// Stiffness of single nodes, positive semi-definite; empty: none. Before assemble().
-  void set_node_stiffness(std::vector<SymMat3<double>> stiffness) { node_stiffness_ = std::move(stiffness); }
 
   /// function(shell, node, γ) for the nodes of the shells of a batch: friction with the medium of the step [nN·s/µm], shell by shell.
+  /// `beside`: what single nodes have more (NodeTerms::friction()).
   template <class F>
-  void for_medium_friction(std::size_t batch, F&& function) const {
+  void for_medium_friction(std::size_t batch, std::span<const SymMat3<double>> beside, F&& function) const {
     const LaneBlock& block = blocks_.blocks[batch];
     const auto lanes = static_cast<std::size_t>(block.lanes);
     for (std::size_t lane = 0; lane < static_cast<std::size_t>(block.count); ++lane) {
       const std::uint32_t shell = block.member[lane], first = shells_->first_node[shell];
       for (std::uint32_t node = first; node < shells_->first_node[shell + 1]; ++node) {
         SymMat3<double> friction = isotropic(friction_.blocks[batch].medium[(node - first) * lanes + lane]);
-        if (!node_friction_.empty()) friction += node_friction_[node];
+        if (!beside.empty()) friction += beside[node];
         function(shell, node, friction);
       }
     }
@@ -76,8 +75,7 @@ class ShellSystem : public OperatorPart {
   dcm::ShellFriction friction_;
   dcm::ShellOperator operator_;
   std::vector<double> friction_quadratic_;
-  std::vector<SymMat3<double>> node_friction_, node_stiffness_;  ///< by node, or empty
-  std::vector<SymMat3<float>> node_block_;                       ///< Γ + Δt K of these, or empty
+  std::vector<SymMat3<float>> node_block_;  ///< Γ + Δt K that single nodes have more, or empty
 };
 
 }  // namespace morula

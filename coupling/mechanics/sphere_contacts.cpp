@@ -35,8 +35,8 @@ double arm_of_b(const cbm::PairBlock& block, int lane) {
 
 }  // namespace
 
-SphereContacts::SphereContacts(const Model& model, int threads)
-    : model_(model), threads_(std::max(1, threads)), table_(contact_table(model)) {
+SphereContacts::SphereContacts(const Model& model, SurfaceContacts& surfaces)
+    : model_(model), surfaces_(surfaces), table_(contact_table(model)) {
   std::vector<PairFriction> friction;
   for (std::size_t a = 0; a < table_.type_count(); ++a)
     for (std::size_t b = 0; b < table_.type_count(); ++b) {
@@ -45,7 +45,7 @@ SphereContacts::SphereContacts(const Model& model, int threads)
           {static_cast<float>(entry.tangential_friction), static_cast<float>(entry.normal_friction - entry.tangential_friction)});
     }
   list_.set_friction(std::move(friction), table_.type_count());
-  for (const CellType& type : model_.types) packs_ = packs_ || !type.sphere.packing.empty();
+  for (const CellType& type : model_.types) packing_.acts = packing_.acts || !type.sphere.packing.empty();
 }
 
 void SphereContacts::update_sisters(const Scene& scene, double now) {
@@ -58,12 +58,11 @@ void SphereContacts::update_sisters(const Scene& scene, double now) {
 }
 
 template <class Wanted, class Sink, class FarAway>
-void SphereContacts::visit(const SpherePairs::Share& share, const Scene& scene, const ContactLayer& contacts, Wanted&& wanted, Sink&& sink,
-                           FarAway&& far_away) const {
+void SphereContacts::visit(const SpherePairs::Share& share, const Scene& scene, Wanted&& wanted, Sink&& sink, FarAway&& far_away) const {
   const Vec3d* x = scene.position().data() + scene.sphere_point();
   const ContactBody* body = scene.bodies().data() + scene.first_sphere();
   const bool periodic = model_.space.any_periodic();
-  const double reach = contacts.settings().sphere_reach + 1e-6;
+  const double reach = layer().settings().sphere_reach + 1e-6;
   cbm::PairBlock block;
   std::uint32_t number[cbm::PairBlock::kWidth];
   int filled = 0;
@@ -99,87 +98,100 @@ void SphereContacts::visit(const SpherePairs::Share& share, const Scene& scene, 
 
 void SphereContacts::set_element(SpherePairElement& element, const cbm::PairBlock& block, int lane) const {
   element.stiffness = static_cast<float>(block.stiffness[lane]);
-  if (in_step_ && element.area != 0.0f) return;  // the friction of the step's start goes on
+  if (friction_is_frozen_ && element.area != 0.0f) return;  // the friction of the step's start goes on
   for (int axis = 0; axis < 3; ++axis) element.n[axis] = static_cast<float>(block.normal[axis][lane]);
-  element.area = in_step_ ? 0.0f : static_cast<float>(block.area[lane]);
+  element.area = friction_is_frozen_ ? 0.0f : static_cast<float>(block.area[lane]);
 }
 
-void SphereContacts::evaluate(const Scene& scene, const ContactLayer& contacts, std::span<Vec3d> force) {
-  const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
-  Vec3d* to = force.data() + scene.sphere_point();
-  virial_.assign(owned, 0.0);
-  const auto shares = list_.shares();
-  std::vector<OrderFreeSum> energy(std::max<std::size_t>(1, shares.size()));
-  flips_.resize(shares.size());
-  if (packs_) list_.packing.slopes.assign(list_.pairs.size(), {});
-  on_each_thread(threads_, [&](std::size_t t) {
-    const SpherePairs::Share& share = shares[t];
-    const auto writes = [&](const SpherePair& pair) { return pair.a < owned ? share.has(pair.a) : share.has(pair.b); };  // one thread only
-    flips_[t].clear();
-    std::uint32_t sphere = 0;
-    double of_sphere = 0.0;  // pairs that come first under one sphere: their order is canonical, so they may be added up in double
-    visit(
-        share, scene, contacts, [](const SpherePair&) { return true; },
-        [&](std::uint32_t k, const cbm::PairBlock& block, int lane) {
-          const SpherePair pair = list_.pairs[k];
-          const bool has_a = share.has(pair.a), has_b = share.has(pair.b);
-          PackingForce pressed;
-          if (packs_) pressed = packing_force(scene, pair, block.distance[lane] + block.offset[lane]);
-          const double size = block.force[lane] + pressed.force;
-          const Vec3d f = Vec3d{block.normal[0][lane], block.normal[1][lane], block.normal[2][lane]} * size;
-          if (has_a) {
-            to[pair.a] -= f;
-            virial_[pair.a] += arm_of_a(block, lane) * size;
-            if (pair.a != sphere) {
-              energy[t].add(of_sphere);
-              of_sphere = 0.0;
-              sphere = pair.a;
-            }
-            of_sphere += block.energy[lane];
-          }
-          if (has_b) {
-            to[pair.b] += f;
-            virial_[pair.b] += arm_of_b(block, lane) * size;
-          }
-          if (writes(pair)) {
-            if (block.attached_next[lane] != (pair.attached != 0)) flips_[t].push_back(k);
-            set_element(list_.elements[k], block, lane);
-            if (packs_) {
-              list_.elements[k].stiffness += static_cast<float>(pressed.stiffness);
-              list_.packing.slopes[k] = {static_cast<float>(pressed.caps.slope_a), static_cast<float>(pressed.caps.slope_b)};
-            }
-          }
-        },
-        [&](std::uint32_t k) {
-          const SpherePair pair = list_.pairs[k];
-          if (!writes(pair)) return;
-          if (pair.attached) flips_[t].push_back(k);
-          list_.elements[k].stiffness = 0.0f;
-          if (!in_step_) list_.elements[k].area = 0.0f;
-        });
-    energy[t].add(of_sphere);
-  });
-  for (std::size_t t = 1; t < energy.size(); ++t) energy[0] += energy[t];
+void SphereContacts::measure(const World& world) {
+  if (list_number_ != surfaces_.list_number()) {
+    set_pairs(world.scene, world.tissue);
+    list_number_ = surfaces_.list_number();
+  }
+  if (!packing_.acts) return;
+  const ContactScene scene = contact_scene(world);
+  const bool with_surfaces = layer().has_pairs(SurfacePairKind::kWithSphere);
+  std::vector<Penetration> penetration(with_surfaces ? scene.bodies.size() : 0);
+  if (with_surfaces) surfaces_.layer().find_penetration(scene, penetration);
+  find_packing(world.scene, penetration, world.comm);
+  surfaces_.layer().set_packing(packing_.on_surfaces);
+}
 
-  parallel_for(threads_, rigid_.size(), [&](std::size_t k) { evaluate_rigid(scene, contacts, k); });
+void SphereContacts::evaluate_share(std::size_t number, const Scene& scene, Vec3d* to, OrderFreeSum& energy) {
+  const SpherePairs::Share& share = list_.shares()[number];
+  std::vector<std::uint32_t>& flips = flips_[number];
+  const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
+  const auto writes = [&](const SpherePair& pair) { return pair.a < owned ? share.has(pair.a) : share.has(pair.b); };  // one thread only
+  flips.clear();
+  std::uint32_t sphere = 0;
+  double of_sphere = 0.0;  // pairs that come first under one sphere: their order is canonical, so they may be added up in double
+  visit(
+      share, scene, [](const SpherePair&) { return true; },
+      [&](std::uint32_t k, const cbm::PairBlock& block, int lane) {
+        const SpherePair pair = list_.pairs[k];
+        PackingForce pressed;
+        if (packing_.acts) pressed = packing_force(scene, pair, block.distance[lane] + block.offset[lane]);
+        const double size = block.force[lane] + pressed.force;
+        const Vec3d f = Vec3d{block.normal[0][lane], block.normal[1][lane], block.normal[2][lane]} * size;
+        if (share.has(pair.a)) {
+          to[pair.a] -= f;
+          virial_[pair.a] += arm_of_a(block, lane) * size;
+          if (pair.a != sphere) {
+            energy.add(of_sphere);
+            of_sphere = 0.0;
+            sphere = pair.a;
+          }
+          of_sphere += block.energy[lane];
+        }
+        if (share.has(pair.b)) {
+          to[pair.b] += f;
+          virial_[pair.b] += arm_of_b(block, lane) * size;
+        }
+        if (!writes(pair)) return;
+        if (block.attached_next[lane] != (pair.attached != 0)) flips.push_back(k);
+        set_element(list_.elements[k], block, lane);
+        if (!packing_.acts) return;
+        list_.elements[k].stiffness += static_cast<float>(pressed.stiffness);
+        list_.packing.slopes[k] = {static_cast<float>(pressed.caps.slope_a), static_cast<float>(pressed.caps.slope_b)};
+      },
+      [&](std::uint32_t k) {
+        const SpherePair pair = list_.pairs[k];
+        if (!writes(pair)) return;
+        if (pair.attached) flips.push_back(k);
+        list_.elements[k].stiffness = 0.0f;
+        if (!friction_is_frozen_) list_.elements[k].area = 0.0f;
+      });
+  energy.add(of_sphere);
+}
+
+void SphereContacts::evaluate(const World& world, Forces& out) {
+  const Scene& scene = world.scene;
+  const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
+  Vec3d* to = out.force.data() + scene.sphere_point();
+  virial_.assign(owned, 0.0);
+  std::vector<OrderFreeSum> energy(std::max<std::size_t>(1, list_.shares().size()));
+  flips_.resize(list_.shares().size());
+  if (packing_.acts) list_.packing.slopes.assign(list_.pairs.size(), {});
+  on_each_thread(threads(), [&](std::size_t t) { evaluate_share(t, scene, to, energy[t]); });
+  for (const OrderFreeSum& of_share : energy) out.energy += of_share;
+
+  parallel_for(threads(), rigid_.size(), [&](std::size_t k) { evaluate_rigid(scene, k); });
   for (const RigidPair& pair : rigid_) {
     to[pair.sphere] -= pair.normal * pair.force;
     virial_[pair.sphere] += pair.distance * pair.force;
-    energy[0].add(pair.energy);
+    out.energy.add(pair.energy);
   }
-  if (packs_)
-    for (std::uint32_t i = 0; i < owned; ++i) {
-      const ContactBody& body = scene.bodies()[scene.first_sphere() + i];
-      energy[0].add(ball(body.radius) * model_.types[body.material].sphere.packing.at(packing_[i]).energy);
-    }
-  energy_ = energy[0];
+  for (std::uint32_t i = 0; packing_.acts && i < owned; ++i) {
+    const ContactBody& body = scene.bodies()[scene.first_sphere() + i];
+    out.energy.add(ball(body.radius) * model_.types[body.material].sphere.packing.at(packing_.part[i]).energy);
+  }
 }
 
-bool SphereContacts::locate_rigid(const Scene& scene, const ContactLayer& contacts, RigidPair& pair) const {
+bool SphereContacts::locate_rigid(const Scene& scene, RigidPair& pair) const {
   const ContactBody& body = scene.bodies()[scene.first_sphere() + pair.sphere];
-  const auto& obstacle = contacts.obstacles()[pair.obstacle];
-  const double reach = body.radius + contacts.settings().sphere_reach + contacts.settings().body_skin;
-  const Vec3d center = scene.position()[body.first_point], from = center - contacts.obstacle_offset(pair.obstacle);
+  const auto& obstacle = layer().obstacles()[pair.obstacle];
+  const double reach = body.radius + layer().settings().sphere_reach + layer().settings().body_skin;
+  const Vec3d center = scene.position()[body.first_point], from = center - layer().obstacle_offset(pair.obstacle);
   const auto foot = foot_on_part(obstacle, pair.part, from, reach);
   if (!foot) return false;
   const Vec3d between = foot->point - from;
@@ -189,16 +201,16 @@ bool SphereContacts::locate_rigid(const Scene& scene, const ContactLayer& contac
   return true;
 }
 
-void SphereContacts::evaluate_rigid(const Scene& scene, const ContactLayer& contacts, std::size_t k) {
+void SphereContacts::evaluate_rigid(const Scene& scene, std::size_t k) {
   RigidPair& pair = rigid_[k];
   RigidPairElement& element = list_.rigid[k];
   const ContactBody& body = scene.bodies()[scene.first_sphere() + pair.sphere];
-  const bool rubs = in_step_ && (element.isotropic != 0.0f || element.axial != 0.0f);
+  const bool rubs = friction_is_frozen_ && (element.isotropic != 0.0f || element.axial != 0.0f);
   element.stiffness = 0.0f;
   if (!rubs) element.isotropic = element.axial = 0.0f;
   pair.force = pair.energy = pair.area = pair.distance = 0.0;
   pair.attached_next = false;
-  if (!locate_rigid(scene, contacts, pair)) return;
+  if (!locate_rigid(scene, pair)) return;
   const double overlap = body.radius - pair.distance;
   const std::size_t material = std::min<std::size_t>(model_.types.size() + pair.obstacle, table_.material_count() - 1);
   const auto& entry = table_.entry(body.material, material);
@@ -209,9 +221,9 @@ void SphereContacts::evaluate_rigid(const Scene& scene, const ContactLayer& cont
   pair.area = response.area;
   pair.attached_next = cbm::update_attached(overlap, pair.attached, law);
   element.stiffness = static_cast<float>(response.stiffness);
-  if (packs_ && overlap > 0.0) {  // the wall takes a cap of the sphere; its energy is the sphere's
+  if (packing_.acts && overlap > 0.0) {  // the wall takes a cap of the sphere; its energy is the sphere's
     const cbm::PlaneCap cap = cbm::plane_cap(body.radius, overlap);
-    const SpherePressure& pressed = surface_pressure_[scene.first_sphere() + pair.sphere];
+    const SpherePressure& pressed = packing_.on_surfaces[scene.first_sphere() + pair.sphere];
     const double bending = 2.0 * std::numbers::pi * std::max(0.0, pair.distance);
     pair.force += pressed.pressure * cap.slope;
     element.stiffness += static_cast<float>(cap.slope * pressed.resistance + bending * pressed.pressure);
@@ -220,24 +232,24 @@ void SphereContacts::evaluate_rigid(const Scene& scene, const ContactLayer& cont
   element.n[0] = static_cast<float>(pair.normal.x);
   element.n[1] = static_cast<float>(pair.normal.y);
   element.n[2] = static_cast<float>(pair.normal.z);
-  if (in_step_) return;
+  if (friction_is_frozen_) return;
   element.isotropic = static_cast<float>(response.area * entry.tangential_friction);
   element.axial = static_cast<float>(response.area * (entry.normal_friction - entry.tangential_friction));
 }
 
-void SphereContacts::refresh_values(const Scene& scene, const ContactLayer& contacts, const std::vector<char>& marked) {
+void SphereContacts::refresh_values(const Scene& scene, const std::vector<char>& marked) {
   for (std::size_t i = 0; i < scene.owned_spheres(); ++i)
     if (marked[i]) virial_[i] = 0.0;
   const auto shares = list_.shares();
-  on_each_thread(threads_, [&](std::size_t t) {
+  on_each_thread(threads(), [&](std::size_t t) {
     const SpherePairs::Share& share = shares[t];
     visit(
-        share, scene, contacts, [&](const SpherePair& pair) { return marked[pair.a] || marked[pair.b]; },
+        share, scene, [&](const SpherePair& pair) { return marked[pair.a] || marked[pair.b]; },
         [&](std::uint32_t k, const cbm::PairBlock& block, int lane) {
           const SpherePair pair = list_.pairs[k];
           for (const std::uint32_t i : {pair.a, std::uint32_t{pair.b}}) {
             if (!marked[i] || !share.has(i)) continue;
-            const double pressed = packs_ ? packing_force(scene, pair, block.distance[lane] + block.offset[lane]).force : 0.0;
+            const double pressed = packing_.acts ? packing_force(scene, pair, block.distance[lane] + block.offset[lane]).force : 0.0;
             virial_[i] += (i == pair.a ? arm_of_a(block, lane) : arm_of_b(block, lane)) * (block.force[lane] + pressed);
           }
         },
@@ -246,12 +258,18 @@ void SphereContacts::refresh_values(const Scene& scene, const ContactLayer& cont
   for (std::size_t k = 0; k < rigid_.size(); ++k) {
     const RigidPair& pair = rigid_[k];
     if (!marked[pair.sphere]) continue;
-    evaluate_rigid(scene, contacts, k);
+    evaluate_rigid(scene, k);
     virial_[pair.sphere] += pair.distance * pair.force;
   }
 }
 
-bool SphereContacts::update_attached(const Scene& scene, const ContactLayer& contacts, Tissue& tissue) {
+void SphereContacts::end_step(const World& world, StepEnd& end) {
+  if (end.clock_runs) update_attached(world, end.tissue);
+  friction_is_frozen_ = false;
+}
+
+bool SphereContacts::update_attached(const World& world, Tissue& tissue) {
+  const Scene& scene = world.scene;
   std::vector<char> marked;
   const auto mark = [&](std::uint32_t i) {
     if (marked.empty()) marked.assign(scene.bodies().size() - scene.first_sphere(), 0);
@@ -274,17 +292,18 @@ bool SphereContacts::update_attached(const Scene& scene, const ContactLayer& con
     mark(rigid_[k].sphere);
   }
   const bool changed = !marked.empty();
-  if (changed) refresh_values(scene, contacts, marked);
-  if (partners_stale_) marked.assign(scene.bodies().size() - scene.first_sphere(), 1);
-  if (changed || partners_stale_) write_partners(scene, marked, tissue);
-  partners_stale_ = false;
+  if (changed) refresh_values(scene, marked);
+  if (partners_are_lost_) marked.assign(scene.bodies().size() - scene.first_sphere(), 1);
+  if (changed || partners_are_lost_) write_partners(scene, marked, tissue);
+  partners_are_lost_ = false;
   return changed;
 }
 
-bool SphereContacts::renew_sisters(const Scene& scene, const ContactLayer& contacts, double now) {
+bool SphereContacts::renew_sisters(const World& world) {
   if (sisters_.empty()) return false;
+  const Scene& scene = world.scene;
   const std::vector<Sisters> before = sisters_;
-  update_sisters(scene, now);
+  update_sisters(scene, world.tissue.clock.time);
   std::vector<char> marked;
   for (std::size_t s = 0; s < sisters_.size(); ++s) {
     if (sisters_[s].offset == before[s].offset) continue;
@@ -292,21 +311,21 @@ bool SphereContacts::renew_sisters(const Scene& scene, const ContactLayer& conta
     marked[list_.pairs[sisters_[s].pair].a] = marked[list_.pairs[sisters_[s].pair].b] = 1;
   }
   if (marked.empty()) return false;
-  refresh_values(scene, contacts, marked);
+  refresh_values(scene, marked);
   return true;
 }
 
-std::vector<SphereContacts::Pressing> SphereContacts::pressing(const Scene& scene, const ContactLayer& contacts) const {
+std::vector<SphereContacts::Pressing> SphereContacts::pressing(const Scene& scene) const {
   std::vector<Pressing> out(scene.owned_spheres());
   const auto shares = list_.shares();
-  on_each_thread(threads_, [&](std::size_t t) {
+  on_each_thread(threads(), [&](std::size_t t) {
     visit(
-        shares[t], scene, contacts, [](const SpherePair&) { return true; },
+        shares[t], scene, [](const SpherePair&) { return true; },
         [&](std::uint32_t k, const cbm::PairBlock& block, int lane) {
           const SpherePair pair = list_.pairs[k];
           const Vec3d normal{block.normal[0][lane], block.normal[1][lane], block.normal[2][lane]};
           double force = block.force[lane];
-          if (packs_) force += packing_force(scene, pair, block.distance[lane] + block.offset[lane]).force;
+          if (packing_.acts) force += packing_force(scene, pair, block.distance[lane] + block.offset[lane]).force;
           for (const std::uint32_t i : {pair.a, std::uint32_t{pair.b}}) {
             if (!shares[t].has(i)) continue;
             out[i].area += block.area[lane];
@@ -322,13 +341,13 @@ std::vector<SphereContacts::Pressing> SphereContacts::pressing(const Scene& scen
   return out;
 }
 
-SphereContacts::RangeCount SphereContacts::count_beyond_range(const Scene& scene, const ContactLayer& contacts) const {
+SphereRangeCount SphereContacts::count_beyond_range(const Scene& scene) const {
   const ContactBody* body = scene.bodies().data() + scene.first_sphere();
   const auto shares = list_.shares();
-  std::vector<RangeCount> by_thread(shares.size());
-  on_each_thread(threads_, [&](std::size_t t) {
+  std::vector<SphereRangeCount> by_thread(shares.size());
+  on_each_thread(threads(), [&](std::size_t t) {
     visit(
-        shares[t], scene, contacts, [&](const SpherePair& pair) { return shares[t].has(pair.a); },
+        shares[t], scene, [&](const SpherePair& pair) { return shares[t].has(pair.a); },
         [&](std::uint32_t k, const cbm::PairBlock& block, int lane) {
           if (!(block.area[lane] > 0.0)) return;
           const SpherePair pair = list_.pairs[k];
@@ -337,15 +356,35 @@ SphereContacts::RangeCount SphereContacts::count_beyond_range(const Scene& scene
         },
         [](std::uint32_t) {});
   });
-  RangeCount out;
-  for (const RangeCount& count : by_thread) out.contacts += count.contacts, out.beyond += count.beyond;
+  SphereRangeCount out;
+  for (const SphereRangeCount& count : by_thread) out.contacts += count.contacts, out.beyond += count.beyond;
   return out;
 }
 
 std::size_t SphereContacts::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return list_.memory() + bytes(sisters_) + bytes(rigid_) + bytes(virial_) + bytes(packing_) + bytes(pressed_) +
-         bytes(surface_pressure_);  // flips: a handful
+  return list_.memory() + bytes(sisters_) + bytes(rigid_) + bytes(virial_) + bytes(packing_.part) + bytes(packing_.pressure) +
+         bytes(packing_.on_surfaces);  // flips: a handful
+}
+
+void SphereFriction::begin_step(const World& world, StepStart& start) {
+  const cbm::Spheres& spheres = world.tissue.spheres;
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    const double r = spheres.radius[i];
+    start.point_friction[i] = static_cast<float>(world.model.types[spheres.type[i]].medium_friction * 4.0 * std::numbers::pi * r * r);
+  }
+  medium_ = start.point_friction.first(spheres.size());
+}
+
+void SphereFriction::add_friction(const World& world, const Way& way, std::span<Vec3d> out, OrderFreeSum& quadratic) {
+  if (!way.moved) return;
+  for (std::size_t i = 0; i < medium_.size(); ++i) {
+    const std::size_t point = world.scene.sphere_point() + i;
+    const Vec3d d = way.position[point] - way.start[point];
+    out[point] += d * static_cast<double>(medium_[i]);
+    quadratic.add(static_cast<double>(medium_[i]) * norm2(d));
+  }
+  contacts_.pairs().add_friction(way.start, way.position, out, quadratic);
 }
 
 }  // namespace morula

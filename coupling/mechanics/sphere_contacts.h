@@ -1,52 +1,51 @@
 #pragma once
+#include <algorithm>
 #include <span>
 #include <vector>
 
 #include "cbm/laws/sphere_caps.h"
 #include "cbm/pair_forces.h"
-#include "core/contact/contact_layer.h"
 #include "core/friction/sphere_pairs.h"
-#include "coupling/mechanics/scene.h"
-#include "coupling/model.h"
-#include "coupling/tissue.h"
+#include "coupling/mechanics/surface_contacts.h"
+#include "coupling/mechanics/term.h"
+#include "coupling/mechanics/told.h"
 
 namespace morula {
 
-/// Contacts of spheres with spheres and with obstacles: JKR or Hertz forces, friction by contact area, and who adheres to whom.
+/// Contacts of spheres with spheres and with obstacles: JKR or Hertz forces, packing, and who adheres to whom. What they rub is a term of its
+/// own (SphereFriction).
 ///
 /// Candidates come from the contact layer. Whether a pair is attached is state (cbm::Spheres::attached) and fixed within a step. Nothing is
 /// kept of a pair but what the solver needs of it: evaluating adds to sums by sphere at once.
-class SphereContacts {
+class SphereContacts : public Term {
  public:
-  SphereContacts(const Model& model, int threads);
+  SphereContacts(const Model& model, SurfaceContacts& surfaces);
 
-  /// New candidates: after the contact layer has found its pairs again. Takes the layer's list.
-  void set_pairs(const Scene& scene, ContactLayer& contacts, const Tissue& tissue);
-  /// Radii or time have changed: rest distances of young sisters anew.
-  void update_sisters(const Scene& scene, double now);
+  void bodies_changed(const World&) override { sisters_.clear(); }  // their pairs are those of bodies that are no more
+  /// Rest distances of young sisters at the present radii and time.
+  void parameters_changed(const World& world) override { update_sisters(world.scene, world.tissue.clock.time); }
+  /// New candidates if the surfaces' layer has some, and the pressures of packing, which surfaces feel, too.
+  void measure(const World& world) override;
+  /// Forces, energy and pressures, and the elements of the matrix.
+  void evaluate(const World& world, Forces& out) override;
+  /// From here on the present friction is that of the step.
+  void begin_step(const World&, StepStart&) override { friction_is_frozen_ = true; }
+  /// Who adheres to whom after the step, into the tissue; pressures follow.
+  void end_step(const World& world, StepEnd& end) override;
+  void abandon_step() override { friction_is_frozen_ = false; }
+  [[nodiscard]] std::size_t memory() const override;
+  [[nodiscard]] Stage stage() const override { return Stage::kContacts; }
+
   /// Whether any type of the model has a pressure of packing (cbm.md §3).
-  [[nodiscard]] bool packs() const { return packs_; }
-  /// Packing and pressure of the spheres at the scene's positions, ghosts too, for evaluate() and for the surfaces that press on them.
-  /// penetration: what surfaces take of the spheres, by body; empty: nothing. Collective. Precondition: packs().
-  void find_packing(const Scene& scene, const ContactLayer& contacts, std::span<const Penetration> penetration, const Comm& comm);
-  /// By body (surfaces: nothing); valid after find_packing().
-  [[nodiscard]] std::span<const SpherePressure> surface_pressure() const { return surface_pressure_; }
+  [[nodiscard]] bool packs() const { return packing_.acts; }
   /// φ of owned sphere i, and whether it is beyond the calibrated range of its type (packing.h).
-  [[nodiscard]] double packing(std::size_t i) const { return packs_ ? packing_[i] : 0.0; }
-  /// Forces on owned spheres at the scene's positions are added to `force` (by point); energy, pressures and the solver's elements follow.
-  void evaluate(const Scene& scene, const ContactLayer& contacts, std::span<Vec3d> force);
-  void add_energy(OrderFreeSum& sum) const { sum += energy_; }
-
-  /// From here to end_step() the present friction is that of the step. Precondition: evaluated since the last end_step().
-  void begin_step() { in_step_ = true; }
-  void end_step() { in_step_ = false; }
+  [[nodiscard]] double packing(std::size_t i) const { return packing_.acts ? packing_.part[i] : 0.0; }
   /// The pairs' part of the friction system.
   [[nodiscard]] const SpherePairs& pairs() const { return list_; }
-
-  /// Flags after the step, into the tissue; pressures follow. Returns whether any flag of this rank has changed.
-  bool update_attached(const Scene& scene, const ContactLayer& contacts, Tissue& tissue);
+  /// Flags at the present positions, into the tissue; pressures follow. Returns whether any flag of this rank has changed.
+  bool update_attached(const World& world, Tissue& tissue);
   /// The time has moved on: rest distances and pressures of young sisters anew. Returns whether any has changed.
-  bool renew_sisters(const Scene& scene, const ContactLayer& contacts, double now);
+  bool renew_sisters(const World& world);
   /// Σ_k (x_i − x_k)·f_k over the contacts of owned sphere i with spheres and obstacles [nN·µm].
   [[nodiscard]] double virial(std::size_t i) const { return virial_[i]; }
   /// What spheres and obstacles do to a sphere.
@@ -55,12 +54,9 @@ class SphereContacts {
     SymMat3<double> virial{};  ///< Σ_k (x_i − x_k) ⊗ f_k [nN·µm]
   };
   /// Of the owned spheres; evaluates the pairs, for nobody needs this in a step.
-  [[nodiscard]] std::vector<Pressing> pressing(const Scene& scene, const ContactLayer& contacts) const;
-  /// Contacts of spheres with spheres that this rank counts, and those of them that are larger than their law allows for (cbm/sphere_range.h).
-  struct RangeCount {
-    std::int64_t contacts = 0, beyond = 0;
-  };
-  [[nodiscard]] RangeCount count_beyond_range(const Scene& scene, const ContactLayer& contacts) const;
+  [[nodiscard]] std::vector<Pressing> pressing(const Scene& scene) const;
+  /// Contacts of spheres with spheres that this rank counts, and those beyond the range of their law.
+  [[nodiscard]] SphereRangeCount count_beyond_range(const Scene& scene) const;
   /// function(owned sphere, obstacle, normal, area) for the spheres that touch obstacles.
   template <class F>
   void for_touched_obstacles(F&& function) const {
@@ -72,7 +68,6 @@ class SphereContacts {
   void for_pushed_obstacles(F&& function) const {
     for (const RigidPair& pair : rigid_) function(pair.obstacle, pair.normal * pair.force);
   }
-  [[nodiscard]] std::size_t memory() const;
 
  private:
   /// Two daughters of one division; part of their overlap is forgiven for a while.
@@ -95,40 +90,65 @@ class SphereContacts {
     double force = 0.0, stiffness = 0.0;
     cbm::SphereCaps caps;
   };
+  /// How the spheres are packed, where some type resists it; empty elsewhere.
+  struct Packing {
+    bool acts = false;                        ///< some type of the model has a pressure of packing
+    std::vector<double> part;                 ///< by owned sphere: φ
+    std::vector<double> pressure;             ///< by sphere, ghosts too: p [kPa]
+    std::vector<SpherePressure> on_surfaces;  ///< by body
+  };
+  [[nodiscard]] int threads() const { return std::max(1, layer().settings().threads); }
+  /// The pairs that one thread visits: forces on its spheres, elements and flags of the pairs that it writes, and energies of those that come first
+  /// under one of its spheres.
+  void evaluate_share(std::size_t share, const Scene& scene, Vec3d* force, OrderFreeSum& energy);
   [[nodiscard]] PackingForce packing_force(const Scene& scene, const SpherePair& pair, double distance) const;
   void share_pressures(const Scene& scene, std::span<const double> slopes, std::span<const Penetration> others, const Comm& comm);
+  [[nodiscard]] const ContactLayer& layer() const { return surfaces_.layer(); }
+  void set_pairs(const Scene& scene, const Tissue& tissue);
+  void find_packing(const Scene& scene, std::span<const Penetration> penetration, const Comm& comm);
   void find_sisters(const Scene& scene, const Tissue& tissue);
-  void find_rigid_pairs(const Scene& scene, const ContactLayer& contacts, const Tissue& tissue);
+  void update_sisters(const Scene& scene, double now);
+  void find_rigid_pairs(const Scene& scene, const Tissue& tissue);
   void keep_step_friction(const Scene& scene, std::vector<SpherePair> old_pairs, std::vector<SpherePairElement> old_elements);
   /// Evaluates the pairs of a share that pass `wanted`: calls sink(number of the pair, block, lane) in their order for those within reach,
   /// and far_away(number) for the others.
   template <class Wanted, class Sink, class FarAway>
-  void visit(const SpherePairs::Share& share, const Scene& scene, const ContactLayer& contacts, Wanted&& wanted, Sink&& sink,
-             FarAway&& far_away) const;
+  void visit(const SpherePairs::Share& share, const Scene& scene, Wanted&& wanted, Sink&& sink, FarAway&& far_away) const;
   void set_element(SpherePairElement& element, const cbm::PairBlock& block, int lane) const;
   /// Where the part of the obstacle bears the sphere, seen from its centre: normal and distance of the pair. False: it does not (foot_on_part()).
-  bool locate_rigid(const Scene& scene, const ContactLayer& contacts, RigidPair& pair) const;
-  void evaluate_rigid(const Scene& scene, const ContactLayer& contacts, std::size_t k);
+  bool locate_rigid(const Scene& scene, RigidPair& pair) const;
+  void evaluate_rigid(const Scene& scene, std::size_t k);
   /// Pressures of the marked spheres anew, without touching forces.
-  void refresh_values(const Scene& scene, const ContactLayer& contacts, const std::vector<char>& marked);
+  void refresh_values(const Scene& scene, const std::vector<char>& marked);
   void write_partners(const Scene& scene, const std::vector<char>& marked, Tissue& tissue) const;
   [[nodiscard]] CellId partner_id(const Scene& scene, std::uint32_t sphere) const;
 
   const Model& model_;
-  int threads_;
-  bool packs_ = false;
-  cbm::ContactTable table_;  ///< of all materials and walls
+  SurfaceContacts& surfaces_;
+  std::uint64_t list_number_ = 0;  ///< of the candidates that the pairs were made from
+  cbm::ContactTable table_;        ///< of all materials and walls
   SpherePairs list_;
-  std::vector<Sisters> sisters_;                  ///< by pair
-  std::vector<RigidPair> rigid_;                  ///< by sphere, obstacle and part
-  std::vector<double> virial_;                    ///< by owned sphere [nN·µm]
-  std::vector<double> packing_;                   ///< by owned sphere: φ; empty where no type packs, as the next two
-  std::vector<double> pressed_;                   ///< by sphere, ghosts too: p [kPa]
-  std::vector<SpherePressure> surface_pressure_;  ///< by body
-  OrderFreeSum energy_;
+  std::vector<Sisters> sisters_;  ///< by pair
+  std::vector<RigidPair> rigid_;  ///< by sphere, obstacle and part
+  std::vector<double> virial_;    ///< by owned sphere [nN·µm]
+  Packing packing_;
   std::vector<std::vector<std::uint32_t>> flips_;  ///< by share: pairs whose flag changes if the step ends where they were evaluated last
-  bool in_step_ = false;
-  bool partners_stale_ = false;  ///< a sphere has partners that are no pair of the list any more
+  bool friction_is_frozen_ = false;                ///< a step is under way
+  bool partners_are_lost_ = false;                 ///< a sphere has partners that are no pair of the list any more
+};
+
+/// Friction of spheres with the medium, with each other and with obstacles: that of the step's start.
+class SphereFriction : public Term {
+ public:
+  explicit SphereFriction(const SphereContacts& contacts) : contacts_(contacts) {}
+
+  void begin_step(const World& world, StepStart& start) override;
+  void add_friction(const World& world, const Way& way, std::span<Vec3d> out, OrderFreeSum& quadratic) override;
+  void add_noise(const World& world, const Noise& noise, std::span<Vec3d> force) const override;
+
+ private:
+  const SphereContacts& contacts_;
+  std::span<const float> medium_;  ///< of the owned spheres, in the step's StepStart::point_friction [nN·s/µm]
 };
 
 }  // namespace morula

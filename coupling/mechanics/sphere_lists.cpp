@@ -19,10 +19,10 @@ CellId SphereContacts::partner_id(const Scene& scene, std::uint32_t sphere) cons
   return scene.bodies()[scene.first_sphere() + sphere].id;
 }
 
-void SphereContacts::set_pairs(const Scene& scene, ContactLayer& contacts, const Tissue& tissue) {
+void SphereContacts::set_pairs(const Scene& scene, const Tissue& tissue) {
   std::vector<SpherePair> old_pairs;
   std::vector<SpherePairElement> old_elements;
-  if (in_step_) {
+  if (friction_is_frozen_) {
     old_pairs.swap(list_.pairs);
     old_elements.swap(list_.elements);
   }
@@ -31,11 +31,11 @@ void SphereContacts::set_pairs(const Scene& scene, ContactLayer& contacts, const
   const auto spheres = scene.bodies().subspan(first);
   list_.pairs.clear();
   {
-    const std::vector<SphereNeighbours> found = contacts.take_sphere_neighbours();
+    const std::vector<SphereNeighbours> found = surfaces_.layer().take_sphere_neighbours();
     list_.pairs.reserve(found.size());
     for (const SphereNeighbours& n : found) list_.pairs.push_back({n.a - first, (n.b - first) & 0x7FFFFFFFu, 0});
   }
-  if (in_step_)
+  if (friction_is_frozen_)
     keep_step_friction(scene, std::move(old_pairs), std::move(old_elements));
   else
     list_.elements.assign(list_.pairs.size(), {});
@@ -43,7 +43,7 @@ void SphereContacts::set_pairs(const Scene& scene, ContactLayer& contacts, const
     list_.material.resize(spheres.size());
     for (std::size_t i = 0; i < spheres.size(); ++i) list_.material[i] = spheres[i].material;
   }
-  list_.set_layout(scene.sphere_point(), owned, threads_);
+  list_.set_layout(scene.sphere_point(), owned, threads());
 
   std::vector<std::uint32_t> known(owned, 0);  // attached pairs of each sphere
   for (SpherePair& pair : list_.pairs) {
@@ -53,11 +53,11 @@ void SphereContacts::set_pairs(const Scene& scene, ContactLayer& contacts, const
     if (pair.a < owned) ++known[pair.a];
     if (pair.b < owned) ++known[pair.b];
   }
-  find_rigid_pairs(scene, contacts, tissue);
+  find_rigid_pairs(scene, tissue);
   for (std::size_t k = 0; k < rigid_.size(); ++k)
     if (k == 0 || !rigid_[k].same_bodies(rigid_[k - 1])) known[rigid_[k].sphere] += rigid_[k].attached;
-  partners_stale_ = false;
-  for (std::uint32_t i = 0; i < owned; ++i) partners_stale_ = partners_stale_ || known[i] != tissue.spheres.attached[i].size();
+  partners_are_lost_ = false;
+  for (std::uint32_t i = 0; i < owned; ++i) partners_are_lost_ = partners_are_lost_ || known[i] != tissue.spheres.attached[i].size();
   find_sisters(scene, tissue);
 }
 
@@ -89,25 +89,25 @@ void SphereContacts::keep_step_friction(const Scene& scene, std::vector<SpherePa
   list_.pairs = std::move(merged);
 }
 
-void SphereContacts::find_rigid_pairs(const Scene& scene, const ContactLayer& contacts, const Tissue& tissue) {
+void SphereContacts::find_rigid_pairs(const Scene& scene, const Tissue& tissue) {
   const std::vector<RigidPair> old = std::move(rigid_);
   const std::vector<RigidPairElement> old_elements = std::move(list_.rigid);
   rigid_.clear();
   list_.rigid.clear();
-  const auto obstacles = contacts.obstacles();
+  const auto obstacles = layer().obstacles();
   const auto spheres = scene.bodies().subspan(scene.first_sphere());
   std::size_t k = 0;
   std::vector<std::uint32_t> faces, parts;
   for (std::uint32_t i = 0; i < scene.owned_spheres(); ++i)
     for (std::uint32_t o = 0; o < obstacles.size(); ++o) {
-      const double reach = spheres[i].radius + contacts.settings().sphere_reach + contacts.settings().body_skin;
+      const double reach = spheres[i].radius + layer().settings().sphere_reach + layer().settings().body_skin;
       Box box;
-      box.include(scene.position()[spheres[i].first_point] - contacts.obstacle_offset(o));
+      box.include(scene.position()[spheres[i].first_point] - layer().obstacle_offset(o));
       obstacles[o].tree->faces_in(box.inflated(reach), faces);
       parts.clear();
       for (const std::uint32_t face : faces) parts.push_back(obstacles[o].part_of_face[face]);
       for (; k < old.size() && (old[k].sphere != i ? old[k].sphere < i : old[k].obstacle <= o); ++k)  // what rubs goes on to the step's end
-        if (in_step_ && old[k].sphere == i && old[k].obstacle == o && rubs(old_elements[k])) parts.push_back(old[k].part);
+        if (friction_is_frozen_ && old[k].sphere == i && old[k].obstacle == o && rubs(old_elements[k])) parts.push_back(old[k].part);
       std::sort(parts.begin(), parts.end());
       parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
       const bool attached = !parts.empty() && cbm::adheres(tissue.spheres.attached[i], obstacle_partner(o));
@@ -121,7 +121,7 @@ void SphereContacts::find_rigid_pairs(const Scene& scene, const ContactLayer& co
         element.sphere = i;
       }
     }
-  if (!in_step_) return;
+  if (!friction_is_frozen_) return;
   const auto before = [](const RigidPair& a, const RigidPair& b) {
     return std::tie(a.sphere, a.obstacle, a.part) < std::tie(b.sphere, b.obstacle, b.part);
   };

@@ -8,15 +8,14 @@
 
 namespace morula {
 
-void SphereContacts::find_packing(const Scene& scene, const ContactLayer& contacts, std::span<const Penetration> penetration,
-                                  const Comm& comm) {
+void SphereContacts::find_packing(const Scene& scene, std::span<const Penetration> penetration, const Comm& comm) {
   const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
   const Vec3d* x = scene.position().data() + scene.sphere_point();
   const ContactBody* body = scene.bodies().data() + scene.first_sphere();
   const bool periodic = model_.space.any_periodic();
   std::vector<double> taken(owned, 0.0), slopes(owned, 0.0);
   const auto shares = list_.shares();
-  on_each_thread(threads_, [&](std::size_t t) {
+  on_each_thread(threads(), [&](std::size_t t) {
     const SpherePairs::Share& share = shares[t];
     for (const SpherePairs::Run& run : share.runs) {
       auto sisters =
@@ -44,16 +43,16 @@ void SphereContacts::find_packing(const Scene& scene, const ContactLayer& contac
   std::vector<Penetration> others(owned);  // surfaces and walls
   for (std::uint32_t i = 0; i < owned && !penetration.empty(); ++i) others[i] = penetration[scene.first_sphere() + i];
   for (RigidPair& pair : rigid_) {
-    if (!locate_rigid(scene, contacts, pair)) continue;
+    if (!locate_rigid(scene, pair)) continue;
     const double r = body[pair.sphere].radius;
     const cbm::PlaneCap cap = cbm::plane_cap(r, r - pair.distance);
     others[pair.sphere].volume += cap.volume;
     others[pair.sphere].slope += cap.slope;
   }
-  packing_.resize(owned);
+  packing_.part.resize(owned);
   for (std::uint32_t i = 0; i < owned; ++i) {
     const double r = body[i].radius;
-    packing_[i] = (taken[i] + others[i].volume) / ((4.0 / 3.0) * std::numbers::pi * r * r * r);
+    packing_.part[i] = (taken[i] + others[i].volume) / ((4.0 / 3.0) * std::numbers::pi * r * r * r);
   }
   share_pressures(scene, slopes, others, comm);
 }
@@ -67,7 +66,7 @@ void SphereContacts::share_pressures(const Scene& scene, std::span<const double>
   bool resists = false;
   for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
     const ContactBody& body = scene.bodies()[first + i];
-    const auto value = model_.types[body.material].sphere.packing.at(packing_[i]);
+    const auto value = model_.types[body.material].sphere.packing.at(packing_.part[i]);
     const double stiffness = value.slope / ((4.0 / 3.0) * std::numbers::pi * body.radius * body.radius * body.radius);
     const double s = slopes[i], t = others[i].slope;
     shared[body.first_point] = {value.pressure, s > 0.0 ? stiffness * (1.0 + t / s) : 0.0, stiffness * (s + t)};
@@ -75,21 +74,21 @@ void SphereContacts::share_pressures(const Scene& scene, std::span<const double>
   }
   list_.packing.on = comm.any(resists);
   scene.exchange(std::span(shared));
-  pressed_.resize(count);
+  packing_.pressure.resize(count);
   list_.packing.resistance.resize(count);
-  surface_pressure_.assign(scene.bodies().size(), {});
+  packing_.on_surfaces.assign(scene.bodies().size(), {});
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3d& here = shared[scene.bodies()[first + i].first_point];
-    pressed_[i] = here.x;
+    packing_.pressure[i] = here.x;
     list_.packing.resistance[i] = static_cast<float>(here.y);
-    surface_pressure_[first + i] = {here.x, here.z};
+    packing_.on_surfaces[first + i] = {here.x, here.z};
   }
   list_.packing.exchange = [&scene](std::span<Float4> by_point) { scene.exchange(by_point); };
 }
 
 SphereContacts::PackingForce SphereContacts::packing_force(const Scene& scene, const SpherePair& pair, double distance) const {
   const ContactBody* body = scene.bodies().data() + scene.first_sphere();
-  const double p_a = pressed_[pair.a], p_b = pressed_[pair.b];
+  const double p_a = packing_.pressure[pair.a], p_b = packing_.pressure[pair.b];
   PackingForce out;
   if (p_a == 0.0 && p_b == 0.0 && list_.packing.resistance[pair.a] == 0.0f && list_.packing.resistance[pair.b] == 0.0f) return out;
   out.caps = cbm::sphere_caps(body[pair.a].radius, body[pair.b].radius, distance);

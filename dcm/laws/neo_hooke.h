@@ -1,6 +1,9 @@
 #pragma once
 #include <cmath>
 
+#include "dcm/sheet_loops.h"
+#include "dcm/shell_keys.h"
+#include "dcm/shell_law.h"
 #include "dcm/stencils/membrane.h"
 
 namespace morula::dcm {
@@ -35,7 +38,7 @@ struct NeoHooke {
     const Real half = Real(0.5) * shear;
     return {half * (trace - Real(2.0) + integral), half, -half * power / det};
   }
-  MembraneModuli<Real> moduli(Real det) const noexcept {
+  MembraneModuli<Real> moduli(Real /*trace*/, Real det) const noexcept {
     Real power, integral;
     powers(det, power, integral);
     const Real slope = Real(-0.5) * shear * power / det;
@@ -64,5 +67,30 @@ struct NeoHooke {
     }
   }
 };
+
+/// The law as the registry has it.
+inline ShellLaw neo_hooke() {
+  static const auto law = sheet_law<NeoHooke>("neo_hooke");
+  return {
+      .info = {.name = "neo_hooke",
+               .title = "Elastic cortex: neo-Hookean membrane on constant-strain triangles",
+               .equation = "W = ½ G [tr C − 2 + (det C^(−α) − 1)/α], G = E h / (2 (1 + ν)), α = ν/(1 − ν); ν = ½: ½ G (tr C + 1/det C − 3)",
+               .source = "Blatz & Ko 1962, doi:10.1122/1.548937, in plane stress; Holzapfel 2000, Nonlinear Solid Mechanics, §6.5",
+               .parameters = {given_by_study("shear_modulus", "tension", "nN/µm", "Shear modulus G of the sheet, E h/(2 (1 + ν))."),
+                              given_by_study("area_ratio", "number", "1", "α = ν/(1 − ν), from the Poisson ratio ν.")},
+               .keys = keys::layer()},
+      .stencil = LawStencil::kFace,
+      .sheet = law,
+      .words = {{.word = "neo_hooke",
+                 .doc = "triangles of constant strain, Poisson ratio 0 to 1/2",
+                 .resists_area = true,
+                 .has_area_ratio = true,
+                 .build =
+                     [](const LawValues& v, ShellParameters& p) {
+                       const auto [shear, area_ratio] = SheetModuli::of(v);
+                       add_sheet(p, law, {shear, area_ratio});
+                     },
+                 .stiffness = &sheet_stiffness}}};
+}
 
 }  // namespace morula::dcm

@@ -1,4 +1,7 @@
 #pragma once
+#include "dcm/sheet_loops.h"
+#include "dcm/shell_keys.h"
+#include "dcm/shell_law.h"
 #include "dcm/stencils/membrane.h"
 
 namespace morula::dcm {
@@ -21,11 +24,58 @@ struct Skalak {
             Real(0.5) * shear * (area_ratio * i2 - Real(1.0))};
   }
   /// ∂²W/∂C² is ½ G [dC:dC + C dD² + κ ((tr dC)² − dC:dC)], κ = C (D − 1); positive semi-definite for |κ| ≤ 1, at which κ is cut.
-  MembraneModuli<Real> moduli(Real det) const noexcept {
+  MembraneModuli<Real> moduli(Real /*trace*/, Real det) const noexcept {
     const Real half = Real(0.5) * shear;
     const Real kappa = max(Real(-1.0), min(Real(1.0), area_ratio * (det - Real(1.0))));
     return {half, Real(0.0), half * area_ratio, half * (kappa - Real(1.0))};
   }
 };
+
+inline std::vector<KeySpec> skalak_keys() {
+  return {{.name = "shear_modulus",
+           .doc = "Shear modulus G of `elastic: skalak`; `auto`: E h/(2 (1 + poisson)).",
+           .quantity = Quantity::kTension,
+           .fallback = "auto",
+           .low = 0.0,
+           .high = 1e4,
+           .low_open = true,
+           .specials = {{"auto", kAuto}},
+           .example = "5.5 uN/m",
+           .source = "thin sheet of an isotropic solid"},
+          {.name = "area_ratio",
+           .doc = "Resistance to change of area C of `elastic: skalak`; `auto`: poisson/(1 - poisson).",
+           .fallback = "auto",
+           .low = 0.0,
+           .high = 1e6,
+           .specials = {{"auto", kAuto}},
+           .example = "50",
+           .source = "Skalak et al. 1973, doi:10.1016/S0006-3495(73)85983-1"}};
+}
+
+/// The law as the registry has it.
+inline ShellLaw skalak() {
+  static const auto law = sheet_law<Skalak>("skalak");
+  return {.info = {.name = "skalak",
+                   .title = "Elastic cortex: Skalak's membrane on constant-strain triangles",
+                   .equation = "W = ¼ G (I1² + 2 I1 − 2 I2 + C I2²), I1 = tr C − 2, I2 = det C − 1, G = E h / (2 (1 + ν)), C = ν/(1 − ν)",
+                   .source = "Skalak et al. 1973, doi:10.1016/S0006-3495(73)85983-1",
+                   .parameters = {given_by_study("shear_modulus", "tension", "nN/µm", "Shear modulus G of the sheet, E h/(2 (1 + ν))."),
+                                  given_by_study("area_ratio", "number", "1",
+                                                 "Resistance to change of area C; ν/(1 − ν) of a sheet of Poisson ratio ν.")},
+                   .keys = keys::layer(skalak_keys())},
+          .stencil = LawStencil::kFace,
+          .sheet = law,
+          .words = {{.word = "skalak",
+                     .doc = "triangles of constant strain, shear and change of area apart",
+                     .keys = skalak_keys(),
+                     .resists_area = true,
+                     .has_area_ratio = true,
+                     .build =
+                         [](const LawValues& v, ShellParameters& p) {
+                           const auto [shear, area_ratio] = SheetModuli::of(v);
+                           add_sheet(p, law, {shear, area_ratio});
+                         },
+                     .stiffness = &sheet_stiffness}}};
+}
 
 }  // namespace morula::dcm

@@ -1,4 +1,7 @@
 #pragma once
+#include "dcm/sheet_loops.h"
+#include "dcm/shell_keys.h"
+#include "dcm/shell_law.h"
 #include "dcm/stencils/membrane.h"
 
 namespace morula::dcm {
@@ -24,7 +27,7 @@ struct StVenantKirchhoff {
             Real(-0.5) * shear};
   }
   /// ∂²W/∂C², positive definite everywhere: ½ G [dC:dC + α (tr dC)²].
-  MembraneModuli<Real> moduli() const noexcept {
+  MembraneModuli<Real> moduli(Real /*trace*/, Real /*det*/) const noexcept {
     return {Real(0.5) * shear * (Real(1.0) + area_ratio), Real(0.0), Real(0.0), Real(-0.5) * shear};
   }
   /// > 0 where a principal stretch is outside the range of validity: the excess of λ².
@@ -33,5 +36,31 @@ struct StVenantKirchhoff {
     return max(square[0] - Real(kMaxStretch * kMaxStretch), Real(kMinStretch * kMinStretch) - square[1]);
   }
 };
+
+/// The law as the registry has it.
+inline ShellLaw st_venant_kirchhoff() {
+  static const auto law =
+      sheet_law<StVenantKirchhoff>("st_venant_kirchhoff", "is stretched beyond 0.8 to 1.3, where the law softens; neo_hooke holds there");
+  return {
+      .info = {.name = "st_venant_kirchhoff",
+               .title = "Elastic cortex: St Venant–Kirchhoff membrane on constant-strain triangles",
+               .equation = "W = G [tr E² + α (tr E)²], E = (C − 1)/2, G = E h / (2 (1 + ν)), α = ν/(1 − ν); stretches within 0.8 to 1.3",
+               .source = "Holzapfel 2000, Nonlinear Solid Mechanics, §6.5",
+               .parameters = {given_by_study("shear_modulus", "tension", "nN/µm", "Shear modulus G of the sheet, E h/(2 (1 + ν))."),
+                              given_by_study("area_ratio", "number", "1", "α = ν/(1 − ν), from the Poisson ratio ν.")},
+               .keys = keys::layer()},
+      .stencil = LawStencil::kFace,
+      .sheet = law,
+      .words = {{.word = "stvk",
+                 .doc = "St Venant-Kirchhoff on triangles of constant strain, Poisson ratio 0 to 1/2; stretches from 0.8 to 1.3 only",
+                 .resists_area = true,
+                 .has_area_ratio = true,
+                 .build =
+                     [](const LawValues& v, ShellParameters& p) {
+                       const auto [shear, area_ratio] = SheetModuli::of(v);
+                       add_sheet(p, law, {shear, area_ratio});
+                     },
+                 .stiffness = &sheet_stiffness}}};
+}
 
 }  // namespace morula::dcm

@@ -5,7 +5,9 @@
 #include <cstring>
 #include <numbers>
 
+#include "core/contact/contact_layer.h"
 #include "coupling/grips.h"
+#include "coupling/mechanics/scene.h"
 #include "coupling/swaps.h"
 
 namespace morula::scenarios {

@@ -6,7 +6,6 @@
 #include "cbm/sphere_range.h"
 #include "coupling/behaviours/builtin.h"
 #include "coupling/builtin.h"
-#include "dcm/builtin.h"
 #include "dcm/interior_laws.h"
 #include "fields/builtin.h"
 
@@ -21,49 +20,14 @@ LawInfo law_named(std::vector<LawInfo> laws, const char* name) {
   return {};
 }
 
-/// What stands for the moduli of a law that the model holds as one stiffness.
-std::vector<LawParameter> held_parameters(const std::string& law) {
-  const LawParameter ratio = given_by_study("membrane_area_ratio", "number", "1", "ν/(1 − ν), from the Poisson ratio ν.");
-  const char* shear = "Shear modulus G of the sheet, from Young's modulus, thickness and Poisson ratio.";
-  if (law == "edge_spring")
-    return {given_by_study("spring_stiffness", "tension", "nN/µm", "Stiffness k of every edge, from Young's modulus and thickness.")};
-  if (law == "neo_hooke") return {given_by_study("neo_hooke_shear", "tension", "nN/µm", shear), ratio};
-  if (law == "st_venant_kirchhoff") return {given_by_study("stvk_shear", "tension", "nN/µm", shear), ratio};
-  if (law == "skalak") return {given_by_study("skalak_shear", "tension", "nN/µm", shear), ratio};
-  if (law == "hinge_bending")
-    return {given_by_study("hinge_stiffness", "energy", "nN·µm",
-                           "Stiffness k_h of every hinge, from Young's modulus, thickness and Poisson ratio.")};
-  return {};
-}
-
-/// The values of one type by parameter name, where the model holds them.
-void add_shell_laws(const std::string& whose, const dcm::ShellParameters& p, std::vector<UsedLaw>& out) {
-  const Values values{{"edge_damping", p.edge_damping},
-                      {"isotropic_damping", p.isotropic_damping},
-                      {"tension", p.tension},
-                      {"bulk_modulus", p.bulk_modulus},
-                      {"bulk_viscosity", p.bulk_viscosity},
-                      {"shape_stiffness", p.shape_stiffness},
-                      {"barrier_stiffness", p.barrier_stiffness},
-                      {"barrier_angle", p.barrier_angle},
-                      {"medium_friction", p.medium_friction},
-                      {"spring_stiffness", p.spring_stiffness},
-                      {"neo_hooke_shear", p.neo_hooke_shear},
-                      {"stvk_shear", p.stvk_shear},
-                      {"skalak_shear", p.skalak_shear},
-                      {"membrane_area_ratio", p.membrane_area_ratio},
-                      {"local_area_modulus", p.local_area_modulus},
-                      {"global_area_modulus", p.global_area_modulus},
-                      {"turnover_time", 1.0 / p.turnover_rate},
-                      {"hinge_stiffness", p.hinge_stiffness},
-                      {"helfrich_rigidity", p.helfrich_rigidity},
-                      {"spontaneous_curvature", p.spontaneous_curvature}};
-  for (const dcm::ShellLaw& law : dcm::shell_laws()) {
-    if (p.*law.strength == 0.0) continue;
-    LawInfo info = law.info;
-    if (auto held = held_parameters(info.name); !held.empty()) info.parameters = std::move(held);
-    out.push_back({whose, std::move(info), values});
-  }
+/// The laws of one shell with the coefficients that the model holds.
+void add_shell_laws(const Laws& laws, const std::string& whose, const dcm::ShellParameters& p, std::vector<UsedLaw>& out) {
+  for (const dcm::ShellLaw& law : laws.shells)
+    for (const std::vector<double>& coefficients : coefficients_of(law, p)) {
+      Values values;
+      for (std::size_t k = 0; k < coefficients.size(); ++k) values.emplace_back(law.info.parameters[k].name, coefficients[k]);
+      out.push_back({whose, law.info, std::move(values)});
+    }
 }
 
 const char* law_name(SurfaceLaw law) {
@@ -238,8 +202,8 @@ std::vector<UsedLaw> used_laws(const Study& study) {
   std::vector<UsedLaw> out;
   for (const CellType& type : model.types) {
     if (!shells) break;
-    add_shell_laws("shell of " + type.name, type.shell, out);
-    if (type.interior.has_nuclear_shell()) add_shell_laws("nucleus of " + type.name, type.interior.nucleus_shell, out);
+    add_shell_laws(*study.laws, "shell of " + type.name, type.shell, out);
+    if (type.interior.has_nuclear_shell()) add_shell_laws(*study.laws, "nucleus of " + type.name, type.interior.nucleus_shell, out);
     add_interior_laws(type, out);
   }
   add_contacts(model, shells, spheres, out);

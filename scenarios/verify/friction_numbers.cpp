@@ -1,6 +1,7 @@
 // Friction matrix and explicit steps: T1.1–T1.4 of dcm.md §1.
 #include <cmath>
 
+#include "dcm/builtin.h"
 #include "dcm/derived_parameters.h"
 #include "scenarios/verify/lone_shell.h"
 #include "scenarios/verify/reference_numbers.h"
@@ -97,20 +98,20 @@ double largest_explicit_step(std::uint32_t nodes, const dcm::ShellParameters& p)
 void add_explicit_steps(std::vector<ReferenceNumber>& out) {
   struct Law {
     const char* name;
-    double dcm::ShellParameters::*strength;
+    dcm::LawStrength strength;
     double value, step_162, step_642;
   };
   const double shear = dcm::sheet_shear_modulus(kYoung, kThickness, kPoisson);
   for (const Law& law : {Law{"springs", &dcm::ShellParameters::spring_stiffness, 0.173205, 0.540, 0.131},
-                         Law{"neo-Hookean membrane", &dcm::ShellParameters::neo_hooke_shear, shear, 0.432, 0.104},
-                         Law{"Skalak's membrane", &dcm::ShellParameters::skalak_shear, shear, 0.432, 0.104},
+                         Law{"neo-Hookean membrane", dcm::shell_law("neo_hooke").strength(), shear, 0.432, 0.104},
+                         Law{"Skalak's membrane", dcm::shell_law("skalak").strength(), shear, 0.432, 0.104},
                          Law{"tension", &dcm::ShellParameters::tension, kTension, 0.191, 0.0449},
                          Law{"pressure", &dcm::ShellParameters::bulk_modulus, kBulk, 0.162, 0.161},
                          Law{"hinges", &dcm::ShellParameters::hinge_stiffness, 1.0264e-3, 42.8, 2.52},
                          Law{"Helfrich bending", &dcm::ShellParameters::helfrich_rigidity, 8.8889e-4, 54.1, 2.87}})
     for (const auto& [nodes, step] : {std::pair{162u, law.step_162}, std::pair{642u, law.step_642}}) {
       dcm::ShellParameters p = nothing();
-      p.*law.strength = law.value;
+      law.strength.in(p) = law.value;
       out.push_back({"T1.4", std::string("longest stable explicit step, ") + law.name + " alone, " + std::to_string(nodes) + " nodes [s]",
                      step, 0.05 * step, "computed independently on the same mesh; dcm.md asks for 5 %",
                      [nodes = nodes, p] { return largest_explicit_step(nodes, p); }});

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "coupling/simulation.h"
+#include "dcm/builtin.h"
 #include "dcm/derived_parameters.h"
 #include "dcm/growth.h"
 #include "scenarios/verify/lone_shell.h"
@@ -15,7 +16,8 @@ dcm::ShellParameters elastic() {
   dcm::ShellParameters p = nothing();
   p.spring_stiffness = dcm::spring_stiffness(kYoung, kThickness);
   p.hinge_stiffness = dcm::hinge_stiffness(kYoung, kThickness, kPoisson);
-  p.neo_hooke_shear = p.skalak_shear = p.stvk_shear = dcm::sheet_shear_modulus(kYoung, kThickness, kPoisson);
+  for (const char* law : {"neo_hooke", "skalak", "st_venant_kirchhoff"})
+    dcm::shell_law(law).strength().in(p) = dcm::sheet_shear_modulus(kYoung, kThickness, kPoisson);
   p.local_area_modulus = p.global_area_modulus = kYoung * kThickness;
   p.bulk_modulus = kBulk;
   return p;
@@ -34,7 +36,7 @@ double energy_after_doubling() {
 double radius_after_doubling() {
   Model model = lone_cell_model();
   model.types[0].shell = elastic();
-  model.types[0].shell.stvk_shear = 0.0;  // it does not stand the way there
+  dcm::shell_law("st_venant_kirchhoff").strength().in(model.types[0].shell) = 0.0;  // it does not stand the way there
   model.types[0].shell.medium_friction = kMedium;
   Tissue tissue = lone_cell(model, 162);
   tissue.cells.rows[0].target_volume *= 2.0;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/contact/contact_layer.h"
+#include "coupling/mechanics/scene.h"
 #include "tests/coupling/friction_sums.h"
 #include "tests/coupling/tissue_fixture.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dcm/builtin.h"
 #include "tests/coupling/exact_steps.h"
 #include "tests/coupling/tissue_fixture.h"
 
@@ -105,7 +106,7 @@ double furthest(const Tissue& a, const Tissue& b) {
 TEST(Equilibrium, OfACellDoesNotDependOnFriction) {
   Model model = tense_model(0.173205);
   model.types[0].shell.hinge_stiffness = 1e-3;
-  model.types[0].shell.neo_hooke_shear = 0.05;
+  model.types[0].shell.sheets = {{dcm::shell_law("neo_hooke").sheet, {0.05, 1.0}}};
   ShapeLibrary shapes;
   Tissue start = test::make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell}, 162);
   for (Vec3d& x : start.shells.position) x = {1.2 * x.x, x.y, x.z / 1.2};

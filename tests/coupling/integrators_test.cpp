@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/random/philox.h"
+#include "dcm/builtin.h"
 #include "tests/coupling/exact_steps.h"
 #include "tests/coupling/tissue_fixture.h"
 
@@ -123,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(Both, KelvinVoigtShell, testing::Values(Integrator::kIm
 Model rich_model() {
   Model model = test::clusters_model();
   CellType& type = model.types[0];
-  type.shell.neo_hooke_shear = 0.05;
+  type.shell.sheets = {{dcm::shell_law("neo_hooke").sheet, {0.05, 1.0}}};
   type.shell.local_area_modulus = 0.05;
   type.shell.global_area_modulus = 0.05;
   type.shell.helfrich_rigidity = 8.9e-4;

@@ -1,5 +1,7 @@
 /// Friction of contacts that does not feel a common rotation (dcm.md §1, T9.4).
 #include "core/contact/objective_friction.h"
+#include "core/contact/contact_layer.h"
+#include "coupling/mechanics/scene.h"
 
 #include <gtest/gtest.h>
 

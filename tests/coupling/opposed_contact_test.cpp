@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "core/contact/contact_layer.h"
 #include "core/random/philox.h"
+#include "coupling/mechanics/scene.h"
 #include "tests/coupling/energy_gradient.h"
 #include "tests/coupling/tissue_fixture.h"
 

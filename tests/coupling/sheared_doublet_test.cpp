@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/contact/contact_layer.h"
+#include "coupling/mechanics/scene.h"
 #include "tests/coupling/exact_steps.h"
 #include "tests/coupling/friction_sums.h"
 #include "tests/coupling/tissue_fixture.h"

@@ -79,6 +79,11 @@ inline ShellParameters nothing() {
   return p;
 }
 
+/// The area ratio of all sheets of a shell.
+inline void set_area_ratio(ShellParameters& p, double ratio) {
+  for (Sheet& sheet : p.sheets) sheet.coefficient[1] = ratio;
+}
+
 inline SurfaceGeometry geometry_of(const Shells& shells, const ShellBlocks& blocks, std::span<const Vec3d> position) {
   std::vector<const Topology*> topology;
   for (const auto& shape : shells.shape) topology.push_back(shape->topology.get());

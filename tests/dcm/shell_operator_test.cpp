@@ -17,11 +17,13 @@ std::vector<ShellParameters> everything() {
   p.hinge_stiffness = 1.0264e-3;
   p.tension = 0.5;
   p.barrier_angle = 0.5;
-  p.neo_hooke_shear = 0.05, p.helfrich_rigidity = 0.02;
+  p.helfrich_rigidity = 0.02;
   ShellParameters q = p;
   q.tension = 0.8, q.shape_stiffness = 0.1, q.edge_damping = 0.3;
-  q.neo_hooke_shear = 0.0, q.helfrich_rigidity = 0.0;
-  q.stvk_shear = 0.02, q.skalak_shear = 0.03, q.membrane_area_ratio = 0.6, q.local_area_modulus = 0.1, q.global_area_modulus = 0.2;
+  p.sheets = {{shell_law("neo_hooke").sheet, {0.05, 1.0}}};
+  q.helfrich_rigidity = 0.0;
+  q.sheets = {{shell_law("st_venant_kirchhoff").sheet, {0.02, 0.6}}, {shell_law("skalak").sheet, {0.03, 0.6}}};
+  q.local_area_modulus = 0.1, q.global_area_modulus = 0.2;
   q.bulk_viscosity = 3.0;
   return {p, q};
 }
@@ -32,7 +34,7 @@ TEST_P(EveryShellLawInTheOperator, IsSymmetricAndPositiveSemiDefinite) {
   const ShellLaw& law = GetParam();
   const Shells shells = small_rough_shell();
   ShellParameters p = nothing();
-  p.*law.strength = 0.7;
+  law.strength().in(p) = 0.7;
   p.barrier_angle = 0.2;
   const Eigen::MatrixXd matrix = dense(assemble(shells, {p}, 10.0), shells);
   const double largest = matrix.cwiseAbs().maxCoeff();

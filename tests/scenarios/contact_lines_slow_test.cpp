@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/contact/contact_layer.h"
 #include "scenarios/library/shape_measures.h"
 #include "scenarios/library/single_cell.h"
 #include "scenarios/library/theory.h"

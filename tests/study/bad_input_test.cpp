@@ -141,10 +141,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"TwoSheets", "cortex: {young: 1 kPa",
              "membrane: {elastic: skalak, shear_modulus: 5 uN/m, area_ratio: 1}\n      cortex: {elastic: neo_hooke, young: 1 kPa",
              "by `cortex.elastic: neo_hooke` and by `membrane.elastic: skalak` [E513]"},
-        Case{"TwoAreaRatios", "cortex: {young: 1 kPa",
-             "area: {on_top: true}\n      membrane: {elastic: skalak, shear_modulus: 5 uN/m, area_ratio: 50}\n"
-             "      cortex: {elastic: neo_hooke, young: 1 kPa",
-             "the area ratio of the membrane (50) is not that of the layer below (1) [E595]"},
+        Case{"BarrierFromWhereItIsTooLate", "bulk_modulus: 2.5 kPa", "fold_barrier: {angle: 2.9 rad}",
+             "'angle' is 2.9 rad, but must be between 0.2 rad and 2.8 rad [E302]"},
         Case{"TwoCurvatures", "bulk_modulus: 2.5 kPa",
              "bending: {law: helfrich}\n      membrane: {bending: helfrich, rigidity: 2e-19 J, spontaneous_radius: 3 um}",
              "the spontaneous curvature of the membrane is not that of the layer below [E595]"},

@@ -27,7 +27,7 @@ void expect_same_study(const Study& a, const Study& b) {
               std::tie(t.radius.mean, t.radius.relative_spread, t.cycles, t.cycle_duration.mean, t.inhibit_pressure, t.death_field,
                        t.death_below, t.death_rate, t.apoptosis_time, t.removal_fraction, t.migration_speed, t.migration_persistence,
                        t.medium_friction, t.initial_body, t.shell_nodes));
-    EXPECT_EQ(std::memcmp(&s.shell, &t.shell, sizeof s.shell), 0);
+    EXPECT_TRUE(s.shell == t.shell);
   }
   ASSERT_EQ(a.model.pairs.size(), b.model.pairs.size());
   for (std::size_t i = 0; i < a.model.pairs.size(); ++i) EXPECT_EQ(a.model.pairs[i].adhesion, b.model.pairs[i].adhesion);
@@ -107,7 +107,7 @@ TEST(StudyDeclarations, EveryDefaultAndExampleCanBeRead) {
       visit(child);
     }
   };
-  visit(study_declarations());
+  visit(study_declarations(*builtin_laws()));
   EXPECT_GT(documented, 120);
 }
 
@@ -128,32 +128,32 @@ void expect_keys(const Declaration& d, const nlohmann::json& schema) {
 }
 
 TEST(StudyDeclarations, SchemaHoldsEveryKey) {
-  const auto schema = nlohmann::json::parse(study_json_schema());
+  const auto schema = nlohmann::json::parse(study_json_schema(*builtin_laws()));
   EXPECT_EQ(schema.at("$schema"), "https://json-schema.org/draft/2020-12/schema");
-  expect_keys(study_declarations(), schema);
+  expect_keys(study_declarations(*builtin_laws()), schema);
   EXPECT_THAT(schema.at("required").dump(), HasSubstr("cell_types"));
 }
 
 TEST(StudyDeclarations, ReferenceHoldsEveryKeyAndCode) {
-  const std::string reference = study_reference();
+  const std::string reference = study_reference(*builtin_laws());
   for (const char* words : {"## `cell_types.<name>.dcm.cortex`", "| `tension` |", "0.1 mN/m", "| E501 |", "`<field>_below`"})
     EXPECT_THAT(reference, HasSubstr(words));
 }
 
 TEST(StudyDeclarations, KeysAndCodesAreExplained) {
   for (const char* id : {"dcm.cortex.tension", "cell_types.hepatocyte.dcm.cortex.tension", "cell_types.<name>.dcm.cortex.tension"}) {
-    const auto text = explain_study(id);
+    const auto text = explain_study(id, *builtin_laws());
     ASSERT_TRUE(text) << id;
     EXPECT_THAT(*text, HasSubstr("Active cortical tension"));
     EXPECT_THAT(*text, HasSubstr("0.1 mN/m"));
     EXPECT_THAT(*text, HasSubstr("Hochmuth 2000"));
   }
-  EXPECT_THAT(explain_study("E203").value_or(""), HasSubstr("E203: unit of another quantity"));
-  EXPECT_FALSE(explain_study("E999"));
-  EXPECT_FALSE(explain_study("cortex.tensoin"));
-  EXPECT_FALSE(explain_study(""));
-  EXPECT_TRUE(explain_study("cell_types"));
-  EXPECT_TRUE(explain_study("initial"));
+  EXPECT_THAT(explain_study("E203", *builtin_laws()).value_or(""), HasSubstr("E203: unit of another quantity"));
+  EXPECT_FALSE(explain_study("E999", *builtin_laws()));
+  EXPECT_FALSE(explain_study("cortex.tensoin", *builtin_laws()));
+  EXPECT_FALSE(explain_study("", *builtin_laws()));
+  EXPECT_TRUE(explain_study("cell_types", *builtin_laws()));
+  EXPECT_TRUE(explain_study("initial", *builtin_laws()));
 }
 
 /// Whatever the bytes are, the reader gives a study or an error with a place, and never crashes.

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "dcm/builtin.h"
 #include "dcm/derived_parameters.h"
 #include "report/pictures/rasterize.h"
 #include "results/snapshot_file.h"
@@ -185,7 +186,7 @@ TEST(NuclearShellKeys, AreThoseOfAShellWithDefaultsOfANucleus) {
       "thickness: "
       "100 nm, poisson: 0.4, tension: 0.02 mN/m}\n        bending: {law: helfrich, rigidity: 2e-19 J}\n        bulk_modulus: 20 kPa"));
   EXPECT_EQ(given.interior.nucleus_nodes, 42u);
-  EXPECT_DOUBLE_EQ(given.interior.nucleus_shell.neo_hooke_shear, dcm::sheet_shear_modulus(3.0, 0.1, 0.4));
+  EXPECT_DOUBLE_EQ(dcm::shell_law("neo_hooke").strength().of(given.interior.nucleus_shell), dcm::sheet_shear_modulus(3.0, 0.1, 0.4));
   EXPECT_EQ(given.interior.nucleus_shell.spring_stiffness, 0.0);
   EXPECT_DOUBLE_EQ(given.interior.nucleus_shell.helfrich_rigidity, 2e-4);
   EXPECT_DOUBLE_EQ(given.interior.nucleus_shell.tension, 0.02);

@@ -23,7 +23,7 @@ void collect(const Declaration& from, std::vector<const Declaration*>& out) {
 }
 
 TEST(Ranges, OfEveryKeyHaveBothEndsAndHoldItsDefaultAndExample) {
-  const Declaration root = study_declarations();
+  const Declaration root = study_declarations(*builtin_laws());
   std::vector<const Declaration*> all;
   collect(root, all);
   const UnitSystem units;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dcm/builtin.h"
 #include "tests/study/study_fixture.h"
 
 namespace morula::scenarios::test {
@@ -65,23 +66,33 @@ dcm::ShellParameters shell_with(const std::string& keys) {
   return good(changed("cortex: {young: 1 kPa, thickness: 200 nm, poisson: 0.5, tension: 0.2 mN/m}", keys)).model.types[0].shell;
 }
 
+/// Coefficients of the only sheet of this law: shear modulus and area ratio.
+dcm::SheetCoefficients sheet_of(const dcm::ShellParameters& shell, const char* law) {
+  dcm::SheetCoefficients out{};
+  for (const dcm::Sheet& sheet : shell.sheets)
+    if (sheet.law == dcm::shell_law(law).sheet) out = sheet.coefficient;
+  return out;
+}
+
 // dcm.md §2: G = E h/3 = 0.066667, C = 1 for nu = 1/2; springs with area: k = 0.15396, K_a = 0.06667.
 TEST(StudyReader, ElasticityOfTheCortexHonoursThicknessAndPoissonRatio) {
   const auto neo = shell_with("cortex: {elastic: neo_hooke, poisson: 0.5}");
-  EXPECT_NEAR(neo.neo_hooke_shear, 0.066667, 1e-6);
-  EXPECT_DOUBLE_EQ(neo.membrane_area_ratio, 1.0);
+  EXPECT_NEAR(sheet_of(neo, "neo_hooke")[0], 0.066667, 1e-6);
+  EXPECT_DOUBLE_EQ(sheet_of(neo, "neo_hooke")[1], 1.0);
+  EXPECT_EQ(neo.sheets.size(), 1u);
   EXPECT_EQ(neo.spring_stiffness, 0.0);
   const auto stvk = shell_with("cortex: {elastic: stvk, young: 2 kPa, thickness: 0.5 um, poisson: 0.25}");
-  EXPECT_NEAR(stvk.stvk_shear, 0.4, 1e-12);
-  EXPECT_NEAR(stvk.membrane_area_ratio, 1.0 / 3.0, 1e-12);
+  EXPECT_NEAR(sheet_of(stvk, "st_venant_kirchhoff")[0], 0.4, 1e-12);
+  EXPECT_NEAR(sheet_of(stvk, "st_venant_kirchhoff")[1], 1.0 / 3.0, 1e-12);
   const auto red_cell = shell_with("cortex: {elastic: skalak, shear_modulus: 5.5 uN/m, area_ratio: 50}");
-  EXPECT_DOUBLE_EQ(red_cell.skalak_shear, 5.5e-3);
-  EXPECT_DOUBLE_EQ(red_cell.membrane_area_ratio, 50.0);
+  EXPECT_DOUBLE_EQ(sheet_of(red_cell, "skalak")[0], 5.5e-3);
+  EXPECT_DOUBLE_EQ(sheet_of(red_cell, "skalak")[1], 50.0);
   const auto net = shell_with("cortex: {elastic: springs_with_area}");
   EXPECT_NEAR(net.spring_stiffness, 0.15396, 1e-5);
   EXPECT_NEAR(net.local_area_modulus, 0.06667, 1e-5);
   const auto fluid = shell_with("cortex: {elastic: none}");
-  EXPECT_EQ(fluid.spring_stiffness + fluid.neo_hooke_shear + fluid.stvk_shear + fluid.skalak_shear + fluid.local_area_modulus, 0.0);
+  EXPECT_EQ(fluid.spring_stiffness + fluid.local_area_modulus, 0.0);
+  EXPECT_TRUE(fluid.sheets.empty());
   EXPECT_GT(fluid.hinge_stiffness, 0.0) << "bending is a law of its own";
 }
 
@@ -114,8 +125,8 @@ TEST(StudyReader, AMembraneAddsItsLawsToThoseOfTheCortex) {
   const auto both =
       shell_with(cortex + "membrane: {elastic: skalak, shear_modulus: 5.5 uN/m, area_ratio: 50, bending: helfrich, rigidity: 2e-19 J}");
   EXPECT_NEAR(both.spring_stiffness, 0.173205, 1e-6);
-  EXPECT_DOUBLE_EQ(both.skalak_shear, 5.5e-3);
-  EXPECT_DOUBLE_EQ(both.membrane_area_ratio, 50.0);
+  EXPECT_DOUBLE_EQ(sheet_of(both, "skalak")[0], 5.5e-3);
+  EXPECT_DOUBLE_EQ(sheet_of(both, "skalak")[1], 50.0);
   EXPECT_NEAR(both.hinge_stiffness, 1.0264e-3, 1e-6);
   EXPECT_DOUBLE_EQ(both.helfrich_rigidity, 2e-4);
   EXPECT_EQ(both.spontaneous_curvature, 0.0);
@@ -123,10 +134,12 @@ TEST(StudyReader, AMembraneAddsItsLawsToThoseOfTheCortex) {
   const auto nets = shell_with(cortex + "membrane: {elastic: springs, shear_modulus: 0.075 mN/m}");
   EXPECT_NEAR(nets.spring_stiffness, 2.0 * 0.173205, 1e-6);
   const auto sheets = shell_with(
-      "cortex: {elastic: neo_hooke, poisson: 0.5}\n      membrane: {elastic: skalak, shear_modulus: 5 uN/m, area_ratio: 1}\n      area: "
+      "cortex: {elastic: neo_hooke, poisson: 0.5}\n      membrane: {elastic: skalak, shear_modulus: 5 uN/m, area_ratio: 50}\n      area: "
       "{on_top: true}");
-  EXPECT_NEAR(sheets.neo_hooke_shear, 0.066667, 1e-6);
-  EXPECT_DOUBLE_EQ(sheets.skalak_shear, 5e-3);
+  EXPECT_NEAR(sheet_of(sheets, "neo_hooke")[0], 0.066667, 1e-6);
+  EXPECT_DOUBLE_EQ(sheet_of(sheets, "neo_hooke")[1], 1.0);
+  EXPECT_DOUBLE_EQ(sheet_of(sheets, "skalak")[0], 5e-3);
+  EXPECT_DOUBLE_EQ(sheet_of(sheets, "skalak")[1], 50.0) << "each layer has its own";
   const auto study = good(changed("cortex: {young: 1 kPa, thickness: 200 nm, poisson: 0.5, tension: 0.2 mN/m}",
                                   cortex + "membrane: {bending: hinge, rigidity: 8.8889e-19 J}"));
   EXPECT_NEAR(study.model.types[0].shell.hinge_stiffness, 2.0 * 1.0264e-3, 1e-6);

@@ -1,0 +1,290 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "coupling/mechanics/step.h"
+
+namespace morula {
+namespace {
+
+constexpr int kHalvings = 8;
+constexpr int kGradientHalvings = 20;
+// A step whose residual is not below `newton_stop` may end all the same where little motion is left; both in units of newton_stop:
+constexpr double kMostLeft = 2.5;          // of the residual
+constexpr double kSmallCorrection = 0.15;  // motion that another iteration would bring, in units of the contact range
+constexpr double kStuckForce = 1e-3;       // largest residual that counts as rest [nN]
+constexpr double kAllowedRise = 0.2;       // of Φ, in the last resort of the freeze rule [nN·µm]
+constexpr double kAllowedJump = 0.02;      // of Φ, where a point of contact takes another nearest face [nN·µm]
+constexpr int kShortSearch = 2;            // halvings before nodes at kinks are held
+constexpr int kMostHolds = 3;              // times that nodes may be held in one iteration
+constexpr double kHeldShare = 0.1;         // of the force that drives a node back, over the largest such force, from which on it is held
+constexpr double kHold = 100.0;            // stiffness that holds a node, over the secant one
+constexpr double kLastResortStep = 0.2;    // in units of the contact range
+constexpr int kMaxLinearIterations = 400;
+constexpr double kShortestCut = 1e-3;  // a step that is no longer is not refused for the length of its way [s]
+
+/// Which forces hold a node that nothing can move: words for the message.
+std::string forces_at_worst(const Vec3d& contacts, const Vec3d& left) {
+  char text[160];
+  std::snprintf(text, sizeof text, "; at its worst node contacts act with %.3g nN, and %.3g nN are left without balance", norm(contacts),
+                norm(left));
+  return text;
+}
+
+/// Where a linear solve wants to go: velocities times a length of time, by point.
+struct Direction {
+  std::span<const Float4> velocity;
+  double factor = 0.0;
+
+  Vec3d operator[](std::size_t i) const { return Vec3d{velocity[i].x, velocity[i].y, velocity[i].z} * factor; }
+};
+
+/// How a search along a direction went.
+struct Search {
+  bool moved = false;  ///< Φ is lower, or no higher than allowed; else the points are back, but for rounding
+  bool whole = false;  ///< it went all of its way
+  bool held = false;   ///< it did not, and has nodes that are to be held in the next
+};
+
+/// How an iteration went.
+struct Iteration {
+  bool moved = false;
+  bool whole = false;      ///< by a search that went all of the way of Newton's direction
+  bool converged = false;  ///< there was next to nothing to gain
+  double longest = 0.0;    ///< way of a point that Newton's direction wanted [µm]
+};
+
+/// A step by Newton's method on Φ(x) = E(x) − f·d + dᵀΓ_n d/(2Δt), with backtracking (time_stepping.md §8, §9).
+class NewtonStep {
+ public:
+  NewtonStep(Workspace& work, Tissue& tissue, const StepTask& task)
+      : work_(work), tissue_(tissue), task_(task), control_(work.setting.model.step), range_(work.setting.model.contact.range) {
+    // Without ghosts, spheres and nuclei the start is what the tissue holds.
+    if (work.scene.point_count() != tissue.shells.node_count()) copy_ = work.scene.position();
+  }
+
+  Result<StepReport, StepFault> run(Evaluation now);
+
+ private:
+  [[nodiscard]] std::span<const Vec3d> start() const {
+    return copy_.empty() ? std::span<const Vec3d>(tissue_.shells.position) : std::span<const Vec3d>(copy_);
+  }
+  [[nodiscard]] double allowed() const { return control_.max_displacement * range_; }
+  [[nodiscard]] StepFault undo(StepFault fault) { return undo_step(work_, start(), std::move(fault)); }
+  /// Energy and residual at the present positions; the room of the old residual is used again.
+  Residual measure(std::optional<Residual>&& old);
+  /// Solves for the residual with the matrix at the present positions.
+  Result<Direction, StepFault> solve(double dt, double tolerance);
+  /// Cut a direction so that no point goes further than `most`; gives how far it wanted to go.
+  [[nodiscard]] double limit(Direction& direction, double most) const;
+  /// Move along `direction` until Φ is no higher than before, or by `allowed_rise` at most; a jump of the contact energy on the way is
+  /// passed. `give_up_to_hold`: not more than the short search where nodes are held after it.
+  Search search(const Direction& direction, int halvings, double allowed_rise, bool give_up_to_hold = false);
+  /// Whether a trial ended at a place where a tissue can be.
+  [[nodiscard]] bool is_sound(const Residual& trial);
+  /// Hold the nodes that a full step along `direction` took over a kink: its residual drives them back. Says whether there are any.
+  bool hold_driven_back(const Direction& direction, const Residual& trial);
+  Result<Iteration, StepFault> iterate(int number);
+  /// Freeze rule (time_stepping.md §9.3): the gradient in the metric of friction, then a short Newton step with an allowed rise. Says whether
+  /// that moved anything; if not, all is at rest.
+  Result<bool, StepFault> thaw(const Direction& newton);
+  [[nodiscard]] StepFault stuck() const;
+  /// Another iteration would move points by about the part of this one's way that the residual has left: where this is little, it is not
+  /// worth a matrix and a solve, and the next step sees the residual (time_stepping.md §6.1, §10.5).
+  [[nodiscard]] bool is_done(const Iteration& last) const;
+
+  Workspace& work_;
+  Tissue& tissue_;
+  const StepTask& task_;
+  const StepControl& control_;
+  double range_;
+  std::vector<Vec3d> copy_;      ///< of the positions of the start, where the tissue has not all of them
+  std::optional<Residual> now_;  ///< at the accepted positions; none while a search is under way, or after it failed
+  double phi_ = 0.0;             ///< Φ at the accepted positions
+  double force_norm_ = 0.0;      ///< of the residual at the start
+  StepReport report_;
+};
+
+Residual NewtonStep::measure(std::optional<Residual>&& old) {
+  std::vector<Vec3d> room;
+  if (old) room = std::move(old->force);
+  old.reset();
+  return residual_of(work_, tissue_, task_, start(), evaluate(work_, tissue_, std::move(room)));
+}
+
+Result<Direction, StepFault> NewtonStep::solve(double dt, double tolerance) {
+  auto solved = AssembledMatrix(work_, tissue_, dt).solve(now_->force, tolerance, kMaxLinearIterations);
+  if (!solved) return StepFault{solved.error().what, {}, true};
+  conserve_momentum(work_, now_->force);
+  report_.linear_iterations += solved->iterations;
+  const Direction direction{work_.solver.velocity, task_.dt};
+  if (!std::isfinite(work_.points().largest(direction))) return StepFault{"the velocities are not numbers", {}, true};
+  return direction;
+}
+
+double NewtonStep::limit(Direction& direction, double most) const {
+  const double longest = work_.points().largest(direction);
+  if (longest > most) direction.factor *= most / longest;
+  return longest;
+}
+
+bool NewtonStep::is_sound(const Residual& trial) {
+  const bool through = any_crossed(work_, tissue_, start());
+  report_.crossings += through;
+  return work_.setting.comm.all(std::isfinite(trial.phi) && !find_fault(work_, tissue_).has_value() && !through);
+}
+
+Search NewtonStep::search(const Direction& direction, int halvings, double allowed_rise, bool give_up_to_hold) {
+  Search out;
+  double at = 0.0, fraction = 1.0, before = std::numeric_limits<double>::infinity();
+  const auto go_to = [&](double there) {
+    work_.scene.move_points(
+        [&](std::span<Vec3d> x) { work_.points().for_all([&](std::uint32_t i) { x[i] += direction[i] * (there - at); }); });
+    at = there;
+  };
+  std::optional<Residual> trial = std::exchange(now_, std::nullopt);
+  for (int k = 0; k <= halvings; ++k, fraction *= 0.5) {
+    go_to(fraction);
+    trial = measure(std::move(trial));
+    const bool sound = is_sound(*trial);
+    // Higher nearer to the start: a jump of the contact energy lies between, and beyond it the way leads down.
+    const bool jumped = sound && trial->phi > before && before <= phi_ + kAllowedJump;
+    if (jumped) {
+      go_to(2.0 * fraction);
+      trial = measure(std::move(trial));
+    }
+    if (sound && (jumped || trial->phi <= phi_ + allowed_rise)) {
+      report_.halvings = std::max(report_.halvings, k);
+      if (trial->phi > phi_) report_.allowed_rise += trial->phi - phi_;
+      phi_ = trial->phi;
+      now_ = std::move(trial);
+      out.moved = true;
+      out.whole = k == 0 || (jumped && k == 1);
+      return out;
+    }
+    // Not before: where the matrix is only too soft, a quarter of the way does not go too far.
+    if (k == kShortSearch) out.held = sound && hold_driven_back({direction.velocity, direction.factor * fraction}, *trial);
+    if (k == kShortSearch && out.held && give_up_to_hold) break;
+    before = sound ? trial->phi : std::numeric_limits<double>::infinity();
+  }
+  go_to(0.0);
+  return out;
+}
+
+bool NewtonStep::hold_driven_back(const Direction& direction, const Residual& trial) {
+  const std::vector<Vec3d>& of_contacts = work_.terms.contacts->found().force;
+  const auto for_nodes_back = [&](auto&& function) {  // function(node, way, force against it), for nodes that touch something
+    for (const ContactBody& body : work_.scene.bodies())
+      if (body.active() && body.first_point < work_.scene.owned_nodes())
+        for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) {
+          if (i >= of_contacts.size() || norm2(of_contacts[i]) == 0.0) continue;
+          const Vec3d way = direction[i];
+          const double length = norm(way), back = -dot(trial.force[i], way);
+          if (back > 0.0) function(i, length, back / length);
+        }
+  };
+  double most = 0.0;
+  for_nodes_back([&](std::uint32_t, double, double back) { most = std::max(most, back); });
+  most = work_.setting.comm.max(most);
+  for_nodes_back([&](std::uint32_t i, double length, double back) {
+    const Vec3d& force = trial.force[i];
+    if (back >= kHeldShare * most) work_.terms.kinks->hold(i, force * (1.0 / norm(force)), kHold * back / length);
+  });
+  return most > 0.0;
+}
+
+Result<Iteration, StepFault> NewtonStep::iterate(int number) {
+  Iteration out;
+  Direction direction;
+  if (number > 0) std::fill(work_.solver.velocity.begin(), work_.solver.velocity.end(), Float4{});
+  for (int holds = 0;; ++holds) {
+    MORULA_TRY_ASSIGN(direction, solve(task_.dt, number == 0 ? control_.first_tolerance : control_.later_tolerance));
+    out.longest = limit(direction, range_);
+    if (number + holds == 0 && out.longest > 4.0 * allowed() && task_.dt > kShortestCut)
+      return StepFault{"points would move too far in one step", {}, true};
+    out.converged = 0.5 * work_.points().dot(now_->force, direction) <= 1e-12 * (1.0 + std::abs(phi_));
+    const double rise = out.converged ? 1e-9 * (1.0 + std::abs(phi_)) : 0.0;
+    const Search search = this->search(direction, kHalvings, rise, holds < kMostHolds);
+    out.moved = search.moved;
+    out.whole = search.whole;
+    if (search.moved || !search.held || holds == kMostHolds) break;
+    now_ = measure({});
+  }
+  ++report_.newton;
+  if (!out.moved) {
+    MORULA_TRY_ASSIGN(out.moved, thaw(direction));
+  }
+  return out;
+}
+
+Result<bool, StepFault> NewtonStep::thaw(const Direction& newton) {
+  now_ = measure({});
+  const std::vector<Float4> newton_velocity(newton.velocity.begin(), newton.velocity.end());
+  std::fill(work_.solver.velocity.begin(), work_.solver.velocity.end(), Float4{});
+  MORULA_TRY_ASSIGN(Direction gradient, solve(0.0, control_.first_tolerance));
+  (void)limit(gradient, range_);
+  if (search(gradient, kGradientHalvings, 0.0).moved) return true;
+  Direction last{newton_velocity, newton.factor};
+  (void)limit(last, kLastResortStep * range_);
+  if (search(last, 2, kAllowedRise).moved) return true;
+  now_ = measure({});
+  if (work_.points().largest(now_->force) > kStuckForce) return stuck();
+  return false;
+}
+
+StepFault NewtonStep::stuck() const {
+  const bool crossing = work_.setting.comm.any(report_.crossings > 0);
+  StepFault fault{crossing ? "no step lowers the energy without a surface passing through another" : "no step lowers the energy", {}, true};
+  if (const auto shape = find_fault(work_, tissue_)) fault = *shape;
+  const std::vector<Vec3d>& left = now_->force;
+  double worst = 0.0;
+  std::uint32_t at = 0;
+  for (const ContactBody& body : work_.scene.bodies())
+    for (std::uint32_t i = body.first_point; body.active() && i < body.first_point + body.point_count; ++i)
+      if (norm2(left[i]) > worst) {
+        worst = norm2(left[i]);
+        fault.cell = body.id;
+        at = i;
+      }
+  const std::vector<Vec3d>& of_contacts = work_.terms.contacts->found().force;
+  if (at < work_.scene.owned_nodes() && at < of_contacts.size()) fault.what += forces_at_worst(of_contacts[at], left[at]);
+  return fault;
+}
+
+bool NewtonStep::is_done(const Iteration& last) const {
+  const double left = std::sqrt(work_.points().dot(now_->force, now_->force)) / force_norm_;
+  if (left <= control_.newton_stop || last.converged) return true;
+  return left <= kMostLeft * control_.newton_stop && left * last.longest <= kSmallCorrection * control_.newton_stop * range_;
+}
+
+Result<StepReport, StepFault> NewtonStep::run(Evaluation at_start) {
+  const OwnedPoints points = work_.points();
+  report_.step = task_.dt;
+  now_ = residual_of(work_, tissue_, task_, start(), std::move(at_start), false);
+  phi_ = now_->phi;
+  force_norm_ = std::sqrt(points.dot(now_->force, now_->force));
+  if (!std::isfinite(phi_) || !std::isfinite(force_norm_)) return undo({"forces are not numbers", {}, false});
+  bool cut = false;  // the last iteration's way was cut to the contact range, gone to its end, and did not suffice
+  for (int number = 0; number < control_.max_newton; ++number) {
+    const auto done = iterate(number);
+    if (!done) return undo(done.error());
+    cut = false;
+    if (!done->moved || is_done(*done)) break;
+    cut = done->whole && done->longest > range_;
+  }
+  report_.displacement = points.largest_of([&](std::uint32_t i) { return work_.scene.position()[i] - start()[i]; });
+  if ((cut || report_.displacement > 1.5 * allowed()) && task_.dt > kShortestCut)
+    return undo({"points moved too far in one step", {}, true});
+  finish_step(work_, tissue_, task_, now_->energy, report_);
+  return report_;
+}
+
+}  // namespace
+
+Result<StepReport, StepFault> implicit_step(Workspace& work, Tissue& tissue, const StepTask& task, Evaluation now) {
+  return NewtonStep(work, tissue, task).run(std::move(now));
+}
+
+}  // namespace morula

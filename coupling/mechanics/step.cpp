@@ -1,0 +1,197 @@
+#include "coupling/mechanics/step.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/parallel/threads.h"
+
+namespace morula {
+namespace {
+
+/// The last velocities of shells and spheres: where the solver starts.
+void start_from_last_velocities(Workspace& work, const Tissue& tissue) {
+  std::vector<Float4>& out = work.solver.velocity;
+  parallel_for(work.setting.threads, tissue.shells.velocity.size(), [&](std::size_t i) {
+    const Vec3f& v = tissue.shells.velocity[i];
+    out[i] = {v.x, v.y, v.z, 0.0f};
+  });
+  for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i) {
+    const Vec3f& v = tissue.spheres.velocity[i];
+    out[work.scene.sphere_point() + i] = {v.x, v.y, v.z, 0.0f};
+  }
+}
+
+bool fluctuates(const Model& model) {
+  return std::any_of(model.types.begin(), model.types.end(), [](const CellType& type) { return type.fluctuations.energy > 0.0; });
+}
+
+/// All terms freeze their friction.
+void freeze_friction(Workspace& work, const Tissue& tissue) {
+  const World world = work.world(tissue);
+  StepStart start{work.solver.system.clear_point_friction(work.scene.point_count() - work.scene.sphere_point()), work.solver.velocity};
+  for (const auto& term : work.terms.all) term->begin_step(world, start);
+}
+
+void add_random_forces(Workspace& work, const Tissue& tissue, double dt, std::span<Vec3d> force) {
+  const World world = work.world(tissue);
+  const Noise noise{work.setting.model.seed, tissue.clock.steps, dt};
+  for (const auto& term : work.terms.all) term->add_noise(world, noise, force);
+}
+
+void find_clusters(Workspace& work, const World& world, std::span<const ElementGroup> groups) {
+  std::vector<std::uint32_t> tied;
+  for (const auto& term : work.terms.all) term->add_tied(world, tied);
+  work.solver.clusters.find(work.scene, groups, work.terms.spheres->pairs(), tied, work.setting.comm);
+}
+
+}  // namespace
+
+AssembledMatrix::AssembledMatrix(Workspace& work, const Tissue& tissue, double dt) : work_(work) {
+  auto timed = work.timer.scope(Stage::kAssemble);
+  work.geometry.give_back();
+  const World world = work.world(tissue);
+  Assembly assembly;
+  for (const auto& term : work.terms.all) term->assemble(world, dt, assembly);
+  const ContactLayer& layer = work.terms.contacts->layer();
+  const FaceQuadrature& quadrature = FaceQuadrature::with_points(layer.settings().points_per_face);
+  work.terms.membranes->build(world, dt, assembly,
+                              edge_blocks_of(assembly.contacts, work.scene.bodies().size(), quadrature, static_cast<float>(dt)));
+  work.solver.system.set_step(dt);
+  work.solver.system.set_elements(assembly.contacts, quadrature);
+  find_clusters(work, world, assembly.contacts);
+  work.terms.contacts->make_room();
+}
+
+AssembledMatrix::~AssembledMatrix() {
+  work_.note_memory();
+  if (work_.scene.shells() == 0) return;  // spheres alone have no use for the room
+  work_.solver.system.drop_matrix();
+  for (const auto& term : work_.terms.all) term->drop_matrix();
+}
+
+Result<SolveReport, SolveFault> AssembledMatrix::solve(std::span<const Vec3d> right, double tolerance, int max_iterations) && {
+  auto timed = work_.timer.scope(Stage::kSolve);
+  const std::span<Float4> to = work_.solver.system.right();
+  work_.points().for_all([&](std::uint32_t i) {
+    to[i] = {static_cast<float>(right[i].x), static_cast<float>(right[i].y), static_cast<float>(right[i].z), 0.0f};
+  });
+  return work_.solver.system.solve(work_.solver.velocity, tolerance, max_iterations, work_.setting.comm);
+}
+
+Evaluation begin_step(Workspace& work, const Tissue& tissue, StepTask& task, Evaluation now) {
+  auto timed = work.timer.scope(Stage::kAssemble);
+  work.most_bytes = 0;
+  work.terms.grips->set_anchors(task.anchors);
+  start_from_last_velocities(work, tissue);
+  freeze_friction(work, tissue);
+  if (task.settling != nullptr) {
+    std::fill(work.solver.velocity.begin(), work.solver.velocity.end(), Float4{});
+    return now;
+  }
+  if (fluctuates(work.setting.model)) {
+    task.by_point.resize(work.scene.point_count());
+    work.points().for_all([&](std::uint32_t i) { task.by_point[i] = work.external_on(task, i); });
+    add_random_forces(work, tissue, task.dt, task.by_point);
+  }
+  std::vector<Vec3d> offsets = tissue.obstacle_offset;
+  for (std::size_t i = 0; i < work.setting.model.obstacles.size(); ++i)
+    offsets[i] += work.setting.model.obstacles[i].way(tissue.clock.time, tissue.clock.time + task.dt);
+  if (work.terms.contacts->set_offsets(offsets)) now = evaluate(work, tissue, std::move(now.force));
+  return now;
+}
+
+std::vector<Vec3d> random_forces(Workspace& work, const Tissue& tissue, double dt) {
+  std::vector<Vec3d> force(work.scene.point_count());
+  if (!fluctuates(work.setting.model)) return force;
+  freeze_friction(work, tissue);
+  add_random_forces(work, tissue, dt, force);
+  for (const auto& term : work.terms.all) term->abandon_step();
+  return force;
+}
+
+Residual residual_of(Workspace& work, const Tissue& tissue, const StepTask& task, std::span<const Vec3d> start, Evaluation now,
+                     bool moved) {
+  auto timed = work.timer.scope(Stage::kAdvance);
+  const double dt = task.dt;
+  const OwnedPoints points = work.points();
+  const World world = work.world(tissue);
+  const Way way{start, world.position(), moved};
+  std::vector<Vec3d>& force = now.force;
+  points.for_all([&](std::uint32_t i) {  // −Δt (F + external), to which Γ_n d is added
+    force[i] = (force[i] + work.external_on(task, i)) * -dt;
+  });
+  OrderFreeSum sums[2];  // dᵀΓ_n d, work of what is external
+  for (const auto& term : work.terms.all) term->add_outside(way, dt, force, sums[1]);
+  for (const auto& term : work.terms.all) term->add_friction(world, way, force, sums[0]);
+  std::vector<OrderFreeSum> works(static_cast<std::size_t>(points.threads));
+  points.for_bodies([&](std::size_t t, const ContactBody& body) {
+    double done = 0.0;
+    for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) {
+      done += dot(work.external_on(task, i), way.position[i] - start[i]);
+      force[i] *= -1.0 / dt;
+    }
+    works[t].add(done);
+  });
+  for (const OrderFreeSum& done : works) sums[1] += done;
+  points.for_inner([&](std::uint32_t i) {
+    sums[1].add(dot(work.external_on(task, i), way.position[i] - start[i]));
+    force[i] *= -1.0 / dt;
+  });
+  double totals[2];
+  work.setting.comm.sum(sums, totals);
+  return {now.energy, now.energy - totals[1] + totals[0] / (2.0 * dt), std::move(now.force)};
+}
+
+void finish_step(Workspace& work, Tissue& tissue, const StepTask& task, double energy, StepReport& report) {
+  auto timed = work.timer.scope(Stage::kAdvance);
+  const Scene& scene = work.scene;
+  const Comm& comm = work.setting.comm;
+  const double rate = 1.0 / task.dt;
+  const auto velocity = [&](std::size_t point, const Vec3d& start) { return to_float((scene.position()[point] - start) * rate); };
+  parallel_for(work.setting.threads, tissue.shells.velocity.size(),
+               [&](std::size_t i) { tissue.shells.velocity[i] = velocity(i, tissue.shells.position[i]); });
+  for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i)
+    tissue.spheres.velocity[i] = velocity(scene.sphere_point() + i, tissue.spheres.position[i]);
+  for (std::size_t i = 0; i < tissue.nuclei.shells.velocity.size(); ++i)
+    tissue.nuclei.shells.velocity[i] = velocity(scene.nuclear_node() + i, tissue.nuclei.shells.position[i]);
+  report.motion = common_motion(work, tissue);
+  scene.give_positions(tissue);
+  StepEnd end{tissue, task.settling == nullptr};
+  if (end.clock_runs)
+    for (std::size_t i = 0; i < work.setting.model.obstacles.size(); ++i)
+      tissue.obstacle_offset[i] += work.setting.model.obstacles[i].way(tissue.clock.time, tissue.clock.time + task.dt);
+  const World world = work.world(tissue);
+  for (const auto& term : work.terms.all) term->end_step(world, end);
+  // Where there are ghosts, a list of pairs that would wear out within the next step is made together with them, before that step: else
+  // the list is made in the middle of the step, and the ghosts soon after.
+  const double wear = work.terms.contacts->layer().wear();
+  if (comm.size() > 1) work.age->expected_wear = comm.max(2.0 * wear - work.age->wear);
+  work.age->wear = wear;
+  report.energy = energy;
+  report.overlap = deepest_overlap(work);
+  if (tissue.clock.capped && report.overlap < 0.1) tissue.clock.capped = false;
+  if (end.clock_runs) work.known = Known{energy, std::nullopt};
+}
+
+StepFault undo_step(Workspace& work, std::span<const Vec3d> start, StepFault fault) {
+  work.scene.move_points([&](std::span<Vec3d> x) { std::copy(start.begin(), start.end(), x.begin()); });
+  for (const auto& term : work.terms.all) term->abandon_step();
+  return fault;
+}
+
+Result<StepReport, StepFault> advance(Workspace& work, Tissue& tissue, StepTask task) {
+  const double end = tissue.clock.time + task.dt;
+  const auto varies = [](const auto& term) { return term->varies_with_time(); };
+  if (task.settling == nullptr && end != work.prescribed_time && std::any_of(work.terms.all.begin(), work.terms.all.end(), varies)) {
+    work.prescribed_time = end;
+    work.known.reset();
+  }
+  (void)prepare_step(work, tissue, task.settling);
+  Evaluation now{work.known->energy, std::move(*work.known->force)};
+  work.known.reset();  // whatever comes of the step, the tissue will be another
+  now = begin_step(work, tissue, task, std::move(now));
+  return work.setting.model.step.integrator == Integrator::kImplicit ? implicit_step(work, tissue, task, std::move(now))
+                                                                     : explicit_step(work, tissue, task, std::move(now));
+}
+
+}  // namespace morula

@@ -1,0 +1,32 @@
+#include "coupling/mechanics/terms.h"
+
+#include <utility>
+
+#include "coupling/mechanics/face_tensions.h"
+
+namespace morula {
+
+Terms make_terms(const Model& model, std::vector<RigidSurface> obstacles, int threads) {
+  Terms out;
+  const auto add = [&out](auto term) {
+    auto* const here = term.get();
+    out.all.push_back(std::move(term));
+    return here;
+  };
+  auto nodes = std::make_unique<NodeTerms>(model);
+  out.membranes = add(std::make_unique<Membranes>(model, *nodes));
+  out.node_friction = add(std::make_unique<NodeFriction>(*nodes));
+  out.contacts = add(std::make_unique<SurfaceContacts>(model, std::move(obstacles), threads));
+  out.spheres = add(std::make_unique<SphereContacts>(model, *out.contacts));
+  out.interior = add(std::make_unique<InteriorSystem>(model));
+  out.nuclei = add(std::make_unique<NucleusSystem>(model, *out.membranes, threads));
+  add(std::make_unique<FaceTensions>(model));
+  add(std::move(nodes));
+  add(std::make_unique<ContactFriction>(*out.contacts));
+  add(std::make_unique<SphereFriction>(*out.spheres));
+  out.grips = add(std::make_unique<Grips>());
+  out.kinks = add(std::make_unique<HeldNodes>());
+  return out;
+}
+
+}  // namespace morula
