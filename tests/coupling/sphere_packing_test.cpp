@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cbm/laws/sphere_caps.h"
 #include "core/random/philox.h"
 #include "coupling/mechanics/contact_setup.h"
 #include "tests/coupling/tissue_fixture.h"
