@@ -89,9 +89,10 @@ Evaluation begin_step(Workspace& work, const Tissue& tissue, StepTask& task, Eva
     return now;
   }
   if (fluctuates(work.setting.model)) {
-    task.by_point.resize(work.scene.point_count());
-    work.points().for_all([&](std::uint32_t i) { task.by_point[i] = work.external_on(task, i); });
-    add_random_forces(work, tissue, task.dt, task.by_point);
+    std::vector<Vec3d> force(work.scene.point_count());
+    work.points().for_all([&](std::uint32_t i) { force[i] = work.external_on(task, i); });
+    add_random_forces(work, tissue, task.dt, force);
+    task.by_point = std::move(force);
   }
   std::vector<Vec3d> offsets = tissue.obstacle_offset;
   for (std::size_t i = 0; i < work.setting.model.obstacles.size(); ++i)

@@ -180,6 +180,23 @@ TEST(Fluctuations, HoldTheNucleusAtItsThermalDistanceFromTheCentre) {
   EXPECT_NEAR(square / expected, 1.0, 0.06);
 }
 
+/// Random forces come on top of those from outside: with the same numbers and a force beside them, a sphere goes Δt F/(γ A) further.
+TEST(Fluctuations, LeaveForcesFromOutsideAsTheyAre) {
+  const Model model = fluctuating();
+  ShapeLibrary shapes;
+  const Tissue at_start = test::make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kSphere});
+  Vec3d end[2];
+  for (const bool pushed : {false, true}) {
+    Tissue tissue = at_start;
+    ASSERT_TRUE(make_mechanics(model, shapes).step(tissue, 0.5, std::vector<Vec3d>{{pushed ? 2.0 : 0.0, 0.0, 0.0}}).ok());
+    end[pushed] = tissue.spheres.position[0];
+  }
+  const double friction = model.types[0].medium_friction * 4.0 * std::numbers::pi * 36.0;
+  EXPECT_GT(norm(end[0]), 0.0);
+  EXPECT_NEAR((end[1] - end[0]).x, 0.5 * 2.0 / friction, 1e-6);
+  EXPECT_NEAR((end[1] - end[0]).y, 0.0, 1e-6);
+}
+
 TEST(Fluctuations, BetweenPointsHaveNoSumAndNoTorque) {
   Model model = fluctuating();
   model.types[0].shell.medium_friction = model.types[0].medium_friction = 1e-12;
