@@ -77,30 +77,30 @@ TEST(InteriorNoise, HasTheFactorsOfTheFrictionOfARigidNucleusAndLinks) {
 TEST(InteriorNoise, HasTheFactorsOfTheFrictionOfANuclearShell) {
   InteriorParameters p = parameters();
   p.cortex_links = {};
-  p.nucleus_nodes = 12;
+  p.nucleus_nodes = 42;
   ShapeLibrary shapes;
-  const auto outer = shapes.icosphere(42).value(), inner = shapes.icosphere(12).value();
+  const auto outer = shapes.icosphere(42).value(), inner = shapes.icosphere(42).value();
   const std::vector<InteriorLink> links = choose_nuclear_links(*outer, *inner, p);
   const std::vector<Vec3d> cell = nodes_of(*outer, kVolume, 5), nucleus = nodes_of(*inner, 0.1 * kVolume, 7);
-  std::vector<Vec3d> cell_way = random_vectors(42, 8), nucleus_way = random_vectors(12, 9);
+  std::vector<Vec3d> cell_way = random_vectors(42, 8), nucleus_way = random_vectors(42, 9);
   const NucleusView view{&p, links, outer->topology.get(), inner->topology.get(), cell, nucleus, kVolume};
   NuclearFriction friction;
   find_nuclear_friction(view, areas_of(*view.cell_topology, cell), areas_of(*view.nucleus_topology, nucleus), friction);
-  std::vector<Vec3d> ignored_cell(42), ignored_nucleus(12);
+  std::vector<Vec3d> ignored_cell(42), ignored_nucleus(42);
   const double expected = add_nuclear_friction(view, friction, {cell_way, nucleus_way}, {ignored_cell, ignored_nucleus});
 
   const std::size_t count = nuclear_factor_count(view);
-  ASSERT_EQ(count, 36u + links.size());
+  ASSERT_EQ(count, 126u + links.size());
   ASSERT_GT(links.size(), 0u);
   double sum = 0.0;
   for (std::size_t k = 0; k < count; ++k) {
     std::vector<double> normal(count, 0.0);
     normal[k] = 1.0;
-    std::vector<Vec3d> on_cell(42), on_nucleus(12);
+    std::vector<Vec3d> on_cell(42), on_nucleus(42);
     add_nuclear_noise(view, friction, normal, {on_cell, on_nucleus});
     Vec3d net, torque;
     for (std::size_t i = 0; i < 42; ++i) net += on_cell[i], torque += cross(cell[i], on_cell[i]);
-    for (std::size_t i = 0; i < 12; ++i) net += on_nucleus[i], torque += cross(nucleus[i], on_nucleus[i]);
+    for (std::size_t i = 0; i < 42; ++i) net += on_nucleus[i], torque += cross(nucleus[i], on_nucleus[i]);
     EXPECT_LT(norm(net), 1e-12) << k;
     EXPECT_LT(norm(torque), 1e-11) << k;
     const double factor = work(on_cell, cell_way) + work(on_nucleus, nucleus_way);
