@@ -109,7 +109,7 @@ output: {report: false}
                              HasSubstr("range: 0.5 um  # default: ")));
   // Laws have formulas and units; what a value is by default, and why, they tell as the key of the study does.
   const std::string laws = run_morula({"explain", "--markdown", "laws"}, folder.path()).out;
-  EXPECT_THAT(laws, AllOf(HasSubstr("| parameter | unit | what |"), Not(HasSubstr("the study |"))));
+  EXPECT_THAT(laws, AllOf(HasSubstr("| parameter | unit | what |"), Not(HasSubstr("| the study |"))));
   std::vector<std::string> reference;
   std::istringstream pages(run_morula({"explain", "--markdown", "study"}, folder.path()).out);
   for (std::string line; std::getline(pages, line);) reference.push_back(line);
