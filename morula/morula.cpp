@@ -168,10 +168,7 @@ std::span<const Surface> Simulation::surfaces() const { return content_->shown()
 std::string Simulation::state_hash() const { return scenarios::state_hash(content_->simulation->tissue(), Comm()).hex(); }
 
 Status Simulation::write_snapshot(const std::filesystem::path& file) const {
-  const scenarios::Study& study = content_->study->study;
-  const scenarios::ResultsHead head{study.name,        study.title,         study.model.seed,
-                                    study.source_text, study.resolved_text, scenarios::obstacles_at_start(study.model)};
-  MORULA_TRY(scenarios::begin_results(file, head, Comm()));
+  MORULA_TRY(scenarios::begin_results(file, scenarios::results_head(content_->study->study), Comm()));
   return scenarios::append_snapshot(file, content_->present(), content_->simulation->tissue().fields, Comm());
 }
 

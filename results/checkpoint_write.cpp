@@ -73,17 +73,20 @@ void unpack_column(ByteReader& in, std::size_t size, std::size_t number, FlatTab
   in.get_all(column.count.back() * size, column.bytes);
 }
 
-void unpack_shell(ByteReader& in, FlatTable& out) {
-  out.shape.push_back(in.get<std::uint32_t>());
+/// All columns of a body; `for_each_column` visits those of its table.
+template <class ForEachColumn>
+void unpack_columns(ForEachColumn&& for_each_column, ByteReader& in, FlatTable& out) {
   std::size_t number = 0;
-  dcm::for_each_shell_column(
+  for_each_column(
       [&](const auto& column) { unpack_column(in, sizeof(typename std::remove_cvref_t<decltype(column)>::Value), number++, out); });
 }
 
-void unpack_sphere(ByteReader& in, FlatTable& out) {
-  std::size_t number = 0;
-  cbm::for_each_sphere_column(
-      [&](const auto& column) { unpack_column(in, sizeof(typename std::remove_cvref_t<decltype(column)>::Value), number++, out); });
+constexpr auto kShellColumns = [](auto&& visit) { dcm::for_each_shell_column(visit); };
+constexpr auto kSphereColumns = [](auto&& visit) { cbm::for_each_sphere_column(visit); };
+
+void unpack_shell(ByteReader& in, FlatTable& out) {
+  out.shape.push_back(in.get<std::uint32_t>());
+  unpack_columns(kShellColumns, in, out);
 }
 
 SortedCells unpack_cells(const Parcels& parcels) {
@@ -92,7 +95,7 @@ SortedCells unpack_cells(const Parcels& parcels) {
     ByteReader in(parcels.bytes(i));
     out.rows.push_back(in.get<FullRow>());
     if (out.rows.back().body == BodyKind::kSphere) {
-      unpack_sphere(in, out.spheres);
+      unpack_columns(kSphereColumns, in, out.spheres);
       continue;
     }
     unpack_shell(in, out.shells);
@@ -112,21 +115,18 @@ void add_column(StoragePlan& plan, const std::string& group, const Column& colum
   plan.add(group + column.name, column.unit, std::span(values, flat.bytes.size() / sizeof(Value)));
 }
 
-void add_spheres(StoragePlan& plan, FlatTable& table, const Comm& comm) {
+template <class ForEachColumn>
+void add_columns(ForEachColumn&& for_each_column, StoragePlan& plan, const std::string& group, FlatTable& table, const Comm& comm) {
   std::size_t number = 0;
-  cbm::for_each_sphere_column([&](const auto& column) {
-    if (table.columns.size() <= number) table.columns.resize(number + 1);
-    add_column(plan, "spheres/", column, table.columns[number++], comm);
+  for_each_column([&](const auto& column) {
+    if (table.columns.size() <= number) table.columns.resize(number + 1);  // a rank without such bodies takes part
+    add_column(plan, group, column, table.columns[number++], comm);
   });
 }
 
 void add_shells(StoragePlan& plan, const std::string& group, FlatTable& table, const Comm& comm) {
   plan.add(group + "shape", "1", table.shape);
-  std::size_t number = 0;
-  dcm::for_each_shell_column([&](const auto& column) {
-    if (table.columns.size() <= number) table.columns.resize(number + 1);
-    add_column(plan, group, column, table.columns[number++], comm);
-  });
+  add_columns(kShellColumns, plan, group, table, comm);
 }
 
 void add_cells(StoragePlan& plan, SortedCells& cells, const Comm& comm) {
@@ -135,7 +135,7 @@ void add_cells(StoragePlan& plan, SortedCells& cells, const Comm& comm) {
     for (const FullRow& row : cells.rows) values.push_back(row.*member);
     plan.add(std::string("cells/") + column.name, column.unit, values);
   });
-  add_spheres(plan, cells.spheres, comm);
+  add_columns(kSphereColumns, plan, "spheres/", cells.spheres, comm);
   add_shells(plan, "shells/", cells.shells, comm);
   if (!comm.any(!cells.nuclei.shape.empty())) return;
   plan.add("shells/has_nuclear_shell", "1", cells.has_nuclear_shell);

@@ -1,10 +1,7 @@
 #pragma once
 #include <cmath>
 
-#include "dcm/sheet_loops.h"
-#include "dcm/shell_keys.h"
-#include "dcm/shell_law.h"
-#include "dcm/stencils/membrane.h"
+#include "dcm/isotropic_sheet.h"
 
 namespace morula::dcm {
 
@@ -70,27 +67,13 @@ struct NeoHooke {
 
 /// The law as the registry has it.
 inline ShellLaw neo_hooke() {
-  static const auto law = sheet_law<NeoHooke>("neo_hooke");
-  return {
-      .info = {.name = "neo_hooke",
-               .title = "Elastic cortex: neo-Hookean membrane on constant-strain triangles",
-               .equation = "W = ½ G [tr C − 2 + (det C^(−α) − 1)/α], G = E h / (2 (1 + ν)), α = ν/(1 − ν); ν = ½: ½ G (tr C + 1/det C − 3)",
-               .source = "Blatz & Ko 1962, doi:10.1122/1.548937, in plane stress; Holzapfel 2000, Nonlinear Solid Mechanics, §6.5",
-               .parameters = {given_by_study("shear_modulus", "tension", "nN/µm", "Shear modulus G of the sheet, E h/(2 (1 + ν))."),
-                              given_by_study("area_ratio", "number", "1", "α = ν/(1 − ν), from the Poisson ratio ν.")},
-               .keys = keys::layer()},
-      .stencil = LawStencil::kFace,
-      .sheet = law,
-      .words = {{.word = "neo_hooke",
-                 .doc = "triangles of constant strain, Poisson ratio 0 to 1/2",
-                 .resists_area = true,
-                 .has_area_ratio = true,
-                 .build =
-                     [](const LawValues& v, ShellParameters& p) {
-                       const auto [shear, area_ratio] = SheetModuli::of(v);
-                       add_sheet(p, law, {shear, area_ratio});
-                     },
-                 .stiffness = &sheet_stiffness}}};
+  return isotropic_sheet<NeoHooke>(
+      {.name = "neo_hooke",
+       .title = "Elastic cortex: neo-Hookean membrane on constant-strain triangles",
+       .equation = "W = ½ G [tr C − 2 + (det C^(−α) − 1)/α], G = E h / (2 (1 + ν)), α = ν/(1 − ν); ν = ½: ½ G (tr C + 1/det C − 3)",
+       .source = "Blatz & Ko 1962, doi:10.1122/1.548937, in plane stress; Holzapfel 2000, Nonlinear Solid Mechanics, §6.5",
+       .parameters = {}},
+      {.word = "neo_hooke", .doc = "triangles of constant strain, Poisson ratio 0 to 1/2"});
 }
 
 }  // namespace morula::dcm

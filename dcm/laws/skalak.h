@@ -1,8 +1,5 @@
 #pragma once
-#include "dcm/sheet_loops.h"
-#include "dcm/shell_keys.h"
-#include "dcm/shell_law.h"
-#include "dcm/stencils/membrane.h"
+#include "dcm/isotropic_sheet.h"
 
 namespace morula::dcm {
 
@@ -54,28 +51,14 @@ inline std::vector<KeySpec> skalak_keys() {
 
 /// The law as the registry has it.
 inline ShellLaw skalak() {
-  static const auto law = sheet_law<Skalak>("skalak");
-  return {.info = {.name = "skalak",
-                   .title = "Elastic cortex: Skalak's membrane on constant-strain triangles",
-                   .equation = "W = ¼ G (I1² + 2 I1 − 2 I2 + C I2²), I1 = tr C − 2, I2 = det C − 1, G = E h / (2 (1 + ν)), C = ν/(1 − ν)",
-                   .source = "Skalak et al. 1973, doi:10.1016/S0006-3495(73)85983-1",
-                   .parameters = {given_by_study("shear_modulus", "tension", "nN/µm", "Shear modulus G of the sheet, E h/(2 (1 + ν))."),
-                                  given_by_study("area_ratio", "number", "1",
-                                                 "Resistance to change of area C; ν/(1 − ν) of a sheet of Poisson ratio ν.")},
-                   .keys = keys::layer(skalak_keys())},
-          .stencil = LawStencil::kFace,
-          .sheet = law,
-          .words = {{.word = "skalak",
-                     .doc = "triangles of constant strain, shear and change of area apart",
-                     .keys = skalak_keys(),
-                     .resists_area = true,
-                     .has_area_ratio = true,
-                     .build =
-                         [](const LawValues& v, ShellParameters& p) {
-                           const auto [shear, area_ratio] = SheetModuli::of(v);
-                           add_sheet(p, law, {shear, area_ratio});
-                         },
-                     .stiffness = &sheet_stiffness}}};
+  return isotropic_sheet<Skalak>(
+      {.name = "skalak",
+       .title = "Elastic cortex: Skalak's membrane on constant-strain triangles",
+       .equation = "W = ¼ G (I1² + 2 I1 − 2 I2 + C I2²), I1 = tr C − 2, I2 = det C − 1, G = E h / (2 (1 + ν)), C = ν/(1 − ν)",
+       .source = "Skalak et al. 1973, doi:10.1016/S0006-3495(73)85983-1",
+       .parameters = {}},
+      {.word = "skalak", .doc = "triangles of constant strain, shear and change of area apart", .keys = skalak_keys()},
+      "Resistance to change of area C; ν/(1 − ν) of a sheet of Poisson ratio ν.");
 }
 
 }  // namespace morula::dcm

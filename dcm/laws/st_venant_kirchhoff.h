@@ -1,8 +1,5 @@
 #pragma once
-#include "dcm/sheet_loops.h"
-#include "dcm/shell_keys.h"
-#include "dcm/shell_law.h"
-#include "dcm/stencils/membrane.h"
+#include "dcm/isotropic_sheet.h"
 
 namespace morula::dcm {
 
@@ -39,28 +36,15 @@ struct StVenantKirchhoff {
 
 /// The law as the registry has it.
 inline ShellLaw st_venant_kirchhoff() {
-  static const auto law =
-      sheet_law<StVenantKirchhoff>("st_venant_kirchhoff", "is stretched beyond 0.8 to 1.3, where the law softens; neo_hooke holds there");
-  return {
-      .info = {.name = "st_venant_kirchhoff",
-               .title = "Elastic cortex: St Venant–Kirchhoff membrane on constant-strain triangles",
-               .equation = "W = G [tr E² + α (tr E)²], E = (C − 1)/2, G = E h / (2 (1 + ν)), α = ν/(1 − ν); stretches within 0.8 to 1.3",
-               .source = "Holzapfel 2000, Nonlinear Solid Mechanics, §6.5",
-               .parameters = {given_by_study("shear_modulus", "tension", "nN/µm", "Shear modulus G of the sheet, E h/(2 (1 + ν))."),
-                              given_by_study("area_ratio", "number", "1", "α = ν/(1 − ν), from the Poisson ratio ν.")},
-               .keys = keys::layer()},
-      .stencil = LawStencil::kFace,
-      .sheet = law,
-      .words = {{.word = "stvk",
-                 .doc = "St Venant-Kirchhoff on triangles of constant strain, Poisson ratio 0 to 1/2; stretches from 0.8 to 1.3 only",
-                 .resists_area = true,
-                 .has_area_ratio = true,
-                 .build =
-                     [](const LawValues& v, ShellParameters& p) {
-                       const auto [shear, area_ratio] = SheetModuli::of(v);
-                       add_sheet(p, law, {shear, area_ratio});
-                     },
-                 .stiffness = &sheet_stiffness}}};
+  return isotropic_sheet<StVenantKirchhoff>(
+      {.name = "st_venant_kirchhoff",
+       .title = "Elastic cortex: St Venant–Kirchhoff membrane on constant-strain triangles",
+       .equation = "W = G [tr E² + α (tr E)²], E = (C − 1)/2, G = E h / (2 (1 + ν)), α = ν/(1 − ν); stretches within 0.8 to 1.3",
+       .source = "Holzapfel 2000, Nonlinear Solid Mechanics, §6.5",
+       .parameters = {}},
+      {.word = "stvk",
+       .doc = "St Venant-Kirchhoff on triangles of constant strain, Poisson ratio 0 to 1/2; stretches from 0.8 to 1.3 only"},
+      "α = ν/(1 − ν), from the Poisson ratio ν.", "is stretched beyond 0.8 to 1.3, where the law softens; neo_hooke holds there");
 }
 
 }  // namespace morula::dcm

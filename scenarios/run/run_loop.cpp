@@ -27,11 +27,11 @@ double next_multiple(double time, double interval) {
   return k * interval;
 }
 
+}  // namespace
+
 ResultsHead results_head(const Study& study) {
   return {study.name, study.title, study.model.seed, study.source_text, study.resolved_text, obstacles_at_start(study.model)};
 }
-
-}  // namespace
 
 double next_output(double time, double interval, double end) { return std::min(next_multiple(time, interval), end); }
 

@@ -9,10 +9,14 @@
 #include "results/checkpoint.h"
 #include "results/observables/observables.h"
 #include "results/run_folder.h"
+#include "results/snapshot_file.h"
 #include "scenarios/run/driver.h"
 #include "scenarios/run/timings.h"
 
 namespace morula::scenarios {
+
+/// What results.h5 says of the run of a study.
+ResultsHead results_head(const Study& study);
 
 /// The first output time after `time`: the next multiple of the interval, or the end if that comes first [s].
 double next_output(double time, double interval, double end);
