@@ -22,6 +22,8 @@ std::string in_cell(const std::string& text) {
   return out;
 }
 
+std::string path_of(const LawKey& key) { return key.section.empty() ? key.spec.name : key.section + "." + key.spec.name; }
+
 std::string fallback_of(const KeySpec& key) {
   if (key.fallback == nullptr) return key.required ? "none, must be given" : "none";
   return "`" + std::string(key.fallback) + "`";
@@ -31,15 +33,16 @@ std::string fallback_of(const KeySpec& key) {
 
 std::vector<ListedLaw> all_laws() {
   std::vector<ListedLaw> laws;
-  for (auto& entry : cbm::contact_laws()) laws.push_back({"contact of spheres", std::move(entry.info)});
+  const auto builtin = builtin_laws();
+  for (const auto& law : builtin->spheres) laws.push_back({"contact of spheres", law->info});
   laws.push_back({"contact of spheres", cbm::jkr_range_law()});
   laws.push_back({"contact of spheres", cbm::packing_law()});
-  const auto builtin = builtin_laws();
   for (const auto& law : builtin->shells) laws.push_back({"shells", law.info});
   const auto add = [&laws](const char* group, std::vector<LawInfo> infos) {
     for (LawInfo& info : infos) laws.push_back({group, std::move(info)});
   };
-  add("contact of surfaces", surface_contact_laws());
+  for (const auto& law : builtin->surfaces) laws.push_back({"contact of surfaces", law->info});
+  add("contact of surfaces", surface_contact_terms());
   add("interior of shells", dcm::interior_laws());
   add("behaviours", behaviour_laws());
   add("fields", fields::field_laws());
@@ -70,7 +73,7 @@ std::string law_text(const ListedLaw& law) {
   }
   if (!law.info.keys.empty()) out += "  from the keys of the study:\n";
   for (const LawKey& key : law.info.keys) {
-    out += "    " + key.section + "." + key.spec.name + ": " + key.spec.doc + "\n      range:   " + scenarios::range_words(key.spec) +
+    out += "    " + path_of(key) + ": " + key.spec.doc + "\n      range:   " + scenarios::range_words(key.spec) +
            "\n      default: " + fallback_of(key.spec) + "\n";
   }
   return out;
@@ -83,7 +86,7 @@ std::string law_json(const ListedLaw& law) {
   }
   nlohmann::ordered_json keys = nlohmann::ordered_json::array();
   for (const LawKey& key : law.info.keys)
-    keys.push_back({{"key", key.section + "." + key.spec.name},
+    keys.push_back({{"key", path_of(key)},
                     {"default", key.spec.fallback != nullptr ? key.spec.fallback : ""},
                     {"range", scenarios::range_words(key.spec)},
                     {"source", key.spec.source},
@@ -113,7 +116,7 @@ std::string law_reference() {
       out += "| `" + p.name + "` | " + (p.unit.empty() ? "1" : p.unit) + " | " + in_cell(p.doc) + " |\n";
     if (!law.info.keys.empty()) out += "\n| key of the study | range | default | source |\n|---|---|---|---|\n";
     for (const LawKey& key : law.info.keys)
-      out += "| `" + key.section + "." + key.spec.name + "` | " + scenarios::range_words(key.spec) + " | " + fallback_of(key.spec) + " | " +
+      out += "| `" + path_of(key) + "` | " + scenarios::range_words(key.spec) + " | " + fallback_of(key.spec) + " | " +
              in_cell(key.spec.source) + " |\n";
   }
   return out;

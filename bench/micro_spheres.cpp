@@ -65,13 +65,14 @@ BENCHMARK(jkr_lanes);
 
 /// Geometry, cube root of R*, law: eight pairs at a time, as the step does it.
 void pair_blocks(benchmark::State& state) {
-  const ContactMaterial material = ContactMaterial::elastic(0.45, 0.4, 0.45, 0.4, 0.1);
+  const SphereParameters sphere;
+  const PairContact contact{sphere.law.get(), sphere.law->couple(sphere, &sphere, 0.1)};
   const auto values = overlaps(1024);
   PairBlock block;
   for (auto _ : state) {
     for (std::size_t k = 0; k < values.size(); k += PairBlock::kWidth) {
       for (int lane = 0; lane < PairBlock::kWidth; ++lane)
-        block.set(lane, {10.0 - values[k + static_cast<std::size_t>(lane)], 0.1, 0.2}, 5.0, 5.0, material, true, 0.0);
+        block.set(lane, {10.0 - values[k + static_cast<std::size_t>(lane)], 0.1, 0.2}, 5.0, 5.0, contact, true, 0.0);
       evaluate(block, PairBlock::kWidth);
       benchmark::DoNotOptimize(block);
     }

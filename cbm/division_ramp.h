@@ -1,6 +1,6 @@
 #pragma once
-#include "cbm/laws/jkr.h"
 #include "core/cell_id.h"
+#include "core/numbers/cube_root.h"
 
 namespace morula::cbm {
 
@@ -33,11 +33,11 @@ inline constexpr double kSisterRelaxation = 1800.0;
 /// The rest distance of the pair grows linearly over `relaxation` from the birth distance to the zero-load distance of its law,
 /// R_i + R_j − δ_0; so offset = (R_i + R_j − δ_0 − d_birth)·(1 − age/relaxation), and 0 from then on, and the pair is born without load.
 ///
-/// law and radius_i, radius_j: as they are now; birth_radius_i, birth_radius_j: at division [µm]; age: time since division [s].
-[[nodiscard]] constexpr double sister_overlap_offset(const PairLaw<double>& law, double radius_i, double radius_j, double birth_radius_i,
+/// rest_overlap: δ_0 of the pair's law [µm]; radius_i, radius_j: as they are now; birth_radius_i, birth_radius_j: at division [µm]; age: time since division [s].
+[[nodiscard]] constexpr double sister_overlap_offset(double rest_overlap, double radius_i, double radius_j, double birth_radius_i,
                                                      double birth_radius_j, double age, double relaxation = kSisterRelaxation) noexcept {
   if (!(age < relaxation)) return 0.0;
-  const double to_go = radius_i + radius_j - zero_load_overlap(law) - sister_distance(birth_radius_i, birth_radius_j);
+  const double to_go = radius_i + radius_j - rest_overlap - sister_distance(birth_radius_i, birth_radius_j);
   if (to_go <= 0.0) return 0.0;  // adhesion so strong that sisters at birth already pull: nothing to forgive
   return to_go * (age <= 0.0 ? 1.0 : 1.0 - age / relaxation);
 }

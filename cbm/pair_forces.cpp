@@ -6,6 +6,26 @@
 #include <numbers>
 
 namespace morula::cbm {
+namespace {
+
+/// Lanes of more than one law: each law's loop is run over its pairs, which stand in for the others, too.
+void evaluate_several_laws(PairBlock& block, int count) noexcept {
+  const PairBlock given = block;
+  for (int first = 0; first < count; ++first) {
+    const SphereLaw* law = given.contact[first]->law;
+    bool done = false;
+    for (int lane = 0; lane < first; ++lane) done = done || given.contact[lane]->law == law;
+    if (done) continue;
+    PairBlock part = given;
+    for (int lane = 0; lane < PairBlock::kWidth; ++lane)
+      if (given.contact[lane]->law != law) part.copy_pair(first, lane);
+    law->evaluate(part);
+    for (int lane = first; lane < count; ++lane)
+      if (given.contact[lane]->law == law) block.take_result(part, lane);
+  }
+}
+
+}  // namespace
 
 ContactTable::ContactTable(std::span<const SphereParameters> types, std::span<const SurfacePair> surfaces)
     : types_(types.size()), materials_(types.empty() ? 0 : surfaces.size() / types.size()) {
@@ -14,72 +34,30 @@ ContactTable::ContactTable(std::span<const SphereParameters> types, std::span<co
   for (std::size_t a = 0; a < types_; ++a) {
     for (std::size_t b = 0; b < materials_; ++b) {
       const SurfacePair& surface = surfaces[a * materials_ + b];
-      ContactMaterial material;
-      if (b < types_) {
-        // Always from the lower type's side, so that (a, b) and (b, a) are the same numbers to the last bit.
-        const SphereParameters& first = types[a < b ? a : b];
-        const SphereParameters& second = types[a < b ? b : a];
-        const double adhesion = first.adhesive && second.adhesive ? surface.adhesion : 0.0;
-        material = ContactMaterial::elastic(first.young, first.poisson, second.young, second.poisson, adhesion);
-      } else {
-        material = ContactMaterial::against_rigid(types[a].young, types[a].poisson, types[a].adhesive ? surface.adhesion : 0.0);
-      }
-      entries_.push_back({material, surface.normal_friction, surface.tangential_friction});
+      // Always from the lower type's side, so that (a, b) and (b, a) are the same numbers to the last bit.
+      const SphereParameters& first = types[b < types_ && b < a ? b : a];
+      const SphereParameters* second = b < types_ ? &types[b < a ? a : b] : nullptr;
+      const SphereLaw* law = second == nullptr || first.law == second->law ? first.law.get() : other_.get();
+      entries_.push_back({{law, law->couple(first, second, surface.adhesion)}, surface.normal_friction, surface.tangential_friction});
     }
   }
 }
 
 void evaluate(PairBlock& block, int count) noexcept {
-  using L = Lane<double, PairBlock::kWidth>;
-  for (int lane = count; lane < PairBlock::kWidth; ++lane)  // idle lanes repeat the first
-    block.set(lane, {block.between[0][0], block.between[1][0], block.between[2][0]}, block.radius_a[0], block.radius_b[0],
-              *block.material[0], block.attached[0] != 0.0, block.offset[0]);
-
-  const L x = L::load(block.between[0]), y = L::load(block.between[1]), z = L::load(block.between[2]);
-  const L distance = sqrt(x * x + y * y + z * z);
-  const auto apart = distance > L(kCoincident);
-  const L inverse = select(apart, L(1.0) / distance, L(0.0));
-  (x * inverse).store(block.normal[0]);
-  (y * inverse).store(block.normal[1]);
-  select(apart, z * inverse, L(1.0)).store(block.normal[2]);
-  distance.store(block.distance);
-
-  const L radius_a = L::load(block.radius_a), radius_b = L::load(block.radius_b);
-  const L overlap = radius_a + radius_b - distance - L::load(block.offset);
-
-  // The scales of each pair: make_pair_law() in lanes.
-  PairLaw<L> law;
-  law.reduced_radius = radius_a * radius_b / (radius_a + radius_b);
-  L adhesion, length_factor, radius_factor, root;
-  for (int lane = 0; lane < PairBlock::kWidth; ++lane) {
-    const ContactMaterial& material = *block.material[lane];
-    law.modulus.set(lane, material.modulus);
-    adhesion.set(lane, material.adhesion);
-    length_factor.set(lane, material.length_factor);
-    radius_factor.set(lane, material.radius_factor);
-    root.set(lane, cube_root_start(law.reduced_radius[lane]));
-  }
-  root = cube_root_refined(law.reduced_radius, root);
-  const auto adheres = adhesion > L(0.0);
-  law.length = length_factor * root;
-  law.inverse_length = select(adheres, L(1.0) / law.length, L(0.0));
-  law.radius = radius_factor * (root * root);
-  law.force = L(std::numbers::pi) * adhesion * law.reduced_radius;
-
-  const auto attached = (L::load(block.attached) > L(0.0)) & adheres;
-  const ContactResponse<L> hertz = hertz_contact(law, overlap), jkr = jkr_contact(law, overlap);
-  select(attached, jkr.force, hertz.force).store(block.force);
-  select(attached, jkr.stiffness, hertz.stiffness).store(block.stiffness);
-  select(attached, jkr.area, hertz.area).store(block.area);
-  select(attached, jkr.energy, hertz.energy).store(block.energy);
-  const auto stays = (overlap >= select(attached, L(kBreakOverlap) * law.length, L(0.0))) & adheres;  // as update_attached()
-  for (int lane = 0; lane < PairBlock::kWidth; ++lane) block.attached_next[lane] = stays[lane] != 0;
+  for (int lane = count; lane < PairBlock::kWidth; ++lane) block.copy_pair(0, lane);  // idle lanes repeat the first
+  const SphereLaw* law = block.contact[0]->law;
+  bool same = true;
+  for (int lane = 1; lane < count; ++lane) same = same && block.contact[lane]->law == law;
+  if (same)
+    law->evaluate(block);
+  else
+    evaluate_several_laws(block, count);
 }
 
-PairResponse evaluate_pair(const ContactMaterial& material, const Vec3d& between, double radius_a, double radius_b, bool attached,
+PairResponse evaluate_pair(const PairContact& contact, const Vec3d& between, double radius_a, double radius_b, bool attached,
                            double offset) noexcept {
   PairBlock block;
-  block.set(0, between, radius_a, radius_b, material, attached, offset);
+  block.set(0, between, radius_a, radius_b, contact, attached, offset);
   evaluate(block, 1);
   return {{block.normal[0][0], block.normal[1][0], block.normal[2][0]},
           block.distance[0],

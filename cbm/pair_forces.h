@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "cbm/laws/jkr.h"
+#include "cbm/pair_block.h"
 #include "cbm/spheres.h"
 #include "core/vec3.h"
 
@@ -20,14 +20,14 @@ struct SurfacePair {
 class ContactTable {
  public:
   struct Entry {
-    ContactMaterial material;
+    PairContact contact;
     double normal_friction = 0.0;      ///< γ_n [nN·s/µm³]
     double tangential_friction = 0.0;  ///< γ_t [nN·s/µm³]
   };
 
   ContactTable() = default;
-  /// types: elastic parameters by cell type; surfaces: (types × materials), row by row, symmetric among types. Spheres of a type that is
-  /// not adhesive do not adhere to anything.
+  /// types: elastic parameters by cell type; surfaces: (types × materials), row by row, symmetric among types. Two types of different
+  /// laws meet by Hertz's, from the moduli that all spheres have.
   ContactTable(std::span<const SphereParameters> types, std::span<const SurfacePair> surfaces);
 
   [[nodiscard]] std::size_t type_count() const { return types_; }
@@ -38,47 +38,11 @@ class ContactTable {
  private:
   std::size_t types_ = 0, materials_ = 0;
   std::vector<Entry> entries_;
+  std::shared_ptr<const SphereLaw> other_ = hertz_law();  ///< of two types whose laws differ
 };
 
-/// Centres closer than this have no direction: the z axis stands for it [µm].
-inline constexpr double kCoincident = 1e-9;
-
-/// Up to eight pairs at once: what evaluate() reads and what it finds, one pair a lane.
-///
-/// Force on a is −force·normal, on b +force·normal. stiffness·nnᵀ is the positive semi-definite part of ∂²U/∂x_b² along the normal. The
-/// overlap at which the law is evaluated is R_a + R_b − d − offset.
-struct PairBlock {
-  static constexpr int kWidth = 8;
-  using Row = double[kWidth];
-
-  alignas(64) Row between[3] = {};  ///< x_b − x_a [µm]
-  alignas(64) Row radius_a = {};    ///< [µm]
-  alignas(64) Row radius_b = {};    ///< [µm]
-  alignas(64) Row offset = {};      ///< overlap forgiven to fresh sisters (division_ramp.h) [µm]
-  alignas(64) Row attached = {};    ///< 1: on the adhesive branch, fixed within a step; 0: not
-  const ContactMaterial* material[kWidth] = {};
-
-  alignas(64) Row normal[3] = {};   ///< from a to b
-  alignas(64) Row distance = {};    ///< of the centres [µm]
-  alignas(64) Row force = {};       ///< [nN]
-  alignas(64) Row stiffness = {};   ///< max(0, dF/dδ) [nN/µm]
-  alignas(64) Row area = {};        ///< [µm²]
-  alignas(64) Row energy = {};      ///< [nN·µm]
-  bool attached_next[kWidth] = {};  ///< at the end of a step that ends here
-
-  void set(int lane, const Vec3d& x, double a, double b, const ContactMaterial& m, bool is_attached, double forgiven) noexcept {
-    between[0][lane] = x.x;
-    between[1][lane] = x.y;
-    between[2][lane] = x.z;
-    radius_a[lane] = a;
-    radius_b[lane] = b;
-    material[lane] = &m;
-    attached[lane] = is_attached ? 1.0 : 0.0;
-    offset[lane] = forgiven;
-  }
-};
-
-/// Evaluate lanes 0 .. count−1, 0 < count <= kWidth. The result of a lane has the same bits whatever the others hold.
+/// Evaluate lanes 0 .. count−1, 0 < count <= kWidth, each by the law of its contact; the loop of a law is run once for all lanes that have it.
+/// The result of a lane has the same bits whatever the others hold.
 void evaluate(PairBlock& block, int count) noexcept;
 
 /// One pair alone, as evaluate() gives it.
@@ -87,7 +51,7 @@ struct PairResponse {
   double distance = 0.0, force = 0.0, stiffness = 0.0, area = 0.0, energy = 0.0;
   bool attached_next = false;
 };
-PairResponse evaluate_pair(const ContactMaterial& material, const Vec3d& between, double radius_a, double radius_b, bool attached,
+PairResponse evaluate_pair(const PairContact& contact, const Vec3d& between, double radius_a, double radius_b, bool attached,
                            double offset) noexcept;
 
 /// How far the contact with a sphere of radius b at distance d lies from the centre of one of radius a: in the middle of their overlap [µm].

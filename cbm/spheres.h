@@ -1,9 +1,11 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "cbm/packing.h"
 #include "cbm/partners.h"
+#include "cbm/sphere_law.h"
 #include "core/column.h"
 #include "core/vec3.h"
 
@@ -103,12 +105,13 @@ inline std::size_t memory_of(const Spheres& spheres) {
   return bytes;
 }
 
-/// Elastic parameters of a sphere, for the contact laws.
+/// Parameters of a sphere, for the contact laws. Every sphere has the moduli of the cell as a whole, which its contact with surfaces takes, too.
 struct SphereParameters {
-  double young = 0.45;     ///< E [kPa]
-  double poisson = 0.4;    ///< ν
-  bool adhesive = true;    ///< JKR; false: Hertz, spheres of this type do not adhere to spheres
-  PackingCurve packing{};  ///< pressure by packing; empty: none
+  double young = 0.45;                               ///< E [kPa]
+  double poisson = 0.4;                              ///< ν
+  std::shared_ptr<const SphereLaw> law = jkr_law();  ///< of contact with spheres and obstacles
+  LawValues own{};                                   ///< values of the law's own keys
+  PackingCurve packing{};                            ///< pressure by packing; empty: none
 };
 
 }  // namespace morula::cbm

@@ -9,28 +9,8 @@ constexpr const char* kOurs = "choice of this project";
 
 }  // namespace
 
-std::vector<LawInfo> surface_contact_laws() {
-  const ContactNumerics numerics;
-  const LawParameter range{"range", "length", "µm", numerics.range, 0.01, 5.0, kOurs, "Range c of the attraction."};
-  const LawParameter repulsion{
-      "repulsion", "pressure per length", "kPa/µm", numerics.repulsion, 0.1, 1e5, kOurs, "Stiffness k_r of the repulsion."};
+std::vector<LawInfo> surface_contact_terms() {
   return {
-      {.name = "traction",
-       .title = "Traction that rises and falls",
-       .equation = "U(g) per area: −W + ½ω g² (g < c/2), −½ω (c − g)² (g < c), ω = 4W/c²; for g < 0 instead −W + ½ k_r g²",
-       .source = "choice of this project: the work of separation is exactly W; integrated over each face",
-       .parameters = {range, repulsion}},
-      {.name = "maugis_dugdale",
-       .title = "Constant adhesive stress, elastic repulsion",
-       .equation = "σ = W/(0.9 c) (0.1 c < g < 0.9 c), linear to 0 at g = 0 and g = c; p = E*/(π √R) √|g| (g < 0), 1/R = 1/R_a + 1/R_b",
-       .source = "Odenthal et al. 2013, doi:10.1371/journal.pcbi.1003267, as a local traction (decision 0018); Maugis 1992, "
-                 "doi:10.1016/0021-9797(92)90285-T",
-       .parameters = {range, given_by_study("modulus", "pressure", "kPa", "Reduced modulus E* of what lies behind both surfaces.")}},
-      {.name = "falling",
-       .title = "Traction that falls from contact",
-       .equation = "σ = 2W/c · (c − g)/(0.9 c) (0.1 c < g < c), linear to 0 at g = 0; p = k_r |g| (g < 0)",
-       .source = "after Cuvelier et al. 2023: W and a short range instead of a pressure by curvature (decision 0018)",
-       .parameters = {range, repulsion}},
       {.name = "contact_pair",
        .title = "Adhesion and friction of a pair",
        .equation = "F_friction = −(γ_n n nᵀ + γ_t (1 − n nᵀ)) A (v_i − v_j)",

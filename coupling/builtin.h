@@ -5,8 +5,8 @@
 
 namespace morula {
 
-/// What acts between surfaces in contact, as the law reference describes it: the traction, and the adhesion and friction of a pair.
-std::vector<LawInfo> surface_contact_laws();
+/// What acts between surfaces in contact beside the law of the traction (coupling/surface_law.h), as the law reference describes it.
+std::vector<LawInfo> surface_contact_terms();
 
 /// Loads from outside as the law reference describes them, by the names of their kinds in a study; their functions are in coupling/loads.h.
 std::vector<LawInfo> load_laws();

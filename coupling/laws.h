@@ -2,6 +2,8 @@
 #include <memory>
 #include <vector>
 
+#include "cbm/sphere_law.h"
+#include "coupling/surface_law.h"
 #include "dcm/shell_law.h"
 
 namespace morula {
@@ -10,6 +12,8 @@ namespace morula {
 /// the models that it makes keep what they need of them.
 struct Laws {
   std::vector<dcm::ShellLaw> shells;
+  std::vector<std::shared_ptr<const cbm::SphereLaw>> spheres;  ///< of their contact
+  std::vector<std::shared_ptr<const SurfaceLaw>> surfaces;     ///< of contact of surfaces
 };
 
 /// What Morula brings.

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "core/space/space.h"
 #include "coupling/active_terms.h"
 #include "coupling/face_regions.h"
+#include "coupling/surface_law.h"
 #include "coupling/time_course.h"
 #include "dcm/interior.h"
 #include "dcm/shells.h"
@@ -79,22 +81,15 @@ struct CellType {
   double self_contact = 0.0;         ///< of shells: distance at which a surface touches itself; 0: it passes through itself [µm]
 };
 
-/// Traction between two surfaces over their gap (core/contact/traction_law.h; decision 0018).
-enum class SurfaceLaw : std::uint8_t {
-  kTent,           ///< rises to the middle of the range and falls again; linear repulsion
-  kMaugisDugdale,  ///< nearly constant over the range; Hertz-like repulsion
-  kFalling,        ///< highest at contact, falls over the range; linear repulsion
-};
-
 /// Contact of two materials. Cell types come first, obstacles after them.
 struct ContactPair {
-  double adhesion = 0.0;              ///< W per contact area of the pair [nN/µm]
-  double normal_friction = 50.0;      ///< γ_n per contact area [nN·s/µm³]
-  double tangential_friction = 50.0;  ///< γ_t per contact area [nN·s/µm³]
-  SurfaceLaw law = SurfaceLaw::kTent;
-  double range = 0.0;                   ///< c; 0: that of ContactNumerics [µm]
-  double repulsion = 0.0;               ///< k_r; 0: that of ContactNumerics [kPa/µm]
-  double reduced_modulus = 0.0;         ///< E* of kMaugisDugdale [kPa]
+  double adhesion = 0.0;                               ///< W per contact area of the pair [nN/µm]
+  double normal_friction = 50.0;                       ///< γ_n per contact area [nN·s/µm³]
+  double tangential_friction = 50.0;                   ///< γ_t per contact area [nN·s/µm³]
+  std::shared_ptr<const SurfaceLaw> law = tent_law();  ///< traction between surfaces (decision 0018)
+  double range = 0.0;                                  ///< c; 0: that of ContactNumerics [µm]
+  double repulsion = 0.0;                              ///< k_r; 0: that of ContactNumerics [kPa/µm]
+  LawValues own{};                                     ///< values of the law's own keys
   std::vector<AdhesionRule> regions{};  ///< W by the marks of the faces, first material first; the first that holds; else `adhesion`
 };
 

@@ -40,15 +40,33 @@ std::optional<Materials> materials_of(BuildContext& c, const Given<std::vector<s
   return Materials{*a, *b};
 }
 
-void check_keys(BuildContext& c, const draft::ContactPair& pair, const Place& place) {
-  const bool elastic = pair.law.value == "maugis_dugdale";
-  if (elastic && !pair.reduced_modulus.given)
-    c.diagnostics.error(516, place, "law maugis_dugdale needs the modulus of the bodies in contact", "add for example `modulus: 500 Pa`");
-  if (!elastic && pair.reduced_modulus.given)
-    c.diagnostics.error(515, pair.reduced_modulus.place, "`modulus` belongs to law maugis_dugdale, but the law is " + pair.law.value,
-                        "remove it, or write `law: maugis_dugdale`");
-  if (elastic && pair.repulsion.given)
-    c.diagnostics.error(515, pair.repulsion.place, "law maugis_dugdale has its repulsion from `modulus`", "remove `repulsion`");
+std::shared_ptr<const SurfaceLaw> law_of(const BuildContext& c, const draft::ContactPair& pair) {
+  for (const auto& law : c.options.laws->surfaces)
+    if (law->word == pair.law.value) return law;
+  return tent_law();  // told
+}
+
+/// Keys of the laws' own: E515 where another law stands, E516 where one is missing.
+void check_own_keys(BuildContext& c, const draft::ContactPair& pair, const SurfaceLaw& law, const Place& place) {
+  for (const auto& [name, key] : pair.own) {
+    std::string owners, example;
+    bool has_effect = false;
+    for (const auto& one : c.options.laws->surfaces)
+      for (const KeySpec& own : one->own)
+        if (name == own.name)
+          owners += (owners.empty() ? "" : " or ") + one->word, example = own.example, has_effect = has_effect || one->word == law.word;
+    if (has_effect && !key.known() && !key.given)
+      c.diagnostics.error(516, place, "law " + law.word + " needs `" + name + "`", "add for example `" + name + ": " + example + "`");
+    if (!has_effect && key.given)
+      c.diagnostics.error(515, key.place, "`" + name + "` belongs to law " + owners + ", but the law is " + pair.law.value,
+                          "remove it, or write `law: " + owners + "`");
+  }
+}
+
+void check_keys(BuildContext& c, const draft::ContactPair& pair, const SurfaceLaw& law, const Place& place) {
+  check_own_keys(c, pair, law, place);
+  if (!law.has_repulsion && pair.repulsion.given)
+    c.diagnostics.error(515, pair.repulsion.place, "law " + law.word + " has a repulsion of its own", "remove `repulsion`");
   const Given<double>& shortest = c.draft.contact.range;
   if (pair.range.given && pair.range.known() && shortest.known() && pair.range.value < shortest.value)
     c.diagnostics.error(510, pair.range.place,
@@ -56,9 +74,14 @@ void check_keys(BuildContext& c, const draft::ContactPair& pair, const Place& pl
                         "give the shortest range as `contact.range`, and longer ones by pair: steps are measured by the shortest");
 }
 
-/// Contact bears the pressure of a cell, p = 2 tension/R: an elastic repulsion gives way by (π √R p/E*)² (decision 0018).
-void check_depth(BuildContext& c, const draft::ContactPair& pair, const Materials& materials) {
-  if (pair.law.value != "maugis_dugdale" || !pair.reduced_modulus.known() || !c.draft.limits.overlap.known()) return;
+/// What the law says of its values, knowing the pressure 2 tension/R that a contact of these cells bears.
+void judge_values(BuildContext& c, const draft::ContactPair& pair, const SurfaceLaw& law, const Materials& materials) {
+  if (law.judge == nullptr || !c.draft.limits.overlap.known()) return;
+  LawValues values;
+  for (const KeySpec& key : law.own) {
+    if (!pair.own.at(key.name).known()) return;
+    values.set(key.name, pair.own.at(key.name).value);
+  }
   double curvature = 0.0, pressure = 0.0;
   for (const std::size_t m : {materials.a, materials.b}) {
     if (m >= c.draft.cell_types.size()) continue;
@@ -67,14 +90,13 @@ void check_depth(BuildContext& c, const draft::ContactPair& pair, const Material
     curvature += 1.0 / type.radius.mean.value;
     pressure = std::max(pressure, 2.0 * type.tension.value / type.radius.mean.value);
   }
-  const double allowed = c.draft.limits.overlap.value, least = std::numbers::pi * pressure / std::sqrt(curvature * allowed);
-  if (pair.reduced_modulus.value >= least) return;
-  const double depth = std::pow(std::numbers::pi * pressure / pair.reduced_modulus.value, 2) / curvature;
-  c.diagnostics.warning(517, pair.reduced_modulus.place,
-                        "cells under their own pressure sink into each other by about " + short_number(std::round(depth * 100.0) / 100.0) +
-                            " um: modulus " + pair.reduced_modulus.text + " is that of soft bodies",
-                        "at least " + short_number(std::ceil(least * 10.0) / 10.0) + " kPa keeps the overlap below `limits.overlap` (" +
-                            c.draft.limits.overlap.text + ")");
+  values.set("curvature", curvature), values.set("pressure", pressure), values.set("overlap", c.draft.limits.overlap.value);
+  const auto problem = law.judge(values);
+  if (!problem) return;
+  const Given<double>& key = pair.own.at(problem->key);
+  std::string what = problem->what;
+  if (const std::size_t gap = what.find("{}"); gap != std::string::npos) what.replace(gap, 2, key.text);
+  c.diagnostics.warning(problem->code, key.place, what, problem->help + " (" + c.draft.limits.overlap.text + ")");
 }
 
 }  // namespace
@@ -83,11 +105,12 @@ void build_contact_pairs(BuildContext& c) {
   const std::size_t count = c.draft.cell_types.size() + c.draft.geometry.size();
   std::vector<const Place*> seen(count * count, nullptr);
   for (const auto& [name, place, d] : c.draft.contact.pairs) {
-    check_keys(c, d, place);
+    const std::shared_ptr<const SurfaceLaw> law = law_of(c, d);
+    check_keys(c, d, *law, place);
     const auto found = materials_of(c, d.between);
     if (!found) continue;
     const auto [a, b] = *found;
-    check_depth(c, d, *found);
+    judge_values(c, d, *law, *found);
     const std::size_t slot = std::min(a, b) * count + std::max(a, b);
     if (seen[slot] != nullptr) {
       c.diagnostics.error(510, place, "this pair stands here for the second time, after line " + std::to_string(seen[slot]->line),
@@ -96,12 +119,11 @@ void build_contact_pairs(BuildContext& c) {
     }
     seen[slot] = &place;
     ContactPair& pair = c.study.model.pairs[a * count + b];
-    pair.law = d.law.value == "maugis_dugdale" ? SurfaceLaw::kMaugisDugdale
-               : d.law.value == "falling"      ? SurfaceLaw::kFalling
-                                               : SurfaceLaw::kTent;
+    pair.law = law;
     if (d.range.given) pair.range = d.range.value;
     if (d.repulsion.given) pair.repulsion = d.repulsion.value;
-    if (d.reduced_modulus.given) pair.reduced_modulus = d.reduced_modulus.value;
+    for (const KeySpec& key : law->own)
+      if (const auto at = d.own.find(key.name); at != d.own.end() && at->second.known()) pair.own.set(key.name, at->second.value);
     if (d.normal_friction.given) pair.normal_friction = d.normal_friction.value;
     if (d.tangential_friction.given) pair.tangential_friction = d.tangential_friction.value;
     c.study.model.pairs[b * count + a] = pair;

@@ -160,6 +160,24 @@ class PairTable {
   std::vector<std::vector<std::size_t>> row_;  ///< row_of() each
 };
 
+/// The law of a type's spheres with the values of its own keys: E515 for keys of other laws.
+void set_sphere_law(BuildContext& c, const draft::CellType& t, cbm::SphereParameters& sphere) {
+  for (const auto& law : c.options.laws->spheres)
+    if (law->word == t.sphere_law.value) sphere.law = law;
+  for (const auto& [name, key] : t.sphere_own) {
+    std::string owners;
+    bool has_effect = false;
+    for (const auto& law : c.options.laws->spheres)
+      for (const KeySpec& own : law->own)
+        if (name == own.name)
+          owners += (owners.empty() ? "`law: " : " or `law: ") + law->word + "`", has_effect = has_effect || law == sphere.law;
+    if (has_effect)
+      sphere.own.set(name, key.value);
+    else if (key.given)
+      c.diagnostics.error(515, key.place, "'" + name + "' has no effect here", "it belongs to " + owners);
+  }
+}
+
 }  // namespace
 
 void build_cell_types(BuildContext& c) {
@@ -184,7 +202,7 @@ void build_cell_types(BuildContext& c) {
     type.shell_nodes = static_cast<std::uint32_t>(t.nodes.value);
     type.sphere.young = t.sphere_young.value;
     type.sphere.poisson = t.sphere_poisson.value;
-    type.sphere.adhesive = t.sphere_law.value != "hertz";
+    set_sphere_law(c, t, type.sphere);
     type.sphere.packing = build_packing(c, name, t);
     type.shell = build_shell(c, name, t, t.friction_medium.value);
     type.interior = build_interior(c, t, name);

@@ -46,11 +46,11 @@ bool may_be_sphere(const BuildContext& c, std::size_t type) {
 void check_jkr_range(BuildContext& c) {
   const Model& model = c.study.model;
   for (std::size_t i = 0; i < model.types.size(); ++i) {
-    if (!model.types[i].sphere.adhesive || !may_be_sphere(c, i)) continue;
+    if (!model.types[i].sphere.law->of_small_contacts || !may_be_sphere(c, i)) continue;
     std::size_t worst = i;
     cbm::RestingContact most{};
     for (std::size_t j = i; j < model.types.size(); ++j) {
-      if (!model.types[j].sphere.adhesive || !may_be_sphere(c, j)) continue;
+      if (model.types[j].sphere.law != model.types[i].sphere.law || !may_be_sphere(c, j)) continue;
       const cbm::RestingContact at = cbm::resting_contact(model.types[i].sphere, model.types[i].radius.mean, model.types[j].sphere,
                                                           model.types[j].radius.mean, model.pair(i, j).adhesion);
       if (at.radius_ratio > most.radius_ratio) most = at, worst = j;

@@ -1,3 +1,6 @@
+#include <algorithm>
+
+#include "cbm/sphere_keys.h"
 #include "dcm/shell_keys.h"
 #include "study/declare.h"
 
@@ -187,6 +190,27 @@ void declare_friction(Section& s, draft::CellType& t) {
              t.tangential_medium);
 }
 
+/// The law of contact of spheres, with the moduli that all have and the keys of the laws' own.
+void declare_sphere_law(Section& c, draft::CellType& t) {
+  KeySpec law{.name = "law",
+              .doc = "Contact of two spheres. ",
+              .fallback = "jkr",
+              .example = "jkr",
+              .source = "Johnson, Kendall & Roberts 1971, doi:10.1098/rspa.1971.0141"};
+  for (const auto& one : c.laws().spheres) law.doc += one->word + ": " + one->doc + "; ", law.words.push_back(one->word);
+  law.doc += "two types with different laws meet by Hertz's.";
+  c.word(law, t.sphere_law);
+  c.quantity(cbm::keys::young(), t.sphere_young);
+  c.quantity(cbm::keys::poisson(), t.sphere_poisson);
+  std::vector<std::string> declared{"law", "young", "poisson", "packing"};
+  for (const auto& one : c.laws().spheres)
+    for (const KeySpec& key : one->own) {
+      if (std::ranges::find(declared, key.name) != declared.end()) continue;
+      declared.emplace_back(key.name);
+      c.quantity(key, t.sphere_own[key.name]);
+    }
+}
+
 }  // namespace
 
 void declare_cell_type(Section& s, draft::CellType& t) {
@@ -215,45 +239,9 @@ void declare_cell_type(Section& s, draft::CellType& t) {
   declare_life(s, t);
   declare_osmosis(s, t);
   s.group({.name = "friction", .doc = "Friction with what is around."}, present, [&t](Section& f) { declare_friction(f, t); });
-  s.quantities(
-      {.name = "adhesion",
-       .doc =
-           "Adhesion energy W per contact area of the pair, by name of a cell type or obstacle; holds for both bodies. Give a pair "
-           "once. `others`: all cell types and obstacles that neither side names. Pairs without either have 1e-4 J/m^2 between cells and "
-           "1e-5 J/m^2 with obstacles.",
-       .quantity = Q::kTension,
-       .low = 0.0,
-       .high = 100.0,
-       .example = "{hepatocyte: 1e-4 J/m^2, capsule: 1e-6 J/m^2}",
-       .source = kTable1},
-      t.adhesion);
+  s.quantities(cbm::keys::adhesion(), t.adhesion);
   s.group({.name = "cbm", .doc = "The cell as a sphere."}, present, [&t](Section& c) {
-    c.word({.name = "law",
-            .doc = "Contact of two spheres: JKR (elastic with adhesion) or Hertz (elastic, adhesion ignored).",
-            .fallback = "jkr",
-            .words = {"jkr", "hertz"},
-            .example = "jkr",
-            .source = "Johnson, Kendall & Roberts 1971, doi:10.1098/rspa.1971.0141"},
-           t.sphere_law);
-    c.quantity({.name = "young",
-                .doc = "Young's modulus of the sphere.",
-                .quantity = Q::kPressure,
-                .fallback = "1.5 kPa",
-                .low = 0.0,
-                .high = 1e4,
-                .low_open = true,
-                .example = "1.5 kPa",
-                .source = "3 K (1 - 2 nu) with the bulk modulus K = 2.5 kPa of shells (Van Liedekerke et al. 2020, "
-                          "doi:10.1007/s10237-019-01204-7): one material in both bodies, and a contact radius of 0.40 R at 1e-4 J/m^2"},
-               t.sphere_young);
-    c.quantity({.name = "poisson",
-                .doc = "Poisson ratio of the sphere.",
-                .fallback = "0.4",
-                .low = 0.0,
-                .high = 0.5,
-                .example = "0.4",
-                .source = "Galle et al. 2005, doi:10.1529/biophysj.104.041459"},
-               t.sphere_poisson);
+    declare_sphere_law(c, t);
     declare_packing(c, t);
   });
   s.group({.name = "dcm", .doc = "The cell as a deformable shell."}, present, [&t](Section& d) { declare_shell(d, t); });

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "study/declare.h"
 
 namespace morula::scenarios {
@@ -29,15 +31,14 @@ void declare_pair(Section& s, draft::ContactPair& pair) {
            .required = true,
            .example = "[tumour, dish]"},
           pair.between);
-  s.word({.name = "law",
-          .doc = "Traction over the gap. traction: rises to the middle of the range and falls again. maugis_dugdale: constant over the "
-                 "range (but for a tenth at each end), with the repulsion of two elastic bodies. falling: highest at contact, falls over "
-                 "the range. The work of separation is W in each.",
-          .fallback = "traction",
-          .words = {"traction", "maugis_dugdale", "falling"},
-          .example = "maugis_dugdale",
-          .source = "Odenthal et al. 2013, doi:10.1371/journal.pcbi.1003267; Cuvelier et al. 2023; docs/decisions/0018"},
-         pair.law);
+  KeySpec law{.name = "law",
+              .doc = "Traction over the gap. ",
+              .fallback = "traction",
+              .example = "maugis_dugdale",
+              .source = "Odenthal et al. 2013, doi:10.1371/journal.pcbi.1003267; Cuvelier et al. 2023; docs/decisions/0018"};
+  for (const auto& one : s.laws().surfaces) law.doc += one->word + ": " + one->doc + ". ", law.words.push_back(one->word);
+  law.doc += "The work of separation is W in each.";
+  s.word(law, pair.law);
   s.quantity({.name = "range",
               .doc = "Range c of this pair, not below `contact.range`; without it that range.",
               .quantity = Q::kLength,
@@ -52,14 +53,13 @@ void declare_pair(Section& s, draft::ContactPair& pair) {
               .high = 1e5,
               .example = "100 kPa/um"},
              pair.repulsion);
-  s.quantity({.name = "modulus",
-              .doc = "Reduced modulus E* of what lies behind both surfaces, 1/E* = sum of (1 - nu^2)/E; for maugis_dugdale.",
-              .quantity = Q::kPressure,
-              .low = 0.0,
-              .high = 1e6,
-              .low_open = true,
-              .example = "20 kPa"},
-             pair.reduced_modulus);
+  std::vector<std::string> declared{"between", "law", "range", "repulsion", "normal_friction", "tangential_friction", "regions"};
+  for (const auto& one : s.laws().surfaces)
+    for (const KeySpec& key : one->own) {
+      if (std::ranges::find(declared, key.name) != declared.end()) continue;
+      declared.emplace_back(key.name);
+      s.quantity(key, pair.own[key.name]);
+    }
   s.quantity({.name = "normal_friction",
               .doc = "Friction against coming together and apart, per contact area; without it as `friction` of the cell types says.",
               .quantity = Q::kFrictionPerArea,

@@ -96,6 +96,7 @@ struct CellType : ShellKeys {
   Given<double> friction_cell_cell, friction_obstacle, friction_medium;
   std::vector<Named<Given<double>>> adhesion;
   Given<std::string> sphere_law;
+  std::map<std::string, Given<double>> sphere_own;  ///< keys that laws of spheres have for themselves, by name
   Given<double> sphere_young, sphere_poisson;
   Given<std::string> packing_law;
   Given<double> packing_bulk_modulus;
@@ -116,7 +117,8 @@ struct AdhesionRegion {
 struct ContactPair {
   Given<std::vector<std::string>> between;
   Given<std::string> law;
-  Given<double> range, repulsion, reduced_modulus, normal_friction, tangential_friction;
+  Given<double> range, repulsion, normal_friction, tangential_friction;
+  std::map<std::string, Given<double>> own;  ///< keys that laws have for themselves, by name
   std::vector<Named<AdhesionRegion>> regions;
 };
 

@@ -156,7 +156,7 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
     const bool first = body[0].topology == nullptr;
     const double modulus = (first ? contact : material(scene.bodies[pair.b].material, scene.bodies[pair.a].material)).sphere_modulus;
     contact.law.repulsion = sphere_foundation(modulus, contact.law.adhesion, body[first ? 0 : 1].radius);
-    contact.law.hertz = 0.0;
+    contact.law.gives_way = true;
     contact.law.cap = 0.0;
   }
   if (contact.regional) contact.law.adhesion = 1.0;  // W comes with the faces

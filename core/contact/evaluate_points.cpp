@@ -229,7 +229,7 @@ void take_distances(double touch, Batch& batch) {
 /// Energies, tractions and stiffness at the gaps. `kPlain`: one W everywhere, and two different bodies.
 template <bool kPlain>
 void respond(const PointsEvaluation& e, Batch& batch) {
-  const TractionLaw& law = e.material.law;
+  const SurfaceTraction& law = e.material.law;
   const Vector x0 = load(batch.source_corner[0]);
   const Vector twice = cross(load(batch.source_corner[1]) - x0, load(batch.source_corner[2]) - x0);
   const Real length = norm(twice), face_area = length * Real(0.5);
@@ -238,8 +238,8 @@ void respond(const PointsEvaluation& e, Batch& batch) {
   face_area.store(batch.face_area);
   const Real gap = Real::load(batch.gap);
   const auto weight = OpposedWeight::of(-dot(source_normal, load(batch.unit)));
-  auto attraction = law.attraction(gap);
-  const auto repulsion = law.repulse(gap);
+  TractionPart attraction, repulsion;
+  law.form->evaluate(law, gap, attraction, repulsion);
   const Real part(1.0 / e.quadrature.count);
   const Real area = face_area * Real(e.share) * part;
   if (!kPlain && e.material.regional) {

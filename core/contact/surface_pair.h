@@ -8,7 +8,7 @@
 #include "core/contact/contact_body.h"
 #include "core/contact/packed_points.h"
 #include "core/contact/regional_adhesion.h"
-#include "core/contact/traction_law.h"
+#include "core/contact/surface_traction.h"
 #include "core/friction/contact_element.h"
 #include "core/space/space.h"
 #include "core/vec3.h"
@@ -17,7 +17,7 @@ namespace morula {
 
 /// Contact of two materials as the contact layer needs it.
 struct ContactMaterial {
-  TractionLaw law;
+  SurfaceTraction law;
   double sphere_modulus = 0.5;       ///< E/(1 − ν²) of the first material's spheres: they meet surfaces with sphere_foundation() [kPa]
   double normal_friction = 0.0;      ///< γ_n per contact area [nN·s/µm³]
   double tangential_friction = 0.0;  ///< γ_t per contact area [nN·s/µm³]

@@ -78,20 +78,14 @@ double curvature(const Model& model, std::size_t material) {
   return material < model.types.size() ? 1.0 / model.types[material].radius.mean : 0.0;
 }
 
-TractionLaw traction_law(const Model& model, std::size_t a, std::size_t b) {
+SurfaceTraction traction(const Model& model, std::size_t a, std::size_t b) {
   const ContactPair& pair = model.pair(a, b);
-  TractionLaw law;
-  law.adhesion = pair.adhesion;
-  law.range = pair.range > 0.0 ? pair.range : model.contact.range;
-  law.repulsion = pair.repulsion > 0.0 ? pair.repulsion : model.contact.repulsion;
-  constexpr double kFlank = 0.1;  // part of the range over which a traction that jumps in theory rises or falls
-  if (pair.law == SurfaceLaw::kMaugisDugdale) {
-    law.flat_from = kFlank, law.flat_to = 1.0 - kFlank;
-    law.hertz = pair.reduced_modulus * std::sqrt(curvature(model, a) + curvature(model, b)) / std::numbers::pi;
-  } else if (pair.law == SurfaceLaw::kFalling) {
-    law.flat_from = law.flat_to = kFlank;
-  }
-  return law;
+  LawValues values = pair.own;
+  values.set("adhesion", pair.adhesion);
+  values.set("range", pair.range > 0.0 ? pair.range : model.contact.range);
+  values.set("repulsion", pair.repulsion > 0.0 ? pair.repulsion : model.contact.repulsion);
+  values.set("curvature", curvature(model, a) + curvature(model, b));
+  return pair.law->build(values);
 }
 
 }  // namespace
@@ -110,7 +104,7 @@ std::vector<ContactMaterial> contact_materials(const Model& model) {
         const auto& sphere = model.types[a].sphere;
         material.sphere_modulus = sphere.young / (1.0 - sphere.poisson * sphere.poisson);
       }
-      material.law = traction_law(model, a, b);
+      material.law = traction(model, a, b);
       if (!pair.regions.empty())
         material.regional =
             std::make_shared<const RegionalAdhesion>(pair.adhesion, pair.regions, static_cast<int>(model.mark_names.size()));
@@ -155,6 +149,18 @@ std::size_t contact_obstacle_count(const Model& model) {
   return model.obstacles.size() + walls;
 }
 
+cbm::ContactTable sphere_contact_table(const Model& model) {
+  std::vector<cbm::SphereParameters> types;
+  std::vector<cbm::SurfacePair> surfaces;
+  for (std::size_t a = 0; a < model.types.size(); ++a) {
+    types.push_back(model.types[a].sphere);
+    for (std::size_t b = 0; b < model.material_count(); ++b)
+      surfaces.push_back({model.pair(a, b).adhesion, model.pair(a, b).normal_friction, model.pair(a, b).tangential_friction});
+    surfaces.push_back({});
+  }
+  return {types, surfaces};
+}
+
 ContactSettings contact_settings(const Model& model, int threads) {
   ContactSettings settings;
   settings.range = model.contact.range;
@@ -164,21 +170,17 @@ ContactSettings contact_settings(const Model& model, int threads) {
   settings.points_per_face = model.contact.points_per_face;
   settings.threads = threads;
   settings.objective_friction = model.contact.objective_friction;
-  // Spheres that adhere hold on up to 0.75 X, X = (π² W² R*/E*²)^(1/3) (cbm.md §2), at the largest radius a cell of the type reaches.
+  // Spheres may hold on to each other over a gap, at the largest radius a cell of the type reaches.
+  const cbm::ContactTable table = sphere_contact_table(model);
   for (std::size_t a = 0; a < model.types.size(); ++a)
     for (std::size_t b = a; b < model.types.size(); ++b) {
       const auto radius = [&](std::size_t t) {
         return 2.0 * model.types[t].radius.mean * (1.0 + 3.0 * model.types[t].radius.relative_spread);
       };
-      const auto compliance = [&](std::size_t t) {
-        const auto& s = model.types[t].sphere;
-        return (1.0 - s.poisson * s.poisson) / s.young;
-      };
-      const double reduced_radius = radius(a) * radius(b) / (radius(a) + radius(b));
-      const double reduced_modulus = 1.0 / (compliance(a) + compliance(b));
-      const double w = model.pair(a, b).adhesion;
-      const double x = std::cbrt(std::numbers::pi * std::numbers::pi * w * w * reduced_radius / (reduced_modulus * reduced_modulus));
-      settings.sphere_reach = std::max(settings.sphere_reach, 0.75 * x);
+      const cbm::PairContact& contact = table.entry(a, b).contact;
+      if (contact.law->reach == nullptr) continue;
+      settings.sphere_reach =
+          std::max(settings.sphere_reach, contact.law->reach(contact.coefficient, cbm::reduced_radius(radius(a), radius(b))));
     }
   return settings;
 }

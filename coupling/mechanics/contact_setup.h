@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "cbm/pair_forces.h"
 #include "core/contact/contact_layer.h"
 #include "core/result.h"
 #include "coupling/model.h"
@@ -18,6 +19,9 @@ Result<std::vector<RigidSurface>> contact_obstacles(const Model& model);
 
 /// How many surfaces contact_obstacles() makes: what `Tissue::obstacle_offset` has one entry each for.
 [[nodiscard]] std::size_t contact_obstacle_count(const Model& model);
+
+/// Contact of spheres with all materials: types, obstacles, and one more for walls, which neither adhere nor rub.
+cbm::ContactTable sphere_contact_table(const Model& model);
 
 /// Ranges and skins of the contact layer for this model.
 ContactSettings contact_settings(const Model& model, int threads);

@@ -7,22 +7,10 @@
 #include "cbm/division_ramp.h"
 #include "cbm/sphere_range.h"
 #include "core/parallel/threads.h"
+#include "coupling/mechanics/contact_setup.h"
 
 namespace morula {
 namespace {
-
-/// Materials as the law sees them: types, obstacles, and one more for walls, which neither adhere nor rub.
-cbm::ContactTable contact_table(const Model& model) {
-  std::vector<cbm::SphereParameters> types;
-  std::vector<cbm::SurfacePair> surfaces;
-  for (std::size_t a = 0; a < model.types.size(); ++a) {
-    types.push_back(model.types[a].sphere);
-    for (std::size_t b = 0; b < model.material_count(); ++b)
-      surfaces.push_back({model.pair(a, b).adhesion, model.pair(a, b).normal_friction, model.pair(a, b).tangential_friction});
-    surfaces.push_back({});
-  }
-  return {types, surfaces};
-}
 
 double ball(double radius) { return (4.0 / 3.0) * std::numbers::pi * radius * radius * radius; }
 
@@ -36,7 +24,7 @@ double arm_of_b(const cbm::PairBlock& block, int lane) {
 }  // namespace
 
 SphereContacts::SphereContacts(const Model& model, SurfaceContacts& surfaces)
-    : model_(model), surfaces_(surfaces), table_(contact_table(model)) {
+    : model_(model), surfaces_(surfaces), table_(sphere_contact_table(model)) {
   std::vector<PairFriction> friction;
   for (std::size_t a = 0; a < table_.type_count(); ++a)
     for (std::size_t b = 0; b < table_.type_count(); ++b) {
@@ -52,8 +40,11 @@ void SphereContacts::update_sisters(const Scene& scene, double now) {
   const auto spheres = scene.bodies().subspan(scene.first_sphere());
   for (Sisters& s : sisters_) {
     const ContactBody &a = spheres[list_.pairs[s.pair].a], &b = spheres[list_.pairs[s.pair].b];
-    const auto law = cbm::make_pair_law(table_.entry(a.material, b.material).material, a.radius, b.radius);
-    s.offset = cbm::sister_overlap_offset(law, a.radius, b.radius, s.birth_radius_a, s.birth_radius_b, now - s.birth_time);
+    const cbm::PairContact& contact = table_.entry(a.material, b.material).contact;
+    const double rest = contact.law->rest_overlap != nullptr
+                            ? contact.law->rest_overlap(contact.coefficient, cbm::reduced_radius(a.radius, b.radius))
+                            : 0.0;
+    s.offset = cbm::sister_overlap_offset(rest, a.radius, b.radius, s.birth_radius_a, s.birth_radius_b, now - s.birth_time);
   }
 }
 
@@ -86,7 +77,7 @@ void SphereContacts::visit(const SpherePairs::Share& share, const Scene& scene, 
       const double far = a.radius + b.radius + (pair.attached ? reach : 1e-6);
       if (norm2(between) < far * far) {
         number[filled] = k;
-        block.set(filled++, between, a.radius, b.radius, table_.entry(a.material, b.material).material, pair.attached, offset);
+        block.set(filled++, between, a.radius, b.radius, table_.entry(a.material, b.material).contact, pair.attached, offset);
         if (filled == cbm::PairBlock::kWidth) flush();
       } else {  // most of what the skin adds
         far_away(k);
@@ -214,12 +205,11 @@ void SphereContacts::evaluate_rigid(const Scene& scene, std::size_t k) {
   const double overlap = body.radius - pair.distance;
   const std::size_t material = std::min<std::size_t>(model_.types.size() + pair.obstacle, table_.material_count() - 1);
   const auto& entry = table_.entry(body.material, material);
-  const auto law = cbm::make_pair_law(entry.material, body.radius);
-  const auto response = cbm::contact_response(law, overlap, pair.attached);
+  const auto [response, attached_next] = entry.contact.law->respond(entry.contact.coefficient, body.radius, overlap, pair.attached);
   pair.force = response.force;
   pair.energy = response.energy;
   pair.area = response.area;
-  pair.attached_next = cbm::update_attached(overlap, pair.attached, law);
+  pair.attached_next = attached_next;
   element.stiffness = static_cast<float>(response.stiffness);
   if (packing_.acts && overlap > 0.0) {  // the wall takes a cap of the sphere; its energy is the sphere's
     const cbm::PlaneCap cap = cbm::plane_cap(body.radius, overlap);

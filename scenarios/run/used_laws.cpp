@@ -30,18 +30,6 @@ void add_shell_laws(const Laws& laws, const std::string& whose, const dcm::Shell
     }
 }
 
-const char* law_name(SurfaceLaw law) {
-  switch (law) {
-    case SurfaceLaw::kTent:
-      return "traction";
-    case SurfaceLaw::kMaugisDugdale:
-      return "maugis_dugdale";
-    case SurfaceLaw::kFalling:
-      return "falling";
-  }
-  return "";
-}
-
 /// Nucleus and links of one type.
 void add_interior_laws(const CellType& type, std::vector<UsedLaw>& out) {
   const dcm::InteriorParameters& p = type.interior;
@@ -72,35 +60,32 @@ void add_contacts(const Model& model, bool shells, bool spheres, std::vector<Use
       const std::string purpose = "contact of " + name(a) + " with " + name(b);
       out.push_back(
           {purpose,
-           law_named(surface_contact_laws(), "contact_pair"),
+           law_named(surface_contact_terms(), "contact_pair"),
            {{"adhesion", pair.adhesion}, {"normal_friction", pair.normal_friction}, {"tangential_friction", pair.tangential_friction}}});
       for (std::size_t r = 0; shells && r < pair.regions.size(); ++r) {
         const AdhesionRule& rule = pair.regions[r];  // between cells of one type a rule stands both ways round
         const AdhesionRule before = r > 0 ? pair.regions[r - 1] : AdhesionRule{};
         if (a == b && r > 0 && before.marks_a == rule.marks_b && before.marks_b == rule.marks_a && before.marks_a != before.marks_b)
           continue;
-        out.push_back({purpose, law_named(surface_contact_laws(), "regional_adhesion"), {{"adhesion", rule.adhesion}}});
+        out.push_back({purpose, law_named(surface_contact_terms(), "regional_adhesion"), {{"adhesion", rule.adhesion}}});
       }
       if (shells && a == b && model.types[a].self_contact > 0.0)
-        out.push_back({purpose, law_named(surface_contact_laws(), "self_contact"), {{"self_contact", model.types[a].self_contact}}});
+        out.push_back({purpose, law_named(surface_contact_terms(), "self_contact"), {{"self_contact", model.types[a].self_contact}}});
       if (!shells && b < model.types.size()) continue;
-      out.push_back({purpose,
-                     law_named(surface_contact_laws(), law_name(pair.law)),
-                     {{"range", pair.range > 0.0 ? pair.range : model.contact.range},
-                      {"repulsion", pair.repulsion > 0.0 ? pair.repulsion : model.contact.repulsion},
-                      {"modulus", pair.reduced_modulus}}});
+      Values values{{"range", pair.range > 0.0 ? pair.range : model.contact.range},
+                    {"repulsion", pair.repulsion > 0.0 ? pair.repulsion : model.contact.repulsion}};
+      for (const KeySpec& key : pair.law->own) values.emplace_back(key.name, pair.own(key.name));
+      out.push_back({purpose, pair.law->info, std::move(values)});
     }
   if (shells && model.contact.objective_friction)
-    out.push_back({"contact of surfaces", law_named(surface_contact_laws(), "objective_friction"), {}});
+    out.push_back({"contact of surfaces", law_named(surface_contact_terms(), "objective_friction"), {}});
   if (!spheres) return;
   for (std::size_t t = 0; t < model.types.size(); ++t) {
     const CellType& type = model.types[t];
-    for (const cbm::ContactLawEntry& law : cbm::contact_laws())
-      if (law.info.name == (type.sphere.adhesive ? "jkr" : "hertz"))
-        out.push_back({"spheres of " + type.name,
-                       law.info,
-                       {{"young", type.sphere.young}, {"poisson", type.sphere.poisson}, {"adhesion", model.pair(t, t).adhesion}}});
-    if (type.sphere.adhesive && model.pair(t, t).adhesion > 0.0) {
+    Values values{{"young", type.sphere.young}, {"poisson", type.sphere.poisson}, {"adhesion", model.pair(t, t).adhesion}};
+    for (const KeySpec& key : type.sphere.law->own) values.emplace_back(key.name, type.sphere.own(key.name));
+    out.push_back({"spheres of " + type.name, type.sphere.law->info, std::move(values)});
+    if (type.sphere.law->of_small_contacts && model.pair(t, t).adhesion > 0.0) {
       const cbm::RestingContact rest =
           cbm::resting_contact(type.sphere, type.radius.mean, type.sphere, type.radius.mean, model.pair(t, t).adhesion);
       out.push_back({"spheres of " + type.name,

@@ -107,8 +107,7 @@ double work_between_plates(double flat_from, double flat_to) {
   ContactMaterial material;
   material.law.adhesion = kAdhesion;
   material.law.range = 0.1;
-  material.law.flat_from = flat_from;
-  material.law.flat_to = flat_to;
+  material.law.coefficient = {flat_from, flat_to, 0.0};
   const TriangleMesh mesh = make_box({4.0, 4.0, 2.0}, 0.8).value();
   constexpr int kSteps = 20;
   const double step = material.law.range / kSteps;

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "cbm/division_ramp.h"
+#include "cbm/laws/jkr.h"
 
 namespace morula::cbm {
 namespace {
@@ -48,8 +49,15 @@ Cluster random_cluster(int count, unsigned seed) {
   return cluster;
 }
 
+/// The pair law of the contact of two JKR or Hertz spheres, or of one and a plane.
+PairLaw<double> scalar_law(const PairContact& contact, double reduced) {
+  const auto& c = contact.coefficient;
+  return make_pair_law({c[0], c[1], c[2], c[3]}, reduced);
+}
+PairLaw<double> scalar_law(const PairContact& contact, double a, double b) { return scalar_law(contact, reduced_radius(a, b)); }
+
 PairResponse respond(const Cluster& c, const ContactTable& table, const Pair& pair) {
-  return evaluate_pair(table.entry(c.type[pair.i], c.type[pair.j]).material, c.position[pair.j] - c.position[pair.i], c.radius[pair.i],
+  return evaluate_pair(table.entry(c.type[pair.i], c.type[pair.j]).contact, c.position[pair.j] - c.position[pair.i], c.radius[pair.i],
                        c.radius[pair.j], pair.attached, pair.offset);
 }
 
@@ -68,7 +76,7 @@ TEST(PairForces, HaveTheSameBitsInAFullBlockAsAlone) {
   for (std::size_t k = 0; k < cluster.pairs.size(); ++k) {
     const Pair& pair = cluster.pairs[k];
     block.set(filled++, cluster.position[pair.j] - cluster.position[pair.i], cluster.radius[pair.i], cluster.radius[pair.j],
-              table.entry(cluster.type[pair.i], cluster.type[pair.j]).material, pair.attached, pair.offset);
+              table.entry(cluster.type[pair.i], cluster.type[pair.j]).contact, pair.attached, pair.offset);
     if (filled < PairBlock::kWidth && k + 1 < cluster.pairs.size()) continue;
     evaluate(block, filled);
     for (int lane = 0; lane < filled; ++lane) {
@@ -87,13 +95,36 @@ TEST(PairForces, HaveTheSameBitsInAFullBlockAsAlone) {
   EXPECT_GE(touching, 10u);
 }
 
+TEST(PairForces, OfTwoLawsInOneBlockAreThoseOfEachAlone) {
+  const std::vector<SphereParameters> types = {{0.45, 0.4}, {1.0, 0.3, hertz_law()}};
+  const std::vector<SurfacePair> surfaces = {{0.1, 60, 50}, {0.05, 40, 20}, {0.05, 40, 20}, {0.2, 10, 30}};
+  const ContactTable table(types, surfaces);
+  const auto cluster = random_cluster(20, 7);
+  PairBlock block;
+  for (std::size_t first = 0; first + PairBlock::kWidth <= cluster.pairs.size(); first += PairBlock::kWidth) {
+    for (int lane = 0; lane < PairBlock::kWidth; ++lane) {
+      const Pair& pair = cluster.pairs[first + static_cast<std::size_t>(lane)];
+      block.set(lane, cluster.position[pair.j] - cluster.position[pair.i], cluster.radius[pair.i], cluster.radius[pair.j],
+                table.entry(cluster.type[pair.i], cluster.type[pair.j]).contact, pair.attached, pair.offset);
+    }
+    evaluate(block, PairBlock::kWidth);
+    for (int lane = 0; lane < PairBlock::kWidth; ++lane) {
+      const auto alone = respond(cluster, table, cluster.pairs[first + static_cast<std::size_t>(lane)]);
+      EXPECT_EQ(block.force[lane], alone.force);
+      EXPECT_EQ(block.energy[lane], alone.energy);
+      EXPECT_EQ(block.distance[lane], alone.distance);
+      EXPECT_EQ(block.attached_next[lane], alone.attached_next);
+    }
+  }
+}
+
 TEST(PairForces, AreThoseOfTheScalarLaw) {
   const auto table = two_types();
   const auto cluster = random_cluster(12, 6);
   for (const Pair& pair : cluster.pairs) {
     const auto found = respond(cluster, table, pair);
     const auto law =
-        make_pair_law(table.entry(cluster.type[pair.i], cluster.type[pair.j]).material, cluster.radius[pair.i], cluster.radius[pair.j]);
+        scalar_law(table.entry(cluster.type[pair.i], cluster.type[pair.j]).contact, cluster.radius[pair.i], cluster.radius[pair.j]);
     const double overlap = cluster.radius[pair.i] + cluster.radius[pair.j] - found.distance - pair.offset;
     const auto expected = contact_response(law, overlap, pair.attached);
     EXPECT_EQ(found.force, expected.force);
@@ -142,9 +173,9 @@ TEST(PairForces, AreTheGradientOfTheEnergyWithoutNetForceOrTorque) {
 TEST(PairForces, StiffnessIsTheHessianWhereTheHessianIsPositive) {
   // Two attached spheres in tension on the rising branch: k n nᵀ along the normal, −F/d across it, which the operator leaves out.
   const auto table = two_types();
-  const auto& material = table.entry(0, 0).material;
+  const auto& contact = table.entry(0, 0).contact;
   const Vec3d between{5.5, 6.0, 3.0};
-  const auto response = evaluate_pair(material, between, 5.0, 5.0, true, 0.0);
+  const auto response = evaluate_pair(contact, between, 5.0, 5.0, true, 0.0);
   ASSERT_LT(response.force, 0.0);
   ASSERT_GT(response.stiffness, 0.0);
   const double h = 1e-4;
@@ -152,7 +183,7 @@ TEST(PairForces, StiffnessIsTheHessianWhereTheHessianIsPositive) {
     Vec3d step{};
     step[axis] = h;
     const auto force = [&](const Vec3d& at) {
-      const auto r = evaluate_pair(material, at, 5.0, 5.0, true, 0.0);
+      const auto r = evaluate_pair(contact, at, 5.0, 5.0, true, 0.0);
       return r.force * r.normal;  // on j
     };
     const Vec3d column = (force(between + step) - force(between - step)) * (-0.5 / h);
@@ -167,8 +198,8 @@ TEST(PairForces, StiffnessIsTheHessianWhereTheHessianIsPositive) {
 TEST(PairForces, ArePerfectlyAntisymmetricInThePair) {
   const auto table = two_types();
   const Vec3d between{3.1, -7.7, 5.2};
-  const auto one = evaluate_pair(table.entry(0, 1).material, between, 5.3, 6.1, true, 0.0);
-  const auto other = evaluate_pair(table.entry(1, 0).material, -between, 6.1, 5.3, true, 0.0);
+  const auto one = evaluate_pair(table.entry(0, 1).contact, between, 5.3, 6.1, true, 0.0);
+  const auto other = evaluate_pair(table.entry(1, 0).contact, -between, 6.1, 5.3, true, 0.0);
   EXPECT_EQ(one.force, other.force);
   EXPECT_EQ(one.area, other.area);
   EXPECT_EQ(one.energy, other.energy);
@@ -176,31 +207,31 @@ TEST(PairForces, ArePerfectlyAntisymmetricInThePair) {
 }
 
 TEST(PairForces, AreaOfTheReferencePairIsThatOfItsRadius) {
-  const auto r = evaluate_pair(two_types().entry(0, 0).material, {9.0, 0.0, 0.0}, 5.0, 5.0, true, 0.0);
+  const auto r = evaluate_pair(two_types().entry(0, 0).contact, {9.0, 0.0, 0.0}, 5.0, 5.0, true, 0.0);
   EXPECT_NEAR(r.area, kPi * 3.026791 * 3.026791, 1e-4);  // a at δ = 1 of the reference pair
 }
 
 TEST(ContactTable, KnowsRigidMaterialsAndWhoDoesNotAdhere) {
   // R = 5, E* = 0.535714286 (plane of the physics page), δ = 1: (4/3) E* √5 without adhesion.
-  const std::vector<SphereParameters> types = {{0.45, 0.4}, {0.45, 0.4, false}};
+  const std::vector<SphereParameters> types = {{0.45, 0.4}, {0.45, 0.4, hertz_law()}};
   const std::vector<SurfacePair> surfaces = {{0.1, 1, 2}, {0.1, 3, 4}, {0.1, 5, 6}, {0.0, 0, 0},  //
                                              {0.1, 3, 4}, {0.1, 1, 2}, {0.1, 5, 6}, {0.0, 0, 0}};
   const ContactTable table(types, surfaces);
   ASSERT_EQ(table.material_count(), 4u);
-  const auto wall = contact_response(make_pair_law(table.entry(0, 3).material, 5.0), 1.0, false);
+  const auto wall = contact_response(scalar_law(table.entry(0, 3).contact, 5.0), 1.0, false);
   EXPECT_NEAR(wall.force, 4.0 / 3.0 * 0.535714286 * std::sqrt(5.0), 1e-8);
   EXPECT_NEAR(wall.area, 5.0 * kPi, 1e-12);
   // Sphere on a rigid plane, R = 5, W = 0.1, attached at δ = 0: −2.0943951 nN (physics page).
-  EXPECT_NEAR(contact_response(make_pair_law(table.entry(0, 2).material, 5.0), 0.0, true).force, -2.0943951, 1e-6);
+  EXPECT_NEAR(contact_response(scalar_law(table.entry(0, 2).contact, 5.0), 0.0, true).force, -2.0943951, 1e-6);
   EXPECT_EQ(table.entry(0, 2).tangential_friction, 6.0);
-  EXPECT_FALSE(is_adhesive(make_pair_law(table.entry(0, 1).material, 5.0, 5.0)));
-  EXPECT_FALSE(is_adhesive(make_pair_law(table.entry(1, 2).material, 5.0)));
-  EXPECT_TRUE(is_adhesive(make_pair_law(table.entry(0, 0).material, 5.0, 5.0)));
+  EXPECT_FALSE(is_adhesive(scalar_law(table.entry(0, 1).contact, 5.0, 5.0)));
+  EXPECT_FALSE(is_adhesive(scalar_law(table.entry(1, 2).contact, 5.0)));
+  EXPECT_TRUE(is_adhesive(scalar_law(table.entry(0, 0).contact, 5.0, 5.0)));
 }
 
 TEST(PairForces, CoincidentCentresGetADefiniteDirection) {
   const auto table = two_types();
-  const auto r = evaluate_pair(table.entry(0, 0).material, {0, 0, 0}, 5.0, 5.0, true, 0.0);
+  const auto r = evaluate_pair(table.entry(0, 0).contact, {0, 0, 0}, 5.0, 5.0, true, 0.0);
   EXPECT_EQ(r.normal, (Vec3d{0, 0, 1}));
   EXPECT_TRUE(std::isfinite(r.force));
   EXPECT_GT(r.force, 0.0);
@@ -214,7 +245,7 @@ TEST(PairForces, FlagsChangeOnlyWhereAPairTouchesOrBreaks) {
   const bool expected[] = {true, false, true, false, false};
   for (std::size_t k = 0; k < 5; ++k) {
     const std::size_t type = k == 4;
-    EXPECT_EQ(evaluate_pair(table.entry(type, type).material, {distances[k], 0, 0}, 5.0, 5.0, flags[k], 0.0).attached_next, expected[k])
+    EXPECT_EQ(evaluate_pair(table.entry(type, type).contact, {distances[k], 0, 0}, 5.0, 5.0, flags[k], 0.0).attached_next, expected[k])
         << k;
   }
 }
@@ -258,7 +289,7 @@ TEST(PairForces, VirialPressureOfHertzSpheresInFcc) {
   const ContactTable table(types, surfaces);
   double virial = 0.0, area = 0.0;
   for (std::size_t k = 1; k < 13; ++k) {
-    const auto r = evaluate_pair(table.entry(0, 0).material, cluster.position[k], radius, radius, false, 0.0);
+    const auto r = evaluate_pair(table.entry(0, 0).contact, cluster.position[k], radius, radius, false, 0.0);
     virial += contact_arm(r.distance, radius, radius) * r.force;
     area += r.area;
   }
@@ -285,16 +316,16 @@ TEST(DivisionRamp, UnequalSistersStayInsideTheirMother) {
 TEST(DivisionRamp, SistersAreBornWithoutLoadAndEndAsAnOrdinaryPair) {
   const auto table = two_types();
   const double mother = 6.0, r = mother / std::cbrt(2.0);
-  const auto& material = table.entry(0, 0).material;
-  const auto law = make_pair_law(material, r, r);
+  const auto& contact = table.entry(0, 0).contact;
+  const auto law = scalar_law(contact, r, r);
   const double born = sister_distance(r, r), ordinary = 2 * r - zero_load_overlap(law);
   for (const double age : {0.0, 450.0, 900.0, 1800.0, 1e6}) {
-    const double offset = sister_overlap_offset(law, r, r, r, r, age);
+    const double offset = sister_overlap_offset(zero_load_overlap(law), r, r, r, r, age);
     const double rest = born + (ordinary - born) * std::min(1.0, age / 1800.0);  // grows linearly
-    EXPECT_NEAR(evaluate_pair(material, {rest, 0, 0}, r, r, true, offset).force, 0.0, 1e-12) << age;
+    EXPECT_NEAR(evaluate_pair(contact, {rest, 0, 0}, r, r, true, offset).force, 0.0, 1e-12) << age;
     EXPECT_GE(offset, 0.0);
   }
-  EXPECT_EQ(sister_overlap_offset(law, r, r, r, r, 1800.0), 0.0);
+  EXPECT_EQ(sister_overlap_offset(zero_load_overlap(law), r, r, r, r, 1800.0), 0.0);
 }
 
 TEST(DivisionRamp, KnowsSistersByTheirIds) {

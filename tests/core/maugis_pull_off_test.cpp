@@ -133,7 +133,7 @@ class BallOnHalfSpace {
   std::vector<std::vector<double>> give_;  ///< displacement of ring i by unit pressure on ring j
 };
 
-/// The law that stands for Maugis and Dugdale's: constant but for flanks of a tenth of the range (contact_setup.cpp).
+/// The law that stands for Maugis and Dugdale's: constant but for flanks of a tenth of the range (coupling/surface_law.cpp).
 TractionLaw dugdale() {
   TractionLaw law;
   law.adhesion = kAdhesion;

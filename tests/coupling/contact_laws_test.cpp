@@ -7,12 +7,12 @@
 namespace morula {
 namespace {
 
-class EveryContactLaw : public testing::TestWithParam<SurfaceLaw> {};
+class EveryContactLaw : public testing::TestWithParam<std::shared_ptr<const SurfaceLaw>> {};
 
 constexpr double kRadius = 6.0, kAdhesion = 0.1;
 
 /// Cells against a large plate whose upper face is at z = 0.
-Model above_a_plate(SurfaceLaw law) {
+Model above_a_plate(const std::shared_ptr<const SurfaceLaw>& law) {
   Model model = test::clusters_model(0.0);
   model.contact.range = 0.5;
   model.contact.repulsion = 100.0;
@@ -22,7 +22,7 @@ Model above_a_plate(SurfaceLaw law) {
   model.obstacles = {ObstacleSpec{"plate", plate.position, plate.faces, false, {}}};
   ContactPair pair{kAdhesion, 50.0, 50.0};
   pair.law = law;
-  pair.reduced_modulus = 20.0;
+  pair.own.set("modulus", 20.0);
   model.pairs = {model.pairs[0], pair, pair, pair};
   return model;
 }
@@ -47,7 +47,7 @@ TEST_P(EveryContactLaw, PullsARigidSphereOffAPlaneAtTwoPiRW) {
 /// T7.2: the same for any range below 2 R: Archimedes, a zone of a sphere between two planes has the area 2π R times their distance.
 TEST(RigidSphere, IsPulledOffAPlaneByTheSameForceWhateverTheRange) {
   for (const double range : {0.25, 1.0, 2.0}) {
-    Model model = above_a_plate(SurfaceLaw::kTent);
+    Model model = above_a_plate(tent_law());
     model.contact.range = range;
     ShapeLibrary shapes;
     Tissue tissue = test::make_tissue(model, shapes, {{0.3, 0.2, kRadius}}, {BodyKind::kShell}, 2562, kRadius);
@@ -125,13 +125,9 @@ TEST_P(EveryContactLaw, LetsAShellRestOnAPlane) {
   EXPECT_LT(mechanics.deepest_overlap(), 0.3);
 }
 
-std::string name_of(const testing::TestParamInfo<SurfaceLaw>& given) {
-  const char* const names[] = {"Tent", "MaugisDugdale", "Falling"};
-  return names[static_cast<std::size_t>(given.param)];
-}
+std::string name_of(const testing::TestParamInfo<std::shared_ptr<const SurfaceLaw>>& given) { return given.param->info.name; }
 
-INSTANTIATE_TEST_SUITE_P(Every, EveryContactLaw, testing::Values(SurfaceLaw::kTent, SurfaceLaw::kMaugisDugdale, SurfaceLaw::kFalling),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(Every, EveryContactLaw, testing::ValuesIn(surface_laws()), name_of);
 
 }  // namespace
 }  // namespace morula

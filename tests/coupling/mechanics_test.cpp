@@ -25,15 +25,15 @@ void shake(Tissue& tissue, double amount) {
 struct Bodies {
   const char* name;
   std::vector<BodyKind> kinds;
-  SurfaceLaw law;
+  std::shared_ptr<const SurfaceLaw> law;
 };
 const Bodies kBodies[] = {
-    {"Shells", {BodyKind::kShell, BodyKind::kShell, BodyKind::kShell}, SurfaceLaw::kTent},
-    {"ShellsAndASphere", {BodyKind::kShell, BodyKind::kSphere, BodyKind::kShell}, SurfaceLaw::kTent},
-    {"Spheres", {BodyKind::kSphere, BodyKind::kSphere, BodyKind::kSphere}, SurfaceLaw::kTent},
-    {"ShellsByMaugisDugdale", {BodyKind::kShell, BodyKind::kShell, BodyKind::kShell}, SurfaceLaw::kMaugisDugdale},
-    {"ShellsAndASphereByMaugisDugdale", {BodyKind::kShell, BodyKind::kSphere, BodyKind::kShell}, SurfaceLaw::kMaugisDugdale},
-    {"ShellsByAFallingTraction", {BodyKind::kShell, BodyKind::kShell, BodyKind::kShell}, SurfaceLaw::kFalling},
+    {"Shells", {BodyKind::kShell, BodyKind::kShell, BodyKind::kShell}, tent_law()},
+    {"ShellsAndASphere", {BodyKind::kShell, BodyKind::kSphere, BodyKind::kShell}, tent_law()},
+    {"Spheres", {BodyKind::kSphere, BodyKind::kSphere, BodyKind::kSphere}, tent_law()},
+    {"ShellsByMaugisDugdale", {BodyKind::kShell, BodyKind::kShell, BodyKind::kShell}, maugis_dugdale_law()},
+    {"ShellsAndASphereByMaugisDugdale", {BodyKind::kShell, BodyKind::kSphere, BodyKind::kShell}, maugis_dugdale_law()},
+    {"ShellsByAFallingTraction", {BodyKind::kShell, BodyKind::kShell, BodyKind::kShell}, falling_law()},
 };
 
 /// Three bodies that touch each other, out of shape.
@@ -42,7 +42,7 @@ class EveryPairOfBodies : public testing::TestWithParam<Bodies> {
   void SetUp() override {
     model.contact.range = 0.8;
     model.pairs[0].law = GetParam().law;
-    model.pairs[0].reduced_modulus = 1.0;
+    model.pairs[0].own.set("modulus", 1.0);
     tissue = make_tissue(model, shapes, {{0, 0, 0}, {11.6, 0.3, 0.2}, {5.2, 10.4, 0.4}}, GetParam().kinds);
     shake(tissue, 0.05);
   }

@@ -16,13 +16,13 @@ namespace {
 using test::clusters_model;
 using test::make_tissue;
 
-Model contacts_only(SurfaceLaw law) {
+Model contacts_only(const std::shared_ptr<const SurfaceLaw>& law) {
   Model model = clusters_model(0.3);
   dcm::ShellParameters& p = model.types[0].shell;
   p.shape_stiffness = p.barrier_stiffness = p.spring_stiffness = p.tension = p.hinge_stiffness = p.bulk_modulus = 0.0;
   model.contact.range = 1.5;
   model.pairs[0].law = law;
-  model.pairs[0].reduced_modulus = 1.0;
+  model.pairs[0].own.set("modulus", 1.0);
   return model;
 }
 
@@ -65,7 +65,7 @@ Weights weights_in(const Mechanics& mechanics, const dcm::Shells& shells) {
   return out;
 }
 
-class EveryLawOfContact : public testing::TestWithParam<SurfaceLaw> {};
+class EveryLawOfContact : public testing::TestWithParam<std::shared_ptr<const SurfaceLaw>> {};
 
 TEST_P(EveryLawOfContact, HasAForceThatIsMinusTheGradientWhereFacesTurnAway) {
   const Model model = contacts_only(GetParam());
@@ -140,13 +140,9 @@ TEST_P(EveryLawOfContact, HasAnEnergyWithoutJumpsAlongAnyApproach) {
   }
 }
 
-std::string name_of(const testing::TestParamInfo<SurfaceLaw>& given) {
-  const char* const names[] = {"Tent", "MaugisDugdale", "Falling"};
-  return names[static_cast<std::size_t>(given.param)];
-}
+std::string name_of(const testing::TestParamInfo<std::shared_ptr<const SurfaceLaw>>& given) { return given.param->info.name; }
 
-INSTANTIATE_TEST_SUITE_P(Every, EveryLawOfContact, testing::Values(SurfaceLaw::kTent, SurfaceLaw::kMaugisDugdale, SurfaceLaw::kFalling),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(Every, EveryLawOfContact, testing::ValuesIn(surface_laws()), name_of);
 
 }  // namespace
 }  // namespace morula

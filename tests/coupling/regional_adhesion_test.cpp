@@ -29,15 +29,15 @@ TEST(RegionalAdhesion, IsThatOfTheFirstRuleThatBothFacesFollow) {
 struct Case {
   const char* name;
   std::vector<BodyKind> kinds;
-  SurfaceLaw law;
+  std::shared_ptr<const SurfaceLaw> law;
   bool plate;
 };
 const Case kCases[] = {
-    {"Shells", {kShell, kShell, kShell}, SurfaceLaw::kTent, false},
-    {"ShellsAndASphere", {kShell, kSphere, kShell}, SurfaceLaw::kTent, false},
-    {"ShellsOnAPlate", {kShell, kSphere, kShell}, SurfaceLaw::kTent, true},
-    {"ShellsByMaugisDugdale", {kShell, kShell, kShell}, SurfaceLaw::kMaugisDugdale, true},
-    {"ShellsByAFallingTraction", {kShell, kShell, kShell}, SurfaceLaw::kFalling, true},
+    {"Shells", {kShell, kShell, kShell}, tent_law(), false},
+    {"ShellsAndASphere", {kShell, kSphere, kShell}, tent_law(), false},
+    {"ShellsOnAPlate", {kShell, kSphere, kShell}, tent_law(), true},
+    {"ShellsByMaugisDugdale", {kShell, kShell, kShell}, maugis_dugdale_law(), true},
+    {"ShellsByAFallingTraction", {kShell, kShell, kShell}, falling_law(), true},
 };
 
 Model model_of(const Case& given) {
@@ -52,7 +52,7 @@ Model model_of(const Case& given) {
   model.mark_names = {"one", "two"};
   for (ContactPair& pair : model.pairs) {
     pair.law = given.law;
-    pair.reduced_modulus = 1.0;
+    pair.own.set("modulus", 1.0);
     pair.regions = {{1, 0, 0.05}, {0, 1, 0.05}, {2, 2, 0.6}};
   }
   return model;

@@ -37,7 +37,7 @@ TEST(StudyReader, ConvertsEveryValueToInternalUnits) {
   EXPECT_DOUBLE_EQ(t.migration_speed, 2.0 / 3600.0);
   EXPECT_DOUBLE_EQ(t.medium_friction, 0.1);
   EXPECT_DOUBLE_EQ(t.sphere.young, 0.45);
-  EXPECT_TRUE(t.sphere.adhesive);
+  EXPECT_EQ(t.sphere.law, cbm::jkr_law());
   EXPECT_DOUBLE_EQ(s.model.pair(0, 0).adhesion, 0.1);
   EXPECT_DOUBLE_EQ(s.model.pair(0, 0).normal_friction, 50.0);
   EXPECT_DOUBLE_EQ(s.model.pair(0, 1).adhesion, 1e-3);
@@ -199,7 +199,9 @@ TEST(StudyReader, BothSpellingsOfABodyMeanTheSame) {
   EXPECT_EQ(good(changed("as: dcm", "as: shell")).resolved_text, good().resolved_text);
 }
 
-TEST(StudyReader, HertzianSpheresDoNotAdhere) { EXPECT_FALSE(good(changed("law: jkr", "law: hertz")).model.types[0].sphere.adhesive); }
+TEST(StudyReader, HertzianSpheresDoNotAdhere) {
+  EXPECT_EQ(good(changed("law: jkr", "law: hertz")).model.types[0].sphere.law, cbm::hertz_law());
+}
 
 TEST(StudyReader, TriggersOnFieldsAndTypesAreRead) {
   const Study oxygen =
