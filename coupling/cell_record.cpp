@@ -45,7 +45,8 @@ struct Population {
 };
 
 Population take_population(Tissue& tissue) {
-  return {std::exchange(tissue.cells, {}), std::exchange(tissue.spheres, {}), std::exchange(tissue.shells, {}),
+  Cells none = tissue.cells.without_rows();
+  return {std::exchange(tissue.cells, std::move(none)), std::exchange(tissue.spheres, {}), std::exchange(tissue.shells, {}),
           std::exchange(tissue.nuclei, {})};
 }
 
@@ -212,6 +213,21 @@ void read_column(const Column& column, Reader& reader, std::size_t expected, Rec
   column.give(record, reader.many<typename Column::Value>(count));
 }
 
+void append_row(const FullRow& row, std::vector<std::byte>& out) {
+  append(out, static_cast<const CellRow*>(&row), 1);
+  append(out, static_cast<const CellSides*>(&row), 1);
+  const auto count = static_cast<std::uint32_t>(row.variables.size());
+  append(out, &count, 1);
+  append(out, row.variables.data(), count);
+}
+
+FullRow read_row(Reader& reader) {
+  const auto row = reader.one<CellRow>();
+  FullRow out(row, reader.one<CellSides>());
+  out.variables = reader.many<double>(reader.one<std::uint32_t>());
+  return out;
+}
+
 void append_shell(const ShellRecord& body, std::vector<std::byte>& out) {
   append_shape(*body.shape, out);
   dcm::for_each_shell_column([&](const auto& column) { append_column(column, body, out); });
@@ -231,7 +247,7 @@ ShellRecord read_shell(Reader& reader, ShapeLibrary& shapes) {
 }  // namespace
 
 void append_bytes(const CellRecord& cell, std::vector<std::byte>& out) {
-  append(out, &cell.row, 1);
+  append_row(cell.row, out);
   if (cell.sphere)
     cbm::for_each_sphere_column([&](const auto& column) { append_column(column, *cell.sphere, out); });
   else
@@ -243,7 +259,7 @@ std::vector<CellRecord> read_records(std::span<const std::byte> bytes, ShapeLibr
   Reader reader{bytes};
   while (!reader.rest.empty()) {
     CellRecord& cell = out.emplace_back();
-    cell.row = reader.one<FullRow>();
+    cell.row = read_row(reader);
     if (cell.row.body == BodyKind::kSphere) {
       cell.sphere.emplace();
       cbm::for_each_sphere_column([&](const auto& column) { read_column(column, reader, 1, *cell.sphere); });

@@ -24,10 +24,10 @@ struct CellRecord {
   [[nodiscard]] Vec3d center() const;
 };
 
-/// All cells of the tissue as records, in the order of the rows. The tissue's cells and bodies are left empty.
+/// All cells of the tissue as records, in the order of the rows. The tissue's cells and bodies are left empty; it keeps its variables.
 std::vector<CellRecord> take_apart(Tissue& tissue);
 
-/// Put cells back: sorted into canonical order. The tissue's own cells must be empty.
+/// Put cells back: sorted into canonical order. The tissue's own cells must be empty, with the variables of those that come.
 void put_together(Tissue& tissue, std::vector<CellRecord> cells);
 
 /// One cell of the tissue as a record.

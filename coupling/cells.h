@@ -1,17 +1,15 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <type_traits>
 #include <vector>
 
 #include "core/cell_id.h"
 #include "core/vec3.h"
+#include "coupling/cell_variables.h"
 #include "coupling/model.h"
 #include "coupling/side_column.h"
 
 namespace morula {
-
-inline constexpr std::size_t kMaxFields = 4;
 
 enum class Phase : std::uint8_t {
   kGrowing,  ///< between birth and division
@@ -49,25 +47,19 @@ struct CellSides {
   double inflation_left = 0.0;     ///< volume still to come of an inflating start [µm³]
   double inflation_rate = 0.0;     ///< [µm³/s]
   Vec3d polarity{};
-  Vec3d migration_velocity{};                      ///< u of the persistent walk [µm/s]
-  std::array<double, kMaxFields> amount{};         ///< taken from each field so far [amol]
-  std::array<double, kMaxFields> concentration{};  ///< seen in each field [mM]
+  Vec3d migration_velocity{};  ///< u of the persistent walk [µm/s]
 };
-static_assert(sizeof(CellSides) == (5 + 2 * 3 + 2 * kMaxFields) * sizeof(double), "a new member needs a column in SideColumns");
+static_assert(std::is_trivially_copyable_v<CellSides>);
+static_assert(sizeof(CellSides) == (5 + 2 * 3) * sizeof(double), "a new member needs a column in SideColumns");
 
-/// A cell's row with all its sides: how a cell is born, divides, swaps its body, travels between ranks and comes out of a checkpoint.
+/// A cell's row with all its sides and variables: how a cell is born, divides, swaps its body, travels between ranks and comes out of a checkpoint.
 struct FullRow : CellRow, CellSides {
   FullRow() = default;
   FullRow(const CellRow& row, const CellSides& sides) : CellRow(row), CellSides(sides) {}
-};
-static_assert(std::is_trivially_copyable_v<FullRow>);
 
-/// What the two cells of a division have of a value of their mother.
-enum class AtDivision : std::uint8_t {
-  kCopied,  ///< both what she had
-  kShared,  ///< each its part by volume; what rounding leaves goes to the second
-  kUsual,   ///< what a new cell has
-  kSet,     ///< what the division finds for it (make_daughter)
+  std::vector<double> variables;  ///< by number of the variable; those beyond the last have their usual value, 0
+
+  [[nodiscard]] double variable(std::size_t number) const { return number < variables.size() ? variables[number] : 0.0; }
 };
 
 /// A column of the rows or of their sides.
@@ -77,7 +69,7 @@ struct CellColumn {
   AtDivision at_division;
 };
 
-/// visit(column, member of FullRow) for everything that a row and its sides hold, in the order of the state hash: checkpoint, reading back, hash and
+/// visit(column, member of FullRow) for everything that a row and its sides hold beside the variables, in the order of the state hash: checkpoint, reading back, hash and
 /// division walk this list. At an exchange of bodies the row stays as it is.
 template <class Visit>
 void for_each_cell_column(Visit&& visit) {
@@ -98,8 +90,6 @@ void for_each_cell_column(Visit&& visit) {
   visit(CellColumn{"inflation_rate", "um^3/s", kUsual}, &FullRow::inflation_rate);
   visit(CellColumn{"polarity", "1", kCopied}, &FullRow::polarity);
   visit(CellColumn{"migration_velocity", "um/s", kCopied}, &FullRow::migration_velocity);
-  visit(CellColumn{"amount", "amol", kShared}, &FullRow::amount);
-  visit(CellColumn{"concentration", "mM", kCopied}, &FullRow::concentration);
   visit(CellColumn{"draws", "1", kSet}, &FullRow::draws);
   visit(CellColumn{"type", "1", kCopied}, &FullRow::type);
   visit(CellColumn{"phase", "1", kSet}, &FullRow::phase);
@@ -108,15 +98,15 @@ void for_each_cell_column(Visit&& visit) {
 }
 
 /// The size of a row that the list above covers, to notice a member that was added to one and not to the other.
-inline constexpr std::size_t kListedRowBytes = 3 * 8 + 11 * 8 + 2 * sizeof(Vec3d) + 2 * kMaxFields * 8 + 8 + 2 + 1 + 1 + 1;
-static_assert(sizeof(FullRow) == kListedRowBytes + sizeof(CellRow::unused_), "list every member of FullRow in for_each_cell_column");
+inline constexpr std::size_t kListedRowBytes = 3 * 8 + 11 * 8 + 2 * sizeof(Vec3d) + 8 + 2 + 1 + 1 + 1;
+static_assert(sizeof(CellRow) + sizeof(CellSides) == kListedRowBytes + sizeof(CellRow::unused_),
+              "list every member of CellRow and CellSides in for_each_cell_column");
 
 /// The sides of all rows: a column for each, which takes no room while all have the value of CellSides().
 struct SideColumns {
   SideColumn<double> death_time{CellSides().death_time}, last_swap_time{CellSides().last_swap_time};
   SideColumn<double> reference_excess, inflation_left, inflation_rate;
   SideColumn<Vec3d> polarity, migration_velocity;
-  std::array<SideColumn<double>, kMaxFields> amount, concentration;
 
   /// function(column) for all columns, or function(column, the same of `sides`).
   template <class Self, class F>
@@ -132,33 +122,49 @@ struct SideColumns {
     function(self.inflation_rate, sides.inflation_rate);
     function(self.polarity, sides.polarity);
     function(self.migration_velocity, sides.migration_velocity);
-    for (std::size_t field = 0; field < kMaxFields; ++field) {
-      function(self.amount[field], sides.amount[field]);
-      function(self.concentration[field], sides.concentration[field]);
-    }
   }
+};
+
+/// A variable and its values by row, which take no room while all are 0.
+struct VariableColumn {
+  CellVariable what;
+  SideColumn<double> values;
 };
 
 /// Rows of a rank in canonical order (order, id). The k-th row with a shell owns the k-th shell, and likewise for spheres.
 struct Cells {
   std::vector<CellRow> rows;
-  SideColumns side;  ///< by row: side.polarity[i] belongs to rows[i]
+  SideColumns side;                       ///< by row: side.polarity[i] belongs to rows[i]
+  std::vector<VariableColumn> variables;  ///< those that declare() named
 
   [[nodiscard]] std::size_t size() const { return rows.size(); }
-  /// A row with its sides.
+  /// The cells have these variables, all 0, unless they have them already.
+  void declare(const std::vector<CellVariable>& wanted) {
+    for (std::size_t v = variables.size(); v < wanted.size(); ++v) variables.push_back({wanted[v], {}});
+  }
+  /// No rows, and the same variables.
+  [[nodiscard]] Cells without_rows() const {
+    Cells out;
+    for (const VariableColumn& variable : variables) out.variables.push_back({variable.what, {}});
+    return out;
+  }
+  /// A row with its sides and variables.
   [[nodiscard]] FullRow full(std::size_t i) const {
     FullRow out(rows[i], {});
     SideColumns::for_each(side, out, [&](const auto& column, auto& value) { value = column[i]; });
+    for (const VariableColumn& variable : variables) out.variables.push_back(variable.values[i]);
     return out;
   }
   void set_sides(std::size_t i, const CellSides& sides) {
     SideColumns::for_each(side, sides, [&](auto& column, const auto& value) { column.set(i, value, rows.capacity()); });
   }
+  /// A row behind the others, with those of its variables that the cells have.
   void push_back(const FullRow& row) {
     rows.push_back(row);
     set_sides(rows.size() - 1, row);
+    for (std::size_t v = 0; v < variables.size(); ++v) variables[v].values.set(rows.size() - 1, row.variable(v), rows.capacity());
   }
-  /// Adds the rows first, …, last − 1 of `from` behind the others.
+  /// Adds the rows first, …, last − 1 of `from`, which has the same variables, behind the others.
   void add(const Cells& from, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       rows.push_back(from.rows[i]);
@@ -166,11 +172,13 @@ struct Cells {
         if (!other.empty()) column.set(rows.size() - 1, other[i], rows.capacity());
       };
       SideColumns::for_each(side, from.side, copy);
+      for (std::size_t v = 0; v < variables.size(); ++v) copy(variables[v].values, from.variables[v].values);
     }
   }
   [[nodiscard]] std::size_t memory() const {
     std::size_t total = rows.capacity() * sizeof(CellRow);
     SideColumns::for_each(side, [&](const auto& column) { total += column.memory(); });
+    for (const VariableColumn& variable : variables) total += variable.values.memory();
     return total;
   }
 };

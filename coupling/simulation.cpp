@@ -113,6 +113,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Model model, Tissue tissu
   std::unique_ptr<Simulation> out(new Simulation(std::move(model), std::move(tissue), comm, threads));
   MORULA_TRY_ASSIGN(auto obstacles, contact_obstacles(out->model_));
   out->tissue_.obstacle_offset.resize(obstacles.size());
+  out->tissue_.cells.declare(cell_variables(out->model_));
   out->mechanics_ = std::make_unique<Mechanics>(out->model_, std::move(obstacles), out->shapes_, comm, threads);
   if (out->tissue_.fields.empty()) {
     for (std::size_t f = 0; f < out->model_.fields.size(); ++f) {
@@ -120,9 +121,9 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Model model, Tissue tissu
       MORULA_TRY_ASSIGN(const auto grid, fields::grid_for(spec, out->model_.space));
       const auto owner = fields::owners_along_curve(grid, comm.size());
       out->tissue_.fields.push_back(fields::uniform_field(grid, spec.initial, owner, comm.rank()));
-      out->tissue_.ledger.field_start[f] = fields::total_amount(out->tissue_.fields.back(), comm);
+      out->tissue_.ledger.fields.push_back({.start = fields::total_amount(out->tissue_.fields.back(), comm)});
       Cells& cells = out->tissue_.cells;
-      for (std::size_t i = 0; i < cells.size(); ++i) cells.side.concentration[f].set(i, spec.initial, cells.size());
+      for (std::size_t i = 0; i < cells.size(); ++i) cells.variables[concentration_of(f)].values.set(i, spec.initial, cells.size());
     }
   }
   out->distribute();
@@ -234,17 +235,19 @@ Status Simulation::advance_fields(double dt, const std::function<bool()>& give_u
   auto timed = timer().scope(Stage::kFields);
   const std::vector<fields::CellSource> sources = field_sources();
   std::vector<double> taken(sources.size()), seen(sources.size());
-  SideColumns& side = tissue_.cells.side;
   for (std::size_t f = 0; f < model_.fields.size(); ++f) {
     MORULA_TRY_ASSIGN(auto report,
                       field_solver_.advance(tissue_.fields[f], model_.fields[f], model_.space, sources, dt, comm_, taken, seen, give_up));
+    SideColumn<double>& amount = tissue_.cells.variables[amount_of(f)].values;
+    SideColumn<double>& concentration = tissue_.cells.variables[concentration_of(f)].values;
     for (std::size_t i = 0; i < sources.size(); ++i) {
-      side.amount[f].set(i, side.amount[f][i] + taken[i], sources.size());
-      side.concentration[f].set(i, seen[i], sources.size());
+      amount.set(i, amount[i] + taken[i], sources.size());
+      concentration.set(i, seen[i], sources.size());
     }
-    tissue_.ledger.field_in[f] += report.total_inflow();
-    tissue_.ledger.field_taken[f] += report.taken;
-    tissue_.ledger.field_decayed[f] += report.decayed;
+    FieldLedger& ledger = tissue_.ledger.fields[f];
+    ledger.in += report.total_inflow();
+    ledger.taken += report.taken;
+    ledger.decayed += report.decayed;
     outcome.fields.push_back(report);
   }
   return {};
@@ -324,8 +327,9 @@ void Simulation::divide_and_remove(const LifeReport& life, double time, std::vec
       if (order == life.divisions.end()) break;
       if (order->row != body.row) continue;
       const CellRecord mother = record_of(tissue_, body);
-      const auto pair = divide_sphere(mother.row, {mother.sphere->position, mother.sphere->radius}, model_.types[mother.row.type],
-                                      model_.seed, time, order->late);
+      auto pair = divide_sphere(mother.row, {mother.sphere->position, mother.sphere->radius}, model_.types[mother.row.type],
+                                model_.seed, time, order->late);
+      divide_variables(tissue_.cells.variables, mother.row, pair.first, pair.second);
       for (int which = 0; which < 2; ++which) {
         CellRecord& daughter = daughters.emplace_back();
         daughter.row = which == 0 ? pair.first : pair.second;

@@ -55,7 +55,7 @@ struct Wish {
 
 double trigger_value(const Trigger& trigger, const Cells& cells, std::size_t i) {
   return trigger.value == Trigger::Value::kPressure ? cells.rows[i].pressure
-                                                    : cells.side.concentration[static_cast<std::size_t>(trigger.field)][i];
+                                                    : cells.variables[concentration_of(static_cast<std::size_t>(trigger.field))].values[i];
 }
 
 /// What body a cell is to have: the first region it is in decides, then the triggers, then what it was at the start.

@@ -19,12 +19,17 @@ struct Clock {
   bool capped = false;      ///< the capped start is still on
 };
 
+/// What has become of the substance of a field since time 0.
+struct FieldLedger {
+  double in = 0.0;       ///< amount that came in through the boundary [amol]
+  double taken = 0.0;    ///< amount taken by cells [amol]
+  double decayed = 0.0;  ///< amount lost by decay [amol]
+  double start = 0.0;    ///< amount in the field at time 0 [amol]
+};
+
 /// Sums over the whole run that the report shows.
 struct Ledger {
-  double field_in[kMaxFields] = {};       ///< amount that came in through the boundary [amol]
-  double field_taken[kMaxFields] = {};    ///< amount taken by cells [amol]
-  double field_decayed[kMaxFields] = {};  ///< amount lost by decay [amol]
-  double field_start[kMaxFields] = {};    ///< amount in the field at time 0 [amol]
+  std::vector<FieldLedger> fields;  ///< by field of the tissue
   std::uint64_t divisions = 0, deaths = 0, promotions = 0, demotions = 0;
   // Common motion (TissueMotion), step by step: what forces from outside and obstacles have done, and the error of the solver.
   Vec3d drift;       ///< of the centre [µm]

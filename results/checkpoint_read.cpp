@@ -55,9 +55,10 @@ Status read_globals(const Hdf5Reader& file, LoadedCheckpoint& out) {
     member = static_cast<Value>(kept);
     return {};
   };
-  const auto read_array = [&](const std::string& path, auto& member) -> Status {
-    MORULA_TRY_ASSIGN(const auto values, (file.value<std::array<double, kMaxFields>>(path)));
-    std::copy(values.begin(), values.end(), std::begin(member));
+  const auto read_by_field = [&](const std::string& path, auto member) -> Status {
+    MORULA_TRY_ASSIGN(const auto values, file.read<double>(path));
+    out.tissue.ledger.fields.resize(values.size());
+    for (std::size_t f = 0; f < values.size(); ++f) out.tissue.ledger.fields[f].*member = values[f];
     return {};
   };
   Status lumens;
@@ -76,8 +77,8 @@ Status read_globals(const Hdf5Reader& file, LoadedCheckpoint& out) {
   Ledger& ledger = out.tissue.ledger;
   return first_failure([&](auto note) {
     for_each_clock_field([&](const std::string& name, const char*, auto member) { note(read_one("clock/" + name, clock.*member)); });
-    for_each_ledger_field([&](const std::string& name, const char*, auto member) { note(read_array("ledger/" + name, ledger.*member)); },
-                          [&](const std::string& name, const char*, auto member) { note(read_one("ledger/" + name, ledger.*member)); });
+    for_each_field_ledger_field([&](const std::string& name, const char*, auto member) { note(read_by_field("ledger/" + name, member)); });
+    for_each_ledger_field([&](const std::string& name, const char*, auto member) { note(read_one("ledger/" + name, ledger.*member)); });
   });
 }
 
@@ -93,9 +94,14 @@ Status read_rows(const Hdf5Reader& file, const Stretch& mine, Cells& cells) {
         note(std::move(values).error());
     });
   });
+  MORULA_TRY(read);
+  for (const VariableColumn& variable : cells.variables) {
+    MORULA_TRY_ASSIGN(const auto values, file.read<double>("cells/" + variable.what.name, mine.begin, mine.size()));
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].variables.push_back(values[i]);
+  }
   cells.rows.reserve(rows.size());
   for (const FullRow& row : rows) cells.push_back(row);
-  return read;
+  return {};
 }
 
 /// Where this rank's bodies of a table are in the file.
@@ -242,13 +248,20 @@ Status read_fields(const Hdf5Reader& file, const Comm& comm, Tissue& out) {
   return {};
 }
 
+Error differs(const char* what, std::size_t in_file, std::size_t in_study) {
+  return {ErrorKind::kInput, "the checkpoint has " + std::to_string(in_file) + ' ' + what + ", the study " + std::to_string(in_study),
+          "resume with the study that the run was started with"};
+}
+
+/// The cells of the tissue get the variables of the model, if the fields in the file are as many.
+Status declare_variables(const Hdf5Reader& file, const Model& model, Tissue& out) {
+  MORULA_TRY_ASSIGN(const std::uint32_t fields, file.value<std::uint32_t>("info/field_count"));
+  if (fields != model.fields.size()) return differs("fields", fields, model.fields.size());
+  out.cells.declare(cell_variables(model));
+  return {};
+}
+
 Status check_against(const Model& model, const Tissue& tissue) {
-  const auto differs = [](const char* what, std::size_t in_file, std::size_t in_study) {
-    return Error{ErrorKind::kInput,
-                 "the checkpoint has " + std::to_string(in_file) + ' ' + what + ", the study " + std::to_string(in_study),
-                 "resume with the study that the run was started with"};
-  };
-  if (tissue.fields.size() != model.fields.size()) return differs("fields", tissue.fields.size(), model.fields.size());
   const std::size_t obstacles = contact_obstacle_count(model);
   if (tissue.obstacle_offset.size() != obstacles) return differs("obstacles and walls", tissue.obstacle_offset.size(), obstacles);
   if (tissue.lumens.size() > model.lumens.size()) return differs("lumens", tissue.lumens.size(), model.lumens.size());
@@ -287,6 +300,7 @@ Result<LoadedCheckpoint> read_checkpoint(const std::filesystem::path& path, cons
   MORULA_TRY(file.verify(comm));
   LoadedCheckpoint out;
   MORULA_TRY(agree(read_globals(file, out), comm));
+  MORULA_TRY(agree(declare_variables(file, model, out.tissue), comm));
   MORULA_TRY(read_cells(file, shapes, comm, out.tissue));
   MORULA_TRY(agree(read_fields(file, comm, out.tissue), comm));
   MORULA_TRY(agree(check_against(model, out.tissue), comm));

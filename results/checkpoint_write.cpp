@@ -51,7 +51,9 @@ Parcels pack_cells(const Tissue& tissue, const ShapeNumbers& numbers) {
   for (const BodyOfRow& body : bodies_of(tissue.cells)) {
     const FullRow row = tissue.cells.full(body.row);
     out.clear();
-    out.put(row);
+    out.put(static_cast<const CellRow&>(row));
+    out.put(static_cast<const CellSides&>(row));
+    out.put_all(std::span(row.variables));
     if (body.is_shell) {
       pack_shell(tissue.shells, body.number, numbers, out);
       const std::size_t nuclear = tissue.nuclei.of_shell(body.number);
@@ -89,11 +91,12 @@ void unpack_shell(ByteReader& in, FlatTable& out) {
   unpack_columns(kShellColumns, in, out);
 }
 
-SortedCells unpack_cells(const Parcels& parcels) {
+SortedCells unpack_cells(const Parcels& parcels, std::size_t variables) {
   SortedCells out;
   for (std::size_t i = 0; i < parcels.size(); ++i) {
     ByteReader in(parcels.bytes(i));
-    out.rows.push_back(in.get<FullRow>());
+    const auto row = in.get<CellRow>();
+    in.get_all(variables, out.rows.emplace_back(row, in.get<CellSides>()).variables);
     if (out.rows.back().body == BodyKind::kSphere) {
       unpack_columns(kSphereColumns, in, out.spheres);
       continue;
@@ -129,12 +132,17 @@ void add_shells(StoragePlan& plan, const std::string& group, FlatTable& table, c
   add_columns(kShellColumns, plan, group, table, comm);
 }
 
-void add_cells(StoragePlan& plan, SortedCells& cells, const Comm& comm) {
+void add_cells(StoragePlan& plan, const std::vector<VariableColumn>& variables, SortedCells& cells, const Comm& comm) {
   for_each_cell_column([&](const CellColumn& column, auto member) {
     std::vector<std::remove_cvref_t<decltype(cells.rows.front().*member)>> values;
     for (const FullRow& row : cells.rows) values.push_back(row.*member);
     plan.add(std::string("cells/") + column.name, column.unit, values);
   });
+  for (std::size_t v = 0; v < variables.size(); ++v) {
+    std::vector<double> values;
+    for (const FullRow& row : cells.rows) values.push_back(row.variables[v]);
+    plan.add("cells/" + variables[v].what.name, variables[v].what.unit, values);
+  }
   add_columns(kSphereColumns, plan, "spheres/", cells.spheres, comm);
   add_shells(plan, "shells/", cells.shells, comm);
   if (!comm.any(!cells.nuclei.shape.empty())) return;
@@ -182,10 +190,12 @@ void add_globals(StoragePlan& plan, const Tissue& tissue, const CheckpointInfo& 
   for_each_clock_field(
       [&](const std::string& name, const char* units, auto member) { plan.add_value("clock/" + name, units, tissue.clock.*member); });
   for_each_ledger_field(
-      [&](const std::string& name, const char* units, auto member) {
-        plan.add_value("ledger/" + name, units, std::to_array(tissue.ledger.*member));
-      },
       [&](const std::string& name, const char* units, auto member) { plan.add_value("ledger/" + name, units, tissue.ledger.*member); });
+  for_each_field_ledger_field([&](const std::string& name, const char* units, auto member) {
+    std::vector<double> by_field;
+    for (const FieldLedger& field : tissue.ledger.fields) by_field.push_back(field.*member);
+    plan.add_from_root("ledger/" + name, units, std::span<const double>(by_field));
+  });
   plan.add_from_root("obstacles/offset", "um", std::span<const Vec3d>(tissue.obstacle_offset));
   if (tissue.lumens.empty()) return;
   for_each_lumen_field([&](const std::string& name, const char* units, auto member) {
@@ -213,8 +223,8 @@ Status write_checkpoint(const std::filesystem::path& path, const Tissue& tissue,
   auto shapes = tissue.shells.shape;
   shapes.insert(shapes.end(), tissue.nuclei.shells.shape.begin(), tissue.nuclei.shells.shape.end());
   const ShapeNumbers numbers = add_shapes(plan, shapes, comm);
-  SortedCells cells = unpack_cells(sort_over_ranks(pack_cells(tissue, numbers), comm));
-  add_cells(plan, cells, comm);
+  SortedCells cells = unpack_cells(sort_over_ranks(pack_cells(tissue, numbers), comm), tissue.cells.variables.size());
+  add_cells(plan, tissue.cells.variables, cells, comm);
   for (std::size_t f = 0; f < tissue.fields.size(); ++f) MORULA_TRY(add_field(plan, "fields/" + std::to_string(f), tissue.fields[f], comm));
   return create_file(path, std::move(plan), comm);
 }

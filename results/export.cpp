@@ -36,22 +36,12 @@ std::string name_at(const std::array<const char*, kCount>& names, std::size_t ki
 std::string as_text(const Snapshot&, BodyKind body) { return name_at(kBodyNames, static_cast<std::size_t>(body)); }
 std::string as_text(const Snapshot&, Phase phase) { return name_at(kPhaseNames, static_cast<std::size_t>(phase)); }
 std::string as_text(const Snapshot&, const Vec3d& v) { return shortest_text(v.x) + ',' + shortest_text(v.y) + ',' + shortest_text(v.z); }
-std::string as_text(const Snapshot& s, const std::array<double, kMaxFields>& values) {
-  std::string out;
-  for (std::size_t f = 0; f < s.fields.size() && f < kMaxFields; ++f) out += (f == 0 ? "" : ",") + shortest_text(values[f]);
-  return out;
-}
 
 /// Columns of the header that belong to one member.
 template <class Value>
-std::string heading(const Snapshot& s, const std::string& name, const std::string& units) {
+std::string heading(const std::string& name, const std::string& units) {
   const std::string unit = units == "1" ? "" : " [" + units + ']';
   if constexpr (std::is_same_v<Value, Vec3d>) return "x" + unit + ",y" + unit + ",z" + unit;
-  if constexpr (std::is_same_v<Value, std::array<double, kMaxFields>>) {
-    std::string out;
-    for (std::size_t f = 0; f < s.fields.size() && f < kMaxFields; ++f) out += (f == 0 ? "" : ",") + s.fields[f].name + unit;
-    return out;
-  }
   return name + unit;
 }
 
@@ -75,16 +65,16 @@ std::string file_name(const char* stem, std::size_t number, const char* suffix) 
 std::string cells_as_csv(const Snapshot& s) {
   std::string out;
   for_each_snapshot_column([&](const std::string& name, const std::string& units, const char*, auto member) {
-    const std::string columns = heading<std::remove_cvref_t<decltype(s.cells.front().*member)>>(s, name, units);
-    if (!columns.empty()) out += (out.empty() ? "" : ",") + columns;
+    out += (out.empty() ? "" : ",") + heading<std::remove_cvref_t<decltype(s.cells.front().*member)>>(name, units);
   });
+  for (const Snapshot::Variable& variable : s.variables) out += ',' + heading<double>(title_of(variable), variable.unit);
   out += '\n';
-  for (const Snapshot::Cell& cell : s.cells) {
+  for (std::size_t i = 0; i < s.cells.size(); ++i) {
     std::string line;
     for_each_snapshot_column([&](const char*, const char*, const char*, auto member) {
-      const std::string values = as_text(s, cell.*member);
-      if (!values.empty()) line += (line.empty() ? "" : ",") + values;
+      line += (line.empty() ? "" : ",") + as_text(s, s.cells[i].*member);
     });
+    for (const Snapshot::Variable& variable : s.variables) line += ',' + shortest_text(variable.values[i]);
     out += line + '\n';
   }
   return out;

@@ -29,10 +29,14 @@ struct Snapshot {
     double inner_pressure = 0.0;              ///< of shells; of spheres their pressure [kPa]
     double stress_xx = 0.0, stress_xy = 0.0;  ///< σ: what neighbours, obstacles and loads put on the cell [kPa]
     double stress_xz = 0.0, stress_yy = 0.0, stress_yz = 0.0, stress_zz = 0.0;
-    double contact_area = 0.0;                       ///< [µm²]
-    double age = 0.0;                                ///< [s]
-    std::array<double, kMaxFields> concentration{};  ///< seen [mM]
-    double radius = 0.0;                             ///< of a sphere; volume-equivalent radius of a shell [µm]
+    double contact_area = 0.0;  ///< [µm²]
+    double age = 0.0;           ///< [s]
+    double radius = 0.0;        ///< of a sphere; volume-equivalent radius of a shell [µm]
+  };
+  /// A number by cell that the model brings with it (CellVariable).
+  struct Variable {
+    std::string name, unit;
+    std::vector<double> values;  ///< by cell
   };
   /// A shell: nodes first_node .. first_node+node_count−1, faces of topologies[topology].
   struct Shell {
@@ -71,6 +75,7 @@ struct Snapshot {
 
   double time = 0.0;            ///< [s]
   std::vector<Cell> cells;      ///< sorted by id
+  std::vector<Variable> variables;
   std::vector<Shell> shells;    ///< in the order of their cells
   std::vector<Nucleus> nuclei;  ///< the rigid ones, in the order of their cells
   std::vector<Vec3d> nodes;

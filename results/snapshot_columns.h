@@ -7,7 +7,7 @@ namespace morula::scenarios {
 /// Format of results.h5, its root attribute `schema`. 1 (without the attribute): bare numbers; 2: datasets that describe themselves.
 inline constexpr std::uint64_t kResultsSchema = 2;
 
-/// The members of a snapshot's cell, once: file, CSV and VTK walk this list. `visit(name, units, description, member)`.
+/// The members of a snapshot's cell, once: file, CSV and VTK walk this list, and the variables after it. `visit(name, units, description, member)`.
 template <class Visit>
 void for_each_snapshot_column(Visit&& visit) {
   using Cell = Snapshot::Cell;
@@ -29,10 +29,17 @@ void for_each_snapshot_column(Visit&& visit) {
   visit("stress_zz", "kPa", "contact stress: zz", &Cell::stress_zz);
   visit("contact_area", "um^2", "area that touches cells and obstacles", &Cell::contact_area);
   visit("age", "s", "time since the cell's birth", &Cell::age);
-  visit("concentration", "mM", "concentration that the cell sees", &Cell::concentration);
   visit("radius", "um", "radius of a sphere; of a shell that of the ball with its volume", &Cell::radius);
 }
-static_assert(sizeof(Snapshot::Cell) == 2 * 8 + 8 + sizeof(Vec3d) + 13 * 8 + kMaxFields * 8, "list every member of Snapshot::Cell");
+static_assert(sizeof(Snapshot::Cell) == 2 * 8 + 8 + sizeof(Vec3d) + 13 * 8, "list every member of Snapshot::Cell");
+
+/// What a table calls a variable: `concentration/oxygen` is oxygen, `amount/oxygen` is `amount of oxygen`.
+inline std::string title_of(const Snapshot::Variable& variable) {
+  const std::size_t slash = variable.name.find('/');
+  if (slash == std::string::npos) return variable.name;
+  const std::string kind = variable.name.substr(0, slash), of = variable.name.substr(slash + 1);
+  return kind == "concentration" ? of : kind + " of " + of;
+}
 
 /// Any other dataset of results.h5, once: its path below the snapshot (or below the root), and what it says of itself.
 struct ResultsDataset {
@@ -59,6 +66,7 @@ inline constexpr ResultsDataset kEventText{"events/text", "1", "the reason, for 
 inline constexpr ResultsDataset kTime{"time", "s", "simulated time of this snapshot"};
 inline constexpr ResultsDataset kTypeNames{"type_names", "1", "names of the cell types by number"};
 inline constexpr ResultsDataset kFieldNames{"field_names", "1", "names of the fields"};
+inline constexpr ResultsDataset kVariableNames{"variable_names", "1", "numbers by cell that the study brings with it: their datasets below cells/"};
 inline constexpr ResultsDataset kMarkNames{"mark_names", "1", "names of the marks of faces, by bit"};
 inline constexpr ResultsDataset kFaceCount{"topologies/face_count", "1", "faces of each list below"};
 inline constexpr ResultsDataset kFaces{"topologies/faces", "1",

@@ -53,17 +53,9 @@ Result<std::vector<CellId>> read_ids(const Hdf5Reader& file, const std::string& 
 
 /// A column of the cells' table, the values of `Value` in the order of the cells.
 template <class Value>
-Result<std::vector<Value>> read_column(const Hdf5Reader& file, const std::string& path, std::uint64_t count,
-                                       const std::vector<std::string>& field_names) {
+Result<std::vector<Value>> read_column(const Hdf5Reader& file, const std::string& path, std::uint64_t count) {
   if constexpr (std::is_same_v<Value, CellId>) {
     return read_ids(file, path, count);
-  } else if constexpr (std::is_same_v<Value, std::array<double, kMaxFields>>) {
-    std::vector<Value> column(count, Value{});
-    for (std::size_t f = 0; f < field_names.size() && f < kMaxFields; ++f) {
-      MORULA_TRY_ASSIGN(const auto of_field, file.read<double>(path + '/' + field_names[f], 0, count));
-      for (std::size_t i = 0; i < count; ++i) column[i][f] = of_field[i];
-    }
-    return column;
   } else {
     return file.read<Value>(path, 0, count);
   }
@@ -75,14 +67,28 @@ Status read_cells(const Hdf5Reader& file, const std::string& group, const std::v
   Status status;
   for_each_snapshot_column([&](const std::string& name, const char*, const char*, auto member) {
     using Value = std::remove_cvref_t<decltype(out.cells.front().*member)>;
-    auto column = read_column<Value>(file, group + "cells/" + name, count, field_names);
+    auto column = read_column<Value>(file, group + "cells/" + name, count);
     if (!column.ok()) {
       if (status.ok()) status = std::move(column).error();
       return;
     }
     for (std::size_t i = 0; i < count; ++i) out.cells[i].*member = column.value()[i];
   });
-  return status;
+  MORULA_TRY(status);
+  std::vector<std::string> variables;
+  if (file.exists(group + "variable_names")) {
+    MORULA_TRY_ASSIGN(variables, file.texts(group + "variable_names"));
+  } else {  // written before there were any but these
+    for (const std::string& field : field_names) variables.push_back("concentration/" + field);
+  }
+  for (const std::string& name : variables) {
+    const std::string path = group + "cells/" + name;
+    Snapshot::Variable& variable = out.variables.emplace_back();
+    variable.name = name;
+    MORULA_TRY_ASSIGN(variable.unit, file.units(path));
+    MORULA_TRY_ASSIGN(variable.values, file.read<double>(path, 0, count));
+  }
+  return {};
 }
 
 /// Obstacles with their surfaces, and cavities.

@@ -77,6 +77,7 @@ Parcels pack_cells(const Snapshot& local, const std::vector<std::uint32_t>& topo
   for (std::size_t c = 0; c < local.cells.size(); ++c) {
     out.clear();
     out.put(local.cells[c]);
+    for (const Snapshot::Variable& variable : local.variables) out.put(variable.values[c]);
     const Snapshot::Shell* shell = shell_of[c];
     out.put(std::uint32_t{shell == nullptr ? 0 : shell->node_count});
     if (shell != nullptr) {
@@ -144,8 +145,22 @@ std::vector<std::string> kinds_of(const Snapshot& local) {
   return {};
 }
 
-/// The columns of the cells' table, each a dataset; concentrations one by field.
-void add_cell_columns(StoragePlan& plan, const Snapshot& local, const std::vector<Snapshot::Cell>& cells, const Comm& comm) {
+/// This rank's stretch of the sorted cells.
+struct CellsOfRank {
+  std::vector<Snapshot::Cell> cells;
+  std::vector<double> variables;  ///< all of a cell, then all of the next
+};
+
+/// What a dataset of a variable says of itself.
+std::string description_of(const Snapshot::Variable& variable) {
+  if (variable.name.starts_with("concentration/")) return "concentration that the cell sees";
+  if (variable.name.starts_with("amount/")) return "amount taken from the field since time 0; daughters share their mother's by volume";
+  return "state of the cell, of a law of the study";
+}
+
+/// The columns of the cells' table, each a dataset, and their variables.
+void add_cell_columns(StoragePlan& plan, const Snapshot& local, const CellsOfRank& table, const Comm& comm) {
+  const std::vector<Snapshot::Cell>& cells = table.cells;
   for_each_snapshot_column([&](const std::string& name, const char* units, const char* description, auto member) {
     using Value = std::remove_cvref_t<decltype(cells.front().*member)>;
     std::vector<Value> column;
@@ -153,21 +168,22 @@ void add_cell_columns(StoragePlan& plan, const Snapshot& local, const std::vecto
     const DatasetLabel label(units, description, kinds_of<Value>(local));
     if constexpr (std::is_same_v<Value, CellId>) {
       add_ids(plan, "cells/" + name, label, column, comm);
-    } else if constexpr (std::is_same_v<Value, std::array<double, kMaxFields>>) {
-      for (std::size_t f = 0; f < local.fields.size() && f < kMaxFields; ++f) {
-        std::vector<double> of_field;
-        for (const Value& all : column) of_field.push_back(all[f]);
-        plan.add("cells/" + name + '/' + local.fields[f].name, label, of_field);
-      }
     } else {
       plan.add("cells/" + name, label, column);
     }
   });
+  const std::size_t count = local.variables.size();
+  for (std::size_t v = 0; v < count; ++v) {
+    std::vector<double> column;
+    for (std::size_t i = 0; i < cells.size(); ++i) column.push_back(table.variables[i * count + v]);
+    const Snapshot::Variable& variable = local.variables[v];
+    plan.add("cells/" + variable.name, DatasetLabel(variable.unit, description_of(variable)), column);
+  }
 }
 
 void add_cells(StoragePlan& plan, const Parcels& sorted, const Snapshot& local, const Comm& comm) {
   const bool marks = !local.mark_names.empty();
-  std::vector<Snapshot::Cell> cells;
+  CellsOfRank table;
   SurfaceColumns shells, nuclear_shells;
   std::vector<Vec3d> nucleus_center;
   std::vector<std::uint64_t> nucleus_cell;
@@ -176,7 +192,8 @@ void add_cells(StoragePlan& plan, const Parcels& sorted, const Snapshot& local, 
   const auto first_cell = static_cast<std::uint64_t>(comm.exclusive_scan(static_cast<std::int64_t>(sorted.size())));
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     ByteReader in(sorted.bytes(i));
-    cells.push_back(in.get<Snapshot::Cell>());
+    table.cells.push_back(in.get<Snapshot::Cell>());
+    in.get_all(local.variables.size(), table.variables);
     const auto count = in.get<std::uint32_t>();
     if (count == 0) continue;
     shells.take(first_cell + i, count, in);
@@ -188,7 +205,7 @@ void add_cells(StoragePlan& plan, const Parcels& sorted, const Snapshot& local, 
     if (const auto nuclear = in.get<std::uint32_t>(); nuclear > 0) nuclear_shells.take(first_cell + i, nuclear, in);
     if (marks) in.get_all(in.rest(), face_marks);
   }
-  add_cell_columns(plan, local, cells, comm);
+  add_cell_columns(plan, local, table, comm);
   shells.add_to(plan, "shells/", comm);
   if (marks) add(plan, results::kFaceMarks, face_marks);
   if (comm.any(!nuclear_shells.cell.empty())) nuclear_shells.add_to(plan, "nuclear_shells/", comm);
@@ -257,6 +274,9 @@ Status check_local(const Snapshot& local, std::span<const fields::Field> fields)
   if (local.fields.size() != fields.size())
     return Error{ErrorKind::kInternal,
                  "a snapshot names " + std::to_string(local.fields.size()) + " fields of " + std::to_string(fields.size()), ""};
+  for (const Snapshot::Variable& variable : local.variables)
+    if (variable.values.size() != local.cells.size())
+      return Error{ErrorKind::kInternal, "a snapshot has " + variable.name + " of " + std::to_string(variable.values.size()) + " cells", ""};
   std::size_t faces = 0;
   for (const Snapshot::Shell& shell : local.shells)
     if (shell.topology < local.topologies.size()) faces += local.topologies[shell.topology].size();
@@ -357,6 +377,9 @@ Status append_snapshot(const std::filesystem::path& path, const Snapshot& local,
   std::vector<std::string> names;
   for (const Snapshot::Grid& grid : local.fields) names.push_back(grid.name);
   plan.add_text(results::kFieldNames.path, names, results::kFieldNames.label());
+  names.clear();
+  for (const Snapshot::Variable& variable : local.variables) names.push_back(variable.name);
+  plan.add_text(results::kVariableNames.path, names, results::kVariableNames.label());
   const std::vector<std::uint32_t> numbers = add_topologies(plan, local, comm);
   if (!local.mark_names.empty()) plan.add_text(results::kMarkNames.path, local.mark_names, results::kMarkNames.label());
   add_cells(plan, sort_over_ranks(pack_cells(local, numbers), comm), local, comm);

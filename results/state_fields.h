@@ -25,13 +25,19 @@ void for_each_lumen_field(Visit&& visit) {
 }
 static_assert(sizeof(LumenState) == 8 * 8, "list every member of LumenState in for_each_lumen_field");
 
-/// `array(name, units, member)` for the values by field, `value(name, units, member)` for the others.
-template <class Array, class Value>
-void for_each_ledger_field(Array&& array, Value&& value) {
-  array("field_in", "amol", &Ledger::field_in);
-  array("field_taken", "amol", &Ledger::field_taken);
-  array("field_decayed", "amol", &Ledger::field_decayed);
-  array("field_start", "amol", &Ledger::field_start);
+/// visit(name, units, member of FieldLedger).
+template <class Visit>
+void for_each_field_ledger_field(Visit&& visit) {
+  visit("field_in", "amol", &FieldLedger::in);
+  visit("field_taken", "amol", &FieldLedger::taken);
+  visit("field_decayed", "amol", &FieldLedger::decayed);
+  visit("field_start", "amol", &FieldLedger::start);
+}
+static_assert(sizeof(FieldLedger) == 4 * 8, "list every member of FieldLedger in for_each_field_ledger_field");
+
+/// visit(name, units, member of Ledger), for what is not by field.
+template <class Visit>
+void for_each_ledger_field(Visit&& value) {
   value("divisions", "1", &Ledger::divisions);
   value("deaths", "1", &Ledger::deaths);
   value("promotions", "1", &Ledger::promotions);
@@ -40,6 +46,6 @@ void for_each_ledger_field(Array&& array, Value&& value) {
   value("rotation", "rad", &Ledger::rotation);
   value("way", "um", &Ledger::way);
 }
-static_assert(sizeof(Ledger) == (4 * kMaxFields + 4 + 7) * 8, "list every member of Ledger in for_each_ledger_field");
+static_assert(sizeof(Ledger) == sizeof(std::vector<FieldLedger>) + (4 + 7) * 8, "list every member of Ledger in for_each_ledger_field");
 
 }  // namespace morula::scenarios

@@ -85,24 +85,23 @@ std::string field_data(const Snapshot& s) {
   return out + "</FieldData>\n";
 }
 
+std::string with_unit(const std::string& name, const std::string& unit) { return unit == "1" ? name : name + " [" + unit + ']'; }
+
 /// All numbers of the cells with these indices, one array each; concentrations by the names of the fields.
 std::string cell_arrays(const Snapshot& s, const std::vector<std::uint32_t>& cell_of_item) {
   std::string out;
   for_each_snapshot_column([&](const std::string& name, const std::string& units, const char*, auto member) {
     using Value = std::remove_cvref_t<decltype(s.cells.front().*member)>;
-    if constexpr (std::is_same_v<Value, std::array<double, kMaxFields>>) {
-      for (std::size_t f = 0; f < s.fields.size() && f < kMaxFields; ++f) {
-        std::vector<double> column;
-        for (const std::uint32_t c : cell_of_item) column.push_back((s.cells[c].*member)[f]);
-        out += data_array(s.fields[f].name + " [" + units + ']', column);
-      }
-    } else {
-      std::vector<Value> column;
-      for (const std::uint32_t c : cell_of_item) column.push_back(s.cells[c].*member);
-      const std::string label = name == "id" ? "cell_id" : name;
-      out += data_array(units == "1" ? label : label + " [" + units + ']', column);
-    }
+    std::vector<Value> column;
+    for (const std::uint32_t c : cell_of_item) column.push_back(s.cells[c].*member);
+    const std::string label = name == "id" ? "cell_id" : name;
+    out += data_array(with_unit(label, units), column);
   });
+  for (const Snapshot::Variable& variable : s.variables) {
+    std::vector<double> column;
+    for (const std::uint32_t c : cell_of_item) column.push_back(variable.values[c]);
+    out += data_array(with_unit(title_of(variable), variable.unit), column);
+  }
   return out;
 }
 

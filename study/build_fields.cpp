@@ -33,8 +33,6 @@ void check_voxels(BuildContext& c, const draft::Field& f) {
 }  // namespace
 
 void build_fields(BuildContext& c) {
-  if (c.draft.fields.size() > kMaxFields)
-    c.diagnostics.error(404, c.draft.fields[kMaxFields].place, "more than " + std::to_string(kMaxFields) + " fields", "");
   for (const auto& [name, place, f] : c.draft.fields) {
     if (name == "pressure" || name == "type")
       c.diagnostics.error(112, place, "a field cannot be called '" + name + "'", "triggers use this word for the cell's own value");

@@ -7,27 +7,6 @@
 #include "coupling/behaviours/growth.h"
 
 namespace morula {
-namespace {
-
-void share(double mothers, double part, double& first, double& second) {
-  first = part * mothers;
-  second = mothers - first;
-}
-template <std::size_t kSize>
-void share(const std::array<double, kSize>& mothers, double part, std::array<double, kSize>& first, std::array<double, kSize>& second) {
-  for (std::size_t i = 0; i < kSize; ++i) share(mothers[i], part, first[i], second[i]);
-}
-
-/// What daughters share of their mother's columns, the first `part` of it.
-void share_columns(const FullRow& mother, double part, FullRow& first, FullRow& second) {
-  for_each_cell_column([&](const CellColumn& column, auto member) {
-    if constexpr (requires { share(mother.*member, part, first.*member, second.*member); })
-      if (column.at_division == AtDivision::kShared) share(mother.*member, part, first.*member, second.*member);
-  });
-}
-
-}  // namespace
-
 SphereDivision divide_sphere(const FullRow& mother, const SphereBody& body, const CellType& type, std::uint32_t seed, double time,
                              double late, double fraction) {
   const double volume_1 = fraction * mother.target_volume;
@@ -39,7 +18,6 @@ SphereDivision divide_sphere(const FullRow& mother, const SphereBody& body, cons
   const double birth = time - late;
   out.first = make_daughter(mother, 0, type, seed, birth, volume_1);
   out.second = make_daughter(mother, 1, type, seed, birth, volume_2);
-  share_columns(mother, share_1, out.first, out.second);
   if (late > 0.0) {
     grow(out.first, type, late);
     grow(out.second, type, late);
@@ -52,6 +30,21 @@ SphereDivision divide_sphere(const FullRow& mother, const SphereBody& body, cons
   out.first_body.position = body.position + (distance * share_2) * axis;
   out.second_body.position = body.position - (distance * share_1) * axis;
   return out;
+}
+
+void divide_variables(std::span<const VariableColumn> variables, const FullRow& mother, FullRow& first, FullRow& second) {
+  const double part = first.birth_volume / mother.target_volume;
+  const auto daughter = [&](bool is_first) {
+    std::vector<double> out;
+    for (std::size_t v = 0; v < variables.size(); ++v) {
+      const double mothers = mother.variable(v), shared = part * mothers;
+      const AtDivision rule = variables[v].what.at_division;
+      out.push_back(rule == AtDivision::kCopied ? mothers : rule != AtDivision::kShared ? 0.0 : is_first ? shared : mothers - shared);
+    }
+    return out;
+  };
+  first.variables = daughter(true);
+  second.variables = daughter(false);
 }
 
 }  // namespace morula

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 
 #include "core/vec3.h"
 #include "coupling/cells.h"
@@ -21,7 +22,7 @@ struct SphereDivision {
 
 /// Divide a cell whose body is a sphere, at an instant.
 ///
-/// V_1 = f V_m and V_2 = V_m − V_1, so that nothing is lost to rounding; amounts split likewise, the remainder to the second daughter.
+/// V_1 = f V_m and V_2 = V_m − V_1, so that nothing is lost to rounding. Variables of the cells are divided by divide_variables().
 /// The axis is random, uniform on the sphere (stream kDivisionAxis of the mother). The daughters lie inside the mother's envelope, centres
 /// d apart at x + u d V_2/V_m and x − u d V_1/V_m, which keeps the centroid; d = 0.4126 R_m for equal daughters (cbm/division_ramp.h, whose
 /// offset forgives their overlap while it is released). Radii follow from the volumes: r = (V/V_m)^(1/3) R_m.
@@ -31,5 +32,9 @@ struct SphereDivision {
 /// Precondition: mother.id.can_divide(), 0 < fraction < 1.
 SphereDivision divide_sphere(const FullRow& mother, const SphereBody& body, const CellType& type, std::uint32_t seed, double time,
                              double late, double fraction = 0.5);
+
+/// Give the daughters of a division, whose birth volumes are set, their variables as these declare it: what is shared goes by volume, the remainder
+/// to the second.
+void divide_variables(std::span<const VariableColumn> variables, const FullRow& mother, FullRow& first, FullRow& second);
 
 }  // namespace morula

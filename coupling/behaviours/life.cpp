@@ -86,7 +86,7 @@ LifeReport live(Cells& cells, std::span<const CellType> types, const LifeStep& s
   for (std::int64_t k = 0; k < count; ++k) {
     const CellType& type = types[rows[k].type];
     LifeSides sides{side.migration_velocity[k], side.death_time[k], 0.0};
-    if (type.death_field >= 0) sides.seen = side.concentration[static_cast<std::size_t>(type.death_field)][k];
+    if (type.death_field >= 0) sides.seen = cells.variables[concentration_of(static_cast<std::size_t>(type.death_field))].values[k];
     decisions[k] = live(cells.rows[k], sides, type, step);
     side.migration_velocity.set(k, sides.migration_velocity);
     side.death_time.set(k, sides.death_time);

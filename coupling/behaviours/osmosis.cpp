@@ -70,7 +70,7 @@ OsmoticCell osmotic_cell(const FullRow& row, const CellType& type, double time, 
   cell.inactive = law.inactive * row.target_volume;
   cell.osmolytes = law.inside * (row.target_volume - cell.inactive);
   cell.outside = law.outside * law.course.at(time);
-  if (law.field >= 0) cell.outside += row.concentration[static_cast<std::size_t>(law.field)];
+  if (law.field >= 0) cell.outside += row.variable(concentration_of(static_cast<std::size_t>(law.field)));
   cell.pressure = pressure;
   cell.area = area;
   return cell;

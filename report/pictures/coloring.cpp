@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "report/pictures/camera.h"
 #include "report/pictures/palette.h"
@@ -89,14 +90,28 @@ bool is_number(ColorBy by) {
   return by == ColorBy::kPressure || by == ColorBy::kVolume || by == ColorBy::kConcentration || by == ColorBy::kField;
 }
 
-double color_value(const Snapshot::Cell& cell, ColorBy by, std::size_t field) {
+namespace {
+
+/// What the cells see of a field; null where the snapshot does not tell it.
+const Snapshot::Variable* seen_concentration(const Snapshot& snapshot, std::size_t field) {
+  if (field >= snapshot.fields.size()) return nullptr;
+  for (const Snapshot::Variable& variable : snapshot.variables)
+    if (variable.name == "concentration/" + snapshot.fields[field].name) return &variable;
+  return nullptr;
+}
+
+}  // namespace
+
+double color_value(const Snapshot& snapshot, std::size_t cell, ColorBy by, std::size_t field) {
   switch (by) {
     case ColorBy::kPressure:
-      return cell.pressure;
+      return snapshot.cells[cell].pressure;
     case ColorBy::kVolume:
-      return cell.volume;
-    case ColorBy::kConcentration:
-      return cell.concentration[std::min(field, cell.concentration.size() - 1)];
+      return snapshot.cells[cell].volume;
+    case ColorBy::kConcentration: {
+      const Snapshot::Variable* const seen = seen_concentration(snapshot, field);
+      return seen == nullptr ? std::numeric_limits<double>::quiet_NaN() : seen->values[cell];
+    }
     default:
       return 0.0;
   }
@@ -106,7 +121,7 @@ ColorScale common_scale(std::span<const Snapshot> snapshots, ColorBy by, std::si
   if (!is_number(by)) return {};
   std::vector<double> values;
   for (const Snapshot& snapshot : snapshots)
-    for (const auto& cell : snapshot.cells) values.push_back(color_value(cell, by, field));
+    for (std::size_t c = 0; c < snapshot.cells.size(); ++c) values.push_back(color_value(snapshot, c, by, field));
   ColorScale scale = scale_of(std::move(values), 0.01);
   scale.quantity = by == ColorBy::kPressure ? "pressure" : by == ColorBy::kVolume ? "volume" : name;
   choose_unit(scale, by);
@@ -131,7 +146,8 @@ std::vector<Rgb> cell_colors(const Snapshot& snapshot, ColorBy by, const ColorSc
                              const TypeColors& type_colors) {
   std::vector<Rgb> colors;
   colors.reserve(snapshot.cells.size());
-  for (const auto& cell : snapshot.cells) {
+  for (std::size_t c = 0; c < snapshot.cells.size(); ++c) {
+    const Snapshot::Cell& cell = snapshot.cells[c];
     switch (by) {
       case ColorBy::kType:
         colors.push_back(varied(type_color(cell.type, type_colors), cell.id));
@@ -146,7 +162,7 @@ std::vector<Rgb> cell_colors(const Snapshot& snapshot, ColorBy by, const ColorSc
         colors.push_back(varied(kUnmarked, cell.id));
         break;
       default:
-        colors.push_back(scale_color(scale, color_value(cell, by, field)));
+        colors.push_back(scale_color(scale, color_value(snapshot, c, by, field)));
     }
   }
   return colors;

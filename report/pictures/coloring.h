@@ -35,7 +35,7 @@ struct LegendEntry {
 bool is_number(ColorBy by);
 
 /// The value that a cell is coloured by; `field` is the field's number for kConcentration.
-double color_value(const Snapshot::Cell& cell, ColorBy by, std::size_t field);
+double color_value(const Snapshot& snapshot, std::size_t cell, ColorBy by, std::size_t field);
 
 /// One scale for all of these snapshots, so that their pictures compare: from the 1st to the 99th percentile of all cells, widened to
 /// round numbers; diverging when negative values matter, so that zero is white and both signs have their own colours. `name`: of the

@@ -84,7 +84,7 @@ std::vector<Picture> standard_pictures(std::span<const Snapshot> snapshots, cons
   else if (last.cells.size() > 1)
     set.add(last, "cut_cells_final", "each cell in its own colour", colored(ColorBy::kIdentity), true, false);
   set.add(last, "cut_pressure_final", "coloured by pressure", colored(ColorBy::kPressure, own_scale(last, pressure)), true, false);
-  for (std::size_t field = 0; field < last.fields.size() && field < kMaxFields; ++field) {
+  for (std::size_t field = 0; field < last.fields.size(); ++field) {
     const std::string& name = last.fields[field].name;
     const ColorScale scale = field_scale(last, field);  // of both pictures: what cells see, and what is around them
     set.add(last, "cut_" + name + "_final", "coloured by the " + name + " they see", colored(ColorBy::kConcentration, scale, field), true,

@@ -64,6 +64,10 @@ Snapshot local_snapshot(Simulation& simulation) {
   for (const auto& spec : model.fields) out.fields.emplace_back().name = spec.name;
   out.mark_names = model.mark_names;
   add_surroundings(model, tissue, out);
+  for (const VariableColumn& variable : tissue.cells.variables) {
+    Snapshot::Variable& told = out.variables.emplace_back(Snapshot::Variable{variable.what.name, variable.what.unit, {}});
+    for (std::size_t i = 0; i < tissue.cells.size(); ++i) told.values.push_back(variable.values[i]);
+  }
   std::vector<const Topology*> known;
   for (const BodyOfRow& owned : bodies_of(tissue.cells)) {
     const std::size_t i = owned.row, body = owned.place(tissue.shells.size()), shell = owned.number;
@@ -85,7 +89,6 @@ Snapshot local_snapshot(Simulation& simulation) {
     cell.stress_yy = stress.yy, cell.stress_yz = stress.yz, cell.stress_zz = stress.zz;
     cell.contact_area = values.contact_area[body];
     cell.age = out.time - row.birth_time;
-    for (std::size_t f = 0; f < kMaxFields; ++f) cell.concentration[f] = tissue.cells.side.concentration[f][i];
     cell.radius = is_shell ? std::cbrt(3.0 * cell.volume / (4.0 * std::numbers::pi)) : tissue.spheres.radius[owned.number];
     if (!is_shell) continue;
     const auto add_surface = [&](const dcm::Shells& from, std::size_t s, std::vector<Snapshot::Shell>& shells, std::vector<Vec3d>& all) {

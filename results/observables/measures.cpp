@@ -60,14 +60,13 @@ void measure_fields(const Simulation& simulation, Measures& out) {
     double least = 1e300;
     for (const auto& brick : field.concentration)
       for (const double c : brick) least = std::min(least, c);
-    out.least_field[f] = comm.min(least);
+    out.least_field.push_back(comm.min(least));
     const double amount = fields::total_amount(field, comm);
-    out.mean_field[f] = amount / (field.grid.voxel_volume() * static_cast<double>(field.grid.voxel_count()));
-    const Ledger& l = tissue.ledger;
-    const double residual = amount - l.field_start[f] + l.field_taken[f] + l.field_decayed[f] - l.field_in[f];
-    const double scale = std::max(
-        {std::abs(amount), std::abs(l.field_start[f]), std::abs(l.field_taken[f]), std::abs(l.field_decayed[f]), std::abs(l.field_in[f])});
-    out.field_balance[f] = scale > 0.0 ? std::abs(residual) / scale : 0.0;
+    out.mean_field.push_back(amount / (field.grid.voxel_volume() * static_cast<double>(field.grid.voxel_count())));
+    const FieldLedger& l = tissue.ledger.fields[f];
+    const double residual = amount - l.start + l.taken + l.decayed - l.in;
+    const double scale = std::max({std::abs(amount), std::abs(l.start), std::abs(l.taken), std::abs(l.decayed), std::abs(l.in)});
+    out.field_balance.push_back(scale > 0.0 ? std::abs(residual) / scale : 0.0);
   }
 }
 

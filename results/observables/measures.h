@@ -38,10 +38,9 @@ struct Measures {
   std::vector<Vec3d> obstacle_force;             ///< of all cells on each obstacle [nN]
   std::vector<LumenState> lumens;                ///< by lumen of the model
   std::vector<Vec3d> grip_force;                 ///< of each load that is a grip on its cells; 0 for other loads [nN]
-  std::array<double, kMaxFields> mean_field{};   ///< over voxels [mM]
-  std::array<double, kMaxFields> least_field{};  ///< over voxels [mM]
-  /// |A − A_0 + taken + decayed − inflow| / max(A, A_0, taken, decayed, |inflow|) since time 0, A the amount in the field.
-  std::array<double, kMaxFields> field_balance{};
+  std::vector<double> mean_field, least_field;  ///< by field, over voxels [mM]
+  /// |A − A_0 + taken + decayed − inflow| / max(A, A_0, taken, decayed, |inflow|) since time 0, A the amount in the field; by field.
+  std::vector<double> field_balance;
 };
 
 /// Collective.

@@ -82,7 +82,7 @@ Counts count_cells(const Study& study, Tissue& tissue, double time) {
   out.of_type.assign(study.model.types.size(), 0);
   for (std::size_t f = 0; f < study.model.fields.size(); ++f)
     for (std::size_t i = 0; i < tissue.cells.size(); ++i)
-      tissue.cells.side.concentration[f].set(i, study.model.fields[f].initial, tissue.cells.size());
+      tissue.cells.variables[concentration_of(f)].values.set(i, study.model.fields[f].initial, tissue.cells.size());
   std::vector<Vec3d> center;
   for (const BodyOfRow& body : bodies_of(tissue.cells)) {
     ++out.of_type[tissue.cells.rows[body.row].type];

@@ -21,8 +21,6 @@ CellType cycling() {
 FullRow mother_row(std::uint64_t number = 17) {
   FullRow row = make_founder(CellId::founder(number), 2, cycling(), 9, 0.0, false);
   row.target_volume = row.division_volume;
-  row.amount = {3.7, 1e5 / 3, 0.0, 1e-9};
-  row.concentration = {0.2, 0.01, 0, 0};
   row.pressure = 0.04;
   row.polarity = {0, 0.6, 0.8};
   row.migration_velocity = {1e-3, 2e-3, -1e-3};
@@ -33,18 +31,37 @@ FullRow mother_row(std::uint64_t number = 17) {
 
 const SphereBody kBody{{10, -20, 5}, 7.5595263};
 
-TEST(Division, KeepsVolumeAndAmountsToTheLastBit) {
+TEST(Division, KeepsVolumeToTheLastBit) {
   for (const double fraction : {0.5, 0.3, 0.61803}) {
     const FullRow mother = mother_row();
     const auto out = divide_sphere(mother, kBody, cycling(), 9, 1000.0, 0.0, fraction);
     EXPECT_NEAR((out.first.target_volume + out.second.target_volume) / mother.target_volume, 1.0, 1e-15);
     EXPECT_NEAR(out.first.target_volume / mother.target_volume, fraction, 1e-15);
-    for (std::size_t field = 0; field < kMaxFields; ++field) {
-      EXPECT_NEAR(out.first.amount[field] + out.second.amount[field], mother.amount[field], 1e-15 * mother.amount[field]);
-      EXPECT_NEAR(out.first.amount[field], fraction * mother.amount[field], 1e-15 * mother.amount[field]);
-    }
     const double cubes = std::pow(out.first_body.radius, 3) + std::pow(out.second_body.radius, 3);
     EXPECT_NEAR(cubes / std::pow(kBody.radius, 3), 1.0, 1e-12);
+  }
+}
+
+TEST(Division, DividesEveryVariableAsItIsDeclared) {
+  Model model;
+  model.fields.resize(6);  // as many as one likes
+  Cells cells;
+  cells.declare(cell_variables(model));
+  cells.variables.push_back({{"anger", "1", AtDivision::kUsual}, {}});
+  FullRow mother = mother_row();
+  mother.variables = {3.7, 0.2, 1e5 / 3, 0.01, 0.0, 0.0, 1e-9, 0.0, 5.0, 6.0, 7.0, 8.0, 9.0};
+  for (const double fraction : {0.5, 0.3, 0.61803}) {
+    auto out = divide_sphere(mother, kBody, cycling(), 9, 1000.0, 20.0, fraction);
+    divide_variables(cells.variables, mother, out.first, out.second);
+    for (std::size_t field = 0; field < 6; ++field) {
+      const double whole = mother.variables[amount_of(field)], first = out.first.variables[amount_of(field)];
+      EXPECT_NEAR(first, fraction * whole, 1e-15 * whole);
+      EXPECT_EQ(out.second.variables[amount_of(field)], whole - first) << "nothing is lost to rounding";
+      EXPECT_EQ(out.first.variables[concentration_of(field)], mother.variables[concentration_of(field)]);
+      EXPECT_EQ(out.second.variables[concentration_of(field)], mother.variables[concentration_of(field)]);
+    }
+    EXPECT_EQ(out.first.variables[12], 0.0);
+    EXPECT_EQ(out.second.variables[12], 0.0);
   }
 }
 
@@ -75,7 +92,6 @@ TEST(Division, DaughtersInheritAndBeginACycle) {
     EXPECT_EQ(row.type, mother.type);
     EXPECT_EQ(row.polarity, mother.polarity);
     EXPECT_EQ(row.migration_velocity, mother.migration_velocity);
-    EXPECT_EQ(row.concentration, mother.concentration);
     EXPECT_EQ(row.pressure, mother.pressure);
     EXPECT_EQ(row.last_swap_time, mother.last_swap_time);
     EXPECT_EQ(row.order, mother.order);

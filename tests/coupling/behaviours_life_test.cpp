@@ -11,6 +11,7 @@
 #include "coupling/behaviours/birth.h"
 #include "coupling/behaviours/death.h"
 #include "coupling/behaviours/division.h"
+#include "tests/coupling/same_rows.h"
 
 namespace morula {
 namespace {
@@ -28,6 +29,9 @@ struct Population {
   void advance(double dt) {
     time += dt;
     Cells cells;
+    Model model;
+    model.fields.resize(2);
+    cells.declare(cell_variables(model));
     for (const FullRow& row : rows) cells.push_back(row);
     const LifeReport report = live(cells, types, {1, step++, time, dt});
     for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = cells.full(k);
@@ -188,12 +192,15 @@ TEST(Death, NeedsALackOfTheNamedField) {
   CellType type = starving();
   type.death_rate = 1e6;  // certain
   Cells cells;
+  Model two_fields;
+  two_fields.fields.resize(2);
+  cells.declare(cell_variables(two_fields));
   cells.push_back(make_founder(CellId::founder(1), 0, type, 1, 0.0, false));
   const auto dies = [&] { return !live(cells, std::span(&type, 1), {1, 0, 60.0, 60.0}).events.empty(); };
-  cells.side.concentration[1].set(0, 0.02);
+  cells.variables[concentration_of(1)].values.set(0, 0.02);
   EXPECT_FALSE(begins_to_die(cells.rows[0], 0.02, type, 1, 0, 60.0));
   EXPECT_FALSE(dies()) << "the other fields are at 0";
-  cells.side.concentration[1].set(0, 0.0199);
+  cells.variables[concentration_of(1)].values.set(0, 0.0199);
   EXPECT_TRUE(begins_to_die(cells.rows[0], 0.0199, type, 1, 0, 60.0));
   CellType carefree = type;
   carefree.death_field = -1;
@@ -245,7 +252,7 @@ TEST(Life, DoesNotDependOnTheOrderOfCells) {
   std::sort(one.rows.begin(), one.rows.end(), by_id);
   std::sort(other.rows.begin(), other.rows.end(), by_id);
   for (std::size_t k = 0; k < one.rows.size(); ++k) {
-    EXPECT_EQ(std::memcmp(&one.rows[k], &other.rows[k], sizeof(FullRow)), 0) << one.rows[k].id.text();
+    EXPECT_TRUE(same_rows(one.rows[k], other.rows[k])) << one.rows[k].id.text();
   }
 }
 

@@ -107,7 +107,7 @@ TEST(Osmosis, TakesTheMediumFromACourseAndAField) {
   type.osmosis.course = {{0.0, 10.0}, {1.0, 0.5}};
   type.osmosis.field = 1;
   FullRow row = row_of();
-  row.concentration[1] = 20.0;
+  row.variables = {0.0, 0.0, 0.0, 20.0};
   EXPECT_DOUBLE_EQ(osmotic_cell(row, type, 0.0, kArea, 0.0).outside, 320.0);
   EXPECT_DOUBLE_EQ(osmotic_cell(row, type, 5.0, kArea, 0.0).outside, 245.0);
   EXPECT_DOUBLE_EQ(osmotic_cell(row, type, 50.0, kArea, 0.0).outside, 170.0);

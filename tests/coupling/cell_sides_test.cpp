@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
 #include "coupling/cell_record.h"
+#include "tests/coupling/same_rows.h"
 
 namespace morula {
 namespace {
@@ -19,8 +19,7 @@ FullRow restless(std::uint64_t number) {
   row.inflation_rate = 0.5;
   row.polarity = {0, 0, 1};
   row.migration_velocity = {0, -0.0, 0};
-  row.amount = {1, 2, 3, 4};
-  row.concentration = {5, 6, 7, 8};
+  row.variables = {1, 2, 3, 4, -0.0, 6};
   return row;
 }
 
@@ -31,26 +30,40 @@ FullRow plain(std::uint64_t number) {
   return row;
 }
 
-bool same(const FullRow& a, const FullRow& b) { return std::memcmp(&a, &b, sizeof(FullRow)) == 0; }
+/// Of three fields.
+std::vector<CellVariable> six_variables() {
+  Model model;
+  model.fields.resize(3);
+  return cell_variables(model);
+}
+
+/// The row as cells with six variables give it back.
+FullRow whole(FullRow row) {
+  row.variables.resize(6);
+  return row;
+}
 
 TEST(CellSides, TakeNoRoomWhereAllCellsHaveTheUsualValues) {
   Cells cells;
   cells.rows.reserve(3);
+  cells.declare(six_variables());
   for (std::uint64_t n = 1; n <= 3; ++n) cells.push_back(plain(n));
   EXPECT_EQ(cells.memory(), 3 * sizeof(CellRow));
   SideColumns::for_each(cells.side, [](const auto& column) { EXPECT_TRUE(column.empty()); });
-  EXPECT_TRUE(same(cells.full(1), plain(2)));
+  EXPECT_TRUE(same_rows(cells.full(1), whole(plain(2))));
 }
 
 TEST(CellSides, ComeBackAsTheyWereSet) {
   Cells cells;
   cells.rows.reserve(8);
+  cells.declare(six_variables());
   for (std::uint64_t n = 1; n <= 8; ++n) cells.push_back(n == 3 || n == 5 ? restless(n) : plain(n));
-  for (std::uint64_t n = 1; n <= 8; ++n) EXPECT_TRUE(same(cells.full(n - 1), n == 3 || n == 5 ? restless(n) : plain(n))) << n;
-  EXPECT_EQ(cells.memory(), 8 * sizeof(CellRow) + 8 * sizeof(CellSides)) << "room for all rows at once, and not more";
+  for (std::uint64_t n = 1; n <= 8; ++n) EXPECT_TRUE(same_rows(cells.full(n - 1), n == 3 || n == 5 ? restless(n) : whole(plain(n)))) << n;
+  EXPECT_EQ(cells.memory(), 8 * sizeof(CellRow) + 8 * sizeof(CellSides) + 8 * 6 * sizeof(double)) << "room for all rows at once, and not more";
   cells.set_sides(2, {});
-  EXPECT_TRUE(same(cells.full(2), plain(3)));
-  EXPECT_TRUE(same(cells.full(4), restless(5)));
+  for (VariableColumn& variable : cells.variables) variable.values.set(2, 0.0);
+  EXPECT_TRUE(same_rows(cells.full(2), whole(plain(3))));
+  EXPECT_TRUE(same_rows(cells.full(4), restless(5)));
 }
 
 TEST(CellSides, MinusZeroIsNotZero) {
@@ -64,6 +77,7 @@ TEST(CellSides, MinusZeroIsNotZero) {
 
 TEST(CellSides, GoWithTheirCellThroughSortingAndBytes) {
   Tissue tissue;
+  tissue.cells.declare(six_variables());
   std::vector<CellRecord> cells;
   for (std::uint64_t n = 1; n <= 6; ++n) {
     CellRecord& cell = cells.emplace_back();
@@ -77,10 +91,10 @@ TEST(CellSides, GoWithTheirCellThroughSortingAndBytes) {
   EXPECT_TRUE(tissue.cells.side.polarity.empty());
   cells = read_records(bytes, shapes);
   ASSERT_EQ(cells.size(), 6u);
-  for (std::uint64_t n = 1; n <= 6; ++n) EXPECT_TRUE(same(cells[6 - n].row, n == 2 ? restless(n) : plain(n))) << n;
+  for (std::uint64_t n = 1; n <= 6; ++n) EXPECT_TRUE(same_rows(cells[6 - n].row, n == 2 ? restless(n) : whole(plain(n)))) << n;
   std::erase_if(cells, [](const CellRecord& cell) { return cell.row.id == CellId::founder(4); });  // rows move up
   put_together(tissue, std::move(cells));
-  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(tissue.cells.side.amount[3][i], tissue.cells.rows[i].id == CellId::founder(2) ? 4.0 : 0.0);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(tissue.cells.variables[3].values[i], tissue.cells.rows[i].id == CellId::founder(2) ? 4.0 : 0.0);
 }
 
 TEST(CellRecords, CopyTheirShellDeeply) {

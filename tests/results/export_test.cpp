@@ -35,8 +35,10 @@ Snapshot small_snapshot(ShapeLibrary& library, double time) {
   sphere.type = 1;
   sphere.centroid = {1, 2, 3};
   sphere.radius = 5.5;
-  sphere.concentration[0] = 0.2;
   s.cells.push_back(sphere);
+  s.variables.push_back({"concentration/oxygen", "mM", std::vector<double>(s.cells.size(), 0.0)});
+  s.variables.back().values.back() = 0.2;
+  s.variables.push_back({"amount/oxygen", "amol", std::vector<double>(s.cells.size(), 7.5)});
   s.fields.push_back({"oxygen", {-1, -2, -3}, {0.5, 1, 2}, {2, 3, 1}, {0, 1, 2, 3, 4, 5}});
   return s;
 }
@@ -256,7 +258,7 @@ TEST_F(Exports, CsvHasUnitsInTheHeaderAndOneLineACell) {
   EXPECT_EQ(header,
             "id,parent,type,body,phase,x [um],y [um],z [um],volume [um^3],area [um^2],pressure [kPa],"
             "inner_pressure [kPa],stress_xx [kPa],stress_xy [kPa],stress_xz [kPa],stress_yy [kPa],stress_yz [kPa],stress_zz [kPa],"
-            "contact_area [um^2],age [s],oxygen [mM],radius [um]");
+            "contact_area [um^2],age [s],radius [um],oxygen [mM],amount of oxygen [amol]");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
   EXPECT_NE(csv.find("\n9,0,liver,sphere,growing,1,2,3,"), std::string::npos) << csv;
   const auto commas = std::count(header.begin(), header.end(), ',');

@@ -73,7 +73,7 @@ std::string as_documented(std::string path) {
   path = std::regex_replace(path, std::regex("^series/.*"), "series/<column>");
   path = std::regex_replace(path, std::regex("^obstacles/[^/]*/(position|faces)"), "obstacles/<name>/$1");
   path = std::regex_replace(path, std::regex("^fields/[^/]*/"), "fields/<field>/");
-  return std::regex_replace(path, std::regex("^cells/concentration/.*"), "cells/concentration/<field>");
+  return std::regex_replace(path, std::regex("^cells/(amount|concentration)/.*"), "cells/$1/<field>");
 }
 
 /// What a command prints; nothing if it fails.
@@ -232,12 +232,15 @@ for n in sorted(f["snapshots"]):
     s = f["snapshots"][n]; cells = s["cells"]; body = cells["body"][:]
     kinds = h5py.check_enum_dtype(cells["body"].dtype)
     read = lambda stem: meshio.read(f"vtk/{stem}_{n}.vtu")
+    paths = [v.decode() for v in s["variable_names"][:]]
+    titled = {p.split("/")[1] if p.startswith("concentration/") else " of ".join(p.split("/")): p for p in paths}
+    assert len(titled) == 2 * len(s["fields"])
     def same(data, rows):
         for name, values in data.items():
             column = name.split(" [")[0]
             if column in ("cell_id", "parent") or column.startswith("mark "): continue
-            mine = cells["concentration"][column][:] if column in s["fields"] else cells[column][:]
-            units = (cells["concentration"][column] if column in s["fields"] else cells[column]).attrs["units"].decode()
+            mine = cells[titled.get(column, column)][:]
+            units = cells[titled.get(column, column)].attrs["units"].decode()
             assert units == "1" or name == f"{column} [{units}]", name
             assert np.array_equal(np.squeeze(values), np.squeeze(mine[rows])), name
     spheres = read("spheres"); rows = np.flatnonzero(body == kinds["sphere"])

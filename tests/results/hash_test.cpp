@@ -111,8 +111,8 @@ TEST(StateHash, SeesEveryPartOfTheState) {
   after([](Tissue& t) { t.ledger.drift.y += 1e-12; });
   after([](Tissue& t) { t.ledger.rotation.z += 1e-12; });
   after([](Tissue& t) { t.ledger.way += 1e-12; });
-  after([](Tissue& t) { t.ledger.field_start[0] = 0.0; });  // was −0.0
-  after([](Tissue& t) { t.cells.side.concentration[2].set(5, 0.0); });
+  after([](Tissue& t) { t.ledger.fields[0].start = 0.0; });  // was −0.0
+  after([](Tissue& t) { t.cells.variables[concentration_of(1)].values.set(5, 0.0); });
   after([](Tissue& t) { t.cells.rows[5].draws++; });
   after([](Tissue& t) {
     t.cells.rows[5].phase = Phase::kDying;

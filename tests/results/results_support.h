@@ -109,6 +109,8 @@ inline Model model_of_test_tissue() {
   model.types[2].interior.nucleus_nodes = 42;
   model.obstacles.resize(2);
   model.fields.resize(2);
+  model.fields[0].name = "oxygen";
+  model.fields[1].name = "glucose";
   model.lumens.resize(2);
   return model;
 }
@@ -124,9 +126,9 @@ inline FullRow make_row(CellId id, BodyKind body) {
     *value = numbers.next();
   row.polarity = numbers.vector();
   row.migration_velocity = numbers.vector();
-  for (std::size_t f = 0; f < kMaxFields; ++f) {
-    row.amount[f] = numbers.next();
-    row.concentration[f] = -0.0;
+  for (std::size_t f = 0; f < 2; ++f) {
+    row.variables.push_back(numbers.next());
+    row.variables.push_back(-0.0);
   }
   row.draws = id.bits() % 5;
   row.type = static_cast<std::uint16_t>(id.bits() % 3);
@@ -207,12 +209,8 @@ inline fields::Field make_field(int index, const Comm& comm, int spread) {
 inline Tissue make_tissue(const Comm& comm, ShapeLibrary& library, int cells = 60, int spread = 1) {
   Tissue tissue;
   tissue.clock = {123.456, 17.25, 4711, true};
-  for (std::size_t f = 0; f < kMaxFields; ++f) {
-    tissue.ledger.field_in[f] = 1.5 + static_cast<double>(f);
-    tissue.ledger.field_taken[f] = 0.1 * static_cast<double>(f);
-    tissue.ledger.field_decayed[f] = 3.0;
-    tissue.ledger.field_start[f] = -0.0;
-  }
+  for (int f = 0; f < 2; ++f) tissue.ledger.fields.push_back({1.5 + f, 0.1 * f, 3.0, -0.0});
+  tissue.cells.declare(cell_variables(model_of_test_tissue()));
   tissue.ledger.divisions = 5;
   tissue.ledger.deaths = 6;
   tissue.ledger.promotions = 7;

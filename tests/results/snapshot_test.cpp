@@ -22,6 +22,7 @@ Snapshot make_snapshot(double time, int cells, const Comm& comm, ShapeLibrary& l
   out.type_names = {"hepatocyte", "τύπος"};
   for (const auto& shape : {library.icosphere(42).value(), tetrahedron()})
     out.topologies.emplace_back(shape->topology->faces().begin(), shape->topology->faces().end());
+  out.variables = {{"amount/oxygen", "amol", {}}, {"concentration/oxygen", "mM", {}}, {"anger", "1", {}}};
   for (int c = 0; c < cells; ++c) {
     if ((c * 5) % comm.size() != comm.rank()) continue;
     const CellId id = CellId::founder(static_cast<std::uint64_t>(cells - c));
@@ -36,7 +37,7 @@ Snapshot make_snapshot(double time, int cells, const Comm& comm, ShapeLibrary& l
     for (double* value : {&cell.volume, &cell.area, &cell.pressure, &cell.inner_pressure, &cell.stress_xx, &cell.stress_xy, &cell.stress_xz,
                           &cell.stress_yy, &cell.stress_yz, &cell.stress_zz, &cell.contact_area, &cell.age, &cell.radius})
       *value = numbers.next() + time;
-    for (double& value : cell.concentration) value = numbers.next();
+    for (Snapshot::Variable& variable : out.variables) variable.values.push_back(numbers.next());
     if (cell.body == BodyKind::kShell) {
       const std::uint32_t topology = id.bits() % 2, nodes = topology == 0 ? 42 : 4;
       out.shells.push_back({static_cast<std::uint32_t>(out.cells.size()), static_cast<std::uint32_t>(out.nodes.size()), nodes, topology});
@@ -55,13 +56,16 @@ std::string description(const Snapshot& s) {
   std::ostringstream out;
   out << std::hexfloat << s.time;
   for (const auto& name : s.type_names) out << ' ' << name;
+  for (const auto& variable : s.variables) {
+    out << ' ' << variable.name << ' ' << variable.unit;
+    for (const double value : variable.values) out << ' ' << value;
+  }
   for (const auto& c : s.cells) {
     out << '\n'
         << c.id.text() << ' ' << c.parent.text() << ' ' << c.type << ' ' << int(c.body) << ' ' << int(c.phase) << ' ' << c.centroid.x << ' '
         << c.centroid.y << ' ' << c.centroid.z << ' ' << c.volume << ' ' << c.area << ' ' << c.pressure << ' ' << c.inner_pressure << ' '
         << c.stress_xx << ' ' << c.stress_xy << ' ' << c.stress_xz << ' ' << c.stress_yy << ' ' << c.stress_yz << ' ' << c.stress_zz << ' '
         << c.contact_area << ' ' << c.age << ' ' << c.radius;
-    for (std::size_t f = 0; f < s.fields.size(); ++f) out << ' ' << c.concentration[f];
   }
   for (const auto& shell : s.shells) {
     out << "\nshell of " << s.cells[shell.cell].id.text();

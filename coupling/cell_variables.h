@@ -1,0 +1,36 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "coupling/model.h"
+
+namespace morula {
+
+/// What the two cells of a division have of a value of their mother.
+enum class AtDivision : std::uint8_t {
+  kCopied,  ///< both what she had
+  kShared,  ///< each its part by volume; what rounding leaves goes to the second
+  kUsual,   ///< what a new cell has
+  kSet,     ///< what the division finds for it (make_daughter)
+};
+
+/// A number by cell that exists because the model asks for it, beside what every cell has: what it took from a field, what it sees of one. 0 for a
+/// new cell. Files and messages name it and have as many as the model has.
+struct CellVariable {
+  std::string name;  ///< "amount/oxygen": its path below the tables of cells
+  std::string unit;  ///< "1" for a number
+  AtDivision at_division = AtDivision::kCopied;
+
+  bool operator==(const CellVariable&) const = default;
+};
+
+/// Numbers of the two variables that each field of a model has.
+constexpr std::size_t amount_of(std::size_t field) { return 2 * field; }             ///< taken from it so far [amol]
+constexpr std::size_t concentration_of(std::size_t field) { return 2 * field + 1; }  ///< seen in it [mM]
+
+/// All variables of the cells of a model, by number: two for each field.
+std::vector<CellVariable> cell_variables(const Model& model);
+
+}  // namespace morula
