@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/mesh/face_quadrature.h"
 #include "dcm/laws/nucleus_repulsion.h"
 
 namespace morula::dcm {

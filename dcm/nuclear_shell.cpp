@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/contact/traction_law.h"
 #include "core/mesh/closest_point.h"
+#include "core/mesh/face_quadrature.h"
 #include "core/mesh/pseudonormal.h"
 #include "dcm/growth.h"
 #include "dcm/laws/nucleus_repulsion.h"

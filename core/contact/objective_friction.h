@@ -5,6 +5,7 @@
 
 #include "core/contact/surface_pair.h"
 #include "core/friction/friction_system.h"
+#include "core/mesh/face_quadrature.h"
 #include "core/parallel/order_free_sum.h"
 
 namespace morula {

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/contact/surface_pair.h"
+#include "core/mesh/face_quadrature.h"
 
 namespace morula {
 

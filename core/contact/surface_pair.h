@@ -10,6 +10,7 @@
 #include "core/contact/regional_adhesion.h"
 #include "core/contact/surface_traction.h"
 #include "core/friction/contact_element.h"
+#include "core/mesh/face_quadrature.h"
 #include "core/space/space.h"
 #include "core/vec3.h"
 

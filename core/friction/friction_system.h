@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "core/contact/traction_law.h"
 #include "core/friction/contact_element.h"
 #include "core/friction/float4.h"
 #include "core/friction/pair_blocks.h"

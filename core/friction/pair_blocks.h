@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "core/contact/traction_law.h"
 #include "core/friction/contact_element.h"
 #include "core/friction/float4.h"
+#include "core/mesh/face_quadrature.h"
 
 namespace morula {
 
