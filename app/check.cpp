@@ -7,7 +7,7 @@
 namespace morula::app {
 
 Status check(const CheckOptions& options, const Context& context) {
-  if (options.schema) context.console.result(scenarios::study_json_schema(*builtin_laws()));
+  if (options.schema) context.console.result(scenarios::study_json_schema(*context.laws));
   Status outcome;
   for (const std::string& path : options.studies) {
     const auto study = read_study_and_tell(path, options.overrides, options.strict, context);

@@ -7,19 +7,19 @@ namespace morula::app {
 
 Status explain(const ExplainOptions& options, const Context& context) {
   if (options.markdown == "laws") {
-    context.console.result(law_reference());
+    context.console.result(law_reference(*context.laws));
     return {};
   }
   if (options.markdown == "study") {
-    context.console.result(scenarios::study_reference(*builtin_laws()));
+    context.console.result(scenarios::study_reference(*context.laws));
     return {};
   }
   std::string text;
-  for (const ListedLaw& law : laws_named(options.id)) text += law_text(law);
-  if (const auto found = scenarios::explain_study(options.id, *builtin_laws())) text += *found;
+  for (const ListedLaw& law : laws_named(*context.laws, options.id)) text += law_text(law);
+  if (const auto found = scenarios::explain_study(options.id, *context.laws)) text += *found;
   if (text.empty()) {
-    std::vector<std::string> known = law_names();
-    for (std::string& path : scenarios::study_key_paths(*builtin_laws())) {
+    std::vector<std::string> known = law_names(*context.laws);
+    for (std::string& path : scenarios::study_key_paths(*context.laws)) {
       const std::size_t dot = path.rfind('.');
       if (dot != std::string::npos) known.push_back(path.substr(dot + 1));
       known.push_back(std::move(path));

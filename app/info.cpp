@@ -24,7 +24,7 @@ std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::er
 /// The Tissue of the newest good checkpoint of a run, counted and hashed; nothing if there is no checkpoint yet.
 Result<scenarios::FinalState> newest_state(const scenarios::RunFolder& run, const Context& context) {
   const Comm alone;
-  const auto study = scenarios::read_study(run.path() / "study.resolved.yaml", {.judge_places = false});
+  const auto study = scenarios::read_study(run.path() / "study.resolved.yaml", {.laws = context.laws, .judge_places = false});
   if (!study.ok()) return study.error().as_error();
   ShapeLibrary shapes;
   MORULA_TRY_ASSIGN(const scenarios::RestoredCheckpoint restored,
@@ -130,7 +130,7 @@ void add_defaults(const scenarios::Declaration& from, std::vector<std::vector<st
 /// Every key that has a default, with the default and where it comes from.
 Status info_of_defaults(const InfoOptions& options, const Context& context) {
   std::vector<std::vector<std::string>> rows;
-  add_defaults(scenarios::study_declarations(*builtin_laws()), rows);
+  add_defaults(scenarios::study_declarations(*context.laws), rows);
   if (options.json) {
     Json list = Json::array();
     for (const auto& row : rows) list.push_back({{"key", row[0]}, {"default", row[1]}, {"source", row[2]}});
@@ -149,12 +149,12 @@ Status info(const InfoOptions& options, const Context& context) {
   std::error_code error;
   if (fs::is_directory(options.target, error)) return info_of_run(options, context);
   if (fs::exists(options.target, error)) return info_of_study(options, context);
-  const std::vector<ListedLaw> laws = laws_named(options.target);
+  const std::vector<ListedLaw> laws = laws_named(*context.laws, options.target);
   if (!laws.empty()) {
     for (const ListedLaw& law : laws) context.console.result(options.json ? law_json(law) : law_text(law));
     return {};
   }
-  const std::string near = scenarios::suggest(options.target, law_names());
+  const std::string near = scenarios::suggest(options.target, law_names(*context.laws));
   const bool suggestion = near.rfind("did you mean", 0) == 0;
   return Error{ErrorKind::kFile, "'" + options.target + "' is no run folder, no study file and no law",
                suggestion ? near : "`morula list` shows the runs; `morula explain --markdown laws` the laws"};

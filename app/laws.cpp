@@ -7,7 +7,6 @@
 #include "cbm/packing.h"
 #include "coupling/behaviours/builtin.h"
 #include "coupling/builtin.h"
-#include "coupling/laws.h"
 #include "dcm/interior_laws.h"
 #include "fields/builtin.h"
 #include "study/key_range.h"
@@ -31,17 +30,16 @@ std::string fallback_of(const KeySpec& key) {
 
 }  // namespace
 
-std::vector<ListedLaw> all_laws() {
+std::vector<ListedLaw> all_laws(const Laws& registered) {
   std::vector<ListedLaw> laws;
-  const auto builtin = builtin_laws();
-  for (const auto& law : builtin->spheres) laws.push_back({"contact of spheres", law->info});
+  for (const auto& law : registered.spheres) laws.push_back({"contact of spheres", law->info});
   laws.push_back({"contact of spheres", cbm::jkr_range_law()});
   laws.push_back({"contact of spheres", cbm::packing_law()});
-  for (const auto& law : builtin->shells) laws.push_back({"shells", law.info});
+  for (const auto& law : registered.shells) laws.push_back({"shells", law.info});
   const auto add = [&laws](const char* group, std::vector<LawInfo> infos) {
     for (LawInfo& info : infos) laws.push_back({group, std::move(info)});
   };
-  for (const auto& law : builtin->surfaces) laws.push_back({"contact of surfaces", law->info});
+  for (const auto& law : registered.surfaces) laws.push_back({"contact of surfaces", law->info});
   add("contact of surfaces", surface_contact_terms());
   add("interior of shells", dcm::interior_laws());
   add("behaviours", behaviour_laws());
@@ -51,16 +49,16 @@ std::vector<ListedLaw> all_laws() {
   return laws;
 }
 
-std::vector<ListedLaw> laws_named(const std::string& name) {
+std::vector<ListedLaw> laws_named(const Laws& laws, const std::string& name) {
   std::vector<ListedLaw> found;
-  for (ListedLaw& law : all_laws())
+  for (ListedLaw& law : all_laws(laws))
     if (law.info.name == name) found.push_back(std::move(law));
   return found;
 }
 
-std::vector<std::string> law_names() {
+std::vector<std::string> law_names(const Laws& laws) {
   std::vector<std::string> names;
-  for (const ListedLaw& law : all_laws()) names.push_back(law.info.name);
+  for (const ListedLaw& law : all_laws(laws)) names.push_back(law.info.name);
   return names;
 }
 
@@ -97,7 +95,7 @@ std::string law_json(const ListedLaw& law) {
   return json.dump(2) + "\n";
 }
 
-std::string law_reference() {
+std::string law_reference(const Laws& laws) {
   std::string out =
       "# Laws\n\nGenerated from the declarations of the laws; do not edit.\n"
       "Units inside are µm, nN, s and amol; 1 kPa = 1 nN/µm². Parameters are the numbers that a law's functions take; they follow from "
@@ -105,7 +103,7 @@ std::string law_reference() {
       "of the\n"
       "study ([study_reference.md](study_reference.md)), and `methods.md` of a run has the values it used.\n";
   std::string group;
-  for (const ListedLaw& law : all_laws()) {
+  for (const ListedLaw& law : all_laws(laws)) {
     if (law.group != group) {
       group = law.group;
       out += "\n## Laws of " + group + "\n";

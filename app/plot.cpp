@@ -52,7 +52,7 @@ Status plot_some(const fs::path& run, const PlotOptions& options, const Context&
   const auto has = [&](const char* format) {
     return options.formats.empty() || std::find(options.formats.begin(), options.formats.end(), format) != options.formats.end();
   };
-  MORULA_TRY_ASSIGN(const scenarios::Study study, scenarios::read_run_study(run));
+  MORULA_TRY_ASSIGN(const scenarios::Study study, scenarios::read_run_study(run, context.laws));
   MORULA_TRY(scenarios::make_folder(run / "plots"));
   std::string written;
   if (has("svg")) MORULA_TRY(write_plots(study, run, options.only, written));
@@ -69,7 +69,7 @@ Status plot_some(const fs::path& run, const PlotOptions& options, const Context&
 Status plot(const PlotOptions& options, const Context& context) {
   MORULA_TRY_ASSIGN(const scenarios::RunFolder folder, scenarios::RunFolder::open(options.run, Comm()));
   if (!options.only.empty() || !options.formats.empty()) return plot_some(folder.path(), options, context);
-  MORULA_TRY_ASSIGN(const fs::path report, scenarios::plot_run(folder.path()));
+  MORULA_TRY_ASSIGN(const fs::path report, scenarios::plot_run(folder.path(), context.laws));
   context.console.result(report.string() + "\n");
   return {};
 }

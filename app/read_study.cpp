@@ -11,6 +11,7 @@ namespace morula::app {
 Result<scenarios::Study> read_study_and_tell(const std::string& path, const std::vector<std::string>& overrides, bool strict,
                                              const Context& context, bool judge_places) {
   scenarios::ReadOptions options;
+  options.laws = context.laws;
   options.overrides = overrides;
   options.scenario_names = scenarios::template_names();
   options.fits_scenario = &scenarios::fits_scenario;

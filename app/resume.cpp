@@ -38,6 +38,7 @@ Status resume(const ResumeOptions& options, const Context& context) {
   auto study = read_study_and_tell((folder.path() / "study.resolved.yaml").string(), options.overrides, false, context, false);
   MORULA_TRY(agree_on(study, (folder.path() / "study.resolved.yaml").string(), context));
   scenarios::ResumeRequest request;
+  request.laws = context.laws;
   MORULA_TRY(fill_request(options.limits, context, request));
   bool go_back = false;
   if (!options.from.empty()) {

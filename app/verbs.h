@@ -1,10 +1,12 @@
 #pragma once
+#include <memory>
 #include <string>
 
 #include "app/console.h"
 #include "app/options.h"
 #include "core/parallel/comm.h"
 #include "core/result.h"
+#include "coupling/laws.h"
 
 namespace morula::app {
 
@@ -13,6 +15,7 @@ struct Context {
   Comm comm;  ///< all ranks of the program
   Console console;
   std::string command;  ///< as typed, for run.json
+  std::shared_ptr<const Laws> laws = builtin_laws();  ///< that studies may name
 };
 
 /// The verbs. An error without text has been told already; its kind gives the exit code. `run` and `resume` are collective; the others are

@@ -77,8 +77,9 @@ Result<scenarios::Study> checked(Result<scenarios::Study, scenarios::Diagnostics
   return std::move(read).value();
 }
 
-scenarios::ReadOptions options_of(const std::vector<std::string>& overrides) {
+scenarios::ReadOptions options_of(const std::vector<std::string>& overrides, std::shared_ptr<const Laws> laws) {
   scenarios::ReadOptions options;
+  if (laws != nullptr) options.laws = std::move(laws);
   options.overrides = overrides;
   return options;
 }
@@ -91,16 +92,17 @@ std::vector<std::string> names_of_types(const Model& model) {
 
 }  // namespace
 
-Result<Study> Study::read(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  MORULA_TRY_ASSIGN(scenarios::Study study, checked(scenarios::read_study(file, options_of(overrides))));
+Result<Study> Study::read(const std::filesystem::path& file, const std::vector<std::string>& overrides, std::shared_ptr<const Laws> laws) {
+  MORULA_TRY_ASSIGN(scenarios::Study study, checked(scenarios::read_study(file, options_of(overrides, std::move(laws)))));
   Study out;
   std::vector<std::string> names = names_of_types(study.model);
   out.content_ = std::make_shared<const Content>(Content{std::move(study), std::move(names)});
   return out;
 }
 
-Result<Study> Study::from_text(const std::string& text, const std::filesystem::path& folder, const std::vector<std::string>& overrides) {
-  MORULA_TRY_ASSIGN(scenarios::Study study, checked(scenarios::read_study_text("study", text, folder, options_of(overrides))));
+Result<Study> Study::from_text(const std::string& text, const std::filesystem::path& folder, const std::vector<std::string>& overrides,
+                               std::shared_ptr<const Laws> laws) {
+  MORULA_TRY_ASSIGN(scenarios::Study study, checked(scenarios::read_study_text("study", text, folder, options_of(overrides, std::move(laws)))));
   Study out;
   std::vector<std::string> names = names_of_types(study.model);
   out.content_ = std::make_shared<const Content>(Content{std::move(study), std::move(names)});

@@ -9,6 +9,10 @@
 
 #include "core/result.h"
 
+namespace morula {
+struct Laws;
+}  // namespace morula
+
 /// The public interface of Morula: read a study, make a simulation of it, step it, look at cells and meshes, write snapshots.
 ///
 /// Lengths are in µm, forces in nN, times in s, amounts in amol; hence pressures in kPa. What can fail returns a Result: a value, or an Error with a
@@ -32,10 +36,12 @@ inline constexpr Version kHeaderVersion{0, 1, 0};
 class Study {
  public:
   /// Read a study file. `overrides` are `key.path=value`, as on the command line. The error's message holds all that is wrong, one by one.
-  static Result<Study> read(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+  /// `laws`: those that the study may name, from builtin_laws() of coupling/laws.h and of the program's own; null: those of Morula.
+  static Result<Study> read(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
+                            std::shared_ptr<const Laws> laws = nullptr);
   /// The same from a text; `folder` is where its relative paths start.
   static Result<Study> from_text(const std::string& text, const std::filesystem::path& folder = ".",
-                                 const std::vector<std::string>& overrides = {});
+                                 const std::vector<std::string>& overrides = {}, std::shared_ptr<const Laws> laws = nullptr);
 
   [[nodiscard]] const std::string& name() const;
   [[nodiscard]] double end() const;              ///< of the run [s]

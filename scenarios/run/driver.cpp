@@ -109,7 +109,7 @@ Result<RunSummary> run(const Study& study, const RunRequest& request, const Comm
 Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest& request, const Comm& comm) {
   MORULA_TRY_ASSIGN(RunFolder folder, RunFolder::open(run, comm));
   MORULA_TRY_ASSIGN(const RunLock lock, RunLock::take(folder.path(), comm));
-  auto read = read_run_study(folder.path());
+  auto read = read_run_study(folder.path(), request.laws);
   MORULA_TRY(agree(read.ok() ? Status{} : Status(read.error()), comm));
   const Study study = std::move(read).value();
   MORULA_TRY_ASSIGN(RunRecord record, read_run_record(folder.record()));

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,7 +48,8 @@ struct RunRequest {
 
 /// How a resumed run differs.
 struct ResumeRequest : RunRequest {
-  std::filesystem::path from;  ///< this checkpoint instead of the newest good one
+  std::filesystem::path from;                         ///< this checkpoint instead of the newest good one
+  std::shared_ptr<const Laws> laws = builtin_laws();  ///< that the run's study may name
 };
 
 /// How a run ended that did not fail.

@@ -167,8 +167,8 @@ TypeColors type_colors(const Study& study) {
   return out;
 }
 
-Result<Study> read_run_study(const fs::path& run) {
-  auto study = read_study(run / "study.resolved.yaml", {.judge_places = false});
+Result<Study> read_run_study(const fs::path& run, std::shared_ptr<const Laws> laws) {
+  auto study = read_study(run / "study.resolved.yaml", {.laws = std::move(laws), .judge_places = false});
   if (!study.ok()) return study.error().as_error();
   return std::move(study).value();
 }
@@ -223,9 +223,9 @@ Result<RunOutputs> finish_outputs(const Study& study, const RunRecord& record, c
   return out;
 }
 
-Result<fs::path> plot_run(const fs::path& run) {
+Result<fs::path> plot_run(const fs::path& run, std::shared_ptr<const Laws> laws) {
   MORULA_TRY_ASSIGN(const RunRecord record, read_run_record(run / "run.json"));
-  MORULA_TRY_ASSIGN(const Study study, read_run_study(run));
+  MORULA_TRY_ASSIGN(const Study study, read_run_study(run, std::move(laws)));
   MORULA_TRY_ASSIGN(const Judgement judgement, judge(study, run));
   return write_run_report(study, record, run, judgement);
 }

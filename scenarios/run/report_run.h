@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,7 +29,7 @@ Result<std::filesystem::path> write_run_report(const Study& study, const RunReco
                                                const Judgement& judgement);
 
 /// The same for a run on disk, its study and record read from there: `morula plot RUN`.
-Result<std::filesystem::path> plot_run(const std::filesystem::path& run);
+Result<std::filesystem::path> plot_run(const std::filesystem::path& run, std::shared_ptr<const Laws> laws = builtin_laws());
 
 /// The snapshots nearest to 0, 25, 50, 75 and 100 % of the time, each once. One that is damaged is left out; `damaged` gets its time [s] and why.
 Result<std::vector<Snapshot>> snapshots_over_time(const std::filesystem::path& results,
@@ -37,7 +38,7 @@ Result<std::vector<Snapshot>> snapshots_over_time(const std::filesystem::path& r
 /// The colours that the study gives to its types.
 TypeColors type_colors(const Study& study);
 
-/// The study of a run as it was resolved, with the run's copies of its input files.
-Result<Study> read_run_study(const std::filesystem::path& run);
+/// The study of a run as it was resolved, with the run's copies of its input files; `laws` are those of the program that ran it.
+Result<Study> read_run_study(const std::filesystem::path& run, std::shared_ptr<const Laws> laws = builtin_laws());
 
 }  // namespace morula::scenarios
