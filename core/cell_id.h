@@ -1,5 +1,6 @@
 #pragma once
 #include <bit>
+#include <cassert>
 #include <compare>
 #include <cstdint>
 #include <string>
@@ -32,6 +33,7 @@ class CellId {
 
   /// Daughter 0 or 1. Precondition: can_divide().
   [[nodiscard]] constexpr CellId daughter(int which) const {
+    assert(can_divide() && (which == 0 || which == 1));
     return CellId(((2 * path() + static_cast<std::uint64_t>(which)) << kFounderBits) | founder_number());
   }
 

@@ -1,6 +1,7 @@
 #include "coupling/cell_record.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <numeric>
@@ -95,6 +96,7 @@ std::vector<CellRecord> take_apart(Tissue& tissue) {
 }
 
 void put_together(Tissue& tissue, std::vector<CellRecord> cells) {
+  assert(tissue.cells.size() == 0 && tissue.spheres.size() == 0 && tissue.shells.size() == 0);
   tissue.cells.rows.reserve(cells.size());
   const auto is_sphere = [](const CellRecord& cell) { return cell.sphere.has_value(); };
   const auto spheres = static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), is_sphere));
@@ -103,6 +105,7 @@ void put_together(Tissue& tissue, std::vector<CellRecord> cells) {
 }
 
 void replace_cells(Tissue& tissue, std::span<const std::size_t> gone, std::vector<CellRecord> fresh) {
+  assert(std::is_sorted(gone.begin(), gone.end()) && (gone.empty() || gone.back() < tissue.cells.size()));
   const Population old = take_population(tissue);
   tissue.cells.rows.reserve(old.cells.size() - gone.size() + fresh.size());
   cbm::for_each_sphere_column([&](const auto& column) { column.reserve(tissue.spheres, old.spheres.size() + fresh.size()); });

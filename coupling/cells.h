@@ -1,4 +1,5 @@
 #pragma once
+#include <cassert>
 #include <cstdint>
 #include <type_traits>
 #include <vector>
@@ -166,6 +167,7 @@ struct Cells {
   }
   /// Adds the rows first, …, last − 1 of `from`, which has the same variables, behind the others.
   void add(const Cells& from, std::size_t first, std::size_t last) {
+    assert(first <= last && last <= from.size() && variables.size() == from.variables.size());
     for (std::size_t i = first; i < last; ++i) {
       rows.push_back(from.rows[i]);
       const auto copy = [&](auto& column, const auto& other) {

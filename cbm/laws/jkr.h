@@ -1,4 +1,5 @@
 #pragma once
+#include <cassert>
 #include <numbers>
 
 #include "cbm/laws/hertz.h"
@@ -69,6 +70,7 @@ ContactResponse<Real> jkr_contact(const PairLaw<Real>& law, Real overlap) noexce
 
 /// dF/dδ of the attached branch, of either sign; −∞ at the fold [nN/µm]. Precondition: W > 0 and δ ≥ −0.75 X.
 inline double jkr_slope(const PairLaw<double>& law, double overlap) noexcept {
+  assert(law.length > 0.0 && overlap >= kBreakOverlap * law.length);
   const double y = jkr_branch(overlap / law.length);
   const double y3 = y * y * y;
   return law.force / law.length * y * y * (y3 - 3.0) / (y3 - 1.0);

@@ -1,4 +1,5 @@
 #pragma once
+#include <cassert>
 #include <numbers>
 
 #include "core/numbers/cube_root.h"
@@ -27,13 +28,16 @@ struct ContactMaterial {
 
   /// Both bodies elastic. Preconditions: E > 0, −1 < ν ≤ 0.5, W ≥ 0.
   static constexpr ContactMaterial elastic(double young_i, double poisson_i, double young_j, double poisson_j, double adhesion) noexcept {
+    assert(young_i > 0.0 && young_j > 0.0 && poisson_i > -1.0 && poisson_i <= 0.5 && poisson_j > -1.0 && poisson_j <= 0.5);
     return of_modulus(1.0 / ((1.0 - poisson_i * poisson_i) / young_i + (1.0 - poisson_j * poisson_j) / young_j), adhesion);
   }
   /// The second body is rigid: E* = E/(1 − ν²).
   static constexpr ContactMaterial against_rigid(double young, double poisson, double adhesion) noexcept {
+    assert(young > 0.0 && poisson > -1.0 && poisson <= 0.5);
     return of_modulus(young / (1.0 - poisson * poisson), adhesion);
   }
   static constexpr ContactMaterial of_modulus(double modulus, double adhesion) noexcept {
+    assert(modulus > 0.0 && adhesion >= 0.0);
     ContactMaterial material{modulus, adhesion, 0.0, 0.0};
     if (adhesion > 0.0) {
       material.radius_factor = cube_root(std::numbers::pi * adhesion / modulus);
@@ -58,6 +62,7 @@ struct PairLaw {
 
 /// The scales of a pair; one cube root, and none without adhesion.
 constexpr PairLaw<double> make_pair_law(const ContactMaterial& material, double reduced_radius) noexcept {
+  assert(reduced_radius > 0.0);
   PairLaw<double> law{.modulus = material.modulus, .reduced_radius = reduced_radius};
   if (material.adhesion > 0.0) {
     const double root = cube_root(reduced_radius);

@@ -1,5 +1,6 @@
 #include "core/contact/contact_layer.h"
 
+#include <cassert>
 #include <omp.h>
 
 #include <algorithm>
@@ -113,8 +114,8 @@ bool ContactLayer::note_motion(const ContactScene& scene) {
   });
   know_positions(scene);
   last_offsets_ = offsets_;
-  wear_ = std::max(most, obstacle_travel_) / limit;
-  return wear_ > 1.0;
+  skin_used_ = std::max(most, obstacle_travel_) / limit;
+  return skin_used_ > 1.0;
 }
 
 void ContactLayer::know_positions(const ContactScene& scene) {
@@ -137,8 +138,8 @@ bool ContactLayer::note_travel(const ContactScene& scene) {
     return furthest;
   });
   for (std::size_t i = 0; i < offsets_.size(); ++i) most = std::max(most, norm(offsets_[i] - last_offsets_[i]));
-  wear_ = most * 1.000001 / (0.5 * settings_.body_skin);
-  return wear_ > 1.0;
+  skin_used_ = most * 1.000001 / (0.5 * settings_.body_skin);
+  return skin_used_ > 1.0;
 }
 
 void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& workspace,
@@ -164,9 +165,9 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
     contact.regional.reset();
     contact.law.adhesion = contact.law.cap = 0.0;
   }
-  contact.law.adhesion *= hold_;
-  contact.normal_friction *= hold_;
-  contact.tangential_friction *= hold_;
+  contact.law.adhesion *= bonding_;
+  contact.normal_friction *= bonding_;
+  contact.tangential_friction *= bonding_;
   for (int d = 0; d < 2; ++d) {
     if (pair.points[d].empty()) continue;
     evaluate_points({body[d], body[1 - d], contact, FaceQuadrature::with_points(settings_.points_per_face), reach, both ? 0.5 : 1.0,
@@ -233,6 +234,7 @@ std::vector<SphereTouch> ContactLayer::touches_of_spheres(const ContactScene& sc
 }
 
 void ContactLayer::evaluate(const ContactScene& scene, SurfacePairKind kind, ContactGradient& gradient) {
+  assert(!fresh_ && "rebuild() comes first");
   const std::vector<std::uint32_t>& list = pairs_of_kind_[static_cast<std::size_t>(kind)];
   const std::size_t threads = static_cast<std::size_t>(settings_.threads);
   std::vector<ElementStore>& stores = present_[static_cast<std::size_t>(kind)];

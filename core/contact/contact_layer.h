@@ -71,15 +71,15 @@ class ContactLayer {
   void set_offsets(std::span<const Vec3d> offsets);
   void set_cap(double cap);
   /// Part of adhesion and contact friction that acts, 0 to 1: a new shell is let out of deep overlap before it sticks to its neighbours.
-  void set_hold(double part) { hold_ = part; }
-  [[nodiscard]] double hold() const { return hold_; }
+  void set_bonding(double part) { bonding_ = part; }
+  [[nodiscard]] double bonding() const { return bonding_; }
   [[nodiscard]] double cap() const { return materials_.empty() ? 0.0 : materials_.front().law.cap; }
 
   /// Take note of how far the bodies have moved since the last call. True when the list of pairs is no longer sure: rebuild() is due
   /// before evaluate(). Local to the rank; on several ranks all rebuild when one must.
   [[nodiscard]] bool note_motion(const ContactScene& scene);
   /// How much of the way that the list of pairs allows for was used up at the last note_motion(), 1: all of it.
-  [[nodiscard]] double wear() const { return wear_; }
+  [[nodiscard]] double skin_used() const { return skin_used_; }
   /// Find the pairs of bodies again. On several ranks the ghosts must be renewed first.
   void rebuild(const ContactScene& scene, const Space& space);
   /// The same with these pairs of surfaces (first and second body, in canonical order) and no others.
@@ -163,7 +163,7 @@ class ContactLayer {
     double deviation = 0.0;  ///< largest distance of a point's displacement from the mean
   };
 
-  double hold_ = 1.0;
+  double bonding_ = 1.0;
   ContactSettings settings_;
   std::vector<RigidSurface> obstacles_;
   std::vector<Vec3d> offsets_, last_offsets_, step_offsets_;
@@ -184,7 +184,7 @@ class ContactLayer {
   std::vector<float> last_radius_;  ///< of spheres: growth counts as motion
   std::vector<double> travel_;      ///< by body: bound on the way of its points since the list of pairs was built
   double obstacle_travel_ = 0.0;
-  double wear_ = 0.0;
+  double skin_used_ = 0.0;
 };
 
 }  // namespace morula

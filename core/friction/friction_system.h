@@ -113,7 +113,7 @@ class FrictionSystem {
   [[nodiscard]] std::span<const float> point_friction() const { return point_friction_; }
 
   /// Where the caller puts b by point (owned points), anew before each solve().
-  [[nodiscard]] std::span<Float4> right() {
+  [[nodiscard]] std::span<Float4> right_hand_side() {
     r_.resize(layout_.point_count);
     return r_;
   }

@@ -1,6 +1,7 @@
 #include "core/mesh/icosphere.h"
 
 #include <algorithm>
+#include <cassert>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -42,6 +43,7 @@ TriangleMesh subdivided(const TriangleMesh& coarse) {
 }  // namespace
 
 TriangleMesh make_icosphere(int level) {
+  assert(level >= 0 && level <= 10);
   TriangleMesh mesh = icosahedron();
   for (int i = 0; i < level; ++i) mesh = subdivided(mesh);
   return with_near_neighbour_order(mesh);

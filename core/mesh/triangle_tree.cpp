@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace morula {
@@ -37,7 +38,10 @@ TriangleTree::TriangleTree(std::span<const Vec3d> position, std::span<const Tria
 
 Box TriangleTree::box_of(std::uint32_t face) const {
   Box box;
-  for (const std::uint32_t node : faces_[face]) box.include(position_[node]);
+  for (const std::uint32_t node : faces_[face]) {
+    assert(node < position_.size());
+    box.include(position_[node]);
+  }
   return box;
 }
 

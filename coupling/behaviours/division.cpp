@@ -1,5 +1,7 @@
 #include "coupling/behaviours/division.h"
 
+#include <cassert>
+
 #include "cbm/division_ramp.h"
 #include "core/numbers/cube_root.h"
 #include "core/random/philox.h"
@@ -9,6 +11,7 @@
 namespace morula {
 SphereDivision divide_sphere(const FullRow& mother, const SphereBody& body, const CellType& type, std::uint32_t seed, double time,
                              double late, double fraction) {
+  assert(mother.id.can_divide() && fraction > 0.0 && fraction < 1.0);
   const double volume_1 = fraction * mother.target_volume;
   const double volume_2 = mother.target_volume - volume_1;
   const double share_1 = volume_1 / mother.target_volume;
@@ -33,6 +36,7 @@ SphereDivision divide_sphere(const FullRow& mother, const SphereBody& body, cons
 }
 
 void divide_variables(std::span<const VariableColumn> variables, const FullRow& mother, FullRow& first, FullRow& second) {
+  assert(first.birth_volume > 0.0 && first.birth_volume < mother.target_volume);
   const double part = first.birth_volume / mother.target_volume;
   const auto daughter = [&](bool is_first) {
     std::vector<double> out;

@@ -1,10 +1,12 @@
 #include "coupling/behaviours/draw.h"
 
+#include <cassert>
 #include <cmath>
 
 namespace morula {
 
 double draw_truncated(const Distribution& distribution, const Random& random, CellId cell, std::uint64_t& index) {
+  assert(distribution.mean > 0.0);
   if (distribution.relative_spread <= 0.0) return distribution.mean;
   for (;;) {
     const RandomPair normal = random.normal(cell, index++);

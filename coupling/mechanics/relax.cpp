@@ -15,7 +15,7 @@ constexpr double kShortestStep = 1e-4;  // [s]
 constexpr double kFirstCap = 1e-3;      // δ of the capped traction at first [µm] ...
 constexpr double kLastCap = 0.1;        // ... and at most
 constexpr double kRaiseCap = 1.08;      // from step to step: 60 steps from the first to the last
-constexpr int kHoldSteps = 20;          // over which adhesion and friction come in
+constexpr int kBondingSteps = 20;          // over which adhesion and friction come in
 constexpr double kFarStep = 0.1;        // a step is chosen to move nodes not much further [µm]
 constexpr double kAtRest = 6e-3;        // displacement of a longest step that counts as rest: 10⁻³ R a minute for R = 6 to 12 [µm]
 constexpr double kOverlapAtRest = 0.1;  // [µm]
@@ -55,11 +55,11 @@ Status relax_in_place(Workspace& work, Tissue& tissue, std::span<const char> mov
     }
     overlap = done->overlap;
     ContactStrength& strength = settling.strength;
-    if (strength.hold == 0.0 && overlap > kOverlapAtRest) {
+    if (strength.bonding == 0.0 && overlap > kOverlapAtRest) {
       strength.cap = std::min(kLastCap, kRaiseCap * strength.cap);
-    } else if (strength.hold < 1.0) {
+    } else if (strength.bonding < 1.0) {
       tissue.clock.capped = false;
-      strength.hold = std::min(1.0, strength.hold + 1.0 / kHoldSteps);
+      strength.bonding = std::min(1.0, strength.bonding + 1.0 / kBondingSteps);
     } else if (dt >= kLongestStep && done->displacement < kAtRest) {
       break;
     }

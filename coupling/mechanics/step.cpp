@@ -71,7 +71,7 @@ AssembledMatrix::~AssembledMatrix() {
 
 Result<SolveReport, SolveFault> AssembledMatrix::solve(std::span<const Vec3d> right, double tolerance, int max_iterations) && {
   auto timed = work_.timer.scope(Stage::kSolve);
-  const std::span<Float4> to = work_.solver.system.right();
+  const std::span<Float4> to = work_.solver.system.right_hand_side();
   work_.points().for_all([&](std::uint32_t i) {
     to[i] = {static_cast<float>(right[i].x), static_cast<float>(right[i].y), static_cast<float>(right[i].z), 0.0f};
   });
@@ -165,9 +165,9 @@ void finish_step(Workspace& work, Tissue& tissue, const StepTask& task, double e
   for (const auto& term : work.terms.all) term->end_step(world, end);
   // Where there are ghosts, a list of pairs that would wear out within the next step is made together with them, before that step: else
   // the list is made in the middle of the step, and the ghosts soon after.
-  const double wear = work.terms.contacts->layer().wear();
-  if (comm.size() > 1) work.age->expected_wear = comm.max(2.0 * wear - work.age->wear);
-  work.age->wear = wear;
+  const double used = work.terms.contacts->layer().skin_used();
+  if (comm.size() > 1) work.age->expected_skin_use = comm.max(2.0 * used - work.age->skin_used);
+  work.age->skin_used = used;
   report.energy = energy;
   report.overlap = deepest_overlap(work);
   if (tissue.clock.capped && report.overlap < 0.1) tissue.clock.capped = false;

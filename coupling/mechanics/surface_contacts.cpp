@@ -30,9 +30,9 @@ void SurfaceContacts::bodies_changed(const World&) {
 }
 
 void SurfaceContacts::set_strength(const ContactStrength& strength) {
-  if (strength == ContactStrength{layer_.cap(), layer_.settings().depth, layer_.hold()}) return;
+  if (strength == ContactStrength{layer_.cap(), layer_.settings().depth, layer_.bonding()}) return;
   layer_.set_cap(strength.cap);
-  layer_.set_hold(strength.hold);
+  layer_.set_bonding(strength.bonding);
   layer_.set_depth(strength.depth);
   forget();
 }

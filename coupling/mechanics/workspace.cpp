@@ -35,7 +35,7 @@ ContactStrength strength_now(const Model& model, const Clock& clock, const Settl
 
 /// Ghosts must be renewed when something has gone further than their reach allows for.
 bool needs_new_scene(const Workspace& work, const Tissue& tissue) {
-  if (!work.age || (work.age->expected_wear > 1.0 && !work.known)) return true;
+  if (!work.age || (work.age->expected_skin_use > 1.0 && !work.known)) return true;
   double most = 0.0;
   const std::vector<Vec3d>& start = work.age->start;
   for (std::size_t i = 0; i < start.size(); ++i) {

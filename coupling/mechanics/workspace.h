@@ -47,8 +47,8 @@ struct Known {
 /// Since when the scene holds. None: bodies have changed, and the scene is to be built anew.
 struct SceneAge {
   std::vector<Vec3d> start;    ///< owned positions when the ghosts were found; empty on one rank
-  double wear = 0.0;           ///< of the list of pairs, at the end of the last step
-  double expected_wear = 0.0;  ///< at the end of the next step; beyond 1 the list would wear out in the middle of it
+  double skin_used = 0.0;          ///< of the list of pairs, at the end of the last step
+  double expected_skin_use = 0.0;  ///< at the end of the next step; beyond 1 the list would wear out in the middle of it
 };
 
 /// Areas and normals of the shells' nodes at the present positions of a scene.

@@ -41,7 +41,7 @@ std::vector<Vec3d> velocities(std::size_t count, double g, const std::vector<Pai
   system.set_elements({}, FaceQuadrature::with_points(3));
   std::vector<Float4> v(count);
   for (std::size_t i = 0; i < count; ++i)
-    system.right()[i] = {static_cast<float>(force[i].x), static_cast<float>(force[i].y), static_cast<float>(force[i].z), 0.0f};
+    system.right_hand_side()[i] = {static_cast<float>(force[i].x), static_cast<float>(force[i].y), static_cast<float>(force[i].z), 0.0f};
   const auto report = system.solve(v, 1e-7, 500, Comm());
   EXPECT_TRUE(report.ok());
   std::vector<Vec3d> out;
@@ -139,7 +139,7 @@ TEST(FrictionSystem, RefusesForcesThatAreNoNumbers) {
   const float friction[1] = {1.0f};
   system.set_point_friction(friction);
   system.set_elements({}, FaceQuadrature::with_points(3));
-  system.right()[0] = {NAN, 0, 0, 0};
+  system.right_hand_side()[0] = {NAN, 0, 0, 0};
   std::vector<Float4> v(1);
   EXPECT_FALSE(system.solve(v, 1e-6, 10, Comm()).ok());
 }
