@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace morula {
 namespace {
@@ -17,12 +18,11 @@ Vec3d axis_of(const FaceMark& rule, const Vec3d& centroid, const Vec3d& polarity
   return length > 0.0 ? axis * (1.0 / length) : Vec3d{};
 }
 
-void set_mark(std::uint8_t& marks, int mark, bool on, bool keep) {
-  const auto bit = static_cast<std::uint8_t>(1u << mark);
-  if (on)
-    marks = static_cast<std::uint8_t>(marks | bit);
-  else if (!keep)
-    marks = static_cast<std::uint8_t>(marks & ~bit);
+/// Gives the mark of a rule to these faces and, unless what is marked stays so, takes it from all others.
+void give_mark(std::vector<std::uint8_t>& marks, int mark, const std::vector<char>& faces, bool keep) {
+  const std::size_t width = marks.size() / faces.size();
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if (faces[f] != 0 || !keep) set_mark(marks, width, f, mark, faces[f] != 0);
 }
 
 /// function(type, shell number, row number) for the rows with a shell.
@@ -74,11 +74,11 @@ void mark_new_shells(const Model& model, Tissue& tissue) {
     if (!type_has_marks(model, type) || !tissue.shells.faces_of(shell).mark.empty()) return;
     const Topology& topology = tissue.shells.topology(shell);
     std::vector<std::uint8_t>& mark = tissue.shells.faces_of(shell).mark;
-    mark.assign(topology.face_count(), 0);
+    mark.assign(topology.face_count() * mark_bytes(model.mark_names.size()), 0);
     for (const FaceMark& rule : model.marks) {
       if (rule.type != type) continue;
       const auto faces = faces_by_place(rule, topology, std::as_const(tissue.shells).nodes(shell), tissue.cells.side.polarity[i]);
-      for (std::size_t f = 0; f < faces.size(); ++f) set_mark(mark[f], rule.mark, faces[f] != 0, true);
+      give_mark(mark, rule.mark, faces, true);
     }
   });
 }
@@ -95,7 +95,7 @@ void renew_marks(const Model& model, Tissue& tissue, std::span<const std::vector
     first_face += topology.face_count();
     if (!type_has_marks(model, type)) return;
     std::vector<std::uint8_t>& mark = tissue.shells.faces_of(shell).mark;
-    std::uint8_t cleared = 0;  // of several rules for one mark the first clears, and all add
+    std::set<int> cleared;  // of several rules for one mark the first clears, and all add
     for (std::size_t r = 0; r < model.marks.size(); ++r) {
       const FaceMark& rule = model.marks[r];
       if (rule.type != type || !rule.always) continue;
@@ -105,9 +105,7 @@ void renew_marks(const Model& model, Tissue& tissue, std::span<const std::vector
                      touched[r].begin() + static_cast<std::ptrdiff_t>(begin + topology.face_count()));
       else
         faces = faces_by_place(rule, topology, std::as_const(tissue.shells).nodes(shell), tissue.cells.side.polarity[i]);
-      const bool keep = rule.keep || (cleared >> rule.mark & 1);
-      for (std::size_t f = 0; f < faces.size(); ++f) set_mark(mark[f], rule.mark, faces[f] != 0, keep);
-      cleared = static_cast<std::uint8_t>(cleared | 1u << rule.mark);
+      give_mark(mark, rule.mark, faces, !cleared.insert(rule.mark).second || rule.keep);
     }
   });
 }
@@ -126,11 +124,11 @@ void ease_contact(const Model& model, Tissue& tissue, std::span<const float> now
   });
 }
 
-double marked_area(const Topology& topology, std::span<const Vec3d> x, std::span<const std::uint8_t> marks, int mark) {
+double marked_area(const Topology& topology, std::span<const Vec3d> x, const MarkSets& marks, int mark) {
   double out = 0.0;
   for (std::size_t f = 0; f < marks.size(); ++f) {
     const Triangle& t = topology.faces()[f];
-    if (marks[f] >> mark & 1) out += 0.5 * norm(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]));
+    if (marks.has(f, mark)) out += 0.5 * norm(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]));
   }
   return out;
 }

@@ -29,6 +29,6 @@ void renew_marks(const Model& model, Tissue& tissue, std::span<const std::vector
 void ease_contact(const Model& model, Tissue& tissue, std::span<const float> now, double dt);
 
 /// Total area of the faces of a shell with a mark [µm²].
-double marked_area(const Topology& topology, std::span<const Vec3d> position, std::span<const std::uint8_t> marks, int mark);
+double marked_area(const Topology& topology, std::span<const Vec3d> position, const MarkSets& marks, int mark);
 
 }  // namespace morula

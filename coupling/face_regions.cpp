@@ -10,7 +10,7 @@ double TensionRegion::at(double time) const {
   return tension * course.at(time) * wave;
 }
 
-double RegionalTension::of_face(double own, std::uint8_t marks, double contact, double time) const {
+double RegionalTension::of_face(double own, MarkSet marks, double contact, double time) const {
   double free = own, lateral = 0.0;
   bool marked = false, has_contact_tension = false;
   for (const TensionRegion& region : regions) {
@@ -19,7 +19,7 @@ double RegionalTension::of_face(double own, std::uint8_t marks, double contact, 
       has_contact_tension = true;
     } else if (region.mark == TensionRegion::kWhole) {
       if (!marked) free = region.at(time);
-    } else if (!marked && (marks >> region.mark & 1)) {
+    } else if (!marked && has_mark(marks, region.mark)) {
       free = region.at(time);
       marked = true;
     }

@@ -3,13 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "core/mesh/mark_sets.h"
 #include "core/vec3.h"
 #include "coupling/time_course.h"
 
 namespace morula {
-
-/// Faces carry at most this many marks: one bit each (dcm::FaceState).
-inline constexpr std::size_t kMaxMarks = 8;
 
 /// Which faces of the shells of a type carry a mark. Several rules may give one mark.
 struct FaceMark {
@@ -22,7 +20,7 @@ struct FaceMark {
   };
   enum class Axis : std::uint8_t { kGiven, kPolarity, kTowardPoint };
 
-  int mark = 0;            ///< its bit: number of its name in Model::mark_names
+  int mark = 0;            ///< number of its name in Model::mark_names
   std::uint16_t type = 0;  ///< cell type
   Rule rule = Rule::kCone;
   Axis axis_from = Axis::kGiven;
@@ -64,7 +62,7 @@ struct RegionalTension {
     return false;
   }
   /// Tension of a face that carries these marks and is in contact with other cells by this part [nN/µm].
-  [[nodiscard]] double of_face(double own, std::uint8_t marks, double contact, double time) const;
+  [[nodiscard]] double of_face(double own, MarkSet marks, double contact, double time) const;
 };
 
 /// A cavity between cells whose fluid presses on the faces that look into it (dcm.md §15; fields_and_coupling.md B).

@@ -20,9 +20,9 @@ void for_faces(const Topology& topology, std::span<const Vec3d> x, F&& function)
 
 /// Function(face, area vector) for every face with a mark.
 template <class F>
-void for_marked_faces(const Topology& topology, std::span<const Vec3d> x, std::span<const std::uint8_t> marks, int mark, F&& function) {
+void for_marked_faces(const Topology& topology, std::span<const Vec3d> x, const MarkSets& marks, int mark, F&& function) {
   for (std::size_t f = 0; f < marks.size(); ++f)
-    if (marks[f] >> mark & 1) function(topology.faces()[f], area_vector(topology.faces()[f], x));
+    if (marks.has(f, mark)) function(topology.faces()[f], area_vector(topology.faces()[f], x));
 }
 
 void add_to_corners(const Triangle& t, const Vec3d& whole, std::span<Vec3d> force) {
@@ -47,7 +47,7 @@ void add_pull(const CellLoad& load, const ReferenceShape& shape, double size, st
   if (load.end != LoadEnd::kHigh) add(load.axis * -1.0);
 }
 
-void add_patch(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> x, std::span<const std::uint8_t> marks,
+void add_patch(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> x, const MarkSets& marks,
                double strength, std::span<Vec3d> force) {
   if (load.mark < 0) {
     const auto nodes = end_nodes(shape, load.axis, load.part);
@@ -60,7 +60,7 @@ void add_patch(const CellLoad& load, const ReferenceShape& shape, std::span<cons
                    [&](const Triangle& t, const Vec3d& area) { add_to_corners(t, load.force * (strength * norm(area) / whole), force); });
 }
 
-void add_pressure(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> x, std::span<const std::uint8_t> marks,
+void add_pressure(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> x, const MarkSets& marks,
                   double strength, std::span<Vec3d> force) {
   const auto press = [&](const Triangle& t, const Vec3d& area) {
     const Vec3d at = middle(t, x);
@@ -101,7 +101,7 @@ std::vector<std::uint32_t> end_nodes(const ReferenceShape& shape, const Vec3d& a
   return out;
 }
 
-void add_shell_load(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> position, std::span<const std::uint8_t> marks,
+void add_shell_load(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> position, const MarkSets& marks,
                     double strength, std::span<Vec3d> force) {
   switch (load.kind) {
     case LoadKind::kTraction:
@@ -132,7 +132,7 @@ void add_surface_loads(const Model& model, const Tissue& tissue, double time, st
     for (const auto [row, is_shell, shell] : bodies_of(tissue.cells)) {
       if (is_shell && tissue.cells.rows[row].type == load.type) {
         const std::uint32_t first = tissue.shells.first_node[shell], count = tissue.shells.first_node[shell + 1] - first;
-        add_shell_load(load, *tissue.shells.shape[shell], tissue.shells.nodes(shell), tissue.shells.faces_of(shell).mark, strength,
+        add_shell_load(load, *tissue.shells.shape[shell], tissue.shells.nodes(shell), tissue.shells.marks_of(shell), strength,
                        external.subspan(first, count));
       }
     }

@@ -34,7 +34,7 @@ bool lies_within(const CellLoad& load, const Vec3d& point);
 /// A body force acts on the whole cell, a grip is a spring (coupling/grips.h): both add nothing here.
 /// Directions and areas are those of `position`: a step that is given these forces holds them as dead loads.
 /// marks: of the shell's faces (Shells::faces_of()); empty: none.
-void add_shell_load(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> position, std::span<const std::uint8_t> marks,
+void add_shell_load(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> position, const MarkSets& marks,
                     double strength, std::span<Vec3d> force);
 
 /// The body forces of the model on one cell of a type at a time [nN]; Mechanics::spread() puts them on its nodes.

@@ -55,13 +55,12 @@ void mark_by_sight(const Lumen& lumen, Tissue& tissue, LumenState& state, const 
   }
   for (std::size_t i = 0; i < tissue.spheres.size(); ++i) map.add_ball(tissue.spheres.position[i], tissue.spheres.radius[i]);
   map.join(comm);
-  const auto bit = static_cast<std::uint8_t>(1u << lumen.mark);
   for (std::size_t s = 0; s < shells.size(); ++s)
-    for (std::uint8_t& marks : shells.faces_of(s).mark) marks = static_cast<std::uint8_t>(marks & ~bit);
+    for (std::size_t face = 0; face < shells.marks_of(s).size(); ++face)
+      set_mark(shells.faces_of(s).mark, shells.marks_of(s).width(), face, lumen.mark, false);
   for (const std::uint32_t face : map.seen()) {
     const auto s = static_cast<std::size_t>(std::upper_bound(first_face.begin(), first_face.end(), face) - first_face.begin()) - 1;
-    std::vector<std::uint8_t>& marks = shells.faces_of(s).mark;
-    marks[face - first_face[s]] = static_cast<std::uint8_t>(marks[face - first_face[s]] | bit);
+    set_mark(shells.faces_of(s).mark, shells.marks_of(s).width(), face - first_face[s], lumen.mark, true);
   }
   state.covered = map.covered();
   const SightMap::Balls balls = map.balls(comm);

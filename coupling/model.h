@@ -219,7 +219,7 @@ struct Model {
   std::vector<CellType> types;
   std::vector<ObstacleSpec> obstacles;
   std::vector<CellLoad> loads;
-  std::vector<std::string> mark_names;  ///< of the bits of a face's marks; at most kMaxMarks
+  std::vector<std::string> mark_names;  ///< of the marks of faces, by number
   std::vector<FaceMark> marks;
   std::vector<Lumen> lumens;
   std::vector<ApicalSpring> apical_springs;

@@ -7,6 +7,7 @@
 
 #include "core/boxed.h"
 #include "core/column.h"
+#include "core/mesh/mark_sets.h"
 #include "core/mesh/topology.h"
 #include "core/vec3.h"
 #include "dcm/sheet_law.h"
@@ -15,7 +16,7 @@ namespace morula::dcm {
 
 /// What the faces of one shell carry beside their geometry, by face of its Topology. Empty arrays: zero everywhere.
 struct FaceState {
-  std::vector<std::uint8_t> mark;  ///< set of marks: bit k is the k-th of the study
+  std::vector<std::uint8_t> mark;  ///< sets of marks, as many bytes for each face as the study has marks for (MarkSets)
   std::vector<float> contact;      ///< part of the face that is in contact with other cells, eased over time; 0 to 1
 
   [[nodiscard]] bool empty() const { return mark.empty() && contact.empty(); }
@@ -53,6 +54,8 @@ struct Shells {
     static const FaceState kNothing;
     return shell < face.size() ? face[shell] : kNothing;
   }
+  /// The marks of the faces of a shell.
+  [[nodiscard]] MarkSets marks_of(std::size_t shell) const { return {faces_of(shell).mark, topology(shell).face_count()}; }
   [[nodiscard]] FaceState& faces_of(std::size_t shell) {
     if (face.size() < size()) face.resize(size());
     return face[shell];
@@ -118,7 +121,7 @@ struct ColumnOfMesh {
   [[nodiscard]] std::size_t memory(const Shells& shells) const { return (shells.*all).capacity() * sizeof(T); }
 };
 
-/// One value of each face, for the shells that have any.
+/// As many values of each face, for the shells that have any.
 template <class T>
 struct ColumnOfFaces {
   using Value = T;

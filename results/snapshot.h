@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/cell_id.h"
+#include "core/mesh/mark_sets.h"
 #include "core/mesh/topology.h"
 #include "core/vec3.h"
 #include "coupling/cells.h"
@@ -82,12 +83,16 @@ struct Snapshot {
   std::vector<NuclearShell> nuclear_shells;  ///< in the order of their cells
   std::vector<Vec3d> nuclear_nodes;
   std::vector<std::vector<Triangle>> topologies;
-  std::vector<std::string> mark_names;   ///< of the bits of a face's marks
-  std::vector<std::uint8_t> face_marks;  ///< by face, in the order of the shells; empty when the study has no marks
+  std::vector<std::string> mark_names;
+  std::vector<std::uint8_t> face_marks;  ///< sets of marks of the faces, in the order of the shells; empty when the study has no marks
   std::vector<Obstacle> obstacles;       ///< the same on every rank
   std::vector<Lumen> lumens;             ///< the same on every rank
   std::vector<Grid> fields;
   std::vector<std::string> type_names;
+
+  /// Bytes of a face in face_marks.
+  [[nodiscard]] std::size_t mark_width() const { return mark_bytes(mark_names.size()); }
+  [[nodiscard]] MarkSets marks() const { return {face_marks, face_marks.size() / mark_width()}; }
 };
 
 }  // namespace morula::scenarios

@@ -76,7 +76,7 @@ inline constexpr ResultsDataset kFirstNode{"first_node", "1", "its first row in 
 inline constexpr ResultsDataset kNodeCount{"node_count", "1", "number of its rows in node"};
 inline constexpr ResultsDataset kTopology{"topology", "1", "number of its list of faces in topologies/"};
 inline constexpr ResultsDataset kNode{"node", "um", "nodes of all surfaces one after the other: x, y, z"};
-inline constexpr ResultsDataset kFaceMarks{"shells/face_marks", "1", "marks of each face as bits, faces of the shells one after the other"};
+inline constexpr ResultsDataset kFaceMarks{"shells/face_marks", "1", "marks of each face as bits, faces of the shells one after the other; beyond eight marks a face has several bytes, that of the first eight first"};
 inline constexpr ResultsDataset kNucleusCell{"nuclei/cell", "1", "row of the nucleus' cell in cells/"};
 inline constexpr ResultsDataset kNucleusCenter{"nuclei/center", "um", "centre of the rigid nucleus: x, y, z"};
 inline constexpr ResultsDataset kNucleusRadius{"nuclei/radius", "um", "radius of the rigid nucleus"};

@@ -95,7 +95,8 @@ Parcels pack_cells(const Snapshot& local, const std::vector<std::uint32_t>& topo
         out.put_all(std::span(local.nuclear_nodes).subspan(nuclear->first_node, nuclear->node_count));
       }
       if (!local.mark_names.empty())
-        out.put_all(std::span(local.face_marks).subspan(first_face[c], local.topologies[shell->topology].size()));
+        out.put_all(std::span(local.face_marks)
+                        .subspan(first_face[c] * local.mark_width(), local.topologies[shell->topology].size() * local.mark_width()));
     }
     parcels.add(local.cells[c].id.bits(), out.bytes());
   }
@@ -280,8 +281,8 @@ Status check_local(const Snapshot& local, std::span<const fields::Field> fields)
   std::size_t faces = 0;
   for (const Snapshot::Shell& shell : local.shells)
     if (shell.topology < local.topologies.size()) faces += local.topologies[shell.topology].size();
-  if (!local.mark_names.empty() && local.face_marks.size() != faces)
-    return Error{ErrorKind::kInternal, "a snapshot has marks of " + std::to_string(local.face_marks.size()) + " of its faces", ""};
+  if (!local.mark_names.empty() && local.face_marks.size() != faces * local.mark_width())
+    return Error{ErrorKind::kInternal, "a snapshot has " + std::to_string(local.face_marks.size()) + " bytes for the marks of its faces", ""};
   for (const Snapshot::Shell& shell : local.shells)
     if (shell.cell >= local.cells.size() || shell.topology >= local.topologies.size() || shell.node_count == 0 ||
         std::size_t{shell.first_node} + shell.node_count > local.nodes.size())

@@ -141,7 +141,7 @@ std::string shells_file(const Snapshot& s) {
   std::string marks;
   for (std::size_t bit = 0; bit < s.mark_names.size(); ++bit) {
     std::vector<std::uint8_t> column;
-    for (const std::uint8_t set : s.face_marks) column.push_back(set >> bit & 1);
+    for (std::size_t face = 0; face < s.marks().size(); ++face) column.push_back(s.marks().has(face, static_cast<int>(bit)));
     marks += data_array("mark " + s.mark_names[bit], column);
   }
   return mesh_file(s, mesh, "", cell_arrays(s, cell_of_face) + marks);

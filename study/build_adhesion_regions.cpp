@@ -1,5 +1,6 @@
 // Adhesion by part of the surface (`contact.pairs: regions`).
 #include <algorithm>
+#include <optional>
 
 #include "study/build.h"
 #include "study/read_section.h"
@@ -16,18 +17,20 @@ bool may_carry_mark(const BuildContext& c, int material, int mark) {
 
 namespace {
 
-/// Set of marks that `name` stands for (0: any face), or −1 and an error.
-int marks_of(BuildContext& c, int material, const std::string& name, const Place& place) {
-  if (name == "any") return 0;
+constexpr int kAnyFace = -1;
+
+/// Number of the mark that `name` stands for, or kAnyFace; nothing and an error where no face can carry it.
+std::optional<int> mark_of(BuildContext& c, int material, const std::string& name, const Place& place) {
+  if (name == "any") return kAnyFace;
   const int mark = find_mark(c, name, place);
-  if (mark < 0) return -1;
-  if (may_carry_mark(c, material, mark)) return 1 << mark;
+  if (mark < 0) return std::nullopt;
+  if (may_carry_mark(c, material, mark)) return mark;
   const std::size_t types = c.draft.cell_types.size(), number = static_cast<std::size_t>(material);
   const std::string& owner = number < types ? c.draft.cell_types[number].name : c.draft.geometry[number - types].name;
   c.diagnostics.error(580, place, "no face of '" + owner + "' ever carries the mark '" + name + "'",
                       number < types ? "give the mark to shells of this type (`marks: " + name + ": types`), or write `any`"
                                      : "write `any` for an obstacle");
-  return -1;
+  return std::nullopt;
 }
 
 /// Tension of the faces of a type with this mark, and whether something elastic holds them.
@@ -35,21 +38,21 @@ struct Hold {
   double tension;
   bool elastic;
 };
-Hold hold_of(const BuildContext& c, std::size_t type, int marks) {
+Hold hold_of(const BuildContext& c, std::size_t type, int mark) {
   const draft::CellType& t = c.draft.cell_types[type].content;
   Hold out{t.tension.value, resists_in_plane(t)};
   for (const TensionRegion& region : c.study.model.types[type].regional_tension.regions)
-    if (region.mark >= 0 && (marks >> region.mark & 1)) return {region.tension, out.elastic};
+    if (region.mark >= 0 && region.mark == mark) return {region.tension, out.elastic};
   return out;
 }
 
 /// As E509 is for whole surfaces: W against the tensions of both faces (of one, twice, at an obstacle).
-void check_strength(BuildContext& c, const Given<double>& w, int a, int b, int marks_a, int marks_b) {
+void check_strength(BuildContext& c, const Given<double>& w, int a, int b, int mark_a, int mark_b) {
   const int types = static_cast<int>(c.draft.cell_types.size());
   if (!w.known() || w.value == 0.0) return;
-  if (a >= types) return check_strength(c, w, b, a, marks_b, marks_a);
-  const Hold one = hold_of(c, static_cast<std::size_t>(a), marks_a);
-  const Hold other = b < types ? hold_of(c, static_cast<std::size_t>(b), marks_b) : one;
+  if (a >= types) return check_strength(c, w, b, a, mark_b, mark_a);
+  const Hold one = hold_of(c, static_cast<std::size_t>(a), mark_a);
+  const Hold other = b < types ? hold_of(c, static_cast<std::size_t>(b), mark_b) : one;
   if (w.value < one.tension + other.tension) return;
   const std::string what = "faces of this region adhere by " + w.text + ", not less than both tensions together (" +
                            short_number(one.tension + other.tension) + " mN/m): ";
@@ -68,19 +71,20 @@ void build_rule(BuildContext& c, int a, int b, const draft::AdhesionRegion& regi
                         "one for each of the two materials, or `any`");
     return;
   }
-  const int first = marks_of(c, a, names.front(), region.faces.place);
-  const int second = names.size() == 2 ? marks_of(c, b, names.back(), region.faces.place) : 0;
-  if (first < 0 || second < 0) return;
-  if (first == 0 && second == 0) {
+  const std::optional<int> first_mark = mark_of(c, a, names.front(), region.faces.place);
+  const std::optional<int> second_mark = names.size() == 2 ? mark_of(c, b, names.back(), region.faces.place) : kAnyFace;
+  if (!first_mark || !second_mark) return;
+  const int first = *first_mark, second = *second_mark;
+  if (first == kAnyFace && second == kAnyFace) {
     c.diagnostics.error(580, region.faces.place, "`faces` of a region names no mark: it would hold everywhere",
                         "name a mark, or give the adhesion of the pair with the cell types");
     return;
   }
   check_strength(c, region.adhesion, a, b, first, second);
   Model& model = c.study.model;
-  const auto add = [&](int of, int with, int marks_of_one, int marks_of_other) {
+  const auto add = [&](int of, int with, int mark_of_one, int mark_of_other) {
     model.pairs[static_cast<std::size_t>(of) * model.material_count() + static_cast<std::size_t>(with)].regions.push_back(
-        {static_cast<std::uint8_t>(marks_of_one), static_cast<std::uint8_t>(marks_of_other), region.adhesion.value});
+        {mark_of_one, mark_of_other, region.adhesion.value});
   };
   add(a, b, first, second);
   if (a != b || first != second) add(b, a, second, first);

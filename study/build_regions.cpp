@@ -21,8 +21,6 @@ void name_marks(BuildContext& c) {
       c.diagnostics.error(555, place, "'" + name + "' has a meaning of its own and cannot be the name of a mark", "choose another name");
     else if (std::find(names.begin(), names.end(), name) != names.end())
       c.diagnostics.error(112, place, "a mark and a cavity are both called '" + name + "'", "each has a name of its own");
-    else if (names.size() == kMaxMarks)
-      c.diagnostics.error(555, place, "more than " + std::to_string(kMaxMarks) + " marks and cavities", "a face has room for as many");
     names.push_back(name);
   };
   for (const auto& [name, place, mark] : c.draft.marks) add(name, place);
@@ -218,7 +216,6 @@ int find_cell_or_obstacle(BuildContext& c, const std::string& name, const Place&
 
 void build_regions(BuildContext& c) {
   name_marks(c);
-  if (c.study.model.mark_names.size() > kMaxMarks) return;
   build_marks(c);
   build_tensions(c);
   build_lumens(c);

@@ -98,9 +98,8 @@ constexpr ErrorCode kCodes[] = {
      "`meshes.types` names more or fewer cell types than there are cells, or than `type_array` has values."},
     {550, "size that no cell has", "A surface encloses a ball smaller than 0.1 um or larger than 1 mm: the `scale` is wrong."},
     {555, "mark that no face can carry",
-     "Marks are of the faces of shells; a face has room for 8. A cone about the polarity needs cells with a polarity. `lateral`, `whole` "
-     "and "
-     "`seen` have a meaning of their own."},
+     "Marks are of the faces of shells. A cone about the polarity needs cells with a polarity. `lateral`, `whole` and `seen` have a "
+     "meaning of their own."},
     {556, "tension of a region too weak for the adhesion",
      "Where cells touch, half of the adhesion works against the tension of each. Below that a contact grows until something elastic holds "
      "it "

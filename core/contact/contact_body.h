@@ -36,7 +36,7 @@ struct ContactScene {
   std::span<const Topology* const> topology;  ///< of the surfaces
   std::span<const std::uint32_t> first_face;  ///< of the surfaces, into the geometry
   const SurfaceGeometry* geometry = nullptr;  ///< of the surfaces at these positions: normals of nodes, indexed as `position`
-  std::span<const std::uint8_t> mark{};       ///< sets of marks by face of the surfaces; empty: no adhesion asks for them
+  MarkSets marks{};                           ///< by face of the surfaces; empty: no adhesion asks for them
 
   /// Of a body by number: null for a sphere.
   [[nodiscard]] const Topology* topology_of(std::size_t body) const { return body < topology.size() ? topology[body] : nullptr; }

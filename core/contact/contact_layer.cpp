@@ -56,7 +56,7 @@ PairBody ContactLayer::view(const ContactScene& scene, const SurfacePair& pair, 
   const auto points = scene.position.subspan(body.first_point, body.point_count);
   if (body.shape == BodyShape::kSphere) return {nullptr, points, {}, shift, body.radius};
   const Topology* topology = scene.topology[number];
-  const auto marks = scene.mark.empty() ? scene.mark : scene.mark.subspan(scene.first_face[number], topology->face_count());
+  const MarkSets marks = scene.marks.faces(scene.first_face[number], topology->face_count());
   return {topology, points, std::span(scene.geometry->node_normal).subspan(body.first_point, body.point_count), shift, 0.0, marks};
 }
 

@@ -200,22 +200,22 @@ void gaps_to_sphere(const PairBody& target, Batch& batch) {
 
 /// W of a face with these marks of body d against the faces around a node of the other, on average: it changes without a jump as the nearest
 /// point moves on.
-double adhesion_at_node(const PointsEvaluation& e, int d, std::uint8_t marks, std::uint32_t node) {
+double adhesion_at_node(const PointsEvaluation& e, int d, MarkSet marks, std::uint32_t node) {
   const auto faces = e.target.topology->faces_of_node(node);
   double sum = 0.0;
   for (const std::uint32_t face : faces) {
-    const std::uint8_t other = e.target.marks(face);
+    const MarkSet other = e.target.marks[face];
     sum += d == 0 ? e.material.regional->between(marks, other) : e.material.regional->between(other, marks);
   }
   return sum / static_cast<double>(faces.size());
 }
 
 /// W at the nodes of the nearest face, for one point of a face with these marks. A sphere and an obstacle carry none.
-void find_adhesion(const PointsEvaluation& e, int d, std::uint8_t marks, const Triangle* face, int lane, Batch& batch) {
+void find_adhesion(const PointsEvaluation& e, int d, MarkSet marks, const Triangle* face, int lane, Batch& batch) {
   for (std::size_t j = 0; j < 3; ++j)
-    batch.corner_adhesion[j][lane] = face != nullptr && !e.target.mark.empty() ? adhesion_at_node(e, d, marks, (*face)[j])
-                                     : d == 0                                  ? e.material.regional->between(marks, 0)
-                                                                               : e.material.regional->between(0, marks);
+    batch.corner_adhesion[j][lane] = face != nullptr && !e.target.marks.empty() ? adhesion_at_node(e, d, marks, (*face)[j])
+                                     : d == 0                                  ? e.material.regional->between(marks, {})
+                                                                               : e.material.regional->between({}, marks);
 }
 
 /// A surface against itself acts by the unsigned distance, less that of touch (self_contact.h).
@@ -326,7 +326,7 @@ void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists,
     add_weight_gradient(e, p.q, {get(batch.source_normal, lane), batch.face_area[lane]}, target_face, gap,
                         {get(batch.unit, lane), batch.length[lane]}, batch.weight_slope[lane] * batch.attraction[lane], sink);
   }
-  if (!kPlain && e.material.regional && !e.target.mark.empty()) {
+  if (!kPlain && e.material.regional && !e.target.marks.empty()) {
     double c[3];
     for (std::size_t j = 0; j < 3; ++j) c[j] = batch.per_adhesion[lane] * batch.corner_adhesion[j][lane];
     if (c[0] != c[1] || c[1] != c[2]) add_foot_gradient(e, p.q, sink.target_node, gap, c, sink);
@@ -355,7 +355,7 @@ void evaluate_batches(const PointsEvaluation& e, int d, const CrossingWatch& wat
       fill(e, lists, p, lane, batch);
       if (e.target.topology != nullptr) face[lane] = lists.target_face[p.place];
       if (!kPlain && e.material.regional)
-        find_adhesion(e, d, e.source.marks(lists.source_face[p.source_place]),
+        find_adhesion(e, d, e.source.marks[lists.source_face[p.source_place]],
                       e.target.topology != nullptr ? &e.target.topology->faces()[face[lane]] : nullptr, lane, batch);
     }
     if (e.target.topology == nullptr)

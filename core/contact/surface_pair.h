@@ -37,9 +37,8 @@ struct PairBody {
   std::span<const Vec3d> node_normal;
   Vec3d shift{};                         ///< added to the positions: periodic image, or how far an obstacle has moved
   double radius = 0.0;                   ///< of a sphere
-  std::span<const std::uint8_t> mark{};  ///< sets of marks by face; empty: none
+  MarkSets marks{};                      ///< by face; empty: none
 
-  [[nodiscard]] std::uint8_t marks(std::uint32_t face) const { return mark.empty() ? std::uint8_t{0} : mark[face]; }
   [[nodiscard]] Vec3d node(std::uint32_t i) const { return position[i] + shift; }
   /// Unit and outward.
   [[nodiscard]] Vec3d face_normal(std::uint32_t face) const {

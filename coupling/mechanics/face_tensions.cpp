@@ -23,11 +23,11 @@ void FaceTensions::set(const Tissue& tissue, double time) {
       continue;
     }
     const dcm::FaceState& face = shells.faces_of(s);
+    const MarkSets marks = shells.marks_of(s);
     const double own = type.shell.tension;
     for (std::size_t f = 0; f < faces; ++f) {
-      const std::uint8_t marks = face.mark.empty() ? std::uint8_t{0} : face.mark[f];
       const double contact = face.contact.empty() ? 0.0 : static_cast<double>(face.contact[f]);
-      extra_.push_back(type.regional_tension.of_face(own, marks, contact, time) - own);
+      extra_.push_back(type.regional_tension.of_face(own, marks[f], contact, time) - own);
     }
   }
 }

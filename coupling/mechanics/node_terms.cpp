@@ -9,12 +9,12 @@ namespace {
 std::vector<double> marked_node_area(const dcm::Shells& shells, int mark) {
   std::vector<double> out(shells.node_count(), 0.0);
   for (std::size_t s = 0; s < shells.size(); ++s) {
-    const auto& marks = shells.faces_of(s).mark;
+    const MarkSets marks = shells.marks_of(s);
     if (marks.empty()) continue;
     const auto x = shells.nodes(s);
     const auto faces = shells.topology(s).faces();
     for (std::size_t f = 0; f < faces.size(); ++f) {
-      if (!(marks[f] >> mark & 1)) continue;
+      if (!marks.has(f, mark)) continue;
       const Triangle& t = faces[f];
       const double third = norm(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]])) / 6.0;
       for (const std::uint32_t node : t) out[shells.first_node[s] + node] += third;
@@ -55,10 +55,8 @@ void NodeTerms::evaluate(const World& world, Forces& out) { add_forces(world.tis
 void NodeTerms::add_tied(const World& world, std::vector<std::uint32_t>& bodies) const {
   // Springs on marked faces pull towards a sphere that stands still during the step.
   for (const ApicalSpring& spring : model_.apical_springs)
-    for (std::uint32_t s = 0; s < world.scene.owned_shells(); ++s) {
-      const auto& marks = world.tissue.shells.faces_of(s).mark;
-      if (std::any_of(marks.begin(), marks.end(), [&](std::uint8_t m) { return (m >> spring.mark & 1) != 0; })) bodies.push_back(s);
-    }
+    for (std::uint32_t s = 0; s < world.scene.owned_shells(); ++s)
+      if (world.tissue.shells.marks_of(s).any_has(spring.mark)) bodies.push_back(s);
 }
 
 void NodeTerms::assemble(const World& world, double dt, Assembly& out) {

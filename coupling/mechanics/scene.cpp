@@ -142,10 +142,11 @@ void Scene::give_positions(Tissue& tissue) const {
 }
 
 bool Scene::marks_differ(const Tissue& tissue) const {
-  if (mark_.size() != count_.faces) return true;
+  if (mark_.empty() != (count_.faces == 0)) return true;
+  const std::size_t width = marks().width();
   for (std::size_t s = 0; s < count_.owned_shells; ++s) {
     const auto& mark = tissue.shells.faces_of(s).mark;
-    const auto here = std::span(mark_).subspan(first_face_[s], topologies_[s]->face_count());
+    const auto here = std::span(mark_).subspan(first_face_[s] * width, topologies_[s]->face_count() * width);
     if (mark.empty() ? std::any_of(here.begin(), here.end(), [](std::uint8_t m) { return m != 0; })
                      : !std::equal(here.begin(), here.end(), mark.begin()))
       return true;
@@ -153,14 +154,14 @@ bool Scene::marks_differ(const Tissue& tissue) const {
   return false;
 }
 
-void Scene::take_marks(const Tissue& tissue) {
-  mark_.assign(count_.faces, 0);
+void Scene::take_marks(const Tissue& tissue, std::size_t width) {
+  mark_.assign(count_.faces * width, 0);
   for (std::size_t s = 0; s < count_.owned_shells; ++s) {
     const auto& mark = tissue.shells.faces_of(s).mark;
-    std::copy(mark.begin(), mark.end(), mark_.begin() + first_face_[s]);
+    std::copy(mark.begin(), mark.end(), mark_.begin() + static_cast<std::ptrdiff_t>(first_face_[s] * width));
   }
   if (comm_->size() == 1) return;
-  const auto marks_of = [&](std::uint32_t body) { return std::span(mark_).subspan(first_face_[body], topologies_[body]->face_count()); };
+  const auto marks_of = [&](std::uint32_t body) { return std::span(mark_).subspan(first_face_[body] * width, topologies_[body]->face_count() * width); };
   std::vector<std::vector<std::byte>> outgoing(ghosts_.send.size());
   for (std::size_t r = 0; r < outgoing.size(); ++r)
     for (const std::uint32_t body : ghosts_.send[r]) {

@@ -49,11 +49,11 @@ class Scene {
   [[nodiscard]] std::vector<Birth> sphere_births(const Tissue& tissue) const;
 
   /// Sets of marks by face, ghosts too; empty until take_marks().
-  [[nodiscard]] std::span<const std::uint8_t> marks() const { return mark_; }
+  [[nodiscard]] MarkSets marks() const { return {mark_, count_.faces}; }
   /// Whether the marks of owned shells are others than at the last take_marks(), or bodies have changed since.
   [[nodiscard]] bool marks_differ(const Tissue& tissue) const;
-  /// Marks of owned shells from the tissue, and of ghosts from their owners. Collective.
-  void take_marks(const Tissue& tissue);
+  /// Marks of owned shells from the tissue, and of ghosts from their owners; a face has this many bytes. Collective.
+  void take_marks(const Tissue& tissue, std::size_t width);
 
   /// Points within an owned shell that are no body: a rigid nucleus, or the nodes of one that is a shell.
   struct Inner {

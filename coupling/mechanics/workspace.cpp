@@ -163,7 +163,7 @@ const Known& prepare(Workspace& work, const Tissue& tissue, const Settling* sett
   const Comm& comm = work.setting.comm;
   if (comm.any(needs_new_scene(work, tissue))) build_scene(work, tissue, settling);
   if (has_regional_adhesion(work.setting.model) && comm.any(work.scene.marks_differ(tissue))) {
-    work.scene.take_marks(tissue);
+    work.scene.take_marks(tissue, mark_bytes(work.setting.model.mark_names.size()));
     work.terms.contacts->forget();
     work.known.reset();
   }

@@ -168,9 +168,16 @@ std::vector<Rgb> cell_colors(const Snapshot& snapshot, ColorBy by, const ColorSc
   return colors;
 }
 
-std::vector<Rgb> mark_colors(const Snapshot& snapshot, ColorBy by) {
-  std::vector<Rgb> colors;
-  for (std::size_t k = 0; by == ColorBy::kMarks && k < snapshot.mark_names.size(); ++k) colors.push_back(mark_color(k));
+std::vector<std::optional<Rgb>> face_colors(const Snapshot& snapshot, ColorBy by) {
+  std::vector<std::optional<Rgb>> colors;
+  const MarkSets marks = snapshot.marks();
+  for (std::size_t face = 0; by == ColorBy::kMarks && face < marks.size(); ++face) {
+    Rgb sum;
+    int count = 0;
+    for (std::size_t k = 0; k < snapshot.mark_names.size(); ++k)
+      if (marks.has(face, static_cast<int>(k))) sum = sum + mark_color(k), ++count;
+    colors.push_back(count > 0 ? std::optional(sum * (1.0f / static_cast<float>(count))) : std::nullopt);
+  }
   return colors;
 }
 
@@ -188,11 +195,8 @@ std::vector<LegendEntry> legend_entries(const Snapshot& snapshot, ColorBy by, co
     if (count[1]) entries.push_back({"shell (" + std::to_string(count[1]) + ")", body_color(BodyKind::kShell)});
     if (count[0]) entries.push_back({"sphere (" + std::to_string(count[0]) + ")", body_color(BodyKind::kSphere)});
   } else if (by == ColorBy::kMarks) {
-    const std::vector<Rgb> colors = mark_colors(snapshot, by);
-    unsigned seen = 0;
-    for (const std::uint8_t marks : snapshot.face_marks) seen |= marks;
     for (std::size_t k = 0; k < snapshot.mark_names.size(); ++k)
-      if (seen >> k & 1u) entries.push_back({snapshot.mark_names[k], colors[k]});
+      if (snapshot.marks().any_has(static_cast<int>(k))) entries.push_back({snapshot.mark_names[k], mark_color(k)});
   }
   return entries;
 }

@@ -52,8 +52,8 @@ Rgb scale_color(const ColorScale& scale, double value);
 std::vector<Rgb> cell_colors(const Snapshot& snapshot, ColorBy by, const ColorScale& scale, std::size_t field = 0,
                              const TypeColors& type_colors = {});
 
-/// Colours of the marks of faces (bit k of a set of marks: colour k); empty unless pictures are coloured by them. A face with several has their mean.
-std::vector<Rgb> mark_colors(const Snapshot& snapshot, ColorBy by);
+/// Colours of the faces by their marks, nothing for those without; empty unless pictures are coloured by them. A face with several has their mean.
+std::vector<std::optional<Rgb>> face_colors(const Snapshot& snapshot, ColorBy by);
 
 /// Legend for kinds: the cell types that occur, the bodies, or the marks; empty otherwise.
 std::vector<LegendEntry> legend_entries(const Snapshot& snapshot, ColorBy by, const TypeColors& type_colors = {});

@@ -14,7 +14,7 @@ struct DrawnTriangle {
   std::array<Vec3d, 3> corner;  // x, y in pixels (y down), z in µm
   std::array<Vec3d, 3> normal;  // in the view frame
   std::int32_t surface;
-  std::uint8_t marks;
+  std::uint32_t face;
 };
 
 // What is drawn into the rows [first, last); every band is drawn by one thread.
@@ -70,7 +70,7 @@ void draw_triangle(const DrawnTriangle& t, const ClipDepth& clip, const Band& ba
       Vec3d normal = t.normal[0] * u + t.normal[1] * v + t.normal[2] * w;
       normal.z = std::max(normal.z, 0.0);  // an interpolated normal may point away just before the silhouette
       const double length = norm(normal);
-      pixels.put(i, static_cast<float>(depth), t.surface, length > 0.0 ? normal / length : Vec3d{0.0, 0.0, 1.0}, t.marks);
+      pixels.put(i, static_cast<float>(depth), t.surface, length > 0.0 ? normal / length : Vec3d{0.0, 0.0, 1.0}, t.face);
     }
   }
 }
@@ -90,8 +90,8 @@ std::vector<Vec3d> node_normals(const Snapshot& snapshot, const Snapshot::Shell&
   return normals;
 }
 
-/// `marks`: by face of the shell; empty: none.
-void add_shell(const Snapshot& snapshot, const Snapshot::Shell& shell, std::span<const std::uint8_t> marks, const Projection& projection,
+/// `first_face`: among the faces of all shells.
+void add_shell(const Snapshot& snapshot, const Snapshot::Shell& shell, std::size_t first_face, const Projection& projection,
                std::vector<DrawnTriangle>& out) {
   const auto normals = node_normals(snapshot, shell);
   std::vector<Vec3d> corner(shell.node_count), normal(shell.node_count);
@@ -108,7 +108,7 @@ void add_shell(const Snapshot& snapshot, const Snapshot::Shell& shell, std::span
     out.push_back({{a, b, c},
                    {normal[f[0]], normal[f[1]], normal[f[2]]},
                    static_cast<std::int32_t>(2 * shell.cell),
-                   marks.empty() ? std::uint8_t{0} : marks[k]});
+                   static_cast<std::uint32_t>(first_face + k)});
   }
 }
 
@@ -162,7 +162,7 @@ PixelBuffer::PixelBuffer(int width_, int height_) : width(width_), height(height
   surface.assign(count, kNothing);
   normal_x.assign(count, 0);
   normal_y.assign(count, 0);
-  marks.assign(count, 0);
+  face.assign(count, kNoFace);
 }
 
 void rasterize(const Snapshot& snapshot, const Camera& camera, const std::optional<CutPlane>& cut, PixelBuffer& pixels) {
@@ -173,11 +173,10 @@ void rasterize(const Snapshot& snapshot, const Camera& camera, const std::option
   // Nearest first: what is hidden is then rejected before its square root is taken. Ties keep the order of ids.
   std::stable_sort(discs.begin(), discs.end(), [](const Disc& a, const Disc& b) { return a.depth + a.radius > b.depth + b.radius; });
   std::vector<DrawnTriangle> triangles;
-  std::span<const std::uint8_t> marks = snapshot.face_marks;
+  std::size_t face = 0;
   for (const auto& shell : snapshot.shells) {
-    const std::size_t own = marks.empty() ? 0 : snapshot.topologies[shell.topology].size();
-    add_shell(snapshot, shell, marks.first(own), projection, triangles);
-    marks = marks.subspan(own);
+    add_shell(snapshot, shell, face, projection, triangles);
+    face += snapshot.topologies[shell.topology].size();
   }
   const CutFaces faces = cut ? CutFaces(snapshot, projection, *cut) : CutFaces();
   const std::vector<CutNucleus> nuclei = cut ? nuclei_of(snapshot, projection) : std::vector<CutNucleus>();

@@ -10,23 +10,24 @@ namespace morula::scenarios {
 /// What is seen through each pixel.
 struct PixelBuffer {
   static constexpr std::int32_t kNothing = -1;
+  static constexpr std::uint32_t kNoFace = ~std::uint32_t{0};
 
   int width = 0, height = 0;
   std::vector<float> depth;                      ///< towards the eye; −infinity where nothing is seen [µm]
   std::vector<std::int32_t> surface;             ///< 2 × cell number, + 1 on a cut face; nuclei are numbered after the cells; kNothing
   std::vector<std::int16_t> normal_x, normal_y;  ///< of the unit normal in the view frame × 32767 (its z is positive)
-  std::vector<std::uint8_t> marks;               ///< of the face that is seen; 0 on spheres and where cells are cut
+  std::vector<std::uint32_t> face;               ///< that is seen, among those of all shells; kNoFace on spheres and where cells are cut
 
   PixelBuffer(int width_, int height_);
   [[nodiscard]] std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
-  void put(std::size_t i, float depth_um, std::int32_t surface_, const Vec3d& normal, std::uint8_t marks_ = 0) {
+  void put(std::size_t i, float depth_um, std::int32_t surface_, const Vec3d& normal, std::uint32_t face_ = kNoFace) {
     depth[i] = depth_um;
     surface[i] = surface_;
     normal_x[i] = static_cast<std::int16_t>(normal.x * 32767.0);
     normal_y[i] = static_cast<std::int16_t>(normal.y * 32767.0);
-    marks[i] = marks_;
+    face[i] = face_;
   }
 };
 

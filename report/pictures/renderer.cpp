@@ -69,7 +69,7 @@ void draw_cells(const Snapshot& snapshot, const RenderOptions& options, const Pi
   for (const Snapshot::Nucleus& nucleus : snapshot.nuclei) colors.push_back(colors[nucleus.cell] * 0.6f);
   for (const Snapshot::NuclearShell& nucleus : snapshot.nuclear_shells) colors.push_back(colors[nucleus.cell] * 0.6f);
   const float lightening = is_number(options.color_by) ? 0.06f : options.color_by == ColorBy::kIdentity ? 0.12f : 0.3f;
-  shade(pixels, colors, mark_colors(snapshot, options.color_by), around,
+  shade(pixels, colors, face_colors(snapshot, options.color_by), around,
         {samples, options.camera.pixels_per_um * samples, median_radius(snapshot), options.outlines, lightening}, image, 0,
         top_margin(options));
 }

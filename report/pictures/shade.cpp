@@ -36,9 +36,9 @@ float noise(int x, int y) {
 
 class Shader {
  public:
-  Shader(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const Rgb> mark_colors, const DrawnSurroundings& around,
-         const ShadeOptions& options)
-      : pixels_(pixels), colors_(colors), mark_colors_(mark_colors), around_(around), options_(options), spiral_(spiral()) {
+  Shader(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const std::optional<Rgb>> face_colors,
+         const DrawnSurroundings& around, const ShadeOptions& options)
+      : pixels_(pixels), colors_(colors), face_colors_(face_colors), around_(around), options_(options), spiral_(spiral()) {
     reach_px_ = static_cast<float>(std::clamp(1.3 * options.cell_radius * options.pixels_per_um, 2.0, 150.0));
     const double cell_px = 2.0 * options.cell_radius * options.pixels_per_um / options.samples;
     line_opacity_ = static_cast<float>(std::clamp((cell_px - 3.0) / 18.0, 0.12, 0.88));
@@ -83,8 +83,8 @@ class Shader {
   }
 
   [[nodiscard]] Rgb lit(int x, int y, std::size_t i, std::int32_t surface) const {
-    const Rgb base =
-        mark_colors_.empty() || pixels_.marks[i] == 0 ? colors_[static_cast<std::size_t>(surface / 2)] : marked(pixels_.marks[i]);
+    const std::uint32_t face = pixels_.face[i];
+    const Rgb base = face < face_colors_.size() && face_colors_[face] ? *face_colors_[face] : colors_[static_cast<std::size_t>(surface / 2)];
     if (surface % 2 == 1) return mix(base, {1.0f, 1.0f, 1.0f}, options_.cut_lightening);
     const float nx = static_cast<float>(pixels_.normal_x[i]) / 32767.0f, ny = static_cast<float>(pixels_.normal_y[i]) / 32767.0f;
     const float nz = std::sqrt(std::max(0.0f, 1.0f - nx * nx - ny * ny));
@@ -98,14 +98,6 @@ class Shader {
     const float range = nearest_ - farthest_;
     const float fade = range > 0.0f ? 0.16f * (nearest_ - pixels_.depth[i]) / range : 0.0f;
     return mix(shaded, kBackground, fade);
-  }
-
-  [[nodiscard]] Rgb marked(std::uint8_t marks) const {
-    Rgb sum;
-    int count = 0;
-    for (std::size_t k = 0; k < mark_colors_.size(); ++k)
-      if (marks >> k & 1) sum = sum + mark_colors_[k], ++count;
-    return count > 0 ? sum * (1.0f / static_cast<float>(count)) : kBackground;
   }
 
   // 1 where nothing stands around the point, 0 in a deep furrow.
@@ -139,7 +131,8 @@ class Shader {
   }
 
   const PixelBuffer& pixels_;
-  std::span<const Rgb> colors_, mark_colors_;
+  std::span<const Rgb> colors_;
+  std::span<const std::optional<Rgb>> face_colors_;
   const DrawnSurroundings& around_;
   ShadeOptions options_;
   std::array<Offset, kOcclusionSamples> spiral_;
@@ -150,9 +143,9 @@ class Shader {
 
 }  // namespace
 
-void shade(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const Rgb> mark_colors, const DrawnSurroundings& around,
-           const ShadeOptions& options, Image& image, int left, int top) {
-  const Shader shader(pixels, colors, mark_colors, around, options);
+void shade(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const std::optional<Rgb>> face_colors,
+           const DrawnSurroundings& around, const ShadeOptions& options, Image& image, int left, int top) {
+  const Shader shader(pixels, colors, face_colors, around, options);
   const int rows = pixels.height / options.samples, columns = pixels.width / options.samples;
   const float weight = 1.0f / static_cast<float>(options.samples * options.samples);
 #pragma omp parallel for schedule(dynamic, 16)

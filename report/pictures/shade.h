@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 
 #include "report/pictures/image.h"
@@ -24,8 +25,8 @@ struct ShadeOptions {
 /// Obstacles are grey: behind cells they are hidden, before them a thin veil, where no cell is they are seen. Fluid of cavities is a pale
 /// blue.
 ///
-/// `colors` are indexed by cell; `mark_colors` by bit of a face's marks, empty to leave these out.
-void shade(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const Rgb> mark_colors, const DrawnSurroundings& around,
-           const ShadeOptions& options, Image& image, int left, int top);
+/// `colors` are indexed by cell; `face_colors` by face of all shells, with nothing where the face has none of its own; empty: no face has.
+void shade(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const std::optional<Rgb>> face_colors,
+           const DrawnSurroundings& around, const ShadeOptions& options, Image& image, int left, int top);
 
 }  // namespace morula::scenarios

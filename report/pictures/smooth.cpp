@@ -132,8 +132,9 @@ Snapshot smoothed(const Snapshot& snapshot, int level) {
   for (std::size_t t = 0; t < fine.size(); ++t) out.topologies[t] = std::move(fine[t].faces);
   // The small faces of a face follow one another.
   out.face_marks.clear();
-  for (const std::uint8_t marks : snapshot.face_marks)
-    out.face_marks.insert(out.face_marks.end(), static_cast<std::size_t>(level * level), marks);
+  const MarkSets marks = snapshot.marks();
+  for (std::size_t face = 0; face < marks.size(); ++face)
+    for (int part = 0; part < level * level; ++part) out.face_marks.insert(out.face_marks.end(), marks[face].begin(), marks[face].end());
   return out;
 }
 

@@ -113,7 +113,7 @@ Snapshot local_snapshot(Simulation& simulation) {
     if (!model.mark_names.empty()) {
       const auto& marks = tissue.shells.faces_of(shell).mark;
       out.face_marks.insert(out.face_marks.end(), marks.begin(), marks.end());
-      if (marks.empty()) out.face_marks.resize(out.face_marks.size() + tissue.shells.topology(shell).face_count(), 0);
+      if (marks.empty()) out.face_marks.resize(out.face_marks.size() + tissue.shells.topology(shell).face_count() * out.mark_width(), 0);
     }
   }
   return out;

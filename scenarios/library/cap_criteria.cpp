@@ -55,7 +55,7 @@ const ElasticCap* elastic_cap(double ratio, double modulus, std::uint32_t nodes)
   return nullptr;
 }
 
-double tension_at(const CellType& type, double time) { return type.regional_tension.of_face(type.shell.tension, 0, 0.0, time); }
+double tension_at(const CellType& type, double time) { return type.regional_tension.of_face(type.shell.tension, {}, 0.0, time); }
 
 double range_of(const Model& model, std::size_t a, std::size_t b) {
   const double own = model.pair(a, b).range;

@@ -28,7 +28,7 @@ struct OneCell {
 
 double cap_area() {
   const OneCell c;
-  return marked_area(c.tissue.shells.topology(0), c.tissue.shells.position, c.tissue.shells.faces_of(0).mark, 0) / c.area();
+  return marked_area(c.tissue.shells.topology(0), c.tissue.shells.position, c.tissue.shells.marks_of(0), 0) / c.area();
 }
 
 /// |ΣF|/(P A) of a uniform pressure on the whole closed surface.

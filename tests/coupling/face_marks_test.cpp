@@ -18,7 +18,7 @@ double part_marked(const FaceMark& rule, const Vec3d& polarity = {}) {
   const auto faces = faces_by_place(rule, *shape->topology, x, polarity);
   const std::vector<std::uint8_t> marks(faces.begin(), faces.end());
   const std::vector<std::uint8_t> all(faces.size(), 1);
-  return marked_area(*shape->topology, x, marks, 0) / marked_area(*shape->topology, x, all, 0);
+  return marked_area(*shape->topology, x, {marks, marks.size()}, 0) / marked_area(*shape->topology, x, {all, all.size()}, 0);
 }
 
 TEST(FaceMarks, ConeAndBandHaveTheAreasOfCapAndZone) {  // of a sphere: (1 − cos α)/2 and h/R
@@ -76,7 +76,7 @@ TEST(FaceMarks, AreGivenOnceAndGoWithTheMesh) {
   mark_new_shells(model, tissue);
   const std::vector<std::uint8_t> marks = tissue.shells.faces_of(0).mark;
   ASSERT_EQ(marks.size(), 320u);
-  for (const int bit : {0, 1}) EXPECT_GT(marked_area(tissue.shells.topology(0), tissue.shells.position, marks, bit), 30.0);
+  for (const int bit : {0, 1}) EXPECT_GT(marked_area(tissue.shells.topology(0), tissue.shells.position, tissue.shells.marks_of(0), bit), 30.0);
   for (Vec3d& x : tissue.shells.position) x = {x.z, x.x, x.y + 50.0};  // turned and moved: the faces keep their marks
   mark_new_shells(model, tissue);
   EXPECT_EQ(tissue.shells.faces_of(0).mark, marks);
@@ -95,6 +95,26 @@ TEST(FaceMarks, AreGivenOnceAndGoWithTheMesh) {
   ASSERT_EQ(fresh.size(), 320u) << "a cell that became a shell gets its marks then";
   EXPECT_GT(std::count(fresh.begin(), fresh.end(), 1), 20);
   EXPECT_EQ(std::count_if(fresh.begin(), fresh.end(), [](std::uint8_t m) { return m & 2; }), 0) << "it is far from the ball";
+}
+
+TEST(FaceMarks, AreAsManyAsTheStudyNames) {
+  Model model = marked_model();
+  model.mark_names.clear();
+  for (int k = 0; k < 20; ++k) model.mark_names.push_back("m" + std::to_string(k));
+  model.marks[0].mark = 7, model.marks[1].mark = 19;
+  ShapeLibrary shapes;
+  Tissue many = test::make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell}), few = many;
+  mark_new_shells(model, many);
+  mark_new_shells(marked_model(), few);
+  const MarkSets sets = many.shells.marks_of(0), two = few.shells.marks_of(0);
+  ASSERT_EQ(sets.width(), 3u);
+  ASSERT_EQ(sets.size(), 320u);
+  for (std::size_t face = 0; face < 320; ++face)
+    for (int k = 0; k < 20; ++k)
+      EXPECT_EQ(sets.has(face, k), k == 7 ? two.has(face, marked_model().marks[0].mark) : k == 19 && two.has(face, marked_model().marks[1].mark));
+  std::vector<std::byte> bytes;
+  for (const CellRecord& cell : take_apart(many)) append_bytes(cell, bytes);
+  EXPECT_EQ(read_records(bytes, shapes)[0].shell->face.mark.size(), 960u);
 }
 
 TEST(FaceMarks, OfTheFirstShellLeaveTheOthersWithout) {

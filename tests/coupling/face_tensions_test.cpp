@@ -52,15 +52,15 @@ Tissue rough_pair(const Model& model, ShapeLibrary& shapes) {
 
 TEST(RegionalTension, IsThatOfTheFirstMarkAndGoesToTheLateralOneWithContact) {
   RegionalTension t;
-  EXPECT_EQ(t.of_face(0.5, 0xFF, 1.0, 0.0), 0.5);
+  EXPECT_EQ(t.of_face(0.5, MarkSet(std::array<std::uint8_t, 1>{0xFF}), 1.0, 0.0), 0.5);
   t.regions = {region(2, 1.0), region(0, 2.0)};
-  EXPECT_EQ(t.of_face(0.5, 0b010, 1.0, 0.0), 0.5) << "no mark, no lateral tension";
-  EXPECT_EQ(t.of_face(0.5, 0b001, 0.0, 0.0), 2.0);
-  EXPECT_EQ(t.of_face(0.5, 0b101, 0.0, 0.0), 1.0) << "the first listed";
+  EXPECT_EQ(t.of_face(0.5, MarkSet(std::array<std::uint8_t, 1>{0b010}), 1.0, 0.0), 0.5) << "no mark, no lateral tension";
+  EXPECT_EQ(t.of_face(0.5, MarkSet(std::array<std::uint8_t, 1>{0b001}), 0.0, 0.0), 2.0);
+  EXPECT_EQ(t.of_face(0.5, MarkSet(std::array<std::uint8_t, 1>{0b101}), 0.0, 0.0), 1.0) << "the first listed";
   t.regions.push_back(region(TensionRegion::kWhole, 0.7));
-  EXPECT_EQ(t.of_face(0.5, 0b010, 0.0, 0.0), 0.7);
+  EXPECT_EQ(t.of_face(0.5, MarkSet(std::array<std::uint8_t, 1>{0b010}), 0.0, 0.0), 0.7);
   t.regions.push_back(region(TensionRegion::kLateral, 0.2));
-  EXPECT_DOUBLE_EQ(t.of_face(0.5, 0b001, 0.25, 0.0), 2.0 + 0.25 * (0.2 - 2.0));
+  EXPECT_DOUBLE_EQ(t.of_face(0.5, MarkSet(std::array<std::uint8_t, 1>{0b001}), 0.25, 0.0), 2.0 + 0.25 * (0.2 - 2.0));
 }
 
 TEST(RegionalTension, FollowsItsCourseAndItsModulation) {

@@ -143,7 +143,7 @@ struct MarkedBall {
   [[nodiscard]] std::vector<Vec3d> forces(CellLoad load) const {
     load.mark = 2;
     std::vector<Vec3d> out(x.size());
-    add_shell_load(load, *shape, x, marks, 1.0, out);
+    add_shell_load(load, *shape, x, {marks, marks.size()}, 1.0, out);
     return out;
   }
 };
@@ -186,7 +186,7 @@ TEST(Load, PatchOnMarkedFacesIsSharedByArea) {
 
   std::vector<Vec3d> none(642);
   load.mark = 3;  // no face has it: no force, and no division by an area of nothing
-  add_shell_load(load, *cell.shape, cell.x, cell.marks, 1.0, none);
+  add_shell_load(load, *cell.shape, cell.x, {cell.marks, cell.marks.size()}, 1.0, none);
   add_shell_load(load, *cell.shape, cell.x, {}, 1.0, none);
   EXPECT_EQ(none, std::vector<Vec3d>(642));
 }

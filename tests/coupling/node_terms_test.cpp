@@ -172,7 +172,7 @@ TEST(ApicalSprings, MakeTheMarkedFacesASphereAndRubByArea) {
   const auto blocks = terms.friction(tissue, geometry_of(tissue));
   double trace = 0.0, area = 0.0;
   for (const auto& b : blocks) trace += b.xx + b.yy + b.zz;
-  for (std::size_t s = 0; s < 5; ++s) area += marked_area(tissue.shells.topology(s), tissue.shells.nodes(s), tissue.shells.face[s].mark, 0);
+  for (std::size_t s = 0; s < 5; ++s) area += marked_area(tissue.shells.topology(s), tissue.shells.nodes(s), tissue.shells.marks_of(s), 0);
   EXPECT_NEAR(trace / 3.0, 0.2 * area, 1e-10);
 }
 

@@ -14,15 +14,24 @@ namespace {
 constexpr BodyKind kShell = BodyKind::kShell, kSphere = BodyKind::kSphere;
 
 TEST(RegionalAdhesion, IsThatOfTheFirstRuleThatBothFacesFollow) {
-  const std::vector<AdhesionRule> rules{{0b01, 0b10, 0.3}, {0b01, 0, 0.1}, {0, 0b10, 0.2}};
-  const RegionalAdhesion w(0.5, rules, 2);
-  EXPECT_EQ(w.between(0b00, 0b00), 0.5) << "no rule";
-  EXPECT_EQ(w.between(0b00, 0b01), 0.5);
-  EXPECT_EQ(w.between(0b01, 0b00), 0.1);
-  EXPECT_EQ(w.between(0b11, 0b01), 0.1);
-  EXPECT_EQ(w.between(0b10, 0b11), 0.2);
-  EXPECT_EQ(w.between(0b01, 0b10), 0.3) << "the first listed";
-  EXPECT_EQ(w.between(0b11, 0b11), 0.3);
+  const std::vector<AdhesionRule> rules{{0, 1, 0.3}, {0, -1, 0.1}, {-1, 1, 0.2}};
+  const auto between = [&](int marks, std::uint8_t a, std::uint8_t b) {  // by a table, and by the rules where there are many marks
+    const std::uint8_t of_a[2] = {a, 0}, of_b[2] = {b, 0};
+    const auto bytes = static_cast<std::size_t>(marks > 8 ? 2 : 1);
+    return RegionalAdhesion(0.5, rules, marks).between({of_a, bytes}, {of_b, bytes});
+  };
+  for (const int marks : {2, 8, 12}) {
+    EXPECT_EQ(between(marks, 0b00, 0b00), 0.5) << "no rule";
+    EXPECT_EQ(between(marks, 0b00, 0b01), 0.5);
+    EXPECT_EQ(between(marks, 0b01, 0b00), 0.1);
+    EXPECT_EQ(between(marks, 0b11, 0b01), 0.1);
+    EXPECT_EQ(between(marks, 0b10, 0b11), 0.2);
+    EXPECT_EQ(between(marks, 0b01, 0b10), 0.3) << "the first listed";
+    EXPECT_EQ(between(marks, 0b11, 0b11), 0.3);
+    EXPECT_EQ(RegionalAdhesion(0.5, rules, marks).between({}, {}), 0.5) << "bodies without marks";
+  }
+  const std::uint8_t eleventh[2] = {0, 0b100};
+  EXPECT_EQ(RegionalAdhesion(0.5, std::vector<AdhesionRule>{{10, 10, 0.7}}, 12).between(eleventh, eleventh), 0.7);
 }
 
 /// Bodies and the law between them; `plate`: above an obstacle whose face is at z = −5.9.
@@ -53,7 +62,7 @@ Model model_of(const Case& given) {
   for (ContactPair& pair : model.pairs) {
     pair.law = given.law;
     pair.own.set("modulus", 1.0);
-    pair.regions = {{1, 0, 0.05}, {0, 1, 0.05}, {2, 2, 0.6}};
+    pair.regions = {{0, -1, 0.05}, {-1, 0, 0.05}, {1, 1, 0.6}};
   }
   return model;
 }
@@ -98,7 +107,7 @@ TEST_P(EveryRegionOfBodies, HasAForceThatIsMinusTheGradientOfTheEnergy) {
 TEST_P(EveryRegionOfBodies, IsThePairItselfWhereTheRegionIsEverything) {
   Model regional = model_of(GetParam()), plain = regional;
   for (ContactPair& pair : regional.pairs)
-    pair.regions = {{0, 0, pair.adhesion}}, pair.adhesion = GetParam().kinds[1] == kSphere ? 0.3 : 0.0;
+    pair.regions = {{-1, -1, pair.adhesion}}, pair.adhesion = GetParam().kinds[1] == kSphere ? 0.3 : 0.0;
   for (ContactPair& pair : plain.pairs) pair.regions.clear();
   ShapeLibrary shapes;
   const Tissue tissue = marked_at_random(plain, shapes, GetParam().kinds);
@@ -120,8 +129,8 @@ Model capped_above_a_plate(double up) {
   for (Vec3d& p : plate.position) p.z -= 2.0;
   model.obstacles = {ObstacleSpec{"plate", plate.position, plate.faces, false, {}}};
   ContactPair pair{0.1, 50.0, 50.0}, turned = pair;
-  pair.regions = {{1, 0, 0.0}};
-  turned.regions = {{0, 1, 0.0}};
+  pair.regions = {{0, -1, 0.0}};
+  turned.regions = {{-1, 0, 0.0}};
   model.pairs = {model.pairs[0], pair, turned, turned};
   model.mark_names = {"apical"};
   FaceMark cap;

@@ -92,21 +92,22 @@ Snapshot half_marked(std::uint8_t mark) {
   return snapshot;
 }
 
-TEST(PicturesGeometry, PixelsKnowTheMarksOfTheirFace) {
+TEST(PicturesGeometry, PixelsKnowTheirFace) {
   PixelBuffer pixels(400, 400);
-  rasterize(half_marked(2), straight(10.0), std::nullopt, pixels);
+  const Snapshot snapshot = half_marked(2);
+  rasterize(snapshot, straight(10.0), std::nullopt, pixels);
   double marked = 0.0;
-  for (std::size_t i = 0; i < pixels.marks.size(); ++i) {
-    if (pixels.marks[i] == 0) continue;
+  for (std::size_t i = 0; i < pixels.face.size(); ++i) {
+    if (pixels.face[i] == PixelBuffer::kNoFace || snapshot.face_marks[pixels.face[i]] == 0) continue;
     ++marked;
-    EXPECT_EQ(pixels.marks[i], 2);
+    EXPECT_EQ(snapshot.face_marks[pixels.face[i]], 2);
     EXPECT_EQ(pixels.surface[i], 2) << "the second cell";
   }
   EXPECT_NEAR(marked, 0.5 * kPi * 36.0 * 100.0, 0.04 * kPi * 36.0 * 100.0);
   rasterize(half_marked(2), straight(10.0), CutPlane{{0.0, -5.0, 0.0}, {0.0, -1.0, 0.0}}, pixels = PixelBuffer(400, 400));
-  for (std::size_t i = 0; i < pixels.marks.size(); ++i)
+  for (std::size_t i = 0; i < pixels.face.size(); ++i)
     if (pixels.surface[i] == 3) {
-      EXPECT_EQ(pixels.marks[i], 0) << "a cut face has none";
+      EXPECT_EQ(pixels.face[i], PixelBuffer::kNoFace) << "a cut face is none";
     }
 }
 

@@ -39,23 +39,29 @@ initial:
   - {type: ball, at: [[30 um, 0 um, 0 um]]}
 )";
 
+/// Up to two marks, as bits.
+MarkSet marks(int bits) {
+  static constexpr std::uint8_t kSets[] = {0, 1, 2, 3};
+  return {&kSets[bits], 1};
+}
+
 TEST(AdhesionRegions, AreReadAndReachTheLaw) {
   const auto study = test::read(kStudy);
   ASSERT_TRUE(study.ok()) << study.error().text();
   const std::vector<ContactMaterial> materials = contact_materials(study->model);
   const std::size_t count = contact_material_count(study->model);
   ASSERT_TRUE(materials[0].regional);
-  EXPECT_DOUBLE_EQ(materials[0].regional->between(0, 0), 0.2);
-  EXPECT_DOUBLE_EQ(materials[0].regional->between(1, 2), 0.1);
-  EXPECT_DOUBLE_EQ(materials[0].regional->between(2, 1), 0.1) << "either cell may carry either mark";
-  EXPECT_DOUBLE_EQ(materials[0].regional->between(1, 1), 0.0);
-  EXPECT_DOUBLE_EQ(materials[0].regional->between(0, 1), 0.0);
-  EXPECT_DOUBLE_EQ(materials[0].regional->between(2, 2), 0.2);
+  EXPECT_DOUBLE_EQ(materials[0].regional->between(marks(0), marks(0)), 0.2);
+  EXPECT_DOUBLE_EQ(materials[0].regional->between(marks(1), marks(2)), 0.1);
+  EXPECT_DOUBLE_EQ(materials[0].regional->between(marks(2), marks(1)), 0.1) << "either cell may carry either mark";
+  EXPECT_DOUBLE_EQ(materials[0].regional->between(marks(1), marks(1)), 0.0);
+  EXPECT_DOUBLE_EQ(materials[0].regional->between(marks(0), marks(1)), 0.0);
+  EXPECT_DOUBLE_EQ(materials[0].regional->between(marks(2), marks(2)), 0.2);
   const ContactMaterial &dish = materials[2], &turned = materials[2 * count];
   ASSERT_TRUE(dish.regional && turned.regional);
-  EXPECT_DOUBLE_EQ(dish.regional->between(1, 0), 0.0);
-  EXPECT_DOUBLE_EQ(dish.regional->between(2, 0), 0.05);
-  EXPECT_DOUBLE_EQ(turned.regional->between(0, 1), 0.0);
+  EXPECT_DOUBLE_EQ(dish.regional->between(marks(1), marks(0)), 0.0);
+  EXPECT_DOUBLE_EQ(dish.regional->between(marks(2), marks(0)), 0.05);
+  EXPECT_DOUBLE_EQ(turned.regional->between(marks(0), marks(1)), 0.0);
   EXPECT_FALSE(materials[1].regional) << "no region of wall and ball";
   EXPECT_DOUBLE_EQ(materials[0].self_distance, 0.2);
   EXPECT_DOUBLE_EQ(materials[count + 1].self_distance, 0.0) << "off";

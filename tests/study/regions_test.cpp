@@ -153,7 +153,9 @@ TEST(Regions, WhatNoFaceCanCarryIsRefused) {
   std::string many = kStudy;
   for (int k = 0; k < 6; ++k)
     many = test::changed("marks:\n", "marks:\n  m" + std::to_string(k) + ": {types: [wall], band: {half_width: 1 um}}\n", many);
-  EXPECT_NE(test::errors_of(many).find("E555"), std::string::npos);
+  const auto study = test::read(many);
+  ASSERT_TRUE(study.ok()) << "as many marks as one likes: " << study.error().text();
+  EXPECT_GT(study->model.mark_names.size(), 8u);
 }
 
 TEST(Regions, PolarConeNeedsAPolarity) {
