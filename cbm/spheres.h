@@ -36,25 +36,7 @@ struct SphereRecord {
 
 /// One value of each sphere.
 template <class T>
-struct ColumnOfSpheres {
-  using Value = T;
-  static constexpr Fill kFill = Fill::kAll;
-  const char* name;
-  const char* unit;
-  std::vector<T> Spheres::*all;
-  T SphereRecord::*one;
-
-  [[nodiscard]] std::span<const T> values(const Spheres& spheres, std::size_t i) const { return {&(spheres.*all)[i], 1}; }
-  [[nodiscard]] std::span<const T> values(const SphereRecord& sphere) const { return {&(sphere.*one), 1}; }
-  void append(Spheres& spheres, std::span<const T> values) const { (spheres.*all).push_back(values[0]); }
-  void append(Spheres& spheres, const Spheres& from, std::size_t first, std::size_t last) const {
-    const std::span<const T> values = std::span(from.*all).subspan(first, last - first);
-    (spheres.*all).insert((spheres.*all).end(), values.begin(), values.end());
-  }
-  void give(SphereRecord& sphere, std::span<const T> values) const { sphere.*one = values[0]; }
-  void reserve(Spheres& spheres, std::size_t count) const { (spheres.*all).reserve(count); }
-  [[nodiscard]] std::size_t memory(const Spheres& spheres) const { return (spheres.*all).capacity() * sizeof(T); }
-};
+using ColumnOfSpheres = ColumnOfBodies<T, Spheres, SphereRecord>;
 
 /// The cells to which each sphere adheres.
 struct ColumnOfPartners {

@@ -1,5 +1,8 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace morula {
 
@@ -11,6 +14,30 @@ enum class Fill : std::uint8_t {
   kAll,        ///< every body, as many as the domain says
   kAllOrNone,  ///< a body has as many as the domain says, or none, which stands for the usual value
   kAny,        ///< every body has a list of any length
+};
+
+/// One value of each body. `all`: the column of a table; `one`: where a record of one body keeps its value.
+template <class T, class Table, class Record>
+struct ColumnOfBodies {
+  using Value = T;
+  static constexpr Domain kDomain = Domain::kBody;
+  static constexpr Fill kFill = Fill::kAll;
+  const char* name;
+  const char* unit;
+  std::vector<T> Table::*all;
+  T Record::*one;
+
+  [[nodiscard]] std::span<const T> values(const Table& table, std::size_t i) const { return {&(table.*all)[i], 1}; }
+  [[nodiscard]] std::span<const T> values(const Record& record) const { return {&(record.*one), 1}; }
+  void append(Table& table, std::span<const T> values) const { (table.*all).push_back(values[0]); }
+  /// The values of the bodies first, …, last − 1 of another table.
+  void append(Table& table, const Table& from, std::size_t first, std::size_t last) const {
+    const std::span<const T> values = std::span(from.*all).subspan(first, last - first);
+    (table.*all).insert((table.*all).end(), values.begin(), values.end());
+  }
+  void give(Record& record, std::span<const T> values) const { record.*one = values[0]; }
+  void reserve(Table& table, std::size_t count) const { (table.*all).reserve(count); }
+  [[nodiscard]] std::size_t memory(const Table& table) const { return (table.*all).capacity() * sizeof(T); }
 };
 
 }  // namespace morula

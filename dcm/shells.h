@@ -84,21 +84,7 @@ struct ShellRecord {
 
 /// One value of each shell.
 template <class T>
-struct ColumnOfShells {
-  using Value = T;
-  static constexpr Domain kDomain = Domain::kBody;
-  static constexpr Fill kFill = Fill::kAll;
-  const char* name;
-  const char* unit;
-  std::vector<T> Shells::*all;
-  T ShellRecord::*one;
-
-  [[nodiscard]] std::span<const T> values(const Shells& shells, std::size_t i) const { return {&(shells.*all)[i], 1}; }
-  [[nodiscard]] std::span<const T> values(const ShellRecord& shell) const { return {&(shell.*one), 1}; }
-  void append(Shells& shells, std::span<const T> values) const { (shells.*all).push_back(values[0]); }
-  void give(ShellRecord& shell, std::span<const T> values) const { shell.*one = values[0]; }
-  [[nodiscard]] std::size_t memory(const Shells& shells) const { return (shells.*all).capacity() * sizeof(T); }
-};
+using ColumnOfShells = ColumnOfBodies<T, Shells, ShellRecord>;
 
 /// One value of each node, or of each edge.
 template <class T, Domain kOf>
