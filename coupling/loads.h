@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "core/mesh/mark_sets.h"
 #include "core/mesh/topology.h"
 #include "coupling/model.h"
 #include "coupling/tissue.h"

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "core/cell_id.h"
+#include "core/mesh/mark_sets.h"
 #include "core/mesh/surface_geometry.h"
 #include "core/mesh/topology.h"
 #include "core/vec3.h"

@@ -11,6 +11,7 @@
 #include "core/contact/surface_traction.h"
 #include "core/friction/contact_element.h"
 #include "core/mesh/face_quadrature.h"
+#include "core/mesh/mark_sets.h"
 #include "core/space/space.h"
 #include "core/vec3.h"
 

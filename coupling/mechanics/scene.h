@@ -6,6 +6,7 @@
 
 #include "core/contact/contact_body.h"
 #include "core/friction/float4.h"
+#include "core/mesh/mark_sets.h"
 #include "core/mesh/surface_geometry.h"
 #include "core/parallel/comm.h"
 #include "coupling/tissue.h"
