@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/contact/traction_law.h"
+
 namespace morula {
 namespace {
 

@@ -17,7 +17,7 @@ Model two_types() {
   Model model = test::clusters_model(0.05);
   model.types.push_back(model.types[0]);
   model.types[1].name = "smooth";
-  model.types[1].sphere = {1.0, 0.3, false};
+  model.types[1].sphere = {.young = 1.0, .poisson = 0.3, .law = cbm::hertz_law()};
   model.pairs = {{0.05, 60.0, 50.0}, {0.02, 20.0, 40.0}, {0.02, 20.0, 40.0}, {0.0, 10.0, 0.0}};
   model.space.box = {{-30, -30, -15}, {200, 200, 200}};
   model.space.boundary[0][0] = model.space.boundary[2][0] = BoundaryKind::kWall;

@@ -134,7 +134,7 @@ KeySpec pad_stiffness() {
 
 std::shared_ptr<const SurfaceLaw> linear_attraction() {
   static const auto law = std::make_shared<const SurfaceLaw>(SurfaceLaw{
-      .info = {.name = "linear_attraction", .title = "Attraction that falls", .equation = "U = −W (1 − g/c)²", .source = "a test"},
+      .info = {.name = "linear_attraction", .title = "Attraction that falls", .equation = "U = −W (1 − g/c)²", .source = "a test", .parameters = {}},
       .word = "linear_attraction",
       .doc = "falls from contact",
       .own = {pad_stiffness()},
