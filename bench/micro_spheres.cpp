@@ -3,6 +3,7 @@
 #include <random>
 #include <vector>
 
+#include "cbm/laws/jkr.h"
 #include "cbm/pair_forces.h"
 
 namespace {

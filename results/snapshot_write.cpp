@@ -378,14 +378,14 @@ Status append_snapshot(const std::filesystem::path& path, const Snapshot& local,
   std::vector<std::string> names;
   for (const Snapshot::Grid& grid : local.fields) names.push_back(grid.name);
   plan.add_text(results::kFieldNames.path, names, results::kFieldNames.label());
-  names.clear();
-  for (const Snapshot::Variable& variable : local.variables) names.push_back(variable.name);
-  plan.add_text(results::kVariableNames.path, names, results::kVariableNames.label());
+  std::vector<std::string> variables;
+  for (const Snapshot::Variable& variable : local.variables) variables.push_back(variable.name);
+  plan.add_text(results::kVariableNames.path, variables, results::kVariableNames.label());
   const std::vector<std::uint32_t> numbers = add_topologies(plan, local, comm);
   if (!local.mark_names.empty()) plan.add_text(results::kMarkNames.path, local.mark_names, results::kMarkNames.label());
   add_cells(plan, sort_over_ranks(pack_cells(local, numbers), comm), local, comm);
   add_surroundings(plan, local);
-  for (std::size_t f = 0; f < fields.size(); ++f) add_field(plan, names[f], fields[f], comm);
+  for (std::size_t f = 0; f < fields.size(); ++f) add_field(plan, local.fields[f].name, fields[f], comm);
   return add_to_file(path, std::move(plan), removed, comm);
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <span>
-#include <string_view>
 
 #include "results/parcels.h"
 #include "results/state_fields.h"
@@ -17,13 +16,8 @@ enum class Part : std::uint64_t { kCell = 1, kBrick, kGrid, kGlobal, kShape };
 Hash128 hash_of(const ByteWriter& writer, Part part) { return hash128(writer.bytes(), static_cast<std::uint64_t>(part)); }
 
 void put_row(ByteWriter& out, const FullRow& row) {
-  for_each_cell_column([&](const CellColumn& column, auto member) {
-    if (std::string_view(column.name) == "draws") {
-      for (std::size_t f = 0; f < 4; ++f) out.put(row.variable(amount_of(f)));
-      for (std::size_t f = 0; f < 4; ++f) out.put(row.variable(concentration_of(f)));
-    }
-    out.put(row.*member);
-  });
+  for_each_cell_column([&](const CellColumn&, auto member) { out.put(row.*member); });
+  out.put_all(std::span(row.variables));
 }
 
 /// A body's values of a column; the length of a list goes before it.
@@ -84,7 +78,7 @@ Hash128 hash_of_globals(const Tissue& tissue) {
   ByteWriter bytes;
   for_each_clock_field([&](const char*, const char*, auto member) { bytes.put(tissue.clock.*member); });
   for_each_field_ledger_field([&](const char*, const char*, auto member) {
-    for (std::size_t f = 0; f < 4; ++f) bytes.put(f < tissue.ledger.fields.size() ? tissue.ledger.fields[f].*member : 0.0);
+    for (const FieldLedger& field : tissue.ledger.fields) bytes.put(field.*member);
   });
   for_each_ledger_field([&](const char*, const char*, auto member) { bytes.put(tissue.ledger.*member); });
   bytes.put(std::uint64_t{tissue.obstacle_offset.size()});

@@ -58,7 +58,7 @@ void append_shell(const dcm::Shells& from, std::size_t i, dcm::Shells& to) {
 /// Order of cells in memory turned around, bricks too.
 Tissue turned_around(const Tissue& from) {
   Tissue to = from;
-  to.cells = {};
+  to.cells = from.cells.without_rows();
   for (std::size_t i = from.cells.size(); i-- > 0;) to.cells.push_back(from.cells.full(i));
   std::reverse(to.spheres.position.begin(), to.spheres.position.end());
   std::reverse(to.spheres.radius.begin(), to.spheres.radius.end());
