@@ -67,6 +67,7 @@ inline constexpr ResultsDataset kTime{"time", "s", "simulated time of this snaps
 inline constexpr ResultsDataset kTypeNames{"type_names", "1", "names of the cell types by number"};
 inline constexpr ResultsDataset kFieldNames{"field_names", "1", "names of the fields"};
 inline constexpr ResultsDataset kVariableNames{"variable_names", "1", "numbers by cell that the study brings with it: their datasets below cells/"};
+inline constexpr ResultsDataset kVariableUnits{"variable_units", "1", "units of the numbers in variable_names"};
 inline constexpr ResultsDataset kMarkNames{"mark_names", "1", "names of the marks of faces, by bit"};
 inline constexpr ResultsDataset kFaceCount{"topologies/face_count", "1", "faces of each list below"};
 inline constexpr ResultsDataset kFaces{"topologies/faces", "1",

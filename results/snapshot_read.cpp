@@ -75,18 +75,17 @@ Status read_cells(const Hdf5Reader& file, const std::string& group, const std::v
     for (std::size_t i = 0; i < count; ++i) out.cells[i].*member = column.value()[i];
   });
   MORULA_TRY(status);
-  std::vector<std::string> variables;
+  std::vector<std::string> variables, units;
   if (file.exists(group + "variable_names")) {
     MORULA_TRY_ASSIGN(variables, file.texts(group + "variable_names"));
+    MORULA_TRY_ASSIGN(units, file.texts(group + "variable_units"));
+    if (units.size() != variables.size()) return Error{ErrorKind::kFile, "the names and units in " + group + " are not as many", ""};
   } else {  // written before there were any but these
-    for (const std::string& field : field_names) variables.push_back("concentration/" + field);
+    for (const std::string& field : field_names) variables.push_back("concentration/" + field), units.emplace_back("mM");
   }
-  for (const std::string& name : variables) {
-    const std::string path = group + "cells/" + name;
-    Snapshot::Variable& variable = out.variables.emplace_back();
-    variable.name = name;
-    MORULA_TRY_ASSIGN(variable.unit, file.units(path));
-    MORULA_TRY_ASSIGN(variable.values, file.read<double>(path, 0, count));
+  for (std::size_t v = 0; v < variables.size(); ++v) {
+    MORULA_TRY_ASSIGN(auto values, file.read<double>(group + "cells/" + variables[v], 0, count));
+    out.variables.push_back({variables[v], units[v], std::move(values)});
   }
   return {};
 }

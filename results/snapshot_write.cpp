@@ -378,9 +378,10 @@ Status append_snapshot(const std::filesystem::path& path, const Snapshot& local,
   std::vector<std::string> names;
   for (const Snapshot::Grid& grid : local.fields) names.push_back(grid.name);
   plan.add_text(results::kFieldNames.path, names, results::kFieldNames.label());
-  std::vector<std::string> variables;
-  for (const Snapshot::Variable& variable : local.variables) variables.push_back(variable.name);
+  std::vector<std::string> variables, units;
+  for (const Snapshot::Variable& variable : local.variables) variables.push_back(variable.name), units.push_back(variable.unit);
   plan.add_text(results::kVariableNames.path, variables, results::kVariableNames.label());
+  plan.add_text(results::kVariableUnits.path, units, results::kVariableUnits.label());
   const std::vector<std::uint32_t> numbers = add_topologies(plan, local, comm);
   if (!local.mark_names.empty()) plan.add_text(results::kMarkNames.path, local.mark_names, results::kMarkNames.label());
   add_cells(plan, sort_over_ranks(pack_cells(local, numbers), comm), local, comm);

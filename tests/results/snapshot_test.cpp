@@ -109,6 +109,7 @@ TEST_F(Snapshots, ComeBackBitForBitSortedById) {
   std::reverse(expected.cells.begin(), expected.cells.end());  // made in decreasing order of id
   std::reverse(expected.shells.begin(), expected.shells.end());
   for (auto& shell : expected.shells) shell.cell = 30 - shell.cell;
+  for (auto& variable : expected.variables) std::reverse(variable.values.begin(), variable.values.end());
   EXPECT_EQ(description(*read), description(expected));
 }
 
