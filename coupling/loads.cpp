@@ -47,8 +47,8 @@ void add_pull(const CellLoad& load, const ReferenceShape& shape, double size, st
   if (load.end != LoadEnd::kHigh) add(load.axis * -1.0);
 }
 
-void add_patch(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> x, const MarkSets& marks,
-               double strength, std::span<Vec3d> force) {
+void add_patch(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> x, const MarkSets& marks, double strength,
+               std::span<Vec3d> force) {
   if (load.mark < 0) {
     const auto nodes = end_nodes(shape, load.axis, load.part);
     for (const std::uint32_t node : nodes) force[node] += load.force * (strength / static_cast<double>(nodes.size()));
@@ -60,8 +60,8 @@ void add_patch(const CellLoad& load, const ReferenceShape& shape, std::span<cons
                    [&](const Triangle& t, const Vec3d& area) { add_to_corners(t, load.force * (strength * norm(area) / whole), force); });
 }
 
-void add_pressure(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> x, const MarkSets& marks,
-                  double strength, std::span<Vec3d> force) {
+void add_pressure(const CellLoad& load, const ReferenceShape& shape, std::span<const Vec3d> x, const MarkSets& marks, double strength,
+                  std::span<Vec3d> force) {
   const auto press = [&](const Triangle& t, const Vec3d& area) {
     const Vec3d at = middle(t, x);
     if (load.within && !lies_within(load, at)) return;

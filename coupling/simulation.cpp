@@ -327,8 +327,8 @@ void Simulation::divide_and_remove(const LifeReport& life, double time, std::vec
       if (order == life.divisions.end()) break;
       if (order->row != body.row) continue;
       const CellRecord mother = record_of(tissue_, body);
-      auto pair = divide_sphere(mother.row, {mother.sphere->position, mother.sphere->radius}, model_.types[mother.row.type],
-                                model_.seed, time, order->late);
+      auto pair = divide_sphere(mother.row, {mother.sphere->position, mother.sphere->radius}, model_.types[mother.row.type], model_.seed,
+                                time, order->late);
       divide_variables(tissue_.cells.variables, mother.row, pair.first, pair.second);
       for (int which = 0; which < 2; ++which) {
         CellRecord& daughter = daughters.emplace_back();

@@ -152,7 +152,8 @@ Status read_shells(const Hdf5Reader& file, const std::string& group, Snapshot& o
   MORULA_TRY_ASSIGN(out.face_marks, file.read<std::uint8_t>(group + "shells/face_marks"));
   std::size_t faces = 0;
   for (const Snapshot::Shell& shell : out.shells) faces += out.topologies[shell.topology].size();
-  if (out.face_marks.size() != faces * out.mark_width()) return Error{ErrorKind::kFile, "the marks in " + group + " are not those of its faces", ""};
+  if (out.face_marks.size() != faces * out.mark_width())
+    return Error{ErrorKind::kFile, "the marks in " + group + " are not those of its faces", ""};
   return {};
 }
 

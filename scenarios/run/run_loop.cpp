@@ -112,8 +112,7 @@ void RunLoop::tell_idle_loads() {
     if (load.mark < 0) continue;
     bool borne = false;
     for (std::size_t i = 0; i < shells.size(); ++i)
-      if (shells.type[i] == load.type)
-        borne = borne || shells.marks_of(i).any_has(load.mark);
+      if (shells.type[i] == load.type) borne = borne || shells.marks_of(i).any_has(load.mark);
     if (!comm_.any(borne))
       note(Note::Kind::kWarning, "load '" + load.name + "' acts nowhere: no face of '" + model.types[load.type].name + "' has the mark '" +
                                      model.mark_names[static_cast<std::size_t>(load.mark)] + "' at the start");

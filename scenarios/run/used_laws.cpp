@@ -65,8 +65,7 @@ void add_contacts(const Model& model, bool shells, bool spheres, std::vector<Use
       for (std::size_t r = 0; shells && r < pair.regions.size(); ++r) {
         const AdhesionRule& rule = pair.regions[r];  // between cells of one type a rule stands both ways round
         const AdhesionRule before = r > 0 ? pair.regions[r - 1] : AdhesionRule{};
-        if (a == b && r > 0 && before.mark_a == rule.mark_b && before.mark_b == rule.mark_a && before.mark_a != before.mark_b)
-          continue;
+        if (a == b && r > 0 && before.mark_a == rule.mark_b && before.mark_b == rule.mark_a && before.mark_a != before.mark_b) continue;
         out.push_back({purpose, law_named(surface_contact_terms(), "regional_adhesion"), {{"adhesion", rule.adhesion}}});
       }
       if (shells && a == b && model.types[a].self_contact > 0.0)
