@@ -138,10 +138,13 @@ Status read_surfaces(const Hdf5Reader& file, const std::string& group, const Sna
 
 Status read_shells(const Hdf5Reader& file, const std::string& group, Snapshot& out) {
   MORULA_TRY_ASSIGN(const auto face_count, file.read<std::uint32_t>(group + "topologies/face_count"));
-  std::uint64_t place = 0;
+  // At once: a checksum is of a whole dataset.
+  MORULA_TRY_ASSIGN(const std::vector<Triangle> all_faces, file.read<Triangle>(group + "topologies/faces"));
+  std::size_t place = 0;
   for (const std::uint32_t faces : face_count) {
-    MORULA_TRY_ASSIGN(std::vector<Triangle> list, file.read<Triangle>(group + "topologies/faces", place, faces));
-    out.topologies.push_back(std::move(list));
+    if (faces > all_faces.size() - place) return Error{ErrorKind::kFile, "the lists of faces in " + group + " are cut short", ""};
+    const auto begin = all_faces.begin() + static_cast<std::ptrdiff_t>(place);
+    out.topologies.emplace_back(begin, begin + static_cast<std::ptrdiff_t>(faces));
     place += faces;
   }
   MORULA_TRY(read_surfaces(file, group + "shells/", out, out.shells, out.nodes));
