@@ -96,12 +96,13 @@ void add_looking_verbs(CLI::App& program, Parsed& p) {
   verb->add_flag("--json", p.info.json, "Print JSON");
   verb->add_flag("--defaults", p.info.defaults, "Defaults with their sources; of a study or run: all values, defaults filled in");
 
-  verb = add_verb(program, "explain", "What a key, a law or an error code means", "morula explain E203",
+  verb = add_verb(program, "explain", "What a key, a law, a measure or an error code means", "morula explain E203",
                   "morula explain cell_types.hepatocyte.dcm.cortex.tension");
-  verb->add_option("ID", p.explain.id, "Path of a key, name of a law, or code of a message");
+  verb->add_option("ID", p.explain.id,
+                   "Path of a key, name of a law, measure or theory, code of a message; `measures`, `theories`: all of them");
   verb->add_option("--markdown", p.explain.markdown, "Print a whole reference as Markdown")
-      ->check(CLI::IsMember({"laws", "study"}))
-      ->type_name("laws|study");
+      ->check(CLI::IsMember({"laws", "study", "measures"}))
+      ->type_name("laws|study|measures");
 
   verb = add_verb(program, "verify", "Compare the laws with theory and published numbers (exit code 5 when one is outside its tolerance)",
                   "morula verify physics", "morula verify physics --studies --json");

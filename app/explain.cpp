@@ -1,5 +1,8 @@
 #include "app/laws.h"
+#include "app/measures.h"
 #include "app/verbs.h"
+#include "scenarios/measures/measures.h"
+#include "scenarios/measures/theories.h"
 #include "study/catalogue.h"
 #include "study/diagnostics.h"
 
@@ -14,11 +17,17 @@ Status explain(const ExplainOptions& options, const Context& context) {
     context.console.result(scenarios::study_reference(*context.laws));
     return {};
   }
-  std::string text;
+  if (options.markdown == "measures") {
+    context.console.result(measure_reference());
+    return {};
+  }
+  std::string text = explain_measure(options.id);
   for (const ListedLaw& law : laws_named(*context.laws, options.id)) text += law_text(law);
   if (const auto found = scenarios::explain_study(options.id, *context.laws)) text += *found;
   if (text.empty()) {
     std::vector<std::string> known = law_names(*context.laws);
+    for (const scenarios::Measure& measure : scenarios::measures()) known.push_back(measure.name);
+    for (std::string& name : scenarios::theory_names()) known.push_back(std::move(name));
     for (std::string& path : scenarios::study_key_paths(*context.laws)) {
       const std::size_t dot = path.rfind('.');
       if (dot != std::string::npos) known.push_back(path.substr(dot + 1));

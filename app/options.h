@@ -64,7 +64,7 @@ struct InfoOptions {
 
 struct ExplainOptions {
   std::string id;
-  std::string markdown;  ///< `laws` or `study`: the whole reference
+  std::string markdown;  ///< `laws`, `study` or `measures`: the whole reference
 };
 
 struct PlotOptions {

@@ -3,6 +3,7 @@
 #include "app/words.h"
 #include "results/file_io.h"
 #include "results/observables/observables.h"
+#include "scenarios/criteria/understand.h"
 #include "scenarios/library/criteria.h"
 #include "scenarios/library/library.h"
 
@@ -15,6 +16,7 @@ Result<scenarios::Study> read_study_and_tell(const std::string& path, const std:
   options.overrides = overrides;
   options.scenario_names = scenarios::template_names();
   options.fits_scenario = &scenarios::fits_scenario;
+  options.check_criteria = &scenarios::check_criteria;
   options.strict = strict;
   options.judge_places = judge_places;
   auto study = scenarios::read_study(path, options);

@@ -53,6 +53,8 @@ void build_adhesion_regions(BuildContext& context);
 void build_fields(BuildContext& context);
 void build_initial(BuildContext& context);
 void build_coupling(BuildContext& context);
+/// Criteria and plots as they are given, with the files of their data; whether they can be judged is asked by ReadOptions::check_criteria.
+void build_criteria(BuildContext& context);
 /// Checks that need the whole study: contact range, friction, step, domain size.
 void check_whole(BuildContext& context);
 /// Measured limits of meshes under strong adhesion, and cells whose volume does not bear their tension: E571, E572.

@@ -18,6 +18,9 @@ class ListSection final : public Section {
   void vector(const KeySpec& key, Given<Vec3d>&) override { add(Declaration::Kind::kVector, key); }
   void vectors(const KeySpec& key, Given<std::vector<Vec3d>>&) override { add(Declaration::Kind::kVectors, key); }
   void words(const KeySpec& key, Given<std::vector<std::string>>&) override { add(Declaration::Kind::kWords, key); }
+  void one_or_more(const KeySpec& key, Given<std::vector<std::string>>&) override { add(Declaration::Kind::kOneOrMore, key); }
+  void any_quantity(const KeySpec& key, Given<std::string>&) override { add(Declaration::Kind::kAnyQuantity, key); }
+  void any_quantities(const KeySpec& key, Given<std::vector<std::string>>&) override { add(Declaration::Kind::kAnyQuantities, key); }
   void comparison(const KeySpec& key, Given<std::string>&) override { add(Declaration::Kind::kComparison, key); }
   void quantities(const KeySpec& key, std::vector<Named<Given<double>>>&) override { add(Declaration::Kind::kQuantities, key); }
   void suffixed(const char* suffix, const KeySpec& prefix_key, Given<std::string>&, const KeySpec& key, Given<double>&) override {

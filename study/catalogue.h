@@ -9,7 +9,24 @@ namespace morula::scenarios {
 
 /// A key as it was declared, with its place in the study.
 struct Declaration {
-  enum class Kind { kQuantity, kWhole, kWord, kText, kFlag, kVector, kVectors, kWords, kComparison, kGroup, kNamed, kList, kQuantities };
+  enum class Kind {
+    kQuantity,
+    kWhole,
+    kWord,
+    kText,
+    kFlag,
+    kVector,
+    kVectors,
+    kWords,
+    kComparison,
+    kGroup,
+    kNamed,
+    kList,
+    kQuantities,
+    kOneOrMore,
+    kAnyQuantity,
+    kAnyQuantities
+  };
   Kind kind = Kind::kGroup;
   KeySpec spec;
   std::string path;    ///< such as `cell_types.<name>.dcm.cortex.young`

@@ -34,5 +34,7 @@ void declare_initial(Section& section, draft::Initial& initial);
 void declare_meshes(Section& section, draft::Meshes& meshes);
 void declare_field(Section& section, draft::Field& field);
 void declare_coupling(Section& section, draft::Coupling& coupling);
+void declare_criterion(Section& section, Criterion& criterion);
+void declare_study_plot(Section& section, StudyPlot& plot);
 
 }  // namespace morula::scenarios

@@ -267,15 +267,18 @@ void declare_study(Section& s, draft::Study& study) {
           .fallback = "",
           .example = "hybrid_spheroid"},
          study.scenario);
-  s.words(
+  s.list(
       {.name = "criteria",
        .doc =
-           "Criteria of the scenario that this study must be judged on: one that finds nothing in the results has failed. An empty list: "
-           "whichever can be judged, and one at least.",
-       .fallback = "[]",
-       .example = "[S6.1, DOUBLET.drift]",
-       .source = "chosen"},
-      study.criteria);
+           "What the run is judged on at its end: measures of its own, or ids of criteria of its scenario. One that finds nothing in the "
+           "results has failed. Where no criterion of the scenario is named: whichever can be judged, and one at least.",
+       .shorthand = "id",
+       .example = "[S6.1, DOUBLET.drift]"},
+      study.criteria, &declare_criterion);
+  s.list({.name = "plots",
+          .doc = "Plots of measures, beside those that every run gets.",
+          .example = "[{name: force_way, x: way(pull), y: force(pull)}]"},
+         study.plots, &declare_study_plot);
   s.whole({.name = "seed",
            .doc = "Seed of all random numbers; the same seed gives the same bits.",
            .fallback = "1",

@@ -2,6 +2,7 @@
 #include <map>
 #include <vector>
 
+#include "study/criterion.h"
 #include "study/draft_regions.h"
 #include "study/section.h"
 
@@ -247,7 +248,8 @@ struct Limits {
 struct Study {
   Given<std::uint64_t> schema, seed;
   Given<std::string> name, title, scenario;
-  Given<std::vector<std::string>> criteria;
+  std::vector<Named<Criterion>> criteria;
+  std::vector<Named<StudyPlot>> plots;
   Time time;
   Numerics numerics;
   Domain domain;

@@ -39,6 +39,23 @@ constexpr ErrorCode kCodes[] = {
     {402, "no such field", "The name is not declared under `fields`."},
     {403, "no such observable or library study", "The name is not known to this program."},
     {404, "too many of something", "The study declares more cell types, fields or cells than the program can hold."},
+    {410, "no such measure",
+     "`measure`, `x` and `y` name a measure that the program has, or a column of series.csv that this study's runs have. `morula explain "
+     "measures` lists the measures."},
+    {411, "no such theory", "`against` names a theory that the program has. `morula explain theories` lists them."},
+    {412, "measure of the wrong thing",
+     "Each measure is taken of certain things: cells, a pair of cells that touch, a load, an obstacle, a field. `of` names such "
+     "things of the study, and no others."},
+    {413, "theory that does not fit", "A theory predicts certain measures, of things that have what it assumes."},
+    {414, "criterion without a limit, or with several",
+     "A criterion says what must hold by one of: `against` with `within`, `below`, `above`, `between`."},
+    {415, "criterion given twice",
+     "An id may stand at several criteria that measure different things, and at a plot once; the same question twice is a mistake."},
+    {416, "moment that a run does not have", "A measure is taken at outputs: multiples of `time.output` up to `time.end`."},
+    {417, "data that cannot be compared",
+     "The CSV file of `against.data` gives each column as `name [unit]`, and has the columns `x` and `y` with units of what they are "
+     "compared "
+     "with; x increases."},
     {501, "thresholds that make cells flip back and forth",
      "A trigger needs a demote threshold on the other side of the promote threshold, with a gap between."},
     {502, "outside the domain", "A region, an obstacle or a shape to fill does not lie where cells can be."},

@@ -244,6 +244,21 @@ void ReadSection::vectors(const KeySpec& key, Given<std::vector<Vec3d>>& value) 
   if (good) value.text = all + "]";
 }
 
+void ReadSection::word_items(const KeySpec& key, const Node& node, Given<std::vector<std::string>>& value) {
+  std::string all = "[";
+  for (const Node& item : node.items) {
+    if (item.kind != Node::Kind::kScalar) {
+      wrong_shape(key, item, "a list of words");
+    } else if (!key.words.empty() && std::find(key.words.begin(), key.words.end(), item.text) == key.words.end()) {
+      diagnostics_.error(108, item.place, shown(key) + " cannot hold '" + item.text + "'", suggest(item.text, key.words));
+    } else {
+      all += (all.size() > 1 ? ", " : "") + yaml_scalar(item.text);
+      value.value.push_back(item.text);
+    }
+  }
+  value.text = all + "]";
+}
+
 void ReadSection::words(const KeySpec& key, Given<std::vector<std::string>>& value) {
   const Node::Entry* entry = take(key);
   value.given = entry != nullptr;
@@ -259,18 +274,24 @@ void ReadSection::words(const KeySpec& key, Given<std::vector<std::string>>& val
     wrong_shape(key, node, "a list of words");
     return;
   }
-  std::string all = "[";
-  for (const Node& item : node.items) {
-    if (item.kind != Node::Kind::kScalar) {
-      wrong_shape(key, item, "a list of words");
-    } else if (!key.words.empty() && std::find(key.words.begin(), key.words.end(), item.text) == key.words.end()) {
-      diagnostics_.error(108, item.place, shown(key) + " cannot hold '" + item.text + "'", suggest(item.text, key.words));
-    } else {
-      all += (all.size() > 1 ? ", " : "") + yaml_scalar(item.text);
-      value.value.push_back(item.text);
-    }
+  word_items(key, node, value);
+}
+
+void ReadSection::one_or_more(const KeySpec& key, Given<std::vector<std::string>>& value) {
+  const Node::Entry* entry = take(key);
+  value.given = entry != nullptr;
+  value.place = entry ? entry->value.place : place_;
+  if (!entry) return;
+  Node list = entry->value;
+  if (list.kind == Node::Kind::kScalar) {
+    list.kind = Node::Kind::kList;
+    list.items = {entry->value};
   }
-  value.text = all + "]";
+  if (list.kind != Node::Kind::kList || list.items.empty()) {
+    wrong_shape(key, entry->value, "a word or a list of words");
+    return;
+  }
+  word_items(key, list, value);
 }
 
 }  // namespace morula::scenarios

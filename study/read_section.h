@@ -19,6 +19,7 @@ class ReadSection final : public Section {
   void vector(const KeySpec& key, Given<Vec3d>& value) override;
   void vectors(const KeySpec& key, Given<std::vector<Vec3d>>& value) override;
   void words(const KeySpec& key, Given<std::vector<std::string>>& value) override;
+  void one_or_more(const KeySpec& key, Given<std::vector<std::string>>& value) override;
   void suffixed(const char* suffix, const KeySpec& prefix_key, Given<std::string>& prefix, const KeySpec& key,
                 Given<double>& value) override;
   void group(const KeySpec& key, bool& present, const std::function<void(Section&)>& describe) override;
@@ -46,6 +47,8 @@ class ReadSection final : public Section {
   [[nodiscard]] std::string path_of(const std::string& name) const { return path_.empty() ? name : path_ + "." + name; }
   /// The scalar of a key as text with its place: from the file, or the default. Null when there is neither, or on an error.
   const Node* scalar(const KeySpec& key, Node& storage, bool& given);
+  /// The words of a node that is a list.
+  void word_items(const KeySpec& key, const Node& node, Given<std::vector<std::string>>& value);
   bool vector_items(const KeySpec& key, const Node& node, Vec3d& value, std::string& text);
   void read_section(const KeySpec& key, const Node& node, const Place& key_place, const std::string& path,
                     const std::function<void(Section&)>& describe);

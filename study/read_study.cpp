@@ -40,8 +40,8 @@ void build(BuildContext& context) {
   study.name = draft.name.value;
   study.title = draft.title.value;
   study.scenario = draft.scenario.value;
-  study.criteria = draft.criteria.value;
   study.output = {draft.output.series.value, draft.output.formats.value, draft.output.report.value};
+  build_criteria(context);
   check_places(context);
 }
 
@@ -70,7 +70,9 @@ Result<Study, Diagnostics> read_source(const std::shared_ptr<const SourceText>& 
   build(context);
   if (options.fits_scenario && !diagnostics.has_errors())
     if (const Status fits = options.fits_scenario(study); !fits.ok())
-      diagnostics.error(685, (draft.criteria.given ? draft.criteria.place : draft.scenario.place), fits.error().message, fits.error().help);
+      diagnostics.error(685, (draft.criteria.empty() ? draft.scenario.place : draft.criteria.front().place), fits.error().message,
+                        fits.error().help);
+  if (options.check_criteria && !diagnostics.has_errors()) options.check_criteria(study, diagnostics);
   diagnostics.sort();
   if (options.strict) diagnostics.warnings_to_errors();
   if (diagnostics.has_errors()) return diagnostics;

@@ -36,6 +36,12 @@ std::string kind_text(const Declaration& d) {
       return "a list of [x, y, z], each " + quantity;
     case Kind::kWords:
       return "a list of words" + (words.empty() ? "" : ": " + words);
+    case Kind::kOneOrMore:
+      return "a word, or a list of words";
+    case Kind::kAnyQuantity:
+      return "a number with the unit of the measure";
+    case Kind::kAnyQuantities:
+      return "a list of numbers with the unit of the measure";
     case Kind::kComparison:
       return "a comparison: `value > quantity` or `value < quantity`";
     case Kind::kQuantities:

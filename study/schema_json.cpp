@@ -46,6 +46,9 @@ Json words_schema(const KeySpec& key) {
   return {{"enum", words}};
 }
 
+/// A number, or a text: with a unit, or a word.
+Json any_quantity_schema() { return {{"anyOf", Json::array({{{"type", "number"}}, {{"type", "string"}}})}}; }
+
 Json whole_schema(const KeySpec& key) {
   Json schema{{"type", "integer"}, {"minimum", key.low}, {"maximum", key.high}};
   if (!key.words.empty()) {
@@ -108,6 +111,12 @@ Json bare_schema(const Declaration& d) {
       return {{"type", "array"}, {"items", vector_schema(d.spec)}, {"minItems", 1}};
     case Kind::kWords:
       return {{"type", "array"}, {"items", words_schema(d.spec)}};
+    case Kind::kOneOrMore:
+      return {{"anyOf", Json::array({words_schema(d.spec), {{"type", "array"}, {"items", words_schema(d.spec)}, {"minItems", 1}}})}};
+    case Kind::kAnyQuantity:
+      return any_quantity_schema();
+    case Kind::kAnyQuantities:
+      return {{"type", "array"}, {"items", any_quantity_schema()}};
     case Kind::kQuantities:
       return {{"type", "object"}, {"additionalProperties", quantity_schema(d.spec)}};
     case Kind::kNamed:

@@ -61,6 +61,11 @@ class Section {
   virtual void vector(const KeySpec& key, Given<Vec3d>& value) = 0;      ///< [x, y, z]
   virtual void vectors(const KeySpec& key, Given<std::vector<Vec3d>>& value) = 0;
   virtual void words(const KeySpec& key, Given<std::vector<std::string>>& value) = 0;  ///< list of words; key.words empty: any
+  /// As words(), where a bare word stands for a list of one.
+  virtual void one_or_more(const KeySpec& key, Given<std::vector<std::string>>& value) { words(key, value); }
+  /// A number whose unit depends on another key, such as a limit of a measure; the text is kept.
+  virtual void any_quantity(const KeySpec& key, Given<std::string>& value) { text(key, value); }
+  virtual void any_quantities(const KeySpec& key, Given<std::vector<std::string>>& value) { words(key, value); }
   /// A comparison `subject > quantity` or `subject < quantity`; the text is kept, its meaning depends on the subject.
   virtual void comparison(const KeySpec& key, Given<std::string>& value) { text(key, value); }
   /// `<prefix><suffix>: value` with a prefix of the user's choice, such as `oxygen_below: 0.02 mM`: the same as `prefix_key: prefix` and

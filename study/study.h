@@ -8,6 +8,7 @@
 
 #include "coupling/laws.h"
 #include "coupling/model.h"
+#include "study/criterion.h"
 #include "study/diagnostics.h"
 #include "study/mesh_cells.h"
 
@@ -110,8 +111,9 @@ struct InputFile {
 struct Study {
   std::string name;
   std::string title;
-  std::string scenario;               ///< library study it was made from, or "" (gives the criteria that go to verdict.json)
-  std::vector<std::string> criteria;  ///< those of the scenario that must be judged; empty: whichever it finds, one at least
+  std::string scenario;             ///< library study it was made from, or "" (gives the criteria that go to verdict.json)
+  std::vector<Criterion> criteria;  ///< what must be judged; none of the scenario named: whichever it finds, one at least
+  std::vector<StudyPlot> plots;     ///< beside those of every run
   Model model;
   TimeSpec time;
   std::vector<InitialCells> initial;
@@ -132,7 +134,9 @@ struct ReadOptions {
   std::vector<std::string> series_names{};              ///< observables that exist; empty: not checked
   std::vector<std::string> scenario_names{};            ///< library studies that exist; empty: not checked
   std::function<Status(const Study&)> fits_scenario{};  ///< whether a study has what its scenario's criteria judge; null: not checked
-  bool strict = false;                                  ///< warnings are errors
+  std::function<void(const Study&, Diagnostics&)>
+      check_criteria{};      ///< whether its criteria and plots can be judged and drawn; null: not checked
+  bool strict = false;       ///< warnings are errors
   bool judge_places = true;  ///< find and judge the places of all cells; false: the study has been checked before
 };
 

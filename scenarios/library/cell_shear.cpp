@@ -5,7 +5,7 @@
 #include "core/numbers/number_text.h"
 #include "results/series_reader.h"
 #include "scenarios/library/bearing_area.h"
-#include "scenarios/library/cap_criteria.h"
+#include "scenarios/library/elastic_cap.h"
 #include "scenarios/library/shape_measures.h"
 #include "scenarios/library/single_cell.h"
 #include "scenarios/library/verdicts.h"

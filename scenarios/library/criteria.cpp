@@ -4,10 +4,9 @@
 #include <cmath>
 
 #include "results/series_reader.h"
+#include "scenarios/criteria/judge_criteria.h"
 #include "scenarios/library/blastocyst.h"
-#include "scenarios/library/cavity.h"
 #include "scenarios/library/embryo.h"
-#include "scenarios/library/hybrid_spheroid.h"
 #include "scenarios/library/single_cell.h"
 #include "scenarios/library/verdicts.h"
 
@@ -24,7 +23,8 @@ double largest(const SeriesColumn* column) {
   return out.value();
 }
 
-/// Largest rise between two rows, relative to the range. The row of time 0 has no step before it and is left out; kNothing without two others.
+/// Largest rise between two rows, relative to the range. The row of time 0 has no step before it and is left out; kNothing without two
+/// others.
 double largest_rise(const SeriesColumn* energy) {
   Largest rise, high, minus_low;
   for (std::size_t i = 1; energy != nullptr && i < energy->values.size(); ++i) {
@@ -37,28 +37,18 @@ double largest_rise(const SeriesColumn* energy) {
   return range == 0.0 ? rise.value() : rise.value() / std::max(range, kRest * size);
 }
 
+/// Those criteria of the study that its scenario judges.
+std::vector<std::string> asked_of_scenario(const Study& study) {
+  std::vector<std::string> out;
+  for (const Criterion& criterion : study.criteria)
+    if (criterion.is_of_scenario()) out.push_back(criterion.id.value);
+  return out;
+}
+
 Status has_load(const Study& study, LoadKind kind, const char* what) {
   for (const CellLoad& load : study.model.loads)
     if (load.kind == kind) return {};
   return Error{ErrorKind::kInput, what, ""};
-}
-
-Status plates_need(const Study& study) {
-  const auto& obstacles = study.model.obstacles;
-  const bool moves = std::any_of(obstacles.begin(), obstacles.end(), [](const ObstacleSpec& o) { return !o.distance.empty(); });
-  return moves && obstacles.size() == 2
-             ? Status{}
-             : Status(Error{ErrorKind::kInput, "two obstacles, one of which has a `motion` with a `course`", ""});
-}
-
-Status spreading_needs(const Study& study) {
-  return study.model.obstacles.empty() ? Status(Error{ErrorKind::kInput, "a plane to spread on (`geometry`)", ""}) : Status{};
-}
-
-Status doublet_needs(const Study& study) {
-  std::int64_t cells = 0;
-  for (const InitialCells& block : study.initial) cells += block.count;
-  return cells >= 2 ? Status{} : Status(Error{ErrorKind::kInput, "two cells", ""});
 }
 
 /// The criteria of the study's scenario; null where it has none.
@@ -77,9 +67,9 @@ std::vector<NotChecked> never_checked(const Study& study) {
                               {"INV.8, INV.9", "the same bits on any number of threads and ranks, and over a restart", tests},
                               {"", "errors of step, mesh and tolerance",
                                "run the study again with half the step, with a finer mesh, with other seeds: docs/convergence.md"}};
-  if (criteria_of(study) == nullptr)
+  if (criteria_of(study) == nullptr && study.criteria.empty())
     out.push_back({"", "agreement with a theory, with data, or with what the study is meant to show",
-                   "the study names no scenario that has criteria; its parameters are as good as their sources (methods.md)"});
+                   "the study has no `criteria` and names no scenario that has; its parameters are as good as their sources (methods.md)"});
   return out;
 }
 
@@ -89,11 +79,8 @@ const std::vector<ScenarioCriteria>& scenario_criteria() {
   const auto grips = [](const Study& study) { return has_load(study, LoadKind::kGrip, "a grip (`loads` with `grip`)"); };
   static const std::vector<ScenarioCriteria> all{
       {"blastocyst", &judge_blastocyst, &blastocyst_needs, {"S18.1", "S18.2", "S18.3", "S18.6"}},
-      {"cavity", &judge_cavity, &cavity_needs, {"S18.4"}},
       {"cell_shear", &judge_cell_shear, grips, {"SHEAR.0", "S4.6", "S6.5", "T9.6"}, &plot_cell_shear},
-      {"doublet", &judge_doublet, &doublet_needs, {"S6.0", "S6.1", "S6.2", "S6.4", "T8.1", "DOUBLET.drift"}, &plot_doublet},
       {"embryo", &judge_embryo, &embryo_needs, {"S17.1", "S17.2", "S17.3", "S17.4", "S17.5", "S17.6"}, &plot_embryo},
-      {"hybrid_spheroid", &judge_hybrid_spheroid, &hybrid_spheroid_needs, {"DEMO.1", "DEMO.2", "DEMO.3", "DEMO.4", "S7.8"}},
       {"micropipette",
        &judge_micropipette,
        [](const Study& study) { return has_load(study, LoadKind::kPressure, "a suction (`loads` with `pressure`)"); },
@@ -109,13 +96,7 @@ const std::vector<ScenarioCriteria>& scenario_criteria() {
        [](const Study& study) { return has_load(study, LoadKind::kPull, "a pull at two poles (`loads` with `pull`)"); },
        {"S2.1", "S2.2", "S2.3", "S2.4", "S2.4b", "S2.5", "S2.6"},
        &plot_optical_tweezers},
-      {"parallel_plates",
-       &judge_parallel_plates,
-       &plates_need,
-       {"PLATES.0", "PLATES.1", "PLATES.2", "PLATES.3", "PLATES.4"},
-       &plot_parallel_plates},
       {"pull_off", &judge_pull_off, grips, {"S5.0", "S5.1", "S5.2", "S5.3", "S5.4", "S5.5", "S5.6", "S5.7", "T8.2"}, &plot_pull_off},
-      {"spreading", &judge_spreading, &spreading_needs, {"S4.1", "S4.2", "S4.3", "S4.4", "S4.5", "S6.4", "T8.1"}, &plot_spreading},
   };
   return all;
 }
@@ -136,12 +117,12 @@ bool is_passive(const Study& study) {
 
 Status fits_scenario(const Study& study) {
   const ScenarioCriteria* const scenario = criteria_of(study);
+  const std::vector<std::string> asked = asked_of_scenario(study);
   if (scenario == nullptr)
-    return study.criteria.empty()
-               ? Status{}
-               : Status(Error{ErrorKind::kInput, "`criteria` has no effect: the study names no scenario that has criteria",
-                              "name the library study in `scenario`, or leave `criteria` away"});
-  for (const std::string& id : study.criteria)
+    return asked.empty() ? Status{}
+                         : Status(Error{ErrorKind::kInput, "`criteria` has no effect: the study names no scenario that has criteria",
+                                        "say what is measured (`measure`), or name the library study in `scenario`"});
+  for (const std::string& id : asked)
     if (std::find(scenario->ids.begin(), scenario->ids.end(), id) == scenario->ids.end())
       return Error{ErrorKind::kInput, "'" + study.scenario + "' has no criterion '" + id + "'", suggest(id, scenario->ids)};
   if (scenario->needs == nullptr) return {};
@@ -184,6 +165,9 @@ Result<Judgement> common_criteria(const Study& study, const std::filesystem::pat
 
 Result<Judgement> judge(const Study& study, const std::filesystem::path& run) {
   MORULA_TRY_ASSIGN(Judgement out, common_criteria(study, run));
+  FinishedRun finished(study, run);
+  MORULA_TRY_ASSIGN(std::vector<Verdict> own, judge_criteria(finished));
+  std::move(own.begin(), own.end(), std::back_inserter(out.verdicts));
   const ScenarioCriteria* const scenario = criteria_of(study);
   if (scenario == nullptr) return out;
   std::vector<Verdict> found;
@@ -195,22 +179,27 @@ Result<Judgement> judge(const Study& study, const std::filesystem::path& run) {
   const auto is_judged = [&](const std::string& id) {
     return std::any_of(found.begin(), found.end(), [&](const Verdict& v) { return v.id == id; });
   };
-  for (const std::string& id : study.criteria)
+  const std::vector<std::string> asked = asked_of_scenario(study);
+  for (const std::string& id : asked)
     if (!is_judged(id))
       out.verdicts.push_back({id, "named by the study, and nothing in its results to judge it on", kNothing, "judged", false});
-  if (found.empty() && study.criteria.empty())
+  if (found.empty() && asked.empty() && own.empty())
     out.verdicts.push_back({"SCENARIO", "criteria of '" + study.scenario + "' that could be judged", 0.0, ">= 1", false});
   for (const std::string& id : scenario->ids)
-    if (!is_judged(id) && std::find(study.criteria.begin(), study.criteria.end(), id) == study.criteria.end())
+    if (!is_judged(id) && std::find(asked.begin(), asked.end(), id) == asked.end())
       out.not_checked.push_back({id, "criterion of '" + study.scenario + "'", "another version of the study, or other settings, show it"});
   out.verdicts.insert(out.verdicts.end(), found.begin(), found.end());
   return out;
 }
 
 Result<std::vector<NamedPlot>> scenario_plots(const Study& study, const std::filesystem::path& run) {
+  FinishedRun finished(study, run);
+  MORULA_TRY_ASSIGN(std::vector<NamedPlot> out, study_plots(finished));
   const ScenarioCriteria* const scenario = criteria_of(study);
-  if (scenario == nullptr || scenario->plots == nullptr || !fits_scenario(study).ok()) return std::vector<NamedPlot>{};
-  return scenario->plots(study, run);
+  if (scenario == nullptr || scenario->plots == nullptr || !fits_scenario(study).ok()) return out;
+  MORULA_TRY_ASSIGN(std::vector<NamedPlot> more, scenario->plots(study, run));
+  std::move(more.begin(), more.end(), std::back_inserter(out));
+  return out;
 }
 
 }  // namespace morula::scenarios

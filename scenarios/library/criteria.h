@@ -10,7 +10,8 @@
 
 namespace morula::scenarios {
 
-/// Criteria of one library study: judged on what is in the run's folder (series.csv, results.h5, events.jsonl). kFile where something is missing.
+/// Criteria of one library study: judged on what is in the run's folder (series.csv, results.h5, events.jsonl). kFile where something is
+/// missing.
 using Judge = Result<std::vector<Verdict>> (*)(const Study& study, const std::filesystem::path& run);
 
 /// Plots of one library study beside those of every run: against theory or data.
@@ -30,23 +31,24 @@ struct ScenarioCriteria {
 /// All library studies that have criteria of their own: one line each.
 const std::vector<ScenarioCriteria>& scenario_criteria();
 
-/// Whether the study has what the criteria of its scenario judge, and `criteria` names such as this scenario has: what ReadOptions::fits_scenario asks.
-/// kInput.
+/// Whether the study has what the criteria of its scenario judge, and `criteria` names such as this scenario has: what
+/// ReadOptions::fits_scenario asks. kInput.
 Status fits_scenario(const Study& study);
 
-/// What holds for every run (physics/scenarios.md §0.3), judged on series.csv: volumes against the law (INV.3), overlap (INV.4), nuclei within their
-/// cells (INV.5), balance of the fields, and for passive runs that the energy falls (INV.7). A column that is not there, or without rows, fails; what
-/// does not apply to the study, or is not seen in a series, is named as not checked.
+/// What holds for every run (physics/scenarios.md §0.3), judged on series.csv: volumes against the law (INV.3), overlap (INV.4), nuclei
+/// within their cells (INV.5), balance of the fields, and for passive runs that the energy falls (INV.7). A column that is not there, or
+/// without rows, fails; what does not apply to the study, or is not seen in a series, is named as not checked.
 Result<Judgement> common_criteria(const Study& study, const std::filesystem::path& run);
 
-/// common_criteria, then those of the study's scenario. Each criterion that `criteria` of the study names must have been judged, and one at least
-/// where it names none; what found nothing to judge has failed.
+/// common_criteria, those of the study with measures of their own, then those of the study's scenario. Each criterion that `criteria` of
+/// the study names must have been judged, and one at least where it names none; what found nothing to judge has failed.
 Result<Judgement> judge(const Study& study, const std::filesystem::path& run);
 
-/// The plots of the study's scenario; none where it has none.
+/// The plots that the study declares, then those of its scenario.
 Result<std::vector<NamedPlot>> scenario_plots(const Study& study, const std::filesystem::path& run);
 
-/// Whether nothing drives the tissue: no growth, migration, death, exchange of bodies, inflation or moving obstacle. Its energy can only fall.
+/// Whether nothing drives the tissue: no growth, migration, death, exchange of bodies, inflation or moving obstacle. Its energy can only
+/// fall.
 bool is_passive(const Study& study);
 
 }  // namespace morula::scenarios

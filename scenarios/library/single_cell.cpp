@@ -19,11 +19,17 @@ Result<std::vector<Snapshot>> all_snapshots(const std::filesystem::path& run) {
 }
 
 std::vector<Hold> holds_of(const TimeCourse& course, const std::vector<Snapshot>& snapshots) {
+  std::vector<double> times;
+  for (const Snapshot& snapshot : snapshots) times.push_back(snapshot.time);
+  return holds_of(course, times);
+}
+
+std::vector<Hold> holds_of(const TimeCourse& course, const std::vector<double>& times) {
   std::vector<Hold> out;
   const auto add = [&](double value, double from, double until) {
-    for (std::size_t i = snapshots.size(); i-- > 0;) {
-      if (snapshots[i].time > until * (1.0 + 1e-12)) continue;
-      if (snapshots[i].time > from) out.push_back({value, snapshots[i].time, i});
+    for (std::size_t i = times.size(); i-- > 0;) {
+      if (times[i] > until * (1.0 + 1e-12)) continue;
+      if (times[i] > from) out.push_back({value, times[i], i});
       return;
     }
   };

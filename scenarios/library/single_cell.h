@@ -12,9 +12,6 @@ namespace morula::scenarios {
 /// Experiments on one or two cells: criteria (physics/scenarios.md S1 to S6; dcm.md T9.6; a cell between plates) and plots against theory.
 Result<std::vector<Verdict>> judge_optical_stretcher(const Study& study, const std::filesystem::path& run);
 Result<std::vector<Verdict>> judge_optical_tweezers(const Study& study, const std::filesystem::path& run);
-Result<std::vector<Verdict>> judge_spreading(const Study& study, const std::filesystem::path& run);
-Result<std::vector<Verdict>> judge_doublet(const Study& study, const std::filesystem::path& run);
-Result<std::vector<Verdict>> judge_parallel_plates(const Study& study, const std::filesystem::path& run);
 
 Result<std::vector<Verdict>> judge_pull_off(const Study& study, const std::filesystem::path& run);
 Result<std::vector<Verdict>> judge_micropipette(const Study& study, const std::filesystem::path& run);
@@ -22,9 +19,6 @@ Result<std::vector<Verdict>> judge_cell_shear(const Study& study, const std::fil
 
 Result<std::vector<NamedPlot>> plot_optical_stretcher(const Study& study, const std::filesystem::path& run);
 Result<std::vector<NamedPlot>> plot_optical_tweezers(const Study& study, const std::filesystem::path& run);
-Result<std::vector<NamedPlot>> plot_spreading(const Study& study, const std::filesystem::path& run);
-Result<std::vector<NamedPlot>> plot_doublet(const Study& study, const std::filesystem::path& run);
-Result<std::vector<NamedPlot>> plot_parallel_plates(const Study& study, const std::filesystem::path& run);
 Result<std::vector<NamedPlot>> plot_pull_off(const Study& study, const std::filesystem::path& run);
 Result<std::vector<NamedPlot>> plot_micropipette(const Study& study, const std::filesystem::path& run);
 Result<std::vector<NamedPlot>> plot_cell_shear(const Study& study, const std::filesystem::path& run);
@@ -40,6 +34,8 @@ struct Hold {
 };
 /// The holds of a course that a run has a snapshot of, in time order; a course without points is one hold.
 std::vector<Hold> holds_of(const TimeCourse& course, const std::vector<Snapshot>& snapshots);
+/// The same by the times of the snapshots [s].
+std::vector<Hold> holds_of(const TimeCourse& course, const std::vector<double>& times);
 
 /// The tolerance for meshes of fewer than 642 nodes, or that for finer ones.
 inline double tolerance(std::uint32_t nodes, double coarse, double fine) { return nodes < 642 ? coarse : fine; }

@@ -5,6 +5,7 @@
 #include "results/checkpoint_folder.h"
 #include "results/damaged_file.h"
 #include "results/file_io.h"
+#include "scenarios/criteria/understand.h"
 #include "scenarios/run/report_run.h"
 #include "scenarios/run/run_lock.h"
 #include "scenarios/run/run_loop.h"
@@ -13,7 +14,7 @@
 namespace morula::scenarios {
 namespace {
 
-/// The columns of series.csv: those the study names, then what the criteria of every run are judged on.
+/// The columns of series.csv: those the study names, then what the criteria of every run and its own are judged on, and its plots show.
 Result<std::vector<Observable>> columns_of(const Study& study) {
   std::vector<std::string> names = study.output.series;
   if (!names.empty())
@@ -21,6 +22,9 @@ Result<std::vector<Observable>> columns_of(const Study& study) {
          {"cell_count", "shell_count", "volume_error", "overlap", "worst_overlap", "energy", "step_count", "step_size", "field_balance"})
       if ((needed != "field_balance" || !study.model.fields.empty()) && std::find(names.begin(), names.end(), needed) == names.end())
         names.push_back(needed);
+  if (!names.empty())
+    for (const std::string& needed : series_columns(study))
+      if (std::find(names.begin(), names.end(), needed) == names.end()) names.push_back(needed);
   return select_observables(study.model, names);
 }
 

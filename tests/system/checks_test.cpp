@@ -52,8 +52,10 @@ TEST_F(CutShort, FailsItsChecksWithExitCode5AndFailedForScriptsAndSoDoesResume) 
 }
 
 TEST_F(CutShort, FailsACriterionThatFindsNothingToJudge) {
-  // No two of its cells reach one angle from two sides (T8.1).
-  EXPECT_EQ(run({"output.report=false", "criteria=[S4.2, T8.1]"}).exit_code, 5);
+  // One cell is no pair.
+  const std::string criteria =
+      "criteria=[{id: S4.2, measure: pressure_inside(fluid_050), above: 0 Pa}, {id: T8.1, measure: cap.angle(fluid_050), below: 90 deg}]";
+  EXPECT_EQ(run({"output.report=false", criteria}).exit_code, 5);
   const json missing = criterion("T8.1");
   ASSERT_TRUE(missing.is_object()) << verdict();
   EXPECT_FALSE(missing["passed"].get<bool>());
@@ -62,15 +64,40 @@ TEST_F(CutShort, FailsACriterionThatFindsNothingToJudge) {
 }
 
 TEST_F(CutShort, IsRefusedWhereTheScenarioHasNoSuchCriterionOrTheStudyNoneOfItsThings) {
-  const Outcome unknown = run_morula({"check", "study/study.yaml", "criteria=[S4.1, S4.9]"}, folder_.path());
+  const Outcome unknown = run_morula({"check", "study/study.yaml", "scenario=micropipette", "criteria=[S3.1, S3.9]"}, folder_.path());
   EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_THAT(unknown.all(), AllOf(HasSubstr("'spreading' has no criterion 'S4.9'"), HasSubstr("E685"), HasSubstr("S4.1")));
+  EXPECT_THAT(unknown.all(), AllOf(HasSubstr("'micropipette' has no criterion 'S3.9'"), HasSubstr("E685"), HasSubstr("S3.1")));
   const Outcome other = run_morula({"check", "study/study.yaml", "scenario=micropipette", "criteria=[]"}, folder_.path());
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.all(), AllOf(HasSubstr("the criteria of 'micropipette' need a suction"), HasSubstr("E685")));
-  const Outcome none = run_morula({"check", "study/study.yaml", "scenario=pair"}, folder_.path());
+  const Outcome none = run_morula({"check", "study/study.yaml", "scenario=pair", "criteria=[S4.1]"}, folder_.path());
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_THAT(none.all(), HasSubstr("`criteria` has no effect"));
+}
+
+TEST(UsersStudy, IsJudgedOnItsOwnCriteriaAndSaysSoByItsExitCode) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study() +
+                                 "criteria:\n  - {id: MINE, measure: cell_count, above: 20}\n"
+                                 "plots:\n  - {name: mine, y: volume(round), title: Volumes of mine}\n");
+  const auto run = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"run", "study.yaml", "time.end=20 min"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_morula(arguments, folder.path());
+  };
+  EXPECT_EQ(run({"--out", "good", "output.report=true"}).exit_code, 0);
+  EXPECT_THAT(read_text(folder / "good/report.html"), AllOf(HasSubstr("Volumes of mine"), HasSubstr("MINE")));
+  const Outcome failed = run({"--out", "bad", "criteria.0.above=2000"});
+  EXPECT_EQ(failed.exit_code, 5) << failed.all();
+  EXPECT_THAT(failed.err, HasSubstr("check MINE failed"));
+  EXPECT_EQ(json::parse(read_text(folder / "bad/run.json"))["exit_code"], 5);
+  const Outcome nothing = run({"--out", "nothing", "criteria.0={id: MINE, measure: cap.angle(round), below: 90 deg}"});
+  EXPECT_EQ(nothing.exit_code, 5) << nothing.all();
+  const Outcome wrong = run_morula({"check", "study.yaml", "criteria.0.measure=cell_conut"}, folder.path());
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.all(), AllOf(HasSubstr("did you mean `cell_count`?"), HasSubstr("E410")));
+  const Outcome plotted = run_morula({"plot", "good", "--only", "mine"}, folder.path());
+  EXPECT_THAT(plotted.out, HasSubstr("mine.svg"));
 }
 
 TEST(UsersStudy, GetsNumericalChecksAndIsToldWhatWasNotChecked) {

@@ -149,6 +149,10 @@ TEST(Explain, KnowsKeysLawsAndCodes) {
   EXPECT_THAT(run_morula({"explain", "jkr"}, folder.path()).out, HasSubstr("Johnson"));
   EXPECT_THAT(run_morula({"explain", "--markdown", "laws"}, folder.path()).out, HasSubstr("### `jkr`"));
   EXPECT_THAT(run_morula({"explain", "--markdown", "study"}, folder.path()).out, HasSubstr("## `cell_types.<name>`"));
+  EXPECT_THAT(run_morula({"explain", "--markdown", "measures"}, folder.path()).out, HasSubstr("| `cap.angle` |"));
+  EXPECT_THAT(run_morula({"explain", "measures"}, folder.path()).out, HasSubstr("contact_area"));
+  EXPECT_THAT(run_morula({"explain", "theories"}, folder.path()).out, HasSubstr("youngs_law"));
+  EXPECT_THAT(run_morula({"explain", "cap.angle"}, folder.path()).out, HasSubstr("theories: youngs_law"));
   const Outcome near = run_morula({"explain", "jrk"}, folder.path());
   EXPECT_EQ(near.exit_code, 2);
   EXPECT_THAT(near.err, HasSubstr("did you mean `jkr`?"));

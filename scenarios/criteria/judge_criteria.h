@@ -1,0 +1,29 @@
+#pragma once
+#include <vector>
+
+#include "report/run_plots.h"
+#include "results/run_record.h"
+#include "scenarios/criteria/understand.h"
+
+namespace morula::scenarios {
+
+/// A criterion judged on a finished run: a verdict for each of the things that it is about. Of several moments and cells the one that is
+/// furthest from passing is told. What finds nothing to measure, or nothing to compare with, has failed. Values and limits are in the unit
+/// that the study writes. Errors: kFile.
+Result<std::vector<Verdict>> judge_criterion(FinishedRun& run, const UnderstoodCriterion& criterion);
+
+/// All criteria of the run's study that have a measure of their own, in their order. One that cannot be understood has failed.
+Result<std::vector<Verdict>> judge_criteria(FinishedRun& run);
+
+/// Its plots. One that cannot be understood is left out: `check` says why.
+Result<std::vector<NamedPlot>> study_plots(FinishedRun& run);
+
+/// The values of a measure of one thing, several cells and moments made into what is asked for.
+Result<std::vector<Sample>> measured(FinishedRun& run, const Measure& measure, const Subject& subject, const Moments& moments,
+                                     const std::string& over_cells, const std::string& over_time);
+
+/// What is expected in the place of each sample; no number where nothing is.
+Result<std::vector<double>> expected_values(FinishedRun& run, const Expectation& expected, const Measure& measure, const Subject& subject,
+                                            const std::vector<Sample>& samples, const Moments& moments, const std::string& over_time);
+
+}  // namespace morula::scenarios

@@ -1,0 +1,78 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenarios/measures/theories.h"
+#include "study/diagnostics.h"
+#include "study/study.h"
+
+namespace morula::scenarios {
+
+/// A measure with the things that it is taken of: each by itself.
+struct MeasureCall {
+  Measure measure;
+  std::vector<Subject> subjects;
+  std::string text;  ///< as the study names it: "volume(left)"
+};
+
+/// A number as a study writes it, with its unit.
+struct WrittenNumber {
+  double internal = 0.0;
+  double number = 0.0, factor = 1.0;  ///< internal = number factor
+  std::string unit;
+};
+
+/// What a measure is held against.
+struct Expectation {
+  enum class Kind { kNone, kValue, kTheory, kMeasure, kData } kind = Kind::kNone;
+  WrittenNumber value;
+  const Theory* theory = nullptr;
+  std::optional<MeasureCall> measure;
+  std::vector<double> xs, ys;  ///< of data, in internal units
+  std::string text;            ///< for people: "Young's law"
+};
+
+/// How far a measure may go.
+struct MeasureLimit {
+  enum class Kind { kWithin, kBelow, kAbove, kBetween } kind = Kind::kBelow;
+  bool relative = false;             ///< of kWithin: to what is expected
+  WrittenNumber low, high;           ///< kWithin and kBelow: `high`; kAbove: `low`
+  std::optional<MeasureCall> other;  ///< of kBelow and kAbove: the limit is what this measure finds
+};
+
+/// A criterion of a study whose words are found: what judge_criterion() needs.
+struct UnderstoodCriterion {
+  std::string id, text;
+  MeasureCall measured;
+  Moments moments;
+  std::string over_time, over_cells;
+  Expectation expected;
+  MeasureLimit limit;
+};
+
+struct UnderstoodPlot {
+  std::string name, title, source;
+  std::optional<MeasureCall> x;  ///< none: time
+  std::vector<MeasureCall> y;
+  Moments moments;
+  std::string over_cells;
+  Expectation expected;
+};
+
+/// A criterion with a measure of its own. Errors (E201–E205, E401, E402, E410–E417) stand where the words do; then there is nothing.
+std::optional<UnderstoodCriterion> understand(const Study& study, const Criterion& criterion, Diagnostics& diagnostics);
+std::optional<UnderstoodPlot> understand(const Study& study, const StudyPlot& plot, Diagnostics& diagnostics);
+
+/// Whether all criteria and plots of a study can be judged and drawn, each id asks one question once (E415): what
+/// ReadOptions::check_criteria asks.
+void check_criteria(const Study& study, Diagnostics& diagnostics);
+
+/// Columns of series.csv that its criteria and plots read: a run writes them, whatever `output.series` says.
+std::vector<std::string> series_columns(const Study& study);
+
+/// `measure(thing, thing)` and `of`, found in the study. E410, E412, E401, E402. `place`: of the text.
+std::optional<MeasureCall> find_call(const Study& study, const std::string& text, const Place& place, const MeasuredThings* of,
+                                     Diagnostics& diagnostics);
+
+}  // namespace morula::scenarios

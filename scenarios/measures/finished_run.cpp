@@ -1,0 +1,61 @@
+#include "scenarios/measures/finished_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "results/snapshot_file.h"
+
+namespace morula::scenarios {
+namespace {
+
+constexpr std::size_t kKept = 4;    // snapshots
+constexpr double kSameTime = 1e-6;  // two times that differ by less are one output; relative beyond a second
+
+}  // namespace
+
+std::vector<std::size_t> Moments::among(const std::vector<double>& times) const {
+  std::vector<std::size_t> out;
+  if (times.empty()) return out;
+  if (kind == Kind::kStart) return times.front() == 0.0 ? std::vector<std::size_t>{0} : out;
+  if (kind == Kind::kEnd) return {times.size() - 1};
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double slack = kSameTime * std::max(1.0, times[i]);
+    if (times[i] >= from - slack && times[i] <= until + slack) out.push_back(i);
+  }
+  return out;
+}
+
+Result<const SeriesTable*> FinishedRun::series() {
+  if (!series_) {
+    MORULA_TRY_ASSIGN(SeriesTable read, read_series(folder_ / "series.csv"));
+    series_ = std::move(read);
+  }
+  return &*series_;
+}
+
+Result<const std::vector<double>*> FinishedRun::snapshot_times() {
+  if (!times_) {
+    MORULA_TRY_ASSIGN(const auto entries, list_snapshots(folder_ / "results.h5"));
+    times_.emplace();
+    for (const SnapshotEntry& entry : entries) times_->push_back(entry.time);
+  }
+  return &*times_;
+}
+
+Result<std::shared_ptr<const Snapshot>> FinishedRun::snapshot(std::size_t index) {
+  for (const auto& [number, one] : kept_)
+    if (number == index) return one;
+  MORULA_TRY_ASSIGN(Snapshot read, read_snapshot(folder_ / "results.h5", index));
+  if (kept_.size() == kKept) kept_.pop_front();
+  kept_.emplace_back(index, std::make_shared<const Snapshot>(std::move(read)));
+  return kept_.back().second;
+}
+
+Result<std::shared_ptr<const Snapshot>> FinishedRun::snapshot_at(double time) {
+  MORULA_TRY_ASSIGN(const std::vector<double>* const times, snapshot_times());
+  const auto found = Moments{Moments::Kind::kBetween, time, time}.among(*times);
+  if (found.empty()) return std::shared_ptr<const Snapshot>();
+  return snapshot(found.front());
+}
+
+}  // namespace morula::scenarios

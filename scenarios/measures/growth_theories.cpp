@@ -1,0 +1,45 @@
+// How tissues grow.
+#include <algorithm>
+#include <cmath>
+
+#include "scenarios/measures/theories.h"
+
+namespace morula::scenarios {
+namespace {
+
+/// The one cell type that divides, as far as `measure` is concerned: all types, or the type of `count_<type>`. −1: none, or several.
+int dividing_type(const Model& model, const std::string& measure) {
+  int found = -1;
+  for (std::size_t t = 0; t < model.types.size(); ++t) {
+    if (measure.starts_with("count_") && measure != "count_" + model.types[t].name) continue;
+    if (!model.types[t].cycles || found >= 0) return -1;
+    found = static_cast<int>(t);
+  }
+  return found;
+}
+
+}  // namespace
+
+Theory exponential_growth() {
+  return {
+      "exponential_growth",
+      "exponential growth",
+      "Cells that all divide once in every mean duration D of their cycle, from what there was at time 0; without death and inhibition.",
+      "N(t) = N(0) 2^(t/D)",
+      "Malthus 1798; physics/cbm.md §5",
+      {"cell_count", "total_volume", "count_"},
+      [](const Study& study, const Subject&, const std::string& measure) {
+        return dividing_type(study.model, measure) >= 0 ? Status{}
+                                                        : Status(Error{ErrorKind::kInput, "needs cells of one type, with a cycle", ""});
+      },
+      [](FinishedRun& run, const Subject&, const std::string& measure, const Sample& sample) -> Result<double> {
+        MORULA_TRY_ASSIGN(const SeriesTable* const series, run.series());
+        const int type = dividing_type(run.study().model, measure);
+        const SeriesColumn* const column = series->find(measure);
+        if (type < 0 || column == nullptr || column->values.empty()) return std::nan("");
+        const double doubling = run.study().model.types[static_cast<std::size_t>(type)].cycle_duration.mean;
+        return column->values.front() * std::exp2(sample.time / doubling);
+      }};
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,65 @@
+// What loads and obstacles do.
+#include "scenarios/measures/measures.h"
+
+namespace morula::scenarios {
+namespace {
+
+const CellLoad& load_of(const Study& study, const Subject& subject) { return study.model.loads[static_cast<std::size_t>(subject.load)]; }
+
+std::vector<std::string> force_columns(const Study& study, const Subject& subject) {
+  const CellLoad& load = load_of(study, subject);
+  if (load.kind != LoadKind::kGrip) return {};
+  return {"grip_x_" + load.name, "grip_y_" + load.name, "grip_z_" + load.name};
+}
+
+}  // namespace
+
+Measure load_way_measure() {
+  Measure out{"way", "way", "Way that a grip has gone along its direction.", "", "", Quantity::kLength, MeasureOf::kLoad};
+  out.fits = [](const Study& study, const Subject& subject) -> Status {
+    const CellLoad& load = load_of(study, subject);
+    if (load.kind == LoadKind::kGrip && !load.way.empty()) return {};
+    return Error{ErrorKind::kInput, "needs a grip with a `way`", ""};
+  };
+  out.take = [](FinishedRun& run, const Subject& subject, const Moments& moments) {
+    const CellLoad& load = load_of(run.study(), subject);
+    return by_row(run, {}, moments, [&load](double time, const std::vector<double>&) { return load.way.at(time); });
+  };
+  return out;
+}
+
+Measure load_force_measure() {
+  Measure out{"force",
+              "force",
+              "Force of a load on its cells: of a grip along its direction, of a pull at each end, of a patch or body force its size.",
+              "",
+              "",
+              Quantity::kForce,
+              MeasureOf::kLoad};
+  out.fits = [](const Study& study, const Subject& subject) -> Status {
+    const LoadKind kind = load_of(study, subject).kind;
+    if (kind != LoadKind::kTraction && kind != LoadKind::kPressure) return {};
+    return Error{ErrorKind::kInput, "needs a grip, a pull, a patch or a body force", ""};
+  };
+  out.columns = &force_columns;
+  out.take = [](FinishedRun& run, const Subject& subject, const Moments& moments) {
+    const CellLoad& load = load_of(run.study(), subject);
+    return by_row(run, force_columns(run.study(), subject), moments, [&load](double time, const std::vector<double>& row) {
+      if (load.kind == LoadKind::kGrip) return dot(Vec3d{row[0], row[1], row[2]}, load.direction);
+      return (load.kind == LoadKind::kPull ? load.size : norm(load.force)) * load.course.at(time);
+    });
+  };
+  return out;
+}
+
+Measure obstacle_way_measure() {
+  Measure out{"obstacle.way",    "way of the obstacle", "Distance of an obstacle from where it was at time 0.", "", "",
+              Quantity::kLength, MeasureOf::kObstacle};
+  out.take = [](FinishedRun& run, const Subject& subject, const Moments& moments) {
+    const ObstacleSpec& obstacle = run.study().model.obstacles[static_cast<std::size_t>(subject.obstacle)];
+    return by_row(run, {}, moments, [&obstacle](double time, const std::vector<double>&) { return norm(obstacle.way(0.0, time)); });
+  };
+  return out;
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,30 @@
+#include "scenarios/measures/theories.h"
+
+#include <algorithm>
+
+namespace morula::scenarios {
+
+bool Theory::is_about(const std::string& measure) const {
+  return std::any_of(predicts.begin(), predicts.end(),
+                     [&](const std::string& one) { return one == measure || (one.ends_with('_') && measure.starts_with(one)); });
+}
+
+const std::vector<Theory>& theories() {
+  static const std::vector<Theory> all{
+      youngs_law(), elastic_cap_theory(), laplace_law(), jkr_pull_off(), exponential_growth(), pressed_drop_theory(),
+  };
+  return all;
+}
+
+const Theory* find_theory(const std::string& name) {
+  const auto found = std::find_if(theories().begin(), theories().end(), [&](const Theory& t) { return t.name == name; });
+  return found == theories().end() ? nullptr : &*found;
+}
+
+std::vector<std::string> theory_names() {
+  std::vector<std::string> out;
+  for (const Theory& theory : theories()) out.push_back(theory.name);
+  return out;
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,48 @@
+#include <cctype>
+
+#include "study/build.h"
+
+namespace morula::scenarios {
+namespace {
+
+/// A bare word after `against` is a theory; a number stays a number. The file of data becomes an input file of the study (E601–E605).
+void build_expected(BuildContext& c, ExpectedValue& against) {
+  const std::string& value = against.value.value;
+  if (against.value.known() && !against.theory.given && !value.empty() &&
+      (std::isalpha(static_cast<unsigned char>(value[0])) != 0 || value[0] == '_')) {
+    against.theory = against.value;
+    against.value = {};
+  }
+  if (!against.data.known()) return;
+  const Place place = against.data.place;
+  against.data.value = add_input_file(c, against.data);
+  (void)read_text_file(against.data.value, against.data.value, kMaxCsvBytes, place, c.diagnostics);
+}
+
+/// What has no meaning beside what is given is not written into the resolved study.
+void drop_unused(MeasuredMoments& moments, ExpectedValue& against) {
+  if ((moments.from.given || moments.until.given) && !moments.at.given) moments.at.text.clear();
+  if (!against.data.given && !against.x.given) against.x.text.clear();
+}
+
+}  // namespace
+
+void build_criteria(BuildContext& c) {
+  for (auto& [name, place, criterion] : c.draft.criteria) {
+    criterion.place = place;
+    build_expected(c, criterion.against);
+    drop_unused(criterion.moments, criterion.against);
+    if (criterion.is_of_scenario())
+      for (Given<std::string>* one : {&criterion.moments.at, &criterion.moments.over_time, &criterion.moments.over_cells})
+        if (!one->given) one->text.clear();
+    c.study.criteria.push_back(criterion);
+  }
+  for (auto& [name, place, plot] : c.draft.plots) {
+    plot.place = place;
+    build_expected(c, plot.against);
+    drop_unused(plot.moments, plot.against);
+    c.study.plots.push_back(plot);
+  }
+}
+
+}  // namespace morula::scenarios

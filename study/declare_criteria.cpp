@@ -1,0 +1,138 @@
+#include "study/declare.h"
+
+namespace morula::scenarios {
+namespace {
+
+void declare_things(Section& s, MeasuredThings& of) {
+  s.group({.name = "of",
+           .doc = "What the measure is taken of. Each measure says which of these it needs.",
+           .optional_section = true,
+           .shorthand = "type",
+           .example = "left"},
+          of.present, [&of](Section& o) {
+            o.one_or_more({.name = "type", .doc = "A cell type, or several, each by itself.", .example = "left"}, of.type);
+            o.words(
+                {.name = "pair", .doc = "Two cell types that touch each other; of one type: two cells of it.", .example = "[left, left]"},
+                of.pair);
+            o.text({.name = "cell", .doc = "The id of a cell; `all`: every cell of the tissue.", .example = "all"}, of.cell);
+            o.one_or_more({.name = "load", .doc = "An external load, or several, each by itself.", .example = "pull"}, of.load);
+            o.one_or_more({.name = "obstacle", .doc = "An obstacle, or several, each by itself.", .example = "glass"}, of.obstacle);
+            o.one_or_more({.name = "field", .doc = "A field, or several, each by itself.", .example = "oxygen"}, of.field);
+          });
+}
+
+/// `of_plot`: each output, and the mean of the cells.
+void declare_moments(Section& s, MeasuredMoments& m, bool of_plot) {
+  s.text({.name = "at",
+          .doc = "When: `end` or `start` of the run, `every` output, or the time of an output.",
+          .fallback = of_plot ? "every" : "end",
+          .example = "6 h",
+          .source = "chosen"},
+         m.at);
+  s.quantity({.name = "from",
+              .doc = "With `until`, instead of `at`: every output from this time on.",
+              .quantity = Quantity::kTime,
+              .low = 0.0,
+              .example = "2 h"},
+             m.from);
+  s.quantity({.name = "until", .doc = "Every output up to this time.", .quantity = Quantity::kTime, .low = 0.0, .example = "6 h"}, m.until);
+  s.word({.name = "over_cells",
+          .doc = "What is made of several cells. `each`: every cell for itself.",
+          .fallback = of_plot ? "mean" : "each",
+          .words = {"each", "min", "max", "mean", "sum"},
+          .example = "mean",
+          .source = "chosen"},
+         m.over_cells);
+  if (of_plot) return;
+  s.word(
+      {.name = "over_time",
+       .doc =
+           "What is made of several moments. `each`: every moment for itself. `rise`: last less first; `growth`: last over first, less 1; "
+           "`slope`: that of the straight line through all, per time.",
+       .fallback = "each",
+       .words = {"each", "first", "last", "min", "max", "mean", "rise", "growth", "slope"},
+       .example = "max",
+       .source = "chosen"},
+      m.over_time);
+}
+
+void declare_expected(Section& s, ExpectedValue& against, const char* doc) {
+  s.group({.name = "against", .doc = doc, .optional_section = true, .shorthand = "value", .example = "youngs_law"}, against.present,
+          [&against](Section& a) {
+            a.any_quantity(
+                {.name = "value", .doc = "A number with the unit of the measure; a word is the name of a theory.", .example = "0.5 nN"},
+                against.value);
+            a.text({.name = "theory", .doc = "A theory by its name; `morula explain theories` lists them.", .example = "youngs_law"},
+                   against.theory);
+            a.text({.name = "measure",
+                    .doc = "Another measure of the same run, at the same moments: `measure(thing)`.",
+                    .example = "volume(control)"},
+                   against.measure);
+            a.text({.name = "data", .doc = "A CSV file whose header gives each column as `name [unit]`.", .example = "force.csv"},
+                   against.data);
+            a.text({.name = "x",
+                    .doc = "The column of the file that lies along: times, or what the plot has as x.",
+                    .fallback = "time",
+                    .example = "time",
+                    .source = "chosen"},
+                   against.x);
+            a.text({.name = "y", .doc = "The column of the file that is compared.", .example = "force"}, against.y);
+            a.text({.name = "source",
+                    .doc = "Where these numbers come from; shown in the report.",
+                    .fallback = "",
+                    .example = "Chu et al. 2005, doi:10.1103/PhysRevLett.94.028102"},
+                   against.source);
+          });
+}
+
+}  // namespace
+
+void declare_criterion(Section& s, Criterion& c) {
+  s.text({.name = "id",
+          .doc = "Its name in verdict.json. With nothing beside it: a criterion of the study's scenario.",
+          .required = true,
+          .example = "S6.1"},
+         c.id);
+  s.text({.name = "measure",
+          .doc = "What is measured in the finished run: a measure by name, or a column of series.csv; `measure(thing)` also says of what. "
+                 "`morula "
+                 "explain measures` lists them.",
+          .example = "cap.angle"},
+         c.measure);
+  declare_things(s, c.of);
+  declare_moments(s, c.moments, false);
+  declare_expected(s, c.against, "What the measure must be near to, by `within`: a number, a theory, another measure, or data over time.");
+  s.any_quantity(
+      {.name = "within", .doc = "How near to `against`: with the unit of the measure, or in % of what is expected.", .example = "4 deg"},
+      c.within);
+  s.any_quantity(
+      {.name = "below", .doc = "Largest value: with the unit of the measure, or another measure, `measure(thing)`.", .example = "0.3 um"},
+      c.below);
+  s.any_quantity(
+      {.name = "above", .doc = "Smallest value: with the unit of the measure, or another measure, `measure(thing)`.", .example = "0.5 nN"},
+      c.above);
+  s.any_quantities({.name = "between", .doc = "Smallest and largest value.", .example = "[350, 450]"}, c.between);
+  s.text({.name = "text",
+          .doc = "What it asks, for people. Not given: made from the measure.",
+          .fallback = "",
+          .example = "contact angle against Young's law"},
+         c.text);
+}
+
+void declare_study_plot(Section& s, StudyPlot& p) {
+  s.text({.name = "name",
+          .doc = "Name of its files in plots/: letters, digits, `_` and `-`. Not given: made from the measures.",
+          .fallback = "",
+          .example = "force_way"},
+         p.name);
+  s.text({.name = "title", .doc = "Its title. Not given: made from the measures.", .fallback = "", .example = "Pull-off"}, p.title);
+  s.text({.name = "x", .doc = "What lies along: `time`, or a measure.", .fallback = "time", .example = "way(pull)", .source = "chosen"},
+         p.x);
+  s.one_or_more({.name = "y", .doc = "The measure that is shown, or several in one unit.", .required = true, .example = "force(pull)"},
+                p.y);
+  declare_things(s, p.of);
+  declare_moments(s, p.moments, true);
+  declare_expected(s, p.against, "What is drawn beside it: a number, a theory, another measure or data.");
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,154 @@
+// Criteria and plots that a study declares, judged on runs of study files with default parameters.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "results/series_reader.h"
+#include "scenarios/criteria/judge_criteria.h"
+#include "scenarios/library/criteria.h"
+#include "scenarios/run/driver.h"
+#include "tests/results/results_support.h"
+#include "tests/study/study_fixture.h"
+
+namespace morula::scenarios {
+namespace {
+
+using testing::HasSubstr;
+
+/// Two shells that do not touch, a sphere, and a type without cells.
+constexpr const char* kApart = R"(schema: 1
+study: apart
+time: {end: 4 min, output: 1 min}
+domain: {size: [100 um, 100 um, 100 um]}
+cell_types:
+  cell: {radius: 6 um, dcm: {nodes: 42}}
+  ball: {radius: 5 um, dcm: {nodes: 42}}
+  none: {radius: 5 um, dcm: {nodes: 42}}
+contact: {range: 1 um}
+geometry:
+  lid: {plane: {center: [0 um, 0 um, 40 um], normal: [0, 0, -1], size: 20 um}, motion: {velocity: [0 um/min, 0 um/min, -1 um/min]}}
+initial:
+  - {type: cell, at: [[-20 um, 0 um, 0 um], [20 um, 0 um, 0 um]], as: shell}
+  - {type: ball, at: [[0 um, 20 um, 0 um]], as: sphere}
+output: {series: [cell_count], report: true}
+criteria:
+CRITERIA
+plots:
+  - {name: volumes, y: [volume(cell), volume(ball)], against: 900 um^3}
+  - {name: lid, x: obstacle.way(lid), y: pressure(cell), title: Under the lid}
+  - {name: pressures, y: pressure_inside, of: [cell, ball], at: end, x: radius, against: laplace}
+  - {name: counted, y: cell_count, against: {data: count.csv, y: cells, source: a count}}
+)";
+
+class OwnCriteria : public testing::Test {
+ protected:
+  /// Runs the study once; false where it does not run.
+  bool runs(const std::string& criteria) {
+    folder_.write("count.csv", "time [min],cells\n0,3\n4,3\n");
+    ReadOptions options;
+    options.check_criteria = &check_criteria;
+    auto study = test::read(test::changed("CRITERIA", criteria, kApart), options, folder_.path());
+    EXPECT_TRUE(study.ok()) << study.error().text();
+    if (!study.ok()) return false;
+    study_ = std::move(study).value();
+    RunRequest request;
+    request.out = folder_.path() / "run";
+    auto done = run(study_, request, Comm());
+    EXPECT_TRUE(done.ok()) << done.error().message;
+    if (!done.ok()) return false;
+    for (const Verdict& v : done->verdicts) verdicts_.emplace(v.id, v);
+    passed_ = done->passed;
+    return true;
+  }
+  [[nodiscard]] const Verdict& verdict(const std::string& id) {
+    EXPECT_TRUE(verdicts_.contains(id)) << id;
+    return verdicts_.find(id)->second;
+  }
+
+  test::Folder folder_;
+  Study study_;
+  std::multimap<std::string, Verdict> verdicts_;
+  bool passed_ = false;
+};
+
+TEST_F(OwnCriteria, PassFailOrFindNothingAndAreTold) {
+  ASSERT_TRUE(runs(R"(  - {id: PASS, measure: volume(cell), between: [850 um^3, 950 um^3]}
+  - {id: FAIL, measure: volume(cell), above: 1e-6 mm^3}
+  - {id: NOTHING, measure: volume(none), above: 1 um^3}
+  - {id: NO_PAIR, measure: cap.angle, of: {pair: [cell, ball]}, below: 90 deg}
+  - {id: TOO_FEW, measure: cell_count, at: start, over_time: slope, below: 1 1/s}
+  - {id: EACH, measure: volume, of: [cell, ball], below: 800 um^3})"));
+  EXPECT_FALSE(passed_);
+  const Verdict pass = verdict("PASS");
+  EXPECT_TRUE(pass.passed) << pass.value;
+  EXPECT_EQ(pass.limit, "850 to 950 um^3");
+  EXPECT_EQ(pass.quantity, "volume, cell");
+  const Verdict fail = verdict("FAIL");
+  EXPECT_FALSE(fail.passed);
+  EXPECT_EQ(fail.limit, ">= 1e-06 mm^3");
+  EXPECT_NEAR(fail.value, 900e-9, 50e-9);
+  for (const char* id : {"NOTHING", "NO_PAIR", "TOO_FEW"}) {
+    EXPECT_FALSE(verdict(id).passed) << id;
+    EXPECT_TRUE(std::isnan(verdict(id).value)) << id;
+  }
+  ASSERT_EQ(verdicts_.count("EACH"), 2u);  // each thing by itself: the shells are too large, the sphere is not
+  const auto [each, end] = verdicts_.equal_range("EACH");
+  EXPECT_FALSE(each->second.passed);
+  EXPECT_TRUE(std::next(each)->second.passed);
+  EXPECT_EQ(std::next(each)->second.quantity, "volume, ball");
+}
+
+TEST_F(OwnCriteria, FindTheValuesThatAreKnown) {
+  ASSERT_TRUE(runs(R"(  - {id: BALL, measure: volume(ball), against: 523.5987756 um^3, within: 1e-6 %}
+  - {id: WIDTH, measure: width_x(ball), against: 10 um, within: 1e-9 um}
+  - {id: SUM, measure: volume(all), over_cells: sum, against: 2333 um^3, within: 2 %}
+  - {id: ROUND, measure: elongation(cell), at: every, between: [1, 1.01]}
+  - {id: SPHERICITY, measure: sphericity(ball), against: 1, within: 1e-12}
+  - {id: LAPLACE, measure: pressure_inside(cell), against: laplace, within: 15 %}
+  - {id: STILL, measure: displacement(all), over_time: max, at: every, below: 0.1 um}
+  - {id: LID, measure: obstacle.way(lid), against: 4 um, within: 1e-9 um}
+  - {id: LID.speed, measure: obstacle.way(lid), at: every, over_time: slope, against: 1 um/min, within: 1e-9 um/min}
+  - {id: LID.rise, measure: obstacle.way(lid), from: 1 min, until: 3 min, over_time: rise, against: 2 um, within: 1e-9 um}
+  - {id: LID.growth, measure: obstacle.way(lid), from: 1 min, over_time: growth, against: 300 %, within: 1e-9}
+  - {id: COUNT, measure: cell_count, at: every, against: {data: count.csv, y: cells}, within: 0}
+  - {id: SAME, measure: volume(cell), against: {measure: volume(cell)}, within: 1 um^3}
+  - {id: LARGER, measure: volume(cell), above: volume(ball)}
+  - {id: SMALLER, measure: volume(cell), below: volume(ball)}
+  - {id: FIRST, measure: width_x, of: {cell: 1}, at: 2 min, between: [11 um, 13 um]})"));
+  for (const auto& [id, v] : verdicts_)
+    EXPECT_EQ(v.passed, id != "SMALLER") << id << ": " << v.quantity << " is " << v.value << ", wanted " << v.limit;
+  EXPECT_EQ(verdict("SMALLER").limit, "<= 523.599 um^3");
+  EXPECT_EQ(verdict("SMALLER").quantity, "volume below volume(ball), cell");
+  EXPECT_EQ(verdict("LID.speed").quantity, "way of the obstacle against 1 um/min, slope over time, lid");
+}
+
+TEST_F(OwnCriteria, PlotsStandInTheReportAndBesideIt) {
+  ASSERT_TRUE(runs("  - {id: PASS, measure: cell_count, above: 3}"));
+  EXPECT_TRUE(passed_);
+  const auto plots = scenario_plots(study_, folder_.path() / "run");
+  ASSERT_TRUE(plots.ok()) << plots.error().message;
+  ASSERT_EQ(plots->size(), 4u);
+  EXPECT_EQ((*plots)[0].plot.curves.size(), 2u);
+  EXPECT_EQ((*plots)[0].plot.curves[0].x.size(), 5u);
+  EXPECT_EQ((*plots)[0].plot.limits.size(), 1u);
+  const CurvePlot& lid = (*plots)[1].plot;
+  EXPECT_EQ(lid.title, "Under the lid");
+  EXPECT_EQ(lid.y.unit, "Pa");
+  ASSERT_EQ(lid.curves.size(), 1u);
+  EXPECT_NEAR(lid.curves[0].x.back(), 4.0, 1e-9);
+  const CurvePlot& pressures = (*plots)[2].plot;  // one moment: a point for each type, and the theory beside it
+  ASSERT_EQ(pressures.curves.size(), 2u);
+  EXPECT_EQ(pressures.curves[0].x.size(), 2u);
+  EXPECT_EQ(pressures.curves[1].name, "Laplace's law");
+  EXPECT_EQ((*plots)[3].plot.curves.back().name, "a count");
+  const std::string report = testing_support::slurp(folder_.path() / "run/report.html");
+  for (const char* words : {"Under the lid", "Laplace", "a count", "criteria passed"}) EXPECT_THAT(report, HasSubstr(words));
+  for (const char* name : {"volumes.svg", "volumes.csv", "lid.svg", "pressures.svg", "counted.svg"})
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / "run/plots" / name)) << name;
+}
+
+}  // namespace
+}  // namespace morula::scenarios

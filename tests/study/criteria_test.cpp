@@ -1,0 +1,225 @@
+// Criteria and plots that a study declares: what `check` says of them.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "results/observables/observables.h"
+#include "scenarios/criteria/understand.h"
+#include "scenarios/measures/measures.h"
+#include "study/catalogue.h"
+#include "tests/study/study_fixture.h"
+
+namespace morula::scenarios::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// Two cells that touch, one of which a grip pulls, and one on a plane; CRITERIA and PLOTS are put in.
+constexpr const char* kPulled = R"(schema: 1
+study: pulled
+time: {end: 1 h, output: 10 min}
+domain: {size: [100 um, 100 um, 100 um]}
+cell_types:
+  left: {radius: 6 um, adhesion: {left: 0 J/m^2, right: 0.1 mJ/m^2, glass: 0.05 mJ/m^2}, dcm: {nodes: 162, cortex: {tension: 0.1 mN/m}}}
+  right: {radius: 6 um, adhesion: {right: 0 J/m^2, glass: 0 J/m^2}, dcm: {nodes: 162, cortex: {tension: 0.1 mN/m}}}
+contact: {range: 0.5 um}
+geometry:
+  glass: {plane: {center: [0 um, 0 um, -20 um], normal: [0, 0, 1], size: 20 um}}
+initial:
+  - {type: left, at: [[0 um, 0 um, -6 um]], as: shell, orientation: aligned}
+  - {type: right, at: [[0 um, 0 um, 6 um]], as: shell, orientation: aligned}
+loads:
+  pull: {type: right, grip: {axis: [0, 0, 1], part: 20 %, ends: high, stiffness: 10 mN/m, center: [0 um, 0 um, 6 um], direction: [0, 0, 1],
+         way: [{time: 0 s, distance: 0 um}, {time: 30 min, distance: 3 um}]}}
+  push: {type: left, body_force: [0 nN, 0 nN, 1 pN]}
+fields:
+  oxygen: {diffusion: 2e-9 m^2/s, initial: 0.2 mM, boundary: {all: 0.2 mM}}
+output: {series: [cell_count]}
+CRITERIA)";
+
+ReadOptions with_criteria() {
+  ReadOptions options;
+  options.check_criteria = &check_criteria;
+  return options;
+}
+
+std::string study_with(const std::string& what) { return changed("CRITERIA", what, kPulled); }
+std::string criterion(const std::string& what) { return study_with("criteria:\n  - {id: A.1, " + what + "}\n"); }
+
+/// The only message of a study with this criterion.
+std::string message_of(const std::string& what, const Folder* folder = nullptr) {
+  const auto study = read(criterion(what), with_criteria(), folder != nullptr ? folder->path() : ".");
+  EXPECT_FALSE(study.ok()) << what;
+  if (study.ok()) return "";
+  EXPECT_EQ(study.error().error_count(), 1u) << study.error().text();
+  for (const Diagnostic& d : study.error().list()) EXPECT_GT(d.place.line, 20) << d.text;  // where the criterion is
+  return study.error().text();
+}
+
+TEST(Criteria, OfEveryKindAreRead) {
+  const Folder folder;
+  folder.write("data.csv", "time [min],force [pN]\n0,1\n60,5\n");
+  const auto study = read(study_with(R"(scenario: doublet
+criteria:
+  - S6.2
+  - {id: DOUBLET.drift}
+  - {id: A, measure: cap.angle, of: {pair: [left, right]}, against: youngs_law, within: 4 deg}
+  - {id: A, measure: cap.angle, of: {type: left, obstacle: glass}, against: youngs_law, within: 5 %}
+  - {id: B, measure: volume, of: [left, right], at: every, between: [800 um^3, 1000 um^3]}
+  - {id: C, measure: force(pull), from: 10 min, until: 30 min, over_time: max, against: jkr_pull_off, within: 50 %}
+  - {id: D, measure: force(pull), against: {data: data.csv, y: force, source: a test}, within: 1 nN}
+  - {id: E, measure: energy, over_time: slope, at: every, below: 0 fJ/h}
+  - {id: F, measure: contact_area(left), above: contact_area(right)}
+  - {id: G, measure: concentration, of: {type: left, field: oxygen}, at: 30 min, above: 0.1 mM}
+  - {id: H, measure: volume, of: {cell: all}, over_cells: sum, against: 1810 um^3, within: 2 %}
+  - {id: I, measure: cell_count, below: 2}
+plots:
+  - {x: way(pull), y: force(pull), against: {theory: jkr_pull_off}}
+  - {name: volumes, y: [volume(left), volume(right)], title: Volumes}
+)"),
+                          with_criteria(), folder.path());
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  ASSERT_EQ(study->criteria.size(), 12u);
+  EXPECT_TRUE(study->criteria[1].is_of_scenario());
+  Diagnostics none;
+  const auto angle = understand(*study, study->criteria[2], none);
+  ASSERT_TRUE(angle) << none.text();
+  EXPECT_EQ(angle->expected.theory->name, "youngs_law");
+  EXPECT_NEAR(angle->limit.high.internal, 4.0 * 3.14159265358979 / 180.0, 1e-12);
+  const auto slope = understand(*study, study->criteria[7], none);
+  ASSERT_TRUE(slope) << none.text();
+  EXPECT_NEAR(slope->limit.high.factor, 1.0 / 3600.0, 1e-12);
+  EXPECT_EQ(understand(*study, study->criteria[4], none)->measured.subjects.size(), 2u);
+  EXPECT_EQ(understand(*study, study->plots[0], none)->name, "force_pull_over_way_pull");
+  // What a run writes holds what is judged and shown, though `output.series` names other columns.
+  EXPECT_THAT(series_columns(*study), testing::IsSupersetOf({"energy", "grip_x_pull", "grip_y_pull", "grip_z_pull", "cell_count"}));
+  // The resolved study says the same.
+  folder.write("inputs/data.csv", "time [min],force [pN]\n0,1\n60,5\n");
+  const auto again = read(study->resolved_text, with_criteria(), folder.path());
+  ASSERT_TRUE(again.ok()) << again.error().text() << study->resolved_text;
+  EXPECT_EQ(again->criteria.size(), 12u);
+  EXPECT_EQ(again->criteria[2].against.theory.value, "youngs_law");
+  EXPECT_EQ(again->plots[1].title.value, "Volumes");
+}
+
+TEST(Criteria, OfUnknownMeasuresTheoriesAndThingsAreRefusedWithSuggestions) {
+  EXPECT_THAT(message_of("measure: cap.angel, of: {pair: [left, right]}, above: 3 deg"),
+              AllOf(HasSubstr("there is no measure 'cap.angel'"), HasSubstr("did you mean `cap.angle`?"), HasSubstr("E410")));
+  EXPECT_THAT(message_of("measure: cell_cuont, above: 3"), AllOf(HasSubstr("did you mean `cell_count`?"), HasSubstr("E410")));
+  EXPECT_THAT(message_of("measure: 'volume(left', above: 3 um^3"), HasSubstr("E410"));
+  EXPECT_THAT(message_of("measure: cap.angle, of: {pair: [left, right]}, against: young_law, within: 3 deg"),
+              AllOf(HasSubstr("there is no theory 'young_law'"), HasSubstr("`youngs_law`"), HasSubstr("E411")));
+  EXPECT_THAT(message_of("measure: volume, of: {type: lefft}, above: 3 um^3"),
+              AllOf(HasSubstr("there is no cell type 'lefft'"), HasSubstr("`left`"), HasSubstr("E401")));
+  EXPECT_THAT(message_of("measure: volume(lefft), above: 3 um^3"), HasSubstr("E401"));
+  EXPECT_THAT(message_of("measure: cap.angle, of: {type: left, obstacle: gless}, above: 3 deg"), HasSubstr("E401"));
+  EXPECT_THAT(message_of("measure: force(pul), above: 3 nN"), AllOf(HasSubstr("there is no load 'pul'"), HasSubstr("`pull`")));
+  EXPECT_THAT(message_of("measure: concentration, of: {type: left, field: oxigen}, above: 3 mM"), HasSubstr("E402"));
+}
+
+TEST(Criteria, AreTakenOfWhatTheMeasureIsTakenOf) {
+  EXPECT_THAT(message_of("measure: volume, above: 3 um^3"), AllOf(HasSubstr("of what?"), HasSubstr("{type: left}"), HasSubstr("E412")));
+  EXPECT_THAT(message_of("measure: volume, of: {load: pull}, above: 3 um^3"),
+              AllOf(HasSubstr("is not taken of a load"), HasSubstr("E412")));
+  EXPECT_THAT(message_of("measure: energy, of: {type: left}, above: 3 fJ"), HasSubstr("leave `of` away"));
+  EXPECT_THAT(message_of("measure: energy(left), above: 3 fJ"), HasSubstr("E412"));
+  EXPECT_THAT(message_of("measure: cap.angle, of: {pair: [left]}, above: 3 deg"), HasSubstr("needs 2"));
+  EXPECT_THAT(message_of("measure: way(push), above: 3 um"), HasSubstr("needs a grip with a `way`"));
+  EXPECT_THAT(message_of("measure: volume, of: {tipe: left}, above: 3 um^3"), AllOf(HasSubstr("unknown key 'tipe'"), HasSubstr("E101")));
+}
+
+TEST(Criteria, HaveOneLimitInTheUnitOfTheMeasure) {
+  EXPECT_THAT(message_of("measure: volume(left)"), AllOf(HasSubstr("has no limit"), HasSubstr("E414")));
+  EXPECT_THAT(message_of("measure: volume(left), above: 3 um^3, below: 9 um^3"), HasSubstr("more than one limit"));
+  EXPECT_THAT(message_of("measure: volume(left), within: 3 um^3"), HasSubstr("`within` without `against`"));
+  EXPECT_THAT(message_of("measure: volume(left), against: 3 um^3"), HasSubstr("`against` without `within`"));
+  EXPECT_THAT(message_of("measure: volume(left), against: {value: 3 um^3, measure: volume(right)}, within: 3 %"),
+              HasSubstr("several things"));
+  EXPECT_THAT(message_of("measure: volume(left), above: 3 um"), AllOf(HasSubstr("is a volume"), HasSubstr("E203")));
+  EXPECT_THAT(message_of("measure: volume(left), above: 3"), HasSubstr("E201"));
+  EXPECT_THAT(message_of("measure: cell_count, above: 3 um"), HasSubstr("E205"));
+  EXPECT_THAT(message_of("measure: volume(left), against: 3 um^3, within: 3 nN"), HasSubstr("E203"));
+  EXPECT_THAT(message_of("measure: volume(left), at: every, over_time: slope, above: 3 um^3"), HasSubstr("per time"));
+  EXPECT_THAT(message_of("measure: volume(left), above: area(left)"), AllOf(HasSubstr("is an area"), HasSubstr("E203")));
+  EXPECT_THAT(message_of("measure: volume(left), between: [3 um^3]"), HasSubstr("E303"));
+  EXPECT_THAT(message_of("measure: volume(left), between: [3 um^3, 2 um^3]"), HasSubstr("E414"));
+  EXPECT_THAT(message_of("above: 3 um^3"), AllOf(HasSubstr("has no `measure`"), HasSubstr("E414")));
+}
+
+TEST(Criteria, AreHeldAgainstTheoriesThatFit) {
+  EXPECT_THAT(message_of("measure: volume(left), against: youngs_law, within: 3 %"),
+              AllOf(HasSubstr("'youngs_law' says nothing about 'volume'"), HasSubstr("it predicts cap.angle"), HasSubstr("E413")));
+  EXPECT_THAT(message_of("measure: cap.contact_radius, of: {pair: [left, right]}, against: elastic_cap, within: 3 %"),
+              AllOf(HasSubstr("'elastic_cap' knows cells of 642 nodes"), HasSubstr("E413")));
+  EXPECT_THAT(message_of("measure: cell_count, against: exponential_growth, within: 3 %"), HasSubstr("with a cycle"));
+}
+
+TEST(Criteria, AskForOutputsThatTheRunHas) {
+  EXPECT_THAT(message_of("measure: cell_count, at: 7 min, above: 3"),
+              AllOf(HasSubstr("the run writes nothing at 7 min"), HasSubstr("E416")));
+  EXPECT_THAT(message_of("measure: cell_count, at: 2 h, above: 3"), HasSubstr("E416"));
+  EXPECT_THAT(message_of("measure: cell_count, at: 10 um, above: 3"), HasSubstr("E203"));
+  EXPECT_THAT(message_of("measure: cell_count, at: end, from: 10 min, above: 3"), HasSubstr("E416"));
+  EXPECT_THAT(message_of("measure: cell_count, from: 30 min, until: 10 min, above: 3"), HasSubstr("E416"));
+}
+
+TEST(Criteria, AskEachQuestionOnce) {
+  for (const char* twice : {"criteria:\n  - {id: A, measure: cell_count, above: 3}\n  - {id: A, measure: cell_count, above: 4}\n",
+                            "scenario: doublet\ncriteria: [S6.2, S6.2]\n",
+                            "scenario: doublet\ncriteria: [S6.2, {id: S6.2, measure: cell_count, above: 3}]\n"}) {
+    EXPECT_THAT(errors_of(study_with(twice), with_criteria()), AllOf(HasSubstr("stands twice"), HasSubstr("E415"))) << twice;
+  }
+  EXPECT_TRUE(
+      read(study_with("criteria:\n  - {id: A, measure: volume(left), above: 3 um^3}\n  - {id: A, measure: volume(right), above: 3 um^3}\n"),
+           with_criteria())
+          .ok());
+}
+
+TEST(Criteria, ReadDataThatCanBeCompared) {
+  const Folder folder;
+  folder.write("good.csv", "time [h],count\n0,1\n1,2\n");
+  folder.write("units.csv", "time [um],count\n0,1\n1,2\n");
+  folder.write("order.csv", "time [h],count\n1,1\n0,2\n");
+  const auto with = [&](const std::string& data) {
+    return message_of("measure: cell_count, against: {data: " + data + "}, within: 1", &folder);
+  };
+  EXPECT_TRUE(read(criterion("measure: cell_count, against: {data: good.csv, y: count}, within: 1"), with_criteria(), folder.path()).ok());
+  EXPECT_THAT(with("missing.csv, y: count"), HasSubstr("E601"));
+  EXPECT_THAT(with("good.csv, y: coumt"), AllOf(HasSubstr("no column 'coumt'"), HasSubstr("`count`"), HasSubstr("E417")));
+  EXPECT_THAT(with("good.csv"), HasSubstr("which column"));
+  EXPECT_THAT(with("units.csv, y: count"), HasSubstr("has the unit 'um', but is compared with a time"));
+  EXPECT_THAT(with("order.csv, y: count"), HasSubstr("does not increase"));
+}
+
+TEST(Plots, AreRefusedWhereTheyCannotBeDrawn) {
+  const auto told = [](const std::string& plots) { return errors_of(study_with("plots:\n" + plots), with_criteria()); };
+  EXPECT_THAT(told("  - {y: volum(left)}\n"), AllOf(HasSubstr("`volume`"), HasSubstr("E410")));
+  EXPECT_THAT(told("  - {x: way(pull), y: [force(pull), volume(left)]}\n"), HasSubstr("make two plots"));
+  EXPECT_THAT(told("  - {y: volume(left)}\n  - {y: volume(left)}\n"), HasSubstr("two plots are called 'volume_left'"));
+  EXPECT_THAT(told("  - {name: a b, y: volume(left)}\n"), HasSubstr("E112"));
+  EXPECT_THAT(told("  - {y: []}\n"), HasSubstr("E104"));
+}
+
+TEST(Registry, NamesNoMeasureAndNoTheoryTwiceAndSaysWhatTheyAre) {
+  const auto study = read(study_with(""));
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  std::vector<std::string> names = measure_names(study->model);  // columns of series.csv, too
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+  for (const Measure& measure : measures()) {
+    EXPECT_THAT(measure.doc, testing::EndsWith(".")) << measure.name;
+    EXPECT_FALSE(measure.title.empty());
+    EXPECT_TRUE(measure.take) << measure.name;
+  }
+  for (const Theory& theory : theories()) {
+    EXPECT_FALSE(theory.source.empty() || theory.formula.empty() || theory.predicts.empty()) << theory.name;
+    for (const std::string& one : theory.predicts)
+      EXPECT_TRUE(one.ends_with('_') || find_measure(study->model, one)) << theory.name << " predicts " << one;
+  }
+  for (const Observable& column : observables(study->model)) EXPECT_TRUE(series_measure(study->model, column.name)) << column.name;
+}
+
+}  // namespace
+}  // namespace morula::scenarios::test
