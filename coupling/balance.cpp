@@ -42,17 +42,17 @@ BalanceReport balance(Tissue& tissue, Partition& partition, ShapeLibrary& shapes
   }
   const std::vector<int> owner = partition.balance(position, weight, comm);
   std::vector<CellRecord> kept;
-  std::vector<std::vector<std::byte>> outgoing(static_cast<std::size_t>(comm.size()));
+  Mail outgoing;
   BalanceReport report;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (owner[i] == comm.rank()) {
       kept.push_back(std::move(cells[i]));
     } else {
-      append_bytes(cells[i], outgoing[static_cast<std::size_t>(owner[i])]);
+      append_bytes(cells[i], outgoing[owner[i]]);
       ++report.moved;
     }
   }
-  for (const auto& bytes : comm.exchange(outgoing)) {
+  for (const auto& [rank, bytes] : comm.exchange(std::move(outgoing))) {
     auto arrived = read_records(bytes, shapes);
     std::move(arrived.begin(), arrived.end(), std::back_inserter(kept));
   }

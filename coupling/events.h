@@ -6,6 +6,8 @@
 
 namespace morula {
 
+struct Model;
+
 enum class EventKind : std::uint8_t {
   kDivision,
   kDivisionWaits,  ///< a shell reached its division volume
@@ -16,13 +18,35 @@ enum class EventKind : std::uint8_t {
   kWarning,
 };
 
-/// Something that happened to a cell; written to events.jsonl, one line each, in the order of (time, kind, cell).
+/// Why something happened, as data: text_of() makes the words for it, where they are written.
+struct EventReason {
+  enum class Cause : std::uint8_t {
+    kNone,
+    kDivisionVolume,
+    kDivisionVolumeAsShell,
+    kLongLineage,       ///< it cannot divide once more
+    kLowConcentration,  ///< `number`: of the cell's type
+    kShrunk,
+    kRegion,   ///< `number`: of the region, in Model::swaps
+    kTrigger,  ///< `number`: of the trigger, in Model::swaps
+    kOutside,  ///< of all regions and triggers
+  };
+  Cause cause = Cause::kNone;
+  bool no_room = false;  ///< it had become a shell and found no room among its neighbours
+  std::uint32_t number = 0;
+};
+
+/// Something that happened to a cell; written to events.jsonl, one line each, in the order of (time, kind, cell). Plain data: it travels
+/// between ranks as it is.
 struct Event {
   double time = 0.0;
   EventKind kind{};
   CellId cell;
   CellId first_daughter, second_daughter;
-  std::string text;  ///< the reason, for people
+  EventReason reason;
 };
+
+/// The reason, for people: "region core", "shrunk below the volume at which a dead cell is removed"; nothing for no cause.
+[[nodiscard]] std::string text_of(const EventReason& reason, const Model& model);
 
 }  // namespace morula

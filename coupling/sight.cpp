@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 #include "core/parallel/order_free_sum.h"
@@ -95,14 +94,7 @@ void SightMap::add_ball(const Vec3d& center, double radius) {
 
 void SightMap::join(const Comm& comm) {
   distance_ = own_;
-  if (comm.size() == 1) return;
-  const auto all = comm.gather_to_all(std::as_bytes(std::span(own_)));
-  for (std::size_t at = 0; at < all.size(); at += own_.size() * sizeof(double))
-    for (std::size_t i = 0; i < own_.size(); ++i) {
-      double there;
-      std::memcpy(&there, all.data() + at + i * sizeof(double), sizeof there);
-      distance_[i] = std::min(distance_[i], there);
-    }
+  comm.min(distance_);
 }
 
 std::vector<std::uint32_t> SightMap::seen() const {

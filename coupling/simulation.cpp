@@ -29,13 +29,6 @@ constexpr double kEasing = 600.0;
 /// A promoted cell that is left this deep within a neighbour has no room: it stays a sphere for now [µm].
 constexpr double kNoRoom = 0.5;
 
-template <class T>
-std::vector<std::byte> bytes_of(const std::vector<T>& items) {
-  std::vector<std::byte> out(items.size() * sizeof(T));
-  if (!out.empty()) std::memcpy(out.data(), items.data(), out.size());
-  return out;
-}
-
 /// The cells of this list that lie deeper than this within another surface, as the contacts were found last. `these` is sorted; so is the answer.
 std::vector<CellId> too_deep(const Mechanics& mechanics, std::span<const CellId> these, double depth) {
   const auto bodies = mechanics.scene().bodies();
@@ -66,7 +59,7 @@ void take_back(Tissue& tissue, std::vector<CellRecord> before, std::span<const C
   for (Event& event : events) {
     if (event.kind != EventKind::kPromotion || !goes_back(event.cell)) continue;
     event.kind = EventKind::kWarning;
-    event.text = "no room among its neighbours to become a shell (" + event.text + "); it stays a sphere until the hold time is over";
+    event.reason.no_room = true;
   }
 }
 
@@ -402,30 +395,10 @@ std::vector<Event> Simulation::all_events(std::vector<Event> mine) const {
     return a.cell < b.cell;
   };
   if (comm_.size() > 1) {
-    struct Packed {
-      double time;
-      CellId cell, first, second;
-      std::uint32_t kind, length;
-    };
-    std::vector<std::byte> bytes;
-    for (const Event& event : mine) {
-      const std::vector<Packed> head{{event.time, event.cell, event.first_daughter, event.second_daughter,
-                                      static_cast<std::uint32_t>(event.kind), static_cast<std::uint32_t>(event.text.size())}};
-      const auto packed = bytes_of(head);
-      bytes.insert(bytes.end(), packed.begin(), packed.end());
-      const auto* text = reinterpret_cast<const std::byte*>(event.text.data());  // NOLINT
-      bytes.insert(bytes.end(), text, text + event.text.size());
-    }
-    const auto all = comm_.gather_to_all(bytes);
-    mine.clear();
-    for (std::size_t at = 0; at < all.size();) {
-      Packed head;
-      std::memcpy(static_cast<void*>(&head), all.data() + at, sizeof head);
-      at += sizeof head;
-      mine.push_back({head.time, static_cast<EventKind>(head.kind), head.cell, head.first, head.second,
-                      std::string(reinterpret_cast<const char*>(all.data() + at), head.length)});  // NOLINT
-      at += head.length;
-    }
+    static_assert(std::is_trivially_copyable_v<Event>);
+    const auto all = comm_.gather_to_all(std::as_bytes(std::span(mine)));
+    mine.resize(all.size() / sizeof(Event));
+    if (!all.empty()) std::memcpy(static_cast<void*>(mine.data()), all.data(), all.size());
   }
   std::sort(mine.begin(), mine.end(), earlier);
   return mine;

@@ -50,7 +50,7 @@ Vec3d tissue_centroid(std::span<const Vec3d> center, const Comm& comm) {
 struct Wish {
   BodyKind body;
   double hold;
-  std::string reason;
+  EventReason reason;
 };
 
 double trigger_value(const Trigger& trigger, const Cells& cells, std::size_t i) {
@@ -62,26 +62,29 @@ double trigger_value(const Trigger& trigger, const Cells& cells, std::size_t i) 
 Wish wish(const Model& model, double time, const Cells& cells, std::size_t i, const Vec3d& center, const Vec3d& tissue_center) {
   const CellRow& row = cells.rows[i];
   const bool shell = row.body == BodyKind::kShell;
+  using Cause = EventReason::Cause;
+  std::uint32_t number = 0;
   for (const Region& region : model.swaps.regions) {
+    const EventReason reason{Cause::kRegion, false, number++};
     if (!region.exists_at(time)) continue;
     const double margin = row.body == region.body ? region.margin : 0.0;
-    if (distance_outside(region, center, tissue_center) <= margin) return {region.body, model.swaps.hold, "region " + region.name};
+    if (distance_outside(region, center, tissue_center) <= margin) return {region.body, model.swaps.hold, reason};
   }
   double hold = model.swaps.hold;
+  number = 0;
   for (const Trigger& trigger : model.swaps.triggers) {
+    const EventReason reason{Cause::kTrigger, false, number++};
     if (trigger.value == Trigger::Value::kType) {
-      if (row.type == trigger.type) return {BodyKind::kShell, trigger.hold, "type " + model.types[row.type].name};
+      if (row.type == trigger.type) return {BodyKind::kShell, trigger.hold, reason};
       continue;
     }
     hold = std::max(hold, trigger.hold);
     const double value = trigger_value(trigger, cells, i);
     const double threshold = shell ? trigger.demote : trigger.promote;
     const bool wants = trigger.promote_above ? value > threshold : value < threshold;
-    if (wants)
-      return {BodyKind::kShell, trigger.hold,
-              trigger.value == Trigger::Value::kPressure ? "pressure" : model.fields[static_cast<std::size_t>(trigger.field)].name};
+    if (wants) return {BodyKind::kShell, trigger.hold, reason};
   }
-  return {row.own_body, hold, "outside"};
+  return {row.own_body, hold, {Cause::kOutside}};
 }
 
 }  // namespace

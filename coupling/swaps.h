@@ -13,7 +13,7 @@ namespace morula {
 struct SwapOrder {
   std::size_t row = 0;
   BodyKind to = BodyKind::kShell;
-  std::string reason;  ///< for people: "region core", "pressure > 1 kPa"
+  EventReason reason;
 };
 
 /// Which cells exchange their body now, by regions and triggers with their margins, thresholds and hold times. Decisions read only the state

@@ -28,8 +28,8 @@ struct CellSource {
 /// Sums at a voxel run in order of the cells' ids, sums at a cell in order of the voxels: the same bits on any number of ranks.
 class CellExchange {
  public:
-  /// Spread the cells of this rank over the voxels, and tell the voxels' owners. Collective. `owner` as from owners_of().
-  CellExchange(const Field& field, const Space& space, std::span<const int> owner, std::span<const CellSource> cells, const Comm& comm);
+  /// Spread the cells of this rank over the voxels, and tell the voxels' owners. Collective.
+  CellExchange(const Field& field, const Space& space, std::span<const CellSource> cells, const Comm& comm);
 
   /// Σ w_iv per (brick, voxel, type) of the types for which `takes_up` is true, sorted.
   [[nodiscard]] std::vector<Sink> sinks(const std::vector<bool>& takes_up) const;
@@ -47,22 +47,31 @@ class CellExchange {
     std::int32_t voxel = 0;
     std::uint16_t type = 0;
     std::uint16_t unused = 0;
-    std::int32_t from = 0;    ///< rank; filled in by the receiver
+    std::uint32_t from = 0;   ///< place of its rank in guests_; filled in by the receiver
     std::uint64_t place = 0;  ///< in that rank's message; filled in by the receiver
   };
   struct Share {
     double taken = 0.0;
     double concentration = 0.0;
   };
+  /// Shares for the guests go to them; gives those of the hosts, by host. Collective among partners.
+  [[nodiscard]] std::vector<std::vector<Share>> swap_shares(std::vector<std::vector<Share>> of_guests, const Comm& comm) const;
+
   struct Sent {
-    std::int32_t rank = 0;
+    std::uint32_t host = 0;  ///< place in hosts_ of the rank that has the voxel
     double weight = 0.0;
   };
+  /// Another rank, or this one, and how many deposits go there or have come from there.
+  struct Partner {
+    int rank = 0;
+    std::size_t deposits = 0;
+  };
 
-  std::vector<Deposit> deposits_;             ///< on voxels of this rank, sorted by (brick, voxel, type, id)
-  std::vector<std::uint64_t> received_from_;  ///< number of deposits by rank
-  std::vector<Sent> sent_;                    ///< deposits of this rank's cells, cell after cell
-  std::vector<std::size_t> first_sent_;       ///< of each cell; one more for the end
+  std::vector<Deposit> deposits_;        ///< on voxels of this rank, sorted by (brick, voxel, type, id)
+  std::vector<Partner> guests_;          ///< ranks whose cells meet voxels of this rank
+  std::vector<Partner> hosts_;           ///< ranks whose voxels meet cells of this rank
+  std::vector<Sent> sent_;               ///< deposits of this rank's cells, cell after cell
+  std::vector<std::size_t> first_sent_;  ///< of each cell; one more for the end
 };
 
 }  // namespace morula::fields

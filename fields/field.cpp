@@ -80,6 +80,7 @@ std::vector<int> owners_along_curve(const Grid& grid, int ranks) {
 Field uniform_field(const Grid& grid, double concentration, std::span<const int> owner_of_brick, int rank) {
   Field field;
   field.grid = grid;
+  field.owner.assign(owner_of_brick.begin(), owner_of_brick.end());
   for (std::int64_t b = 0; b < grid.brick_count(); ++b) {
     if (owner_of_brick[static_cast<std::size_t>(b)] != rank) continue;
     field.owned_bricks.push_back(b);
@@ -89,7 +90,7 @@ Field uniform_field(const Grid& grid, double concentration, std::span<const int>
 }
 
 void redistribute(Field& field, std::span<const int> new_owner, const Comm& comm) {
-  std::vector<std::vector<std::byte>> outgoing(static_cast<std::size_t>(comm.size()));
+  Mail outgoing;
   const auto append = [](std::vector<std::byte>& to, const void* from, std::size_t bytes) {
     const auto at = to.size();
     to.resize(at + bytes);
@@ -97,13 +98,12 @@ void redistribute(Field& field, std::span<const int> new_owner, const Comm& comm
   };
   for (std::size_t i = 0; i < field.owned_bricks.size(); ++i) {
     const std::int64_t brick = field.owned_bricks[i];
-    auto& message = outgoing[static_cast<std::size_t>(new_owner[static_cast<std::size_t>(brick)])];
+    auto& message = outgoing[new_owner[static_cast<std::size_t>(brick)]];
     append(message, &brick, sizeof(brick));
     append(message, field.concentration[i].data(), field.concentration[i].size() * sizeof(double));
   }
-  const auto incoming = comm.exchange(outgoing);
   std::vector<std::pair<std::int64_t, std::vector<double>>> mine;
-  for (const auto& message : incoming) {
+  for (const auto& [rank, message] : comm.exchange(std::move(outgoing))) {
     for (std::size_t at = 0; at < message.size();) {
       std::int64_t brick = 0;
       std::memcpy(&brick, message.data() + at, sizeof(brick));
@@ -115,6 +115,7 @@ void redistribute(Field& field, std::span<const int> new_owner, const Comm& comm
     }
   }
   std::sort(mine.begin(), mine.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  field.owner.assign(new_owner.begin(), new_owner.end());
   field.owned_bricks.clear();
   field.concentration.clear();
   for (auto& [brick, values] : mine) {
@@ -123,22 +124,12 @@ void redistribute(Field& field, std::span<const int> new_owner, const Comm& comm
   }
 }
 
-Result<std::vector<int>> owners_of(const Field& field, const Comm& comm) {
-  const auto counts = comm.gather_to_all(static_cast<std::int64_t>(field.owned_bricks.size()));
-  const auto bytes = comm.gather_to_all(std::as_bytes(std::span(field.owned_bricks)));
-  std::vector<int> owner(static_cast<std::size_t>(field.grid.brick_count()), -1);
-  std::size_t at = 0;
-  for (std::size_t r = 0; r < counts.size(); ++r) {
-    for (std::int64_t i = 0; i < counts[r]; ++i, at += sizeof(std::int64_t)) {
-      std::int64_t brick = 0;
-      std::memcpy(&brick, bytes.data() + at, sizeof(brick));
-      if (brick < 0 || brick >= field.grid.brick_count() || owner[static_cast<std::size_t>(brick)] != -1)
-        return Error{ErrorKind::kInternal, "brick " + std::to_string(brick) + " of a field does not exist or has two owners", ""};
-      owner[static_cast<std::size_t>(brick)] = static_cast<int>(r);
-    }
-  }
-  if (std::find(owner.begin(), owner.end(), -1) != owner.end()) return Error{ErrorKind::kInternal, "a brick of a field has no owner", ""};
-  return owner;
+bool owns_its_bricks(const Field& field, int rank) {
+  if (field.owner.size() != static_cast<std::size_t>(field.grid.brick_count())) return false;
+  const auto mine = std::count(field.owner.begin(), field.owner.end(), rank);
+  return mine == static_cast<std::ptrdiff_t>(field.owned_bricks.size()) &&
+         std::all_of(field.owned_bricks.begin(), field.owned_bricks.end(),
+                     [&](std::int64_t brick) { return field.owner[static_cast<std::size_t>(brick)] == rank; });
 }
 
 double total_amount(const Field& field, const Comm& comm) {

@@ -45,6 +45,7 @@ struct Field {
   Grid grid;
   std::vector<std::int64_t> owned_bricks;          ///< brick numbers (x fastest), increasing
   std::vector<std::vector<double>> concentration;  ///< by owned brick, voxels x fastest [mM]
+  std::vector<int> owner;                          ///< rank that owns it, by brick of the grid. All ranks hold equal copies.
   double next_step = 0.0;                          ///< the integrator's first step in the next interval [s]; 0: let it choose
 };
 
@@ -61,8 +62,8 @@ Field uniform_field(const Grid& grid, double concentration, std::span<const int>
 /// Move bricks so that each is on its new owner. Collective; values are unchanged bit for bit.
 void redistribute(Field& field, std::span<const int> new_owner, const Comm& comm);
 
-/// Owner of each brick, from what the ranks say they own. Collective. Errors: a brick with no owner or with several.
-Result<std::vector<int>> owners_of(const Field& field, const Comm& comm);
+/// Whether this rank owns just the bricks that Field::owner gives to it.
+bool owns_its_bricks(const Field& field, int rank);
 
 /// Amount in the whole field, Σ c V [amol]. Collective; the same bits on any number of ranks.
 double total_amount(const Field& field, const Comm& comm);

@@ -105,11 +105,16 @@ double sum_of(std::span<const double> values, const Comm& comm) {
   return comm.sum(sum);
 }
 
-Status check_cells(const Field& field, std::span<const CellSource> cells, const Comm& comm) {
-  bool wrong = false;
+Status check_input(const Field& field, std::span<const CellSource> cells, const Comm& comm) {
+  enum : std::int64_t { kGood, kWrongCell, kWrongOwner };
+  std::int64_t fault = owns_its_bricks(field, comm.rank()) ? kGood : kWrongOwner;
   for (const auto& cell : cells)
-    wrong = wrong || !std::isfinite(norm2(cell.center)) || !(cell.radius >= 0.0) || !(cell.radius < 10.0 * norm(field.grid.box.size()));
-  if (comm.any(wrong)) return Error{ErrorKind::kInternal, "a cell has no finite position or radius when the fields are integrated", ""};
+    if (!std::isfinite(norm2(cell.center)) || !(cell.radius >= 0.0) || !(cell.radius < 10.0 * norm(field.grid.box.size())))
+      fault = std::max<std::int64_t>(fault, kWrongCell);
+  fault = comm.max(fault);
+  if (fault == kWrongOwner)
+    return Error{ErrorKind::kInternal, "a rank does not own the bricks of a field that the list of owners gives to it", ""};
+  if (fault == kWrongCell) return Error{ErrorKind::kInternal, "a cell has no finite position or radius when the fields are integrated", ""};
   return {};
 }
 
@@ -119,19 +124,18 @@ Result<IntervalReport> FieldSolver::advance(Field& field, const FieldSpec& spec,
                                             double interval, const Comm& comm, std::span<double> taken, std::span<double> seen,
                                             const std::function<bool()>& give_up) {
   MORULA_TRY(check(spec));
-  MORULA_TRY(check_cells(field, cells, comm));
-  MORULA_TRY_ASSIGN(const std::vector<int> owner, owners_of(field, comm));
+  MORULA_TRY(check_input(field, cells, comm));
   IntervalReport report;
   report.amount_before = total_amount(field, comm);
   if (!std::isfinite(report.amount_before))
     return Error{ErrorKind::kPhysics, "field '" + spec.name + "' holds a value that is not a number", ""};
 
-  const CellExchange exchange(field, space, owner, cells, comm);
+  const CellExchange exchange(field, space, cells, comm);
   std::vector<bool> takes_up;
   for (const auto& u : spec.uptake) takes_up.push_back(u.rate > 0.0);
   Layout layout = layout_of(field, exchange.sinks(takes_up));
   layout.sinks_anywhere = comm.any(!layout.sinks.empty());
-  Halo halo(field, layout, space, owner, comm);
+  Halo halo(field, layout, space, comm);
   BrickOperator op(field.grid, spec, layout, halo);
 
   IntegrationSettings settings;
@@ -173,9 +177,8 @@ Result<IntervalReport> FieldSolver::advance(Field& field, const FieldSpec& spec,
 }
 
 Status sample(const Field& field, const Space& space, std::span<const CellSource> cells, const Comm& comm, std::span<double> seen) {
-  MORULA_TRY(check_cells(field, cells, comm));
-  MORULA_TRY_ASSIGN(const std::vector<int> owner, owners_of(field, comm));
-  const CellExchange exchange(field, space, owner, cells, comm);
+  MORULA_TRY(check_input(field, cells, comm));
+  const CellExchange exchange(field, space, cells, comm);
   std::vector<double> nothing(cells.size());
   exchange.give_back(field, layout_of(field, {}), {}, comm, nothing, seen);
   return {};

@@ -25,11 +25,15 @@ std::int64_t neighbour(const Grid& grid, const Space& space, std::int64_t brick,
   return grid.brick_at(p);
 }
 
-constexpr int kHaloTag = 72;
+/// What goes to or comes from a rank, as a part of a buffer.
+struct Stretch {
+  int rank;
+  std::size_t begin, end;
+};
 
 }  // namespace
 
-Halo::Halo(const Field& field, const Layout& layout, const Space& space, std::span<const int> owner, const Comm& comm)
+Halo::Halo(const Field& field, const Layout& layout, const Space& space, const Comm& comm)
     : layout_(layout), comm_(comm), sources_(layout.bricks()) {
   const auto& bricks = field.owned_bricks;
   const auto local = [&](std::int64_t brick) {
@@ -42,7 +46,7 @@ Halo::Halo(const Field& field, const Layout& layout, const Space& space, std::sp
     for (std::size_t side = 0; side < kSides; ++side) {
       const std::int64_t other = neighbour(field.grid, space, bricks[b], side);
       if (other < 0) continue;
-      const int rank = owner[static_cast<std::size_t>(other)];
+      const int rank = field.owner[static_cast<std::size_t>(other)];
       if (rank == comm.rank()) {
         sources_[b][side] = {GhostSource::Kind::kSameRank, local(other)};
         continue;
@@ -51,13 +55,14 @@ Halo::Halo(const Field& field, const Layout& layout, const Space& space, std::sp
       to_send[rank][{other, side ^ 1u}] = {b, side};
     }
   }
+  std::vector<Stretch> sends, receives;
   for (const auto& [rank, layers] : to_receive) {
     const std::size_t begin = received_.size();
     for (const auto& [wanted, layer] : layers) {
       sources_[layer.brick][layer.side] = {GhostSource::Kind::kOtherRank, received_.size()};
       received_.resize(received_.size() + layer_size(layout.extent[layer.brick], layer.side));
     }
-    receives_.push_back({rank, begin, received_.size()});
+    receives.push_back({rank, begin, received_.size()});
   }
   for (const auto& [rank, layers] : to_send) {
     const std::size_t begin = sent_.size();
@@ -65,26 +70,20 @@ Halo::Halo(const Field& field, const Layout& layout, const Space& space, std::sp
       sent_layers_.push_back(layer);
       sent_.resize(sent_.size() + layer_size(layout.extent[layer.brick], layer.side));
     }
-    sends_.push_back({rank, begin, sent_.size()});
+    sends.push_back({rank, begin, sent_.size()});
   }
+  for (const Stretch& s : sends) sendings_.push_back({s.rank, std::as_bytes(std::span(sent_).subspan(s.begin, s.end - s.begin))});
+  for (const Stretch& r : receives)
+    receivings_.push_back({r.rank, std::as_writable_bytes(std::span(received_).subspan(r.begin, r.end - r.begin))});
 }
 
 void Halo::exchange(const double* unknowns) {
-  if (sends_.empty() && receives_.empty()) return;
-  std::vector<MPI_Request> requests;
-  requests.reserve(sends_.size() + receives_.size());
-  for (const Message& m : receives_)
-    MPI_Irecv(received_.data() + m.begin, static_cast<int>(m.end - m.begin), MPI_DOUBLE, m.rank, kHaloTag, comm_.raw(),
-              &requests.emplace_back());
   std::size_t at = 0;
   for (const Layer& layer : sent_layers_) {
     const double* values = unknowns + layout_.offset[layer.brick];
     for_each_in_layer(layout_.extent[layer.brick], layer.side, [&](std::size_t voxel, std::size_t) { sent_[at++] = values[voxel]; });
   }
-  for (const Message& m : sends_)
-    MPI_Isend(sent_.data() + m.begin, static_cast<int>(m.end - m.begin), MPI_DOUBLE, m.rank, kHaloTag, comm_.raw(),
-              &requests.emplace_back());
-  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  comm_.exchange(sendings_, receivings_);
 }
 
 }  // namespace morula::fields

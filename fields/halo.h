@@ -23,8 +23,10 @@ struct GhostSource {
 /// Copies of the neighbours' outermost voxel layers: same rank read directly, other ranks by one message per neighbour rank.
 class Halo {
  public:
-  /// `owner` as from owners_of(). Keeps a reference to `layout` and `comm`.
-  Halo(const Field& field, const Layout& layout, const Space& space, std::span<const int> owner, const Comm& comm);
+  /// Keeps a reference to `layout` and `comm`.
+  Halo(const Field& field, const Layout& layout, const Space& space, const Comm& comm);
+  Halo(const Halo&) = delete;
+  Halo& operator=(const Halo&) = delete;
 
   /// Bring the other ranks' layers of this vector of unknowns here. Collective among neighbours.
   void exchange(const double* unknowns);
@@ -33,10 +35,6 @@ class Halo {
   [[nodiscard]] const double* received() const { return received_.data(); }
 
  private:
-  struct Message {
-    int rank = 0;
-    std::size_t begin = 0, end = 0;  ///< in the buffer
-  };
   struct Layer {
     std::size_t brick = 0;  ///< on this rank
     std::size_t side = 0;
@@ -47,7 +45,8 @@ class Halo {
   std::vector<std::array<GhostSource, kSides>> sources_;
   std::vector<Layer> sent_layers_;
   std::vector<double> sent_, received_;
-  std::vector<Message> sends_, receives_;
+  std::vector<Sending> sendings_;      ///< in sent_
+  std::vector<Receiving> receivings_;  ///< in received_
 };
 
 /// Voxels in the layer at a side of a brick of this extent.

@@ -18,9 +18,10 @@ namespace {
 /// This rank's stretch of `count` things.
 struct Stretch {
   std::uint64_t begin, end;
-  Stretch(std::uint64_t count, const Comm& comm)
-      : begin(count * static_cast<std::uint64_t>(comm.rank()) / static_cast<std::uint64_t>(comm.size())),
-        end(count * (static_cast<std::uint64_t>(comm.rank()) + 1) / static_cast<std::uint64_t>(comm.size())) {}
+  Stretch(std::uint64_t count, const Comm& comm) : Stretch(count, comm.rank(), comm.size()) {}
+  Stretch(std::uint64_t count, int rank, int ranks)
+      : begin(count * static_cast<std::uint64_t>(rank) / static_cast<std::uint64_t>(ranks)),
+        end(count * (static_cast<std::uint64_t>(rank) + 1) / static_cast<std::uint64_t>(ranks)) {}
   [[nodiscard]] std::uint64_t size() const { return end - begin; }
 };
 
@@ -228,7 +229,9 @@ Status read_field(const Hdf5Reader& file, const std::string& group, const Comm& 
   MORULA_TRY_ASSIGN(field.grid.voxels, (file.value<std::array<std::int32_t, 3>>(group + "/voxels")));
   MORULA_TRY_ASSIGN(field.grid.bricks, (file.value<std::array<std::int32_t, 3>>(group + "/bricks")));
   MORULA_TRY_ASSIGN(field.next_step, file.value<double>(group + "/next_step"));
-  const Stretch mine(static_cast<std::uint64_t>(field.grid.brick_count()), comm);
+  const auto bricks = static_cast<std::uint64_t>(field.grid.brick_count());
+  for (int rank = 0; rank < comm.size(); ++rank) field.owner.resize(Stretch(bricks, rank, comm.size()).end, rank);
+  const Stretch mine(bricks, comm);
   std::uint64_t place = 0;
   for (std::uint64_t b = 0; b < mine.begin; ++b) place += brick_voxel_count(field.grid, static_cast<std::int64_t>(b));
   for (std::uint64_t b = mine.begin; b < mine.end; ++b) {

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
+#include <span>
 
 namespace morula::scenarios {
 namespace fs = std::filesystem;
@@ -183,21 +184,19 @@ Result<std::string> sha256_of_file(const fs::path& path) {
 
 Status agree(Status local, const Comm& comm) {
   if (comm.size() == 1) return local;
-  std::string message;  // kind, message, help of a failing rank; nothing of the others
-  if (!local.ok()) {
-    message += static_cast<char>(local.error().kind);
-    message += local.error().message + '\0' + local.error().help;
+  const std::int64_t first_is_largest = comm.size() - comm.rank();
+  const std::int64_t failed = comm.max(local.ok() ? 0 : first_is_largest);
+  if (failed == 0) return {};
+  std::vector<std::byte> bytes;  // kind, message, help of the first rank that failed
+  if (failed == first_is_largest) {
+    const std::string message = static_cast<char>(local.error().kind) + local.error().message + '\0' + local.error().help;
+    const auto raw = std::as_bytes(std::span(message));
+    bytes.assign(raw.begin(), raw.end());
   }
-  const auto sizes = comm.gather_to_all(static_cast<std::int64_t>(message.size()));
-  const std::vector<std::byte> all = comm.gather_to_all(std::as_bytes(std::span(message)));
-  std::size_t begin = 0;
-  for (const std::int64_t size : sizes) {
-    if (size == 0) continue;
-    const std::string first(reinterpret_cast<const char*>(all.data()) + begin, static_cast<std::size_t>(size));
-    const std::size_t end = first.find('\0', 1);
-    return Error{static_cast<ErrorKind>(first[0]), first.substr(1, end - 1), first.substr(end + 1)};
-  }
-  return {};
+  comm.broadcast(bytes, static_cast<int>(comm.size() - failed));
+  const std::string message(reinterpret_cast<const char*>(bytes.data()), bytes.size());  // NOLINT: characters
+  const std::size_t end = message.find('\0', 1);
+  return Error{static_cast<ErrorKind>(message[0]), message.substr(1, end - 1), message.substr(end + 1)};
 }
 
 }  // namespace morula::scenarios

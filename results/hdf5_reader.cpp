@@ -5,11 +5,11 @@
 
 #include "results/file_io.h"
 #include "results/hash128.h"
+#include "results/hash_sums.h"
 #include "results/hdf5_handle.h"
 #include "results/hdf5_journal.h"
 #include "results/hdf5_overlay.h"
 #include "results/hdf5_types.h"
-#include "results/parcels.h"
 
 namespace morula::scenarios {
 namespace fs = std::filesystem;
@@ -231,13 +231,9 @@ Status Hdf5Reader::verify(const Comm& comm) const {
     return {};
   };
   MORULA_TRY(agree(read_my_share(), comm));
-  const std::vector<std::byte> gathered = comm.gather_to_all(std::as_bytes(std::span(sums)));
-  std::vector<Hash128> total(sums.size());
-  ByteReader reader(gathered);
-  while (!reader.empty())
-    for (Hash128& sum : total) sum += reader.get<Hash128>();
+  sum_over_ranks(sums, comm);
   for (std::size_t i = 0; i < lines.size(); ++i)
-    if (total[i].hex() != lines[i].checksum) return damaged("dataset '" + lines[i].path + "' is altered (its checksum does not match)");
+    if (sums[i].hex() != lines[i].checksum) return damaged("dataset '" + lines[i].path + "' is altered (its checksum does not match)");
   return {};
 }
 

@@ -7,6 +7,7 @@
 
 #include "results/file_io.h"
 #include "results/hash128.h"
+#include "results/hash_sums.h"
 #include "results/hdf5_handle.h"
 #include "results/hdf5_journal.h"
 #include "results/hdf5_overlay.h"
@@ -33,30 +34,23 @@ std::size_t row_size(const Dataset& dataset) { return size_of(dataset.type) * da
 std::vector<Extent> extents_over_ranks(const std::vector<Dataset>& datasets, const Comm& comm) {
   std::vector<std::int64_t> rows;
   for (const Dataset& d : datasets) rows.push_back(static_cast<std::int64_t>(d.bytes.size() / row_size(d)));
-  const std::vector<std::byte> gathered = comm.gather_to_all(std::as_bytes(std::span(rows)));
+  std::vector<std::int64_t> before = rows;
+  comm.exclusive_scan(before);
+  comm.sum(rows);
   std::vector<Extent> extents(datasets.size());
-  if (datasets.empty()) return extents;
-  for (int rank = 0; rank < comm.size(); ++rank) {
-    std::memcpy(rows.data(), gathered.data() + static_cast<std::size_t>(rank) * rows.size() * sizeof(std::int64_t),
-                rows.size() * sizeof(std::int64_t));
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (rank < comm.rank()) extents[i].first_row += static_cast<std::uint64_t>(rows[i]);
-      extents[i].rows += static_cast<std::uint64_t>(rows[i]);
-    }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    extents[i].first_row = static_cast<std::uint64_t>(before[i]);
+    extents[i].rows = static_cast<std::uint64_t>(rows[i]);
   }
   return extents;
 }
 
 /// Checksums of the whole tables, on every rank.
 std::vector<Hash128> checksums_over_ranks(const std::vector<Dataset>& datasets, const std::vector<Extent>& extents, const Comm& comm) {
-  std::vector<Hash128> local;
+  std::vector<Hash128> sums;
   for (std::size_t i = 0; i < datasets.size(); ++i)
-    local.push_back(table_checksum(datasets[i].bytes, row_size(datasets[i]), extents[i].first_row));
-  const std::vector<std::byte> gathered = comm.gather_to_all(std::as_bytes(std::span(local)));
-  std::vector<Hash128> sums(datasets.size());
-  ByteReader reader(gathered);
-  while (!reader.empty())
-    for (Hash128& sum : sums) sum += reader.get<Hash128>();
+    sums.push_back(table_checksum(datasets[i].bytes, row_size(datasets[i]), extents[i].first_row));
+  sum_over_ranks(sums, comm);
   return sums;
 }
 

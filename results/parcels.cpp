@@ -40,17 +40,18 @@ Parcels sort_over_ranks(const Parcels& local, const Comm& comm) {
     return mine;
   }
   const std::vector<std::uint64_t> cuts = splitters(local, order, comm);
-  std::vector<ByteWriter> outgoing(static_cast<std::size_t>(comm.size()));
+  Mail outgoing;
+  ByteWriter parcel;
   for (const std::size_t i : order) {
-    const auto target = static_cast<std::size_t>(std::upper_bound(cuts.begin(), cuts.end(), local.key(i)) - cuts.begin());
-    outgoing[target].put(local.key(i));
-    outgoing[target].put(std::uint64_t{local.bytes(i).size()});
-    outgoing[target].put_all(local.bytes(i));
+    const auto target = static_cast<int>(std::upper_bound(cuts.begin(), cuts.end(), local.key(i)) - cuts.begin());
+    parcel.clear();
+    parcel.put(local.key(i));
+    parcel.put(std::uint64_t{local.bytes(i).size()});
+    parcel.put_all(local.bytes(i));
+    outgoing[target].insert(outgoing[target].end(), parcel.bytes().begin(), parcel.bytes().end());
   }
-  std::vector<std::vector<std::byte>> messages;
-  for (const ByteWriter& writer : outgoing) messages.emplace_back(writer.bytes().begin(), writer.bytes().end());
   Parcels received;
-  for (const std::vector<std::byte>& message : comm.exchange(messages)) {
+  for (const auto& [rank, message] : comm.exchange(std::move(outgoing))) {
     std::span<const std::byte> rest(message);
     while (!rest.empty()) {
       ByteReader reader(rest);

@@ -177,10 +177,10 @@ Status RunFolder::write_verdict(const Judgement& judgement) const {
 
 Status RunFolder::add_to_log(const std::string& line) const { return is_root_ ? append_to_text(log(), line + '\n') : Status{}; }
 
-Status RunFolder::add_events(std::span<const Event> list) const {
+Status RunFolder::add_events(std::span<const ToldEvent> list) const {
   if (!is_root_ || list.empty()) return {};
   std::string lines;
-  for (const Event& event : list) lines += to_json_line(event);
+  for (const ToldEvent& event : list) lines += to_json_line(event);
   return append_to_text(events(), lines);
 }
 

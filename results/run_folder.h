@@ -49,7 +49,7 @@ class RunFolder {
   Status write_status(const RunStatus& status) const;
   Status write_verdict(const Judgement& judgement) const;
   Status add_to_log(const std::string& line) const;
-  Status add_events(std::span<const Event> events) const;
+  Status add_events(std::span<const ToldEvent> events) const;
   /// Header of series.csv (`time [s]` first). When the file is there already (a resumed run), its header must be the same: kInput.
   Status begin_series(std::span<const SeriesHeader> columns) const;
   Status add_to_series(double time, std::span<const double> values) const;

@@ -227,12 +227,13 @@ std::string name_of(EventKind kind) {
   return "warning";
 }
 
-std::string to_json_line(const Event& event) {
+std::string to_json_line(const ToldEvent& told) {
+  const Event& event = told.event;
   Json json{{"time_s", number(event.time)}, {"kind", name_of(event.kind)}};
   if (event.cell.valid()) json["cell"] = event.cell.text();
   if (event.first_daughter.valid() || event.second_daughter.valid())
     json["daughters"] = {event.first_daughter.text(), event.second_daughter.text()};
-  json["text"] = event.text;
+  json["text"] = told.text;
   return text_of(json, -1);
 }
 

@@ -73,8 +73,13 @@ struct RunStatus {
 [[nodiscard]] std::string to_json(const RunStatus& status);
 Result<RunStatus> read_run_status(const std::filesystem::path& status_json);
 
+/// An event, and the reason for it in words.
+struct ToldEvent {
+  Event event;
+  std::string text;
+};
 /// One line of events.jsonl, with the newline.
-[[nodiscard]] std::string to_json_line(const Event& event);
+[[nodiscard]] std::string to_json_line(const ToldEvent& told);
 /// Time of a line of events.jsonl; nothing if the line is not whole.
 [[nodiscard]] std::optional<double> time_of_event_line(const std::string& line);
 [[nodiscard]] std::string name_of(EventKind kind);

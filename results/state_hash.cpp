@@ -4,6 +4,7 @@
 #include <map>
 #include <span>
 
+#include "results/hash_sums.h"
 #include "results/parcels.h"
 #include "results/state_fields.h"
 
@@ -113,10 +114,8 @@ Hash128 state_hash(const Tissue& tissue, const Comm& comm) {
   Hash128 local = hash_of_cells(tissue);
   local += hash_of_bricks(tissue);
   if (comm.is_root()) local += hash_of_globals(tissue);
-  const std::vector<std::byte> all = comm.gather_to_all(std::as_bytes(std::span(&local, 1)));
-  Hash128 sum;
-  for (ByteReader reader(all); !reader.empty();) sum += reader.get<Hash128>();
-  return sum;
+  sum_over_ranks(std::span(&local, 1), comm);
+  return local;
 }
 
 }  // namespace morula::scenarios

@@ -20,7 +20,8 @@ LifeDecision at_division_volume(CellRow& row, double late) {
   return {row.body == BodyKind::kShell ? Kind::kWait : Kind::kCannot, late};
 }
 
-Event describe(const CellRow& row, const CellType& type, const LifeStep& step, const LifeDecision& decision) {
+Event describe(const CellRow& row, const LifeStep& step, const LifeDecision& decision) {
+  using Cause = EventReason::Cause;
   Event event;
   event.time = step.time - decision.late;
   event.cell = row.id;
@@ -31,23 +32,23 @@ Event describe(const CellRow& row, const CellType& type, const LifeStep& step, c
       event.kind = EventKind::kDivision;
       event.first_daughter = row.id.daughter(0);
       event.second_daughter = row.id.daughter(1);
-      event.text = "reached its division volume";
+      event.reason.cause = Cause::kDivisionVolume;
       break;
     case Kind::kWait:
       event.kind = EventKind::kDivisionWaits;
-      event.text = "reached its division volume as a shell";
+      event.reason.cause = Cause::kDivisionVolumeAsShell;
       break;
     case Kind::kCannot:
       event.kind = EventKind::kWarning;
-      event.text = "cannot divide: its lineage is " + std::to_string(CellId::kMaxGenerations) + " generations long";
+      event.reason.cause = Cause::kLongLineage;
       break;
     case Kind::kBeginDying:
       event.kind = EventKind::kDeath;
-      event.text = "a concentration (field " + std::to_string(type.death_field) + ") is below what " + type.name + " needs";
+      event.reason = {Cause::kLowConcentration, false, row.type};
       break;
     case Kind::kRemove:
       event.kind = EventKind::kRemoval;
-      event.text = "shrunk below the volume at which a dead cell is removed";
+      event.reason.cause = Cause::kShrunk;
       break;
   }
   return event;
@@ -96,7 +97,7 @@ LifeReport live(Cells& cells, std::span<const CellType> types, const LifeStep& s
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const LifeDecision& decision = decisions[k];
     if (decision.kind == Kind::kNone) continue;
-    report.events.push_back(describe(rows[k], types[rows[k].type], step, decision));
+    report.events.push_back(describe(rows[k], step, decision));
     if (decision.kind == Kind::kDivide) report.divisions.push_back({k, decision.late});
     if (decision.kind == Kind::kRemove) report.removals.push_back(k);
   }

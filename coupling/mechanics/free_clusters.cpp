@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <numeric>
 
 namespace morula {
@@ -102,11 +101,11 @@ void FreeClusters::find(const Scene& scene, std::span<const ElementGroup> groups
 
 void FreeClusters::collect(const Scene& scene, std::span<const std::uint64_t> label, const Comm& comm) {
   const auto bodies = scene.bodies();
-  std::vector<std::uint64_t> labels, with_ghosts;
+  std::vector<std::uint64_t> labels, of_ghosts;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (label[i] == kTied) continue;
     if (bodies[i].active() && (labels.empty() || labels.back() != label[i])) labels.push_back(label[i]);
-    if (!bodies[i].owned) with_ghosts.push_back(label[i]);
+    if (!bodies[i].owned) of_ghosts.push_back(label[i]);
   }
   labels = sorted_unique(std::move(labels));
   clusters_.assign(labels.size(), {});
@@ -126,29 +125,26 @@ void FreeClusters::collect(const Scene& scene, std::span<const std::uint64_t> la
   members_.resize(next);
   for (std::uint32_t i = 0; i < bodies.size(); ++i)
     if (is_member(i)) members_[cluster_of(i).last++] = i;
-  shared_.clear();
   if (comm.size() == 1) return;
-  with_ghosts = sorted_unique(std::move(with_ghosts));
-  const std::vector<std::byte> all = comm.gather_to_all(std::as_bytes(std::span(with_ghosts)));
-  shared_.resize(all.size() / sizeof(std::uint64_t));
-  if (!all.empty()) std::memcpy(shared_.data(), all.data(), all.size());
-  shared_ = sorted_unique(std::move(shared_));
+  // Both ranks of two bodies that hang together see it: a cluster goes over several ranks where a ghost of it is beside a body of this rank.
+  std::erase_if(of_ghosts, [&](std::uint64_t label_of_ghost) { return !std::binary_search(labels.begin(), labels.end(), label_of_ghost); });
+  over_ranks_.find(sorted_unique(std::move(of_ghosts)), comm);
 }
 
 std::vector<Vec3d> FreeClusters::shifts(std::span<const MediumBalance> by_body, const Comm& comm) const {
   constexpr std::size_t kTerms = ClusterSums::kTerms;
   std::vector<Vec3d> out(by_body.size());
-  std::vector<OrderFreeSum> over_ranks(kTerms * shared_.size());
+  const std::span<const std::uint64_t> shared = over_ranks_.keys();
+  std::vector<OrderFreeSum> parts(kTerms * shared.size());
   std::vector<std::pair<const Cluster*, std::size_t>> wait;  // for the other ranks: a cluster and its place in the list
   const auto give = [&](const Cluster& cluster, const Vec3d& velocity) {
     for (std::uint32_t m = cluster.first; m < cluster.last; ++m) out[members_[m]] = velocity;
   };
   for (const Cluster& cluster : clusters_) {
-    const auto shared = std::lower_bound(shared_.begin(), shared_.end(), cluster.label);
-    if (shared != shared_.end() && *shared == cluster.label) {
-      const auto place = static_cast<std::size_t>(shared - shared_.begin());
-      for (std::uint32_t m = cluster.first; m < cluster.last; ++m)
-        ClusterSums::add(by_body[members_[m]], over_ranks.data() + kTerms * place);
+    const auto found = std::lower_bound(shared.begin(), shared.end(), cluster.label);
+    if (found != shared.end() && *found == cluster.label) {
+      const auto place = static_cast<std::size_t>(found - shared.begin());
+      for (std::uint32_t m = cluster.first; m < cluster.last; ++m) ClusterSums::add(by_body[members_[m]], parts.data() + kTerms * place);
       wait.emplace_back(&cluster, place);
     } else if (cluster.last - cluster.first == 1) {  // most clusters of a dilute tissue; an order-free sum is large
       give(cluster, ClusterSums::velocity(ClusterSums::terms_of(by_body[members_[cluster.first]]).data()));
@@ -160,15 +156,14 @@ std::vector<Vec3d> FreeClusters::shifts(std::span<const MediumBalance> by_body, 
       give(cluster, ClusterSums::velocity(total.data()));
     }
   }
-  if (shared_.empty()) return out;
-  std::vector<double> totals(over_ranks.size());
-  comm.sum(over_ranks, totals);
+  if (comm.size() == 1) return out;
+  const std::vector<double> totals = over_ranks_.totals(parts, kTerms, comm);
   for (const auto& [cluster, place] : wait) give(*cluster, ClusterSums::velocity(totals.data() + kTerms * place));
   return out;
 }
 
 std::size_t FreeClusters::memory() const {
-  return members_.capacity() * sizeof(members_[0]) + clusters_.capacity() * sizeof(clusters_[0]) + shared_.capacity() * sizeof(shared_[0]);
+  return members_.capacity() * sizeof(members_[0]) + clusters_.capacity() * sizeof(clusters_[0]) + over_ranks_.memory();
 }
 
 }  // namespace morula

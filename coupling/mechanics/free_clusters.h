@@ -6,6 +6,7 @@
 #include "core/friction/contact_element.h"
 #include "core/friction/sphere_pairs.h"
 #include "core/parallel/comm.h"
+#include "core/parallel/shared_sums.h"
 #include "core/vec3.h"
 #include "coupling/mechanics/scene.h"
 
@@ -44,7 +45,7 @@ class FreeClusters {
 
   std::vector<std::uint32_t> members_;  ///< bodies, by cluster
   std::vector<Cluster> clusters_;       ///< by label
-  std::vector<std::uint64_t> shared_;   ///< labels of the clusters that go over several ranks, sorted. All ranks hold equal copies.
+  SharedSums over_ranks_;               ///< by label of the clusters of this rank that go over several ranks
 };
 
 }  // namespace morula

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <numeric>
 
@@ -62,8 +61,7 @@ void Scene::build(const Tissue& tissue, const Space& space, double reach, ShapeL
   if (comm.size() == 1) {
     std::vector<std::uint64_t> order(bodies_.size());
     for (const BodyOfRow& owned : bodies_of(tissue.cells)) order[owned.place(count_.owned_shells)] = tissue.cells.rows[owned.row].order;
-    ghosts_.send.assign(1, {});
-    ghosts_.receive.assign(1, {});
+    ghosts_ = {};
     place_bodies(order);
   } else {
     place_bodies(find_ghosts(tissue, space, reach, library, comm));
@@ -105,12 +103,11 @@ void Scene::build(const Tissue& tissue, const Space& space, double reach, ShapeL
 void Scene::set_moving(std::span<const char> moves) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].moves = moves.empty() || moves[i] != 0;
   if (moves.empty() || comm_->size() == 1) return;
-  std::vector<Vec3d> flag(points_.x.size());  // ghosts move when their owner says so
-  for (const ContactBody& body : bodies_)
-    if (body.active()) flag[body.first_point].x = 1.0;
-  exchange(std::span(flag));
-  for (ContactBody& body : bodies_)
-    if (!body.owned) body.moves = flag[body.first_point].x != 0.0;
+  std::vector<std::uint64_t> flag(bodies_.size());  // ghosts move when their owner says so
+  for (std::size_t i = 0; i < bodies_.size(); ++i) flag[i] = bodies_[i].active();
+  exchange_bodies(flag);
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (!bodies_[i].owned) bodies_[i].moves = flag[i] != 0;
 }
 
 void Scene::take_positions(const Tissue& tissue) {
@@ -126,10 +123,10 @@ void Scene::take_positions(const Tissue& tissue) {
 void Scene::take_radii(const Tissue& tissue) {
   for (std::size_t i = 0; i < count_.owned_spheres; ++i) bodies_[count_.shells + i].radius = tissue.spheres.radius[i];
   if (comm_->size() == 1) return;
-  std::vector<double> radius(points_.x.size());
-  for (std::size_t i = 0; i < count_.owned_spheres; ++i) radius[bodies_[count_.shells + i].first_point] = tissue.spheres.radius[i];
-  exchange_points(std::span(radius));
-  for (std::size_t i = count_.shells + count_.owned_spheres; i < bodies_.size(); ++i) bodies_[i].radius = radius[bodies_[i].first_point];
+  std::vector<double> radius(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) radius[i] = bodies_[i].radius;
+  exchange_values(std::span(radius));
+  for (std::size_t i = count_.shells + count_.owned_spheres; i < bodies_.size(); ++i) bodies_[i].radius = radius[i];
 }
 
 void Scene::give_positions(Tissue& tissue) const {
@@ -160,80 +157,69 @@ void Scene::take_marks(const Tissue& tissue, std::size_t width) {
     const auto& mark = tissue.shells.faces_of(s).mark;
     std::copy(mark.begin(), mark.end(), mark_.begin() + static_cast<std::ptrdiff_t>(first_face_[s] * width));
   }
-  if (comm_->size() == 1) return;
-  const auto marks_of = [&](std::uint32_t body) {
-    return std::span(mark_).subspan(first_face_[body] * width, topologies_[body]->face_count() * width);
-  };
-  std::vector<std::vector<std::byte>> outgoing(ghosts_.send.size());
-  for (std::size_t r = 0; r < outgoing.size(); ++r)
-    for (const std::uint32_t body : ghosts_.send[r]) {
-      if (body >= count_.shells) continue;
-      const auto bytes = std::as_bytes(marks_of(body));
-      outgoing[r].insert(outgoing[r].end(), bytes.begin(), bytes.end());
-    }
-  const auto incoming = comm_->exchange(outgoing);
-  for (std::size_t r = 0; r < incoming.size(); ++r) {
-    const std::byte* next = incoming[r].data();
-    for (const std::uint32_t body : ghosts_.receive[r]) {
-      if (body >= count_.shells) continue;
-      const auto marks = marks_of(body);
-      std::memcpy(marks.data(), next, marks.size());
-      next += marks.size();
-    }
-  }
+  exchange_parts([&](std::uint32_t body) {
+    return body < count_.shells ? std::span(mark_).subspan(first_face_[body] * width, topologies_[body]->face_count() * width)
+                                : std::span<std::uint8_t>();
+  });
 }
 
-template <class T, class PartOf>
+template <class PartOf>
 void Scene::exchange_parts(const PartOf& part_of) const {
-  if (comm_->size() == 1) return;
-  const auto ranks = ghosts_.send.size();
-  std::vector<std::vector<T>> out(ranks), in(ranks);
-  std::vector<MPI_Request> requests;
-  for (std::size_t r = 0; r < ranks; ++r) {
-    std::size_t count = 0;
-    for (const std::uint32_t body : ghosts_.receive[r]) count += part_of(body).size();
-    if (count == 0) continue;
-    in[r].resize(count);
-    MPI_Irecv(in[r].data(), static_cast<int>(count * sizeof(T)), MPI_BYTE, static_cast<int>(r), 72, comm_->raw(), &requests.emplace_back());
+  if (ghosts_.neighbours.empty()) return;
+  const auto bytes_of = [&](std::span<const std::uint32_t> list) {
+    std::size_t bytes = 0;
+    for (const std::uint32_t body : list) bytes += part_of(body).size_bytes();
+    return bytes;
+  };
+  std::size_t sent = 0, received = 0;
+  for (const auto& [rank, neighbour] : ghosts_.neighbours) {
+    sent += bytes_of(neighbour.send);
+    received += bytes_of(neighbour.receive);
   }
-  for (std::size_t r = 0; r < ranks; ++r) {
-    for (const std::uint32_t body : ghosts_.send[r]) {
-      const std::span<T> part = part_of(body);
-      out[r].insert(out[r].end(), part.begin(), part.end());
+  rooms_.sent.resize(std::max(sent, rooms_.sent.size()));
+  rooms_.received.resize(std::max(received, rooms_.received.size()));
+  rooms_.sendings.clear();
+  rooms_.receivings.clear();
+  std::byte *next_sent = rooms_.sent.data(), *next_received = rooms_.received.data();
+  for (const auto& [rank, neighbour] : ghosts_.neighbours) {
+    std::byte* const first = next_sent;
+    for (const std::uint32_t body : neighbour.send) {
+      const auto part = std::as_bytes(part_of(body));
+      next_sent = std::copy(part.begin(), part.end(), next_sent);
     }
-    if (out[r].empty()) continue;
-    MPI_Isend(out[r].data(), static_cast<int>(out[r].size() * sizeof(T)), MPI_BYTE, static_cast<int>(r), 72, comm_->raw(),
-              &requests.emplace_back());
+    rooms_.sendings.push_back({rank, {first, next_sent}});
+    rooms_.receivings.push_back({rank, {next_received, bytes_of(neighbour.receive)}});
+    next_received += rooms_.receivings.back().bytes.size();
   }
-  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
-  for (std::size_t r = 0; r < ranks; ++r) {
-    const T* next = in[r].data();
-    for (const std::uint32_t body : ghosts_.receive[r]) {
-      const std::span<T> part = part_of(body);
+  comm_->exchange(rooms_.sendings, rooms_.receivings);
+  const std::byte* next = rooms_.received.data();
+  for (const auto& [rank, neighbour] : ghosts_.neighbours)
+    for (const std::uint32_t body : neighbour.receive) {
+      const auto part = std::as_writable_bytes(part_of(body));
       std::copy_n(next, part.size(), part.begin());
       next += part.size();
     }
-  }
 }
 
 template <class T>
 void Scene::exchange_points(std::span<T> by_point) const {
-  exchange_parts<T>([&](std::uint32_t body) { return by_point.subspan(bodies_[body].first_point, bodies_[body].point_count); });
+  exchange_parts([&](std::uint32_t body) { return by_point.subspan(bodies_[body].first_point, bodies_[body].point_count); });
 }
 
-void Scene::exchange_bodies(std::span<std::uint64_t> by_body) const {
-  exchange_parts<std::uint64_t>([&](std::uint32_t body) { return by_body.subspan(body, 1); });
+template <class T>
+void Scene::exchange_values(std::span<T> by_body) const {
+  exchange_parts([&](std::uint32_t body) { return by_body.subspan(body, 1); });
 }
 
+void Scene::exchange_bodies(std::span<std::uint64_t> by_body) const { exchange_values(by_body); }
 void Scene::exchange(std::span<Vec3d> by_point) const { exchange_points(by_point); }
 void Scene::exchange(std::span<Float4> by_point) const { exchange_points(by_point); }
 
 std::size_t Scene::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   std::size_t total = bytes(bodies_) + bytes(ghosts_.birth) + bytes(shapes_) + bytes(topologies_) + bytes(first_node_) +
-                      bytes(first_face_) + bytes(points_.x);
-  for (const auto* lists : {&ghosts_.send, &ghosts_.receive})
-    for (const auto& list : *lists) total += bytes(list);
+                      bytes(first_face_) + bytes(points_.x) + bytes(rooms_.sent) + bytes(rooms_.received);
+  for (const auto& [rank, neighbour] : ghosts_.neighbours) total += bytes(neighbour.send) + bytes(neighbour.receive);
   return total;
 }
 

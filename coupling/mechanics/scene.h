@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <vector>
@@ -101,13 +102,15 @@ class Scene {
   /// What owned bodies are announced with. `rows`: the cells by owned body.
   [[nodiscard]] std::vector<std::byte> pack_ghosts(std::span<const std::uint32_t> bodies, std::span<const CellRow* const> rows) const;
   /// Tells every rank of the bodies that it may touch; gives what the others tell.
-  std::vector<std::vector<std::byte>> send_to_neighbours(const Tissue& tissue, const Space& space, double reach,
-                                                         std::span<const CellRow* const> rows, const Comm& comm);
+  Mail send_to_neighbours(const Tissue& tissue, const Space& space, double reach, std::span<const CellRow* const> rows, const Comm& comm);
   void place_bodies(std::span<const std::uint64_t> order);
   template <class T>
   void exchange_points(std::span<T> by_point) const;
-  /// part_of(body): what goes from a body to its ghosts.
-  template <class T, class PartOf>
+  /// One value by body.
+  template <class T>
+  void exchange_values(std::span<T> by_body) const;
+  /// part_of(body): what goes from a body to its ghosts. One message to and one from each neighbour.
+  template <class PartOf>
   void exchange_parts(const PartOf& part_of) const;
 
   /// How many there are of what.
@@ -116,11 +119,21 @@ class Scene {
     std::uint32_t owned_nodes = 0, shell_nodes = 0;     ///< of owned shells, and of all
     std::uint32_t nucleus_point = 0, nuclear_node = 0;  ///< first points of the rigid nuclei, and of those that are shells
   };
+  /// A rank that has ghosts of this rank's bodies, or whose bodies have ghosts here.
+  struct Neighbour {
+    std::vector<std::uint32_t> send;     ///< owned bodies that have ghosts there
+    std::vector<std::uint32_t> receive;  ///< ghosts here of that rank's bodies, in the order in which it sends them
+  };
   /// What goes to other ranks and comes from there.
   struct Ghosts {
-    std::vector<Birth> birth;                         ///< of ghost spheres
-    std::vector<std::vector<std::uint32_t>> send;     ///< by rank: owned bodies that go there
-    std::vector<std::vector<std::uint32_t>> receive;  ///< by rank: ghosts that come from there, in the sender's order
+    std::vector<Birth> birth;             ///< of ghost spheres
+    std::map<int, Neighbour> neighbours;  ///< by rank
+  };
+  /// Rooms for messages, kept from one exchange to the next.
+  struct MessageRooms {
+    std::vector<std::byte> sent, received;
+    std::vector<Sending> sendings;
+    std::vector<Receiving> receivings;
   };
   struct Points {
     std::vector<Vec3d> x;
@@ -137,6 +150,7 @@ class Scene {
   Points points_;
   std::vector<std::uint8_t> mark_;
   Ghosts ghosts_;
+  mutable MessageRooms rooms_;  ///< says nothing about the scene
 };
 
 }  // namespace morula

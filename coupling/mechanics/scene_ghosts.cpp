@@ -48,7 +48,8 @@ bool overlaps_any_image(const Box& a, const Box& b, const Space& space) {
 /// A ghost that has come.
 struct Arrival {
   GhostHeader header;
-  std::size_t rank, at;                        ///< where from, and its number among all that came from there
+  int rank;                                    ///< where it came from
+  std::size_t at;                              ///< its number among all that came from there
   std::shared_ptr<const ReferenceShape> form;  ///< of a shell
 };
 
@@ -64,7 +65,7 @@ ContactBody body_of(const GhostHeader& header) {
 }
 
 /// All ghosts that one rank has sent, shells and spheres apart. Gives how many there are.
-std::size_t unpack_ghosts(std::span<const std::byte> bytes, std::size_t rank, ShapeLibrary& library, std::vector<Arrival>& shells,
+std::size_t unpack_ghosts(std::span<const std::byte> bytes, int rank, ShapeLibrary& library, std::vector<Arrival>& shells,
                           std::vector<Arrival>& spheres) {
   if (bytes.empty()) return 0;
   const auto count = unpack<std::uint64_t>(bytes.first(sizeof(std::uint64_t)))[0];
@@ -104,8 +105,8 @@ std::vector<std::byte> Scene::pack_ghosts(std::span<const std::uint32_t> bodies,
   return out;
 }
 
-std::vector<std::vector<std::byte>> Scene::send_to_neighbours(const Tissue& tissue, const Space& space, double reach,
-                                                              std::span<const CellRow* const> rows, const Comm& comm) {
+Mail Scene::send_to_neighbours(const Tissue& tissue, const Space& space, double reach, std::span<const CellRow* const> rows,
+                               const Comm& comm) {
   std::vector<Box> box(bodies_.size());
   Box mine;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -116,32 +117,36 @@ std::vector<std::vector<std::byte>> Scene::send_to_neighbours(const Tissue& tiss
     box[i] = box[i].inflated(0.5 * reach + bodies_[i].radius);
     mine.include(box[i]);
   }
-  const auto all = unpack<Box>(comm.gather_to_all(pack(std::vector<Box>{mine})));
-  std::vector<std::vector<std::byte>> outgoing(all.size());
-  for (std::size_t r = 0; r < all.size(); ++r) {
-    if (static_cast<int>(r) == comm.rank() || all[r].empty()) continue;
+  const auto all = unpack<Box>(comm.gather_to_all(pack(std::vector<Box>{mine})));  // 48 bytes of each rank
+  Mail outgoing;
+  for (int r = 0; r < comm.size(); ++r) {
+    const Box& there = all[static_cast<std::size_t>(r)];
+    if (r == comm.rank() || there.empty() || !overlaps_any_image(mine, there, space)) continue;
+    std::vector<std::uint32_t> send;
     for (std::uint32_t i = 0; i < bodies_.size(); ++i)
-      if (overlaps_any_image(box[i], all[r], space)) ghosts_.send[r].push_back(i);
-    outgoing[r] = pack_ghosts(ghosts_.send[r], rows);
+      if (overlaps_any_image(box[i], there, space)) send.push_back(i);
+    if (send.empty()) continue;
+    outgoing[r] = pack_ghosts(send, rows);
+    ghosts_.neighbours[r].send = std::move(send);
   }
-  return comm.exchange(outgoing);
+  return comm.exchange(std::move(outgoing));
 }
 
 std::vector<std::uint64_t> Scene::find_ghosts(const Tissue& tissue, const Space& space, double reach, ShapeLibrary& library,
                                               const Comm& comm) {
-  const auto ranks = static_cast<std::size_t>(comm.size()), owned_shells = count_.owned_shells;
-  ghosts_ = {{}, std::vector<std::vector<std::uint32_t>>(ranks), std::vector<std::vector<std::uint32_t>>(ranks)};
+  const std::size_t owned_shells = count_.owned_shells;
+  ghosts_ = {};
   const std::vector<const CellRow*> rows = rows_by_body(tissue);
-  const auto incoming = send_to_neighbours(tissue, space, reach, rows, comm);
   std::vector<Arrival> shells, spheres;
-  for (std::size_t r = 0; r < ranks; ++r) ghosts_.receive[r].resize(unpack_ghosts(incoming[r], r, library, shells, spheres));
+  for (const auto& [rank, bytes] : send_to_neighbours(tissue, space, reach, rows, comm))
+    ghosts_.neighbours[rank].receive.resize(unpack_ghosts(bytes, rank, library, shells, spheres));
 
   // Owned shells, ghost shells, owned spheres, ghost spheres.
   std::vector<ContactBody> bodies(bodies_.begin(), bodies_.begin() + static_cast<std::ptrdiff_t>(owned_shells));
   std::vector<std::uint64_t> orders;
   for (std::size_t i = 0; i < owned_shells; ++i) orders.push_back(rows[i]->order);
   const auto add = [&](const Arrival& arrival) {
-    ghosts_.receive[arrival.rank][arrival.at] = static_cast<std::uint32_t>(bodies.size());
+    ghosts_.neighbours[arrival.rank].receive[arrival.at] = static_cast<std::uint32_t>(bodies.size());
     bodies.push_back(body_of(arrival.header));
     orders.push_back(arrival.header.order);
   };
@@ -157,8 +162,8 @@ std::vector<std::uint64_t> Scene::find_ghosts(const Tissue& tissue, const Space&
     add(arrival);
     ghosts_.birth.push_back({arrival.header.birth_radius, arrival.header.birth_time});
   }
-  for (auto& list : ghosts_.send)
-    for (std::uint32_t& body : list)
+  for (auto& [rank, neighbour] : ghosts_.neighbours)
+    for (std::uint32_t& body : neighbour.send)
       if (body >= owned_shells) body += static_cast<std::uint32_t>(shells.size());
   bodies_ = std::move(bodies);
   return orders;

@@ -73,7 +73,12 @@ void RunLoop::note(Note::Kind kind, const std::string& text) {
 
 void RunLoop::warn(const std::string& text) {
   note(Note::Kind::kWarning, text);
-  warnings_.push_back({simulation_->tissue().clock.time, EventKind::kWarning, {}, {}, {}, text});
+  warnings_.push_back({{simulation_->tissue().clock.time, EventKind::kWarning, {}, {}, {}, {}}, text});
+}
+
+void RunLoop::keep_events(std::span<const Event> events) {
+  if (!comm_.is_root()) return;  // the root writes them, and makes their words
+  for (const Event& event : events) events_.push_back({event, text_of(event.reason, study_.model)});
 }
 
 Status RunLoop::write_events() {
@@ -94,7 +99,7 @@ Status RunLoop::begin() {
     state_is_whole_ = false;
     return std::move(placed).error();
   }
-  events_ = std::move(placed).value();
+  keep_events(*placed);
   std::vector<Vec3d> ignored;
   interval_.energy = simulation_->mechanics().energy_and_forces(simulation_->tissue(), ignored);
   count_cells();
@@ -199,7 +204,7 @@ Status RunLoop::step() {
   work_.node_steps += load_.nodes;
   work_.cell_steps += static_cast<double>(progress_.cells);
   progress_.step = outcome.mechanics.step;
-  events_.insert(events_.end(), std::make_move_iterator(outcome.events.begin()), std::make_move_iterator(outcome.events.end()));
+  keep_events(outcome.events);
   count_cells();
   MORULA_TRY(check_capped_start());
   tell_progress(clock.time - before, std::chrono::duration<double>(SteadyClock::now() - began).count());
@@ -259,13 +264,13 @@ Status RunLoop::write_moment(const Measures& measures) {
 /// What happened since the last output, counted: `14 promotions (region core)`.
 void RunLoop::tell_events() {
   std::map<std::pair<EventKind, std::string>, std::size_t> counts;
-  for (const Event& event : events_)
-    if (event.kind == EventKind::kPromotion || event.kind == EventKind::kDemotion) ++counts[{event.kind, event.text}];
+  for (const auto& [event, text] : events_)
+    if (event.kind == EventKind::kPromotion || event.kind == EventKind::kDemotion) ++counts[{event.kind, text}];
   for (const auto& [what, count] : counts)
     note(Note::Kind::kNote, std::to_string(count) + (count == 1 ? " cell" : " cells") +
                                 (what.first == EventKind::kPromotion ? " became shells (" : " became spheres (") + what.second + ")");
-  for (const Event& event : events_)
-    if (event.kind == EventKind::kWarning) note(Note::Kind::kWarning, "cell " + event.cell.text() + ": " + event.text);
+  for (const auto& [event, text] : events_)
+    if (event.kind == EventKind::kWarning) note(Note::Kind::kWarning, "cell " + event.cell.text() + ": " + text);
 }
 
 Status RunLoop::write_tables() {

@@ -58,6 +58,8 @@ class RunLoop {
   void tell_contacts_beyond(const Measures& measures);
   /// A warning of the run itself: for people, and into events.jsonl.
   void warn(const std::string& text);
+  /// Events of a step, to be written by the root at the next output.
+  void keep_events(std::span<const Event> events);
   Status write_events();
   /// Things of which a run warns once; the bits of CheckpointInfo::warned.
   enum Warned : std::uint32_t { kPacking = 1, kVolume = 2, kOverlap = 4, kBalance = 8, kBeyondRange = 16 };
@@ -92,9 +94,9 @@ class RunLoop {
   Progress progress_;
   Load load_;
   double growth_rate_ = 0.0;          ///< of the spheres, if nothing inhibits it [1/s]
-  std::vector<Event> events_;         ///< of the tissue, not yet written
+  std::vector<ToldEvent> events_;     ///< of the tissue, not yet written
   std::vector<std::string> awaited_;  ///< what was still to come when nothing moved, as last told
-  std::vector<Event> warnings_;       ///< of the run, not yet written
+  std::vector<ToldEvent> warnings_;   ///< of the run, not yet written
   bool state_is_whole_ = true;
   Status text_status_;        ///< the first failure of a text written between outputs
   std::uint32_t warned_ = 0;  ///< bits of Warned

@@ -180,7 +180,8 @@ TEST(Promotion, WithoutRoomIsPutOffWithAWarning) {
     for (const Event& event : done->events)
       if (event.kind == EventKind::kWarning) {
         put_off = event.cell;
-        EXPECT_NE(event.text.find("no room"), std::string::npos);
+        EXPECT_EQ(text_of(event.reason, simulation.model()),
+                  "no room among its neighbours to become a shell (region ball); it stays a sphere until the hold time is over");
       }
   }
   ASSERT_TRUE(put_off.valid());

@@ -193,11 +193,10 @@ double staircase_ball_centre(double h, double radius) {
   Field field = field_of(spec, space);
   const auto inside = [&](Vec3d x) { return norm(x) <= radius; };
   const auto cells = cell_per_voxel(field.grid, inside);
-  const std::vector<int> owner = owners_of(field, alone()).value();
   const Comm comm = alone();
-  const CellExchange exchange(field, space, owner, cells, comm);
+  const CellExchange exchange(field, space, cells, comm);
   const Layout layout = layout_of(field, exchange.sinks({true}));
-  Halo halo(field, layout, space, owner, comm);
+  Halo halo(field, layout, space, comm);
   BrickOperator op(field.grid, spec, layout, halo);
   std::vector<double> c(layout.unknowns(), 0.0), rate(layout.unknowns());
   std::vector<double> free_voxel;

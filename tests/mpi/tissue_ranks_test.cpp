@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
+#include <string>
 
 #include "core/space/curve.h"
 #include "coupling/behaviours/birth.h"
@@ -157,6 +158,40 @@ TEST(TissueOnRanks, DemotesWithTheSameBitsAsOnOne) {
   EXPECT_GE(ledger.demotions, 5u);
   EXPECT_LT(ledger.demotions, together.size());  // the last state holds both bodies
   expect_same(together, single);
+}
+
+/// Events of a run of cells that become shells, spheres again, and divide, each as a line for people.
+std::vector<std::string> events_in_words(const Comm& comm) {
+  Model model = hybrid_model();
+  model.types[0].cycle_duration = {900.0, 0.3};
+  model.swaps.regions[0].until = 60.0;
+  model.swaps.hold = 60.0;
+  model.step.max_step = 15.0;
+  auto simulation = Simulation::create(model, hybrid_tissue(model, comm), comm, 1);
+  EXPECT_TRUE(simulation.ok());
+  std::vector<std::string> out;
+  const auto tell = [&](const std::vector<Event>& events) {
+    for (const Event& event : events)
+      out.push_back(std::to_string(event.time) + ' ' + std::to_string(static_cast<int>(event.kind)) + ' ' + event.cell.text() + ' ' +
+                    event.first_daughter.text() + ' ' + event.second_daughter.text() + ' ' + text_of(event.reason, model));
+  };
+  const auto placed = (*simulation)->first_swaps();
+  EXPECT_TRUE(placed.ok());
+  if (placed.ok()) tell(*placed);
+  for (int k = 0; k < 22; ++k) {
+    const auto done = (*simulation)->step(1e6);
+    EXPECT_TRUE(done.ok());
+    if (!done.ok()) break;
+    tell(done->events);
+  }
+  return out;
+}
+
+TEST(TissueOnRanks, TellsEventsWordForWordAsOnOne) {
+  const std::vector<std::string> together = events_in_words(Comm(MPI_COMM_WORLD)), single = events_in_words(Comm(MPI_COMM_SELF));
+  EXPECT_EQ(together, single);
+  for (const char* words : {"region core", "outside", "reached its division volume"})
+    EXPECT_TRUE(std::any_of(single.begin(), single.end(), [&](const std::string& line) { return line.ends_with(words); })) << words;
 }
 
 /// The pressure of a sphere's packing comes from all its neighbours, those of other ranks and shells, too.

@@ -169,12 +169,12 @@ TEST_F(RunFolders, SeriesAndEventsAreCutBackToTheCheckpoint) {
   if (!comm.is_root()) return;
   const std::vector<SeriesHeader> columns{{"cell_count", "1"}, {"pressure", "kPa"}};
   ASSERT_TRUE(run.begin_series(columns).ok());
-  std::vector<Event> events;
+  std::vector<ToldEvent> events;
   for (int i = 0; i < 5; ++i) {
     const double time = 0.1 * i;
     ASSERT_TRUE(run.add_to_series(time, std::vector<double>{double(i), 1.0 / 3.0}).ok());
     events.push_back(
-        {time, EventKind::kDivision, CellId::founder(7), CellId::founder(7).daughter(0), CellId::founder(7).daughter(1), "grown"});
+        {{time, EventKind::kDivision, CellId::founder(7), CellId::founder(7).daughter(0), CellId::founder(7).daughter(1), {}}, "grown"});
   }
   ASSERT_TRUE(run.add_events(events).ok());
   ASSERT_TRUE(append_to_text(run.events(), "{\"time_s\": 0.1, \"ki").ok());  // the process was killed here
@@ -192,15 +192,15 @@ TEST_F(RunFolders, SeriesAndEventsAreCutBackToTheCheckpoint) {
 TEST_F(RunFolders, WhatCameAfterACheckpointIsCutWhateverItsTime) {
   const RunFolder run = make();
   if (!comm.is_root()) return;
-  const auto event = [](double time, const char* text) { return Event{time, EventKind::kWarning, {}, {}, {}, text}; };
+  const auto event = [](double time, const char* text) { return ToldEvent{{time, EventKind::kWarning, {}, {}, {}, {}}, text}; };
   ASSERT_TRUE(run.begin_series(std::vector<SeriesHeader>{{"cell_count", "1"}}).ok());
-  ASSERT_TRUE(run.add_events(std::vector<Event>{event(1.0, "first"), event(2.0, "second")}).ok());
+  ASSERT_TRUE(run.add_events(std::vector<ToldEvent>{event(1.0, "first"), event(2.0, "second")}).ok());
   ASSERT_TRUE(run.add_to_log("before").ok());
   const auto lengths = run.sync_texts();
   ASSERT_TRUE(lengths.ok());
   EXPECT_EQ(lengths->events, slurp(run.events()).size());
   // After the checkpoint at 2 s: an event of a moment before it (a division that was late), one of that very moment, and a line of the log.
-  ASSERT_TRUE(run.add_events(std::vector<Event>{event(1.9, "late"), event(2.0, "failed")}).ok());
+  ASSERT_TRUE(run.add_events(std::vector<ToldEvent>{event(1.9, "late"), event(2.0, "failed")}).ok());
   ASSERT_TRUE(run.add_to_log("after").ok());
   ASSERT_TRUE(run.cut_back(2.0, *lengths).ok());
   const std::string events = slurp(run.events());
@@ -221,7 +221,7 @@ TEST_F(RunFolders, NothingIsWrittenThroughALink) {
   };
   for (const fs::path& file : {run.log(), run.events(), run.series()}) fs::create_symlink(precious, file);
   refused(run.add_to_log("a line"));
-  refused(run.add_events(std::vector<Event>(1)));
+  refused(run.add_events(std::vector<ToldEvent>(1)));
   refused(run.add_to_series(0.0, {}));
   fs::path aside = run.status();
   aside += ".tmp";

@@ -1,0 +1,12 @@
+#pragma once
+#include <span>
+
+#include "core/parallel/comm.h"
+#include "results/hash128.h"
+
+namespace morula::scenarios {
+
+/// Each hash becomes its sum over all ranks. Collective.
+void sum_over_ranks(std::span<Hash128> hashes, const Comm& comm);
+
+}  // namespace morula::scenarios
