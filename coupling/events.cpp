@@ -30,7 +30,7 @@ std::string text_of_cause(const EventReason& reason, const Model& model) {
       return "cannot divide: its lineage is " + std::to_string(CellId::kMaxGenerations) + " generations long";
     case Cause::kLowConcentration: {
       const CellType& type = model.types[reason.number];
-      return "a concentration (field " + std::to_string(type.death_field) + ") is below what " + type.name + " needs";
+      return model.fields[static_cast<std::size_t>(type.death_field)].name + " is below what " + type.name + " needs";
     }
     case Cause::kShrunk:
       return "shrunk below the volume at which a dead cell is removed";

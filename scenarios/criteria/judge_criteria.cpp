@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/numbers/number_text.h"
-#include "scenarios/library/verdicts.h"
+#include "scenarios/measures/verdicts.h"
 
 namespace morula::scenarios {
 namespace {

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "scenarios/criteria/judge_criteria.h"
-#include "scenarios/library/reference_table.h"
-#include "scenarios/library/verdicts.h"
+#include "scenarios/measures/interpolated.h"
+#include "scenarios/measures/verdicts.h"
 
 namespace morula::scenarios {
 namespace {

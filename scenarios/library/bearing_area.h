@@ -1,5 +1,5 @@
 #pragma once
-#include "scenarios/library/shape_measures.h"
+#include "scenarios/measures/shape_measures.h"
 
 namespace morula::scenarios {
 

@@ -9,7 +9,7 @@
 #include "core/mesh/convex_hull.h"
 #include "results/snapshot_file.h"
 #include "scenarios/library/embryo_measures.h"
-#include "scenarios/library/verdicts.h"
+#include "scenarios/measures/verdicts.h"
 #include "study/csv.h"
 
 namespace morula::scenarios {

@@ -5,10 +5,11 @@
 #include "core/numbers/number_text.h"
 #include "results/series_reader.h"
 #include "scenarios/library/bearing_area.h"
-#include "scenarios/library/elastic_cap.h"
-#include "scenarios/library/shape_measures.h"
-#include "scenarios/library/single_cell.h"
-#include "scenarios/library/verdicts.h"
+#include "scenarios/library/single_cell_studies.h"
+#include "scenarios/measures/elastic_cap.h"
+#include "scenarios/measures/shape_measures.h"
+#include "scenarios/measures/single_cell.h"
+#include "scenarios/measures/verdicts.h"
 
 namespace morula::scenarios {
 namespace {

@@ -7,8 +7,9 @@
 #include "scenarios/criteria/judge_criteria.h"
 #include "scenarios/library/blastocyst.h"
 #include "scenarios/library/embryo.h"
-#include "scenarios/library/single_cell.h"
-#include "scenarios/library/verdicts.h"
+#include "scenarios/library/single_cell_studies.h"
+#include "scenarios/measures/single_cell.h"
+#include "scenarios/measures/verdicts.h"
 
 namespace morula::scenarios {
 namespace {

@@ -9,8 +9,8 @@
 #include "core/mesh/surface_file.h"
 #include "core/mesh/topology.h"
 #include "scenarios/library/embryo_shape.h"
-#include "scenarios/library/single_cell.h"
-#include "scenarios/library/verdicts.h"
+#include "scenarios/measures/single_cell.h"
+#include "scenarios/measures/verdicts.h"
 #include "study/initial/cells_from_meshes.h"
 
 namespace morula::scenarios {

@@ -3,9 +3,10 @@
 #include <cmath>
 
 #include "scenarios/library/pulled_cell.h"
-#include "scenarios/library/shape_measures.h"
-#include "scenarios/library/single_cell.h"
-#include "scenarios/library/verdicts.h"
+#include "scenarios/library/single_cell_studies.h"
+#include "scenarios/measures/shape_measures.h"
+#include "scenarios/measures/single_cell.h"
+#include "scenarios/measures/verdicts.h"
 
 namespace morula::scenarios {
 namespace {

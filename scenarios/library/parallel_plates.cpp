@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenarios/library/shape_measures.h"
-#include "scenarios/library/single_cell.h"
-#include "scenarios/library/theory.h"
 #include "scenarios/measures/measures.h"
+#include "scenarios/measures/shape_measures.h"
+#include "scenarios/measures/single_cell.h"
 #include "scenarios/measures/theories.h"
+#include "scenarios/measures/theory.h"
 
 namespace morula::scenarios {
 namespace {

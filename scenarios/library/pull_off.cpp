@@ -6,10 +6,11 @@
 
 #include "core/numbers/number_text.h"
 #include "results/series_reader.h"
-#include "scenarios/library/shape_measures.h"
-#include "scenarios/library/single_cell.h"
-#include "scenarios/library/theory.h"
-#include "scenarios/library/verdicts.h"
+#include "scenarios/library/single_cell_studies.h"
+#include "scenarios/measures/shape_measures.h"
+#include "scenarios/measures/single_cell.h"
+#include "scenarios/measures/theory.h"
+#include "scenarios/measures/verdicts.h"
 
 namespace morula::scenarios {
 namespace {

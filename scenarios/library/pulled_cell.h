@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "scenarios/library/single_cell.h"
+#include "scenarios/measures/single_cell.h"
 
 namespace morula::scenarios {
 

@@ -4,7 +4,8 @@
 
 #include "scenarios/library/pulled_cell.h"
 #include "scenarios/library/reference_table.h"
-#include "scenarios/library/verdicts.h"
+#include "scenarios/measures/interpolated.h"
+#include "scenarios/measures/verdicts.h"
 
 namespace morula::scenarios {
 namespace {

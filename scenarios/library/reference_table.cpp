@@ -57,11 +57,4 @@ const std::vector<double>& ReferenceTable::column(std::string_view name) const {
   return found == names_.end() ? none_ : columns_[static_cast<std::size_t>(found - names_.begin())];
 }
 
-double interpolated(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
-  for (std::size_t i = 1; i < std::min(xs.size(), ys.size()); ++i)
-    if (x >= xs[i - 1] && x <= xs[i])
-      return xs[i] == xs[i - 1] ? ys[i] : ys[i - 1] + (ys[i] - ys[i - 1]) * (x - xs[i - 1]) / (xs[i] - xs[i - 1]);
-  return std::nan("");
-}
-
 }  // namespace morula::scenarios

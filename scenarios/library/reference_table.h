@@ -23,7 +23,4 @@ class ReferenceTable {
   std::vector<double> none_;
 };
 
-/// Value of a piecewise linear curve at x; NaN outside of it. xs increasing.
-double interpolated(const std::vector<double>& xs, const std::vector<double>& ys, double x);
-
 }  // namespace morula::scenarios

@@ -1,8 +1,8 @@
 // Cells with a tension are spherical caps where they touch each other or an obstacle.
 #include <algorithm>
 
-#include "scenarios/library/elastic_cap.h"
 #include "scenarios/measures/caps.h"
+#include "scenarios/measures/elastic_cap.h"
 #include "scenarios/measures/measures.h"
 
 namespace morula::scenarios {

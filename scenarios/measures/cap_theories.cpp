@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "core/numbers/number_text.h"
-#include "scenarios/library/elastic_cap.h"
-#include "scenarios/library/single_cell.h"
-#include "scenarios/library/theory.h"
 #include "scenarios/measures/caps.h"
+#include "scenarios/measures/elastic_cap.h"
+#include "scenarios/measures/single_cell.h"
 #include "scenarios/measures/theories.h"
+#include "scenarios/measures/theory.h"
 
 namespace morula::scenarios {
 namespace {

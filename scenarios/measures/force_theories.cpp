@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenarios/library/elastic_cap.h"
+#include "scenarios/measures/elastic_cap.h"
 #include "scenarios/measures/theories.h"
 
 namespace morula::scenarios {

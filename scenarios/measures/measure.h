@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/numbers/unit_conversion.h"
-#include "scenarios/library/shape_measures.h"
 #include "scenarios/measures/finished_run.h"
+#include "scenarios/measures/shape_measures.h"
 
 namespace morula::scenarios {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "scenarios/library/single_cell.h"
+#include "scenarios/measures/single_cell.h"
 #include "scenarios/run/driver.h"
 #include "study/study.h"
 

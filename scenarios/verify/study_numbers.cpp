@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/numbers/number_text.h"
-#include "scenarios/library/single_cell.h"
+#include "scenarios/measures/single_cell.h"
 #include "scenarios/verify/run_study.h"
 
 namespace morula::scenarios {

@@ -9,7 +9,7 @@
 
 #include "scenarios/library/criteria.h"
 #include "scenarios/library/library.h"
-#include "scenarios/library/shape_measures.h"
+#include "scenarios/measures/shape_measures.h"
 #include "scenarios/run/driver.h"
 #include "tests/scenarios/simulation_of.h"
 #include "tests/study/study_fixture.h"

@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "core/contact/contact_layer.h"
-#include "scenarios/library/shape_measures.h"
-#include "scenarios/library/single_cell.h"
-#include "scenarios/library/theory.h"
+#include "scenarios/measures/shape_measures.h"
+#include "scenarios/measures/single_cell.h"
+#include "scenarios/measures/theory.h"
 #include "scenarios/run/driver.h"
 #include "tests/scenarios/simulation_of.h"
 #include "tests/study/study_fixture.h"

@@ -1,4 +1,5 @@
 #include "scenarios/library/reference_table.h"
+#include "scenarios/measures/interpolated.h"
 
 #include <gtest/gtest.h>
 

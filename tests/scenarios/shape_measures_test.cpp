@@ -1,4 +1,4 @@
-#include "scenarios/library/shape_measures.h"
+#include "scenarios/measures/shape_measures.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include "core/mesh/remesh.h"
 #include "scenarios/library/criteria.h"
 #include "scenarios/library/library.h"
-#include "scenarios/library/single_cell.h"
+#include "scenarios/measures/single_cell.h"
 #include "scenarios/run/driver.h"
 #include "tests/study/study_fixture.h"
 

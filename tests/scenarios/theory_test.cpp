@@ -1,4 +1,4 @@
-#include "scenarios/library/theory.h"
+#include "scenarios/measures/theory.h"
 
 #include <gtest/gtest.h>
 

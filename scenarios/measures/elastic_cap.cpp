@@ -1,4 +1,4 @@
-#include "scenarios/library/elastic_cap.h"
+#include "scenarios/measures/elastic_cap.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "scenarios/library/single_cell.h"
+#include "scenarios/measures/single_cell.h"
 
 #include <numbers>
 

@@ -1,0 +1,16 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace morula::scenarios {
+
+/// Value of a piecewise linear curve at x; NaN outside of it. xs increasing.
+inline double interpolated(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
+  for (std::size_t i = 1; i < std::min(xs.size(), ys.size()); ++i)
+    if (x >= xs[i - 1] && x <= xs[i])
+      return xs[i] == xs[i - 1] ? ys[i] : ys[i - 1] + (ys[i] - ys[i - 1]) * (x - xs[i - 1]) / (xs[i] - xs[i - 1]);
+  return std::nan("");
+}
+
+}  // namespace morula::scenarios
