@@ -1,5 +1,6 @@
 #include "app/laws.h"
 #include "app/verbs.h"
+#include "coupling/observables/observable.h"
 #include "study/catalogue.h"
 #include "study/diagnostics.h"
 
@@ -24,6 +25,7 @@ Status explain(const ExplainOptions& options, const Context& context) {
       if (dot != std::string::npos) known.push_back(path.substr(dot + 1));
       known.push_back(std::move(path));
     }
+    for (std::string& name : observable_names({}, *context.laws)) known.push_back(std::move(name));
     const std::string near = scenarios::suggest(options.id, known);
     const bool suggestion = near.rfind("did you mean", 0) == 0;
     return Error{

@@ -129,7 +129,6 @@ struct Study {
 struct ReadOptions {
   std::shared_ptr<const Laws> laws = builtin_laws();    ///< that the study may name
   std::vector<std::string> overrides{};                 ///< `key.path=value`, as if written in the file
-  std::vector<std::string> series_names{};              ///< observables that exist; empty: not checked
   std::vector<std::string> scenario_names{};            ///< library studies that exist; empty: not checked
   std::function<Status(const Study&)> fits_scenario{};  ///< whether a study has what its scenario's criteria judge; null: not checked
   bool strict = false;                                  ///< warnings are errors

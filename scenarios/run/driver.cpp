@@ -5,6 +5,7 @@
 #include "results/checkpoint_folder.h"
 #include "results/damaged_file.h"
 #include "results/file_io.h"
+#include "results/observables/select_observables.h"
 #include "scenarios/run/report_run.h"
 #include "scenarios/run/run_lock.h"
 #include "scenarios/run/run_loop.h"
@@ -21,7 +22,7 @@ Result<std::vector<Observable>> columns_of(const Study& study) {
          {"cell_count", "shell_count", "volume_error", "overlap", "worst_overlap", "energy", "step_count", "step_size", "field_balance"})
       if ((needed != "field_balance" || !study.model.fields.empty()) && std::find(names.begin(), names.end(), needed) == names.end())
         names.push_back(needed);
-  return select_observables(study.model, names);
+  return select_observables(study.model, *study.laws, names);
 }
 
 RunRecord new_record(const Study& study, const RunRequest& request, const Comm& comm) {

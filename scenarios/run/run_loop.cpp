@@ -112,8 +112,7 @@ void RunLoop::tell_idle_loads() {
     if (load.mark < 0) continue;
     bool borne = false;
     for (std::size_t i = 0; i < shells.size(); ++i)
-      if (shells.type[i] == load.type)
-        borne = borne || shells.marks_of(i).any_has(load.mark);
+      if (shells.type[i] == load.type) borne = borne || shells.marks_of(i).any_has(load.mark);
     if (!comm_.any(borne))
       note(Note::Kind::kWarning, "load '" + load.name + "' acts nowhere: no face of '" + model.types[load.type].name + "' has the mark '" +
                                      model.mark_names[static_cast<std::size_t>(load.mark)] + "' at the start");
@@ -244,7 +243,8 @@ Status RunLoop::output() {
 
 Status RunLoop::write_moment(const Measures& measures) {
   const Tissue& tissue = simulation_->tissue();
-  const Moment moment{measures, interval_, tissue.clock, tissue.ledger};
+  const CellsAtOutput cells(*simulation_);
+  const Moment moment{measures, interval_, tissue.clock, tissue.ledger, cells};
   std::vector<double> row;
   for (const Observable& column : columns_) row.push_back(column.value(moment));
   const Snapshot snapshot = local_snapshot(*simulation_);

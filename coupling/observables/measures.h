@@ -7,7 +7,7 @@
 #include "coupling/overlap.h"
 #include "coupling/simulation.h"
 
-namespace morula::scenarios {
+namespace morula {
 
 /// Numbers of the whole tissue at one moment; the same bits on every rank and on any number of ranks.
 struct Measures {
@@ -32,12 +32,12 @@ struct Measures {
   double total_volume_error = 0.0;  ///< |Σ V_i − Σ V_i^law| / Σ V_i^law
   double packing = 0.0;  ///< largest φ of a sphere over the end of its type's calibrated range; 0: no type has one (cbm/packing.h)
   CellId packing_cell;   ///< which
-  std::int64_t packed_beyond = 0;                ///< spheres beyond the calibrated range
-  std::int64_t sphere_contacts = 0;              ///< contacts of two spheres
-  std::int64_t contacts_beyond = 0;              ///< those larger than their law allows for (cbm/sphere_range.h)
-  std::vector<Vec3d> obstacle_force;             ///< of all cells on each obstacle [nN]
-  std::vector<LumenState> lumens;                ///< by lumen of the model
-  std::vector<Vec3d> grip_force;                 ///< of each load that is a grip on its cells; 0 for other loads [nN]
+  std::int64_t packed_beyond = 0;               ///< spheres beyond the calibrated range
+  std::int64_t sphere_contacts = 0;             ///< contacts of two spheres
+  std::int64_t contacts_beyond = 0;             ///< those larger than their law allows for (cbm/sphere_range.h)
+  std::vector<Vec3d> obstacle_force;            ///< of all cells on each obstacle [nN]
+  std::vector<LumenState> lumens;               ///< by lumen of the model
+  std::vector<Vec3d> grip_force;                ///< of each load that is a grip on its cells; 0 for other loads [nN]
   std::vector<double> mean_field, least_field;  ///< by field, over voxels [mM]
   /// |A − A_0 + taken + decayed − inflow| / max(A, A_0, taken, decayed, |inflow|) since time 0, A the amount in the field; by field.
   std::vector<double> field_balance;
@@ -57,4 +57,4 @@ struct Interval {
   void add(const StepOutcome& outcome);
 };
 
-}  // namespace morula::scenarios
+}  // namespace morula
