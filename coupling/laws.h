@@ -9,8 +9,12 @@
 
 namespace morula {
 
+struct Behaviour;
+struct Load;
 struct Model;
 struct Observable;
+struct RegionShape;
+struct TriggerValue;
 
 /// Columns of series.csv that are declared together: those that a run of this model has (coupling/observables/observable.h).
 using Observables = std::function<std::vector<Observable>(const Model&)>;
@@ -21,6 +25,10 @@ struct Laws {
   std::vector<dcm::ShellLaw> shells;
   std::vector<std::shared_ptr<const cbm::SphereLaw>> spheres;  ///< of their contact
   std::vector<std::shared_ptr<const SurfaceLaw>> surfaces;     ///< of contact of surfaces
+  std::vector<std::shared_ptr<const Behaviour>> behaviours;    ///< in the order in which they act
+  std::vector<std::shared_ptr<const Load>> loads;
+  std::vector<std::shared_ptr<const RegionShape>> region_shapes;
+  std::vector<std::shared_ptr<const TriggerValue>> trigger_values;
   std::vector<Observables> observables;
 };
 

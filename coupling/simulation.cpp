@@ -256,7 +256,10 @@ Status Simulation::advance_fields(double dt, const std::function<bool()>& give_u
 Result<std::vector<Event>> Simulation::swap_bodies() {
   auto timed = timer().scope(Stage::kCoupling);
   std::vector<Event> events;
-  const std::vector<SwapOrder> orders = choose_swaps(model_, tissue_, centers(), comm_);
+  const std::vector<Vec3d> center = centers();
+  std::optional<BodyValues> body_values;
+  if (look_at_bodies(model_.swaps)) body_values = values();
+  const std::vector<SwapOrder> orders = choose_swaps(model_, tissue_, {center, body_values ? &*body_values : nullptr}, comm_);
   if (!comm_.any(!orders.empty())) return events;
   std::vector<double> pressure(orders.size()), volume;
   for (std::size_t k = 0; k < orders.size(); ++k) pressure[k] = tissue_.cells.rows[orders[k].row].pressure;
@@ -327,8 +330,8 @@ void Simulation::divide_and_remove(const LifeReport& life, double time, std::vec
       if (order == life.divisions.end()) break;
       if (order->row != body.row) continue;
       const CellRecord mother = record_of(tissue_, body);
-      auto pair = divide_sphere(mother.row, {mother.sphere->position, mother.sphere->radius}, model_.types[mother.row.type],
-                                model_.seed, time, order->late);
+      auto pair = divide_sphere(mother.row, {mother.sphere->position, mother.sphere->radius}, model_.types[mother.row.type], model_.seed,
+                                time, order->late);
       divide_variables(tissue_.cells.variables, mother.row, pair.first, pair.second);
       for (int which = 0; which < 2; ++which) {
         CellRecord& daughter = daughters.emplace_back();

@@ -70,7 +70,7 @@ std::vector<Observable> observables_of_any_model(const Laws& laws) {
   model.obstacles.emplace_back().name = "<obstacle>";
   model.lumens.emplace_back().name = "<cavity>";
   model.loads.emplace_back().name = "<grip>";
-  model.loads[0].kind = LoadKind::kGrip;
+  model.loads[0].what = grip_load();
   model.fields.emplace_back().name = "<field>";
   return observables(model, laws);
 }

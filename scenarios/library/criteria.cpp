@@ -37,9 +37,9 @@ double largest_rise(const SeriesColumn* energy) {
   return range == 0.0 ? rise.value() : rise.value() / std::max(range, kRest * size);
 }
 
-Status has_load(const Study& study, LoadKind kind, const char* what) {
+Status has_load(const Study& study, const std::shared_ptr<const morula::Load>& kind, const char* what) {
   for (const CellLoad& load : study.model.loads)
-    if (load.kind == kind) return {};
+    if (load.what == kind) return {};
   return Error{ErrorKind::kInput, what, ""};
 }
 
@@ -86,7 +86,7 @@ std::vector<NotChecked> never_checked(const Study& study) {
 }  // namespace
 
 const std::vector<ScenarioCriteria>& scenario_criteria() {
-  const auto grips = [](const Study& study) { return has_load(study, LoadKind::kGrip, "a grip (`loads` with `grip`)"); };
+  const auto grips = [](const Study& study) { return has_load(study, grip_load(), "a grip (`loads` with `grip`)"); };
   static const std::vector<ScenarioCriteria> all{
       {"blastocyst", &judge_blastocyst, &blastocyst_needs, {"S18.1", "S18.2", "S18.3", "S18.6"}},
       {"cavity", &judge_cavity, &cavity_needs, {"S18.4"}},
@@ -96,17 +96,17 @@ const std::vector<ScenarioCriteria>& scenario_criteria() {
       {"hybrid_spheroid", &judge_hybrid_spheroid, &hybrid_spheroid_needs, {"DEMO.1", "DEMO.2", "DEMO.3", "DEMO.4", "S7.8"}},
       {"micropipette",
        &judge_micropipette,
-       [](const Study& study) { return has_load(study, LoadKind::kPressure, "a suction (`loads` with `pressure`)"); },
+       [](const Study& study) { return has_load(study, pressure_load(), "a suction (`loads` with `pressure`)"); },
        {"S3.0", "S3.1", "S3.2", "S3.3", "S3.4", "S3.5"},
        &plot_micropipette},
       {"optical_stretcher",
        &judge_optical_stretcher,
-       [](const Study& study) { return has_load(study, LoadKind::kTraction, "light that pulls (`loads` with `traction`)"); },
+       [](const Study& study) { return has_load(study, traction_load(), "light that pulls (`loads` with `traction`)"); },
        {"S1.1", "S1.2", "S1.3", "S1.4", "S1.5", "S1.7", "S1.8"},
        &plot_optical_stretcher},
       {"optical_tweezers",
        &judge_optical_tweezers,
-       [](const Study& study) { return has_load(study, LoadKind::kPull, "a pull at two poles (`loads` with `pull`)"); },
+       [](const Study& study) { return has_load(study, pull_load(), "a pull at two poles (`loads` with `pull`)"); },
        {"S2.1", "S2.2", "S2.3", "S2.4", "S2.4b", "S2.5", "S2.6"},
        &plot_optical_tweezers},
       {"parallel_plates",
@@ -124,7 +124,7 @@ bool is_passive(const Study& study) {
   const Model& model = study.model;
   for (const CellType& type : model.types)
     if (type.fluctuations.energy > 0.0 || type.protrusion.force > 0.0 || !type.regional_tension.empty() || type.osmosis.acts() ||
-        type.cycles || type.migration_speed > 0.0 || (type.death_field >= 0 && type.death_rate > 0.0))
+        type.cycles || type.migration_speed > 0.0 || !type.behaviours.empty())
       return false;
   for (const InitialCells& block : study.initial)
     if (block.start_volume_fraction < 1.0) return false;
