@@ -14,7 +14,7 @@ namespace morula::app {
 struct Context {
   Comm comm;  ///< all ranks of the program
   Console console;
-  std::string command;  ///< as typed, for run.json
+  std::string command;                                ///< as typed, for run.json
   std::shared_ptr<const Laws> laws = builtin_laws();  ///< that studies may name
 };
 

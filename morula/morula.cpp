@@ -102,7 +102,8 @@ Result<Study> Study::read(const std::filesystem::path& file, const std::vector<s
 
 Result<Study> Study::from_text(const std::string& text, const std::filesystem::path& folder, const std::vector<std::string>& overrides,
                                std::shared_ptr<const Laws> laws) {
-  MORULA_TRY_ASSIGN(scenarios::Study study, checked(scenarios::read_study_text("study", text, folder, options_of(overrides, std::move(laws)))));
+  MORULA_TRY_ASSIGN(scenarios::Study study,
+                    checked(scenarios::read_study_text("study", text, folder, options_of(overrides, std::move(laws)))));
   Study out;
   std::vector<std::string> names = names_of_types(study.model);
   out.content_ = std::make_shared<const Content>(Content{std::move(study), std::move(names)});

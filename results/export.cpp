@@ -71,9 +71,8 @@ std::string cells_as_csv(const Snapshot& s) {
   out += '\n';
   for (std::size_t i = 0; i < s.cells.size(); ++i) {
     std::string line;
-    for_each_snapshot_column([&](const char*, const char*, const char*, auto member) {
-      line += (line.empty() ? "" : ",") + as_text(s, s.cells[i].*member);
-    });
+    for_each_snapshot_column(
+        [&](const char*, const char*, const char*, auto member) { line += (line.empty() ? "" : ",") + as_text(s, s.cells[i].*member); });
     for (const Snapshot::Variable& variable : s.variables) line += ',' + shortest_text(variable.values[i]);
     out += line + '\n';
   }

@@ -74,8 +74,8 @@ struct Snapshot {
     std::vector<double> concentration;  ///< x fastest [mM]
   };
 
-  double time = 0.0;            ///< [s]
-  std::vector<Cell> cells;      ///< sorted by id
+  double time = 0.0;        ///< [s]
+  std::vector<Cell> cells;  ///< sorted by id
   std::vector<Variable> variables;
   std::vector<Shell> shells;    ///< in the order of their cells
   std::vector<Nucleus> nuclei;  ///< the rigid ones, in the order of their cells

@@ -66,7 +66,8 @@ inline constexpr ResultsDataset kEventText{"events/text", "1", "the reason, for 
 inline constexpr ResultsDataset kTime{"time", "s", "simulated time of this snapshot"};
 inline constexpr ResultsDataset kTypeNames{"type_names", "1", "names of the cell types by number"};
 inline constexpr ResultsDataset kFieldNames{"field_names", "1", "names of the fields"};
-inline constexpr ResultsDataset kVariableNames{"variable_names", "1", "numbers by cell that the study brings with it: their datasets below cells/"};
+inline constexpr ResultsDataset kVariableNames{"variable_names", "1",
+                                               "numbers by cell that the study brings with it: their datasets below cells/"};
 inline constexpr ResultsDataset kVariableUnits{"variable_units", "1", "units of the numbers in variable_names"};
 inline constexpr ResultsDataset kMarkNames{"mark_names", "1", "names of the marks of faces, by bit"};
 inline constexpr ResultsDataset kFaceCount{"topologies/face_count", "1", "faces of each list below"};
@@ -77,7 +78,9 @@ inline constexpr ResultsDataset kFirstNode{"first_node", "1", "its first row in 
 inline constexpr ResultsDataset kNodeCount{"node_count", "1", "number of its rows in node"};
 inline constexpr ResultsDataset kTopology{"topology", "1", "number of its list of faces in topologies/"};
 inline constexpr ResultsDataset kNode{"node", "um", "nodes of all surfaces one after the other: x, y, z"};
-inline constexpr ResultsDataset kFaceMarks{"shells/face_marks", "1", "marks of each face as bits, faces of the shells one after the other; beyond eight marks a face has several bytes, that of the first eight first"};
+inline constexpr ResultsDataset kFaceMarks{"shells/face_marks", "1",
+                                           "marks of each face as bits, faces of the shells one after the other; beyond eight marks a face "
+                                           "has several bytes, that of the first eight first"};
 inline constexpr ResultsDataset kNucleusCell{"nuclei/cell", "1", "row of the nucleus' cell in cells/"};
 inline constexpr ResultsDataset kNucleusCenter{"nuclei/center", "um", "centre of the rigid nucleus: x, y, z"};
 inline constexpr ResultsDataset kNucleusRadius{"nuclei/radius", "um", "radius of the rigid nucleus"};

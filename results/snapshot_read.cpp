@@ -138,10 +138,13 @@ Status read_surfaces(const Hdf5Reader& file, const std::string& group, const Sna
 
 Status read_shells(const Hdf5Reader& file, const std::string& group, Snapshot& out) {
   MORULA_TRY_ASSIGN(const auto face_count, file.read<std::uint32_t>(group + "topologies/face_count"));
-  std::uint64_t place = 0;
+  // At once: a checksum is of a whole dataset.
+  MORULA_TRY_ASSIGN(const std::vector<Triangle> all_faces, file.read<Triangle>(group + "topologies/faces"));
+  std::size_t place = 0;
   for (const std::uint32_t faces : face_count) {
-    MORULA_TRY_ASSIGN(std::vector<Triangle> list, file.read<Triangle>(group + "topologies/faces", place, faces));
-    out.topologies.push_back(std::move(list));
+    if (faces > all_faces.size() - place) return Error{ErrorKind::kFile, "the lists of faces in " + group + " are cut short", ""};
+    const auto begin = all_faces.begin() + static_cast<std::ptrdiff_t>(place);
+    out.topologies.emplace_back(begin, begin + static_cast<std::ptrdiff_t>(faces));
     place += faces;
   }
   MORULA_TRY(read_surfaces(file, group + "shells/", out, out.shells, out.nodes));
@@ -152,7 +155,8 @@ Status read_shells(const Hdf5Reader& file, const std::string& group, Snapshot& o
   MORULA_TRY_ASSIGN(out.face_marks, file.read<std::uint8_t>(group + "shells/face_marks"));
   std::size_t faces = 0;
   for (const Snapshot::Shell& shell : out.shells) faces += out.topologies[shell.topology].size();
-  if (out.face_marks.size() != faces * out.mark_width()) return Error{ErrorKind::kFile, "the marks in " + group + " are not those of its faces", ""};
+  if (out.face_marks.size() != faces * out.mark_width())
+    return Error{ErrorKind::kFile, "the marks in " + group + " are not those of its faces", ""};
   return {};
 }
 

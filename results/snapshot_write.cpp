@@ -277,12 +277,14 @@ Status check_local(const Snapshot& local, std::span<const fields::Field> fields)
                  "a snapshot names " + std::to_string(local.fields.size()) + " fields of " + std::to_string(fields.size()), ""};
   for (const Snapshot::Variable& variable : local.variables)
     if (variable.values.size() != local.cells.size())
-      return Error{ErrorKind::kInternal, "a snapshot has " + variable.name + " of " + std::to_string(variable.values.size()) + " cells", ""};
+      return Error{ErrorKind::kInternal, "a snapshot has " + variable.name + " of " + std::to_string(variable.values.size()) + " cells",
+                   ""};
   std::size_t faces = 0;
   for (const Snapshot::Shell& shell : local.shells)
     if (shell.topology < local.topologies.size()) faces += local.topologies[shell.topology].size();
   if (!local.mark_names.empty() && local.face_marks.size() != faces * local.mark_width())
-    return Error{ErrorKind::kInternal, "a snapshot has " + std::to_string(local.face_marks.size()) + " bytes for the marks of its faces", ""};
+    return Error{ErrorKind::kInternal, "a snapshot has " + std::to_string(local.face_marks.size()) + " bytes for the marks of its faces",
+                 ""};
   for (const Snapshot::Shell& shell : local.shells)
     if (shell.cell >= local.cells.size() || shell.topology >= local.topologies.size() || shell.node_count == 0 ||
         std::size_t{shell.first_node} + shell.node_count > local.nodes.size())

@@ -46,18 +46,22 @@ std::shared_ptr<const SurfaceLaw> law_of(const BuildContext& c, const draft::Con
   return tent_law();  // told
 }
 
-/// Keys of the laws' own: E515 where another law stands, E516 where one is missing.
+/// Keys of the laws' own: E515 where another law stands, unless it is the default, as in a resolved study; E516 where one is missing.
 void check_own_keys(BuildContext& c, const draft::ContactPair& pair, const SurfaceLaw& law, const Place& place) {
   for (const auto& [name, key] : pair.own) {
     std::string owners, example;
-    bool has_effect = false;
+    bool has_effect = false, is_default = false;
     for (const auto& one : c.options.laws->surfaces)
-      for (const KeySpec& own : one->own)
-        if (name == own.name)
-          owners += (owners.empty() ? "" : " or ") + one->word, example = own.example, has_effect = has_effect || one->word == law.word;
+      for (const KeySpec& own : one->own) {
+        if (name != own.name) continue;
+        owners += (owners.empty() ? "" : " or ") + one->word;
+        example = own.example;
+        has_effect = has_effect || one->word == law.word;
+        is_default = own.fallback != nullptr && key.text == own.fallback;
+      }
     if (has_effect && !key.known() && !key.given)
       c.diagnostics.error(516, place, "law " + law.word + " needs `" + name + "`", "add for example `" + name + ": " + example + "`");
-    if (!has_effect && key.given)
+    if (!has_effect && key.given && !is_default)
       c.diagnostics.error(515, key.place, "`" + name + "` belongs to law " + owners + ", but the law is " + pair.law.value,
                           "remove it, or write `law: " + owners + "`");
   }

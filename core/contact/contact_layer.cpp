@@ -1,7 +1,7 @@
 #include "core/contact/contact_layer.h"
 
-#include <cassert>
 #include <omp.h>
+#include <cassert>
 
 #include <algorithm>
 #include <cmath>

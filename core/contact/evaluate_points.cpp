@@ -214,8 +214,8 @@ double adhesion_at_node(const PointsEvaluation& e, int d, MarkSet marks, std::ui
 void find_adhesion(const PointsEvaluation& e, int d, MarkSet marks, const Triangle* face, int lane, Batch& batch) {
   for (std::size_t j = 0; j < 3; ++j)
     batch.corner_adhesion[j][lane] = face != nullptr && !e.target.marks.empty() ? adhesion_at_node(e, d, marks, (*face)[j])
-                                     : d == 0                                  ? e.material.regional->between(marks, {})
-                                                                               : e.material.regional->between({}, marks);
+                                     : d == 0                                   ? e.material.regional->between(marks, {})
+                                                                                : e.material.regional->between({}, marks);
 }
 
 /// A surface against itself acts by the unsigned distance, less that of touch (self_contact.h).

@@ -36,9 +36,9 @@ struct PairBody {
   const Topology* topology = nullptr;
   std::span<const Vec3d> position;
   std::span<const Vec3d> node_normal;
-  Vec3d shift{};                         ///< added to the positions: periodic image, or how far an obstacle has moved
-  double radius = 0.0;                   ///< of a sphere
-  MarkSets marks{};                      ///< by face; empty: none
+  Vec3d shift{};        ///< added to the positions: periodic image, or how far an obstacle has moved
+  double radius = 0.0;  ///< of a sphere
+  MarkSets marks{};     ///< by face; empty: none
 
   [[nodiscard]] Vec3d node(std::uint32_t i) const { return position[i] + shift; }
   /// Unit and outward.

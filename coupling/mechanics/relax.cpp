@@ -15,7 +15,7 @@ constexpr double kShortestStep = 1e-4;  // [s]
 constexpr double kFirstCap = 1e-3;      // δ of the capped traction at first [µm] ...
 constexpr double kLastCap = 0.1;        // ... and at most
 constexpr double kRaiseCap = 1.08;      // from step to step: 60 steps from the first to the last
-constexpr int kBondingSteps = 20;          // over which adhesion and friction come in
+constexpr int kBondingSteps = 20;       // over which adhesion and friction come in
 constexpr double kFarStep = 0.1;        // a step is chosen to move nodes not much further [µm]
 constexpr double kAtRest = 6e-3;        // displacement of a longest step that counts as rest: 10⁻³ R a minute for R = 6 to 12 [µm]
 constexpr double kOverlapAtRest = 0.1;  // [µm]

@@ -161,7 +161,9 @@ void Scene::take_marks(const Tissue& tissue, std::size_t width) {
     std::copy(mark.begin(), mark.end(), mark_.begin() + static_cast<std::ptrdiff_t>(first_face_[s] * width));
   }
   if (comm_->size() == 1) return;
-  const auto marks_of = [&](std::uint32_t body) { return std::span(mark_).subspan(first_face_[body] * width, topologies_[body]->face_count() * width); };
+  const auto marks_of = [&](std::uint32_t body) {
+    return std::span(mark_).subspan(first_face_[body] * width, topologies_[body]->face_count() * width);
+  };
   std::vector<std::vector<std::byte>> outgoing(ghosts_.send.size());
   for (std::size_t r = 0; r < outgoing.size(); ++r)
     for (const std::uint32_t body : ghosts_.send[r]) {

@@ -11,8 +11,8 @@ namespace morula {
 
 /// How strongly surfaces in contact act while a start from overlap is on (time_stepping.md §6).
 struct ContactStrength {
-  double cap = 0.0;    ///< δ: tractions are no larger than at this depth; 0: no cap [µm]
-  double depth = 0.0;  ///< overlap that is seen; 0: what the lists' skin allows [µm]
+  double cap = 0.0;      ///< δ: tractions are no larger than at this depth; 0: no cap [µm]
+  double depth = 0.0;    ///< overlap that is seen; 0: what the lists' skin allows [µm]
   double bonding = 1.0;  ///< part of adhesion and contact friction that acts
 
   bool operator==(const ContactStrength&) const = default;

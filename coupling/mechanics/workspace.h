@@ -46,7 +46,7 @@ struct Known {
 
 /// Since when the scene holds. None: bodies have changed, and the scene is to be built anew.
 struct SceneAge {
-  std::vector<Vec3d> start;    ///< owned positions when the ghosts were found; empty on one rank
+  std::vector<Vec3d> start;        ///< owned positions when the ghosts were found; empty on one rank
   double skin_used = 0.0;          ///< of the list of pairs, at the end of the last step
   double expected_skin_use = 0.0;  ///< at the end of the next step; beyond 1 the list would wear out in the middle of it
 };

@@ -84,7 +84,8 @@ class Shader {
 
   [[nodiscard]] Rgb lit(int x, int y, std::size_t i, std::int32_t surface) const {
     const std::uint32_t face = pixels_.face[i];
-    const Rgb base = face < face_colors_.size() && face_colors_[face] ? *face_colors_[face] : colors_[static_cast<std::size_t>(surface / 2)];
+    const Rgb base =
+        face < face_colors_.size() && face_colors_[face] ? *face_colors_[face] : colors_[static_cast<std::size_t>(surface / 2)];
     if (surface % 2 == 1) return mix(base, {1.0f, 1.0f, 1.0f}, options_.cut_lightening);
     const float nx = static_cast<float>(pixels_.normal_x[i]) / 32767.0f, ny = static_cast<float>(pixels_.normal_y[i]) / 32767.0f;
     const float nz = std::sqrt(std::max(0.0f, 1.0f - nx * nx - ny * ny));

@@ -80,6 +80,7 @@ Counts count_cells(const Study& study, Tissue& tissue, double time) {
   out.shells = static_cast<std::int64_t>(tissue.shells.size());
   out.nodes = static_cast<std::int64_t>(tissue.shells.node_count() + tissue.nuclei.shells.node_count());
   out.of_type.assign(study.model.types.size(), 0);
+  tissue.cells.declare(cell_variables(study.model));
   for (std::size_t f = 0; f < study.model.fields.size(); ++f)
     for (std::size_t i = 0; i < tissue.cells.size(); ++i)
       tissue.cells.variables[concentration_of(f)].values.set(i, study.model.fields[f].initial, tissue.cells.size());

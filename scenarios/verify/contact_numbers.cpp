@@ -75,8 +75,8 @@ class RigidBall {
     out.mark_names = {"low"};
     out.marks = {low};
     for (ContactPair& pair : out.pairs) pair.adhesion = 3.0 * kAdhesion;
-    out.pairs[1].regions = {{1, 0, kAdhesion}};
-    out.pairs[2].regions = {{0, 1, kAdhesion}};
+    out.pairs[1].regions = {{0, -1, kAdhesion}};
+    out.pairs[2].regions = {{-1, 0, kAdhesion}};
     return out;
   }
 

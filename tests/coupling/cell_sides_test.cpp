@@ -59,7 +59,8 @@ TEST(CellSides, ComeBackAsTheyWereSet) {
   cells.declare(six_variables());
   for (std::uint64_t n = 1; n <= 8; ++n) cells.push_back(n == 3 || n == 5 ? restless(n) : plain(n));
   for (std::uint64_t n = 1; n <= 8; ++n) EXPECT_TRUE(same_rows(cells.full(n - 1), n == 3 || n == 5 ? restless(n) : whole(plain(n)))) << n;
-  EXPECT_EQ(cells.memory(), 8 * sizeof(CellRow) + 8 * sizeof(CellSides) + 8 * 6 * sizeof(double)) << "room for all rows at once, and not more";
+  EXPECT_EQ(cells.memory(), 8 * sizeof(CellRow) + 8 * sizeof(CellSides) + 8 * 6 * sizeof(double))
+      << "room for all rows at once, and not more";
   cells.set_sides(2, {});
   for (VariableColumn& variable : cells.variables) variable.values.set(2, 0.0);
   EXPECT_TRUE(same_rows(cells.full(2), whole(plain(3))));
@@ -94,7 +95,8 @@ TEST(CellSides, GoWithTheirCellThroughSortingAndBytes) {
   for (std::uint64_t n = 1; n <= 6; ++n) EXPECT_TRUE(same_rows(cells[6 - n].row, n == 2 ? restless(n) : whole(plain(n)))) << n;
   std::erase_if(cells, [](const CellRecord& cell) { return cell.row.id == CellId::founder(4); });  // rows move up
   put_together(tissue, std::move(cells));
-  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(tissue.cells.variables[3].values[i], tissue.cells.rows[i].id == CellId::founder(2) ? 4.0 : 0.0);
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_EQ(tissue.cells.variables[3].values[i], tissue.cells.rows[i].id == CellId::founder(2) ? 4.0 : 0.0);
 }
 
 TEST(CellRecords, CopyTheirShellDeeply) {

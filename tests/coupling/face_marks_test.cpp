@@ -76,7 +76,8 @@ TEST(FaceMarks, AreGivenOnceAndGoWithTheMesh) {
   mark_new_shells(model, tissue);
   const std::vector<std::uint8_t> marks = tissue.shells.faces_of(0).mark;
   ASSERT_EQ(marks.size(), 320u);
-  for (const int bit : {0, 1}) EXPECT_GT(marked_area(tissue.shells.topology(0), tissue.shells.position, tissue.shells.marks_of(0), bit), 30.0);
+  for (const int bit : {0, 1})
+    EXPECT_GT(marked_area(tissue.shells.topology(0), tissue.shells.position, tissue.shells.marks_of(0), bit), 30.0);
   for (Vec3d& x : tissue.shells.position) x = {x.z, x.x, x.y + 50.0};  // turned and moved: the faces keep their marks
   mark_new_shells(model, tissue);
   EXPECT_EQ(tissue.shells.faces_of(0).mark, marks);
@@ -111,7 +112,8 @@ TEST(FaceMarks, AreAsManyAsTheStudyNames) {
   ASSERT_EQ(sets.size(), 320u);
   for (std::size_t face = 0; face < 320; ++face)
     for (int k = 0; k < 20; ++k)
-      EXPECT_EQ(sets.has(face, k), k == 7 ? two.has(face, marked_model().marks[0].mark) : k == 19 && two.has(face, marked_model().marks[1].mark));
+      EXPECT_EQ(sets.has(face, k),
+                k == 7 ? two.has(face, marked_model().marks[0].mark) : k == 19 && two.has(face, marked_model().marks[1].mark));
   std::vector<std::byte> bytes;
   for (const CellRecord& cell : take_apart(many)) append_bytes(cell, bytes);
   EXPECT_EQ(read_records(bytes, shapes)[0].shell->face.mark.size(), 960u);

@@ -114,7 +114,7 @@ TEST_F(Formats, EveryDatasetIsDescribedInTheFileAndOnThePage) {
   ASSERT_FALSE(paths.empty());
   std::set<std::string> documented, seen;
   const std::string text = page();
-  const std::regex quoted("`([a-z_]+/[a-z_<>/]+|time|[a-z]+_names)`");
+  const std::regex quoted("`([a-z_]+/[a-z_<>/]+|time|[a-z]+_(?:names|units))`");
   for (std::sregex_iterator it(text.begin(), text.end(), quoted), end; it != end; ++it) documented.insert((*it)[1]);
   for (const std::string& path : paths) {
     const std::string description = file.description(path).value();

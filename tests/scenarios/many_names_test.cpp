@@ -28,8 +28,9 @@ output: {report: false}
 fields:
 )";
   for (int f = 0; f < fields; ++f)
-    text += "  f" + std::to_string(f) + ": {diffusion: 1e-9 m^2/s, initial: 0.2 mM, boundary: {all: 0.2 mM}, uptake: {cell: " +
-            std::to_string(10 + f) + " amol/s}, voxel: 10 um}\n";
+    text += "  f" + std::to_string(f) +
+            ": {diffusion: 1e-9 m^2/s, initial: 0.2 mM, boundary: {all: 0.2 mM}, uptake: {cell: " + std::to_string(10 + f) +
+            " amol/s}, voxel: 10 um}\n";
   text += "marks:\n";
   for (int k = 1; k < marks; ++k) text += "  m" + std::to_string(k) + ": {types: [cell], cone: {axis: [0, 0, -1], angle: 30 deg}}\n";
   return text + "  cap: {types: [cell], cone: {axis: [0, 0, 1], angle: 100 deg}}\n";

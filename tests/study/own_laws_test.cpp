@@ -133,19 +133,22 @@ KeySpec pad_stiffness() {
 }
 
 std::shared_ptr<const SurfaceLaw> linear_attraction() {
-  static const auto law = std::make_shared<const SurfaceLaw>(SurfaceLaw{
-      .info = {.name = "linear_attraction", .title = "Attraction that falls", .equation = "U = −W (1 − g/c)²", .source = "a test", .parameters = {}},
-      .word = "linear_attraction",
-      .doc = "falls from contact",
-      .own = {pad_stiffness()},
-      .has_repulsion = false,
-      .build = [](const LawValues& v) {
-        SurfaceTraction traction;
-        traction.adhesion = v("adhesion"), traction.range = v("range");
-        traction.coefficient = {v("pad_stiffness")};
-        traction.form = traction_functions<LinearAttraction>();
-        return traction;
-      }});
+  static const auto law = std::make_shared<const SurfaceLaw>(SurfaceLaw{.info = {.name = "linear_attraction",
+                                                                                 .title = "Attraction that falls",
+                                                                                 .equation = "U = −W (1 − g/c)²",
+                                                                                 .source = "a test",
+                                                                                 .parameters = {}},
+                                                                        .word = "linear_attraction",
+                                                                        .doc = "falls from contact",
+                                                                        .own = {pad_stiffness()},
+                                                                        .has_repulsion = false,
+                                                                        .build = [](const LawValues& v) {
+                                                                          SurfaceTraction traction;
+                                                                          traction.adhesion = v("adhesion"), traction.range = v("range");
+                                                                          traction.coefficient = {v("pad_stiffness")};
+                                                                          traction.form = traction_functions<LinearAttraction>();
+                                                                          return traction;
+                                                                        }});
   return law;
 }
 
