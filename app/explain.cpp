@@ -1,6 +1,7 @@
 #include "app/laws.h"
 #include "app/measures.h"
 #include "app/verbs.h"
+#include "coupling/observables/observable.h"
 #include "scenarios/measures/measures.h"
 #include "scenarios/measures/theories.h"
 #include "study/catalogue.h"
@@ -33,6 +34,7 @@ Status explain(const ExplainOptions& options, const Context& context) {
       if (dot != std::string::npos) known.push_back(path.substr(dot + 1));
       known.push_back(std::move(path));
     }
+    for (std::string& name : observable_names({}, *context.laws)) known.push_back(std::move(name));
     const std::string near = scenarios::suggest(options.id, known);
     const bool suggestion = near.rfind("did you mean", 0) == 0;
     return Error{

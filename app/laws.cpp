@@ -5,8 +5,11 @@
 #include "app/words.h"
 #include "cbm/builtin.h"
 #include "cbm/packing.h"
+#include "coupling/behaviours/behaviour.h"
 #include "coupling/behaviours/builtin.h"
 #include "coupling/builtin.h"
+#include "coupling/loads/load.h"
+#include "coupling/regions/region.h"
 #include "dcm/interior_laws.h"
 #include "fields/builtin.h"
 #include "study/key_range.h"
@@ -43,8 +46,20 @@ std::vector<ListedLaw> all_laws(const Laws& registered) {
   add("contact of surfaces", surface_contact_terms());
   add("interior of shells", dcm::interior_laws());
   add("behaviours", behaviour_laws());
+  for (const auto& behaviour : registered.behaviours) {
+    laws.push_back({"behaviours", behaviour->info});
+    laws.back().info.keys = law_keys(behaviour->section.name, behaviour->keys);
+  }
   add("fields", fields::field_laws());
-  add("loads", load_laws());
+  for (const auto& load : registered.loads) {
+    laws.push_back({"loads", load->info});
+    laws.back().info.keys = law_keys(load->bare ? "loads.<name>" : "loads.<name>." + std::string(load->section.name), load->keys);
+  }
+  for (const auto& shape : registered.region_shapes) {
+    laws.push_back({"regions", shape->info});
+    laws.back().info.keys = law_keys("coupling.regions[]", shape->keys);
+  }
+  for (const auto& value : registered.trigger_values) laws.push_back({"triggers", value->info});
   add("activity", active_laws());
   return laws;
 }

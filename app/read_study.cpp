@@ -2,7 +2,6 @@
 
 #include "app/words.h"
 #include "results/file_io.h"
-#include "results/observables/observables.h"
 #include "scenarios/criteria/understand.h"
 #include "scenarios/library/criteria.h"
 #include "scenarios/library/library.h"
@@ -20,10 +19,6 @@ Result<scenarios::Study> read_study_and_tell(const std::string& path, const std:
   options.strict = strict;
   options.judge_places = judge_places;
   auto study = scenarios::read_study(path, options);
-  if (study.ok() && !study->output.series.empty()) {  // which observables exist depends on the cell types and fields of the study
-    options.series_names = scenarios::observable_names(study->model);
-    study = scenarios::read_study(path, options);
-  }
   const scenarios::Diagnostics& told = study.ok() ? study->warnings : study.error();
   if (!told.empty()) context.console.message(told.text(context.console.colour()));
   if (study.ok()) {

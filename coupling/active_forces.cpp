@@ -4,7 +4,7 @@
 
 #include "coupling/behaviours/migration.h"
 #include "coupling/behaviours/polarity.h"
-#include "coupling/loads.h"
+#include "coupling/loads/loads.h"
 #include "coupling/lumens.h"
 #include "coupling/protrusion.h"
 #include "coupling/simulation.h"

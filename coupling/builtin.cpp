@@ -36,40 +36,4 @@ std::vector<LawInfo> surface_contact_terms() {
        .parameters = {given_by_study("self_contact", "length", "µm", "Distance d at which two parts of a surface touch.")}}};
 }
 
-std::vector<LawInfo> load_laws() {
-  const LawParameter part = given_by_study("part", "number", "1", "Part of the nodes, at an end of the axis.");
-  return {
-      {.name = "traction",
-       .title = "Stress of two opposed beams (optical stretcher)",
-       .equation = "F_T = s0 cos²θ A_T n_T, θ between the axis and the way from the cell's centroid to the face's",
-       .source = "Guck et al. 2001, doi:10.1016/S0006-3495(01)75740-2",
-       .parameters = {given_by_study("stress", "pressure", "kPa", "Peak stress s0, on the axis.")}},
-      {.name = "pull",
-       .title = "Pull at both ends of a cell (optical tweezers)",
-       .equation = "F_i = ±F a/m on the m nodes of an end of the axis a",
-       .source = "Dao, Lim & Suresh 2003, doi:10.1016/j.jmps.2003.09.019",
-       .parameters = {given_by_study("force", "force", "nN", "F at each end."), part}},
-      {.name = "patch",
-       .title = "Force on a part of a surface",
-       .equation = "F_i = F/m on the m nodes of a side of the cell (m = 1: a point force), or F_T = F A_T/A on the marked faces",
-       .source = kOurs,
-       .parameters = {given_by_study("force", "force", "nN", "Size of F."), part}},
-      {.name = "pressure",
-       .title = "Pressure on a cell, on its ends or on marked faces",
-       .equation = "F_T = −p A_T n_T, p = p0 + g·(x_T − x0) at the middle x_T of the face",
-       .source = kOurs,
-       .parameters = {given_by_study("pressure", "pressure", "kPa", "p0, against the outward normal."),
-                      given_by_study("gradient", "pressure per length", "kPa/µm", "Size of the gradient g."), part}},
-      {.name = "grip",
-       .title = "Springs that hold or move the ends of a cell",
-       .equation = "E = ½ K/m Σ |x_i − X_i(t)|² over the m nodes of an end; X_i: where they are on the undeformed cell at the grip's place",
-       .source = kOurs,
-       .parameters = {given_by_study("stiffness", "tension", "nN/µm", "K of the springs of an end together."), part}},
-      {.name = "body_force",
-       .title = "Force on whole cells",
-       .equation = "F_i = F a_i/A, a_i the area of node i",
-       .source = kOurs,
-       .parameters = {given_by_study("force", "force", "nN", "Size of F on each cell.")}}};
-}
-
 }  // namespace morula

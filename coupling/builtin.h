@@ -8,9 +8,6 @@ namespace morula {
 /// What acts between surfaces in contact beside the law of the traction (coupling/surface_law.h), as the law reference describes it.
 std::vector<LawInfo> surface_contact_terms();
 
-/// Loads from outside as the law reference describes them, by the names of their kinds in a study; their functions are in coupling/loads.h.
-std::vector<LawInfo> load_laws();
-
 /// What acts on surfaces and cells by themselves: regions of tension, cavities, springs, fluctuations, protrusion, polarity, directed friction;
 /// their functions are in coupling/face_regions.h, lumens.h, protrusion.h, behaviours/polarity.h and mechanics/.
 std::vector<LawInfo> active_laws();

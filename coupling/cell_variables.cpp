@@ -1,5 +1,7 @@
 #include "coupling/cell_variables.h"
 
+#include <algorithm>
+
 namespace morula {
 
 std::vector<CellVariable> cell_variables(const Model& model) {
@@ -8,6 +10,13 @@ std::vector<CellVariable> cell_variables(const Model& model) {
     out.push_back({"amount/" + field.name, "amol", AtDivision::kShared});
     out.push_back({"concentration/" + field.name, "mM", AtDivision::kCopied});
   }
+  for (const CellType& type : model.types)
+    for (const CellBehaviour& behaviour : type.behaviours)
+      for (const BehaviourVariable& variable : behaviour.what->variables) {
+        const CellVariable one{behaviour.what->info.name + "/" + variable.name, variable.unit,
+                               variable.shared ? AtDivision::kShared : AtDivision::kCopied};
+        if (std::ranges::find(out, one) == out.end()) out.push_back(one);
+      }
   return out;
 }
 

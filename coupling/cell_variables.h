@@ -30,7 +30,7 @@ struct CellVariable {
 constexpr std::size_t amount_of(std::size_t field) { return 2 * field; }             ///< taken from it so far [amol]
 constexpr std::size_t concentration_of(std::size_t field) { return 2 * field + 1; }  ///< seen in it [mM]
 
-/// All variables of the cells of a model, by number: two for each field.
+/// All variables of the cells of a model, by number: two for each field, then those of its behaviours, "<behaviour>/<variable>".
 std::vector<CellVariable> cell_variables(const Model& model);
 
 }  // namespace morula

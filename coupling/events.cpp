@@ -8,14 +8,8 @@ namespace {
 using Cause = EventReason::Cause;
 
 std::string text_of(const Trigger& trigger, const Model& model) {
-  switch (trigger.value) {
-    case Trigger::Value::kType:
-      return "type " + model.types[trigger.type].name;
-    case Trigger::Value::kPressure:
-      return "pressure";
-    default:
-      return model.fields[static_cast<std::size_t>(trigger.field)].name;
-  }
+  if (trigger.type >= 0) return "type " + model.types[static_cast<std::size_t>(trigger.type)].name;
+  return trigger.field >= 0 ? model.fields[static_cast<std::size_t>(trigger.field)].name : trigger.value->info.name;
 }
 
 std::string text_of_cause(const EventReason& reason, const Model& model) {
@@ -28,10 +22,8 @@ std::string text_of_cause(const EventReason& reason, const Model& model) {
       return "reached its division volume as a shell";
     case Cause::kLongLineage:
       return "cannot divide: its lineage is " + std::to_string(CellId::kMaxGenerations) + " generations long";
-    case Cause::kLowConcentration: {
-      const CellType& type = model.types[reason.number];
-      return model.fields[static_cast<std::size_t>(type.death_field)].name + " is below what " + type.name + " needs";
-    }
+    case Cause::kBehaviour:
+      return model.types[reason.number & 0xFFFF].behaviours[reason.number >> 16].reason;
     case Cause::kShrunk:
       return "shrunk below the volume at which a dead cell is removed";
     case Cause::kRegion:

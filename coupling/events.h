@@ -25,7 +25,7 @@ struct EventReason {
     kDivisionVolume,
     kDivisionVolumeAsShell,
     kLongLineage,       ///< it cannot divide once more
-    kLowConcentration,  ///< `number`: of the cell's type
+    kBehaviour,         ///< `number`: of the cell's type, + 2¹⁶ times that of the behaviour of the type
     kShrunk,
     kRegion,   ///< `number`: of the region, in Model::swaps
     kTrigger,  ///< `number`: of the trigger, in Model::swaps

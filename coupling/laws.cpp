@@ -1,12 +1,24 @@
 #include "coupling/laws.h"
 
 #include "cbm/builtin.h"
+#include "coupling/behaviours/behaviour.h"
+#include "coupling/loads/load.h"
+#include "coupling/observables/observable.h"
+#include "coupling/regions/region.h"
 #include "dcm/builtin.h"
 
 namespace morula {
 
 std::shared_ptr<const Laws> builtin_laws() {
-  return std::make_shared<const Laws>(Laws{.shells = dcm::shell_laws(), .spheres = cbm::sphere_laws(), .surfaces = surface_laws()});
+  return std::make_shared<const Laws>(Laws{.shells = dcm::shell_laws(),
+                                           .spheres = cbm::sphere_laws(),
+                                           .surfaces = surface_laws(),
+                                           .behaviours = builtin_behaviours(),
+                                           .loads = builtin_loads(),
+                                           .region_shapes = builtin_region_shapes(),
+                                           .trigger_values = builtin_trigger_values(),
+                                           .observables = {&tissue_observables, &type_observables, &obstacle_observables,
+                                                           &lumen_observables, &grip_observables, &field_observables}});
 }
 
 }  // namespace morula

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -8,12 +9,27 @@
 
 namespace morula {
 
+struct Behaviour;
+struct Load;
+struct Model;
+struct Observable;
+struct RegionShape;
+struct TriggerValue;
+
+/// Columns of series.csv that are declared together: those that a run of this model has (coupling/observables/observable.h).
+using Observables = std::function<std::vector<Observable>(const Model&)>;
+
 /// The laws that a study may name. A program with laws of its own appends them to a copy of builtin_laws() and hands that to the study reader;
 /// the models that it makes keep what they need of them.
 struct Laws {
   std::vector<dcm::ShellLaw> shells;
   std::vector<std::shared_ptr<const cbm::SphereLaw>> spheres;  ///< of their contact
   std::vector<std::shared_ptr<const SurfaceLaw>> surfaces;     ///< of contact of surfaces
+  std::vector<std::shared_ptr<const Behaviour>> behaviours;    ///< in the order in which they act
+  std::vector<std::shared_ptr<const Load>> loads;
+  std::vector<std::shared_ptr<const RegionShape>> region_shapes;
+  std::vector<std::shared_ptr<const TriggerValue>> trigger_values;
+  std::vector<Observables> observables;
 };
 
 /// What Morula brings.

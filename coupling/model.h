@@ -10,7 +10,10 @@
 #include "core/mesh/topology.h"
 #include "core/space/space.h"
 #include "coupling/active_terms.h"
+#include "coupling/behaviours/behaviour.h"
 #include "coupling/face_regions.h"
+#include "coupling/loads/load.h"
+#include "coupling/regions/region.h"
 #include "coupling/surface_law.h"
 #include "coupling/time_course.h"
 #include "dcm/interior.h"
@@ -18,10 +21,6 @@
 #include "fields/field_spec.h"
 
 namespace morula {
-
-inline constexpr double kNever = std::numeric_limits<double>::infinity();
-
-enum class BodyKind : std::uint8_t { kSphere = 0, kShell = 1 };
 
 /// A number that varies from cell to cell: Gaussian, truncated at ±3 standard deviations.
 struct Distribution {
@@ -51,13 +50,11 @@ struct CellType {
   Distribution cycle_duration{18 * 3600.0, 0.0};  ///< from birth to twice the birth volume [s]
   bool exponential_growth = false;                ///< else linear
   double inhibit_pressure = kNever;               ///< growth stops above this pressure [kPa]
-  int death_field = -1;                           ///< field whose lack kills, or -1
-  double death_below = 0.0;                       ///< [mM]
-  double death_rate = 0.0;                        ///< while below [1/s]
   double apoptosis_time = 8 * 3600.0;             ///< τ_a of the shrinking V0 e^{−t/τ_a} [s]
   double removal_fraction = 0.1;                  ///< removed below this fraction of the volume at death
   double migration_speed = 0.0;                   ///< S, root mean square in three dimensions [µm/s]
   double migration_persistence = 1800.0;          ///< P [s]
+  std::vector<CellBehaviour> behaviours;          ///< what its cells do beside these, in the order in which they act
 
   Osmosis osmosis;
   int migration_substrate = -1;  ///< material that must be touched, to which the force of migration is tangential; -1: none
@@ -119,69 +116,6 @@ struct ObstacleSpec {
     if (!distance.empty()) out += direction * (distance.at(to) - distance.at(from));
     return out;
   }
-};
-
-/// What pulls or pushes a cell from outside.
-enum class LoadKind : std::uint8_t {
-  kTraction,   ///< s0 cos²θ along the outward normal, θ from `axis`
-  kPull,       ///< a force spread over the nodes at the ends of `axis`
-  kPatch,      ///< a force in any direction on a side of the cell, down to one node, or on its marked faces
-  kPressure,   ///< against the outward normal, on the whole cell, at the ends of `axis` or on marked faces
-  kBodyForce,  ///< on the whole cell
-  kGrip,       ///< springs that hold the nodes at the ends of `axis` in place, or move them (coupling/grips.h)
-};
-enum class LoadEnd : std::uint8_t { kBoth, kHigh, kLow };
-
-/// An external load on all cells of a type (coupling/loads.h).
-struct CellLoad {
-  std::string name;
-  std::uint16_t type = 0;
-  LoadKind kind = LoadKind::kBodyForce;
-  Vec3d axis{1, 0, 0};           ///< of length 1
-  double size = 0.0;             ///< peak stress or pressure [kPa]; force at an end [nN]; stiffness of a grip at an end [nN/µm]
-  Vec3d force{};                 ///< kBodyForce, kPatch [nN]
-  double part = 1.0;             ///< of the nodes, at an end
-  int mark = -1;                 ///< kPatch, kPressure: of the faces that bear the load; −1: by place
-  LoadEnd end = LoadEnd::kBoth;  ///< which ends
-  TimeCourse course;             ///< factor over time; empty: 1
-  bool within = false;           ///< kPressure: only faces whose middle lies in the cylinder from low_end to high_end
-  Vec3d low_end{}, high_end{};   ///< [µm]
-  double radius = 0.0;           ///< [µm]
-  Vec3d gradient{};              ///< kPressure: of the pressure in space; `size` at `origin` [kPa/µm]
-  Vec3d origin{};                ///< [µm]
-  Vec3d center{};                ///< kGrip: of the undeformed cell whose end nodes the grip holds, before it moves [µm]
-  Vec3d direction{0, 0, 1};      ///< kGrip: of `way`, of length 1
-  TimeCourse way;                ///< kGrip: how far it has moved; empty: it stays [µm]
-};
-
-enum class RegionShape : std::uint8_t { kSphere, kBox, kHalfSpace, kEverything };
-
-/// Where cells are to be shells.
-struct Region {
-  std::string name;
-  RegionShape shape = RegionShape::kSphere;
-  Vec3d center{};
-  double radius = 0.0;
-  Vec3d size{};           ///< of a box
-  Vec3d normal{0, 0, 1};  ///< of a half space; inside is the side the normal points away from
-  BodyKind body = BodyKind::kShell;
-  double margin = 3.0;         ///< leaving needs this distance beyond the border [µm]
-  bool follow_tissue = false;  ///< centre is relative to the tissue's centroid
-  double from = 0.0;           ///< the region exists from here [s]
-  double until = kNever;       ///< to here [s]
-
-  [[nodiscard]] bool exists_at(double time) const { return time >= from && time < until; }
-};
-
-/// Promote or demote by a value of the cell.
-struct Trigger {
-  enum class Value : std::uint8_t { kPressure, kField, kType } value = Value::kPressure;
-  int field = -1;             ///< for kField
-  std::uint16_t type = 0;     ///< for kType: cells of this type are shells
-  bool promote_above = true;  ///< promote when value > promote threshold (else when below)
-  double promote = 0.0;
-  double demote = 0.0;
-  double hold = 1800.0;  ///< no second swap within this time [s]
 };
 
 struct Swaps {

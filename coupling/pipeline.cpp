@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "coupling/behaviours/life.h"
-#include "coupling/loads.h"
+#include "coupling/behaviours/ask.h"
+#include "coupling/loads/loads.h"
 #include "coupling/lumens.h"
 #include "coupling/simulation.h"
 #include "dcm/growth.h"
@@ -95,12 +96,14 @@ Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<b
   double dt = fit_step(std::min(clock.next_step, model_.step.max_step), clock.time, land_on);
   const bool wanted_less = dt < clock.next_step;
   LifeReport life;
+  std::optional<BodiesNow> bodies;
+  if (look_at_bodies(model_.types)) bodies = BodiesNow{values(), centers()};
   look_into_lumens(model_, tissue_, comm_);
 
   for (;; ++outcome.retries) {
     {  // behaviours: growth, cycle, death, migration
       auto timed = timer().scope(Stage::kBehaviours);
-      life = live(tissue_.cells, model_.types, {model_.seed, clock.steps, clock.time + dt, dt});
+      life = live(tissue_.cells, model_.types, {model_.seed, clock.steps, clock.time + dt, dt, bodies ? &*bodies : nullptr});
       set_bodies_to_targets(dt);
     }
     // mechanics: ghosts, candidates, contacts, forces, system, solve, advance

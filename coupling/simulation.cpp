@@ -249,7 +249,10 @@ Status Simulation::advance_fields(double dt, const std::function<bool()>& give_u
 Result<std::vector<Event>> Simulation::swap_bodies() {
   auto timed = timer().scope(Stage::kCoupling);
   std::vector<Event> events;
-  const std::vector<SwapOrder> orders = choose_swaps(model_, tissue_, centers(), comm_);
+  const std::vector<Vec3d> center = centers();
+  std::optional<BodyValues> body_values;
+  if (look_at_bodies(model_.swaps)) body_values = values();
+  const std::vector<SwapOrder> orders = choose_swaps(model_, tissue_, {center, body_values ? &*body_values : nullptr}, comm_);
   if (!comm_.any(!orders.empty())) return events;
   std::vector<double> pressure(orders.size()), volume;
   for (std::size_t k = 0; k < orders.size(); ++k) pressure[k] = tissue_.cells.rows[orders[k].row].pressure;

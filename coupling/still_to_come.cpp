@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cbm/division_ramp.h"
 #include "coupling/behaviours/osmosis.h"
-#include "coupling/loads.h"
+#include "coupling/loads/loads.h"
 #include "coupling/swaps.h"
 
 namespace morula {
@@ -34,10 +35,15 @@ bool grows(const CellRow& row, const CellType& type) {
   return type.cycles && row.phase == Phase::kGrowing && !(row.pressure > type.inhibit_pressure);
 }
 
-/// A field is never known to stand still: cells that answer to one may do so at any time.
-bool answers_to_field(const Model& model, const CellType& type) {
-  if ((type.death_field >= 0 && type.death_rate > 0.0) || (type.osmosis.acts() && type.osmosis.field >= 0)) return true;
-  return std::ranges::any_of(model.swaps.triggers, [](const Trigger& t) { return t.value == Trigger::Value::kField; });
+/// What cells of a type answer to though nothing moves, such as a field, which is never known to stand still.
+std::vector<std::string> answers_to(const Model& model, const CellType& type) {
+  std::vector<std::string> out;
+  if (type.osmosis.acts() && type.osmosis.field >= 0) out.emplace_back("fields that cells answer to");
+  for (const CellBehaviour& behaviour : type.behaviours)
+    if (behaviour.may_act()) out.emplace_back(behaviour.what->awaited);
+  for (const Trigger& trigger : model.swaps.triggers)
+    if (trigger.type < 0 && trigger.value->awaited != nullptr) out.emplace_back(trigger.value->awaited);
+  return out;
 }
 
 bool is_driven(const CellType& type) {
@@ -94,7 +100,9 @@ std::vector<std::string> still_to_come(const Model& model, const Tissue& tissue,
   add(any_obstacle_moves(model), "an obstacle that moves");
   add(any_tension_swings(model), "a tension that swings");
   add(any_region_begins_or_ends(model, time), "a region that begins or ends");
-  add(swaps_wait(model, tissue, center, comm), "an exchange of bodies");
+  std::optional<BodyValues> bodies;
+  if (look_at_bodies(model.swaps)) bodies = mechanics.values(tissue);
+  add(swaps_wait(model, tissue, {center, bodies ? &*bodies : nullptr}, comm), "an exchange of bodies");
   add(tissue.clock.capped, "the end of the capped start");
   add(any_cell([&](std::size_t k, const CellRow& row, const CellType&) { return side.inflation_left[k] > kRounding * row.target_volume; }),
       "inflation");
@@ -112,8 +120,10 @@ std::vector<std::string> still_to_come(const Model& model, const Tissue& tissue,
         return !type.osmosis.acts() && std::abs(side.reference_excess[k]) > kEased;
       }),
       "easing after an exchange of bodies");
-  add(any_cell([&](std::size_t, const CellRow&, const CellType& type) { return answers_to_field(model, type); }),
-      "fields that cells answer to");
+  for (const CellType& type : model.types)
+    for (const std::string& what : answers_to(model, type))
+      if (std::ranges::find(out, what) == out.end())
+        add(any_cell([&](std::size_t, const CellRow&, const CellType& own) { return &own == &type; }), what.c_str());
   add(any_cell([](std::size_t, const CellRow& row, const CellType& type) { return row.phase != Phase::kDying && is_driven(type); }),
       "cells that drive themselves");
   add(any_water_flows(model, tissue, mechanics), "water that flows");

@@ -15,19 +15,7 @@ namespace {
 /// Distance of a point outside a region; negative inside [µm].
 double distance_outside(const Region& region, const Vec3d& point, const Vec3d& tissue_center) {
   const Vec3d from = point - (region.follow_tissue ? region.center + tissue_center : region.center);
-  switch (region.shape) {
-    case RegionShape::kSphere:
-      return norm(from) - region.radius;
-    case RegionShape::kHalfSpace:
-      return dot(from, normalized(region.normal));
-    case RegionShape::kBox: {
-      const Vec3d d{std::abs(from.x) - 0.5 * region.size.x, std::abs(from.y) - 0.5 * region.size.y, std::abs(from.z) - 0.5 * region.size.z};
-      return std::max({d.x, d.y, d.z});
-    }
-    case RegionShape::kEverything:
-      return -1e300;
-  }
-  return 1e300;
+  return region.shape->distance(region, from);
 }
 
 bool needs_center(const Swaps& swaps) {
@@ -53,20 +41,15 @@ struct Wish {
   EventReason reason;
 };
 
-double trigger_value(const Trigger& trigger, const Cells& cells, std::size_t i) {
-  return trigger.value == Trigger::Value::kPressure ? cells.rows[i].pressure
-                                                    : cells.variables[concentration_of(static_cast<std::size_t>(trigger.field))].values[i];
-}
-
 /// What body a cell is to have: the first region it is in decides, then the triggers, then what it was at the start.
-Wish wish(const Model& model, double time, const Cells& cells, std::size_t i, const Vec3d& center, const Vec3d& tissue_center) {
-  const CellRow& row = cells.rows[i];
+Wish wish(const Model& model, const CellView& cell, const Vec3d& center, const Vec3d& tissue_center) {
+  const CellRow& row = cell.row();
   const bool shell = row.body == BodyKind::kShell;
   using Cause = EventReason::Cause;
   std::uint32_t number = 0;
   for (const Region& region : model.swaps.regions) {
     const EventReason reason{Cause::kRegion, false, number++};
-    if (!region.exists_at(time)) continue;
+    if (!region.exists_at(cell.time())) continue;
     const double margin = row.body == region.body ? region.margin : 0.0;
     if (distance_outside(region, center, tissue_center) <= margin) return {region.body, model.swaps.hold, reason};
   }
@@ -74,12 +57,12 @@ Wish wish(const Model& model, double time, const Cells& cells, std::size_t i, co
   number = 0;
   for (const Trigger& trigger : model.swaps.triggers) {
     const EventReason reason{Cause::kTrigger, false, number++};
-    if (trigger.value == Trigger::Value::kType) {
+    if (trigger.type >= 0) {
       if (row.type == trigger.type) return {BodyKind::kShell, trigger.hold, reason};
       continue;
     }
     hold = std::max(hold, trigger.hold);
-    const double value = trigger_value(trigger, cells, i);
+    const double value = trigger.value->of(trigger, cell);
     const double threshold = shell ? trigger.demote : trigger.promote;
     const bool wants = trigger.promote_above ? value > threshold : value < threshold;
     if (wants) return {BodyKind::kShell, trigger.hold, reason};
@@ -88,6 +71,12 @@ Wish wish(const Model& model, double time, const Cells& cells, std::size_t i, co
 }
 
 }  // namespace
+
+CellView SwapBodies::view(const Model& model, const Tissue& tissue, const BodyOfRow& body) const {
+  CellView out(tissue.cells, body.row, model.types[tissue.cells.rows[body.row].type], tissue.clock.time);
+  if (values != nullptr) out.set_body(*values, body.place(tissue.shells.size()), center[body.row]);
+  return out;
+}
 
 std::vector<CellId> ids_of_all_ranks(const std::vector<CellId>& mine, const Comm& comm) {
   const auto* bytes = reinterpret_cast<const std::byte*>(mine.data());  // NOLINT: plain data
@@ -98,16 +87,22 @@ std::vector<CellId> ids_of_all_ranks(const std::vector<CellId>& mine, const Comm
   return out;
 }
 
-std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm) {
+bool look_at_bodies(const Swaps& swaps) {
+  return std::ranges::any_of(swaps.triggers, [](const Trigger& t) { return t.type < 0 && t.value->looks_at_body; });
+}
+
+std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, const SwapBodies& bodies, const Comm& comm) {
+  const std::span<const Vec3d> center = bodies.center;
   if (model.swaps.regions.empty() && model.swaps.triggers.empty()) return {};
   const Vec3d tissue_center = needs_center(model.swaps) ? tissue_centroid(center, comm) : Vec3d{};
   std::vector<SwapOrder> orders;
   std::int64_t shells = 0;
-  for (std::size_t i = 0; i < tissue.cells.size(); ++i) {
+  for (const BodyOfRow& body : bodies_of(tissue.cells)) {
+    const std::size_t i = body.row;
     const CellRow& row = tissue.cells.rows[i];
     if (row.body == BodyKind::kShell) ++shells;
     if (row.phase == Phase::kDying) continue;
-    const Wish wanted = wish(model, tissue.clock.time, tissue.cells, i, center[i], tissue_center);
+    const Wish wanted = wish(model, bodies.view(model, tissue, body), center[i], tissue_center);
     if (wanted.body == row.body || tissue.clock.time - tissue.cells.side.last_swap_time[i] < wanted.hold) continue;
     orders.push_back({i, wanted.body, wanted.reason});
   }
@@ -134,16 +129,18 @@ std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, st
   return orders;
 }
 
-bool swaps_wait(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm) {
+bool swaps_wait(const Model& model, const Tissue& tissue, const SwapBodies& bodies, const Comm& comm) {
+  const std::span<const Vec3d> center = bodies.center;
   if (model.swaps.regions.empty() && model.swaps.triggers.empty()) return false;
   const Vec3d tissue_center = needs_center(model.swaps) ? tissue_centroid(center, comm) : Vec3d{};
   bool up = false, down = false;
   std::int64_t shells = 0;
-  for (std::size_t i = 0; i < tissue.cells.size(); ++i) {
+  for (const BodyOfRow& body : bodies_of(tissue.cells)) {
+    const std::size_t i = body.row;
     const CellRow& row = tissue.cells.rows[i];
     if (row.body == BodyKind::kShell) ++shells;
     if (row.phase == Phase::kDying) continue;
-    const BodyKind wanted = wish(model, tissue.clock.time, tissue.cells, i, center[i], tissue_center).body;
+    const BodyKind wanted = wish(model, bodies.view(model, tissue, body), center[i], tissue_center).body;
     if (wanted != row.body) (wanted == BodyKind::kShell ? up : down) = true;
   }
   const bool has_place = static_cast<std::uint64_t>(comm.sum(shells)) < model.swaps.max_shells;

@@ -4,6 +4,7 @@
 
 #include "core/parallel/comm.h"
 #include "coupling/cell_record.h"
+#include "coupling/cell_view.h"
 #include "coupling/events.h"
 #include "coupling/tissue.h"
 
@@ -16,13 +17,24 @@ struct SwapOrder {
   EventReason reason;
 };
 
+/// What regions and triggers see of the bodies of a rank.
+struct SwapBodies {
+  std::span<const Vec3d> center;       ///< of the cells, by row [µm]
+  const BodyValues* values = nullptr;  ///< where triggers look at them (look_at_bodies())
+
+  [[nodiscard]] CellView view(const Model& model, const Tissue& tissue, const BodyOfRow& body) const;
+};
+
+/// Whether a trigger needs SwapBodies::values.
+bool look_at_bodies(const Swaps& swaps);
+
 /// Which cells exchange their body now, by regions and triggers with their margins, thresholds and hold times. Decisions read only the state
-/// given here: rows, and by row the centre of the cell. Among the willing the lowest ids come first; not more than max_shells shells,
+/// given here: rows, and their bodies. Among the willing the lowest ids come first; not more than max_shells shells,
 /// not more than one in a hundred cells (at least one) a step once the run has begun (fields_and_coupling.md, D). Collective.
-std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm);
+std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, const SwapBodies& bodies, const Comm& comm);
 
 /// Whether any cell is to exchange its body as soon as its hold time is over, or when it is its turn. Collective.
-bool swaps_wait(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm);
+bool swaps_wait(const Model& model, const Tissue& tissue, const SwapBodies& bodies, const Comm& comm);
 
 /// The sphere becomes a shell of the same volume, its mesh a sphere in the orientation that the seed gives to its id, so that no direction of the
 /// lattice is common to the shells of a tissue; V0 such that its inner pressure bears `pressure` (negative: tension) and the cortex.

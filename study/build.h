@@ -40,6 +40,8 @@ double build_self_contact(BuildContext& context, const draft::CellType& draft);
 TimeCourse build_course(BuildContext& context, const std::vector<Named<draft::CoursePoint>>& points);
 /// Marks of faces, tension by region, cavities, springs: E555–E557; after types, obstacles, pairs and domain.
 void build_regions(BuildContext& context);
+/// What the cells of a type do by behaviours of the registry: E103, E515, and what these say.
+void build_behaviours(BuildContext& context, const draft::CellType& draft, const Place& type_place, CellType& type);
 /// Fluctuations, polarity, protrusion, what migrates on what, directions of friction: E558; after types and obstacles.
 void build_activity(BuildContext& context);
 /// External loads; after the cells of time 0.

@@ -1,7 +1,8 @@
-#include <cmath>
+#include <algorithm>
 #include <optional>
 
-#include "study/build.h"
+#include "coupling/regions/region.h"
+#include "study/own_section.h"
 #include "study/quantity_reader.h"
 
 namespace morula::scenarios {
@@ -10,10 +11,29 @@ namespace {
 /// `subject > quantity`, as a trigger writes it.
 struct Comparison {
   bool above = true;
-  int field = -1;  ///< −1: pressure
+  std::shared_ptr<const TriggerValue> of;
+  int field = -1;
   double value = 0.0;
   std::string subject, value_text;
 };
+
+/// Finds what is compared: a value of the registry, or a field by its name.
+bool find_subject(BuildContext& c, const Place& place, Comparison& comparison) {
+  std::vector<std::string> allowed;
+  for (const auto& one : c.options.laws->trigger_values) {
+    if (one == field_value()) continue;
+    allowed.push_back(one->info.name);
+    if (comparison.subject == one->info.name) comparison.of = one;
+  }
+  for (std::size_t i = 0; i < c.draft.fields.size(); ++i) {
+    allowed.push_back(c.draft.fields[i].name);
+    if (comparison.of == nullptr && c.draft.fields[i].name == comparison.subject) comparison.field = static_cast<int>(i);
+  }
+  if (comparison.field >= 0) comparison.of = field_value();
+  if (comparison.of == nullptr)
+    c.diagnostics.error(402, place, "there is no field '" + comparison.subject + "' to compare", suggest(comparison.subject, allowed));
+  return comparison.of != nullptr;
+}
 
 std::optional<Comparison> read_comparison(BuildContext& c, const UnitSystem& units, const char* key, const Given<std::string>& given) {
   const std::string& text = given.value;
@@ -31,29 +51,17 @@ std::optional<Comparison> read_comparison(BuildContext& c, const UnitSystem& uni
   comparison.above = text[sign] == '>';
   comparison.subject = trim(text.substr(0, sign));
   comparison.value_text = trim(text.substr(sign + 1));
-  const bool pressure = comparison.subject == "pressure";
-  if (!pressure) {
-    std::vector<std::string> allowed{"pressure"};
-    for (std::size_t i = 0; i < c.draft.fields.size(); ++i) {
-      allowed.push_back(c.draft.fields[i].name);
-      if (c.draft.fields[i].name == comparison.subject) comparison.field = static_cast<int>(i);
-    }
-    if (comparison.field < 0) {
-      c.diagnostics.error(402, given.place, "there is no field '" + comparison.subject + "' to compare",
-                          suggest(comparison.subject, allowed));
-      return std::nullopt;
-    }
-  }
+  if (!find_subject(c, given.place, comparison)) return std::nullopt;
+  const std::string example = comparison.field >= 0 ? comparison.subject + " < 0.05 mM" : comparison.of->example;
   const auto value =
-      read_quantity(units, comparison.value_text, pressure ? Quantity::kPressure : Quantity::kConcentration, comparison.subject,
-                    pressure ? "pressure > 1 kPa" : comparison.subject + " < 0.05 mM", given.place, c.diagnostics);
+      read_quantity(units, comparison.value_text, comparison.of->quantity, comparison.subject, example.c_str(), given.place, c.diagnostics);
   if (!value) return std::nullopt;
   comparison.value = *value;
   return comparison;
 }
 
 void check_thresholds(BuildContext& c, const UnitSystem& units, const draft::Trigger& t, const Comparison& up, const Comparison& down) {
-  const Quantity quantity = up.field < 0 ? Quantity::kPressure : Quantity::kConcentration;
+  const Quantity quantity = up.of->quantity;
   if (up.subject != down.subject) {
     c.diagnostics.error(510, t.demote.place, "promote looks at '" + up.subject + "', but demote at '" + down.subject + "'",
                         "use one value, or two triggers");
@@ -77,9 +85,7 @@ void build_trigger(BuildContext& c, const UnitSystem& units, const draft::Trigge
   if (t.type.given) {
     if (t.promote.given || t.demote.given)
       c.diagnostics.error(111, place, "a trigger has either `type`, or `promote` and `demote`", "make two triggers");
-    trigger.value = Trigger::Value::kType;
-    const int type = t.type.known() ? find_type(c, t.type.value, t.type.place) : 0;
-    trigger.type = static_cast<std::uint16_t>(std::max(0, type));
+    trigger.type = std::max(0, t.type.known() ? find_type(c, t.type.value, t.type.place) : 0);
     c.study.model.swaps.triggers.push_back(trigger);
     return;
   }
@@ -92,7 +98,7 @@ void build_trigger(BuildContext& c, const UnitSystem& units, const draft::Trigge
   const auto down = t.demote.known() ? read_comparison(c, units, "demote", t.demote) : std::nullopt;
   if (!up || !down) return;
   check_thresholds(c, units, t, *up, *down);
-  trigger.value = up->field < 0 ? Trigger::Value::kPressure : Trigger::Value::kField;
+  trigger.value = up->of;
   trigger.field = up->field;
   trigger.promote_above = up->above;
   trigger.promote = up->value;
@@ -100,41 +106,23 @@ void build_trigger(BuildContext& c, const UnitSystem& units, const draft::Trigge
   c.study.model.swaps.triggers.push_back(trigger);
 }
 
-bool region_shape_known(BuildContext& c, const draft::Region& r, const Place& place) {
-  const auto need = [&](bool given, const char* key) {
-    if (!given) c.diagnostics.error(103, place, std::string("a region of shape '") + r.shape.value + "' needs `" + key + "`", "");
-    return given;
-  };
-  const auto refuse = [&](bool given, const Place& at, const char* key) {
-    if (given) c.diagnostics.error(111, at, std::string("a region of shape '") + r.shape.value + "' has no `" + key + "`", "leave it away");
-  };
-  const bool sphere = r.shape.value == "sphere", box = r.shape.value == "box", half = r.shape.value == "half_space";
-  refuse(!sphere && r.radius.given, r.radius.place, "radius");
-  refuse(!box && r.size.given, r.size.place, "size");
-  refuse(!half && r.normal.given, r.normal.place, "normal");
-  if (sphere && !need(r.radius.given, "radius")) return false;
-  if (box && !need(r.size.given, "size")) return false;
-  if (half && !need(r.normal.given, "normal")) return false;
-  if (half && r.normal.known() && norm2(r.normal.value) == 0.0) {
-    c.diagnostics.error(302, r.normal.place, "'normal' has no direction", "for example `[0, 0, 1]`");
-    return false;
-  }
-  return (!sphere || r.radius.known()) && (!box || r.size.known()) && (!half || r.normal.known()) && r.center.known();
+/// The keys of the region's own shape are there, and none of another.
+bool has_keys_of_shape(BuildContext& c, const draft::Region& r, const RegionShape& shape, const Place& place) {
+  const std::string who = "a region of shape '" + shape.info.name + "' ";
+  for (const auto& other : c.options.laws->region_shapes)
+    for (const std::string& key : given_keys(other->keys, r.own)) {
+      const auto own = std::ranges::find_if(shape.keys, [&](const OwnKey& one) { return key == one.spec.name; });
+      if (own == shape.keys.end()) c.diagnostics.error(111, place_of_key(r.own, key), who + "has no `" + key + "`", "leave it away");
+    }
+  const auto missing = missing_keys(shape.keys, r.own);
+  for (const std::string& key : missing) c.diagnostics.error(103, place, who + "needs `" + key + "`", "");
+  return missing.empty();
 }
 
 void check_inside_domain(BuildContext& c, const draft::Region& r, const Region& region) {
-  if (!c.draft.domain.size.known() || region.follow_tissue || region.shape == RegionShape::kEverything) return;
+  if (!c.draft.domain.size.known() || region.follow_tissue || region.shape->meets == nullptr) return;
   const Box& domain = c.study.model.space.box;
-  bool outside = false;
-  if (region.shape == RegionShape::kHalfSpace) {  // the corner that lies farthest against the normal decides
-    const Vec3d n = region.normal;
-    const Vec3d corner{n.x > 0 ? domain.low.x : domain.high.x, n.y > 0 ? domain.low.y : domain.high.y,
-                       n.z > 0 ? domain.low.z : domain.high.z};
-    outside = dot(corner - region.center, n) > 0.0;
-  } else {
-    const Vec3d half = region.shape == RegionShape::kSphere ? Vec3d{region.radius, region.radius, region.radius} : region.size * 0.5;
-    outside = !domain.overlaps({region.center - half, region.center + half});
-  }
+  const bool outside = !region.shape->meets(region, domain);
   if (outside)
     c.diagnostics.error(502, r.center.given ? r.center.place : r.shape.place,
                         "region '" + region.name + "' lies outside the domain: no cell can ever be in it",
@@ -148,15 +136,15 @@ void check_inside_domain(BuildContext& c, const draft::Region& r, const Region& 
 void build_region(BuildContext& c, const draft::Region& r, const Place& place) {
   Region region;
   region.name = r.name.value;
-  if (r.shape.known() && region_shape_known(c, r, place)) {
-    region.shape = r.shape.value == "box"          ? RegionShape::kBox
-                   : r.shape.value == "half_space" ? RegionShape::kHalfSpace
-                   : r.shape.value == "everything" ? RegionShape::kEverything
-                                                   : RegionShape::kSphere;
+  const auto& shapes = c.options.laws->region_shapes;
+  const auto shape = std::ranges::find_if(shapes, [&](const auto& one) { return r.shape.known() && one->info.name == r.shape.value; });
+  const bool complete = shape != shapes.end() && has_keys_of_shape(c, r, **shape, place);
+  const auto values = complete ? own_values(c, (*shape)->keys, r.own) : std::nullopt;
+  if (values && r.center.known()) {
+    region.shape = *shape;
     region.center = r.center.value;
-    region.radius = r.radius.value;
-    region.size = r.size.value;
-    if (region.shape == RegionShape::kHalfSpace) region.normal = normalized(r.normal.value);
+    region.values = *values;
+    if (region.shape->build != nullptr) region.shape->build(region.values, region);
     region.body = r.body.value == "sphere" ? BodyKind::kSphere : BodyKind::kShell;
     region.margin = r.margin.value;
     region.follow_tissue = r.follow_tissue.value;

@@ -1,6 +1,7 @@
+#include <algorithm>
 #include <cmath>
 
-#include "coupling/cells.h"
+#include "coupling/regions/region.h"
 #include "study/build.h"
 #include "study/read_section.h"
 
@@ -34,7 +35,8 @@ void check_voxels(BuildContext& c, const draft::Field& f) {
 
 void build_fields(BuildContext& c) {
   for (const auto& [name, place, f] : c.draft.fields) {
-    if (name == "pressure" || name == "type")
+    const auto is_value = [&name](const auto& value) { return value->info.name == name; };
+    if (name == "type" || std::ranges::any_of(c.options.laws->trigger_values, is_value))
       c.diagnostics.error(112, place, "a field cannot be called '" + name + "'", "triggers use this word for the cell's own value");
     fields::FieldSpec spec;
     spec.name = name;

@@ -257,7 +257,7 @@ class InitialBuilder {
     const bool random = d.fill.value == "random", layer = d.fill.value == "layer";
     cells.pattern = layer ? FillPattern::kLayer : random ? FillPattern::kRandom : FillPattern::kPacked;
     const bool box = d.fill.value == "box" || (random && d.size.given), sphere = !box;
-    cells.fill = box ? RegionShape::kBox : RegionShape::kSphere;
+    cells.fill = box ? FillShape::kBox : FillShape::kSphere;
     const auto missing = [&](bool given, const char* key) {
       if (!given)
         c_.diagnostics.error(103, place, std::string("key '") + key + "' is missing in an entry of `initial`",

@@ -1,6 +1,7 @@
 #include <algorithm>
 
-#include "study/build.h"
+#include "coupling/loads/load.h"
+#include "study/own_section.h"
 
 namespace morula::scenarios {
 namespace {
@@ -14,17 +15,11 @@ Vec3d unit_axis(BuildContext& c, const Given<Vec3d>& axis, const char* key) {
   return normalized(axis.value);
 }
 
-LoadEnd end_of(const Given<std::string>& word) {
-  return word.value == "high" ? LoadEnd::kHigh : word.value == "low" ? LoadEnd::kLow : LoadEnd::kBoth;
-}
-
 /// A load on the surface needs shells; one on chosen nodes needs to know where these were at the start.
-/// `marked`: the load is for faces with a mark, known or not.
-void check_bodies(BuildContext& c, const std::string& name, const Place& place, const CellLoad& load, bool marked) {
-  if (load.kind == LoadKind::kBodyForce) return;
+void check_bodies(BuildContext& c, const std::string& name, const Place& place, const CellLoad& load) {
+  if (load.what->push_cell != nullptr) return;
   const std::string who = "load '" + name + "' acts on the surface of '" + c.study.model.types[load.type].name + "'";
-  const bool chosen =
-      !marked && (load.kind == LoadKind::kPull || load.kind == LoadKind::kPatch || load.kind == LoadKind::kGrip || load.part < 1.0);
+  const bool chosen = load.what->of_chosen_nodes != nullptr && load.what->of_chosen_nodes(load);
   for (const InitialCells& block : c.study.initial) {
     if (block.type != load.type && block.source != InitialCells::Source::kCsv) continue;
     const BodyKind body = block.body_given ? block.body : c.study.model.types[load.type].initial_body;
@@ -45,76 +40,43 @@ void check_bodies(BuildContext& c, const std::string& name, const Place& place, 
                         "use a load on the whole cell, or cells that stay as they are");
 }
 
-void build_grip(BuildContext& c, draft::Load& d, CellLoad& load) {
-  load.center = d.grip_center.value;
-  load.direction = unit_axis(c, d.grip_direction, "direction");
-  load.way = build_course(c, d.way);
-  for (int axis = 0; axis < 3; ++axis)
-    if (c.study.model.space.periodic(axis)) {
-      c.diagnostics.error(570, d.grip_center.place, std::string("a grip holds places, but the domain is periodic along ") + "xyz"[axis],
-                          "use `open` or `wall` faces");
-      return;
-    }
-}
-
-/// The mark of the faces that bear a load, −1 where `name` is not given. `placed`: keys beside it that say where a load acts; a value that is
-/// not the default contradicts it (the resolved study writes defaults out).
-struct Placed {
-  const Place& place;
-  bool is_default;
-};
-
-int mark_of_load(BuildContext& c, const CellLoad& load, int type, const Given<std::string>& name, std::initializer_list<Placed> placed) {
-  if (!name.given) return -1;
-  for (const Placed& key : placed)
-    if (!key.is_default)
-      c.diagnostics.error(594, key.place, "load '" + load.name + "' acts on the faces marked '" + name.value + "', wherever they are",
-                          "remove this key or `marked`");
-  const int mark = find_mark(c, name.value, name.place);
+/// The mark of the faces that bear the load; the type's shells must be able to carry it.
+void check_mark(BuildContext& c, const draft::OwnSection& own, int type, int mark) {
+  const Given<std::string>& name = own.texts.at("marked");
   if (mark >= 0 && type >= 0 && !may_carry_mark(c, type, mark))
     c.diagnostics.error(
         580, name.place,
         "no face of '" + c.draft.cell_types[static_cast<std::size_t>(type)].name + "' ever carries the mark '" + name.value + "'",
         "give the mark to shells of this type (`marks: " + name.value + ": types`)");
-  return mark;
 }
 
-void build_patch(BuildContext& c, const draft::Load& d, int type, CellLoad& load) {
-  load.kind = LoadKind::kPatch;
-  load.force = d.patch_force.value;
-  load.axis = unit_axis(c, d.patch_ends.axis, "toward");
-  load.part = d.patch_ends.part.value;
-  load.end = LoadEnd::kHigh;
-  const draft::LoadEnds& at = d.patch_ends;
-  load.mark =
-      mark_of_load(c, load, type, d.patch_mark, {{at.axis.place, at.axis.value == Vec3d{1, 0, 0}}, {at.part.place, at.part.value == 0.02}});
+/// The kinds of force that a load has.
+std::vector<std::shared_ptr<const Load>> kinds_of(const BuildContext& c, const draft::Load& d) {
+  std::vector<std::shared_ptr<const Load>> out;
+  for (const auto& kind : c.options.laws->loads) {
+    const draft::OwnSection& own = d.kinds.at(kind->section.name);
+    if (kind->bare ? !given_keys(kind->keys, own).empty() : own.present) out.push_back(kind);
+  }
+  return out;
 }
 
-void build_pressure(BuildContext& c, const draft::Load& d, int type, CellLoad& load) {
-  load.gradient = d.pressure_gradient.value;
-  load.origin = d.pressure_origin.value;
-  const draft::LoadEnds& at = d.pressure_ends;
-  load.mark = mark_of_load(
-      c, load, type, d.pressure_mark,
-      {{at.axis.place, at.axis.value == Vec3d{1, 0, 0}}, {at.part.place, at.part.value == 1.0}, {at.ends.place, at.ends.value == "both"}});
-  if (norm2(load.gradient) == 0.0 && norm2(load.origin) > 0.0)
-    c.diagnostics.error(515, d.pressure_origin.place, "'origin' has no effect here",
-                        "it is where a pressure with a `gradient` has its `value`");
-  const double along[3] = {load.gradient.x, load.gradient.y, load.gradient.z};
-  for (int axis = 0; axis < 3; ++axis)
-    if (along[axis] != 0.0 && c.study.model.space.periodic(axis))
-      c.diagnostics.error(570, d.pressure_gradient.place,
-                          std::string("the pressure changes along ") + "xyz"[axis] + ", along which the domain is periodic",
-                          "use `open` or `wall` faces");
+std::string all_kinds(const Laws& laws) {
+  std::string out;
+  for (const auto& kind : laws.loads) out += (out.empty() ? "`" : ", `") + std::string(kind->section.name) + "`";
+  return out;
 }
 
-void build_within(BuildContext& c, const draft::Shape& shape, CellLoad& load) {
-  load.within = true;
-  load.low_end = shape.low_end.value;
-  load.high_end = shape.high_end.value;
-  load.radius = shape.radius.value;
-  if (shape.low_end.known() && shape.high_end.known() && norm2(load.high_end - load.low_end) == 0.0)
-    c.diagnostics.error(302, shape.high_end.place, "'from' and 'to' are the same point", "give the two ends of the cylinder's axis");
+/// What the study says of the kind of a load; false where it could not be read.
+bool build_kind(BuildContext& c, const draft::OwnSection& own, const Place& place, int type, CellLoad& load) {
+  const auto values = own_values(c, load.what->keys, own);
+  if (!values || !missing_keys(load.what->keys, own).empty()) return false;
+  load.values = *values;
+  load.mark = values->number("marked");
+  if (load.mark >= 0) check_mark(c, own, type, load.mark);
+  if (load.what->build != nullptr) load.what->build(load.values, load);
+  if (load.what->judge != nullptr)
+    for (const LawProblem& problem : load.what->judge(load, c.study.model)) tell_problem(c, problem, own, place);
+  return true;
 }
 
 }  // namespace
@@ -145,38 +107,22 @@ void build_motion_course(BuildContext& c, const draft::Obstacle& o, ObstacleSpec
 
 void build_loads(BuildContext& c) {
   for (auto& [name, place, d] : c.draft.loads) {
-    const int kinds = d.traction + d.pull + d.patch + d.pressure + d.grip + d.body_force.given;
-    if (kinds != 1) {
-      c.diagnostics.error(111, place, "load '" + name + "' " + (kinds == 0 ? "says nothing of a force" : "has more than one kind of force"),
-                          "give one of `traction`, `pull`, `patch`, `pressure`, `grip`, `body_force`");
+    const auto kinds = kinds_of(c, d);
+    if (kinds.size() != 1) {
+      c.diagnostics.error(111, place,
+                          "load '" + name + "' " + (kinds.empty() ? "says nothing of a force" : "has more than one kind of force"),
+                          "give one of " + all_kinds(*c.options.laws));
       continue;
     }
     const int type = d.type.known() ? find_type(c, d.type.value, d.type.place) : -1;
     CellLoad load;
     load.name = name;
     load.type = static_cast<std::uint16_t>(std::max(0, type));
-    if (d.traction) {
-      load.kind = LoadKind::kTraction;
-      load.size = d.peak.value;
-      load.axis = unit_axis(c, d.traction_axis, "axis");
-    } else if (d.patch) {
-      build_patch(c, d, type, load);
-    } else if (d.pull || d.pressure || d.grip) {
-      const draft::LoadEnds& ends = d.pull ? d.pull_ends : d.pressure ? d.pressure_ends : d.grip_ends;
-      load.kind = d.pull ? LoadKind::kPull : d.pressure ? LoadKind::kPressure : LoadKind::kGrip;
-      load.size = d.pull ? d.pull_force.value : d.pressure ? d.pressure_value.value : d.grip_stiffness.value;
-      load.axis = unit_axis(c, ends.axis, "axis");
-      load.part = ends.part.value;
-      load.end = end_of(ends.ends);
-      if (d.grip) build_grip(c, d, load);
-      if (d.pressure) build_pressure(c, d, type, load);
-      if (d.pressure_within.present) build_within(c, d.pressure_within, load);
-    } else {
-      load.force = d.body_force.value;
-    }
+    load.what = kinds.front();
+    const draft::OwnSection& own = d.kinds.at(load.what->section.name);
     load.course = build_course(c, d.course);
-    if (type >= 0 && static_cast<std::size_t>(type) < c.study.model.types.size())
-      check_bodies(c, name, place, load, d.patch_mark.given || d.pressure_mark.given);
+    const bool read = build_kind(c, own, place, type, load);
+    if (read && type >= 0 && static_cast<std::size_t>(type) < c.study.model.types.size()) check_bodies(c, name, place, load);
     c.study.model.loads.push_back(std::move(load));
   }
 }

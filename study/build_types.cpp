@@ -11,16 +11,8 @@ namespace {
 
 constexpr std::size_t kMaxTypes = 256;
 
-void build_death(BuildContext& c, const draft::CellType& draft, const Place& type_place, CellType& type) {
-  if (!draft.has_death) return;
-  if (!draft.death_field.known() || !draft.death_below.known()) {
-    if (!draft.death_field.given || !draft.death_below.given)  // else the error has been told
-      c.diagnostics.error(103, type_place, "`death` needs a field and a concentration", "write for example `oxygen_below: 0.02 mM`");
-    return;
-  }
-  type.death_field = find_field(c, draft.death_field.value, draft.death_field.place);
-  type.death_below = draft.death_below.value;
-  type.death_rate = draft.death_rate.value;
+void build_dying(const draft::CellType& draft, CellType& type) {
+  if (const auto at = draft.behaviours.find("death"); at == draft.behaviours.end() || !at->second.present) return;
   type.apoptosis_time = draft.shrink_time.value;
   type.removal_fraction = draft.removed_below.value;
 }
@@ -196,7 +188,8 @@ void build_cell_types(BuildContext& c) {
       type.exponential_growth = t.growth.value == "exponential";
     }
     type.inhibit_pressure = t.pressure_above.value;
-    build_death(c, t, place, type);
+    build_behaviours(c, t, place, type);
+    build_dying(t, type);
     build_osmosis(c, t, type);
     type.migration_speed = t.migration_speed.value;
     type.migration_persistence = t.persistence.value;

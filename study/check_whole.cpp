@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupling/observables/observable.h"
 #include "dcm/derived_parameters.h"
 #include "study/build.h"
 #include "study/build_meshes.h"
@@ -128,8 +129,9 @@ void check_names(BuildContext& c) {
       c.diagnostics.error(403, place, std::string("there is no ") + what + " '" + word + "'", suggest(word, known));
   };
   if (c.draft.scenario.known()) check_known(c.draft.scenario.value, c.draft.scenario.place, c.options.scenario_names, "library study");
+  if (c.diagnostics.has_errors()) return;  // which observables there are depends on what the model has
   for (const std::string& name : c.draft.output.series.value)
-    check_known(name, c.draft.output.series.place, c.options.series_names, "observable");
+    check_known(name, c.draft.output.series.place, observable_names(c.study.model, *c.options.laws), "observable");
 }
 
 /// What the laws of both layers of a shell say of their stiffness.

@@ -26,6 +26,12 @@ void declare_contact(Section& section, draft::Contact& contact);
 void declare_load(Section& section, draft::Load& load);
 /// A point of a factor over time.
 void declare_course_point(Section& section, draft::CoursePoint& point);
+/// A point of a distance over time.
+void declare_distance_point(Section& section, draft::CoursePoint& point);
+/// The keys of the behaviours whose section this is; the section may have others as well.
+void declare_behaviour_keys(Section& section, const std::string& name, draft::CellType& type);
+/// The sections of all behaviours but these, which are declared elsewhere.
+void declare_behaviours(Section& section, const std::vector<std::string>& but, draft::CellType& type);
 /// `nucleus` and `cytoskeleton` of a shell.
 void declare_interior(Section& section, draft::CellType& type);
 /// `osmosis` of a cell type.

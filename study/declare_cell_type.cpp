@@ -82,21 +82,8 @@ void declare_life(Section& s, draft::CellType& t) {
   s.group({.name = "death",
            .doc = "Death by lack of a field: while the concentration is below a threshold, cells die at a rate.",
            .optional_section = true},
-          t.has_death, [&t](Section& d) {
-            d.suffixed("_below", {.name = "field", .doc = "The field whose lack kills.", .example = "oxygen"}, t.death_field,
-                       {.name = "below",
-                        .doc = "Concentration below which cells die.",
-                        .quantity = Q::kConcentration,
-                        .low = 0.0,
-                        .example = "0.02 mM"},
-                       t.death_below);
-            d.quantity({.name = "rate",
-                        .doc = "Probability of death per time while below.",
-                        .quantity = Q::kRate,
-                        .required = true,
-                        .low = 0.0,
-                        .example = "0.05 1/h"},
-                       t.death_rate);
+          t.behaviours["death"].present, [&t](Section& d) {
+            declare_behaviour_keys(d, "death", t);
             d.quantity({.name = "shrink_time",
                         .doc = "A dying cell shrinks as V0 exp(-t/shrink_time).",
                         .quantity = Q::kTime,
@@ -146,6 +133,7 @@ void declare_life(Section& s, draft::CellType& t) {
            t.activity.migration_substrate);
   });
   declare_activity(s, t);
+  declare_behaviours(s, {"death"}, t);
 }
 
 void declare_friction(Section& s, draft::CellType& t) {

@@ -1,4 +1,8 @@
+#include <algorithm>
+
+#include "coupling/regions/region.h"
 #include "study/declare.h"
+#include "study/own_section.h"
 
 namespace morula::scenarios {
 namespace {
@@ -26,12 +30,9 @@ void declare_uptake(Section& s, draft::Uptake& u) {
 
 void declare_region(Section& s, draft::Region& r) {
   s.text({.name = "name", .doc = "Name of the region in messages and events.", .required = true, .example = "core"}, r.name);
-  s.word({.name = "shape",
-          .doc = "Shape of the region.",
-          .required = true,
-          .words = {"sphere", "box", "half_space", "everything"},
-          .example = "sphere"},
-         r.shape);
+  KeySpec shape{.name = "shape", .doc = "Shape of the region.", .required = true, .example = "sphere"};
+  for (const auto& one : s.laws().region_shapes) shape.words.push_back(one->info.name);
+  s.word(shape, r.shape);
   s.vector({.name = "center",
             .doc = "Centre; of a half space, a point of its border.",
             .quantity = Q::kLength,
@@ -39,12 +40,13 @@ void declare_region(Section& s, draft::Region& r) {
             .example = "[0 um, 0 um, 0 um]",
             .source = "chosen"},
            r.center);
-  s.quantity({.name = "radius", .doc = "Radius of a sphere.", .quantity = Q::kLength, .low = 0.0, .low_open = true, .example = "25 um"},
-             r.radius);
-  s.vector(
-      {.name = "size", .doc = "Edges of a box.", .quantity = Q::kLength, .low = 0.0, .low_open = true, .example = "[50 um, 50 um, 50 um]"},
-      r.size);
-  s.vector({.name = "normal", .doc = "Of a half space: direction out of it.", .example = "[0, 0, 1]"}, r.normal);
+  std::vector<std::string> declared;
+  for (const auto& one : s.laws().region_shapes)
+    for (const OwnKey& key : one->keys) {
+      if (std::ranges::find(declared, key.spec.name) != declared.end()) continue;
+      declared.emplace_back(key.spec.name);
+      declare_own_keys(s, {key}, r.own, false);
+    }
   s.word({.name = "as",
           .doc = "Body of the cells inside.",
           .fallback = "shell",
@@ -87,10 +89,11 @@ void declare_region(Section& s, draft::Region& r) {
 }
 
 void declare_trigger(Section& s, draft::Trigger& t) {
-  s.comparison({.name = "promote",
-                .doc = "Make a sphere a shell when `pressure` or a field of the cell passes a value.",
-                .example = "pressure > 1 kPa"},
-               t.promote);
+  std::string values;
+  for (const auto& one : s.laws().trigger_values)
+    if (one != field_value()) values += "`" + one->info.name + "`, ";
+  values.replace(values.size() - 2, 2, " or a field of the cell passes a value.");
+  s.comparison({.name = "promote", .doc = "Make a sphere a shell when " + values, .example = "pressure > 1 kPa"}, t.promote);
   s.comparison(
       {.name = "demote", .doc = "Make it a sphere again when it passes a value on the other side.", .example = "pressure < 600 Pa"},
       t.demote);

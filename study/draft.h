@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "study/criterion.h"
-#include "study/draft_regions.h"
+#include "study/draft_own.h"
 #include "study/section.h"
 
 namespace morula::scenarios::draft {
@@ -87,9 +87,8 @@ struct CellType : ShellKeys {
   Given<std::string> cycle_model, growth, axis;
   Spread cycle_duration;
   Given<double> pressure_above;
-  bool has_death = false;
-  Given<std::string> death_field;
-  Given<double> death_below, death_rate, shrink_time, removed_below;
+  std::map<std::string, OwnSection> behaviours;  ///< by name of the section
+  Given<double> shrink_time, removed_below;
   Given<double> migration_speed, persistence;
   Osmosis osmosis;
   Nucleus nucleus;
@@ -147,21 +146,9 @@ struct Obstacle {
   std::vector<Named<CoursePoint>> course;
 };
 
-struct LoadEnds {
-  Given<Vec3d> axis;
-  Given<double> part;
-  Given<std::string> ends;
-};
-
 struct Load {
   Given<std::string> type;
-  bool traction = false, pull = false, patch = false, pressure = false, grip = false;
-  Given<double> peak, pull_force, pressure_value, grip_stiffness;
-  Given<Vec3d> traction_axis, body_force, patch_force, pressure_gradient, pressure_origin, grip_center, grip_direction;
-  Given<std::string> patch_mark, pressure_mark;
-  LoadEnds pull_ends, patch_ends, pressure_ends, grip_ends;
-  Shape pressure_within;  ///< low_end, high_end and radius of a cylinder
-  std::vector<Named<CoursePoint>> way;
+  std::map<std::string, OwnSection> kinds;  ///< by name of the load's section
   std::vector<Named<CoursePoint>> course;
 };
 
@@ -219,8 +206,9 @@ struct Field {
 
 struct Region {
   Given<std::string> name, shape, body;
-  Given<Vec3d> center, size, normal;
-  Given<double> radius, margin, from, until;
+  Given<Vec3d> center;
+  OwnSection own;  ///< of the shape
+  Given<double> margin, from, until;
   Given<bool> follow_tissue;
 };
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/numbers/unit_conversion.h"
+#include "coupling/observables/observable.h"
 #include "study/catalogue.h"
 #include "study/error_codes.h"
 #include "study/key_range.h"
@@ -138,6 +139,19 @@ void table_of(const Declaration& section, std::string& out) {
     if (is_section(child)) table_of(child, out);
 }
 
+/// Whether a name is that of an observable, or one whose part in angle brackets the study names: `mean_oxygen` is `mean_<field>`.
+bool is_observable(const std::string& pattern, const std::string& typed) {
+  const std::size_t open = pattern.find('<'), close = pattern.find('>');
+  if (open == std::string::npos || close == std::string::npos) return typed == pattern;
+  const std::string before = pattern.substr(0, open), after = pattern.substr(close + 1);
+  return typed.size() > before.size() + after.size() && typed.starts_with(before) && typed.ends_with(after);
+}
+
+void explain_observables(const std::string& typed, const Laws& laws, std::string& out) {
+  for (const Observable& one : observables_of_any_model(laws))
+    if (is_observable(one.name, typed)) out += one.name + " [" + one.unit + "]: " + one.doc + "\n  a column of series.csv\n";
+}
+
 }  // namespace
 
 std::optional<std::string> explain_study(const std::string& id, const Laws& laws) {
@@ -147,7 +161,10 @@ std::optional<std::string> explain_study(const std::string& id, const Laws& laws
     return "E" + std::to_string(code->code) + ": " + code->title + "\n  " + code->explanation + "\n";
   }
   std::string out;
-  if (!id.empty()) explain_matching(study_declarations(laws), id, out);
+  if (!id.empty()) {
+    explain_matching(study_declarations(laws), id, out);
+    explain_observables(id, laws, out);
+  }
   if (out.empty()) return std::nullopt;
   return out;
 }
@@ -158,6 +175,10 @@ std::string study_reference(const Laws& laws) {
       "A study is one YAML document. Every number with a dimension carries its unit, such as `2.5 kPa`. Keys that are not listed here are "
       "errors.\n";
   table_of(study_declarations(laws), out);
+  out +=
+      "\n## Columns of series.csv\n\nThe names that `output.series` knows; in angle brackets what the study names.\n\n"
+      "| name | unit | what |\n|---|---|---|\n";
+  for (const Observable& one : observables_of_any_model(laws)) out += "| `" + one.name + "` | " + one.unit + " | " + one.doc + " |\n";
   out += "\n## Units\n\nKnown units, with SI prefixes: " + UnitSystem::known_units() + ". Products and powers are written `N s/m^3`.\n";
   out += "\n## Messages\n\n| code | title | meaning |\n|---|---|---|\n";
   for (const ErrorCode& code : error_codes())

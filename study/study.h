@@ -19,6 +19,9 @@ enum class CellShape : std::uint8_t { kSphere, kBiconcave };
 /// How the meshes of shells lie at time 0.
 enum class Orientation : std::uint8_t { kRandom, kAligned };
 
+/// What a fill fills.
+enum class FillShape : std::uint8_t { kSphere, kBox };
+
 /// How the places of a fill are found.
 enum class FillPattern : std::uint8_t {
   kPacked,  ///< as close as they go, from a regular packing with a seeded jitter
@@ -44,9 +47,9 @@ struct InitialCells {
   };
   std::vector<Share> mixture;  ///< parts of `count`, their sum 1; empty: all of `type`
   FillPattern pattern = FillPattern::kPacked;
-  LayerPlane plane;                         ///< of a layer
-  std::uint64_t count = 0;                  ///< of any source
-  RegionShape fill = RegionShape::kSphere;  ///< kSphere or kBox
+  LayerPlane plane;         ///< of a layer
+  std::uint64_t count = 0;  ///< of any source
+  FillShape fill = FillShape::kSphere;
   Vec3d center{};
   double radius = 0.0;           ///< of a sphere; of the disc that a layer keeps to, 0: none [µm]
   Vec3d size{};                  ///< of a box [µm]
@@ -131,7 +134,6 @@ struct Study {
 struct ReadOptions {
   std::shared_ptr<const Laws> laws = builtin_laws();    ///< that the study may name
   std::vector<std::string> overrides{};                 ///< `key.path=value`, as if written in the file
-  std::vector<std::string> series_names{};              ///< observables that exist; empty: not checked
   std::vector<std::string> scenario_names{};            ///< library studies that exist; empty: not checked
   std::function<Status(const Study&)> fits_scenario{};  ///< whether a study has what its scenario's criteria judge; null: not checked
   std::function<void(const Study&, Diagnostics&)>

@@ -34,18 +34,15 @@ LawInfo division_law() {
                           "Time over which the overlap of two sisters is released; fixed."}}};
 }
 
-LawInfo death_law() {
+LawInfo dying_law() {
   const CellType type;
-  return {
-      .name = "starvation",
-      .title = "Death by lack of a concentration, shrinking and removal",
-      .equation = "P(death in Δt) = 1 − e^(−rate·Δt) while c < death_below; then V = V_0 e^(−t/τ_a), removed below a fraction of V_0",
-      .source = kOurs,
-      .parameters = {{"death_below", "concentration", "mM", type.death_below, 0.0, 1e6, kOurs, "Concentration below which cells may die."},
-                     {"death_rate", "rate", "1/s", type.death_rate, 0.0, 1e6, kOurs, "Probability of death per time while below."},
-                     {"apoptosis_time", "time", "s", type.apoptosis_time, 1.0, 1e9, kOurs, "τ_a of the shrinking volume."},
-                     {"removal_fraction", "number", "1", type.removal_fraction, 1e-6, 0.999, kOurs,
-                      "A dead cell is removed below this part of its volume at death."}}};
+  return {.name = "apoptosis",
+          .title = "Shrinking and removal of a cell that has begun to die",
+          .equation = "V = V_0 e^(−t/τ_a), removed below a fraction of V_0",
+          .source = kOurs,
+          .parameters = {{"apoptosis_time", "time", "s", type.apoptosis_time, 1.0, 1e9, kOurs, "τ_a of the shrinking volume."},
+                         {"removal_fraction", "number", "1", type.removal_fraction, 1e-6, 0.999, kOurs,
+                          "A dead cell is removed below this part of its volume at death."}}};
 }
 
 LawInfo migration_law() {
@@ -83,7 +80,7 @@ std::vector<LawInfo> behaviour_laws() {
   return {growth_law("linear_growth", "Linear growth over the cycle", "V = V_b (1 + t/T)"),
           growth_law("exponential_growth", "Exponential growth over the cycle", "V = V_b 2^(t/T)"),
           division_law(),
-          death_law(),
+          dying_law(),
           migration_law(),
           osmosis_law()};
 }

@@ -2,16 +2,7 @@
 
 #include <cmath>
 
-#include "core/random/philox.h"
-
 namespace morula {
-
-bool begins_to_die(const CellRow& row, double seen, const CellType& type, std::uint32_t seed, std::uint64_t step, double dt) {
-  if (row.phase == Phase::kDying || type.death_field < 0 || type.death_rate <= 0.0) return false;
-  if (!(seen < type.death_below)) return false;
-  const double probability = -std::expm1(-type.death_rate * dt);
-  return Random(seed, RandomStream::kDeath).uniform(row.id, step).first < probability;
-}
 
 void shrink(CellRow& row, const CellType& type, double dt) { row.target_volume *= std::exp(-dt / type.apoptosis_time); }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "coupling/behaviours/ask.h"
 #include "coupling/behaviours/death.h"
 #include "coupling/behaviours/growth.h"
 #include "coupling/behaviours/migration.h"
@@ -44,7 +45,7 @@ Event describe(const CellRow& row, const LifeStep& step, const LifeDecision& dec
       break;
     case Kind::kBeginDying:
       event.kind = EventKind::kDeath;
-      event.reason = {Cause::kLowConcentration, false, row.type};
+      event.reason = {Cause::kBehaviour, false, row.type | static_cast<std::uint32_t>(decision.behaviour) << 16};
       break;
     case Kind::kRemove:
       event.kind = EventKind::kRemoval;
@@ -56,22 +57,24 @@ Event describe(const CellRow& row, const LifeStep& step, const LifeDecision& dec
 
 }  // namespace
 
-LifeDecision live(CellRow& row, LifeSides& sides, const CellType& type, const LifeStep& step) {
+LifeDecision live(CellRow& row, LifeSides& sides, const CellType& type, const LifeStep& step, const CellWish& wish) {
   if (row.phase == Phase::kDying) {
     shrink(row, type, step.dt);
     return {is_gone(sides.death_time, type, step.time) ? Kind::kRemove : Kind::kNone, 0.0};
   }
-  if (begins_to_die(row, sides.seen, type, step.seed, step.step, step.dt)) {
+  if (wish.die) {
     row.phase = Phase::kDying;
     sides.death_time = step.time;
     sides.migration_velocity = {};
     return {Kind::kBeginDying, 0.0};
   }
-  sides.migration_velocity = next_migration_velocity(sides.migration_velocity, row.id, type, step.seed, step.step, step.dt);
-  if (row.phase == Phase::kResting) return {};
-  if (row.phase == Phase::kWaiting) return at_division_volume(row, 0.0);
-  const Growth growth = grow(row, type, step.dt);
-  return growth.reached ? at_division_volume(row, growth.late) : LifeDecision{};
+  sides.migration_velocity = next_migration_velocity(sides.migration_velocity, row.id, type, step.seed, step.step, step.dt, wish.migration);
+  if (wish.polarity) sides.polarity = normalized(*wish.polarity);
+  if (wish.volume != 1.0) row.target_volume *= wish.volume;
+  if (row.phase == Phase::kWaiting || wish.divide) return at_division_volume(row, 0.0);
+  if (row.phase == Phase::kResting || !(wish.growth > 0.0)) return {};
+  const Growth growth = grow(row, type, step.dt * wish.growth);
+  return growth.reached ? at_division_volume(row, growth.late / wish.growth) : LifeDecision{};
 }
 
 LifeReport live(Cells& cells, std::span<const CellType> types, const LifeStep& step) {
@@ -80,17 +83,22 @@ LifeReport live(Cells& cells, std::span<const CellType> types, const LifeStep& s
   const auto count = static_cast<std::int64_t>(rows.size());
   SideColumns& side = cells.side;
   const auto migrates = [](const CellType& type) { return type.migration_speed > 0.0; };
-  const auto may_die = [](const CellType& type) { return type.death_field >= 0; };
+  const auto behaves = [](const CellType& type) { return !type.behaviours.empty(); };
   if (std::any_of(types.begin(), types.end(), migrates)) side.migration_velocity.make_room(rows.size());
-  if (std::any_of(types.begin(), types.end(), may_die)) side.death_time.make_room(rows.size());
+  const auto turns = [](const CellType& type) { return type.polarity.set && !type.behaviours.empty(); };
+  if (std::any_of(types.begin(), types.end(), behaves)) side.death_time.make_room(rows.size());
+  if (std::any_of(types.begin(), types.end(), turns)) side.polarity.make_room(rows.size());
+  AskBehaviours behaviours(cells, types, step);
 #pragma omp parallel for schedule(static) if (count > 1000)
   for (std::int64_t k = 0; k < count; ++k) {
     const CellType& type = types[rows[k].type];
-    LifeSides sides{side.migration_velocity[k], side.death_time[k], 0.0};
-    if (type.death_field >= 0) sides.seen = cells.variables[concentration_of(static_cast<std::size_t>(type.death_field))].values[k];
-    decisions[k] = live(cells.rows[k], sides, type, step);
+    LifeSides sides{side.migration_velocity[k], side.death_time[k], side.polarity[k]};
+    const Asked asked = rows[k].phase == Phase::kDying ? Asked{} : behaviours.ask(k);
+    decisions[k] = live(cells.rows[k], sides, type, step, asked.wish);
+    if (decisions[k].kind == Kind::kBeginDying) decisions[k].behaviour = asked.deadly;
     side.migration_velocity.set(k, sides.migration_velocity);
     side.death_time.set(k, sides.death_time);
+    if (asked.wish.polarity && type.polarity.set) side.polarity.set(k, sides.polarity);
   }
 
   LifeReport report;

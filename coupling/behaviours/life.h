@@ -1,9 +1,10 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "coupling/cells.h"
+#include "coupling/cell_view.h"
 #include "coupling/events.h"
 #include "coupling/model.h"
 
@@ -12,9 +13,10 @@ namespace morula {
 /// The step whose life is lived.
 struct LifeStep {
   std::uint32_t seed = 1;
-  std::uint64_t step = 0;  ///< number of the step; keys the random numbers
-  double time = 0.0;       ///< at the end of the step [s]
-  double dt = 0.0;         ///< [s]
+  std::uint64_t step = 0;             ///< number of the step; keys the random numbers
+  double time = 0.0;                  ///< at the end of the step [s]
+  double dt = 0.0;                    ///< [s]
+  const BodiesNow* bodies = nullptr;  ///< at the start of the step, where behaviours look at them (look_at_bodies())
 };
 
 /// What a cell decided in a step.
@@ -27,22 +29,23 @@ struct LifeDecision {
     kBeginDying,
     kRemove,  ///< a dying cell is gone
   } kind = Kind::kNone;
-  double late = 0.0;  ///< time between the event and the end of the step [s]
+  double late = 0.0;            ///< time between the event and the end of the step [s]
+  std::uint16_t behaviour = 0;  ///< of a death: number of the behaviour of the type that asked for it
 };
 
 /// The sides of a cell that its life is about.
 struct LifeSides {
   Vec3d migration_velocity{};  ///< read and written [µm/s]
   double death_time = -1.0;    ///< read and written [s]
-  double seen = 0.0;           ///< concentration of the field without which it dies [mM]
+  Vec3d polarity{};            ///< read and written
 };
 
-/// One step in the life of one cell: growth, cycle, death and the wanted velocity. Reads and writes this row and its sides only, as they
-/// were at the beginning of the stage: nothing depends on the order of cells.
+/// One step in the life of one cell: growth, cycle, death and the wanted velocity, and what its behaviours ask for. Reads and writes this row and its
+/// sides only, as they were at the beginning of the stage: nothing depends on the order of cells.
 ///
-/// A dying cell shrinks and is removed at last. Any other may begin to die; if it does not, it grows unless it rests or waits. Division at
-/// the division volume: a sphere divides, a shell waits (and divides if it becomes a sphere later).
-LifeDecision live(CellRow& row, LifeSides& sides, const CellType& type, const LifeStep& step);
+/// A dying cell shrinks and is removed at last; its behaviours have no say. Any other may begin to die; if it does not, it grows unless it rests or
+/// waits. Division at the division volume: a sphere divides, a shell waits (and divides if it becomes a sphere later).
+LifeDecision live(CellRow& row, LifeSides& sides, const CellType& type, const LifeStep& step, const CellWish& wish = {});
 
 struct DivisionOrder {
   std::size_t row = 0;

@@ -21,10 +21,11 @@ double deviation(const CellType& type) { return type.migration_speed / std::numb
 
 }  // namespace
 
-Vec3d next_migration_velocity(const Vec3d& velocity, CellId cell, const CellType& type, std::uint32_t seed, std::uint64_t step, double dt) {
+Vec3d next_migration_velocity(const Vec3d& velocity, CellId cell, const CellType& type, std::uint32_t seed, std::uint64_t step, double dt,
+                              double factor) {
   if (type.migration_speed <= 0.0) return {};
   const double kept = std::exp(-dt / type.migration_persistence);
-  const double renewed = deviation(type) * std::sqrt(-std::expm1(-2.0 * dt / type.migration_persistence));
+  const double renewed = factor * deviation(type) * std::sqrt(-std::expm1(-2.0 * dt / type.migration_persistence));
   return kept * velocity + renewed * normal_vector(cell, seed, step);
 }
 

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "core/parallel/threads.h"
-#include "coupling/loads.h"
+#include "coupling/loads/loads.h"
 #include "coupling/lumens.h"
 #include "coupling/mechanics/mechanics.h"
 #include "coupling/mechanics/workspace.h"

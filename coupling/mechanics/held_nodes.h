@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "coupling/grips.h"
+#include "coupling/loads/grips.h"
 #include "coupling/mechanics/term.h"
 
 namespace morula {

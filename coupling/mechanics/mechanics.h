@@ -10,7 +10,7 @@
 #include "core/mesh/topology.h"
 #include "core/parallel/comm.h"
 #include "core/result.h"
-#include "coupling/grips.h"
+#include "coupling/loads/grips.h"
 #include "coupling/mechanics/step_report.h"
 #include "coupling/mechanics/told.h"
 #include "coupling/model.h"

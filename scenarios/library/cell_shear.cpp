@@ -59,7 +59,7 @@ Result<std::vector<Rubbing>> rubbings(const Study& study, const std::filesystem:
   const SeriesColumn* time = series.find("time");
   std::vector<Rubbing> out;
   for (const CellLoad& load : model.loads) {
-    if (load.kind != LoadKind::kGrip || !time) continue;
+    if (load.what != grip_load() || !time) continue;
     const std::size_t partner = partner_of(model, load.type);
     const bool on_plane = partner >= model.types.size();
     const TimeCourse& way = on_plane ? model.obstacles[partner - model.types.size()].distance : load.way;
@@ -100,7 +100,7 @@ Result<std::vector<std::pair<std::string, double>>> sliders(const Study& study, 
   MORULA_TRY_ASSIGN(const auto snapshots, all_snapshots(run));
   std::vector<std::pair<std::string, double>> out;
   for (const CellLoad& load : study.model.loads) {
-    if (load.kind != LoadKind::kBodyForce) continue;
+    if (load.what != body_force_load()) continue;
     const auto middle = shells_of(snapshots[snapshots.size() / 2], load.type), end = shells_of(snapshots.back(), load.type);
     if (middle.empty() || end.empty()) continue;
     const Vec3d along = normalized(load.force);

@@ -46,9 +46,9 @@ std::vector<std::string> asked_of_scenario(const Study& study) {
   return out;
 }
 
-Status has_load(const Study& study, LoadKind kind, const char* what) {
+Status has_load(const Study& study, const std::shared_ptr<const morula::Load>& kind, const char* what) {
   for (const CellLoad& load : study.model.loads)
-    if (load.kind == kind) return {};
+    if (load.what == kind) return {};
   return Error{ErrorKind::kInput, what, ""};
 }
 
@@ -77,24 +77,24 @@ std::vector<NotChecked> never_checked(const Study& study) {
 }  // namespace
 
 const std::vector<ScenarioCriteria>& scenario_criteria() {
-  const auto grips = [](const Study& study) { return has_load(study, LoadKind::kGrip, "a grip (`loads` with `grip`)"); };
+  const auto grips = [](const Study& study) { return has_load(study, grip_load(), "a grip (`loads` with `grip`)"); };
   static const std::vector<ScenarioCriteria> all{
       {"blastocyst", &judge_blastocyst, &blastocyst_needs, {"S18.1", "S18.2", "S18.3", "S18.6"}},
       {"cell_shear", &judge_cell_shear, grips, {"SHEAR.0", "S4.6", "S6.5", "T9.6"}, &plot_cell_shear},
       {"embryo", &judge_embryo, &embryo_needs, {"S17.1", "S17.2", "S17.3", "S17.4", "S17.5", "S17.6"}, &plot_embryo},
       {"micropipette",
        &judge_micropipette,
-       [](const Study& study) { return has_load(study, LoadKind::kPressure, "a suction (`loads` with `pressure`)"); },
+       [](const Study& study) { return has_load(study, pressure_load(), "a suction (`loads` with `pressure`)"); },
        {"S3.0", "S3.1", "S3.2", "S3.3", "S3.4", "S3.5"},
        &plot_micropipette},
       {"optical_stretcher",
        &judge_optical_stretcher,
-       [](const Study& study) { return has_load(study, LoadKind::kTraction, "light that pulls (`loads` with `traction`)"); },
+       [](const Study& study) { return has_load(study, traction_load(), "light that pulls (`loads` with `traction`)"); },
        {"S1.1", "S1.2", "S1.3", "S1.4", "S1.5", "S1.7", "S1.8"},
        &plot_optical_stretcher},
       {"optical_tweezers",
        &judge_optical_tweezers,
-       [](const Study& study) { return has_load(study, LoadKind::kPull, "a pull at two poles (`loads` with `pull`)"); },
+       [](const Study& study) { return has_load(study, pull_load(), "a pull at two poles (`loads` with `pull`)"); },
        {"S2.1", "S2.2", "S2.3", "S2.4", "S2.4b", "S2.5", "S2.6"},
        &plot_optical_tweezers},
       {"pull_off", &judge_pull_off, grips, {"S5.0", "S5.1", "S5.2", "S5.3", "S5.4", "S5.5", "S5.6", "S5.7", "T8.2"}, &plot_pull_off},
@@ -106,7 +106,7 @@ bool is_passive(const Study& study) {
   const Model& model = study.model;
   for (const CellType& type : model.types)
     if (type.fluctuations.energy > 0.0 || type.protrusion.force > 0.0 || !type.regional_tension.empty() || type.osmosis.acts() ||
-        type.cycles || type.migration_speed > 0.0 || (type.death_field >= 0 && type.death_rate > 0.0))
+        type.cycles || type.migration_speed > 0.0 || !type.behaviours.empty())
       return false;
   for (const InitialCells& block : study.initial)
     if (block.start_volume_fraction < 1.0) return false;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/numbers/number_text.h"
-#include "coupling/loads.h"
+#include "coupling/loads/loads.h"
 #include "scenarios/library/single_cell_studies.h"
 #include "scenarios/measures/shape_measures.h"
 #include "scenarios/measures/single_cell.h"
@@ -91,7 +91,7 @@ Result<std::vector<Aspiration>> aspirations(const Study& study, const std::files
   MORULA_TRY_ASSIGN(const auto snapshots, all_snapshots(run));
   std::vector<Aspiration> out;
   for (const CellLoad& load : study.model.loads) {
-    if (load.kind != LoadKind::kPressure || !load.within) continue;
+    if (load.what != pressure_load() || !load.within) continue;
     const CellType& type = study.model.types[load.type];
     const Mouth mouth = mouth_of(study.model, load);
     std::size_t done = 0;  // the hold at the end of a course may show the state of the one before
@@ -223,7 +223,7 @@ Result<std::vector<NamedPlot>> plot_micropipette(const Study& study, const std::
     fluid.curves.push_back(std::move(line));
   }
   for (const CellLoad& load : study.model.loads) {
-    if (load.kind != LoadKind::kPressure || !load.within) continue;
+    if (load.what != pressure_load() || !load.within) continue;
     const Mouth mouth = mouth_of(study.model, load);
     Curve curve{study.model.types[load.type].name, {}, {}, CurveStyle::kLine};
     for (const Snapshot& snapshot : snapshots) {

@@ -34,7 +34,7 @@ Result<std::vector<Stretching>> stretchings(const Study& study, const std::files
   MORULA_TRY_ASSIGN(const auto snapshots, all_snapshots(run));
   std::vector<Stretching> out;
   for (const CellLoad& load : study.model.loads) {
-    if (load.kind != LoadKind::kTraction) continue;
+    if (load.what != traction_load()) continue;
     const CellType& type = study.model.types[load.type];
     const auto holds = holds_of(load.course, snapshots);
     if (holds.empty() || holds.front().value != 0.0) continue;  // no unloaded state to measure from
@@ -67,7 +67,7 @@ Result<std::vector<Recovery>> recoveries(const Study& study, const std::filesyst
   MORULA_TRY_ASSIGN(const auto snapshots, all_snapshots(run));
   std::vector<Recovery> out;
   for (const CellLoad& load : study.model.loads) {
-    if (load.kind != LoadKind::kTraction || load.course.empty() || load.course.value.back() != 0.0) continue;
+    if (load.what != traction_load() || load.course.empty() || load.course.value.back() != 0.0) continue;
     const auto before = shells_of(snapshots.front(), load.type);
     Recovery r{study.model.types[load.type].medium_friction, 0.0, std::nan("")};
     double first_time = 0.0, first = 0.0, last_time = 0.0, last = 0.0;

@@ -34,7 +34,7 @@ Result<std::vector<PulledCell>> pulled_cells(const Study& study, const std::file
   MORULA_TRY_ASSIGN(const auto snapshots, all_snapshots(run));
   std::vector<PulledCell> out;
   for (const CellLoad& load : study.model.loads) {
-    if (load.kind != LoadKind::kPull) continue;
+    if (load.what != pull_load()) continue;
     PulledCell cell;
     cell.type = load.type;
     cell.nodes = study.model.types[load.type].shell_nodes;

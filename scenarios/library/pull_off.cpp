@@ -57,7 +57,7 @@ void find_partner(const Model& model, const CellLoad& load, Specimen& s) {
   double nearest = 4.0 * model.types[load.type].radius.mean;
   for (const CellLoad& other : model.loads) {
     const double distance = norm(other.center - load.center);
-    if (other.kind != LoadKind::kGrip || !other.way.empty() || other.type == load.type || distance > nearest) continue;
+    if (other.what != grip_load() || !other.way.empty() || other.type == load.type || distance > nearest) continue;
     nearest = distance;
     partner = other.type;
     s.holder = other.name;
@@ -119,7 +119,7 @@ Result<std::vector<Specimen>> specimens(const Study& study, const std::filesyste
   MORULA_TRY_ASSIGN(const SeriesTable series, read_series(run / "series.csv"));
   std::vector<Specimen> out;
   for (const CellLoad& load : study.model.loads) {
-    if (load.kind != LoadKind::kGrip || load.way.empty()) continue;
+    if (load.what != grip_load() || load.way.empty()) continue;
     const CellType& type = study.model.types[load.type];
     Specimen s;
     s.name = type.name;

@@ -91,7 +91,7 @@ Counts count_cells(const Study& study, Tissue& tissue, double time) {
                          ? volume_centroid(tissue.shells.topology(body.number).faces(), std::as_const(tissue.shells).nodes(body.number))
                          : tissue.spheres.position[body.number]);
   }
-  for (const SwapOrder& order : choose_swaps(study.model, tissue, center, Comm())) {
+  for (const SwapOrder& order : choose_swaps(study.model, tissue, {center}, Comm())) {
     const std::int64_t change = order.to == BodyKind::kShell ? 1 : -1;
     out.shells += change;
     out.nodes += change * nodes_of(study.model.types[tissue.cells.rows[order.row].type]);
@@ -101,9 +101,8 @@ Counts count_cells(const Study& study, Tissue& tissue, double time) {
 
 /// The cells that a region can hold, of this volume each.
 double room_of(const Region& region, double cell_volume) {
-  const double volume = region.shape == RegionShape::kSphere ? 4.0 / 3.0 * std::numbers::pi * std::pow(region.radius, 3)
-                        : region.shape == RegionShape::kBox  ? region.size.x * region.size.y * region.size.z
-                                                             : std::numeric_limits<double>::infinity();
+  const auto& shape = *region.shape;
+  const double volume = shape.volume != nullptr ? shape.volume(region) : std::numeric_limits<double>::infinity();
   return kPacked * volume / cell_volume;
 }
 

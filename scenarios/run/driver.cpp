@@ -5,6 +5,7 @@
 #include "results/checkpoint_folder.h"
 #include "results/damaged_file.h"
 #include "results/file_io.h"
+#include "results/observables/select_observables.h"
 #include "scenarios/criteria/understand.h"
 #include "scenarios/run/report_run.h"
 #include "scenarios/run/run_lock.h"
@@ -25,7 +26,7 @@ Result<std::vector<Observable>> columns_of(const Study& study) {
   if (!names.empty())
     for (const std::string& needed : series_columns(study))
       if (std::find(names.begin(), names.end(), needed) == names.end()) names.push_back(needed);
-  return select_observables(study.model, names);
+  return select_observables(study.model, *study.laws, names);
 }
 
 RunRecord new_record(const Study& study, const RunRequest& request, const Comm& comm) {

@@ -248,7 +248,8 @@ Status RunLoop::output() {
 
 Status RunLoop::write_moment(const Measures& measures) {
   const Tissue& tissue = simulation_->tissue();
-  const Moment moment{measures, interval_, tissue.clock, tissue.ledger};
+  const CellsAtOutput cells(*simulation_);
+  const Moment moment{measures, interval_, tissue.clock, tissue.ledger, cells};
   std::vector<double> row;
   for (const Observable& column : columns_) row.push_back(column.value(moment));
   const Snapshot snapshot = local_snapshot(*simulation_);

@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "coupling/observables/measures.h"
+#include "coupling/observables/observable.h"
 #include "coupling/simulation.h"
 #include "results/checkpoint.h"
-#include "results/observables/observables.h"
 #include "results/run_folder.h"
 #include "results/snapshot_file.h"
 #include "scenarios/run/driver.h"

@@ -99,11 +99,20 @@ void add_contacts(const Model& model, bool shells, bool spheres, std::vector<Use
   }
 }
 
+/// The values of the parameters of a law that has them under these names: numbers, and the lengths of vectors.
+Values named_values(const LawInfo& law, const OwnValues& values) {
+  Values out;
+  for (const LawParameter& parameter : law.parameters)
+    if (values.has(parameter.name))
+      out.emplace_back(parameter.name, values(parameter.name));
+    else if (const Vec3d vector = values.vector(parameter.name); norm2(vector) > 0.0)
+      out.emplace_back(parameter.name, norm(vector));
+  return out;
+}
+
 void add_behaviours(const CellType& type, std::vector<UsedLaw>& out) {
   const Values values{{"cycle_duration", type.cycle_duration.mean},
                       {"inhibit_pressure", type.inhibit_pressure},
-                      {"death_below", type.death_below},
-                      {"death_rate", type.death_rate},
                       {"apoptosis_time", type.apoptosis_time},
                       {"removal_fraction", type.removal_fraction},
                       {"migration_speed", type.migration_speed},
@@ -116,11 +125,15 @@ void add_behaviours(const CellType& type, std::vector<UsedLaw>& out) {
     const bool used = law.name == "linear_growth"        ? type.cycles && !type.exponential_growth
                       : law.name == "exponential_growth" ? type.cycles && type.exponential_growth
                       : law.name == "instant_division"   ? type.cycles
-                      : law.name == "starvation"         ? type.death_field >= 0 && type.death_rate > 0.0
+                      : law.name == "apoptosis"          ? !type.behaviours.empty()
                       : law.name == "persistent_walk"    ? type.migration_speed > 0.0
                       : law.name == "osmosis"            ? type.osmosis.acts()
                                                          : false;
     if (used) out.push_back({"life of " + type.name, std::move(law), values});
+  }
+  for (const CellBehaviour& one : type.behaviours) {
+    if (!one.may_act()) continue;
+    out.push_back({"life of " + type.name, one.what->info, named_values(one.what->info, one.values)});
   }
 }
 
@@ -137,36 +150,18 @@ void add_fields(const Model& model, std::vector<UsedLaw>& out) {
   }
 }
 
-const char* load_name(LoadKind kind) {
-  switch (kind) {
-    case LoadKind::kTraction:
-      return "traction";
-    case LoadKind::kPull:
-      return "pull";
-    case LoadKind::kPatch:
-      return "patch";
-    case LoadKind::kPressure:
-      return "pressure";
-    case LoadKind::kBodyForce:
-      return "body_force";
-    case LoadKind::kGrip:
-      return "grip";
-  }
-  return "";
+void add_swaps(const Swaps& swaps, std::vector<UsedLaw>& out) {
+  for (const Region& region : swaps.regions)
+    out.push_back({"region " + region.name, region.shape->info, named_values(region.shape->info, region.values)});
+  for (const Trigger& trigger : swaps.triggers)
+    if (trigger.type < 0)
+      out.push_back({"exchange of bodies", trigger.value->info, {{"promote", trigger.promote}, {"demote", trigger.demote}}});
 }
 
 void add_loads(const Model& model, std::vector<UsedLaw>& out) {
-  for (const CellLoad& load : model.loads) {
-    const double size = load.kind == LoadKind::kBodyForce || load.kind == LoadKind::kPatch ? norm(load.force) : load.size;
-    out.push_back({"load " + load.name + " on " + model.types[load.type].name,
-                   law_named(load_laws(), load_name(load.kind)),
-                   {{"stress", size},
-                    {"pressure", size},
-                    {"force", size},
-                    {"stiffness", size},
-                    {"gradient", norm(load.gradient)},
-                    {"part", load.part}}});
-  }
+  for (const CellLoad& load : model.loads)
+    out.push_back(
+        {"load " + load.name + " on " + model.types[load.type].name, load.what->info, named_values(load.what->info, load.values)});
 }
 
 }  // namespace
@@ -194,6 +189,7 @@ std::vector<UsedLaw> used_laws(const Study& study) {
   for (const CellType& type : model.types) add_behaviours(type, out);
   add_fields(model, out);
   add_loads(model, out);
+  add_swaps(model.swaps, out);
   add_active_laws(model, shells, out);
   return out;
 }

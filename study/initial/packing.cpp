@@ -20,7 +20,7 @@ constexpr double kSlack = 1e-3;  // of the mean radius
 
 /// How far out a point lies in the shape: 1 on the border where centres end.
 double gauge(const InitialCells& block, const Vec3d& from_center, double inset) {
-  if (block.fill == RegionShape::kSphere) return norm(from_center) / std::max(block.radius - inset, 0.05 * block.radius);
+  if (block.fill == FillShape::kSphere) return norm(from_center) / std::max(block.radius - inset, 0.05 * block.radius);
   double out = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis)
     out = std::max(out, std::abs(from_center[axis]) / std::max(0.5 * block.size[axis] - inset, 0.05 * block.size[axis]));
@@ -34,7 +34,7 @@ struct Site {
 
 /// All lattice points with a gauge of at most `most`, in the order of the lattice.
 std::vector<Site> lattice_sites(const InitialCells& block, double spacing, double inset, double most, const Rotation& turn) {
-  const bool sphere = block.fill == RegionShape::kSphere;
+  const bool sphere = block.fill == FillShape::kSphere;
   Vec3d half;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double reach = sphere ? block.radius : 0.5 * block.size[axis];
@@ -166,13 +166,13 @@ Packing pack_cells(const InitialCells& block, std::span<const double> radius, do
     out.center.push_back(p);
   }
   const int passes = std::clamp(static_cast<int>(kCellPasses / static_cast<double>(radius.size())), 60, kMostPasses);
-  const int drawn = block.fill == RegionShape::kSphere && !space.any_periodic() && radius.size() > 1 ? passes / 3 : 0;
+  const int drawn = block.fill == FillShape::kSphere && !space.any_periodic() && radius.size() > 1 ? passes / 3 : 0;
   const PushApart how{touch, kSlack * mean, passes, drawn, block.center, &around, nullptr};
   out.worst_overlap = push_apart(out.center, radius, how, space, &out.worst_intrusion);
   for (std::size_t i = 0; i < radius.size(); ++i) {
     const Vec3d from = out.center[i] - block.center;
     double beyond = norm(from) + radius[i] - block.radius;
-    if (block.fill == RegionShape::kBox) {
+    if (block.fill == FillShape::kBox) {
       beyond = -1e300;
       for (std::size_t axis = 0; axis < 3; ++axis) beyond = std::max(beyond, std::abs(from[axis]) + radius[i] - 0.5 * block.size[axis]);
     }

@@ -25,7 +25,7 @@ std::pair<Vec3d, Vec3d> along(const Vec3d& normal) {
 }
 
 bool within(const InitialCells& block, const Vec3d& from_center, double inset) {
-  if (block.fill == RegionShape::kSphere) return norm(from_center) <= block.radius - inset;
+  if (block.fill == FillShape::kSphere) return norm(from_center) <= block.radius - inset;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (std::abs(from_center[axis]) > 0.5 * block.size[axis] - inset) return false;
   return true;
@@ -43,7 +43,7 @@ bool keeps_off_walls(const Vec3d& p, double radius, const Space& space) {
 class GrowingGrid {
  public:
   GrowingGrid(const InitialCells& block, double width, const Space& space) : space_(space) {
-    const bool ball = block.fill == RegionShape::kSphere;
+    const bool ball = block.fill == FillShape::kSphere;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double size = ball ? 2.0 * block.radius : block.size[axis];
       low_[axis] = block.center[axis] - 0.5 * size;
@@ -140,7 +140,7 @@ Packing scatter_cells(const InitialCells& block, std::span<const double> radius,
   Packing out;
   const Random random(seed, RandomStream::kInitialPosition);
   GrowingGrid grid(block, 2.0 * touch * *std::max_element(radius.begin(), radius.end()), space);
-  const Vec3d half = block.fill == RegionShape::kSphere ? Vec3d{block.radius, block.radius, block.radius} : block.size * 0.5;
+  const Vec3d half = block.fill == FillShape::kSphere ? Vec3d{block.radius, block.radius, block.radius} : block.size * 0.5;
   for (std::size_t i = 0; i < radius.size(); ++i) {
     const CellId id = CellId::founder(first_number + i);
     bool placed = false;

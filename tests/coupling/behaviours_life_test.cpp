@@ -163,11 +163,16 @@ TEST(Life, RestingCellsKeepTheirVolume) {
   EXPECT_TRUE(population.events.empty());
 }
 
-CellType starving() {
+/// The type's cells die at this rate [1/s] where the concentration of the field is below a threshold [mM].
+void starve(CellType& type, int field, double below, double rate) {
+  OwnValues values;
+  values.set("field", field), values.set("below", below), values.set("rate", rate);
+  type.behaviours = {CellBehaviour(starvation(), values, type.name)};
+}
+
+CellType starving(double rate = 5.31667e-5 / 60.0) {
   CellType type;
-  type.death_field = 1;
-  type.death_below = 0.02;
-  type.death_rate = 5.31667e-5 / 60.0;
+  starve(type, 1, 0.02, rate);
   return type;
 }
 
@@ -189,8 +194,7 @@ TEST(Death, PoissonSurvivorsAfterNinetySixHours) {
 }
 
 TEST(Death, NeedsALackOfTheNamedField) {
-  CellType type = starving();
-  type.death_rate = 1e6;  // certain
+  CellType type = starving(1e6);  // certain
   Cells cells;
   Model two_fields;
   two_fields.fields.resize(2);
@@ -198,19 +202,13 @@ TEST(Death, NeedsALackOfTheNamedField) {
   cells.push_back(make_founder(CellId::founder(1), 0, type, 1, 0.0, false));
   const auto dies = [&] { return !live(cells, std::span(&type, 1), {1, 0, 60.0, 60.0}).events.empty(); };
   cells.variables[concentration_of(1)].values.set(0, 0.02);
-  EXPECT_FALSE(begins_to_die(cells.rows[0], 0.02, type, 1, 0, 60.0));
   EXPECT_FALSE(dies()) << "the other fields are at 0";
   cells.variables[concentration_of(1)].values.set(0, 0.0199);
-  EXPECT_TRUE(begins_to_die(cells.rows[0], 0.0199, type, 1, 0, 60.0));
-  CellType carefree = type;
-  carefree.death_field = -1;
-  EXPECT_FALSE(begins_to_die(cells.rows[0], 0.0, carefree, 1, 0, 60.0));
   EXPECT_TRUE(dies());
 }
 
 TEST(Death, ADyingCellShrinksAndIsRemovedAtItsFraction) {
-  CellType type = starving();
-  type.death_rate = 1e6;
+  CellType type = starving(1e6);
   type.migration_speed = 0.01;
   Population population = one_cell(type);
   const double before = population.volume();
@@ -235,9 +233,7 @@ TEST(Death, ADyingCellShrinksAndIsRemovedAtItsFraction) {
 TEST(Life, DoesNotDependOnTheOrderOfCells) {
   CellType type = cycling();
   type.cycle_duration = {18 * kHour, 0.2};
-  type.death_field = 0;
-  type.death_below = 1.0;
-  type.death_rate = 1e-6;
+  starve(type, 0, 1.0, 1e-6);
   type.migration_speed = 0.01;
   Population one;
   one.types = {type};

@@ -75,7 +75,7 @@ TEST(BodyStress, OfADoubletAtRestIsItsInnerPressureLessThatOfTheCortex) {
 TEST(BodyStress, HoldsTheLoads) {
   Model model = fluid_model(0.0);
   CellLoad pull;
-  pull.kind = LoadKind::kPull;
+  pull.what = pull_load();
   pull.axis = {0, 0, 1};
   pull.size = 0.4;
   pull.part = 0.1;

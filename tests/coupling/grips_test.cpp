@@ -1,10 +1,10 @@
-#include "coupling/grips.h"
+#include "coupling/loads/grips.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "coupling/loads.h"
+#include "coupling/loads/loads.h"
 #include "coupling/simulation.h"
 #include "tests/coupling/tissue_fixture.h"
 
@@ -14,7 +14,7 @@ namespace {
 CellLoad grip(double stiffness, const Vec3d& center) {
   CellLoad load;
   load.name = "grip";
-  load.kind = LoadKind::kGrip;
+  load.what = grip_load();
   load.size = stiffness;
   load.axis = {0, 0, 1};
   load.end = LoadEnd::kHigh;
@@ -93,7 +93,7 @@ TEST(Load, PressureWithinACylinderActsOnTheFacesThereOnly) {
   ShapeLibrary shapes;
   const auto shape = shapes.icosphere(642).value();
   CellLoad load;
-  load.kind = LoadKind::kPressure;
+  load.what = pressure_load();
   load.size = -0.02;
   load.within = true;
   load.low_end = {0, 0, 4};

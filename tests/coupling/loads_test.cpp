@@ -1,4 +1,4 @@
-#include "coupling/loads.h"
+#include "coupling/loads/loads.h"
 
 #include <gtest/gtest.h>
 
@@ -76,7 +76,7 @@ TEST(EndNodes, AreTheWantedPartWithTiesAndLieOppositeEachOther) {
 
 TEST(Load, TractionStretchesASphereWithoutMovingIt) {  // ∮ s0 cos²θ n · x dA = s0 R A/3 = 4π s0 R³/3
   CellLoad load;
-  load.kind = LoadKind::kTraction;
+  load.what = traction_load();
   load.size = 2e-3;
   load.axis = normalized(Vec3d{1, 2, -1});
   for (const auto& [nodes, tolerance] : {std::pair{162u, 0.02}, {642u, 0.005}}) {
@@ -89,7 +89,7 @@ TEST(Load, TractionStretchesASphereWithoutMovingIt) {  // ∮ s0 cos²θ n · x 
 
 TEST(Load, PullIsTheWholeForceAtEachEnd) {
   CellLoad load;
-  load.kind = LoadKind::kPull;
+  load.what = pull_load();
   load.size = 0.193;
   load.part = 0.02;
   const auto f = forces(load, 642);
@@ -103,7 +103,7 @@ TEST(Load, PullIsTheWholeForceAtEachEnd) {
 
 TEST(Load, PressureIsThatOfTheVolume) {  // Σ f · x = −p ∮ n · x dA = −3 p V exactly, whatever the mesh
   CellLoad load;
-  load.kind = LoadKind::kPressure;
+  load.what = pressure_load();
   load.size = 0.01;
   const auto f = forces(load, 162);
   EXPECT_LT(norm(sum(f)), 1e-13);
@@ -112,7 +112,7 @@ TEST(Load, PressureIsThatOfTheVolume) {  // Σ f · x = −p ∮ n · x dA = −
 
 TEST(Load, PressureOnACapIsThatOfItsProjection) {  // ∫ over a cap of n dA is its flat base: along the axis, π a²
   CellLoad load;
-  load.kind = LoadKind::kPressure;
+  load.what = pressure_load();
   load.size = -0.01;  // suction
   load.part = 0.25;
   load.end = LoadEnd::kHigh;
@@ -150,7 +150,7 @@ struct MarkedBall {
 
 TEST(Load, PatchIsItsForceOnOneSideDownToANode) {
   CellLoad load;
-  load.kind = LoadKind::kPatch;
+  load.what = patch_load();
   load.force = {0.1, -0.2, 0.3};
   load.axis = {0, 0, 1};
   load.end = LoadEnd::kHigh;
@@ -170,7 +170,7 @@ TEST(Load, PatchIsItsForceOnOneSideDownToANode) {
 
 TEST(Load, PatchOnMarkedFacesIsSharedByArea) {
   CellLoad load;
-  load.kind = LoadKind::kPatch;
+  load.what = patch_load();
   load.force = {0.1, -0.2, 0.3};
   const MarkedBall cell;
   const auto f = cell.forces(load);
@@ -193,7 +193,7 @@ TEST(Load, PatchOnMarkedFacesIsSharedByArea) {
 
 TEST(Load, PressureOnMarkedFacesIsThatOfTheirAreaVector) {
   CellLoad load;
-  load.kind = LoadKind::kPressure;
+  load.what = pressure_load();
   load.size = 0.02;
   const MarkedBall cell;
   EXPECT_LT(norm(sum(cell.forces(load)) + cell.area_vector * 0.02), 1e-13);
@@ -202,7 +202,7 @@ TEST(Load, PressureOnMarkedFacesIsThatOfTheirAreaVector) {
 /// −∮ (g·x) n dA = −g V (Archimedes), whatever the mesh: p is linear and its mean over a face is that at its middle.
 TEST(Load, PressureWithAGradientIsTheBuoyancyOfTheVolume) {
   CellLoad load;
-  load.kind = LoadKind::kPressure;
+  load.what = pressure_load();
   load.size = 5.0;
   load.gradient = {1e-3, 0.0, -2e-3};
   load.origin = {3, -2, 7};

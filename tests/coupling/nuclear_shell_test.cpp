@@ -193,7 +193,7 @@ Model stretched_model() {  // S1: T 3e-5 N/m, 1 Pa
   Model model = clusters_model(0.0);
   model.types[0].shell.tension = 0.03;
   CellLoad load;
-  load.kind = LoadKind::kTraction;
+  load.what = traction_load();
   load.size = 1e-3;
   model.loads = {load};
   model.step.max_step = 5.0;

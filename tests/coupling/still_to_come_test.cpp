@@ -96,7 +96,7 @@ TEST(StillToCome, RegionsThatBeginOrEnd) {
 
 TEST(StillToCome, ExchangesThatWaitForTheirHoldTimeUnlessThereIsNoPlace) {
   Model model = quiet_model();
-  model.swaps.regions.push_back({.name = "all", .shape = RegionShape::kEverything});
+  model.swaps.regions.push_back({.name = "all", .shape = everything_region()});
   const auto just_swapped = [](Tissue& tissue) { tissue.cells.side.last_swap_time.set(sphere_of(tissue), 900.0, 2); };
   EXPECT_THAT(coming(model, just_swapped), ElementsAre("an exchange of bodies"));
   model.swaps.max_shells = 1;
@@ -145,11 +145,16 @@ TEST(StillToCome, FieldsThatCellsAnswerTo) {
   model.fields[0].initial = 0.2;
   model.fields[0].voxel = 40.0;
   EXPECT_THAT(coming(model), IsEmpty()) << "nobody answers";
-  model.types[0].death_field = 0;
-  model.types[0].death_rate = 1e-4;
+  const auto starve = [&](double rate) {
+    OwnValues values;
+    values.set("field", 0), values.set("below", 0.0), values.set("rate", rate);
+    model.types[0].behaviours = {CellBehaviour(starvation(), values, "cell")};
+  };
+  starve(1e-4);
   EXPECT_THAT(coming(model), ElementsAre("fields that cells answer to"));
-  model.types[0].death_rate = 0.0;
-  model.swaps.triggers.push_back({.value = Trigger::Value::kField, .field = 0, .promote = 100.0, .demote = -1.0});
+  starve(0.0);
+  EXPECT_THAT(coming(model), IsEmpty());
+  model.swaps.triggers.push_back({.value = field_value(), .field = 0, .promote = 100.0, .demote = -1.0});
   EXPECT_THAT(coming(model), testing::Contains("fields that cells answer to"));
 }
 

@@ -271,7 +271,7 @@ TEST(ChooseSwaps, LeavesACellOutsideAllRegionsTheBodyItWasPlacedWith) {
   std::vector<Vec3d> by_row;
   const auto places = centers_of(tissue);
   for (const CellRow& row : tissue.cells.rows) by_row.push_back(places.at(row.id));
-  const auto orders = choose_swaps(model, tissue, by_row, Comm());
+  const auto orders = choose_swaps(model, tissue, {by_row}, Comm());
   ASSERT_EQ(orders.size(), 1u);  // the one in the region
   EXPECT_EQ(tissue.cells.rows[orders[0].row].id, CellId::founder(1));
   EXPECT_EQ(orders[0].to, kShell);

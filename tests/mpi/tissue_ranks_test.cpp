@@ -148,7 +148,7 @@ TEST(TissueOnRanks, DemotesWithTheSameBitsAsOnOne) {
   const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
   Model model = hybrid_model();
   model.types[0].cycles = false;
-  model.swaps.regions[0].shape = RegionShape::kEverything;
+  model.swaps.regions[0].shape = everything_region();
   model.swaps.regions[0].until = 60.0;
   model.swaps.hold = 60.0;
   model.step.max_step = 15.0;

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupling/laws.h"
+#include "coupling/observables/measures.h"
 #include "results/observables/local_snapshot.h"
-#include "results/observables/observables.h"
+#include "results/observables/select_observables.h"
 #include "tests/coupling/tissue_fixture.h"
 #include "tests/results/results_support.h"
 
@@ -24,9 +26,10 @@ std::unique_ptr<Simulation> simulation_of(const std::vector<Vec3d>& centers, con
 
 double value_of(const std::string& name, Simulation& simulation, const Interval& interval = {}) {
   const Measures measures = measure(simulation);
-  const auto chosen = select_observables(simulation.model(), {name});
+  const auto chosen = select_observables(simulation.model(), *builtin_laws(), {name});
   EXPECT_TRUE(chosen.ok());
-  return chosen->front().value({measures, interval, simulation.tissue().clock, simulation.tissue().ledger});
+  const CellsAtOutput cells(simulation);
+  return chosen->front().value({measures, interval, simulation.tissue().clock, simulation.tissue().ledger, cells});
 }
 
 TEST(Observables, OneSphereHasItsOwnRadius) {
@@ -133,7 +136,7 @@ TEST(Observables, HaveUniqueNamesUnitsAndDocs) {
   model.fields.resize(1);
   model.fields[0].name = "glucose";
   std::set<std::string> names;
-  for (const Observable& o : observables(model)) {
+  for (const Observable& o : observables(model, *builtin_laws())) {
     EXPECT_TRUE(names.insert(o.name).second) << o.name;
     EXPECT_FALSE(o.unit.empty()) << o.name;
     EXPECT_TRUE(o.doc.ends_with('.')) << o.name;
@@ -142,7 +145,7 @@ TEST(Observables, HaveUniqueNamesUnitsAndDocs) {
 }
 
 TEST(Observables, AnUnknownNameGetsASuggestion) {
-  const auto chosen = select_observables(test::clusters_model(), {"cell_cuont"});
+  const auto chosen = select_observables(test::clusters_model(), *builtin_laws(), {"cell_cuont"});
   ASSERT_FALSE(chosen.ok());
   EXPECT_EQ(chosen.error().kind, ErrorKind::kInput);
   EXPECT_NE(chosen.error().help.find("cell_count"), std::string::npos);

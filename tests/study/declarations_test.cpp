@@ -21,13 +21,17 @@ void expect_same_study(const Study& a, const Study& b) {
   for (std::size_t i = 0; i < a.model.types.size(); ++i) {
     const CellType &s = a.model.types[i], &t = b.model.types[i];
     EXPECT_EQ(s.name, t.name);
-    EXPECT_EQ(std::tie(s.radius.mean, s.radius.relative_spread, s.cycles, s.cycle_duration.mean, s.inhibit_pressure, s.death_field,
-                       s.death_below, s.death_rate, s.apoptosis_time, s.removal_fraction, s.migration_speed, s.migration_persistence,
-                       s.medium_friction, s.initial_body, s.shell_nodes),
-              std::tie(t.radius.mean, t.radius.relative_spread, t.cycles, t.cycle_duration.mean, t.inhibit_pressure, t.death_field,
-                       t.death_below, t.death_rate, t.apoptosis_time, t.removal_fraction, t.migration_speed, t.migration_persistence,
-                       t.medium_friction, t.initial_body, t.shell_nodes));
+    EXPECT_EQ(std::tie(s.radius.mean, s.radius.relative_spread, s.cycles, s.cycle_duration.mean, s.inhibit_pressure, s.apoptosis_time,
+                       s.removal_fraction, s.migration_speed, s.migration_persistence, s.medium_friction, s.initial_body, s.shell_nodes),
+              std::tie(t.radius.mean, t.radius.relative_spread, t.cycles, t.cycle_duration.mean, t.inhibit_pressure, t.apoptosis_time,
+                       t.removal_fraction, t.migration_speed, t.migration_persistence, t.medium_friction, t.initial_body, t.shell_nodes));
     EXPECT_TRUE(s.shell == t.shell);
+    ASSERT_EQ(s.behaviours.size(), t.behaviours.size());
+    for (std::size_t k = 0; k < s.behaviours.size(); ++k) {
+      EXPECT_EQ(s.behaviours[k].what, t.behaviours[k].what);
+      for (const OwnKey& key : s.behaviours[k].what->keys)
+        EXPECT_EQ(s.behaviours[k].values(key.spec.name), t.behaviours[k].values(key.spec.name)) << key.spec.name;
+    }
   }
   ASSERT_EQ(a.model.pairs.size(), b.model.pairs.size());
   for (std::size_t i = 0; i < a.model.pairs.size(); ++i) EXPECT_EQ(a.model.pairs[i].adhesion, b.model.pairs[i].adhesion);

@@ -70,7 +70,7 @@ TEST(Packing, DependsOnTheSeedAlone) {
 TEST(Packing, FillsABoxBetweenWallsAndAcrossPeriodicFaces) {
   InitialCells block;
   block.count = 250;
-  block.fill = RegionShape::kBox;
+  block.fill = FillShape::kBox;
   block.size = {84, 84, 84};
   Space space = open_space(42.0);
   for (auto& axis : space.boundary) axis = {BoundaryKind::kPeriodic, BoundaryKind::kPeriodic};

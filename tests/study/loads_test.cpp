@@ -32,7 +32,7 @@ TEST(Loads, AreReadInInternalUnits) {
   ASSERT_TRUE(study.ok()) << study.error().text();
   ASSERT_EQ(study->model.loads.size(), 1u);
   const CellLoad& load = study->model.loads[0];
-  EXPECT_EQ(load.kind, LoadKind::kPull);
+  EXPECT_EQ(load.what, pull_load());
   EXPECT_DOUBLE_EQ(load.size, 0.193);
   EXPECT_DOUBLE_EQ(load.part, 0.02);
   EXPECT_EQ(load.end, LoadEnd::kHigh);
@@ -96,7 +96,7 @@ TEST(Loads, APatchIsAForceOnASideOrOnMarkedFaces) {
   const auto study = test::read(with_load("patch: {force: [0 nN, 2 nN, 0 nN], toward: [0, 0, 5], part: 1 %}"));
   ASSERT_TRUE(study.ok()) << study.error().text();
   const CellLoad& load = study->model.loads[0];
-  EXPECT_EQ(load.kind, LoadKind::kPatch);
+  EXPECT_EQ(load.what, patch_load());
   EXPECT_EQ(load.force, (Vec3d{0, 2, 0}));
   EXPECT_EQ(load.axis, (Vec3d{0, 0, 1}));
   EXPECT_EQ(load.end, LoadEnd::kHigh);
@@ -159,7 +159,7 @@ TEST(Loads, GripsAreReadAndHoldPlacesOfTheLaboratoryOnly) {
   const auto study = test::read(text);
   ASSERT_TRUE(study.ok()) << study.error().text();
   const CellLoad& load = study->model.loads[0];
-  EXPECT_EQ(load.kind, LoadKind::kGrip);
+  EXPECT_EQ(load.what, grip_load());
   EXPECT_DOUBLE_EQ(load.size, 5.0);
   EXPECT_DOUBLE_EQ(load.part, 0.1);
   EXPECT_DOUBLE_EQ(load.center.z, 1.0);

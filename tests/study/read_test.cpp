@@ -31,9 +31,11 @@ TEST(StudyReader, ConvertsEveryValueToInternalUnits) {
   EXPECT_TRUE(t.cycles);
   EXPECT_DOUBLE_EQ(t.cycle_duration.mean, 18 * 3600.0);
   EXPECT_DOUBLE_EQ(t.inhibit_pressure, 0.8);
-  EXPECT_EQ(t.death_field, 0);
-  EXPECT_DOUBLE_EQ(t.death_below, 0.02);
-  EXPECT_DOUBLE_EQ(t.death_rate, 0.05 / 3600.0);
+  ASSERT_EQ(t.behaviours.size(), 1u);
+  EXPECT_EQ(t.behaviours[0].what, starvation());
+  EXPECT_EQ(t.behaviours[0].values.number("field"), 0);
+  EXPECT_DOUBLE_EQ(t.behaviours[0].values("below"), 0.02);
+  EXPECT_DOUBLE_EQ(t.behaviours[0].values("rate"), 0.05 / 3600.0);
   EXPECT_DOUBLE_EQ(t.migration_speed, 2.0 / 3600.0);
   EXPECT_DOUBLE_EQ(t.medium_friction, 0.1);
   EXPECT_DOUBLE_EQ(t.sphere.young, 0.45);
@@ -169,7 +171,7 @@ TEST(StudyReader, DefaultsAreTheModelsDefaults) {
       {.overrides = {"time={end: 1 h}"}});
   const CellType &t = s.model.types[0], d;
   EXPECT_FALSE(t.cycles);
-  EXPECT_EQ(t.death_field, -1);
+  EXPECT_TRUE(t.behaviours.empty());
   EXPECT_DOUBLE_EQ(t.radius.mean, d.radius.mean);
   EXPECT_DOUBLE_EQ(t.shell.bulk_modulus, d.shell.bulk_modulus);
   EXPECT_DOUBLE_EQ(t.shell.shape_stiffness, d.shell.shape_stiffness);
@@ -206,11 +208,11 @@ TEST(StudyReader, HertzianSpheresDoNotAdhere) {
 TEST(StudyReader, TriggersOnFieldsAndTypesAreRead) {
   const Study oxygen =
       good(changed("promote: pressure > 1 kPa, demote: pressure < 600 Pa", "promote: oxygen < 0.05 mM, demote: oxygen > 0.1 mM"));
-  EXPECT_EQ(oxygen.model.swaps.triggers[0].value, Trigger::Value::kField);
+  EXPECT_EQ(oxygen.model.swaps.triggers[0].value, field_value());
   EXPECT_FALSE(oxygen.model.swaps.triggers[0].promote_above);
   EXPECT_DOUBLE_EQ(oxygen.model.swaps.triggers[0].promote, 0.05);
   const Study type = good(changed("promote: pressure > 1 kPa, demote: pressure < 600 Pa", "type: hepatocyte"));
-  EXPECT_EQ(type.model.swaps.triggers[0].value, Trigger::Value::kType);
+  EXPECT_EQ(type.model.swaps.triggers[0].type, 0);
 }
 
 TEST(StudyReader, BoundariesByAxisAndFaceOverrideAll) {
@@ -259,11 +261,9 @@ TEST(StudyReader, PairsGivenTwiceMustAgree) {
   EXPECT_THAT(errors_of(text), HasSubstr("the adhesion of 'other' and 'hepatocyte' is 3e-5 J/m^2 here, but 2e-5 J/m^2 in line 15 [E510]"));
 }
 
-TEST(StudyReader, ObservablesAndScenariosAreCheckedWhenTheirNamesAreKnown) {
+TEST(StudyReader, ObservablesAndScenariosMustExist) {
+  EXPECT_THAT(errors_of(changed("volume_error", "volume_eror")), HasSubstr("there is no observable 'volume_eror' [E403]"));
   ReadOptions options;
-  options.series_names = {"cell_count", "volume_eror"};
-  EXPECT_THAT(errors_of(kGoodStudy, options), HasSubstr("there is no observable 'volume_error' [E403]"));
-  options = {};
   options.scenario_names = {"hybrid_spheroid"};
   EXPECT_THAT(errors_of(changed("seed:", "scenario: hybrid\nseed:"), options), HasSubstr("there is no library study 'hybrid' [E403]"));
 }

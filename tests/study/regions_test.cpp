@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "coupling/loads.h"
+#include "coupling/loads/loads.h"
 #include "scenarios/run/used_laws.h"
 #include "tests/study/study_fixture.h"
 

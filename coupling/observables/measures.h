@@ -7,7 +7,7 @@
 #include "coupling/overlap.h"
 #include "coupling/simulation.h"
 
-namespace morula::scenarios {
+namespace morula {
 
 /// Numbers of the whole tissue at one moment; the same bits on every rank and on any number of ranks.
 struct Measures {
@@ -57,4 +57,4 @@ struct Interval {
   void add(const StepOutcome& outcome);
 };
 
-}  // namespace morula::scenarios
+}  // namespace morula

@@ -1,18 +1,18 @@
-#include "results/observables/observables.h"
-
 #include <algorithm>
 
-#include "study/diagnostics.h"
+#include "coupling/observables/measures.h"
+#include "coupling/observables/observable.h"
 
-namespace morula::scenarios {
+namespace morula {
 namespace {
 
 double per_step(std::uint64_t count, std::uint64_t steps) {
   return steps > 0 ? static_cast<double>(count) / static_cast<double>(steps) : 0.0;
 }
 
-/// The general ones: one line each.
-std::vector<Observable> general() {
+}  // namespace
+
+std::vector<Observable> tissue_observables(const Model&) {
   using M = const Moment&;
   return {
       {"cell_count", "1", "Number of cells.", [](M m) { return double(m.measures.cells); }},
@@ -69,73 +69,4 @@ std::vector<Observable> general() {
   };
 }
 
-}  // namespace
-
-std::vector<Observable> observables(const Model& model) {
-  std::vector<Observable> out = general();
-  for (std::size_t t = 0; t < model.types.size(); ++t)
-    out.push_back({"count_" + model.types[t].name, "1", "Number of cells of the type " + model.types[t].name + ".",
-                   [t](const Moment& m) { return double(m.measures.of_type[t]); }});
-  if (std::any_of(model.types.begin(), model.types.end(), [](const CellType& type) { return type.interior.has_nuclear_shell(); }))
-    out.push_back({"nucleus_clearance", "um", "Least distance of a node of a nucleus from the cortex around it; negative: outside.",
-                   [](const Moment& m) { return m.measures.nucleus_clearance; }});
-  for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
-    const std::string& name = model.obstacles[o].name;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::string letter(1, "xyz"[axis]);
-      out.push_back({"force_" + letter + "_" + name, "nN", "Force of all cells on the obstacle " + name + " along " + letter + ".",
-                     [o, axis](const Moment& m) { return m.measures.obstacle_force[o][axis]; }});
-    }
-  }
-  for (std::size_t k = 0; k < model.lumens.size(); ++k) {
-    const std::string& name = model.lumens[k].name;
-    const auto of = [k](double LumenState::*member) { return [k, member](const Moment& m) { return m.measures.lumens[k].*member; }; };
-    out.push_back({"volume_" + name, "um^3", "Volume of the cavity " + name + ".", of(&LumenState::volume)});
-    out.push_back({"area_" + name, "um^2", "Area of the faces that bound the cavity " + name + ".", of(&LumenState::area)});
-    out.push_back({"pressure_" + name, "kPa", "Pressure of the fluid in the cavity " + name + ".", of(&LumenState::pressure)});
-    out.push_back({"open_" + name, "1", "Part of the directions from the centre of the cavity " + name + " in which it has no wall.",
-                   [k](const Moment& m) { return 1.0 - m.measures.lumens[k].covered; }});
-  }
-  for (std::size_t l = 0; l < model.loads.size(); ++l) {
-    if (model.loads[l].kind != LoadKind::kGrip) continue;
-    const std::string& name = model.loads[l].name;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::string letter(1, "xyz"[axis]);
-      out.push_back({"grip_" + letter + "_" + name, "nN", "Force of the grip " + name + " on its cells along " + letter + ".",
-                     [l, axis](const Moment& m) { return m.measures.grip_force[l][axis]; }});
-    }
-  }
-  for (std::size_t f = 0; f < model.fields.size(); ++f) {
-    const std::string& name = model.fields[f].name;
-    out.push_back({"mean_" + name, "mM", "Mean concentration of " + name + ".", [f](const Moment& m) { return m.measures.mean_field[f]; }});
-    out.push_back(
-        {"min_" + name, "mM", "Smallest concentration of " + name + ".", [f](const Moment& m) { return m.measures.least_field[f]; }});
-    out.push_back({"balance_" + name, "1", "Relative error of the balance of amounts of " + name + " since time 0.",
-                   [f](const Moment& m) { return m.measures.field_balance[f]; }});
-  }
-  if (!model.fields.empty())
-    out.push_back({"field_balance", "1", "Largest relative error of the balance of amounts over all fields.",
-                   [](const Moment& m) { return *std::max_element(m.measures.field_balance.begin(), m.measures.field_balance.end()); }});
-  return out;
-}
-
-std::vector<std::string> observable_names(const Model& model) {
-  std::vector<std::string> out;
-  for (const Observable& o : observables(model)) out.push_back(o.name);
-  return out;
-}
-
-Result<std::vector<Observable>> select_observables(const Model& model, const std::vector<std::string>& names) {
-  std::vector<Observable> all = observables(model);
-  if (names.empty()) return all;
-  std::vector<Observable> out;
-  for (const std::string& name : names) {
-    const auto found = std::find_if(all.begin(), all.end(), [&](const Observable& o) { return o.name == name; });
-    if (found == all.end())
-      return Error{ErrorKind::kInput, "there is no observable '" + name + "' (output.series)", suggest(name, observable_names(model))};
-    out.push_back(*found);
-  }
-  return out;
-}
-
-}  // namespace morula::scenarios
+}  // namespace morula

@@ -1,9 +1,7 @@
-#include "coupling/grips.h"
-
-#include <cmath>
+#include "coupling/loads/grips.h"
 
 #include "core/parallel/order_free_sum.h"
-#include "coupling/loads.h"
+#include "coupling/loads/loads.h"
 
 namespace morula {
 namespace {
@@ -13,23 +11,13 @@ template <class F>
 void for_anchors(const Model& model, const Tissue& tissue, double time, F&& function) {
   for (std::size_t l = 0; l < model.loads.size(); ++l) {
     const CellLoad& load = model.loads[l];
-    if (load.kind != LoadKind::kGrip) continue;
-    const double stiffness = load.size * load.course.at(time);
-    if (!(stiffness > 0.0)) continue;
-    const Vec3d center = load.center + (load.way.empty() ? Vec3d{} : load.direction * load.way.at(time));
+    if (load.what->hold == nullptr) continue;
     for (const auto [k, is_shell, shell] : bodies_of(tissue.cells)) {
       const CellRow& row = tissue.cells.rows[k];
-      if (is_shell && row.type == load.type) {
-        const ReferenceShape& shape = *tissue.shells.shape[shell];
-        const double size = std::cbrt(row.target_volume);
-        const auto hold = [&, number = shell](const Vec3d& outward) {
-          const auto nodes = end_nodes(shape, outward, load.part);
-          for (const std::uint32_t node : nodes)
-            function(l, Anchor{tissue.shells.first_node[number] + node, stiffness / static_cast<double>(nodes.size()),
-                               center + shape.position[node] * size});
-        };
-        if (load.end != LoadEnd::kLow) hold(load.axis);
-        if (load.end != LoadEnd::kHigh) hold(load.axis * -1.0);
+      if (!is_shell || row.type != load.type) continue;
+      for (Anchor anchor : load.what->hold(load, *tissue.shells.shape[shell], row.target_volume, time)) {
+        anchor.node += tissue.shells.first_node[shell];
+        function(l, anchor);
       }
     }
   }

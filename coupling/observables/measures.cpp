@@ -1,4 +1,4 @@
-#include "results/observables/measures.h"
+#include "coupling/observables/measures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,11 @@
 #include <numbers>
 
 #include "core/contact/contact_layer.h"
-#include "coupling/grips.h"
+#include "coupling/loads/grips.h"
 #include "coupling/mechanics/scene.h"
 #include "coupling/swaps.h"
 
-namespace morula::scenarios {
+namespace morula {
 namespace {
 
 double radius_of(double volume) { return std::cbrt(3.0 * volume / (4.0 * std::numbers::pi)); }
@@ -189,4 +189,4 @@ void Interval::add(const StepOutcome& outcome) {
   energy = outcome.mechanics.energy;
 }
 
-}  // namespace morula::scenarios
+}  // namespace morula

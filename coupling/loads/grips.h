@@ -8,14 +8,7 @@
 
 namespace morula {
 
-/// A spring from a node of the rank's shells to a place: energy ½ k |x − X|². The step holds it implicitly, so that it may be stiff.
-struct Anchor {
-  std::uint32_t node = 0;  ///< by shell node
-  double stiffness = 0.0;  ///< k [nN/µm]
-  Vec3d target{};          ///< X [µm]
-};
-
-/// The springs of all grips (LoadKind::kGrip) at a time, on the rank's shells. A grip holds the end nodes of a cell where they would be on an
+/// The springs of all loads that hold nodes (Load::hold) at a time, on the rank's shells. A grip holds the end nodes of a cell where they would be on an
 /// undeformed cell (the reference shape at the cell's target volume) whose centre is that of the grip and has gone along the grip's way; its
 /// stiffness is shared evenly by the nodes of an end and follows the load's course. Nothing of it is stored: it follows from the study and
 /// the time.

@@ -1,0 +1,67 @@
+#pragma once
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "coupling/cells.h"
+#include "coupling/mechanics/told.h"
+#include "coupling/model.h"
+
+namespace morula {
+
+/// What the bodies of a rank are at present positions.
+struct BodiesNow {
+  BodyValues values;          ///< by place (BodyOfRow::place)
+  std::vector<Vec3d> center;  ///< by row
+};
+
+/// A cell at one moment, as observables and behaviours see it: its row, and what its body is at present positions.
+class CellView {
+ public:
+  CellView(const Cells& cells, std::size_t row, const CellType& type, double time) : cells_(&cells), row_(row), type_(&type), time_(time) {}
+
+  /// What the body is; `place` is that of the body among all of the rank (BodyOfRow::place).
+  void set_body(const BodyValues& values, std::size_t place, const Vec3d& centre) {
+    center = centre;
+    volume = values.volume[place];
+    area = values.area[place];
+    contact_area = values.contact_area[place];
+    pressure = values.pressure[place];
+    inner_pressure = values.inner_pressure[place];
+  }
+
+  /// Id, type, phase, target volume, pressure averaged over the last minute.
+  [[nodiscard]] const CellRow& row() const { return cells_->rows[row_]; }
+  [[nodiscard]] const CellType& type() const { return *type_; }
+  [[nodiscard]] double time() const { return time_; }                    ///< [s]
+  [[nodiscard]] double age() const { return time_ - row().birth_time; }  ///< [s]
+  [[nodiscard]] bool is_dying() const { return row().phase == Phase::kDying; }
+  [[nodiscard]] double since_death() const { return time_ - cells_->side.death_time[row_]; }  ///< of a dying cell [s]
+  [[nodiscard]] Vec3d polarity() const { return cells_->side.polarity[row_]; }
+  /// What it sees in a field of the model [mM].
+  [[nodiscard]] double concentration(std::size_t field) const { return cells_->variables[concentration_of(field)].values[row_]; }
+  /// What it has taken from a field since its birth and from its mother [amol].
+  [[nodiscard]] double amount(std::size_t field) const { return cells_->variables[amount_of(field)].values[row_]; }
+  /// A variable of the model by name, such as that of a behaviour, "exhaustion/load"; 0 where there is none.
+  [[nodiscard]] double variable(std::string_view name) const {
+    for (const VariableColumn& variable : cells_->variables)
+      if (variable.what.name == name) return variable.values[row_];
+    return 0.0;
+  }
+
+  // Of its body. Behaviours have these only where they ask for them (Behaviour::looks_at_body).
+  Vec3d center{};               ///< centroid of its volume [µm]
+  double volume = 0.0;          ///< [µm³]
+  double area = 0.0;            ///< of its surface [µm²]
+  double contact_area = 0.0;    ///< of it in contact [µm²]
+  double pressure = 0.0;        ///< now: −tr σ/3 of what neighbours, obstacles and loads exert on it [kPa]
+  double inner_pressure = 0.0;  ///< −K_V ln(V/V0) of a shell; of a sphere its pressure [kPa]
+
+ private:
+  const Cells* cells_;
+  std::size_t row_;
+  const CellType* type_;
+  double time_;
+};
+
+}  // namespace morula

@@ -1,0 +1,61 @@
+#pragma once
+#include "coupling/loads/load.h"
+
+namespace morula::keys {
+
+using Kind = OwnKey::Kind;
+
+inline OwnKey load_axis(const char* doc) {
+  return {Kind::kDirection, {.name = "axis", .doc = doc, .fallback = "[1, 0, 0]", .example = "[1, 0, 0]", .source = "chosen"}};
+}
+
+inline OwnKey load_part(const char* fallback, const char* doc) {
+  return {Kind::kQuantity,
+          {.name = "part",
+           .doc = doc,
+           .quantity = Quantity::kFraction,
+           .fallback = fallback,
+           .low = 0.0,
+           .high = 1.0,
+           .low_open = true,
+           .example = "2 %",
+           .source = "chosen"}};
+}
+
+inline OwnKey load_ends() {
+  return {Kind::kWord,
+          {.name = "ends",
+           .doc = "The nodes of the undeformed cell with the largest coordinate along the axis (`high`), the smallest (`low`), or both.",
+           .fallback = "both",
+           .words = {"both", "high", "low"},
+           .example = "both",
+           .source = "chosen"}};
+}
+
+inline OwnKey load_mark(const char* doc) { return {Kind::kMark, {.name = "marked", .doc = doc, .example = "apical"}}; }
+
+inline OwnKey required(Kind kind, const char* name, const char* doc, Quantity quantity, const char* example) {
+  return {kind, {.name = name, .doc = doc, .quantity = quantity, .required = true, .example = example}};
+}
+
+inline LawParameter part_of_nodes() { return given_by_study("part", "number", "1", "Part of the nodes, at an end of the axis."); }
+
+/// `axis`, `part` and `ends`.
+inline void set_ends(const OwnValues& values, CellLoad& load) {
+  load.axis = values.vector("axis");
+  load.part = values("part");
+  load.end = static_cast<LoadEnd>(values.number("ends"));  // in the order of the words
+}
+
+/// Keys that say where a load acts, beside a mark that says it, too: a value that is not the default contradicts it (the resolved study writes
+/// defaults out).
+inline void judge_marked(const CellLoad& load, const std::string& mark, std::initializer_list<std::pair<const char*, bool>> is_default,
+                         std::vector<LawProblem>& out) {
+  if (load.mark < 0) return;
+  for (const auto& [key, usual] : is_default)
+    if (!usual)
+      out.push_back(
+          {594, key, "load '" + load.name + "' acts on the faces marked '" + mark + "', wherever they are", "remove this key or `marked`"});
+}
+
+}  // namespace morula::keys

@@ -1,0 +1,38 @@
+#pragma once
+#include <map>
+#include <string>
+
+#include "core/law_values.h"
+#include "core/vec3.h"
+#include "coupling/time_course.h"
+
+namespace morula {
+
+/// What a study gives the keys of a thing that declares them itself (core/own_keys.h), in internal units. A number that is not given and has no default
+/// is not a number.
+class OwnValues : public LawValues {
+ public:
+  void set_vector(const std::string& name, const Vec3d& value) { vectors_[name] = value; }
+  void set_course(const std::string& name, TimeCourse value) { courses_[name] = std::move(value); }
+
+  /// 0 where it is not given.
+  [[nodiscard]] Vec3d vector(const std::string& name) const {
+    const auto at = vectors_.find(name);
+    return at != vectors_.end() ? at->second : Vec3d{};
+  }
+  /// Empty where it is not given.
+  [[nodiscard]] TimeCourse course(const std::string& name) const {
+    const auto at = courses_.find(name);
+    return at != courses_.end() ? at->second : TimeCourse{};
+  }
+  /// Of a field, a mark or a word; −1 where none is given.
+  [[nodiscard]] int number(std::string_view name) const { return has(name) ? static_cast<int>((*this)(name)) : -1; }
+  [[nodiscard]] bool flag(std::string_view name) const { return has(name) && (*this)(name) != 0.0; }
+  [[nodiscard]] const std::map<std::string, TimeCourse>& courses() const { return courses_; }
+
+ private:
+  std::map<std::string, Vec3d> vectors_;
+  std::map<std::string, TimeCourse> courses_;
+};
+
+}  // namespace morula

@@ -1,0 +1,87 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/numbers/unit_conversion.h"
+#include "core/own_keys.h"
+#include "core/space/space.h"
+#include "core/vec3.h"
+#include "coupling/own_values.h"
+
+namespace morula {
+
+class CellView;
+struct Region;
+struct Trigger;
+
+inline constexpr double kNever = std::numeric_limits<double>::infinity();
+
+enum class BodyKind : std::uint8_t { kSphere = 0, kShell = 1 };
+
+/// A shape of regions: what there is to say about it, its keys in a region of the study beside `center`, and where its inside is.
+struct RegionShape {
+  LawInfo info;                ///< info.name is the word of `shape`
+  std::vector<OwnKey> keys{};  ///< those without a default must be given
+  /// Fills in what distance() reads of a Region; null: it reads Region::values.
+  void (*build)(const OwnValues& values, Region& region) = nullptr;
+  /// Distance outside of a point that is `from` away from the centre; negative inside [µm].
+  double (*distance)(const Region& region, const Vec3d& from) = nullptr;
+  /// Whether any of it lies in the domain; null: some always does.
+  bool (*meets)(const Region& region, const Box& domain) = nullptr;
+  /// How much of the domain it takes at most, for estimates of costs; null: all of it [µm³].
+  double (*volume)(const Region& region) = nullptr;
+};
+
+std::vector<std::shared_ptr<const RegionShape>> builtin_region_shapes();
+std::shared_ptr<const RegionShape> sphere_region();
+std::shared_ptr<const RegionShape> box_region();
+std::shared_ptr<const RegionShape> half_space_region();
+std::shared_ptr<const RegionShape> everything_region();
+
+/// Where cells are to be shells.
+struct Region {
+  std::string name;
+  std::shared_ptr<const RegionShape> shape = sphere_region();
+  Vec3d center{};
+  double radius = 0.0;
+  Vec3d size{};           ///< of a box
+  Vec3d normal{0, 0, 1};  ///< of a half space; inside is the side the normal points away from
+  BodyKind body = BodyKind::kShell;
+  double margin = 3.0;         ///< leaving needs this distance beyond the border [µm]
+  bool follow_tissue = false;  ///< centre is relative to the tissue's centroid
+  double from = 0.0;           ///< the region exists from here [s]
+  double until = kNever;       ///< to here [s]
+  OwnValues values{};          ///< of the shape's own keys
+
+  [[nodiscard]] bool exists_at(double time) const { return time >= from && time < until; }
+};
+
+/// A value of a cell that `promote` and `demote` of a trigger may compare.
+struct TriggerValue {
+  LawInfo info;  ///< info.name is the word in the study, but for the values of fields, which have the name of the field
+  Quantity quantity = Quantity::kNumber;
+  const char* example = "";       ///< of a comparison: "pressure > 1 kPa"
+  bool looks_at_body = false;     ///< of CellView: what the body is at present positions
+  const char* awaited = nullptr;  ///< while such triggers are there, a run at rest goes on for this; null: it does not
+  double (*of)(const Trigger& trigger, const CellView& cell) = nullptr;
+};
+
+std::vector<std::shared_ptr<const TriggerValue>> builtin_trigger_values();
+std::shared_ptr<const TriggerValue> pressure_value();
+std::shared_ptr<const TriggerValue> field_value();
+
+/// Promote or demote by a value of the cell, or all cells of a type.
+struct Trigger {
+  std::shared_ptr<const TriggerValue> value = pressure_value();
+  int field = -1;             ///< of field_value()
+  int type = -1;              ///< cells of this type are shells, and no value is looked at; −1: by the value
+  bool promote_above = true;  ///< promote when value > promote threshold (else when below)
+  double promote = 0.0;
+  double demote = 0.0;
+  double hold = 1800.0;  ///< no second swap within this time [s]
+};
+
+}  // namespace morula

@@ -1,0 +1,207 @@
+#include "study/own_section.h"
+
+#include <algorithm>
+
+#include "study/declare.h"
+
+namespace morula::scenarios {
+namespace {
+
+using Kind = OwnKey::Kind;
+
+void declare_key(Section& s, const OwnKey& key, const std::string& name, draft::OwnSection& own, bool must);
+
+void declare_keys(Section& s, const std::vector<OwnKey>& keys, const std::string& within, draft::OwnSection& own, bool must) {
+  for (const OwnKey& key : keys) declare_key(s, key, within + key.spec.name, own, must);
+}
+
+void declare_key(Section& s, const OwnKey& key, const std::string& name, draft::OwnSection& own, bool must) {
+  KeySpec spec = key.spec;
+  spec.required = spec.required && must;
+  switch (key.kind) {
+    case Kind::kQuantity:
+      return s.quantity(spec, own.numbers[name]);
+    case Kind::kFlag:
+      return s.flag(spec, own.flags[name]);
+    case Kind::kWord:
+      return s.word(spec, own.texts[name]);
+    case Kind::kVector:
+    case Kind::kDirection:
+      return s.vector(spec, own.vectors[name]);
+    case Kind::kField:
+    case Kind::kMark:
+      return s.text(spec, own.texts[name]);
+    case Kind::kCourse:
+      return s.list(spec, own.courses[name], spec.quantity == Quantity::kLength ? &declare_distance_point : &declare_course_point);
+    case Kind::kGroup:
+      spec.optional_section = true;
+      return s.group(spec, own.groups[name], [&](Section& inner) { declare_keys(inner, key.keys, name + ".", own, true); });
+    case Kind::kFieldValue:
+      break;
+  }
+}
+
+/// Place and whether a key is given.
+struct Where {
+  bool given = false;
+  const Place* place = nullptr;
+  const std::string* text = nullptr;
+};
+
+Where find(const draft::OwnSection& own, const std::string& name) {
+  const auto in = [&name](const auto& map) -> Where {
+    const auto at = map.find(name);
+    return at != map.end() ? Where{at->second.given, &at->second.place, &at->second.text} : Where{};
+  };
+  for (const Where& where : {in(own.numbers), in(own.texts), in(own.flags), in(own.vectors)})
+    if (where.place != nullptr) return where;
+  return {};
+}
+
+}  // namespace
+
+void declare_own_keys(Section& s, const std::vector<OwnKey>& keys, draft::OwnSection& own, bool must) {
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    if (keys[k].kind == Kind::kField && k + 1 < keys.size() && keys[k + 1].kind == Kind::kFieldValue) {
+      KeySpec field = keys[k].spec, value = keys[k + 1].spec;
+      field.required = value.required = false;  // may be given as one; who builds the thing looks for both
+      s.suffixed(("_" + std::string(value.name)).c_str(), field, own.texts[field.name], value, own.numbers[value.name]);
+      ++k;
+    } else {
+      declare_key(s, keys[k], keys[k].spec.name, own, must);
+    }
+  }
+}
+
+std::vector<std::string> missing_keys(const std::vector<OwnKey>& keys, const draft::OwnSection& own) {
+  std::vector<std::string> out;
+  for (const OwnKey& key : keys)
+    if (key.spec.required && !find(own, key.spec.name).given) out.emplace_back(key.spec.name);
+  return out;
+}
+
+namespace {
+
+/// Reads the values of keys, one by one, and notes whether all could be read.
+class ReadValues {
+ public:
+  ReadValues(BuildContext& context, const draft::OwnSection& own) : c_(context), own_(own) {}
+
+  void read(const std::vector<OwnKey>& keys, const std::string& within) {
+    for (const OwnKey& key : keys) read(key, within + key.spec.name);
+  }
+  [[nodiscard]] std::optional<OwnValues> values() && {
+    if (!sound_) return std::nullopt;
+    return std::move(out_);
+  }
+
+ private:
+  void read(const OwnKey& key, const std::string& name) {
+    switch (key.kind) {
+      case Kind::kQuantity:
+      case Kind::kFieldValue:
+        return number(name);
+      case Kind::kFlag:
+        return out_.set(name, own_.flags.at(name).value ? 1.0 : 0.0);
+      case Kind::kWord:
+        return word(key, name);
+      case Kind::kVector:
+        return vector(name);
+      case Kind::kDirection:
+        return direction(key, name);
+      case Kind::kField:
+        return named(name, &find_field);
+      case Kind::kMark:
+        return named(name, &find_mark);
+      case Kind::kCourse:
+        return course(name);
+      case Kind::kGroup:
+        out_.set(name, own_.groups.at(name) ? 1.0 : 0.0);
+        if (own_.groups.at(name)) read(key.keys, name + ".");
+    }
+  }
+  void number(const std::string& name) {
+    const Given<double>& given = own_.numbers.at(name);
+    if (is_known(given)) out_.set(name, given.value);
+  }
+  /// What is given and could not be read has been told.
+  template <class T>
+  bool is_known(const Given<T>& given) {
+    sound_ = sound_ && (given.known() || !given.given);
+    return given.known();
+  }
+  void word(const OwnKey& key, const std::string& name) {
+    const Given<std::string>& given = own_.texts.at(name);
+    const auto at = std::ranges::find(key.spec.words, given.value);
+    if (is_known(given) && at != key.spec.words.end()) out_.set(name, static_cast<double>(at - key.spec.words.begin()));
+  }
+  void vector(const std::string& name) {
+    if (const Given<Vec3d>& given = own_.vectors.at(name); is_known(given)) out_.set_vector(name, given.value);
+  }
+  void direction(const OwnKey& key, const std::string& name) {
+    const Given<Vec3d>& given = own_.vectors.at(name);
+    if (!is_known(given)) return;
+    if (norm2(given.value) > 0.0) return out_.set_vector(name, normalized(given.value));
+    c_.diagnostics.error(302, given.place, "'" + std::string(key.spec.name) + "' has no direction", "for example `[1, 0, 0]`");
+    sound_ = false;
+  }
+  void named(const std::string& name, int (*find)(BuildContext&, const std::string&, const Place&)) {
+    const Given<std::string>& given = own_.texts.at(name);
+    if (!is_known(given)) return;
+    const int number = find(c_, given.value, given.place);
+    sound_ = sound_ && number >= 0;
+    out_.set(name, number);
+  }
+  void course(const std::string& name) {
+    const auto& points = own_.courses.at(name);
+    if (points.empty()) return;
+    TimeCourse found = build_course(c_, points);
+    sound_ = sound_ && !found.empty();
+    out_.set_course(name, std::move(found));
+  }
+
+  BuildContext& c_;
+  const draft::OwnSection& own_;
+  OwnValues out_;
+  bool sound_ = true;
+};
+
+}  // namespace
+
+std::optional<OwnValues> own_values(BuildContext& c, const std::vector<OwnKey>& keys, const draft::OwnSection& own) {
+  ReadValues reading(c, own);
+  reading.read(keys, "");
+  return std::move(reading).values();
+}
+
+void tell_problem(BuildContext& c, const LawProblem& problem, const draft::OwnSection& own, const Place& otherwise) {
+  const Where where = find(own, problem.key);
+  std::string what = problem.what;
+  if (const std::size_t gap = what.find("{}"); where.text != nullptr && gap != std::string::npos) what.replace(gap, 2, *where.text);
+  c.diagnostics.error(problem.code, where.place != nullptr ? *where.place : otherwise, what, problem.help);
+}
+
+std::vector<std::string> given_keys(const std::vector<OwnKey>& keys, const draft::OwnSection& own) {
+  std::vector<std::string> out;
+  for (const OwnKey& key : keys)
+    if (find(own, key.spec.name).given) out.emplace_back(key.spec.name);
+  return out;
+}
+
+Place place_of_key(const draft::OwnSection& own, const std::string& key) {
+  const Where where = find(own, key);
+  return where.place != nullptr ? *where.place : Place{};
+}
+
+void tell_without_effect(BuildContext& c, const std::string& key, const draft::OwnSection& own, const std::string& help) {
+  if (const Where where = find(own, key); where.place != nullptr)
+    c.diagnostics.error(515, *where.place, "'" + key + "' has no effect here", help);
+}
+
+bool has_required_keys(const std::vector<OwnKey>& keys, const draft::OwnSection& own) {
+  const auto required = [](const OwnKey& key) { return key.spec.required; };
+  return std::ranges::none_of(keys, required) ||
+         std::ranges::any_of(keys, [&](const OwnKey& key) { return key.spec.required && find(own, key.spec.name).given; });
+}
+
+}  // namespace morula::scenarios

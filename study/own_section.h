@@ -1,0 +1,31 @@
+#pragma once
+#include <optional>
+
+#include "core/own_keys.h"
+#include "coupling/own_values.h"
+#include "study/build.h"
+
+namespace morula::scenarios {
+
+/// Declares the keys of a thing in its section. `must`: those that are required must be there; else who builds the thing looks for them.
+void declare_own_keys(Section& section, const std::vector<OwnKey>& keys, draft::OwnSection& own, bool must);
+
+/// Names of the keys that must be given and are not.
+std::vector<std::string> missing_keys(const std::vector<OwnKey>& keys, const draft::OwnSection& own);
+/// Names of the keys that are given.
+std::vector<std::string> given_keys(const std::vector<OwnKey>& keys, const draft::OwnSection& own);
+/// Where a key stands that is given.
+Place place_of_key(const draft::OwnSection& own, const std::string& key);
+/// Tells that a key that is given has no effect: E515.
+void tell_without_effect(BuildContext& context, const std::string& key, const draft::OwnSection& own, const std::string& help);
+/// Whether any key that must be given is given, or none has to be.
+bool has_required_keys(const std::vector<OwnKey>& keys, const draft::OwnSection& own);
+
+/// What the study gives the keys, names resolved (E401, E402) and directions made of length 1 (E302); none where a value could not be read or
+/// found.
+std::optional<OwnValues> own_values(BuildContext& context, const std::vector<OwnKey>& keys, const draft::OwnSection& own);
+
+/// Tells a problem of values at the key that it is about.
+void tell_problem(BuildContext& context, const LawProblem& problem, const draft::OwnSection& own, const Place& otherwise);
+
+}  // namespace morula::scenarios

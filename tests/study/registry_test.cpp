@@ -1,0 +1,188 @@
+// What every entry of the registry must tell of itself, and that a study can use each as its own example says.
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "coupling/behaviours/behaviour.h"
+#include "coupling/loads/load.h"
+#include "coupling/observables/observable.h"
+#include "coupling/regions/region.h"
+#include "study/catalogue.h"
+#include "tests/study/study_fixture.h"
+
+namespace morula::scenarios::test {
+namespace {
+
+using testing::HasSubstr;
+using Kind = OwnKey::Kind;
+
+void expect_told(const LawInfo& law, std::set<std::string>& names) {
+  EXPECT_TRUE(names.insert(law.name).second) << law.name;
+  EXPECT_FALSE(law.title.empty() || law.equation.empty() || law.source.empty()) << law.name;
+  for (const LawParameter& parameter : law.parameters) {
+    EXPECT_FALSE(parameter.quantity.empty() || parameter.unit.empty()) << law.name << "." << parameter.name;
+    EXPECT_TRUE(parameter.doc.ends_with('.')) << law.name << "." << parameter.name;
+  }
+}
+
+void expect_told(const std::string& whose, const std::vector<OwnKey>& keys) {
+  for (const OwnKey& key : keys) {
+    const std::string name = whose + "." + key.spec.name;
+    EXPECT_TRUE(key.spec.doc.ends_with('.')) << name;
+    EXPECT_STRNE(key.spec.example, "") << name;
+    EXPECT_FALSE(key.spec.required && key.spec.fallback != nullptr) << name;
+    EXPECT_EQ(key.spec.fallback != nullptr, *key.spec.source != '\0') << name << ": a default has a source";
+    EXPECT_LE(key.spec.low, key.spec.high) << name;
+    EXPECT_EQ(key.kind == Kind::kWord, !key.spec.words.empty()) << name;
+    EXPECT_EQ(key.kind == Kind::kGroup, !key.keys.empty()) << name;
+    expect_told(name, key.keys);
+  }
+}
+
+/// The keys of a law are explained, and parameters are keys.
+template <class Entry>
+void expect_keys(const Entry& entry, const std::string& section) {
+  expect_told(entry.info.name, entry.keys);
+  for (const LawKey& key : law_keys(section, entry.keys)) {
+    const std::string path = key.section + "." + key.spec.name;
+    EXPECT_THAT(explain_study(path, *builtin_laws()).value_or(""), HasSubstr(key.spec.doc)) << path;
+  }
+  for (const LawParameter& parameter : entry.info.parameters)
+    EXPECT_TRUE(std::ranges::any_of(entry.keys, [&](const OwnKey& key) { return parameter.name == key.spec.name; }))
+        << entry.info.name << "." << parameter.name;
+}
+
+TEST(Registry, EveryEntryTellsOfItself) {
+  const auto laws = builtin_laws();
+  std::set<std::string> names;
+  for (const auto& one : laws->behaviours) {
+    expect_told(one->info, names);
+    expect_keys(*one, one->section.name);
+    EXPECT_TRUE(one->build != nullptr) << one->info.name;
+    EXPECT_STRNE(one->section.example, "") << one->info.name;
+  }
+  for (const auto& one : laws->loads) {
+    expect_told(one->info, names);
+    EXPECT_EQ(one->info.name, one->section.name);
+    expect_keys(*one, one->bare ? "loads" : "loads." + one->info.name);
+    EXPECT_EQ((one->push != nullptr) + (one->push_cell != nullptr) + (one->hold != nullptr), 1) << one->info.name;
+  }
+  names.clear();  // a region may have the name of something else
+  for (const auto& one : laws->region_shapes) {
+    expect_told(one->info, names);
+    expect_keys(*one, "regions");
+    EXPECT_TRUE(one->distance != nullptr) << one->info.name;
+  }
+  for (const auto& one : laws->trigger_values) {
+    expect_told(one->info, names);
+    EXPECT_STRNE(one->example, "") << one->info.name;
+    EXPECT_TRUE(one->of != nullptr) << one->info.name;
+  }
+}
+
+TEST(Registry, EveryObservableIsExplained) {
+  for (const Observable& one : observables_of_any_model(*builtin_laws()))
+    EXPECT_THAT(explain_study(one.name, *builtin_laws()).value_or(""), HasSubstr(one.doc)) << one.name;
+}
+
+const std::string kStudy = R"(schema: 1
+study: s
+time: {end: 1 h}
+domain: {size: [200 um, 200 um, 200 um]}
+marks: {apical: {types: [cell], cone: {toward: [0 um, 0 um, 100 um], angle: 30 deg}}}
+cell_types: {cell: {body: shell, OWN}}
+fields: {oxygen: {diffusion: 2e-9 m^2/s, initial: 0.2 mM}}
+initial: [{type: cell, at: [[0 um, 0 um, 0 um]], orientation: aligned}]
+)";
+
+/// The study with something in the cell type, and more behind all else.
+std::string with(const std::string& in_type, const std::string& more = "") {
+  return changed("OWN", in_type.empty() ? "radius: 6 um" : in_type, kStudy) + more;
+}
+std::string load(const std::string& kind, const std::string& value) {
+  return with("", "loads: {one: {type: cell, " + kind + ": " + value + "}}\n");
+}
+
+/// A study with this value is refused for the value's sake.
+void expect_refused(const std::string& text, const std::string& what) {
+  const auto study = read(text);
+  ASSERT_FALSE(study.ok()) << what;
+  EXPECT_THAT(study.error().text(), testing::ContainsRegex("\\[E(2[0-9][0-9]|30[0-9]|10[0-9])\\]")) << what;
+}
+
+TEST(Registry, EveryBehaviourIsReadAsItsExampleSays) {
+  const auto laws = builtin_laws();
+  for (const auto& one : laws->behaviours) {
+    const std::string section = one->section.name;
+    const auto study = read(with(section + ": " + one->section.example));
+    ASSERT_TRUE(study.ok()) << one->info.name << "\n" << study.error().text();
+    ASSERT_EQ(study->model.types[0].behaviours.size(), 1u);
+    EXPECT_EQ(study->model.types[0].behaviours[0].what, one);
+    const auto again = read(study->resolved_text);
+    ASSERT_TRUE(again.ok()) << again.error().text();
+    ASSERT_EQ(again->model.types[0].behaviours.size(), 1u);
+    for (const OwnKey& key : one->keys) {
+      const auto value = [&](const Study& of) { return of.model.types[0].behaviours[0].values(key.spec.name); };
+      EXPECT_EQ(value(*again), value(*study)) << key.spec.name;
+    }
+    for (const OwnKey& key : one->keys)
+      if (key.kind == Kind::kQuantity) {
+        expect_refused(with(section + ": {" + key.spec.name + ": 3 parsec}"), one->info.name);
+        if (key.spec.low == 0.0) expect_refused(with(section + ": {" + key.spec.name + ": -" + key.spec.example + "}"), one->info.name);
+      }
+  }
+}
+
+TEST(Registry, EveryLoadIsReadAsItsExampleSays) {
+  const auto laws = builtin_laws();
+  for (const auto& one : laws->loads) {
+    const std::string example = one->bare ? one->keys.front().spec.example : one->section.example;
+    const auto study = read(load(one->info.name, example));
+    ASSERT_TRUE(study.ok()) << one->info.name << "\n" << study.error().text();
+    ASSERT_EQ(study->model.loads.size(), 1u);
+    EXPECT_EQ(study->model.loads[0].what, one);
+    const auto again = read(study->resolved_text);
+    ASSERT_TRUE(again.ok()) << again.error().text();
+    EXPECT_EQ(again->model.loads[0].what, one);
+    EXPECT_EQ(again->model.loads[0].size, study->model.loads[0].size);
+    EXPECT_EQ(again->model.loads[0].force, study->model.loads[0].force);
+    EXPECT_EQ(again->model.loads[0].part, study->model.loads[0].part);
+    if (one->bare) continue;
+    for (const OwnKey& key : one->keys)
+      if (key.kind == Kind::kQuantity)
+        expect_refused(load(one->info.name, std::string("{") + key.spec.name + ": 3 parsec}"), one->info.name);
+  }
+}
+
+TEST(Registry, EveryShapeIsReadAsItsExamplesSay) {
+  const auto laws = builtin_laws();
+  for (const auto& one : laws->region_shapes) {
+    std::string keys;
+    for (const OwnKey& key : one->keys) keys += std::string(", ") + key.spec.name + ": " + key.spec.example;
+    const auto study = read(with("", "coupling: {regions: [{name: core, shape: " + one->info.name + keys + "}]}\n"));
+    ASSERT_TRUE(study.ok()) << one->info.name << "\n" << study.error().text();
+    const Region& region = study->model.swaps.regions.at(0);
+    EXPECT_EQ(region.shape, one);
+    EXPECT_LE(region.shape->distance(region, {0.0, 0.0, 0.0}), 0.0) << one->info.name;
+    if (!one->keys.empty())
+      expect_refused(with("", "coupling: {regions: [{name: core, shape: " + one->info.name + "}]}\n"), one->info.name);
+  }
+}
+
+TEST(Registry, EveryTriggerIsReadAsItsExampleSays) {
+  const auto laws = builtin_laws();
+  for (const auto& one : laws->trigger_values) {
+    const std::string up = one->example;
+    const bool above = up.find('>') != std::string::npos;
+    std::string down = up;
+    down[down.find(above ? '>' : '<')] = above ? '<' : '>';
+    down.insert(down.find_first_of("0123456789"), above ? "0." : "9");  // 0.1 and 90.05: on the other side
+    const auto study = read(with("", "coupling: {triggers: [{promote: " + up + ", demote: " + down + "}]}\n"));
+    ASSERT_TRUE(study.ok()) << one->info.name << "\n" << study.error().text();
+    EXPECT_EQ(study->model.swaps.triggers.at(0).value, one);
+    EXPECT_EQ(study->model.swaps.triggers.at(0).promote_above, above);
+  }
+}
+
+}  // namespace
+}  // namespace morula::scenarios::test
