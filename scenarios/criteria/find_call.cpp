@@ -243,9 +243,9 @@ std::optional<MeasureCall> find_call(const Study& study, const std::string& text
     return std::nullopt;
   }
   const auto& [name, arguments] = *parts;
-  const std::optional<Measure> measure = find_measure(study.model, name);
+  const std::optional<Measure> measure = find_measure(study, name);
   if (!measure) {
-    diagnostics.error(410, place, "there is no measure '" + name + "'", suggest(name, measure_names(study.model)));
+    diagnostics.error(410, place, "there is no measure '" + name + "'", suggest(name, measure_names(study)));
     return std::nullopt;
   }
   Diagnostics found;

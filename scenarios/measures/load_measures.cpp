@@ -8,7 +8,7 @@ const CellLoad& load_of(const Study& study, const Subject& subject) { return stu
 
 std::vector<std::string> force_columns(const Study& study, const Subject& subject) {
   const CellLoad& load = load_of(study, subject);
-  if (load.kind != LoadKind::kGrip) return {};
+  if (load.what != grip_load()) return {};
   return {"grip_x_" + load.name, "grip_y_" + load.name, "grip_z_" + load.name};
 }
 
@@ -18,7 +18,7 @@ Measure load_way_measure() {
   Measure out{"way", "way", "Way that a grip has gone along its direction.", "", "", Quantity::kLength, MeasureOf::kLoad};
   out.fits = [](const Study& study, const Subject& subject) -> Status {
     const CellLoad& load = load_of(study, subject);
-    if (load.kind == LoadKind::kGrip && !load.way.empty()) return {};
+    if (load.what == grip_load() && !load.way.empty()) return {};
     return Error{ErrorKind::kInput, "needs a grip with a `way`", ""};
   };
   out.take = [](FinishedRun& run, const Subject& subject, const Moments& moments) {
@@ -37,16 +37,16 @@ Measure load_force_measure() {
               Quantity::kForce,
               MeasureOf::kLoad};
   out.fits = [](const Study& study, const Subject& subject) -> Status {
-    const LoadKind kind = load_of(study, subject).kind;
-    if (kind != LoadKind::kTraction && kind != LoadKind::kPressure) return {};
+    const std::shared_ptr<const Load>& what = load_of(study, subject).what;
+    if (what == grip_load() || what == pull_load() || what == patch_load() || what == body_force_load()) return {};
     return Error{ErrorKind::kInput, "needs a grip, a pull, a patch or a body force", ""};
   };
   out.columns = &force_columns;
   out.take = [](FinishedRun& run, const Subject& subject, const Moments& moments) {
     const CellLoad& load = load_of(run.study(), subject);
     return by_row(run, force_columns(run.study(), subject), moments, [&load](double time, const std::vector<double>& row) {
-      if (load.kind == LoadKind::kGrip) return dot(Vec3d{row[0], row[1], row[2]}, load.direction);
-      return (load.kind == LoadKind::kPull ? load.size : norm(load.force)) * load.course.at(time);
+      if (load.what == grip_load()) return dot(Vec3d{row[0], row[1], row[2]}, load.direction);
+      return (load.what == pull_load() ? load.size : norm(load.force)) * load.course.at(time);
     });
   };
   return out;

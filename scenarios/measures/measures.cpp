@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "results/observables/observables.h"
+#include "coupling/observables/observable.h"
 
 namespace morula::scenarios {
 
@@ -43,15 +43,15 @@ const std::vector<Measure>& measures() {
   return all;
 }
 
-std::optional<Measure> find_measure(const Model& model, const std::string& name) {
+std::optional<Measure> find_measure(const Study& study, const std::string& name) {
   const auto found = std::find_if(measures().begin(), measures().end(), [&](const Measure& m) { return m.name == name; });
-  return found != measures().end() ? std::optional(*found) : series_measure(model, name);
+  return found != measures().end() ? std::optional(*found) : series_measure(study, name);
 }
 
-std::vector<std::string> measure_names(const Model& model) {
+std::vector<std::string> measure_names(const Study& study) {
   std::vector<std::string> out;
   for (const Measure& measure : measures()) out.push_back(measure.name);
-  for (const Observable& column : observables(model)) out.push_back(column.name);
+  for (const Observable& column : observables(study.model, *study.laws)) out.push_back(column.name);
   return out;
 }
 

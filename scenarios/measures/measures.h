@@ -10,13 +10,13 @@ namespace morula::scenarios {
 const std::vector<Measure>& measures();
 
 /// The measure of this name: a named one, or a column of series.csv that runs of this model have.
-std::optional<Measure> find_measure(const Model& model, const std::string& name);
+std::optional<Measure> find_measure(const Study& study, const std::string& name);
 
 /// Names of all of them, for suggestions.
-std::vector<std::string> measure_names(const Model& model);
+std::vector<std::string> measure_names(const Study& study);
 
 /// A column of series.csv as a measure; nothing where runs of this model have no such column.
-std::optional<Measure> series_measure(const Model& model, const std::string& column);
+std::optional<Measure> series_measure(const Study& study, const std::string& column);
 
 /// Measures of cells by themselves.
 Measure volume_measure();

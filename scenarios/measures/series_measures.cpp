@@ -1,7 +1,7 @@
 // Every column of series.csv is a measure by its name.
 #include <algorithm>
 
-#include "results/observables/observables.h"
+#include "coupling/observables/observable.h"
 #include "scenarios/measures/measures.h"
 
 namespace morula::scenarios {
@@ -17,8 +17,8 @@ Quantity quantity_of(const std::string& unit) {
 
 }  // namespace
 
-std::optional<Measure> series_measure(const Model& model, const std::string& column) {
-  const auto all = observables(model);
+std::optional<Measure> series_measure(const Study& study, const std::string& column) {
+  const auto all = observables(study.model, *study.laws);
   const auto found = std::find_if(all.begin(), all.end(), [&](const Observable& o) { return o.name == column; });
   if (found == all.end()) return std::nullopt;
   std::string title = column;

@@ -205,7 +205,7 @@ TEST(Plots, AreRefusedWhereTheyCannotBeDrawn) {
 TEST(Registry, NamesNoMeasureAndNoTheoryTwiceAndSaysWhatTheyAre) {
   const auto study = read(study_with(""));
   ASSERT_TRUE(study.ok()) << study.error().text();
-  std::vector<std::string> names = measure_names(study->model);  // columns of series.csv, too
+  std::vector<std::string> names = measure_names(*study);  // columns of series.csv, too
   std::sort(names.begin(), names.end());
   EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
   for (const Measure& measure : measures()) {
@@ -216,9 +216,9 @@ TEST(Registry, NamesNoMeasureAndNoTheoryTwiceAndSaysWhatTheyAre) {
   for (const Theory& theory : theories()) {
     EXPECT_FALSE(theory.source.empty() || theory.formula.empty() || theory.predicts.empty()) << theory.name;
     for (const std::string& one : theory.predicts)
-      EXPECT_TRUE(one.ends_with('_') || find_measure(study->model, one)) << theory.name << " predicts " << one;
+      EXPECT_TRUE(one.ends_with('_') || find_measure(*study, one)) << theory.name << " predicts " << one;
   }
-  for (const Observable& column : observables(study->model)) EXPECT_TRUE(series_measure(study->model, column.name)) << column.name;
+  for (const Observable& column : observables(study->model, *study->laws)) EXPECT_TRUE(series_measure(*study, column.name)) << column.name;
 }
 
 }  // namespace
