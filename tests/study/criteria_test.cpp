@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "results/observables/observables.h"
+#include "coupling/observables/observable.h"
 #include "scenarios/criteria/understand.h"
 #include "scenarios/measures/measures.h"
 #include "study/catalogue.h"
