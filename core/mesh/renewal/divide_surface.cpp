@@ -9,12 +9,14 @@
 namespace morula {
 namespace {
 
-/// Another pole first, then other weights (decision 0038).
+/// Another pole first; then a weak hold along the surface, which lets nodes go into sharp edges, and strong ones, which make even faces
+/// (decision 0038).
 struct Rung {
   RenewalWay way;
   int tilt;
 };
-constexpr std::array<Rung, 5> kLadder = {{{{1.0, 0.2}, 0}, {{1.0, 0.2}, 1}, {{0.3, 0.5}, 0}, {{3.0, 0.5}, 0}, {{1.0, 1.0}, 0}}};
+constexpr std::array<Rung, 7> kLadder = {
+    {{{1.0, 0.2}, 0}, {{1.0, 0.2}, 1}, {{3.0, 0.1, 10}, 0}, {{3.0, 0.05, 12}, 1}, {{0.3, 0.5}, 0}, {{3.0, 0.5}, 0}, {{1.0, 1.0}, 0}}};
 
 /// A half of a ball has 0.63 of its area, the cap not counted.
 constexpr double kAreaOfHalf = 0.63;

@@ -24,13 +24,14 @@ class Evening {
 
   [[nodiscard]] double mean_edge() const { return std::sqrt(4.0 * mean_area_ / std::sqrt(3.0)); }
 
-  /// Σ f² over the faces around a node, if it were at this place.
+  /// Σ f² over the faces around a node, if it were at this place; the gradient is left out where only the value is compared.
+  template <bool kWithGradient>
   [[nodiscard]] Unevenness around(std::uint32_t node, const SurfacePlace& there) const {
     Unevenness sum;
     for (const std::uint32_t f : topology_.faces_of_node(node)) {
       const Triangle& face = topology_.faces()[f];
       const std::size_t c = face[0] == node ? 0 : face[1] == node ? 1 : 2;
-      add_face(there, place_[face[(c + 1) % 3]], place_[face[(c + 2) % 3]], sum);
+      add_face<kWithGradient>(there, place_[face[(c + 1) % 3]], place_[face[(c + 2) % 3]], sum);
     }
     return sum;
   }
@@ -38,7 +39,7 @@ class Evening {
   /// Move a node downhill; how far it went [µm].
   double improve(std::uint32_t node) {
     const SurfacePlace here = place_[node];
-    const Unevenness now = around(node, here);
+    const Unevenness now = around<true>(node, here);
     const Vec3d& n = surface_.normals()[here.face];
     const Vec3d downhill = n * dot(n, now.gradient) - now.gradient;
     const double slope = norm(downhill), edge = mean_edge();
@@ -50,7 +51,7 @@ class Evening {
     for (int halving = 0; halving <= kMostHalvings; ++halving, step *= 0.5) {
       const NearestFace foot = surface_.walk(here.point + downhill * step, here.face);
       const SurfacePlace there{foot.face, foot.closest.point};
-      if (around(node, there).value < now.value) {
+      if (around<false>(node, there).value < now.value) {
         place_[node] = there;
         return norm(there.point - here.point);
       }
@@ -60,6 +61,7 @@ class Evening {
 
  private:
   /// One face with its corners a (the node asked about), b and c, and its part of the gradient with respect to a.
+  template <bool kWithGradient>
   void add_face(const SurfacePlace& pa, const SurfacePlace& pb, const SurfacePlace& pc, Unevenness& sum) const {
     const auto normals = surface_.normals();
     const Vec3d mean_normal = normals[pa.face] + normals[pb.face] + normals[pc.face];
@@ -72,6 +74,7 @@ class Evening {
     const double shape = squares / (kFourRootThree * area), ratio = area / mean_area_;
     const double spread = 1.0 - theta_ + 0.5 * theta_ * (ratio + 1.0 / ratio), f = shape * spread;
     sum.value += f * f;
+    if constexpr (!kWithGradient) return;
     const Vec3d d_squares = (ab + ac) * -2.0;
     const Vec3d d_area = cross(m, bc) * (0.5 * (0.5 * (1.0 + seen / root)));
     const double d_spread = 0.5 * theta_ * (1.0 - 1.0 / (ratio * ratio)) / mean_area_;

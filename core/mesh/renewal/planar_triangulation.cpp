@@ -7,6 +7,9 @@
 namespace morula {
 namespace {
 
+/// Twice an area below which three corners of a polygon count as lying on a line, in units of the rounding error.
+constexpr double kFlat = 1e4;
+
 double squared_distance(const PlanePoint& a, const PlanePoint& b) { return (a.u - b.u) * (a.u - b.u) + (a.v - b.v) * (a.v - b.v); }
 
 /// Positive when d lies inside the circle through a, b, c (counter-clockwise); in units of length⁴.
@@ -32,9 +35,11 @@ Result<PlanarTriangulation> PlanarTriangulation::of_polygon(std::vector<PlanePoi
     low_v = std::min(low_v, p.v), high_v = std::max(high_v, p.v);
   }
   const double extent = std::max(high_u - low_u, high_v - low_v);
-  out.rounding_ = 1e-13 * extent * extent;
+  out.rounding_ = 1e-15 * extent * extent;
   const auto count = static_cast<std::uint32_t>(out.points_.size());
-  if (count < 3 || !(extent > 0.0) || !out.clip_ears(count))
+  double enclosed = 0.0;
+  for (std::uint32_t k = 2; k < count; ++k) enclosed += out.twice_area(0, k - 1, k);
+  if (!(enclosed > kFlat * out.rounding_) || !out.clip_ears(count))
     return Error{ErrorKind::kPhysics, "the line of the cut crosses itself or encloses nothing", "take another plane"};
   out.link_cells();
   std::vector<std::uint32_t> all(out.cells_.size());
@@ -46,24 +51,33 @@ Result<PlanarTriangulation> PlanarTriangulation::of_polygon(std::vector<PlanePoi
 bool PlanarTriangulation::clip_ears(std::uint32_t count) {
   std::vector<std::uint32_t> ring(count);
   for (std::uint32_t n = 0; n < count; ++n) ring[n] = n;
-  // Quality of the ear at a place of the ring; zero where the corner does not stick out or another corner lies in it.
-  const auto ear_quality = [&](std::size_t place) {
+  // Twice the area of the corner at a place of the ring; minus one where another corner lies in it, borders counted as `margin` says.
+  const auto ear = [&](std::size_t place, double margin) {
     const std::size_t size = ring.size();
     const std::uint32_t a = ring[(place + size - 1) % size], b = ring[place], c = ring[(place + 1) % size];
-    const double area = twice_area(a, b, c);
-    if (!(area > rounding_)) return 0.0;
     for (const std::uint32_t p : ring)
-      if (p != a && p != b && p != c && twice_area(a, b, p) >= -rounding_ && twice_area(b, c, p) >= -rounding_ &&
-          twice_area(c, a, p) >= -rounding_)
-        return 0.0;
-    const auto& x = points_;
-    return area / (squared_distance(x[a], x[b]) + squared_distance(x[b], x[c]) + squared_distance(x[c], x[a]));
+      if (p != a && p != b && p != c && twice_area(a, b, p) >= margin && twice_area(b, c, p) >= margin && twice_area(c, a, p) >= margin)
+        return -1.0;
+    return twice_area(a, b, c);
+  };
+  const auto squares = [&](std::size_t place) {
+    const PlanePoint &a = points_[ring[(place + ring.size() - 1) % ring.size()]], &b = points_[ring[place]],
+                     &c = points_[ring[(place + 1) % ring.size()]];
+    return squared_distance(a, b) + squared_distance(b, c) + squared_distance(c, a);
   };
   while (ring.size() >= 3) {
     std::size_t best = 0;
     double best_quality = 0.0;
     for (std::size_t place = 0; place < ring.size(); ++place)
-      if (const double quality = ear_quality(place); quality > best_quality) best = place, best_quality = quality;
+      if (const double area = ear(place, -rounding_); area > rounding_ && area / squares(place) > best_quality)
+        best = place, best_quality = area / squares(place);
+    if (!(best_quality > 0.0)) {
+      // Rounding may let corners on a straight side stand out by nothing: they are cut off as triangles without area.
+      double flattest = kFlat * rounding_;
+      for (std::size_t place = 0; place < ring.size(); ++place)
+        if (const double area = std::abs(ear(place, kFlat * rounding_)); area <= flattest)
+          best = place, best_quality = 1.0, flattest = area;
+    }
     if (!(best_quality > 0.0)) return false;
     const std::size_t size = ring.size();
     cells_.push_back({{ring[(best + size - 1) % size], ring[best], ring[(best + 1) % size]}, {kNone, kNone, kNone}});

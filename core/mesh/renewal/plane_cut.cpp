@@ -75,8 +75,8 @@ struct CutEdges {
   std::size_t crossed = 0;               ///< edges that cross the plane, in whatever loop
 };
 
-/// Walk along the cut from edge to edge. In each cut face the rim runs from where the face's boundary comes down through the plane to where it
-/// goes up again: counter-clockwise about the normal.
+/// Walk along the cut from edge to edge. In each cut face the rim runs from where the face's boundary comes down through the plane to where
+/// it goes up again: counter-clockwise about the normal.
 CutEdges chain_edges(const Topology& topology, std::span<const double> s) {
   CutEdges out;
   out.rim_place.assign(topology.edge_count(), kNone);

@@ -13,11 +13,12 @@ namespace morula {
 namespace {
 
 constexpr int kSweeps = 30;
-constexpr double kJudgedSpacing = 0.5;  // of the mean edge, between samples of both surfaces
+constexpr double kJudgedSpacing = 0.8;  // of the mean edge, between samples of both surfaces
 constexpr double kVolumeError = 1e-12;
 
-/// Gentle ways first: quality pays with area, and a large θ keeps nodes in long tips (decision 0038).
-constexpr std::array<RenewalWay, 4> kWays = {{{1.0, 0.2}, {0.3, 0.5}, {3.0, 0.5}, {1.0, 1.0}}};
+/// A strong hold along the surface makes even faces and rounds edges off, a weak one lets nodes go into sharp edges; a large θ keeps nodes
+/// in long tips (decision 0038).
+constexpr std::array<RenewalWay, 5> kWays = {{{1.0, 0.2}, {3.0, 0.1, 10}, {0.3, 0.5}, {3.0, 0.5}, {1.0, 1.0}}};
 
 bool is_close_and_even(const RenewalReport& report, const RenewalLimits& limits) {
   return report.least_quality >= limits.least_quality && report.distance.largest() <= limits.most_distance * report.mean_edge;
@@ -47,7 +48,7 @@ RenewedSurface renew_by(const AskedSurface& surface, std::span<const AskedSurfac
                         std::vector<SurfacePlace> place, double volume, const RenewalWay& way, const RenewalLimits& limits) {
   even_out(surface, topology, way.theta, kSweeps, place);
   RenewedSurface out;
-  out.position = fit_to_surface(surface, walls, topology, place, volume, {.tangential_hold = way.tangential_hold});
+  out.position = fit_to_surface(surface, walls, topology, place, volume, {way.tangential_hold, way.steps});
   out.report = judge(surface, topology, out.position, volume, limits);
   return out;
 }

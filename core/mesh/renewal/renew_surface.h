@@ -42,6 +42,7 @@ bool is_within(const RenewalReport& report, const RenewalLimits& limits);
 struct RenewalWay {
   double theta;            ///< of even_out()
   double tangential_hold;  ///< of FitOptions
+  int steps = 6;           ///< of FitOptions
 };
 
 /// Even out a mesh on the surface from these places, fit it, give it the volume, and measure it.
