@@ -9,14 +9,20 @@
 namespace morula {
 namespace {
 
-/// Another pole first; then a weak hold along the surface, which lets nodes go into sharp edges, and strong ones, which make even faces
-/// (decision 0038).
+/// Another pole first; then ways that draw nodes into sharp edges, and strong holds along the surface, which make even faces (decision 0038).
 struct Rung {
   RenewalWay way;
   int tilt;
 };
-constexpr std::array<Rung, 7> kLadder = {
-    {{{1.0, 0.2}, 0}, {{1.0, 0.2}, 1}, {{3.0, 0.1, 10}, 0}, {{3.0, 0.05, 12}, 1}, {{0.3, 0.5}, 0}, {{3.0, 0.5}, 0}, {{1.0, 1.0}, 0}}};
+constexpr std::array<Rung, 9> kLadder = {{{{1.0, 0.2}, 0},
+                                          {{1.0, 0.2}, 1},
+                                          {{1.0, 0.2, 8, 0.05}, 0},
+                                          {{1.0, 0.4, 8, 0.1}, 0},
+                                          {{1.0, 0.8, 8, 0.3}, 1},
+                                          {{3.0, 0.1, 10}, 0},
+                                          {{0.3, 0.5}, 0},
+                                          {{3.0, 0.5}, 0},
+                                          {{1.0, 1.0}, 0}}};
 
 /// A half of a ball has 0.63 of its area, the cap not counted.
 constexpr double kAreaOfHalf = 0.63;

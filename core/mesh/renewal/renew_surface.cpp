@@ -48,7 +48,7 @@ RenewedSurface renew_by(const AskedSurface& surface, std::span<const AskedSurfac
                         std::vector<SurfacePlace> place, double volume, const RenewalWay& way, const RenewalLimits& limits) {
   even_out(surface, topology, way.theta, kSweeps, place);
   RenewedSurface out;
-  out.position = fit_to_surface(surface, walls, topology, place, volume, {way.tangential_hold, way.steps});
+  out.position = fit_to_surface(surface, walls, topology, place, volume, {way.tangential_hold, way.steps, way.crease_width});
   out.report = judge(surface, topology, out.position, volume, limits);
   return out;
 }

@@ -40,9 +40,10 @@ bool is_within(const RenewalReport& report, const RenewalLimits& limits);
 
 /// One way to a mesh: how it is evened out and how fast nodes are held in the fit.
 struct RenewalWay {
-  double theta;            ///< of even_out()
-  double tangential_hold;  ///< of FitOptions
-  int steps = 6;           ///< of FitOptions
+  double theta;               ///< of even_out()
+  double tangential_hold;     ///< of FitOptions
+  int steps = 6;              ///< of FitOptions
+  double crease_width = 0.0;  ///< of FitOptions
 };
 
 /// Even out a mesh on the surface from these places, fit it, give it the volume, and measure it.

@@ -16,11 +16,31 @@ constexpr double kWallWeight = 3.0;
 constexpr int kFirstWallStep = 2;       // counted from 0
 constexpr double kMostStep = 0.3;       // of the mean edge
 constexpr double kSampleSpacing = 0.5;  // of the mean edge
+constexpr double kCrease = 0.7;         // cosine of the angle between normals below which an edge is sharp
+constexpr double kShortCrease = 1e-3;   // of the mean edge: slivers have no direction
+constexpr double kCreaseWidth = 0.3;    // of the mean edge: width of the strip a sharp edge stands for
 constexpr double kWallReach = 0.5;      // of the mean edge: what is deeper inside a wall was there before
-constexpr double kSolved = 1e-5;        // of a step; the next step mends the rest
+constexpr double kSolved = 1e-3;        // of a step; the next step mends the rest
 
 Vec3d at(std::span<const Vec3d> x, const Triangle& face, std::span<const double, 3> weight) {
   return x[face[0]] * weight[0] + x[face[1]] * weight[1] + x[face[2]] * weight[2];
+}
+
+/// Samples of the edges at which a surface bends by more than 45°, with the direction of the edge: the rim of a cut, the borders of flat
+/// parts. Samples of faces alone would round them off.
+void sample_creases(const AskedSurface& surface, double edge, double width, std::vector<SurfaceSample>& samples,
+                    std::vector<Vec3d>& direction) {
+  const SurfaceView view = surface.view();
+  for (const Edge& e : view.topology->edges()) {
+    const Vec3d a = view.position[e.i], along = view.position[e.j] - a;
+    const double length = norm(along);
+    if (length < kShortCrease * edge || dot(surface.normals()[e.left], surface.normals()[e.right]) > kCrease) continue;
+    const int parts = static_cast<int>(length / (kSampleSpacing * edge)) + 1;
+    for (int k = 0; k < parts; ++k) {
+      samples.push_back({a + along * ((k + 0.5) / parts), e.left, width * edge * length / parts});
+      direction.push_back(along / length);
+    }
+  }
 }
 
 /// Least-squares system of one step at the present positions.
@@ -30,7 +50,10 @@ struct System {
 
   /// A point of a face, with these corner weights, that is drawn by `pull` = target − point, mostly along n.
   void add(const Triangle& corner, std::uint32_t face, std::span<const double, 3> weight, const Vec3d& pull, const Vec3d& n, double area) {
-    const SymMat3<double> k = outer(area * (1.0 - kAlongSurface), n) + isotropic(area * kAlongSurface);
+    add(corner, face, weight, pull, outer(area * (1.0 - kAlongSurface), n) + isotropic(area * kAlongSurface));
+  }
+  /// The same with any symmetric matrix K.
+  void add(const Triangle& corner, std::uint32_t face, std::span<const double, 3> weight, const Vec3d& pull, const SymMat3<double>& k) {
     matrix.add_point(face, weight, k);
     const Vec3d force = k * pull;
     for (std::size_t c = 0; c < 3; ++c) downhill[corner[c]] += force * weight[c];
@@ -46,11 +69,13 @@ class Fit {
         options_(options),
         edge_(std::sqrt(4.0 * surface.area() / (std::sqrt(3.0) * topology.face_count()))),
         samples_(sample_surface(surface.view(), kSampleSpacing * edge_, false)),
-        sample_face_(samples_.size()),
+        first_crease_(samples_.size()),
         point_face_(6 * std::size_t{topology.face_count()}),
         asked_at_(point_face_.size()),
         free_within_(point_face_.size(), -1.0),
         system_{MeshMatrix(topology), {}} {
+    if (options.crease_width > 0.0) sample_creases(surface, edge_, options.crease_width, samples_, crease_direction_);
+    sample_face_.resize(samples_.size());
     Box box;
     for (const SurfacePlace& p : place) {
       x_.push_back(p.point);
@@ -131,8 +156,13 @@ class Fit {
     const auto use = [&](std::size_t s, const NearestFace& foot) {
       sample_face_[s] = foot.face;
       const std::span<const double, 3> weight(foot.closest.barycentric);
-      system_.add(topology_.faces()[foot.face], foot.face, weight, samples_[s].point - foot.closest.point,
-                  surface_.normals()[samples_[s].face], samples_[s].area);
+      const Triangle& corner = topology_.faces()[foot.face];
+      const SurfaceSample& sample = samples_[s];
+      const Vec3d pull = sample.point - foot.closest.point;
+      if (s < first_crease_)
+        system_.add(corner, foot.face, weight, pull, surface_.normals()[sample.face], sample.area);
+      else  // towards the line, in any direction across it
+        system_.add(corner, foot.face, weight, pull, isotropic(sample.area) + outer(-sample.area, crease_direction_[s - first_crease_]));
     };
     if (number > 0) {
       for (std::size_t s = 0; s < samples_.size(); ++s) use(s, walk_to_nearest(mesh, samples_[s].point, sample_face_[s]));
@@ -172,7 +202,9 @@ class Fit {
   const Topology& topology_;
   FitOptions options_;
   double edge_;
-  std::vector<SurfaceSample> samples_;
+  std::vector<SurfaceSample> samples_;      ///< of faces, then of sharp edges
+  std::size_t first_crease_;                ///< of the samples
+  std::vector<Vec3d> crease_direction_;     ///< by sample of a sharp edge
   std::vector<std::uint32_t> sample_face_;  ///< by sample: face of the mesh last nearest to it
   std::vector<std::uint32_t> point_face_;   ///< by point of the mesh: face of the surface last nearest to it
   std::vector<const AskedSurface*> walls_;
