@@ -18,10 +18,11 @@ struct FitOptions {
 ///
 /// Each Gauss–Newton step minimises Σ w |p − y|²_K over points p of the mesh (six a face) with their nearest points y of the surface and
 /// over samples y of the surface with their nearest points p of the mesh, K = (1 − μ) n nᵀ + μ I with the surface's normal n at y and μ =
-/// 0.02, w the area a point stands for; plus a hold of each node of area a about its present place, a (0.02 I + tangential_hold (I − n nᵀ)).
-/// With a crease_width, samples of edges at which the surface bends by more than 45° draw the mesh to the edge too. From the third step on, points inside one of the `walls` are pulled to that wall's surface with thrice their weight (the
-/// deepest wall, whatever the order of the list). No node moves more than 0.3 mean edges a step. At last V(x + t M⁻¹ ∂V) = volume is solved
-/// for t, M the matrix of the last step: the volume comes from where the fit minds least.
+/// 0.02, w the area a point stands for; plus a hold of each node of area a about its present place, a (0.02 I + tangential_hold (I − n
+/// nᵀ)). With a crease_width, samples of edges at which the surface bends by more than 45° draw the mesh to the edge too. From the third
+/// step on, points inside one of the `walls` are pulled to that wall's surface with thrice their weight (the deepest wall, whatever the
+/// order of the list). No node moves more than 0.3 mean edges a step. At last V(x + t M⁻¹ ∂V) = volume is solved for t, M the matrix of the
+/// last step: the volume comes from where the fit minds least.
 ///
 /// `place` holds the nodes' places on the surface; the result are positions near it [µm]. A function of its arguments alone.
 std::vector<Vec3d> fit_to_surface(const AskedSurface& surface, std::span<const AskedSurface* const> walls, const Topology& topology,
