@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "report/run_plots.h"
+#include "results/run_record.h"
 #include "scenarios/measures/single_cell.h"
 
 namespace morula::scenarios {

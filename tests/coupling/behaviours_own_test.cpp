@@ -14,6 +14,7 @@ template <class Act>
 CellType that(Act, std::vector<BehaviourVariable> variables = {}) {
   const auto behaviour = std::make_shared<const Behaviour>(
       Behaviour{.info = {.name = "that", .title = "That", .equation = "", .source = "a test", .parameters = {}},
+                .section = {},
                 .variables = std::move(variables),
                 .build = [](const OwnValues&) -> Behave { return Act{}; }});
   CellType type;
