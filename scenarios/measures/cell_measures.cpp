@@ -174,9 +174,10 @@ Measure concentration_measure() {
     std::vector<Sample> found;
     for (const std::size_t index : moments.among(*times)) {
       MORULA_TRY_ASSIGN(const auto snapshot, run.snapshot(index));
-      for (const Cell& cell : snapshot->cells)
-        if (is_meant(cell, subject))
-          found.push_back({snapshot->time, cell.concentration[static_cast<std::size_t>(subject.field)], cell.id.text()});
+      const std::string name = "concentration/" + run.study().model.fields[static_cast<std::size_t>(subject.field)].name;
+      for (const Snapshot::Variable& variable : snapshot->variables)
+        for (std::size_t c = 0; variable.name == name && c < snapshot->cells.size(); ++c)
+          if (is_meant(snapshot->cells[c], subject)) found.push_back({snapshot->time, variable.values[c], snapshot->cells[c].id.text()});
     }
     return found;
   };
