@@ -24,8 +24,8 @@ struct EventReason {
     kNone,
     kDivisionVolume,
     kDivisionVolumeAsShell,
-    kLongLineage,       ///< it cannot divide once more
-    kBehaviour,         ///< `number`: of the cell's type, + 2¹⁶ times that of the behaviour of the type
+    kLongLineage,  ///< it cannot divide once more
+    kBehaviour,    ///< `number`: of the cell's type, + 2¹⁶ times that of the behaviour of the type
     kShrunk,
     kRegion,   ///< `number`: of the region, in Model::swaps
     kTrigger,  ///< `number`: of the trigger, in Model::swaps

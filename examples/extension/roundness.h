@@ -11,5 +11,6 @@ inline std::vector<morula::Observable> roundness(const morula::Model& /*model*/)
     if (cell.row().body != morula::BodyKind::kShell) return std::nan("");  // left out of the mean
     return std::cbrt(std::numbers::pi * 36.0 * cell.volume * cell.volume) / cell.area;
   };
-  return {{"mean_sphericity", "1", "Mean sphericity of the shells.", [of_cell](const morula::Moment& moment) { return moment.cells.mean(of_cell); }}};
+  return {{"mean_sphericity", "1", "Mean sphericity of the shells.",
+           [of_cell](const morula::Moment& moment) { return moment.cells.mean(of_cell); }}};
 }
