@@ -102,7 +102,8 @@ class ReadValues {
       case Kind::kFieldValue:
         return number(name);
       case Kind::kFlag:
-        return out_.set(name, own_.flags.at(name).value ? 1.0 : 0.0);
+        if (const auto* given = entry(own_.flags, name)) out_.set(name, given->value ? 1.0 : 0.0);
+        return;
       case Kind::kWord:
         return word(key, name);
       case Kind::kVector:
@@ -116,13 +117,22 @@ class ReadValues {
       case Kind::kCourse:
         return course(name);
       case Kind::kGroup:
-        out_.set(name, own_.groups.at(name) ? 1.0 : 0.0);
-        if (own_.groups.at(name)) read(key.keys, name + ".");
+        if (const auto* given = entry(own_.groups, name)) {
+          out_.set(name, *given ? 1.0 : 0.0);
+          if (*given) read(key.keys, name + ".");
+        }
     }
   }
   void number(const std::string& name) {
-    const Given<double>& given = own_.numbers.at(name);
-    if (is_known(given)) out_.set(name, given.value);
+    const auto* given = entry(own_.numbers, name);
+    if (given != nullptr && is_known(*given)) out_.set(name, given->value);
+  }
+  /// Nothing where the section was no map, so that none of its keys was read; that has been told.
+  template <class Map>
+  const typename Map::mapped_type* entry(const Map& map, const std::string& name) {
+    const auto at = map.find(name);
+    sound_ = sound_ && at != map.end();
+    return at != map.end() ? &at->second : nullptr;
   }
   /// What is given and could not be read has been told.
   template <class T>
@@ -131,31 +141,33 @@ class ReadValues {
     return given.known();
   }
   void word(const OwnKey& key, const std::string& name) {
-    const Given<std::string>& given = own_.texts.at(name);
-    const auto at = std::ranges::find(key.spec.words, given.value);
-    if (is_known(given) && at != key.spec.words.end()) out_.set(name, static_cast<double>(at - key.spec.words.begin()));
+    const auto* given = entry(own_.texts, name);
+    if (given == nullptr || !is_known(*given)) return;
+    const auto at = std::ranges::find(key.spec.words, given->value);
+    if (at != key.spec.words.end()) out_.set(name, static_cast<double>(at - key.spec.words.begin()));
   }
   void vector(const std::string& name) {
-    if (const Given<Vec3d>& given = own_.vectors.at(name); is_known(given)) out_.set_vector(name, given.value);
+    const auto* given = entry(own_.vectors, name);
+    if (given != nullptr && is_known(*given)) out_.set_vector(name, given->value);
   }
   void direction(const OwnKey& key, const std::string& name) {
-    const Given<Vec3d>& given = own_.vectors.at(name);
-    if (!is_known(given)) return;
-    if (norm2(given.value) > 0.0) return out_.set_vector(name, normalized(given.value));
-    c_.diagnostics.error(302, given.place, "'" + std::string(key.spec.name) + "' has no direction", "for example `[1, 0, 0]`");
+    const auto* given = entry(own_.vectors, name);
+    if (given == nullptr || !is_known(*given)) return;
+    if (norm2(given->value) > 0.0) return out_.set_vector(name, normalized(given->value));
+    c_.diagnostics.error(302, given->place, "'" + std::string(key.spec.name) + "' has no direction", "for example `[1, 0, 0]`");
     sound_ = false;
   }
   void named(const std::string& name, int (*find)(BuildContext&, const std::string&, const Place&)) {
-    const Given<std::string>& given = own_.texts.at(name);
-    if (!is_known(given)) return;
-    const int number = find(c_, given.value, given.place);
+    const auto* given = entry(own_.texts, name);
+    if (given == nullptr || !is_known(*given)) return;
+    const int number = find(c_, given->value, given->place);
     sound_ = sound_ && number >= 0;
     out_.set(name, number);
   }
   void course(const std::string& name) {
-    const auto& points = own_.courses.at(name);
-    if (points.empty()) return;
-    TimeCourse found = build_course(c_, points);
+    const auto* points = entry(own_.courses, name);
+    if (points == nullptr || points->empty()) return;
+    TimeCourse found = build_course(c_, *points);
     sound_ = sound_ && !found.empty();
     out_.set_course(name, std::move(found));
   }

@@ -128,7 +128,8 @@ TEST(LibraryStudies, HybridSpheroidRunsShortened) {
   ASSERT_TRUE(run.ok());
   EXPECT_GT(run->final_state.shells, 0u);
   EXPECT_LT(run->final_state.shells, 20u);
-  EXPECT_EQ(find(*run, "shells at the end"), nullptr);  // a criterion of the whole day
+  ASSERT_NE(find(*run, "shells at the end"), nullptr);
+  EXPECT_FALSE(find(*run, "shells at the end")->passed) << "the study asks for 40 shells and more, wherever it is cut short";
   EXPECT_NE(find(*run, "mean step"), nullptr);
 }
 
