@@ -40,6 +40,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT MORULA_HAS_AVX512)
   # Lanes may be wider than the registers; how such vectors are passed matters only between differently compiled programs. And without wide
   # registers GCC 12 sees copies of 32 bytes into what is left of an array.
   list(APPEND MORULA_COMPILE_OPTIONS -Wno-psabi -Wno-stringop-overflow)
+  target_compile_options(morula_processor INTERFACE -Wno-psabi)
 endif()
 
 set(MORULA_LINK_OPTIONS "")
