@@ -127,19 +127,19 @@ void add_result_verbs(CLI::App& program, Parsed& p) {
       ->type_name("svg,png");
 
   verb = add_verb(program, "export", "Write the snapshots of a run for other programs", "morula export runs/spheroid-0001 vtk --every 4",
-                  "morula export runs/spheroid-0001 csv --from 12h --to 24h");
+                  "morula export runs/spheroid-0001 lineage");
   verb->add_option("RUN", p.export_results.run, "Run folder")->required();
-  verb->add_option("FORMAT", p.export_results.format, "vtk (ParaView), csv (cells), stl (surfaces)")
+  verb->add_option("FORMAT", p.export_results.format,
+                   "vtk (ParaView), csv (cells), stl (surfaces), lineage (all cells of the run as CSV and Newick)")
       ->required()
-      ->check(CLI::IsMember({"vtk", "csv", "stl"}));
+      ->check(CLI::IsMember({"vtk", "csv", "stl", "lineage"}));
   verb->add_option("--every", p.export_results.every, "Every n-th snapshot")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
       ->type_name("N")
       ->capture_default_str();
   verb->add_option("--from", p.export_results.from, "From this simulated time, as 12h")->type_name("TIME");
   verb->add_option("--to", p.export_results.to, "To this simulated time")->type_name("TIME");
-  verb->add_option("--out", p.export_results.out, "Folder to make; it must not exist (default: RUN/vtk, RUN/csv, RUN/stl)")
-      ->type_name("DIR");
+  verb->add_option("--out", p.export_results.out, "Folder to make; it must not exist (default: in RUN, by the format)")->type_name("DIR");
 }
 
 Options chosen_options(const std::string& verb, Parsed&& p) {

@@ -4,6 +4,7 @@
 #include "app/words.h"
 #include "results/export.h"
 #include "results/file_io.h"
+#include "results/lineage.h"
 #include "results/run_folder.h"
 
 namespace morula::app {
@@ -20,14 +21,22 @@ Status export_results(const ExportOptions& options, const Context& context) {
   if (!options.to.empty()) {
     MORULA_TRY_ASSIGN(range.to, read_time("--to", options.to));
   }
-  const ExportFormat format = options.format == "vtk"   ? ExportFormat::kVtk
-                              : options.format == "csv" ? ExportFormat::kCsv
-                                                        : ExportFormat::kStl;
   const fs::path folder = options.out.empty() ? run.path() / options.format : fs::path(options.out);
   std::error_code error;
   if (fs::exists(folder, error))
     return Error{ErrorKind::kFile, "'" + folder.string() + "' exists already, and nothing is overwritten",
                  "name another folder with `--out DIR`"};
+  if (options.format == "lineage") {
+    if (options.every != 1 || !options.from.empty() || !options.to.empty())
+      return Error{ErrorKind::kInput, "a lineage is that of the whole run", "leave out `--every`, `--from` and `--to`"};
+    MORULA_TRY_ASSIGN(const std::size_t cells, scenarios::export_lineage(run.results(), run.events(), folder));
+    context.console.result(folder.string() + "\n");
+    context.console.note(count_words(cells, "cell", "cells") + " written");
+    return {};
+  }
+  const ExportFormat format = options.format == "vtk"   ? ExportFormat::kVtk
+                              : options.format == "csv" ? ExportFormat::kCsv
+                                                        : ExportFormat::kStl;
   MORULA_TRY_ASSIGN(const std::size_t count, scenarios::export_snapshots(run.results(), folder, format, range));
   context.console.result(folder.string() + "\n");
   context.console.note(count_words(count, "snapshot", "snapshots") + " written");

@@ -7,6 +7,7 @@
 #include "cbm/packing.h"
 #include "coupling/behaviours/behaviour.h"
 #include "coupling/behaviours/builtin.h"
+#include "coupling/behaviours/division_axis.h"
 #include "coupling/builtin.h"
 #include "coupling/loads/load.h"
 #include "coupling/regions/region.h"
@@ -61,6 +62,7 @@ std::vector<ListedLaw> all_laws(const Laws& registered) {
     laws.push_back({"behaviours", behaviour->info});
     laws.back().info.keys = law_keys(behaviour->section.name, behaviour->keys);
   }
+  for (const auto& axis : registered.division_axes) laws.push_back({"axes of division", axis->info});
   add("fields", fields::field_laws());
   for (const auto& load : registered.loads) {
     laws.push_back({"loads", load->info});

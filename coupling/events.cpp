@@ -1,5 +1,6 @@
 #include "coupling/events.h"
 
+#include "coupling/behaviours/life.h"
 #include "coupling/model.h"
 
 namespace morula {
@@ -20,6 +21,9 @@ std::string text_of_cause(const EventReason& reason, const Model& model) {
       return "reached its division volume";
     case Cause::kDivisionVolumeAsShell:
       return "reached its division volume as a shell";
+    case Cause::kNoPlane:
+      return "reached its division volume and found no plane that leaves two good meshes; it tries others every " +
+             std::to_string(static_cast<int>(kTimeBetweenTries / 60.0)) + " min";
     case Cause::kLongLineage:
       return "cannot divide: its lineage is " + std::to_string(CellId::kMaxGenerations) + " generations long";
     case Cause::kBehaviour:

@@ -10,7 +10,7 @@ struct Model;
 
 enum class EventKind : std::uint8_t {
   kDivision,
-  kDivisionWaits,  ///< a shell reached its division volume
+  kDivisionWaits,  ///< a shell reached its division volume, and does not divide yet
   kDeath,
   kRemoval,
   kPromotion,
@@ -24,6 +24,7 @@ struct EventReason {
     kNone,
     kDivisionVolume,
     kDivisionVolumeAsShell,
+    kNoPlane,      ///< a shell that is to divide found no plane by which it can
     kLongLineage,  ///< it cannot divide once more
     kBehaviour,    ///< `number`: of the cell's type, + 2¹⁶ times that of the behaviour of the type
     kShrunk,

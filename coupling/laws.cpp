@@ -2,6 +2,7 @@
 
 #include "cbm/builtin.h"
 #include "coupling/behaviours/behaviour.h"
+#include "coupling/behaviours/division_axis.h"
 #include "coupling/loads/load.h"
 #include "coupling/observables/observable.h"
 #include "coupling/regions/region.h"
@@ -14,6 +15,7 @@ std::shared_ptr<const Laws> builtin_laws() {
                                            .spheres = cbm::sphere_laws(),
                                            .surfaces = surface_laws(),
                                            .behaviours = builtin_behaviours(),
+                                           .division_axes = builtin_division_axes(),
                                            .loads = builtin_loads(),
                                            .region_shapes = builtin_region_shapes(),
                                            .trigger_values = builtin_trigger_values(),

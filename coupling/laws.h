@@ -10,6 +10,7 @@
 namespace morula {
 
 struct Behaviour;
+struct DivisionAxis;
 struct Load;
 struct Model;
 struct Observable;
@@ -26,6 +27,7 @@ struct Laws {
   std::vector<std::shared_ptr<const cbm::SphereLaw>> spheres;  ///< of their contact
   std::vector<std::shared_ptr<const SurfaceLaw>> surfaces;     ///< of contact of surfaces
   std::vector<std::shared_ptr<const Behaviour>> behaviours;    ///< in the order in which they act
+  std::vector<std::shared_ptr<const DivisionAxis>> division_axes;
   std::vector<std::shared_ptr<const Load>> loads;
   std::vector<std::shared_ptr<const RegionShape>> region_shapes;
   std::vector<std::shared_ptr<const TriggerValue>> trigger_values;

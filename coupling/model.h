@@ -11,6 +11,7 @@
 #include "core/space/space.h"
 #include "coupling/active_terms.h"
 #include "coupling/behaviours/behaviour.h"
+#include "coupling/behaviours/division_axis.h"
 #include "coupling/face_regions.h"
 #include "coupling/loads/load.h"
 #include "coupling/regions/region.h"
@@ -50,11 +51,17 @@ struct CellType {
   Distribution cycle_duration{18 * 3600.0, 0.0};  ///< from birth to twice the birth volume [s]
   bool exponential_growth = false;                ///< else linear
   double inhibit_pressure = kNever;               ///< growth stops above this pressure [kPa]
-  double apoptosis_time = 8 * 3600.0;             ///< τ_a of the shrinking V0 e^{−t/τ_a} [s]
-  double removal_fraction = 0.1;                  ///< removed below this fraction of the volume at death
-  double migration_speed = 0.0;                   ///< S, root mean square in three dimensions [µm/s]
-  double migration_persistence = 1800.0;          ///< P [s]
-  std::vector<CellBehaviour> behaviours;          ///< what its cells do beside these, in the order in which they act
+  std::shared_ptr<const DivisionAxis> axis = random_axis();
+  Vec3d division_direction{};             ///< of an axis that needs one
+  double axis_spread = 0.0;               ///< s of division_axis() [rad]
+  Distribution division_share{0.5, 0.0};  ///< part of the mother's volume that the daughter gets to which the axis points
+  bool shells_divide = true;              ///< by cut; else a shell at its division volume waits until it is a sphere
+  double new_surface = 600.0;             ///< time in which the interface that a cut has made takes its tension [s]
+  double apoptosis_time = 8 * 3600.0;     ///< τ_a of the shrinking V0 e^{−t/τ_a} [s]
+  double removal_fraction = 0.1;          ///< removed below this fraction of the volume at death
+  double migration_speed = 0.0;           ///< S, root mean square in three dimensions [µm/s]
+  double migration_persistence = 1800.0;  ///< P [s]
+  std::vector<CellBehaviour> behaviours;  ///< what its cells do beside these, in the order in which they act
 
   Osmosis osmosis;
   int migration_substrate = -1;  ///< material that must be touched, to which the force of migration is tangential; -1: none

@@ -134,7 +134,7 @@ Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<b
   MORULA_TRY(advance_fields(dt, give_up, outcome));
   {
     auto timed = timer().scope(Stage::kBehaviours);
-    divide_and_remove(life, clock.time, outcome.events);
+    divide_and_remove(life, outcome.events);
   }
   MORULA_TRY_ASSIGN(const auto swapped, swap_bodies());
   outcome.events.insert(outcome.events.end(), swapped.begin(), swapped.end());

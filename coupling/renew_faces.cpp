@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/behaviours/shell_division.h"
 #include "coupling/face_marks.h"
 #include "coupling/lumens.h"
 #include "coupling/simulation.h"
@@ -26,6 +27,7 @@ void Simulation::renew_lumens(double dt) {
 
 void Simulation::renew_faces(double dt) {
   renew_lumens(dt);
+  renew_surfaces(model_.types, tissue_.cells, tissue_.shells, tissue_.clock.time, dt);
   const bool follow = has_marks_that_follow(model_);
   bool lateral = false;
   for (const CellType& type : model_.types) lateral = lateral || type.regional_tension.has_lateral();

@@ -8,7 +8,6 @@
 #include "cbm/partners.h"
 #include "core/contact/contact_layer.h"
 #include "core/parallel/threads.h"
-#include "coupling/behaviours/division.h"
 #include "coupling/behaviours/life.h"
 #include "coupling/behaviours/migration.h"
 #include "coupling/behaviours/osmosis.h"
@@ -309,60 +308,6 @@ Result<std::vector<Event>> Simulation::first_swaps() {
     if (last_swap[i] == tissue_.clock.time) last_swap.set(i, CellSides().last_swap_time);  // being placed is no exchange
   mechanics_->attach(tissue_);
   return all_events(std::move(events));
-}
-
-void Simulation::divide_and_remove(const LifeReport& life, double time, std::vector<Event>& events) {
-  events.insert(events.end(), life.events.begin(), life.events.end());
-  std::int64_t divisions = static_cast<std::int64_t>(life.divisions.size()), deaths = 0;
-  for (const Event& event : life.events) deaths += event.kind == EventKind::kDeath;
-  if (!life.divisions.empty() || !life.removals.empty()) {
-    std::vector<CellRecord> daughters;
-    std::vector<std::size_t> gone = life.removals;
-    auto order = life.divisions.begin();
-    for (const BodyOfRow& body : bodies_of(tissue_.cells)) {
-      if (order == life.divisions.end()) break;
-      if (order->row != body.row) continue;
-      const CellRecord mother = record_of(tissue_, body);
-      auto pair = divide_sphere(mother.row, {mother.sphere->position, mother.sphere->radius}, model_.types[mother.row.type], model_.seed,
-                                time, order->late);
-      divide_variables(tissue_.cells.variables, mother.row, pair.first, pair.second);
-      for (int which = 0; which < 2; ++which) {
-        CellRecord& daughter = daughters.emplace_back();
-        daughter.row = which == 0 ? pair.first : pair.second;
-        const SphereBody& place = which == 0 ? pair.first_body : pair.second_body;
-        daughter.sphere = SphereRecord{place.position, place.radius, mother.sphere->velocity,
-                                       cbm::daughter_partners(mother.sphere->attached, which == 0 ? pair.second.id : pair.first.id)};
-      }
-      gone.push_back(body.row);
-      ++order;
-    }
-    std::sort(gone.begin(), gone.end());
-    replace_cells(tissue_, gone, std::move(daughters));
-    mechanics_->bodies_changed();
-  }
-  tissue_.ledger.divisions += static_cast<std::uint64_t>(comm_.sum(divisions));
-  tissue_.ledger.deaths += static_cast<std::uint64_t>(comm_.sum(deaths));
-}
-
-void Simulation::rename_partners(const std::vector<Event>& events) {
-  std::vector<const Event*> divisions;  // sorted by mother, because events are
-  for (const Event& event : events)
-    if (event.kind == EventKind::kDivision) divisions.push_back(&event);
-  if (divisions.empty()) return;
-  std::sort(divisions.begin(), divisions.end(), [](const Event* a, const Event* b) { return a->cell < b->cell; });
-  const cbm::PartnerLists before = std::move(tissue_.spheres.attached);
-  tissue_.spheres.attached = {};
-  tissue_.spheres.attached.reserve(before.size(), before.partner_count() + 2 * divisions.size());
-  cbm::Partners partners;
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    partners.assign(before[i].begin(), before[i].end());
-    for (const CellId partner : before[i]) {
-      const auto at = std::lower_bound(divisions.begin(), divisions.end(), partner, [](const Event* e, CellId id) { return e->cell < id; });
-      if (at != divisions.end() && (*at)->cell == partner)
-        cbm::replace_partner(partners, partner, (*at)->first_daughter, (*at)->second_daughter);
-    }
-    tissue_.spheres.attached.push_back(partners);
-  }
 }
 
 void Simulation::wrap_cells() {

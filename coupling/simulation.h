@@ -70,7 +70,10 @@ class Simulation {
   [[nodiscard]] std::vector<fields::CellSource> field_sources() const;
   Status advance_fields(double dt, const std::function<bool()>& give_up, StepOutcome& outcome);
   Result<std::vector<Event>> swap_bodies();
-  void divide_and_remove(const struct LifeReport& life, double time, std::vector<Event>& events);
+  /// What a step of life has asked for (coupling/divisions.cpp): daughters in place of mothers, and dead cells gone. Collective.
+  void divide_and_remove(const struct LifeReport& life, std::vector<Event>& events);
+  /// A shell for which no plane of division served: it waits, and tries others later; said once.
+  void put_off(std::size_t row, std::vector<Event>& events);
   /// Partners of a mother become partners of her daughters, also on other ranks. `events` are those of all ranks.
   void rename_partners(const std::vector<Event>& events);
   void wrap_cells();

@@ -22,12 +22,12 @@ bool may_divide(const BuildContext& c, std::size_t type) {
 void check_division_of_shells(BuildContext& c) {
   for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
     const auto& [name, place, t] = c.draft.cell_types[i];
-    if (!may_be_shell(c, i) || !may_divide(c, i)) continue;
+    if (c.study.model.types[i].shells_divide || !may_be_shell(c, i) || !may_divide(c, i)) continue;
     const bool always = c.study.model.types[i].initial_body == BodyKind::kShell && c.study.model.swaps.regions.empty();
-    c.diagnostics.warning(646, t.cycle_duration.mean.given ? t.cycle_duration.mean.place : place,
+    c.diagnostics.warning(646, t.shells_divide.given ? t.shells_divide.place : place,
                           "cells of '" + name + "' have a cycle, but " + (always ? "are shells" : "may be shells") +
-                              ", which cannot divide yet: at its division volume a shell stops growing and waits until it is a sphere",
-                          "leave out `cycle`, let cells that divide be spheres, or end the run before");
+                              ", and `shells: wait`: at its division volume a shell stops growing and waits until it is a sphere",
+                          "`cycle: {shells: cut}`, no `cycle`, or spheres for cells that divide");
   }
 }
 
@@ -40,6 +40,18 @@ bool may_be_sphere(const BuildContext& c, std::size_t type) {
     if ((b.body.known() && !b.body.value.empty() ? b.body.value : d.cell_types[type].content.body.value) != "shell") return true;
   }
   return false;
+}
+
+/// A sphere has no long axis.
+void check_axis_of_spheres(BuildContext& c) {
+  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
+    const auto& [name, place, t] = c.draft.cell_types[i];
+    if (!c.study.model.types[i].axis->needs_shell || !may_be_sphere(c, i) || !may_divide(c, i)) continue;
+    c.diagnostics.warning(
+        649, t.axis.given ? t.axis.place : place,
+        "spheres of '" + name + "' have no axis `" + t.axis.value + "`: where a cell is a sphere, it divides along a random one",
+        "`axis: random`, `fixed` or by the polarity mean the same for both bodies");
+  }
 }
 
 /// Where spheres adhere so much that their contacts are no small part of them. Of a type's pairs the worst is told.
@@ -75,6 +87,7 @@ void check_jkr_range(BuildContext& c) {
 void check_bodies(BuildContext& c) {
   if (c.diagnostics.has_errors()) return;  // what a wrong study would be like is not worth a warning
   check_division_of_shells(c);
+  check_axis_of_spheres(c);
   check_jkr_range(c);
 }
 

@@ -84,7 +84,10 @@ struct CellType : ShellKeys {
   Spread radius;
   Given<std::string> body, color;
   bool has_cycle = false;
-  Given<std::string> cycle_model, growth, axis;
+  Given<std::string> cycle_model, growth, axis, shells_divide;
+  Given<Vec3d> division_direction;
+  Given<double> axis_spread, new_surface;
+  Spread division_share;
   Spread cycle_duration;
   Given<double> pressure_above;
   std::map<std::string, OwnSection> behaviours;  ///< by name of the section

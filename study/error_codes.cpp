@@ -189,14 +189,15 @@ constexpr ErrorCode kCodes[] = {
      "`shape_stiffness` keeps triangles from collapsing. Above 0.6 times the tension it resists the shear of a cortex that should flow, "
      "and "
      "contact radii and angles come out too small."},
-    {646, "shells that would divide",
-     "Shells grow but cannot divide yet. One that reaches its division volume waits there, as the event `division_waits` says, until its "
-     "body "
-     "is exchanged for a sphere."},
+    {646, "shells that wait",
+     "With `cycle: {shells: wait}` a shell that reaches its division volume stops growing, as the event `division_waits` says, until its "
+     "body is exchanged for a sphere."},
     {647, "adhesion beyond the range of JKR",
      "The JKR law of elastic spheres is one of small contacts: a contact radius up to about 0.4 R. Beyond it spheres overlap by more than "
      "a "
      "tenth, and the areas of their contacts add up to more than their surface."},
+    {649, "spheres without a long axis",
+     "A rule for the axis of division needs the shape of a shell. Where the cell is a sphere its axis is random."},
     {655, "column without a unit",
      "Lengths in a CSV file carry their unit in the header, `x [um]`, or the entry of `initial` says it for all of them, `units: um`."},
     {656, "cell types like each other without end",

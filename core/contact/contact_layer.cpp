@@ -22,6 +22,11 @@ double growth(const ContactBody& body, float last_radius) {
   return body.radius == 0.0 ? 0.0 : std::abs(body.radius - static_cast<double>(last_radius)) + kFloatRounding * body.radius;
 }
 
+/// Whether both are daughters of one cell: their ids differ in the last step of the lineage alone.
+bool are_sisters(CellId a, CellId b) {
+  return a.generation() > 0 && a.generation() == b.generation() && (a.bits() ^ b.bits()) == std::uint64_t{1} << CellId::kFounderBits;
+}
+
 }  // namespace
 
 ContactLayer::ContactLayer(ContactSettings settings, std::vector<RigidSurface> obstacles, std::vector<ContactMaterial> materials,
@@ -58,6 +63,16 @@ PairBody ContactLayer::view(const ContactScene& scene, const SurfacePair& pair, 
   const Topology* topology = scene.topology[number];
   const MarkSets marks = scene.marks.faces(scene.first_face[number], topology->face_count());
   return {topology, points, std::span(scene.geometry->node_normal).subspan(body.first_point, body.point_count), shift, 0.0, marks};
+}
+
+std::optional<double> ContactLayer::sister_bond(const ContactScene& scene, const SurfacePair& pair) const {
+  if (sister_bonds_.empty() || !are_sisters(scene.bodies[pair.a].id, scene.bodies[pair.b].id)) return std::nullopt;
+  for (const std::uint32_t body : {pair.a, pair.b}) {  // both are listed, or that which is of this rank
+    const CellId id = scene.bodies[body].id;
+    const auto at = std::ranges::lower_bound(sister_bonds_, id, {}, &SisterBond::cell);
+    if (at != sister_bonds_.end() && at->cell == id) return at->adhesion;
+  }
+  return std::nullopt;
 }
 
 double ContactLayer::patch_motion(const ContactScene& scene, const SurfacePair& pair) const {
@@ -159,6 +174,10 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
     contact.law.repulsion = sphere_foundation(modulus, contact.law.adhesion, body[first ? 0 : 1].radius);
     contact.law.gives_way = true;
     contact.law.cap = 0.0;
+  }
+  if (const std::optional<double> bond = both ? sister_bond(scene, pair) : std::nullopt) {
+    contact.law.adhesion = *bond;
+    contact.regional.reset();
   }
   if (contact.regional) contact.law.adhesion = 1.0;  // W comes with the faces
   if (pair.with_itself()) {

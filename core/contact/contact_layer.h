@@ -56,6 +56,14 @@ struct SphereTouch {
 /// Which pairs are meant: surfaces with surfaces and obstacles, or with spheres.
 enum class SurfacePairKind : std::uint8_t { kSurfaces, kWithSphere };
 
+/// Adhesion of a surface to that of its sister, of both together.
+struct SisterBond {
+  CellId cell;            ///< one of the sisters
+  double adhesion = 0.0;  ///< W [nN/µm]
+
+  friend bool operator==(const SisterBond&, const SisterBond&) = default;
+};
+
 /// Contacts of all bodies of a rank: which bodies may touch, and for surfaces the gaps, energies, gradients and friction elements.
 ///
 /// Every pair with at least one owned body is evaluated here, whole, by one thread; a pair across two ranks is evaluated on both,
@@ -72,6 +80,9 @@ class ContactLayer {
   void set_cap(double cap);
   /// Part of adhesion and contact friction that acts, 0 to 1: a new shell is let out of deep overlap before it sticks to its neighbours.
   void set_bonding(double part) { bonding_ = part; }
+  /// Surfaces of sisters that adhere otherwise than their materials do; sorted by cell.
+  void set_sister_bonds(std::vector<SisterBond> bonds) { sister_bonds_ = std::move(bonds); }
+  [[nodiscard]] const std::vector<SisterBond>& sister_bonds() const { return sister_bonds_; }
   [[nodiscard]] double bonding() const { return bonding_; }
   [[nodiscard]] double cap() const { return materials_.empty() ? 0.0 : materials_.front().law.cap; }
 
@@ -145,6 +156,8 @@ class ContactLayer {
   /// Bound on how far the nodes in a pair's lists have moved against each other since the last call of note_motion().
   /// note_motion() where there are no pairs of surfaces: nothing but the distance from where the list was built is of interest.
   [[nodiscard]] bool note_travel(const ContactScene& scene);
+  /// Adhesion of a pair of sisters, where it is not that of their materials.
+  [[nodiscard]] std::optional<double> sister_bond(const ContactScene& scene, const SurfacePair& pair) const;
   [[nodiscard]] double patch_motion(const ContactScene& scene, const SurfacePair& pair) const;
   void know_positions(const ContactScene& scene);
   /// After the pairs were found: take over the lists of those that were there before, and begin to count motion.
@@ -164,6 +177,7 @@ class ContactLayer {
   };
 
   double bonding_ = 1.0;
+  std::vector<SisterBond> sister_bonds_;
   ContactSettings settings_;
   std::vector<RigidSurface> obstacles_;
   std::vector<Vec3d> offsets_, last_offsets_, step_offsets_;

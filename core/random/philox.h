@@ -38,6 +38,8 @@ enum class RandomStream : std::uint32_t {
   kFluctuationOfEdges,
   kFluctuationOfContacts,
   kPolarity,
+  kDivisionTilt,   ///< of the axis away from that of its rule
+  kDivisionShare,  ///< of the mother's volume that the first daughter gets
 };
 
 /// A pair of independent numbers.

@@ -20,7 +20,7 @@ class CellView;
 /// registry.
 struct CellWish {
   bool die = false;                    ///< begin to die at the end of this step
-  bool divide = false;                 ///< at the end of this step, whatever its volume; a shell waits until it is a sphere
+  bool divide = false;                 ///< at the end of this step, whatever its volume; shells of a type that wait do so until they are spheres
   double growth = 1.0;                 ///< factor of its rate of growth; 0: it does not grow
   double volume = 1.0;                 ///< factor of its target volume in this step
   double migration = 1.0;              ///< factor of the speed of its persistent walk

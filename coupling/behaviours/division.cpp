@@ -4,34 +4,38 @@
 
 #include "cbm/division_ramp.h"
 #include "core/numbers/cube_root.h"
-#include "core/random/philox.h"
 #include "coupling/behaviours/birth.h"
 #include "coupling/behaviours/growth.h"
 
 namespace morula {
-SphereDivision divide_sphere(const FullRow& mother, const SphereBody& body, const CellType& type, std::uint32_t seed, double time,
-                             double late, double fraction) {
+
+DaughterRows divide_row(const FullRow& mother, std::span<const VariableColumn> variables, const CellType& type, std::uint32_t seed,
+                        double time, double late, double fraction) {
   assert(mother.id.can_divide() && fraction > 0.0 && fraction < 1.0);
   const double volume_1 = fraction * mother.target_volume;
   const double volume_2 = mother.target_volume - volume_1;
-  const double share_1 = volume_1 / mother.target_volume;
-  const double share_2 = volume_2 / mother.target_volume;
 
-  SphereDivision out;
+  DaughterRows out;
+  out.share = volume_1 / mother.target_volume;
   const double birth = time - late;
   out.first = make_daughter(mother, 0, type, seed, birth, volume_1);
   out.second = make_daughter(mother, 1, type, seed, birth, volume_2);
+  divide_variables(variables, mother, out.first, out.second);
   if (late > 0.0) {
     grow(out.first, type, late);
     grow(out.second, type, late);
   }
+  return out;
+}
 
-  const Vec3d axis = Random(seed, RandomStream::kDivisionAxis).direction(mother.id, mother.draws);
-  out.first_body.radius = body.radius * cube_root(share_1);
-  out.second_body.radius = body.radius * cube_root(share_2);
-  const double distance = cbm::sister_distance(out.first_body.radius, out.second_body.radius);
-  out.first_body.position = body.position + (distance * share_2) * axis;
-  out.second_body.position = body.position - (distance * share_1) * axis;
+SphereDivision divide_sphere(const SphereBody& body, const Vec3d& axis, double share) {
+  SphereDivision out;
+  const double rest = 1.0 - share;
+  out.first.radius = body.radius * cube_root(share);
+  out.second.radius = body.radius * cube_root(rest);
+  const double distance = cbm::sister_distance(out.first.radius, out.second.radius);
+  out.first.position = body.position + (distance * rest) * axis;
+  out.second.position = body.position - (distance * share) * axis;
   return out;
 }
 

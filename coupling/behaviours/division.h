@@ -8,30 +8,36 @@
 
 namespace morula {
 
+/// The rows of the two cells that a cell becomes.
+struct DaughterRows {
+  FullRow first, second;
+  double share = 0.5;  ///< of the first, of the mother's target volume
+};
+
+/// Divide the row of a cell, whatever its body, at an instant: V_1 = f V_m and V_2 = V_m − V_1, so that nothing is lost to rounding. Variables
+/// are those of divide_variables().
+///
+/// time: end of the step [s]; late: how long before that the division volume was reached [s]. The daughters are born at time − late, and
+/// their target volumes have already grown for `late`; their bodies have not: the first step drives them there.
+/// Precondition: mother.id.can_divide(), 0 < fraction < 1.
+DaughterRows divide_row(const FullRow& mother, std::span<const VariableColumn> variables, const CellType& type, std::uint32_t seed,
+                        double time, double late, double fraction);
+
 /// Place and size of a sphere.
 struct SphereBody {
   Vec3d position;       ///< [µm]
   double radius = 0.0;  ///< [µm]
 };
 
-/// The two cells that a sphere becomes.
+/// The bodies of the two cells that a sphere becomes.
 struct SphereDivision {
-  FullRow first, second;
-  SphereBody first_body, second_body;
+  SphereBody first, second;
 };
 
-/// Divide a cell whose body is a sphere, at an instant.
-///
-/// V_1 = f V_m and V_2 = V_m − V_1, so that nothing is lost to rounding. Variables of the cells are divided by divide_variables().
-/// The axis is random, uniform on the sphere (stream kDivisionAxis of the mother). The daughters lie inside the mother's envelope, centres
-/// d apart at x + u d V_2/V_m and x − u d V_1/V_m, which keeps the centroid; d = 0.4126 R_m for equal daughters (cbm/division_ramp.h, whose
-/// offset forgives their overlap while it is released). Radii follow from the volumes: r = (V/V_m)^(1/3) R_m.
-///
-/// time: end of the step [s]; late: how long before that the division volume was reached [s]. The daughters are born at time − late, and
-/// their target volumes have already grown for `late`; their bodies have not: the first step drives them there.
-/// Precondition: mother.id.can_divide(), 0 < fraction < 1.
-SphereDivision divide_sphere(const FullRow& mother, const SphereBody& body, const CellType& type, std::uint32_t seed, double time,
-                             double late, double fraction = 0.5);
+/// Divide a sphere along an axis of length 1. The daughters lie inside the mother's envelope, centres d apart at x + u d V_2/V_m and
+/// x − u d V_1/V_m, which keeps the centroid; d = 0.4126 R_m for equal daughters (cbm/division_ramp.h, whose offset forgives their overlap
+/// while it is released). Radii follow from the volumes: r = (V/V_m)^(1/3) R_m. share: V_1/V_m.
+SphereDivision divide_sphere(const SphereBody& body, const Vec3d& axis, double share);
 
 /// Give the daughters of a division, whose birth volumes are set, their variables as these declare it: what is shared goes by volume, the remainder
 /// to the second.

@@ -1,6 +1,7 @@
 #include "coupling/behaviours/life.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "coupling/behaviours/ask.h"
 #include "coupling/behaviours/death.h"
@@ -12,13 +13,18 @@ namespace {
 
 using Kind = LifeDecision::Kind;
 
+/// Whether a shell that waits for a plane of division looks for one in this step.
+bool is_time_to_try(const LifeStep& step) {
+  return std::floor(step.time / kTimeBetweenTries) > std::floor((step.time - step.dt) / kTimeBetweenTries);
+}
+
 /// What follows when a cell is at its division volume.
-LifeDecision at_division_volume(CellRow& row, double late) {
-  const bool said = row.phase == Phase::kWaiting;
-  if (row.body == BodyKind::kSphere && row.id.can_divide()) return {Kind::kDivide, late};
+LifeDecision at_division_volume(CellRow& row, double late, const CellType& type, const LifeStep& step) {
+  const bool waits = row.phase == Phase::kWaiting, by_cut = row.body == BodyKind::kShell && type.shells_divide;
+  if (row.id.can_divide() && (row.body == BodyKind::kSphere || (by_cut && (!waits || is_time_to_try(step))))) return {Kind::kDivide, late};
   row.phase = Phase::kWaiting;
-  if (said) return {};
-  return {row.body == BodyKind::kShell ? Kind::kWait : Kind::kCannot, late};
+  if (waits) return {};
+  return {row.id.can_divide() ? Kind::kWait : Kind::kCannot, late};
 }
 
 Event describe(const CellRow& row, const LifeStep& step, const LifeDecision& decision) {
@@ -71,10 +77,10 @@ LifeDecision live(CellRow& row, LifeSides& sides, const CellType& type, const Li
   sides.migration_velocity = next_migration_velocity(sides.migration_velocity, row.id, type, step.seed, step.step, step.dt, wish.migration);
   if (wish.polarity) sides.polarity = normalized(*wish.polarity);
   if (wish.volume != 1.0) row.target_volume *= wish.volume;
-  if (row.phase == Phase::kWaiting || wish.divide) return at_division_volume(row, 0.0);
+  if (row.phase == Phase::kWaiting || wish.divide) return at_division_volume(row, 0.0, type, step);
   if (row.phase == Phase::kResting || !(wish.growth > 0.0)) return {};
   const Growth growth = grow(row, type, step.dt * wish.growth);
-  return growth.reached ? at_division_volume(row, growth.late / wish.growth) : LifeDecision{};
+  return growth.reached ? at_division_volume(row, growth.late / wish.growth, type, step) : LifeDecision{};
 }
 
 LifeReport live(Cells& cells, std::span<const CellType> types, const LifeStep& step) {

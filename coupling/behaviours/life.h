@@ -23,8 +23,8 @@ struct LifeStep {
 struct LifeDecision {
   enum class Kind : std::uint8_t {
     kNone,
-    kDivide,  ///< a sphere reached its division volume
-    kWait,    ///< a shell did, and waits; said once
+    kDivide,  ///< it reached its division volume
+    kWait,    ///< it did as a shell of a type whose shells wait; said once
     kCannot,  ///< it did, but its lineage has as many generations as an id can name; said once
     kBeginDying,
     kRemove,  ///< a dying cell is gone
@@ -32,6 +32,9 @@ struct LifeDecision {
   double late = 0.0;            ///< time between the event and the end of the step [s]
   std::uint16_t behaviour = 0;  ///< of a death: number of the behaviour of the type that asked for it
 };
+
+/// Time after which a shell that found no plane of division looks for others [s].
+inline constexpr double kTimeBetweenTries = 600.0;
 
 /// The sides of a cell that its life is about.
 struct LifeSides {
@@ -44,18 +47,19 @@ struct LifeSides {
 /// sides only, as they were at the beginning of the stage: nothing depends on the order of cells.
 ///
 /// A dying cell shrinks and is removed at last; its behaviours have no say. Any other may begin to die; if it does not, it grows unless it rests or
-/// waits. Division at the division volume: a sphere divides, a shell waits (and divides if it becomes a sphere later).
+/// waits. Division at the division volume: a sphere divides, and a shell unless those of its type wait (it then divides if it becomes a sphere
+/// later). A shell for which no plane served waits, too, and is to divide whenever the time of the run passes a multiple of kTimeBetweenTries.
 LifeDecision live(CellRow& row, LifeSides& sides, const CellType& type, const LifeStep& step, const CellWish& wish = {});
 
 struct DivisionOrder {
   std::size_t row = 0;
-  double late = 0.0;  ///< for divide_sphere [s]
+  double late = 0.0;  ///< for divide_row() [s]
 };
 
 /// What a step of life asks the pipeline to do, in the order of rows.
 struct LifeReport {
   std::vector<Event> events;
-  std::vector<DivisionOrder> divisions;  ///< rows to replace by their daughters (divide_sphere)
+  std::vector<DivisionOrder> divisions;  ///< rows to replace by their daughters, whose events are told already
   std::vector<std::size_t> removals;     ///< rows to remove
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/parallel/threads.h"
+#include "coupling/behaviours/shell_division.h"
 #include "coupling/mechanics/contact_setup.h"
 
 namespace morula {
@@ -11,6 +12,19 @@ namespace {
 template <class T>
 void give_back(std::vector<T>& vector) {
   std::vector<T>().swap(vector);
+}
+
+/// Adhesion of the shells of this rank to their sisters, as long as the surface between them is new; sorted by cell.
+std::vector<SisterBond> new_interfaces(const Model& model, const Tissue& tissue, double time) {
+  std::vector<SisterBond> out;
+  for (const CellRow& row : tissue.cells.rows) {
+    if (row.body != BodyKind::kShell) continue;
+    const CellType& type = model.types[row.type];
+    const double newness = newness_of_surface(row, type, time), own = model.pair(row.type, row.type).adhesion;
+    if (newness > 0.0) out.push_back({row.id, own + newness * (2.0 * type.shell.tension - own)});
+  }
+  std::ranges::sort(out, {}, &SisterBond::cell);
+  return out;
 }
 
 }  // namespace
@@ -24,8 +38,17 @@ SurfaceContacts::SurfaceContacts(const Model& model, std::vector<RigidSurface> o
     : threads_(threads),
       layer_(contact_settings(model, threads), std::move(obstacles), contact_materials(model), contact_material_count(model)) {}
 
-void SurfaceContacts::bodies_changed(const World&) {
+void SurfaceContacts::bodies_changed(const World& world) {
+  const auto may_be_new = [](const CellType& type) { return type.cycles && type.shells_divide && type.new_surface > 0.0; };
+  bonds_age_ = std::ranges::any_of(world.model.types, may_be_new) && world.comm.any(world.scene.shells() > 0);
   layer_.reset();
+  forget();
+}
+
+void SurfaceContacts::parameters_changed(const World& world) {
+  std::vector<SisterBond> bonds = new_interfaces(world.model, world.tissue, world.time);
+  if (bonds == layer_.sister_bonds()) return;
+  layer_.set_sister_bonds(std::move(bonds));
   forget();
 }
 

@@ -26,7 +26,10 @@ class SurfaceContacts : public Term {
  public:
   SurfaceContacts(const Model& model, std::vector<RigidSurface> obstacles, int threads);
 
-  void bodies_changed(const World&) override;
+  /// Collective.
+  void bodies_changed(const World& world) override;
+  void parameters_changed(const World& world) override;
+  [[nodiscard]] bool varies_with_time() const override { return bonds_age_; }
   /// Finds the candidates anew when bodies have gone too far since the last time. Collective.
   void measure(const World& world) override;
   void evaluate(const World& world, Forces& out) override;
@@ -54,6 +57,7 @@ class SurfaceContacts : public Term {
 
  private:
   int threads_;
+  bool bonds_age_ = true;  ///< interfaces of sisters may be new: adhesion depends on the time
   ContactLayer layer_;
   ContactGradient gradient_;               ///< of all contacts of surfaces
   ContactGradient surfaces_only_;          ///< without the pairs with a sphere; kept only where there are any

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "coupling/behaviours/birth.h"
+#include "coupling/behaviours/division_axis.h"
 
 namespace morula {
 namespace {
@@ -31,10 +32,23 @@ FullRow mother_row(std::uint64_t number = 17) {
 
 const SphereBody kBody{{10, -20, 5}, 7.5595263};
 
+/// A cell that is a sphere divides along its random axis.
+struct Divided : DaughterRows {
+  SphereBody first_body, second_body;
+};
+Divided divide(const FullRow& mother, const CellType& type, std::uint32_t seed, double time, double late, double fraction = 0.5,
+               std::span<const VariableColumn> variables = {}) {
+  Divided out{divide_row(mother, variables, type, seed, time, late, fraction), {}, {}};
+  const SphereDivision bodies = divide_sphere(kBody, division_axis({mother, type}, seed, 0), out.share);
+  out.first_body = bodies.first;
+  out.second_body = bodies.second;
+  return out;
+}
+
 TEST(Division, KeepsVolumeToTheLastBit) {
   for (const double fraction : {0.5, 0.3, 0.61803}) {
     const FullRow mother = mother_row();
-    const auto out = divide_sphere(mother, kBody, cycling(), 9, 1000.0, 0.0, fraction);
+    const auto out = divide(mother, cycling(), 9, 1000.0, 0.0, fraction);
     EXPECT_NEAR((out.first.target_volume + out.second.target_volume) / mother.target_volume, 1.0, 1e-15);
     EXPECT_NEAR(out.first.target_volume / mother.target_volume, fraction, 1e-15);
     const double cubes = std::pow(out.first_body.radius, 3) + std::pow(out.second_body.radius, 3);
@@ -51,8 +65,7 @@ TEST(Division, DividesEveryVariableAsItIsDeclared) {
   FullRow mother = mother_row();
   mother.variables = {3.7, 0.2, 1e5 / 3, 0.01, 0.0, 0.0, 1e-9, 0.0, 5.0, 6.0, 7.0, 8.0, 9.0};
   for (const double fraction : {0.5, 0.3, 0.61803}) {
-    auto out = divide_sphere(mother, kBody, cycling(), 9, 1000.0, 20.0, fraction);
-    divide_variables(cells.variables, mother, out.first, out.second);
+    const auto out = divide(mother, cycling(), 9, 1000.0, 20.0, fraction, cells.variables);
     for (std::size_t field = 0; field < 6; ++field) {
       const double whole = mother.variables[amount_of(field)], first = out.first.variables[amount_of(field)];
       EXPECT_NEAR(first, fraction * whole, 1e-15 * whole);
@@ -67,7 +80,7 @@ TEST(Division, DividesEveryVariableAsItIsDeclared) {
 
 TEST(Division, KeepsTheCentroidAndStaysInTheMothersEnvelope) {
   for (const double fraction : {0.5, 0.3}) {
-    const auto out = divide_sphere(mother_row(), kBody, cycling(), 9, 1000.0, 0.0, fraction);
+    const auto out = divide(mother_row(), cycling(), 9, 1000.0, 0.0, fraction);
     const Vec3d centroid = fraction * out.first_body.position + (1 - fraction) * out.second_body.position;
     EXPECT_LT(norm(centroid - kBody.position), 1e-12 * kBody.radius * 10);
     for (const SphereBody& body : {out.first_body, out.second_body}) {
@@ -77,14 +90,14 @@ TEST(Division, KeepsTheCentroidAndStaysInTheMothersEnvelope) {
 }
 
 TEST(Division, EqualDaughtersStartAtTheReferenceDistance) {
-  const auto out = divide_sphere(mother_row(), kBody, cycling(), 9, 1000.0, 0.0);
+  const auto out = divide(mother_row(), cycling(), 9, 1000.0, 0.0);
   EXPECT_NEAR(out.first_body.radius / kBody.radius, 0.7937005, 5e-8);
   EXPECT_NEAR(norm(out.first_body.position - out.second_body.position) / kBody.radius, 0.4125989, 5e-8);
 }
 
 TEST(Division, DaughtersInheritAndBeginACycle) {
   const FullRow mother = mother_row();
-  const auto out = divide_sphere(mother, kBody, cycling(), 9, 1000.0, 0.0);
+  const auto out = divide(mother, cycling(), 9, 1000.0, 0.0);
   EXPECT_EQ(out.first.id, mother.id.daughter(0));
   EXPECT_EQ(out.second.id, mother.id.daughter(1));
   for (const FullRow& row : {out.first, out.second}) {
@@ -110,7 +123,7 @@ TEST(Division, DaughtersOfALateStepHaveGrownForTheRest) {
   CellType type = cycling();
   type.cycle_duration.relative_spread = 0.0;
   const FullRow mother = mother_row();
-  const auto out = divide_sphere(mother, kBody, type, 9, 1000.0, 648.0);
+  const auto out = divide(mother, type, 9, 1000.0, 648.0);
   EXPECT_EQ(out.first.birth_time, 352.0);
   EXPECT_NEAR(out.first.target_volume / out.first.birth_volume, 1.01, 1e-12);  // 648 s of 64800 s
 }
@@ -120,7 +133,7 @@ TEST(Division, AxesAreUniformOnTheSphere) {
   double zz = 0.0;
   const int n = 20000;
   for (int k = 1; k <= n; ++k) {
-    const auto out = divide_sphere(mother_row(k), kBody, cycling(), 9, 0.0, 0.0);
+    const auto out = divide(mother_row(k), cycling(), 9, 0.0, 0.0);
     const Vec3d axis = normalized(out.first_body.position - out.second_body.position);
     mean += axis;
     zz += axis.z * axis.z;
@@ -131,11 +144,11 @@ TEST(Division, AxesAreUniformOnTheSphere) {
 }
 
 TEST(Division, IsTheSameWheneverItIsAsked) {
-  const auto one = divide_sphere(mother_row(), kBody, cycling(), 9, 1000.0, 12.5);
-  const auto other = divide_sphere(mother_row(), kBody, cycling(), 9, 1000.0, 12.5);
+  const auto one = divide(mother_row(), cycling(), 9, 1000.0, 12.5);
+  const auto other = divide(mother_row(), cycling(), 9, 1000.0, 12.5);
   EXPECT_EQ(one.first_body.position, other.first_body.position);
   EXPECT_EQ(one.second.cycle_duration, other.second.cycle_duration);
-  const auto seeded = divide_sphere(mother_row(), kBody, cycling(), 10, 1000.0, 12.5);
+  const auto seeded = divide(mother_row(), cycling(), 10, 1000.0, 12.5);
   EXPECT_FALSE(one.first_body.position == seeded.first_body.position);
 }
 

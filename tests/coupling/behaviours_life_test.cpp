@@ -41,8 +41,7 @@ struct Population {
     auto removal = report.removals.begin();
     for (std::size_t k = 0; k < rows.size(); ++k) {
       if (division != report.divisions.end() && division->row == k) {
-        const double radius = std::cbrt(0.75 * rows[k].target_volume / std::numbers::pi);
-        const auto out = divide_sphere(rows[k], {{}, radius}, types[rows[k].type], 1, time, division->late);
+        const auto out = divide_row(rows[k], {}, types[rows[k].type], 1, time, division->late, 0.5);
         next.push_back(out.first);
         next.push_back(out.second);
         ++division;
@@ -129,8 +128,10 @@ TEST(Life, VariableCyclesHaveTheKnownFirstDivision) {
   EXPECT_NEAR(std::sqrt(squares), 0.99 * 0.9866, 0.09);  // deviation cut at ±3; four standard errors
 }
 
-TEST(Life, AShellWaitsOnceAndDividesWhenItBecomesASphere) {
-  Population population = one_cell(cycling());
+TEST(Life, AShellThatIsToWaitDoesSoOnceAndDividesWhenItBecomesASphere) {
+  CellType waits = cycling();
+  waits.shells_divide = false;
+  Population population = one_cell(waits);
   population.rows[0].body = BodyKind::kShell;
   population.run_to(20 * kHour, 600.0);
   ASSERT_EQ(population.events.size(), 1u);
@@ -141,6 +142,37 @@ TEST(Life, AShellWaitsOnceAndDividesWhenItBecomesASphere) {
   population.advance(60.0);
   EXPECT_EQ(population.rows.size(), 2u);
   EXPECT_EQ(population.rows[0].birth_time, population.time);
+}
+
+TEST(Life, AShellDividesAsASphereDoes) {
+  Population population = one_cell(cycling());
+  population.rows[0].body = BodyKind::kShell;
+  population.run_to(25 * kHour, 600.0);
+  ASSERT_EQ(population.events.size(), 1u);
+  EXPECT_EQ(population.events[0].kind, EventKind::kDivision);
+  ASSERT_EQ(population.rows.size(), 2u);
+  for (const FullRow& row : population.rows) EXPECT_EQ(row.body, BodyKind::kShell);
+}
+
+TEST(Life, AShellThatFoundNoPlaneTriesAgainEveryTenMinutes) {
+  CellType type = cycling();
+  CellRow row = make_founder(CellId::founder(1), 0, type, 1, 0.0, false);
+  row.body = BodyKind::kShell;
+  row.phase = Phase::kWaiting;  // as the pipeline leaves it
+  row.target_volume = row.division_volume;
+  int tries = 0;
+  double time = 90000.0;
+  for (const double dt : {60.0, 240.0, 240.0, 60.0, 30.0, 570.0, 7.0, 1300.0}) {
+    time += dt;
+    LifeSides sides;
+    const LifeDecision decision = live(row, sides, type, {.time = time, .dt = dt});
+    EXPECT_TRUE(decision.kind == LifeDecision::Kind::kNone || decision.kind == LifeDecision::Kind::kDivide);
+    const bool passes = std::floor(time / 600.0) > std::floor((time - dt) / 600.0);
+    EXPECT_EQ(decision.kind == LifeDecision::Kind::kDivide, passes) << time;
+    tries += decision.kind == LifeDecision::Kind::kDivide;
+    EXPECT_EQ(row.phase, Phase::kWaiting);
+  }
+  EXPECT_EQ(tries, 3);
 }
 
 TEST(Life, TheLastGenerationWarnsOnceAndStays) {

@@ -160,6 +160,22 @@ TEST(TissueOnRanks, DemotesWithTheSameBitsAsOnOne) {
   expect_same(together, single);
 }
 
+/// Shells divide among shells of other ranks: their daughters stay out of these, and cling to their sisters wherever these live.
+TEST(TissueOnRanks, DividesShellsWithTheSameBitsAsOnOne) {
+  const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
+  Model model = hybrid_model();
+  model.types[0].cycle_duration = {900.0, 0.3};
+  model.types[0].shell_nodes = 162;
+  model.swaps.regions[0].shape = everything_region();
+  model.step.max_step = 15.0;
+  Ledger ledger;
+  const auto together = run(model, world, 25, 1, nullptr, &ledger);
+  const auto single = run(model, alone, 25, 1);
+  EXPECT_GE(ledger.divisions, 3u);
+  EXPECT_EQ(together.size(), 19u + ledger.divisions);
+  expect_same(together, single);
+}
+
 /// Events of a run of cells that become shells, spheres again, and divide, each as a line for people.
 std::vector<std::string> events_in_words(const Comm& comm) {
   Model model = hybrid_model();

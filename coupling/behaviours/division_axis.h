@@ -1,0 +1,48 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/law_info.h"
+#include "core/mesh/renewal/surface_view.h"
+#include "core/vec3.h"
+
+namespace morula {
+
+struct CellType;
+struct FullRow;
+
+/// What the axis of a division may be chosen by.
+struct CellAtDivision {
+  const FullRow& row;
+  const CellType& type;
+  SurfaceView surface{};  ///< of a shell; a sphere has none
+};
+
+/// How the axis of a division is chosen: what there is to say about it, and the axis. The cell is cut across it; its first daughter lies where it points.
+struct DivisionAxis {
+  LawInfo info;                  ///< info.name is the word of `cycle.axis`
+  bool needs_polarity = false;   ///< of the type
+  bool needs_direction = false;  ///< `cycle.direction`
+  bool needs_shell = false;      ///< a sphere has no such axis
+  /// The axis, any length; zero where the cell has none: then it is random. `random`: a direction uniform on the sphere.
+  Vec3d (*of)(const CellAtDivision& cell, const Vec3d& random) = nullptr;
+};
+
+std::vector<std::shared_ptr<const DivisionAxis>> builtin_division_axes();
+std::shared_ptr<const DivisionAxis> random_axis();
+
+/// The axis of length 1 by which a cell divides at its attempt number `attempt`, from 0, with the numbers of the streams kDivisionAxis and
+/// kDivisionTilt at its number of rare draws so far plus `attempt`.
+///
+/// The axis of the type's rule is turned by a random angle θ, distributed on the sphere after von Mises and Fisher with the concentration κ = 1/s²
+/// (Fisher 1953, doi:10.1098/rspa.1953.0064), s the type's spread, which is the standard deviation in each of two directions where it is small:
+/// cos θ = 1 + ln(u + (1 − u) e^(−2κ))/κ. Later attempts have 0.2 rad more spread each: other planes where one did not serve.
+Vec3d division_axis(const CellAtDivision& cell, std::uint32_t seed, std::uint64_t attempt);
+
+/// The part of the mother's volume that the first daughter gets: drawn from the type's share (stream kDivisionShare, truncated Gaussian), kept within
+/// 0.1 to 0.9.
+double division_share(const CellAtDivision& cell, std::uint32_t seed);
+
+}  // namespace morula

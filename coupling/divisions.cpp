@@ -1,0 +1,162 @@
+// What a step of life has asked for: daughters in place of mothers, and dead cells gone.
+#include <algorithm>
+#include <cmath>
+
+#include "cbm/partners.h"
+#include "core/parallel/threads.h"
+#include "coupling/behaviours/division.h"
+#include "coupling/behaviours/division_axis.h"
+#include "coupling/behaviours/life.h"
+#include "coupling/behaviours/shell_division.h"
+#include "coupling/cell_record.h"
+#include "coupling/simulation.h"
+#include "coupling/surroundings.h"
+#include "coupling/swaps.h"
+
+namespace morula {
+namespace {
+
+/// Planes that a shell tries at one time.
+constexpr std::uint64_t kTries = 4;
+/// Neighbours farther away than this cannot be reached by a daughter [µm].
+constexpr double kReach = 2.0;
+/// The step after a division of shells: their new surfaces find their place among the neighbours [s].
+constexpr double kStepAfterCut = 5.0;
+
+/// A cell that is to divide.
+struct Mother {
+  BodyOfRow body{};
+  double late = 0.0;  ///< [s]
+  CellRecord cell{};
+};
+
+std::vector<Mother> mothers_of(const Tissue& tissue, std::span<const DivisionOrder> orders) {
+  std::vector<Mother> out;
+  auto order = orders.begin();
+  for (const BodyOfRow& body : bodies_of(tissue.cells)) {
+    if (order == orders.end()) break;
+    if (order->row != body.row) continue;
+    out.push_back({body, order->late, record_of(tissue, body)});
+    ++order;
+  }
+  return out;
+}
+
+/// Both daughters, or none where no plane served.
+using Daughters = std::vector<CellRecord>;
+
+Daughters divide_as_sphere(const CellRecord& mother, const DaughterRows& rows, const Vec3d& axis) {
+  const SphereDivision bodies = divide_sphere({mother.sphere->position, mother.sphere->radius}, axis, rows.share);
+  Daughters out(2);
+  for (int which = 0; which < 2; ++which) {
+    const SphereBody& body = which == 0 ? bodies.first : bodies.second;
+    out[which].row = which == 0 ? rows.first : rows.second;
+    out[which].sphere = SphereRecord{body.position, body.radius, mother.sphere->velocity,
+                                     cbm::daughter_partners(mother.sphere->attached, (which == 0 ? rows.second : rows.first).id)};
+  }
+  return out;
+}
+
+Daughters divide_as_shell(const CellRecord& mother, const DaughterRows& rows, const ShellToDivide& what, std::uint32_t seed) {
+  for (std::uint64_t attempt = 0; attempt < kTries; ++attempt) {
+    const Vec3d axis =
+        division_axis({mother.row, *what.type, {mother.shell->position, mother.shell->shape->topology.get()}}, seed, attempt);
+    auto divided = divide_shell(what, axis, rows.share, {rows.first.birth_volume, rows.second.birth_volume});
+    if (!divided.ok()) continue;
+    Daughters out(2);
+    for (std::size_t which = 0; which < 2; ++which) {
+      out[which].row = which == 0 ? rows.first : rows.second;
+      dcm::ShellRecord& shell = divided->shell[which];
+      // Osmotic cells share their osmolytes, which go with the target volume; others keep their pressure: V0 goes with the volume.
+      if (!what.type->osmosis.acts())
+        out[which].row.reference_excess = std::log(shell.reference_volume / free_reference_volume(out[which].row.birth_volume, *what.type));
+      out[which].shell = std::move(shell);
+    }
+    return out;
+  }
+  return {};
+}
+
+}  // namespace
+
+void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& events) {
+  events.insert(events.end(), life.events.begin(), life.events.end());
+  const std::vector<Mother> mothers = mothers_of(tissue_, life.divisions);
+  const bool cuts = comm_.any(std::ranges::any_of(mothers, [](const Mother& mother) { return mother.body.is_shell; }));
+  if (cuts) mechanics_->update_scene(tissue_);
+  std::vector<Daughters> daughters(mothers.size());
+  std::vector<std::shared_ptr<const ReferenceShape>> shape;
+  for (const CellType& type : model_.types) shape.push_back(cuts ? shapes_.icosphere(type.shell_nodes).value() : nullptr);
+  parallel_for(threads_, mothers.size(), [&](std::size_t k) {
+    const auto& [body, late, mother] = mothers[k];
+    const CellType& type = model_.types[mother.row.type];
+    const double share = division_share({mother.row, type}, model_.seed);
+    const DaughterRows rows = divide_row(mother.row, tissue_.cells.variables, type, model_.seed, tissue_.clock.time, late, share);
+    if (!body.is_shell) {
+      daughters[k] = divide_as_sphere(mother, rows, division_axis({mother.row, type}, model_.seed, 0));
+      return;
+    }
+    const Surroundings around = surroundings_of(mechanics_->scene(), model_.space, body.number, kReach);
+    daughters[k] = divide_as_shell(mother, rows, {&*mother.shell, &type, shape[mother.row.type], around.surfaces}, model_.seed);
+  });
+
+  std::vector<std::size_t> gone = life.removals;
+  std::vector<CellRecord> fresh;
+  std::int64_t divisions = 0, deaths = 0;
+  for (std::size_t k = 0; k < mothers.size(); ++k) {
+    if (daughters[k].empty()) {
+      put_off(mothers[k].body.row, events);
+      continue;
+    }
+    ++divisions;
+    gone.push_back(mothers[k].body.row);
+    for (CellRecord& daughter : daughters[k]) {
+      if (daughter.shell) place_nucleus(*daughter.shell, model_.types[daughter.row.type], shapes_);
+      fresh.push_back(std::move(daughter));
+    }
+  }
+  if (!gone.empty()) {
+    std::sort(gone.begin(), gone.end());
+    replace_cells(tissue_, gone, std::move(fresh));
+    mechanics_->bodies_changed();
+  }
+  if (cuts) tissue_.clock.next_step = std::min(tissue_.clock.next_step, kStepAfterCut);
+  for (const Event& event : life.events) deaths += event.kind == EventKind::kDeath;
+  tissue_.ledger.divisions += static_cast<std::uint64_t>(comm_.sum(divisions));
+  tissue_.ledger.deaths += static_cast<std::uint64_t>(comm_.sum(deaths));
+}
+
+void Simulation::put_off(std::size_t row, std::vector<Event>& events) {
+  CellRow& mother = tissue_.cells.rows[row];
+  mother.draws += kTries;  // other planes the next time
+  const auto division =
+      std::ranges::find_if(events, [&](const Event& event) { return event.kind == EventKind::kDivision && event.cell == mother.id; });
+  if (std::exchange(mother.phase, Phase::kWaiting) == Phase::kWaiting) {
+    events.erase(division);
+    return;
+  }
+  *division = {division->time, EventKind::kDivisionWaits, mother.id, {}, {}, {EventReason::Cause::kNoPlane}};
+}
+
+void Simulation::rename_partners(const std::vector<Event>& events) {
+  std::vector<const Event*> divisions;  // sorted by mother, because events are
+  for (const Event& event : events)
+    if (event.kind == EventKind::kDivision) divisions.push_back(&event);
+  if (divisions.empty()) return;
+  std::sort(divisions.begin(), divisions.end(), [](const Event* a, const Event* b) { return a->cell < b->cell; });
+  const cbm::PartnerLists before = std::move(tissue_.spheres.attached);
+  tissue_.spheres.attached = {};
+  tissue_.spheres.attached.reserve(before.size(), before.partner_count() + 2 * divisions.size());
+  cbm::Partners partners;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    partners.assign(before[i].begin(), before[i].end());
+    for (const CellId partner : before[i]) {
+      const auto at = std::lower_bound(divisions.begin(), divisions.end(), partner, [](const Event* e, CellId id) { return e->cell < id; });
+      if (at != divisions.end() && (*at)->cell == partner)
+        cbm::replace_partner(partners, partner, (*at)->first_daughter, (*at)->second_daughter);
+    }
+    tissue_.spheres.attached.push_back(partners);
+  }
+}
+
+}  // namespace morula

@@ -1,0 +1,145 @@
+#include "results/lineage.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "core/numbers/number_text.h"
+#include "results/file_io.h"
+#include "results/snapshot_file.h"
+
+namespace morula::scenarios {
+namespace fs = std::filesystem;
+namespace {
+
+const char* word_of(LifeEnd how) {
+  switch (how) {
+    case LifeEnd::kAlive:
+      return "alive";
+    case LifeEnd::kDivided:
+      return "divided";
+    case LifeEnd::kDying:
+      return "dying";
+    case LifeEnd::kDied:
+      return "died";
+  }
+  return "";
+}
+
+/// The lives of a run by id, as its events tell them.
+class Lives {
+ public:
+  Lives(const Snapshot& first, double end) : end_(end) {
+    for (const Snapshot::Cell& cell : first.cells) {
+      const std::string type = cell.type < first.type_names.size() ? first.type_names[cell.type] : std::string();
+      begin({cell.id.text(), cell.parent.valid() ? cell.parent.text() : std::string(), type, first.time - cell.age, end});
+    }
+  }
+
+  void note(const nlohmann::json& event) {
+    const auto kind = event.find("kind"), id = event.find("cell"), time = event.find("time_s");
+    if (kind == event.end() || id == event.end() || time == event.end()) return;
+    const auto at = place_.find(id->get<std::string>());
+    if (at == place_.end()) return;
+    const std::size_t place = at->second;
+    const auto when = time->get<double>();
+    if (*kind == "death") lives_[place].how = LifeEnd::kDying;
+    if (*kind == "removal") lives_[place].how = LifeEnd::kDied, lives_[place].end = when;
+    if (*kind != "division") return;
+    lives_[place].how = LifeEnd::kDivided, lives_[place].end = when;
+    const std::string parent = lives_[place].id, type = lives_[place].type;
+    for (const auto& daughter : event.at("daughters")) begin({daughter.get<std::string>(), parent, type, when, end_});
+  }
+
+  /// In the order of founders, and of each the mother before her daughters.
+  std::vector<CellLife> in_order() && {
+    const auto generation = [](const CellLife& life) { return life.id.size(); };
+    std::ranges::stable_sort(lives_, [&](const CellLife& a, const CellLife& b) {
+      const auto founder_a = founder(a), founder_b = founder(b);
+      if (founder_a != founder_b) return founder_a < founder_b;
+      return generation(a) != generation(b) ? generation(a) < generation(b) : a.id < b.id;
+    });
+    return std::move(lives_);
+  }
+
+ private:
+  static std::uint64_t founder(const CellLife& life) { return std::stoull(life.id); }
+  void begin(CellLife life) {
+    place_.emplace(life.id, lives_.size());
+    lives_.push_back(std::move(life));
+  }
+
+  double end_;
+  std::vector<CellLife> lives_;
+  std::map<std::string, std::size_t> place_;
+};
+
+/// A cell and what came of it, without the end of the line.
+void put_tree(std::span<const CellLife> lives, const std::multimap<std::string, std::size_t>& daughters, std::size_t cell,
+              std::string& out) {
+  const CellLife& life = lives[cell];
+  const auto [begin, end] = daughters.equal_range(life.id);
+  if (begin != end) {
+    out += '(';
+    for (auto at = begin; at != end; ++at) {
+      if (at != begin) out += ',';
+      put_tree(lives, daughters, at->second, out);
+    }
+    out += ')';
+  }
+  out += life.id + ':' + shortest_text((life.end - life.birth) / 3600.0);
+}
+
+}  // namespace
+
+Result<std::vector<CellLife>> read_lineage(const fs::path& results, const fs::path& events) {
+  MORULA_TRY_ASSIGN(const auto entries, list_snapshots(results));
+  if (entries.empty())
+    return Error{ErrorKind::kInput, "'" + results.string() + "' holds no snapshot", "the founders are those of the first"};
+  MORULA_TRY_ASSIGN(const Snapshot first, read_snapshot(results, 0));
+  MORULA_TRY_ASSIGN(const std::string text, read_file(events));
+  Lives lives(first, entries.back().time);
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const auto event = nlohmann::json::parse(line, nullptr, false);
+    if (event.is_object() && event.value("time_s", 0.0) <= entries.back().time) lives.note(event);
+  }
+  return std::move(lives).in_order();
+}
+
+std::string lineage_csv(std::span<const CellLife> lives) {
+  std::string out = "id,parent,type,birth [s],end [s],how\n";
+  for (const CellLife& life : lives)
+    out += life.id + ',' + life.parent + ',' + life.type + ',' + shortest_text(life.birth) + ',' + shortest_text(life.end) + ',' +
+           word_of(life.how) + '\n';
+  return out;
+}
+
+std::string lineage_newick(std::span<const CellLife> lives) {
+  std::multimap<std::string, std::size_t> daughters;
+  for (std::size_t k = 0; k < lives.size(); ++k)
+    if (!lives[k].parent.empty()) daughters.emplace(lives[k].parent, k);
+  std::string out;
+  std::set<std::string> known;  // mothers come before their daughters
+  for (std::size_t k = 0; k < lives.size(); ++k) {
+    known.insert(lives[k].id);
+    if (known.contains(lives[k].parent)) continue;
+    put_tree(lives, daughters, k, out);
+    out += ";\n";
+  }
+  return out;
+}
+
+Result<std::size_t> export_lineage(const fs::path& results, const fs::path& events, const fs::path& folder) {
+  MORULA_TRY_ASSIGN(const auto lives, read_lineage(results, events));
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return Error{ErrorKind::kFile, "'" + folder.string() + "' cannot be made: " + error.message(), {}};
+  MORULA_TRY(write_file_atomically(folder / "lineage.csv", lineage_csv(lives)));
+  MORULA_TRY(write_file_atomically(folder / "lineage.nwk", lineage_newick(lives)));
+  return lives.size();
+}
+
+}  // namespace morula::scenarios

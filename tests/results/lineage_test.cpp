@@ -1,0 +1,80 @@
+// Lineages of a run: lives from its first snapshot and its events.
+#include "results/lineage.h"
+
+#include <gtest/gtest.h>
+
+#include "results/file_io.h"
+#include "results/snapshot_file.h"
+#include "tests/results/results_support.h"
+
+namespace morula::scenarios {
+namespace {
+
+class Lineage : public ::testing::Test {
+ protected:
+  Lineage() {
+    Snapshot first;
+    first.type_names = {"egg", "wall"};
+    for (std::uint64_t number : {2, 11}) {
+      Snapshot::Cell& cell = first.cells.emplace_back();
+      cell.id = CellId::founder(number);
+      cell.type = number == 2 ? 0 : 1;
+      cell.age = number == 2 ? 600.0 : 0.0;
+      cell.radius = 5.0;
+    }
+    append(first);
+    first.time = 7200.0;
+    append(first);
+  }
+  void append(const Snapshot& snapshot) {
+    const Status status = append_snapshot(results(), snapshot, {}, Comm());
+    EXPECT_TRUE(status.ok()) << status.error().message;
+  }
+  [[nodiscard]] std::filesystem::path results() const { return folder_ / "results.h5"; }
+  std::vector<CellLife> lives(const std::string& events) {
+    EXPECT_TRUE(write_file_atomically(folder_ / "events.jsonl", events).ok());
+    auto out = read_lineage(results(), folder_ / "events.jsonl");
+    EXPECT_TRUE(out.ok()) << out.error().message;
+    return out.ok() ? *out : std::vector<CellLife>{};
+  }
+  testing_support::Folder folder_{Comm()};
+};
+
+constexpr const char* kEvents =
+    "{\"time_s\":1200.0,\"kind\":\"division\",\"cell\":\"2\",\"daughters\":[\"2.0\",\"2.1\"],\"text\":\"\"}\n"
+    "{\"time_s\":1300.0,\"kind\":\"promotion\",\"cell\":\"2.0\",\"text\":\"\"}\n"
+    "{\"time_s\":3000.0,\"kind\":\"death\",\"cell\":\"2.1\",\"text\":\"\"}\n"
+    "{\"time_s\":4800.0,\"kind\":\"division\",\"cell\":\"2.0\",\"daughters\":[\"2.00\",\"2.01\"],\"text\":\"\"}\n"
+    "{\"time_s\":6000.0,\"kind\":\"removal\",\"cell\":\"2.1\",\"text\":\"\"}\n"
+    "{\"time_s\":6600.0,\"kind\":\"death\",\"cell\":\"2.01\",\"text\":\"\"}\n"
+    "{\"time_s\":9000.0,\"kind\":\"division\",\"cell\":\"11\",\"daughters\":[\"11.0\",\"11.1\"],\"text\":\"\"}\n";
+
+TEST_F(Lineage, TellsEveryLifeFromBirthToEnd) {
+  EXPECT_EQ(lineage_csv(lives(kEvents)),
+            "id,parent,type,birth [s],end [s],how\n"
+            "2,,egg,-600,1200,divided\n"
+            "2.0,2,egg,1200,4800,divided\n"
+            "2.1,2,egg,1200,6000,died\n"
+            "2.00,2.0,egg,4800,7200,alive\n"
+            "2.01,2.0,egg,4800,7200,dying\n"
+            "11,,wall,0,7200,alive\n")
+      << "what comes after the last snapshot is not told";
+}
+
+TEST_F(Lineage, IsATreeForEachFounder) {
+  EXPECT_EQ(lineage_newick(lives(kEvents)),
+            "((2.00:0.6666666666666666,2.01:0.6666666666666666)2.0:1,2.1:1.3333333333333333)2:0.5;\n11:2;\n");
+}
+
+TEST_F(Lineage, IsWrittenIntoAFolder) {
+  lives(kEvents);
+  const auto cells = export_lineage(results(), folder_ / "events.jsonl", folder_ / "lineage");
+  ASSERT_TRUE(cells.ok());
+  EXPECT_EQ(*cells, 6u);
+  EXPECT_EQ(read_file(folder_ / "lineage" / "lineage.csv").value().substr(0, 3), "id,");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "lineage" / "lineage.nwk"));
+  EXPECT_FALSE(read_lineage(folder_ / "none.h5", folder_ / "events.jsonl").ok());
+}
+
+}  // namespace
+}  // namespace morula::scenarios

@@ -1,0 +1,113 @@
+// Shells that divide in runs of studies.
+#include <map>
+
+#include "results/snapshot_file.h"
+#include "tests/scenarios/own_parts.h"
+
+namespace morula::scenarios::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class DivisionRun : public OwnParts {
+ protected:
+  DivisionRun() : OwnParts([](Laws&) {}) {}
+  Snapshot last_of(const std::string& run) {
+    const auto path = folder_.path() / run / "results.h5";
+    const auto entries = list_snapshots(path);
+    EXPECT_TRUE(entries.ok() && !entries->empty());
+    auto out = read_snapshot(path, entries->back().index);
+    EXPECT_TRUE(out.ok());
+    return std::move(out).value();
+  }
+};
+
+/// One shell with `cycle`, to `end`.
+std::string one_shell(const std::string& cycle, const std::string& end, const std::string& more = "") {
+  return R"(schema: 1
+study: division
+time: {end: )" +
+         end + R"(, output: 5 min, checkpoint: 30 min}
+domain: {size: [120 um, 120 um, 120 um]}
+cell_types:
+  egg:
+    body: shell
+    radius: 6 um
+    cycle: {duration: 30 min, )" +
+         cycle + R"(}
+    adhesion: {egg: 1e-4 J/m^2}
+    dcm: {nodes: 162, cortex: {elastic: none, tension: 0.2 mN/m}}
+)" + more +
+         R"(
+initial:
+  - {type: egg, at: [[0 um, 0 um, 0 um]], age: birth}
+output: {report: false}
+)";
+}
+
+double egg_volume() { return 4.0 / 3.0 * 3.141592653589793 * 216.0; }
+
+TEST_F(DivisionRun, GoesFromOneToFourAndLosesNoVolume) {
+  run_whole(one_shell("growth: linear", "75 min"), "four");
+  const auto cells = column("four", "cell_count"), shells = column("four", "shell_count"), volume = column("four", "total_volume");
+  EXPECT_EQ(cells.back(), 4.0);
+  EXPECT_EQ(shells.back(), 4.0);
+  EXPECT_EQ(cells[5], 1.0);
+  EXPECT_EQ(cells[6], 2.0) << "at 30 min, on the minute";
+  EXPECT_EQ(cells[12], 4.0);
+  // A shell's volume is that at which its pressure bears the cortex: its target volume, to the compression of the contacts.
+  for (std::size_t k = 0; k < volume.size(); ++k) {
+    const double minutes = 5.0 * static_cast<double>(k), cycles = minutes / 30.0;
+    const double target = egg_volume() * std::pow(2.0, std::floor(cycles)) * (1.0 + cycles - std::floor(cycles));
+    EXPECT_NEAR(volume[k] / target, 1.0, 0.01) << minutes;
+  }
+  for (const double overlap : column("four", "worst_overlap")) EXPECT_LT(overlap, 0.3);
+  EXPECT_EQ(column("four", "divisions").back(), 3.0);
+}
+
+TEST_F(DivisionRun, HasTheSameBitsOnTwoThreadsAndAfterARestart) {
+  const std::string text = one_shell("share: {mean: 40 %, spread: 10 %}, axis: long, axis_spread: 20 deg", "40 min");
+  const RunSummary whole = run_whole(text, "whole");
+  EXPECT_FALSE(whole.final_state.state_hash.empty());
+  EXPECT_EQ(run_whole(text, "threads", 2).final_state.state_hash, whole.final_state.state_hash);
+  EXPECT_EQ(run_split(text, "split", 1860.0).final_state.state_hash, whole.final_state.state_hash) << "in the minute after the division";
+  EXPECT_EQ(file("split", "events.jsonl"), file("whole", "events.jsonl"));
+}
+
+TEST_F(DivisionRun, CutsAcrossTheAxisAndSharesAsTheStudySays) {
+  run_whole(one_shell("axis: fixed, direction: [0, 0, 1], share: 30 %", "31 min"), "fixed");
+  const Snapshot end = last_of("fixed");
+  ASSERT_EQ(end.cells.size(), 2u);
+  EXPECT_GT(end.cells[0].centroid.z - end.cells[1].centroid.z, 4.0) << "the first lies where the axis points";
+  EXPECT_LT(std::hypot(end.cells[0].centroid.x - end.cells[1].centroid.x, end.cells[0].centroid.y - end.cells[1].centroid.y), 0.3);
+  const double smaller = end.cells[0].volume, larger = end.cells[1].volume;
+  EXPECT_NEAR(smaller / (smaller + larger), 0.3, 0.01);
+}
+
+TEST_F(DivisionRun, WaitsWhereTheStudySaysSo) {
+  run_whole(one_shell("shells: wait", "40 min"), "waits");
+  EXPECT_EQ(column("waits", "cell_count").back(), 1.0);
+  EXPECT_THAT(file("waits", "events.jsonl"), HasSubstr("division_waits"));
+}
+
+TEST_F(DivisionRun, SaysWhatCannotBe) {
+  const auto errors = [&](const std::string& cycle) {
+    const auto study = read(one_shell(cycle, "1 h"), options());
+    return study.ok() ? std::string() : study.error().text();
+  };
+  EXPECT_EQ(errors("axis: long"), "");
+  EXPECT_THAT(errors("axis: sideways"), HasSubstr("across_polarity"));
+  EXPECT_THAT(errors("axis: fixed"), HasSubstr("the axis of division has no direction"));
+  EXPECT_THAT(errors("axis: fixed, direction: [0, 0, 0]"), HasSubstr("[E302]"));
+  EXPECT_THAT(errors("direction: [0, 0, 1]"), HasSubstr("it belongs to `axis: fixed`"));
+  EXPECT_THAT(errors("axis: polarity"), HasSubstr("[E558]"));
+  EXPECT_THAT(errors("axis_spread: 20 deg"), HasSubstr("[E515]"));
+  EXPECT_THAT(errors("share: 5 %"), HasSubstr("[E302]"));
+  EXPECT_THAT(errors("share: 95 %"), HasSubstr("[E302]"));
+  EXPECT_THAT(errors("new_surface: -1 min"), HasSubstr("[E302]"));
+  EXPECT_THAT(errors("shells: cocoon"), HasSubstr("cut"));
+}
+
+}  // namespace
+}  // namespace morula::scenarios::test
