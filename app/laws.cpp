@@ -12,6 +12,7 @@
 #include "coupling/regions/region.h"
 #include "dcm/interior_laws.h"
 #include "fields/builtin.h"
+#include "fields/reaction.h"
 #include "study/key_range.h"
 
 namespace morula::app {
@@ -62,6 +63,12 @@ std::vector<ListedLaw> all_laws(const Laws& registered) {
     laws.back().info.keys = law_keys(behaviour->section.name, behaviour->keys);
   }
   add("fields", fields::field_laws());
+  for (const auto& reaction : registered.reactions) {
+    const bool of_cells = reaction->where == fields::Reaction::Where::kCells;
+    const std::string field = "fields.<name>", section = field + "." + reaction->section.name + (of_cells ? ".<type>" : "");
+    laws.push_back({"fields", reaction->info});
+    laws.back().info.keys = law_keys(reaction->bare ? field : section, reaction->keys);
+  }
   for (const auto& load : registered.loads) {
     laws.push_back({"loads", load->info});
     laws.back().info.keys = law_keys(load->bare ? "loads.<name>" : "loads.<name>." + std::string(load->section.name), load->keys);
