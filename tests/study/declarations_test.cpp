@@ -6,6 +6,7 @@
 #include <random>
 #include <tuple>
 
+#include "fields/reaction.h"
 #include "study/catalogue.h"
 #include "tests/study/study_fixture.h"
 
