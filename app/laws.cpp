@@ -27,17 +27,6 @@ std::string in_cell(const std::string& text) {
 
 std::string path_of(const LawKey& key) { return key.section.empty() ? key.spec.name : key.section + "." + key.spec.name; }
 
-/// What a key may be; nothing for one that is no number with an end: a name, a direction, a flag.
-std::string range_of(const KeySpec& key) {
-  if (!key.words.empty()) {
-    std::string out = "one of ";
-    for (const auto& word : key.words) out += (out.size() > 7 ? ", " : "") + std::string(word);
-    return out;
-  }
-  const KeySpec any;
-  return key.quantity == any.quantity && key.low == any.low && key.high == any.high ? "" : scenarios::range_words(key);
-}
-
 std::string fallback_of(const KeySpec& key) {
   if (key.fallback == nullptr) return key.required ? "none, must be given" : "none";
   return "`" + std::string(key.fallback) + "`";
@@ -104,7 +93,8 @@ std::string law_text(const ListedLaw& law) {
   }
   if (!law.info.keys.empty()) out += "  from the keys of the study:\n";
   for (const LawKey& key : law.info.keys) {
-    out += "    " + path_of(key) + ": " + key.spec.doc + (range_of(key.spec).empty() ? "" : "\n      range:   " + range_of(key.spec)) +
+    out += "    " + path_of(key) + ": " + key.spec.doc +
+           (scenarios::allowed_values(key.spec).empty() ? "" : "\n      range:   " + scenarios::allowed_values(key.spec)) +
            "\n      default: " + fallback_of(key.spec) + "\n";
   }
   return out;
@@ -119,7 +109,7 @@ std::string law_json(const ListedLaw& law) {
   for (const LawKey& key : law.info.keys)
     keys.push_back({{"key", path_of(key)},
                     {"default", key.spec.fallback != nullptr ? key.spec.fallback : ""},
-                    {"range", range_of(key.spec)},
+                    {"range", scenarios::allowed_values(key.spec)},
                     {"source", key.spec.source},
                     {"doc", key.spec.doc}});
   const nlohmann::ordered_json json{
@@ -147,7 +137,8 @@ std::string law_reference(const Laws& laws) {
       out += "| `" + p.name + "` | " + (p.unit.empty() ? "1" : p.unit) + " | " + in_cell(p.doc) + " |\n";
     if (!law.info.keys.empty()) out += "\n| key of the study | range | default | source |\n|---|---|---|---|\n";
     for (const LawKey& key : law.info.keys)
-      out += "| `" + path_of(key) + "` | " + range_of(key.spec) + " | " + fallback_of(key.spec) + " | " + in_cell(key.spec.source) + " |\n";
+      out += "| `" + path_of(key) + "` | " + scenarios::allowed_values(key.spec) + " | " + fallback_of(key.spec) + " | " +
+             in_cell(key.spec.source) + " |\n";
   }
   return out;
 }
