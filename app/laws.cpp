@@ -13,6 +13,7 @@
 #include "coupling/regions/region.h"
 #include "dcm/interior_laws.h"
 #include "fields/builtin.h"
+#include "fields/reaction.h"
 #include "study/key_range.h"
 
 namespace morula::app {
@@ -26,17 +27,6 @@ std::string in_cell(const std::string& text) {
 }
 
 std::string path_of(const LawKey& key) { return key.section.empty() ? key.spec.name : key.section + "." + key.spec.name; }
-
-/// What a key may be; nothing for one that is no number with an end: a name, a direction, a flag.
-std::string range_of(const KeySpec& key) {
-  if (!key.words.empty()) {
-    std::string out = "one of ";
-    for (const auto& word : key.words) out += (out.size() > 7 ? ", " : "") + std::string(word);
-    return out;
-  }
-  const KeySpec any;
-  return key.quantity == any.quantity && key.low == any.low && key.high == any.high ? "" : scenarios::range_words(key);
-}
 
 std::string fallback_of(const KeySpec& key) {
   if (key.fallback == nullptr) return key.required ? "none, must be given" : "none";
@@ -64,6 +54,12 @@ std::vector<ListedLaw> all_laws(const Laws& registered) {
   }
   for (const auto& axis : registered.division_axes) laws.push_back({"axes of division", axis->info});
   add("fields", fields::field_laws());
+  for (const auto& reaction : registered.reactions) {
+    const bool of_cells = reaction->where == fields::Reaction::Where::kCells;
+    const std::string field = "fields.<name>", section = field + "." + reaction->section.name + (of_cells ? ".<type>" : "");
+    laws.push_back({"fields", reaction->info});
+    laws.back().info.keys = law_keys(reaction->bare ? field : section, reaction->keys);
+  }
   for (const auto& load : registered.loads) {
     laws.push_back({"loads", load->info});
     laws.back().info.keys = law_keys(load->bare ? "loads.<name>" : "loads.<name>." + std::string(load->section.name), load->keys);
@@ -99,7 +95,8 @@ std::string law_text(const ListedLaw& law) {
   }
   if (!law.info.keys.empty()) out += "  from the keys of the study:\n";
   for (const LawKey& key : law.info.keys) {
-    out += "    " + path_of(key) + ": " + key.spec.doc + (range_of(key.spec).empty() ? "" : "\n      range:   " + range_of(key.spec)) +
+    out += "    " + path_of(key) + ": " + key.spec.doc +
+           (scenarios::allowed_values(key.spec).empty() ? "" : "\n      range:   " + scenarios::allowed_values(key.spec)) +
            "\n      default: " + fallback_of(key.spec) + "\n";
   }
   return out;
@@ -114,7 +111,7 @@ std::string law_json(const ListedLaw& law) {
   for (const LawKey& key : law.info.keys)
     keys.push_back({{"key", path_of(key)},
                     {"default", key.spec.fallback != nullptr ? key.spec.fallback : ""},
-                    {"range", range_of(key.spec)},
+                    {"range", scenarios::allowed_values(key.spec)},
                     {"source", key.spec.source},
                     {"doc", key.spec.doc}});
   const nlohmann::ordered_json json{
@@ -142,7 +139,8 @@ std::string law_reference(const Laws& laws) {
       out += "| `" + p.name + "` | " + (p.unit.empty() ? "1" : p.unit) + " | " + in_cell(p.doc) + " |\n";
     if (!law.info.keys.empty()) out += "\n| key of the study | range | default | source |\n|---|---|---|---|\n";
     for (const LawKey& key : law.info.keys)
-      out += "| `" + path_of(key) + "` | " + range_of(key.spec) + " | " + fallback_of(key.spec) + " | " + in_cell(key.spec.source) + " |\n";
+      out += "| `" + path_of(key) + "` | " + scenarios::allowed_values(key.spec) + " | " + fallback_of(key.spec) + " | " +
+             in_cell(key.spec.source) + " |\n";
   }
   return out;
 }

@@ -7,6 +7,7 @@
 #include "core/parallel/quiet_mpi.h"
 #include "core/random/philox.h"
 #include "fields/field_solver.h"
+#include "fields/reactions/uptake.h"
 
 namespace {
 
@@ -39,7 +40,8 @@ struct Oxygen {
     spec.voxel = 10.0;
     for (auto& axis : spec.boundary)
       for (auto& face : axis) face = {FaceCondition::Kind::kValue, 0.2};
-    spec.uptake = {{40.0, 0.005}};
+    FieldReaction& taken = spec.reactions.emplace_back(FieldReaction{uptake(), {}});
+    taken.values.set("rate", 40.0), taken.values.set("half_saturation", 0.005);
     const Random random(3, RandomStream::kInitialPosition);
     for (std::uint64_t i = 1; i <= static_cast<std::uint64_t>(count); ++i) {
       const CellId id = CellId::founder(i);

@@ -1,8 +1,12 @@
 #include "cbm/builtin.h"
 
+#include "cbm/laws/springs.h"
+
 namespace morula::cbm {
 
-std::vector<std::shared_ptr<const SphereLaw>> sphere_laws() { return {jkr_law(), hertz_law()}; }
+std::vector<std::shared_ptr<const SphereLaw>> sphere_laws() {
+  return {jkr_law(), hertz_law(), linear_law(), quadratic_law(), logarithmic_law()};
+}
 
 LawInfo jkr_range_law() {
   return {.name = "jkr_range",

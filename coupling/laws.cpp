@@ -7,6 +7,7 @@
 #include "coupling/observables/observable.h"
 #include "coupling/regions/region.h"
 #include "dcm/builtin.h"
+#include "fields/builtin.h"
 
 namespace morula {
 
@@ -19,6 +20,7 @@ std::shared_ptr<const Laws> builtin_laws() {
                                            .loads = builtin_loads(),
                                            .region_shapes = builtin_region_shapes(),
                                            .trigger_values = builtin_trigger_values(),
+                                           .reactions = fields::builtin_reactions(),
                                            .observables = {&tissue_observables, &type_observables, &obstacle_observables,
                                                            &lumen_observables, &grip_observables, &field_observables}});
 }

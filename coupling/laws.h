@@ -9,6 +9,10 @@
 
 namespace morula {
 
+namespace fields {
+struct Reaction;
+}
+
 struct Behaviour;
 struct DivisionAxis;
 struct Load;
@@ -31,6 +35,7 @@ struct Laws {
   std::vector<std::shared_ptr<const Load>> loads;
   std::vector<std::shared_ptr<const RegionShape>> region_shapes;
   std::vector<std::shared_ptr<const TriggerValue>> trigger_values;
+  std::vector<std::shared_ptr<const fields::Reaction>> reactions;  ///< of fields
   std::vector<Observables> observables;
 };
 

@@ -13,6 +13,7 @@ namespace morula {
 class OwnValues : public LawValues {
  public:
   void set_vector(const std::string& name, const Vec3d& value) { vectors_[name] = value; }
+  void set_name(const std::string& key, std::string name) { names_[key] = std::move(name); }
   void set_course(const std::string& name, TimeCourse value) { courses_[name] = std::move(value); }
 
   /// 0 where it is not given.
@@ -25,6 +26,11 @@ class OwnValues : public LawValues {
     const auto at = courses_.find(name);
     return at != courses_.end() ? at->second : TimeCourse{};
   }
+  /// Of a field or a mark, as the study has it, for messages; empty where none is given.
+  [[nodiscard]] std::string name(const std::string& key) const {
+    const auto at = names_.find(key);
+    return at != names_.end() ? at->second : std::string();
+  }
   /// Of a field, a mark or a word; −1 where none is given.
   [[nodiscard]] int number(std::string_view name) const { return has(name) ? static_cast<int>((*this)(name)) : -1; }
   [[nodiscard]] bool flag(std::string_view name) const { return has(name) && (*this)(name) != 0.0; }
@@ -32,6 +38,7 @@ class OwnValues : public LawValues {
 
  private:
   std::map<std::string, Vec3d> vectors_;
+  std::map<std::string, std::string> names_;
   std::map<std::string, TimeCourse> courses_;
 };
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "fields/block_sum.h"
-#include "fields/uptake.h"
 
 namespace morula::fields {
 
-BrickOperator::BrickOperator(const Grid& grid, const FieldSpec& spec, const Layout& layout, Halo& halo)
+BrickOperator::BrickOperator(const Grid& grid, const FieldSpec& spec, const FieldReactions& reactions, const Layout& layout, Halo& halo)
     : spec_(spec),
+      reactions_(reactions),
       layout_(layout),
       halo_(halo),
       voxel_volume_(grid.voxel_volume()),
@@ -16,7 +16,7 @@ BrickOperator::BrickOperator(const Grid& grid, const FieldSpec& spec, const Layo
       diagonal_(layout.concentrations()) {
   const Vec3d h = grid.spacing();
   for (std::size_t a = 0; a < 3; ++a) conductance_[a] = spec.diffusion / (h[a] * h[a]);
-  std::fill(diagonal_.begin(), diagonal_.end(), 2.0 * (conductance_[0] + conductance_[1] + conductance_[2]) + spec.decay);
+  std::fill(diagonal_.begin(), diagonal_.end(), 2.0 * (conductance_[0] + conductance_[1] + conductance_[2]) + reactions.first_order());
   for (std::size_t b = 0; b < layout.bricks(); ++b) {
     for (std::size_t side = 0; side < kSides; ++side) {
       // The ghost −c (value given) or +c (no flux) adds to the diagonal; a brick that is its own periodic neighbour need not be exact.
@@ -76,7 +76,7 @@ void BrickOperator::stencil(std::size_t brick, const Padded& padded, double* out
   const auto nx = static_cast<std::size_t>(n[0]), ny = static_cast<std::size_t>(n[1]), nz = static_cast<std::size_t>(n[2]);
   constexpr std::size_t row = kPadded, plane = kPadded * kPadded;
   const auto [kx, ky, kz] = conductance_;
-  const double decay = spec_.decay;
+  const double decay = reactions_.first_order();
   const auto one_row = [&](const double* p, double* to, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
       const double c = p[i];
@@ -95,16 +95,11 @@ void BrickOperator::stencil(std::size_t brick, const Padded& padded, double* out
     }
 }
 
-void BrickOperator::add_uptake(std::size_t brick, const double* c, double* rate, double* taken_rate) const {
-  for (std::size_t s = layout_.first_sink[brick]; s < layout_.first_sink[brick + 1]; ++s) {
-    const Sink& sink = layout_.sinks[s];
-    const double amount = sink.cells * uptake(spec_.uptake[sink.type], c[sink.voxel]);
-    rate[sink.voxel] -= amount / voxel_volume_;
-    if (taken_rate != nullptr) taken_rate[s] = amount;
-  }
+std::span<const Sink> BrickOperator::sinks_of(std::size_t brick) const {
+  return std::span(layout_.sinks).subspan(layout_.first_sink[brick], layout_.first_sink[brick + 1] - layout_.first_sink[brick]);
 }
 
-void BrickOperator::boundary_and_decay(std::size_t brick, const double* c, double* amounts) const {
+void BrickOperator::boundary_amounts(std::size_t brick, const double* c, double* amounts) const {
   for (std::size_t side = 0; side < kSides; ++side) {
     amounts[side] = 0.0;
     if (halo_.source(brick, side).kind != GhostSource::Kind::kBoundary || face(side).kind != FaceCondition::Kind::kValue) continue;
@@ -113,8 +108,6 @@ void BrickOperator::boundary_and_decay(std::size_t brick, const double* c, doubl
     for_each_in_layer(layout_.extent[brick], side, [&](std::size_t voxel, std::size_t) { gradient += (twice - c[voxel]) - c[voxel]; });
     amounts[side] = conductance_[side / 2] * voxel_volume_ * gradient;
   }
-  const std::size_t voxels = layout_.offset[brick + 1] - layout_.offset[brick];
-  amounts[Layout::kDecayed] = spec_.decay == 0.0 ? 0.0 : spec_.decay * voxel_volume_ * block_sum(c, voxels);
 }
 
 void BrickOperator::evaluate(const double* unknowns, double* rate, bool amounts) {
@@ -125,10 +118,15 @@ void BrickOperator::evaluate(const double* unknowns, double* rate, bool amounts)
   for (std::size_t b = 0; b < layout_.bricks(); ++b) {
     Padded padded;
     fill(b, unknowns, 1.0, padded);
-    const double* c = unknowns + layout_.offset[b];
+    const std::span c(unknowns + layout_.offset[b], layout_.offset[b + 1] - layout_.offset[b]);
     stencil(b, padded, rate + layout_.offset[b]);
-    add_uptake(b, c, rate + layout_.offset[b], taken_rate);
-    if (amounts) boundary_and_decay(b, c, rate + layout_.amounts_at(b));
+    double* taken = amounts ? taken_rate + layout_.first_sink[b] : nullptr;
+    const double in_volume = reactions_.add_rates(sinks_of(b), c, voxel_volume_, rate + layout_.offset[b], taken);
+    if (!amounts) continue;
+    boundary_amounts(b, c.data(), rate + layout_.amounts_at(b));
+    const double decay = reactions_.first_order();
+    rate[layout_.amounts_at(b) + Layout::kDecayed] =
+        (decay == 0.0 ? 0.0 : decay * voxel_volume_ * block_sum(c.data(), c.size())) + in_volume;
   }
 }
 
@@ -136,13 +134,9 @@ void BrickOperator::linearize(const double* unknowns) {
 #pragma omp parallel for schedule(static) if (layout_.bricks() >= kBricksWorthThreads)
   for (std::size_t b = 0; b < layout_.bricks(); ++b) {
     const std::size_t at = layout_.offset[b];
-    for (std::size_t s = layout_.first_sink[b]; s < layout_.first_sink[b + 1]; ++s)
-      slope_[at + static_cast<std::size_t>(layout_.sinks[s].voxel)] = 0.0;
-    for (std::size_t s = layout_.first_sink[b]; s < layout_.first_sink[b + 1]; ++s) {
-      const Sink& sink = layout_.sinks[s];
-      const std::size_t voxel = at + static_cast<std::size_t>(sink.voxel);
-      slope_[voxel] += sink.cells * uptake_slope(spec_.uptake[sink.type], unknowns[voxel]) / voxel_volume_;
-    }
+    const std::span c(unknowns + at, layout_.offset[b + 1] - at);
+    std::fill_n(slope_.begin() + static_cast<std::ptrdiff_t>(at), c.size(), 0.0);
+    reactions_.add_slopes(sinks_of(b), c, voxel_volume_, slope_.data() + at);
   }
 }
 
@@ -167,15 +161,16 @@ void BrickOperator::inverse_diagonal(double gamma, double* out) const {
   for (std::size_t i = 0; i < layout_.concentrations(); ++i) out[i] = 1.0 / (1.0 + gamma * (diagonal_[i] + slope_[i]));
 }
 
-double BrickOperator::largest_rate() const {
-  double uptake_rate = 0.0, in_voxel = 0.0;
+double BrickOperator::largest_rate(double highest) const {
+  double by_cells = 0.0, in_voxel = 0.0;
   for (std::size_t s = 0; s < layout_.sinks.size(); ++s) {
     const Sink& sink = layout_.sinks[s];
     const bool same = s > 0 && layout_.sinks[s - 1].brick == sink.brick && layout_.sinks[s - 1].voxel == sink.voxel;
-    in_voxel = (same ? in_voxel : 0.0) + sink.cells * uptake_slope(spec_.uptake[sink.type], 0.0) / voxel_volume_;
-    uptake_rate = std::max(uptake_rate, in_voxel);
+    in_voxel = (same ? in_voxel : 0.0) + reactions_.steepest_of_sink(sink, highest) / voxel_volume_;
+    by_cells = std::max(by_cells, in_voxel);
   }
-  return 4.0 * (conductance_[0] + conductance_[1] + conductance_[2]) + spec_.decay + uptake_rate;
+  return 4.0 * (conductance_[0] + conductance_[1] + conductance_[2]) + reactions_.first_order() + by_cells +
+         reactions_.steepest_in_volume(highest);
 }
 
 }  // namespace morula::fields

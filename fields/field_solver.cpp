@@ -37,18 +37,12 @@ Status check(const FieldSpec& spec) {
   const auto negative = [](double x) { return !(x >= 0.0) || !std::isfinite(x); };
   if (negative(spec.diffusion))
     return wrong("the diffusion coefficient is negative or not a number", "give 0 or more, such as 2000 um^2/s");
-  if (negative(spec.decay)) return wrong("the decay rate is negative or not a number", "give 0 or more");
   if (!(spec.relative_tolerance > 0.0) || !(spec.relative_tolerance < 1.0))
     return wrong("the relative tolerance is not between 0 and 1", "1e-4 is usual");
   for (const auto& axis : spec.boundary)
     for (const auto& face : axis)
       if (!std::isfinite(face.value)) return wrong("a boundary value is not a number", "");
-  for (const auto& u : spec.uptake) {
-    if (negative(u.rate)) return wrong("an uptake rate is negative or not a number", "give 0 for a type that takes nothing");
-    if (u.rate > 0.0 && !(u.half_saturation > 0.0))
-      return wrong("an uptake has no positive half saturation K_m", "give K_m above 0, such as 5 uM");
-  }
-  return {};
+  return check_reactions(spec);
 }
 
 namespace {
@@ -65,8 +59,8 @@ double concentration_scale(const Field& field, const FieldSpec& spec, const Comm
 }
 
 /// The slowest mode of the field: π²D/L² between two faces with a value, a quarter of it with one, else decay alone [1/s].
-double slowest_rate(const Grid& grid, const FieldSpec& spec, const Space& space) {
-  double rate = spec.decay;
+double slowest_rate(const Grid& grid, const FieldSpec& spec, double decay, const Space& space) {
+  double rate = decay;
   const Vec3d size = grid.box.size();
   for (std::size_t a = 0; a < 3; ++a) {
     if (space.periodic(static_cast<int>(a))) continue;
@@ -131,20 +125,20 @@ Result<IntervalReport> FieldSolver::advance(Field& field, const FieldSpec& spec,
     return Error{ErrorKind::kPhysics, "field '" + spec.name + "' holds a value that is not a number", ""};
 
   const CellExchange exchange(field, space, cells, comm);
-  std::vector<bool> takes_up;
-  for (const auto& u : spec.uptake) takes_up.push_back(u.rate > 0.0);
-  Layout layout = layout_of(field, exchange.sinks(takes_up));
+  const FieldReactions reactions(spec);
+  Layout layout = layout_of(field, exchange.sinks(reactions.types_that_act()));
   layout.sinks_anywhere = comm.any(!layout.sinks.empty());
   Halo halo(field, layout, space, comm);
-  BrickOperator op(field.grid, spec, layout, halo);
+  BrickOperator op(field.grid, spec, reactions, layout, halo);
 
   IntegrationSettings settings;
   settings.interval = interval;
   settings.first_step = field.next_step;
   settings.relative_tolerance = spec.relative_tolerance;
-  settings.absolute_tolerance = std::max(1e-3 * spec.relative_tolerance * concentration_scale(field, spec, comm), 1e-30);
-  settings.largest_rate = comm.max(op.largest_rate());
-  settings.method = cheaper_method(interval, settings.largest_rate, slowest_rate(field.grid, spec, space));
+  const double scale = concentration_scale(field, spec, comm);
+  settings.absolute_tolerance = std::max(1e-3 * spec.relative_tolerance * scale, 1e-30);
+  settings.largest_rate = comm.max(op.largest_rate(scale));
+  settings.method = cheaper_method(interval, settings.largest_rate, slowest_rate(field.grid, spec, reactions.first_order(), space));
 
   settings.give_up = give_up;
 

@@ -21,7 +21,7 @@ struct IntervalReport {
   double amount_before = 0.0;                     ///< in the field [amol]
   double amount_after = 0.0;                      ///< in the field [amol]
   std::array<std::array<double, 2>, 3> inflow{};  ///< through each face, axis then low and high; negative: out [amol]
-  double decayed = 0.0;                           ///< [amol]
+  double decayed = 0.0;                           ///< what reactions in the volume took [amol]
   double taken = 0.0;                             ///< by all cells, summed over the cells [amol]
   double minimum = 0.0, maximum = 0.0;            ///< of the concentration at the end [mM]; a negative minimum is not clipped
   double residual = 0.0;                          ///< after − before + taken + decayed − inflow [amol]
@@ -41,14 +41,14 @@ class FieldSolver {
   FieldSolver(FieldSolver&&) noexcept;
   FieldSolver& operator=(FieldSolver&&) noexcept;
 
-  /// Integrate ∂c/∂t = D ∇²c − λ c − Σ_i uptake_i(c) w_i over `interval` [s], the cells standing still. Collective.
+  /// Integrate ∂c/∂t = D ∇²c − Σ r(c) − Σ_i u_i(c) w_i, r of reactions in the volume, u_i of those of cell i, over `interval` [s], the cells standing still. Collective.
   ///
   /// `cells` are this rank's cells, in any order; taken[i] [amol] and seen[i] [mM, at the end] belong to cells[i]. What the cells took,
   /// what decayed and what came in through the faces is integrated with the concentrations, so that amounts are kept to rounding,
   /// whatever the tolerance. field.next_step is read and written; nothing else carries over from interval to interval.
   /// The absolute tolerance is 10⁻³ of the relative one times the largest of initial, boundary and present concentrations.
   ///
-  /// Errors: kInput for a spec that makes no sense (negative diffusion, decay, rate; K_m not positive), kPhysics when the integrator
+  /// Errors: kInput for a spec that makes no sense (negative diffusion, values of reactions out of their ranges), kPhysics when the integrator
   /// gives up or the field is not finite, kStoppedEarly when `give_up` (asked between the integrator's steps, by all ranks together) says
   /// so; the field is then unchanged.
   Result<IntervalReport> advance(Field& field, const FieldSpec& spec, const Space& space, std::span<const CellSource> cells,

@@ -1,9 +1,15 @@
 #pragma once
 #include <array>
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "core/law_values.h"
+
 namespace morula::fields {
+
+struct Reaction;
 
 /// What holds at one face of the domain for one concentration.
 struct FaceCondition {
@@ -11,22 +17,22 @@ struct FaceCondition {
   double value = 0.0;  ///< concentration on the face [mM]
 };
 
-/// Uptake by one cell: rate · c/(K_m + c), and 0 where the rate is 0.
-struct UptakeSpec {
-  double rate = 0.0;             ///< V_max [amol/s per cell]
-  double half_saturation = 0.0;  ///< K_m [mM]
+/// A reaction of a field with the values that a study gives its keys.
+struct FieldReaction {
+  std::shared_ptr<const Reaction> what;
+  LawValues values;
+  std::uint16_t type = 0;  ///< of the cells, of a reaction of cells
 };
 
-/// One diffusing concentration: ∂c/∂t = D ∇²c − λ c − uptake (physics: fields_and_coupling.md, A).
+/// One diffusing concentration: ∂c/∂t = D ∇²c − what reactions take (physics: fields_and_coupling.md, A).
 struct FieldSpec {
   std::string name;
   double diffusion = 0.0;                                ///< D [µm²/s]
-  double decay = 0.0;                                    ///< λ [1/s]
   double initial = 0.0;                                  ///< [mM]
   double voxel = 0.0;                                    ///< wanted voxel size h [µm]; the domain is divided evenly, h never larger
   double relative_tolerance = 1e-4;                      ///< of the integrator
   std::array<std::array<FaceCondition, 2>, 3> boundary;  ///< axis, then low and high face; ignored on periodic axes
-  std::vector<UptakeSpec> uptake;                        ///< by cell type
+  std::vector<FieldReaction> reactions;                  ///< in the order of the registry
 };
 
 }  // namespace morula::fields

@@ -75,7 +75,7 @@ struct Session {
 
 Error failure(const std::string& what) {
   return Error{ErrorKind::kPhysics, "the time integration of a field failed: " + what,
-               "look at the uptake and boundary values; a larger relative tolerance or smaller coupling step may help"};
+               "look at the reactions and boundary values; a larger relative tolerance or smaller coupling step may help"};
 }
 
 constexpr int kMostIterations = 500;
@@ -100,10 +100,10 @@ bool set_up_implicit(Session& s, Problem& p, const BrickVectorSpace& space, doub
   set(ARKStepSetInterpolantType(s.arkode, ARK_INTERP_LAGRANGE));
   set(ARKStepSetLinearSolver(s.arkode, s.linear_solver, nullptr));
   set(ARKStepSetJacTimes(s.arkode, linearize, no_product));
-  if (p.op->layout().sinks_anywhere)
-    set(ARKStepSetNlsRhsFn(s.arkode, rate_of_concentrations));
-  else
+  if (p.op->is_linear())
     set(ARKStepSetLinear(s.arkode, 0));
+  else
+    set(ARKStepSetNlsRhsFn(s.arkode, rate_of_concentrations));
   set(ARKStepSetStopTime(s.arkode, p.settings->interval));
   if (first_step > 0.0) set(ARKStepSetInitStep(s.arkode, first_step));
   return ok;

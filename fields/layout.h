@@ -13,14 +13,14 @@ struct Sink {
   std::int32_t brick = 0;  ///< on this rank
   std::int32_t voxel = 0;  ///< in the brick, x fastest
   std::uint16_t type = 0;  ///< of the cells
-  double cells = 0.0;      ///< Σ w_iv: how many cells' worth of uptake happens here
+  double cells = 0.0;      ///< Σ w_iv: how many cells' worth of reactions happens here
 };
 
 /// With fewer bricks, starting threads costs more than it saves.
 inline constexpr std::size_t kBricksWorthThreads = 48;
 
 /// The unknowns of this rank, one after the other: the concentrations of each brick, then the amounts that the time integration
-/// must add up with its own weights: per brick the inflow through the six faces of the domain and the decay, then what each sink took.
+/// must add up with its own weights: per brick the inflow through the six faces of the domain and what reactions in the volume took, then what each sink took.
 struct Layout {
   /// Amounts per brick: inflow through x low, x high, y low, ... z high, then decayed.
   static constexpr std::size_t kAmountsPerBrick = 7;

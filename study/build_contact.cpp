@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "study/build.h"
+#include "study/law_keys.h"
 #include "study/read_section.h"
 
 namespace morula::scenarios {
@@ -46,22 +47,15 @@ std::shared_ptr<const SurfaceLaw> law_of(const BuildContext& c, const draft::Con
   return tent_law();  // told
 }
 
-/// Keys of the laws' own: E515 where another law stands, unless it is the default, as in a resolved study; E516 where one is missing.
+/// Keys of the laws' own: E515 where another law stands, E516 where one is missing.
 void check_own_keys(BuildContext& c, const draft::ContactPair& pair, const SurfaceLaw& law, const Place& place) {
   for (const auto& [name, key] : pair.own) {
-    std::string owners, example;
-    bool has_effect = false, is_default = false;
-    for (const auto& one : c.options.laws->surfaces)
-      for (const KeySpec& own : one->own) {
-        if (name != own.name) continue;
-        owners += (owners.empty() ? "" : " or ") + one->word;
-        example = own.example;
-        has_effect = has_effect || one->word == law.word;
-        is_default = own.fallback != nullptr && key.text == own.fallback;
-      }
-    if (has_effect && !key.known() && !key.given)
-      c.diagnostics.error(516, place, "law " + law.word + " needs `" + name + "`", "add for example `" + name + ": " + example + "`");
-    if (!has_effect && key.given && !is_default)
+    const LawKeyUse use = use_of(name, key, choosable_surface_laws(*c.options.laws), law.word);
+    std::string owners;
+    for (const std::string& word : use.owners) owners += (owners.empty() ? "" : " or ") + word;
+    if (use.has_effect && !key.known() && !key.given)
+      c.diagnostics.error(516, place, "law " + law.word + " needs `" + name + "`", "add for example `" + name + ": " + use.example + "`");
+    if (use.in_vain)
       c.diagnostics.error(515, key.place, "`" + name + "` belongs to law " + owners + ", but the law is " + pair.law.value,
                           "remove it, or write `law: " + owners + "`");
   }

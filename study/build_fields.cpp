@@ -2,7 +2,8 @@
 #include <cmath>
 
 #include "coupling/regions/region.h"
-#include "study/build.h"
+#include "fields/reaction.h"
+#include "study/own_section.h"
 #include "study/read_section.h"
 
 namespace morula::scenarios {
@@ -31,6 +32,32 @@ void check_voxels(BuildContext& c, const draft::Field& f) {
                           "make the voxels smaller");
 }
 
+/// A reaction with these values, if it ever does anything.
+void add_values(BuildContext& c, const std::shared_ptr<const fields::Reaction>& what, const draft::OwnSection& own, const Place& place,
+                std::uint16_t type, fields::FieldSpec& spec) {
+  if (!missing_keys(what->keys, own).empty()) return;  // told
+  const auto values = own_values(c, what->keys, own);
+  if (!values || (what->never_acts != nullptr && what->never_acts(*values))) return;
+  if (const auto problem = what->judge != nullptr ? what->judge(*values) : std::nullopt) return tell_problem(c, *problem, own, place);
+  spec.reactions.push_back({what, *values, type});
+}
+
+void add_reaction(BuildContext& c, const std::shared_ptr<const fields::Reaction>& what, const draft::Field& f, const Place& place,
+                  fields::FieldSpec& spec) {
+  const std::string name = what->section.name;
+  if (what->where == fields::Reaction::Where::kVolume) {
+    const auto own = f.reactions.find(name);  // none where the field was no map; told
+    if (own != f.reactions.end() && (what->bare || own->second.present)) add_values(c, what, own->second, place, 0, spec);
+    return;
+  }
+  const auto types = f.by_cell_type.find(name);
+  if (types == f.by_cell_type.end()) return;
+  for (const auto& [type_name, type_place, own] : types->second) {
+    const int type = find_type(c, type_name, type_place);
+    if (type >= 0) add_values(c, what, own, type_place, static_cast<std::uint16_t>(type), spec);
+  }
+}
+
 }  // namespace
 
 void build_fields(BuildContext& c) {
@@ -41,7 +68,6 @@ void build_fields(BuildContext& c) {
     fields::FieldSpec spec;
     spec.name = name;
     spec.diffusion = f.diffusion.value;
-    spec.decay = f.decay.value;
     spec.initial = f.initial.value;
     spec.voxel = f.voxel.value;
     spec.relative_tolerance = f.tolerance.value;
@@ -49,11 +75,7 @@ void build_fields(BuildContext& c) {
     spec.boundary = {{{condition(b.x_low, b.all), condition(b.x_high, b.all)},
                       {condition(b.y_low, b.all), condition(b.y_high, b.all)},
                       {condition(b.z_low, b.all), condition(b.z_high, b.all)}}};
-    spec.uptake.resize(c.draft.cell_types.size());
-    for (const auto& [type_name, type_place, uptake] : f.uptake) {
-      const int type = find_type(c, type_name, type_place);
-      if (type >= 0) spec.uptake[static_cast<std::size_t>(type)] = {uptake.rate.value, uptake.half_saturation.value};
-    }
+    for (const auto& reaction : c.options.laws->reactions) add_reaction(c, reaction, f, place, spec);
     check_voxels(c, f);
     c.study.model.fields.push_back(std::move(spec));
   }

@@ -6,6 +6,7 @@
 
 #include "dcm/derived_parameters.h"
 #include "study/build.h"
+#include "study/law_keys.h"
 #include "study/layer_words.h"
 #include "study/read_section.h"
 
@@ -33,24 +34,6 @@ void check_area(BuildContext& c, const std::string& type, const draft::ShellKeys
                       "leave one away, or write `area: {on_top: true, ...}` if the moduli shall add");
 }
 
-/// Keys of laws that are not the chosen one; their default may stand there, as in a resolved study. `choice`: the key that chooses.
-void check_own_keys(BuildContext& c, const draft::Layer& t, Of of, const std::string& chosen, const std::string& choice) {
-  for (const auto& [name, key] : t.own) {
-    std::string owners;
-    bool has_effect = false;
-    const char* fallback = nullptr;
-    for (const dcm::LayerWord* word : layer_words(*c.options.laws, of))
-      for (const KeySpec& own : word->keys) {
-        if (name != own.name) continue;
-        owners += (owners.empty() ? "`" : " or `") + choice + ": " + word->word + "`";
-        has_effect = has_effect || word->word == chosen;
-        fallback = own.fallback;
-      }
-    if (owners.empty() || has_effect || !key.given || (fallback != nullptr && key.text == fallback)) continue;
-    c.diagnostics.error(515, key.place, "'" + name + "' has no effect here", "it belongs to " + owners);
-  }
-}
-
 /// Keys of a law that is not the chosen one.
 void check_effect(BuildContext& c, const draft::ShellKeys& t) {
   const auto without_effect = [&](const Given<double>& key, const char* name, const std::string& needs) {
@@ -58,8 +41,9 @@ void check_effect(BuildContext& c, const draft::ShellKeys& t) {
     if (key.given && !is_default)
       c.diagnostics.error(515, key.place, std::string("'") + name + "' has no effect here", "it belongs to " + needs);
   };
-  check_own_keys(c, t, Of::kElastic, t.elastic.value, "elastic");
-  check_own_keys(c, t, Of::kBending, t.bending_law.value, "law");
+  const Laws& laws = *c.options.laws;
+  check_law_keys(c, t.own, choosable_layer_laws(laws, Of::kElastic), t.elastic.value, "elastic");
+  check_law_keys(c, t.own, choosable_layer_laws(laws, Of::kBending), t.bending_law.value, "law");
   if (t.bending_law.value == "none") without_effect(t.bending, "rigidity", "a law of `bending`");
   if (!resists_in_plane(t)) without_effect(t.turnover, "turnover", "a cortex that is elastic in its plane");
 }
@@ -80,10 +64,11 @@ void check_membrane(BuildContext& c, const draft::ShellKeys& t) {
   need(m.own.at("shear_modulus"), "shear_modulus", m.elastic, elastic != nullptr, "an `elastic` law");
   need(m.own.at("area_ratio"), "area_ratio", m.elastic, elastic != nullptr && elastic->has_area_ratio, with_ratio);
   need(m.bending, "rigidity", m.bending_law, m.bending_law.value != "none", "a law of `bending`");
-  draft::Layer own = m;  // the two that all sheets have are looked at above
-  own.own.erase("shear_modulus"), own.own.erase("area_ratio");
-  check_own_keys(c, own, Of::kElastic, m.elastic.value, "elastic");
-  check_own_keys(c, own, Of::kBending, m.bending_law.value, "bending");
+  LawKeyValues own = m.own;  // the two that all sheets have are looked at above
+  own.erase("shear_modulus"), own.erase("area_ratio");
+  const Laws& laws = *c.options.laws;
+  check_law_keys(c, own, choosable_layer_laws(laws, Of::kElastic), m.elastic.value, "elastic");
+  check_law_keys(c, own, choosable_layer_laws(laws, Of::kBending), m.bending_law.value, "bending");
   if (m.elastic.value == "none" && m.bending_law.value == "none")
     c.diagnostics.error(515, m.elastic.place, "a membrane without a law has no effect", "give it `elastic` or `bending`, or remove it");
 }

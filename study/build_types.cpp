@@ -4,6 +4,7 @@
 
 #include "study/build.h"
 #include "study/color.h"
+#include "study/law_keys.h"
 #include "study/read_section.h"
 
 namespace morula::scenarios {
@@ -152,25 +153,13 @@ class PairTable {
   std::vector<std::vector<std::size_t>> row_;  ///< row_of() each
 };
 
-/// The law of a type's spheres with the values of its own keys. E515 for keys of other laws, whose default may stand there, as in a resolved study.
+/// The law of a type's spheres with the values of its own keys. E515 for keys of other laws.
 void set_sphere_law(BuildContext& c, const draft::CellType& t, cbm::SphereParameters& sphere) {
   for (const auto& law : c.options.laws->spheres)
     if (law->word == t.sphere_law.value) sphere.law = law;
-  for (const auto& [name, key] : t.sphere_own) {
-    std::string owners;
-    bool has_effect = false, is_default = false;
-    for (const auto& law : c.options.laws->spheres)
-      for (const KeySpec& own : law->own) {
-        if (name != own.name) continue;
-        owners += (owners.empty() ? "`law: " : " or `law: ") + law->word + "`";
-        has_effect = has_effect || law == sphere.law;
-        is_default = own.fallback != nullptr && key.text == own.fallback;
-      }
-    if (has_effect)
-      sphere.own.set(name, key.value);
-    else if (key.given && !is_default)
-      c.diagnostics.error(515, key.place, "'" + name + "' has no effect here", "it belongs to " + owners);
-  }
+  for (const KeySpec& key : sphere.law->own)
+    if (const auto own = t.sphere_own.find(key.name); own != t.sphere_own.end()) sphere.own.set(key.name, own->second.value);
+  check_law_keys(c, t.sphere_own, choosable_sphere_laws(*c.options.laws), sphere.law->word, "law");
 }
 
 /// By which plane cells of a type divide, and what each daughter gets.

@@ -1,9 +1,8 @@
-#include <algorithm>
-
 #include "cbm/sphere_keys.h"
 #include "coupling/behaviours/division_axis.h"
 #include "dcm/shell_keys.h"
 #include "study/declare.h"
+#include "study/law_keys.h"
 
 namespace morula::scenarios {
 namespace {
@@ -237,13 +236,7 @@ void declare_sphere_law(Section& c, draft::CellType& t) {
   c.word(law, t.sphere_law);
   c.quantity(cbm::keys::young(), t.sphere_young);
   c.quantity(cbm::keys::poisson(), t.sphere_poisson);
-  std::vector<std::string> declared{"law", "young", "poisson", "packing"};
-  for (const auto& one : c.laws().spheres)
-    for (const KeySpec& key : one->own) {
-      if (std::ranges::find(declared, key.name) != declared.end()) continue;
-      declared.emplace_back(key.name);
-      c.quantity(key, t.sphere_own[key.name]);
-    }
+  declare_law_keys(c, choosable_sphere_laws(c.laws()), {"law", "young", "poisson", "packing"}, t.sphere_own);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
-#include <algorithm>
-
 #include "study/declare.h"
+#include "study/law_keys.h"
 
 namespace morula::scenarios {
 namespace {
@@ -53,13 +52,8 @@ void declare_pair(Section& s, draft::ContactPair& pair) {
               .high = 1e5,
               .example = "100 kPa/um"},
              pair.repulsion);
-  std::vector<std::string> declared{"between", "law", "range", "repulsion", "normal_friction", "tangential_friction", "regions"};
-  for (const auto& one : s.laws().surfaces)
-    for (const KeySpec& key : one->own) {
-      if (std::ranges::find(declared, key.name) != declared.end()) continue;
-      declared.emplace_back(key.name);
-      s.quantity(key, pair.own[key.name]);
-    }
+  declare_law_keys(s, choosable_surface_laws(s.laws()),
+                   {"between", "law", "range", "repulsion", "normal_friction", "tangential_friction", "regions"}, pair.own);
   s.quantity({.name = "normal_friction",
               .doc = "Friction against coming together and apart, per contact area; without it as `friction` of the cell types says.",
               .quantity = Q::kFrictionPerArea,

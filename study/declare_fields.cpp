@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "coupling/regions/region.h"
+#include "fields/reaction.h"
 #include "study/declare.h"
 #include "study/own_section.h"
 
@@ -9,23 +10,16 @@ namespace {
 
 using Q = Quantity;
 
-void declare_uptake(Section& s, draft::Uptake& u) {
-  s.quantity({.name = "rate",
-              .doc = "Uptake of one cell at plenty.",
-              .quantity = Q::kAmountRate,
-              .required = true,
-              .low = 0.0,
-              .example = "40 amol/s"},
-             u.rate);
-  s.quantity({.name = "half_saturation",
-              .doc = "Concentration at which the uptake is half of that (Michaelis-Menten).",
-              .quantity = Q::kConcentration,
-              .fallback = "0.005 mM",
-              .low = 0.0,
-              .low_open = true,
-              .example = "0.005 mM",
-              .source = "chosen: order of oxygen uptake of mammalian cells"},
-             u.half_saturation);
+void declare_reaction(Section& s, const fields::Reaction& reaction, draft::Field& f) {
+  const std::string name = reaction.section.name;
+  if (reaction.where == fields::Reaction::Where::kCells)
+    return s.named(reaction.section, f.by_cell_type[name],
+                   [&reaction](Section& inner, draft::OwnSection& own) { declare_own_keys(inner, reaction.keys, own, true); });
+  draft::OwnSection& own = f.reactions[name];
+  if (reaction.bare) return declare_own_keys(s, reaction.keys, own, true);
+  KeySpec section = reaction.section;
+  section.optional_section = true;
+  s.group(section, own.present, [&](Section& inner) { declare_own_keys(inner, reaction.keys, own, true); });
 }
 
 void declare_region(Section& s, draft::Region& r) {
@@ -118,14 +112,6 @@ void declare_field(Section& s, draft::Field& f) {
               .low = 0.0,
               .example = "2e-9 m^2/s"},
              f.diffusion);
-  s.quantity({.name = "decay",
-              .doc = "Rate of decay.",
-              .quantity = Q::kRate,
-              .fallback = "0 1/s",
-              .low = 0.0,
-              .example = "0.1 1/h",
-              .source = "chosen"},
-             f.decay);
   s.quantity({.name = "initial",
               .doc = "Concentration at time 0.",
               .quantity = Q::kConcentration,
@@ -175,11 +161,7 @@ void declare_field(Section& s, draft::Field& f) {
             face("z_low", "The face at the low end of z.", f.boundary.z_low);
             face("z_high", "The face at the high end of z.", f.boundary.z_high);
           });
-  s.named({.name = "uptake",
-           .doc = "Uptake by cell type: a rate, or rate and half saturation.",
-           .shorthand = "rate",
-           .example = "{hepatocyte: 40 amol/s}"},
-          f.uptake, &declare_uptake);
+  for (const auto& reaction : s.laws().reactions) declare_reaction(s, *reaction, f);
 }
 
 void declare_coupling(Section& s, draft::Coupling& c) {

@@ -1,7 +1,8 @@
-#include <algorithm>
+#include <utility>
 
 #include "dcm/shell_keys.h"
 #include "study/declare.h"
+#include "study/law_keys.h"
 #include "study/layer_words.h"
 
 namespace morula::scenarios {
@@ -39,15 +40,9 @@ std::vector<std::string> names(const Section& s, Of of, bool in_membrane) {
   return out;
 }
 
-/// The keys that laws have for themselves, each once, but those that the section has already.
-void own_keys(Section& s, Of of, draft::Layer& t, std::initializer_list<const char*> there) {
-  std::vector<std::string> declared(there.begin(), there.end());
-  for (const dcm::LayerWord* word : layer_words(s.laws(), of))
-    for (const KeySpec& key : word->keys) {
-      if (std::ranges::find(declared, key.name) != declared.end()) continue;
-      declared.emplace_back(key.name);
-      s.quantity(key, t.own[key.name]);
-    }
+/// The keys that laws have for themselves, but those that the section has already.
+void own_keys(Section& s, Of of, draft::Layer& t, std::vector<std::string> there) {
+  declare_law_keys(s, choosable_layer_laws(s.laws(), of), std::move(there), t.own);
 }
 
 void declare_cortex(Section& c, draft::ShellKeys& t, draft::CellType* cell) {

@@ -197,14 +197,11 @@ struct FieldBoundary {
   Given<double> all, x_low, x_high, y_low, y_high, z_low, z_high;
 };
 
-struct Uptake {
-  Given<double> rate, half_saturation;
-};
-
 struct Field {
-  Given<double> diffusion, decay, initial, voxel, tolerance;
+  Given<double> diffusion, initial, voxel, tolerance;
   FieldBoundary boundary;
-  std::vector<Named<Uptake>> uptake;
+  std::map<std::string, OwnSection> reactions;                         ///< in the volume, by section
+  std::map<std::string, std::vector<Named<OwnSection>>> by_cell_type;  ///< reactions of cells, by section
 };
 
 struct Region {

@@ -75,4 +75,14 @@ std::string range_words(const KeySpec& key) {
          bound(range.high);
 }
 
+std::string allowed_values(const KeySpec& key) {
+  if (!key.words.empty()) {
+    std::string out;
+    for (const std::string& word : key.words) out += (out.empty() ? "one of " : ", ") + word;
+    return out;
+  }
+  const KeySpec any;
+  return key.quantity == any.quantity && key.low == any.low && key.high == any.high ? "" : range_words(key);
+}
+
 }  // namespace morula::scenarios

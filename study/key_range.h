@@ -22,5 +22,7 @@ KeyRange range_of(const KeySpec& key);
 
 /// The range in words: "between 1e-09 s and 3.2e+09 s"; "1" where it is one value, as the version of the file's format.
 std::string range_words(const KeySpec& key);
+/// What a key may be, in words: "one of both, high, low" or its range; empty for one that is no number with an end: a name, a direction, a flag.
+std::string allowed_values(const KeySpec& key);
 
 }  // namespace morula::scenarios

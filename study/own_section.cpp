@@ -163,6 +163,7 @@ class ReadValues {
     const int number = find(c_, given->value, given->place);
     sound_ = sound_ && number >= 0;
     out_.set(name, number);
+    out_.set_name(name, given->value);
   }
   void course(const std::string& name) {
     const auto* points = entry(own_.courses, name);

@@ -2,6 +2,8 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/key_spec.h"
@@ -77,12 +79,12 @@ class Section {
 
   /// A map from the user's names to sections.
   template <class T>
-  void named(const KeySpec& key, std::vector<Named<T>>& items, void (*describe)(Section&, T&)) {
+  void named(const KeySpec& key, std::vector<Named<T>>& items, std::type_identity_t<std::function<void(Section&, T&)>> describe) {
     named_items(key, {[&items] { return items.size(); }, [&items](std::size_t i) { return items[i].name; },
                       [&items](const std::string& name, const Place& place) {
                         items.push_back({name, place, T{}});
                       },
-                      [&items, describe](Section& section, std::size_t i) { describe(section, items[i].content); }});
+                      [&items, describe = std::move(describe)](Section& section, std::size_t i) { describe(section, items[i].content); }});
   }
   /// A list of sections.
   template <class T>

@@ -43,10 +43,7 @@ std::shared_ptr<const Behaviour> starvation() {
                  .example = "0.05 1/h"}}},
       .stream = RandomStream::kDeath,
       .build = &starve,
-      .reason =
-          [](const OwnValues& values, const std::string& type) {
-            return "a concentration (field " + std::to_string(values.number("field")) + ") is below what " + type + " needs";
-          },
+      .reason = [](const OwnValues& values, const std::string& type) { return values.name("field") + " is below what " + type + " needs"; },
       .never_acts = [](const OwnValues& values) { return !(values("rate") > 0.0); },
       .awaited = "fields that cells answer to"});
   return behaviour;

@@ -1,5 +1,6 @@
 #pragma once
 #include "coupling/loads/load.h"
+#include "coupling/model.h"
 
 namespace morula::keys {
 
@@ -49,9 +50,10 @@ inline void set_ends(const OwnValues& values, CellLoad& load) {
 
 /// Keys that say where a load acts, beside a mark that says it, too: a value that is not the default contradicts it (the resolved study writes
 /// defaults out).
-inline void judge_marked(const CellLoad& load, const std::string& mark, std::initializer_list<std::pair<const char*, bool>> is_default,
+inline void judge_marked(const CellLoad& load, const Model& model, std::initializer_list<std::pair<const char*, bool>> is_default,
                          std::vector<LawProblem>& out) {
   if (load.mark < 0) return;
+  const std::string& mark = model.mark_names[static_cast<std::size_t>(load.mark)];
   for (const auto& [key, usual] : is_default)
     if (!usual)
       out.push_back(

@@ -22,9 +22,7 @@ void push(const CellLoad& load, const LoadedShell& shell, std::span<Vec3d> force
 
 std::vector<LawProblem> judge(const CellLoad& load, const Model& model) {
   std::vector<LawProblem> out;
-  if (load.mark >= 0)
-    keys::judge_marked(load, model.mark_names[static_cast<std::size_t>(load.mark)],
-                       {{"toward", load.axis == Vec3d{1, 0, 0}}, {"part", load.part == 0.02}}, out);
+  keys::judge_marked(load, model, {{"toward", load.axis == Vec3d{1, 0, 0}}, {"part", load.part == 0.02}}, out);
   return out;
 }
 

@@ -38,9 +38,8 @@ void build(const OwnValues& values, CellLoad& out) {
 
 std::vector<LawProblem> judge(const CellLoad& load, const Model& model) {
   std::vector<LawProblem> out;
-  if (load.mark >= 0)
-    keys::judge_marked(load, model.mark_names[static_cast<std::size_t>(load.mark)],
-                       {{"axis", load.axis == Vec3d{1, 0, 0}}, {"part", load.part == 1.0}, {"ends", load.end == LoadEnd::kBoth}}, out);
+  keys::judge_marked(load, model, {{"axis", load.axis == Vec3d{1, 0, 0}}, {"part", load.part == 1.0}, {"ends", load.end == LoadEnd::kBoth}},
+                     out);
   if (norm2(load.gradient) == 0.0 && norm2(load.origin) > 0.0)
     out.push_back({515, "origin", "'origin' has no effect here", "it is where a pressure with a `gradient` has its `value`"});
   for (int axis = 0; axis < 3; ++axis)

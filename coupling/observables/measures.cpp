@@ -104,10 +104,67 @@ enum Sum {
   kSums
 };
 
+/// What is found by walking the cells of this rank once.
+struct OverCells {
+  OrderFreeSum sum[kSums];
+  Extreme pressure, volume_error;
+  std::vector<std::int64_t> of_type;
+};
+
+/// Adds one cell; `from`: its centre from the middle of the domain.
+void add_cell(Simulation& simulation, const BodyValues& values, const BodyOfRow& owned, const Vec3d& from, OverCells& to) {
+  const Tissue& tissue = simulation.tissue();
+  const std::size_t body = owned.place(tissue.shells.size());
+  const CellRow& row = tissue.cells.rows[owned.row];
+  const auto nucleus = owned.is_shell ? simulation.mechanics().nucleus_of(static_cast<std::uint32_t>(owned.number)) : std::nullopt;
+  const CellType& type = simulation.model().types[row.type];
+  const double volume = values.volume[body], p = values.pressure[body], inner = values.inner_pressure[body];
+  const double r = radius_of(volume), law = volume_by_law(row, tissue.cells.side.reference_excess[owned.row], type, inner, nucleus);
+  to.sum[kVolume].add(volume);
+  to.sum[kVolumeX].add(volume * from.x);
+  to.sum[kVolumeY].add(volume * from.y);
+  to.sum[kVolumeZ].add(volume * from.z);
+  to.sum[kVolumeSquare].add(volume * (norm2(from) + 0.6 * r * r));
+  to.sum[kPressure].add(p);
+  if (owned.is_shell) to.sum[kShellPressure].add(p);
+  if (owned.is_shell) to.sum[kInnerPressure].add(inner);
+  to.sum[kContactArea].add(values.contact_area[body]);
+  to.sum[kLawVolume].add(law);
+  to.pressure.offer(p, row.id);
+  to.volume_error.offer(std::abs(volume - law) / law, row.id);
+  ++to.of_type[row.type];
+}
+
+/// Numbers and extremes over all ranks. Collective.
+void count_all(const Tissue& tissue, OverCells& cells, const Comm& comm, Measures& out) {
+  out.spheres = comm.sum(static_cast<std::int64_t>(tissue.spheres.size()));
+  out.shells = comm.sum(static_cast<std::int64_t>(tissue.shells.size()));
+  out.nodes = comm.sum(static_cast<std::int64_t>(tissue.shells.node_count()));
+  out.cells = out.spheres + out.shells;
+  out.of_type = std::move(cells.of_type);
+  for (std::int64_t& count : out.of_type) count = comm.sum(count);
+  out.pressure = over_ranks(cells.pressure, comm);
+  out.volume_error = over_ranks(cells.volume_error, comm);
+}
+
+/// Means over the cells from sums over all ranks, where there is a cell. Returns their common centroid, from the middle of the domain [µm].
+Vec3d set_means(const double (&total)[kSums], Measures& out) {
+  const auto cells = static_cast<double>(out.cells), shells = static_cast<double>(out.shells);
+  const Vec3d mean = Vec3d{total[kVolumeX], total[kVolumeY], total[kVolumeZ]} * (1.0 / total[kVolume]);
+  out.total_volume = total[kVolume];
+  out.spheroid_radius = std::sqrt(5.0 / 3.0 * std::max(0.0, total[kVolumeSquare] / total[kVolume] - norm2(mean)));
+  out.mean_pressure = total[kPressure] / cells;
+  if (out.shells > 0) out.shell_pressure = total[kShellPressure] / shells;
+  if (out.shells > 0) out.inner_pressure = total[kInnerPressure] / shells;
+  out.mean_contact_area = total[kContactArea] / cells;
+  out.total_volume_error = std::abs(total[kVolume] - total[kLawVolume]) / total[kLawVolume];
+  return mean;
+}
+
 }  // namespace
 
 Measures measure(Simulation& simulation) {
-  const BodyValues& values = simulation.values();
+  const BodyValues values = simulation.values();
   const Tissue& tissue = simulation.tissue();
   const Model& model = simulation.model();
   const Comm& comm = simulation.comm();
@@ -115,43 +172,14 @@ Measures measure(Simulation& simulation) {
   const Vec3d middle = model.space.box.center();
   Measures out;
   out.time = tissue.clock.time;
-  out.of_type.assign(model.types.size(), 0);
   out.lumens = tissue.lumens;
   out.lumens.resize(model.lumens.size());
-  OrderFreeSum sums[kSums];
-  Extreme pressure, volume_error;
-  for (const BodyOfRow& owned : bodies_of(tissue.cells)) {
-    const std::size_t i = owned.row, body = owned.place(tissue.shells.size());
-    const CellRow& row = tissue.cells.rows[i];
-    const bool is_shell = owned.is_shell;
-    const auto nucleus = is_shell ? simulation.mechanics().nucleus_of(static_cast<std::uint32_t>(owned.number)) : std::nullopt;
-    const CellType& type = model.types[row.type];
-    const double volume = values.volume[body], p = values.pressure[body], inner = values.inner_pressure[body];
-    const Vec3d from = center[i] - middle;
-    const double r = radius_of(volume), law = volume_by_law(row, tissue.cells.side.reference_excess[i], type, inner, nucleus);
-    sums[kVolume].add(volume);
-    sums[kVolumeX].add(volume * from.x);
-    sums[kVolumeY].add(volume * from.y);
-    sums[kVolumeZ].add(volume * from.z);
-    sums[kVolumeSquare].add(volume * (norm2(from) + 0.6 * r * r));
-    sums[kPressure].add(p);
-    if (is_shell) sums[kShellPressure].add(p);
-    if (is_shell) sums[kInnerPressure].add(inner);
-    sums[kContactArea].add(values.contact_area[body]);
-    sums[kLawVolume].add(law);
-    pressure.offer(p, row.id);
-    volume_error.offer(std::abs(volume - law) / law, row.id);
-    ++out.of_type[row.type];
-  }
+  OverCells over;
+  over.of_type.assign(model.types.size(), 0);
+  for (const BodyOfRow& owned : bodies_of(tissue.cells)) add_cell(simulation, values, owned, center[owned.row] - middle, over);
   double total[kSums];
-  comm.sum(sums, total);
-  out.spheres = comm.sum(static_cast<std::int64_t>(tissue.spheres.size()));
-  out.shells = comm.sum(static_cast<std::int64_t>(tissue.shells.size()));
-  out.nodes = comm.sum(static_cast<std::int64_t>(tissue.shells.node_count()));
-  out.cells = out.spheres + out.shells;
-  for (std::int64_t& count : out.of_type) count = comm.sum(count);
-  out.pressure = over_ranks(pressure, comm);
-  out.volume_error = over_ranks(volume_error, comm);
+  comm.sum(over.sum, total);
+  count_all(tissue, over, comm, out);
   out.overlap = over_ranks(deepest_overlap(simulation), comm);
   measure_fields(simulation, out);
   measure_packing(simulation, out);
@@ -163,15 +191,7 @@ Measures measure(Simulation& simulation) {
   out.obstacle_force = simulation.mechanics().obstacle_forces(tissue);
   out.grip_force = grip_forces(model, tissue, comm);
   if (out.cells == 0) return out;
-  const auto cells = static_cast<double>(out.cells);
-  const Vec3d mean = Vec3d{total[kVolumeX], total[kVolumeY], total[kVolumeZ]} * (1.0 / total[kVolume]);
-  out.total_volume = total[kVolume];
-  out.spheroid_radius = std::sqrt(5.0 / 3.0 * std::max(0.0, total[kVolumeSquare] / total[kVolume] - norm2(mean)));
-  out.mean_pressure = total[kPressure] / cells;
-  if (out.shells > 0) out.shell_pressure = total[kShellPressure] / static_cast<double>(out.shells);
-  if (out.shells > 0) out.inner_pressure = total[kInnerPressure] / static_cast<double>(out.shells);
-  out.mean_contact_area = total[kContactArea] / cells;
-  out.total_volume_error = std::abs(total[kVolume] - total[kLawVolume]) / total[kLawVolume];
+  const Vec3d mean = set_means(total, out);
   double extent = 0.0;
   for (const BodyOfRow& body : bodies_of(tissue.cells))
     extent = std::max(extent, norm(center[body.row] - middle - mean) + radius_of(values.volume[body.place(tissue.shells.size())]));

@@ -8,6 +8,7 @@
 #include "coupling/builtin.h"
 #include "dcm/interior_laws.h"
 #include "fields/builtin.h"
+#include "fields/reaction.h"
 
 namespace morula::scenarios {
 namespace {
@@ -141,12 +142,14 @@ void add_fields(const Model& model, std::vector<UsedLaw>& out) {
   for (const fields::FieldSpec& spec : model.fields) {
     out.push_back({"field " + spec.name,
                    law_named(fields::field_laws(), "diffusion"),
-                   {{"diffusion", spec.diffusion}, {"decay", spec.decay}, {"initial", spec.initial}, {"voxel", spec.voxel}}});
-    for (std::size_t t = 0; t < spec.uptake.size(); ++t)
-      if (spec.uptake[t].rate > 0.0)
-        out.push_back({"uptake of " + spec.name + " by " + model.types[t].name,
-                       law_named(fields::field_laws(), "uptake"),
-                       {{"rate", spec.uptake[t].rate}, {"half_saturation", spec.uptake[t].half_saturation}}});
+                   {{"diffusion", spec.diffusion}, {"initial", spec.initial}, {"voxel", spec.voxel}}});
+    for (const fields::FieldReaction& one : spec.reactions) {
+      const bool of_cells = one.what->where == fields::Reaction::Where::kCells;
+      Values values;
+      for (const LawParameter& parameter : one.what->info.parameters) values.emplace_back(parameter.name, one.values(parameter.name));
+      out.push_back({one.what->info.name + " of " + spec.name + (of_cells ? " by " + model.types[one.type].name : ""), one.what->info,
+                     std::move(values)});
+    }
   }
 }
 

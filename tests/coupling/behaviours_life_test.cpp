@@ -198,7 +198,7 @@ TEST(Life, RestingCellsKeepTheirVolume) {
 /// The type's cells die at this rate [1/s] where the concentration of the field is below a threshold [mM].
 void starve(CellType& type, int field, double below, double rate) {
   OwnValues values;
-  values.set("field", field), values.set("below", below), values.set("rate", rate);
+  values.set("field", field), values.set_name("field", "oxygen"), values.set("below", below), values.set("rate", rate);
   type.behaviours = {CellBehaviour(starvation(), values, type.name)};
 }
 

@@ -130,7 +130,7 @@ TEST(Diffusion, MeetsAnExponentialBoundaryLayerWithDecay) {
   Space space;
   space.box = {{0, 0, 0}, {100, 20, 20}};
   FieldSpec spec = spec_of(50.0, 2.5);
-  spec.decay = 0.02;
+  spec.reactions = {decay_of(0.02)};
   spec.boundary[0][0] = {FaceCondition::Kind::kValue, 1.0};
   spec.relative_tolerance = 1e-6;
   Field field = field_of(spec, space);
@@ -164,7 +164,7 @@ TEST(Diffusion, StaysWithinItsBoundsInASharpStep) {
 TEST(Diffusion, DecayAloneIsExponential) {
   const Space space = cube(40.0);
   FieldSpec spec = spec_of(0.0, 10.0, 2.0);
-  spec.decay = 0.1;
+  spec.reactions = {decay_of(0.1)};
   spec.relative_tolerance = 1e-8;
   Field field = field_of(spec, space);
   const auto report = advance(field, spec, space, 10.0);

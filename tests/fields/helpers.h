@@ -4,6 +4,8 @@
 
 #include "core/parallel/comm.h"
 #include "fields/field_solver.h"
+#include "fields/reactions/decay.h"
+#include "fields/reactions/uptake.h"
 
 namespace morula::fields::test {
 
@@ -21,6 +23,19 @@ inline FieldSpec spec_of(double diffusion, double voxel, double initial = 0.0) {
   spec.voxel = voxel;
   spec.initial = initial;
   return spec;
+}
+
+inline FieldReaction decay_of(double rate) {
+  FieldReaction out{decay(), {}};
+  out.values.set("decay", rate);
+  return out;
+}
+
+/// Uptake by Michaelis and Menten of cells of a type.
+inline FieldReaction uptake_of(double rate, double half_saturation, std::uint16_t type = 0) {
+  FieldReaction out{uptake(), {}, type};
+  out.values.set("rate", rate), out.values.set("half_saturation", half_saturation);
+  return out;
 }
 
 inline void hold_all_faces(FieldSpec& spec, double value) {

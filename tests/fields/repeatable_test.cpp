@@ -18,7 +18,7 @@ struct Case {
 
   Case() {
     hold_all_faces(spec, 0.2);
-    spec.uptake = {{40.0, 0.005}};
+    spec.reactions = {uptake_of(40.0, 0.005)};
     const Random random(5, RandomStream::kInitialPosition);
     for (std::uint64_t i = 1; i <= 60; ++i) {
       const auto a = random.uniform(CellId::founder(i), 0), b = random.uniform(CellId::founder(i), 1);

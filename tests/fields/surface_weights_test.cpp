@@ -122,7 +122,7 @@ TEST(SurfaceWeights, GoAroundAPeriodicDomainAndStayInAClosedOne) {
 TEST(SurfaceWeights, CellsGetWhatTheFieldLoses) {
   const Space space = cube(160.0);
   FieldSpec spec = spec_of(2000.0, 10.0, 0.2);
-  spec.uptake = {{40.0, 0.005}};
+  spec.reactions = {test::uptake_of(40.0, 0.005)};
   std::vector<TriangleMesh> meshes;
   for (int i = 0; i < 20; ++i) meshes.push_back(moved(make_sphere(6.0, 2).value(), {8.0 * i, 160.0 - 7.7 * i, 40.0 + 3.1 * i}));
   std::vector<CellSource> cells;

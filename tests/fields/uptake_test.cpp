@@ -6,7 +6,6 @@
 
 #include "core/random/philox.h"
 #include "fields/brick_operator.h"
-#include "fields/uptake.h"
 #include "tests/fields/helpers.h"
 
 namespace morula::fields::test {
@@ -24,20 +23,12 @@ std::vector<CellSource> scattered_cells(int count, double side, double beyond, d
   return cells;
 }
 
-TEST(Uptake, SlopeIsItsDerivative) {
-  const UptakeSpec spec{40.0, 0.005};
-  for (const double c : {-0.01, 0.001, 0.005, 0.2}) {
-    const double d = 1e-6;
-    EXPECT_NEAR(uptake_slope(spec, c), (uptake(spec, c + d) - uptake(spec, c - d)) / (2 * d), 1e-5 * uptake_slope(spec, 0.0));
-  }
-}
-
 TEST(Uptake, WellMixedFollowsTheLambertFunction) {
   // c = K W0[(c0/K) e^{(c0−Vt)/K}], V = 0.05 mM/s, K = 0.01, c0 = 0.2. One voxel holds one cell: V_max = V times the voxel's volume.
   const Space space = cube(10.0);
   FieldSpec spec = spec_of(2000.0, 10.0, 0.2);
   spec.relative_tolerance = 1e-7;
-  spec.uptake = {{0.05 * 1000.0, 0.01}};
+  spec.reactions = {uptake_of(0.05 * 1000.0, 0.01)};
   const std::vector<CellSource> cells{{CellId::founder(1), 0, {5, 5, 5}, 3.0}};
   Field field = field_of(spec, space);
   std::vector<double> taken(1, 0.0);
@@ -52,7 +43,7 @@ TEST(Uptake, CellsGetWhatTheFieldLoses) {
   // 16³ voxels of 10 µm without flux, 20 spheres of R = 6, 40 amol/s, K_m = 0.005, c = 0.2; 100 intervals of 0.5 s.
   const Space space = cube(160.0);
   FieldSpec spec = spec_of(2000.0, 10.0, 0.2);
-  spec.uptake = {{40.0, 0.005}};
+  spec.reactions = {uptake_of(40.0, 0.005)};
   const auto cells = scattered_cells(20, 160.0, 0.0, 6.0);
   Field field = field_of(spec, space);
   const double start = total_amount(field, alone());
@@ -67,10 +58,9 @@ TEST(Uptake, BalanceHoldsAcrossFacesTypesDecayAndLongIntervals) {
   // Cells that cross voxels and faces of the domain, two types, boundary inflow, decay, implicit steps at a loose tolerance.
   const Space space = cube(150.0);
   FieldSpec spec = spec_of(2000.0, 12.0, 0.2);
-  spec.decay = 0.003;
   spec.boundary[0] = {FaceCondition{FaceCondition::Kind::kValue, 0.2}, FaceCondition{FaceCondition::Kind::kValue, 0.1}};
   spec.boundary[2][1] = {FaceCondition::Kind::kValue, 0.15};
-  spec.uptake = {{40.0, 0.005}, {0.0, 0.0}, {400.0, 0.02}};
+  spec.reactions = {decay_of(0.003), uptake_of(40.0, 0.005), uptake_of(0.0, 0.0, 1), uptake_of(400.0, 0.02, 2)};
   spec.relative_tolerance = 1e-3;
   const auto cells = scattered_cells(100, 150.0, 10.0, 7.0, 3);
   Field field = field_of(spec, space);
@@ -100,7 +90,7 @@ TEST(Uptake, SteadyStateTakesWhatComesIn) {
   const Space space = cube(200.0);
   FieldSpec spec = spec_of(2000.0, 10.0, 0.2);
   hold_all_faces(spec, 0.2);
-  spec.uptake = {{40.0, 0.005}};
+  spec.reactions = {uptake_of(40.0, 0.005)};
   const auto cells = scattered_cells(300, 200.0, -20.0, 6.0);
   Field field = field_of(spec, space);
   for (int i = 0; i < 3; ++i) advance(field, spec, space, 60.0, cells);
@@ -129,13 +119,13 @@ struct Slab {
   Field field;
   std::vector<CellSource> cells;
 
-  Slab(double half, int voxels, double c0, UptakeSpec per_volume) {
+  Slab(double half, int voxels, double c0, double rate, double half_saturation) {
     const double h = 2.0 * half / voxels;
     space.box = {{-half, 0, 0}, {half, 2 * h, 2 * h}};
     spec = spec_of(2000.0, h, c0);
     spec.boundary[0] = {FaceCondition{FaceCondition::Kind::kValue, c0}, FaceCondition{FaceCondition::Kind::kValue, c0}};
     spec.relative_tolerance = 1e-6;
-    spec.uptake = {{per_volume.rate * h * h * h, per_volume.half_saturation}};
+    spec.reactions = {uptake_of(rate * h * h * h, half_saturation)};
     field = field_of(spec, space);
     cells = cell_per_voxel(field.grid, [](Vec3d) { return true; });
   }
@@ -152,7 +142,7 @@ TEST(Uptake, OfFirstOrderGivesTheThieleProfile) {
   for (const auto& [phi, centre, effectiveness] :
        {std::tuple{0.5, 0.886819, 0.924234}, {1.0, 0.648054, 0.761594}, {2.0, 0.265802, 0.482014}}) {
     const double k = phi * phi * diffusion / (half * half);
-    Slab slab(half, 41, c0, {k * large, large});
+    Slab slab(half, 41, c0, k * large, large);
     const auto report = slab.settle();
     EXPECT_NEAR(value_at(slab.field, 20, 0, 1) / c0, centre, 2e-3 * centre);
     const double volume = slab.field.grid.box.size().x * slab.field.grid.box.size().y * slab.field.grid.box.size().z;
@@ -164,7 +154,7 @@ TEST(Uptake, MichaelisMentenSlabFollowsItsFirstIntegral) {
   // D c″ = q c/(K + c) has the first integral D c′²/2 = q [(c − m) − K ln((K + c)/(K + m))], m = c(0); hence x(c) by quadrature.
   // Here with tissue oxygen numbers: q = 0.044209706 mM/s (40 amol/s per cell of R = 6 µm), K_m = 0.005 mM, D = 2000 µm²/s.
   const double q = 0.044209706, km = 0.005, diffusion = 2000.0, c0 = 0.2;
-  Slab slab(120.0, 61, c0, {q, km});
+  Slab slab(120.0, 61, c0, q, km);
   slab.settle();
   const double m = value_at(slab.field, 30, 0, 0);
   const auto distance = [&](double c) {  // ∫_m^c dc′/|c′|, with c = m + s² against the root singularity
@@ -189,7 +179,7 @@ double staircase_ball_centre(double h, double radius) {
   const double half = 0.5 * voxels * h;
   space.box = {{-half, -half, -half}, {half, half, half}};
   FieldSpec spec = spec_of(2000.0, h, c0);
-  spec.uptake = {{q * h * h * h, 0.005}};
+  spec.reactions = {uptake_of(q * h * h * h, 0.005)};
   Field field = field_of(spec, space);
   const auto inside = [&](Vec3d x) { return norm(x) <= radius; };
   const auto cells = cell_per_voxel(field.grid, inside);
@@ -197,7 +187,8 @@ double staircase_ball_centre(double h, double radius) {
   const CellExchange exchange(field, space, cells, comm);
   const Layout layout = layout_of(field, exchange.sinks({true}));
   Halo halo(field, layout, space, comm);
-  BrickOperator op(field.grid, spec, layout, halo);
+  const FieldReactions reactions(spec);
+  BrickOperator op(field.grid, spec, reactions, layout, halo);
   std::vector<double> c(layout.unknowns(), 0.0), rate(layout.unknowns());
   std::vector<double> free_voxel;
   const Field mask = field_of(spec, space, [&](Vec3d x) { return inside(x) ? 1.0 : 0.0; });
@@ -205,7 +196,7 @@ double staircase_ball_centre(double h, double radius) {
     free_voxel.insert(free_voxel.end(), mask.concentration[b].begin(), mask.concentration[b].end());
   std::fill_n(c.begin(), layout.concentrations(), c0);
   // Relaxation by Richardson iteration with the Chebyshev-like momentum of heavy ball, rates at the two ends of the spectrum.
-  const double fast = op.largest_rate(), slow = 0.45;
+  const double fast = op.largest_rate(c0), slow = 0.45;
   const double root = std::sqrt(slow / fast), step = 4.0 / (fast * (1 + root) * (1 + root)),
                momentum = std::pow((1 - root) / (1 + root), 2);
   std::vector<double> before = c;
@@ -235,9 +226,11 @@ TEST(Uptake, OxygenInAStaircaseBallConvergesInFirstOrder) {
 
 TEST(Uptake, RejectsASpecWithoutHalfSaturation) {
   FieldSpec spec = spec_of(2000.0, 10.0, 0.2);
-  spec.uptake = {{40.0, 0.0}};
+  spec.reactions = {uptake_of(40.0, 0.0)};
   EXPECT_FALSE(check(spec).ok());
-  spec.uptake = {{0.0, 0.0}};
+  spec.reactions = {decay_of(-1.0)};
+  EXPECT_FALSE(check(spec).ok());
+  spec.reactions = {uptake_of(0.0, 0.0)};
   EXPECT_TRUE(check(spec).ok());
   spec.diffusion = -1.0;
   EXPECT_FALSE(check(spec).ok());

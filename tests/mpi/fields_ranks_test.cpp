@@ -7,6 +7,7 @@
 
 #include "core/random/philox.h"
 #include "fields/field_solver.h"
+#include "tests/fields/helpers.h"
 
 namespace morula::fields {
 namespace {
@@ -22,12 +23,11 @@ struct Case {
     space.boundary[1] = {BoundaryKind::kPeriodic, BoundaryKind::kPeriodic};
     spec.name = "oxygen";
     spec.diffusion = 1500.0;
-    spec.decay = 0.002;
     spec.initial = 0.2;
     spec.voxel = 10.0;
     spec.boundary[0] = {FaceCondition{FaceCondition::Kind::kValue, 0.2}, FaceCondition{FaceCondition::Kind::kNoFlux, 0.0}};
     spec.boundary[2] = {FaceCondition{FaceCondition::Kind::kNoFlux, 0.0}, FaceCondition{FaceCondition::Kind::kValue, 0.15}};
-    spec.uptake = {{40.0, 0.005}, {90.0, 0.02}};
+    spec.reactions = {fields::test::decay_of(0.002), fields::test::uptake_of(40.0, 0.005), fields::test::uptake_of(90.0, 0.02, 1)};
     const Random random(11, RandomStream::kInitialPosition);
     for (std::uint64_t i = 1; i <= 120; ++i) {
       const CellId id = CellId::founder(i);

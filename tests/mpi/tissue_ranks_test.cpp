@@ -10,6 +10,7 @@
 #include "coupling/behaviours/birth.h"
 #include "coupling/simulation.h"
 #include "coupling/swaps.h"
+#include "tests/fields/helpers.h"
 
 namespace morula {
 namespace {
@@ -46,7 +47,7 @@ Model hybrid_model(bool interior = false) {
   oxygen.voxel = 10.0;
   for (auto& axis : oxygen.boundary)
     for (auto& face : axis) face = {fields::FaceCondition::Kind::kValue, 0.2};
-  oxygen.uptake = {{40.0, 0.005}};
+  oxygen.reactions = {fields::test::uptake_of(40.0, 0.005)};
   model.fields = {oxygen};
   Region core;
   core.name = "core";

@@ -104,7 +104,6 @@ TEST(Observables, FieldsAreMeasured) {
   oxygen.diffusion = 2000.0;
   oxygen.initial = 0.2;
   oxygen.voxel = 50.0;
-  oxygen.uptake.resize(1);
   model.fields = {oxygen};
   const auto simulation = simulation_of({{0, 0, 0}}, {BodyKind::kSphere}, model);
   EXPECT_NEAR(value_of("mean_oxygen", *simulation), 0.2, 1e-15);

@@ -6,6 +6,7 @@
 #include <random>
 #include <tuple>
 
+#include "fields/reaction.h"
 #include "study/catalogue.h"
 #include "tests/study/study_fixture.h"
 
@@ -38,8 +39,14 @@ void expect_same_study(const Study& a, const Study& b) {
   ASSERT_EQ(a.model.obstacles.size(), b.model.obstacles.size());
   for (std::size_t i = 0; i < a.model.obstacles.size(); ++i) EXPECT_EQ(a.model.obstacles[i].position, b.model.obstacles[i].position);
   ASSERT_EQ(a.model.fields.size(), b.model.fields.size());
-  for (std::size_t i = 0; i < a.model.fields.size(); ++i)
-    EXPECT_EQ(a.model.fields[i].uptake[0].half_saturation, b.model.fields[i].uptake[0].half_saturation);
+  for (std::size_t i = 0; i < a.model.fields.size(); ++i) {
+    const auto &s = a.model.fields[i].reactions, &t = b.model.fields[i].reactions;
+    ASSERT_EQ(s.size(), t.size());
+    for (std::size_t k = 0; k < s.size(); ++k) {
+      EXPECT_EQ(std::tie(s[k].what, s[k].type), std::tie(t[k].what, t[k].type));
+      for (const OwnKey& key : s[k].what->keys) EXPECT_EQ(s[k].values(key.spec.name), t[k].values(key.spec.name)) << key.spec.name;
+    }
+  }
   ASSERT_EQ(a.model.swaps.triggers.size(), b.model.swaps.triggers.size());
   EXPECT_EQ(a.model.step.max_step, b.model.step.max_step);
   EXPECT_EQ(a.time.output, b.time.output);

@@ -36,6 +36,7 @@ TEST(StudyReader, ConvertsEveryValueToInternalUnits) {
   EXPECT_EQ(t.behaviours[0].values.number("field"), 0);
   EXPECT_DOUBLE_EQ(t.behaviours[0].values("below"), 0.02);
   EXPECT_DOUBLE_EQ(t.behaviours[0].values("rate"), 0.05 / 3600.0);
+  EXPECT_EQ(t.behaviours[0].reason, "oxygen is below what " + t.name + " needs");
   EXPECT_DOUBLE_EQ(t.migration_speed, 2.0 / 3600.0);
   EXPECT_DOUBLE_EQ(t.medium_friction, 0.1);
   EXPECT_DOUBLE_EQ(t.sphere.young, 0.45);
@@ -46,7 +47,7 @@ TEST(StudyReader, ConvertsEveryValueToInternalUnits) {
   EXPECT_DOUBLE_EQ(s.model.pair(1, 0).adhesion, 1e-3);
   EXPECT_DOUBLE_EQ(s.model.pair(0, 1).tangential_friction, 100.0);
   EXPECT_DOUBLE_EQ(s.model.fields[0].diffusion, 2000.0);
-  EXPECT_DOUBLE_EQ(s.model.fields[0].uptake[0].rate, 40.0);
+  EXPECT_DOUBLE_EQ(s.model.fields[0].reactions.at(0).values("rate"), 40.0);
   EXPECT_DOUBLE_EQ(s.model.fields[0].boundary[2][1].value, 0.2);
   EXPECT_DOUBLE_EQ(s.model.swaps.triggers[0].demote, 0.6);
   EXPECT_DOUBLE_EQ(s.model.swaps.triggers[0].hold, 1800.0);

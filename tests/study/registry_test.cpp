@@ -7,6 +7,7 @@
 #include "coupling/loads/load.h"
 #include "coupling/observables/observable.h"
 #include "coupling/regions/region.h"
+#include "fields/reaction.h"
 #include "study/catalogue.h"
 #include "tests/study/study_fixture.h"
 
@@ -73,6 +74,15 @@ TEST(Registry, EveryEntryTellsOfItself) {
     expect_keys(*one, "regions");
     EXPECT_TRUE(one->distance != nullptr) << one->info.name;
   }
+  for (const auto& one : laws->reactions) {
+    const bool of_cells = one->where == fields::Reaction::Where::kCells;
+    expect_told(one->info, names);
+    EXPECT_EQ(one->info.name, one->section.name);
+    expect_keys(*one, one->bare ? "fields" : "fields.<name>." + one->info.name + (of_cells ? ".<name>" : ""));
+    EXPECT_TRUE(one->coefficients != nullptr && one->taken != nullptr) << one->info.name;
+    EXPECT_FALSE(one->bare && (of_cells || one->keys.size() != 1)) << one->info.name;
+    EXPECT_FALSE(one->first_order && of_cells) << one->info.name;
+  }
   for (const auto& one : laws->trigger_values) {
     expect_told(one->info, names);
     EXPECT_STRNE(one->example, "") << one->info.name;
@@ -130,6 +140,36 @@ TEST(Registry, EveryBehaviourIsReadAsItsExampleSays) {
         expect_refused(with(section + ": {" + key.spec.name + ": 3 parsec}"), one->info.name);
         if (key.spec.low == 0.0) expect_refused(with(section + ": {" + key.spec.name + ": -" + key.spec.example + "}"), one->info.name);
       }
+  }
+}
+
+TEST(Registry, EveryReactionIsReadAsItsExampleSays) {
+  const auto laws = builtin_laws();
+  for (const auto& one : laws->reactions) {
+    const bool of_cells = one->where == fields::Reaction::Where::kCells;
+    const std::string name = one->section.name, example = one->section.example;
+    const std::string value = of_cells ? "{cell: " + example.substr(example.find(": ") + 2) : example;
+    const auto with_reaction = [&](const std::string& what) {
+      return changed("initial: 0.2 mM", "initial: 0.2 mM, " + name + ": " + what, with(""));
+    };
+    const auto study = read(with_reaction(value));
+    ASSERT_TRUE(study.ok()) << name << "\n" << study.error().text();
+    const auto again = read(study->resolved_text);
+    ASSERT_TRUE(again.ok()) << again.error().text();
+    for (const Study* of : {&*study, &*again}) {
+      const auto& reactions = of->model.fields[0].reactions;
+      ASSERT_EQ(reactions.size(), 1u) << name;
+      EXPECT_EQ(reactions[0].what, one);
+      for (const OwnKey& key : one->keys)
+        EXPECT_EQ(reactions[0].values(key.spec.name), study->model.fields[0].reactions[0].values(key.spec.name));
+    }
+    for (const OwnKey& key : one->keys) {
+      if (key.kind != Kind::kQuantity) continue;
+      const auto alone = [&](const std::string& text) { return one->bare ? text : "{" + std::string(key.spec.name) + ": " + text + "}"; };
+      const auto for_type = [&](const std::string& text) { return of_cells ? "{cell: " + alone(text) + "}" : alone(text); };
+      expect_refused(with_reaction(for_type("3 parsec")), name);
+      if (key.spec.low == 0.0) expect_refused(with_reaction(for_type("-" + std::string(key.spec.example))), name);
+    }
   }
 }
 
