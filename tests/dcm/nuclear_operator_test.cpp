@@ -125,7 +125,8 @@ TEST(NuclearOperator, IsFrictionPlusTheStiffnessOfLinksAndCytosol) {
   Vectors cell_way = swelling(body, 4, 1.0), nucleus_way = swelling(body, 5, -2.0);
   const double h = 1e-5;
   const auto pressure_rate = [&](const Vectors& of_cell, const Vectors& of_nucleus) {
-    return -kBulkModulus * std::log(body.moved(of_cell, of_nucleus, h).cytosol() / body.moved(of_cell, of_nucleus, -h).cytosol()) / (2.0 * h);
+    return -kBulkModulus * std::log(body.moved(of_cell, of_nucleus, h).cytosol() / body.moved(of_cell, of_nucleus, -h).cytosol()) /
+           (2.0 * h);
   };
   Vectors on_cell(kNodes), on_nucleus(kNodes);
   (void)add_nuclear_friction(body.view(), m.friction, {cell_way, nucleus_way}, {on_cell, on_nucleus});

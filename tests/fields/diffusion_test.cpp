@@ -46,9 +46,8 @@ TEST(Diffusion, AlongEachAxisHasTheVoxelsOfThatAxis) {
   FieldSpec spec = spec_of(2000.0, 10.0);
   hold_all_faces(spec, 0.0);
   spec.relative_tolerance = 1e-8;
-  Field field = field_of(spec, space, [&](Vec3d x) {
-    return std::sin(kPi * x.x / side.x) * std::sin(kPi * x.y / side.y) * std::sin(kPi * x.z / side.z);
-  });
+  Field field = field_of(
+      spec, space, [&](Vec3d x) { return std::sin(kPi * x.x / side.x) * std::sin(kPi * x.y / side.y) * std::sin(kPi * x.z / side.z); });
   const Vec3d h = field.grid.spacing();
   ASSERT_GT(std::abs(h.x - h.y), 0.3);
   ASSERT_GT(std::abs(h.y - h.z), 0.3);
