@@ -45,7 +45,9 @@ endif()
 
 set(MORULA_LINK_OPTIONS "")
 if(MORULA_SANITIZE)
-  list(APPEND MORULA_COMPILE_OPTIONS -fsanitize=${MORULA_SANITIZE} -fno-omit-frame-pointer -UNDEBUG)
+  # Assertions are on, those of the standard library too (an index beyond a vector or a span), and what a sanitizer finds ends the program: a test that
+  # printed a finding and went on would pass.
+  list(APPEND MORULA_COMPILE_OPTIONS -fsanitize=${MORULA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -UNDEBUG -D_GLIBCXX_ASSERTIONS)
   # With its checks in between, GCC 12 loses sight of how long the arrays of a lane are, and of what a loop has set.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     list(APPEND MORULA_COMPILE_OPTIONS -Wno-stringop-overflow -Wno-array-bounds -Wno-maybe-uninitialized)

@@ -232,6 +232,22 @@ TEST(TractionLaw, CapLimitsTheTraction) {
   EXPECT_DOUBLE_EQ(law.repulse(-3.0).slope, -4.0);
 }
 
+/// Two spheres rest where Johnson, Kendall & Roberts have them when each gives half of δ0 = a0²/(3R*), a0³ = 9πWR*²/(2E*): W/2 of its own adhesion and
+/// πk_wRδ² of a Winkler foundation balance at δ² = W/k_w. A sphere that does not adhere carries the force of Hertz, 4/3 E' √R δ^{3/2}, where its contact
+/// has the radius 0.3 R.
+TEST(SphereFoundation, GivesWayAsJohnsonKendallAndRobertsAndAsHertz) {
+  const double modulus = 1.5 / 0.84, radius = 5.0, half_radius = 2.5;
+  for (const double adhesion : {0.1, 0.3}) {
+    const double contact = std::cbrt(9.0 * std::numbers::pi * adhesion * half_radius * half_radius / modulus);  // E* = E'/2
+    ASSERT_GT(contact, 0.3 * radius);
+    const double given = 0.5 * contact * contact / (3.0 * half_radius);
+    EXPECT_NEAR(sphere_foundation(modulus, adhesion, radius) * given * given / adhesion, 1.0, 1e-12) << adhesion;
+  }
+  const double depth = 0.09 * radius;  // a² = Rδ
+  const double hertz = 4.0 / 3.0 * modulus * std::sqrt(radius) * depth * std::sqrt(depth);
+  EXPECT_NEAR(std::numbers::pi * sphere_foundation(modulus, 0.0, radius) * radius * depth * depth / hertz, 1.0, 1e-12);
+}
+
 TEST(OpposedWeight, IsASmoothStepBetweenItsEnds) {
   EXPECT_EQ(OpposedWeight::of(0.6).value, 1.0);
   EXPECT_EQ(OpposedWeight::of(-0.4).value, 0.0);

@@ -44,6 +44,20 @@ TEST(Growth, FollowsItsLawInUnevenSteps) {
   }
 }
 
+/// The smaller of two unequal daughters has more than its own volume to gain: V_b + (V_d − V_b)/2 and √(V_b V_d) after half the cycle.
+TEST(Growth, GoesFromAnyVolumeAtBirthToThatOfDivision) {
+  for (const bool exponential : {false, true}) {
+    const CellType type = cycling(exponential);
+    CellRow row = newborn(800.0);
+    row.division_volume = 2000.0;
+    for (int n = 0; n < 540; ++n) ASSERT_FALSE(grow(row, type, 60.0).reached);
+    EXPECT_NEAR(row.target_volume, exponential ? 1264.9110640674 : 1400.0, 1e-7);
+    const Growth rest = grow(row, type, 10 * kHour);
+    EXPECT_TRUE(rest.reached);
+    EXPECT_NEAR(rest.late, kHour, 1e-5);
+  }
+}
+
 TEST(Growth, ReachesTheDivisionVolumeInTheStepThatEndsAtTheCycle) {
   for (const bool exponential : {false, true}) {
     for (const double dt : {60.0, 30.0, 0.7, 64800.0}) {

@@ -133,6 +133,41 @@ TEST(ApicalSprings, ForceIsMinusTheGradientAndTheNetForceIsZero) {
   }
 }
 
+/// From a node's direction towards the sphere's centre the energy is ½ k w (r − R)² less a linear part: its second derivative is the matrix's, and across
+/// the matrix holds nothing.
+TEST(ApicalSprings, StiffnessIsTheSecondDerivativeTowardsTheCentre) {
+  const Model model = sprung();
+  ShapeLibrary shapes;
+  const Tissue tissue = ring_of_cells(model, shapes);
+  NodeTerms terms(model);
+  terms.set_springs(tissue, Comm());
+  const std::vector<Vec3d>& x = tissue.shells.position;
+  const auto blocks = terms.stiffness(x, x.size());
+  const auto force_at = [&](std::size_t node, const Vec3d& at) {
+    std::vector<Vec3d> moved = x, force(x.size());
+    moved[node] = at;
+    OrderFreeSum unused;
+    terms.add_forces(tissue.shells, moved, force, unused);
+    return force[node];
+  };
+  int marked = 0;
+  for (std::size_t i = 0; i < x.size(); i += 7) {
+    const double held = blocks[i].xx + blocks[i].yy + blocks[i].zz;
+    if (held == 0.0) continue;
+    ++marked;
+    // The one direction in which the block holds: its largest column.
+    Vec3d radial{blocks[i].xx, blocks[i].xy, blocks[i].xz};
+    for (const Vec3d& column : {Vec3d{blocks[i].xy, blocks[i].yy, blocks[i].yz}, Vec3d{blocks[i].xz, blocks[i].yz, blocks[i].zz}})
+      if (norm2(column) > norm2(radial)) radial = column;
+    radial = normalized(radial);
+    const double h = 1e-4;
+    const double second = -dot(force_at(i, x[i] + radial * h) - force_at(i, x[i] - radial * h), radial) / (2.0 * h);
+    EXPECT_NEAR(second / held, 1.0, 1e-6) << i;
+    EXPECT_NEAR(dot(radial, blocks[i] * radial) / held, 1.0, 1e-12) << i;
+  }
+  EXPECT_GT(marked, 5);
+}
+
 TEST(ApicalSprings, MakeTheMarkedFacesASphereAndRubByArea) {
   Model model = sprung();
   model.apical_springs[0].stiffness = 2.0;
