@@ -64,7 +64,7 @@ std::vector<char> nodes_in_touch(const Model& model, const Tissue& tissue, Mecha
 std::vector<Vec3d> Simulation::forces_on_cells(double time) {
   const auto touch = touches_of_protrusions(model_, tissue_, *mechanics_);
   std::vector<Vec3d> shells, spheres;
-  const SideColumns& side = tissue_.cells.side;
+  const OptionalColumns& optional = tissue_.cells.optional;
   for (const BodyOfRow& owned : bodies_of(tissue_.cells)) {
     const std::size_t i = owned.row, body = owned.place(tissue_.shells.size());
     const bool is_shell = owned.is_shell;
@@ -72,7 +72,7 @@ std::vector<Vec3d> Simulation::forces_on_cells(double time) {
     const CellType& type = model_.types[row.type];
     Vec3d force = body_force(model_, row.type, time);
     if (!is_shell && type.protrusion.force > 0.0 && !type.protrusion.internal) {  // a sphere has no front: the force is that of the whole
-      Vec3d push = side.polarity[i] * type.protrusion.force;
+      Vec3d push = optional.polarity[i] * type.protrusion.force;
       if (type.protrusion.substrate >= 0) {
         const Touch& on = touch.at(type.protrusion.substrate)[body];
         push = along_surface(push, on) * (type.protrusion.contact_area > 0.0 ? std::min(1.0, on.area / type.protrusion.contact_area) : 1.0);
@@ -98,7 +98,8 @@ void Simulation::add_crawling(std::span<Vec3d> external) {
     if (!walks(type)) continue;
     const auto found = touch.find(type.migration_substrate);
     const Touch on = found != touch.end() ? found->second[body] : Touch{};
-    velocity[body] = crawling_velocity(tissue_.cells.side.migration_velocity[i], on.area > 0.0, on.normal, type.migration_substrate >= 0);
+    velocity[body] =
+        crawling_velocity(tissue_.cells.optional.migration_velocity[i], on.area > 0.0, on.normal, type.migration_substrate >= 0);
   }
   mechanics_->add_crawling(tissue_, velocity, external);
 }
@@ -118,7 +119,7 @@ void Simulation::add_protrusions(std::span<Vec3d> external) {
     if (law.force == 0.0) continue;
     const std::uint32_t first = tissue_.shells.first_node[s], count = tissue_.shells.first_node[s + 1] - first;
     double size = law.force;
-    const Vec3d polarity = tissue_.cells.side.polarity[i];
+    const Vec3d polarity = tissue_.cells.optional.polarity[i];
     Vec3d direction = polarity;
     std::span<const char> front;
     if (law.substrate >= 0) {
@@ -142,7 +143,7 @@ std::vector<Vec3d> Simulation::external_forces(double time) {
 }
 
 void Simulation::turn_polarities(std::uint64_t step, double dt) {
-  SideColumn<Vec3d>& polarity = tissue_.cells.side.polarity;
+  OptionalColumn<Vec3d>& polarity = tissue_.cells.optional.polarity;
   if (polarity.empty()) return;
   for (const auto [i, is_shell, number] : bodies_of(tissue_.cells)) {
     const CellRow& row = tissue_.cells.rows[i];

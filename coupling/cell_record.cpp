@@ -76,7 +76,7 @@ Vec3d CellRecord::center() const { return sphere ? sphere->position : volume_cen
 
 CellRecord record_of(const Tissue& tissue, const BodyOfRow& body) {
   CellRecord out;
-  out.row = tissue.cells.full(body.row);
+  out.row = tissue.cells.state(body.row);
   if (!body.is_shell) {
     out.sphere = cbm::sphere_out_of(tissue.spheres, body.number);
     return out;
@@ -216,17 +216,17 @@ void read_column(const Column& column, Reader& reader, std::size_t expected, Rec
   column.give(record, reader.many<typename Column::Value>(count));
 }
 
-void append_row(const FullRow& row, std::vector<std::byte>& out) {
+void append_row(const CellState& row, std::vector<std::byte>& out) {
   append(out, static_cast<const CellRow*>(&row), 1);
-  append(out, static_cast<const CellSides*>(&row), 1);
+  append(out, static_cast<const OptionalValues*>(&row), 1);
   const auto count = static_cast<std::uint32_t>(row.variables.size());
   append(out, &count, 1);
   append(out, row.variables.data(), count);
 }
 
-FullRow read_row(Reader& reader) {
+CellState read_row(Reader& reader) {
   const auto row = reader.one<CellRow>();
-  FullRow out(row, reader.one<CellSides>());
+  CellState out(row, reader.one<OptionalValues>());
   out.variables = reader.many<double>(reader.one<std::uint32_t>());
   return out;
 }

@@ -17,7 +17,7 @@ using dcm::ShellRecord;
 
 /// One cell whole: its row and its body. What events, swaps and moves between ranks work on.
 struct CellRecord {
-  FullRow row;
+  CellState row;
   std::optional<SphereRecord> sphere;
   Boxed<ShellRecord> shell;  ///< boxed: a hundred thousand spheres shall not have the room for one each
 

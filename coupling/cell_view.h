@@ -36,8 +36,8 @@ class CellView {
   [[nodiscard]] double time() const { return time_; }                    ///< [s]
   [[nodiscard]] double age() const { return time_ - row().birth_time; }  ///< [s]
   [[nodiscard]] bool is_dying() const { return row().phase == Phase::kDying; }
-  [[nodiscard]] double since_death() const { return time_ - cells_->side.death_time[row_]; }  ///< of a dying cell [s]
-  [[nodiscard]] Vec3d polarity() const { return cells_->side.polarity[row_]; }
+  [[nodiscard]] double since_death() const { return time_ - cells_->optional.death_time[row_]; }  ///< of a dying cell [s]
+  [[nodiscard]] Vec3d polarity() const { return cells_->optional.polarity[row_]; }
   /// What it sees in a field of the model [mM].
   [[nodiscard]] double concentration(std::size_t field) const { return cells_->variables[concentration_of(field)].values[row_]; }
   /// What it has taken from a field since its birth and from its mother [amol].

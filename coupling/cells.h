@@ -8,7 +8,7 @@
 #include "core/vec3.h"
 #include "coupling/cell_variables.h"
 #include "coupling/model.h"
-#include "coupling/side_column.h"
+#include "coupling/optional_column.h"
 
 namespace morula {
 
@@ -20,7 +20,7 @@ enum class Phase : std::uint8_t {
 };
 
 /// One cell: everything biological that every cell has, whatever its body. Plain bytes, so that it moves between ranks and into a
-/// checkpoint as it is. What only the cells of some tissues have is kept apart: see CellSides.
+/// checkpoint as it is. What only the cells of some tissues have is kept apart: see OptionalValues.
 struct CellRow {
   CellId id;
   CellId parent;
@@ -41,7 +41,7 @@ struct CellRow {
 static_assert(std::is_trivially_copyable_v<CellRow>);
 
 /// What is as it is here for all cells of most tissues.
-struct CellSides {
+struct OptionalValues {
   double death_time = -1.0;        ///< when it began to die, or -1 [s]
   double last_swap_time = -1e300;  ///< when its body was last exchanged [s]
   double reference_excess = 0.0;   ///< what is left of ln V0 beyond that of a free shell: eases after a swap, or follows the osmotic flux
@@ -50,92 +50,92 @@ struct CellSides {
   Vec3d polarity{};
   Vec3d migration_velocity{};  ///< u of the persistent walk [µm/s]
 };
-static_assert(std::is_trivially_copyable_v<CellSides>);
-static_assert(sizeof(CellSides) == (5 + 2 * 3) * sizeof(double), "a new member needs a column in SideColumns");
+static_assert(std::is_trivially_copyable_v<OptionalValues>);
+static_assert(sizeof(OptionalValues) == (5 + 2 * 3) * sizeof(double), "a new member needs a column in OptionalColumns");
 
-/// A cell's row with all its sides and variables: how a cell is born, divides, swaps its body, travels between ranks and comes out of a checkpoint.
-struct FullRow : CellRow, CellSides {
-  FullRow() = default;
-  FullRow(const CellRow& row, const CellSides& sides) : CellRow(row), CellSides(sides) {}
+/// A cell's row with all its optional values and variables: how a cell is born, divides, swaps its body, travels between ranks and comes out of a checkpoint.
+struct CellState : CellRow, OptionalValues {
+  CellState() = default;
+  CellState(const CellRow& row, const OptionalValues& values) : CellRow(row), OptionalValues(values) {}
 
   std::vector<double> variables;  ///< by number of the variable; those beyond the last have their usual value, 0
 
   [[nodiscard]] double variable(std::size_t number) const { return number < variables.size() ? variables[number] : 0.0; }
 };
 
-/// A column of the rows or of their sides.
+/// A column of the rows or of their optional values.
 struct CellColumn {
   const char* name;
   const char* unit;
   AtDivision at_division;
 };
 
-/// visit(column, member of FullRow) for everything that a row and its sides hold beside the variables, in the order of the state hash: checkpoint, reading back, hash and
+/// visit(column, member of CellState) for everything that a row and its optional values hold beside the variables, in the order of the state hash: checkpoint, reading back, hash and
 /// division walk this list. At an exchange of bodies the row stays as it is.
 template <class Visit>
 void for_each_cell_column(Visit&& visit) {
   using enum AtDivision;
-  visit(CellColumn{"id", "1", kSet}, &FullRow::id);
-  visit(CellColumn{"parent", "1", kSet}, &FullRow::parent);
-  visit(CellColumn{"order", "1", kCopied}, &FullRow::order);
-  visit(CellColumn{"birth_time", "s", kSet}, &FullRow::birth_time);
-  visit(CellColumn{"birth_volume", "um^3", kSet}, &FullRow::birth_volume);
-  visit(CellColumn{"target_volume", "um^3", kSet}, &FullRow::target_volume);
-  visit(CellColumn{"division_volume", "um^3", kSet}, &FullRow::division_volume);
-  visit(CellColumn{"cycle_duration", "s", kSet}, &FullRow::cycle_duration);
-  visit(CellColumn{"pressure", "kPa", kCopied}, &FullRow::pressure);
-  visit(CellColumn{"death_time", "s", kUsual}, &FullRow::death_time);
-  visit(CellColumn{"last_swap_time", "s", kCopied}, &FullRow::last_swap_time);
-  visit(CellColumn{"reference_excess", "1", kCopied}, &FullRow::reference_excess);
-  visit(CellColumn{"inflation_left", "um^3", kUsual}, &FullRow::inflation_left);
-  visit(CellColumn{"inflation_rate", "um^3/s", kUsual}, &FullRow::inflation_rate);
-  visit(CellColumn{"polarity", "1", kCopied}, &FullRow::polarity);
-  visit(CellColumn{"migration_velocity", "um/s", kCopied}, &FullRow::migration_velocity);
-  visit(CellColumn{"draws", "1", kSet}, &FullRow::draws);
-  visit(CellColumn{"type", "1", kCopied}, &FullRow::type);
-  visit(CellColumn{"phase", "1", kSet}, &FullRow::phase);
-  visit(CellColumn{"body", "1", kCopied}, &FullRow::body);
-  visit(CellColumn{"own_body", "1", kCopied}, &FullRow::own_body);
+  visit(CellColumn{"id", "1", kSet}, &CellState::id);
+  visit(CellColumn{"parent", "1", kSet}, &CellState::parent);
+  visit(CellColumn{"order", "1", kCopied}, &CellState::order);
+  visit(CellColumn{"birth_time", "s", kSet}, &CellState::birth_time);
+  visit(CellColumn{"birth_volume", "um^3", kSet}, &CellState::birth_volume);
+  visit(CellColumn{"target_volume", "um^3", kSet}, &CellState::target_volume);
+  visit(CellColumn{"division_volume", "um^3", kSet}, &CellState::division_volume);
+  visit(CellColumn{"cycle_duration", "s", kSet}, &CellState::cycle_duration);
+  visit(CellColumn{"pressure", "kPa", kCopied}, &CellState::pressure);
+  visit(CellColumn{"death_time", "s", kUsual}, &CellState::death_time);
+  visit(CellColumn{"last_swap_time", "s", kCopied}, &CellState::last_swap_time);
+  visit(CellColumn{"reference_excess", "1", kCopied}, &CellState::reference_excess);
+  visit(CellColumn{"inflation_left", "um^3", kUsual}, &CellState::inflation_left);
+  visit(CellColumn{"inflation_rate", "um^3/s", kUsual}, &CellState::inflation_rate);
+  visit(CellColumn{"polarity", "1", kCopied}, &CellState::polarity);
+  visit(CellColumn{"migration_velocity", "um/s", kCopied}, &CellState::migration_velocity);
+  visit(CellColumn{"draws", "1", kSet}, &CellState::draws);
+  visit(CellColumn{"type", "1", kCopied}, &CellState::type);
+  visit(CellColumn{"phase", "1", kSet}, &CellState::phase);
+  visit(CellColumn{"body", "1", kCopied}, &CellState::body);
+  visit(CellColumn{"own_body", "1", kCopied}, &CellState::own_body);
 }
 
 /// The size of a row that the list above covers, to notice a member that was added to one and not to the other.
 inline constexpr std::size_t kListedRowBytes = 3 * 8 + 11 * 8 + 2 * sizeof(Vec3d) + 8 + 2 + 1 + 1 + 1;
-static_assert(sizeof(CellRow) + sizeof(CellSides) == kListedRowBytes + sizeof(CellRow::unused_),
-              "list every member of CellRow and CellSides in for_each_cell_column");
+static_assert(sizeof(CellRow) + sizeof(OptionalValues) == kListedRowBytes + sizeof(CellRow::unused_),
+              "list every member of CellRow and OptionalValues in for_each_cell_column");
 
-/// The sides of all rows: a column for each, which takes no room while all have the value of CellSides().
-struct SideColumns {
-  SideColumn<double> death_time{CellSides().death_time}, last_swap_time{CellSides().last_swap_time};
-  SideColumn<double> reference_excess, inflation_left, inflation_rate;
-  SideColumn<Vec3d> polarity, migration_velocity;
+/// The optional values of all rows: a column for each, which takes no room while all have the value of OptionalValues().
+struct OptionalColumns {
+  OptionalColumn<double> death_time{OptionalValues().death_time}, last_swap_time{OptionalValues().last_swap_time};
+  OptionalColumn<double> reference_excess, inflation_left, inflation_rate;
+  OptionalColumn<Vec3d> polarity, migration_velocity;
 
-  /// function(column) for all columns, or function(column, the same of `sides`).
+  /// function(column) for all columns, or function(column, the same of `values`).
   template <class Self, class F>
   static void for_each(Self& self, F&& function) {
-    for_each(self, CellSides{}, [&](auto& column, const auto&) { function(column); });
+    for_each(self, OptionalValues{}, [&](auto& column, const auto&) { function(column); });
   }
-  template <class Self, class Sides, class F>
-  static void for_each(Self& self, Sides&& sides, F&& function) {
-    function(self.death_time, sides.death_time);
-    function(self.last_swap_time, sides.last_swap_time);
-    function(self.reference_excess, sides.reference_excess);
-    function(self.inflation_left, sides.inflation_left);
-    function(self.inflation_rate, sides.inflation_rate);
-    function(self.polarity, sides.polarity);
-    function(self.migration_velocity, sides.migration_velocity);
+  template <class Self, class Values, class F>
+  static void for_each(Self& self, Values&& values, F&& function) {
+    function(self.death_time, values.death_time);
+    function(self.last_swap_time, values.last_swap_time);
+    function(self.reference_excess, values.reference_excess);
+    function(self.inflation_left, values.inflation_left);
+    function(self.inflation_rate, values.inflation_rate);
+    function(self.polarity, values.polarity);
+    function(self.migration_velocity, values.migration_velocity);
   }
 };
 
 /// A variable and its values by row, which take no room while all are 0.
 struct VariableColumn {
   CellVariable what;
-  SideColumn<double> values;
+  OptionalColumn<double> values;
 };
 
 /// Rows of a rank in canonical order (order, id). The k-th row with a shell owns the k-th shell, and likewise for spheres.
 struct Cells {
   std::vector<CellRow> rows;
-  SideColumns side;                       ///< by row: side.polarity[i] belongs to rows[i]
+  OptionalColumns optional;               ///< by row: optional.polarity[i] belongs to rows[i]
   std::vector<VariableColumn> variables;  ///< those that declare() named
 
   [[nodiscard]] std::size_t size() const { return rows.size(); }
@@ -149,20 +149,20 @@ struct Cells {
     for (const VariableColumn& variable : variables) out.variables.push_back({variable.what, {}});
     return out;
   }
-  /// A row with its sides and variables.
-  [[nodiscard]] FullRow full(std::size_t i) const {
-    FullRow out(rows[i], {});
-    SideColumns::for_each(side, out, [&](const auto& column, auto& value) { value = column[i]; });
+  /// A row with its optional values and variables.
+  [[nodiscard]] CellState state(std::size_t i) const {
+    CellState out(rows[i], {});
+    OptionalColumns::for_each(optional, out, [&](const auto& column, auto& value) { value = column[i]; });
     for (const VariableColumn& variable : variables) out.variables.push_back(variable.values[i]);
     return out;
   }
-  void set_sides(std::size_t i, const CellSides& sides) {
-    SideColumns::for_each(side, sides, [&](auto& column, const auto& value) { column.set(i, value, rows.capacity()); });
+  void set_optional(std::size_t i, const OptionalValues& values) {
+    OptionalColumns::for_each(optional, values, [&](auto& column, const auto& value) { column.set(i, value, rows.capacity()); });
   }
   /// A row behind the others, with those of its variables that the cells have.
-  void push_back(const FullRow& row) {
+  void push_back(const CellState& row) {
     rows.push_back(row);
-    set_sides(rows.size() - 1, row);
+    set_optional(rows.size() - 1, row);
     for (std::size_t v = 0; v < variables.size(); ++v) variables[v].values.set(rows.size() - 1, row.variable(v), rows.capacity());
   }
   /// Adds the rows first, …, last − 1 of `from`, which has the same variables, behind the others.
@@ -173,13 +173,13 @@ struct Cells {
       const auto copy = [&](auto& column, const auto& other) {
         if (!other.empty()) column.set(rows.size() - 1, other[i], rows.capacity());
       };
-      SideColumns::for_each(side, from.side, copy);
+      OptionalColumns::for_each(optional, from.optional, copy);
       for (std::size_t v = 0; v < variables.size(); ++v) copy(variables[v].values, from.variables[v].values);
     }
   }
   [[nodiscard]] std::size_t memory() const {
     std::size_t total = rows.capacity() * sizeof(CellRow);
-    SideColumns::for_each(side, [&](const auto& column) { total += column.memory(); });
+    OptionalColumns::for_each(optional, [&](const auto& column) { total += column.memory(); });
     for (const VariableColumn& variable : variables) total += variable.values.memory();
     return total;
   }

@@ -77,7 +77,7 @@ void mark_new_shells(const Model& model, Tissue& tissue) {
     mark.assign(topology.face_count() * mark_bytes(model.mark_names.size()), 0);
     for (const FaceMark& rule : model.marks) {
       if (rule.type != type) continue;
-      const auto faces = faces_by_place(rule, topology, std::as_const(tissue.shells).nodes(shell), tissue.cells.side.polarity[i]);
+      const auto faces = faces_by_place(rule, topology, std::as_const(tissue.shells).nodes(shell), tissue.cells.optional.polarity[i]);
       give_mark(mark, rule.mark, faces, true);
     }
   });
@@ -104,7 +104,7 @@ void renew_marks(const Model& model, Tissue& tissue, std::span<const std::vector
         faces.assign(touched[r].begin() + static_cast<std::ptrdiff_t>(begin),
                      touched[r].begin() + static_cast<std::ptrdiff_t>(begin + topology.face_count()));
       else
-        faces = faces_by_place(rule, topology, std::as_const(tissue.shells).nodes(shell), tissue.cells.side.polarity[i]);
+        faces = faces_by_place(rule, topology, std::as_const(tissue.shells).nodes(shell), tissue.cells.optional.polarity[i]);
       give_mark(mark, rule.mark, faces, !cleared.insert(rule.mark).second || rule.keep);
     }
   });

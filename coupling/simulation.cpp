@@ -160,19 +160,19 @@ void Simulation::set_bodies_to_targets(double dt) {
   const auto osmotic = [](const CellType& type) { return type.osmosis.acts(); };
   BodyValues body;
   if (std::any_of(model_.types.begin(), model_.types.end(), osmotic)) body = mechanics_->values(tissue_);
-  SideColumns& side = tissue_.cells.side;
+  OptionalColumns& optional = tissue_.cells.optional;
   for (const auto [k, is_shell, number] : bodies_of(tissue_.cells)) {
     CellRow& row = tissue_.cells.rows[k];
     const CellType& type = model_.types[row.type];
-    if (const double left = side.inflation_left[k]; left > 0.0) {
-      const double gain = std::min(left, side.inflation_rate[k] * dt);
+    if (const double left = optional.inflation_left[k]; left > 0.0) {
+      const double gain = std::min(left, optional.inflation_rate[k] * dt);
       row.target_volume += gain;
-      side.inflation_left.set(k, left - gain);
+      optional.inflation_left.set(k, left - gain);
     }
-    double excess = side.reference_excess[k];
+    double excess = optional.reference_excess[k];
     if (!type.osmosis.acts()) excess *= keep;
     const auto exchange = [&, row_number = k](double volume, std::size_t b) {
-      FullRow full = tissue_.cells.full(row_number);
+      CellState full = tissue_.cells.state(row_number);
       exchange_water(full, type, time, dt, volume, body.area[b], body.inner_pressure[b]);
       excess = full.reference_excess;
     };
@@ -191,7 +191,7 @@ void Simulation::set_bodies_to_targets(double dt) {
       if (type.osmosis.acts()) exchange(row.target_volume * std::exp(excess), tissue_.shells.size() + number);
       tissue_.spheres.radius[number] = std::cbrt(3.0 * row.target_volume * std::exp(excess) / (4.0 * std::numbers::pi));
     }
-    side.reference_excess.set(k, excess, tissue_.cells.size());
+    optional.reference_excess.set(k, excess, tissue_.cells.size());
   }
   mechanics_->parameters_changed();
 }
@@ -230,8 +230,8 @@ Status Simulation::advance_fields(double dt, const std::function<bool()>& give_u
   for (std::size_t f = 0; f < model_.fields.size(); ++f) {
     MORULA_TRY_ASSIGN(auto report,
                       field_solver_.advance(tissue_.fields[f], model_.fields[f], model_.space, sources, dt, comm_, taken, seen, give_up));
-    SideColumn<double>& amount = tissue_.cells.variables[amount_of(f)].values;
-    SideColumn<double>& concentration = tissue_.cells.variables[concentration_of(f)].values;
+    OptionalColumn<double>& amount = tissue_.cells.variables[amount_of(f)].values;
+    OptionalColumn<double>& concentration = tissue_.cells.variables[concentration_of(f)].values;
     for (std::size_t i = 0; i < sources.size(); ++i) {
       amount.set(i, amount[i] + taken[i], sources.size());
       concentration.set(i, seen[i], sources.size());
@@ -303,9 +303,9 @@ Result<std::vector<Event>> Simulation::swap_bodies() {
 
 Result<std::vector<Event>> Simulation::first_swaps() {
   MORULA_TRY_ASSIGN(auto events, swap_bodies());
-  SideColumn<double>& last_swap = tissue_.cells.side.last_swap_time;
+  OptionalColumn<double>& last_swap = tissue_.cells.optional.last_swap_time;
   for (std::size_t i = 0; i < tissue_.cells.size(); ++i)
-    if (last_swap[i] == tissue_.clock.time) last_swap.set(i, CellSides().last_swap_time);  // being placed is no exchange
+    if (last_swap[i] == tissue_.clock.time) last_swap.set(i, OptionalValues().last_swap_time);  // being placed is no exchange
   mechanics_->attach(tissue_);
   return all_events(std::move(events));
 }

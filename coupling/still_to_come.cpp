@@ -59,7 +59,7 @@ bool any_water_flows(const Model& model, const Tissue& tissue, Mechanics& mechan
     const CellType& type = model.types[tissue.cells.rows[owned.row].type];
     const std::size_t b = owned.place(tissue.shells.size());
     if (!type.osmosis.acts()) continue;
-    const OsmoticCell cell = osmotic_cell(tissue.cells.full(owned.row), type, tissue.clock.time, body.area[b], body.inner_pressure[b]);
+    const OsmoticCell cell = osmotic_cell(tissue.cells.state(owned.row), type, tissue.clock.time, body.area[b], body.inner_pressure[b]);
     if (std::abs(osmotic_volume(cell) / body.volume[b] - 1.0) > kEased) return true;
   }
   return false;
@@ -95,7 +95,7 @@ std::vector<std::string> still_to_come(const Model& model, const Tissue& tissue,
       if (of_row(k, tissue.cells.rows[k], model.types[tissue.cells.rows[k].type])) return true;
     return false;
   };
-  const SideColumns& side = tissue.cells.side;
+  const OptionalColumns& optional = tissue.cells.optional;
   add(next_corner(model, time) < kNever, "a course over time");
   add(any_obstacle_moves(model), "an obstacle that moves");
   add(any_tension_swings(model), "a tension that swings");
@@ -104,7 +104,8 @@ std::vector<std::string> still_to_come(const Model& model, const Tissue& tissue,
   if (look_at_bodies(model.swaps)) bodies = mechanics.values(tissue);
   add(swaps_wait(model, tissue, {center, bodies ? &*bodies : nullptr}, comm), "an exchange of bodies");
   add(tissue.clock.capped, "the end of the capped start");
-  add(any_cell([&](std::size_t k, const CellRow& row, const CellType&) { return side.inflation_left[k] > kRounding * row.target_volume; }),
+  add(any_cell(
+          [&](std::size_t k, const CellRow& row, const CellType&) { return optional.inflation_left[k] > kRounding * row.target_volume; }),
       "inflation");
   add(any_cell([](std::size_t, const CellRow& row, const CellType& type) { return grows(row, type); }), "growth");
   add(any_cell([](std::size_t, const CellRow& row, const CellType&) {
@@ -117,7 +118,7 @@ std::vector<std::string> still_to_come(const Model& model, const Tissue& tissue,
       }),
       "young sisters");
   add(any_cell([&](std::size_t k, const CellRow&, const CellType& type) {
-        return !type.osmosis.acts() && std::abs(side.reference_excess[k]) > kEased;
+        return !type.osmosis.acts() && std::abs(optional.reference_excess[k]) > kEased;
       }),
       "easing after an exchange of bodies");
   for (const CellType& type : model.types)

@@ -103,7 +103,7 @@ std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, co
     if (row.body == BodyKind::kShell) ++shells;
     if (row.phase == Phase::kDying) continue;
     const Wish wanted = wish(model, bodies.view(model, tissue, body), center[i], tissue_center);
-    if (wanted.body == row.body || tissue.clock.time - tissue.cells.side.last_swap_time[i] < wanted.hold) continue;
+    if (wanted.body == row.body || tissue.clock.time - tissue.cells.optional.last_swap_time[i] < wanted.hold) continue;
     orders.push_back({i, wanted.body, wanted.reason});
   }
   shells = comm.sum(shells);

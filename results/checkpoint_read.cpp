@@ -84,7 +84,7 @@ Status read_globals(const Hdf5Reader& file, LoadedCheckpoint& out) {
 }
 
 Status read_rows(const Hdf5Reader& file, const Stretch& mine, Cells& cells) {
-  std::vector<FullRow> rows(mine.size());
+  std::vector<CellState> rows(mine.size());
   Status read = first_failure([&](auto note) {
     for_each_cell_column([&](const CellColumn& column, auto member) {
       using Value = std::remove_cvref_t<decltype(rows.front().*member)>;
@@ -101,7 +101,7 @@ Status read_rows(const Hdf5Reader& file, const Stretch& mine, Cells& cells) {
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i].variables.push_back(values[i]);
   }
   cells.rows.reserve(rows.size());
-  for (const FullRow& row : rows) cells.push_back(row);
+  for (const CellState& row : rows) cells.push_back(row);
   return {};
 }
 

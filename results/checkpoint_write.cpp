@@ -27,7 +27,7 @@ struct FlatTable {
 
 /// This rank's stretch of the sorted cells.
 struct SortedCells {
-  std::vector<FullRow> rows;
+  std::vector<CellState> rows;
   FlatTable spheres, shells, nuclei;            ///< nuclei: those that are shells
   std::vector<std::uint8_t> has_nuclear_shell;  ///< by shell
 };
@@ -49,10 +49,10 @@ Parcels pack_cells(const Tissue& tissue, const ShapeNumbers& numbers) {
   Parcels parcels;
   ByteWriter out;
   for (const BodyOfRow& body : bodies_of(tissue.cells)) {
-    const FullRow row = tissue.cells.full(body.row);
+    const CellState row = tissue.cells.state(body.row);
     out.clear();
     out.put(static_cast<const CellRow&>(row));
-    out.put(static_cast<const CellSides&>(row));
+    out.put(static_cast<const OptionalValues&>(row));
     out.put_all(std::span(row.variables));
     if (body.is_shell) {
       pack_shell(tissue.shells, body.number, numbers, out);
@@ -96,7 +96,7 @@ SortedCells unpack_cells(const Parcels& parcels, std::size_t variables) {
   for (std::size_t i = 0; i < parcels.size(); ++i) {
     ByteReader in(parcels.bytes(i));
     const auto row = in.get<CellRow>();
-    in.get_all(variables, out.rows.emplace_back(row, in.get<CellSides>()).variables);
+    in.get_all(variables, out.rows.emplace_back(row, in.get<OptionalValues>()).variables);
     if (out.rows.back().body == BodyKind::kSphere) {
       unpack_columns(kSphereColumns, in, out.spheres);
       continue;
@@ -135,12 +135,12 @@ void add_shells(StoragePlan& plan, const std::string& group, FlatTable& table, c
 void add_cells(StoragePlan& plan, const std::vector<VariableColumn>& variables, SortedCells& cells, const Comm& comm) {
   for_each_cell_column([&](const CellColumn& column, auto member) {
     std::vector<std::remove_cvref_t<decltype(cells.rows.front().*member)>> values;
-    for (const FullRow& row : cells.rows) values.push_back(row.*member);
+    for (const CellState& row : cells.rows) values.push_back(row.*member);
     plan.add(std::string("cells/") + column.name, column.unit, values);
   });
   for (std::size_t v = 0; v < variables.size(); ++v) {
     std::vector<double> values;
-    for (const FullRow& row : cells.rows) values.push_back(row.variables[v]);
+    for (const CellState& row : cells.rows) values.push_back(row.variables[v]);
     plan.add("cells/" + variables[v].what.name, variables[v].what.unit, values);
   }
   add_columns(kSphereColumns, plan, "spheres/", cells.spheres, comm);

@@ -16,7 +16,7 @@ enum class Part : std::uint64_t { kCell = 1, kBrick, kGrid, kGlobal, kShape };
 
 Hash128 hash_of(const ByteWriter& writer, Part part) { return hash128(writer.bytes(), static_cast<std::uint64_t>(part)); }
 
-void put_row(ByteWriter& out, const FullRow& row) {
+void put_row(ByteWriter& out, const CellState& row) {
   for_each_cell_column([&](const CellColumn&, auto member) { out.put(row.*member); });
   out.put_all(std::span(row.variables));
 }
@@ -45,7 +45,7 @@ Hash128 hash_of_cells(const Tissue& tissue) {
   ByteWriter bytes;
   for (const BodyOfRow& body : bodies_of(tissue.cells)) {
     bytes.clear();
-    put_row(bytes, tissue.cells.full(body.row));
+    put_row(bytes, tissue.cells.state(body.row));
     if (body.is_shell) {
       put_shell(bytes, tissue.shells, body.number, shapes);
       if (const std::size_t n = tissue.nuclei.of_shell(body.number); n < tissue.nuclei.size())

@@ -10,8 +10,8 @@
 
 namespace morula {
 
-FullRow make_founder(CellId id, std::uint16_t type_index, const CellType& type, std::uint32_t seed, double time, bool random_age) {
-  FullRow row;
+CellState make_founder(CellId id, std::uint16_t type_index, const CellType& type, std::uint32_t seed, double time, bool random_age) {
+  CellState row;
   row.id = id;
   row.type = type_index;
   row.body = row.own_body = type.initial_body;
@@ -32,8 +32,8 @@ FullRow make_founder(CellId id, std::uint16_t type_index, const CellType& type, 
   return row;
 }
 
-FullRow make_daughter(const FullRow& mother, int which, const CellType& type, std::uint32_t seed, double time, double birth_volume) {
-  FullRow row;
+CellState make_daughter(const CellState& mother, int which, const CellType& type, std::uint32_t seed, double time, double birth_volume) {
+  CellState row;
   for_each_cell_column([&](const CellColumn& column, auto member) {
     if (column.at_division == AtDivision::kCopied) row.*member = mother.*member;
   });

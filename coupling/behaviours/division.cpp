@@ -9,7 +9,7 @@
 
 namespace morula {
 
-DaughterRows divide_row(const FullRow& mother, std::span<const VariableColumn> variables, const CellType& type, std::uint32_t seed,
+DaughterRows divide_row(const CellState& mother, std::span<const VariableColumn> variables, const CellType& type, std::uint32_t seed,
                         double time, double late, double fraction) {
   assert(mother.id.can_divide() && fraction > 0.0 && fraction < 1.0);
   const double volume_1 = fraction * mother.target_volume;
@@ -39,7 +39,7 @@ SphereDivision divide_sphere(const SphereBody& body, const Vec3d& axis, double s
   return out;
 }
 
-void divide_variables(std::span<const VariableColumn> variables, const FullRow& mother, FullRow& first, FullRow& second) {
+void divide_variables(std::span<const VariableColumn> variables, const CellState& mother, CellState& first, CellState& second) {
   assert(first.birth_volume > 0.0 && first.birth_volume < mother.target_volume);
   const double part = first.birth_volume / mother.target_volume;
   const auto daughter = [&](bool is_first) {

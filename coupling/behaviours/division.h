@@ -10,7 +10,7 @@ namespace morula {
 
 /// The rows of the two cells that a cell becomes.
 struct DaughterRows {
-  FullRow first, second;
+  CellState first, second;
   double share = 0.5;  ///< of the first, of the mother's target volume
 };
 
@@ -20,7 +20,7 @@ struct DaughterRows {
 /// time: end of the step [s]; late: how long before that the division volume was reached [s]. The daughters are born at time − late, and
 /// their target volumes have already grown for `late`; their bodies have not: the first step drives them there.
 /// Precondition: mother.id.can_divide(), 0 < fraction < 1.
-DaughterRows divide_row(const FullRow& mother, std::span<const VariableColumn> variables, const CellType& type, std::uint32_t seed,
+DaughterRows divide_row(const CellState& mother, std::span<const VariableColumn> variables, const CellType& type, std::uint32_t seed,
                         double time, double late, double fraction);
 
 /// Place and size of a sphere.
@@ -41,6 +41,6 @@ SphereDivision divide_sphere(const SphereBody& body, const Vec3d& axis, double s
 
 /// Give the daughters of a division, whose birth volumes are set, their variables as these declare it: what is shared goes by volume, the remainder
 /// to the second.
-void divide_variables(std::span<const VariableColumn> variables, const FullRow& mother, FullRow& first, FullRow& second);
+void divide_variables(std::span<const VariableColumn> variables, const CellState& mother, CellState& first, CellState& second);
 
 }  // namespace morula

@@ -145,7 +145,7 @@ std::vector<std::shared_ptr<const DivisionAxis>> builtin_division_axes() {
 }
 
 Vec3d division_axis(const CellAtDivision& cell, std::uint32_t seed, std::uint64_t attempt) {
-  const FullRow& row = cell.row;
+  const CellState& row = cell.row;
   const Vec3d random = Random(seed, RandomStream::kDivisionAxis).direction(row.id, row.draws + attempt);
   const Vec3d chosen = cell.type.axis->of(cell, random);
   if (!(norm2(chosen) > 0.0)) return random;

@@ -11,11 +11,11 @@
 namespace morula {
 
 struct CellType;
-struct FullRow;
+struct CellState;
 
 /// What the axis of a division may be chosen by.
 struct CellAtDivision {
-  const FullRow& row;
+  const CellState& row;
   const CellType& type;
   SurfaceView surface{};  ///< of a shell; a sphere has none
 };

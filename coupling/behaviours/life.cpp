@@ -63,19 +63,20 @@ Event describe(const CellRow& row, const LifeStep& step, const LifeDecision& dec
 
 }  // namespace
 
-LifeDecision live(CellRow& row, LifeSides& sides, const CellType& type, const LifeStep& step, const CellWish& wish) {
+LifeDecision live(CellRow& row, LifeValues& values, const CellType& type, const LifeStep& step, const CellWish& wish) {
   if (row.phase == Phase::kDying) {
     shrink(row, type, step.dt);
-    return {is_gone(sides.death_time, type, step.time) ? Kind::kRemove : Kind::kNone, 0.0};
+    return {is_gone(values.death_time, type, step.time) ? Kind::kRemove : Kind::kNone, 0.0};
   }
   if (wish.die) {
     row.phase = Phase::kDying;
-    sides.death_time = step.time;
-    sides.migration_velocity = {};
+    values.death_time = step.time;
+    values.migration_velocity = {};
     return {Kind::kBeginDying, 0.0};
   }
-  sides.migration_velocity = next_migration_velocity(sides.migration_velocity, row.id, type, step.seed, step.step, step.dt, wish.migration);
-  if (wish.polarity) sides.polarity = normalized(*wish.polarity);
+  values.migration_velocity =
+      next_migration_velocity(values.migration_velocity, row.id, type, step.seed, step.step, step.dt, wish.migration);
+  if (wish.polarity) values.polarity = normalized(*wish.polarity);
   if (wish.volume != 1.0) row.target_volume *= wish.volume;
   if (row.phase == Phase::kWaiting || wish.divide) return at_division_volume(row, 0.0, type, step);
   if (row.phase == Phase::kResting || !(wish.growth > 0.0)) return {};
@@ -87,24 +88,24 @@ LifeReport live(Cells& cells, std::span<const CellType> types, const LifeStep& s
   const std::vector<CellRow>& rows = cells.rows;
   std::vector<LifeDecision> decisions(rows.size());
   const auto count = static_cast<std::int64_t>(rows.size());
-  SideColumns& side = cells.side;
+  OptionalColumns& optional = cells.optional;
   const auto migrates = [](const CellType& type) { return type.migration_speed > 0.0; };
   const auto behaves = [](const CellType& type) { return !type.behaviours.empty(); };
-  if (std::any_of(types.begin(), types.end(), migrates)) side.migration_velocity.make_room(rows.size());
+  if (std::any_of(types.begin(), types.end(), migrates)) optional.migration_velocity.make_room(rows.size());
   const auto turns = [](const CellType& type) { return type.polarity.set && !type.behaviours.empty(); };
-  if (std::any_of(types.begin(), types.end(), behaves)) side.death_time.make_room(rows.size());
-  if (std::any_of(types.begin(), types.end(), turns)) side.polarity.make_room(rows.size());
+  if (std::any_of(types.begin(), types.end(), behaves)) optional.death_time.make_room(rows.size());
+  if (std::any_of(types.begin(), types.end(), turns)) optional.polarity.make_room(rows.size());
   AskBehaviours behaviours(cells, types, step);
 #pragma omp parallel for schedule(static) if (count > 1000)
   for (std::int64_t k = 0; k < count; ++k) {
     const CellType& type = types[rows[k].type];
-    LifeSides sides{side.migration_velocity[k], side.death_time[k], side.polarity[k]};
+    LifeValues values{optional.migration_velocity[k], optional.death_time[k], optional.polarity[k]};
     const Asked asked = rows[k].phase == Phase::kDying ? Asked{} : behaviours.ask(k);
-    decisions[k] = live(cells.rows[k], sides, type, step, asked.wish);
+    decisions[k] = live(cells.rows[k], values, type, step, asked.wish);
     if (decisions[k].kind == Kind::kBeginDying) decisions[k].behaviour = asked.deadly;
-    side.migration_velocity.set(k, sides.migration_velocity);
-    side.death_time.set(k, sides.death_time);
-    if (asked.wish.polarity && type.polarity.set) side.polarity.set(k, sides.polarity);
+    optional.migration_velocity.set(k, values.migration_velocity);
+    optional.death_time.set(k, values.death_time);
+    if (asked.wish.polarity && type.polarity.set) optional.polarity.set(k, values.polarity);
   }
 
   LifeReport report;

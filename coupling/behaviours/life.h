@@ -36,20 +36,20 @@ struct LifeDecision {
 /// Time after which a shell that found no plane of division looks for others [s].
 inline constexpr double kTimeBetweenTries = 600.0;
 
-/// The sides of a cell that its life is about.
-struct LifeSides {
+/// The optional values of a cell that its life is about.
+struct LifeValues {
   Vec3d migration_velocity{};  ///< read and written [µm/s]
   double death_time = -1.0;    ///< read and written [s]
   Vec3d polarity{};            ///< read and written
 };
 
 /// One step in the life of one cell: growth, cycle, death and the wanted velocity, and what its behaviours ask for. Reads and writes this row and its
-/// sides only, as they were at the beginning of the stage: nothing depends on the order of cells.
+/// values only, as they were at the beginning of the stage: nothing depends on the order of cells.
 ///
 /// A dying cell shrinks and is removed at last; its behaviours have no say. Any other may begin to die; if it does not, it grows unless it rests or
 /// waits. Division at the division volume: a sphere divides, and a shell unless those of its type wait (it then divides if it becomes a sphere
 /// later). A shell for which no plane served waits, too, and is to divide whenever the time of the run passes a multiple of kTimeBetweenTries.
-LifeDecision live(CellRow& row, LifeSides& sides, const CellType& type, const LifeStep& step, const CellWish& wish = {});
+LifeDecision live(CellRow& row, LifeValues& values, const CellType& type, const LifeStep& step, const CellWish& wish = {});
 
 struct DivisionOrder {
   std::size_t row = 0;

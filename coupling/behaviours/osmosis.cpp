@@ -63,7 +63,7 @@ double volume_after_flux(const OsmoticCell& cell, double volume, double dt) {
   return volume;
 }
 
-OsmoticCell osmotic_cell(const FullRow& row, const CellType& type, double time, double area, double pressure) {
+OsmoticCell osmotic_cell(const CellState& row, const CellType& type, double time, double area, double pressure) {
   const Osmosis& law = type.osmosis;
   OsmoticCell cell;
   cell.permeability = law.permeability;
@@ -76,7 +76,7 @@ OsmoticCell osmotic_cell(const FullRow& row, const CellType& type, double time, 
   return cell;
 }
 
-void exchange_water(FullRow& row, const CellType& type, double time, double dt, double volume, double area, double pressure) {
+void exchange_water(CellState& row, const CellType& type, double time, double dt, double volume, double area, double pressure) {
   const OsmoticCell cell = osmotic_cell(row, type, time, area, pressure);
   const double start = std::max(volume, cell.inactive + 1e-3 * (row.target_volume - cell.inactive));  // squeezed below V_b: water comes in
   row.reference_excess += std::log(volume_after_flux(cell, start, dt) / volume);

@@ -34,13 +34,13 @@ double volume_after_flux(const OsmoticCell& cell, double volume, double dt);
 /// What a cell of this type holds and what is around it at `time` [s]: n = c_i (V_t − V_b), V_b = f_b V_t, with V_t the target volume that
 /// growth drives, so that growth, division and death act on n and V_b, and the free volume at c_e = c_i is V_t.
 /// `area` [µm²] and `pressure` [kPa] are those of its body.
-OsmoticCell osmotic_cell(const FullRow& row, const CellType& type, double time, double area, double pressure);
+OsmoticCell osmotic_cell(const CellState& row, const CellType& type, double time, double area, double pressure);
 
 /// Let water flow for dt [s]: the row's reference_excess moves by ln(V'/V), where V' is the volume after the flux; V0 of a shell (or the
 /// volume of a sphere) is what it would be without osmosis times e^excess.
 ///
 /// For a shell this is the law dV0/dt = L_p A (ΔΠ − Δp) with ΔΠ at the present volume V, made implicit: while the load on the cell stays,
 /// V = V0 e^{−Δp/K_V} follows V0 in proportion. `volume` is the body's present volume [µm³].
-void exchange_water(FullRow& row, const CellType& type, double time, double dt, double volume, double area, double pressure);
+void exchange_water(CellState& row, const CellType& type, double time, double dt, double volume, double area, double pressure);
 
 }  // namespace morula

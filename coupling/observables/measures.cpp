@@ -119,7 +119,7 @@ void add_cell(Simulation& simulation, const BodyValues& values, const BodyOfRow&
   const auto nucleus = owned.is_shell ? simulation.mechanics().nucleus_of(static_cast<std::uint32_t>(owned.number)) : std::nullopt;
   const CellType& type = simulation.model().types[row.type];
   const double volume = values.volume[body], p = values.pressure[body], inner = values.inner_pressure[body];
-  const double r = radius_of(volume), law = volume_by_law(row, tissue.cells.side.reference_excess[owned.row], type, inner, nucleus);
+  const double r = radius_of(volume), law = volume_by_law(row, tissue.cells.optional.reference_excess[owned.row], type, inner, nucleus);
   to.sum[kVolume].add(volume);
   to.sum[kVolumeX].add(volume * from.x);
   to.sum[kVolumeY].add(volume * from.y);

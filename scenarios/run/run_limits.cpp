@@ -13,9 +13,9 @@ Status RunLoop::check_capped_start() const {
   const Tissue& tissue = simulation_->tissue();
   const bool late = study_.model.step.start_cap > 0.0 && tissue.clock.capped && tissue.clock.time >= study_.time.capped_start;
   if (!late) return {};
-  const double never = CellSides().last_swap_time;
+  const double never = OptionalValues().last_swap_time;
   bool exchanged = false;
-  for (std::size_t i = 0; i < tissue.cells.size(); ++i) exchanged = exchanged || tissue.cells.side.last_swap_time[i] != never;
+  for (std::size_t i = 0; i < tissue.cells.size(); ++i) exchanged = exchanged || tissue.cells.optional.last_swap_time[i] != never;
   if (comm_.any(exchanged)) return {};
   return Error{
       ErrorKind::kPhysics,

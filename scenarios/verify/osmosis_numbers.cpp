@@ -24,7 +24,7 @@ CellType permeable(double outside, double inactive) {
 
 /// A cell of 6 µm that was at rest in 300 mM, as the law of water sees it.
 OsmoticCell cell_in(double outside, double inactive) {
-  FullRow row;
+  CellState row;
   row.target_volume = row.birth_volume = kVolume;
   return osmotic_cell(row, permeable(outside, inactive), 0.0, 4.0 * std::numbers::pi * kRadius * kRadius, 0.0);
 }

@@ -29,14 +29,14 @@ std::string micrometres(double length) {
 }
 
 /// The rows of one entry with the volumes of time 0.
-FullRow founder(const Study& study, const InitialCells& block, std::uint64_t number, std::uint16_t type_index) {
+CellState founder(const Study& study, const InitialCells& block, std::uint64_t number, std::uint16_t type_index) {
   const CellType& type = study.model.types[type_index];
-  FullRow row = make_founder(CellId::founder(number), type_index, type, study.model.seed, 0.0, block.random_age);
+  CellState row = make_founder(CellId::founder(number), type_index, type, study.model.seed, 0.0, block.random_age);
   if (block.body_given) row.body = row.own_body = block.body;
   return row;
 }
 
-void start_small(FullRow& row, const InitialCells& block) {
+void start_small(CellState& row, const InitialCells& block) {
   if (!(block.start_volume_fraction < 1.0)) return;
   const double whole = row.target_volume;
   row.target_volume = block.start_volume_fraction * whole;
@@ -45,7 +45,7 @@ void start_small(FullRow& row, const InitialCells& block) {
 }
 
 /// What a CSV row says about its cell.
-void apply_csv(FullRow& row, const CsvCell& csv, const CellType& type) {
+void apply_csv(CellState& row, const CsvCell& csv, const CellType& type) {
   if (csv.radius > 0.0) {
     const double volume = 4.0 / 3.0 * std::numbers::pi * csv.radius * csv.radius * csv.radius;
     row.target_volume *= volume / row.birth_volume;
@@ -60,7 +60,7 @@ void apply_csv(FullRow& row, const CsvCell& csv, const CellType& type) {
 }
 
 /// The cell has this volume at time 0, whatever the point of its cycle.
-void set_volume(FullRow& row, double volume) {
+void set_volume(CellState& row, double volume) {
   row.birth_volume *= volume / row.target_volume;
   row.division_volume = 2.0 * row.birth_volume;
   row.target_volume = volume;
@@ -141,7 +141,7 @@ class Placer {
     bool shells = false;
     for (std::uint64_t i = 0; i < block.count; ++i) {
       cells.push_back({founder(study_, block, first + i, types[i]), {}});
-      FullRow& row = cells.back().row;
+      CellState& row = cells.back().row;
       start_small(row, block);
       radius.push_back(cells.back().radius());
       shells = shells || row.body == BodyKind::kShell;

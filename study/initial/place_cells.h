@@ -12,7 +12,7 @@ namespace morula::scenarios {
 
 /// A cell whose row and place are settled, its body still to be made.
 struct PlacedCell {
-  FullRow row;
+  CellState row;
   Vec3d center{};
   CellShape shape = CellShape::kSphere;
   Orientation orientation = Orientation::kRandom;

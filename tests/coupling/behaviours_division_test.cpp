@@ -19,8 +19,8 @@ CellType cycling() {
   return type;
 }
 
-FullRow mother_row(std::uint64_t number = 17) {
-  FullRow row = make_founder(CellId::founder(number), 2, cycling(), 9, 0.0, false);
+CellState mother_row(std::uint64_t number = 17) {
+  CellState row = make_founder(CellId::founder(number), 2, cycling(), 9, 0.0, false);
   row.target_volume = row.division_volume;
   row.pressure = 0.04;
   row.polarity = {0, 0.6, 0.8};
@@ -36,7 +36,7 @@ const SphereBody kBody{{10, -20, 5}, 7.5595263};
 struct Divided : DaughterRows {
   SphereBody first_body, second_body;
 };
-Divided divide(const FullRow& mother, const CellType& type, std::uint32_t seed, double time, double late, double fraction = 0.5,
+Divided divide(const CellState& mother, const CellType& type, std::uint32_t seed, double time, double late, double fraction = 0.5,
                std::span<const VariableColumn> variables = {}) {
   Divided out{divide_row(mother, variables, type, seed, time, late, fraction), {}, {}};
   const SphereDivision bodies = divide_sphere(kBody, division_axis({mother, type}, seed, 0), out.share);
@@ -47,7 +47,7 @@ Divided divide(const FullRow& mother, const CellType& type, std::uint32_t seed, 
 
 TEST(Division, KeepsVolumeToTheLastBit) {
   for (const double fraction : {0.5, 0.3, 0.61803}) {
-    const FullRow mother = mother_row();
+    const CellState mother = mother_row();
     const auto out = divide(mother, cycling(), 9, 1000.0, 0.0, fraction);
     EXPECT_NEAR((out.first.target_volume + out.second.target_volume) / mother.target_volume, 1.0, 1e-15);
     EXPECT_NEAR(out.first.target_volume / mother.target_volume, fraction, 1e-15);
@@ -62,7 +62,7 @@ TEST(Division, DividesEveryVariableAsItIsDeclared) {
   Cells cells;
   cells.declare(cell_variables(model));
   cells.variables.push_back({{"anger", "1", AtDivision::kUsual}, {}});
-  FullRow mother = mother_row();
+  CellState mother = mother_row();
   mother.variables = {3.7, 0.2, 1e5 / 3, 0.01, 0.0, 0.0, 1e-9, 0.0, 5.0, 6.0, 7.0, 8.0, 9.0};
   for (const double fraction : {0.5, 0.3, 0.61803}) {
     const auto out = divide(mother, cycling(), 9, 1000.0, 20.0, fraction, cells.variables);
@@ -96,11 +96,11 @@ TEST(Division, EqualDaughtersStartAtTheReferenceDistance) {
 }
 
 TEST(Division, DaughtersInheritAndBeginACycle) {
-  const FullRow mother = mother_row();
+  const CellState mother = mother_row();
   const auto out = divide(mother, cycling(), 9, 1000.0, 0.0);
   EXPECT_EQ(out.first.id, mother.id.daughter(0));
   EXPECT_EQ(out.second.id, mother.id.daughter(1));
-  for (const FullRow& row : {out.first, out.second}) {
+  for (const CellState& row : {out.first, out.second}) {
     EXPECT_EQ(row.parent, mother.id);
     EXPECT_EQ(row.type, mother.type);
     EXPECT_EQ(row.polarity, mother.polarity);
@@ -122,7 +122,7 @@ TEST(Division, DaughtersInheritAndBeginACycle) {
 TEST(Division, DaughtersOfALateStepHaveGrownForTheRest) {
   CellType type = cycling();
   type.cycle_duration.relative_spread = 0.0;
-  const FullRow mother = mother_row();
+  const CellState mother = mother_row();
   const auto out = divide(mother, type, 9, 1000.0, 648.0);
   EXPECT_EQ(out.first.birth_time, 352.0);
   EXPECT_NEAR(out.first.target_volume / out.first.birth_volume, 1.01, 1e-12);  // 648 s of 64800 s
@@ -159,7 +159,7 @@ TEST(Founder, HasTheVolumeOfItsAge) {
   const double birth_volume = 4.0 / 3.0 * std::numbers::pi * 216.0;
   const int n = 20000;
   for (int k = 1; k <= n; ++k) {
-    const FullRow row = make_founder(CellId::founder(k), 0, type, 4, 500.0, true);
+    const CellState row = make_founder(CellId::founder(k), 0, type, 4, 500.0, true);
     const double point = (500.0 - row.birth_time) / row.cycle_duration;
     ASSERT_GT(point, 0.0);
     ASSERT_LT(point, 1.0);
@@ -179,7 +179,7 @@ TEST(Founder, RestsWhereItsTypeDoesNotCycle) {
   type.initial_body = BodyKind::kShell;
   std::set<double> volumes;
   for (int k = 1; k <= 100; ++k) {
-    const FullRow row = make_founder(CellId::founder(k), 3, type, 4, 0.0, true);
+    const CellState row = make_founder(CellId::founder(k), 3, type, 4, 0.0, true);
     EXPECT_EQ(row.phase, Phase::kResting);
     EXPECT_EQ(row.body, BodyKind::kShell);
     EXPECT_EQ(row.birth_time, 0.0);

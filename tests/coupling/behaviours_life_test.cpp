@@ -20,7 +20,7 @@ constexpr double kHour = 3600.0;
 
 /// A population of spheres without mechanics.
 struct Population {
-  std::vector<FullRow> rows;
+  std::vector<CellState> rows;
   std::vector<CellType> types;
   std::vector<Event> events;
   double time = 0.0;
@@ -32,11 +32,11 @@ struct Population {
     Model model;
     model.fields.resize(2);
     cells.declare(cell_variables(model));
-    for (const FullRow& row : rows) cells.push_back(row);
+    for (const CellState& row : rows) cells.push_back(row);
     const LifeReport report = live(cells, types, {1, step++, time, dt});
-    for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = cells.full(k);
+    for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = cells.state(k);
     events.insert(events.end(), report.events.begin(), report.events.end());
-    std::vector<FullRow> next;
+    std::vector<CellState> next;
     auto division = report.divisions.begin();
     auto removal = report.removals.begin();
     for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -58,7 +58,7 @@ struct Population {
   }
   [[nodiscard]] double volume() const {
     double sum = 0.0;
-    for (const FullRow& row : rows) sum += row.target_volume;
+    for (const CellState& row : rows) sum += row.target_volume;
     return sum;
   }
 };
@@ -151,7 +151,7 @@ TEST(Life, AShellDividesAsASphereDoes) {
   ASSERT_EQ(population.events.size(), 1u);
   EXPECT_EQ(population.events[0].kind, EventKind::kDivision);
   ASSERT_EQ(population.rows.size(), 2u);
-  for (const FullRow& row : population.rows) EXPECT_EQ(row.body, BodyKind::kShell);
+  for (const CellState& row : population.rows) EXPECT_EQ(row.body, BodyKind::kShell);
 }
 
 TEST(Life, AShellThatFoundNoPlaneTriesAgainEveryTenMinutes) {
@@ -164,7 +164,7 @@ TEST(Life, AShellThatFoundNoPlaneTriesAgainEveryTenMinutes) {
   double time = 90000.0;
   for (const double dt : {60.0, 240.0, 240.0, 60.0, 30.0, 570.0, 7.0, 1300.0}) {
     time += dt;
-    LifeSides sides;
+    LifeValues sides;
     const LifeDecision decision = live(row, sides, type, {.time = time, .dt = dt});
     EXPECT_TRUE(decision.kind == LifeDecision::Kind::kNone || decision.kind == LifeDecision::Kind::kDivide);
     const bool passes = std::floor(time / 600.0) > std::floor((time - dt) / 600.0);
@@ -219,7 +219,7 @@ TEST(Death, PoissonSurvivorsAfterNinetySixHours) {
     for (int k = 1; k <= n; ++k) population.rows.push_back(make_founder(CellId::founder(k), 0, type, 1, 0.0, false));
     population.run_to(96 * kHour, dt);
     const auto alive =
-        std::count_if(population.rows.begin(), population.rows.end(), [](const FullRow& r) { return r.phase != Phase::kDying; });
+        std::count_if(population.rows.begin(), population.rows.end(), [](const CellState& r) { return r.phase != Phase::kDying; });
     EXPECT_NEAR(static_cast<double>(alive) / n, 0.736210, 4 * std::sqrt(0.7362 * 0.2638 / n));
     EXPECT_EQ(population.events.size(), n - static_cast<std::size_t>(alive));
   }
@@ -276,7 +276,7 @@ TEST(Life, DoesNotDependOnTheOrderOfCells) {
   other.run_to(30 * kHour, 300.0);
   ASSERT_GT(one.rows.size(), 300u);
   ASSERT_EQ(one.rows.size(), other.rows.size());
-  const auto by_id = [](const FullRow& a, const FullRow& b) { return a.id < b.id; };
+  const auto by_id = [](const CellState& a, const CellState& b) { return a.id < b.id; };
   std::sort(one.rows.begin(), one.rows.end(), by_id);
   std::sort(other.rows.begin(), other.rows.end(), by_id);
   for (std::size_t k = 0; k < one.rows.size(); ++k) {

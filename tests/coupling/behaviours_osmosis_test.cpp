@@ -32,8 +32,8 @@ CellType osmotic_type(double outside = 300.0, double inactive = 0.3) {
   return type;
 }
 
-FullRow row_of(double target = kVolume) {
-  FullRow row;
+CellState row_of(double target = kVolume) {
+  CellState row;
   row.id = CellId::founder(1);
   row.birth_volume = row.target_volume = target;
   row.division_volume = 2.0 * target;
@@ -106,7 +106,7 @@ TEST(Osmosis, TakesTheMediumFromACourseAndAField) {
   CellType type = osmotic_type(300.0);
   type.osmosis.course = {{0.0, 10.0}, {1.0, 0.5}};
   type.osmosis.field = 1;
-  FullRow row = row_of();
+  CellState row = row_of();
   row.variables = {0.0, 0.0, 0.0, 20.0};
   EXPECT_DOUBLE_EQ(osmotic_cell(row, type, 0.0, kArea, 0.0).outside, 320.0);
   EXPECT_DOUBLE_EQ(osmotic_cell(row, type, 5.0, kArea, 0.0).outside, 245.0);
@@ -115,7 +115,7 @@ TEST(Osmosis, TakesTheMediumFromACourseAndAField) {
 
 TEST(Osmosis, SolutesAreKeptOverASwapAndSharedByDaughters) {
   const CellType type = osmotic_type(150.0);
-  FullRow row = row_of();
+  CellState row = row_of();
   row.reference_excess = std::log(1.7);
   const double before = osmotic_cell(row, type, 0.0, kArea, 0.0).osmolytes;
   const double radius = std::cbrt(3.0 * 1.7 * kVolume / (4.0 * std::numbers::pi));
@@ -158,8 +158,8 @@ End run(BodyKind body, double outside, double time, double max_step, const char*
   }
   const double reference = body == BodyKind::kShell ? simulation->tissue().shells.reference_volume[0] : 0.0;
   const BodyValues now = simulation->values();
-  const OsmoticCell cell =
-      osmotic_cell(simulation->tissue().cells.full(0), model.types[0], simulation->tissue().clock.time, now.area[0], now.inner_pressure[0]);
+  const OsmoticCell cell = osmotic_cell(simulation->tissue().cells.state(0), model.types[0], simulation->tissue().clock.time, now.area[0],
+                                        now.inner_pressure[0]);
   return {now.volume[0] / kVolume, reference / kVolume, now.volume[0] / osmotic_volume(cell) - 1.0};
 }
 

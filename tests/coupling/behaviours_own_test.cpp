@@ -76,10 +76,10 @@ TEST(Behaviours, TurnTheCellAndSetItsSpeed) {
   type.migration_speed = 0.01;
   type.migration_persistence = 60.0;
   Living turns(type);
-  const double before = norm(turns.cells.side.migration_velocity[0]);
+  const double before = norm(turns.cells.optional.migration_velocity[0]);
   turns.advance(60.0);
-  EXPECT_EQ(turns.cells.side.polarity[0], (Vec3d{0, 1, 0}));
-  EXPECT_NEAR(norm(turns.cells.side.migration_velocity[0]), before * std::exp(-1.0), 1e-12) << "what is left of the speed before";
+  EXPECT_EQ(turns.cells.optional.polarity[0], (Vec3d{0, 1, 0}));
+  EXPECT_NEAR(norm(turns.cells.optional.migration_velocity[0]), before * std::exp(-1.0), 1e-12) << "what is left of the speed before";
 }
 
 TEST(Behaviours, RememberAndSeeOnlyTheirOwnCell) {

@@ -18,8 +18,8 @@ std::shared_ptr<const DivisionAxis> axis_named(const std::string& name) {
   return nullptr;
 }
 
-FullRow cell(std::uint64_t number) {
-  FullRow row;
+CellState cell(std::uint64_t number) {
+  CellState row;
   row.id = CellId::founder(number);
   row.polarity = {0.6, 0.0, 0.8};
   return row;
@@ -44,7 +44,7 @@ TEST(DivisionAxis, EveryRuleGivesWhatItsNameSays) {
   double up = 0.0, mean = 0.0;
   const int n = 400;
   for (int k = 1; k <= n; ++k) {
-    const FullRow row = cell(static_cast<std::uint64_t>(k));
+    const CellState row = cell(static_cast<std::uint64_t>(k));
     const auto of = [&](const char* name, const SurfaceView& surface) {
       type.axis = axis_named(name);
       return division_axis({row, type, surface}, 3, 0);
@@ -90,7 +90,7 @@ TEST(DivisionAxis, LaterAttemptsAreOtherPlanesAndTheSameWheneverAsked) {
   CellType type;
   type.axis = axis_named("fixed");
   type.division_direction = {1, 0, 0};
-  const FullRow row = cell(7);
+  const CellState row = cell(7);
   EXPECT_EQ(division_axis({row, type}, 1, 0), (Vec3d{1, 0, 0}));
   for (std::uint64_t attempt = 1; attempt < 4; ++attempt) {
     const Vec3d tilted = division_axis({row, type}, 1, attempt);
@@ -98,7 +98,7 @@ TEST(DivisionAxis, LaterAttemptsAreOtherPlanesAndTheSameWheneverAsked) {
     EXPECT_LT(tilted.x, 1.0 - 1e-6);
     EXPECT_GT(tilted.x, -0.5);
   }
-  FullRow later = row;
+  CellState later = row;
   later.draws = 4;
   EXPECT_FALSE(division_axis({later, type}, 1, 1) == division_axis({row, type}, 1, 1)) << "what was tried is not tried again";
 }

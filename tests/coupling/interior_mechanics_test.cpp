@@ -204,7 +204,7 @@ TEST(SqueezedNucleus, IsHeldInBalanceByThePlates) {
 TEST(Nucleus, ComesWithAPromotionAndTravelsInARecord) {
   CellType type = clusters_model().types[0];
   type.interior.nucleus_fraction = 0.07;
-  FullRow row;
+  CellState row;
   row.id = CellId::founder(1);
   row.target_volume = kVolume;
   CellRecord cell{row, SphereRecord{{1, 2, 3}, kRadius, {}, {}}, std::nullopt};

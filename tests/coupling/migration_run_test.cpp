@@ -28,7 +28,7 @@ TEST(Migration, ForceMakesTheCellsOfARunDiffuseAsTheirDragSays) {
   ShapeLibrary shapes;
   Tissue tissue = test::make_tissue(model, shapes, centers, std::vector<BodyKind>(kCells, BodyKind::kSphere));
   for (std::size_t i = 0; i < kCells; ++i)
-    tissue.cells.side.migration_velocity.set(i, initial_migration_velocity(tissue.cells.rows[i].id, model.types[0], model.seed));
+    tissue.cells.optional.migration_velocity.set(i, initial_migration_velocity(tissue.cells.rows[i].id, model.types[0], model.seed));
   const std::vector<Vec3d> start = tissue.spheres.position;
   auto simulation = Simulation::create(model, std::move(tissue), Comm(), 1).value();
   for (const double t : {60.0, 300.0, 1200.0}) {

@@ -316,7 +316,7 @@ TEST(NuclearShell, ComesWithAPromotionTravelsInARecordAndGoesWithADemotion) {
   Model model = clusters_model();
   give_nuclear_shell(model, 2.5, 5.0, 42);
   const CellType& type = model.types[0];
-  FullRow row;
+  CellState row;
   row.id = CellId::founder(1);
   row.target_volume = kVolume;
   CellRecord cell{row, SphereRecord{{1, 2, 3}, kRadius, {0.5f, 0, 0}, {}}, std::nullopt};

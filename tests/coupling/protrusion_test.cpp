@@ -160,7 +160,7 @@ TEST(Protrusion, MovesAFreeCellOnlyWithItsReactionOutside) {
   for (const bool internal : {false, true}) {
     const Model model = protruding(internal);
     Tissue tissue = test::make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell}, 162);
-    tissue.cells.side.polarity.set(0, {1, 0, 0});
+    tissue.cells.optional.polarity.set(0, {1, 0, 0});
     auto simulation = Simulation::create(model, std::move(tissue), Comm(), 1).value();
     // The centre that friction by area moves is that of the nodes by area: its velocity is ΣF/(γ A) at every instant.
     double moved = 0.0, expected = 0.0, scale = 0.0;
@@ -203,7 +203,7 @@ TEST(Protrusion, MovesACellOnASubstrateAgainstBothFrictions) {
   ShapeLibrary shapes;
   Tissue tissue = test::make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell}, 162);
   tissue.obstacle_offset.resize(2);
-  tissue.cells.side.polarity.set(0, {1, 0, 0});
+  tissue.cells.optional.polarity.set(0, {1, 0, 0});
   auto simulation = Simulation::create(model, std::move(tissue), Comm(), 1).value();
   const auto to = [&](double time) {
     while (simulation->tissue().clock.time < time) ASSERT_TRUE(simulation->step(time).ok());

@@ -6,10 +6,10 @@
 namespace morula {
 
 /// Two rows with the same bits.
-inline bool same_rows(const FullRow& a, const FullRow& b) {
+inline bool same_rows(const CellState& a, const CellState& b) {
   const auto same = [](const auto& one, const auto& other) { return std::memcmp(&one, &other, sizeof one) == 0; };
   return same(static_cast<const CellRow&>(a), static_cast<const CellRow&>(b)) &&
-         same(static_cast<const CellSides&>(a), static_cast<const CellSides&>(b)) && a.variables.size() == b.variables.size() &&
+         same(static_cast<const OptionalValues&>(a), static_cast<const OptionalValues&>(b)) && a.variables.size() == b.variables.size() &&
          (a.variables.empty() || std::memcmp(a.variables.data(), b.variables.data(), a.variables.size() * sizeof(double)) == 0);
 }
 

@@ -114,7 +114,7 @@ TEST_F(ShellDivision, RestLengthsGoToThoseOfAFreeCell) {
   const auto [daughter] = divide({0, 0, 1}, 0.5);
   std::vector<CellType> types = {type_};
   Cells cells;
-  cells.push_back(FullRow());
+  cells.push_back(CellState());
   cells.rows[0].body = BodyKind::kShell;
   cells.rows[0].parent = CellId::founder(1);
   cells.rows[0].birth_time = 1000.0;

@@ -97,7 +97,7 @@ TEST(StillToCome, RegionsThatBeginOrEnd) {
 TEST(StillToCome, ExchangesThatWaitForTheirHoldTimeUnlessThereIsNoPlace) {
   Model model = quiet_model();
   model.swaps.regions.push_back({.name = "all", .shape = everything_region()});
-  const auto just_swapped = [](Tissue& tissue) { tissue.cells.side.last_swap_time.set(sphere_of(tissue), 900.0, 2); };
+  const auto just_swapped = [](Tissue& tissue) { tissue.cells.optional.last_swap_time.set(sphere_of(tissue), 900.0, 2); };
   EXPECT_THAT(coming(model, just_swapped), ElementsAre("an exchange of bodies"));
   model.swaps.max_shells = 1;
   EXPECT_THAT(coming(model, just_swapped), IsEmpty()) << "the shell there is takes the only place";
@@ -108,12 +108,12 @@ TEST(StillToCome, WhatCellsDo) {
     return [change](Tissue& tissue) { change(tissue, tissue.cells.rows[sphere_of(tissue)], sphere_of(tissue)); };
   };
   Model model = quiet_model();
-  EXPECT_THAT(coming(model, of_sphere([](Tissue& t, CellRow&, std::size_t i) { t.cells.side.inflation_left.set(i, 1.0, 2); })),
+  EXPECT_THAT(coming(model, of_sphere([](Tissue& t, CellRow&, std::size_t i) { t.cells.optional.inflation_left.set(i, 1.0, 2); })),
               ElementsAre("inflation"));
   EXPECT_THAT(coming(model, of_sphere([](Tissue&, CellRow& row, std::size_t) { row.phase = Phase::kDying; })),
               ElementsAre("the end of dying cells"));
   EXPECT_THAT(coming(model, of_sphere([](Tissue&, CellRow& row, std::size_t) { row.phase = Phase::kWaiting; })), ElementsAre("a division"));
-  EXPECT_THAT(coming(model, of_sphere([](Tissue& t, CellRow&, std::size_t i) { t.cells.side.reference_excess.set(i, 0.05, 2); })),
+  EXPECT_THAT(coming(model, of_sphere([](Tissue& t, CellRow&, std::size_t i) { t.cells.optional.reference_excess.set(i, 0.05, 2); })),
               ElementsAre("easing after an exchange of bodies"));
   for (const auto& [age, what] : {std::pair{1799.0, 1u}, {1801.0, 0u}})
     EXPECT_EQ(coming(model, of_sphere([age = age](Tissue&, CellRow& row, std::size_t) {

@@ -190,7 +190,7 @@ TEST(Promotion, WithoutRoomIsPutOffWithAWarning) {
   EXPECT_EQ(now.ledger.promotions, now.shells.size());
   std::size_t sphere = 0;
   for (std::size_t i = 0; i < now.cells.size(); ++i) {
-    const FullRow row = now.cells.full(i);
+    const CellState row = now.cells.state(i);
     if (row.id == put_off) {
       EXPECT_EQ(row.body, kSphere);
       EXPECT_EQ(row.last_swap_time, now.clock.time);

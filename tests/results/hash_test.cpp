@@ -59,7 +59,7 @@ void append_shell(const dcm::Shells& from, std::size_t i, dcm::Shells& to) {
 Tissue turned_around(const Tissue& from) {
   Tissue to = from;
   to.cells = from.cells.without_rows();
-  for (std::size_t i = from.cells.size(); i-- > 0;) to.cells.push_back(from.cells.full(i));
+  for (std::size_t i = from.cells.size(); i-- > 0;) to.cells.push_back(from.cells.state(i));
   std::reverse(to.spheres.position.begin(), to.spheres.position.end());
   std::reverse(to.spheres.radius.begin(), to.spheres.radius.end());
   std::reverse(to.spheres.type.begin(), to.spheres.type.end());

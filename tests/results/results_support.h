@@ -115,9 +115,9 @@ inline Model model_of_test_tissue() {
   return model;
 }
 
-inline FullRow make_row(CellId id, BodyKind body) {
+inline CellState make_row(CellId id, BodyKind body) {
   CellNumbers numbers(id.bits());
-  FullRow row;
+  CellState row;
   row.id = id;
   row.parent = CellId::founder(3);
   row.order = (id.bits() * 7919) % 64;  // many cells share a place along the curve
@@ -221,7 +221,7 @@ inline Tissue make_tissue(const Comm& comm, ShapeLibrary& library, int cells = 6
   tissue.obstacle_offset = {{1, 2, 3}, {4, 5, 6}};
   tissue.lumens = {{10.5, 3.25, 1e5, 0.02, 4e3, 0.97}, {-1e300, 7.0, 0.0, 0.0, 0.0, 0.0}};
   const auto tetra = tetrahedron();
-  std::vector<FullRow> rows;
+  std::vector<CellState> rows;
   for (int c = 0; c < cells; ++c) {
     if ((c * spread) % comm.size() != comm.rank()) continue;
     CellId id = CellId::founder(static_cast<std::uint64_t>(cells - c));
@@ -229,7 +229,7 @@ inline Tissue make_tissue(const Comm& comm, ShapeLibrary& library, int cells = 6
     rows.push_back(make_row(id, c % 3 == 0 ? BodyKind::kShell : BodyKind::kSphere));
   }
   std::sort(rows.begin(), rows.end(), before);
-  for (const FullRow& row : rows) tissue.cells.push_back(row);
+  for (const CellState& row : rows) tissue.cells.push_back(row);
   for (const CellRow& row : tissue.cells.rows) {
     if (row.body == BodyKind::kSphere)
       add_sphere(tissue.spheres, row.id);

@@ -171,8 +171,8 @@ TEST_F(InitialTissues, StartSmallAndOweTheRest) {
   const CellRow& row = *row_of(tissue, 31);
   EXPECT_NEAR(row.target_volume, 0.5 * whole, 1e-9);
   const auto number = static_cast<std::size_t>(&row - tissue.cells.rows.data());
-  EXPECT_NEAR(tissue.cells.side.inflation_left[number], 0.5 * whole, 1e-9);
-  EXPECT_NEAR(tissue.cells.side.inflation_rate[number] * 1800.0, 0.5 * whole, 1e-9);
+  EXPECT_NEAR(tissue.cells.optional.inflation_left[number], 0.5 * whole, 1e-9);
+  EXPECT_NEAR(tissue.cells.optional.inflation_rate[number] * 1800.0, 0.5 * whole, 1e-9);
 }
 
 TEST_F(InitialTissues, ShellsEncloseTheirVolumeAndAreTurned) {

@@ -8,8 +8,8 @@
 namespace morula {
 namespace {
 
-FullRow restless(std::uint64_t number) {
-  FullRow row;
+CellState restless(std::uint64_t number) {
+  CellState row;
   row.id = CellId::founder(number);
   row.order = 100 - number;  // the canonical order turns them around
   row.death_time = 7.0;
@@ -23,8 +23,8 @@ FullRow restless(std::uint64_t number) {
   return row;
 }
 
-FullRow plain(std::uint64_t number) {
-  FullRow row;
+CellState plain(std::uint64_t number) {
+  CellState row;
   row.id = CellId::founder(number);
   row.order = 100 - number;
   return row;
@@ -38,37 +38,37 @@ std::vector<CellVariable> six_variables() {
 }
 
 /// The row as cells with six variables give it back.
-FullRow whole(FullRow row) {
+CellState whole(CellState row) {
   row.variables.resize(6);
   return row;
 }
 
-TEST(CellSides, TakeNoRoomWhereAllCellsHaveTheUsualValues) {
+TEST(OptionalColumns, TakeNoRoomWhereAllCellsHaveTheUsualValues) {
   Cells cells;
   cells.rows.reserve(3);
   cells.declare(six_variables());
   for (std::uint64_t n = 1; n <= 3; ++n) cells.push_back(plain(n));
   EXPECT_EQ(cells.memory(), 3 * sizeof(CellRow));
-  SideColumns::for_each(cells.side, [](const auto& column) { EXPECT_TRUE(column.empty()); });
-  EXPECT_TRUE(same_rows(cells.full(1), whole(plain(2))));
+  OptionalColumns::for_each(cells.optional, [](const auto& column) { EXPECT_TRUE(column.empty()); });
+  EXPECT_TRUE(same_rows(cells.state(1), whole(plain(2))));
 }
 
-TEST(CellSides, ComeBackAsTheyWereSet) {
+TEST(OptionalColumns, ComeBackAsTheyWereSet) {
   Cells cells;
   cells.rows.reserve(8);
   cells.declare(six_variables());
   for (std::uint64_t n = 1; n <= 8; ++n) cells.push_back(n == 3 || n == 5 ? restless(n) : plain(n));
-  for (std::uint64_t n = 1; n <= 8; ++n) EXPECT_TRUE(same_rows(cells.full(n - 1), n == 3 || n == 5 ? restless(n) : whole(plain(n)))) << n;
-  EXPECT_EQ(cells.memory(), 8 * sizeof(CellRow) + 8 * sizeof(CellSides) + 8 * 6 * sizeof(double))
+  for (std::uint64_t n = 1; n <= 8; ++n) EXPECT_TRUE(same_rows(cells.state(n - 1), n == 3 || n == 5 ? restless(n) : whole(plain(n)))) << n;
+  EXPECT_EQ(cells.memory(), 8 * sizeof(CellRow) + 8 * sizeof(OptionalValues) + 8 * 6 * sizeof(double))
       << "room for all rows at once, and not more";
-  cells.set_sides(2, {});
+  cells.set_optional(2, {});
   for (VariableColumn& variable : cells.variables) variable.values.set(2, 0.0);
-  EXPECT_TRUE(same_rows(cells.full(2), whole(plain(3))));
-  EXPECT_TRUE(same_rows(cells.full(4), restless(5)));
+  EXPECT_TRUE(same_rows(cells.state(2), whole(plain(3))));
+  EXPECT_TRUE(same_rows(cells.state(4), restless(5)));
 }
 
-TEST(CellSides, MinusZeroIsNotZero) {
-  SideColumn<double> column;
+TEST(OptionalColumns, MinusZeroIsNotZero) {
+  OptionalColumn<double> column;
   column.set(2, -0.0);
   EXPECT_TRUE(std::signbit(column[2]));
   EXPECT_FALSE(std::signbit(column[1]));
@@ -76,7 +76,7 @@ TEST(CellSides, MinusZeroIsNotZero) {
   EXPECT_FALSE(std::signbit(column[2]));
 }
 
-TEST(CellSides, GoWithTheirCellThroughSortingAndBytes) {
+TEST(OptionalColumns, GoWithTheirCellThroughSortingAndBytes) {
   Tissue tissue;
   tissue.cells.declare(six_variables());
   std::vector<CellRecord> cells;
@@ -89,7 +89,7 @@ TEST(CellSides, GoWithTheirCellThroughSortingAndBytes) {
   ShapeLibrary shapes;
   std::vector<std::byte> bytes;
   for (const CellRecord& cell : take_apart(tissue)) append_bytes(cell, bytes);
-  EXPECT_TRUE(tissue.cells.side.polarity.empty());
+  EXPECT_TRUE(tissue.cells.optional.polarity.empty());
   cells = read_records(bytes, shapes);
   ASSERT_EQ(cells.size(), 6u);
   for (std::uint64_t n = 1; n <= 6; ++n) EXPECT_TRUE(same_rows(cells[6 - n].row, n == 2 ? restless(n) : whole(plain(n)))) << n;

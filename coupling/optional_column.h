@@ -10,10 +10,10 @@ namespace morula {
 /// Rows beyond the last that was set have the usual value. set() may make room, so that it is not for several threads at once, unless
 /// make_room() was called before.
 template <class T>
-class SideColumn {
+class OptionalColumn {
  public:
-  SideColumn() = default;
-  explicit SideColumn(const T& usual) : usual_(usual) {}
+  OptionalColumn() = default;
+  explicit OptionalColumn(const T& usual) : usual_(usual) {}
 
   [[nodiscard]] T operator[](std::size_t row) const { return row < values_.size() ? values_[row] : usual_; }
 
