@@ -230,7 +230,7 @@ TEST(SpherePacking, BetweenShellsSpheresAndAWallForcesAreTheGradientAndBalance) 
   for (const Vec3d& f : force) most = std::max(most, norm(f));
   const double h = 1e-6;
   const std::size_t nodes = mixed.tissue.shells.position.size();
-  for (std::size_t i = 0; i < force.size(); i += i < nodes ? 7 : 1)
+  for (std::size_t i = 0; i < force.size(); i = i < nodes ? std::min(i + 7, nodes) : i + 1)  // some nodes, and all spheres
     for (std::size_t axis = 0; axis < 3; ++axis) {
       double& x = (i < nodes ? mixed.tissue.shells.position[i] : mixed.tissue.spheres.position[i - nodes])[axis];
       const double at = x;
