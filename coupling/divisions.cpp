@@ -9,6 +9,7 @@
 #include "coupling/behaviours/life.h"
 #include "coupling/behaviours/shell_division.h"
 #include "coupling/cell_record.h"
+#include "coupling/overlap.h"
 #include "coupling/simulation.h"
 #include "coupling/surroundings.h"
 #include "coupling/swaps.h"
@@ -20,6 +21,8 @@ namespace {
 constexpr std::uint64_t kTries = 4;
 /// Neighbours farther away than this cannot be reached by a daughter [µm].
 constexpr double kReach = 2.0;
+/// Part of the overlap at which a run stops that daughters may begin with.
+constexpr double kMostOfLimit = 0.75;
 /// The step after a division of shells: their new surfaces find their place among the neighbours [s].
 constexpr double kStepAfterCut = 5.0;
 
@@ -102,14 +105,16 @@ void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& e
 
   std::vector<std::size_t> gone = life.removals;
   std::vector<CellRecord> fresh;
+  std::vector<CellRecord> cut;  // mothers that were shells
   std::int64_t divisions = 0, deaths = 0;
   for (std::size_t k = 0; k < mothers.size(); ++k) {
     if (daughters[k].empty()) {
-      put_off(mothers[k].body.row, events);
+      put_off(tissue_.cells.rows[mothers[k].body.row], events);
       continue;
     }
     ++divisions;
     gone.push_back(mothers[k].body.row);
+    if (mothers[k].body.is_shell) cut.push_back(mothers[k].cell);
     for (CellRecord& daughter : daughters[k]) {
       if (daughter.shell) place_nucleus(*daughter.shell, model_.types[daughter.row.type], shapes_);
       fresh.push_back(std::move(daughter));
@@ -120,14 +125,42 @@ void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& e
     replace_cells(tissue_, gone, std::move(fresh));
     mechanics_->bodies_changed();
   }
-  if (cuts) tissue_.clock.next_step = std::min(tissue_.clock.next_step, kStepAfterCut);
+  if (cuts) {
+    divisions -= undo_deep_cuts(cut, events);
+    tissue_.clock.next_step = std::min(tissue_.clock.next_step, kStepAfterCut);
+  }
   for (const Event& event : life.events) deaths += event.kind == EventKind::kDeath;
   tissue_.ledger.divisions += static_cast<std::uint64_t>(comm_.sum(divisions));
   tissue_.ledger.deaths += static_cast<std::uint64_t>(comm_.sum(deaths));
 }
 
-void Simulation::put_off(std::size_t row, std::vector<Event>& events) {
-  CellRow& mother = tissue_.cells.rows[row];
+std::int64_t Simulation::undo_deep_cuts(std::span<const CellRecord> mothers, std::vector<Event>& events) {
+  std::vector<CellId> daughters;
+  for (const CellRecord& mother : mothers)
+    for (const int which : {0, 1}) daughters.push_back(mother.row.id.daughter(which));
+  std::ranges::sort(daughters);
+  mechanics_->update_scene(tissue_);
+  const std::vector<CellId> deep = too_deep(*mechanics_, daughters, kMostOfLimit * model_.limits.overlap);
+  std::vector<CellRecord> back;
+  std::vector<CellId> undone;
+  for (const CellRecord& mother : mothers) {
+    const CellId pair[2] = {mother.row.id.daughter(0), mother.row.id.daughter(1)};
+    if (std::ranges::none_of(pair, [&](CellId id) { return std::ranges::binary_search(deep, id); })) continue;
+    undone.insert(undone.end(), {pair[0], pair[1]});
+    put_off(back.emplace_back(mother).row, events);
+  }
+  if (back.empty()) return 0;
+  std::ranges::sort(undone);
+  std::vector<std::size_t> gone;
+  for (std::size_t i = 0; i < tissue_.cells.size(); ++i)
+    if (std::ranges::binary_search(undone, tissue_.cells.rows[i].id)) gone.push_back(i);
+  const auto count = static_cast<std::int64_t>(back.size());
+  replace_cells(tissue_, gone, std::move(back));
+  mechanics_->bodies_changed();
+  return count;
+}
+
+void Simulation::put_off(CellRow& mother, std::vector<Event>& events) {
   mother.draws += kTries;  // other planes the next time
   const auto division =
       std::ranges::find_if(events, [&](const Event& event) { return event.kind == EventKind::kDivision && event.cell == mother.id; });

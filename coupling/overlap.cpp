@@ -25,4 +25,21 @@ Extreme deepest_overlap(Simulation& simulation) {
   return out;
 }
 
+std::vector<CellId> too_deep(const Mechanics& mechanics, std::span<const CellId> these, double depth) {
+  const auto bodies = mechanics.scene().bodies();
+  std::vector<CellId> out;
+  const auto offer = [&](CellId id) {
+    if (std::binary_search(these.begin(), these.end(), id)) out.push_back(id);
+  };
+  for (const SurfacePair& pair : mechanics.contacts().pairs()) {
+    const bool surfaces = pair.rigid || (bodies[pair.a].shape == BodyShape::kSurface && bodies[pair.b].shape == BodyShape::kSurface);
+    if (!surfaces || !(pair.overlap > depth)) continue;
+    offer(bodies[pair.a].id);
+    if (!pair.rigid) offer(bodies[pair.b].id);
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
 }  // namespace morula

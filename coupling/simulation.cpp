@@ -16,6 +16,7 @@
 #include "coupling/face_marks.h"
 #include "coupling/mechanics/contact_setup.h"
 #include "coupling/mechanics/scene.h"
+#include "coupling/overlap.h"
 #include "coupling/still_to_come.h"
 #include "coupling/swaps.h"
 #include "dcm/growth.h"
@@ -27,24 +28,6 @@ namespace {
 constexpr double kEasing = 600.0;
 /// A promoted cell that is left this deep within a neighbour has no room: it stays a sphere for now [µm].
 constexpr double kNoRoom = 0.5;
-
-/// The cells of this list that lie deeper than this within another surface, as the contacts were found last. `these` is sorted; so is the answer.
-std::vector<CellId> too_deep(const Mechanics& mechanics, std::span<const CellId> these, double depth) {
-  const auto bodies = mechanics.scene().bodies();
-  std::vector<CellId> out;
-  const auto offer = [&](CellId id) {
-    if (std::binary_search(these.begin(), these.end(), id)) out.push_back(id);
-  };
-  for (const SurfacePair& pair : mechanics.contacts().pairs()) {
-    const bool surfaces = pair.rigid || (bodies[pair.a].shape == BodyShape::kSurface && bodies[pair.b].shape == BodyShape::kSurface);
-    if (!surfaces || !(pair.overlap > depth)) continue;
-    offer(bodies[pair.a].id);
-    if (!pair.rigid) offer(bodies[pair.b].id);
-  }
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
-}
 
 /// Cells just promoted that found no room (`back`, sorted) become again the spheres they were; their events say so.
 void take_back(Tissue& tissue, std::vector<CellRecord> before, std::span<const CellId> back, std::vector<Event>& events) {

@@ -1,5 +1,6 @@
 // Shells that divide in runs of studies.
-#include <map>
+#include <algorithm>
+#include <cmath>
 
 #include "results/snapshot_file.h"
 #include "tests/scenarios/own_parts.h"
@@ -89,6 +90,17 @@ TEST_F(DivisionRun, WaitsWhereTheStudySaysSo) {
   run_whole(one_shell("shells: wait", "40 min"), "waits");
   EXPECT_EQ(column("waits", "cell_count").back(), 1.0);
   EXPECT_THAT(file("waits", "events.jsonl"), HasSubstr("division_waits"));
+}
+
+TEST_F(DivisionRun, PutsOffADivisionThatWouldReachTooDeep) {
+  // No pair of sisters begins within 7.5 nm of each other: every plane is taken back, and the run goes on.
+  run_whole(one_shell("growth: linear", "75 min", "limits: {overlap: 10 nm}\n"), "deep");
+  EXPECT_EQ(column("deep", "cell_count").back(), 1.0);
+  EXPECT_EQ(column("deep", "divisions").back(), 0.0);
+  EXPECT_NEAR(column("deep", "total_volume").back() / egg_volume(), 2.0, 0.01) << "nothing is lost";
+  const std::string events = file("deep", "events.jsonl");
+  EXPECT_THAT(events, HasSubstr("division_waits"));
+  EXPECT_EQ(std::count(events.begin(), events.end(), '\n'), 1) << "said once: " << events;
 }
 
 TEST_F(DivisionRun, SaysWhatCannotBe) {

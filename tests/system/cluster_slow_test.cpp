@@ -28,6 +28,7 @@ TEST_P(StrongAdhesion, KeepsSurfacesApartInLongSteps) {
                                      "--out",
                                      "run",
                                      "output.report=false",
+                                     "cell_types.blastomere.cycle={duration: 18 h, shells: wait}",
                                      "cell_types.blastomere.dcm.cortex.tension=0.5 mN/m",
                                      "limits.overlap=" + std::to_string(GetParam().deepest) + " um"};
   arguments.insert(arguments.end(), GetParam().changes.begin(), GetParam().changes.end());
@@ -47,7 +48,8 @@ TEST_P(StrongAdhesion, KeepsSurfacesApartInLongSteps) {
 }
 
 std::vector<std::string> fifty_five(const std::string& adhesion) {
-  return {"initial.0.count=55", "initial.0.radius=27.5 um", "cell_types.blastomere.adhesion={blastomere: " + adhesion + "}"};
+  return {"time.end=18 h", "initial.0.count=55", "initial.0.radius=27.5 um",
+          "cell_types.blastomere.adhesion={blastomere: " + adhesion + "}"};
 }
 
 // Limits: time_stepping.md §9 and 5 % of the mean edge of newborn cells of 162 nodes (W = 0.5 mJ/m²). §9 left 13 cells of 642 nodes at W/2γ = 0.9
