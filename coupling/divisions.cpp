@@ -141,6 +141,7 @@ std::int64_t Simulation::undo_deep_cuts(std::span<const CellRecord> mothers, std
   std::ranges::sort(daughters);
   mechanics_->update_scene(tissue_);
   const std::vector<CellId> deep = too_deep(*mechanics_, daughters, kMostOfLimit * model_.limits.overlap);
+  mechanics_->bodies_changed();  // what it knows is with partners that have not their new names yet
   std::vector<CellRecord> back;
   std::vector<CellId> undone;
   for (const CellRecord& mother : mothers) {
@@ -156,7 +157,6 @@ std::int64_t Simulation::undo_deep_cuts(std::span<const CellRecord> mothers, std
     if (std::ranges::binary_search(undone, tissue_.cells.rows[i].id)) gone.push_back(i);
   const auto count = static_cast<std::int64_t>(back.size());
   replace_cells(tissue_, gone, std::move(back));
-  mechanics_->bodies_changed();
   return count;
 }
 

@@ -45,12 +45,12 @@ TEST(Bodies, WhateverIsInsideAShellMayFluctuate) {
     EXPECT_TRUE(test::read(test::changed("nodes: 162", std::string("nodes: 162\n      ") + inside, shells)).ok()) << inside;
 }
 
-TEST(Bodies, ShellsThatWouldDivideAreToldWhereverTheyComeFrom) {
-  const std::string cycle = with("cycle: {duration: 18 h}");
+TEST(Bodies, ShellsThatWaitAreToldWhereverTheyComeFrom) {
+  const std::string cycle = with("cycle: {duration: 18 h, shells: wait}");
   EXPECT_THAT(test::warnings_of(cycle), Not(HasSubstr("E646")));
   const std::string by_entry = test::warnings_of(test::changed("radius: 40 um}", kAsShell, cycle));
   EXPECT_THAT(by_entry, HasSubstr("[E646]"));
-  EXPECT_THAT(by_entry, HasSubstr("study.yaml:8:23"));
+  EXPECT_THAT(by_entry, HasSubstr("study.yaml:8:37"));
   const std::string coupling = "coupling:\n  ";
   EXPECT_THAT(test::warnings_of(cycle + coupling + "regions: [{name: core, shape: sphere, radius: 10 um, as: shell}]\n"),
               HasSubstr("[E646]"));
@@ -59,8 +59,20 @@ TEST(Bodies, ShellsThatWouldDivideAreToldWhereverTheyComeFrom) {
   EXPECT_THAT(test::warnings_of(test::changed("radius: 6 um", "radius: 6 um\n    body: shell", cycle)), HasSubstr("[E646]"));
 }
 
+TEST(Bodies, ShellsThatDivideAreNotWarnedOf) {
+  EXPECT_EQ(test::warnings_of(test::changed("radius: 40 um}", kAsShell, with("cycle: {duration: 18 h}"))), "");
+}
+
+TEST(Bodies, SpheresHaveNoLongAxis) {
+  EXPECT_THAT(test::warnings_of(with("cycle: {duration: 8 h, axis: long}")), HasSubstr("[E649]"));
+  EXPECT_THAT(test::warnings_of(test::changed("radius: 40 um}", kAsShell, with("cycle: {duration: 8 h, axis: long}"))),
+              Not(HasSubstr("E649")));
+  EXPECT_THAT(test::warnings_of(with("cycle: {duration: 8 h}")), Not(HasSubstr("E649")));
+}
+
 TEST(Bodies, ShellsThatOnlyGrowAreNotWarnedOf) {
-  const std::string grows = test::changed("radius: 40 um}", "radius: 40 um, as: shell, age: birth}", with("cycle: {duration: 18 h}"));
+  const std::string grows =
+      test::changed("radius: 40 um}", "radius: 40 um, as: shell, age: birth}", with("cycle: {duration: 18 h, shells: wait}"));
   EXPECT_THAT(test::warnings_of(grows), Not(HasSubstr("E646")));
   EXPECT_THAT(test::warnings_of(test::changed("10 h", "20 h", grows)), HasSubstr("E646"));
 }
