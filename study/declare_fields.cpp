@@ -166,7 +166,7 @@ void declare_field(Section& s, draft::Field& f) {
 
 void declare_coupling(Section& s, draft::Coupling& c) {
   s.whole({.name = "max_shells",
-           .doc = "At most this many shells at a time; promotions beyond it wait.",
+           .doc = "No sphere becomes a shell while there are as many shells as this; daughters of shells are shells all the same.",
            .fallback = "unlimited",
            .low = 0,
            .high = 2.0e8,
