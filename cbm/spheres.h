@@ -44,6 +44,7 @@ struct ColumnOfPartners {
   static constexpr Fill kFill = Fill::kAny;
   const char* name;
   const char* unit;
+  ColumnRules rules{};
 
   [[nodiscard]] static std::span<const CellId> values(const Spheres& spheres, std::size_t i) { return spheres.attached[i]; }
   [[nodiscard]] static std::span<const CellId> values(const SphereRecord& sphere) { return sphere.attached; }
@@ -52,6 +53,7 @@ struct ColumnOfPartners {
     for (std::size_t i = first; i < last; ++i) spheres.attached.push_back(from.attached[i]);
   }
   static void give(SphereRecord& sphere, std::span<const CellId> values) { sphere.attached.assign(values.begin(), values.end()); }
+  static void copy(Spheres& spheres, const Spheres& from) { spheres.attached = from.attached; }
   static void reserve(Spheres& spheres, std::size_t count) { spheres.attached.reserve(count, 0); }
   [[nodiscard]] static std::size_t memory(const Spheres& spheres) { return spheres.attached.memory(); }
 };
@@ -60,7 +62,7 @@ struct ColumnOfPartners {
 template <class Visit>
 void for_each_sphere_column(Visit&& visit) {
   visit(ColumnOfSpheres<Vec3d>{"position", "um", &Spheres::position, &SphereRecord::position});
-  visit(ColumnOfSpheres<double>{"radius", "um", &Spheres::radius, &SphereRecord::radius});
+  visit(ColumnOfSpheres<double>{"radius", "um", &Spheres::radius, &SphereRecord::radius, {.grows = true}});
   visit(ColumnOfSpheres<std::uint16_t>{"type", "1", &Spheres::type, &SphereRecord::type});
   visit(ColumnOfSpheres<Vec3f>{"velocity", "um/s", &Spheres::velocity, &SphereRecord::velocity});
   visit(ColumnOfPartners{"attached", "1"});

@@ -16,6 +16,22 @@ enum class Fill : std::uint8_t {
   kAny,        ///< every body has a list of any length
 };
 
+/// What becomes of a column when the surface of a shell gets another mesh, as at a division by cut.
+enum class OnNewMesh : std::uint8_t {
+  kMade,        ///< follows from the new mesh; whoever makes it sets it
+  kKept,        ///< the body has its old value, or its mother's
+  kByVolume,    ///< shared like the volume
+  kMean,        ///< every node has the mean of the old ones
+  kByPlace,     ///< a face has what the old face nearest to its middle has
+  kByCoverage,  ///< bits of faces, each by itself: the faces that cover its old area best
+};
+
+/// What events and steps do with a column, beside carrying it along.
+struct ColumnRules {
+  bool grows = false;  ///< changed before the mechanics of a step: a refused step takes it back
+  OnNewMesh on_new_mesh = OnNewMesh::kKept;
+};
+
 /// One value of each body. `all`: the column of a table; `one`: where a record of one body keeps its value.
 template <class T, class Table, class Record>
 struct ColumnOfBodies {
@@ -26,6 +42,7 @@ struct ColumnOfBodies {
   const char* unit;
   std::vector<T> Table::*all;
   T Record::*one;
+  ColumnRules rules{};
 
   [[nodiscard]] std::span<const T> values(const Table& table, std::size_t i) const { return {&(table.*all)[i], 1}; }
   [[nodiscard]] std::span<const T> values(const Record& record) const { return {&(record.*one), 1}; }
@@ -36,6 +53,8 @@ struct ColumnOfBodies {
     (table.*all).insert((table.*all).end(), values.begin(), values.end());
   }
   void give(Record& record, std::span<const T> values) const { record.*one = values[0]; }
+  /// The values of all bodies of another table.
+  void copy(Table& table, const Table& from) const { table.*all = from.*all; }
   void reserve(Table& table, std::size_t count) const { (table.*all).reserve(count); }
   [[nodiscard]] std::size_t memory(const Table& table) const { return (table.*all).capacity() * sizeof(T); }
 };

@@ -35,6 +35,9 @@ struct KeySpec {
   const char* shorthand = nullptr;                              ///< for a section: the key that a bare value stands for
   const char* example = "";
   const char* source = "";  ///< where the default comes from
+
+  /// Whether a number is within the limits.
+  [[nodiscard]] bool holds(double x) const { return (low_open ? x > low : x >= low) && (high_open ? x < high : x <= high); }
 };
 
 }  // namespace morula

@@ -136,14 +136,28 @@ void replace_cells(Tissue& tissue, std::span<const std::size_t> gone, std::vecto
   keep_until(old.cells.size());
 }
 
+std::vector<double> free_rest_lengths(const ReferenceShape& shape, double rest_volume) {
+  std::vector<double> out(shape.edge_length);
+  const double scale = std::cbrt(rest_volume);  // the reference shape encloses 1
+  for (double& length : out) length *= scale;
+  return out;
+}
+
+std::vector<std::size_t> rows_of(const Cells& cells, std::span<const CellId> sorted) {
+  assert(std::ranges::is_sorted(sorted));
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (std::ranges::binary_search(sorted, cells.rows[i].id)) out.push_back(i);
+  return out;
+}
+
 ShellRecord spherical_shell(std::shared_ptr<const ReferenceShape> shape, const Vec3d& center, double volume, double reference_volume) {
   ShellRecord body;
   const double scale = std::cbrt(volume);  // the reference shape encloses 1
   body.position.reserve(shape->position.size());
   for (const Vec3d& p : shape->position) body.position.push_back(center + p * scale);
   body.velocity.assign(shape->position.size(), Vec3f{});
-  body.rest_length.reserve(shape->edge_length.size());
-  for (const double length : shape->edge_length) body.rest_length.push_back(length * scale);
+  body.rest_length = free_rest_lengths(*shape, volume);
   body.reference_volume = reference_volume;
   body.rest_volume = volume;
   body.shape = std::move(shape);
@@ -163,11 +177,8 @@ void place_nucleus(ShellRecord& shell, const CellType& type, ShapeLibrary& shape
   const double volume = interior.nucleus_fraction * shell.rest_volume;
   ShellRecord nucleus = spherical_shell(shapes.icosphere(interior.nucleus_nodes).value(), center, volume,
                                         dcm::nucleus_reference_volume(volume, shell.rest_volume, interior.nucleus_shell, type.shell));
-  if (!shell.velocity.empty()) {  // it comes along with its cell
-    Vec3f mean;
-    for (const Vec3f& v : shell.velocity) mean += v;
-    std::fill(nucleus.velocity.begin(), nucleus.velocity.end(), mean * (1.0f / static_cast<float>(shell.velocity.size())));
-  }
+  if (!shell.velocity.empty())
+    std::ranges::fill(nucleus.velocity, mean_of(std::span<const Vec3f>(shell.velocity)));  // it comes along with its cell
   shell.nuclear_shell = std::move(nucleus);
 }
 

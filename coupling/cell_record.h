@@ -1,8 +1,10 @@
 #pragma once
+#include <cassert>
 #include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/boxed.h"
@@ -36,6 +38,24 @@ CellRecord record_of(const Tissue& tissue, const BodyOfRow& body);
 /// The cells of the rows `gone` (increasing) leave the tissue, and `fresh` ones come in at their places in canonical order; all others are moved as
 /// they are, in stretches. What an event of a few cells does: nothing is sorted but them.
 void replace_cells(Tissue& tissue, std::span<const std::size_t> gone, std::vector<CellRecord> fresh);
+
+/// Mean of some numbers or vectors, at least one.
+template <class T>
+T mean_of(std::span<const T> values) {
+  assert(!values.empty());
+  T sum{};
+  for (const T& value : values) sum += value;
+  if constexpr (std::is_arithmetic_v<T>)
+    return sum / static_cast<T>(values.size());
+  else
+    return sum * (decltype(T::x)(1) / static_cast<decltype(T::x)>(values.size()));
+}
+
+/// Rest lengths of the edges of a free shell of this shape whose membrane is stress-free at `rest_volume` [µm].
+std::vector<double> free_rest_lengths(const ReferenceShape& shape, double rest_volume);
+
+/// The rows of these cells (sorted), increasing; cells that are not of this rank have none.
+std::vector<std::size_t> rows_of(const Cells& cells, std::span<const CellId> sorted);
 
 /// A spherical shell around `center` whose mesh encloses `volume`, with stress-free membrane at that volume and velocity zero.
 ShellRecord spherical_shell(std::shared_ptr<const ReferenceShape> shape, const Vec3d& center, double volume, double reference_volume);

@@ -69,7 +69,7 @@ Daughters divide_as_shell(const CellRecord& mother, const DaughterRows& rows, co
     Daughters out(2);
     for (std::size_t which = 0; which < 2; ++which) {
       out[which].row = which == 0 ? rows.first : rows.second;
-      dcm::ShellRecord& shell = divided->shell[which];
+      dcm::ShellRecord& shell = (*divided)[which];
       // Osmotic cells share their osmolytes, which go with the target volume; others keep their pressure: V0 goes with the volume.
       if (!what.type->osmosis.acts())
         out[which].row.reference_excess = std::log(shell.reference_volume / free_reference_volume(out[which].row.birth_volume, *what.type));
@@ -80,16 +80,30 @@ Daughters divide_as_shell(const CellRecord& mother, const DaughterRows& rows, co
   return {};
 }
 
+/// A shell for which no plane of division served: it waits, and tries others later; said once.
+void put_off(CellRow& mother, std::vector<Event>& events) {
+  mother.draws += kTries;  // other planes the next time
+  const auto division =
+      std::ranges::find_if(events, [&](const Event& event) { return event.kind == EventKind::kDivision && event.cell == mother.id; });
+  if (std::exchange(mother.phase, Phase::kWaiting) == Phase::kWaiting) {
+    events.erase(division);
+    return;
+  }
+  *division = {division->time, EventKind::kDivisionWaits, mother.id, {}, {}, {EventReason::Cause::kNoPlane}};
+}
+
 }  // namespace
 
 void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& events) {
   events.insert(events.end(), life.events.begin(), life.events.end());
   const std::vector<Mother> mothers = mothers_of(tissue_, life.divisions);
   const bool cuts = comm_.any(std::ranges::any_of(mothers, [](const Mother& mother) { return mother.body.is_shell; }));
-  if (cuts) mechanics_->update_scene(tissue_);
   std::vector<Daughters> daughters(mothers.size());
-  std::vector<std::shared_ptr<const ReferenceShape>> shape;
-  for (const CellType& type : model_.types) shape.push_back(cuts ? shapes_.icosphere(type.shell_nodes).value() : nullptr);
+  std::vector<std::shared_ptr<const ReferenceShape>> shape;  // of the daughters, by type
+  if (cuts) {
+    mechanics_->update_scene(tissue_);
+    for (const CellType& type : model_.types) shape.push_back(shapes_.icosphere(type.shell_nodes).value());
+  }
   parallel_for(threads_, mothers.size(), [&](std::size_t k) {
     const auto& [body, late, mother] = mothers[k];
     const CellType& type = model_.types[mother.row.type];
@@ -152,23 +166,9 @@ std::int64_t Simulation::undo_deep_cuts(std::span<const CellRecord> mothers, std
   }
   if (back.empty()) return 0;
   std::ranges::sort(undone);
-  std::vector<std::size_t> gone;
-  for (std::size_t i = 0; i < tissue_.cells.size(); ++i)
-    if (std::ranges::binary_search(undone, tissue_.cells.rows[i].id)) gone.push_back(i);
   const auto count = static_cast<std::int64_t>(back.size());
-  replace_cells(tissue_, gone, std::move(back));
+  replace_cells(tissue_, rows_of(tissue_.cells, undone), std::move(back));
   return count;
-}
-
-void Simulation::put_off(CellRow& mother, std::vector<Event>& events) {
-  mother.draws += kTries;  // other planes the next time
-  const auto division =
-      std::ranges::find_if(events, [&](const Event& event) { return event.kind == EventKind::kDivision && event.cell == mother.id; });
-  if (std::exchange(mother.phase, Phase::kWaiting) == Phase::kWaiting) {
-    events.erase(division);
-    return;
-  }
-  *division = {division->time, EventKind::kDivisionWaits, mother.id, {}, {}, {EventReason::Cause::kNoPlane}};
 }
 
 void Simulation::rename_partners(const std::vector<Event>& events) {

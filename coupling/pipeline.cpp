@@ -24,31 +24,36 @@ double fit_step(double wanted, double time, double land_on) {
   return left < 1.5 * wanted ? 0.5 * left : wanted;
 }
 
-/// What growth may change before a step, so that it can be taken back.
-struct Growing {
-  Cells cells;
-  std::vector<double> reference_volume, rest_volume, rest_length, radius;
-  std::vector<double> nucleus_reference_volume, nucleus_rest_volume, nucleus_rest_length;
-
-  explicit Growing(const Tissue& t)
-      : cells(t.cells),
-        reference_volume(t.shells.reference_volume),
-        rest_volume(t.shells.rest_volume),
-        rest_length(t.shells.rest_length),
-        radius(t.spheres.radius),
-        nucleus_reference_volume(t.nuclei.shells.reference_volume),
-        nucleus_rest_volume(t.nuclei.shells.rest_volume),
-        nucleus_rest_length(t.nuclei.shells.rest_length) {}
-  void restore(Tissue& t) const {
-    t.cells = cells;
-    t.shells.reference_volume = reference_volume;
-    t.shells.rest_volume = rest_volume;
-    t.shells.rest_length = rest_length;
-    t.spheres.radius = radius;
-    t.nuclei.shells.reference_volume = nucleus_reference_volume;
-    t.nuclei.shells.rest_volume = nucleus_rest_volume;
-    t.nuclei.shells.rest_length = nucleus_rest_length;
+/// What growth may change before a step, so that it can be taken back: rows, and the columns of bodies that say so.
+class Growing {
+ public:
+  explicit Growing(const Tissue& t) : cells_(t.cells) {
+    copy_shells(shells_, t.shells);
+    copy_shells(nuclei_, t.nuclei.shells);
+    copy_spheres(spheres_, t.spheres);
   }
+  void restore(Tissue& t) const {
+    t.cells = cells_;
+    copy_shells(t.shells, shells_);
+    copy_shells(t.nuclei.shells, nuclei_);
+    copy_spheres(t.spheres, spheres_);
+  }
+
+ private:
+  static void copy_shells(dcm::Shells& to, const dcm::Shells& from) {
+    dcm::for_each_shell_column([&](const auto& column) {
+      if (column.rules.grows) column.copy(to, from);
+    });
+  }
+  static void copy_spheres(cbm::Spheres& to, const cbm::Spheres& from) {
+    cbm::for_each_sphere_column([&](const auto& column) {
+      if (column.rules.grows) column.copy(to, from);
+    });
+  }
+
+  Cells cells_;
+  dcm::Shells shells_, nuclei_;  ///< only the columns that grow
+  cbm::Spheres spheres_;
 };
 
 /// Why no step size works: cell, law and time.

@@ -34,10 +34,7 @@ void take_back(Tissue& tissue, std::vector<CellRecord> before, std::span<const C
   const auto goes_back = [&](CellId id) { return std::binary_search(back.begin(), back.end(), id); };
   std::erase_if(before, [&](const CellRecord& cell) { return !goes_back(cell.row.id); });
   for (CellRecord& cell : before) cell.row.last_swap_time = tissue.clock.time;
-  std::vector<std::size_t> gone;
-  for (std::size_t i = 0; i < tissue.cells.size(); ++i)
-    if (goes_back(tissue.cells.rows[i].id)) gone.push_back(i);
-  replace_cells(tissue, gone, std::move(before));
+  replace_cells(tissue, rows_of(tissue.cells, back), std::move(before));
   for (Event& event : events) {
     if (event.kind != EventKind::kPromotion || !goes_back(event.cell)) continue;
     event.kind = EventKind::kWarning;

@@ -74,8 +74,6 @@ class Simulation {
   Result<std::vector<Event>> swap_bodies();
   /// What a step of life has asked for (coupling/divisions.cpp): daughters in place of mothers, and dead cells gone. Collective.
   void divide_and_remove(const struct LifeReport& life, std::vector<Event>& events);
-  /// A shell for which no plane of division served: it waits, and tries others later; said once.
-  static void put_off(CellRow& mother, std::vector<Event>& events);
   /// Shells whose daughters would begin so deep within others that the run might stop are taken back and put off. Gives how many. Collective.
   std::int64_t undo_deep_cuts(std::span<const CellRecord> mothers, std::vector<Event>& events);
   /// Partners of a mother become partners of her daughters, also on other ranks. `events` are those of all ranks.

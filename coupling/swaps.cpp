@@ -1,9 +1,12 @@
 #include "coupling/swaps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "core/random/rotation.h"
@@ -147,6 +150,24 @@ bool swaps_wait(const Model& model, const Tissue& tissue, const SwapBodies& bodi
   return comm.any(down || (up && has_place));
 }
 
+namespace {
+
+/// visit(column of shells, column of spheres) for what goes over at an exchange of bodies (dcm/shells.h).
+template <class Visit>
+void for_each_shared_column(Visit&& visit) {
+  dcm::for_each_shell_column([&]<class Shell>(const Shell& shell) {
+    if constexpr (Shell::kDomain == Domain::kNode) {
+      if (shell.rules.on_new_mesh == OnNewMesh::kMade) return;
+      cbm::for_each_sphere_column([&]<class Sphere>(const Sphere& sphere) {
+        if constexpr (std::is_same_v<typename Shell::Value, typename Sphere::Value>)
+          if (std::string_view(shell.name) == sphere.name) visit(shell, sphere);
+      });
+    }
+  });
+}
+
+}  // namespace
+
 double free_reference_volume(double target_volume, const CellType& type) {
   return dcm::pressure_free_reference(target_volume, type.shell.tension, type.shell.bulk_modulus);
 }
@@ -165,7 +186,9 @@ void promote(CellRecord& cell, const CellType& type, double pressure, double tim
   ShellRecord shell = spherical_shell(shapes.icosphere(type.shell_nodes).value(), sphere.position, volume, reference);
   const Rotation turn = random_rotation(Random(seed, RandomStream::kOrientation), cell.row.id, 0);
   for (Vec3d& p : shell.position) p = sphere.position + turn * (p - sphere.position);
-  std::fill(shell.velocity.begin(), shell.velocity.end(), sphere.velocity);
+  for_each_shared_column([&]<class Column>(const Column& of_nodes, const auto& of_sphere) {
+    of_nodes.give(shell, std::vector<typename Column::Value>(shell.position.size(), of_sphere.values(sphere)[0]));
+  });
   place_nucleus(shell, type, shapes);
   cell.row.reference_excess = std::log(reference / free_reference_volume(cell.row.target_volume, type));
   cell.row.last_swap_time = time;
@@ -182,9 +205,8 @@ void demote(CellRecord& cell, double time) {
   SphereRecord sphere;
   sphere.position = center;
   sphere.radius = std::cbrt(3.0 * volume / (4.0 * std::numbers::pi));
-  Vec3f mean;
-  for (const Vec3f& v : shell.velocity) mean += v;
-  sphere.velocity = mean * (1.0f / static_cast<float>(shell.velocity.size()));
+  for_each_shared_column(
+      [&](const auto& of_nodes, const auto& of_sphere) { of_sphere.give(sphere, std::array{mean_of(of_nodes.values(shell))}); });
   cell.row.reference_excess = std::log(volume / cell.row.target_volume);
   cell.row.last_swap_time = time;
   cell.row.body = BodyKind::kSphere;

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -80,7 +81,10 @@ struct ShellRecord {
 // memory) need nothing else; what is added here is everywhere. A column of Shells knows: name, unit, T, kDomain, kFill;
 //   values(shells, i), values(record)     the values of one shell; none where it has none
 //   append(shells, values)                those of the shell that was added last (its shape is there already)
-//   give(record, values)
+//   give(record, values), copy(shells, from)
+//   rules                                 what growth, an exchange of bodies and another mesh do with it
+// At an exchange of bodies, columns of nodes with the name of one of spheres go over to it as their mean, and back to every node, if another mesh
+// does not make them anyhow.
 
 /// One value of each shell.
 template <class T>
@@ -96,6 +100,7 @@ struct ColumnOfMesh {
   const char* unit;
   std::vector<T> Shells::*all;
   std::vector<T> ShellRecord::*one;
+  ColumnRules rules{};
 
   [[nodiscard]] std::span<const T> values(const Shells& shells, std::size_t i) const {
     const auto& first = kOf == Domain::kNode ? shells.first_node : shells.first_edge;
@@ -104,6 +109,7 @@ struct ColumnOfMesh {
   [[nodiscard]] std::span<const T> values(const ShellRecord& shell) const { return shell.*one; }
   void append(Shells& shells, std::span<const T> values) const { (shells.*all).insert((shells.*all).end(), values.begin(), values.end()); }
   void give(ShellRecord& shell, std::span<const T> values) const { (shell.*one).assign(values.begin(), values.end()); }
+  void copy(Shells& shells, const Shells& from) const { shells.*all = from.*all; }
   [[nodiscard]] std::size_t memory(const Shells& shells) const { return (shells.*all).capacity() * sizeof(T); }
 };
 
@@ -116,6 +122,8 @@ struct ColumnOfFaces {
   const char* name;
   const char* unit;
   std::vector<T> FaceState::*of;
+  ColumnRules rules{};
+  T of_new_face{};  ///< of faces of the interface that a division makes
 
   [[nodiscard]] std::span<const T> values(const Shells& shells, std::size_t i) const { return shells.faces_of(i).*of; }
   [[nodiscard]] std::span<const T> values(const ShellRecord& shell) const { return shell.face.*of; }
@@ -123,6 +131,10 @@ struct ColumnOfFaces {
     if (!values.empty()) (shells.faces_of(shells.size() - 1).*of).assign(values.begin(), values.end());
   }
   void give(ShellRecord& shell, std::span<const T> values) const { (shell.face.*of).assign(values.begin(), values.end()); }
+  void copy(Shells& shells, const Shells& from) const {
+    shells.face.resize(std::max(shells.face.size(), from.face.size()));
+    for (std::size_t i = 0; i < shells.face.size(); ++i) shells.face[i].*of = from.faces_of(i).*of;
+  }
   [[nodiscard]] std::size_t memory(const Shells& shells) const {
     std::size_t bytes = 0;
     for (const FaceState& face : shells.face) bytes += (face.*of).capacity() * sizeof(T);
@@ -137,6 +149,7 @@ struct ColumnOfNuclei {
   static constexpr Fill kFill = Fill::kAllOrNone;
   const char* name;
   const char* unit;
+  ColumnRules rules{};
 
   [[nodiscard]] static std::span<const Vec3d> values(const Shells& shells, std::size_t i) {
     return {shells.nucleus_of(i), shells.nucleus_of(i) != nullptr ? 1u : 0u};
@@ -152,21 +165,26 @@ struct ColumnOfNuclei {
   static void give(ShellRecord& shell, std::span<const Vec3d> values) {
     shell.nucleus = values.empty() ? std::nullopt : std::optional(values[0]);
   }
+  static void copy(Shells& shells, const Shells& from) { shells.nucleus = from.nucleus; }
   [[nodiscard]] static std::size_t memory(const Shells& shells) { return shells.nucleus.capacity() * sizeof(shells.nucleus[0]); }
 };
 
 /// visit(column) for all columns of shells, in the order of the state hash.
 template <class Visit>
 void for_each_shell_column(Visit&& visit) {
+  using enum OnNewMesh;
   visit(ColumnOfShells<std::uint16_t>{"type", "1", &Shells::type, &ShellRecord::type});
-  visit(ColumnOfShells<double>{"reference_volume", "um^3", &Shells::reference_volume, &ShellRecord::reference_volume});
-  visit(ColumnOfShells<double>{"rest_volume", "um^3", &Shells::rest_volume, &ShellRecord::rest_volume});
-  visit(ColumnOfMesh<Vec3d, Domain::kNode>{"position", "um", &Shells::position, &ShellRecord::position});
-  visit(ColumnOfMesh<Vec3f, Domain::kNode>{"velocity", "um/s", &Shells::velocity, &ShellRecord::velocity});
-  visit(ColumnOfMesh<double, Domain::kEdge>{"rest_length", "um", &Shells::rest_length, &ShellRecord::rest_length});
-  visit(ColumnOfNuclei{"nucleus", "um"});
-  visit(ColumnOfFaces<std::uint8_t>{"mark", "1", &FaceState::mark});
-  visit(ColumnOfFaces<float>{"face_contact", "1", &FaceState::contact});
+  visit(ColumnOfShells<double>{
+      "reference_volume", "um^3", &Shells::reference_volume, &ShellRecord::reference_volume, {.grows = true, .on_new_mesh = kByVolume}});
+  visit(ColumnOfShells<double>{
+      "rest_volume", "um^3", &Shells::rest_volume, &ShellRecord::rest_volume, {.grows = true, .on_new_mesh = kMade}});
+  visit(ColumnOfMesh<Vec3d, Domain::kNode>{"position", "um", &Shells::position, &ShellRecord::position, {.on_new_mesh = kMade}});
+  visit(ColumnOfMesh<Vec3f, Domain::kNode>{"velocity", "um/s", &Shells::velocity, &ShellRecord::velocity, {.on_new_mesh = kMean}});
+  visit(ColumnOfMesh<double, Domain::kEdge>{
+      "rest_length", "um", &Shells::rest_length, &ShellRecord::rest_length, {.grows = true, .on_new_mesh = kMade}});
+  visit(ColumnOfNuclei{"nucleus", "um", {.on_new_mesh = kMade}});
+  visit(ColumnOfFaces<std::uint8_t>{"mark", "1", &FaceState::mark, {.on_new_mesh = kByCoverage}});
+  visit(ColumnOfFaces<float>{"face_contact", "1", &FaceState::contact, {.on_new_mesh = kByPlace}, 1.0f});
 }
 
 /// How many values of a column a shell of this shape has.

@@ -66,8 +66,7 @@ Status check_reactions(const FieldSpec& spec) {
       if (key.kind != OwnKey::Kind::kQuantity) continue;
       const KeySpec& k = key.spec;
       const double value = one.values(k.name);
-      const bool low = k.low_open ? value > k.low : value >= k.low, high = k.high_open ? value < k.high : value <= k.high;
-      if (!std::isfinite(value) || !low || !high)
+      if (!std::isfinite(value) || !k.holds(value))
         return wrong(k.name, "is out of its range or not a number", "for example " + std::string(k.example));
     }
     if (const auto problem = one.what->judge != nullptr ? one.what->judge(one.values) : std::nullopt)

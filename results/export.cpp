@@ -19,15 +19,8 @@ namespace {
 
 std::string as_text(const Snapshot&, CellId value) { return value.text(); }
 std::string as_text(const Snapshot&, double value) { return shortest_text(value); }
-/// A name as a field of a CSV line (RFC 4180).
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
 std::string as_text(const Snapshot& s, std::uint16_t type) {
-  return type < s.type_names.size() ? quoted(s.type_names[type]) : std::to_string(type);
+  return type < s.type_names.size() ? csv_field(s.type_names[type]) : std::to_string(type);
 }
 template <std::size_t kCount>
 std::string name_at(const std::array<const char*, kCount>& names, std::size_t kind) {

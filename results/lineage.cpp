@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "core/numbers/number_text.h"
 #include "results/file_io.h"
+#include "results/run_record.h"
 #include "results/snapshot_file.h"
 
 namespace morula::scenarios {
@@ -38,19 +37,16 @@ class Lives {
     }
   }
 
-  void note(const nlohmann::json& event) {
-    const auto kind = event.find("kind"), id = event.find("cell"), time = event.find("time_s");
-    if (kind == event.end() || id == event.end() || time == event.end()) return;
-    const auto at = place_.find(id->get<std::string>());
+  void note(const EventLine& event) {
+    const auto at = place_.find(event.cell);
     if (at == place_.end()) return;
-    const std::size_t place = at->second;
-    const auto when = time->get<double>();
-    if (*kind == "death") lives_[place].how = LifeEnd::kDying;
-    if (*kind == "removal") lives_[place].how = LifeEnd::kDied, lives_[place].end = when;
-    if (*kind != "division") return;
-    lives_[place].how = LifeEnd::kDivided, lives_[place].end = when;
-    const std::string parent = lives_[place].id, type = lives_[place].type;
-    for (const auto& daughter : event.at("daughters")) begin({daughter.get<std::string>(), parent, type, when, end_});
+    CellLife& life = lives_[at->second];
+    if (event.kind == name_of(EventKind::kDeath)) life.how = LifeEnd::kDying;
+    if (event.kind == name_of(EventKind::kRemoval)) life.how = LifeEnd::kDied, life.end = event.time;
+    if (event.kind != name_of(EventKind::kDivision)) return;
+    life.how = LifeEnd::kDivided, life.end = event.time;
+    const std::string type = life.type;  // begin() moves the lives
+    for (const std::string& daughter : event.daughters) begin({daughter, event.cell, type, event.time, end_});
   }
 
   /// In the order of founders, and of each the mother before her daughters.
@@ -101,19 +97,16 @@ Result<std::vector<CellLife>> read_lineage(const fs::path& results, const fs::pa
   MORULA_TRY_ASSIGN(const Snapshot first, read_snapshot(results, 0));
   MORULA_TRY_ASSIGN(const std::string text, read_file(events));
   Lives lives(first, entries.back().time);
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    const auto event = nlohmann::json::parse(line, nullptr, false);
-    if (event.is_object() && event.value("time_s", 0.0) <= entries.back().time) lives.note(event);
-  }
+  for (const EventLine& event : events_of_lines(text))
+    if (event.time <= entries.back().time) lives.note(event);
   return std::move(lives).in_order();
 }
 
 std::string lineage_csv(std::span<const CellLife> lives) {
   std::string out = "id,parent,type,birth [s],end [s],how\n";
   for (const CellLife& life : lives)
-    out += life.id + ',' + life.parent + ',' + life.type + ',' + shortest_text(life.birth) + ',' + shortest_text(life.end) + ',' +
-           word_of(life.how) + '\n';
+    out += life.id + ',' + life.parent + ',' + csv_field(life.type) + ',' + shortest_text(life.birth) + ',' + shortest_text(life.end) +
+           ',' + word_of(life.how) + '\n';
   return out;
 }
 

@@ -1,6 +1,4 @@
 #include <cstring>
-#include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "results/checkpoint.h"
 #include "results/run_record.h"
@@ -31,19 +29,15 @@ void add_events(StoragePlan& plan, const std::string& lines) {
   std::vector<double> time;
   std::vector<std::uint8_t> kind;
   std::vector<std::string> cell, daughters, text;
-  std::istringstream stream(lines);
-  for (std::string line; std::getline(stream, line);) {
-    const auto json = nlohmann::json::parse(line, nullptr, false);
-    if (!json.is_object() || !json.contains("time_s") || !json["time_s"].is_number()) continue;
-    const auto found = std::find(kinds.begin(), kinds.end(), json.value("kind", ""));
+  for (const EventLine& event : events_of_lines(lines)) {
+    const auto found = std::find(kinds.begin(), kinds.end(), event.kind);
     if (found == kinds.end()) continue;
-    time.push_back(json["time_s"]);
+    time.push_back(event.time);
     kind.push_back(static_cast<std::uint8_t>(found - kinds.begin()));
-    cell.push_back(json.value("cell", ""));
+    cell.push_back(event.cell);
     std::string& names = daughters.emplace_back();
-    for (const auto& name : json.value("daughters", nlohmann::json::array()))
-      if (name.is_string()) names += (names.empty() ? "" : " ") + name.get<std::string>();
-    text.push_back(json.value("text", ""));
+    for (const std::string& name : event.daughters) names += (names.empty() ? "" : " ") + name;
+    text.push_back(event.text);
   }
   plan.add_from_root(results::kEventTime.path, results::kEventTime.label(), std::span<const double>(time));
   plan.add_from_root(results::kEventKind.path, {results::kEventKind.units, results::kEventKind.description, kinds},

@@ -223,8 +223,8 @@ Status RunFolder::cut_back(double time, const TextLengths& lengths) const {
     return problem == std::errc() && at <= time;
   }));
   return filter_lines(events(), lengths.events, [&](const std::string& line, std::size_t) {
-    const std::optional<double> at = time_of_event_line(line);
-    return at && *at <= time;
+    const std::optional<EventLine> event = event_of_line(line);
+    return event && event->time <= time;
   });
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ctime>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/numbers/number_text.h"
 #include "results/build_info.h"
@@ -237,12 +238,25 @@ std::string to_json_line(const ToldEvent& told) {
   return text_of(json, -1);
 }
 
-std::optional<double> time_of_event_line(const std::string& line) {
+std::optional<EventLine> event_of_line(const std::string& line) {
   const Json json = Json::parse(line, nullptr, false);
   if (!json.is_object()) return std::nullopt;
-  const auto time = json.find("time_s");
-  if (time == json.end() || !time->is_number()) return std::nullopt;
-  return time->get<double>();
+  const auto text = [&](const char* name) { return json.contains(name) && json[name].is_string() ? json[name].get<std::string>() : ""; };
+  const auto time = json.find("time_s"), daughters = json.find("daughters");
+  if (time == json.end() || !time->is_number() || text("kind").empty()) return std::nullopt;
+  EventLine out{time->get<double>(), text("kind"), text("cell"), {}, text("text")};
+  if (daughters == json.end()) return out;
+  for (const Json& id : *daughters)
+    if (id.is_string()) out.daughters.push_back(id.get<std::string>());
+  return out;
+}
+
+std::vector<EventLine> events_of_lines(const std::string& lines) {
+  std::vector<EventLine> out;
+  std::istringstream stream(lines);
+  for (std::string line; std::getline(stream, line);)
+    if (auto event = event_of_line(line)) out.push_back(std::move(*event));
+  return out;
 }
 
 std::string value_text(const Verdict& verdict) {

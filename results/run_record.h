@@ -80,8 +80,18 @@ struct ToldEvent {
 };
 /// One line of events.jsonl, with the newline.
 [[nodiscard]] std::string to_json_line(const ToldEvent& told);
-/// Time of a line of events.jsonl; nothing if the line is not whole.
-[[nodiscard]] std::optional<double> time_of_event_line(const std::string& line);
+/// What a line of events.jsonl says.
+struct EventLine {
+  double time = 0.0;                   ///< [s]
+  std::string kind;                    ///< name_of(EventKind)
+  std::string cell;                    ///< id; empty for an event of the run
+  std::vector<std::string> daughters;  ///< ids
+  std::string text;
+};
+/// Nothing for a line that is not whole.
+[[nodiscard]] std::optional<EventLine> event_of_line(const std::string& line);
+/// The lines of events.jsonl that are whole, in their order.
+[[nodiscard]] std::vector<EventLine> events_of_lines(const std::string& lines);
 [[nodiscard]] std::string name_of(EventKind kind);
 
 /// One criterion of a run.

@@ -24,6 +24,23 @@ double enclosed_volume(std::span<const Triangle> faces, std::span<const Vec3d> p
   return six_volumes / 6.0;
 }
 
+SymMat3<double> second_moments(std::span<const Vec3d> position, std::span<const Triangle> faces) {
+  std::vector<std::pair<Vec3d, double>> middles;
+  Vec3d center;
+  double whole = 0.0;
+  for (const auto& [i, j, k] : faces) {
+    const Vec3d &a = position[i], &b = position[j], &c = position[k], middle = (a + b + c) / 3.0;
+    const double area = 0.5 * norm(cross(b - a, c - a));
+    middles.emplace_back(middle, area);
+    center += middle * area;
+    whole += area;
+  }
+  center = center / whole;
+  SymMat3<double> out;
+  for (const auto& [middle, area] : middles) out += area * outer(1.0, middle - center);
+  return out;
+}
+
 Vec3d volume_centroid(std::span<const Triangle> faces, std::span<const Vec3d> position) {
   // Tetrahedra from a point in the middle: their centroids lie at a quarter of the sum of the other three corners.
   const Vec3d origin = mean_position(position);

@@ -93,6 +93,8 @@ class ShapeLibrary {
 
 /// Signed volume enclosed by a closed mesh; relative to `origin` to avoid cancellation.
 double enclosed_volume(std::span<const Triangle> faces, std::span<const Vec3d> position, const Vec3d& origin);
+/// Σ A (x − x̄)(x − x̄)ᵀ [µm⁴] over the faces, each with its area A at its middle x; x̄ is the mean of the middles by area. Only nodes of faces count.
+SymMat3<double> second_moments(std::span<const Vec3d> position, std::span<const Triangle> faces);
 /// Volume centroid of the enclosed solid.
 Vec3d volume_centroid(std::span<const Triangle> faces, std::span<const Vec3d> position);
 

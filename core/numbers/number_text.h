@@ -9,4 +9,7 @@ namespace morula {
 /// printf for single numbers: number_text("%.3g s", 2.5).
 [[nodiscard]] std::string number_text(const char* format, double value);
 
+/// A text as a field of a CSV line (RFC 4180): quoted where it has a comma, a quote or a line break.
+[[nodiscard]] std::string csv_field(const std::string& text);
+
 }  // namespace morula

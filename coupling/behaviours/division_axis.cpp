@@ -19,56 +19,26 @@ constexpr double kLeastShare = 0.1;
 
 std::shared_ptr<const DivisionAxis> make_axis(DivisionAxis axis) { return std::make_shared<const DivisionAxis>(std::move(axis)); }
 
-/// A symmetric matrix: xx, yy, zz, xy, xz, yz.
-using Symmetric = std::array<double, 6>;
-
-Vec3d product(const Symmetric& m, const Vec3d& v) {
-  return {m[0] * v.x + m[3] * v.y + m[4] * v.z, m[3] * v.x + m[1] * v.y + m[5] * v.z, m[4] * v.x + m[5] * v.y + m[2] * v.z};
-}
-
-/// Σ A (x − x̄)(x − x̄)ᵀ of a surface, each face with its area at its middle.
-Symmetric second_moments(const SurfaceView& surface) {
-  std::vector<std::pair<Vec3d, double>> faces;
-  Vec3d center;
-  double whole = 0.0;
-  for (const auto& [i, j, k] : surface.topology->faces()) {
-    const Vec3d &a = surface.position[i], &b = surface.position[j], &c = surface.position[k], middle = (a + b + c) / 3.0;
-    const double area = 0.5 * norm(cross(b - a, c - a));
-    faces.emplace_back(middle, area);
-    center += middle * area;
-    whole += area;
-  }
-  center = center / whole;
-  Symmetric out{};
-  for (const auto& [middle, area] : faces) {
-    const Vec3d d = middle - center;
-    const Symmetric products{d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.x * d.z, d.y * d.z};
-    for (std::size_t k = 0; k < out.size(); ++k) out[k] += area * products[k];
-  }
-  return out;
-}
-
 /// Unit eigenvector of the largest eigenvalue of a positive matrix: M² over its trace, again and again, becomes u uᵀ.
-Vec3d largest_eigenvector(Symmetric m) {
+Vec3d largest_eigenvector(SymMat3<double> m) {
   for (int k = 0; k < 40; ++k) {
-    const Vec3d x = product(m, {m[0], m[3], m[4]}), y = product(m, {m[3], m[1], m[5]}), z = product(m, {m[4], m[5], m[2]});
+    const Vec3d x = m * Vec3d{m.xx, m.xy, m.xz}, y = m * Vec3d{m.xy, m.yy, m.yz}, z = m * Vec3d{m.xz, m.yz, m.zz};
     const double trace = x.x + y.y + z.z;
-    m = {x.x / trace, y.y / trace, z.z / trace, x.y / trace, x.z / trace, y.z / trace};
+    m = {x.x / trace, x.y / trace, x.z / trace, y.y / trace, y.z / trace, z.z / trace};
   }
-  if (m[0] >= m[1] && m[0] >= m[2]) return normalized(Vec3d{m[0], m[3], m[4]});
-  return m[1] >= m[2] ? normalized(Vec3d{m[3], m[1], m[5]}) : normalized(Vec3d{m[4], m[5], m[2]});
+  if (m.xx >= m.yy && m.xx >= m.zz) return normalized(Vec3d{m.xx, m.xy, m.xz});
+  return m.yy >= m.zz ? normalized(Vec3d{m.xy, m.yy, m.yz}) : normalized(Vec3d{m.xz, m.yz, m.zz});
 }
 
 /// The longest axis of a surface; zero where the two largest moments differ by less than two parts in a hundred.
 Vec3d longest_axis(const SurfaceView& surface) {
   constexpr double kRound = 0.02;
-  Symmetric m = second_moments(surface);
+  SymMat3<double> m = second_moments(surface.position, surface.topology->faces());
   const Vec3d u = largest_eigenvector(m);
-  const double largest = dot(u, product(m, u));
-  const Symmetric outer{u.x * u.x, u.y * u.y, u.z * u.z, u.x * u.y, u.x * u.z, u.y * u.z};
-  for (std::size_t k = 0; k < m.size(); ++k) m[k] -= largest * outer[k];
+  const double largest = dot(u, m * u);
+  m += -largest * outer(1.0, u);
   const Vec3d v = largest_eigenvector(m);
-  return dot(v, product(m, v)) > (1.0 - kRound) * largest ? Vec3d{} : u;
+  return dot(v, m * v) > (1.0 - kRound) * largest ? Vec3d{} : u;
 }
 
 /// What is left of a direction across an axis.
@@ -148,9 +118,9 @@ Vec3d division_axis(const CellAtDivision& cell, std::uint32_t seed, std::uint64_
   const CellState& row = cell.row;
   const Vec3d random = Random(seed, RandomStream::kDivisionAxis).direction(row.id, row.draws + attempt);
   const Vec3d chosen = cell.type.axis->of(cell, random);
-  if (!(norm2(chosen) > 0.0)) return random;
+  if (!(norm2(chosen) > 0.0) || chosen == random) return random;
   const double spread = cell.type.axis_spread + kTiltOfAttempt * static_cast<double>(attempt);
-  if (!(spread > 0.0) || cell.type.axis == random_axis()) return chosen == random ? random : normalized(chosen);
+  if (!(spread > 0.0)) return normalized(chosen);
   const auto [u, turn] = Random(seed, RandomStream::kDivisionTilt).uniform(row.id, row.draws + attempt);
   const double kappa = 1.0 / (spread * spread);
   return tilted(normalized(chosen), 1.0 + std::log(u + (1.0 - u) * std::exp(-2.0 * kappa)) / kappa, turn);

@@ -1,7 +1,9 @@
 #include "coupling/behaviours/shell_division.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <type_traits>
 
 #include "core/mesh/renewal/divide_surface.h"
 #include "core/mesh/renewal/transfer_marks.h"
@@ -48,7 +50,7 @@ bool has_elastic_surface(const dcm::ShellParameters& shell) { return shell.sprin
 struct Made {
   const dcm::ShellRecord& mother;
   const ClosedHalf& half;
-  AskedSurface surface;  ///< of the half
+  const AskedSurface& surface;  ///< of the half
   const Daughter& daughter;
   const ReferenceShape& shape;
 };
@@ -70,17 +72,10 @@ std::vector<double> carried_rest_lengths(const Made& made) {
   return out;
 }
 
-std::vector<double> free_rest_lengths(const ReferenceShape& shape, double rest_volume) {
-  std::vector<double> out(shape.edge_length);
-  const double scale = std::cbrt(rest_volume);
-  for (double& length : out) length *= scale;
-  return out;
-}
-
 /// The mother's marks, each by itself.
-std::vector<std::uint8_t> carried_marks(const Made& made) {
+std::vector<std::uint8_t> carried_marks(const Made& made, std::span<const std::uint8_t> marks) {
   const std::size_t old_faces = made.mother.shape->topology->face_count(), faces = made.shape.topology->face_count();
-  const MarkSets before(made.mother.face.mark, old_faces);
+  const MarkSets before(marks, old_faces);
   std::vector<std::uint8_t> out(faces * before.width(), 0);
   for (int mark = 0; mark < static_cast<int>(8 * before.width()); ++mark) {
     if (!before.any_has(mark)) continue;
@@ -93,40 +88,65 @@ std::vector<std::uint8_t> carried_marks(const Made& made) {
   return out;
 }
 
-/// The eased contact of the nearest face; faces of the cap touch the sister.
-std::vector<float> carried_contact(const Made& made) {
-  std::vector<float> out;
+/// What the nearest face of the mother has, and faces of the cap `of_new_face`.
+template <class T>
+std::vector<T> carried_by_place(const Made& made, std::span<const T> before, const T& of_new_face) {
+  std::vector<T> out;
   const auto& x = made.daughter.position;
   std::uint32_t near = 0;
   for (const auto& [a, b, c] : made.shape.topology->faces()) {
     near = made.surface.nearest((x[a] + x[b] + x[c]) / 3.0, near).face;
-    out.push_back(near < made.half.source_face.size() ? made.mother.face.contact[made.half.source_face[near]] : 1.0f);
+    out.push_back(near < made.half.source_face.size() ? before[made.half.source_face[near]] : of_new_face);
   }
   return out;
 }
 
+/// The mother's values of a column as its rule gives them to a daughter with this part of the volume.
+template <class Column>
+void carry(const Column& column, const Made& made, double part, dcm::ShellRecord& out) {
+  using T = typename Column::Value;
+  const std::span<const T> before = column.values(made.mother);
+  if (before.empty()) return;
+  switch (column.rules.on_new_mesh) {
+    case OnNewMesh::kMade:
+      return;
+    case OnNewMesh::kKept:
+      assert(Column::kDomain == Domain::kBody);
+      return column.give(out, before);
+    case OnNewMesh::kByVolume:
+      if constexpr (std::is_same_v<T, double> && Column::kDomain == Domain::kBody) return column.give(out, std::array{part * before[0]});
+      break;
+    case OnNewMesh::kMean:
+      if constexpr (Column::kDomain == Domain::kNode)
+        return column.give(out, std::vector<T>(made.daughter.position.size(), mean_of(before)));
+      break;
+    case OnNewMesh::kByPlace:
+      if constexpr (Column::kDomain == Domain::kFace) return column.give(out, carried_by_place(made, before, column.of_new_face));
+      break;
+    case OnNewMesh::kByCoverage:
+      if constexpr (Column::kDomain == Domain::kFace && std::is_same_v<T, std::uint8_t>)
+        return column.give(out, carried_marks(made, before));
+      break;
+  }
+  assert(!"a column of this kind cannot follow this rule");
+}
+
 dcm::ShellRecord make_shell(const Made& made, const CellType& type, std::shared_ptr<const ReferenceShape> shape, double part,
                             double target) {
-  const dcm::ShellRecord& mother = made.mother;
   dcm::ShellRecord out;
-  out.type = mother.type;
+  dcm::for_each_shell_column([&](const auto& column) { carry(column, made, part, out); });
   out.position = made.daughter.position;
-  Vec3f mean;
-  for (const Vec3f& v : mother.velocity) mean += v;
-  out.velocity.assign(out.position.size(), mean * (1.0f / static_cast<float>(mother.velocity.size())));
-  out.reference_volume = part * mother.reference_volume;
   out.rest_volume = target;
   const bool eases = type.new_surface > 0.0 || type.shell.turnover_rate > 0.0;
   out.rest_length = eases && has_elastic_surface(type.shell) ? carried_rest_lengths(made) : free_rest_lengths(*shape, target);
-  if (!mother.face.mark.empty()) out.face.mark = carried_marks(made);
-  if (!mother.face.contact.empty()) out.face.contact = carried_contact(made);
   out.shape = std::move(shape);
   return out;
 }
 
 }  // namespace
 
-Result<ShellDaughters> divide_shell(const ShellToDivide& what, const Vec3d& axis, double share, const std::array<double, 2>& target) {
+Result<std::array<dcm::ShellRecord, 2>> divide_shell(const ShellToDivide& what, const Vec3d& axis, double share,
+                                                     const std::array<double, 2>& target) {
   const dcm::ShellRecord& mother = *what.shell;
   DivisionPlan plan;
   plan.normal = axis;
@@ -134,12 +154,10 @@ Result<ShellDaughters> divide_shell(const ShellToDivide& what, const Vec3d& axis
   plan.shape = what.shape.get();
   plan.neighbours = what.neighbours;
   MORULA_TRY_ASSIGN(const Division division, divide_surface({mother.position, mother.shape->topology.get()}, plan));
-  ShellDaughters out;
+  std::array<dcm::ShellRecord, 2> out;
   for (std::size_t k = 0; k < 2; ++k) {
-    const ClosedHalf& half = division.cut.half[k];
-    MORULA_TRY_ASSIGN(AskedSurface surface, AskedSurface::build(half.mesh));
-    const Made made{mother, half, std::move(surface), division.daughter[k], *what.shape};
-    out.shell[k] = make_shell(made, *what.type, what.shape, k == 0 ? share : 1.0 - share, target[k]);
+    const Made made{mother, division.cut.half[k], division.asked[k], division.daughter[k], *what.shape};
+    out[k] = make_shell(made, *what.type, what.shape, k == 0 ? share : 1.0 - share, target[k]);
   }
   return out;
 }
@@ -150,10 +168,14 @@ double newness_of_surface(const CellRow& row, const CellType& type, double time)
 }
 
 void renew_surfaces(std::span<const CellType> types, const Cells& cells, dcm::Shells& shells, double time, double dt) {
+  const auto renews = [](const CellType& type) {
+    return type.new_surface > 0.0 && !(type.shell.turnover_rate > 0.0) && has_elastic_surface(type.shell);
+  };
+  if (shells.size() == 0 || std::ranges::none_of(types, renews)) return;
   for (const BodyOfRow& body : bodies_of(cells)) {
     const CellRow& row = cells.rows[body.row];
     const CellType& type = types[row.type];
-    if (!body.is_shell || type.shell.turnover_rate > 0.0 || !has_elastic_surface(type.shell)) continue;
+    if (!body.is_shell || !renews(type)) continue;
     const double before = newness_of_surface(row, type, time - dt);
     if (!(before > 0.0)) continue;
     const double keep = newness_of_surface(row, type, time) / before;

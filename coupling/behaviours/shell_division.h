@@ -17,13 +17,9 @@ struct ShellToDivide {
   std::span<const SurfaceView> neighbours = {};  ///< surfaces that daughters stay out of; their order does not matter
 };
 
-/// Both daughters of a shell; the first lies on the side to which the axis points.
-struct ShellDaughters {
-  std::array<dcm::ShellRecord, 2> shell;
-};
-
 /// Division by cut (decision 0039): the surface is cut by the plane across `axis` (any length) above which lies `share` of its volume, both
-/// halves are closed by the same cap and mapped onto the daughters' connectivity (divide_surface()). They have the mother's mean velocity, and
+/// halves are closed by the same cap and mapped onto the daughters' connectivity (divide_surface()). The first daughter lies on the side to which
+/// the axis points. They have the mother's mean velocity, and
 /// no nucleus yet.
 ///
 /// - V0 is shared like the volume, so that both have the mother's inner pressure. `target`: their target volumes, which become rest volumes.
@@ -32,7 +28,8 @@ struct ShellDaughters {
 /// - Marks go with their faces; faces of the cap have none and are in contact with the sister.
 ///
 /// Errors: those of divide_surface().
-Result<ShellDaughters> divide_shell(const ShellToDivide& what, const Vec3d& axis, double share, const std::array<double, 2>& target);
+Result<std::array<dcm::ShellRecord, 2>> divide_shell(const ShellToDivide& what, const Vec3d& axis, double share,
+                                                     const std::array<double, 2>& target);
 
 /// How new the surface is that the division of its mother has made: 1 at birth, from there evenly to 0 within CellType::new_surface. Of a cell that
 /// was there from the beginning 0.

@@ -46,7 +46,8 @@ void SurfaceContacts::bodies_changed(const World& world) {
 }
 
 void SurfaceContacts::parameters_changed(const World& world) {
-  std::vector<SisterBond> bonds = new_interfaces(world.model, world.tissue, world.time);
+  std::vector<SisterBond> bonds;
+  if (bonds_age_) bonds = new_interfaces(world.model, world.tissue, world.time);
   if (bonds == layer_.sister_bonds()) return;
   layer_.set_sister_bonds(std::move(bonds));
   forget();

@@ -14,13 +14,13 @@ using Cell = Snapshot::Cell;
 constexpr double kPi = std::numbers::pi;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Eigenvalues of a symmetric matrix, smallest first (Smith 1961, doi:10.1145/355578.366316). m: xx, yy, zz, xy, xz, yz.
-std::array<double, 3> eigenvalues(const std::array<double, 6>& m) {
-  const double off = m[3] * m[3] + m[4] * m[4] + m[5] * m[5], mean = (m[0] + m[1] + m[2]) / 3.0;
-  const double x = m[0] - mean, y = m[1] - mean, z = m[2] - mean;
+/// Eigenvalues of a symmetric matrix, smallest first (Smith 1961, doi:10.1145/355578.366316).
+std::array<double, 3> eigenvalues(const SymMat3<double>& m) {
+  const double off = m.xy * m.xy + m.xz * m.xz + m.yz * m.yz, mean = (m.xx + m.yy + m.zz) / 3.0;
+  const double x = m.xx - mean, y = m.yy - mean, z = m.zz - mean;
   const double p = std::sqrt((x * x + y * y + z * z + 2.0 * off) / 6.0);
   if (p == 0.0) return {mean, mean, mean};
-  const double det = x * (y * z - m[5] * m[5]) - m[3] * (m[3] * z - m[5] * m[4]) + m[4] * (m[3] * m[5] - y * m[4]);
+  const double det = x * (y * z - m.yz * m.yz) - m.xy * (m.xy * z - m.yz * m.xz) + m.xz * (m.xy * m.yz - y * m.xz);
   const double phi = std::acos(std::clamp(det / (2.0 * p * p * p), -1.0, 1.0)) / 3.0;
   const double high = mean + 2.0 * p * std::cos(phi), low = mean + 2.0 * p * std::cos(phi + 2.0 * kPi / 3.0);
   return {low, 3.0 * mean - high - low, high};
@@ -29,24 +29,7 @@ std::array<double, 3> eigenvalues(const std::array<double, 6>& m) {
 /// Longest over shortest half axis of the ellipsoid with the second moments of the surface, each face with its area at its middle.
 double elongation(const Snapshot&, const Cell&, const ShellView* shell) {
   if (shell == nullptr) return 1.0;
-  double whole = 0.0;
-  Vec3d center{};
-  std::vector<std::pair<Vec3d, double>> faces;
-  for (const Triangle& t : shell->faces) {
-    const Vec3d a = shell->nodes[t[0]], b = shell->nodes[t[1]], c = shell->nodes[t[2]], middle = (a + b + c) * (1.0 / 3.0);
-    const double area = 0.5 * norm(cross(b - a, c - a));
-    faces.emplace_back(middle, area);
-    center += middle * area;
-    whole += area;
-  }
-  center = center * (1.0 / whole);
-  std::array<double, 6> m{};
-  for (const auto& [middle, area] : faces) {
-    const Vec3d d = middle - center;
-    const std::array<double, 6> products{d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.x * d.z, d.y * d.z};
-    for (std::size_t i = 0; i < 6; ++i) m[i] += area * products[i];
-  }
-  const auto found = eigenvalues(m);
+  const auto found = eigenvalues(second_moments(shell->nodes, shell->faces));
   return found[0] > 0.0 ? std::sqrt(found[2] / found[0]) : kNone;
 }
 

@@ -1,12 +1,12 @@
 // What a run has as a whole, beyond the columns of series.csv.
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "results/file_io.h"
+#include "results/run_record.h"
 #include "scenarios/measures/measures.h"
 
 namespace morula::scenarios {
@@ -27,20 +27,16 @@ Result<std::vector<Sample>> take_shortest_hold(FinishedRun& run, const Subject&,
   MORULA_TRY_ASSIGN(const std::vector<double>* const times, run.snapshot_times());
   if (moments.among(*times).empty()) return std::vector<Sample>{};
   const double end = (*times)[moments.among(*times).back()];
-  std::ifstream file(run.folder() / "events.jsonl");
-  if (!file) return Error{ErrorKind::kFile, "'" + (run.folder() / "events.jsonl").string() + "' cannot be read", {}};
+  MORULA_TRY_ASSIGN(const std::string lines, read_file(run.folder() / "events.jsonl"));
   double shortest = std::numeric_limits<double>::infinity(), first = std::numeric_limits<double>::quiet_NaN();
   std::map<std::string, double> last;
-  for (std::string line; std::getline(file, line);) {
-    const auto event = nlohmann::json::parse(line, nullptr, false);
-    if (!event.is_object() || !event.contains("cell") || !event.contains("time_s")) continue;
-    const std::string kind = event.value("kind", "");
-    const double time = event.value("time_s", 0.0);
-    if ((kind != "promotion" && kind != "demotion") || time == 0.0 || time > end) continue;
-    first = std::fmin(first, time);
-    const auto [at, fresh] = last.try_emplace(event.value("cell", ""), time);
-    if (!fresh) shortest = std::min(shortest, time - at->second);
-    at->second = time;
+  for (const EventLine& event : events_of_lines(lines)) {
+    const bool exchanged = event.kind == name_of(EventKind::kPromotion) || event.kind == name_of(EventKind::kDemotion);
+    if (!exchanged || event.time == 0.0 || event.time > end) continue;
+    first = std::fmin(first, event.time);
+    const auto [at, fresh] = last.try_emplace(event.cell, event.time);
+    if (!fresh) shortest = std::min(shortest, event.time - at->second);
+    at->second = event.time;
   }
   const double found = std::isfinite(shortest) ? shortest : end - first;
   return std::isnan(found) ? std::vector<Sample>{} : std::vector<Sample>{{end, found, ""}};

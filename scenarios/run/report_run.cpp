@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "report/pictures/palette.h"
@@ -13,6 +12,7 @@
 #include "report/run_plots.h"
 #include "results/export.h"
 #include "results/file_io.h"
+#include "results/run_record.h"
 #include "results/snapshot_file.h"
 #include "scenarios/library/criteria.h"
 #include "scenarios/run/progress.h"
@@ -40,17 +40,11 @@ void read_events(const fs::path& path, ReportContent& content) {
   const auto text = read_file(path);
   if (!text.ok()) return;  // no events
   std::map<std::string, ReportEvents> by_kind;
-  std::istringstream lines(*text);
-  for (std::string line; std::getline(lines, line);) {
-    const auto json = nlohmann::json::parse(line, nullptr, false);
-    if (!json.is_object() || !json.contains("kind") || !json["kind"].is_string() || !json.contains("time_s") || !json["time_s"].is_number())
-      continue;
-    const std::string kind = json["kind"];
-    const double time = json["time_s"];
-    if (kind == "warning") content.warnings.emplace_back(time, json.value("text", ""));
-    ReportEvents& events = by_kind[kind];
-    if (events.count++ == 0) events.first = time;
-    events.last = time;
+  for (const EventLine& event : events_of_lines(*text)) {
+    if (event.kind == name_of(EventKind::kWarning)) content.warnings.emplace_back(event.time, event.text);
+    ReportEvents& events = by_kind[event.kind];
+    if (events.count++ == 0) events.first = event.time;
+    events.last = event.time;
   }
   for (auto& [kind, events] : by_kind) {
     events.kind = kind;

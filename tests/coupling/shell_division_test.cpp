@@ -24,7 +24,7 @@ class ShellDivision : public ::testing::Test {
     mother_ = spherical_shell(shape_, {3, -2, 1}, kVolume, 1.1 * kVolume);
     mother_.face.contact.assign(shape_->topology->face_count(), 0.25f);
   }
-  ShellDaughters divide(const Vec3d& axis, double share) {
+  std::array<dcm::ShellRecord, 2> divide(const Vec3d& axis, double share) {
     auto out = divide_shell({&mother_, &type_, shape_}, axis, share, {share * kVolume, (1.0 - share) * kVolume});
     EXPECT_TRUE(out.ok()) << out.error().message;
     return std::move(out).value();
@@ -49,7 +49,7 @@ double face_area(const dcm::ShellRecord& shell, std::size_t f) {
 
 TEST_F(ShellDivision, SharesVolumeReferenceVolumeAndPressure) {
   for (const double share : {0.5, 0.3}) {
-    const auto [daughter] = divide({0.3, 0.5, 1.0}, share);
+    const auto daughter = divide({0.3, 0.5, 1.0}, share);
     const double whole = volume(mother_);
     EXPECT_NEAR(volume(daughter[0]) / whole, share, 1e-12);
     EXPECT_NEAR((volume(daughter[0]) + volume(daughter[1])) / whole, 1.0, 1e-12);
@@ -66,7 +66,7 @@ TEST_F(ShellDivision, SharesVolumeReferenceVolumeAndPressure) {
 
 TEST_F(ShellDivision, FacesOfTheCapTouchTheSisterAndCarryNoMark) {
   mother_.face.mark.assign(shape_->topology->face_count(), 1);
-  const auto [daughter] = divide({0, 0, 1}, 0.5);
+  const auto daughter = divide({0, 0, 1}, 0.5);
   for (const auto& shell : daughter) {
     double cap = 0.0, marked = 0.0, all = 0.0;
     const MarkSets marks(shell.face.mark, shell.shape->topology->face_count());
@@ -86,7 +86,7 @@ TEST_F(ShellDivision, FacesOfTheCapTouchTheSisterAndCarryNoMark) {
 TEST_F(ShellDivision, CarriesTheRestLengthsOfTheOldPart) {
   // A mother stretched by 1.2 along z: a vector of the old part was shorter by what the metric says of its direction.
   for (Vec3d& x : mother_.position) x.z = 1.0 + 1.2 * (x.z - 1.0);
-  const auto [daughter] = divide({1, 0, 0}, 0.5);
+  const auto daughter = divide({1, 0, 0}, 0.5);
   for (const auto& shell : daughter) {
     const auto edges = shell.shape->topology->edges();
     double worst = 0.0, mean = 0.0;
@@ -111,7 +111,7 @@ TEST_F(ShellDivision, CarriesTheRestLengthsOfTheOldPart) {
 
 TEST_F(ShellDivision, RestLengthsGoToThoseOfAFreeCell) {
   type_.new_surface = 600.0;
-  const auto [daughter] = divide({0, 0, 1}, 0.5);
+  const auto daughter = divide({0, 0, 1}, 0.5);
   std::vector<CellType> types = {type_};
   Cells cells;
   cells.push_back(CellState());

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/behaviours/division_axis.h"
 #include "results/snapshot_file.h"
 #include "tests/scenarios/own_parts.h"
 
@@ -13,7 +14,18 @@ using testing::Not;
 
 class DivisionRun : public OwnParts {
  protected:
-  DivisionRun() : OwnParts([](Laws&) {}) {}
+  DivisionRun() : OwnParts([](Laws& laws) { laws.division_axes.push_back(diagonal()); }) {}
+  /// A rule of our own.
+  static std::shared_ptr<const DivisionAxis> diagonal() {
+    return std::make_shared<const DivisionAxis>(DivisionAxis{.info = {.name = "diagonal",
+                                                                      .title = "Along the diagonal of the laboratory",
+                                                                      .equation = "u = (1, 1, 1)/√3",
+                                                                      .source = "chosen for a test",
+                                                                      .parameters = {}},
+                                                             .of = [](const CellAtDivision&, const Vec3d&) {
+                                                               return Vec3d{2.0, 2.0, 2.0};
+                                                             }});
+  }
   Snapshot last_of(const std::string& run) {
     const auto path = folder_.path() / run / "results.h5";
     const auto entries = list_snapshots(path);
@@ -84,6 +96,30 @@ TEST_F(DivisionRun, CutsAcrossTheAxisAndSharesAsTheStudySays) {
   EXPECT_LT(std::hypot(end.cells[0].centroid.x - end.cells[1].centroid.x, end.cells[0].centroid.y - end.cells[1].centroid.y), 0.3);
   const double smaller = end.cells[0].volume, larger = end.cells[1].volume;
   EXPECT_NEAR(smaller / (smaller + larger), 0.3, 0.01);
+}
+
+TEST_F(DivisionRun, TakesTheAxisOfAProgramsOwnRule) {
+  run_whole(one_shell("axis: diagonal", "31 min"), "diagonal");
+  const Snapshot end = last_of("diagonal");
+  ASSERT_EQ(end.cells.size(), 2u);
+  const Vec3d apart = end.cells[0].centroid - end.cells[1].centroid;
+  EXPECT_GT(dot(normalized(apart), Vec3d{1.0, 1.0, 1.0} / std::sqrt(3.0)), 0.995);
+  EXPECT_GT(norm(apart), 4.0);
+}
+
+TEST_F(DivisionRun, FollowsThePolarityOfTheCell) {
+  // The daughters lie along it, or side by side across it.
+  for (const bool along : {true, false}) {
+    const std::string run = along ? "along" : "across";
+    run_whole(one_shell(along ? "axis: polarity" : "axis: across_polarity", "31 min", "    polarity: {start: [1, 2, -2]}\n"), run);
+    const Snapshot end = last_of(run);
+    ASSERT_EQ(end.cells.size(), 2u);
+    const double cosine = dot(normalized(end.cells[0].centroid - end.cells[1].centroid), Vec3d{1.0, 2.0, -2.0} / 3.0);
+    if (along)
+      EXPECT_GT(cosine, 0.99);
+    else
+      EXPECT_LT(std::abs(cosine), 0.1);
+  }
 }
 
 TEST_F(DivisionRun, WaitsWhereTheStudySaysSo) {

@@ -245,7 +245,7 @@ TEST_F(MutatedInputs, RecordsOfRunsAreReadOrRefused) {
     spit(folder / "run.json", text);
     (void)read_run_record(folder / "run.json");
     (void)read_run_status(folder / "run.json");
-    (void)time_of_event_line(text);
+    (void)event_of_line(text);
   });
   on_altered({"time [s],cell_count [1]\n0,20\n60,21\n120,22.5\n"}, rounds(50), [&](const std::string& text) {
     spit(folder / "series.csv", text);

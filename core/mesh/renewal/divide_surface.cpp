@@ -76,10 +76,9 @@ Result<Division> divide_surface(const SurfaceView& surface, const DivisionPlan& 
   MORULA_TRY_ASSIGN(out.cut, cut_in_two(surface, plan.normal, plan.share, spacing));
   const double volume = enclosed_volume(faces, surface.position, volume_centroid(faces, surface.position));
 
-  std::vector<AskedSurface> halves;
   for (const ClosedHalf& half : out.cut.half) {
     MORULA_TRY_ASSIGN(AskedSurface asked, AskedSurface::build(half.mesh));
-    halves.push_back(std::move(asked));
+    out.asked.push_back(std::move(asked));
   }
   const double reach = spacing;
   std::vector<AskedSurface> neighbours;
@@ -92,9 +91,9 @@ Result<Division> divide_surface(const SurfaceView& surface, const DivisionPlan& 
   for (std::size_t side = 0; side < 2; ++side) {
     std::vector<const AskedSurface*> walls;
     for (const AskedSurface& neighbour : neighbours) walls.push_back(&neighbour);
-    walls.push_back(&halves[1 - side]);
+    walls.push_back(&out.asked[1 - side]);
     const double part = side == 0 ? plan.share : 1.0 - plan.share;
-    auto daughter = map_half(out.cut.half[side], halves[side], walls, *plan.shape, part * volume, plan.limits);
+    auto daughter = map_half(out.cut.half[side], out.asked[side], walls, *plan.shape, part * volume, plan.limits);
     if (!daughter.ok()) {
       Error error = std::move(daughter).error();
       error.message = (side == 0 ? "the daughter above the plane: " : "the daughter below the plane: ") + error.message;

@@ -30,6 +30,7 @@ struct Daughter {
 struct Division {
   std::array<Daughter, 2> daughter;
   CutHalves cut;  ///< the exact halves: what daughters are measured against, and where marks come from
+  std::vector<AskedSurface> asked;  ///< the surfaces of both halves
 };
 
 /// Map a closed half onto a connectivity: two-disk map, evening-out, fit with walls, volume; the ways of the ladder one after the other
