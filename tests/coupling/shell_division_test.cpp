@@ -156,6 +156,7 @@ TEST_F(ShellDivision, AnInterfaceIsNewForATime) {
 /// Energy of contact of two flat faces in touch is −W A, whatever the law: sisters adhere with W + n (2γ − W), others with W.
 TEST_F(ShellDivision, SistersAdhereWithTwiceTheTensionAtFirst) {
   Model model = test::clusters_model(0.1);
+  model.types[0].cycles = true;
   const auto energy = [&](CellId first, CellId second, double time) {
     Tissue tissue = test::make_tissue(model, shapes_, {{-6.05, 0, 0}, {6.05, 0, 0}}, std::vector<BodyKind>(2, BodyKind::kShell));
     const CellId ids[2] = {first, second};

@@ -29,7 +29,7 @@ struct Daughter {
 /// Both daughters; the first lies on the side to which the normal points.
 struct Division {
   std::array<Daughter, 2> daughter;
-  CutHalves cut;  ///< the exact halves: what daughters are measured against, and where marks come from
+  CutHalves cut;                    ///< the exact halves: what daughters are measured against, and where marks come from
   std::vector<AskedSurface> asked;  ///< the surfaces of both halves
 };
 
