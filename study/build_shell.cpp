@@ -123,7 +123,7 @@ double build_mesh_renewal(BuildContext& c, const draft::CellType& t, const CellT
   if (type.interior.nucleus_links.act() || type.interior.cortex_links.act())
     hangs("its links hold them by their numbers", "`renew_mesh_below: never`, or no links");
   if (type.shell.local_area_modulus > 0.0)
-    hangs("its faces have an area modulus each", "`renew_mesh_below: never`, or `area: {modulus: …}` of the whole surface");
+    hangs("its faces have an area modulus each", "`renew_mesh_below: never`, or `area: {global: …}`");
   return below.value;
 }
 
