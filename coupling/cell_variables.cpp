@@ -1,6 +1,7 @@
 #include "coupling/cell_variables.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace morula {
 
@@ -10,6 +11,9 @@ std::vector<CellVariable> cell_variables(const Model& model) {
     out.push_back({"amount/" + field.name, "amol", AtDivision::kShared});
     out.push_back({"concentration/" + field.name, "mM", AtDivision::kCopied});
   }
+  if (std::ranges::any_of(model.types, [](const CellType& type) { return type.renew_mesh_below > 0.0; }))
+    for (const auto& [name, unit] : {std::pair("done", "1"), {"refused", "1"}, {"next_try", "s"}, {"area_change", "1"}, {"distance", "1"}})
+      out.push_back({std::string("mesh_renewal/") + name, unit, AtDivision::kUsual});
   for (const CellType& type : model.types)
     for (const CellBehaviour& behaviour : type.behaviours)
       for (const BehaviourVariable& variable : behaviour.what->variables) {

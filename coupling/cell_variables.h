@@ -30,7 +30,22 @@ struct CellVariable {
 constexpr std::size_t amount_of(std::size_t field) { return 2 * field; }             ///< taken from it so far [amol]
 constexpr std::size_t concentration_of(std::size_t field) { return 2 * field + 1; }  ///< seen in it [mM]
 
-/// All variables of the cells of a model, by number: two for each field, then those of its behaviours, "<behaviour>/<variable>".
+/// What is told of the renewals of a shell's mesh (coupling/mesh_renewal.cpp): numbers of the variables behind the first.
+enum class MeshRenewal : std::uint8_t {
+  kDone,      ///< how often
+  kRefused,   ///< how often it could not be
+  kNextTry,   ///< after one that could not be [s]
+  kArea,      ///< largest relative change of area
+  kDistance,  ///< largest distance between the surfaces, in mean edges
+};
+
+/// All variables of the cells of a model, by number: two for each field, those of the renewal of meshes where a type has it, then those of its
+/// behaviours, "<behaviour>/<variable>".
 std::vector<CellVariable> cell_variables(const Model& model);
+
+/// Number of a variable of the renewal of meshes, in a model that has a type with it.
+inline std::size_t mesh_renewal_variable(const Model& model, MeshRenewal which) {
+  return 2 * model.fields.size() + static_cast<std::size_t>(which);
+}
 
 }  // namespace morula

@@ -24,6 +24,9 @@ std::string text_of_cause(const EventReason& reason, const Model& model) {
     case Cause::kNoPlane:
       return "reached its division volume and found no plane that leaves two good meshes; it tries others every " +
              std::to_string(static_cast<int>(kTimeBetweenTries / 60.0)) + " min";
+    case Cause::kUnevenMesh:
+      return "has a face that is nearly a line, and its nodes cannot be spread evenly on its surface; it tries again every " +
+             std::to_string(static_cast<int>(kTimeBetweenTries / 60.0)) + " min";
     case Cause::kLongLineage:
       return "cannot divide: its lineage is " + std::to_string(CellId::kMaxGenerations) + " generations long";
     case Cause::kBehaviour:

@@ -25,6 +25,7 @@ struct EventReason {
     kDivisionVolume,
     kDivisionVolumeAsShell,
     kNoPlane,      ///< a shell that is to divide found no plane by which it can
+    kUnevenMesh,   ///< a shell whose nodes cannot be spread evenly
     kLongLineage,  ///< it cannot divide once more
     kBehaviour,    ///< `number`: of the cell's type, + 2¹⁶ times that of the behaviour of the type
     kShrunk,

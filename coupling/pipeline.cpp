@@ -136,6 +136,7 @@ Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<b
   average_pressures(dt);
   turn_polarities(clock.steps - 1, dt);
   renew_faces(dt);
+  renew_meshes(outcome.events);
   MORULA_TRY(advance_fields(dt, give_up, outcome));
   {
     auto timed = timer().scope(Stage::kBehaviours);

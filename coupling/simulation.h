@@ -72,6 +72,8 @@ class Simulation {
   [[nodiscard]] std::vector<fields::CellSource> field_sources() const;
   Status advance_fields(double dt, const std::function<bool()>& give_up, StepOutcome& outcome);
   Result<std::vector<Event>> swap_bodies();
+  /// Shells with a face of too little quality get an even mesh on the same surface (coupling/mesh_renewal.cpp). Collective.
+  void renew_meshes(std::vector<Event>& events);
   /// What a step of life has asked for (coupling/divisions.cpp): daughters in place of mothers, and dead cells gone. Collective.
   void divide_and_remove(const struct LifeReport& life, std::vector<Event>& events);
   /// Shells whose daughters would begin so deep within others that the run might stop are taken back and put off. Gives how many. Collective.

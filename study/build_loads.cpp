@@ -35,8 +35,9 @@ void check_bodies(BuildContext& c, const std::string& name, const Place& place, 
     }
   }
   const bool swaps = !c.draft.coupling.regions.empty() || !c.draft.coupling.triggers.empty();
-  if (chosen && (swaps || c.study.model.types[load.type].cycles))
-    c.diagnostics.error(520, place, who + " at chosen nodes, which a cell that divides or changes its body would not keep",
+  const CellType& type = c.study.model.types[load.type];
+  if (chosen && (swaps || type.cycles || type.renew_mesh_below > 0.0))
+    c.diagnostics.error(520, place, who + " at chosen nodes, which a cell that divides, changes its body or renews its mesh would not keep",
                         "use a load on the whole cell, or cells that stay as they are");
 }
 

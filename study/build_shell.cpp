@@ -114,6 +114,19 @@ bool resists_in_plane(const draft::ShellKeys& t) {
          t.local_area.value + t.global_area.value > 0.0;
 }
 
+double build_mesh_renewal(BuildContext& c, const draft::CellType& t, const CellType& type) {
+  const auto& below = t.renew_mesh_below;
+  if (!below.known() || below.value == 0.0) return 0.0;
+  const auto hangs = [&](const std::string& what, const std::string& help) {
+    c.diagnostics.error(584, below.place, "the nodes of '" + type.name + "' are to slide along its surface, but " + what, help);
+  };
+  if (type.interior.nucleus_links.act() || type.interior.cortex_links.act())
+    hangs("its links hold them by their numbers", "`renew_mesh_below: never`, or no links");
+  if (type.shell.local_area_modulus > 0.0)
+    hangs("its faces have an area modulus each", "`renew_mesh_below: never`, or `area: {global: …}`");
+  return below.value;
+}
+
 double build_self_contact(BuildContext& c, const draft::CellType& t) {
   if (!t.self_contact.known() || t.self_contact.value == 0.0 || !t.radius.mean.known() || !t.nodes.known()) return 0.0;
   const double faces = 2.0 * static_cast<double>(t.nodes.value) - 4.0;

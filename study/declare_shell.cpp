@@ -172,6 +172,20 @@ void declare_shell_keys(Section& s, draft::ShellKeys& t, draft::CellType* cell) 
                 .example = "200 nm",
                 .source = "chosen: off; cells under pressure do not fold"},
                cell->self_contact);
+    s.quantity({.name = "renew_mesh_below",
+                .doc = "The nodes of a shell are spread evenly along its surface, its volume kept, when the quality of a face, 4 sqrt(3) "
+                       "times its area over "
+                       "the sum of the squares of its sides (1: equilateral), is less than this. `never`: they stay where mechanics has "
+                       "brought them.",
+                .quantity = Q::kNumber,
+                .fallback = "never",
+                .low = 0.0,
+                .high = 0.6,
+                .low_open = true,
+                .specials = {{"never", 0.0}},
+                .example = "0.4",
+                .source = "chosen: off; the shape term keeps meshes even"},
+               cell->renew_mesh_below);
     declare_interior(s, *cell);
   }
   s.group({.name = "fold_barrier", .doc = "Keeps edges from folding through."}, present, [&t](Section& f) {

@@ -105,6 +105,7 @@ struct CellType : ShellKeys {
   Given<double> packing_bulk_modulus;
   std::vector<Named<PackingKnot>> packing_knots;
   Given<double> self_contact;
+  Given<double> renew_mesh_below;
   std::vector<Named<TensionRegion>> tension_regions;
   Given<double> lateral_easing;
   Activity activity;

@@ -148,6 +148,10 @@ constexpr ErrorCode kCodes[] = {
      "away."},
     {583, "surface too fine for objective friction",
      "Points of contact keep the number of the obstacle's face that they touch, which objective friction needs, in 17 bits."},
+    {584, "nodes that may not slide",
+     "`renew_mesh_below` moves the nodes of a shell along its surface. What holds on to single nodes or faces, links and local area "
+     "moduli, would be "
+     "another thing afterwards."},
     {590, "key of a nucleus that is a shell",
      "A rigid nucleus has a size and the drag of the cytoplasm; mesh and mechanics are those of `kind: shell`."},
     {591, "nucleus whose volume does not bear the tension",

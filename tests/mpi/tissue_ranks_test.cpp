@@ -8,6 +8,7 @@
 
 #include "core/space/curve.h"
 #include "coupling/behaviours/birth.h"
+#include "coupling/cell_variables.h"
 #include "coupling/simulation.h"
 #include "coupling/swaps.h"
 #include "tests/fields/helpers.h"
@@ -175,6 +176,24 @@ TEST(TissueOnRanks, DividesShellsWithTheSameBitsAsOnOne) {
   const auto single = run(model, alone, 30, 1, nullptr, nullptr, 2);
   EXPECT_GE(ledger.divisions, 3u);
   EXPECT_EQ(together.size(), 13u + ledger.divisions);
+  expect_same(together, single);
+}
+
+TEST(TissueOnRanks, RenewsMeshesWithTheSameBitsAsOnOne) {
+  const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
+  Model model = hybrid_model();
+  model.types[0].shell_nodes = 162;
+  model.types[0].shell.shape_stiffness = 0.0;
+  model.types[0].renew_mesh_below = 0.99;  // an icosphere is not so even
+  model.swaps.regions[0].shape = everything_region();
+  const auto together = run(model, world, 8, 1, nullptr, nullptr, 2);
+  const auto single = run(model, alone, 8, 1, nullptr, nullptr, 2);
+  ASSERT_EQ(together.size(), 13u);
+  ShapeLibrary shapes;
+  double renewed = 0.0;
+  for (const auto& [id, bytes] : single)
+    renewed += read_records(bytes, shapes)[0].row.variable(mesh_renewal_variable(model, MeshRenewal::kDone));
+  EXPECT_GE(renewed, 6.0);
   expect_same(together, single);
 }
 

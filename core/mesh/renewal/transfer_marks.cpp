@@ -44,10 +44,4 @@ std::vector<char> transfer_marks(const AskedSurface& surface, std::span<const ch
   return out;
 }
 
-std::vector<char> marks_of_half(const ClosedHalf& half, std::span<const char> marked) {
-  std::vector<char> out(half.mesh.faces.size(), 0);
-  for (std::size_t f = 0; f < half.source_face.size(); ++f) out[f] = marked[half.source_face[f]];
-  return out;
-}
-
 }  // namespace morula

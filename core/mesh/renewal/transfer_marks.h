@@ -12,7 +12,4 @@ namespace morula {
 /// face that is not covered at all is taken. `marked` by face of the surface, not zero: marked.
 std::vector<char> transfer_marks(const AskedSurface& surface, std::span<const char> marked, const SurfaceView& mesh);
 
-/// Marks of the faces of a half, from those of the surface that was cut; its cap is not marked.
-std::vector<char> marks_of_half(const ClosedHalf& half, std::span<const char> marked);
-
 }  // namespace morula

@@ -250,7 +250,8 @@ TEST(TransferMarks, KeepAreaAndPlace) {
     ASSERT_TRUE(division.ok());
     for (std::size_t side = 0; side < 2; ++side) {
       const ClosedHalf& half = division->cut.half[side];
-      const std::vector<char> old_marks = marks_of_half(half, marked);
+      std::vector<char> old_marks(half.mesh.faces.size(), 0);  // the cap has none
+      for (std::size_t f = 0; f < half.source_face.size(); ++f) old_marks[f] = marked[half.source_face[f]];
       const AskedSurface surface = AskedSurface::build(half.mesh).value();
       const Daughter& daughter = division->daughter[side];
       const std::vector<char> marks = transfer_marks(surface, old_marks, {daughter.position, shape->topology.get()});

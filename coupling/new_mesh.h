@@ -1,0 +1,31 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/mesh/renewal/asked_surface.h"
+#include "dcm/shells.h"
+
+namespace morula {
+
+/// A mesh that stands for the surface of a shell, or for a part of it, and what it is to have of that shell.
+struct NewMesh {
+  const dcm::ShellRecord& old;  ///< the shell as it was
+  const AskedSurface& surface;  ///< what the new mesh stands for
+  std::span<const std::uint32_t>
+      source_face;                  ///< by face of the surface, the face of the shell that it is (a part of); faces beyond the end are new
+  const ReferenceShape& shape;      ///< of the new mesh
+  std::span<const Vec3d> position;  ///< of its nodes [µm]
+  std::span<const char> is_new{};   ///< by face of it: made by the event, as the interface of a division; empty: none
+
+  [[nodiscard]] bool face_is_new(std::size_t face) const { return !is_new.empty() && is_new[face] != 0; }
+};
+
+/// Rest lengths of the old metric where the nearest point is of the old surface; of new faces the present ones. The metric of a face with rest lengths
+/// l1, l2, l3 is the form that gives its three sides these lengths.
+std::vector<double> carried_rest_lengths(const NewMesh& mesh);
+
+/// The columns of the old shell that follow a rule of theirs (ColumnRules::on_new_mesh), on the new mesh. `part`: of the old volume that it encloses.
+void carry_columns(const NewMesh& mesh, double part, dcm::ShellRecord& out);
+
+}  // namespace morula

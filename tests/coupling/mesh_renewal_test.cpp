@@ -1,0 +1,157 @@
+// Shells whose nodes have drifted together get an even mesh, and keep what they are.
+#include <gtest/gtest.h>
+
+#include "core/mesh/renewal/surface_view.h"
+#include "coupling/cell_variables.h"
+#include "coupling/new_mesh.h"
+#include "coupling/simulation.h"
+#include "tests/coupling/tissue_fixture.h"
+
+namespace morula {
+namespace {
+
+/// A fluid cortex that nothing holds but its tension.
+Model fluid_model(double below) {
+  Model model = test::clusters_model();
+  CellType& type = model.types[0];
+  type.shell.spring_stiffness = type.shell.hinge_stiffness = type.shell.shape_stiffness = 0.0;
+  type.renew_mesh_below = below;
+  model.step.initial_step = 1e-3;  // mechanics does nothing that matters
+  model.step.max_step = 1e-3;
+  return model;
+}
+
+/// The nodes slide along the sphere from the poles towards the equator.
+void crowd(std::span<Vec3d> nodes, double how_much) {
+  const Vec3d center = mean_of(std::span<const Vec3d>(nodes));
+  for (Vec3d& x : nodes) {
+    const Vec3d d = x - center;
+    const double r = norm(d), angle = std::acos(d.z / r), to = angle + how_much * std::sin(2.0 * angle), flat = std::hypot(d.x, d.y);
+    if (flat > 1e-9 * r) x = center + Vec3d{d.x / flat * std::sin(to), d.y / flat * std::sin(to), std::cos(to)} * r;
+  }
+}
+
+class MeshRenewalTest : public ::testing::Test {
+ protected:
+  /// Two cells in contact, the first with crowded nodes, after the step at which meshes are looked at.
+  std::unique_ptr<Simulation> after_a_look(const Model& model, const std::function<void(Tissue&)>& change) {
+    using enum BodyKind;
+    Tissue tissue = test::make_tissue(model, shapes_, {{-5.9, 0, 0}, {5.9, 0, 0}}, {kShell, kShell});
+    change(tissue);
+    tissue.clock.steps = 4;
+    auto simulation = Simulation::create(model, std::move(tissue), Comm(), 1);
+    EXPECT_TRUE(simulation.ok());
+    const auto done = (*simulation)->step(1e6);
+    EXPECT_TRUE(done.ok()) << done.error().message;
+    if (done.ok()) events_ = done->events;
+    return std::move(simulation).value();
+  }
+  static double told(const Simulation& simulation, std::size_t cell, MeshRenewal what) {
+    return simulation.tissue().cells.state(cell).variable(mesh_renewal_variable(simulation.model(), what));
+  }
+  static double quality(const Tissue& tissue, std::size_t shell) {
+    return least_quality(tissue.shells.topology(shell).faces(), tissue.shells.nodes(shell));
+  }
+
+  ShapeLibrary shapes_;
+  std::vector<Event> events_;
+};
+
+TEST_F(MeshRenewalTest, SpreadsCrowdedNodesOnTheSameSurface) {
+  double before = 0.0, volume = 0.0;
+  const auto simulation = after_a_look(fluid_model(0.4), [&](Tissue& tissue) {
+    crowd(tissue.shells.nodes(0), 0.42);
+    before = quality(tissue, 0);
+    volume = enclosed_volume(tissue.shells.topology(0).faces(), tissue.shells.nodes(0), {});
+  });
+  const Tissue& tissue = simulation->tissue();
+  EXPECT_LT(before, 0.4);
+  EXPECT_GT(quality(tissue, 0), 0.6);
+  EXPECT_NEAR(enclosed_volume(tissue.shells.topology(0).faces(), tissue.shells.nodes(0), {}) / volume, 1.0, 1e-6) << "but for the step";
+  EXPECT_EQ(told(*simulation, 0, MeshRenewal::kDone), 1.0);
+  EXPECT_EQ(told(*simulation, 0, MeshRenewal::kRefused), 0.0);
+  EXPECT_LT(told(*simulation, 0, MeshRenewal::kDistance), 0.25);
+  EXPECT_EQ(told(*simulation, 1, MeshRenewal::kDone), 0.0) << "the other one is even";
+  EXPECT_TRUE(events_.empty());
+}
+
+TEST_F(MeshRenewalTest, IsLeftAloneWhereTheTypeDoesNotAskForIt) {
+  double before = 0.0;
+  const auto simulation = after_a_look(fluid_model(0.0), [&](Tissue& tissue) {
+    crowd(tissue.shells.nodes(0), 0.42);
+    before = quality(tissue, 0);
+  });
+  EXPECT_NEAR(quality(simulation->tissue(), 0), before, 0.05);
+  EXPECT_TRUE(cell_variables(simulation->model()).empty());
+}
+
+TEST_F(MeshRenewalTest, TellsOnceWhatItCannotDoAndTriesLater) {
+  const auto simulation = after_a_look(fluid_model(0.4), [&](Tissue& tissue) {
+    const std::span<Vec3d> nodes = tissue.shells.nodes(0);  // a spike that no even mesh of this many nodes follows
+    nodes[7] += (nodes[7] - mean_of(std::span<const Vec3d>(nodes))) * 0.7;
+  });
+  ASSERT_EQ(events_.size(), 1u);
+  EXPECT_EQ(events_[0].reason.cause, EventReason::Cause::kUnevenMesh);
+  EXPECT_EQ(events_[0].cell, CellId::founder(1));
+  EXPECT_EQ(told(*simulation, 0, MeshRenewal::kDone), 0.0);
+  EXPECT_EQ(told(*simulation, 0, MeshRenewal::kRefused), 1.0);
+  EXPECT_GT(told(*simulation, 0, MeshRenewal::kNextTry), 599.0);
+}
+
+TEST_F(MeshRenewalTest, CarriesMarksContactAndNucleus) {
+  Model model = fluid_model(0.4);
+  double marked = 0.0;
+  const auto area_of_mark = [](const Tissue& tissue) {
+    double sum = 0.0;
+    const auto faces = tissue.shells.topology(0).faces();
+    const auto x = tissue.shells.nodes(0);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      if (tissue.shells.marks_of(0).has(f, 0)) sum += 0.5 * norm(cross(x[faces[f][1]] - x[faces[f][0]], x[faces[f][2]] - x[faces[f][0]]));
+    return sum;
+  };
+  const auto simulation = after_a_look(model, [&](Tissue& tissue) {
+    crowd(tissue.shells.nodes(0), 0.42);
+    const auto faces = tissue.shells.topology(0).faces();
+    dcm::FaceState& state = tissue.shells.faces_of(0);
+    state.mark.assign(faces.size(), 0);
+    state.contact.assign(faces.size(), 0.25f);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      if (tissue.shells.nodes(0)[faces[f][0]].z > 2.0) state.mark[f] = 1;
+    tissue.shells.nucleus.resize(2);
+    tissue.shells.nucleus[0] = Vec3d{-5.0, 0.5, 0.0};
+    marked = area_of_mark(tissue);
+  });
+  const Tissue& tissue = simulation->tissue();
+  EXPECT_EQ(told(*simulation, 0, MeshRenewal::kDone), 1.0);
+  EXPECT_NEAR(area_of_mark(tissue) / marked, 1.0, 0.01);
+  for (const float contact : tissue.shells.faces_of(0).contact) EXPECT_EQ(contact, 0.25f);
+  ASSERT_NE(tissue.shells.nucleus_of(0), nullptr);
+  EXPECT_LT(norm(*tissue.shells.nucleus_of(0) - Vec3d{-5.0, 0.5, 0.0}), 1e-3);
+}
+
+/// An elastic surface stretched evenly is stretched evenly on the new mesh, too.
+TEST_F(MeshRenewalTest, CarriesTheMetricOfAStretchedSurface) {
+  Model model = fluid_model(0.4);
+  model.types[0].shell.spring_stiffness = 0.173;
+  const auto simulation = after_a_look(model, [&](Tissue& tissue) {
+    crowd(tissue.shells.nodes(0), 0.42);
+    const auto x = tissue.shells.nodes(0);
+    const auto edges = tissue.shells.topology(0).edges();
+    for (std::size_t e = 0; e < edges.size(); ++e) tissue.shells.rest_length[e] = norm(x[edges[e].j] - x[edges[e].i]) / 1.1;
+  });
+  const Tissue& tissue = simulation->tissue();
+  EXPECT_EQ(told(*simulation, 0, MeshRenewal::kDone), 1.0);
+  const auto x = tissue.shells.nodes(0);
+  const auto edges = tissue.shells.topology(0).edges();
+  double least = 2.0, most = 0.0, sum = 0.0;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const double stretch = norm(x[edges[e].j] - x[edges[e].i]) / tissue.shells.rest_length[e];
+    least = std::min(least, stretch), most = std::max(most, stretch), sum += stretch;
+  }
+  EXPECT_NEAR(sum / static_cast<double>(edges.size()), 1.1, 0.002) << "2 % of the tension";
+  EXPECT_GT(least, 1.08);
+  EXPECT_LT(most, 1.12);
+}
+
+}  // namespace
+}  // namespace morula
