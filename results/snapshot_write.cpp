@@ -156,6 +156,11 @@ struct CellsOfRank {
 std::string description_of(const Snapshot::Variable& variable) {
   if (variable.name.starts_with("concentration/")) return "concentration that the cell sees";
   if (variable.name.starts_with("amount/")) return "amount taken from the field since time 0; daughters share their mother's by volume";
+  if (variable.name == "mesh_renewal/done") return "how often the nodes of the shell were spread evenly since its birth";
+  if (variable.name == "mesh_renewal/refused") return "how often they could not be";
+  if (variable.name == "mesh_renewal/next_try") return "after one that could not be";
+  if (variable.name == "mesh_renewal/area_change") return "largest relative change of area of a renewal";
+  if (variable.name == "mesh_renewal/distance") return "largest distance between old and new surface, in mean edges";
   return "state of the cell, of a law of the study";
 }
 

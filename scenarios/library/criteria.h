@@ -47,7 +47,7 @@ Result<Judgement> judge(const Study& study, const std::filesystem::path& run);
 /// The plots that the study declares, then those of its scenario.
 Result<std::vector<NamedPlot>> scenario_plots(const Study& study, const std::filesystem::path& run);
 
-/// Whether nothing drives the tissue: no growth, migration, death, exchange of bodies, inflation or moving obstacle. Its energy can only
+/// Whether nothing drives the tissue: no growth, migration, death, exchange of bodies, renewal of meshes, inflation or moving obstacle. Its energy can only
 /// fall.
 bool is_passive(const Study& study);
 
