@@ -9,7 +9,7 @@
 #include "results/file_io.h"
 #include "results/run_folder.h"
 #include "results/series_reader.h"
-#include "scenarios/library/criteria.h"
+#include "scenarios/criteria/judge.h"
 #include "scenarios/run/report_run.h"
 
 namespace morula::app {
@@ -23,7 +23,7 @@ bool wanted(const std::string& name, const std::vector<std::string>& only) {
 
 Status write_plots(const scenarios::Study& study, const fs::path& run, const std::vector<std::string>& only, std::string& written) {
   MORULA_TRY_ASSIGN(const scenarios::SeriesTable series, scenarios::read_series(run / "series.csv"));
-  MORULA_TRY_ASSIGN(std::vector<scenarios::NamedPlot> plots, scenarios::scenario_plots(study, run));
+  MORULA_TRY_ASSIGN(std::vector<scenarios::NamedPlot> plots, scenarios::declared_plots(study, run));
   for (scenarios::NamedPlot& plot : scenarios::standard_plots(study, series)) plots.push_back(std::move(plot));
   for (const scenarios::NamedPlot& one : plots) {
     if (!wanted(one.name, only)) continue;

@@ -2,8 +2,8 @@
 
 #include "app/words.h"
 #include "results/file_io.h"
+#include "scenarios/criteria/judge.h"
 #include "scenarios/criteria/understand.h"
-#include "scenarios/library/criteria.h"
 #include "scenarios/library/library.h"
 
 namespace morula::app {
@@ -14,7 +14,6 @@ Result<scenarios::Study> read_study_and_tell(const std::string& path, const std:
   options.laws = context.laws;
   options.overrides = overrides;
   options.scenario_names = scenarios::template_names();
-  options.fits_scenario = &scenarios::fits_scenario;
   options.check_criteria = &scenarios::check_criteria;
   options.strict = strict;
   options.judge_places = judge_places;

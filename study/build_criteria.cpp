@@ -30,11 +30,10 @@ void drop_unused(MeasuredMoments& moments, ExpectedValue& against) {
 void build_criteria(BuildContext& c) {
   for (auto& [name, place, criterion] : c.draft.criteria) {
     criterion.place = place;
+    build_expected(c, criterion.over);
     build_expected(c, criterion.against);
+    if (!criterion.over.data.given) criterion.over.x.text.clear();
     drop_unused(criterion.moments, criterion.against);
-    if (criterion.is_of_scenario())
-      for (Given<std::string>* one : {&criterion.moments.at, &criterion.moments.over_time, &criterion.moments.over_cells})
-        if (!one->given) one->text.clear();
     c.study.criteria.push_back(criterion);
   }
   for (auto& [name, place, plot] : c.draft.plots) {

@@ -13,6 +13,7 @@ struct MeasuredThings {
   Given<std::vector<std::string>> type, load, obstacle, field;
   Given<std::vector<std::string>> pair;  ///< two cell types that touch each other
   Given<std::string> cell;               ///< the id of a cell, or `all`
+  Given<bool> together;                  ///< several things count as one
 };
 
 /// What a measure is held against: one of `value`, `theory`, `measure` and `data`.
@@ -27,23 +28,23 @@ struct ExpectedValue {
 
 /// At which moments of a run a measure is taken, and what is made of several moments and cells.
 struct MeasuredMoments {
-  Given<std::string> at;                     ///< `end`, `start`, `every` output, or a time
-  Given<double> from, until;                 ///< instead: all outputs between [s]
+  Given<std::string> at;                     ///< `end`, `start`, `every` output, `holds`, `holds(thing)`, or a time
+  Given<double> from, until;                 ///< instead: all outputs between; with `holds`: those of them [s]
   Given<std::string> over_time, over_cells;  ///< `each`: all of them must pass
 };
 
-/// A criterion of a study. With an `id` alone it is one of the study's scenario.
+/// A criterion of a study.
 struct Criterion {
   Place place;
   Given<std::string> id, measure, text;
   MeasuredThings of;
   MeasuredMoments moments;
+  ExpectedValue over;               ///< what the measure is divided by
+  Given<std::string> along, curve;  ///< the measure that another is a curve over, and what is made of the curve
   ExpectedValue against;
-  Given<std::string> within;                ///< of `against`: a number with the unit of the measure, or relative in %
+  Given<std::string> within;                ///< of `against`: a number with the unit of the measure, relative in %, or another measure
   Given<std::string> below, above;          ///< a number with its unit, or another measure of the run
   Given<std::vector<std::string>> between;  ///< two numbers with their units
-
-  [[nodiscard]] bool is_of_scenario() const { return !measure.given; }
 };
 
 /// A plot of a study: one or more measures over another, or over time.

@@ -262,19 +262,13 @@ void declare_study(Section& s, draft::Study& study) {
   s.text(
       {.name = "title", .doc = "One line for people; shown in the report.", .fallback = "", .example = "Spheroid with a deformable core"},
       study.title);
-  s.text({.name = "scenario",
-          .doc = "Library study whose criteria are checked at the end (verdict.json).",
-          .fallback = "",
-          .example = "hybrid_spheroid"},
-         study.scenario);
-  s.list(
-      {.name = "criteria",
-       .doc =
-           "What the run is judged on at its end: measures of its own, or ids of criteria of its scenario. One that finds nothing in the "
-           "results has failed. Where no criterion of the scenario is named: whichever can be judged, and one at least.",
-       .shorthand = "id",
-       .example = "[S6.1, DOUBLET.drift]"},
-      study.criteria, &declare_criterion);
+  s.text(
+      {.name = "scenario", .doc = "Library study that it was made from: told in its report.", .fallback = "", .example = "hybrid_spheroid"},
+      study.scenario);
+  s.list({.name = "criteria",
+          .doc = "What the run is judged on at its end. One that finds nothing in the results has failed.",
+          .example = "[{id: SIZE, measure: cell_count, above: 100}]"},
+         study.criteria, &declare_criterion);
   s.list({.name = "plots",
           .doc = "Plots of measures, beside those that every run gets.",
           .example = "[{name: force_way, x: way(pull), y: force(pull)}]"},

@@ -221,10 +221,6 @@ constexpr ErrorCode kCodes[] = {
      "With `numerics.start_cap` cells that overlap at time 0 come apart slowly. What has not by `numerics.start_cap_within` has no way "
      "out."},
     {680, "not a colour", "The colour of a cell type is one of the palette's names, or # with six hexadecimal digits."},
-    {685, "study that does not fit its scenario",
-     "`scenario` names the library study whose criteria are judged at the end; they need what that study has (its loads, obstacles, "
-     "regions), and "
-     "`criteria` names some of them."},
     {690, "more keys and values than are read",
      "A study holds at most 200,000 keys, values and lists, enough for the places of 50,000 cells. What is beyond is not read: the other "
      "messages "

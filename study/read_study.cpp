@@ -68,10 +68,6 @@ Result<Study, Diagnostics> read_source(const std::shared_ptr<const SourceText>& 
   read_draft(document, source, *options.laws, draft, diagnostics);
   BuildContext context{draft, study, diagnostics, folder, options};
   build(context);
-  if (options.fits_scenario && !diagnostics.has_errors())
-    if (const Status fits = options.fits_scenario(study); !fits.ok())
-      diagnostics.error(685, (draft.criteria.empty() ? draft.scenario.place : draft.criteria.front().place), fits.error().message,
-                        fits.error().help);
   if (options.check_criteria && !diagnostics.has_errors()) options.check_criteria(study, diagnostics);
   diagnostics.sort();
   if (options.strict) diagnostics.warnings_to_errors();

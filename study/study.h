@@ -114,8 +114,8 @@ struct InputFile {
 struct Study {
   std::string name;
   std::string title;
-  std::string scenario;             ///< library study it was made from, or "" (gives the criteria that go to verdict.json)
-  std::vector<Criterion> criteria;  ///< what must be judged; none of the scenario named: whichever it finds, one at least
+  std::string scenario;             ///< library study that it was made from, told in its report; or ""
+  std::vector<Criterion> criteria;  ///< what it is judged on
   std::vector<StudyPlot> plots;     ///< beside those of every run
   Model model;
   TimeSpec time;
@@ -132,10 +132,9 @@ struct Study {
 };
 
 struct ReadOptions {
-  std::shared_ptr<const Laws> laws = builtin_laws();    ///< that the study may name
-  std::vector<std::string> overrides{};                 ///< `key.path=value`, as if written in the file
-  std::vector<std::string> scenario_names{};            ///< library studies that exist; empty: not checked
-  std::function<Status(const Study&)> fits_scenario{};  ///< whether a study has what its scenario's criteria judge; null: not checked
+  std::shared_ptr<const Laws> laws = builtin_laws();  ///< that the study may name
+  std::vector<std::string> overrides{};               ///< `key.path=value`, as if written in the file
+  std::vector<std::string> scenario_names{};          ///< library studies that exist; empty: not checked
   std::function<void(const Study&, Diagnostics&)>
       check_criteria{};      ///< whether its criteria and plots can be judged and drawn; null: not checked
   bool strict = false;       ///< warnings are errors

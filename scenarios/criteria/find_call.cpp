@@ -49,7 +49,7 @@ class Finder {
       case MeasureOf::kRun:
         return wrong_number(place);
       case MeasureOf::kCells:
-        return arguments.size() == 1 ? cells(arguments[0], place) : wrong_number(place);
+        return each(arguments, [&](const std::string& name) { return cells(name, place); });
       case MeasureOf::kField:
         return arguments.size() == 2 ? with_field(arguments[0], arguments[1], place) : wrong_number(place);
       case MeasureOf::kPair:
@@ -57,7 +57,7 @@ class Finder {
         return arguments.size() <= 2 ? pair(arguments[0], arguments.back(), place) : wrong_number(place);
       case MeasureOf::kLoad:
       case MeasureOf::kObstacle:
-        return arguments.size() == 1 ? thing(arguments[0], place) : wrong_number(place);
+        return each(arguments, [&](const std::string& name) { return thing(name, place); });
     }
     return {};
   }
@@ -106,6 +106,14 @@ class Finder {
   }
 
  private:
+  template <class Find>
+  static std::vector<Subject> each(const Names& names, const Find& find) {
+    std::vector<Subject> out;
+    for (const std::string& name : names)
+      for (Subject& one : find(name)) out.push_back(std::move(one));
+    return out;
+  }
+
   std::string example() const {
     const Model& m = study_.model;
     const auto first = [](const auto& things, const char* instead) { return things.empty() ? std::string(instead) : things.front().name; };

@@ -12,18 +12,26 @@ namespace morula::scenarios {
 /// that the study writes. Errors: kFile.
 Result<std::vector<Verdict>> judge_criterion(FinishedRun& run, const UnderstoodCriterion& criterion);
 
-/// All criteria of the run's study that have a measure of their own, in their order. One that cannot be understood has failed.
+/// All criteria of the run's study, in their order. One that cannot be understood has failed.
 Result<std::vector<Verdict>> judge_criteria(FinishedRun& run);
 
 /// Its plots. One that cannot be understood is left out: `check` says why.
 Result<std::vector<NamedPlot>> study_plots(FinishedRun& run);
 
+/// What a question finds of some of its things: their values, what several cells, moments and things are made into, over what divides
+/// them. `data`: of `curve: rms`.
+Result<std::vector<Sample>> answers(FinishedRun& run, const Question& question, const MeasureCall& of, const std::vector<Subject>& things,
+                                    const Expectation& data);
+
 /// The values of a measure of one thing, several cells and moments made into what is asked for.
 Result<std::vector<Sample>> measured(FinishedRun& run, const Measure& measure, const Subject& subject, const Moments& moments,
                                      const std::string& over_cells, const std::string& over_time);
 
-/// What is expected in the place of each sample; no number where nothing is.
-Result<std::vector<double>> expected_values(FinishedRun& run, const Expectation& expected, const Measure& measure, const Subject& subject,
-                                            const std::vector<Sample>& samples, const Moments& moments, const std::string& over_time);
+/// The mean of what another measure found at a time [s]; of all where the time does not matter. No number where there is nothing.
+double mean_at(const std::vector<Sample>& samples, double time, bool whatever_time);
+
+/// What is expected in the place of each sample of a thing; no number where nothing is.
+Result<std::vector<double>> expected_values(FinishedRun& run, const Expectation& expected, const Question& question, const Subject& subject,
+                                            const std::vector<Sample>& samples);
 
 }  // namespace morula::scenarios

@@ -10,6 +10,23 @@
 namespace morula::scenarios {
 namespace {
 
+/// What several values in the order of time say of their course: see `over_time` of a criterion. No number of one value only.
+double course_of(const std::vector<Sample>& samples, const std::string& how) {
+  const double first = samples.front().value;
+  double farthest = 0.0, highest = 0.0;
+  bool rising = true, falling = true;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    rising = rising && samples[i].value > samples[i - 1].value;
+    falling = falling && samples[i].value < samples[i - 1].value;
+    farthest = std::max(farthest, std::abs(samples[i].value / first - 1.0));
+    highest = std::max(highest, samples[i].value - first);
+  }
+  if (samples.size() < 2) return kNothing;
+  if (how == "change") return farthest;
+  if (how == "left") return std::abs(samples.back().value - first) / highest;
+  return how == "rising" ? rising : falling;
+}
+
 /// One value of several; the sample where it is found, or the last one.
 Sample reduced(const std::vector<Sample>& samples, const std::string& how) {
   const auto by_value = [](const Sample& a, const Sample& b) { return a.value < b.value; };
@@ -24,6 +41,10 @@ Sample reduced(const std::vector<Sample>& samples, const std::string& how) {
   }
   if (how == "growth") {
     out.value = out.value / samples.front().value - 1.0;
+    return out;
+  }
+  if (how == "change" || how == "left" || how == "rising" || how == "falling") {
+    out.value = course_of(samples, how);
     return out;
   }
   double sum = 0.0, time = 0.0;
@@ -65,7 +86,83 @@ std::vector<Sample> over_all_times(const std::vector<Sample>& samples, const std
   return out;
 }
 
-/// The mean of what another measure finds at a time; of all where it finds one moment's only.
+/// Points of one measure over another.
+struct CurvePoints {
+  std::vector<double> x, y;
+};
+
+/// Of the straight line through the points, by least squares: what `curve` of a criterion says.
+double of_line(const CurvePoints& points, const std::string& what) {
+  double sx = 0, sy = 0, sxx = 0, syy = 0, sxy = 0, largest = 0;
+  for (std::size_t i = 0; i < points.x.size(); ++i) {
+    sx += points.x[i];
+    sy += points.y[i];
+    sxx += points.x[i] * points.x[i];
+    syy += points.y[i] * points.y[i];
+    sxy += points.x[i] * points.y[i];
+    largest = std::max(largest, points.y[i]);
+  }
+  const double n = static_cast<double>(points.x.size());
+  if (n < (what == "r_squared" ? 3.0 : 2.0)) return kNothing;
+  const double both = sxy - sx * sy / n, slope = both / (sxx - sx * sx / n);
+  if (what == "r_squared") return slope * both / (syy - sy * sy / n);
+  const double intercept = (sy - slope * sx) / n;
+  return what == "intercept" ? intercept : intercept / largest;
+}
+
+/// Root mean square of what a curve is above the data, at those of their points that lie between its own. No number where none does.
+double rms_from_data(const CurvePoints& curve, const Expectation& data) {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < data.xs.size(); ++i) {
+    const double here = interpolated(curve.x, curve.y, data.xs[i]);
+    if (std::isnan(here)) continue;
+    sum += (here - data.ys[i]) * (here - data.ys[i]);
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / count) : kNothing;
+}
+
+/// Where each sample of a thing lies along: at its time, or at what the other measure finds then. No number where that finds nothing.
+Result<std::vector<double>> places_of(FinishedRun& run, const Question& q, const Subject& thing, const std::vector<Sample>& samples) {
+  std::vector<double> out;
+  for (const Sample& one : samples) out.push_back(q.along ? kNothing : one.time);
+  if (!q.along) return out;
+  const Subject& whose = q.along_of_thing && q.along->measure.of != MeasureOf::kRun ? thing : q.along->subjects.front();
+  MORULA_TRY_ASSIGN(const auto found, q.along->measure.take(run, whose, q.moments.of(run.study(), whose)));
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    for (const Sample& x : found)
+      if (std::abs(x.time - samples[i].time) <= 1e-6 * std::max(1.0, x.time) &&
+          (x.cell == samples[i].cell || x.cell.empty() || samples[i].cell.empty()))
+        out[i] = x.value;
+  return out;
+}
+
+/// The values of a thing, each over the theory or number that divides them.
+Result<std::vector<Sample>> divided(FinishedRun& run, const Question& q, const MeasureCall& of, const Subject& thing) {
+  MORULA_TRY_ASSIGN(std::vector<Sample> out, of.measure.take(run, thing, q.moments.of(run.study(), thing)));
+  for (Sample& one : out) {
+    if (q.over.kind == Expectation::Kind::kValue) one.value /= q.over.value.internal;
+    if (q.over.kind != Expectation::Kind::kTheory) continue;
+    MORULA_TRY_ASSIGN(const double below, q.over.theory->value(run, thing, of.measure.name, one));
+    one.value /= below;
+  }
+  return out;
+}
+
+/// Several cells and moments made into what is asked for.
+std::vector<Sample> made_into_one(std::vector<Sample> out, const std::string& over_cells, const std::string& over_time) {
+  if (over_cells == "mean" || over_cells == "sum") {  // cells come and go: those of a moment first
+    out = over_all_cells(out, over_cells);
+    return over_time != "each" ? over_all_times(out, over_time) : out;
+  }
+  if (over_time != "each") out = over_all_times(out, over_time);
+  if (over_cells == "each" || out.empty()) return out;
+  return over_time == "each" ? over_all_cells(out, over_cells) : std::vector<Sample>{reduced(out, over_cells)};
+}
+
+}  // namespace
+
 double mean_at(const std::vector<Sample>& samples, double time, bool whatever_time) {
   double sum = 0.0;
   int count = 0;
@@ -74,36 +171,64 @@ double mean_at(const std::vector<Sample>& samples, double time, bool whatever_ti
   return count > 0 ? sum / count : kNothing;
 }
 
-}  // namespace
-
 Result<std::vector<Sample>> measured(FinishedRun& run, const Measure& measure, const Subject& subject, const Moments& moments,
                                      const std::string& over_cells, const std::string& over_time) {
   MORULA_TRY_ASSIGN(std::vector<Sample> out, measure.take(run, subject, moments));
-  const bool of_mean = over_cells == "mean" || over_cells == "sum";
-  if (of_mean) {  // cells come and go: those of a moment first
-    out = over_all_cells(out, over_cells);
-    if (over_time != "each") out = over_all_times(out, over_time);
-    return out;
-  }
-  if (over_time != "each") out = over_all_times(out, over_time);
-  if (over_cells == "each" || out.empty()) return out;
-  return over_time == "each" ? over_all_cells(out, over_cells) : std::vector<Sample>{reduced(out, over_cells)};
+  return made_into_one(std::move(out), over_cells, over_time);
 }
 
-Result<std::vector<double>> expected_values(FinishedRun& run, const Expectation& expected, const Measure& measure, const Subject& subject,
-                                            const std::vector<Sample>& samples, const Moments& moments, const std::string& over_time) {
-  std::vector<double> out;
-  std::vector<Sample> others;
-  if (expected.kind == Expectation::Kind::kMeasure) {
-    MORULA_TRY_ASSIGN(others, measured(run, expected.measure->measure, expected.measure->subjects.front(), moments, "mean", over_time));
+Result<std::vector<Sample>> answers(FinishedRun& run, const Question& q, const MeasureCall& of, const std::vector<Subject>& things,
+                                    const Expectation& data) {
+  std::vector<Sample> all;
+  CurvePoints curve;
+  for (const Subject& thing : things) {
+    MORULA_TRY_ASSIGN(const std::vector<Sample> found, divided(run, q, of, thing));
+    all.insert(all.end(), found.begin(), found.end());
+    if (q.curve.empty()) continue;
+    MORULA_TRY_ASSIGN(const std::vector<double> places, places_of(run, q, thing, found));
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      curve.x.push_back(places[i]);
+      curve.y.push_back(found[i].value);
+    }
   }
-  for (const Sample& sample : samples) {
+  std::stable_sort(all.begin(), all.end(), [](const Sample& a, const Sample& b) { return a.time < b.time; });
+  const bool one_value = !q.curve.empty() && !all.empty();
+  if (one_value)
+    all = {{all.back().time, q.curve == "rms" ? rms_from_data(curve, data) : of_line(curve, q.curve), ""}};
+  else
+    all = made_into_one(std::move(all), q.over_cells, q.over_time);
+  if (q.over.kind != Expectation::Kind::kMeasure) return all;
+  Question below = q;
+  below.over = {};
+  MORULA_TRY_ASSIGN(const auto others, answers(run, below, *q.over.measure, q.over.measure->subjects, data));
+  const bool whatever_time = one_value || q.over_time != "each" || (all.size() == 1 && others.size() == 1);
+  for (Sample& one : all) one.value /= mean_at(others, one.time, whatever_time);
+  return all;
+}
+
+Result<std::vector<double>> expected_values(FinishedRun& run, const Expectation& expected, const Question& question, const Subject& subject,
+                                            const std::vector<Sample>& samples) {
+  if (question.curve == "rms") return std::vector<double>(samples.size(), 0.0);  // the samples are differences already
+  std::vector<Sample> others;
+  std::vector<double> places;
+  if (expected.kind == Expectation::Kind::kMeasure) {
+    Question same = question;
+    same.over = {};
+    same.over_cells = "mean";
+    MORULA_TRY_ASSIGN(others, answers(run, same, *expected.measure, expected.measure->subjects, {}));
+  }
+  if (expected.kind == Expectation::Kind::kData) {
+    MORULA_TRY_ASSIGN(places, places_of(run, question, subject, samples));
+  }
+  std::vector<double> out;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
     double value = kNothing;
     if (expected.kind == Expectation::Kind::kValue) value = expected.value.internal;
-    if (expected.kind == Expectation::Kind::kMeasure) value = mean_at(others, sample.time, over_time != "each");
-    if (expected.kind == Expectation::Kind::kData) value = interpolated(expected.xs, expected.ys, sample.time);
+    if (expected.kind == Expectation::Kind::kMeasure)
+      value = mean_at(others, samples[i].time, question.over_time != "each" || (samples.size() == 1 && others.size() == 1));
+    if (expected.kind == Expectation::Kind::kData) value = interpolated(expected.xs, expected.ys, places[i]);
     if (expected.kind == Expectation::Kind::kTheory) {
-      MORULA_TRY_ASSIGN(value, expected.theory->value(run, subject, measure.name, sample));
+      MORULA_TRY_ASSIGN(value, expected.theory->value(run, subject, question.measured.measure.name, samples[i]));
     }
     out.push_back(value);
   }

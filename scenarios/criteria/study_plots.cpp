@@ -54,7 +54,8 @@ class StudyPlotMaker {
     out.x = {plot_.x ? plot_.x->measure.title : "time", x_.text, false, {}, {}};
     out.y = {first.title, y_.text, false, {}, {}};
     out.title = !plot_.title.empty() ? plot_.title : first.title + (plot_.x ? " over " + plot_.x->measure.title : " over time");
-    single_ = plot_.moments.kind != Moments::Kind::kBetween || plot_.moments.from == plot_.moments.until;
+    const Moments& when = plot_.moments.moments;
+    single_ = when.kind == Moments::Kind::kStart || when.kind == Moments::Kind::kEnd || when.from == when.until;
     MORULA_TRY(add_measures(out));
     MORULA_TRY(add_expected(out));
     return NamedPlot{plot_.name, std::move(out)};
@@ -64,12 +65,12 @@ class StudyPlotMaker {
   /// The points of one thing: values of y over those of x at the same time.
   Result<PlotPoints> points_of(const MeasureCall& call, std::size_t number) {
     const Subject& subject = call.subjects[number];
-    MORULA_TRY_ASSIGN(const std::vector<Sample> ys, measured(run_, call.measure, subject, plot_.moments, plot_.over_cells, "each"));
+    MORULA_TRY_ASSIGN(const std::vector<Sample> ys,
+                      measured(run_, call.measure, subject, plot_.moments.of(run_.study(), subject), plot_.over_cells, "each"));
     std::vector<Sample> xs;
     if (plot_.x) {
-      const auto& things = plot_.x->subjects;
-      MORULA_TRY_ASSIGN(
-          xs, measured(run_, plot_.x->measure, things[std::min(number, things.size() - 1)], plot_.moments, plot_.over_cells, "each"));
+      const Subject& thing = plot_.x->subjects[std::min(number, plot_.x->subjects.size() - 1)];
+      MORULA_TRY_ASSIGN(xs, measured(run_, plot_.x->measure, thing, plot_.moments.of(run_.study(), thing), plot_.over_cells, "each"));
     }
     PlotPoints out;
     std::vector<Sample> used;
@@ -83,8 +84,18 @@ class StudyPlotMaker {
       used.push_back(y);
     }
     if (plot_.expected.kind == Expectation::Kind::kTheory || plot_.expected.kind == Expectation::Kind::kMeasure) {
-      MORULA_TRY_ASSIGN(out.expected, expected_values(run_, plot_.expected, call.measure, subject, used, plot_.moments, "each"));
+      MORULA_TRY_ASSIGN(out.expected, expected_values(run_, plot_.expected, question_of(call), subject, used));
     }
+    return out;
+  }
+
+  /// What a measure is asked at each moment.
+  [[nodiscard]] Question question_of(const MeasureCall& call) const {
+    Question out;
+    out.measured = call;
+    out.moments = plot_.moments;
+    out.over_cells = plot_.over_cells;
+    out.over_time = "each";
     return out;
   }
 

@@ -16,6 +16,15 @@ struct MeasureCall {
   std::string text;  ///< as the study names it: "volume(left)"
 };
 
+/// Moments as a study names them.
+struct AskedMoments {
+  Moments moments;
+  bool of_thing = false;  ///< the holds of the load or obstacle that is measured
+
+  /// Those of one thing.
+  [[nodiscard]] Moments of(const Study& study, const Subject& subject) const;
+};
+
 /// A number as a study writes it, with its unit.
 struct WrittenNumber {
   double internal = 0.0;
@@ -38,15 +47,28 @@ struct MeasureLimit {
   enum class Kind { kWithin, kBelow, kAbove, kBetween } kind = Kind::kBelow;
   bool relative = false;             ///< of kWithin: to what is expected
   WrittenNumber low, high;           ///< kWithin and kBelow: `high`; kAbove: `low`
-  std::optional<MeasureCall> other;  ///< of kBelow and kAbove: the limit is what this measure finds
+  std::optional<MeasureCall> other;  ///< the limit is what this measure finds; of kWithin: how near this one is
+};
+
+/// What is asked of a measure: one value for each thing, cell and moment that are not made into one.
+struct Question {
+  MeasureCall measured;
+  bool together = false;  ///< all things count as one: the worst of them is told
+  AskedMoments moments;
+  std::string over_time, over_cells;
+  std::optional<MeasureCall> along;  ///< what the measure is a curve over; none: time
+  bool along_of_thing = false;       ///< of the same things as the measure
+  std::string curve;                 ///< what is made of the curve; empty: nothing
+  Expectation over;                  ///< what it is divided by
+
+  /// Whether all things are made into one value before it is judged: by a curve, or by what is made of all their cells together.
+  [[nodiscard]] bool is_pooled() const { return !curve.empty() || (together && over_cells != "each"); }
 };
 
 /// A criterion of a study whose words are found: what judge_criterion() needs.
 struct UnderstoodCriterion {
   std::string id, text;
-  MeasureCall measured;
-  Moments moments;
-  std::string over_time, over_cells;
+  Question question;
   Expectation expected;
   MeasureLimit limit;
 };
@@ -55,12 +77,12 @@ struct UnderstoodPlot {
   std::string name, title, source;
   std::optional<MeasureCall> x;  ///< none: time
   std::vector<MeasureCall> y;
-  Moments moments;
+  AskedMoments moments;
   std::string over_cells;
   Expectation expected;
 };
 
-/// A criterion with a measure of its own. Errors (E201–E205, E401, E402, E410–E417) stand where the words do; then there is nothing.
+/// What a criterion asks. Errors (E201–E205, E303, E401, E402, E410–E417) stand where the words do; then there is nothing.
 std::optional<UnderstoodCriterion> understand(const Study& study, const Criterion& criterion, Diagnostics& diagnostics);
 std::optional<UnderstoodPlot> understand(const Study& study, const StudyPlot& plot, Diagnostics& diagnostics);
 

@@ -14,8 +14,9 @@ namespace {
 
 const CellType& type_of(const Study& study, const Subject& s) { return study.model.types[static_cast<std::size_t>(s.type)]; }
 
+/// Adhesion to the partner; of an aggregate of one type, to its own.
 double adhesion_of(const Study& study, const Subject& s) {
-  return study.model.pair(static_cast<std::size_t>(s.type), static_cast<std::size_t>(s.partner)).adhesion;
+  return study.model.pair(static_cast<std::size_t>(s.type), static_cast<std::size_t>(s.partner < 0 ? s.type : s.partner)).adhesion;
 }
 
 bool on_obstacle(const Study& study, const Subject& s) { return s.partner >= static_cast<int>(study.model.types.size()); }
@@ -23,10 +24,11 @@ bool on_obstacle(const Study& study, const Subject& s) { return s.partner >= sta
 Status wrong(const std::string& needs) { return Error{ErrorKind::kInput, needs, ""}; }
 
 Status youngs_law_fits(const Study& study, const Subject& s, const std::string& measure) {
+  if (s.type < 0) return wrong("needs cells of one type");
   const CellType& type = type_of(study, s);
   if (!(type.shell.tension > 0.0)) return wrong("needs cells with a cortical tension");
   const bool plane = on_obstacle(study, s);
-  if (!plane && study.model.types[static_cast<std::size_t>(s.partner)].shell.tension != type.shell.tension)
+  if (!plane && s.partner >= 0 && study.model.types[static_cast<std::size_t>(s.partner)].shell.tension != type.shell.tension)
     return wrong("needs two cells of one tension");
   if (plane && measure == "cap.contact_part") return wrong("knows the part of the surface near the other of two cells only");
   if (adhesion_of(study, s) > 2.0 * type.shell.tension)
@@ -40,7 +42,7 @@ theory::Cap young(const Study& study, const Subject& s, double time) {
 }
 
 double of_cap(const theory::Cap& cap, const std::string& measure) {
-  if (measure == "cap.angle") return cap.angle;
+  if (measure == "cap.angle" || measure == "aggregate.angle") return cap.angle;
   if (measure == "cap.radius") return cap.radius;
   if (measure == "cap.contact_radius") return cap.contact_radius;
   if (measure == "cap.height") return cap.height;
@@ -83,7 +85,7 @@ Theory youngs_law() {
       "nearer than half the range of contact is that of two such caps.",
       "cos(angle) = 1 - W/(2 T) of two cells, 1 - W/T on an obstacle; R/R0 = (4/(2 + 3 c - c^3))^(1/3), c = cos(angle); p = 2 T/R",
       "Young 1805; physics/dcm.md §8",
-      {"cap.angle", "cap.radius", "cap.contact_radius", "cap.height", "cap.length", "cap.pressure", "cap.contact_part"},
+      {"cap.angle", "cap.radius", "cap.contact_radius", "cap.height", "cap.length", "cap.pressure", "cap.contact_part", "aggregate.angle"},
       &youngs_law_fits,
       &youngs_law_value};
 }

@@ -39,19 +39,20 @@ double width(const Snapshot&, const Cell& cell, const ShellView* shell) {
   return shell != nullptr ? extent(shell->nodes, axis) : 2.0 * cell.radius;
 }
 
-/// Of each cell that was there at time 0.
-Result<std::vector<Sample>> take_displacement(FinishedRun& run, const Subject& subject, const Moments& moments) {
+/// A value of each cell that was there at time 0, and of its state then.
+Result<std::vector<Sample>> since_start(FinishedRun& run, const Subject& subject, const Moments& moments,
+                                        double (*value)(const Cell& now, const Cell& start)) {
   MORULA_TRY_ASSIGN(const std::vector<double>* const times, run.snapshot_times());
   std::vector<Sample> out;
   if (times->empty()) return out;
-  std::map<CellId, Vec3d> start;
+  std::map<CellId, const Cell*> start;
   MORULA_TRY_ASSIGN(const auto first, run.snapshot(0));
-  for (const Cell& cell : first->cells) start.emplace(cell.id, cell.centroid);
+  for (const Cell& cell : first->cells) start.emplace(cell.id, &cell);
   for (const std::size_t index : moments.among(*times)) {
     MORULA_TRY_ASSIGN(const auto snapshot, run.snapshot(index));
     for (const Cell& cell : snapshot->cells)
       if (const auto before = start.find(cell.id); before != start.end() && is_meant(cell, subject))
-        out.push_back({snapshot->time, norm(cell.centroid - before->second), cell.id.text()});
+        out.push_back({snapshot->time, value(cell, *before->second), cell.id.text()});
   }
   return out;
 }
@@ -146,7 +147,22 @@ Measure width_measure(int axis) {
 Measure displacement_measure() {
   Measure out{"displacement",    "displacement",   "Distance of a cell's centre from where it was at time 0.", "|x(t) - x(0)|", "",
               Quantity::kLength, MeasureOf::kCells};
-  out.take = &take_displacement;
+  out.take = [](FinishedRun& run, const Subject& subject, const Moments& moments) {
+    return since_start(run, subject, moments, [](const Cell& now, const Cell& start) { return norm(now.centroid - start.centroid); });
+  };
+  return out;
+}
+Measure volume_change_measure() {
+  Measure out{"volume.change",
+              "change of volume since time 0, relative",
+              "Volume of a cell over that at time 0, less 1.",
+              "V/V(0) - 1",
+              "",
+              Quantity::kFraction,
+              MeasureOf::kCells};
+  out.take = [](FinishedRun& run, const Subject& subject, const Moments& moments) {
+    return since_start(run, subject, moments, [](const Cell& now, const Cell& start) { return now.volume / start.volume - 1.0; });
+  };
   return out;
 }
 Measure concentration_measure() {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "results/snapshot_file.h"
+#include "scenarios/measures/holds.h"
 
 namespace morula::scenarios {
 namespace {
@@ -18,6 +19,11 @@ std::vector<std::size_t> Moments::among(const std::vector<double>& times) const 
   if (times.empty()) return out;
   if (kind == Kind::kStart) return times.front() == 0.0 ? std::vector<std::size_t>{0} : out;
   if (kind == Kind::kEnd) return {times.size() - 1};
+  if (kind == Kind::kHolds) {
+    for (const Hold& hold : holds_of(course, times))
+      if (hold.time >= from && hold.time <= until) out.push_back(hold.output);
+    return out;
+  }
   for (std::size_t i = 0; i < times.size(); ++i) {
     const double slack = kSameTime * std::max(1.0, times[i]);
     if (times[i] >= from - slack && times[i] <= until + slack) out.push_back(i);

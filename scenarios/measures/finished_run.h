@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "coupling/time_course.h"
 #include "results/series_reader.h"
 #include "results/snapshot.h"
 #include "study/study.h"
@@ -15,8 +16,9 @@ namespace morula::scenarios {
 
 /// Which outputs of a run are looked at.
 struct Moments {
-  enum class Kind { kStart, kEnd, kBetween } kind = Kind::kEnd;
-  double from = 0.0, until = 0.0;  ///< of kBetween; the same for a single moment [s]
+  enum class Kind { kStart, kEnd, kBetween, kHolds } kind = Kind::kEnd;
+  double from = 0.0, until = 0.0;  ///< of kBetween and kHolds; the same for a single moment [s]
+  TimeCourse course{};             ///< of kHolds: the last outputs of the times in which it rests
 
   /// The numbers of those among increasing times [s].
   [[nodiscard]] std::vector<std::size_t> among(const std::vector<double>& times) const;

@@ -60,7 +60,7 @@ Theory jkr_pull_off() {
           "types, as the study gives them.",
           "F = (3/2) pi W R, 1/R = 1/R1 + 1/R2",
           "Johnson, Kendall & Roberts 1971, doi:10.1098/rspa.1971.0141",
-          {"force"},
+          {"force", "pull_off.force"},
           [](const Study& study, const Subject& s, const std::string&) {
             return partner_of(study.model, study.model.loads[static_cast<std::size_t>(s.load)].type) >= 0
                        ? Status{}

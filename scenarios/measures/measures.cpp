@@ -24,6 +24,7 @@ const std::vector<Measure>& measures() {
         width_measure(1),
         width_measure(2),
         displacement_measure(),
+        volume_change_measure(),
         concentration_measure(),
         pair_distance_measure(),
         pair_drift_measure(),
@@ -36,8 +37,9 @@ const std::vector<Measure>& measures() {
         mean_step_measure(),
         shortest_hold_measure(),
     };
-    for (Measure& cap : cap_measures()) out.push_back(std::move(cap));
-    for (Measure& plate : plate_measures()) out.push_back(std::move(plate));
+    for (auto* family : {&cap_measures, &pull_off_measures, &aspiration_measures, &pull_measures, &stretch_measures, &rubbing_measures,
+                         &aggregate_measures, &tissue_measures, &plate_measures})
+      for (Measure& one : family()) out.push_back(std::move(one));
     return out;
   }();
   return all;

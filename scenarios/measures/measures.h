@@ -31,6 +31,7 @@ Measure sphericity_measure();
 Measure elongation_measure();
 Measure width_measure(int axis);
 Measure displacement_measure();
+Measure volume_change_measure();
 Measure contact_area_fall_measure();
 Measure concentration_measure();
 /// Of two cells that touch.
@@ -44,11 +45,20 @@ std::vector<Measure> cap_measures();
 Measure load_way_measure();
 Measure load_force_measure();
 Measure obstacle_way_measure();
+/// Of cells under loads: that grips draw off, that pipettes suck in, that are pulled at two poles, that light stretches, that rub.
+std::vector<Measure> pull_off_measures();
+std::vector<Measure> aspiration_measures();
+std::vector<Measure> pull_measures();
+std::vector<Measure> stretch_measures();
+std::vector<Measure> rubbing_measures();
+/// Of aggregates of shells, and of tissues.
+std::vector<Measure> aggregate_measures();
+std::vector<Measure> tissue_measures();
 /// Of the run as a whole.
 Measure mean_contact_part_measure();
 Measure mean_step_measure();
 Measure shortest_hold_measure();
-/// Of a cell between two plates (library/parallel_plates.cpp).
+/// Of a cell between two plates.
 std::vector<Measure> plate_measures();
 
 }  // namespace morula::scenarios

@@ -32,6 +32,10 @@ Theory youngs_law();
 Theory elastic_cap_theory();
 Theory laplace_law();
 Theory jkr_pull_off();
+Theory fluid_pull_off();
+Theory critical_suction();
+Theory stretched_sphere_theory();
+Theory hull_volume();
 Theory exponential_growth();
 Theory pressed_drop_theory();
 

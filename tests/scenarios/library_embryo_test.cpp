@@ -5,8 +5,9 @@
 
 #include "core/mesh/topology.h"
 #include "core/random/philox.h"
-#include "scenarios/library/embryo_measures.h"
 #include "scenarios/library/library.h"
+#include "scenarios/measures/outer_surface.h"
+#include "scenarios/measures/point_statistics.h"
 #include "study/initial/make_tissue.h"
 #include "tests/study/study_fixture.h"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/mesh/remesh.h"
-#include "scenarios/library/criteria.h"
+#include "scenarios/criteria/judge.h"
 #include "scenarios/library/library.h"
 #include "scenarios/run/driver.h"
 #include "study/initial/make_tissue.h"
@@ -132,7 +132,7 @@ TEST(LibraryStudies, HybridSpheroidRunsShortened) {
 }
 
 TEST(LibraryStudies, BlastocystRunsShortened) {
-  const auto run = NewStudy("blastocyst").run({"time.end=6 min", "time.output=3 min", "time.checkpoint=6 min"});
+  const auto run = NewStudy("blastocyst").run({"time.end=6 min", "time.output=3 min", "time.checkpoint=6 min", "criteria.3.at=6 min"});
   expect_sound(run);
   ASSERT_TRUE(run.ok());
   for (const char* quantity : {"cells at time 0", "groups of coincident cells", "rolling outside, does not touch",

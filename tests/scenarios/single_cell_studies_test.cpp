@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/mesh/remesh.h"
-#include "scenarios/library/criteria.h"
+#include "scenarios/criteria/judge.h"
 #include "scenarios/library/library.h"
-#include "scenarios/measures/single_cell.h"
+#include "scenarios/measures/holds.h"
 #include "scenarios/run/driver.h"
 #include "tests/study/study_fixture.h"
 
@@ -29,7 +29,7 @@ TEST_P(SingleCell, StudyMeetsAllItsCriteriaAndIsPlottedAgainstTheory) {
   ASSERT_TRUE(run.ok()) << run.error().message;
   EXPECT_GE(run->verdicts.size(), 6u);
   for (const Verdict& v : run->verdicts) EXPECT_TRUE(v.passed) << v.id << ": " << v.quantity << " is " << v.value << ", wanted " << v.limit;
-  const auto plots = scenario_plots(*study, run->path);
+  const auto plots = declared_plots(*study, run->path);
   ASSERT_TRUE(plots.ok()) << plots.error().message;
   ASSERT_FALSE(plots->empty());
   for (const NamedPlot& plot : *plots)
@@ -44,17 +44,23 @@ INSTANTIATE_TEST_SUITE_P(Quick, SingleCell,
                                          "parallel_plates", "pull_off", "spreading"),
                          [](const auto& instance) { return std::string(instance.param); });
 
-TEST(Holds, AreTheConstantPartsOfACourseWithTheirLastSnapshot) {
-  std::vector<Snapshot> snapshots(8);
-  for (std::size_t i = 0; i < snapshots.size(); ++i) snapshots[i].time = 10.0 * static_cast<double>(i);
-  const auto holds = holds_of({{0.0, 20.0, 21.0, 45.0, 46.0}, {0.0, 0.0, 0.5, 0.5, 2.0}}, snapshots);
+TEST(Holds, AreTheConstantPartsOfACourseWithTheirLastOutput) {
+  std::vector<double> times;
+  for (int i = 0; i < 8; ++i) times.push_back(10.0 * i);
+  const auto holds = holds_of({{0.0, 20.0, 21.0, 45.0, 46.0}, {0.0, 0.0, 0.5, 0.5, 2.0}}, times);
   ASSERT_EQ(holds.size(), 3u);
-  EXPECT_EQ(holds[0].snapshot, 2u);
-  EXPECT_EQ(holds[1].snapshot, 4u);
+  EXPECT_EQ(holds[0].output, 2u);
+  EXPECT_EQ(holds[1].output, 4u);
   EXPECT_EQ(holds[1].value, 0.5);
-  EXPECT_EQ(holds[2].snapshot, 7u);
+  EXPECT_EQ(holds[2].output, 7u);
   EXPECT_EQ(holds[2].value, 2.0);
-  EXPECT_EQ(holds_of({}, snapshots).size(), 1u);
+  EXPECT_EQ(holds_of({}, times).size(), 1u);
+  // A course that ends with a hold rests there until the run ends: one hold, not two.
+  const auto last = holds_of({{0.0, 10.0, 50.0}, {0.0, 1.0, 1.0}}, times);
+  ASSERT_EQ(last.size(), 1u);
+  EXPECT_EQ(last[0].output, 7u);
+  // The same value before and after a way is two holds.
+  EXPECT_EQ(holds_of({{0.0, 20.0, 30.0, 40.0, 50.0}, {1.0, 1.0, 2.0, 1.0, 1.0}}, times).size(), 2u);
 }
 
 }  // namespace

@@ -60,11 +60,8 @@ std::string message_of(const std::string& what, const Folder* folder = nullptr) 
 
 TEST(Criteria, OfEveryKindAreRead) {
   const Folder folder;
-  folder.write("data.csv", "time [min],force [pN]\n0,1\n60,5\n");
-  const auto study = read(study_with(R"(scenario: doublet
-criteria:
-  - S6.2
-  - {id: DOUBLET.drift}
+  folder.write("data.csv", "time [min],way [um],force [pN]\n0,0,1\n30,1,\n60,3,5\n");
+  const auto study = read(study_with(R"(criteria:
   - {id: A, measure: cap.angle, of: {pair: [left, right]}, against: youngs_law, within: 4 deg}
   - {id: A, measure: cap.angle, of: {type: left, obstacle: glass}, against: youngs_law, within: 5 %}
   - {id: B, measure: volume, of: [left, right], at: every, between: [800 um^3, 1000 um^3]}
@@ -75,32 +72,45 @@ criteria:
   - {id: G, measure: concentration, of: {type: left, field: oxygen}, at: 30 min, above: 0.1 mM}
   - {id: H, measure: volume, of: {cell: all}, over_cells: sum, against: 1810 um^3, within: 2 %}
   - {id: I, measure: cell_count, below: 2}
+  - {id: J, measure: volume(left), over: {measure: volume(right)}, between: [0.9, 1.1]}
+  - {id: K, measure: force(pull), over: jkr_pull_off, at: holds, until: 50 min, over_time: rising, above: 1}
+  - {id: L, measure: force, of: {load: [pull, push], together: true}, at: holds(pull), along: way(pull), curve: r_squared, above: 0.9}
+  - {id: M, measure: force(pull), along: way, curve: rms, against: {data: data.csv, x: way, y: force}, at: every, within: 1 nN}
 plots:
   - {x: way(pull), y: force(pull), against: {theory: jkr_pull_off}}
   - {name: volumes, y: [volume(left), volume(right)], title: Volumes}
 )"),
                           with_criteria(), folder.path());
   ASSERT_TRUE(study.ok()) << study.error().text();
-  ASSERT_EQ(study->criteria.size(), 12u);
-  EXPECT_TRUE(study->criteria[1].is_of_scenario());
+  ASSERT_EQ(study->criteria.size(), 14u);
   Diagnostics none;
-  const auto angle = understand(*study, study->criteria[2], none);
+  const auto angle = understand(*study, study->criteria[0], none);
   ASSERT_TRUE(angle) << none.text();
   EXPECT_EQ(angle->expected.theory->name, "youngs_law");
   EXPECT_NEAR(angle->limit.high.internal, 4.0 * 3.14159265358979 / 180.0, 1e-12);
-  const auto slope = understand(*study, study->criteria[7], none);
+  const auto slope = understand(*study, study->criteria[5], none);
   ASSERT_TRUE(slope) << none.text();
   EXPECT_NEAR(slope->limit.high.factor, 1.0 / 3600.0, 1e-12);
-  EXPECT_EQ(understand(*study, study->criteria[4], none)->measured.subjects.size(), 2u);
+  EXPECT_EQ(understand(*study, study->criteria[2], none)->question.measured.subjects.size(), 2u);
+  const auto quotient = understand(*study, study->criteria[10], none);
+  ASSERT_TRUE(quotient) << none.text();
+  EXPECT_EQ(quotient->question.over.measure->text, "volume(right)");
+  const auto line = understand(*study, study->criteria[12], none);
+  ASSERT_TRUE(line) << none.text();
+  EXPECT_TRUE(line->question.together);
+  EXPECT_EQ(line->question.moments.moments.course.time.size(), 2u);  // the way of the grip
+  const auto rms = understand(*study, study->criteria[13], none);
+  ASSERT_TRUE(rms) << none.text();
+  EXPECT_EQ(rms->expected.xs, (std::vector<double>{0.0, 3.0}));  // a row without a value is left out
   EXPECT_EQ(understand(*study, study->plots[0], none)->name, "force_pull_over_way_pull");
   // What a run writes holds what is judged and shown, though `output.series` names other columns.
   EXPECT_THAT(series_columns(*study), testing::IsSupersetOf({"energy", "grip_x_pull", "grip_y_pull", "grip_z_pull", "cell_count"}));
   // The resolved study says the same.
-  folder.write("inputs/data.csv", "time [min],force [pN]\n0,1\n60,5\n");
+  folder.write("inputs/data.csv", "time [min],way [um],force [pN]\n0,0,1\n30,1,\n60,3,5\n");
   const auto again = read(study->resolved_text, with_criteria(), folder.path());
   ASSERT_TRUE(again.ok()) << again.error().text() << study->resolved_text;
-  EXPECT_EQ(again->criteria.size(), 12u);
-  EXPECT_EQ(again->criteria[2].against.theory.value, "youngs_law");
+  EXPECT_EQ(again->criteria.size(), 14u);
+  EXPECT_EQ(again->criteria[0].against.theory.value, "youngs_law");
   EXPECT_EQ(again->plots[1].title.value, "Volumes");
 }
 
@@ -145,7 +155,7 @@ TEST(Criteria, HaveOneLimitInTheUnitOfTheMeasure) {
   EXPECT_THAT(message_of("measure: volume(left), above: area(left)"), AllOf(HasSubstr("is an area"), HasSubstr("E203")));
   EXPECT_THAT(message_of("measure: volume(left), between: [3 um^3]"), HasSubstr("E303"));
   EXPECT_THAT(message_of("measure: volume(left), between: [3 um^3, 2 um^3]"), HasSubstr("E414"));
-  EXPECT_THAT(message_of("above: 3 um^3"), AllOf(HasSubstr("has no `measure`"), HasSubstr("E414")));
+  EXPECT_THAT(message_of("above: 3 um^3"), AllOf(HasSubstr("measure"), HasSubstr("E103")));
 }
 
 TEST(Criteria, AreHeldAgainstTheoriesThatFit) {
@@ -156,7 +166,25 @@ TEST(Criteria, AreHeldAgainstTheoriesThatFit) {
   EXPECT_THAT(message_of("measure: cell_count, against: exponential_growth, within: 3 %"), HasSubstr("with a cycle"));
 }
 
+TEST(Criteria, AreDividedByWhatHasTheirDimension) {
+  EXPECT_THAT(message_of("measure: volume(left), over: {measure: area(left)}, above: 3"),
+              AllOf(HasSubstr("is an area"), HasSubstr("E203")));
+  EXPECT_THAT(message_of("measure: volume(left), over: 3 um, above: 3"), HasSubstr("E203"));
+  EXPECT_THAT(message_of("measure: volume(left), over: {measure: volume(right)}, above: 3 um^3"), HasSubstr("E205"));
+  EXPECT_THAT(message_of("measure: volume(left), over: youngs_law, above: 3"), HasSubstr("E413"));
+  EXPECT_THAT(message_of("measure: volume(left), above: 'volume(left, right)'"), AllOf(HasSubstr("of several things"), HasSubstr("E412")));
+}
+
+TEST(Criteria, AreCurvesOverWhatIsNamed) {
+  EXPECT_THAT(message_of("measure: force(pull), curve: r_squared, above: 0.9"), AllOf(HasSubstr("needs `along`"), HasSubstr("E414")));
+  EXPECT_THAT(message_of("measure: force(pull), along: wya, curve: r_squared, above: 0.9"), HasSubstr("`way`"));
+  EXPECT_THAT(message_of("measure: volume(left), along: way, curve: r_squared, above: 0.9"), HasSubstr("E412"));
+  EXPECT_THAT(message_of("measure: force(pull), along: way, curve: rms, below: 1 nN"), HasSubstr("how near a curve is to data"));
+}
+
 TEST(Criteria, AskForOutputsThatTheRunHas) {
+  EXPECT_THAT(message_of("measure: volume(left), at: holds, above: 3 um^3"), AllOf(HasSubstr("no load or obstacle"), HasSubstr("E416")));
+  EXPECT_THAT(message_of("measure: volume(left), at: holds(pul), above: 3 um^3"), AllOf(HasSubstr("`pull`"), HasSubstr("E412")));
   EXPECT_THAT(message_of("measure: cell_count, at: 7 min, above: 3"),
               AllOf(HasSubstr("the run writes nothing at 7 min"), HasSubstr("E416")));
   EXPECT_THAT(message_of("measure: cell_count, at: 2 h, above: 3"), HasSubstr("E416"));
@@ -167,8 +195,8 @@ TEST(Criteria, AskForOutputsThatTheRunHas) {
 
 TEST(Criteria, AskEachQuestionOnce) {
   for (const char* twice : {"criteria:\n  - {id: A, measure: cell_count, above: 3}\n  - {id: A, measure: cell_count, above: 4}\n",
-                            "scenario: doublet\ncriteria: [S6.2, S6.2]\n",
-                            "scenario: doublet\ncriteria: [S6.2, {id: S6.2, measure: cell_count, above: 3}]\n"}) {
+                            "criteria:\n  - {id: A, measure: volume(left), over: {measure: volume(right)}, above: 3}\n"
+                            "  - {id: A, measure: volume(left), over: {measure: volume(right)}, above: 4}\n"}) {
     EXPECT_THAT(errors_of(study_with(twice), with_criteria()), AllOf(HasSubstr("stands twice"), HasSubstr("E415"))) << twice;
   }
   EXPECT_TRUE(

@@ -63,16 +63,10 @@ TEST_F(CutShort, FailsACriterionThatFindsNothingToJudge) {
   EXPECT_TRUE(criterion("S4.2").is_object());
 }
 
-TEST_F(CutShort, IsRefusedWhereTheScenarioHasNoSuchCriterionOrTheStudyNoneOfItsThings) {
-  const Outcome unknown = run_morula({"check", "study/study.yaml", "scenario=micropipette", "criteria=[S3.1, S3.9]"}, folder_.path());
-  EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_THAT(unknown.all(), AllOf(HasSubstr("'micropipette' has no criterion 'S3.9'"), HasSubstr("E685"), HasSubstr("S3.1")));
-  const Outcome other = run_morula({"check", "study/study.yaml", "scenario=micropipette", "criteria=[]"}, folder_.path());
-  EXPECT_EQ(other.exit_code, 2);
-  EXPECT_THAT(other.all(), AllOf(HasSubstr("the criteria of 'micropipette' need a suction"), HasSubstr("E685")));
-  const Outcome none = run_morula({"check", "study/study.yaml", "scenario=pair", "criteria=[S4.1]"}, folder_.path());
-  EXPECT_EQ(none.exit_code, 2);
-  EXPECT_THAT(none.all(), HasSubstr("`criteria` has no effect"));
+TEST_F(CutShort, IsRefusedWhereACriterionIsAnIdAlone) {
+  const Outcome outcome = run_morula({"check", "study/study.yaml", "criteria=[{id: S4.1}]"}, folder_.path());
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.all(), AllOf(HasSubstr("'measure'"), HasSubstr("E103")));
 }
 
 TEST(UsersStudy, IsJudgedOnItsOwnCriteriaAndSaysSoByItsExitCode) {

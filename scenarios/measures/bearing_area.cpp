@@ -1,4 +1,4 @@
-#include "scenarios/library/bearing_area.h"
+#include "scenarios/measures/bearing_area.h"
 
 #include <algorithm>
 #include <cmath>

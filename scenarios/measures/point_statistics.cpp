@@ -1,10 +1,11 @@
-#include "scenarios/library/embryo_measures.h"
+#include "scenarios/measures/point_statistics.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <vector>
 
 namespace morula::scenarios {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/space/space.h"
-#include "scenarios/library/embryo_measures.h"
+#include "scenarios/measures/outer_surface.h"
 
 namespace morula::scenarios {
 namespace {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scenarios/measures/holds.h"
 #include "scenarios/measures/measures.h"
 #include "scenarios/measures/shape_measures.h"
 #include "scenarios/measures/single_cell.h"
@@ -49,13 +50,13 @@ Result<std::vector<Pressing>> pressings(FinishedRun& run, const Moments& moments
   MORULA_TRY_ASSIGN(const std::vector<double>* const times, run.snapshot_times());
   const std::vector<std::size_t> wanted = moments.among(*times);
   for (const Hold& hold : holds_of(plates.moving->distance, *times)) {
-    if (std::find(wanted.begin(), wanted.end(), hold.snapshot) == wanted.end()) continue;
+    if (std::find(wanted.begin(), wanted.end(), hold.output) == wanted.end()) continue;
     const Moments here{Moments::Kind::kBetween, hold.time, hold.time};
     const auto columns = plate_columns(run.study(), {});
     MORULA_TRY_ASSIGN(const auto forces, by_row(run, columns, here, [](double, const std::vector<double>& row) { return row[0]; }));
     MORULA_TRY_ASSIGN(const auto opposite, by_row(run, columns, here, [](double, const std::vector<double>& row) { return row[1]; }));
     if (forces.empty() || opposite.empty() || !(std::abs(forces[0].value) > 1e-6)) continue;  // not yet touched, or no such column
-    MORULA_TRY_ASSIGN(const auto snapshot, run.snapshot(hold.snapshot));
+    MORULA_TRY_ASSIGN(const auto snapshot, run.snapshot(hold.output));
     for (const ShellView& shell : shells_of(*snapshot, 0)) {
       const double force = forces[0].value, r0 = radius_of_volume(shell.cell->volume), gamma = model.types[0].shell.tension;
       Pressing p;

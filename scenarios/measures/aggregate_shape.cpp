@@ -1,4 +1,4 @@
-#include "scenarios/library/embryo_shape.h"
+#include "scenarios/measures/aggregate_shape.h"
 
 #include <algorithm>
 #include <array>
