@@ -1,6 +1,7 @@
 #include "coupling/cell_variables.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace morula {
 
@@ -10,6 +11,9 @@ std::vector<CellVariable> cell_variables(const Model& model) {
     out.push_back({"amount/" + field.name, "amol", AtDivision::kShared});
     out.push_back({"concentration/" + field.name, "mM", AtDivision::kCopied});
   }
+  if (std::ranges::any_of(model.types, [](const CellType& type) { return !type.cycle.phases.empty(); }))
+    for (const auto& [name, unit] : {std::pair(kPhaseVariable, "1"), {"cycle/left", "s"}, {"cycle/held", "s"}})
+      out.push_back({name, unit, AtDivision::kSet});
   for (const CellType& type : model.types)
     for (const CellBehaviour& behaviour : type.behaviours)
       for (const BehaviourVariable& variable : behaviour.what->variables) {

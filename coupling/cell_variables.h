@@ -13,7 +13,7 @@ enum class AtDivision : std::uint8_t {
   kCopied,  ///< both what she had
   kShared,  ///< each its part by volume; what rounding leaves goes to the second
   kUsual,   ///< what a new cell has
-  kSet,     ///< what the division finds for it (make_daughter)
+  kSet,     ///< what the division finds for it (make_daughter, set_place)
 };
 
 /// A number by cell that exists because the model asks for it, beside what every cell has: what it took from a field, what it sees of one. 0 for a
@@ -30,7 +30,13 @@ struct CellVariable {
 constexpr std::size_t amount_of(std::size_t field) { return 2 * field; }             ///< taken from it so far [amol]
 constexpr std::size_t concentration_of(std::size_t field) { return 2 * field + 1; }  ///< seen in it [mM]
 
-/// All variables of the cells of a model, by number: two for each field, then those of its behaviours, "<behaviour>/<variable>".
+/// Numbers of the three variables of a model in which any type's cycle has phases: the phase (CyclePlace), what is left of it [s], and for how long the
+/// condition of going into or out of quiescence has held [s].
+constexpr std::size_t cycle_variables_of(std::size_t fields) { return 2 * fields; }
+inline constexpr const char* kPhaseVariable = "cycle/phase";
+
+/// All variables of the cells of a model, by number: two for each field, three for the phases of the cycle where there are any, then those of its
+/// behaviours, "<behaviour>/<variable>".
 std::vector<CellVariable> cell_variables(const Model& model);
 
 }  // namespace morula

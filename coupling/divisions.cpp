@@ -80,6 +80,15 @@ Daughters divide_as_shell(const CellRecord& mother, const DaughterRows& rows, co
   return {};
 }
 
+/// Tells the volumes of a division.
+void note_volumes(const CellRow& mother, const Daughters& daughters, std::vector<Event>& events) {
+  for (Event& event : events) {
+    if (event.kind != EventKind::kDivision || event.cell != mother.id) continue;
+    event.volume = mother.target_volume;
+    for (std::size_t which = 0; which < 2; ++which) event.birth_volume[which] = daughters[which].row.birth_volume;
+  }
+}
+
 }  // namespace
 
 void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& events) {
@@ -113,6 +122,7 @@ void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& e
       continue;
     }
     ++divisions;
+    note_volumes(mothers[k].cell.row, daughters[k], events);
     gone.push_back(mothers[k].body.row);
     if (mothers[k].body.is_shell) cut.push_back(mothers[k].cell);
     for (CellRecord& daughter : daughters[k]) {

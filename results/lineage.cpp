@@ -50,7 +50,13 @@ class Lives {
     if (*kind != "division") return;
     lives_[place].how = LifeEnd::kDivided, lives_[place].end = when;
     const std::string parent = lives_[place].id, type = lives_[place].type;
-    for (const auto& daughter : event.at("daughters")) begin({daughter.get<std::string>(), parent, type, when, end_});
+    lives_[place].division_volume = event.value("volume_um3", 0.0);
+    const std::vector<double> volumes = event.value("birth_volumes_um3", std::vector<double>{});
+    std::size_t which = 0;
+    for (const auto& daughter : event.at("daughters")) {
+      begin({daughter.get<std::string>(), parent, type, when, end_});
+      if (which < volumes.size()) lives_.back().birth_volume = volumes[which++];
+    }
   }
 
   /// In the order of founders, and of each the mother before her daughters.
@@ -110,10 +116,11 @@ Result<std::vector<CellLife>> read_lineage(const fs::path& results, const fs::pa
 }
 
 std::string lineage_csv(std::span<const CellLife> lives) {
-  std::string out = "id,parent,type,birth [s],end [s],how\n";
+  const auto known = [](double volume) { return volume > 0.0 ? shortest_text(volume) : std::string(); };
+  std::string out = "id,parent,type,birth [s],end [s],how,birth volume [um^3],division volume [um^3]\n";
   for (const CellLife& life : lives)
     out += life.id + ',' + life.parent + ',' + life.type + ',' + shortest_text(life.birth) + ',' + shortest_text(life.end) + ',' +
-           word_of(life.how) + '\n';
+           word_of(life.how) + ',' + known(life.birth_volume) + ',' + known(life.division_volume) + '\n';
   return out;
 }
 

@@ -221,6 +221,10 @@ std::string name_of(EventKind kind) {
       return "promotion";
     case EventKind::kDemotion:
       return "demotion";
+    case EventKind::kQuiescence:
+      return "quiescence";
+    case EventKind::kReturn:
+      return "return";
     case EventKind::kWarning:
       return "warning";
   }
@@ -233,6 +237,10 @@ std::string to_json_line(const ToldEvent& told) {
   if (event.cell.valid()) json["cell"] = event.cell.text();
   if (event.first_daughter.valid() || event.second_daughter.valid())
     json["daughters"] = {event.first_daughter.text(), event.second_daughter.text()};
+  if (event.volume > 0.0) {
+    json["volume_um3"] = number(event.volume);
+    json["birth_volumes_um3"] = {number(event.birth_volume[0]), number(event.birth_volume[1])};
+  }
   json["text"] = told.text;
   return text_of(json, -1);
 }
