@@ -5,9 +5,11 @@
 #include "app/words.h"
 #include "cbm/builtin.h"
 #include "cbm/packing.h"
+#include "coupling/behaviours/arrest.h"
 #include "coupling/behaviours/behaviour.h"
 #include "coupling/behaviours/builtin.h"
 #include "coupling/behaviours/division_axis.h"
+#include "coupling/behaviours/growth_law.h"
 #include "coupling/builtin.h"
 #include "coupling/loads/load.h"
 #include "coupling/regions/region.h"
@@ -47,6 +49,11 @@ std::vector<ListedLaw> all_laws(const Laws& registered) {
   for (const auto& law : registered.surfaces) laws.push_back({"contact of surfaces", law->info});
   add("contact of surfaces", surface_contact_terms());
   add("interior of shells", dcm::interior_laws());
+  for (const auto& law : registered.growth) laws.push_back({"growth", law->info});
+  for (const auto& factor : registered.arrest) {
+    laws.push_back({"growth", factor->info});
+    laws.back().info.keys = law_keys("cycle.arrest." + std::string(factor->section.name), factor->keys);
+  }
   add("behaviours", behaviour_laws());
   for (const auto& behaviour : registered.behaviours) {
     laws.push_back({"behaviours", behaviour->info});

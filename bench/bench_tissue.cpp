@@ -54,8 +54,8 @@ Model make_model(const Case& c) {
   type.name = "cell";
   type.initial_body = c.body;
   type.cycles = c.growth > 0.0;
-  type.shells_divide = false;  // as many cells at the end as at the start
-  type.exponential_growth = true;
+  type.shells_divide = false;            // as many cells at the end as at the start
+  type.cycle.growth = growth_laws()[1];  // exponential
   type.cycle_duration = {c.growth > 0.0 ? c.growth : 18 * 3600.0, 0.0};
   type.shell.spring_stiffness = 0.173;
   type.shell.tension = 0.5;

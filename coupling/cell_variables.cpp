@@ -5,12 +5,27 @@
 
 namespace morula {
 
+namespace {
+
+bool has_phases(const Model& model) {
+  return std::ranges::any_of(model.types, [](const CellType& type) { return !type.cycle.phases.empty(); });
+}
+
+}  // namespace
+
+std::size_t mesh_renewal_variable(const Model& model, MeshRenewal which) {
+  return cycle_variables_of(model.fields.size()) + (has_phases(model) ? 3 : 0) + static_cast<std::size_t>(which);
+}
+
 std::vector<CellVariable> cell_variables(const Model& model) {
   std::vector<CellVariable> out;
   for (const fields::FieldSpec& field : model.fields) {
     out.push_back({"amount/" + field.name, "amol", AtDivision::kShared});
     out.push_back({"concentration/" + field.name, "mM", AtDivision::kCopied});
   }
+  if (has_phases(model))
+    for (const auto& [name, unit] : {std::pair(kPhaseVariable, "1"), {"cycle/left", "s"}, {"cycle/held", "s"}})
+      out.push_back({name, unit, AtDivision::kSet});
   if (std::ranges::any_of(model.types, [](const CellType& type) { return type.renew_mesh_below > 0.0; }))
     for (const auto& [name, unit] : {std::pair("done", "1"), {"refused", "1"}, {"next_try", "s"}, {"area_change", "1"}, {"distance", "1"}})
       out.push_back({std::string("mesh_renewal/") + name, unit, AtDivision::kUsual});

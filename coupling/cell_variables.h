@@ -13,7 +13,7 @@ enum class AtDivision : std::uint8_t {
   kCopied,  ///< both what she had
   kShared,  ///< each its part by volume; what rounding leaves goes to the second
   kUsual,   ///< what a new cell has
-  kSet,     ///< what the division finds for it (make_daughter)
+  kSet,     ///< what the division finds for it (make_daughter, set_place)
 };
 
 /// A number by cell that exists because the model asks for it, beside what every cell has: what it took from a field, what it sees of one. 0 for a
@@ -39,13 +39,17 @@ enum class MeshRenewal : std::uint8_t {
   kDistance,  ///< largest distance between the surfaces, in mean edges
 };
 
-/// All variables of the cells of a model, by number: two for each field, those of the renewal of meshes where a type has it, then those of its
+/// Numbers of the three variables of a model in which any type's cycle has phases: the phase (CyclePlace), what is left of it [s], and for how long the
+/// condition of going into or out of quiescence has held [s].
+constexpr std::size_t cycle_variables_of(std::size_t fields) { return 2 * fields; }
+inline constexpr const char* kPhaseVariable = "cycle/phase";
+
+/// All variables of the cells of a model, by number: two for each field, three for the phases of the cycle where there are any, those of the
+/// renewal of meshes where a type has it, then those of its
 /// behaviours, "<behaviour>/<variable>".
 std::vector<CellVariable> cell_variables(const Model& model);
 
 /// Number of a variable of the renewal of meshes, in a model that has a type with it.
-inline std::size_t mesh_renewal_variable(const Model& model, MeshRenewal which) {
-  return 2 * model.fields.size() + static_cast<std::size_t>(which);
-}
+std::size_t mesh_renewal_variable(const Model& model, MeshRenewal which);
 
 }  // namespace morula

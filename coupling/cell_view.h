@@ -49,6 +49,14 @@ class CellView {
     return 0.0;
   }
 
+  /// Name of the phase of its cycle; empty where its type has none, and of a cell that dies.
+  [[nodiscard]] std::string_view phase_name() const {
+    const std::vector<CyclePhase>& phases = type().cycle.phases;
+    if (phases.empty() || is_dying()) return {};
+    const auto phase = static_cast<std::size_t>(variable(kPhaseVariable));
+    return phase < phases.size() ? std::string_view(phases[phase].name) : std::string_view(kQuiescentPhase);
+  }
+
   // Of its body. Behaviours have these only where they ask for them (Behaviour::looks_at_body).
   Vec3d center{};               ///< centroid of its volume [µm]
   double volume = 0.0;          ///< [µm³]

@@ -1,6 +1,7 @@
 #pragma once
 #include <cassert>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -131,6 +132,13 @@ struct VariableColumn {
   CellVariable what;
   OptionalColumn<double> values;
 };
+
+/// Number of the first variable of the cycle's phases; that of none is the number of variables.
+inline std::size_t first_cycle_variable(std::span<const VariableColumn> variables) {
+  std::size_t first = 0;
+  while (first < variables.size() && variables[first].what.name != kPhaseVariable) ++first;
+  return first;
+}
 
 /// Rows of a rank in canonical order (order, id). The k-th row with a shell owns the k-th shell, and likewise for spheres.
 struct Cells {

@@ -92,6 +92,15 @@ void put_off(CellRow& mother, std::vector<Event>& events) {
   *division = {division->time, EventKind::kDivisionWaits, mother.id, {}, {}, {EventReason::Cause::kNoPlane}};
 }
 
+/// Tells the volumes of a division.
+void note_volumes(const CellRow& mother, const Daughters& daughters, std::vector<Event>& events) {
+  for (Event& event : events) {
+    if (event.kind != EventKind::kDivision || event.cell != mother.id) continue;
+    event.volume = mother.target_volume;
+    for (std::size_t which = 0; which < 2; ++which) event.birth_volume[which] = daughters[which].row.birth_volume;
+  }
+}
+
 }  // namespace
 
 void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& events) {
@@ -127,6 +136,7 @@ void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& e
       continue;
     }
     ++divisions;
+    note_volumes(mothers[k].cell.row, daughters[k], events);
     gone.push_back(mothers[k].body.row);
     if (mothers[k].body.is_shell) cut.push_back(mothers[k].cell);
     for (CellRecord& daughter : daughters[k]) {

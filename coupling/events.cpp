@@ -13,12 +13,20 @@ std::string text_of(const Trigger& trigger, const Model& model) {
   return trigger.field >= 0 ? model.fields[static_cast<std::size_t>(trigger.field)].name : trigger.value->info.name;
 }
 
+std::string text_of(const CellCycle& cycle) {
+  return "the rate of phase " + cycle.phases[static_cast<std::size_t>(cycle.quiescence.phase)].name;
+}
+
 std::string text_of_cause(const EventReason& reason, const Model& model) {
   switch (reason.cause) {
     case Cause::kNone:
       return "";
     case Cause::kDivisionVolume:
       return "reached its division volume";
+    case Cause::kLastPhase:
+      return "its last phase ended";
+    case Cause::kPhaseHeld:
+      return text_of(model.types[reason.number].cycle);
     case Cause::kDivisionVolumeAsShell:
       return "reached its division volume as a shell";
     case Cause::kNoPlane:

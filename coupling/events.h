@@ -15,6 +15,8 @@ enum class EventKind : std::uint8_t {
   kRemoval,
   kPromotion,
   kDemotion,
+  kQuiescence,  ///< a cell left its cycle
+  kReturn,      ///< and came back
   kWarning,
 };
 
@@ -24,6 +26,8 @@ struct EventReason {
     kNone,
     kDivisionVolume,
     kDivisionVolumeAsShell,
+    kLastPhase,    ///< the last phase of its cycle ended
+    kPhaseHeld,    ///< the rate of a phase went below or above a threshold; `number`: of the cell's type
     kNoPlane,      ///< a shell that is to divide found no plane by which it can
     kUnevenMesh,   ///< a shell whose nodes cannot be spread evenly
     kLongLineage,  ///< it cannot divide once more
@@ -46,6 +50,8 @@ struct Event {
   CellId cell;
   CellId first_daughter, second_daughter;
   EventReason reason;
+  double volume = 0.0;                  ///< of a division: the mother's target volume [µm³]
+  double birth_volume[2] = {0.0, 0.0};  ///< and those of her daughters at birth [µm³]
 };
 
 /// The reason, for people: "region core", "shrunk below the volume at which a dead cell is removed"; nothing for no cause.

@@ -1,8 +1,10 @@
 #include "coupling/laws.h"
 
 #include "cbm/builtin.h"
+#include "coupling/behaviours/arrest.h"
 #include "coupling/behaviours/behaviour.h"
 #include "coupling/behaviours/division_axis.h"
+#include "coupling/behaviours/growth_law.h"
 #include "coupling/loads/load.h"
 #include "coupling/observables/observable.h"
 #include "coupling/regions/region.h"
@@ -12,17 +14,20 @@
 namespace morula {
 
 std::shared_ptr<const Laws> builtin_laws() {
-  return std::make_shared<const Laws>(Laws{.shells = dcm::shell_laws(),
-                                           .spheres = cbm::sphere_laws(),
-                                           .surfaces = surface_laws(),
-                                           .behaviours = builtin_behaviours(),
-                                           .division_axes = builtin_division_axes(),
-                                           .loads = builtin_loads(),
-                                           .region_shapes = builtin_region_shapes(),
-                                           .trigger_values = builtin_trigger_values(),
-                                           .reactions = fields::builtin_reactions(),
-                                           .observables = {&tissue_observables, &type_observables, &obstacle_observables,
-                                                           &lumen_observables, &grip_observables, &field_observables}});
+  return std::make_shared<const Laws>(
+      Laws{.shells = dcm::shell_laws(),
+           .spheres = cbm::sphere_laws(),
+           .surfaces = surface_laws(),
+           .behaviours = builtin_behaviours(),
+           .growth = growth_laws(),
+           .arrest = builtin_arrest_factors(),
+           .division_axes = builtin_division_axes(),
+           .loads = builtin_loads(),
+           .region_shapes = builtin_region_shapes(),
+           .trigger_values = builtin_trigger_values(),
+           .reactions = fields::builtin_reactions(),
+           .observables = {&tissue_observables, &type_observables, &phase_observables, &obstacle_observables, &lumen_observables,
+                           &grip_observables, &field_observables}});
 }
 
 }  // namespace morula

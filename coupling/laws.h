@@ -13,8 +13,10 @@ namespace fields {
 struct Reaction;
 }
 
+struct ArrestFactor;
 struct Behaviour;
 struct DivisionAxis;
+struct GrowthLaw;
 struct Load;
 struct Model;
 struct Observable;
@@ -31,6 +33,8 @@ struct Laws {
   std::vector<std::shared_ptr<const cbm::SphereLaw>> spheres;  ///< of their contact
   std::vector<std::shared_ptr<const SurfaceLaw>> surfaces;     ///< of contact of surfaces
   std::vector<std::shared_ptr<const Behaviour>> behaviours;    ///< in the order in which they act
+  std::vector<std::shared_ptr<const GrowthLaw>> growth;
+  std::vector<std::shared_ptr<const ArrestFactor>> arrest;  ///< of growth and of phases
   std::vector<std::shared_ptr<const DivisionAxis>> division_axes;
   std::vector<std::shared_ptr<const Load>> loads;
   std::vector<std::shared_ptr<const RegionShape>> region_shapes;

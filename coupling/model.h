@@ -12,6 +12,8 @@
 #include "coupling/active_terms.h"
 #include "coupling/behaviours/behaviour.h"
 #include "coupling/behaviours/division_axis.h"
+#include "coupling/cell_cycle.h"
+#include "coupling/distribution.h"
 #include "coupling/face_regions.h"
 #include "coupling/loads/load.h"
 #include "coupling/regions/region.h"
@@ -22,12 +24,6 @@
 #include "fields/field_spec.h"
 
 namespace morula {
-
-/// A number that varies from cell to cell: Gaussian, truncated at ±3 standard deviations.
-struct Distribution {
-  double mean = 0.0;
-  double relative_spread = 0.0;
-};
 
 /// Osmotic control of the volume of a cell type (behaviours/osmosis.h).
 struct Osmosis {
@@ -49,7 +45,7 @@ struct CellType {
   // life
   bool cycles = false;                            ///< grows and divides
   Distribution cycle_duration{18 * 3600.0, 0.0};  ///< from birth to twice the birth volume [s]
-  bool exponential_growth = false;                ///< else linear
+  CellCycle cycle;                                ///< what it goes through until then
   double inhibit_pressure = kNever;               ///< growth stops above this pressure [kPa]
   std::shared_ptr<const DivisionAxis> axis = random_axis();
   Vec3d division_direction{};             ///< of an axis that needs one

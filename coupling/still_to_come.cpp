@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cbm/division_ramp.h"
+#include "coupling/behaviours/growth.h"
 #include "coupling/behaviours/osmosis.h"
 #include "coupling/loads/loads.h"
 #include "coupling/swaps.h"
@@ -32,7 +33,7 @@ bool any_region_begins_or_ends(const Model& model, double time) {
 }
 
 bool grows(const CellRow& row, const CellType& type) {
-  return type.cycles && row.phase == Phase::kGrowing && !(row.pressure > type.inhibit_pressure);
+  return type.cycles && row.phase == Phase::kGrowing && (!type.cycle.phases.empty() || may_grow(row, type));
 }
 
 /// What cells of a type answer to though nothing moves, such as a field, which is never known to stand still.

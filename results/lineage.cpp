@@ -46,7 +46,11 @@ class Lives {
     if (event.kind != name_of(EventKind::kDivision)) return;
     life.how = LifeEnd::kDivided, life.end = event.time;
     const std::string type = life.type;  // begin() moves the lives
-    for (const std::string& daughter : event.daughters) begin({daughter, event.cell, type, event.time, end_});
+    life.division_volume = event.volume;
+    for (std::size_t which = 0; which < event.daughters.size(); ++which) {
+      begin({event.daughters[which], event.cell, type, event.time, end_});
+      if (which < event.birth_volumes.size()) lives_.back().birth_volume = event.birth_volumes[which];
+    }
   }
 
   /// In the order of founders, and of each the mother before her daughters.
@@ -103,10 +107,11 @@ Result<std::vector<CellLife>> read_lineage(const fs::path& results, const fs::pa
 }
 
 std::string lineage_csv(std::span<const CellLife> lives) {
-  std::string out = "id,parent,type,birth [s],end [s],how\n";
+  const auto known = [](double volume) { return volume > 0.0 ? shortest_text(volume) : std::string(); };
+  std::string out = "id,parent,type,birth [s],end [s],how,birth volume [um^3],division volume [um^3]\n";
   for (const CellLife& life : lives)
     out += life.id + ',' + life.parent + ',' + csv_field(life.type) + ',' + shortest_text(life.birth) + ',' + shortest_text(life.end) +
-           ',' + word_of(life.how) + '\n';
+           ',' + word_of(life.how) + ',' + known(life.birth_volume) + ',' + known(life.division_volume) + '\n';
   return out;
 }
 

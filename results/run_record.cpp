@@ -222,6 +222,10 @@ std::string name_of(EventKind kind) {
       return "promotion";
     case EventKind::kDemotion:
       return "demotion";
+    case EventKind::kQuiescence:
+      return "quiescence";
+    case EventKind::kReturn:
+      return "return";
     case EventKind::kWarning:
       return "warning";
   }
@@ -234,6 +238,10 @@ std::string to_json_line(const ToldEvent& told) {
   if (event.cell.valid()) json["cell"] = event.cell.text();
   if (event.first_daughter.valid() || event.second_daughter.valid())
     json["daughters"] = {event.first_daughter.text(), event.second_daughter.text()};
+  if (event.volume > 0.0) {
+    json["volume_um3"] = number(event.volume);
+    json["birth_volumes_um3"] = {number(event.birth_volume[0]), number(event.birth_volume[1])};
+  }
   json["text"] = told.text;
   return text_of(json, -1);
 }
@@ -244,10 +252,15 @@ std::optional<EventLine> event_of_line(const std::string& line) {
   const auto text = [&](const char* name) { return json.contains(name) && json[name].is_string() ? json[name].get<std::string>() : ""; };
   const auto time = json.find("time_s"), daughters = json.find("daughters");
   if (time == json.end() || !time->is_number() || text("kind").empty()) return std::nullopt;
-  EventLine out{time->get<double>(), text("kind"), text("cell"), {}, text("text")};
-  if (daughters == json.end()) return out;
-  for (const Json& id : *daughters)
-    if (id.is_string()) out.daughters.push_back(id.get<std::string>());
+  EventLine out;
+  out.time = time->get<double>(), out.kind = text("kind"), out.cell = text("cell"), out.text = text("text");
+  if (daughters != json.end())
+    for (const Json& id : *daughters)
+      if (id.is_string()) out.daughters.push_back(id.get<std::string>());
+  if (const auto volume = json.find("volume_um3"); volume != json.end() && volume->is_number()) out.volume = volume->get<double>();
+  if (const auto volumes = json.find("birth_volumes_um3"); volumes != json.end())
+    for (const Json& volume : *volumes)
+      if (volume.is_number()) out.birth_volumes.push_back(volume.get<double>());
   return out;
 }
 

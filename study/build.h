@@ -42,6 +42,12 @@ double build_mesh_renewal(BuildContext& context, const draft::CellType& draft, c
 TimeCourse build_course(BuildContext& context, const std::vector<Named<draft::CoursePoint>>& points);
 /// Marks of faces, tension by region, cavities, springs: E555–E557; after types, obstacles, pairs and domain.
 void build_regions(BuildContext& context);
+/// Growth, phases and division of a cell type: E302, E510, E515, E558, E700–E703.
+void build_cycle(BuildContext& context, const draft::CellType& draft, const Place& type_place, CellType& type);
+/// Its phases and quiescence, after growth and size: E112, E510, E515, E516, E700, E702, E703.
+void build_phases(BuildContext& context, const draft::CellType& draft, CellType& type);
+/// The factors of the rate of a phase.
+std::vector<CellArrest> build_phase_arrest(BuildContext& context, const draft::CyclePhase& phase, const Place& place);
 /// What the cells of a type do by behaviours of the registry: E103, E515, and what these say.
 void build_behaviours(BuildContext& context, const draft::CellType& draft, const Place& type_place, CellType& type);
 /// Fluctuations, polarity, protrusion, what migrates on what, directions of friction: E558; after types and obstacles.

@@ -162,28 +162,6 @@ void set_sphere_law(BuildContext& c, const draft::CellType& t, cbm::SphereParame
   check_law_keys(c, t.sphere_own, choosable_sphere_laws(*c.options.laws), sphere.law->word, "law");
 }
 
-/// By which plane cells of a type divide, and what each daughter gets.
-void set_division(BuildContext& c, const draft::CellType& t, CellType& type) {
-  for (const auto& axis : c.options.laws->division_axes)
-    if (axis->info.name == t.axis.value) type.axis = axis;
-  const Given<Vec3d>& direction = t.division_direction;
-  if (type.axis->needs_direction && !(direction.given && norm2(direction.value) > 0.0))
-    c.diagnostics.error(302, direction.given ? direction.place : t.axis.place, "the axis of division has no direction",
-                        "for example `direction: [0, 0, 1]`");
-  else if (!type.axis->needs_direction && direction.given)
-    c.diagnostics.error(515, direction.place, "'direction' has no effect here", "it belongs to `axis: fixed`");
-  if (type.axis->needs_polarity && !t.activity.has_polarity)
-    c.diagnostics.error(558, t.axis.place, "cells of '" + type.name + "' divide by their polarity, and have none",
-                        "give the type a `polarity`");
-  if (type.axis == random_axis() && t.axis_spread.given && t.axis_spread.value > 0.0)
-    c.diagnostics.error(515, t.axis_spread.place, "'axis_spread' has no effect here", "a random axis has no direction to stray from");
-  type.division_direction = direction.value;
-  type.axis_spread = t.axis_spread.value;
-  type.division_share = {t.division_share.mean.value, t.division_share.spread.value};
-  type.shells_divide = t.shells_divide.value == "cut";
-  type.new_surface = t.new_surface.value;
-}
-
 }  // namespace
 
 void build_cell_types(BuildContext& c) {
@@ -193,13 +171,8 @@ void build_cell_types(BuildContext& c) {
     CellType type;
     type.name = name;
     type.radius = {t.radius.mean.value, t.radius.spread.value};
-    type.cycles = t.has_cycle && t.cycle_model.value == "volume_threshold";
-    if (t.has_cycle) {
-      type.cycle_duration = {t.cycle_duration.mean.value, t.cycle_duration.spread.value};
-      type.exponential_growth = t.growth.value == "exponential";
-      set_division(c, t, type);
-    }
     type.inhibit_pressure = t.pressure_above.value;
+    build_cycle(c, t, place, type);
     build_behaviours(c, t, place, type);
     build_dying(t, type);
     build_osmosis(c, t, type);

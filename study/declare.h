@@ -7,6 +7,11 @@ namespace morula::scenarios {
 void declare_study(Section& section, draft::Study& study);
 
 void declare_cell_type(Section& section, draft::CellType& type);
+/// `mean` and `spread` of a number that varies from cell to cell.
+void declare_spread(Section& section, draft::Spread& value, Quantity quantity, const char* mean, const char* doc, const char* source,
+                    double low, double high);
+/// `cycle` of a cell type.
+void declare_cycle(Section& section, draft::CellType& type);
 void declare_shell(Section& section, draft::CellType& type);
 /// Mesh and mechanics of a shell; `cell` is null for those of a nucleus, whose defaults are others and which has no regions.
 void declare_shell_keys(Section& section, draft::ShellKeys& shell, draft::CellType* cell);

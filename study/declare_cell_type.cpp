@@ -1,5 +1,4 @@
 #include "cbm/sphere_keys.h"
-#include "coupling/behaviours/division_axis.h"
 #include "dcm/shell_keys.h"
 #include "study/declare.h"
 #include "study/law_keys.h"
@@ -9,106 +8,6 @@ namespace {
 
 using Q = Quantity;
 constexpr const char* kTable1 = "Van Liedekerke et al., Table 1";
-
-void declare_spread(Section& s, draft::Spread& value, Quantity quantity, const char* mean, const char* doc, const char* source, double low,
-                    double high) {
-  s.quantity({.name = "mean",
-              .doc = doc,
-              .quantity = quantity,
-              .fallback = mean,
-              .low = low,
-              .high = high,
-              .low_open = low == 0.0,
-              .example = mean,
-              .source = source},
-             value.mean);
-  s.quantity({.name = "spread",
-              .doc = "Relative standard deviation from cell to cell (Gaussian, cut at 3).",
-              .quantity = Q::kFraction,
-              .fallback = "0 %",
-              .low = 0.0,
-              .high = 0.3,
-              .example = "10 %",
-              .source = "chosen"},
-             value.spread);
-}
-
-/// By which plane a cell divides, and what each daughter gets.
-void declare_division(Section& c, draft::CellType& t) {
-  KeySpec axis{.name = "axis",
-               .doc = "Axis of division: the cell is cut across it. Where a cell has no such axis (a round one no longest) it is random.",
-               .fallback = "random",
-               .example = "long",
-               .source = "Van Liedekerke et al."};
-  for (const auto& one : c.laws().division_axes) axis.words.push_back(one->info.name);
-  c.word(axis, t.axis);
-  c.vector({.name = "direction", .doc = "Direction of the axis `fixed`.", .quantity = Q::kNumber, .example = "[0, 0, 1]"},
-           t.division_direction);
-  c.quantity({.name = "axis_spread",
-              .doc = "How far axes stray from the one that `axis` says: standard deviation of the angle in each of two directions (von "
-                     "Mises-Fisher).",
-              .quantity = Q::kAngle,
-              .fallback = "0 deg",
-              .low = 0.0,
-              .high = 1.5,
-              .example = "20 deg",
-              .source = "chosen: off"},
-             t.axis_spread);
-  bool given = false;
-  c.group({.name = "share",
-           .doc = "Part of the mother's volume that the daughter gets to which the axis points; kept within 10 and 90 %.",
-           .shorthand = "mean",
-           .example = "{mean: 50 %, spread: 5 %}"},
-          given, [&t](Section& d) {
-            declare_spread(d, t.division_share, Q::kFraction, "50 %", "Mean over cells.", "chosen: equal daughters", 0.1, 0.9);
-          });
-}
-
-/// What a cell goes through from its birth to its division.
-void declare_cycle(Section& c, draft::CellType& t) {
-  c.word({.name = "model",
-          .doc = "volume_threshold: a cell grows from its birth volume to twice that and divides; none: it rests.",
-          .fallback = "volume_threshold",
-          .words = {"none", "volume_threshold"},
-          .example = "volume_threshold",
-          .source = "chosen"},
-         t.cycle_model);
-  bool given = false;
-  c.group({.name = "duration",
-           .doc = "Time from birth to twice the birth volume.",
-           .shorthand = "mean",
-           .example = "{mean: 18 h, spread: 10 %}"},
-          given, [&t](Section& d) {
-            declare_spread(d, t.cycle_duration, Q::kTime, "24 h", "Mean over cells.", "chosen: human stem cells and epithelia", 60.0, 1e9);
-          });
-  c.word({.name = "growth",
-          .doc = "Volume against time.",
-          .fallback = "linear",
-          .words = {"linear", "exponential"},
-          .example = "linear",
-          .source = "Van Liedekerke et al."},
-         t.growth);
-  declare_division(c, t);
-  c.word({.name = "shells",
-          .doc = "What a shell does at its division volume. cut: a plane through it and a cap on both sides make two shells; wait: it "
-                 "stops growing until its body is exchanged for a sphere.",
-          .fallback = "cut",
-          .words = {"cut", "wait"},
-          .example = "cut",
-          .source = "chosen"},
-         t.shells_divide);
-  c.quantity({.name = "new_surface",
-              .doc = "Time in which the interface that a cut has made takes its tension 2 T - W, beginning at none: at first sisters "
-                     "adhere with 2 T. "
-                     "An interface under full tension at once would jerk its neighbours. 0: at once.",
-              .quantity = Q::kTime,
-              .fallback = "10 min",
-              .low = 0.0,
-              .high = 1e6,
-              .example = "10 min",
-              .source = "chosen: cytokinesis takes about 10 min"},
-             t.new_surface);
-}
 
 void declare_life(Section& s, draft::CellType& t) {
   bool present = false;
@@ -240,6 +139,29 @@ void declare_sphere_law(Section& c, draft::CellType& t) {
 }
 
 }  // namespace
+
+void declare_spread(Section& s, draft::Spread& value, Quantity quantity, const char* mean, const char* doc, const char* source, double low,
+                    double high) {
+  s.quantity({.name = "mean",
+              .doc = doc,
+              .quantity = quantity,
+              .fallback = mean,
+              .low = low,
+              .high = high,
+              .low_open = low == 0.0,
+              .example = mean,
+              .source = source},
+             value.mean);
+  s.quantity({.name = "spread",
+              .doc = "Relative standard deviation from cell to cell (Gaussian, cut at 3).",
+              .quantity = Q::kFraction,
+              .fallback = "0 %",
+              .low = 0.0,
+              .high = 0.3,
+              .example = "10 %",
+              .source = "chosen"},
+             value.spread);
+}
 
 void declare_cell_type(Section& s, draft::CellType& t) {
   bool present = false;

@@ -79,12 +79,37 @@ struct Links {
   Given<bool> tension_only;
 };
 
+/// A phase of the cycle of a cell type.
+struct CyclePhase {
+  Given<double> duration, spread;
+  Given<std::string> law, until;
+  Given<std::uint64_t> stages;
+  Given<bool> grows;
+  bool has_arrest = false;
+  std::map<std::string, OwnSection> arrest;  ///< by name of the factor's section
+};
+
+/// What the cycle of a cell type has beside growth and division.
+struct Cycle {
+  Given<double> ratio;
+  Given<std::string> control;
+  Given<double> volume, volume_spread;
+  std::vector<Named<CyclePhase>> phases;
+  bool has_arrest = false;
+  std::map<std::string, OwnSection> arrest;  ///< of growth
+  bool has_quiescence = false;
+  Given<std::string> quiescent_phase;
+  Given<double> enter_below, leave_above, hold;
+};
+
 struct CellType : ShellKeys {
   Given<std::string> like;
   Spread radius;
   Given<std::string> body, color;
   bool has_cycle = false;
+  Cycle cycle;
   Given<std::string> cycle_model, growth, axis, shells_divide;
+  std::map<std::string, Given<double>> growth_own;  ///< keys that laws of growth have for themselves, by name
   Given<Vec3d> division_direction;
   Given<double> axis_spread, new_surface;
   Spread division_share;

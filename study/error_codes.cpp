@@ -228,6 +228,13 @@ constexpr ErrorCode kCodes[] = {
     {691, "what this build of the program lacks",
      "Remeshing uses CGAL's mesh processing, which is under GPL-3-or-later, and with it the program as a whole. A build with "
      "MORULA_WITH_GPL=OFF leaves it out; cells from files keep their nodes then."},
+    {700, "cycle that never ends",
+     "A cell that divides at a volume must grow, in one phase at least; one that does not grow divides by the clock of its phases."},
+    {701, "division below the size at birth", "A sizer's division volume must be larger than the mean birth volume of the type."},
+    {702, "phase that size cannot end",
+     "The phase that ends when the cell has its division volume is the last one in which cells grow. Sizer and adder need such a phase."},
+    {703, "no way into quiescence",
+     "`quiescence` names a phase of the cycle, and that phase needs an `arrest`, whose factor takes cells out and back."},
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "coupling/behaviours/growth_law.h"
 #include "study/build.h"
 #include "study/layer_words.h"
 
@@ -10,6 +11,12 @@ namespace morula::scenarios {
 ChoosableLaws choosable_sphere_laws(const Laws& laws) {
   ChoosableLaws out;
   for (const auto& law : laws.spheres) out.push_back({law->word, &law->own});
+  return out;
+}
+
+ChoosableLaws choosable_growth_laws(const Laws& laws) {
+  ChoosableLaws out;
+  for (const auto& law : laws.growth) out.push_back({law->word, &law->own});
   return out;
 }
 

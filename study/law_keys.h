@@ -18,6 +18,7 @@ struct ChoosableLaw {
 using ChoosableLaws = std::vector<ChoosableLaw>;
 
 ChoosableLaws choosable_sphere_laws(const Laws& laws);
+ChoosableLaws choosable_growth_laws(const Laws& laws);
 ChoosableLaws choosable_surface_laws(const Laws& laws);
 ChoosableLaws choosable_layer_laws(const Laws& laws, dcm::LayerWord::Of of);
 

@@ -40,6 +40,8 @@ enum class RandomStream : std::uint32_t {
   kPolarity,
   kDivisionTilt,   ///< of the axis away from that of its rule
   kDivisionShare,  ///< of the mother's volume that the first daughter gets
+  kDivisionSize,   ///< of a cell's division volume
+  kPhaseDuration,
 };
 
 /// A pair of independent numbers.

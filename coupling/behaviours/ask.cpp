@@ -15,11 +15,19 @@ std::size_t first_variable(const Cells& cells, const Behaviour& behaviour) {
   return static_cast<std::size_t>(at - cells.variables.begin());
 }
 
+double factor_of(const std::vector<CellArrest>& arrest, const CellView& cell) {
+  double out = 1.0;
+  for (const CellArrest& one : arrest) out *= one.of(cell);
+  return out;
+}
+
 }  // namespace
 
 bool look_at_bodies(std::span<const CellType> types) {
-  return std::ranges::any_of(types, [](const CellType& type) {
-    return std::ranges::any_of(type.behaviours, [](const CellBehaviour& one) { return one.what->looks_at_body; });
+  const auto looks = [](const auto& one) { return one.what->looks_at_body; };
+  return std::ranges::any_of(types, [&](const CellType& type) {
+    return std::ranges::any_of(type.behaviours, looks) || std::ranges::any_of(type.cycle.arrest, looks) ||
+           std::ranges::any_of(type.cycle.phases, [&](const CyclePhase& phase) { return std::ranges::any_of(phase.arrest, looks); });
   });
 }
 
@@ -42,9 +50,8 @@ Asked AskBehaviours::ask(std::size_t row) {
   Asked out;
   const std::size_t type_number = cells_.rows[row].type;
   const CellType& type = types_[type_number];
-  if (type.behaviours.empty()) return out;
-  CellView view(cells_, row, type, step_.time - step_.dt);
-  if (step_.bodies != nullptr) view.set_body(step_.bodies->values, place_[row], step_.bodies->center[row]);
+  if (type.behaviours.empty() && type.cycle.arrest.empty()) return out;
+  const CellView view = look_at(row);
   std::vector<double> state;
   for (std::size_t b = 0; b < type.behaviours.size(); ++b) {
     const CellBehaviour& one = type.behaviours[b];
@@ -56,7 +63,19 @@ Asked AskBehaviours::ask(std::size_t row) {
     for (std::size_t v = 0; v < state.size(); ++v) cells_.variables[first + v].values.set(row, state[v]);
     if (out.wish.die && !dying) out.deadly = static_cast<std::uint16_t>(b);
   }
+  out.wish.growth *= factor_of(type.cycle.arrest, view);
   return out;
+}
+
+double AskBehaviours::phase_rate(std::size_t row, std::size_t phase) const {
+  const std::vector<CellArrest>& arrest = types_[cells_.rows[row].type].cycle.phases[phase].arrest;
+  return arrest.empty() ? 1.0 : factor_of(arrest, look_at(row));
+}
+
+CellView AskBehaviours::look_at(std::size_t row) const {
+  CellView view(cells_, row, types_[cells_.rows[row].type], step_.time - step_.dt);
+  if (step_.bodies != nullptr) view.set_body(step_.bodies->values, place_[row], step_.bodies->center[row]);
+  return view;
 }
 
 }  // namespace morula

@@ -21,8 +21,12 @@ class AskBehaviours {
 
   /// Asks those of one cell, which change its own variables. For different rows by several threads at once.
   [[nodiscard]] Asked ask(std::size_t row);
+  /// The factor of the rate at which a phase of a cell passes. As above; nothing is changed.
+  [[nodiscard]] double phase_rate(std::size_t row, std::size_t phase) const;
 
  private:
+  [[nodiscard]] CellView look_at(std::size_t row) const;
+
   Cells& cells_;
   std::span<const CellType> types_;
   const LifeStep& step_;
@@ -30,7 +34,7 @@ class AskBehaviours {
   std::vector<std::size_t> place_;                        ///< of the bodies, by row, where any behaviour looks at them
 };
 
-/// Whether a behaviour of any type needs LifeStep::bodies.
+/// Whether a behaviour or an arrest of any type needs LifeStep::bodies.
 bool look_at_bodies(std::span<const CellType> types);
 
 }  // namespace morula

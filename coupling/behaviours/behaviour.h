@@ -22,6 +22,7 @@ struct CellWish {
   bool die = false;        ///< begin to die at the end of this step
   bool divide = false;     ///< at the end of this step, whatever its volume; shells of a type that wait do so until they are spheres
   double growth = 1.0;     ///< factor of its rate of growth; 0: it does not grow
+  double cycle = 1.0;      ///< factor of the rate at which the phases of its cycle pass
   double volume = 1.0;     ///< factor of its target volume in this step
   double migration = 1.0;  ///< factor of the speed of its persistent walk
   std::optional<Vec3d> polarity = {};  ///< its direction; of a type that has one

@@ -1,8 +1,8 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 
-#include "coupling/cells.h"
-#include "coupling/model.h"
+#include "coupling/behaviours/phases.h"
 
 namespace morula {
 
@@ -10,12 +10,17 @@ namespace morula {
 ///
 /// Its radius at birth and its cycle duration are drawn from the type (streams kCellVariability and kDivisionDuration), its wanted
 /// velocity from the stationary law. With random_age, a cell whose type cycles is at a random point of its cycle (balanced growth,
-/// stream kInitialPhase) and has the target volume of that point; else it is at birth. Division volume is twice the birth volume. All draws are keyed by the id,
-/// so that a founder is the same in whatever order founders are made. Its variables are 0.
-CellState make_founder(CellId id, std::uint16_t type_index, const CellType& type, std::uint32_t seed, double time, bool random_age);
+/// stream kInitialPhase) and has the target volume of that point; else it is at birth. All draws are keyed by the id,
+/// so that a founder is the same in whatever order founders are made. Its variables are 0, but those of its phase (cycle_variables_of()).
+CellState make_founder(CellId id, std::uint16_t type_index, const CellType& type, std::uint32_t seed, double time, bool random_age,
+                       std::size_t cycle_variables = 0);
 
 /// The row of a daughter without its variables (divide_variables()): what is copied is her mother's, and she begins a cycle of newly drawn
-/// duration at `time` with the given birth volume.
-CellState make_daughter(const CellState& mother, int which, const CellType& type, std::uint32_t seed, double time, double birth_volume);
+/// duration at `time` with the given birth volume; `place` is that of its beginning.
+CellState make_daughter(const CellState& mother, int which, const CellType& type, std::uint32_t seed, double time, double birth_volume,
+                        CyclePlace& place);
+
+/// Puts a place in the cycle among the variables of a cell whose type has phases. `first`: number of the first of its variables.
+void set_place(CellState& row, const CellType& type, const CyclePlace& place, std::size_t first);
 
 }  // namespace morula

@@ -11,18 +11,48 @@ constexpr const char* kOurs = "choice of this project";
 
 // Fallbacks are those of a default CellType, so that the description and the model cannot drift apart.
 
-LawInfo growth_law(const char* name, const char* title, const char* equation) {
+LawInfo inhibition_law() {
   const CellType type;
+  return {.name = "growth_under_pressure",
+          .title = "Growth stops under pressure",
+          .equation = "dV/dt = 0 while p̄ > p_stop, dp̄/dt = (p − p̄)/τ",
+          .source = "physics/cbm.md §5",
+          .parameters = {{"inhibit_pressure", "pressure", "kPa", type.inhibit_pressure, 0.0, kNever, kOurs,
+                          "p_stop: growth stops while the averaged pressure is above this."},
+                         {"pressure_averaging", "time", "s", kPressureAveraging, kPressureAveraging, kPressureAveraging, kOurs,
+                          "τ: time of the exponential average of the pressure; fixed."}}};
+}
+
+LawInfo sizer_law(const char* name, const char* title, const char* equation, const char* size) {
+  const CellCycle cycle;
+  return {.name = name,
+          .title = title,
+          .equation = equation,
+          .source = "Amir 2014, doi:10.1103/PhysRevLett.112.208102; Cadart et al. 2018, doi:10.1038/s41467-018-05393-0",
+          .parameters = {{"size", "volume", "µm³", cycle.size, 0.0, 1e12, kOurs, size},
+                         {"size_spread", "fraction", "1", cycle.size_spread, 0.0, 0.3, kOurs, "s: relative standard deviation."}}};
+}
+
+LawInfo phases_law() {
+  return {.name = "cycle_phases",
+          .title = "Phases of the cycle",
+          .equation =
+              "dτ_p/dt = −g_p, the next phase begins at τ_p = 0 with its own τ; the cell divides after the last. Growth of an unlimited "
+              "population α: Π_p E[e^(−α T_p)] = ½",
+          .source = "Powell 1956, doi:10.1099/00221287-15-3-492; physics/cbm.md §5",
+          .parameters = {}};
+}
+
+LawInfo quiescence_law() {
+  const Quiescence law;
   return {
-      .name = name,
-      .title = title,
-      .equation = equation,
-      .source = "choice of this project; ages of a balanced population: Powell 1956, doi:10.1099/00221287-15-3-492",
-      .parameters = {{"cycle_duration", "time", "s", type.cycle_duration.mean, 1.0, 1e9, kOurs, "From birth to twice the birth volume."},
-                     {"inhibit_pressure", "pressure", "kPa", type.inhibit_pressure, 0.0, kNever, kOurs,
-                      "Growth stops while the averaged pressure is above this."},
-                     {"pressure_averaging", "time", "s", kPressureAveraging, kPressureAveraging, kPressureAveraging, kOurs,
-                      "Time of the exponential average of the pressure; fixed."}}};
+      .name = "quiescence",
+      .title = "Quiescence (G0)",
+      .equation = "out of the phase when its factor g < below for `hold`, back when g > above for `hold`; no growth and no phase between",
+      .source = kOurs,
+      .parameters = {{"below", "fraction", "1", law.enter_below, 0.0, 1.0, kOurs, "Cells leave below this factor."},
+                     {"above", "fraction", "1", law.leave_above, 0.0, 1.0, kOurs, "And come back above this one."},
+                     {"hold", "time", "s", law.hold, 0.0, kNever, kOurs, "For how long it must hold."}}};
 }
 
 LawInfo division_law() {
@@ -77,8 +107,13 @@ LawInfo osmosis_law() {
 }  // namespace
 
 std::vector<LawInfo> behaviour_laws() {
-  return {growth_law("linear_growth", "Linear growth over the cycle", "V = V_b (1 + t/T)"),
-          growth_law("exponential_growth", "Exponential growth over the cycle", "V = V_b 2^(t/T)"),
+  return {inhibition_law(),
+          sizer_law("sizer", "Division at a volume that is the same for all cells", "V_d = V_s (1 + s z), |z| ≤ 3",
+                    "V_s: mean division volume."),
+          sizer_law("adder", "Division at a volume that is the same more than at birth", "V_d = V_b + ΔV (1 + s z), |z| ≤ 3",
+                    "ΔV: mean volume that is added."),
+          phases_law(),
+          quiescence_law(),
           division_law(),
           dying_law(),
           migration_law(),

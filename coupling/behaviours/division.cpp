@@ -18,13 +18,18 @@ DaughterRows divide_row(const CellState& mother, std::span<const VariableColumn>
   DaughterRows out;
   out.share = volume_1 / mother.target_volume;
   const double birth = time - late;
-  out.first = make_daughter(mother, 0, type, seed, birth, volume_1);
-  out.second = make_daughter(mother, 1, type, seed, birth, volume_2);
+  CyclePlace place_1, place_2;
+  out.first = make_daughter(mother, 0, type, seed, birth, volume_1, place_1);
+  out.second = make_daughter(mother, 1, type, seed, birth, volume_2, place_2);
   divide_variables(variables, mother, out.first, out.second);
-  if (late > 0.0) {
-    grow(out.first, type, late);
-    grow(out.second, type, late);
-  }
+  const std::size_t first = first_cycle_variable(variables);
+  const auto go_on = [&](CellState& daughter, CyclePlace& place) {
+    if (late > 0.0 && type.cycle.phases.empty()) grow(daughter, type, late);
+    if (late > 0.0 && !type.cycle.phases.empty()) pass_phases(daughter, place, type, seed, late, 1.0, [](std::size_t) { return 1.0; });
+    set_place(daughter, type, place, first);
+  };
+  go_on(out.first, place_1);
+  go_on(out.second, place_2);
   return out;
 }
 

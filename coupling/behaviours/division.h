@@ -18,7 +18,7 @@ struct DaughterRows {
 /// are those of divide_variables().
 ///
 /// time: end of the step [s]; late: how long before that the division volume was reached [s]. The daughters are born at time − late, and
-/// their target volumes have already grown for `late`; their bodies have not: the first step drives them there.
+/// they have already gone through `late` of their cycles, freely; their bodies have not: the first step drives them there.
 /// Precondition: mother.id.can_divide(), 0 < fraction < 1.
 DaughterRows divide_row(const CellState& mother, std::span<const VariableColumn> variables, const CellType& type, std::uint32_t seed,
                         double time, double late, double fraction);

@@ -1,20 +1,34 @@
 #pragma once
+#include <cstdint>
+
 #include "coupling/cells.h"
 #include "coupling/model.h"
 
 namespace morula {
 
-/// Target volume at a point of the cycle [µm³]: V_b (1 + a) for linear growth and V_b 2^a for exponential growth when the division
-/// volume is 2 V_b; in general from birth_volume at a = 0 to division_volume at a = 1.
-double volume_in_cycle(double birth_volume, double division_volume, bool exponential, double point);
+/// How fast a cell grows by the law of its type. Where its birth volume alone decides at which volume it divides (timer), from that to its division
+/// volume in its own cycle duration; else, so that small cells take longer, from the mean birth volume of its type to `ratio` times that.
+GrowthPace growth_pace(const CellRow& row, const CellType& type);
+
+/// Volume at which a cell of this birth volume divides [µm³], after its type's control of size; stream kDivisionSize, keyed by the id.
+double division_volume(const CellRow& row, const CellType& type, std::uint32_t seed);
+
+/// Time that free growth takes from birth to division [s].
+double time_to_grow(const CellRow& row, const CellType& type);
+
+/// Target volume of a cell at a point of its growth, 0 at birth and 1 at division [µm³].
+double volume_in_cycle(const CellRow& row, const CellType& type, double point);
+
+/// Whether the averaged pressure (from outside: BodyValues) lets a cell grow at all.
+[[nodiscard]] inline bool may_grow(const CellRow& row, const CellType& type) { return !(row.pressure > type.inhibit_pressure); }
 
 struct Growth {
   bool reached = false;  ///< the division volume was reached in this step
   double late = 0.0;     ///< what was left of the step at that moment [s]
 };
 
-/// Let a cell grow for dt [s]: its target volume moves on by the law of its type over its own cycle duration, and stops at the division
-/// volume. A cell whose averaged pressure (from outside: BodyValues) is above inhibit_pressure, and one whose type does not cycle, keeps its target volume.
+/// Let a cell grow for dt [s]: its target volume moves on by the law of its type at its pace, and stops at the division volume. A cell whose averaged
+/// pressure is above inhibit_pressure, and one whose type does not cycle, keeps its target volume.
 /// Only the row itself is read.
 Growth grow(CellRow& row, const CellType& type, double dt);
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/behaviours/phases.h"
 #include "coupling/cell_view.h"
 #include "coupling/events.h"
 #include "coupling/model.h"
@@ -28,6 +29,8 @@ struct LifeDecision {
     kCannot,  ///< it did, but its lineage has as many generations as an id can name; said once
     kBeginDying,
     kRemove,  ///< a dying cell is gone
+    kLeave,   ///< it leaves its cycle for quiescence
+    kReturn,  ///< it comes back
   } kind = Kind::kNone;
   double late = 0.0;            ///< time between the event and the end of the step [s]
   std::uint16_t behaviour = 0;  ///< of a death: number of the behaviour of the type that asked for it
@@ -41,6 +44,7 @@ struct LifeValues {
   Vec3d migration_velocity{};  ///< read and written [µm/s]
   double death_time = -1.0;    ///< read and written [s]
   Vec3d polarity{};            ///< read and written
+  CyclePlace place{};          ///< read and written, of a type with phases
 };
 
 /// One step in the life of one cell: growth, cycle, death and the wanted velocity, and what its behaviours ask for. Reads and writes this row and its
@@ -49,7 +53,10 @@ struct LifeValues {
 /// A dying cell shrinks and is removed at last; its behaviours have no say. Any other may begin to die; if it does not, it grows unless it rests or
 /// waits. Division at the division volume: a sphere divides, and a shell unless those of its type wait (it then divides if it becomes a sphere
 /// later). A shell for which no plane served waits, too, and is to divide whenever the time of the run passes a multiple of kTimeBetweenTries.
-LifeDecision live(CellRow& row, LifeValues& values, const CellType& type, const LifeStep& step, const CellWish& wish = {});
+///
+/// A type without phases divides at its division volume, one with phases at the end of the last. `rate`: factor of the rate at which a phase passes.
+LifeDecision live(CellRow& row, LifeValues& values, const CellType& type, const LifeStep& step, const CellWish& wish = {},
+                  const PhaseRate& rate = {});
 
 struct DivisionOrder {
   std::size_t row = 0;

@@ -67,6 +67,7 @@ std::vector<Observable> observables_of_any_model(const Laws& laws) {
   model.types.emplace_back().name = "<cell type>";
   model.types[0].interior.nucleus_fraction = 0.1;
   model.types[0].interior.nucleus_nodes = 162;
+  model.types[0].cycle.phases = {{.name = "<phase>"}};
   model.obstacles.emplace_back().name = "<obstacle>";
   model.lumens.emplace_back().name = "<cavity>";
   model.loads.emplace_back().name = "<grip>";

@@ -63,6 +63,7 @@ std::vector<Observable> observables_of_any_model(const Laws& laws);
 /// Those that Morula brings: one function for each file of this folder.
 std::vector<Observable> tissue_observables(const Model& model);
 std::vector<Observable> type_observables(const Model& model);
+std::vector<Observable> phase_observables(const Model& model);
 std::vector<Observable> obstacle_observables(const Model& model);
 std::vector<Observable> lumen_observables(const Model& model);
 std::vector<Observable> grip_observables(const Model& model);

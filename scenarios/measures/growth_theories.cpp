@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/behaviours/balanced_growth.h"
 #include "scenarios/measures/theories.h"
 
 namespace morula::scenarios {
@@ -21,25 +22,27 @@ int dividing_type(const Model& model, const std::string& measure) {
 }  // namespace
 
 Theory exponential_growth() {
-  return {
-      "exponential_growth",
-      "exponential growth",
-      "Cells that all divide once in every mean duration D of their cycle, from what there was at time 0; without death and inhibition.",
-      "N(t) = N(0) 2^(t/D)",
-      "Malthus 1798; physics/cbm.md §5",
-      {"cell_count", "total_volume", "count_"},
-      [](const Study& study, const Subject&, const std::string& measure) {
-        return dividing_type(study.model, measure) >= 0 ? Status{}
-                                                        : Status(Error{ErrorKind::kInput, "needs cells of one type, with a cycle", ""});
-      },
-      [](FinishedRun& run, const Subject&, const std::string& measure, const Sample& sample) -> Result<double> {
-        MORULA_TRY_ASSIGN(const SeriesTable* const series, run.series());
-        const int type = dividing_type(run.study().model, measure);
-        const SeriesColumn* const column = series->find(measure);
-        if (type < 0 || column == nullptr || column->values.empty()) return std::nan("");
-        const double doubling = run.study().model.types[static_cast<std::size_t>(type)].cycle_duration.mean;
-        return column->values.front() * std::exp2(sample.time / doubling);
-      }};
+  return {"exponential_growth",
+          "exponential growth",
+          "Cells that all divide once in every mean duration D of their cycle, from what there was at time 0; without death and "
+          "inhibition. With "
+          "phases at the rate that follows from the times of all of them.",
+          "N(t) = N(0) 2^(t/D); with phases N(0) e^(αt), Π E[e^(−αT)] = ½",
+          "Malthus 1798; physics/cbm.md §5",
+          {"cell_count", "total_volume", "count_"},
+          [](const Study& study, const Subject&, const std::string& measure) {
+            return dividing_type(study.model, measure) >= 0 ? Status{}
+                                                            : Status(Error{ErrorKind::kInput, "needs cells of one type, with a cycle", ""});
+          },
+          [](FinishedRun& run, const Subject&, const std::string& measure, const Sample& sample) -> Result<double> {
+            MORULA_TRY_ASSIGN(const SeriesTable* const series, run.series());
+            const int type = dividing_type(run.study().model, measure);
+            const SeriesColumn* const column = series->find(measure);
+            if (type < 0 || column == nullptr || column->values.empty()) return std::nan("");
+            const CellType& dividing = run.study().model.types[static_cast<std::size_t>(type)];
+            if (!dividing.cycle.phases.empty()) return column->values.front() * std::exp(population_growth_rate(dividing) * sample.time);
+            return column->values.front() * std::exp2(sample.time / dividing.cycle_duration.mean);
+          }};
 }
 
 }  // namespace morula::scenarios

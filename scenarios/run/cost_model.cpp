@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "coupling/behaviours/balanced_growth.h"
 #include "coupling/simulation.h"
 #include "coupling/swaps.h"
 #include "scenarios/run/tried_steps.h"
@@ -44,7 +45,7 @@ double free_growth_rate(const Model& model, const std::vector<std::int64_t>& cel
   for (std::size_t t = 0; t < model.types.size(); ++t) {
     const auto count = static_cast<double>(cells_of_type[t]);
     cells += count;
-    if (model.types[t].cycles) sum += count * std::numbers::ln2 / model.types[t].cycle_duration.mean;
+    if (model.types[t].cycles) sum += count * population_growth_rate(model.types[t]);
   }
   return cells > 0.0 ? sum / cells : 0.0;
 }

@@ -111,9 +111,43 @@ Values named_values(const LawInfo& law, const OwnValues& values) {
   return out;
 }
 
+/// Control of size, phases and what holds them back.
+void add_cycle(const CellType& type, std::vector<UsedLaw>& out) {
+  const CellCycle& cycle = type.cycle;
+  const std::string whose = "life of " + type.name;
+  if (cycle.control != SizeControl::kTimer)
+    out.push_back({whose,
+                   law_named(behaviour_laws(), cycle.control == SizeControl::kSizer ? "sizer" : "adder"),
+                   {{"size", cycle.size}, {"size_spread", cycle.size_spread}}});
+  for (const CellArrest& one : cycle.arrest)
+    out.push_back({"growth of " + type.name, one.what->info, named_values(one.what->info, one.values)});
+  if (cycle.phases.empty()) return;
+  LawInfo phases = law_named(behaviour_laws(), "cycle_phases");
+  Values times;
+  for (const CyclePhase& phase : cycle.phases) {
+    const bool part = phase.length == CyclePhase::Length::kPart, size = phase.length == CyclePhase::Length::kSize;
+    if (!size) times.emplace_back(phase.name, part ? phase.time.mean * type.cycle_duration.mean : phase.time.mean);
+    phases.parameters.push_back(given_by_study(phase.name.c_str(), "time", "s", size ? "Ends by size." : "Mean duration."));
+  }
+  out.push_back({whose, std::move(phases), std::move(times)});
+  for (const CyclePhase& phase : cycle.phases)
+    for (const CellArrest& one : phase.arrest)
+      out.push_back({"phase " + phase.name + " of " + type.name, one.what->info, named_values(one.what->info, one.values)});
+  if (cycle.quiescence.phase >= 0)
+    out.push_back({whose,
+                   law_named(behaviour_laws(), "quiescence"),
+                   {{"below", cycle.quiescence.enter_below}, {"above", cycle.quiescence.leave_above}, {"hold", cycle.quiescence.hold}}});
+}
+
 void add_behaviours(const CellType& type, std::vector<UsedLaw>& out) {
-  const Values values{{"cycle_duration", type.cycle_duration.mean},
-                      {"inhibit_pressure", type.inhibit_pressure},
+  if (type.cycles) {
+    const CellCycle& cycle = type.cycle;
+    Values values{{"cycle_duration", type.cycle_duration.mean}, {"division_ratio", cycle.ratio}};
+    for (const KeySpec& key : cycle.growth->own) values.emplace_back(key.name, cycle.growth_values(key.name));
+    out.push_back({"life of " + type.name, cycle.growth->info, std::move(values)});
+    add_cycle(type, out);
+  }
+  const Values values{{"inhibit_pressure", type.inhibit_pressure},
                       {"apoptosis_time", type.apoptosis_time},
                       {"removal_fraction", type.removal_fraction},
                       {"migration_speed", type.migration_speed},
@@ -123,13 +157,12 @@ void add_behaviours(const CellType& type, std::vector<UsedLaw>& out) {
                       {"inside", type.osmosis.inside},
                       {"outside", type.osmosis.outside}};
   for (LawInfo& law : behaviour_laws()) {
-    const bool used = law.name == "linear_growth"        ? type.cycles && !type.exponential_growth
-                      : law.name == "exponential_growth" ? type.cycles && type.exponential_growth
-                      : law.name == "instant_division"   ? type.cycles
-                      : law.name == "apoptosis"          ? !type.behaviours.empty()
-                      : law.name == "persistent_walk"    ? type.migration_speed > 0.0
-                      : law.name == "osmosis"            ? type.osmosis.acts()
-                                                         : false;
+    const bool used = law.name == "growth_under_pressure" ? type.cycles && type.inhibit_pressure < kNever
+                      : law.name == "instant_division"    ? type.cycles
+                      : law.name == "apoptosis"           ? !type.behaviours.empty()
+                      : law.name == "persistent_walk"     ? type.migration_speed > 0.0
+                      : law.name == "osmosis"             ? type.osmosis.acts()
+                                                          : false;
     if (used) out.push_back({"life of " + type.name, std::move(law), values});
   }
   for (const CellBehaviour& one : type.behaviours) {

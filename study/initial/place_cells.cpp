@@ -8,6 +8,7 @@
 #include "core/random/philox.h"
 #include "core/random/rotation.h"
 #include "core/space/curve.h"
+#include "coupling/behaviours/balanced_growth.h"
 #include "coupling/behaviours/birth.h"
 #include "coupling/behaviours/growth.h"
 #include "coupling/swaps.h"
@@ -31,7 +32,8 @@ std::string micrometres(double length) {
 /// The rows of one entry with the volumes of time 0.
 CellState founder(const Study& study, const InitialCells& block, std::uint64_t number, std::uint16_t type_index) {
   const CellType& type = study.model.types[type_index];
-  CellState row = make_founder(CellId::founder(number), type_index, type, study.model.seed, 0.0, block.random_age);
+  CellState row = make_founder(CellId::founder(number), type_index, type, study.model.seed, 0.0, block.random_age,
+                               cycle_variables_of(study.model.fields.size()));
   if (block.body_given) row.body = row.own_body = block.body;
   return row;
 }
@@ -45,24 +47,22 @@ void start_small(CellState& row, const InitialCells& block) {
 }
 
 /// What a CSV row says about its cell.
-void apply_csv(CellState& row, const CsvCell& csv, const CellType& type) {
+void apply_csv(CellState& row, const CsvCell& csv, const CellType& type, const Model& model) {
   if (csv.radius > 0.0) {
     const double volume = 4.0 / 3.0 * std::numbers::pi * csv.radius * csv.radius * csv.radius;
     row.target_volume *= volume / row.birth_volume;
     row.birth_volume = volume;
-    row.division_volume = 2.0 * volume;
+    row.division_volume = division_volume(row, type, model.seed);
   }
-  if (csv.phase >= 0.0 && type.cycles) {
-    row.target_volume = volume_in_cycle(row.birth_volume, row.division_volume, type.exponential_growth, csv.phase);
-    row.birth_time = -csv.phase * row.cycle_duration;
-  }
+  if (csv.phase >= 0.0 && type.cycles)
+    set_place(row, type, settle_at(row, type, model.seed, 0.0, csv.phase), cycle_variables_of(model.fields.size()));
   if (csv.body) row.body = row.own_body = *csv.body;
 }
 
 /// The cell has this volume at time 0, whatever the point of its cycle.
-void set_volume(CellState& row, double volume) {
+void set_volume(CellState& row, const Model& model, double volume) {
   row.birth_volume *= volume / row.target_volume;
-  row.division_volume = 2.0 * row.birth_volume;
+  row.division_volume = division_volume(row, model.types[row.type], model.seed);
   row.target_volume = volume;
 }
 
@@ -209,8 +209,8 @@ class Placer {
     for (std::size_t i = 0; i < position.size(); ++i) {
       const CsvCell& cell = csv->cells[i];
       PlacedCell& made = out_.cells.emplace_back(PlacedCell{founder(study_, block, first + i, cell.type), position[i]});
-      apply_csv(made.row, cell, study_.model.types[cell.type]);
-      if (block.shared_volume > 0.0) set_volume(made.row, block.shared_volume);
+      apply_csv(made.row, cell, study_.model.types[cell.type], study_.model);
+      if (block.shared_volume > 0.0) set_volume(made.row, study_.model, block.shared_volume);
       start_small(made.row, block);
     }
     return {};
@@ -230,7 +230,8 @@ class Placer {
       PlacedCell& made = out_.cells.emplace_back(PlacedCell{founder(study_, block, first + i, cell.type), {}});
       made.center = volume_centroid(cell.mesh.faces, cell.mesh.position);
       const dcm::ShellParameters& shell = study_.model.types[cell.type].shell;
-      set_volume(made.row, cell.pressure ? target_volume_of(cell.volume, *cell.pressure, shell.tension, shell.bulk_modulus) : cell.volume);
+      set_volume(made.row, study_.model,
+                 cell.pressure ? target_volume_of(cell.volume, *cell.pressure, shell.tension, shell.bulk_modulus) : cell.volume);
       made.surface = std::move(cell);
       made.meshes = &block.meshes;
     }

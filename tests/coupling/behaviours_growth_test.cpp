@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "coupling/behaviours/draw.h"
 #include "coupling/behaviours/pressure_filter.h"
@@ -15,7 +16,7 @@ constexpr double kHour = 3600.0;
 CellType cycling(bool exponential) {
   CellType type;
   type.cycles = true;
-  type.exponential_growth = exponential;
+  type.cycle.growth = growth_laws()[exponential ? 1 : 0];
   return type;
 }
 
@@ -82,6 +83,50 @@ TEST(Growth, TellsHowLateInTheStepItWas) {
   }
 }
 
+LawValues with_limit(double limit) {
+  LawValues out;
+  out.set("limit", limit);
+  return out;
+}
+
+/// From 1 to 2 in one unit of time, with V_∞ = 3: r = ln 4 of the logistic law, whose V/(3 − V) doubles in half of the time, and r = ln 2 of the
+/// relaxing one.
+TEST(GrowthLaws, HaveTheirVolumeHalfway) {
+  const GrowthPace pace{1.0, 2.0, 1.0};
+  const std::map<std::string, double> halfway{
+      {"linear", 1.5}, {"exponential", std::sqrt(2.0)}, {"logistic", 1.5}, {"relaxing", 3.0 - std::sqrt(2.0)}, {"none", 1.0}};
+  for (const auto& law : growth_laws()) {
+    ASSERT_TRUE(halfway.contains(law->word));
+    EXPECT_NEAR(law->after(pace, with_limit(1.5), 1.0, 0.5), halfway.at(law->word), 1e-14) << law->word;
+    EXPECT_NEAR(law->at(pace, with_limit(1.5), 0.5), halfway.at(law->word), 1e-14) << law->word;
+  }
+}
+
+TEST(GrowthLaws, AreTheSameInAnySteps) {
+  const GrowthPace pace{1000.0, 2600.0, 64800.0};
+  for (const auto& law : growth_laws()) {
+    double volume = pace.from, time = 0.0;
+    for (int n = 0; n < 700; ++n) {
+      const double dt = 10.0 + 7.3 * (n % 11);
+      volume = law->after(pace, with_limit(1.2), volume, dt);
+      time += dt;
+      ASSERT_NEAR(volume / law->at(pace, with_limit(1.2), time / pace.duration), 1.0, 1e-11) << law->word;
+      if (!law->grows) continue;
+      ASSERT_NEAR(law->time_to(pace, with_limit(1.2), pace.from, volume), time, 1e-6) << law->word;
+      ASSERT_NEAR(law->time_to(pace, with_limit(1.2), volume, pace.to), pace.duration - time, 1e-6) << law->word;
+    }
+  }
+}
+
+TEST(GrowthLaws, NeverComeToTheVolumeAtWhichTheyEnd) {
+  const GrowthPace pace{1.0, 2.0, 1.0};
+  for (const auto& law : growth_laws()) {
+    const double time = law->time_to(pace, with_limit(1.5), 1.5, 3.0);
+    EXPECT_EQ(std::isinf(time), law->word == "logistic" || law->word == "relaxing" || law->word == "none") << law->word;
+    EXPECT_LE(law->time_to(pace, with_limit(1.5), 2.5, 2.0), 0.0) << law->word;
+  }
+}
+
 TEST(Growth, StopsAboveTheInhibitingPressureAndGoesOnBelow) {
   CellType type = cycling(false);
   type.inhibit_pressure = 0.2;
@@ -107,7 +152,7 @@ TEST(Growth, BalancedPopulationHasTheKnownMeanVolume) {
   for (const bool exponential : {false, true}) {
     double mean = 0.0;
     const int n = 20000;
-    for (int k = 0; k < n; ++k) mean += volume_in_cycle(1.0, 2.0, exponential, balanced_growth_age((k + 0.5) / n)) / n;
+    for (int k = 0; k < n; ++k) mean += volume_in_cycle(newborn(1.0), cycling(exponential), balanced_growth_age((k + 0.5) / n)) / n;
     EXPECT_NEAR(mean, exponential ? 1.386294 : 1.442695, 1e-6);
   }
 }

@@ -66,7 +66,7 @@ struct Population {
 CellType cycling(bool exponential = false) {
   CellType type;
   type.cycles = true;
-  type.exponential_growth = exponential;
+  type.cycle.growth = growth_laws()[exponential ? 1 : 0];
   return type;
 }
 

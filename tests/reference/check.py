@@ -18,7 +18,8 @@ import sys
 
 sys.dont_write_bytecode = True
 
-import shells  # noqa: E402  (the scripts of this folder)
+import cycle  # noqa: E402  (the scripts of this folder)
+import shells  # noqa: E402
 import spheres  # noqa: E402
 import theory  # noqa: E402
 
@@ -127,7 +128,7 @@ def main():
     if not rows or not table:
         print("check.py: no reference number was found", file=sys.stderr)
         return 2
-    values = shells.values() | spheres.values() | theory.values()
+    values = cycle.values() | shells.values() | spheres.values() | theory.values()
     faults = []
     compare_rows(rows, values, faults)
     compare_listed(table, values, faults)

@@ -41,7 +41,8 @@ class Lineage : public ::testing::Test {
 };
 
 constexpr const char* kEvents =
-    "{\"time_s\":1200.0,\"kind\":\"division\",\"cell\":\"2\",\"daughters\":[\"2.0\",\"2.1\"],\"text\":\"\"}\n"
+    "{\"time_s\":1200.0,\"kind\":\"division\",\"cell\":\"2\",\"daughters\":[\"2.0\",\"2.1\"],\"volume_um3\":1000.0,"
+    "\"birth_volumes_um3\":[300.0,700.0],\"text\":\"\"}\n"
     "{\"time_s\":1300.0,\"kind\":\"promotion\",\"cell\":\"2.0\",\"text\":\"\"}\n"
     "{\"time_s\":3000.0,\"kind\":\"death\",\"cell\":\"2.1\",\"text\":\"\"}\n"
     "{\"time_s\":4800.0,\"kind\":\"division\",\"cell\":\"2.0\",\"daughters\":[\"2.00\",\"2.01\"],\"text\":\"\"}\n"
@@ -51,13 +52,13 @@ constexpr const char* kEvents =
 
 TEST_F(Lineage, TellsEveryLifeFromBirthToEnd) {
   EXPECT_EQ(lineage_csv(lives(kEvents)),
-            "id,parent,type,birth [s],end [s],how\n"
-            "2,,egg,-600,1200,divided\n"
-            "2.0,2,egg,1200,4800,divided\n"
-            "2.1,2,egg,1200,6000,died\n"
-            "2.00,2.0,egg,4800,7200,alive\n"
-            "2.01,2.0,egg,4800,7200,dying\n"
-            "11,,wall,0,7200,alive\n")
+            "id,parent,type,birth [s],end [s],how,birth volume [um^3],division volume [um^3]\n"
+            "2,,egg,-600,1200,divided,,1000\n"
+            "2.0,2,egg,1200,4800,divided,300,\n"
+            "2.1,2,egg,1200,6000,died,700,\n"
+            "2.00,2.0,egg,4800,7200,alive,,\n"
+            "2.01,2.0,egg,4800,7200,dying,,\n"
+            "11,,wall,0,7200,alive,,\n")
       << "what comes after the last snapshot is not told";
 }
 

@@ -1,0 +1,11 @@
+#pragma once
+
+namespace morula {
+
+/// A number that varies from cell to cell: Gaussian, truncated at ±3 standard deviations.
+struct Distribution {
+  double mean = 0.0;
+  double relative_spread = 0.0;
+};
+
+}  // namespace morula

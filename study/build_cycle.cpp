@@ -1,0 +1,124 @@
+// What cells of a type go through from their birth to their division.
+#include <numbers>
+
+#include "coupling/behaviours/division_axis.h"
+#include "coupling/behaviours/phases.h"
+#include "study/build.h"
+#include "study/law_keys.h"
+#include "study/own_section.h"
+#include "study/read_section.h"
+
+namespace morula::scenarios {
+namespace {
+
+/// By which plane cells of a type divide, and what each daughter gets.
+void set_division(BuildContext& c, const draft::CellType& t, CellType& type) {
+  for (const auto& axis : c.options.laws->division_axes)
+    if (axis->info.name == t.axis.value) type.axis = axis;
+  const Given<Vec3d>& direction = t.division_direction;
+  if (type.axis->needs_direction && !(direction.given && norm2(direction.value) > 0.0))
+    c.diagnostics.error(302, direction.given ? direction.place : t.axis.place, "the axis of division has no direction",
+                        "for example `direction: [0, 0, 1]`");
+  else if (!type.axis->needs_direction && direction.given)
+    c.diagnostics.error(515, direction.place, "'direction' has no effect here", "it belongs to `axis: fixed`");
+  if (type.axis->needs_polarity && !t.activity.has_polarity)
+    c.diagnostics.error(558, t.axis.place, "cells of '" + type.name + "' divide by their polarity, and have none",
+                        "give the type a `polarity`");
+  if (type.axis == random_axis() && t.axis_spread.given && t.axis_spread.value > 0.0)
+    c.diagnostics.error(515, t.axis_spread.place, "'axis_spread' has no effect here", "a random axis has no direction to stray from");
+  type.division_direction = direction.value;
+  type.axis_spread = t.axis_spread.value;
+  type.division_share = {t.division_share.mean.value, t.division_share.spread.value};
+  type.shells_divide = t.shells_divide.value == "cut";
+  type.new_surface = t.new_surface.value;
+}
+
+/// The law of growth with the values of its own keys. E515 for keys of other laws.
+void set_growth(BuildContext& c, const draft::CellType& t, CellType& type) {
+  CellCycle& cycle = type.cycle;
+  for (const auto& law : c.options.laws->growth)
+    if (law->word == t.growth.value) cycle.growth = law;
+  for (const KeySpec& key : cycle.growth->own)
+    if (const auto own = t.growth_own.find(key.name); own != t.growth_own.end()) cycle.growth_values.set(key.name, own->second.value);
+  check_law_keys(c, t.growth_own, choosable_growth_laws(*c.options.laws), cycle.growth->word, "growth");
+}
+
+/// Whether a key was given another value than its default, which the study with all its defaults says, too.
+bool is_changed(const Given<double>& value, const char* fallback) { return value.given && value.text != fallback; }
+
+/// The volume at which cells divide: E515, E701.
+void set_size(BuildContext& c, const draft::Cycle& t, CellType& type) {
+  CellCycle& cycle = type.cycle;
+  const double radius = type.radius.mean, birth = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+  cycle.ratio = t.ratio.value;
+  cycle.size_spread = t.volume_spread.value;
+  cycle.control = t.control.value == "sizer" ? SizeControl::kSizer : t.control.value == "adder" ? SizeControl::kAdder : SizeControl::kTimer;
+  if (cycle.control == SizeControl::kTimer) {
+    if (t.volume.given)
+      c.diagnostics.error(515, t.volume.place, "'volume' has no effect here", "it belongs to `control: sizer` or `control: adder`");
+    return;
+  }
+  const bool sizer = cycle.control == SizeControl::kSizer;
+  cycle.size = t.volume.known() ? t.volume.value : (sizer ? cycle.ratio : cycle.ratio - 1.0) * birth;
+  if (sizer && t.volume.known() && !(cycle.size > birth))
+    c.diagnostics.error(701, t.volume.place,
+                        "cells of '" + type.name + "' are born with " + short_number(birth) + " um^3 and would divide at " + t.volume.text,
+                        "a larger `volume`, or a smaller `radius`");
+}
+
+/// The factors of an `arrest`: E103, E401, E402, and what they say.
+std::vector<CellArrest> build_arrest(BuildContext& c, const std::map<std::string, draft::OwnSection>& given, const Place& place) {
+  std::vector<CellArrest> out;
+  for (const auto& factor : c.options.laws->arrest) {
+    const auto own = given.find(factor->section.name);
+    if (own == given.end() || !own->second.present) continue;
+    const auto missing = missing_keys(factor->keys, own->second);
+    for (const std::string& key : missing)
+      c.diagnostics.error(103, place, "`" + std::string(factor->section.name) + "` needs `" + key + "`",
+                          "for example `" + std::string(factor->section.example) + "`");
+    const auto values = missing.empty() ? own_values(c, factor->keys, own->second) : std::nullopt;
+    if (!values) continue;
+    if (const auto problem = factor->judge != nullptr ? factor->judge(*values) : std::nullopt) {
+      tell_problem(c, *problem, own->second, place);
+      continue;
+    }
+    out.emplace_back(factor, *values);
+  }
+  return out;
+}
+
+/// Growth that stops at a pressure already at which its factor is not 0 yet: E510.
+void check_switch(BuildContext& c, const draft::CellType& t, const CellType& type) {
+  for (const CellArrest& one : type.cycle.arrest) {
+    const double full = one.what->full_pressure != nullptr ? one.what->full_pressure(one.values) : 0.0;
+    if (full > type.inhibit_pressure)
+      c.diagnostics.error(510, t.pressure_above.place,
+                          "growth of '" + type.name + "' stops at " + t.pressure_above.text + " already, below where its `arrest` is full",
+                          "`inhibit_growth: {pressure_above: never}`");
+  }
+}
+
+}  // namespace
+
+std::vector<CellArrest> build_phase_arrest(BuildContext& c, const draft::CyclePhase& phase, const Place& place) {
+  return build_arrest(c, phase.arrest, place);
+}
+
+void build_cycle(BuildContext& c, const draft::CellType& t, const Place& place, CellType& type) {
+  type.cycles = t.has_cycle && t.cycle_model.value != "none" && t.cycle_model.known();
+  if (!t.has_cycle) return;
+  type.cycle_duration = {t.cycle_duration.mean.value, t.cycle_duration.spread.value};
+  set_growth(c, t, type);
+  set_size(c, t.cycle, type);
+  type.cycle.arrest = build_arrest(c, t.cycle.arrest, place);
+  check_switch(c, t, type);
+  build_phases(c, t, type);
+  set_division(c, t, type);
+  if (type.cycles && type.cycle.phases.empty() && !type.cycle.growth->grows)
+    c.diagnostics.error(700, t.growth.place, "cells of '" + type.name + "' never reach their division volume: they do not grow",
+                        "`model: phases` for cells that divide by the clock, or another `growth`");
+  if (paced_by_phases(type.cycle) && is_changed(t.cycle_duration.mean, "24 h"))
+    c.diagnostics.error(515, t.cycle_duration.mean.place, "'duration' has no effect here", "the phases say how long the cycle is");
+}
+
+}  // namespace morula::scenarios
