@@ -1,6 +1,7 @@
 // What a body cannot do yet, or can do only outside the range of its law.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "cbm/sphere_range.h"
 #include "study/build.h"
@@ -28,6 +29,23 @@ void check_division_of_shells(BuildContext& c) {
                           "cells of '" + name + "' have a cycle, but " + (always ? "are shells" : "may be shells") +
                               ", and `shells: wait`: at its division volume a shell stops growing and waits until it is a sphere",
                           "`cycle: {shells: cut}`, no `cycle`, or spheres for cells that divide");
+  }
+}
+
+/// A shell of few nodes is cut once, and then no plane serves: a half of it has corners finer than its mesh (decision 0038).
+void check_mesh_of_divisions(BuildContext& c) {
+  constexpr double kLongestEdge = 0.5;  // of the radius
+  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
+    const auto& [name, place, t] = c.draft.cell_types[i];
+    const CellType& type = c.study.model.types[i];
+    if (!type.shells_divide || !may_be_shell(c, i) || !may_divide(c, i)) continue;
+    const double edge =
+        std::sqrt(16.0 * std::numbers::pi / (std::numbers::sqrt3 * (2.0 * type.shell_nodes - 4.0)));  // at rest, over the radius
+    if (edge <= kLongestEdge) continue;
+    c.diagnostics.warning(650, t.nodes.given ? t.nodes.place : place,
+                          "edges of " + std::to_string(type.shell_nodes) + " nodes are " + short_number(std::round(100.0 * edge) / 100.0) +
+                              " of the radius: many cuts of such a shell of '" + name + "' leave no good mesh, and it waits",
+                          "`nodes: 162`, whose edges are 0.3 of it, or `cycle: {shells: wait}`");
   }
 }
 
@@ -87,6 +105,7 @@ void check_jkr_range(BuildContext& c) {
 void check_bodies(BuildContext& c) {
   if (c.diagnostics.has_errors()) return;  // what a wrong study would be like is not worth a warning
   check_division_of_shells(c);
+  check_mesh_of_divisions(c);
   check_axis_of_spheres(c);
   check_jkr_range(c);
 }

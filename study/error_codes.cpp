@@ -202,6 +202,9 @@ constexpr ErrorCode kCodes[] = {
      "tenth, and the areas of their contacts add up to more than their surface."},
     {649, "spheres without a long axis",
      "A rule for the axis of division needs the shape of a shell. Where the cell is a sphere its axis is random."},
+    {650, "mesh too coarse to divide",
+     "The halves of a shell that is cut are mapped onto the mesh of its type. With edges longer than half the radius that mesh has no room "
+     "for the rim of the cut."},
     {655, "column without a unit",
      "Lengths in a CSV file carry their unit in the header, `x [um]`, or the entry of `initial` says it for all of them, `units: um`."},
     {656, "cell types like each other without end",

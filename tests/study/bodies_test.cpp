@@ -63,6 +63,15 @@ TEST(Bodies, ShellsThatDivideAreNotWarnedOf) {
   EXPECT_EQ(test::warnings_of(test::changed("radius: 40 um}", kAsShell, with("cycle: {duration: 18 h}"))), "");
 }
 
+TEST(Bodies, AMeshThatIsTooCoarseToDivideIsToldWithOneThatIsNot) {
+  const std::string divides = test::changed("radius: 40 um}", kAsShell, with("cycle: {duration: 18 h}"));
+  const std::string told = test::warnings_of(test::changed("nodes: 162", "nodes: 42", divides));
+  EXPECT_THAT(told, HasSubstr("[E650]"));
+  EXPECT_THAT(told, HasSubstr("nodes: 162"));
+  const std::string waits = test::changed("radius: 40 um}", kAsShell, with("cycle: {duration: 18 h, shells: wait}"));
+  EXPECT_THAT(test::warnings_of(test::changed("nodes: 162", "nodes: 42", waits)), Not(HasSubstr("E650")));
+}
+
 TEST(Bodies, SpheresHaveNoLongAxis) {
   EXPECT_THAT(test::warnings_of(with("cycle: {duration: 8 h, axis: long}")), HasSubstr("[E649]"));
   EXPECT_THAT(test::warnings_of(test::changed("radius: 40 um}", kAsShell, with("cycle: {duration: 8 h, axis: long}"))),
