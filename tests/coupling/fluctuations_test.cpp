@@ -141,6 +141,17 @@ TEST(Fluctuations, HaveTheCovarianceOfTheFrictionOfANucleusAndLinks) {
 /// A nucleus that links hold at the centre of its cell: its distance from there has the variance k_B T/k along each axis, k the slope of the
 /// force that holds it, by equipartition and whatever rubs; under the implicit step (k_B T/k)/(1 + Δt/(2τ)). Without the noise of the friction
 /// inside the cell, which is all that moves the nucleus, it would stand still.
+/// Most of its friction is that of its volume: without the noise of that the covariance would be a small part.
+TEST(Fluctuations, HaveTheCovarianceOfANuclearShellThatBreathes) {
+  Model model = with_interior(42);
+  model.types[0].interior.nucleus_shell.bulk_viscosity = 20.0;
+  ShapeLibrary shapes;
+  const Tissue tissue = test::make_tissue(model, shapes, {{1, 2, 3}}, {BodyKind::kShell}, 42);
+  std::vector<Vec3d> push(84);
+  for (std::size_t i = 42; i < push.size(); ++i) push[i] = normalized(tissue.nuclei.shells.position[i - 42] - Vec3d{1, 2, 3}) * 0.05;
+  expect_covariance(model, tissue, push, 0.07);
+}
+
 TEST(Fluctuations, HoldTheNucleusAtItsThermalDistanceFromTheCentre) {
   Model model = fluctuating();
   auto& type = model.types[0];
