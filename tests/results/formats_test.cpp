@@ -21,7 +21,7 @@ namespace {
 using testing_support::slurp;
 namespace fs = std::filesystem;
 
-/// Spheres and shells, a dividing type, nuclei of both kinds, a field, an obstacle that moves, a wall, marks and a cavity.
+/// Spheres and shells, a type with phases that divides, nuclei of both kinds, a field, an obstacle that moves, a wall, marks and a cavity.
 const std::string kEverything = R"(schema: 1
 study: everything
 title: Every dataset once
@@ -31,7 +31,7 @@ domain: {size: [120 um, 120 um, 120 um], boundary: {all: open, z_low: wall}}
 cell_types:
   liver:
     radius: 6 um
-    cycle: {model: volume_threshold, duration: 3 min}
+    cycle: {model: phases, duration: 3 min}
   lung:
     radius: 6 um
     dcm: {nodes: 162, nucleus: {kind: rigid, radius: 2 um}}
@@ -234,7 +234,7 @@ for n in sorted(f["snapshots"]):
     read = lambda stem: meshio.read(f"vtk/{stem}_{n}.vtu")
     paths = [v.decode() for v in s["variable_names"][:]]
     titled = {p.split("/")[1] if p.startswith("concentration/") else " of ".join(p.split("/")): p for p in paths}
-    assert len(titled) == 2 * len(s["fields"])
+    assert len(titled) == 2 * len(s["fields"]) + 3  # those of the cycle
     def same(data, rows):
         for name, values in data.items():
             column = name.split(" [")[0]
