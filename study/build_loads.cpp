@@ -55,7 +55,9 @@ void check_mark(BuildContext& c, const draft::OwnSection& own, int type, int mar
 std::vector<std::shared_ptr<const Load>> kinds_of(const BuildContext& c, const draft::Load& d) {
   std::vector<std::shared_ptr<const Load>> out;
   for (const auto& kind : c.options.laws->loads) {
-    const draft::OwnSection& own = d.kinds.at(kind->section.name);
+    const auto found = d.kinds.find(kind->section.name);
+    if (found == d.kinds.end()) continue;  // the load is no map, which is told already
+    const draft::OwnSection& own = found->second;
     if (kind->bare ? !given_keys(kind->keys, own).empty() : own.present) out.push_back(kind);
   }
   return out;

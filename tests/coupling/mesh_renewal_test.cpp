@@ -5,6 +5,7 @@
 #include "coupling/cell_variables.h"
 #include "coupling/new_mesh.h"
 #include "coupling/simulation.h"
+#include "tests/coupling/crowded_nodes.h"
 #include "tests/coupling/tissue_fixture.h"
 
 namespace morula {
@@ -19,16 +20,6 @@ Model fluid_model(double below) {
   model.step.initial_step = 1e-3;  // mechanics does nothing that matters
   model.step.max_step = 1e-3;
   return model;
-}
-
-/// The nodes slide along the sphere from the poles towards the equator.
-void crowd(std::span<Vec3d> nodes, double how_much) {
-  const Vec3d center = mean_of(std::span<const Vec3d>(nodes));
-  for (Vec3d& x : nodes) {
-    const Vec3d d = x - center;
-    const double r = norm(d), angle = std::acos(d.z / r), to = angle + how_much * std::sin(2.0 * angle), flat = std::hypot(d.x, d.y);
-    if (flat > 1e-9 * r) x = center + Vec3d{d.x / flat * std::sin(to), d.y / flat * std::sin(to), std::cos(to)} * r;
-  }
 }
 
 class MeshRenewalTest : public ::testing::Test {
@@ -60,14 +51,15 @@ class MeshRenewalTest : public ::testing::Test {
 TEST_F(MeshRenewalTest, SpreadsCrowdedNodesOnTheSameSurface) {
   double before = 0.0, volume = 0.0;
   const auto simulation = after_a_look(fluid_model(0.4), [&](Tissue& tissue) {
-    crowd(tissue.shells.nodes(0), 0.42);
+    test::crowd(tissue.shells.nodes(0), 0.42);
     before = quality(tissue, 0);
     volume = enclosed_volume(tissue.shells.topology(0).faces(), tissue.shells.nodes(0), {});
   });
   const Tissue& tissue = simulation->tissue();
   EXPECT_LT(before, 0.4);
   EXPECT_GT(quality(tissue, 0), 0.6);
-  EXPECT_NEAR(enclosed_volume(tissue.shells.topology(0).faces(), tissue.shells.nodes(0), {}) / volume, 1.0, 1e-4) << "but for the step";
+  EXPECT_NEAR(enclosed_volume(tissue.shells.topology(0).faces(), tissue.shells.nodes(0), {}) / volume, 1.0, 1e-3)
+      << "but for the step, in which pressure acts";
   EXPECT_EQ(told(*simulation, 0, MeshRenewal::kDone), 1.0);
   EXPECT_EQ(told(*simulation, 0, MeshRenewal::kRefused), 0.0);
   EXPECT_LT(told(*simulation, 0, MeshRenewal::kDistance), 0.25);
@@ -78,7 +70,7 @@ TEST_F(MeshRenewalTest, SpreadsCrowdedNodesOnTheSameSurface) {
 TEST_F(MeshRenewalTest, IsLeftAloneWhereTheTypeDoesNotAskForIt) {
   double before = 0.0;
   const auto simulation = after_a_look(fluid_model(0.0), [&](Tissue& tissue) {
-    crowd(tissue.shells.nodes(0), 0.42);
+    test::crowd(tissue.shells.nodes(0), 0.42);
     before = quality(tissue, 0);
   });
   EXPECT_NEAR(quality(simulation->tissue(), 0), before, 0.05);
@@ -111,7 +103,7 @@ TEST_F(MeshRenewalTest, CarriesMarksContactAndNucleus) {
     return sum;
   };
   const auto simulation = after_a_look(model, [&](Tissue& tissue) {
-    crowd(tissue.shells.nodes(0), 0.42);
+    test::crowd(tissue.shells.nodes(0), 0.42);
     const auto faces = tissue.shells.topology(0).faces();
     dcm::FaceState& state = tissue.shells.faces_of(0);
     state.mark.assign(faces.size(), 0);
@@ -134,7 +126,7 @@ TEST_F(MeshRenewalTest, CarriesTheMetricOfAStretchedSurface) {
   Model model = fluid_model(0.4);
   model.types[0].shell.spring_stiffness = 0.173;
   const auto simulation = after_a_look(model, [&](Tissue& tissue) {
-    crowd(tissue.shells.nodes(0), 0.42);
+    test::crowd(tissue.shells.nodes(0), 0.42);
     const auto x = tissue.shells.nodes(0);
     const auto edges = tissue.shells.topology(0).edges();
     for (std::size_t e = 0; e < edges.size(); ++e) tissue.shells.rest_length[e] = norm(x[edges[e].j] - x[edges[e].i]) / 1.1;

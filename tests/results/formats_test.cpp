@@ -21,7 +21,7 @@ namespace {
 using testing_support::slurp;
 namespace fs = std::filesystem;
 
-/// Spheres and shells, a type with phases that divides, nuclei of both kinds, a field, an obstacle that moves, a wall, marks and a cavity.
+/// Spheres and shells, a type with phases that divides, one that renews its meshes, nuclei of both kinds, a field, an obstacle that moves, a wall, marks and a cavity.
 const std::string kEverything = R"(schema: 1
 study: everything
 title: Every dataset once
@@ -34,7 +34,7 @@ cell_types:
     cycle: {model: phases, duration: 3 min}
   lung:
     radius: 6 um
-    dcm: {nodes: 162, nucleus: {kind: rigid, radius: 2 um}}
+    dcm: {nodes: 162, renew_mesh_below: 0.4, nucleus: {kind: rigid, radius: 2 um}}
   skin:
     radius: 6 um
     dcm: {nodes: 162, nucleus: {kind: shell, radius: 3 um}}
@@ -234,7 +234,7 @@ for n in sorted(f["snapshots"]):
     read = lambda stem: meshio.read(f"vtk/{stem}_{n}.vtu")
     paths = [v.decode() for v in s["variable_names"][:]]
     titled = {p.split("/")[1] if p.startswith("concentration/") else " of ".join(p.split("/")): p for p in paths}
-    assert len(titled) == 2 * len(s["fields"]) + 3  # those of the cycle
+    assert len(titled) == 2 * len(s["fields"]) + 3 + 5  # those of the cycle and of renewed meshes
     def same(data, rows):
         for name, values in data.items():
             column = name.split(" [")[0]
