@@ -21,8 +21,9 @@ std::vector<CyclePhase> usual_phases() {
 /// A key that belongs to another word: E515; one that a word needs: E516.
 template <class T>
 void check_key(BuildContext& c, const Given<T>& key, const char* name, bool needed, const Given<std::string>& word, const char* belongs) {
+  if (!word.known()) return;
   if (key.given && !needed) c.diagnostics.error(515, key.place, "'" + std::string(name) + "' has no effect here", belongs);
-  if (!key.known() && needed && word.known())
+  if (!key.given && !key.known() && needed)
     c.diagnostics.error(516, word.place, "`" + word.value + "` needs `" + name + "`", std::string("`") + name + "` is not given");
 }
 
