@@ -1,7 +1,6 @@
 // What a body cannot do yet, or can do only outside the range of its law.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "cbm/sphere_range.h"
 #include "study/build.h"
@@ -39,8 +38,7 @@ void check_mesh_of_divisions(BuildContext& c) {
     const auto& [name, place, t] = c.draft.cell_types[i];
     const CellType& type = c.study.model.types[i];
     if (!type.shells_divide || !may_be_shell(c, i) || !may_divide(c, i)) continue;
-    const double edge =
-        std::sqrt(16.0 * std::numbers::pi / (std::numbers::sqrt3 * (2.0 * type.shell_nodes - 4.0)));  // at rest, over the radius
+    const double edge = mean_edge(type.shell_nodes);  // over the radius
     if (edge <= kLongestEdge) continue;
     c.diagnostics.warning(650, t.nodes.given ? t.nodes.place : place,
                           "edges of " + std::to_string(type.shell_nodes) + " nodes are " + short_number(std::round(100.0 * edge) / 100.0) +

@@ -16,13 +16,7 @@ constexpr double kRounding = 1e-9;
 
 /// Grow for dt [s] of free growth, at most to the division volume.
 void grow_for(CellRow& row, const CellType& type, double dt) {
-  const CellCycle& cycle = type.cycle;
-  if (!(dt > 0.0) || !cycle.growth->grows || row.target_volume >= row.division_volume) return;
-  const GrowthPace pace = growth_pace(row, type);
-  const double needed = cycle.growth->time_to(pace, cycle.growth_values, row.target_volume, row.division_volume);
-  row.target_volume = needed > dt * (1.0 + kRounding) + kRounding * row.cycle_duration
-                          ? cycle.growth->after(pace, cycle.growth_values, row.target_volume, dt)
-                          : row.division_volume;
+  if (dt > 0.0 && type.cycle.growth->grows && row.target_volume < row.division_volume) grow(row, type, dt);
 }
 
 /// Time that growth at this rate takes to the division volume [s].
