@@ -7,10 +7,17 @@
 #include <map>
 
 #include "results/build_info.h"
+#include "scenarios/verify/suites.h"
 #include "study/diagnostics.h"
 
 namespace morula::app {
 namespace {
+
+std::vector<std::string> suite_names() {
+  std::vector<std::string> out;
+  for (const scenarios::VerifySuite& suite : scenarios::verify_suites()) out.emplace_back(suite.name);
+  return out;
+}
 
 /// The parser of one verb writes here; `chosen` is the verb that was given.
 struct Parsed {
@@ -105,9 +112,9 @@ void add_looking_verbs(CLI::App& program, Parsed& p) {
       ->type_name("laws|study|measures");
 
   verb = add_verb(program, "verify", "Compare the laws with theory and published numbers (exit code 5 when one is outside its tolerance)",
-                  "morula verify physics", "morula verify physics --studies --json");
-  verb->add_option("SUITE", p.verify.suite, "Which numbers (default: physics)")->check(CLI::IsMember({"physics"}))->type_name("physics");
-  verb->add_flag("--list", p.verify.list, "List the suites");
+                  "morula verify life", "morula verify physics --studies --json");
+  verb->add_option("SUITE", p.verify.suite, "Which numbers (default: physics)")->check(CLI::IsMember(suite_names()))->type_name("NAME");
+  verb->add_flag("--list", p.verify.list, "List the suites, or the references of one, and find nothing");
   verb->add_flag("--json", p.verify.json, "Print JSON: {suite, rows: [{id, quantity, reference, value, tolerance, passed, source}]}");
   verb->add_flag("--studies", p.verify.studies, "Also run the single-cell experiments of the library (about half a minute)");
 

@@ -80,7 +80,7 @@ struct ExportOptions {
 };
 
 struct VerifyOptions {
-  std::string suite;  ///< `physics`
+  std::string suite;  ///< a name of verify_suites(); empty: the first, or all to list
   bool list = false;
   bool json = false;
   bool studies = false;  ///< also run the library's quick experiments

@@ -16,7 +16,7 @@ namespace {
 
 using scenarios::VerifiedRow;
 
-std::string json_of(const std::vector<VerifiedRow>& rows) {
+std::string json_of(const scenarios::VerifySuite& suite, const std::vector<VerifiedRow>& rows) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const VerifiedRow& row : rows) {
     nlohmann::ordered_json one{{"id", row.id}, {"quantity", row.quantity}};
@@ -27,7 +27,7 @@ std::string json_of(const std::vector<VerifiedRow>& rows) {
     one["source"] = row.source;
     list.push_back(std::move(one));
   }
-  return nlohmann::ordered_json{{"suite", "physics"}, {"rows", list}}.dump(2) + "\n";
+  return nlohmann::ordered_json{{"suite", suite.name}, {"rows", list}}.dump(2) + "\n";
 }
 
 std::string table_of(const std::vector<VerifiedRow>& rows) {
@@ -36,6 +36,13 @@ std::string table_of(const std::vector<VerifiedRow>& rows) {
     table.push_back({row.id, row.quantity, row.reference ? number_text("%.7g", *row.reference) : "", number_text("%.7g", row.value),
                      row.reference ? number_text("%.2g", row.value - *row.reference) : "", row.tolerance, row.passed ? "ok" : "FAILED",
                      row.source});
+  return table_text(table);
+}
+
+std::string table_of_references(const std::vector<VerifiedRow>& rows) {
+  std::vector<std::vector<std::string>> table{{"id", "quantity", "reference", "tolerance", "source"}};
+  for (const VerifiedRow& row : rows)
+    table.push_back({row.id, row.quantity, number_text("%.7g", *row.reference), row.tolerance, row.source});
   return table_text(table);
 }
 
@@ -58,11 +65,21 @@ class Scratch {
 }  // namespace
 
 Status verify(const VerifyOptions& options, const Context& context) {
-  if (options.list) {
-    context.console.result("physics  reference numbers of the laws; with --studies the single-cell experiments of the library\n");
+  if (options.list && options.suite.empty()) {
+    std::vector<std::vector<std::string>> table;
+    for (const scenarios::VerifySuite& suite : scenarios::verify_suites())
+      table.push_back({std::string(suite.name), std::string(suite.what)});
+    context.console.result(table_text(table));
     return {};
   }
-  std::vector<VerifiedRow> rows = scenarios::verify_physics();
+  const scenarios::VerifySuite& suite = options.suite.empty() ? scenarios::verify_suites().front() : *scenarios::find_suite(options.suite);
+  if (options.list) {
+    context.console.result(options.json ? json_of(suite, scenarios::rows_of(suite)) : table_of_references(scenarios::rows_of(suite)));
+    return {};
+  }
+  if (options.studies && suite.name != "physics")
+    return Error{ErrorKind::kInput, "--studies belongs to the suite `physics`", "`morula verify physics --studies`"};
+  std::vector<VerifiedRow> rows = scenarios::verify(suite);
   if (options.studies) {
     const Scratch scratch;
     MORULA_TRY_ASSIGN(const auto more, scenarios::verify_single_cell_studies(
@@ -70,7 +87,7 @@ Status verify(const VerifyOptions& options, const Context& context) {
     rows.insert(rows.end(), more.begin(), more.end());
   }
   const auto failed = static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [](const VerifiedRow& r) { return !r.passed; }));
-  context.console.result(options.json ? json_of(rows) : table_of(rows));
+  context.console.result(options.json ? json_of(suite, rows) : table_of(rows));
   if (failed == 0) {
     context.console.note("all " + count_words(rows.size(), "row", "rows") + " within tolerance");
     return {};

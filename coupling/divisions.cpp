@@ -101,6 +101,13 @@ void note_volumes(const CellRow& mother, const Daughters& daughters, std::vector
   }
 }
 
+/// Tells by how much the divisions of these shells raised the energy.
+void note_energy_rise(std::span<const CellRecord> mothers, double rise, std::vector<Event>& events) {
+  for (Event& event : events)
+    if (event.kind == EventKind::kDivision && std::ranges::any_of(mothers, [&](const CellRecord& m) { return m.row.id == event.cell; }))
+      event.energy_rise = rise;
+}
+
 }  // namespace
 
 void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& events) {
@@ -109,8 +116,9 @@ void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& e
   const bool cuts = comm_.any(std::ranges::any_of(mothers, [](const Mother& mother) { return mother.body.is_shell; }));
   std::vector<Daughters> daughters(mothers.size());
   std::vector<std::shared_ptr<const ReferenceShape>> shape;  // of the daughters, by type
+  double energy = 0.0;                                       // before the cuts
   if (cuts) {
-    mechanics_->update_scene(tissue_);
+    energy = mechanics_->energy(tissue_);
     for (const CellType& type : model_.types) shape.push_back(shapes_.icosphere(type.shell_nodes).value());
   }
   parallel_for(threads_, mothers.size(), [&](std::size_t k) {
@@ -150,7 +158,9 @@ void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& e
     mechanics_->bodies_changed();
   }
   if (cuts) {
-    divisions -= undo_deep_cuts(cut, events);
+    const CutsKept kept = undo_deep_cuts(cut, events);
+    divisions -= kept.undone;
+    note_energy_rise(cut, kept.energy - energy, events);
     tissue_.clock.next_step = std::min(tissue_.clock.next_step, kStepAfterCut);
   }
   for (const Event& event : life.events) deaths += event.kind == EventKind::kDeath;
@@ -158,12 +168,12 @@ void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& e
   tissue_.ledger.deaths += static_cast<std::uint64_t>(comm_.sum(deaths));
 }
 
-std::int64_t Simulation::undo_deep_cuts(std::span<const CellRecord> mothers, std::vector<Event>& events) {
+Simulation::CutsKept Simulation::undo_deep_cuts(std::span<const CellRecord> mothers, std::vector<Event>& events) {
   std::vector<CellId> daughters;
   for (const CellRecord& mother : mothers)
     for (const int which : {0, 1}) daughters.push_back(mother.row.id.daughter(which));
   std::ranges::sort(daughters);
-  mechanics_->update_scene(tissue_);
+  CutsKept out{.energy = mechanics_->energy(tissue_)};
   const std::vector<CellId> deep = too_deep(*mechanics_, daughters, kMostOfLimit * model_.limits.overlap);
   mechanics_->bodies_changed();  // what it knows is with partners that have not their new names yet
   std::vector<CellRecord> back;
@@ -174,11 +184,13 @@ std::int64_t Simulation::undo_deep_cuts(std::span<const CellRecord> mothers, std
     undone.insert(undone.end(), {pair[0], pair[1]});
     put_off(back.emplace_back(mother).row, events);
   }
-  if (back.empty()) return 0;
+  if (!comm_.any(!back.empty())) return out;
   std::ranges::sort(undone);
-  const auto count = static_cast<std::int64_t>(back.size());
+  out.undone = static_cast<std::int64_t>(back.size());
   replace_cells(tissue_, rows_of(tissue_.cells, undone), std::move(back));
-  return count;
+  out.energy = mechanics_->energy(tissue_);
+  mechanics_->bodies_changed();
+  return out;
 }
 
 void Simulation::rename_partners(const std::vector<Event>& events) {

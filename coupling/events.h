@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "core/cell_id.h"
@@ -52,6 +53,8 @@ struct Event {
   EventReason reason;
   double volume = 0.0;                  ///< of a division: the mother's target volume [µm³]
   double birth_volume[2] = {0.0, 0.0};  ///< and those of her daughters at birth [µm³]
+  /// Of a division by cut: how much the energy of the whole rose by the divisions of the same moment [nN·µm].
+  std::optional<double> energy_rise{};
 };
 
 /// The reason, for people: "region core", "shrunk below the volume at which a dead cell is removed"; nothing for no cause.

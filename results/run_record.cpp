@@ -242,6 +242,7 @@ std::string to_json_line(const ToldEvent& told) {
     json["volume_um3"] = number(event.volume);
     json["birth_volumes_um3"] = {number(event.birth_volume[0]), number(event.birth_volume[1])};
   }
+  if (event.energy_rise) json["energy_rise_nN_um"] = number(*event.energy_rise);
   json["text"] = told.text;
   return text_of(json, -1);
 }
@@ -261,6 +262,7 @@ std::optional<EventLine> event_of_line(const std::string& line) {
   if (const auto volumes = json.find("birth_volumes_um3"); volumes != json.end())
     for (const Json& volume : *volumes)
       if (volume.is_number()) out.birth_volumes.push_back(volume.get<double>());
+  if (const auto rise = json.find("energy_rise_nN_um"); rise != json.end() && rise->is_number()) out.energy_rise = rise->get<double>();
   return out;
 }
 

@@ -89,6 +89,7 @@ struct EventLine {
   std::string text;
   double volume = 0.0;                ///< of a division: the mother's target volume; 0: not told [µm³]
   std::vector<double> birth_volumes;  ///< of her daughters [µm³]
+  std::optional<double> energy_rise;  ///< of the divisions by cut of its moment, together [nN·µm]
 };
 /// Nothing for a line that is not whole.
 [[nodiscard]] std::optional<EventLine> event_of_line(const std::string& line);

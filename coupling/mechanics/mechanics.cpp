@@ -71,6 +71,11 @@ std::vector<std::pair<CellId, CellId>> Mechanics::touching(const Tissue& tissue,
 
 void Mechanics::update_scene(const Tissue& tissue) { (void)prepare(*work_, tissue); }
 
+double Mechanics::energy(const Tissue& tissue) {
+  parameters_changed();
+  return prepare(*work_, tissue).energy;
+}
+
 std::size_t Mechanics::external_size(const Tissue& tissue) {
   const auto rigid_nuclei = std::ranges::count_if(tissue.shells.nucleus, [](const auto& center) { return center.has_value(); });
   return tissue.shells.node_count() + tissue.spheres.size() + static_cast<std::size_t>(rigid_nuclei) + tissue.nuclei.shells.node_count();

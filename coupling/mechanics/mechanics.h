@@ -58,6 +58,9 @@ class Mechanics {
   /// Lets scene() be that of the tissue's present positions. Collective.
   void update_scene(const Tissue& tissue);
 
+  /// Energy of all terms at the tissue's positions, of all ranks [nN·µm]; scene() is that of them then. Collective.
+  double energy(const Tissue& tissue);
+
   /// Which part of every owned face (in the order of the shells) is in contact with cells or obstacles of the materials with
   /// with_material[material] != 0, at the tissue's positions; 0 to 1, with the taper of contact friction at the rim. Collective.
   std::vector<float> contact_of_faces(const Tissue& tissue, std::span<const char> with_material);

@@ -15,7 +15,7 @@ struct ReferenceNumber {
   std::function<double()> compute;  ///< takes milliseconds, seconds where statistics are needed
 };
 
-/// The reference numbers of the laws of shells and spheres: `morula verify physics` prints them, and a test holds them.
+/// The reference numbers of the laws of shells and spheres: `morula verify physics` prints them, and a test holds those of all suites (suites.h).
 /// A number belongs here when it is not ours; to add one, add a line.
 std::vector<ReferenceNumber> physics_numbers();
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "results/file_io.h"
 #include "scenarios/measures/single_cell.h"
 #include "scenarios/run/driver.h"
 #include "study/study.h"
@@ -26,7 +27,10 @@ FoundInRun run_text(const std::string& name, const std::string& text) {
     if (const auto done = run(*study, request, Comm()); done.ok()) {
       auto moments = all_snapshots(done->path);
       auto series = read_series(done->path / "series.csv");
-      if (moments.ok() && series.ok()) out = {std::move(*moments), std::move(*series)};
+      auto events = read_file(done->path / "events.jsonl");
+      auto lives = read_lineage(done->path / "results.h5", done->path / "events.jsonl");
+      if (moments.ok() && series.ok() && events.ok() && lives.ok())
+        out = {std::move(*moments), std::move(*series), events_of_lines(*events), std::move(*lives)};
     }
     fs::remove_all(folder, ignored);
   }

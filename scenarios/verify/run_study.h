@@ -2,6 +2,8 @@
 #include <memory>
 #include <string>
 
+#include "results/lineage.h"
+#include "results/run_record.h"
 #include "results/series_reader.h"
 #include "results/snapshot.h"
 
@@ -11,6 +13,8 @@ namespace morula::scenarios {
 struct FoundInRun {
   std::vector<Snapshot> moments;
   SeriesTable series;
+  std::vector<EventLine> events;
+  std::vector<CellLife> lives;
 
   /// The snapshot of a time [s]; null where there is none.
   [[nodiscard]] const Snapshot* at(double time) const;

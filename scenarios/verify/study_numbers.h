@@ -13,4 +13,11 @@ void add_contact_study_numbers(std::vector<ReferenceNumber>& out);
 /// And about fields: a slab, balls that consume.
 void add_field_study_numbers(std::vector<ReferenceNumber>& out);
 
+/// Of the suite `life`: populations that grow by their cycles and laws of growth,
+void add_cycle_study_numbers(std::vector<ReferenceNumber>& out);
+/// what holds cells back,
+void add_arrest_study_numbers(std::vector<ReferenceNumber>& out);
+/// and shells that divide.
+void add_division_study_numbers(std::vector<ReferenceNumber>& out);
+
 }  // namespace morula::scenarios

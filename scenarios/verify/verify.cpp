@@ -6,7 +6,6 @@
 #include "results/file_io.h"
 #include "scenarios/library/library.h"
 #include "scenarios/run/driver.h"
-#include "scenarios/verify/reference_numbers.h"
 
 namespace morula::scenarios {
 namespace fs = std::filesystem;
@@ -24,13 +23,19 @@ std::string told_tolerance(double tolerance) {
 
 }  // namespace
 
-std::vector<VerifiedRow> verify_physics() {
+std::vector<VerifiedRow> rows_of(const VerifySuite& suite) {
   std::vector<VerifiedRow> out;
-  for (const ReferenceNumber& number : physics_numbers()) {
-    const double value = number.compute();
-    const std::string tolerance = told_tolerance(number.tolerance);
-    out.push_back({number.id, number.quantity, number.reference, value, tolerance,
-                   std::abs(value - number.reference) <= std::stod(tolerance), number.source});
+  for (const ReferenceNumber& number : suite.numbers())
+    out.push_back({number.id, number.quantity, number.reference, std::nan(""), told_tolerance(number.tolerance), false, number.source});
+  return out;
+}
+
+std::vector<VerifiedRow> verify(const VerifySuite& suite) {
+  std::vector<VerifiedRow> out = rows_of(suite);
+  const std::vector<ReferenceNumber> numbers = suite.numbers();
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i].value = numbers[i].compute();
+    out[i].passed = std::abs(out[i].value - numbers[i].reference) <= std::stod(out[i].tolerance);
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "scenarios/verify/suites.h"
 
 namespace morula::scenarios {
 
@@ -19,8 +20,10 @@ struct VerifiedRow {
   std::string source;
 };
 
-/// The reference numbers of physics/ (reference_numbers.h).
-std::vector<VerifiedRow> verify_physics();
+/// The numbers of a suite that are to be found, without ours.
+std::vector<VerifiedRow> rows_of(const VerifySuite& suite);
+/// The numbers of a suite, each found and compared.
+std::vector<VerifiedRow> verify(const VerifySuite& suite);
 
 /// The single-cell experiments of the library in their quick version, run below `folder`, one row for each of their criteria; `tell` is
 /// called with the name of each study before it runs. Takes about half a minute.

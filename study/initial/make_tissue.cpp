@@ -1,5 +1,6 @@
 #include "study/initial/make_tissue.h"
 
+#include "coupling/cell_variables.h"
 #include "study/initial/place_cells.h"
 
 namespace morula::scenarios {
@@ -19,6 +20,7 @@ Result<InitialTissue> make_tissue(const Study& study, ShapeLibrary& shapes, cons
     MORULA_TRY_ASSIGN(CellRecord record, with_body(all[i], study.model, shapes));
     mine.push_back(std::move(record));
   }
+  out.tissue.cells.declare(cell_variables(study.model));  // founders have their place in the phases of the cycle
   put_together(out.tissue, std::move(mine));
   out.tissue.clock.next_step = study.model.step.initial_step;
   out.tissue.clock.capped = study.model.step.start_cap > 0.0;
