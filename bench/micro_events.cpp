@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/space/curve.h"
+#include "coupling/before_step.h"
 #include "coupling/cell_record.h"
 
 namespace {
@@ -45,5 +46,15 @@ void event_among_spheres(benchmark::State& state) { one_event(state, false); }
 void event_among_shells(benchmark::State& state) { one_event(state, true); }
 BENCHMARK(event_among_spheres)->Arg(1000)->Arg(100000)->Unit(benchmark::kMillisecond);
 BENCHMARK(event_among_shells)->Arg(1000)->Unit(benchmark::kMillisecond);
+
+/// What each step keeps in case that it is refused.
+void keep_before_step(benchmark::State& state) {
+  ShapeLibrary shapes;
+  const Tissue tissue = lattice(state.range(0), false, shapes);
+  BeforeStep before;
+  for (auto _ : state) before.keep(tissue);
+  state.counters["bytes_per_cell"] = static_cast<double>(before.memory()) / static_cast<double>(tissue.cells.size());
+}
+BENCHMARK(keep_before_step)->Arg(100000)->Unit(benchmark::kMillisecond);
 
 }  // namespace

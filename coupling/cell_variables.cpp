@@ -25,7 +25,7 @@ std::vector<CellVariable> cell_variables(const Model& model) {
   }
   if (has_phases(model))
     for (const auto& [name, unit] : {std::pair(kPhaseVariable, "1"), {"cycle/left", "s"}, {"cycle/held", "s"}})
-      out.push_back({name, unit, AtDivision::kSet});
+      out.push_back({name, unit, AtDivision::kSet, true});
   if (std::ranges::any_of(model.types, [](const CellType& type) { return type.renew_mesh_below > 0.0; }))
     for (const auto& [name, unit] : {std::pair("done", "1"), {"refused", "1"}, {"next_try", "s"}, {"area_change", "1"}, {"distance", "1"}})
       out.push_back({std::string("mesh_renewal/") + name, unit, AtDivision::kUsual});
@@ -33,7 +33,7 @@ std::vector<CellVariable> cell_variables(const Model& model) {
     for (const CellBehaviour& behaviour : type.behaviours)
       for (const BehaviourVariable& variable : behaviour.what->variables) {
         const CellVariable one{behaviour.what->info.name + "/" + variable.name, variable.unit,
-                               variable.shared ? AtDivision::kShared : AtDivision::kCopied};
+                               variable.shared ? AtDivision::kShared : AtDivision::kCopied, true};
         if (std::ranges::find(out, one) == out.end()) out.push_back(one);
       }
   return out;

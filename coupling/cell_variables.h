@@ -22,6 +22,7 @@ struct CellVariable {
   std::string name;  ///< "amount/oxygen": its path below the tables of cells
   std::string unit;  ///< "1" for a number
   AtDivision at_division = AtDivision::kCopied;
+  bool grows = false;  ///< changed before the mechanics of a step: a refused step takes it back
 
   bool operator==(const CellVariable&) const = default;
 };

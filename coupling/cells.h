@@ -69,6 +69,7 @@ struct CellColumn {
   const char* name;
   const char* unit;
   AtDivision at_division;
+  bool grows = false;  ///< changed before the mechanics of a step: a refused step takes it back
 };
 
 /// visit(column, member of CellState) for everything that a row and its optional values hold beside the variables, in the order of the state hash: checkpoint, reading back, hash and
@@ -81,20 +82,20 @@ void for_each_cell_column(Visit&& visit) {
   visit(CellColumn{"order", "1", kCopied}, &CellState::order);
   visit(CellColumn{"birth_time", "s", kSet}, &CellState::birth_time);
   visit(CellColumn{"birth_volume", "um^3", kSet}, &CellState::birth_volume);
-  visit(CellColumn{"target_volume", "um^3", kSet}, &CellState::target_volume);
+  visit(CellColumn{"target_volume", "um^3", kSet, true}, &CellState::target_volume);
   visit(CellColumn{"division_volume", "um^3", kSet}, &CellState::division_volume);
   visit(CellColumn{"cycle_duration", "s", kSet}, &CellState::cycle_duration);
   visit(CellColumn{"pressure", "kPa", kCopied}, &CellState::pressure);
-  visit(CellColumn{"death_time", "s", kUsual}, &CellState::death_time);
+  visit(CellColumn{"death_time", "s", kUsual, true}, &CellState::death_time);
   visit(CellColumn{"last_swap_time", "s", kCopied}, &CellState::last_swap_time);
-  visit(CellColumn{"reference_excess", "1", kCopied}, &CellState::reference_excess);
-  visit(CellColumn{"inflation_left", "um^3", kUsual}, &CellState::inflation_left);
+  visit(CellColumn{"reference_excess", "1", kCopied, true}, &CellState::reference_excess);
+  visit(CellColumn{"inflation_left", "um^3", kUsual, true}, &CellState::inflation_left);
   visit(CellColumn{"inflation_rate", "um^3/s", kUsual}, &CellState::inflation_rate);
-  visit(CellColumn{"polarity", "1", kCopied}, &CellState::polarity);
-  visit(CellColumn{"migration_velocity", "um/s", kCopied}, &CellState::migration_velocity);
-  visit(CellColumn{"draws", "1", kSet}, &CellState::draws);
+  visit(CellColumn{"polarity", "1", kCopied, true}, &CellState::polarity);
+  visit(CellColumn{"migration_velocity", "um/s", kCopied, true}, &CellState::migration_velocity);
+  visit(CellColumn{"draws", "1", kSet, true}, &CellState::draws);
   visit(CellColumn{"type", "1", kCopied}, &CellState::type);
-  visit(CellColumn{"phase", "1", kSet}, &CellState::phase);
+  visit(CellColumn{"phase", "1", kSet, true}, &CellState::phase);
   visit(CellColumn{"body", "1", kCopied}, &CellState::body);
   visit(CellColumn{"own_body", "1", kCopied}, &CellState::own_body);
 }
@@ -110,20 +111,25 @@ struct OptionalColumns {
   OptionalColumn<double> reference_excess, inflation_left, inflation_rate;
   OptionalColumn<Vec3d> polarity, migration_velocity;
 
-  /// function(column) for all columns, or function(column, the same of `values`).
+  /// function(column) for all columns, or function(column, its value of `values`).
   template <class Self, class F>
   static void for_each(Self& self, F&& function) {
     for_each(self, OptionalValues{}, [&](auto& column, const auto&) { function(column); });
   }
   template <class Self, class Values, class F>
   static void for_each(Self& self, Values&& values, F&& function) {
-    function(self.death_time, values.death_time);
-    function(self.last_swap_time, values.last_swap_time);
-    function(self.reference_excess, values.reference_excess);
-    function(self.inflation_left, values.inflation_left);
-    function(self.inflation_rate, values.inflation_rate);
-    function(self.polarity, values.polarity);
-    function(self.migration_velocity, values.migration_velocity);
+    for_each_member([&](auto column, auto value) { function(self.*column, values.*value); });
+  }
+  /// function(member of OptionalColumns, member of OptionalValues) for all columns.
+  template <class F>
+  static void for_each_member(F&& function) {
+    function(&OptionalColumns::death_time, &OptionalValues::death_time);
+    function(&OptionalColumns::last_swap_time, &OptionalValues::last_swap_time);
+    function(&OptionalColumns::reference_excess, &OptionalValues::reference_excess);
+    function(&OptionalColumns::inflation_left, &OptionalValues::inflation_left);
+    function(&OptionalColumns::inflation_rate, &OptionalValues::inflation_rate);
+    function(&OptionalColumns::polarity, &OptionalValues::polarity);
+    function(&OptionalColumns::migration_velocity, &OptionalValues::migration_velocity);
   }
 };
 
@@ -181,7 +187,7 @@ struct Cells {
       const auto copy = [&](auto& column, const auto& other) {
         if (!other.empty()) column.set(rows.size() - 1, other[i], rows.capacity());
       };
-      OptionalColumns::for_each(optional, from.optional, copy);
+      OptionalColumns::for_each_member([&](auto column, auto) { copy(optional.*column, from.optional.*column); });
       for (std::size_t v = 0; v < variables.size(); ++v) copy(variables[v].values, from.variables[v].values);
     }
   }

@@ -24,38 +24,6 @@ double fit_step(double wanted, double time, double land_on) {
   return left < 1.5 * wanted ? 0.5 * left : wanted;
 }
 
-/// What growth may change before a step, so that it can be taken back: rows, and the columns of bodies that say so.
-class Growing {
- public:
-  explicit Growing(const Tissue& t) : cells_(t.cells) {
-    copy_shells(shells_, t.shells);
-    copy_shells(nuclei_, t.nuclei.shells);
-    copy_spheres(spheres_, t.spheres);
-  }
-  void restore(Tissue& t) const {
-    t.cells = cells_;
-    copy_shells(t.shells, shells_);
-    copy_shells(t.nuclei.shells, nuclei_);
-    copy_spheres(t.spheres, spheres_);
-  }
-
- private:
-  static void copy_shells(dcm::Shells& to, const dcm::Shells& from) {
-    dcm::for_each_shell_column([&](const auto& column) {
-      if (column.rules.grows) column.copy(to, from);
-    });
-  }
-  static void copy_spheres(cbm::Spheres& to, const cbm::Spheres& from) {
-    cbm::for_each_sphere_column([&](const auto& column) {
-      if (column.rules.grows) column.copy(to, from);
-    });
-  }
-
-  Cells cells_;
-  dcm::Shells shells_, nuclei_;  ///< only the columns that grow
-  cbm::Spheres spheres_;
-};
-
 /// Why no step size works: cell, law and time.
 Error refused(const Model& model, const Clock& clock, const StepFault& fault, double dt) {
   char when[64];
@@ -96,7 +64,7 @@ Result<StepOutcome> Simulation::step(double land_on, const std::function<bool()>
 Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<bool()>& give_up) {
   StepOutcome outcome;
   Clock& clock = tissue_.clock;
-  const Growing before(tissue_);
+  before_step_.keep(tissue_);
   land_on = std::min(land_on, next_corner(model_, clock.time));  // of what is prescribed over time
   double dt = fit_step(std::min(clock.next_step, model_.step.max_step), clock.time, land_on);
   const bool wanted_less = dt < clock.next_step;
@@ -117,7 +85,7 @@ Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<b
       outcome.mechanics = *moved;
       break;
     }
-    before.restore(tissue_);
+    before_step_.restore(tissue_);
     mechanics_->parameters_changed();
     if (!moved.error().smaller_step_may_help || dt * 0.25 < kSmallestStep) return refused(model_, clock, moved.error(), dt);
     dt *= outcome.retries < 2 ? 0.5 : 0.25;

@@ -6,6 +6,7 @@
 
 #include "core/parallel/partition.h"
 #include "coupling/balance.h"
+#include "coupling/before_step.h"
 #include "coupling/events.h"
 #include "coupling/mechanics/mechanics.h"
 #include "coupling/model.h"
@@ -95,6 +96,7 @@ class Simulation {
   Partition partition_;
   std::unique_ptr<Mechanics> mechanics_;
   fields::FieldSolver field_solver_;
+  BeforeStep before_step_;
 };
 
 }  // namespace morula

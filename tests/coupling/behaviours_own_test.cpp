@@ -87,7 +87,7 @@ TEST(Behaviours, RememberAndSeeOnlyTheirOwnCell) {
                      {{.name = "never"}, {.name = "sum", .unit = "s", .shared = true}}),
                 3000);  // many: several threads
   ASSERT_EQ(counts.cells.variables.size(), 2u);
-  EXPECT_EQ(counts.cells.variables[1].what, (CellVariable{"that/sum", "s", AtDivision::kShared}));
+  EXPECT_EQ(counts.cells.variables[1].what, (CellVariable{"that/sum", "s", AtDivision::kShared, true}));
   for (int k = 0; k < 3; ++k) counts.advance(2.0);
   for (std::size_t k = 0; k < counts.cells.size(); ++k) {
     ASSERT_EQ(counts.cells.variables[0].values[k], 0.0);
