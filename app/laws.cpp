@@ -10,6 +10,8 @@
 #include "coupling/behaviours/builtin.h"
 #include "coupling/behaviours/division_axis.h"
 #include "coupling/behaviours/growth_law.h"
+#include "coupling/behaviours/migration_law.h"
+#include "coupling/behaviours/polarity_rule.h"
 #include "coupling/builtin.h"
 #include "coupling/loads/load.h"
 #include "coupling/regions/region.h"
@@ -60,6 +62,14 @@ std::vector<ListedLaw> all_laws(const Laws& registered) {
     laws.back().info.keys = law_keys(behaviour->section.name, behaviour->keys);
   }
   for (const auto& axis : registered.division_axes) laws.push_back({"axes of division", axis->info});
+  for (const auto& law : registered.migration) {
+    laws.push_back({"migration", law->info});
+    laws.back().info.keys = law_keys("migration", law->keys);
+  }
+  for (const auto& rule : registered.polarity) {
+    laws.push_back({"polarity", rule->info});
+    laws.back().info.keys = law_keys("polarity", rule->keys);
+  }
   add("fields", fields::field_laws());
   for (const auto& reaction : registered.reactions) {
     const bool of_cells = reaction->where == fields::Reaction::Where::kCells;

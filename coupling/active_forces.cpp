@@ -19,7 +19,7 @@ Vec3d along_surface(const Vec3d& force, const Touch& touch) {
 }
 
 using Touches = std::map<int, std::vector<Touch>>;  ///< of all bodies, by material
-constexpr int kAnyObstacle = -1;                    // as CellType::migration_substrate
+constexpr int kAnyObstacle = -1;                    // as Migration::substrate
 
 /// Touch of all bodies with each of some materials, or with any obstacle. Collective.
 template <class MaterialOf>
@@ -86,20 +86,20 @@ std::vector<Vec3d> Simulation::forces_on_cells(double time) {
 }
 
 void Simulation::add_crawling(std::span<Vec3d> external) {
-  const auto walks = [](const CellType& type) { return type.migration_speed > 0.0; };
+  const auto walks = [](const CellType& type) { return type.migration.acts(); };
   if (std::none_of(model_.types.begin(), model_.types.end(), walks)) return;
   const Touches touch = find_touches(model_, tissue_, *mechanics_, [&](const CellType& type) {
-    return walks(type) ? std::optional(type.migration_substrate) : std::nullopt;
+    return walks(type) ? std::optional(type.migration.substrate) : std::nullopt;
   });
   std::vector<Vec3d> velocity(tissue_.cells.size());
   for (const BodyOfRow& owned : bodies_of(tissue_.cells)) {
     const std::size_t i = owned.row, body = owned.place(tissue_.shells.size());
     const CellType& type = model_.types[tissue_.cells.rows[i].type];
     if (!walks(type)) continue;
-    const auto found = touch.find(type.migration_substrate);
+    const auto found = touch.find(type.migration.substrate);
     const Touch on = found != touch.end() ? found->second[body] : Touch{};
     velocity[body] =
-        crawling_velocity(tissue_.cells.optional.migration_velocity[i], on.area > 0.0, on.normal, type.migration_substrate >= 0);
+        crawling_velocity(tissue_.cells.optional.migration_velocity[i], on.area > 0.0, on.normal, type.migration.substrate >= 0);
   }
   mechanics_->add_crawling(tissue_, velocity, external);
 }
@@ -148,19 +148,18 @@ void Simulation::turn_polarities(std::uint64_t step, double dt) {
   for (const auto [i, is_shell, number] : bodies_of(tissue_.cells)) {
     const CellRow& row = tissue_.cells.rows[i];
     const CellType& type = model_.types[row.type];
-    Vec3d velocity{};
+    TurningCell cell{.id = row.id, .random = Random(model_.seed, RandomStream::kPolarity), .step = step, .dt = dt};
     if (!is_shell) {
       const Vec3f& v = tissue_.spheres.velocity[number];
-      velocity = {v.x, v.y, v.z};
-    } else {
+      cell.velocity = {v.x, v.y, v.z};
+    } else if (type.polarity.looks_at_velocity()) {
       const std::uint32_t first = tissue_.shells.first_node[number], last = tissue_.shells.first_node[number + 1];
-      if (type.polarity.follow_velocity > 0.0)
-        for (std::uint32_t n = first; n < last; ++n) {
-          const Vec3f& v = tissue_.shells.velocity[n];
-          velocity += Vec3d{v.x, v.y, v.z};
-        }
+      for (std::uint32_t n = first; n < last; ++n) {
+        const Vec3f& v = tissue_.shells.velocity[n];
+        cell.velocity += Vec3d{v.x, v.y, v.z};
+      }
     }
-    polarity.set(i, next_polarity(polarity[i], velocity, row.id, type, model_.seed, step, dt));
+    polarity.set(i, next_polarity(polarity[i], cell, type));
   }
 }
 

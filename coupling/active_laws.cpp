@@ -58,15 +58,6 @@ LawInfo protrusion_law() {
                      given_by_study("contact_area", "area", "µm²", "A_ref; 0: F = F_p.")}};
 }
 
-LawInfo polarity_law() {
-  return {.name = "polarity",
-          .title = "Turning of a cell's polarity",
-          .equation = "⟨p(0)·p(t)⟩ = e^(−2 D_r t); dp/dt = (v̂ − p)/τ_p",
-          .source = "Debye 1929, Polar Molecules; rotational diffusion on the sphere",
-          .parameters = {given_by_study("turning", "rate", "1/s", "D_r."),
-                         given_by_study("follow_velocity", "time", "s", "τ_p; 0: does not follow.")}};
-}
-
 LawInfo friction_law() {
   return {.name = "directed_medium_friction",
           .title = "Friction with the medium across and along the surface",
@@ -79,7 +70,7 @@ LawInfo friction_law() {
 }  // namespace
 
 std::vector<LawInfo> active_laws() {
-  return {tension_law(), lumen_law(), spring_law(), fluctuation_law(), protrusion_law(), polarity_law(), friction_law()};
+  return {tension_law(), lumen_law(), spring_law(), fluctuation_law(), protrusion_law(), friction_law()};
 }
 
 }  // namespace morula

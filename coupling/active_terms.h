@@ -34,11 +34,4 @@ struct Protrusion {
       0.0;  ///< A_ref: the force is F_p·min(1, A_contact/A_ref) of the cell's contact with the substrate; 0: always F_p [µm²]
 };
 
-/// How the polarity of a cell turns: rotational diffusion on the unit sphere, and towards its velocity (dcm.md §11).
-struct PolarityTurning {
-  bool set = false;              ///< cells of the type have a polarity
-  double diffusion = 0.0;        ///< D_r [1/s]
-  double follow_velocity = 0.0;  ///< τ_p: dp/dt = (v̂ − p)/τ_p; 0: does not [s]
-};
-
 }  // namespace morula

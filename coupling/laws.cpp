@@ -5,6 +5,8 @@
 #include "coupling/behaviours/behaviour.h"
 #include "coupling/behaviours/division_axis.h"
 #include "coupling/behaviours/growth_law.h"
+#include "coupling/behaviours/migration_law.h"
+#include "coupling/behaviours/polarity_rule.h"
 #include "coupling/loads/load.h"
 #include "coupling/observables/observable.h"
 #include "coupling/regions/region.h"
@@ -22,6 +24,8 @@ std::shared_ptr<const Laws> builtin_laws() {
            .growth = growth_laws(),
            .arrest = builtin_arrest_factors(),
            .division_axes = builtin_division_axes(),
+           .migration = migration_laws(),
+           .polarity = polarity_rules(),
            .loads = builtin_loads(),
            .region_shapes = builtin_region_shapes(),
            .trigger_values = builtin_trigger_values(),

@@ -18,8 +18,10 @@ struct Behaviour;
 struct DivisionAxis;
 struct GrowthLaw;
 struct Load;
+struct MigrationLaw;
 struct Model;
 struct Observable;
+struct PolarityRule;
 struct RegionShape;
 struct TriggerValue;
 
@@ -36,6 +38,8 @@ struct Laws {
   std::vector<std::shared_ptr<const GrowthLaw>> growth;
   std::vector<std::shared_ptr<const ArrestFactor>> arrest;  ///< of growth and of phases
   std::vector<std::shared_ptr<const DivisionAxis>> division_axes;
+  std::vector<std::shared_ptr<const MigrationLaw>> migration;
+  std::vector<std::shared_ptr<const PolarityRule>> polarity;  ///< in the order in which they act
   std::vector<std::shared_ptr<const Load>> loads;
   std::vector<std::shared_ptr<const RegionShape>> region_shapes;
   std::vector<std::shared_ptr<const TriggerValue>> trigger_values;

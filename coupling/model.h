@@ -12,6 +12,8 @@
 #include "coupling/active_terms.h"
 #include "coupling/behaviours/behaviour.h"
 #include "coupling/behaviours/division_axis.h"
+#include "coupling/behaviours/migration_law.h"
+#include "coupling/behaviours/polarity_rule.h"
 #include "coupling/cell_cycle.h"
 #include "coupling/distribution.h"
 #include "coupling/face_regions.h"
@@ -55,16 +57,13 @@ struct CellType {
   double new_surface = 600.0;             ///< time in which the interface that a cut has made takes its tension [s]
   double apoptosis_time = 8 * 3600.0;     ///< τ_a of the shrinking V0 e^{−t/τ_a} [s]
   double removal_fraction = 0.1;          ///< removed below this fraction of the volume at death
-  double migration_speed = 0.0;           ///< S, root mean square in three dimensions [µm/s]
-  double migration_persistence = 1800.0;  ///< P [s]
+  Migration migration;
   std::vector<CellBehaviour> behaviours;  ///< what its cells do beside these, in the order in which they act
 
   Osmosis osmosis;
-  int migration_substrate = -1;  ///< material that must be touched, to which the force of migration is tangential; -1: none
   Fluctuations fluctuations;
   Protrusion protrusion;
-  PolarityTurning polarity;
-  Vec3d start_polarity{};  ///< zero: random
+  Polarity polarity;
 
   // friction
   double medium_friction = 0.1;       ///< γ_med per area: of a sphere, and for shells the lesser of normal and tangential [nN·s/µm³]

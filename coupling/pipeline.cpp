@@ -5,6 +5,7 @@
 #include "coupling/behaviours/ask.h"
 #include "coupling/loads/loads.h"
 #include "coupling/lumens.h"
+#include "coupling/sensed_fields.h"
 #include "coupling/simulation.h"
 #include "dcm/growth.h"
 
@@ -71,12 +72,16 @@ Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<b
   LifeReport life;
   std::optional<BodiesNow> bodies;
   if (look_at_bodies(model_.types)) bodies = BodiesNow{values(), centers()};
+  std::vector<SensedField> sensed;
+  if (any_senses_a_field(model_.types)) {
+    MORULA_TRY_ASSIGN(sensed, sense_fields(model_, tissue_, centers(), comm_));
+  }
   look_into_lumens(model_, tissue_, comm_);
 
   for (;; ++outcome.retries) {
     {  // behaviours: growth, cycle, death, migration
       auto timed = timer().scope(Stage::kBehaviours);
-      life = live(tissue_.cells, model_.types, {model_.seed, clock.steps, clock.time + dt, dt, bodies ? &*bodies : nullptr});
+      life = live(tissue_.cells, model_.types, {model_.seed, clock.steps, clock.time + dt, dt, bodies ? &*bodies : nullptr, sensed});
       set_bodies_to_targets(dt);
     }
     // mechanics: ghosts, candidates, contacts, forces, system, solve, advance

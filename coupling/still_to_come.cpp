@@ -48,8 +48,7 @@ std::vector<std::string> answers_to(const Model& model, const CellType& type) {
 }
 
 bool is_driven(const CellType& type) {
-  const bool turns = type.polarity.diffusion > 0.0 || type.polarity.follow_velocity > 0.0;
-  return type.migration_speed > 0.0 || type.fluctuations.energy > 0.0 || (type.protrusion.force > 0.0 && turns);
+  return type.migration.acts() || type.fluctuations.energy > 0.0 || (type.protrusion.force > 0.0 && !type.polarity.rules.empty());
 }
 
 /// Water flows in or out of any cell of this rank. Collective.

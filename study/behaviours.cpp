@@ -67,13 +67,9 @@ bool add_behaviour(BuildContext& c, const std::shared_ptr<const Behaviour>& what
 
 void declare_behaviour_keys(Section& s, const std::string& name, draft::CellType& t) {
   const Shared all = behaviours_of(s.laws(), name);
-  std::vector<std::string> declared;
-  for (const auto& one : all) {
-    std::vector<OwnKey> keys = one->keys;  // two may share a key
-    std::erase_if(keys, [&](const OwnKey& key) { return std::ranges::find(declared, key.spec.name) != declared.end(); });
-    for (const OwnKey& key : keys) declared.emplace_back(key.spec.name);
-    declare_own_keys(s, keys, t.behaviours[name], all.size() == 1);
-  }
+  std::vector<const std::vector<OwnKey>*> keys;
+  for (const auto& one : all) keys.push_back(&one->keys);
+  declare_own_keys(s, keys, t.behaviours[name], all.size() == 1);
 }
 
 void declare_behaviours(Section& s, const std::vector<std::string>& but, draft::CellType& t) {

@@ -1,6 +1,8 @@
 #include <algorithm>
 
+#include "coupling/behaviours/migration_law.h"
 #include "study/build.h"
+#include "study/own_section.h"
 
 namespace morula::scenarios {
 namespace {
@@ -35,6 +37,36 @@ void build_protrusion(BuildContext& c, const std::string& name, const Place& pla
     c.diagnostics.error(515, a.contact_area.place, "'contact_area' has no effect without a substrate", "give `substrate`");
 }
 
+void build_polarity(BuildContext& c, const draft::CellType& t, CellType& type) {
+  const draft::Activity& a = t.activity;
+  type.polarity.set = a.has_polarity;
+  if (!a.has_polarity) return;
+  for (const auto& rule : c.options.laws->polarity)
+    if (const auto values = own_values(c, rule->keys, t.polarity)) type.polarity.add(rule, *values);
+  if (!a.start.given) return;
+  if (norm2(a.start.value) == 0.0)
+    c.diagnostics.error(302, a.start.place, "the polarity at the start has no direction", "for example `[1, 0, 0]`");
+  else
+    type.polarity.start = normalized(a.start.value);
+}
+
+/// The law of migration with the values of its own keys: E103, E515.
+void build_migration(BuildContext& c, const draft::CellType& t, CellType& type) {
+  Migration& migration = type.migration;
+  migration.speed = t.migration_speed.value;
+  std::vector<const std::vector<OwnKey>*> all;
+  for (const auto& law : c.options.laws->migration) {
+    if (law->info.name == t.migration_law.value) migration.law = law;
+    all.push_back(&law->keys);
+  }
+  if (check_choice(c, migration.law->keys, all, t.migration, t.migration_law))
+    if (auto values = own_values(c, migration.law->keys, t.migration)) migration.own = std::move(*values);
+  if (!t.migration_substrate.given) return;
+  migration.substrate = find_substrate(c, t.migration_substrate);
+  if (migration.speed == 0.0)
+    c.diagnostics.error(515, t.migration_substrate.place, "'substrate' has no effect without migration", "give `migration.speed`");
+}
+
 }  // namespace
 
 void build_activity(BuildContext& c) {
@@ -48,24 +80,9 @@ void build_activity(BuildContext& c) {
       c.study.model.step.first_tolerance = std::min(c.study.model.step.first_tolerance, 1e-4);
       if (a.resolve.value > 0.0) c.study.model.step.max_step = std::min(c.study.model.step.max_step, type.fluctuations.longest_step());
     }
-    type.polarity.set = a.has_polarity;
-    if (a.has_polarity) {
-      type.polarity.diffusion = a.turning.value;
-      type.polarity.follow_velocity = a.follow_velocity.value;
-      if (a.start.given) {
-        type.start_polarity = a.start.value;
-        if (norm2(a.start.value) == 0.0)
-          c.diagnostics.error(302, a.start.place, "the polarity at the start has no direction", "for example `[1, 0, 0]`");
-        else
-          type.start_polarity = normalized(a.start.value);
-      }
-    }
+    build_polarity(c, t, type);
     build_protrusion(c, name, place, a, type);
-    if (a.migration_substrate.given) {
-      type.migration_substrate = find_substrate(c, a.migration_substrate);
-      if (type.migration_speed == 0.0)
-        c.diagnostics.error(515, a.migration_substrate.place, "'substrate' has no effect without migration", "give `migration.speed`");
-    }
+    build_migration(c, t, type);
     set_friction(t, type);
   }
 }

@@ -176,8 +176,6 @@ void build_cell_types(BuildContext& c) {
     build_behaviours(c, t, place, type);
     build_dying(t, type);
     build_osmosis(c, t, type);
-    type.migration_speed = t.migration_speed.value;
-    type.migration_persistence = t.persistence.value;
     type.medium_friction = t.friction_medium.value;
     type.initial_body = t.body.value == "shell" ? BodyKind::kShell : BodyKind::kSphere;
     type.shell_nodes = static_cast<std::uint32_t>(t.nodes.value);

@@ -22,6 +22,8 @@ void declare_tension_regions(Section& section, draft::CellType& type);
 void declare_mark(Section& section, draft::Mark& mark);
 void declare_lumen(Section& section, draft::Lumen& lumen);
 void declare_apical_spring(Section& section, draft::ApicalSpring& spring);
+/// `migration` of a cell type.
+void declare_migration(Section& section, draft::CellType& type);
 /// `fluctuations`, `polarity` and `protrusion` of a cell type.
 void declare_activity(Section& section, draft::CellType& type);
 void declare_obstacle(Section& section, draft::Obstacle& obstacle);

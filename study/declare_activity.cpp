@@ -1,6 +1,9 @@
 #include <numbers>
 
+#include "coupling/behaviours/migration_law.h"
+#include "coupling/behaviours/polarity_rule.h"
 #include "study/declare.h"
+#include "study/own_section.h"
 
 namespace morula::scenarios {
 namespace {
@@ -46,6 +49,39 @@ void declare_protrusion(Section& p, draft::Activity& a) {
 
 }  // namespace
 
+void declare_migration(Section& s, draft::CellType& t) {
+  bool present = false;
+  s.group({.name = "migration", .doc = "Cells that drive themselves against the friction of what is around."}, present, [&t](Section& m) {
+    m.quantity({.name = "speed",
+                .doc = "Root mean square speed of an otherwise free cell, in three dimensions in the open and along the surface of an "
+                       "obstacle that it touches: the force is that against all friction with the medium and with obstacles. A cell "
+                       "among others is slower, for its force does not make up for friction with neighbours. 0: no migration.",
+                .quantity = Q::kSpeed,
+                .fallback = "0 um/h",
+                .low = 0.0,
+                .high = 1.0,
+                .example = "2 um/h",
+                .source = "chosen"},
+               t.migration_speed);
+    KeySpec law{
+        .name = "law", .doc = "How the velocity changes. ", .fallback = "persistent_walk", .example = "run_and_tumble", .source = "chosen"};
+    std::vector<const std::vector<OwnKey>*> keys;
+    for (const auto& one : m.laws().migration) {
+      law.doc += (law.words.empty() ? "" : "; ") + one->info.name + ": " + one->doc;
+      law.words.push_back(one->info.name);
+      keys.push_back(&one->keys);
+    }
+    law.doc += ".";
+    m.word(law, t.migration_law);
+    declare_own_keys(m, keys, t.migration, false);
+    m.text({.name = "substrate",
+            .doc = "Obstacle that the cell must touch, and along which its force acts then; without it the cell is driven "
+                   "everywhere.",
+            .example = "plane"},
+           t.migration_substrate);
+  });
+}
+
 void declare_activity(Section& s, draft::CellType& t) {
   draft::Activity& a = t.activity;
   s.group({.name = "fluctuations",
@@ -77,27 +113,11 @@ void declare_activity(Section& s, draft::CellType& t) {
           });
   s.group(
       {.name = "polarity", .doc = "A direction that the cell has and turns.", .optional_section = true, .example = "{turning: 0.5 1/h}"},
-      a.has_polarity, [&a](Section& p) {
+      a.has_polarity, [&a, &t](Section& p) {
         p.vector({.name = "start", .doc = "At time 0; without it random.", .example = "[1, 0, 0]"}, a.start);
-        p.quantity({.name = "turning",
-                    .doc = "D_r of rotational diffusion: the mean of p(0).p(t) falls as exp(-2 D_r t).",
-                    .quantity = Q::kRate,
-                    .fallback = "0 1/h",
-                    .low = 0.0,
-                    .high = 10.0,
-                    .example = "0.5 1/h",
-                    .source = "chosen: off"},
-                   a.turning);
-        p.quantity({.name = "follow_velocity",
-                    .doc = "Time in which the polarity turns to the cell's velocity; `never`: it does not.",
-                    .quantity = Q::kTime,
-                    .fallback = "never",
-                    .low = 0.0,
-                    .low_open = true,
-                    .specials = {{"never", 0.0}},
-                    .example = "20 min",
-                    .source = "chosen: off"},
-                   a.follow_velocity);
+        std::vector<const std::vector<OwnKey>*> keys;
+        for (const auto& rule : p.laws().polarity) keys.push_back(&rule->keys);
+        declare_own_keys(p, keys, t.polarity, true);
       });
   s.group({.name = "protrusion",
            .doc = "A force of the leading edge of a shell along its polarity.",

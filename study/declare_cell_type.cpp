@@ -50,33 +50,7 @@ void declare_life(Section& s, draft::CellType& t) {
                         .source = "chosen"},
                        t.removed_below);
           });
-  s.group({.name = "migration", .doc = "Persistent random walk."}, present, [&t](Section& m) {
-    m.quantity({.name = "speed",
-                .doc = "Root mean square speed of an otherwise free cell, in three dimensions in the open and along the surface of an "
-                       "obstacle that it touches: the force is that against all friction with the medium and with obstacles. A cell "
-                       "among others is slower, for its force does not make up for friction with neighbours. 0: no migration.",
-                .quantity = Q::kSpeed,
-                .fallback = "0 um/h",
-                .low = 0.0,
-                .high = 1.0,
-                .example = "2 um/h",
-                .source = "chosen"},
-               t.migration_speed);
-    m.quantity({.name = "persistence",
-                .doc = "Time over which the direction is remembered.",
-                .quantity = Q::kTime,
-                .fallback = "30 min",
-                .low = 0.0,
-                .low_open = true,
-                .example = "30 min",
-                .source = "chosen"},
-               t.persistence);
-    m.text({.name = "substrate",
-            .doc = "Obstacle that the cell must touch, and along which its force acts then; without it the cell is driven "
-                   "everywhere.",
-            .example = "plane"},
-           t.activity.migration_substrate);
-  });
+  declare_migration(s, t);
   declare_activity(s, t);
   declare_behaviours(s, {"death"}, t);
 }

@@ -117,7 +117,10 @@ struct CellType : ShellKeys {
   Given<double> pressure_above;
   std::map<std::string, OwnSection> behaviours;  ///< by name of the section
   Given<double> shrink_time, removed_below;
-  Given<double> migration_speed, persistence;
+  Given<double> migration_speed;
+  Given<std::string> migration_law, migration_substrate;
+  OwnSection migration;  ///< keys that laws of migration have for themselves
+  OwnSection polarity;   ///< those of what turns the polarity
   Osmosis osmosis;
   Nucleus nucleus;
   Links nucleus_links, cortex_links;

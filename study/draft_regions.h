@@ -36,15 +36,13 @@ struct ApicalSpring {
   Given<double> stiffness, friction;
 };
 
-/// What moves cells of a type beside the persistent walk.
+/// What moves cells of a type beside their migration.
 struct Activity {
   bool has_fluctuations = false, has_protrusion = false, has_polarity = false;
   Given<double> energy, resolve;
   Given<double> force, angle, contact_area;
   Given<std::string> reaction, substrate;
   Given<Vec3d> start;
-  Given<double> turning, follow_velocity;
-  Given<std::string> migration_substrate;
 };
 
 }  // namespace morula::scenarios::draft

@@ -73,6 +73,16 @@ void declare_own_keys(Section& s, const std::vector<OwnKey>& keys, draft::OwnSec
   }
 }
 
+void declare_own_keys(Section& s, const std::vector<const std::vector<OwnKey>*>& all, draft::OwnSection& own, bool must) {
+  std::vector<std::string> declared;
+  for (const std::vector<OwnKey>* keys : all) {
+    std::vector<OwnKey> fresh = *keys;
+    std::erase_if(fresh, [&](const OwnKey& key) { return std::ranges::find(declared, key.spec.name) != declared.end(); });
+    for (const OwnKey& key : fresh) declared.emplace_back(key.spec.name);
+    declare_own_keys(s, fresh, own, must);
+  }
+}
+
 std::vector<std::string> missing_keys(const std::vector<OwnKey>& keys, const draft::OwnSection& own) {
   std::vector<std::string> out;
   for (const OwnKey& key : keys)
@@ -209,6 +219,26 @@ Place place_of_key(const draft::OwnSection& own, const std::string& key) {
 void tell_without_effect(BuildContext& c, const std::string& key, const draft::OwnSection& own, const std::string& help) {
   if (const Where where = find(own, key); where.place != nullptr)
     c.diagnostics.error(515, *where.place, "'" + key + "' has no effect here", help);
+}
+
+bool check_choice(BuildContext& c, const std::vector<OwnKey>& chosen, const std::vector<const std::vector<OwnKey>*>& all,
+                  const draft::OwnSection& own, const Given<std::string>& word) {
+  const auto has = [](const std::vector<OwnKey>& keys, const std::string& name) {
+    return std::ranges::any_of(keys, [&](const OwnKey& key) { return name == key.spec.name; });
+  };
+  std::vector<std::string> told;
+  for (const std::vector<OwnKey>* keys : all)
+    for (const OwnKey& key : *keys) {
+      const Where where = find(own, key.spec.name);
+      const bool is_default = where.given && key.spec.fallback != nullptr && *where.text == key.spec.fallback;
+      if (!where.given || is_default || has(chosen, key.spec.name) || std::ranges::find(told, key.spec.name) != told.end()) continue;
+      told.emplace_back(key.spec.name);
+      tell_without_effect(c, key.spec.name, own, "it has none with `" + word.value + "`");
+    }
+  std::string missing;
+  for (const std::string& name : missing_keys(chosen, own)) missing += (missing.empty() ? "`" : ", `") + name + "`";
+  if (!missing.empty()) c.diagnostics.error(103, word.place, "`" + word.value + "` needs " + missing, "");
+  return missing.empty();
 }
 
 bool has_required_keys(const std::vector<OwnKey>& keys, const draft::OwnSection& own) {

@@ -75,20 +75,6 @@ LawInfo dying_law() {
                           "A dead cell is removed below this part of its volume at death."}}};
 }
 
-LawInfo migration_law() {
-  const CellType type;
-  return {.name = "persistent_walk",
-          .title = "Persistent random migration",
-          .equation =
-              "F = Γ w on every point, Γ its friction with the medium and with obstacles; w = u in the open, √(3/2) u∥ on an obstacle; "
-              "du = −u dt/P + (S/√3)√(2/P) dB per component; MSD = 2S²P[t − P(1 − e^(−t/P))] in the open",
-          .source = "Uhlenbeck & Ornstein 1930, doi:10.1103/PhysRev.36.823",
-          .parameters = {{"migration_speed", "velocity", "µm/s", type.migration_speed, 0.0, 10.0, kOurs,
-                          "S: root mean square of the wanted velocity in three dimensions."},
-                         {"migration_persistence", "time", "s", type.migration_persistence, 1.0, 1e9, kOurs,
-                          "P: time over which direction is kept."}}};
-}
-
 LawInfo osmosis_law() {
   const Osmosis law;
   return {
@@ -116,7 +102,6 @@ std::vector<LawInfo> behaviour_laws() {
           quiescence_law(),
           division_law(),
           dying_law(),
-          migration_law(),
           osmosis_law()};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "coupling/behaviours/ask.h"
 #include "coupling/behaviours/death.h"
@@ -66,6 +67,20 @@ Event describe(const CellRow& row, const CellType& type, const LifeStep& step, c
   return event;
 }
 
+/// The velocity that a cell wants after the step.
+Vec3d turn_migration(const CellRow& row, const LifeValues& values, const CellType& type, const LifeStep& step, const CellWish& wish) {
+  if (!type.migration.acts()) return {};
+  return next_migration_velocity({.id = row.id,
+                                  .velocity = values.migration_velocity,
+                                  .speed = wish.migration * type.migration.speed,
+                                  .radius = std::cbrt(3.0 * row.target_volume / (4.0 * std::numbers::pi)),
+                                  .sensed = values.sensed,
+                                  .random = Random(step.seed, RandomStream::kMigration),
+                                  .step = step.step,
+                                  .dt = step.dt},
+                                 type);
+}
+
 /// A step in the phases of the cycle.
 LifeDecision pass_cycle(CellRow& row, CyclePlace& place, const CellType& type, const LifeStep& step, const CellWish& wish,
                         const PhaseRate& rate) {
@@ -91,8 +106,7 @@ LifeDecision live(CellRow& row, LifeValues& values, const CellType& type, const 
     values.migration_velocity = {};
     return {Kind::kBeginDying, 0.0};
   }
-  values.migration_velocity =
-      next_migration_velocity(values.migration_velocity, row.id, type, step.seed, step.step, step.dt, wish.migration);
+  values.migration_velocity = turn_migration(row, values, type, step, wish);
   if (wish.polarity) values.polarity = normalized(*wish.polarity);
   if (wish.volume != 1.0) row.target_volume *= wish.volume;
   if (row.phase == Phase::kWaiting || wish.divide) return at_division_volume(row, 0.0, type, step);
@@ -126,7 +140,7 @@ LifeReport live(Cells& cells, std::span<const CellType> types, const LifeStep& s
   std::vector<LifeDecision> decisions(rows.size());
   const auto count = static_cast<std::int64_t>(rows.size());
   OptionalColumns& optional = cells.optional;
-  const auto migrates = [](const CellType& type) { return type.migration_speed > 0.0; };
+  const auto migrates = [](const CellType& type) { return type.migration.acts(); };
   const auto behaves = [](const CellType& type) { return !type.behaviours.empty(); };
   if (std::any_of(types.begin(), types.end(), migrates)) optional.migration_velocity.make_room(rows.size());
   const auto turns = [](const CellType& type) { return type.polarity.set && !type.behaviours.empty(); };
@@ -142,6 +156,7 @@ LifeReport live(Cells& cells, std::span<const CellType> types, const LifeStep& s
     const bool in_phases = has_phases && !type.cycle.phases.empty();
     LifeValues values{optional.migration_velocity[k], optional.death_time[k], optional.polarity[k]};
     if (in_phases) values.place = place_of(cells, first, k);
+    if (!step.sensed.empty()) values.sensed = step.sensed[static_cast<std::size_t>(k)];
     const Asked asked = rows[k].phase == Phase::kDying ? Asked{} : behaviours.ask(k);
     const auto rate = [&behaviours, k](std::size_t phase) { return behaviours.phase_rate(k, phase); };
     decisions[k] =

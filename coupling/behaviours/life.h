@@ -14,10 +14,11 @@ namespace morula {
 /// The step whose life is lived.
 struct LifeStep {
   std::uint32_t seed = 1;
-  std::uint64_t step = 0;             ///< number of the step; keys the random numbers
-  double time = 0.0;                  ///< at the end of the step [s]
-  double dt = 0.0;                    ///< [s]
-  const BodiesNow* bodies = nullptr;  ///< at the start of the step, where behaviours look at them (look_at_bodies())
+  std::uint64_t step = 0;                 ///< number of the step; keys the random numbers
+  double time = 0.0;                      ///< at the end of the step [s]
+  double dt = 0.0;                        ///< [s]
+  const BodiesNow* bodies = nullptr;      ///< at the start of the step, where behaviours look at them (look_at_bodies())
+  std::span<const SensedField> sensed{};  ///< by row: what cells sense of the field that their migration looks at; empty where none does
 };
 
 /// What a cell decided in a step.
@@ -45,6 +46,7 @@ struct LifeValues {
   double death_time = -1.0;    ///< read and written [s]
   Vec3d polarity{};            ///< read and written
   CyclePlace place{};          ///< read and written, of a type with phases
+  SensedField sensed{};        ///< read
 };
 
 /// One step in the life of one cell: growth, cycle, death and the wanted velocity, and what its behaviours ask for. Reads and writes this row and its

@@ -55,7 +55,7 @@ bool is_passive(const Study& study) {
   const Model& model = study.model;
   for (const CellType& type : model.types)
     if (type.fluctuations.energy > 0.0 || type.protrusion.force > 0.0 || !type.regional_tension.empty() || type.osmosis.acts() ||
-        type.cycles || type.migration_speed > 0.0 || !type.behaviours.empty() || type.renew_mesh_below > 0.0)
+        type.cycles || type.migration.acts() || !type.behaviours.empty() || type.renew_mesh_below > 0.0)
       return false;
   for (const InitialCells& block : study.initial)
     if (block.start_volume_fraction < 1.0) return false;

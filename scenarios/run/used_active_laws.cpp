@@ -29,8 +29,6 @@ void add_of_type(const CellType& type, bool shells, std::vector<UsedLaw>& out) {
         "shell of " + type.name);
   if (type.fluctuations.energy > 0.0)
     add("fluctuations", {{"energy", type.fluctuations.energy}, {"resolve", type.fluctuations.resolve}}, "motion of " + type.name);
-  if (type.polarity.set)
-    add("polarity", {{"turning", type.polarity.diffusion}, {"follow_velocity", type.polarity.follow_velocity}}, "motion of " + type.name);
   if (type.protrusion.force > 0.0)
     add("protrusion", {{"force", type.protrusion.force}, {"angle", type.protrusion.angle}, {"contact_area", type.protrusion.contact_area}},
         "motion of " + type.name);

@@ -150,8 +150,6 @@ void add_behaviours(const CellType& type, std::vector<UsedLaw>& out) {
   const Values values{{"inhibit_pressure", type.inhibit_pressure},
                       {"apoptosis_time", type.apoptosis_time},
                       {"removal_fraction", type.removal_fraction},
-                      {"migration_speed", type.migration_speed},
-                      {"migration_persistence", type.migration_persistence},
                       {"permeability", type.osmosis.permeability},
                       {"inactive", type.osmosis.inactive},
                       {"inside", type.osmosis.inside},
@@ -160,11 +158,17 @@ void add_behaviours(const CellType& type, std::vector<UsedLaw>& out) {
     const bool used = law.name == "growth_under_pressure" ? type.cycles && type.inhibit_pressure < kNever
                       : law.name == "instant_division"    ? type.cycles
                       : law.name == "apoptosis"           ? !type.behaviours.empty()
-                      : law.name == "persistent_walk"     ? type.migration_speed > 0.0
                       : law.name == "osmosis"             ? type.osmosis.acts()
                                                           : false;
     if (used) out.push_back({"life of " + type.name, std::move(law), values});
   }
+  if (type.migration.acts()) {
+    OwnValues own = type.migration.own;
+    own.set("speed", type.migration.speed);
+    out.push_back({"motion of " + type.name, type.migration.law->info, named_values(type.migration.law->info, own)});
+  }
+  for (const TypePolarityRule& rule : type.polarity.rules)
+    out.push_back({"motion of " + type.name, rule.what->info, named_values(rule.what->info, rule.values)});
   for (const CellBehaviour& one : type.behaviours) {
     if (!one.may_act()) continue;
     out.push_back({"life of " + type.name, one.what->info, named_values(one.what->info, one.values)});

@@ -30,8 +30,8 @@ Walk walk_of_cells() {
   model.space.box = {{-1000, -1000, -1000}, {1000, 1000, 1000}};
   model.contact.range = 5.0;  // nobody is near, and steps are long as the range is
   model.step.initial_step = model.step.max_step = kStep;
-  model.types[0].migration_speed = std::sqrt(3.0) * kForce / kDrag;
-  model.types[0].migration_persistence = kTime;
+  model.types[0].migration.speed = std::sqrt(3.0) * kForce / kDrag;
+  model.types[0].migration.own.set("persistence", kTime);
   std::vector<CellRecord> cells(kCells);
   for (int i = 0; i < kCells; ++i) {
     CellRecord& cell = cells[static_cast<std::size_t>(i)];

@@ -19,7 +19,7 @@ TEST(BehaviourLaws, AreDescribedInFullWithFallbacksInRange) {
       EXPECT_LE(*parameter.fallback, parameter.maximum) << parameter.name;
     }
   }
-  EXPECT_TRUE(names.contains("persistent_walk"));
+  EXPECT_TRUE(names.contains("osmosis"));
 }
 
 }  // namespace

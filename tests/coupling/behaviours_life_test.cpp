@@ -241,7 +241,7 @@ TEST(Death, NeedsALackOfTheNamedField) {
 
 TEST(Death, ADyingCellShrinksAndIsRemovedAtItsFraction) {
   CellType type = starving(1e6);
-  type.migration_speed = 0.01;
+  type.migration.speed = 0.01;
   Population population = one_cell(type);
   const double before = population.volume();
   population.advance(60.0);
@@ -266,7 +266,7 @@ TEST(Life, DoesNotDependOnTheOrderOfCells) {
   CellType type = cycling();
   type.cycle_duration = {18 * kHour, 0.2};
   starve(type, 0, 1.0, 1e-6);
-  type.migration_speed = 0.01;
+  type.migration.speed = 0.01;
   Population one;
   one.types = {type};
   for (int k = 1; k <= 200; ++k) one.rows.push_back(make_founder(CellId::founder(k), 0, type, 1, 0.0, true));

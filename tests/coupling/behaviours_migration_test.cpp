@@ -11,9 +11,20 @@ namespace {
 
 CellType walker() {
   CellType type;
-  type.migration_speed = 0.01;
-  type.migration_persistence = 600.0;
+  type.migration.speed = 0.01;
+  type.migration.own.set("persistence", 600.0);
   return type;
+}
+
+/// The velocity after a step of one cell.
+Vec3d next_velocity(const Vec3d& velocity, CellId id, const CellType& type, std::uint32_t seed, std::uint64_t step, double dt) {
+  return next_migration_velocity({.id = id,
+                                  .velocity = velocity,
+                                  .speed = type.migration.speed,
+                                  .random = Random(seed, RandomStream::kMigration),
+                                  .step = step,
+                                  .dt = dt},
+                                 type);
 }
 
 /// Mean squared displacement of n walkers after this many steps with the velocity held over each.
@@ -26,7 +37,7 @@ double mean_square_displacement(int walkers, int steps, double dt, std::uint32_t
     Vec3d place{};
     for (int n = 0; n < steps; ++n) {
       place += dt * velocity;
-      velocity = next_migration_velocity(velocity, id, type, seed, n, dt);
+      velocity = next_velocity(velocity, id, type, seed, n, dt);
     }
     sum += norm2(place);
   }
@@ -50,8 +61,8 @@ TEST(Migration, SmallStepsApproachTheContinuousReference) {
 TEST(Migration, ForceOnACellMakesItDiffuseAsItsDragSays) {
   constexpr double kDrag = 45.239, kForce = 1.0, kTime = 60.0, kDiffusion = 0.029318;
   CellType type;
-  type.migration_speed = std::sqrt(3.0) * kForce / kDrag;
-  type.migration_persistence = kTime;
+  type.migration.speed = std::sqrt(3.0) * kForce / kDrag;
+  type.migration.own.set("persistence", kTime);
   constexpr int kCells = 4000, kSteps = 600;
   constexpr double kStep = 2.0;  // 20 τ in all
   double square = 0.0, speed = 0.0;
@@ -60,7 +71,7 @@ TEST(Migration, ForceOnACellMakesItDiffuseAsItsDragSays) {
     Vec3d velocity = initial_migration_velocity(id, type, 4), place{};
     for (int n = 0; n < kSteps; ++n) {
       place += kStep * velocity;
-      velocity = next_migration_velocity(velocity, id, type, 4, static_cast<std::uint64_t>(n), kStep);
+      velocity = next_velocity(velocity, id, type, 4, static_cast<std::uint64_t>(n), kStep);
     }
     square += norm2(place) / (3.0 * kCells);
     speed += norm2(velocity) / (3.0 * kCells);
@@ -77,7 +88,7 @@ TEST(Migration, StaysStationaryAndForgetsExactly) {
   for (int k = 1; k <= n; ++k) {
     const CellId id = CellId::founder(k);
     const Vec3d u0 = initial_migration_velocity(id, type, 8);
-    const Vec3d u1 = next_migration_velocity(u0, id, type, 8, 5, 300.0);
+    const Vec3d u1 = next_velocity(u0, id, type, 8, 5, 300.0);
     start += norm2(u0) / n;
     end += norm2(u1) / n;
     correlation += dot(u0, u1) / n;
@@ -94,7 +105,7 @@ TEST(Migration, ComponentsAreIndependent) {
   const int n = 20000;
   double xy = 0.0, xz = 0.0, yz = 0.0;
   for (int k = 1; k <= n; ++k) {
-    const Vec3d u = next_migration_velocity({}, CellId::founder(k), type, 8, 11, 1e6);
+    const Vec3d u = next_velocity({}, CellId::founder(k), type, 8, 11, 1e6);
     xy += u.x * u.y;
     xz += u.x * u.z;
     yz += u.y * u.z;
@@ -111,8 +122,8 @@ TEST(Migration, SuccessiveStepsAndTheStartAreUncorrelated) {
   double steps = 0.0, start = 0.0;
   for (int k = 1; k <= n; ++k) {
     const CellId id = CellId::founder(k);
-    const Vec3d fresh = next_migration_velocity({}, id, type, 8, 0, 1e6);
-    steps += dot(fresh, next_migration_velocity({}, id, type, 8, 1, 1e6));
+    const Vec3d fresh = next_velocity({}, id, type, 8, 0, 1e6);
+    steps += dot(fresh, next_velocity({}, id, type, 8, 1, 1e6));
     start += dot(fresh, initial_migration_velocity(id, type, 8));
   }
   const double bound = 4 * (1e-4 / 3) * std::sqrt(3.0 * n);
@@ -137,8 +148,8 @@ TEST(Migration, CrawlsAlongWhatTheCellTouches) {
 
 TEST(Migration, IsOffWithoutSpeed) {
   CellType type = walker();
-  type.migration_speed = 0.0;
-  EXPECT_EQ(next_migration_velocity({1, 1, 1}, CellId::founder(1), type, 1, 0, 60.0), Vec3d{});
+  type.migration.speed = 0.0;
+  EXPECT_EQ(next_velocity({1, 1, 1}, CellId::founder(1), type, 1, 0, 60.0), Vec3d{});
   EXPECT_EQ(initial_migration_velocity(CellId::founder(1), type, 1), Vec3d{});
 }
 

@@ -73,8 +73,8 @@ TEST(Behaviours, LetACellDivideOrDieOrChangeItsVolume) {
 TEST(Behaviours, TurnTheCellAndSetItsSpeed) {
   CellType type = that([](const CellStep&, CellWish& wish) { wish.polarity = Vec3d{0, 3, 0}, wish.migration = 0.0; });
   type.polarity.set = true;
-  type.migration_speed = 0.01;
-  type.migration_persistence = 60.0;
+  type.migration.speed = 0.01;
+  type.migration.own.set("persistence", 60.0);
   Living turns(type);
   const double before = norm(turns.cells.optional.migration_velocity[0]);
   turns.advance(60.0);

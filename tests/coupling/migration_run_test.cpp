@@ -17,8 +17,8 @@ constexpr double kDiffusion = 0.029318;              // σ_F² τ/Γ² a compone
 TEST(Migration, ForceMakesTheCellsOfARunDiffuseAsTheirDragSays) {
   Model model = test::clusters_model(0.0);
   model.space.box = {{-1000, -1000, -1000}, {1000, 1000, 1000}};
-  model.types[0].migration_speed = std::sqrt(3.0) * kForce / kDrag;
-  model.types[0].migration_persistence = kPersistence;
+  model.types[0].migration.speed = std::sqrt(3.0) * kForce / kDrag;
+  model.types[0].migration.own.set("persistence", kPersistence);
   model.step.initial_step = model.step.max_step = kPersistence / 6.0;
   model.contact.range = 5.0;  // nobody is near, and steps are long as the range is
   std::vector<Vec3d> centers;

@@ -17,9 +17,17 @@ namespace {
 CellType turning(double rate, double follow = 0.0) {
   CellType type;
   type.polarity.set = true;
-  type.polarity.diffusion = rate;
-  type.polarity.follow_velocity = follow;
+  OwnValues values;
+  values.set("turning", rate);
+  values.set("follow_velocity", follow);
+  for (const auto& rule : polarity_rules()) type.polarity.add(rule, values);
   return type;
+}
+
+Vec3d turned(const Vec3d& polarity, const Vec3d& velocity, CellId id, const CellType& type, std::uint32_t seed, std::uint64_t step,
+             double dt) {
+  return next_polarity(polarity, {.id = id, .velocity = velocity, .random = Random(seed, RandomStream::kPolarity), .step = step, .dt = dt},
+                       type);
 }
 
 TEST(Polarity, ForgetsItsDirectionAsRotationalDiffusionDoes) {  // ⟨p(0)·p(t)⟩ = e^(−2 D t), whatever the steps
@@ -32,7 +40,7 @@ TEST(Polarity, ForgetsItsDirectionAsRotationalDiffusionDoes) {  // ⟨p(0)·p(t)
       const CellId cell = CellId::founder(static_cast<std::uint64_t>(k) + 1);
       const Vec3d start = initial_polarity(cell, type, 7);
       Vec3d p = start;
-      for (int step = 0; step < steps; ++step) p = next_polarity(p, {}, cell, type, 7, static_cast<std::uint64_t>(step), dt);
+      for (int step = 0; step < steps; ++step) p = turned(p, {}, cell, type, 7, static_cast<std::uint64_t>(step), dt);
       EXPECT_NEAR(norm(p), 1.0, 1e-12);
       mean += dot(p, start) / kCells;
       sum += p * (1.0 / kCells);
@@ -45,12 +53,12 @@ TEST(Polarity, ForgetsItsDirectionAsRotationalDiffusionDoes) {  // ⟨p(0)·p(t)
 TEST(Polarity, TurnsToTheVelocityInItsTime) {
   const CellType type = turning(0.0, 60.0);
   Vec3d p{1, 0, 0};
-  for (int k = 0; k < 300; ++k) p = next_polarity(p, {0, 2.0, 0}, CellId::founder(1), type, 1, static_cast<std::uint64_t>(k), 2.0);
+  for (int k = 0; k < 300; ++k) p = turned(p, {0, 2.0, 0}, CellId::founder(1), type, 1, static_cast<std::uint64_t>(k), 2.0);
   EXPECT_GT(p.y, 0.999);
   CellType none;
-  EXPECT_EQ(next_polarity({}, {1, 0, 0}, CellId::founder(1), none, 1, 0, 1.0), Vec3d{});
+  EXPECT_EQ(turned({}, {1, 0, 0}, CellId::founder(1), none, 1, 0, 1.0), Vec3d{});
   CellType given = turning(0.0);
-  given.start_polarity = {0, 0, 1};
+  given.polarity.start = {0, 0, 1};
   EXPECT_EQ(initial_polarity(CellId::founder(3), given, 1), (Vec3d{0, 0, 1}));
 }
 

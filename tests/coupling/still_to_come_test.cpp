@@ -159,11 +159,14 @@ TEST(StillToCome, FieldsThatCellsAnswerTo) {
 }
 
 TEST(StillToCome, CellsThatDriveThemselves) {
-  const std::function<void(CellType&)> drives[] = {[](CellType& t) { t.migration_speed = 1e-3; },
+  const std::function<void(CellType&)> drives[] = {[](CellType& t) { t.migration.speed = 1e-3; },
                                                    [](CellType& t) { t.fluctuations.energy = 1e-6; },
                                                    [](CellType& t) {
                                                      t.protrusion.force = 0.1;
-                                                     t.polarity = {.set = true, .diffusion = 1e-4};
+                                                     OwnValues values;
+                                                     values.set("turning", 1e-4);
+                                                     t.polarity.set = true;
+                                                     t.polarity.add(rotational_diffusion(), values);
                                                    }};
   for (const auto& drive : drives) {
     Model model = quiet_model();

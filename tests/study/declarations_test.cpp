@@ -23,9 +23,12 @@ void expect_same_study(const Study& a, const Study& b) {
     const CellType &s = a.model.types[i], &t = b.model.types[i];
     EXPECT_EQ(s.name, t.name);
     EXPECT_EQ(std::tie(s.radius.mean, s.radius.relative_spread, s.cycles, s.cycle_duration.mean, s.inhibit_pressure, s.apoptosis_time,
-                       s.removal_fraction, s.migration_speed, s.migration_persistence, s.medium_friction, s.initial_body, s.shell_nodes),
+                       s.removal_fraction, s.migration.speed, s.medium_friction, s.initial_body, s.shell_nodes),
               std::tie(t.radius.mean, t.radius.relative_spread, t.cycles, t.cycle_duration.mean, t.inhibit_pressure, t.apoptosis_time,
-                       t.removal_fraction, t.migration_speed, t.migration_persistence, t.medium_friction, t.initial_body, t.shell_nodes));
+                       t.removal_fraction, t.migration.speed, t.medium_friction, t.initial_body, t.shell_nodes));
+    EXPECT_EQ(s.migration.law, t.migration.law);
+    for (const OwnKey& key : s.migration.law->keys)
+      EXPECT_EQ(s.migration.own(key.spec.name), t.migration.own(key.spec.name)) << key.spec.name;
     EXPECT_TRUE(s.shell == t.shell);
     ASSERT_EQ(s.behaviours.size(), t.behaviours.size());
     for (std::size_t k = 0; k < s.behaviours.size(); ++k) {

@@ -77,7 +77,7 @@ TEST(Ranges, TakeTheNamesOfUnitsThatUdunitsTakes) {
     ASSERT_TRUE(study.ok()) << length << study.error().text();
     EXPECT_DOUBLE_EQ(study->model.types[0].radius.mean, 6.0) << length;
   }
-  EXPECT_DOUBLE_EQ(read(changed("persistence: 30 min", "persistence: 1800 sec"))->model.types[0].migration_persistence, 1800.0);
+  EXPECT_DOUBLE_EQ(read(changed("persistence: 30 min", "persistence: 1800 sec"))->model.types[0].migration.own("persistence"), 1800.0);
 }
 
 TEST(Messages, AboutABareValueNameTheKeyThatIsThere) {

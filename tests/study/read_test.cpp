@@ -37,7 +37,7 @@ TEST(StudyReader, ConvertsEveryValueToInternalUnits) {
   EXPECT_DOUBLE_EQ(t.behaviours[0].values("below"), 0.02);
   EXPECT_DOUBLE_EQ(t.behaviours[0].values("rate"), 0.05 / 3600.0);
   EXPECT_EQ(t.behaviours[0].reason, "oxygen is below what " + t.name + " needs");
-  EXPECT_DOUBLE_EQ(t.migration_speed, 2.0 / 3600.0);
+  EXPECT_DOUBLE_EQ(t.migration.speed, 2.0 / 3600.0);
   EXPECT_DOUBLE_EQ(t.medium_friction, 0.1);
   EXPECT_DOUBLE_EQ(t.sphere.young, 0.45);
   EXPECT_EQ(t.sphere.law, cbm::jkr_law());

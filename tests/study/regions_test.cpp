@@ -100,12 +100,13 @@ TEST(Regions, ActivityAndFrictionAreReadInInternalUnits) {
   EXPECT_DOUBLE_EQ(study->model.pair(0, 1).tangential_friction, 35.0) << "the mean of 20 and 50";
   EXPECT_EQ(study->model.pair(0, 2).tangential_friction, 0.0);
   EXPECT_DOUBLE_EQ(study->model.pair(1, 2).tangential_friction, 100.0) << "`same`";
-  EXPECT_EQ(wall.start_polarity, (Vec3d{0, 1, 0}));
-  EXPECT_DOUBLE_EQ(wall.polarity.diffusion, 0.5 / 3600.0);
-  EXPECT_DOUBLE_EQ(wall.polarity.follow_velocity, 1200.0);
+  EXPECT_EQ(wall.polarity.start, (Vec3d{0, 1, 0}));
+  ASSERT_EQ(wall.polarity.rules.size(), 2u);
+  EXPECT_DOUBLE_EQ(wall.polarity.rules[0].values("turning"), 0.5 / 3600.0);
+  EXPECT_DOUBLE_EQ(wall.polarity.rules[1].values("follow_velocity"), 1200.0);
   EXPECT_TRUE(wall.protrusion.internal);
   EXPECT_EQ(wall.protrusion.substrate, 2);
-  EXPECT_EQ(wall.migration_substrate, 2);
+  EXPECT_EQ(wall.migration.substrate, 2);
   EXPECT_DOUBLE_EQ(wall.fluctuations.energy, 4e-3);
   EXPECT_DOUBLE_EQ(wall.fluctuations.longest_step(), 6.0);
   EXPECT_EQ(study->model.step.first_tolerance, 1e-4);
@@ -131,8 +132,8 @@ TEST(Regions, AreAmongTheLawsThatMethodsName) {
   const auto study = test::read(kStudy);
   ASSERT_TRUE(study.ok()) << study.error().text();
   const std::vector<UsedLaw> laws = used_laws(*study);
-  for (const char* name :
-       {"regional_tension", "lumen_pressure", "apical_spring", "fluctuations", "protrusion", "polarity", "directed_medium_friction"}) {
+  for (const char* name : {"regional_tension", "lumen_pressure", "apical_spring", "fluctuations", "protrusion", "rotational_diffusion",
+                           "follow_velocity", "directed_medium_friction"}) {
     const auto found = std::ranges::find(laws, std::string(name), [](const UsedLaw& use) { return use.law.name; });
     ASSERT_NE(found, laws.end()) << name;
     for (const LawParameter& parameter : found->law.parameters)

@@ -5,6 +5,7 @@
 
 #include "coupling/behaviours/behaviour.h"
 #include "coupling/loads/load.h"
+#include "coupling/model.h"
 #include "coupling/observables/observable.h"
 #include "coupling/regions/region.h"
 #include "fields/reaction.h"
@@ -90,6 +91,31 @@ TEST(Registry, EveryEntryTellsOfItself) {
   }
 }
 
+TEST(Registry, EveryLawOfMotionTellsOfItself) {
+  const auto laws = builtin_laws();
+  std::set<std::string> names;
+  const auto has = [](const std::vector<OwnKey>& keys, const std::string& name) {
+    return std::ranges::any_of(keys, [&](const OwnKey& key) { return name == key.spec.name; });
+  };
+  for (const auto& one : laws->migration) {
+    expect_told(one->info, names);
+    expect_told(one->info.name, one->keys);
+    EXPECT_TRUE(one->at_birth != nullptr && one->after != nullptr) << one->info.name;
+    EXPECT_EQ(one->senses_field, has(one->keys, "field")) << one->info.name;
+    for (const LawParameter& parameter : one->info.parameters)
+      EXPECT_TRUE(parameter.name == "speed" || has(one->keys, parameter.name)) << one->info.name << "." << parameter.name;
+    for (const LawKey& key : law_keys("migration", one->keys))
+      EXPECT_THAT(explain_study("migration." + std::string(key.spec.name), *laws).value_or(""), HasSubstr(key.spec.doc)) << key.spec.name;
+    EXPECT_THAT(explain_study("migration.law", *laws).value_or(""), HasSubstr(one->info.name + ": " + one->doc));
+  }
+  EXPECT_EQ(laws->migration.front()->info.name, "persistent_walk") << "the default";
+  for (const auto& one : laws->polarity) {
+    expect_told(one->info, names);
+    expect_keys(*one, "polarity");
+    EXPECT_TRUE(one->acts != nullptr && one->turn != nullptr) << one->info.name;
+  }
+}
+
 TEST(Registry, EveryObservableIsExplained) {
   for (const Observable& one : observables_of_any_model(*builtin_laws()))
     EXPECT_THAT(explain_study(one.name, *builtin_laws()).value_or(""), HasSubstr(one.doc)) << one.name;
@@ -118,6 +144,56 @@ void expect_refused(const std::string& text, const std::string& what) {
   const auto study = read(text);
   ASSERT_FALSE(study.ok()) << what;
   EXPECT_THAT(study.error().text(), testing::ContainsRegex("\\[E(2[0-9][0-9]|30[0-9]|10[0-9])\\]")) << what;
+}
+
+std::string example_of(const OwnKey& key) {
+  return std::string(key.spec.name) + ": " + (key.kind == Kind::kField ? "oxygen" : key.spec.example);
+}
+
+TEST(Registry, EveryLawOfMigrationIsReadAsItsExamplesSay) {
+  const auto laws = builtin_laws();
+  for (const auto& one : laws->migration) {
+    std::string keys = "speed: 2 um/h, law: " + one->info.name;
+    for (const OwnKey& key : one->keys) keys += ", " + example_of(key);
+    const auto study = read(with("migration: {" + keys + "}"));
+    ASSERT_TRUE(study.ok()) << one->info.name << "\n" << study.error().text();
+    const auto again = read(study->resolved_text);
+    ASSERT_TRUE(again.ok()) << again.error().text();
+    for (const Migration& migration : {study->model.types[0].migration, again->model.types[0].migration}) {
+      EXPECT_EQ(migration.law, one);
+      EXPECT_TRUE(migration.acts());
+      EXPECT_EQ(migration.sensed_field(), one->senses_field ? 0 : -1);
+      for (const OwnKey& key : one->keys) {
+        if (key.kind != Kind::kQuantity) continue;
+        EXPECT_EQ(migration.own(key.spec.name), study->model.types[0].migration.own(key.spec.name)) << key.spec.name;
+      }
+    }
+    for (const OwnKey& key : one->keys)
+      if (key.kind == Kind::kQuantity)
+        expect_refused(with("migration: {law: " + one->info.name + ", " + key.spec.name + ": 3 parsec}"), key.spec.name);
+  }
+  const auto errors = [](const std::string& migration) { return errors_of(with("migration: {" + migration + "}")); };
+  EXPECT_THAT(errors("law: chemotaxis, speed: 2 um/h"), HasSubstr("`chemotaxis` needs `field` [E103]"));
+  EXPECT_THAT(errors("law: chemotaxis, field: oxigen"), HasSubstr("there is no field 'oxigen'"));
+  EXPECT_THAT(errors("law: run_and_tumble, persistence: 10 min"), HasSubstr("'persistence' has no effect here [E515]"));
+  EXPECT_THAT(errors("run_time: 10 min"), HasSubstr("it has none with `persistent_walk`"));
+  EXPECT_THAT(errors("law: walk"), HasSubstr("run_and_tumble"));
+}
+
+TEST(Registry, EveryRuleOfPolarityIsReadAsItsExamplesSay) {
+  const auto laws = builtin_laws();
+  for (const auto& one : laws->polarity) {
+    std::string keys;
+    for (const OwnKey& key : one->keys) keys += (keys.empty() ? "" : ", ") + example_of(key);
+    const auto study = read(with("polarity: {" + keys + "}"));
+    ASSERT_TRUE(study.ok()) << one->info.name << "\n" << study.error().text();
+    const auto again = read(study->resolved_text);
+    ASSERT_TRUE(again.ok()) << again.error().text();
+    for (const Polarity& polarity : {study->model.types[0].polarity, again->model.types[0].polarity}) {
+      ASSERT_EQ(polarity.rules.size(), 1u) << "the others do not act with their defaults";
+      EXPECT_EQ(polarity.rules[0].what, one);
+    }
+  }
 }
 
 TEST(Registry, EveryBehaviourIsReadAsItsExampleSays) {

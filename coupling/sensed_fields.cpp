@@ -1,0 +1,57 @@
+#include "coupling/sensed_fields.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "fields/field_solver.h"
+
+namespace morula {
+namespace {
+
+double radius_of(const CellRow& row) { return std::cbrt(3.0 * row.target_volume / (4.0 * std::numbers::pi)); }
+
+/// Of the cells that sense one field. Collective.
+Status sense_field(const Model& model, const Tissue& tissue, int field, std::span<const Vec3d> center, const Comm& comm,
+                   std::vector<SensedField>& out) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < tissue.cells.size(); ++i)
+    if (model.types[tissue.cells.rows[i].type].migration.sensed_field() == field) rows.push_back(i);
+  std::vector<fields::CellSource> points(rows.size());
+  std::vector<double> ahead(rows.size()), behind(rows.size());
+  const auto sample = [&](std::size_t axis, double sign, std::vector<double>& seen) {
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const CellRow& row = tissue.cells.rows[rows[k]];
+      points[k] = {row.id, row.type, center[rows[k]]};
+      points[k].center[axis] += sign * radius_of(row);
+    }
+    return fields::sample(tissue.fields[static_cast<std::size_t>(field)], model.space, points, comm, seen);
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    MORULA_TRY(sample(axis, 1.0, ahead));
+    MORULA_TRY(sample(axis, -1.0, behind));
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      out[rows[k]].gradient[axis] = (ahead[k] - behind[k]) / (2.0 * radius_of(tissue.cells.rows[rows[k]]));
+      out[rows[k]].concentration += (ahead[k] + behind[k]) / 6.0;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+bool any_senses_a_field(std::span<const CellType> types) {
+  return std::ranges::any_of(types, [](const CellType& type) { return type.migration.sensed_field() >= 0; });
+}
+
+Result<std::vector<SensedField>> sense_fields(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm) {
+  std::set<int> sensed;
+  for (const CellType& type : model.types) sensed.insert(type.migration.sensed_field());
+  sensed.erase(-1);
+  std::vector<SensedField> out(tissue.cells.size());
+  for (const int field : sensed) MORULA_TRY(sense_field(model, tissue, field, center, comm, out));
+  return out;
+}
+
+}  // namespace morula
