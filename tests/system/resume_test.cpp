@@ -99,6 +99,9 @@ std::vector<Feature> life() {
        "  - {type: cell, at: [[-7 um, 0 um, 0 um]], as: shell}\n  - {type: cell, at: [[7 um, 0 um, 0 um]], as: sphere}\noutput: {report: "
        "false}\n"},
       {"MigrationOfSpheres", typed("migration: {speed: 20 um/h, persistence: 10 min}"), kBall, ""},
+      {"RunAndTumble", typed("migration: {speed: 20 um/h, law: run_and_tumble, run_time: 5 min}"), kBall, ""},
+      {"Chemotaxis", typed("migration: {speed: 20 um/h, law: chemotaxis, field: bait, persistence: 10 min}"), kBall,
+       "fields: {bait: {diffusion: 1e-9 m^2/s, initial: 0.2 mM, boundary: {x_low: 0.1 mM, x_high: 0.3 mM}}}\n"},
       {"PolarityAndProtrusion",
        typed("polarity: {turning: 5 1/h, follow_velocity: 5 min}, protrusion: {force: 0.1 nN}, dcm: {nodes: 42, cortex: {tension: 0.2 "
              "mN/m}}"),
