@@ -115,7 +115,7 @@ Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<b
     auto timed = timer().scope(Stage::kBehaviours);
     divide_and_remove(life, outcome.events);
   }
-  MORULA_TRY_ASSIGN(const auto swapped, swap_bodies());
+  const std::vector<Event> swapped = swap_bodies();
   outcome.events.insert(outcome.events.end(), swapped.begin(), swapped.end());
   outcome.events = all_events(std::move(outcome.events));
   rename_partners(outcome.events);

@@ -5,8 +5,6 @@
 #include <cstring>
 #include <numbers>
 
-#include "cbm/partners.h"
-#include "core/contact/contact_layer.h"
 #include "core/parallel/threads.h"
 #include "coupling/behaviours/life.h"
 #include "coupling/behaviours/migration.h"
@@ -15,8 +13,6 @@
 #include "coupling/cell_record.h"
 #include "coupling/face_marks.h"
 #include "coupling/mechanics/contact_setup.h"
-#include "coupling/mechanics/scene.h"
-#include "coupling/overlap.h"
 #include "coupling/still_to_come.h"
 #include "coupling/swaps.h"
 #include "dcm/growth.h"
@@ -26,55 +22,6 @@ namespace {
 
 /// Time over which V0 (or a sphere's volume) goes back to that of a free cell after a swap: about ten mechanical relaxation times [s].
 constexpr double kEasing = 600.0;
-/// A promoted cell that is left this deep within a neighbour has no room: it stays a sphere for now [µm].
-constexpr double kNoRoom = 0.5;
-
-/// Cells just promoted that found no room (`back`, sorted) become again the spheres they were; their events say so.
-void take_back(Tissue& tissue, std::vector<CellRecord> before, std::span<const CellId> back, std::vector<Event>& events) {
-  const auto goes_back = [&](CellId id) { return std::binary_search(back.begin(), back.end(), id); };
-  std::erase_if(before, [&](const CellRecord& cell) { return !goes_back(cell.row.id); });
-  for (CellRecord& cell : before) cell.row.last_swap_time = tissue.clock.time;
-  replace_cells(tissue, rows_of(tissue.cells, back), std::move(before));
-  for (Event& event : events) {
-    if (event.kind != EventKind::kPromotion || !goes_back(event.cell)) continue;
-    event.kind = EventKind::kWarning;
-    event.reason.no_room = true;
-  }
-}
-
-/// Cells that have just become shells.
-struct NewShells {
-  std::vector<CellId> cells;       ///< sorted
-  std::vector<CellRecord> before;  ///< the spheres that they were
-  bool may_go_back = true;         ///< false: cells become what the study says, however little room they have
-};
-
-/// New shells find their shape between their neighbours, at their volume; those that find no room become again what they were. Collective.
-Status settle_new_shells(Tissue& tissue, Mechanics& mechanics, const Comm& comm, NewShells fresh, std::vector<Event>& events) {
-  std::vector<char> moves;
-  std::vector<std::pair<std::size_t, double>> kept;  // shell, volume
-  for (const CellRow& row : tissue.cells.rows) {
-    if (row.body != BodyKind::kShell) continue;
-    const std::size_t shell = moves.size();
-    const bool is_fresh = std::binary_search(fresh.cells.begin(), fresh.cells.end(), row.id);
-    if (is_fresh) kept.emplace_back(shell, tissue.shells.rest_volume[shell]);
-    moves.push_back(is_fresh);
-  }
-  moves.resize(moves.size() + tissue.spheres.size(), 0);
-  const bool capped = tissue.clock.capped;
-  MORULA_TRY(mechanics.relax(tissue, moves));
-  for (const auto& [shell, v] : kept) set_enclosed_volume(tissue.shells.topology(shell), tissue.shells.nodes(shell), v);
-  mechanics.bodies_changed();
-  if (!fresh.may_go_back) return {};
-  const std::vector<CellId> back = too_deep(mechanics, fresh.cells, kNoRoom);
-  if (comm.any(!back.empty())) {
-    take_back(tissue, std::move(fresh.before), back, events);
-    mechanics.bodies_changed();
-  }
-  // Where all have gone back the tissue is as it was; others that are left in an overlap go on with the capped start.
-  if (comm.all(back.size() == fresh.cells.size())) tissue.clock.capped = capped;
-  return {};
-}
 
 }  // namespace
 
@@ -223,71 +170,6 @@ Status Simulation::advance_fields(double dt, const std::function<bool()>& give_u
     outcome.fields.push_back(report);
   }
   return {};
-}
-
-Result<std::vector<Event>> Simulation::swap_bodies() {
-  auto timed = timer().scope(Stage::kCoupling);
-  std::vector<Event> events;
-  const std::vector<Vec3d> center = centers();
-  std::optional<BodyValues> body_values;
-  if (look_at_bodies(model_.swaps)) body_values = values();
-  const std::vector<SwapOrder> orders = choose_swaps(model_, tissue_, {center, body_values ? &*body_values : nullptr}, comm_);
-  if (!comm_.any(!orders.empty())) return events;
-  std::vector<double> pressure(orders.size()), volume;
-  for (std::size_t k = 0; k < orders.size(); ++k) pressure[k] = tissue_.cells.rows[orders[k].row].pressure;
-  std::vector<CellId> leaving;
-  for (const SwapOrder& order : orders)
-    if (order.to == BodyKind::kSphere) leaving.push_back(tissue_.cells.rows[order.row].id);
-  leaving = ids_of_all_ranks(leaving, comm_);
-  std::vector<std::pair<CellId, CellId>> touching;
-  if (!leaving.empty()) touching = mechanics_->touching(tissue_, leaving);
-  std::vector<CellId> fresh;
-  std::vector<std::size_t> rows;
-  std::vector<CellRecord> before, changed;        // before: of the promoted, should they find no room
-  const bool may_stay = tissue_.clock.steps > 0;  // at the very beginning cells become what the study says
-  std::vector<BodyOfRow> body_of_row;
-  for (const BodyOfRow& body : bodies_of(tissue_.cells)) body_of_row.push_back(body);
-  for (std::size_t k = 0; k < orders.size(); ++k) {
-    rows.push_back(orders[k].row);
-    CellRecord& cell = changed.emplace_back(record_of(tissue_, body_of_row[orders[k].row]));
-    const bool up = orders[k].to == BodyKind::kShell;
-    if (up) {
-      if (may_stay) before.push_back(cell);
-      promote(cell, model_.types[cell.row.type], pressure[k], tissue_.clock.time, shapes_, model_.seed);
-      fresh.push_back(cell.row.id);
-    } else {
-      demote(cell, tissue_.clock.time);
-    }
-    events.push_back({tissue_.clock.time, up ? EventKind::kPromotion : EventKind::kDemotion, cell.row.id, {}, {}, orders[k].reason});
-  }
-  std::sort(rows.begin(), rows.end());
-  replace_cells(tissue_, rows, std::move(changed));
-  attach_touching(tissue_, touching);  // what adhered as a shell goes on adhering
-  attach_touching(before, touching);
-  mark_new_shells(model_, tissue_);
-  mechanics_->bodies_changed();
-
-  if (comm_.any(!fresh.empty())) {
-    std::sort(fresh.begin(), fresh.end());
-    MORULA_TRY(settle_new_shells(tissue_, *mechanics_, comm_, {fresh, std::move(before), may_stay}, events));
-  }
-  std::int64_t ups = 0, downs = 0;
-  for (const Event& event : events) {
-    ups += event.kind == EventKind::kPromotion;
-    downs += event.kind == EventKind::kDemotion;
-  }
-  tissue_.ledger.promotions += static_cast<std::uint64_t>(comm_.sum(ups));
-  tissue_.ledger.demotions += static_cast<std::uint64_t>(comm_.sum(downs));
-  return events;
-}
-
-Result<std::vector<Event>> Simulation::first_swaps() {
-  MORULA_TRY_ASSIGN(auto events, swap_bodies());
-  OptionalColumn<double>& last_swap = tissue_.cells.optional.last_swap_time;
-  for (std::size_t i = 0; i < tissue_.cells.size(); ++i)
-    if (last_swap[i] == tissue_.clock.time) last_swap.set(i, OptionalValues().last_swap_time);  // being placed is no exchange
-  mechanics_->attach(tissue_);
-  return all_events(std::move(events));
 }
 
 void Simulation::wrap_cells() {

@@ -72,7 +72,8 @@ class Simulation {
   /// The cells as fields see them, at the present positions.
   [[nodiscard]] std::vector<fields::CellSource> field_sources() const;
   Status advance_fields(double dt, const std::function<bool()>& give_up, StepOutcome& outcome);
-  Result<std::vector<Event>> swap_bodies();
+  /// Cells become shells or spheres as regions and triggers ask for (coupling/exchange.cpp). Collective.
+  std::vector<Event> swap_bodies();
   /// Shells with a face of too little quality get an even mesh on the same surface (coupling/mesh_renewal.cpp). Collective.
   void renew_meshes(std::vector<Event>& events);
   /// What a step of life has asked for (coupling/divisions.cpp): daughters in place of mothers, and dead cells gone. Collective.

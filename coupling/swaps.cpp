@@ -172,12 +172,6 @@ double free_reference_volume(double target_volume, const CellType& type) {
   return dcm::pressure_free_reference(target_volume, type.shell.tension, type.shell.bulk_modulus);
 }
 
-void set_enclosed_volume(const Topology& topology, std::span<Vec3d> nodes, double volume) {
-  const Vec3d center = volume_centroid(topology.faces(), nodes);
-  const double scale = std::cbrt(volume / enclosed_volume(topology.faces(), nodes, center));
-  for (Vec3d& p : nodes) p = center + (p - center) * scale;
-}
-
 void promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes, std::uint32_t seed) {
   const SphereRecord& sphere = *cell.sphere;
   const double volume = 4.0 / 3.0 * std::numbers::pi * sphere.radius * sphere.radius * sphere.radius;
@@ -246,6 +240,10 @@ void attach_touching(Tissue& tissue, TouchingPairs touching) {
   for (const BodyOfRow& body : bodies_of(tissue.cells)) {
     if (body.is_shell) continue;
     const auto pairs = pairs_of(tissue.cells.rows[body.row].id, touching);
+    if (pairs.empty()) {
+      tissue.spheres.attached.push_back(before[body.number]);
+      continue;
+    }
     partners.assign(before[body.number].begin(), before[body.number].end());
     add_partners(pairs, partners);
     tissue.spheres.attached.push_back(partners);

@@ -50,9 +50,6 @@ std::vector<CellId> ids_of_all_ranks(const std::vector<CellId>& mine, const Comm
 void attach_touching(std::span<CellRecord> cells, std::span<const std::pair<CellId, CellId>> touching);
 void attach_touching(Tissue& tissue, std::span<const std::pair<CellId, CellId>> touching);
 
-/// Scale a closed mesh about its centroid so that it encloses exactly this volume.
-void set_enclosed_volume(const Topology& topology, std::span<Vec3d> nodes, double volume);
-
 /// V0 of a free shell of this target volume: V exp(2γ/(R K_V)) [µm³].
 double free_reference_volume(double target_volume, const CellType& type);
 

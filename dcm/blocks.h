@@ -17,8 +17,9 @@ struct ShellBlocks {
   [[nodiscard]] std::uint32_t face_count() const { return first_face.back(); }
 };
 
-/// Group the shells by Topology in their order, `max_lanes` (1, 4 or 8) at a time. Results do not depend on the width.
-ShellBlocks make_shell_blocks(const Shells& shells, int max_lanes = LaneBlock::kMaxLanes);
+/// Group the shells by Topology in their order, `max_lanes` (1, 4 or 8) at a time. Results do not depend on the width. Shells with computed[shell] == 0
+/// are in no block; an empty list means that all are.
+ShellBlocks make_shell_blocks(const Shells& shells, int max_lanes = LaneBlock::kMaxLanes, std::span<const char> computed = {});
 
 /// Run `kernel.operator()<W>(block number, block, workspace)` for one block.
 template <class Workspace, class Kernel>

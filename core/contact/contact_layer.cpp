@@ -29,7 +29,7 @@ bool are_sisters(CellId a, CellId b) {
 
 }  // namespace
 
-ContactLayer::ContactLayer(ContactSettings settings, std::vector<RigidSurface> obstacles, std::vector<ContactMaterial> materials,
+ContactLayer::ContactLayer(ContactSettings settings, RigidSurfaces obstacles, std::vector<ContactMaterial> materials,
                            std::size_t material_count)
     : settings_(settings),
       obstacles_(std::move(obstacles)),
@@ -159,11 +159,12 @@ bool ContactLayer::note_travel(const ContactScene& scene) {
 
 void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& workspace,
                                  ElementStore& store) {
-  if (pair.motion - pair.built_at > settings_.skin) rebuild_lists(scene, pair);
+  const bool held = !scene.bodies[pair.a].moves && (pair.rigid || !scene.bodies[pair.b].moves);
+  if (!held && pair.motion - pair.built_at > settings_.skin) rebuild_lists(scene, pair);
   clear_results(pair, {scene.bodies[pair.a].point_count, pair.rigid ? 0 : scene.bodies[pair.b].point_count}, gradient);
   pair.area = 0.0;
   pair.push = {};
-  if (!scene.bodies[pair.a].moves && (pair.rigid || !scene.bodies[pair.b].moves)) return;  // both held: nothing to find
+  if (held) return;  // nothing to find
   const PairBody body[2] = {view(scene, pair, 0), view(scene, pair, 1)};
   const bool both = !pair.rigid && body[0].topology != nullptr && body[1].topology != nullptr;
   ContactMaterial contact = material_of(scene, pair);

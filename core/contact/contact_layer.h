@@ -70,8 +70,7 @@ struct SisterBond {
 /// identically. Sums over the pairs of a body run in canonical order. Pairs of two spheres are only listed: their laws live elsewhere.
 class ContactLayer {
  public:
-  ContactLayer(ContactSettings settings, std::vector<RigidSurface> obstacles, std::vector<ContactMaterial> materials,
-               std::size_t material_count);
+  ContactLayer(ContactSettings settings, RigidSurfaces obstacles, std::vector<ContactMaterial> materials, std::size_t material_count);
 
   /// The bodies have changed: forget all lists.
   void reset() { fresh_ = true; }
@@ -136,7 +135,8 @@ class ContactLayer {
   /// Pairs of spheres that rebuild() has found, in canonical order; handed over, for the layer has no use for them.
   [[nodiscard]] std::vector<SphereNeighbours> take_sphere_neighbours() { return std::move(spheres_); }
   [[nodiscard]] std::span<const SurfacePair> pairs() const { return pairs_; }
-  [[nodiscard]] std::span<const RigidSurface> obstacles() const { return obstacles_; }
+  [[nodiscard]] std::span<const RigidSurface> obstacles() const { return obstacles_.all(); }
+  [[nodiscard]] const RigidSurfaces& shared_obstacles() const { return obstacles_; }
   [[nodiscard]] const Vec3d& obstacle_offset(std::size_t i) const { return offsets_[i]; }
   [[nodiscard]] std::span<const Vec3d> offsets() const { return offsets_; }
   [[nodiscard]] const ContactMaterial& material(std::uint16_t a, std::uint16_t b) const { return materials_[a * material_count_ + b]; }
@@ -179,7 +179,7 @@ class ContactLayer {
   double bonding_ = 1.0;
   std::vector<SisterBond> sister_bonds_;
   ContactSettings settings_;
-  std::vector<RigidSurface> obstacles_;
+  RigidSurfaces obstacles_;
   std::vector<Vec3d> offsets_, last_offsets_, step_offsets_;
   std::vector<ContactMaterial> materials_;
   std::size_t material_count_;

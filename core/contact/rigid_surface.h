@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/mesh/surface_geometry.h"
@@ -29,6 +30,24 @@ struct RigidSurface {
   std::vector<SmoothPart> parts;            ///< by their lowest face
   std::vector<std::uint32_t> part_of_face;  ///< by face
   std::uint16_t material = 0;
+};
+
+/// Rigid surfaces that several contact layers look at; nobody changes them.
+class RigidSurfaces {
+ public:
+  RigidSurfaces() = default;
+  RigidSurfaces(std::vector<RigidSurface> surfaces)  // NOLINT: a list of surfaces is what it says
+      : surfaces_(std::make_shared<const std::vector<RigidSurface>>(std::move(surfaces))) {}
+
+  [[nodiscard]] std::span<const RigidSurface> all() const {
+    return surfaces_ == nullptr ? std::span<const RigidSurface>() : std::span<const RigidSurface>(*surfaces_);
+  }
+  [[nodiscard]] std::size_t size() const { return all().size(); }
+  [[nodiscard]] bool empty() const { return all().empty(); }
+  const RigidSurface& operator[](std::size_t i) const { return (*surfaces_)[i]; }
+
+ private:
+  std::shared_ptr<const std::vector<RigidSurface>> surfaces_;
 };
 
 /// Finds the smooth parts of a surface that has its topology, positions and tree.

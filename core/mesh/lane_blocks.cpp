@@ -17,6 +17,7 @@ std::vector<LaneBlock> group_by_topology(std::span<const Topology* const> topolo
   std::vector<LaneBlock> blocks;
   std::unordered_map<const Topology*, std::size_t> open;  // the last block of each topology
   for (std::size_t surface = 0; surface < topologies.size(); ++surface) {
+    if (topologies[surface] == nullptr) continue;
     const auto [place, is_new] = open.try_emplace(topologies[surface], blocks.size());
     if (is_new || blocks[place->second].count == max_lanes) {
       place->second = blocks.size();

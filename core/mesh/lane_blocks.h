@@ -19,7 +19,8 @@ struct LaneBlock {
 };
 
 /// Group surfaces by Topology, in the order in which they come. Full blocks have `max_lanes` lanes (1, 4 or 8); what is left over of a
-/// Topology goes to the narrowest width that holds it. Results of the kernels do not depend on the grouping.
+/// Topology goes to the narrowest width that holds it. Results of the kernels do not depend on the grouping. Surfaces without a Topology (null)
+/// are left out.
 std::vector<LaneBlock> group_by_topology(std::span<const Topology* const> topologies, int max_lanes = LaneBlock::kMaxLanes);
 
 }  // namespace morula

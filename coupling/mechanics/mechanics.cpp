@@ -8,11 +8,16 @@
 
 namespace morula {
 
-Mechanics::Mechanics(const Model& model, std::vector<RigidSurface> obstacles, ShapeLibrary& shapes, Comm comm, int threads)
+Mechanics::Mechanics(const Model& model, RigidSurfaces obstacles, ShapeLibrary& shapes, Comm comm, int threads)
     : work_(new Workspace{.setting = {model, shapes, comm, threads}, .terms = make_terms(model, std::move(obstacles), threads)}) {}
 
 Mechanics::~Mechanics() = default;
 Mechanics::Mechanics(Mechanics&&) noexcept = default;
+
+Mechanics Mechanics::for_another_tissue(Comm comm) const {
+  const Workspace::Setting& here = work_->setting;
+  return Mechanics(here.model, contacts().shared_obstacles(), here.shapes, comm, here.threads);
+}
 
 void Mechanics::bodies_changed() {
   work_->age.reset();
@@ -33,7 +38,7 @@ std::vector<Vec3d> Mechanics::random_forces(const Tissue& tissue, double dt) {
   return out;
 }
 
-Status Mechanics::relax(Tissue& tissue, std::span<const char> moves) { return relax_in_place(*work_, tissue, moves); }
+double Mechanics::relax(Tissue& tissue, std::span<const char> moves) { return relax_in_place(*work_, tissue, moves); }
 
 std::vector<Vec3d> Mechanics::spread(const Tissue& tissue, std::span<const Vec3d> by_body) {
   (void)prepare(*work_, tissue);

@@ -28,7 +28,9 @@ struct Workspace;
 /// A workspace: everything in it can be rebuilt from the Tissue, and rebuilding it never changes a result.
 class Mechanics {
  public:
-  Mechanics(const Model& model, std::vector<RigidSurface> obstacles, ShapeLibrary& shapes, Comm comm, int threads);
+  Mechanics(const Model& model, RigidSurfaces obstacles, ShapeLibrary& shapes, Comm comm, int threads);
+  /// The mechanics of another tissue of the same model, between the same obstacles.
+  [[nodiscard]] Mechanics for_another_tissue(Comm comm) const;
   ~Mechanics();
   Mechanics(Mechanics&&) noexcept;
 
@@ -47,9 +49,9 @@ class Mechanics {
 
   /// Let the owned bodies with moves[body] != 0 find their shape between all others, which are held in place (fields_and_coupling.md, D). First
   /// they are let out of overlap: no adhesion and no friction, a traction capped at a value that grows from 0.1 kPa to 10 kPa. Then adhesion and
-  /// friction come in, and they settle. The clock stands still; where overlap is left (no room), the capped start is on when it goes on.
-  /// Collective; ranks without such bodies take part.
-  Status relax(Tissue& tissue, std::span<const char> moves);
+  /// friction come in, and they settle. The clock stands still. Gives the deepest overlap of the moved bodies that is left [µm]; beyond
+  /// kOverlapAtRest they found no room, and need the capped start to go on. Held shells take no part but by their surfaces. Collective.
+  double relax(Tissue& tissue, std::span<const char> moves);
 
   /// Which owned cells touch which of `these` (sorted), or are one of `these` and touch whom: pairs (owned cell, partner) with contact area in the
   /// surface contacts at the tissue's positions, sorted. An obstacle is the partner CellId(number + 1). Collective.

@@ -5,7 +5,11 @@
 namespace morula {
 
 void Membranes::bodies_changed(const World& world) {
-  shells_.set_shells(world.tissue.shells, world.threads);
+  const auto owned = world.scene.bodies().first(world.scene.owned_shells());
+  std::vector<char> moves;
+  if (!std::ranges::all_of(owned, &ContactBody::active))
+    for (const ContactBody& body : owned) moves.push_back(body.active());
+  shells_.set_shells(world.tissue.shells, world.threads, moves);
   held_ = {};
 }
 

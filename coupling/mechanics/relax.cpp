@@ -13,12 +13,13 @@ constexpr double kFirstStep = 0.1;      // [s]
 constexpr double kLongestStep = 30.0;   // [s]
 constexpr double kShortestStep = 1e-4;  // [s]
 constexpr double kFirstCap = 1e-3;      // δ of the capped traction at first [µm] ...
+constexpr double kFirstDepth = 1.0;     // overlap that is looked for at first [µm]
+constexpr double kSeenPart = 0.5;       // of it that may be found: where surfaces overlap more than is seen, some point lies in this half
 constexpr double kLastCap = 0.1;        // ... and at most
 constexpr double kRaiseCap = 1.08;      // from step to step: 60 steps from the first to the last
 constexpr int kBondingSteps = 20;       // over which adhesion and friction come in
 constexpr double kFarStep = 0.1;        // a step is chosen to move nodes not much further [µm]
 constexpr double kAtRest = 6e-3;        // displacement of a longest step that counts as rest: 10⁻³ R a minute for R = 6 to 12 [µm]
-constexpr double kOverlapAtRest = 0.1;  // [µm]
 constexpr int kMostSteps = 200;
 
 /// The deepest overlap that there can be: two radii of the largest shell that moves.
@@ -29,23 +30,27 @@ double deepest_possible(const Tissue& tissue, std::span<const char> moves, const
   return 2.0 * std::cbrt(0.75 / std::numbers::pi * comm.max(largest_volume));
 }
 
-/// Other bodies move from here on, and contacts have another strength.
-void hold_all_but(Workspace& work, std::span<const char> moves) {
-  lay_out_system(work, moves);
-  work.terms.contacts->forget();
-  work.known.reset();
+/// Lets overlap be seen as deep as there is any: to look deeper takes longer. Collective.
+void see_all_overlap(Workspace& work, const Tissue& tissue, Settling& settling, double deepest) {
+  double& depth = settling.strength.depth;
+  for (;; depth = std::min(2.0 * depth, deepest)) {
+    (void)prepare(work, tissue, &settling);
+    if (depth >= deepest || deepest_overlap(work) <= kSeenPart * depth) return;
+    work.known.reset();
+  }
 }
 
 }  // namespace
 
-Status relax_in_place(Workspace& work, Tissue& tissue, std::span<const char> moves) {
-  (void)prepare(work, tissue);
+double relax_in_place(Workspace& work, Tissue& tissue, std::span<const char> moves) {
   const Clock clock = tissue.clock;
   tissue.clock.capped = true;
-  Settling settling{{moves.begin(), moves.end()}, {kFirstCap, deepest_possible(tissue, moves, work.setting.comm), 0.0}};
-  hold_all_but(work, settling.moves);
+  const double deepest = deepest_possible(tissue, moves, work.setting.comm);
+  Settling settling{{moves.begin(), moves.end()}, {kFirstCap, std::min(kFirstDepth, deepest), 0.0}};
+  work.age.reset();  // a scene in which the others are held
+  see_all_overlap(work, tissue, settling, deepest);
   const std::vector<Vec3d> none(tissue.shells.node_count() + tissue.spheres.size());
-  double dt = kFirstStep, overlap = 0.0;
+  double dt = kFirstStep, overlap = deepest_overlap(work);
   for (int k = 0; k < kMostSteps; ++k) {
     const auto done = advance(work, tissue, {dt, none, {}, &settling});
     if (!done) {
@@ -55,6 +60,7 @@ Status relax_in_place(Workspace& work, Tissue& tissue, std::span<const char> mov
     }
     overlap = done->overlap;
     ContactStrength& strength = settling.strength;
+    if (overlap > kSeenPart * strength.depth) strength.depth = std::min(2.0 * strength.depth, deepest);
     if (strength.bonding == 0.0 && overlap > kOverlapAtRest) {
       strength.cap = std::min(kLastCap, kRaiseCap * strength.cap);
     } else if (strength.bonding < 1.0) {
@@ -66,9 +72,9 @@ Status relax_in_place(Workspace& work, Tissue& tissue, std::span<const char> mov
     dt = std::min(kLongestStep, dt * std::clamp(kFarStep / std::max(done->displacement, 1e-12), 0.5, 1.5));
   }
   tissue.clock = clock;
-  tissue.clock.capped = clock.capped || overlap > kOverlapAtRest;
-  hold_all_but(work, {});
-  return {};
+  work.age.reset();
+  work.known.reset();
+  return overlap;
 }
 
 }  // namespace morula

@@ -1,8 +1,8 @@
 /// How the ghosts of a scene come to be: which bodies go where, and where those that come have their place.
 #include <algorithm>
-#include <cstring>
 
 #include "core/mesh/shape_bytes.h"
+#include "core/parallel/pack.h"
 #include "coupling/mechanics/scene.h"
 
 namespace morula {
@@ -18,19 +18,6 @@ struct GhostHeader {
   BodyShape shape;
   std::uint8_t unused[1];
 };
-
-template <class T>
-std::vector<T> unpack(std::span<const std::byte> bytes) {
-  std::vector<T> out(bytes.size() / sizeof(T));
-  if (!out.empty()) std::memcpy(out.data(), bytes.data(), bytes.size());
-  return out;
-}
-template <class T>
-std::vector<std::byte> pack(const std::vector<T>& items) {
-  std::vector<std::byte> out(items.size() * sizeof(T));
-  if (!out.empty()) std::memcpy(out.data(), items.data(), out.size());
-  return out;
-}
 
 bool overlaps_any_image(const Box& a, const Box& b, const Space& space) {
   if (!space.any_periodic()) return a.overlaps(b);

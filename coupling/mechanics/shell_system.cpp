@@ -11,9 +11,11 @@ ShellSystem::ShellSystem(const Model& model) {
   }
 }
 
-void ShellSystem::set_shells(const dcm::Shells& shells, int threads) {
+void ShellSystem::set_shells(const dcm::Shells& shells, int threads, std::span<const char> computed) {
   shells_ = &shells;
-  blocks_ = dcm::make_shell_blocks(shells);
+  blocks_ = dcm::make_shell_blocks(shells, LaneBlock::kMaxLanes, computed);
+  some_are_held_ = !computed.empty();
+  if (some_are_held_) forces_ = {};
   blocks_.threads = threads;
 }
 
@@ -21,6 +23,7 @@ void ShellSystem::evaluate(const dcm::Shells& shells, std::span<const Vec3d> pos
                            std::span<const dcm::HeldVolume> held) {
   held_ = held;
   const std::size_t nodes = shells.node_count();
+  if (some_are_held_) std::ranges::fill(force.first(nodes), Vec3d{});
   dcm::internal_forces(blocks_, shells, parameters_, position.first(nodes), force.first(nodes), forces_, held);
 }
 

@@ -21,7 +21,8 @@ class ShellSystem : public OperatorPart {
   /// Shells with these parameters by cell type.
   explicit ShellSystem(std::vector<dcm::ShellParameters> parameters) : parameters_(std::move(parameters)) {}
 
-  void set_shells(const dcm::Shells& shells, int threads);
+  /// `computed`: the shells that have forces, friction and a part of the matrix, by shell; the others are held in place. Empty: all.
+  void set_shells(const dcm::Shells& shells, int threads, std::span<const char> computed = {});
   /// Internal forces at `position` into the first entries of `force`; all else is in `forces()` afterwards. `held`: what is in the shells that is
   /// not cytosol, by shell, good until assemble(); empty: nothing.
   void evaluate(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<Vec3d> force,
@@ -71,6 +72,7 @@ class ShellSystem : public OperatorPart {
   const dcm::Shells* shells_ = nullptr;
   std::span<const dcm::HeldVolume> held_;
   dcm::ShellBlocks blocks_;
+  bool some_are_held_ = false;  ///< and are in no block
   dcm::ShellMechanics forces_;
   dcm::ShellFriction friction_;
   dcm::ShellOperator operator_;

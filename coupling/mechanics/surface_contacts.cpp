@@ -34,7 +34,7 @@ ContactScene contact_scene(const Scene& scene, const SurfaceGeometry& geometry) 
           scene.marks()};
 }
 
-SurfaceContacts::SurfaceContacts(const Model& model, std::vector<RigidSurface> obstacles, int threads)
+SurfaceContacts::SurfaceContacts(const Model& model, RigidSurfaces obstacles, int threads)
     : threads_(threads),
       layer_(contact_settings(model, threads), std::move(obstacles), contact_materials(model), contact_material_count(model)) {}
 

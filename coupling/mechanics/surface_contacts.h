@@ -24,7 +24,7 @@ struct ContactStrength {
 /// anew, because their radii and packing may have changed. Candidates of all contacts are found here, those of spheres among themselves, too.
 class SurfaceContacts : public Term {
  public:
-  SurfaceContacts(const Model& model, std::vector<RigidSurface> obstacles, int threads);
+  SurfaceContacts(const Model& model, RigidSurfaces obstacles, int threads);
 
   /// Collective.
   void bodies_changed(const World& world) override;

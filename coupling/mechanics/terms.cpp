@@ -6,7 +6,7 @@
 
 namespace morula {
 
-Terms make_terms(const Model& model, std::vector<RigidSurface> obstacles, int threads) {
+Terms make_terms(const Model& model, RigidSurfaces obstacles, int threads) {
   Terms out;
   const auto add = [&out](auto term) {
     auto* const here = term.get();

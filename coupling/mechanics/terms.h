@@ -30,6 +30,6 @@ struct Terms {
 };
 
 /// The list: here a new term gets its line.
-Terms make_terms(const Model& model, std::vector<RigidSurface> obstacles, int threads);
+Terms make_terms(const Model& model, RigidSurfaces obstacles, int threads);
 
 }  // namespace morula

@@ -46,6 +46,35 @@ bool needs_new_scene(const Workspace& work, const Tissue& tissue) {
   return most > 0.25 * slack * slack;
 }
 
+/// Owned shells come first, owned spheres after the ghost shells.
+std::vector<char> by_body_of_scene(const Scene& scene, std::span<const char> by_owned_body) {
+  std::vector<char> out(scene.bodies().size(), 0);
+  std::copy_n(by_owned_body.begin(), scene.owned_shells(), out.begin());
+  std::copy(by_owned_body.begin() + static_cast<std::ptrdiff_t>(scene.owned_shells()), by_owned_body.end(),
+            out.begin() + static_cast<std::ptrdiff_t>(scene.first_sphere()));
+  return out;
+}
+
+/// The unknowns of the linear system: the bodies that move. Collective.
+void lay_out_system(Workspace& work) {
+  Scene& scene = work.scene;
+  FrictionSystem::Layout layout;
+  layout.point_count = scene.point_count();
+  layout.owned.reserve(scene.bodies().size() + scene.inner().size());
+  for (const ContactBody& body : scene.bodies()) {
+    if (body.shape == BodyShape::kSurface) layout.bodies.push_back({body.first_point, body.point_count});
+    layout.owned.push_back(body.active());
+  }
+  for (const Scene::Inner& inner : scene.inner())
+    layout.owned.insert(layout.owned.end(), inner.point_count, scene.bodies()[inner.shell].active());
+  if (work.setting.comm.size() > 1) layout.exchange = [&scene](std::span<Float4> vector) { scene.exchange(vector); };
+  FrictionSystem& system = work.solver.system;
+  system.set_layout(std::move(layout), work.setting.threads);
+  system.set_shells(&work.terms.membranes->operator_part());
+  system.set_sphere_pairs(&work.terms.spheres->pairs());
+  for (const auto& term : work.terms.all) system.add_part(term.get());
+}
+
 void build_scene(Workspace& work, const Tissue& tissue, const Settling* settling) {
   auto timed = work.timer.scope(Stage::kGhosts);
   const Model& model = work.setting.model;
@@ -53,6 +82,7 @@ void build_scene(Workspace& work, const Tissue& tissue, const Settling* settling
   const double slack = contact.body_skin;
   const double reach = std::max(contact.range, contact.sphere_reach) + 2.0 * contact.body_skin + slack + 2.0 * step_margin(model);
   work.scene.build(tissue, model.space, reach, work.setting.shapes, work.setting.comm);
+  if (settling != nullptr) work.scene.set_moving(by_body_of_scene(work.scene, settling->moves));
   work.age.emplace();
   work.known.reset();
   if (work.setting.comm.size() > 1) {
@@ -62,7 +92,7 @@ void build_scene(Workspace& work, const Tissue& tissue, const Settling* settling
   const World world = work.world(tissue);
   for (const auto& term : work.terms.all) term->bodies_changed(world);
   work.solver.velocity.assign(work.scene.point_count(), {});
-  lay_out_system(work, settling != nullptr ? std::span(settling->moves) : std::span<const char>{});
+  lay_out_system(work);
 }
 
 }  // namespace
@@ -112,33 +142,6 @@ std::size_t Workspace::bytes_now() const {
                       bytes(solver.velocity) + geometry.memory() + (age ? bytes(age->start) : 0);
   for (const auto& term : terms.all) total += term->memory();
   return total;
-}
-
-void lay_out_system(Workspace& work, std::span<const char> moves) {
-  Scene& scene = work.scene;
-  std::vector<char> by_body;
-  if (!moves.empty()) {  // owned shells come first, owned spheres after the ghost shells
-    by_body.assign(scene.bodies().size(), 0);
-    std::copy_n(moves.begin(), scene.owned_shells(), by_body.begin());
-    std::copy(moves.begin() + static_cast<std::ptrdiff_t>(scene.owned_shells()), moves.end(),
-              by_body.begin() + static_cast<std::ptrdiff_t>(scene.first_sphere()));
-  }
-  scene.set_moving(by_body);
-  FrictionSystem::Layout layout;
-  layout.point_count = scene.point_count();
-  layout.owned.reserve(scene.bodies().size() + scene.inner().size());
-  for (const ContactBody& body : scene.bodies()) {
-    if (body.shape == BodyShape::kSurface) layout.bodies.push_back({body.first_point, body.point_count});
-    layout.owned.push_back(body.active());
-  }
-  for (const Scene::Inner& inner : scene.inner())
-    layout.owned.insert(layout.owned.end(), inner.point_count, scene.bodies()[inner.shell].active());
-  if (work.setting.comm.size() > 1) layout.exchange = [&scene](std::span<Float4> vector) { scene.exchange(vector); };
-  FrictionSystem& system = work.solver.system;
-  system.set_layout(std::move(layout), work.setting.threads);
-  system.set_shells(&work.terms.membranes->operator_part());
-  system.set_sphere_pairs(&work.terms.spheres->pairs());
-  for (const auto& term : work.terms.all) system.add_part(term.get());
 }
 
 Evaluation evaluate(Workspace& work, const Tissue& tissue, std::vector<Vec3d> room) {

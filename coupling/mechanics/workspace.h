@@ -107,8 +107,6 @@ const Known& prepare(Workspace& work, const Tissue& tissue, const Settling* sett
 const Known& prepare_step(Workspace& work, const Tissue& tissue, const Settling* settling = nullptr);
 /// All terms at the scene's positions; `room` is used for the forces. Collective.
 Evaluation evaluate(Workspace& work, const Tissue& tissue, std::vector<Vec3d> room);
-/// The unknowns of the linear system, with all owned bodies held but those with moves[body] != 0; an empty list lets all move. Collective.
-void lay_out_system(Workspace& work, std::span<const char> moves);
 /// What makes the present positions impossible, if anything.
 std::optional<StepFault> find_fault(const Workspace& work, const Tissue& tissue);
 /// Whether a surface of this rank has passed through another on the way from `start`.

@@ -164,6 +164,19 @@ TEST(TissueOnRanks, DemotesWithTheSameBitsAsOnOne) {
   expect_same(together, single);
 }
 
+/// Cells become shells one after the other while their neighbours lie on other ranks: each finds its shape on one rank, between cells of several.
+TEST(TissueOnRanks, PromotesWithTheSameBitsAsOnOne) {
+  const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
+  Model model = hybrid_model();
+  model.swaps.regions[0].radius = 13.0;
+  model.swaps.regions[0].from = 60.0;
+  Ledger ledger;
+  const auto together = run(model, world, 20, 1, nullptr, &ledger);
+  EXPECT_GE(ledger.promotions, 8u);
+  expect_same(together, run(model, alone, 20, 1));
+  expect_same(together, run(model, alone, 20, 2));
+}
+
 /// Shells divide among shells of other ranks: their daughters stay out of these, and cling to their sisters wherever these live.
 TEST(TissueOnRanks, DividesShellsWithTheSameBitsAsOnOne) {
   const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);

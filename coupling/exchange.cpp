@@ -1,0 +1,95 @@
+// Cells exchange their bodies: a step's regions and triggers are obeyed.
+#include <algorithm>
+#include <optional>
+
+#include "coupling/cell_record.h"
+#include "coupling/face_marks.h"
+#include "coupling/settle_shells.h"
+#include "coupling/simulation.h"
+#include "coupling/swaps.h"
+
+namespace morula {
+namespace {
+
+/// Cells just promoted that found no room (`back`, sorted) become again the spheres they were; their events say so.
+void take_back(Tissue& tissue, std::vector<CellRecord> before, std::span<const CellId> back, std::vector<Event>& events) {
+  const auto goes_back = [&](CellId id) { return std::binary_search(back.begin(), back.end(), id); };
+  std::erase_if(before, [&](const CellRecord& cell) { return !goes_back(cell.row.id); });
+  for (CellRecord& cell : before) cell.row.last_swap_time = tissue.clock.time;
+  replace_cells(tissue, rows_of(tissue.cells, back), std::move(before));
+  for (Event& event : events) {
+    if (event.kind != EventKind::kPromotion || !goes_back(event.cell)) continue;
+    event.kind = EventKind::kWarning;
+    event.reason.no_room = true;
+  }
+}
+
+}  // namespace
+
+std::vector<Event> Simulation::swap_bodies() {
+  auto timed = timer().scope(Stage::kCoupling);
+  std::vector<Event> events;
+  const std::vector<Vec3d> center = centers();
+  std::optional<BodyValues> body_values;
+  if (look_at_bodies(model_.swaps)) body_values = values();
+  const std::vector<SwapOrder> orders = choose_swaps(model_, tissue_, {center, body_values ? &*body_values : nullptr}, comm_);
+  if (!comm_.any(!orders.empty())) return events;
+  std::vector<double> pressure(orders.size()), volume;
+  for (std::size_t k = 0; k < orders.size(); ++k) pressure[k] = tissue_.cells.rows[orders[k].row].pressure;
+  std::vector<CellId> leaving;
+  for (const SwapOrder& order : orders)
+    if (order.to == BodyKind::kSphere) leaving.push_back(tissue_.cells.rows[order.row].id);
+  leaving = ids_of_all_ranks(leaving, comm_);
+  std::vector<std::pair<CellId, CellId>> touching;
+  if (!leaving.empty()) touching = mechanics_->touching(tissue_, leaving);
+  std::vector<CellId> fresh;
+  std::vector<std::size_t> rows;
+  std::vector<CellRecord> before, changed;        // before: of the promoted, should they find no room
+  const bool may_stay = tissue_.clock.steps > 0;  // at the very beginning cells become what the study says
+  std::vector<BodyOfRow> body_of_row;
+  for (const BodyOfRow& body : bodies_of(tissue_.cells)) body_of_row.push_back(body);
+  for (std::size_t k = 0; k < orders.size(); ++k) {
+    rows.push_back(orders[k].row);
+    CellRecord& cell = changed.emplace_back(record_of(tissue_, body_of_row[orders[k].row]));
+    const bool up = orders[k].to == BodyKind::kShell;
+    if (up) {
+      if (may_stay) before.push_back(cell);
+      promote(cell, model_.types[cell.row.type], pressure[k], tissue_.clock.time, shapes_, model_.seed);
+      fresh.push_back(cell.row.id);
+    } else {
+      demote(cell, tissue_.clock.time);
+    }
+    events.push_back({tissue_.clock.time, up ? EventKind::kPromotion : EventKind::kDemotion, cell.row.id, {}, {}, orders[k].reason});
+  }
+  std::sort(rows.begin(), rows.end());
+  replace_cells(tissue_, rows, std::move(changed));
+  attach_touching(tissue_, touching);  // what adhered as a shell goes on adhering
+  attach_touching(before, touching);
+  mark_new_shells(model_, tissue_);
+  if (comm_.any(!fresh.empty())) {
+    std::sort(fresh.begin(), fresh.end());
+    const Settled settled = settle_shells(tissue_, *mechanics_, model_, shapes_, comm_, fresh, may_stay);
+    if (!settled.no_room.empty()) take_back(tissue_, std::move(before), settled.no_room, events);
+    tissue_.clock.capped = tissue_.clock.capped || settled.overlap_is_left;
+  }
+  mechanics_->bodies_changed();
+  std::int64_t ups = 0, downs = 0;
+  for (const Event& event : events) {
+    ups += event.kind == EventKind::kPromotion;
+    downs += event.kind == EventKind::kDemotion;
+  }
+  tissue_.ledger.promotions += static_cast<std::uint64_t>(comm_.sum(ups));
+  tissue_.ledger.demotions += static_cast<std::uint64_t>(comm_.sum(downs));
+  return events;
+}
+
+Result<std::vector<Event>> Simulation::first_swaps() {
+  std::vector<Event> events = swap_bodies();
+  OptionalColumn<double>& last_swap = tissue_.cells.optional.last_swap_time;
+  for (std::size_t i = 0; i < tissue_.cells.size(); ++i)
+    if (last_swap[i] == tissue_.clock.time) last_swap.set(i, OptionalValues().last_swap_time);  // being placed is no exchange
+  mechanics_->attach(tissue_);
+  return all_events(std::move(events));
+}
+
+}  // namespace morula

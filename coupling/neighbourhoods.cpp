@@ -1,0 +1,203 @@
+#include "coupling/neighbourhoods.h"
+
+#include <algorithm>
+#include <cmath>
+#include <compare>
+#include <numeric>
+#include <utility>
+
+#include "core/contact/broad_phase.h"
+#include "core/parallel/pack.h"
+
+namespace morula {
+namespace {
+
+/// From so many movers on all ranks work on a neighbourhood that lies on several.
+constexpr std::size_t kManyMovers = 32;
+
+/// A box that others are looked for around, as all ranks know it: of a mover, or of a sphere beside one.
+struct Seed {
+  CellId id;
+  Box box;
+  std::uint32_t group = 0;  ///< movers: the rank; spheres beside: the mover
+};
+
+double largest_edge(const Box& box) {
+  const Vec3d size = box.size();
+  return std::max({size.x, size.y, size.z});
+}
+
+bool near(const Box& a, const Box& b, const Space& space) {
+  const Vec3d between = space.nearest_image(b.center() - a.center()), room = (a.size() + b.size()) * 0.5;
+  return std::abs(between.x) <= room.x && std::abs(between.y) <= room.y && std::abs(between.z) <= room.z;
+}
+
+/// Seeds of all ranks in the order of their ids.
+std::vector<Seed> of_all_ranks(std::vector<Seed> mine, const Comm& comm) {
+  std::vector<Seed> all = comm.size() == 1 ? std::move(mine) : unpack<Seed>(comm.gather_to_all(pack(mine)));
+  std::ranges::sort(all, [](const Seed& a, const Seed& b) { return a.id != b.id ? a.id < b.id : a.group < b.group; });
+  return all;
+}
+
+/// The rows of a rank with the boxes around their bodies.
+struct Rows {
+  std::vector<BodyOfRow> body;
+  std::vector<Box> box;
+};
+
+/// found(seed, row) for all rows whose boxes overlap that of the seed.
+template <class Found>
+void for_rows_near(std::span<const Seed> seeds, const Rows& rows, const Space& space, Found&& found) {
+  if (seeds.empty()) return;
+  std::vector<std::size_t> candidates;
+  Box all;
+  for (const Seed& seed : seeds) all.include(seed.box);
+  for (std::size_t k = 0; k < rows.box.size(); ++k)
+    if (near(all, rows.box[k], space)) candidates.push_back(k);
+  if (candidates.size() * seeds.size() < 100000) {
+    for (std::uint32_t s = 0; s < seeds.size(); ++s)
+      for (const std::size_t k : candidates)
+        if (near(seeds[s].box, rows.box[k], space)) found(s, k);
+    return;
+  }
+  std::vector<Extent> extents;
+  const auto add = [&](const Box& box) { extents.push_back({box, box.center(), 0.5 * norm(box.size())}); };
+  for (const Seed& seed : seeds) add(seed.box);
+  for (const std::size_t k : candidates) add(rows.box[k]);
+  std::vector<std::uint32_t> place(extents.size());
+  std::iota(place.begin(), place.end(), 0u);
+  std::vector<char> is_seed(extents.size(), 0);
+  std::fill_n(is_seed.begin(), seeds.size(), 1);
+  find_body_pairs(extents, place, is_seed, space, [&](const BodyPair& pair) {
+    if (pair.b >= seeds.size()) found(pair.a, candidates[pair.b - seeds.size()]);
+  });
+}
+
+/// Which movers are in one neighbourhood: each is known by the first of its group.
+class Groups {
+ public:
+  explicit Groups(std::size_t count) : first_(count) { std::iota(first_.begin(), first_.end(), 0u); }
+  std::uint32_t of(std::uint32_t a) {
+    while (first_[a] != a) a = first_[a] = first_[first_[a]];
+    return a;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = of(a), b = of(b);
+    first_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> first_;
+};
+
+struct Pair {
+  std::uint32_t first, second;
+  friend auto operator<=>(const Pair&, const Pair&) = default;
+};
+
+/// Joins what any rank has found.
+void join_all(const std::vector<Pair>& mine, Groups& groups, const Comm& comm) {
+  for (const auto& [a, b] : comm.size() == 1 ? mine : unpack<Pair>(comm.gather_to_all(pack(mine)))) groups.join(a, b);
+}
+
+Rows rows_with_boxes(const Tissue& tissue) {
+  Rows out;
+  out.body.reserve(tissue.cells.size());
+  out.box.reserve(tissue.cells.size());
+  for (const BodyOfRow& body : bodies_of(tissue.cells)) {
+    out.body.push_back(body);
+    out.box.push_back(box_of(tissue, body));
+  }
+  return out;
+}
+
+/// The movers, in boxes that hold all that they may touch on their way.
+std::vector<Seed> movers_of_all_ranks(const Tissue& tissue, const Rows& rows, std::span<const CellId> movers, const Reach& reach,
+                                      const Comm& comm) {
+  std::vector<Seed> out;
+  for (std::size_t k = 0; k < rows.body.size(); ++k) {
+    const CellId id = tissue.cells.rows[rows.body[k].row].id;
+    if (!std::ranges::binary_search(movers, id)) continue;
+    out.push_back({id, rows.box[k].inflated(reach.touch + reach.way * largest_edge(rows.box[k])), static_cast<std::uint32_t>(comm.rank())});
+  }
+  return of_all_ranks(std::move(out), comm);
+}
+
+}  // namespace
+
+Box box_of(const Tissue& tissue, const BodyOfRow& body) {
+  Box out;
+  if (body.is_shell) {
+    for (const Vec3d& x : tissue.shells.nodes(body.number)) out.include(x);
+    return out;
+  }
+  out.include(tissue.spheres.position[body.number]);
+  return out.inflated(tissue.spheres.radius[body.number]);
+}
+
+std::vector<Neighbourhood> find_neighbourhoods(const Tissue& tissue, const Space& space, std::span<const CellId> movers, const Reach& reach,
+                                               const Comm& comm) {
+  const Rows rows = rows_with_boxes(tissue);
+  const std::vector<Seed> seeds = movers_of_all_ranks(tissue, rows, movers, reach, comm);
+  // What a mover may touch. Two movers both may go towards each other.
+  Groups groups(seeds.size());
+  std::vector<Pair> near_mover, joined;  // (row, mover)
+  for (std::uint32_t a = 0; a < seeds.size(); ++a)
+    for (std::uint32_t b = a + 1; b < seeds.size(); ++b)
+      if (near(seeds[a].box, seeds[b].box, space)) groups.join(a, b);
+  for_rows_near(seeds, rows, space, [&](std::uint32_t s, std::size_t k) { near_mover.push_back({static_cast<std::uint32_t>(k), s}); });
+  std::ranges::sort(near_mover);
+  std::vector<Seed> beside;
+  for (std::size_t n = 0; reach.packs && n < near_mover.size(); ++n) {
+    const auto [k, s] = near_mover[n];
+    if (rows.body[k].is_shell) continue;
+    if (n > 0 && near_mover[n - 1].first == k)
+      joined.push_back({near_mover[n - 1].second, s});
+    else
+      beside.push_back({tissue.cells.rows[rows.body[k].row].id, rows.box[k].inflated(reach.touch), s});
+  }
+  join_all(joined, groups, comm);
+  const std::vector<Seed> all_beside = of_all_ranks(std::move(beside), comm);
+  for_rows_near(all_beside, rows, space, [&](std::uint32_t s, std::size_t k) {
+    near_mover.push_back({static_cast<std::uint32_t>(k), all_beside[s].group});
+  });
+
+  std::vector<Neighbourhood> out;
+  std::vector<std::size_t> number(seeds.size());
+  for (std::uint32_t s = 0; s < seeds.size(); ++s) {
+    if (groups.of(s) == s) {
+      number[s] = out.size();
+      out.emplace_back().owner = static_cast<int>(seeds[s].group);
+    }
+    number[s] = number[groups.of(s)];
+    out[number[s]].movers.push_back(seeds[s].id);
+  }
+  for (const auto& [k, s] : near_mover) out[number[s]].rows.push_back(rows.body[k].row);
+  std::vector<std::int64_t> elsewhere;
+  for (Neighbourhood& here : out) {
+    std::ranges::sort(here.rows);
+    const auto last = std::ranges::unique(here.rows);
+    here.rows.erase(last.begin(), last.end());
+    elsewhere.push_back(here.owner != comm.rank() && !here.rows.empty() ? 1 : 0);
+  }
+  if (comm.size() > 1) comm.sum(elsewhere);
+  for (std::size_t n = 0; n < out.size(); ++n) {
+    out[n].on_one_rank = elsewhere[n] == 0;
+    out[n].for_all_ranks = !out[n].on_one_rank && out[n].movers.size() >= kManyMovers;
+  }
+  return out;
+}
+
+Neighbourhood whole_tissue(const Tissue& tissue, std::span<const CellId> movers, const Comm& comm) {
+  Neighbourhood out;
+  std::vector<CellId> mine(movers.begin(), movers.end());
+  out.movers = comm.size() == 1 ? mine : unpack<CellId>(comm.gather_to_all(pack(mine)));
+  std::ranges::sort(out.movers);
+  out.rows.resize(tissue.cells.size());
+  std::iota(out.rows.begin(), out.rows.end(), std::size_t{0});
+  out.on_one_rank = comm.size() == 1;
+  out.for_all_ranks = !out.on_one_rank;
+  return out;
+}
+
+}  // namespace morula
