@@ -96,6 +96,20 @@ double ContactLayer::patch_motion(const ContactScene& scene, const SurfacePair& 
   return (norm(side[0].mean - side[1].mean) + side[0].deviation + side[1].deviation) * 1.000001;
 }
 
+ContactLayer::BodyMotion ContactLayer::motion_of(const ContactScene& scene, const ContactBody& body, std::uint32_t known_point,
+                                                 float last_radius) const {
+  const Vec3d* const now = scene.position.data() + body.first_point;
+  const Vec3f* const before = known_at_.data() + known_point;
+  BodyMotion motion;
+  for (std::uint32_t p = 0; p < body.point_count; ++p) motion.mean += now[p] - to_double(before[p]);
+  motion.mean *= 1.0 / body.point_count;
+  double deviation2 = 0.0;
+  for (std::uint32_t p = 0; p < body.point_count; ++p)
+    deviation2 = std::max(deviation2, norm2(now[p] - to_double(before[p]) - motion.mean));
+  motion.deviation = std::sqrt(deviation2) + rounding_ + growth(body, last_radius);
+  return motion;
+}
+
 bool ContactLayer::note_motion(const ContactScene& scene) {
   if (fresh_ || last_radius_.size() != scene.bodies.size()) return true;
   if (known_at_.size() != scene.position.size()) return true;
@@ -103,14 +117,7 @@ bool ContactLayer::note_motion(const ContactScene& scene) {
   const double limit = 0.5 * settings_.body_skin;
   const double most = parallel_max(settings_.threads, scene.bodies.size(), [&](std::size_t i) {
     const ContactBody& body = scene.bodies[i];
-    BodyMotion motion;
-    for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p)
-      motion.mean += scene.position[p] - to_double(known_at_[p]);
-    motion.mean *= 1.0 / body.point_count;
-    double deviation2 = 0.0;
-    for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p)
-      deviation2 = std::max(deviation2, norm2(scene.position[p] - to_double(known_at_[p]) - motion.mean));
-    motion.deviation = std::sqrt(deviation2) + rounding_ + growth(body, last_radius_[i]);
+    const BodyMotion motion = motion_of(scene, body, body.first_point, last_radius_[i]);
     last_radius_[i] = static_cast<float>(body.radius);
     motion_[i] = motion;
     travel_[i] += (norm(motion.mean) + motion.deviation) * 1.000001;
@@ -353,7 +360,7 @@ const SurfacePair* ContactLayer::crossed(const ContactScene& scene, std::span<co
 std::size_t ContactLayer::memory() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
   std::size_t total = bytes(pairs_) + bytes(spheres_) + bytes(pairs_of_kind_[0]) + bytes(pairs_of_kind_[1]) + bytes(motion_) +
-                      bytes(last_radius_) + bytes(travel_) + bytes(known_at_) + objective_.memory();
+                      bytes(last_radius_) + bytes(travel_) + bytes(known_bodies_) + bytes(known_at_) + objective_.memory();
   for (const SurfacePair& pair : pairs_)
     for (int d = 0; d < 2; ++d) {
       total += pair.points[d].memory() + bytes(pair.node[d]);

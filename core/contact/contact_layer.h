@@ -72,7 +72,8 @@ class ContactLayer {
  public:
   ContactLayer(ContactSettings settings, RigidSurfaces obstacles, std::vector<ContactMaterial> materials, std::size_t material_count);
 
-  /// The bodies have changed: forget all lists.
+  /// The bodies have changed. Lists of pairs are kept where both bodies stay what they were. Topologies of the old bodies must not go before the
+  /// next rebuild(): a body is the same if its id and its Topology are.
   void reset() { fresh_ = true; }
   void set_depth(double depth);
   void set_offsets(std::span<const Vec3d> offsets);
@@ -145,6 +146,10 @@ class ContactLayer {
   [[nodiscard]] std::size_t memory() const;
 
  private:
+  struct BodyMotion {
+    Vec3d mean;              ///< since the last call of note_motion()
+    double deviation = 0.0;  ///< largest distance of a point's displacement from the mean
+  };
   [[nodiscard]] const ContactMaterial& material_of(const ContactScene& scene, const SurfacePair& pair) const {
     return material(scene.bodies[pair.a].material, pair.rigid ? obstacles_[pair.b].material : scene.bodies[pair.b].material);
   }
@@ -158,8 +163,14 @@ class ContactLayer {
   [[nodiscard]] bool note_travel(const ContactScene& scene);
   /// Adhesion of a pair of sisters, where it is not that of their materials.
   [[nodiscard]] std::optional<double> sister_bond(const ContactScene& scene, const SurfacePair& pair) const;
+  /// Way of a body since the last note_motion(), when its points were `known_point` and those after it.
+  [[nodiscard]] BodyMotion motion_of(const ContactScene& scene, const ContactBody& body, std::uint32_t known_point,
+                                     float last_radius) const;
   [[nodiscard]] double patch_motion(const ContactScene& scene, const SurfacePair& pair) const;
   void know_positions(const ContactScene& scene);
+  void know_bodies(const ContactScene& scene);
+  /// Pairs under the numbers that their bodies have now; those go whose bodies are not what they were. After reset().
+  void renumber(const ContactScene& scene);
   /// After the pairs were found: take over the lists of those that were there before, and begin to count motion.
   void keep_lists(const ContactScene& scene, std::vector<SurfacePair> old);
   void add_obstacle_pairs(const ContactScene& scene);
@@ -171,9 +182,11 @@ class ContactLayer {
     return pair.with_itself() ? ListReach{settings_.range + material.self_distance, settings_.skin, 0.0} : reach();
   }
 
-  struct BodyMotion {
-    Vec3d mean;              ///< since the last call of note_motion()
-    double deviation = 0.0;  ///< largest distance of a point's displacement from the mean
+  /// A body of a pair, as it was at the last rebuild().
+  struct KnownBody {
+    CellId id;
+    std::uint32_t number, first_point;
+    const Topology* topology;  ///< null: a sphere
   };
 
   double bonding_ = 1.0;
@@ -184,6 +197,7 @@ class ContactLayer {
   std::vector<ContactMaterial> materials_;
   std::size_t material_count_;
   bool fresh_ = true;
+  std::vector<KnownBody> known_bodies_;  ///< of the pairs, sorted by id
 
   std::vector<SurfacePair> pairs_;
   ObjectiveFriction objective_;

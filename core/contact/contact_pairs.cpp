@@ -10,6 +10,18 @@
 
 namespace morula {
 
+namespace {
+
+constexpr std::uint32_t kGone = 0xFFFFFFFFu;  // instead of a body's number
+
+/// Pairs in canonical order, obstacles and then surfaces themselves last.
+std::array<std::uint64_t, 3> key_of(const ContactScene& scene, const SurfacePair& pair) {
+  const std::uint64_t kind = pair.rigid ? 1 : pair.with_itself() ? 2 : 0;
+  return {kind, scene.bodies[pair.a].place, pair.rigid ? pair.b : scene.bodies[pair.b].place};
+}
+
+}  // namespace
+
 void ContactLayer::add_obstacle_pairs(const ContactScene& scene) {
   if (obstacles_.empty()) return;
   const double distance = reach().candidates() + settings_.body_skin;
@@ -46,7 +58,43 @@ void ContactLayer::add_self_pairs(const ContactScene& scene) {
   }
 }
 
+void ContactLayer::renumber(const ContactScene& scene) {
+  struct Now {
+    std::uint32_t number = kGone;
+    BodyMotion motion;
+  };
+  std::vector<std::pair<std::uint32_t, Now>> now;  // by number at the last rebuild()
+  for (std::uint32_t i = 0; i < scene.bodies.size() && !known_bodies_.empty(); ++i) {
+    const ContactBody& body = scene.bodies[i];
+    const auto before = std::ranges::lower_bound(known_bodies_, body.id, {}, &KnownBody::id);
+    if (before == known_bodies_.end() || before->id != body.id || before->topology != scene.topology_of(i)) continue;
+    now.push_back({before->number, {i, motion_of(scene, body, before->first_point, last_radius_[before->number])}});
+  }
+  std::ranges::sort(now, {}, [](const auto& entry) { return entry.first; });
+  const auto find = [&](std::uint32_t number) {
+    const auto at = std::ranges::lower_bound(now, number, {}, [](const auto& entry) { return entry.first; });
+    return at != now.end() && at->first == number ? at->second : Now{};
+  };
+  std::vector<SurfacePair> kept;
+  for (SurfacePair& pair : pairs_) {
+    const Now a = find(pair.a), b = pair.rigid ? Now{pair.b, {offsets_[pair.b] - last_offsets_[pair.b], 0.0}} : find(pair.b);
+    if (a.number == kGone || b.number == kGone) continue;
+    if (!pair.rigid && scene.bodies[a.number].place > scene.bodies[b.number].place) continue;  // each would be in the other's lists
+    const double whole = (norm(a.motion.mean - b.motion.mean) + a.motion.deviation + b.motion.deviation) * 1.000001;
+    pair.a = a.number, pair.b = b.number;
+    pair.motion += whole;
+    pair.patch_motion += whole;
+    pair.at_start = false;
+    for (int d = 0; d < 2; ++d) pair.elements[d] = pair.step_elements[d] = {};
+    kept.push_back(std::move(pair));
+  }
+  const auto before = [&](const SurfacePair& p, const SurfacePair& q) { return key_of(scene, p) < key_of(scene, q); };
+  if (!std::ranges::is_sorted(kept, before)) std::ranges::sort(kept, before);
+  pairs_ = std::move(kept);
+}
+
 void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
+  if (fresh_) renumber(scene);
   const std::size_t n = scene.bodies.size();
   std::vector<Extent> extents(n);
   std::vector<std::uint32_t> place(n);
@@ -88,7 +136,8 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
 }
 
 void ContactLayer::rebuild(const ContactScene& scene, std::span<const std::pair<std::uint32_t, std::uint32_t>> pairs) {
-  std::vector<SurfacePair> old = std::move(pairs_);
+  std::vector<SurfacePair> old;
+  if (!fresh_) old = std::move(pairs_);
   pairs_.clear();
   spheres_.clear();
   for (const auto& [a, b] : pairs) {
@@ -102,16 +151,10 @@ void ContactLayer::rebuild(const ContactScene& scene, std::span<const std::pair<
 void ContactLayer::keep_lists(const ContactScene& scene, std::vector<SurfacePair> old) {
   const std::size_t n = scene.bodies.size();
   pairs_.shrink_to_fit();
-  if (!fresh_) {  // keep the lists of pairs that stay; both sequences come in canonical order, obstacles and then surfaces themselves last
-    const auto key = [&](const SurfacePair& pair) {
-      const std::uint64_t kind = pair.rigid ? 1 : pair.with_itself() ? 2 : 0;
-      return std::array<std::uint64_t, 3>{kind, scene.bodies[pair.a].place, pair.rigid ? pair.b : scene.bodies[pair.b].place};
-    };
-    std::size_t k = 0;
-    for (SurfacePair& pair : pairs_) {
-      while (k < old.size() && key(old[k]) < key(pair)) ++k;
-      if (k < old.size() && key(old[k]) == key(pair) && old[k].shift == pair.shift) pair = std::move(old[k]);
-    }
+  auto before = old.begin();  // keep the lists of pairs that stay; both sequences come in the order of their keys
+  for (SurfacePair& pair : pairs_) {
+    while (before != old.end() && key_of(scene, *before) < key_of(scene, pair)) ++before;
+    if (before != old.end() && key_of(scene, *before) == key_of(scene, pair) && before->shift == pair.shift) pair = std::move(*before);
   }
   for (auto& list : pairs_of_kind_) list.clear();
   for (std::uint32_t k = 0; k < pairs_.size(); ++k) {
@@ -128,12 +171,25 @@ void ContactLayer::keep_lists(const ContactScene& scene, std::vector<SurfacePair
     motion_.assign(n, {});
     travel_.assign(n, 0.0);
   }
+  know_bodies(scene);
   know_positions(scene);
   last_offsets_ = offsets_;
   last_radius_.resize(n);
   for (std::size_t i = 0; i < n; ++i) last_radius_[i] = static_cast<float>(scene.bodies[i].radius);
   obstacle_travel_ = 0.0;
   fresh_ = false;
+}
+
+void ContactLayer::know_bodies(const ContactScene& scene) {
+  std::vector<char> in_pair(pairs_.empty() ? 0 : scene.bodies.size(), 0);
+  for (const SurfacePair& pair : pairs_) {
+    in_pair[pair.a] = 1;
+    if (!pair.rigid) in_pair[pair.b] = 1;
+  }
+  known_bodies_.clear();
+  for (std::uint32_t i = 0; i < in_pair.size(); ++i)
+    if (in_pair[i]) known_bodies_.push_back({scene.bodies[i].id, i, scene.bodies[i].first_point, scene.topology_of(i)});
+  std::ranges::sort(known_bodies_, {}, &KnownBody::id);
 }
 
 void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {

@@ -72,6 +72,7 @@ void SurfaceContacts::measure(const World& world) {
   const ContactScene scene = contact_scene(world);
   if (!world.comm.any(layer_.note_motion(scene))) return;
   layer_.rebuild(scene, world.model.space);
+  shapes_of_lists_.assign(world.scene.shapes().begin(), world.scene.shapes().end());
   ++list_number_;
   forget();
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -59,8 +60,9 @@ class SurfaceContacts : public Term {
   int threads_;
   bool bonds_age_ = true;  ///< interfaces of sisters may be new: adhesion depends on the time
   ContactLayer layer_;
-  ContactGradient gradient_;               ///< of all contacts of surfaces
-  ContactGradient surfaces_only_;          ///< without the pairs with a sphere; kept only where there are any
+  std::vector<std::shared_ptr<const ReferenceShape>> shapes_of_lists_;  ///< of the bodies in the layer's lists: see ContactLayer::reset()
+  ContactGradient gradient_;                                            ///< of all contacts of surfaces
+  ContactGradient surfaces_only_;                                       ///< without the pairs with a sphere; kept only where there are any
   std::optional<std::uint64_t> found_at_;  ///< Scene::positions_number() where the contacts of surfaces were found
   std::uint64_t list_number_ = 0;
   std::size_t given_back_ = 0;  ///< bytes that the last evaluation needed beside what it left
