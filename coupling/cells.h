@@ -173,8 +173,9 @@ struct Cells {
   void set_optional(std::size_t i, const OptionalValues& values) {
     OptionalColumns::for_each(optional, values, [&](auto& column, const auto& value) { column.set(i, value, rows.capacity()); });
   }
-  /// A row behind the others, with those of its variables that the cells have.
+  /// A row behind the others; the cells have all of its variables.
   void push_back(const CellState& row) {
+    assert(row.variables.size() <= variables.size());
     rows.push_back(row);
     set_optional(rows.size() - 1, row);
     for (std::size_t v = 0; v < variables.size(); ++v) variables[v].values.set(rows.size() - 1, row.variable(v), rows.capacity());

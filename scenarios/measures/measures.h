@@ -54,6 +54,7 @@ std::vector<Measure> rubbing_measures();
 /// Of aggregates of shells, and of tissues.
 std::vector<Measure> aggregate_measures();
 std::vector<Measure> tissue_measures();
+std::vector<Measure> spheroid_measures();
 /// Of the run as a whole.
 Measure mean_contact_part_measure();
 Measure mean_step_measure();

@@ -21,8 +21,7 @@ std::shared_ptr<StudyToRun> far_apart(const char* name, int count, const std::st
                 cycle +
                 "}\n    inhibit_growth: {pressure_above: never}\n    adhesion: {a: 0 J/m^2}\n    cbm: {law: hertz, young: 100 Pa}\n"
                 "initial:\n  - {type: a, count: " +
-                std::to_string(count) +
-                ", fill: random, size: [1400 um, 1400 um, 1400 um], age: random}\nlimits: {volume_error: 10 %}\n");
+                std::to_string(count) + ", fill: random, size: [1400 um, 1400 um, 1400 um], age: random}\nlimits: {volume_error: 10 %}\n");
 }
 
 /// ln(N2/N1)/(t2 − t1) with times in hours of a cycle of 18 h.
@@ -33,8 +32,7 @@ double rate(const FoundInRun& found, double from, double to) {
 /// Mean over the outputs of two cycles of the part of the cells that is in a phase.
 double part_in(const FoundInRun& found, const std::string& phase) {
   double sum = 0.0;
-  for (int k = 15; k <= 20; ++k)
-    sum += found.column(("cells_in_" + phase).c_str(), 2160.0 * k) / found.column("cell_count", 2160.0 * k);
+  for (int k = 15; k <= 20; ++k) sum += found.column(("cells_in_" + phase).c_str(), 2160.0 * k) / found.column("cell_count", 2160.0 * k);
   return sum / 6.0;
 }
 
@@ -57,7 +55,8 @@ void add_rates(std::vector<ReferenceNumber>& out) {
   const auto erlang = far_apart("erlang", 100, "model: phases, phases: {" + phases.substr(0, phases.size() - 2) + "}", "720 min");
   out.push_back({"cbm 5", "study: growth rate of a population, phases of 18 h in all, fixed [1/h]", 0.0385082, 0.01 * 0.0385082, kBalanced,
                  [fixed] { return rate(fixed->found(), 0.0, 36.0); }});
-  out.push_back({"life founders", "study: part of its founders in G1 at time 0", 0.47257, 0.075, "2 - 2^(1 - 7/18); three standard errors of 400 cells",
+  out.push_back({"life founders", "study: part of its founders in G1 at time 0", 0.47257, 0.075,
+                 "2 - 2^(1 - 7/18); three standard errors of 400 cells",
                  [fixed] { return fixed->found().column("cells_in_G1", 0.0) / fixed->found().column("cell_count", 0.0); }});
   // What chance did to the first cells takes four cycles to be forgotten.
   out.push_back({"cbm 5", "study: the same, each phase of ten stages (Erlang), last two of six and a half cycles [1/h]", 0.0389140,
@@ -74,28 +73,34 @@ void add_size_control(std::vector<ReferenceNumber>& out) {
   for (const auto& [name, expected] : {std::pair("adder", 1.0), {"sizer", 0.0}}) {
     const auto study = far_apart(name, 60, start + name + rest, "432 min");
     out.push_back({"life size", std::string("study: slope of division volume against birth volume, ") + name, expected, 0.05,
-                   "Amir 2014, doi:10.1103/PhysRevLett.112.208102; three standard errors of 250 cells", [study] { return slope(study->found()); }});
+                   "Amir 2014, doi:10.1103/PhysRevLett.112.208102; three standard errors of 250 cells",
+                   [study] { return slope(study->found()); }});
   }
 }
 
 /// One sphere and one shell that are alone, over half of a cycle of 10 h.
 void add_growth_laws(std::vector<ReferenceNumber>& out) {
   // Closed forms at T/2 with V_d = 2 V_b and V_inf = 1.25 V_d: V_inf/(1 + sqrt((V_inf/V_b - 1)(V_inf/V_d - 1))), V_inf - sqrt((V_inf - V_b)(V_inf - V_d)).
-  for (const auto& [law, more, expected] :
-       {std::tuple("linear", "", 1.5), {"exponential", "", 1.414214}, {"logistic", ", limit: 1.25", 1.550510}, {"relaxing", ", limit: 1.25", 1.633975}}) {
+  for (const auto& [law, more, expected] : {std::tuple("linear", "", 1.5),
+                                            {"exponential", "", 1.414214},
+                                            {"logistic", ", limit: 1.25", 1.550510},
+                                            {"relaxing", ", limit: 1.25", 1.633975}}) {
     const auto study = study_to_run(
         law, std::string("time: {end: 5 h, output: 5 h, checkpoint: 5 h}\ndomain: {size: [200 um, 200 um, 200 um], boundary: open}\n"
                          "cell_types:\n  a: {radius: 6 um, cycle: {duration: 10 h, growth: ") +
                  law + more +
                  "}, dcm: {nodes: 42, cortex: {elastic: none, tension: 0.1 mN/m}}}\ninitial:\n"
-                 "  - {type: a, at: [[-50 um, 0 um, 0 um]], as: sphere, age: birth}\n  - {type: a, at: [[50 um, 0 um, 0 um]], as: shell, age: birth}\n");
+                 "  - {type: a, at: [[-50 um, 0 um, 0 um]], as: sphere, age: birth}\n  - {type: a, at: [[50 um, 0 um, 0 um]], as: shell, "
+                 "age: birth}\n");
     for (const std::size_t cell : {0, 1})
-      out.push_back({"life growth", std::string("study: volume of a ") + (cell == 0 ? "sphere" : "shell") + " after half a cycle over that at birth, " + law, expected,
-                     0.002, "closed form; a shell gives way by 2e-3 to its tension", [study, cell] {
-                       const Snapshot* end = study->found().at(18000.0);
-                       if (end == nullptr || end->cells.size() != 2) return std::nan("");
-                       return end->cells[cell].volume / (4.0 / 3.0 * 3.141592653589793 * 216.0);
-                     }});
+      out.push_back(
+          {"life growth",
+           std::string("study: volume of a ") + (cell == 0 ? "sphere" : "shell") + " after half a cycle over that at birth, " + law,
+           expected, 0.002, "closed form; a shell gives way by 2e-3 to its tension", [study, cell] {
+             const Snapshot* end = study->found().at(18000.0);
+             if (end == nullptr || end->cells.size() != 2) return std::nan("");
+             return end->cells[cell].volume / (4.0 / 3.0 * 3.141592653589793 * 216.0);
+           }});
   }
 }
 

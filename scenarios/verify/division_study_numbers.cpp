@@ -61,7 +61,8 @@ double energy_rise(const FoundInRun& found) {
   double worst = std::nan("");
   for (const EventLine& event : found.events) {
     if (event.kind != "division" || !event.energy_rise) continue;
-    const auto together = std::ranges::count_if(found.events, [&](const EventLine& e) { return e.kind == event.kind && e.time == event.time; });
+    const auto together =
+        std::ranges::count_if(found.events, [&](const EventLine& e) { return e.kind == event.kind && e.time == event.time; });
     const double radius = std::cbrt(event.volume / ball(1.0));
     const double rise = *event.energy_rise / static_cast<double>(together) / (kTension * 4.0 * std::numbers::pi * radius * radius);
     worst = std::isnan(worst) ? rise : std::max(worst, rise);
@@ -76,10 +77,13 @@ void add_one_to_eight(std::vector<ReferenceNumber>& out) {
   out.push_back({"life division", "study: volume that is lost at a division, over the mother's, the most", 0.0, 1e-10, "volumes are shared",
                  [study] { return lost_at_birth(study->found()); }});
   for (const double minutes : {60.0, 180.0, 300.0})
-    out.push_back({"life division", "study: pressure-free volume of all shells over that by the law of growth, after " + std::to_string(static_cast<int>(minutes)) + " min", 1.0,
-                   2e-3, "V exp(p/K_V) of free cells; 0.2 % of the volume", [=] { return free_volume(study->found(), 60.0 * minutes); }});
-  out.push_back({"life division", "study: deepest overlap at outputs, ten minutes after a division and later [um]", 0.0, 0.09, "5 % of the mean edge",
-                 [study] { return overlap_at_outputs(study->found()); }});
+    out.push_back({"life division",
+                   "study: pressure-free volume of all shells over that by the law of growth, after " +
+                       std::to_string(static_cast<int>(minutes)) + " min",
+                   1.0, 2e-3, "V exp(p/K_V) of free cells; 0.2 % of the volume",
+                   [=] { return free_volume(study->found(), 60.0 * minutes); }});
+  out.push_back({"life division", "study: deepest overlap at outputs, ten minutes after a division and later [um]", 0.0, 0.09,
+                 "5 % of the mean edge", [study] { return overlap_at_outputs(study->found()); }});
   out.push_back({"life division", "study: deepest overlap of any step [um]", 0.0, 0.3, "limit of the overlap",
                  [study] { return study->found().column("worst_overlap", 390.0 * 60.0); }});
   out.push_back({"life division", "study: rise of the energy by a division over the tension of the mother's surface, the most", 0.0, 0.05,
@@ -100,14 +104,16 @@ std::string twelve_places() {
 /// Twelve resting shells around one that divides after 2 h, or waits.
 std::shared_ptr<StudyToRun> among_neighbours(const std::string& name, const std::string& cortex, const char* at_its_end) {
   const std::string body = "body: shell, radius: 6 um, dcm: {nodes: 162, " + cortex + ", bulk_modulus: 2.5 kPa}, ";
-  return study_to_run(name.c_str(),
-                      "time: {end: 121 min, output: 1 min, checkpoint: 1 h}\ndomain: {size: [150 um, 150 um, 150 um], boundary: open}\n"
-                      "cell_types:\n  mother: {" +
-                          body + "adhesion: {mother: 1e-4 J/m^2, other: 1e-4 J/m^2}, inhibit_growth: {pressure_above: never}, cycle: {duration: 2 h, shells: " + at_its_end +
-                          "}}\n  other: {" + body +
-                          "adhesion: {other: 1e-4 J/m^2}, cycle: {model: none}}\ninitial:\n  - {type: mother, at: [[0 um, 0 um, 0 um]], age: birth}\n"
-                          "  - {type: other, at: [" +
-                          twelve_places() + "]}\n");
+  return study_to_run(
+      name.c_str(),
+      "time: {end: 121 min, output: 1 min, checkpoint: 1 h}\ndomain: {size: [150 um, 150 um, 150 um], boundary: open}\n"
+      "cell_types:\n  mother: {" +
+          body +
+          "adhesion: {mother: 1e-4 J/m^2, other: 1e-4 J/m^2}, inhibit_growth: {pressure_above: never}, cycle: {duration: 2 h, shells: " +
+          at_its_end + "}}\n  other: {" + body +
+          "adhesion: {other: 1e-4 J/m^2}, cycle: {model: none}}\ninitial:\n  - {type: mother, at: [[0 um, 0 um, 0 um]], age: birth}\n"
+          "  - {type: other, at: [" +
+          twelve_places() + "]}\n");
 }
 
 /// Distances of the nodes of the neighbours at a time in one run from where they are in the other, over the radius of a cell; sorted.
@@ -118,7 +124,8 @@ std::vector<double> ways_of_neighbours(StudyToRun& divides, StudyToRun& waits, d
   for (const Snapshot::Shell& one : a->shells)
     for (const Snapshot::Shell& other : b->shells) {
       if (a->cells[one.cell].id != b->cells[other.cell].id) continue;
-      for (std::uint32_t i = 0; i < one.node_count; ++i) out.push_back(norm(a->nodes[one.first_node + i] - b->nodes[other.first_node + i]) / kRadius);
+      for (std::uint32_t i = 0; i < one.node_count; ++i)
+        out.push_back(norm(a->nodes[one.first_node + i] - b->nodes[other.first_node + i]) / kRadius);
     }
   std::ranges::sort(out);
   return out;
@@ -128,16 +135,21 @@ void add_neighbours(std::vector<ReferenceNumber>& out) {
   struct Cortex {
     const char *name, *text;
   };
-  for (const auto& [name, text] : {Cortex{"fluid", "cortex: {elastic: none, tension: 0.2 mN/m}"},
-                                   Cortex{"elastic", "cortex: {young: 1 kPa, thickness: 200 nm, tension: 0.2 mN/m}, fold_barrier: {stiffness: 1 fJ, angle: 1.6 rad}"}}) {
-    const auto divides = among_neighbours(std::string(name) + "_divides", text, "cut"), waits = among_neighbours(std::string(name) + "_waits", text, "wait");
-    const std::string start = "study: way of the nodes of neighbours in the minute after a division, beyond a cell that waits, over the radius, ";
-    out.push_back({"life neighbours", start + name + ", rms", 0.0, 0.02, "aim of this project: no more than an interface without tension does", [=] {
-                     const std::vector<double> ways = ways_of_neighbours(*divides, *waits, 121.0 * 60.0);
-                     double sum = ways.empty() ? std::nan("") : 0.0;
-                     for (const double way : ways) sum += way * way / static_cast<double>(ways.size());
-                     return std::sqrt(sum);
-                   }});
+  for (const auto& [name, text] :
+       {Cortex{"fluid", "cortex: {elastic: none, tension: 0.2 mN/m}"},
+        Cortex{"elastic",
+               "cortex: {young: 1 kPa, thickness: 200 nm, tension: 0.2 mN/m}, fold_barrier: {stiffness: 1 fJ, angle: 1.6 rad}"}}) {
+    const auto divides = among_neighbours(std::string(name) + "_divides", text, "cut"),
+               waits = among_neighbours(std::string(name) + "_waits", text, "wait");
+    const std::string start =
+        "study: way of the nodes of neighbours in the minute after a division, beyond a cell that waits, over the radius, ";
+    out.push_back(
+        {"life neighbours", start + name + ", rms", 0.0, 0.02, "aim of this project: no more than an interface without tension does", [=] {
+           const std::vector<double> ways = ways_of_neighbours(*divides, *waits, 121.0 * 60.0);
+           double sum = ways.empty() ? std::nan("") : 0.0;
+           for (const double way : ways) sum += way * way / static_cast<double>(ways.size());
+           return std::sqrt(sum);
+         }});
     out.push_back({"life neighbours", start + name + ", 99 % of them", 0.0, 0.08, "aim of this project, as for the rms", [=] {
                      const std::vector<double> ways = ways_of_neighbours(*divides, *waits, 121.0 * 60.0);
                      return ways.empty() ? std::nan("") : ways[ways.size() * 99 / 100];

@@ -63,7 +63,7 @@ const Verdict* find(const RunSummary& run, const std::string& quantity) {
 TEST(LibraryStudies, AreThoseThatWereAskedFor) {
   EXPECT_EQ(template_names(), (std::vector<std::string>{"blastocyst", "cavity", "cell_shear", "cluster", "division", "doublet", "embryo",
                                                         "hybrid_spheroid", "micropipette", "optical_stretcher", "optical_tweezers", "pair",
-                                                        "parallel_plates", "pull_off", "spreading", "tissue"}));
+                                                        "parallel_plates", "pull_off", "spheroid", "spreading", "tissue"}));
 }
 
 /// Warnings that are right where they stand: elastic cells that stick by more than twice their tension are what these are about (E509); inner cells of an embryo are spheres calibrated on shells, beyond JKR's range (E647).
@@ -129,6 +129,21 @@ TEST(LibraryStudies, HybridSpheroidRunsShortened) {
   ASSERT_NE(find(*run, "shells at the end"), nullptr);
   EXPECT_FALSE(find(*run, "shells at the end")->passed) << "the study asks for 40 shells and more, wherever it is cut short";
   EXPECT_NE(find(*run, "mean step"), nullptr);
+}
+
+/// S7.1 to S7.3, whole: spheres that may roll grow into a ball; with the default friction along their contacts they grow branches.
+TEST(LibraryStudies, SpheroidOfSpheresIsCompact) {
+  const NewStudy spheroid("spheroid");
+  const auto run = spheroid.run({});
+  ASSERT_TRUE(run.ok()) << run.error().message;
+  for (const char* text : {"8 cells become 64", "cells double from 36 to 54 h", "no branches"}) {
+    const Verdict* v = find(*run, text);
+    ASSERT_NE(v, nullptr) << text;
+    EXPECT_TRUE(v->passed) << v->quantity << " is " << v->value << ", wanted " << v->limit;
+  }
+  const auto stiff = spheroid.run({"cell_types.tumour.friction.cell_cell_tangential=same"});
+  ASSERT_TRUE(stiff.ok()) << stiff.error().message;
+  EXPECT_FALSE(find(*stiff, "no branches")->passed) << "the criterion can fail";
 }
 
 TEST(LibraryStudies, BlastocystRunsShortened) {
