@@ -16,14 +16,14 @@ namespace {
 
 using scenarios::VerifiedRow;
 
-std::string json_of(const scenarios::VerifySuite& suite, const std::vector<VerifiedRow>& rows) {
+std::string json_of(const scenarios::VerifySuite& suite, const std::vector<VerifiedRow>& rows, bool found = true) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const VerifiedRow& row : rows) {
     nlohmann::ordered_json one{{"id", row.id}, {"quantity", row.quantity}};
     one["reference"] = row.reference ? nlohmann::ordered_json(*row.reference) : nlohmann::ordered_json(nullptr);
     one["value"] = std::isfinite(row.value) ? nlohmann::ordered_json(row.value) : nlohmann::ordered_json(nullptr);
     one["tolerance"] = row.tolerance;
-    one["passed"] = row.passed;
+    one["passed"] = found ? nlohmann::ordered_json(row.passed) : nlohmann::ordered_json(nullptr);
     one["source"] = row.source;
     list.push_back(std::move(one));
   }
@@ -46,6 +46,16 @@ std::string table_of_references(const std::vector<VerifiedRow>& rows) {
   return table_text(table);
 }
 
+std::string suites_text(bool as_json) {
+  std::vector<std::vector<std::string>> table;
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const scenarios::VerifySuite& suite : scenarios::verify_suites()) {
+    table.push_back({std::string(suite.name), std::string(suite.what)});
+    list.push_back({{"name", suite.name}, {"what", suite.what}});
+  }
+  return as_json ? nlohmann::ordered_json{{"suites", list}}.dump(2) + "\n" : table_text(table);
+}
+
 /// A folder that is gone when this object is.
 class Scratch {
  public:
@@ -66,15 +76,13 @@ class Scratch {
 
 Status verify(const VerifyOptions& options, const Context& context) {
   if (options.list && options.suite.empty()) {
-    std::vector<std::vector<std::string>> table;
-    for (const scenarios::VerifySuite& suite : scenarios::verify_suites())
-      table.push_back({std::string(suite.name), std::string(suite.what)});
-    context.console.result(table_text(table));
+    context.console.result(suites_text(options.json));
     return {};
   }
   const scenarios::VerifySuite& suite = options.suite.empty() ? scenarios::verify_suites().front() : *scenarios::find_suite(options.suite);
   if (options.list) {
-    context.console.result(options.json ? json_of(suite, scenarios::rows_of(suite)) : table_of_references(scenarios::rows_of(suite)));
+    context.console.result(options.json ? json_of(suite, scenarios::rows_of(suite), false)
+                                        : table_of_references(scenarios::rows_of(suite)));
     return {};
   }
   if (options.studies && suite.name != "physics")

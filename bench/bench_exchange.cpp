@@ -14,12 +14,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <fstream>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "bench/cpu_seconds.h"
 #include "core/parallel/quiet_mpi.h"
 #include "core/space/curve.h"
 #include "coupling/behaviours/birth.h"
@@ -112,12 +112,6 @@ Tissue make_tissue(const Model& model, const std::vector<Vec3d>& places, const C
   tissue.clock.next_step = model.step.initial_step;
   put_together(tissue, std::move(cells));
   return tissue;
-}
-
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 double median(std::vector<double> values) {

@@ -16,12 +16,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <fstream>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "bench/cpu_seconds.h"
 #include "core/parallel/quiet_mpi.h"
 #include "core/space/curve.h"
 #include "coupling/behaviours/birth.h"
@@ -109,12 +109,6 @@ Tissue make_tissue(const Model& model, const Case& c, const Comm& comm) {
   tissue.clock.next_step = model.step.initial_step;
   put_together(tissue, std::move(cells));
   return tissue;
-}
-
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 struct Figures {

@@ -34,7 +34,7 @@ std::vector<Event> Simulation::swap_bodies() {
   if (look_at_bodies(model_.swaps)) body_values = values();
   const std::vector<SwapOrder> orders = choose_swaps(model_, tissue_, {center, body_values ? &*body_values : nullptr}, comm_);
   if (!comm_.any(!orders.empty())) return events;
-  std::vector<double> pressure(orders.size()), volume;
+  std::vector<double> pressure(orders.size());
   for (std::size_t k = 0; k < orders.size(); ++k) pressure[k] = tissue_.cells.rows[orders[k].row].pressure;
   std::vector<CellId> leaving;
   for (const SwapOrder& order : orders)

@@ -8,6 +8,7 @@
 
 #include "core/contact/broad_phase.h"
 #include "core/parallel/pack.h"
+#include "coupling/swaps.h"
 
 namespace morula {
 namespace {
@@ -22,19 +23,14 @@ struct Seed {
   std::uint32_t group = 0;  ///< movers: the rank; spheres beside: the mover
 };
 
-double largest_edge(const Box& box) {
-  const Vec3d size = box.size();
-  return std::max({size.x, size.y, size.z});
-}
-
 bool near(const Box& a, const Box& b, const Space& space) {
   const Vec3d between = space.nearest_image(b.center() - a.center()), room = (a.size() + b.size()) * 0.5;
   return std::abs(between.x) <= room.x && std::abs(between.y) <= room.y && std::abs(between.z) <= room.z;
 }
 
 /// Seeds of all ranks in the order of their ids.
-std::vector<Seed> of_all_ranks(std::vector<Seed> mine, const Comm& comm) {
-  std::vector<Seed> all = comm.size() == 1 ? std::move(mine) : unpack<Seed>(comm.gather_to_all(pack(mine)));
+std::vector<Seed> of_all_ranks(const std::vector<Seed>& mine, const Comm& comm) {
+  std::vector<Seed> all = items_of_all_ranks(mine, comm);
   std::ranges::sort(all, [](const Seed& a, const Seed& b) { return a.id != b.id ? a.id < b.id : a.group < b.group; });
   return all;
 }
@@ -97,7 +93,7 @@ struct Pair {
 
 /// Joins what any rank has found.
 void join_all(const std::vector<Pair>& mine, Groups& groups, const Comm& comm) {
-  for (const auto& [a, b] : comm.size() == 1 ? mine : unpack<Pair>(comm.gather_to_all(pack(mine)))) groups.join(a, b);
+  for (const auto& [a, b] : items_of_all_ranks(mine, comm)) groups.join(a, b);
 }
 
 Rows rows_with_boxes(const Tissue& tissue) {
@@ -120,10 +116,15 @@ std::vector<Seed> movers_of_all_ranks(const Tissue& tissue, const Rows& rows, st
     if (!std::ranges::binary_search(movers, id)) continue;
     out.push_back({id, rows.box[k].inflated(reach.touch + reach.way * largest_edge(rows.box[k])), static_cast<std::uint32_t>(comm.rank())});
   }
-  return of_all_ranks(std::move(out), comm);
+  return of_all_ranks(out, comm);
 }
 
 }  // namespace
+
+double largest_edge(const Box& box) {
+  const Vec3d size = box.size();
+  return std::max({size.x, size.y, size.z});
+}
 
 Box box_of(const Tissue& tissue, const BodyOfRow& body) {
   Box out;
@@ -157,7 +158,7 @@ std::vector<Neighbourhood> find_neighbourhoods(const Tissue& tissue, const Space
       beside.push_back({tissue.cells.rows[rows.body[k].row].id, rows.box[k].inflated(reach.touch), s});
   }
   join_all(joined, groups, comm);
-  const std::vector<Seed> all_beside = of_all_ranks(std::move(beside), comm);
+  const std::vector<Seed> all_beside = of_all_ranks(beside, comm);
   for_rows_near(all_beside, rows, space, [&](std::uint32_t s, std::size_t k) {
     near_mover.push_back({static_cast<std::uint32_t>(k), all_beside[s].group});
   });
@@ -190,9 +191,7 @@ std::vector<Neighbourhood> find_neighbourhoods(const Tissue& tissue, const Space
 
 Neighbourhood whole_tissue(const Tissue& tissue, std::span<const CellId> movers, const Comm& comm) {
   Neighbourhood out;
-  std::vector<CellId> mine(movers.begin(), movers.end());
-  out.movers = comm.size() == 1 ? mine : unpack<CellId>(comm.gather_to_all(pack(mine)));
-  std::ranges::sort(out.movers);
+  out.movers = ids_of_all_ranks({movers.begin(), movers.end()}, comm);
   out.rows.resize(tissue.cells.size());
   std::iota(out.rows.begin(), out.rows.end(), std::size_t{0});
   out.on_one_rank = comm.size() == 1;

@@ -34,6 +34,7 @@ std::vector<Neighbourhood> find_neighbourhoods(const Tissue& tissue, const Space
 /// The only neighbourhood where all cells have a part in it. Collective.
 Neighbourhood whole_tissue(const Tissue& tissue, std::span<const CellId> movers, const Comm& comm);
 
+double largest_edge(const Box& box);
 /// The box around a cell's body.
 Box box_of(const Tissue& tissue, const BodyOfRow& body);
 

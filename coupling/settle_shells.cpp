@@ -61,8 +61,7 @@ Outcome settle_part(Tissue& part, std::span<const CellId> movers, const Room& ro
     if (!is_mover(body)) continue;
     moves[body.place(part.shells.size())] = 1;
     const Box box = box_of(part, body);
-    const Vec3d size = box.size();
-    bounds.push_back(box.inflated(room.way * std::max({size.x, size.y, size.z})));
+    bounds.push_back(box.inflated(room.way * largest_edge(box)));
   }
   Outcome out;
   const double overlap = mechanics.relax(part, moves);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
+#include "core/parallel/pack.h"
 #include "core/parallel/threads.h"
 #include "coupling/behaviours/life.h"
 #include "coupling/behaviours/migration.h"
@@ -204,12 +204,7 @@ std::vector<Event> Simulation::all_events(std::vector<Event> mine) const {
     if (a.kind != b.kind) return a.kind < b.kind;
     return a.cell < b.cell;
   };
-  if (comm_.size() > 1) {
-    static_assert(std::is_trivially_copyable_v<Event>);
-    const auto all = comm_.gather_to_all(std::as_bytes(std::span(mine)));
-    mine.resize(all.size() / sizeof(Event));
-    if (!all.empty()) std::memcpy(static_cast<void*>(mine.data()), all.data(), all.size());
-  }
+  mine = items_of_all_ranks(mine, comm_);
   std::sort(mine.begin(), mine.end(), earlier);
   return mine;
 }

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 
+#include "core/parallel/pack.h"
 #include "core/random/rotation.h"
 #include "dcm/growth.h"
 
@@ -82,10 +82,7 @@ CellView SwapBodies::view(const Model& model, const Tissue& tissue, const BodyOf
 }
 
 std::vector<CellId> ids_of_all_ranks(const std::vector<CellId>& mine, const Comm& comm) {
-  const auto* bytes = reinterpret_cast<const std::byte*>(mine.data());  // NOLINT: plain data
-  const auto all = comm.gather_to_all(std::span(bytes, mine.size() * sizeof(CellId)));
-  std::vector<CellId> out(all.size() / sizeof(CellId));
-  if (!out.empty()) std::memcpy(static_cast<void*>(out.data()), all.data(), all.size());
+  std::vector<CellId> out = items_of_all_ranks(mine, comm);
   std::sort(out.begin(), out.end());
   return out;
 }

@@ -5,6 +5,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/parallel/comm.h"
+
 namespace morula {
 
 /// Plain data as bytes of a message, and back.
@@ -21,6 +23,12 @@ std::vector<T> unpack(std::span<const std::byte> bytes) {
   std::vector<T> out(bytes.size() / sizeof(T));
   if (!out.empty()) std::memcpy(static_cast<void*>(out.data()), bytes.data(), out.size() * sizeof(T));
   return out;
+}
+
+/// The items of all ranks, rank by rank. Collective.
+template <class T>
+std::vector<T> items_of_all_ranks(const std::vector<T>& mine, const Comm& comm) {
+  return comm.size() == 1 ? mine : unpack<T>(comm.gather_to_all(pack(mine)));
 }
 
 }  // namespace morula

@@ -104,7 +104,7 @@ Mail Scene::send_to_neighbours(const Tissue& tissue, const Space& space, double 
     box[i] = box[i].inflated(0.5 * reach + bodies_[i].radius);
     mine.include(box[i]);
   }
-  const auto all = unpack<Box>(comm.gather_to_all(pack(std::vector<Box>{mine})));  // 48 bytes of each rank
+  const auto all = items_of_all_ranks(std::vector<Box>{mine}, comm);  // 48 bytes of each rank
   Mail outgoing;
   for (int r = 0; r < comm.size(); ++r) {
     const Box& there = all[static_cast<std::size_t>(r)];

@@ -123,13 +123,11 @@ Measure age_measure() {
   return cell_measure("age", "age", "Time since a cell was born; of cells of time 0 with what the study says of their age.",
                       Quantity::kTime, [](const Snapshot&, const Cell& cell, const ShellView*) { return cell.age; });
 }
+double sphericity(const Cell& cell) { return std::cbrt(kPi) * std::pow(6.0 * cell.volume, 2.0 / 3.0) / cell.area; }
 Measure sphericity_measure() {
   Measure out = cell_measure(
       "sphericity", "sphericity", "Surface of a ball of a cell's volume over the cell's surface: 1 for a ball.", Quantity::kNumber,
-      [](const Snapshot&, const Cell& cell, const ShellView*) {
-        return std::cbrt(kPi) * std::pow(6.0 * cell.volume, 2.0 / 3.0) / cell.area;
-      },
-      "pi^(1/3) (6 V)^(2/3)/A");
+      [](const Snapshot&, const Cell& cell, const ShellView*) { return sphericity(cell); }, "pi^(1/3) (6 V)^(2/3)/A");
   out.source = "Wadell 1935, doi:10.1086/624298";
   return out;
 }

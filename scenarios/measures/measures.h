@@ -28,6 +28,8 @@ Measure contact_area_measure();
 Measure contact_part_measure();
 Measure age_measure();
 Measure sphericity_measure();
+/// Surface of a ball of a cell's volume over the cell's surface.
+double sphericity(const Snapshot::Cell& cell);
 Measure elongation_measure();
 Measure width_measure(int axis);
 Measure displacement_measure();

@@ -72,8 +72,7 @@ std::vector<Measure> spheroid_measures() {
                   "Mean sphericity of the half of the cells that is farthest from the middle less that of the quarter that is nearest: "
                   "above 0 where inner "
                   "cells are polyhedra.",
-                  Quantity::kNumber,
-                  [](const Snapshot::Cell& cell) { return std::cbrt(36.0 * std::numbers::pi * cell.volume * cell.volume) / cell.area; }),
+                  Quantity::kNumber, &sphericity),
           outward("spheroid.pressure_rise", "pressure of outer cells less that of inner ones",
                   "Mean pressure of the half of the cells that is farthest from the middle less that of the quarter that is nearest.",
                   Quantity::kPressure, [](const Snapshot::Cell& cell) { return cell.pressure; })};

@@ -21,21 +21,25 @@ std::string told_tolerance(double tolerance) {
   return number_text("%.2g", std::stod(text));
 }
 
+/// A number that is not found yet.
+VerifiedRow row_of(const ReferenceNumber& number) {
+  return {number.id, number.quantity, number.reference, std::nan(""), told_tolerance(number.tolerance), false, number.source};
+}
+
 }  // namespace
 
 std::vector<VerifiedRow> rows_of(const VerifySuite& suite) {
   std::vector<VerifiedRow> out;
-  for (const ReferenceNumber& number : suite.numbers())
-    out.push_back({number.id, number.quantity, number.reference, std::nan(""), told_tolerance(number.tolerance), false, number.source});
+  for (const ReferenceNumber& number : suite.numbers()) out.push_back(row_of(number));
   return out;
 }
 
 std::vector<VerifiedRow> verify(const VerifySuite& suite) {
-  std::vector<VerifiedRow> out = rows_of(suite);
-  const std::vector<ReferenceNumber> numbers = suite.numbers();
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i].value = numbers[i].compute();
-    out[i].passed = std::abs(out[i].value - numbers[i].reference) <= std::stod(out[i].tolerance);
+  std::vector<VerifiedRow> out;
+  for (const ReferenceNumber& number : suite.numbers()) {
+    VerifiedRow& row = out.emplace_back(row_of(number));
+    row.value = number.compute();
+    row.passed = std::abs(row.value - number.reference) <= std::stod(row.tolerance);
   }
   return out;
 }

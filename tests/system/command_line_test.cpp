@@ -72,8 +72,14 @@ TEST(CommandLine, VerifyListsSuitesAndTheirReferences) {
   for (const auto& row : json["rows"]) {
     EXPECT_TRUE(row["reference"].is_number()) << row;
     EXPECT_TRUE(row["value"].is_null()) << row;
+    EXPECT_TRUE(row["passed"].is_null()) << row;
   }
+  const auto all = nlohmann::json::parse(run_morula({"verify", "--list", "--json"}, folder.path()).out, nullptr, false);
+  ASSERT_TRUE(all.is_object());
+  ASSERT_EQ(all["suites"].size(), 2u);
+  EXPECT_EQ(all["suites"][0]["name"], "physics");
   EXPECT_EQ(run_morula({"verify", "life", "--studies"}, folder.path()).exit_code, 2);
+  EXPECT_EQ(run_morula({"verify", "physics", "--list", "--studies"}, folder.path()).exit_code, 2);
 }
 
 TEST(CommandLine, AnUnknownVerbSuggestsTheNearOne) {
