@@ -93,7 +93,7 @@ void for_each_cell_column(Visit&& visit) {
   visit(CellColumn{"inflation_rate", "um^3/s", kUsual}, &CellState::inflation_rate);
   visit(CellColumn{"polarity", "1", kCopied, true}, &CellState::polarity);
   visit(CellColumn{"migration_velocity", "um/s", kCopied, true}, &CellState::migration_velocity);
-  visit(CellColumn{"draws", "1", kSet, true}, &CellState::draws);
+  visit(CellColumn{"draws", "1", kSet}, &CellState::draws);
   visit(CellColumn{"type", "1", kCopied}, &CellState::type);
   visit(CellColumn{"phase", "1", kSet, true}, &CellState::phase);
   visit(CellColumn{"body", "1", kCopied}, &CellState::body);

@@ -17,14 +17,15 @@ Vec3d unit_axis(BuildContext& c, const Given<Vec3d>& axis, const char* key) {
 
 /// A load on the surface needs shells; one on chosen nodes needs to know where these were at the start.
 void check_bodies(BuildContext& c, const std::string& name, const Place& place, const CellLoad& load) {
-  if (load.what->push_cell != nullptr) return;
+  if (load.what->of_whole_cells()) return;
   const std::string who = "load '" + name + "' acts on the surface of '" + c.study.model.types[load.type].name + "'";
   const bool chosen = load.what->of_chosen_nodes != nullptr && load.what->of_chosen_nodes(load);
   for (const InitialCells& block : c.study.initial) {
     if (block.type != load.type && block.source != InitialCells::Source::kCsv) continue;
     const BodyKind body = block.body_given ? block.body : c.study.model.types[load.type].initial_body;
     if (body == BodyKind::kSphere && c.draft.coupling.regions.empty() && c.draft.coupling.triggers.empty()) {
-      c.diagnostics.error(520, place, who + ", but cells of that type are spheres", "place them `as: shell`, or use `body_force`");
+      c.diagnostics.error(520, place, who + ", but cells of that type are spheres",
+                          "place them `as: shell`, or use `body_force` or `trap`");
       return;
     }
     if (!chosen) continue;

@@ -52,8 +52,6 @@ struct MigrationLaw {
 /// The laws that Morula brings, the default first.
 std::vector<std::shared_ptr<const MigrationLaw>> migration_laws();
 std::shared_ptr<const MigrationLaw> persistent_walk();
-std::shared_ptr<const MigrationLaw> run_and_tumble();
-std::shared_ptr<const MigrationLaw> chemotaxis();
 
 /// The key of the time over which a walk remembers its direction, P [s].
 OwnKey persistence_key();

@@ -33,8 +33,6 @@ struct PolarityRule {
 
 /// The rules that Morula brings, in the order in which they act.
 std::vector<std::shared_ptr<const PolarityRule>> polarity_rules();
-std::shared_ptr<const PolarityRule> rotational_diffusion();
-std::shared_ptr<const PolarityRule> follow_velocity();
 
 /// A rule as the cells of one type have it.
 struct TypePolarityRule {

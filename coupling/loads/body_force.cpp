@@ -23,7 +23,7 @@ std::shared_ptr<const Load> body_force_load() {
 }
 
 std::vector<std::shared_ptr<const Load>> builtin_loads() {
-  return {traction_load(), pull_load(), patch_load(), pressure_load(), grip_load(), body_force_load()};
+  return {traction_load(), pull_load(), patch_load(), pressure_load(), grip_load(), trap_load(), body_force_load()};
 }
 
 }  // namespace morula

@@ -31,27 +31,10 @@ void build(const OwnValues& values, CellLoad& out) {
   out.way = values.course("way");
 }
 
-std::vector<LawProblem> judge(const CellLoad&, const Model& model) {
-  for (int axis = 0; axis < 3; ++axis)
-    if (model.space.periodic(axis))
-      return {{570, "center", std::string("a grip holds places, but the domain is periodic along ") + "xyz"[axis],
-               "use `open` or `wall` faces"}};
-  return {};
-}
-
 std::vector<OwnKey> grip_keys() {
   using keys::Kind;
   return {
-      {Kind::kQuantity,
-       {.name = "stiffness",
-        .doc = "Stiffness of the springs of one end together.",
-        .quantity = Quantity::kTension,
-        .fallback = "10 mN/m",
-        .low = 0.0,
-        .high = 1e6,
-        .low_open = true,
-        .example = "10 mN/m",
-        .source = "chosen: 1 nN moves a grip by 0.1 um"}},
+      keys::hold_stiffness("Stiffness of the springs of one end together."),
       keys::required(Kind::kVector, "center",
                      "Centre of the undeformed cell whose end nodes the grip holds; where the cell is placed, unless the grip shall push "
                      "at once.",
@@ -59,18 +42,8 @@ std::vector<OwnKey> grip_keys() {
       keys::load_axis("Axis that tells the ends."),
       keys::load_part("10 %", "Part of the nodes at each end that are held: a fixed set, ties taken in."),
       keys::load_ends(),
-      {Kind::kDirection,
-       {.name = "direction",
-        .doc = "Direction of `way`; need not have length 1.",
-        .fallback = "[0, 0, 1]",
-        .example = "[0, 0, 1]",
-        .source = "chosen"}},
-      {Kind::kCourse,
-       {.name = "way",
-        .doc = "How far the grip has moved along `direction` over time: straight lines between these points, at rest before the first "
-               "and after the last. Steps land on the points.",
-        .quantity = Quantity::kLength,
-        .example = "[{time: 0 s, distance: 0 um}, {time: 5 min, distance: 6 um}]"}}};
+      keys::way_direction(),
+      keys::way()};
 }
 
 }  // namespace
@@ -92,7 +65,7 @@ std::shared_ptr<const Load> grip_load() {
                   .example = "{stiffness: 10 mN/m, center: [0 um, 0 um, 6 um], part: 10 %, ends: high}"},
       .keys = grip_keys(),
       .build = &build,
-      .judge = &judge,
+      .judge = &keys::judge_places,
       .of_chosen_nodes = [](const CellLoad&) { return true; },
       .hold = &hold});
   return load;

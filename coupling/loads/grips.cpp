@@ -6,18 +6,29 @@
 namespace morula {
 namespace {
 
-/// Function(load number, anchor) for every spring of every grip.
+Anchor on_center(Anchor spring, const Tissue& tissue, bool is_shell, std::size_t number) {
+  const auto& first = tissue.shells.first_node;
+  spring.node = is_shell ? first[number] : static_cast<std::uint32_t>(tissue.shells.node_count() + number);
+  spring.count = is_shell ? first[number + 1] - first[number] : 1;
+  return spring;
+}
+
+/// Function(load number, anchor) for every spring of every load.
 template <class F>
 void for_anchors(const Model& model, const Tissue& tissue, double time, F&& function) {
   for (std::size_t l = 0; l < model.loads.size(); ++l) {
     const CellLoad& load = model.loads[l];
-    if (load.what->hold == nullptr) continue;
-    for (const auto [k, is_shell, shell] : bodies_of(tissue.cells)) {
+    if (!load.what->holds()) continue;
+    for (const auto [k, is_shell, number] : bodies_of(tissue.cells)) {
       const CellRow& row = tissue.cells.rows[k];
-      if (!is_shell || row.type != load.type) continue;
-      for (Anchor anchor : load.what->hold(load, *tissue.shells.shape[shell], row.target_volume, time)) {
-        anchor.node += tissue.shells.first_node[shell];
-        function(l, anchor);
+      if (row.type != load.type) continue;
+      if (load.what->hold_center != nullptr) {
+        function(l, on_center(load.what->hold_center(load, time), tissue, is_shell, number));
+      } else if (is_shell) {
+        for (Anchor anchor : load.what->hold(load, *tissue.shells.shape[number], row.target_volume, time)) {
+          anchor.node += tissue.shells.first_node[number];
+          function(l, anchor);
+        }
       }
     }
   }
@@ -31,12 +42,18 @@ std::vector<Anchor> grip_anchors(const Model& model, const Tissue& tissue, doubl
   return out;
 }
 
+Vec3d pull_of(const Anchor& anchor, const Tissue& tissue) {
+  const std::size_t nodes = tissue.shells.node_count();
+  const Vec3d at = anchor.node < nodes ? anchor.mean(tissue.shells.position, anchor.node) : tissue.spheres.position[anchor.node - nodes];
+  return (anchor.target - at) * anchor.stiffness;
+}
+
 std::vector<Vec3d> grip_forces(const Model& model, const Tissue& tissue, const Comm& comm) {
   std::vector<Vec3d> out(model.loads.size());
   if (out.empty()) return out;
   std::vector<OrderFreeSum> sums(3 * out.size());
   for_anchors(model, tissue, tissue.clock.time, [&](std::size_t load, const Anchor& anchor) {
-    const Vec3d force = (anchor.target - tissue.shells.position[anchor.node]) * anchor.stiffness;
+    const Vec3d force = pull_of(anchor, tissue);
     for (std::size_t axis = 0; axis < 3; ++axis) sums[3 * load + axis].add(force[axis]);
   });
   std::vector<double> totals(sums.size());

@@ -8,13 +8,16 @@
 
 namespace morula {
 
-/// The springs of all loads that hold nodes (Load::hold) at a time, on the rank's shells. A grip holds the end nodes of a cell where they would be on an
-/// undeformed cell (the reference shape at the cell's target volume) whose centre is that of the grip and has gone along the grip's way; its
-/// stiffness is shared evenly by the nodes of an end and follows the load's course. Nothing of it is stored: it follows from the study and
-/// the time.
+/// The springs of all loads that hold cells at places (Load::holds()) at a time, on the rank's cells. A grip holds the end nodes of a cell where they would
+/// be on an undeformed cell (the reference shape at the cell's target volume) whose centre is that of the grip and has gone along the grip's way; its
+/// stiffness is shared evenly by the nodes of an end and follows the load's course. A trap holds the mean of all points of a cell. Nothing of it
+/// is stored: it follows from the study and the time.
 std::vector<Anchor> grip_anchors(const Model& model, const Tissue& tissue, double time);
 
-/// Force of each load that is a grip on its cells at the tissue's positions and time [nN]; 0 for other loads. Collective, the same on every rank.
+/// Force of a spring on its points together [nN].
+Vec3d pull_of(const Anchor& anchor, const Tissue& tissue);
+
+/// Force of each load that holds cells on them at the tissue's positions and time [nN]; 0 for other loads. Collective, the same on every rank.
 std::vector<Vec3d> grip_forces(const Model& model, const Tissue& tissue, const Comm& comm);
 
 }  // namespace morula

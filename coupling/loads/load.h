@@ -26,15 +26,23 @@ struct LoadedShell {
   double strength = 1.0;            ///< the load's course at this time
 };
 
-/// A spring from a node to a place: energy ½ k |x − X|². The step holds it implicitly, so that it may be stiff.
+/// A spring from the mean x̄ of some points to a place: energy ½ k |x̄ − X|². The step holds it implicitly, so that it may be stiff.
 struct Anchor {
-  std::uint32_t node = 0;  ///< by shell node of the rank; of Load::hold, by node of the shell
+  std::uint32_t node = 0;  ///< the first; by shell node of the rank, after them its spheres; of Load::hold, by node of the shell
   double stiffness = 0.0;  ///< k [nN/µm]
   Vec3d target{};          ///< X [µm]
+  std::uint32_t count = 1;
+
+  /// x̄ of the points of `all`, the first of which has this number.
+  [[nodiscard]] Vec3d mean(std::span<const Vec3d> all, std::uint32_t first) const {
+    Vec3d sum{};
+    for (const Vec3d& x : all.subspan(first, count)) sum += x;
+    return count == 1 ? sum : sum * (1.0 / count);
+  }
 };
 
 /// What pulls or pushes cells from outside: what there is to say about it, its section of a load in the study, and its force. Exactly one of push,
-/// push_cell and hold is there.
+/// push_cell, hold and hold_center is there.
 struct Load {
   LawInfo info;     ///< its parameters have the names of keys; info.name is that of its section
   KeySpec section;  ///< of a load
@@ -53,6 +61,13 @@ struct Load {
   Vec3d (*push_cell)(const CellLoad& load, double strength) = nullptr;
   /// Springs on the nodes of a shell of this target volume [µm³] at a time [s].
   std::vector<Anchor> (*hold)(const CellLoad& load, const ReferenceShape& shape, double target_volume, double time) = nullptr;
+  /// The spring on the centre of a cell of either body at a time [s]; its points are not filled in.
+  Anchor (*hold_center)(const CellLoad& load, double time) = nullptr;
+
+  /// It acts through springs to places of the laboratory.
+  [[nodiscard]] bool holds() const { return hold != nullptr || hold_center != nullptr; }
+  /// It asks nothing of the surface of a cell: spheres bear it, too.
+  [[nodiscard]] bool of_whole_cells() const { return push_cell != nullptr || hold_center != nullptr; }
 };
 
 /// The loads that Morula brings, each in a file of this folder.
@@ -62,6 +77,7 @@ std::shared_ptr<const Load> pull_load();
 std::shared_ptr<const Load> patch_load();
 std::shared_ptr<const Load> pressure_load();
 std::shared_ptr<const Load> grip_load();
+std::shared_ptr<const Load> trap_load();
 std::shared_ptr<const Load> body_force_load();
 
 enum class LoadEnd : std::uint8_t { kBoth, kHigh, kLow };

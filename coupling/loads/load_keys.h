@@ -39,6 +39,48 @@ inline OwnKey required(Kind kind, const char* name, const char* doc, Quantity qu
   return {kind, {.name = name, .doc = doc, .quantity = quantity, .required = true, .example = example}};
 }
 
+/// Of springs to places of the laboratory.
+inline OwnKey hold_stiffness(const char* doc) {
+  return {Kind::kQuantity,
+          {.name = "stiffness",
+           .doc = doc,
+           .quantity = Quantity::kTension,
+           .fallback = "10 mN/m",
+           .low = 0.0,
+           .high = 1e6,
+           .low_open = true,
+           .example = "10 mN/m",
+           .source = "chosen: 1 nN moves it by 0.1 um"}};
+}
+
+inline OwnKey way_direction() {
+  return {Kind::kDirection,
+          {.name = "direction",
+           .doc = "Direction of `way`; need not have length 1.",
+           .fallback = "[0, 0, 1]",
+           .example = "[0, 0, 1]",
+           .source = "chosen"}};
+}
+
+inline OwnKey way() {
+  return {Kind::kCourse,
+          {.name = "way",
+           .doc = "How far its place has moved along `direction` over time: straight lines between these points, at rest before the first "
+                  "and after "
+                  "the last. Steps land on the points.",
+           .quantity = Quantity::kLength,
+           .example = "[{time: 0 s, distance: 0 um}, {time: 5 min, distance: 6 um}]"}};
+}
+
+/// A load that holds places of the laboratory cannot follow a cell through a periodic face.
+inline std::vector<LawProblem> judge_places(const CellLoad& load, const Model& model) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (model.space.periodic(axis))
+      return {{570, "center", "a " + load.what->info.name + " holds places, but the domain is periodic along " + "xyz"[axis],
+               "use `open` or `wall` faces"}};
+  return {};
+}
+
 inline LawParameter part_of_nodes() { return given_by_study("part", "number", "1", "Part of the nodes, at an end of the axis."); }
 
 /// `axis`, `part` and `ends`.

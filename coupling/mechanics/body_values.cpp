@@ -28,7 +28,8 @@ std::vector<Vec3d> load_forces(const Model& model, const Tissue& tissue, const C
   add_surface_loads(model, tissue, tissue.clock.time, out);
   add_lumen_forces(model, tissue, tissue.clock.time, comm, out);
   for (const Anchor& anchor : grip_anchors(model, tissue, tissue.clock.time))
-    out[anchor.node] += (anchor.target - tissue.shells.position[anchor.node]) * anchor.stiffness;
+    if (anchor.node < out.size())  // that on the centre of a sphere has no arm
+      for (Vec3d& to : std::span(out).subspan(anchor.node, anchor.count)) to += pull_of(anchor, tissue) * (1.0 / anchor.count);
   return out;
 }
 

@@ -4,6 +4,12 @@
 #include <cmath>
 
 namespace morula {
+namespace {
+
+/// √k/n: K = (√k/n)² between any two points of a spring.
+float weight(const Anchor& spring) { return static_cast<float>(std::sqrt(spring.stiffness) / spring.count); }
+
+}  // namespace
 
 void HeldNodes::hold(std::uint32_t node, const Vec3d& along, double stiffness) {
   const Vec3d v = along * std::sqrt(stiffness);
@@ -28,25 +34,45 @@ void HeldNodes::add_diagonal(std::span<SymMat3<float>> diagonal) const {
   }
 }
 
-void Grips::begin_step(const World& world, StepStart& start) {
-  springs_.begin_step(world, start);
-  for (const Anchor& anchor : anchors_)
-    for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}) springs_.hold(anchor.node, axis, anchor.stiffness);
+void Grips::begin_step(const World& world, StepStart&) {
+  springs_.assign(anchors_.begin(), anchors_.end());
+  const std::uint32_t nodes = world.scene.owned_nodes();
+  for (Anchor& spring : springs_)
+    if (spring.node >= nodes) spring.node += world.scene.sphere_point() - nodes;
 }
 
 void Grips::add_outside(const Way& way, double dt, std::span<Vec3d> out, OrderFreeSum& work) {
-  for (const Anchor& anchor : anchors_) {
-    const Vec3d &from = way.start[anchor.node], &at = way.position[anchor.node];
-    out[anchor.node] += (at - anchor.target) * (anchor.stiffness * dt);
-    work.add(0.5 * anchor.stiffness * (norm2(from - anchor.target) - norm2(at - anchor.target)));  // energy at the start less that now
+  for (const Anchor& spring : springs_) {
+    const Vec3d from = spring.mean(way.start, spring.node), at = spring.mean(way.position, spring.node);
+    const Vec3d push = (at - spring.target) * (spring.stiffness * dt / spring.count);
+    for (Vec3d& to : out.subspan(spring.node, spring.count)) to += push;
+    work.add(0.5 * spring.stiffness * (norm2(from - spring.target) - norm2(at - spring.target)));  // energy at the start less that now
   }
 }
 
 void Grips::add_tied(const World& world, std::vector<std::uint32_t>& bodies) const {
   const auto first_node = world.scene.first_node().first(world.scene.owned_shells() + 1);
-  for (const Anchor& anchor : anchors_)
-    bodies.push_back(
-        static_cast<std::uint32_t>(std::upper_bound(first_node.begin(), first_node.end(), anchor.node) - first_node.begin() - 1));
+  const std::uint32_t nodes = world.scene.owned_nodes();
+  for (const Anchor& anchor : anchors_) {
+    const auto shell = std::upper_bound(first_node.begin(), first_node.end(), anchor.node) - first_node.begin() - 1;
+    bodies.push_back(static_cast<std::uint32_t>(anchor.node < nodes ? shell : world.scene.first_sphere() + (anchor.node - nodes)));
+  }
+}
+
+void Grips::add_product(std::span<const Float4> p, std::span<Float4> q) const {
+  for (const Anchor& spring : springs_) {
+    Float4 sum{};
+    for (const Float4& v : p.subspan(spring.node, spring.count)) sum.x += v.x, sum.y += v.y, sum.z += v.z;
+    const float w = weight(spring), x = dt_ * (w * sum.x) * w, y = dt_ * (w * sum.y) * w, z = dt_ * (w * sum.z) * w;
+    for (Float4& to : q.subspan(spring.node, spring.count)) to.x += x, to.y += y, to.z += z;
+  }
+}
+
+void Grips::add_diagonal(std::span<SymMat3<float>> diagonal) const {
+  for (const Anchor& spring : springs_) {
+    const float w = weight(spring), part = dt_ * w * w;
+    for (SymMat3<float>& block : diagonal.subspan(spring.node, spring.count)) block.xx += part, block.yy += part, block.zz += part;
+  }
 }
 
 }  // namespace morula

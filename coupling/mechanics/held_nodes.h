@@ -34,7 +34,8 @@ class HeldNodes : public Term {
   float dt_ = 0.0f;
 };
 
-/// Springs between nodes and places of the laboratory: those of grips, held implicitly at their places of the step's end.
+/// Springs between points, or the mean of a cell's points, and places of the laboratory: those of grips and traps, held implicitly at their places of the
+/// step's end. K = k wᵀw with w_i = 1/n for each of the n points of a spring.
 class Grips : public Term {
  public:
   /// The springs of the next step. They are not copied.
@@ -43,14 +44,15 @@ class Grips : public Term {
   void begin_step(const World& world, StepStart& start) override;
   void add_outside(const Way& way, double dt, std::span<Vec3d> out, OrderFreeSum& work) override;
   void add_tied(const World& world, std::vector<std::uint32_t>& bodies) const override;
-  void assemble(const World& world, double dt, Assembly& out) override { springs_.assemble(world, dt, out); }
+  void assemble(const World&, double dt, Assembly&) override { dt_ = static_cast<float>(dt); }
   [[nodiscard]] bool empty() const override { return springs_.empty(); }
-  void add_product(std::span<const Float4> p, std::span<Float4> q) const override { springs_.add_product(p, q); }
-  void add_diagonal(std::span<SymMat3<float>> diagonal) const override { springs_.add_diagonal(diagonal); }
+  void add_product(std::span<const Float4> p, std::span<Float4> q) const override;
+  void add_diagonal(std::span<SymMat3<float>> diagonal) const override;
 
  private:
   std::span<const Anchor> anchors_;
-  HeldNodes springs_;
+  std::vector<Anchor> springs_;  ///< of the step, `node` by point
+  float dt_ = 0.0f;
 };
 
 }  // namespace morula

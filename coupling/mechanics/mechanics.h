@@ -41,7 +41,7 @@ class Mechanics {
 
   /// One step of length dt under the given external forces (see external_size()) [nN] and the random forces of cells that fluctuate. On
   /// success the tissue holds the new positions and velocities; on a fault it is unchanged. Collective.
-  /// `anchors`: springs on owned shell nodes, held implicitly at their places of the step's end.
+  /// `anchors`: springs on owned shell nodes and spheres, held implicitly at their places of the step's end.
   Result<StepReport, StepFault> step(Tissue& tissue, double dt, std::span<const Vec3d> external, std::span<const Anchor> anchors = {});
 
   /// Forces on whole cells (by owned body: shells, then spheres) as `external`: on a shell spread over its nodes by their area (dcm.md §11).

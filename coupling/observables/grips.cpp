@@ -6,7 +6,7 @@ namespace morula {
 std::vector<Observable> grip_observables(const Model& model) {
   std::vector<Observable> out;
   for (std::size_t l = 0; l < model.loads.size(); ++l) {
-    if (model.loads[l].what->hold == nullptr) continue;
+    if (!model.loads[l].what->holds()) continue;
     const std::string& name = model.loads[l].name;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::string letter(1, "xyz"[axis]);

@@ -40,6 +40,35 @@ TEST(Grip, PullsNothingWhileTheCellIsWhereItHoldsIt) {
   EXPECT_NEAR(stiffness, 10.0, 1e-12);
 }
 
+CellLoad trap(double stiffness, const Vec3d& center) {
+  CellLoad load = grip(stiffness, center);
+  load.what = trap_load();
+  return load;
+}
+
+/// At rest a trap bears the whole load of a cell of either body, whose centre gave way by F/K; the surface of a shell stays as it would be without.
+TEST(Trap, BearsTheLoadThatActsOnItsCell) {
+  for (const BodyKind body : {BodyKind::kShell, BodyKind::kSphere}) {
+    Model model = test::clusters_model();
+    model.step.newton_stop = 1e-3;
+    model.step.first_tolerance = 1e-4;
+    model.step.max_newton = 8;
+    CellLoad push;
+    push.force = {0.3, 0, -0.4};
+    model.loads = {trap(10.0, {1, 0, 0}), push};
+    ShapeLibrary shapes;
+    auto s = std::move(Simulation::create(model, test::make_tissue(model, shapes, {{1, 0, 0}}, {body}), Comm(), 1)).value();
+    while (s->tissue().clock.time < 300.0) ASSERT_TRUE(s->step(300.0).ok());
+    const Vec3d force = grip_forces(model, s->tissue(), Comm())[0];
+    EXPECT_NEAR(force.x, -0.3, 1e-3);
+    EXPECT_NEAR(force.z, 0.4, 1e-3);
+    const auto& tissue = s->tissue();
+    const Vec3d at = body == BodyKind::kSphere ? tissue.spheres.position[0] : Anchor{.count = 162}.mean(tissue.shells.position, 0);
+    EXPECT_NEAR(at.x - 1.0, 0.03, 1e-4);
+    EXPECT_NEAR(at.z, -0.04, 1e-4);
+  }
+}
+
 /// At rest the grip bears the whole load, and its nodes have given way by F/K on average.
 TEST(Grip, BearsTheLoadThatActsOnItsCell) {
   Model model = test::clusters_model();

@@ -166,7 +166,7 @@ TEST(StillToCome, CellsThatDriveThemselves) {
                                                      OwnValues values;
                                                      values.set("turning", 1e-4);
                                                      t.polarity.set = true;
-                                                     t.polarity.add(rotational_diffusion(), values);
+                                                     t.polarity.add(polarity_rules().front(), values);
                                                    }};
   for (const auto& drive : drives) {
     Model model = quiet_model();

@@ -67,7 +67,8 @@ TEST(Registry, EveryEntryTellsOfItself) {
     expect_told(one->info, names);
     EXPECT_EQ(one->info.name, one->section.name);
     expect_keys(*one, one->bare ? "loads" : "loads." + one->info.name);
-    EXPECT_EQ((one->push != nullptr) + (one->push_cell != nullptr) + (one->hold != nullptr), 1) << one->info.name;
+    EXPECT_EQ((one->push != nullptr) + (one->push_cell != nullptr) + (one->hold != nullptr) + (one->hold_center != nullptr), 1)
+        << one->info.name;
   }
   names.clear();  // a region may have the name of something else
   for (const auto& one : laws->region_shapes) {
