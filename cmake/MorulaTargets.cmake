@@ -1,9 +1,15 @@
 # morula_library(<folder> [INTERNAL] [targets it links publicly...])
-#   One library per folder: all .cpp below it, alias morula::<folder>, headers included as "<folder>/...". INTERNAL: not part of the package.
+#   One library per folder: all .cpp below it, but not in folders below with a CMakeLists.txt, which are libraries of their own; alias
+#   morula::<folder>, headers included as "<folder>/...". INTERNAL: not part of the package.
 function(morula_library name)
   cmake_parse_arguments(ARG "INTERNAL" "" "" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  file(GLOB own RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/*/CMakeLists.txt)
+  foreach(list_file ${own})
+    get_filename_component(folder ${list_file} DIRECTORY)
+    list(FILTER sources EXCLUDE REGEX "^${CMAKE_CURRENT_SOURCE_DIR}/${folder}/")
+  endforeach()
   add_library(morula_${name} STATIC ${sources})
   add_library(morula::${name} ALIAS morula_${name})
   set_target_properties(morula_${name} PROPERTIES LINKER_LANGUAGE CXX EXPORT_NAME ${name})

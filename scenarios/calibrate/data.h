@@ -1,0 +1,41 @@
+#pragma once
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace morula::calibrate {
+
+/// Two cells in contact, at rest: a point of a force–overlap curve of deformable cells, extrapolated to no rate.
+struct PairPoint {
+  int experiment = 0;    ///< number of the experiment: points of one experiment are drawn together by the bootstrap
+  double overlap = 0.0;  ///< δ = R_a + R_b − d with the radii of the free cells [µm]
+  double force = 0.0;    ///< > 0 pushes apart [nN]
+  double area = std::numeric_limits<double>::quiet_NaN();  ///< of contact [µm²]; not a number: not measured
+  double radius_a = 0.0, radius_b = 0.0;                   ///< of the free cells [µm]
+  double rate = 0.0;                                       ///< slowest rate that was run: of the force [nN/s] or the distance [µm/s]
+  bool held_out = false;                                   ///< judged by, never fitted to
+
+  [[nodiscard]] double reduced_radius() const { return radius_a * radius_b / (radius_a + radius_b); }
+  [[nodiscard]] double smaller_radius() const { return std::fmin(radius_a, radius_b); }
+};
+
+/// Periodic packings of equal cells.
+enum class Lattice { kFaceCentred, kBodyCentred };
+
+/// A periodic packing of equal cells at rest.
+struct PackingPoint {
+  int experiment = 0;
+  Lattice lattice = Lattice::kFaceCentred;
+  double volume_ratio = 1.0;  ///< V/V0: room of a cell in the box over the volume of the free cell
+  double pressure = 0.0;      ///< p, of contact [kPa]
+  double radius = 0.0;        ///< of the free cell [µm]
+  bool held_out = false;
+};
+
+/// What the virtual experiments have found.
+struct Data {
+  std::vector<PairPoint> pairs;
+  std::vector<PackingPoint> packings;
+};
+
+}  // namespace morula::calibrate

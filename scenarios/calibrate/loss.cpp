@@ -1,0 +1,124 @@
+#include "scenarios/calibrate/loss.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "scenarios/calibrate/lattice.h"
+#include "scenarios/calibrate/pair_model.h"
+
+namespace morula::calibrate {
+namespace {
+
+/// A packing with its place in the lattice, computed once.
+struct PlacedPacking {
+  PackingPoint point;
+  LatticeGeometry at;
+};
+
+struct Loss {
+  std::vector<PairPoint> pairs;
+  std::vector<PlacedPacking> packings;
+  double poisson = 0.0;
+  LossWeights weights;
+  DataScales scales;
+  std::vector<cbm::PackingKnot> knots;
+
+  void add_pairs(double modulus, double adhesion, std::vector<double>& out) const {
+    for (const PairPoint& point : pairs) {
+      const double r = point.reduced_radius();
+      const PairAnswer law = jkr_pair(modulus, adhesion, r, point.overlap, scales.stiffness);
+      out.push_back((point.force - law.force) /
+                    (weights.force_floor * scales.pull_off * r + weights.force_relative * std::abs(point.force)));
+      if (std::isfinite(point.area) && scales.area > 0.0)
+        out.push_back(std::sqrt(weights.area) * (point.area - law.area) / (weights.area_floor * scales.area * r * r));
+    }
+  }
+
+  void add_packings(const PairModel& pair, const cbm::PackingCurve& curve, std::vector<double>& out) const {
+    for (const PlacedPacking& packing : packings) {
+      const double p = pair_pressure(packing.at, packing.point.radius, pair) + packing.at.press * curve.at(packing.at.packing).pressure;
+      out.push_back(std::sqrt(weights.packing) * (packing.point.pressure - p) /
+                    (weights.pressure_floor + weights.pressure_relative * std::abs(packing.point.pressure)));
+    }
+  }
+
+  void operator()(std::span<const double> logarithms, std::vector<double>& out) const {
+    const Parameters parameters = Parameters::of(logarithms, knots);
+    const double modulus = pair_modulus(parameters.young, poisson), adhesion = parameters.adhesion;
+    out.clear();
+    add_pairs(modulus, adhesion, out);
+    if (packings.empty()) return;
+    const Result<cbm::PackingCurve> curve = cbm::PackingCurve::through(parameters.knots);
+    assert(curve.ok());
+    const auto pair = [&](double overlap, double r) { return jkr_pair(modulus, adhesion, r, overlap, scales.stiffness); };
+    add_packings(pair, curve.value(), out);
+    for (std::size_t k = 1; k + 1 < knots.size(); ++k) {
+      const double bend = parameters.knots[k + 1].pressure - 2.0 * parameters.knots[k].pressure + parameters.knots[k - 1].pressure;
+      out.push_back(std::sqrt(weights.roughness) * bend / weights.pressure_floor);
+    }
+  }
+};
+
+}  // namespace
+
+bool is_fitted(const PairPoint& point, const LossWeights& weights) {
+  return !point.held_out && point.overlap <= weights.overlap_limit * point.smaller_radius();
+}
+
+DataScales scales_of(const Data& data, const LossWeights& weights) {
+  DataScales out;
+  double force = 0.0, overlap = 0.0, tension = 0.0, largest = 0.0, least = 0.0;
+  for (const PairPoint& point : data.pairs) {
+    if (!is_fitted(point, weights)) continue;
+    const double r = point.reduced_radius();
+    force = std::max(force, std::abs(point.force)), overlap = std::max(overlap, std::abs(point.overlap));
+    tension = std::max(tension, -point.force / r), largest = std::max(largest, std::abs(point.force) / r);
+    if (std::isfinite(point.area) && (out.area == 0.0 || std::abs(point.force) / r < least))
+      out.area = point.area / (r * r), least = std::abs(point.force) / r;
+  }
+  out.pulls = tension > 0.0;
+  out.pull_off = out.pulls ? tension : largest;
+  out.stiffness = overlap > 0.0 ? force / overlap : 0.0;
+  return out;
+}
+
+std::vector<double> Parameters::logarithms() const {
+  const auto bounded = [](double x, const double(&limits)[2]) { return std::log(std::clamp(x, limits[0], limits[1])); };
+  std::vector<double> out{bounded(young, Bounds::kYoung), bounded(adhesion, Bounds::kAdhesion)};
+  for (std::size_t k = 1; k < knots.size(); ++k) out.push_back(bounded(knots[k].pressure - knots[k - 1].pressure, Bounds::kIncrement));
+  return out;
+}
+
+Parameters Parameters::of(std::span<const double> logarithms, std::span<const cbm::PackingKnot> knots) {
+  Parameters out{std::exp(logarithms[0]), std::exp(logarithms[1]), {knots.begin(), knots.end()}};
+  for (std::size_t k = 0; k < knots.size(); ++k)
+    out.knots[k].pressure = k == 0 ? 0.0 : out.knots[k - 1].pressure + std::exp(logarithms[k + 1]);
+  return out;
+}
+
+LeastSquares loss_of(const Data& data, double poisson, const LossWeights& weights, const DataScales& scales,
+                     std::span<const cbm::PackingKnot> knots, LossParts parts) {
+  Loss loss;
+  loss.poisson = poisson, loss.weights = weights, loss.scales = scales;
+  loss.knots.assign(knots.begin(), knots.end());
+  if (parts.pairs)
+    for (const PairPoint& point : data.pairs)
+      if (is_fitted(point, weights)) loss.pairs.push_back(point);
+  if (parts.packings && !knots.empty())
+    for (const PackingPoint& point : data.packings)
+      if (!point.held_out) loss.packings.push_back({point, lattice_geometry(point.lattice, point.volume_ratio)});
+  LeastSquares out;
+  const auto bound = [&](const double(&limits)[2]) {
+    out.low.push_back(std::log(limits[0]));
+    out.high.push_back(std::log(limits[1]));
+  };
+  bound(Bounds::kYoung);
+  bound(Bounds::kAdhesion);
+  for (std::size_t k = 1; k < knots.size(); ++k) bound(Bounds::kIncrement);
+  out.residuals = std::move(loss);
+  return out;
+}
+
+}  // namespace morula::calibrate

@@ -1,0 +1,148 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scenarios/calibrate/confidence.h"
+#include "scenarios/calibrate/lattice.h"
+#include "tests/calibrate/synthetic.h"
+
+namespace morula::calibrate {
+namespace {
+
+/// Rows of the table of cbm.md §3: R = 6 µm, E = 0.45 kPa, ν = 0.4, W = 0, K_V = 2.5 kPa.
+struct Row {
+  double volume_ratio, packing, hertz, total, packed;  // V/V0, φ, p_H, p_t, p_c [Pa]
+};
+constexpr Row kTable[] = {{0.98450, 0.08700, 19.72, 39.06, 37.13},   {0.95204, 0.10491, 23.26, 122.86, 170.83},
+                          {0.92031, 0.12442, 27.11, 207.61, 278.91}, {0.85898, 0.16817, 35.77, 380.03, 440.16},
+                          {0.80043, 0.21811, 45.81, 556.51, 551.00}, {0.69144, 0.33600, 70.59, 922.44, 681.72},
+                          {0.56973, 0.51562, 112.24, 1406.5, 749.07}};
+
+TEST(Lattice, FaceCentredIsTheTableOfIdealFilledCells) {
+  const PairModel hertz = jkr_model(0.45, 0.4, 0.0);
+  for (const Row& row : kTable) {
+    const LatticeGeometry at = lattice_geometry(Lattice::kFaceCentred, row.volume_ratio);
+    EXPECT_NEAR(at.packing, row.packing, 2e-5);
+    EXPECT_NEAR(1e3 * pair_pressure(at, 6.0, hertz), row.hertz, 1e-2);
+    EXPECT_NEAR(row.hertz + at.press * row.packed, row.total, 4e-2);  // five digits of V/V0 are 1e-5 K_V
+    EXPECT_EQ(at.shells[1].neighbours, 0);
+  }
+}
+
+// cbm.md §3: spheres of a body-centred lattice have their own volume each at d = (π√3)^{1/3} R = 1.7588825 R.
+TEST(Lattice, BodyCentredHasEightNeighboursAndThenFourteen) {
+  const LatticeGeometry confluent = lattice_geometry(Lattice::kBodyCentred, 1.0);
+  EXPECT_NEAR(confluent.shells[0].distance, 1.7588825, 1e-7);
+  EXPECT_EQ(confluent.shells[1].neighbours, 0);
+  const LatticeGeometry pressed = lattice_geometry(Lattice::kBodyCentred, 0.9);
+  EXPECT_EQ(pressed.shells[1].neighbours, 6);
+  EXPECT_NEAR(pressed.shells[1].distance / pressed.shells[0].distance, 2.0 / std::numbers::sqrt3, 1e-12);
+}
+
+// The pressure is minus the change of energy with volume: dU = −p dV, pairs and packing alike.
+TEST(Lattice, PressureIsMinusTheChangeOfEnergyWithVolume) {
+  const auto law = cbm::make_pair_law(cbm::ContactMaterial::elastic(0.45, 0.4, 0.45, 0.4, 0.05), 6.0, 6.0);
+  const PairModel pair = jkr_model(0.45, 0.4, 0.05);
+  const double ball = 4.0 / 3.0 * std::numbers::pi * 216.0;
+  for (const Lattice lattice : {Lattice::kFaceCentred, Lattice::kBodyCentred}) {
+    for (const double ratio : {1.05, 0.9, 0.8}) {
+      const auto energy = [&](double v) {  // of one cell; Ψ = φ²/2, so that the packing pressure is φ [kPa]
+        const LatticeGeometry at = lattice_geometry(lattice, v);
+        double sum = ball * 0.5 * at.packing * at.packing;
+        for (const LatticeShell& shell : at.shells)
+          if (shell.neighbours > 0) sum += 0.5 * shell.neighbours * cbm::jkr_contact(law, (2.0 - shell.distance) * 6.0).energy;
+        return sum;
+      };
+      const double h = 1e-5;
+      const LatticeGeometry at = lattice_geometry(lattice, ratio);
+      const double expected = -(energy(ratio + h) - energy(ratio - h)) / (2.0 * h * ball);
+      EXPECT_NEAR(pair_pressure(at, 6.0, pair) + at.press * at.packing, expected, 1e-7 * (1.0 + std::abs(expected))) << ratio;
+    }
+  }
+}
+
+/// p_c of ideal filled cells [kPa] at any φ = 3s²(3 − s) (cbm.md §3).
+double ideal_pressure(double packing) {
+  const double modulus = 0.45 / (2.0 * (1.0 - 0.16));
+  double low = 0.0, high = 1.0;
+  for (int k = 0; k < 80; ++k) {
+    const double s = 0.5 * (low + high);
+    (3.0 * s * s * (3.0 - s) < packing ? low : high) = s;
+  }
+  const double s = low, ratio = std::pow((1.0 - s) / (1.0 - 0.09530010471822248), 3.0);
+  const double hertz = 4.0 * std::numbers::sqrt2 / 3.0 * modulus * std::pow(s, 1.5) / ((1.0 - s) * (1.0 - s));
+  const double half = 0.5 / (1.0 - s);
+  return std::max(0.0, (2.5 * std::log(1.0 / ratio) - hertz) / (2.0 * std::numbers::sqrt2 * std::numbers::pi * (half * half - 0.25)));
+}
+
+/// Packings from V/V0 1.1 in steps of 0.02, of JKR spheres whose packing pressure is that of ideal filled cells, beside pairs of them.
+Data packed(double last) {
+  Data out = jkr_points(-0.5, 1.5, 21, 0.0, 1);
+  const PairModel pair = jkr_model(kYoung, kPoisson, kAdhesion);
+  for (const Lattice lattice : {Lattice::kFaceCentred, Lattice::kBodyCentred})
+    for (double ratio = 1.1; ratio > last - 0.01; ratio -= 0.02) {
+      const LatticeGeometry at = lattice_geometry(lattice, ratio);
+      const double pressure = pair_pressure(at, kRadius, pair) + at.press * ideal_pressure(at.packing);
+      out.packings.push_back({100 + static_cast<int>(lattice), lattice, ratio, pressure, kRadius, false});
+    }
+  return out;
+}
+
+double worst_error(const Fit& fit, double last) {
+  const auto curve = cbm::PackingCurve::through(fit.parameters.knots);
+  double worst = 0.0;
+  for (double packing = 0.08; packing < last; packing += 1e-3) {
+    const double truth = ideal_pressure(packing);
+    if (truth > 0.03) worst = std::max(worst, std::abs(curve->at(packing).pressure / truth - 1.0));
+  }
+  return worst;
+}
+
+// fields_and_coupling.md, E: eight knots within 2 % where p_c > 30 Pa; interpolation alone costs 1.2 %.
+TEST(PackingFit, FindsTheCurveBetweenEightKnotsOfTheTable) {
+  FitOptions options{.poisson = kPoisson, .packing = {0.0829053}};  // φ_on of the table
+  for (const Row& row : kTable) options.packing.push_back(row.packing);
+  const auto fitted = fit(packed(0.57), options);
+  ASSERT_TRUE(fitted.ok()) << fitted.error().message;
+  EXPECT_LT(worst_error(*fitted, 0.51562), 0.02);
+  EXPECT_NEAR(fitted->parameters.young / kYoung, 1.0, 1e-3);
+  EXPECT_NEAR(fitted->parameters.adhesion / kAdhesion, 1.0, 1e-3);
+}
+
+TEST(PackingFit, PlacesKnotsByItself) {
+  const auto fitted = fit(packed(0.7), {.poisson = kPoisson});
+  ASSERT_TRUE(fitted.ok()) << fitted.error().message;
+  ASSERT_EQ(fitted->parameters.knots.size(), 8u);
+  EXPECT_LT(worst_error(*fitted, 0.33), 0.02);
+}
+
+TEST(PackingFit, OfPairsAloneHasNoCurve) {
+  Data data = packed(0.7);
+  const PairModel pair = jkr_model(kYoung, kPoisson, kAdhesion);
+  for (PackingPoint& point : data.packings)
+    point.pressure = pair_pressure(lattice_geometry(point.lattice, point.volume_ratio), point.radius, pair);
+  const auto fitted = fit(data, {.poisson = kPoisson});
+  ASSERT_TRUE(fitted.ok());
+  EXPECT_TRUE(fitted->parameters.knots.size() < 3 || fitted->parameters.knots.back().pressure < 1e-3);
+}
+
+// Experiments of pairs alone and of packings alone are drawn from in full: a sample without any pair would tell nothing.
+TEST(Bootstrap, OfManyExperimentsIsAsWideAsTheProfile) {
+  Data data = jkr_points(-0.5, 1.5, 161, 1.0, 11);
+  const auto best = fit(data, {.poisson = kPoisson, .weights = {.force_relative = 0.0}});
+  ASSERT_TRUE(best.ok());
+  const Bootstrap drawn = bootstrap(data, *best, 400, 5);
+  ASSERT_TRUE(drawn.possible);
+  EXPECT_EQ(drawn.logarithms.size(), 400u);
+  // The noise of 161 points is known to 1/√322 = 6 %, the width of 400 samples to 5 %.
+  const Covariance errors = covariance(data, *best);
+  EXPECT_NEAR(std::log(drawn.young.high / drawn.young.low) / (2 * 1.96), errors.young_error, 0.2 * errors.young_error);
+  EXPECT_NEAR(std::log(drawn.adhesion.high / drawn.adhesion.low) / (2 * 1.96), errors.adhesion_error, 0.2 * errors.adhesion_error);
+  EXPECT_EQ(bootstrap(data, *best, 20, 5).logarithms, bootstrap(data, *best, 20, 5).logarithms);
+  for (PairPoint& point : data.pairs) point.experiment = 1;
+  EXPECT_FALSE(bootstrap(data, *best, 20, 5).possible);
+}
+
+}  // namespace
+}  // namespace morula::calibrate
