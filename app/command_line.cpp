@@ -32,6 +32,7 @@ struct Parsed {
   PlotOptions plot;
   ExportOptions export_results;
   VerifyOptions verify;
+  CalibrateOptions calibrate;
   DoctorOptions doctor;
 };
 
@@ -85,6 +86,20 @@ void add_running_verbs(CLI::App& program, Parsed& p) {
       ->type_name("KEY=VALUE");
   verb->add_option("--out", p.resume.out, "Folder of the new run that --set or --from makes")->type_name("DIR");
   add_limits(*verb, p.resume.limits);
+
+  verb = add_verb(program, "calibrate",
+                  "Find the contact law of spheres from deformable cells: virtual experiments, a fit, a file and a report",
+                  "morula calibrate jkr hepatocyte study.yaml", "mpirun -n 2 morula calibrate jkr tumour spheroid.yaml --out tumour_162");
+  verb->add_option("LAW", p.calibrate.law, "What is fitted")->required()->check(CLI::IsMember({"jkr"}))->type_name("jkr");
+  verb->add_option("TYPE", p.calibrate.type, "Cell type of the study, whose shells are the truth")->required();
+  verb->add_option("STUDY", p.calibrate.study, "Study file")->required();
+  verb->add_option("KEY=VALUE", p.calibrate.overrides, "Values that replace those of the study, by the path of the key");
+  verb->add_option("--out", p.calibrate.out, "Folder; what was run there before is not run again (default: calibrations/TYPE)")
+      ->type_name("DIR");
+  verb->add_option("--threads", p.calibrate.threads, "Threads of each rank; ranks share the experiments")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N")
+      ->capture_default_str();
 }
 
 void add_looking_verbs(CLI::App& program, Parsed& p) {
@@ -162,6 +177,7 @@ Options chosen_options(const std::string& verb, Parsed&& p) {
   if (verb == "plot") return std::move(p.plot);
   if (verb == "export") return std::move(p.export_results);
   if (verb == "verify") return std::move(p.verify);
+  if (verb == "calibrate") return std::move(p.calibrate);
   return p.doctor;
 }
 

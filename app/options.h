@@ -86,11 +86,20 @@ struct VerifyOptions {
   bool studies = false;  ///< also run the library's quick experiments
 };
 
+struct CalibrateOptions {
+  std::string law;                     ///< `jkr`
+  std::string type;                    ///< of cells
+  std::string study;                   ///< that has it
+  std::vector<std::string> overrides;  ///< key.path=value
+  std::string out;                     ///< folder; empty: calibrations/TYPE
+  int threads = 1;                     ///< of each rank
+};
+
 struct DoctorOptions {
   bool json = false;
 };
 
 using Options = std::variant<NewOptions, CheckOptions, RunOptions, ResumeOptions, StatusOptions, ListOptions, InfoOptions, ExplainOptions,
-                             PlotOptions, ExportOptions, VerifyOptions, DoctorOptions>;
+                             PlotOptions, ExportOptions, VerifyOptions, CalibrateOptions, DoctorOptions>;
 
 }  // namespace morula::app

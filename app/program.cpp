@@ -36,6 +36,7 @@ Status call(const Options& options, const Context& context) {
     Status operator()(const PlotOptions& o) const { return plot(o, c); }
     Status operator()(const ExportOptions& o) const { return export_results(o, c); }
     Status operator()(const VerifyOptions& o) const { return verify(o, c); }
+    Status operator()(const CalibrateOptions& o) const { return calibrate(o, c); }
     Status operator()(const DoctorOptions& o) const { return doctor(o, c); }
   };
   return std::visit(Visitor{context}, options);
@@ -49,7 +50,8 @@ Status run_command(const std::vector<std::string>& arguments, const Context& con
     return {};
   }
   const Options& options = std::get<Options>(parsed);
-  const bool collective = std::holds_alternative<RunOptions>(options) || std::holds_alternative<ResumeOptions>(options);
+  const bool collective = std::holds_alternative<RunOptions>(options) || std::holds_alternative<ResumeOptions>(options) ||
+                          std::holds_alternative<CalibrateOptions>(options);
   if (!collective && !context.comm.is_root()) return {};
   return call(options, context);
 }

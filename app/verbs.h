@@ -18,7 +18,7 @@ struct Context {
   std::shared_ptr<const Laws> laws = builtin_laws();  ///< that studies may name
 };
 
-/// The verbs. An error without text has been told already; its kind gives the exit code. `run` and `resume` are collective; the others are
+/// The verbs. An error without text has been told already; its kind gives the exit code. `run`, `resume` and `calibrate` are collective; the others are
 /// called on the root alone.
 Status make_new(const NewOptions& options, const Context& context);
 Status check(const CheckOptions& options, const Context& context);
@@ -31,6 +31,7 @@ Status explain(const ExplainOptions& options, const Context& context);
 Status plot(const PlotOptions& options, const Context& context);
 Status export_results(const ExportOptions& options, const Context& context);
 Status verify(const VerifyOptions& options, const Context& context);
+Status calibrate(const CalibrateOptions& options, const Context& context);
 Status doctor(const DoctorOptions& options, const Context& context);
 
 }  // namespace morula::app

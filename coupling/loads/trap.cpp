@@ -19,23 +19,24 @@ void build(const OwnValues& values, CellLoad& out) {
 }  // namespace
 
 std::shared_ptr<const Load> trap_load() {
-  static const auto load = std::make_shared<const Load>(
-      Load{.info = {.name = "trap",
-                    .title = "A spring that holds or moves the centre of a cell",
-                    .equation = "E = ½ K |x̄ − X(t)|², x̄ the mean of the nodes of a shell, or the centre of a sphere",
-                    .source = "choice of this project",
-                    .parameters = {given_by_study("stiffness", "tension", "nN/µm", "K.")}},
-           .section = {.name = "trap",
-                       .doc = "A spring on the centre of a cell of either body, whose surface stays free: cells pressed together or pulled apart at a "
-                              "distance that is known. `course` is a factor of the stiffness.",
-                       .example = "{stiffness: 10 mN/m, center: [0 um, 0 um, 5 um]}"},
-           .keys = {keys::hold_stiffness("Stiffness of the spring."),
-                    keys::required(keys::Kind::kVector, "center", "Where the centre of the cell is held, before the trap moves.", Quantity::kLength,
-                                   "[0 um, 0 um, 5 um]"),
-                    keys::way_direction(), keys::way()},
-           .build = &build,
-           .judge = &keys::judge_places,
-           .hold_center = &hold_center});
+  static const auto load = std::make_shared<const Load>(Load{
+      .info = {.name = "trap",
+               .title = "A spring that holds or moves the centre of a cell",
+               .equation = "E = ½ K |x̄ − X(t)|², x̄ the mean of the nodes of a shell, or the centre of a sphere",
+               .source = "choice of this project",
+               .parameters = {given_by_study("stiffness", "tension", "nN/µm", "K.")}},
+      .section =
+          {.name = "trap",
+           .doc = "A spring on the centre of a cell of either body, whose surface stays free: cells pressed together or pulled apart at a "
+                  "distance that is known. `course` is a factor of the stiffness.",
+           .example = "{stiffness: 10 mN/m, center: [0 um, 0 um, 5 um]}"},
+      .keys = {keys::hold_stiffness("Stiffness of the spring."),
+               keys::required(keys::Kind::kVector, "center", "Where the centre of the cell is held, before the trap moves.",
+                              Quantity::kLength, "[0 um, 0 um, 5 um]"),
+               keys::way_direction(), keys::way()},
+      .build = &build,
+      .judge = &keys::judge_places,
+      .hold_center = &hold_center});
   return load;
 }
 

@@ -13,7 +13,8 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-const char* const kVerbs[] = {"new", "check", "run", "resume", "status", "list", "info", "explain", "plot", "export", "verify", "doctor"};
+const char* const kVerbs[] = {"new",     "check", "run",    "resume", "status",    "list",  "info",
+                              "explain", "plot",  "export", "verify", "calibrate", "doctor"};
 
 TEST(CommandLine, VersionIsOneLineAndTheLicenceAnotherOnStandardOutput) {
   const TestFolder folder;

@@ -1,0 +1,48 @@
+#include <omp.h>
+
+#include <filesystem>
+
+#include "app/read_study.h"
+#include "app/signals.h"
+#include "app/verbs.h"
+#include "core/numbers/number_text.h"
+#include "scenarios/experiments/calibration.h"
+
+namespace morula::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string number(double value) { return number_text("%.3g", value); }
+
+std::string interval_text(const calibrate::Interval& interval, const char* unit) {
+  if (interval.low <= 0.0 || !std::isfinite(interval.high)) return "not bounded by the data";
+  return number(interval.low) + " to " + number(interval.high) + " " + unit;
+}
+
+std::string found_text(const scenarios::Calibration& found) {
+  const calibrate::Parameters& p = found.sure.fit.parameters;
+  return "E  " + number(p.young) + " kPa   95 %: " + interval_text(found.sure.young.interval, "kPa") + "\n" + "W  " + number(p.adhesion) +
+         " nN/um   95 %: " + interval_text(found.sure.adhesion.interval, "nN/um") + "\n";
+}
+
+}  // namespace
+
+Status calibrate(const CalibrateOptions& options, const Context& context) {
+  outlive_closed_pipes();
+  auto study = read_study_and_tell(options.study, options.overrides, false, context);
+  MORULA_TRY(agree_on(study, options.study, context));
+  omp_set_num_threads(options.threads);
+  scenarios::ExperimentRequest request;
+  request.folder = options.out.empty() ? fs::path("calibrations") / options.type : fs::path(options.out);
+  request.threads = options.threads;
+  request.stop = &watch_signals();
+  request.on_note = [&](const std::string& text) { context.console.note(text); };
+  MORULA_TRY_ASSIGN(const scenarios::Calibration found, scenarios::calibrate_jkr(*study, options.type, request, context.comm));
+  if (!context.comm.is_root()) return {};
+  MORULA_TRY(scenarios::write_calibration_report(found, context.command, request.folder / "report.html"));
+  context.console.result(found_text(found) + (request.folder / "report.html").string());
+  return {};
+}
+
+}  // namespace morula::app

@@ -1,0 +1,162 @@
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "cbm/laws/jkr.h"
+#include "core/numbers/number_text.h"
+#include "report/pictures/curves.h"
+#include "report/report.h"
+#include "results/build_info.h"
+#include "scenarios/experiments/calibration.h"
+
+namespace morula::scenarios {
+namespace {
+
+using calibrate::PairPoint;
+
+std::string three(double value) { return number_text("%.3g", value); }
+
+Curve curve(std::string name, CurveStyle style = CurveStyle::kLine) {
+  Curve out;
+  out.name = std::move(name);
+  out.style = style;
+  return out;
+}
+
+CurveAxis axis(const char* label, const char* unit, bool logarithmic = false) {
+  CurveAxis out;
+  out.label = label, out.unit = unit, out.logarithmic = logarithmic;
+  return out;
+}
+
+CurvePlot plot_of(std::string title, CurveAxis x, CurveAxis y) {
+  CurvePlot out;
+  out.title = std::move(title), out.x = std::move(x), out.y = std::move(y);
+  return out;
+}
+
+std::string between(const calibrate::Interval& interval) {
+  const bool open = !std::isfinite(interval.high) || interval.low <= 0.0;
+  return three(interval.low) + " to " + three(interval.high) + (open ? ", not bounded by the data" : "");
+}
+
+/// Force of the attached branch over overlaps of these radii.
+Curve jkr_curve(std::string name, const calibrate::Fit& fit, double young, double adhesion, double reduced, double low, double high) {
+  Curve out = curve(std::move(name));
+  const auto law = cbm::make_pair_law(cbm::ContactMaterial::elastic(young, fit.poisson, young, fit.poisson, adhesion), reduced);
+  for (int i = 0; i <= 200; ++i) {
+    const double overlap = low + (high - low) * i / 200.0;
+    out.x.push_back(overlap);
+    out.y.push_back(cbm::contact_response(law, overlap, true).force);
+  }
+  return out;
+}
+
+struct Range {
+  double low = 1e300, high = -1e300;
+  void include(double x) { low = std::min(low, x), high = std::max(high, x); }
+};
+
+/// Points of pairs that are fitted, or held out, with the law and that of the study's own numbers.
+CurvePlot pair_plot(const Calibration& found, bool held_out) {
+  CurvePlot plot = plot_of(held_out ? "Held out: cells of unequal radii" : "Two cells: force over overlap", axis("overlap δ", "µm"), axis("force", "nN"));
+  Curve in = curve("shells, pressed", CurveStyle::kPoints), out = curve("shells, pulled", CurveStyle::kPoints);
+  Range range;
+  double reduced = 0.0;
+  for (const PairPoint& p : found.data.points.pairs) {
+    if (p.held_out != held_out) continue;
+    Curve& branch = p.experiment % 2 == found.data.points.pairs.front().experiment % 2 ? in : out;
+    branch.x.push_back(p.overlap), branch.y.push_back(p.force);
+    range.include(p.overlap);
+    reduced = p.reduced_radius();
+  }
+  if (reduced > 0.0) {
+    const calibrate::Fit& fit = found.sure.fit;
+    plot.curves.push_back(jkr_curve("fitted JKR", fit, fit.parameters.young, fit.parameters.adhesion, reduced, range.low, range.high));
+    plot.curves.push_back(jkr_curve("JKR with the W of the study", fit, fit.parameters.young, found.material.adhesion, reduced, range.low, range.high));
+  }
+  plot.curves.push_back(std::move(in));
+  plot.curves.push_back(std::move(out));
+  return plot;
+}
+
+CurvePlot area_plot(const Calibration& found) {
+  CurvePlot plot = plot_of("Two cells: contact area over overlap", axis("overlap δ", "µm"), axis("area", "µm²"));
+  Curve shells = curve("shells", CurveStyle::kPoints), law = curve("fitted JKR");
+  const calibrate::Fit& fit = found.sure.fit;
+  Range range;
+  double reduced = 0.0;
+  for (const PairPoint& p : found.data.points.pairs) {
+    if (p.held_out) continue;
+    shells.x.push_back(p.overlap), shells.y.push_back(p.area);
+    range.include(p.overlap), reduced = p.reduced_radius();
+  }
+  const double young = fit.parameters.young;
+  const auto pair = cbm::make_pair_law(cbm::ContactMaterial::elastic(young, fit.poisson, young, fit.poisson, fit.parameters.adhesion), reduced);
+  for (int i = 0; i <= 200 && reduced > 0.0; ++i) {
+    const double overlap = range.low + (range.high - range.low) * i / 200.0;
+    law.x.push_back(overlap);
+    law.y.push_back(cbm::contact_response(pair, overlap, true).area);
+  }
+  plot.curves = {std::move(law), std::move(shells)};
+  return plot;
+}
+
+CurvePlot profile_plot(const calibrate::Profile& profile, const char* name, const char* unit, double least) {
+  CurvePlot plot = plot_of(std::string("Profile of ") + name, axis(name, unit, true), axis("loss above the least", ""));
+  Curve line = curve("all others at their best");
+  for (const auto& p : profile.points) line.x.push_back(p.value), line.y.push_back(p.loss - least);
+  plot.curves.push_back(std::move(line));
+  plot.limits.push_back({calibrate::kProfileRise, "95 %"});
+  return plot;
+}
+
+CurvePlot packing_plot(const Calibration& found) {
+  CurvePlot plot = plot_of("Packings: pressure over room", axis("V/V0", ""), axis("pressure", "kPa"));
+  for (const auto lattice : {calibrate::Lattice::kFaceCentred, calibrate::Lattice::kBodyCentred}) {
+    Curve shells = curve(lattice == calibrate::Lattice::kFaceCentred ? "shells, face-centred" : "shells, body-centred", CurveStyle::kPoints);
+    for (const auto& p : found.data.points.packings)
+      if (p.lattice == lattice) shells.x.push_back(p.volume_ratio), shells.y.push_back(p.pressure);
+    if (!shells.x.empty()) plot.curves.push_back(std::move(shells));
+  }
+  return plot;
+}
+
+ReportContent content_of(const Calibration& found, const std::string& command) {
+  const calibrate::SureFit& sure = found.sure;
+  const calibrate::Fit& fit = sure.fit;
+  ReportContent out;
+  out.title = "Contact law of '" + found.material.type + "' from deformable cells";
+  out.study = found.material.type;
+  out.state = "done";
+  out.summary = "JKR and a curve of packing, fitted to " + std::to_string(found.experiments.size()) + " virtual experiments with shells of " +
+                std::to_string(found.material.nodes) + " nodes.";
+  out.key_numbers = {{"E", three(fit.parameters.young), "kPa (95 %: " + between(sure.young.interval) + ")"},
+                     {"W", three(fit.parameters.adhesion), "nN/um (95 %: " + between(sure.adhesion.interval) + ")"},
+                     {"W of the study", three(found.material.adhesion), "nN/um"},
+                     {"pull-off force", three(fit.pull_off(0.5 * found.material.radius)), "nN"},
+                     {"1.5 π W R* with the W of the study", three(0.75 * std::numbers::pi * found.material.adhesion * found.material.radius), "nN"},
+                     {"correlation of ln E and ln W", three(sure.covariance.correlation), ""},
+                     {"loss over its terms", three(fit.loss / static_cast<double>(std::max<std::size_t>(fit.residuals, 1))), ""}};
+  const auto add = [&](const CurvePlot& plot) { out.plots.push_back({"", curves_svg(plot, SvgUse::kInline)}); };
+  add(pair_plot(found, false));
+  add(area_plot(found));
+  if (!found.data.points.packings.empty()) add(packing_plot(found));
+  add(pair_plot(found, true));
+  add(profile_plot(sure.young, "E", "kPa", fit.loss));
+  add(profile_plot(sure.adhesion, "W", "nN/um", fit.loss));
+  for (const auto* remarks : {&found.data.remarks, &fit.remarks})
+    for (const std::string& remark : *remarks) out.warnings.emplace_back(0.0, remark);
+  out.provenance = {{"version", build_info().version}, {"command", command}, {"material", found.material.hash()}};
+  for (const Experiment& e : found.experiments) out.parameters_text += "# " + e.purpose + "\n" + e.text + "\n";
+  return out;
+}
+
+}  // namespace
+
+Status write_calibration_report(const Calibration& found, const std::string& command, const std::filesystem::path& path) {
+  return write_report(content_of(found, command), path);
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,93 @@
+#include "scenarios/experiments/cell_material.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "core/numbers/number_text.h"
+#include "results/hash128.h"
+#include "study/document.h"
+
+namespace morula::scenarios {
+namespace {
+
+constexpr std::array<const char*, 2> kOfShells{"dcm", "osmosis"};
+
+/// A part of a document in one line.
+std::string flow(const Node& node) {
+  std::string out;
+  switch (node.kind) {
+    case Node::Kind::kNull: return "~";
+    case Node::Kind::kScalar: return node.text;
+    case Node::Kind::kList:
+      for (const Node& item : node.items) out += (out.empty() ? "" : ", ") + flow(item);
+      return "[" + out + "]";
+    case Node::Kind::kMap:
+      for (const Node::Entry& entry : node.entries) out += (out.empty() ? "" : ", ") + entry.key + ": " + flow(entry.value);
+      return "{" + out + "}";
+  }
+  return out;
+}
+
+bool names_both(const Node& pair, const std::string& type) {
+  const Node* between = pair.find("between");
+  return between != nullptr && between->items.size() == 2 && between->items[0].text == type && between->items[1].text == type;
+}
+
+/// The section `contact`, and what it says of pairs of the type.
+void take_contact(const Node& document, const std::string& type, CellMaterial& out) {
+  const Node* contact = document.find("contact");
+  out.contact = "{}";
+  if (contact == nullptr) return;
+  Node all = *contact;
+  std::erase_if(all.entries, [](const Node::Entry& e) { return e.key == "pairs"; });
+  out.contact = flow(all);
+  const Node* pairs = contact->find("pairs");
+  if (pairs == nullptr) return;
+  for (const Node& pair : pairs->items)
+    if (names_both(pair, type))
+      for (const Node::Entry& entry : pair.entries)
+        if (entry.key != "between") out.pair += ", " + entry.key + ": " + flow(entry.value);
+}
+
+std::string names_of(const Model& model) {
+  std::string out;
+  for (const CellType& type : model.types) out += (out.empty() ? "`" : ", `") + type.name + "`";
+  return out;
+}
+
+}  // namespace
+
+std::string CellMaterial::hash() const {
+  const std::string all = shell + "\n" + contact + pair + "\n" + shortest_text(radius) + "\n" + shortest_text(adhesion);
+  return hash128(std::as_bytes(std::span(all))).hex();
+}
+
+Result<CellMaterial> material_of(const Study& study, const std::string& name) {
+  const Model& model = study.model;
+  const auto found = std::ranges::find(model.types, name, &CellType::name);
+  if (found == model.types.end())
+    return Error{ErrorKind::kInput, "the study has no cell type '" + name + "'", "it has " + names_of(model)};
+  if (!found->regional_tension.regions.empty() || !model.mark_names.empty())
+    return Error{ErrorKind::kInput, "the surface of '" + name + "' has parts of its own",
+                 "one law of contact cannot stand for them: calibrate a type without marks and regions"};
+  Diagnostics ignored;
+  const Node document = parse_document(std::make_shared<SourceText>(SourceText("resolved", study.resolved_text)), ignored);
+  const Node* types = document.find("cell_types");
+  const Node* type = types != nullptr ? types->find(name) : nullptr;
+  if (type == nullptr) return Error{ErrorKind::kInternal, "the resolved study lacks the type '" + name + "'", ""};
+  CellMaterial out;
+  out.type = name;
+  out.radius = found->radius.mean;
+  out.nodes = found->shell_nodes;
+  const auto t = static_cast<std::size_t>(found - model.types.begin());
+  const ContactPair& pair = model.pair(t, t);
+  out.adhesion = pair.adhesion;
+  out.range = pair.range > 0.0 ? pair.range : model.contact.range;
+  take_contact(document, name, out);
+  for (const char* section : kOfShells)
+    if (const Node* part = type->find(section)) out.shell += (out.shell.empty() ? "" : ", ") + std::string(section) + ": " + flow(*part);
+  return out;
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,29 @@
+#pragma once
+#include <string>
+
+#include "core/result.h"
+#include "study/study.h"
+
+namespace morula::scenarios {
+
+/// What a virtual experiment takes from a study: the deformable cell of one type, and how surfaces touch. Life, migration, friction, spheres and
+/// everything else of the study stay behind.
+struct CellMaterial {
+  std::string type;
+  double radius = 0.0;    ///< mean, of the free cell [µm]
+  double adhesion = 0.0;  ///< W of two cells of the type [nN/µm]
+  double range = 0.0;     ///< of contact [µm]
+  std::uint32_t nodes = 0;
+  std::string shell;    ///< the sections of the type that its shells read, as YAML in one line: `dcm: {...}`
+  std::string contact;  ///< the section `contact` without its pairs, as YAML in one line
+  std::string pair;     ///< what stands there for two cells of the type: `, repulsion: 50 kPa/um`
+
+  /// 32 hexadecimal digits over all of it: a fit belongs to the material that has its hash.
+  [[nodiscard]] std::string hash() const;
+};
+
+/// Errors (kInput): no such type; a type whose surface has parts of its own (marks, regions of tension, adhesion by region), which one pair curve
+/// cannot stand for.
+Result<CellMaterial> material_of(const Study& study, const std::string& type);
+
+}  // namespace morula::scenarios

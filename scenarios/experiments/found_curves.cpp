@@ -1,0 +1,52 @@
+#include "scenarios/experiments/found_curves.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "results/series_reader.h"
+#include "scenarios/measures/single_cell.h"
+
+namespace morula::scenarios {
+namespace {
+
+Result<const SeriesColumn*> column(const SeriesTable& series, const char* name) {
+  const SeriesColumn* out = series.find(name);
+  if (out == nullptr) return Error{ErrorKind::kFile, std::string("series.csv has no column '") + name + "'", "the run is of another version"};
+  return out;
+}
+
+}  // namespace
+
+Result<std::vector<FoundPair>> pair_of_run(const Experiment& experiment, const std::filesystem::path& run) {
+  MORULA_TRY_ASSIGN(const auto moments, all_snapshots(run));
+  MORULA_TRY_ASSIGN(const auto series, read_series(run / "series.csv"));
+  MORULA_TRY_ASSIGN(const SeriesColumn* times, column(series, "time"));
+  MORULA_TRY_ASSIGN(const SeriesColumn* low, column(series, "grip_z_on_low"));
+  MORULA_TRY_ASSIGN(const SeriesColumn* high, column(series, "grip_z_on_high"));
+  std::vector<FoundPair> out;
+  for (std::size_t i = 0; i < std::min(moments.size(), times->values.size()); ++i) {
+    const Snapshot& moment = moments[i];
+    if (moment.cells.size() != 2) return Error{ErrorKind::kFile, "a pair of '" + run.string() + "' has not two cells", ""};
+    const double area = 0.5 * (moment.cells[0].contact_area + moment.cells[1].contact_area);
+    out.push_back({.time = moment.time,
+                   .overlap = experiment.radius_a + experiment.radius_b - norm(moment.cells[1].centroid - moment.cells[0].centroid),
+                   .force = 0.5 * (low->values[i] - high->values[i]),
+                   .area = area,
+                   .touching = area > 0.0});
+  }
+  return out;
+}
+
+Result<std::vector<FoundPacking>> packing_of_run(const Experiment& experiment, const std::filesystem::path& run) {
+  MORULA_TRY_ASSIGN(const auto series, read_series(run / "series.csv"));
+  MORULA_TRY_ASSIGN(const SeriesColumn* volume, column(series, "box_volume"));
+  MORULA_TRY_ASSIGN(const SeriesColumn* pressure, column(series, "box_pressure"));
+  MORULA_TRY_ASSIGN(const SeriesColumn* cells, column(series, "cell_count"));
+  const double free = 4.0 / 3.0 * std::numbers::pi * std::pow(experiment.radius_a, 3.0);
+  std::vector<FoundPacking> out;
+  for (std::size_t i = 0; i < series.rows(); ++i)
+    out.push_back({.volume_ratio = volume->values[i] / (cells->values[i] * free), .pressure = pressure->values[i]});
+  return out;
+}
+
+}  // namespace morula::scenarios

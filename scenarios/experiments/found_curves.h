@@ -1,0 +1,29 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "core/result.h"
+#include "scenarios/experiments/experiment.h"
+
+namespace morula::scenarios {
+
+/// A pair at one moment.
+struct FoundPair {
+  double time = 0.0;     ///< [s]
+  double overlap = 0.0;  ///< δ = R_a + R_b − d, d between the centres of volume [µm]
+  double force = 0.0;    ///< that the traps bear, > 0 pushes the cells apart [nN]
+  double area = 0.0;     ///< of contact [µm²]
+  bool touching = false;
+};
+
+/// A packing at one moment.
+struct FoundPacking {
+  double volume_ratio = 1.0;  ///< V/V0: room of a cell over the volume of a free one
+  double pressure = 0.0;      ///< of the box, p = −tr σ/3 [kPa]
+};
+
+/// Errors (kFile): files of the run that are missing or damaged.
+Result<std::vector<FoundPair>> pair_of_run(const Experiment& experiment, const std::filesystem::path& run);
+Result<std::vector<FoundPacking>> packing_of_run(const Experiment& experiment, const std::filesystem::path& run);
+
+}  // namespace morula::scenarios

@@ -1,0 +1,169 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <string>
+
+#include "scenarios/calibrate/confidence.h"
+#include "scenarios/experiments/calibration.h"
+#include "scenarios/experiments/data_of_runs.h"
+#include "cbm/laws/jkr.h"
+#include "tests/study/study_fixture.h"
+
+namespace morula::scenarios {
+namespace {
+
+/// Spheres of a law that is known stand where the shells of an experiment do.
+std::vector<Experiment> experiments_with_spheres(double young, double adhesion) {
+  CellMaterial material;
+  material.type = "ball";
+  material.radius = 5.0;
+  material.adhesion = adhesion;
+  material.range = 0.5;
+  material.shell = "cbm: {law: jkr, young: " + std::to_string(young) + " kPa, poisson: 0.4, packing: none}";
+  material.contact = "{range: 0.5 um}";
+  std::vector<Experiment> out;
+  for (Experiment& e : experiments_for(material)) {
+    if (e.kind != Experiment::Kind::kPair) continue;
+    for (std::size_t at = 0; (at = e.text.find("as: shell", at)) != std::string::npos;) e.text.replace(at, 9, "as: sphere");
+    out.push_back(e);
+  }
+  return out;
+}
+
+ExperimentRequest in(const std::filesystem::path& folder) {
+  ExperimentRequest out;
+  out.folder = folder;
+  return out;
+}
+
+/// The user's road of a calibration with a truth that is known: studies are run, their results read, extrapolated to no rate and fitted, and the modulus
+/// and the adhesion of the spheres come back. What is held out, cells of other radii, is met as well.
+TEST(Experiments, GiveBackTheLawOfSpheres) {
+  const test::Folder folder;
+  const auto experiments = experiments_with_spheres(0.8, 0.05);
+  ASSERT_EQ(experiments.size(), 6u);
+  const auto outcomes = run_experiments(experiments, in(folder.path()), Comm());
+  ASSERT_TRUE(outcomes.ok());
+  const auto data = data_of_runs(experiments, *outcomes);
+  ASSERT_TRUE(data.ok()) << data.error().message;
+  EXPECT_THAT(data->remarks, testing::IsEmpty());
+  ASSERT_GT(data->points.pairs.size(), 100u);
+  const auto fit = calibrate::fit(data->points, {});
+  ASSERT_TRUE(fit.ok()) << fit.error().message;
+  EXPECT_NEAR(fit->parameters.young / 0.8, 1.0, 0.01);
+  EXPECT_NEAR(fit->parameters.adhesion / 0.05, 1.0, 0.01);
+  const auto pair = cbm::make_pair_law(cbm::ContactMaterial::elastic(0.8, 0.4, 0.8, 0.4, 0.05), 5.0 * 6.5 / 11.5);
+  std::size_t held_out = 0;
+  for (const auto& point : data->points.pairs) {
+    if (!point.held_out || point.overlap < 0.0) continue;
+    ++held_out;
+    EXPECT_NEAR(point.force, cbm::contact_response(pair, point.overlap, true).force, 0.02 * fit->pull_off(5.0 * 6.5 / 11.5)) << point.overlap;
+  }
+  EXPECT_GT(held_out, 20u);
+}
+
+/// What is done is not done again, what was broken off goes on, and the points are the same bits.
+TEST(Experiments, GoOnWhereTheyWereBrokenOff) {
+  const test::Folder folder;
+  auto experiments = experiments_with_spheres(0.8, 0.05);
+  experiments.resize(3);
+  const auto first = run_experiments(experiments, in(folder.path() / "whole"), Comm());
+  ASSERT_TRUE(first.ok());
+  std::atomic<int> stop{kGoOn};
+  int begun = 0;
+  ExperimentRequest request = in(folder.path() / "broken");
+  request.stop = &stop;
+  request.on_note = [&](const std::string&) {
+    if (++begun == 2) stop = kStopEarly;  // the second stops at its first step
+  };
+  const auto stopped = run_experiments(experiments, request, Comm());
+  ASSERT_FALSE(stopped.ok());
+  EXPECT_EQ(stopped.error().kind, ErrorKind::kStoppedEarly);
+  EXPECT_EQ(begun, 2);
+  stop = kGoOn;
+  begun = -100;
+  const auto second = run_experiments(experiments, request, Comm());
+  ASSERT_TRUE(second.ok());
+  EXPECT_EQ(begun, -100 + 2);  // one was done
+  const auto a = data_of_runs(experiments, *first), b = data_of_runs(experiments, *second);
+  ASSERT_TRUE(a.ok() && b.ok());
+  ASSERT_EQ(a->points.pairs.size(), b->points.pairs.size());
+  for (std::size_t i = 0; i < a->points.pairs.size(); ++i) {
+    EXPECT_EQ(a->points.pairs[i].force, b->points.pairs[i].force);
+    EXPECT_EQ(a->points.pairs[i].overlap, b->points.pairs[i].overlap);
+  }
+  begun = -100;
+  ASSERT_TRUE(run_experiments(experiments, request, Comm()).ok());
+  EXPECT_EQ(begun, -100);
+}
+
+/// An experiment that cannot be run is told, with its reason, and the others go on.
+TEST(Experiments, TellWhatFailed) {
+  const test::Folder folder;
+  auto experiments = experiments_with_spheres(0.8, 0.05);
+  experiments.resize(3);
+  experiments[2].text += "nonsense: 1\n";
+  const auto outcomes = run_experiments(experiments, in(folder.path()), Comm());
+  ASSERT_TRUE(outcomes.ok());
+  EXPECT_TRUE((*outcomes)[0].done && (*outcomes)[1].done);
+  EXPECT_FALSE((*outcomes)[2].done);
+  EXPECT_THAT((*outcomes)[2].problem, testing::HasSubstr("nonsense"));
+  const auto data = data_of_runs(experiments, *outcomes);
+  ASSERT_TRUE(data.ok());
+  EXPECT_THAT(data->remarks, testing::ElementsAre(testing::HasSubstr("nonsense"), testing::HasSubstr("two rates only")));
+}
+
+constexpr const char* kStudy = R"(schema: 1
+study: two_types
+time: {end: 1 h}
+domain: {size: [80 um, 80 um, 80 um], boundary: open}
+cell_types:
+  soft: {radius: 5 um, adhesion: {soft: 2e-4 J/m^2, hard: 0 J/m^2}, dcm: {nodes: 42, cortex: {tension: 0.3 mN/m}}}
+  hard: {radius: 6 um, dcm: {cortex: {young: 5 kPa}}}
+contact:
+  range: 0.6 um
+  pairs: [{between: [soft, soft], repulsion: 50 kPa/um}, {between: [soft, hard], repulsion: 70 kPa/um}]
+initial: [{type: soft, at: [[0 um, 0 um, 0 um]]}]
+)";
+
+TEST(CellMaterial, TakesWhatShellsOfTheTypeRead) {
+  const auto study = read_study_text("two.yaml", kStudy, ".");
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  const auto material = material_of(*study, "soft");
+  ASSERT_TRUE(material.ok()) << material.error().message;
+  EXPECT_DOUBLE_EQ(material->radius, 5.0);
+  EXPECT_DOUBLE_EQ(material->adhesion, 0.2);
+  EXPECT_DOUBLE_EQ(material->range, 0.6);
+  EXPECT_EQ(material->nodes, 42u);
+  EXPECT_THAT(material->shell, testing::HasSubstr("tension: 0.3 mN/m"));
+  EXPECT_THAT(material->contact, testing::AllOf(testing::HasSubstr("range: 0.6 um"), testing::Not(testing::HasSubstr("pairs"))));
+  EXPECT_THAT(material->pair, testing::AllOf(testing::HasSubstr("repulsion: 50 kPa/um"), testing::Not(testing::HasSubstr("70"))));
+  for (const Experiment& experiment : experiments_for(*material)) {
+    if (experiment.kind != Experiment::Kind::kPair) continue;
+    const auto its = read_study_text(experiment.name, experiment.text, ".");
+    EXPECT_TRUE(its.ok()) << its.error().text();
+  }
+  const auto none = material_of(*study, "sof");
+  ASSERT_FALSE(none.ok());
+  EXPECT_THAT(none.error().help, testing::AllOf(testing::HasSubstr("`soft`"), testing::HasSubstr("`hard`")));
+}
+
+TEST(CellMaterial, HasAnotherHashWhereItIsAnother) {
+  const auto hash = [](std::string text, const char* from, const char* to) {
+    if (const auto at = text.find(from); at != std::string::npos) text.replace(at, std::string(from).size(), to);
+    const auto study = read_study_text("two.yaml", text, ".");
+    EXPECT_TRUE(study.ok()) << study.error().text();
+    return material_of(*study, "soft")->hash();
+  };
+  const std::string as_it_is = hash(kStudy, "study: two_types", "study: renamed");
+  EXPECT_EQ(as_it_is, hash(kStudy, "radius: 6 um", "radius: 7 um"));  // of the other type
+  EXPECT_NE(as_it_is, hash(kStudy, "tension: 0.3 mN/m", "tension: 0.31 mN/m"));
+  EXPECT_NE(as_it_is, hash(kStudy, "nodes: 42", "nodes: 162"));
+  EXPECT_NE(as_it_is, hash(kStudy, "soft: 2e-4 J/m^2", "soft: 2.1e-4 J/m^2"));
+  EXPECT_NE(as_it_is, hash(kStudy, "repulsion: 50 kPa/um", "repulsion: 51 kPa/um"));
+}
+
+}  // namespace
+}  // namespace morula::scenarios

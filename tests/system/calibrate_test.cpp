@@ -1,0 +1,51 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "tests/system/morula_command.h"
+
+namespace morula::test {
+namespace {
+
+using testing::HasSubstr;
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ostringstream out;
+  out << std::ifstream(path).rdbuf();
+  return out.str();
+}
+
+void write_study(const std::filesystem::path& path) {
+  std::ofstream(path) << "schema: 1\nstudy: small\ntime: {end: 1 h}\ndomain: {size: [80 um, 80 um, 80 um], boundary: open}\n"
+                         "cell_types: {small: {radius: 5 um, dcm: {nodes: 42}}}\ninitial: [{type: small, at: [[0 um, 0 um, 0 um]]}]\n";
+}
+
+/// One command from a study to numbers and a report, for shells with default parameters.
+TEST(Calibrate, FindsALawOfShellsAndWritesAReport) {
+  const TestFolder folder;
+  write_study(folder.path() / "study.yaml");
+  const Outcome first = run_morula({"calibrate", "jkr", "small", "study.yaml", "--out", "found"}, folder.path());
+  ASSERT_EQ(first.exit_code, 0) << first.all();
+  EXPECT_THAT(first.out, HasSubstr("kPa"));
+  const std::string report = text_of(folder.path() / "found" / "report.html");
+  EXPECT_THAT(report, testing::AllOf(HasSubstr("force over overlap"), HasSubstr("Held out"), HasSubstr("Profile of E")));
+  const Outcome again = run_morula({"calibrate", "jkr", "small", "study.yaml", "--out", "found"}, folder.path());
+  EXPECT_EQ(again.exit_code, 0) << again.all();
+  EXPECT_EQ(again.out, first.out);
+  EXPECT_THAT(again.err, testing::Not(HasSubstr("equal_pair_1: Two cells")));  // nothing is run again
+}
+
+TEST(Calibrate, RefusesATypeThatTheStudyHasNot) {
+  const TestFolder folder;
+  write_study(folder.path() / "study.yaml");
+  const Outcome outcome = run_morula({"calibrate", "jkr", "smal", "study.yaml"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.all();
+  EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("no cell type 'smal'"), HasSubstr("`small`")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "calibrations"));
+  EXPECT_EQ(run_morula({"calibrate", "hertz", "small", "study.yaml"}, folder.path()).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace morula::test
