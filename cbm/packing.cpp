@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "cbm/monotone_cubic.h"
 #include "core/numbers/number_text.h"
 
 namespace morula::cbm {
@@ -13,35 +14,6 @@ namespace {
 Error refused(const std::string& what, const std::string& help) { return Error{ErrorKind::kInput, what, help}; }
 
 std::string number(double value) { return number_text("%.6g", value); }
-
-/// Slopes at the knots: three-point differences, then into the circle α² + β² ≤ 9 in which a segment is monotone (Fritsch & Carlson 1980).
-std::vector<double> monotone_slopes(std::span<const PackingKnot> knots) {
-  const std::size_t n = knots.size();
-  std::vector<double> width(n - 1), rise(n - 1), slope(n, 0.0);
-  for (std::size_t k = 0; k + 1 < n; ++k) {
-    width[k] = knots[k + 1].packing - knots[k].packing;
-    rise[k] = (knots[k + 1].pressure - knots[k].pressure) / width[k];
-  }
-  for (std::size_t k = 1; k + 1 < n; ++k) slope[k] = (width[k - 1] * rise[k] + width[k] * rise[k - 1]) / (width[k - 1] + width[k]);
-  const auto at_end = [&](std::size_t outer, std::size_t inner) {
-    const double near = width[outer], far = width[inner];
-    return std::max(0.0, ((2.0 * near + far) * rise[outer] - near * rise[inner]) / (near + far));
-  };
-  slope[0] = at_end(0, 1);
-  slope[n - 1] = at_end(n - 2, n - 3);
-  for (std::size_t k = 0; k + 1 < n; ++k) {
-    if (rise[k] == 0.0) {
-      slope[k] = slope[k + 1] = 0.0;
-      continue;
-    }
-    const double alpha = slope[k] / rise[k], beta = slope[k + 1] / rise[k], square = alpha * alpha + beta * beta;
-    if (square <= 9.0) continue;
-    const double shorten = 3.0 / std::sqrt(square);
-    slope[k] *= shorten;
-    slope[k + 1] *= shorten;
-  }
-  return slope;
-}
 
 }  // namespace
 
@@ -64,7 +36,9 @@ Result<PackingCurve> PackingCurve::through(std::span<const PackingKnot> knots) {
   }
   PackingCurve out;
   out.knots_.assign(knots.begin(), knots.end());
-  out.slope_ = monotone_slopes(knots);
+  std::vector<double> packing, pressure;
+  for (const PackingKnot& knot : knots) packing.push_back(knot.packing), pressure.push_back(knot.pressure);
+  out.slope_ = monotone_slopes(packing, pressure);
   out.energy_.assign(1, 0.0);
   for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
     const double h = knots[k + 1].packing - knots[k].packing;

@@ -37,10 +37,17 @@ ContactTable::ContactTable(std::span<const SphereParameters> types, std::span<co
       // Always from the lower type's side, so that (a, b) and (b, a) are the same numbers to the last bit.
       const SphereParameters& first = types[b < types_ && b < a ? b : a];
       const SphereParameters* second = b < types_ ? &types[b < a ? a : b] : nullptr;
-      const SphereLaw* law = second == nullptr || first.law == second->law ? first.law.get() : other_.get();
+      const SphereLaw* law = law_of(first, second);
       entries_.push_back({{law, law->couple(first, second, surface.adhesion)}, surface.normal_friction, surface.tangential_friction});
     }
   }
+}
+
+const SphereLaw* ContactTable::law_of(const SphereParameters& a, const SphereParameters* b) const {
+  const auto stand_in = [](const SphereLaw* law) { return law->elsewhere != nullptr ? law->elsewhere.get() : law; };
+  if (b != nullptr && a.law == b->law) return a.law.get();
+  const SphereLaw* law = stand_in(a.law.get());
+  return b == nullptr || stand_in(b->law.get()) == law ? law : other_.get();
 }
 
 void evaluate(PairBlock& block, int count) noexcept {

@@ -27,7 +27,7 @@ class ContactTable {
 
   ContactTable() = default;
   /// types: elastic parameters by cell type; surfaces: (types × materials), row by row, symmetric among types. Two types of different
-  /// laws meet by Hertz's, from the moduli that all spheres have.
+  /// laws meet by Hertz's, from the moduli that all spheres have, unless the same law stands in for both (SphereLaw::elsewhere).
   ContactTable(std::span<const SphereParameters> types, std::span<const SurfacePair> surfaces);
 
   [[nodiscard]] std::size_t type_count() const { return types_; }
@@ -36,6 +36,8 @@ class ContactTable {
   [[nodiscard]] const Entry& entry(std::size_t a, std::size_t b) const { return entries_[a * materials_ + b]; }
 
  private:
+  [[nodiscard]] const SphereLaw* law_of(const SphereParameters& a, const SphereParameters* b) const;
+
   std::size_t types_ = 0, materials_ = 0;
   std::vector<Entry> entries_;
   std::shared_ptr<const SphereLaw> other_ = hertz_law();  ///< of two types whose laws differ

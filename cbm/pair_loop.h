@@ -80,8 +80,8 @@ void evaluate_pairs(PairBlock& block) noexcept {
 
 /// The same for one pair by its overlap.
 template <template <class> class Law>
-PairOutcome respond_to_overlap(const PairCoefficients& coefficients, double reduced_radius, double overlap, bool attached) {
-  const Law<double> law = law_of_pair<Law>(coefficients);
+PairOutcome respond_to_overlap(const PairContact& contact, double reduced_radius, double overlap, bool attached) {
+  const Law<double> law = law_of_pair<Law>(contact.coefficient);
   if constexpr (requires { law.respond(reduced_radius, overlap); }) {
     return {law.respond(reduced_radius, overlap), false};
   } else {

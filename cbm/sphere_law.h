@@ -12,6 +12,8 @@ namespace morula::cbm {
 
 struct SphereParameters;
 struct PairBlock;
+struct PairContact;
+class PairTable;
 
 /// Coefficients of the contact of two materials, in the order of the members of the law's struct.
 using PairCoefficients = std::array<double, 4>;
@@ -32,18 +34,22 @@ struct SphereLaw {
   bool adhesive = false;           ///< takes the adhesion of the pair
   bool of_small_contacts = false;  ///< asks for contacts that are small against the sphere (cbm/sphere_range.h)
 
+  std::shared_ptr<const PairTable> table{};  ///< of a law that is a table (cbm/laws/table.h)
+  std::shared_ptr<const SphereLaw>
+      elsewhere{};  ///< stands in for this law in contacts with obstacles and with spheres of other laws; null: none
+
   /// Of two spheres, or of one and a rigid body (null); adhesion W [nN/µm].
   PairCoefficients (*couple)(const SphereParameters& a, const SphereParameters* b, double adhesion) = nullptr;
   /// Overlap at which a pair of this effective radius [µm] carries no load [µm]; null: 0.
-  double (*rest_overlap)(const PairCoefficients& coefficients, double reduced_radius) = nullptr;
+  double (*rest_overlap)(const PairContact& contact, double reduced_radius) = nullptr;
   /// Largest gap at which a pair still pulls [µm]; null: 0.
-  double (*reach)(const PairCoefficients& coefficients, double reduced_radius) = nullptr;
-  /// Overlaps at which force and energy of an attached pair jump by design [µm]; null: none.
-  std::vector<double> (*jumps)(const PairCoefficients& coefficients, double reduced_radius) = nullptr;
+  double (*reach)(const PairContact& contact, double reduced_radius) = nullptr;
+  /// Overlaps at which the force of a pair, its energy or the slope of its stiffness jumps by design [µm]; null: none.
+  std::vector<double> (*jumps)(const PairContact& contact, double reduced_radius) = nullptr;
 
   // from the law's struct
   void (*evaluate)(PairBlock& block) = nullptr;
-  PairOutcome (*respond)(const PairCoefficients& coefficients, double reduced_radius, double overlap, bool attached) = nullptr;
+  PairOutcome (*respond)(const PairContact& contact, double reduced_radius, double overlap, bool attached) = nullptr;
 };
 
 /// Contact of two materials: their law and its coefficients. The law is kept alive by the parameters of the spheres.

@@ -63,11 +63,14 @@ PairLaw<double> pair_law(const PairCoefficients& c, double reduced_radius) {
 }
 
 /// 0.75 X, X = (π² W² R*/E*²)^(1/3)
-double reach(const PairCoefficients& c, double reduced_radius) {
+double reach(const PairContact& contact, double reduced_radius) {
+  const PairCoefficients& c = contact.coefficient;
   return 0.75 * std::cbrt(std::numbers::pi * std::numbers::pi * c[1] * c[1] * reduced_radius / (c[0] * c[0]));
 }
 
-std::vector<double> jumps(const PairCoefficients& c, double reduced_radius) { return {kBreakOverlap * pair_law(c, reduced_radius).length}; }
+std::vector<double> jumps(const PairContact& contact, double reduced_radius) {
+  return {kBreakOverlap * pair_law(contact.coefficient, reduced_radius).length};
+}
 
 LawInfo info() {
   LawInfo out{.name = "jkr",
@@ -94,7 +97,8 @@ std::shared_ptr<const SphereLaw> jkr_law() {
        .adhesive = true,
        .of_small_contacts = true,
        .couple = &couple,
-       .rest_overlap = [](const PairCoefficients& c, double reduced_radius) { return zero_load_overlap(pair_law(c, reduced_radius)); },
+       .rest_overlap = [](const PairContact& contact,
+                          double reduced_radius) { return zero_load_overlap(pair_law(contact.coefficient, reduced_radius)); },
        .reach = &reach,
        .jumps = &jumps});
   return law;

@@ -42,7 +42,7 @@ void SphereContacts::update_sisters(const Scene& scene, double now) {
     const ContactBody &a = spheres[list_.pairs[s.pair].a], &b = spheres[list_.pairs[s.pair].b];
     const cbm::PairContact& contact = table_.entry(a.material, b.material).contact;
     const double rest = contact.law->rest_overlap != nullptr
-                            ? contact.law->rest_overlap(contact.coefficient, cbm::reduced_radius(a.radius, b.radius))
+                            ? contact.law->rest_overlap(contact, cbm::reduced_radius(a.radius, b.radius))
                             : 0.0;
     s.offset = cbm::sister_overlap_offset(rest, a.radius, b.radius, s.birth_radius_a, s.birth_radius_b, now - s.birth_time);
   }
@@ -205,7 +205,7 @@ void SphereContacts::evaluate_rigid(const Scene& scene, std::size_t k) {
   const double overlap = body.radius - pair.distance;
   const std::size_t material = std::min<std::size_t>(model_.types.size() + pair.obstacle, table_.material_count() - 1);
   const auto& entry = table_.entry(body.material, material);
-  const auto [response, attached_next] = entry.contact.law->respond(entry.contact.coefficient, body.radius, overlap, pair.attached);
+  const auto [response, attached_next] = entry.contact.law->respond(entry.contact, body.radius, overlap, pair.attached);
   pair.force = response.force;
   pair.energy = response.energy;
   pair.area = response.area;

@@ -5,6 +5,7 @@
 
 #include "cbm/builtin.h"
 #include "cbm/pair_forces.h"
+#include "tests/cbm/example_table.h"
 
 namespace morula::cbm {
 
@@ -14,16 +15,15 @@ namespace {
 
 /// Two equal spheres of a law.
 struct OnePair {
-  const SphereLaw* law;
-  PairCoefficients coefficient;
+  PairContact contact;
   double reduced;
 
   [[nodiscard]] ContactResponse<double> respond(double overlap, bool attached) const {
-    return law->respond(coefficient, reduced, overlap, attached).response;
+    return contact.law->respond(contact, reduced, overlap, attached).response;
   }
   [[nodiscard]] bool near_jump(double overlap, double margin) const {
-    if (law->jumps == nullptr) return false;
-    for (const double jump : law->jumps(coefficient, reduced))
+    if (contact.law->jumps == nullptr) return false;
+    for (const double jump : contact.law->jumps(contact, reduced))
       if (std::abs(overlap - jump) < margin) return true;
     return false;
   }
@@ -39,7 +39,7 @@ class EveryContactLaw : public testing::TestWithParam<SphereLawPointer> {
     std::vector<OnePair> out;
     for (const double adhesion : {0.0, 0.001, 0.1})
       for (const double radius : {4.0, 6.0, 9.0})
-        out.push_back({GetParam().get(), GetParam()->couple(sphere, &sphere, adhesion), reduced_radius(5.0, radius)});
+        out.push_back({{GetParam().get(), GetParam()->couple(sphere, &sphere, adhesion)}, reduced_radius(5.0, radius)});
     return out;
   }
 };
@@ -101,13 +101,13 @@ TEST_P(EveryContactLaw, ForceGrowsWithOverlapWherePressed) {
 
 TEST_P(EveryContactLaw, HasTheSameBitsInLanesAsAlone) {
   for (const OnePair& pair : pairs()) {
-    const PairContact contact{pair.law, pair.coefficient};
     PairBlock block;
     for (int lane = 0; lane < PairBlock::kWidth; ++lane)
-      block.set(lane, {13.0 - 0.7 * lane, 0.0, 0.0}, 6.0, 5.0, contact, lane % 2 == 0, 0.0);
+      block.set(lane, {13.0 - 0.7 * lane, 0.0, 0.0}, 6.0, 5.0, pair.contact, lane % 2 == 0, 0.0);
     evaluate(block, PairBlock::kWidth);
     for (int lane = 0; lane < PairBlock::kWidth; ++lane) {
-      const PairOutcome alone = pair.law->respond(pair.coefficient, reduced_radius(6.0, 5.0), 11.0 - block.distance[lane], lane % 2 == 0);
+      const PairOutcome alone =
+          pair.contact.law->respond(pair.contact, reduced_radius(6.0, 5.0), 11.0 - block.distance[lane], lane % 2 == 0);
       EXPECT_EQ(block.force[lane], alone.response.force);
       EXPECT_EQ(block.stiffness[lane], alone.response.stiffness);
       EXPECT_EQ(block.area[lane], alone.response.area);
@@ -136,6 +136,8 @@ TEST_P(EveryContactLaw, IsDescribedInFull) {
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryContactLaw, testing::ValuesIn(sphere_laws()),
                          [](const auto& test) { return test.param->info.name; });
+// A study gives the table; this one is that of shells under tension, 0.1 nN/µm, that adhere, in round numbers.
+INSTANTIATE_TEST_SUITE_P(Table, EveryContactLaw, testing::Values(table_law(example_table())), [](const auto&) { return "table"; });
 
 }  // namespace
 }  // namespace morula::cbm

@@ -19,7 +19,7 @@ SphereParameters sphere(const std::shared_ptr<const SphereLaw>& law, double stif
 /// Two equal spheres of k = 2 nN/µm and l = 0.5 µm, R* = 3 µm.
 ContactResponse<double> at(const std::shared_ptr<const SphereLaw>& law, double overlap) {
   const SphereParameters one = sphere(law, 2.0, 0.5);
-  return law->respond(law->couple(one, &one, 0.1), 3.0, overlap, false).response;
+  return law->respond({law.get(), law->couple(one, &one, 0.1)}, 3.0, overlap, false).response;
 }
 
 TEST(Springs, HaveTheForcesOfTheirFormulas) {
