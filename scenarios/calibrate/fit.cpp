@@ -9,6 +9,7 @@
 #include "scenarios/calibrate/knots.h"
 #include "scenarios/calibrate/pair_model.h"
 #include "scenarios/calibrate/streams.h"
+#include "scenarios/calibrate/table_fit.h"
 
 namespace morula::calibrate {
 namespace {
@@ -61,24 +62,14 @@ Minimum search_pairs(const LeastSquares& loss, const FitOptions& options, Fit& o
   return *best;
 }
 
-/// The curve with E and W as they are; no knots where packings ask for none.
-void fit_curve(const Data& data, const FitOptions& options, Fit& out) {
-  const PairModel pair = jkr_model(out.parameters.young, out.poisson, out.parameters.adhesion);
-  const std::vector<MissingPressure> missing = missing_pressure(data.packings, pair);
-  if (missing.empty()) {
+/// The curve with E and W as they are.
+void add_curve(const Data& data, const FitOptions& options, Fit& out) {
+  const bool any = std::any_of(data.packings.begin(), data.packings.end(), [](const PackingPoint& point) { return !point.held_out; });
+  out.parameters.knots = fit_curve(data, jkr_model(out.parameters.young, out.poisson, out.parameters.adhesion), options);
+  if (!any)
     out.remarks.push_back("no packings were given: the fit has no packing curve");
-    return;
-  }
-  const std::vector<double> packing = options.packing.empty() ? place_knots(missing, options.knots) : options.packing;
-  if (packing.empty()) {
+  else if (out.parameters.knots.empty())
     out.remarks.push_back("pairs alone bear the pressure of the packings, or too few packings tell: the fit has no packing curve");
-    return;
-  }
-  out.parameters.knots = first_curve(missing, packing);
-  LeastSquares loss = loss_of(data, out.poisson, out.weights, out.scales, out.parameters.knots, {.pairs = false, .packings = true});
-  const std::vector<double> start = out.parameters.logarithms();
-  for (const std::size_t fixed : {0u, 1u}) loss.low[fixed] = loss.high[fixed] = start[fixed];
-  out.parameters = Parameters::of(minimise(loss, start).parameters, out.parameters.knots);
 }
 
 void polish(const LeastSquares& loss, Fit& out) {
@@ -106,8 +97,17 @@ double Fit::modulus() const { return pair_modulus(parameters.young, poisson); }
 
 double Fit::pull_off(double reduced_radius) const { return 1.5 * std::numbers::pi * parameters.adhesion * reduced_radius; }
 
-LeastSquares loss_of(const Data& data, const Fit& fit) {
-  return loss_of(data, fit.poisson, fit.weights, fit.scales, fit.parameters.knots, {});
+LeastSquares loss_of(const Data& data, const Fit& fit) { return loss_of(data, fit.poisson, fit.weights, fit.scales, fit.parameters.knots); }
+
+std::vector<cbm::PackingKnot> fit_curve(const Data& data, const PairModel& pair, const FitOptions& options) {
+  const std::vector<MissingPressure> missing = missing_pressure(data.packings, pair);
+  const std::vector<double> packing = options.packing.empty() ? place_knots(missing, options.knots) : options.packing;
+  if (missing.empty() || packing.empty()) return {};
+  const std::vector<cbm::PackingKnot> knots = first_curve(missing, packing);
+  std::vector<double> start = Parameters{1.0, 1.0, knots}.logarithms();
+  const Minimum found = minimise(loss_of_curve(data, pair, options.weights, knots), std::span<const double>(start).subspan(2));
+  std::copy(found.parameters.begin(), found.parameters.end(), start.begin() + 2);
+  return Parameters::of(start, knots).knots;
 }
 
 Result<Fit> fit(const Data& data, const FitOptions& options) {
@@ -117,9 +117,9 @@ Result<Fit> fit(const Data& data, const FitOptions& options) {
   out.scales = scales_of(data, options.weights);
   if (!(out.scales.pull_off > 0.0))
     return refused("all fitted pair points have no force: they tell nothing about E and W", "points of the approach and the pull-off");
-  const LeastSquares pairs = loss_of(data, out.poisson, out.weights, out.scales, {}, {});
+  const LeastSquares pairs = loss_of(data, out.poisson, out.weights, out.scales, {});
   out.parameters = Parameters::of(search_pairs(pairs, options, out).parameters, {});
-  fit_curve(data, options, out);
+  add_curve(data, options, out);
   polish(loss_of(data, out), out);
   remark_on_bounds(out);
   return out;

@@ -17,6 +17,13 @@ struct PlacedPacking {
   LatticeGeometry at;
 };
 
+std::vector<PlacedPacking> placed(const Data& data) {
+  std::vector<PlacedPacking> out;
+  for (const PackingPoint& point : data.packings)
+    if (!point.held_out) out.push_back({point, lattice_geometry(point.lattice, point.volume_ratio)});
+  return out;
+}
+
 struct Loss {
   std::vector<PairPoint> pairs;
   std::vector<PlacedPacking> packings;
@@ -36,11 +43,19 @@ struct Loss {
     }
   }
 
-  void add_packings(const PairModel& pair, const cbm::PackingCurve& curve, std::vector<double>& out) const {
+  /// With the knots of the parameters, which rise.
+  void add_packings(const PairModel& pair, std::span<const cbm::PackingKnot> risen, std::vector<double>& out) const {
+    const Result<cbm::PackingCurve> through = cbm::PackingCurve::through(risen);
+    assert(through.ok());
+    const cbm::PackingCurve& curve = through.value();
     for (const PlacedPacking& packing : packings) {
       const double p = pair_pressure(packing.at, packing.point.radius, pair) + packing.at.press * curve.at(packing.at.packing).pressure;
       out.push_back(std::sqrt(weights.packing) * (packing.point.pressure - p) /
                     (weights.pressure_floor + weights.pressure_relative * std::abs(packing.point.pressure)));
+    }
+    for (std::size_t k = 1; k + 1 < risen.size(); ++k) {
+      const double bend = risen[k + 1].pressure - 2.0 * risen[k].pressure + risen[k - 1].pressure;
+      out.push_back(std::sqrt(weights.roughness) * bend / weights.pressure_floor);
     }
   }
 
@@ -50,14 +65,8 @@ struct Loss {
     out.clear();
     add_pairs(modulus, adhesion, out);
     if (packings.empty()) return;
-    const Result<cbm::PackingCurve> curve = cbm::PackingCurve::through(parameters.knots);
-    assert(curve.ok());
     const auto pair = [&](double overlap, double r) { return jkr_pair(modulus, adhesion, r, overlap, scales.stiffness); };
-    add_packings(pair, curve.value(), out);
-    for (std::size_t k = 1; k + 1 < knots.size(); ++k) {
-      const double bend = parameters.knots[k + 1].pressure - 2.0 * parameters.knots[k].pressure + parameters.knots[k - 1].pressure;
-      out.push_back(std::sqrt(weights.roughness) * bend / weights.pressure_floor);
-    }
+    add_packings(pair, parameters.knots, out);
   }
 };
 
@@ -99,16 +108,13 @@ Parameters Parameters::of(std::span<const double> logarithms, std::span<const cb
 }
 
 LeastSquares loss_of(const Data& data, double poisson, const LossWeights& weights, const DataScales& scales,
-                     std::span<const cbm::PackingKnot> knots, LossParts parts) {
+                     std::span<const cbm::PackingKnot> knots) {
   Loss loss;
   loss.poisson = poisson, loss.weights = weights, loss.scales = scales;
   loss.knots.assign(knots.begin(), knots.end());
-  if (parts.pairs)
-    for (const PairPoint& point : data.pairs)
-      if (is_fitted(point, weights)) loss.pairs.push_back(point);
-  if (parts.packings && !knots.empty())
-    for (const PackingPoint& point : data.packings)
-      if (!point.held_out) loss.packings.push_back({point, lattice_geometry(point.lattice, point.volume_ratio)});
+  for (const PairPoint& point : data.pairs)
+    if (is_fitted(point, weights)) loss.pairs.push_back(point);
+  if (!knots.empty()) loss.packings = placed(data);
   LeastSquares out;
   const auto bound = [&](const double(&limits)[2]) {
     out.low.push_back(std::log(limits[0]));
@@ -118,6 +124,22 @@ LeastSquares loss_of(const Data& data, double poisson, const LossWeights& weight
   bound(Bounds::kAdhesion);
   for (std::size_t k = 1; k < knots.size(); ++k) bound(Bounds::kIncrement);
   out.residuals = std::move(loss);
+  return out;
+}
+
+LeastSquares loss_of_curve(const Data& data, const PairModel& pair, const LossWeights& weights, std::span<const cbm::PackingKnot> knots) {
+  Loss loss;
+  loss.weights = weights, loss.packings = placed(data);
+  loss.knots.assign(knots.begin(), knots.end());
+  LeastSquares out;
+  out.low.assign(knots.size() - 1, std::log(Bounds::kIncrement[0]));
+  out.high.assign(knots.size() - 1, std::log(Bounds::kIncrement[1]));
+  out.residuals = [loss = std::move(loss), pair](std::span<const double> increments, std::vector<double>& residuals) {
+    std::vector<double> all{0.0, 0.0};
+    all.insert(all.end(), increments.begin(), increments.end());
+    residuals.clear();
+    loss.add_packings(pair, Parameters::of(all, loss.knots).knots, residuals);
+  };
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include "core/result.h"
 #include "scenarios/calibrate/data.h"
 #include "scenarios/calibrate/minimise.h"
+#include "scenarios/calibrate/pair_model.h"
 
 namespace morula::calibrate {
 
@@ -47,15 +48,14 @@ struct Bounds {
   static constexpr double kYoung[2] = {1e-5, 1e4}, kAdhesion[2] = {1e-7, 1e2}, kIncrement[2] = {1e-9, 1e3};
 };
 
-/// Which parts of the loss are summed.
-struct LossParts {
-  bool pairs = true, packings = true;
-};
-
 /// L = Σ [(F − F_JKR)/σ_F]² + w_a Σ [(A − πa²)/σ_A]² + w_p Σ [(p − p_law)/σ_p]² + μ Σ (second differences of p_c/σ)², over points that are not held
 /// out, as a least-squares problem in Parameters::logarithms(). Packings are summed where there are knots. The problem owns what it needs.
 [[nodiscard]] LeastSquares loss_of(const Data& data, double poisson, const LossWeights& weights, const DataScales& scales,
-                                   std::span<const cbm::PackingKnot> knots, LossParts parts);
+                                   std::span<const cbm::PackingKnot> knots);
+
+/// The part of packings alone, for any law of pairs, in the logarithms of the increments of p_c.
+[[nodiscard]] LeastSquares loss_of_curve(const Data& data, const PairModel& pair, const LossWeights& weights,
+                                         std::span<const cbm::PackingKnot> knots);
 
 /// Whether a pair point takes part in the fit.
 [[nodiscard]] bool is_fitted(const PairPoint& point, const LossWeights& weights);

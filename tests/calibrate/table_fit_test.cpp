@@ -1,0 +1,82 @@
+#include "scenarios/calibrate/table_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scenarios/calibrate/held_out.h"
+#include "tests/calibrate/synthetic.h"
+
+namespace morula::calibrate {
+namespace {
+
+/// Points of a body of surfaces, F = R* k (x − 0.4) and A = R*² (2 + 3x) with x = δ/R*, k = 0.6 nN/µm, from x = −0.3 to 1; every third one is of
+/// unequal cells and held out.
+Data surface_points() {
+  Data out;
+  for (int k = 0; k <= 60; ++k) {
+    const double x = -0.3 + 1.3 * k / 60.0, b = k % 3 == 1 ? 6.5 : 5.0, r = 5.0 * b / (5.0 + b);
+    out.pairs.push_back({.experiment = k,
+                         .overlap = x * r,
+                         .force = r * 0.6 * (x - 0.4),
+                         .area = r * r * (2.0 + 3.0 * x),
+                         .radius_a = 5.0,
+                         .radius_b = b,
+                         .held_out = k % 3 == 1});
+  }
+  return out;
+}
+
+TEST(TableFit, OfASurfaceIsRightAboutUnequalCells) {
+  const Data data = surface_points();
+  const auto table = fit_table(data);
+  ASSERT_TRUE(table.ok()) << table.error().message;
+  EXPECT_LE(table->knots().size(), 24u);
+  EXPECT_NEAR(table->rest_overlap(), 0.4, 1e-9);
+  EXPECT_NEAR(table->break_overlap(), -0.3, 1e-12);
+  const HeldOutErrors errors = held_out_errors(data, table_model(*table), {}, 0.42);
+  EXPECT_EQ(errors.pairs, 20);
+  EXPECT_LT(errors.force_worst, 1e-9);
+  const auto fitted = fit(data, {.poisson = kPoisson});
+  ASSERT_TRUE(fitted.ok());
+  const HeldOutErrors jkr = held_out_errors(data, jkr_model(fitted->parameters.young, kPoisson, fitted->parameters.adhesion), {}, 0.42);
+  EXPECT_GT(jkr.score(), 10.0 * errors.score());
+  EXPECT_GT(misfit_share(data, *fitted), 0.5);
+}
+
+TEST(TableFit, TellsTheExponentOfTheForce) {
+  const Data surface = surface_points();
+  const ForceExponent linear = force_exponent(surface, *fit_table(surface));
+  EXPECT_NEAR(linear.value, 1.0, 1e-6);
+  EXPECT_GT(linear.points, 10);
+  Data hertz;  // F = δ^{3/2}
+  for (int k = 0; k <= 30; ++k) hertz.pairs.push_back({k, 0.1 * k, std::pow(0.1 * k, 1.5), 1.0 + 0.1 * k, kRadius, kRadius});
+  const ForceExponent solid = force_exponent(hertz, *fit_table(hertz));
+  EXPECT_NEAR(solid.value, 1.5, 1e-6);
+}
+
+// With noise the points fall here and there; the table does not, and JKR needs nothing that the noise does not explain.
+TEST(TableFit, OfNoisyPointsRises) {
+  const Data data = jkr_points(-0.5, 2.0, 121, 1.0, 4);
+  const auto table = fit_table(data);
+  ASSERT_TRUE(table.ok()) << table.error().message;
+  EXPECT_EQ(table->knots().size(), 24u);
+  const PairModel model = table_model(*table), truth = jkr_model(kYoung, kPoisson, kAdhesion);
+  for (double overlap = -0.2; overlap < 2.0; overlap += 0.01)
+    EXPECT_NEAR(model(overlap, 2.5).force, truth(overlap, 2.5).force, 0.06 * cbm::pull_off_force(reference_pair()));
+  const auto fitted = fit(data, {.poisson = kPoisson});
+  ASSERT_TRUE(fitted.ok());
+  EXPECT_LT(misfit_share(data, *fitted), 0.1);
+}
+
+TEST(TableFit, BeginsAtTheLargestTension) {
+  Data data = jkr_points(-1.1, 2.0, 63, 0.0, 1);
+  const auto table = fit_table(data, 63);
+  ASSERT_TRUE(table.ok());
+  EXPECT_NEAR(table->break_overlap() * 2.5, -0.544241, 0.05);  // cbm.md §2: largest tension
+  for (PairPoint& point : data.pairs) point.held_out = true;
+  EXPECT_FALSE(fit_table(data).ok());
+}
+
+}  // namespace
+}  // namespace morula::calibrate
