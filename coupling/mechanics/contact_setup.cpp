@@ -179,8 +179,7 @@ ContactSettings contact_settings(const Model& model, int threads) {
       };
       const cbm::PairContact& contact = table.entry(a, b).contact;
       if (contact.law->reach == nullptr) continue;
-      settings.sphere_reach =
-          std::max(settings.sphere_reach, contact.law->reach(contact, cbm::reduced_radius(radius(a), radius(b))));
+      settings.sphere_reach = std::max(settings.sphere_reach, contact.law->reach(contact, cbm::reduced_radius(radius(a), radius(b))));
     }
   return settings;
 }

@@ -41,9 +41,8 @@ void SphereContacts::update_sisters(const Scene& scene, double now) {
   for (Sisters& s : sisters_) {
     const ContactBody &a = spheres[list_.pairs[s.pair].a], &b = spheres[list_.pairs[s.pair].b];
     const cbm::PairContact& contact = table_.entry(a.material, b.material).contact;
-    const double rest = contact.law->rest_overlap != nullptr
-                            ? contact.law->rest_overlap(contact, cbm::reduced_radius(a.radius, b.radius))
-                            : 0.0;
+    const double rest =
+        contact.law->rest_overlap != nullptr ? contact.law->rest_overlap(contact, cbm::reduced_radius(a.radius, b.radius)) : 0.0;
     s.offset = cbm::sister_overlap_offset(rest, a.radius, b.radius, s.birth_radius_a, s.birth_radius_b, now - s.birth_time);
   }
 }
