@@ -1,11 +1,13 @@
 #include <omp.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "app/read_study.h"
 #include "app/signals.h"
 #include "app/verbs.h"
 #include "core/numbers/number_text.h"
+#include "results/file_io.h"
 #include "scenarios/experiments/calibration.h"
 
 namespace morula::app {
@@ -40,8 +42,10 @@ Status calibrate(const CalibrateOptions& options, const Context& context) {
   request.on_note = [&](const std::string& text) { context.console.note(text); };
   MORULA_TRY_ASSIGN(const scenarios::Calibration found, scenarios::calibrate_jkr(*study, options.type, request, context.comm));
   if (!context.comm.is_root()) return {};
+  const fs::path file = request.folder / (options.type + ".jkr.yaml");
+  MORULA_TRY(scenarios::write_file_atomically(file, scenarios::calibration_text(found)));
   MORULA_TRY(scenarios::write_calibration_report(found, context.command, request.folder / "report.html"));
-  context.console.result(found_text(found) + (request.folder / "report.html").string());
+  context.console.result(found_text(found) + file.string() + "\n" + (request.folder / "report.html").string());
   return {};
 }
 

@@ -1,11 +1,18 @@
 #include "scenarios/experiments/calibration.h"
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
 #include "results/file_io.h"
 
 namespace morula::scenarios {
 namespace {
+
+cbm::PackingCurve curve_of(std::span<const cbm::PackingKnot> knots) {
+  auto made = cbm::PackingCurve::through(knots);
+  return made.ok() ? std::move(made).value() : cbm::PackingCurve();
+}
 
 /// What only the root does, once all runs are there.
 Status fit_on_root(const Study& study, Calibration& out) {
@@ -15,6 +22,22 @@ Status fit_on_root(const Study& study, Calibration& out) {
   options.poisson = type->sphere.poisson;
   options.seed = study.model.seed;
   MORULA_TRY_ASSIGN(out.sure, calibrate::fit_with_confidence(out.data.points, options));
+  const calibrate::Fit& fit = out.sure.fit;
+  const double pull_off = fit.pull_off(1.0);
+  out.misfit = calibrate::misfit_share(out.data.points, fit);
+  out.held_out = calibrate::held_out_errors(out.data.points, calibrate::jkr_model(fit.parameters.young, fit.poisson, fit.parameters.adhesion),
+                                            curve_of(fit.parameters.knots), pull_off);
+  auto table = calibrate::fit_table(out.data.points);
+  if (!table.ok()) {
+    out.data.remarks.push_back("no table: " + table.error().message);
+    return {};
+  }
+  FittedTable one{.table = std::move(table).value(), .packing = {}, .held_out = {}, .exponent = {}};
+  const calibrate::PairModel model = calibrate::table_model(one.table);
+  if (!out.data.points.packings.empty()) one.packing = calibrate::fit_curve(out.data.points, model, options);
+  one.held_out = calibrate::held_out_errors(out.data.points, model, curve_of(one.packing), pull_off);
+  one.exponent = calibrate::force_exponent(out.data.points, one.table);
+  out.table = std::move(one);
   return {};
 }
 

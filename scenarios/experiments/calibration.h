@@ -1,16 +1,27 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/parallel/comm.h"
 #include "core/result.h"
 #include "scenarios/calibrate/confidence.h"
+#include "scenarios/calibrate/held_out.h"
+#include "scenarios/calibrate/table_fit.h"
 #include "scenarios/experiments/data_of_runs.h"
 #include "scenarios/experiments/run_experiments.h"
 #include "study/study.h"
 
 namespace morula::scenarios {
+
+/// A law by a table, fitted to the same points as JKR.
+struct FittedTable {
+  cbm::PairTable table;
+  std::vector<cbm::PackingKnot> packing;  ///< what these pairs leave to packings; empty: nothing
+  calibrate::HeldOutErrors held_out;
+  calibrate::ForceExponent exponent;
+};
 
 /// A contact law of spheres, found from deformable cells.
 struct Calibration {
@@ -19,12 +30,22 @@ struct Calibration {
   std::vector<ExperimentOutcome> outcomes;
   ExperimentData data;
   calibrate::SureFit sure;
+  calibrate::HeldOutErrors held_out;  ///< of JKR
+  double misfit = 0.0;                ///< part of the loss of pairs that JKR cannot take
+  std::optional<FittedTable> table;   ///< none: its points make no table, as a remark says
+
+  /// Whether the table is better than JKR on what was held out.
+  [[nodiscard]] bool table_is_better() const { return table && table->held_out.score() < held_out.score(); }
 };
 
 /// Runs the experiments for a cell type of a study in the folder of the request, and fits JKR and a packing curve to what they find. Everything that was
 /// run before in that folder is taken over. The result is the same on any number of ranks and threads, and after any break. Collective; the fit is
 /// made on the root, and the others get what is known before it. Errors: those of material_of(), run_experiments(), data_of_runs() and the fit.
 Result<Calibration> calibrate_jkr(const Study& study, const std::string& type, const ExperimentRequest& request, const Comm& comm);
+
+/// TYPE.jkr.yaml: the laws with their units, intervals, covariance, ranges, residuals and errors, and of what cells they are. The same bytes for the same
+/// experiments.
+std::string calibration_text(const Calibration& found);
 
 /// report.html of a calibration: points and fits, residuals, profiles, numbers with their intervals, remarks. `command`: as typed.
 Status write_calibration_report(const Calibration& found, const std::string& command, const std::filesystem::path& path);

@@ -58,6 +58,16 @@ struct Range {
   void include(double x) { low = std::min(low, x), high = std::max(high, x); }
 };
 
+Curve table_curve(const FittedTable& law, double reduced, const Range& range) {
+  Curve out = curve("table");
+  for (int i = 0; i <= 200; ++i) {
+    const double overlap = range.low + (range.high - range.low) * i / 200.0;
+    out.x.push_back(overlap);
+    out.y.push_back(law.table.respond(reduced, overlap, true).force);
+  }
+  return out;
+}
+
 /// Points of pairs that are fitted, or held out, with the law and that of the study's own numbers.
 CurvePlot pair_plot(const Calibration& found, bool held_out) {
   CurvePlot plot = plot_of(held_out ? "Held out: cells of unequal radii" : "Two cells: force over overlap", axis("overlap δ", "µm"), axis("force", "nN"));
@@ -76,6 +86,7 @@ CurvePlot pair_plot(const Calibration& found, bool held_out) {
     plot.curves.push_back(jkr_curve("fitted JKR", fit, fit.parameters.young, fit.parameters.adhesion, reduced, range.low, range.high));
     plot.curves.push_back(jkr_curve("JKR with the W of the study", fit, fit.parameters.young, found.material.adhesion, reduced, range.low, range.high));
   }
+  if (reduced > 0.0 && found.table) plot.curves.push_back(table_curve(*found.table, reduced, range));
   plot.curves.push_back(std::move(in));
   plot.curves.push_back(std::move(out));
   return plot;
@@ -138,7 +149,14 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
                      {"pull-off force", three(fit.pull_off(0.5 * found.material.radius)), "nN"},
                      {"1.5 π W R* with the W of the study", three(0.75 * std::numbers::pi * found.material.adhesion * found.material.radius), "nN"},
                      {"correlation of ln E and ln W", three(sure.covariance.correlation), ""},
-                     {"loss over its terms", three(fit.loss / static_cast<double>(std::max<std::size_t>(fit.residuals, 1))), ""}};
+                     {"loss over its terms", three(fit.loss / static_cast<double>(std::max<std::size_t>(fit.residuals, 1))), ""},
+                     {"part of the loss of pairs that JKR cannot take", three(100.0 * found.misfit), "%"},
+                     {"JKR on what was held out, root mean square", three(100.0 * found.held_out.force_rms), "% of the pull-off force"}};
+  if (found.table) {
+    out.key_numbers.push_back({"a table on what was held out, root mean square", three(100.0 * found.table->held_out.force_rms), "% of the pull-off force"});
+    out.key_numbers.push_back({"n of F ∝ (δ − δ_0)ⁿ where cells push (Hertz: 1.5)", three(found.table->exponent.value), "± " + three(found.table->exponent.error)});
+    out.key_numbers.push_back({"better on what was held out", found.table_is_better() ? "the table" : "JKR", ""});
+  }
   const auto add = [&](const CurvePlot& plot) { out.plots.push_back({"", curves_svg(plot, SvgUse::kInline)}); };
   add(pair_plot(found, false));
   add(area_plot(found));
