@@ -27,6 +27,8 @@ class CellView {
     area = values.area[place];
     contact_area = values.contact_area[place];
     pressure = values.pressure[place];
+    stress = values.stress[place];
+    stressed_volume = values.stressed_volume[place];
     inner_pressure = values.inner_pressure[place];
   }
 
@@ -58,12 +60,14 @@ class CellView {
   }
 
   // Of its body. Behaviours have these only where they ask for them (Behaviour::looks_at_body).
-  Vec3d center{};               ///< centroid of its volume [µm]
-  double volume = 0.0;          ///< [µm³]
-  double area = 0.0;            ///< of its surface [µm²]
-  double contact_area = 0.0;    ///< of it in contact [µm²]
-  double pressure = 0.0;        ///< now: −tr σ/3 of what neighbours, obstacles and loads exert on it [kPa]
-  double inner_pressure = 0.0;  ///< −K_V ln(V/V0) of a shell; of a sphere its pressure [kPa]
+  Vec3d center{};                ///< centroid of its volume [µm]
+  double volume = 0.0;           ///< [µm³]
+  double area = 0.0;             ///< of its surface [µm²]
+  double contact_area = 0.0;     ///< of it in contact [µm²]
+  double pressure = 0.0;         ///< now: −tr σ/3 of what neighbours, obstacles and loads exert on it [kPa]
+  SymMat3<double> stress{};      ///< σ, what they exert on it (BodyValues) [kPa]
+  double stressed_volume = 0.0;  ///< V of this stress [µm³]
+  double inner_pressure = 0.0;   ///< −K_V ln(V/V0) of a shell; of a sphere its pressure [kPa]
 
  private:
   const Cells* cells_;

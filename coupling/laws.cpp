@@ -30,8 +30,8 @@ std::shared_ptr<const Laws> builtin_laws() {
            .region_shapes = builtin_region_shapes(),
            .trigger_values = builtin_trigger_values(),
            .reactions = fields::builtin_reactions(),
-           .observables = {&tissue_observables, &type_observables, &phase_observables, &obstacle_observables, &lumen_observables,
-                           &grip_observables, &field_observables}});
+           .observables = {&tissue_observables, &box_observables, &type_observables, &phase_observables, &obstacle_observables,
+                           &lumen_observables, &grip_observables, &field_observables}});
 }
 
 }  // namespace morula

@@ -152,7 +152,8 @@ struct Limits {
 /// The physics of a run: everything that the step reads and nothing that it writes.
 struct Model {
   std::uint32_t seed = 1;
-  Space space;
+  Space space;            ///< that of the study; in a Simulation, which keeps it so, the one of the present time
+  TimeCourse box_volume;  ///< volume of a box that is periodic along all axes over that of the study; empty: it stays
   std::vector<CellType> types;
   std::vector<ObstacleSpec> obstacles;
   std::vector<CellLoad> loads;

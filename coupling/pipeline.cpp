@@ -25,6 +25,12 @@ double fit_step(double wanted, double time, double land_on) {
   return left < 1.5 * wanted ? 0.5 * left : wanted;
 }
 
+/// When a step of dt ends: at `land_on` itself where it differs by rounding only.
+double end_of_step(double dt, double time, double land_on) {
+  const double end = dt == land_on - time ? land_on : time + dt;
+  return std::abs(end - land_on) < 1e-9 * std::max(1.0, land_on) ? land_on : end;
+}
+
 /// Why no step size works: cell, law and time.
 Error refused(const Model& model, const Clock& clock, const StepFault& fault, double dt) {
   char when[64];
@@ -67,7 +73,7 @@ Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<b
   Clock& clock = tissue_.clock;
   before_step_.keep(tissue_);
   land_on = std::min(land_on, next_corner(model_, clock.time));  // of what is prescribed over time
-  double dt = fit_step(std::min(clock.next_step, model_.step.max_step), clock.time, land_on);
+  double dt = fit_step(std::min({clock.next_step, model_.step.max_step, longest_step_of_box(land_on)}), clock.time, land_on);
   const bool wanted_less = dt < clock.next_step;
   LifeReport life;
   std::optional<BodiesNow> bodies;
@@ -84,6 +90,7 @@ Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<b
       life = live(tissue_.cells, model_.types, {model_.seed, clock.steps, clock.time + dt, dt, bodies ? &*bodies : nullptr, sensed});
       set_bodies_to_targets(dt);
     }
+    carry_to(end_of_step(dt, clock.time, land_on));
     // mechanics: ghosts, candidates, contacts, forces, system, solve, advance
     const auto moved = mechanics_->step(tissue_, dt, external_forces(clock.time + dt), grip_anchors(model_, tissue_, clock.time + dt));
     if (moved) {
@@ -91,6 +98,7 @@ Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<b
       break;
     }
     before_step_.restore(tissue_);
+    carry_to(clock.time);
     mechanics_->parameters_changed();
     if (!moved.error().smaller_step_may_help || dt * 0.25 < kSmallestStep) return refused(model_, clock, moved.error(), dt);
     dt *= outcome.retries < 2 ? 0.5 : 0.25;
@@ -98,8 +106,7 @@ Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<b
   tissue_.ledger.drift += outcome.mechanics.motion.drift;
   tissue_.ledger.rotation += outcome.mechanics.motion.rotation;
   tissue_.ledger.way += outcome.mechanics.motion.way;
-  clock.time = dt == land_on - clock.time ? land_on : clock.time + dt;
-  if (std::abs(clock.time - land_on) < 1e-9 * std::max(1.0, land_on)) clock.time = land_on;
+  clock.time = end_of_step(dt, clock.time, land_on);
   ++clock.steps;
   const double wanted = wanted_less && outcome.retries == 0 ? clock.next_step : 0.0;
   clock.next_step = next_step(model_.step, model_.contact.range, outcome.mechanics, dt, wanted);

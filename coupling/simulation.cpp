@@ -11,6 +11,7 @@
 #include "coupling/behaviours/osmosis.h"
 #include "coupling/behaviours/pressure_filter.h"
 #include "coupling/cell_record.h"
+#include "coupling/changing_box.h"
 #include "coupling/face_marks.h"
 #include "coupling/mechanics/contact_setup.h"
 #include "coupling/still_to_come.h"
@@ -26,7 +27,9 @@ constexpr double kEasing = 600.0;
 }  // namespace
 
 Simulation::Simulation(Model model, Tissue tissue, const Comm& comm, int threads)
-    : model_(std::move(model)), tissue_(std::move(tissue)), comm_(comm), threads_(threads) {}
+    : model_(std::move(model)), box_of_study_(model_.space.box), tissue_(std::move(tissue)), comm_(comm), threads_(threads) {
+  model_.space.box = box_at(box_of_study_, model_.box_volume, tissue_.clock.time);
+}
 
 Result<std::unique_ptr<Simulation>> Simulation::create(Model model, Tissue tissue, const Comm& comm, int threads) {
   std::unique_ptr<Simulation> out(new Simulation(std::move(model), std::move(tissue), comm, threads));
@@ -65,6 +68,23 @@ void Simulation::distribute() {
       fields::redistribute(field, owner, comm_);
     }
   mechanics_->bodies_changed();
+}
+
+void Simulation::carry_to(double time) {
+  const Box from = model_.space.box, to = box_at(box_of_study_, model_.box_volume, time);
+  if (to.low == from.low) return;
+  carry(tissue_, from, to);
+  model_.space.box = to;
+  mechanics_->bodies_changed();  // its lists hold pairs across the faces of the box with the size that this had
+}
+
+double Simulation::longest_step_of_box(double until) const {
+  const double now = tissue_.clock.time;
+  if (model_.box_volume.at(now) == model_.box_volume.at(until)) return kNever;
+  double volume = 0.0;
+  for (const CellRow& row : tissue_.cells.rows) volume = std::max(volume, row.target_volume);
+  const double radius = std::cbrt(3.0 * comm_.max(volume) / (4.0 * std::numbers::pi));
+  return longest_carried_step(model_.box_volume, now, until, radius, model_.step.max_displacement * model_.contact.range);
 }
 
 std::vector<Vec3d> Simulation::centers() const {

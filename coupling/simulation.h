@@ -52,6 +52,10 @@ class Simulation {
 
  private:
   Simulation(Model model, Tissue tissue, const Comm& comm, int threads);
+  /// The box of a time, and all places with it (coupling/changing_box.h).
+  void carry_to(double time);
+  /// Longest step that the box allows for from now on, which ends at `until` at the latest [s]. Collective where the box changes.
+  [[nodiscard]] double longest_step_of_box(double until) const;
   Result<StepOutcome> whole_step(double land_on, const std::function<bool()>& give_up);
   void distribute();
   void set_bodies_to_targets(double dt);
@@ -90,6 +94,7 @@ class Simulation {
   [[nodiscard]] std::vector<Event> all_events(std::vector<Event> mine) const;
 
   Model model_;
+  Box box_of_study_;
   Tissue tissue_;
   Comm comm_;
   int threads_;

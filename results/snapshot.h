@@ -7,6 +7,7 @@
 #include "core/cell_id.h"
 #include "core/mesh/mark_sets.h"
 #include "core/mesh/topology.h"
+#include "core/space/space.h"
 #include "core/vec3.h"
 #include "coupling/cells.h"
 
@@ -75,6 +76,7 @@ struct Snapshot {
   };
 
   double time = 0.0;        ///< [s]
+  Box box;                  ///< the domain at this time; empty in results that do not tell it [µm]
   std::vector<Cell> cells;  ///< sorted by id
   std::vector<Variable> variables;
   std::vector<Shell> shells;    ///< in the order of their cells

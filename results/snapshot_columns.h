@@ -64,6 +64,8 @@ inline constexpr ResultsDataset kEventDaughters{"events/daughters", "1",
 inline constexpr ResultsDataset kEventText{"events/text", "1", "the reason, for people"};
 // of a snapshot
 inline constexpr ResultsDataset kTime{"time", "s", "simulated time of this snapshot"};
+inline constexpr ResultsDataset kBoxLow{"box/low", "um", "lower corner of the domain at this time: x, y, z"};
+inline constexpr ResultsDataset kBoxHigh{"box/high", "um", "upper corner of the domain at this time: x, y, z"};
 inline constexpr ResultsDataset kTypeNames{"type_names", "1", "names of the cell types by number"};
 inline constexpr ResultsDataset kFieldNames{"field_names", "1", "names of the fields"};
 inline constexpr ResultsDataset kVariableNames{"variable_names", "1",

@@ -220,6 +220,10 @@ Result<Snapshot> read_snapshot(const std::filesystem::path& path, std::size_t in
   const std::string group = snapshot_group(index) + '/';
   Snapshot out;
   MORULA_TRY_ASSIGN(out.time, file.value<double>(group + "time"));
+  if (file.exists(group + "box/low")) {
+    MORULA_TRY_ASSIGN(out.box.low, file.value<Vec3d>(group + "box/low"));
+    MORULA_TRY_ASSIGN(out.box.high, file.value<Vec3d>(group + "box/high"));
+  }
   MORULA_TRY_ASSIGN(out.type_names, file.texts(group + "type_names"));
   MORULA_TRY_ASSIGN(const std::vector<std::string> field_names, file.texts(group + "field_names"));
   MORULA_TRY(read_cells(file, group, field_names, out));

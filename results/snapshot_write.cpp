@@ -381,6 +381,8 @@ Status append_snapshot(const std::filesystem::path& path, const Snapshot& local,
   StoragePlan plan(comm, snapshot_group(entries.size() - removed.size()) + '/');
   add_program(plan);
   plan.add_value(results::kTime.path, results::kTime.label(), local.time);
+  plan.add_value(results::kBoxLow.path, results::kBoxLow.label(), local.box.low);
+  plan.add_value(results::kBoxHigh.path, results::kBoxHigh.label(), local.box.high);
   plan.add_text(results::kTypeNames.path, local.type_names, results::kTypeNames.label());
   std::vector<std::string> names;
   for (const Snapshot::Grid& grid : local.fields) names.push_back(grid.name);

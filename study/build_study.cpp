@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/changing_box.h"
 #include "study/build.h"
 #include "study/read_section.h"
 
@@ -21,6 +22,29 @@ double gentle_cap(const BuildContext& c) {
     if (edge > 0.0 && held > 0.0) cap = std::min(cap, kGentle * held / (edge * c.draft.contact.repulsion.value));
   }
   return cap;
+}
+
+/// The course of the box; E518 where something keeps the box from changing.
+void build_box_course(BuildContext& c) {
+  const draft::Domain& d = c.draft.domain;
+  if (d.course.empty()) return;
+  const Place& place = d.course.front().place;
+  const auto refuse = [&](const Place& where, const std::string& why, const std::string& help) {
+    c.diagnostics.error(518, where, why, help);
+  };
+  if (!periodic_along_all_axes(c.study.model.space))
+    refuse(place, "the box has a course, but is not periodic along x, y and z", "write `boundary: periodic`, or move obstacles");
+  for (const auto& field : c.draft.fields)
+    refuse(field.place, "the box has a course, and the voxels of the field '" + field.name + "' would not follow it",
+           "leave the field out, or the course of the `domain`");
+  for (const auto& obstacle : c.draft.geometry)
+    refuse(obstacle.place, "the box has a course, and the obstacle '" + obstacle.name + "' would not follow it",
+           "leave the obstacle out, or the course of the `domain`");
+  c.study.model.box_volume = build_course(c, d.course);
+  const Given<double>& first = d.course.front().content.value;
+  if (first.known() && first.value != 1.0)
+    refuse(first.place, "the course of the box begins with " + first.text + " of the volume that `size` says",
+           "begin with `volume: 1`, and make `size` the box of time 0");
 }
 
 }  // namespace
@@ -95,6 +119,7 @@ void build_domain(BuildContext& c) {
                           std::string("write `") + name + ": periodic`");
     }
   }
+  build_box_course(c);
 }
 
 int find_type(BuildContext& c, const std::string& name, const Place& place) {

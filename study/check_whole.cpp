@@ -89,12 +89,14 @@ void check_nuclei(BuildContext& c) {
 void check_periodic_size(BuildContext& c) {
   if (!c.draft.domain.size.known() || !c.draft.contact.range.known()) return;
   double radius = 0.0;
-  for (const auto& type : c.draft.cell_types)
-    radius = std::max(radius, type.content.radius.mean.value * (1.0 + 3.0 * type.content.radius.spread.value));
   // A dividing cell is 2^(1/3) times as wide as a newborn; a pair of such cells may not meet around the domain.
+  for (const auto& [name, place, type] : c.draft.cell_types)
+    radius = std::max(radius, (type.has_cycle ? std::cbrt(2.0) : 1.0) * type.radius.mean.value * (1.0 + 3.0 * type.radius.spread.value));
   double range = c.draft.contact.range.value;
   for (const auto& pair : c.draft.contact.pairs) range = std::max(range, pair.content.range.value);
-  const double needed = 2.0 * (2.0 * std::cbrt(2.0) * radius + range);
+  double smallest = 1.0;  // edge of the box at its smallest, in parts of that of time 0
+  for (const double volume : c.study.model.box_volume.value) smallest = std::min(smallest, std::cbrt(volume));
+  const double needed = 2.0 * (2.0 * radius + range) / smallest;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (c.study.model.space.periodic(static_cast<int>(axis)) && c.draft.domain.size.value[axis] < needed)
       c.diagnostics.error(

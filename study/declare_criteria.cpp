@@ -31,8 +31,10 @@ void declare_things(Section& s, MeasuredThings& of) {
 void declare_moments(Section& s, MeasuredMoments& m, bool of_plot) {
   s.text(
       {.name = "at",
-       .doc = "When: `end` or `start` of the run, `every` output, the time of an output, or `holds(thing)`: the last output of each time "
-              "in which the course of a load or the way of an obstacle rests; `holds` alone: of the load or obstacle that is measured.",
+       .doc =
+           "When: `end` or `start` of the run, `every` output, the time of an output, or `holds(thing)`: the last output of each time "
+           "in which the course of a load or the way of an obstacle rests, or with `domain` that of the box; `holds` alone: of the load or "
+           "obstacle that is measured.",
        .fallback = of_plot ? "every" : "end",
        .example = "6 h",
        .source = "chosen"},

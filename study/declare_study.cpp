@@ -155,6 +155,18 @@ void declare_numerics(Section& s, draft::Numerics& n) {
              n.start_cap_within);
 }
 
+void declare_volume_point(Section& s, draft::CoursePoint& point) {
+  s.quantity({.name = "time", .doc = "When.", .quantity = Q::kTime, .required = true, .low = 0.0, .example = "10 s"}, point.time);
+  s.quantity({.name = "volume",
+              .doc = "Volume of the box at that time, in parts of the volume that `size` says.",
+              .quantity = Q::kFraction,
+              .required = true,
+              .low = 0.3,
+              .high = 3.0,
+              .example = "0.85"},
+             point.value);
+}
+
 void declare_domain(Section& s, draft::Domain& domain) {
   s.vector({.name = "size",
             .doc = "Edges of the box in which cells and fields live.",
@@ -198,6 +210,14 @@ void declare_domain(Section& s, draft::Domain& domain) {
             face("z_low", "The face at the low end of z: a floor.", d.z_low);
             face("z_high", "The face at the high end of z.", d.z_high);
           });
+  s.list(
+      {.name = "course",
+       .doc =
+           "Volume of a box that is periodic along x, y and z over time: straight lines between these points, constant after the last. It "
+           "begins with 1. The edges keep their ratios and the centre stays; all places go along with the box, and cells then find their "
+           "shape. Steps land on the points.",
+       .example = "[{time: 0 s, volume: 1}, {time: 1 h, volume: 0.85}]"},
+      domain.course, &declare_volume_point);
 }
 
 void declare_output(Section& s, draft::Output& output) {

@@ -29,6 +29,7 @@ struct DomainBoundary {
 struct Domain {
   Given<Vec3d> size, center;
   DomainBoundary boundary;
+  std::vector<Named<CoursePoint>> course;
 };
 
 struct Spread {

@@ -85,6 +85,10 @@ constexpr ErrorCode kCodes[] = {
     {516, "law without its numbers", "The law that is chosen needs a number that has no default."},
     {517, "surfaces that sink into each other",
      "The repulsion is so soft that the pressure within the cells pushes their surfaces through each other (warning)."},
+    {518, "box that cannot change its size",
+     "A box that is periodic along x, y and z can follow a course, with nothing in it but cells: fields and obstacles keep their places. "
+     "The "
+     "course begins with the box of `size`, volume 1."},
     {520, "load that cells cannot bear",
      "Tractions, pulls and pressures act on surfaces: they need shells, and chosen nodes need shells that keep their mesh and place."},
     {530, "packing curve that is none",

@@ -33,7 +33,7 @@ Vec3d body_force(const Model& model, std::uint16_t type, double time);
 /// The loads of the model on surfaces at a time on all shells of the rank, added to `external` (by shell node, as in Mechanics::step) [nN].
 void add_surface_loads(const Model& model, const Tissue& tissue, double time, std::span<Vec3d> external);
 
-/// The first corner of the course of any load, obstacle, region of tension or cavity after a time [s]; infinity when none is left.
+/// The first corner of the course of the box, of any load, obstacle, region of tension or cavity after a time [s]; infinity when none is left.
 double next_corner(const Model& model, double time);
 
 }  // namespace morula

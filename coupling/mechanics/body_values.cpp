@@ -86,7 +86,8 @@ void add_values_of_spheres(const Workspace& work, const Tissue& tissue, std::spa
     values.volume[shells + i] = ball(r);
     values.area[shells + i] = 4.0 * std::numbers::pi * r * r;
     values.contact_area[shells + i] = pressing[i].area;
-    values.stress[shells + i] = (-1.0 / cbm::pressed_volume(values.pressure[shells + i], ball(r), modulus)) * pressing[i].virial;
+    values.stressed_volume[shells + i] = cbm::pressed_volume(values.pressure[shells + i], ball(r), modulus);
+    values.stress[shells + i] = (-1.0 / values.stressed_volume[shells + i]) * pressing[i].virial;
   }
 }
 
@@ -124,9 +125,9 @@ BodyValues Mechanics::values(const Tissue& tissue) {
   values.pressure = values.inner_pressure = pressures_from(work, tissue, values.stress, touches);
   const std::size_t shells = work.scene.owned_shells(), spheres = work.scene.owned_spheres();
   values.stress.resize(shells + spheres);
-  for (auto* v : {&values.volume, &values.area, &values.contact_area}) v->assign(shells + spheres, 0.0);
+  for (auto* v : {&values.volume, &values.stressed_volume, &values.area, &values.contact_area}) v->assign(shells + spheres, 0.0);
   for (std::size_t i = 0; i < shells; ++i) {
-    values.volume[i] = work.geometry.now().volume[i];
+    values.volume[i] = values.stressed_volume[i] = work.geometry.now().volume[i];
     values.area[i] = work.geometry.now().area[i];
     values.inner_pressure[i] = work.terms.membranes->found().pressure[i];
     values.contact_area[i] = work.terms.contacts->found().contact_area[i];

@@ -13,7 +13,8 @@ struct BodyValues {
   /// What the cell bears from outside, σ = (1/V) Σ_k (x_k − x) ⊗ f_k over the forces that neighbours, obstacles, walls and loads exert on it
   /// (fields_and_coupling.md, D; decision 0023); symmetric part, tension positive [kPa].
   std::vector<SymMat3<double>> stress;
-  std::vector<double> pressure;        ///< −tr σ/3, of shells and spheres alike [kPa]
+  std::vector<double> stressed_volume;  ///< the V of this stress: a sphere's is what its bulk modulus leaves of its ball [µm³]
+  std::vector<double> pressure;         ///< −tr σ/3, of shells and spheres alike [kPa]
   std::vector<double> inner_pressure;  ///< shells: −K_V ln(V/V0), which bears the cortex, too; spheres, which have none: the pressure [kPa]
   std::vector<double> contact_area;    ///< [µm²]
 };

@@ -172,6 +172,8 @@ Measures measure(Simulation& simulation) {
   const Vec3d middle = model.space.box.center();
   Measures out;
   out.time = tissue.clock.time;
+  const Vec3d edges = model.space.box.size();
+  out.box_volume = edges.x * edges.y * edges.z;
   out.lumens = tissue.lumens;
   out.lumens.resize(model.lumens.size());
   OverCells over;

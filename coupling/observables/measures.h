@@ -15,6 +15,7 @@ struct Measures {
   std::int64_t cells = 0, spheres = 0, shells = 0, nodes = 0;
   std::vector<std::int64_t> of_type;  ///< by cell type
   double total_volume = 0.0;          ///< of the bodies [µm³]
+  double box_volume = 0.0;            ///< of the domain [µm³]
   double spheroid_radius = 0.0;  ///< R = √(5/3) R_g, R_g² = Σ V_i (|c_i − c̄|² + 3/5 r_i²) / Σ V_i: exact for a ball of any cells [µm]
   double largest_extent = 0.0;     ///< max |c_i − c̄| + r_i [µm]
   double mean_pressure = 0.0;      ///< over cells [kPa]

@@ -64,6 +64,7 @@ std::vector<std::string> observable_names(const Model& model, const Laws& laws) 
 
 std::vector<Observable> observables_of_any_model(const Laws& laws) {
   Model model;
+  for (auto& faces : model.space.boundary) faces = {BoundaryKind::kPeriodic, BoundaryKind::kPeriodic};
   model.types.emplace_back().name = "<cell type>";
   model.types[0].interior.nucleus_fraction = 0.1;
   model.types[0].interior.nucleus_nodes = 162;

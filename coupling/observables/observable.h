@@ -62,6 +62,7 @@ std::vector<Observable> observables_of_any_model(const Laws& laws);
 
 /// Those that Morula brings: one function for each file of this folder.
 std::vector<Observable> tissue_observables(const Model& model);
+std::vector<Observable> box_observables(const Model& model);
 std::vector<Observable> type_observables(const Model& model);
 std::vector<Observable> phase_observables(const Model& model);
 std::vector<Observable> obstacle_observables(const Model& model);

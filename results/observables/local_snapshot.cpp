@@ -60,6 +60,7 @@ Snapshot local_snapshot(Simulation& simulation) {
   const std::vector<Vec3d> center = simulation.centers();
   Snapshot out;
   out.time = tissue.clock.time;
+  out.box = model.space.box;
   for (const CellType& type : model.types) out.type_names.push_back(type.name);
   for (const auto& spec : model.fields) out.fields.emplace_back().name = spec.name;
   out.mark_names = model.mark_names;

@@ -32,6 +32,7 @@ std::optional<AskedMoments> holds_named(const Study& study, const MeasuredMoment
   out.of_thing = false;
   const std::string name = m.at.value.substr(6, m.at.value.size() - 7);
   std::vector<std::string> names;
+  if (name == "domain" && !study.model.box_volume.empty()) return out.moments.course = study.model.box_volume, out;
   for (const CellLoad& load : study.model.loads) {
     names.push_back(load.name);
     if (load.name == name) return out.moments.course = course_of(load), out;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupling/changing_box.h"
 #include "scenarios/measures/elastic_cap.h"
 #include "scenarios/measures/theories.h"
 
@@ -50,6 +51,30 @@ Theory laplace_law() {
                        : wrong("needs cells with a cortical tension");
           },
           &laplace_value};
+}
+
+Theory filled_box() {
+  return {"filled_box",
+          "cells that fill their box",
+          "Pressure of cells that fill a periodic box and whose cortex presses as that of a free ball: V0 is the volume of the free cells "
+          "together, by the radius of their types, V that of the box, K the bulk modulus.",
+          "p = K ln(V0/V)",
+          "physics/fields_and_coupling.md D (a)",
+          {"pressure", "mean_pressure", "box_pressure"},
+          [](const Study& study, const Subject&, const std::string&) {
+            return periodic_along_all_axes(study.model.space) ? Status{} : wrong("needs a box that is periodic along x, y and z");
+          },
+          [](FinishedRun& run, const Subject& s, const std::string&, const Sample& sample) -> Result<double> {
+            MORULA_TRY_ASSIGN(const auto snapshot, run.snapshot_at(sample.time));
+            if (snapshot == nullptr || snapshot->box.empty() || snapshot->cells.empty()) return std::nan("");
+            const std::vector<CellType>& types = run.study().model.types;
+            double free = 0.0;
+            for (const Snapshot::Cell& cell : snapshot->cells)
+              free += 4.0 / 3.0 * std::numbers::pi * std::pow(types[cell.type].radius.mean, 3);
+            const Vec3d edges = snapshot->box.size();
+            const CellType& type = types[s.type >= 0 ? static_cast<std::size_t>(s.type) : snapshot->cells.front().type];
+            return type.shell.bulk_modulus * std::log(free / (edges.x * edges.y * edges.z));
+          }};
 }
 
 Theory jkr_pull_off() {

@@ -38,7 +38,7 @@ const std::vector<Measure>& measures() {
         shortest_hold_measure(),
     };
     for (auto* family : {&cap_measures, &pull_off_measures, &aspiration_measures, &pull_measures, &stretch_measures, &rubbing_measures,
-                         &aggregate_measures, &tissue_measures, &spheroid_measures, &plate_measures})
+                         &aggregate_measures, &tissue_measures, &spheroid_measures, &body_measures, &plate_measures})
       for (Measure& one : family()) out.push_back(std::move(one));
     return out;
   }();

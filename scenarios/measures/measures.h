@@ -57,6 +57,7 @@ std::vector<Measure> rubbing_measures();
 std::vector<Measure> aggregate_measures();
 std::vector<Measure> tissue_measures();
 std::vector<Measure> spheroid_measures();
+std::vector<Measure> body_measures();
 /// Of the run as a whole.
 Measure mean_contact_part_measure();
 Measure mean_step_measure();

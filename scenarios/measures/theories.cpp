@@ -11,7 +11,7 @@ bool Theory::is_about(const std::string& measure) const {
 
 const std::vector<Theory>& theories() {
   static const std::vector<Theory> all{
-      youngs_law(),       elastic_cap_theory(),      laplace_law(), jkr_pull_off(),       fluid_pull_off(),
+      youngs_law(),       elastic_cap_theory(),      laplace_law(), jkr_pull_off(),       filled_box(),          fluid_pull_off(),
       critical_suction(), stretched_sphere_theory(), hull_volume(), exponential_growth(), pressed_drop_theory(),
   };
   return all;

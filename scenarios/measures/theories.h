@@ -32,6 +32,7 @@ Theory youngs_law();
 Theory elastic_cap_theory();
 Theory laplace_law();
 Theory jkr_pull_off();
+Theory filled_box();
 Theory fluid_pull_off();
 Theory critical_suction();
 Theory stretched_sphere_theory();
