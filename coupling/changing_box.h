@@ -5,7 +5,7 @@
 
 namespace morula {
 
-/// A periodic box whose volume follows a course (decision 0043). Its size is a function of time alone: no state has to remember it.
+/// A periodic box whose volume follows a course (decision 0045). Its size is a function of time alone: no state has to remember it.
 ///
 /// The box at a time [s]: `of_study`, about its centre, with its volume times the value of the course.
 [[nodiscard]] Box box_at(const Box& of_study, const TimeCourse& volume, double time);

@@ -85,7 +85,7 @@ Experiment pair_experiment(const CellMaterial& material, const std::string& name
 Experiment packing_experiment(const CellMaterial& material, Experiment::Lattice lattice, double time) {
   const bool face_centred = lattice == Experiment::Lattice::kFaceCentred;
   const std::vector<Vec3d> cube = cube_of(lattice);
-  const int cubes = 2;
+  const int cubes = 3;  // no cell may meet another from both sides
   const double free = 4.0 / 3.0 * std::numbers::pi * std::pow(material.radius, 3.0);
   const double edge = std::cbrt(static_cast<double>(cube.size()) * free * kLoose), box = cubes * edge;
   Experiment e{.kind = Experiment::Kind::kPacking,
@@ -106,7 +106,7 @@ Experiment packing_experiment(const CellMaterial& material, Experiment::Lattice 
   e.text = head(material, e, "cell, cell", time, time / kPackingOutputs) + "domain: {size: " + place({box, box, box}) + ", boundary: periodic, course: [{time: 0 s, volume: 1}, {time: " +
            of(time, "s") + ", volume: " + number(kTight / kLoose) + "}]}\ncell_types:\n" +
            type_text(material, "cell", material.radius, "cell: " + of(material.adhesion, "nN/um")) + "initial:\n  - {type: cell, at: [" + places + "], as: shell}\n";
-  e.work = static_cast<double>(cube.size() * 8) * (time + 1000.0);
+  e.work = static_cast<double>(cube.size() * static_cast<std::size_t>(cubes * cubes * cubes)) * (time + 1000.0);
   return e;
 }
 

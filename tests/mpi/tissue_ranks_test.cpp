@@ -61,6 +61,9 @@ Model hybrid_model(bool interior = false) {
   return model;
 }
 
+/// Only the root runs what is to be compared with alone: four ranks that all did it would share two cores.
+bool is_asked(const Comm& comm) { return comm.size() > 1 || Comm(MPI_COMM_WORLD).is_root(); }
+
 /// Cells within √reach2 rows of the middle: 43, or 13 for 2.
 Tissue hybrid_tissue(const Model& model, const Comm& comm, int reach2 = 6) {
   std::vector<CellRecord> cells;
@@ -108,6 +111,7 @@ std::map<std::uint64_t, std::vector<std::byte>> everything(const Simulation& sim
 
 std::map<std::uint64_t, std::vector<std::byte>> run(const Model& model, const Comm& comm, int steps, int threads,
                                                     std::vector<double>* field_total = nullptr, Ledger* ledger = nullptr, int reach2 = 6) {
+  if (!is_asked(comm)) return {};
   auto created = Simulation::create(model, hybrid_tissue(model, comm, reach2), comm, threads);
   EXPECT_TRUE(created.ok());
   Simulation& simulation = **created;
@@ -127,6 +131,7 @@ std::map<std::uint64_t, std::vector<std::byte>> run(const Model& model, const Co
 using Everything = std::map<std::uint64_t, std::vector<std::byte>>;
 
 void expect_same(const Everything& together, const Everything& single) {
+  if (!Comm(MPI_COMM_WORLD).is_root()) return;
   ASSERT_EQ(together.size(), single.size());
   std::size_t different = 0;
   for (const auto& [id, bytes] : single) {
@@ -143,7 +148,7 @@ TEST(TissueOnRanks, HasTheSameBitsAsOnOne) {
   const auto together = run(hybrid_model(), world, 60, 1, &amount);
   const auto single = run(hybrid_model(), alone, 60, 1, &amount);
   EXPECT_GT(together.size(), 19u);
-  EXPECT_EQ(amount[0], amount[1]);
+  if (world.is_root()) EXPECT_EQ(amount[0], amount[1]);
   expect_same(together, single);
 }
 
@@ -195,6 +200,7 @@ TEST(TissueOnRanks, DividesShellsWithTheSameBitsAsOnOne) {
 
 /// Thirteen shells whose nodes crowd about their equators, after some steps.
 Everything renewed_shells(const Model& model, const Comm& comm) {
+  if (!is_asked(comm)) return {};
   Tissue tissue = hybrid_tissue(model, comm, 2);
   std::vector<CellRecord> cells = take_apart(tissue);
   ShapeLibrary shapes;
@@ -223,7 +229,7 @@ TEST(TissueOnRanks, RenewsMeshesWithTheSameBitsAsOnOne) {
   ASSERT_EQ(together.size(), 13u);
   ShapeLibrary shapes;
   double renewed = 0.0;
-  for (const auto& [id, bytes] : single)
+  for (const auto& [id, bytes] : together)
     renewed += read_records(bytes, shapes)[0].row.variable(mesh_renewal_variable(model, MeshRenewal::kDone));
   EXPECT_GE(renewed, 10.0);
   expect_same(together, single);
@@ -231,6 +237,7 @@ TEST(TissueOnRanks, RenewsMeshesWithTheSameBitsAsOnOne) {
 
 /// Events of a run of cells that become shells, spheres again, and divide, each as a line for people.
 std::vector<std::string> events_in_words(const Comm& comm) {
+  if (!is_asked(comm)) return {};
   Model model = hybrid_model();
   model.types[0].cycle_duration = {900.0, 0.3};
   model.swaps.regions[0].until = 60.0;
@@ -258,9 +265,9 @@ std::vector<std::string> events_in_words(const Comm& comm) {
 
 TEST(TissueOnRanks, TellsEventsWordForWordAsOnOne) {
   const std::vector<std::string> together = events_in_words(Comm(MPI_COMM_WORLD)), single = events_in_words(Comm(MPI_COMM_SELF));
-  EXPECT_EQ(together, single);
+  if (Comm(MPI_COMM_WORLD).is_root()) EXPECT_EQ(together, single);
   for (const char* words : {"region core", "outside", "reached its division volume"})
-    EXPECT_TRUE(std::any_of(single.begin(), single.end(), [&](const std::string& line) { return line.ends_with(words); })) << words;
+    EXPECT_TRUE(std::any_of(together.begin(), together.end(), [&](const std::string& line) { return line.ends_with(words); })) << words;
 }
 
 /// The pressure of a sphere's packing comes from all its neighbours, those of other ranks and shells, too.
@@ -276,7 +283,7 @@ TEST(TissueOnRanks, WithNucleiLinksAndOsmosisHasTheSameBitsAsOnOne) {
   const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
   const Everything single = run(hybrid_model(true), alone, 25, 2);
   expect_same(run(hybrid_model(true), world, 25, 1), single);
-  EXPECT_NE(single, run(hybrid_model(), alone, 25, 1)) << "the interior acts";
+  if (world.is_root()) EXPECT_NE(single, run(hybrid_model(), alone, 25, 1)) << "the interior acts";
 }
 
 /// Nuclei that are shells come with promotions, go with demotions, and move between ranks with their cells.
@@ -290,7 +297,7 @@ TEST(TissueOnRanks, WithNucleiThatAreShellsHasTheSameBitsAsOnOne) {
   p.nucleus_shell.bulk_modulus = 10.0;
   const Everything single = run(model, alone, 25, 2);
   expect_same(run(model, world, 25, 1), single);
-  EXPECT_NE(single, run(hybrid_model(true), alone, 25, 1)) << "they are no rigid ones";
+  if (world.is_root()) EXPECT_NE(single, run(hybrid_model(true), alone, 25, 1)) << "they are no rigid ones";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// A periodic box that follows a course, through study files and series.csv (fields_and_coupling.md D (a), E3; decision 0043).
+/// A periodic box that follows a course, through study files and series.csv (fields_and_coupling.md D (a), E3; decision 0045).
 #include <gtest/gtest.h>
 
 #include <array>

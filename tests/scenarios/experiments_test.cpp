@@ -6,26 +6,31 @@
 #include <string>
 
 #include "scenarios/calibrate/confidence.h"
+#include "scenarios/calibrate/lattice.h"
 #include "scenarios/experiments/calibration.h"
 #include "scenarios/experiments/data_of_runs.h"
+#include "scenarios/experiments/found_curves.h"
 #include "cbm/laws/jkr.h"
 #include "tests/study/study_fixture.h"
 
 namespace morula::scenarios {
 namespace {
 
+constexpr const char* kKnots = "packing: {law: knots, knots: [{packing: 8 %, pressure: 0 Pa}, {packing: 12 %, pressure: 90 Pa}, {packing: 30 %, pressure: 500 Pa}]}";
+
 /// Spheres of a law that is known stand where the shells of an experiment do.
-std::vector<Experiment> experiments_with_spheres(double young, double adhesion) {
+std::vector<Experiment> experiments_with_spheres(double young, double adhesion, Experiment::Kind kind = Experiment::Kind::kPair) {
   CellMaterial material;
   material.type = "ball";
   material.radius = 5.0;
   material.adhesion = adhesion;
   material.range = 0.5;
-  material.shell = "cbm: {law: jkr, young: " + std::to_string(young) + " kPa, poisson: 0.4, packing: none}";
+  material.shell = "cbm: {law: jkr, young: " + std::to_string(young) + " kPa, poisson: 0.4, " +
+                   (kind == Experiment::Kind::kPair ? "packing: none" : kKnots) + "}";
   material.contact = "{range: 0.5 um}";
   std::vector<Experiment> out;
   for (Experiment& e : experiments_for(material)) {
-    if (e.kind != Experiment::Kind::kPair) continue;
+    if (e.kind != kind) continue;
     for (std::size_t at = 0; (at = e.text.find("as: shell", at)) != std::string::npos;) e.text.replace(at, 9, "as: sphere");
     out.push_back(e);
   }
@@ -62,6 +67,35 @@ TEST(Experiments, GiveBackTheLawOfSpheres) {
     EXPECT_NEAR(point.force, cbm::contact_response(pair, point.overlap, true).force, 0.02 * fit->pull_off(5.0 * 6.5 / 11.5)) << point.overlap;
   }
   EXPECT_GT(held_out, 20u);
+}
+
+/// Packings of adhering spheres that resist packing, whose box shrinks: the pressure of the box is that of the lattice in closed form, from pairs by JKR
+/// (twelve neighbours, or eight and six) and the pressure of packing on their planes of contact.
+TEST(Experiments, PackingsOfSpheresHaveThePressureOfTheirLattice) {
+  const test::Folder folder;
+  const auto experiments = experiments_with_spheres(0.8, 0.02, Experiment::Kind::kPacking);
+  ASSERT_EQ(experiments.size(), 2u);
+  const auto outcomes = run_experiments(experiments, in(folder.path()), Comm());
+  ASSERT_TRUE(outcomes.ok());
+  const std::vector<cbm::PackingKnot> knots{{0.08, 0.0}, {0.12, 0.09}, {0.30, 0.5}};
+  const auto curve = cbm::PackingCurve::through(knots);
+  ASSERT_TRUE(curve.ok());
+  const auto pair = calibrate::jkr_model(0.8, 0.4, 0.02);
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    ASSERT_TRUE((*outcomes)[e].done) << (*outcomes)[e].problem;
+    const auto points = packing_of_run(experiments[e], (*outcomes)[e].run);
+    ASSERT_TRUE(points.ok());
+    const auto lattice = e == 0 ? calibrate::Lattice::kFaceCentred : calibrate::Lattice::kBodyCentred;
+    int compared = 0;
+    for (const FoundPacking& point : *points) {
+      if (point.volume_ratio > 1.1) continue;
+      const auto at = calibrate::lattice_geometry(lattice, point.volume_ratio);
+      const double expected = calibrate::pair_pressure(at, 5.0, pair) + at.press * curve->at(at.packing).pressure;
+      EXPECT_NEAR(point.pressure, expected, 1e-3 * std::max(std::abs(expected), 0.02)) << e << " V/V0 " << point.volume_ratio;
+      ++compared;
+    }
+    EXPECT_GT(compared, 30);
+  }
 }
 
 /// What is done is not done again, what was broken off goes on, and the points are the same bits.
