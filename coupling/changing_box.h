@@ -11,7 +11,9 @@ namespace morula {
 [[nodiscard]] Box box_at(const Box& of_study, const TimeCourse& volume, double time);
 
 /// Only such a box can follow a course.
-[[nodiscard]] inline bool periodic_along_all_axes(const Space& space) { return space.periodic(0) && space.periodic(1) && space.periodic(2); }
+[[nodiscard]] inline bool periodic_along_all_axes(const Space& space) {
+  return space.periodic(0) && space.periodic(1) && space.periodic(2);
+}
 
 /// Moves all places of a tissue with the affine map between two boxes about one centre, so that a place keeps its share of the box.
 void carry(Tissue& tissue, const Box& from, const Box& to);

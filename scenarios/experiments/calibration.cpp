@@ -25,8 +25,9 @@ Status fit_on_root(const Study& study, Calibration& out) {
   const calibrate::Fit& fit = out.sure.fit;
   const double pull_off = fit.pull_off(1.0);
   out.misfit = calibrate::misfit_share(out.data.points, fit);
-  out.held_out = calibrate::held_out_errors(out.data.points, calibrate::jkr_model(fit.parameters.young, fit.poisson, fit.parameters.adhesion),
-                                            curve_of(fit.parameters.knots), pull_off);
+  out.held_out =
+      calibrate::held_out_errors(out.data.points, calibrate::jkr_model(fit.parameters.young, fit.poisson, fit.parameters.adhesion),
+                                 curve_of(fit.parameters.knots), pull_off);
   auto table = calibrate::fit_table(out.data.points);
   if (!table.ok()) {
     out.data.remarks.push_back("no table: " + table.error().message);
@@ -46,7 +47,7 @@ Status fit_on_root(const Study& study, Calibration& out) {
 Result<Calibration> calibrate_jkr(const Study& study, const std::string& type, const ExperimentRequest& request, const Comm& comm) {
   Calibration out;
   MORULA_TRY_ASSIGN(out.material, material_of(study, type));
-  out.experiments = experiments_for(out.material);
+  out.experiments = experiments_for(out.material, request.packings);
   MORULA_TRY_ASSIGN(out.outcomes, run_experiments(out.experiments, request, comm));
   MORULA_TRY(agree(comm.is_root() ? fit_on_root(study, out) : Status{}, comm));
   return out;

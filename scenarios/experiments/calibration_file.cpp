@@ -9,22 +9,27 @@
 namespace morula::scenarios {
 namespace {
 
-std::string number(double value) { return std::isfinite(value) ? shortest_text(value) : value > 0.0 ? ".inf" : value < 0.0 ? "-.inf" : ".nan"; }
+std::string number(double value) {
+  return std::isfinite(value) ? shortest_text(value) : value > 0.0 ? ".inf" : value < 0.0 ? "-.inf" : ".nan";
+}
 std::string of(double value, const char* unit) { return number(value) + " " + unit; }
 
-std::string interval(const calibrate::Interval& range, const char* unit) { return "[" + of(range.low, unit) + ", " + of(range.high, unit) + "]"; }
+std::string interval(const calibrate::Interval& range, const char* unit) {
+  return "[" + of(range.low, unit) + ", " + of(range.high, unit) + "]";
+}
 
 std::string knots_text(const std::vector<cbm::PackingKnot>& knots) {
   std::string out;
   for (const cbm::PackingKnot& knot : knots)
-    out += (out.empty() ? "" : ", ") + std::string("{packing: ") + number(100.0 * knot.packing) + " %, pressure: " + of(knot.pressure, "kPa") + "}";
+    out += (out.empty() ? "" : ", ") + std::string("{packing: ") + number(100.0 * knot.packing) +
+           " %, pressure: " + of(knot.pressure, "kPa") + "}";
   return "[" + out + "]";
 }
 
 std::string errors_text(const calibrate::HeldOutErrors& errors) {
-  return "{pairs: " + std::to_string(errors.pairs) + ", force_rms: " + number(errors.force_rms) + ", force_worst: " + number(errors.force_worst) +
-         ", packings: " + std::to_string(errors.packings) + ", pressure_rms: " + number(errors.pressure_rms) +
-         ", pressure_worst: " + number(errors.pressure_worst) + "}";
+  return "{pairs: " + std::to_string(errors.pairs) + ", force_rms: " + number(errors.force_rms) +
+         ", force_worst: " + number(errors.force_worst) + ", packings: " + std::to_string(errors.packings) +
+         ", pressure_rms: " + number(errors.pressure_rms) + ", pressure_worst: " + number(errors.pressure_worst) + "}";
 }
 
 /// Least and largest of what the fitted points have.
@@ -50,15 +55,16 @@ Ranges ranges_of(const calibrate::Data& data) {
 
 std::string ranges_text(const calibrate::Data& data) {
   const Ranges r = ranges_of(data);
-  const auto pair = [](const double (&range)[2]) { return "[" + number(range[0]) + ", " + number(range[1]) + "]"; };
+  const auto pair = [](const double(&range)[2]) { return "[" + number(range[0]) + ", " + number(range[1]) + "]"; };
   return "{overlap_over_radius: " + pair(r.overlap) + ", radius: [" + of(r.radius[0], "um") + ", " + of(r.radius[1], "um") + "]" +
          (r.room[0] <= r.room[1] ? ", volume_ratio: " + pair(r.room) : "") + ", slowest_rate: " + of(r.rate, "um/s") + "}";
 }
 
 std::string table_text(const FittedTable& fitted) {
-  std::string out = "table:  # F/R* over delta/R* of attached pairs, R* the reduced radius\n  touch: " + number(fitted.table.touch_overlap()) +
-                    "\n  exponent: " + number(fitted.exponent.value) + "\n  exponent_error: " + number(fitted.exponent.error) +
-                    "\n  held_out: " + errors_text(fitted.held_out) + "\n";
+  std::string out =
+      "table:  # F/R* over delta/R* of attached pairs, R* the reduced radius\n  touch: " + number(fitted.table.touch_overlap()) +
+      "\n  exponent: " + number(fitted.exponent.value) + "\n  exponent_error: " + number(fitted.exponent.error) +
+      "\n  held_out: " + errors_text(fitted.held_out) + "\n";
   if (!fitted.packing.empty()) out += "  packing: " + knots_text(fitted.packing) + "\n";
   out += "  knots:\n";
   for (const cbm::PairTableKnot& knot : fitted.table.knots())
@@ -73,9 +79,9 @@ std::string calibration_text(const Calibration& found) {
   const calibrate::Fit& fit = sure.fit;
   std::string out = "# Contact law of spheres, found from shells by `morula calibrate jkr`. Intervals: 95 %, by profiles of the loss.\n";
   out += "schema: 1\nversion: " + build_info().version + "\ntype: " + found.material.type + "\nmaterial: " + found.material.hash() +
-         "  # hash of what the shells are\nnodes: " + std::to_string(found.material.nodes) + "\nradius: " + of(found.material.radius, "um") +
-         "\nadhesion_of_shells: " + of(found.material.adhesion, "nN/um") + "\nbetter: " + (found.table_is_better() ? "table" : "jkr") +
-         "  # on what was held out\n";
+         "  # hash of what the shells are\nnodes: " + std::to_string(found.material.nodes) +
+         "\nradius: " + of(found.material.radius, "um") + "\nadhesion_of_shells: " + of(found.material.adhesion, "nN/um") +
+         "\nbetter: " + (found.table_is_better() ? "table" : "jkr") + "  # on what was held out\n";
   out += "jkr:\n  young: " + of(fit.parameters.young, "kPa") + "\n  young_interval: " + interval(sure.young.interval, "kPa") +
          "\n  poisson: " + number(fit.poisson) + "\n  adhesion: " + of(fit.parameters.adhesion, "nN/um") +
          "\n  adhesion_interval: " + interval(sure.adhesion.interval, "nN/um") + "\n  young_error: " + number(sure.covariance.young_error) +
@@ -84,7 +90,8 @@ std::string calibration_text(const Calibration& found) {
          "  # part of the loss of pairs that JKR cannot take\n  held_out: " + errors_text(found.held_out) + "\n";
   if (!fit.parameters.knots.empty()) out += "  packing: " + knots_text(fit.parameters.knots) + "\n";
   if (found.table) out += table_text(*found.table);
-  out += "ranges: " + ranges_text(found.data.points) + "\nremarks:" + (found.data.remarks.empty() && fit.remarks.empty() ? " []" : "") + "\n";
+  out +=
+      "ranges: " + ranges_text(found.data.points) + "\nremarks:" + (found.data.remarks.empty() && fit.remarks.empty() ? " []" : "") + "\n";
   for (const auto* remarks : {&found.data.remarks, &fit.remarks})
     for (std::string remark : *remarks) {
       std::ranges::replace(remark, '"', '\'');

@@ -70,7 +70,8 @@ Curve table_curve(const FittedTable& law, double reduced, const Range& range) {
 
 /// Points of pairs that are fitted, or held out, with the law and that of the study's own numbers.
 CurvePlot pair_plot(const Calibration& found, bool held_out) {
-  CurvePlot plot = plot_of(held_out ? "Held out: cells of unequal radii" : "Two cells: force over overlap", axis("overlap δ", "µm"), axis("force", "nN"));
+  CurvePlot plot = plot_of(held_out ? "Held out: cells of unequal radii" : "Two cells: force over overlap", axis("overlap δ", "µm"),
+                           axis("force", "nN"));
   Curve in = curve("shells, pressed", CurveStyle::kPoints), out = curve("shells, pulled", CurveStyle::kPoints);
   Range range;
   double reduced = 0.0;
@@ -84,7 +85,8 @@ CurvePlot pair_plot(const Calibration& found, bool held_out) {
   if (reduced > 0.0) {
     const calibrate::Fit& fit = found.sure.fit;
     plot.curves.push_back(jkr_curve("fitted JKR", fit, fit.parameters.young, fit.parameters.adhesion, reduced, range.low, range.high));
-    plot.curves.push_back(jkr_curve("JKR with the W of the study", fit, fit.parameters.young, found.material.adhesion, reduced, range.low, range.high));
+    plot.curves.push_back(
+        jkr_curve("JKR with the W of the study", fit, fit.parameters.young, found.material.adhesion, reduced, range.low, range.high));
   }
   if (reduced > 0.0 && found.table) plot.curves.push_back(table_curve(*found.table, reduced, range));
   plot.curves.push_back(std::move(in));
@@ -104,7 +106,8 @@ CurvePlot area_plot(const Calibration& found) {
     range.include(p.overlap), reduced = p.reduced_radius();
   }
   const double young = fit.parameters.young;
-  const auto pair = cbm::make_pair_law(cbm::ContactMaterial::elastic(young, fit.poisson, young, fit.poisson, fit.parameters.adhesion), reduced);
+  const auto pair =
+      cbm::make_pair_law(cbm::ContactMaterial::elastic(young, fit.poisson, young, fit.poisson, fit.parameters.adhesion), reduced);
   for (int i = 0; i <= 200 && reduced > 0.0; ++i) {
     const double overlap = range.low + (range.high - range.low) * i / 200.0;
     law.x.push_back(overlap);
@@ -126,7 +129,8 @@ CurvePlot profile_plot(const calibrate::Profile& profile, const char* name, cons
 CurvePlot packing_plot(const Calibration& found) {
   CurvePlot plot = plot_of("Packings: pressure over room", axis("V/V0", ""), axis("pressure", "kPa"));
   for (const auto lattice : {calibrate::Lattice::kFaceCentred, calibrate::Lattice::kBodyCentred}) {
-    Curve shells = curve(lattice == calibrate::Lattice::kFaceCentred ? "shells, face-centred" : "shells, body-centred", CurveStyle::kPoints);
+    Curve shells =
+        curve(lattice == calibrate::Lattice::kFaceCentred ? "shells, face-centred" : "shells, body-centred", CurveStyle::kPoints);
     for (const auto& p : found.data.points.packings)
       if (p.lattice == lattice) shells.x.push_back(p.volume_ratio), shells.y.push_back(p.pressure);
     if (!shells.x.empty()) plot.curves.push_back(std::move(shells));
@@ -141,20 +145,23 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
   out.title = "Contact law of '" + found.material.type + "' from deformable cells";
   out.study = found.material.type;
   out.state = "done";
-  out.summary = "JKR and a curve of packing, fitted to " + std::to_string(found.experiments.size()) + " virtual experiments with shells of " +
-                std::to_string(found.material.nodes) + " nodes.";
-  out.key_numbers = {{"E", three(fit.parameters.young), "kPa (95 %: " + between(sure.young.interval) + ")"},
-                     {"W", three(fit.parameters.adhesion), "nN/um (95 %: " + between(sure.adhesion.interval) + ")"},
-                     {"W of the study", three(found.material.adhesion), "nN/um"},
-                     {"pull-off force", three(fit.pull_off(0.5 * found.material.radius)), "nN"},
-                     {"1.5 π W R* with the W of the study", three(0.75 * std::numbers::pi * found.material.adhesion * found.material.radius), "nN"},
-                     {"correlation of ln E and ln W", three(sure.covariance.correlation), ""},
-                     {"loss over its terms", three(fit.loss / static_cast<double>(std::max<std::size_t>(fit.residuals, 1))), ""},
-                     {"part of the loss of pairs that JKR cannot take", three(100.0 * found.misfit), "%"},
-                     {"JKR on what was held out, root mean square", three(100.0 * found.held_out.force_rms), "% of the pull-off force"}};
+  out.summary = "JKR and a curve of packing, fitted to " + std::to_string(found.experiments.size()) +
+                " virtual experiments with shells of " + std::to_string(found.material.nodes) + " nodes.";
+  out.key_numbers = {
+      {"E", three(fit.parameters.young), "kPa (95 %: " + between(sure.young.interval) + ")"},
+      {"W", three(fit.parameters.adhesion), "nN/um (95 %: " + between(sure.adhesion.interval) + ")"},
+      {"W of the study", three(found.material.adhesion), "nN/um"},
+      {"pull-off force", three(fit.pull_off(0.5 * found.material.radius)), "nN"},
+      {"1.5 π W R* with the W of the study", three(0.75 * std::numbers::pi * found.material.adhesion * found.material.radius), "nN"},
+      {"correlation of ln E and ln W", three(sure.covariance.correlation), ""},
+      {"loss over its terms", three(fit.loss / static_cast<double>(std::max<std::size_t>(fit.residuals, 1))), ""},
+      {"part of the loss of pairs that JKR cannot take", three(100.0 * found.misfit), "%"},
+      {"JKR on what was held out, root mean square", three(100.0 * found.held_out.force_rms), "% of the pull-off force"}};
   if (found.table) {
-    out.key_numbers.push_back({"a table on what was held out, root mean square", three(100.0 * found.table->held_out.force_rms), "% of the pull-off force"});
-    out.key_numbers.push_back({"n of F ∝ (δ − δ_0)ⁿ where cells push (Hertz: 1.5)", three(found.table->exponent.value), "± " + three(found.table->exponent.error)});
+    out.key_numbers.push_back(
+        {"a table on what was held out, root mean square", three(100.0 * found.table->held_out.force_rms), "% of the pull-off force"});
+    out.key_numbers.push_back({"n of F ∝ (δ − δ_0)ⁿ where cells push (Hertz: 1.5)", three(found.table->exponent.value),
+                               "± " + three(found.table->exponent.error)});
     out.key_numbers.push_back({"better on what was held out", found.table_is_better() ? "the table" : "JKR", ""});
   }
   const auto add = [&](const CurvePlot& plot) { out.plots.push_back({"", curves_svg(plot, SvgUse::kInline)}); };

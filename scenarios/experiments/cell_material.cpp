@@ -17,8 +17,10 @@ constexpr std::array<const char*, 2> kOfShells{"dcm", "osmosis"};
 std::string flow(const Node& node) {
   std::string out;
   switch (node.kind) {
-    case Node::Kind::kNull: return "~";
-    case Node::Kind::kScalar: return node.text;
+    case Node::Kind::kNull:
+      return "~";
+    case Node::Kind::kScalar:
+      return node.text;
     case Node::Kind::kList:
       for (const Node& item : node.items) out += (out.empty() ? "" : ", ") + flow(item);
       return "[" + out + "]";
@@ -66,8 +68,7 @@ std::string CellMaterial::hash() const {
 Result<CellMaterial> material_of(const Study& study, const std::string& name) {
   const Model& model = study.model;
   const auto found = std::ranges::find(model.types, name, &CellType::name);
-  if (found == model.types.end())
-    return Error{ErrorKind::kInput, "the study has no cell type '" + name + "'", "it has " + names_of(model)};
+  if (found == model.types.end()) return Error{ErrorKind::kInput, "the study has no cell type '" + name + "'", "it has " + names_of(model)};
   if (!found->regional_tension.regions.empty() || !model.mark_names.empty())
     return Error{ErrorKind::kInput, "the surface of '" + name + "' has parts of its own",
                  "one law of contact cannot stand for them: calibrate a type without marks and regions"};

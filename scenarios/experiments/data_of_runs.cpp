@@ -12,9 +12,9 @@
 namespace morula::scenarios {
 namespace {
 
-constexpr int kPlaces = 50;           // of a curve, on the way in and on the way out
-constexpr double kLoosest = 1.1;      // V/V0 of the first point of a packing
-constexpr double kNoForce = 0.01;     // of the largest force: a pair that bears less has parted
+constexpr int kPlaces = 50;        // of a curve, on the way in and on the way out
+constexpr double kLoosest = 1.1;   // V/V0 of the first point of a packing
+constexpr double kNoForce = 0.01;  // of the largest force: a pair that bears less has parted
 
 /// A pair at one rate, by the way of its traps.
 struct Curve {
@@ -106,8 +106,9 @@ Result<ExperimentData> data_of_runs(std::span<const Experiment> experiments, std
       for (const FoundPacking& point : points)
         if (point.volume_ratio <= kLoosest)
           out.points.packings.push_back({.experiment = block,
-                                         .lattice = experiment.lattice == Experiment::Lattice::kFaceCentred ? calibrate::Lattice::kFaceCentred
-                                                                                                           : calibrate::Lattice::kBodyCentred,
+                                         .lattice = experiment.lattice == Experiment::Lattice::kFaceCentred
+                                                        ? calibrate::Lattice::kFaceCentred
+                                                        : calibrate::Lattice::kBodyCentred,
                                          .volume_ratio = point.volume_ratio,
                                          .pressure = point.pressure,
                                          .radius = experiment.radius_a,

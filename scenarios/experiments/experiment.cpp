@@ -11,24 +11,27 @@
 namespace morula::scenarios {
 namespace {
 
-constexpr double kDeepest = 0.35;         // δ/R at which a pair turns
-constexpr double kFarthest = -0.8;        // δ/R at which it ends
-constexpr double kFastest = 0.002;        // rate of the fastest pair over R [1/s]
-constexpr double kUnequal = 1.3;          // ratio of the radii of the pair that is held out
-constexpr double kTrap = 20.0;            // stiffness of the traps [nN/µm]
-constexpr int kPairOutputs = 100;         // of a pair
+constexpr double kDeepest = 0.35;              // δ/R at which a pair turns
+constexpr double kFarthest = -0.8;             // δ/R at which it ends
+constexpr double kFastest = 0.002;             // rate of the fastest pair over R [1/s]
+constexpr double kUnequal = 1.3;               // ratio of the radii of the pair that is held out
+constexpr double kTrap = 20.0;                 // stiffness of the traps [nN/µm]
+constexpr int kPairOutputs = 100;              // of a pair
 constexpr double kLoose = 1.35, kTight = 0.7;  // V/V0 of a packing at its start and end
-constexpr double kPackingTime = 3000.0;   // [s]
+constexpr double kPackingTime = 3000.0;        // [s]
 constexpr int kPackingOutputs = 65;
+// Friction with the medium. Traps drag a pair through it, so that it must be next to nothing; a box carries its cells along, and with so little
+// friction they would snap together within milliseconds.
+constexpr const char *kThin = "1e6 N s/m^3", *kUsual = "1e8 N s/m^3";
 
 std::string number(double value) { return shortest_text(value); }
 std::string of(double value, const char* unit) { return number(value) + " " + unit; }
 std::string place(const Vec3d& p) { return "[" + of(p.x, "um") + ", " + of(p.y, "um") + ", " + of(p.z, "um") + "]"; }
 
-/// A type with this material, without life and with next to no friction.
-std::string type_text(const CellMaterial& material, const char* name, double radius, const std::string& adhesion) {
-  return "  " + std::string(name) + ": {radius: " + of(radius, "um") +
-         ", friction: {medium: 1e6 N s/m^3, cell_cell: 0 N s/m^3, obstacle: 0 N s/m^3}, adhesion: {" + adhesion + "}, " + material.shell + "}\n";
+/// A type with this material, without life and friction between cells.
+std::string type_text(const CellMaterial& material, const char* name, double radius, const std::string& adhesion, const char* medium) {
+  return "  " + std::string(name) + ": {radius: " + of(radius, "um") + ", friction: {medium: " + medium +
+         ", cell_cell: 0 N s/m^3, obstacle: 0 N s/m^3}, adhesion: {" + adhesion + "}, " + material.shell + "}\n";
 }
 
 /// The section `contact` for cells of these two types.
@@ -45,7 +48,8 @@ std::string head(const CellMaterial& material, const Experiment& experiment, con
 }
 
 std::string trap(const char* type, const Vec3d& center, const std::string& way) {
-  return "  on_" + std::string(type) + ": {type: " + type + ", trap: {stiffness: " + of(kTrap, "mN/m") + ", center: " + place(center) + way + "}}\n";
+  return "  on_" + std::string(type) + ": {type: " + type + ", trap: {stiffness: " + of(kTrap, "mN/m") + ", center: " + place(center) +
+         way + "}}\n";
 }
 
 /// Places of a cubic packing in units of the edge of its cube.
@@ -62,8 +66,8 @@ Experiment pair_experiment(const CellMaterial& material, const std::string& name
   const double output = std::ceil((in + out) / kPairOutputs);
   Experiment e{.kind = Experiment::Kind::kPair,
                .name = name,
-               .purpose = "Two cells of " + number_text("%.4g", radius_a) + " and " + number_text("%.4g", radius_b) + " um, pressed together and pulled apart at " +
-                          number_text("%.4g", 1e3 * rate) + " nm/s",
+               .purpose = "Two cells of " + number_text("%.4g", radius_a) + " and " + number_text("%.4g", radius_b) +
+                          " um, pressed together and pulled apart at " + number_text("%.4g", 1e3 * rate) + " nm/s",
                .text = {},
                .radius_a = radius_a,
                .radius_b = radius_b,
@@ -71,12 +75,14 @@ Experiment pair_experiment(const CellMaterial& material, const std::string& name
                .turn = in};
   const double end = output * std::ceil((in + out) / output), box = 8.0 * (radius_a + radius_b);
   const Vec3d low{0, 0, -radius_a - gap}, high{0, 0, radius_b};
-  const std::string way = ", direction: [0, 0, 1], way: [{time: 0 s, distance: 0 um}, {time: " + of(in, "s") + ", distance: " +
-                          of(-(gap + kDeepest * radius), "um") + "}, {time: " + of(in + out, "s") + ", distance: " + of(-gap - kFarthest * radius, "um") + "}]";
+  const std::string way = ", direction: [0, 0, 1], way: [{time: 0 s, distance: 0 um}, {time: " + of(in, "s") +
+                          ", distance: " + of(-(gap + kDeepest * radius), "um") + "}, {time: " + of(in + out, "s") +
+                          ", distance: " + of(-gap - kFarthest * radius, "um") + "}]";
   const std::string none = "0 J/m^2", w = of(material.adhesion, "nN/um");
   e.text = head(material, e, "low, high", end, output) + "domain: {size: " + place({box, box, box}) + ", boundary: open}\ncell_types:\n" +
-           type_text(material, "low", radius_a, "low: " + none + ", high: " + w) + type_text(material, "high", radius_b, "high: " + none) + "initial:\n" +
-           "  - {type: low, at: [" + place(low) + "], as: shell}\n  - {type: high, at: [" + place(high) + "], as: shell}\nloads:\n" + trap("low", low, "") +
+           type_text(material, "low", radius_a, "low: " + none + ", high: " + w, kThin) +
+           type_text(material, "high", radius_b, "high: " + none, kThin) + "initial:\n" + "  - {type: low, at: [" + place(low) +
+           "], as: shell}\n  - {type: high, at: [" + place(high) + "], as: shell}\nloads:\n" + trap("low", low, "") +
            trap("high", high, way);
   e.work = 2.0 * (end + 1000.0);
   return e;
@@ -91,7 +97,8 @@ Experiment packing_experiment(const CellMaterial& material, Experiment::Lattice 
   Experiment e{.kind = Experiment::Kind::kPacking,
                .lattice = lattice,
                .name = face_centred ? "packing_fcc" : "packing_bcc",
-               .purpose = std::string(face_centred ? "Face" : "Body") + "-centred cubic packing whose box shrinks from 1.35 to 0.7 times the volume of its cells",
+               .purpose = std::string(face_centred ? "Face" : "Body") +
+                          "-centred cubic packing whose box shrinks from 1.35 to 0.7 times the volume of its cells",
                .text = {},
                .radius_a = material.radius,
                .radius_b = material.radius,
@@ -101,11 +108,14 @@ Experiment packing_experiment(const CellMaterial& material, Experiment::Lattice 
     for (int y = 0; y < cubes; ++y)
       for (int z = 0; z < cubes; ++z)
         for (const Vec3d& p : cube)
-          places += (places.empty() ? "" : ", ") + place((p + Vec3d{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)} + Vec3d{0.25, 0.25, 0.25}) * edge -
-                                                          Vec3d{0.5, 0.5, 0.5} * box);
-  e.text = head(material, e, "cell, cell", time, time / kPackingOutputs) + "domain: {size: " + place({box, box, box}) + ", boundary: periodic, course: [{time: 0 s, volume: 1}, {time: " +
-           of(time, "s") + ", volume: " + number(kTight / kLoose) + "}]}\ncell_types:\n" +
-           type_text(material, "cell", material.radius, "cell: " + of(material.adhesion, "nN/um")) + "initial:\n  - {type: cell, at: [" + places + "], as: shell}\n";
+          places +=
+              (places.empty() ? "" : ", ") +
+              place((p + Vec3d{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)} + Vec3d{0.25, 0.25, 0.25}) * edge -
+                    Vec3d{0.5, 0.5, 0.5} * box);
+  e.text = head(material, e, "cell, cell", time, time / kPackingOutputs) + "domain: {size: " + place({box, box, box}) +
+           ", boundary: periodic, course: [{time: 0 s, volume: 1}, {time: " + of(time, "s") + ", volume: " + number(kTight / kLoose) +
+           "}]}\ncell_types:\n" + type_text(material, "cell", material.radius, "cell: " + of(material.adhesion, "nN/um"), kUsual) +
+           "initial:\n  - {type: cell, at: [" + places + "], as: shell}\n";
   e.work = static_cast<double>(cube.size() * static_cast<std::size_t>(cubes * cubes * cubes)) * (time + 1000.0);
   return e;
 }
@@ -123,11 +133,12 @@ void add_pairs(const CellMaterial& material, const std::string& name, double rat
 
 }  // namespace
 
-std::vector<Experiment> experiments_for(const CellMaterial& material) {
+std::vector<Experiment> experiments_for(const CellMaterial& material, bool packings) {
   std::vector<Experiment> out;
   add_pairs(material, "equal_pair", 1.0, false, out);
-  for (const auto lattice : {Experiment::Lattice::kFaceCentred, Experiment::Lattice::kBodyCentred})
-    out.push_back(packing_experiment(material, lattice, kPackingTime));
+  if (packings)
+    for (const auto lattice : {Experiment::Lattice::kFaceCentred, Experiment::Lattice::kBodyCentred})
+      out.push_back(packing_experiment(material, lattice, kPackingTime));
   add_pairs(material, "unequal_pair", kUnequal, true, out);
   return out;
 }

@@ -14,25 +14,25 @@ struct Experiment {
   } kind = Kind::kPair;
   enum class Lattice { kFaceCentred, kBodyCentred } lattice = Lattice::kFaceCentred;  ///< of a packing
 
-  std::string name;     ///< of its folder
-  std::string purpose;  ///< for people
-  std::string text;     ///< of its study
-  bool held_out = false;             ///< judged by, never fitted to
+  std::string name;                       ///< of its folder
+  std::string purpose;                    ///< for people
+  std::string text;                       ///< of its study
+  bool held_out = false;                  ///< judged by, never fitted to
   double radius_a = 0.0, radius_b = 0.0;  ///< of the free cells [µm]
-  double rate = 0.0;                 ///< of the distance of a pair [µm/s]; of the strain of the volume of a packing [1/s]
-  double turn = 0.0;                 ///< when a pair is closest [s]
-  double work = 1.0;                 ///< expected, against that of other experiments
+  double rate = 0.0;                      ///< of the distance of a pair [µm/s]; of the strain of the volume of a packing [1/s]
+  double turn = 0.0;                      ///< when a pair is closest [s]
+  double work = 1.0;                      ///< expected, against that of other experiments
 };
 
 /// Rates at which a pair is pressed and pulled, the fastest first: each half of the one before, so that forces without rate are found.
 inline constexpr int kPairRates = 3;
 
 /// What the calibration of a contact law asks (fields_and_coupling.md E). E1 and E2: equal cells that come nearer until δ = 0.35 R and part, at three
-/// rates; E3: face-centred and body-centred cubic packings from V/V0 = 1.35 to 0.7; E5: cells of radii 1 : 1.3, held out.
+/// rates; E3, with `packings`: face-centred and body-centred cubic packings from V/V0 = 1.35 to 0.7; E5: cells of radii 1 : 1.3, held out.
 ///
 /// The centres are held by springs, so that pairs are stable at any distance. Friction between cells is 0 and that with the medium small: forces
 /// at rest do not depend on it, and they are extrapolated to no rate.
-std::vector<Experiment> experiments_for(const CellMaterial& material);
+std::vector<Experiment> experiments_for(const CellMaterial& material, bool packings = false);
 
 /// A pair of cells of these radii [µm], pressed and pulled at a rate [µm/s].
 Experiment pair_experiment(const CellMaterial& material, const std::string& name, double radius_a, double radius_b, double rate);

@@ -11,7 +11,8 @@ namespace {
 
 Result<const SeriesColumn*> column(const SeriesTable& series, const char* name) {
   const SeriesColumn* out = series.find(name);
-  if (out == nullptr) return Error{ErrorKind::kFile, std::string("series.csv has no column '") + name + "'", "the run is of another version"};
+  if (out == nullptr)
+    return Error{ErrorKind::kFile, std::string("series.csv has no column '") + name + "'", "the run is of another version"};
   return out;
 }
 

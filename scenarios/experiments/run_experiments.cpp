@@ -68,7 +68,8 @@ Result<RunSummary> run_it(const Paths& paths, const Experiment& experiment, cons
 
 }  // namespace
 
-Result<std::vector<ExperimentOutcome>> run_experiments(std::span<const Experiment> experiments, const ExperimentRequest& request, const Comm& comm) {
+Result<std::vector<ExperimentOutcome>> run_experiments(std::span<const Experiment> experiments, const ExperimentRequest& request,
+                                                       const Comm& comm) {
   const std::vector<int> rank_of = shared_out(experiments, comm.size());
   const auto tell = [&](const std::string& text) {
     if (request.on_note) request.on_note(text);

@@ -14,9 +14,10 @@ namespace morula::scenarios {
 
 /// Where and how experiments are run.
 struct ExperimentRequest {
-  std::filesystem::path folder;            ///< each experiment has a folder of its name in it
-  int threads = 1;                         ///< of each rank
-  const std::atomic<int>* stop = nullptr;  ///< a StopWish
+  std::filesystem::path folder;                     ///< each experiment has a folder of its name in it
+  int threads = 1;                                  ///< of each rank
+  bool packings = false;                            ///< of a calibration: packings, too
+  const std::atomic<int>* stop = nullptr;           ///< a StopWish
   std::function<void(const std::string&)> on_note;  ///< on any rank, when an experiment begins or ends
 };
 
@@ -30,6 +31,7 @@ struct ExperimentOutcome {
 /// Runs experiments, each on one rank alone: the ranks share the list, the longest first. One that is done is not run again, one that was broken off goes
 /// on from its checkpoint; one whose study is another than that in its folder begins anew. The results do not depend on how many ran at once. An
 /// experiment that fails is told and does not stop the others. Errors: kInterrupted, kStoppedEarly; kFile. Collective.
-Result<std::vector<ExperimentOutcome>> run_experiments(std::span<const Experiment> experiments, const ExperimentRequest& request, const Comm& comm);
+Result<std::vector<ExperimentOutcome>> run_experiments(std::span<const Experiment> experiments, const ExperimentRequest& request,
+                                                       const Comm& comm);
 
 }  // namespace morula::scenarios

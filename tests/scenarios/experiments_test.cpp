@@ -5,18 +5,19 @@
 #include <cmath>
 #include <string>
 
+#include "cbm/laws/jkr.h"
 #include "scenarios/calibrate/confidence.h"
 #include "scenarios/calibrate/lattice.h"
 #include "scenarios/experiments/calibration.h"
 #include "scenarios/experiments/data_of_runs.h"
 #include "scenarios/experiments/found_curves.h"
-#include "cbm/laws/jkr.h"
 #include "tests/study/study_fixture.h"
 
 namespace morula::scenarios {
 namespace {
 
-constexpr const char* kKnots = "packing: {law: knots, knots: [{packing: 8 %, pressure: 0 Pa}, {packing: 12 %, pressure: 90 Pa}, {packing: 30 %, pressure: 500 Pa}]}";
+constexpr const char* kKnots =
+    "packing: {law: knots, knots: [{packing: 8 %, pressure: 0 Pa}, {packing: 12 %, pressure: 90 Pa}, {packing: 30 %, pressure: 500 Pa}]}";
 
 /// Spheres of a law that is known stand where the shells of an experiment do.
 std::vector<Experiment> experiments_with_spheres(double young, double adhesion, Experiment::Kind kind = Experiment::Kind::kPair) {
@@ -29,7 +30,7 @@ std::vector<Experiment> experiments_with_spheres(double young, double adhesion, 
                    (kind == Experiment::Kind::kPair ? "packing: none" : kKnots) + "}";
   material.contact = "{range: 0.5 um}";
   std::vector<Experiment> out;
-  for (Experiment& e : experiments_for(material)) {
+  for (Experiment& e : experiments_for(material, true)) {
     if (e.kind != kind) continue;
     for (std::size_t at = 0; (at = e.text.find("as: shell", at)) != std::string::npos;) e.text.replace(at, 9, "as: sphere");
     out.push_back(e);
@@ -64,7 +65,8 @@ TEST(Experiments, GiveBackTheLawOfSpheres) {
   for (const auto& point : data->points.pairs) {
     if (!point.held_out || point.overlap < 0.0) continue;
     ++held_out;
-    EXPECT_NEAR(point.force, cbm::contact_response(pair, point.overlap, true).force, 0.02 * fit->pull_off(5.0 * 6.5 / 11.5)) << point.overlap;
+    EXPECT_NEAR(point.force, cbm::contact_response(pair, point.overlap, true).force, 0.02 * fit->pull_off(5.0 * 6.5 / 11.5))
+        << point.overlap;
   }
   EXPECT_GT(held_out, 20u);
 }
