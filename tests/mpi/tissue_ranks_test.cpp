@@ -148,7 +148,9 @@ TEST(TissueOnRanks, HasTheSameBitsAsOnOne) {
   const auto together = run(hybrid_model(), world, 60, 1, &amount);
   const auto single = run(hybrid_model(), alone, 60, 1, &amount);
   EXPECT_GT(together.size(), 19u);
-  if (world.is_root()) EXPECT_EQ(amount[0], amount[1]);
+  if (world.is_root()) {
+    EXPECT_EQ(amount[0], amount[1]);
+  }
   expect_same(together, single);
 }
 
@@ -265,7 +267,9 @@ std::vector<std::string> events_in_words(const Comm& comm) {
 
 TEST(TissueOnRanks, TellsEventsWordForWordAsOnOne) {
   const std::vector<std::string> together = events_in_words(Comm(MPI_COMM_WORLD)), single = events_in_words(Comm(MPI_COMM_SELF));
-  if (Comm(MPI_COMM_WORLD).is_root()) EXPECT_EQ(together, single);
+  if (Comm(MPI_COMM_WORLD).is_root()) {
+    EXPECT_EQ(together, single);
+  }
   for (const char* words : {"region core", "outside", "reached its division volume"})
     EXPECT_TRUE(std::any_of(together.begin(), together.end(), [&](const std::string& line) { return line.ends_with(words); })) << words;
 }
@@ -283,7 +287,9 @@ TEST(TissueOnRanks, WithNucleiLinksAndOsmosisHasTheSameBitsAsOnOne) {
   const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
   const Everything single = run(hybrid_model(true), alone, 25, 2);
   expect_same(run(hybrid_model(true), world, 25, 1), single);
-  if (world.is_root()) EXPECT_NE(single, run(hybrid_model(), alone, 25, 1)) << "the interior acts";
+  if (world.is_root()) {
+    EXPECT_NE(single, run(hybrid_model(), alone, 25, 1)) << "the interior acts";
+  }
 }
 
 /// Nuclei that are shells come with promotions, go with demotions, and move between ranks with their cells.
@@ -297,7 +303,9 @@ TEST(TissueOnRanks, WithNucleiThatAreShellsHasTheSameBitsAsOnOne) {
   p.nucleus_shell.bulk_modulus = 10.0;
   const Everything single = run(model, alone, 25, 2);
   expect_same(run(model, world, 25, 1), single);
-  if (world.is_root()) EXPECT_NE(single, run(hybrid_model(true), alone, 25, 1)) << "they are no rigid ones";
+  if (world.is_root()) {
+    EXPECT_NE(single, run(hybrid_model(true), alone, 25, 1)) << "they are no rigid ones";
+  }
 }
 
 }  // namespace
