@@ -60,7 +60,7 @@ Theory filled_box() {
           "together, by the radius of their types, V that of the box, K the bulk modulus.",
           "p = K ln(V0/V)",
           "physics/fields_and_coupling.md D (a)",
-          {"pressure", "mean_pressure", "box_pressure"},
+          {"pressure", "mean_pressure"},
           [](const Study& study, const Subject&, const std::string&) {
             return periodic_along_all_axes(study.model.space) ? Status{} : wrong("needs a box that is periodic along x, y and z");
           },
