@@ -25,6 +25,12 @@ void evaluate_several_laws(PairBlock& block, int count) noexcept {
   }
 }
 
+/// Where the fits of both types hold; without ends where one has none, or another law stands in.
+OverlapRange fitted_range(const SphereParameters& a, const SphereParameters* b, const SphereLaw* law) {
+  if (b == nullptr || law != a.law.get() || !a.fitted.has_ends() || !b->fitted.has_ends()) return {};
+  return {std::max(a.fitted.least, b->fitted.least), std::min(a.fitted.most, b->fitted.most)};
+}
+
 }  // namespace
 
 ContactTable::ContactTable(std::span<const SphereParameters> types, std::span<const SurfacePair> surfaces)
@@ -38,7 +44,9 @@ ContactTable::ContactTable(std::span<const SphereParameters> types, std::span<co
       const SphereParameters& first = types[b < types_ && b < a ? b : a];
       const SphereParameters* second = b < types_ ? &types[b < a ? a : b] : nullptr;
       const SphereLaw* law = law_of(first, second);
-      entries_.push_back({{law, law->couple(first, second, surface.adhesion)}, surface.normal_friction, surface.tangential_friction});
+      entries_.push_back({{law, law->couple(first, second, surface.adhesion), fitted_range(first, second, law)},
+                          surface.normal_friction,
+                          surface.tangential_friction});
     }
   }
 }

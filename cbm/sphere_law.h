@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,7 +32,6 @@ struct SphereLaw {
   std::string word;                ///< of `cbm.law` in a study
   std::string doc;                 ///< what it is, after the word and a colon
   std::vector<KeySpec> own{};      ///< keys of its own
-  bool adhesive = false;           ///< takes the adhesion of the pair
   bool of_small_contacts = false;  ///< asks for contacts that are small against the sphere (cbm/sphere_range.h)
 
   std::shared_ptr<const PairTable> table{};  ///< of a law that is a table (cbm/laws/table.h)
@@ -52,10 +52,20 @@ struct SphereLaw {
   PairOutcome (*respond)(const PairContact& contact, double reduced_radius, double overlap, bool attached) = nullptr;
 };
 
+/// Overlaps over the radius of the smaller sphere, δ/R, that a law was fitted to; without ends where it was not fitted.
+struct OverlapRange {
+  double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] bool has_ends() const {
+    return least > -std::numeric_limits<double>::infinity() || most < std::numeric_limits<double>::infinity();
+  }
+};
+
 /// Contact of two materials: their law and its coefficients. The law is kept alive by the parameters of the spheres.
 struct PairContact {
   const SphereLaw* law = nullptr;
   PairCoefficients coefficient{};
+  OverlapRange fitted{};
 };
 
 /// The laws of contact that every program has: of spheres that say nothing else, and of two spheres whose laws differ.

@@ -30,4 +30,11 @@ inline RestingContact resting_contact(const SphereParameters& a, double radius_a
 /// Whether a contact of this area [µm²] is larger than the law allows for on a sphere of this radius [µm].
 inline bool is_beyond_range(double area, double radius) { return area > std::numbers::pi * kJkrRange * kJkrRange * radius * radius; }
 
+/// Whether a contact of this overlap and area is outside of what its law is for: what the law was fitted to, or else contacts small against the
+/// smaller sphere, of this radius [µm].
+inline bool is_outside_law(const PairContact& contact, double overlap, double area, double smaller_radius) {
+  if (!contact.fitted.has_ends()) return is_beyond_range(area, smaller_radius);
+  return overlap < contact.fitted.least * smaller_radius || overlap > contact.fitted.most * smaller_radius;
+}
+
 }  // namespace morula::cbm

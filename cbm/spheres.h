@@ -96,6 +96,8 @@ struct SphereParameters {
   std::shared_ptr<const SphereLaw> law = jkr_law();  ///< of contact with spheres and obstacles
   LawValues own{};                                   ///< values of the law's own keys
   PackingCurve packing{};                            ///< pressure by packing; empty: none
+  double adhesion_factor = 1.0;                      ///< W of two spheres over that of the study: of a law fitted to shells
+  OverlapRange fitted{};                             ///< of contacts with spheres that have a fitted law, too
 };
 
 }  // namespace morula::cbm

@@ -10,6 +10,10 @@ set(MORULA_COMPILE_OPTIONS -Wall -Wextra -Wshadow -Werror -ffp-contract=off -fno
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   list(APPEND MORULA_COMPILE_OPTIONS -Wno-restrict)
 endif()
+# What GCC warns of after it has inlined depends on the processor that -march=native stands for: such a warning must not keep a user from building.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  list(APPEND MORULA_COMPILE_OPTIONS -Wno-error=array-bounds -Wno-error=maybe-uninitialized -Wno-error=stringop-overflow -Wno-error=stringop-overread)
+endif()
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Kind of build" FORCE)
 endif()

@@ -44,8 +44,9 @@ class ByteWriter {
   }
   template <class T, std::size_t N>
   void put_all(std::span<T, N> values) {
-    const auto raw = std::as_bytes(values);
-    bytes_.insert(bytes_.end(), raw.begin(), raw.end());
+    const std::size_t old = bytes_.size();
+    bytes_.resize(old + values.size_bytes());
+    if (!values.empty()) std::memcpy(bytes_.data() + old, values.data(), values.size_bytes());
   }
   [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
   void clear() { bytes_.clear(); }

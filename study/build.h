@@ -23,6 +23,11 @@ void build_cell_types(BuildContext& context);
 /// The shell of one cell type, or of a nucleus, and whether its laws go together: E513–E515.
 dcm::ShellParameters build_shell(BuildContext& context, const std::string& type_name, const draft::ShellKeys& draft,
                                  double medium_friction);
+/// The law of `cbm: {law: fitted}`: what its file says goes into the sphere, and as text into the draft, where the study says nothing else: E510, E515,
+/// E516, E532 and those of read_fitted_law(). Before build_packing().
+void build_fitted_law(BuildContext& context, const std::string& type_name, draft::CellType& draft, cbm::SphereParameters& sphere);
+/// Whether the types with fitted laws are of the materials that were fitted, and their cells of the sizes: E532, E534. After `resolved_text`.
+void check_fitted_laws(BuildContext& context);
 /// The pressure of packing of one cell type's spheres: E515, E530, E531; empty where there is none.
 cbm::PackingCurve build_packing(BuildContext& context, const std::string& type_name, const draft::CellType& draft);
 void build_geometry(BuildContext& context);

@@ -1,4 +1,5 @@
 #include "study/build.h"
+#include "study/declare.h"
 
 namespace morula::scenarios {
 
@@ -9,7 +10,7 @@ cbm::PackingCurve build_packing(BuildContext& c, const std::string& type_name, c
     c.diagnostics.error(515, t.packing_bulk_modulus.place, "'bulk_modulus' has no effect here", "it belongs to `law: ideal_filled_cell`");
   if (law != "knots" && !t.packing_knots.empty())
     c.diagnostics.error(515, t.packing_knots.front().place, "'knots' have no effect here", "they belong to `law: knots`");
-  if (law == "none") return {};
+  if (law == "none" || law == kFittedLaw) return {};  // the fitted one is there already
   std::vector<cbm::PackingKnot> knots;
   if (law == "knots") {
     for (const auto& [name, place, knot] : t.packing_knots) {

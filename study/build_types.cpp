@@ -4,6 +4,7 @@
 
 #include "study/build.h"
 #include "study/color.h"
+#include "study/declare.h"
 #include "study/law_keys.h"
 #include "study/read_section.h"
 
@@ -155,6 +156,7 @@ class PairTable {
 
 /// The law of a type's spheres with the values of its own keys. E515 for keys of other laws.
 void set_sphere_law(BuildContext& c, const draft::CellType& t, cbm::SphereParameters& sphere) {
+  if (t.sphere_law.value == kFittedLaw) return;  // see build_fitted_law()
   for (const auto& law : c.options.laws->spheres)
     if (law->word == t.sphere_law.value) sphere.law = law;
   for (const KeySpec& key : sphere.law->own)
@@ -167,7 +169,7 @@ void set_sphere_law(BuildContext& c, const draft::CellType& t, cbm::SphereParame
 void build_cell_types(BuildContext& c) {
   if (c.draft.cell_types.size() > kMaxTypes)
     c.diagnostics.error(404, c.draft.cell_types[kMaxTypes].place, "more than " + std::to_string(kMaxTypes) + " cell types", "");
-  for (const auto& [name, place, t] : c.draft.cell_types) {
+  for (auto& [name, place, t] : c.draft.cell_types) {
     CellType type;
     type.name = name;
     type.radius = {t.radius.mean.value, t.radius.spread.value};
@@ -182,7 +184,8 @@ void build_cell_types(BuildContext& c) {
     type.sphere.young = t.sphere_young.value;
     type.sphere.poisson = t.sphere_poisson.value;
     set_sphere_law(c, t, type.sphere);
-    type.sphere.packing = build_packing(c, name, t);
+    build_fitted_law(c, name, t, type.sphere);
+    if (type.sphere.packing.empty()) type.sphere.packing = build_packing(c, name, t);
     type.shell = build_shell(c, name, t, t.friction_medium.value);
     type.interior = build_interior(c, t, name);
     type.self_contact = build_self_contact(c, t);

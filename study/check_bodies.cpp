@@ -74,7 +74,7 @@ void check_axis_of_spheres(BuildContext& c) {
 void check_jkr_range(BuildContext& c) {
   const Model& model = c.study.model;
   for (std::size_t i = 0; i < model.types.size(); ++i) {
-    if (!model.types[i].sphere.law->of_small_contacts || !may_be_sphere(c, i)) continue;
+    if (!model.types[i].sphere.law->of_small_contacts || model.types[i].sphere.fitted.has_ends() || !may_be_sphere(c, i)) continue;
     std::size_t worst = i;
     cbm::RestingContact most{};
     for (std::size_t j = i; j < model.types.size(); ++j) {

@@ -15,6 +15,8 @@ void declare_cycle(Section& section, draft::CellType& type);
 void declare_shell(Section& section, draft::CellType& type);
 /// Mesh and mechanics of a shell; `cell` is null for those of a nucleus, whose defaults are others and which has no regions.
 void declare_shell_keys(Section& section, draft::ShellKeys& shell, draft::CellType* cell);
+/// `cbm.law` of a law in a file of `morula calibrate`, and `cbm.packing.law` of the packing in it.
+inline constexpr const char* kFittedLaw = "fitted";
 /// `cbm.packing`.
 void declare_packing(Section& section, draft::CellType& type);
 /// `regions` and `lateral_easing` of the cortex.

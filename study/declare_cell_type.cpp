@@ -105,11 +105,30 @@ void declare_sphere_law(Section& c, draft::CellType& t) {
               .example = "jkr",
               .source = "Johnson, Kendall & Roberts 1971, doi:10.1098/rspa.1971.0141"};
   for (const auto& one : c.laws().spheres) law.doc += one->word + ": " + one->doc + "; ", law.words.push_back(one->word);
-  law.doc += "two types with different laws meet by Hertz's.";
+  law.doc +=
+      "fitted: what `morula calibrate` found from the shells of this type, in `file`; two types with different laws meet by Hertz's.";
+  law.words.emplace_back(kFittedLaw);
   c.word(law, t.sphere_law);
   c.quantity(cbm::keys::young(), t.sphere_young);
   c.quantity(cbm::keys::poisson(), t.sphere_poisson);
-  declare_law_keys(c, choosable_sphere_laws(c.laws()), {"law", "young", "poisson", "packing"}, t.sphere_own);
+  c.text(
+      {.name = "file",
+       .doc =
+           "TYPE.jkr.yaml of `morula calibrate jkr`, for `law: fitted`: E, Poisson's ratio, the adhesion of two spheres, the pressure of "
+           "packing and "
+           "the range of the fit are those of the file. The type must have the `dcm`, `radius`, adhesion and `contact` that were fitted.",
+       .example = "tumour.jkr.yaml"},
+      t.sphere_file);
+  c.word({.name = "form",
+          .doc = "Which of the laws in the file. better: that which meets what was held out; jkr: elastic with adhesion; table: force and "
+                 "area through points, "
+                 "between spheres of this type.",
+          .fallback = "better",
+          .words = {"better", "jkr", "table"},
+          .example = "jkr",
+          .source = "decision 0047"},
+         t.sphere_form);
+  declare_law_keys(c, choosable_sphere_laws(c.laws()), {"law", "young", "poisson", "packing", "file", "form"}, t.sphere_own);
 }
 
 }  // namespace

@@ -41,9 +41,10 @@ void declare_packing(Section& s, draft::CellType& t) {
       present, [&t](Section& p) {
         p.word({.name = "law",
                 .doc = "ideal_filled_cell: knots with which a cubic close packing of these spheres (without adhesion) has the pressure "
-                       "K_V ln(V0/V), where they alone have less; knots: as given, fitted to shells; none: pairs alone.",
+                       "K_V ln(V0/V), where they alone have less; knots: as given; none: pairs alone; fitted: of the file of `cbm: "
+                       "{law: fitted}`, the default where it has any.",
                 .fallback = "ideal_filled_cell",
-                .words = {"ideal_filled_cell", "knots", "none"},
+                .words = {"ideal_filled_cell", "knots", "none", kFittedLaw},
                 .example = "knots",
                 .source = "choice of this project after Van Liedekerke et al. 2019, doi:10.1371/journal.pcbi.1006273"},
                t.packing_law);

@@ -130,6 +130,7 @@ struct CellType : ShellKeys {
   Given<std::string> sphere_law;
   std::map<std::string, Given<double>> sphere_own;  ///< keys that laws of spheres have for themselves, by name
   Given<double> sphere_young, sphere_poisson;
+  Given<std::string> sphere_file, sphere_form;  ///< of `law: fitted`
   Given<std::string> packing_law;
   Given<double> packing_bulk_modulus;
   std::vector<Named<PackingKnot>> packing_knots;

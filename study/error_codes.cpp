@@ -97,6 +97,12 @@ constexpr ErrorCode kCodes[] = {
     {531, "packing softer than the spheres",
      "The ideal filled cell adds what Hertz contacts lack of K_V ln(V0/V). With so small a bulk modulus they lack nothing (told where "
      "`packing.bulk_modulus` is given; the default then adds nothing)."},
+    {532, "fit of other cells",
+     "A file of `morula calibrate` holds for the shells that it was made with: their `dcm`, radius, adhesion and `contact`. With others "
+     "their forces are not "
+     "known."},
+    {533, "fitted law that is none", "The numbers of a file of `morula calibrate` make no law: it was changed by hand, or is damaged."},
+    {534, "cells of a size that was not fitted", "Radii of the type lie outside of those that the fitted law was found with."},
     {535, "nothing holds the volume",
      "A shell whose bulk modulus is 0 has no pressure: its tension would shrink it to a point. With `osmosis`, too, the bulk modulus ties "
      "the "

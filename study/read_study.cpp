@@ -69,12 +69,13 @@ Result<Study, Diagnostics> read_source(const std::shared_ptr<const SourceText>& 
   BuildContext context{draft, study, diagnostics, folder, options};
   build(context);
   if (options.check_criteria && !diagnostics.has_errors()) options.check_criteria(study, diagnostics);
+  study.resolved_text = write_study(draft, *options.laws);
+  if (!diagnostics.has_errors()) check_fitted_laws(context);
   diagnostics.sort();
   if (options.strict) diagnostics.warnings_to_errors();
   if (diagnostics.has_errors()) return diagnostics;
   study.source_path = source->name;
   study.source_text = source->bytes;
-  study.resolved_text = write_study(draft, *options.laws);
   study.warnings = std::move(diagnostics);
   return study;
 }

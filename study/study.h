@@ -110,6 +110,14 @@ struct InputFile {
   std::string copy;  ///< where its copy belongs in the run folder, as resolved_text names it: "inputs/cells.csv"
 };
 
+/// A cell type whose spheres have a law of `morula calibrate`.
+struct FittedType {
+  std::size_t type = 0;                                ///< number of the cell type
+  std::string name;                                    ///< of the type that was fitted
+  std::string material;                                ///< what its shells were (cell_material.h)
+  double smallest_radius = 0.0, largest_radius = 0.0;  ///< that were fitted [µm]
+};
+
 /// The immutable, validated, unit-converted study; the only way settings enter.
 struct Study {
   std::string name;
@@ -121,6 +129,7 @@ struct Study {
   TimeSpec time;
   std::vector<InitialCells> initial;
   OutputSpec output;
+  std::vector<FittedType> fitted;
   std::vector<std::string> type_colors;  ///< in pictures, by cell type, as pictures/palette.h reads them; empty text: of the palette
   std::string source_path;               ///< the file as given
   std::string source_text;               ///< its bytes

@@ -53,6 +53,9 @@ struct Jkr {
 };
 
 PairCoefficients couple(const SphereParameters& a, const SphereParameters* b, double adhesion) {
+  // Of two types with laws of their own fit, the geometric mean; what spheres do on an obstacle no fit says.
+  if (b != nullptr && (a.adhesion_factor != 1.0 || b->adhesion_factor != 1.0))
+    adhesion *= std::sqrt(a.adhesion_factor * b->adhesion_factor);
   const ContactMaterial m = b != nullptr ? ContactMaterial::elastic(a.young, a.poisson, b->young, b->poisson, adhesion)
                                          : ContactMaterial::against_rigid(a.young, a.poisson, adhesion);
   return {m.modulus, m.adhesion, m.length_factor, m.radius_factor};
@@ -94,7 +97,6 @@ std::shared_ptr<const SphereLaw> jkr_law() {
       {.info = info(),
        .word = "jkr",
        .doc = "JKR, elastic with adhesion",
-       .adhesive = true,
        .of_small_contacts = true,
        .couple = &couple,
        .rest_overlap = [](const PairContact& contact,

@@ -341,7 +341,9 @@ SphereRangeCount SphereContacts::count_beyond_range(const Scene& scene) const {
           if (!(block.area[lane] > 0.0)) return;
           const SpherePair pair = list_.pairs[k];
           ++by_thread[t].contacts;
-          by_thread[t].beyond += cbm::is_beyond_range(block.area[lane], std::min(body[pair.a].radius, body[pair.b].radius));
+          const double a = body[pair.a].radius, b = body[pair.b].radius;
+          const double overlap = a + b - block.distance[lane] - block.offset[lane];
+          by_thread[t].beyond += cbm::is_outside_law(*block.contact[lane], overlap, block.area[lane], std::min(a, b));
         },
         [](std::uint32_t) {});
   });

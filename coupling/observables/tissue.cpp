@@ -36,7 +36,9 @@ std::vector<Observable> tissue_observables(const Model&) {
        "Mean area of a cell that is in contact. Of shells: what is nearer than half the range. Too large at small contact angles, by "
        "c/(2 a tan(angle)) of a contact of radius a; doublets of 162 nodes: 17, 8, 2, -2 % at W/2T = 0.1, 0.3, 0.5, 0.75.",
        [](M m) { return m.measures.mean_contact_area; }},
-      {"contacts_beyond_range", "1", "Part of the contacts of two spheres whose radius is above 0.45 of the smaller sphere's.",
+      {"contacts_beyond_range", "1",
+       "Part of the contacts of two spheres whose overlap is outside of what their law was fitted to; of a law that was not fitted, whose "
+       "radius is above 0.45 of the smaller sphere's.",
        [](M m) { return m.measures.sphere_contacts > 0 ? double(m.measures.contacts_beyond) / double(m.measures.sphere_contacts) : 0.0; }},
       {"overlap", "um", "Deepest penetration of a shell, obstacle or nucleus at this time.", [](M m) { return m.measures.overlap.value; }},
       {"worst_overlap", "um", "Deepest penetration in any step since the last output.",

@@ -43,7 +43,10 @@ struct Calibration {
 /// made on the root, and the others get what is known before it. Errors: those of material_of(), run_experiments(), data_of_runs() and the fit.
 Result<Calibration> calibrate_jkr(const Study& study, const std::string& type, const ExperimentRequest& request, const Comm& comm);
 
-/// TYPE.jkr.yaml: the laws with their units, intervals, covariance, ranges, residuals and errors, and of what cells they are. The same bytes for the same
+/// 32 hexadecimal digits over the text of a material.
+std::string hash_of(const CellMaterial& material);
+
+/// TYPE.jkr.yaml, which study/fitted_law.h reads: the laws with their units, intervals, covariance, ranges, residuals and errors, and of what cells they are. The same bytes for the same
 /// experiments.
 std::string calibration_text(const Calibration& found);
 

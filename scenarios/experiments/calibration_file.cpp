@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "core/numbers/number_text.h"
 #include "results/build_info.h"
+#include "results/hash128.h"
 #include "scenarios/experiments/calibration.h"
 
 namespace morula::scenarios {
@@ -13,6 +15,14 @@ std::string number(double value) {
   return std::isfinite(value) ? shortest_text(value) : value > 0.0 ? ".inf" : value < 0.0 ? "-.inf" : ".nan";
 }
 std::string of(double value, const char* unit) { return number(value) + " " + unit; }
+
+/// In quotes, for a YAML value; what stands there has none.
+std::string in_quotes(std::string text) {
+  std::ranges::replace(text, '"', '\'');
+  std::ranges::replace(text, '\n', ' ');
+  std::ranges::replace(text, '\\', '/');
+  return "\"" + text + "\"";
+}
 
 std::string interval(const calibrate::Interval& range, const char* unit) {
   return "[" + of(range.low, unit) + ", " + of(range.high, unit) + "]";
@@ -55,9 +65,11 @@ Ranges ranges_of(const calibrate::Data& data) {
 
 std::string ranges_text(const calibrate::Data& data) {
   const Ranges r = ranges_of(data);
-  const auto pair = [](const double(&range)[2]) { return "[" + number(range[0]) + ", " + number(range[1]) + "]"; };
-  return "{overlap_over_radius: " + pair(r.overlap) + ", radius: [" + of(r.radius[0], "um") + ", " + of(r.radius[1], "um") + "]" +
-         (r.room[0] <= r.room[1] ? ", volume_ratio: " + pair(r.room) : "") + ", slowest_rate: " + of(r.rate, "um/s") + "}";
+  const auto ends = [](const double(&range)[2], const std::string& unit) {
+    return "{least: " + number(range[0]) + unit + ", most: " + number(range[1]) + unit + "}";
+  };
+  return "{overlap_over_radius: " + ends(r.overlap, "") + ", radius: " + ends(r.radius, " um") +
+         (r.room[0] <= r.room[1] ? ", volume_ratio: " + ends(r.room, "") : "") + ", slowest_rate: " + of(r.rate, "um/s") + "}";
 }
 
 std::string table_text(const FittedTable& fitted) {
@@ -74,14 +86,20 @@ std::string table_text(const FittedTable& fitted) {
 
 }  // namespace
 
+std::string hash_of(const CellMaterial& material) {
+  const std::string text = material.text();
+  return hash128(std::as_bytes(std::span(text))).hex();
+}
+
 std::string calibration_text(const Calibration& found) {
   const calibrate::SureFit& sure = found.sure;
   const calibrate::Fit& fit = sure.fit;
   std::string out = "# Contact law of spheres, found from shells by `morula calibrate jkr`. Intervals: 95 %, by profiles of the loss.\n";
-  out += "schema: 1\nversion: " + build_info().version + "\ntype: " + found.material.type + "\nmaterial: " + found.material.hash() +
-         "  # hash of what the shells are\nnodes: " + std::to_string(found.material.nodes) +
-         "\nradius: " + of(found.material.radius, "um") + "\nadhesion_of_shells: " + of(found.material.adhesion, "nN/um") +
-         "\nbetter: " + (found.table_is_better() ? "table" : "jkr") + "  # on what was held out\n";
+  out += "schema: 1\nversion: " + build_info().version + "\ntype: " + found.material.type +
+         "\nmaterial: " + in_quotes(found.material.text()) + "  # what the shells are\nhash: " + hash_of(found.material) +
+         "  # of the material\nnodes: " + std::to_string(found.material.nodes) + "\nradius: " + of(found.material.radius, "um") +
+         "\nadhesion_of_shells: " + of(found.material.adhesion, "nN/um") + "\nbetter: " + (found.table_is_better() ? "table" : "jkr") +
+         "  # on what was held out\n";
   out += "jkr:\n  young: " + of(fit.parameters.young, "kPa") + "\n  young_interval: " + interval(sure.young.interval, "kPa") +
          "\n  poisson: " + number(fit.poisson) + "\n  adhesion: " + of(fit.parameters.adhesion, "nN/um") +
          "\n  adhesion_interval: " + interval(sure.adhesion.interval, "nN/um") + "\n  young_error: " + number(sure.covariance.young_error) +
@@ -93,11 +111,7 @@ std::string calibration_text(const Calibration& found) {
   out +=
       "ranges: " + ranges_text(found.data.points) + "\nremarks:" + (found.data.remarks.empty() && fit.remarks.empty() ? " []" : "") + "\n";
   for (const auto* remarks : {&found.data.remarks, &fit.remarks})
-    for (std::string remark : *remarks) {
-      std::ranges::replace(remark, '"', '\'');
-      std::ranges::replace(remark, '\n', ' ');
-      out += "  - \"" + remark + "\"\n";
-    }
+    for (const std::string& remark : *remarks) out += "  - " + in_quotes(remark) + "\n";
   return out;
 }
 

@@ -173,7 +173,7 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
   add(profile_plot(sure.adhesion, "W", "nN/um", fit.loss));
   for (const auto* remarks : {&found.data.remarks, &fit.remarks})
     for (const std::string& remark : *remarks) out.warnings.emplace_back(0.0, remark);
-  out.provenance = {{"version", build_info().version}, {"command", command}, {"material", found.material.hash()}};
+  out.provenance = {{"version", build_info().version}, {"command", command}, {"material", hash_of(found.material)}};
   for (const Experiment& e : found.experiments) out.parameters_text += "# " + e.purpose + "\n" + e.text + "\n";
   return out;
 }

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/experiments/cell_material.h"
+#include "study/cell_material.h"
 
 namespace morula::scenarios {
 

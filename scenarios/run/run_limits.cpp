@@ -61,14 +61,15 @@ Status RunLoop::check_limits(const Measures& m) {
   return {};
 }
 
-/// Elastic spheres are spheres as long as their contacts are small (cbm.md §2).
+/// Elastic spheres are spheres as long as their contacts are small (cbm.md §2), and a fit holds where it was made.
 void RunLoop::tell_contacts_beyond(const Measures& m) {
   constexpr double kMostBeyond = 0.1;
   if ((warned_ & kBeyondRange) != 0 || !(static_cast<double>(m.contacts_beyond) > kMostBeyond * static_cast<double>(m.sphere_contacts)))
     return;
-  note(Note::Kind::kNote, std::to_string(m.contacts_beyond) + " of " + std::to_string(m.sphere_contacts) +
-                              " contacts of spheres have a radius above 0.45 R, where the law of elastic spheres is no more than a fit "
-                              "(`contacts_beyond_range` in series.csv)");
+  note(Note::Kind::kNote,
+       std::to_string(m.contacts_beyond) + " of " + std::to_string(m.sphere_contacts) +
+           " contacts of spheres are outside the range of their law (`contacts_beyond_range` in series.csv): the overlaps it "
+           "was fitted to, or else a contact radius of 0.45 R");
   warned_ |= kBeyondRange;
 }
 

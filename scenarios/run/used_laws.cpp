@@ -82,12 +82,12 @@ void add_contacts(const Model& model, bool shells, bool spheres, std::vector<Use
   if (!spheres) return;
   for (std::size_t t = 0; t < model.types.size(); ++t) {
     const CellType& type = model.types[t];
-    Values values{{"young", type.sphere.young}, {"poisson", type.sphere.poisson}, {"adhesion", model.pair(t, t).adhesion}};
+    const double adhesion = model.pair(t, t).adhesion * type.sphere.adhesion_factor;
+    Values values{{"young", type.sphere.young}, {"poisson", type.sphere.poisson}, {"adhesion", adhesion}};
     for (const KeySpec& key : type.sphere.law->own) values.emplace_back(key.name, type.sphere.own(key.name));
     out.push_back({"spheres of " + type.name, type.sphere.law->info, std::move(values)});
-    if (type.sphere.law->of_small_contacts && model.pair(t, t).adhesion > 0.0) {
-      const cbm::RestingContact rest =
-          cbm::resting_contact(type.sphere, type.radius.mean, type.sphere, type.radius.mean, model.pair(t, t).adhesion);
+    if (type.sphere.law->of_small_contacts && !type.sphere.fitted.has_ends() && adhesion > 0.0) {
+      const cbm::RestingContact rest = cbm::resting_contact(type.sphere, type.radius.mean, type.sphere, type.radius.mean, adhesion);
       out.push_back({"spheres of " + type.name,
                      cbm::jkr_range_law(),
                      {{"contact_ratio", rest.radius_ratio}, {"overlap_ratio", rest.overlap_ratio}, {"covered", rest.covered}}});

@@ -3,14 +3,18 @@
 
 #include <atomic>
 #include <cmath>
+#include <fstream>
+#include <numbers>
 #include <string>
 
 #include "cbm/laws/jkr.h"
+#include "results/snapshot_file.h"
 #include "scenarios/calibrate/confidence.h"
 #include "scenarios/calibrate/lattice.h"
 #include "scenarios/experiments/calibration.h"
 #include "scenarios/experiments/data_of_runs.h"
 #include "scenarios/experiments/found_curves.h"
+#include "scenarios/run/driver.h"
 #include "tests/study/study_fixture.h"
 
 namespace morula::scenarios {
@@ -69,6 +73,42 @@ TEST(Experiments, GiveBackTheLawOfSpheres) {
         << point.overlap;
   }
   EXPECT_GT(held_out, 20u);
+}
+
+/// A study that takes a law from the file of a calibration: two spheres come to rest where JKR with the true E and W has no load, though the shells of the
+/// type adhere twice as much; and after a swap of the law to that of the study they do not.
+TEST(Experiments, AStudyUsesTheLawThatWasFound) {
+  const test::Folder folder;
+  const auto experiments = experiments_with_spheres(0.8, 0.05);
+  const auto outcomes = run_experiments(experiments, in(folder.path()), Comm());
+  ASSERT_TRUE(outcomes.ok());
+  const std::string text =
+      "schema: 1\nstudy: pair\ntime: {end: 3 h, output: 3 h}\ndomain: {size: [80 um, 80 um, 80 um]}\noutput: {report: false}\n"
+      "cell_types: {ball: {radius: 5 um, adhesion: {ball: 0.1 mN/m}, cbm: {law: jkr, packing: none}}}\n"
+      "initial: [{type: ball, at: [[-4.9 um, 0 um, 0 um], [4.9 um, 0 um, 0 um]]}]\n";
+  Calibration found;
+  const auto plain = test::read(text);
+  ASSERT_TRUE(plain.ok()) << plain.error().text();
+  found.material = material_of(*plain, "ball").value();
+  found.data = data_of_runs(experiments, *outcomes).value();
+  found.sure.fit = calibrate::fit(found.data.points, {}).value();
+  found.data.remarks.push_back("a \"remark\" with\nparts: [of, {YAML");
+  std::ofstream(folder.path() / "ball.jkr.yaml") << calibration_text(found);
+  const auto distance = [&](const std::string& law, const char* name) {
+    const auto study = test::read(test::changed("law: jkr", law, text), {}, folder.path());
+    if (!study.ok()) return ADD_FAILURE() << study.error().text(), 0.0;
+    RunRequest request;
+    request.out = folder.path() / name;
+    EXPECT_TRUE(run(*study, request, Comm()).ok());
+    const auto last = read_snapshot(folder.path() / name / "results.h5", 1);
+    if (!last.ok()) return ADD_FAILURE() << last.error().message, 0.0;
+    return norm(last->cells[1].centroid - last->cells[0].centroid);
+  };
+  // JKR at no load: a³ = 9πWR*²/(2E*), δ = a²/(3R*), E* of two such spheres 0.8 kPa/(2 · 0.84)
+  const double modulus = 0.8 / 1.68, contact = std::cbrt(4.5 * std::numbers::pi * 0.05 * 6.25 / modulus);
+  const double rest = contact * contact / 7.5;
+  EXPECT_NEAR(distance("law: fitted, file: ball.jkr.yaml", "fitted"), 10.0 - rest, 0.02 * rest);
+  EXPECT_GT(std::abs(distance("law: jkr, young: 0.8 kPa", "plain") - (10.0 - rest)), 0.1 * rest);
 }
 
 /// Packings of adhering spheres that resist packing, whose box shrinks: the pressure of the box is that of the lattice in closed form, from pairs by JKR
@@ -191,7 +231,7 @@ TEST(CellMaterial, HasAnotherHashWhereItIsAnother) {
     if (const auto at = text.find(from); at != std::string::npos) text.replace(at, std::string(from).size(), to);
     const auto study = read_study_text("two.yaml", text, ".");
     EXPECT_TRUE(study.ok()) << study.error().text();
-    return material_of(*study, "soft")->hash();
+    return hash_of(*material_of(*study, "soft"));
   };
   const std::string as_it_is = hash(kStudy, "study: two_types", "study: renamed");
   EXPECT_EQ(as_it_is, hash(kStudy, "radius: 6 um", "radius: 7 um"));  // of the other type

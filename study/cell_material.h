@@ -18,12 +18,15 @@ struct CellMaterial {
   std::string contact;  ///< the section `contact` without its pairs, as YAML in one line
   std::string pair;     ///< what stands there for two cells of the type: `, repulsion: 50 kPa/um`
 
-  /// 32 hexadecimal digits over all of it: a fit belongs to the material that has its hash.
-  [[nodiscard]] std::string hash() const;
+  /// All that the shells are, as a YAML map in one line: a fit belongs to the material that has its text.
+  [[nodiscard]] std::string text() const;
 };
 
 /// Errors (kInput): no such type; a type whose surface has parts of its own (marks, regions of tension, adhesion by region), which one pair curve
 /// cannot stand for.
 Result<CellMaterial> material_of(const Study& study, const std::string& type);
+
+/// Where two texts of materials differ first: "`dcm.tension` is 0.1 mN/m here and 0.2 mN/m there"; empty where they do not.
+std::string first_difference(const std::string& here, const std::string& there);
 
 }  // namespace morula::scenarios

@@ -1,11 +1,10 @@
-#include "scenarios/experiments/cell_material.h"
+#include "study/cell_material.h"
 
 #include <algorithm>
 #include <array>
 #include <memory>
 
 #include "core/numbers/number_text.h"
-#include "results/hash128.h"
 #include "study/document.h"
 
 namespace morula::scenarios {
@@ -52,6 +51,23 @@ void take_contact(const Node& document, const std::string& type, CellMaterial& o
         if (entry.key != "between") out.pair += ", " + entry.key + ": " + flow(entry.value);
 }
 
+/// What two maps say differently first; empty: nothing.
+std::string difference(const Node& here, const Node& there, const std::string& path) {
+  if (here.kind != Node::Kind::kMap || there.kind != Node::Kind::kMap) {
+    const std::string a = flow(here), b = flow(there);
+    return a == b ? "" : "`" + path + "` is " + a + " here and " + b + " there";
+  }
+  const auto under = [&](const std::string& key) { return path.empty() ? key : path + "." + key; };
+  for (const Node::Entry& entry : here.entries) {
+    const Node* other = there.find(entry.key);
+    if (other == nullptr) return "`" + under(entry.key) + "` is " + flow(entry.value) + " here and not said there";
+    if (std::string found = difference(entry.value, *other, under(entry.key)); !found.empty()) return found;
+  }
+  for (const Node::Entry& entry : there.entries)
+    if (here.find(entry.key) == nullptr) return "`" + under(entry.key) + "` is " + flow(entry.value) + " there and not said here";
+  return "";
+}
+
 std::string names_of(const Model& model) {
   std::string out;
   for (const CellType& type : model.types) out += (out.empty() ? "`" : ", `") + type.name + "`";
@@ -60,9 +76,20 @@ std::string names_of(const Model& model) {
 
 }  // namespace
 
-std::string CellMaterial::hash() const {
-  const std::string all = shell + "\n" + contact + pair + "\n" + shortest_text(radius) + "\n" + shortest_text(adhesion);
-  return hash128(std::as_bytes(std::span(all))).hex();
+std::string CellMaterial::text() const {
+  const std::string touch = pair.empty() ? "" : pair.substr(2);  // without the comma before the first
+  return "{" + shell + (shell.empty() ? "" : ", ") + "contact: " + contact + ", pair: {" + touch + "}, radius: " + shortest_text(radius) +
+         " um, adhesion: " + shortest_text(adhesion) + " nN/um}";
+}
+
+std::string first_difference(const std::string& here, const std::string& there) {
+  if (here == there) return "";
+  Diagnostics ignored;
+  const auto parsed = [&](const std::string& text) {
+    return parse_document(std::make_shared<SourceText>(SourceText("material", text)), ignored);
+  };
+  const std::string found = difference(parsed(here), parsed(there), "");
+  return found.empty() ? "they are written in another way" : found;
 }
 
 Result<CellMaterial> material_of(const Study& study, const std::string& name) {

@@ -1,0 +1,175 @@
+#include "study/fitted_law.h"
+
+#include <utility>
+
+#include "study/document.h"
+#include "study/read_section.h"
+
+namespace morula::scenarios {
+namespace {
+
+using Q = Quantity;
+
+/// What the file says of which a study takes a part; the rest is for people.
+struct Knot {
+  Given<double> packing, pressure;
+};
+struct TableKnot {
+  Given<double> overlap, force, area;
+};
+struct Ends {
+  Given<double> least, most;
+};
+struct File {
+  Given<std::uint64_t> schema, nodes;
+  Given<std::string> version, type, material, better;
+  Given<double> radius, adhesion_of_shells;
+  Given<double> young, poisson, adhesion, touch;
+  std::vector<Named<Knot>> packing, beside_table;
+  std::vector<Named<TableKnot>> knots;
+  bool has_table = false;
+  Ends overlap, radii, room;
+  Given<std::string> other;                ///< figures that are not used
+  Given<std::vector<std::string>> others;  ///< lists of such
+};
+
+KeySpec number(const char* name, Q quantity, double low, double high, bool required = true) {
+  return {.name = name, .doc = "", .quantity = quantity, .required = required, .low = low, .high = high, .example = ""};
+}
+KeySpec required(const char* name) { return {.name = name, .doc = "", .required = true, .example = ""}; }
+KeySpec section(const char* name) { return {.name = name, .doc = "", .example = ""}; }
+
+void declare_knot(Section& s, Knot& knot) {
+  s.quantity(number("packing", Q::kFraction, 0.0, 10.0), knot.packing);
+  s.quantity(number("pressure", Q::kPressure, 0.0, 1e4), knot.pressure);
+}
+
+void declare_table_knot(Section& s, TableKnot& knot) {
+  s.quantity(number("overlap", Q::kNumber, -10.0, 10.0), knot.overlap);
+  s.quantity(number("force", Q::kTension, -1e4, 1e4), knot.force);
+  s.quantity(number("area", Q::kNumber, 0.0, 1e3), knot.area);
+}
+
+void declare_ends(Section& s, Ends& ends, Q quantity, double low, double high) {
+  s.quantity(number("least", quantity, low, high), ends.least);
+  s.quantity(number("most", quantity, low, high), ends.most);
+}
+
+/// Figures that tell people how good the fit is.
+void declare_figures(Section& s, File& f, std::initializer_list<const char*> names) {
+  for (const char* name : names) s.text(section(name), f.other);
+}
+
+void declare_held_out(Section& s, File& f) {
+  bool present = false;
+  s.group(section("held_out"), present, [&f](Section& h) {
+    declare_figures(h, f, {"pairs", "force_rms", "force_worst", "packings", "pressure_rms", "pressure_worst"});
+  });
+}
+
+void declare_jkr(Section& s, File& f) {
+  s.quantity(number("young", Q::kPressure, 1e-6, 1e4), f.young);
+  s.quantity(number("poisson", Q::kNumber, 0.0, 0.5), f.poisson);
+  s.quantity(number("adhesion", Q::kTension, 0.0, 1e4), f.adhesion);
+  s.words(section("young_interval"), f.others);
+  s.words(section("adhesion_interval"), f.others);
+  declare_figures(s, f, {"young_error", "adhesion_error", "correlation", "loss", "residuals", "misfit"});
+  declare_held_out(s, f);
+  s.list(section("packing"), f.packing, &declare_knot);
+}
+
+void declare_table(Section& s, File& f) {
+  s.quantity(number("touch", Q::kNumber, -10.0, 10.0, false), f.touch);
+  declare_figures(s, f, {"exponent", "exponent_error"});
+  declare_held_out(s, f);
+  s.list(section("packing"), f.beside_table, &declare_knot);
+  s.list(section("knots"), f.knots, &declare_table_knot);
+}
+
+void declare_ranges(Section& s, File& f) {
+  bool present = false;
+  s.group(required("overlap_over_radius"), present, [&f](Section& g) { declare_ends(g, f.overlap, Q::kNumber, -10.0, 10.0); });
+  s.group(required("radius"), present, [&f](Section& g) { declare_ends(g, f.radii, Q::kLength, 0.01, 1e3); });
+  s.group({.name = "volume_ratio", .doc = "", .optional_section = true, .example = ""}, present,
+          [&f](Section& g) { declare_ends(g, f.room, Q::kNumber, 0.0, 10.0); });
+  s.text(section("slowest_rate"), f.other);
+}
+
+void declare_file(Section& s, File& f) {
+  bool present = false;
+  s.whole({.name = "schema", .doc = "", .required = true, .low = 1.0, .high = 1.0, .example = "1"}, f.schema);
+  for (const auto& [name, value] : {std::pair{"version", &f.version}, {"type", &f.type}, {"material", &f.material}})
+    s.text(required(name), *value);
+  s.text(section("hash"), f.other);
+  s.whole(section("nodes"), f.nodes);
+  s.quantity(number("radius", Q::kLength, 0.01, 1e3), f.radius);
+  s.quantity(number("adhesion_of_shells", Q::kTension, 0.0, 1e4), f.adhesion_of_shells);
+  s.word({.name = "better", .doc = "", .required = true, .words = {"jkr", "table"}, .example = "jkr"}, f.better);
+  s.group(required("jkr"), present, [&f](Section& g) { declare_jkr(g, f); });
+  s.group({.name = "table", .doc = "", .optional_section = true, .example = ""}, f.has_table, [&f](Section& g) { declare_table(g, f); });
+  s.group(required("ranges"), present, [&f](Section& g) { declare_ranges(g, f); });
+  s.words(section("remarks"), f.others);
+}
+
+std::vector<cbm::PackingKnot> knots_of(const std::vector<Named<Knot>>& knots) {
+  std::vector<cbm::PackingKnot> out;
+  for (const auto& knot : knots) out.push_back({knot.content.packing.value, knot.content.pressure.value});
+  return out;
+}
+
+/// The table of the file; E533 where its knots make none.
+std::optional<cbm::PairTable> table_of(const File& file, const Place& place, Diagnostics& diagnostics) {
+  std::vector<cbm::PairTableKnot> knots;
+  for (const auto& [name, at, knot] : file.knots) knots.push_back({knot.overlap.value, knot.force.value, knot.area.value});
+  auto made = cbm::PairTable::through(knots, file.touch.value);
+  if (made.ok()) return std::move(made).value();
+  diagnostics.error(533, file.knots.empty() ? place : file.knots.front().place, "the table makes no law: " + made.error().message,
+                    made.error().help);
+  return {};
+}
+
+bool makes_a_curve(const std::vector<cbm::PackingKnot>& knots, const Place& place, Diagnostics& diagnostics) {
+  if (knots.empty()) return true;
+  const auto curve = cbm::PackingCurve::through(knots);
+  if (curve.ok()) return true;
+  diagnostics.error(530, place, "packing: " + curve.error().message, curve.error().help);
+  return false;
+}
+
+}  // namespace
+
+std::optional<FittedLaw> read_fitted_law(const std::filesystem::path& path, const std::string& shown_name, const Place& referred_from,
+                                         const Laws& laws, Diagnostics& diagnostics) {
+  const std::size_t errors = diagnostics.error_count();
+  const auto source = read_text_file(path, shown_name, kMaxStudyBytes, referred_from, diagnostics);
+  if (!source) return {};
+  const Node document = parse_document(source, diagnostics);
+  if (document.kind == Node::Kind::kNull) return {};
+  if (document.kind != Node::Kind::kMap) {
+    diagnostics.error(104, document.place, "a fitted law is a map (`key: value`)", "`morula calibrate` writes one");
+    return {};
+  }
+  File file;
+  const UnitSystem units;
+  ReadSection top(&document, Place{source, 1, 1, 1}, "", laws, units, diagnostics);
+  declare_file(top, file);
+  top.finish();
+  if (diagnostics.error_count() > errors) return {};
+  FittedLaw out;
+  out.version = file.version.value, out.type = file.type.value, out.material = file.material.value;
+  out.table_is_better = file.better.value == "table";
+  out.young = file.young.value, out.poisson = file.poisson.value, out.adhesion = file.adhesion.value;
+  out.adhesion_of_shells = file.adhesion_of_shells.value;
+  out.packing = knots_of(file.packing), out.beside_table = knots_of(file.beside_table);
+  out.overlap = {file.overlap.least.value, file.overlap.most.value};
+  out.smallest_radius = file.radii.least.value, out.largest_radius = file.radii.most.value;
+  if (file.has_table) out.table = table_of(file, document.place, diagnostics);
+  if (out.table_is_better && !file.has_table)
+    diagnostics.error(533, file.better.place, "the table is said to be better, but there is none", "");
+  if (!(out.overlap.least < out.overlap.most)) diagnostics.error(533, file.overlap.least.place, "the range of overlaps has no width", "");
+  for (const auto* knots : {&out.packing, &out.beside_table}) makes_a_curve(*knots, document.place, diagnostics);
+  if (diagnostics.error_count() > errors) return {};
+  return out;
+}
+
+}  // namespace morula::scenarios

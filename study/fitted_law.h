@@ -1,0 +1,36 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cbm/laws/table.h"
+#include "cbm/packing.h"
+#include "coupling/laws.h"
+#include "study/diagnostics.h"
+
+namespace morula::scenarios {
+
+/// A contact law of spheres that `morula calibrate` found from shells: what a study takes from TYPE.jkr.yaml.
+struct FittedLaw {
+  std::string version;         ///< of the program that made the fit
+  std::string type, material;  ///< of the cells, and what their shells are (study/cell_material.h)
+  bool table_is_better = false;
+
+  double young = 0.0, poisson = 0.0;           ///< JKR: E [kPa], ν
+  double adhesion = 0.0;                       ///< W of two spheres [nN/µm]
+  double adhesion_of_shells = 0.0;             ///< that the fitted shells have [nN/µm]
+  std::vector<cbm::PackingKnot> packing;       ///< beside JKR; empty: packings were not fitted
+  std::optional<cbm::PairTable> table;         ///< none: the points made no table
+  std::vector<cbm::PackingKnot> beside_table;  ///< packing beside the table
+
+  cbm::OverlapRange overlap;                           ///< δ over the smaller radius of what was fitted
+  double smallest_radius = 0.0, largest_radius = 0.0;  ///< of the cells that were fitted [µm]
+};
+
+/// Reads such a file. Errors go to `diagnostics`: E601–E605 at `referred_from`, what is wrong in the file at its place (E1xx, E2xx, E3xx), and E533 where
+/// its numbers make no law; then nothing.
+std::optional<FittedLaw> read_fitted_law(const std::filesystem::path& path, const std::string& shown_name, const Place& referred_from,
+                                         const Laws& laws, Diagnostics& diagnostics);
+
+}  // namespace morula::scenarios

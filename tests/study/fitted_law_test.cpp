@@ -1,0 +1,156 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "study/cell_material.h"
+#include "tests/study/study_fixture.h"
+
+namespace morula::scenarios {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* kStudy = R"(schema: 1
+study: fitted
+time: {end: 1 h}
+domain: {size: [200 um, 200 um, 200 um]}
+cell_types:
+  cell:
+    radius: 6 um
+    adhesion: {cell: 0.1 mN/m}
+    cbm: {law: fitted, file: cell.jkr.yaml}
+initial:
+  - {type: cell, at: [[0 um, 0 um, 0 um]]}
+)";
+
+constexpr const char* kTable = R"(table:
+  touch: 0
+  exponent: 1.2
+  exponent_error: 0.1
+  held_out: {pairs: 10, force_rms: 0.1, force_worst: 0.2, packings: 0, pressure_rms: 0, pressure_worst: 0}
+  knots:
+    - {overlap: -0.1, force: -0.2 nN/um, area: 0}
+    - {overlap: 0.05, force: 0 nN/um, area: 0.4}
+    - {overlap: 0.3, force: 1 nN/um, area: 1.5}
+)";
+
+/// A file of the material of the study above with other numbers than its defaults; `extra`: further sections.
+std::string file_text(const std::string& better = "jkr", const std::string& packing = "", const std::string& extra = "") {
+  const auto plain = test::read(test::changed("{law: fitted, file: cell.jkr.yaml}", "{law: jkr}", kStudy));
+  EXPECT_TRUE(plain.ok());
+  return "schema: 1\nversion: 0\ntype: cell\nmaterial: \"" + material_of(*plain, "cell")->text() +
+         "\"\nhash: 0\nnodes: 162\nradius: 6 um\nadhesion_of_shells: 0.1 nN/um\nbetter: " + better +
+         "\njkr:\n  young: 0.5 kPa\n  young_interval: [0.4 kPa, 0.6 kPa]\n  poisson: 0.4\n  adhesion: 0.08 nN/um\n"
+         "  adhesion_interval: [0 nN/um, .inf nN/um]\n  correlation: .nan\n" +
+         packing + extra +
+         "ranges: {overlap_over_radius: {least: -0.1, most: 0.3}, radius: {least: 5.9 um, most: 7.8 um}, slowest_rate: 0.0025 um/s}\n"
+         "remarks:\n  - \"a remark, with 'words': in it\"\n";
+}
+
+constexpr const char* kPacking =
+    "  packing: [{packing: 8 %, pressure: 0 kPa}, {packing: 12 %, pressure: 0.09 kPa}, {packing: 30 %, pressure: 0.5 kPa}]\n";
+
+struct Written {
+  test::Folder folder;
+  explicit Written(const std::string& text) { std::ofstream(folder.path() / "cell.jkr.yaml") << text; }
+  [[nodiscard]] Result<Study, Diagnostics> read(const std::string& study = kStudy) const { return test::read(study, {}, folder.path()); }
+  [[nodiscard]] std::string errors(const std::string& study = kStudy) const { return test::errors_of(study, {}, folder.path()); }
+};
+
+TEST(FittedLaw, TakesModulusAdhesionPackingAndRangeFromTheFile) {
+  const Written file(file_text("jkr", kPacking));
+  const auto study = file.read();
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  const cbm::SphereParameters& sphere = study->model.types[0].sphere;
+  EXPECT_EQ(sphere.law->word, "jkr");
+  EXPECT_EQ(sphere.young, 0.5);
+  EXPECT_DOUBLE_EQ(sphere.adhesion_factor, 0.8);
+  EXPECT_EQ(sphere.fitted.most, 0.3);
+  EXPECT_EQ(sphere.packing.onset(), 0.08);
+  EXPECT_EQ(study->model.pair(0, 0).adhesion, 0.1);  // shells keep theirs
+  EXPECT_THAT(study->warnings.text(), Not(HasSubstr("E647")));
+}
+
+TEST(FittedLaw, ResolvedStudyTellsTheNumbersAndReadsBackTheSame) {
+  const Written file(file_text("jkr", kPacking));
+  const auto study = file.read();
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  EXPECT_THAT(study->resolved_text, AllOf(HasSubstr("young: 0.5 kPa\n"), HasSubstr("law: fitted"), HasSubstr("inputs/cell.jkr.yaml")));
+  std::filesystem::create_directories(file.folder.path() / "inputs");
+  std::filesystem::copy_file(file.folder.path() / "cell.jkr.yaml", file.folder.path() / "inputs" / "cell.jkr.yaml");
+  const auto again = file.read(study->resolved_text);
+  ASSERT_TRUE(again.ok()) << again.error().text();
+  EXPECT_EQ(again->model.types[0].sphere.packing.onset(), 0.08);
+  EXPECT_EQ(again->model.types[0].sphere.young, 0.5);
+  const auto third = file.read(again->resolved_text);
+  ASSERT_TRUE(third.ok()) << third.error().text();
+  EXPECT_EQ(third->resolved_text, again->resolved_text);
+}
+
+TEST(FittedLaw, TheTableIsTakenWhereItIsBetterOrAskedFor) {
+  const Written better(file_text("table", "", kTable));
+  const auto by_file = better.read();
+  ASSERT_TRUE(by_file.ok()) << by_file.error().text();
+  EXPECT_EQ(by_file->model.types[0].sphere.law->word, "table");
+  const auto jkr = better.read(test::changed("file:", "form: jkr, file:", kStudy));
+  ASSERT_TRUE(jkr.ok()) << jkr.error().text();
+  EXPECT_EQ(jkr->model.types[0].sphere.law->word, "jkr");
+  const Written none(file_text());
+  EXPECT_THAT(none.errors(test::changed("file:", "form: table, file:", kStudy)), AllOf(HasSubstr("E516"), HasSubstr("no table")));
+}
+
+TEST(FittedLaw, PackingIsTheStudysWhereTheFileHasNone) {
+  const Written file(file_text());
+  const auto study = file.read();
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  EXPECT_FALSE(study->model.types[0].sphere.packing.empty());  // of the ideal filled cell, with the fitted modulus
+  EXPECT_THAT(file.errors(test::changed("file:", "packing: fitted, file:", kStudy)), HasSubstr("E516"));
+}
+
+TEST(FittedLaw, OtherCellsThanThoseThatWereFittedAreRefusedWithWhatDiffers) {
+  const Written file(file_text());
+  EXPECT_THAT(file.errors(test::changed("    cbm:", "    dcm: {cortex: {tension: 0.3 mN/m}}\n    cbm:", kStudy)),
+              AllOf(HasSubstr("E532"), HasSubstr("tension"), HasSubstr("0.3 mN/m here"), HasSubstr("morula calibrate jkr cell")));
+  EXPECT_THAT(file.errors(test::changed("    cbm:", "    dcm: {nodes: 642}\n    cbm:", kStudy)),
+              AllOf(HasSubstr("E532"), HasSubstr("nodes")));
+  EXPECT_THAT(file.errors(test::changed("0.1 mN/m", "0.2 mN/m", kStudy)), AllOf(HasSubstr("E532"), HasSubstr("adhesion")));
+}
+
+TEST(FittedLaw, RadiiOutsideOfTheFitAreTold) {
+  const Written file(file_text());
+  const auto study = file.read(test::changed("radius: 6 um", "radius: {mean: 6 um, spread: 20 %}", kStudy));
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  EXPECT_THAT(study->warnings.text(), AllOf(HasSubstr("E534"), HasSubstr("5.9 to 7.8 um")));
+  EXPECT_THAT(file.read()->warnings.text(), Not(HasSubstr("E534")));
+}
+
+TEST(FittedLaw, KeysThatContradictTheFileOrHaveNoEffectAreErrors) {
+  const Written file(file_text());
+  EXPECT_THAT(file.errors(test::changed("file:", "young: 0.6 kPa, file:", kStudy)), AllOf(HasSubstr("E510"), HasSubstr("0.5 kPa")));
+  EXPECT_THAT(file.errors(test::changed("law: fitted", "law: jkr", kStudy)), AllOf(HasSubstr("E515"), HasSubstr("`law: fitted`")));
+  EXPECT_THAT(file.errors(test::changed(", file: cell.jkr.yaml", "", kStudy)), AllOf(HasSubstr("E516"), HasSubstr("morula calibrate jkr")));
+  EXPECT_THAT(file.errors(test::changed("cell.jkr.yaml", "other.jkr.yaml", kStudy)), HasSubstr("E601"));
+}
+
+TEST(FittedLaw, DamagedFilesAreToldAtTheirPlace) {
+  const auto errors = [](const std::string& from, const std::string& to) {
+    return Written(test::changed(from, to, file_text("table", "", kTable))).errors();
+  };
+  EXPECT_THAT(errors("young: 0.5 kPa", "young: 0.5 nN"), AllOf(HasSubstr("cell.jkr.yaml:"), HasSubstr("kPa")));
+  EXPECT_THAT(errors("young: 0.5 kPa", "young: -1 kPa"), HasSubstr("E302"));
+  EXPECT_THAT(errors("better: table", "better: best"), HasSubstr("cell.jkr.yaml:"));
+  EXPECT_THAT(errors("schema: 1", "schema: 2"), HasSubstr("cell.jkr.yaml:1"));
+  EXPECT_THAT(errors("  adhesion: 0.08 nN/um\n", ""), HasSubstr("E103"));
+  EXPECT_THAT(errors("remarks:", "notes:"), HasSubstr("E101"));
+  EXPECT_THAT(errors("overlap: 0.05, force: 0", "overlap: -0.2, force: 0"), HasSubstr("E533"));
+  EXPECT_THAT(errors("force: 1 nN/um", "force: -1 nN/um"), HasSubstr("E533"));
+  EXPECT_THAT(errors("least: -0.1, most: 0.3", "least: 0.3, most: 0.3"), HasSubstr("E533"));
+  EXPECT_THAT(Written("- 1\n").errors(), HasSubstr("E104"));
+  EXPECT_THAT(Written(file_text("table")).errors(), HasSubstr("E533"));
+}
+
+}  // namespace
+}  // namespace morula::scenarios
