@@ -107,6 +107,7 @@ Result<CellMaterial> material_of(const Study& study, const std::string& name) {
   CellMaterial out;
   out.type = name;
   out.radius = found->radius.mean;
+  out.tension = found->shell.tension;
   out.nodes = found->shell_nodes;
   const auto t = static_cast<std::size_t>(found - model.types.begin());
   const ContactPair& pair = model.pair(t, t);

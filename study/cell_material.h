@@ -12,6 +12,7 @@ struct CellMaterial {
   std::string type;
   double radius = 0.0;    ///< mean, of the free cell [µm]
   double adhesion = 0.0;  ///< W of two cells of the type [nN/µm]
+  double tension = 0.0;   ///< of their cortices [nN/µm]
   double range = 0.0;     ///< of contact [µm]
   std::uint32_t nodes = 0;
   std::string shell;    ///< the sections of the type that its shells read, as YAML in one line: `dcm: {...}`

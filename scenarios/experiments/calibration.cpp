@@ -4,6 +4,8 @@
 #include <span>
 #include <utility>
 
+#include "cbm/sphere_range.h"
+#include "core/numbers/number_text.h"
 #include "results/file_io.h"
 
 namespace morula::scenarios {
@@ -12,6 +14,19 @@ namespace {
 cbm::PackingCurve curve_of(std::span<const cbm::PackingKnot> knots) {
   auto made = cbm::PackingCurve::through(knots);
   return made.ok() ? std::move(made).value() : cbm::PackingCurve();
+}
+
+/// What people must know before they trust the numbers: forces that never push, JKR far outside of its range.
+void remark_on_range(Calibration& out) {
+  const auto pushes = [](const calibrate::PairPoint& point) { return !point.held_out && point.force > 0.0; };
+  if (std::ranges::none_of(out.data.points.pairs, pushes))
+    out.data.remarks.emplace_back("no pair pushes at any overlap that was reached: its distance at rest is not known");
+  const calibrate::Fit& fit = out.sure.fit;
+  const cbm::SphereParameters sphere{.young = fit.parameters.young, .poisson = fit.poisson};
+  const auto rest = cbm::resting_contact(sphere, out.material.radius, sphere, out.material.radius, fit.parameters.adhesion);
+  if (rest.radius_ratio > cbm::kJkrRange)
+    out.data.remarks.push_back("JKR with these numbers is beyond its range: at rest its contact radius is " +
+                               number_text("%.2g", rest.radius_ratio) + " R, and 0.4 R is what it asks for");
 }
 
 /// What only the root does, once all runs are there.
@@ -28,6 +43,7 @@ Status fit_on_root(const Study& study, Calibration& out) {
   out.held_out =
       calibrate::held_out_errors(out.data.points, calibrate::jkr_model(fit.parameters.young, fit.poisson, fit.parameters.adhesion),
                                  curve_of(fit.parameters.knots), pull_off);
+  remark_on_range(out);
   auto table = calibrate::fit_table(out.data.points);
   if (!table.ok()) {
     out.data.remarks.push_back("no table: " + table.error().message);

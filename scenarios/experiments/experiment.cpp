@@ -11,7 +11,8 @@
 namespace morula::scenarios {
 namespace {
 
-constexpr double kDeepest = 0.35;              // δ/R at which a pair turns
+constexpr double kDeepest = 0.35;              // δ/R at which a pair turns, at least
+constexpr double kBeyondRest = 0.2;            // and how much deeper than a doublet at rest
 constexpr double kFarthest = -0.8;             // δ/R at which it ends
 constexpr double kFastest = 0.002;             // rate of the fastest pair over R [1/s]
 constexpr double kUnequal = 1.3;               // ratio of the radii of the pair that is held out
@@ -58,11 +59,21 @@ std::vector<Vec3d> cube_of(Experiment::Lattice lattice) {
   return {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
 }
 
+/// δ/R of two equal cells at rest that are drops of a tension T and an adhesion W, cos θ = 1 − W/(2T): each is a ball of radius R′ cut at R′ cos θ,
+/// of the volume of the free cell, V = πR′³(2/3 + c − c³/3), whose centre of volume is R′c + π R′⁴(1 − c²)²/(4V) from the cut.
+double overlap_of_doublet(double adhesion, double tension) {
+  if (!(tension > 0.0)) return 0.0;
+  const double c = std::max(0.0, 1.0 - 0.5 * adhesion / tension), part = 2.0 / 3.0 + c - c * c * c / 3.0;
+  const double radius = std::cbrt(4.0 / 3.0 / part);
+  return 2.0 - 2.0 * radius * (c + std::pow(1.0 - c * c, 2) / (4.0 * part));
+}
+
 }  // namespace
 
 Experiment pair_experiment(const CellMaterial& material, const std::string& name, double radius_a, double radius_b, double rate) {
   const double radius = std::min(radius_a, radius_b), gap = material.range;
-  const double in = (gap + kDeepest * radius) / rate, out = (kDeepest - kFarthest) * radius / rate;
+  const double deepest = std::max(kDeepest, overlap_of_doublet(material.adhesion, material.tension) + kBeyondRest);
+  const double in = (gap + deepest * radius) / rate, out = (deepest - kFarthest) * radius / rate;
   const double output = std::ceil((in + out) / kPairOutputs);
   Experiment e{.kind = Experiment::Kind::kPair,
                .name = name,
@@ -76,7 +87,7 @@ Experiment pair_experiment(const CellMaterial& material, const std::string& name
   const double end = output * std::ceil((in + out) / output), box = 8.0 * (radius_a + radius_b);
   const Vec3d low{0, 0, -radius_a - gap}, high{0, 0, radius_b};
   const std::string way = ", direction: [0, 0, 1], way: [{time: 0 s, distance: 0 um}, {time: " + of(in, "s") +
-                          ", distance: " + of(-(gap + kDeepest * radius), "um") + "}, {time: " + of(in + out, "s") +
+                          ", distance: " + of(-(gap + deepest * radius), "um") + "}, {time: " + of(in + out, "s") +
                           ", distance: " + of(-gap - kFarthest * radius, "um") + "}]";
   const std::string none = "0 J/m^2", w = of(material.adhesion, "nN/um");
   e.text = head(material, e, "low, high", end, output) + "domain: {size: " + place({box, box, box}) + ", boundary: open}\ncell_types:\n" +
