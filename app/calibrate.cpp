@@ -38,7 +38,7 @@ Status calibrate(const CalibrateOptions& options, const Context& context) {
   scenarios::ExperimentRequest request;
   request.folder = options.out.empty() ? fs::path("calibrations") / options.type : fs::path(options.out);
   request.threads = options.threads;
-  request.packings = options.packings;
+  request.packings = !options.pairs_only;
   request.stop = &watch_signals();
   request.on_note = [&](const std::string& text) { context.console.note(text); };
   MORULA_TRY_ASSIGN(const scenarios::Calibration found, scenarios::calibrate_jkr(*study, options.type, request, context.comm));

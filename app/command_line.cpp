@@ -96,8 +96,7 @@ void add_running_verbs(CLI::App& program, Parsed& p) {
   verb->add_option("KEY=VALUE", p.calibrate.overrides, "Values that replace those of the study, by the path of the key");
   verb->add_option("--out", p.calibrate.out, "Folder; what was run there before is not run again (default: calibrations/TYPE)")
       ->type_name("DIR");
-  verb->add_flag("--packings", p.calibrate.packings,
-                 "Also the packings that shrink (hours with shells of 162 nodes); without them no curve of packing is fitted");
+  verb->add_flag("--pairs-only", p.calibrate.pairs_only, "No packings that shrink: quicker, and without a fitted curve of packing");
   verb->add_option("--threads", p.calibrate.threads, "Threads of each rank; ranks share the experiments")
       ->check(CLI::Range(1, 1024))
       ->type_name("N")

@@ -93,7 +93,7 @@ struct CalibrateOptions {
   std::vector<std::string> overrides;  ///< key.path=value
   std::string out;                     ///< folder; empty: calibrations/TYPE
   int threads = 1;                     ///< of each rank
-  bool packings = false;               ///< run packings, too
+  bool pairs_only = false;             ///< run no packings
 };
 
 struct DoctorOptions {

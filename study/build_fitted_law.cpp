@@ -40,7 +40,7 @@ void take_packing(BuildContext& c, const std::vector<cbm::PackingKnot>& knots, d
   if (knots.empty()) {
     if (t.packing_law.value == kFittedLaw)
       c.diagnostics.error(516, t.packing_law.place, "the file has no packing for this form of the law",
-                          "calibrate with `--packings`, or write `packing: ideal_filled_cell`");
+                          "calibrate without `--pairs-only`, or write `packing: ideal_filled_cell`");
     return;
   }
   auto curve = cbm::PackingCurve::through(knots);

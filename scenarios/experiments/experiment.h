@@ -28,11 +28,11 @@ struct Experiment {
 inline constexpr int kPairRates = 3;
 
 /// What the calibration of a contact law asks (fields_and_coupling.md E). E1 and E2: equal cells that come nearer until δ = 0.35 R and part, at three
-/// rates; E3, with `packings`: face-centred and body-centred cubic packings from V/V0 = 1.35 to 0.7; E5: cells of radii 1 : 1.3, held out.
+/// rates; E3, not without `packings`: face-centred and body-centred cubic packings from V/V0 = 1.35 to 0.7; E5: cells of radii 1 : 1.3, held out.
 ///
 /// The centres are held by springs, so that pairs are stable at any distance. Friction between cells is 0 and that with the medium small: forces
 /// at rest do not depend on it, and they are extrapolated to no rate.
-std::vector<Experiment> experiments_for(const CellMaterial& material, bool packings = false);
+std::vector<Experiment> experiments_for(const CellMaterial& material, bool packings = true);
 
 /// A pair of cells of these radii [µm], pressed and pulled at a rate [µm/s].
 Experiment pair_experiment(const CellMaterial& material, const std::string& name, double radius_a, double radius_b, double rate);

@@ -16,7 +16,7 @@ namespace morula::scenarios {
 struct ExperimentRequest {
   std::filesystem::path folder;                     ///< each experiment has a folder of its name in it
   int threads = 1;                                  ///< of each rank
-  bool packings = false;                            ///< of a calibration: packings, too
+  bool packings = true;                             ///< of a calibration: packings, too
   const std::atomic<int>* stop = nullptr;           ///< a StopWish
   std::function<void(const std::string&)> on_note;  ///< on any rank, when an experiment begins or ends
 };
