@@ -103,11 +103,28 @@ class MutatedInputs : public testing::Test {
   Folder folder{alone};
 };
 
+TEST_F(MutatedInputs, FittedLawsAreRefusedWithMessagesOrRead) {
+  std::string study, law;
+  for (const TemplateFile& file : find_template("calibrate_hepatocyte")->files) {
+    if (file.path == "study.yaml") study = std::string(file.content);
+    if (file.path.ends_with(".jkr.yaml")) law = std::string(file.content);
+  }
+  ASSERT_FALSE(law.empty());
+  int good = 0, all = 0;
+  on_altered({law}, rounds(200), [&](const std::string& text) {
+    spit(folder / "hepatocyte.jkr.yaml", text);
+    const auto read = test::read(study, {}, folder.path());
+    good += read.ok(), ++all;
+    ASSERT_TRUE(read.ok() || !read.error().text().empty());
+  });
+  EXPECT_LT(good, all);
+}
+
 TEST_F(MutatedInputs, StudiesAreRefusedWithMessagesOrRead) {
   std::vector<std::string> quick{test::kGoodStudy}, slow;  // those whose cells are remeshed take seconds each
   for (const Template& study : templates())
     for (const TemplateFile& file : study.files)
-      if (file.path.ends_with(".yaml"))
+      if (file.path.ends_with(".yaml") && !file.path.ends_with(".jkr.yaml"))
         (file.content.find("meshes:") == std::string_view::npos ? quick : slow).emplace_back(file.content);
       else
         spit(folder / std::string(file.path), std::string(file.content));
