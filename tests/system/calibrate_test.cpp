@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <fstream>
 #include <sstream>
 
@@ -35,6 +36,34 @@ TEST(Calibrate, FindsALawOfShellsAndWritesAReport) {
   EXPECT_EQ(again.exit_code, 0) << again.all();
   EXPECT_EQ(again.out, first.out);
   EXPECT_THAT(again.err, testing::Not(HasSubstr("equal_pair_1: Two cells")));  // nothing is run again
+}
+
+/// Bytes of what one command finds are the same on two ranks, on two threads, and where it was killed in its second experiment and called again.
+TEST(Calibrate, WritesTheSameFileOnRanksAndThreadsAndAfterASigkill) {
+  const TestFolder folder;
+  write_study(folder.path() / "study.yaml");
+  const auto command = [](const char* out, const char* threads = "1") {
+    return std::vector<std::string>{"calibrate", "jkr", "small", "study.yaml", "--pairs-only", "--threads", threads, "--out", out};
+  };
+  ASSERT_EQ(run_morula(command("whole"), folder.path()).exit_code, 0);
+  const std::string whole = text_of(folder / "whole/small.jkr.yaml");
+  ASSERT_THAT(whole, HasSubstr("young:"));
+  {
+    RunningCommand running(command("killed"), folder.path());
+    ASSERT_TRUE(running.wait_for(folder / "killed/equal_pair_2/run/results.h5"));
+    running.send(SIGKILL);
+    const Outcome killed = running.wait();
+    EXPECT_EQ(killed.exit_code, 137) << killed.all();
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "killed/small.jkr.yaml"));
+  const Outcome again = run_morula(command("killed"), folder.path());
+  ASSERT_EQ(again.exit_code, 0) << again.all();
+  EXPECT_EQ(text_of(folder / "killed/small.jkr.yaml"), whole);
+  ASSERT_EQ(run_morula(command("threads", "2"), folder.path()).exit_code, 0);
+  EXPECT_EQ(text_of(folder / "threads/small.jkr.yaml"), whole);
+  const Outcome ranks = run_morula(command("ranks"), folder.path(), {.ranks = 2});
+  ASSERT_EQ(ranks.exit_code, 0) << ranks.all();
+  EXPECT_EQ(text_of(folder / "ranks/small.jkr.yaml"), whole);
 }
 
 TEST(Calibrate, RefusesATypeThatTheStudyHasNot) {
