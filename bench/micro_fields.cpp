@@ -91,6 +91,7 @@ BENCHMARK(CouplingInterval)
     ->Args({25, 400, 5})
     ->Args({25, 400, 1})
     ->Args({40, 2000, 60})
+    ->Args({128, 20000, 60})
     ->Unit(benchmark::kMillisecond);
 
 /// The first interval after a cold start, far from steady.

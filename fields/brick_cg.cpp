@@ -15,11 +15,13 @@ namespace {
 
 struct Solver {
   BrickOperator* op = nullptr;
+  Multigrid* multigrid = nullptr;
+  double largest_rate = 0.0;
   const BrickVectorSpace* space = nullptr;
   std::function<double()> gamma;
   int most_iterations = 0;
   N_Vector weights = nullptr;  ///< of the norm in which the tolerance is meant; owned by ARKODE
-  std::unique_ptr<std::vector<double>> residual, direction, image, inverse_diagonal;
+  std::unique_ptr<std::vector<double>> residual, direction, image, preconditioned;
   std::vector<std::array<double, 2>> partial;  ///< sums per brick
   int iterations = 0;
   double residual_norm = 0.0;
@@ -28,11 +30,11 @@ struct Solver {
 
 Solver& solver(SUNLinearSolver s) { return *static_cast<Solver*>(s->content); }
 
-/// x += α p, r −= α q; returns r·M⁻¹r and |r|² in the weighted norm, summed over all ranks in one message.
+/// x += α p, r −= α q; returns r·D⁻¹r (m the inverse diagonal) and |r|² in the weighted norm, summed over all ranks in one message.
 std::array<double, 2> step_and_sum(Solver& s, double alpha, double* x) {
   const Layout& layout = *s.space->layout;
   double* r = s.residual->data();
-  const double *p = s.direction->data(), *q = s.image->data(), *m = s.inverse_diagonal->data(), *w = unknowns_of(s.weights);
+  const double *p = s.direction->data(), *q = s.image->data(), *m = s.preconditioned->data(), *w = unknowns_of(s.weights);
   s.partial.resize(layout.bricks());
 #pragma omp parallel for schedule(static) if (layout.bricks() >= kBricksWorthThreads)
   for (std::size_t b = 0; b < layout.bricks(); ++b) {
@@ -53,13 +55,33 @@ std::array<double, 2> step_and_sum(Solver& s, double alpha, double* x) {
   return total;
 }
 
-/// p = M⁻¹r + β p
-void turn(Solver& s, double beta) {
+/// p = M⁻¹r + β p, M the diagonal
+void turn_by_diagonal(Solver& s, double beta) {
   double* p = s.direction->data();
-  const double *r = s.residual->data(), *m = s.inverse_diagonal->data();
+  const double *r = s.residual->data(), *m = s.preconditioned->data();
   const std::size_t n = s.space->layout->concentrations();
 #pragma omp parallel for simd schedule(static) if (s.space->layout->bricks() >= kBricksWorthThreads)
   for (std::size_t i = 0; i < n; ++i) p[i] = m[i] * r[i] + beta * p[i];
+}
+/// p = z + β p
+void turn(Solver& s, double beta) {
+  double* p = s.direction->data();
+  const double* z = s.preconditioned->data();
+  const std::size_t n = s.space->layout->concentrations();
+#pragma omp parallel for simd schedule(static) if (s.space->layout->bricks() >= kBricksWorthThreads)
+  for (std::size_t i = 0; i < n; ++i) p[i] = z[i] + beta * p[i];
+}
+
+/// z = M⁻¹r by multigrid; returns r·z over all ranks.
+double precondition(Solver& s) {
+  const Layout& layout = *s.space->layout;
+  const double* r = s.residual->data();
+  double* z = s.preconditioned->data();
+  s.multigrid->apply(r, z);
+  OrderFreeSum sum;
+  for (std::size_t b = 0; b < layout.bricks(); ++b)
+    sum.add(block_dot(r + layout.offset[b], z + layout.offset[b], layout.offset[b + 1] - layout.offset[b]));
+  return s.space->comm->sum(sum);
 }
 
 int solve(SUNLinearSolver ls, SUNMatrix, N_Vector x_vector, N_Vector b_vector, double tolerance) {
@@ -67,22 +89,36 @@ int solve(SUNLinearSolver ls, SUNMatrix, N_Vector x_vector, N_Vector b_vector, d
   const Layout& layout = *s.space->layout;
   const std::size_t n = layout.concentrations();
   const double gamma = s.gamma();
+  const bool by_multigrid = s.multigrid != nullptr && is_worth_multigrid(gamma, s.largest_rate);
   double* x = unknowns_of(x_vector);
   // The guess is zero: SUNDIALS solves for corrections. The amounts take no part.
   std::fill(x, x + layout.unknowns(), 0.0);
   std::copy_n(unknowns_of(b_vector), n, s.residual->data());
   for (auto* buffer : {s.direction.get(), s.image.get()}) std::fill(buffer->begin(), buffer->end(), 0.0);
-  s.op->inverse_diagonal(gamma, s.inverse_diagonal->data());
+  if (by_multigrid)
+    s.multigrid->prepare(gamma, *s.op);
+  else
+    s.op->inverse_diagonal(gamma, s.preconditioned->data());
   auto [rho, square] = step_and_sum(s, 0.0, x);
   const double start_norm = std::sqrt(square);
   s.iterations = 0;
   s.residual_norm = start_norm;
-  turn(s, 0.0);
+  double beta = 0.0;
   while (s.residual_norm > tolerance && s.iterations < s.most_iterations) {
+    if (by_multigrid) {
+      const double next_rho = precondition(s);
+      if (s.iterations > 0) beta = next_rho / rho;
+      rho = next_rho;
+      turn(s, beta);
+    } else {
+      turn_by_diagonal(s, beta);
+    }
     const double p_image = s.op->shifted_product(gamma, s.direction->data(), s.image->data(), *s.space->comm);
     const auto [next_rho, next_square] = step_and_sum(s, rho / p_image, x);
-    turn(s, next_rho / rho);
-    rho = next_rho;
+    if (!by_multigrid) {
+      beta = next_rho / rho;
+      rho = next_rho;
+    }
     s.residual_norm = std::sqrt(next_square);
     ++s.iterations;
     if (!std::isfinite(s.residual_norm)) break;
@@ -106,7 +142,7 @@ double residual_norm(SUNLinearSolver ls) { return solver(ls).residual_norm; }
 sunindextype last_flag(SUNLinearSolver ls) { return solver(ls).last_flag; }
 int release(SUNLinearSolver ls) {
   Solver& s = solver(ls);
-  for (auto* buffer : {&s.residual, &s.direction, &s.image, &s.inverse_diagonal}) s.space->pool->give_back(std::move(*buffer));
+  for (auto* buffer : {&s.residual, &s.direction, &s.image, &s.preconditioned}) s.space->pool->give_back(std::move(*buffer));
   delete &s;
   ls->content = nullptr;
   SUNLinSolFreeEmpty(ls);
@@ -115,16 +151,20 @@ int release(SUNLinearSolver ls) {
 
 }  // namespace
 
-SUNLinearSolver make_brick_cg(BrickOperator& op, const BrickVectorSpace& space, std::function<double()> gamma, int most_iterations,
-                              SUNContext context) {
+bool is_worth_multigrid(double gamma, double largest_rate) { return gamma * largest_rate > 100.0; }
+
+SUNLinearSolver make_brick_cg(BrickOperator& op, Multigrid* multigrid, double largest_rate, const BrickVectorSpace& space,
+                              std::function<double()> gamma, int most_iterations, SUNContext context) {
   SUNLinearSolver out = SUNLinSolNewEmpty(context);
   if (out == nullptr) return nullptr;
   auto* content = new Solver;
   content->op = &op;
+  content->multigrid = multigrid;
+  content->largest_rate = largest_rate;
   content->space = &space;
   content->gamma = std::move(gamma);
   content->most_iterations = most_iterations;
-  for (auto* buffer : {&content->residual, &content->direction, &content->image, &content->inverse_diagonal})
+  for (auto* buffer : {&content->residual, &content->direction, &content->image, &content->preconditioned})
     *buffer = space.pool->take(space.layout->unknowns());
   out->content = content;
   SUNLinearSolver_Ops ops = out->ops;

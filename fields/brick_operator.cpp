@@ -6,7 +6,8 @@
 
 namespace morula::fields {
 
-BrickOperator::BrickOperator(const Grid& grid, const FieldSpec& spec, const FieldReactions& reactions, const Layout& layout, Halo& halo)
+BrickOperator::BrickOperator(const Grid& grid, const FieldSpec& spec, const FieldReactions& reactions, const Layout& layout,
+                             Halo<double>& halo)
     : spec_(spec),
       reactions_(reactions),
       layout_(layout),

@@ -19,7 +19,7 @@ namespace morula::fields {
 class BrickOperator {
  public:
   /// Keeps references to all but `grid`.
-  BrickOperator(const Grid& grid, const FieldSpec& spec, const FieldReactions& reactions, const Layout& layout, Halo& halo);
+  BrickOperator(const Grid& grid, const FieldSpec& spec, const FieldReactions& reactions, const Layout& layout, Halo<double>& halo);
 
   /// d(unknowns)/dt. Collective. Rates of the amounts [amol/s] only if `amounts`, else 0.
   void evaluate(const double* unknowns, double* rate, bool amounts);
@@ -35,6 +35,9 @@ class BrickOperator {
   [[nodiscard]] double largest_rate(double highest) const;
   /// Whether the right-hand side is linear, on all ranks.
   [[nodiscard]] bool is_linear() const { return !layout_.sinks_anywhere && reactions_.volume_is_linear(); }
+
+  /// −∂(dc/dt)/∂c of all reactions by voxel, as linearize() took it, of first order ones too: what is not diffusion in −J [1/s].
+  [[nodiscard]] double reaction_slope(std::size_t voxel) const { return slope_[voxel] + reactions_.first_order(); }
 
   [[nodiscard]] const Layout& layout() const { return layout_; }
 
@@ -54,7 +57,7 @@ class BrickOperator {
   const FieldSpec& spec_;
   const FieldReactions& reactions_;
   const Layout& layout_;
-  Halo& halo_;
+  Halo<double>& halo_;
   std::array<double, 3> conductance_{};  ///< D/h² along x, y, z [1/s]
   double voxel_volume_ = 0.0;
   std::vector<double> slope_;     ///< −∂(dc/dt)/∂c of reactions that are not of first order, by voxel [1/s]

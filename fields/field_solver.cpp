@@ -4,12 +4,15 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 
+#include "fields/brick_cg.h"
 #include "fields/brick_operator.h"
 #include "fields/brick_vector.h"
 #include "fields/halo.h"
 #include "fields/layout.h"
+#include "fields/multigrid.h"
 
 namespace morula::fields {
 
@@ -128,7 +131,7 @@ Result<IntervalReport> FieldSolver::advance(Field& field, const FieldSpec& spec,
   const FieldReactions reactions(spec);
   Layout layout = layout_of(field, exchange.sinks(reactions.types_that_act()));
   layout.sinks_anywhere = comm.any(!layout.sinks.empty());
-  Halo halo(field, layout, space, comm);
+  Halo<double> halo(field, layout, space, comm);
   BrickOperator op(field.grid, spec, reactions, layout, halo);
 
   IntegrationSettings settings;
@@ -139,7 +142,9 @@ Result<IntervalReport> FieldSolver::advance(Field& field, const FieldSpec& spec,
   settings.absolute_tolerance = std::max(1e-3 * spec.relative_tolerance * scale, 1e-30);
   settings.largest_rate = comm.max(op.largest_rate(scale));
   settings.method = cheaper_method(interval, settings.largest_rate, slowest_rate(field.grid, spec, reactions.first_order(), space));
-
+  std::optional<Multigrid> multigrid;
+  if (settings.method == Method::kImplicit && is_worth_multigrid(interval, settings.largest_rate))
+    settings.multigrid = &multigrid.emplace(field, spec, layout, space, comm);
   settings.give_up = give_up;
 
   auto& unknowns = workspace_->unknowns;

@@ -33,7 +33,8 @@ struct Stretch {
 
 }  // namespace
 
-Halo::Halo(const Field& field, const Layout& layout, const Space& space, const Comm& comm)
+template <class Value>
+Halo<Value>::Halo(const Field& field, const Layout& layout, const Space& space, const Comm& comm)
     : layout_(layout), comm_(comm), sources_(layout.bricks()) {
   const auto& bricks = field.owned_bricks;
   const auto local = [&](std::int64_t brick) {
@@ -77,13 +78,17 @@ Halo::Halo(const Field& field, const Layout& layout, const Space& space, const C
     receivings_.push_back({r.rank, std::as_writable_bytes(std::span(received_).subspan(r.begin, r.end - r.begin))});
 }
 
-void Halo::exchange(const double* unknowns) {
+template <class Value>
+void Halo<Value>::exchange(const Value* unknowns) {
   std::size_t at = 0;
   for (const Layer& layer : sent_layers_) {
-    const double* values = unknowns + layout_.offset[layer.brick];
+    const Value* values = unknowns + layout_.offset[layer.brick];
     for_each_in_layer(layout_.extent[layer.brick], layer.side, [&](std::size_t voxel, std::size_t) { sent_[at++] = values[voxel]; });
   }
   comm_.exchange(sendings_, receivings_);
 }
+
+template class Halo<double>;
+template class Halo<float>;
 
 }  // namespace morula::fields

@@ -21,18 +21,20 @@ struct GhostSource {
 };
 
 /// Copies of the neighbours' outermost voxel layers: same rank read directly, other ranks by one message per neighbour rank.
+/// Value: double or float.
+template <class Value>
 class Halo {
  public:
-  /// Keeps a reference to `layout` and `comm`.
+  /// Keeps a reference to `layout` and `comm`. Of `field` the bricks and their owners count; how many voxels they have stands in `layout`.
   Halo(const Field& field, const Layout& layout, const Space& space, const Comm& comm);
   Halo(const Halo&) = delete;
   Halo& operator=(const Halo&) = delete;
 
   /// Bring the other ranks' layers of this vector of unknowns here. Collective among neighbours.
-  void exchange(const double* unknowns);
+  void exchange(const Value* unknowns);
 
   [[nodiscard]] const GhostSource& source(std::size_t brick, std::size_t side) const { return sources_[brick][side]; }
-  [[nodiscard]] const double* received() const { return received_.data(); }
+  [[nodiscard]] const Value* received() const { return received_.data(); }
 
  private:
   struct Layer {
@@ -44,7 +46,7 @@ class Halo {
   const Comm& comm_;
   std::vector<std::array<GhostSource, kSides>> sources_;
   std::vector<Layer> sent_layers_;
-  std::vector<double> sent_, received_;
+  std::vector<Value> sent_, received_;
   std::vector<Sending> sendings_;      ///< in sent_
   std::vector<Receiving> receivings_;  ///< in received_
 };

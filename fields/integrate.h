@@ -6,13 +6,14 @@
 #include "core/result.h"
 #include "fields/brick_operator.h"
 #include "fields/brick_vector.h"
+#include "fields/multigrid.h"
 
 namespace morula::fields {
 
 /// How an interval is integrated.
 enum class Method : std::uint8_t {
   kExplicit,  ///< Bogacki–Shampine 3(2), steps below the stability limit
-  kImplicit,  ///< ESDIRK 3(2), L-stable and stiffly accurate, Newton with preconditioned conjugate gradients
+  kImplicit,  ///< ESDIRK 3(2), L-stable and stiffly accurate, Newton with conjugate gradients preconditioned by the diagonal or multigrid
 };
 
 /// The name of a method for logs.
@@ -40,6 +41,7 @@ struct IntegrationSettings {
   double relative_tolerance = 0.0;
   double absolute_tolerance = 0.0;  ///< [mM]
   double largest_rate = 0.0;        ///< of all ranks [1/s]
+  Multigrid* multigrid = nullptr;   ///< to precondition with where that is cheaper than the diagonal
   std::function<bool()> give_up;    ///< asked after every step, by all ranks together; true: the integration ends there with kStoppedEarly
 };
 

@@ -186,7 +186,7 @@ double staircase_ball_centre(double h, double radius) {
   const Comm comm = alone();
   const CellExchange exchange(field, space, cells, comm);
   const Layout layout = layout_of(field, exchange.sinks({true}));
-  Halo halo(field, layout, space, comm);
+  Halo<double> halo(field, layout, space, comm);
   const FieldReactions reactions(spec);
   BrickOperator op(field.grid, spec, reactions, layout, halo);
   std::vector<double> c(layout.unknowns(), 0.0), rate(layout.unknowns());
