@@ -145,13 +145,15 @@ Multigrid::Multigrid(const Field& field, const FieldSpec& spec, const Layout& la
     if (!last)
       for (std::size_t a = 0; a < 3; ++a) wide[a] = widened_axis(axes[a]);
     level.axes = std::exchange(axes, std::move(wide));
-    for (Values* values : {&level.shift, &level.b, &level.x, &level.y, &level.residual}) values->assign(level.layout.concentrations(), 0.0F);
+    for (Values* values : {&level.shift, &level.b, &level.x, &level.y, &level.residual})
+      values->assign(level.layout.concentrations(), 0.0F);
     if (last) break;
     next = widened_layout(level.layout);
   }
   // Halos keep references to layouts, which stay where they are from here on.
   for (std::size_t l = 0; l < levels_.size(); ++l)
-    levels_[l].halo = std::make_unique<Halo<float>>(is_gathered(l) ? whole : field, levels_[l].layout, space, is_gathered(l) ? alone : comm_);
+    levels_[l].halo =
+        std::make_unique<Halo<float>>(is_gathered(l) ? whole : field, levels_[l].layout, space, is_gathered(l) ? alone : comm_);
 }
 
 std::size_t Multigrid::wide_at(std::size_t level, std::size_t brick) const {
@@ -178,8 +180,7 @@ void Multigrid::fill(const Level& level, std::size_t brick, const Values& v, flo
   const std::array<std::size_t, 3> stride{1, nx + 2, (nx + 2) * (ny + 2)};
   const float* from = v.data() + level.layout.offset[brick];
   for (std::size_t k = 0; k < nz; ++k)
-    for (std::size_t j = 0; j < ny; ++j)
-      std::copy_n(from + (k * ny + j) * nx, nx, padded + (k + 1) * stride[2] + (j + 1) * stride[1] + 1);
+    for (std::size_t j = 0; j < ny; ++j) std::copy_n(from + (k * ny + j) * nx, nx, padded + (k + 1) * stride[2] + (j + 1) * stride[1] + 1);
   for (std::size_t side = 0; side < kSides; ++side) {
     const std::size_t axis = side / 2, u = axis == 0 ? 1 : 0, w = axis == 2 ? 1 : 2;
     const std::size_t nu = size_of(n[u]), nw = size_of(n[w]);
@@ -194,7 +195,9 @@ void Multigrid::fill(const Level& level, std::size_t brick, const Values& v, flo
         for (std::size_t j = 0; j < nw; ++j)
           for (std::size_t i = 0; i < nu; ++i) to[i * stride[u] + j * stride[w]] = 0.0F;
         break;
-      case GhostSource::Kind::kOtherRank: copy(level.halo->received() + source.at, 1, nu); break;
+      case GhostSource::Kind::kOtherRank:
+        copy(level.halo->received() + source.at, 1, nu);
+        break;
       case GhostSource::Kind::kSameRank: {
         const auto& m = level.layout.extent[source.at];
         const std::array<std::size_t, 3> their{1, size_of(m[0]), size_of(m[0]) * size_of(m[1])};
@@ -273,9 +276,8 @@ void Multigrid::smooth(Level& level) const {
   sweep(level, level.y, [&](const Row& row) {
     float* x = level.x.data() + row.at;
     const float* rhs = level.b.data() + row.at;
-    row.for_each([&](std::size_t i) {
-      x[i] = row.v[i] + kAgain * (row.v[i] - x[i]) + kSecond * (rhs[i] - row.product(i)) / row.diagonal(i);
-    });
+    row.for_each(
+        [&](std::size_t i) { x[i] = row.v[i] + kAgain * (row.v[i] - x[i]) + kSecond * (rhs[i] - row.product(i)) / row.diagonal(i); });
   });
 }
 

@@ -70,8 +70,8 @@ class Multigrid {
   static constexpr std::size_t kShared = 3;  ///< levels of 8, 4 and 2 voxels along a brick
 
   const Comm& comm_;
-  std::vector<std::int64_t> bricks_;         ///< of this rank
-  std::vector<std::int64_t> gather_order_;   ///< all bricks, rank after rank
+  std::vector<std::int64_t> bricks_;        ///< of this rank
+  std::vector<std::int64_t> gather_order_;  ///< all bricks, rank after rank
   std::vector<Level> levels_;
 };
 
