@@ -10,6 +10,9 @@
 namespace morula::scenarios {
 namespace {
 
+/// Volume of spheres at random over that of their shape, where they may overlap by 5 % of the radius: 0.64 · (1/0.975)³.
+constexpr double kMostAtRandom = 0.69;
+
 std::string place_text(const Vec3d& p) {
   return "[" + short_number(p.x) + " um, " + short_number(p.y) + " um, " + short_number(p.z) + " um]";
 }
@@ -322,15 +325,14 @@ class InitialBuilder {
     const double ball = 4.0 / 3.0 * std::numbers::pi;
     const double need = static_cast<double>(cells.count) * ball * std::pow(radius.value, 3) * cells.start_volume_fraction;
     const double room = sphere ? ball * std::pow(cells.radius, 3) : cells.size.x * cells.size.y * cells.size.z;
-    // Balls placed at random, one after the other, end at 38 % of the volume; shaken together they fill 64 %.
     const bool random = cells.pattern == FillPattern::kRandom;
-    const double most = random ? 0.38 : 0.64;
-    if (need <= (random ? most : 1.0) * room) return;
+    const double most = 0.64;  // balls at random, shaken together (random close packing)
+    if (need <= (random ? kMostAtRandom : 1.0) * room) return;
     const std::string fits = sphere ? "a radius of at least " + short_number(std::ceil(std::cbrt(need / most / ball))) + " um"
                                     : "a volume of at least " + short_number(need / most) + " um^3";
     c_.diagnostics.error(506, d.count.place,
                          std::to_string(cells.count) + " cells of radius " + radius.text + " have " + short_number(need / room) +
-                             " times the volume of the shape they fill" + (random ? std::string(": at random they fill 0.38 of it") : ""),
+                             " times the volume of the shape they fill" + (random ? std::string(": at random they fill 0.64 of it") : ""),
                          "give the shape " + fits + ", or fewer cells");
   }
 

@@ -136,7 +136,8 @@ void declare_initial(Section& s, draft::Initial& i) {
   s.word(
       {.name = "fill",
        .doc = "Fill a shape with `count` cells, beside what is there already. `sphere`, `box`: close together, from a regular packing with "
-              "a seeded jitter. `random`: anywhere with room, in a sphere (`radius`) or box (`size`). `layer`: side by side, hexagonal, "
+              "a seeded jitter. `random`: in disorder, in a sphere (`radius`) or box (`size`), of which they may fill about 0.6. `layer`: "
+              "side by side, hexagonal, "
               "on the plane or wall that `on` names.",
        .words = {"sphere", "box", "random", "layer"},
        .example = "sphere"},

@@ -41,9 +41,9 @@ RunRecord new_record(const Study& study, const RunRequest& request, const Comm& 
   return record;
 }
 
-Result<InitialTissue> initial_tissue(const Study& study, const Comm& comm) {
+Result<InitialTissue> initial_tissue(const Study& study, const Comm& comm, int threads) {
   ShapeLibrary shapes;
-  auto made = make_tissue(study, shapes, comm);
+  auto made = make_tissue(study, shapes, comm, threads);
   MORULA_TRY(agree(made.ok() ? Status{} : Status(made.error()), comm));
   return std::move(made).value();
 }
@@ -95,7 +95,7 @@ Status set_aside_damaged(Restored& restored, const Comm& comm) {
 
 Result<RunSummary> run(const Study& study, const RunRequest& request, const Comm& comm) {
   MORULA_TRY_ASSIGN(auto columns, columns_of(study));
-  MORULA_TRY_ASSIGN(InitialTissue initial, initial_tissue(study, comm));
+  MORULA_TRY_ASSIGN(InitialTissue initial, initial_tissue(study, comm, request.threads));
   MORULA_TRY_ASSIGN(auto simulation, Simulation::create(study.model, std::move(initial.tissue), comm, request.threads));
   MORULA_TRY_ASSIGN(RunFolder folder, RunFolder::create(request.runs, request.out, study.name, comm));
   MORULA_TRY_ASSIGN(const RunLock lock, RunLock::take(folder.path(), comm));

@@ -34,6 +34,9 @@ class CellGrid {
     for (std::size_t i = 0; i < center.size(); ++i) item_[next[cube_[i]]++] = i;
   }
 
+  /// All points by the cube in which they lie.
+  [[nodiscard]] const std::vector<std::size_t>& items() const { return item_; }
+
   /// function(j) for every point j near to a place, each once, in an order that depends on the positions alone.
   template <class F>
   void near(const Vec3d& point, F&& function) const {

@@ -5,9 +5,9 @@
 
 namespace morula::scenarios {
 
-Result<InitialTissue> make_tissue(const Study& study, ShapeLibrary& shapes, const Comm& comm) {
+Result<InitialTissue> make_tissue(const Study& study, ShapeLibrary& shapes, const Comm& comm, int threads) {
   InitialTissue out;
-  MORULA_TRY_ASSIGN(PlacedCells placed, place_cells(study));
+  MORULA_TRY_ASSIGN(PlacedCells placed, place_cells(study, threads));
   if (!placed.problems.empty()) {  // the check has told them, but of very many cells
     const PlaceProblem& first = placed.problems.front();
     return Error{ErrorKind::kInput, first.text + " [E" + std::to_string(first.code) + "]", first.help};

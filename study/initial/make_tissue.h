@@ -24,6 +24,6 @@ struct InitialTissue {
 /// cell's volume at rest, turned at random (stream kOrientation). With start_volume f < 1 the target volume begins at f V and the rest
 /// comes evenly in the inflation time. Fields and obstacles are made by Simulation::create.
 /// Errors: kFile/kInput for a CSV that has changed since the check, kInput for cells without room or outside the domain, or unknown node numbers.
-Result<InitialTissue> make_tissue(const Study& study, ShapeLibrary& shapes, const Comm& comm);
+Result<InitialTissue> make_tissue(const Study& study, ShapeLibrary& shapes, const Comm& comm, int threads = 1);
 
 }  // namespace morula::scenarios

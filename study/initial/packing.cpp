@@ -7,16 +7,19 @@
 #include "core/random/philox.h"
 #include "core/random/rotation.h"
 #include "study/initial/cell_grid.h"
+#include "study/initial/part_many.h"
 
 namespace morula::scenarios {
 namespace {
 
 constexpr double kJitter = 0.03;          // of the spacing
 constexpr double kSmallestSpacing = 0.9;  // of the wanted spacing, before cells stick out of the shape
-constexpr int kMostPasses = 400;          // fewer for very many cells
-constexpr double kCellPasses = 4e7;
+constexpr int kMostPasses = 400;
 constexpr double kDraw = 0.01;   // part of the way to the middle in the first pass
 constexpr double kSlack = 1e-3;  // of the mean radius
+constexpr double kSlackOfMany = 0.05, kSlackOfManyShells = 0.02;
+constexpr double kWiden =
+    0.6;  // of the spread of the radii: so much wider is the lattice of many cells that come apart in some fifty passes
 
 /// How far out a point lies in the shape: 1 on the border where centres end.
 double gauge(const InitialCells& block, const Vec3d& from_center, double inset) {
@@ -82,7 +85,39 @@ ChosenSites choose_sites(const InitialCells& block, std::size_t count, double sp
   return out;
 }
 
+/// Standard deviation of the radii over their mean.
+double spread_of(std::span<const double> radius) {
+  double sum = 0.0, squares = 0.0;
+  for (const double r : radius) {
+    sum += r;
+    squares += r * r;
+  }
+  const auto count = static_cast<double>(radius.size());
+  return std::sqrt(std::max(squares / count - sum * sum / (count * count), 0.0)) * count / sum;
+}
+
+/// How far the outermost cell reaches out of the shape [µm].
+double beyond_shape(const InitialCells& block, std::span<const Vec3d> center, std::span<const double> radius) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < radius.size(); ++i) {
+    const Vec3d from = center[i] - block.center;
+    double beyond = norm(from) + radius[i] - block.radius;
+    if (block.fill == FillShape::kBox) {
+      beyond = -1e300;
+      for (std::size_t axis = 0; axis < 3; ++axis) beyond = std::max(beyond, std::abs(from[axis]) + radius[i] - 0.5 * block.size[axis]);
+    }
+    most = std::max(most, beyond);
+  }
+  return most;
+}
+
 }  // namespace
+
+double lattice_spacing(std::span<const double> radius, double touch) {
+  return 2.0 * mean_radius(radius) * (radius.size() >= kMany ? 1.0 + kWiden * spread_of(radius) : touch);
+}
+
+double slack_of_many(double touch, double mean_radius) { return (touch < 1.0 ? kSlackOfMany : kSlackOfManyShells) * mean_radius; }
 
 void keep_within_walls(Vec3d& p, double radius, const Space& space) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -139,12 +174,13 @@ double push_apart(std::vector<Vec3d>& center, std::span<const double> radius, co
 }
 
 Packing pack_cells(const InitialCells& block, std::span<const double> radius, double touch, const Space& space, std::uint64_t first_number,
-                   std::uint32_t seed, const Surroundings& around) {
+                   std::uint32_t seed, const Surroundings& around, int threads) {
   Packing out;
   if (radius.empty()) return out;
   const Random random(seed, RandomStream::kInitialPosition);
   const double mean = mean_radius(radius);
-  const double spacing = 2.0 * touch * mean;
+  const bool many = radius.size() >= kMany;
+  const double spacing = lattice_spacing(radius, touch);
   const Rotation turn = random_rotation(random, CellId::founder(first_number), 0);
   const auto is_free = [&](const Vec3d& p) {
     Vec3d ignored;
@@ -165,19 +201,17 @@ Packing pack_cells(const InitialCells& block, std::span<const double> radius, do
     keep_within_walls(p, radius[i], space);
     out.center.push_back(p);
   }
-  const int passes = std::clamp(static_cast<int>(kCellPasses / static_cast<double>(radius.size())), 60, kMostPasses);
-  const int drawn = block.fill == FillShape::kSphere && !space.any_periodic() && radius.size() > 1 ? passes / 3 : 0;
-  const PushApart how{touch, kSlack * mean, passes, drawn, block.center, &around, nullptr};
-  out.worst_overlap = push_apart(out.center, radius, how, space, &out.worst_intrusion);
-  for (std::size_t i = 0; i < radius.size(); ++i) {
-    const Vec3d from = out.center[i] - block.center;
-    double beyond = norm(from) + radius[i] - block.radius;
-    if (block.fill == FillShape::kBox) {
-      beyond = -1e300;
-      for (std::size_t axis = 0; axis < 3; ++axis) beyond = std::max(beyond, std::abs(from[axis]) + radius[i] - 0.5 * block.size[axis]);
-    }
-    out.reach_beyond = std::max(out.reach_beyond, beyond);
+  if (many) {
+    out.allowed_overlap = slack_of_many(touch, mean);
+    const Parted parted = part_many(out.center, radius, {.slack = out.allowed_overlap, .around = &around, .threads = threads}, space);
+    out.worst_overlap = parted.overlap;
+    out.worst_intrusion = parted.intrusion;
+  } else {
+    const int drawn = block.fill == FillShape::kSphere && !space.any_periodic() && radius.size() > 1 ? kMostPasses / 3 : 0;
+    const PushApart how{touch, kSlack * mean, kMostPasses, drawn, block.center, &around, nullptr};
+    out.worst_overlap = push_apart(out.center, radius, how, space, &out.worst_intrusion);
   }
+  out.reach_beyond = beyond_shape(block, out.center, radius);
   return out;
 }
 

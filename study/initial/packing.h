@@ -15,6 +15,8 @@ struct Packing {
   double worst_overlap = 0.0;       ///< largest of touch·(r_i + r_j) − distance over all pairs; ≤ 0: none [µm]
   double reach_beyond = 0.0;        ///< how far the outermost cell sticks out of the shape; 0: not at all [µm]
   double worst_intrusion = -1e300;  ///< how deep a cell lies in what was there before; ≤ 0: none does [µm]
+  double allowed_overlap = 0.0;     ///< up to which overlaps were let be [µm]
+  bool jammed = false;              ///< drawn at random, they did not come apart: the shape is too small for them
   std::uint64_t room = 0;           ///< cells that have a place; fewer than asked for: `center` is empty
 };
 
@@ -24,19 +26,24 @@ struct Packing {
 /// turned at random in a sphere, with a jitter of 3 % of the spacing; then overlapping cells are pushed apart until no two centres are
 /// closer than touch·(r_i + r_j), up to 0.1 % of the mean radius or a number of passes, while cells of a ball are drawn together. Walls
 /// keep cells inside; periodic faces count. Points within what is there are left out. Random numbers: stream kInitialPosition of the founders
-/// first_number …; a pure function of its arguments.
+/// first_number …; a pure function of its arguments, whatever the number of threads.
+///
+/// From kMany cells on they are not drawn together, begin further apart the more their radii differ (a lattice of unequal balls cannot be as dense), and
+/// come apart by part_many() until none overlaps by more than 5 % of the mean radius; shells, which have touch = 1, by 2 %.
 Packing pack_cells(const InitialCells& block, std::span<const double> radius, double touch, const Space& space, std::uint64_t first_number,
-                   std::uint32_t seed, const Surroundings& around = {});
+                   std::uint32_t seed, const Surroundings& around = {}, int threads = 1);
 
 /// A layer on the block's plane: a hexagonal lattice around the point below `center`, each cell its radius above the plane, pushed apart along
 /// it where radii differ. As pack_cells() otherwise.
 Packing layer_cells(const InitialCells& block, std::span<const double> radius, double touch, const Space& space,
-                    const Surroundings& around = {});
+                    const Surroundings& around = {}, int threads = 1);
 
-/// Places drawn at random in the block's shape, one cell after the other, each as often as needed to keep its distance from all that is there
-/// (Poisson disc; random sequential adsorption: it ends near 38 % of the volume). As pack_cells() otherwise.
+/// Places drawn at random in the block's shape. Up to 30 % of its volume one cell after the other, each as often as needed to keep its distance from all that
+/// is there (Poisson disc; random sequential adsorption, which ends near 38 %). Denser, or where that finds no place: one cell in each cube of a
+/// lattice, anywhere in it, then all come apart within the shape (part_many()), with overlaps as pack_cells() leaves of many cells; equal balls end near 64 %, and what
+/// does not come apart is `jammed`. As pack_cells() otherwise.
 Packing scatter_cells(const InitialCells& block, std::span<const double> radius, double touch, const Space& space,
-                      std::uint64_t first_number, std::uint32_t seed, const Surroundings& around = {});
+                      std::uint64_t first_number, std::uint32_t seed, const Surroundings& around = {}, int threads = 1);
 
 /// How cells are pushed apart.
 struct PushApart {
@@ -59,5 +66,11 @@ void keep_within_walls(Vec3d& p, double radius, const Space& space);
 
 /// Cube root of the mean of the cubes of radii [µm].
 double mean_radius(std::span<const double> radius);
+
+/// Distance of neighbours in a lattice of cells of these radii that are to touch like this [µm].
+double lattice_spacing(std::span<const double> radius, double touch);
+
+/// Overlap that many cells may begin with, if they are to touch like this [µm].
+double slack_of_many(double touch, double mean_radius);
 
 }  // namespace morula::scenarios

@@ -100,7 +100,8 @@ std::vector<std::uint16_t> types_of(const InitialCells& block, std::uint64_t fir
 /// The whole of all entries, the same on every rank.
 class Placer {
  public:
-  Placer(const Study& study, Surroundings around, PlacedCells& out) : study_(study), around_(std::move(around)), out_(out) {}
+  Placer(const Study& study, Surroundings around, int threads, PlacedCells& out)
+      : study_(study), around_(std::move(around)), threads_(threads), out_(out) {}
 
   Status add(const InitialCells& block, std::size_t entry) {
     const std::uint64_t first = out_.cells.size() + 1;
@@ -152,7 +153,14 @@ class Placer {
     around_.prepare(*std::max_element(radius.begin(), radius.end()), touch);
     const Packing packing = places(block, radius, touch, first);
     const std::string who = std::to_string(block.count) + " cells of " + names(block);
-    const double tolerance = 0.02 * radius.front();
+    const double tolerance = std::max(0.02 * radius.front(), packing.allowed_overlap);
+    if (packing.jammed) {
+      out_.problems.push_back(
+          {658, entry, who + " cannot be packed so densely at random: they still overlap by " + micrometres(packing.worst_overlap),
+           std::string("make the shape larger or the cells fewer (balls drawn at random fill up to 0.64 of it), or write `fill: ") +
+               (block.fill == FillShape::kBox ? "box" : "sphere") + "`, which puts them in order"});
+      return;
+    }
     if (packing.room < block.count || packing.worst_intrusion > tolerance) {
       const bool few = packing.room < block.count;
       out_.problems.push_back({658, entry,
@@ -176,13 +184,13 @@ class Placer {
     const std::uint32_t seed = study_.model.seed;
     switch (block.pattern) {
       case FillPattern::kLayer:
-        return layer_cells(block, radius, touch, space, around_);
+        return layer_cells(block, radius, touch, space, around_, threads_);
       case FillPattern::kRandom:
-        return scatter_cells(block, radius, touch, space, first, seed, around_);
+        return scatter_cells(block, radius, touch, space, first, seed, around_, threads_);
       case FillPattern::kPacked:
         break;
     }
-    return pack_cells(block, radius, touch, space, first, seed, around_);
+    return pack_cells(block, radius, touch, space, first, seed, around_, threads_);
   }
 
   [[nodiscard]] std::string names(const InitialCells& block) const {
@@ -253,6 +261,7 @@ class Placer {
 
   const Study& study_;
   Surroundings around_;
+  int threads_;
   PlacedCells& out_;
 };
 
@@ -260,10 +269,10 @@ class Placer {
 
 double PlacedCell::radius() const { return radius_of(row.target_volume); }
 
-Result<PlacedCells> place_cells(const Study& study) {
+Result<PlacedCells> place_cells(const Study& study, int threads) {
   PlacedCells out;
   MORULA_TRY_ASSIGN(Surroundings around, Surroundings::of(study.model));
-  Placer placer(study, std::move(around), out);
+  Placer placer(study, std::move(around), threads, out);
   for (std::size_t i = 0; i < study.initial.size(); ++i) MORULA_TRY(placer.add(study.initial[i], i));
   return out;
 }

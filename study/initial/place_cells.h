@@ -43,9 +43,9 @@ inline constexpr double kTouchOfShells = 1.0;
 inline constexpr double kTouchOfSpheres = 0.95;
 
 /// The cells of all entries of `initial`, in the order of the study, each beside what is there already: obstacles, and for a fill the cells of
-/// earlier entries. A pure function of the study.
+/// earlier entries. A pure function of the study, whatever the number of threads.
 /// Errors: kFile/kInput for a CSV or mesh file that has changed since the check, kInput for obstacles that are no closed surfaces.
-Result<PlacedCells> place_cells(const Study& study);
+Result<PlacedCells> place_cells(const Study& study, int threads = 1);
 
 /// The cell with its body. Errors (kInput) name the cell.
 Result<CellRecord> with_body(const PlacedCell& cell, const Model& model, ShapeLibrary& shapes);

@@ -4,10 +4,13 @@
 
 #include "core/random/philox.h"
 #include "study/initial/packing.h"
+#include "study/initial/part_many.h"
+#include "study/initial/scatter_densely.h"
 
 namespace morula::scenarios {
 namespace {
 
+constexpr double kSparse = 0.30;            // of the volume: up to here cells are placed one by one
 constexpr std::uint64_t kMostTries = 2000;  // of one cell; at 38 % of the volume one try in a thousand still finds a place
 constexpr std::uint64_t kFirstDraw = 16;    // of the stream; lower ones are those of packing
 constexpr int kLayerPasses = 400;
@@ -24,13 +27,6 @@ std::pair<Vec3d, Vec3d> along(const Vec3d& normal) {
   return {u, cross(normal, u)};
 }
 
-bool within(const InitialCells& block, const Vec3d& from_center, double inset) {
-  if (block.fill == FillShape::kSphere) return norm(from_center) <= block.radius - inset;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (std::abs(from_center[axis]) > 0.5 * block.size[axis] - inset) return false;
-  return true;
-}
-
 bool keeps_off_walls(const Vec3d& p, double radius, const Space& space) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (space.boundary[axis][0] == BoundaryKind::kWall && p[axis] < space.box.low[axis] + radius) return false;
@@ -39,27 +35,27 @@ bool keeps_off_walls(const Vec3d& p, double radius, const Space& space) {
   return true;
 }
 
-/// Balls in cubes of the block's box, to be asked and added to one by one.
+/// Balls in cubes, to be asked and added to one by one. The cubes fill the block's box; along a periodic axis the whole domain, around which they close.
 class GrowingGrid {
  public:
   GrowingGrid(const InitialCells& block, double width, const Space& space) : space_(space) {
     const bool ball = block.fill == FillShape::kSphere;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double size = ball ? 2.0 * block.radius : block.size[axis];
-      low_[axis] = block.center[axis] - 0.5 * size;
+      periodic_[axis] = space.periodic(static_cast<int>(axis));
+      const double size = periodic_[axis] ? space.box.size()[axis] : ball ? 2.0 * block.radius : block.size[axis];
+      low_[axis] = periodic_[axis] ? space.box.low[axis] : block.center[axis] - 0.5 * size;
       count_[axis] = std::clamp<std::int64_t>(static_cast<std::int64_t>(size / width), 1, 256);
+      if (periodic_[axis] && count_[axis] < 3) count_[axis] = 1;  // the neighbours on both sides are three different cubes, or all is one
       width_[axis] = size / static_cast<double>(count_[axis]);
     }
-    // Across periodic faces neighbours may lie at the other end of the block.
-    if (space.any_periodic()) count_ = {1, 1, 1};
     cubes_.resize(static_cast<std::size_t>(count_[0] * count_[1] * count_[2]));
   }
 
   [[nodiscard]] bool has_room(const Vec3d& p, double radius, double touch) const {
     const auto at = place(p);
-    for (std::int64_t z = std::max<std::int64_t>(0, at[2] - 1); z <= std::min(count_[2] - 1, at[2] + 1); ++z)
-      for (std::int64_t y = std::max<std::int64_t>(0, at[1] - 1); y <= std::min(count_[1] - 1, at[1] + 1); ++y)
-        for (std::int64_t x = std::max<std::int64_t>(0, at[0] - 1); x <= std::min(count_[0] - 1, at[0] + 1); ++x)
+    for (std::int64_t z = first(2, at[2]); z <= last(2, at[2]); ++z)
+      for (std::int64_t y = first(1, at[1]); y <= last(1, at[1]); ++y)
+        for (std::int64_t x = first(0, at[0]); x <= last(0, at[0]); ++x)
           for (const Ball& ball : cubes_[number({x, y, z})])
             if (norm(space_.nearest_image(p - ball.center)) < touch * (radius + ball.radius)) return false;
     return true;
@@ -71,29 +67,76 @@ class GrowingGrid {
     Vec3d center;
     double radius;
   };
-  [[nodiscard]] std::array<std::int64_t, 3> place(const Vec3d& p) const {
+  [[nodiscard]] std::array<std::int64_t, 3> place(const Vec3d& anywhere) const {
+    const Vec3d p = space_.wrapped(anywhere);
     std::array<std::int64_t, 3> out{};
     for (std::size_t axis = 0; axis < 3; ++axis)
       out[axis] =
           std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor((p[axis] - low_[axis]) / width_[axis])), 0, count_[axis] - 1);
     return out;
   }
-  [[nodiscard]] std::size_t number(const std::array<std::int64_t, 3>& p) const {
+  [[nodiscard]] bool closes(std::size_t axis) const { return periodic_[axis] && count_[axis] > 1; }
+  [[nodiscard]] std::int64_t first(std::size_t axis, std::int64_t at) const {
+    return closes(axis) ? at - 1 : std::max<std::int64_t>(0, at - 1);
+  }
+  [[nodiscard]] std::int64_t last(std::size_t axis, std::int64_t at) const {
+    return closes(axis) ? at + 1 : std::min(count_[axis] - 1, at + 1);
+  }
+  [[nodiscard]] std::size_t number(std::array<std::int64_t, 3> p) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = (p[axis] + count_[axis]) % count_[axis];
     return static_cast<std::size_t>((p[2] * count_[1] + p[1]) * count_[0] + p[0]);
   }
 
   const Space& space_;
   Vec3d low_, width_;
+  std::array<bool, 3> periodic_{};
   std::array<std::int64_t, 3> count_{};
   std::vector<std::vector<Ball>> cubes_;
 };
 
+/// Random sequential adsorption.
+Packing scatter_one_by_one(const InitialCells& block, std::span<const double> radius, double touch, const Space& space,
+                           std::uint64_t first_number, std::uint32_t seed, const Surroundings& around) {
+  Packing out;
+  const Random random(seed, RandomStream::kInitialPosition);
+  GrowingGrid grid(block, 2.0 * touch * *std::max_element(radius.begin(), radius.end()), space);
+  const Vec3d half = block.fill == FillShape::kSphere ? Vec3d{block.radius, block.radius, block.radius} : block.size * 0.5;
+  for (std::size_t i = 0; i < radius.size(); ++i) {
+    const CellId id = CellId::founder(first_number + i);
+    bool placed = false;
+    for (std::uint64_t tries = 0; tries < kMostTries && !placed; ++tries) {
+      const RandomPair a = random.uniform(id, kFirstDraw + 2 * tries), b = random.uniform(id, kFirstDraw + 2 * tries + 1);
+      const Vec3d from{(2.0 * a.first - 1.0) * half.x, (2.0 * a.second - 1.0) * half.y, (2.0 * b.first - 1.0) * half.z};
+      const Vec3d p = block.center + from;
+      Vec3d ignored;
+      if (!within(block, from, radius[i]) || !keeps_off_walls(p, radius[i], space) || !grid.has_room(p, radius[i], touch)) continue;
+      if (!around.empty() && around.push(p, radius[i], touch, ignored) > 0.0) continue;
+      grid.add(p, radius[i]);
+      out.center.push_back(space.wrapped(p));
+      placed = true;
+    }
+    if (!placed) break;
+  }
+  out.room = out.center.size();
+  if (out.room < radius.size()) out.center.clear();
+  return out;
+}
+
+/// Volume of the cells, as they are to touch, over that of the shape.
+double filled_part(const InitialCells& block, std::span<const double> radius, double touch) {
+  double cells = 0.0;
+  for (const double r : radius) cells += std::pow(touch * r, 3);
+  const double ball = 4.0 / 3.0 * std::numbers::pi;
+  const bool sphere = block.fill == FillShape::kSphere;
+  return ball * cells / (sphere ? ball * std::pow(block.radius, 3) : block.size.x * block.size.y * block.size.z);
+}
+
 }  // namespace
 
-Packing layer_cells(const InitialCells& block, std::span<const double> radius, double touch, const Space& space,
-                    const Surroundings& around) {
+Packing layer_cells(const InitialCells& block, std::span<const double> radius, double touch, const Space& space, const Surroundings& around,
+                    int threads) {
   Packing out;
-  const double mean = mean_radius(radius), spacing = 2.0 * touch * mean;
+  const double mean = mean_radius(radius), spacing = lattice_spacing(radius, touch);
   const LayerPlane& plane = block.plane;
   const auto [u, v] = along(plane.normal);
   const Vec3d middle = block.center - plane.normal * dot(block.center - plane.point, plane.normal);
@@ -125,8 +168,16 @@ Packing layer_cells(const InitialCells& block, std::span<const double> radius, d
   if (out.room < radius.size()) return out;
   std::stable_sort(sites.begin(), sites.end(), [](const Site& a, const Site& b) { return a.distance < b.distance - 1e-9; });
   for (std::size_t i = 0; i < radius.size(); ++i) out.center.push_back(sites[i].p + plane.normal * (radius[i] - mean));
-  const PushApart how{touch, kLayerSlack * mean, kLayerPasses, 0, middle, &around, &plane};
-  out.worst_overlap = push_apart(out.center, radius, how, space, &out.worst_intrusion);
+  if (radius.size() >= kMany) {
+    out.allowed_overlap = slack_of_many(touch, mean);
+    const PartMany how{.slack = out.allowed_overlap, .around = &around, .plane = &plane, .threads = threads};
+    const Parted parted = part_many(out.center, radius, how, space);
+    out.worst_overlap = parted.overlap;
+    out.worst_intrusion = parted.intrusion;
+  } else {
+    const PushApart how{touch, kLayerSlack * mean, kLayerPasses, 0, middle, &around, &plane};
+    out.worst_overlap = push_apart(out.center, radius, how, space, &out.worst_intrusion);
+  }
   if (block.radius > 0.0)
     for (std::size_t i = 0; i < radius.size(); ++i) {
       const Vec3d from = out.center[i] - middle;
@@ -136,30 +187,12 @@ Packing layer_cells(const InitialCells& block, std::span<const double> radius, d
 }
 
 Packing scatter_cells(const InitialCells& block, std::span<const double> radius, double touch, const Space& space,
-                      std::uint64_t first_number, std::uint32_t seed, const Surroundings& around) {
-  Packing out;
-  const Random random(seed, RandomStream::kInitialPosition);
-  GrowingGrid grid(block, 2.0 * touch * *std::max_element(radius.begin(), radius.end()), space);
-  const Vec3d half = block.fill == FillShape::kSphere ? Vec3d{block.radius, block.radius, block.radius} : block.size * 0.5;
-  for (std::size_t i = 0; i < radius.size(); ++i) {
-    const CellId id = CellId::founder(first_number + i);
-    bool placed = false;
-    for (std::uint64_t tries = 0; tries < kMostTries && !placed; ++tries) {
-      const RandomPair a = random.uniform(id, kFirstDraw + 2 * tries), b = random.uniform(id, kFirstDraw + 2 * tries + 1);
-      const Vec3d from{(2.0 * a.first - 1.0) * half.x, (2.0 * a.second - 1.0) * half.y, (2.0 * b.first - 1.0) * half.z};
-      const Vec3d p = block.center + from;
-      Vec3d ignored;
-      if (!within(block, from, radius[i]) || !keeps_off_walls(p, radius[i], space) || !grid.has_room(p, radius[i], touch)) continue;
-      if (!around.empty() && around.push(p, radius[i], touch, ignored) > 0.0) continue;
-      grid.add(p, radius[i]);
-      out.center.push_back(space.wrapped(p));
-      placed = true;
-    }
-    if (!placed) break;
+                      std::uint64_t first_number, std::uint32_t seed, const Surroundings& around, int threads) {
+  if (filled_part(block, radius, touch) <= kSparse) {
+    Packing out = scatter_one_by_one(block, radius, touch, space, first_number, seed, around);
+    if (out.room == radius.size()) return out;
   }
-  out.room = out.center.size();
-  if (out.room < radius.size()) out.center.clear();
-  return out;
+  return scatter_densely(block, radius, touch, space, first_number, seed, around, threads);
 }
 
 }  // namespace morula::scenarios

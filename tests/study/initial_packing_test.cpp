@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
+#include "core/random/philox.h"
 #include "study/initial/make_tissue.h"
 #include "study/initial/packing.h"
 #include "tests/study/study_fixture.h"
@@ -89,6 +91,92 @@ TEST(Packing, SaysHowFarCellsReachOutOfAShapeThatIsTooSmall) {
   const Packing packing = pack_cells(ball(200, 36.0), radius, 1.0, open_space(), 1, 3);  // the ball of all cells has radius 35.1
   EXPECT_LT(worst_overlap(packing.center, radius, 1.0, open_space()), 0.05);
   EXPECT_GT(packing.reach_beyond, 1.0);
+}
+
+/// Radii spread by 10 %, as a type with `spread: 10 %` has them.
+std::vector<double> spread_radii(std::size_t count) {
+  const Random random(5, RandomStream::kInitialPosition);
+  std::vector<double> out;
+  for (std::size_t i = 0; i < count; ++i)
+    out.push_back(6.0 * (1.0 + 0.1 * std::sqrt(3.0) * (2.0 * random.uniform(CellId::founder(i + 1), 0).first - 1.0)));
+  return out;
+}
+
+/// Radius of the ball of which cells fill this part [µm].
+double radius_filled(const std::vector<double>& radius, double part) {
+  double cubes = 0.0;
+  for (const double r : radius) cubes += r * r * r;
+  return std::cbrt(cubes / part);
+}
+
+TEST(Packing, OfManyCellsOverlapsByAFewPercent) {
+  const auto radius = spread_radii(8000);
+  const Packing packing = pack_cells(ball(8000, radius_filled(radius, 0.5)), radius, 0.95, open_space(), 1, 7);
+  ASSERT_EQ(packing.center.size(), 8000u);
+  EXPECT_LE(worst_overlap(packing.center, radius, 1.0, open_space()), 0.05 * mean_radius(radius));
+  EXPECT_NEAR(worst_overlap(packing.center, radius, 1.0, open_space()), packing.worst_overlap, 1e-12);
+  EXPECT_LT(packing.reach_beyond, 0.01) << "the ball has room to spare";
+}
+
+TEST(Packing, OfManyCellsIsTheSameOnAnyThreads) {
+  const auto radius = spread_radii(6000);
+  const InitialCells block = ball(6000, radius_filled(radius, 0.55));
+  const auto one = pack_cells(block, radius, 0.95, open_space(), 1, 7, {}, 1),
+             three = pack_cells(block, radius, 0.95, open_space(), 1, 7, {}, 3);
+  EXPECT_EQ(one.center, three.center);
+  EXPECT_EQ(scatter_cells(block, radius, 0.95, open_space(), 1, 7, {}, 1).center,
+            scatter_cells(block, radius, 0.95, open_space(), 1, 7, {}, 3).center);
+}
+
+/// Neighbours between 1.15 and 1.35 of the mean distance at which cells touch: a close packed lattice has none there.
+double neighbours_between_shells(const std::vector<Vec3d>& center, double diameter, const Space& space) {
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < center.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double d = norm(space.nearest_image(center[i] - center[j])) / diameter;
+      pairs += d > 1.15 && d < 1.35;
+    }
+  return 2.0 * static_cast<double>(pairs) / static_cast<double>(center.size());
+}
+
+TEST(DenseScatter, FillsSixtyPercentOfABallInDisorder) {
+  const auto radius = spread_radii(6000);
+  const InitialCells block = ball(6000, radius_filled(radius, 0.60));
+  const Packing packing = scatter_cells(block, radius, 0.95, open_space(), 1, 7);
+  ASSERT_EQ(packing.center.size(), 6000u);
+  EXPECT_FALSE(packing.jammed);
+  const double mean = mean_radius(radius);
+  EXPECT_LE(worst_overlap(packing.center, radius, 1.0, open_space()), 0.05 * mean);
+  for (std::size_t i = 0; i < radius.size(); ++i) EXPECT_LE(norm(packing.center[i] - block.center) + radius[i], block.radius + 0.05 * mean);
+  EXPECT_GT(neighbours_between_shells(packing.center, 2.0 * mean, open_space()), 2.0);
+  const std::vector<double> equal(6000, 6.0);
+  const Packing lattice = pack_cells(ball(6000, radius_filled(equal, 0.60)), equal, 0.95, open_space(), 1, 7);
+  EXPECT_LT(neighbours_between_shells(lattice.center, 12.0, open_space()), 0.5);
+}
+
+TEST(DenseScatter, FillsAPeriodicBoxAndFewCells) {
+  InitialCells block;
+  block.count = 300;
+  block.fill = FillShape::kBox;
+  Space space = open_space(0.5 * std::cbrt(300.0 * 4.0 / 3.0 * std::numbers::pi * 216.0 / 0.60));
+  block.size = space.box.size();
+  for (auto& axis : space.boundary) axis = {BoundaryKind::kPeriodic, BoundaryKind::kPeriodic};
+  const std::vector<double> radius(300, 6.0);
+  const Packing packing = scatter_cells(block, radius, 0.95, space, 1, 3);
+  ASSERT_EQ(packing.center.size(), 300u);
+  EXPECT_LE(worst_overlap(packing.center, radius, 1.0, space), 0.3);
+  // Across a face as within: the density near the border is that of the middle.
+  std::size_t at_border = 0;
+  for (const Vec3d& p : packing.center) {
+    EXPECT_TRUE(space.box.contains(p));
+    at_border += std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > 0.5 * std::cbrt(0.5) * block.size.x;  // half of the volume
+  }
+  EXPECT_NEAR(static_cast<double>(at_border) / 300.0, 0.5, 0.1);
+}
+
+TEST(DenseScatter, SaysThatItIsJammed) {
+  const std::vector<double> radius(500, 6.0);
+  EXPECT_TRUE(scatter_cells(ball(500, radius_filled(radius, 0.80)), radius, 1.0, open_space(), 1, 7).jammed);
 }
 
 const std::string kMixed = R"(schema: 1

@@ -158,6 +158,28 @@ TEST(RandomFill, KeepsDistanceAndDependsOnTheSeed) {
   EXPECT_THAT(errors_of(with_cells("  - {type: red, count: 60, fill: random, radius: 22 um}\n")), HasSubstr("[E506]"));
 }
 
+TEST(RandomFill, PacksWhatOneByOneWouldNotFit) {
+  const auto cells = cells_of(with_cells("  - {type: red, count: 150, fill: random, radius: 33.5 um}\n"));  // 0.50 of the ball
+  ASSERT_EQ(cells.size(), 150u);
+  EXPECT_GT(closest(cells), 0.974);
+  for (const PlacedCell& cell : cells) EXPECT_LE(norm(cell.center), 33.5 - 5.0 + 0.25);
+}
+
+TEST(RandomFill, PacksAGivenClosedSurface) {
+  const std::string vessel =
+      changed("geometry:\n", "geometry:\n  vessel: {sphere: {center: [0 um, 0 um, 0 um], radius: 35 um}, side: inside}\n",
+              with_cells("  - {type: red, count: 160, fill: random, size: [72 um, 72 um, 72 um]}\n"));
+  const auto cells = cells_of(vessel);
+  ASSERT_EQ(cells.size(), 160u);
+  EXPECT_GT(closest(cells), 0.974);
+  for (const PlacedCell& cell : cells) EXPECT_LE(norm(cell.center), 35.0 - 5.0 + 0.25);
+}
+
+TEST(RandomFill, SaysWhatCannotBePacked) {
+  EXPECT_THAT(errors_of(with_cells("  - {type: big, count: 60, fill: random, radius: 26.8 um}\n")),  // 0.67 of the ball
+              AllOf(HasSubstr("cannot be packed so densely at random"), HasSubstr("[E658]"), HasSubstr("study.yaml:13:")));
+}
+
 TEST(Check, AnswersAtOnceForVeryManyCellsAndSaysWhatItLeftOut) {
   const auto study = read(with_cells("  - {type: red, count: 100000000, fill: box, size: [190 um, 190 um, 190 um]}\n"), {});
   ASSERT_FALSE(study.ok());
