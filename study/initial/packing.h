@@ -70,6 +70,9 @@ double mean_radius(std::span<const double> radius);
 /// Distance of neighbours in a lattice of cells of these radii that are to touch like this [µm].
 double lattice_spacing(std::span<const double> radius, double touch);
 
+/// Volume of cells of these radii over that of the entry's shape.
+double filled_part(const InitialCells& block, std::span<const double> radius);
+
 /// Overlap that many cells may begin with, if they are to touch like this [µm].
 double slack_of_many(double touch, double mean_radius);
 

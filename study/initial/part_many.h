@@ -14,13 +14,13 @@ inline constexpr std::size_t kMany = 5000;
 
 /// How many balls come apart.
 struct PartMany {
-  double touch = 1.0;                     ///< of r_i + r_j
-  double slack = 0.0;                     ///< overlap that may remain [µm]
-  int most_passes = 400;                  ///< then it ends with what is left
-  const InitialCells* within = nullptr;   ///< balls are kept in this entry's shape; null: they may leave it
-  const Surroundings* around = nullptr;   ///< prepared; pushes and is not pushed
-  const LayerPlane* plane = nullptr;      ///< each ball stays its radius above it
-  int threads = 1;                        ///< change the time that it takes and nothing else
+  double touch = 1.0;                    ///< of r_i + r_j
+  double slack = 0.0;                    ///< overlap that may remain [µm]
+  int most_passes = 400;                 ///< then it ends with what is left
+  const InitialCells* within = nullptr;  ///< balls are kept in this entry's shape; null: they may leave it
+  const Surroundings* around = nullptr;  ///< prepared; pushes and is not pushed
+  const LayerPlane* plane = nullptr;     ///< each ball stays its radius above it
+  int threads = 1;                       ///< change the time that it takes and nothing else
 };
 
 /// What is left when balls have come apart.

@@ -15,6 +15,7 @@
 #include "study/csv.h"
 #include "study/initial/biconcave.h"
 #include "study/initial/packing.h"
+#include "study/read_section.h"
 
 namespace morula::scenarios {
 namespace {
@@ -156,7 +157,10 @@ class Placer {
     const double tolerance = std::max(0.02 * radius.front(), packing.allowed_overlap);
     if (packing.jammed) {
       out_.problems.push_back(
-          {658, entry, who + " cannot be packed so densely at random: they still overlap by " + micrometres(packing.worst_overlap),
+          {658, entry,
+           who + " cannot be packed so densely at random: they have " +
+               short_number(std::round(100.0 * filled_part(block, radius)) / 100.0) + " times its volume and still overlap by " +
+               micrometres(packing.worst_overlap),
            std::string("make the shape larger or the cells fewer (balls drawn at random fill up to 0.64 of it), or write `fill: ") +
                (block.fill == FillShape::kBox ? "box" : "sphere") + "`, which puts them in order"});
       return;

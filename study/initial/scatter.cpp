@@ -122,15 +122,6 @@ Packing scatter_one_by_one(const InitialCells& block, std::span<const double> ra
   return out;
 }
 
-/// Volume of the cells, as they are to touch, over that of the shape.
-double filled_part(const InitialCells& block, std::span<const double> radius, double touch) {
-  double cells = 0.0;
-  for (const double r : radius) cells += std::pow(touch * r, 3);
-  const double ball = 4.0 / 3.0 * std::numbers::pi;
-  const bool sphere = block.fill == FillShape::kSphere;
-  return ball * cells / (sphere ? ball * std::pow(block.radius, 3) : block.size.x * block.size.y * block.size.z);
-}
-
 }  // namespace
 
 Packing layer_cells(const InitialCells& block, std::span<const double> radius, double touch, const Space& space, const Surroundings& around,
@@ -188,7 +179,7 @@ Packing layer_cells(const InitialCells& block, std::span<const double> radius, d
 
 Packing scatter_cells(const InitialCells& block, std::span<const double> radius, double touch, const Space& space,
                       std::uint64_t first_number, std::uint32_t seed, const Surroundings& around, int threads) {
-  if (filled_part(block, radius, touch) <= kSparse) {
+  if (filled_part(block, radius) * std::pow(touch, 3) <= kSparse) {
     Packing out = scatter_one_by_one(block, radius, touch, space, first_number, seed, around);
     if (out.room == radius.size()) return out;
   }

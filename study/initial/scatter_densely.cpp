@@ -13,9 +13,14 @@ namespace {
 
 constexpr std::uint64_t kFirstDraw = std::uint64_t{1} << 40;  // of the first founder; lower ones are those of other patterns
 constexpr std::uint64_t kDrawsOfCube = 3;
-constexpr int kMostTries = 200;   // of lattices with ever smaller cubes
-constexpr double kInset = 0.9;    // of the mean radius: so near to the border do the cubes' middles begin
+constexpr int kMostTries = 200;  // of lattices with ever smaller cubes
+constexpr double kInset = 0.9;   // of the mean radius: so near to the border do the cubes' middles begin
 constexpr int kMostPasses = 400;
+
+double volume_of(const InitialCells& block) {
+  if (block.fill == FillShape::kSphere) return 4.0 / 3.0 * std::numbers::pi * std::pow(block.radius, 3);
+  return block.size.x * block.size.y * block.size.z;
+}
 
 struct Cube {
   std::uint64_t number;  ///< in the lattice
@@ -45,6 +50,12 @@ std::vector<Cube> cubes_within(const InitialCells& block, double width, double m
 
 }  // namespace
 
+double filled_part(const InitialCells& block, std::span<const double> radius) {
+  double cubes = 0.0;
+  for (const double r : radius) cubes += r * r * r;
+  return 4.0 / 3.0 * std::numbers::pi * cubes / volume_of(block);
+}
+
 bool within(const InitialCells& block, const Vec3d& from_center, double inset) {
   if (block.fill == FillShape::kSphere) return norm(from_center) <= block.radius - inset;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -57,8 +68,7 @@ Packing scatter_densely(const InitialCells& block, std::span<const double> radiu
   Packing out;
   const double mean = mean_radius(radius);
   const auto count = static_cast<double>(radius.size());
-  const bool sphere = block.fill == FillShape::kSphere;
-  double width = std::cbrt((sphere ? 4.0 / 3.0 * std::numbers::pi * std::pow(block.radius, 3) : block.size.x * block.size.y * block.size.z) / count);
+  double width = std::cbrt(volume_of(block) / count);
   std::vector<Cube> cubes;
   for (int tries = 0; tries < kMostTries && width > 0.5 * mean; ++tries) {
     cubes = cubes_within(block, width, mean, space, around);
@@ -70,7 +80,9 @@ Packing scatter_densely(const InitialCells& block, std::span<const double> radiu
 
   const Random random(seed, RandomStream::kInitialPosition);
   const CellId id = CellId::founder(first_number);
-  const auto draws = [&](const Cube& cube, std::uint64_t draw) { return random.uniform(id, kFirstDraw + kDrawsOfCube * cube.number + draw); };
+  const auto draws = [&](const Cube& cube, std::uint64_t draw) {
+    return random.uniform(id, kFirstDraw + kDrawsOfCube * cube.number + draw);
+  };
   // Cubes beyond the number of cells stay empty, drawn by lot.
   std::vector<std::pair<double, std::size_t>> lots;
   for (std::size_t k = 0; k < cubes.size(); ++k) lots.emplace_back(draws(cubes[k], 0).first, k);

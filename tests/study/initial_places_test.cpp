@@ -177,7 +177,8 @@ TEST(RandomFill, PacksAGivenClosedSurface) {
 
 TEST(RandomFill, SaysWhatCannotBePacked) {
   EXPECT_THAT(errors_of(with_cells("  - {type: big, count: 60, fill: random, radius: 26.8 um}\n")),  // 0.67 of the ball
-              AllOf(HasSubstr("cannot be packed so densely at random"), HasSubstr("[E658]"), HasSubstr("study.yaml:13:")));
+              AllOf(HasSubstr("cannot be packed so densely at random: they have 0.67 times its volume"), HasSubstr("[E658]"),
+                    HasSubstr("study.yaml:13:")));
 }
 
 TEST(Check, AnswersAtOnceForVeryManyCellsAndSaysWhatItLeftOut) {
