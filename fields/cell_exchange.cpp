@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "fields/cell_weights.h"
@@ -19,45 +20,82 @@ CellExchange::CellExchange(const Field& field, const Space& space, std::span<con
     else
       surface_weights(field.grid, space, cell.center, cell.faces, cell.nodes, weights[i]);
   }
-
-  std::vector<std::vector<std::byte>> messages;  // by host
-  std::map<int, std::uint32_t> host_of;          // by rank
-  first_sent_.push_back(0);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    for (const VoxelWeight& w : weights[i]) {
-      const auto [host, is_new] =
-          host_of.try_emplace(field.owner[static_cast<std::size_t>(w.brick)], static_cast<std::uint32_t>(hosts_.size()));
-      if (is_new) {
-        hosts_.push_back({host->first, 0});
-        messages.emplace_back();
-      }
-      const Deposit deposit{cells[i].id.bits(), w.weight, static_cast<std::int32_t>(w.brick), w.voxel, cells[i].type, 0, 0, 0};
-      const auto bytes = std::as_bytes(std::span(&deposit, 1));
-      messages[host->second].insert(messages[host->second].end(), bytes.begin(), bytes.end());
-      ++hosts_[host->second].deposits;
-      sent_.push_back({host->second, w.weight});
-    }
-    first_sent_.push_back(sent_.size());
-  }
+  std::vector<std::vector<Deposit>> for_hosts = deposits_for_hosts(field, cells, weights);
 
   Mail outgoing;
-  for (const auto& [rank, host] : host_of) outgoing[rank] = std::move(messages[host]);
-  for (const auto& [rank, bytes] : comm.exchange(std::move(outgoing))) {
-    const std::size_t count = bytes.size() / sizeof(Deposit), begin = deposits_.size();
-    deposits_.resize(begin + count);
-    std::memcpy(deposits_.data() + begin, bytes.data(), bytes.size());
-    for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t h = 0; h < hosts_.size(); ++h) {
+    if (hosts_[h].rank == comm.rank()) continue;
+    const auto bytes = std::as_bytes(std::span(for_hosts[h]));
+    outgoing[hosts_[h].rank].assign(bytes.begin(), bytes.end());
+  }
+  const auto take_in = [&](int rank, std::span<const Deposit> from) {
+    const std::size_t begin = deposits_.size();
+    deposits_.insert(deposits_.end(), from.begin(), from.end());
+    for (std::size_t i = 0; i < from.size(); ++i) {
       Deposit& d = deposits_[begin + i];
-      const auto& bricks = field.owned_bricks;
-      d.brick = static_cast<std::int32_t>(std::lower_bound(bricks.begin(), bricks.end(), std::int64_t{d.brick}) - bricks.begin());
       d.from = static_cast<std::uint32_t>(guests_.size());
       d.place = i;
     }
-    guests_.push_back({rank, count});
+    guests_.push_back({rank, from.size()});
+  };
+  for (std::size_t h = 0; h < hosts_.size(); ++h)
+    if (hosts_[h].rank == comm.rank()) take_in(comm.rank(), for_hosts[h]);
+  for (const auto& [rank, bytes] : comm.exchange(std::move(outgoing))) {
+    std::vector<Deposit> from(bytes.size() / sizeof(Deposit));
+    std::memcpy(from.data(), bytes.data(), bytes.size());
+    take_in(rank, from);
   }
-  std::sort(deposits_.begin(), deposits_.end(), [](const Deposit& a, const Deposit& b) {
-    return std::tie(a.brick, a.voxel, a.type, a.id) < std::tie(b.brick, b.voxel, b.type, b.id);
-  });
+  sort_deposits(field);
+}
+
+std::vector<std::vector<CellExchange::Deposit>> CellExchange::deposits_for_hosts(const Field& field, std::span<const CellSource> cells,
+                                                                                 std::span<const std::vector<VoxelWeight>> weights) {
+  std::vector<std::vector<Deposit>> for_hosts;
+  std::map<int, std::uint32_t> host_of;  // by rank
+  int last_rank = -1;                    // most neighbours in the list have the same host
+  std::uint32_t host = 0;
+  first_sent_.push_back(0);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    for (const VoxelWeight& w : weights[i]) {
+      if (const int rank = field.owner[static_cast<std::size_t>(w.brick)]; rank != last_rank) {
+        const auto [known, is_new] = host_of.try_emplace(rank, static_cast<std::uint32_t>(hosts_.size()));
+        if (is_new) {
+          hosts_.push_back({rank, 0});
+          for_hosts.emplace_back();
+        }
+        last_rank = rank;
+        host = known->second;
+      }
+      for_hosts[host].push_back({cells[i].id.bits(), w.weight, static_cast<std::int32_t>(w.brick), w.voxel, cells[i].type, 0, 0, 0});
+      sent_.push_back({host, w.weight});
+    }
+    first_sent_.push_back(sent_.size());
+  }
+  for (std::size_t h = 0; h < hosts_.size(); ++h) hosts_[h].deposits = for_hosts[h].size();
+  return for_hosts;
+}
+
+void CellExchange::sort_deposits(const Field& field) {
+  constexpr std::size_t kVoxels = std::size_t{Grid::kBrick} * Grid::kBrick * Grid::kBrick;
+  // Into the voxels by counting, then the few of each voxel.
+  std::vector<std::int32_t> brick_here(field.owner.size(), -1);
+  for (std::size_t b = 0; b < field.owned_bricks.size(); ++b)
+    brick_here[static_cast<std::size_t>(field.owned_bricks[b])] = static_cast<std::int32_t>(b);
+  std::vector<std::uint32_t> first(field.owned_bricks.size() * kVoxels + 1, 0);
+  const auto voxel_of = [](const Deposit& d) { return static_cast<std::size_t>(d.brick) * kVoxels + static_cast<std::size_t>(d.voxel); };
+  for (Deposit& d : deposits_) {
+    d.brick = brick_here[static_cast<std::size_t>(d.brick)];
+    ++first[voxel_of(d) + 1];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<Deposit> sorted(deposits_.size());
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  for (const Deposit& d : deposits_) sorted[next[voxel_of(d)]++] = d;
+  deposits_ = std::move(sorted);
+  for (std::size_t v = 0; v + 1 < first.size(); ++v)
+    if (first[v + 1] - first[v] > 1)
+      std::sort(deposits_.begin() + first[v], deposits_.begin() + first[v + 1],
+                [](const Deposit& a, const Deposit& b) { return std::tie(a.type, a.id) < std::tie(b.type, b.id); });
 }
 
 std::vector<Sink> CellExchange::sinks(const std::vector<bool>& takes_up) const {

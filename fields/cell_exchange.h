@@ -8,6 +8,7 @@
 #include "core/parallel/comm.h"
 #include "core/space/space.h"
 #include "core/vec3.h"
+#include "fields/cell_weights.h"
 #include "fields/field.h"
 #include "fields/layout.h"
 
@@ -54,6 +55,11 @@ class CellExchange {
     double taken = 0.0;
     double concentration = 0.0;
   };
+  /// Deposits of this rank's cells, by host; the bricks have their numbers in the grid. Finds the hosts and what is sent.
+  std::vector<std::vector<Deposit>> deposits_for_hosts(const Field& field, std::span<const CellSource> cells,
+                                                       std::span<const std::vector<VoxelWeight>> weights);
+  /// Bricks by their numbers on this rank, and all in order.
+  void sort_deposits(const Field& field);
   /// Shares for the guests go to them; gives those of the hosts, by host. Collective among partners.
   [[nodiscard]] std::vector<std::vector<Share>> swap_shares(std::vector<std::vector<Share>> of_guests, const Comm& comm) const;
 
