@@ -1,6 +1,7 @@
 #include "fields/builtin.h"
 
 #include "fields/reactions/decay.h"
+#include "fields/reactions/secretion.h"
 #include "fields/reactions/uptake.h"
 
 namespace morula::fields {
@@ -15,6 +16,6 @@ std::vector<LawInfo> field_laws() {
                           given_by_study("voxel", "length", "µm", "Wanted voxel size.")}}};
 }
 
-std::vector<std::shared_ptr<const Reaction>> builtin_reactions() { return {decay(), uptake()}; }
+std::vector<std::shared_ptr<const Reaction>> builtin_reactions() { return {decay(), uptake(), secretion()}; }
 
 }  // namespace morula::fields

@@ -79,6 +79,28 @@ void add_thiele_ball(std::vector<ReferenceNumber>& out) {
                    [=] { return mean_at(ball->found(), kEnd, p.part * kRadius) / mean_at(ball->found(), kEnd, kRadius); }});
 }
 
+/// A ball of radius R that gives s per volume to a field that decays with k, λ = √(D/k) = R: within it c = (s/k)(1 − (1 + R/λ) e^(−R/λ) sinh(r/λ)/(r/λ)), outside
+/// (s/k)(R/λ cosh(R/λ) − sinh(R/λ)) e^(−r/λ)/(r/λ). The study's rate makes s/k 1 mM. Walls are six λ away.
+void add_secreting_ball(std::vector<ReferenceNumber>& out) {
+  const auto ball =
+      study_to_run("secretion",
+                   "time: {end: 100 s, step: 20 s, output: 100 s, checkpoint: 100 s}\n"
+                   "domain: {size: [240 um, 240 um, 240 um], boundary: open}\ncell_types: {cell: {radius: 20 um}}\n"
+                   "initial:\n  - {type: cell, at: [[0 um, 0 um, 0 um]], as: sphere}\n"
+                   "fields:\n  signal: {diffusion: 1e-10 m^2/s, initial: 0 mM, decay: 0.25 1/s, voxel: 4 um, boundary: {all: 0 mM}, "
+                   "secretion: {cell: 8377.5804 amol/s}}\n");
+  struct Place {
+    const char* where;
+    double distance, concentration;
+  };
+  // Second order, h = λ/5: (h/λ)²/12 of the operator, and (h/R)²/2 of the rim, whose voxels are filled in part.
+  for (const Place& p : {Place{"its centre", 0.0, 0.264241}, Place{"a distance of two radii", 40.0, 0.0248935}})
+    out.push_back({"A 4",
+                   std::string("study: concentration that a secreting ball as wide as a signal reaches makes at ") + p.where + ", mM",
+                   p.concentration, 0.023 * p.concentration, "Yukawa's closed form of D∇²c − kc + s = 0 for a ball; voxels of R/5",
+                   [=] { return mean_at(ball->found(), 100.0, p.distance); }});
+}
+
 }  // namespace
 
 void add_field_study_numbers(std::vector<ReferenceNumber>& out) {
@@ -99,6 +121,7 @@ void add_field_study_numbers(std::vector<ReferenceNumber>& out) {
                  "closed form q (R^2 - r^2)/(6 D); voxels of R/5 that the rim cuts: (h/R)^2/2",
                  [ball] { return uptake_from_profile(ball->found(), 100.0, 2000.0, 185185.12); }});
   add_thiele_ball(out);
+  add_secreting_ball(out);
 }
 
 }  // namespace morula::scenarios

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fields/builtin.h"
+#include "fields/reactions/secretion.h"
 #include "tests/fields/helpers.h"
 
 namespace morula::fields::test {
@@ -151,6 +152,21 @@ TEST(Reactions, OfCellsAddUpOnOneCell) {
   for (int i = 0; i < 4; ++i) EXPECT_LT(advance(field, spec, space, 10.0, cells, &taken).balance_error(), 1e-12);
   EXPECT_NEAR(value_at(field, 0, 0, 0), 0.01, 1e-6);
   EXPECT_NEAR(taken[0], 1000.0 * (0.2 - value_at(field, 0, 0, 0)), 1e-9);
+}
+
+TEST(Reactions, ThatMakeSubstanceSlowDownWhereThereIsMuch) {
+  // One voxel of 1000 µm³ from which nothing leaves: dc/dt = S/V K/(K + c), K c + c²/2 = K S t/V. S t/V = 0.3 mM with K = 0.1 mM: c = (√7 − 1)/10.
+  const Space space = cube(10.0);
+  FieldSpec spec = spec_of(2000.0, 10.0, 0.0);
+  spec.relative_tolerance = 1e-8;
+  FieldReaction& made = spec.reactions.emplace_back(FieldReaction{secretion(), {}});
+  made.values.set("rate", 30.0), made.values.set("half_inhibition", 0.1);
+  const std::vector<CellSource> cells{{CellId::founder(1), 0, {5, 5, 5}, 3.0}};
+  Field field = field_of(spec, space);
+  std::vector<double> taken(1, 0.0);
+  EXPECT_LT(advance(field, spec, space, 10.0, cells, &taken).balance_error(), 1e-12);
+  EXPECT_NEAR(value_at(field, 0, 0, 0), 0.1645751, 1e-6);
+  EXPECT_NEAR(taken[0], -1000.0 * value_at(field, 0, 0, 0), 1e-9) << "what the field has is what the cell has given";
 }
 
 TEST(Reactions, OfOneLawMayStandTwiceOnAType) {
