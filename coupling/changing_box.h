@@ -1,6 +1,6 @@
 #pragma once
+#include "core/numbers/time_course.h"
 #include "core/space/space.h"
-#include "coupling/time_course.h"
 #include "coupling/tissue.h"
 
 namespace morula {

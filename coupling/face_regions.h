@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/mesh/mark_sets.h"
+#include "core/numbers/time_course.h"
 #include "core/vec3.h"
-#include "coupling/time_course.h"
 
 namespace morula {
 

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "core/law_values.h"
+#include "core/numbers/time_course.h"
 #include "core/vec3.h"
-#include "coupling/time_course.h"
 
 namespace morula {
 

@@ -175,8 +175,9 @@ Status Simulation::advance_fields(double dt, const std::function<bool()>& give_u
   const std::vector<fields::CellSource> sources = field_sources();
   std::vector<double> taken(sources.size()), seen(sources.size());
   for (std::size_t f = 0; f < model_.fields.size(); ++f) {
-    MORULA_TRY_ASSIGN(auto report,
-                      field_solver_.advance(tissue_.fields[f], model_.fields[f], model_.space, sources, dt, comm_, taken, seen, give_up));
+    // Steps land on the corners of a course, so that the middle of a step has its mean.
+    const fields::FieldSpec spec = fields::at_time(model_.fields[f], tissue_.clock.time - 0.5 * dt);
+    MORULA_TRY_ASSIGN(auto report, field_solver_.advance(tissue_.fields[f], spec, model_.space, sources, dt, comm_, taken, seen, give_up));
     OptionalColumn<double>& amount = tissue_.cells.variables[amount_of(f)].values;
     OptionalColumn<double>& concentration = tissue_.cells.variables[concentration_of(f)].values;
     for (std::size_t i = 0; i < sources.size(); ++i) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/law_values.h"
+#include "core/numbers/time_course.h"
 
 namespace morula::fields {
 
@@ -32,7 +33,15 @@ struct FieldSpec {
   double voxel = 0.0;                                    ///< wanted voxel size h [µm]; the domain is divided evenly, h never larger
   double relative_tolerance = 1e-4;                      ///< of the integrator
   std::array<std::array<FaceCondition, 2>, 3> boundary;  ///< axis, then low and high face; ignored on periodic axes
+  TimeCourse course;                                     ///< of all concentrations on faces, as a factor; empty: they stay
   std::vector<FieldReaction> reactions;                  ///< in the order of the registry
 };
+
+/// The field with the concentrations that its faces have at a time.
+inline FieldSpec at_time(FieldSpec spec, double time) {
+  for (auto& axis : spec.boundary)
+    for (FaceCondition& face : axis) face.value *= spec.course.at(time);
+  return spec;
+}
 
 }  // namespace morula::fields

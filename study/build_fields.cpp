@@ -58,6 +58,22 @@ void add_reaction(BuildContext& c, const std::shared_ptr<const fields::Reaction>
   }
 }
 
+/// E510 for concentrations below 0; E111 where there is nothing on the faces that could follow.
+void build_border_course(BuildContext& c, const draft::Field& f, fields::FieldSpec& spec) {
+  if (f.course.empty()) return;
+  spec.course = build_course(c, f.course);
+  for (const auto& [number, place, point] : f.course)
+    if (point.value.known() && point.value.value < 0.0)
+      c.diagnostics.error(510, point.value.place, "a concentration cannot be " + point.value.text + " times what it is", "0 or more");
+  const auto is_held = [](const fields::FaceCondition& face) {
+    return face.kind == fields::FaceCondition::Kind::kValue && face.value > 0.0;
+  };
+  for (const auto& axis : spec.boundary)
+    if (std::ranges::any_of(axis, is_held)) return;
+  c.diagnostics.error(111, f.course.front().place, "the faces of field '" + spec.name + "' have a course, but no concentration above 0",
+                      "give them one: `boundary: {all: 0.2 mM}`");
+}
+
 }  // namespace
 
 void build_fields(BuildContext& c) {
@@ -75,6 +91,7 @@ void build_fields(BuildContext& c) {
     spec.boundary = {{{condition(b.x_low, b.all), condition(b.x_high, b.all)},
                       {condition(b.y_low, b.all), condition(b.y_high, b.all)},
                       {condition(b.z_low, b.all), condition(b.z_high, b.all)}}};
+    build_border_course(c, f, spec);
     for (const auto& reaction : c.options.laws->reactions) add_reaction(c, reaction, f, place, spec);
     check_voxels(c, f);
     c.study.model.fields.push_back(std::move(spec));

@@ -161,6 +161,12 @@ void declare_field(Section& s, draft::Field& f) {
             face("z_low", "The face at the low end of z.", f.boundary.z_low);
             face("z_high", "The face at the high end of z.", f.boundary.z_high);
           });
+  s.list({.name = "course",
+          .doc = "The concentrations on the faces over time, as parts of those of `boundary`: straight lines between these points, "
+                 "constant outside. Steps land on "
+                 "the points.",
+          .example = "[{time: 0 h, factor: 1}, {time: 24 h, factor: 1}, {time: 25 h, factor: 0}]"},
+         f.course, &declare_course_point);
   for (const auto& reaction : s.laws().reactions) declare_reaction(s, *reaction, f);
 }
 

@@ -231,6 +231,7 @@ struct FieldBoundary {
 struct Field {
   Given<double> diffusion, initial, voxel, tolerance;
   FieldBoundary boundary;
+  std::vector<Named<CoursePoint>> course;
   std::map<std::string, OwnSection> reactions;                         ///< in the volume, by section
   std::map<std::string, std::vector<Named<OwnSection>>> by_cell_type;  ///< reactions of cells, by section
 };

@@ -7,10 +7,10 @@
 
 #include "core/mesh/mark_sets.h"
 #include "core/mesh/topology.h"
+#include "core/numbers/time_course.h"
 #include "core/own_keys.h"
 #include "core/vec3.h"
 #include "coupling/own_values.h"
-#include "coupling/time_course.h"
 
 namespace morula {
 

@@ -59,6 +59,7 @@ void add_surface_loads(const Model& model, const Tissue& tissue, double time, st
 
 double next_corner(const Model& model, double time) {
   double next = model.box_volume.next_point(time);
+  for (const fields::FieldSpec& field : model.fields) next = std::min(next, field.course.next_point(time));
   for (const CellLoad& load : model.loads) {
     next = std::min(next, load.course.next_point(time));
     for (const auto& [name, course] : load.values.courses()) next = std::min(next, course.next_point(time));

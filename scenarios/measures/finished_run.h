@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/numbers/time_course.h"
 #include "core/result.h"
-#include "coupling/time_course.h"
 #include "results/series_reader.h"
 #include "results/snapshot.h"
 #include "study/study.h"

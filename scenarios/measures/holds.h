@@ -2,8 +2,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/numbers/time_course.h"
 #include "coupling/loads/load.h"
-#include "coupling/time_course.h"
 
 namespace morula::scenarios {
 

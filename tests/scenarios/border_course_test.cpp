@@ -1,0 +1,63 @@
+// Concentrations on the faces of the domain that change with time.
+#include <cmath>
+
+#include "tests/scenarios/own_parts.h"
+
+namespace morula::scenarios::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// One voxel of 20 µm: dc/dt = k (c_b − c), k = 12 D/h² = 0.03/s (six faces half a voxel away). While c_b = a t, c = a (t − (1 − e^(−kt))/k).
+const std::string kStudy = R"(schema: 1
+study: border
+time: {end: 20 min, step: 5 s, output: 5 min, checkpoint: 5 min}
+domain: {size: [20 um, 20 um, 20 um]}
+cell_types:
+  idle: {radius: 6 um}
+fields:
+  dye: {diffusion: 1e-12 m^2/s, initial: 0 mM, voxel: 20 um, tolerance: 1e-8, boundary: {all: 1 mM}, course: [{time: 0 s, factor: 0}, {time: 10 min, factor: 1}, {time: 613 s, factor: 0}]}
+initial: [{type: idle, at: [[0 um, 0 um, 0 um]]}]
+output: {report: false}
+)";
+
+class BorderCourse : public OwnParts {
+ protected:
+  BorderCourse() : OwnParts([](Laws&) {}) {}
+};
+
+TEST_F(BorderCourse, IsFollowedByTheFieldAndItsCornersAreNotCut) {
+  run_whole(kStudy, "whole");
+  const auto time = column("whole", "time"), dye = column("whole", "mean_dye");
+  ASSERT_EQ(time.size(), 5u);
+  const double k = 0.03, a = 1.0 / 600.0;
+  const auto ramp = [&](double t) { return a * (t - (1.0 - std::exp(-k * t)) / k); };
+  // Steps of 5 s take the mean of a step: (k dt)²/12 of the lag 1/k, 2e-4 of the concentration.
+  EXPECT_NEAR(dye[1], ramp(300.0), 2e-4);
+  EXPECT_NEAR(dye[2], ramp(600.0), 2e-4);
+  // After the fall of 13 s, which ends between two steps of 5 s, nothing is left on the faces: c falls as e^(−kt).
+  const double b = 1.0 / 13.0, at_end = ramp(600.0) * std::exp(-k * 13.0) + (1.0 - std::exp(-k * 13.0)) * (1.0 + b / k) - b * 13.0;
+  EXPECT_NEAR(dye[3], at_end * std::exp(-k * (900.0 - 613.0)), 2e-4 * std::exp(-k * 287.0) + 1e-7);
+  EXPECT_LT(column("whole", "balance_dye").back(), 1e-12);
+}
+
+TEST_F(BorderCourse, HasTheSameBitsAfterARestartAndFromTheResolvedStudy) {
+  const RunSummary whole = run_whole(kStudy, "whole");
+  EXPECT_EQ(run_split(kStudy, "split", 300.0).final_state.state_hash, whole.final_state.state_hash);
+  run_whole(file("whole", "study.resolved.yaml"), "again");
+  EXPECT_EQ(file("again", "series.csv"), file("whole", "series.csv"));
+}
+
+TEST_F(BorderCourse, NeedsConcentrationsThatCanFollow) {
+  const auto errors = [&](const std::string& from, const std::string& to) {
+    const auto found = read(changed(from, to, kStudy), options());
+    return found.ok() ? std::string() : found.error().text();
+  };
+  EXPECT_THAT(errors("boundary: {all: 1 mM}, ", ""), HasSubstr("[E111]"));
+  EXPECT_THAT(errors("boundary: {all: 1 mM}", "boundary: {all: 0 mM}"), HasSubstr("[E111]"));
+  EXPECT_THAT(errors("factor: 1}", "factor: -1}"), HasSubstr("a concentration cannot be -1 times what it is"));
+  EXPECT_THAT(errors("{time: 613 s", "{time: 313 s"), HasSubstr("[E510]"));
+}
+
+}  // namespace
+}  // namespace morula::scenarios::test
