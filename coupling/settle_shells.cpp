@@ -23,7 +23,7 @@ constexpr double kNoRoom = 0.5;
 Reach reach_of(const Mechanics& mechanics, const Model& model) {
   const ContactSettings& contact = mechanics.contacts().settings();
   const auto packs = [](const CellType& type) { return !type.sphere.packing.empty(); };
-  return {std::max(contact.range + contact.spread, contact.sphere_reach), kFirstWay, std::ranges::any_of(model.types, packs)};
+  return {std::max(contact.range, contact.sphere_reach), kFirstWay, std::ranges::any_of(model.types, packs)};
 }
 
 /// The cells of a neighbourhood as a tissue of their own.

@@ -24,7 +24,6 @@ struct SphereNeighbours {
 
 struct ContactSettings {
   double range = 0.5;         ///< c [µm]
-  double spread = 0.0;        ///< how far beyond the range a point may lie whose part of a face is partly within it (gap_spread.h) [µm]
   double skin = 0.3;          ///< of a pair's lists [µm]
   double body_skin = 1.0;     ///< of the list of pairs [µm]
   double sphere_reach = 0.0;  ///< largest gap at which two spheres still pull [µm]
@@ -177,7 +176,7 @@ class ContactLayer {
   void add_obstacle_pairs(const ContactScene& scene);
   /// Surfaces that may touch themselves, after all other pairs.
   void add_self_pairs(const ContactScene& scene);
-  [[nodiscard]] ListReach reach() const { return {settings_.range + settings_.spread, settings_.skin, settings_.depth}; }
+  [[nodiscard]] ListReach reach() const { return {settings_.range, settings_.skin, settings_.depth}; }
   /// Of a pair: a surface keeps a distance from itself.
   [[nodiscard]] ListReach reach_of(const SurfacePair& pair, const ContactMaterial& material) const {
     return pair.with_itself() ? ListReach{settings_.range + material.self_distance, settings_.skin, 0.0} : reach();

@@ -106,8 +106,7 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
     Extent& extent = extents[i];
     for (std::uint32_t p = 0; p < body.point_count; ++p) extent.box.include(scene.position[body.first_point + p]);
     const bool sphere = body.shape == BodyShape::kSphere;
-    const double range = sphere ? std::max(settings_.range, settings_.sphere_reach) : settings_.range + 2.0 * settings_.spread;
-    const double reach = 0.5 * (settings_.body_skin + range);
+    const double reach = 0.5 * (settings_.body_skin + (sphere ? std::max(settings_.range, settings_.sphere_reach) : settings_.range));
     extent.box = extent.box.inflated(reach + body.radius);
     extent.center = extent.box.center();
     double radius2 = 0.0;

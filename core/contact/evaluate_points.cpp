@@ -3,10 +3,8 @@
 
 #include "core/contact/closest_foot.h"
 #include "core/contact/crossing.h"
-#include "core/contact/gap_spread.h"
 #include "core/contact/nearest_face.h"
 #include "core/contact/surface_pair.h"
-#include "core/simd/transpose.h"
 
 namespace morula {
 namespace {
@@ -94,12 +92,12 @@ void add_face_normal_gradient(const PairBody& source, const SourceFace& face, co
 }
 
 /// Gradient through the opposed-normal weight: `h0` = ∂E/∂m with m = −n_T·n_y.
-void add_weight_gradient(const PointsEvaluation& e, int q, const SourceFace& face, std::uint32_t target_face, const PointGap& gap,
+void add_weight_gradient(const PointsEvaluation& e, int q, const SourceFace& face, const Triangle* t, const PointGap& gap,
                          const TargetNormal& normal, double h0, Sink& sink) {
   add_face_normal_gradient(e.source, face, normal.unit * -h0, sink);
   const Vec3d h = face.normal * -h0;  // ∂E/∂n_y
   const Vec3d across = (h - normal.unit * dot(normal.unit, h)) * (1.0 / normal.length);
-  if (e.target.topology == nullptr) {  // n_y = (x_q − x)/|x_q − x| of a sphere
+  if (t == nullptr) {  // n_y = (x_q − x)/|x_q − x| of a sphere
     const Vec3d force = across * (1.0 / (gap.gap + e.target.radius));
     sink.push_source(e.quadrature, q, -force);
     sink.push_target(0, force);
@@ -107,12 +105,12 @@ void add_weight_gradient(const PointsEvaluation& e, int q, const SourceFace& fac
   }
   double c[3];
   for (std::size_t j = 0; j < 3; ++j) {
-    c[j] = dot(across, e.target.normal_at(target_face, j));
+    c[j] = dot(across, e.target.node_normal[(*t)[j]]);
     if (sink.target == nullptr || gap.mu[j] == 0.0) continue;
     sink.target->has_node_normal = true;
     sink.target->node_normal[sink.target_node[j]] += across * gap.mu[j];
   }
-  add_foot_gradient(e, q, e.target.topology->faces()[target_face], gap, c, sink);
+  add_foot_gradient(e, q, *t, gap, c, sink);
 }
 
 constexpr int kLanes = 8;
@@ -126,10 +124,8 @@ struct alignas(64) Batch {
   // results
   double source_normal[3][kLanes], face_area[kLanes], area[kLanes];  ///< of the source's face; what the point stands for
   double gap[kLanes], normal[3][kLanes], mu[3][kLanes];
-  double unit[3][kLanes], length[kLanes];                ///< normal of the target at the foot point
-  double by_opposition[kLanes];                          ///< ∂E/∂m
-  double density[kLanes], by_area[kLanes];               ///< energy per area, and its slope by the area of the face
-  double spread[kLanes], told[kLanes], pull[3][kLanes];  ///< h of gap_spread.h; area told; force on the target
+  double unit[3][kLanes], length[kLanes];  ///< normal of the target at the foot point
+  double weight_slope[kLanes], attraction[kLanes], density[kLanes], told[kLanes], pull[3][kLanes];
   double bearing[kLanes], stiffness[kLanes];
   bool inside[kLanes];                                      ///< the gap is negative
   double corner_adhesion[3][kLanes], per_adhesion[kLanes];  ///< where W differs by marks: W at the target's nodes, and energy by W
@@ -230,55 +226,6 @@ void take_distances(double touch, Batch& batch) {
   }
 }
 
-/// What a point's part of a face feels by its gap.
-struct Response {
-  TractionPart attraction, repulsion;
-  Real told;                                                 ///< share of it that is told as contact area
-  Real spread{0.0};                                          ///< h of the gaps (gap_spread.h)
-  Real attraction_by_square{0.0}, repulsion_by_square{0.0};  ///< slopes of the energies by h²
-  Real square_by_opposition{0.0}, square_by_area{0.0};       ///< slopes of h²
-};
-
-/// The law at the gaps of points with this opposition m, each for a part of this area. Where surfaces adhere it is averaged over the gaps of the
-/// part; where nothing adheres, the tractions end with the contact, and one gap is enough.
-Response respond_to(const SurfaceTraction& law, Real gap, Real m, Real area) {
-  Response out;
-  law.form->evaluate(law, gap, out.attraction, out.repulsion);
-  out.told = contact_share(gap, law.range);
-  if (!(law.adhesion > 0.0)) return out;
-  const auto spread = GapSpread<Real>::of(m, area, law.range);
-  const auto wide = spread.half > Real(0.0);
-  if (!any_lane<kLanes>(wide)) return out;
-  out.spread = spread.half, out.square_by_opposition = spread.by_opposition, out.square_by_area = spread.by_area;
-  const Real far = gap + spread.half, near = gap - spread.half;
-  TractionPart attraction[2], repulsion[2];
-  law.form->evaluate(law, far, attraction[0], repulsion[0]);
-  law.form->evaluate(law, near, attraction[1], repulsion[1]);
-  const auto mean = [&](Real a, Real b, Real c) { return select(wide, (a + b + c) * Real(1.0 / 3.0), a); };
-  const auto average = [&](TractionPart& part, const TractionPart(&others)[2]) {
-    part = {mean(part.energy, others[0].energy, others[1].energy), mean(part.slope, others[0].slope, others[1].slope),
-            mean(part.curvature, others[0].curvature, others[1].curvature)};
-  };
-  average(out.attraction, attraction);
-  average(out.repulsion, repulsion);
-  out.told = mean(out.told, contact_share(far, law.range), contact_share(near, law.range));
-  const Real sixth = select(wide, Real(1.0 / 6.0) / spread.half, Real(0.0));
-  out.attraction_by_square = (attraction[0].slope - attraction[1].slope) * sixth;
-  out.repulsion_by_square = (repulsion[0].slope - repulsion[1].slope) * sixth;
-  return out;
-}
-
-/// W comes with the faces: it scales what was found for 1.
-void scale_attraction(const PointsEvaluation& e, Real weighted_area, Response& point, Batch& batch) {
-  if (!e.material.regional) return;
-  (weighted_area * point.attraction.energy).store(batch.per_adhesion);
-  Real adhesion(0.0);
-  for (std::size_t j = 0; j < 3; ++j) adhesion = adhesion + Real::load(batch.corner_adhesion[j]) * Real::load(batch.mu[j]);
-  TractionPart& part = point.attraction;
-  part = {part.energy * adhesion, part.slope * adhesion, part.curvature * adhesion};
-  point.attraction_by_square = point.attraction_by_square * adhesion;
-}
-
 /// Energies, tractions and stiffness at the gaps. `kPlain`: one W everywhere, and two different bodies.
 template <bool kPlain>
 void respond(const PointsEvaluation& e, Batch& batch) {
@@ -289,21 +236,25 @@ void respond(const PointsEvaluation& e, Batch& batch) {
   const Vector source_normal = twice * (Real(1.0) / length);
   store(batch.source_normal, source_normal);
   face_area.store(batch.face_area);
-  const Real gap = Real::load(batch.gap), opposition = -dot(source_normal, load(batch.unit));
-  const auto weight = OpposedWeight::of(opposition);
-  const Real own_area = face_area * Real(1.0 / e.quadrature.count), area = own_area * Real(e.share);
-  Response point = respond_to(law, gap, opposition, own_area);
-  if constexpr (!kPlain) scale_attraction(e, area * weight.value, point, batch);
-  const Real by_square = weight.value * point.attraction_by_square + point.repulsion_by_square;
-  const Real density = weight.value * point.attraction.energy + point.repulsion.energy;
-  (area * (weight.slope * point.attraction.energy + by_square * point.square_by_opposition)).store(batch.by_opposition);
-  density.store(batch.density);
-  (density + by_square * point.square_by_area * own_area).store(batch.by_area);
-  point.spread.store(batch.spread);
-  (own_area * point.told).store(batch.told);
-  store(batch.pull, load(batch.normal) * (area * (weight.value * point.attraction.slope + point.repulsion.slope)));
+  const Real gap = Real::load(batch.gap);
+  const auto weight = OpposedWeight::of(-dot(source_normal, load(batch.unit)));
+  TractionPart attraction, repulsion;
+  law.form->evaluate(law, gap, attraction, repulsion);
+  const Real part(1.0 / e.quadrature.count);
+  const Real area = face_area * Real(e.share) * part;
+  if (!kPlain && e.material.regional) {
+    (area * weight.value * attraction.energy).store(batch.per_adhesion);
+    Real adhesion(0.0);
+    for (std::size_t j = 0; j < 3; ++j) adhesion = adhesion + Real::load(batch.corner_adhesion[j]) * Real::load(batch.mu[j]);
+    attraction = {attraction.energy * adhesion, attraction.slope * adhesion, attraction.curvature * adhesion};
+  }
+  weight.slope.store(batch.weight_slope);
+  (area * attraction.energy).store(batch.attraction);
+  (weight.value * attraction.energy + repulsion.energy).store(batch.density);
+  (face_area * part * contact_share(gap, law.range)).store(batch.told);
+  store(batch.pull, load(batch.normal) * (area * (weight.value * attraction.slope + repulsion.slope)));
   (area * friction_weight(gap, law.range)).store(batch.bearing);
-  (area * (weight.value * point.attraction.curvature + point.repulsion.curvature)).store(batch.stiffness);
+  (area * (weight.value * attraction.curvature + repulsion.curvature)).store(batch.stiffness);
   area.store(batch.area);
   for (std::size_t k = 0; k < 2; ++k)
     store_cut(batch.rounded_mu[k], Real::load(batch.mu[k]) * Real(ContactElement::kWeightUnits) + Real(0.5));
@@ -339,11 +290,10 @@ void fill(const PointsEvaluation& e, const PointsAgainstBody& lists, const Conta
   const Triangle& s = e.source.topology->faces()[lists.source_face[p.source_place]];
   for (std::size_t k = 0; k < 3; ++k) put(batch.source_corner[k], lane, e.source.position[s[k]]);
   if (e.target.topology == nullptr) return;
-  const std::uint32_t face = lists.target_face[p.place];
-  const Triangle& t = e.target.topology->faces()[face];
+  const Triangle& t = e.target.topology->faces()[lists.target_face[p.place]];
   for (std::size_t k = 0; k < 3; ++k) {
     put(batch.corner[k], lane, e.target.node(t[k]));
-    put(batch.node_normal[k], lane, e.target.normal_at(face, k));
+    put(batch.node_normal[k], lane, e.target.node_normal[t[k]]);
   }
 }
 
@@ -361,7 +311,7 @@ void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists,
   for (std::size_t j = 0; j < 3; ++j) gap.mu[j] = batch.mu[j][lane];
   const double scale = e.share * (1.0 / e.quadrature.count);
   pair.energy += batch.area[lane] * batch.density[lane];
-  sink.source.face_energy[p.source_place] += scale * batch.by_area[lane];
+  sink.source.face_energy[p.source_place] += scale * batch.density[lane];
   if (kPlain || !e.with_itself) sink.source.contact_area += batch.told[lane];
   if (kPlain || !e.with_itself) pair.overlap = gap.gap < -pair.overlap ? -gap.gap : pair.overlap;
 
@@ -371,10 +321,10 @@ void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists,
     sink.push_target(0, pull);
   else
     sink.push_target(gap.mu, pull);
-  if (batch.by_opposition[lane] != 0.0) {
-    const std::uint32_t target_face = sphere ? 0 : lists.target_face[p.place];
+  if (batch.weight_slope[lane] != 0.0) {
+    const Triangle* target_face = sphere ? nullptr : &e.target.topology->faces()[lists.target_face[p.place]];
     add_weight_gradient(e, p.q, {get(batch.source_normal, lane), batch.face_area[lane]}, target_face, gap,
-                        {get(batch.unit, lane), batch.length[lane]}, batch.by_opposition[lane], sink);
+                        {get(batch.unit, lane), batch.length[lane]}, batch.weight_slope[lane] * batch.attraction[lane], sink);
   }
   if (!kPlain && e.material.regional && !e.target.marks.empty()) {
     double c[3];
@@ -421,7 +371,7 @@ void evaluate_batches(const PointsEvaluation& e, int d, const CrossingWatch& wat
       const ContactPoint& p = ws.points[first + static_cast<std::size_t>(lane)];
       const double gap = batch.gap[lane];
       if (p.second >= 0.0) remember(p, gap + touch, p.source_place * static_cast<std::size_t>(e.quadrature.count) + p.q, e, lists);
-      if (gap < e.material.law.range + batch.spread[lane]) {
+      if (gap < e.material.law.range) {
         add_point<kPlain>(e, d, lists, p, batch, lane, pair, gradient, ws.elements);
         if (watch.suspects(gap + touch))
           ws.suspects.push_back({ws.elements.back().place(), kPlain ? gap < 0.0 : batch.inside[lane], std::abs(gap + touch)});

@@ -66,23 +66,6 @@ bool rests(const RigidSurface& surface, std::uint32_t part, const NearestFace& n
   return true;
 }
 
-/// Normals at the corners of faces, from the faces around each node that belong to the same part, weighted by their angles.
-void find_corner_normals(RigidSurface& surface) {
-  const Topology& topology = *surface.topology;
-  surface.corner_normal.reserve(3 * std::size_t{topology.face_count()});
-  for (std::uint32_t face = 0; face < topology.face_count(); ++face)
-    for (const std::uint32_t node : topology.faces()[face]) {
-      Vec3d sum;
-      for (const std::uint32_t other : topology.faces_of_node(node)) {
-        if (surface.part_of_face[other] != surface.part_of_face[face]) continue;
-        const Triangle& t = topology.faces()[other];
-        const int corner = t[0] == node ? 0 : t[1] == node ? 1 : 2;
-        sum += unit_face_normal(t, surface.position) * corner_angle(t, corner, surface.position);
-      }
-      surface.corner_normal.push_back(normalized(sum));
-    }
-}
-
 }  // namespace
 
 void find_smooth_parts(RigidSurface& surface) {
@@ -113,9 +96,7 @@ void find_smooth_parts(RigidSurface& surface) {
     }
     std::sort(part.face.begin(), part.face.end());
   }
-  surface.corner_normal.clear();
   if (surface.parts.size() == 1) return;
-  find_corner_normals(surface);
   for (SmoothPart& part : surface.parts) part.tree = tree_of(surface, part.face);
 }
 

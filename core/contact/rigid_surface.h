@@ -29,7 +29,6 @@ struct RigidSurface {
   std::unique_ptr<TriangleTree> tree;
   std::vector<SmoothPart> parts;            ///< by their lowest face
   std::vector<std::uint32_t> part_of_face;  ///< by face
-  std::vector<Vec3d> corner_normal;         ///< three a face: unit normals of its part at its nodes; empty where the surface is one part
   std::uint16_t material = 0;
 };
 

@@ -36,15 +36,10 @@ struct PairBody {
   const Topology* topology = nullptr;
   std::span<const Vec3d> position;
   std::span<const Vec3d> node_normal;
-  Vec3d shift{};                           ///< added to the positions: periodic image, or how far an obstacle has moved
-  double radius = 0.0;                     ///< of a sphere
-  MarkSets marks{};                        ///< by face; empty: none
-  std::span<const Vec3d> corner_normal{};  ///< three a face, where a node has another normal on each side of a sharp edge; else empty
+  Vec3d shift{};        ///< added to the positions: periodic image, or how far an obstacle has moved
+  double radius = 0.0;  ///< of a sphere
+  MarkSets marks{};     ///< by face; empty: none
 
-  /// Unit and outward, at a corner (0, 1, 2) of a face.
-  [[nodiscard]] const Vec3d& normal_at(std::uint32_t face, std::size_t corner) const {
-    return corner_normal.empty() ? node_normal[topology->faces()[face][corner]] : corner_normal[3 * std::size_t{face} + corner];
-  }
   [[nodiscard]] Vec3d node(std::uint32_t i) const { return position[i] + shift; }
   /// Unit and outward.
   [[nodiscard]] Vec3d face_normal(std::uint32_t face) const {

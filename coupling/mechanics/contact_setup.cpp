@@ -6,8 +6,6 @@
 #include <map>
 #include <numbers>
 
-#include "core/contact/gap_spread.h"
-
 namespace morula {
 namespace {
 
@@ -167,10 +165,6 @@ ContactSettings contact_settings(const Model& model, int threads) {
   ContactSettings settings;
   settings.range = model.contact.range;
   for (const ContactPair& pair : model.pairs) settings.range = std::max(settings.range, pair.range);
-  const auto adheres = [](const ContactPair& pair) { return pair.adhesion > 0.0 || !pair.regions.empty(); };
-  const auto clings_to_sister = [](const CellType& type) { return type.cycles && type.shells_divide && type.new_surface > 0.0; };
-  if (std::ranges::any_of(model.pairs, adheres) || std::ranges::any_of(model.types, clings_to_sister))
-    settings.spread = most_spread(settings.range);
   settings.skin = model.contact.skin;
   settings.body_skin = 2.0 * model.contact.skin;
   settings.points_per_face = model.contact.points_per_face;

@@ -30,7 +30,7 @@ std::vector<ContactMaterial> nucleus_material(const Model& model) {
 ContactSettings nucleus_contacts(const Model& model, int threads) {
   ContactSettings settings = contact_settings(model, threads);
   settings.range = model.contact.range;
-  settings.sphere_reach = settings.spread = 0.0;
+  settings.sphere_reach = 0.0;
   settings.objective_friction = false;
   return settings;
 }

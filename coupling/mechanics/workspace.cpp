@@ -80,8 +80,7 @@ void build_scene(Workspace& work, const Tissue& tissue, const Settling* settling
   const Model& model = work.setting.model;
   const ContactSettings& contact = work.terms.contacts->layer().settings();
   const double slack = contact.body_skin;
-  const double reach =
-      std::max(contact.range + contact.spread, contact.sphere_reach) + 2.0 * contact.body_skin + slack + 2.0 * step_margin(model);
+  const double reach = std::max(contact.range, contact.sphere_reach) + 2.0 * contact.body_skin + slack + 2.0 * step_margin(model);
   work.scene.build(tissue, model.space, reach, work.setting.shapes, work.setting.comm);
   if (settling != nullptr) work.scene.set_moving(by_body_of_scene(work.scene, settling->moves));
   work.age.emplace();
