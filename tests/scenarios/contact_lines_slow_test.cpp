@@ -1,5 +1,6 @@
 // What a user gets of contacts with default numerics on 162 nodes: where contact lines lie, and what areas are told. Limits are those that were asked for where the
-// three points of a face reach them; the others stand beside what they miss, and decision 0026 says what nine points at the rim would give and cost.
+// three points of a face reach them; the others stand beside what they miss. Decision 0026 says what nine points at the rim would give and cost, decision 0048
+// how much all of it depends on how the meshes lie.
 #include <gtest/gtest.h>
 
 #include <array>
