@@ -27,14 +27,27 @@ inline RestingContact resting_contact(const SphereParameters& a, double radius_a
   return {contact / smaller, contact * contact / (3.0 * radius) / (radius_a + radius_b), 3.0 * contact * contact / (smaller * smaller)};
 }
 
-/// Whether a contact of this area [µm²] is larger than the law allows for on a sphere of this radius [µm].
-inline bool is_beyond_range(double area, double radius) { return area > std::numbers::pi * kJkrRange * kJkrRange * radius * radius; }
+/// How far an overlap over a radius is from the middle of a range, as a part of the way to the end on its side: 1 at both ends. The middle is 0 where
+/// 0 lies within the range. An end that is infinite is never reached.
+inline double part_of_way_to_end(const OverlapRange& range, double overlap) {
+  const bool has_both = std::isfinite(range.least) && std::isfinite(range.most);
+  const double middle = has_both && (range.least >= 0.0 || range.most <= 0.0) ? 0.5 * (range.least + range.most) : 0.0;
+  const double way = (overlap >= middle ? range.most : range.least) - middle;
+  return std::isfinite(way) && way != 0.0 ? std::max(0.0, (overlap - middle) / way) : 0.0;
+}
 
-/// Whether a contact of this overlap and area is outside of what its law is for: what the law was fitted to, or else contacts small against the
-/// smaller sphere, of this radius [µm].
+/// How far a contact of this overlap [µm] and area [µm²] is within what its law is for: 1 at the end of the range, above outside (decision 0050).
+///
+/// A law that was fitted: its overlap over that at the end of the overlaps of the fit. Any other: its area over π (0.45 R)², R the radius of the
+/// smaller sphere [µm]; the area of small contacts grows like the overlap.
+inline double part_of_range(const PairContact& contact, double overlap, double area, double smaller_radius) {
+  if (contact.fitted.has_ends()) return part_of_way_to_end(contact.fitted, overlap / smaller_radius);
+  return area / (std::numbers::pi * kJkrRange * kJkrRange * smaller_radius * smaller_radius);
+}
+
+/// Whether such a contact is outside of what its law is for.
 inline bool is_outside_law(const PairContact& contact, double overlap, double area, double smaller_radius) {
-  if (!contact.fitted.has_ends()) return is_beyond_range(area, smaller_radius);
-  return overlap < contact.fitted.least * smaller_radius || overlap > contact.fitted.most * smaller_radius;
+  return part_of_range(contact, overlap, area, smaller_radius) > 1.0;
 }
 
 }  // namespace morula::cbm

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -68,6 +69,7 @@ class CellView {
   SymMat3<double> stress{};      ///< σ, what they exert on it (BodyValues) [kPa]
   double stressed_volume = 0.0;  ///< V of this stress [µm³]
   double inner_pressure = 0.0;   ///< −K_V ln(V/V0) of a shell; of a sphere its pressure [kPa]
+  double outside_law = std::numeric_limits<double>::quiet_NaN();  ///< as a ball (AsBalls), where somebody asks for it; else no number
 
  private:
   const Cells* cells_;

@@ -47,6 +47,10 @@ std::string text_of_cause(const EventReason& reason, const Model& model) {
       return text_of(model.swaps.triggers[reason.number], model);
     case Cause::kOutside:
       return "outside";
+    case Cause::kBecameShell:
+      return "how far its neighbours went since it became a shell";
+    case Cause::kBecameSphere:
+      return "how far its neighbours went since it became a sphere";
   }
   return "";
 }

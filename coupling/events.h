@@ -16,8 +16,9 @@ enum class EventKind : std::uint8_t {
   kRemoval,
   kPromotion,
   kDemotion,
-  kQuiescence,  ///< a cell left its cycle
-  kReturn,      ///< and came back
+  kQuiescence,       ///< a cell left its cycle
+  kReturn,           ///< and came back
+  kExchangeSettled,  ///< how far the neighbours of a cell went since it exchanged its body (coupling/exchange_effects.h)
   kWarning,
 };
 
@@ -34,13 +35,26 @@ struct EventReason {
     kLongLineage,  ///< it cannot divide once more
     kBehaviour,    ///< `number`: of the cell's type, + 2¹⁶ times that of the behaviour of the type
     kShrunk,
-    kRegion,   ///< `number`: of the region, in Model::swaps
-    kTrigger,  ///< `number`: of the trigger, in Model::swaps
-    kOutside,  ///< of all regions and triggers
+    kRegion,       ///< `number`: of the region, in Model::swaps
+    kTrigger,      ///< `number`: of the trigger, in Model::swaps
+    kOutside,      ///< of all regions and triggers
+    kBecameShell,  ///< of kExchangeSettled: what the exchange was
+    kBecameSphere,
   };
   Cause cause = Cause::kNone;
   bool no_room = false;  ///< it had become a shell and found no room among its neighbours
   std::uint32_t number = 0;
+};
+
+/// What an exchange of bodies did to the neighbours of the cell, which kept theirs (decision 0050).
+struct ExchangeEffect {
+  std::uint32_t neighbours = 0;
+  double volume = 0.0;  ///< of the body that the cell had [µm³]
+  /// dV: how much more room the cell takes as a shell than as a sphere, whose ball overlaps its neighbours': the caps of the ball behind the
+  /// planes of its contacts. Of a promotion > 0, of a demotion < 0 [µm³].
+  double room = 0.0;
+  double largest_force = 0.0, mean_force = 0.0;  ///< change of the force on a neighbour before anyone has moved [nN]
+  double largest_way = 0.0, mean_way = 0.0;      ///< of a neighbour from just before the exchange on, over its radius; of kExchangeSettled
 };
 
 /// Something that happened to a cell; written to events.jsonl, one line each, in the order of (time, kind, cell). Plain data: it travels
@@ -55,6 +69,8 @@ struct Event {
   double birth_volume[2] = {0.0, 0.0};  ///< and those of her daughters at birth [µm³]
   /// Of a division by cut: how much the energy of the whole rose by the divisions of the same moment [nN·µm].
   std::optional<double> energy_rise{};
+  /// Of an exchange of bodies in a run, and of what became of it.
+  std::optional<ExchangeEffect> exchange{};
 };
 
 /// The reason, for people: "region core", "shrunk below the volume at which a dead cell is removed"; nothing for no cause.

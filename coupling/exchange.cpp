@@ -1,8 +1,10 @@
 // Cells exchange their bodies: a step's regions and triggers are obeyed.
 #include <algorithm>
-#include <optional>
+#include <cmath>
+#include <numbers>
 
 #include "coupling/cell_record.h"
+#include "coupling/exchange_effects.h"
 #include "coupling/face_marks.h"
 #include "coupling/settle_shells.h"
 #include "coupling/simulation.h"
@@ -10,6 +12,20 @@
 
 namespace morula {
 namespace {
+
+/// Caps of the balls of the cells of these orders, by order [µm³]. Collective.
+std::vector<double> caps_of(const Tissue& tissue, std::span<const SwapOrder> orders, Mechanics& mechanics) {
+  const std::vector<double> caps = mechanics.as_balls(tissue).caps;
+  std::vector<double> by_row(tissue.cells.size()), out;
+  for (const BodyOfRow& body : bodies_of(tissue.cells)) by_row[body.row] = caps[body.place(tissue.shells.size())];
+  for (const SwapOrder& order : orders) out.push_back(by_row[order.row]);
+  return out;
+}
+
+double volume_of(const CellRecord& cell) {
+  if (cell.sphere) return 4.0 / 3.0 * std::numbers::pi * std::pow(cell.sphere->radius, 3);
+  return enclosed_volume(cell.shell->shape->topology->faces(), cell.shell->position, cell.center());
+}
 
 /// Cells just promoted that found no room (`back`, sorted) become again the spheres they were; their events say so.
 void take_back(Tissue& tissue, std::vector<CellRecord> before, std::span<const CellId> back, std::vector<Event>& events) {
@@ -21,6 +37,7 @@ void take_back(Tissue& tissue, std::vector<CellRecord> before, std::span<const C
     if (event.kind != EventKind::kPromotion || !goes_back(event.cell)) continue;
     event.kind = EventKind::kWarning;
     event.reason.no_room = true;
+    event.exchange.reset();
   }
 }
 
@@ -30,12 +47,15 @@ std::vector<Event> Simulation::swap_bodies() {
   auto timed = timer().scope(Stage::kCoupling);
   std::vector<Event> events;
   const std::vector<Vec3d> center = centers();
-  std::optional<BodyValues> body_values;
-  if (look_at_bodies(model_.swaps)) body_values = values();
-  const std::vector<SwapOrder> orders = choose_swaps(model_, tissue_, {center, body_values ? &*body_values : nullptr}, comm_);
+  const LookedAt looked = look_for_swaps(model_.swaps, tissue_, *mechanics_);
+  const std::vector<SwapOrder> orders = choose_swaps(model_, tissue_, looked.bodies(center), comm_);
   if (!comm_.any(!orders.empty())) return events;
   std::vector<double> pressure(orders.size());
   for (std::size_t k = 0; k < orders.size(); ++k) pressure[k] = tissue_.cells.rows[orders[k].row].pressure;
+  const std::vector<double> caps = caps_of(tissue_, orders, *mechanics_);
+  const bool may_stay = tissue_.clock.steps > 0;  // at the very beginning cells become what the study says
+  ExchangeWatch watch;
+  if (may_stay) watch = watch_exchanges(model_, tissue_, center, orders, *mechanics_, comm_);
   std::vector<CellId> leaving;
   for (const SwapOrder& order : orders)
     if (order.to == BodyKind::kSphere) leaving.push_back(tissue_.cells.rows[order.row].id);
@@ -44,14 +64,14 @@ std::vector<Event> Simulation::swap_bodies() {
   if (!leaving.empty()) touching = mechanics_->touching(tissue_, leaving);
   std::vector<CellId> fresh;
   std::vector<std::size_t> rows;
-  std::vector<CellRecord> before, changed;        // before: of the promoted, should they find no room
-  const bool may_stay = tissue_.clock.steps > 0;  // at the very beginning cells become what the study says
+  std::vector<CellRecord> before, changed;  // before: of the promoted, should they find no room
   std::vector<BodyOfRow> body_of_row;
   for (const BodyOfRow& body : bodies_of(tissue_.cells)) body_of_row.push_back(body);
   for (std::size_t k = 0; k < orders.size(); ++k) {
     rows.push_back(orders[k].row);
     CellRecord& cell = changed.emplace_back(record_of(tissue_, body_of_row[orders[k].row]));
     const bool up = orders[k].to == BodyKind::kShell;
+    const double had = volume_of(cell);
     if (up) {
       if (may_stay) before.push_back(cell);
       promote(cell, model_.types[cell.row.type], pressure[k], tissue_.clock.time, shapes_, model_.seed);
@@ -60,6 +80,7 @@ std::vector<Event> Simulation::swap_bodies() {
       demote(cell, tissue_.clock.time);
     }
     events.push_back({tissue_.clock.time, up ? EventKind::kPromotion : EventKind::kDemotion, cell.row.id, {}, {}, orders[k].reason});
+    events.back().exchange = ExchangeEffect{.volume = had, .room = up ? caps[k] : -caps[k]};
   }
   std::sort(rows.begin(), rows.end());
   replace_cells(tissue_, rows, std::move(changed));
@@ -73,6 +94,10 @@ std::vector<Event> Simulation::swap_bodies() {
     tissue_.clock.capped = tissue_.clock.capped || settled.overlap_is_left;
   }
   mechanics_->bodies_changed();
+  if (may_stay) {
+    tell_exchanges(watch, tissue_, *mechanics_, comm_, events);
+    mechanics_->bodies_changed();  // partners that divisions of this step rename are not yet those of their daughters
+  }
   std::int64_t ups = 0, downs = 0;
   for (const Event& event : events) {
     ups += event.kind == EventKind::kPromotion;

@@ -124,6 +124,7 @@ Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<b
   }
   const std::vector<Event> swapped = swap_bodies();
   outcome.events.insert(outcome.events.end(), swapped.begin(), swapped.end());
+  tell_settled_exchanges(outcome.events);
   outcome.events = all_events(std::move(outcome.events));
   rename_partners(outcome.events);
   if (clock.steps % kReorderEvery == 0) {

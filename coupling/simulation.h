@@ -78,6 +78,8 @@ class Simulation {
   Status advance_fields(double dt, const std::function<bool()>& give_up, StepOutcome& outcome);
   /// Cells become shells or spheres as regions and triggers ask for (coupling/exchange.cpp). Collective.
   std::vector<Event> swap_bodies();
+  /// After a step: what became of the neighbours of the cells that exchanged their bodies a while ago. Collective.
+  void tell_settled_exchanges(std::vector<Event>& events);
   /// Shells with a face of too little quality get an even mesh on the same surface (coupling/mesh_renewal.cpp). Collective.
   void renew_meshes(std::vector<Event>& events);
   /// What a step of life has asked for (coupling/divisions.cpp): daughters in place of mothers, and dead cells gone. Collective.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "cbm/division_ramp.h"
 #include "coupling/behaviours/growth.h"
@@ -100,9 +99,8 @@ std::vector<std::string> still_to_come(const Model& model, const Tissue& tissue,
   add(any_obstacle_moves(model), "an obstacle that moves");
   add(any_tension_swings(model), "a tension that swings");
   add(any_region_begins_or_ends(model, time), "a region that begins or ends");
-  std::optional<BodyValues> bodies;
-  if (look_at_bodies(model.swaps)) bodies = mechanics.values(tissue);
-  add(swaps_wait(model, tissue, {center, bodies ? &*bodies : nullptr}, comm), "an exchange of bodies");
+  const LookedAt looked = look_for_swaps(model.swaps, tissue, mechanics);
+  add(swaps_wait(model, tissue, looked.bodies(center), comm), "an exchange of bodies");
   add(tissue.clock.capped, "the end of the capped start");
   add(any_cell(
           [&](std::size_t k, const CellRow& row, const CellType&) { return optional.inflation_left[k] > kRounding * row.target_volume; }),

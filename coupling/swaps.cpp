@@ -78,6 +78,7 @@ Wish wish(const Model& model, const CellView& cell, const Vec3d& center, const V
 CellView SwapBodies::view(const Model& model, const Tissue& tissue, const BodyOfRow& body) const {
   CellView out(tissue.cells, body.row, model.types[tissue.cells.rows[body.row].type], tissue.clock.time);
   if (values != nullptr) out.set_body(*values, body.place(tissue.shells.size()), center[body.row]);
+  if (balls != nullptr) out.outside_law = balls->outside_law[body.place(tissue.shells.size())];
   return out;
 }
 
@@ -89,6 +90,11 @@ std::vector<CellId> ids_of_all_ranks(const std::vector<CellId>& mine, const Comm
 
 bool look_at_bodies(const Swaps& swaps) {
   return std::ranges::any_of(swaps.triggers, [](const Trigger& t) { return t.type < 0 && t.value->looks_at_body; });
+}
+
+LookedAt look_for_swaps(const Swaps& swaps, const Tissue& tissue, Mechanics& mechanics) {
+  if (!look_at_bodies(swaps)) return {};
+  return {mechanics.values(tissue), mechanics.as_balls(tissue)};
 }
 
 std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, const SwapBodies& bodies, const Comm& comm) {

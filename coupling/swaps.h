@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -6,6 +7,7 @@
 #include "coupling/cell_record.h"
 #include "coupling/cell_view.h"
 #include "coupling/events.h"
+#include "coupling/mechanics/mechanics.h"
 #include "coupling/tissue.h"
 
 namespace morula {
@@ -21,12 +23,25 @@ struct SwapOrder {
 struct SwapBodies {
   std::span<const Vec3d> center;       ///< of the cells, by row [µm]
   const BodyValues* values = nullptr;  ///< where triggers look at them (look_at_bodies())
+  const AsBalls* balls = nullptr;      ///< likewise
 
   [[nodiscard]] CellView view(const Model& model, const Tissue& tissue, const BodyOfRow& body) const;
 };
 
-/// Whether a trigger needs SwapBodies::values.
+/// Whether a trigger needs SwapBodies::values and SwapBodies::balls.
 bool look_at_bodies(const Swaps& swaps);
+
+/// What triggers look at of the bodies of a rank at present positions; nothing where none looks at bodies.
+struct LookedAt {
+  std::optional<BodyValues> values;
+  std::optional<AsBalls> balls;
+
+  [[nodiscard]] SwapBodies bodies(std::span<const Vec3d> center) const {
+    return {center, values ? &*values : nullptr, balls ? &*balls : nullptr};
+  }
+};
+/// Collective.
+LookedAt look_for_swaps(const Swaps& swaps, const Tissue& tissue, Mechanics& mechanics);
 
 /// Which cells exchange their body now, by regions and triggers with their margins, thresholds and hold times. Decisions read only the state
 /// given here: rows, and their bodies. Among the willing the lowest ids come first; not more than max_shells shells,

@@ -49,6 +49,16 @@ struct LumenState {
   double sphere_directions = 0.0;  ///< part of all directions in which they are seen
 };
 
+/// A neighbour of a cell that has exchanged its body, until it is told how far it went (coupling/exchange_effects.h). Nothing else depends on it.
+struct WatchedNeighbour {
+  CellId exchanged, neighbour;
+  double since = 0.0;              ///< when the body was exchanged [s]
+  std::uint64_t is_promotion = 0;  ///< 1, or 0: a demotion
+  double room = 0.0;               ///< of the exchange [µm³]
+  Vec3d from{};                    ///< where the neighbour was then [µm]
+  double radius = 0.0;             ///< of the neighbour, as a ball [µm]
+};
+
 /// All state of a run on this rank: what a checkpoint holds. No hidden state exists elsewhere; workspaces can be rebuilt from it.
 struct Tissue {
   Clock clock;
@@ -59,7 +69,8 @@ struct Tissue {
   dcm::NuclearShells nuclei;           ///< those that are shells of their own; in no count of cells or shells
   std::vector<Vec3d> obstacle_offset;  ///< how far each obstacle has moved [µm]
   std::vector<fields::Field> fields;
-  std::vector<LumenState> lumens;  ///< by lumen of the model
+  std::vector<LumenState> lumens;         ///< by lumen of the model
+  std::vector<WatchedNeighbour> watched;  ///< by time, exchanged cell and neighbour; the same on every rank
 };
 
 }  // namespace morula

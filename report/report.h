@@ -33,6 +33,16 @@ struct ReportLimit {
   double when = -1.0;  ///< time of the worst value [s]; negative: not known
 };
 
+/// What exchanges of bodies of one kind did to the neighbours.
+struct ReportExchanges {
+  std::string kind;  ///< "promotion"
+  std::size_t count = 0;
+  double room = 0.0;                             ///< of all [µm³]
+  double largest_force = 0.0, mean_force = 0.0;  ///< change of the force on a neighbour [nN]
+  std::size_t settled = 0;                       ///< of how many the ways are known
+  double largest_way = 0.0, mean_way = 0.0;      ///< of a neighbour [R]
+};
+
 /// How often one kind of event happened.
 struct ReportEvents {
   std::string kind;  ///< "divisions"
@@ -58,6 +68,7 @@ struct ReportContent {
   std::vector<ReportPlot> plots;
   std::vector<ReportLimit> limits;
   std::vector<ReportEvents> events;
+  std::vector<ReportExchanges> exchanges;
   std::vector<std::pair<double, std::string>> warnings;         ///< time [s], text
   std::vector<std::pair<std::string, std::string>> provenance;  ///< version, command, ranks, threads, seed, wall time, host …
   std::vector<UsedLaw> laws;

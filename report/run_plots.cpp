@@ -71,6 +71,11 @@ class Plots {
     add("pressure", "Pressure", "pressure", "Pa",
         {{"mean_pressure", "mean"}, {"shell_pressure", "mean of shells"}, {"max_pressure", "largest"}}, 1000.0);
     add("contact_area", "Contact", "area per cell", "um^2", {{"mean_contact_area", "mean"}});
+    if (CurvePlot* law = add("outside_law", "Spheres against the range of their laws", "outside_law", "",
+                             {{"mean_outside_law", "mean"}, {"max_outside_law", "largest"}}))
+      law->limits.push_back({1.0, "end of the range"});
+    add("contacts_outside", "Outside of the range of the laws of spheres", "part", "%",
+        {{"contacts_beyond_range", "contacts"}, {"spheres_outside_law", "spheres"}}, 100.0);
     add("energy", "Energy", "energy", "nN um", {{"energy", "energy"}});
     add_lumens();
     for (const auto& spec : model.fields)

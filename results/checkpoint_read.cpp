@@ -38,6 +38,21 @@ Status first_failure(Visit&& each) {
   return status;
 }
 
+/// Neighbours of cells that exchanged their bodies shortly before; none in a file that has none, or is older than they are.
+Status read_watched(const Hdf5Reader& file, std::vector<WatchedNeighbour>& out) {
+  if (!file.exists("watched/exchanged")) return {};
+  return first_failure([&](auto note) {
+    for_each_watched_field([&](const std::string& name, const char*, auto member) {
+      using Value = std::remove_cvref_t<decltype(out.front().*member)>;
+      auto column = file.read<Value>("watched/" + name);
+      if (!column.ok()) return note(Status(std::move(column).error()));
+      out.resize(std::max(out.size(), column.value().size()));
+      for (std::size_t i = 0; i < column.value().size(); ++i) out[i].*member = column.value()[i];
+      note(Status{});
+    });
+  });
+}
+
 Status read_globals(const Hdf5Reader& file, LoadedCheckpoint& out) {
   MORULA_TRY_ASSIGN(out.info.morula_version, file.text("info/morula_version"));
   MORULA_TRY_ASSIGN(out.info.run_name, file.text("info/run_name"));
@@ -74,6 +89,7 @@ Status read_globals(const Hdf5Reader& file, LoadedCheckpoint& out) {
     for (std::size_t i = 0; i < out.tissue.lumens.size(); ++i) out.tissue.lumens[i].*member = column.value()[i];
   });
   MORULA_TRY(lumens);
+  MORULA_TRY(read_watched(file, out.tissue.watched));
   Clock& clock = out.tissue.clock;
   Ledger& ledger = out.tissue.ledger;
   return first_failure([&](auto note) {

@@ -197,6 +197,13 @@ void add_globals(StoragePlan& plan, const Tissue& tissue, const CheckpointInfo& 
     plan.add_from_root("ledger/" + name, units, std::span<const double>(by_field));
   });
   plan.add_from_root("obstacles/offset", "um", std::span<const Vec3d>(tissue.obstacle_offset));
+  if (!tissue.watched.empty())
+    for_each_watched_field([&](const std::string& name, const char* units, auto member) {
+      using Value = std::remove_cvref_t<decltype(tissue.watched.front().*member)>;
+      std::vector<Value> column;
+      for (const WatchedNeighbour& watched : tissue.watched) column.push_back(watched.*member);
+      plan.add_from_root("watched/" + name, units, std::span<const Value>(column));
+    });
   if (tissue.lumens.empty()) return;
   for_each_lumen_field([&](const std::string& name, const char* units, auto member) {
     std::vector<double> column;

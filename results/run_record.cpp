@@ -226,11 +226,40 @@ std::string name_of(EventKind kind) {
       return "quiescence";
     case EventKind::kReturn:
       return "return";
+    case EventKind::kExchangeSettled:
+      return "exchange_settled";
     case EventKind::kWarning:
       return "warning";
   }
   return "warning";
 }
+
+namespace {
+
+/// What an exchange of bodies does: room and forces at once, ways when its neighbours have come to rest.
+void add_exchange(const Event& event, Json& json) {
+  const ExchangeEffect& effect = *event.exchange;
+  json["room_um3"] = number(effect.room);
+  json["neighbours"] = effect.neighbours;
+  if (event.kind == EventKind::kExchangeSettled) {
+    json["largest_way_R"] = number(effect.largest_way), json["mean_way_R"] = number(effect.mean_way);
+  } else {
+    json["cell_volume_um3"] = number(effect.volume);
+    json["largest_force_nN"] = number(effect.largest_force), json["mean_force_nN"] = number(effect.mean_force);
+  }
+}
+
+std::optional<ExchangeEffect> exchange_in(const Json& json) {
+  if (!json.contains("room_um3")) return std::nullopt;
+  ExchangeEffect out;
+  out.neighbours = number_at(json, "neighbours", std::uint32_t{0});
+  out.room = number_at(json, "room_um3", 0.0), out.volume = number_at(json, "cell_volume_um3", 0.0);
+  out.largest_force = number_at(json, "largest_force_nN", 0.0), out.mean_force = number_at(json, "mean_force_nN", 0.0);
+  out.largest_way = number_at(json, "largest_way_R", 0.0), out.mean_way = number_at(json, "mean_way_R", 0.0);
+  return out;
+}
+
+}  // namespace
 
 std::string to_json_line(const ToldEvent& told) {
   const Event& event = told.event;
@@ -243,6 +272,7 @@ std::string to_json_line(const ToldEvent& told) {
     json["birth_volumes_um3"] = {number(event.birth_volume[0]), number(event.birth_volume[1])};
   }
   if (event.energy_rise) json["energy_rise_nN_um"] = number(*event.energy_rise);
+  if (event.exchange) add_exchange(event, json);
   json["text"] = told.text;
   return text_of(json, -1);
 }
@@ -263,6 +293,7 @@ std::optional<EventLine> event_of_line(const std::string& line) {
     for (const Json& volume : *volumes)
       if (volume.is_number()) out.birth_volumes.push_back(volume.get<double>());
   if (const auto rise = json.find("energy_rise_nN_um"); rise != json.end() && rise->is_number()) out.energy_rise = rise->get<double>();
+  out.exchange = exchange_in(json);
   return out;
 }
 

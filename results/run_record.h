@@ -87,9 +87,10 @@ struct EventLine {
   std::string cell;                    ///< id; empty for an event of the run
   std::vector<std::string> daughters;  ///< ids
   std::string text;
-  double volume = 0.0;                ///< of a division: the mother's target volume; 0: not told [µm³]
-  std::vector<double> birth_volumes;  ///< of her daughters [µm³]
-  std::optional<double> energy_rise;  ///< of the divisions by cut of its moment, together [nN·µm]
+  double volume = 0.0;                     ///< of a division: the mother's target volume; 0: not told [µm³]
+  std::vector<double> birth_volumes;       ///< of her daughters [µm³]
+  std::optional<double> energy_rise;       ///< of the divisions by cut of its moment, together [nN·µm]
+  std::optional<ExchangeEffect> exchange;  ///< of an exchange of bodies, and of what became of it
 };
 /// Nothing for a line that is not whole.
 [[nodiscard]] std::optional<EventLine> event_of_line(const std::string& line);

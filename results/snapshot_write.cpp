@@ -161,6 +161,7 @@ std::string description_of(const Snapshot::Variable& variable) {
   if (variable.name == "mesh_renewal/next_try") return "after one that could not be";
   if (variable.name == "mesh_renewal/area_change") return "largest relative change of area of a renewal";
   if (variable.name == "mesh_renewal/distance") return "largest distance between old and new surface, in mean edges";
+  if (variable.name == "outside_law") return "how far the cell as a sphere is beyond the range of its laws; 1 at the end of the range";
   return "state of the cell, of a law of the study";
 }
 

@@ -25,6 +25,19 @@ void for_each_lumen_field(Visit&& visit) {
 }
 static_assert(sizeof(LumenState) == 8 * 8, "list every member of LumenState in for_each_lumen_field");
 
+/// visit(name, units, member of WatchedNeighbour).
+template <class Visit>
+void for_each_watched_field(Visit&& visit) {
+  visit("exchanged", "1", &WatchedNeighbour::exchanged);
+  visit("neighbour", "1", &WatchedNeighbour::neighbour);
+  visit("since", "s", &WatchedNeighbour::since);
+  visit("is_promotion", "1", &WatchedNeighbour::is_promotion);
+  visit("room", "um^3", &WatchedNeighbour::room);
+  visit("from", "um", &WatchedNeighbour::from);
+  visit("radius", "um", &WatchedNeighbour::radius);
+}
+static_assert(sizeof(WatchedNeighbour) == 9 * 8, "list every member of WatchedNeighbour in for_each_watched_field");
+
 /// visit(name, units, member of FieldLedger).
 template <class Visit>
 void for_each_field_ledger_field(Visit&& visit) {

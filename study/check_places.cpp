@@ -1,3 +1,9 @@
+#include <numeric>
+
+#include "cbm/laws/sphere_caps.h"
+#include "core/contact/broad_phase.h"
+#include "core/numbers/number_text.h"
+#include "coupling/swaps.h"
 #include "study/build.h"
 #include "study/initial/judge_places.h"
 
@@ -22,6 +28,45 @@ void tell(BuildContext& c, const PlaceProblem& problem) {
     c.diagnostics.error(problem.code, place, problem.text, problem.help);
 }
 
+/// The volume of each ball behind the planes in which it meets others [µm³].
+std::vector<double> caps_of_balls(const std::vector<Vec3d>& center, const std::vector<double>& radius, const Space& space) {
+  std::vector<Extent> balls;
+  for (std::size_t i = 0; i < center.size(); ++i) balls.push_back({Box{center[i], center[i]}.inflated(radius[i]), center[i], radius[i]});
+  std::vector<std::uint32_t> place(balls.size());
+  std::iota(place.begin(), place.end(), 0u);
+  std::vector<double> caps(balls.size());
+  find_body_pairs(balls, place, std::vector<char>(balls.size(), 1), space, [&](const BodyPair& pair) {
+    const double distance = norm(center[pair.b] + pair.shift - center[pair.a]);
+    const cbm::SphereCaps both = cbm::sphere_caps(radius[pair.a], radius[pair.b], distance);
+    caps[pair.a] += both.volume_a, caps[pair.b] += both.volume_b;
+  });
+  return caps;
+}
+
+/// Spheres overlap behind the planes in which they meet, shells do not: how much more room those take that become shells before the first step.
+void tell_room(BuildContext& c, const std::vector<PlacedCell>& placed) {
+  Tissue tissue;
+  tissue.cells.declare(cell_variables(c.study.model));
+  std::vector<Vec3d> center;
+  std::vector<double> radius;
+  for (const PlacedCell& cell : placed) {
+    tissue.cells.push_back(cell.row);
+    center.push_back(cell.center), radius.push_back(cell.radius());
+  }
+  const std::vector<SwapOrder> orders = choose_swaps(c.study.model, tissue, {.center = center}, Comm());
+  const std::vector<double> caps = caps_of_balls(center, radius, c.study.model.space);
+  double room = 0.0, volume = 0.0;
+  std::size_t count = 0;
+  for (const SwapOrder& order : orders) {
+    if (order.to != BodyKind::kShell) continue;
+    room += caps[order.row], volume += tissue.cells.rows[order.row].target_volume, ++count;
+  }
+  if (room > 0.0)
+    c.study.notes.push_back(std::to_string(count) + (count == 1 ? " cell becomes a shell" : " cells become shells") +
+                            " before the first step: as shells they take " + number_text("%.3g um^3", room) + " (" +
+                            number_text("%.2g %%", 100.0 * room / volume) + " of their volume) more room than as spheres, which overlap");
+}
+
 }  // namespace
 
 void check_places(BuildContext& c) {
@@ -43,6 +88,7 @@ void check_places(BuildContext& c) {
   auto judged = judge_places(c.study, placed->cells, *around);
   if (!judged.ok()) return failed(judged.error());
   for (const PlaceProblem& problem : judged->problems) tell(c, problem);
+  tell_room(c, placed->cells);
   for (std::vector<std::string>* notes : {&placed->notes, &judged->notes})
     c.study.notes.insert(c.study.notes.end(), notes->begin(), notes->end());
 }

@@ -96,6 +96,19 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
   return known.energy;
 }
 
+std::vector<Vec3d> Mechanics::net_forces(const Tissue& tissue) {
+  std::vector<Vec3d> force;
+  (void)energy_and_forces(tissue, force);
+  std::vector<Vec3d> out;
+  for (std::size_t s = 0; s < tissue.shells.size(); ++s) {
+    Vec3d sum{};
+    for (const Vec3d& f : std::span(force).subspan(tissue.shells.first_node[s], tissue.shells.nodes(s).size())) sum += f;
+    out.push_back(sum);
+  }
+  out.insert(out.end(), force.end() - static_cast<std::ptrdiff_t>(tissue.spheres.size()), force.end());
+  return out;
+}
+
 double Mechanics::deepest_overlap() const { return morula::deepest_overlap(*work_); }
 std::span<const dcm::ShellParameters> Mechanics::shell_parameters() const { return work_->terms.membranes->shells().parameters(); }
 std::span<const dcm::ShellParameters> Mechanics::nucleus_parameters() const { return work_->terms.nuclei->parameters(); }

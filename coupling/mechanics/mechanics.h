@@ -11,6 +11,7 @@
 #include "core/parallel/comm.h"
 #include "core/result.h"
 #include "coupling/loads/grips.h"
+#include "coupling/mechanics/as_balls.h"
 #include "coupling/mechanics/step_report.h"
 #include "coupling/mechanics/told.h"
 #include "coupling/model.h"
@@ -92,6 +93,9 @@ class Mechanics {
   /// Force of all cells on each obstacle, friction left out [nN]. Collective; the same on every rank.
   std::vector<Vec3d> obstacle_forces(const Tissue& tissue);
 
+  /// The cells as the laws of spheres see them, whatever their bodies are, at the tissue's present positions and time. Collective.
+  AsBalls as_balls(const Tissue& tissue);
+
   /// Contacts of spheres that this rank counts, and those beyond the range of their law. After values(), pressures() or a step.
   [[nodiscard]] SphereRangeCount contacts_beyond_range() const;
 
@@ -104,6 +108,9 @@ class Mechanics {
 
   /// Energy and forces at the tissue's positions, for tests: forces in the order of `external`.
   double energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& force);
+
+  /// The sum of the forces of all terms on the points of each owned body (shells, then spheres) at the tissue's positions [nN]. Collective.
+  std::vector<Vec3d> net_forces(const Tissue& tissue);
 
   /// Parameters of the single-cell mechanics by cell type.
   [[nodiscard]] std::span<const dcm::ShellParameters> shell_parameters() const;

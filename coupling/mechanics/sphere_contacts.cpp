@@ -330,6 +330,40 @@ std::vector<SphereContacts::Pressing> SphereContacts::pressing(const Scene& scen
   return out;
 }
 
+std::vector<SphereContacts::Standing> SphereContacts::standings(const Scene& scene) const {
+  const ContactBody* body = scene.bodies().data() + scene.first_sphere();
+  std::vector<Standing> out(scene.owned_spheres());
+  const auto shares = list_.shares();
+  on_each_thread(threads(), [&](std::size_t t) {
+    visit(
+        shares[t], scene, [](const SpherePair&) { return true; },
+        [&](std::uint32_t k, const cbm::PairBlock& block, int lane) {
+          const SpherePair pair = list_.pairs[k];
+          const double a = body[pair.a].radius, b = body[pair.b].radius, distance = block.distance[lane] + block.offset[lane];
+          const bool touch = block.area[lane] > 0.0;
+          const double part = touch ? cbm::part_of_range(*block.contact[lane], a + b - distance, block.area[lane], std::min(a, b)) : 0.0;
+          const cbm::SphereCaps caps = cbm::sphere_caps(a, b, distance);
+          for (const std::uint32_t i : {pair.a, std::uint32_t{pair.b}}) {
+            if (!shares[t].has(i)) continue;
+            out[i].outside = std::max(out[i].outside, part);
+            out[i].caps += i == pair.a ? caps.volume_a : caps.volume_b;
+          }
+        },
+        [](std::uint32_t) {});
+  });
+  for (const RigidPair& pair : rigid_) {
+    if (!(pair.area > 0.0)) continue;
+    const ContactBody& sphere = body[pair.sphere];
+    const std::size_t material = std::min<std::size_t>(model_.types.size() + pair.obstacle, table_.material_count() - 1);
+    const double overlap = sphere.radius - pair.distance;
+    Standing& sum = out[pair.sphere];
+    sum.outside =
+        std::max(sum.outside, cbm::part_of_range(table_.entry(sphere.material, material).contact, overlap, pair.area, sphere.radius));
+    sum.caps += cbm::plane_cap(sphere.radius, overlap).volume;
+  }
+  return out;
+}
+
 SphereRangeCount SphereContacts::count_beyond_range(const Scene& scene) const {
   const ContactBody* body = scene.bodies().data() + scene.first_sphere();
   const auto shares = list_.shares();

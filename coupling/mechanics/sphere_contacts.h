@@ -55,6 +55,14 @@ class SphereContacts : public Term {
   };
   /// Of the owned spheres; evaluates the pairs, for nobody needs this in a step.
   [[nodiscard]] std::vector<Pressing> pressing(const Scene& scene) const;
+  /// Laws of contact by material, for who asks what they would say.
+  [[nodiscard]] const cbm::ContactTable& table() const { return table_; }
+  /// How an owned sphere stands to the law of its contacts with spheres and obstacles.
+  struct Standing {
+    double outside = 0.0;  ///< the most of cbm::part_of_range
+    double caps = 0.0;     ///< of it behind the planes of these contacts [µm³]
+  };
+  [[nodiscard]] std::vector<Standing> standings(const Scene& scene) const;
   /// Contacts of spheres with spheres that this rank counts, and those beyond the range of their law.
   [[nodiscard]] SphereRangeCount count_beyond_range(const Scene& scene) const;
   /// function(owned sphere, obstacle, normal, area) for the spheres that touch obstacles.

@@ -101,6 +101,7 @@ enum Sum {
   kInnerPressure,
   kContactArea,
   kLawVolume,
+  kOutside,
   kSums
 };
 
@@ -109,10 +110,13 @@ struct OverCells {
   OrderFreeSum sum[kSums];
   Extreme pressure, volume_error;
   std::vector<std::int64_t> of_type;
+  double most_outside = 0.0;         ///< of the spheres
+  std::int64_t spheres_outside = 0;  ///< of the range of their laws
 };
 
 /// Adds one cell; `from`: its centre from the middle of the domain.
-void add_cell(Simulation& simulation, const BodyValues& values, const BodyOfRow& owned, const Vec3d& from, OverCells& to) {
+void add_cell(Simulation& simulation, const BodyValues& values, const AsBalls& balls, const BodyOfRow& owned, const Vec3d& from,
+              OverCells& to) {
   const Tissue& tissue = simulation.tissue();
   const std::size_t body = owned.place(tissue.shells.size());
   const CellRow& row = tissue.cells.rows[owned.row];
@@ -130,6 +134,12 @@ void add_cell(Simulation& simulation, const BodyValues& values, const BodyOfRow&
   if (owned.is_shell) to.sum[kInnerPressure].add(inner);
   to.sum[kContactArea].add(values.contact_area[body]);
   to.sum[kLawVolume].add(law);
+  if (!owned.is_shell) {
+    const double outside = balls.outside_law[body];
+    to.sum[kOutside].add(outside);
+    to.most_outside = std::max(to.most_outside, outside);
+    to.spheres_outside += outside > 1.0;
+  }
   to.pressure.offer(p, row.id);
   to.volume_error.offer(std::abs(volume - law) / law, row.id);
   ++to.of_type[row.type];
@@ -145,11 +155,14 @@ void count_all(const Tissue& tissue, OverCells& cells, const Comm& comm, Measure
   for (std::int64_t& count : out.of_type) count = comm.sum(count);
   out.pressure = over_ranks(cells.pressure, comm);
   out.volume_error = over_ranks(cells.volume_error, comm);
+  out.most_outside = comm.max(cells.most_outside);
+  out.spheres_outside = comm.sum(cells.spheres_outside);
 }
 
 /// Means over the cells from sums over all ranks, where there is a cell. Returns their common centroid, from the middle of the domain [µm].
 Vec3d set_means(const double (&total)[kSums], Measures& out) {
   const auto cells = static_cast<double>(out.cells), shells = static_cast<double>(out.shells);
+  if (out.spheres > 0) out.mean_outside = total[kOutside] / static_cast<double>(out.spheres);
   const Vec3d mean = Vec3d{total[kVolumeX], total[kVolumeY], total[kVolumeZ]} * (1.0 / total[kVolume]);
   out.total_volume = total[kVolume];
   out.spheroid_radius = std::sqrt(5.0 / 3.0 * std::max(0.0, total[kVolumeSquare] / total[kVolume] - norm2(mean)));
@@ -165,6 +178,7 @@ Vec3d set_means(const double (&total)[kSums], Measures& out) {
 
 Measures measure(Simulation& simulation) {
   const BodyValues values = simulation.values();
+  const AsBalls balls = simulation.mechanics().as_balls(simulation.tissue());
   const Tissue& tissue = simulation.tissue();
   const Model& model = simulation.model();
   const Comm& comm = simulation.comm();
@@ -178,7 +192,7 @@ Measures measure(Simulation& simulation) {
   out.lumens.resize(model.lumens.size());
   OverCells over;
   over.of_type.assign(model.types.size(), 0);
-  for (const BodyOfRow& owned : bodies_of(tissue.cells)) add_cell(simulation, values, owned, center[owned.row] - middle, over);
+  for (const BodyOfRow& owned : bodies_of(tissue.cells)) add_cell(simulation, values, balls, owned, center[owned.row] - middle, over);
   double total[kSums];
   comm.sum(over.sum, total);
   count_all(tissue, over, comm, out);

@@ -36,6 +36,9 @@ struct Measures {
   std::int64_t packed_beyond = 0;               ///< spheres beyond the calibrated range
   std::int64_t sphere_contacts = 0;             ///< contacts of two spheres
   std::int64_t contacts_beyond = 0;             ///< those larger than their law allows for (cbm/sphere_range.h)
+  double mean_outside = 0.0;                    ///< outside_law of the spheres (AsBalls)
+  double most_outside = 0.0;                    ///< of a sphere
+  std::int64_t spheres_outside = 0;             ///< spheres with an outside_law above 1
   std::vector<Vec3d> obstacle_force;            ///< of all cells on each obstacle [nN]
   std::vector<LumenState> lumens;               ///< by lumen of the model
   std::vector<Vec3d> grip_force;                ///< of each load that is a grip on its cells; 0 for other loads [nN]

@@ -13,10 +13,12 @@ namespace morula {
 
 void CellsAtOutput::visit(const Value& value, const std::function<void(double)>& function) const {
   if (!bodies_) bodies_ = std::make_shared<const BodiesNow>(BodiesNow{simulation_.values(), simulation_.centers()});
+  if (!balls_) balls_ = std::make_shared<const AsBalls>(simulation_.mechanics().as_balls(simulation_.tissue()));
   const Tissue& tissue = simulation_.tissue();
   for (const BodyOfRow& body : bodies_of(tissue.cells)) {
     CellView cell(tissue.cells, body.row, simulation_.model().types[tissue.cells.rows[body.row].type], tissue.clock.time);
     cell.set_body(bodies_->values, body.place(tissue.shells.size()), bodies_->center[body.row]);
+    cell.outside_law = balls_->outside_law[body.place(tissue.shells.size())];
     if (const double here = value(cell); !std::isnan(here)) function(here);
   }
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "coupling/cell_view.h"
+#include "coupling/mechanics/as_balls.h"
 #include "coupling/tissue.h"
 
 namespace morula {
@@ -34,6 +35,7 @@ class CellsAtOutput {
 
   Simulation& simulation_;
   mutable std::shared_ptr<const BodiesNow> bodies_;  ///< looked at once, by the first that asks
+  mutable std::shared_ptr<const AsBalls> balls_;     ///< likewise
 };
 
 /// What a column of series.csv is computed from. The same on every rank.

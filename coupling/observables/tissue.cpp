@@ -40,6 +40,12 @@ std::vector<Observable> tissue_observables(const Model&) {
        "Part of the contacts of two spheres whose overlap is outside of what their law was fitted to; of a law that was not fitted, whose "
        "radius is above 0.45 of the smaller sphere's.",
        [](M m) { return m.measures.sphere_contacts > 0 ? double(m.measures.contacts_beyond) / double(m.measures.sphere_contacts) : 0.0; }},
+      {"mean_outside_law", "1",
+       "Mean over the spheres of `outside_law`: overlap and packing over what their laws are for, 1 at the end of the range.",
+       [](M m) { return m.measures.mean_outside; }},
+      {"max_outside_law", "1", "Largest `outside_law` of a sphere.", [](M m) { return m.measures.most_outside; }},
+      {"spheres_outside_law", "1", "Part of the spheres that are outside of the range of their laws (`outside_law` above 1).",
+       [](M m) { return m.measures.spheres > 0 ? double(m.measures.spheres_outside) / double(m.measures.spheres) : 0.0; }},
       {"overlap", "um", "Deepest penetration of a shell, obstacle or nucleus at this time.", [](M m) { return m.measures.overlap.value; }},
       {"worst_overlap", "um", "Deepest penetration in any step since the last output.",
        [](M m) { return std::max(m.interval.worst_overlap, m.measures.overlap.value); }},

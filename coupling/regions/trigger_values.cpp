@@ -1,5 +1,5 @@
 #include "coupling/cell_view.h"
-#include "coupling/regions/region.h"
+#include "coupling/regions/outside_law.h"
 
 namespace morula {
 namespace {
@@ -38,6 +38,21 @@ std::shared_ptr<const TriggerValue> field_value() {
   return value;
 }
 
-std::vector<std::shared_ptr<const TriggerValue>> builtin_trigger_values() { return {pressure_value(), field_value()}; }
+std::shared_ptr<const TriggerValue> outside_law_value() {
+  static const auto value = std::make_shared<const TriggerValue>(
+      TriggerValue{.info = {.name = "outside_law",
+                            .title = "How far a cell is beyond the range of the laws of spheres: of its contacts, and of its packing",
+                            .equation = "max(max_j A_ij/(π (0.45 R)²), φ_i/φ_max), of a fitted law δ_ij over the end of the fitted "
+                                        "overlaps; 1: at the end of the range",
+                            .source = "choice of this project; a/R ≲ 0.4: Johnson 1985, ch. 5",
+                            .parameters = thresholds("number", "1")},
+                   .quantity = Quantity::kNumber,
+                   .example = "outside_law > 1",
+                   .looks_at_body = true,
+                   .of = [](const Trigger&, const CellView& cell) { return cell.outside_law; }});
+  return value;
+}
+
+std::vector<std::shared_ptr<const TriggerValue>> builtin_trigger_values() { return {pressure_value(), field_value(), outside_law_value()}; }
 
 }  // namespace morula

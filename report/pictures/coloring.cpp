@@ -31,6 +31,8 @@ void choose_unit(ColorScale& scale, ColorBy by) {
     scale.per_unit = small ? 1e3 : 1.0;
   } else if (by == ColorBy::kVolume) {
     scale.unit = "µm³";
+  } else if (by == ColorBy::kOutsideLaw) {
+    scale.unit = "";
   } else {
     const bool small = largest < 0.02;
     scale.unit = small ? "µM" : "mM";
@@ -87,17 +89,20 @@ Rgb varied(const Rgb& color, CellId id) {
 }  // namespace
 
 bool is_number(ColorBy by) {
-  return by == ColorBy::kPressure || by == ColorBy::kVolume || by == ColorBy::kConcentration || by == ColorBy::kField;
+  return by == ColorBy::kPressure || by == ColorBy::kVolume || by == ColorBy::kOutsideLaw || by == ColorBy::kConcentration ||
+         by == ColorBy::kField;
 }
 
 namespace {
 
-/// What the cells see of a field; null where the snapshot does not tell it.
-const Snapshot::Variable* seen_concentration(const Snapshot& snapshot, std::size_t field) {
-  if (field >= snapshot.fields.size()) return nullptr;
+/// How far a cell is beyond the range of the laws of spheres, as results.h5 calls it.
+constexpr auto kOutsideLaw = "outside_law";
+
+/// A number that the snapshot tells of its cells by this name; no number where it does not.
+double value_of_variable(const Snapshot& snapshot, const std::string& name, std::size_t cell) {
   for (const Snapshot::Variable& variable : snapshot.variables)
-    if (variable.name == "concentration/" + snapshot.fields[field].name) return &variable;
-  return nullptr;
+    if (variable.name == name) return variable.values[cell];
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -108,10 +113,11 @@ double color_value(const Snapshot& snapshot, std::size_t cell, ColorBy by, std::
       return snapshot.cells[cell].pressure;
     case ColorBy::kVolume:
       return snapshot.cells[cell].volume;
-    case ColorBy::kConcentration: {
-      const Snapshot::Variable* const seen = seen_concentration(snapshot, field);
-      return seen == nullptr ? std::numeric_limits<double>::quiet_NaN() : seen->values[cell];
-    }
+    case ColorBy::kOutsideLaw:
+      return value_of_variable(snapshot, kOutsideLaw, cell);
+    case ColorBy::kConcentration:
+      return field < snapshot.fields.size() ? value_of_variable(snapshot, "concentration/" + snapshot.fields[field].name, cell)
+                                            : std::numeric_limits<double>::quiet_NaN();
     default:
       return 0.0;
   }
@@ -123,7 +129,10 @@ ColorScale common_scale(std::span<const Snapshot> snapshots, ColorBy by, std::si
   for (const Snapshot& snapshot : snapshots)
     for (std::size_t c = 0; c < snapshot.cells.size(); ++c) values.push_back(color_value(snapshot, c, by, field));
   ColorScale scale = scale_of(std::move(values), 0.01);
-  scale.quantity = by == ColorBy::kPressure ? "pressure" : by == ColorBy::kVolume ? "volume" : name;
+  scale.quantity = by == ColorBy::kPressure     ? "pressure"
+                   : by == ColorBy::kVolume     ? "volume"
+                   : by == ColorBy::kOutsideLaw ? "outside law"
+                                                : name;
   choose_unit(scale, by);
   return scale;
 }

@@ -10,7 +10,7 @@
 namespace morula::scenarios {
 
 /// kConcentration: what each cell sees; kField: the concentration in the plane of the cut itself.
-enum class ColorBy { kType, kBody, kIdentity, kPressure, kVolume, kConcentration, kField, kMarks };
+enum class ColorBy { kType, kBody, kIdentity, kPressure, kVolume, kOutsideLaw, kConcentration, kField, kMarks };
 
 /// How a number of a cell becomes a colour, and what the colour bar says.
 struct ColorScale {

@@ -55,6 +55,7 @@ std::vector<Snapshot::Obstacle> obstacles_at_start(const Model& model) {
 
 Snapshot local_snapshot(Simulation& simulation) {
   const BodyValues& values = simulation.values();
+  const AsBalls balls = simulation.mechanics().as_balls(simulation.tissue());
   const Tissue& tissue = simulation.tissue();
   const Model& model = simulation.model();
   const std::vector<Vec3d> center = simulation.centers();
@@ -69,6 +70,8 @@ Snapshot local_snapshot(Simulation& simulation) {
     Snapshot::Variable& told = out.variables.emplace_back(Snapshot::Variable{variable.what.name, variable.what.unit, {}});
     for (std::size_t i = 0; i < tissue.cells.size(); ++i) told.values.push_back(variable.values[i]);
   }
+  Snapshot::Variable& outside = out.variables.emplace_back(Snapshot::Variable{"outside_law", "1", {}});
+  for (const BodyOfRow& owned : bodies_of(tissue.cells)) outside.values.push_back(balls.outside_law[owned.place(tissue.shells.size())]);
   std::vector<const Topology*> known;
   for (const BodyOfRow& owned : bodies_of(tissue.cells)) {
     const std::size_t i = owned.row, body = owned.place(tissue.shells.size()), shell = owned.number;

@@ -35,16 +35,39 @@ std::string with_unit_of_limit(const Verdict& verdict) {
   return value_text(verdict) + (has_unit && std::isfinite(verdict.value) ? verdict.limit.substr(unit) : "");
 }
 
+/// Adds an exchange of bodies, or what became of it, to what the report tells of its kind.
+void add_exchange(const EventLine& event, std::map<std::string, ReportExchanges>& by_kind) {
+  if (!event.exchange) return;
+  const ExchangeEffect& effect = *event.exchange;
+  if (event.kind != name_of(EventKind::kExchangeSettled)) {
+    ReportExchanges& all = by_kind[event.kind];
+    all.room += effect.room;
+    all.largest_force = std::max(all.largest_force, effect.largest_force);
+    all.mean_force += (effect.mean_force - all.mean_force) / static_cast<double>(++all.count);
+    return;
+  }
+  ReportExchanges& all = by_kind[name_of(effect.room < 0.0 ? EventKind::kDemotion : EventKind::kPromotion)];
+  all.largest_way = std::max(all.largest_way, effect.largest_way);
+  all.mean_way += (effect.mean_way - all.mean_way) / static_cast<double>(++all.settled);
+}
+
 /// Counts by kind and the warnings of events.jsonl; lines that are not whole are left out.
 void read_events(const fs::path& path, ReportContent& content) {
   const auto text = read_file(path);
   if (!text.ok()) return;  // no events
   std::map<std::string, ReportEvents> by_kind;
+  std::map<std::string, ReportExchanges> exchanges;
   for (const EventLine& event : events_of_lines(*text)) {
     if (event.kind == name_of(EventKind::kWarning)) content.warnings.emplace_back(event.time, event.text);
+    add_exchange(event, exchanges);
+    if (event.kind == name_of(EventKind::kExchangeSettled)) continue;  // no event of its own, but what became of one
     ReportEvents& events = by_kind[event.kind];
     if (events.count++ == 0) events.first = event.time;
     events.last = event.time;
+  }
+  for (auto& [kind, one] : exchanges) {
+    one.kind = kind;
+    content.exchanges.push_back(one);
   }
   for (auto& [kind, events] : by_kind) {
     events.kind = kind;
@@ -60,6 +83,23 @@ void add_limit(const SeriesTable& series, const char* column, const char* name, 
   const auto worst = std::max_element(values->values.begin(), values->values.end());
   content.limits.push_back(
       {name, *worst, limit, unit, time ? time->values[static_cast<std::size_t>(worst - values->values.begin())] : -1.0});
+}
+
+bool had_spheres(const SeriesTable& series) {
+  const SeriesColumn* spheres = series.find("sphere_count");
+  return spheres != nullptr && std::ranges::any_of(spheres->values, [](double count) { return count > 0.0; });
+}
+
+/// Below the curves of outside_law: how much of what the spheres did is within what their laws are for. Nothing below others.
+std::string caption_of(const NamedPlot& plot, const SeriesTable& series) {
+  const SeriesColumn *time = series.find("time"), *part = series.find("contacts_beyond_range");
+  if (plot.name != "outside_law" || time == nullptr || part == nullptr || part->values.empty()) return "";
+  const auto most = std::ranges::max_element(part->values) - part->values.begin();
+  return short_text(100.0 * part->values.back()) +
+         " % of the contacts of spheres are outside of the range of their law at the end, at most " +
+         short_text(100.0 * part->values[static_cast<std::size_t>(most)]) + " % (at " +
+         time_text(time->values[static_cast<std::size_t>(most)]) +
+         "). Within it: overlaps that the law was fitted to, or else contact radii below 0.45 R, and packing that its curve is made for.";
 }
 
 void add_key_numbers(const RunRecord& record, const SeriesTable& series, ReportContent& content) {
@@ -81,6 +121,7 @@ void add_key_numbers(const RunRecord& record, const SeriesTable& series, ReportC
   add("spheroid_radius", "radius", "µm");
   add("mean_pressure", "mean pressure", "Pa", 1000.0);
   add("mean_contact_area", "contact area per cell", "µm²");
+  if (had_spheres(series)) add("contacts_beyond_range", "contacts of spheres outside of the range of their law", "%", 100.0);
   if (std::isfinite(last("step_count")) && last("step_count") > 0 && std::isfinite(time))
     out.push_back({"mean step", short_text(time / last("step_count")), "s"});
 }
@@ -181,7 +222,7 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
   for (NamedPlot& plot : standard_plots(study, series)) plots.push_back(std::move(plot));
   for (const NamedPlot& one : plots) {
     MORULA_TRY(write_curves(one.plot, run / "plots" / one.name));
-    content.plots.push_back({"", curves_svg(one.plot, SvgUse::kInline), one.numerics});  // the plot has its title
+    content.plots.push_back({caption_of(one, series), curves_svg(one.plot, SvgUse::kInline), one.numerics});  // the plot has its title
   }
   MORULA_TRY_ASSIGN(const auto snapshots, snapshots_over_time(run / "results.h5", content.warnings));
   content.pictures = standard_pictures(snapshots, type_colors(study));

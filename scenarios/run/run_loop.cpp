@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/numbers/number_text.h"
 #include "results/checkpoint_folder.h"
 #include "results/damaged_file.h"
 #include "results/file_io.h"
@@ -264,12 +265,26 @@ Status RunLoop::write_moment(const Measures& measures) {
 
 /// What happened since the last output, counted: `14 promotions (region core)`.
 void RunLoop::tell_events() {
-  std::map<std::pair<EventKind, std::string>, std::size_t> counts;
-  for (const auto& [event, text] : events_)
-    if (event.kind == EventKind::kPromotion || event.kind == EventKind::kDemotion) ++counts[{event.kind, text}];
-  for (const auto& [what, count] : counts)
-    note(Note::Kind::kNote, std::to_string(count) + (count == 1 ? " cell" : " cells") +
-                                (what.first == EventKind::kPromotion ? " became shells (" : " became spheres (") + what.second + ")");
+  struct Exchanges {
+    std::size_t count = 0;
+    double room = 0.0, volume = 0.0;  // [µm³]
+  };
+  std::map<std::pair<EventKind, std::string>, Exchanges> exchanges;
+  for (const auto& [event, text] : events_) {
+    if (event.kind != EventKind::kPromotion && event.kind != EventKind::kDemotion) continue;
+    Exchanges& one = exchanges[{event.kind, text}];
+    ++one.count;
+    if (event.exchange) one.room += event.exchange->room, one.volume += event.exchange->volume;
+  }
+  for (const auto& [what, all] : exchanges) {
+    const bool up = what.first == EventKind::kPromotion;
+    const std::string room = number_text("%.3g um^3", std::abs(all.room)) + " (" +
+                             number_text("%.2g %%", 100.0 * std::abs(all.room) / all.volume) + " of their volume) " +
+                             (up ? "more" : "less") + " room than before";
+    note(Note::Kind::kNote, std::to_string(all.count) + (all.count == 1 ? " cell" : " cells") +
+                                (up ? " became shells (" : " became spheres (") + what.second + ")" +
+                                (all.room != 0.0 && all.volume > 0.0 ? "; they take " + room : ""));
+  }
   for (const auto& [event, text] : events_)
     if (event.kind == EventKind::kWarning) note(Note::Kind::kWarning, "cell " + event.cell.text() + ": " + text);
 }

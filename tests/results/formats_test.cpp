@@ -234,7 +234,7 @@ for n in sorted(f["snapshots"]):
     read = lambda stem: meshio.read(f"vtk/{stem}_{n}.vtu")
     paths = [v.decode() for v in s["variable_names"][:]]
     titled = {p.split("/")[1] if p.startswith("concentration/") else " of ".join(p.split("/")): p for p in paths}
-    assert len(titled) == 2 * len(s["fields"]) + 3 + 5  # those of the cycle and of renewed meshes
+    assert len(titled) == 2 * len(s["fields"]) + 3 + 5 + 1  # those of the cycle, of renewed meshes, and outside_law
     def same(data, rows):
         for name, values in data.items():
             column = name.split(" [")[0]

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "core/mesh/topology.h"
 #include "coupling/overlap.h"
@@ -55,6 +57,73 @@ TEST(ExchangeRun, MakesAShellThatFitsAmongSpheresAtDefaultParameters) {
   EXPECT_FALSE(tissue.clock.capped);
   while (tissue.clock.time < 1200.0) ASSERT_TRUE(simulation.step(1200.0).ok());
   EXPECT_LT(deepest_overlap(simulation).value, 0.1);
+}
+
+/// The simulation of the study above with `more` in its section `coupling`, just after the exchange; `events` of that step.
+std::unique_ptr<Simulation> just_exchanged(const std::string& more, std::vector<Event>& events) {
+  const auto study = test::read(test::changed("  hold: 1 min\n", "  hold: 1 min\n" + more, kStudy));
+  EXPECT_TRUE(study.ok()) << study.error().text();
+  auto made = test::simulation_of(*study);
+  EXPECT_TRUE(made.ok());
+  while ((*made)->tissue().shells.size() == 0 && (*made)->tissue().clock.time < 700.0) {
+    auto done = (*made)->step(1200.0);
+    EXPECT_TRUE(done.ok());
+    events = std::move(done->events);
+  }
+  return std::move(*made);
+}
+
+/// Two balls of 6 µm whose centres are d apart lose caps of the height h = R − d/2 each: π h² (3R − h)/3.
+double caps_of_row(const Simulation& simulation, std::size_t row) {
+  const std::vector<Vec3d> center = simulation.centers();
+  double sum = 0.0;
+  for (std::size_t j = 0; j < center.size(); ++j) {
+    const double h = 6.0 - 0.5 * norm(center[j] - center[row]);
+    if (j != row && h > 0.0) sum += std::numbers::pi * h * h * (18.0 - h) / 3.0;
+  }
+  return sum;
+}
+
+std::size_t row_of(const Tissue& tissue, CellId id) {
+  return static_cast<std::size_t>(std::ranges::find(tissue.cells.rows, id, &CellRow::id) - tissue.cells.rows.begin());
+}
+
+TEST(ExchangeRun, TellsTheRoomTheForcesAndTheWaysOfTheNeighbours) {
+  std::vector<Event> events;
+  const auto simulation = just_exchanged("", events);
+  const auto promotion = std::ranges::find(events, EventKind::kPromotion, &Event::kind);
+  ASSERT_NE(promotion, events.end());
+  ASSERT_TRUE(promotion->exchange.has_value());
+  const std::vector<Vec3d> before = simulation->centers();
+  const std::size_t shell = row_of(simulation->tissue(), promotion->cell);
+  EXPECT_NEAR(promotion->exchange->room, caps_of_row(*simulation, shell), 1e-3);  // its centre moved a little while it found its shape
+  EXPECT_GT(promotion->exchange->room, 1.0);
+  EXPECT_GT(promotion->exchange->largest_force, 1e-3);
+  EXPECT_LE(promotion->exchange->mean_force, promotion->exchange->largest_force);
+  std::size_t beside = 0;
+  double most = 0.0;
+  const double told_from = simulation->tissue().clock.time;
+  std::optional<Event> settled;
+  while (!settled && simulation->tissue().clock.time < 1300.0) {
+    auto done = simulation->step(1400.0);
+    ASSERT_TRUE(done.ok());
+    for (const Event& event : done->events)
+      if (event.kind == EventKind::kExchangeSettled && event.cell == promotion->cell) settled = event;
+  }
+  ASSERT_TRUE(settled.has_value());
+  EXPECT_GE(settled->time, told_from + 600.0);
+  EXPECT_LT(settled->time, told_from + 661.0);
+  const std::vector<Vec3d> now = simulation->centers();
+  for (std::size_t j = 0; j < now.size(); ++j) {
+    if (j == shell || !(norm(before[j] - before[shell]) < 1.2 * 12.0)) continue;
+    ++beside;
+    most = std::max(most, norm(now[j] - before[j]) / 6.0);
+  }
+  EXPECT_EQ(settled->exchange->neighbours, beside);
+  EXPECT_EQ(promotion->exchange->neighbours, beside);
+  EXPECT_NEAR(settled->exchange->largest_way, most, 1e-9);
+  EXPECT_GT(most, 0.0);
+  EXPECT_TRUE(simulation->tissue().watched.empty());
 }
 
 }  // namespace

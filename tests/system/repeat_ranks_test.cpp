@@ -123,6 +123,36 @@ void expect_same_bits_on_ranks_and_over_a_restart(const std::string& study) {
 
 TEST(Interior, GivesTheSameBitsOnRanksAndOverARestart) { expect_same_bits_on_ranks_and_over_a_restart(interior_study()); }
 
+/// Who leaves the range of the laws of spheres becomes a shell on any rank; what is told of it is the same text.
+TEST(OutsideLaw, PromotesTheSameCellsOnThreadsAndRanksAndOverARestart) {
+  const TestFolder folder;
+  folder.write("study.yaml",
+               "schema: 1\nstudy: range\nseed: 3\ntime: {end: 30 min, output: 5 min, checkpoint: 5 min}\n"
+               "domain: {size: [90 um, 90 um, 90 um], boundary: periodic}\n"
+               "cell_types: {cell: {radius: {mean: 6 um, spread: 8 %}, cycle: {model: none}, dcm: {nodes: 42}}}\n"
+               "initial:\n  - {type: cell, count: 40, fill: box, size: [40 um, 40 um, 30 um]}\ncontact: {range: 1.2 um}\n"
+               "coupling: {triggers: [{promote: outside_law > 0.85, demote: outside_law < 0.7, hold: 5 min}]}\noutput: {report: false}\n");
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "one"}, folder.path(), on_ranks(0)).exit_code, 0);
+  const json reference = info_of(folder / "one");
+  ASSERT_GT(reference["shells"].get<int>(), 2);
+  ASSERT_GT(reference["spheres"].get<int>(), 2);
+  const auto expect_same = [&](const std::string& run) {
+    EXPECT_EQ(info_of(folder / run)["state_hash"], reference["state_hash"]) << run;
+    for (const char* file : {"events.jsonl", "series.csv"})
+      EXPECT_EQ(read_text(folder / run / file), read_text(folder / "one" / file)) << run << ' ' << file;
+  };
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "threads", "--threads", "3"}, folder.path(), on_ranks(0)).exit_code, 0);
+  expect_same("threads");
+  for (const int ranks : {2, 3}) {
+    const std::string name = "ranks" + std::to_string(ranks);
+    ASSERT_EQ(run_morula({"run", "study.yaml", "--out", name}, folder.path(), on_ranks(ranks)).exit_code, 0);
+    expect_same(name);
+  }
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "broken", "--until", "15 min"}, folder.path(), on_ranks(2)).exit_code, 0);
+  ASSERT_EQ(run_morula({"resume", "broken"}, folder.path(), on_ranks(0)).exit_code, 0);
+  expect_same("broken");
+}
+
 TEST(NuclearShells, GiveTheSameBitsOnRanksAndOverARestart) {
   expect_same_bits_on_ranks_and_over_a_restart(changed(interior_study(), "nucleus: {radius: 2 um}",
                                                        "nucleus: {kind: shell, radius: 2 um, nodes: 42, lamina: {tension: 0.02 mN/m}}"));

@@ -84,6 +84,9 @@ std::vector<Feature> life() {
       {"TriggersByAField", shelled("bulk_modulus: 2.5 kPa"), kBall,
        kRange + oxygen + "coupling: {triggers: [{promote: \"oxygen < 0.1999 mM\", demote: \"oxygen > 0.19995 mM\", hold: 2 min}]}\n",
        "20 min", "100 s", "600 s"},
+      {"TriggersByTheRangeOfTheLaws", shelled("bulk_modulus: 2.5 kPa"), kBall,
+       kRange + "coupling: {triggers: [{promote: \"outside_law > 0.8\", demote: \"outside_law < 0.7\", hold: 2 min}]}\n", "20 min", "100 s",
+       "600 s"},
       {"RegionsThatComeAndGo", shelled("bulk_modulus: 2.5 kPa"), "[{type: cell, count: 12, fill: sphere, radius: 22 um}]",
        kRange +
            "coupling:\n  regions:\n"

@@ -1,0 +1,154 @@
+#include "coupling/exchange_effects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <tuple>
+
+#include "core/parallel/pack.h"
+#include "coupling/simulation.h"
+
+namespace morula {
+namespace {
+
+constexpr double kBeside = 1.2;  // of the sum of the radii: nearest neighbours of any packing, and not the next
+
+double radius_of(double volume) { return std::cbrt(3.0 * volume / (4.0 * std::numbers::pi)); }
+
+/// A cell that exchanges its body, as all ranks know it.
+struct Exchanging {
+  CellId id;
+  Vec3d center;
+  double radius;
+};
+
+std::vector<Exchanging> exchanging_cells(const Tissue& tissue, std::span<const Vec3d> center, std::span<const SwapOrder> orders,
+                                         const Comm& comm) {
+  std::vector<Exchanging> out;
+  for (const SwapOrder& order : orders) {
+    const CellRow& row = tissue.cells.rows[order.row];
+    out.push_back({row.id, center[order.row], radius_of(row.target_volume)});
+  }
+  out = items_of_all_ranks(out, comm);
+  std::ranges::sort(out, {}, &Exchanging::id);
+  return out;
+}
+
+/// A neighbour as all ranks hear of it once the bodies are exchanged.
+struct Told {
+  WatchedNeighbour watched;
+  double force_change = 0.0;  ///< [nN]
+};
+
+/// `watched` in groups of the same exchange: function(first, last).
+template <class Items, class Key, class F>
+void for_each_exchange(const Items& items, Key&& key, F&& function) {
+  for (std::size_t first = 0, last = 0; first < items.size(); first = last) {
+    while (last < items.size() && key(items[last]) == key(items[first])) ++last;
+    function(first, last);
+  }
+}
+
+}  // namespace
+
+ExchangeWatch watch_exchanges(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, std::span<const SwapOrder> orders,
+                              Mechanics& mechanics, const Comm& comm) {
+  const std::vector<Exchanging> exchanging = exchanging_cells(tissue, center, orders, comm);
+  const std::vector<Vec3d> force = mechanics.net_forces(tissue);
+  ExchangeWatch out;
+  for (const BodyOfRow& body : bodies_of(tissue.cells)) {
+    const CellRow& row = tissue.cells.rows[body.row];
+    if (std::ranges::binary_search(exchanging, row.id, {}, &Exchanging::id)) continue;
+    const double radius = radius_of(row.target_volume);
+    for (const Exchanging& other : exchanging)
+      if (norm(model.space.nearest_image(other.center - center[body.row])) < kBeside * (radius + other.radius))
+        out.beside.push_back({other.id, row.id, center[body.row], radius, force[body.place(tissue.shells.size())]});
+  }
+  return out;
+}
+
+void tell_exchanges(const ExchangeWatch& watch, Tissue& tissue, Mechanics& mechanics, const Comm& comm, std::vector<Event>& events) {
+  const std::vector<Vec3d> force = mechanics.net_forces(tissue);
+  std::map<CellId, Vec3d> now;
+  for (const BodyOfRow& body : bodies_of(tissue.cells)) now[tissue.cells.rows[body.row].id] = force[body.place(tissue.shells.size())];
+  std::vector<Told> all;
+  for (const ExchangeWatch::Beside& beside : watch.beside)
+    all.push_back({{beside.exchanged, beside.neighbour, tissue.clock.time, 0, 0.0, beside.place, beside.radius},
+                   norm(now.at(beside.neighbour) - beside.force)});
+  all = items_of_all_ranks(all, comm);
+  std::ranges::sort(all, {}, [](const Told& t) { return std::pair(t.watched.exchanged, t.watched.neighbour); });
+  // What an exchange is, its own rank knows; one that found no room is none.
+  struct Known {
+    CellId id;
+    std::uint64_t is_promotion;
+    double room;
+  };
+  std::vector<Known> known;
+  for (const Event& event : events)
+    if (event.exchange) known.push_back({event.cell, event.kind == EventKind::kPromotion ? 1u : 0u, event.exchange->room});
+  known = items_of_all_ranks(known, comm);
+  std::ranges::sort(known, {}, &Known::id);
+  for_each_exchange(
+      all, [](const Told& t) { return t.watched.exchanged; },
+      [&](std::size_t first, std::size_t last) {
+        const CellId id = all[first].watched.exchanged;
+        const auto what = std::ranges::lower_bound(known, id, {}, &Known::id);
+        if (what == known.end() || what->id != id) return;
+        ExchangeEffect effect;
+        for (std::size_t k = first; k < last; ++k) {
+          all[k].watched.is_promotion = what->is_promotion;
+          all[k].watched.room = what->room;
+          tissue.watched.push_back(all[k].watched);
+          effect.largest_force = std::max(effect.largest_force, all[k].force_change);
+          effect.mean_force += all[k].force_change / static_cast<double>(last - first);
+        }
+        for (Event& event : events) {
+          if (event.cell != id || !event.exchange) continue;
+          event.exchange->neighbours = static_cast<std::uint32_t>(last - first);
+          event.exchange->largest_force = effect.largest_force, event.exchange->mean_force = effect.mean_force;
+        }
+      });
+}
+
+void Simulation::tell_settled_exchanges(std::vector<Event>& events) {
+  std::vector<WatchedNeighbour>& watched = tissue_.watched;
+  const double time = tissue_.clock.time;
+  const auto end = std::ranges::find_if(watched, [time](const WatchedNeighbour& w) { return time - w.since < kExchangeSettles; });
+  if (end == watched.begin()) return;
+  const std::span<const WatchedNeighbour> due(watched.begin(), end);
+  std::map<CellId, Vec3d> place;
+  for (const WatchedNeighbour& one : due) place.emplace(one.neighbour, Vec3d{});
+  std::set<CellId> here;
+  const std::vector<Vec3d> center = centers();
+  for (std::size_t i = 0; i < tissue_.cells.size(); ++i)
+    if (const auto found = place.find(tissue_.cells.rows[i].id); found != place.end()) found->second = center[i], here.insert(found->first);
+  struct Way {
+    std::uint64_t number;
+    double part;
+  };
+  std::vector<Way> ways;
+  for (std::size_t k = 0; k < due.size(); ++k)
+    if (here.contains(due[k].neighbour))
+      ways.push_back({k, norm(model_.space.nearest_image(place.at(due[k].neighbour) - due[k].from)) / due[k].radius});
+  ways = items_of_all_ranks(ways, comm_);
+  std::ranges::sort(ways, {}, &Way::number);
+  const auto exchange_of = [&](const Way& way) { return std::pair(due[way.number].since, due[way.number].exchanged); };
+  for_each_exchange(ways, exchange_of, [&](std::size_t first, std::size_t last) {
+    if (!comm_.is_root()) return;
+    const WatchedNeighbour& one = due[ways[first].number];
+    ExchangeEffect effect{.neighbours = static_cast<std::uint32_t>(last - first), .room = one.room};
+    for (std::size_t k = first; k < last; ++k) {
+      effect.largest_way = std::max(effect.largest_way, ways[k].part);
+      effect.mean_way += ways[k].part / static_cast<double>(last - first);
+    }
+    using Cause = EventReason::Cause;
+    const EventReason reason{one.is_promotion != 0 ? Cause::kBecameShell : Cause::kBecameSphere};
+    events.push_back({time, EventKind::kExchangeSettled, one.exchanged, {}, {}, reason});
+    events.back().exchange = effect;
+  });
+  watched.erase(watched.begin(), end);
+}
+
+}  // namespace morula
