@@ -1,6 +1,7 @@
 #include "coupling/mechanics/mechanics.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include "coupling/mechanics/relax.h"
@@ -21,6 +22,12 @@ Mechanics Mechanics::for_another_tissue(Comm comm) const {
 
 void Mechanics::bodies_changed() {
   work_->age.reset();
+  work_->known.reset();
+}
+
+void Mechanics::cells_replaced() {
+  if (std::getenv("MORULA_NO_MENDING") != nullptr) return bodies_changed();  // FIXME: only to compare
+  if (work_->age) work_->age->cells_replaced = true;
   work_->known.reset();
 }
 

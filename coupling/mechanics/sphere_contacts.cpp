@@ -254,6 +254,7 @@ void SphereContacts::refresh_values(const Scene& scene, const std::vector<char>&
 
 void SphereContacts::end_step(const World& world, StepEnd& end) {
   if (end.clock_runs) update_attached(world, end.tissue);
+  young_.clear();
   friction_is_frozen_ = false;
 }
 
@@ -282,10 +283,27 @@ bool SphereContacts::update_attached(const World& world, Tissue& tissue) {
   }
   const bool changed = !marked.empty();
   if (changed) refresh_values(scene, marked);
-  if (partners_are_lost_) marked.assign(scene.bodies().size() - scene.first_sphere(), 1);
+  if (partners_are_lost_) mark_other_partners(scene, tissue, mark);
   if (changed || partners_are_lost_) write_partners(scene, marked, tissue);
   partners_are_lost_ = false;
   return changed;
+}
+
+template <class Mark>
+void SphereContacts::mark_other_partners(const Scene& scene, const Tissue& tissue, const Mark& mark) const {
+  struct Sum {  // over the partners, in any order; other partners have another sum
+    std::uint64_t mixed = 0;
+    std::uint32_t count = 0;
+    void add(CellId id) { mixed += id.bits() * 0x9E3779B97F4A7C15u ^ id.bits() >> 29, ++count; }
+    bool operator==(const Sum&) const = default;
+  };
+  std::vector<Sum> by_flags(scene.owned_spheres());
+  for_attached(scene, [&](std::uint32_t i, CellId partner) { by_flags[i].add(partner); });
+  for (std::uint32_t i = 0; i < by_flags.size(); ++i) {
+    Sum listed;
+    for (const CellId partner : tissue.spheres.attached[i]) listed.add(partner);
+    if (listed != by_flags[i]) mark(i);
+  }
 }
 
 bool SphereContacts::renew_sisters(const World& world) {
