@@ -10,6 +10,7 @@
 ///   ratio   extra/step: local events cost local work where it is below 0.1
 ///   shape   of extra: wall time in which a new shell finds its shape, or in which a shell is cut [s]
 /// Linear iterations of the steps tell how much of the extra is motion of the neighbours.
+#include <malloc.h>
 #include <mpi.h>
 #include <omp.h>
 
@@ -221,6 +222,9 @@ bool run_case(const Case& c, std::size_t cells, const Comm& comm, int threads, F
 }  // namespace
 
 int main(int argc, char** argv) {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 32 << 20), mallopt(M_TRIM_THRESHOLD, 512 << 20);  // as the command does
+#endif
   quiet_mpi();
   MPI_Init(&argc, &argv);
   int status = 0;

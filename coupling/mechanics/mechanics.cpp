@@ -1,7 +1,6 @@
 #include "coupling/mechanics/mechanics.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
 #include "coupling/mechanics/relax.h"
@@ -26,7 +25,6 @@ void Mechanics::bodies_changed() {
 }
 
 void Mechanics::cells_replaced() {
-  if (std::getenv("MORULA_NO_MENDING") != nullptr) return bodies_changed();  // FIXME: only to compare
   if (work_->age) work_->age->cells_replaced = true;
   work_->known.reset();
 }

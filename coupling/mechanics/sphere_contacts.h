@@ -118,11 +118,15 @@ class SphereContacts : public Term {
   void count_partners(const Scene& scene, const Tissue& tissue);
   // Lists are mended (sphere_mending.cpp); now(sphere): its new number, or BodyChanges::kNone.
   template <class Now>
-  void renumber_pairs(const Now& now);
+  void renumber_pairs(const Now& now, std::vector<char>& suspects);
   void add_pairs(const Scene& scene, const std::vector<SphereNeighbours>& found);
   template <class Now>
   void renumber_rigid_pairs(const Scene& scene, const Tissue& tissue, const Now& now, const std::vector<char>& young);
-  void add_sisters(const Scene& scene, const Tissue& tissue, const std::vector<char>& young);
+  void add_sisters(const Scene& scene, const Tissue& tissue, std::span<const std::uint32_t> pairs);
+  /// Notes which spheres have other partners in the tissue than in the list: of these, and of those that have more or fewer.
+  void look_for_lost(const Scene& scene, const Tissue& tissue, std::vector<char> suspects);
+  /// The stretches of a share in which a sphere is marked.
+  [[nodiscard]] SpherePairs::Share marked_part(const SpherePairs::Share& share, const std::vector<char>& marked) const;
   void keep_step_friction(const Scene& scene, std::vector<SpherePair> old_pairs, std::vector<SpherePairElement> old_elements);
   /// Evaluates the pairs of a share that pass `wanted`: calls sink(number of the pair, block, lane) in their order for those within reach,
   /// and far_away(number) for the others.
@@ -152,6 +156,8 @@ class SphereContacts : public Term {
   /// mark(sphere) for those whose partners are others than those that the tissue has.
   template <class Mark>
   void mark_other_partners(const Scene& scene, const Tissue& tissue, const Mark& mark) const;
+  /// (sphere, partner) of the marked owned spheres that are attached, sorted.
+  [[nodiscard]] std::vector<std::pair<std::uint32_t, CellId>> partners_of(const Scene& scene, const std::vector<char>& marked) const;
   void write_partners(const Scene& scene, const std::vector<char>& marked, Tissue& tissue) const;
   [[nodiscard]] CellId partner_id(const Scene& scene, std::uint32_t sphere) const;
 
@@ -167,7 +173,8 @@ class SphereContacts : public Term {
   Packing packing_;
   std::vector<std::vector<std::uint32_t>> flips_;  ///< by share: pairs whose flag changes if the step ends where they were evaluated last
   bool friction_is_frozen_ = false;                ///< a step is under way
-  bool partners_are_lost_ = false;                 ///< a sphere has partners that are no pair of the list any more
+  bool partners_are_lost_ = false;                 ///< some sphere has partners that are no pair of a list that was made anew
+  std::vector<std::uint32_t> lost_;                ///< spheres with other partners than the mended list has; increasing
 };
 
 /// Friction of spheres with the medium, with each other and with obstacles: that of the step's start.

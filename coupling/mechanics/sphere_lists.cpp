@@ -4,6 +4,7 @@
 
 #include "cbm/division_ramp.h"
 #include "coupling/mechanics/sphere_contacts.h"
+#include "coupling/partner_stretches.h"
 
 namespace morula {
 namespace {
@@ -64,6 +65,7 @@ void SphereContacts::count_partners(const Scene& scene, const Tissue& tissue) {
   for (std::size_t k = 0; k < rigid_.size(); ++k)
     if (k == 0 || !rigid_[k].same_bodies(rigid_[k - 1])) known[rigid_[k].sphere] += rigid_[k].attached;
   partners_are_lost_ = false;
+  lost_.clear();
   for (std::uint32_t i = 0; i < owned; ++i) partners_are_lost_ = partners_are_lost_ || known[i] != tissue.spheres.attached[i].size();
 }
 
@@ -166,27 +168,38 @@ void SphereContacts::find_sisters(const Scene& scene, const Tissue& tissue) {
 
 void SphereContacts::write_partners(const Scene& scene, const std::vector<char>& marked, Tissue& tissue) const {
   const std::size_t owned = scene.owned_spheres();
+  const std::vector<std::pair<std::uint32_t, CellId>> found = partners_of(scene, marked);
   const cbm::PartnerLists& old = tissue.spheres.attached;
-  std::vector<std::uint32_t> end(owned, 0);
-  for_attached(scene, [&](std::uint32_t i, CellId) { end[i] += marked[i] != 0; });
-  std::uint32_t total = 0;
-  for (std::size_t i = 0; i < owned; ++i) {  // end[i] is where the list of i begins until its ids are copied
-    const std::uint32_t count = marked[i] ? end[i] : static_cast<std::uint32_t>(old[i].size());
-    end[i] = total;
-    total += count;
+  PartnerStretches lists;
+  lists.reserve(owned, old.partner_count() + found.size());
+  std::vector<CellId> partners;
+  std::size_t kept = 0;
+  auto at = found.begin();
+  for (std::uint32_t i = 0; i < owned; ++i) {
+    if (!marked[i]) continue;
+    lists.add(old, kept, i);
+    partners.clear();
+    for (; at != found.end() && at->first == i; ++at) partners.push_back(at->second);
+    lists.add(partners);
+    kept = i + 1;
   }
-  std::vector<CellId> ids(total);
-  for (std::size_t i = 0; i < owned; ++i) {
-    if (marked[i]) continue;
-    std::copy(old[i].begin(), old[i].end(), ids.begin() + end[i]);
-    end[i] += static_cast<std::uint32_t>(old[i].size());
+  lists.add(old, kept, owned);
+  tissue.spheres.attached = std::move(lists).take();
+}
+
+std::vector<std::pair<std::uint32_t, CellId>> SphereContacts::partners_of(const Scene& scene, const std::vector<char>& marked) const {
+  std::vector<std::pair<std::uint32_t, CellId>> out;
+  const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
+  for (const SpherePair& pair : list_.pairs) {
+    if (!pair.attached || (marked[pair.a] | marked[pair.b]) == 0) continue;
+    if (pair.a < owned && marked[pair.a]) out.emplace_back(pair.a, partner_id(scene, pair.b));
+    if (pair.b < owned && marked[pair.b]) out.emplace_back(pair.b, partner_id(scene, pair.a));
   }
-  for_attached(scene, [&](std::uint32_t i, CellId partner) {
-    if (marked[i]) ids[end[i]++] = partner;
-  });
-  for (std::size_t i = 0; i < owned; ++i)
-    if (marked[i]) std::sort(ids.begin() + (i == 0 ? 0 : end[i - 1]), ids.begin() + end[i]);
-  tissue.spheres.attached = cbm::PartnerLists(std::move(ids), std::move(end));
+  for (std::size_t k = 0; k < rigid_.size(); ++k)
+    if (rigid_[k].attached && marked[rigid_[k].sphere] && (k == 0 || !rigid_[k].same_bodies(rigid_[k - 1])))
+      out.emplace_back(rigid_[k].sphere, obstacle_partner(rigid_[k].obstacle));
+  std::ranges::sort(out);
+  return out;
 }
 
 }  // namespace morula

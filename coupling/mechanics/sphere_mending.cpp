@@ -28,7 +28,10 @@ void SphereContacts::bodies_replaced(const World& world, const BodyChanges& chan
   for (std::uint32_t i = 0; i < young.size(); ++i)
     if (young[i]) young_.push_back(i);
 
-  renumber_pairs(now);
+  std::vector<char> suspects = young;  // whose partners may be others
+  for (const std::uint32_t sphere : lost_)
+    if (const std::uint32_t there = now(sphere); there != BodyChanges::kNone) suspects[there] = 1;
+  renumber_pairs(now, suspects);
   add_pairs(scene, surfaces_.layer().take_sphere_neighbours());
   list_.elements.resize(list_.pairs.size());
   if (!list_.uniform()) {
@@ -36,16 +39,22 @@ void SphereContacts::bodies_replaced(const World& world, const BodyChanges& chan
     for (std::size_t i = 0; i < young.size(); ++i) list_.material[i] = scene.bodies()[first + i].material;
   }
   list_.set_layout(scene.sphere_point(), static_cast<std::uint32_t>(scene.owned_spheres()), threads());
-  for (SpherePair& pair : list_.pairs)
-    if (young[pair.a] || young[pair.b]) pair.attached = are_attached(scene, world.tissue, pair);
+  std::vector<std::uint32_t> of_young;
+  for (std::uint32_t k = 0; k < list_.pairs.size(); ++k)
+    if (const SpherePair pair = list_.pairs[k]; (young[pair.a] | young[pair.b]) != 0) of_young.push_back(k);
+  for (const std::uint32_t k : of_young) {
+    SpherePair& pair = list_.pairs[k];
+    pair.attached = are_attached(scene, world.tissue, pair);
+    suspects[pair.a] = suspects[pair.b] = 1;
+  }
   renumber_rigid_pairs(scene, world.tissue, now, young);
   for (auto& flips : flips_) flips.clear();
-  count_partners(scene, world.tissue);
-  add_sisters(scene, world.tissue, young);
+  look_for_lost(scene, world.tissue, std::move(suspects));
+  add_sisters(scene, world.tissue, of_young);
 }
 
 template <class Now>
-void SphereContacts::renumber_pairs(const Now& now) {
+void SphereContacts::renumber_pairs(const Now& now, std::vector<char>& suspects) {
   std::uint32_t kept = 0;
   auto sisters = sisters_.begin(), kept_sisters = sisters_.begin();
   for (std::uint32_t k = 0; k < list_.pairs.size(); ++k) {
@@ -57,6 +66,8 @@ void SphereContacts::renumber_pairs(const Now& now) {
       pair.b = b & 0x7FFFFFFFu;
       if (has_sisters) *kept_sisters = *sisters, (kept_sisters++)->pair = kept;
       list_.pairs[kept++] = pair;
+    } else if (a != BodyChanges::kNone || b != BodyChanges::kNone) {
+      suspects[a != BodyChanges::kNone ? a : b] = 1;
     }
     if (has_sisters) ++sisters;
   }
@@ -106,12 +117,29 @@ void SphereContacts::renumber_rigid_pairs(const Scene& scene, const Tissue& tiss
   add_young(static_cast<std::uint32_t>(young.size()));
 }
 
-void SphereContacts::add_sisters(const Scene& scene, const Tissue& tissue, const std::vector<char>& young) {
-  std::vector<std::uint32_t> pairs, spheres;
-  for (std::uint32_t k = 0; k < list_.pairs.size() && !young_.empty(); ++k) {
-    const SpherePair pair = list_.pairs[k];
-    if ((young[pair.a] || young[pair.b]) && sisters_in(scene, pair)) pairs.push_back(k);
+void SphereContacts::look_for_lost(const Scene& scene, const Tissue& tissue, std::vector<char> suspects) {
+  lost_.clear();
+  // A shell that became a sphere is a partner of all that it touched, whether or not the sphere reaches them.
+  std::vector<std::uint32_t> known(scene.owned_spheres(), 0);
+  for_attached(scene, [&](std::uint32_t i, CellId) { ++known[i]; });
+  for (std::uint32_t i = 0; i < known.size(); ++i)
+    if (known[i] != tissue.spheres.attached[i].size()) suspects[i] = 1;
+  const std::vector<std::pair<std::uint32_t, CellId>> found = partners_of(scene, suspects);
+  auto at = found.begin();
+  for (std::uint32_t i = 0; i < scene.owned_spheres(); ++i) {
+    if (!suspects[i]) continue;
+    bool same = true;
+    std::size_t count = 0;
+    const std::span<const CellId> listed = tissue.spheres.attached[i];
+    for (; at != found.end() && at->first == i; ++at, ++count) same = same && count < listed.size() && listed[count] == at->second;
+    if (!same || count != listed.size()) lost_.push_back(i);
   }
+}
+
+void SphereContacts::add_sisters(const Scene& scene, const Tissue& tissue, std::span<const std::uint32_t> of_young) {
+  std::vector<std::uint32_t> pairs, spheres;
+  for (const std::uint32_t k : of_young)
+    if (sisters_in(scene, list_.pairs[k])) pairs.push_back(k);
   std::erase_if(sisters_, [&](const Sisters& s) { return std::ranges::binary_search(pairs, s.pair); });
   for (const std::uint32_t k : pairs) spheres.insert(spheres.end(), {list_.pairs[k].a, list_.pairs[k].b});
   std::ranges::sort(spheres);
