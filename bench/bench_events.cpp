@@ -16,8 +16,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <numbers>
@@ -46,10 +46,10 @@ enum class What { kDivision, kRemoval, kExchange };
 struct Case {
   const char* name;
   What what;
-  bool shells = false;       ///< the tissue is one of shells
+  bool shells = false;        ///< the tissue is one of shells
   bool among_shells = false;  ///< spheres, but shells about the cells that exchange their bodies
-  double step = 10.0;        ///< longest [s]
-  int between = 5;           ///< steps from one event to the next
+  double step = 10.0;         ///< longest [s]
+  int between = 5;            ///< steps from one event to the next
 
   [[nodiscard]] double time_of(int event) const { return (20.0 + event * between) * step; }
   [[nodiscard]] double spacing() const { return shells ? 12.0 : 11.4; }
@@ -208,8 +208,14 @@ bool run_case(const Case& c, std::size_t cells, const Comm& comm, int threads, F
     const bool other = !done->events.empty() && !event;
     if (verbose)
       std::printf("  t %.1f dt %.2f newton %d linear %d retries %d: %.4f s%s\n", simulation.tissue().clock.time, done->mechanics.step,
-                  done->mechanics.newton, done->mechanics.linear_iterations, done->retries, spent, event ? " *" : other ? " o" : "");
-    Steps* const to = event ? &out.with : follows ? &out.after : simulation.tissue().clock.time > 10 * c.step && !other ? &out.usual : nullptr;
+                  done->mechanics.newton, done->mechanics.linear_iterations, done->retries, spent,
+                  event   ? " *"
+                  : other ? " o"
+                          : "");
+    Steps* const to = event                                                    ? &out.with
+                      : follows                                                ? &out.after
+                      : simulation.tissue().clock.time > 10 * c.step && !other ? &out.usual
+                                                                               : nullptr;
     if (event) out.shape.push_back(simulation.timer().seconds(Stage::kShapes) - shapes);
     follows = event;
     if (to == nullptr) continue;
@@ -257,15 +263,17 @@ int main(int argc, char** argv) {
         }
         if (!comm.is_root()) continue;
         char line[400];
-        std::snprintf(line, sizeof line,
-                      "%-22s %6zu %s: %zu events, extra %.4f s, step %.4f s, ratio %.3f, shape %.4f s; iterations %.0f, %.0f, ordinary %.0f",
-                      c.name, cells, c.shells ? "shells" : "spheres", f.with.seconds.size(), f.extra(), f.step(), f.extra() / f.step(),
-                      median(f.shape), median(f.with.iterations), median(f.after.iterations), median(f.usual.iterations));
+        std::snprintf(
+            line, sizeof line,
+            "%-22s %6zu %s: %zu events, extra %.4f s, step %.4f s, ratio %.3f, shape %.4f s; iterations %.0f, %.0f, ordinary %.0f", c.name,
+            cells, c.shells ? "shells" : "spheres", f.with.seconds.size(), f.extra(), f.step(), f.extra() / f.step(), median(f.shape),
+            median(f.with.iterations), median(f.after.iterations), median(f.usual.iterations));
         std::puts(line);
         std::fflush(stdout);
-        std::snprintf(line, sizeof line,
-                      R"(%s    {"case": "%s", "cells": %zu, "events": %zu, "extra_s": %.6f, "step_s": %.6f, "ratio": %.4f, "shape_s": %.6f})",
-                      separator, c.name, cells, f.with.seconds.size(), f.extra(), f.step(), f.extra() / f.step(), median(f.shape));
+        std::snprintf(
+            line, sizeof line,
+            R"(%s    {"case": "%s", "cells": %zu, "events": %zu, "extra_s": %.6f, "step_s": %.6f, "ratio": %.4f, "shape_s": %.6f})",
+            separator, c.name, cells, f.with.seconds.size(), f.extra(), f.step(), f.extra() / f.step(), median(f.shape));
         text += line;
         separator = ",\n";
       }

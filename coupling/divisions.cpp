@@ -228,8 +228,7 @@ void Simulation::rename_partners(const std::vector<Event>& events) {
     after.add(before, done, i);
     partners.assign(before[i].begin(), before[i].end());
     for (const CellId partner : before[i])
-      if (const Event* event = division_of(partner))
-        cbm::replace_partner(partners, partner, event->first_daughter, event->second_daughter);
+      if (const Event* event = division_of(partner)) cbm::replace_partner(partners, partner, event->first_daughter, event->second_daughter);
     after.add(partners);
     done = i + 1;
   }

@@ -25,8 +25,8 @@ enum class Stage : std::uint8_t {
   kCount
 };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Stage::kCount)> kStageNames{
-    "exchange ghosts", "find candidates", "contacts",   "internal forces", "assemble", "solve",
-    "advance",         "fields",          "behaviours", "coupling",        "find shapes", "balance", "observe"};
+    "exchange ghosts", "find candidates", "contacts", "internal forces", "assemble", "solve",  "advance",
+    "fields",          "behaviours",      "coupling", "find shapes",     "balance",  "observe"};
 
 /// Wall time by stage. Timing never influences a result.
 class StageTimer {

@@ -165,9 +165,8 @@ double ContactLayer::way_of(const ContactScene& scene, const ContactBody& body, 
 }
 
 bool ContactLayer::note_travel(const ContactScene& scene) {
-  double most = parallel_max(settings_.threads, scene.bodies.size(), [&](std::size_t i) {
-    return way_of(scene, scene.bodies[i], scene.bodies[i].first_point, last_radius_[i]);
-  });
+  double most = parallel_max(settings_.threads, scene.bodies.size(),
+                             [&](std::size_t i) { return way_of(scene, scene.bodies[i], scene.bodies[i].first_point, last_radius_[i]); });
   for (std::size_t i = 0; i < offsets_.size(); ++i) most = std::max(most, norm(offsets_[i] - last_offsets_[i]));
   skin_used_ = most * 1.000001 / (0.5 * settings_.body_skin);
   return skin_used_ > 1.0;

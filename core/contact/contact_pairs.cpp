@@ -111,7 +111,8 @@ void ContactLayer::add_body_pairs(const ContactScene& scene, const Space& space,
     });
   } else {
     std::vector<Extent> of_surfaces(scene.topology.size());  // those of spheres are found twice sooner than kept
-    parallel_for(settings_.threads, of_surfaces.size(), [&](std::size_t i) { of_surfaces[i] = extent_of(scene, static_cast<std::uint32_t>(i)); });
+    parallel_for(settings_.threads, of_surfaces.size(),
+                 [&](std::size_t i) { of_surfaces[i] = extent_of(scene, static_cast<std::uint32_t>(i)); });
     const double reach = 0.5 * (settings_.body_skin + std::max(settings_.range, settings_.sphere_reach));
     number = bodies_near(
         wanted, n,

@@ -166,10 +166,10 @@ class SphereContacts : public Term {
   std::uint64_t list_number_ = 0;  ///< of the candidates that the pairs were made from
   cbm::ContactTable table_;        ///< of all materials and walls
   SpherePairs list_;
-  std::vector<Sisters> sisters_;  ///< by pair
+  std::vector<Sisters> sisters_;      ///< by pair
   std::vector<std::uint32_t> young_;  ///< spheres that came since the last step: who adheres to them may still get another name; increasing
-  std::vector<RigidPair> rigid_;  ///< by sphere, obstacle and part
-  std::vector<double> virial_;    ///< by owned sphere [nN·µm]
+  std::vector<RigidPair> rigid_;      ///< by sphere, obstacle and part
+  std::vector<double> virial_;        ///< by owned sphere [nN·µm]
   Packing packing_;
   std::vector<std::vector<std::uint32_t>> flips_;  ///< by share: pairs whose flag changes if the step ends where they were evaluated last
   bool friction_is_frozen_ = false;                ///< a step is under way

@@ -145,7 +145,9 @@ void SphereContacts::add_sisters(const Scene& scene, const Tissue& tissue, std::
   std::ranges::sort(spheres);
   spheres.erase(std::ranges::unique(spheres).begin(), spheres.end());
   const std::vector<Scene::Birth> births = scene.sphere_births(tissue, spheres);
-  const auto birth = [&](std::uint32_t sphere) { return births[static_cast<std::size_t>(std::ranges::lower_bound(spheres, sphere) - spheres.begin())]; };
+  const auto birth = [&](std::uint32_t sphere) {
+    return births[static_cast<std::size_t>(std::ranges::lower_bound(spheres, sphere) - spheres.begin())];
+  };
   for (const std::uint32_t k : pairs) {
     const Scene::Birth a = birth(list_.pairs[k].a), b = birth(list_.pairs[k].b);
     sisters_.push_back({k, a.radius, b.radius, a.time, 0.0});

@@ -60,7 +60,7 @@ void SurfaceContacts::bodies_replaced(const World& world, const BodyChanges& cha
                      with_spheres == layer_.has_pairs(SurfacePairKind::kWithSphere);
   std::size_t faces = 0;  // of closed surfaces without holes
   for (std::size_t i = 0; i < changes.shells_before; ++i) faces += 2 * (changes.before[i].point_count - 2);
-  holds && faces == gradient_.face_energy.size() ? carry_found(world, changes) : forget();
+  holds&& faces == gradient_.face_energy.size() ? carry_found(world, changes) : forget();
 }
 
 std::vector<char> SurfaceContacts::touched_by(const BodyChanges& changes) const {
@@ -179,7 +179,8 @@ void SurfaceContacts::evaluate_again(const World& world, bool with_spheres) {
   const Scene& scene = world.scene;
   ContactGradient& gradient = with_spheres ? surfaces_only_ : gradient_;
   gradient.node_normal.resize(scene.sphere_point());
-  std::vector<const Topology*> owned(scene.topologies().begin(), scene.topologies().begin() + static_cast<std::ptrdiff_t>(scene.owned_shells()));
+  std::vector<const Topology*> owned(scene.topologies().begin(),
+                                     scene.topologies().begin() + static_cast<std::ptrdiff_t>(scene.owned_shells()));
   for (std::size_t i = 0; i < scene.shells(); ++i) {
     if (!again_[i]) {
       if (i < owned.size()) owned[i] = nullptr;
