@@ -8,25 +8,28 @@
 #include <utility>
 
 #include "core/mesh/shape_bytes.h"
+#include "coupling/partner_stretches.h"
 
 namespace morula {
 namespace {
 
-/// A cell behind the others; its place in canonical order is the caller's.
-void add_cell(Tissue& tissue, CellRecord& cell) {
-  cell.row.body = cell.shell ? BodyKind::kShell : BodyKind::kSphere;
-  tissue.cells.push_back(cell.row);
-  if (cell.sphere) {
-    cell.sphere->type = cell.row.type;
-    cbm::add_sphere(tissue.spheres, *cell.sphere);
-    return;
-  }
+/// The shell of a cell behind the others, with its nucleus.
+void add_shell_of(Tissue& tissue, CellRecord& cell) {
   cell.shell->type = cell.row.type;
   dcm::add_shell(tissue.shells, *cell.shell);
   if (!cell.shell->nuclear_shell) return;
   cell.shell->nuclear_shell->type = cell.row.type;
   dcm::add_shell(tissue.nuclei.shells, *cell.shell->nuclear_shell);
   tissue.nuclei.owner.push_back(static_cast<std::uint32_t>(tissue.shells.size() - 1));
+}
+
+/// A cell behind the others; its place in canonical order is the caller's.
+void add_cell(Tissue& tissue, CellRecord& cell) {
+  cell.row.body = cell.shell ? BodyKind::kShell : BodyKind::kSphere;
+  tissue.cells.push_back(cell.row);
+  if (!cell.sphere) return add_shell_of(tissue, cell);
+  cell.sphere->type = cell.row.type;
+  cbm::add_sphere(tissue.spheres, *cell.sphere);
 }
 
 /// The places of the cells in canonical order.
@@ -37,37 +40,142 @@ std::vector<std::size_t> canonical_order(std::span<const CellRecord> cells) {
   return sorted;
 }
 
-/// Cells and bodies of a tissue.
-struct Population {
-  Cells cells;
-  cbm::Spheres spheres;
-  dcm::Shells shells;
-  dcm::NuclearShells nuclei;
+/// Some items of a sequence go, and others come in: all by numbers of the old sequence.
+struct Replacement {
+  std::vector<std::size_t> gone;    ///< increasing
+  std::vector<std::size_t> before;  ///< of each that comes, in order: the old item before which it stands
+
+  [[nodiscard]] bool empty() const { return gone.empty() && before.empty(); }
+  /// Calls keep(first, last) for the stretches that stay, and come(k) for what comes, in the new order.
+  template <class Keep, class Come>
+  void for_all(std::size_t size, Keep&& keep, Come&& come) const {
+    std::size_t at = 0, next_gone = 0;
+    const auto keep_until = [&](std::size_t end) {
+      for (; next_gone < gone.size() && gone[next_gone] < end; ++next_gone) {
+        if (at < gone[next_gone]) keep(at, gone[next_gone]);
+        at = gone[next_gone] + 1;
+      }
+      if (at < end) keep(at, end), at = end;
+    };
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      keep_until(before[k]);
+      come(k);
+    }
+    keep_until(size);
+  }
 };
 
-Population take_population(Tissue& tissue) {
-  Cells none = tissue.cells.without_rows();
-  return {std::exchange(tissue.cells, std::move(none)), std::exchange(tissue.spheres, {}), std::exchange(tissue.shells, {}),
-          std::exchange(tissue.nuclei, {})};
+/// Makes the replacement in place, with value(k) for what comes: only what lies behind the first change is moved.
+template <class T, class ValueOf>
+void replace_in(std::vector<T>& items, const Replacement& what, ValueOf&& value) {
+  if (what.empty()) return;
+  std::size_t kept = what.gone.empty() ? items.size() : what.gone.front();
+  for (std::size_t g = 0; g < what.gone.size(); ++g) {
+    const std::size_t from = what.gone[g] + 1, to = g + 1 < what.gone.size() ? what.gone[g + 1] : items.size();
+    std::move(items.begin() + static_cast<std::ptrdiff_t>(from), items.begin() + static_cast<std::ptrdiff_t>(to),
+              items.begin() + static_cast<std::ptrdiff_t>(kept));
+    kept += to - from;
+  }
+  const std::size_t size = kept + what.before.size();
+  if (size > items.capacity()) items.reserve(size + size / 64);  // no growth by doubling
+  items.resize(size);
+  std::size_t end = kept;
+  for (std::size_t k = what.before.size(); k-- > 0;) {
+    const auto gone_before = static_cast<std::size_t>(std::ranges::lower_bound(what.gone, what.before[k]) - what.gone.begin());
+    const std::size_t place = what.before[k] - gone_before;
+    std::move_backward(items.begin() + static_cast<std::ptrdiff_t>(place), items.begin() + static_cast<std::ptrdiff_t>(end),
+                       items.begin() + static_cast<std::ptrdiff_t>(end + k + 1));
+    items[place + k] = value(k);
+    end = place;
+  }
 }
 
-/// Where a stretch of rows begins: its row, and how many shells come before it.
-struct Place {
-  std::size_t row = 0, shells = 0;
-  [[nodiscard]] std::size_t spheres() const { return row - shells; }
+/// The same of a column that has no room while all have the usual value, as `usual` has it.
+template <class Column, class ValueOf>
+void replace_in_column(Column& values, Column usual, const Replacement& what, std::size_t old_size, std::size_t size, ValueOf&& value) {
+  std::size_t row = 0;
+  const Column old = std::exchange(values, std::move(usual));
+  what.for_all(
+      old_size,
+      [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last && !old.empty(); ++i) values.set(row + i - first, old[i], size);
+        row += last - first;
+      },
+      [&](std::size_t k) { values.set(row++, value(k), size); });
+}
+
+void replace_rows(Cells& cells, const Replacement& what, std::span<CellRecord* const> fresh) {
+  const std::size_t old_size = cells.size();
+  replace_in(cells.rows, what, [&](std::size_t k) -> const CellRow& { return fresh[k]->row; });
+  const Cells usual = cells.without_rows();
+  OptionalColumns::for_each_member([&](auto column, auto member) {
+    replace_in_column(cells.optional.*column, usual.optional.*column, what, old_size, cells.size(),
+                      [&](std::size_t k) { return fresh[k]->row.*member; });
+  });
+  for (std::size_t v = 0; v < cells.variables.size(); ++v)
+    replace_in_column(cells.variables[v].values, usual.variables[v].values, what, old_size, cells.size(),
+                      [&](std::size_t k) { return fresh[k]->row.variable(v); });
+}
+
+void replace_spheres(cbm::Spheres& spheres, const Replacement& what, std::span<CellRecord* const> fresh) {
+  if (what.empty()) return;
+  const std::size_t old_size = spheres.size();
+  cbm::for_each_sphere_column([&](const auto& column) {
+    if constexpr (requires { column.all; }) {
+      replace_in(spheres.*column.all, what, [&](std::size_t k) { return column.values(*fresh[k]->sphere)[0]; });
+    } else {
+      PartnerStretches lists;
+      lists.reserve(old_size + what.before.size(), spheres.attached.partner_count() + 16 * what.before.size());
+      what.for_all(
+          old_size, [&](std::size_t first, std::size_t last) { lists.add(spheres.attached, first, last); },
+          [&](std::size_t k) { lists.add(column.values(*fresh[k]->sphere)); });
+      spheres.attached = std::move(lists).take();
+    }
+  });
+}
+
+/// Shells with their nuclei.
+void replace_shells(Tissue& tissue, const Replacement& what, std::span<CellRecord* const> fresh) {
+  if (what.empty()) return;
+  const dcm::Shells old = std::exchange(tissue.shells, {});
+  const dcm::NuclearShells nuclei = std::exchange(tissue.nuclei, {});
+  const auto keep = [&](std::size_t first, std::size_t last) {
+    const auto shift = static_cast<std::uint32_t>(tissue.shells.size());
+    dcm::add_shells(tissue.shells, old, first, last);
+    const auto begin = std::ranges::lower_bound(nuclei.owner, first), end = std::lower_bound(begin, nuclei.owner.end(), last);
+    dcm::add_shells(tissue.nuclei.shells, nuclei.shells, static_cast<std::size_t>(begin - nuclei.owner.begin()),
+                    static_cast<std::size_t>(end - nuclei.owner.begin()));
+    for (auto at = begin; at != end; ++at) tissue.nuclei.owner.push_back(*at - static_cast<std::uint32_t>(first) + shift);
+  };
+  what.for_all(old.size(), keep, [&](std::size_t k) { add_shell_of(tissue, *fresh[k]); });
+}
+
+/// Which shells, or spheres, go and come with the rows.
+struct OfBodies {
+  Replacement what;
+  std::vector<CellRecord*> fresh;
 };
 
-/// The cells from `first` to before `last` behind those of the tissue.
-void add_stretch(Tissue& tissue, const Population& from, const Place& first, const Place& last) {
-  tissue.cells.add(from.cells, first.row, last.row);
-  cbm::add_spheres(tissue.spheres, from.spheres, first.spheres(), last.spheres());
-  const auto shift = static_cast<std::uint32_t>(tissue.shells.size());
-  dcm::add_shells(tissue.shells, from.shells, first.shells, last.shells);
-  const auto& owner = from.nuclei.owner;
-  const auto begin = std::lower_bound(owner.begin(), owner.end(), first.shells), end = std::lower_bound(begin, owner.end(), last.shells);
-  dcm::add_shells(tissue.nuclei.shells, from.nuclei.shells, static_cast<std::size_t>(begin - owner.begin()),
-                  static_cast<std::size_t>(end - owner.begin()));
-  for (auto at = begin; at != end; ++at) tissue.nuclei.owner.push_back(*at - static_cast<std::uint32_t>(first.shells) + shift);
+OfBodies of_bodies(bool shells, const Tissue& tissue, const Replacement& rows, std::span<CellRecord* const> fresh) {
+  OfBodies out;
+  const Cells& cells = tissue.cells;
+  const bool are_mixed = tissue.shells.size() > 0 && tissue.spheres.size() > 0;
+  const auto is_one = [&](const CellRow& row) { return (row.body == BodyKind::kShell) == shells; };
+  std::size_t row = 0, number = 0;
+  const auto number_at = [&](std::size_t at) {  // how many there are before a row that is not before the last one
+    if (!are_mixed && !cells.rows.empty()) return is_one(cells.rows.front()) ? at : std::size_t{0};
+    for (; row < at; ++row) number += is_one(cells.rows[row]) ? 1 : 0;
+    return number;
+  };
+  for (const std::size_t gone : rows.gone)
+    if (is_one(cells.rows[gone])) out.what.gone.push_back(number_at(gone));
+  row = number = 0;
+  for (std::size_t k = 0; k < fresh.size(); ++k) {
+    if (fresh[k]->shell.has_value() != shells) continue;
+    out.what.before.push_back(number_at(rows.before[k]));
+    out.fresh.push_back(fresh[k]);
+  }
+  return out;
 }
 
 }  // namespace
@@ -91,7 +199,10 @@ std::vector<CellRecord> take_apart(Tissue& tissue) {
   std::vector<CellRecord> out;
   out.reserve(tissue.cells.size());
   for (const BodyOfRow& body : bodies_of(tissue.cells)) out.push_back(record_of(tissue, body));
-  take_population(tissue);
+  tissue.cells = tissue.cells.without_rows();
+  tissue.spheres = {};
+  tissue.shells = {};
+  tissue.nuclei = {};
   return out;
 }
 
@@ -106,34 +217,21 @@ void put_together(Tissue& tissue, std::vector<CellRecord> cells) {
 
 void replace_cells(Tissue& tissue, std::span<const std::size_t> gone, std::vector<CellRecord> fresh) {
   assert(std::is_sorted(gone.begin(), gone.end()) && (gone.empty() || gone.back() < tissue.cells.size()));
-  const Population old = take_population(tissue);
-  tissue.cells.rows.reserve(old.cells.size() - gone.size() + fresh.size());
-  cbm::for_each_sphere_column([&](const auto& column) { column.reserve(tissue.spheres, old.spheres.size() + fresh.size()); });
-  const auto after = [&](Place at, std::size_t row) {  // the place of a row that is not before
-    for (; at.row < row; ++at.row) at.shells += old.cells.rows[at.row].body == BodyKind::kShell ? 1 : 0;
-    return at;
-  };
-  Place at;
-  std::size_t next_gone = 0;
-  const auto keep_until = [&](std::size_t row) {
-    for (; next_gone < gone.size() && gone[next_gone] < row; ++next_gone) {
-      const Place last = after(at, gone[next_gone]);
-      add_stretch(tissue, old, at, last);
-      at = after(last, last.row + 1);
-    }
-    const Place last = after(at, row);
-    add_stretch(tissue, old, at, last);
-    at = last;
-  };
+  Replacement rows{{gone.begin(), gone.end()}, {}};
+  std::vector<CellRecord*> sorted;
   for (const std::size_t k : canonical_order(fresh)) {
     CellRecord& cell = fresh[k];
-    const auto& rows = old.cells.rows;
-    const auto place =
-        std::lower_bound(rows.begin(), rows.end(), cell.row, [](const CellRow& a, const CellRow& b) { return before(a, b); });
-    keep_until(std::max(at.row, static_cast<std::size_t>(place - rows.begin())));
-    add_cell(tissue, cell);
+    cell.row.body = cell.shell ? BodyKind::kShell : BodyKind::kSphere;
+    if (cell.sphere) cell.sphere->type = cell.row.type;
+    const auto& old = tissue.cells.rows;
+    const auto place = std::lower_bound(old.begin(), old.end(), cell.row, [](const CellRow& a, const CellRow& b) { return before(a, b); });
+    rows.before.push_back(static_cast<std::size_t>(place - old.begin()));
+    sorted.push_back(&cell);
   }
-  keep_until(old.cells.size());
+  const OfBodies spheres = of_bodies(false, tissue, rows, sorted), shells = of_bodies(true, tissue, rows, sorted);
+  replace_rows(tissue.cells, rows, sorted);
+  replace_spheres(tissue.spheres, spheres.what, spheres.fresh);
+  replace_shells(tissue, shells.what, shells.fresh);
 }
 
 std::vector<double> free_rest_lengths(const ReferenceShape& shape, double rest_volume) {

@@ -1,6 +1,8 @@
 // What a step of life has asked for: daughters in place of mothers, and dead cells gone.
 #include <algorithm>
+#include <bitset>
 #include <cmath>
+#include <optional>
 
 #include "cbm/partners.h"
 #include "core/parallel/threads.h"
@@ -10,6 +12,7 @@
 #include "coupling/behaviours/shell_division.h"
 #include "coupling/cell_record.h"
 #include "coupling/overlap.h"
+#include "coupling/partner_stretches.h"
 #include "coupling/simulation.h"
 #include "coupling/surroundings.h"
 #include "coupling/swaps.h"
@@ -121,6 +124,8 @@ void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& e
     energy = mechanics_->energy(tissue_);
     for (const CellType& type : model_.types) shape.push_back(shapes_.icosphere(type.shell_nodes).value());
   }
+  std::optional<StageTimer::Scope> shaping;
+  shaping.emplace(timer(), Stage::kShapes);
   parallel_for(threads_, mothers.size(), [&](std::size_t k) {
     const auto& [body, late, mother] = mothers[k];
     const CellType& type = model_.types[mother.row.type];
@@ -134,6 +139,7 @@ void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& e
     daughters[k] = divide_as_shell(mother, rows, {&*mother.shell, &type, shape[mother.row.type], around.surfaces}, model_.seed);
   });
 
+  shaping.reset();
   std::vector<std::size_t> gone = life.removals;
   std::vector<CellRecord> fresh;
   std::vector<CellRecord> cut;  // mothers that were shells
@@ -155,7 +161,7 @@ void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& e
   if (!gone.empty()) {
     std::sort(gone.begin(), gone.end());
     replace_cells(tissue_, gone, std::move(fresh));
-    mechanics_->bodies_changed();
+    mechanics_->cells_replaced();
   }
   if (cuts) {
     const CutsKept kept = undo_deep_cuts(cut, events);
@@ -175,7 +181,7 @@ Simulation::CutsKept Simulation::undo_deep_cuts(std::span<const CellRecord> moth
   std::ranges::sort(daughters);
   CutsKept out{.energy = mechanics_->energy(tissue_)};
   const std::vector<CellId> deep = too_deep(*mechanics_, daughters, kMostOfLimit * model_.limits.overlap);
-  mechanics_->bodies_changed();  // what it knows is with partners that have not their new names yet
+  mechanics_->cells_replaced();  // what it knows is with partners that have not their new names yet
   std::vector<CellRecord> back;
   std::vector<CellId> undone;
   for (const CellRecord& mother : mothers) {
@@ -189,7 +195,7 @@ Simulation::CutsKept Simulation::undo_deep_cuts(std::span<const CellRecord> moth
   out.undone = static_cast<std::int64_t>(back.size());
   replace_cells(tissue_, rows_of(tissue_.cells, undone), std::move(back));
   out.energy = mechanics_->energy(tissue_);
-  mechanics_->bodies_changed();
+  mechanics_->cells_replaced();
   return out;
 }
 
@@ -199,19 +205,35 @@ void Simulation::rename_partners(const std::vector<Event>& events) {
     if (event.kind == EventKind::kDivision) divisions.push_back(&event);
   if (divisions.empty()) return;
   std::sort(divisions.begin(), divisions.end(), [](const Event* a, const Event* b) { return a->cell < b->cell; });
-  const cbm::PartnerLists before = std::move(tissue_.spheres.attached);
-  tissue_.spheres.attached = {};
-  tissue_.spheres.attached.reserve(before.size(), before.partner_count() + 2 * divisions.size());
+  const auto division_of = [&](CellId mother) {
+    const auto at = std::ranges::lower_bound(divisions, mother, {}, [](const Event* event) { return event->cell; });
+    return at != divisions.end() && (*at)->cell == mother ? *at : nullptr;
+  };
+  std::bitset<1024> seen;  // most ids are told from those of mothers by a few bits
+  const auto few_bits = [](CellId id) { return static_cast<std::size_t>((id.bits() * 0x9E3779B97F4A7C15u) >> 54); };
+  for (const Event* event : divisions) seen.set(few_bits(event->cell));
+  const auto has_mother = [&](std::span<const CellId> partners) {
+    return std::ranges::any_of(partners, [&](CellId id) { return seen.test(few_bits(id)) && division_of(id) != nullptr; });
+  };
+  const cbm::PartnerLists& before = tissue_.spheres.attached;
+  std::vector<std::size_t> renamed;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    if (has_mother(before[i])) renamed.push_back(i);
+  if (renamed.empty()) return;
+  PartnerStretches after;
+  after.reserve(before.size(), before.partner_count() + 2 * renamed.size());
   cbm::Partners partners;
-  for (std::size_t i = 0; i < before.size(); ++i) {
+  std::size_t done = 0;
+  for (const std::size_t i : renamed) {
+    after.add(before, done, i);
     partners.assign(before[i].begin(), before[i].end());
-    for (const CellId partner : before[i]) {
-      const auto at = std::lower_bound(divisions.begin(), divisions.end(), partner, [](const Event* e, CellId id) { return e->cell < id; });
-      if (at != divisions.end() && (*at)->cell == partner)
-        cbm::replace_partner(partners, partner, (*at)->first_daughter, (*at)->second_daughter);
-    }
-    tissue_.spheres.attached.push_back(partners);
+    for (const CellId partner : before[i])
+      if (const Event* event = division_of(partner)) cbm::replace_partner(partners, partner, event->first_daughter, event->second_daughter);
+    after.add(partners);
+    done = i + 1;
   }
+  after.add(before, done, before.size());
+  tissue_.spheres.attached = std::move(after).take();
 }
 
 }  // namespace morula

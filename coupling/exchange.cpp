@@ -89,14 +89,15 @@ std::vector<Event> Simulation::swap_bodies() {
   mark_new_shells(model_, tissue_);
   if (comm_.any(!fresh.empty())) {
     std::sort(fresh.begin(), fresh.end());
+    auto shaping = timer().scope(Stage::kShapes);
     const Settled settled = settle_shells(tissue_, *mechanics_, model_, shapes_, comm_, fresh, may_stay);
     if (!settled.no_room.empty()) take_back(tissue_, std::move(before), settled.no_room, events);
     tissue_.clock.capped = tissue_.clock.capped || settled.overlap_is_left;
   }
-  mechanics_->bodies_changed();
+  mechanics_->cells_replaced();
   if (may_stay) {
     tell_exchanges(watch, tissue_, *mechanics_, comm_, events);
-    mechanics_->bodies_changed();  // partners that divisions of this step rename are not yet those of their daughters
+    mechanics_->cells_replaced();  // partners that divisions of this step rename are not yet those of their daughters
   }
   std::int64_t ups = 0, downs = 0;
   for (const Event& event : events) {

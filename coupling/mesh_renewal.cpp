@@ -92,7 +92,7 @@ void Simulation::renew_meshes(std::vector<Event>& events) {
     renewed.push_back(std::move(cell));
   }
   replace_cells(tissue_, rows, std::move(renewed));
-  mechanics_->bodies_changed();
+  mechanics_->cells_replaced();
 }
 
 }  // namespace morula

@@ -216,7 +216,7 @@ void Simulation::wrap_cells() {
       p = there;
     }
   }
-  if (moved) mechanics_->bodies_changed();
+  if (moved) mechanics_->cells_replaced();
 }
 
 std::vector<Event> Simulation::all_events(std::vector<Event> mine) const {

@@ -6,7 +6,8 @@
 
 namespace morula {
 
-/// The stages of a step as `run --timings` prints them.
+/// The stages of a step as `run --timings` prints them. Finding shapes (of cells that become shells, of daughters of shells) is a part of the stage
+/// that does it, too.
 enum class Stage : std::uint8_t {
   kGhosts,
   kCandidates,
@@ -18,13 +19,14 @@ enum class Stage : std::uint8_t {
   kFields,
   kBehaviours,
   kCoupling,
+  kShapes,
   kBalance,
   kObserve,
   kCount
 };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Stage::kCount)> kStageNames{
-    "exchange ghosts", "find candidates", "contacts",   "internal forces", "assemble", "solve",
-    "advance",         "fields",          "behaviours", "coupling",        "balance",  "observe"};
+    "exchange ghosts", "find candidates", "contacts", "internal forces", "assemble", "solve",  "advance",
+    "fields",          "behaviours",      "coupling", "find shapes",     "balance",  "observe"};
 
 /// Wall time by stage. Timing never influences a result.
 class StageTimer {

@@ -23,11 +23,17 @@ struct BinGrid {
       centers.include(space.wrapped(e.center));
       widest = std::max(widest, 2.0 * e.radius);
     }
+    lay_out(centers, widest, extents.size(), space);
+  }
+  /// Of so many bodies whose centres lie in this box, and whose balls are no wider than this.
+  BinGrid(const Box& centers, double widest, std::size_t bodies, const Space& space) { lay_out(centers, widest, bodies, space); }
+
+  void lay_out(const Box& centers, double widest, std::size_t bodies, const Space& space) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       wraps[axis] = space.periodic(static_cast<int>(axis));
       low[axis] = wraps[axis] ? space.box.low[axis] : centers.low[axis];
       const double size = wraps[axis] ? space.box.size()[axis] : centers.size()[axis];
-      const double most = std::cbrt(4.0 * static_cast<double>(extents.size())) + 4.0;  // not many more bins than bodies
+      const double most = std::cbrt(4.0 * static_cast<double>(bodies)) + 4.0;  // not many more bins than bodies
       count[axis] = static_cast<int>(std::clamp(std::floor(size / widest), 1.0, std::max(1.0, most * 4.0)));
       inverse_width[axis] = size > 0.0 ? count[axis] / size : 0.0;
     }
@@ -127,6 +133,35 @@ void find_body_pairs(std::span<const Extent> extents, std::span<const std::uint3
     std::sort(of_body.begin(), of_body.end(), [&](const BodyPair& a, const BodyPair& b) { return place[a.b] < place[b.b]; });
     for (const BodyPair& pair : of_body) found(pair);
   }
+}
+
+std::vector<std::uint32_t> bodies_near(std::span<const std::uint32_t> some, std::size_t count,
+                                       const std::function<Ball(std::uint32_t)>& ball_of, const Space& space) {
+  std::vector<std::uint32_t> out;
+  if (some.empty()) return out;
+  Box centers;
+  double widest = 1e-9;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Ball ball = ball_of(i);
+    centers.include(space.wrapped(ball.center));
+    widest = std::max(widest, 2.0 * ball.radius);
+  }
+  const BinGrid grid(centers, widest, count, space);
+  std::vector<char> near(grid.size(), 0);  // what touches a body lies in its bin or beside it
+  for (const std::uint32_t i : some) {
+    const Bin bin = grid.bin_of(space.wrapped(ball_of(i).center));
+    std::array<std::array<int, 3>, 3> beside{};
+    std::array<int, 3> n{};
+    for (std::size_t axis = 0; axis < 3; ++axis) n[axis] = grid.neighbours(axis, bin[axis], beside[axis]);
+    for (int z = 0; z < n[2]; ++z)
+      for (int y = 0; y < n[1]; ++y)
+        for (int x = 0; x < n[0]; ++x)
+          near[grid.index({beside[0][static_cast<std::size_t>(x)], beside[1][static_cast<std::size_t>(y)],
+                           beside[2][static_cast<std::size_t>(z)]})] = 1;
+  }
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (near[grid.index(grid.bin_of(space.wrapped(ball_of(i).center)))]) out.push_back(i);
+  return out;
 }
 
 }  // namespace morula

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "core/space/space.h"
 #include "core/vec3.h"
@@ -27,5 +28,16 @@ struct BodyPair {
 /// body, so that the cost grows with the number of bodies. On periodic axes the nearest image counts.
 void find_body_pairs(std::span<const Extent> extents, std::span<const std::uint32_t> place, std::span<const char> owned, const Space& space,
                      const std::function<void(const BodyPair&)>& found);
+
+/// A ball around a body, already inflated by half the reach of its contacts.
+struct Ball {
+  Vec3d center;
+  double radius = 0.0;
+};
+
+/// Numbers of the bodies that lie near one of `some`, increasing: all that may touch one of them, themselves and a few more. Goes over all bodies twice,
+/// with no more memory than bytes for bins. `ball_of` gives the ball of a body.
+std::vector<std::uint32_t> bodies_near(std::span<const std::uint32_t> some, std::size_t count,
+                                       const std::function<Ball(std::uint32_t)>& ball_of, const Space& space);
 
 }  // namespace morula

@@ -44,6 +44,10 @@ void ContactLayer::set_depth(double depth) {
   for (SurfacePair& pair : pairs_) pair.built_at = -1e300;
 }
 
+bool ContactLayer::is_at_step_start() const {
+  return std::ranges::any_of(pairs_, [](const SurfacePair& pair) { return pair.at_start; });
+}
+
 void ContactLayer::set_offsets(std::span<const Vec3d> offsets) { offsets_.assign(offsets.begin(), offsets.end()); }
 
 void ContactLayer::set_cap(double cap) {
@@ -113,7 +117,7 @@ ContactLayer::BodyMotion ContactLayer::motion_of(const ContactScene& scene, cons
 bool ContactLayer::note_motion(const ContactScene& scene) {
   if (fresh_ || last_radius_.size() != scene.bodies.size()) return true;
   if (known_at_.size() != scene.position.size()) return true;
-  if (pairs_.empty()) return note_travel(scene);
+  if (travel_.empty()) return note_travel(scene);
   const double limit = 0.5 * settings_.body_skin;
   const double most = parallel_max(settings_.threads, scene.bodies.size(), [&](std::size_t i) {
     const ContactBody& body = scene.bodies[i];
@@ -147,18 +151,22 @@ void ContactLayer::know_positions(const ContactScene& scene) {
     known_at_[p] = to_float(x);
     return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)});
   });
-  rounding_ = kFloatRounding * std::numbers::sqrt3 * largest;
+  rounding_ = rounding_of(largest);
+}
+
+double ContactLayer::rounding_of(double largest) { return kFloatRounding * std::numbers::sqrt3 * largest; }
+
+double ContactLayer::way_of(const ContactScene& scene, const ContactBody& body, std::uint32_t known_point, float last_radius) const {
+  const double grown = growth(body, last_radius);
+  double furthest = 0.0;
+  for (std::uint32_t p = 0; p < body.point_count; ++p)
+    furthest = std::max(furthest, norm(scene.position[body.first_point + p] - to_double(known_at_[known_point + p])) + rounding_ + grown);
+  return furthest;
 }
 
 bool ContactLayer::note_travel(const ContactScene& scene) {
-  double most = parallel_max(settings_.threads, scene.bodies.size(), [&](std::size_t i) {
-    const ContactBody& body = scene.bodies[i];
-    const double grown = growth(body, last_radius_[i]);
-    double furthest = 0.0;
-    for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p)
-      furthest = std::max(furthest, norm(scene.position[p] - to_double(known_at_[p])) + rounding_ + grown);
-    return furthest;
-  });
+  double most = parallel_max(settings_.threads, scene.bodies.size(),
+                             [&](std::size_t i) { return way_of(scene, scene.bodies[i], scene.bodies[i].first_point, last_radius_[i]); });
   for (std::size_t i = 0; i < offsets_.size(); ++i) most = std::max(most, norm(offsets_[i] - last_offsets_[i]));
   skin_used_ = most * 1.000001 / (0.5 * settings_.body_skin);
   return skin_used_ > 1.0;
@@ -262,11 +270,26 @@ std::vector<SphereTouch> ContactLayer::touches_of_spheres(const ContactScene& sc
 
 void ContactLayer::evaluate(const ContactScene& scene, SurfacePairKind kind, ContactGradient& gradient) {
   assert(!fresh_ && "rebuild() comes first");
-  const std::vector<std::uint32_t>& list = pairs_of_kind_[static_cast<std::size_t>(kind)];
-  const std::size_t threads = static_cast<std::size_t>(settings_.threads);
   std::vector<ElementStore>& stores = present_[static_cast<std::size_t>(kind)];
   stores.clear();
-  stores.resize(threads);
+  stores.resize(static_cast<std::size_t>(settings_.threads));
+  evaluate_list(pairs_of_kind_[static_cast<std::size_t>(kind)], {}, scene, stores, gradient);
+}
+
+void ContactLayer::evaluate_of(std::span<const char> these, const ContactScene& scene, SurfacePairKind kind, ContactGradient& gradient) {
+  assert(!fresh_ && "rebuild() comes first");
+  std::vector<std::uint32_t> list;
+  for (const std::uint32_t k : pairs_of_kind_[static_cast<std::size_t>(kind)])
+    if (these[pairs_[k].a] || (!pairs_[k].rigid && these[pairs_[k].b])) list.push_back(k);
+  std::vector<ElementStore>& stores = present_[static_cast<std::size_t>(kind)];
+  stores.resize(static_cast<std::size_t>(settings_.threads));
+  evaluate_list(list, these, scene, stores, gradient);
+}
+
+void ContactLayer::evaluate_list(std::span<const std::uint32_t> list, std::span<const char> these, const ContactScene& scene,
+                                 std::vector<ElementStore>& stores, ContactGradient& gradient) {
+  const std::size_t threads = static_cast<std::size_t>(settings_.threads);
+  const auto is_wanted = [&](std::uint32_t body) { return these.empty() || these[body] != 0; };
   struct Gradients {
     PairGradient of[2];
   };
@@ -275,7 +298,8 @@ void ContactLayer::evaluate(const ContactScene& scene, SurfacePairKind kind, Con
     Gradients found;
     for (const std::uint32_t k : list) {
       evaluate_pair(scene, pairs_[k], found.of, workspace, stores[0]);
-      for (int side = 0; side < (pairs_[k].rigid ? 1 : 2); ++side) collect(scene, pairs_[k], side, found.of[side], gradient);
+      for (int side = 0; side < (pairs_[k].rigid ? 1 : 2); ++side)
+        if (is_wanted(side == 0 ? pairs_[k].a : pairs_[k].b)) collect(scene, pairs_[k], side, found.of[side], gradient);
     }
     return;
   }
@@ -294,8 +318,8 @@ void ContactLayer::evaluate(const ContactScene& scene, SurfacePairKind kind, Con
         for (std::size_t k = (now - 1) * share; k < last_of(now - 1); ++k) {
           const SurfacePair& pair = pairs_[list[k]];
           const Gradients& of_pair = found[(now - 1) % 2][k - (now - 1) * share];
-          if (pair.a % team == thread) collect(scene, pair, 0, of_pair.of[0], gradient);
-          if (!pair.rigid && pair.b % team == thread) collect(scene, pair, 1, of_pair.of[1], gradient);
+          if (pair.a % team == thread && is_wanted(pair.a)) collect(scene, pair, 0, of_pair.of[0], gradient);
+          if (!pair.rigid && pair.b % team == thread && is_wanted(pair.b)) collect(scene, pair, 1, of_pair.of[1], gradient);
         }
 #pragma omp for schedule(dynamic, 1)
       for (std::size_t k = now * share; k < last_of(now); ++k)

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/contact/body_changes.h"
 #include "core/contact/broad_phase.h"
 #include "core/contact/contact_body.h"
 #include "core/contact/element_store.h"
@@ -75,6 +76,14 @@ class ContactLayer {
   /// The bodies have changed. Lists of pairs are kept where both bodies stay what they were. Topologies of the old bodies must not go before the
   /// next rebuild(): a body is the same if its id and its Topology are.
   void reset() { fresh_ = true; }
+  /// A few bodies have come or gone and all others are where they were at the last note_motion(): lists are mended. Pairs of bodies that have gone go,
+  /// and the pairs of new ones are found; what the others have moved since their pairs were found still counts. Pairs of new spheres wait for
+  /// take_sphere_neighbours(). Where the lists were to be made anew in any case, they still are.
+  void mend(const ContactScene& scene, const Space& space, const BodyChanges& changes);
+  /// Lists are to be made anew before evaluate().
+  [[nodiscard]] bool is_stale() const { return fresh_; }
+  /// The elements of some pairs are those that begin_step() found.
+  [[nodiscard]] bool is_at_step_start() const;
   void set_depth(double depth);
   void set_offsets(std::span<const Vec3d> offsets);
   void set_cap(double cap);
@@ -98,6 +107,9 @@ class ContactLayer {
 
   /// Narrow phase of the surface pairs of one kind at the present positions: energies and elements, kept; gradients are added to `gradient`.
   void evaluate(const ContactScene& scene, SurfacePairKind kind, ContactGradient& gradient);
+  /// The same of the bodies with these[body] != 0 alone, where all others are as they were at the last evaluate(): their gradients are added, and what
+  /// was found of pairs without one of these stays. Not after begin_step() or make_room().
+  void evaluate_of(std::span<const char> these, const ContactScene& scene, SurfacePairKind kind, ContactGradient& gradient);
   /// What surfaces take of each sphere at the present positions, added to `by_body` in canonical order; before evaluate() of that kind.
   void find_penetration(const ContactScene& scene, std::span<Penetration> by_body);
   /// Pressures of spheres by body (of surfaces: ignored), from here on; none: spheres do not resist their packing.
@@ -166,6 +178,10 @@ class ContactLayer {
   /// Way of a body since the last note_motion(), when its points were `known_point` and those after it.
   [[nodiscard]] BodyMotion motion_of(const ContactScene& scene, const ContactBody& body, std::uint32_t known_point,
                                      float last_radius) const;
+  /// Bound on the way of its points from where they were then, and of its surface.
+  [[nodiscard]] double way_of(const ContactScene& scene, const ContactBody& body, std::uint32_t known_point, float last_radius) const;
+  /// How far a position with coordinates up to this may be off when it is kept as float [µm].
+  [[nodiscard]] static double rounding_of(double largest);
   [[nodiscard]] double patch_motion(const ContactScene& scene, const SurfacePair& pair) const;
   void know_positions(const ContactScene& scene);
   void know_bodies(const ContactScene& scene);
@@ -173,9 +189,17 @@ class ContactLayer {
   void renumber(const ContactScene& scene);
   /// After the pairs were found: take over the lists of those that were there before, and begin to count motion.
   void keep_lists(const ContactScene& scene, std::vector<SurfacePair> old);
-  void add_obstacle_pairs(const ContactScene& scene);
+  [[nodiscard]] Extent extent_of(const ContactScene& scene, std::uint32_t body) const;
+  /// Pairs of bodies that may touch, to the lists of spheres and of surfaces. `wanted`: only those with one of these bodies; else all.
+  void add_body_pairs(const ContactScene& scene, const Space& space, std::span<const std::uint32_t> wanted);
+  void add_obstacle_pairs(const ContactScene& scene, std::span<const std::uint32_t> bodies);
   /// Surfaces that may touch themselves, after all other pairs.
-  void add_self_pairs(const ContactScene& scene);
+  void add_self_pairs(const ContactScene& scene, std::span<const std::uint32_t> bodies);
+  void renumber_motions(const ContactScene& scene, const BodyChanges& changes);
+  /// Which pairs are of which kind.
+  void sort_kinds(const ContactScene& scene);
+  void evaluate_list(std::span<const std::uint32_t> list, std::span<const char> these, const ContactScene& scene,
+                     std::vector<ElementStore>& stores, ContactGradient& gradient);
   [[nodiscard]] ListReach reach() const { return {settings_.range, settings_.skin, settings_.depth}; }
   /// Of a pair: a surface keeps a distance from itself.
   [[nodiscard]] ListReach reach_of(const SurfacePair& pair, const ContactMaterial& material) const {
@@ -210,7 +234,7 @@ class ContactLayer {
   double rounding_ = 0.0;        ///< how far that may be off [µm]
   std::vector<BodyMotion> motion_;
   std::vector<float> last_radius_;  ///< of spheres: growth counts as motion
-  std::vector<double> travel_;      ///< by body: bound on the way of its points since the list of pairs was built
+  std::vector<double> travel_;      ///< by body: bound on the way of its points since the list of pairs was built; empty: without surfaces
   double obstacle_travel_ = 0.0;
   double skin_used_ = 0.0;
 };

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "core/contact/contact_layer.h"
 #include "core/contact/faces_in_box.h"
@@ -14,22 +15,14 @@ namespace {
 
 constexpr std::uint32_t kGone = 0xFFFFFFFFu;  // instead of a body's number
 
-/// Pairs in canonical order, obstacles and then surfaces themselves last.
-std::array<std::uint64_t, 3> key_of(const ContactScene& scene, const SurfacePair& pair) {
-  const std::uint64_t kind = pair.rigid ? 1 : pair.with_itself() ? 2 : 0;
-  return {kind, scene.bodies[pair.a].place, pair.rigid ? pair.b : scene.bodies[pair.b].place};
-}
-
 }  // namespace
 
-void ContactLayer::add_obstacle_pairs(const ContactScene& scene) {
+void ContactLayer::add_obstacle_pairs(const ContactScene& scene, std::span<const std::uint32_t> bodies) {
   if (obstacles_.empty()) return;
   const double distance = reach().candidates() + settings_.body_skin;
-  std::vector<std::uint32_t> by_place(scene.bodies.size());
-  for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) by_place[scene.bodies[i].place] = i;
-  for (const std::uint32_t i : by_place) {
+  for (const std::uint32_t i : bodies) {
     const ContactBody& body = scene.bodies[i];
-    if (body.shape == BodyShape::kSphere || !body.owned) continue;
+    if (!body.owned) continue;
     Box box;
     for (std::uint32_t p = 0; p < body.point_count; ++p) box.include(scene.position[body.first_point + p]);
     for (std::uint32_t o = 0; o < obstacles_.size(); ++o) {
@@ -45,14 +38,10 @@ void ContactLayer::add_obstacle_pairs(const ContactScene& scene) {
   }
 }
 
-void ContactLayer::add_self_pairs(const ContactScene& scene) {
-  std::vector<std::uint32_t> found;
-  for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
+void ContactLayer::add_self_pairs(const ContactScene& scene, std::span<const std::uint32_t> bodies) {
+  for (const std::uint32_t i : bodies) {
     const ContactBody& body = scene.bodies[i];
-    if (body.shape == BodyShape::kSurface && body.owned && material(body.material, body.material).self_distance > 0.0) found.push_back(i);
-  }
-  std::sort(found.begin(), found.end(), [&](std::uint32_t i, std::uint32_t j) { return scene.bodies[i].place < scene.bodies[j].place; });
-  for (const std::uint32_t i : found) {
+    if (!body.owned || !(material(body.material, body.material).self_distance > 0.0)) continue;
     SurfacePair& pair = pairs_.emplace_back();
     pair.a = pair.b = i;
   }
@@ -88,50 +77,96 @@ void ContactLayer::renumber(const ContactScene& scene) {
     for (int d = 0; d < 2; ++d) pair.elements[d] = pair.step_elements[d] = {};
     kept.push_back(std::move(pair));
   }
-  const auto before = [&](const SurfacePair& p, const SurfacePair& q) { return key_of(scene, p) < key_of(scene, q); };
+  const auto before = [&](const SurfacePair& p, const SurfacePair& q) { return pair_key(scene, p) < pair_key(scene, q); };
   if (!std::ranges::is_sorted(kept, before)) std::ranges::sort(kept, before);
   pairs_ = std::move(kept);
 }
 
+Extent ContactLayer::extent_of(const ContactScene& scene, std::uint32_t number) const {
+  const ContactBody& body = scene.bodies[number];
+  Extent extent;
+  for (std::uint32_t p = 0; p < body.point_count; ++p) extent.box.include(scene.position[body.first_point + p]);
+  const bool sphere = body.shape == BodyShape::kSphere;
+  const double reach = 0.5 * (settings_.body_skin + (sphere ? std::max(settings_.range, settings_.sphere_reach) : settings_.range));
+  extent.box = extent.box.inflated(reach + body.radius);
+  extent.center = extent.box.center();
+  double radius2 = 0.0;
+  for (std::uint32_t p = 0; p < body.point_count; ++p)
+    radius2 = std::max(radius2, norm2(scene.position[body.first_point + p] - extent.center));
+  extent.radius = std::sqrt(radius2) + reach + body.radius;
+  return extent;
+}
+
+void ContactLayer::add_body_pairs(const ContactScene& scene, const Space& space, std::span<const std::uint32_t> wanted) {
+  const std::size_t n = scene.bodies.size();
+  std::vector<Extent> extents;
+  std::vector<std::uint32_t> place, number;  // number: of the bodies that are looked at; empty: all
+  std::vector<char> counts;                  // only pairs with one of these
+  if (wanted.empty()) {
+    extents.resize(n), place.resize(n), counts.resize(n);
+    parallel_for(settings_.threads, n, [&](std::size_t i) {
+      place[i] = scene.bodies[i].place;
+      counts[i] = scene.bodies[i].owned;
+      extents[i] = extent_of(scene, static_cast<std::uint32_t>(i));
+    });
+  } else {
+    std::vector<Extent> of_surfaces(scene.topology.size());  // those of spheres are found twice sooner than kept
+    parallel_for(settings_.threads, of_surfaces.size(),
+                 [&](std::size_t i) { of_surfaces[i] = extent_of(scene, static_cast<std::uint32_t>(i)); });
+    const double reach = 0.5 * (settings_.body_skin + std::max(settings_.range, settings_.sphere_reach));
+    number = bodies_near(
+        wanted, n,
+        [&](std::uint32_t i) {
+          if (i < of_surfaces.size()) return Ball{of_surfaces[i].center, of_surfaces[i].radius};
+          const ContactBody& body = scene.bodies[i];
+          return Ball{scene.position[body.first_point], reach + body.radius};
+        },
+        space);
+    std::ranges::sort(number, {}, [&](std::uint32_t i) { return scene.bodies[i].place; });
+    for (const std::uint32_t i : number) {
+      place.push_back(static_cast<std::uint32_t>(place.size()));
+      counts.push_back(std::ranges::binary_search(wanted, i));
+      extents.push_back(extent_of(scene, i));
+    }
+  }
+  find_body_pairs(extents, place, counts, space, [&](const BodyPair& found) {
+    const std::uint32_t a = number.empty() ? found.a : number[found.a], b = number.empty() ? found.b : number[found.b];
+    const ContactBody &first = scene.bodies[a], &second = scene.bodies[b];
+    if (!first.owned && !second.owned) return;
+    if (first.shape == BodyShape::kSphere && second.shape == BodyShape::kSphere) {
+      spheres_.push_back({a, b});
+    } else {
+      SurfacePair& pair = pairs_.emplace_back();
+      pair.a = a;
+      pair.b = b;
+      pair.shift = found.shift;
+    }
+  });
+}
+
+namespace {
+
+/// Surfaces in canonical order.
+std::vector<std::uint32_t> surfaces_in_order(const ContactScene& scene) {
+  std::vector<std::uint32_t> out(scene.topology.size());
+  std::iota(out.begin(), out.end(), 0u);
+  std::ranges::sort(out, {}, [&](std::uint32_t i) { return scene.bodies[i].place; });
+  return out;
+}
+
+}  // namespace
+
 void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
   if (fresh_) renumber(scene);
-  const std::size_t n = scene.bodies.size();
-  std::vector<Extent> extents(n);
-  std::vector<std::uint32_t> place(n);
-  std::vector<char> owned(n);
-  parallel_for(settings_.threads, n, [&](std::size_t i) {
-    const ContactBody& body = scene.bodies[i];
-    place[i] = body.place;
-    owned[i] = body.owned;
-    Extent& extent = extents[i];
-    for (std::uint32_t p = 0; p < body.point_count; ++p) extent.box.include(scene.position[body.first_point + p]);
-    const bool sphere = body.shape == BodyShape::kSphere;
-    const double reach = 0.5 * (settings_.body_skin + (sphere ? std::max(settings_.range, settings_.sphere_reach) : settings_.range));
-    extent.box = extent.box.inflated(reach + body.radius);
-    extent.center = extent.box.center();
-    double radius2 = 0.0;
-    for (std::uint32_t p = 0; p < body.point_count; ++p)
-      radius2 = std::max(radius2, norm2(scene.position[body.first_point + p] - extent.center));
-    extent.radius = std::sqrt(radius2) + reach + body.radius;
-  });
   spheres_.clear();
   spheres_.reserve(sphere_pairs_before_ + sphere_pairs_before_ / 64);  // no growth by doubling in most rebuilds
   std::vector<SurfacePair> old = std::move(pairs_);
   pairs_.clear();
-  find_body_pairs(extents, place, owned, space, [&](const BodyPair& found) {
-    const bool spheres = scene.bodies[found.a].shape == BodyShape::kSphere && scene.bodies[found.b].shape == BodyShape::kSphere;
-    if (spheres) {
-      spheres_.push_back({found.a, found.b});
-    } else {
-      SurfacePair& pair = pairs_.emplace_back();
-      pair.a = found.a;
-      pair.b = found.b;
-      pair.shift = found.shift;
-    }
-  });
+  add_body_pairs(scene, space, {});
   sphere_pairs_before_ = spheres_.size();
-  add_obstacle_pairs(scene);
-  add_self_pairs(scene);
+  const std::vector<std::uint32_t> surfaces = surfaces_in_order(scene);
+  add_obstacle_pairs(scene, surfaces);
+  add_self_pairs(scene, surfaces);
   keep_lists(scene, std::move(old));
 }
 
@@ -153,17 +188,10 @@ void ContactLayer::keep_lists(const ContactScene& scene, std::vector<SurfacePair
   pairs_.shrink_to_fit();
   auto before = old.begin();  // keep the lists of pairs that stay; both sequences come in the order of their keys
   for (SurfacePair& pair : pairs_) {
-    while (before != old.end() && key_of(scene, *before) < key_of(scene, pair)) ++before;
-    if (before != old.end() && key_of(scene, *before) == key_of(scene, pair) && before->shift == pair.shift) pair = std::move(*before);
+    while (before != old.end() && pair_key(scene, *before) < pair_key(scene, pair)) ++before;
+    if (before != old.end() && pair_key(scene, *before) == pair_key(scene, pair) && before->shift == pair.shift) pair = std::move(*before);
   }
-  for (auto& list : pairs_of_kind_) list.clear();
-  for (std::uint32_t k = 0; k < pairs_.size(); ++k) {
-    const auto is_sphere = [&](std::uint32_t body) { return scene.bodies[body].shape == BodyShape::kSphere; };
-    const bool with_sphere = !pairs_[k].rigid && (is_sphere(pairs_[k].a) || is_sphere(pairs_[k].b));
-    pairs_of_kind_[with_sphere ? 1 : 0].push_back(k);
-  }
-  for (int kind = 0; kind < 2; ++kind)
-    if (pairs_of_kind_[kind].empty()) present_[kind].clear(), step_[kind].clear();
+  sort_kinds(scene);
   if (pairs_.empty()) {  // spheres alone: they need no motions
     std::vector<BodyMotion>().swap(motion_);
     std::vector<double>().swap(travel_);
@@ -178,6 +206,17 @@ void ContactLayer::keep_lists(const ContactScene& scene, std::vector<SurfacePair
   for (std::size_t i = 0; i < n; ++i) last_radius_[i] = static_cast<float>(scene.bodies[i].radius);
   obstacle_travel_ = 0.0;
   fresh_ = false;
+}
+
+void ContactLayer::sort_kinds(const ContactScene& scene) {
+  for (auto& list : pairs_of_kind_) list.clear();
+  for (std::uint32_t k = 0; k < pairs_.size(); ++k) {
+    const auto is_sphere = [&](std::uint32_t body) { return scene.bodies[body].shape == BodyShape::kSphere; };
+    const bool with_sphere = !pairs_[k].rigid && (is_sphere(pairs_[k].a) || is_sphere(pairs_[k].b));
+    pairs_of_kind_[with_sphere ? 1 : 0].push_back(k);
+  }
+  for (int kind = 0; kind < 2; ++kind)
+    if (pairs_of_kind_[kind].empty()) present_[kind].clear(), step_[kind].clear();
 }
 
 void ContactLayer::know_bodies(const ContactScene& scene) {

@@ -111,6 +111,12 @@ struct SurfacePair {
   [[nodiscard]] std::span<const ContactElement> present(std::size_t d) const { return at_start ? step_elements[d] : elements[d]; }
 };
 
+/// Pairs come in the order of these: by the places of their bodies, obstacles and then surfaces with themselves last.
+inline std::array<std::uint64_t, 3> pair_key(const ContactScene& scene, const SurfacePair& pair) {
+  const std::uint64_t kind = pair.rigid ? 1 : pair.with_itself() ? 2 : 0;
+  return {kind, scene.bodies[pair.a].place, pair.rigid ? pair.b : scene.bodies[pair.b].place};
+}
+
 /// Everything that evaluating one direction of a pair reads.
 struct PointsEvaluation {
   const PairBody& source;

@@ -24,6 +24,11 @@ void Mechanics::bodies_changed() {
   work_->known.reset();
 }
 
+void Mechanics::cells_replaced() {
+  if (work_->age) work_->age->cells_replaced = true;
+  work_->known.reset();
+}
+
 void Mechanics::parameters_changed() { work_->known.reset(); }
 
 Result<StepReport, StepFault> Mechanics::step(Tissue& tissue, double dt, std::span<const Vec3d> external, std::span<const Anchor> anchors) {

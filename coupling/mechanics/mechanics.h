@@ -37,6 +37,9 @@ class Mechanics {
 
   /// Cells were added, removed, moved between ranks, or changed their body: everything is collected again at the next use.
   void bodies_changed();
+  /// A few cells were added or removed, or changed their body or their place; all others are where the last step left them, in the same order. The
+  /// scene is built again at the next use, and lists are mended.
+  void cells_replaced();
   /// Numbers that shape the forces (reference volumes, rest lengths, radii) were changed; positions were not.
   void parameters_changed();
 

@@ -40,6 +40,24 @@ std::vector<Scene::Birth> Scene::sphere_births(const Tissue& tissue) const {
   return out;
 }
 
+std::vector<Scene::Birth> Scene::sphere_births(const Tissue& tissue, std::span<const std::uint32_t> spheres) const {
+  std::vector<Birth> out;
+  auto next = spheres.begin();
+  std::uint32_t number = 0;
+  for (std::size_t row = tissue.shells.size() == 0 && next != spheres.end() ? *next : 0; row < tissue.cells.size() && next != spheres.end();
+       ++row) {
+    if (tissue.shells.size() == 0)
+      row = number = *next;  // every row is a sphere
+    else if (tissue.cells.rows[row].body != BodyKind::kSphere)
+      continue;
+    if (row >= tissue.cells.size()) break;
+    for (; next != spheres.end() && *next == number; ++next) out.push_back(birth_of(tissue.cells.rows[row]));
+    ++number;
+  }
+  for (; next != spheres.end(); ++next) out.push_back(ghosts_.birth[*next - count_.owned_spheres]);
+  return out;
+}
+
 void Scene::place_bodies(std::span<const std::uint64_t> order) {
   const auto before = [&](std::uint32_t a, std::uint32_t b) {
     return order[a] != order[b] ? order[a] < order[b] : bodies_[a].id < bodies_[b].id;

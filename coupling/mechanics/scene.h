@@ -2,9 +2,11 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "core/contact/body_changes.h"
 #include "core/contact/contact_body.h"
 #include "core/friction/float4.h"
 #include "core/mesh/mark_sets.h"
@@ -23,6 +25,9 @@ class Scene {
  public:
   /// Collect owned bodies and exchange ghosts: every body within `reach` of another rank's bodies goes there. Collective.
   void build(const Tissue& tissue, const Space& space, double reach, ShapeLibrary& shapes, const Comm& comm);
+  /// The same where most bodies are those of the present scene: tells which have come and gone since. Nothing where too many have, or where bodies
+  /// that stay come in another order. Collective.
+  std::optional<BodyChanges> renew(const Tissue& tissue, const Space& space, double reach, ShapeLibrary& shapes, const Comm& comm);
 
   [[nodiscard]] std::span<const ContactBody> bodies() const { return bodies_; }
   [[nodiscard]] std::size_t owned_shells() const { return count_.owned_shells; }
@@ -49,6 +54,8 @@ class Scene {
   };
   /// Births of the spheres, ghosts too: sisters push each other apart slowly.
   [[nodiscard]] std::vector<Birth> sphere_births(const Tissue& tissue) const;
+  /// The same of a few of them, by increasing number.
+  [[nodiscard]] std::vector<Birth> sphere_births(const Tissue& tissue, std::span<const std::uint32_t> spheres) const;
 
   /// Sets of marks by face, ghosts too; empty until take_marks().
   [[nodiscard]] MarkSets marks() const { return {mark_, count_.faces}; }

@@ -226,14 +226,28 @@ void SphereContacts::evaluate_rigid(const Scene& scene, std::size_t k) {
   element.axial = static_cast<float>(response.area * (entry.normal_friction - entry.tangential_friction));
 }
 
+SpherePairs::Share SphereContacts::marked_part(const SpherePairs::Share& share, const std::vector<char>& marked) const {
+  SpherePairs::Share out{share.first, share.last, {}};
+  for (const SpherePairs::Run& run : share.runs)
+    for (std::uint32_t k = run.first; k < run.last; ++k) {
+      const SpherePair pair = list_.pairs[k];
+      if ((marked[pair.a] | marked[pair.b]) == 0) continue;
+      if (!out.runs.empty() && out.runs.back().last == k)
+        ++out.runs.back().last;
+      else
+        out.runs.push_back({k, k + 1});
+    }
+  return out;
+}
+
 void SphereContacts::refresh_values(const Scene& scene, const std::vector<char>& marked) {
   for (std::size_t i = 0; i < scene.owned_spheres(); ++i)
     if (marked[i]) virial_[i] = 0.0;
   const auto shares = list_.shares();
   on_each_thread(threads(), [&](std::size_t t) {
-    const SpherePairs::Share& share = shares[t];
+    const SpherePairs::Share share = marked_part(shares[t], marked);
     visit(
-        share, scene, [&](const SpherePair& pair) { return marked[pair.a] || marked[pair.b]; },
+        share, scene, [](const SpherePair&) { return true; },
         [&](std::uint32_t k, const cbm::PairBlock& block, int lane) {
           const SpherePair pair = list_.pairs[k];
           for (const std::uint32_t i : {pair.a, std::uint32_t{pair.b}}) {
@@ -254,6 +268,7 @@ void SphereContacts::refresh_values(const Scene& scene, const std::vector<char>&
 
 void SphereContacts::end_step(const World& world, StepEnd& end) {
   if (end.clock_runs) update_attached(world, end.tissue);
+  young_.clear();
   friction_is_frozen_ = false;
 }
 
@@ -282,10 +297,29 @@ bool SphereContacts::update_attached(const World& world, Tissue& tissue) {
   }
   const bool changed = !marked.empty();
   if (changed) refresh_values(scene, marked);
-  if (partners_are_lost_) marked.assign(scene.bodies().size() - scene.first_sphere(), 1);
-  if (changed || partners_are_lost_) write_partners(scene, marked, tissue);
+  if (partners_are_lost_) mark_other_partners(scene, tissue, mark);
+  for (const std::uint32_t sphere : lost_) mark(sphere);
+  if (!marked.empty()) write_partners(scene, marked, tissue);
   partners_are_lost_ = false;
+  lost_.clear();
   return changed;
+}
+
+template <class Mark>
+void SphereContacts::mark_other_partners(const Scene& scene, const Tissue& tissue, const Mark& mark) const {
+  struct Sum {  // over the partners, in any order; other partners have another sum
+    std::uint64_t mixed = 0;
+    std::uint32_t count = 0;
+    void add(CellId id) { mixed += id.bits() * 0x9E3779B97F4A7C15u ^ id.bits() >> 29, ++count; }
+    bool operator==(const Sum&) const = default;
+  };
+  std::vector<Sum> by_flags(scene.owned_spheres());
+  for_attached(scene, [&](std::uint32_t i, CellId partner) { by_flags[i].add(partner); });
+  for (std::uint32_t i = 0; i < by_flags.size(); ++i) {
+    Sum listed;
+    for (const CellId partner : tissue.spheres.attached[i]) listed.add(partner);
+    if (listed != by_flags[i]) mark(i);
+  }
 }
 
 bool SphereContacts::renew_sisters(const World& world) {

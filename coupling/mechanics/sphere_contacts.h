@@ -21,7 +21,8 @@ class SphereContacts : public Term {
  public:
   SphereContacts(const Model& model, SurfaceContacts& surfaces);
 
-  void bodies_changed(const World&) override { sisters_.clear(); }  // their pairs are those of bodies that are no more
+  void bodies_changed(const World&) override { sisters_.clear(), young_.clear(); }  // their pairs are those of bodies that are no more
+  void bodies_replaced(const World& world, const BodyChanges& changes) override;
   /// Rest distances of young sisters at the present radii and time.
   void parameters_changed(const World& world) override { update_sisters(world.scene, world.tissue.clock.time); }
   /// New candidates if the surfaces' layer has some, and the pressures of packing, which surfaces feel, too.
@@ -117,6 +118,23 @@ class SphereContacts : public Term {
   void find_sisters(const Scene& scene, const Tissue& tissue);
   void update_sisters(const Scene& scene, double now);
   void find_rigid_pairs(const Scene& scene, const Tissue& tissue);
+  /// Adds the pairs of an owned sphere with obstacles. `rubs`: those of the step's start, which go on to its end.
+  void add_rigid_pairs(const Scene& scene, const Tissue& tissue, std::uint32_t sphere, std::span<const RigidPair> rubs);
+  [[nodiscard]] bool are_attached(const Scene& scene, const Tissue& tissue, const SpherePair& pair) const;
+  [[nodiscard]] bool sisters_in(const Scene& scene, const SpherePair& pair) const;
+  /// Notes whether a sphere has partners that are no pair of the list.
+  void count_partners(const Scene& scene, const Tissue& tissue);
+  // Lists are mended (sphere_mending.cpp); now(sphere): its new number, or BodyChanges::kNone.
+  template <class Now>
+  void renumber_pairs(const Now& now, std::vector<char>& suspects);
+  void add_pairs(const Scene& scene, const std::vector<SphereNeighbours>& found);
+  template <class Now>
+  void renumber_rigid_pairs(const Scene& scene, const Tissue& tissue, const Now& now, const std::vector<char>& young);
+  void add_sisters(const Scene& scene, const Tissue& tissue, std::span<const std::uint32_t> pairs);
+  /// Notes which spheres have other partners in the tissue than in the list: of these, and of those that have more or fewer.
+  void look_for_lost(const Scene& scene, const Tissue& tissue, std::vector<char> suspects);
+  /// The stretches of a share in which a sphere is marked.
+  [[nodiscard]] SpherePairs::Share marked_part(const SpherePairs::Share& share, const std::vector<char>& marked) const;
   void keep_step_friction(const Scene& scene, std::vector<SpherePair> old_pairs, std::vector<SpherePairElement> old_elements);
   /// Evaluates the pairs of a share that pass `wanted`: calls sink(number of the pair, block, lane) in their order for those within reach,
   /// and far_away(number) for the others.
@@ -128,6 +146,26 @@ class SphereContacts : public Term {
   void evaluate_rigid(const Scene& scene, std::size_t k);
   /// Pressures of the marked spheres anew, without touching forces.
   void refresh_values(const Scene& scene, const std::vector<char>& marked);
+  /// function(owned sphere, partner) for all that are attached.
+  template <class F>
+  void for_attached(const Scene& scene, F&& function) const {
+    const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
+    for (const SpherePair& pair : list_.pairs) {
+      if (!pair.attached) continue;
+      if (pair.a < owned) function(pair.a, partner_id(scene, pair.b));
+      if (pair.b < owned) function(pair.b, partner_id(scene, pair.a));
+    }
+    for (std::size_t k = 0; k < rigid_.size(); ++k)
+      if (rigid_[k].attached && (k == 0 || !rigid_[k].same_bodies(rigid_[k - 1])))
+        function(rigid_[k].sphere, obstacle_partner(rigid_[k].obstacle));
+  }
+  /// An obstacle is a partner too: its number stands where a cell's id would; no founder has so small a one.
+  [[nodiscard]] static CellId obstacle_partner(std::uint32_t obstacle) { return CellId(obstacle + 1); }
+  /// mark(sphere) for those whose partners are others than those that the tissue has.
+  template <class Mark>
+  void mark_other_partners(const Scene& scene, const Tissue& tissue, const Mark& mark) const;
+  /// (sphere, partner) of the marked owned spheres that are attached, sorted.
+  [[nodiscard]] std::vector<std::pair<std::uint32_t, CellId>> partners_of(const Scene& scene, const std::vector<char>& marked) const;
   void write_partners(const Scene& scene, const std::vector<char>& marked, Tissue& tissue) const;
   [[nodiscard]] CellId partner_id(const Scene& scene, std::uint32_t sphere) const;
 
@@ -136,13 +174,15 @@ class SphereContacts : public Term {
   std::uint64_t list_number_ = 0;  ///< of the candidates that the pairs were made from
   cbm::ContactTable table_;        ///< of all materials and walls
   SpherePairs list_;
-  std::vector<Sisters> sisters_;  ///< by pair
-  std::vector<RigidPair> rigid_;  ///< by sphere, obstacle and part
-  std::vector<double> virial_;    ///< by owned sphere [nN·µm]
+  std::vector<Sisters> sisters_;      ///< by pair
+  std::vector<std::uint32_t> young_;  ///< spheres that came since the last step: who adheres to them may still get another name; increasing
+  std::vector<RigidPair> rigid_;      ///< by sphere, obstacle and part
+  std::vector<double> virial_;        ///< by owned sphere [nN·µm]
   Packing packing_;
   std::vector<std::vector<std::uint32_t>> flips_;  ///< by share: pairs whose flag changes if the step ends where they were evaluated last
   bool friction_is_frozen_ = false;                ///< a step is under way
-  bool partners_are_lost_ = false;                 ///< a sphere has partners that are no pair of the list any more
+  bool partners_are_lost_ = false;                 ///< some sphere has partners that are no pair of a list that was made anew
+  std::vector<std::uint32_t> lost_;                ///< spheres with other partners than the mended list has; increasing
 };
 
 /// Friction of spheres with the medium, with each other and with obstacles: that of the step's start.

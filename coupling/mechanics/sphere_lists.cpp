@@ -4,12 +4,10 @@
 
 #include "cbm/division_ramp.h"
 #include "coupling/mechanics/sphere_contacts.h"
+#include "coupling/partner_stretches.h"
 
 namespace morula {
 namespace {
-
-/// An obstacle is a partner too: its number stands where a cell's id would; no founder has so small a one.
-CellId obstacle_partner(std::uint32_t obstacle) { return CellId(obstacle + 1); }
 
 bool rubs(const RigidPairElement& element) { return element.isotropic != 0.0f || element.axial != 0.0f; }
 
@@ -45,20 +43,30 @@ void SphereContacts::set_pairs(const Scene& scene, const Tissue& tissue) {
   }
   list_.set_layout(scene.sphere_point(), owned, threads());
 
+  for (SpherePair& pair : list_.pairs) pair.attached = are_attached(scene, tissue, pair);
+  find_rigid_pairs(scene, tissue);
+  count_partners(scene, tissue);
+  find_sisters(scene, tissue);
+}
+
+bool SphereContacts::are_attached(const Scene& scene, const Tissue& tissue, const SpherePair& pair) const {
+  const std::uint32_t owned_one = pair.a < scene.owned_spheres() ? pair.a : pair.b;
+  return cbm::adheres(tissue.spheres.attached[owned_one], partner_id(scene, owned_one == pair.a ? pair.b : pair.a));
+}
+
+void SphereContacts::count_partners(const Scene& scene, const Tissue& tissue) {
+  const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
   std::vector<std::uint32_t> known(owned, 0);  // attached pairs of each sphere
-  for (SpherePair& pair : list_.pairs) {
-    const CellId a = spheres[pair.a].id, b = spheres[pair.b].id;
-    if (!(pair.a < owned ? cbm::adheres(tissue.spheres.attached[pair.a], b) : cbm::adheres(tissue.spheres.attached[pair.b], a))) continue;
-    pair.attached = 1;
+  for (const SpherePair& pair : list_.pairs) {
+    if (!pair.attached) continue;
     if (pair.a < owned) ++known[pair.a];
     if (pair.b < owned) ++known[pair.b];
   }
-  find_rigid_pairs(scene, tissue);
   for (std::size_t k = 0; k < rigid_.size(); ++k)
     if (k == 0 || !rigid_[k].same_bodies(rigid_[k - 1])) known[rigid_[k].sphere] += rigid_[k].attached;
   partners_are_lost_ = false;
+  lost_.clear();
   for (std::uint32_t i = 0; i < owned; ++i) partners_are_lost_ = partners_are_lost_ || known[i] != tissue.spheres.attached[i].size();
-  find_sisters(scene, tissue);
 }
 
 void SphereContacts::keep_step_friction(const Scene& scene, std::vector<SpherePair> old_pairs,
@@ -89,38 +97,48 @@ void SphereContacts::keep_step_friction(const Scene& scene, std::vector<SpherePa
   list_.pairs = std::move(merged);
 }
 
+void SphereContacts::add_rigid_pairs(const Scene& scene, const Tissue& tissue, std::uint32_t sphere, std::span<const RigidPair> rubs) {
+  const auto obstacles = layer().obstacles();
+  const ContactBody& body = scene.bodies()[scene.first_sphere() + sphere];
+  const double reach = body.radius + layer().settings().sphere_reach + layer().settings().body_skin;
+  std::vector<std::uint32_t> faces, parts;
+  for (std::uint32_t o = 0; o < obstacles.size(); ++o) {
+    Box box;
+    box.include(scene.position()[body.first_point] - layer().obstacle_offset(o));
+    obstacles[o].tree->faces_in(box.inflated(reach), faces);
+    parts.clear();
+    for (const std::uint32_t face : faces) parts.push_back(obstacles[o].part_of_face[face]);
+    for (const RigidPair& pair : rubs)
+      if (pair.obstacle == o) parts.push_back(pair.part);
+    std::sort(parts.begin(), parts.end());
+    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+    const bool attached = !parts.empty() && cbm::adheres(tissue.spheres.attached[sphere], obstacle_partner(o));
+    for (const std::uint32_t part : parts) {
+      RigidPair& pair = rigid_.emplace_back();
+      pair.sphere = sphere;
+      pair.obstacle = o;
+      pair.part = part;
+      pair.attached = pair.attached_next = attached;
+      list_.rigid.emplace_back().sphere = sphere;
+    }
+  }
+}
+
 void SphereContacts::find_rigid_pairs(const Scene& scene, const Tissue& tissue) {
   const std::vector<RigidPair> old = std::move(rigid_);
   const std::vector<RigidPairElement> old_elements = std::move(list_.rigid);
   rigid_.clear();
   list_.rigid.clear();
-  const auto obstacles = layer().obstacles();
-  const auto spheres = scene.bodies().subspan(scene.first_sphere());
+  if (layer().obstacles().empty()) return;
+  std::vector<RigidPair> go_on;
+  for (std::size_t n = 0; n < old.size() && friction_is_frozen_; ++n)
+    if (rubs(old_elements[n])) go_on.push_back(old[n]);
   std::size_t k = 0;
-  std::vector<std::uint32_t> faces, parts;
-  for (std::uint32_t i = 0; i < scene.owned_spheres(); ++i)
-    for (std::uint32_t o = 0; o < obstacles.size(); ++o) {
-      const double reach = spheres[i].radius + layer().settings().sphere_reach + layer().settings().body_skin;
-      Box box;
-      box.include(scene.position()[spheres[i].first_point] - layer().obstacle_offset(o));
-      obstacles[o].tree->faces_in(box.inflated(reach), faces);
-      parts.clear();
-      for (const std::uint32_t face : faces) parts.push_back(obstacles[o].part_of_face[face]);
-      for (; k < old.size() && (old[k].sphere != i ? old[k].sphere < i : old[k].obstacle <= o); ++k)  // what rubs goes on to the step's end
-        if (friction_is_frozen_ && old[k].sphere == i && old[k].obstacle == o && rubs(old_elements[k])) parts.push_back(old[k].part);
-      std::sort(parts.begin(), parts.end());
-      parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
-      const bool attached = !parts.empty() && cbm::adheres(tissue.spheres.attached[i], obstacle_partner(o));
-      for (const std::uint32_t part : parts) {
-        RigidPair& pair = rigid_.emplace_back();
-        pair.sphere = i;
-        pair.obstacle = o;
-        pair.part = part;
-        pair.attached = pair.attached_next = attached;
-        RigidPairElement& element = list_.rigid.emplace_back();
-        element.sphere = i;
-      }
-    }
+  for (std::uint32_t i = 0; i < scene.owned_spheres(); ++i) {
+    const std::size_t from = k;
+    while (k < go_on.size() && go_on[k].sphere == i) ++k;
+    add_rigid_pairs(scene, tissue, i, std::span(go_on).subspan(from, k - from));
+  }
   if (!friction_is_frozen_) return;
   const auto before = [](const RigidPair& a, const RigidPair& b) {
     return std::tie(a.sphere, a.obstacle, a.part) < std::tie(b.sphere, b.obstacle, b.part);
@@ -132,13 +150,16 @@ void SphereContacts::find_rigid_pairs(const Scene& scene, const Tissue& tissue) 
   }
 }
 
+bool SphereContacts::sisters_in(const Scene& scene, const SpherePair& pair) const {
+  return cbm::are_sisters(partner_id(scene, pair.a), partner_id(scene, pair.b));
+}
+
 void SphereContacts::find_sisters(const Scene& scene, const Tissue& tissue) {
   sisters_.clear();
-  const auto spheres = scene.bodies().subspan(scene.first_sphere());
   std::vector<Scene::Birth> birth;
   for (std::uint32_t k = 0; k < list_.pairs.size(); ++k) {
     const SpherePair pair = list_.pairs[k];
-    if (!cbm::are_sisters(spheres[pair.a].id, spheres[pair.b].id)) continue;
+    if (!sisters_in(scene, pair)) continue;
     if (birth.empty()) birth = scene.sphere_births(tissue);
     sisters_.push_back({k, birth[pair.a].radius, birth[pair.b].radius, birth[pair.a].time, 0.0});
   }
@@ -147,35 +168,38 @@ void SphereContacts::find_sisters(const Scene& scene, const Tissue& tissue) {
 
 void SphereContacts::write_partners(const Scene& scene, const std::vector<char>& marked, Tissue& tissue) const {
   const std::size_t owned = scene.owned_spheres();
+  const std::vector<std::pair<std::uint32_t, CellId>> found = partners_of(scene, marked);
   const cbm::PartnerLists& old = tissue.spheres.attached;
-  std::vector<std::uint32_t> end(owned, 0);
-  const auto for_attached = [&](auto&& function) {
-    for (const SpherePair& pair : list_.pairs) {
-      if (!pair.attached) continue;
-      if (pair.a < owned && marked[pair.a]) function(pair.a, partner_id(scene, pair.b));
-      if (pair.b < owned && marked[pair.b]) function(pair.b, partner_id(scene, pair.a));
-    }
-    for (std::size_t k = 0; k < rigid_.size(); ++k)
-      if (rigid_[k].attached && marked[rigid_[k].sphere] && (k == 0 || !rigid_[k].same_bodies(rigid_[k - 1])))
-        function(rigid_[k].sphere, obstacle_partner(rigid_[k].obstacle));
-  };
-  for_attached([&](std::uint32_t i, CellId) { ++end[i]; });
-  std::uint32_t total = 0;
-  for (std::size_t i = 0; i < owned; ++i) {  // end[i] is where the list of i begins until its ids are copied
-    const std::uint32_t count = marked[i] ? end[i] : static_cast<std::uint32_t>(old[i].size());
-    end[i] = total;
-    total += count;
+  PartnerStretches lists;
+  lists.reserve(owned, old.partner_count() + found.size());
+  std::vector<CellId> partners;
+  std::size_t kept = 0;
+  auto at = found.begin();
+  for (std::uint32_t i = 0; i < owned; ++i) {
+    if (!marked[i]) continue;
+    lists.add(old, kept, i);
+    partners.clear();
+    for (; at != found.end() && at->first == i; ++at) partners.push_back(at->second);
+    lists.add(partners);
+    kept = i + 1;
   }
-  std::vector<CellId> ids(total);
-  for (std::size_t i = 0; i < owned; ++i) {
-    if (marked[i]) continue;
-    std::copy(old[i].begin(), old[i].end(), ids.begin() + end[i]);
-    end[i] += static_cast<std::uint32_t>(old[i].size());
+  lists.add(old, kept, owned);
+  tissue.spheres.attached = std::move(lists).take();
+}
+
+std::vector<std::pair<std::uint32_t, CellId>> SphereContacts::partners_of(const Scene& scene, const std::vector<char>& marked) const {
+  std::vector<std::pair<std::uint32_t, CellId>> out;
+  const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
+  for (const SpherePair& pair : list_.pairs) {
+    if (!pair.attached || (marked[pair.a] | marked[pair.b]) == 0) continue;
+    if (pair.a < owned && marked[pair.a]) out.emplace_back(pair.a, partner_id(scene, pair.b));
+    if (pair.b < owned && marked[pair.b]) out.emplace_back(pair.b, partner_id(scene, pair.a));
   }
-  for_attached([&](std::uint32_t i, CellId partner) { ids[end[i]++] = partner; });
-  for (std::size_t i = 0; i < owned; ++i)
-    if (marked[i]) std::sort(ids.begin() + (i == 0 ? 0 : end[i - 1]), ids.begin() + end[i]);
-  tissue.spheres.attached = cbm::PartnerLists(std::move(ids), std::move(end));
+  for (std::size_t k = 0; k < rigid_.size(); ++k)
+    if (rigid_[k].attached && marked[rigid_[k].sphere] && (k == 0 || !rigid_[k].same_bodies(rigid_[k - 1])))
+      out.emplace_back(rigid_[k].sphere, obstacle_partner(rigid_[k].obstacle));
+  std::ranges::sort(out);
+  return out;
 }
 
 }  // namespace morula

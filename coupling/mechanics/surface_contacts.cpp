@@ -1,6 +1,7 @@
 #include "coupling/mechanics/surface_contacts.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/parallel/threads.h"
 #include "coupling/behaviours/shell_division.h"
@@ -38,19 +39,89 @@ SurfaceContacts::SurfaceContacts(const Model& model, RigidSurfaces obstacles, in
     : threads_(threads),
       layer_(contact_settings(model, threads), std::move(obstacles), contact_materials(model), contact_material_count(model)) {}
 
-void SurfaceContacts::bodies_changed(const World& world) {
+void SurfaceContacts::look_for_new_surfaces(const World& world) {
   const auto may_be_new = [](const CellType& type) { return type.cycles && type.shells_divide && type.new_surface > 0.0; };
   bonds_age_ = std::ranges::any_of(world.model.types, may_be_new) && world.comm.any(world.scene.shells() > 0);
+}
+
+void SurfaceContacts::bodies_changed(const World& world) {
+  look_for_new_surfaces(world);
   layer_.reset();
   forget();
+}
+
+void SurfaceContacts::bodies_replaced(const World& world, const BodyChanges& changes) {
+  look_for_new_surfaces(world);
+  const bool with_spheres = layer_.has_pairs(SurfacePairKind::kWithSphere);
+  again_ = touched_by(changes);
+  layer_.mend(contact_scene(world), world.model.space, changes);
+  shapes_of_lists_.assign(world.scene.shapes().begin(), world.scene.shapes().end());
+  const bool holds = found_at_ == changes.positions_number && !layer_.is_stale() && !layer_.is_at_step_start() &&
+                     with_spheres == layer_.has_pairs(SurfacePairKind::kWithSphere);
+  std::size_t faces = 0;  // of closed surfaces without holes
+  for (std::size_t i = 0; i < changes.shells_before; ++i) faces += 2 * (changes.before[i].point_count - 2);
+  holds&& faces == gradient_.face_energy.size() ? carry_found(world, changes) : forget();
+}
+
+std::vector<char> SurfaceContacts::touched_by(const BodyChanges& changes) const {
+  std::vector<char> out(changes.was.size(), 0);
+  const auto mark = [&](std::uint32_t before) {
+    if (before < changes.now.size() && changes.now[before] != BodyChanges::kNone) out[changes.now[before]] = 1;
+  };
+  for (std::uint32_t i = 0; i < again_.size(); ++i)
+    if (again_[i]) mark(i);
+  if (layer_.is_stale()) return out;
+  for (const SurfacePair& pair : layer_.pairs()) {
+    if (pair.rigid || (pair.present(0).empty() && pair.present(1).empty())) continue;
+    if (changes.now[pair.a] == BodyChanges::kNone) mark(pair.b);
+    if (changes.now[pair.b] == BodyChanges::kNone) mark(pair.a);
+  }
+  return out;
+}
+
+void SurfaceContacts::carry_found(const World& world, const BodyChanges& changes) {
+  const Scene& scene = world.scene;
+  std::vector<char> fresh(changes.was.size(), 0);
+  for (const std::uint32_t i : changes.fresh) fresh[i] = again_[i] = 1;
+  for (const SurfacePair& pair : layer_.pairs())
+    if (!pair.rigid && (fresh[pair.a] || fresh[pair.b])) again_[pair.a] = again_[pair.b] = 1;
+  std::vector<std::uint32_t> old_face{0};  // where the faces of the old surfaces began
+  for (std::size_t i = 0; i < changes.shells_before; ++i) old_face.push_back(old_face.back() + 2 * (changes.before[i].point_count - 2));
+  const auto carry = [&](ContactGradient& gradient) {
+    ContactGradient out;
+    out.set_zero(scene.shells() > 0 ? scene.point_count() : 0, gradient.node_normal.empty() ? 0 : scene.sphere_point(), scene.face_count(),
+                 scene.shells());
+    for (std::size_t i = 0; i < scene.shells(); ++i) {
+      const std::uint32_t was = changes.was[i];
+      if (again_[i] || was == BodyChanges::kNone) continue;
+      const ContactBody &before = changes.before[was], &now = scene.bodies()[i];
+      std::copy_n(gradient.force.begin() + before.first_point, now.point_count, out.force.begin() + now.first_point);
+      if (!gradient.node_normal.empty())
+        std::copy_n(gradient.node_normal.begin() + before.first_point, now.point_count, out.node_normal.begin() + now.first_point);
+      std::copy_n(gradient.face_energy.begin() + old_face[was], scene.topologies()[i]->face_count(),
+                  out.face_energy.begin() + scene.first_face()[i]);
+      out.contact_area[i] = gradient.contact_area[was];
+    }
+    gradient = std::move(out);
+  };
+  carry(gradient_);
+  if (layer_.has_pairs(SurfacePairKind::kWithSphere)) carry(surfaces_only_);
+  found_at_ = scene.positions_number();
 }
 
 void SurfaceContacts::parameters_changed(const World& world) {
   std::vector<SisterBond> bonds;
   if (bonds_age_) bonds = new_interfaces(world.model, world.tissue, world.time);
   if (bonds == layer_.sister_bonds()) return;
+  std::vector<SisterBond> changed;
+  const auto before = [](const SisterBond& a, const SisterBond& b) { return a.cell != b.cell ? a.cell < b.cell : a.adhesion < b.adhesion; };
+  std::ranges::set_symmetric_difference(bonds, layer_.sister_bonds(), std::back_inserter(changed), before);
+  again_.resize(world.scene.bodies().size(), 0);
+  for (std::uint32_t i = 0; i < world.scene.shells(); ++i) {
+    const auto at = std::ranges::lower_bound(changed, world.scene.bodies()[i].id, {}, &SisterBond::cell);
+    if (at != changed.end() && at->cell == world.scene.bodies()[i].id) again_[i] = 1;
+  }
   layer_.set_sister_bonds(std::move(bonds));
-  forget();
 }
 
 void SurfaceContacts::set_strength(const ContactStrength& strength) {
@@ -81,13 +152,15 @@ void SurfaceContacts::evaluate(const World& world, Forces& out) {
   const ContactScene scene = contact_scene(world);
   const bool with_spheres = layer_.has_pairs(SurfacePairKind::kWithSphere), known = found_at_ == world.scene.positions_number();
   if (!known) {
+    again_.clear();
     // spheres alone add to the forces at once; they have no normals, and their contacts with shells are counted on the shells' faces
     gradient_.set_zero(world.scene.shells() > 0 ? world.scene.point_count() : 0, world.scene.sphere_point(), world.scene.face_count(),
                        world.scene.shells());
     layer_.evaluate(scene, SurfacePairKind::kSurfaces, gradient_);
     if (with_spheres) surfaces_only_ = gradient_;
-  } else if (with_spheres) {
-    gradient_ = surfaces_only_;
+  } else {
+    if (!again_.empty()) evaluate_again(world, with_spheres);
+    if (with_spheres) gradient_ = surfaces_only_;
   }
   if (with_spheres) layer_.evaluate(scene, SurfacePairKind::kWithSphere, gradient_);
   if (!known || with_spheres) {
@@ -100,6 +173,31 @@ void SurfaceContacts::evaluate(const World& world, Forces& out) {
   }
   parallel_for(threads_, gradient_.force.size(), [&](std::size_t i) { out.force[i] += gradient_.force[i]; });
   layer_.add_energy(scene, out.energy);
+}
+
+void SurfaceContacts::evaluate_again(const World& world, bool with_spheres) {
+  const Scene& scene = world.scene;
+  ContactGradient& gradient = with_spheres ? surfaces_only_ : gradient_;
+  gradient.node_normal.resize(scene.sphere_point());
+  std::vector<const Topology*> owned(scene.topologies().begin(),
+                                     scene.topologies().begin() + static_cast<std::ptrdiff_t>(scene.owned_shells()));
+  for (std::size_t i = 0; i < scene.shells(); ++i) {
+    if (!again_[i]) {
+      if (i < owned.size()) owned[i] = nullptr;
+      continue;
+    }
+    const ContactBody& body = scene.bodies()[i];
+    std::fill_n(gradient.force.begin() + body.first_point, body.point_count, Vec3d{});
+    std::fill_n(gradient.node_normal.begin() + body.first_point, body.point_count, Vec3d{});
+    std::fill_n(gradient.face_energy.begin() + scene.first_face()[i], scene.topologies()[i]->face_count(), 0.0);
+    gradient.contact_area[i] = 0.0;
+  }
+  layer_.evaluate_of(again_, contact_scene(world), SurfacePairKind::kSurfaces, gradient);
+  again_.clear();
+  if (with_spheres) return;  // what areas and normals do comes with that of the spheres
+  add_surface_forces({owned, scene.first_node(), scene.first_face(), threads_}, world.position(), world.geometry,
+                     {gradient.face_energy, {}, gradient.node_normal}, gradient.force);
+  give_back(gradient.node_normal);
 }
 
 bool SurfaceContacts::crossed(const World& world, std::span<const Vec3d> start) const {

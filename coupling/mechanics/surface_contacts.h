@@ -29,6 +29,7 @@ class SurfaceContacts : public Term {
 
   /// Collective.
   void bodies_changed(const World& world) override;
+  void bodies_replaced(const World& world, const BodyChanges& changes) override;
   void parameters_changed(const World& world) override;
   [[nodiscard]] bool varies_with_time() const override { return bonds_age_; }
   /// Finds the candidates anew when bodies have gone too far since the last time. Collective.
@@ -45,7 +46,7 @@ class SurfaceContacts : public Term {
   /// How far the obstacles have gone from where the study has them [µm]. Says whether they were elsewhere before.
   bool set_offsets(std::span<const Vec3d> offsets);
   /// What was found holds no more: marks of faces have changed.
-  void forget() { found_at_.reset(); }
+  void forget() { found_at_.reset(), again_.clear(); }
   /// The matrix is made: what only it needs goes.
   void make_room();
 
@@ -57,6 +58,13 @@ class SurfaceContacts : public Term {
   [[nodiscard]] const ContactGradient& found() const { return gradient_; }
 
  private:
+  void look_for_new_surfaces(const World& world);
+  /// Bodies that are to be evaluated again because what they touch has come or gone, by new number; nothing where all are.
+  [[nodiscard]] std::vector<char> touched_by(const BodyChanges& changes) const;
+  /// What was found goes with the bodies that stay.
+  void carry_found(const World& world, const BodyChanges& changes);
+  void evaluate_again(const World& world, bool with_spheres);
+
   int threads_;
   bool bonds_age_ = true;  ///< interfaces of sisters may be new: adhesion depends on the time
   ContactLayer layer_;
@@ -64,6 +72,7 @@ class SurfaceContacts : public Term {
   ContactGradient gradient_;                                            ///< of all contacts of surfaces
   ContactGradient surfaces_only_;                                       ///< without the pairs with a sphere; kept only where there are any
   std::optional<std::uint64_t> found_at_;  ///< Scene::positions_number() where the contacts of surfaces were found
+  std::vector<char> again_;                ///< by body: its contacts are to be found again all the same; empty: of none
   std::uint64_t list_number_ = 0;
   std::size_t given_back_ = 0;  ///< bytes that the last evaluation needed beside what it left
 };

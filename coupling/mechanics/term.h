@@ -69,12 +69,14 @@ struct Assembly {
 /// finds the lowest E(x) − f·d + dᵀΓd/(2Δt) by Newton's method with the matrix Γ + Δt K̃ (time_stepping.md §8). What a term does not have,
 /// it leaves out. A virtual call stands for a whole term: loops over elements, lanes and threads lie within.
 ///
-/// The order of calls: bodies_changed(), then for each evaluation parameters_changed() if anything has, measure(), evaluate(); in a step
+/// The order of calls: bodies_changed() or bodies_replaced(), then for each evaluation parameters_changed() if anything has, measure(), evaluate(); in a step
 /// begin_step(), then add_friction() after every evaluation, assemble() and products, and at last end_step() or abandon_step().
 class Term : public AddedPart {
  public:
   /// Bodies have come or gone, or ghosts were renewed: make the lists anew. Collective.
   virtual void bodies_changed(const World&) {}
+  /// The same where most bodies stay what and where they were: lists may be mended. Between steps. Collective.
+  virtual void bodies_replaced(const World& world, const BodyChanges&) { bodies_changed(world); }
   /// Numbers of the tissue that shape the energy (radii, rest lengths, the time) may have changed. Collective.
   virtual void parameters_changed(const World&) {}
   /// Whether the energy depends on the time itself.

@@ -33,9 +33,13 @@ ContactStrength strength_now(const Model& model, const Clock& clock, const Settl
   return out;
 }
 
+/// What is to be done with the scene; of several ranks that which needs most decides.
+enum class SceneNeed { kNothing, kMend, kAnew };
+
 /// Ghosts must be renewed when something has gone further than their reach allows for.
-bool needs_new_scene(const Workspace& work, const Tissue& tissue) {
-  if (!work.age || (work.age->expected_skin_use > 1.0 && !work.known)) return true;
+SceneNeed need_of_scene(const Workspace& work, const Tissue& tissue) {
+  if (!work.age || (work.age->expected_skin_use > 1.0 && !work.known)) return SceneNeed::kAnew;
+  if (work.age->cells_replaced) return SceneNeed::kMend;
   double most = 0.0;
   const std::vector<Vec3d>& start = work.age->start;
   for (std::size_t i = 0; i < start.size(); ++i) {
@@ -43,7 +47,11 @@ bool needs_new_scene(const Workspace& work, const Tissue& tissue) {
     most = std::max(most, norm2((i < nodes ? tissue.shells.position[i] : tissue.spheres.position[i - nodes]) - start[i]));
   }
   const double slack = work.terms.contacts->layer().settings().body_skin;
-  return most > 0.25 * slack * slack;
+  return most > 0.25 * slack * slack ? SceneNeed::kAnew : SceneNeed::kNothing;
+}
+
+SceneNeed need_of_all(SceneNeed here, const Comm& comm) {
+  return comm.size() == 1 ? here : static_cast<SceneNeed>(static_cast<int>(comm.max(static_cast<double>(here))));
 }
 
 /// Owned shells come first, owned spheres after the ghost shells.
@@ -75,22 +83,29 @@ void lay_out_system(Workspace& work) {
   for (const auto& term : work.terms.all) system.add_part(term.get());
 }
 
-void build_scene(Workspace& work, const Tissue& tissue, const Settling* settling) {
+void build_scene(Workspace& work, const Tissue& tissue, const Settling* settling, bool mend) {
   auto timed = work.timer.scope(Stage::kGhosts);
   const Model& model = work.setting.model;
   const ContactSettings& contact = work.terms.contacts->layer().settings();
   const double slack = contact.body_skin;
   const double reach = std::max(contact.range, contact.sphere_reach) + 2.0 * contact.body_skin + slack + 2.0 * step_margin(model);
-  work.scene.build(tissue, model.space, reach, work.setting.shapes, work.setting.comm);
+  std::optional<BodyChanges> changes;
+  if (mend)
+    changes = work.scene.renew(tissue, model.space, reach, work.setting.shapes, work.setting.comm);
+  else
+    work.scene.build(tissue, model.space, reach, work.setting.shapes, work.setting.comm);
   if (settling != nullptr) work.scene.set_moving(by_body_of_scene(work.scene, settling->moves));
-  work.age.emplace();
+  if (mend)
+    work.age->cells_replaced = false;  // what lists have of their skin goes on
+  else
+    work.age.emplace();
   work.known.reset();
   if (work.setting.comm.size() > 1) {
     work.age->start = tissue.shells.position;
     work.age->start.insert(work.age->start.end(), tissue.spheres.position.begin(), tissue.spheres.position.end());
   }
   const World world = work.world(tissue);
-  for (const auto& term : work.terms.all) term->bodies_changed(world);
+  for (const auto& term : work.terms.all) changes ? term->bodies_replaced(world, *changes) : term->bodies_changed(world);
   work.solver.velocity.assign(work.scene.point_count(), {});
   lay_out_system(work);
 }
@@ -164,7 +179,8 @@ Evaluation evaluate(Workspace& work, const Tissue& tissue, std::vector<Vec3d> ro
 
 const Known& prepare(Workspace& work, const Tissue& tissue, const Settling* settling) {
   const Comm& comm = work.setting.comm;
-  if (comm.any(needs_new_scene(work, tissue))) build_scene(work, tissue, settling);
+  const SceneNeed need = need_of_all(need_of_scene(work, tissue), comm);
+  if (need != SceneNeed::kNothing) build_scene(work, tissue, settling, need == SceneNeed::kMend && settling == nullptr);
   if (has_regional_adhesion(work.setting.model) && comm.any(work.scene.marks_differ(tissue))) {
     work.scene.take_marks(tissue, mark_bytes(work.setting.model.mark_names.size()));
     work.terms.contacts->forget();

@@ -44,8 +44,9 @@ struct Known {
   std::optional<std::vector<Vec3d>> force;
 };
 
-/// Since when the scene holds. None: bodies have changed, and the scene is to be built anew.
+/// Since when the scene holds. None: bodies have changed, and the scene and all lists are to be made anew.
 struct SceneAge {
+  bool cells_replaced = false;     ///< a few bodies have come or gone: the scene is to be built again, and lists are to be mended
   std::vector<Vec3d> start;        ///< owned positions when the ghosts were found; empty on one rank
   double skin_used = 0.0;          ///< of the list of pairs, at the end of the last step
   double expected_skin_use = 0.0;  ///< at the end of the next step; beyond 1 the list would wear out in the middle of it

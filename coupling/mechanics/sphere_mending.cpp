@@ -1,0 +1,159 @@
+/// The lists of SphereContacts after a few bodies have come or gone.
+#include <algorithm>
+#include <cassert>
+
+#include "coupling/mechanics/sphere_contacts.h"
+
+namespace morula {
+
+void SphereContacts::bodies_replaced(const World& world, const BodyChanges& changes) {
+  if (layer().is_stale() || list_number_ != surfaces_.list_number()) {
+    sisters_.clear();  // the list is to be made anew
+    young_.clear();
+    return;
+  }
+  assert(!friction_is_frozen_);
+  const Scene& scene = world.scene;
+  const auto first = static_cast<std::uint32_t>(scene.first_sphere());
+  const auto now = [&](std::uint32_t sphere) {
+    const std::uint32_t body = changes.now[changes.shells_before + sphere];
+    return body == BodyChanges::kNone ? body : body - first;
+  };
+  std::vector<char> young(scene.bodies().size() - first, 0);
+  for (const std::uint32_t sphere : young_)
+    if (const std::uint32_t there = now(sphere); there != BodyChanges::kNone) young[there] = 1;
+  for (const std::uint32_t body : changes.fresh)
+    if (body >= first) young[body - first] = 1;
+  young_.clear();
+  for (std::uint32_t i = 0; i < young.size(); ++i)
+    if (young[i]) young_.push_back(i);
+
+  std::vector<char> suspects = young;  // whose partners may be others
+  for (const std::uint32_t sphere : lost_)
+    if (const std::uint32_t there = now(sphere); there != BodyChanges::kNone) suspects[there] = 1;
+  renumber_pairs(now, suspects);
+  add_pairs(scene, surfaces_.layer().take_sphere_neighbours());
+  list_.elements.resize(list_.pairs.size());
+  if (!list_.uniform()) {
+    list_.material.resize(young.size());
+    for (std::size_t i = 0; i < young.size(); ++i) list_.material[i] = scene.bodies()[first + i].material;
+  }
+  list_.set_layout(scene.sphere_point(), static_cast<std::uint32_t>(scene.owned_spheres()), threads());
+  std::vector<std::uint32_t> of_young;
+  for (std::uint32_t k = 0; k < list_.pairs.size(); ++k)
+    if (const SpherePair pair = list_.pairs[k]; (young[pair.a] | young[pair.b]) != 0) of_young.push_back(k);
+  for (const std::uint32_t k : of_young) {
+    SpherePair& pair = list_.pairs[k];
+    pair.attached = are_attached(scene, world.tissue, pair);
+    suspects[pair.a] = suspects[pair.b] = 1;
+  }
+  renumber_rigid_pairs(scene, world.tissue, now, young);
+  for (auto& flips : flips_) flips.clear();
+  look_for_lost(scene, world.tissue, std::move(suspects));
+  add_sisters(scene, world.tissue, of_young);
+}
+
+template <class Now>
+void SphereContacts::renumber_pairs(const Now& now, std::vector<char>& suspects) {
+  std::uint32_t kept = 0;
+  auto sisters = sisters_.begin(), kept_sisters = sisters_.begin();
+  for (std::uint32_t k = 0; k < list_.pairs.size(); ++k) {
+    SpherePair pair = list_.pairs[k];
+    const bool has_sisters = sisters != sisters_.end() && sisters->pair == k;
+    const std::uint32_t a = now(pair.a), b = now(pair.b);
+    if (a != BodyChanges::kNone && b != BodyChanges::kNone) {
+      pair.a = a;
+      pair.b = b & 0x7FFFFFFFu;
+      if (has_sisters) *kept_sisters = *sisters, (kept_sisters++)->pair = kept;
+      list_.pairs[kept++] = pair;
+    } else if (a != BodyChanges::kNone || b != BodyChanges::kNone) {
+      suspects[a != BodyChanges::kNone ? a : b] = 1;
+    }
+    if (has_sisters) ++sisters;
+  }
+  list_.pairs.resize(kept);
+  sisters_.erase(kept_sisters, sisters_.end());
+}
+
+void SphereContacts::add_pairs(const Scene& scene, const std::vector<SphereNeighbours>& found) {
+  const auto bodies = scene.bodies();
+  const auto first = static_cast<std::uint32_t>(scene.first_sphere());
+  const auto before = [&](const SphereNeighbours& p, const SpherePair& q) {
+    const std::uint32_t place = bodies[first + q.a].place;
+    return bodies[p.a].place != place ? bodies[p.a].place < place : bodies[p.b].place < bodies[first + q.b].place;
+  };
+  std::size_t kept = list_.pairs.size(), to = kept + found.size();
+  auto sisters = sisters_.end();
+  list_.pairs.resize(to);
+  for (std::size_t n = found.size(); n > 0;) {  // from the end: what comes later makes room
+    if (kept > 0 && before(found[n - 1], list_.pairs[kept - 1])) {
+      list_.pairs[--to] = list_.pairs[--kept];
+      if (sisters != sisters_.begin() && std::prev(sisters)->pair == kept) (--sisters)->pair = static_cast<std::uint32_t>(to);
+    } else {
+      --n;
+      list_.pairs[--to] = {found[n].a - first, (found[n].b - first) & 0x7FFFFFFFu, 0};
+    }
+  }
+}
+
+template <class Now>
+void SphereContacts::renumber_rigid_pairs(const Scene& scene, const Tissue& tissue, const Now& now, const std::vector<char>& young) {
+  if (layer().obstacles().empty()) return;
+  const std::vector<RigidPair> old = std::move(rigid_);
+  rigid_.clear();
+  list_.rigid.clear();
+  auto fresh = young_.begin();
+  const auto add_young = [&](std::uint32_t until) {
+    for (; fresh != young_.end() && *fresh < until; ++fresh)
+      if (*fresh < scene.owned_spheres()) add_rigid_pairs(scene, tissue, *fresh, {});
+  };
+  for (RigidPair pair : old) {
+    pair.sphere = now(pair.sphere);
+    if (pair.sphere == BodyChanges::kNone || young[pair.sphere]) continue;
+    add_young(pair.sphere);
+    rigid_.push_back(pair);
+    list_.rigid.emplace_back().sphere = pair.sphere;
+  }
+  add_young(static_cast<std::uint32_t>(young.size()));
+}
+
+void SphereContacts::look_for_lost(const Scene& scene, const Tissue& tissue, std::vector<char> suspects) {
+  lost_.clear();
+  // A shell that became a sphere is a partner of all that it touched, whether or not the sphere reaches them.
+  std::vector<std::uint32_t> known(scene.owned_spheres(), 0);
+  for_attached(scene, [&](std::uint32_t i, CellId) { ++known[i]; });
+  for (std::uint32_t i = 0; i < known.size(); ++i)
+    if (known[i] != tissue.spheres.attached[i].size()) suspects[i] = 1;
+  const std::vector<std::pair<std::uint32_t, CellId>> found = partners_of(scene, suspects);
+  auto at = found.begin();
+  for (std::uint32_t i = 0; i < scene.owned_spheres(); ++i) {
+    if (!suspects[i]) continue;
+    bool same = true;
+    std::size_t count = 0;
+    const std::span<const CellId> listed = tissue.spheres.attached[i];
+    for (; at != found.end() && at->first == i; ++at, ++count) same = same && count < listed.size() && listed[count] == at->second;
+    if (!same || count != listed.size()) lost_.push_back(i);
+  }
+}
+
+void SphereContacts::add_sisters(const Scene& scene, const Tissue& tissue, std::span<const std::uint32_t> of_young) {
+  std::vector<std::uint32_t> pairs, spheres;
+  for (const std::uint32_t k : of_young)
+    if (sisters_in(scene, list_.pairs[k])) pairs.push_back(k);
+  std::erase_if(sisters_, [&](const Sisters& s) { return std::ranges::binary_search(pairs, s.pair); });
+  for (const std::uint32_t k : pairs) spheres.insert(spheres.end(), {list_.pairs[k].a, list_.pairs[k].b});
+  std::ranges::sort(spheres);
+  spheres.erase(std::ranges::unique(spheres).begin(), spheres.end());
+  const std::vector<Scene::Birth> births = scene.sphere_births(tissue, spheres);
+  const auto birth = [&](std::uint32_t sphere) {
+    return births[static_cast<std::size_t>(std::ranges::lower_bound(spheres, sphere) - spheres.begin())];
+  };
+  for (const std::uint32_t k : pairs) {
+    const Scene::Birth a = birth(list_.pairs[k].a), b = birth(list_.pairs[k].b);
+    sisters_.push_back({k, a.radius, b.radius, a.time, 0.0});
+  }
+  std::ranges::sort(sisters_, {}, &Sisters::pair);
+  update_sisters(scene, tissue.clock.time);
+}
+
+}  // namespace morula
