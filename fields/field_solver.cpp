@@ -61,6 +61,19 @@ double concentration_scale(const Field& field, const FieldSpec& spec, const Comm
   return comm.max(scale);
 }
 
+/// What reactions make in an interval at most, nothing being lost: the concentration that matters where there is nothing yet [mM].
+double what_arises(const Field& field, const Layout& layout, const FieldReactions& reactions, double interval, const Comm& comm) {
+  double most = 0.0;
+  std::vector<double> rate;
+  for (std::size_t b = 0; b < layout.bricks(); ++b) {
+    rate.assign(field.concentration[b].size(), 0.0);
+    const auto sinks = std::span(layout.sinks).subspan(layout.first_sink[b], layout.first_sink[b + 1] - layout.first_sink[b]);
+    reactions.add_rates(sinks, field.concentration[b], field.grid.voxel_volume(), rate.data(), nullptr);
+    for (const double r : rate) most = std::max(most, r);
+  }
+  return comm.max(most) * interval;
+}
+
 /// The slowest mode of the field: π²D/L² between two faces with a value, a quarter of it with one, else decay alone [1/s].
 double slowest_rate(const Grid& grid, const FieldSpec& spec, double decay, const Space& space) {
   double rate = decay;
@@ -138,7 +151,8 @@ Result<IntervalReport> FieldSolver::advance(Field& field, const FieldSpec& spec,
   settings.interval = interval;
   settings.first_step = field.next_step;
   settings.relative_tolerance = spec.relative_tolerance;
-  const double scale = concentration_scale(field, spec, comm);
+  double scale = concentration_scale(field, spec, comm);
+  if (scale == 0.0) scale = what_arises(field, layout, reactions, interval, comm);  // else no error at all would be allowed
   settings.absolute_tolerance = std::max(1e-3 * spec.relative_tolerance * scale, 1e-30);
   settings.largest_rate = comm.max(op.largest_rate(scale));
   settings.method = cheaper_method(interval, settings.largest_rate, slowest_rate(field.grid, spec, reactions.first_order(), space));

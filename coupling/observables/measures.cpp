@@ -52,6 +52,13 @@ double least_clearance(const Simulation& simulation) {
   return least < 1e300 ? least : 0.0;
 }
 
+double highest_on_faces(const fields::FieldSpec& spec) {
+  double highest = 0.0;
+  for (const auto& axis : spec.boundary)
+    for (const fields::FaceCondition& face : axis) highest = std::max(highest, face.value);
+  return highest;
+}
+
 void measure_fields(const Simulation& simulation, Measures& out) {
   const Tissue& tissue = simulation.tissue();
   const Comm& comm = simulation.comm();
@@ -65,7 +72,10 @@ void measure_fields(const Simulation& simulation, Measures& out) {
     out.mean_field.push_back(amount / (field.grid.voxel_volume() * static_cast<double>(field.grid.voxel_count())));
     const FieldLedger& l = tissue.ledger.fields[f];
     const double residual = amount - l.start + l.taken + l.decayed - l.in;
-    const double scale = std::max({std::abs(amount), std::abs(l.start), std::abs(l.taken), std::abs(l.decayed), std::abs(l.in)});
+    double scale = std::max({std::abs(amount), std::abs(l.start), std::abs(l.taken), std::abs(l.decayed), std::abs(l.in)});
+    // What faces with a course once gave may all have gone again: nothing is left that its rounding could be compared with.
+    if (const fields::FieldSpec& spec = simulation.model().fields[f]; !spec.course.empty())
+      scale = std::max(scale, highest_on_faces(spec) * field.grid.voxel_volume() * static_cast<double>(field.grid.voxel_count()));
     out.field_balance.push_back(scale > 0.0 ? std::abs(residual) / scale : 0.0);
   }
 }

@@ -169,6 +169,21 @@ TEST(Reactions, ThatMakeSubstanceSlowDownWhereThereIsMuch) {
   EXPECT_NEAR(taken[0], -1000.0 * value_at(field, 0, 0, 0), 1e-9) << "what the field has is what the cell has given";
 }
 
+TEST(Reactions, ThatMakeSubstanceWhereThereIsNoneTakeAFewSteps) {
+  // With nothing in the field and on its faces an error relative to what is there would be none.
+  const Space space = cube(80.0);
+  FieldSpec spec = spec_of(100.0, 10.0, 0.0);
+  hold_all_faces(spec, 0.0);
+  FieldReaction& made = spec.reactions.emplace_back(FieldReaction{secretion(), {}});
+  made.values.set("rate", 30.0), made.values.set("half_inhibition", 0.1);
+  const std::vector<CellSource> cells{{CellId::founder(1), 0, {40, 40, 40}, 6.0}};
+  Field field = field_of(spec, space);
+  const auto first = advance(field, spec, space, 20.0, cells), second = advance(field, spec, space, 20.0, cells);
+  EXPECT_LT(first.work.steps, 100);
+  EXPECT_LT(second.work.steps, 100);
+  EXPECT_GT(second.maximum, 0.0);
+}
+
 TEST(Reactions, OfOneLawMayStandTwiceOnAType) {
   FieldSpec spec = spec_of(2000.0, 10.0, 0.2);
   spec.reactions = {uptake_of(40.0, 0.01), uptake_of(10.0, 0.01), uptake_of(5.0, 0.01, 2)};

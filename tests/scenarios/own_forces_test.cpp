@@ -141,7 +141,7 @@ TEST_F(OwnForces, ValuesOfTriggersDecideWhoIsAShell) {
   EXPECT_EQ(shells.back(), 2.0);
   EXPECT_THAT(file("age", "events.jsonl"), HasSubstr("age"));
   EXPECT_THAT(file("age", "methods.md"), HasSubstr("Age of a cell"));
-  EXPECT_THAT(explain("triggers.promote"), HasSubstr("`pressure`, `age` or a field"));
+  EXPECT_THAT(explain("triggers.promote"), HasSubstr("`pressure`, `outside_law`, `age` or a field"));
   const auto wrong = read(one_cell("coupling: {triggers: [{promote: age > 1 kPa, demote: age < 30 s}]}\n", "sphere"), options());
   ASSERT_FALSE(wrong.ok());
   EXPECT_THAT(wrong.error().text(), HasSubstr("[E203]"));

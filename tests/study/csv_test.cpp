@@ -127,9 +127,9 @@ TEST(StudyCsv, StudyChecksItsCellsAndNamesCoincidentOnes) {
   const auto study = read(csv_study("{csv: a.csv, start_volume: 50 %, inflate: 30 min}"), {}, folder.path());
   ASSERT_TRUE(study.ok()) << study.error().text();
   EXPECT_EQ(study->initial[0].count, 3u);
-  EXPECT_THAT(study->notes, ElementsAre("a.csv: columns left aside: `id`",
-                                        "a.csv: cells 1 (line 2), 3 (line 4) lie at the same place; moved by 6 um: 3",
-                                        HasSubstr("3 cells become shells before the first step")));  // of the study's region
+  EXPECT_THAT(study->notes,
+              ElementsAre("a.csv: columns left aside: `id`", "a.csv: cells 1 (line 2), 3 (line 4) lie at the same place; moved by 6 um: 3",
+                          HasSubstr("3 cells become shells before the first step")));  // of the study's region
   EXPECT_EQ(study->input_files.size(), 1u);
   EXPECT_EQ(study->initial[0].csv_path, (folder.path() / "a.csv").string());
   folder.write("b.csv", "x [um],y [um],z [um],type\n1,2,300,hepatocyte\n");

@@ -59,7 +59,7 @@ TEST(Calibrate, WritesTheSameFileOnRanksAndThreadsAndAfterASigkill) {
   const Outcome again = run_morula(command("killed"), folder.path());
   ASSERT_EQ(again.exit_code, 0) << again.all();
   EXPECT_EQ(text_of(folder / "killed/small.jkr.yaml"), whole);
-  ASSERT_EQ(run_morula(command("threads", "2"), folder.path()).exit_code, 0);
+  ASSERT_EQ(run_morula(command("threads", "2"), folder.path(), {.timeout = std::chrono::seconds(180)}).exit_code, 0);
   EXPECT_EQ(text_of(folder / "threads/small.jkr.yaml"), whole);
   const Outcome ranks = run_morula(command("ranks"), folder.path(), {.ranks = 2});
   ASSERT_EQ(ranks.exit_code, 0) << ranks.all();

@@ -131,7 +131,8 @@ TEST(OutsideLaw, PromotesTheSameCellsOnThreadsAndRanksAndOverARestart) {
                "domain: {size: [90 um, 90 um, 90 um], boundary: periodic}\n"
                "cell_types: {cell: {radius: {mean: 6 um, spread: 8 %}, cycle: {model: none}, dcm: {nodes: 42}}}\n"
                "initial:\n  - {type: cell, count: 40, fill: box, size: [40 um, 40 um, 30 um]}\ncontact: {range: 1.2 um}\n"
-               "coupling: {triggers: [{promote: outside_law > 0.85, demote: outside_law < 0.7, hold: 5 min}]}\noutput: {report: false}\n");
+               "coupling: {max_shells: 25, triggers: [{promote: outside_law > 0.85, demote: outside_law < 0.7, hold: 5 min}]}\noutput: "
+               "{report: false}\n");
   ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "one"}, folder.path(), on_ranks(0)).exit_code, 0);
   const json reference = info_of(folder / "one");
   ASSERT_GT(reference["shells"].get<int>(), 2);
