@@ -39,7 +39,7 @@ void places(benchmark::State& state, double part) {
   for (auto _ : state) packing = Place(ball.block, ball.radius, 0.95, ball.space, 1, 1, Surroundings(), static_cast<int>(state.range(1)));
   state.counters["overlap/R"] = packing.worst_overlap / mean_radius(ball.radius);
   state.counters["per million cells"] = benchmark::Counter(static_cast<double>(state.range(0)) * 1e-6,
-                                                 benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+                                                           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 /// In order (`fill: sphere`), in a ball with room to spare.
