@@ -71,8 +71,13 @@ ExchangeWatch watch_exchanges(const Model& model, const Tissue& tissue, std::spa
 
 void tell_exchanges(const ExchangeWatch& watch, Tissue& tissue, Mechanics& mechanics, const Comm& comm, std::vector<Event>& events) {
   const std::vector<Vec3d> force = mechanics.net_forces(tissue);
+  std::vector<CellId> neighbours;  // the few that are asked about: a map of all cells would cost more than the exchange
+  for (const ExchangeWatch::Beside& beside : watch.beside) neighbours.push_back(beside.neighbour);
+  std::ranges::sort(neighbours);
   std::map<CellId, Vec3d> now;
-  for (const BodyOfRow& body : bodies_of(tissue.cells)) now[tissue.cells.rows[body.row].id] = force[body.place(tissue.shells.size())];
+  for (const BodyOfRow& body : bodies_of(tissue.cells))
+    if (const CellId id = tissue.cells.rows[body.row].id; std::ranges::binary_search(neighbours, id))
+      now[id] = force[body.place(tissue.shells.size())];
   std::vector<Told> all;
   for (const ExchangeWatch::Beside& beside : watch.beside)
     all.push_back({{beside.exchanged, beside.neighbour, tissue.clock.time, 0, 0.0, beside.place, beside.radius},
