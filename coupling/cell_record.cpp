@@ -182,6 +182,18 @@ OfBodies of_bodies(bool shells, const Tissue& tissue, const Replacement& rows, s
 
 Vec3d CellRecord::center() const { return sphere ? sphere->position : volume_centroid(shell->shape->topology->faces(), shell->position); }
 
+std::vector<BodyOfRow> bodies_of(const Cells& cells, std::span<const std::size_t> rows) {
+  std::vector<BodyOfRow> out;
+  out.reserve(rows.size());
+  std::size_t row = 0, shells = 0;
+  for (const std::size_t wanted : rows) {
+    for (; row < wanted; ++row) shells += cells.rows[row].body == BodyKind::kShell ? 1 : 0;
+    const bool is_shell = cells.rows[wanted].body == BodyKind::kShell;
+    out.push_back({wanted, is_shell, is_shell ? shells : wanted - shells});
+  }
+  return out;
+}
+
 CellRecord record_of(const Tissue& tissue, const BodyOfRow& body) {
   CellRecord out;
   out.row = tissue.cells.state(body.row);

@@ -32,6 +32,9 @@ std::vector<CellRecord> take_apart(Tissue& tissue);
 /// Put cells back: sorted into canonical order. The tissue's own cells must be empty, with the variables of those that come.
 void put_together(Tissue& tissue, std::vector<CellRecord> cells);
 
+/// The bodies of some rows (increasing).
+std::vector<BodyOfRow> bodies_of(const Cells& cells, std::span<const std::size_t> rows);
+
 /// One cell of the tissue as a record.
 CellRecord record_of(const Tissue& tissue, const BodyOfRow& body);
 

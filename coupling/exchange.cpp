@@ -13,15 +13,6 @@
 namespace morula {
 namespace {
 
-/// Caps of the balls of the cells of these orders, by order [µm³]. Collective.
-std::vector<double> caps_of(const Tissue& tissue, std::span<const SwapOrder> orders, Mechanics& mechanics) {
-  const std::vector<double> caps = mechanics.as_balls(tissue).caps;
-  std::vector<double> by_row(tissue.cells.size()), out;
-  for (const BodyOfRow& body : bodies_of(tissue.cells)) by_row[body.row] = caps[body.place(tissue.shells.size())];
-  for (const SwapOrder& order : orders) out.push_back(by_row[order.row]);
-  return out;
-}
-
 double volume_of(const CellRecord& cell) {
   if (cell.sphere) return 4.0 / 3.0 * std::numbers::pi * std::pow(cell.sphere->radius, 3);
   return enclosed_volume(cell.shell->shape->topology->faces(), cell.shell->position, cell.center());
@@ -52,10 +43,8 @@ std::vector<Event> Simulation::swap_bodies() {
   if (!comm_.any(!orders.empty())) return events;
   std::vector<double> pressure(orders.size());
   for (std::size_t k = 0; k < orders.size(); ++k) pressure[k] = tissue_.cells.rows[orders[k].row].pressure;
-  const std::vector<double> caps = caps_of(tissue_, orders, *mechanics_);
   const bool may_stay = tissue_.clock.steps > 0;  // at the very beginning cells become what the study says
-  ExchangeWatch watch;
-  if (may_stay) watch = watch_exchanges(model_, tissue_, center, orders, *mechanics_, comm_);
+  const ExchangeWatch watch = watch_exchanges(model_, tissue_, orders, *mechanics_, shapes_, comm_);
   std::vector<CellId> leaving;
   for (const SwapOrder& order : orders)
     if (order.to == BodyKind::kSphere) leaving.push_back(tissue_.cells.rows[order.row].id);
@@ -65,11 +54,10 @@ std::vector<Event> Simulation::swap_bodies() {
   std::vector<CellId> fresh;
   std::vector<std::size_t> rows;
   std::vector<CellRecord> before, changed;  // before: of the promoted, should they find no room
-  std::vector<BodyOfRow> body_of_row;
-  for (const BodyOfRow& body : bodies_of(tissue_.cells)) body_of_row.push_back(body);
+  for (const SwapOrder& order : orders) rows.push_back(order.row);
+  const std::vector<BodyOfRow> bodies = bodies_of(tissue_.cells, rows);
   for (std::size_t k = 0; k < orders.size(); ++k) {
-    rows.push_back(orders[k].row);
-    CellRecord& cell = changed.emplace_back(record_of(tissue_, body_of_row[orders[k].row]));
+    CellRecord& cell = changed.emplace_back(record_of(tissue_, bodies[k]));
     const bool up = orders[k].to == BodyKind::kShell;
     const double had = volume_of(cell);
     if (up) {
@@ -80,9 +68,8 @@ std::vector<Event> Simulation::swap_bodies() {
       demote(cell, tissue_.clock.time);
     }
     events.push_back({tissue_.clock.time, up ? EventKind::kPromotion : EventKind::kDemotion, cell.row.id, {}, {}, orders[k].reason});
-    events.back().exchange = ExchangeEffect{.volume = had, .room = up ? caps[k] : -caps[k]};
+    events.back().exchange = ExchangeEffect{.volume = had, .room = (up ? 1.0 : -1.0) * watch.caps_of(cell.row.id)};
   }
-  std::sort(rows.begin(), rows.end());
   replace_cells(tissue_, rows, std::move(changed));
   attach_touching(tissue_, touching);  // what adhered as a shell goes on adhering
   attach_touching(before, touching);
@@ -95,10 +82,7 @@ std::vector<Event> Simulation::swap_bodies() {
     tissue_.clock.capped = tissue_.clock.capped || settled.overlap_is_left;
   }
   mechanics_->cells_replaced();
-  if (may_stay) {
-    tell_exchanges(watch, tissue_, *mechanics_, comm_, events);
-    mechanics_->cells_replaced();  // partners that divisions of this step rename are not yet those of their daughters
-  }
+  if (may_stay) tell_exchanges(watch, tissue_, *mechanics_, shapes_, comm_, events);
   std::int64_t ups = 0, downs = 0;
   for (const Event& event : events) {
     ups += event.kind == EventKind::kPromotion;

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/parallel/pack.h"
+#include "coupling/gathered_parts.h"
 #include "coupling/simulation.h"
 
 namespace morula {
@@ -17,24 +18,15 @@ constexpr double kBeside = 1.2;  // of the sum of the radii: nearest neighbours 
 
 double radius_of(double volume) { return std::cbrt(3.0 * volume / (4.0 * std::numbers::pi)); }
 
-/// A cell that exchanges its body, as all ranks know it.
-struct Exchanging {
+/// How far around an exchange one looks, in units of the size of the cell: what is beside it, of cells that are not much larger than itself.
+constexpr double kAround = 0.25;
+
+/// A cell that exchanges its body.
+struct ExchangingCell {
   CellId id;
   Vec3d center;
   double radius;
 };
-
-std::vector<Exchanging> exchanging_cells(const Tissue& tissue, std::span<const Vec3d> center, std::span<const SwapOrder> orders,
-                                         const Comm& comm) {
-  std::vector<Exchanging> out;
-  for (const SwapOrder& order : orders) {
-    const CellRow& row = tissue.cells.rows[order.row];
-    out.push_back({row.id, center[order.row], radius_of(row.target_volume)});
-  }
-  out = items_of_all_ranks(out, comm);
-  std::ranges::sort(out, {}, &Exchanging::id);
-  return out;
-}
 
 /// A neighbour as all ranks hear of it once the bodies are exchanged.
 struct Told {
@@ -53,35 +45,60 @@ void for_each_exchange(const Items& items, Key&& key, F&& function) {
 
 }  // namespace
 
-ExchangeWatch watch_exchanges(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, std::span<const SwapOrder> orders,
-                              Mechanics& mechanics, const Comm& comm) {
-  const std::vector<Exchanging> exchanging = exchanging_cells(tissue, center, orders, comm);
-  const std::vector<Vec3d> force = mechanics.net_forces(tissue);
+double ExchangeWatch::caps_of(CellId id) const {
+  const auto found = std::ranges::lower_bound(caps, id, {}, &Caps::id);
+  return found != caps.end() && found->id == id ? found->caps : 0.0;
+}
+
+ExchangeWatch watch_exchanges(const Model& model, const Tissue& tissue, std::span<const SwapOrder> orders, const Mechanics& mechanics,
+                              ShapeLibrary& shapes, const Comm& comm) {
+  std::vector<CellId> exchanging;
+  for (const SwapOrder& order : orders) exchanging.push_back(tissue.cells.rows[order.row].id);
+  std::ranges::sort(exchanging);
   ExchangeWatch out;
-  for (const BodyOfRow& body : bodies_of(tissue.cells)) {
-    const CellRow& row = tissue.cells.rows[body.row];
-    if (std::ranges::binary_search(exchanging, row.id, {}, &Exchanging::id)) continue;
-    const double radius = radius_of(row.target_volume);
-    for (const Exchanging& other : exchanging)
-      if (norm(model.space.nearest_image(other.center - center[body.row])) < kBeside * (radius + other.radius))
-        out.beside.push_back({other.id, row.id, center[body.row], radius, force[body.place(tissue.shells.size())]});
-  }
+  out.around = neighbourhoods_of(tissue, model, mechanics.contacts().settings(), exchanging, kAround, comm);
+  GatheredParts(tissue, out.around, mechanics, shapes, comm)
+      .visit([&](std::span<const CellId> cells, Tissue& part, Mechanics& alone, const Comm& together) {
+        const std::vector<Vec3d> force = alone.net_forces(part);
+        const std::vector<double> caps = alone.as_balls(part).caps;
+        std::vector<ExchangingCell> exchanged;
+        for (const BodyOfRow& body : bodies_of(part.cells)) {
+          const CellRow& row = part.cells.rows[body.row];
+          if (!std::ranges::binary_search(cells, row.id)) continue;
+          exchanged.push_back({row.id, record_of(part, body).center(), radius_of(row.target_volume)});
+          out.caps.push_back({row.id, caps[body.place(part.shells.size())]});
+        }
+        exchanged = items_of_all_ranks(exchanged, together);
+        std::ranges::sort(exchanged, {}, &ExchangingCell::id);
+        for (const BodyOfRow& body : bodies_of(part.cells)) {
+          const CellRow& row = part.cells.rows[body.row];
+          if (std::ranges::binary_search(cells, row.id)) continue;
+          const double radius = radius_of(row.target_volume);
+          const Vec3d center = record_of(part, body).center();
+          for (const ExchangingCell& other : exchanged)
+            if (norm(model.space.nearest_image(other.center - center)) < kBeside * (radius + other.radius))
+              out.beside.push_back({other.id, row.id, center, radius, force[body.place(part.shells.size())]});
+        }
+      });
+  out.caps = items_of_all_ranks(out.caps, comm);
+  std::ranges::sort(out.caps, {}, &ExchangeWatch::Caps::id);
   return out;
 }
 
-void tell_exchanges(const ExchangeWatch& watch, Tissue& tissue, Mechanics& mechanics, const Comm& comm, std::vector<Event>& events) {
-  const std::vector<Vec3d> force = mechanics.net_forces(tissue);
-  std::vector<CellId> neighbours;  // the few that are asked about: a map of all cells would cost more than the exchange
-  for (const ExchangeWatch::Beside& beside : watch.beside) neighbours.push_back(beside.neighbour);
-  std::ranges::sort(neighbours);
-  std::map<CellId, Vec3d> now;
-  for (const BodyOfRow& body : bodies_of(tissue.cells))
-    if (const CellId id = tissue.cells.rows[body.row].id; std::ranges::binary_search(neighbours, id))
-      now[id] = force[body.place(tissue.shells.size())];
+void tell_exchanges(const ExchangeWatch& watch, Tissue& tissue, const Mechanics& mechanics, ShapeLibrary& shapes, const Comm& comm,
+                    std::vector<Event>& events) {
   std::vector<Told> all;
-  for (const ExchangeWatch::Beside& beside : watch.beside)
-    all.push_back({{beside.exchanged, beside.neighbour, tissue.clock.time, 0, 0.0, beside.place, beside.radius},
-                   norm(now.at(beside.neighbour) - beside.force)});
+  GatheredParts(tissue, watch.around, mechanics, shapes, comm)
+      .visit([&](std::span<const CellId> cells, Tissue& part, Mechanics& alone, const Comm&) {
+        const std::vector<Vec3d> force = alone.net_forces(part);
+        std::map<CellId, Vec3d> now;
+        for (const BodyOfRow& body : bodies_of(part.cells))
+          now.emplace(part.cells.rows[body.row].id, force[body.place(part.shells.size())]);
+        for (const ExchangeWatch::Beside& beside : watch.beside)  // one may be beside cells of two neighbourhoods
+          if (std::ranges::binary_search(cells, beside.exchanged))
+            all.push_back({{beside.exchanged, beside.neighbour, tissue.clock.time, 0, 0.0, beside.place, beside.radius},
+                           norm(now.at(beside.neighbour) - beside.force)});
+      });
   all = items_of_all_ranks(all, comm);
   std::ranges::sort(all, {}, [](const Told& t) { return std::pair(t.watched.exchanged, t.watched.neighbour); });
   // What an exchange is, its own rank knows; one that found no room is none.

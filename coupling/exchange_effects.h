@@ -4,6 +4,7 @@
 
 #include "core/parallel/comm.h"
 #include "coupling/events.h"
+#include "coupling/neighbourhoods.h"
 #include "coupling/swaps.h"
 
 namespace morula {
@@ -11,24 +12,34 @@ namespace morula {
 /// How long after an exchange of bodies its neighbours are looked at again: about ten mechanical relaxation times [s].
 inline constexpr double kExchangeSettles = 600.0;
 
-/// Neighbours that keep their bodies while others exchange theirs, as they are just before.
+/// Cells that are to exchange their bodies and their neighbours, which keep theirs, as they are just before.
 struct ExchangeWatch {
-  /// A cell of this rank that is beside one that exchanges its body: nearer than 1.2 times their radii as balls.
+  /// A cell and what its ball loses behind the planes of its contacts [µm³].
+  struct Caps {
+    CellId id;
+    double caps = 0.0;
+  };
+  /// A neighbour of a cell that exchanges its body: nearer than 1.2 times their radii as balls.
   struct Beside {
     CellId exchanged, neighbour;
     Vec3d place;          ///< [µm]
     double radius = 0.0;  ///< as a ball [µm]
-    Vec3d force;          ///< that all terms put on it [nN]
+    Vec3d force;          ///< that all in the neighbourhood put on it [nN]
   };
-  std::vector<Beside> beside;
+  std::vector<Neighbourhood> around;
+  std::vector<Caps> caps;      ///< of all ranks, by id
+  std::vector<Beside> beside;  ///< of the neighbourhoods that this rank looks at
+
+  [[nodiscard]] double caps_of(CellId id) const;
 };
 
-/// `center`: of the cells, by row; `orders`: of this rank. Collective.
-ExchangeWatch watch_exchanges(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, std::span<const SwapOrder> orders,
-                              Mechanics& mechanics, const Comm& comm);
+/// Looks at the neighbourhoods of these orders alone. Collective.
+ExchangeWatch watch_exchanges(const Model& model, const Tissue& tissue, std::span<const SwapOrder> orders, const Mechanics& mechanics,
+                              ShapeLibrary& shapes, const Comm& comm);
 
-/// The bodies have been exchanged, and nobody has moved: the events of this rank learn what this did to the forces on the neighbours, and the tissue
-/// whose ways are to be told later. Collective.
-void tell_exchanges(const ExchangeWatch& watch, Tissue& tissue, Mechanics& mechanics, const Comm& comm, std::vector<Event>& events);
+/// The bodies have been exchanged, nobody else has moved, and no cell has come or gone: the events of this rank learn what this did to the forces on
+/// the neighbours, and the tissue whose ways are to be told later. Collective.
+void tell_exchanges(const ExchangeWatch& watch, Tissue& tissue, const Mechanics& mechanics, ShapeLibrary& shapes, const Comm& comm,
+                    std::vector<Event>& events);
 
 }  // namespace morula

@@ -35,37 +35,37 @@ std::vector<Seed> of_all_ranks(const std::vector<Seed>& mine, const Comm& comm) 
   return all;
 }
 
-/// The rows of a rank with the boxes around their bodies.
-struct Rows {
-  std::vector<BodyOfRow> body;
-  std::vector<Box> box;
-};
-
-/// found(seed, row) for all rows whose boxes overlap that of the seed.
+/// found(seed, body) for all bodies of the tissue whose boxes overlap that of the seed. One walk over the bodies, which keeps those near to any.
 template <class Found>
-void for_rows_near(std::span<const Seed> seeds, const Rows& rows, const Space& space, Found&& found) {
+void for_bodies_near(std::span<const Seed> seeds, const Tissue& tissue, const Space& space, Found&& found) {
   if (seeds.empty()) return;
-  std::vector<std::size_t> candidates;
   Box all;
   for (const Seed& seed : seeds) all.include(seed.box);
-  for (std::size_t k = 0; k < rows.box.size(); ++k)
-    if (near(all, rows.box[k], space)) candidates.push_back(k);
+  std::vector<BodyOfRow> candidates;
+  std::vector<Box> boxes;
+  for (const BodyOfRow& body : bodies_of(tissue.cells)) {
+    const Box box = box_of(tissue, body);
+    if (!near(all, box, space)) continue;
+    candidates.push_back(body);
+    boxes.push_back(box);
+  }
   if (candidates.size() * seeds.size() < 100000) {
     for (std::uint32_t s = 0; s < seeds.size(); ++s)
-      for (const std::size_t k : candidates)
-        if (near(seeds[s].box, rows.box[k], space)) found(s, k);
+      for (std::size_t k = 0; k < candidates.size(); ++k)
+        if (near(seeds[s].box, boxes[k], space)) found(s, candidates[k], boxes[k]);
     return;
   }
   std::vector<Extent> extents;
   const auto add = [&](const Box& box) { extents.push_back({box, box.center(), 0.5 * norm(box.size())}); };
   for (const Seed& seed : seeds) add(seed.box);
-  for (const std::size_t k : candidates) add(rows.box[k]);
+  for (const Box& box : boxes) add(box);
   std::vector<std::uint32_t> place(extents.size());
   std::iota(place.begin(), place.end(), 0u);
   std::vector<char> is_seed(extents.size(), 0);
   std::fill_n(is_seed.begin(), seeds.size(), 1);
   find_body_pairs(extents, place, is_seed, space, [&](const BodyPair& pair) {
-    if (pair.b >= seeds.size()) found(pair.a, candidates[pair.b - seeds.size()]);
+    const std::size_t k = pair.b - seeds.size();
+    if (pair.b >= seeds.size()) found(pair.a, candidates[k], boxes[k]);
   });
 }
 
@@ -91,30 +91,26 @@ struct Pair {
   friend auto operator<=>(const Pair&, const Pair&) = default;
 };
 
+/// A body of this rank that a mover may touch.
+struct NearMover {
+  std::size_t row;
+  std::uint32_t mover;
+  Box box;
+  bool is_shell;
+};
+
 /// Joins what any rank has found.
 void join_all(const std::vector<Pair>& mine, Groups& groups, const Comm& comm) {
   for (const auto& [a, b] : items_of_all_ranks(mine, comm)) groups.join(a, b);
 }
 
-Rows rows_with_boxes(const Tissue& tissue) {
-  Rows out;
-  out.body.reserve(tissue.cells.size());
-  out.box.reserve(tissue.cells.size());
-  for (const BodyOfRow& body : bodies_of(tissue.cells)) {
-    out.body.push_back(body);
-    out.box.push_back(box_of(tissue, body));
-  }
-  return out;
-}
-
 /// The movers, in boxes that hold all that they may touch on their way.
-std::vector<Seed> movers_of_all_ranks(const Tissue& tissue, const Rows& rows, std::span<const CellId> movers, const Reach& reach,
-                                      const Comm& comm) {
+std::vector<Seed> movers_of_all_ranks(const Tissue& tissue, std::span<const CellId> movers, const Reach& reach, const Comm& comm) {
   std::vector<Seed> out;
-  for (std::size_t k = 0; k < rows.body.size(); ++k) {
-    const CellId id = tissue.cells.rows[rows.body[k].row].id;
-    if (!std::ranges::binary_search(movers, id)) continue;
-    out.push_back({id, rows.box[k].inflated(reach.touch + reach.way * largest_edge(rows.box[k])), static_cast<std::uint32_t>(comm.rank())});
+  for (const BodyOfRow& body : bodies_of(tissue.cells, rows_of(tissue.cells, movers))) {
+    const Box box = box_of(tissue, body);
+    out.push_back({tissue.cells.rows[body.row].id, box.inflated(reach.touch + reach.way * largest_edge(box)),
+                   static_cast<std::uint32_t>(comm.rank())});
   }
   return of_all_ranks(out, comm);
 }
@@ -138,29 +134,31 @@ Box box_of(const Tissue& tissue, const BodyOfRow& body) {
 
 std::vector<Neighbourhood> find_neighbourhoods(const Tissue& tissue, const Space& space, std::span<const CellId> movers, const Reach& reach,
                                                const Comm& comm) {
-  const Rows rows = rows_with_boxes(tissue);
-  const std::vector<Seed> seeds = movers_of_all_ranks(tissue, rows, movers, reach, comm);
+  const std::vector<Seed> seeds = movers_of_all_ranks(tissue, movers, reach, comm);
   // What a mover may touch. Two movers both may go towards each other.
   Groups groups(seeds.size());
-  std::vector<Pair> near_mover, joined;  // (row, mover)
+  std::vector<NearMover> near_mover;
   for (std::uint32_t a = 0; a < seeds.size(); ++a)
     for (std::uint32_t b = a + 1; b < seeds.size(); ++b)
       if (near(seeds[a].box, seeds[b].box, space)) groups.join(a, b);
-  for_rows_near(seeds, rows, space, [&](std::uint32_t s, std::size_t k) { near_mover.push_back({static_cast<std::uint32_t>(k), s}); });
-  std::ranges::sort(near_mover);
+  for_bodies_near(seeds, tissue, space, [&](std::uint32_t s, const BodyOfRow& body, const Box& box) {
+    near_mover.push_back({body.row, s, box, body.is_shell});
+  });
+  std::ranges::sort(near_mover, {}, [](const NearMover& n) { return std::pair(n.row, n.mover); });
   std::vector<Seed> beside;
+  std::vector<Pair> joined;
   for (std::size_t n = 0; reach.packs && n < near_mover.size(); ++n) {
-    const auto [k, s] = near_mover[n];
-    if (rows.body[k].is_shell) continue;
-    if (n > 0 && near_mover[n - 1].first == k)
-      joined.push_back({near_mover[n - 1].second, s});
+    const auto& [row, s, box, is_shell] = near_mover[n];
+    if (is_shell) continue;
+    if (n > 0 && near_mover[n - 1].row == row)
+      joined.push_back({near_mover[n - 1].mover, s});
     else
-      beside.push_back({tissue.cells.rows[rows.body[k].row].id, rows.box[k].inflated(reach.touch), s});
+      beside.push_back({tissue.cells.rows[row].id, box.inflated(reach.touch), s});
   }
   join_all(joined, groups, comm);
   const std::vector<Seed> all_beside = of_all_ranks(beside, comm);
-  for_rows_near(all_beside, rows, space, [&](std::uint32_t s, std::size_t k) {
-    near_mover.push_back({static_cast<std::uint32_t>(k), all_beside[s].group});
+  for_bodies_near(all_beside, tissue, space, [&](std::uint32_t s, const BodyOfRow& body, const Box& box) {
+    near_mover.push_back({body.row, all_beside[s].group, box, body.is_shell});
   });
 
   std::vector<Neighbourhood> out;
@@ -173,7 +171,7 @@ std::vector<Neighbourhood> find_neighbourhoods(const Tissue& tissue, const Space
     number[s] = number[groups.of(s)];
     out[number[s]].movers.push_back(seeds[s].id);
   }
-  for (const auto& [k, s] : near_mover) out[number[s]].rows.push_back(rows.body[k].row);
+  for (const NearMover& n : near_mover) out[number[n.mover]].rows.push_back(n.row);
   std::vector<std::int64_t> elsewhere;
   for (Neighbourhood& here : out) {
     std::ranges::sort(here.rows);
@@ -189,6 +187,8 @@ std::vector<Neighbourhood> find_neighbourhoods(const Tissue& tissue, const Space
   return out;
 }
 
+namespace {
+
 Neighbourhood whole_tissue(const Tissue& tissue, std::span<const CellId> movers, const Comm& comm) {
   Neighbourhood out;
   out.movers = ids_of_all_ranks({movers.begin(), movers.end()}, comm);
@@ -197,6 +197,17 @@ Neighbourhood whole_tissue(const Tissue& tissue, std::span<const CellId> movers,
   out.on_one_rank = comm.size() == 1;
   out.for_all_ranks = !out.on_one_rank;
   return out;
+}
+
+}  // namespace
+
+bool everybody_has_a_part(const Model& model) { return !model.apical_springs.empty(); }
+
+std::vector<Neighbourhood> neighbourhoods_of(const Tissue& tissue, const Model& model, const ContactSettings& contact,
+                                             std::span<const CellId> movers, double way, const Comm& comm) {
+  if (everybody_has_a_part(model)) return {whole_tissue(tissue, movers, comm)};
+  const bool packs = std::ranges::any_of(model.types, [](const CellType& type) { return !type.sphere.packing.empty(); });
+  return find_neighbourhoods(tissue, model.space, movers, {std::max(contact.range, contact.sphere_reach), way, packs}, comm);
 }
 
 }  // namespace morula

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/cell_id.h"
+#include "core/contact/contact_layer.h"
 #include "core/parallel/comm.h"
 #include "coupling/model.h"
 #include "coupling/tissue.h"
@@ -31,8 +32,13 @@ struct Reach {
 std::vector<Neighbourhood> find_neighbourhoods(const Tissue& tissue, const Space& space, std::span<const CellId> movers, const Reach& reach,
                                                const Comm& comm);
 
-/// The only neighbourhood where all cells have a part in it. Collective.
-Neighbourhood whole_tissue(const Tissue& tissue, std::span<const CellId> movers, const Comm& comm);
+/// Whether all cells of the tissue act on each: a spring of marked faces goes to the middle of all of them.
+[[nodiscard]] bool everybody_has_a_part(const Model& model);
+
+/// The neighbourhoods of all that acts on `movers` by the contacts of a model, or that they act on, as long as they go no further than `way`
+/// (Reach::way); the whole tissue where everybody has a part in it. Collective.
+std::vector<Neighbourhood> neighbourhoods_of(const Tissue& tissue, const Model& model, const ContactSettings& contact,
+                                             std::span<const CellId> movers, double way, const Comm& comm);
 
 double largest_edge(const Box& box);
 /// The box around a cell's body.

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 
 #include "core/contact/contact_layer.h"
-#include "core/parallel/pack.h"
+#include "coupling/gathered_parts.h"
 #include "coupling/mechanics/relax.h"
 #include "coupling/neighbourhoods.h"
 #include "coupling/overlap.h"
@@ -19,22 +18,6 @@ namespace {
 constexpr double kFirstWay = 0.25, kLastWay = 4.0;
 /// A new shell that is left this deep within a neighbour has no room [µm].
 constexpr double kNoRoom = 0.5;
-
-Reach reach_of(const Mechanics& mechanics, const Model& model) {
-  const ContactSettings& contact = mechanics.contacts().settings();
-  const auto packs = [](const CellType& type) { return !type.sphere.packing.empty(); };
-  return {std::max(contact.range, contact.sphere_reach), kFirstWay, std::ranges::any_of(model.types, packs)};
-}
-
-/// The cells of a neighbourhood as a tissue of their own.
-Tissue part_of(const Tissue& whole, std::vector<CellRecord> cells) {
-  Tissue out;
-  out.clock = whole.clock;
-  out.cells = whole.cells.without_rows();
-  out.obstacle_offset = whole.obstacle_offset;
-  put_together(out, std::move(cells));
-  return out;
-}
 
 /// What movers are allowed.
 struct Room {
@@ -80,119 +63,25 @@ Outcome settle_part(Tissue& part, std::span<const CellId> movers, const Room& ro
   return out;
 }
 
-/// A part of a message: the cells of a neighbourhood, by its number.
-struct Header {
-  std::uint64_t number, bytes;
-};
-
-void append(std::vector<std::byte>& mail, std::uint64_t number, std::span<const CellRecord> cells) {
-  std::vector<std::byte> bytes;
-  for (const CellRecord& cell : cells) append_bytes(cell, bytes);
-  const std::vector<std::byte> header = pack(std::vector<Header>{{number, bytes.size()}});
-  mail.insert(mail.end(), header.begin(), header.end());
-  mail.insert(mail.end(), bytes.begin(), bytes.end());
-}
-
-/// visit(number, cells) for the parts of a message.
-template <class Visit>
-void for_parts(std::span<const std::byte> mail, ShapeLibrary& shapes, Visit&& visit) {
-  while (!mail.empty()) {
-    const Header header = unpack<Header>(mail.first(sizeof(Header)))[0];
-    visit(header.number, read_records(mail.subspan(sizeof(Header), header.bytes), shapes));
-    mail = mail.subspan(sizeof(Header) + header.bytes);
-  }
-}
-
-/// All neighbourhoods of a tissue settle, each on one rank or on all. Nothing in the tissue changes.
-class Settlements {
- public:
-  Settlements(const Tissue& tissue, const Mechanics& mechanics, ShapeLibrary& shapes, const Comm& comm)
-      : tissue_(tissue), mechanics_(mechanics), shapes_(shapes), comm_(comm) {
-    for (const BodyOfRow& body : bodies_of(tissue.cells)) body_of_row_.push_back(body);
-  }
-
-  /// What has become of the movers of this rank. Collective.
-  Outcome settle(std::span<const Neighbourhood> all, const Room& room);
-
- private:
-  [[nodiscard]] std::vector<CellRecord> cells_of(const Neighbourhood& n) const {
-    std::vector<CellRecord> out;
-    for (const std::size_t row : n.rows) out.push_back(record_of(tissue_, body_of_row_[row]));
-    return out;
-  }
-  /// Cells of neighbourhoods that settle on this rank, from other ranks.
-  void collect(std::span<const Neighbourhood> all);
-  /// Movers of other ranks go back to them.
-  void return_cells(Outcome& out);
-
-  const Tissue& tissue_;
-  const Mechanics& mechanics_;
-  ShapeLibrary& shapes_;
-  const Comm& comm_;
-  std::vector<BodyOfRow> body_of_row_;
-  std::map<std::uint64_t, std::vector<CellRecord>> guests_;  ///< by neighbourhood
-  std::map<CellId, int> home_;                               ///< ranks of the guests
-};
-
-void Settlements::collect(std::span<const Neighbourhood> all) {
-  Mail mail;
-  for (std::size_t k = 0; k < all.size(); ++k)
-    if (!all[k].for_all_ranks && all[k].owner != comm_.rank() && !all[k].rows.empty()) append(mail[all[k].owner], k, cells_of(all[k]));
-  for (const auto& [rank, bytes] : comm_.exchange(std::move(mail)))
-    for_parts(bytes, shapes_, [&, from = rank](std::uint64_t number, std::vector<CellRecord> cells) {
-      for (const CellRecord& cell : cells) home_.emplace(cell.row.id, from);
-      std::ranges::move(cells, std::back_inserter(guests_[number]));
-    });
-}
-
-void Settlements::return_cells(Outcome& out) {
-  constexpr std::uint64_t kHasRoom = 0, kHasNoRoom = 1;
-  Mail mail;
-  std::vector<CellRecord> mine;
-  for (CellRecord& cell : out.cells) {
-    const auto home = home_.find(cell.row.id);
-    if (home == home_.end()) {
-      mine.push_back(std::move(cell));
-      continue;
-    }
-    const bool no_room = std::ranges::find(out.no_room, cell.row.id) != out.no_room.end();
-    append(mail[home->second], no_room ? kHasNoRoom : kHasRoom, std::span(&cell, 1));
-  }
-  out.cells = std::move(mine);
-  std::erase_if(out.no_room, [&](CellId id) { return home_.contains(id); });
-  for (const auto& [rank, bytes] : comm_.exchange(std::move(mail)))
-    for_parts(bytes, shapes_, [&](std::uint64_t kind, std::vector<CellRecord> cells) {
-      if (kind == kHasNoRoom) out.no_room.push_back(cells[0].row.id);
-      out.cells.push_back(std::move(cells[0]));
-    });
-}
-
-Outcome Settlements::settle(std::span<const Neighbourhood> all, const Room& room) {
+/// All neighbourhoods settle; gives what has become of the movers of this rank. Collective.
+Outcome settle_all(const GatheredParts& parts, const Room& room, const Comm& comm) {
   Outcome out;
-  const auto add = [&](Outcome of_one) {
-    std::ranges::move(of_one.cells, std::back_inserter(out.cells));
-    out.no_room.insert(out.no_room.end(), of_one.no_room.begin(), of_one.no_room.end());
+  std::vector<GatheredParts::Returned> cells;
+  parts.visit([&](std::span<const CellId> movers, Tissue& part, Mechanics& mechanics, const Comm& together) {
+    Outcome of_one = settle_part(part, movers, room, mechanics, together);
+    for (CellRecord& cell : of_one.cells) {
+      const bool no_room = std::ranges::binary_search(of_one.no_room, cell.row.id);
+      cells.push_back({std::move(cell), no_room});
+    }
     out.overlap_is_left = out.overlap_is_left || of_one.overlap_is_left;
     out.went_beyond = out.went_beyond || of_one.went_beyond;
-  };
-  const bool across = std::ranges::any_of(all, [](const Neighbourhood& n) { return !n.on_one_rank; });
-  if (across) collect(all);
-  Mechanics alone = mechanics_.for_another_tissue(Comm());
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    if (all[k].for_all_ranks) {
-      Mechanics together = mechanics_.for_another_tissue(comm_);
-      Tissue part = part_of(tissue_, cells_of(all[k]));
-      add(settle_part(part, all[k].movers, room, together, comm_));
-    } else if (all[k].owner == comm_.rank()) {
-      std::vector<CellRecord> cells = cells_of(all[k]);
-      std::ranges::move(guests_[k], std::back_inserter(cells));
-      Tissue part = part_of(tissue_, std::move(cells));
-      add(settle_part(part, all[k].movers, room, alone, Comm()));
-    }
+  });
+  for (GatheredParts::Returned& one : parts.send_home(std::move(cells))) {
+    if (one.marked) out.no_room.push_back(one.cell.row.id);
+    out.cells.push_back(std::move(one.cell));
   }
-  if (across) return_cells(out);
-  out.overlap_is_left = comm_.any(out.overlap_is_left);
-  out.went_beyond = comm_.any(out.went_beyond);
+  out.overlap_is_left = comm.any(out.overlap_is_left);
+  out.went_beyond = comm.any(out.went_beyond);
   return out;
 }
 
@@ -213,13 +102,10 @@ Settled settle_shells(Tissue& tissue, const Mechanics& mechanics, const Model& m
                       std::span<const CellId> fresh, bool may_go_back) {
   Outcome outcome;
   const double deepest = may_go_back ? kNoRoom : std::numeric_limits<double>::infinity();
-  for (Reach reach = reach_of(mechanics, model);; reach.way *= 2.0) {
-    // A spring of marked faces goes to the middle of all of them.
-    const bool all_have_a_part = !model.apical_springs.empty();
-    const std::vector<Neighbourhood> neighbourhoods =
-        all_have_a_part ? std::vector{whole_tissue(tissue, fresh, comm)} : find_neighbourhoods(tissue, model.space, fresh, reach, comm);
-    outcome = Settlements(tissue, mechanics, shapes, comm).settle(neighbourhoods, {reach.way, deepest});
-    if (!outcome.went_beyond || all_have_a_part || reach.way >= kLastWay) break;
+  for (double way = kFirstWay;; way *= 2.0) {
+    const std::vector<Neighbourhood> all = neighbourhoods_of(tissue, model, mechanics.contacts().settings(), fresh, way, comm);
+    outcome = settle_all(GatheredParts(tissue, all, mechanics, shapes, comm), {way, deepest}, comm);
+    if (!outcome.went_beyond || everybody_has_a_part(model) || way >= kLastWay) break;
   }
   std::ranges::sort(outcome.cells, {}, [](const CellRecord& cell) { return cell.row.id; });
   for (const BodyOfRow& body : bodies_of(tissue.cells)) {

@@ -45,7 +45,7 @@ LookedAt look_for_swaps(const Swaps& swaps, const Tissue& tissue, Mechanics& mec
 
 /// Which cells exchange their body now, by regions and triggers with their margins, thresholds and hold times. Decisions read only the state
 /// given here: rows, and their bodies. Among the willing the lowest ids come first; not more than max_shells shells,
-/// not more than one in a hundred cells (at least one) a step once the run has begun (fields_and_coupling.md, D). Collective.
+/// not more than one in a hundred cells (at least one) a step once the run has begun (fields_and_coupling.md, D). By row. Collective.
 std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, const SwapBodies& bodies, const Comm& comm);
 
 /// Whether any cell is to exchange its body as soon as its hold time is over, or when it is its turn. Collective.

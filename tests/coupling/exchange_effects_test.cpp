@@ -1,0 +1,104 @@
+/// What an exchange of bodies does to the neighbours is found in its neighbourhood alone, and is that of the whole tissue.
+#include "coupling/exchange_effects.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "cbm/packing.h"
+#include "coupling/simulation.h"
+#include "tests/coupling/tissue_fixture.h"
+
+namespace morula {
+namespace {
+
+using test::clusters_model;
+using test::make_tissue;
+
+constexpr double kRadius = 6.0;
+constexpr double kSpacing = 11.2;  // spheres overlap [µm]
+
+/// Face-centred places, the middle one first: 12 neighbours at kSpacing, the next ones at 1.41 of it.
+std::vector<Vec3d> lattice(int n) {
+  std::vector<Vec3d> out;
+  for (int x = -n; x <= n; ++x)
+    for (int y = -n; y <= n; ++y)
+      for (int z = -n; z <= n; ++z)
+        if ((x + y + z) % 2 == 0) out.push_back(Vec3d{1.0 * x, 1.0 * y, 1.0 * z} * (kSpacing / std::numbers::sqrt2));
+  std::ranges::stable_sort(out, {}, [](const Vec3d& p) { return norm2(p); });
+  return out;
+}
+
+std::map<CellId, Vec3d> forces_on_all(const Model& model, ShapeLibrary& shapes, const Tissue& tissue) {
+  Mechanics whole(model, contact_obstacles(model).value(), shapes, Comm(), 1);
+  const std::vector<Vec3d> force = whole.net_forces(tissue);
+  std::map<CellId, Vec3d> out;
+  for (const BodyOfRow& body : bodies_of(tissue.cells)) out[tissue.cells.rows[body.row].id] = force[body.place(tissue.shells.size())];
+  return out;
+}
+
+/// The middle cell and one far away from it become shells; every `shell_every`th other cell is one already.
+void expect_effects_of_the_whole_tissue(const Model& model, std::size_t shell_every) {
+  ShapeLibrary shapes;
+  const std::vector<Vec3d> places = lattice(4);
+  std::vector<BodyKind> bodies(places.size(), BodyKind::kSphere);
+  for (std::size_t i = 1; shell_every != 0 && i + 1 < places.size(); i += shell_every) bodies[i] = BodyKind::kShell;
+  Tissue tissue = make_tissue(model, shapes, places, bodies);
+  Mechanics mechanics(model, contact_obstacles(model).value(), shapes, Comm(), 1);
+  const std::vector<CellId> exchanged = {CellId::founder(1), CellId::founder(places.size())};
+  const std::vector<std::size_t> rows = rows_of(tissue.cells, exchanged);
+  std::vector<SwapOrder> orders;
+  for (const std::size_t row : rows) orders.push_back({row, BodyKind::kShell, {}});
+
+  const auto before = forces_on_all(model, shapes, tissue);
+  const std::vector<double> caps = mechanics.as_balls(tissue).caps;
+  const ExchangeWatch watch = watch_exchanges(model, tissue, orders, mechanics, shapes, Comm());
+  std::vector<Event> events;
+  std::vector<CellRecord> changed;
+  for (const BodyOfRow& body : bodies_of(tissue.cells, rows)) {
+    EXPECT_NEAR(watch.caps_of(tissue.cells.rows[body.row].id), caps[body.place(tissue.shells.size())], 1e-9);
+    CellRecord& cell = changed.emplace_back(record_of(tissue, body));
+    promote(cell, model.types[0], 0.0, 0.0, shapes, 1);
+    events.push_back({0.0, EventKind::kPromotion, cell.row.id, {}, {}, {}});
+    events.back().exchange = ExchangeEffect{.room = watch.caps_of(cell.row.id)};
+  }
+  replace_cells(tissue, rows, std::move(changed));
+  tell_exchanges(watch, tissue, mechanics, shapes, Comm(), events);
+  const auto after = forces_on_all(model, shapes, tissue);
+
+  // The middle cell loses twelve caps of height h = R - d/2: π h² (3R − h)/3 each.
+  const double h = kRadius - 0.5 * kSpacing;
+  EXPECT_NEAR(watch.caps_of(exchanged[0]), 12.0 * std::numbers::pi * h * h * (3.0 * kRadius - h) / 3.0, 1e-6);
+  for (const Event& event : events) {
+    const Vec3d center = places[event.cell == exchanged[0] ? 0 : places.size() - 1];
+    double most = 0.0, sum = 0.0;
+    std::uint32_t neighbours = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const CellId id = CellId::founder(i + 1);
+      if (std::ranges::binary_search(exchanged, id) || norm(places[i] - center) > 1.2 * 2.0 * kRadius) continue;
+      const double change = norm(after.at(id) - before.at(id));
+      most = std::max(most, change), sum += change, ++neighbours;
+    }
+    EXPECT_EQ(event.exchange->neighbours, neighbours);
+    EXPECT_NEAR(event.exchange->largest_force, most, 1e-9 * (1.0 + most));
+    EXPECT_NEAR(event.exchange->mean_force, sum / neighbours, 1e-9 * (1.0 + most));
+    EXPECT_GT(most, 1e-3);
+  }
+  EXPECT_EQ(tissue.watched.size(), events[0].exchange->neighbours + events[1].exchange->neighbours);
+}
+
+TEST(ExchangeEffects, AmongSpheresAreThoseOfTheWholeTissue) { expect_effects_of_the_whole_tissue(clusters_model(), 0); }
+
+TEST(ExchangeEffects, AmongShellsAndSpheresAreThoseOfTheWholeTissue) { expect_effects_of_the_whole_tissue(clusters_model(), 3); }
+
+TEST(ExchangeEffects, AmongSpheresThatResistTheirPackingAreThoseOfTheWholeTissue) {
+  Model model = clusters_model();
+  model.types[0].sphere.packing = cbm::PackingCurve::through(cbm::ideal_filled_cell(2.5, 0.45, 0.4).value()).value();
+  expect_effects_of_the_whole_tissue(model, 0);
+  expect_effects_of_the_whole_tissue(model, 4);
+}
+
+}  // namespace
+}  // namespace morula
