@@ -100,7 +100,9 @@ std::vector<GatheredParts::Returned> GatheredParts::send_home(std::vector<Return
       append(mail[home->second], one.marked ? 1 : 0, std::span(&one.cell, 1));
   }
   for (const auto& [rank, bytes] : comm_.exchange(std::move(mail)))
-    read_all(bytes, shapes_, [&](std::uint64_t marked, std::vector<CellRecord> of_one) { out.push_back({std::move(of_one[0]), marked != 0}); });
+    read_all(bytes, shapes_, [&](std::uint64_t marked, std::vector<CellRecord> of_one) {
+      out.push_back({std::move(of_one[0]), marked != 0});
+    });
   return out;
 }
 

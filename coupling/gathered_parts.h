@@ -16,7 +16,8 @@ namespace morula {
 class GatheredParts {
  public:
   /// `mechanics`: of the whole tissue; all given things stay until the parts have been visited. Collective.
-  GatheredParts(const Tissue& tissue, std::span<const Neighbourhood> all, const Mechanics& mechanics, ShapeLibrary& shapes, const Comm& comm);
+  GatheredParts(const Tissue& tissue, std::span<const Neighbourhood> all, const Mechanics& mechanics, ShapeLibrary& shapes,
+                const Comm& comm);
 
   /// What is done with a part: its movers, the part or what this rank has of it, mechanics for it, and the ranks that look at it together.
   using Visit = std::function<void(std::span<const CellId>, Tissue&, Mechanics&, const Comm&)>;
@@ -40,8 +41,8 @@ class GatheredParts {
   const Mechanics& mechanics_;
   ShapeLibrary& shapes_;
   const Comm& comm_;
-  std::vector<BodyOfRow> bodies_;  ///< of the rows in any neighbourhood, increasing
-  bool across_ = false;  ///< some part has cells of several ranks
+  std::vector<BodyOfRow> bodies_;                            ///< of the rows in any neighbourhood, increasing
+  bool across_ = false;                                      ///< some part has cells of several ranks
   std::map<std::uint64_t, std::vector<CellRecord>> guests_;  ///< of other ranks, by part
   std::map<CellId, int> home_;                               ///< ranks of the guests
 };

@@ -48,9 +48,9 @@ Error refused(const Model& model, const Clock& clock, const StepFault& fault, do
 double next_step(const StepControl& control, double range, const StepReport& done, double dt, double wanted) {
   if (control.integrator == Integrator::kExplicitEuler) return control.max_step;
   const double allowed = control.max_displacement * range;
-  double factor = std::min(kGrowthOfStep, 0.9 * allowed / std::max(done.displacement, 1e-12));
+  double factor = std::min(kGrowthOfStep, 0.9 * allowed / std::max(done.way, 1e-12));
   // At rest on a kink of the contact energy every search is short, whatever the step: a smaller one would only stop the clock.
-  const bool moving = done.displacement > kAtRest * allowed;
+  const bool moving = done.way > kAtRest * allowed;
   if (done.halvings > 3 && moving) factor = std::min(factor, 0.5);
   return std::max(std::min(control.max_step, dt * std::max(factor, 0.2)), std::min(wanted, control.max_step));
 }

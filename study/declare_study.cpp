@@ -104,7 +104,8 @@ void declare_numerics(Section& s, draft::Numerics& n) {
               .source = "measured"},
              n.later_tolerance);
   s.quantity({.name = "max_displacement",
-              .doc = "Allowed displacement in one step, in units of the contact range.",
+              .doc = "Allowed displacement of a cell in one step, in units of the contact range. Single points of a shell may go three "
+                     "times as far, up to the range.",
               .fallback = "0.3",
               .low = 0.0,
               .high = 2.0,

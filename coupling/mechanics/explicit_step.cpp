@@ -30,6 +30,7 @@ Result<StepReport, StepFault> explicit_step(Workspace& work, Tissue& tissue, con
     points.for_all([&](std::uint32_t i) { x[i] += Vec3d{v[i].x, v[i].y, v[i].z} * task.dt; });
   });
   report.displacement = points.largest_of([&](std::uint32_t i) { return work.scene.position()[i] - start[i]; });
+  report.way = report.displacement;
   if (!std::isfinite(report.displacement) || report.displacement > work.setting.model.contact.range)
     return undo({"points moved too far in one explicit step", {}, true});
   const Evaluation end = evaluate(work, tissue, {});

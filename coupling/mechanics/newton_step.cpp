@@ -60,7 +60,12 @@ struct Iteration {
 class NewtonStep {
  public:
   NewtonStep(Workspace& work, Tissue& tissue, const StepTask& task)
-      : work_(work), tissue_(tissue), task_(task), control_(work.setting.model.step), range_(work.setting.model.contact.range) {
+      : work_(work),
+        tissue_(tissue),
+        task_(task),
+        control_(work.setting.model.step),
+        range_(work.setting.model.contact.range),
+        allowed_(allowed_ways(work.setting.model)) {
     // Without ghosts, spheres and nuclei the start is what the tissue holds.
     if (work.scene.point_count() != tissue.shells.node_count()) copy_ = work.scene.position();
   }
@@ -71,7 +76,6 @@ class NewtonStep {
   [[nodiscard]] std::span<const Vec3d> start() const {
     return copy_.empty() ? std::span<const Vec3d>(tissue_.shells.position) : std::span<const Vec3d>(copy_);
   }
-  [[nodiscard]] double allowed() const { return control_.max_displacement * range_; }
   [[nodiscard]] StepFault undo(StepFault fault) { return undo_step(work_, start(), std::move(fault)); }
   /// Energy and residual at the present positions; the room of the old residual is used again.
   Residual measure(std::optional<Residual>&& old);
@@ -100,6 +104,7 @@ class NewtonStep {
   const StepTask& task_;
   const StepControl& control_;
   double range_;
+  AllowedWays allowed_;
   std::vector<Vec3d> copy_;      ///< of the positions of the start, where the tissue has not all of them
   std::optional<Residual> now_;  ///< at the accepted positions; none while a search is under way, or after it failed
   double phi_ = 0.0;             ///< Φ at the accepted positions
@@ -202,7 +207,7 @@ Result<Iteration, StepFault> NewtonStep::iterate(int number) {
   for (int holds = 0;; ++holds) {
     MORULA_TRY_ASSIGN(direction, solve(task_.dt, number == 0 ? control_.first_tolerance : control_.later_tolerance));
     out.longest = limit(direction, range_);
-    if (number + holds == 0 && out.longest > 4.0 * allowed() && task_.dt > kShortestCut)
+    if (number + holds == 0 && out.longest > 4.0 * allowed_.of_body && task_.dt > kShortestCut)
       return StepFault{"points would move too far in one step", {}, true};
     out.converged = 0.5 * work_.points().dot(now_->force, direction) <= 1e-12 * (1.0 + std::abs(phi_));
     const double rise = out.converged ? 1e-9 * (1.0 + std::abs(phi_)) : 0.0;
@@ -274,8 +279,10 @@ Result<StepReport, StepFault> NewtonStep::run(Evaluation at_start) {
     if (!done->moved || is_done(*done)) break;
     cut = done->whole && done->longest > range_;
   }
-  report_.displacement = points.largest_of([&](std::uint32_t i) { return work_.scene.position()[i] - start()[i]; });
-  if ((cut || report_.displacement > 1.5 * allowed()) && task_.dt > kShortestCut)
+  const auto way = [&](std::uint32_t i) { return work_.scene.position()[i] - start()[i]; };
+  report_.displacement = points.largest_of(way);
+  report_.way = std::max(points.largest_way_of_body(way), report_.displacement * allowed_.of_body / allowed_.of_point);
+  if ((cut || report_.way > kFurtherThanAllowed * allowed_.of_body) && task_.dt > kShortestCut)
     return undo({"points moved too far in one step", {}, true});
   finish_step(work_, tissue_, task_, now_->energy, report_);
   return report_;

@@ -16,8 +16,8 @@ void give_back_room(std::vector<T>& vector) {
   std::vector<T>().swap(vector);
 }
 
-/// How far a body may go in one step before the step is refused: ghosts must reach that far.
-double step_margin(const Model& model) { return 2.0 * model.step.max_displacement * model.contact.range; }
+/// How far a point may go in one step before the step is refused: ghosts must reach that far.
+double step_margin(const Model& model) { return kFurtherThanAllowed * allowed_ways(model).of_point; }
 
 bool has_regional_adhesion(const Model& model) {
   return std::any_of(model.pairs.begin(), model.pairs.end(), [](const ContactPair& pair) { return !pair.regions.empty(); });
@@ -111,6 +111,12 @@ void build_scene(Workspace& work, const Tissue& tissue, const Settling* settling
 }
 
 }  // namespace
+
+AllowedWays allowed_ways(const Model& model) {
+  constexpr double kFarPoint = 3.0;
+  const double of_body = model.step.max_displacement * model.contact.range;
+  return {of_body, std::max(of_body, std::min(kFarPoint * of_body, model.contact.range))};
+}
 
 void NodeGeometry::update(Scene& scene, int threads, StageTimer& timer) {
   if (at_ == scene.positions_number()) return;

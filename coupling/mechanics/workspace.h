@@ -67,6 +67,17 @@ class NodeGeometry {
   std::optional<std::uint64_t> at_;  ///< Scene::positions_number()
 };
 
+/// How far things are to go in one step [µm].
+struct AllowedWays {
+  double of_body;  ///< as OwnedPoints::largest_way_of_body() finds it
+  /// Where a surface parts from a neighbour or falls onto it, a few of its points go fast for a short way, in any tissue at any time. Where they
+  /// end is given by the energy, and not by how many steps they took: they may go further, though no further than contacts reach (decision 0052).
+  double of_point;
+};
+AllowedWays allowed_ways(const Model& model);
+/// A step that went so many times further is refused.
+inline constexpr double kFurtherThanAllowed = 1.5;
+
 /// Everything that mechanics works with. It can be rebuilt from the tissue at any time, and rebuilding it never changes a result.
 struct Workspace {
   struct Setting {

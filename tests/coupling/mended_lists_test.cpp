@@ -140,7 +140,7 @@ TEST(MendedLists, GiveTheBitsOfNewOnesInALivingTissue) {
   EXPECT_GE(both.events[EventKind::kPromotion], 10);
   EXPECT_GE(both.events[EventKind::kDemotion], 10);
   EXPECT_GE(both.all(), 200);
-  EXPECT_GT(2 * both.went_on, both.after_events);  // they were mended, and not made anew
+  EXPECT_GT(3 * both.went_on, both.after_events);  // they were mended, and not made anew; what moves fast uses up its lists
 }
 
 TEST(MendedLists, GiveTheBitsOfNewOnesInAPeriodicBox) {
