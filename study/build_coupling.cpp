@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "coupling/regions/outside_law.h"
 #include "coupling/regions/region.h"
 #include "study/own_section.h"
 #include "study/quantity_reader.h"
@@ -79,18 +80,31 @@ void check_thresholds(BuildContext& c, const UnitSystem& units, const draft::Tri
   }
 }
 
+/// Demotion by the short form `outside_law: 1.0`: spheres of default types rest in pairs at 0.81 of the range, and would not come back below that.
+constexpr double kBackInside = 0.9;
+
 void build_trigger(BuildContext& c, const UnitSystem& units, const draft::Trigger& t, const Place& place) {
   Trigger trigger;
   trigger.hold = t.hold.value;
+  if (int{t.type.given} + int{t.outside_law.given} + int{t.promote.given || t.demote.given} > 1) {
+    c.diagnostics.error(111, place, "a trigger has either `type`, `outside_law`, or `promote` and `demote`", "make two triggers");
+    return;
+  }
+  if (t.outside_law.given) {
+    trigger.value = outside_law_value();
+    trigger.promote_above = true;
+    trigger.promote = t.outside_law.value;
+    trigger.demote = kBackInside * t.outside_law.value;
+    if (t.outside_law.known()) c.study.model.swaps.triggers.push_back(trigger);
+    return;
+  }
   if (t.type.given) {
-    if (t.promote.given || t.demote.given)
-      c.diagnostics.error(111, place, "a trigger has either `type`, or `promote` and `demote`", "make two triggers");
     trigger.type = std::max(0, t.type.known() ? find_type(c, t.type.value, t.type.place) : 0);
     c.study.model.swaps.triggers.push_back(trigger);
     return;
   }
   if (!t.promote.given || !t.demote.given) {
-    c.diagnostics.error(111, place, "a trigger needs `promote` and `demote`, or `type`",
+    c.diagnostics.error(111, place, "a trigger needs `promote` and `demote`, `outside_law`, or `type`",
                         "for example `{promote: pressure > 1 kPa, demote: pressure < 600 Pa}`");
     return;
   }

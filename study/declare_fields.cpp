@@ -91,6 +91,15 @@ void declare_trigger(Section& s, draft::Trigger& t) {
   s.comparison(
       {.name = "demote", .doc = "Make it a sphere again when it passes a value on the other side.", .example = "pressure < 600 Pa"},
       t.demote);
+  s.quantity(
+      {.name = "outside_law",
+       .doc = "Instead of promote and demote: a sphere that is this far beyond the range of its laws becomes a shell, and a sphere again "
+              "below 0.9 of it. 1: at the end of the range.",
+       .quantity = Q::kNumber,
+       .low = 0.0,
+       .low_open = true,
+       .example = "1.0"},
+      t.outside_law);
   s.text({.name = "type", .doc = "Instead of promote and demote: all cells of this type are shells.", .example = "trophectoderm"}, t.type);
   s.quantity({.name = "hold",
               .doc = "No second exchange of body within this time.",

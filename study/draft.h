@@ -246,7 +246,7 @@ struct Region {
 
 struct Trigger {
   Given<std::string> promote, demote, type;
-  Given<double> hold;
+  Given<double> outside_law, hold;
 };
 
 struct Coupling {

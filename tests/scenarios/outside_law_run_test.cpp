@@ -95,7 +95,7 @@ TEST(OutsideLaw, TriggerLeavesFewerSpheresOutsideInAPressedSpheroid) {
     return study_of("{end: 1 h, output: 10 min}", ", dcm: {nodes: 42}", "count: 30, fill: sphere, radius: 20 um", plates + coupling);
   };
   run_in(folder, text(""), "without");
-  run_in(folder, text("coupling: {triggers: [{promote: outside_law > 1, demote: outside_law < 0.9, hold: 5 min}]}\n"), "with");
+  run_in(folder, text("coupling: {triggers: [{outside_law: 1.0, hold: 5 min}]}\n"), "with");
   const double without = last_of(folder.path() / "without", "spheres_outside_law"),
                with = last_of(folder.path() / "with", "spheres_outside_law");
   EXPECT_GT(without, 0.3);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupling/regions/outside_law.h"
 #include "dcm/builtin.h"
 #include "tests/study/study_fixture.h"
 
@@ -214,6 +215,15 @@ TEST(StudyReader, TriggersOnFieldsAndTypesAreRead) {
   EXPECT_DOUBLE_EQ(oxygen.model.swaps.triggers[0].promote, 0.05);
   const Study type = good(changed("promote: pressure > 1 kPa, demote: pressure < 600 Pa", "type: hepatocyte"));
   EXPECT_EQ(type.model.swaps.triggers[0].type, 0);
+}
+
+TEST(StudyReader, ATriggerOnTheRangeOfTheLawsHasAShortForm) {
+  const Study s = good(changed("promote: pressure > 1 kPa, demote: pressure < 600 Pa", "outside_law: 1.2"));
+  EXPECT_EQ(s.model.swaps.triggers[0].value, outside_law_value());
+  EXPECT_TRUE(s.model.swaps.triggers[0].promote_above);
+  EXPECT_DOUBLE_EQ(s.model.swaps.triggers[0].promote, 1.2);
+  EXPECT_DOUBLE_EQ(s.model.swaps.triggers[0].demote, 0.9 * 1.2);
+  EXPECT_EQ(s.model.swaps.triggers[0].type, -1);
 }
 
 TEST(StudyReader, BoundariesByAxisAndFaceOverrideAll) {
