@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string_view>
 #include <type_traits>
@@ -42,6 +43,7 @@ struct Wish {
   BodyKind body;
   double hold;
   EventReason reason;
+  double beyond = 0.0;  ///< Urgency::beyond
 };
 
 /// What body a cell is to have: the first region it is in decides, then the triggers, then what it was at the start.
@@ -54,7 +56,8 @@ Wish wish(const Model& model, const CellView& cell, const Vec3d& center, const V
     const EventReason reason{Cause::kRegion, false, number++};
     if (!region.exists_at(cell.time())) continue;
     const double margin = row.body == region.body ? region.margin : 0.0;
-    if (distance_outside(region, center, tissue_center) <= margin) return {region.body, model.swaps.hold, reason};
+    const double outside = distance_outside(region, center, tissue_center);
+    if (outside <= margin) return {region.body, model.swaps.hold, reason, -outside};
   }
   double hold = model.swaps.hold;
   number = 0;
@@ -68,9 +71,16 @@ Wish wish(const Model& model, const CellView& cell, const Vec3d& center, const V
     const double value = trigger.value->of(trigger, cell);
     const double threshold = shell ? trigger.demote : trigger.promote;
     const bool wants = trigger.promote_above ? value > threshold : value < threshold;
-    if (wants) return {BodyKind::kShell, trigger.hold, reason};
+    if (wants) return {BodyKind::kShell, trigger.hold, reason, std::abs(value - threshold)};
   }
   return {row.own_body, hold, {Cause::kOutside}};
+}
+
+/// Where the rule behind a wish stands in the study: regions, triggers, none.
+std::uint64_t place_of_rule(const Swaps& swaps, const EventReason& reason) {
+  using Cause = EventReason::Cause;
+  if (reason.cause == Cause::kRegion) return reason.number;
+  return swaps.regions.size() + (reason.cause == Cause::kTrigger ? reason.number : swaps.triggers.size());
 }
 
 }  // namespace
@@ -110,15 +120,20 @@ std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, co
     if (row.phase == Phase::kDying) continue;
     const Wish wanted = wish(model, bodies.view(model, tissue, body), center[i], tissue_center);
     if (wanted.body == row.body || tissue.clock.time - tissue.cells.optional.last_swap_time[i] < wanted.hold) continue;
-    orders.push_back({i, wanted.body, wanted.reason});
+    orders.push_back({i, wanted.body, wanted.reason, {place_of_rule(model.swaps, wanted.reason), wanted.beyond, row.id}});
   }
   shells = comm.sum(shells);
   const std::int64_t cells = comm.sum(static_cast<std::int64_t>(tissue.cells.size()));
 
-  // The lowest ids first, under the cap of shells and the number of swaps a step.
-  std::vector<CellId> up, down;
-  for (const SwapOrder& order : orders) (order.to == BodyKind::kShell ? up : down).push_back(tissue.cells.rows[order.row].id);
-  const auto all_up = ids_of_all_ranks(up, comm), all_down = ids_of_all_ranks(down, comm);
+  // The most urgent first, under the cap of shells and the number of swaps a step.
+  std::vector<Urgency> up, down;
+  for (const SwapOrder& order : orders) (order.to == BodyKind::kShell ? up : down).push_back(order.urgency);
+  const auto of_all_ranks = [&](const std::vector<Urgency>& mine) {
+    std::vector<Urgency> all = items_of_all_ranks(mine, comm);
+    std::ranges::sort(all, std::less<>{});
+    return all;
+  };
+  const std::vector<Urgency> all_up = of_all_ranks(up), all_down = of_all_ranks(down);
   const auto most =
       tissue.clock.steps == 0 ? static_cast<std::size_t>(cells) : static_cast<std::size_t>(std::max<std::int64_t>(1, cells / 100));
   const std::size_t downs = std::min(all_down.size(), most);
@@ -127,10 +142,9 @@ std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, co
   const std::size_t ups =
       std::min({all_up.size(), most - std::min(most, downs), static_cast<std::size_t>(std::max<std::int64_t>(0, free_places))});
   std::erase_if(orders, [&](const SwapOrder& order) {
-    const CellId id = tissue.cells.rows[order.row].id;
     const auto& all = order.to == BodyKind::kShell ? all_up : all_down;
     const std::size_t allowed = order.to == BodyKind::kShell ? ups : downs;
-    return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), id) - all.begin()) >= allowed;
+    return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), order.urgency) - all.begin()) >= allowed;
   });
   return orders;
 }

@@ -12,11 +12,25 @@
 
 namespace morula {
 
+/// Who goes first where not all can exchange their bodies: cells of the rule that stands first in the study (regions before triggers; none comes last),
+/// among them those furthest beyond its threshold, among these the lowest ids.
+struct Urgency {
+  std::uint64_t rule = 0;
+  double beyond = 0.0;  ///< how deep within a region [µm], how far beyond a trigger's threshold [its unit]
+  CellId id;
+
+  friend bool operator<(const Urgency& a, const Urgency& b) {
+    if (a.rule != b.rule) return a.rule < b.rule;
+    return a.beyond != b.beyond ? a.beyond > b.beyond : a.id < b.id;
+  }
+};
+
 /// A cell that is to exchange its body.
 struct SwapOrder {
   std::size_t row = 0;
   BodyKind to = BodyKind::kShell;
   EventReason reason;
+  Urgency urgency{};
 };
 
 /// What regions and triggers see of the bodies of a rank.
@@ -44,7 +58,7 @@ struct LookedAt {
 LookedAt look_for_swaps(const Swaps& swaps, const Tissue& tissue, Mechanics& mechanics);
 
 /// Which cells exchange their body now, by regions and triggers with their margins, thresholds and hold times. Decisions read only the state
-/// given here: rows, and their bodies. Among the willing the lowest ids come first; not more than max_shells shells,
+/// given here: rows, and their bodies. Among the willing the most urgent come first; not more than max_shells shells,
 /// not more than one in a hundred cells (at least one) a step once the run has begun (fields_and_coupling.md, D). By row. Collective.
 std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, const SwapBodies& bodies, const Comm& comm);
 

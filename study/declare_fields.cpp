@@ -181,7 +181,10 @@ void declare_field(Section& s, draft::Field& f) {
 
 void declare_coupling(Section& s, draft::Coupling& c) {
   s.whole({.name = "max_shells",
-           .doc = "No sphere becomes a shell while there are as many shells as this; daughters of shells are shells all the same.",
+           .doc = "No sphere becomes a shell while there are as many shells as this; daughters of shells are shells all the same. First "
+                  "come cells of the "
+                  "region or trigger that stands first (regions before triggers), among them those deepest within it or furthest beyond "
+                  "its threshold.",
            .fallback = "unlimited",
            .low = 0,
            .high = 2.0e8,

@@ -53,6 +53,40 @@ std::shared_ptr<const TriggerValue> outside_law_value() {
   return value;
 }
 
-std::vector<std::shared_ptr<const TriggerValue>> builtin_trigger_values() { return {pressure_value(), field_value(), outside_law_value()}; }
+namespace {
+
+std::shared_ptr<const TriggerValue> age_value() {
+  static const auto value = std::make_shared<const TriggerValue>(
+      TriggerValue{.info = {.name = "age",
+                            .title = "Time since the birth of a cell; founders of a cycle are as old as their place in it says",
+                            .equation = "t − t_birth",
+                            .source = "choice of this project",
+                            .parameters = thresholds("time", "h")},
+                   .quantity = Quantity::kTime,
+                   .example = "age > 2 h",
+                   .awaited = "cells that grow old enough for a trigger",
+                   .of = [](const Trigger&, const CellView& cell) { return cell.age(); }});
+  return value;
+}
+
+std::shared_ptr<const TriggerValue> contact_share_value() {
+  static const auto value = std::make_shared<const TriggerValue>(TriggerValue{
+      .info = {.name = "contact_share",
+               .title = "Part of a cell's surface in contact with cells and obstacles: whether it lies within the tissue or at its border",
+               .equation = "A_contact/A",
+               .source = "choice of this project",
+               .parameters = thresholds("number", "1")},
+      .quantity = Quantity::kNumber,
+      .example = "contact_share < 0.5",
+      .looks_at_body = true,
+      .of = [](const Trigger&, const CellView& cell) { return cell.contact_area / cell.area; }});
+  return value;
+}
+
+}  // namespace
+
+std::vector<std::shared_ptr<const TriggerValue>> builtin_trigger_values() {
+  return {pressure_value(), field_value(), outside_law_value(), age_value(), contact_share_value()};
+}
 
 }  // namespace morula

@@ -277,6 +277,45 @@ TEST(ChooseSwaps, LeavesACellOutsideAllRegionsTheBodyItWasPlacedWith) {
   EXPECT_EQ(orders[0].to, kShell);
 }
 
+TEST(ChooseSwaps, TakesTheMostUrgentWhereThereArePlacesForFew) {
+  Model model = clusters_model();
+  model.swaps.regions = {ball_of_shells(5.0, 0.0, kNever)};
+  Trigger pressed;
+  pressed.value = pressure_value();
+  pressed.promote = 1.0, pressed.demote = 0.5, pressed.promote_above = true, pressed.hold = 0.0;
+  model.swaps.triggers = {pressed};
+  model.swaps.hold = 0.0;
+  model.swaps.max_shells = 4;
+  ShapeLibrary shapes;
+  // Two in the region, at 4 and 1 um from its middle; four outside, pressed with 2, 3, 0.9 and 3 kPa.
+  Tissue tissue =
+      make_tissue(model, shapes, {{4, 0, 0}, {0, 1, 0}, {40, 0, 0}, {80, 0, 0}, {0, 40, 0}, {0, 80, 0}}, std::vector<BodyKind>(6, kSphere));
+  const double pressure[] = {0.0, 0.0, 2.0, 3.0, 0.9, 3.0};
+  for (CellRow& row : tissue.cells.rows)
+    for (std::size_t i = 0; i < 6; ++i)
+      if (row.id == CellId::founder(i + 1)) row.pressure = pressure[i];
+  std::vector<Vec3d> by_row;
+  const auto places = centers_of(tissue);
+  for (const CellRow& row : tissue.cells.rows) by_row.push_back(places.at(row.id));
+  const auto chosen = [&](std::uint64_t most) {
+    model.swaps.max_shells = most;
+    std::vector<CellId> out;
+    for (const SwapOrder& order : choose_swaps(model, tissue, {by_row}, Comm())) out.push_back(tissue.cells.rows[order.row].id);
+    std::ranges::sort(out);
+    return out;
+  };
+  const auto cells = [](std::initializer_list<std::uint64_t> numbers) {
+    std::vector<CellId> out;
+    for (const std::uint64_t n : numbers) out.push_back(CellId::founder(n));
+    return out;
+  };
+  EXPECT_EQ(chosen(1), cells({2}));  // the region stands first, and the second cell is deeper within it
+  EXPECT_EQ(chosen(2), cells({1, 2}));
+  EXPECT_EQ(chosen(3), cells({1, 2, 4}));  // furthest beyond the threshold; of two alike the lower id
+  EXPECT_EQ(chosen(4), cells({1, 2, 4, 6}));
+  EXPECT_EQ(chosen(100), cells({1, 2, 3, 4, 6}));
+}
+
 TEST(Swap, ThereAndBackKeepsVolumeAndCentroid) {
   const Model model = clusters_model();
   ShapeLibrary shapes;

@@ -217,6 +217,16 @@ TEST(StudyReader, TriggersOnFieldsAndTypesAreRead) {
   EXPECT_EQ(type.model.swaps.triggers[0].type, 0);
 }
 
+TEST(StudyReader, TriggersOnAgeAndContactAreRead) {
+  const Study age = good(changed("promote: pressure > 1 kPa, demote: pressure < 600 Pa", "promote: age > 2 h, demote: age < 1 h"));
+  EXPECT_EQ(age.model.swaps.triggers[0].value->info.name, std::string("age"));
+  EXPECT_DOUBLE_EQ(age.model.swaps.triggers[0].promote, 7200.0);
+  const Study border =
+      good(changed("promote: pressure > 1 kPa, demote: pressure < 600 Pa", "promote: contact_share < 0.4, demote: contact_share > 0.7"));
+  EXPECT_EQ(border.model.swaps.triggers[0].value->info.name, std::string("contact_share"));
+  EXPECT_FALSE(border.model.swaps.triggers[0].promote_above);
+}
+
 TEST(StudyReader, ATriggerOnTheRangeOfTheLawsHasAShortForm) {
   const Study s = good(changed("promote: pressure > 1 kPa, demote: pressure < 600 Pa", "outside_law: 1.2"));
   EXPECT_EQ(s.model.swaps.triggers[0].value, outside_law_value());

@@ -38,7 +38,7 @@ TEST(Calibrate, FindsALawOfShellsAndWritesAReport) {
   EXPECT_THAT(again.err, testing::Not(HasSubstr("equal_pair_1: Two cells")));  // nothing is run again
 }
 
-/// Bytes of what one command finds are the same on two ranks, on two threads, and where it was killed in its second experiment and called again with two.
+/// Bytes of what one command finds are the same on two ranks, on two threads, and where it was killed in its second experiment and called again with two threads.
 TEST(Calibrate, WritesTheSameFileOnRanksAndThreadsAndAfterASigkill) {
   const TestFolder folder;
   write_study(folder.path() / "study.yaml");
