@@ -57,13 +57,13 @@ std::shared_ptr<const RegionShape> rod() {
 
 std::shared_ptr<const TriggerValue> age() {
   return std::make_shared<const TriggerValue>(
-      TriggerValue{.info = {.name = "age",
+      TriggerValue{.info = {.name = "time_alive",
                             .title = "Age of a cell",
                             .equation = "t − t_birth",
                             .source = "a test",
                             .parameters = {given_by_study("promote", "time", "s", "Age of shells.")}},
                    .quantity = Quantity::kTime,
-                   .example = "age > 1 h",
+                   .example = "time_alive > 1 h",
                    .awaited = "cells that age",
                    .of = [](const Trigger&, const CellView& cell) { return cell.age(); }});
 }
@@ -135,14 +135,15 @@ TEST_F(OwnForces, ShapesOfRegionsDecideWhoIsAShell) {
 }
 
 TEST_F(OwnForces, ValuesOfTriggersDecideWhoIsAShell) {
-  run_whole(one_cell("coupling: {triggers: [{promote: age > 90 s, demote: age < 30 s, hold: 10 s}]}\n", "sphere"), "age");
+  run_whole(one_cell("coupling: {triggers: [{promote: time_alive > 90 s, demote: time_alive < 30 s, hold: 10 s}]}\n", "sphere"), "age");
   const auto shells = column("age", "shell_count");
   EXPECT_EQ(shells[1], 0.0);
   EXPECT_EQ(shells.back(), 2.0);
-  EXPECT_THAT(file("age", "events.jsonl"), HasSubstr("age"));
+  EXPECT_THAT(file("age", "events.jsonl"), HasSubstr("time_alive"));
   EXPECT_THAT(file("age", "methods.md"), HasSubstr("Age of a cell"));
-  EXPECT_THAT(explain("triggers.promote"), HasSubstr("`pressure`, `outside_law`, `age` or a field"));
-  const auto wrong = read(one_cell("coupling: {triggers: [{promote: age > 1 kPa, demote: age < 30 s}]}\n", "sphere"), options());
+  EXPECT_THAT(explain("triggers.promote"), HasSubstr("`pressure`, `outside_law`, `age`, `contact_share`, `time_alive` or a field"));
+  const auto wrong =
+      read(one_cell("coupling: {triggers: [{promote: time_alive > 1 kPa, demote: time_alive < 30 s}]}\n", "sphere"), options());
   ASSERT_FALSE(wrong.ok());
   EXPECT_THAT(wrong.error().text(), HasSubstr("[E203]"));
 }

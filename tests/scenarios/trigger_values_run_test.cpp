@@ -13,7 +13,8 @@ std::string study_of(int count, const std::string& trigger) {
   return "schema: 1\nstudy: triggers\nseed: 1\ntime: {end: 40 min}\ndomain: {size: [200 um, 200 um, 200 um]}\n"
          "cell_types:\n  cell: {radius: 6 um, cycle: {model: none}, dcm: {nodes: 42}}\n"
          "initial:\n  - {type: cell, count: " +
-         std::to_string(count) + ", fill: sphere, radius: 27 um}\ncoupling: {triggers: [{" + trigger + ", hold: 1 min}]}\noutput: {report: false}\n";
+         std::to_string(count) + ", fill: sphere, radius: 27 um}\ncoupling: {triggers: [{" + trigger +
+         ", hold: 1 min}]}\noutput: {report: false}\n";
 }
 
 /// The tissue at some time [s].
@@ -39,8 +40,7 @@ TEST(TriggerValues, CellsAtTheBorderOfATissueBecomeShells) {
   Vec3d middle{};
   for (const Vec3d& c : center) middle += c * (1.0 / static_cast<double>(center.size()));
   double of_shells = 0.0, of_spheres = 0.0;
-  for (const BodyOfRow& body : bodies_of(tissue.cells))
-    (body.is_shell ? of_shells : of_spheres) += norm(center[body.row] - middle);
+  for (const BodyOfRow& body : bodies_of(tissue.cells)) (body.is_shell ? of_shells : of_spheres) += norm(center[body.row] - middle);
   ASSERT_GT(tissue.shells.size(), 5u);  // one in a step
   ASSERT_GT(tissue.spheres.size(), 3u);
   EXPECT_GT(of_shells / static_cast<double>(tissue.shells.size()), 1.25 * of_spheres / static_cast<double>(tissue.spheres.size()));
