@@ -32,6 +32,7 @@ struct Parsed {
   PlotOptions plot;
   ExportOptions export_results;
   VerifyOptions verify;
+  CompareOptions compare;
   CalibrateOptions calibrate;
   DoctorOptions doctor;
 };
@@ -150,6 +151,27 @@ void add_result_verbs(CLI::App& program, Parsed& p) {
       ->check(CLI::IsMember({"svg", "png"}))
       ->type_name("svg,png");
 
+  verb = add_verb(program, "compare",
+                  "Runs of one study with other bodies, laws or seeds: what differs, by more than seeds spread, and a page of it",
+                  "morula compare shells=runs/s-0001,runs/s-0002 hybrid=runs/s-0003,runs/s-0004 --within 3%",
+                  "morula compare runs/spheroid-0001 runs/spheroid-0002 --only spheroid_radius,mean_pressure");
+  verb->add_option("RUN", p.compare.runs,
+                   "Run folders, or NAME=RUN,RUN: a group of runs that differ in their seeds alone. Single runs of one study with several "
+                   "seeds are a group, too. "
+                   "The first group is what the others are compared with")
+      ->required()
+      ->type_name("RUN|NAME=RUN,RUN");
+  verb->add_option("--within", p.compare.within, "Exit code 5 where a difference is not within this part of the first group's value")
+      ->type_name("PART");
+  verb->add_option("--only", p.compare.only, "Only these columns of series.csv (default: those of the tissue, not of bodies and solver)")
+      ->delimiter(',')
+      ->type_name("NAME");
+  verb->add_flag("--every", p.compare.every,
+                 "Judge where the means are farthest apart, against the largest value (default: at the last common output)");
+  verb->add_option("--from", p.compare.from, "Leave out what is before this simulated time")->type_name("TIME");
+  verb->add_option("--out", p.compare.out, "Folder of compare.html and plots/ (default: comparisons/, by the groups)")->type_name("DIR");
+  verb->add_flag("--json", p.compare.json, "Print JSON; writes no page without --out");
+
   verb = add_verb(program, "export", "Write the snapshots of a run for other programs", "morula export runs/spheroid-0001 vtk --every 4",
                   "morula export runs/spheroid-0001 lineage");
   verb->add_option("RUN", p.export_results.run, "Run folder")->required();
@@ -178,6 +200,7 @@ Options chosen_options(const std::string& verb, Parsed&& p) {
   if (verb == "plot") return std::move(p.plot);
   if (verb == "export") return std::move(p.export_results);
   if (verb == "verify") return std::move(p.verify);
+  if (verb == "compare") return std::move(p.compare);
   if (verb == "calibrate") return std::move(p.calibrate);
   return p.doctor;
 }

@@ -96,11 +96,21 @@ struct CalibrateOptions {
   bool pairs_only = false;             ///< run no packings
 };
 
+struct CompareOptions {
+  std::vector<std::string> runs;  ///< run folders, or NAME=RUN,RUN
+  std::vector<std::string> only;  ///< columns of series.csv
+  std::string within;             ///< as `3 %`; empty: nothing is asked
+  std::string from;               ///< simulated time, as `12 h`
+  std::string out;                ///< folder; empty: comparisons/A_B
+  bool every = false;             ///< judge at each output
+  bool json = false;
+};
+
 struct DoctorOptions {
   bool json = false;
 };
 
 using Options = std::variant<NewOptions, CheckOptions, RunOptions, ResumeOptions, StatusOptions, ListOptions, InfoOptions, ExplainOptions,
-                             PlotOptions, ExportOptions, VerifyOptions, CalibrateOptions, DoctorOptions>;
+                             PlotOptions, ExportOptions, VerifyOptions, CompareOptions, CalibrateOptions, DoctorOptions>;
 
 }  // namespace morula::app

@@ -36,6 +36,7 @@ Status call(const Options& options, const Context& context) {
     Status operator()(const PlotOptions& o) const { return plot(o, c); }
     Status operator()(const ExportOptions& o) const { return export_results(o, c); }
     Status operator()(const VerifyOptions& o) const { return verify(o, c); }
+    Status operator()(const CompareOptions& o) const { return compare(o, c); }
     Status operator()(const CalibrateOptions& o) const { return calibrate(o, c); }
     Status operator()(const DoctorOptions& o) const { return doctor(o, c); }
   };

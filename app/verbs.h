@@ -31,6 +31,7 @@ Status explain(const ExplainOptions& options, const Context& context);
 Status plot(const PlotOptions& options, const Context& context);
 Status export_results(const ExportOptions& options, const Context& context);
 Status verify(const VerifyOptions& options, const Context& context);
+Status compare(const CompareOptions& options, const Context& context);
 Status calibrate(const CalibrateOptions& options, const Context& context);
 Status doctor(const DoctorOptions& options, const Context& context);
 

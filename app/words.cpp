@@ -8,12 +8,23 @@
 
 namespace morula::app {
 
-Result<double> read_time(const std::string& flag, const std::string& text) {
+namespace {
+
+Result<double> read_above_zero(const std::string& flag, const std::string& text, Quantity quantity, const std::string& example) {
   const UnitSystem units;
-  const auto time = units.parse(text, Quantity::kTime);
-  if (!time.ok()) return Error{ErrorKind::kInput, flag + " " + time.error().message, time.error().help};
-  if (!(*time > 0.0)) return Error{ErrorKind::kInput, flag + " must be above 0, but is '" + text + "'", "for example `" + flag + " 48h`"};
-  return *time;
+  const auto value = units.parse(text, quantity);
+  if (!value.ok()) return Error{ErrorKind::kInput, flag + " " + value.error().message, value.error().help};
+  if (!(*value > 0.0))
+    return Error{ErrorKind::kInput, flag + " must be above 0, but is '" + text + "'", "for example `" + flag + " " + example + "`"};
+  return *value;
+}
+
+}  // namespace
+
+Result<double> read_time(const std::string& flag, const std::string& text) { return read_above_zero(flag, text, Quantity::kTime, "48h"); }
+
+Result<double> read_part(const std::string& flag, const std::string& text) {
+  return read_above_zero(flag, text, Quantity::kFraction, "3%");
 }
 
 std::string bytes_words(double bytes) {

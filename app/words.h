@@ -10,6 +10,9 @@ namespace morula::app {
 /// A time typed on the command line, as `48h` or `90 min`, in seconds. kInput, naming `flag`, if it is none, or is not above 0.
 Result<double> read_time(const std::string& flag, const std::string& text);
 
+/// A part typed on the command line, as `3%` or `0.03`. kInput likewise.
+Result<double> read_part(const std::string& flag, const std::string& text);
+
 /// Bytes: "812 MB".
 [[nodiscard]] std::string bytes_words(double bytes);
 /// "1 cell", "3 cells".

@@ -40,7 +40,8 @@ Error refused(const Model& model, const Clock& clock, const StepFault& fault, do
           "the step was cut to " + std::to_string(dt) + " s without success; " +
               (clock.capped && model.step.start_cap > 0.0 ? "`numerics: {start_cap: auto}` or a smaller cap, " : "") +
               (model.loads.empty() ? "" : "smaller loads, or loads that grow slowly (`course`), ") +
-              "weaker adhesion, more tension, a larger `shape_stiffness` or `fold_barrier`, or another number of nodes may help"};
+              "weaker adhesion, more tension, `self_contact` where cells are pressed thin, a larger `shape_stiffness` or `fold_barrier`, "
+              "or another number of nodes may help"};
 }
 
 /// The step after one of dt: towards the allowed displacement, more slowly where Newton had to work. `wanted`: the step that the controller had

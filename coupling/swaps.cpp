@@ -17,9 +17,11 @@ namespace morula {
 namespace {
 
 /// Distance of a point outside a region; negative inside [µm].
-double distance_outside(const Region& region, const Vec3d& point, const Vec3d& tissue_center) {
-  const Vec3d from = point - (region.follow_tissue ? region.center + tissue_center : region.center);
-  return region.shape->distance(region, from);
+double distance_outside(const Model& model, const Region& region, const Vec3d& point, double time, const Vec3d& tissue_center) {
+  Vec3d center = region.center;
+  if (region.follow_tissue) center += tissue_center;
+  if (region.obstacle >= 0) center += model.obstacles[static_cast<std::size_t>(region.obstacle)].way(0.0, time);
+  return region.shape->distance(region, point - center);
 }
 
 bool needs_center(const Swaps& swaps) {
@@ -56,7 +58,7 @@ Wish wish(const Model& model, const CellView& cell, const Vec3d& center, const V
     const EventReason reason{Cause::kRegion, false, number++};
     if (!region.exists_at(cell.time())) continue;
     const double margin = row.body == region.body ? region.margin : 0.0;
-    const double outside = distance_outside(region, center, tissue_center);
+    const double outside = distance_outside(model, region, center, cell.time(), tissue_center);
     if (outside <= margin) return {region.body, model.swaps.hold, reason, -outside};
   }
   double hold = model.swaps.hold;

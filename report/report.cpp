@@ -88,6 +88,17 @@ void add_key_numbers(std::string& out, const ReportContent& content) {
   add(out, "</dl>\n</section>\n");
 }
 
+void add_tables(std::string& out, const ReportContent& content) {
+  for (const ReportTable& table : content.tables) {
+    add(out, "<section>\n<h2>", xml_escaped(table.title), "</h2>\n");
+    if (!table.note.empty()) add(out, "<p>", xml_escaped(table.note), "</p>\n");
+    std::vector<Row> rows;
+    for (const auto& cells : table.rows) rows.push_back({cells});
+    add_table(out, table.header, rows);
+    add(out, "</section>\n");
+  }
+}
+
 Status add_figure(std::string& out, const Picture& picture, bool hidden) {
   MORULA_TRY_ASSIGN(const auto png, encode_png(picture.image));
   const std::string caption = xml_escaped(picture.caption);
@@ -271,6 +282,7 @@ Result<std::string> report_html(const ReportContent& content) {
   add_head(out, content);
   add_verdict(out, content);
   add_key_numbers(out, content);
+  add_tables(out, content);
   MORULA_TRY(add_films(out, content));
   MORULA_TRY(add_final_pictures(out, content));
   add_plots(out, content, false);

@@ -57,6 +57,13 @@ struct ReportPlot {
   bool numerics = false;  ///< about steps and solver: below a fold
 };
 
+/// A table of texts under a heading of its own.
+struct ReportTable {
+  std::string title, note;  ///< note: a sentence below the title; may be empty
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+};
+
 /// Everything report.html says: plain data, filled in from a run folder.
 struct ReportContent {
   std::string title, study, scenario, summary;
@@ -64,6 +71,7 @@ struct ReportContent {
   std::vector<ReportCriterion> criteria;
   std::vector<NotChecked> not_checked;  ///< what a reader of the criteria must not take for granted
   std::vector<ReportNumber> key_numbers;
+  std::vector<ReportTable> tables;
   std::vector<Picture> pictures;
   std::vector<ReportPlot> plots;
   std::vector<ReportLimit> limits;

@@ -133,8 +133,25 @@ bool has_keys_of_shape(BuildContext& c, const draft::Region& r, const RegionShap
   return missing.empty();
 }
 
+/// Where a region lies is said once. A default without a meaning is not part of the resolved study.
+void check_center(BuildContext& c, draft::Region& r, const RegionShape& shape) {
+  const auto tell = [&](const char* key, const Place& place) {
+    c.diagnostics.error(515, place, "'" + std::string(key) + "' has no effect here",
+                        "leave it away: shape '" + shape.info.name + "' says where the region lies");
+  };
+  if (!shape.has_center) {
+    if (norm2(r.center.value) > 0.0) tell("center", r.center.place);
+    if (r.follow_tissue.value) tell("follow_tissue", r.follow_tissue.place);
+    if (r.follow.given) tell("follow", r.follow.place);
+    r.center.text.clear();
+    r.follow_tissue.text.clear();
+  }
+  if (r.follow.given && r.follow_tissue.value)
+    c.diagnostics.error(111, r.follow.place, "a region follows either the tissue or an obstacle", "leave away `follow` or `follow_tissue`");
+}
+
 void check_inside_domain(BuildContext& c, const draft::Region& r, const Region& region) {
-  if (!c.draft.domain.size.known() || region.follow_tissue || region.shape->meets == nullptr) return;
+  if (!c.draft.domain.size.known() || region.follow_tissue || region.obstacle >= 0 || region.shape->meets == nullptr) return;
   const Box& domain = c.study.model.space.box;
   const bool outside = !region.shape->meets(region, domain);
   if (outside)
@@ -147,7 +164,7 @@ void check_inside_domain(BuildContext& c, const draft::Region& r, const Region& 
                             " um");
 }
 
-void build_region(BuildContext& c, const draft::Region& r, const Place& place) {
+void build_region(BuildContext& c, draft::Region& r, const Place& place) {
   Region region;
   region.name = r.name.value;
   const auto& shapes = c.options.laws->region_shapes;
@@ -158,7 +175,9 @@ void build_region(BuildContext& c, const draft::Region& r, const Place& place) {
     region.shape = *shape;
     region.center = r.center.value;
     region.values = *values;
-    if (region.shape->build != nullptr) region.shape->build(region.values, region);
+    if (region.shape->build != nullptr) region.shape->build(c.study.model, region);
+    check_center(c, r, *region.shape);
+    if (r.follow.known()) region.obstacle = find_obstacle(c, r.follow.value, r.follow.place);
     region.body = r.body.value == "sphere" ? BodyKind::kSphere : BodyKind::kShell;
     region.margin = r.margin.value;
     region.follow_tissue = r.follow_tissue.value;
@@ -179,10 +198,10 @@ void build_region(BuildContext& c, const draft::Region& r, const Place& place) {
 
 void build_coupling(BuildContext& c) {
   const UnitSystem units;
-  const draft::Coupling& coupling = c.draft.coupling;
+  draft::Coupling& coupling = c.draft.coupling;
   c.study.model.swaps.max_shells = coupling.max_shells.value;
   c.study.model.swaps.hold = coupling.hold.value;
-  for (const auto& [name, place, region] : coupling.regions) build_region(c, region, place);
+  for (auto& [name, place, region] : coupling.regions) build_region(c, region, place);
   for (const auto& [name, place, trigger] : coupling.triggers) build_trigger(c, units, trigger, place);
 }
 

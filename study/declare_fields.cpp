@@ -63,6 +63,7 @@ void declare_region(Section& s, draft::Region& r) {
           .example = "true",
           .source = "chosen"},
          r.follow_tissue);
+  s.text({.name = "follow", .doc = "Name of an obstacle that the region moves along with.", .example = "needle"}, r.follow);
   s.quantity({.name = "from",
               .doc = "The region exists from this time.",
               .quantity = Q::kTime,

@@ -237,7 +237,7 @@ struct Field {
 };
 
 struct Region {
-  Given<std::string> name, shape, body;
+  Given<std::string> name, shape, body, follow;
   Given<Vec3d> center;
   OwnSection own;  ///< of the shape
   Given<double> margin, from, until;

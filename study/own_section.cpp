@@ -30,6 +30,7 @@ void declare_key(Section& s, const OwnKey& key, const std::string& name, draft::
       return s.vector(spec, own.vectors[name]);
     case Kind::kField:
     case Kind::kMark:
+    case Kind::kObstacle:
       return s.text(spec, own.texts[name]);
     case Kind::kCourse:
       return s.list(spec, own.courses[name], spec.quantity == Quantity::kLength ? &declare_distance_point : &declare_course_point);
@@ -124,6 +125,8 @@ class ReadValues {
         return named(name, &find_field);
       case Kind::kMark:
         return named(name, &find_mark);
+      case Kind::kObstacle:
+        return named(name, &find_obstacle);
       case Kind::kCourse:
         return course(name);
       case Kind::kGroup:

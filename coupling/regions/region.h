@@ -14,6 +14,8 @@
 namespace morula {
 
 class CellView;
+class TriangleTree;
+struct Model;
 struct Region;
 struct Trigger;
 
@@ -25,9 +27,11 @@ enum class BodyKind : std::uint8_t { kSphere = 0, kShell = 1 };
 struct RegionShape {
   LawInfo info;                ///< info.name is the word of `shape`
   std::vector<OwnKey> keys{};  ///< those without a default must be given
-  /// Fills in what distance() reads of a Region; null: it reads Region::values.
-  void (*build)(const OwnValues& values, Region& region) = nullptr;
-  /// Distance outside of a point that is `from` away from the centre; negative inside [µm].
+  bool has_center = true;      ///< `center` says where it lies, and it may follow the tissue
+  /// Fills in what distance() reads of a Region, from its values and the obstacles of the model; null: it reads Region::values.
+  void (*build)(const Model& model, Region& region) = nullptr;
+  /// Distance outside of a point that is `from` away from the centre; negative inside [µm]. Where it is more than the region's margin it may be less than
+  /// what it is, if not less than the margin.
   double (*distance)(const Region& region, const Vec3d& from) = nullptr;
   /// Whether any of it lies in the domain; null: some always does.
   bool (*meets)(const Region& region, const Box& domain) = nullptr;
@@ -40,6 +44,7 @@ std::shared_ptr<const RegionShape> sphere_region();
 std::shared_ptr<const RegionShape> box_region();
 std::shared_ptr<const RegionShape> half_space_region();
 std::shared_ptr<const RegionShape> everything_region();
+std::shared_ptr<const RegionShape> around_region();
 
 /// Where cells are to be shells.
 struct Region {
@@ -50,11 +55,15 @@ struct Region {
   Vec3d size{};           ///< of a box
   Vec3d normal{0, 0, 1};  ///< of a half space; inside is the side the normal points away from
   BodyKind body = BodyKind::kShell;
-  double margin = 3.0;         ///< leaving needs this distance beyond the border [µm]
-  bool follow_tissue = false;  ///< centre is relative to the tissue's centroid
-  double from = 0.0;           ///< the region exists from here [s]
-  double until = kNever;       ///< to here [s]
-  OwnValues values{};          ///< of the shape's own keys
+  double margin = 3.0;                            ///< leaving needs this distance beyond the border [µm]
+  bool follow_tissue = false;                     ///< centre is relative to the tissue's centroid
+  int obstacle = -1;                              ///< that it moves along with; −1: none
+  std::shared_ptr<const TriangleTree> surface{};  ///< of that obstacle at time 0, where distance() asks for it
+  double reach = 0.0;                             ///< from that surface [µm]
+  double room = 0.0;                              ///< within its reach [µm³]
+  double from = 0.0;                              ///< the region exists from here [s]
+  double until = kNever;                          ///< to here [s]
+  OwnValues values{};                             ///< of the shape's own keys
 
   [[nodiscard]] bool exists_at(double time) const { return time >= from && time < until; }
 };

@@ -31,7 +31,7 @@ std::shared_ptr<const RegionShape> sphere_region() {
                              .low = 0.0,
                              .low_open = true,
                              .example = "25 um"}}},
-                  .build = [](const OwnValues& values, Region& region) { region.radius = values("radius"); },
+                  .build = [](const Model&, Region& region) { region.radius = region.values("radius"); },
                   .distance = [](const Region& region, const Vec3d& from) { return norm(from) - region.radius; },
                   .meets =
                       [](const Region& r, const Box& domain) {
@@ -56,7 +56,7 @@ std::shared_ptr<const RegionShape> box_region() {
                  .low = 0.0,
                  .low_open = true,
                  .example = "[50 um, 50 um, 50 um]"}}},
-      .build = [](const OwnValues& values, Region& region) { region.size = values.vector("size"); },
+      .build = [](const Model&, Region& region) { region.size = region.values.vector("size"); },
       .distance =
           [](const Region& region, const Vec3d& from) {
             return std::max(
@@ -73,7 +73,7 @@ std::shared_ptr<const RegionShape> half_space_region() {
           {.name = "half_space", .title = "Region that is a half space", .equation = "(x − c)·n < 0", .source = kOurs, .parameters = {}},
       .keys = {{Kind::kDirection,
                 {.name = "normal", .doc = "Of a half space: direction out of it.", .required = true, .example = "[0, 0, 1]"}}},
-      .build = [](const OwnValues& values, Region& region) { region.normal = values.vector("normal"); },
+      .build = [](const Model&, Region& region) { region.normal = region.values.vector("normal"); },
       .distance = [](const Region& region, const Vec3d& from) { return dot(from, normalized(region.normal)); },
       .meets = [](const Region& region, const Box& domain) {  // the corner that lies farthest against the normal decides
         const Vec3d n = region.normal;
@@ -87,12 +87,13 @@ std::shared_ptr<const RegionShape> half_space_region() {
 std::shared_ptr<const RegionShape> everything_region() {
   static const auto shape = std::make_shared<const RegionShape>(RegionShape{
       .info = {.name = "everything", .title = "Region that is all there is", .equation = "always", .source = kOurs, .parameters = {}},
+      .has_center = false,
       .distance = [](const Region&, const Vec3d&) { return -1e300; }});
   return shape;
 }
 
 std::vector<std::shared_ptr<const RegionShape>> builtin_region_shapes() {
-  return {sphere_region(), box_region(), half_space_region(), everything_region()};
+  return {sphere_region(), box_region(), half_space_region(), everything_region(), around_region()};
 }
 
 }  // namespace morula

@@ -1,8 +1,14 @@
 // What loads and obstacles do.
+#include <algorithm>
+#include <cmath>
+
+#include "core/mesh/triangle_tree.h"
 #include "scenarios/measures/measures.h"
 
 namespace morula::scenarios {
 namespace {
+
+constexpr double kFar2 = 1e300;  // [µm²]
 
 const CellLoad& load_of(const Study& study, const Subject& subject) { return study.model.loads[static_cast<std::size_t>(subject.load)]; }
 
@@ -59,6 +65,30 @@ Measure obstacle_way_measure() {
     const ObstacleSpec& obstacle = run.study().model.obstacles[static_cast<std::size_t>(subject.obstacle)];
     return by_row(run, {}, moments, [&obstacle](double time, const std::vector<double>&) { return norm(obstacle.way(0.0, time)); });
   };
+  return out;
+}
+
+Measure nearest_sphere_measure() {
+  Measure out{
+      "obstacle.nearest_sphere",
+      "distance of the nearest sphere from the obstacle",
+      "Distance of the surface of an obstacle from the nearest centre of a cell that is a sphere; nothing where all cells are shells.",
+      "",
+      "",
+      Quantity::kLength,
+      MeasureOf::kObstacle};
+  out.take = by_snapshot([](const Study& study, const Snapshot& snapshot, const Subject& subject) -> std::optional<double> {
+    const ObstacleSpec& obstacle = study.model.obstacles[static_cast<std::size_t>(subject.obstacle)];
+    const TriangleTree surface(obstacle.position, obstacle.faces);
+    const Vec3d way = obstacle.way(0.0, snapshot.time);
+    double nearest2 = kFar2;
+    for (const Snapshot::Cell& cell : snapshot.cells) {
+      if (cell.body != BodyKind::kSphere) continue;
+      const auto found = surface.nearest(cell.centroid - way, std::sqrt(nearest2));
+      if (found) nearest2 = std::min(nearest2, found->closest.distance2);
+    }
+    return nearest2 < kFar2 ? std::optional(std::sqrt(nearest2)) : std::nullopt;
+  });
   return out;
 }
 

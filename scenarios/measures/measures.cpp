@@ -33,6 +33,7 @@ const std::vector<Measure>& measures() {
         load_way_measure(),
         load_force_measure(),
         obstacle_way_measure(),
+        nearest_sphere_measure(),
         mean_contact_part_measure(),
         mean_step_measure(),
         shortest_hold_measure(),

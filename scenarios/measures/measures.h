@@ -47,6 +47,7 @@ std::vector<Measure> cap_measures();
 Measure load_way_measure();
 Measure load_force_measure();
 Measure obstacle_way_measure();
+Measure nearest_sphere_measure();
 /// Of cells under loads: that grips draw off, that pipettes suck in, that are pulled at two poles, that light stretches, that rub.
 std::vector<Measure> pull_off_measures();
 std::vector<Measure> aspiration_measures();

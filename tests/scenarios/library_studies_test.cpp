@@ -64,8 +64,8 @@ const Verdict* find(const RunSummary& run, const std::string& quantity) {
 TEST(LibraryStudies, AreThoseThatWereAskedFor) {
   EXPECT_EQ(template_names(),
             (std::vector<std::string>{"blastocyst", "calibrate_hepatocyte", "cavity", "cell_shear", "cluster", "division", "doublet",
-                                      "embryo", "hybrid_spheroid", "micropipette", "optical_stretcher", "optical_tweezers", "pair",
-                                      "parallel_plates", "pull_off", "spheroid", "spreading", "tissue"}));
+                                      "embryo", "hybrid_hotspot", "hybrid_spheroid", "micropipette", "optical_stretcher",
+                                      "optical_tweezers", "pair", "parallel_plates", "pull_off", "spheroid", "spreading", "tissue"}));
 }
 
 /// Warnings that are right where they stand: elastic cells that stick by more than twice their tension are what these are about (E509); inner cells of an embryo are spheres calibrated on shells, beyond JKR's range (E647).
@@ -154,6 +154,21 @@ TEST(LibraryStudies, HybridSpheroidRunsShortened) {
   ASSERT_NE(find(*run, "shells at the end"), nullptr);
   EXPECT_FALSE(find(*run, "shells at the end")->passed) << "the study asks for 40 shells and more, wherever it is cut short";
   EXPECT_NE(find(*run, "mean step"), nullptr);
+}
+
+/// Cells near the needle are shells from the moment it comes near, and bear it.
+TEST(LibraryStudies, HybridHotspotRunsShortened) {
+  const auto run = NewStudy("hybrid_hotspot")
+                       .run({"time.end=40 min", "time.checkpoint=40 min", "criteria.1.from=36 min", "criteria.1.until=40 min",
+                             "criteria.3.at=40 min", "criteria.4.from=36 min", "criteria.4.until=40 min"});
+  expect_sound(run);
+  ASSERT_TRUE(run.ok());
+  for (const char* text : {"nearest sphere", "force on the resting needle"}) {
+    const Verdict* v = find(*run, text);
+    ASSERT_NE(v, nullptr) << text;
+    EXPECT_TRUE(v->passed) << v->quantity << " is " << v->value << ", wanted " << v->limit;
+  }
+  EXPECT_FALSE(find(*run, "falls while the needle rests")->passed) << "it still goes on, and the force rises";
 }
 
 /// S7.1 to S7.3, whole: spheres that may roll grow into a ball; with the default friction along their contacts they grow branches.

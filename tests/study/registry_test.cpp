@@ -148,6 +148,7 @@ void expect_refused(const std::string& text, const std::string& what) {
 }
 
 std::string example_of(const OwnKey& key) {
+  if (key.kind == Kind::kObstacle) return std::string(key.spec.name) + ": needle";
   return std::string(key.spec.name) + ": " + (key.kind == Kind::kField ? "oxygen" : key.spec.example);
 }
 
@@ -275,8 +276,9 @@ TEST(Registry, EveryShapeIsReadAsItsExamplesSay) {
   const auto laws = builtin_laws();
   for (const auto& one : laws->region_shapes) {
     std::string keys;
-    for (const OwnKey& key : one->keys) keys += std::string(", ") + key.spec.name + ": " + key.spec.example;
-    const auto study = read(with("", "coupling: {regions: [{name: core, shape: " + one->info.name + keys + "}]}\n"));
+    for (const OwnKey& key : one->keys) keys += ", " + example_of(key);
+    const std::string needle = "geometry: {needle: {sphere: {center: [0 um, 0 um, 20 um], radius: 5 um}}}\n";
+    const auto study = read(with("", needle + "coupling: {regions: [{name: core, shape: " + one->info.name + keys + "}]}\n"));
     ASSERT_TRUE(study.ok()) << one->info.name << "\n" << study.error().text();
     const Region& region = study->model.swaps.regions.at(0);
     EXPECT_EQ(region.shape, one);
