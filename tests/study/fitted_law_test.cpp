@@ -125,6 +125,9 @@ TEST(FittedLaw, RadiiOutsideOfTheFitAreTold) {
   ASSERT_TRUE(study.ok()) << study.error().text();
   EXPECT_THAT(study->warnings.text(), AllOf(HasSubstr("E534"), HasSubstr("5.9 to 7.8 um")));
   EXPECT_THAT(file.read()->warnings.text(), Not(HasSubstr("E534")));
+  const auto near = file.read(test::changed("radius: 6 um", "radius: {mean: 6 um, spread: 5 %}", kStudy));  // down to 5.1 um
+  ASSERT_TRUE(near.ok());
+  EXPECT_THAT(near->warnings.text(), Not(HasSubstr("E534"))) << "unequal pairs of up to 1.3 are held out of the fit";
 }
 
 TEST(FittedLaw, KeysThatContradictTheFileOrHaveNoEffectAreErrors) {
