@@ -14,14 +14,15 @@ namespace fs = std::filesystem;
 namespace {
 
 using scenarios::ColumnDifference;
-using scenarios::Comparison;
 using scenarios::CompareRequest;
+using scenarios::Comparison;
 using scenarios::ComparisonVerdict;
 using scenarios::RunGroup;
 using Json = nlohmann::ordered_json;
 
 std::string table_of(const std::vector<RunGroup>& groups, const Comparison& comparison, const CompareRequest& request) {
-  std::vector<std::vector<std::string>> rows{{"measure", "unit", "group", groups[0].name, "group's", "difference", "95 % ±", "at", "verdict"}};
+  std::vector<std::vector<std::string>> rows{
+      {"measure", "unit", "group", groups[0].name, "group's", "difference", "95 % ±", "at", "verdict"}};
   for (const scenarios::ComparedColumn& column : comparison.columns)
     for (std::size_t g = 1; g < groups.size(); ++g) {
       const ColumnDifference& d = column.differences[g - 1];
@@ -73,7 +74,8 @@ std::string json_of(const std::vector<RunGroup>& groups, const Comparison& compa
 fs::path usual_folder(const std::vector<RunGroup>& groups) {
   std::string name;
   for (const RunGroup& group : groups) name += (name.empty() ? "" : "_") + group.name;
-  std::ranges::replace_if(name, [](char c) { return c == '/' || c == '\\' || c == ' '; }, '-');
+  std::ranges::replace_if(
+      name, [](char c) { return c == '/' || c == '\\' || c == ' '; }, '-');
   return fs::path("comparisons") / name;
 }
 
@@ -107,9 +109,10 @@ Status compare(const CompareOptions& options, const Context& context) {
   for (const scenarios::ComparedColumn& column : comparison.columns)
     for (const ColumnDifference& d : column.differences) ++all, failed += d.verdict != ComparisonVerdict::kWithin;
   if (failed == 0) return {};
-  return Error{ErrorKind::kVerification,
-               count_words(failed, "difference", "differences") + " of " + std::to_string(all) + " not shown to be within " + options.within,
-               "more seeds decide what is undecided"};
+  return Error{
+      ErrorKind::kVerification,
+      count_words(failed, "difference", "differences") + " of " + std::to_string(all) + " not shown to be within " + options.within,
+      "more seeds decide what is undecided"};
 }
 
 }  // namespace morula::app

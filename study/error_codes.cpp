@@ -102,7 +102,8 @@ constexpr ErrorCode kCodes[] = {
      "their forces are not "
      "known."},
     {533, "fitted law that is none", "The numbers of a file of `morula calibrate` make no law: it was changed by hand, or is damaged."},
-    {534, "cells of a size that was not fitted", "Radii of the type lie more than 30 % outside of those that the fitted law was found with."},
+    {534, "cells of a size that was not fitted",
+     "Radii of the type lie more than 30 % outside of those that the fitted law was found with."},
     {535, "nothing holds the volume",
      "A shell whose bulk modulus is 0 has no pressure: its tension would shrink it to a point. With `osmosis`, too, the bulk modulus ties "
      "the "

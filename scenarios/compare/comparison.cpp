@@ -11,16 +11,16 @@ namespace {
 
 /// Columns about steps and solver.
 bool is_numerics(const std::string& name) {
-  static const std::set<std::string> names{"step_count",      "step_size",    "newton_iterations", "linear_iterations", "retries",
-                                           "volume_error",    "overlap",      "worst_overlap",     "total_volume_error", "field_balance",
-                                           "energy",          "centre_drift", "rotation"};
+  static const std::set<std::string> names{"step_count",   "step_size",    "newton_iterations", "linear_iterations",  "retries",
+                                           "volume_error", "overlap",      "worst_overlap",     "total_volume_error", "field_balance",
+                                           "energy",       "centre_drift", "rotation"};
   return names.contains(name) || name.starts_with("balance_");
 }
 
 /// Columns about which cells have which body: runs with other bodies differ in them because they were asked to.
 bool is_about_bodies(const std::string& name) {
-  static const std::set<std::string> names{"sphere_count",   "shell_count",    "shell_fraction",   "shell_pressure",
-                                           "inner_pressure", "promotions",     "demotions",        "contacts_beyond_range",
+  static const std::set<std::string> names{"sphere_count",     "shell_count",     "shell_fraction",     "shell_pressure",
+                                           "inner_pressure",   "promotions",      "demotions",          "contacts_beyond_range",
                                            "mean_outside_law", "max_outside_law", "spheres_outside_law"};
   return names.contains(name);
 }
@@ -30,7 +30,8 @@ std::vector<std::size_t> rows_at(const SeriesTable& series, const std::vector<do
   const std::vector<double>& own = series.find("time")->values;
   std::vector<std::size_t> out;
   for (const double time : times)
-    out.push_back(static_cast<std::size_t>(std::ranges::min_element(own, {}, [time](double t) { return std::abs(t - time); }) - own.begin()));
+    out.push_back(
+        static_cast<std::size_t>(std::ranges::min_element(own, {}, [time](double t) { return std::abs(t - time); }) - own.begin()));
   return out;
 }
 
@@ -118,7 +119,8 @@ void tell_ends(const std::vector<RunGroup>& groups, const Comparison& comparison
     for (const ComparedRun& run : group.runs) {
       const double end = run.series.find("time")->values.back();
       if (run.record.state != RunState::kDone)
-        notes.push_back(run.path.string() + " is " + name_of(run.record.state) + (run.record.message.empty() ? "" : ": " + run.record.message));
+        notes.push_back(run.path.string() + " is " + name_of(run.record.state) +
+                        (run.record.message.empty() ? "" : ": " + run.record.message));
       if (end > until) notes.push_back(run.path.string() + " goes on to " + time_text(end) + "; compared is up to " + time_text(until));
     }
   for (const RunGroup& group : groups)
@@ -154,7 +156,8 @@ Result<Comparison> compare(const std::vector<RunGroup>& groups, const CompareReq
     }
   }
   if (out.columns.empty())
-    return Error{ErrorKind::kInput, "the runs have no column of series.csv in common", "give their studies the same `output: {series: ...}`"};
+    return Error{ErrorKind::kInput, "the runs have no column of series.csv in common",
+                 "give their studies the same `output: {series: ...}`"};
   return out;
 }
 

@@ -8,7 +8,7 @@
 #include "report/report.h"
 #include "report/run_plots.h"
 #include "results/file_io.h"
-#include "results/snapshot_file.h"
+#include "scenarios/run/interface_table.h"
 #include "scenarios/run/progress.h"
 #include "scenarios/run/report_run.h"
 
@@ -24,8 +24,10 @@ double wall_time(const RunGroup& group) {
 }
 
 ReportTable table_of_runs(const std::vector<RunGroup>& groups) {
-  ReportTable out{"Runs", "The first group is what the others are compared with.",
-                  {"group", "run", "seed", "state", "cells", "shells", "wall time", "of the first group's"}, {}};
+  ReportTable out{"Runs",
+                  "The first group is what the others are compared with.",
+                  {"group", "run", "seed", "state", "cells", "shells", "wall time", "of the first group's"},
+                  {}};
   for (const RunGroup& group : groups)
     for (const ComparedRun& run : group.runs) {
       const auto last = [&](const char* column) {
@@ -42,7 +44,8 @@ ReportTable table_of_runs(const std::vector<RunGroup>& groups) {
 
 ReportTable table_of_differences(const std::vector<RunGroup>& groups, const Comparison& comparison, const CompareRequest& request) {
   ReportTable out{"Differences",
-                  "Mean ± standard deviation over the runs of a group. The interval holds the difference of the means with 95 % (Welch); where one group has a "
+                  "Mean ± standard deviation over the runs of a group. The interval holds the difference of the means with 95 % (Welch); "
+                  "where one group has a "
                   "single run it is taken to spread as the other does.",
                   {"measure", "group", groups[0].name, "group's value", "difference", "95 % interval", "at", "verdict"},
                   {}};
@@ -51,7 +54,8 @@ ReportTable table_of_differences(const std::vector<RunGroup>& groups, const Comp
       const ColumnDifference& d = column.differences[g - 1];
       out.rows.push_back({column.name + (column.unit.empty() || column.unit == "1" ? "" : " [" + column.unit + "]"), groups[g].name,
                           value_words(d.reference), value_words(d.value), relative_words(d),
-                          std::isnan(d.interval) ? "" : "± " + number_text("%.3g", d.interval), time_text(d.time), verdict_words(d, request)});
+                          std::isnan(d.interval) ? "" : "± " + number_text("%.3g", d.interval), time_text(d.time),
+                          verdict_words(d, request)});
     }
   return out;
 }
@@ -79,26 +83,29 @@ CurvePlot plot_of(const std::vector<RunGroup>& groups, const ComparedColumn& col
   plot.y = {column.name, column.unit == "1" ? "" : column.unit, false, {}, {}};
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (const ComparedRun& run : groups[g].runs) {
-      Curve curve{groups[g].name, run.series.find("time")->values, run.series.find(column.name)->values, CurveStyle::kLine, static_cast<int>(g)};
+      Curve curve{groups[g].name, run.series.find("time")->values, run.series.find(column.name)->values, CurveStyle::kLine,
+                  static_cast<int>(g)};
       for (double& t : curve.x) t /= unit;
       plot.curves.push_back(std::move(curve));
     }
   return plot;
 }
 
-/// What the cells are like at the end of a run: bodies and pressure in a cut.
-Status add_pictures(const RunGroup& group, const std::shared_ptr<const Laws>& laws, std::vector<Picture>& out) {
+/// What the cells of a group's first run are like at the end: bodies and pressure in a cut, and layers on both sides of where bodies meet.
+Status add_cells(const RunGroup& group, const std::shared_ptr<const Laws>& laws, ReportContent& content) {
   const fs::path& path = group.runs[0].path;
   MORULA_TRY_ASSIGN(const Study study, read_run_study(path, laws));
-  MORULA_TRY_ASSIGN(const auto entries, list_snapshots(path / "results.h5"));
-  if (entries.empty()) return {};
-  MORULA_TRY_ASSIGN(Snapshot last, read_snapshot(path / "results.h5", entries.back().index));
-  std::vector<Snapshot> one;
-  one.push_back(std::move(last));
-  for (Picture& picture : standard_pictures(one, type_colors(study))) {
+  std::vector<std::pair<double, std::string>> damaged;
+  MORULA_TRY_ASSIGN(std::vector<Snapshot> snapshots, snapshots_over_time(path / "results.h5", damaged));
+  if (auto table = interface_table(study, snapshots)) {
+    table->title += ": " + group.name;
+    content.tables.push_back(std::move(*table));
+  }
+  if (snapshots.size() > 1) snapshots.erase(snapshots.begin(), snapshots.end() - 1);
+  for (Picture& picture : standard_pictures(snapshots, type_colors(study))) {
     if (picture.frame || !(picture.name.starts_with("cut_body") || picture.name.starts_with("cut_pressure"))) continue;
     picture.caption = group.name + ": " + picture.caption;
-    out.push_back(std::move(picture));
+    content.pictures.push_back(std::move(picture));
   }
   return {};
 }
@@ -151,8 +158,8 @@ Result<fs::path> write_comparison(const std::vector<RunGroup>& groups, const Com
   ReportTable notes{"Notes", "", {}, {}};
   for (const std::string& note : comparison.notes) notes.rows.push_back({note});
   for (const RunGroup& group : groups)
-    if (const Status shown = add_pictures(group, laws, content.pictures); !shown.ok())
-      notes.rows.push_back({"no pictures of " + group.runs[0].path.string() + ": " + shown.error().message});
+    if (const Status shown = add_cells(group, laws, content); !shown.ok())
+      notes.rows.push_back({"no pictures and layers of " + group.runs[0].path.string() + ": " + shown.error().message});
   if (!notes.rows.empty()) content.tables.push_back(std::move(notes));
   for (const ComparedColumn& column : comparison.columns) {
     const CurvePlot plot = plot_of(groups, column, comparison.times.back());

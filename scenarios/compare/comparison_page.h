@@ -14,7 +14,8 @@ namespace morula::scenarios {
 
 /// compare.html with the runs, what differs, what the groups' studies differ in, the last state of the first run of each group and all curves overlaid,
 /// one colour a group; plots/*.svg with their numbers as CSV beside it. Replaces what is there; returns the path of the page.
-Result<std::filesystem::path> write_comparison(const std::vector<RunGroup>& groups, const Comparison& comparison, const CompareRequest& request,
-                                               const std::filesystem::path& folder, std::shared_ptr<const Laws> laws);
+Result<std::filesystem::path> write_comparison(const std::vector<RunGroup>& groups, const Comparison& comparison,
+                                               const CompareRequest& request, const std::filesystem::path& folder,
+                                               std::shared_ptr<const Laws> laws);
 
 }  // namespace morula::scenarios

@@ -24,12 +24,12 @@ enum class ComparisonVerdict {
 /// A column of one group against that of the first group.
 struct ColumnDifference {
   GroupValue value;
-  double time = 0.0;          ///< where it is judged [s]
-  GroupValue reference;       ///< of the first group at that time
-  double difference = 0.0;    ///< of the means
-  double relative = 0.0;      ///< over the size of the reference; no number where that is 0 and the difference is not
-  double interval = 0.0;      ///< half width of the 95 % interval of the difference, by Welch; no number where no group has two runs
-  double in_spreads = 0.0;    ///< difference over the standard error; no number likewise
+  double time = 0.0;        ///< where it is judged [s]
+  GroupValue reference;     ///< of the first group at that time
+  double difference = 0.0;  ///< of the means
+  double relative = 0.0;    ///< over the size of the reference; no number where that is 0 and the difference is not
+  double interval = 0.0;    ///< half width of the 95 % interval of the difference, by Welch; no number where no group has two runs
+  double in_spreads = 0.0;  ///< difference over the standard error; no number likewise
   ComparisonVerdict verdict = ComparisonVerdict::kUnknown;
 };
 

@@ -32,7 +32,9 @@ Result<ComparedRun> read_run(const std::string& given) {
 }
 
 /// The same study, whatever the seed.
-bool belong_together(const ComparedRun& a, const ComparedRun& b) { return differing_paths({&a.settings, &b.settings}, kNotTheStudy).empty(); }
+bool belong_together(const ComparedRun& a, const ComparedRun& b) {
+  return differing_paths({&a.settings, &b.settings}, kNotTheStudy).empty();
+}
 
 /// `NAME=RUN,RUN` in its parts; a name of a folder that is there is no such thing.
 bool is_named(const std::string& given) {
@@ -84,7 +86,8 @@ Status check_groups(const std::vector<RunGroup>& groups) {
   std::set<fs::path> paths;
   std::set<std::string> names;
   for (const RunGroup& group : groups) {
-    if (!names.insert(group.name).second) return wrong("two groups are called '" + group.name + "'", "give each its own name: NAME=RUN,RUN");
+    if (!names.insert(group.name).second)
+      return wrong("two groups are called '" + group.name + "'", "give each its own name: NAME=RUN,RUN");
     for (const ComparedRun& run : group.runs) {
       std::error_code error;
       if (!paths.insert(fs::weakly_canonical(run.path, error)).second)

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <span>
 
+#include "scenarios/measures/interface_layers.h"
 #include "scenarios/measures/measures.h"
 
 namespace morula::scenarios {
@@ -54,10 +55,27 @@ std::optional<double> layer_spread(const Study&, const Snapshot& snapshot, const
   return most;
 }
 
+/// Of the cells that touch the other body.
+Measure interface_jump() {
+  Measure out{"interface.pressure_jump",
+              "pressure of shells that touch spheres less that of spheres that touch shells",
+              "Mean pressure of the shells that touch spheres less that of the spheres that touch shells; nothing where they do not meet.",
+              "mean(p of shells at the interface) - mean(p of spheres at the interface)",
+              "physics/fields_and_coupling.md D",
+              Quantity::kPressure,
+              MeasureOf::kRun};
+  out.take = by_snapshot([](const Study& study, const Snapshot& snapshot, const Subject&) -> std::optional<double> {
+    const LayerMean found = jump(interface_layers(snapshot, snapshot, snapshot, study.model.space), &InterfaceLayer::pressure);
+    return std::isnan(found.mean) ? std::nullopt : std::optional(found.mean);
+  });
+  return out;
+}
+
 }  // namespace
 
 std::vector<Measure> body_measures() {
   return {
+      interface_jump(),
       of_run("bodies.pressure_jump", "pressure of shells less that of spheres, relative",
              "Mean pressure of the shells less that of the spheres, over the mean of both.", "2 (p_shell - p_sphere)/(p_shell + p_sphere)",
              &pressure_jump),

@@ -15,6 +15,7 @@
 #include "results/run_record.h"
 #include "results/snapshot_file.h"
 #include "scenarios/criteria/judge.h"
+#include "scenarios/run/interface_table.h"
 #include "scenarios/run/progress.h"
 #include "scenarios/run/used_laws.h"
 
@@ -226,6 +227,7 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
   }
   MORULA_TRY_ASSIGN(const auto snapshots, snapshots_over_time(run / "results.h5", content.warnings));
   content.pictures = standard_pictures(snapshots, type_colors(study));
+  if (auto table = interface_table(study, snapshots)) content.tables.push_back(std::move(*table));
   for (const Picture& picture : content.pictures) MORULA_TRY(write_png(picture.image, run / "plots" / (picture.name + ".png")));
   add_key_numbers(record, series, content);
   add_limit(series, "volume_error", "volume error", study.model.limits.volume_error, "", content);

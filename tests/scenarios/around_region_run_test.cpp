@@ -68,17 +68,17 @@ void expect_at(double found, double wanted) {
 
 TEST(AroundRegion, HasTheCellsThatTheObstacleComesNearTo) {
   auto times = times_with("{name: hotspot, shape: around, geometry: plate, within: 12 um, margin: 2 um}");
-  expect_at(times[CellId::founder(1)].up, 17.0);                      // straight below: 29 − t = 12
-  expect_at(times[CellId::founder(1)].down, 33.0);                    // leaves at 14 µm: 5 + (t − 24) = 14
-  expect_at(times[CellId::founder(2)].up, 29.0 - std::sqrt(63.0));    // 9 µm beyond the edge: 12² − 9² = 63
+  expect_at(times[CellId::founder(1)].up, 17.0);                    // straight below: 29 − t = 12
+  expect_at(times[CellId::founder(1)].down, 33.0);                  // leaves at 14 µm: 5 + (t − 24) = 14
+  expect_at(times[CellId::founder(2)].up, 29.0 - std::sqrt(63.0));  // 9 µm beyond the edge: 12² − 9² = 63
   EXPECT_EQ(times[CellId::founder(3)].up, -1.0) << "14 µm is the nearest that the plate comes";
 }
 
 TEST(FollowingRegion, MovesAlongWithTheObstacle) {
   auto times = times_with("{name: ball, shape: sphere, center: [0 um, 0 um, 30 um], radius: 18 um, margin: 2 um, follow: plate}");
-  expect_at(times[CellId::founder(1)].up, 12.0);                          // 30 − t = 18
+  expect_at(times[CellId::founder(1)].up, 12.0);  // 30 − t = 18
   EXPECT_EQ(times[CellId::founder(2)].up, -1.0) << "19 µm aside, in a ball of 18 µm";
-  expect_at(times[CellId::founder(3)].up, 21.0);                          // 39 − t = 18
+  expect_at(times[CellId::founder(3)].up, 21.0);  // 39 − t = 18
 }
 
 TEST(AroundRegion, TakesTheRoomOfTheLayerAroundABody) {
@@ -98,12 +98,15 @@ std::string errors(const std::string& region) { return test::errors_of(test::cha
 TEST(AroundRegion, RefusesWhatHasNoMeaning) {
   EXPECT_NE(errors("{name: r, shape: around, geometry: plat, within: 6 um}").find("there is no obstacle 'plat' [E401]"), std::string::npos);
   EXPECT_NE(errors("{name: r, shape: around, geometry: plate, within: 0 um}").find("[E30"), std::string::npos);
-  EXPECT_NE(errors("{name: r, shape: around, geometry: plate, within: 6 um, center: [0 um, 0 um, 1 um]}").find("'center' has no effect here [E515]"),
+  EXPECT_NE(errors("{name: r, shape: around, geometry: plate, within: 6 um, center: [0 um, 0 um, 1 um]}")
+                .find("'center' has no effect here [E515]"),
             std::string::npos);
   EXPECT_NE(errors("{name: r, shape: around, geometry: plate, within: 6 um, follow: plate}").find("'follow' has no effect here [E515]"),
             std::string::npos);
-  EXPECT_NE(errors("{name: r, shape: everything, follow_tissue: true}").find("'follow_tissue' has no effect here [E515]"), std::string::npos);
-  EXPECT_NE(errors("{name: r, shape: sphere, radius: 9 um, follow: plate, follow_tissue: true}").find("follows either the tissue or an obstacle [E111]"),
+  EXPECT_NE(errors("{name: r, shape: everything, follow_tissue: true}").find("'follow_tissue' has no effect here [E515]"),
+            std::string::npos);
+  EXPECT_NE(errors("{name: r, shape: sphere, radius: 9 um, follow: plate, follow_tissue: true}")
+                .find("follows either the tissue or an obstacle [E111]"),
             std::string::npos);
   EXPECT_NE(errors("{name: r, shape: sphere, radius: 9 um, follow: plane}").find("there is no obstacle 'plane' [E401]"), std::string::npos);
 }

@@ -65,7 +65,8 @@ TEST(Difference, FromNothingHasNoRelativeSize) {
 }
 
 TEST(StudySettings, AreComparedPathByPath) {
-  const auto a = settings_of("a: 1\nb: {c: 2 um, d: [x, y]}\nseed: 1\n", "a"), b = settings_of("a: 1\nb: {c: 3 um, d: [x, y, z]}\nseed: 2\n", "b");
+  const auto a = settings_of("a: 1\nb: {c: 2 um, d: [x, y]}\nseed: 1\n", "a"),
+             b = settings_of("a: 1\nb: {c: 3 um, d: [x, y, z]}\nseed: 2\n", "b");
   ASSERT_TRUE(a.ok() && b.ok());
   EXPECT_EQ(setting(*a, "b.d.1"), "y");
   EXPECT_EQ(differing_paths({&*a, &*b}, {"seed"}), (std::vector<std::string>{"b.c", "b.d.2"}));

@@ -63,8 +63,8 @@ TEST_F(Compare, TellsWhatDiffersByMoreThanSeedsSpreadAndWhatWasSetOtherwise) {
   EXPECT_EQ(column("total_volume")["verdict"], "differs");
   EXPECT_EQ(column("cell_count")["verdict"], "same");
   const std::string page = read_text(folder_ / "both/compare.html");
-  EXPECT_THAT(page, testing::AllOf(HasSubstr("total_volume"), HasSubstr("cell_types.cell.radius.mean"), HasSubstr("5.5 um"), HasSubstr("<svg"),
-                                   HasSubstr("data:image/png")));
+  EXPECT_THAT(page, testing::AllOf(HasSubstr("total_volume"), HasSubstr("cell_types.cell.radius.mean"), HasSubstr("5.5 um"),
+                                   HasSubstr("<svg"), HasSubstr("data:image/png")));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "both/plots/spheroid_radius.svg"));
 }
 
