@@ -69,7 +69,7 @@ struct Values {
 
 std::vector<InterfaceLayer> interface_layers(const Snapshot& start, const Snapshot& before, const Snapshot& now, const Space& space) {
   Space here = space;
-  if (now.box.low.x < now.box.high.x) here.box = now.box;
+  if (!now.box.empty()) here.box = now.box;
   const auto at_start = places_of(start), at_before = places_of(before);
   const std::vector<int> layer = layers_of(now.cells, neighbours_of(now.cells, here));
   std::map<int, Values> values;  // spheres below 0, shells above

@@ -21,10 +21,10 @@ std::string name_of(const InterfaceLayer& layer) {
   return body + ", layer " + std::to_string(layer.number) + (layer.and_beyond ? " and beyond" : "");
 }
 
-std::vector<std::string> row(std::string name, std::string cells, const LayerMean& pressure, const LayerMean& contact, const LayerMean& volume,
-                             const LayerMean& way, const LayerMean& speed) {
-  return {std::move(name), std::move(cells), text_of(pressure, 1e3), text_of(contact, 100.0), text_of(volume, 1.0), text_of(way, 1.0),
-          text_of(speed, 3600.0)};
+std::vector<std::string> row(std::string name, std::string cells, const LayerMean& pressure, const LayerMean& contact,
+                             const LayerMean& volume, const LayerMean& way, const LayerMean& speed) {
+  return {std::move(name),      std::move(cells),  text_of(pressure, 1e3), text_of(contact, 100.0),
+          text_of(volume, 1.0), text_of(way, 1.0), text_of(speed, 3600.0)};
 }
 
 }  // namespace
@@ -35,7 +35,8 @@ std::optional<ReportTable> interface_table(const Study& study, const std::vector
   const auto layers = interface_layers(snapshots.front(), before, now, study.model.space);
   if (layers.empty()) return std::nullopt;
   ReportTable out{"Where spheres and shells meet",
-                  "At the end, mean ± standard error over the cells of a layer: 1 touches the other body, 2 touches those, and so on. Ways since the start; "
+                  "At the end, mean ± standard error over the cells of a layer: 1 touches the other body, 2 touches those, and so on. Ways "
+                  "since the start; "
                   "speeds are net ways since " +
                       time_text(before.time) + ". A tissue that does not notice its bodies goes on evenly across the interface.",
                   {"layer", "cells", "pressure [Pa]", "contact over surface [%]", "volume [µm³]", "way [µm]", "speed [µm/h]"},
@@ -43,8 +44,8 @@ std::optional<ReportTable> interface_table(const Study& study, const std::vector
   for (const InterfaceLayer& one : layers)
     out.rows.push_back(row(name_of(one), std::to_string(one.cells), one.pressure, one.contact_part, one.volume, one.way, one.speed));
   out.rows.push_back(row("jump: shells less spheres that touch", "", jump(layers, &InterfaceLayer::pressure),
-                         jump(layers, &InterfaceLayer::contact_part), jump(layers, &InterfaceLayer::volume), jump(layers, &InterfaceLayer::way),
-                         jump(layers, &InterfaceLayer::speed)));
+                         jump(layers, &InterfaceLayer::contact_part), jump(layers, &InterfaceLayer::volume),
+                         jump(layers, &InterfaceLayer::way), jump(layers, &InterfaceLayer::speed)));
   return out;
 }
 

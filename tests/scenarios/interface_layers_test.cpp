@@ -91,7 +91,8 @@ TEST(InterfaceTable, HasARowForEachLayerAndTheJump) {
   const auto table = interface_table(*study, {lattice({0, 0, 1}, 0.0), lattice({0, 0, 0}, 3600.0)});
   ASSERT_TRUE(table.has_value());
   ASSERT_EQ(table->rows.size(), 9u);
-  EXPECT_EQ(table->rows[3], (std::vector<std::string>{"spheres that touch shells", "9", "3000 ± 1500", "25 ± 0", "500 ± 0", "1 ± 0", "1 ± 0"}));
+  EXPECT_EQ(table->rows[3],
+            (std::vector<std::string>{"spheres that touch shells", "9", "3000 ± 1500", "25 ± 0", "500 ± 0", "1 ± 0", "1 ± 0"}));
   EXPECT_EQ(table->rows[8][2], "1000 ± 2121");
   EXPECT_FALSE(interface_table(*study, {lattice({0, 0, 0}, 0.0)}).has_value());
 }
