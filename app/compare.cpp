@@ -24,9 +24,8 @@ std::string table_of(const std::vector<RunGroup>& groups, const Comparison& comp
   std::vector<std::vector<std::string>> rows{
       {"measure", "unit", "group", groups[0].name, "group's", "difference", "95 % ±", "at", "verdict"}};
   for (const scenarios::ComparedColumn& column : comparison.columns)
-    for (std::size_t g = 1; g < groups.size(); ++g) {
-      const ColumnDifference& d = column.differences[g - 1];
-      rows.push_back({column.name, column.unit, groups[g].name, scenarios::value_words(d.reference), scenarios::value_words(d.value),
+    for (const ColumnDifference& d : column.differences) {
+      rows.push_back({column.name, column.unit, d.group, scenarios::value_words(d.reference), scenarios::value_words(d.value),
                       scenarios::relative_words(d), std::isnan(d.interval) ? "" : number_text("%.3g", d.interval),
                       scenarios::time_text(d.time), scenarios::verdict_words(d, request)});
     }
@@ -46,11 +45,10 @@ std::string json_of(const std::vector<RunGroup>& groups, const Comparison& compa
   out["until"] = comparison.times.back();
   out["columns"] = Json::array();
   for (const scenarios::ComparedColumn& column : comparison.columns)
-    for (std::size_t g = 1; g < groups.size(); ++g) {
-      const ColumnDifference& d = column.differences[g - 1];
+    for (const ColumnDifference& d : column.differences) {
       out["columns"].push_back({{"name", column.name},
                                 {"unit", column.unit},
-                                {"group", groups[g].name},
+                                {"group", d.group},
                                 {"time", d.time},
                                 {"reference", {{"mean", number(d.reference.mean)}, {"spread", number(d.reference.spread)}}},
                                 {"value", {{"mean", number(d.value.mean)}, {"spread", number(d.value.spread)}}},

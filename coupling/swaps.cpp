@@ -16,14 +16,6 @@
 namespace morula {
 namespace {
 
-/// Distance of a point outside a region; negative inside [µm].
-double distance_outside(const Model& model, const Region& region, const Vec3d& point, double time, const Vec3d& tissue_center) {
-  Vec3d center = region.center;
-  if (region.follow_tissue) center += tissue_center;
-  if (region.obstacle >= 0) center += model.obstacles[static_cast<std::size_t>(region.obstacle)].way(0.0, time);
-  return region.shape->distance(region, point - center);
-}
-
 bool needs_center(const Swaps& swaps) {
   return std::any_of(swaps.regions.begin(), swaps.regions.end(), [](const Region& r) { return r.follow_tissue; });
 }
@@ -41,6 +33,18 @@ Vec3d tissue_centroid(std::span<const Vec3d> center, const Comm& comm) {
   return total[3] > 0.0 ? Vec3d{total[0], total[1], total[2]} * (1.0 / total[3]) : Vec3d{};
 }
 
+/// Where the centres of the regions are now: some follow the tissue, some an obstacle. Collective.
+std::vector<Vec3d> centers_of_regions(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm) {
+  const Vec3d of_tissue = needs_center(model.swaps) ? tissue_centroid(center, comm) : Vec3d{};
+  std::vector<Vec3d> out;
+  for (const Region& region : model.swaps.regions) {
+    out.push_back(region.center);
+    if (region.follow_tissue) out.back() += of_tissue;
+    if (region.obstacle >= 0) out.back() += model.obstacles[static_cast<std::size_t>(region.obstacle)].way(0.0, tissue.clock.time);
+  }
+  return out;
+}
+
 struct Wish {
   BodyKind body;
   double hold;
@@ -49,16 +53,17 @@ struct Wish {
 };
 
 /// What body a cell is to have: the first region it is in decides, then the triggers, then what it was at the start.
-Wish wish(const Model& model, const CellView& cell, const Vec3d& center, const Vec3d& tissue_center) {
+Wish wish(const Model& model, const CellView& cell, const Vec3d& center, std::span<const Vec3d> center_of_region) {
   const CellRow& row = cell.row();
   const bool shell = row.body == BodyKind::kShell;
   using Cause = EventReason::Cause;
   std::uint32_t number = 0;
   for (const Region& region : model.swaps.regions) {
+    const Vec3d from = center - center_of_region[number];
     const EventReason reason{Cause::kRegion, false, number++};
     if (!region.exists_at(cell.time())) continue;
     const double margin = row.body == region.body ? region.margin : 0.0;
-    const double outside = distance_outside(model, region, center, cell.time(), tissue_center);
+    const double outside = region.shape->distance(region, from);
     if (outside <= margin) return {region.body, model.swaps.hold, reason, -outside};
   }
   double hold = model.swaps.hold;
@@ -112,7 +117,7 @@ LookedAt look_for_swaps(const Swaps& swaps, const Tissue& tissue, Mechanics& mec
 std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, const SwapBodies& bodies, const Comm& comm) {
   const std::span<const Vec3d> center = bodies.center;
   if (model.swaps.regions.empty() && model.swaps.triggers.empty()) return {};
-  const Vec3d tissue_center = needs_center(model.swaps) ? tissue_centroid(center, comm) : Vec3d{};
+  const std::vector<Vec3d> center_of_region = centers_of_regions(model, tissue, center, comm);
   std::vector<SwapOrder> orders;
   std::int64_t shells = 0;
   for (const BodyOfRow& body : bodies_of(tissue.cells)) {
@@ -120,7 +125,7 @@ std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, co
     const CellRow& row = tissue.cells.rows[i];
     if (row.body == BodyKind::kShell) ++shells;
     if (row.phase == Phase::kDying) continue;
-    const Wish wanted = wish(model, bodies.view(model, tissue, body), center[i], tissue_center);
+    const Wish wanted = wish(model, bodies.view(model, tissue, body), center[i], center_of_region);
     if (wanted.body == row.body || tissue.clock.time - tissue.cells.optional.last_swap_time[i] < wanted.hold) continue;
     orders.push_back({i, wanted.body, wanted.reason, {place_of_rule(model.swaps, wanted.reason), wanted.beyond, row.id}});
   }
@@ -154,7 +159,7 @@ std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, co
 bool swaps_wait(const Model& model, const Tissue& tissue, const SwapBodies& bodies, const Comm& comm) {
   const std::span<const Vec3d> center = bodies.center;
   if (model.swaps.regions.empty() && model.swaps.triggers.empty()) return false;
-  const Vec3d tissue_center = needs_center(model.swaps) ? tissue_centroid(center, comm) : Vec3d{};
+  const std::vector<Vec3d> center_of_region = centers_of_regions(model, tissue, center, comm);
   bool up = false, down = false;
   std::int64_t shells = 0;
   for (const BodyOfRow& body : bodies_of(tissue.cells)) {
@@ -162,7 +167,7 @@ bool swaps_wait(const Model& model, const Tissue& tissue, const SwapBodies& bodi
     const CellRow& row = tissue.cells.rows[i];
     if (row.body == BodyKind::kShell) ++shells;
     if (row.phase == Phase::kDying) continue;
-    const BodyKind wanted = wish(model, bodies.view(model, tissue, body), center[i], tissue_center).body;
+    const BodyKind wanted = wish(model, bodies.view(model, tissue, body), center[i], center_of_region).body;
     if (wanted != row.body) (wanted == BodyKind::kShell ? up : down) = true;
   }
   const bool has_place = static_cast<std::uint64_t>(comm.sum(shells)) < model.swaps.max_shells;

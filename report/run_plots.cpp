@@ -12,8 +12,8 @@ class Plots {
   Plots(const Study& study, const SeriesTable& series) : study_(study), series_(series) {
     const SeriesColumn* time = series.find("time");
     const double last = time && !time->values.empty() ? time->values.back() : 0.0;
-    const double unit = last < 120.0 ? 1.0 : last < 7200.0 ? 60.0 : 3600.0;
-    axis_ = {"time", unit == 1.0 ? "s" : unit == 60.0 ? "min" : "h", false, {}, {}};
+    const auto [axis, unit] = time_axis(last);
+    axis_ = axis;
     if (time)
       for (const double t : time->values) time_.push_back(t / unit);
   }

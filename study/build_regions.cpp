@@ -204,17 +204,6 @@ int find_mark(BuildContext& c, const std::string& name, const Place& place) {
   return -1;
 }
 
-int find_obstacle(BuildContext& c, const std::string& name, const Place& place) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < c.draft.geometry.size(); ++i) {
-    if (c.draft.geometry[i].name == name) return static_cast<int>(i);
-    names.push_back(c.draft.geometry[i].name);
-  }
-  c.diagnostics.error(401, place, "there is no obstacle '" + name + "'",
-                      names.empty() ? "declare it under `geometry`" : suggest(name, names));
-  return -1;
-}
-
 int find_cell_or_obstacle(BuildContext& c, const std::string& name, const Place& place) {
   std::vector<std::string> names;
   for (const auto& type : c.draft.cell_types) names.push_back(type.name);

@@ -122,24 +122,34 @@ void build_domain(BuildContext& c) {
   build_box_course(c);
 }
 
-int find_type(BuildContext& c, const std::string& name, const Place& place) {
+namespace {
+
+/// Number of the one with this name among sections of the study, or −1 and an error with suggestions.
+template <class T>
+int find_named(BuildContext& c, int code, const char* what, const std::vector<Named<T>>& all, const char* section, const std::string& name,
+               const Place& place) {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
-    if (c.draft.cell_types[i].name == name) return static_cast<int>(i);
-    names.push_back(c.draft.cell_types[i].name);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].name == name) return static_cast<int>(i);
+    names.push_back(all[i].name);
   }
-  c.diagnostics.error(401, place, "there is no cell type '" + name + "'", suggest(name, names));
+  c.diagnostics.error(code, place, std::string("there is no ") + what + " '" + name + "'",
+                      names.empty() ? std::string("declare it under `") + section + "`" : suggest(name, names));
   return -1;
 }
 
+}  // namespace
+
+int find_type(BuildContext& c, const std::string& name, const Place& place) {
+  return find_named(c, 401, "cell type", c.draft.cell_types, "cell_types", name, place);
+}
+
 int find_field(BuildContext& c, const std::string& name, const Place& place) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < c.draft.fields.size(); ++i) {
-    if (c.draft.fields[i].name == name) return static_cast<int>(i);
-    names.push_back(c.draft.fields[i].name);
-  }
-  c.diagnostics.error(402, place, "there is no field '" + name + "'", names.empty() ? "declare it under `fields`" : suggest(name, names));
-  return -1;
+  return find_named(c, 402, "field", c.draft.fields, "fields", name, place);
+}
+
+int find_obstacle(BuildContext& c, const std::string& name, const Place& place) {
+  return find_named(c, 401, "obstacle", c.draft.geometry, "geometry", name, place);
 }
 
 bool may_have_shells(const draft::Study& study) {

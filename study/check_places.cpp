@@ -1,4 +1,3 @@
-#include <numeric>
 
 #include "cbm/laws/sphere_caps.h"
 #include "core/contact/broad_phase.h"
@@ -30,12 +29,10 @@ void tell(BuildContext& c, const PlaceProblem& problem) {
 
 /// The volume of each ball behind the planes in which it meets others [µm³].
 std::vector<double> caps_of_balls(const std::vector<Vec3d>& center, const std::vector<double>& radius, const Space& space) {
-  std::vector<Extent> balls;
-  for (std::size_t i = 0; i < center.size(); ++i) balls.push_back({Box{center[i], center[i]}.inflated(radius[i]), center[i], radius[i]});
-  std::vector<std::uint32_t> place(balls.size());
-  std::iota(place.begin(), place.end(), 0u);
+  std::vector<Ball> balls;
+  for (std::size_t i = 0; i < center.size(); ++i) balls.push_back({center[i], radius[i]});
   std::vector<double> caps(balls.size());
-  find_body_pairs(balls, place, std::vector<char>(balls.size(), 1), space, [&](const BodyPair& pair) {
+  find_ball_pairs(balls, space, [&](const BodyPair& pair) {
     const double distance = norm(center[pair.b] + pair.shift - center[pair.a]);
     const cbm::SphereCaps both = cbm::sphere_caps(radius[pair.a], radius[pair.b], distance);
     caps[pair.a] += both.volume_a, caps[pair.b] += both.volume_b;

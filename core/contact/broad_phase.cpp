@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace morula {
@@ -133,6 +134,14 @@ void find_body_pairs(std::span<const Extent> extents, std::span<const std::uint3
     std::sort(of_body.begin(), of_body.end(), [&](const BodyPair& a, const BodyPair& b) { return place[a.b] < place[b.b]; });
     for (const BodyPair& pair : of_body) found(pair);
   }
+}
+
+void find_ball_pairs(std::span<const Ball> balls, const Space& space, const std::function<void(const BodyPair&)>& found) {
+  std::vector<Extent> extents;
+  for (const Ball& ball : balls) extents.push_back({Box{ball.center, ball.center}.inflated(ball.radius), ball.center, ball.radius});
+  std::vector<std::uint32_t> place(balls.size());
+  std::iota(place.begin(), place.end(), 0u);
+  find_body_pairs(extents, place, std::vector<char>(balls.size(), 1), space, found);
 }
 
 std::vector<std::uint32_t> bodies_near(std::span<const std::uint32_t> some, std::size_t count,

@@ -35,6 +35,9 @@ struct Ball {
   double radius = 0.0;
 };
 
+/// The same for all pairs of balls that overlap, in the order of their numbers; here the balls are the bodies.
+void find_ball_pairs(std::span<const Ball> balls, const Space& space, const std::function<void(const BodyPair&)>& found);
+
 /// Numbers of the bodies that lie near one of `some`, increasing: all that may touch one of them, themselves and a few more. Goes over all bodies twice,
 /// with no more memory than bytes for bins. `ball_of` gives the ball of a body.
 std::vector<std::uint32_t> bodies_near(std::span<const std::uint32_t> some, std::size_t count,

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <numeric>
+
+#include "core/mesh/mean_curvature.h"
 
 namespace morula {
 namespace {
@@ -69,28 +70,19 @@ void add_point(std::vector<Facet>& facets, const std::vector<Vec3d>& points, Ind
 }
 
 void measure(ConvexHull& hull, const std::vector<Facet>& facets) {
-  std::map<std::pair<Index, Index>, const Facet*> by_edge;
   const Vec3d origin = hull.points[facets.front().corners[0]];
   for (const Facet& f : facets) {
     hull.faces.push_back(f.corners);
     const Vec3d a = hull.points[f.corners[0]] - origin, b = hull.points[f.corners[1]] - origin, c = hull.points[f.corners[2]] - origin;
     hull.volume += dot(a, cross(b, c)) / 6.0;
     hull.area += 0.5 * norm(cross(b - a, c - a));
-    for (std::size_t k = 0; k < 3; ++k) by_edge[{f.corners[k], f.corners[(k + 1) % 3]}] = &f;
   }
-  for (const auto& [edge, f] : by_edge) {
-    if (edge.first > edge.second) continue;
-    const Facet& g = *by_edge.at({edge.second, edge.first});
-    const double angle = std::atan2(norm(cross(f->normal, g.normal)), dot(f->normal, g.normal));
-    hull.mean_curvature += 0.5 * norm(hull.points[edge.first] - hull.points[edge.second]) * angle;
-  }
+  hull.mean_curvature = mean_curvature(hull.points, hull.faces);
 }
 
 }  // namespace
 
-double ConvexHull::inflated_volume(double margin) const {
-  return volume + margin * (area + margin * (mean_curvature + margin * 4.0 / 3.0 * std::numbers::pi));
-}
+double ConvexHull::inflated_volume(double margin) const { return volume + layer_around(area, mean_curvature, margin); }
 
 double ConvexHull::depth(const Vec3d& point) const {
   double least = std::numeric_limits<double>::infinity();

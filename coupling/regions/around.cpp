@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numbers>
-#include <utility>
 
+#include "core/mesh/mean_curvature.h"
 #include "core/mesh/triangle_tree.h"
 #include "coupling/model.h"
 #include "coupling/regions/region.h"
@@ -13,26 +11,13 @@ namespace {
 
 using Kind = OwnKey::Kind;
 
-/// What is nearer than a distance to a closed surface, without what is on its far side: Σ over faces, edges and nodes of a convex body (Steiner 1840).
-/// Where it is not convex, about that [µm³].
+/// What is nearer than a distance to a closed surface, without what is on its far side; where it is not convex, about that [µm³].
 double room_around(const ObstacleSpec& obstacle, double within) {
-  double area = 0.0, bend = 0.0;  // bend: half the sum over edges of length times turn, as Minkowski's quermass integral has it
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3d> normal_beside;
-  for (const Triangle& t : obstacle.faces) {
-    const Vec3d twice = cross(obstacle.position[t[1]] - obstacle.position[t[0]], obstacle.position[t[2]] - obstacle.position[t[0]]);
-    if (norm2(twice) == 0.0) continue;
-    area += 0.5 * norm(twice);
-    for (int k = 0; k < 3; ++k) normal_beside[{t[k], t[(k + 1) % 3]}] = normalized(twice);
-  }
-  for (const auto& [edge, normal] : normal_beside) {
-    const auto other = normal_beside.find({edge.second, edge.first});
-    if (edge.first > edge.second || other == normal_beside.end()) continue;
-    const double turn = std::atan2(norm(cross(normal, other->second)), dot(normal, other->second));
-    bend += 0.5 * turn * norm(obstacle.position[edge.second] - obstacle.position[edge.first]);
-  }
-  if (obstacle.inside) bend = -bend;
-  const double corners = obstacle.inside ? 0.0 : 4.0 / 3.0 * std::numbers::pi * within * within * within;
-  return std::max(0.0, area * within + bend * within * within + corners);
+  double area = 0.0;
+  for (const Triangle& t : obstacle.faces)
+    area += 0.5 * norm(cross(obstacle.position[t[1]] - obstacle.position[t[0]], obstacle.position[t[2]] - obstacle.position[t[0]]));
+  const double bend = mean_curvature(obstacle.position, obstacle.faces);
+  return obstacle.inside ? std::max(0.0, within * (area - within * bend)) : layer_around(area, bend, within);
 }
 
 }  // namespace

@@ -190,6 +190,12 @@ Status write_both(const std::filesystem::path& stem, const std::string& svg, con
 
 }  // namespace
 
+TimeAxis time_axis(double last) {
+  if (last < 120.0) return {{"time", "s", false, {}, {}}, 1.0};
+  if (last < 7200.0) return {{"time", "min", false, {}, {}}, 60.0};
+  return {{"time", "h", false, {}, {}}, 3600.0};
+}
+
 std::string curves_svg(const CurvePlot& plot, SvgUse use) {
   if (auto with_ends = drawn(plot, use, true)) return *std::move(with_ends);
   return *drawn(plot, use, false);

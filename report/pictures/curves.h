@@ -15,6 +15,13 @@ struct CurveAxis {
   std::optional<double> low, high;  ///< where not given: from the data
 };
 
+/// The axis of times up to `last` [s] in seconds, minutes or hours, and how many seconds its unit has.
+struct TimeAxis {
+  CurveAxis axis;
+  double unit = 1.0;
+};
+TimeAxis time_axis(double last);
+
 enum class CurveStyle { kLine, kSteps, kPoints };
 
 struct Curve {

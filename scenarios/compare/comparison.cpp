@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
+#include "core/numbers/sample.h"
 #include "scenarios/run/progress.h"
 
 namespace morula::scenarios {
@@ -25,26 +27,19 @@ bool is_about_bodies(const std::string& name) {
   return names.contains(name);
 }
 
-/// The place of each of the common times in the rows of a run.
-std::vector<std::size_t> rows_at(const SeriesTable& series, const std::vector<double>& times) {
+/// The row of a time; none where a run has none. Steps land on outputs: a rounding of their times is no difference.
+std::optional<std::size_t> row_at(const SeriesTable& series, double time) {
   const std::vector<double>& own = series.find("time")->values;
-  std::vector<std::size_t> out;
-  for (const double time : times)
-    out.push_back(
-        static_cast<std::size_t>(std::ranges::min_element(own, {}, [time](double t) { return std::abs(t - time); }) - own.begin()));
-  return out;
-}
-
-/// Steps land on outputs; a rounding of their times is no difference.
-bool has_time(const std::vector<double>& times, double time) {
-  return std::ranges::any_of(times, [time](double t) { return std::abs(t - time) <= 1e-9 * std::max(1.0, std::abs(time)); });
+  const double rounding = 1e-9 * std::max(1.0, std::abs(time));
+  const auto at = std::ranges::lower_bound(own, time - rounding);
+  if (at == own.end() || *at > time + rounding) return std::nullopt;
+  return static_cast<std::size_t>(at - own.begin());
 }
 
 std::vector<double> common_times(const std::vector<RunGroup>& groups, double from) {
   std::vector<double> out = groups[0].runs[0].series.find("time")->values;
   for (const RunGroup& group : groups)
-    for (const ComparedRun& run : group.runs)
-      std::erase_if(out, [&](double time) { return time < from || !has_time(run.series.find("time")->values, time); });
+    for (const ComparedRun& run : group.runs) std::erase_if(out, [&](double time) { return time < from || !row_at(run.series, time); });
   return out;
 }
 
@@ -76,7 +71,10 @@ Rows rows_of(const std::vector<RunGroup>& groups, const std::vector<double>& tim
   Rows out;
   for (const RunGroup& group : groups) {
     out.emplace_back();
-    for (const ComparedRun& run : group.runs) out.back().push_back(rows_at(run.series, times));
+    for (const ComparedRun& run : group.runs) {
+      out.back().emplace_back();
+      for (const double time : times) out.back().back().push_back(*row_at(run.series, time));
+    }
   }
   return out;
 }
@@ -89,25 +87,26 @@ std::vector<double> values_at(const ColumnOfRuns& columns, const Rows& rows, std
 }
 
 /// Where the means of two groups are farthest apart.
-std::size_t farthest(const std::vector<GroupValue>& a, const std::vector<GroupValue>& b) {
+std::size_t farthest(const std::vector<double>& a, const std::vector<double>& b) {
   std::size_t at = a.size() - 1;
   for (std::size_t t = 0; t < a.size(); ++t)
-    if (std::abs(a[t].mean - b[t].mean) > std::abs(a[at].mean - b[at].mean)) at = t;
+    if (std::abs(a[t] - b[t]) > std::abs(a[at] - b[at])) at = t;
   return at;
 }
 
-ComparedColumn compared(const ColumnOfRuns& columns, const Rows& rows, const std::vector<double>& times, const CompareRequest& request) {
-  ComparedColumn out{columns[0][0]->name, columns[0][0]->unit, {}, {}};
+ComparedColumn compared(const std::vector<RunGroup>& groups, const ColumnOfRuns& columns, const Rows& rows,
+                        const std::vector<double>& times, const CompareRequest& request) {
+  ComparedColumn out{columns[0][0]->name, columns[0][0]->unit, {}};
+  std::vector<std::vector<double>> mean(groups.size());  // by group and time
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (std::size_t t = 0; t < times.size(); ++t) mean[g].push_back(mean_of_sample(values_at(columns, rows, g, t)));
   double largest = 0.0;
-  for (std::size_t g = 0; g < columns.size(); ++g) {
-    out.over_time.emplace_back();
-    for (std::size_t t = 0; t < times.size(); ++t) out.over_time[g].push_back(value_of(values_at(columns, rows, g, t)));
-  }
-  for (const GroupValue& v : out.over_time[0]) largest = std::max(largest, std::abs(v.mean));
-  for (std::size_t g = 1; g < columns.size(); ++g) {
-    const std::size_t at = request.every ? farthest(out.over_time[0], out.over_time[g]) : times.size() - 1;
-    const double size = request.every ? largest : std::abs(out.over_time[0][at].mean);
+  for (const double m : mean[0]) largest = std::max(largest, std::abs(m));
+  for (std::size_t g = 1; g < groups.size(); ++g) {
+    const std::size_t at = request.every ? farthest(mean[0], mean[g]) : times.size() - 1;
+    const double size = request.every ? largest : std::abs(mean[0][at]);
     out.differences.push_back(difference_of(values_at(columns, rows, 0, at), values_at(columns, rows, g, at), size, request.within));
+    out.differences.back().group = groups[g].name;
     out.differences.back().time = times[at];
   }
   return out;
@@ -137,7 +136,7 @@ Result<Comparison> compare(const std::vector<RunGroup>& groups, const CompareReq
   tell_ends(groups, out, out.notes);
   std::vector<const Settings*> studies;
   for (const RunGroup& group : groups) studies.push_back(&group.runs[0].settings);
-  out.settings = differing_paths(studies, {"seed", "title"});
+  out.settings = differing_paths(studies, kNotTheStudy);
   const Rows rows = rows_of(groups, out.times);
   std::vector<std::string> names = request.only;
   if (names.empty())
@@ -148,7 +147,7 @@ Result<Comparison> compare(const std::vector<RunGroup>& groups, const CompareReq
   for (const std::string& name : names) {
     MORULA_TRY_ASSIGN(const auto columns, column_of(groups, name));
     if (columns) {
-      out.columns.push_back(compared(*columns, rows, out.times, request));
+      out.columns.push_back(compared(groups, *columns, rows, out.times, request));
     } else if (request.only.empty()) {
       out.left_out.push_back(name);
     } else {

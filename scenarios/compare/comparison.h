@@ -20,8 +20,7 @@ struct CompareRequest {
 /// A column of series.csv that all runs have.
 struct ComparedColumn {
   std::string name, unit;
-  std::vector<std::vector<GroupValue>> over_time;  ///< by group and common time
-  std::vector<ColumnDifference> differences;       ///< of the second group, the third, ...
+  std::vector<ColumnDifference> differences;  ///< of the second group, the third, ...
 };
 
 struct Comparison {

@@ -50,9 +50,8 @@ ReportTable table_of_differences(const std::vector<RunGroup>& groups, const Comp
                   {"measure", "group", groups[0].name, "group's value", "difference", "95 % interval", "at", "verdict"},
                   {}};
   for (const ComparedColumn& column : comparison.columns)
-    for (std::size_t g = 1; g < groups.size(); ++g) {
-      const ColumnDifference& d = column.differences[g - 1];
-      out.rows.push_back({column.name + (column.unit.empty() || column.unit == "1" ? "" : " [" + column.unit + "]"), groups[g].name,
+    for (const ColumnDifference& d : column.differences) {
+      out.rows.push_back({column.name + (column.unit.empty() || column.unit == "1" ? "" : " [" + column.unit + "]"), d.group,
                           value_words(d.reference), value_words(d.value), relative_words(d),
                           std::isnan(d.interval) ? "" : "± " + number_text("%.3g", d.interval), time_text(d.time),
                           verdict_words(d, request)});
@@ -76,10 +75,10 @@ ReportTable table_of_settings(const std::vector<RunGroup>& groups, const Compari
 
 /// Each run a curve, each group a colour.
 CurvePlot plot_of(const std::vector<RunGroup>& groups, const ComparedColumn& column, double last) {
-  const double unit = last < 120.0 ? 1.0 : last < 7200.0 ? 60.0 : 3600.0;
+  const auto [axis, unit] = time_axis(last);
   CurvePlot plot;
   plot.title = column.name;
-  plot.x = {"time", unit == 1.0 ? "s" : unit == 60.0 ? "min" : "h", false, {}, {}};
+  plot.x = axis;
   plot.y = {column.name, column.unit == "1" ? "" : column.unit, false, {}, {}};
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (const ComparedRun& run : groups[g].runs) {
@@ -149,10 +148,9 @@ Result<fs::path> write_comparison(const std::vector<RunGroup>& groups, const Com
                     " outputs that all runs have.";
   if (request.within)
     for (const ComparedColumn& column : comparison.columns)
-      for (std::size_t g = 1; g < groups.size(); ++g) {
-        const ColumnDifference& d = column.differences[g - 1];
-        content.criteria.push_back({column.name, groups[g].name + " against " + groups[0].name, relative_words(d),
-                                    verdict_words(d, request), d.verdict == ComparisonVerdict::kWithin});
+      for (const ColumnDifference& d : column.differences) {
+        content.criteria.push_back({column.name, d.group + " against " + groups[0].name, relative_words(d), verdict_words(d, request),
+                                    d.verdict == ComparisonVerdict::kWithin});
       }
   content.tables = {table_of_differences(groups, comparison, request), table_of_runs(groups), table_of_settings(groups, comparison)};
   ReportTable notes{"Notes", "", {}, {}};

@@ -5,32 +5,21 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numbers/sample.h"
+
 namespace morula::scenarios {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-double mean_of(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double v : values) sum += v;
-  return sum / static_cast<double>(values.size());
-}
-
-/// Of n − 1; no number of a single value [as the values, squared].
-double variance_of(const std::vector<double>& values) {
-  if (values.size() < 2) return kNone;
-  const double mean = mean_of(values);
-  double sum = 0.0;
-  for (const double v : values) sum += (v - mean) * (v - mean);
-  return sum / static_cast<double>(values.size() - 1);
-}
+GroupValue value_of(const std::vector<double>& values) { return {mean_of_sample(values), std::sqrt(variance_of_sample(values))}; }
 
 struct StandardError {
   double error = kNone, freedom = kNone;
 };
 
 StandardError standard_error(const std::vector<double>& a, const std::vector<double>& b) {
-  double var_a = variance_of(a), var_b = variance_of(b);
+  double var_a = variance_of_sample(a), var_b = variance_of_sample(b);
   if (std::isnan(var_a) && std::isnan(var_b)) return {};
   const double n_a = static_cast<double>(a.size()), n_b = static_cast<double>(b.size());
   if (std::isnan(var_a) || std::isnan(var_b)) {  // a single run: as the other group spreads
@@ -75,8 +64,6 @@ std::string name_of(ComparisonVerdict verdict) {
   }
   return "";
 }
-
-GroupValue value_of(const std::vector<double>& values) { return {mean_of(values), std::sqrt(variance_of(values))}; }
 
 ColumnDifference difference_of(const std::vector<double>& reference, const std::vector<double>& values, double size,
                                std::optional<double> within) {

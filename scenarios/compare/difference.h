@@ -23,6 +23,7 @@ enum class ComparisonVerdict {
 
 /// A column of one group against that of the first group.
 struct ColumnDifference {
+  std::string group{};
   GroupValue value;
   double time = 0.0;        ///< where it is judged [s]
   GroupValue reference;     ///< of the first group at that time
@@ -32,9 +33,6 @@ struct ColumnDifference {
   double in_spreads = 0.0;  ///< difference over the standard error; no number likewise
   ComparisonVerdict verdict = ComparisonVerdict::kUnknown;
 };
-
-/// Of the values of the runs of a group at one time; at least one.
-GroupValue value_of(const std::vector<double>& values);
 
 /// The difference of two means and what can be said of it (Welch 1947, doi:10.1093/biomet/34.1-2.28). Where one group has a single run it is taken to spread
 /// as the other does. `size`: what relative differences and `within` refer to.

@@ -10,9 +10,6 @@ namespace morula::scenarios {
 namespace fs = std::filesystem;
 namespace {
 
-/// What may differ between runs of one group.
-const std::vector<std::string> kNotTheStudy{"seed", "title"};
-
 Error wrong(std::string what, std::string help) { return {ErrorKind::kInput, std::move(what), std::move(help)}; }
 
 Result<ComparedRun> read_run(const std::string& given) {

@@ -10,6 +10,9 @@
 
 namespace morula::scenarios {
 
+/// Keys of a study that say nothing of the tissue: runs of one group may differ in them.
+inline const std::vector<std::string> kNotTheStudy{"seed", "title"};
+
 /// A run as a comparison looks at it.
 struct ComparedRun {
   std::filesystem::path path;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "core/contact/broad_phase.h"
+#include "core/numbers/sample.h"
 
 namespace morula::scenarios {
 namespace {
@@ -13,17 +13,10 @@ using Cell = Snapshot::Cell;
 constexpr double kReach = 1.2;
 
 std::vector<std::vector<std::uint32_t>> neighbours_of(const std::vector<Cell>& cells, const Space& space) {
-  std::vector<Extent> balls;
-  for (const Cell& cell : cells)
-    balls.push_back({Box{cell.centroid, cell.centroid}.inflated(kReach * cell.radius), cell.centroid, kReach * cell.radius});
-  std::vector<std::uint32_t> place(cells.size());
-  std::iota(place.begin(), place.end(), 0u);
+  std::vector<Ball> balls;
+  for (const Cell& cell : cells) balls.push_back({cell.centroid, kReach * cell.radius});
   std::vector<std::vector<std::uint32_t>> out(cells.size());
-  find_body_pairs(balls, place, std::vector<char>(cells.size(), 1), space, [&](const BodyPair& pair) {
-    const double reach = kReach * (cells[pair.a].radius + cells[pair.b].radius);
-    if (norm(cells[pair.b].centroid + pair.shift - cells[pair.a].centroid) > reach) return;
-    out[pair.a].push_back(pair.b), out[pair.b].push_back(pair.a);
-  });
+  find_ball_pairs(balls, space, [&out](const BodyPair& pair) { out[pair.a].push_back(pair.b), out[pair.b].push_back(pair.a); });
   return out;
 }
 
@@ -44,14 +37,7 @@ std::vector<int> layers_of(const std::vector<Cell>& cells, const std::vector<std
 }
 
 LayerMean mean_of(const std::vector<double>& values) {
-  LayerMean out;
-  const double n = static_cast<double>(values.size());
-  if (values.empty()) return out;
-  out.mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-  double squares = 0.0;
-  for (const double v : values) squares += (v - out.mean) * (v - out.mean);
-  if (values.size() > 1) out.error = std::sqrt(squares / (n - 1.0) / n);
-  return out;
+  return {mean_of_sample(values), std::sqrt(variance_of_sample(values) / static_cast<double>(values.size()))};
 }
 
 std::map<CellId, Vec3d> places_of(const Snapshot& snapshot) {

@@ -2,6 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "results/file_io.h"
+#include "results/snapshot_file.h"
+#include "scenarios/criteria/judge_criteria.h"
+#include "scenarios/run/driver.h"
 #include "scenarios/run/interface_table.h"
 #include "tests/study/study_fixture.h"
 
@@ -95,6 +101,39 @@ TEST(InterfaceTable, HasARowForEachLayerAndTheJump) {
             (std::vector<std::string>{"spheres that touch shells", "9", "3000 ± 1500", "25 ± 0", "500 ± 0", "1 ± 0", "1 ± 0"}));
   EXPECT_EQ(table->rows[8][2], "1000 ± 2121");
   EXPECT_FALSE(interface_table(*study, {lattice({0, 0, 0}, 0.0)}).has_value());
+}
+
+/// From a study file with default parameters to what the run writes: the criterion finds the difference of the two cells of the results, and the report has the layers.
+TEST(InterfaceReport, OfARunTellsTheJumpBetweenASphereAndAShellThatTouch) {
+  const test::Folder folder;
+  ReadOptions options;
+  options.check_criteria = &check_criteria;
+  const auto study = test::read(
+      "schema: 1\nstudy: two\ntime: {end: 10 min, output: 5 min}\ndomain: {size: [100 um, 100 um, 100 um]}\ncell_types: {cell: {radius: 6 "
+      "um}}\n"
+      "initial:\n  - {type: cell, at: [[-5.7 um, 0 um, 0 um]]}\n  - {type: cell, at: [[5.7 um, 0 um, 0 um]], as: shell}\n"
+      "criteria: [{id: JUMP, measure: interface.pressure_jump, between: [-1 kPa, 1 kPa]}]\n",
+      options);
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  RunRequest request;
+  request.out = folder.path() / "run";
+  const auto done = run(*study, request, Comm());
+  ASSERT_TRUE(done.ok()) << done.error().message;
+  const auto entries = list_snapshots(folder.path() / "run/results.h5");
+  ASSERT_TRUE(entries.ok());
+  const auto end = read_snapshot(folder.path() / "run/results.h5", entries->back().index);
+  ASSERT_TRUE(end.ok());
+  double of_sphere = 0.0, of_shell = 0.0;
+  for (const Snapshot::Cell& cell : end->cells) (cell.body == BodyKind::kShell ? of_shell : of_sphere) = cell.pressure;
+  const auto verdict = std::ranges::find(done->verdicts, "JUMP", &Verdict::id);
+  ASSERT_NE(verdict, done->verdicts.end());
+  EXPECT_NE(of_shell, of_sphere);
+  EXPECT_NEAR(verdict->value, of_shell - of_sphere, 1e-12);
+  const auto report = read_file(folder.path() / "run/report.html");
+  ASSERT_TRUE(report.ok());
+  for (const char* text :
+       {"Where spheres and shells meet", "spheres that touch shells", "shells that touch spheres", "jump: shells less spheres"})
+    EXPECT_NE(report->find(text), std::string::npos) << text;
 }
 
 }  // namespace
