@@ -125,7 +125,7 @@ struct alignas(64) Batch {
   double source_normal[3][kLanes], face_area[kLanes], area[kLanes];  ///< of the source's face; what the point stands for
   double gap[kLanes], normal[3][kLanes], mu[3][kLanes];
   double unit[3][kLanes], length[kLanes];  ///< normal of the target at the foot point
-  double weight_slope[kLanes], attraction[kLanes], density[kLanes], told[kLanes], pull[3][kLanes];
+  double weight_slope[kLanes], attraction[kLanes], tension[kLanes], density[kLanes], told[kLanes], pull[3][kLanes];
   double bearing[kLanes], stiffness[kLanes];
   bool inside[kLanes];                                      ///< the gap is negative
   double corner_adhesion[3][kLanes], per_adhesion[kLanes];  ///< where W differs by marks: W at the target's nodes, and energy by W
@@ -250,6 +250,7 @@ void respond(const PointsEvaluation& e, Batch& batch) {
   }
   weight.slope.store(batch.weight_slope);
   (area * attraction.energy).store(batch.attraction);
+  (area * attraction.energy * weight.value).store(batch.tension);
   (weight.value * attraction.energy + repulsion.energy).store(batch.density);
   (face_area * part * contact_share(gap, law.range)).store(batch.told);
   store(batch.pull, load(batch.normal) * (area * (weight.value * attraction.slope + repulsion.slope)));
@@ -297,6 +298,22 @@ void fill(const PointsEvaluation& e, const PointsAgainstBody& lists, const Conta
   }
 }
 
+SymMat3<float> rounded(const SymMat3<double>& m) {
+  return {static_cast<float>(m.xx), static_cast<float>(m.xy), static_cast<float>(m.xz),
+          static_cast<float>(m.yy), static_cast<float>(m.yz), static_cast<float>(m.zz)};
+}
+
+/// Add one point's share to SurfacePair::within. An energy of attraction E in proportion to the area with the normal m is a tension, of the virial
+/// −E (I − m ⊗ m); a force along n over the gap g between two surfaces has the virial −g f n ⊗ n, half on either side.
+void add_within(const PointsEvaluation& e, int d, const Batch& batch, int lane, SurfacePair& pair) {
+  const double tension = batch.tension[lane];
+  if (tension != 0.0) pair.within[d] += rounded(outer(tension, get(batch.source_normal, lane)) + isotropic(-tension));
+  if (!e.target_moves || e.target.topology == nullptr) return;
+  const Vec3d n = get(batch.normal, lane);
+  const SymMat3<float> of_gap = rounded(outer(-0.5 * batch.gap[lane] * dot(get(batch.pull, lane), n), n));
+  for (SymMat3<float>& side : pair.within) side += of_gap;
+}
+
 /// Add one point's share to the pair.
 template <bool kPlain>
 void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists, const ContactPoint& p, const Batch& batch, int lane,
@@ -313,6 +330,7 @@ void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists,
   pair.energy += batch.area[lane] * batch.density[lane];
   sink.source.face_energy[p.source_place] += scale * batch.density[lane];
   if (kPlain || !e.with_itself) sink.source.contact_area += batch.told[lane];
+  if (kPlain || !e.with_itself) add_within(e, d, batch, lane, pair);
   if (kPlain || !e.with_itself) pair.overlap = gap.gap < -pair.overlap ? -gap.gap : pair.overlap;
 
   const Vec3d pull = get(batch.pull, lane);

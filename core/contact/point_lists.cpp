@@ -214,6 +214,7 @@ void clear_results(SurfacePair& pair, const std::size_t (&node_count)[2], PairGr
     g.source_face.clear();
     g.contact_area = 0.0;
     pair.elements[body] = {};
+    pair.within[body] = {};
   }
 }
 

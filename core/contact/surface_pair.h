@@ -102,6 +102,9 @@ struct SurfacePair {
   /// beside a contact of radius a and angle θ it is too large by a part c/(2 a tan θ); the bevel that a coarse mesh has for its rim takes some of it
   /// away (doublets of 162 nodes: time_stepping.md §12.3). [µm²]
   double area = 0.0;
+  /// Of the virial Σ x ⊗ f of this pair's forces on a and on b, what neither body bears for the other: the tension that adhesion takes from the
+  /// surface, and between two surfaces half of forces times gaps. Less these, both virials sum to that of one force from centre to centre [nN·µm].
+  SymMat3<float> within[2];
   Vec3d push;                 ///< force on the obstacle or the sphere of the pair [nN]
   double step_overlap = 0.0;  ///< `overlap` at the start of the step [µm]
   std::uint32_t crossed = 0;  ///< points that are on another side than at the start of the step; see crossing.h

@@ -1,4 +1,4 @@
-/// What mechanics tells of each cell: volume, area, stress and pressure, contact; and of obstacles (decision 0023).
+/// What mechanics tells of each cell: volume, area, stress and pressure, contact; and of obstacles (decisions 0023, 0054).
 #include <cmath>
 #include <numbers>
 
@@ -33,10 +33,24 @@ std::vector<Vec3d> load_forces(const Model& model, const Tissue& tissue, const C
   return out;
 }
 
+/// What contacts have of the virial of a shell's nodes though no neighbour bears it (SurfacePair::within), by owned shell [nN·µm].
+std::vector<SymMat3<double>> virials_within_contacts(const Workspace& work) {
+  const Scene& scene = work.scene;
+  std::vector<SymMat3<double>> out(scene.owned_shells());
+  const auto add = [&](std::uint32_t body, const SymMat3<float>& m) {
+    if (body < out.size()) out[body] += {m.xx, m.xy, m.xz, m.yy, m.yz, m.zz};
+  };
+  for (const SurfacePair& pair : work.terms.contacts->layer().pairs()) {
+    add(pair.a, pair.within[0]);
+    if (!pair.rigid) add(pair.b, pair.within[1]);
+  }
+  return out;
+}
+
 std::vector<SymMat3<double>> stresses_of_shells(const Workspace& work, const Tissue& tissue) {
   const std::vector<Vec3d> loads = load_forces(work.setting.model, tissue, work.setting.comm);
   const Scene& scene = work.scene;
-  std::vector<SymMat3<double>> out(scene.owned_shells());
+  std::vector<SymMat3<double>> out = virials_within_contacts(work);
   const std::span<const Vec3d> x = scene.position(), of_contacts = work.terms.contacts->found().force;
   parallel_for(work.setting.threads, out.size(), [&](std::size_t i) {
     const ContactBody& body = scene.bodies()[i];
@@ -44,7 +58,7 @@ std::vector<SymMat3<double>> stresses_of_shells(const Workspace& work, const Tis
     SymMat3<double> sum;
     for (std::uint32_t n = body.first_point; n < body.first_point + body.point_count; ++n)
       sum += symmetric(x[n] - center, loads.empty() ? of_contacts[n] : of_contacts[n] + loads[n]);
-    out[i] = (1.0 / work.geometry.now().volume[i]) * sum;
+    out[i] = (1.0 / work.geometry.now().volume[i]) * (sum + -1.0 * out[i]);
   });
   return out;
 }

@@ -11,7 +11,8 @@ struct BodyValues {
   std::vector<double> volume;  ///< [µm³]
   std::vector<double> area;    ///< [µm²]
   /// What the cell bears from outside, σ = (1/V) Σ_k (x_k − x) ⊗ f_k over the forces that neighbours, obstacles, walls and loads exert on it
-  /// (fields_and_coupling.md, D; decision 0023); symmetric part, tension positive [kPa].
+  /// (fields_and_coupling.md, D; decision 0023), less what adhesion does to the tension of a shell's own surface (decision 0054); symmetric
+  /// part, tension positive [kPa].
   std::vector<SymMat3<double>> stress;
   std::vector<double> stressed_volume;  ///< the V of this stress: a sphere's is what its bulk modulus leaves of its ball [µm³]
   std::vector<double> pressure;         ///< −tr σ/3, of shells and spheres alike [kPa]

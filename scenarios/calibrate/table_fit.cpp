@@ -22,7 +22,10 @@ struct Group {
   }
 };
 
-/// Scaled points by overlap, from the largest tension on, neighbours closer than a hundredth of the range together.
+constexpr double kNearLargest = 0.75;
+
+/// Scaled points by overlap, from where the tension is near its largest on, neighbours closer than a hundredth of the range together. Contact lines jump, so
+/// that the largest tension of all may stand anywhere between: pulled further apart, such pairs go on to hold most of it.
 std::vector<Group> scaled_points(const Data& data) {
   std::vector<Group> all;
   for (const PairPoint& point : data.pairs) {
@@ -32,7 +35,10 @@ std::vector<Group> scaled_points(const Data& data) {
     all.push_back({point.overlap / r, point.force / r, has_area ? point.area / (r * r) : 0.0, 1.0, has_area ? 1.0 : 0.0});
   }
   std::stable_sort(all.begin(), all.end(), [](const Group& a, const Group& b) { return a.overlap < b.overlap; });
-  const auto first = std::min_element(all.begin(), all.end(), [](const Group& a, const Group& b) { return a.force < b.force; });
+  const auto least = std::min_element(all.begin(), all.end(), [](const Group& a, const Group& b) { return a.force < b.force; });
+  const auto first = least == all.end() || least->force >= 0.0
+                         ? least
+                         : std::find_if(all.begin(), least, [&](const Group& a) { return a.force < kNearLargest * least->force; });
   std::vector<Group> out;
   double begin = 0.0;
   for (auto at = first; at != all.end(); ++at) {

@@ -4,7 +4,6 @@
 #include <span>
 #include <utility>
 
-#include "cbm/sphere_range.h"
 #include "core/numbers/number_text.h"
 #include "results/file_io.h"
 
@@ -21,12 +20,9 @@ void remark_on_range(Calibration& out) {
   const auto pushes = [](const calibrate::PairPoint& point) { return !point.held_out && point.force > 0.0; };
   if (std::ranges::none_of(out.data.points.pairs, pushes))
     out.data.remarks.emplace_back("no pair pushes at any overlap that was reached: its distance at rest is not known");
-  const calibrate::Fit& fit = out.sure.fit;
-  const cbm::SphereParameters sphere{.young = fit.parameters.young, .poisson = fit.poisson};
-  const auto rest = cbm::resting_contact(sphere, out.material.radius, sphere, out.material.radius, fit.parameters.adhesion);
-  if (rest.radius_ratio > cbm::kJkrRange)
+  if (out.jkr_is_beyond_range())
     out.data.remarks.push_back("JKR with these numbers is beyond its range: at rest its contact radius is " +
-                               number_text("%.2g", rest.radius_ratio) + " R, and 0.4 R is what it asks for");
+                               number_text("%.2g", out.rest_of_jkr()) + " R, and 0.4 R is what it asks for");
 }
 
 /// What only the root does, once all runs are there.
@@ -59,6 +55,11 @@ Status fit_on_root(const Study& study, Calibration& out) {
 }
 
 }  // namespace
+
+double Calibration::rest_of_jkr() const {
+  const cbm::SphereParameters sphere{.young = sure.fit.parameters.young, .poisson = sure.fit.poisson};
+  return cbm::resting_contact(sphere, material.radius, sphere, material.radius, sure.fit.parameters.adhesion).radius_ratio;
+}
 
 Result<Calibration> calibrate_jkr(const Study& study, const std::string& type, const ExperimentRequest& request, const Comm& comm) {
   Calibration out;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cbm/sphere_range.h"
 #include "core/parallel/comm.h"
 #include "core/result.h"
 #include "scenarios/calibrate/confidence.h"
@@ -34,8 +35,12 @@ struct Calibration {
   double misfit = 0.0;                ///< part of the loss of pairs that JKR cannot take
   std::optional<FittedTable> table;   ///< none: its points make no table, as a remark says
 
-  /// Whether the table is better than JKR on what was held out.
-  [[nodiscard]] bool table_is_better() const { return table && table->held_out.score() < held_out.score(); }
+  /// Contact radius over R of two spheres of the fitted JKR at rest.
+  [[nodiscard]] double rest_of_jkr() const;
+  /// JKR says nothing true of contacts that are so large, their area least of all.
+  [[nodiscard]] bool jkr_is_beyond_range() const { return rest_of_jkr() > cbm::kJkrRange; }
+  /// Whether the table is the law to take: where JKR is beyond its range at rest, and where the table is better on what was held out.
+  [[nodiscard]] bool table_is_better() const { return table && (jkr_is_beyond_range() || table->held_out.score() < held_out.score()); }
 };
 
 /// Runs the experiments for a cell type of a study in the folder of the request, and fits JKR and a packing curve to what they find. Everything that was

@@ -99,7 +99,7 @@ std::string calibration_text(const Calibration& found) {
          "\nmaterial: " + in_quotes(found.material.text()) + "  # what the shells are\nhash: " + hash_of(found.material) +
          "  # of the material\nnodes: " + std::to_string(found.material.nodes) + "\nradius: " + of(found.material.radius, "um") +
          "\nadhesion_of_shells: " + of(found.material.adhesion, "nN/um") + "\nbetter: " + (found.table_is_better() ? "table" : "jkr") +
-         "  # on what was held out\n";
+         (found.table_is_better() && found.jkr_is_beyond_range() ? "  # JKR is beyond its range\n" : "  # on what was held out\n");
   out += "jkr:\n  young: " + of(fit.parameters.young, "kPa") + "\n  young_interval: " + interval(sure.young.interval, "kPa") +
          "\n  poisson: " + number(fit.poisson) + "\n  adhesion: " + of(fit.parameters.adhesion, "nN/um") +
          "\n  adhesion_interval: " + interval(sure.adhesion.interval, "nN/um") + "\n  young_error: " + number(sure.covariance.young_error) +

@@ -162,7 +162,7 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
         {"a table on what was held out, root mean square", three(100.0 * found.table->held_out.force_rms), "% of the pull-off force"});
     out.key_numbers.push_back({"n of F ∝ (δ − δ_0)ⁿ where cells push (Hertz: 1.5)", three(found.table->exponent.value),
                                "± " + three(found.table->exponent.error)});
-    out.key_numbers.push_back({"better on what was held out", found.table_is_better() ? "the table" : "JKR", ""});
+    out.key_numbers.push_back({"the law to take", found.table_is_better() ? "the table" : "JKR", ""});
   }
   const auto add = [&](const CurvePlot& plot) { out.plots.push_back({"", curves_svg(plot, SvgUse::kInline)}); };
   add(pair_plot(found, false));

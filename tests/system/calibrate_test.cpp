@@ -27,7 +27,8 @@ void write_study(const std::filesystem::path& path) {
 TEST(Calibrate, FindsALawOfShellsAndWritesAReport) {
   const TestFolder folder;
   write_study(folder.path() / "study.yaml");
-  const Outcome first = run_morula({"calibrate", "jkr", "small", "study.yaml", "--out", "found"}, folder.path());
+  const Outcome first =
+      run_morula({"calibrate", "jkr", "small", "study.yaml", "--out", "found"}, folder.path(), {.timeout = std::chrono::seconds(300)});
   ASSERT_EQ(first.exit_code, 0) << first.all();
   EXPECT_THAT(first.out, HasSubstr("kPa"));
   const std::string report = text_of(folder.path() / "found" / "report.html");
@@ -45,7 +46,7 @@ TEST(Calibrate, WritesTheSameFileOnRanksAndThreadsAndAfterASigkill) {
   const auto command = [](const char* out, const char* threads = "1") {
     return std::vector<std::string>{"calibrate", "jkr", "small", "study.yaml", "--pairs-only", "--threads", threads, "--out", out};
   };
-  ASSERT_EQ(run_morula(command("whole"), folder.path()).exit_code, 0);
+  ASSERT_EQ(run_morula(command("whole"), folder.path(), {.timeout = std::chrono::seconds(180)}).exit_code, 0);
   const std::string whole = text_of(folder / "whole/small.jkr.yaml");
   ASSERT_THAT(whole, HasSubstr("young:"));
   {
@@ -59,7 +60,7 @@ TEST(Calibrate, WritesTheSameFileOnRanksAndThreadsAndAfterASigkill) {
   const Outcome again = run_morula(command("killed", "2"), folder.path(), {.timeout = std::chrono::seconds(180)});
   ASSERT_EQ(again.exit_code, 0) << again.all();
   EXPECT_EQ(text_of(folder / "killed/small.jkr.yaml"), whole);
-  const Outcome ranks = run_morula(command("ranks"), folder.path(), {.ranks = 2});
+  const Outcome ranks = run_morula(command("ranks"), folder.path(), {.ranks = 2, .timeout = std::chrono::seconds(180)});
   ASSERT_EQ(ranks.exit_code, 0) << ranks.all();
   EXPECT_EQ(text_of(folder / "ranks/small.jkr.yaml"), whole);
 }
