@@ -23,6 +23,7 @@ struct OwnKey {
     kFieldValue,  ///< `field: NAME` and `NAME: value`, or in one key `<field>_<spec.name>: value`; the field's number is that of `field`
     kMark,        ///< name of a mark of faces: its bit
     kObstacle,    ///< name of an obstacle: its number
+    kCells,       ///< name of a region of bodies declared before, a cell type or an obstacle
     kCourse,      ///< list of points over time: a TimeCourse. `spec.quantity` is that of the values, kNumber: factors
     kGroup,       ///< a section, with `keys`; its name is 1 where it stands in the study, and its keys are `group.key`
   } kind = Kind::kQuantity;

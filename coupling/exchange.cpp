@@ -38,7 +38,7 @@ std::vector<Event> Simulation::swap_bodies() {
   auto timed = timer().scope(Stage::kCoupling);
   std::vector<Event> events;
   const std::vector<Vec3d> center = centers();
-  const LookedAt looked = look_for_swaps(model_.swaps, tissue_, *mechanics_);
+  const LookedAt looked = look_for_swaps(model_, tissue_, center, *mechanics_, comm_);
   const std::vector<SwapOrder> orders = choose_swaps(model_, tissue_, looked.bodies(center), comm_);
   if (!comm_.any(!orders.empty())) return events;
   std::vector<double> pressure(orders.size());

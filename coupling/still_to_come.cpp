@@ -99,7 +99,7 @@ std::vector<std::string> still_to_come(const Model& model, const Tissue& tissue,
   add(any_obstacle_moves(model), "an obstacle that moves");
   add(any_tension_swings(model), "a tension that swings");
   add(any_region_begins_or_ends(model, time), "a region that begins or ends");
-  const LookedAt looked = look_for_swaps(model.swaps, tissue, mechanics);
+  const LookedAt looked = look_for_swaps(model, tissue, center, mechanics, comm);
   add(swaps_wait(model, tissue, looked.bodies(center), comm), "an exchange of bodies");
   add(tissue.clock.capped, "the end of the capped start");
   add(any_cell(

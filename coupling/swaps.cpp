@@ -11,39 +11,11 @@
 
 #include "core/parallel/pack.h"
 #include "core/random/rotation.h"
+#include "coupling/who_is_in.h"
 #include "dcm/growth.h"
 
 namespace morula {
 namespace {
-
-bool needs_center(const Swaps& swaps) {
-  return std::any_of(swaps.regions.begin(), swaps.regions.end(), [](const Region& r) { return r.follow_tissue; });
-}
-
-Vec3d tissue_centroid(std::span<const Vec3d> center, const Comm& comm) {
-  OrderFreeSum sums[4];
-  for (const Vec3d& c : center) {
-    sums[0].add(c.x);
-    sums[1].add(c.y);
-    sums[2].add(c.z);
-    sums[3].add(1.0);
-  }
-  double total[4];
-  comm.sum(sums, total);
-  return total[3] > 0.0 ? Vec3d{total[0], total[1], total[2]} * (1.0 / total[3]) : Vec3d{};
-}
-
-/// Where the centres of the regions are now: some follow the tissue, some an obstacle. Collective.
-std::vector<Vec3d> centers_of_regions(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm) {
-  const Vec3d of_tissue = needs_center(model.swaps) ? tissue_centroid(center, comm) : Vec3d{};
-  std::vector<Vec3d> out;
-  for (const Region& region : model.swaps.regions) {
-    out.push_back(region.center);
-    if (region.follow_tissue) out.back() += of_tissue;
-    if (region.obstacle >= 0) out.back() += model.obstacles[static_cast<std::size_t>(region.obstacle)].way(0.0, tissue.clock.time);
-  }
-  return out;
-}
 
 struct Wish {
   BodyKind body;
@@ -53,18 +25,17 @@ struct Wish {
 };
 
 /// What body a cell is to have: the first region it is in decides, then the triggers, then what it was at the start.
-Wish wish(const Model& model, const CellView& cell, const Vec3d& center, std::span<const Vec3d> center_of_region) {
+Wish wish(const Model& model, const CellView& cell, std::size_t i, const SwapBodies& bodies, std::span<const Vec3d> center_of_region) {
   const CellRow& row = cell.row();
   const bool shell = row.body == BodyKind::kShell;
   using Cause = EventReason::Cause;
   std::uint32_t number = 0;
   for (const Region& region : model.swaps.regions) {
-    const Vec3d from = center - center_of_region[number];
-    const EventReason reason{Cause::kRegion, false, number++};
+    const EventReason reason{Cause::kRegion, false, number};
+    const Vec3d from = bodies.center[i] - center_of_region[number++];
     if (!region.exists_at(cell.time())) continue;
-    const double margin = row.body == region.body ? region.margin : 0.0;
-    const double outside = region.shape->distance(region, from);
-    if (outside <= margin) return {region.body, model.swaps.hold, reason, -outside};
+    const Standing stands = standing(model.swaps, reason.number, row, i, from, bodies.contacts);
+    if (stands.is_in()) return {region.body, model.swaps.hold, reason, -stands.outside};
   }
   double hold = model.swaps.hold;
   number = 0;
@@ -109,9 +80,13 @@ bool look_at_bodies(const Swaps& swaps) {
   return std::ranges::any_of(swaps.triggers, [](const Trigger& t) { return t.type < 0 && t.value->looks_at_body; });
 }
 
-LookedAt look_for_swaps(const Swaps& swaps, const Tissue& tissue, Mechanics& mechanics) {
-  if (!look_at_bodies(swaps)) return {};
-  return {mechanics.values(tissue), mechanics.as_balls(tissue)};
+LookedAt look_for_swaps(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, Mechanics& mechanics, const Comm& comm) {
+  LookedAt out;
+  out.contacts = contacts_from_regions(model, tissue, center, mechanics, comm);
+  if (!look_at_bodies(model.swaps)) return out;
+  out.values = mechanics.values(tissue);
+  out.balls = mechanics.as_balls(tissue);
+  return out;
 }
 
 std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, const SwapBodies& bodies, const Comm& comm) {
@@ -125,7 +100,7 @@ std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, co
     const CellRow& row = tissue.cells.rows[i];
     if (row.body == BodyKind::kShell) ++shells;
     if (row.phase == Phase::kDying) continue;
-    const Wish wanted = wish(model, bodies.view(model, tissue, body), center[i], center_of_region);
+    const Wish wanted = wish(model, bodies.view(model, tissue, body), i, bodies, center_of_region);
     if (wanted.body == row.body || tissue.clock.time - tissue.cells.optional.last_swap_time[i] < wanted.hold) continue;
     orders.push_back({i, wanted.body, wanted.reason, {place_of_rule(model.swaps, wanted.reason), wanted.beyond, row.id}});
   }
@@ -167,7 +142,7 @@ bool swaps_wait(const Model& model, const Tissue& tissue, const SwapBodies& bodi
     const CellRow& row = tissue.cells.rows[i];
     if (row.body == BodyKind::kShell) ++shells;
     if (row.phase == Phase::kDying) continue;
-    const BodyKind wanted = wish(model, bodies.view(model, tissue, body), center[i], center_of_region).body;
+    const BodyKind wanted = wish(model, bodies.view(model, tissue, body), i, bodies, center_of_region).body;
     if (wanted != row.body) (wanted == BodyKind::kShell ? up : down) = true;
   }
   const bool has_place = static_cast<std::uint64_t>(comm.sum(shells)) < model.swaps.max_shells;

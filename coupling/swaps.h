@@ -38,6 +38,8 @@ struct SwapBodies {
   std::span<const Vec3d> center;       ///< of the cells, by row [µm]
   const BodyValues* values = nullptr;  ///< where triggers look at them (look_at_bodies())
   const AsBalls* balls = nullptr;      ///< likewise
+  /// By region that counts contacts and row: how many the cell is away; empty for all other regions, and where nobody has counted.
+  std::span<const std::vector<std::uint32_t>> contacts{};
 
   [[nodiscard]] CellView view(const Model& model, const Tissue& tissue, const BodyOfRow& body) const;
 };
@@ -45,17 +47,18 @@ struct SwapBodies {
 /// Whether a trigger needs SwapBodies::values and SwapBodies::balls.
 bool look_at_bodies(const Swaps& swaps);
 
-/// What triggers look at of the bodies of a rank at present positions; nothing where none looks at bodies.
+/// What regions and triggers look at of the bodies of a rank at present positions; nothing where none does.
 struct LookedAt {
   std::optional<BodyValues> values;
   std::optional<AsBalls> balls;
+  std::vector<std::vector<std::uint32_t>> contacts;
 
   [[nodiscard]] SwapBodies bodies(std::span<const Vec3d> center) const {
-    return {center, values ? &*values : nullptr, balls ? &*balls : nullptr};
+    return {center, values ? &*values : nullptr, balls ? &*balls : nullptr, contacts};
   }
 };
-/// Collective.
-LookedAt look_for_swaps(const Swaps& swaps, const Tissue& tissue, Mechanics& mechanics);
+/// `center`: of the cells, by row. Collective.
+LookedAt look_for_swaps(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, Mechanics& mechanics, const Comm& comm);
 
 /// Which cells exchange their body now, by regions and triggers with their margins, thresholds and hold times. Decisions read only the state
 /// given here: rows, and their bodies. Among the willing the most urgent come first; not more than max_shells shells,

@@ -85,6 +85,8 @@ int find_cell_or_obstacle(BuildContext& context, const std::string& name, const 
 int find_mark(BuildContext& context, const std::string& name, const Place& place);
 /// Number of an obstacle by name; −1 and an error with suggestions.
 int find_obstacle(BuildContext& context, const std::string& name, const Place& place);
+/// Whether a region of bodies that was built already, a cell type or an obstacle has this name: 0, or −1 and E401.
+int find_cells(BuildContext& context, const std::string& name, const Place& place);
 /// Whether shells of a material ever carry a mark, after build_regions(); obstacles do not.
 bool may_carry_mark(const BuildContext& context, int material, int mark);
 /// The places of all cells, found as the run finds them and judged: E505, E596, E597, E658, E659, E661; after all else, without errors only.

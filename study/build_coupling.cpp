@@ -146,6 +146,12 @@ void check_center(BuildContext& c, draft::Region& r, const RegionShape& shape) {
     r.center.text.clear();
     r.follow_tissue.text.clear();
   }
+  if (shape.counts_contacts) {
+    if (r.margin.given)
+      c.diagnostics.error(515, r.margin.place, "'margin' has no effect here",
+                          "leave it away: a cell leaves a region of shape '" + shape.info.name + "' one contact beyond its last");
+    r.margin.text.clear();
+  }
   if (r.follow.given && r.follow_tissue.value)
     c.diagnostics.error(111, r.follow.place, "a region follows either the tissue or an obstacle", "leave away `follow` or `follow_tissue`");
 }

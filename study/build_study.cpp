@@ -152,6 +152,16 @@ int find_obstacle(BuildContext& c, const std::string& name, const Place& place) 
   return find_named(c, 401, "obstacle", c.draft.geometry, "geometry", name, place);
 }
 
+int find_cells(BuildContext& c, const std::string& name, const Place& place) {
+  std::vector<std::string> names;
+  for (const Region& region : c.study.model.swaps.regions) names.push_back(region.name);
+  for (const auto& type : c.draft.cell_types) names.push_back(type.name);
+  for (const auto& obstacle : c.draft.geometry) names.push_back(obstacle.name);
+  if (std::ranges::find(names, name) != names.end()) return 0;
+  c.diagnostics.error(401, place, "there is no region before this one, cell type or obstacle '" + name + "'", suggest(name, names));
+  return -1;
+}
+
 bool may_have_shells(const draft::Study& study) {
   for (const auto& type : study.cell_types)
     if (type.content.body.value == "shell") return true;

@@ -31,6 +31,7 @@ void declare_key(Section& s, const OwnKey& key, const std::string& name, draft::
     case Kind::kField:
     case Kind::kMark:
     case Kind::kObstacle:
+    case Kind::kCells:
       return s.text(spec, own.texts[name]);
     case Kind::kCourse:
       return s.list(spec, own.courses[name], spec.quantity == Quantity::kLength ? &declare_distance_point : &declare_course_point);
@@ -127,6 +128,8 @@ class ReadValues {
         return named(name, &find_mark);
       case Kind::kObstacle:
         return named(name, &find_obstacle);
+      case Kind::kCells:
+        return named(name, &find_cells);
       case Kind::kCourse:
         return course(name);
       case Kind::kGroup:

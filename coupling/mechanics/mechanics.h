@@ -71,6 +71,12 @@ class Mechanics {
   /// with_material[material] != 0, at the tissue's positions; 0 to 1, with the taper of contact friction at the rim. Collective.
   std::vector<float> contact_of_faces(const Tissue& tissue, std::span<const char> with_material);
 
+  /// How many contacts away every owned body (shells, then spheres) is from the nearest of some: of these `start` has the number to begin with,
+  /// of all others kFarAway, which stays where there are more than `most`. Spheres touch where they adhere or overlap, and what a shell touches is
+  /// nearer than half of the contact's range. The same on any ranks. Collective.
+  std::vector<std::uint32_t> contact_steps(const Tissue& tissue, std::span<const std::uint32_t> start, std::uint32_t most);
+  static constexpr std::uint32_t kFarAway = 1u << 30;
+
   /// How every owned body (shells, then spheres) touches the materials with with_material[material] != 0; spheres: obstacles only. Collective.
   std::vector<Touch> touch_of_bodies(const Tissue& tissue, std::span<const char> with_material);
 

@@ -4,14 +4,10 @@
 #include "core/mesh/mean_curvature.h"
 #include "core/mesh/triangle_tree.h"
 #include "coupling/model.h"
-#include "coupling/regions/region.h"
+#include "coupling/regions/room_around.h"
 
 namespace morula {
-namespace {
 
-using Kind = OwnKey::Kind;
-
-/// What is nearer than a distance to a closed surface, without what is on its far side; where it is not convex, about that [µm³].
 double room_around(const ObstacleSpec& obstacle, double within) {
   double area = 0.0;
   for (const Triangle& t : obstacle.faces)
@@ -20,9 +16,8 @@ double room_around(const ObstacleSpec& obstacle, double within) {
   return obstacle.inside ? std::max(0.0, within * (area - within * bend)) : layer_around(area, bend, within);
 }
 
-}  // namespace
-
 std::shared_ptr<const RegionShape> around_region() {
+  using Kind = OwnKey::Kind;
   static const auto shape = std::make_shared<const RegionShape>(RegionShape{
       .info = {.name = "around",
                .title = "Region around an obstacle",

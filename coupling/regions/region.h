@@ -30,6 +30,9 @@ struct RegionShape {
   bool has_center = true;      ///< `center` says where it lies, and it may follow the tissue
   /// Fills in what distance() reads of a Region, from its values and the obstacles of the model; null: it reads Region::values.
   void (*build)(const Model& model, Region& region) = nullptr;
+  /// Counted in contacts, not measured in space: cells that are at most so many contacts away (OwnValues `cells`) from those that the region begins
+  /// with (`of`: a region before it, a type, an obstacle). contacts_from_regions() finds how many.
+  bool counts_contacts = false;
   /// Distance outside of a point that is `from` away from the centre; negative inside [µm]. Where it is more than the region's margin it may be less than
   /// what it is, if not less than the margin.
   double (*distance)(const Region& region, const Vec3d& from) = nullptr;
@@ -45,6 +48,7 @@ std::shared_ptr<const RegionShape> box_region();
 std::shared_ptr<const RegionShape> half_space_region();
 std::shared_ptr<const RegionShape> everything_region();
 std::shared_ptr<const RegionShape> around_region();
+std::shared_ptr<const RegionShape> neighbours_region();
 
 /// Where cells are to be shells.
 struct Region {

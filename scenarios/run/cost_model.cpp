@@ -73,6 +73,27 @@ std::int64_t nodes_of(const CellType& type) {
   return type.shell_nodes + (type.interior.has_nuclear_shell() ? type.interior.nucleus_nodes : 0);
 }
 
+/// The cells that a region can hold, of this volume each.
+double room_of(const Region& region, double cell_volume) {
+  const auto& shape = *region.shape;
+  const double volume = shape.volume != nullptr ? shape.volume(region) : std::numeric_limits<double>::infinity();
+  return kPacked * volume / cell_volume;
+}
+
+/// Regions that count contacts hold as many shells as they have room for: who touches whom is not known before the tissue is at work.
+void add_neighbours(const Study& study, double time, Counts& counts) {
+  const auto& types = study.model.types;
+  const auto most = static_cast<std::size_t>(std::ranges::max_element(counts.of_type) - counts.of_type.begin());
+  for (const Region& region : study.model.swaps.regions) {
+    if (!region.shape->counts_contacts || region.body != BodyKind::kShell || !region.exists_at(time)) continue;
+    const double room = room_of(region, 4.0 / 3.0 * std::numbers::pi * std::pow(types[most].radius.mean, 3));
+    const double places = std::min(static_cast<double>(counts.cells), static_cast<double>(study.model.swaps.max_shells));
+    const auto more = std::max<std::int64_t>(0, static_cast<std::int64_t>(std::min(room, places)) - counts.shells);
+    counts.shells += more;
+    counts.nodes += more * nodes_of(types[most]);
+  }
+}
+
 /// From the places of the cells, and the bodies that the regions of a time give them.
 Counts count_cells(const Study& study, Tissue& tissue, double time) {
   Counts out;
@@ -97,14 +118,8 @@ Counts count_cells(const Study& study, Tissue& tissue, double time) {
     out.shells += change;
     out.nodes += change * nodes_of(study.model.types[tissue.cells.rows[order.row].type]);
   }
+  add_neighbours(study, time, out);
   return out;
-}
-
-/// The cells that a region can hold, of this volume each.
-double room_of(const Region& region, double cell_volume) {
-  const auto& shape = *region.shape;
-  const double volume = shape.volume != nullptr ? shape.volume(region) : std::numeric_limits<double>::infinity();
-  return kPacked * volume / cell_volume;
 }
 
 /// From the numbers of the study alone, at no cost: regions hold as many cells as they have room for.

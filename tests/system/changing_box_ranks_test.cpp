@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Spheres and shells that grow, divide, change their bodies and wander through the faces of a box that shrinks and widens.
+/// Spheres and shells, those of a region and their neighbours over any border, that grow, divide, change their bodies and wander through the faces of a box that shrinks and widens.
 constexpr const char* kStudy = R"(schema: 1
 study: box
 seed: 5
@@ -30,7 +30,8 @@ initial:
   - {type: cell, count: 50, fill: box, size: [44 um, 44 um, 44 um], start_volume: 60 %, inflate: 4 min, age: random}
 coupling:
   regions:
-    - {name: half, shape: half_space, center: [0 um, 0 um, 0 um], normal: [1, 0, 0], as: dcm, margin: 2 um}
+    - {name: left, shape: half_space, center: [-10 um, 0 um, 0 um], normal: [1, 0, 0], as: dcm, margin: 2 um}
+    - {name: next_to_it, shape: neighbours, of: left, cells: 1, as: dcm}
 output: {report: false}
 )";
 

@@ -1,0 +1,60 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "coupling/regions/room_around.h"
+
+namespace morula {
+namespace {
+
+using Kind = OwnKey::Kind;
+
+/// How much room the cells take that are within so many contacts of what the region begins with; cells are two radii apart at most [µm³].
+double room_of_neighbours(const Model& model, const Region& region) {
+  const std::string of = region.values.name("of");
+  double radius = 0.0;
+  for (const CellType& type : model.types) radius = std::max(radius, type.radius.mean);
+  const double reach = 2.0 * radius * region.values("cells");
+  for (const Region& core : model.swaps.regions)
+    if (core.name == of) {
+      const double inner = core.shape->volume != nullptr ? core.shape->volume(core) : std::numeric_limits<double>::infinity();
+      return 4.0 / 3.0 * std::numbers::pi * std::pow(std::cbrt(3.0 * inner / (4.0 * std::numbers::pi)) + reach, 3);
+    }
+  const auto is_type = [&](const CellType& type) { return type.name == of; };
+  if (std::ranges::any_of(model.types, is_type)) return std::numeric_limits<double>::infinity();
+  for (const ObstacleSpec& obstacle : model.obstacles)
+    if (obstacle.name == of) return room_around(obstacle, reach);
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::shared_ptr<const RegionShape> neighbours_region() {
+  static const auto shape = std::make_shared<const RegionShape>(RegionShape{
+      .info = {.name = "neighbours",
+               .title = "Region of the cells within some contacts of others",
+               .equation = "least number of contacts from a cell of `of` ≤ n; leaves beyond n + 1",
+               .source = "choice of this project",
+               .parameters = {given_by_study("cells", "number", "1", "n.")}},
+      .keys = {{Kind::kCells,
+                {.name = "of",
+                 .doc = "Of `neighbours`: where counting begins: the cells of a region before this one, or of a cell type, which are 0 contacts "
+                        "away; or an obstacle, whose touching cells are 1 away. A region comes before a type of the same name.",
+                 .required = true,
+                 .example = "needle"}},
+               {Kind::kQuantity,
+                {.name = "cells",
+                 .doc = "Of `neighbours`: within so many contacts. A cell leaves when it is one more away than that.",
+                 .required = true,
+                 .low = 1.0,
+                 .high = 100.0,
+                 .example = "3"}}},
+      .has_center = false,
+      .build = [](const Model& model, Region& region) { region.room = room_of_neighbours(model, region); },
+      .counts_contacts = true,
+      .volume = [](const Region& region) { return region.room; }});
+  return shape;
+}
+
+}  // namespace morula

@@ -1,0 +1,99 @@
+#include "coupling/who_is_in.h"
+
+#include <algorithm>
+
+namespace morula {
+namespace {
+
+bool needs_center(const Swaps& swaps) {
+  return std::any_of(swaps.regions.begin(), swaps.regions.end(), [](const Region& r) { return r.follow_tissue; });
+}
+
+Vec3d tissue_centroid(std::span<const Vec3d> center, const Comm& comm) {
+  OrderFreeSum sums[4];
+  for (const Vec3d& c : center) {
+    sums[0].add(c.x);
+    sums[1].add(c.y);
+    sums[2].add(c.z);
+    sums[3].add(1.0);
+  }
+  double total[4];
+  comm.sum(sums, total);
+  return total[3] > 0.0 ? Vec3d{total[0], total[1], total[2]} * (1.0 / total[3]) : Vec3d{};
+}
+
+}  // namespace
+
+std::vector<Vec3d> centers_of_regions(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm) {
+  const Vec3d of_tissue = needs_center(model.swaps) ? tissue_centroid(center, comm) : Vec3d{};
+  std::vector<Vec3d> out;
+  for (const Region& region : model.swaps.regions) {
+    out.push_back(region.center);
+    if (region.follow_tissue) out.back() += of_tissue;
+    if (region.obstacle >= 0) out.back() += model.obstacles[static_cast<std::size_t>(region.obstacle)].way(0.0, tissue.clock.time);
+  }
+  return out;
+}
+
+Standing standing(const Swaps& swaps, std::size_t number, const CellRow& row, std::size_t i, const Vec3d& from,
+                  std::span<const std::vector<std::uint32_t>> contacts) {
+  const Region& region = swaps.regions[number];
+  const bool stays = row.body == region.body;
+  if (!region.shape->counts_contacts) return {region.shape->distance(region, from), stays ? region.margin : 0.0};
+  const bool known = number < contacts.size() && !contacts[number].empty();
+  return {known ? contacts[number][i] - region.values("cells") : kNever, stays ? 1.0 : 0.0};
+}
+
+namespace {
+
+/// Numbers of contacts with which the bodies of a rank begin that a region counts from (Mechanics::contact_steps()). `before`: contacts of the regions
+/// before it. Collective.
+std::vector<std::uint32_t> where_counting_begins(const Model& model, const Tissue& tissue, std::span<const Vec3d> center,
+                                                 std::span<const Vec3d> center_of_region, std::size_t number,
+                                                 std::span<const std::vector<std::uint32_t>> before, Mechanics& mechanics) {
+  const std::string of = model.swaps.regions[number].values.name("of");
+  const auto number_of = [&](const auto& all) {
+    return static_cast<std::size_t>(std::ranges::find_if(all, [&](const auto& one) { return one.name == of; }) - all.begin());
+  };
+  const std::span<const Region> regions = std::span(model.swaps.regions).first(number);
+  const std::size_t region = number_of(regions), type = number_of(model.types);
+  std::vector<std::uint32_t> out(tissue.shells.size() + tissue.spheres.size(), Mechanics::kFarAway);
+  if (region == regions.size() && type == model.types.size()) {
+    std::vector<char> with_material(model.types.size() + model.obstacles.size(), 0);
+    with_material[model.types.size() + number_of(model.obstacles)] = 1;
+    const std::vector<Touch> touch = mechanics.touch_of_bodies(tissue, with_material);
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (touch[i].area > 0.0) out[i] = 1;
+    return out;
+  }
+  const auto begins = [&](const CellRow& row, std::size_t i) {
+    if (row.phase == Phase::kDying) return false;
+    if (region == regions.size()) return row.type == type;
+    return regions[region].exists_at(tissue.clock.time) &&
+           standing(model.swaps, region, row, i, center[i] - center_of_region[region], before).is_in();
+  };
+  for (const BodyOfRow& body : bodies_of(tissue.cells))
+    if (begins(tissue.cells.rows[body.row], body.row)) out[body.place(tissue.shells.size())] = 0;
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::uint32_t>> contacts_from_regions(const Model& model, const Tissue& tissue, std::span<const Vec3d> center,
+                                                              Mechanics& mechanics, const Comm& comm) {
+  const std::vector<Region>& regions = model.swaps.regions;
+  if (std::ranges::none_of(regions, [](const Region& region) { return region.shape->counts_contacts; })) return {};
+  const std::vector<Vec3d> center_of_region = centers_of_regions(model, tissue, center, comm);
+  std::vector<std::vector<std::uint32_t>> out(regions.size());
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    if (!regions[r].shape->counts_contacts || !regions[r].exists_at(tissue.clock.time)) continue;
+    const std::vector<std::uint32_t> start = where_counting_begins(model, tissue, center, center_of_region, r, out, mechanics);
+    const std::vector<std::uint32_t> steps =
+        mechanics.contact_steps(tissue, start, static_cast<std::uint32_t>(regions[r].values("cells")) + 1);
+    out[r].resize(tissue.cells.size());
+    for (const BodyOfRow& body : bodies_of(tissue.cells)) out[r][body.row] = steps[body.place(tissue.shells.size())];
+  }
+  return out;
+}
+
+}  // namespace morula
