@@ -204,6 +204,7 @@ void Simulation::rename_partners(const std::vector<Event>& events) {
   for (const Event& event : events)
     if (event.kind == EventKind::kDivision) divisions.push_back(&event);
   if (divisions.empty()) return;
+  mechanics_->cells_replaced();  // who has looked at bodies since the division has seen partners by their old names
   std::sort(divisions.begin(), divisions.end(), [](const Event* a, const Event* b) { return a->cell < b->cell; });
   const auto division_of = [&](CellId mother) {
     const auto at = std::ranges::lower_bound(divisions, mother, {}, [](const Event* event) { return event->cell; });

@@ -50,9 +50,8 @@ TEST_P(BoxWork, IsThePressureOfTheBox) {
 }
 
 // Adhesion of a quarter of the tension of two surfaces: told as pressure of the cells, −W A/(3V) would be 21 Pa of 192.
-INSTANTIATE_TEST_SUITE_P(Adhesion, BoxWork, testing::Values("0 J/m^2", "1e-4 J/m^2"), [](const auto& param) {
-  return param.index == 0 ? std::string("None") : std::string("AQuarterOfTwoTensions");
-});
+INSTANTIATE_TEST_SUITE_P(Adhesion, BoxWork, testing::Values("0 J/m^2", "1e-4 J/m^2"),
+                         [](const auto& param) { return param.index == 0 ? std::string("None") : std::string("AQuarterOfTwoTensions"); });
 
 }  // namespace
 }  // namespace morula::scenarios

@@ -82,8 +82,9 @@ TEST(NeighboursRegion, CountsFromTheCellsThatTouchAnObstacle) {
 
 TEST(NeighboursRegion, LeavesWithinOneContactMoreAlone) {
   // From two contacts to one: what is two away stays, what is three away would not have been in it.
-  const std::string text = with("[{name: first, shape: neighbours, of: leader, cells: 3, until: 10 min}, "
-                                "{name: then, shape: neighbours, of: leader, cells: 1}]");
+  const std::string text = with(
+      "[{name: first, shape: neighbours, of: leader, cells: 3, until: 10 min}, "
+      "{name: then, shape: neighbours, of: leader, cells: 1}]");
   EXPECT_EQ(bodies_after(text, 540.0), "SSSSsssss");
   EXPECT_EQ(bodies_after(text, 1500.0), "SSSssssss") << "two contacts away is one beyond the last: it stays; three is not";
 }
