@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cbm/partners.h"
+#include "core/parallel/pack.h"
 #include "core/parallel/threads.h"
 #include "coupling/behaviours/division.h"
 #include "coupling/behaviours/division_axis.h"
@@ -169,6 +170,7 @@ void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& e
     note_energy_rise(cut, kept.energy - energy, events);
     tissue_.clock.next_step = std::min(tissue_.clock.next_step, kStepAfterCut);
   }
+  rename_partners(events);  // before anybody looks at bodies
   for (const Event& event : life.events) deaths += event.kind == EventKind::kDeath;
   tissue_.ledger.divisions += static_cast<std::uint64_t>(comm_.sum(divisions));
   tissue_.ledger.deaths += static_cast<std::uint64_t>(comm_.sum(deaths));
@@ -200,19 +202,18 @@ Simulation::CutsKept Simulation::undo_deep_cuts(std::span<const CellRecord> moth
 }
 
 void Simulation::rename_partners(const std::vector<Event>& events) {
-  std::vector<const Event*> divisions;  // sorted by mother, because events are
-  for (const Event& event : events)
-    if (event.kind == EventKind::kDivision) divisions.push_back(&event);
+  std::vector<Event> divisions;
+  std::ranges::copy_if(events, std::back_inserter(divisions), [](const Event& event) { return event.kind == EventKind::kDivision; });
+  divisions = items_of_all_ranks(divisions, comm_);
   if (divisions.empty()) return;
-  mechanics_->cells_replaced();  // who has looked at bodies since the division has seen partners by their old names
-  std::sort(divisions.begin(), divisions.end(), [](const Event* a, const Event* b) { return a->cell < b->cell; });
+  std::ranges::sort(divisions, {}, &Event::cell);
   const auto division_of = [&](CellId mother) {
-    const auto at = std::ranges::lower_bound(divisions, mother, {}, [](const Event* event) { return event->cell; });
-    return at != divisions.end() && (*at)->cell == mother ? *at : nullptr;
+    const auto at = std::ranges::lower_bound(divisions, mother, {}, &Event::cell);
+    return at != divisions.end() && at->cell == mother ? &*at : nullptr;
   };
   std::bitset<1024> seen;  // most ids are told from those of mothers by a few bits
   const auto few_bits = [](CellId id) { return static_cast<std::size_t>((id.bits() * 0x9E3779B97F4A7C15u) >> 54); };
-  for (const Event* event : divisions) seen.set(few_bits(event->cell));
+  for (const Event& event : divisions) seen.set(few_bits(event.cell));
   const auto has_mother = [&](std::span<const CellId> partners) {
     return std::ranges::any_of(partners, [&](CellId id) { return seen.test(few_bits(id)) && division_of(id) != nullptr; });
   };

@@ -127,7 +127,6 @@ Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<b
   outcome.events.insert(outcome.events.end(), swapped.begin(), swapped.end());
   tell_settled_exchanges(outcome.events);
   outcome.events = all_events(std::move(outcome.events));
-  rename_partners(outcome.events);
   if (clock.steps % kReorderEvery == 0) {
     renew_order(tissue_);
     mechanics_->bodies_changed();

@@ -32,9 +32,6 @@ Simulation::Simulation(Model model, Tissue tissue, const Comm& comm, int threads
 }
 
 Result<std::unique_ptr<Simulation>> Simulation::create(Model model, Tissue tissue, const Comm& comm, int threads) {
-  if (comm.size() > 1 && std::ranges::any_of(model.swaps.regions, [](const Region& region) { return region.shape->counts_contacts; }))
-    return Error{ErrorKind::kInput, "a region that counts contacts (`shape: neighbours`) is on one rank only",
-                 "run it without mpirun, on threads; on several ranks its cells are not yet the same bit for bit"};
   std::unique_ptr<Simulation> out(new Simulation(std::move(model), std::move(tissue), comm, threads));
   MORULA_TRY_ASSIGN(auto obstacles, contact_obstacles(out->model_));
   out->tissue_.obstacle_offset.resize(obstacles.size());

@@ -90,7 +90,7 @@ class Simulation {
   };
   /// Shells whose daughters would begin so deep within others that the run might stop are taken back and put off. Collective.
   CutsKept undo_deep_cuts(std::span<const CellRecord> mothers, std::vector<Event>& events);
-  /// Partners of a mother become partners of her daughters, also on other ranks. `events` are those of all ranks.
+  /// Partners of a mother become partners of her daughters, also on other ranks. `events` are those of this rank. Collective.
   void rename_partners(const std::vector<Event>& events);
   void wrap_cells();
   [[nodiscard]] std::vector<Event> all_events(std::vector<Event> mine) const;

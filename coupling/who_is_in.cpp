@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "coupling/regions/counts_from.h"
+
 namespace morula {
 namespace {
 
@@ -51,16 +53,13 @@ namespace {
 std::vector<std::uint32_t> where_counting_begins(const Model& model, const Tissue& tissue, std::span<const Vec3d> center,
                                                  std::span<const Vec3d> center_of_region, std::size_t number,
                                                  std::span<const std::vector<std::uint32_t>> before, Mechanics& mechanics) {
-  const std::string of = model.swaps.regions[number].values.name("of");
-  const auto number_of = [&](const auto& all) {
-    return static_cast<std::size_t>(std::ranges::find_if(all, [&](const auto& one) { return one.name == of; }) - all.begin());
-  };
-  const std::span<const Region> regions = std::span(model.swaps.regions).first(number);
-  const std::size_t region = number_of(regions), type = number_of(model.types);
+  using What = CountsFrom::What;
+  const std::vector<Region>& regions = model.swaps.regions;
+  const CountsFrom from = *counts_from(model, std::span(regions).first(number), regions[number].values.name("of"));
   std::vector<std::uint32_t> out(tissue.shells.size() + tissue.spheres.size(), Mechanics::kFarAway);
-  if (region == regions.size() && type == model.types.size()) {
+  if (from.what == What::kObstacle) {
     std::vector<char> with_material(model.types.size() + model.obstacles.size(), 0);
-    with_material[model.types.size() + number_of(model.obstacles)] = 1;
+    with_material[model.types.size() + from.number] = 1;
     const std::vector<Touch> touch = mechanics.touch_of_bodies(tissue, with_material);
     for (std::size_t i = 0; i < out.size(); ++i)
       if (touch[i].area > 0.0) out[i] = 1;
@@ -68,9 +67,9 @@ std::vector<std::uint32_t> where_counting_begins(const Model& model, const Tissu
   }
   const auto begins = [&](const CellRow& row, std::size_t i) {
     if (row.phase == Phase::kDying) return false;
-    if (region == regions.size()) return row.type == type;
-    return regions[region].exists_at(tissue.clock.time) &&
-           standing(model.swaps, region, row, i, center[i] - center_of_region[region], before).is_in();
+    if (from.what == What::kType) return row.type == from.number;
+    return regions[from.number].exists_at(tissue.clock.time) &&
+           standing(model.swaps, from.number, row, i, center[i] - center_of_region[from.number], before).is_in();
   };
   for (const BodyOfRow& body : bodies_of(tissue.cells))
     if (begins(tissue.cells.rows[body.row], body.row)) out[body.place(tissue.shells.size())] = 0;

@@ -94,11 +94,6 @@ std::uint32_t opposite_node(std::span<const Vec3d> position, const Vec3d& centro
   return best;
 }
 
-Vec3<float> in_float(const Vec3d& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
-SymMat3<float> in_float(const SymMat3<double>& m) {
-  return {static_cast<float>(m.xx), static_cast<float>(m.xy), static_cast<float>(m.xz),
-          static_cast<float>(m.yy), static_cast<float>(m.yz), static_cast<float>(m.zz)};
-}
 Vec3<float> vector_of(const Float4& v) { return {v.x, v.y, v.z}; }
 void add(Float4& out, const Vec3<float>& v) { out.x += v.x, out.y += v.y, out.z += v.z; }
 
@@ -211,7 +206,7 @@ void assemble_interior(const InteriorView& cell, const InteriorFriction& frictio
   out.cortex_block.clear();
   out.contact.clear();
   const auto block = [&](const CytoskeletonLink& law, const Vec3d& direction, const Stretched& now, double rest) {
-    return in_float(outer(law.damping, direction) + time_step * law.stiffness_psd(now.direction, now.length, rest));
+    return to_float(outer(law.damping, direction) + time_step * law.stiffness_psd(now.direction, now.length, rest));
   };
   for (std::size_t k = 0; cell.nucleus != nullptr && k < cell.links->nucleus.size(); ++k) {
     const InteriorLink& link = cell.links->nucleus[k];
@@ -231,7 +226,7 @@ void assemble_interior(const InteriorView& cell, const InteriorFriction& frictio
     InteriorOperator::Contact& point = out.contact.emplace_back();
     point.face = f;
     for (int k = 0; k < 3; ++k) point.beta[k] = static_cast<float>(beta[k]);
-    point.normal = in_float(away * (1.0 / std::max(distance, 1e-12 * radius)));
+    point.normal = to_float(away * (1.0 / std::max(distance, 1e-12 * radius)));
     point.stiffness = static_cast<float>(time_step * area * law.curvature_psd(distance - radius));
   });
 }
@@ -245,7 +240,7 @@ void add_interior_product(const InteriorView& cell, const InteriorOperator& matr
       const Vec3<float> d = pn - vector_of(p[i]);
       mean += Vec3d{d.x, d.y, d.z} * static_cast<double>(matrix.share[i]);
     }
-    const Vec3<float> drag = in_float(mean * static_cast<double>(matrix.drag));
+    const Vec3<float> drag = to_float(mean * static_cast<double>(matrix.drag));
     add(*nucleus_q, drag);
     for (std::size_t i = 0; i < p.size(); ++i) add(q[i], drag * -matrix.share[i]);
     for (std::size_t k = 0; k < matrix.nucleus_block.size(); ++k) {

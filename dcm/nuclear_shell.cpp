@@ -89,10 +89,7 @@ void add_in_float(std::span<const Vec3d> v, std::span<Float4> out) {
     out[i].z += static_cast<float>(v[i].z);
   }
 }
-void add_in_float(const SymMat3<double>& m, SymMat3<float>& out) {
-  const auto f = [](double a) { return static_cast<float>(a); };
-  out += SymMat3<float>{f(m.xx), f(m.xy), f(m.xz), f(m.yy), f(m.yz), f(m.zz)};
-}
+void add_in_float(const SymMat3<double>& m, SymMat3<float>& out) { out += to_float(m); }
 
 /// Rounding of g_c and of the stiffness in the cell's own operator shall not make the sum of both indefinite.
 constexpr double kCoupled = 0.999;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "coupling/changing_box.h"
+#include "coupling/regions/counts_from.h"
 #include "study/build.h"
 #include "study/read_section.h"
 
@@ -153,11 +154,12 @@ int find_obstacle(BuildContext& c, const std::string& name, const Place& place) 
 }
 
 int find_cells(BuildContext& c, const std::string& name, const Place& place) {
+  const Model& model = c.study.model;
+  if (counts_from(model, model.swaps.regions, name)) return 0;
   std::vector<std::string> names;
-  for (const Region& region : c.study.model.swaps.regions) names.push_back(region.name);
-  for (const auto& type : c.draft.cell_types) names.push_back(type.name);
-  for (const auto& obstacle : c.draft.geometry) names.push_back(obstacle.name);
-  if (std::ranges::find(names, name) != names.end()) return 0;
+  for (const Region& region : model.swaps.regions) names.push_back(region.name);
+  for (const CellType& type : model.types) names.push_back(type.name);
+  for (const ObstacleSpec& obstacle : model.obstacles) names.push_back(obstacle.name);
   c.diagnostics.error(401, place, "there is no region before this one, cell type or obstacle '" + name + "'", suggest(name, names));
   return -1;
 }

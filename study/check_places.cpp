@@ -1,4 +1,3 @@
-
 #include "cbm/laws/sphere_caps.h"
 #include "core/contact/broad_phase.h"
 #include "core/numbers/number_text.h"

@@ -298,19 +298,14 @@ void fill(const PointsEvaluation& e, const PointsAgainstBody& lists, const Conta
   }
 }
 
-SymMat3<float> rounded(const SymMat3<double>& m) {
-  return {static_cast<float>(m.xx), static_cast<float>(m.xy), static_cast<float>(m.xz),
-          static_cast<float>(m.yy), static_cast<float>(m.yz), static_cast<float>(m.zz)};
-}
-
 /// Add one point's share to SurfacePair::within. An energy of attraction E in proportion to the area with the normal m is a tension, of the virial
 /// −E (I − m ⊗ m); a force along n over the gap g between two surfaces has the virial −g f n ⊗ n, half on either side.
 void add_within(const PointsEvaluation& e, int d, const Batch& batch, int lane, SurfacePair& pair) {
   const double tension = batch.tension[lane];
-  if (tension != 0.0) pair.within[d] += rounded(outer(tension, get(batch.source_normal, lane)) + isotropic(-tension));
+  if (tension != 0.0) pair.within[d] += to_float(outer(tension, get(batch.source_normal, lane)) + isotropic(-tension));
   if (!e.target_moves || e.target.topology == nullptr) return;
   const Vec3d n = get(batch.normal, lane);
-  const SymMat3<float> of_gap = rounded(outer(-0.5 * batch.gap[lane] * dot(get(batch.pull, lane), n), n));
+  const SymMat3<float> of_gap = to_float(outer(-0.5 * batch.gap[lane] * dot(get(batch.pull, lane), n), n));
   for (SymMat3<float>& side : pair.within) side += of_gap;
 }
 

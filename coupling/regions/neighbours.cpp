@@ -3,6 +3,7 @@
 #include <limits>
 #include <numbers>
 
+#include "coupling/regions/counts_from.h"
 #include "coupling/regions/room_around.h"
 
 namespace morula {
@@ -10,25 +11,35 @@ namespace {
 
 using Kind = OwnKey::Kind;
 
+constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+
 /// How much room the cells take that are within so many contacts of what the region begins with; cells are two radii apart at most [µm³].
 double room_of_neighbours(const Model& model, const Region& region) {
-  const std::string of = region.values.name("of");
+  using What = CountsFrom::What;
   double radius = 0.0;
   for (const CellType& type : model.types) radius = std::max(radius, type.radius.mean);
   const double reach = 2.0 * radius * region.values("cells");
-  for (const Region& core : model.swaps.regions)
-    if (core.name == of) {
-      const double inner = core.shape->volume != nullptr ? core.shape->volume(core) : std::numeric_limits<double>::infinity();
-      return 4.0 / 3.0 * std::numbers::pi * std::pow(std::cbrt(3.0 * inner / (4.0 * std::numbers::pi)) + reach, 3);
-    }
-  const auto is_type = [&](const CellType& type) { return type.name == of; };
-  if (std::ranges::any_of(model.types, is_type)) return std::numeric_limits<double>::infinity();
-  for (const ObstacleSpec& obstacle : model.obstacles)
-    if (obstacle.name == of) return room_around(obstacle, reach);
-  return std::numeric_limits<double>::infinity();
+  const std::optional<CountsFrom> from = counts_from(model, model.swaps.regions, region.values.name("of"));
+  if (!from || from->what == What::kType) return kAnywhere;
+  if (from->what == What::kObstacle) return room_around(model.obstacles[from->number], reach);
+  const Region& core = model.swaps.regions[from->number];
+  const double inner = core.shape->volume != nullptr ? core.shape->volume(core) : kAnywhere;
+  return 4.0 / 3.0 * std::numbers::pi * std::pow(std::cbrt(3.0 * inner / (4.0 * std::numbers::pi)) + reach, 3);
 }
 
 }  // namespace
+
+std::optional<CountsFrom> counts_from(const Model& model, std::span<const Region> before, const std::string& name) {
+  std::optional<CountsFrom> out;
+  const auto look = [&](const auto& all, CountsFrom::What what) {
+    const auto at = std::ranges::find_if(all, [&name](const auto& one) { return one.name == name; });
+    if (!out && at != all.end()) out = CountsFrom{what, static_cast<std::size_t>(at - all.begin())};
+  };
+  look(before, CountsFrom::What::kRegion);
+  look(model.types, CountsFrom::What::kType);
+  look(model.obstacles, CountsFrom::What::kObstacle);
+  return out;
+}
 
 std::shared_ptr<const RegionShape> neighbours_region() {
   static const auto shape = std::make_shared<const RegionShape>(RegionShape{

@@ -1,13 +1,12 @@
 /// The user's road to regions that count contacts: cells in a row, of which those within two contacts of another are shells.
 #include <gtest/gtest.h>
 
-#include <cstdio>
+#include <cmath>
 #include <map>
 #include <string>
-#include <vector>
 
-#include "coupling/mechanics/mechanics.h"
-#include "tests/scenarios/simulation_of.h"
+#include "results/snapshot_file.h"
+#include "scenarios/run/driver.h"
 #include "tests/study/study_fixture.h"
 
 namespace morula::scenarios {
@@ -17,7 +16,7 @@ namespace {
 constexpr const char* kRow = R"(
 schema: 1
 study: row
-time: {end: 30 min, output: 10 min}
+time: {end: 25 min, output: 1 min}
 domain: {size: [200 um, 200 um, 200 um]}
 cell_types:
   cell: {radius: 4 um}
@@ -30,54 +29,59 @@ initial:
 coupling:
   hold: 2 min
   regions: REGIONS
+output: {report: false}
 )";
 
 std::string with(const std::string& regions, const std::string& geometry = "") {
   return test::changed("GEOMETRY", geometry, test::changed("REGIONS", regions, kRow));
 }
 
-/// S or s by founder: shell or sphere, after so long a time.
-std::string bodies_after(const std::string& text, double time) {
+/// S or s by founder: shell or sphere in the results of a run, at this time.
+std::string bodies_at(double time, const std::string& text) {
+  const test::Folder folder;
   const auto study = test::read(text);
   EXPECT_TRUE(study.ok()) << study.error().text();
   if (!study.ok()) return {};
-  auto made = test::simulation_of(*study);
-  EXPECT_TRUE(made.ok());
-  if (!made.ok()) return {};
-  Simulation& simulation = **made;
-  while (simulation.tissue().clock.time < time) {
-    const auto stepped = simulation.step(time);
-    EXPECT_TRUE(stepped.ok());
-    if (!stepped.ok()) break;
-  }
+  RunRequest request;
+  request.out = folder.path() / "run";
+  const auto done = run(*study, request, Comm());
+  EXPECT_TRUE(done.ok()) << done.error().message;
+  const auto entries = list_snapshots(folder.path() / "run/results.h5");
+  EXPECT_TRUE(entries.ok());
+  if (!entries.ok()) return {};
   std::map<CellId, char> body;
-  for (const CellRow& row : simulation.tissue().cells.rows) body[row.id] = row.body == BodyKind::kShell ? 'S' : 's';
+  for (const auto& entry : *entries) {
+    if (std::abs(entry.time - time) > 1.0) continue;
+    const auto snapshot = read_snapshot(folder.path() / "run/results.h5", entry.index);
+    EXPECT_TRUE(snapshot.ok());
+    if (!snapshot.ok()) return {};
+    for (const Snapshot::Cell& cell : snapshot->cells) body[cell.id] = cell.body == BodyKind::kShell ? 'S' : 's';
+  }
   std::string out;
   for (const auto& [id, letter] : body) out += letter;
   return out;
 }
 
 TEST(NeighboursRegion, HasTheCellsWithinSoManyContactsOfACellOfAType) {
-  EXPECT_EQ(bodies_after(with("[{name: around_leader, shape: neighbours, of: leader, cells: 2}]"), 1200.0), "SSSssssss");
+  EXPECT_EQ(bodies_at(1200.0, with("[{name: around_leader, shape: neighbours, of: leader, cells: 2}]")), "SSSssssss");
 }
 
 TEST(NeighboursRegion, CountsFromARegionBeforeIt) {
-  EXPECT_EQ(bodies_after(with("[{name: core, shape: sphere, center: [22.8 um, 0 um, 0 um], radius: 2 um, margin: 1 um}, "
-                              "{name: buffer, shape: neighbours, of: core, cells: 1}]"),
-                         1200.0),
+  EXPECT_EQ(bodies_at(1200.0, with("[{name: core, shape: sphere, center: [22.8 um, 0 um, 0 um], radius: 2 um, margin: 1 um}, "
+                                   "{name: buffer, shape: neighbours, of: core, cells: 1}]")),
             "ssSSSssss");
-  EXPECT_EQ(bodies_after(with("[{name: core, shape: sphere, center: [22.8 um, 0 um, 0 um], radius: 2 um, margin: 1 um}, "
-                              "{name: buffer, shape: neighbours, of: core, cells: 1, as: sphere}, "
-                              "{name: rest, shape: neighbours, of: buffer, cells: 2}]"),
-                         1200.0),
+  EXPECT_EQ(bodies_at(1200.0, with("[{name: core, shape: sphere, center: [22.8 um, 0 um, 0 um], radius: 2 um, margin: 1 um}, "
+                                   "{name: buffer, shape: neighbours, of: core, cells: 1, as: sphere}, "
+                                   "{name: rest, shape: neighbours, of: buffer, cells: 2}]")),
             "SssSssSSs")
       << "the first region in the list decides, spheres stay in that of spheres to two contacts, and the last counts from all of these";
 }
 
 TEST(NeighboursRegion, CountsFromTheCellsThatTouchAnObstacle) {
-  // The wall is at x = 57 µm, and the last cell of the row reaches to 57.2. Nothing else touches it.
+  // The wall is at x = 57 µm; the last cell of the row reaches to 57.2 and adheres to it. Nothing else touches it.
   const std::string wall = "geometry:\n  wall: {box: {center: [62 um, 0 um, 0 um], size: [10 um, 60 um, 60 um]}}";
-  EXPECT_EQ(bodies_after(with("[{name: near_wall, shape: neighbours, of: wall, cells: 2}]", wall), 1200.0), "ssssssSSs");
+  const std::string text = with("[{name: near_wall, shape: neighbours, of: wall, cells: 2}]", wall);
+  EXPECT_EQ(bodies_at(1200.0, test::changed("{radius: 4 um}", "{radius: 4 um, adhesion: {wall: 1e-4 J/m^2}}", text)), "ssssssSSs");
 }
 
 TEST(NeighboursRegion, LeavesWithinOneContactMoreAlone) {
@@ -85,8 +89,8 @@ TEST(NeighboursRegion, LeavesWithinOneContactMoreAlone) {
   const std::string text = with(
       "[{name: first, shape: neighbours, of: leader, cells: 3, until: 10 min}, "
       "{name: then, shape: neighbours, of: leader, cells: 1}]");
-  EXPECT_EQ(bodies_after(text, 540.0), "SSSSsssss");
-  EXPECT_EQ(bodies_after(text, 1500.0), "SSSssssss") << "two contacts away is one beyond the last: it stays; three is not";
+  EXPECT_EQ(bodies_at(540.0, text), "SSSSsssss");
+  EXPECT_EQ(bodies_at(1500.0, text), "SSSssssss") << "two contacts away is one beyond the last: it stays; three is not";
 }
 
 TEST(NeighboursRegion, TellsWhatItDoesNotKnow) {

@@ -4,14 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/system/runs_on_ranks.h"
-#include "tests/system/studies.h"
 
 namespace morula::test {
 namespace {
 
 using nlohmann::json;
 
-/// Spheres and shells that grow, divide, change their bodies and wander through the faces of a box that shrinks and widens.
+/// Spheres and shells, those of a region and their neighbours over any border, that grow, divide, change their bodies and wander through the faces of a box that shrinks and widens.
 constexpr const char* kStudy = R"(schema: 1
 study: box
 seed: 5
@@ -31,7 +30,8 @@ initial:
   - {type: cell, count: 50, fill: box, size: [44 um, 44 um, 44 um], start_volume: 60 %, inflate: 4 min, age: random}
 coupling:
   regions:
-    - {name: half, shape: half_space, center: [0 um, 0 um, 0 um], normal: [1, 0, 0], as: dcm, margin: 2 um}
+    - {name: left, shape: half_space, center: [-10 um, 0 um, 0 um], normal: [1, 0, 0], as: dcm, margin: 2 um}
+    - {name: next_to_it, shape: neighbours, of: left, cells: 1, as: dcm}
 output: {report: false}
 )";
 
@@ -61,17 +61,6 @@ TEST(ChangingBox, GivesTheSameBitsOnThreadsAndRanksAndOverARestartInItsCourse) {
   expect_same("two-one", run_morula({"resume", "two-one"}, folder.path(), given_time(0)));
   ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "one-two", "--until", "20 min"}, folder.path(), given_time(0)).exit_code, 0);
   expect_same("one-two", run_morula({"resume", "one-two"}, folder.path(), given_time(2)));
-}
-
-/// What would not be the same bits is refused, before anything is written.
-TEST(ChangingBox, RefusesRegionsThatCountContactsOnSeveralRanks) {
-  const TestFolder folder;
-  folder.write("study.yaml", changed(kStudy, "shape: half_space, center: [0 um, 0 um, 0 um], normal: [1, 0, 0], as: dcm, margin: 2 um",
-                                     "shape: neighbours, of: cell, cells: 1"));
-  const Outcome outcome = run_morula({"run", "study.yaml", "--out", "run"}, folder.path(), on_ranks(2));
-  EXPECT_EQ(outcome.exit_code, 2) << outcome.all();
-  EXPECT_NE(outcome.err.find("is on one rank only"), std::string::npos) << outcome.err;
-  EXPECT_FALSE(std::filesystem::exists(folder / "run"));
 }
 
 }  // namespace
