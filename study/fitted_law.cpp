@@ -63,7 +63,10 @@ void declare_figures(Section& s, File& f, std::initializer_list<const char*> nam
 void declare_held_out(Section& s, File& f) {
   bool present = false;
   s.group(section("held_out"), present, [&f](Section& h) {
-    declare_figures(h, f, {"pairs", "force_rms", "force_worst", "packings", "pressure_rms", "pressure_worst"});
+    declare_figures(
+        h, f,
+        {"pairs", "force_rms", "force_worst", "packings", "pressure_rms", "pressure_worst", "lattices", "lattice_rms", "lattice_worst"});
+    h.words(section("random"), f.others);
   });
 }
 

@@ -3,6 +3,8 @@
 #include <limits>
 #include <vector>
 
+#include "scenarios/calibrate/packing_geometry.h"
+
 namespace morula::calibrate {
 
 /// Two cells in contact, at rest: a point of a force–overlap curve of deformable cells, extrapolated to no rate.
@@ -19,17 +21,20 @@ struct PairPoint {
   [[nodiscard]] double smaller_radius() const { return std::fmin(radius_a, radius_b); }
 };
 
-/// Periodic packings of equal cells.
-enum class Lattice { kFaceCentred, kBodyCentred };
-
 /// A periodic packing of equal cells at rest.
 struct PackingPoint {
   int experiment = 0;
-  Lattice lattice = Lattice::kFaceCentred;
+  Arrangement arrangement = Arrangement::kFaceCentred;
   double volume_ratio = 1.0;  ///< V/V0: room of a cell in the box over the volume of the free cell
   double pressure = 0.0;      ///< p, of contact [kPa]
   double radius = 0.0;        ///< of the free cell [µm]
   bool held_out = false;
+  /// Where spheres in place of these cells lie, which the law itself decides: of random packings. Lattices stay what they are.
+  PackingGeometry random{};
+
+  [[nodiscard]] PackingGeometry geometry() const {
+    return arrangement == Arrangement::kRandom ? random : lattice_geometry(arrangement, volume_ratio);
+  }
 };
 
 /// What the virtual experiments have found.

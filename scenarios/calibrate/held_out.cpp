@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenarios/calibrate/lattice.h"
-
 namespace morula::calibrate {
 
 HeldOutErrors held_out_errors(const Data& data, const PairModel& pair, const cbm::PackingCurve& curve, double pull_off) {
@@ -19,14 +17,19 @@ HeldOutErrors held_out_errors(const Data& data, const PairModel& pair, const cbm
   for (const PackingPoint& point : data.packings) largest = std::max(largest, std::abs(point.pressure));
   for (const PackingPoint& point : data.packings) {
     if (!point.held_out) continue;
-    const LatticeGeometry at = lattice_geometry(point.lattice, point.volume_ratio);
-    const double law = pair_pressure(at, point.radius, pair) + at.press * curve.at(at.packing).pressure;
+    const PackingGeometry at = point.geometry();
+    const double law = pair_pressure(at, point.radius, pair) + curve_pressure(at, curve);
     const double error = std::abs(point.pressure - law) / std::max(std::abs(point.pressure), 0.1 * largest);
-    ++out.packings;
-    out.pressure_rms += error * error, out.pressure_worst = std::max(out.pressure_worst, error);
+    out.all_packings.push_back({point.arrangement, point.volume_ratio, point.pressure, law});
+    const bool random = point.arrangement == Arrangement::kRandom;
+    ++(random ? out.packings : out.lattices);
+    (random ? out.pressure_rms : out.lattice_rms) += error * error;
+    double& worst = random ? out.pressure_worst : out.lattice_worst;
+    worst = std::max(worst, error);
   }
   if (out.pairs > 0) out.force_rms = std::sqrt(out.force_rms / out.pairs);
   if (out.packings > 0) out.pressure_rms = std::sqrt(out.pressure_rms / out.packings);
+  if (out.lattices > 0) out.lattice_rms = std::sqrt(out.lattice_rms / out.lattices);
   return out;
 }
 

@@ -8,7 +8,7 @@
 
 namespace morula::calibrate {
 
-/// What pairs leave to the packing at one point: (p − p_pairs)/(press of the lattice).
+/// What pairs leave to the packing at one point: (p − p_pairs)/(press of the packing).
 struct MissingPressure {
   double packing = 0.0;   ///< φ
   double pressure = 0.0;  ///< p_c that this point alone asks for [kPa], of either sign
@@ -16,8 +16,8 @@ struct MissingPressure {
 /// Of the packings that are not held out, by φ.
 [[nodiscard]] std::vector<MissingPressure> missing_pressure(std::span<const PackingPoint> packings, const PairModel& pair);
 
-/// Packings φ at which the curve gets its knots: the onset, where the line through the first two points of those from which on pressure is missing
-/// comes to 0, but not below the point before them; and from there to the largest φ with distances that grow like the square, since the curve bends
+/// Packings φ at which the curve gets its knots: the onset, where the line through the first of those points from which on pressure is missing, a
+/// thirtieth of the range of φ and the next, comes to 0, but not below the point before them; and from there to the largest φ with distances that grow like the square, since the curve bends
 /// most at its onset. Empty: nothing is missing anywhere, or fewer than three points tell.
 [[nodiscard]] std::vector<double> place_knots(std::span<const MissingPressure> missing, int count);
 

@@ -5,22 +5,21 @@
 #include <cmath>
 #include <utility>
 
-#include "scenarios/calibrate/lattice.h"
 #include "scenarios/calibrate/pair_model.h"
 
 namespace morula::calibrate {
 namespace {
 
-/// A packing with its place in the lattice, computed once.
+/// A packing and where its cells lie, computed once.
 struct PlacedPacking {
   PackingPoint point;
-  LatticeGeometry at;
+  PackingGeometry at;
 };
 
 std::vector<PlacedPacking> placed(const Data& data) {
   std::vector<PlacedPacking> out;
   for (const PackingPoint& point : data.packings)
-    if (!point.held_out) out.push_back({point, lattice_geometry(point.lattice, point.volume_ratio)});
+    if (!point.held_out) out.push_back({point, point.geometry()});
   return out;
 }
 
@@ -49,7 +48,7 @@ struct Loss {
     assert(through.ok());
     const cbm::PackingCurve& curve = through.value();
     for (const PlacedPacking& packing : packings) {
-      const double p = pair_pressure(packing.at, packing.point.radius, pair) + packing.at.press * curve.at(packing.at.packing).pressure;
+      const double p = pair_pressure(packing.at, packing.point.radius, pair) + curve_pressure(packing.at, curve);
       out.push_back(std::sqrt(weights.packing) * (packing.point.pressure - p) /
                     (weights.pressure_floor + weights.pressure_relative * std::abs(packing.point.pressure)));
     }

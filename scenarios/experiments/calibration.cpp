@@ -6,6 +6,7 @@
 
 #include "core/numbers/number_text.h"
 #include "results/file_io.h"
+#include "scenarios/experiments/spheres_in_packings.h"
 
 namespace morula::scenarios {
 namespace {
@@ -25,33 +26,81 @@ void remark_on_range(Calibration& out) {
                                number_text("%.2g", out.rest_of_jkr()) + " R, and 0.4 R is what it asks for");
 }
 
-/// What only the root does, once all runs are there.
-Status fit_on_root(const Study& study, Calibration& out) {
-  MORULA_TRY_ASSIGN(out.data, data_of_runs(out.experiments, out.outcomes));
-  const auto type = std::ranges::find(study.model.types, out.material.type, &CellType::name);
-  calibrate::FitOptions options;
-  options.poisson = type->sphere.poisson;
-  options.seed = study.model.seed;
-  MORULA_TRY_ASSIGN(out.sure, calibrate::fit_with_confidence(out.data.points, options));
-  const calibrate::Fit& fit = out.sure.fit;
-  const double pull_off = fit.pull_off(1.0);
-  out.misfit = calibrate::misfit_share(out.data.points, fit);
-  out.held_out =
-      calibrate::held_out_errors(out.data.points, calibrate::jkr_model(fit.parameters.young, fit.poisson, fit.parameters.adhesion),
-                                 curve_of(fit.parameters.knots), pull_off);
-  remark_on_range(out);
-  auto table = calibrate::fit_table(out.data.points);
-  if (!table.ok()) {
-    out.data.remarks.push_back("no table: " + table.error().message);
+/// What only the root does, once all runs are there: the fit of JKR, and of a table.
+class Fitting {
+ public:
+  Fitting(const Study& study, Calibration& out) : out_(out), points_(out.data.points) {
+    options_.poisson = std::ranges::find(study.model.types, out.material.type, &CellType::name)->sphere.poisson;
+    options_.seed = study.model.seed;
+  }
+
+  Status jkr() {
+    calibrate::Data& points = out_.data.points;
+    const SpheresInPackings places(out_.material, out_.data.packings);
+    const auto make = [&](const calibrate::Data& now) -> Result<TrialLaw> {
+      MORULA_TRY_ASSIGN(const calibrate::Fit fit, calibrate::fit(now, options_));
+      return trial(fit);
+    };
+    MORULA_TRY(fit_in_turns(points, options_.weights, make, places));
+    MORULA_TRY_ASSIGN(out_.sure, calibrate::fit_with_confidence(points, options_));
+    const TrialLaw law = trial(out_.sure.fit);
+    MORULA_TRY(places.place(law, true, points));
+    out_.misfit = calibrate::misfit_share(points, out_.sure.fit);
+    out_.held_out = calibrate::held_out_errors(points, law.pair, law.sphere.packing, out_.sure.fit.pull_off(1.0));
+    remark_on_range(out_);
     return {};
   }
-  FittedTable one{.table = std::move(table).value(), .packing = {}, .held_out = {}, .exponent = {}};
-  const calibrate::PairModel model = calibrate::table_model(one.table);
-  if (!out.data.points.packings.empty()) one.packing = calibrate::fit_curve(out.data.points, model, options);
-  one.held_out = calibrate::held_out_errors(out.data.points, model, curve_of(one.packing), pull_off);
-  one.exponent = calibrate::force_exponent(out.data.points, one.table);
-  out.table = std::move(one);
-  return {};
+
+  Status table() {
+    auto found = calibrate::fit_table(points_);
+    if (!found.ok()) {
+      out_.data.remarks.push_back("no table: " + found.error().message);
+      return {};
+    }
+    FittedTable one{.table = std::move(found).value(), .packing = {}, .held_out = {}, .exponent = {}};
+    const calibrate::PairModel pair = calibrate::table_model(one.table);
+    const SpheresInPackings places(out_.material, out_.data.packings);
+    const auto make = [&](const calibrate::Data& now) -> Result<TrialLaw> {
+      one.packing = calibrate::fit_curve(now, pair, options_);
+      return trial(one, pair);
+    };
+    MORULA_TRY(fit_in_turns(points_, options_.weights, make, places));
+    if (!points_.packings.empty()) one.packing = calibrate::fit_curve(points_, pair, options_);
+    const TrialLaw law = trial(one, pair);
+    MORULA_TRY(places.place(law, true, points_));
+    one.held_out = calibrate::held_out_errors(points_, pair, law.sphere.packing, out_.sure.fit.pull_off(1.0));
+    one.exponent = calibrate::force_exponent(points_, one.table);
+    out_.table = std::move(one);
+    return {};
+  }
+
+ private:
+  [[nodiscard]] TrialLaw trial(const calibrate::Fit& fit) const {
+    TrialLaw out{.sphere = {},
+                 .adhesion = fit.parameters.adhesion,
+                 .pair = calibrate::jkr_model(fit.parameters.young, fit.poisson, fit.parameters.adhesion)};
+    out.sphere.young = fit.parameters.young, out.sphere.poisson = fit.poisson;
+    out.sphere.packing = curve_of(fit.parameters.knots);
+    return out;
+  }
+  [[nodiscard]] TrialLaw trial(const FittedTable& table, const calibrate::PairModel& pair) const {
+    TrialLaw out = trial(out_.sure.fit);
+    out.pair = pair;
+    out.sphere.law = cbm::table_law(table.table);
+    out.sphere.packing = curve_of(table.packing);
+    return out;
+  }
+
+  Calibration& out_;
+  calibrate::Data points_;  // for the table, whose spheres lie elsewhere
+  calibrate::FitOptions options_;
+};
+
+Status fit_on_root(const Study& study, Calibration& out) {
+  MORULA_TRY_ASSIGN(out.data, data_of_runs(out.experiments, out.outcomes));
+  Fitting fitting(study, out);
+  MORULA_TRY(fitting.jkr());
+  return fitting.table();
 }
 
 }  // namespace

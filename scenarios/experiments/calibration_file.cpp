@@ -36,10 +36,23 @@ std::string knots_text(const std::vector<cbm::PackingKnot>& knots) {
   return "[" + out + "]";
 }
 
+/// What the law tells of each random packing that was held out, beside the shells.
+std::string packings_text(const calibrate::HeldOutErrors& errors) {
+  std::string out;
+  for (const calibrate::HeldOutPacking& p : errors.all_packings)
+    if (p.arrangement == calibrate::Arrangement::kRandom)
+      out += (out.empty() ? "" : ", ") + number_text("\"%.4g: ", p.volume_ratio) + number_text("%.1f ", 1e3 * p.pressure) +
+             number_text("%.1f\"", 1e3 * p.by_law);
+  return "[" + out + "]";
+}
+
 std::string errors_text(const calibrate::HeldOutErrors& errors) {
   return "{pairs: " + std::to_string(errors.pairs) + ", force_rms: " + number(errors.force_rms) +
          ", force_worst: " + number(errors.force_worst) + ", packings: " + std::to_string(errors.packings) +
-         ", pressure_rms: " + number(errors.pressure_rms) + ", pressure_worst: " + number(errors.pressure_worst) + "}";
+         ", pressure_rms: " + number(errors.pressure_rms) + ", pressure_worst: " + number(errors.pressure_worst) +
+         ", lattices: " + std::to_string(errors.lattices) + ", lattice_rms: " + number(errors.lattice_rms) +
+         ", lattice_worst: " + number(errors.lattice_worst) + ", random: " + packings_text(errors) +
+         "}  # random: V/V0: Pa of shells, of spheres";
 }
 
 /// Least and largest of what the fitted points have.

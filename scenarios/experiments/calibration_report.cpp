@@ -126,14 +126,29 @@ CurvePlot profile_plot(const calibrate::Profile& profile, const char* name, cons
   return plot;
 }
 
+/// Of the law to take, beside those shells that it was not fitted to, and all others.
 CurvePlot packing_plot(const Calibration& found) {
+  using calibrate::Arrangement;
   CurvePlot plot = plot_of("Packings: pressure over room", axis("V/V0", ""), axis("pressure", "kPa"));
-  for (const auto lattice : {calibrate::Lattice::kFaceCentred, calibrate::Lattice::kBodyCentred}) {
-    Curve shells =
-        curve(lattice == calibrate::Lattice::kFaceCentred ? "shells, face-centred" : "shells, body-centred", CurveStyle::kPoints);
-    for (const auto& p : found.data.points.packings)
-      if (p.lattice == lattice) shells.x.push_back(p.volume_ratio), shells.y.push_back(p.pressure);
-    if (!shells.x.empty()) plot.curves.push_back(std::move(shells));
+  const auto add = [&](Curve one) {
+    if (!one.x.empty()) plot.curves.push_back(std::move(one));
+  };
+  Curve fitted = curve("shells, random, fitted", CurveStyle::kPoints);
+  for (const auto& p : found.data.points.packings)
+    if (!p.held_out) fitted.x.push_back(p.volume_ratio), fitted.y.push_back(p.pressure);
+  add(std::move(fitted));
+  const auto& held_out = (found.table_is_better() ? found.table->held_out : found.held_out).all_packings;
+  for (const auto& [arrangement, name] : {std::pair<Arrangement, std::string>{Arrangement::kRandom, "random"},
+                                          {Arrangement::kFaceCentred, "face-centred"},
+                                          {Arrangement::kBodyCentred, "body-centred"}}) {
+    Curve shells = curve("shells, " + name + ", held out", CurveStyle::kPoints), law = curve("spheres, " + name);
+    for (const auto& p : held_out) {
+      if (p.arrangement != arrangement) continue;
+      shells.x.push_back(p.volume_ratio), shells.y.push_back(p.pressure);
+      law.x.push_back(p.volume_ratio), law.y.push_back(p.by_law);
+    }
+    add(std::move(shells));
+    add(std::move(law));
   }
   return plot;
 }
@@ -162,6 +177,10 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
         {"a table on what was held out, root mean square", three(100.0 * found.table->held_out.force_rms), "% of the pull-off force"});
     out.key_numbers.push_back({"n of F ∝ (δ − δ_0)ⁿ where cells push (Hertz: 1.5)", three(found.table->exponent.value),
                                "± " + three(found.table->exponent.error)});
+    const calibrate::HeldOutErrors& taken = found.table_is_better() ? found.table->held_out : found.held_out;
+    if (taken.packings > 0)
+      out.key_numbers.push_back(
+          {"pressure of a random packing that was held out, root mean square", three(100.0 * taken.pressure_rms), "%"});
     out.key_numbers.push_back({"the law to take", found.table_is_better() ? "the table" : "JKR", ""});
   }
   const auto add = [&](const CurvePlot& plot) { out.plots.push_back({"", curves_svg(plot, SvgUse::kInline)}); };

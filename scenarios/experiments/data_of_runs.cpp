@@ -103,16 +103,16 @@ Result<ExperimentData> data_of_runs(std::span<const Experiment> experiments, std
       if (points.size() > 1) pairs[{experiment.radius_a, experiment.radius_b}].push_back({&experiment, std::move(points)});
     } else {
       MORULA_TRY_ASSIGN(const auto points, packing_of_run(experiment, outcomes[e].run));
-      for (const FoundPacking& point : points)
-        if (point.volume_ratio <= kLoosest)
-          out.points.packings.push_back({.experiment = block,
-                                         .lattice = experiment.lattice == Experiment::Lattice::kFaceCentred
-                                                        ? calibrate::Lattice::kFaceCentred
-                                                        : calibrate::Lattice::kBodyCentred,
-                                         .volume_ratio = point.volume_ratio,
-                                         .pressure = point.pressure,
-                                         .radius = experiment.radius_a,
-                                         .held_out = experiment.held_out});
+      for (const FoundPacking& point : points) {
+        if (point.volume_ratio > kLoosest) continue;
+        out.packings.push_back(point);
+        out.points.packings.push_back({.experiment = block,
+                                       .arrangement = experiment.arrangement,
+                                       .volume_ratio = point.volume_ratio,
+                                       .pressure = point.pressure,
+                                       .radius = experiment.radius_a,
+                                       .held_out = experiment.held_out});
+      }
       ++block;
     }
   }

@@ -21,6 +21,10 @@ constexpr int kPairOutputs = 100;              // of a pair
 constexpr double kLoose = 1.35, kTight = 0.7;  // V/V0 of a packing at its start and end
 constexpr double kPackingTime = 3000.0;        // [s]
 constexpr int kPackingOutputs = 65;
+constexpr int kRandomCells = 48;                           // no cell meets another from both sides at the end
+constexpr double kInflate = 900.0, kRandomStart = 1200.0;  // of a random packing: until when its cells grow, and its box stays as it is [s]
+constexpr double kRandomTime = 1500.0, kRandomOutput = 60.0;  // of its compression [s]
+constexpr std::uint32_t kRandomFitted = 2, kRandomHeldOut = 1;
 /// Friction of a type with the medium and with other cells.
 struct Friction {
   const char *medium, *cells;
@@ -50,9 +54,9 @@ std::string contact_text(const CellMaterial& material, const char* between) {
 }
 
 std::string head(const CellMaterial& material, const Experiment& experiment, const char* between, double end, double output) {
-  return "schema: 1\nstudy: " + experiment.name + "\ntitle: \"" + experiment.purpose + "\"\nseed: 1\ntime: {end: " + of(end, "s") +
-         ", output: " + of(output, "s") + ", checkpoint: " + of(0.25 * end, "s") + "}\ncontact: " + contact_text(material, between) + "\n" +
-         "output: {report: false}\nlimits: {overlap: 1 um}\n";
+  return "schema: 1\nstudy: " + experiment.name + "\ntitle: \"" + experiment.purpose + "\"\nseed: " + std::to_string(experiment.seed) +
+         "\ntime: {end: " + of(end, "s") + ", output: " + of(output, "s") + ", checkpoint: " + of(0.25 * end, "s") +
+         "}\ncontact: " + contact_text(material, between) + "\n" + "output: {report: false}\nlimits: {overlap: 1 um}\n";
 }
 
 std::string trap(const char* type, const Vec3d& center, const std::string& way) {
@@ -61,8 +65,8 @@ std::string trap(const char* type, const Vec3d& center, const std::string& way) 
 }
 
 /// Places of a cubic packing in units of the edge of its cube.
-std::vector<Vec3d> cube_of(Experiment::Lattice lattice) {
-  if (lattice == Experiment::Lattice::kBodyCentred) return {{0, 0, 0}, {0.5, 0.5, 0.5}};
+std::vector<Vec3d> cube_of(calibrate::Arrangement lattice) {
+  if (lattice == calibrate::Arrangement::kBodyCentred) return {{0, 0, 0}, {0.5, 0.5, 0.5}};
   return {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
 }
 
@@ -106,14 +110,14 @@ Experiment pair_experiment(const CellMaterial& material, const std::string& name
   return e;
 }
 
-Experiment packing_experiment(const CellMaterial& material, Experiment::Lattice lattice, double time) {
-  const bool face_centred = lattice == Experiment::Lattice::kFaceCentred;
+Experiment packing_experiment(const CellMaterial& material, calibrate::Arrangement lattice, double time) {
+  const bool face_centred = lattice == calibrate::Arrangement::kFaceCentred;
   const std::vector<Vec3d> cube = cube_of(lattice);
   const int cubes = 3;  // no cell may meet another from both sides
   const double free = 4.0 / 3.0 * std::numbers::pi * std::pow(material.radius, 3.0);
   const double edge = std::cbrt(static_cast<double>(cube.size()) * free * kLoose), box = cubes * edge;
   Experiment e{.kind = Experiment::Kind::kPacking,
-               .lattice = lattice,
+               .arrangement = lattice,
                .name = face_centred ? "packing_fcc" : "packing_bcc",
                .purpose = std::string(face_centred ? "Face" : "Body") +
                           "-centred cubic packing whose box shrinks from 1.35 to 0.7 times the volume of its cells",
@@ -138,6 +142,44 @@ Experiment packing_experiment(const CellMaterial& material, Experiment::Lattice 
   return e;
 }
 
+Experiment random_packing_experiment(const CellMaterial& material, std::uint32_t seed) {
+  const double free = 4.0 / 3.0 * std::numbers::pi * std::pow(material.radius, 3.0);
+  const double edge = std::cbrt(kRandomCells * free * kLoose), end = kRandomStart + kRandomTime;
+  Experiment e{.kind = Experiment::Kind::kPacking,
+               .arrangement = calibrate::Arrangement::kRandom,
+               .seed = seed,
+               .name = "packing_random_" + std::to_string(seed),
+               .purpose = "Random packing whose box shrinks from 1.35 to 0.7 times the volume of its cells",
+               .text = {},
+               .held_out = seed > kRandomFitted,
+               .radius_a = material.radius,
+               .radius_b = material.radius,
+               .rate = std::log(kLoose / kTight) / kRandomTime};
+  const std::string size = place({edge, edge, edge});
+  e.text = head(material, e, "cell, cell", end, kRandomOutput) + "domain: {size: " + size +
+           ", boundary: periodic, course: [{time: 0 s, volume: 1}, {time: " + of(kRandomStart, "s") +
+           ", volume: 1}, {time: " + of(end, "s") + ", volume: " + number(kTight / kLoose) + "}]}\ncell_types:\n" +
+           type_text(material, "cell", material.radius, "cell: " + of(material.adhesion, "nN/um"), kOfPackings) +
+           "initial:\n  - {type: cell, count: " + std::to_string(kRandomCells) + ", fill: random, size: " + size +
+           ", start_volume: 50 %, inflate: " + of(kInflate, "s") + ", as: shell}\n";
+  e.work = kRandomCells * (end + 1000.0);
+  return e;
+}
+
+std::string study_of_spheres(const CellMaterial& material, std::span<const Vec3d> centers, double edge) {
+  CellMaterial spheres = material;
+  spheres.shell = "cbm: {law: jkr, packing: none}, " + material.shell;
+  std::string places;
+  const auto inside = [edge](double x) { return x - edge * std::floor(x / edge + 0.5); };
+  for (const Vec3d& center : centers)
+    places += (places.empty() ? "" : ", ") + place({inside(center.x), inside(center.y), inside(center.z)});
+  const Experiment e{.kind = Experiment::Kind::kPacking, .name = "spheres", .purpose = "Spheres in a packing", .text = {}};
+  return head(material, e, "cell, cell", kRandomTime, kRandomOutput) + "domain: {size: " + place({edge, edge, edge}) +
+         ", boundary: periodic}\nnumerics: {max_displacement: 1, initial_step: 60 s}\ncell_types:\n" +
+         type_text(spheres, "cell", material.radius, "cell: " + of(material.adhesion, "nN/um"), kOfPairs) +
+         "initial:\n  - {type: cell, at: [" + places + "], as: sphere}\n";
+}
+
 namespace {
 
 /// Cells of two radii at all rates, the fastest first.
@@ -154,9 +196,13 @@ void add_pairs(const CellMaterial& material, const std::string& name, double rat
 std::vector<Experiment> experiments_for(const CellMaterial& material, bool packings) {
   std::vector<Experiment> out;
   add_pairs(material, "equal_pair", 1.0, false, out);
-  if (packings)
-    for (const auto lattice : {Experiment::Lattice::kFaceCentred, Experiment::Lattice::kBodyCentred})
+  if (packings) {
+    for (std::uint32_t seed = 1; seed <= kRandomFitted + kRandomHeldOut; ++seed) out.push_back(random_packing_experiment(material, seed));
+    for (const auto lattice : {calibrate::Arrangement::kFaceCentred, calibrate::Arrangement::kBodyCentred}) {
       out.push_back(packing_experiment(material, lattice, kPackingTime));
+      out.back().held_out = true;
+    }
+  }
   add_pairs(material, "unequal_pair", kUnequal, true, out);
   return out;
 }

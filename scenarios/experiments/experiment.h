@@ -1,7 +1,11 @@
 #pragma once
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/vec3.h"
+#include "scenarios/calibrate/packing_geometry.h"
 #include "study/cell_material.h"
 
 namespace morula::scenarios {
@@ -12,7 +16,8 @@ struct Experiment {
     kPair,     ///< two cells, held at a distance by their centres, pressed together and pulled apart
     kPacking,  ///< a periodic packing whose box shrinks
   } kind = Kind::kPair;
-  enum class Lattice { kFaceCentred, kBodyCentred } lattice = Lattice::kFaceCentred;  ///< of a packing
+  calibrate::Arrangement arrangement = calibrate::Arrangement::kFaceCentred;  ///< of a packing
+  std::uint32_t seed = 1;
 
   std::string name;                       ///< of its folder
   std::string purpose;                    ///< for people
@@ -28,7 +33,8 @@ struct Experiment {
 inline constexpr int kPairRates = 3;
 
 /// What the calibration of a contact law asks (fields_and_coupling.md E). E1 and E2: equal cells that come nearer until δ = 0.35 R and part, at three
-/// rates; E3, not without `packings`: face-centred and body-centred cubic packings from V/V0 = 1.35 to 0.7; E5: cells of radii 1 : 1.3, held out.
+/// rates; E3, not without `packings`: random packings from V/V0 = 1.35 to 0.7, two to fit to and one held out, and face-centred and body-centred cubic
+/// ones, held out (decision 0056); E5: cells of radii 1 : 1.3, held out.
 ///
 /// The centres are held by springs, so that pairs are stable at any distance. Friction between cells is 0 and that with the medium small: forces
 /// at rest do not depend on it, and they are extrapolated to no rate.
@@ -36,7 +42,12 @@ std::vector<Experiment> experiments_for(const CellMaterial& material, bool packi
 
 /// A pair of cells of these radii [µm], pressed and pulled at a rate [µm/s].
 Experiment pair_experiment(const CellMaterial& material, const std::string& name, double radius_a, double radius_b, double rate);
-/// A packing whose V/V0 falls from 1.35 to 0.7, V0 the volume of a free cell, over a time [s].
-Experiment packing_experiment(const CellMaterial& material, Experiment::Lattice lattice, double time);
+/// A cubic packing whose V/V0 falls from 1.35 to 0.7, V0 the volume of a free cell, over a time [s].
+Experiment packing_experiment(const CellMaterial& material, calibrate::Arrangement lattice, double time);
+/// Cells at random places that grow into each other at V/V0 = 1.35, which then falls to 0.7.
+Experiment random_packing_experiment(const CellMaterial& material, std::uint32_t seed);
+
+/// A study of spheres of the type at these places [µm], or their images, in a periodic cube [µm], next to without friction. Their law is JKR without packing.
+std::string study_of_spheres(const CellMaterial& material, std::span<const Vec3d> centers, double edge);
 
 }  // namespace morula::scenarios

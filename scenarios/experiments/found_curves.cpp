@@ -47,6 +47,17 @@ Result<std::vector<FoundPacking>> packing_of_run(const Experiment& experiment, c
   std::vector<FoundPacking> out;
   for (std::size_t i = 0; i < series.rows(); ++i)
     out.push_back({.volume_ratio = volume->values[i] / (cells->values[i] * free), .pressure = pressure->values[i]});
+  if (experiment.arrangement != calibrate::Arrangement::kRandom) return out;
+  MORULA_TRY_ASSIGN(const auto moments, all_snapshots(run));
+  if (moments.size() != out.size())
+    return Error{ErrorKind::kFile,
+                 "'" + run.string() + "' has " + std::to_string(moments.size()) + " snapshots and " + std::to_string(out.size()) +
+                     " rows of its series",
+                 ""};
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    for (const Snapshot::Cell& cell : moments[i].cells) out[i].centers.push_back(cell.centroid);
+    out[i].edge = std::cbrt(volume->values[i]);
+  }
   return out;
 }
 

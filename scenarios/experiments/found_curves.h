@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "core/vec3.h"
 #include "scenarios/experiments/experiment.h"
 
 namespace morula::scenarios {
@@ -18,8 +19,10 @@ struct FoundPair {
 
 /// A packing at one moment.
 struct FoundPacking {
-  double volume_ratio = 1.0;  ///< V/V0: room of a cell over the volume of a free one
-  double pressure = 0.0;      ///< of the box, p = −tr σ/3 [kPa]
+  double volume_ratio = 1.0;     ///< V/V0: room of a cell over the volume of a free one
+  double pressure = 0.0;         ///< of the box, p = −tr σ/3 [kPa]
+  std::vector<Vec3d> centers{};  ///< of volume of its cells, of a random packing [µm]
+  double edge = 0.0;             ///< of its box [µm]
 };
 
 /// Errors (kFile): files of the run that are missing or damaged.

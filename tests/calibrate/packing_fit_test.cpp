@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "scenarios/calibrate/confidence.h"
-#include "scenarios/calibrate/lattice.h"
+#include "scenarios/calibrate/packing_geometry.h"
 #include "tests/calibrate/synthetic.h"
 
 namespace morula::calibrate {
@@ -22,22 +22,41 @@ constexpr Row kTable[] = {{0.98450, 0.08700, 19.72, 39.06, 37.13},   {0.95204, 0
 TEST(Lattice, FaceCentredIsTheTableOfIdealFilledCells) {
   const PairModel hertz = jkr_model(0.45, 0.4, 0.0);
   for (const Row& row : kTable) {
-    const LatticeGeometry at = lattice_geometry(Lattice::kFaceCentred, row.volume_ratio);
+    const PackingGeometry at = lattice_geometry(Arrangement::kFaceCentred, row.volume_ratio);
     EXPECT_NEAR(at.packing, row.packing, 2e-5);
     EXPECT_NEAR(1e3 * pair_pressure(at, 6.0, hertz), row.hertz, 1e-2);
     EXPECT_NEAR(row.hertz + at.press * row.packed, row.total, 4e-2);  // five digits of V/V0 are 1e-5 K_V
-    EXPECT_EQ(at.shells[1].neighbours, 0);
+    EXPECT_EQ(at.neighbours.size(), 1u);
   }
 }
 
 // cbm.md §3: spheres of a body-centred lattice have their own volume each at d = (π√3)^{1/3} R = 1.7588825 R.
 TEST(Lattice, BodyCentredHasEightNeighboursAndThenFourteen) {
-  const LatticeGeometry confluent = lattice_geometry(Lattice::kBodyCentred, 1.0);
-  EXPECT_NEAR(confluent.shells[0].distance, 1.7588825, 1e-7);
-  EXPECT_EQ(confluent.shells[1].neighbours, 0);
-  const LatticeGeometry pressed = lattice_geometry(Lattice::kBodyCentred, 0.9);
-  EXPECT_EQ(pressed.shells[1].neighbours, 6);
-  EXPECT_NEAR(pressed.shells[1].distance / pressed.shells[0].distance, 2.0 / std::numbers::sqrt3, 1e-12);
+  const PackingGeometry confluent = lattice_geometry(Arrangement::kBodyCentred, 1.0);
+  EXPECT_NEAR(confluent.neighbours[0].distance, 1.7588825, 1e-7);
+  EXPECT_EQ(confluent.neighbours.size(), 1u);
+  const PackingGeometry pressed = lattice_geometry(Arrangement::kBodyCentred, 0.9);
+  ASSERT_EQ(pressed.neighbours.size(), 2u);
+  EXPECT_EQ(pressed.neighbours[1].count, 6.0);
+  EXPECT_NEAR(pressed.neighbours[1].distance / pressed.neighbours[0].distance, 2.0 / std::numbers::sqrt3, 1e-12);
+}
+
+// Spheres at the places of a lattice are that lattice: three cubes of a face-centred packing along each axis, told by their places.
+TEST(Lattice, IsWhatItsPlacesSay) {
+  const PackingGeometry lattice = lattice_geometry(Arrangement::kFaceCentred, 0.9);
+  const double edge = std::cbrt(4.0 * lattice.room) * kRadius, box = 3.0 * edge;
+  std::vector<Vec3d> places;
+  for (int x = 0; x < 3; ++x)
+    for (int y = 0; y < 3; ++y)
+      for (int z = 0; z < 3; ++z)
+        for (const Vec3d& p : {Vec3d{0, 0, 0}, Vec3d{0.5, 0.5, 0}, Vec3d{0.5, 0, 0.5}, Vec3d{0, 0.5, 0.5}})
+          places.push_back((Vec3d{1.0 * x, 1.0 * y, 1.0 * z} + p) * edge + Vec3d{box, 0, -box} * (x % 2));  // images of it
+  const PackingGeometry told = geometry_of_places(places, box, kRadius);
+  EXPECT_NEAR(told.room, lattice.room, 1e-12);
+  EXPECT_NEAR(told.packing, lattice.packing, 1e-12);
+  EXPECT_NEAR(told.press, lattice.press, 1e-12);
+  const PairModel pair = jkr_model(kYoung, kPoisson, kAdhesion);
+  EXPECT_NEAR(pair_pressure(told, kRadius, pair), pair_pressure(lattice, kRadius, pair), 1e-12);
 }
 
 // The pressure is minus the change of energy with volume: dU = −p dV, pairs and packing alike.
@@ -45,17 +64,16 @@ TEST(Lattice, PressureIsMinusTheChangeOfEnergyWithVolume) {
   const auto law = cbm::make_pair_law(cbm::ContactMaterial::elastic(0.45, 0.4, 0.45, 0.4, 0.05), 6.0, 6.0);
   const PairModel pair = jkr_model(0.45, 0.4, 0.05);
   const double ball = 4.0 / 3.0 * std::numbers::pi * 216.0;
-  for (const Lattice lattice : {Lattice::kFaceCentred, Lattice::kBodyCentred}) {
+  for (const Arrangement lattice : {Arrangement::kFaceCentred, Arrangement::kBodyCentred}) {
     for (const double ratio : {1.05, 0.9, 0.8}) {
       const auto energy = [&](double v) {  // of one cell; Ψ = φ²/2, so that the packing pressure is φ [kPa]
-        const LatticeGeometry at = lattice_geometry(lattice, v);
+        const PackingGeometry at = lattice_geometry(lattice, v);
         double sum = ball * 0.5 * at.packing * at.packing;
-        for (const LatticeShell& shell : at.shells)
-          if (shell.neighbours > 0) sum += 0.5 * shell.neighbours * cbm::jkr_contact(law, (2.0 - shell.distance) * 6.0).energy;
+        for (const Neighbours& shell : at.neighbours) sum += 0.5 * shell.count * cbm::jkr_contact(law, (2.0 - shell.distance) * 6.0).energy;
         return sum;
       };
       const double h = 1e-5;
-      const LatticeGeometry at = lattice_geometry(lattice, ratio);
+      const PackingGeometry at = lattice_geometry(lattice, ratio);
       const double expected = -(energy(ratio + h) - energy(ratio - h)) / (2.0 * h * ball);
       EXPECT_NEAR(pair_pressure(at, 6.0, pair) + at.press * at.packing, expected, 1e-7 * (1.0 + std::abs(expected))) << ratio;
     }
@@ -80,9 +98,9 @@ double ideal_pressure(double packing) {
 Data packed(double last) {
   Data out = jkr_points(-0.5, 1.5, 21, 0.0, 1);
   const PairModel pair = jkr_model(kYoung, kPoisson, kAdhesion);
-  for (const Lattice lattice : {Lattice::kFaceCentred, Lattice::kBodyCentred})
+  for (const Arrangement lattice : {Arrangement::kFaceCentred, Arrangement::kBodyCentred})
     for (double ratio = 1.1; ratio > last - 0.01; ratio -= 0.02) {
-      const LatticeGeometry at = lattice_geometry(lattice, ratio);
+      const PackingGeometry at = lattice_geometry(lattice, ratio);
       const double pressure = pair_pressure(at, kRadius, pair) + at.press * ideal_pressure(at.packing);
       out.packings.push_back({100 + static_cast<int>(lattice), lattice, ratio, pressure, kRadius, false});
     }
@@ -120,8 +138,7 @@ TEST(PackingFit, PlacesKnotsByItself) {
 TEST(PackingFit, OfPairsAloneHasNoCurve) {
   Data data = packed(0.7);
   const PairModel pair = jkr_model(kYoung, kPoisson, kAdhesion);
-  for (PackingPoint& point : data.packings)
-    point.pressure = pair_pressure(lattice_geometry(point.lattice, point.volume_ratio), point.radius, pair);
+  for (PackingPoint& point : data.packings) point.pressure = pair_pressure(point.geometry(), point.radius, pair);
   const auto fitted = fit(data, {.poisson = kPoisson});
   ASSERT_TRUE(fitted.ok());
   EXPECT_TRUE(fitted->parameters.knots.size() < 3 || fitted->parameters.knots.back().pressure < 1e-3);

@@ -1,0 +1,52 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "cbm/packing.h"
+#include "core/vec3.h"
+#include "scenarios/calibrate/pair_model.h"
+
+namespace morula::calibrate {
+
+/// How the cells of a periodic packing lie.
+enum class Arrangement { kFaceCentred, kBodyCentred, kRandom };
+
+/// Neighbours of a cell of a packing, on average over its cells, at one distance or at about one.
+struct Neighbours {
+  double count = 0.0;
+  double distance = 0.0;  ///< over the radius of the free cell
+};
+
+/// Some of the cells of a packing, of about the same φ.
+struct PackedPart {
+  double packing = 0.0;  ///< φ = Σ v_cap/V0
+  double press = 0.0;    ///< their share in the pressure of the box for a packing pressure of 1
+};
+
+/// Where equal spheres lie in a periodic packing, in units of their radius R: what a law needs to know of it to say the pressure of the box.
+struct PackingGeometry {
+  std::vector<Neighbours> neighbours;  ///< in contact
+  std::vector<PackedPart> parts;
+  double room = 0.0;     ///< V/R³ of a cell
+  double packing = 0.0;  ///< mean of φ over the parts, weighted by press
+  double press = 0.0;    ///< sum over the parts: Σ z d π(R² − d²/4)/(6V) of a lattice
+  double extra = 0.0;    ///< pressure of pairs beyond that of `neighbours`, as a run has it: attached pairs with a gap between them [kPa]
+};
+
+/// A cubic packing at V/V0, V0 = 4πR³/3, face-centred or body-centred.
+///
+/// Face-centred: twelve neighbours at d with d³/√2 = V, six at √2 d. Body-centred: eight at d with 4d³/(3√3) = V, six at 2d/√3. Spheres of the
+/// nearest shell are in contact whatever their distance, those of the next from the overlap 0 on (a compression that goes on).
+[[nodiscard]] PackingGeometry lattice_geometry(Arrangement lattice, double volume_ratio);
+
+/// Spheres of one radius at these centres [µm] in a periodic cube of this edge [µm]; those that overlap are neighbours. Neighbours of about the same
+/// distance, and cells of about the same φ, are taken together, so that a law is quickly asked.
+[[nodiscard]] PackingGeometry geometry_of_places(std::span<const Vec3d> centers, double edge, double radius);
+
+/// Virial pressure of the pair forces alone, p = Σ z d F(2R − d)/(6V) + extra; twelve neighbours: 2√2 F/d² (cbm.md §3) [kPa]. radius R [µm].
+[[nodiscard]] double pair_pressure(const PackingGeometry& at, double radius, const PairModel& pair);
+
+/// What a curve of packing adds to it [kPa].
+[[nodiscard]] double curve_pressure(const PackingGeometry& at, const cbm::PackingCurve& curve);
+
+}  // namespace morula::calibrate

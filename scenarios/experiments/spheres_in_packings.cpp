@@ -1,0 +1,99 @@
+#include "scenarios/experiments/spheres_in_packings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "coupling/simulation.h"
+#include "study/initial/make_tissue.h"
+
+namespace morula::scenarios {
+namespace {
+
+using calibrate::Arrangement;
+using calibrate::PackingPoint;
+
+constexpr int kMostTurns = 8, kPatience = 2;
+constexpr int kMostSteps = 1000;
+constexpr double kAtRest = 1e-4, kAtRestStep = 10.0;  // spheres that move less than this part of R in steps that are so long [s] are at rest
+
+double pressure_by(const TrialLaw& law, const PackingPoint& point) {
+  const calibrate::PackingGeometry at = point.geometry();
+  return calibrate::pair_pressure(at, point.radius, law.pair) + calibrate::curve_pressure(at, law.sphere.packing);
+}
+
+/// What the spheres bear, −tr σ/3 [kPa], and where they are.
+struct Rest {
+  double pressure = 0.0;
+  std::vector<Vec3d> centers;
+};
+
+Result<Rest> rest_of_spheres(const CellMaterial& material, const TrialLaw& law, const FoundPacking& packing) {
+  const auto study = read_study_text("spheres", study_of_spheres(material, packing.centers, packing.edge), {});
+  if (!study.ok()) return Error{ErrorKind::kInternal, "the study of spheres in a packing is refused: " + study.error().text(), ""};
+  Model model = study->model;
+  model.types[0].sphere = law.sphere;
+  if (material.adhesion > 0.0) model.types[0].sphere.adhesion_factor = law.adhesion / material.adhesion;
+  ShapeLibrary shapes;
+  MORULA_TRY_ASSIGN(InitialTissue initial, make_tissue(*study, shapes, Comm()));
+  MORULA_TRY_ASSIGN(auto simulation, Simulation::create(std::move(model), std::move(initial.tissue), Comm(), 1));
+  MORULA_TRY(simulation->first_swaps());
+  Rest out;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const std::vector<Vec3d> before = simulation->centers();
+    const double time = simulation->tissue().clock.time;
+    MORULA_TRY(simulation->step(kNever));
+    out.centers = simulation->centers();
+    double way = 0.0;
+    for (std::size_t i = 0; i < before.size(); ++i) way = std::max(way, norm(out.centers[i] - before[i]));
+    if (way > kAtRest * material.radius || simulation->tissue().clock.time - time < kAtRestStep) continue;
+    const BodyValues values = simulation->values();
+    for (std::size_t i = 0; i < values.pressure.size(); ++i) out.pressure += values.stressed_volume[i] * values.pressure[i];
+    out.pressure /= std::pow(packing.edge, 3.0);
+    return out;
+  }
+  return Error{ErrorKind::kPhysics, "spheres in a random packing find no rest", "calibrate with `--pairs-only`"};
+}
+
+}  // namespace
+
+Status SpheresInPackings::place(const TrialLaw& law, bool held_out, calibrate::Data& data) const {
+  for (std::size_t k = 0; k < packings_.size(); ++k) {
+    PackingPoint& point = data.packings[k];
+    if (point.arrangement != Arrangement::kRandom || point.held_out != held_out) continue;
+    MORULA_TRY_ASSIGN(const Rest rest, rest_of_spheres(material_, law, packings_[k]));
+    point.random = calibrate::geometry_of_places(rest.centers, packings_[k].edge, point.radius);
+    point.random.extra = rest.pressure - pressure_by(law, point);
+  }
+  return {};
+}
+
+Status fit_in_turns(calibrate::Data& data, const calibrate::LossWeights& weights,
+                    const std::function<Result<TrialLaw>(const calibrate::Data&)>& make, const SpheresInPackings& places) {
+  const auto is_placed = [](const PackingPoint& p) { return p.arrangement == Arrangement::kRandom && !p.held_out; };
+  if (std::ranges::none_of(data.packings, is_placed)) return {};
+  for (PackingPoint& point : data.packings)  // order is stiffer than disorder, and balls that are too soft would find an order of their own
+    if (is_placed(point)) point.random = lattice_geometry(Arrangement::kFaceCentred, point.volume_ratio);
+  calibrate::Data now = data;
+  double least = 0.0;
+  int since = 0;
+  for (int turn = 1; turn <= kMostTurns && since < kPatience; ++turn, ++since) {
+    MORULA_TRY_ASSIGN(const TrialLaw law, make(now));
+    if (law.sphere.packing.empty()) return {};  // pairs bear all: there is nothing to find in turns
+    const calibrate::Data told = now;
+    MORULA_TRY(places.place(law, false, now));
+    double sum = 0.0;
+    for (const PackingPoint& point : now.packings)
+      if (is_placed(point)) {
+        const double noise = weights.pressure_floor + weights.pressure_relative * std::abs(point.pressure);
+        sum += std::pow((pressure_by(law, point) - point.pressure) / noise, 2);
+      }
+    if (turn > 1 && !(sum < least)) continue;
+    data = told;
+    least = sum, since = -1;
+  }
+  return {};
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,42 @@
+#pragma once
+#include <functional>
+#include <span>
+
+#include "cbm/spheres.h"
+#include "core/result.h"
+#include "scenarios/calibrate/loss.h"
+#include "scenarios/experiments/found_curves.h"
+
+namespace morula::scenarios {
+
+/// A law of spheres on trial.
+struct TrialLaw {
+  cbm::SphereParameters sphere;  ///< with its curve of packing
+  double adhesion = 0.0;         ///< W of two of them [nN/µm]
+  calibrate::PairModel pair;     ///< what `sphere` is for an attached pair
+};
+
+/// Where spheres lie in a random packing, and what their pairs bear there, is decided by their law, which is fitted to that pressure: the fit and the
+/// places are found in turns (decision 0056).
+class SpheresInPackings {
+ public:
+  /// `packings`: those of Data::packings, in their order; they and the material outlive this.
+  SpheresInPackings(const CellMaterial& material, std::span<const FoundPacking> packings) : material_(material), packings_(packings) {}
+
+  /// Puts spheres of a law where the shells of the random packings are, those that are held out or those that are not, and lets them come to rest. Points get
+  /// the places, with which the law tells the pressure of these spheres. Errors: kPhysics,
+  /// spheres that find no rest.
+  Status place(const TrialLaw& law, bool held_out, calibrate::Data& data) const;
+
+ private:
+  const CellMaterial& material_;
+  std::span<const FoundPacking> packings_;
+};
+
+/// Makes a law that fits the points, lets spheres of the law find their places, makes it anew with these, and so on, until two turns in a row bring the
+/// pressures of these spheres no nearer to those of the shells, in eight turns at most. `data` then has the places with which `make` gives the law whose spheres
+/// came nearest. Without random packings to fit to nothing is done.
+Status fit_in_turns(calibrate::Data& data, const calibrate::LossWeights& weights,
+                    const std::function<Result<TrialLaw>(const calibrate::Data&)>& make, const SpheresInPackings& places);
+
+}  // namespace morula::scenarios
