@@ -23,10 +23,10 @@ inline constexpr std::size_t kChangeRefusals = 7;
 /// What changes of a mesh may do to it.
 struct ChangeLimits {
   double edge = 0.0;           ///< the length that edges are to have [µm]
-  double least_quality = 0.2;  ///< of a face that comes, unless one that goes was worse
+  double least_quality = 0.3;  ///< of a face that comes, unless one that goes was worse
   double most_bend = 1.2;      ///< between faces, unless those that go were bent more [rad]
   double off_surface = 0.02;   ///< of a node, beyond the chord error, in edges
-  double deeper = 0.02;        ///< into a neighbour, in edges
+  double deeper = 1e-3;        ///< into a neighbour, in edges
   double area_change = 1e-4;   ///< of all changes together, of the area, either way
 };
 

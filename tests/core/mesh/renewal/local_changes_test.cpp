@@ -48,7 +48,9 @@ int euler_number(const TriangleMesh& mesh) {
   return static_cast<int>(mesh.position.size()) - faces * 3 / 2 + faces;
 }
 
-double volume_of(const TriangleMesh& mesh) { return enclosed_volume(mesh.faces, mesh.position, volume_centroid(mesh.faces, mesh.position)); }
+double volume_of(const TriangleMesh& mesh) {
+  return enclosed_volume(mesh.faces, mesh.position, volume_centroid(mesh.faces, mesh.position));
+}
 
 TEST(LocalChanges, KeepClosedSurfacesAndTheirVolumeInRandomSequences) {
   constexpr int kSequences = 300, kTries = 60;
@@ -108,7 +110,8 @@ TEST(LocalChanges, SplitsLeaveTheSurfaceAndSlidesTheVolumeWhatItIs) {
   const Vec3d away = start.position[a] * 1.3;  // outwards, too
   const MeshChange slide = slide_node(mesh, a, away);
   EXPECT_NEAR(volume_change(mesh, slide), 0.0, 1e-12 * start.volume());
-  EXPECT_LT(norm(slide.placed[0].place - start.position[a]), norm(away - start.position[a])) << "what leads out of the surface is left away";
+  EXPECT_LT(norm(slide.placed[0].place - start.position[a]), norm(away - start.position[a]))
+      << "what leads out of the surface is left away";
 }
 
 /// A change that goes too far in one respect is refused for that.

@@ -143,9 +143,11 @@ TEST(WantedEdges, FollowTheCurvature) {
   const TestSurface ball = sphere(3);
   const double edge = edge_of_nodes(surface_area(ball.mesh()), 642);
   for (const double wanted : wanted_edges(ball.view(), 642, 1e9, 0.5)) EXPECT_NEAR(wanted, edge, 1e-9 * edge);
-  for (const double wanted : wanted_edges(ball.view(), 42, 1e9, 0.1)) EXPECT_NEAR(wanted, 0.3 * 7.0, 0.03 * 7.0 * 0.3) << "of 42 they are longer";
+  for (const double wanted : wanted_edges(ball.view(), 42, 1e9, 0.1))
+    EXPECT_NEAR(wanted, 0.3 * 7.0, 0.03 * 7.0 * 0.3) << "of 42 they are longer";
   double needed = 2.0;  // a node stands for √3/2 L²
-  for (const double wanted : wanted_edges(ball.view(), 642, 300, 0.5)) needed += surface_area(ball.mesh()) / 642 / (std::sqrt(3.0) / 2.0 * wanted * wanted);
+  for (const double wanted : wanted_edges(ball.view(), 642, 300, 0.5))
+    needed += surface_area(ball.mesh()) / 642 / (std::sqrt(3.0) / 2.0 * wanted * wanted);
   EXPECT_NEAR(needed, 302, 5);
 }
 
