@@ -158,5 +158,45 @@ TEST_F(MeshRenewalRun, CellsInANarrowChannelGetMeshesOfTheirOwnAndGoBack) {
   for (const double refused : last("own", "mesh_renewal/refused")) EXPECT_EQ(refused, 0.0);
 }
 
+/// A fluid cell that is sucked into a pipette of half its width, at half as much again as the tongue needs to flow in.
+std::string sucked_in(const std::string& dcm) {
+  return R"(schema: 1
+study: sucked_in
+time: {end: 40 s, step: 2 s, output: 10 s, checkpoint: 40 s}
+numerics: {newton: 8, newton_stop: 0.1, initial_step: 0.05 s, max_displacement: 0.6}
+domain: {size: [66 um, 40 um, 60 um], boundary: open}
+cell_types:
+  cell:
+    body: shell
+    radius: 6 um
+    friction: {medium: 1e7 N s/m^3, obstacle: 0 N s/m^3}
+    adhesion: {cell: 0 J/m^2, pipette: 0 J/m^2}
+    dcm: {nodes: 642, cortex: {elastic: none, tension: 0.1 mN/m, damping: 1e-5 N s/m}, shape_stiffness: 0.01 mN/m, renew_mesh_below: 0.4)" +
+         dcm + R"(}
+contact: {range: 0.3 um, repulsion: 40 kPa/um, points: 3}
+geometry:
+  pipette: {pipette: {from: [11 um, 0 um, 0 um], to: [11 um, 0 um, 15 um], radius: 3 um}}
+initial:
+  - {type: cell, at: [[11 um, 0 um, -4.997 um]], as: shell, orientation: aligned}
+loads:
+  suction:
+    type: cell
+    pressure: {value: -1 Pa, within: {from: [11 um, 0 um, 0 um], to: [11 um, 0 um, 15 um], radius: 3.25 um}}
+    course: [{time: 0 s, factor: 0}, {time: 2 s, factor: 0}, {time: 6 s, factor: 50}]
+output: {report: false}
+)";
+}
+
+TEST_F(MeshRenewalRun, ATongueInAPipetteStaysEvenOnAMeshOfItsOwn) {
+  run_whole(sucked_in(", own_mesh: true"), "own");
+  run_whole(sucked_in(""), "library");
+  const auto end = [&](const std::string& run) { return meshes_of(read_snapshot(folder_.path() / run / "results.h5", 4).value()); };
+  EXPECT_GT(end("own").least_angle, 20.0);
+  EXPECT_LT(end("library").least_angle, 15.0);
+  EXPECT_NE(end("own").nodes, 642u);
+  for (const double change : last("own", "own_mesh/area_change")) EXPECT_LE(change, 1.01e-4);
+  for (const double change : last("own", "own_mesh/volume_change")) EXPECT_LE(change, 1e-12);
+}
+
 }  // namespace
 }  // namespace morula::scenarios::test
