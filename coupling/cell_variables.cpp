@@ -17,6 +17,10 @@ std::size_t mesh_renewal_variable(const Model& model, MeshRenewal which) {
   return cycle_variables_of(model.fields.size()) + (has_phases(model) ? 3 : 0) + static_cast<std::size_t>(which);
 }
 
+std::size_t own_mesh_variable(const Model& model, OwnMeshRenewal which) {
+  return mesh_renewal_variable(model, MeshRenewal::kDone) + kMeshRenewals + static_cast<std::size_t>(which);
+}
+
 std::vector<CellVariable> cell_variables(const Model& model) {
   std::vector<CellVariable> out;
   for (const fields::FieldSpec& field : model.fields) {
@@ -29,6 +33,16 @@ std::vector<CellVariable> cell_variables(const Model& model) {
   if (std::ranges::any_of(model.types, [](const CellType& type) { return type.renew_mesh_below > 0.0; }))
     for (const auto& [name, unit] : {std::pair("done", "1"), {"refused", "1"}, {"next_try", "s"}, {"area_change", "1"}, {"distance", "1"}})
       out.push_back({std::string("mesh_renewal/") + name, unit, AtDivision::kUsual});
+  if (std::ranges::any_of(model.types, [](const CellType& type) { return type.own_mesh; }))
+    for (const auto& [name, unit] : {std::pair("passes", "1"),
+                                     {"changes", "1"},
+                                     {"skipped", "1"},
+                                     {"returns", "1"},
+                                     {"next_pass", "s"},
+                                     {"area_change", "1"},
+                                     {"volume_change", "1"},
+                                     {"off_surface", "1"}})
+      out.push_back({std::string("own_mesh/") + name, unit, AtDivision::kUsual});
   for (const CellType& type : model.types)
     for (const CellBehaviour& behaviour : type.behaviours)
       for (const BehaviourVariable& variable : behaviour.what->variables) {

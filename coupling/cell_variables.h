@@ -40,6 +40,19 @@ enum class MeshRenewal : std::uint8_t {
   kDistance,  ///< largest distance between the surfaces, in mean edges
 };
 
+/// What is told besides of a type whose shells may have meshes of their own: numbers of the variables behind those.
+enum class OwnMeshRenewal : std::uint8_t {
+  kPasses,    ///< how often connectivity was changed
+  kChanges,   ///< how many edges were split, drawn together or turned
+  kSkipped,   ///< changes that were wanted and could not be made
+  kReturns,   ///< how often the shell has gone back to the mesh of the library
+  kNextPass,  ///< after one that gained nothing [s]
+  kArea,      ///< largest relative change of area of a pass
+  kVolume,    ///< largest relative change of volume of a pass
+  kOff,       ///< farthest that a pass has put a node off the surface, in mean edges
+};
+inline constexpr std::size_t kMeshRenewals = 5;
+
 /// Numbers of the three variables of a model in which any type's cycle has phases: the phase (CyclePlace), what is left of it [s], and for how long the
 /// condition of going into or out of quiescence has held [s].
 constexpr std::size_t cycle_variables_of(std::size_t fields) { return 2 * fields; }
@@ -52,5 +65,7 @@ std::vector<CellVariable> cell_variables(const Model& model);
 
 /// Number of a variable of the renewal of meshes, in a model that has a type with it.
 std::size_t mesh_renewal_variable(const Model& model, MeshRenewal which);
+/// Number of a variable of meshes of their own, in a model that has a type with them.
+std::size_t own_mesh_variable(const Model& model, OwnMeshRenewal which);
 
 }  // namespace morula

@@ -1,4 +1,6 @@
-// Shells whose nodes have drifted together get an even mesh on the same surface.
+// Shells whose nodes have drifted together get an even mesh on the same surface: the mesh of the library with its nodes spread, or one of their own.
+#include "core/mesh/renewal/onto_ball.h"
+#include "core/mesh/renewal/own_mesh.h"
 #include "core/mesh/renewal/renew_surface.h"
 #include "core/parallel/threads.h"
 #include "coupling/behaviours/life.h"
@@ -22,37 +24,127 @@ constexpr double kReach = 1.0;
 constexpr double kLeastGain = 0.05;
 /// Most that the new surface is off the old one, in mean edges.
 constexpr double kMostDistance = 0.25;
+/// Elongation beyond which the connectivity of a ball is left at once: an aspect of 4 (decision 0060).
+constexpr double kRod = 3.4;
+/// Elongation below which a shell tries to go back to it: an aspect of 2.
+constexpr double kBall = 1.8;
+/// Quality above `renew_mesh_below` that the mesh of the library must have after going back, so that it is not left again at once.
+constexpr double kLeastOfReturn = 0.15;
+/// A pass that gains less than this, and is not good enough, is not followed by another one for a while.
+constexpr double kGainOfPass = 0.01;
+/// For so long [s].
+constexpr double kTimeBetweenPasses = 20.0;
+/// The library's connectivity, which could not be had, is tried again after this time by shells that have another way [s].
+constexpr double kTimeBetweenReturns = 60.0;
 
-/// A shell with an uneven mesh, and its new one.
+/// A shell that is looked at, and its new mesh. At most one of the meshes is there.
 struct Renewal {
   BodyOfRow body{};
-  double quality = 0.0;  ///< of its worst face
-  std::optional<RenewedSurface> mesh;
+  double quality = 0.0;                  ///< of its worst face
+  bool has_own = false;                  ///< it has left the library's connectivity
+  bool try_library = false;              ///< on the library's connectivity: to spread the nodes, or to go back to it
+  bool try_own = false;                  ///< if that does not serve
+  std::optional<RenewedSurface> mesh{};  ///< on the library's connectivity
+  std::optional<OwnMesh> own{};
 };
 
-std::vector<Renewal> uneven_shells(const Model& model, const Tissue& tissue) {
+/// The shells that need another mesh or may have a better one.
+std::vector<Renewal> shells_to_renew(const Model& model, const Tissue& tissue) {
   std::vector<Renewal> out;
-  const auto& next_try = tissue.cells.variables[mesh_renewal_variable(model, MeshRenewal::kNextTry)].values;
+  const auto told = [&](std::size_t variable, std::size_t row) { return tissue.cells.variables[variable].values[row]; };
+  const std::size_t next_try = mesh_renewal_variable(model, MeshRenewal::kNextTry);
+  const double now = tissue.clock.time;
   for (const BodyOfRow& body : bodies_of(tissue.cells)) {
-    const double below = model.types[tissue.cells.rows[body.row].type].renew_mesh_below;
-    if (!body.is_shell || !(below > 0.0) || tissue.clock.time < next_try[body.row]) continue;
-    const double quality = least_quality(tissue.shells.topology(body.number).faces(), tissue.shells.nodes(body.number));
-    if (quality < below) out.push_back({body, quality, std::nullopt});
+    const CellType& type = model.types[tissue.cells.rows[body.row].type];
+    if (!body.is_shell || !(type.renew_mesh_below > 0.0)) continue;
+    const SurfaceView surface{tissue.shells.nodes(body.number), &tissue.shells.topology(body.number)};
+    Renewal one{body, least_quality(surface.topology->faces(), surface.position)};
+    const bool is_uneven = one.quality < type.renew_mesh_below;
+    one.has_own = type.own_mesh && tissue.shells.shape[body.number]->icosphere_nodes == 0;
+    const bool may_own = type.own_mesh && now >= told(own_mesh_variable(model, OwnMeshRenewal::kNextPass), body.row);
+    one.try_own = is_uneven && may_own;
+    if (now >= told(next_try, body.row)) {
+      if (one.has_own)
+        one.try_library = elongation(surface) < kBall;
+      else
+        one.try_library = is_uneven && !(type.own_mesh && elongation(surface) > kRod);
+    }
+    if (one.try_library || one.try_own) out.push_back(std::move(one));
   }
   return out;
 }
 
-/// The shell on its new mesh: body and nucleus stay, nodes, edges and faces follow the rules of their columns.
-dcm::ShellRecord on_new_mesh(const dcm::ShellRecord& old, const RenewedSurface& renewed) {
-  const AskedSurface surface(SurfaceView{old.position, old.shape->topology.get()});
+/// The shell on a mesh that stands for its surface: body and nucleus stay, nodes, edges and faces follow the rules of their columns.
+dcm::ShellRecord on_new_mesh(const dcm::ShellRecord& old, const AskedSurface& surface, std::shared_ptr<const ReferenceShape> shape,
+                             std::span<const Vec3d> position) {
   std::vector<std::uint32_t> same(old.shape->topology->face_count());
   std::iota(same.begin(), same.end(), 0u);
-  const NewMesh mesh{old, surface, same, *old.shape, renewed.position};
+  const NewMesh mesh{old, surface, same, *shape, position};
   dcm::ShellRecord out = old;
   carry_columns(mesh, 1.0, out);
   out.rest_length = carried_rest_lengths(mesh);
-  out.position = renewed.position;
+  out.position.assign(position.begin(), position.end());
+  out.shape = std::move(shape);
   return out;
+}
+
+/// The shell with its new mesh of either kind.
+dcm::ShellRecord renewed_shell(const dcm::ShellRecord& old, const Renewal& renewal, const CellType& type, ShapeLibrary& shapes) {
+  const AskedSurface surface(SurfaceView{old.position, old.shape->topology.get()});
+  if (renewal.mesh && !renewal.has_own) return on_new_mesh(old, surface, old.shape, renewal.mesh->position);
+  const bool is_elastic = dcm::has_elastic_surface(type.shell);
+  auto shape = renewal.mesh ? shapes.icosphere(type.shell_nodes).value()
+                            : shapes.adopt(carried_shape(old, surface, renewal.own->topology, renewal.own->position, is_elastic));
+  dcm::ShellRecord out = on_new_mesh(old, surface, shape, renewal.mesh ? renewal.mesh->position : renewal.own->position);
+  if (!is_elastic) out.rest_length = free_rest_lengths(*out.shape, out.rest_volume);  // a fluid forgets
+  return out;
+}
+
+/// Finds the new meshes; nothing is changed yet.
+void find_mesh(const Model& model, const Tissue& tissue, const Surroundings& around, const ReferenceShape* ball, Renewal& one) {
+  const std::size_t shell = one.body.number;
+  const CellType& type = model.types[tissue.cells.rows[one.body.row].type];
+  const SurfaceView surface{tissue.shells.nodes(shell), &tissue.shells.topology(shell)};
+  if (one.try_library) {
+    auto renewed =
+        one.has_own ? onto_ball(surface, around.surfaces, *ball,
+                                {.least_quality = type.renew_mesh_below + kLeastOfReturn, .most_distance = kMostDistance})
+                    : redistribute(surface, around.surfaces, {.least_quality = one.quality + kLeastGain, .most_distance = kMostDistance});
+    if (renewed.ok()) {
+      one.mesh = std::move(renewed).value();
+      return;
+    }
+  }
+  if (!one.try_own) return;
+  auto own = renew_connectivity(surface, around.surfaces, {.nodes = type.shell_nodes});
+  if (own.ok()) one.own = std::move(own).value();
+}
+
+/// Tells in the variables of a cell what was done and what was not.
+void tell(const Model& model, const Renewal& one, double now, CellState& row) {
+  const auto variable = [&](MeshRenewal which) -> double& { return row.variables[mesh_renewal_variable(model, which)]; };
+  const auto of_own = [&](OwnMeshRenewal which) -> double& { return row.variables[own_mesh_variable(model, which)]; };
+  const auto at_least = [](double& value, double now_told) { value = std::max(value, now_told); };
+  const double below = model.types[row.type].renew_mesh_below;
+  if (one.mesh) {
+    const RenewalReport& report = one.mesh->report;
+    (one.has_own ? of_own(OwnMeshRenewal::kReturns) : variable(MeshRenewal::kDone)) += 1.0;
+    at_least(variable(MeshRenewal::kArea), std::abs(report.area_change));
+    at_least(variable(MeshRenewal::kDistance), report.distance.largest() / report.mean_edge);
+  }
+  if (one.try_library && (!one.mesh || one.mesh->report.least_quality < below))
+    variable(MeshRenewal::kNextTry) = now + (model.types[row.type].own_mesh ? kTimeBetweenReturns : kTimeBetweenTries);
+  if (one.own) {
+    const OwnMeshReport& report = one.own->report;
+    of_own(OwnMeshRenewal::kPasses) += 1.0;
+    of_own(OwnMeshRenewal::kChanges) += report.splits + report.collapses + report.flips;
+    of_own(OwnMeshRenewal::kSkipped) += report.skipped();
+    at_least(of_own(OwnMeshRenewal::kArea), std::abs(report.area_change));
+    at_least(of_own(OwnMeshRenewal::kVolume), std::abs(report.volume_error));
+    at_least(of_own(OwnMeshRenewal::kOff), report.off_surface / report.mean_edge);
+  }
+  const bool gained = one.own && (one.own->report.least_quality >= below || one.own->report.least_quality > one.quality + kGainOfPass);
+  if (one.try_own && !one.mesh && !gained) of_own(OwnMeshRenewal::kNextPass) = now + kTimeBetweenPasses;
 }
 
 }  // namespace
@@ -61,33 +153,29 @@ void Simulation::renew_meshes(std::vector<Event>& events) {
   const auto renews = [](const CellType& type) { return type.renew_mesh_below > 0.0; };
   if (tissue_.clock.steps % kStepsBetweenLooks != 0 || std::ranges::none_of(model_.types, renews)) return;
   auto timed = timer().scope(Stage::kBehaviours);
-  std::vector<Renewal> uneven = uneven_shells(model_, tissue_);
-  if (!comm_.any(!uneven.empty())) return;
+  std::vector<Renewal> found = shells_to_renew(model_, tissue_);
+  if (!comm_.any(!found.empty())) return;
   mechanics_->update_scene(tissue_);
-  parallel_for(threads_, uneven.size(), [&](std::size_t k) {
-    const std::size_t shell = uneven[k].body.number;
-    const Surroundings around = surroundings_of(mechanics_->scene(), model_.space, shell, kReach);
-    auto renewed = redistribute({tissue_.shells.nodes(shell), &tissue_.shells.topology(shell)}, around.surfaces,
-                                {.least_quality = uneven[k].quality + kLeastGain, .most_distance = kMostDistance});
-    if (renewed.ok()) uneven[k].mesh = std::move(renewed).value();
+  std::vector<std::shared_ptr<const ReferenceShape>> ball;  // by type
+  for (const CellType& type : model_.types) ball.push_back(shapes_.icosphere(type.shell_nodes).value());
+  parallel_for(threads_, found.size(), [&](std::size_t k) {
+    Surroundings around = surroundings_of(mechanics_->scene(), model_.space, found[k].body.number, kReach);
+    add_obstacles(mechanics_->obstacles(), tissue_.obstacle_offset, tissue_.shells.nodes(found[k].body.number), kReach, around);
+    find_mesh(model_, tissue_, around, ball[tissue_.cells.rows[found[k].body.row].type].get(), found[k]);
   });
 
   std::vector<std::size_t> rows;
   std::vector<CellRecord> renewed;
-  for (const Renewal& one : uneven) {
+  for (const Renewal& one : found) {
     CellRecord cell = record_of(tissue_, one.body);
-    const auto variable = [&](MeshRenewal which) -> double& { return cell.row.variables[mesh_renewal_variable(model_, which)]; };
-    const double below = model_.types[cell.row.type].renew_mesh_below;
-    if (one.mesh) {
-      const RenewalReport& report = one.mesh->report;
-      cell.shell = on_new_mesh(*cell.shell, *one.mesh);
-      variable(MeshRenewal::kDone) += 1.0;
-      variable(MeshRenewal::kArea) = std::max(variable(MeshRenewal::kArea), std::abs(report.area_change));
-      variable(MeshRenewal::kDistance) = std::max(variable(MeshRenewal::kDistance), report.distance.largest() / report.mean_edge);
-    } else if ((variable(MeshRenewal::kRefused) += 1.0) == 1.0) {
-      events.push_back({tissue_.clock.time, EventKind::kWarning, cell.row.id, {}, {}, {EventReason::Cause::kUnevenMesh}});
+    tell(model_, one, tissue_.clock.time, cell.row);
+    if (one.mesh || one.own) {
+      cell.shell = renewed_shell(*cell.shell, one, model_.types[cell.row.type], shapes_);
+    } else if (one.quality < model_.types[cell.row.type].renew_mesh_below) {
+      double& refused = cell.row.variables[mesh_renewal_variable(model_, MeshRenewal::kRefused)];
+      if ((refused += 1.0) == 1.0)
+        events.push_back({tissue_.clock.time, EventKind::kWarning, cell.row.id, {}, {}, {EventReason::Cause::kUnevenMesh}});
     }
-    if (!one.mesh || one.mesh->report.least_quality < below) variable(MeshRenewal::kNextTry) = tissue_.clock.time + kTimeBetweenTries;
     rows.push_back(one.body.row);
     renewed.push_back(std::move(cell));
   }

@@ -78,6 +78,7 @@ struct CellType {
   dcm::InteriorParameters interior;  ///< of a shell
   RegionalTension regional_tension;  ///< of shells; empty: shell.tension everywhere
   double renew_mesh_below = 0.0;     ///< of shells: their nodes are spread evenly when a face has less quality than this; 0: never
+  bool own_mesh = false;             ///< of shells: where that is not enough they get connectivity of their own
   double self_contact = 0.0;         ///< of shells: distance at which a surface touches itself; 0: it passes through itself [µm]
 };
 

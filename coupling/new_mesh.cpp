@@ -1,5 +1,6 @@
 #include "coupling/new_mesh.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -35,13 +36,52 @@ class RestMetric {
   double g11_, g22_, g12_;
 };
 
-/// The rest metric of a face of a shell.
-RestMetric rest_metric(const dcm::ShellRecord& shell, std::uint32_t face) {
+/// The rest metric of a face of a shell, by the rest lengths of its edges.
+RestMetric rest_metric(const dcm::ShellRecord& shell, std::span<const double> rest_length, std::uint32_t face) {
   const auto& [a, b, c] = shell.shape->topology->faces()[face];
   const auto& edge = shell.shape->topology->face_edges()[face];  // entry k: opposite to corner k
   return {shell.position[b] - shell.position[a],
           shell.position[c] - shell.position[a],
-          {shell.rest_length[edge[2]], shell.rest_length[edge[1]], shell.rest_length[edge[0]]}};
+          {rest_length[edge[2]], rest_length[edge[1]], rest_length[edge[0]]}};
+}
+
+/// Calls visit(edge, face) for three places along each edge of a mesh, with the face of the surface nearest to it.
+template <class Visit>
+void for_places_of_edges(const AskedSurface& surface, const Topology& topology, std::span<const Vec3d> position, Visit&& visit) {
+  std::uint32_t near = 0;
+  for (std::size_t e = 0; e < topology.edges().size(); ++e) {
+    const Vec3d from = position[topology.edges()[e].i], along = position[topology.edges()[e].j] - from;
+    for (const double part : kPointsOfEdge) {
+      near = surface.nearest(from + along * part, near).face;
+      visit(e, near);
+    }
+  }
+}
+
+/// Area of a triangle with these sides (Heron); zero where they are none.
+double area_of_sides(double a, double b, double c) {
+  const double s = 0.5 * (a + b + c);
+  return std::sqrt(std::max(0.0, s * (s - a) * (s - b) * (s - c)));
+}
+
+/// Distance between the middles of the two stress-free faces of an edge.
+double dual_length(const ReferenceShape& shape, const Edge& edge, double length) {
+  return 2.0 / 3.0 * (shape.face_area[edge.left] + shape.face_area[edge.right]) / length;
+}
+
+/// Curvature of the stress-free shape, by face: Σ θ0 l / Σ l* l over its edges.
+std::vector<double> rest_curvatures(const ReferenceShape& shape) {
+  const Topology& topology = *shape.topology;
+  std::vector<double> out;
+  for (const auto& edges : topology.face_edges()) {
+    double bent = 0.0, area = 0.0;
+    for (const std::uint32_t e : edges) {
+      bent += shape.hinge_angle[e] * shape.edge_length[e];
+      area += dual_length(shape, topology.edges()[e], shape.edge_length[e]) * shape.edge_length[e];
+    }
+    out.push_back(area > 0.0 ? bent / area : 0.0);
+  }
+  return out;
 }
 
 /// The old marks, each by itself.
@@ -106,18 +146,45 @@ void carry(const Column& column, const NewMesh& mesh, double part, dcm::ShellRec
 }  // namespace
 
 std::vector<double> carried_rest_lengths(const NewMesh& mesh) {
-  std::vector<double> out;
-  const auto& x = mesh.position;
-  std::uint32_t near = 0;
-  for (const Edge& edge : mesh.shape.topology->edges()) {
-    const Vec3d along = x[edge.j] - x[edge.i];
-    double shrink = 0.0;
-    for (const double part : kPointsOfEdge) {
-      near = mesh.surface.nearest(x[edge.i] + along * part, near).face;
-      shrink += near < mesh.source_face.size() ? rest_metric(mesh.old, mesh.source_face[near]).shrink(along) : 1.0;
-    }
-    out.push_back(norm(along) * shrink / static_cast<double>(kPointsOfEdge.size()));
+  const Topology& topology = *mesh.shape.topology;
+  std::vector<double> out(topology.edges().size(), 0.0);
+  for_places_of_edges(mesh.surface, topology, mesh.position, [&](std::size_t e, std::uint32_t face) {
+    const Vec3d along = mesh.position[topology.edges()[e].j] - mesh.position[topology.edges()[e].i];
+    out[e] += face < mesh.source_face.size() ? rest_metric(mesh.old, mesh.old.rest_length, mesh.source_face[face]).shrink(along) : 1.0;
+  });
+  for (std::size_t e = 0; e < out.size(); ++e) {
+    const Edge& edge = topology.edges()[e];
+    out[e] = norm(mesh.position[edge.j] - mesh.position[edge.i]) * out[e] / static_cast<double>(kPointsOfEdge.size());
   }
+  return out;
+}
+
+std::shared_ptr<const ReferenceShape> carried_shape(const dcm::ShellRecord& old, const AskedSurface& surface,
+                                                    std::shared_ptr<const Topology> topology, std::span<const Vec3d> position,
+                                                    bool is_elastic) {
+  auto out = std::make_shared<ReferenceShape>(*make_reference_shape(std::move(topology), {position.begin(), position.end()}));
+  const Topology& mesh = *out->topology;
+  const std::vector<double> old_curvature = rest_curvatures(*old.shape);
+  std::vector<double> shrink(mesh.edges().size(), 0.0), curvature(mesh.edges().size(), 0.0);
+  for_places_of_edges(surface, mesh, position, [&](std::size_t e, std::uint32_t face) {
+    const Vec3d along = position[mesh.edges()[e].j] - position[mesh.edges()[e].i];
+    if (is_elastic) shrink[e] += rest_metric(old, old.shape->edge_length, face).shrink(along);
+    curvature[e] += old_curvature[face];
+  });
+  constexpr double kPart = 1.0 / static_cast<double>(kPointsOfEdge.size());
+  auto& length = out->edge_length;
+  for (std::size_t e = 0; is_elastic && e < length.size(); ++e)
+    length[e] = kPart * shrink[e] * norm(position[mesh.edges()[e].j] - position[mesh.edges()[e].i]);
+  double before = 0.0, after = 0.0;
+  for (std::size_t f = 0; f < out->face_area.size(); ++f) {
+    const auto& edge = mesh.face_edges()[f];
+    if (is_elastic) out->face_area[f] = area_of_sides(length[edge[0]], length[edge[1]], length[edge[2]]);
+    after += out->face_area[f];
+  }
+  for (const double area : old.shape->face_area) before += area;
+  for (double& area : out->face_area) area *= before / after;
+  for (std::size_t e = 0; e < length.size(); ++e)
+    out->hinge_angle[e] = kPart * curvature[e] * dual_length(*out, mesh.edges()[e], length[e]);
   return out;
 }
 

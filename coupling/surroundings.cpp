@@ -35,4 +35,16 @@ Surroundings surroundings_of(const Scene& scene, const Space& space, std::size_t
   return out;
 }
 
+void add_obstacles(std::span<const RigidSurface> obstacles, std::span<const Vec3d> offset, std::span<const Vec3d> shell, double reach,
+                   Surroundings& around) {
+  const Box own = box_of(shell).inflated(reach);
+  for (std::size_t o = 0; o < obstacles.size(); ++o) {
+    const Box box = box_of(obstacles[o].position);
+    if (!own.overlaps({box.low + offset[o], box.high + offset[o]})) continue;
+    std::vector<Vec3d>& moved = around.moved.emplace_back(obstacles[o].position);
+    for (Vec3d& x : moved) x += offset[o];
+    around.surfaces.push_back({moved, obstacles[o].topology.get()});
+  }
+}
+
 }  // namespace morula

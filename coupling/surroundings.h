@@ -1,7 +1,9 @@
 #pragma once
 #include <cstddef>
+#include <span>
 #include <vector>
 
+#include "core/contact/rigid_surface.h"
 #include "core/mesh/renewal/surface_view.h"
 #include "core/space/space.h"
 #include "coupling/mechanics/scene.h"
@@ -17,5 +19,9 @@ struct Surroundings {
 /// The other shells of the scene, ghosts too, whose boxes come closer than `reach` [µm] to that of an owned shell; in a periodic space they are
 /// where they are nearest. The same on any number of ranks for a reach within that of the ghosts.
 Surroundings surroundings_of(const Scene& scene, const Space& space, std::size_t shell, double reach);
+
+/// Adds the obstacles whose boxes come closer than that to a shell, moved by `offset` each [µm].
+void add_obstacles(std::span<const RigidSurface> obstacles, std::span<const Vec3d> offset, std::span<const Vec3d> shell, double reach,
+                   Surroundings& around);
 
 }  // namespace morula

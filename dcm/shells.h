@@ -242,4 +242,7 @@ Number sheet_strengths(const ShellParameters& p) {
   return sum;
 }
 
+/// Whether the surface remembers how it is stretched; else it is a fluid.
+inline bool has_elastic_surface(const ShellParameters& p) { return p.spring_stiffness > 0.0 || !p.sheets.empty(); }
+
 }  // namespace morula::dcm

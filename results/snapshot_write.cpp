@@ -161,6 +161,14 @@ std::string description_of(const Snapshot::Variable& variable) {
   if (variable.name == "mesh_renewal/next_try") return "after one that could not be";
   if (variable.name == "mesh_renewal/area_change") return "largest relative change of area of a renewal";
   if (variable.name == "mesh_renewal/distance") return "largest distance between old and new surface, in mean edges";
+  if (variable.name == "own_mesh/passes") return "how often the connectivity of the shell was changed since its birth";
+  if (variable.name == "own_mesh/changes") return "how many of its edges were split, drawn together or turned";
+  if (variable.name == "own_mesh/skipped") return "changes that were wanted and could not be made";
+  if (variable.name == "own_mesh/returns") return "how often it went back to the mesh of its type";
+  if (variable.name == "own_mesh/next_pass") return "after one that gained nothing";
+  if (variable.name == "own_mesh/area_change") return "largest relative change of area of a pass";
+  if (variable.name == "own_mesh/volume_change") return "largest relative change of volume of a pass";
+  if (variable.name == "own_mesh/off_surface") return "farthest that a pass has put a node off the surface, in mean edges";
   if (variable.name == "outside_law") return "how far the cell as a sphere is beyond the range of its laws; 1 at the end of the range";
   return "state of the cell, of a law of the study";
 }

@@ -43,6 +43,8 @@ double mean_edge(std::uint64_t nodes);
 double build_self_contact(BuildContext& context, const draft::CellType& draft);
 /// Quality below which the meshes of a type are renewed; what hangs on their nodes is an error. `type`: with its shell and interior.
 double build_mesh_renewal(BuildContext& context, const draft::CellType& draft, const CellType& type);
+/// Whether shells of a type may have connectivity of their own; `type` has its renew_mesh_below.
+bool build_own_mesh(BuildContext& context, const draft::CellType& draft, const CellType& type);
 /// The points of a course as a table; E510 where their times do not increase, or there is only one.
 TimeCourse build_course(BuildContext& context, const std::vector<Named<draft::CoursePoint>>& points);
 /// Marks of faces, tension by region, cavities, springs: E555–E557; after types, obstacles, pairs and domain.

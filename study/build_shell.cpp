@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/mesh/renewal/own_mesh.h"
 #include "dcm/derived_parameters.h"
 #include "study/build.h"
 #include "study/law_keys.h"
@@ -127,14 +128,24 @@ double build_mesh_renewal(BuildContext& c, const draft::CellType& t, const CellT
   return below.value;
 }
 
+bool build_own_mesh(BuildContext& c, const draft::CellType& t, const CellType& type) {
+  if (!t.own_mesh.value) return false;
+  if (t.renew_mesh_below.known() && t.renew_mesh_below.value == 0.0)
+    c.diagnostics.error(515, t.own_mesh.place, "`own_mesh` of '" + type.name + "' has no effect: its meshes are never renewed",
+                        "`renew_mesh_below: 0.4`, or leave `own_mesh` away");
+  return true;
+}
+
 double build_self_contact(BuildContext& c, const draft::CellType& t) {
   if (!t.self_contact.known() || t.self_contact.value == 0.0 || !t.radius.mean.known() || !t.nodes.known()) return 0.0;
   const double faces = 2.0 * static_cast<double>(t.nodes.value) - 4.0;
-  const double edge = 4.0 * t.radius.mean.value * std::sqrt(std::numbers::pi / (std::numbers::sqrt3 * faces));
+  const double even = 4.0 * t.radius.mean.value * std::sqrt(std::numbers::pi / (std::numbers::sqrt3 * faces));
+  const double edge = t.own_mesh.value ? OwnMeshLimits{}.finest * even : even;  // a mesh of its own is finer where the surface is curved
   if (t.self_contact.value <= 0.5 * edge) return t.self_contact.value;
   c.diagnostics.error(582, t.self_contact.place,
                       "a self-contact at " + t.self_contact.text + " reaches the neighbouring faces: edges of " + t.nodes.text +
-                          " nodes are " + short_number(std::round(100.0 * edge) / 100.0) + " um long",
+                          " nodes are " + short_number(std::round(100.0 * edge) / 100.0) + " um long" +
+                          (t.own_mesh.value ? " at the least" : ""),
                       "at most " + short_number(std::floor(50.0 * edge) / 100.0) + " um, or fewer `nodes`");
   return 0.0;
 }

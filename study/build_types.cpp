@@ -190,6 +190,7 @@ void build_cell_types(BuildContext& c) {
     type.interior = build_interior(c, t, name);
     type.self_contact = build_self_contact(c, t);
     type.renew_mesh_below = build_mesh_renewal(c, t, type);
+    type.own_mesh = build_own_mesh(c, t, type);
     build_color(c, t);
     c.study.model.types.push_back(std::move(type));
   }

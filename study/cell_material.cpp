@@ -11,6 +11,8 @@ namespace morula::scenarios {
 namespace {
 
 constexpr std::array<const char*, 2> kOfShells{"dcm", "osmosis"};
+/// A key of these that says how a mesh follows its surface, not what the surface is made of.
+constexpr const char* kNoMaterial = "own_mesh";
 
 /// A part of a document in one line.
 std::string flow(const Node& node) {
@@ -114,8 +116,13 @@ Result<CellMaterial> material_of(const Study& study, const std::string& name) {
   out.adhesion = pair.adhesion;
   out.range = pair.range > 0.0 ? pair.range : model.contact.range;
   take_contact(document, name, out);
-  for (const char* section : kOfShells)
-    if (const Node* part = type->find(section)) out.shell += (out.shell.empty() ? "" : ", ") + std::string(section) + ": " + flow(*part);
+  for (const char* section : kOfShells) {
+    const Node* found_part = type->find(section);
+    if (found_part == nullptr) continue;
+    Node part = *found_part;
+    std::erase_if(part.entries, [](const Node::Entry& e) { return e.key == kNoMaterial; });
+    out.shell += (out.shell.empty() ? "" : ", ") + std::string(section) + ": " + flow(part);
+  }
   return out;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/mesh/renewal/own_mesh.h"
 #include "coupling/observables/observable.h"
 #include "dcm/derived_parameters.h"
 #include "study/build.h"
@@ -33,14 +34,18 @@ void check_range(BuildContext& c, const Given<double>& range, const std::vector<
     if (!t.nodes.known() || !t.radius.mean.known() || only_from_meshes(c.study, type)) continue;
     const double edge = mean_edge(t.nodes.value) * t.radius.mean.value;
     // Half an edge is where faces begin to feel more than their opposite; the rule is exact to how mean_edge rounds (0.55 L was measured good).
-    const bool too_long = range.value > 0.56 * edge, too_short = range.value < 0.25 * edge;
+    // A mesh of its own is finer where the surface is curved.
+    const double finest = t.own_mesh.value ? OwnMeshLimits{}.finest * edge : edge;
+    const bool too_long = range.value > 0.56 * finest, too_short = range.value < 0.25 * edge;
     if (!too_long && !too_short) continue;
     const Place at = range.given ? range.place : t.nodes.given ? t.nodes.place : place;
+    const bool of_own = too_long && t.own_mesh.value;
     const std::string what = "the contact range (" + range.text + ") is " + (too_long ? "more than half" : "less than a quarter") +
-                             " of the mean edge (" + short_number(std::round(edge * 100) / 100) + " um) of a shell of '" + name +
-                             "' with " + t.nodes.text + " nodes";
+                             " of the " + (of_own ? "finest" : "mean") + " edge (" +
+                             short_number(std::round((of_own ? finest : edge) * 100) / 100) + " um) of a shell of '" + name + "' with " +
+                             t.nodes.text + " nodes" + (of_own ? " and `own_mesh`" : "");
     const std::string help = std::string("`") + key + "` between " + short_number(std::round(edge * 25) / 100) + " um and " +
-                             short_number(std::floor(edge * 50) / 100) + " um fits this mesh";
+                             short_number(std::floor(finest * 50) / 100) + " um fits this mesh";
     if (too_long)
       c.diagnostics.error(503, at, what, help);
     else

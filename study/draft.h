@@ -136,6 +136,7 @@ struct CellType : ShellKeys {
   std::vector<Named<PackingKnot>> packing_knots;
   Given<double> self_contact;
   Given<double> renew_mesh_below;
+  Given<bool> own_mesh;
   std::vector<Named<TensionRegion>> tension_regions;
   Given<double> lateral_easing;
   Activity activity;

@@ -22,24 +22,26 @@ struct FacePair {
   int shared = 0;
 };
 
-FacePair arranged(std::span<const Vec3d> position, const Triangle& a, const Triangle& b) {
-  Triangle first{}, second{};
+FacePair arranged(const PlacedFace& a, const PlacedFace& b) {
+  std::array<std::size_t, 3> first{}, second{};  // corners of both, shared ones first
   std::size_t shared = 0;
-  for (const std::uint32_t node : a)
-    if (std::ranges::find(b, node) != b.end()) first[shared] = second[shared] = node, ++shared;
-  const auto rest = [&](const Triangle& from, Triangle& to) {
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t d = 0; d < 3; ++d)
+      if (a.node[c] == b.node[d]) first[shared] = c, second[shared] = d, ++shared;
+  const auto rest = [&](std::array<std::size_t, 3>& corners) {
     std::size_t n = shared;
-    for (const std::uint32_t node : from)
-      if (std::find(to.begin(), to.begin() + static_cast<std::ptrdiff_t>(shared), node) == to.begin() + static_cast<std::ptrdiff_t>(shared))
-        to[n++] = node;
+    for (std::size_t c = 0; c < 3; ++c)
+      if (std::find(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(shared), c) ==
+          corners.begin() + static_cast<std::ptrdiff_t>(shared))
+        corners[n++] = c;
   };
-  rest(a, first);
-  rest(b, second);
+  rest(first);
+  rest(second);
   FacePair out;
   out.shared = static_cast<int>(shared);
   for (std::size_t c = 0; c < 3; ++c) {
-    out.a[c] = exact(position[first[c]]);
-    out.b[c] = exact(position[second[c]]);
+    out.a[c] = exact(a.corner[first[c]]);
+    out.b[c] = exact(b.corner[second[c]]);
   }
   return out;
 }
@@ -58,7 +60,11 @@ bool meet_elsewhere(const FacePair& pair) {
   return false;
 }
 
+bool is_collinear(const PlacedFace& face) { return exactly_collinear(face.corner[0], face.corner[1], face.corner[2]); }
+
 }  // namespace
+
+bool faces_meet(const PlacedFace& a, const PlacedFace& b) { return !is_collinear(a) && !is_collinear(b) && meet_elsewhere(arranged(a, b)); }
 
 bool exactly_collinear(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return CGAL::collinear(exact(a), exact(b), exact(c)); }
 
@@ -68,6 +74,9 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> find_self_intersections(std
   for (std::size_t f = 0; f < faces.size(); ++f)
     usable[f] = !exactly_collinear(position[faces[f][0]], position[faces[f][1]], position[faces[f][2]]);
 
+  const auto placed = [&](std::uint32_t f) {
+    return PlacedFace{faces[f], {position[faces[f][0]], position[faces[f][1]], position[faces[f][2]]}};
+  };
   const TriangleTree tree(position, faces);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
   std::vector<std::uint32_t> near;
@@ -77,7 +86,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> find_self_intersections(std
     for (const std::uint32_t node : faces[f]) box.include(position[node]);
     tree.faces_in(box, near);
     for (const std::uint32_t other : near) {
-      if (other <= f || !usable[other] || !meet_elsewhere(arranged(position, faces[f], faces[other]))) continue;
+      if (other <= f || !usable[other] || !meet_elsewhere(arranged(placed(f), placed(other)))) continue;
       if (found.size() == most) return found;
       found.emplace_back(f, other);
     }

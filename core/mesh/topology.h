@@ -55,7 +55,8 @@ class Topology {
 };
 
 /// A stress-free shape of unit mesh volume: where rest lengths and rest angles come from. A shell of rest volume V has rest lengths
-/// V^(1/3) × edge_length.
+/// V^(1/3) × edge_length. A shape that a renewed mesh has carried along (coupling/new_mesh.h) has the positions of the moment at which it was made, while
+/// lengths, areas and angles are those of the stress-free surface.
 struct ReferenceShape {
   std::shared_ptr<const Topology> topology;
   std::vector<Vec3d> position;        ///< by node; volume centroid at the origin, enclosed volume 1

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/numbers/principal_axis.h"
 #include "core/random/philox.h"
 #include "coupling/behaviours/draw.h"
 #include "coupling/cells.h"
@@ -18,17 +19,6 @@ constexpr double kTiltOfAttempt = 0.2;  // [rad]
 constexpr double kLeastShare = 0.1;
 
 std::shared_ptr<const DivisionAxis> make_axis(DivisionAxis axis) { return std::make_shared<const DivisionAxis>(std::move(axis)); }
-
-/// Unit eigenvector of the largest eigenvalue of a positive matrix: M² over its trace, again and again, becomes u uᵀ.
-Vec3d largest_eigenvector(SymMat3<double> m) {
-  for (int k = 0; k < 40; ++k) {
-    const Vec3d x = m * Vec3d{m.xx, m.xy, m.xz}, y = m * Vec3d{m.xy, m.yy, m.yz}, z = m * Vec3d{m.xz, m.yz, m.zz};
-    const double trace = x.x + y.y + z.z;
-    m = {x.x / trace, x.y / trace, x.z / trace, y.y / trace, y.z / trace, z.z / trace};
-  }
-  if (m.xx >= m.yy && m.xx >= m.zz) return normalized(Vec3d{m.xx, m.xy, m.xz});
-  return m.yy >= m.zz ? normalized(Vec3d{m.xy, m.yy, m.yz}) : normalized(Vec3d{m.xz, m.yz, m.zz});
-}
 
 /// The longest axis of a surface; zero where the two largest moments differ by less than two parts in a hundred.
 Vec3d longest_axis(const SurfaceView& surface) {

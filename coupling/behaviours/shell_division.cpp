@@ -9,8 +9,6 @@
 namespace morula {
 namespace {
 
-bool has_elastic_surface(const dcm::ShellParameters& shell) { return shell.spring_stiffness > 0.0 || !shell.sheets.empty(); }
-
 dcm::ShellRecord make_shell(const NewMesh& mesh, const CellType& type, std::shared_ptr<const ReferenceShape> shape, double part,
                             double target) {
   dcm::ShellRecord out;
@@ -18,7 +16,7 @@ dcm::ShellRecord make_shell(const NewMesh& mesh, const CellType& type, std::shar
   out.position.assign(mesh.position.begin(), mesh.position.end());
   out.rest_volume = target;
   const bool eases = type.new_surface > 0.0 || type.shell.turnover_rate > 0.0;
-  out.rest_length = eases && has_elastic_surface(type.shell) ? carried_rest_lengths(mesh) : free_rest_lengths(*shape, target);
+  out.rest_length = eases && dcm::has_elastic_surface(type.shell) ? carried_rest_lengths(mesh) : free_rest_lengths(*shape, target);
   out.shape = std::move(shape);
   return out;
 }
@@ -50,7 +48,7 @@ double newness_of_surface(const CellRow& row, const CellType& type, double time)
 
 void renew_surfaces(std::span<const CellType> types, const Cells& cells, dcm::Shells& shells, double time, double dt) {
   const auto renews = [](const CellType& type) {
-    return type.new_surface > 0.0 && !(type.shell.turnover_rate > 0.0) && has_elastic_surface(type.shell);
+    return type.new_surface > 0.0 && !(type.shell.turnover_rate > 0.0) && dcm::has_elastic_surface(type.shell);
   };
   if (shells.size() == 0 || std::ranges::none_of(types, renews)) return;
   for (const BodyOfRow& body : bodies_of(cells)) {

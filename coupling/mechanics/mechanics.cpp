@@ -19,6 +19,8 @@ Mechanics Mechanics::for_another_tissue(Comm comm) const {
   return Mechanics(here.model, contacts().shared_obstacles(), here.shapes, comm, here.threads);
 }
 
+std::span<const RigidSurface> Mechanics::obstacles() const { return contacts().obstacles(); }
+
 void Mechanics::bodies_changed() {
   work_->age.reset();
   work_->known.reset();

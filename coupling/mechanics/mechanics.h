@@ -35,6 +35,9 @@ class Mechanics {
   ~Mechanics();
   Mechanics(Mechanics&&) noexcept;
 
+  /// Obstacles of the study and walls of the domain, where they were at time 0 (Tissue::obstacle_offset).
+  [[nodiscard]] std::span<const RigidSurface> obstacles() const;
+
   /// Cells were added, removed, moved between ranks, or changed their body: everything is collected again at the next use.
   void bodies_changed();
   /// A few cells were added or removed, or changed their body or their place; all others are where the last step left them, in the same order. The

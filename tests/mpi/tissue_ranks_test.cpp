@@ -201,16 +201,21 @@ TEST(TissueOnRanks, DividesShellsWithTheSameBitsAsOnOne) {
 }
 
 /// Thirteen shells whose nodes crowd about their equators, after some steps.
-Everything renewed_shells(const Model& model, const Comm& comm) {
+Everything renewed_shells(const Model& model, const Comm& comm, bool as_rods = false) {
   if (!is_asked(comm)) return {};
   Tissue tissue = hybrid_tissue(model, comm, 2);
   std::vector<CellRecord> cells = take_apart(tissue);
   ShapeLibrary shapes;
   for (CellRecord& cell : cells) {
-    const double volume = cell.row.birth_volume = cell.row.target_volume = 700.0;  // room for each: a ball of radius 5.5
+    // Room for each: a ball of radius 5.5, or a rod as long as that and a fifth as wide.
+    const double volume = cell.row.birth_volume = cell.row.target_volume = as_rods ? 23.0 : 700.0;
     cell.row.division_volume = 2.0 * volume;
     cell.shell = spherical_shell(shapes.icosphere(162).value(), cell.sphere->position, volume, volume);
-    test::crowd(cell.shell->position, 0.42);
+    if (!as_rods) test::crowd(cell.shell->position, 0.42);
+    for (Vec3d& x : cell.shell->position) {
+      const Vec3d d = x - cell.sphere->position;
+      if (as_rods) x = cell.sphere->position + Vec3d{3.0 * d.x, d.y / std::sqrt(3.0), d.z / std::sqrt(3.0)};
+    }
     cell.sphere.reset();
   }
   put_together(tissue, std::move(cells));
@@ -234,6 +239,23 @@ TEST(TissueOnRanks, RenewsMeshesWithTheSameBitsAsOnOne) {
   for (const auto& [id, bytes] : together)
     renewed += read_records(bytes, shapes)[0].row.variable(mesh_renewal_variable(model, MeshRenewal::kDone));
   EXPECT_GE(renewed, 10.0);
+  expect_same(together, single);
+}
+
+TEST(TissueOnRanks, GivesShellsMeshesOfTheirOwnWithTheSameBitsAsOnOne) {
+  Model model = hybrid_model();
+  model.types[0].renew_mesh_below = 0.6;
+  model.types[0].own_mesh = true;
+  dcm::ShellParameters& shell = model.types[0].shell;
+  shell.spring_stiffness = shell.hinge_stiffness = shell.shape_stiffness = 0.0;
+  model.swaps = {};
+  model.step.max_step = 0.1;
+  const Everything together = renewed_shells(model, Comm(MPI_COMM_WORLD), true), single = renewed_shells(model, Comm(MPI_COMM_SELF), true);
+  ASSERT_EQ(together.size(), 13u);
+  ShapeLibrary shapes;
+  int own = 0;
+  for (const auto& [id, bytes] : together) own += read_records(bytes, shapes)[0].shell->shape->icosphere_nodes == 0 ? 1 : 0;
+  EXPECT_GE(own, 10);
   expect_same(together, single);
 }
 

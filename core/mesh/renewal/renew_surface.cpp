@@ -53,6 +53,19 @@ RenewedSurface renew_by(const AskedSurface& surface, std::span<const AskedSurfac
   return out;
 }
 
+Result<RenewedSurface> renew_by_ladder(const AskedSurface& surface, std::span<const AskedSurface* const> walls, const Topology& topology,
+                                       const std::vector<SurfacePlace>& place, double volume, const RenewalLimits& limits,
+                                       const std::string& what) {
+  RenewalReport best;
+  for (std::size_t rung = 0; rung < kWays.size(); ++rung) {
+    RenewedSurface tried = renew_by(surface, walls, topology, place, volume, kWays[rung], limits);
+    tried.report.rung = static_cast<int>(rung);
+    if (is_within(tried.report, limits)) return tried;
+    if (rung == 0 || tried.report.least_quality > best.least_quality) best = tried.report;
+  }
+  return no_mesh_holds(what, best, limits);
+}
+
 Error no_mesh_holds(const std::string& what, const RenewalReport& best, const RenewalLimits& limits) {
   char text[200];
   std::snprintf(text, sizeof text, ": the best try has a least quality of %.2f (%.2f needed), is %.2f edges off (%.2f allowed)%s",
@@ -73,14 +86,7 @@ Result<RenewedSurface> redistribute(const SurfaceView& surface, std::span<const 
   std::vector<SurfacePlace> start;
   for (std::uint32_t n = 0; n < topology.node_count(); ++n) start.push_back({topology.faces_of_node(n)[0], surface.position[n]});
 
-  RenewalReport best;
-  for (std::size_t rung = 0; rung < kWays.size(); ++rung) {
-    RenewedSurface tried = renew_by(old, walls, topology, start, volume, kWays[rung], limits);
-    tried.report.rung = static_cast<int>(rung);
-    if (is_within(tried.report, limits)) return tried;
-    if (rung == 0 || tried.report.least_quality > best.least_quality) best = tried.report;
-  }
-  return no_mesh_holds("the nodes of this surface cannot be redistributed", best, limits);
+  return renew_by_ladder(old, walls, topology, start, volume, limits, "the nodes of this surface cannot be redistributed");
 }
 
 }  // namespace morula

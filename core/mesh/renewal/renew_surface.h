@@ -50,6 +50,12 @@ struct RenewalWay {
 RenewedSurface renew_by(const AskedSurface& surface, std::span<const AskedSurface* const> walls, const Topology& topology,
                         std::vector<SurfacePlace> place, double volume, const RenewalWay& way, const RenewalLimits& limits);
 
+/// The ways of a renewal one after the other until one is within the limits. `place`: where the nodes of the mesh begin on the surface; `walls`: their order does
+/// not matter. Error (kPhysics): none is; `what` begins its message.
+Result<RenewedSurface> renew_by_ladder(const AskedSurface& surface, std::span<const AskedSurface* const> walls, const Topology& topology,
+                                       const std::vector<SurfacePlace>& place, double volume, const RenewalLimits& limits,
+                                       const std::string& what);
+
 /// An error (kPhysics) that tells what the best try misses.
 Error no_mesh_holds(const std::string& what, const RenewalReport& best, const RenewalLimits& limits);
 
