@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "coupling/cells.h"
+#include "coupling/mechanics/as_balls.h"
 #include "coupling/mechanics/told.h"
 #include "coupling/model.h"
 
@@ -31,6 +32,12 @@ class CellView {
     stress = values.stress[place];
     stressed_volume = values.stressed_volume[place];
     inner_pressure = values.inner_pressure[place];
+  }
+
+  /// What it is as a ball; `place` as in set_body().
+  void set_ball(const AsBalls& balls, std::size_t place) {
+    outside_law = balls.outside_law[place];
+    packing = balls.packing[place];
   }
 
   /// Id, type, phase, target volume, pressure averaged over the last minute.
@@ -70,6 +77,7 @@ class CellView {
   double stressed_volume = 0.0;  ///< V of this stress [µm³]
   double inner_pressure = 0.0;   ///< −K_V ln(V/V0) of a shell; of a sphere its pressure [kPa]
   double outside_law = std::numeric_limits<double>::quiet_NaN();  ///< as a ball (AsBalls), where somebody asks for it; else no number
+  double packing = std::numeric_limits<double>::quiet_NaN();      ///< φ as a ball, likewise
 
  private:
   const Cells* cells_;

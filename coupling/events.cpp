@@ -10,6 +10,7 @@ using Cause = EventReason::Cause;
 
 std::string text_of(const Trigger& trigger, const Model& model) {
   if (trigger.type >= 0) return "type " + model.types[static_cast<std::size_t>(trigger.type)].name;
+  if (!trigger.phase.empty()) return "phase " + trigger.phase;
   return trigger.field >= 0 ? model.fields[static_cast<std::size_t>(trigger.field)].name : trigger.value->info.name;
 }
 

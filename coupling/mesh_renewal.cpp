@@ -16,7 +16,7 @@
 namespace morula {
 namespace {
 
-/// Meshes are looked at every so many steps.
+/// Meshes of the library are looked at every so many steps; those of a shell's own, whose passes do little each, at every step.
 constexpr std::uint64_t kStepsBetweenLooks = 5;
 /// Neighbours farther away than this are not reached by the new surface [µm].
 constexpr double kReach = 1.0;
@@ -24,18 +24,18 @@ constexpr double kReach = 1.0;
 constexpr double kLeastGain = 0.05;
 /// Most that the new surface is off the old one, in mean edges.
 constexpr double kMostDistance = 0.25;
-/// Elongation beyond which the connectivity of a ball is left at once: an aspect of 4 (decision 0060).
+/// Elongation beyond which the connectivity of a ball is left at once: an aspect of 4 (decision 0057).
 constexpr double kRod = 3.4;
 /// Elongation below which a shell tries to go back to it: an aspect of 2.
 constexpr double kBall = 1.8;
 /// Quality above `renew_mesh_below` that the mesh of the library must have after going back, so that it is not left again at once.
-constexpr double kLeastOfReturn = 0.15;
+constexpr double kLeastOfReturn = 0.05;
 /// A pass that gains less than this, and is not good enough, is not followed by another one for a while.
 constexpr double kGainOfPass = 0.01;
 /// For so long [s].
 constexpr double kTimeBetweenPasses = 20.0;
-/// The library's connectivity, which could not be had, is tried again after this time by shells that have another way [s].
-constexpr double kTimeBetweenReturns = 60.0;
+/// A shell of the library whose nodes could not be spread, but which has another way, tries to spread them again after this time [s].
+constexpr double kTimeToSpreadAgain = 60.0;
 
 /// A shell that is looked at, and its new mesh. At most one of the meshes is there.
 struct Renewal {
@@ -51,16 +51,18 @@ struct Renewal {
 /// The shells that need another mesh or may have a better one.
 std::vector<Renewal> shells_to_renew(const Model& model, const Tissue& tissue) {
   std::vector<Renewal> out;
+  const bool looks_at_all = tissue.clock.steps % kStepsBetweenLooks == 0;
   const auto told = [&](std::size_t variable, std::size_t row) { return tissue.cells.variables[variable].values[row]; };
   const std::size_t next_try = mesh_renewal_variable(model, MeshRenewal::kNextTry);
   const double now = tissue.clock.time;
   for (const BodyOfRow& body : bodies_of(tissue.cells)) {
     const CellType& type = model.types[tissue.cells.rows[body.row].type];
     if (!body.is_shell || !(type.renew_mesh_below > 0.0)) continue;
+    const bool has_own = type.own_mesh && tissue.shells.shape[body.number]->icosphere_nodes == 0;
+    if (!looks_at_all && !has_own) continue;
     const SurfaceView surface{tissue.shells.nodes(body.number), &tissue.shells.topology(body.number)};
-    Renewal one{body, least_quality(surface.topology->faces(), surface.position)};
+    Renewal one{body, least_quality(surface.topology->faces(), surface.position), has_own};
     const bool is_uneven = one.quality < type.renew_mesh_below;
-    one.has_own = type.own_mesh && tissue.shells.shape[body.number]->icosphere_nodes == 0;
     const bool may_own = type.own_mesh && now >= told(own_mesh_variable(model, OwnMeshRenewal::kNextPass), body.row);
     one.try_own = is_uneven && may_own;
     if (now >= told(next_try, body.row)) {
@@ -133,7 +135,7 @@ void tell(const Model& model, const Renewal& one, double now, CellState& row) {
     at_least(variable(MeshRenewal::kDistance), report.distance.largest() / report.mean_edge);
   }
   if (one.try_library && (!one.mesh || one.mesh->report.least_quality < below))
-    variable(MeshRenewal::kNextTry) = now + (model.types[row.type].own_mesh ? kTimeBetweenReturns : kTimeBetweenTries);
+    variable(MeshRenewal::kNextTry) = now + (model.types[row.type].own_mesh && !one.has_own ? kTimeToSpreadAgain : kTimeBetweenTries);
   if (one.own) {
     const OwnMeshReport& report = one.own->report;
     of_own(OwnMeshRenewal::kPasses) += 1.0;
@@ -151,7 +153,9 @@ void tell(const Model& model, const Renewal& one, double now, CellState& row) {
 
 void Simulation::renew_meshes(std::vector<Event>& events) {
   const auto renews = [](const CellType& type) { return type.renew_mesh_below > 0.0; };
-  if (tissue_.clock.steps % kStepsBetweenLooks != 0 || std::ranges::none_of(model_.types, renews)) return;
+  if (std::ranges::none_of(model_.types, renews)) return;
+  const bool any_own = std::ranges::any_of(model_.types, [](const CellType& type) { return type.own_mesh; });
+  if (!any_own && tissue_.clock.steps % kStepsBetweenLooks != 0) return;
   auto timed = timer().scope(Stage::kBehaviours);
   std::vector<Renewal> found = shells_to_renew(model_, tissue_);
   if (!comm_.any(!found.empty())) return;

@@ -42,7 +42,7 @@ std::vector<std::string> answers_to(const Model& model, const CellType& type) {
   for (const CellBehaviour& behaviour : type.behaviours)
     if (behaviour.may_act()) out.emplace_back(behaviour.what->awaited);
   for (const Trigger& trigger : model.swaps.triggers)
-    if (trigger.type < 0 && trigger.value->awaited != nullptr) out.emplace_back(trigger.value->awaited);
+    if (trigger.compares() && trigger.value->awaited != nullptr) out.emplace_back(trigger.value->awaited);
   return out;
 }
 

@@ -46,6 +46,10 @@ Wish wish(const Model& model, const CellView& cell, std::size_t i, const SwapBod
       continue;
     }
     hold = std::max(hold, trigger.hold);
+    if (!trigger.phase.empty()) {
+      if (cell.phase_name() == trigger.phase) return {BodyKind::kShell, trigger.hold, reason};
+      continue;
+    }
     const double value = trigger.value->of(trigger, cell);
     const double threshold = shell ? trigger.demote : trigger.promote;
     const bool wants = trigger.promote_above ? value > threshold : value < threshold;
@@ -66,7 +70,7 @@ std::uint64_t place_of_rule(const Swaps& swaps, const EventReason& reason) {
 CellView SwapBodies::view(const Model& model, const Tissue& tissue, const BodyOfRow& body) const {
   CellView out(tissue.cells, body.row, model.types[tissue.cells.rows[body.row].type], tissue.clock.time);
   if (values != nullptr) out.set_body(*values, body.place(tissue.shells.size()), center[body.row]);
-  if (balls != nullptr) out.outside_law = balls->outside_law[body.place(tissue.shells.size())];
+  if (balls != nullptr) out.set_ball(*balls, body.place(tissue.shells.size()));
   return out;
 }
 
@@ -77,7 +81,7 @@ std::vector<CellId> ids_of_all_ranks(const std::vector<CellId>& mine, const Comm
 }
 
 bool look_at_bodies(const Swaps& swaps) {
-  return std::ranges::any_of(swaps.triggers, [](const Trigger& t) { return t.type < 0 && t.value->looks_at_body; });
+  return std::ranges::any_of(swaps.triggers, [](const Trigger& t) { return t.compares() && t.value->looks_at_body; });
 }
 
 LookedAt look_for_swaps(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, Mechanics& mechanics, const Comm& comm) {

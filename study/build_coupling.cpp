@@ -83,11 +83,24 @@ void check_thresholds(BuildContext& c, const UnitSystem& units, const draft::Tri
 /// Demotion by the short form `outside_law: 1.0`: spheres of default types rest in pairs at 0.81 of the range, and would not come back below that.
 constexpr double kBackInside = 0.9;
 
+/// Whether the cycle of some type has this phase; E405 where none has.
+bool is_phase(BuildContext& c, const draft::Trigger& t) {
+  std::vector<std::string> names;
+  for (const CellType& type : c.study.model.types) {
+    for (const CyclePhase& phase : type.cycle.phases) names.push_back(phase.name);
+    if (type.cycle.quiescence.phase >= 0) names.emplace_back(kQuiescentPhase);
+  }
+  if (std::ranges::find(names, t.phase.value) != names.end()) return true;
+  c.diagnostics.error(405, t.phase.place, "no type has a phase '" + t.phase.value + "'",
+                      names.empty() ? "give a type `cycle: {phases: [...]}`" : suggest(t.phase.value, names));
+  return false;
+}
+
 void build_trigger(BuildContext& c, const UnitSystem& units, const draft::Trigger& t, const Place& place) {
   Trigger trigger;
   trigger.hold = t.hold.value;
-  if (int{t.type.given} + int{t.outside_law.given} + int{t.promote.given || t.demote.given} > 1) {
-    c.diagnostics.error(111, place, "a trigger has either `type`, `outside_law`, or `promote` and `demote`", "make two triggers");
+  if (int{t.type.given} + int{t.phase.given} + int{t.outside_law.given} + int{t.promote.given || t.demote.given} > 1) {
+    c.diagnostics.error(111, place, "a trigger has either `type`, `phase`, `outside_law`, or `promote` and `demote`", "make two triggers");
     return;
   }
   if (t.outside_law.given) {
@@ -103,8 +116,13 @@ void build_trigger(BuildContext& c, const UnitSystem& units, const draft::Trigge
     c.study.model.swaps.triggers.push_back(trigger);
     return;
   }
+  if (t.phase.given) {
+    trigger.phase = t.phase.value;
+    if (t.phase.known() && is_phase(c, t)) c.study.model.swaps.triggers.push_back(trigger);
+    return;
+  }
   if (!t.promote.given || !t.demote.given) {
-    c.diagnostics.error(111, place, "a trigger needs `promote` and `demote`, `outside_law`, or `type`",
+    c.diagnostics.error(111, place, "a trigger needs `promote` and `demote`, `outside_law`, `phase`, or `type`",
                         "for example `{promote: pressure > 1 kPa, demote: pressure < 600 Pa}`");
     return;
   }

@@ -20,7 +20,7 @@ void set_division(BuildContext& c, const draft::CellType& t, CellType& type) {
     c.diagnostics.error(302, direction.given ? direction.place : t.axis.place, "the axis of division has no direction",
                         "for example `direction: [0, 0, 1]`");
   else if (!type.axis->needs_direction && direction.given)
-    c.diagnostics.error(515, direction.place, "'direction' has no effect here", "it belongs to `axis: fixed`");
+    c.diagnostics.error(515, direction.place, "'direction' has no effect here", "it belongs to `axis: fixed` and `axis: across_direction`");
   if (type.axis->needs_polarity && !t.activity.has_polarity)
     c.diagnostics.error(558, t.axis.place, "cells of '" + type.name + "' divide by their polarity, and have none",
                         "give the type a `polarity`");

@@ -20,8 +20,9 @@ void declare_division(Section& c, draft::CellType& t) {
                .source = "Van Liedekerke et al."};
   for (const auto& one : c.laws().division_axes) axis.words.push_back(one->info.name);
   c.word(axis, t.axis);
-  c.vector({.name = "direction", .doc = "Direction of the axis `fixed`.", .quantity = Q::kNumber, .example = "[0, 0, 1]"},
-           t.division_direction);
+  c.vector(
+      {.name = "direction", .doc = "Direction of the axes `fixed` and `across_direction`.", .quantity = Q::kNumber, .example = "[0, 0, 1]"},
+      t.division_direction);
   c.quantity({.name = "axis_spread",
               .doc = "How far axes stray from the one that `axis` says: standard deviation of the angle in each of two directions (von "
                      "Mises-Fisher).",

@@ -102,6 +102,8 @@ void declare_trigger(Section& s, draft::Trigger& t) {
        .example = "1.0"},
       t.outside_law);
   s.text({.name = "type", .doc = "Instead of promote and demote: all cells of this type are shells.", .example = "trophectoderm"}, t.type);
+  s.text({.name = "phase", .doc = "Instead of promote and demote: cells in this phase of their cycle are shells.", .example = "M"},
+         t.phase);
   s.quantity({.name = "hold",
               .doc = "No second exchange of body within this time.",
               .quantity = Q::kTime,

@@ -186,16 +186,16 @@ void declare_shell_keys(Section& s, draft::ShellKeys& t, draft::CellType* cell) 
                 .example = "0.4",
                 .source = "chosen: off; the shape term keeps meshes even"},
                cell->renew_mesh_below);
-    s.flag({.name = "own_mesh",
-            .doc = "Where spreading the nodes does not make a mesh even, as on tongues, necks and rods longer than about four times their "
-                   "width, the shell "
-                   "gets connectivity of its own: edges are split, drawn together and turned, with 0.7 to 1.5 times the `nodes` of its "
-                   "type. It goes back to the "
-                   "mesh of its type when it has rounded up, as cells from files do then. Needs `renew_mesh_below`.",
-            .fallback = "false",
-            .example = "true",
-            .source = "chosen: off; lanes stay full on one connectivity"},
-           cell->own_mesh);
+    s.flag(
+        {.name = "own_mesh",
+         .doc = "Where spreading the nodes does not make a mesh even, as on tongues, necks and rods longer than about four times their "
+                "width, the shell gets connectivity of its own: edges are split, drawn together and turned, with 0.7 to 1.5 times the "
+                "`nodes` of its type. For fluid cortices (`elastic: none`); springs keep their meshes even themselves. The shell goes back "
+                "to the mesh of its type when it has rounded up, as cells from files do then. Needs `renew_mesh_below`.",
+         .fallback = "false",
+         .example = "true",
+         .source = "chosen: off; lanes stay full on one connectivity"},
+        cell->own_mesh);
     declare_interior(s, *cell);
   }
   s.group({.name = "fold_barrier", .doc = "Keeps edges from folding through."}, present, [&t](Section& f) {

@@ -246,7 +246,7 @@ struct Region {
 };
 
 struct Trigger {
-  Given<std::string> promote, demote, type;
+  Given<std::string> promote, demote, type, phase;
   Given<double> outside_law, hold;
 };
 

@@ -39,6 +39,7 @@ constexpr ErrorCode kCodes[] = {
     {402, "no such field", "The name is not declared under `fields`."},
     {403, "no such observable or library study", "The name is not known to this program."},
     {404, "too many of something", "The study declares more cell types, fields or cells than the program can hold."},
+    {405, "no such phase", "A trigger names a phase of the cycle of some type, or G0 where a type has quiescence."},
     {410, "no such measure",
      "`measure`, `x` and `y` name a measure that the program has, or a column of series.csv that this study's runs have. `morula explain "
      "measures` lists the measures."},

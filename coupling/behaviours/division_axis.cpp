@@ -60,6 +60,16 @@ std::shared_ptr<const DivisionAxis> fixed_axis() {
                     .of = [](const CellAtDivision& cell, const Vec3d&) { return cell.type.division_direction; }});
 }
 
+std::shared_ptr<const DivisionAxis> across_direction_axis() {
+  return make_axis({.info = {.name = "across_direction",
+                             .title = "Across a direction of the laboratory: within a layer whose normal it is",
+                             .equation = "u = (I − n nᵀ/n²) r, n = direction, r uniform on the sphere",
+                             .source = "choice of this project",
+                             .parameters = {given_by_study("direction", "direction", "1", "Normal of the layer.")}},
+                    .needs_direction = true,
+                    .of = [](const CellAtDivision& cell, const Vec3d& random) { return across(cell.type.division_direction, random); }});
+}
+
 std::shared_ptr<const DivisionAxis> polarity_axis() {
   return make_axis({.info = {.name = "polarity",
                              .title = "Along the polarity of the cell",
@@ -101,7 +111,7 @@ std::shared_ptr<const DivisionAxis> random_axis() {
 }
 
 std::vector<std::shared_ptr<const DivisionAxis>> builtin_division_axes() {
-  return {random_axis(), long_axis(), fixed_axis(), polarity_axis(), across_polarity_axis()};
+  return {random_axis(), long_axis(), fixed_axis(), across_direction_axis(), polarity_axis(), across_polarity_axis()};
 }
 
 Vec3d division_axis(const CellAtDivision& cell, std::uint32_t seed, std::uint64_t attempt) {

@@ -134,7 +134,9 @@ AsBalls Mechanics::as_balls(const Tissue& tissue) {
     const auto [outside, caps] = standings[i];
     const std::uint16_t type = i < shells ? work.scene.bodies()[i].material : tissue.spheres.type[i - shells];
     const double last = work.setting.model.types[type].sphere.packing.last();
-    out.outside_law.push_back(last > 0.0 ? std::max(outside, caps / (ball_of(radius[i]) * last)) : outside);
+    const double packing = caps / ball_of(radius[i]);
+    out.outside_law.push_back(last > 0.0 ? std::max(outside, packing / last) : outside);
+    out.packing.push_back(packing);
     out.caps.push_back(caps);
   }
   return out;

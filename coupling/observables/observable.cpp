@@ -18,7 +18,7 @@ void CellsAtOutput::visit(const Value& value, const std::function<void(double)>&
   for (const BodyOfRow& body : bodies_of(tissue.cells)) {
     CellView cell(tissue.cells, body.row, simulation_.model().types[tissue.cells.rows[body.row].type], tissue.clock.time);
     cell.set_body(bodies_->values, body.place(tissue.shells.size()), bodies_->center[body.row]);
-    cell.outside_law = balls_->outside_law[body.place(tissue.shells.size())];
+    cell.set_ball(*balls_, body.place(tissue.shells.size()));
     if (const double here = value(cell); !std::isnan(here)) function(here);
   }
 }

@@ -86,15 +86,18 @@ std::vector<std::shared_ptr<const TriggerValue>> builtin_trigger_values();
 std::shared_ptr<const TriggerValue> pressure_value();
 std::shared_ptr<const TriggerValue> field_value();
 
-/// Promote or demote by a value of the cell, or all cells of a type.
+/// Promote or demote by a value of the cell, or all cells of a type, or all in a phase of their cycle.
 struct Trigger {
   std::shared_ptr<const TriggerValue> value = pressure_value();
   int field = -1;             ///< of field_value()
   int type = -1;              ///< cells of this type are shells, and no value is looked at; −1: by the value
+  std::string phase{};        ///< cells in the phase of this name are shells, and no value is looked at; empty: by the value
   bool promote_above = true;  ///< promote when value > promote threshold (else when below)
   double promote = 0.0;
   double demote = 0.0;
   double hold = 1800.0;  ///< no second swap within this time [s]
+
+  [[nodiscard]] bool compares() const { return type < 0 && phase.empty(); }
 };
 
 }  // namespace morula

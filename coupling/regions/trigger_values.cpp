@@ -55,6 +55,35 @@ std::shared_ptr<const TriggerValue> outside_law_value() {
 
 namespace {
 
+/// The filter of the pressure lags a steady rise by its own time.
+std::shared_ptr<const TriggerValue> pressure_rise_value() {
+  static const auto value = std::make_shared<const TriggerValue>(
+      TriggerValue{.info = {.name = "pressure_rise",
+                            .title = "How much the pressure of a cell rises in a minute; a fall is below 0",
+                            .equation = "−tr σ/3 − p, p as in `pressure`: τ dp/dt of a steady rise, τ = 1 min",
+                            .source = "choice of this project",
+                            .parameters = thresholds("pressure", "kPa")},
+                   .quantity = Quantity::kPressure,
+                   .example = "pressure_rise > 10 Pa",
+                   .looks_at_body = true,
+                   .of = [](const Trigger&, const CellView& cell) { return cell.pressure - cell.row().pressure; }});
+  return value;
+}
+
+std::shared_ptr<const TriggerValue> packing_value() {
+  static const auto value = std::make_shared<const TriggerValue>(
+      TriggerValue{.info = {.name = "packing",
+                            .title = "How tightly a cell is packed as a ball: the part of it behind the planes of its contacts",
+                            .equation = "φ_i = Σ_j v_cap,ij/V_i",
+                            .source = "choice of this project after Van Liedekerke et al. 2019, doi:10.1371/journal.pcbi.1006273",
+                            .parameters = thresholds("fraction", "1")},
+                   .quantity = Quantity::kFraction,
+                   .example = "packing > 20 %",
+                   .looks_at_body = true,
+                   .of = [](const Trigger&, const CellView& cell) { return cell.packing; }});
+  return value;
+}
+
 std::shared_ptr<const TriggerValue> age_value() {
   static const auto value = std::make_shared<const TriggerValue>(
       TriggerValue{.info = {.name = "age",
@@ -86,7 +115,7 @@ std::shared_ptr<const TriggerValue> contact_share_value() {
 }  // namespace
 
 std::vector<std::shared_ptr<const TriggerValue>> builtin_trigger_values() {
-  return {pressure_value(), field_value(), outside_law_value(), age_value(), contact_share_value()};
+  return {pressure_value(), pressure_rise_value(), packing_value(), field_value(), outside_law_value(), age_value(), contact_share_value()};
 }
 
 }  // namespace morula

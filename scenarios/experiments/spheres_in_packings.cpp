@@ -16,7 +16,8 @@ using calibrate::PackingPoint;
 
 constexpr int kMostTurns = 8, kPatience = 2;
 constexpr int kMostSteps = 1000;
-constexpr double kAtRest = 1e-4, kAtRestStep = 10.0;  // spheres that move less than this part of R in steps that are so long [s] are at rest
+constexpr double kAtRest = 1e-4,
+                 kAtRestStep = 10.0;  // spheres that move less than this part of R in steps that are so long [s] are at rest
 
 double pressure_by(const TrialLaw& law, const PackingPoint& point) {
   const calibrate::PackingGeometry at = point.geometry();

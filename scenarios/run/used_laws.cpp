@@ -194,7 +194,7 @@ void add_swaps(const Swaps& swaps, std::vector<UsedLaw>& out) {
   for (const Region& region : swaps.regions)
     out.push_back({"region " + region.name, region.shape->info, named_values(region.shape->info, region.values)});
   for (const Trigger& trigger : swaps.triggers)
-    if (trigger.type < 0)
+    if (trigger.compares())
       out.push_back({"exchange of bodies", trigger.value->info, {{"promote", trigger.promote}, {"demote", trigger.demote}}});
 }
 

@@ -41,7 +41,7 @@ TEST(DivisionAxis, EveryRuleGivesWhatItsNameSays) {
   const Ellipsoid egg(1.3), ball(1.0);
   CellType type;
   type.division_direction = {0, 3, 4};
-  double up = 0.0, mean = 0.0;
+  double up = 0.0, mean = 0.0, across = 0.0;
   const int n = 400;
   for (int k = 1; k <= n; ++k) {
     const CellState row = cell(static_cast<std::uint64_t>(k));
@@ -53,6 +53,10 @@ TEST(DivisionAxis, EveryRuleGivesWhatItsNameSays) {
     EXPECT_NEAR(std::abs(along.z), 1.0, 1e-9);
     up += along.z > 0.0;
     EXPECT_NEAR(norm(of("fixed", {}) - Vec3d{0, 0.6, 0.8}), 0.0, 1e-15);
+    const Vec3d in_layer = of("across_direction", {});
+    EXPECT_NEAR(dot(in_layer, Vec3d{0, 0.6, 0.8}), 0.0, 1e-14);
+    EXPECT_NEAR(norm(in_layer), 1.0, 1e-14);
+    across += in_layer.x * in_layer.x;
     EXPECT_NEAR(norm(of("polarity", {}) - row.polarity), 0.0, 1e-15);
     EXPECT_NEAR(dot(of("across_polarity", {}), row.polarity), 0.0, 1e-14);
     EXPECT_NEAR(norm(of("across_polarity", {})), 1.0, 1e-14);
@@ -62,6 +66,7 @@ TEST(DivisionAxis, EveryRuleGivesWhatItsNameSays) {
   }
   EXPECT_NEAR(up / n, 0.5, 4.0 * 0.5 / std::sqrt(n)) << "either end comes first";
   EXPECT_NEAR(mean / n, 0.0, 4.0 / std::sqrt(3.0 * n));
+  EXPECT_NEAR(across / n, 0.5, 4.0 * std::sqrt(1.0 / 8.0 / n)) << "every direction of the layer alike: the variance of cos² is 1/8";
 }
 
 TEST(DivisionAxis, StraysAsVonMisesAndFisherSay) {

@@ -34,11 +34,11 @@ cell_types:
     cycle: {model: phases, duration: 3 min}
   lung:
     radius: 6 um
-    dcm: {nodes: 162, renew_mesh_below: 0.4, nucleus: {kind: rigid, radius: 2 um}}
+    dcm: {nodes: 162, renew_mesh_below: 0.4, own_mesh: true, nucleus: {kind: rigid, radius: 2 um}}
   skin:
     radius: 6 um
     dcm: {nodes: 162, nucleus: {kind: shell, radius: 3 um}}
-contact: {range: 1 um}
+contact: {range: 0.5 um}
 geometry:
   plate: {plane: {center: [0 um, 0 um, -30 um], size: 40 um}, motion: {velocity: [0 um/h, 0 um/h, 60 um/h]}}
 initial:

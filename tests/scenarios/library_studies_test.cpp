@@ -72,6 +72,7 @@ TEST(LibraryStudies, AreThoseThatWereAskedFor) {
                                                         "embryo",
                                                         "hybrid_block",
                                                         "hybrid_hotspot",
+                                                        "hybrid_monolayer",
                                                         "hybrid_spheroid",
                                                         "micropipette",
                                                         "optical_stretcher",

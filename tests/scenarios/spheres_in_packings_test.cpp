@@ -46,7 +46,8 @@ TrialLaw law_with(const cbm::PackingCurve& curve) {
 }
 
 double told(const TrialLaw& law, const calibrate::PackingPoint& point) {
-  return calibrate::pair_pressure(point.geometry(), point.radius, law.pair) + calibrate::curve_pressure(point.geometry(), law.sphere.packing);
+  return calibrate::pair_pressure(point.geometry(), point.radius, law.pair) +
+         calibrate::curve_pressure(point.geometry(), law.sphere.packing);
 }
 
 /// Balls of a known law stand where the shells would: their curve of packing comes back from the pressures alone, though the search begins with the places of
@@ -87,7 +88,8 @@ TEST(SpheresInPackings, AreAtRestWhereTheLawSays) {
   const std::vector<FoundPacking> packings{disordered(0.85, 1), disordered(0.85, 2)};
   calibrate::Data data;
   for (const bool held_out : {false, true})
-    data.packings.push_back({.arrangement = calibrate::Arrangement::kRandom, .volume_ratio = 0.85, .radius = kRadius, .held_out = held_out});
+    data.packings.push_back(
+        {.arrangement = calibrate::Arrangement::kRandom, .volume_ratio = 0.85, .radius = kRadius, .held_out = held_out});
   const std::vector<cbm::PackingKnot> knots{{0.08, 0.0}, {0.12, 0.09}, {0.30, 0.5}};
   const TrialLaw law = law_with(cbm::PackingCurve::through(knots).value());
   const SpheresInPackings places(material, packings);

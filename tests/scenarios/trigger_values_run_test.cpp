@@ -1,4 +1,4 @@
-/// Cells that become shells for their age, or because they lie at the border of the tissue: studies with default parameters.
+/// Cells that become shells by one of their values, or in a phase of their cycle: studies with default parameters.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,6 +44,56 @@ TEST(TriggerValues, CellsAtTheBorderOfATissueBecomeShells) {
   ASSERT_GT(tissue.shells.size(), 5u);  // one in a step
   ASSERT_GT(tissue.spheres.size(), 3u);
   EXPECT_GT(of_shells / static_cast<double>(tissue.shells.size()), 1.25 * of_spheres / static_cast<double>(tissue.spheres.size()));
+}
+
+// φ of two equal balls at a distance d: h²(3R − h)/(4R³) behind the plane between them, h = R − d/2; 1.603 % at d = 1.7 R.
+TEST(TriggerValues, CellsThatArePackedTightlyBecomeShells) {
+  const auto shells_with = [](const std::string& promote) {
+    return run_to(
+               "schema: 1\nstudy: packed\nseed: 1\ntime: {end: 1 min}\ndomain: {size: [60 um, 60 um, 60 um]}\n"
+               "cell_types:\n  cell: {radius: 6 um, cycle: {model: none}, dcm: {nodes: 42}}\n"
+               "initial:\n  - {type: cell, at: [[-5.1 um, 0 um, 0 um], [5.1 um, 0 um, 0 um]]}\n"
+               "coupling: {triggers: [{promote: packing > " +
+                   promote + ", demote: packing < 0.1 %, hold: 10 min}]}\noutput: {report: false}\nlimits: {overlap: 5 um}\n",
+               0.0)
+        ->tissue()
+        .shells.size();
+  };
+  EXPECT_EQ(shells_with("1.62 %"), 0u);
+  EXPECT_GT(shells_with("1.55 %"), 0u);
+}
+
+// A box that shrinks by as much of its volume in each second: p = K_V ln(V0/V) of filled cells rises by 2.5 kPa ln(0.95/0.85)/100 min = 2.8 Pa/min.
+TEST(TriggerValues, CellsWhosePressureRisesFastBecomeShells) {
+  const auto shells_with = [](const std::string& promote) {
+    return run_to(
+               "schema: 1\nstudy: pressed\nseed: 1\ntime: {end: 2 h}\n"
+               "domain: {size: [31 um, 31 um, 31 um], boundary: periodic, course: [{time: 0 s, volume: 1}, {time: 100 min, volume: "
+               "0.895}]}\n"
+               "cell_types:\n  cell: {radius: 5 um, cycle: {model: none}, adhesion: {cell: 0 J/m^2}, dcm: {nodes: 42}}\n"
+               "initial:\n  - {type: cell, count: 57, fill: random, size: [31 um, 31 um, 31 um], start_volume: 50 %, inflate: 10 "
+               "min}\n"
+               "coupling: {regions: [{name: none, shape: box, size: [31 um, 31 um, 31 um], as: sphere, until: 50 min}], "
+               "triggers: [{promote: pressure_rise > " +
+                   promote + ", demote: pressure_rise < -1 Pa, hold: 2 h}]}\noutput: {report: false}\n",
+               5700.0)
+        ->tissue()
+        .shells.size();
+  };
+  EXPECT_GT(shells_with("1 Pa"), 15u);
+  EXPECT_LT(shells_with("8 Pa"), 5u);
+}
+
+TEST(TriggerValues, CellsInAPhaseAreShells) {
+  const std::string text =
+      "schema: 1\nstudy: phases\nseed: 1\ntime: {end: 1 h}\ndomain: {size: [200 um, 200 um, 200 um]}\n"
+      "cell_types:\n  cell: {radius: 6 um, dcm: {nodes: 42}, cycle: {model: phases, growth: none, phases: "
+      "{first: {duration: 20 min}, second: {duration: 20 min}, third: {duration: 10 h}}}}\n"
+      "initial:\n  - {type: cell, count: 3, fill: sphere, radius: 40 um, age: birth}\n"
+      "coupling: {triggers: [{phase: second, hold: 1 min}], hold: 1 min}\noutput: {report: false}\n";
+  EXPECT_EQ(run_to(text, 1150.0)->tissue().shells.size(), 0u);
+  EXPECT_EQ(run_to(text, 1800.0)->tissue().shells.size(), 3u);  // one in a step
+  EXPECT_EQ(run_to(text, 3000.0)->tissue().shells.size(), 0u);
 }
 
 }  // namespace

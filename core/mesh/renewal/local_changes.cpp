@@ -74,31 +74,6 @@ MeshChange split_edge(const LiveMesh& mesh, std::uint32_t a, std::uint32_t b) {
   return out;
 }
 
-std::optional<MeshChange> bulge_edge(const LiveMesh& mesh, std::uint32_t a, std::uint32_t b) {
-  const std::uint32_t left = *mesh.face_with(a, b), right = *mesh.face_with(b, a), m = mesh.next_node();
-  const std::uint32_t k = third_corner(mesh.face(left), a, b), l = third_corner(mesh.face(right), a, b);
-  const auto normal = [&](std::uint32_t node) {
-    Vec3d sum;
-    for (const std::uint32_t slot : mesh.faces_of(node)) {
-      const auto& [p, q, r] = mesh.face(slot);
-      sum += cross(mesh.position(q) - mesh.position(p), mesh.position(r) - mesh.position(p));
-    }
-    const double length = norm(sum);
-    return length > 0.0 ? sum / length : sum;
-  };
-  const Vec3d pa = mesh.position(a), pb = mesh.position(b), along = pb - pa, na = normal(a), nb = normal(b);
-  const std::array<std::uint32_t, 4> corners = {a, b, k, l};
-  MeshChange out;
-  out.gone = faces_around(mesh, corners);
-  for (const std::uint32_t slot : out.gone)
-    if (slot != left && slot != right) out.fresh.push_back(mesh.face(slot));
-  out.fresh.insert(out.fresh.end(), {{a, m, k}, {m, b, k}, {b, m, l}, {m, a, l}});
-  for (const std::uint32_t node : corners) out.placed.push_back({node, mesh.position(node)});
-  out.placed.push_back({m, (pa + pb) * 0.5 + (nb * dot(along, nb) - na * dot(along, na)) * 0.125});
-  if (!give_volume_back(mesh, out)) return std::nullopt;
-  return out;
-}
-
 std::optional<MeshChange> flip_edge(const LiveMesh& mesh, std::uint32_t a, std::uint32_t b) {
   const std::uint32_t left = *mesh.face_with(a, b), right = *mesh.face_with(b, a);
   const std::uint32_t k = third_corner(mesh.face(left), a, b), l = third_corner(mesh.face(right), a, b);

@@ -11,10 +11,6 @@ namespace morula {
 /// A new node in the middle of an edge; the surface stays what it is.
 MeshChange split_edge(const LiveMesh& mesh, std::uint32_t a, std::uint32_t b);
 
-/// A new node where a surface that stands upright on the normals of both ends would be in the middle of the edge (PN triangles: Vlachos et al. 2001,
-/// doi:10.1145/364338.364387); the volume is given back by it and the corners of both faces. A finer mesh of a bent surface has less area for its volume.
-std::optional<MeshChange> bulge_edge(const LiveMesh& mesh, std::uint32_t a, std::uint32_t b);
-
 /// The edge between the other two corners of both faces in place of a–b; none where these have an edge already, or where a node would keep fewer than
 /// three. The volume of the tetrahedron in between is given back by all four nodes, each along its ∂V/∂x.
 std::optional<MeshChange> flip_edge(const LiveMesh& mesh, std::uint32_t a, std::uint32_t b);

@@ -108,11 +108,8 @@ class Pass {
   void split_long_edges() {
     for (const Ends& e : edges_by([&](const Ends& one) { return kLong - length(one) / wanted(one); })) {
       if (mesh_.node_count() + 1 > limits_.most_nodes * limits_.nodes) return;
-      const auto bulged = bulge_edge(mesh_, e.first, e.second);
       const double between = wanted(e);
-      wanted_.push_back(between);
-      if (bulged && make(*bulged, report.splits)) continue;
-      if (!make(split_edge(mesh_, e.first, e.second), report.splits)) wanted_.pop_back();
+      if (make(split_edge(mesh_, e.first, e.second), report.splits)) wanted_.push_back(between);
     }
   }
 

@@ -26,14 +26,12 @@ inline std::optional<MeshChange> random_change(const LiveMesh& mesh, std::mt1993
   const auto edges = mesh.edges();
   const auto [a, b] = edges[engine() % edges.size()];
   const Vec3d pa = mesh.position(a), pb = mesh.position(b), middle = (pa + pb) * 0.5;
-  switch (engine() % 5) {
+  switch (engine() % 4) {
     case 0:
       return split_edge(mesh, a, b);
     case 1:
-      return bulge_edge(mesh, a, b);
-    case 2:
       return flip_edge(mesh, a, b);
-    case 3:
+    case 2:
       return collapse_edge(mesh, a, b, middle);
     default:
       return slide_node(mesh, a, pa + (pb - pa) * 0.2);
