@@ -55,7 +55,7 @@ TEST(TriggerValues, CellsThatArePackedTightlyBecomeShells) {
                "initial:\n  - {type: cell, at: [[-5.1 um, 0 um, 0 um], [5.1 um, 0 um, 0 um]]}\n"
                "coupling: {triggers: [{promote: packing > " +
                    promote + ", demote: packing < 0.1 %, hold: 10 min}]}\noutput: {report: false}\nlimits: {overlap: 5 um}\n",
-               0.0)
+               1.0)
         ->tissue()
         .shells.size();
   };
