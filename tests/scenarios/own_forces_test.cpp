@@ -141,7 +141,8 @@ TEST_F(OwnForces, ValuesOfTriggersDecideWhoIsAShell) {
   EXPECT_EQ(shells.back(), 2.0);
   EXPECT_THAT(file("age", "events.jsonl"), HasSubstr("time_alive"));
   EXPECT_THAT(file("age", "methods.md"), HasSubstr("Age of a cell"));
-  EXPECT_THAT(explain("triggers.promote"), HasSubstr("`pressure`, `outside_law`, `age`, `contact_share`, `time_alive` or a field"));
+  EXPECT_THAT(explain("triggers.promote"),
+              HasSubstr("`pressure`, `pressure_rise`, `packing`, `outside_law`, `age`, `contact_share`, `time_alive` or a field"));
   const auto wrong =
       read(one_cell("coupling: {triggers: [{promote: time_alive > 1 kPa, demote: time_alive < 30 s}]}\n", "sphere"), options());
   ASSERT_FALSE(wrong.ok());
