@@ -122,6 +122,14 @@ TEST_F(DivisionRun, FollowsThePolarityOfTheCell) {
   }
 }
 
+TEST_F(DivisionRun, StaysWithinALayer) {
+  // Across the normal of a tilted layer, whatever the axis is within it.
+  run_whole(one_shell("axis: across_direction, direction: [1, 2, -2]", "31 min"), "layer");
+  const Snapshot end = last_of("layer");
+  ASSERT_EQ(end.cells.size(), 2u);
+  EXPECT_LT(std::abs(dot(normalized(end.cells[0].centroid - end.cells[1].centroid), Vec3d{1.0, 2.0, -2.0} / 3.0)), 0.1);
+}
+
 TEST_F(DivisionRun, WaitsWhereTheStudySaysSo) {
   run_whole(one_shell("shells: wait", "40 min"), "waits");
   EXPECT_EQ(column("waits", "cell_count").back(), 1.0);
