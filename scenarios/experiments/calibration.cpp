@@ -29,22 +29,21 @@ void remark_on_range(Calibration& out) {
 /// What only the root does, once all runs are there: the fit of JKR, and of a table.
 class Fitting {
  public:
-  Fitting(const Study& study, Calibration& out) : out_(out), points_(out.data.points) {
+  Fitting(const Study& study, const SpheresInPackings& places, Calibration& out) : out_(out), places_(places), points_(out.data.points) {
     options_.poisson = std::ranges::find(study.model.types, out.material.type, &CellType::name)->sphere.poisson;
     options_.seed = study.model.seed;
   }
 
   Status jkr() {
     calibrate::Data& points = out_.data.points;
-    const SpheresInPackings places(out_.material, out_.data.packings);
     const auto make = [&](const calibrate::Data& now) -> Result<TrialLaw> {
       MORULA_TRY_ASSIGN(const calibrate::Fit fit, calibrate::fit(now, options_));
       return trial(fit);
     };
-    MORULA_TRY(fit_in_turns(points, options_.weights, make, places));
+    MORULA_TRY(fit_in_turns(points, options_.weights, make, places_));
     MORULA_TRY_ASSIGN(out_.sure, calibrate::fit_with_confidence(points, options_));
     const TrialLaw law = trial(out_.sure.fit);
-    MORULA_TRY(places.place(law, true, points));
+    MORULA_TRY(places_.place(law, true, points));
     out_.misfit = calibrate::misfit_share(points, out_.sure.fit);
     out_.held_out = calibrate::held_out_errors(points, law.pair, law.sphere.packing, out_.sure.fit.pull_off(1.0));
     remark_on_range(out_);
@@ -59,15 +58,14 @@ class Fitting {
     }
     FittedTable one{.table = std::move(found).value(), .packing = {}, .held_out = {}, .exponent = {}};
     const calibrate::PairModel pair = calibrate::table_model(one.table);
-    const SpheresInPackings places(out_.material, out_.data.packings);
     const auto make = [&](const calibrate::Data& now) -> Result<TrialLaw> {
       one.packing = calibrate::fit_curve(now, pair, options_);
       return trial(one, pair);
     };
-    MORULA_TRY(fit_in_turns(points_, options_.weights, make, places));
+    MORULA_TRY(fit_in_turns(points_, options_.weights, make, places_));
     if (!points_.packings.empty()) one.packing = calibrate::fit_curve(points_, pair, options_);
     const TrialLaw law = trial(one, pair);
-    MORULA_TRY(places.place(law, true, points_));
+    MORULA_TRY(places_.place(law, true, points_));
     one.held_out = calibrate::held_out_errors(points_, pair, law.sphere.packing, out_.sure.fit.pull_off(1.0));
     one.exponent = calibrate::force_exponent(points_, one.table);
     out_.table = std::move(one);
@@ -92,13 +90,15 @@ class Fitting {
   }
 
   Calibration& out_;
+  const SpheresInPackings& places_;
   calibrate::Data points_;  // for the table, whose spheres lie elsewhere
   calibrate::FitOptions options_;
 };
 
 Status fit_on_root(const Study& study, Calibration& out) {
   MORULA_TRY_ASSIGN(out.data, data_of_runs(out.experiments, out.outcomes));
-  Fitting fitting(study, out);
+  MORULA_TRY_ASSIGN(const auto places, SpheresInPackings::read(out.material, out.data.packings));
+  Fitting fitting(study, places, out);
   MORULA_TRY(fitting.jkr());
   return fitting.table();
 }

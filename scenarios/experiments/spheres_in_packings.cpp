@@ -30,14 +30,12 @@ struct Rest {
   std::vector<Vec3d> centers;
 };
 
-Result<Rest> rest_of_spheres(const CellMaterial& material, const TrialLaw& law, const FoundPacking& packing) {
-  const auto study = read_study_text("spheres", study_of_spheres(material, packing.centers, packing.edge), {});
-  if (!study.ok()) return Error{ErrorKind::kInternal, "the study of spheres in a packing is refused: " + study.error().text(), ""};
-  Model model = study->model;
-  model.types[0].sphere = law.sphere;
-  if (material.adhesion > 0.0) model.types[0].sphere.adhesion_factor = law.adhesion / material.adhesion;
+/// Lets the spheres of a study in a cube of this edge [µm] come to rest, with these parameters.
+Result<Rest> rest_of_spheres(const Study& study, double edge, double radius, const cbm::SphereParameters& sphere) {
+  Model model = study.model;
+  model.types[0].sphere = sphere;
   ShapeLibrary shapes;
-  MORULA_TRY_ASSIGN(InitialTissue initial, make_tissue(*study, shapes, Comm()));
+  MORULA_TRY_ASSIGN(InitialTissue initial, make_tissue(study, shapes, Comm()));
   MORULA_TRY_ASSIGN(auto simulation, Simulation::create(std::move(model), std::move(initial.tissue), Comm(), 1));
   MORULA_TRY(simulation->first_swaps());
   Rest out;
@@ -48,10 +46,10 @@ Result<Rest> rest_of_spheres(const CellMaterial& material, const TrialLaw& law, 
     out.centers = simulation->centers();
     double way = 0.0;
     for (std::size_t i = 0; i < before.size(); ++i) way = std::max(way, norm(out.centers[i] - before[i]));
-    if (way > kAtRest * material.radius || simulation->tissue().clock.time - time < kAtRestStep) continue;
+    if (way > kAtRest * radius || simulation->tissue().clock.time - time < kAtRestStep) continue;
     const BodyValues values = simulation->values();
     for (std::size_t i = 0; i < values.pressure.size(); ++i) out.pressure += values.stressed_volume[i] * values.pressure[i];
-    out.pressure /= std::pow(packing.edge, 3.0);
+    out.pressure /= std::pow(edge, 3.0);
     return out;
   }
   return Error{ErrorKind::kPhysics, "spheres in a random packing find no rest", "calibrate with `--pairs-only`"};
@@ -59,12 +57,28 @@ Result<Rest> rest_of_spheres(const CellMaterial& material, const TrialLaw& law, 
 
 }  // namespace
 
+Result<SpheresInPackings> SpheresInPackings::read(const CellMaterial& material, std::span<const FoundPacking> packings) {
+  SpheresInPackings out;
+  out.adhesion_ = material.adhesion;
+  for (const FoundPacking& packing : packings) {
+    std::optional<Start>& start = out.starts_.emplace_back();
+    if (packing.centers.empty()) continue;
+    auto study = read_study_text("spheres", study_of_spheres(material, packing.centers, packing.edge), {});
+    if (!study.ok()) return Error{ErrorKind::kInternal, "the study of spheres in a packing is refused: " + study.error().text(), ""};
+    start = Start{std::move(study).value(), packing.edge};
+  }
+  return out;
+}
+
 Status SpheresInPackings::place(const TrialLaw& law, bool held_out, calibrate::Data& data) const {
-  for (std::size_t k = 0; k < packings_.size(); ++k) {
+  cbm::SphereParameters sphere = law.sphere;
+  if (adhesion_ > 0.0) sphere.adhesion_factor = law.adhesion / adhesion_;
+  for (std::size_t k = 0; k < starts_.size(); ++k) {
     PackingPoint& point = data.packings[k];
-    if (point.arrangement != Arrangement::kRandom || point.held_out != held_out) continue;
-    MORULA_TRY_ASSIGN(const Rest rest, rest_of_spheres(material_, law, packings_[k]));
-    point.random = calibrate::geometry_of_places(rest.centers, packings_[k].edge, point.radius);
+    if (!starts_[k] || point.held_out != held_out) continue;
+    const auto& [study, edge] = *starts_[k];
+    MORULA_TRY_ASSIGN(const Rest rest, rest_of_spheres(study, edge, point.radius, sphere));
+    point.random = calibrate::geometry_of_places(rest.centers, edge, point.radius);
     point.random.extra = rest.pressure - pressure_by(law, point);
   }
   return {};

@@ -1,11 +1,14 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "cbm/spheres.h"
 #include "core/result.h"
 #include "scenarios/calibrate/loss.h"
 #include "scenarios/experiments/found_curves.h"
+#include "study/study.h"
 
 namespace morula::scenarios {
 
@@ -20,8 +23,8 @@ struct TrialLaw {
 /// places are found in turns (decision 0056).
 class SpheresInPackings {
  public:
-  /// `packings`: those of Data::packings, in their order; they and the material outlive this.
-  SpheresInPackings(const CellMaterial& material, std::span<const FoundPacking> packings) : material_(material), packings_(packings) {}
+  /// `packings`: those of Data::packings, in their order; those without centres are no random ones. Errors (kInternal): a study of such spheres is refused.
+  static Result<SpheresInPackings> read(const CellMaterial& material, std::span<const FoundPacking> packings);
 
   /// Puts spheres of a law where the shells of the random packings are, those that are held out or those that are not, and lets them come to rest. Points get
   /// the places, with which the law tells the pressure of these spheres. Errors: kPhysics,
@@ -29,8 +32,13 @@ class SpheresInPackings {
   Status place(const TrialLaw& law, bool held_out, calibrate::Data& data) const;
 
  private:
-  const CellMaterial& material_;
-  std::span<const FoundPacking> packings_;
+  /// Spheres where the shells of a packing are.
+  struct Start {
+    Study study;
+    double edge = 0.0;  ///< of the box [µm]
+  };
+  double adhesion_ = 0.0;                     // of the shells [nN/µm]
+  std::vector<std::optional<Start>> starts_;  // of the random packings
 };
 
 /// Makes a law that fits the points, lets spheres of the law find their places, makes it anew with these, and so on, until two turns in a row bring the

@@ -108,4 +108,19 @@ SurfaceDistance surface_distance(const AskedSurface& first, const AskedSurface& 
   return out;
 }
 
+Result<SurfaceAmongWalls> SurfaceAmongWalls::of(const SurfaceView& surface, std::span<const SurfaceView> walls) {
+  const auto faces = surface.topology->faces();
+  const Vec3d center = volume_centroid(faces, surface.position);
+  const double volume = enclosed_volume(faces, surface.position, center);
+  if (!(volume > 0.0) || !std::isfinite(volume))
+    return Error{ErrorKind::kInput, "the surface encloses no volume", "its faces must point outwards"};
+  return SurfaceAmongWalls{AskedSurface(surface), {walls.begin(), walls.end()}, center, volume};
+}
+
+std::vector<const AskedSurface*> SurfaceAmongWalls::walls() const {
+  std::vector<const AskedSurface*> out;
+  for (const AskedSurface& one : around) out.push_back(&one);
+  return out;
+}
+
 }  // namespace morula

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/mesh/renewal/surface_view.h"
@@ -43,6 +44,20 @@ class AskedSurface {
   TriangleTree tree_;
   std::vector<Vec3d> normals_;
   double area_ = 0.0;
+};
+
+/// A closed surface that is to get another mesh, and the surfaces around it that the new one keeps out of.
+struct SurfaceAmongWalls {
+  /// Topologies must outlive it. Error (kInput): the surface encloses no volume.
+  static Result<SurfaceAmongWalls> of(const SurfaceView& surface, std::span<const SurfaceView> walls);
+
+  AskedSurface surface;
+  std::vector<AskedSurface> around;
+  Vec3d center{};       ///< of volume of the surface [µm]
+  double volume = 0.0;  ///< that it encloses [µm³]
+
+  /// Of `around`, as long as this stays where it is.
+  [[nodiscard]] std::vector<const AskedSurface*> walls() const;
 };
 
 /// A point of a surface that stands for a part of its area.

@@ -42,22 +42,15 @@ double elongation(const SurfaceView& surface) {
 
 Result<RenewedSurface> onto_ball(const SurfaceView& surface, std::span<const SurfaceView> neighbours, const ReferenceShape& shape,
                                  const RenewalLimits& limits) {
-  const auto faces = surface.topology->faces();
-  const Vec3d center = volume_centroid(faces, surface.position);
-  const double volume = enclosed_volume(faces, surface.position, center);
-  if (!(volume > 0.0) || !std::isfinite(volume))
-    return Error{ErrorKind::kInput, "the surface encloses no volume", "its faces must point outwards"};
-  const AskedSurface old(surface);
-  std::vector<AskedSurface> asked(neighbours.begin(), neighbours.end());
-  std::vector<const AskedSurface*> walls;
-  for (const AskedSurface& one : asked) walls.push_back(&one);
+  MORULA_TRY_ASSIGN(const auto old, SurfaceAmongWalls::of(surface, neighbours));
   std::vector<SurfacePlace> start;
   for (const Vec3d& x : shape.position) {
-    const auto place = last_hit(old, center, normalized(x));
+    const auto place = last_hit(old.surface, old.center, normalized(x));
     if (!place) return Error{ErrorKind::kPhysics, "a ray from the centroid does not meet the surface", "the shape is no ball yet"};
     start.push_back(*place);
   }
-  return renew_by_ladder(old, walls, *shape.topology, start, volume, limits, "the mesh of the library does not hold this surface");
+  return renew_by_ladder(old.surface, old.walls(), *shape.topology, start, old.volume, limits,
+                         "the mesh of the library does not hold this surface");
 }
 
 }  // namespace morula

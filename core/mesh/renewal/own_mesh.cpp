@@ -273,16 +273,9 @@ double least_angle(std::span<const Triangle> faces, std::span<const Vec3d> posit
 }
 
 Result<OwnMesh> renew_connectivity(const SurfaceView& surface, std::span<const SurfaceView> neighbours, const OwnMeshLimits& limits) {
-  const auto faces = surface.topology->faces();
-  const double volume = enclosed_volume(faces, surface.position, volume_centroid(faces, surface.position));
-  if (!(volume > 0.0) || !std::isfinite(volume))
-    return Error{ErrorKind::kInput, "the surface encloses no volume", "its faces must point outwards"};
-  const AskedSurface old(surface);
-  std::vector<AskedSurface> asked(neighbours.begin(), neighbours.end());
-  std::vector<const AskedSurface*> walls;
-  for (const AskedSurface& one : asked) walls.push_back(&one);
-
-  Pass pass(old, walls, limits);
+  MORULA_TRY_ASSIGN(const auto old, SurfaceAmongWalls::of(surface, neighbours));
+  const auto walls = old.walls();
+  Pass pass(old.surface, walls, limits);
   pass.run();
   if (pass.report.changes() == 0)
     return Error{ErrorKind::kPhysics, "no change of this mesh would make it more even within its limits", "more nodes may help"};
@@ -291,7 +284,7 @@ Result<OwnMesh> renew_connectivity(const SurfaceView& surface, std::span<const S
   MORULA_TRY_ASSIGN(out.topology, Topology::build(static_cast<std::uint32_t>(mesh.position.size()), std::move(mesh.faces)));
   out.position = std::move(mesh.position);
   out.report = pass.report;
-  measure(old, out);
+  measure(old.surface, out);
   return out;
 }
 

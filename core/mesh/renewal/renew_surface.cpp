@@ -76,17 +76,12 @@ Error no_mesh_holds(const std::string& what, const RenewalReport& best, const Re
 
 Result<RenewedSurface> redistribute(const SurfaceView& surface, std::span<const SurfaceView> neighbours, const RenewalLimits& limits) {
   const Topology& topology = *surface.topology;
-  const double volume = enclosed_volume(topology.faces(), surface.position, volume_centroid(topology.faces(), surface.position));
-  if (!(volume > 0.0) || !std::isfinite(volume))
-    return Error{ErrorKind::kInput, "the surface encloses no volume", "its faces must point outwards"};
-  const AskedSurface old(surface);
-  std::vector<AskedSurface> asked(neighbours.begin(), neighbours.end());
-  std::vector<const AskedSurface*> walls;
-  for (const AskedSurface& one : asked) walls.push_back(&one);
+  MORULA_TRY_ASSIGN(const auto old, SurfaceAmongWalls::of(surface, neighbours));
   std::vector<SurfacePlace> start;
   for (std::uint32_t n = 0; n < topology.node_count(); ++n) start.push_back({topology.faces_of_node(n)[0], surface.position[n]});
 
-  return renew_by_ladder(old, walls, topology, start, volume, limits, "the nodes of this surface cannot be redistributed");
+  return renew_by_ladder(old.surface, old.walls(), topology, start, old.volume, limits,
+                         "the nodes of this surface cannot be redistributed");
 }
 
 }  // namespace morula
