@@ -48,7 +48,8 @@ std::vector<Vec3d> Mechanics::random_forces(const Tissue& tissue, double dt) {
 double Mechanics::relax(Tissue& tissue, std::span<const char> moves) { return relax_in_place(*work_, tissue, moves); }
 
 std::vector<Vec3d> Mechanics::spread(const Tissue& tissue, std::span<const Vec3d> by_body) {
-  (void)prepare(*work_, tissue);
+  prepare_scene(*work_, tissue);
+  work_->geometry.update(work_->scene, work_->setting.threads, work_->timer);
   const Scene& scene = work_->scene;
   const SurfaceGeometry& geometry = work_->geometry.now();
   std::vector<Vec3d> out(external_size(tissue));

@@ -281,7 +281,7 @@ Result<StepReport, StepFault> NewtonStep::run(Evaluation at_start) {
   }
   const auto way = [&](std::uint32_t i) { return work_.scene.position()[i] - start()[i]; };
   report_.displacement = points.largest_of(way);
-  report_.way = std::max(points.largest_way_of_body(way), report_.displacement * allowed_.of_body / allowed_.of_point);
+  report_.way = std::max(points.way_of_bodies(way), report_.displacement * allowed_.of_body / allowed_.of_point);
   if ((cut || report_.way > kFurtherThanAllowed * allowed_.of_body) && task_.dt > kShortestCut)
     return undo({"points moved too far in one step", {}, true});
   finish_step(work_, tissue_, task_, now_->energy, report_);

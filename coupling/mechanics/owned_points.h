@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -58,10 +59,16 @@ struct OwnedPoints {
     for_inner([&](std::uint32_t i) { most = std::max(most, norm2(vector(i))); });
     return std::sqrt(comm.max(most));
   }
-  /// Largest of all bodies and ranks. That of a body is 1.7 times the mean (Σ |vector|⁴/n)^(1/4) over its points, and no more than the largest of them:
-  /// where a tenth of them go, or all, it is theirs; one of 162 that goes alone counts half (decision 0052). Collective.
+  /// How far a tissue goes, of all ranks: the larger of what its shells and what its spheres do. A mean weighs what is far more than what is many, and
+  /// is never more than the largest: 1.7 (Σ way⁴/n)^(1/4). That over the points is the way of a body, and that over the ways of bodies the way of all:
+  /// where a tenth of them go, or all, it is the largest; one of 162 that goes alone counts half (decisions 0052, 0058). Collective.
   template <class Vector>
-  [[nodiscard]] double largest_way_of_body(const Vector& vector) const {
+  [[nodiscard]] double way_of_bodies(const Vector& vector) const {
+    struct Kind {
+      OrderFreeSum sum{}, count{};
+      double largest = 0.0;  ///< all three of fourth powers
+      void add(double fourth) { sum.add(fourth), count.add(1.0), largest = std::max(largest, fourth); }
+    };
     constexpr double kTimes4 = 1.7 * 1.7 * 1.7 * 1.7;
     const auto fourth_power = [&](std::uint32_t first, std::uint32_t count) {
       double sum = 0.0, largest = 0.0;
@@ -72,15 +79,23 @@ struct OwnedPoints {
       }
       return std::min(kTimes4 * sum / count, largest);
     };
-    std::vector<double> by_thread(static_cast<std::size_t>(threads), 0.0);
+    std::vector<std::array<Kind, 2>> by_thread(static_cast<std::size_t>(threads));  // shells and what is in them, spheres
     for_bodies([&](std::size_t t, const ContactBody& body) {
-      by_thread[t] = std::max(by_thread[t], fourth_power(body.first_point, body.point_count));
+      by_thread[t][body.shape == BodyShape::kSurface ? 0 : 1].add(fourth_power(body.first_point, body.point_count));
     });
-    double most = 0.0;
-    for (const double here : by_thread) most = std::max(most, here);
     for (const Scene::Inner& inner : scene.inner())
-      if (scene.bodies()[inner.shell].active()) most = std::max(most, fourth_power(inner.first_point, inner.point_count));
-    return std::sqrt(std::sqrt(comm.max(most)));
+      if (scene.bodies()[inner.shell].active()) by_thread[0][0].add(fourth_power(inner.first_point, inner.point_count));
+    double most = 0.0;
+    for (std::size_t kind = 0; kind < 2; ++kind) {
+      Kind all;
+      for (const auto& one : by_thread) {
+        all.sum += one[kind].sum, all.count += one[kind].count;
+        all.largest = std::max(all.largest, one[kind].largest);
+      }
+      const double count = comm.sum(all.count), mean = kTimes4 * comm.sum(all.sum) / std::max(count, 1.0);
+      most = std::max(most, std::min(mean, comm.max(all.largest)));
+    }
+    return std::sqrt(std::sqrt(most));
   }
   template <class Vectors>
   [[nodiscard]] double largest(const Vectors& by_point) const {

@@ -95,7 +95,7 @@ void SphereContacts::set_element(SpherePairElement& element, const cbm::PairBloc
 
 void SphereContacts::measure(const World& world) {
   if (list_number_ != surfaces_.list_number()) {
-    set_pairs(world.scene, world.tissue);
+    set_pairs(world);
     list_number_ = surfaces_.list_number();
   }
   if (!packing_.acts) return;

@@ -23,8 +23,9 @@ class SphereContacts : public Term {
 
   void bodies_changed(const World&) override { sisters_.clear(), young_.clear(); }  // their pairs are those of bodies that are no more
   void bodies_replaced(const World& world, const BodyChanges& changes) override;
-  /// Rest distances of young sisters at the present radii and time.
-  void parameters_changed(const World& world) override { update_sisters(world.scene, world.tissue.clock.time); }
+  /// Rest distances of young sisters at the present radii, and at the time of the world: within a step its end.
+  void parameters_changed(const World& world) override { update_sisters(world.scene, world.time); }
+  [[nodiscard]] bool varies_with_time() const override { return !sisters_.empty(); }
   /// New candidates if the surfaces' layer has some, and the pressures of packing, which surfaces feel, too.
   void measure(const World& world) override;
   /// Forces, energy and pressures, and the elements of the matrix.
@@ -113,9 +114,9 @@ class SphereContacts : public Term {
   [[nodiscard]] PackingForce packing_force(const Scene& scene, const SpherePair& pair, double distance) const;
   void share_pressures(const Scene& scene, std::span<const double> slopes, std::span<const Penetration> others, const Comm& comm);
   [[nodiscard]] const ContactLayer& layer() const { return surfaces_.layer(); }
-  void set_pairs(const Scene& scene, const Tissue& tissue);
+  void set_pairs(const World& world);
   void find_packing(const Scene& scene, std::span<const Penetration> penetration, const Comm& comm);
-  void find_sisters(const Scene& scene, const Tissue& tissue);
+  void find_sisters(const World& world);
   void update_sisters(const Scene& scene, double now);
   void find_rigid_pairs(const Scene& scene, const Tissue& tissue);
   /// Adds the pairs of an owned sphere with obstacles. `rubs`: those of the step's start, which go on to its end.
@@ -130,7 +131,7 @@ class SphereContacts : public Term {
   void add_pairs(const Scene& scene, const std::vector<SphereNeighbours>& found);
   template <class Now>
   void renumber_rigid_pairs(const Scene& scene, const Tissue& tissue, const Now& now, const std::vector<char>& young);
-  void add_sisters(const Scene& scene, const Tissue& tissue, std::span<const std::uint32_t> pairs);
+  void add_sisters(const World& world, std::span<const std::uint32_t> pairs);
   /// Notes which spheres have other partners in the tissue than in the list: of these, and of those that have more or fewer.
   void look_for_lost(const Scene& scene, const Tissue& tissue, std::vector<char> suspects);
   /// The stretches of a share in which a sphere is marked.

@@ -17,7 +17,9 @@ CellId SphereContacts::partner_id(const Scene& scene, std::uint32_t sphere) cons
   return scene.bodies()[scene.first_sphere() + sphere].id;
 }
 
-void SphereContacts::set_pairs(const Scene& scene, const Tissue& tissue) {
+void SphereContacts::set_pairs(const World& world) {
+  const Scene& scene = world.scene;
+  const Tissue& tissue = world.tissue;
   std::vector<SpherePair> old_pairs;
   std::vector<SpherePairElement> old_elements;
   if (friction_is_frozen_) {
@@ -46,7 +48,7 @@ void SphereContacts::set_pairs(const Scene& scene, const Tissue& tissue) {
   for (SpherePair& pair : list_.pairs) pair.attached = are_attached(scene, tissue, pair);
   find_rigid_pairs(scene, tissue);
   count_partners(scene, tissue);
-  find_sisters(scene, tissue);
+  find_sisters(world);
 }
 
 bool SphereContacts::are_attached(const Scene& scene, const Tissue& tissue, const SpherePair& pair) const {
@@ -154,16 +156,17 @@ bool SphereContacts::sisters_in(const Scene& scene, const SpherePair& pair) cons
   return cbm::are_sisters(partner_id(scene, pair.a), partner_id(scene, pair.b));
 }
 
-void SphereContacts::find_sisters(const Scene& scene, const Tissue& tissue) {
+void SphereContacts::find_sisters(const World& world) {
+  const Scene& scene = world.scene;
   sisters_.clear();
   std::vector<Scene::Birth> birth;
   for (std::uint32_t k = 0; k < list_.pairs.size(); ++k) {
     const SpherePair pair = list_.pairs[k];
     if (!sisters_in(scene, pair)) continue;
-    if (birth.empty()) birth = scene.sphere_births(tissue);
+    if (birth.empty()) birth = scene.sphere_births(world.tissue);
     sisters_.push_back({k, birth[pair.a].radius, birth[pair.b].radius, birth[pair.a].time, 0.0});
   }
-  update_sisters(scene, tissue.clock.time);
+  update_sisters(scene, world.time);
 }
 
 void SphereContacts::write_partners(const Scene& scene, const std::vector<char>& marked, Tissue& tissue) const {

@@ -50,7 +50,7 @@ void SphereContacts::bodies_replaced(const World& world, const BodyChanges& chan
   renumber_rigid_pairs(scene, world.tissue, now, young);
   for (auto& flips : flips_) flips.clear();
   look_for_lost(scene, world.tissue, std::move(suspects));
-  add_sisters(scene, world.tissue, of_young);
+  add_sisters(world, of_young);
 }
 
 template <class Now>
@@ -136,7 +136,8 @@ void SphereContacts::look_for_lost(const Scene& scene, const Tissue& tissue, std
   }
 }
 
-void SphereContacts::add_sisters(const Scene& scene, const Tissue& tissue, std::span<const std::uint32_t> of_young) {
+void SphereContacts::add_sisters(const World& world, std::span<const std::uint32_t> of_young) {
+  const Scene& scene = world.scene;
   std::vector<std::uint32_t> pairs, spheres;
   for (const std::uint32_t k : of_young)
     if (sisters_in(scene, list_.pairs[k])) pairs.push_back(k);
@@ -144,7 +145,7 @@ void SphereContacts::add_sisters(const Scene& scene, const Tissue& tissue, std::
   for (const std::uint32_t k : pairs) spheres.insert(spheres.end(), {list_.pairs[k].a, list_.pairs[k].b});
   std::ranges::sort(spheres);
   spheres.erase(std::ranges::unique(spheres).begin(), spheres.end());
-  const std::vector<Scene::Birth> births = scene.sphere_births(tissue, spheres);
+  const std::vector<Scene::Birth> births = scene.sphere_births(world.tissue, spheres);
   const auto birth = [&](std::uint32_t sphere) {
     return births[static_cast<std::size_t>(std::ranges::lower_bound(spheres, sphere) - spheres.begin())];
   };
@@ -153,7 +154,7 @@ void SphereContacts::add_sisters(const Scene& scene, const Tissue& tissue, std::
     sisters_.push_back({k, a.radius, b.radius, a.time, 0.0});
   }
   std::ranges::sort(sisters_, {}, &Sisters::pair);
-  update_sisters(scene, tissue.clock.time);
+  update_sisters(scene, world.time);
 }
 
 }  // namespace morula

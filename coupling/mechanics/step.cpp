@@ -183,10 +183,9 @@ StepFault undo_step(Workspace& work, std::span<const Vec3d> start, StepFault fau
 Result<StepReport, StepFault> advance(Workspace& work, Tissue& tissue, StepTask task) {
   const double end = tissue.clock.time + task.dt;
   const auto varies = [](const auto& term) { return term->varies_with_time(); };
-  if (task.settling == nullptr && end != work.prescribed_time && std::any_of(work.terms.all.begin(), work.terms.all.end(), varies)) {
-    work.prescribed_time = end;
+  if (task.settling == nullptr && std::exchange(work.prescribed_time, end) != end &&
+      work.setting.comm.any(std::ranges::any_of(work.terms.all, varies)))
     work.known.reset();
-  }
   (void)prepare_step(work, tissue, task.settling);
   Evaluation now{work.known->energy, std::move(*work.known->force)};
   work.known.reset();  // whatever comes of the step, the tissue will be another

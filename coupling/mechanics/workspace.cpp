@@ -183,7 +183,7 @@ Evaluation evaluate(Workspace& work, const Tissue& tissue, std::vector<Vec3d> ro
   return {work.setting.comm.sum(out.energy), std::move(room)};
 }
 
-const Known& prepare(Workspace& work, const Tissue& tissue, const Settling* settling) {
+void prepare_scene(Workspace& work, const Tissue& tissue, const Settling* settling) {
   const Comm& comm = work.setting.comm;
   const SceneNeed need = need_of_all(need_of_scene(work, tissue), comm);
   if (need != SceneNeed::kNothing) build_scene(work, tissue, settling, need == SceneNeed::kMend && settling == nullptr);
@@ -192,6 +192,10 @@ const Known& prepare(Workspace& work, const Tissue& tissue, const Settling* sett
     work.terms.contacts->forget();
     work.known.reset();
   }
+}
+
+const Known& prepare(Workspace& work, const Tissue& tissue, const Settling* settling) {
+  prepare_scene(work, tissue, settling);
   if (work.known) return *work.known;
   work.terms.contacts->set_strength(strength_now(work.setting.model, tissue.clock, settling));
   work.terms.contacts->set_offsets(tissue.obstacle_offset);

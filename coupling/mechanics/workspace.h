@@ -113,6 +113,8 @@ struct Workspace {
   [[nodiscard]] Vec3d external_on(const StepTask& task, std::uint32_t point) const;
 };
 
+/// The scene at the positions of the tissue, as far as it is not there: where only places are asked for. Collective.
+void prepare_scene(Workspace& work, const Tissue& tissue, const Settling* settling = nullptr);
 /// Let the workspace know the tissue: scene, lists, and an evaluation at its positions, as far as they are not known. Collective.
 const Known& prepare(Workspace& work, const Tissue& tissue, const Settling* settling = nullptr);
 /// The same with forces that nobody has used up, and friction that is that of a step which begins now. Collective.
