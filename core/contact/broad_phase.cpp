@@ -6,6 +6,8 @@
 #include <numeric>
 #include <vector>
 
+#include "core/parallel/threads.h"
+
 namespace morula {
 namespace {
 
@@ -82,31 +84,31 @@ struct BinnedBodies {
   std::vector<std::uint32_t> begin;
   std::vector<Member> members;
 
-  BinnedBodies(const BinGrid& grid, std::span<const Extent> extents, std::span<const std::uint32_t> place, const Space& space)
+  BinnedBodies(const BinGrid& grid, std::span<const Extent> extents, std::span<const std::uint32_t> place, const Space& space, int threads)
       : begin(grid.size() + 1, 0), members(extents.size()) {
-    const auto bin_of = [&](const Extent& e) { return grid.index(grid.bin_of(space.wrapped(e.center))); };
-    for (const Extent& e : extents) ++begin[bin_of(e) + 1];
+    std::vector<std::uint32_t> bin(extents.size());
+    parallel_for(threads, extents.size(),
+                 [&](std::size_t i) { bin[i] = static_cast<std::uint32_t>(grid.index(grid.bin_of(space.wrapped(extents[i].center)))); });
+    for (const std::uint32_t at : bin) ++begin[at + 1];
     for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
     std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-    for (std::uint32_t i = 0; i < extents.size(); ++i)
-      members[next[bin_of(extents[i])]++] = {extents[i].center, extents[i].radius, i, place[i]};
+    for (std::uint32_t i = 0; i < extents.size(); ++i) members[next[bin[i]]++] = {extents[i].center, extents[i].radius, i, place[i]};
   }
 };
 
-}  // namespace
+/// Looks for the pairs of one body.
+struct PairSearch {
+  std::span<const Extent> extents;
+  std::span<const std::uint32_t> place;
+  std::span<const char> owned;
+  const Space& space;
+  const BinGrid& grid;
+  const BinnedBodies& bins;
 
-void find_body_pairs(std::span<const Extent> extents, std::span<const std::uint32_t> place, std::span<const char> owned, const Space& space,
-                     const std::function<void(const BodyPair&)>& found) {
-  if (extents.empty()) return;
-  const BinGrid grid(extents, space);
-  const BinnedBodies bins(grid, extents, place, space);
-  std::vector<std::uint32_t> by_place(extents.size());
-  for (std::size_t i = 0; i < extents.size(); ++i) by_place[place[i]] = static_cast<std::uint32_t>(i);
-
-  const bool periodic = space.any_periodic();
-  std::vector<BodyPair> of_body;
-  for (const std::uint32_t i : by_place) {
-    of_body.clear();
+  /// Adds the pairs of body i with bodies of later places, in the order of these.
+  void add_pairs_of(std::uint32_t i, std::vector<BodyPair>& out) const {
+    const bool periodic = space.any_periodic();
+    const std::size_t before = out.size();
     const Extent& mine = extents[i];
     const auto look_at = [&](const Member& other) {
       if (other.place <= place[i] || !(owned[i] || owned[other.body])) return;
@@ -115,7 +117,7 @@ void find_body_pairs(std::span<const Extent> extents, std::span<const std::uint3
       if (norm2(nearest) > reach * reach) return;
       const Vec3d shift = periodic ? nearest - direct : Vec3d{};
       const Box& box = extents[other.body].box;
-      if (mine.box.overlaps({box.low + shift, box.high + shift})) of_body.push_back({i, other.body, shift});
+      if (mine.box.overlaps({box.low + shift, box.high + shift})) out.push_back({i, other.body, shift});
     };
     const Bin bin = grid.bin_of(space.wrapped(mine.center));
     std::array<std::array<int, 3>, 3> near{};
@@ -131,8 +133,35 @@ void find_body_pairs(std::span<const Extent> extents, std::span<const std::uint3
           for (std::uint32_t k = bins.begin[from]; k < bins.begin[to]; ++k) look_at(bins.members[k]);
           x = last + 1;
         }
-    std::sort(of_body.begin(), of_body.end(), [&](const BodyPair& a, const BodyPair& b) { return place[a.b] < place[b.b]; });
-    for (const BodyPair& pair : of_body) found(pair);
+    std::sort(out.begin() + static_cast<std::ptrdiff_t>(before), out.end(),
+              [&](const BodyPair& a, const BodyPair& b) { return place[a.b] < place[b.b]; });
+  }
+};
+
+/// Bodies whose pairs are kept before they are told.
+constexpr std::size_t kAtOnce = 1u << 14;
+
+}  // namespace
+
+void find_body_pairs(std::span<const Extent> extents, std::span<const std::uint32_t> place, std::span<const char> owned, const Space& space,
+                     int threads, const std::function<void(const BodyPair&)>& found) {
+  if (extents.empty()) return;
+  const BinGrid grid(extents, space);
+  const BinnedBodies bins(grid, extents, place, space, threads);
+  std::vector<std::uint32_t> by_place(extents.size());
+  for (std::size_t i = 0; i < extents.size(); ++i) by_place[place[i]] = static_cast<std::uint32_t>(i);
+
+  const PairSearch search{extents, place, owned, space, grid, bins};
+  const auto count = static_cast<std::size_t>(std::max(threads, 1));
+  std::vector<std::vector<BodyPair>> by_thread(count);
+  for (std::size_t first = 0; first < by_place.size(); first += kAtOnce) {
+    const std::size_t bodies = std::min(kAtOnce, by_place.size() - first);
+    on_each_thread(threads, [&](std::size_t t) {
+      by_thread[t].clear();
+      for (std::size_t k = bodies * t / count; k < bodies * (t + 1) / count; ++k) search.add_pairs_of(by_place[first + k], by_thread[t]);
+    });
+    for (const std::vector<BodyPair>& pairs : by_thread)
+      for (const BodyPair& pair : pairs) found(pair);
   }
 }
 
@@ -141,7 +170,7 @@ void find_ball_pairs(std::span<const Ball> balls, const Space& space, const std:
   for (const Ball& ball : balls) extents.push_back({Box{ball.center, ball.center}.inflated(ball.radius), ball.center, ball.radius});
   std::vector<std::uint32_t> place(balls.size());
   std::iota(place.begin(), place.end(), 0u);
-  find_body_pairs(extents, place, std::vector<char>(balls.size(), 1), space, found);
+  find_body_pairs(extents, place, std::vector<char>(balls.size(), 1), space, 1, found);
 }
 
 std::vector<std::uint32_t> bodies_near(std::span<const std::uint32_t> some, std::size_t count,

@@ -25,9 +25,10 @@ struct BodyPair {
 /// Calls found(pair) for all pairs whose boxes and balls overlap, at least one of the two owned, in canonical order (place of a, place of b).
 ///
 /// `place` is the canonical place of each body, a permutation. Bodies are binned by their centres into a grid as wide as the largest
-/// body, so that the cost grows with the number of bodies. On periodic axes the nearest image counts.
+/// body, so that the cost grows with the number of bodies. On periodic axes the nearest image counts. `threads` look for them; found() is called by
+/// one thread alone.
 void find_body_pairs(std::span<const Extent> extents, std::span<const std::uint32_t> place, std::span<const char> owned, const Space& space,
-                     const std::function<void(const BodyPair&)>& found);
+                     int threads, const std::function<void(const BodyPair&)>& found);
 
 /// A ball around a body, already inflated by half the reach of its contacts.
 struct Ball {
@@ -35,7 +36,7 @@ struct Ball {
   double radius = 0.0;
 };
 
-/// The same for all pairs of balls that overlap, in the order of their numbers; here the balls are the bodies.
+/// The same for all pairs of balls that overlap, in the order of their numbers, by one thread; here the balls are the bodies.
 void find_ball_pairs(std::span<const Ball> balls, const Space& space, const std::function<void(const BodyPair&)>& found);
 
 /// Numbers of the bodies that lie near one of `some`, increasing: all that may touch one of them, themselves and a few more. Goes over all bodies twice,

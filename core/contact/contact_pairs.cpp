@@ -129,7 +129,7 @@ void ContactLayer::add_body_pairs(const ContactScene& scene, const Space& space,
       extents.push_back(extent_of(scene, i));
     }
   }
-  find_body_pairs(extents, place, counts, space, [&](const BodyPair& found) {
+  find_body_pairs(extents, place, counts, space, settings_.threads, [&](const BodyPair& found) {
     const std::uint32_t a = number.empty() ? found.a : number[found.a], b = number.empty() ? found.b : number[found.b];
     const ContactBody &first = scene.bodies[a], &second = scene.bodies[b];
     if (!first.owned && !second.owned) return;

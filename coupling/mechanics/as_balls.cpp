@@ -63,7 +63,7 @@ void add_pairs_with_shells(const Workspace& work, const Balls& balls, Standings&
   const auto number = [&](std::uint32_t body) {  // among the owned ones
     return body < scene.first_sphere() ? body : body - scene.first_sphere() + scene.owned_shells();
   };
-  find_body_pairs(balls.extent, balls.place, balls.owned, work.setting.model.space, [&](const BodyPair& pair) {
+  find_body_pairs(balls.extent, balls.place, balls.owned, work.setting.model.space, work.setting.threads, [&](const BodyPair& pair) {
     if (pair.a >= scene.first_sphere() && pair.b >= scene.first_sphere()) return;
     const Extent &first = balls.extent[pair.a], &second = balls.extent[pair.b];
     const double distance = norm(second.center + pair.shift - first.center), overlap = first.radius + second.radius - distance;

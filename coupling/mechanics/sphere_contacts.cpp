@@ -428,21 +428,26 @@ std::size_t SphereContacts::memory() const {
 
 void SphereFriction::begin_step(const World& world, StepStart& start) {
   const cbm::Spheres& spheres = world.tissue.spheres;
-  for (std::size_t i = 0; i < spheres.size(); ++i) {
+  parallel_for(world.threads, spheres.size(), [&](std::size_t i) {
     const double r = spheres.radius[i];
     start.point_friction[i] = static_cast<float>(world.model.types[spheres.type[i]].medium_friction * 4.0 * std::numbers::pi * r * r);
-  }
+  });
   medium_ = start.point_friction.first(spheres.size());
 }
 
 void SphereFriction::add_friction(const World& world, const Way& way, std::span<Vec3d> out, OrderFreeSum& quadratic) {
   if (!way.moved) return;
-  for (std::size_t i = 0; i < medium_.size(); ++i) {
-    const std::size_t point = world.scene.sphere_point() + i;
-    const Vec3d d = way.position[point] - way.start[point];
-    out[point] += d * static_cast<double>(medium_[i]);
-    quadratic.add(static_cast<double>(medium_[i]) * norm2(d));
-  }
+  const auto threads = static_cast<std::size_t>(std::max(1, world.threads));
+  std::vector<OrderFreeSum> sums(threads);
+  on_each_thread(world.threads, [&](std::size_t t) {
+    for (std::size_t i = medium_.size() * t / threads; i < medium_.size() * (t + 1) / threads; ++i) {
+      const std::size_t point = world.scene.sphere_point() + i;
+      const Vec3d d = way.position[point] - way.start[point];
+      out[point] += d * static_cast<double>(medium_[i]);
+      sums[t].add(static_cast<double>(medium_[i]) * norm2(d));
+    }
+  });
+  for (const OrderFreeSum& sum : sums) quadratic += sum;
   contacts_.pairs().add_friction(way.start, way.position, out, quadratic);
 }
 

@@ -15,10 +15,10 @@ void start_from_last_velocities(Workspace& work, const Tissue& tissue) {
     const Vec3f& v = tissue.shells.velocity[i];
     out[i] = {v.x, v.y, v.z, 0.0f};
   });
-  for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i) {
+  parallel_for(work.setting.threads, tissue.spheres.velocity.size(), [&](std::size_t i) {
     const Vec3f& v = tissue.spheres.velocity[i];
     out[work.scene.sphere_point() + i] = {v.x, v.y, v.z, 0.0f};
-  }
+  });
 }
 
 bool fluctuates(const Model& model) {
@@ -151,8 +151,9 @@ void finish_step(Workspace& work, Tissue& tissue, const StepTask& task, double e
   const auto velocity = [&](std::size_t point, const Vec3d& start) { return to_float((scene.position()[point] - start) * rate); };
   parallel_for(work.setting.threads, tissue.shells.velocity.size(),
                [&](std::size_t i) { tissue.shells.velocity[i] = velocity(i, tissue.shells.position[i]); });
-  for (std::size_t i = 0; i < tissue.spheres.velocity.size(); ++i)
+  parallel_for(work.setting.threads, tissue.spheres.velocity.size(), [&](std::size_t i) {
     tissue.spheres.velocity[i] = velocity(scene.sphere_point() + i, tissue.spheres.position[i]);
+  });
   for (std::size_t i = 0; i < tissue.nuclei.shells.velocity.size(); ++i)
     tissue.nuclei.shells.velocity[i] = velocity(scene.nuclear_node() + i, tissue.nuclei.shells.position[i]);
   report.motion = common_motion(work, tissue);

@@ -23,6 +23,13 @@ std::vector<PlacedPacking> placed(const Data& data) {
   return out;
 }
 
+/// What a law of pairs says of the data; the knots have no part in it.
+struct OfPairs {
+  double modulus = 0.0, adhesion = 0.0;
+  std::vector<double> residuals;  ///< of pairs
+  std::vector<double> pressures;  ///< in packings, without what a curve adds [kPa]
+};
+
 struct Loss {
   std::vector<PairPoint> pairs;
   std::vector<PlacedPacking> packings;
@@ -30,25 +37,38 @@ struct Loss {
   LossWeights weights;
   DataScales scales;
   std::vector<cbm::PackingKnot> knots;
+  mutable OfPairs last;  ///< most searches and differences change the knots alone
 
-  void add_pairs(double modulus, double adhesion, std::vector<double>& out) const {
+  [[nodiscard]] std::vector<double> pressures_by(const PairModel& pair) const {
+    std::vector<double> out;
+    for (const PlacedPacking& packing : packings) out.push_back(pair_pressure(packing.at, packing.point.radius, pair));
+    return out;
+  }
+
+  /// JKR on all points.
+  [[nodiscard]] const OfPairs& pairs_by(double modulus, double adhesion) const {
+    if (modulus == last.modulus && adhesion == last.adhesion) return last;
+    last = {modulus, adhesion, {}, {}};
     for (const PairPoint& point : pairs) {
       const double r = point.reduced_radius();
       const PairAnswer law = jkr_pair(modulus, adhesion, r, point.overlap, scales.stiffness);
-      out.push_back((point.force - law.force) /
-                    (weights.force_floor * scales.pull_off * r + weights.force_relative * std::abs(point.force)));
+      last.residuals.push_back((point.force - law.force) /
+                               (weights.force_floor * scales.pull_off * r + weights.force_relative * std::abs(point.force)));
       if (std::isfinite(point.area) && scales.area > 0.0)
-        out.push_back(std::sqrt(weights.area) * (point.area - law.area) / (weights.area_floor * scales.area * r * r));
+        last.residuals.push_back(std::sqrt(weights.area) * (point.area - law.area) / (weights.area_floor * scales.area * r * r));
     }
+    last.pressures = pressures_by([&](double overlap, double r) { return jkr_pair(modulus, adhesion, r, overlap, scales.stiffness); });
+    return last;
   }
 
   /// With the knots of the parameters, which rise.
-  void add_packings(const PairModel& pair, std::span<const cbm::PackingKnot> risen, std::vector<double>& out) const {
+  void add_packings(std::span<const double> of_pairs, std::span<const cbm::PackingKnot> risen, std::vector<double>& out) const {
     const Result<cbm::PackingCurve> through = cbm::PackingCurve::through(risen);
     assert(through.ok());
     const cbm::PackingCurve& curve = through.value();
-    for (const PlacedPacking& packing : packings) {
-      const double p = pair_pressure(packing.at, packing.point.radius, pair) + curve_pressure(packing.at, curve);
+    for (std::size_t k = 0; k < packings.size(); ++k) {
+      const PlacedPacking& packing = packings[k];
+      const double p = of_pairs[k] + curve_pressure(packing.at, curve);
       out.push_back(std::sqrt(weights.packing) * (packing.point.pressure - p) /
                     (weights.pressure_floor + weights.pressure_relative * std::abs(packing.point.pressure)));
     }
@@ -60,12 +80,9 @@ struct Loss {
 
   void operator()(std::span<const double> logarithms, std::vector<double>& out) const {
     const Parameters parameters = Parameters::of(logarithms, knots);
-    const double modulus = pair_modulus(parameters.young, poisson), adhesion = parameters.adhesion;
-    out.clear();
-    add_pairs(modulus, adhesion, out);
-    if (packings.empty()) return;
-    const auto pair = [&](double overlap, double r) { return jkr_pair(modulus, adhesion, r, overlap, scales.stiffness); };
-    add_packings(pair, parameters.knots, out);
+    const OfPairs& by_law = pairs_by(pair_modulus(parameters.young, poisson), parameters.adhesion);
+    out = by_law.residuals;
+    if (!packings.empty()) add_packings(by_law.pressures, parameters.knots, out);
   }
 };
 
@@ -133,11 +150,13 @@ LeastSquares loss_of_curve(const Data& data, const PairModel& pair, const LossWe
   LeastSquares out;
   out.low.assign(knots.size() - 1, std::log(Bounds::kIncrement[0]));
   out.high.assign(knots.size() - 1, std::log(Bounds::kIncrement[1]));
-  out.residuals = [loss = std::move(loss), pair](std::span<const double> increments, std::vector<double>& residuals) {
+  std::vector<double> of_pairs = loss.pressures_by(pair);
+  out.residuals = [loss = std::move(loss), of_pairs = std::move(of_pairs)](std::span<const double> increments,
+                                                                           std::vector<double>& residuals) {
     std::vector<double> all{0.0, 0.0};
     all.insert(all.end(), increments.begin(), increments.end());
     residuals.clear();
-    loss.add_packings(pair, Parameters::of(all, loss.knots).knots, residuals);
+    loss.add_packings(of_pairs, Parameters::of(all, loss.knots).knots, residuals);
   };
   return out;
 }
