@@ -59,26 +59,36 @@ ExchangeWatch watch_exchanges(const Model& model, const Tissue& tissue, std::spa
   out.around = neighbourhoods_of(tissue, model, mechanics.contacts().settings(), exchanging, kAround, comm);
   GatheredParts(tissue, out.around, mechanics, shapes, comm)
       .visit([&](std::span<const CellId> cells, Tissue& part, Mechanics& alone, const Comm& together) {
-        const std::vector<Vec3d> force = alone.net_forces(part);
-        const std::vector<double> caps = alone.as_balls(part).caps;
+        const auto bodies = bodies_of(part.cells);
         std::vector<ExchangingCell> exchanged;
-        for (const BodyOfRow& body : bodies_of(part.cells)) {
+        for (const BodyOfRow& body : bodies) {
           const CellRow& row = part.cells.rows[body.row];
           if (!std::ranges::binary_search(cells, row.id)) continue;
           exchanged.push_back({row.id, record_of(part, body).center(), radius_of(row.target_volume)});
-          out.caps.push_back({row.id, caps[body.place(part.shells.size())]});
         }
         exchanged = items_of_all_ranks(exchanged, together);
         std::ranges::sort(exchanged, {}, &ExchangingCell::id);
-        for (const BodyOfRow& body : bodies_of(part.cells)) {
+        std::vector<std::pair<std::size_t, ExchangeWatch::Beside>> beside;  // with the body's place
+        std::vector<char> is_beside(part.cells.size(), 0);
+        for (const BodyOfRow& body : bodies) {
           const CellRow& row = part.cells.rows[body.row];
           if (std::ranges::binary_search(cells, row.id)) continue;
           const double radius = radius_of(row.target_volume);
           const Vec3d center = record_of(part, body).center();
+          const std::size_t place = body.place(part.shells.size());
           for (const ExchangingCell& other : exchanged)
             if (norm(model.space.nearest_image(other.center - center)) < kBeside * (radius + other.radius))
-              out.beside.push_back({other.id, row.id, center, radius, force[body.place(part.shells.size())]});
+              beside.push_back({place, {other.id, row.id, center, radius, {}}}), is_beside[place] = 1;
         }
+        const std::vector<Vec3d> force = alone.net_forces(part, is_beside);
+        for (auto& [place, neighbour] : beside) {
+          neighbour.force = force[place];
+          out.beside.push_back(neighbour);
+        }
+        const std::vector<double> caps = alone.as_balls(part).caps;
+        for (const BodyOfRow& body : bodies)
+          if (const CellId id = part.cells.rows[body.row].id; std::ranges::binary_search(cells, id))
+            out.caps.push_back({id, caps[body.place(part.shells.size())]});
       });
   out.caps = items_of_all_ranks(out.caps, comm);
   std::ranges::sort(out.caps, {}, &ExchangeWatch::Caps::id);
@@ -90,10 +100,17 @@ void tell_exchanges(const ExchangeWatch& watch, Tissue& tissue, const Mechanics&
   std::vector<Told> all;
   GatheredParts(tissue, watch.around, mechanics, shapes, comm)
       .visit([&](std::span<const CellId> cells, Tissue& part, Mechanics& alone, const Comm&) {
-        const std::vector<Vec3d> force = alone.net_forces(part);
+        const auto bodies = bodies_of(part.cells);
+        std::set<CellId> neighbours;
+        for (const ExchangeWatch::Beside& one : watch.beside)
+          if (std::ranges::binary_search(cells, one.exchanged)) neighbours.insert(one.neighbour);
+        std::vector<char> is_beside(part.cells.size(), 0);
+        for (const BodyOfRow& body : bodies) is_beside[body.place(part.shells.size())] = neighbours.contains(part.cells.rows[body.row].id);
+        const std::vector<Vec3d> force = alone.net_forces(part, is_beside);
         std::map<CellId, Vec3d> now;
-        for (const BodyOfRow& body : bodies_of(part.cells))
-          now.emplace(part.cells.rows[body.row].id, force[body.place(part.shells.size())]);
+        for (const BodyOfRow& body : bodies)
+          if (const std::size_t place = body.place(part.shells.size()); is_beside[place])
+            now.emplace(part.cells.rows[body.row].id, force[place]);
         for (const ExchangeWatch::Beside& beside : watch.beside)  // one may be beside cells of two neighbourhoods
           if (std::ranges::binary_search(cells, beside.exchanged))
             all.push_back({{beside.exchanged, beside.neighbour, tissue.clock.time, 0, 0.0, beside.place, beside.radius},

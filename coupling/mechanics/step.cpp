@@ -151,9 +151,8 @@ void finish_step(Workspace& work, Tissue& tissue, const StepTask& task, double e
   const auto velocity = [&](std::size_t point, const Vec3d& start) { return to_float((scene.position()[point] - start) * rate); };
   parallel_for(work.setting.threads, tissue.shells.velocity.size(),
                [&](std::size_t i) { tissue.shells.velocity[i] = velocity(i, tissue.shells.position[i]); });
-  parallel_for(work.setting.threads, tissue.spheres.velocity.size(), [&](std::size_t i) {
-    tissue.spheres.velocity[i] = velocity(scene.sphere_point() + i, tissue.spheres.position[i]);
-  });
+  parallel_for(work.setting.threads, tissue.spheres.velocity.size(),
+               [&](std::size_t i) { tissue.spheres.velocity[i] = velocity(scene.sphere_point() + i, tissue.spheres.position[i]); });
   for (std::size_t i = 0; i < tissue.nuclei.shells.velocity.size(); ++i)
     tissue.nuclei.shells.velocity[i] = velocity(scene.nuclear_node() + i, tissue.nuclei.shells.position[i]);
   report.motion = common_motion(work, tissue);
