@@ -34,6 +34,18 @@ struct Told {
   double force_change = 0.0;  ///< [nN]
 };
 
+/// The forces on the neighbours of exchanges in a part. Collective over the ranks of `mechanics`.
+std::map<CellId, Vec3d> forces_on(std::span<const ExchangeWatch::Beside> beside, const Tissue& part, Mechanics& mechanics) {
+  std::map<CellId, Vec3d> out;
+  for (const ExchangeWatch::Beside& one : beside) out[one.neighbour] = {};
+  std::vector<char> wanted(part.cells.size(), 0);
+  for (const BodyOfRow& body : bodies_of(part.cells)) wanted[body.place(part.shells.size())] = out.contains(part.cells.rows[body.row].id);
+  const std::vector<Vec3d> force = mechanics.net_forces_on(part, wanted);
+  for (const BodyOfRow& body : bodies_of(part.cells))
+    if (const std::size_t place = body.place(part.shells.size()); wanted[place]) out[part.cells.rows[body.row].id] = force[place];
+  return out;
+}
+
 /// `watched` in groups of the same exchange: function(first, last).
 template <class Items, class Key, class F>
 void for_each_exchange(const Items& items, Key&& key, F&& function) {
@@ -59,34 +71,31 @@ ExchangeWatch watch_exchanges(const Model& model, const Tissue& tissue, std::spa
   out.around = neighbourhoods_of(tissue, model, mechanics.contacts().settings(), exchanging, kAround, comm);
   GatheredParts(tissue, out.around, mechanics, shapes, comm)
       .visit([&](std::span<const CellId> cells, Tissue& part, Mechanics& alone, const Comm& together) {
-        const auto bodies = bodies_of(part.cells);
         std::vector<ExchangingCell> exchanged;
-        for (const BodyOfRow& body : bodies) {
+        for (const BodyOfRow& body : bodies_of(part.cells)) {
           const CellRow& row = part.cells.rows[body.row];
           if (!std::ranges::binary_search(cells, row.id)) continue;
           exchanged.push_back({row.id, record_of(part, body).center(), radius_of(row.target_volume)});
         }
         exchanged = items_of_all_ranks(exchanged, together);
         std::ranges::sort(exchanged, {}, &ExchangingCell::id);
-        std::vector<std::pair<std::size_t, ExchangeWatch::Beside>> beside;  // with the body's place
-        std::vector<char> is_beside(part.cells.size(), 0);
-        for (const BodyOfRow& body : bodies) {
+        std::vector<ExchangeWatch::Beside> beside;
+        for (const BodyOfRow& body : bodies_of(part.cells)) {
           const CellRow& row = part.cells.rows[body.row];
           if (std::ranges::binary_search(cells, row.id)) continue;
           const double radius = radius_of(row.target_volume);
           const Vec3d center = record_of(part, body).center();
-          const std::size_t place = body.place(part.shells.size());
           for (const ExchangingCell& other : exchanged)
             if (norm(model.space.nearest_image(other.center - center)) < kBeside * (radius + other.radius))
-              beside.push_back({place, {other.id, row.id, center, radius, {}}}), is_beside[place] = 1;
+              beside.push_back({other.id, row.id, center, radius, {}});
         }
-        const std::vector<Vec3d> force = alone.net_forces(part, is_beside);
-        for (auto& [place, neighbour] : beside) {
-          neighbour.force = force[place];
-          out.beside.push_back(neighbour);
+        const std::map<CellId, Vec3d> force = forces_on(beside, part, alone);
+        for (ExchangeWatch::Beside& one : beside) {
+          one.force = force.at(one.neighbour);
+          out.beside.push_back(one);
         }
         const std::vector<double> caps = alone.as_balls(part).caps;
-        for (const BodyOfRow& body : bodies)
+        for (const BodyOfRow& body : bodies_of(part.cells))
           if (const CellId id = part.cells.rows[body.row].id; std::ranges::binary_search(cells, id))
             out.caps.push_back({id, caps[body.place(part.shells.size())]});
       });
@@ -100,21 +109,13 @@ void tell_exchanges(const ExchangeWatch& watch, Tissue& tissue, const Mechanics&
   std::vector<Told> all;
   GatheredParts(tissue, watch.around, mechanics, shapes, comm)
       .visit([&](std::span<const CellId> cells, Tissue& part, Mechanics& alone, const Comm&) {
-        const auto bodies = bodies_of(part.cells);
-        std::set<CellId> neighbours;
+        std::vector<ExchangeWatch::Beside> beside;  // one may be beside cells of two neighbourhoods
         for (const ExchangeWatch::Beside& one : watch.beside)
-          if (std::ranges::binary_search(cells, one.exchanged)) neighbours.insert(one.neighbour);
-        std::vector<char> is_beside(part.cells.size(), 0);
-        for (const BodyOfRow& body : bodies) is_beside[body.place(part.shells.size())] = neighbours.contains(part.cells.rows[body.row].id);
-        const std::vector<Vec3d> force = alone.net_forces(part, is_beside);
-        std::map<CellId, Vec3d> now;
-        for (const BodyOfRow& body : bodies)
-          if (const std::size_t place = body.place(part.shells.size()); is_beside[place])
-            now.emplace(part.cells.rows[body.row].id, force[place]);
-        for (const ExchangeWatch::Beside& beside : watch.beside)  // one may be beside cells of two neighbourhoods
-          if (std::ranges::binary_search(cells, beside.exchanged))
-            all.push_back({{beside.exchanged, beside.neighbour, tissue.clock.time, 0, 0.0, beside.place, beside.radius},
-                           norm(now.at(beside.neighbour) - beside.force)});
+          if (std::ranges::binary_search(cells, one.exchanged)) beside.push_back(one);
+        const std::map<CellId, Vec3d> now = forces_on(beside, part, alone);
+        for (const ExchangeWatch::Beside& one : beside)
+          all.push_back(
+              {{one.exchanged, one.neighbour, tissue.clock.time, 0, 0.0, one.place, one.radius}, norm(now.at(one.neighbour) - one.force)});
       });
   all = items_of_all_ranks(all, comm);
   std::ranges::sort(all, {}, [](const Told& t) { return std::pair(t.watched.exchanged, t.watched.neighbour); });

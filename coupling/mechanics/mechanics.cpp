@@ -104,13 +104,15 @@ double Mechanics::energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& fo
   return known.energy;
 }
 
-std::vector<Vec3d> Mechanics::net_forces(const Tissue& tissue, std::span<const char> wanted) {
+std::vector<Vec3d> Mechanics::net_forces_on(const Tissue& tissue, std::span<const char> wanted) {
+  const Settling others_held{{wanted.begin(), wanted.end()}};
+  work_->age.reset();
+  prepare_scene(*work_, tissue, &others_held);
+  return net_forces(tissue);
+}
+
+std::vector<Vec3d> Mechanics::net_forces(const Tissue& tissue) {
   std::vector<Vec3d> force;
-  if (!wanted.empty()) {  // the others are held, and the scene is not for anything else
-    const Settling of_wanted{{wanted.begin(), wanted.end()}, strength_now(work_->setting.model, tissue.clock)};
-    work_->age.reset();
-    prepare_scene(*work_, tissue, &of_wanted);
-  }
   (void)energy_and_forces(tissue, force);
   std::vector<Vec3d> out;
   for (std::size_t s = 0; s < tissue.shells.size(); ++s) {

@@ -122,8 +122,9 @@ class Mechanics {
   double energy_and_forces(const Tissue& tissue, std::vector<Vec3d>& force);
 
   /// The sum of the forces of all terms on the points of each owned body (shells, then spheres) at the tissue's positions [nN]. Collective.
-  /// `wanted`: by owned body, those that count, all without it; what acts between two others is not looked at, nor told.
-  std::vector<Vec3d> net_forces(const Tissue& tissue, std::span<const char> wanted = {});
+  std::vector<Vec3d> net_forces(const Tissue& tissue);
+  /// The same where only those on the owned bodies with wanted[body] != 0 count: contacts of two others are not looked at. Collective.
+  std::vector<Vec3d> net_forces_on(const Tissue& tissue, std::span<const char> wanted);
 
   /// Parameters of the single-cell mechanics by cell type.
   [[nodiscard]] std::span<const dcm::ShellParameters> shell_parameters() const;

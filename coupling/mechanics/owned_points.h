@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "core/parallel/comm.h"
@@ -65,9 +66,10 @@ struct OwnedPoints {
   template <class Vector>
   [[nodiscard]] double way_of_bodies(const Vector& vector) const {
     struct Kind {
-      OrderFreeSum sum{}, count{};
-      double largest = 0.0;  ///< all three of fourth powers
-      void add(double fourth) { sum.add(fourth), count.add(1.0), largest = std::max(largest, fourth); }
+      OrderFreeSum sum{};
+      double largest = 0.0;  ///< both of fourth powers
+      std::int64_t count = 0;
+      void add(double fourth) { sum.add(fourth), largest = std::max(largest, fourth), ++count; }
     };
     constexpr double kTimes4 = 1.7 * 1.7 * 1.7 * 1.7;
     const auto fourth_power = [&](std::uint32_t first, std::uint32_t count) {
@@ -85,16 +87,20 @@ struct OwnedPoints {
     });
     for (const Scene::Inner& inner : scene.inner())
       if (scene.bodies()[inner.shell].active()) by_thread[0][0].add(fourth_power(inner.first_point, inner.point_count));
-    double most = 0.0;
-    for (std::size_t kind = 0; kind < 2; ++kind) {
-      Kind all;
-      for (const auto& one : by_thread) {
-        all.sum += one[kind].sum, all.count += one[kind].count;
-        all.largest = std::max(all.largest, one[kind].largest);
+    OrderFreeSum sum[2];
+    double largest[2] = {0.0, 0.0}, total[2];
+    std::int64_t count[2] = {0, 0};
+    for (const auto& one : by_thread)
+      for (std::size_t kind = 0; kind < 2; ++kind) {
+        sum[kind] += one[kind].sum, count[kind] += one[kind].count;
+        largest[kind] = std::max(largest[kind], one[kind].largest);
       }
-      const double count = comm.sum(all.count), mean = kTimes4 * comm.sum(all.sum) / std::max(count, 1.0);
-      most = std::max(most, std::min(mean, comm.max(all.largest)));
-    }
+    comm.sum(sum, total);
+    comm.sum(count);
+    double most = 0.0;
+    for (std::size_t kind = 0; kind < 2; ++kind)
+      if (count[kind] > 0)
+        most = std::max(most, std::min(kTimes4 * total[kind] / static_cast<double>(count[kind]), comm.max(largest[kind])));
     return std::sqrt(std::sqrt(most));
   }
   template <class Vectors>

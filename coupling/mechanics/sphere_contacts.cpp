@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "cbm/division_ramp.h"
 #include "cbm/sphere_range.h"
 #include "core/parallel/threads.h"
 #include "coupling/mechanics/contact_setup.h"
@@ -34,17 +33,6 @@ SphereContacts::SphereContacts(const Model& model, SurfaceContacts& surfaces)
     }
   list_.set_friction(std::move(friction), table_.type_count());
   for (const CellType& type : model_.types) packing_.acts = packing_.acts || !type.sphere.packing.empty();
-}
-
-void SphereContacts::update_sisters(const Scene& scene, double now) {
-  const auto spheres = scene.bodies().subspan(scene.first_sphere());
-  for (Sisters& s : sisters_) {
-    const ContactBody &a = spheres[list_.pairs[s.pair].a], &b = spheres[list_.pairs[s.pair].b];
-    const cbm::PairContact& contact = table_.entry(a.material, b.material).contact;
-    const double rest =
-        contact.law->rest_overlap != nullptr ? contact.law->rest_overlap(contact, cbm::reduced_radius(a.radius, b.radius)) : 0.0;
-    s.offset = cbm::sister_overlap_offset(rest, a.radius, b.radius, s.birth_radius_a, s.birth_radius_b, now - s.birth_time);
-  }
 }
 
 template <class Wanted, class Sink, class FarAway>
@@ -320,22 +308,6 @@ void SphereContacts::mark_other_partners(const Scene& scene, const Tissue& tissu
     for (const CellId partner : tissue.spheres.attached[i]) listed.add(partner);
     if (listed != by_flags[i]) mark(i);
   }
-}
-
-bool SphereContacts::renew_sisters(const World& world) {
-  if (sisters_.empty()) return false;
-  const Scene& scene = world.scene;
-  const std::vector<Sisters> before = sisters_;
-  update_sisters(scene, world.tissue.clock.time);
-  std::vector<char> marked;
-  for (std::size_t s = 0; s < sisters_.size(); ++s) {
-    if (sisters_[s].offset == before[s].offset) continue;
-    if (marked.empty()) marked.assign(scene.bodies().size() - scene.first_sphere(), 0);
-    marked[list_.pairs[sisters_[s].pair].a] = marked[list_.pairs[sisters_[s].pair].b] = 1;
-  }
-  if (marked.empty()) return false;
-  refresh_values(scene, marked);
-  return true;
 }
 
 std::vector<SphereContacts::Pressing> SphereContacts::pressing(const Scene& scene) const {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "cbm/division_ramp.h"
 #include "coupling/mechanics/sphere_contacts.h"
 #include "coupling/partner_stretches.h"
 
@@ -150,23 +149,6 @@ void SphereContacts::find_rigid_pairs(const Scene& scene, const Tissue& tissue) 
     list_.rigid[static_cast<std::size_t>(std::lower_bound(rigid_.begin(), rigid_.end(), old[n], before) - rigid_.begin())] =
         old_elements[n];
   }
-}
-
-bool SphereContacts::sisters_in(const Scene& scene, const SpherePair& pair) const {
-  return cbm::are_sisters(partner_id(scene, pair.a), partner_id(scene, pair.b));
-}
-
-void SphereContacts::find_sisters(const World& world) {
-  const Scene& scene = world.scene;
-  sisters_.clear();
-  std::vector<Scene::Birth> birth;
-  for (std::uint32_t k = 0; k < list_.pairs.size(); ++k) {
-    const SpherePair pair = list_.pairs[k];
-    if (!sisters_in(scene, pair)) continue;
-    if (birth.empty()) birth = scene.sphere_births(world.tissue);
-    sisters_.push_back({k, birth[pair.a].radius, birth[pair.b].radius, birth[pair.a].time, 0.0});
-  }
-  update_sisters(scene, world.time);
 }
 
 void SphereContacts::write_partners(const Scene& scene, const std::vector<char>& marked, Tissue& tissue) const {

@@ -136,25 +136,4 @@ void SphereContacts::look_for_lost(const Scene& scene, const Tissue& tissue, std
   }
 }
 
-void SphereContacts::add_sisters(const World& world, std::span<const std::uint32_t> of_young) {
-  const Scene& scene = world.scene;
-  std::vector<std::uint32_t> pairs, spheres;
-  for (const std::uint32_t k : of_young)
-    if (sisters_in(scene, list_.pairs[k])) pairs.push_back(k);
-  std::erase_if(sisters_, [&](const Sisters& s) { return std::ranges::binary_search(pairs, s.pair); });
-  for (const std::uint32_t k : pairs) spheres.insert(spheres.end(), {list_.pairs[k].a, list_.pairs[k].b});
-  std::ranges::sort(spheres);
-  spheres.erase(std::ranges::unique(spheres).begin(), spheres.end());
-  const std::vector<Scene::Birth> births = scene.sphere_births(world.tissue, spheres);
-  const auto birth = [&](std::uint32_t sphere) {
-    return births[static_cast<std::size_t>(std::ranges::lower_bound(spheres, sphere) - spheres.begin())];
-  };
-  for (const std::uint32_t k : pairs) {
-    const Scene::Birth a = birth(list_.pairs[k].a), b = birth(list_.pairs[k].b);
-    sisters_.push_back({k, a.radius, b.radius, a.time, 0.0});
-  }
-  std::ranges::sort(sisters_, {}, &Sisters::pair);
-  update_sisters(scene, world.time);
-}
-
 }  // namespace morula

@@ -23,6 +23,16 @@ bool has_regional_adhesion(const Model& model) {
   return std::any_of(model.pairs.begin(), model.pairs.end(), [](const ContactPair& pair) { return !pair.regions.empty(); });
 }
 
+ContactStrength strength_now(const Model& model, const Clock& clock, const Settling* settling) {
+  ContactStrength out;
+  if (settling != nullptr) out = settling->strength;
+  if (!clock.capped)
+    out.cap = out.depth = 0.0;
+  else if (settling == nullptr)
+    out.cap = model.step.start_cap > 0.0 ? model.step.start_cap : kCapWithoutStart, out.depth = kCappedDepth;
+  return out;
+}
+
 /// What is to be done with the scene; of several ranks that which needs most decides.
 enum class SceneNeed { kNothing, kMend, kAnew };
 
@@ -101,16 +111,6 @@ void build_scene(Workspace& work, const Tissue& tissue, const Settling* settling
 }
 
 }  // namespace
-
-ContactStrength strength_now(const Model& model, const Clock& clock, const Settling* settling) {
-  ContactStrength out;
-  if (settling != nullptr) out = settling->strength;
-  if (!clock.capped)
-    out.cap = out.depth = 0.0;
-  else if (settling == nullptr)
-    out.cap = model.step.start_cap > 0.0 ? model.step.start_cap : kCapWithoutStart, out.depth = kCappedDepth;
-  return out;
-}
 
 AllowedWays allowed_ways(const Model& model) {
   constexpr double kFarPoint = 3.0;

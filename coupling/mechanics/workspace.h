@@ -113,8 +113,6 @@ struct Workspace {
   [[nodiscard]] Vec3d external_on(const StepTask& task, std::uint32_t point) const;
 };
 
-/// How contacts act at this time: in full, or as the capped start and settling cells ask for.
-ContactStrength strength_now(const Model& model, const Clock& clock, const Settling* settling = nullptr);
 /// The scene at the positions of the tissue, as far as it is not there: where only places are asked for. Collective.
 void prepare_scene(Workspace& work, const Tissue& tissue, const Settling* settling = nullptr);
 /// Let the workspace know the tissue: scene, lists, and an evaluation at its positions, as far as they are not known. Collective.

@@ -12,6 +12,7 @@
 #include "coupling/simulation.h"
 #include "coupling/swaps.h"
 #include "tests/coupling/crowded_nodes.h"
+#include "tests/coupling/tissue_fixture.h"
 #include "tests/fields/helpers.h"
 
 namespace morula {
@@ -152,6 +153,24 @@ TEST(TissueOnRanks, HasTheSameBitsAsOnOne) {
     EXPECT_EQ(amount[0], amount[1]);
   }
   expect_same(together, single);
+}
+
+/// Parts of a tissue may have no cell on some of the ranks that look at them: these take part all the same.
+TEST(TissueOnRanks, FindsTheForcesOnSomeWhereARankHasNobody) {
+  const Comm world(MPI_COMM_WORLD);
+  const Model model = morula::test::clusters_model();
+  ShapeLibrary shapes;
+  const std::vector<Vec3d> places{{0, 0, 0}, {11, 0, 0}, {22, 0, 0}, {33, 0, 0}};
+  const std::vector<BodyKind> bodies{BodyKind::kShell, BodyKind::kSphere, BodyKind::kShell, BodyKind::kSphere};
+  const Tissue whole = morula::test::make_tissue(model, shapes, places, bodies, 42), here = world.is_root() ? whole : Tissue{};
+  std::vector<char> wanted(here.cells.size(), 0);
+  if (world.is_root()) wanted[0] = 1;
+  Mechanics together(model, {}, shapes, world, 1), alone(model, {}, shapes, Comm(), 1);
+  const std::vector<Vec3d> some = together.net_forces_on(here, wanted), all = alone.net_forces(whole);
+  ASSERT_EQ(some.size(), here.cells.size());
+  if (!world.is_root()) return;
+  EXPECT_EQ(some[0], all[0]);
+  EXPECT_GT(norm(all[0]), 0.0);
 }
 
 /// Shells all over the tissue give way to spheres while their neighbours lie on other ranks: who adheres to whom comes from there.
