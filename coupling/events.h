@@ -53,6 +53,7 @@ struct ExchangeEffect {
   /// dV: how much more room the cell takes as a shell than as a sphere, whose ball overlaps its neighbours': the caps of the ball behind the
   /// planes of its contacts. Of a promotion > 0, of a demotion < 0 [µm³].
   double room = 0.0;
+  double later = 0.0;  ///< of `room`, what a new shell among shells takes little by little (decision 0059) [µm³]
   double largest_force = 0.0, mean_force = 0.0;  ///< change of the force on a neighbour before anyone has moved [nN]
   double largest_way = 0.0, mean_way = 0.0;      ///< of a neighbour from just before the exchange on, over its radius; of kExchangeSettled
 };

@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "cbm/laws/sphere_caps.h"
 #include "core/parallel/pack.h"
 #include "coupling/gathered_parts.h"
 #include "coupling/simulation.h"
@@ -34,6 +35,38 @@ struct Told {
   double force_change = 0.0;  ///< [nN]
 };
 
+/// A cell as the ball that it is, or would be.
+struct CellBall {
+  CellId id;
+  Vec3d center;
+  double radius = 0.0;
+};
+
+CellBall ball_of(const Tissue& part, const BodyOfRow& body) {
+  const CellRow& row = part.cells.rows[body.row];
+  return {row.id, record_of(part, body).center(), body.is_shell ? radius_of(row.target_volume) : part.spheres.radius[body.number]};
+}
+
+/// Who is a shell in a part when these have exchanged their bodies, by id. Collective.
+std::vector<CellBall> shells_to_be(const Tissue& part, std::span<const CellId> exchange, const Comm& comm) {
+  std::vector<CellBall> out;
+  for (const BodyOfRow& body : bodies_of(part.cells))
+    if (body.is_shell != std::ranges::binary_search(exchange, part.cells.rows[body.row].id)) out.push_back(ball_of(part, body));
+  out = items_of_all_ranks(out, comm);
+  std::ranges::sort(out, {}, &CellBall::id);
+  return out;
+}
+
+/// What a ball loses behind the planes in which it meets the others [µm³].
+double caps_with(std::span<const CellBall> others, const CellBall& ball, const Space& space) {
+  double out = 0.0;
+  for (const CellBall& other : others)
+    if (const double distance = norm(space.nearest_image(other.center - ball.center));
+        other.id != ball.id && distance < ball.radius + other.radius)
+      out += cbm::sphere_caps(ball.radius, other.radius, distance).volume_a;
+  return out;
+}
+
 /// The forces on the neighbours of exchanges in a part. Collective over the ranks of `mechanics`.
 std::map<CellId, Vec3d> forces_on(std::span<const ExchangeWatch::Beside> beside, const Tissue& part, Mechanics& mechanics) {
   std::map<CellId, Vec3d> out;
@@ -57,10 +90,13 @@ void for_each_exchange(const Items& items, Key&& key, F&& function) {
 
 }  // namespace
 
-double ExchangeWatch::caps_of(CellId id) const {
+ExchangeWatch::Caps ExchangeWatch::of(CellId id) const {
   const auto found = std::ranges::lower_bound(caps, id, {}, &Caps::id);
-  return found != caps.end() && found->id == id ? found->caps : 0.0;
+  return found != caps.end() && found->id == id ? *found : Caps{};
 }
+
+double ExchangeWatch::caps_of(CellId id) const { return of(id).caps; }
+double ExchangeWatch::caps_among_shells_of(CellId id) const { return of(id).among_shells; }
 
 ExchangeWatch watch_exchanges(const Model& model, const Tissue& tissue, std::span<const SwapOrder> orders, const Mechanics& mechanics,
                               ShapeLibrary& shapes, const Comm& comm) {
@@ -95,9 +131,13 @@ ExchangeWatch watch_exchanges(const Model& model, const Tissue& tissue, std::spa
           out.beside.push_back(one);
         }
         const std::vector<double> caps = alone.as_balls(part).caps;
-        for (const BodyOfRow& body : bodies_of(part.cells))
-          if (const CellId id = part.cells.rows[body.row].id; std::ranges::binary_search(cells, id))
-            out.caps.push_back({id, caps[body.place(part.shells.size())]});
+        const std::vector<CellBall> shells = shells_to_be(part, cells, together);
+        for (const BodyOfRow& body : bodies_of(part.cells)) {
+          const CellId id = part.cells.rows[body.row].id;
+          if (!std::ranges::binary_search(cells, id)) continue;
+          const double among_shells = body.is_shell ? 0.0 : caps_with(shells, ball_of(part, body), model.space);
+          out.caps.push_back({id, caps[body.place(part.shells.size())], among_shells});
+        }
       });
   out.caps = items_of_all_ranks(out.caps, comm);
   std::ranges::sort(out.caps, {}, &ExchangeWatch::Caps::id);

@@ -18,6 +18,7 @@ struct ExchangeWatch {
   struct Caps {
     CellId id;
     double caps = 0.0;
+    double among_shells = 0.0;  ///< of a new shell: those with what are shells after the exchange, as balls
   };
   /// A neighbour of a cell that exchanges its body: nearer than 1.2 times their radii as balls.
   struct Beside {
@@ -31,6 +32,10 @@ struct ExchangeWatch {
   std::vector<Beside> beside;  ///< of the neighbourhoods that this rank looks at
 
   [[nodiscard]] double caps_of(CellId id) const;
+  [[nodiscard]] double caps_among_shells_of(CellId id) const;
+
+ private:
+  [[nodiscard]] Caps of(CellId id) const;
 };
 
 /// Looks at the neighbourhoods of these orders alone. Collective.

@@ -127,6 +127,8 @@ struct Swaps {
   std::vector<Trigger> triggers;
   std::uint64_t max_shells = std::numeric_limits<std::uint64_t>::max();
   double hold = 600.0;  ///< of regions [s]
+  /// A sphere that becomes a shell among shells, or with others, begins with the room that its ball has between theirs (decision 0059).
+  bool gradual = true;
 };
 
 enum class Integrator : std::uint8_t { kImplicit, kExplicitEuler };

@@ -175,9 +175,11 @@ double free_reference_volume(double target_volume, const CellType& type) {
   return dcm::pressure_free_reference(target_volume, type.shell.tension, type.shell.bulk_modulus);
 }
 
-void promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes, std::uint32_t seed) {
+double promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes, std::uint32_t seed,
+               double later) {
   const SphereRecord& sphere = *cell.sphere;
-  const double volume = 4.0 / 3.0 * std::numbers::pi * sphere.radius * sphere.radius * sphere.radius;
+  const double ball = 4.0 / 3.0 * std::numbers::pi * sphere.radius * sphere.radius * sphere.radius;
+  const double left_out = std::min(later, 0.5 * ball), volume = ball - left_out;
   // −K_V ln(V/V0) = p + 2γ/R: the shell pushes back as hard as the sphere was pushed, or pulls where it was pulled.
   const double reference = free_reference_volume(volume, type) * std::exp(pressure / type.shell.bulk_modulus);
   ShellRecord shell = spherical_shell(shapes.icosphere(type.shell_nodes).value(), sphere.position, volume, reference);
@@ -192,6 +194,7 @@ void promote(CellRecord& cell, const CellType& type, double pressure, double tim
   cell.row.body = BodyKind::kShell;
   cell.shell = std::move(shell);
   cell.sphere.reset();
+  return left_out;
 }
 
 void demote(CellRecord& cell, double time) {

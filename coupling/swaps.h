@@ -69,8 +69,10 @@ std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, co
 bool swaps_wait(const Model& model, const Tissue& tissue, const SwapBodies& bodies, const Comm& comm);
 
 /// The sphere becomes a shell of the same volume, its mesh a sphere in the orientation that the seed gives to its id, so that no direction of the
-/// lattice is common to the shells of a tissue; V0 such that its inner pressure bears `pressure` (negative: tension) and the cortex.
-void promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes, std::uint32_t seed);
+/// lattice is common to the shells of a tissue; V0 such that its inner pressure bears `pressure` (negative: tension) and the cortex. Of the volume,
+/// `later` is left out at first, of which the shell keeps half in any case, and comes as the cell eases to its own [µm³]; gives what was left out.
+double promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes, std::uint32_t seed,
+               double later = 0.0);
 /// The shell becomes a sphere of the same volume at its centroid.
 void demote(CellRecord& cell, double time);
 

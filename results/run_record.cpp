@@ -240,6 +240,7 @@ namespace {
 void add_exchange(const Event& event, Json& json) {
   const ExchangeEffect& effect = *event.exchange;
   json["room_um3"] = number(effect.room);
+  if (effect.later > 0.0) json["room_later_um3"] = number(effect.later);
   json["neighbours"] = effect.neighbours;
   if (event.kind == EventKind::kExchangeSettled) {
     json["largest_way_R"] = number(effect.largest_way), json["mean_way_R"] = number(effect.mean_way);
@@ -253,7 +254,8 @@ std::optional<ExchangeEffect> exchange_in(const Json& json) {
   if (!json.contains("room_um3")) return std::nullopt;
   ExchangeEffect out;
   out.neighbours = number_at(json, "neighbours", std::uint32_t{0});
-  out.room = number_at(json, "room_um3", 0.0), out.volume = number_at(json, "cell_volume_um3", 0.0);
+  out.room = number_at(json, "room_um3", 0.0), out.later = number_at(json, "room_later_um3", 0.0);
+  out.volume = number_at(json, "cell_volume_um3", 0.0);
   out.largest_force = number_at(json, "largest_force_nN", 0.0), out.mean_force = number_at(json, "mean_force_nN", 0.0);
   out.largest_way = number_at(json, "largest_way_R", 0.0), out.mean_way = number_at(json, "mean_way_R", 0.0);
   return out;

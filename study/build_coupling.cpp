@@ -225,6 +225,7 @@ void build_coupling(BuildContext& c) {
   draft::Coupling& coupling = c.draft.coupling;
   c.study.model.swaps.max_shells = coupling.max_shells.value;
   c.study.model.swaps.hold = coupling.hold.value;
+  c.study.model.swaps.gradual = coupling.exchange.value == "gradual";
   for (auto& [name, place, region] : coupling.regions) build_region(c, region, place);
   for (const auto& [name, place, trigger] : coupling.triggers) build_trigger(c, units, trigger, place);
 }

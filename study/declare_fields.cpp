@@ -203,6 +203,17 @@ void declare_coupling(Section& s, draft::Coupling& c) {
               .example = "10 min",
               .source = "chosen"},
              c.hold);
+  s.word(
+      {.name = "exchange",
+       .doc = "What room a sphere takes that becomes a shell. Balls overlap, shells do not. gradual: beside shells, and beside others that "
+              "become shells with it, it begins with what its ball has behind the planes in which it meets theirs, and comes to its own "
+              "volume with a time constant of ten minutes; alone among spheres it has its own volume at once. at_once: its own volume "
+              "in any case; a group may then be left deep within each other, or find no room.",
+       .fallback = "gradual",
+       .words = {"gradual", "at_once"},
+       .example = "at_once",
+       .source = "decision 0059"},
+      c.exchange);
   s.list({.name = "regions", .doc = "Where cells are shells (or spheres)."}, c.regions, &declare_region);
   s.list({.name = "triggers", .doc = "When cells become shells, and spheres again."}, c.triggers, &declare_trigger);
 }

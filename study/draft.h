@@ -253,6 +253,7 @@ struct Trigger {
 struct Coupling {
   Given<std::uint64_t> max_shells;
   Given<double> hold;
+  Given<std::string> exchange;
   std::vector<Named<Region>> regions;
   std::vector<Named<Trigger>> triggers;
 };

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "results/file_io.h"
 #include "results/snapshot_file.h"
 #include "scenarios/measures/holds.h"
 
 namespace morula::scenarios {
+namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kKept = 4;    // snapshots
@@ -37,6 +39,18 @@ Result<const SeriesTable*> FinishedRun::series() {
     series_ = std::move(read);
   }
   return &*series_;
+}
+
+Result<const std::vector<EventLine>*> FinishedRun::events() {
+  if (!events_) {
+    const fs::path file = folder_ / "events.jsonl";
+    std::string lines;
+    if (fs::exists(file)) {  // else nothing has happened
+      MORULA_TRY_ASSIGN(lines, read_file(file));
+    }
+    events_ = events_of_lines(lines);
+  }
+  return &*events_;
 }
 
 Result<const std::vector<double>*> FinishedRun::snapshot_times() {

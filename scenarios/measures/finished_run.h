@@ -8,6 +8,7 @@
 
 #include "core/numbers/time_course.h"
 #include "core/result.h"
+#include "results/run_record.h"
 #include "results/series_reader.h"
 #include "results/snapshot.h"
 #include "study/study.h"
@@ -39,12 +40,15 @@ class FinishedRun {
   Result<std::shared_ptr<const Snapshot>> snapshot(std::size_t index);
   /// The snapshot of a time [s]; null where there is none.
   Result<std::shared_ptr<const Snapshot>> snapshot_at(double time);
+  /// Those of events.jsonl; lines that are not whole are left out.
+  Result<const std::vector<EventLine>*> events();
 
  private:
   const Study& study_;
   std::filesystem::path folder_;
   std::optional<SeriesTable> series_;
   std::optional<std::vector<double>> times_;
+  std::optional<std::vector<EventLine>> events_;
   std::deque<std::pair<std::size_t, std::shared_ptr<const Snapshot>>> kept_;
 };
 

@@ -157,20 +157,25 @@ Measure ids_measure() {
 /// Of each cell that has another body than at the output before.
 Measure exchange_measure() {
   Measure out = of_cells("exchange.volume_change", "volume of the cells just exchanged, relative change",
-                         "Change of the volume of a cell since the output before, of those that have got another body since.",
-                         "|V/V_before - 1|", Quantity::kFraction);
+                         "Change of the volume of a cell since the output before, of those that have got another body since; what a new "
+                         "shell among shells takes little by little (`room_later_um3` in events.jsonl) counts as its own.",
+                         "|(V + V_later)/V_before - 1|", Quantity::kFraction);
   out.take = [](FinishedRun& run, const Subject& subject, const Moments& moments) -> Result<std::vector<Sample>> {
     MORULA_TRY_ASSIGN(const std::vector<double>* const times, run.snapshot_times());
+    MORULA_TRY_ASSIGN(const std::vector<EventLine>* const events, run.events());
     std::vector<Sample> found;
     for (const std::size_t index : moments.among(*times)) {
       if (index == 0) continue;
+      std::map<std::string, double> later;
+      for (const EventLine& event : *events)
+        if (event.exchange && event.time > (*times)[index - 1] && event.time <= (*times)[index]) later[event.cell] += event.exchange->later;
       MORULA_TRY_ASSIGN(const auto before, run.snapshot(index - 1));
       MORULA_TRY_ASSIGN(const auto now, run.snapshot(index));
       std::map<CellId, const Cell*> then;
       for (const Cell& cell : before->cells) then.emplace(cell.id, &cell);
       for (const Cell& cell : now->cells)
         if (const auto same = then.find(cell.id); same != then.end() && is_meant(cell, subject) && cell.body != same->second->body)
-          found.push_back({now->time, std::abs(cell.volume / same->second->volume - 1.0), cell.id.text()});
+          found.push_back({now->time, std::abs((cell.volume + later[cell.id.text()]) / same->second->volume - 1.0), cell.id.text()});
     }
     return found;
   };

@@ -267,20 +267,21 @@ Status RunLoop::write_moment(const Measures& measures) {
 void RunLoop::tell_events() {
   struct Exchanges {
     std::size_t count = 0;
-    double room = 0.0, volume = 0.0;  // [µm³]
+    double room = 0.0, later = 0.0, volume = 0.0;  // [µm³]
   };
   std::map<std::pair<EventKind, std::string>, Exchanges> exchanges;
   for (const auto& [event, text] : events_) {
     if (event.kind != EventKind::kPromotion && event.kind != EventKind::kDemotion) continue;
     Exchanges& one = exchanges[{event.kind, text}];
     ++one.count;
-    if (event.exchange) one.room += event.exchange->room, one.volume += event.exchange->volume;
+    if (event.exchange) one.room += event.exchange->room, one.later += event.exchange->later, one.volume += event.exchange->volume;
   }
   for (const auto& [what, all] : exchanges) {
     const bool up = what.first == EventKind::kPromotion;
     const std::string room = number_text("%.3g um^3", std::abs(all.room)) + " (" +
                              number_text("%.2g %%", 100.0 * std::abs(all.room) / all.volume) + " of their volume) " +
-                             (up ? "more" : "less") + " room than before";
+                             (up ? "more" : "less") + " room than before" +
+                             (all.later > 0.0 ? ", " + number_text("%.3g um^3", all.later) + " of it little by little" : "");
     note(Note::Kind::kNote, std::to_string(all.count) + (all.count == 1 ? " cell" : " cells") +
                                 (up ? " became shells (" : " became spheres (") + what.second + ")" +
                                 (all.room != 0.0 && all.volume > 0.0 ? "; they take " + room : ""));

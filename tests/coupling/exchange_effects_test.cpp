@@ -89,6 +89,40 @@ void expect_effects_of_the_whole_tissue(const Model& model, std::size_t shell_ev
   EXPECT_EQ(tissue.watched.size(), events[0].exchange->neighbours + events[1].exchange->neighbours);
 }
 
+/// Face-centred balls of which `shells` are shells and the first `count`, the middle one and those around it, become some: caps of each among shells.
+std::vector<double> caps_among_shells(std::size_t count, const std::vector<std::size_t>& shells) {
+  const Model model = clusters_model();
+  ShapeLibrary shapes;
+  const std::vector<Vec3d> places = lattice(4);
+  std::vector<BodyKind> bodies(places.size(), BodyKind::kSphere);
+  for (const std::size_t i : shells) bodies[i] = BodyKind::kShell;
+  const Tissue tissue = make_tissue(model, shapes, places, bodies);
+  Mechanics mechanics(model, contact_obstacles(model).value(), shapes, Comm(), 1);
+  std::vector<CellId> exchanged;
+  for (std::size_t i = 0; i < count; ++i) exchanged.push_back(CellId::founder(i + 1));
+  std::vector<SwapOrder> orders;
+  for (const std::size_t row : rows_of(tissue.cells, exchanged)) orders.push_back({row, BodyKind::kShell, {}});
+  const ExchangeWatch watch = watch_exchanges(model, tissue, orders, mechanics, shapes, Comm());
+  std::vector<double> out;
+  for (const CellId id : exchanged) out.push_back(watch.caps_among_shells_of(id));
+  return out;
+}
+
+/// Of the middle ball all twelve neighbours become shells with it; each of these touches the middle one and four of the others.
+TEST(ExchangeEffects, OfAGroupAreTheCapsOfItsBallsWithEachOther) {
+  const double h = kRadius - 0.5 * kSpacing, cap = std::numbers::pi * h * h * (3.0 * kRadius - h) / 3.0;
+  const std::vector<double> group = caps_among_shells(13, {});
+  ASSERT_EQ(group.size(), 13u);
+  EXPECT_NEAR(group[0], 12.0 * cap, 1e-9 * cap);
+  for (std::size_t i = 1; i < group.size(); ++i) EXPECT_NEAR(group[i], 5.0 * cap, 1e-9 * cap);
+}
+
+TEST(ExchangeEffects, OfACellBesideShellsAreTheCapsWithTheBallsThatTheseWouldBe) {
+  const double h = kRadius - 0.5 * kSpacing, cap = std::numbers::pi * h * h * (3.0 * kRadius - h) / 3.0;
+  EXPECT_EQ(caps_among_shells(1, {})[0], 0.0);
+  EXPECT_NEAR(caps_among_shells(1, {2, 5})[0], 2.0 * cap, 1e-6 * cap);
+}
+
 TEST(ExchangeEffects, AmongSpheresAreThoseOfTheWholeTissue) { expect_effects_of_the_whole_tissue(clusters_model(), 0); }
 
 TEST(ExchangeEffects, AmongShellsAndSpheresAreThoseOfTheWholeTissue) { expect_effects_of_the_whole_tissue(clusters_model(), 3); }

@@ -8,6 +8,8 @@
 
 #include "core/mesh/topology.h"
 #include "coupling/overlap.h"
+#include "scenarios/measures/finished_run.h"
+#include "scenarios/run/driver.h"
 #include "tests/scenarios/simulation_of.h"
 #include "tests/study/study_fixture.h"
 
@@ -124,6 +126,84 @@ TEST(ExchangeRun, TellsTheRoomTheForcesAndTheWaysOfTheNeighbours) {
   EXPECT_NEAR(settled->exchange->largest_way, most, 1e-9);
   EXPECT_GT(most, 0.0);
   EXPECT_TRUE(simulation->tissue().watched.empty());
+}
+
+/// A ball of cells inflates and presses on itself; then the inner ones become shells together, in one step: one in a hundred cells may.
+constexpr const char* kGroup = R"(
+schema: 1
+study: group
+time: {end: 80 min, output: 1 min, checkpoint: 80 min}
+domain: {size: [200 um, 200 um, 200 um]}
+output: {report: false}
+cell_types:
+  cell: {radius: 6 um, cycle: {model: none}, adhesion: {cell: 2e-5 J/m^2}}
+initial:
+  - {type: cell, count: 1500, fill: sphere, radius: 74 um, start_volume: 50 %, inflate: 20 min}
+coupling:
+  regions:
+    - {name: core, shape: sphere, center: [0 um, 0 um, 0 um], radius: 12 um, margin: 20 um, from: 20 min}
+)";
+
+/// A run of the study above: what its files tell of the group of shells.
+struct Grouped {
+  double promotions = 0.0, volume = 0.0, room = 0.0, later = 0.0;  ///< sums [1, µm³]
+  double at_once = 0.0;                                            ///< volume of the shells when they begin [µm³]
+  double in_the_end = 0.0;                                         ///< and at the end
+  double overlap = 0.0;                                            ///< the deepest of all rows [µm]
+};
+
+Grouped run_group(const std::string& exchange) {
+  const test::Folder folder;
+  const auto study = test::read(test::changed("  regions:\n", exchange + "  regions:\n", kGroup));
+  EXPECT_TRUE(study.ok()) << (study.ok() ? "" : study.error().text());
+  if (!study.ok()) return {};
+  RunRequest request;
+  request.out = folder.path() / "run";
+  request.command = "a test";
+  const auto done = run(*study, request, Comm());
+  EXPECT_TRUE(done.ok()) << (done.ok() ? "" : done.error().message);
+  FinishedRun files(*study, request.out);
+  Grouped out;
+  const auto events = files.events();
+  const auto series = files.series();
+  EXPECT_TRUE(events.ok() && series.ok());
+  if (!events.ok() || !series.ok()) return {};
+  for (const EventLine& event : **events)
+    if (event.kind == "promotion" && event.exchange) {
+      out.promotions += 1.0, out.volume += event.exchange->volume;
+      out.room += event.exchange->room, out.later += event.exchange->later;
+    }
+  const auto shells_at = [&](double time) {
+    double sum = 0.0;
+    const auto snapshot = files.snapshot_at(time);
+    EXPECT_TRUE(snapshot.ok() && *snapshot);
+    if (snapshot.ok() && *snapshot)
+      for (const Snapshot::Cell& cell : (*snapshot)->cells)
+        if (cell.body == BodyKind::kShell) sum += cell.volume;
+    return sum;
+  };
+  out.at_once = shells_at(1200.0), out.in_the_end = shells_at(4800.0);
+  const SeriesColumn* overlap = (*series)->find("worst_overlap");
+  EXPECT_NE(overlap, nullptr);
+  if (overlap) out.overlap = std::ranges::max(overlap->values);
+  return out;
+}
+
+/// Decision 0059. The group begins with the room that its balls have between each other, and comes to its own; at once it begins deep within each other.
+TEST(ExchangeRun, OfAGroupTakesItsRoomLittleByLittle) {
+  const Grouped slow = run_group("");
+  EXPECT_GE(slow.promotions, 8.0);
+  EXPECT_GT(slow.later, 0.02 * slow.volume);
+  EXPECT_LT(slow.later, slow.room);
+  EXPECT_NEAR(slow.at_once, slow.volume - slow.later, 1e-9 * slow.volume);
+  EXPECT_GT(slow.in_the_end, 0.98 * slow.volume);  // 6 time constants later, pressed as they are
+  EXPECT_LT(slow.overlap, 0.04);
+  const Grouped fast = run_group("  exchange: at_once\n");
+  EXPECT_EQ(fast.promotions, slow.promotions);
+  EXPECT_EQ(fast.later, 0.0);
+  EXPECT_NEAR(fast.at_once, fast.volume, 1e-9 * fast.volume);
+  EXPECT_NEAR(fast.in_the_end, slow.in_the_end, 5e-3 * fast.volume);
+  EXPECT_GT(fast.overlap, slow.overlap);
 }
 
 }  // namespace

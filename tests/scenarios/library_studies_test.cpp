@@ -233,9 +233,10 @@ TEST(LibraryStudies, BlastocystIsAllShellsOrAllSpheresByOneKey) {
 /// S18.6 on few cells: every exchange of a region that comes and goes keeps the id and, to 1e-10, the volume.
 TEST(RegionInTime, ExchangesBodiesAndBackAndKeepsIdsAndVolumes) {
   const NewStudy tissue("tissue");
-  const auto study = tissue.read({"time.end=6 min", "time.output=1 min", "time.checkpoint=6 min", "initial.0.count=5",
-                                  "initial.0.radius=13 um", "cell_types.epithelial.cycle.model=none", "coupling.hold=0 s",
-                                  "coupling.regions=[{name: all, shape: everything, from: 1 min, until: 4 min}]"});
+  const auto study =
+      tissue.read({"time.end=6 min", "time.output=1 min", "time.checkpoint=6 min", "initial.0.count=5", "initial.0.radius=13 um",
+                   "cell_types.epithelial.cycle.model=none", "coupling.hold=0 s", "coupling.exchange=at_once",
+                   "coupling.regions=[{name: all, shape: everything, from: 1 min, until: 4 min}]"});
   ASSERT_TRUE(study.ok()) << study.error().text();
   auto made = test::simulation_of(*study);
   ASSERT_TRUE(made.ok());
