@@ -218,9 +218,9 @@ void Simulation::rename_partners(const std::vector<Event>& events) {
     return std::ranges::any_of(partners, [&](CellId id) { return seen.test(few_bits(id)) && division_of(id) != nullptr; });
   };
   const cbm::PartnerLists& before = tissue_.spheres.attached;
-  std::vector<std::size_t> renamed;
-  for (std::size_t i = 0; i < before.size(); ++i)
-    if (has_mother(before[i])) renamed.push_back(i);
+  const auto renamed = gather<std::size_t>(threads_, before.size(), [&](std::size_t i, std::vector<std::size_t>& out) {
+    if (has_mother(before[i])) out.push_back(i);
+  });
   if (renamed.empty()) return;
   PartnerStretches after;
   after.reserve(before.size(), before.partner_count() + 2 * renamed.size());

@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "cbm/division_ramp.h"
 #include "cbm/laws/sphere_caps.h"
 #include "core/parallel/pack.h"
 #include "coupling/gathered_parts.h"
@@ -40,11 +41,13 @@ struct CellBall {
   CellId id;
   Vec3d center;
   double radius = 0.0;
+  bool is_young = false;  ///< it has not parted from its sister yet
 };
 
 CellBall ball_of(const Tissue& part, const BodyOfRow& body) {
   const CellRow& row = part.cells.rows[body.row];
-  return {row.id, record_of(part, body).center(), body.is_shell ? radius_of(row.target_volume) : part.spheres.radius[body.number]};
+  return {row.id, record_of(part, body).center(), body.is_shell ? radius_of(row.target_volume) : part.spheres.radius[body.number],
+          part.clock.time - row.birth_time < cbm::kSisterRelaxation};
 }
 
 /// Who is a shell in a part when these have exchanged their bodies, by id. Collective.
@@ -57,13 +60,14 @@ std::vector<CellBall> shells_to_be(const Tissue& part, std::span<const CellId> e
   return out;
 }
 
-/// What a ball loses behind the planes in which it meets the others [µm³].
+/// What a ball loses behind the planes in which it meets the others [µm³]. Sisters that have not parted lie within each other as balls: that is no contact.
 double caps_with(std::span<const CellBall> others, const CellBall& ball, const Space& space) {
   double out = 0.0;
-  for (const CellBall& other : others)
-    if (const double distance = norm(space.nearest_image(other.center - ball.center));
-        other.id != ball.id && distance < ball.radius + other.radius)
-      out += cbm::sphere_caps(ball.radius, other.radius, distance).volume_a;
+  for (const CellBall& other : others) {
+    if (other.id == ball.id || (ball.is_young && cbm::are_sisters(ball.id, other.id))) continue;
+    const double distance = norm(space.nearest_image(other.center - ball.center));
+    if (distance < ball.radius + other.radius) out += cbm::sphere_caps(ball.radius, other.radius, distance).volume_a;
+  }
   return out;
 }
 

@@ -61,9 +61,7 @@ void for_bodies_near(std::span<const Seed> seeds, const Tissue& tissue, const Sp
   for (const Box& box : boxes) add(box);
   std::vector<std::uint32_t> place(extents.size());
   std::iota(place.begin(), place.end(), 0u);
-  std::vector<char> is_seed(extents.size(), 0);
-  std::fill_n(is_seed.begin(), seeds.size(), 1);
-  find_body_pairs(extents, place, is_seed, space, 1, [&](const BodyPair& pair) {
+  find_body_pairs_of(std::span(place).first(seeds.size()), extents, place, space, 1, [&](const BodyPair& pair) {
     const std::size_t k = pair.b - seeds.size();
     if (pair.b >= seeds.size()) found(pair.a, candidates[k], boxes[k]);
   });

@@ -100,26 +100,14 @@ struct BinnedBodies {
 struct PairSearch {
   std::span<const Extent> extents;
   std::span<const std::uint32_t> place;
-  std::span<const char> owned;
   const Space& space;
   const BinGrid& grid;
   const BinnedBodies& bins;
 
-  /// Adds the pairs of body i with bodies of later places, in the order of these.
-  void add_pairs_of(std::uint32_t i, std::vector<BodyPair>& out) const {
-    const bool periodic = space.any_periodic();
-    const std::size_t before = out.size();
-    const Extent& mine = extents[i];
-    const auto look_at = [&](const Member& other) {
-      if (other.place <= place[i] || !(owned[i] || owned[other.body])) return;
-      const Vec3d direct = other.center - mine.center, nearest = periodic ? space.nearest_image(direct) : direct;
-      const double reach = mine.radius + other.radius;
-      if (norm2(nearest) > reach * reach) return;
-      const Vec3d shift = periodic ? nearest - direct : Vec3d{};
-      const Box& box = extents[other.body].box;
-      if (mine.box.overlaps({box.low + shift, box.high + shift})) out.push_back({i, other.body, shift});
-    };
-    const Bin bin = grid.bin_of(space.wrapped(mine.center));
+  /// Calls look_at(member) for all bodies in the bin of a body and in those beside it.
+  template <class LookAt>
+  void for_beside(std::uint32_t i, LookAt&& look_at) const {
+    const Bin bin = grid.bin_of(space.wrapped(extents[i].center));
     std::array<std::array<int, 3>, 3> near{};
     std::array<int, 3> n{};
     for (std::size_t axis = 0; axis < 3; ++axis) n[axis] = grid.neighbours(axis, bin[axis], near[axis]);
@@ -133,8 +121,39 @@ struct PairSearch {
           for (std::uint32_t k = bins.begin[from]; k < bins.begin[to]; ++k) look_at(bins.members[k]);
           x = last + 1;
         }
+  }
+  /// Adds the pair of body i and a member of a later place, if they may touch.
+  void add_pair(std::uint32_t i, const Vec3d& center, double radius, std::uint32_t later, const Vec3d& its_center, double its_radius,
+                bool periodic, std::vector<BodyPair>& out) const {
+    const Vec3d direct = its_center - center, nearest = periodic ? space.nearest_image(direct) : direct;
+    const double reach = radius + its_radius;
+    if (norm2(nearest) > reach * reach) return;
+    const Vec3d shift = periodic ? nearest - direct : Vec3d{};
+    const Box& box = extents[later].box;
+    if (extents[i].box.overlaps({box.low + shift, box.high + shift})) out.push_back({i, later, shift});
+  }
+  /// Adds the pairs of body i with bodies of later places, in the order of these. `owned`: one of the two must be.
+  void add_pairs_of(std::uint32_t i, std::span<const char> owned, std::vector<BodyPair>& out) const {
+    const bool periodic = space.any_periodic();
+    const std::size_t before = out.size();
+    const Extent& mine = extents[i];
+    for_beside(i, [&](const Member& other) {
+      if (other.place <= place[i] || !(owned[i] || owned[other.body])) return;
+      add_pair(i, mine.center, mine.radius, other.body, other.center, other.radius, periodic, out);
+    });
     std::sort(out.begin() + static_cast<std::ptrdiff_t>(before), out.end(),
               [&](const BodyPair& a, const BodyPair& b) { return place[a.b] < place[b.b]; });
+  }
+  /// Adds all pairs of body i, in any order; those with one of `some` that comes before it are left to that one.
+  void add_all_pairs_of(std::uint32_t i, std::span<const char> some, std::vector<BodyPair>& out) const {
+    const bool periodic = space.any_periodic();
+    const Extent& mine = extents[i];
+    for_beside(i, [&](const Member& other) {
+      if (other.place > place[i])
+        add_pair(i, mine.center, mine.radius, other.body, other.center, other.radius, periodic, out);
+      else if (other.body != i && !some[other.body])
+        add_pair(other.body, other.center, other.radius, i, mine.center, mine.radius, periodic, out);
+    });
   }
 };
 
@@ -151,18 +170,35 @@ void find_body_pairs(std::span<const Extent> extents, std::span<const std::uint3
   std::vector<std::uint32_t> by_place(extents.size());
   for (std::size_t i = 0; i < extents.size(); ++i) by_place[place[i]] = static_cast<std::uint32_t>(i);
 
-  const PairSearch search{extents, place, owned, space, grid, bins};
+  const PairSearch search{extents, place, space, grid, bins};
   const auto count = static_cast<std::size_t>(std::max(threads, 1));
   std::vector<std::vector<BodyPair>> by_thread(count);
   for (std::size_t first = 0; first < by_place.size(); first += kAtOnce) {
     const std::size_t bodies = std::min(kAtOnce, by_place.size() - first);
     on_each_thread(threads, [&](std::size_t t) {
       by_thread[t].clear();
-      for (std::size_t k = bodies * t / count; k < bodies * (t + 1) / count; ++k) search.add_pairs_of(by_place[first + k], by_thread[t]);
+      for (std::size_t k = bodies * t / count; k < bodies * (t + 1) / count; ++k)
+        search.add_pairs_of(by_place[first + k], owned, by_thread[t]);
     });
     for (const std::vector<BodyPair>& pairs : by_thread)
       for (const BodyPair& pair : pairs) found(pair);
   }
+}
+
+void find_body_pairs_of(std::span<const std::uint32_t> some, std::span<const Extent> extents, std::span<const std::uint32_t> place,
+                        const Space& space, int threads, const std::function<void(const BodyPair&)>& found) {
+  if (some.empty()) return;
+  const BinGrid grid(extents, space);
+  const BinnedBodies bins(grid, extents, place, space, threads);
+  std::vector<char> is_one(extents.size(), 0);
+  for (const std::uint32_t i : some) is_one[i] = 1;
+  const PairSearch search{extents, place, space, grid, bins};
+  std::vector<BodyPair> pairs = gather<BodyPair>(
+      threads, some.size(), [&](std::size_t k, std::vector<BodyPair>& out) { search.add_all_pairs_of(some[k], is_one, out); });
+  std::ranges::sort(pairs, [&](const BodyPair& p, const BodyPair& q) {
+    return place[p.a] != place[q.a] ? place[p.a] < place[q.a] : place[p.b] < place[q.b];
+  });
+  for (const BodyPair& pair : pairs) found(pair);
 }
 
 void find_ball_pairs(std::span<const Ball> balls, const Space& space, const std::function<void(const BodyPair&)>& found) {

@@ -30,6 +30,10 @@ struct BodyPair {
 void find_body_pairs(std::span<const Extent> extents, std::span<const std::uint32_t> place, std::span<const char> owned, const Space& space,
                      int threads, const std::function<void(const BodyPair&)>& found);
 
+/// The same for the pairs with at least one of `some` (numbers, increasing), at the cost of what lies near these.
+void find_body_pairs_of(std::span<const std::uint32_t> some, std::span<const Extent> extents, std::span<const std::uint32_t> place,
+                        const Space& space, int threads, const std::function<void(const BodyPair&)>& found);
+
 /// A ball around a body, already inflated by half the reach of its contacts.
 struct Ball {
   Vec3d center;

@@ -115,21 +115,28 @@ ContactLayer::BodyMotion ContactLayer::motion_of(const ContactScene& scene, cons
 }
 
 bool ContactLayer::note_motion(const ContactScene& scene) {
-  if (fresh_ || last_radius_.size() != scene.bodies.size()) return true;
+  if (fresh_ || stray_.size() != scene.bodies.size()) return true;
   if (known_at_.size() != scene.position.size()) return true;
-  if (travel_.empty()) return note_travel(scene);
-  const double limit = 0.5 * settings_.body_skin;
-  const double most = parallel_max(settings_.threads, scene.bodies.size(), [&](std::size_t i) {
+  double of_obstacles = 0.0;
+  for (std::size_t i = 0; i < offsets_.size(); ++i) of_obstacles = std::max(of_obstacles, norm(offsets_[i] - last_offsets_[i]));
+  if (travel_.empty()) {  // they are where they were when the list was made
+    obstacle_travel_ = of_obstacles;
+  } else {
+    obstacle_travel_ += of_obstacles;
+    note_motion_of_pairs(scene);
+  }
+  skin_used_ = std::max(find_strays(scene), obstacle_travel_ * 1.000001 / (0.5 * settings_.body_skin));
+  return skin_used_ > 1.0;
+}
+
+void ContactLayer::note_motion_of_pairs(const ContactScene& scene) {
+  parallel_for(settings_.threads, scene.bodies.size(), [&](std::size_t i) {
     const ContactBody& body = scene.bodies[i];
     const BodyMotion motion = motion_of(scene, body, body.first_point, last_radius_[i]);
     last_radius_[i] = static_cast<float>(body.radius);
     motion_[i] = motion;
     travel_[i] += (norm(motion.mean) + motion.deviation) * 1.000001;
-    return travel_[i];
   });
-  double fastest_obstacle = 0.0;
-  for (std::size_t i = 0; i < offsets_.size(); ++i) fastest_obstacle = std::max(fastest_obstacle, norm(offsets_[i] - last_offsets_[i]));
-  obstacle_travel_ += fastest_obstacle;
   parallel_for(settings_.threads, pairs_.size(), [&](std::size_t k) {
     SurfacePair& pair = pairs_[k];
     const BodyMotion& a = motion_[pair.a];
@@ -140,8 +147,6 @@ bool ContactLayer::note_motion(const ContactScene& scene) {
   });
   know_positions(scene);
   last_offsets_ = offsets_;
-  skin_used_ = std::max(most, obstacle_travel_) / limit;
-  return skin_used_ > 1.0;
 }
 
 void ContactLayer::know_positions(const ContactScene& scene) {
@@ -162,14 +167,6 @@ double ContactLayer::way_of(const ContactScene& scene, const ContactBody& body, 
   for (std::uint32_t p = 0; p < body.point_count; ++p)
     furthest = std::max(furthest, norm(scene.position[body.first_point + p] - to_double(known_at_[known_point + p])) + rounding_ + grown);
   return furthest;
-}
-
-bool ContactLayer::note_travel(const ContactScene& scene) {
-  double most = parallel_max(settings_.threads, scene.bodies.size(),
-                             [&](std::size_t i) { return way_of(scene, scene.bodies[i], scene.bodies[i].first_point, last_radius_[i]); });
-  for (std::size_t i = 0; i < offsets_.size(); ++i) most = std::max(most, norm(offsets_[i] - last_offsets_[i]));
-  skin_used_ = most * 1.000001 / (0.5 * settings_.body_skin);
-  return skin_used_ > 1.0;
 }
 
 void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& workspace,
@@ -384,7 +381,8 @@ const SurfacePair* ContactLayer::crossed(const ContactScene& scene, std::span<co
 std::size_t ContactLayer::memory() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
   std::size_t total = bytes(pairs_) + bytes(spheres_) + bytes(pairs_of_kind_[0]) + bytes(pairs_of_kind_[1]) + bytes(motion_) +
-                      bytes(last_radius_) + bytes(travel_) + bytes(known_bodies_) + bytes(known_at_) + objective_.memory();
+                      bytes(last_radius_) + bytes(travel_) + bytes(listed_at_) + bytes(listed_radius_) + bytes(stray_) +
+                      bytes(known_bodies_) + bytes(known_at_) + objective_.memory();
   for (const SurfacePair& pair : pairs_)
     for (int d = 0; d < 2; ++d) {
       total += pair.points[d].memory() + bytes(pair.node[d]);

@@ -7,6 +7,7 @@
 
 #include "core/contact/body_changes.h"
 #include "core/contact/broad_phase.h"
+#include "core/contact/common_drift.h"
 #include "core/contact/contact_body.h"
 #include "core/contact/element_store.h"
 #include "core/contact/objective_friction.h"
@@ -80,6 +81,9 @@ class ContactLayer {
   /// and the pairs of new ones are found; what the others have moved since their pairs were found still counts. Pairs of new spheres wait for
   /// take_sphere_neighbours(). Where the lists were to be made anew in any case, they still are.
   void mend(const ContactScene& scene, const Space& space, const BodyChanges& changes);
+  /// Spheres that have strayed from what is common to all, since their pairs were found, and will soon have gone as far as these allow for, come in `changes`
+  /// as if they had gone and come again: few fast ones (sisters) do not wear out the lists of all. Before mend(). None where there are many.
+  void add_strays(BodyChanges& changes) const;
   /// Lists are to be made anew before evaluate().
   [[nodiscard]] bool is_stale() const { return fresh_; }
   /// The elements of some pairs are those that begin_step() found.
@@ -100,6 +104,8 @@ class ContactLayer {
   [[nodiscard]] bool note_motion(const ContactScene& scene);
   /// How much of the way that the list of pairs allows for was used up at the last note_motion(), 1: all of it.
   [[nodiscard]] double skin_used() const { return skin_used_; }
+  /// How often the list of pairs has been made anew.
+  [[nodiscard]] std::uint64_t times_rebuilt() const { return times_rebuilt_; }
   /// Find the pairs of bodies again. On several ranks the ghosts must be renewed first.
   void rebuild(const ContactScene& scene, const Space& space);
   /// The same with these pairs of surfaces (first and second body, in canonical order) and no others.
@@ -170,9 +176,19 @@ class ContactLayer {
   void evaluate_pair(const ContactScene& scene, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& workspace,
                      ElementStore& store);
   void collect(const ContactScene& scene, const SurfacePair& pair, int side, const PairGradient& part, ContactGradient& gradient) const;
-  /// Bound on how far the nodes in a pair's lists have moved against each other since the last call of note_motion().
-  /// note_motion() where there are no pairs of surfaces: nothing but the distance from where the list was built is of interest.
-  [[nodiscard]] bool note_travel(const ContactScene& scene);
+  /// What pairs of surfaces must know of the motion since the last note_motion().
+  void note_motion_of_pairs(const ContactScene& scene);
+  /// How far the bodies have strayed since their pairs were found, from a common drift where there is one; gives the part of the skin that is used.
+  double find_strays(const ContactScene& scene);
+  /// Bound on the way of a body beside a drift since its pairs were found [µm].
+  [[nodiscard]] double stray_of(const ContactScene& scene, std::size_t body, const CommonDrift& drift) const;
+  [[nodiscard]] CommonDrift drift_of_spheres(const ContactScene& scene) const;
+  /// How much nearer a body may be than its present place tells, to one whose pairs are found now [µm].
+  [[nodiscard]] double slack_of(std::size_t body) const {
+    return stray_.empty() ? 0.0 : static_cast<double>(stray_[body]) + 0.5 * drift_.strain * widest_;
+  }
+  /// Where a sphere is said to have been when pairs were found, so that the drift since then brings it to its present place.
+  [[nodiscard]] Vec3f listed_place(const Vec3d& now) const { return to_float(now - drift_.at(now)); }
   /// Adhesion of a pair of sisters, where it is not that of their materials.
   [[nodiscard]] std::optional<double> sister_bond(const ContactScene& scene, const SurfacePair& pair) const;
   /// Way of a body since the last note_motion(), when its points were `known_point` and those after it.
@@ -182,6 +198,7 @@ class ContactLayer {
   [[nodiscard]] double way_of(const ContactScene& scene, const ContactBody& body, std::uint32_t known_point, float last_radius) const;
   /// How far a position with coordinates up to this may be off when it is kept as float [µm].
   [[nodiscard]] static double rounding_of(double largest);
+  /// Bound on how far the nodes in a pair's lists have moved against each other since the last call of note_motion().
   [[nodiscard]] double patch_motion(const ContactScene& scene, const SurfacePair& pair) const;
   void know_positions(const ContactScene& scene);
   void know_bodies(const ContactScene& scene);
@@ -235,8 +252,16 @@ class ContactLayer {
   std::vector<BodyMotion> motion_;
   std::vector<float> last_radius_;  ///< of spheres: growth counts as motion
   std::vector<double> travel_;      ///< by body: bound on the way of its points since the list of pairs was built; empty: without surfaces
+  /// Where spheres were when their pairs were found, and their radii then, by body; empty where known_at_ and last_radius_ are of that time.
+  std::vector<Vec3f> listed_at_;
+  std::vector<float> listed_radius_;
+  std::vector<float> stray_;  ///< by body, at the last note_motion() [µm]
+  CommonDrift drift_;         ///< from which they stray
+  double widest_ = 0.0;       ///< distance of two bodies at which they are just no pair, the largest [µm]
+  bool periodic_ = true;      ///< distances are of nearest images: no drift is common to all
   double obstacle_travel_ = 0.0;
   double skin_used_ = 0.0;
+  std::uint64_t times_rebuilt_ = 0;
 };
 
 }  // namespace morula

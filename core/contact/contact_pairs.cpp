@@ -87,7 +87,8 @@ Extent ContactLayer::extent_of(const ContactScene& scene, std::uint32_t number) 
   Extent extent;
   for (std::uint32_t p = 0; p < body.point_count; ++p) extent.box.include(scene.position[body.first_point + p]);
   const bool sphere = body.shape == BodyShape::kSphere;
-  const double reach = 0.5 * (settings_.body_skin + (sphere ? std::max(settings_.range, settings_.sphere_reach) : settings_.range));
+  const double reach =
+      0.5 * (settings_.body_skin + (sphere ? std::max(settings_.range, settings_.sphere_reach) : settings_.range)) + slack_of(number);
   extent.box = extent.box.inflated(reach + body.radius);
   extent.center = extent.box.center();
   double radius2 = 0.0;
@@ -101,35 +102,7 @@ void ContactLayer::add_body_pairs(const ContactScene& scene, const Space& space,
   const std::size_t n = scene.bodies.size();
   std::vector<Extent> extents;
   std::vector<std::uint32_t> place, number;  // number: of the bodies that are looked at; empty: all
-  std::vector<char> counts;                  // only pairs with one of these
-  if (wanted.empty()) {
-    extents.resize(n), place.resize(n), counts.resize(n);
-    parallel_for(settings_.threads, n, [&](std::size_t i) {
-      place[i] = scene.bodies[i].place;
-      counts[i] = scene.bodies[i].owned;
-      extents[i] = extent_of(scene, static_cast<std::uint32_t>(i));
-    });
-  } else {
-    std::vector<Extent> of_surfaces(scene.topology.size());  // those of spheres are found twice sooner than kept
-    parallel_for(settings_.threads, of_surfaces.size(),
-                 [&](std::size_t i) { of_surfaces[i] = extent_of(scene, static_cast<std::uint32_t>(i)); });
-    const double reach = 0.5 * (settings_.body_skin + std::max(settings_.range, settings_.sphere_reach));
-    number = bodies_near(
-        wanted, n,
-        [&](std::uint32_t i) {
-          if (i < of_surfaces.size()) return Ball{of_surfaces[i].center, of_surfaces[i].radius};
-          const ContactBody& body = scene.bodies[i];
-          return Ball{scene.position[body.first_point], reach + body.radius};
-        },
-        space);
-    std::ranges::sort(number, {}, [&](std::uint32_t i) { return scene.bodies[i].place; });
-    for (const std::uint32_t i : number) {
-      place.push_back(static_cast<std::uint32_t>(place.size()));
-      counts.push_back(std::ranges::binary_search(wanted, i));
-      extents.push_back(extent_of(scene, i));
-    }
-  }
-  find_body_pairs(extents, place, counts, space, settings_.threads, [&](const BodyPair& found) {
+  const auto take = [&](const BodyPair& found) {
     const std::uint32_t a = number.empty() ? found.a : number[found.a], b = number.empty() ? found.b : number[found.b];
     const ContactBody &first = scene.bodies[a], &second = scene.bodies[b];
     if (!first.owned && !second.owned) return;
@@ -141,7 +114,42 @@ void ContactLayer::add_body_pairs(const ContactScene& scene, const Space& space,
       pair.b = b;
       pair.shift = found.shift;
     }
-  });
+  };
+  const auto note_widest = [&] {
+    for (const Extent& extent : extents) widest_ = std::max(widest_, 2.0 * extent.radius);
+  };
+  if (wanted.empty()) {
+    std::vector<char> owned(n);
+    extents.resize(n), place.resize(n);
+    parallel_for(settings_.threads, n, [&](std::size_t i) {
+      place[i] = scene.bodies[i].place;
+      owned[i] = scene.bodies[i].owned;
+      extents[i] = extent_of(scene, static_cast<std::uint32_t>(i));
+    });
+    note_widest();
+    return find_body_pairs(extents, place, owned, space, settings_.threads, take);
+  }
+  std::vector<Extent> of_surfaces(scene.topology.size());  // those of spheres are found twice sooner than kept
+  parallel_for(settings_.threads, of_surfaces.size(),
+               [&](std::size_t i) { of_surfaces[i] = extent_of(scene, static_cast<std::uint32_t>(i)); });
+  const double reach = 0.5 * (settings_.body_skin + std::max(settings_.range, settings_.sphere_reach));
+  number = bodies_near(
+      wanted, n,
+      [&](std::uint32_t i) {
+        if (i < of_surfaces.size()) return Ball{of_surfaces[i].center, of_surfaces[i].radius};
+        const ContactBody& body = scene.bodies[i];
+        return Ball{scene.position[body.first_point], reach + body.radius + slack_of(i)};
+      },
+      space);
+  std::ranges::sort(number, {}, [&](std::uint32_t i) { return scene.bodies[i].place; });
+  std::vector<std::uint32_t> some;
+  extents.resize(number.size()), place.resize(number.size());
+  std::iota(place.begin(), place.end(), 0u);
+  for (std::uint32_t k = 0; k < number.size(); ++k)
+    if (std::ranges::binary_search(wanted, number[k])) some.push_back(k);
+  parallel_for(settings_.threads, number.size(), [&](std::size_t k) { extents[k] = extent_of(scene, number[k]); });
+  note_widest();
+  find_body_pairs_of(some, extents, place, space, settings_.threads, take);
 }
 
 namespace {
@@ -157,7 +165,11 @@ std::vector<std::uint32_t> surfaces_in_order(const ContactScene& scene) {
 }  // namespace
 
 void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
+  ++times_rebuilt_;
   if (fresh_) renumber(scene);
+  stray_.clear();
+  widest_ = 0.0;
+  periodic_ = space.any_periodic();
   spheres_.clear();
   spheres_.reserve(sphere_pairs_before_ + sphere_pairs_before_ / 64);  // no growth by doubling in most rebuilds
   std::vector<SurfacePair> old = std::move(pairs_);
@@ -195,6 +207,8 @@ void ContactLayer::keep_lists(const ContactScene& scene, std::vector<SurfacePair
   if (pairs_.empty()) {  // spheres alone: they need no motions
     std::vector<BodyMotion>().swap(motion_);
     std::vector<double>().swap(travel_);
+    std::vector<Vec3f>().swap(listed_at_);
+    std::vector<float>().swap(listed_radius_);
   } else {
     motion_.assign(n, {});
     travel_.assign(n, 0.0);
@@ -204,6 +218,13 @@ void ContactLayer::keep_lists(const ContactScene& scene, std::vector<SurfacePair
   last_offsets_ = offsets_;
   last_radius_.resize(n);
   for (std::size_t i = 0; i < n; ++i) last_radius_[i] = static_cast<float>(scene.bodies[i].radius);
+  if (!travel_.empty()) {
+    listed_radius_ = last_radius_;
+    listed_at_.resize(n);
+    parallel_for(settings_.threads, n, [&](std::size_t i) { listed_at_[i] = known_at_[scene.bodies[i].first_point]; });
+  }
+  stray_.assign(n, 0.0f);
+  drift_ = {};
   obstacle_travel_ = 0.0;
   fresh_ = false;
 }

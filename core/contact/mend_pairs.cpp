@@ -10,7 +10,7 @@ namespace morula {
 void ContactLayer::mend(const ContactScene& scene, const Space& space, const BodyChanges& changes) {
   std::size_t points = 0;
   for (const ContactBody& body : changes.before) points += body.point_count;
-  if (last_radius_.size() != changes.before.size() || known_at_.size() != points) fresh_ = true;
+  if (stray_.size() != changes.before.size() || known_at_.size() != points) fresh_ = true;
   if (fresh_) return;
   std::vector<SurfacePair> kept = std::move(pairs_);
   const auto renumber = [&](SurfacePair& pair) {  // false: it has gone
@@ -47,7 +47,8 @@ void ContactLayer::renumber_motions(const ContactScene& scene, const BodyChanges
   const std::size_t n = scene.bodies.size();
   const bool had_travel = !travel_.empty(), has_travel = had_travel || !scene.topology.empty();
   std::vector<Vec3f> known_at(scene.position.size());
-  std::vector<float> last_radius(n);
+  std::vector<float> last_radius(n), listed_radius(has_travel ? n : 0), stray(n);
+  std::vector<Vec3f> listed_at(has_travel ? n : 0);
   std::vector<double> travel(has_travel ? n : 0);
   for (std::size_t i = 0; i < n; ++i) {
     const ContactBody& body = scene.bodies[i];
@@ -55,15 +56,28 @@ void ContactLayer::renumber_motions(const ContactScene& scene, const BodyChanges
     if (was == BodyChanges::kNone) {
       for (std::uint32_t p = body.first_point; p < body.first_point + body.point_count; ++p) {
         const Vec3d& x = scene.position[p];
-        known_at[p] = to_float(x);
-        rounding_ = std::max(rounding_, rounding_of(std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)})));
+        known_at[p] = has_travel || body.shape == BodyShape::kSurface ? to_float(x) : listed_place(x);
+        const double drifts = norm(drift_.at(x));
+        rounding_ = std::max(rounding_, rounding_of(std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) + drifts));
       }
       last_radius[i] = static_cast<float>(body.radius);
+      if (has_travel) {
+        listed_at[i] = listed_place(scene.position[body.first_point]);
+        listed_radius[i] = last_radius[i];
+      }
+      // The place on the drift's way is not quite where the drift brings it from.
+      const Vec3d &now = scene.position[body.first_point], then = now - drift_.at(now);
+      stray[i] = static_cast<float>(2.0 * norm(now - then - drift_.at(then)) + 2.0 * rounding_);
       continue;
     }
     const ContactBody& old = changes.before[was];
     std::copy_n(known_at_.begin() + old.first_point, old.point_count, known_at.begin() + body.first_point);
     last_radius[i] = last_radius_[was];
+    stray[i] = stray_[was];
+    if (has_travel) {
+      listed_at[i] = had_travel ? listed_at_[was] : known_at_[old.first_point];
+      listed_radius[i] = had_travel ? listed_radius_[was] : last_radius_[was];
+    }
     if (had_travel) {
       travel[i] = travel_[was];
     } else if (has_travel) {  // until now there were no surfaces, and ways were those from where the list was made
@@ -73,6 +87,9 @@ void ContactLayer::renumber_motions(const ContactScene& scene, const BodyChanges
   known_at_ = std::move(known_at);
   last_radius_ = std::move(last_radius);
   travel_ = std::move(travel);
+  listed_at_ = std::move(listed_at);
+  listed_radius_ = std::move(listed_radius);
+  stray_ = std::move(stray);
   motion_.assign(has_travel ? n : 0, {});
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <vector>
 
 /// Loops over threads. With one thread they are plain loops: a parallel region ends with a call of the system even then, which takes as
 /// long as a small tissue's share of the work. With several, neighbouring numbers go to one thread.
@@ -63,6 +64,19 @@ class WorkQueue {
   std::size_t count_, portion_;
   std::atomic<std::size_t> next_{0};
 };
+
+/// What function(k, out) appends to a std::vector<T> `out` for 0 <= k < count, in the order of k.
+template <class T, class Function>
+std::vector<T> gather(int threads, std::size_t count, Function&& function) {
+  const auto parts = static_cast<std::size_t>(std::max(threads, 1));
+  std::vector<std::vector<T>> found(parts);
+  on_each_thread(threads, [&](std::size_t t) {
+    for (std::size_t k = count * t / parts; k < count * (t + 1) / parts; ++k) function(k, found[t]);
+  });
+  std::vector<T> out = std::move(found.front());
+  for (std::size_t t = 1; t < parts; ++t) out.insert(out.end(), found[t].begin(), found[t].end());
+  return out;
+}
 
 /// Largest function(k) of 0 <= k < count, and 0.
 template <class Function>

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "cbm/sphere_range.h"
 #include "core/contact/broad_phase.h"
@@ -30,7 +31,6 @@ double volume_as_sphere(const Model& model, const Cells& cells, std::size_t row)
 struct Balls {
   std::vector<Extent> extent;
   std::vector<std::uint32_t> place;
-  std::vector<char> owned;
 
   Balls(const Workspace& work, const Tissue& tissue);
 };
@@ -53,7 +53,6 @@ Balls::Balls(const Workspace& work, const Tissue& tissue) {
     for (const Vec3d& p : points) ball.box.include(p);
     if (b >= scene.shells()) ball.box = ball.box.inflated(ball.radius);
     place.push_back(bodies[b].place);
-    owned.push_back(bodies[b].owned ? 1 : 0);
   }
 }
 
@@ -63,8 +62,9 @@ void add_pairs_with_shells(const Workspace& work, const Balls& balls, Standings&
   const auto number = [&](std::uint32_t body) {  // among the owned ones
     return body < scene.first_sphere() ? body : body - scene.first_sphere() + scene.owned_shells();
   };
-  find_body_pairs(balls.extent, balls.place, balls.owned, work.setting.model.space, work.setting.threads, [&](const BodyPair& pair) {
-    if (pair.a >= scene.first_sphere() && pair.b >= scene.first_sphere()) return;
+  std::vector<std::uint32_t> shells(scene.first_sphere());
+  std::iota(shells.begin(), shells.end(), 0u);
+  find_body_pairs_of(shells, balls.extent, balls.place, work.setting.model.space, work.setting.threads, [&](const BodyPair& pair) {
     const Extent &first = balls.extent[pair.a], &second = balls.extent[pair.b];
     const double distance = norm(second.center + pair.shift - first.center), overlap = first.radius + second.radius - distance;
     if (!(overlap > 0.0)) return;

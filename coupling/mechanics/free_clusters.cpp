@@ -4,11 +4,14 @@
 #include <array>
 #include <numeric>
 
+#include "core/parallel/threads.h"
+
 namespace morula {
 namespace {
 
-constexpr std::uint64_t kTied = 0;       // no cell has this label, and it is smaller than all
-constexpr double kLeastFriction = 1e-9;  // of the determinant, in units of that of isotropic friction of the same trace
+constexpr std::uint64_t kTied = 0;            // no cell has this label, and it is smaller than all
+constexpr std::uint32_t kManyMembers = 2048;  // of a cluster whose sums several threads share
+constexpr double kLeastFriction = 1e-9;       // of the determinant, in units of that of isotropic friction of the same trace
 
 /// Disjoint sets of bodies, each known by its smallest number.
 class Sets {
@@ -27,22 +30,36 @@ class Sets {
   std::vector<std::uint32_t> parent_;
 };
 
-/// Calls join(a, b) for the pairs of bodies that have a part in the matrix, and tie(body) for those that touch an obstacle.
-template <class Join, class Tie>
-void for_links(const Scene& scene, std::span<const ElementGroup> groups, const SpherePairs& spheres, Join&& join, Tie&& tie) {
-  for (const ElementGroup& group : groups) {
-    if (group.elements[0].empty() && group.elements[1].empty()) continue;
-    group.rigid ? tie(group.body[0]) : join(group.body[0], group.body[1]);
-  }
+/// Joins the bodies of those pairs that have a part in the matrix.
+Sets sets_of_pairs(const Scene& scene, std::span<const ElementGroup> groups, const SpherePairs& spheres, int threads) {
   const auto first = static_cast<std::uint32_t>(scene.first_sphere());
   const bool packs = !spheres.packing.slopes.empty();
-  for (std::size_t k = 0; k < spheres.pairs.size(); ++k) {
-    const SpherePairElement& e = spheres.elements[k];
-    const bool packed = packs && (spheres.packing.slopes[k].a != 0.0f || spheres.packing.slopes[k].b != 0.0f);
-    if (e.area != 0.0f || e.stiffness != 0.0f || packed) join(first + spheres.pairs[k].a, first + spheres.pairs[k].b);
-  }
+  const auto parts = static_cast<std::size_t>(std::max(threads, 1));
+  std::vector<Sets> of_part(spheres.pairs.empty() ? 1 : parts, Sets(0));
+  on_each_thread(static_cast<int>(of_part.size()), [&](std::size_t t) {
+    Sets& sets = of_part[t] = Sets(scene.bodies().size());
+    for (std::size_t k = spheres.pairs.size() * t / parts; k < spheres.pairs.size() * (t + 1) / parts; ++k) {
+      const SpherePairElement& e = spheres.elements[k];
+      const bool packed = packs && (spheres.packing.slopes[k].a != 0.0f || spheres.packing.slopes[k].b != 0.0f);
+      if (e.area != 0.0f || e.stiffness != 0.0f || packed) sets.join(first + spheres.pairs[k].a, first + spheres.pairs[k].b);
+    }
+  });
+  Sets& all = of_part.front();
+  for (std::size_t t = 1; t < of_part.size(); ++t)
+    for (std::uint32_t i = 0; i < scene.bodies().size(); ++i)
+      if (const std::uint32_t root = of_part[t].find(i); root != i) all.join(i, root);
+  for (const ElementGroup& group : groups)
+    if (!group.rigid && !(group.elements[0].empty() && group.elements[1].empty())) all.join(group.body[0], group.body[1]);
+  return std::move(all);
+}
+
+/// Calls tie(body) for those that touch an obstacle.
+template <class Tie>
+void for_tied(const Scene& scene, std::span<const ElementGroup> groups, const SpherePairs& spheres, Tie&& tie) {
+  for (const ElementGroup& group : groups)
+    if (group.rigid && !(group.elements[0].empty() && group.elements[1].empty())) tie(group.body[0]);
   for (const RigidPairElement& e : spheres.rigid)
-    if (e.isotropic != 0.0f || e.axial != 0.0f || e.stiffness != 0.0f) tie(first + e.sphere);
+    if (e.isotropic != 0.0f || e.axial != 0.0f || e.stiffness != 0.0f) tie(static_cast<std::uint32_t>(scene.first_sphere()) + e.sphere);
 }
 
 /// Sums of the bodies of a cluster, order-free.
@@ -78,14 +95,14 @@ std::vector<std::uint64_t> sorted_unique(std::vector<std::uint64_t> list) {
 }  // namespace
 
 void FreeClusters::find(const Scene& scene, std::span<const ElementGroup> groups, const SpherePairs& spheres,
-                        std::span<const std::uint32_t> tied, const Comm& comm) {
+                        std::span<const std::uint32_t> tied, int threads, const Comm& comm) {
+  threads_ = threads;
   const auto bodies = scene.bodies();
   std::vector<std::uint64_t> label(bodies.size()), least(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) label[i] = bodies[i].moves ? bodies[i].id.bits() : kTied;
   for (const std::uint32_t body : tied) label[body] = kTied;
-  Sets sets(bodies.size());
-  for_links(
-      scene, groups, spheres, [&](std::uint32_t a, std::uint32_t b) { sets.join(a, b); }, [&](std::uint32_t body) { label[body] = kTied; });
+  Sets sets = sets_of_pairs(scene, groups, spheres, threads);
+  for_tied(scene, groups, spheres, [&](std::uint32_t body) { label[body] = kTied; });
   // Each rank knows a part of a cluster: the smallest label goes from rank to rank until nobody finds a smaller one.
   for (bool changed = true; changed;) {
     least = label;
@@ -149,8 +166,16 @@ std::vector<Vec3d> FreeClusters::shifts(std::span<const MediumBalance> by_body, 
     } else if (cluster.last - cluster.first == 1) {  // most clusters of a dilute tissue; an order-free sum is large
       give(cluster, ClusterSums::velocity(ClusterSums::terms_of(by_body[members_[cluster.first]]).data()));
     } else {
-      std::array<OrderFreeSum, kTerms> sums;
-      for (std::uint32_t m = cluster.first; m < cluster.last; ++m) ClusterSums::add(by_body[members_[m]], sums.data());
+      const std::uint32_t count = cluster.last - cluster.first;
+      const int threads = count < kManyMembers ? 1 : threads_;
+      std::vector<std::array<OrderFreeSum, kTerms>> of_part(static_cast<std::size_t>(std::max(threads, 1)));
+      on_each_thread(threads, [&](std::size_t t) {
+        for (std::size_t m = count * t / of_part.size(); m < count * (t + 1) / of_part.size(); ++m)
+          ClusterSums::add(by_body[members_[cluster.first + m]], of_part[t].data());
+      });
+      std::array<OrderFreeSum, kTerms>& sums = of_part.front();
+      for (std::size_t t = 1; t < of_part.size(); ++t)
+        for (std::size_t k = 0; k < kTerms; ++k) sums[k] += of_part[t][k];
       ClusterSums::Terms total;
       std::transform(sums.begin(), sums.end(), total.begin(), [](const OrderFreeSum& sum) { return sum.value(); });
       give(cluster, ClusterSums::velocity(total.data()));

@@ -30,7 +30,7 @@ class FreeClusters {
   /// Clusters of the present matrix: bodies hang together where a pair of them has a part in it. `tied`: bodies that something from outside
   /// holds beside obstacles, by number. Collective.
   void find(const Scene& scene, std::span<const ElementGroup> groups, const SpherePairs& spheres, std::span<const std::uint32_t> tied,
-            const Comm& comm);
+            int threads, const Comm& comm);
   /// The velocity V = (Σ γ)⁻¹ (Σ b − Σ γ v) by body that each free cluster lacks [µm/s]; 0 for tied ones, for ghosts, and where nothing
   /// rubs. The same bits on any number of ranks. Collective.
   [[nodiscard]] std::vector<Vec3d> shifts(std::span<const MediumBalance> by_body, const Comm& comm) const;
@@ -43,6 +43,7 @@ class FreeClusters {
   };
   void collect(const Scene& scene, std::span<const std::uint64_t> label, const Comm& comm);
 
+  int threads_ = 1;
   std::vector<std::uint32_t> members_;  ///< bodies, by cluster
   std::vector<Cluster> clusters_;       ///< by label
   SharedSums over_ranks_;               ///< by label of the clusters of this rank that go over several ranks

@@ -124,13 +124,16 @@ class SphereContacts : public Term {
   [[nodiscard]] bool are_attached(const Scene& scene, const Tissue& tissue, const SpherePair& pair) const;
   [[nodiscard]] bool sisters_in(const Scene& scene, const SpherePair& pair) const;
   /// Notes whether a sphere has partners that are no pair of the list.
+  /// How many listed partners each owned sphere adheres to; an obstacle is one.
+  [[nodiscard]] std::vector<std::uint32_t> attached_pairs(const Scene& scene) const;
   void count_partners(const Scene& scene, const Tissue& tissue);
-  // Lists are mended (sphere_mending.cpp); now(sphere): its new number, or BodyChanges::kNone.
+  // Lists are mended (sphere_mending.cpp); now(sphere): its new number, or BodyChanges::kNone where its pairs are new. `place`: its new number, or kNone
+  // where it has gone.
   template <class Now>
-  void renumber_pairs(const Now& now, std::vector<char>& suspects);
+  void renumber_pairs(const Now& now, std::span<const std::uint32_t> place, std::vector<char>& suspects);
   void add_pairs(const Scene& scene, const std::vector<SphereNeighbours>& found);
   template <class Now>
-  void renumber_rigid_pairs(const Scene& scene, const Tissue& tissue, const Now& now, const std::vector<char>& young);
+  void renumber_rigid_pairs(const Scene& scene, const Tissue& tissue, const Now& now, const std::vector<char>& fresh);
   void add_sisters(const World& world, std::span<const std::uint32_t> pairs);
   /// Notes which spheres have other partners in the tissue than in the list: of these, and of those that have more or fewer.
   void look_for_lost(const Scene& scene, const Tissue& tissue, std::vector<char> suspects);

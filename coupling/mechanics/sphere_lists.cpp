@@ -1,7 +1,9 @@
 /// The lists of SphereContacts: which pairs there are, and who adheres to whom.
 #include <algorithm>
+#include <atomic>
 #include <tuple>
 
+#include "core/parallel/threads.h"
 #include "coupling/mechanics/sphere_contacts.h"
 #include "coupling/partner_stretches.h"
 
@@ -44,7 +46,10 @@ void SphereContacts::set_pairs(const World& world) {
   }
   list_.set_layout(scene.sphere_point(), owned, threads());
 
-  for (SpherePair& pair : list_.pairs) pair.attached = are_attached(scene, tissue, pair);
+  parallel_for(threads(), list_.pairs.size(), [&](std::size_t k) {
+    SpherePair& pair = list_.pairs[k];
+    pair.attached = are_attached(scene, tissue, pair);
+  });
   find_rigid_pairs(scene, tissue);
   count_partners(scene, tissue);
   find_sisters(world);
@@ -55,16 +60,23 @@ bool SphereContacts::are_attached(const Scene& scene, const Tissue& tissue, cons
   return cbm::adheres(tissue.spheres.attached[owned_one], partner_id(scene, owned_one == pair.a ? pair.b : pair.a));
 }
 
+std::vector<std::uint32_t> SphereContacts::attached_pairs(const Scene& scene) const {
+  const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
+  std::vector<std::uint32_t> out(owned, 0);
+  const auto add = [&](std::uint32_t sphere) {
+    if (sphere < owned) std::atomic_ref(out[sphere]).fetch_add(1, std::memory_order_relaxed);
+  };
+  parallel_for(threads(), list_.pairs.size(), [&](std::size_t k) {
+    if (const SpherePair& pair = list_.pairs[k]; pair.attached) add(pair.a), add(pair.b);
+  });
+  for (std::size_t k = 0; k < rigid_.size(); ++k)
+    if (k == 0 || !rigid_[k].same_bodies(rigid_[k - 1])) out[rigid_[k].sphere] += rigid_[k].attached;
+  return out;
+}
+
 void SphereContacts::count_partners(const Scene& scene, const Tissue& tissue) {
   const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
-  std::vector<std::uint32_t> known(owned, 0);  // attached pairs of each sphere
-  for (const SpherePair& pair : list_.pairs) {
-    if (!pair.attached) continue;
-    if (pair.a < owned) ++known[pair.a];
-    if (pair.b < owned) ++known[pair.b];
-  }
-  for (std::size_t k = 0; k < rigid_.size(); ++k)
-    if (k == 0 || !rigid_[k].same_bodies(rigid_[k - 1])) known[rigid_[k].sphere] += rigid_[k].attached;
+  const std::vector<std::uint32_t> known = attached_pairs(scene);
   partners_are_lost_ = false;
   lost_.clear();
   for (std::uint32_t i = 0; i < owned; ++i) partners_are_lost_ = partners_are_lost_ || known[i] != tissue.spheres.attached[i].size();
@@ -173,13 +185,14 @@ void SphereContacts::write_partners(const Scene& scene, const std::vector<char>&
 }
 
 std::vector<std::pair<std::uint32_t, CellId>> SphereContacts::partners_of(const Scene& scene, const std::vector<char>& marked) const {
-  std::vector<std::pair<std::uint32_t, CellId>> out;
+  using Partner = std::pair<std::uint32_t, CellId>;
   const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
-  for (const SpherePair& pair : list_.pairs) {
-    if (!pair.attached || (marked[pair.a] | marked[pair.b]) == 0) continue;
-    if (pair.a < owned && marked[pair.a]) out.emplace_back(pair.a, partner_id(scene, pair.b));
-    if (pair.b < owned && marked[pair.b]) out.emplace_back(pair.b, partner_id(scene, pair.a));
-  }
+  std::vector<Partner> out = gather<Partner>(threads(), list_.pairs.size(), [&](std::size_t k, std::vector<Partner>& to) {
+    const SpherePair& pair = list_.pairs[k];
+    if (!pair.attached || (marked[pair.a] | marked[pair.b]) == 0) return;
+    if (pair.a < owned && marked[pair.a]) to.emplace_back(pair.a, partner_id(scene, pair.b));
+    if (pair.b < owned && marked[pair.b]) to.emplace_back(pair.b, partner_id(scene, pair.a));
+  });
   for (std::size_t k = 0; k < rigid_.size(); ++k)
     if (rigid_[k].attached && marked[rigid_[k].sphere] && (k == 0 || !rigid_[k].same_bodies(rigid_[k - 1])))
       out.emplace_back(rigid_[k].sphere, obstacle_partner(rigid_[k].obstacle));

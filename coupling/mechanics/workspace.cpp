@@ -94,6 +94,7 @@ void build_scene(Workspace& work, const Tissue& tissue, const Settling* settling
     changes = work.scene.renew(tissue, model.space, reach, work.setting.shapes, work.setting.comm);
   else
     work.scene.build(tissue, model.space, reach, work.setting.shapes, work.setting.comm);
+  if (changes) work.terms.contacts->layer().add_strays(*changes);
   if (settling != nullptr) work.scene.set_moving(by_body_of_scene(work.scene, settling->moves));
   if (mend)
     work.age->cells_replaced = false;  // what lists have of their skin goes on

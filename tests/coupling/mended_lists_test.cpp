@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <string>
 
 #include "core/contact/contact_layer.h"
@@ -51,6 +53,13 @@ Model living_model(bool periodic) {
   return model;
 }
 
+Tissue tissue_of(const Model& model, std::vector<CellRecord> cells) {
+  Tissue tissue;
+  tissue.clock.next_step = model.step.max_step;
+  put_together(tissue, std::move(cells));
+  return tissue;
+}
+
 Tissue living_tissue(const Model& model) {
   std::vector<CellRecord> cells;
   std::uint64_t number = 0;
@@ -67,10 +76,7 @@ Tissue living_tissue(const Model& model) {
         cell.row.phase = Phase::kDying;
         cell.row.death_time = -2.5 * static_cast<double>(number);
       }
-  Tissue tissue;
-  tissue.clock.next_step = model.step.max_step;
-  put_together(tissue, std::move(cells));
-  return tissue;
+  return tissue_of(model, std::move(cells));
 }
 
 /// Which cells differ in anything, in words; empty: none.
@@ -99,9 +105,10 @@ struct Both {
   int after_events = 0;  ///< steps right after one
   int went_on = 0;       ///< of these, those whose lists were older than the step: what they allow of motion was not used up by it alone
 
-  Both(const Model& model, int threads) {
+  Both(const Model& model, int threads) : Both(model, threads, living_tissue(model)) {}
+  Both(const Model& model, int threads, const Tissue& tissue) {
     for (auto* simulation : {&mended, &anew}) {
-      auto created = Simulation::create(model, living_tissue(model), Comm(), threads);
+      auto created = Simulation::create(model, tissue, Comm(), threads);
       EXPECT_TRUE(created.ok() && (*created)->first_swaps().ok());
       *simulation = std::move(created).value();
     }
@@ -147,6 +154,34 @@ TEST(MendedLists, GiveTheBitsOfNewOnesInAPeriodicBox) {
   Both both(living_model(true), 1);
   both.steps(70);
   EXPECT_GE(both.all(), 50);
+}
+
+/// A ball of spheres that swells, in which now and then one divides: the daughters part fast, all others keep their distances. The lists of pairs are made
+/// anew now and then, and not whenever a daughter has gone far.
+TEST(MendedLists, OutliveFastSistersInASwellingBall) {
+  Model model = living_model(false);
+  model.swaps.regions.clear();
+  CellType& type = model.types[0];
+  type.cycle_duration = {12.0 * 3600.0, 0.1};
+  type.migration.speed = 0.0;
+  model.step.max_step = 60.0;
+  std::vector<CellRecord> cells;
+  std::uint64_t number = 0;
+  for (int x = -6; x <= 6; ++x)
+    for (int y = -6; y <= 6; ++y)
+      for (int z = -6; z <= 6; ++z) {
+        if ((x + y + z) % 2 != 0) continue;
+        CellRecord& cell = cells.emplace_back();
+        cell.row = make_founder(CellId::founder(++number), 0, type, model.seed, 0.0, true);
+        const Vec3d center = Vec3d{1.0 * x, 1.0 * y, 1.0 * z} * 6.6;
+        cell.row.order = curve_place(center);
+        cell.sphere = SphereRecord{center, std::cbrt(0.75 / std::numbers::pi * cell.row.target_volume), {}, {}};
+      }
+  Both both(model, 2, tissue_of(model, std::move(cells)));
+  both.steps(120);
+  EXPECT_GE(both.events[EventKind::kDivision], 20);
+  EXPECT_GT(both.after_events, 15);
+  EXPECT_LT(both.mended->mechanics().contacts().times_rebuilt(), 20u);  // 41 where the fastest sphere sets the time
 }
 
 }  // namespace
