@@ -32,6 +32,20 @@ void take_back(Tissue& tissue, std::vector<CellRecord> before, std::span<const C
   }
 }
 
+/// Shells that would be packed more tightly as spheres than the law of these goes stay shells, and are asked again when their hold is over. Says whether there
+/// are any.
+bool put_off_tight(std::span<const SwapOrder> orders, const ExchangeWatch& watch, const Model& model, Tissue& tissue) {
+  bool any = false;
+  for (const SwapOrder& order : orders) {
+    const CellRow& row = tissue.cells.rows[order.row];
+    const double last = model.types[row.type].sphere.packing.last();
+    if (order.to != BodyKind::kSphere || !(last > 0.0) || watch.caps_of(row.id) <= last * row.target_volume) continue;
+    tissue.cells.optional.last_swap_time.set(order.row, tissue.clock.time, tissue.cells.size());
+    any = true;
+  }
+  return any;
+}
+
 }  // namespace
 
 std::vector<Event> Simulation::swap_bodies() {
@@ -39,12 +53,16 @@ std::vector<Event> Simulation::swap_bodies() {
   std::vector<Event> events;
   const std::vector<Vec3d> center = centers();
   const LookedAt looked = look_for_swaps(model_, tissue_, center, *mechanics_, comm_);
-  const std::vector<SwapOrder> orders = choose_swaps(model_, tissue_, looked.bodies(center), comm_);
-  if (!comm_.any(!orders.empty())) return events;
+  const bool may_stay = tissue_.clock.steps > 0;  // at the very beginning cells become what the study says
+  std::vector<SwapOrder> orders;
+  ExchangeWatch watch;
+  do {
+    orders = choose_swaps(model_, tissue_, looked.bodies(center), comm_);
+    if (!comm_.any(!orders.empty())) return events;
+    watch = watch_exchanges(model_, tissue_, orders, *mechanics_, shapes_, comm_);
+  } while (may_stay && comm_.any(put_off_tight(orders, watch, model_, tissue_)));
   std::vector<double> pressure(orders.size());
   for (std::size_t k = 0; k < orders.size(); ++k) pressure[k] = tissue_.cells.rows[orders[k].row].pressure;
-  const bool may_stay = tissue_.clock.steps > 0;  // at the very beginning cells become what the study says
-  const ExchangeWatch watch = watch_exchanges(model_, tissue_, orders, *mechanics_, shapes_, comm_);
   std::vector<CellId> leaving;
   for (const SwapOrder& order : orders)
     if (order.to == BodyKind::kSphere) leaving.push_back(tissue_.cells.rows[order.row].id);

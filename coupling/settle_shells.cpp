@@ -102,7 +102,8 @@ Settled settle_shells(Tissue& tissue, const Mechanics& mechanics, const Model& m
                       std::span<const CellId> fresh, bool may_go_back) {
   Outcome outcome;
   const double deepest = may_go_back ? kNoRoom : std::numeric_limits<double>::infinity();
-  for (double way = kFirstWay;; way *= 2.0) {
+  const bool many = comm.sum(static_cast<std::int64_t>(fresh.size())) >= kGroup;
+  for (double way = many ? 2.0 * kFirstWay : kFirstWay;; way *= 2.0) {
     const std::vector<Neighbourhood> all = neighbourhoods_of(tissue, model, mechanics.contacts().settings(), fresh, way, comm);
     outcome = settle_all(GatheredParts(tissue, all, mechanics, shapes, comm), {way, deepest}, comm);
     if (!outcome.went_beyond || everybody_has_a_part(model) || way >= kLastWay) break;

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "cbm/division_ramp.h"
 #include "core/parallel/pack.h"
 #include "core/random/rotation.h"
 #include "coupling/who_is_in.h"
@@ -65,6 +66,9 @@ std::uint64_t place_of_rule(const Swaps& swaps, const EventReason& reason) {
   return swaps.regions.size() + (reason.cause == Cause::kTrigger ? reason.number : swaps.triggers.size());
 }
 
+/// Whether a cell has not parted from its sister yet: until then the pair is neither two balls nor two shells at rest.
+bool is_dividing(const CellRow& row, double time) { return row.id.generation() > 0 && time - row.birth_time < cbm::kSisterRelaxation; }
+
 }  // namespace
 
 CellView SwapBodies::view(const Model& model, const Tissue& tissue, const BodyOfRow& body) const {
@@ -103,7 +107,7 @@ std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, co
     const std::size_t i = body.row;
     const CellRow& row = tissue.cells.rows[i];
     if (row.body == BodyKind::kShell) ++shells;
-    if (row.phase == Phase::kDying) continue;
+    if (row.phase == Phase::kDying || is_dividing(row, tissue.clock.time)) continue;
     const Wish wanted = wish(model, bodies.view(model, tissue, body), i, bodies, center_of_region);
     if (wanted.body == row.body || tissue.clock.time - tissue.cells.optional.last_swap_time[i] < wanted.hold) continue;
     orders.push_back({i, wanted.body, wanted.reason, {place_of_rule(model.swaps, wanted.reason), wanted.beyond, row.id}});

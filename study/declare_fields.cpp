@@ -195,14 +195,17 @@ void declare_coupling(Section& s, draft::Coupling& c) {
            .example = "120",
            .source = "chosen"},
           c.max_shells);
-  s.quantity({.name = "hold",
-              .doc = "No second exchange of body by a region within this time.",
-              .quantity = Q::kTime,
-              .fallback = "10 min",
-              .low = 0.0,
-              .example = "10 min",
-              .source = "chosen"},
-             c.hold);
+  s.quantity(
+      {.name = "hold",
+       .doc = "No second exchange of body by a region within this time. Daughters keep their body until they have parted (half an hour), "
+              "dying cells keep it, and shells that would be packed beyond the law of spheres stay shells; they are asked again when this "
+              "time is over.",
+       .quantity = Q::kTime,
+       .fallback = "10 min",
+       .low = 0.0,
+       .example = "10 min",
+       .source = "chosen"},
+      c.hold);
   s.word(
       {.name = "exchange",
        .doc = "What room a sphere takes that becomes a shell. Balls overlap, shells do not. gradual: beside shells, and beside others that "

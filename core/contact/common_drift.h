@@ -7,9 +7,9 @@ namespace morula {
 
 /// The part of the motion of many points that is common to all: u(x) = A (x − c) + b. Points that follow it keep their distances, but for the strain.
 struct CommonDrift {
-  Vec3d center, way;        ///< c [µm], b [µm]
-  Vec3d row[3];             ///< of A
-  double strain = 0.0;      ///< bound on |A v|/|v| (Frobenius)
+  Vec3d center, way;    ///< c [µm], b [µm]
+  Vec3d row[3];         ///< of A
+  double strain = 0.0;  ///< bound on |A v|/|v| (Frobenius)
 
   [[nodiscard]] Vec3d at(const Vec3d& x) const {
     const Vec3d from = x - center;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "coupling/mechanics/step.h"
@@ -20,6 +21,8 @@ constexpr double kRaiseCap = 1.08;      // from step to step: 60 steps from the 
 constexpr int kBondingSteps = 20;       // over which adhesion and friction come in
 constexpr double kFarStep = 0.1;        // a step is chosen to move nodes not much further [µm]
 constexpr double kAtRest = 6e-3;        // displacement of a longest step that counts as rest: 10⁻³ R a minute for R = 6 to 12 [µm]
+constexpr int kMostCreep =
+    20;  // longest steps with all adhesion: what a rim of hundreds of cells still goes then, it goes in the run as well
 constexpr int kMostSteps = 200;
 
 /// The deepest overlap that there can be: two radii of the largest shell that moves.
@@ -51,6 +54,8 @@ double relax_in_place(Workspace& work, Tissue& tissue, std::span<const char> mov
   see_all_overlap(work, tissue, settling, deepest);
   const std::vector<Vec3d> none(tissue.shells.node_count() + tissue.spheres.size());
   double dt = kFirstStep, overlap = deepest_overlap(work);
+  const bool is_group = work.setting.comm.sum(static_cast<std::int64_t>(std::ranges::count_if(moves, std::identity()))) >= kGroup;
+  int creep = 0;
   for (int k = 0; k < kMostSteps; ++k) {
     const auto done = advance(work, tissue, {dt, none, {}, &settling});
     if (!done) {
@@ -66,7 +71,7 @@ double relax_in_place(Workspace& work, Tissue& tissue, std::span<const char> mov
     } else if (strength.bonding < 1.0) {
       tissue.clock.capped = false;
       strength.bonding = std::min(1.0, strength.bonding + 1.0 / kBondingSteps);
-    } else if (dt >= kLongestStep && done->displacement < kAtRest) {
+    } else if (dt >= kLongestStep && (done->displacement < kAtRest || (is_group && ++creep == kMostCreep))) {
       break;
     }
     dt = std::min(kLongestStep, dt * std::clamp(kFarStep / std::max(done->displacement, 1e-12), 0.5, 1.5));

@@ -28,7 +28,7 @@ Model living_model(bool periodic) {
   CellType type;
   type.name = "cell";
   type.cycles = true;
-  type.cycle_duration = {900.0, 0.3};
+  type.cycle_duration = {2200.0, 0.3};
   type.migration.speed = 20.0 / 3600.0;
   type.apoptosis_time = 200.0;
   type.shell_nodes = 42;

@@ -277,6 +277,25 @@ TEST(ChooseSwaps, LeavesACellOutsideAllRegionsTheBodyItWasPlacedWith) {
   EXPECT_EQ(orders[0].to, kShell);
 }
 
+TEST(ChooseSwaps, LeavesDaughtersTheirBodyUntilTheyHaveParted) {
+  Model model = clusters_model();
+  model.swaps.regions = {ball_of_shells(50.0, 0.0, kNever)};
+  model.swaps.hold = 0.0;
+  ShapeLibrary shapes;
+  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}, {9, 0, 0}}, {kSphere, kSphere});
+  std::vector<CellRecord> cells = take_apart(tissue);
+  for (std::size_t k = 0; k < 2; ++k) cells[k].row.id = CellId::founder(1).daughter(static_cast<int>(k)), cells[k].row.birth_time = 100.0;
+  put_together(tissue, std::move(cells));
+  const std::vector<Vec3d> center{{0, 0, 0}, {9, 0, 0}};
+  const auto count_at = [&](double time) {
+    tissue.clock.time = time;
+    return choose_swaps(model, tissue, {center}, Comm()).size();
+  };
+  EXPECT_EQ(count_at(160.0), 0u);
+  EXPECT_EQ(count_at(1899.0), 0u);
+  EXPECT_EQ(count_at(1901.0), 2u);  // half an hour after their birth
+}
+
 TEST(ChooseSwaps, TakesTheMostUrgentWhereThereArePlacesForFew) {
   Model model = clusters_model();
   model.swaps.regions = {ball_of_shells(5.0, 0.0, kNever)};
