@@ -109,7 +109,8 @@ std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, co
     if (row.body == BodyKind::kShell) ++shells;
     if (row.phase == Phase::kDying || is_dividing(row, tissue.clock.time)) continue;
     const Wish wanted = wish(model, bodies.view(model, tissue, body), i, bodies, center_of_region);
-    if (wanted.body == row.body || tissue.clock.time - tissue.cells.optional.last_swap_time[i] < wanted.hold) continue;
+    const double since = tissue.clock.time - tissue.cells.optional.last_swap_time[i];
+    if (wanted.body == row.body || since < wanted.hold || since == 0.0) continue;  // nobody is asked twice at a time
     orders.push_back({i, wanted.body, wanted.reason, {place_of_rule(model.swaps, wanted.reason), wanted.beyond, row.id}});
   }
   shells = comm.sum(shells);

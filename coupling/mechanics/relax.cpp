@@ -21,8 +21,7 @@ constexpr double kRaiseCap = 1.08;      // from step to step: 60 steps from the 
 constexpr int kBondingSteps = 20;       // over which adhesion and friction come in
 constexpr double kFarStep = 0.1;        // a step is chosen to move nodes not much further [µm]
 constexpr double kAtRest = 6e-3;        // displacement of a longest step that counts as rest: 10⁻³ R a minute for R = 6 to 12 [µm]
-constexpr int kMostCreep =
-    20;  // longest steps with all adhesion: what a rim of hundreds of cells still goes then, it goes in the run as well
+constexpr int kMostCreep = 20;          // longest steps of a group with all adhesion: some rim always goes on, in the run as well
 constexpr int kMostSteps = 200;
 
 /// The deepest overlap that there can be: two radii of the largest shell that moves.

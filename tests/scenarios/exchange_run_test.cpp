@@ -209,11 +209,12 @@ TEST(ExchangeRun, OfAGroupTakesItsRoomLittleByLittle) {
 /// Decision 0059. Shells that rest in a cluster are to become spheres, whose law ends where the balls of the cluster hardly overlap: they stay shells, and
 /// nobody is beyond the law. With the law's own end they all become spheres.
 TEST(ExchangeRun, DoesNotMakeSpheresThatTheirLawDoesNotKnow) {
-  const auto shells_and_demotions = [](const std::string& packing) {
+  const auto shells_and_demotions = [](const std::string& packing, const std::string& hold = "1 min") {
     const test::Folder folder;
     std::string text =
         test::changed("radius: 8 um, as: shell, margin: 4 um, from: 10 min", "radius: 80 um, as: shell, until: 10 min", kStudy);
     text = test::changed("    cycle: {model: none}\n", "    cycle: {model: none}\n    dcm: {nodes: 42}\n" + packing, text);
+    text = test::changed("hold: 1 min", "hold: " + hold, text);
     const auto study = test::read(test::changed("boundary: open}\n", "boundary: open}\noutput: {report: false}\n", text));
     EXPECT_TRUE(study.ok()) << (study.ok() ? "" : study.error().text());
     if (!study.ok()) return std::pair(-1.0, -1.0);
@@ -231,10 +232,11 @@ TEST(ExchangeRun, DoesNotMakeSpheresThatTheirLawDoesNotKnow) {
   const auto free = shells_and_demotions("");
   EXPECT_EQ(free.first, 0.0);
   EXPECT_GE(free.second, 13.0);
-  const auto tight = shells_and_demotions(
+  const std::string packing =
       "    cbm: {packing: {law: knots, knots: [{packing: 0.1 %, pressure: 0 Pa}, {packing: 0.15 %, pressure: 2 Pa}, {packing: 0.2 %, "
-      "pressure: 5 Pa}]}}\n");
-  EXPECT_EQ(tight.first, 13.0);
+      "pressure: 5 Pa}]}}\n";
+  EXPECT_EQ(shells_and_demotions(packing).first, 13.0);
+  EXPECT_EQ(shells_and_demotions(packing, "0 s").first, 13.0);  // asked at every step
 }
 
 }  // namespace
