@@ -14,6 +14,9 @@ inline constexpr double kSisterRelaxation = 1800.0;
   return (a.bits() ^ b.bits()) == (std::uint64_t{1} << CellId::kFounderBits) && a.generation() > 0 && b.generation() > 0;
 }
 
+/// Whether sisters that were born then are an ordinary pair by now [s].
+[[nodiscard]] constexpr bool sisters_have_parted(double birth_time, double now) noexcept { return now - birth_time >= kSisterRelaxation; }
+
 /// Distance of the centres of two daughters at birth, such that both lie inside their mother's envelope and touch it at most [µm].
 ///
 /// The centres lie at d·V_2/V_m and d·V_1/V_m from the mother's, so that d·V_2/V_m + r_1 ≤ R_m and d·V_1/V_m + r_2 ≤ R_m. Equal daughters:

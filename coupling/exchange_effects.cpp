@@ -47,7 +47,7 @@ struct CellBall {
 CellBall ball_of(const Tissue& part, const BodyOfRow& body) {
   const CellRow& row = part.cells.rows[body.row];
   return {row.id, record_of(part, body).center(), body.is_shell ? radius_of(row.target_volume) : part.spheres.radius[body.number],
-          part.clock.time - row.birth_time < cbm::kSisterRelaxation};
+          !cbm::sisters_have_parted(row.birth_time, part.clock.time)};
 }
 
 /// Who is a shell in a part when these have exchanged their bodies, by id. Collective.

@@ -112,7 +112,7 @@ std::vector<std::string> still_to_come(const Model& model, const Tissue& tissue,
       "a division");
   add(any_cell([](std::size_t, const CellRow& row, const CellType&) { return row.phase == Phase::kDying; }), "the end of dying cells");
   add(any_cell([time](std::size_t, const CellRow& row, const CellType&) {
-        return row.id.generation() > 0 && row.body == BodyKind::kSphere && time - row.birth_time < cbm::kSisterRelaxation;
+        return row.id.generation() > 0 && row.body == BodyKind::kSphere && !cbm::sisters_have_parted(row.birth_time, time);
       }),
       "young sisters");
   add(any_cell([&](std::size_t k, const CellRow&, const CellType& type) {

@@ -67,7 +67,7 @@ std::uint64_t place_of_rule(const Swaps& swaps, const EventReason& reason) {
 }
 
 /// Whether a cell has not parted from its sister yet: until then the pair is neither two balls nor two shells at rest.
-bool is_dividing(const CellRow& row, double time) { return row.id.generation() > 0 && time - row.birth_time < cbm::kSisterRelaxation; }
+bool is_dividing(const CellRow& row, double time) { return row.id.generation() > 0 && !cbm::sisters_have_parted(row.birth_time, time); }
 
 }  // namespace
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contact/float_rounding.h"
+
 namespace morula {
 namespace {
 
 constexpr std::size_t kFewest = 64, kSample = 2048;
 constexpr double kFlat = 1e-6;  // determinant of the second moments, over that of a ball with the same trace
-
-Vec3d to_double(const Vec3f& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 

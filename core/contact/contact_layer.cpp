@@ -7,20 +7,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/contact/float_rounding.h"
 #include "core/parallel/threads.h"
 
 namespace morula {
 namespace {
 
-constexpr double kFloatRounding = 1.0 / (1 << 24);  // relative, of a number kept as float
-constexpr std::size_t kPairsOfShare = 16;           // evaluated by each of several threads before their gradients are collected
-
-Vec3d to_double(const Vec3f& v) { return {v.x, v.y, v.z}; }
-
-/// How far the surface of a sphere has moved since it had this radius, at most.
-double growth(const ContactBody& body, float last_radius) {
-  return body.radius == 0.0 ? 0.0 : std::abs(body.radius - static_cast<double>(last_radius)) + kFloatRounding * body.radius;
-}
+constexpr std::size_t kPairsOfShare = 16;  // evaluated by each of several threads before their gradients are collected
 
 /// Whether both are daughters of one cell: their ids differ in the last step of the lineage alone.
 bool are_sisters(CellId a, CellId b) {

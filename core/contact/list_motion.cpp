@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/contact/contact_layer.h"
+#include "core/contact/float_rounding.h"
 #include "core/parallel/threads.h"
 
 namespace morula {
@@ -16,8 +17,6 @@ constexpr double kStrays = 0.4;
 constexpr std::size_t kPartOfBodies = 16;
 constexpr double kRoundedUp = 1.000001;
 
-Vec3d to_double(const Vec3f& v) { return {v.x, v.y, v.z}; }
-
 }  // namespace
 
 double ContactLayer::stray_of(const ContactScene& scene, std::size_t i, const CommonDrift& drift) const {
@@ -26,7 +25,7 @@ double ContactLayer::stray_of(const ContactScene& scene, std::size_t i, const Co
   if (body.shape == BodyShape::kSphere) {
     const bool own = !listed_at_.empty();
     const Vec3d then = to_double(own ? listed_at_[i] : known_at_[body.first_point]);
-    const double grown = std::abs(body.radius - static_cast<double>(own ? listed_radius_[i] : last_radius_[i]));
+    const double grown = growth(body, own ? listed_radius_[i] : last_radius_[i]);
     return (norm(now - then - drift.at(then)) + grown + rounding_) * kRoundedUp;
   }
   const double way = travel_.empty() ? way_of(scene, body, body.first_point, last_radius_[i]) : travel_[i];

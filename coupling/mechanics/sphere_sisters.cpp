@@ -9,7 +9,7 @@ namespace morula {
 namespace {
 
 /// Whether sisters that were born then are an ordinary pair, whatever comes of the step that is under way.
-bool is_grown_up(double birth_time, const World& world) { return world.tissue.clock.time - birth_time >= cbm::kSisterRelaxation; }
+bool have_parted(double birth_time, const World& world) { return cbm::sisters_have_parted(birth_time, world.tissue.clock.time); }
 
 }  // namespace
 
@@ -25,7 +25,7 @@ void SphereContacts::find_sisters(const World& world) {
     const SpherePair pair = list_.pairs[k];
     if (!sisters_in(scene, pair)) continue;
     if (birth.empty()) birth = scene.sphere_births(world.tissue);
-    if (is_grown_up(birth[pair.a].time, world)) continue;
+    if (have_parted(birth[pair.a].time, world)) continue;
     sisters_.push_back({k, birth[pair.a].radius, birth[pair.b].radius, birth[pair.a].time, 0.0});
   }
   update_sisters(scene, world.time);
@@ -36,7 +36,7 @@ void SphereContacts::add_sisters(const World& world, std::span<const std::uint32
   std::vector<std::uint32_t> pairs, spheres;
   for (const std::uint32_t k : of_young)
     if (sisters_in(scene, list_.pairs[k])) pairs.push_back(k);
-  std::erase_if(sisters_, [&](const Sisters& s) { return is_grown_up(s.birth_time, world) || std::ranges::binary_search(pairs, s.pair); });
+  std::erase_if(sisters_, [&](const Sisters& s) { return have_parted(s.birth_time, world) || std::ranges::binary_search(pairs, s.pair); });
   for (const std::uint32_t k : pairs) spheres.insert(spheres.end(), {list_.pairs[k].a, list_.pairs[k].b});
   std::ranges::sort(spheres);
   spheres.erase(std::ranges::unique(spheres).begin(), spheres.end());
@@ -46,7 +46,7 @@ void SphereContacts::add_sisters(const World& world, std::span<const std::uint32
   };
   for (const std::uint32_t k : pairs) {
     const Scene::Birth a = birth(list_.pairs[k].a), b = birth(list_.pairs[k].b);
-    if (!is_grown_up(a.time, world)) sisters_.push_back({k, a.radius, b.radius, a.time, 0.0});
+    if (!have_parted(a.time, world)) sisters_.push_back({k, a.radius, b.radius, a.time, 0.0});
   }
   std::ranges::sort(sisters_, {}, &Sisters::pair);
   update_sisters(scene, world.time);

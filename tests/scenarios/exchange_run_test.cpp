@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <optional>
 
 #include "core/mesh/topology.h"
 #include "coupling/overlap.h"
 #include "scenarios/measures/finished_run.h"
-#include "scenarios/run/driver.h"
+#include "tests/scenarios/run_into.h"
 #include "tests/scenarios/simulation_of.h"
 #include "tests/study/study_fixture.h"
 
@@ -157,12 +158,9 @@ Grouped run_group(const std::string& exchange) {
   const auto study = test::read(test::changed("  regions:\n", exchange + "  regions:\n", kGroup));
   EXPECT_TRUE(study.ok()) << (study.ok() ? "" : study.error().text());
   if (!study.ok()) return {};
-  RunRequest request;
-  request.out = folder.path() / "run";
-  request.command = "a test";
-  const auto done = run(*study, request, Comm());
-  EXPECT_TRUE(done.ok()) << (done.ok() ? "" : done.error().message);
-  FinishedRun files(*study, request.out);
+  const std::filesystem::path out_folder = folder.path() / "run";
+  test::run_into(out_folder, *study);
+  FinishedRun files(*study, out_folder);
   Grouped out;
   const auto events = files.events();
   const auto series = files.series();
@@ -218,12 +216,9 @@ TEST(ExchangeRun, DoesNotMakeSpheresThatTheirLawDoesNotKnow) {
     const auto study = test::read(test::changed("boundary: open}\n", "boundary: open}\noutput: {report: false}\n", text));
     EXPECT_TRUE(study.ok()) << (study.ok() ? "" : study.error().text());
     if (!study.ok()) return std::pair(-1.0, -1.0);
-    RunRequest request;
-    request.out = folder.path() / "run";
-    request.command = "a test";
-    const auto done = run(*study, request, Comm());
-    EXPECT_TRUE(done.ok()) << (done.ok() ? "" : done.error().message);
-    FinishedRun files(*study, request.out);
+    const std::filesystem::path out_folder = folder.path() / "run";
+    test::run_into(out_folder, *study);
+    FinishedRun files(*study, out_folder);
     const auto series = files.series();
     EXPECT_TRUE(series.ok());
     if (!series.ok()) return std::pair(-1.0, -1.0);

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <string>
 
 #include "results/series_reader.h"
-#include "scenarios/run/driver.h"
+#include "tests/scenarios/run_into.h"
 #include "tests/study/study_fixture.h"
 
 namespace morula::scenarios {
@@ -40,12 +41,9 @@ Ran run_with(int others) {
   const auto study = test::read(study_of(others));
   EXPECT_TRUE(study.ok()) << (study.ok() ? "" : study.error().text());
   if (!study.ok()) return {};
-  RunRequest request;
-  request.out = folder.path() / "run";
-  request.command = "a test";
-  const auto done = run(*study, request, Comm());
-  EXPECT_TRUE(done.ok()) << (done.ok() ? "" : done.error().message);
-  const auto series = read_series(request.out / "series.csv");
+  const std::filesystem::path out_folder = folder.path() / "run";
+  test::run_into(out_folder, *study);
+  const auto series = read_series(out_folder / "series.csv");
   EXPECT_TRUE(series.ok());
   if (!series.ok()) return {};
   // All weigh alike: the centre goes the runner's way over their number.
