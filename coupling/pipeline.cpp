@@ -8,6 +8,7 @@
 #include "coupling/sensed_fields.h"
 #include "coupling/simulation.h"
 #include "dcm/growth.h"
+#include "fields/interval_control.h"
 
 namespace morula {
 namespace {
@@ -59,9 +60,10 @@ double next_step(const StepControl& control, double range, const StepReport& don
 }  // namespace
 
 Result<StepOutcome> Simulation::step(double land_on, const std::function<bool()>& give_up) {
-  if (!give_up || model_.fields.empty()) return whole_step(land_on, {});
+  const StepPlan plan = plan_step(land_on);
+  if (!give_up || plan.due_fields.empty()) return whole_step(plan, {});
   Tissue before = tissue_;  // small beside the workspaces of a step
-  auto done = whole_step(land_on, give_up);
+  auto done = whole_step(plan, give_up);
   if (!done.ok() && done.error().kind == ErrorKind::kStoppedEarly) {
     tissue_ = std::move(before);
     mechanics_->bodies_changed();
@@ -69,12 +71,23 @@ Result<StepOutcome> Simulation::step(double land_on, const std::function<bool()>
   return done;
 }
 
-Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<bool()>& give_up) {
+Simulation::StepPlan Simulation::plan_step(double land_on) const {
+  StepPlan plan;
+  const Clock& clock = tissue_.clock;
+  plan.land_on = std::min(land_on, next_corner(model_, clock.time));
+  plan.dt = fit_step(std::min({clock.next_step, model_.step.max_step, longest_step_of_box(plan.land_on)}), clock.time, plan.land_on);
+  const double end = end_of_step(plan.dt, clock.time, plan.land_on);
+  for (std::size_t f = 0; f < tissue_.fields.size(); ++f)
+    if (end == plan.land_on || fields::is_due(tissue_.fields[f], end)) plan.due_fields.push_back(f);
+  return plan;
+}
+
+Result<StepOutcome> Simulation::whole_step(const StepPlan& plan, const std::function<bool()>& give_up) {
   StepOutcome outcome;
   Clock& clock = tissue_.clock;
   before_step_.keep(tissue_);
-  land_on = std::min(land_on, next_corner(model_, clock.time));  // of what is prescribed over time
-  double dt = fit_step(std::min({clock.next_step, model_.step.max_step, longest_step_of_box(land_on)}), clock.time, land_on);
+  const double land_on = plan.land_on;
+  double dt = plan.dt;
   const bool wanted_less = dt < clock.next_step;
   LifeReport life;
   std::optional<BodiesNow> bodies;
@@ -118,7 +131,8 @@ Result<StepOutcome> Simulation::whole_step(double land_on, const std::function<b
   turn_polarities(clock.steps - 1, dt);
   renew_faces(dt);
   renew_meshes(outcome.events);
-  MORULA_TRY(advance_fields(dt, give_up, outcome));
+  for (fields::Field& field : tissue_.fields) field.way += outcome.mechanics.displacement;
+  MORULA_TRY(advance_fields(plan.due_fields, give_up, outcome));
   {
     auto timed = timer().scope(Stage::kBehaviours);
     divide_and_remove(life, outcome.events);

@@ -17,6 +17,7 @@
 #include "coupling/still_to_come.h"
 #include "coupling/swaps.h"
 #include "dcm/growth.h"
+#include "fields/interval_control.h"
 
 namespace morula {
 namespace {
@@ -43,6 +44,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Model model, Tissue tissu
       MORULA_TRY_ASSIGN(const auto grid, fields::grid_for(spec, out->model_.space));
       const auto owner = fields::owners_along_curve(grid, comm.size());
       out->tissue_.fields.push_back(fields::uniform_field(grid, spec.initial, owner, comm.rank()));
+      out->tissue_.fields.back().time = out->tissue_.clock.time;
       out->tissue_.ledger.fields.push_back({.start = fields::total_amount(out->tissue_.fields.back(), comm)});
       Cells& cells = out->tissue_.cells;
       for (std::size_t i = 0; i < cells.size(); ++i) cells.variables[concentration_of(f)].values.set(i, spec.initial, cells.size());
@@ -169,15 +171,20 @@ std::vector<fields::CellSource> Simulation::field_sources() const {
   return out;
 }
 
-Status Simulation::advance_fields(double dt, const std::function<bool()>& give_up, StepOutcome& outcome) {
-  if (model_.fields.empty()) return {};
+Status Simulation::advance_fields(std::span<const std::size_t> due, const std::function<bool()>& give_up, StepOutcome& outcome) {
+  if (due.empty()) return {};
   auto timed = timer().scope(Stage::kFields);
   const std::vector<fields::CellSource> sources = field_sources();
   std::vector<double> taken(sources.size()), seen(sources.size());
-  for (std::size_t f = 0; f < model_.fields.size(); ++f) {
-    // Steps land on the corners of a course, so that the middle of a step has its mean.
-    const fields::FieldSpec spec = fields::at_time(model_.fields[f], tissue_.clock.time - 0.5 * dt);
-    MORULA_TRY_ASSIGN(auto report, field_solver_.advance(tissue_.fields[f], spec, model_.space, sources, dt, comm_, taken, seen, give_up));
+  for (const std::size_t f : due) {
+    fields::Field& field = tissue_.fields[f];
+    const double interval = tissue_.clock.time - field.time;
+    // All fields are due at the corners of a course, so that the middle of an interval has its mean.
+    const fields::FieldSpec spec = fields::at_time(model_.fields[f], tissue_.clock.time - 0.5 * interval);
+    MORULA_TRY_ASSIGN(auto report, field_solver_.advance(field, spec, model_.space, sources, interval, comm_, taken, seen, give_up));
+    field.time = tissue_.clock.time;
+    field.interval = fields::next_interval(interval, report.change, spec.interval_tolerance);
+    field.way = 0.0;
     OptionalColumn<double>& amount = tissue_.cells.variables[amount_of(f)].values;
     OptionalColumn<double>& concentration = tissue_.cells.variables[concentration_of(f)].values;
     for (std::size_t i = 0; i < sources.size(); ++i) {

@@ -20,9 +20,9 @@ struct CellRecord;
 /// What one step did.
 struct StepOutcome {
   StepReport mechanics;
-  int retries = 0;            ///< steps that were refused and tried again, smaller
-  std::vector<Event> events;  ///< of all ranks, in the order (time, kind, cell)
-  std::vector<fields::IntervalReport> fields;
+  int retries = 0;                             ///< steps that were refused and tried again, smaller
+  std::vector<Event> events;                   ///< of all ranks, in the order (time, kind, cell)
+  std::vector<fields::IntervalReport> fields;  ///< of those that were integrated
 };
 
 /// A tissue that runs: its state, its model, and the workspaces. One step is Simulation::step (coupling/pipeline.cpp).
@@ -56,7 +56,14 @@ class Simulation {
   void carry_to(double time);
   /// Longest step that the box allows for from now on, which ends at `until` at the latest [s]. Collective where the box changes.
   [[nodiscard]] double longest_step_of_box(double until) const;
-  Result<StepOutcome> whole_step(double land_on, const std::function<bool()>& give_up);
+  /// What is known of a step before it begins.
+  struct StepPlan {
+    double land_on = 0.0;                 ///< the study's moment, or the next corner of what is prescribed over time [s]
+    double dt = 0.0;                      ///< wanted; the mechanics may shorten it [s]
+    std::vector<std::size_t> due_fields;  ///< to be integrated after it
+  };
+  [[nodiscard]] StepPlan plan_step(double land_on) const;
+  Result<StepOutcome> whole_step(const StepPlan& plan, const std::function<bool()>& give_up);
   void distribute();
   void set_bodies_to_targets(double dt);
   [[nodiscard]] std::vector<Vec3d> forces_on_cells(double time);
@@ -75,7 +82,8 @@ class Simulation {
   void renew_lumens(double dt);
   /// The cells as fields see them, at the present positions.
   [[nodiscard]] std::vector<fields::CellSource> field_sources() const;
-  Status advance_fields(double dt, const std::function<bool()>& give_up, StepOutcome& outcome);
+  /// Those of a plan, up to the present; the others wait (fields/interval_control.h).
+  Status advance_fields(std::span<const std::size_t> due, const std::function<bool()>& give_up, StepOutcome& outcome);
   /// Cells become shells or spheres as regions and triggers ask for (coupling/exchange.cpp). Collective.
   std::vector<Event> swap_bodies();
   /// After a step: what became of the neighbours of the cells that exchanged their bodies a while ago. Collective.

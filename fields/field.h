@@ -47,6 +47,9 @@ struct Field {
   std::vector<std::vector<double>> concentration;  ///< by owned brick, voxels x fastest [mM]
   std::vector<int> owner;                          ///< rank that owns it, by brick of the grid. All ranks hold equal copies.
   double next_step = 0.0;                          ///< the integrator's first step in the next interval [s]; 0: let it choose
+  double time = 0.0;                               ///< up to which it is integrated [s]
+  double interval = 0.0;                           ///< that the next integration may span [s]; 0: the shortest there is
+  double way = 0.0;                                ///< that a point of a cell may have gone since `time` [µm]
 };
 
 /// The grid of a field: voxels of about the wanted size, never larger, that divide the domain evenly.

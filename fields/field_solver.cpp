@@ -109,6 +109,18 @@ void collect_extremes(const Field& field, const Comm& comm, IntervalReport& repo
   report.maximum = comm.max(high);
 }
 
+/// The integrated concentrations become those of the field; their largest change [mM].
+double take_over(Field& field, const Layout& layout, std::span<const double> unknowns, const Comm& comm) {
+  double change = 0.0;
+  for (std::size_t b = 0; b < layout.bricks(); ++b)
+    for (std::size_t v = 0; v < field.concentration[b].size(); ++v) {
+      double& concentration = field.concentration[b][v];
+      change = std::max(change, std::fabs(unknowns[layout.offset[b] + v] - concentration));
+      concentration = unknowns[layout.offset[b] + v];
+    }
+  return comm.max(change);
+}
+
 double sum_of(std::span<const double> values, const Comm& comm) {
   OrderFreeSum sum;
   for (const double v : values) sum.add(v);
@@ -176,10 +188,8 @@ Result<IntervalReport> FieldSolver::advance(Field& field, const FieldSpec& spec,
     report.work = *work;
     field.next_step = report.work.next_step;
   }
-  for (std::size_t b = 0; b < layout.bricks(); ++b)
-    std::copy_n(unknowns.begin() + static_cast<std::ptrdiff_t>(layout.offset[b]), field.concentration[b].size(),
-                field.concentration[b].begin());
-
+  const double change = take_over(field, layout, unknowns, comm);
+  report.change = change > 0.0 ? change / scale : 0.0;
   exchange.give_back(field, layout, std::span(unknowns).subspan(layout.sinks_at()), comm, taken, seen);
   collect_amounts(layout, unknowns, comm, report);
   collect_extremes(field, comm, report);

@@ -24,7 +24,8 @@ struct IntervalReport {
   double decayed = 0.0;                           ///< what reactions in the volume took [amol]
   double taken = 0.0;                             ///< by all cells, summed over the cells [amol]
   double minimum = 0.0, maximum = 0.0;            ///< of the concentration at the end [mM]; a negative minimum is not clipped
-  double residual = 0.0;                          ///< after − before + taken + decayed − inflow [amol]
+  double change = 0.0;    ///< largest of any voxel in the interval, over the largest concentration of start, faces and before
+  double residual = 0.0;  ///< after − before + taken + decayed − inflow [amol]
 
   [[nodiscard]] double total_inflow() const {
     return inflow[0][0] + inflow[0][1] + inflow[1][0] + inflow[1][1] + inflow[2][0] + inflow[2][1];

@@ -28,10 +28,11 @@ struct FieldReaction {
 /// One diffusing concentration: ∂c/∂t = D ∇²c − what reactions take (physics: fields_and_coupling.md, A).
 struct FieldSpec {
   std::string name;
-  double diffusion = 0.0;                                ///< D [µm²/s]
-  double initial = 0.0;                                  ///< [mM]
-  double voxel = 0.0;                                    ///< wanted voxel size h [µm]; the domain is divided evenly, h never larger
-  double relative_tolerance = 1e-4;                      ///< of the integrator
+  double diffusion = 0.0;            ///< D [µm²/s]
+  double initial = 0.0;              ///< [mM]
+  double voxel = 0.0;                ///< wanted voxel size h [µm]; the domain is divided evenly, h never larger
+  double relative_tolerance = 1e-4;  ///< of the integrator
+  double interval_tolerance = 5e-3;  ///< change of any concentration in an interval, over the largest; 0: intervals of one step
   std::array<std::array<FaceCondition, 2>, 3> boundary;  ///< axis, then low and high face; ignored on periodic axes
   TimeCourse course;                                     ///< of all concentrations on faces, as a factor; empty: they stay
   std::vector<FieldReaction> reactions;                  ///< in the order of the registry

@@ -13,7 +13,7 @@
 namespace morula::scenarios {
 
 /// Version of the layout of a checkpoint. A file of another version is refused.
-inline constexpr std::uint32_t kCheckpointFormat = 5;
+inline constexpr std::uint32_t kCheckpointFormat = 6;
 
 /// What a checkpoint holds besides the state.
 struct CheckpointInfo {

@@ -244,7 +244,15 @@ Status read_field(const Hdf5Reader& file, const std::string& group, const Comm& 
   MORULA_TRY_ASSIGN(field.grid.box.high, file.value<Vec3d>(group + "/high"));
   MORULA_TRY_ASSIGN(field.grid.voxels, (file.value<std::array<std::int32_t, 3>>(group + "/voxels")));
   MORULA_TRY_ASSIGN(field.grid.bricks, (file.value<std::array<std::int32_t, 3>>(group + "/bricks")));
-  MORULA_TRY_ASSIGN(field.next_step, file.value<double>(group + "/next_step"));
+  Status read;
+  for_each_field_number([&](const char* name, const char*, auto member) {
+    auto value = file.value<double>(group + '/' + name);
+    if (!value.ok())
+      read = value.error();
+    else
+      field.*member = *value;
+  });
+  MORULA_TRY(read);
   const auto bricks = static_cast<std::uint64_t>(field.grid.brick_count());
   for (int rank = 0; rank < comm.size(); ++rank) field.owner.resize(Stretch(bricks, rank, comm.size()).end, rank);
   const Stretch mine(bricks, comm);

@@ -171,7 +171,8 @@ Status add_field(StoragePlan& plan, const std::string& group, const fields::Fiel
   plan.add_value(group + "/high", "um", field.grid.box.high);
   plan.add_value(group + "/voxels", "1", field.grid.voxels);
   plan.add_value(group + "/bricks", "1", field.grid.bricks);
-  plan.add_value(group + "/next_step", "s", field.next_step);
+  for_each_field_number(
+      [&](const char* name, const char* units, auto member) { plan.add_value(group + '/' + name, units, field.*member); });
   plan.add(group + "/brick", "1", numbers);
   plan.add(group + "/concentration", "mM", values);
   return {};

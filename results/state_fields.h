@@ -25,6 +25,15 @@ void for_each_lumen_field(Visit&& visit) {
 }
 static_assert(sizeof(LumenState) == 8 * 8, "list every member of LumenState in for_each_lumen_field");
 
+/// visit(name, units, member of Field): what it has beside grid, bricks and concentrations.
+template <class Visit>
+void for_each_field_number(Visit&& visit) {
+  visit("next_step", "s", &fields::Field::next_step);
+  visit("time", "s", &fields::Field::time);
+  visit("interval", "s", &fields::Field::interval);
+  visit("way", "um", &fields::Field::way);
+}
+
 /// visit(name, units, member of WatchedNeighbour).
 template <class Visit>
 void for_each_watched_field(Visit&& visit) {

@@ -91,7 +91,7 @@ Hash128 hash_of_globals(const Tissue& tissue) {
     bytes.put(field.grid.box.high);
     bytes.put(field.grid.voxels);
     bytes.put(field.grid.bricks);
-    bytes.put(field.next_step);
+    for_each_field_number([&](const char*, const char*, auto member) { bytes.put(field.*member); });
   }
   return hash_of(bytes, Part::kGlobal);
 }

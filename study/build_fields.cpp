@@ -87,6 +87,7 @@ void build_fields(BuildContext& c) {
     spec.initial = f.initial.value;
     spec.voxel = f.voxel.value;
     spec.relative_tolerance = f.tolerance.value;
+    spec.interval_tolerance = f.interval_tolerance.value;
     const draft::FieldBoundary& b = f.boundary;
     spec.boundary = {{{condition(b.x_low, b.all), condition(b.x_high, b.all)},
                       {condition(b.y_low, b.all), condition(b.y_high, b.all)},

@@ -148,6 +148,16 @@ void declare_field(Section& s, draft::Field& f) {
               .example = "1e-4",
               .source = "chosen"},
              f.tolerance);
+  s.quantity({.name = "interval_tolerance",
+              .doc = "Between two integrations the field waits while cells move and grow, up to five minutes or the tenth of a voxel that "
+                     "a cell goes: as long as no "
+                     "concentration changes by more than this part of the largest one. 0: integrated after every step.",
+              .fallback = "5e-3",
+              .low = 0.0,
+              .high = 0.1,
+              .example = "5e-3",
+              .source = "chosen: decision 0061"},
+             f.interval_tolerance);
   bool present = false;
   s.group({.name = "boundary",
            .doc = "At the faces of the domain: a concentration, or `no_flux`; one for all, or by face. Ignored on periodic axes.",

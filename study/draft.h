@@ -230,7 +230,7 @@ struct FieldBoundary {
 };
 
 struct Field {
-  Given<double> diffusion, initial, voxel, tolerance;
+  Given<double> diffusion, initial, voxel, tolerance, interval_tolerance;
   FieldBoundary boundary;
   std::vector<Named<CoursePoint>> course;
   std::map<std::string, OwnSection> reactions;                         ///< in the volume, by section

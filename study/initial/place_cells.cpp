@@ -170,9 +170,8 @@ class Placer {
       out_.problems.push_back({658, entry,
                                who + " find no room" + (block.pattern == FillPattern::kPacked ? " beside what is there already" : "") +
                                    ": " +
-                                   (few ? "there are places for " + std::to_string(packing.room)
-                                        : "they would lie " + micrometres(packing.worst_intrusion) + " deep in it"),
-                               "make the shape larger or the cells fewer, or move it away"});
+                                   (few ? "there are places for " + std::to_string(packing.room) : deepest_of(packing, radius, touch)),
+                               "make the shape larger or the cells fewer, or move away what is there"});
       return;
     }
     for (std::size_t i = 0; i < cells.size(); ++i) cells[i].center = packing.center[i];
@@ -195,6 +194,20 @@ class Placer {
         break;
     }
     return pack_cells(block, radius, touch, space, first, seed, around_, threads_);
+  }
+
+  /// Which of these cells lies how deep in what.
+  [[nodiscard]] std::string deepest_of(const Packing& packing, std::span<const double> radius, double touch) const {
+    std::size_t worst = 0;
+    double deepest = -1e300;
+    Vec3d ignored;
+    for (std::size_t i = 0; i < packing.center.size(); ++i)
+      if (const double depth = around_.push(packing.center[i], radius[i], touch, ignored); depth > deepest) {
+        deepest = depth;
+        worst = i;
+      }
+    return "the one of radius " + micrometres(radius[worst]) + " would lie " + micrometres(deepest) + " deep in " +
+           around_.what_is_at(packing.center[worst], radius[worst], touch);
   }
 
   [[nodiscard]] std::string names(const InitialCells& block) const {

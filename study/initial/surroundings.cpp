@@ -53,6 +53,14 @@ double Surroundings::distance(std::size_t surface, const Vec3d& p, double cutoff
   return distance;
 }
 
+std::string Surroundings::what_is_at(const Vec3d& p, double radius, double touch) const {
+  Vec3d ignored;
+  const double worst = push(p, radius, touch, ignored);
+  for (std::size_t surface = 0; surface < obstacles_; ++surface)
+    if (touch * radius - distance(surface, p, touch * radius) >= worst) return name(surface);
+  return "a cell that is there already";
+}
+
 double Surroundings::push(const Vec3d& p, double radius, double touch, Vec3d& out) const {
   double worst = -1e300;
   out = {};

@@ -28,6 +28,9 @@ class Surroundings {
   /// `out`: where all that it lies in pushes it, by their depths [µm]. Walls are left out: packing keeps cells off them.
   [[nodiscard]] double push(const Vec3d& p, double radius, double touch, Vec3d& out) const;
 
+  /// What a ball lies deepest in: "obstacle 'plate'" or "a cell that is there already". push() says how deep.
+  [[nodiscard]] std::string what_is_at(const Vec3d& p, double radius, double touch) const;
+
   /// Number of obstacles and walls, and how they are called: "obstacle 'plate'", "the wall".
   [[nodiscard]] std::size_t surface_count() const { return surfaces_.size(); }
   [[nodiscard]] std::string name(std::size_t surface) const;

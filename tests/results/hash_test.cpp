@@ -147,6 +147,9 @@ TEST(StateHash, SeesEveryPartOfTheState) {
   after([](Tissue& t) { t.fields[1].concentration[3][2] += 1e-12; });
   after([](Tissue& t) { std::swap(t.fields[0], t.fields[1]); });
   after([](Tissue& t) { t.fields[0].next_step = 0.0; });
+  after([](Tissue& t) { t.fields[0].time += 1.0; });
+  after([](Tissue& t) { t.fields[0].interval += 1.0; });
+  after([](Tissue& t) { t.fields[0].way += 1.0; });
   after([](Tissue& t) { t.obstacle_offset[1].x = 7; });
   for (std::size_t i = 0; i < hashes.size(); ++i)
     for (std::size_t j = i + 1; j < hashes.size(); ++j)

@@ -188,6 +188,9 @@ inline fields::Field make_field(int index, const Comm& comm, int spread) {
   field.grid.voxels = {20, 17, 9};
   field.grid.bricks = {3, 3, 2};
   field.next_step = 0.25 * (index + 1);
+  field.time = 60.0 * (index + 1);
+  field.interval = 7.0 * (index + 1);
+  field.way = 0.5 * (index + 1);
   for (std::int64_t brick = 0; brick < field.grid.brick_count(); ++brick) {
     if ((brick * spread) % comm.size() != comm.rank()) continue;
     CellNumbers numbers(static_cast<std::uint64_t>(brick + 100 * index));

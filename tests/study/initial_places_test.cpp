@@ -81,6 +81,16 @@ TEST(Fills, SayWithLineAndCodeThatThereIsNoRoom) {
                                      HasSubstr("[E658]")));
 }
 
+TEST(Fills, SayWhichCellLiesDeepInWhatWhereALayerIsTooLow) {
+  // A gap of 11.5 µm between plates has room for the mean cell, of 5.5 µm, and none for one of 6 µm.
+  const std::string low = with_cells("  - {types: {red: 50 %, big: 50 %}, count: 6, fill: layer, on: dish}\n",
+                                     "  dish: {plane: {center: [0 um, 0 um, 80 um], normal: [0, 0, 1], size: 60 um}}\n"
+                                     "  lid: {plane: {center: [0 um, 0 um, 91.5 um], normal: [0, 0, -1], size: 60 um}}\n");
+  EXPECT_THAT(errors_of(low),
+              AllOf(HasSubstr("6 cells of red and big find no room: the one of radius 6 um would lie 0.5 um deep in obstacle 'lid'"),
+                    HasSubstr("[E658]")));
+}
+
 TEST(Fills, WithoutNeighboursLieWhereTheyAlwaysDid) {
   const auto alone = cells_of(with_cells("  - {type: red, count: 50, fill: sphere, radius: 25 um, center: [-50 um, 0 um, 0 um]}\n"));
   const auto beside =
