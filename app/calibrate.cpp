@@ -6,6 +6,7 @@
 #include "app/read_study.h"
 #include "app/signals.h"
 #include "app/verbs.h"
+#include "app/words.h"
 #include "core/numbers/number_text.h"
 #include "results/file_io.h"
 #include "scenarios/experiments/calibration.h"
@@ -39,6 +40,9 @@ Status calibrate(const CalibrateOptions& options, const Context& context) {
   request.folder = options.out.empty() ? fs::path("calibrations") / options.type : fs::path(options.out);
   request.threads = options.threads;
   request.packings = !options.pairs_only;
+  if (!options.budget.empty()) {
+    MORULA_TRY_ASSIGN(request.budget, read_time("--budget", options.budget));
+  }
   request.stop = &watch_signals();
   request.on_note = [&](const std::string& text) { context.console.note(text); };
   MORULA_TRY_ASSIGN(const scenarios::Calibration found, scenarios::calibrate_jkr(*study, options.type, request, context.comm));

@@ -98,6 +98,9 @@ void add_running_verbs(CLI::App& program, Parsed& p) {
   verb->add_option("--out", p.calibrate.out, "Folder; what was run there before is not run again (default: calibrations/TYPE)")
       ->type_name("DIR");
   verb->add_flag("--pairs-only", p.calibrate.pairs_only, "No packings that shrink: quicker, and without a fitted curve of packing");
+  verb->add_option("--budget", p.calibrate.budget,
+                   "Computing time of one core; what there is no time for is left out, what only judges first")
+      ->type_name("TIME");
   verb->add_option("--threads", p.calibrate.threads, "Threads of each rank; ranks share the experiments")
       ->check(CLI::Range(1, 1024))
       ->type_name("N")

@@ -94,6 +94,7 @@ struct CalibrateOptions {
   std::string out;                     ///< folder; empty: calibrations/TYPE
   int threads = 1;                     ///< of each rank
   bool pairs_only = false;             ///< run no packings
+  std::string budget;                  ///< computing time of one core, as 20min; empty: all experiments
 };
 
 struct CompareOptions {

@@ -14,6 +14,7 @@
 #include "coupling/cell_record.h"
 #include "coupling/overlap.h"
 #include "coupling/partner_stretches.h"
+#include "coupling/settle_shells.h"
 #include "coupling/simulation.h"
 #include "coupling/surroundings.h"
 #include "coupling/swaps.h"
@@ -27,8 +28,6 @@ constexpr std::uint64_t kTries = 4;
 constexpr double kReach = 2.0;
 /// Part of the overlap at which a run stops that daughters may begin with.
 constexpr double kMostOfLimit = 0.75;
-/// The step after a division of shells: their new surfaces find their place among the neighbours [s].
-constexpr double kStepAfterCut = 5.0;
 
 /// A cell that is to divide.
 struct Mother {
@@ -164,13 +163,18 @@ void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& e
     replace_cells(tissue_, gone, std::move(fresh));
     mechanics_->cells_replaced();
   }
+  CutsKept kept;
   if (cuts) {
-    const CutsKept kept = undo_deep_cuts(cut, events);
+    kept = undo_deep_cuts(cut, events);
     divisions -= kept.undone;
     note_energy_rise(cut, kept.energy - energy, events);
-    tissue_.clock.next_step = std::min(tissue_.clock.next_step, kStepAfterCut);
   }
   rename_partners(events);  // before anybody looks at bodies
+  if (cuts) {
+    auto finding = timer().scope(Stage::kShapes);
+    settle_daughters(tissue_, *mechanics_, model_, shapes_, comm_, kept.daughters, tissue_.clock.next_step);
+    mechanics_->cells_replaced();
+  }
   for (const Event& event : life.events) deaths += event.kind == EventKind::kDeath;
   tissue_.ledger.divisions += static_cast<std::uint64_t>(comm_.sum(divisions));
   tissue_.ledger.deaths += static_cast<std::uint64_t>(comm_.sum(deaths));
@@ -181,8 +185,10 @@ Simulation::CutsKept Simulation::undo_deep_cuts(std::span<const CellRecord> moth
   for (const CellRecord& mother : mothers)
     for (const int which : {0, 1}) daughters.push_back(mother.row.id.daughter(which));
   std::ranges::sort(daughters);
-  CutsKept out{.energy = mechanics_->energy(tissue_)};
+  CutsKept out;
+  out.energy = mechanics_->energy(tissue_);
   const std::vector<CellId> deep = too_deep(*mechanics_, daughters, kMostOfLimit * model_.limits.overlap);
+  out.daughters = std::move(daughters);
   mechanics_->cells_replaced();  // what it knows is with partners that have not their new names yet
   std::vector<CellRecord> back;
   std::vector<CellId> undone;
@@ -195,6 +201,7 @@ Simulation::CutsKept Simulation::undo_deep_cuts(std::span<const CellRecord> moth
   if (!comm_.any(!back.empty())) return out;
   std::ranges::sort(undone);
   out.undone = static_cast<std::int64_t>(back.size());
+  std::erase_if(out.daughters, [&](CellId id) { return std::ranges::binary_search(undone, id); });
   replace_cells(tissue_, rows_of(tissue_.cells, undone), std::move(back));
   out.energy = mechanics_->energy(tissue_);
   mechanics_->cells_replaced();

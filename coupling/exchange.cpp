@@ -38,8 +38,7 @@ bool put_off_tight(std::span<const SwapOrder> orders, const ExchangeWatch& watch
   bool any = false;
   for (const SwapOrder& order : orders) {
     const CellRow& row = tissue.cells.rows[order.row];
-    const double last = model.types[row.type].sphere.packing.last();
-    if (order.to != BodyKind::kSphere || !(last > 0.0) || watch.caps_of(row.id) <= last * row.target_volume) continue;
+    if (order.to != BodyKind::kSphere || !is_too_tight_for_a_sphere(row, model.types[row.type], watch.caps_of(row.id))) continue;
     tissue.cells.optional.last_swap_time.set(order.row, tissue.clock.time, tissue.cells.size());
     any = true;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -19,8 +20,12 @@ constexpr double kFirstWay = 0.25, kLastWay = 4.0;
 /// A new shell that is left this deep within a neighbour has no room [µm].
 constexpr double kNoRoom = 0.5;
 
-/// What movers are allowed.
+/// Moves the owned bodies with moves[body] != 0 of a part; gives their overlap [µm].
+using Move = std::function<double(Mechanics&, Tissue&, std::span<const char>)>;
+
+/// What movers do, and what they are allowed.
 struct Room {
+  Move move;
   double way = 0.0;      ///< of their surfaces, in units of their boxes
   double deepest = 0.0;  ///< overlap with which they stay what they are [µm]
 };
@@ -35,7 +40,15 @@ struct Outcome {
 
 bool holds(const Box& box, const Box& other) { return box.contains(other.low) && box.contains(other.high); }
 
-/// The movers find their shape; `part` is their neighbourhood, or this rank's part of it. Collective over the ranks of `mechanics`.
+/// New shells find their shape, at their volume.
+double find_shapes(Mechanics& mechanics, Tissue& part, std::span<const char> moves) {
+  const double overlap = mechanics.relax(part, moves);
+  for (std::size_t s = 0; s < part.shells.size(); ++s)
+    if (moves[s] != 0) set_enclosed_volume(part.shells.topology(s), part.shells.nodes(s), part.shells.rest_volume[s]);
+  return overlap;
+}
+
+/// The movers go their way; `part` is their neighbourhood, or this rank's part of it. Collective over the ranks of `mechanics`.
 Outcome settle_part(Tissue& part, std::span<const CellId> movers, const Room& room, Mechanics& mechanics, const Comm& comm) {
   const auto is_mover = [&](const BodyOfRow& body) { return std::ranges::binary_search(movers, part.cells.rows[body.row].id); };
   std::vector<char> moves(part.cells.size(), 0);
@@ -47,13 +60,12 @@ Outcome settle_part(Tissue& part, std::span<const CellId> movers, const Room& ro
     bounds.push_back(box.inflated(room.way * largest_edge(box)));
   }
   Outcome out;
-  const double overlap = mechanics.relax(part, moves);
+  const double overlap = room.move(mechanics, part, moves);
   std::vector<CellId> here;
   auto bound = bounds.begin();
   for (const BodyOfRow& body : bodies_of(part.cells)) {
     if (!is_mover(body)) continue;
     out.went_beyond = out.went_beyond || !holds(*bound++, box_of(part, body));
-    set_enclosed_volume(part.shells.topology(body.number), part.shells.nodes(body.number), part.shells.rest_volume[body.number]);
     out.cells.push_back(record_of(part, body));
     here.push_back(part.cells.rows[body.row].id);
   }
@@ -96,27 +108,44 @@ void take_shape(Tissue& tissue, std::size_t shell, const ShellRecord& from) {
   if (from.nuclear_shell) copy(tissue.nuclei.shells, tissue.nuclei.of_shell(shell), *from.nuclear_shell);
 }
 
-}  // namespace
-
-Settled settle_shells(Tissue& tissue, const Mechanics& mechanics, const Model& model, ShapeLibrary& shapes, const Comm& comm,
-                      std::span<const CellId> fresh, bool may_go_back) {
+/// Neighbourhoods are made larger until no mover leaves what is allowed for; then the movers of the tissue take the shapes that they have found. Collective.
+Outcome move_in_neighbourhoods(Tissue& tissue, const Mechanics& mechanics, const Model& model, ShapeLibrary& shapes, const Comm& comm,
+                               std::span<const CellId> movers, Room room) {
   Outcome outcome;
-  const double deepest = may_go_back ? kNoRoom : std::numeric_limits<double>::infinity();
-  const bool many = comm.sum(static_cast<std::int64_t>(fresh.size())) >= kGroup;
-  for (double way = many ? 2.0 * kFirstWay : kFirstWay;; way *= 2.0) {
-    const std::vector<Neighbourhood> all = neighbourhoods_of(tissue, model, mechanics.contacts().settings(), fresh, way, comm);
-    outcome = settle_all(GatheredParts(tissue, all, mechanics, shapes, comm), {way, deepest}, comm);
-    if (!outcome.went_beyond || everybody_has_a_part(model) || way >= kLastWay) break;
+  for (;; room.way *= 2.0) {
+    const std::vector<Neighbourhood> all = neighbourhoods_of(tissue, model, mechanics.contacts().settings(), movers, room.way, comm);
+    outcome = settle_all(GatheredParts(tissue, all, mechanics, shapes, comm), room, comm);
+    if (!outcome.went_beyond || everybody_has_a_part(model) || room.way >= kLastWay) break;
   }
   std::ranges::sort(outcome.cells, {}, [](const CellRecord& cell) { return cell.row.id; });
   for (const BodyOfRow& body : bodies_of(tissue.cells)) {
     const CellId id = tissue.cells.rows[body.row].id;
-    if (!body.is_shell || !std::ranges::binary_search(fresh, id)) continue;
+    if (!body.is_shell || !std::ranges::binary_search(movers, id)) continue;
     const auto found = std::ranges::lower_bound(outcome.cells, id, {}, [](const CellRecord& cell) { return cell.row.id; });
     take_shape(tissue, body.number, *found->shell);
   }
   std::ranges::sort(outcome.no_room);
+  return outcome;
+}
+
+}  // namespace
+
+Settled settle_shells(Tissue& tissue, const Mechanics& mechanics, const Model& model, ShapeLibrary& shapes, const Comm& comm,
+                      std::span<const CellId> fresh, bool may_go_back) {
+  const bool many = comm.sum(static_cast<std::int64_t>(fresh.size())) >= kGroup;
+  Outcome outcome = move_in_neighbourhoods(
+      tissue, mechanics, model, shapes, comm, fresh,
+      {find_shapes, many ? 2.0 * kFirstWay : kFirstWay, may_go_back ? kNoRoom : std::numeric_limits<double>::infinity()});
   return {std::move(outcome.no_room), outcome.overlap_is_left};
+}
+
+void settle_daughters(Tissue& tissue, const Mechanics& mechanics, const Model& model, ShapeLibrary& shapes, const Comm& comm,
+                      std::span<const CellId> daughters, double step) {
+  const Move move = [step](Mechanics& alone, Tissue& part, std::span<const char> moves) {
+    alone.move_alone(part, moves, step);
+    return 0.0;
+  };
+  move_in_neighbourhoods(tissue, mechanics, model, shapes, comm, daughters, {move, kFirstWay, std::numeric_limits<double>::infinity()});
 }
 
 void set_enclosed_volume(const Topology& topology, std::span<Vec3d> nodes, double volume) {

@@ -22,6 +22,12 @@ struct Settled {
 Settled settle_shells(Tissue& tissue, const Mechanics& mechanics, const Model& model, ShapeLibrary& shapes, const Comm& comm,
                       std::span<const CellId> fresh, bool may_go_back);
 
+/// The new daughters of cut shells of this rank (sorted) go on between their neighbours, which are held, in steps of their own, until a step as long as
+/// `step` [s] is an ordinary one for them, too: the rims of a cut are in no balance, and a whole tissue would wait for them (decision 0062). As above:
+/// each neighbourhood for itself, the same on any ranks. Collective.
+void settle_daughters(Tissue& tissue, const Mechanics& mechanics, const Model& model, ShapeLibrary& shapes, const Comm& comm,
+                      std::span<const CellId> daughters, double step);
+
 /// Scale a closed mesh about its centroid so that it encloses exactly this volume.
 void set_enclosed_volume(const Topology& topology, std::span<Vec3d> nodes, double volume);
 

@@ -93,8 +93,9 @@ class Simulation {
   /// What a step of life has asked for (coupling/divisions.cpp): daughters in place of mothers, and dead cells gone. Collective.
   void divide_and_remove(const struct LifeReport& life, std::vector<Event>& events);
   struct CutsKept {
-    std::int64_t undone = 0;  ///< of this rank
-    double energy = 0.0;      ///< of the tissue after the others [nN·µm]
+    std::vector<CellId> daughters;  ///< of the others on this rank, sorted
+    std::int64_t undone = 0;        ///< of this rank
+    double energy = 0.0;            ///< of the tissue after the others [nN·µm]
   };
   /// Shells whose daughters would begin so deep within others that the run might stop are taken back and put off. Collective.
   CutsKept undo_deep_cuts(std::span<const CellRecord> mothers, std::vector<Event>& events);

@@ -100,7 +100,10 @@ std::vector<std::string> still_to_come(const Model& model, const Tissue& tissue,
   add(any_tension_swings(model), "a tension that swings");
   add(any_region_begins_or_ends(model, time), "a region that begins or ends");
   const LookedAt looked = look_for_swaps(model, tissue, center, mechanics, comm);
-  add(swaps_wait(model, tissue, looked.bodies(center), comm), "an exchange of bodies");
+  std::vector<double> caps;
+  if (std::ranges::any_of(model.types, [](const CellType& type) { return type.sphere.packing.last() > 0.0; }))
+    caps = mechanics.as_balls(tissue).caps;
+  add(swaps_wait(model, tissue, looked.bodies(center), caps, comm), "an exchange of bodies");
   add(tissue.clock.capped, "the end of the capped start");
   add(any_cell(
           [&](std::size_t k, const CellRow& row, const CellType&) { return optional.inflation_left[k] > kRounding * row.target_volume; }),

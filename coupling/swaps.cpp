@@ -140,7 +140,12 @@ std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, co
   return orders;
 }
 
-bool swaps_wait(const Model& model, const Tissue& tissue, const SwapBodies& bodies, const Comm& comm) {
+bool is_too_tight_for_a_sphere(const CellRow& row, const CellType& type, double caps) {
+  const double last = type.sphere.packing.last();
+  return last > 0.0 && caps > last * row.target_volume;
+}
+
+bool swaps_wait(const Model& model, const Tissue& tissue, const SwapBodies& bodies, std::span<const double> caps, const Comm& comm) {
   const std::span<const Vec3d> center = bodies.center;
   if (model.swaps.regions.empty() && model.swaps.triggers.empty()) return false;
   const std::vector<Vec3d> center_of_region = centers_of_regions(model, tissue, center, comm);
@@ -152,7 +157,11 @@ bool swaps_wait(const Model& model, const Tissue& tissue, const SwapBodies& bodi
     if (row.body == BodyKind::kShell) ++shells;
     if (row.phase == Phase::kDying) continue;
     const BodyKind wanted = wish(model, bodies.view(model, tissue, body), i, bodies, center_of_region).body;
-    if (wanted != row.body) (wanted == BodyKind::kShell ? up : down) = true;
+    if (wanted == row.body) continue;
+    if (wanted == BodyKind::kShell)
+      up = true;
+    else if (caps.empty() || !is_too_tight_for_a_sphere(row, model.types[row.type], caps[body.place(tissue.shells.size())]))
+      down = true;
   }
   const bool has_place = static_cast<std::uint64_t>(comm.sum(shells)) < model.swaps.max_shells;
   return comm.any(down || (up && has_place));

@@ -65,8 +65,13 @@ LookedAt look_for_swaps(const Model& model, const Tissue& tissue, std::span<cons
 /// not more than one in a hundred cells (at least one) a step once the run has begun (fields_and_coupling.md, D). By row. Collective.
 std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, const SwapBodies& bodies, const Comm& comm);
 
-/// Whether any cell is to exchange its body as soon as its hold time is over, or when it is its turn. Collective.
-bool swaps_wait(const Model& model, const Tissue& tissue, const SwapBodies& bodies, const Comm& comm);
+/// Whether the ball of a cell would be packed more tightly than the law of its type's spheres goes: such a shell stays one. caps: what the ball loses
+/// behind the planes of its contacts, AsBalls::caps [µm³].
+bool is_too_tight_for_a_sphere(const CellRow& row, const CellType& type, double caps);
+
+/// Whether any cell is to exchange its body as soon as its hold time is over, or when it is its turn. caps: of all cells (AsBalls::caps); empty where no
+/// type's law of spheres ends at a packing. Collective.
+bool swaps_wait(const Model& model, const Tissue& tissue, const SwapBodies& bodies, std::span<const double> caps, const Comm& comm);
 
 /// The sphere becomes a shell of the same volume, its mesh a sphere in the orientation that the seed gives to its id, so that no direction of the
 /// lattice is common to the shells of a tissue; V0 such that its inner pressure bears `pressure` (negative: tension) and the cortex. Of the volume,

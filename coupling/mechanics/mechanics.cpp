@@ -46,6 +46,7 @@ std::vector<Vec3d> Mechanics::random_forces(const Tissue& tissue, double dt) {
 }
 
 double Mechanics::relax(Tissue& tissue, std::span<const char> moves) { return relax_in_place(*work_, tissue, moves); }
+void Mechanics::move_alone(Tissue& tissue, std::span<const char> moves, double step) { march_in_place(*work_, tissue, moves, step); }
 
 std::vector<Vec3d> Mechanics::spread(const Tissue& tissue, std::span<const Vec3d> by_body) {
   prepare_scene(*work_, tissue);

@@ -60,6 +60,10 @@ class Mechanics {
   /// kOverlapAtRest they found no room, and need the capped start to go on. Held shells take no part but by their surfaces. Collective.
   double relax(Tissue& tissue, std::span<const char> moves);
 
+  /// Let the owned bodies with moves[body] != 0 go on between all others, which are held in place, in steps of their own: until one as long as `step` [s]
+  /// takes no point further than is allowed, or sixty are done. The clock stands still. Collective.
+  void move_alone(Tissue& tissue, std::span<const char> moves, double step);
+
   /// Which owned cells touch which of `these` (sorted), or are one of `these` and touch whom: pairs (owned cell, partner) with contact area in the
   /// surface contacts at the tissue's positions, sorted. An obstacle is the partner CellId(number + 1). Collective.
   std::vector<std::pair<CellId, CellId>> touching(const Tissue& tissue, std::span<const CellId> these);

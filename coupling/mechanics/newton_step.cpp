@@ -23,6 +23,7 @@ constexpr double kHeldShare = 0.1;         // of the force that drives a node ba
 constexpr double kHold = 100.0;            // stiffness that holds a node, over the secant one
 constexpr double kLastResortStep = 0.2;    // in units of the contact range
 constexpr int kMaxLinearIterations = 400;
+constexpr double kMuchTooFar = 4.0;    // first way of Newton's method, over what is allowed, from which on a step is not worth a search
 constexpr double kShortestCut = 1e-3;  // a step that is no longer is not refused for the length of its way [s]
 
 /// Which forces hold a node that nothing can move: words for the message.
@@ -86,6 +87,8 @@ class NewtonStep {
   /// Move along `direction` until Φ is no higher than before, or by `allowed_rise` at most; a jump of the contact energy on the way is
   /// passed. `give_up_to_hold`: not more than the short search where nodes are held after it.
   Search search(const Direction& direction, int halvings, double allowed_rise, bool give_up_to_hold = false);
+  /// Whether the first direction asks for a shorter step: as a tissue (OwnedPoints::way_of_bodies), or for a single point. `longest`: before it was cut.
+  [[nodiscard]] bool wants_too_much(const Direction& direction, double longest) const;
   /// Whether a trial ended at a place where a tissue can be.
   [[nodiscard]] bool is_sound(const Residual& trial);
   /// Hold the nodes that a full step along `direction` took over a kink: its residual drives them back. Says whether there are any.
@@ -133,6 +136,13 @@ double NewtonStep::limit(Direction& direction, double most) const {
   const double longest = work_.points().largest(direction);
   if (longest > most) direction.factor *= most / longest;
   return longest;
+}
+
+bool NewtonStep::wants_too_much(const Direction& direction, double longest) const {
+  if (longest > kMuchTooFar * allowed_.of_point) return true;
+  if (longest <= kMuchTooFar * allowed_.of_body) return false;
+  const double cut = std::min(1.0, range_ / longest);
+  return work_.points().way_of_bodies([&](std::uint32_t i) { return direction[i]; }) > kMuchTooFar * cut * allowed_.of_body;
 }
 
 bool NewtonStep::is_sound(const Residual& trial) {
@@ -207,7 +217,7 @@ Result<Iteration, StepFault> NewtonStep::iterate(int number) {
   for (int holds = 0;; ++holds) {
     MORULA_TRY_ASSIGN(direction, solve(task_.dt, number == 0 ? control_.first_tolerance : control_.later_tolerance));
     out.longest = limit(direction, range_);
-    if (number + holds == 0 && out.longest > 4.0 * allowed_.of_body && task_.dt > kShortestCut)
+    if (number + holds == 0 && task_.dt > kShortestCut && wants_too_much(direction, out.longest))
       return StepFault{"points would move too far in one step", {}, true};
     out.converged = 0.5 * work_.points().dot(now_->force, direction) <= 1e-12 * (1.0 + std::abs(phi_));
     const double rise = out.converged ? 1e-9 * (1.0 + std::abs(phi_)) : 0.0;

@@ -15,4 +15,7 @@ inline constexpr std::int64_t kGroup = 32;
 /// Steps of the usual loop that let the owned bodies with moves[body] != 0 settle between all others (Mechanics::relax). Collective.
 double relax_in_place(Workspace& work, Tissue& tissue, std::span<const char> moves);
 
+/// The same with contacts as they are, until a step of this length [s] is an ordinary one (Mechanics::move_alone). Collective.
+void march_in_place(Workspace& work, Tissue& tissue, std::span<const char> moves, double step);
+
 }  // namespace morula

@@ -6,6 +6,7 @@
 
 #include "core/numbers/number_text.h"
 #include "results/file_io.h"
+#include "scenarios/experiments/budget.h"
 #include "scenarios/experiments/spheres_in_packings.h"
 
 namespace morula::scenarios {
@@ -95,8 +96,16 @@ class Fitting {
   calibrate::FitOptions options_;
 };
 
+std::string joined(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
 Status fit_on_root(const Study& study, Calibration& out) {
   MORULA_TRY_ASSIGN(out.data, data_of_runs(out.experiments, out.outcomes));
+  if (!out.left_out.empty())
+    out.data.remarks.push_back("no time for " + joined(out.left_out) + ": intervals are wider, or nothing judges them");
   MORULA_TRY_ASSIGN(const auto places, SpheresInPackings::read(out.material, out.data.packings));
   Fitting fitting(study, places, out);
   MORULA_TRY(fitting.jkr());
@@ -114,6 +123,14 @@ Result<Calibration> calibrate_jkr(const Study& study, const std::string& type, c
   Calibration out;
   MORULA_TRY_ASSIGN(out.material, material_of(study, type));
   out.experiments = experiments_for(out.material, request.packings);
+  if (request.budget) {
+    MORULA_TRY_ASSIGN(Shortened list, within_budget(std::move(out.experiments), out.material.nodes, *request.budget));
+    out.experiments = std::move(list.kept);
+    out.left_out = std::move(list.left_out);
+    if (comm.is_root() && request.on_note)
+      request.on_note(number_text("%.0f", list.seconds) + " s of one core expected" +
+                      (out.left_out.empty() ? "" : "; no time for " + joined(out.left_out)));
+  }
   MORULA_TRY_ASSIGN(out.outcomes, run_experiments(out.experiments, request, comm));
   MORULA_TRY(agree(comm.is_root() ? fit_on_root(study, out) : Status{}, comm));
   return out;

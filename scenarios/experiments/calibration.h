@@ -28,6 +28,7 @@ struct FittedTable {
 struct Calibration {
   CellMaterial material;
   std::vector<Experiment> experiments;
+  std::vector<std::string> left_out;  ///< names of experiments that the budget has no time for
   std::vector<ExperimentOutcome> outcomes;
   ExperimentData data;
   calibrate::SureFit sure;
@@ -45,7 +46,7 @@ struct Calibration {
 
 /// Runs the experiments for a cell type of a study in the folder of the request, and fits JKR and a packing curve to what they find. Everything that was
 /// run before in that folder is taken over. The result is the same on any number of ranks and threads, and after any break. Collective; the fit is
-/// made on the root, and the others get what is known before it. Errors: those of material_of(), run_experiments(), data_of_runs() and the fit.
+/// made on the root, and the others get what is known before it. Errors: those of material_of(), within_budget(), run_experiments(), data_of_runs() and the fit.
 Result<Calibration> calibrate_jkr(const Study& study, const std::string& type, const ExperimentRequest& request, const Comm& comm);
 
 /// 32 hexadecimal digits over the text of a material.

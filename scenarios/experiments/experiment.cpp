@@ -182,12 +182,27 @@ std::string study_of_spheres(const CellMaterial& material, std::span<const Vec3d
 
 namespace {
 
+/// What a calibration does without first when its time is short: the last first. Without its slowest rate a pair still tells the force at no rate, but
+/// not whether that is straight; what is held out only judges; without packings there is no curve of packing.
+enum Dispensable : int {
+  kNeeded,
+  kFirstPacking,
+  kSecondPacking,
+  kEqualSlowest,
+  kUnequalFaster,
+  kHeldOutPacking,
+  kUnequalSlowest,
+  kLattices
+};
+
 /// Cells of two radii at all rates, the fastest first.
 void add_pairs(const CellMaterial& material, const std::string& name, double ratio, bool held_out, std::vector<Experiment>& out) {
   double rate = kFastest * material.radius;
   for (int k = 1; k <= kPairRates; ++k, rate *= 0.5) {
     out.push_back(pair_experiment(material, name + "_" + std::to_string(k), material.radius, ratio * material.radius, rate));
     out.back().held_out = held_out;
+    const bool slowest = k == kPairRates;
+    out.back().dispensable = held_out ? (slowest ? kUnequalSlowest : kUnequalFaster) : (slowest ? kEqualSlowest : kNeeded);
   }
 }
 
@@ -197,10 +212,14 @@ std::vector<Experiment> experiments_for(const CellMaterial& material, bool packi
   std::vector<Experiment> out;
   add_pairs(material, "equal_pair", 1.0, false, out);
   if (packings) {
-    for (std::uint32_t seed = 1; seed <= kRandomFitted + kRandomHeldOut; ++seed) out.push_back(random_packing_experiment(material, seed));
+    for (std::uint32_t seed = 1; seed <= kRandomFitted + kRandomHeldOut; ++seed) {
+      out.push_back(random_packing_experiment(material, seed));
+      out.back().dispensable = out.back().held_out ? kHeldOutPacking : seed > 1 ? kSecondPacking : kFirstPacking;
+    }
     for (const auto lattice : {calibrate::Arrangement::kFaceCentred, calibrate::Arrangement::kBodyCentred}) {
       out.push_back(packing_experiment(material, lattice, kPackingTime));
       out.back().held_out = true;
+      out.back().dispensable = kLattices;
     }
   }
   add_pairs(material, "unequal_pair", kUnequal, true, out);

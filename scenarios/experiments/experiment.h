@@ -26,7 +26,8 @@ struct Experiment {
   double radius_a = 0.0, radius_b = 0.0;  ///< of the free cells [µm]
   double rate = 0.0;                      ///< of the distance of a pair [µm/s]; of the strain of the volume of a packing [1/s]
   double turn = 0.0;                      ///< when a pair is closest [s]
-  double work = 1.0;                      ///< expected, against that of other experiments
+  double work = 1.0;                      ///< expected, against that of other experiments: cells times the time that they are simulated [s]
+  int dispensable = 0;                    ///< of a calibration that has too little time the largest goes first; 0: there is no fit without
 };
 
 /// Rates at which a pair is pressed and pulled, the fastest first: each half of the one before, so that forces without rate are found.

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ struct ExperimentRequest {
   std::filesystem::path folder;                     ///< each experiment has a folder of its name in it
   int threads = 1;                                  ///< of each rank
   bool packings = true;                             ///< of a calibration: packings, too
+  std::optional<double> budget;                     ///< of a calibration: computing time of one core [s] (budget.h)
   const std::atomic<int>* stop = nullptr;           ///< a StopWish
   std::function<void(const std::string&)> on_note;  ///< on any rank, when an experiment begins or ends
 };

@@ -17,7 +17,8 @@
 namespace morula::scenarios {
 namespace {
 
-constexpr double kFade = 0.97;  // memory of about 30 steps
+constexpr double kFade = 0.97;         // memory of about 30 steps
+constexpr double kMostOfAStep = 10.0;  // times the mean of those before it
 // CPU of a step, measured on clusters of shells at W = 0.1 mN/m and on 25,000 and 100,000 packed spheres [s]
 constexpr double kCostPerNode = 4e-6, kCostPerSphere = 1.2e-5;
 constexpr double kPlacing = 3e-4;  // CPU of finding the place of a cell, on these [s]
@@ -51,6 +52,8 @@ double free_growth_rate(const Model& model, const std::vector<std::int64_t>& cel
 }
 
 void CostModel::observe(double simulated, double wall, const Load& load) {
+  if (step_ > 0.0) wall = std::min(wall, kMostOfAStep * step_);
+  step_ = step_ > 0.0 ? kFade * step_ + (1.0 - kFade) * wall : wall;
   wall_ = kFade * wall_ + wall;
   weight_ = kFade * weight_ + simulated * load.total();
 }

@@ -28,7 +28,8 @@ double free_growth_rate(const Model& model, const std::vector<std::int64_t>& cel
 /// The range: half of the free growth and 15 % less per load, to the whole of it and 25 % more.
 class CostModel {
  public:
-  /// One step: simulated [s], wall [s], the load it had.
+  /// One step: simulated [s], wall [s], the load it had. What takes ten times as long as the steps before it counts as ten of them: hundreds of shells that
+  /// find their shapes together say nothing of what is to come.
   void observe(double simulated, double wall, const Load& load);
   [[nodiscard]] WallRange left(double simulated, const Load& load, double growth_rate) const;
   /// κ [wall s / (simulated s · load)]; 0: nothing observed.
@@ -36,6 +37,7 @@ class CostModel {
 
  private:
   double wall_ = 0.0, weight_ = 0.0;  ///< fading sums
+  double step_ = 0.0;                 ///< fading mean of a step [s]
 };
 
 /// What a study will need, before it is run.

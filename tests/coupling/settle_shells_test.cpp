@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 
 #include "cbm/packing.h"
@@ -50,6 +52,11 @@ struct Settlement {
     tissue.clock.steps = 1;
     tissue.obstacle_offset.resize(model.obstacles.size());
     for (const std::size_t i : new_shells) fresh.push_back(CellId::founder(i + 1));
+  }
+  [[nodiscard]] std::size_t shell_of(CellId id) const {
+    for (const BodyOfRow& body : bodies_of(tissue.cells))
+      if (body.is_shell && tissue.cells.rows[body.row].id == id) return body.number;
+    return tissue.shells.size();
   }
   [[nodiscard]] Mechanics mechanics() { return Mechanics(model, contact_obstacles(model).value(), shapes, Comm(), 1); }
 
@@ -223,6 +230,48 @@ TEST(Neighbourhoods, OfCellsThatPressOnTheSameSphereAreOne) {
   const auto packed = find_neighbourhoods(s.tissue, s.model.space, s.fresh, {0.3, 0.1, true}, Comm());
   ASSERT_EQ(packed.size(), 1u);
   EXPECT_EQ(packed[0].rows.size(), 4u);
+}
+
+/// The middle shell of a packing is pressed to 92 % along an axis: its nodes are in no balance, as those of a new daughter.
+Settlement with_a_pressed_shell(std::vector<Vec3d> places = lattice(2, 11.9)) {
+  Settlement s;
+  s.fill(places, {0}, [](std::size_t, const Vec3d& p) { return norm(p) < 15.0 ? BodyKind::kShell : BodyKind::kSphere; });
+  for (Vec3d& p : s.tissue.shells.nodes(s.shell_of(s.fresh.front()))) p = {p.x / std::sqrt(0.92), p.y / std::sqrt(0.92), 0.92 * p.z};
+  return s;
+}
+
+TEST(SettleDaughters, MovesNobodyElseAndLeavesThemAStepAsLongAsThatOfTheTissue) {
+  constexpr double kStep = 60.0;
+  Settlement s = with_a_pressed_shell(lattice(2, 14.0));  // others that would not rest would say nothing of this one
+  Tissue after = s.tissue;
+  settle_daughters(after, s.mechanics(), s.model, s.shapes, Comm(), s.fresh, kStep);
+  EXPECT_EQ(after.clock.time, s.tissue.clock.time);
+  EXPECT_EQ(after.spheres.position, s.tissue.spheres.position);
+  for (std::size_t shell = 0; shell < after.shells.size(); ++shell) {
+    if (shell == s.shell_of(s.fresh.front())) continue;
+    EXPECT_TRUE(std::ranges::equal(std::as_const(after.shells).nodes(shell), std::as_const(s.tissue.shells).nodes(shell))) << shell;
+  }
+  EXPECT_GT(furthest(Settlement::nodes_of(after, s.fresh), Settlement::nodes_of(s.tissue, s.fresh)), 0.2);
+  const auto nodes_go = [&](Tissue tissue) {
+    const std::vector<Vec3d> before = Settlement::nodes_of(tissue, s.fresh);
+    const std::vector<Vec3d> none(Mechanics::external_size(tissue));
+    Mechanics mechanics = s.mechanics();
+    if (!mechanics.step(tissue, kStep, none)) return std::numeric_limits<double>::infinity();  // refused
+    return furthest(Settlement::nodes_of(tissue, s.fresh), before);
+  };
+  const double allowed = s.model.step.max_displacement * s.model.contact.range;
+  EXPECT_GT(nodes_go(s.tissue), 4.5 * allowed) << "a step that the tissue would not take";
+  EXPECT_LT(nodes_go(after), 4.5 * allowed);
+}
+
+TEST(SettleDaughters, FindTheSameWhateverElseThereIs) {
+  Settlement near = with_a_pressed_shell();
+  std::vector<Vec3d> places = lattice(2, 11.9);
+  places.push_back({200, 0, 0});
+  Settlement more = with_a_pressed_shell(places);
+  settle_daughters(near.tissue, near.mechanics(), near.model, near.shapes, Comm(), near.fresh, 60.0);
+  settle_daughters(more.tissue, more.mechanics(), more.model, more.shapes, Comm(), more.fresh, 60.0);
+  EXPECT_EQ(Settlement::nodes_of(near.tissue, near.fresh), Settlement::nodes_of(more.tissue, more.fresh));
 }
 
 }  // namespace

@@ -39,10 +39,10 @@ Model quiet_model() {
   return model;
 }
 
-/// A sphere and a shell of 42 nodes far from each other, which rest; `change` may disturb them.
-std::vector<std::string> coming(const Model& model, const std::function<void(Tissue&)>& change = {}) {
+/// A sphere and a shell of 42 nodes far from each other, or this far, which rest; `change` may disturb them.
+std::vector<std::string> coming(const Model& model, const std::function<void(Tissue&)>& change = {}, double distance = 60.0) {
   ShapeLibrary shapes;
-  Tissue tissue = test::make_tissue(model, shapes, {{-30, 0, 0}, {30, 0, 0}}, {kSphere, kShell}, 42);
+  Tissue tissue = test::make_tissue(model, shapes, {{-0.5 * distance, 0, 0}, {0.5 * distance, 0, 0}}, {kSphere, kShell}, 42);
   for (CellRow& row : tissue.cells.rows) row.phase = Phase::kResting, row.own_body = row.body;
   tissue.clock.time = 1000.0;
   if (change) change(tissue);
@@ -101,6 +101,18 @@ TEST(StillToCome, ExchangesThatWaitForTheirHoldTimeUnlessThereIsNoPlace) {
   EXPECT_THAT(coming(model, just_swapped), ElementsAre("an exchange of bodies"));
   model.swaps.max_shells = 1;
   EXPECT_THAT(coming(model, just_swapped), IsEmpty()) << "the shell there is takes the only place";
+}
+
+TEST(StillToCome, ShellsThatAreToBeSpheresUnlessTheyWouldBePackedTooTightly) {
+  Model model = quiet_model();
+  model.swaps.regions.push_back({.name = "all", .shape = everything_region(), .body = kSphere});
+  model.types[0].sphere.packing =
+      cbm::PackingCurve::through(std::vector<cbm::PackingKnot>{{0.001, 0.0}, {0.002, 0.001}, {0.003, 0.002}}).value();
+  const auto just_swapped = [](Tissue& tissue) { tissue.cells.optional.last_swap_time.set(1 - sphere_of(tissue), 900.0, 2); };
+  EXPECT_THAT(coming(model, just_swapped), ElementsAre("an exchange of bodies"));
+  const double near =
+      1.7 * model.types[0].radius.mean;  // balls lose v = πh²(R − h/3), h = 0.15 R, 1.6 % of their volume to the plane between them
+  EXPECT_THAT(coming(model, just_swapped, near), IsEmpty()) << "it is put off for ever";
 }
 
 TEST(StillToCome, WhatCellsDo) {

@@ -5,6 +5,7 @@
 #include "coupling/behaviours/division_axis.h"
 #include "results/snapshot_file.h"
 #include "tests/scenarios/own_parts.h"
+#include "tests/scenarios/simulation_of.h"
 
 namespace morula::scenarios::test {
 namespace {
@@ -60,6 +61,28 @@ output: {report: false}
 }
 
 double egg_volume() { return 4.0 / 3.0 * 3.141592653589793 * 216.0; }
+
+TEST_F(DivisionRun, DoesNotMakeTheTissueWaitForTheDaughters) {
+  auto simulation = simulation_of(study(one_shell("growth: linear", "75 min")));
+  ASSERT_TRUE(simulation.ok());
+  double before = 0.0;  // step before the last
+  int divisions = 0, after = 0;
+  bool divided = false;
+  while ((*simulation)->tissue().clock.time < 4200.0) {
+    const auto done = (*simulation)->step(4200.0);
+    ASSERT_TRUE(done.ok()) << done.error().message;
+    if (divided) {
+      ++after;
+      // The tension of the new faces grows for ten minutes, which moves a pair or four cells by more than a step of a minute allows.
+      EXPECT_GE(done->mechanics.step, 0.24 * before);
+    }
+    divided = std::ranges::any_of(done->events, [](const Event& event) { return event.kind == EventKind::kDivision; });
+    divisions += divided;
+    before = done->mechanics.step;
+  }
+  EXPECT_GE(divisions, 2);
+  EXPECT_GE(after, 2);
+}
 
 TEST_F(DivisionRun, GoesFromOneToFourAndLosesNoVolume) {
   run_whole(one_shell("growth: linear", "75 min"), "four");

@@ -11,6 +11,7 @@
 #include "results/snapshot_file.h"
 #include "scenarios/calibrate/confidence.h"
 #include "scenarios/calibrate/packing_geometry.h"
+#include "scenarios/experiments/budget.h"
 #include "scenarios/experiments/calibration.h"
 #include "scenarios/experiments/data_of_runs.h"
 #include "scenarios/experiments/found_curves.h"
@@ -239,6 +240,44 @@ TEST(CellMaterial, HasAnotherHashWhereItIsAnother) {
   EXPECT_NE(as_it_is, hash(kStudy, "nodes: 42", "nodes: 162"));
   EXPECT_NE(as_it_is, hash(kStudy, "soft: 2e-4 J/m^2", "soft: 2.1e-4 J/m^2"));
   EXPECT_NE(as_it_is, hash(kStudy, "repulsion: 50 kPa/um", "repulsion: 51 kPa/um"));
+}
+
+CellMaterial material_of_shells() {
+  CellMaterial out;
+  out.type = "ball";
+  out.radius = 5.0;
+  out.adhesion = 0.05;
+  out.tension = 0.2;
+  out.range = 0.5;
+  out.nodes = 162;
+  out.shell = "dcm: {nodes: 162}";
+  out.contact = "{range: 0.5 um}";
+  return out;
+}
+
+TEST(Budget, LeavesOutWhatJudgesFirstAndNeverWhatTheFitNeeds) {
+  const auto all = experiments_for(material_of_shells());
+  double whole = 0.0;
+  for (const Experiment& e : all) whole += expected_seconds(e, 162);
+  EXPECT_TRUE(within_budget(all, 162, 1.001 * whole)->left_out.empty());
+  std::vector<std::string> order;
+  double least = whole;
+  for (double budget = whole; budget > 0.0; budget = 0.999 * least) {
+    const auto list = within_budget(all, 162, budget);
+    if (!list.ok()) {
+      EXPECT_EQ(list.error().kind, ErrorKind::kInput);
+      EXPECT_THAT(list.error().message, testing::HasSubstr("two cells at two rates alone take about"));
+      break;
+    }
+    EXPECT_LE(list->seconds, budget);
+    least = list->seconds;
+    order = list->left_out;
+    EXPECT_EQ(list->kept.size() + order.size(), all.size());
+    EXPECT_EQ(list->kept.front().name, "equal_pair_1");
+  }
+  EXPECT_THAT(order, testing::ElementsAre("packing_fcc", "packing_bcc", "unequal_pair_3", "packing_random_3", "unequal_pair_1",
+                                          "unequal_pair_2", "equal_pair_3", "packing_random_2", "packing_random_1"));
+  EXPECT_NEAR(expected_seconds(all.front(), 642) / expected_seconds(all.front(), 162), 642.0 / 162.0, 1e-12);
 }
 
 }  // namespace

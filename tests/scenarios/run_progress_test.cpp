@@ -24,6 +24,14 @@ TEST(CostModel, LeftFollowsTheLoadNotTheFraction) {
   EXPECT_NEAR(model.left(1000.0, {0.0, 100.0}, growth).high, 37.5, 1e-9);  // shells do not multiply
 }
 
+TEST(CostModel, IsNotMisledByWhatHappensOnce) {
+  CostModel model;
+  for (int i = 0; i < 200; ++i) model.observe(60.0, 0.6, {100.0, 0.0});
+  model.observe(60.0, 120.0, {100.0, 0.0});  // two hundred times as long as a step
+  // It counts as ten steps among those that are remembered, 1/(1 − 0.97) = 33: (33 + 9)/33 of the cost.
+  EXPECT_NEAR(model.left(1000.0, {100.0, 0.0}, 0.0).high, 12.5 * (1.0 + 9.0 * 0.03), 0.2);
+}
+
 TEST(CostModel, KnowsNothingBeforeTheFirstStep) { EXPECT_LT(CostModel().left(1.0, {1.0, 1.0}, 0.0).low, 0.0); }
 
 TEST(CostModel, GrowthRateIsTheMeanOverCells) {

@@ -1,0 +1,47 @@
+#include "scenarios/experiments/budget.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/numbers/number_text.h"
+
+namespace morula::scenarios {
+namespace {
+
+/// Of one core, a node and a simulated second of an experiment [s].
+constexpr double kSecondsPerWork = 4e-7;
+
+double all_seconds(const std::vector<Experiment>& experiments, std::uint32_t nodes) {
+  double out = 0.0;
+  for (const Experiment& one : experiments) out += expected_seconds(one, nodes);
+  return out;
+}
+
+std::string time_text(double seconds) {
+  return seconds < 120.0 ? number_text("%.0f", std::ceil(seconds)) + " s" : number_text("%.0f", std::ceil(seconds / 60.0)) + " min";
+}
+
+}  // namespace
+
+double expected_seconds(const Experiment& experiment, std::uint32_t nodes) {
+  return kSecondsPerWork * experiment.work * static_cast<double>(nodes);
+}
+
+Result<Shortened> within_budget(std::vector<Experiment> experiments, std::uint32_t nodes, double budget) {
+  Shortened out{.kept = std::move(experiments), .left_out = {}, .seconds = 0.0};
+  while ((out.seconds = all_seconds(out.kept, nodes)) > budget) {
+    const int most = std::ranges::max(out.kept, {}, &Experiment::dispensable).dispensable;
+    if (most == 0)
+      return Error{ErrorKind::kInput,
+                   "a budget of " + time_text(budget) + " is too small for any fit: two cells at two rates alone take about " +
+                       time_text(out.seconds) + " of one core",
+                   "give more time, or shells of fewer nodes"};
+    std::erase_if(out.kept, [&](const Experiment& one) {
+      if (one.dispensable == most) out.left_out.push_back(one.name);
+      return one.dispensable == most;
+    });
+  }
+  return out;
+}
+
+}  // namespace morula::scenarios
