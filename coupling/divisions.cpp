@@ -163,32 +163,28 @@ void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& e
     replace_cells(tissue_, gone, std::move(fresh));
     mechanics_->cells_replaced();
   }
-  CutsKept kept;
   if (cuts) {
-    kept = undo_deep_cuts(cut, events);
-    divisions -= kept.undone;
-    note_energy_rise(cut, kept.energy - energy, events);
+    note_energy_rise(cut, mechanics_->energy(tissue_) - energy, events);
+    divisions -= settle_cuts(cut, events);
   }
   rename_partners(events);  // before anybody looks at bodies
-  if (cuts) {
-    auto finding = timer().scope(Stage::kShapes);
-    settle_daughters(tissue_, *mechanics_, model_, shapes_, comm_, kept.daughters, tissue_.clock.next_step);
-    mechanics_->cells_replaced();
-  }
   for (const Event& event : life.events) deaths += event.kind == EventKind::kDeath;
   tissue_.ledger.divisions += static_cast<std::uint64_t>(comm_.sum(divisions));
   tissue_.ledger.deaths += static_cast<std::uint64_t>(comm_.sum(deaths));
 }
 
-Simulation::CutsKept Simulation::undo_deep_cuts(std::span<const CellRecord> mothers, std::vector<Event>& events) {
+std::int64_t Simulation::settle_cuts(std::span<const CellRecord> mothers, std::vector<Event>& events) {
   std::vector<CellId> daughters;
   for (const CellRecord& mother : mothers)
     for (const int which : {0, 1}) daughters.push_back(mother.row.id.daughter(which));
   std::ranges::sort(daughters);
-  CutsKept out;
-  out.energy = mechanics_->energy(tissue_);
+  {
+    auto finding = timer().scope(Stage::kShapes);
+    settle_daughters(tissue_, *mechanics_, model_, shapes_, comm_, daughters, tissue_.clock.next_step);
+  }
+  mechanics_->cells_replaced();
+  (void)mechanics_->energy(tissue_);  // finds the contacts
   const std::vector<CellId> deep = too_deep(*mechanics_, daughters, kMostOfLimit * model_.limits.overlap);
-  out.daughters = std::move(daughters);
   mechanics_->cells_replaced();  // what it knows is with partners that have not their new names yet
   std::vector<CellRecord> back;
   std::vector<CellId> undone;
@@ -198,14 +194,12 @@ Simulation::CutsKept Simulation::undo_deep_cuts(std::span<const CellRecord> moth
     undone.insert(undone.end(), {pair[0], pair[1]});
     put_off(back.emplace_back(mother).row, events);
   }
-  if (!comm_.any(!back.empty())) return out;
-  std::ranges::sort(undone);
-  out.undone = static_cast<std::int64_t>(back.size());
-  std::erase_if(out.daughters, [&](CellId id) { return std::ranges::binary_search(undone, id); });
-  replace_cells(tissue_, rows_of(tissue_.cells, undone), std::move(back));
-  out.energy = mechanics_->energy(tissue_);
-  mechanics_->cells_replaced();
-  return out;
+  const auto number = static_cast<std::int64_t>(back.size());
+  if (!undone.empty()) {
+    std::ranges::sort(undone);
+    replace_cells(tissue_, rows_of(tissue_.cells, undone), std::move(back));
+  }
+  return number;
 }
 
 void Simulation::rename_partners(const std::vector<Event>& events) {

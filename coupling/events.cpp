@@ -31,7 +31,8 @@ std::string text_of_cause(const EventReason& reason, const Model& model) {
     case Cause::kDivisionVolumeAsShell:
       return "reached its division volume as a shell";
     case Cause::kNoPlane:
-      return "reached its division volume and found no plane that leaves two good meshes; it tries others every " +
+      return "reached its division volume and found no plane that leaves two good meshes with room among their neighbours; it tries others "
+             "every " +
              std::to_string(static_cast<int>(kTimeBetweenTries / 60.0)) + " min";
     case Cause::kUnevenMesh:
       return "has a face that is nearly a line, and its nodes cannot be spread evenly on its surface; it tries again every " +

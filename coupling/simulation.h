@@ -92,13 +92,9 @@ class Simulation {
   void renew_meshes(std::vector<Event>& events);
   /// What a step of life has asked for (coupling/divisions.cpp): daughters in place of mothers, and dead cells gone. Collective.
   void divide_and_remove(const struct LifeReport& life, std::vector<Event>& events);
-  struct CutsKept {
-    std::vector<CellId> daughters;  ///< of the others on this rank, sorted
-    std::int64_t undone = 0;        ///< of this rank
-    double energy = 0.0;            ///< of the tissue after the others [nN·µm]
-  };
-  /// Shells whose daughters would begin so deep within others that the run might stop are taken back and put off. Collective.
-  CutsKept undo_deep_cuts(std::span<const CellRecord> mothers, std::vector<Event>& events);
+  /// The daughters of cut shells settle; those that would still begin so deep within others that the run might stop are taken back, and their mothers put
+  /// off: gives how many of this rank. Collective.
+  std::int64_t settle_cuts(std::span<const CellRecord> mothers, std::vector<Event>& events);
   /// Partners of a mother become partners of her daughters, also on other ranks. `events` are those of this rank. Collective.
   void rename_partners(const std::vector<Event>& events);
   void wrap_cells();

@@ -160,14 +160,38 @@ TEST_F(DivisionRun, WaitsWhereTheStudySaysSo) {
 }
 
 TEST_F(DivisionRun, PutsOffADivisionThatWouldReachTooDeep) {
-  // No pair of sisters begins within 7.5 nm of each other: every plane is taken back, and the run goes on.
-  run_whole(one_shell("growth: linear", "75 min", "limits: {overlap: 10 nm}\n"), "deep");
+  // No pair of sisters settles within 0.75 nm of each other: every plane is taken back, and the run goes on.
+  run_whole(one_shell("growth: linear", "75 min", "limits: {overlap: 1 nm}\n"), "deep");
   EXPECT_EQ(column("deep", "cell_count").back(), 1.0);
   EXPECT_EQ(column("deep", "divisions").back(), 0.0);
   EXPECT_NEAR(column("deep", "total_volume").back() / egg_volume(), 2.0, 0.01) << "nothing is lost";
   const std::string events = file("deep", "events.jsonl");
   EXPECT_THAT(events, HasSubstr("division_waits"));
   EXPECT_EQ(std::count(events.begin(), events.end(), '\n'), 1) << "said once: " << events;
+}
+
+TEST_F(DivisionRun, LeavesNoCellOfASpheroidWaiting) {
+  // Cut daughters lie up to half a micrometre deep in their neighbours; they settle before that is judged (decision 0062).
+  run_whole(R"(schema: 1
+study: spheroid
+seed: 1
+time: {end: 8.5 h, output: 30 min, checkpoint: 4 h}
+domain: {size: [200 um, 200 um, 200 um]}
+cell_types:
+  tumour:
+    body: shell
+    radius: 6 um
+    cycle: {duration: {mean: 18 h, spread: 10 %}, axis: random}
+    inhibit_growth: {pressure_above: never}
+    adhesion: {tumour: 1e-4 J/m^2}
+    dcm: {nodes: 162, cortex: {elastic: none, tension: 0.1 mN/m}, bulk_modulus: 2.5 kPa}
+initial: [{type: tumour, count: 8, fill: sphere, radius: 13 um, age: random}]
+output: {report: false}
+)",
+            "spheroid");
+  EXPECT_THAT(file("spheroid", "events.jsonl"), Not(HasSubstr("division_waits")));
+  EXPECT_GE(column("spheroid", "divisions").back(), 4.0);
+  for (const double overlap : column("spheroid", "worst_overlap")) EXPECT_LT(overlap, 0.1);
 }
 
 TEST_F(DivisionRun, SaysWhatCannotBe) {
