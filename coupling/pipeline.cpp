@@ -61,23 +61,15 @@ double next_step(const StepControl& control, double range, const StepReport& don
 
 /// Speed of the fastest cell as a whole in the last step [µm/s]: of a shell, the mean of its nodes. Collective.
 double fastest_cell(const Tissue& tissue, const Comm& comm, int threads) {
-  std::vector<double> by_thread(static_cast<std::size_t>(threads), 0.0);
-  const std::size_t shells = tissue.shells.size(), bodies = shells + tissue.spheres.size();
-  on_each_thread(threads, [&](std::size_t t) {
-    const auto count = static_cast<std::size_t>(threads);
-    for (std::size_t b = bodies * t / count; b < bodies * (t + 1) / count; ++b) {
-      Vec3d velocity{};
-      if (b < shells) {
-        const std::uint32_t first = tissue.shells.first_node[b], last = tissue.shells.first_node[b + 1];
-        for (std::uint32_t i = first; i < last; ++i) velocity += to_double(tissue.shells.velocity[i]);
-        velocity *= 1.0 / (last - first);
-      } else {
-        velocity = to_double(tissue.spheres.velocity[b - shells]);
-      }
-      by_thread[t] = std::max(by_thread[t], norm2(velocity));
-    }
+  const std::size_t shells = tissue.shells.size();
+  const double fastest = parallel_max(threads, shells + tissue.spheres.size(), [&](std::size_t b) {
+    if (b >= shells) return norm2(to_double(tissue.spheres.velocity[b - shells]));
+    const std::uint32_t first = tissue.shells.first_node[b], last = tissue.shells.first_node[b + 1];
+    Vec3d sum{};
+    for (std::uint32_t i = first; i < last; ++i) sum += to_double(tissue.shells.velocity[i]);
+    return norm2(sum * (1.0 / (last - first)));
   });
-  return std::sqrt(comm.max(*std::ranges::max_element(by_thread)));
+  return std::sqrt(comm.max(fastest));
 }
 
 }  // namespace

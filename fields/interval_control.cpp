@@ -21,9 +21,8 @@ bool is_due(const Field& field, double now) {
 }
 
 double next_interval(double interval, double change, double tolerance) {
-  const double allowed = kSafety * tolerance;
-  const double factor = change * kMostGrowth > allowed ? allowed / change : kMostGrowth;
-  return tolerance > 0.0 ? std::min(interval * factor, kLongest) : 0.0;
+  if (!(tolerance > 0.0)) return 0.0;
+  return std::min(interval * std::min(kMostGrowth, kSafety * tolerance / change), kLongest);  // no change: twice as long
 }
 
 }  // namespace morula::fields

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/numbers/number_text.h"
+#include "scenarios/run/cost_model.h"
 
 namespace morula::scenarios {
 namespace {
@@ -17,9 +17,8 @@ double all_seconds(const std::vector<Experiment>& experiments, std::uint32_t nod
   return out;
 }
 
-std::string time_text(double seconds) {
-  return seconds < 120.0 ? number_text("%.0f", std::ceil(seconds)) + " s" : number_text("%.0f", std::ceil(seconds / 60.0)) + " min";
-}
+/// Rounded up, so that it suffices as a budget.
+std::string enough(double seconds) { return duration_text(seconds < 90.0 ? std::ceil(seconds) : 60.0 * std::ceil(seconds / 60.0)); }
 
 }  // namespace
 
@@ -33,8 +32,8 @@ Result<Shortened> within_budget(std::vector<Experiment> experiments, std::uint32
     const int most = std::ranges::max(out.kept, {}, &Experiment::dispensable).dispensable;
     if (most == 0)
       return Error{ErrorKind::kInput,
-                   "a budget of " + time_text(budget) + " is too small for any fit: two cells at two rates alone take about " +
-                       time_text(out.seconds) + " of one core",
+                   "a budget of " + duration_text(budget) + " is too small for any fit: two cells at two rates alone take about " +
+                       enough(out.seconds) + " of one core",
                    "give more time, or shells of fewer nodes"};
     std::erase_if(out.kept, [&](const Experiment& one) {
       if (one.dispensable == most) out.left_out.push_back(one.name);

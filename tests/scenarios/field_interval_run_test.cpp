@@ -1,13 +1,7 @@
 // Fields that wait while cells move (decision 0061), by the user's road.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "results/series_reader.h"
 #include "results/state_hash.h"
-#include "tests/scenarios/run_into.h"
+#include "tests/scenarios/own_parts.h"
 #include "tests/scenarios/simulation_of.h"
-#include "tests/study/study_fixture.h"
 
 namespace morula::scenarios::test {
 namespace {
@@ -25,26 +19,16 @@ initial: [{type: cell, count: 600, fill: sphere, radius: 55 um, start_volume: 50
 output: {report: false}
 )";
 
-class FieldIntervals : public ::testing::Test {
+class FieldIntervals : public OwnParts {
  protected:
-  Study study(const std::string& text) {
-    auto found = read(text, {}, folder_.path());
-    EXPECT_TRUE(found.ok()) << found.error().text();
-    return std::move(found).value();
-  }
-  std::vector<double> column(const std::string& run, const std::string& name) {
-    const auto series = read_series(folder_.path() / run / "series.csv");
-    EXPECT_TRUE(series.ok());
-    return series->find(name)->values;
-  }
-  Folder folder_;
+  FieldIntervals() : OwnParts([](Laws&) {}) {}
 };
 
 std::string each_step() { return changed("initial: 0.1 mM", "initial: 0.1 mM, interval_tolerance: 0", kStudy); }
 
 TEST_F(FieldIntervals, GiveTheConcentrationsOfIntegrationAfterEveryStep) {
-  ASSERT_TRUE(run_into(folder_.path() / "long", study(kStudy)));
-  ASSERT_TRUE(run_into(folder_.path() / "each", study(each_step())));
+  run_whole(kStudy, "long");
+  run_whole(each_step(), "each");
   const auto least = column("long", "min_oxygen"), least_each = column("each", "min_oxygen");
   const auto mean = column("long", "mean_oxygen"), mean_each = column("each", "mean_oxygen");
   ASSERT_EQ(least.size(), 7u);
