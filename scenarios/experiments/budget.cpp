@@ -32,8 +32,7 @@ Result<Shortened> within_budget(std::vector<Experiment> experiments, std::uint32
     const int most = std::ranges::max(out.kept, {}, &Experiment::dispensable).dispensable;
     if (most == 0)
       return Error{ErrorKind::kInput,
-                   "a budget of " + duration_text(budget) + " is too small for any fit: two cells at two rates alone take about " +
-                       enough(out.seconds) + " of one core",
+                   "the budget is too small for any fit: two cells at two rates alone take about " + enough(out.seconds) + " of one core",
                    "give more time, or shells of fewer nodes"};
     std::erase_if(out.kept, [&](const Experiment& one) {
       if (one.dispensable == most) out.left_out.push_back(one.name);

@@ -65,6 +65,25 @@ TEST(Calibrate, WritesTheSameFileOnRanksAndThreadsAndAfterASigkill) {
   EXPECT_EQ(text_of(folder / "ranks/small.jkr.yaml"), whole);
 }
 
+TEST(Calibrate, LeavesOutWhatItsBudgetHasNoTimeFor) {
+  const TestFolder folder;
+  write_study(folder.path() / "study.yaml");
+  const auto within = [&](const char* budget) {
+    return run_morula({"calibrate", "jkr", "small", "study.yaml", "--budget", budget, "--out", "short"}, folder.path(),
+                      {.timeout = std::chrono::seconds(180)});
+  };
+  const Outcome too_small = within("1 ms");
+  EXPECT_EQ(too_small.exit_code, 2) << too_small.all();
+  EXPECT_THAT(too_small.err, HasSubstr("is too small for any fit: two cells at two rates alone take about 1 s of one core"));
+  const Outcome done = within("0.5 s");
+  ASSERT_EQ(done.exit_code, 0) << done.all();
+  EXPECT_TRUE(std::filesystem::exists(folder / "short/equal_pair_2"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "short/equal_pair_3"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "short/packing_random_1"));
+  EXPECT_THAT(text_of(folder / "short/small.jkr.yaml"),
+              testing::AllOf(HasSubstr("young:"), HasSubstr("no time for packing_fcc, packing_bcc")));
+}
+
 TEST(Calibrate, RefusesATypeThatTheStudyHasNot) {
   const TestFolder folder;
   write_study(folder.path() / "study.yaml");
