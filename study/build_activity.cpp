@@ -26,8 +26,7 @@ int find_substrate(BuildContext& c, const Given<std::string>& name) {
 
 void build_protrusion(BuildContext& c, const std::string& name, const Place& place, const draft::Activity& a, CellType& type) {
   if (!a.has_protrusion) return;
-  type.protrusion.force = a.force.value;
-  type.protrusion.angle = a.angle.value;
+  a.protrusion.write_to(type.protrusion);
   type.protrusion.internal = a.reaction.value == "cell";
   type.protrusion.contact_area = a.contact_area.value;
   if (a.substrate.given) type.protrusion.substrate = find_substrate(c, a.substrate);

@@ -98,7 +98,7 @@ bool is_phase(BuildContext& c, const draft::Trigger& t) {
 
 void build_trigger(BuildContext& c, const UnitSystem& units, const draft::Trigger& t, const Place& place) {
   Trigger trigger;
-  trigger.hold = t.hold.value;
+  t.plain.write_to(trigger);
   if (int{t.type.given} + int{t.phase.given} + int{t.outside_law.given} + int{t.promote.given || t.demote.given} > 1) {
     c.diagnostics.error(111, place, "a trigger has either `type`, `phase`, `outside_law`, or `promote` and `demote`", "make two triggers");
     return;
@@ -223,8 +223,7 @@ void build_region(BuildContext& c, draft::Region& r, const Place& place) {
 void build_coupling(BuildContext& c) {
   const UnitSystem units;
   draft::Coupling& coupling = c.draft.coupling;
-  c.study.model.swaps.max_shells = coupling.max_shells.value;
-  c.study.model.swaps.hold = coupling.hold.value;
+  coupling.swaps.write_to(c.study.model.swaps);
   c.study.model.swaps.gradual = coupling.exchange.value == "gradual";
   for (auto& [name, place, region] : coupling.regions) build_region(c, region, place);
   for (const auto& [name, place, trigger] : coupling.triggers) build_trigger(c, units, trigger, place);

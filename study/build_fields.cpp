@@ -83,11 +83,8 @@ void build_fields(BuildContext& c) {
       c.diagnostics.error(112, place, "a field cannot be called '" + name + "'", "triggers use this word for the cell's own value");
     fields::FieldSpec spec;
     spec.name = name;
-    spec.diffusion = f.diffusion.value;
-    spec.initial = f.initial.value;
+    f.spec.write_to(spec);
     spec.voxel = f.voxel.value;
-    spec.relative_tolerance = f.tolerance.value;
-    spec.interval_tolerance = f.interval_tolerance.value;
     const draft::FieldBoundary& b = f.boundary;
     spec.boundary = {{{condition(b.x_low, b.all), condition(b.x_high, b.all)},
                       {condition(b.y_low, b.all), condition(b.y_high, b.all)},

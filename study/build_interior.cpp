@@ -42,7 +42,7 @@ dcm::LinkParameters links_of(BuildContext& c, const draft::Links& d, std::uint64
   out.count = static_cast<std::uint32_t>(std::min<std::uint64_t>(d.number.value, dcm::LinkParameters::kAll));
   out.stiffness = d.stiffness.value;
   out.damping = d.damping.value;
-  out.tension_only = d.tension_only.value;
+  d.law.write_to(out);
   return out;
 }
 
@@ -128,7 +128,7 @@ void build_osmosis(BuildContext& c, const draft::CellType& t, CellType& type) {
   const draft::Osmosis& d = t.osmosis;
   if (!d.present) return;
   Osmosis& law = type.osmosis;
-  law.permeability = d.permeability.value;
+  d.law.write_to(law);
   law.inactive = d.inactive.value;
   law.inside = d.inside.value;
   law.outside = d.outside.value;

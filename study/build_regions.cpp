@@ -121,7 +121,7 @@ void build_tensions(BuildContext& c) {
       region.tension = item.content.tension.value;
       region.amplitude = item.content.amplitude.value;
       region.period = item.content.period.value;
-      region.phase = item.content.phase.value;
+      item.content.plain.write_to(region);
       region.course = build_course(c, item.content.course);
       if (item.content.amplitude.value > 0.0 && region.period == 0.0)
         c.diagnostics.error(515, item.content.amplitude.place, "'amplitude' has no effect without a period", "give `period`");
@@ -149,9 +149,7 @@ void build_lumens(BuildContext& c) {
     lumen.by_sight = d.faces.value == "seen";
     lumen.mark = find_mark(c, lumen.by_sight ? name : d.faces.value, d.faces.given ? d.faces.place : place);
     lumen.center = d.center.value;
-    lumen.reach = d.reach.value;
-    lumen.renewed = d.renewed.value;
-    lumen.from = d.from.value;
+    d.plain.write_to(lumen);
     lumen.pressure = d.pressure.value;
     lumen.keeps_solute = d.solute.value == "kept";
     lumen.course = build_course(c, d.course);
@@ -175,8 +173,7 @@ void build_springs(BuildContext& c) {
     spring.name = name;
     if (!d.mark.known()) continue;
     spring.mark = find_mark(c, d.mark.value, d.mark.place);
-    spring.stiffness = d.stiffness.value;
-    spring.friction = d.friction.value;
+    d.plain.write_to(spring);
     if (spring.mark >= 0) c.study.model.apical_springs.push_back(std::move(spring));
   }
 }

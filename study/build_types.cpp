@@ -13,12 +13,6 @@ namespace {
 
 constexpr std::size_t kMaxTypes = 256;
 
-void build_dying(const draft::CellType& draft, CellType& type) {
-  if (const auto at = draft.behaviours.find("death"); at == draft.behaviours.end() || !at->second.present) return;
-  type.apoptosis_time = draft.shrink_time.value;
-  type.removal_fraction = draft.removed_below.value;
-}
-
 void build_color(BuildContext& c, const draft::CellType& draft) {
   if (draft.color.known() && !color_of_text(draft.color.value)) {
     std::vector<std::string> names;
@@ -176,7 +170,7 @@ void build_cell_types(BuildContext& c) {
     type.inhibit_pressure = t.pressure_above.value;
     build_cycle(c, t, place, type);
     build_behaviours(c, t, place, type);
-    build_dying(t, type);
+    t.plain.write_to(type);
     build_osmosis(c, t, type);
     type.medium_friction = t.friction_medium.value;
     type.initial_body = t.body.value == "shell" ? BodyKind::kShell : BodyKind::kSphere;

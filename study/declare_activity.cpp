@@ -12,7 +12,7 @@ using Q = Quantity;
 
 void declare_protrusion(Section& p, draft::Activity& a) {
   p.quantity({.name = "force", .doc = "Size of the force.", .quantity = Q::kForce, .required = true, .low = 0.0, .example = "1 nN"},
-             a.force);
+             a.protrusion, &Protrusion::force);
   p.quantity({.name = "angle",
               .doc = "Half angle of the front about the polarity.",
               .quantity = Q::kAngle,
@@ -22,7 +22,7 @@ void declare_protrusion(Section& p, draft::Activity& a) {
               .low_open = true,
               .example = "45 deg",
               .source = "chosen"},
-             a.angle);
+             a.protrusion, &Protrusion::angle);
   p.word(
       {.name = "reaction",
        .doc =

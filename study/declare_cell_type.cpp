@@ -37,7 +37,7 @@ void declare_life(Section& s, draft::CellType& t) {
                         .low_open = true,
                         .example = "8 h",
                         .source = "chosen: apoptosis takes about 8 h"},
-                       t.shrink_time);
+                       t.plain, &CellType::apoptosis_time);
             d.quantity({.name = "removed_below",
                         .doc = "Removed when its volume is below this part of that at death.",
                         .quantity = Q::kFraction,
@@ -48,7 +48,7 @@ void declare_life(Section& s, draft::CellType& t) {
                         .high_open = true,
                         .example = "10 %",
                         .source = "chosen"},
-                       t.removed_below);
+                       t.plain, &CellType::removal_fraction);
           });
   declare_migration(s, t);
   declare_activity(s, t);

@@ -111,7 +111,7 @@ void declare_trigger(Section& s, draft::Trigger& t) {
               .low = 0.0,
               .example = "30 min",
               .source = "chosen"},
-             t.hold);
+             t.plain, &Trigger::hold);
 }
 
 }  // namespace
@@ -123,14 +123,14 @@ void declare_field(Section& s, draft::Field& f) {
               .required = true,
               .low = 0.0,
               .example = "2e-9 m^2/s"},
-             f.diffusion);
+             f.spec, &fields::FieldSpec::diffusion);
   s.quantity({.name = "initial",
               .doc = "Concentration at time 0.",
               .quantity = Q::kConcentration,
               .required = true,
               .low = 0.0,
               .example = "0.2 mM"},
-             f.initial);
+             f.spec, &fields::FieldSpec::initial);
   s.quantity({.name = "voxel",
               .doc = "Edge of a voxel, at most; the domain is divided evenly.",
               .quantity = Q::kLength,
@@ -147,7 +147,7 @@ void declare_field(Section& s, draft::Field& f) {
               .high = 0.1,
               .example = "1e-4",
               .source = "chosen"},
-             f.tolerance);
+             f.spec, &fields::FieldSpec::relative_tolerance);
   s.quantity({.name = "interval_tolerance",
               .doc = "Between two integrations the field waits while cells move and grow, up to five minutes or the tenth of a voxel that "
                      "a cell goes: as long as no "
@@ -157,7 +157,7 @@ void declare_field(Section& s, draft::Field& f) {
               .high = 0.1,
               .example = "5e-3",
               .source = "chosen: decision 0061"},
-             f.interval_tolerance);
+             f.spec, &fields::FieldSpec::interval_tolerance);
   bool present = false;
   s.group({.name = "boundary",
            .doc = "At the faces of the domain: a concentration, or `no_flux`; one for all, or by face. Ignored on periodic axes.",
@@ -204,7 +204,7 @@ void declare_coupling(Section& s, draft::Coupling& c) {
            .specials = {{"unlimited", std::numeric_limits<double>::infinity()}},
            .example = "120",
            .source = "chosen"},
-          c.max_shells);
+          c.swaps, &Swaps::max_shells);
   s.quantity(
       {.name = "hold",
        .doc = "No second exchange of body by a region within this time. Daughters keep their body until they have parted (half an hour), "
@@ -215,7 +215,7 @@ void declare_coupling(Section& s, draft::Coupling& c) {
        .low = 0.0,
        .example = "10 min",
        .source = "chosen"},
-      c.hold);
+      c.swaps, &Swaps::hold);
   s.word(
       {.name = "exchange",
        .doc = "What room a sphere takes that becomes a shell. Balls overlap, shells do not. gradual: beside shells, and beside others that "

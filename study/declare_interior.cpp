@@ -16,7 +16,7 @@ void declare_osmosis_keys(Section& o, draft::Osmosis& osmosis) {
               .low_open = true,
               .example = "1e-12 m/s/Pa",
               .source = "chosen within 1e-13 to 1e-11 m/s/Pa"},
-             osmosis.permeability);
+             osmosis.law, &Osmosis::permeability);
   o.quantity({.name = "inactive",
               .doc = "Part of the target volume that is no solvent.",
               .quantity = Q::kFraction,
@@ -143,7 +143,7 @@ void declare_links(Section& l, draft::Links& links, const char* number) {
           .fallback = "false",
           .example = "true",
           .source = "chosen"},
-         links.tension_only);
+         links.law, &dcm::LinkParameters::tension_only);
 }
 
 }  // namespace

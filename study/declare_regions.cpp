@@ -55,7 +55,7 @@ void declare_tension_region(Section& s, draft::TensionRegion& r) {
               .high = 100.0,
               .example = "90 deg",
               .source = "chosen"},
-             r.phase);
+             r.plain, &TensionRegion::phase);
 }
 
 void axis_key(Section& s, Given<Vec3d>& value, const char* doc) {
@@ -192,7 +192,7 @@ void declare_lumen(Section& s, draft::Lumen& l) {
               .low_open = true,
               .example = "60 um",
               .source = "chosen"},
-             l.reach);
+             l.plain, &Lumen::reach);
   s.quantity({.name = "renewed",
               .doc = "Time after which the faces in sight are found anew.",
               .quantity = Q::kTime,
@@ -201,7 +201,7 @@ void declare_lumen(Section& s, draft::Lumen& l) {
               .low_open = true,
               .example = "5 min",
               .source = "chosen"},
-             l.renewed);
+             l.plain, &Lumen::renewed);
   s.quantity({.name = "from",
               .doc = "Time from which the cavity is looked at.",
               .quantity = Q::kTime,
@@ -209,7 +209,7 @@ void declare_lumen(Section& s, draft::Lumen& l) {
               .low = 0.0,
               .example = "30 min",
               .source = "chosen"},
-             l.from);
+             l.plain, &Lumen::from);
   s.quantity(
       {.name = "pressure",
        .doc = "Pressure of the fluid above that of the medium; with `solute: kept`, that at the volume at which the cavity is first seen.",
@@ -243,7 +243,7 @@ void declare_apical_spring(Section& s, draft::ApicalSpring& a) {
               .low = 0.0,
               .high = 1e4,
               .example = "10 Pa/um"},
-             a.stiffness);
+             a.plain, &ApicalSpring::stiffness);
   s.quantity({.name = "friction",
               .doc = "mu per marked area: friction against the laboratory.",
               .quantity = Q::kFrictionPerArea,
@@ -252,7 +252,7 @@ void declare_apical_spring(Section& s, draft::ApicalSpring& a) {
               .high = 1e6,
               .example = "1e8 N s/m^3",
               .source = "chosen: off"},
-             a.friction);
+             a.plain, &ApicalSpring::friction);
 }
 
 }  // namespace morula::scenarios

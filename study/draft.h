@@ -2,6 +2,7 @@
 #include <map>
 #include <vector>
 
+#include "coupling/model.h"
 #include "study/criterion.h"
 #include "study/draft_own.h"
 #include "study/section.h"
@@ -18,7 +19,8 @@ struct Time {
 
 struct Numerics {
   Given<std::uint64_t> newton;
-  Given<double> newton_stop, tolerance, later_tolerance, max_displacement, initial_step, skin, start_cap, start_cap_within;
+  Given<double> initial_step, skin, start_cap, start_cap_within;
+  PlainKeys<StepControl> step;
 };
 
 /// `all`, an axis, or one face; the most particular one holds.
@@ -43,7 +45,8 @@ struct PackingKnot {
 /// Osmotic control of the volume.
 struct Osmosis {
   bool present = false;
-  Given<double> permeability, inactive, inside, outside;
+  Given<double> inactive, inside, outside;
+  PlainKeys<morula::Osmosis> law;
   Given<std::string> field;
   std::vector<Named<CoursePoint>> course;
 };
@@ -77,7 +80,7 @@ struct Links {
   bool present = false;
   Given<std::uint64_t> number;
   Given<double> stiffness, damping;
-  Given<bool> tension_only;
+  PlainKeys<dcm::LinkParameters> law;
 };
 
 /// A phase of the cycle of a cell type.
@@ -117,7 +120,7 @@ struct CellType : ShellKeys {
   Spread cycle_duration;
   Given<double> pressure_above;
   std::map<std::string, OwnSection> behaviours;  ///< by name of the section
-  Given<double> shrink_time, removed_below;
+  PlainKeys<morula::CellType> plain;
   Given<double> migration_speed;
   Given<std::string> migration_law, migration_substrate;
   OwnSection migration;  ///< keys that laws of migration have for themselves
@@ -230,7 +233,8 @@ struct FieldBoundary {
 };
 
 struct Field {
-  Given<double> diffusion, initial, voxel, tolerance, interval_tolerance;
+  Given<double> voxel;
+  PlainKeys<fields::FieldSpec> spec;
   FieldBoundary boundary;
   std::vector<Named<CoursePoint>> course;
   std::map<std::string, OwnSection> reactions;                         ///< in the volume, by section
@@ -247,12 +251,12 @@ struct Region {
 
 struct Trigger {
   Given<std::string> promote, demote, type, phase;
-  Given<double> outside_law, hold;
+  Given<double> outside_law;
+  PlainKeys<morula::Trigger> plain;
 };
 
 struct Coupling {
-  Given<std::uint64_t> max_shells;
-  Given<double> hold;
+  PlainKeys<Swaps> swaps;
   Given<std::string> exchange;
   std::vector<Named<Region>> regions;
   std::vector<Named<Trigger>> triggers;
@@ -264,7 +268,8 @@ struct Output {
 };
 
 struct Limits {
-  Given<double> volume_error, overlap, field_balance;
+  Given<double> overlap;
+  PlainKeys<morula::Limits> plain;
 };
 
 struct Study {

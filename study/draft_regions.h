@@ -1,4 +1,5 @@
 #pragma once
+#include "coupling/model.h"
 #include "study/section.h"
 
 namespace morula::scenarios::draft {
@@ -10,7 +11,8 @@ struct CoursePoint {
 
 /// Tension of a part of the surface.
 struct TensionRegion {
-  Given<double> tension, amplitude, period, phase;
+  Given<double> tension, amplitude, period;
+  PlainKeys<morula::TensionRegion> plain;
   std::vector<Named<CoursePoint>> course;
 };
 
@@ -27,20 +29,22 @@ struct Mark {
 struct Lumen {
   Given<Vec3d> center;
   Given<std::string> faces, solute;
-  Given<double> reach, renewed, from, pressure;
+  Given<double> pressure;
+  PlainKeys<morula::Lumen> plain;
   std::vector<Named<CoursePoint>> course;
 };
 
 struct ApicalSpring {
   Given<std::string> mark;
-  Given<double> stiffness, friction;
+  PlainKeys<morula::ApicalSpring> plain;
 };
 
 /// What moves cells of a type beside their migration.
 struct Activity {
   bool has_fluctuations = false, has_protrusion = false, has_polarity = false;
   Given<double> energy, resolve;
-  Given<double> force, angle, contact_area;
+  Given<double> contact_area;
+  PlainKeys<morula::Protrusion> protrusion;
   Given<std::string> reaction, substrate;
   Given<Vec3d> start;
 };

@@ -10,20 +10,11 @@
 #include "core/vec3.h"
 #include "coupling/laws.h"
 #include "study/diagnostics.h"
+#include "study/given.h"
+#include "study/plain_keys.h"
 #include "study/quantity_reader.h"
 
 namespace morula::scenarios {
-
-/// A value of the study file: what it means, how it was written, and where.
-template <class T>
-struct Given {
-  T value{};
-  std::string text;    ///< as written, or the default's text; empty when neither exists
-  Place place;         ///< of the value; of the enclosing section when it is a default
-  bool given = false;  ///< written in the file (or on the command line)
-
-  [[nodiscard]] bool known() const { return !text.empty(); }
-};
 
 class Section;
 
@@ -74,6 +65,19 @@ class Section {
   /// `key: value`.
   virtual void suffixed(const char* suffix, const KeySpec& prefix_key, Given<std::string>& prefix, const KeySpec& key,
                         Given<double>& value) = 0;
+  // Keys that go as they are into what is built.
+  template <class Target>
+  void quantity(const KeySpec& key, PlainKeys<Target>& keys, double Target::*member) {
+    quantity(key, keys.of(key.name, member));
+  }
+  template <class Target>
+  void whole(const KeySpec& key, PlainKeys<Target>& keys, std::uint64_t Target::*member) {
+    whole(key, keys.of(key.name, member));
+  }
+  template <class Target>
+  void flag(const KeySpec& key, PlainKeys<Target>& keys, bool Target::*member) {
+    flag(key, keys.of(key.name, member));
+  }
   /// A section within this one; `present` says whether the file has it (a default section is described, too).
   virtual void group(const KeySpec& key, bool& present, const std::function<void(Section&)>& describe) = 0;
 
