@@ -1,7 +1,7 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/cell_id.h"
@@ -23,33 +23,43 @@ void set_adheres(Partners& partners, CellId other, bool attached);
 /// In a neighbour of a mother that divides: both daughters in place of her, where she was a partner.
 void replace_partner(Partners& partners, CellId mother, CellId first, CellId second);
 
-/// The partners of all spheres of a rank, one list behind the other.
+/// The partners of all spheres of a rank.
+///
+/// All lists lie in one store, each in room for an even number of partners: one that changes leaves the others where they are. What lists
+/// leave behind is taken back when it has become a sixteenth of the store.
 class PartnerLists {
  public:
-  PartnerLists() = default;
-  /// The lists of spheres 0, 1, …, sorted, one behind the other, and where each ends.
-  PartnerLists(std::vector<CellId> ids, std::vector<std::uint32_t> end) : ids_(std::move(ids)), end_(std::move(end)) {}
+  /// Where in the store a list lies.
+  struct List {
+    std::uint32_t first, count;
+  };
 
-  [[nodiscard]] std::size_t size() const { return end_.size(); }
+  [[nodiscard]] std::size_t size() const { return lists_.size(); }
   [[nodiscard]] std::span<const CellId> operator[](std::size_t sphere) const {
-    return std::span(ids_).subspan(begin(sphere), end_[sphere] - begin(sphere));
+    return std::span(store_).subspan(lists_[sphere].first, lists_[sphere].count);
   }
   /// The partners of the next sphere, sorted.
-  void push_back(std::span<const CellId> partners) {
-    ids_.insert(ids_.end(), partners.begin(), partners.end());
-    end_.push_back(static_cast<std::uint32_t>(ids_.size()));
-  }
-  void reserve(std::size_t spheres, std::size_t partners) {
-    end_.reserve(spheres);
-    ids_.reserve(partners);
-  }
-  [[nodiscard]] std::size_t partner_count() const { return ids_.size(); }
-  [[nodiscard]] std::size_t memory() const { return ids_.capacity() * sizeof(CellId) + end_.capacity() * sizeof(end_[0]); }
+  void push_back(std::span<const CellId> partners) { lists_.push_back(store(partners)); }
+  /// Other partners for a sphere, sorted; not a view of these lists.
+  void set(std::size_t sphere, std::span<const CellId> partners);
+  void reserve(std::size_t spheres, std::size_t partners);
+
+  // --- For who puts lists of other spheres among these (coupling/cell_record.cpp): rows move, what they say stays where it is.
+  [[nodiscard]] std::vector<List>& rows() { return lists_; }
+  /// A list that no row has yet.
+  [[nodiscard]] List store(std::span<const CellId> partners);
+  /// The row of a sphere is about to go.
+  void leave(std::size_t sphere) { left_ += room(lists_[sphere].count); }
+
+  [[nodiscard]] std::size_t memory() const { return store_.capacity() * sizeof(CellId) + lists_.capacity() * sizeof(List); }
 
  private:
-  [[nodiscard]] std::size_t begin(std::size_t sphere) const { return sphere == 0 ? 0 : end_[sphere - 1]; }
-  std::vector<CellId> ids_;
-  std::vector<std::uint32_t> end_;
+  [[nodiscard]] static std::uint32_t room(std::size_t count) { return static_cast<std::uint32_t>(count + count % 2); }
+  void take_back_what_was_left();
+
+  std::vector<CellId> store_;
+  std::vector<List> lists_;  ///< by sphere
+  std::size_t left_ = 0;     ///< entries of the store that no list has any more
 };
 
 }  // namespace morula::cbm

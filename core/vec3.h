@@ -88,10 +88,14 @@ SymMat3<Real> isotropic(Real s) {
   return {s, Real(0.0), Real(0.0), s, Real(0.0), s};
 }
 
+inline double determinant(const SymMat3<double>& a) {
+  return a.xx * (a.yy * a.zz - a.yz * a.yz) + a.xy * (a.xz * a.yz - a.xy * a.zz) + a.xz * (a.xy * a.yz - a.xz * a.yy);
+}
+
 /// Inverse of a matrix that has one.
 inline SymMat3<double> inverse(const SymMat3<double>& a) {
   const double c00 = a.yy * a.zz - a.yz * a.yz, c01 = a.xz * a.yz - a.xy * a.zz, c02 = a.xy * a.yz - a.xz * a.yy;
-  const double s = 1.0 / (a.xx * c00 + a.xy * c01 + a.xz * c02);
+  const double s = 1.0 / determinant(a);
   return {c00 * s, c01 * s, c02 * s, (a.xx * a.zz - a.xz * a.xz) * s, (a.xy * a.xz - a.xx * a.yz) * s, (a.xx * a.yy - a.xy * a.xy) * s};
 }
 

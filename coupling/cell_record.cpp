@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/mesh/shape_bytes.h"
-#include "coupling/partner_stretches.h"
 
 namespace morula {
 namespace {
@@ -119,17 +118,13 @@ void replace_rows(Cells& cells, const Replacement& what, std::span<CellRecord* c
 
 void replace_spheres(cbm::Spheres& spheres, const Replacement& what, std::span<CellRecord* const> fresh) {
   if (what.empty()) return;
-  const std::size_t old_size = spheres.size();
   cbm::for_each_sphere_column([&](const auto& column) {
     if constexpr (requires { column.all; }) {
       replace_in(spheres.*column.all, what, [&](std::size_t k) { return column.values(*fresh[k]->sphere)[0]; });
     } else {
-      PartnerStretches lists;
-      lists.reserve(old_size + what.before.size(), spheres.attached.partner_count() + 16 * what.before.size());
-      what.for_all(
-          old_size, [&](std::size_t first, std::size_t last) { lists.add(spheres.attached, first, last); },
-          [&](std::size_t k) { lists.add(column.values(*fresh[k]->sphere)); });
-      spheres.attached = std::move(lists).take();
+      cbm::PartnerLists& lists = spheres.attached;
+      for (const std::size_t sphere : what.gone) lists.leave(sphere);
+      replace_in(lists.rows(), what, [&](std::size_t k) { return lists.store(column.values(*fresh[k]->sphere)); });
     }
   });
 }

@@ -13,7 +13,6 @@
 #include "coupling/behaviours/shell_division.h"
 #include "coupling/cell_record.h"
 #include "coupling/overlap.h"
-#include "coupling/partner_stretches.h"
 #include "coupling/settle_shells.h"
 #include "coupling/simulation.h"
 #include "coupling/surroundings.h"
@@ -218,25 +217,18 @@ void Simulation::rename_partners(const std::vector<Event>& events) {
   const auto has_mother = [&](std::span<const CellId> partners) {
     return std::ranges::any_of(partners, [&](CellId id) { return seen.test(few_bits(id)) && division_of(id) != nullptr; });
   };
-  const cbm::PartnerLists& before = tissue_.spheres.attached;
-  const auto renamed = gather<std::size_t>(threads_, before.size(), [&](std::size_t i, std::vector<std::size_t>& out) {
-    if (has_mother(before[i])) out.push_back(i);
+  cbm::PartnerLists& lists = tissue_.spheres.attached;
+  const auto renamed = gather<std::size_t>(threads_, lists.size(), [&](std::size_t i, std::vector<std::size_t>& out) {
+    if (has_mother(lists[i])) out.push_back(i);
   });
-  if (renamed.empty()) return;
-  PartnerStretches after;
-  after.reserve(before.size(), before.partner_count() + 2 * renamed.size());
-  cbm::Partners partners;
-  std::size_t done = 0;
+  cbm::Partners before, partners;
   for (const std::size_t i : renamed) {
-    after.add(before, done, i);
-    partners.assign(before[i].begin(), before[i].end());
-    for (const CellId partner : before[i])
+    before.assign(lists[i].begin(), lists[i].end());
+    partners = before;
+    for (const CellId partner : before)
       if (const Event* event = division_of(partner)) cbm::replace_partner(partners, partner, event->first_daughter, event->second_daughter);
-    after.add(partners);
-    done = i + 1;
+    lists.set(i, partners);
   }
-  after.add(before, done, before.size());
-  tissue_.spheres.attached = std::move(after).take();
 }
 
 }  // namespace morula

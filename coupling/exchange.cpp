@@ -1,8 +1,8 @@
 // Cells exchange their bodies: a step's regions and triggers are obeyed.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/ball.h"
 #include "coupling/cell_record.h"
 #include "coupling/exchange_effects.h"
 #include "coupling/face_marks.h"
@@ -14,7 +14,7 @@ namespace morula {
 namespace {
 
 double volume_of(const CellRecord& cell) {
-  if (cell.sphere) return 4.0 / 3.0 * std::numbers::pi * std::pow(cell.sphere->radius, 3);
+  if (cell.sphere) return ball_volume(cell.sphere->radius);
   return enclosed_volume(cell.shell->shape->topology->faces(), cell.shell->position, cell.center());
 }
 

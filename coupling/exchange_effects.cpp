@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <tuple>
 
 #include "cbm/division_ramp.h"
 #include "cbm/laws/sphere_caps.h"
+#include "core/ball.h"
 #include "core/parallel/pack.h"
 #include "coupling/gathered_parts.h"
 #include "coupling/simulation.h"
@@ -17,8 +17,6 @@ namespace morula {
 namespace {
 
 constexpr double kBeside = 1.2;  // of the sum of the radii: nearest neighbours of any packing, and not the next
-
-double radius_of(double volume) { return std::cbrt(3.0 * volume / (4.0 * std::numbers::pi)); }
 
 /// How far around an exchange one looks, in units of the size of the cell: what is beside it, of cells that are not much larger than itself.
 constexpr double kAround = 0.25;
@@ -46,7 +44,7 @@ struct CellBall {
 
 CellBall ball_of(const Tissue& part, const BodyOfRow& body) {
   const CellRow& row = part.cells.rows[body.row];
-  return {row.id, record_of(part, body).center(), body.is_shell ? radius_of(row.target_volume) : part.spheres.radius[body.number],
+  return {row.id, record_of(part, body).center(), body.is_shell ? ball_radius(row.target_volume) : part.spheres.radius[body.number],
           !cbm::sisters_have_parted(row.birth_time, part.clock.time)};
 }
 
@@ -115,7 +113,7 @@ ExchangeWatch watch_exchanges(const Model& model, const Tissue& tissue, std::spa
         for (const BodyOfRow& body : bodies_of(part.cells)) {
           const CellRow& row = part.cells.rows[body.row];
           if (!std::ranges::binary_search(cells, row.id)) continue;
-          exchanged.push_back({row.id, record_of(part, body).center(), radius_of(row.target_volume)});
+          exchanged.push_back({row.id, record_of(part, body).center(), ball_radius(row.target_volume)});
         }
         exchanged = items_of_all_ranks(exchanged, together);
         std::ranges::sort(exchanged, {}, &ExchangingCell::id);
@@ -123,7 +121,7 @@ ExchangeWatch watch_exchanges(const Model& model, const Tissue& tissue, std::spa
         for (const BodyOfRow& body : bodies_of(part.cells)) {
           const CellRow& row = part.cells.rows[body.row];
           if (std::ranges::binary_search(cells, row.id)) continue;
-          const double radius = radius_of(row.target_volume);
+          const double radius = ball_radius(row.target_volume);
           const Vec3d center = record_of(part, body).center();
           for (const ExchangingCell& other : exchanged)
             if (norm(model.space.nearest_image(other.center - center)) < kBeside * (radius + other.radius))

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
+#include "core/ball.h"
 #include "fields/field_solver.h"
 
 namespace morula {
 namespace {
 
-double radius_of(const CellRow& row) { return std::cbrt(3.0 * row.target_volume / (4.0 * std::numbers::pi)); }
+double radius_of(const CellRow& row) { return ball_radius(row.target_volume); }
 
 /// Of the cells that sense one field. Collective.
 Status sense_field(const Model& model, const Tissue& tissue, int field, std::span<const Vec3d> center, const Comm& comm,

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/ball.h"
 #include "core/parallel/pack.h"
 #include "core/parallel/threads.h"
 #include "coupling/behaviours/life.h"
@@ -85,7 +85,7 @@ double Simulation::longest_step_of_box(double until) const {
   if (model_.box_volume.at(now) == model_.box_volume.at(until)) return kNever;
   double volume = 0.0;
   for (const CellRow& row : tissue_.cells.rows) volume = std::max(volume, row.target_volume);
-  const double radius = std::cbrt(3.0 * comm_.max(volume) / (4.0 * std::numbers::pi));
+  const double radius = ball_radius(comm_.max(volume));
   return longest_carried_step(model_.box_volume, now, until, radius, model_.step.max_displacement * model_.contact.range);
 }
 
@@ -138,7 +138,7 @@ void Simulation::set_bodies_to_targets(double dt) {
         dcm::set_nucleus_target(tissue_.nuclei.shells, n, type.interior, type.shell, row.target_volume);
     } else {
       if (type.osmosis.acts()) exchange(row.target_volume * std::exp(excess), tissue_.shells.size() + number);
-      tissue_.spheres.radius[number] = std::cbrt(3.0 * row.target_volume * std::exp(excess) / (4.0 * std::numbers::pi));
+      tissue_.spheres.radius[number] = ball_radius(row.target_volume * std::exp(excess));
     }
     optional.reference_excess.set(k, excess, tissue_.cells.size());
   }

@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 
 #include "cbm/division_ramp.h"
+#include "core/ball.h"
 #include "core/parallel/pack.h"
 #include "core/random/rotation.h"
 #include "coupling/who_is_in.h"
@@ -192,7 +192,7 @@ double free_reference_volume(double target_volume, const CellType& type) {
 double promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes, std::uint32_t seed,
                double later) {
   const SphereRecord& sphere = *cell.sphere;
-  const double ball = 4.0 / 3.0 * std::numbers::pi * sphere.radius * sphere.radius * sphere.radius;
+  const double ball = ball_volume(sphere.radius);
   const double left_out = std::min(later, 0.5 * ball), volume = ball - left_out;
   // −K_V ln(V/V0) = p + 2γ/R: the shell pushes back as hard as the sphere was pushed, or pulls where it was pulled.
   const double reference = free_reference_volume(volume, type) * std::exp(pressure / type.shell.bulk_modulus);
@@ -218,7 +218,7 @@ void demote(CellRecord& cell, double time) {
   const double volume = enclosed_volume(faces, shell.position, center);
   SphereRecord sphere;
   sphere.position = center;
-  sphere.radius = std::cbrt(3.0 * volume / (4.0 * std::numbers::pi));
+  sphere.radius = ball_radius(volume);
   for_each_shared_column(
       [&](const auto& of_nodes, const auto& of_sphere) { of_sphere.give(sphere, std::array{mean_of(of_nodes.values(shell))}); });
   cell.row.reference_excess = std::log(volume / cell.row.target_volume);
@@ -254,19 +254,15 @@ void attach_touching(std::span<CellRecord> cells, TouchingPairs touching) {
 
 void attach_touching(Tissue& tissue, TouchingPairs touching) {
   if (touching.empty()) return;
-  const cbm::PartnerLists before = std::exchange(tissue.spheres.attached, {});
-  tissue.spheres.attached.reserve(before.size(), before.partner_count() + touching.size());
+  cbm::PartnerLists& lists = tissue.spheres.attached;
   cbm::Partners partners;
   for (const BodyOfRow& body : bodies_of(tissue.cells)) {
     if (body.is_shell) continue;
     const auto pairs = pairs_of(tissue.cells.rows[body.row].id, touching);
-    if (pairs.empty()) {
-      tissue.spheres.attached.push_back(before[body.number]);
-      continue;
-    }
-    partners.assign(before[body.number].begin(), before[body.number].end());
+    if (pairs.empty()) continue;
+    partners.assign(lists[body.number].begin(), lists[body.number].end());
     add_partners(pairs, partners);
-    tissue.spheres.attached.push_back(partners);
+    lists.set(body.number, partners);
   }
 }
 

@@ -1,8 +1,9 @@
 #include "dcm/growth.h"
 
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "core/ball.h"
 
 namespace morula::dcm {
 
@@ -28,7 +29,7 @@ void turn_over(Shells& shells, std::span<const ShellParameters> types, double dt
 }
 
 double pressure_free_reference(double volume, double tension, double bulk_modulus) {
-  const double radius = std::cbrt(3.0 * volume / (4.0 * std::numbers::pi));
+  const double radius = ball_radius(volume);
   return volume * std::exp(2.0 * tension / (radius * bulk_modulus));
 }
 

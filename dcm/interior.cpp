@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/ball.h"
 #include "core/mesh/face_quadrature.h"
 #include "dcm/laws/nucleus_repulsion.h"
 
@@ -100,7 +100,7 @@ void add(Float4& out, const Vec3<float>& v) { out.x += v.x, out.y += v.y, out.z 
 }  // namespace
 
 double nucleus_radius(const InteriorParameters& parameters, double rest_volume) {
-  return std::cbrt(3.0 * parameters.nucleus_fraction * rest_volume / (4.0 * std::numbers::pi));
+  return ball_radius(parameters.nucleus_fraction * rest_volume);
 }
 
 InteriorLinks choose_links(const ReferenceShape& shape, const InteriorParameters& parameters) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/ball.h"
 #include "core/mesh/closest_point.h"
 #include "core/mesh/face_quadrature.h"
 #include "core/mesh/pseudonormal.h"
@@ -102,7 +102,7 @@ std::size_t NuclearShells::of_shell(std::size_t shell) const {
 }
 
 double nucleus_reference_volume(double nucleus_volume, double cell_volume, const ShellParameters& nucleus, const ShellParameters& cell) {
-  const double cytosol = 2.0 * cell.tension / std::cbrt(3.0 * cell_volume / (4.0 * std::numbers::pi));
+  const double cytosol = 2.0 * cell.tension / ball_radius(cell_volume);
   return pressure_free_reference(nucleus_volume, nucleus.tension, nucleus.bulk_modulus) * std::exp(cytosol / nucleus.bulk_modulus);
 }
 

@@ -1,6 +1,6 @@
 // What cells of a type go through from their birth to their division.
-#include <numbers>
 
+#include "core/ball.h"
 #include "coupling/behaviours/division_axis.h"
 #include "coupling/behaviours/phases.h"
 #include "study/build.h"
@@ -49,7 +49,7 @@ bool is_changed(const Given<double>& value, const char* fallback) { return value
 /// The volume at which cells divide: E515, E701.
 void set_size(BuildContext& c, const draft::Cycle& t, CellType& type) {
   CellCycle& cycle = type.cycle;
-  const double radius = type.radius.mean, birth = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+  const double radius = type.radius.mean, birth = ball_volume(radius);
   cycle.ratio = t.ratio.value;
   cycle.size_spread = t.volume_spread.value;
   cycle.control = t.control.value == "sizer" ? SizeControl::kSizer : t.control.value == "adder" ? SizeControl::kAdder : SizeControl::kTimer;

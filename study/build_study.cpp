@@ -66,17 +66,16 @@ void build_time_and_numerics(BuildContext& c) {
   StepControl& step = c.study.model.step;
   step.integrator = time.integrator.value == "explicit_euler" ? Integrator::kExplicitEuler : Integrator::kImplicit;
   step.initial_step = n.initial_step.value;
-  step.max_displacement = n.max_displacement.value;
+  n.step.write_to(step);
   step.max_newton = static_cast<int>(n.newton.value);
-  step.newton_stop = n.newton_stop.value;
-  step.first_tolerance = n.tolerance.value;
-  step.later_tolerance = n.later_tolerance.value;
   step.start_cap = n.start_cap.value >= 0.0 ? n.start_cap.value : gentle_cap(c);
-  constexpr double kImplicitMaxStep = 60.0;  // growing clusters of shells: the error at 60 s is below that of the mesh (measured)
-  step.max_step = time.step.value > 0.0 ? time.step.value : kImplicitMaxStep;
+  constexpr double kMaxStep = 60.0;            // growing clusters of shells: the error at 60 s is below that of the mesh (measured)
+  constexpr double kMaxStepOfSpheres = 120.0;  // growing spheres: the error at 120 s is below what single cells scatter (decision 0063)
+  const double implicit_max_step = may_have_shells(c.draft) ? kMaxStep : kMaxStepOfSpheres;
+  step.max_step = time.step.value > 0.0 ? time.step.value : implicit_max_step;
   if (step.integrator == Integrator::kExplicitEuler) {
     const double limit = explicit_step_limit(*c.options.laws, c.draft);
-    if (time.step.value == 0.0) step.max_step = std::min(kImplicitMaxStep, 0.5 * limit);
+    if (time.step.value == 0.0) step.max_step = std::min(implicit_max_step, 0.5 * limit);
     if (time.step.known() && time.step.value > limit)
       c.diagnostics.error(
           507, time.step.place,
@@ -93,7 +92,8 @@ void build_time_and_numerics(BuildContext& c) {
   contact = {c.draft.contact.range.value, c.draft.contact.repulsion.value, static_cast<int>(c.draft.contact.points.value), n.skin.value,
              c.draft.contact.friction.value == "objective"};
   const draft::Limits& limits = c.draft.limits;
-  c.study.model.limits = {limits.overlap.value, limits.volume_error.value, limits.field_balance.value};
+  limits.plain.write_to(c.study.model.limits);
+  c.study.model.limits.overlap = limits.overlap.value;
   c.study.model.seed = static_cast<std::uint32_t>(c.draft.seed.value);
 }
 

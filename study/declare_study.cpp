@@ -14,17 +14,19 @@ void declare_time(Section& s, draft::Time& time) {
               .low_open = true,
               .example = "24 h"},
              time.end);
-  s.quantity({.name = "step",
-              .doc = "Largest step of the simulation; `auto`: 60 s with the implicit integrator, half of the stability limit "
-                     "with explicit Euler. The step itself follows from `numerics.max_displacement`.",
-              .quantity = Q::kTime,
-              .fallback = "auto",
-              .low = 0.0,
-              .low_open = true,
-              .specials = {{"auto", 0.0}},
-              .example = "60 s",
-              .source = "measured: growing clusters of shells at 60 s against small steps"},
-             time.step);
+  s.quantity(
+      {.name = "step",
+       .doc = "Largest step of the simulation; `auto`: 60 s with the implicit integrator (120 s where no cell can be a shell), half of the "
+              "stability limit "
+              "with explicit Euler. The step itself follows from `numerics.max_displacement`.",
+       .quantity = Q::kTime,
+       .fallback = "auto",
+       .low = 0.0,
+       .low_open = true,
+       .specials = {{"auto", 0.0}},
+       .example = "60 s",
+       .source = "measured: growing clusters against small steps"},
+      time.step);
   s.quantity(
       {.name = "output",
        .doc = "Time between entries of the series and between snapshots. Steps land on these times, so that what is written is the state "
@@ -84,7 +86,7 @@ void declare_numerics(Section& s, draft::Numerics& n) {
               .low_open = true,
               .example = "0.2",
               .source = "measured"},
-             n.newton_stop);
+             n.step, &StepControl::newton_stop);
   s.quantity({.name = "tolerance",
               .doc = "Relative residual of the first linear solve of a step.",
               .fallback = "0.01",
@@ -93,7 +95,7 @@ void declare_numerics(Section& s, draft::Numerics& n) {
               .low_open = true,
               .example = "0.01",
               .source = "measured"},
-             n.tolerance);
+             n.step, &StepControl::first_tolerance);
   s.quantity({.name = "later_tolerance",
               .doc = "Relative residual of the later linear solves of a step.",
               .fallback = "0.1",
@@ -102,7 +104,7 @@ void declare_numerics(Section& s, draft::Numerics& n) {
               .low_open = true,
               .example = "0.1",
               .source = "measured"},
-             n.later_tolerance);
+             n.step, &StepControl::later_tolerance);
   s.quantity({.name = "max_displacement",
               .doc = "Allowed displacement of a cell in one step, in units of the contact range. Single points of a shell may go three "
                      "times as far, up to the range.",
@@ -112,7 +114,7 @@ void declare_numerics(Section& s, draft::Numerics& n) {
               .low_open = true,
               .example = "0.3",
               .source = "measured"},
-             n.max_displacement);
+             n.step, &StepControl::max_displacement);
   s.quantity({.name = "initial_step",
               .doc = "First step of the run.",
               .quantity = Q::kTime,
@@ -249,7 +251,7 @@ void declare_limits(Section& s, draft::Limits& limits) {
               .low_open = true,
               .example = "2 %",
               .source = "chosen"},
-             limits.volume_error);
+             limits.plain, &Limits::volume_error);
   s.quantity({.name = "overlap",
               .doc = "Deepest penetration between shells, of a shell and an obstacle, or of a nucleus and the cortex around it.",
               .quantity = Q::kLength,
@@ -267,7 +269,7 @@ void declare_limits(Section& s, draft::Limits& limits) {
               .low_open = true,
               .example = "1e-6",
               .source = "chosen"},
-             limits.field_balance);
+             limits.plain, &Limits::field_balance);
 }
 
 }  // namespace
@@ -314,8 +316,7 @@ void declare_study(Section& s, draft::Study& study) {
   s.named({.name = "geometry", .doc = "Rigid obstacles, by name."}, study.geometry, &declare_obstacle);
   s.list({.name = "initial", .doc = "The cells at time 0.", .required = true}, study.initial, &declare_initial);
   s.named({.name = "loads", .doc = "Forces from outside on the cells of a type, by name."}, study.loads, &declare_load);
-  s.named({.name = "marks",
-           .doc = "Marks of faces, by name; at most 8 with the cavities. Regions of tension, cavities and springs refer to them."},
+  s.named({.name = "marks", .doc = "Marks of faces, by name; any number of them. Regions of tension, cavities and springs refer to them."},
           study.marks, &declare_mark);
   s.named({.name = "lumens", .doc = "Cavities between shells whose fluid presses on the faces around it, by name."}, study.lumens,
           &declare_lumen);

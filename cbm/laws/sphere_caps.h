@@ -1,6 +1,8 @@
 #pragma once
 #include <numbers>
 
+#include "core/ball.h"
+
 namespace morula::cbm {
 
 /// Caps of two overlapping spheres behind their radical plane, and how they change with the distance of the centres (cbm.md §3).
@@ -20,8 +22,8 @@ constexpr SphereCaps sphere_caps(double a, double b, double distance) noexcept {
   if (distance >= a + b) return out;
   const double shift = (a - b) * (a + b);
   if (distance * distance <= (a - b) * (a - b)) {
-    if (a <= b) out.volume_a = (4.0 / 3.0) * std::numbers::pi * a * a * a;
-    if (b <= a) out.volume_b = (4.0 / 3.0) * std::numbers::pi * b * b * b;
+    if (a <= b) out.volume_a = ball_volume(a);
+    if (b <= a) out.volume_b = ball_volume(b);
     return out;
   }
   const double inverse = 1.0 / distance;

@@ -17,6 +17,17 @@ struct CommonDrift {
   }
 };
 
+/// Sums over points of their places x and ways u, of which a drift follows.
+struct DriftSums {
+  double count = 0.0;
+  Vec3d place, way;          ///< Σ x, Σ u
+  SymMat3<double> second{};  ///< Σ x ⊗ x
+  Vec3d moment[3];           ///< Σ u_k x
+};
+
+/// The drift that fits the ways best (least squares); none of points that do not spread over three dimensions.
+CommonDrift drift_of(const DriftSums& sums);
+
 /// The drift that fits the ways from `before` to `now` of these points best (least squares of some of them); none of fewer than 64, or of points that do
 /// not spread over three dimensions. A bound that holds for any drift may use it: it needs not be exact, and no result may depend on it.
 CommonDrift common_drift(std::span<const Vec3f> before, std::span<const Vec3d> now);

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/ball.h"
 #include "core/random/philox.h"
 #include "coupling/behaviours/draw.h"
 
@@ -25,7 +26,7 @@ void add_time_to_size(const CellCycle& cycle, double time_to_grow, std::vector<d
 
 /// A cell with the mean values of its type, of the birth volume at which a population of it settles.
 CellState typical_cell(const CellType& type) {
-  const double radius = type.radius.mean, birth = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+  const double radius = type.radius.mean, birth = ball_volume(radius);
   CellState row;
   row.cycle_duration = type.cycle_duration.mean;
   switch (type.cycle.control) {

@@ -1,7 +1,6 @@
 #include "coupling/behaviours/birth.h"
 
-#include <numbers>
-
+#include "core/ball.h"
 #include "core/random/philox.h"
 #include "coupling/behaviours/balanced_growth.h"
 #include "coupling/behaviours/draw.h"
@@ -21,7 +20,7 @@ CellState make_founder(CellId id, std::uint16_t type_index, const CellType& type
   std::uint64_t variability_draws = 0;
   const double radius = draw_truncated(type.radius, Random(seed, RandomStream::kCellVariability), id, variability_draws);
   row.birth_time = time;
-  row.birth_volume = row.target_volume = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+  row.birth_volume = row.target_volume = ball_volume(radius);
   CyclePlace place = begin_cycle(row, type, seed);
   if (random_age && type.cycles) place = settle_in_balanced_growth(row, type, seed, time);
   set_place(row, type, place, cycle_variables);

@@ -1,8 +1,8 @@
 #include "coupling/behaviours/growth.h"
 
 #include <algorithm>
-#include <numbers>
 
+#include "core/ball.h"
 #include "core/random/philox.h"
 #include "coupling/behaviours/draw.h"
 
@@ -11,7 +11,7 @@ namespace morula {
 GrowthPace growth_pace(const CellRow& row, const CellType& type) {
   const CellCycle& cycle = type.cycle;
   if (cycle.control == SizeControl::kTimer) return {row.birth_volume, row.division_volume, row.cycle_duration};
-  const double radius = type.radius.mean, birth = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+  const double radius = type.radius.mean, birth = ball_volume(radius);
   return {birth, cycle.ratio * birth, row.cycle_duration};
 }
 

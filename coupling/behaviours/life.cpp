@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/ball.h"
 #include "coupling/behaviours/ask.h"
 #include "coupling/behaviours/death.h"
 #include "coupling/behaviours/growth.h"
@@ -73,7 +73,7 @@ Vec3d turn_migration(const CellRow& row, const LifeValues& values, const CellTyp
   return next_migration_velocity({.id = row.id,
                                   .velocity = values.migration_velocity,
                                   .speed = wish.migration * type.migration.speed,
-                                  .radius = std::cbrt(3.0 * row.target_volume / (4.0 * std::numbers::pi)),
+                                  .radius = ball_radius(row.target_volume),
                                   .sensed = values.sensed,
                                   .random = Random(step.seed, RandomStream::kMigration),
                                   .step = step.step,

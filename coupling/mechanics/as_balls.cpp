@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "cbm/sphere_range.h"
+#include "core/ball.h"
 #include "core/contact/broad_phase.h"
 #include "core/contact/rigid_surface.h"
 #include "coupling/mechanics/mechanics.h"
@@ -13,9 +13,6 @@
 
 namespace morula {
 namespace {
-
-double ball_of(double radius) { return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius; }
-double radius_of(double volume) { return std::cbrt(3.0 * volume / (4.0 * std::numbers::pi)); }
 
 /// Sums over the contacts of each owned body, by place.
 using Standings = std::vector<SphereContacts::Standing>;
@@ -42,7 +39,7 @@ Balls::Balls(const Workspace& work, const Tissue& tissue) {
   for (std::size_t b = 0; b < bodies.size(); ++b) radius[b] = std::bit_cast<std::uint64_t>(bodies[b].radius);
   for (const BodyOfRow& body : bodies_of(tissue.cells))
     if (body.is_shell)
-      radius[body.number] = std::bit_cast<std::uint64_t>(radius_of(volume_as_sphere(work.setting.model, tissue.cells, body.row)));
+      radius[body.number] = std::bit_cast<std::uint64_t>(ball_radius(volume_as_sphere(work.setting.model, tissue.cells, body.row)));
   scene.exchange_bodies(radius);
   const std::span<const Vec3d> x = scene.position();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -134,7 +131,7 @@ AsBalls Mechanics::as_balls(const Tissue& tissue) {
     const auto [outside, caps] = standings[i];
     const std::uint16_t type = i < shells ? work.scene.bodies()[i].material : tissue.spheres.type[i - shells];
     const double last = work.setting.model.types[type].sphere.packing.last();
-    const double packing = caps / ball_of(radius[i]);
+    const double packing = caps / ball_volume(radius[i]);
     out.outside_law.push_back(last > 0.0 ? std::max(outside, packing / last) : outside);
     out.packing.push_back(packing);
     out.caps.push_back(caps);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/ball.h"
 #include "core/parallel/threads.h"
 #include "coupling/loads/loads.h"
 #include "coupling/lumens.h"
@@ -15,8 +16,6 @@ namespace {
 SymMat3<double> symmetric(const Vec3d& a, const Vec3d& b) {
   return {a.x * b.x, 0.5 * (a.x * b.y + a.y * b.x), 0.5 * (a.x * b.z + a.z * b.x), a.y * b.y, 0.5 * (a.y * b.z + a.z * b.y), a.z * b.z};
 }
-
-double ball(double radius) { return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius; }
 
 double trace(const SymMat3<double>& m) { return m.xx + m.yy + m.zz; }
 
@@ -78,7 +77,7 @@ std::vector<double> pressures_from(const Workspace& work, const Tissue& tissue, 
     if (scene.bodies()[touch.sphere].owned) virial[touch.sphere - scene.first_sphere()] -= dot(touch.place, touch.force);
   out.resize(of_shells.size() + virial.size());
   parallel_for(work.setting.threads, virial.size(), [&](std::size_t i) {
-    out[of_shells.size() + i] = cbm::sphere_pressure(virial[i], ball(tissue.spheres.radius[i]),
+    out[of_shells.size() + i] = cbm::sphere_pressure(virial[i], ball_volume(tissue.spheres.radius[i]),
                                                      work.setting.model.types[tissue.spheres.type[i]].shell.bulk_modulus);
   });
   return out;
@@ -97,10 +96,10 @@ void add_values_of_spheres(const Workspace& work, const Tissue& tissue, std::spa
   }
   for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
     const double r = tissue.spheres.radius[i], modulus = work.setting.model.types[tissue.spheres.type[i]].shell.bulk_modulus;
-    values.volume[shells + i] = ball(r);
+    values.volume[shells + i] = ball_volume(r);
     values.area[shells + i] = 4.0 * std::numbers::pi * r * r;
     values.contact_area[shells + i] = pressing[i].area;
-    values.stressed_volume[shells + i] = cbm::pressed_volume(values.pressure[shells + i], ball(r), modulus);
+    values.stressed_volume[shells + i] = cbm::pressed_volume(values.pressure[shells + i], ball_volume(r), modulus);
     values.stress[shells + i] = (-1.0 / values.stressed_volume[shells + i]) * pressing[i].virial;
   }
 }

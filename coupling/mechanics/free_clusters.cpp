@@ -78,10 +78,7 @@ struct ClusterSums {
   static Vec3d velocity(const double* t) {
     const SymMat3<double> friction{t[3], t[4], t[5], t[6], t[7], t[8]};
     const double mean = (friction.xx + friction.yy + friction.zz) / 3.0;
-    const double determinant = friction.xx * (friction.yy * friction.zz - friction.yz * friction.yz) -
-                               friction.xy * (friction.xy * friction.zz - friction.yz * friction.xz) +
-                               friction.xz * (friction.xy * friction.yz - friction.yy * friction.xz);
-    if (!(mean > 0.0) || !(determinant > kLeastFriction * mean * mean * mean)) return {};
+    if (!(mean > 0.0) || !(determinant(friction) > kLeastFriction * mean * mean * mean)) return {};
     return inverse(friction) * Vec3d{t[0], t[1], t[2]};
   }
 };

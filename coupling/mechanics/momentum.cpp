@@ -1,6 +1,9 @@
 /// The motion of the tissue as a whole: what no force between cells may change (time_stepping.md §11.1, decision 0024).
+#include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "core/parallel/bounded_sums.h"
 #include "core/parallel/threads.h"
 #include "coupling/mechanics/step.h"
 
@@ -11,36 +14,44 @@ constexpr double kLeastInertia = 1e-9;  // of a direction about which nothing tu
 
 Vec3d to_double(const Float4& v) { return {v.x, v.y, v.z}; }
 
-/// Sums over points of friction γ, place x and way d.
-struct MotionSums {
-  static constexpr std::size_t kTerms = 17;
-  std::array<double, kTerms> term{};
+/// What is summed over points of friction γ, place x and way d.
+constexpr std::size_t kTerms = 17;
+using MotionTerms = std::array<double, kTerms>;
 
-  void add(const SymMat3<double>& friction, const Vec3d& x, const Vec3d& d) {
-    const double weight = (friction.xx + friction.yy + friction.zz) / 3.0;
-    const Vec3d push = friction * d, torque = cross(x, push);
-    const double values[kTerms] = {weight,
-                                   weight * x.x,
-                                   weight * x.y,
-                                   weight * x.z,
-                                   push.x,
-                                   push.y,
-                                   push.z,
-                                   torque.x,
-                                   torque.y,
-                                   torque.z,
-                                   weight * norm(d),
-                                   weight * x.x * x.x,
-                                   weight * x.x * x.y,
-                                   weight * x.x * x.z,
-                                   weight * x.y * x.y,
-                                   weight * x.y * x.z,
-                                   weight * x.z * x.z};
-    for (std::size_t k = 0; k < kTerms; ++k) term[k] += values[k];
+MotionTerms motion_terms(double weight, const Vec3d& push, const Vec3d& x, const Vec3d& d) {
+  const Vec3d torque = cross(x, push);
+  return {weight,
+          weight * x.x,
+          weight * x.y,
+          weight * x.z,
+          push.x,
+          push.y,
+          push.z,
+          torque.x,
+          torque.y,
+          torque.z,
+          weight * norm(d),
+          weight * x.x * x.x,
+          weight * x.x * x.y,
+          weight * x.x * x.z,
+          weight * x.y * x.y,
+          weight * x.y * x.z,
+          weight * x.z * x.z};
+}
+
+using MotionSums = BoundedSums<kTerms>;
+
+/// For weights, places and ways up to these.
+MotionSums motion_sums(double weight, double place, double way) {
+  MotionTerms most;
+  for (std::size_t k = 0; k < kTerms; ++k) {
+    const int places = k == 0 ? 0 : k < 4 ? 1 : k < 7 ? 0 : k < 10 ? 1 : k == 10 ? 0 : 2;
+    most[k] = 4.0 * weight * std::pow(place, places) * (k >= 4 && k <= 10 ? way : 1.0);  // 4: friction that is not isotropic
   }
-};
+  return MotionSums(most);
+}
 
-TissueMotion motion_of(const std::array<double, MotionSums::kTerms>& t, bool rotates) {
+TissueMotion motion_of(const MotionTerms& t, bool rotates) {
   TissueMotion out;
   const double weight = t[0];
   if (!(weight > 0.0)) return out;
@@ -93,38 +104,43 @@ void conserve_momentum(Workspace& work, std::span<const Vec3d> right) {
 }
 
 TissueMotion common_motion(const Workspace& work, const Tissue& tissue) {
-  constexpr std::size_t kTerms = MotionSums::kTerms;
   const Scene& scene = work.scene;
+  const Comm& comm = work.setting.comm;
+  const int threads = work.setting.threads;
   const auto& x = scene.position();
+  const auto medium = work.solver.system.point_friction();
+  const std::size_t spheres = scene.owned_spheres(), nodes = scene.owned_nodes();
+  const auto start = [&](std::size_t i) { return i < nodes ? tissue.shells.position[i] : tissue.spheres.position[i - nodes]; };
+  const auto way = [&](std::size_t i) { return x[i < nodes ? i : scene.sphere_point() + i - nodes] - start(i); };
+
   const ShellSystem& shells = work.terms.membranes->shells();
-  std::vector<MotionSums> of_shell(scene.owned_shells());
-  parallel_for(work.setting.threads, shells.batch_count(), [&](std::size_t batch) {
+  std::vector<MotionTerms> of_shell(scene.owned_shells());
+  parallel_for(threads, shells.batch_count(), [&](std::size_t batch) {
     shells.for_medium_friction(batch, work.terms.node_friction->friction(),
                                [&](std::uint32_t shell, std::uint32_t node, const SymMat3<double>& friction) {
-                                 const Vec3d& from = tissue.shells.position[node];
-                                 of_shell[shell].add(friction, from, x[node] - from);
+                                 const double weight = (friction.xx + friction.yy + friction.zz) / 3.0;
+                                 const MotionTerms terms = motion_terms(weight, friction * way(node), start(node), way(node));
+                                 for (std::size_t k = 0; k < kTerms; ++k) of_shell[shell][k] += terms[k];
                                });
   });
-  std::vector<std::array<OrderFreeSum, kTerms>> sums(static_cast<std::size_t>(work.setting.threads));
-  const auto count = [&](std::size_t t, const MotionSums& part) {
-    for (std::size_t k = 0; k < kTerms; ++k) sums[t][k].add(part.term[k]);
-  };
-  for (const MotionSums& part : of_shell) count(0, part);
-  const auto medium = work.solver.system.point_friction();
-  const std::size_t spheres = scene.owned_spheres(), threads = sums.size();
-  on_each_thread(work.setting.threads, [&](std::size_t t) {
-    for (std::size_t i = spheres * t / threads; i < spheres * (t + 1) / threads; ++i) {
-      MotionSums part;
-      const Vec3d& from = tissue.spheres.position[i];
-      part.add(isotropic(static_cast<double>(medium[i])), from, x[scene.sphere_point() + i] - from);
-      count(t, part);
+  double weight = parallel_max(threads, spheres, [&](std::size_t i) { return static_cast<double>(medium[i]); });
+  for (const MotionTerms& terms : of_shell) weight = std::max(weight, terms[0]);
+  const double furthest = parallel_max(threads, nodes + spheres, [&](std::size_t i) { return norm2(start(i)); });
+  const double most = parallel_max(threads, nodes + spheres, [&](std::size_t i) { return norm2(way(i)); });
+  std::vector<MotionSums> sums(static_cast<std::size_t>(std::max(1, threads)),
+                               motion_sums(comm.max(weight), std::sqrt(comm.max(furthest)), std::sqrt(comm.max(most))));
+  for (const MotionTerms& terms : of_shell) sums[0].add(terms);
+  on_each_thread(threads, [&](std::size_t t) {
+    MotionSums sum = sums[t];
+    for (std::size_t i = spheres * t / sums.size(); i < spheres * (t + 1) / sums.size(); ++i) {
+      const double friction = medium[i];
+      const Vec3d d = way(nodes + i);
+      sum.add(motion_terms(friction, d * friction, start(nodes + i), d));
     }
+    sums[t] = sum;
   });
-  for (std::size_t t = 1; t < threads; ++t)
-    for (std::size_t k = 0; k < kTerms; ++k) sums[0][k] += sums[t][k];
-  std::array<double, kTerms> totals;
-  work.setting.comm.sum(sums[0], totals);
-  return motion_of(totals, !work.setting.model.space.any_periodic());
+  for (std::size_t t = 1; t < sums.size(); ++t) sums[0] += sums[t];
+  return motion_of(sums[0].totals(comm), !work.setting.model.space.any_periodic());
 }
 
 }  // namespace morula

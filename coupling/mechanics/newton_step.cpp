@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "coupling/mechanics/common_way.h"
 #include "coupling/mechanics/step.h"
 
 namespace morula {
@@ -82,7 +83,7 @@ class NewtonStep {
   Residual measure(std::optional<Residual>&& old);
   /// Solves for the residual with the matrix at the present positions.
   Result<Direction, StepFault> solve(double dt, double tolerance);
-  /// Cut a direction so that no point goes further than `most`; gives how far it wanted to go.
+  /// Cut a direction so that no point goes further than `most`, no sphere further than twice that; gives how far it wanted to go, as a point.
   [[nodiscard]] double limit(Direction& direction, double most) const;
   /// Move along `direction` until Φ is no higher than before, or by `allowed_rise` at most; a jump of the contact energy on the way is
   /// passed. `give_up_to_hold`: not more than the short search where nodes are held after it.
@@ -133,7 +134,7 @@ Result<Direction, StepFault> NewtonStep::solve(double dt, double tolerance) {
 }
 
 double NewtonStep::limit(Direction& direction, double most) const {
-  const double longest = work_.points().largest(direction);
+  const double longest = work_.points().largest_of([&](std::uint32_t i) { return direction[i]; }, AllowedWays::kSphereCounts);
   if (longest > most) direction.factor *= most / longest;
   return longest;
 }
@@ -142,7 +143,8 @@ bool NewtonStep::wants_too_much(const Direction& direction, double longest) cons
   if (longest > kMuchTooFar * allowed_.of_point) return true;
   if (longest <= kMuchTooFar * allowed_.of_body) return false;
   const double cut = std::min(1.0, range_ / longest);
-  return work_.points().way_of_bodies([&](std::uint32_t i) { return direction[i]; }) > kMuchTooFar * cut * allowed_.of_body;
+  const auto way = [&](std::uint32_t i) { return direction[i]; };
+  return work_.points().way_of_bodies(way, common_way_of_spheres(work_, way)) > kMuchTooFar * cut * allowed_.of_body;
 }
 
 bool NewtonStep::is_sound(const Residual& trial) {
@@ -290,8 +292,9 @@ Result<StepReport, StepFault> NewtonStep::run(Evaluation at_start) {
     cut = done->whole && done->longest > range_;
   }
   const auto way = [&](std::uint32_t i) { return work_.scene.position()[i] - start()[i]; };
-  report_.displacement = points.largest_of(way);
-  report_.way = std::max(points.way_of_bodies(way), report_.displacement * allowed_.of_body / allowed_.of_point);
+  report_.displacement = points.largest_of(way, AllowedWays::kSphereCounts);
+  report_.way =
+      std::max(points.way_of_bodies(way, common_way_of_spheres(work_, way)), report_.displacement * allowed_.of_body / allowed_.of_point);
   if ((cut || report_.way > kFurtherThanAllowed * allowed_.of_body) && task_.dt > kShortestCut)
     return undo({"points moved too far in one step", {}, true});
   finish_step(work_, tissue_, task_, now_->energy, report_);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/contact/common_drift.h"
 #include "core/parallel/comm.h"
 #include "core/parallel/order_free_sum.h"
 #include "core/parallel/threads.h"
@@ -43,15 +44,16 @@ struct OwnedPoints {
     });
   }
 
-  /// Largest norm of vector(point) on all ranks; not a number wins. Collective.
+  /// Largest norm of vector(point) on all ranks, that of a sphere times `of_sphere`; not a number wins. Collective.
   template <class Vector>
-  [[nodiscard]] double largest_of(const Vector& vector) const {
+  [[nodiscard]] double largest_of(const Vector& vector, double of_sphere = 1.0) const {
     const auto more = [](double here, double most) { return !(here <= most) && !std::isnan(most); };
     std::vector<double> by_thread(static_cast<std::size_t>(threads), 0.0);
     for_bodies([&](std::size_t t, const ContactBody& body) {
       double most = by_thread[t];
+      const double counts = body.shape == BodyShape::kSurface ? 1.0 : of_sphere * of_sphere;
       for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i)
-        if (const double here = norm2(vector(i)); more(here, most)) most = here;
+        if (const double here = counts * norm2(vector(i)); more(here, most)) most = here;
       by_thread[t] = most;
     });
     double most = 0.0;
@@ -62,9 +64,10 @@ struct OwnedPoints {
   }
   /// How far a tissue goes, of all ranks: the larger of what its shells and what its spheres do. A mean weighs what is far more than what is many, and
   /// is never more than the largest: 1.7 (Σ way⁴/n)^(1/4). That over the points is the way of a body, and that over the ways of bodies the way of all:
-  /// where a tenth of them go, or all, it is the largest; one of 162 that goes alone counts half (decisions 0052, 0058). Collective.
+  /// where a tenth of them go, or all, it is the largest; one of 162 that goes alone counts half (decisions 0052, 0058). What all spheres do in common does
+  /// not count (common_way.h). Collective.
   template <class Vector>
-  [[nodiscard]] double way_of_bodies(const Vector& vector) const {
+  [[nodiscard]] double way_of_bodies(const Vector& vector, const CommonDrift& of_spheres) const {
     struct Kind {
       OrderFreeSum sum{};
       double largest = 0.0;  ///< both of fourth powers
@@ -83,7 +86,9 @@ struct OwnedPoints {
     };
     std::vector<std::array<Kind, 2>> by_thread(static_cast<std::size_t>(threads));  // shells and what is in them, spheres
     for_bodies([&](std::size_t t, const ContactBody& body) {
-      by_thread[t][body.shape == BodyShape::kSurface ? 0 : 1].add(fourth_power(body.first_point, body.point_count));
+      if (body.shape == BodyShape::kSurface) return by_thread[t][0].add(fourth_power(body.first_point, body.point_count));
+      const double square = norm2(vector(body.first_point) - of_spheres.at(scene.position()[body.first_point]));
+      by_thread[t][1].add(square * square);
     });
     for (const Scene::Inner& inner : scene.inner())
       if (scene.bodies()[inner.shell].active()) by_thread[0][0].add(fourth_power(inner.first_point, inner.point_count));

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
+
+#include "core/ball.h"
 
 namespace morula {
 
-Scene::Birth Scene::birth_of(const CellRow& row) { return {std::cbrt(3.0 * row.birth_volume / (4.0 * std::numbers::pi)), row.birth_time}; }
+Scene::Birth Scene::birth_of(const CellRow& row) { return {ball_radius(row.birth_volume), row.birth_time}; }
 
 void Scene::add_owned(const Tissue& tissue) {
   const auto& shells = tissue.shells;

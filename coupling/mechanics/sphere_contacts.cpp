@@ -5,13 +5,12 @@
 #include <numbers>
 
 #include "cbm/sphere_range.h"
+#include "core/ball.h"
 #include "core/parallel/threads.h"
 #include "coupling/mechanics/contact_setup.h"
 
 namespace morula {
 namespace {
-
-double ball(double radius) { return (4.0 / 3.0) * std::numbers::pi * radius * radius * radius; }
 
 double arm_of_a(const cbm::PairBlock& block, int lane) {
   return cbm::contact_arm(block.distance[lane], block.radius_a[lane], block.radius_b[lane]);
@@ -161,7 +160,7 @@ void SphereContacts::evaluate(const World& world, Forces& out) {
   }
   for (std::uint32_t i = 0; packing_.acts && i < owned; ++i) {
     const ContactBody& body = scene.bodies()[scene.first_sphere() + i];
-    out.energy.add(ball(body.radius) * model_.types[body.material].sphere.packing.at(packing_.part[i]).energy);
+    out.energy.add(ball_volume(body.radius) * model_.types[body.material].sphere.packing.at(packing_.part[i]).energy);
   }
 }
 
@@ -270,7 +269,7 @@ bool SphereContacts::update_attached(const World& world, Tissue& tissue) {
   for (auto& flips : flips_) {
     for (const std::uint32_t k : flips) {
       SpherePair& pair = list_.pairs[k];
-      pair.attached = !pair.attached;
+      set_attached(pair, pair.attached == 0);
       mark(pair.a);
       mark(pair.b);
     }
@@ -394,8 +393,8 @@ SphereRangeCount SphereContacts::count_beyond_range(const Scene& scene) const {
 
 std::size_t SphereContacts::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return list_.memory() + bytes(sisters_) + bytes(rigid_) + bytes(virial_) + bytes(packing_.part) + bytes(packing_.pressure) +
-         bytes(packing_.on_surfaces);  // flips: a handful
+  return list_.memory() + bytes(sisters_) + bytes(rigid_) + bytes(adhering_) + bytes(virial_) + bytes(packing_.part) +
+         bytes(packing_.pressure) + bytes(packing_.on_surfaces);  // flips: a handful
 }
 
 void SphereFriction::begin_step(const World& world, StepStart& start) {

@@ -12,6 +12,8 @@
 
 namespace morula {
 
+struct SphereRenumbering;
+
 /// Contacts of spheres with spheres and with obstacles: JKR or Hertz forces, packing, and who adheres to whom. What they rub is a term of its
 /// own (SphereFriction).
 ///
@@ -123,17 +125,15 @@ class SphereContacts : public Term {
   void add_rigid_pairs(const Scene& scene, const Tissue& tissue, std::uint32_t sphere, std::span<const RigidPair> rubs);
   [[nodiscard]] bool are_attached(const Scene& scene, const Tissue& tissue, const SpherePair& pair) const;
   [[nodiscard]] bool sisters_in(const Scene& scene, const SpherePair& pair) const;
-  /// Notes whether a sphere has partners that are no pair of the list.
-  /// How many listed partners each owned sphere adheres to; an obstacle is one.
-  [[nodiscard]] std::vector<std::uint32_t> attached_pairs(const Scene& scene) const;
+  /// Counts the partners of spheres, and notes whether some have others that are no pair of the list.
   void count_partners(const Scene& scene, const Tissue& tissue);
-  // Lists are mended (sphere_mending.cpp); now(sphere): its new number, or BodyChanges::kNone where its pairs are new. `place`: its new number, or kNone
-  // where it has gone.
-  template <class Now>
-  void renumber_pairs(const Now& now, std::span<const std::uint32_t> place, std::vector<char>& suspects);
-  void add_pairs(const Scene& scene, const std::vector<SphereNeighbours>& found);
-  template <class Now>
-  void renumber_rigid_pairs(const Scene& scene, const Tissue& tissue, const Now& now, const std::vector<char>& fresh);
+  void add_rigid_partners(std::vector<std::uint32_t>& by_sphere) const;
+  void set_attached(SpherePair& pair, bool attached);
+  // Lists are mended (sphere_mending.cpp).
+  /// The list after the changes; the pairs of fresh spheres are returned, spheres that have lost a pair become suspects.
+  std::vector<std::uint32_t> merge_pairs(const Scene& scene, const SphereRenumbering& number, std::span<const char> fresh,
+                                         std::vector<char>& suspects);
+  void renumber_rigid_pairs(const Scene& scene, const Tissue& tissue, std::span<const std::uint32_t> now, std::span<const char> fresh);
   void add_sisters(const World& world, std::span<const std::uint32_t> pairs);
   /// Notes which spheres have other partners in the tissue than in the list: of these, and of those that have more or fewer.
   void look_for_lost(const Scene& scene, const Tissue& tissue, std::vector<char> suspects);
@@ -182,6 +182,7 @@ class SphereContacts : public Term {
   std::vector<std::uint32_t> young_;  ///< spheres that came since the last step: who adheres to them may still get another name; increasing
   std::vector<RigidPair> rigid_;      ///< by sphere, obstacle and part
   std::vector<double> virial_;        ///< by owned sphere [nN·µm]
+  std::vector<std::uint32_t> adhering_;  ///< by sphere, ghosts too: how many of its pairs are attached
   Packing packing_;
   std::vector<std::vector<std::uint32_t>> flips_;  ///< by share: pairs whose flag changes if the step ends where they were evaluated last
   bool friction_is_frozen_ = false;                ///< a step is under way

@@ -5,7 +5,6 @@
 
 #include "core/parallel/threads.h"
 #include "coupling/mechanics/sphere_contacts.h"
-#include "coupling/partner_stretches.h"
 
 namespace morula {
 namespace {
@@ -60,26 +59,23 @@ bool SphereContacts::are_attached(const Scene& scene, const Tissue& tissue, cons
   return cbm::adheres(tissue.spheres.attached[owned_one], partner_id(scene, owned_one == pair.a ? pair.b : pair.a));
 }
 
-std::vector<std::uint32_t> SphereContacts::attached_pairs(const Scene& scene) const {
-  const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
-  std::vector<std::uint32_t> out(owned, 0);
-  const auto add = [&](std::uint32_t sphere) {
-    if (sphere < owned) std::atomic_ref(out[sphere]).fetch_add(1, std::memory_order_relaxed);
-  };
-  parallel_for(threads(), list_.pairs.size(), [&](std::size_t k) {
-    if (const SpherePair& pair = list_.pairs[k]; pair.attached) add(pair.a), add(pair.b);
-  });
+void SphereContacts::add_rigid_partners(std::vector<std::uint32_t>& by_sphere) const {
   for (std::size_t k = 0; k < rigid_.size(); ++k)
-    if (k == 0 || !rigid_[k].same_bodies(rigid_[k - 1])) out[rigid_[k].sphere] += rigid_[k].attached;
-  return out;
+    if (k == 0 || !rigid_[k].same_bodies(rigid_[k - 1])) by_sphere[rigid_[k].sphere] += rigid_[k].attached;
 }
 
 void SphereContacts::count_partners(const Scene& scene, const Tissue& tissue) {
-  const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
-  const std::vector<std::uint32_t> known = attached_pairs(scene);
+  adhering_.assign(scene.bodies().size() - scene.first_sphere(), 0);
+  parallel_for(threads(), list_.pairs.size(), [&](std::size_t k) {
+    if (const SpherePair& pair = list_.pairs[k]; pair.attached)
+      for (const std::uint32_t i : {pair.a, std::uint32_t{pair.b}}) std::atomic_ref(adhering_[i]).fetch_add(1, std::memory_order_relaxed);
+  });
+  std::vector<std::uint32_t> known = adhering_;
+  add_rigid_partners(known);
   partners_are_lost_ = false;
   lost_.clear();
-  for (std::uint32_t i = 0; i < owned; ++i) partners_are_lost_ = partners_are_lost_ || known[i] != tissue.spheres.attached[i].size();
+  for (std::uint32_t i = 0; i < scene.owned_spheres(); ++i)
+    partners_are_lost_ = partners_are_lost_ || known[i] != tissue.spheres.attached[i].size();
 }
 
 void SphereContacts::keep_step_friction(const Scene& scene, std::vector<SpherePair> old_pairs,
@@ -164,24 +160,15 @@ void SphereContacts::find_rigid_pairs(const Scene& scene, const Tissue& tissue) 
 }
 
 void SphereContacts::write_partners(const Scene& scene, const std::vector<char>& marked, Tissue& tissue) const {
-  const std::size_t owned = scene.owned_spheres();
   const std::vector<std::pair<std::uint32_t, CellId>> found = partners_of(scene, marked);
-  const cbm::PartnerLists& old = tissue.spheres.attached;
-  PartnerStretches lists;
-  lists.reserve(owned, old.partner_count() + found.size());
   std::vector<CellId> partners;
-  std::size_t kept = 0;
   auto at = found.begin();
-  for (std::uint32_t i = 0; i < owned; ++i) {
+  for (std::uint32_t i = 0; i < scene.owned_spheres(); ++i) {
     if (!marked[i]) continue;
-    lists.add(old, kept, i);
     partners.clear();
     for (; at != found.end() && at->first == i; ++at) partners.push_back(at->second);
-    lists.add(partners);
-    kept = i + 1;
+    tissue.spheres.attached.set(i, partners);
   }
-  lists.add(old, kept, owned);
-  tissue.spheres.attached = std::move(lists).take();
 }
 
 std::vector<std::pair<std::uint32_t, CellId>> SphereContacts::partners_of(const Scene& scene, const std::vector<char>& marked) const {

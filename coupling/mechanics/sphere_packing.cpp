@@ -1,8 +1,8 @@
 /// Packing of the spheres: how much of each is taken by its neighbours, and the pressure that answers (cbm.md §3).
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/ball.h"
 #include "core/parallel/threads.h"
 #include "coupling/mechanics/sphere_contacts.h"
 
@@ -52,7 +52,7 @@ void SphereContacts::find_packing(const Scene& scene, std::span<const Penetratio
   packing_.part.resize(owned);
   for (std::uint32_t i = 0; i < owned; ++i) {
     const double r = body[i].radius;
-    packing_.part[i] = (taken[i] + others[i].volume) / ((4.0 / 3.0) * std::numbers::pi * r * r * r);
+    packing_.part[i] = (taken[i] + others[i].volume) / ball_volume(r);
   }
   share_pressures(scene, slopes, others, comm);
 }
@@ -67,7 +67,7 @@ void SphereContacts::share_pressures(const Scene& scene, std::span<const double>
   for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
     const ContactBody& body = scene.bodies()[first + i];
     const auto value = model_.types[body.material].sphere.packing.at(packing_.part[i]);
-    const double stiffness = value.slope / ((4.0 / 3.0) * std::numbers::pi * body.radius * body.radius * body.radius);
+    const double stiffness = value.slope / ball_volume(body.radius);
     const double s = slopes[i], t = others[i].slope;
     shared[body.first_point] = {value.pressure, s > 0.0 ? stiffness * (1.0 + t / s) : 0.0, stiffness * (s + t)};
     resists = resists || stiffness > 0.0;

@@ -26,7 +26,7 @@ struct StepReport {
   int newton = 0;     ///< iterations
   int linear_iterations = 0;
   int halvings = 0;           ///< of the way that a search took, at most
-  double displacement = 0.0;  ///< largest of any point [µm]
+  double displacement = 0.0;  ///< largest of any point; a sphere counts half (AllowedWays) [µm]
   double way = 0.0;           ///< largest of a body, or what that of a point counts as (AllowedWays): the next step is found from it [µm]
   double energy = 0.0;        ///< at the end [nN·µm]
   double allowed_rise = 0.0;  ///< rise of Φ that the freeze rule let pass [nN·µm]

@@ -73,6 +73,8 @@ struct AllowedWays {
   /// Where a surface parts from a neighbour or falls onto it, a few of its points go fast for a short way, in any tissue at any time. Where they
   /// end is given by the energy, and not by how many steps they took: they may go further, though no further than contacts reach (decision 0052).
   double of_point;
+  /// What the way of a sphere counts beside that of a point: it has no surface that could cross another, and no nodes on which contacts have kinks.
+  static constexpr double kSphereCounts = 0.5;
 };
 AllowedWays allowed_ways(const Model& model);
 /// A step that went so many times further is refused.

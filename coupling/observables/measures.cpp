@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 
+#include "core/ball.h"
 #include "core/contact/contact_layer.h"
 #include "coupling/loads/grips.h"
 #include "coupling/mechanics/scene.h"
@@ -12,8 +12,6 @@
 
 namespace morula {
 namespace {
-
-double radius_of(double volume) { return std::cbrt(3.0 * volume / (4.0 * std::numbers::pi)); }
 
 /// The winner over all ranks.
 Extreme over_ranks(const Extreme& mine, const Comm& comm) {
@@ -133,7 +131,7 @@ void add_cell(Simulation& simulation, const BodyValues& values, const AsBalls& b
   const auto nucleus = owned.is_shell ? simulation.mechanics().nucleus_of(static_cast<std::uint32_t>(owned.number)) : std::nullopt;
   const CellType& type = simulation.model().types[row.type];
   const double volume = values.volume[body], p = values.pressure[body], inner = values.inner_pressure[body];
-  const double r = radius_of(volume), law = volume_by_law(row, tissue.cells.optional.reference_excess[owned.row], type, inner, nucleus);
+  const double r = ball_radius(volume), law = volume_by_law(row, tissue.cells.optional.reference_excess[owned.row], type, inner, nucleus);
   to.sum[kVolume].add(volume);
   to.sum[kVolumeX].add(volume * from.x);
   to.sum[kVolumeY].add(volume * from.y);
@@ -220,7 +218,7 @@ Measures measure(Simulation& simulation) {
   const Vec3d mean = set_means(total, out);
   double extent = 0.0;
   for (const BodyOfRow& body : bodies_of(tissue.cells))
-    extent = std::max(extent, norm(center[body.row] - middle - mean) + radius_of(values.volume[body.place(tissue.shells.size())]));
+    extent = std::max(extent, norm(center[body.row] - middle - mean) + ball_radius(values.volume[body.place(tissue.shells.size())]));
   out.largest_extent = comm.max(extent);
   return out;
 }

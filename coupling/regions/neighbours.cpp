@@ -3,6 +3,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/ball.h"
 #include "coupling/regions/counts_from.h"
 #include "coupling/regions/room_around.h"
 
@@ -24,7 +25,7 @@ double room_of_neighbours(const Model& model, const Region& region) {
   if (from->what == What::kObstacle) return room_around(model.obstacles[from->number], reach);
   const Region& core = model.swaps.regions[from->number];
   const double inner = core.shape->volume != nullptr ? core.shape->volume(core) : kAnywhere;
-  return 4.0 / 3.0 * std::numbers::pi * std::pow(std::cbrt(3.0 * inner / (4.0 * std::numbers::pi)) + reach, 3);
+  return ball_volume(ball_radius(inner) + reach);
 }
 
 }  // namespace

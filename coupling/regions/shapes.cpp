@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/ball.h"
 #include "coupling/regions/region.h"
 
 namespace morula {
@@ -37,7 +37,7 @@ std::shared_ptr<const RegionShape> sphere_region() {
                       [](const Region& r, const Box& domain) {
                         return meets_box(domain, r, {r.radius, r.radius, r.radius});
                       },
-                  .volume = [](const Region& region) { return 4.0 / 3.0 * std::numbers::pi * std::pow(region.radius, 3); }});
+                  .volume = [](const Region& region) { return ball_volume(region.radius); }});
   return shape;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/ball.h"
 #include "report/pictures/projection.h"
 
 namespace morula::scenarios {
@@ -114,7 +115,7 @@ void draw_fluid(const Snapshot& snapshot, const Camera& camera, const CutPlane& 
                 std::vector<std::uint8_t>& fluid) {
   const Projection projection{camera, 0.5 * cells.width, 0.5 * cells.height};
   for (const Snapshot::Lumen& lumen : snapshot.lumens) {
-    const double radius = std::cbrt(3.0 * lumen.volume / (4.0 * std::numbers::pi)), height = dot(lumen.center - cut.point, cut.normal);
+    const double radius = ball_radius(lumen.volume), height = dot(lumen.center - cut.point, cut.normal);
     if (!(std::abs(height) < radius)) continue;
     const Vec3d start = projection.pixel(lumen.center - cut.normal * height);
     const int x = static_cast<int>(std::floor(start.x)), y = static_cast<int>(std::floor(start.y));

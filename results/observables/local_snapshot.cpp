@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "core/ball.h"
 
 namespace morula::scenarios {
 
@@ -93,7 +94,7 @@ Snapshot local_snapshot(Simulation& simulation) {
     cell.stress_yy = stress.yy, cell.stress_yz = stress.yz, cell.stress_zz = stress.zz;
     cell.contact_area = values.contact_area[body];
     cell.age = out.time - row.birth_time;
-    cell.radius = is_shell ? std::cbrt(3.0 * cell.volume / (4.0 * std::numbers::pi)) : tissue.spheres.radius[owned.number];
+    cell.radius = is_shell ? ball_radius(cell.volume) : tissue.spheres.radius[owned.number];
     if (!is_shell) continue;
     const auto add_surface = [&](const dcm::Shells& from, std::size_t s, std::vector<Snapshot::Shell>& shells, std::vector<Vec3d>& all) {
       const Topology* topology = &from.topology(s);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "core/ball.h"
 #include "core/numbers/number_text.h"
 #include "core/vec3.h"
 
@@ -114,7 +114,7 @@ Experiment packing_experiment(const CellMaterial& material, calibrate::Arrangeme
   const bool face_centred = lattice == calibrate::Arrangement::kFaceCentred;
   const std::vector<Vec3d> cube = cube_of(lattice);
   const int cubes = 3;  // no cell may meet another from both sides
-  const double free = 4.0 / 3.0 * std::numbers::pi * std::pow(material.radius, 3.0);
+  const double free = ball_volume(material.radius);
   const double edge = std::cbrt(static_cast<double>(cube.size()) * free * kLoose), box = cubes * edge;
   Experiment e{.kind = Experiment::Kind::kPacking,
                .arrangement = lattice,
@@ -143,7 +143,7 @@ Experiment packing_experiment(const CellMaterial& material, calibrate::Arrangeme
 }
 
 Experiment random_packing_experiment(const CellMaterial& material, std::uint32_t seed) {
-  const double free = 4.0 / 3.0 * std::numbers::pi * std::pow(material.radius, 3.0);
+  const double free = ball_volume(material.radius);
   const double edge = std::cbrt(kRandomCells * free * kLoose), end = kRandomStart + kRandomTime;
   Experiment e{.kind = Experiment::Kind::kPacking,
                .arrangement = calibrate::Arrangement::kRandom,

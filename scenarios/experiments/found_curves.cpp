@@ -1,8 +1,8 @@
 #include "scenarios/experiments/found_curves.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "core/ball.h"
 #include "results/series_reader.h"
 #include "scenarios/measures/single_cell.h"
 
@@ -43,7 +43,7 @@ Result<std::vector<FoundPacking>> packing_of_run(const Experiment& experiment, c
   MORULA_TRY_ASSIGN(const SeriesColumn* volume, column(series, "box_volume"));
   MORULA_TRY_ASSIGN(const SeriesColumn* pressure, column(series, "box_pressure"));
   MORULA_TRY_ASSIGN(const SeriesColumn* cells, column(series, "cell_count"));
-  const double free = 4.0 / 3.0 * std::numbers::pi * std::pow(experiment.radius_a, 3.0);
+  const double free = ball_volume(experiment.radius_a);
   std::vector<FoundPacking> out;
   for (std::size_t i = 0; i < series.rows(); ++i)
     out.push_back({.volume_ratio = volume->values[i] / (cells->values[i] * free), .pressure = pressure->values[i]});

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/ball.h"
 #include "coupling/loads/loads.h"
 #include "scenarios/measures/holds.h"
 #include "scenarios/measures/measures.h"
@@ -118,7 +119,7 @@ Result<double> theory_of(FinishedRun& run, const CellLoad& load) {
   const auto start = shells_of(*first, load.type);
   if (start.empty()) return std::nan("");
   return theory::critical_aspiration(type_of(run.study(), load).shell.tension, mouth_of(run.study().model, load).radius,
-                                     radius_of_volume(start[0].cell->volume));
+                                     ball_radius(start[0].cell->volume));
 }
 
 /// Half way between the largest suction with a tongue shorter than the pipette's radius and the smallest with a longer one, where these are

@@ -1,6 +1,7 @@
 // Cells with a tension are spherical caps where they touch each other or an obstacle.
 #include <algorithm>
 
+#include "core/ball.h"
 #include "scenarios/measures/caps.h"
 #include "scenarios/measures/elastic_cap.h"
 #include "scenarios/measures/measures.h"
@@ -24,7 +25,7 @@ std::vector<MeasuredCap> caps_of_pair(const Study& study, const Snapshot& snapsh
   const double tension = tension_at(study.model.types[static_cast<std::size_t>(subject.type)], snapshot.time);
   MeasuredCap out;
   out.wetting = wetting_of(study, subject, snapshot.time);
-  out.r0 = radius_of_volume(0.5 * (a.volume + b.volume));
+  out.r0 = ball_radius(0.5 * (a.volume + b.volume));
   out.angle = 0.5 * (low->angle + high->angle);
   out.radius = 0.5 * (low->radius + high->radius) / out.r0;
   out.contact_radius = 0.5 * (low->contact_radius + high->contact_radius) / out.r0;
@@ -48,7 +49,7 @@ std::vector<MeasuredCap> caps_on_obstacle(const Study& study, const Snapshot& sn
     MeasuredCap one;
     one.cell = shell.cell->id.text();
     one.wetting = wetting_of(study, subject, snapshot.time);
-    one.r0 = radius_of_volume(shell.cell->volume);
+    one.r0 = ball_radius(shell.cell->volume);
     one.angle = cap->angle;
     one.radius = cap->radius / one.r0;
     one.contact_radius = cap->contact_radius / one.r0;

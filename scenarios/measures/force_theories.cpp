@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/ball.h"
 #include "coupling/changing_box.h"
 #include "scenarios/measures/elastic_cap.h"
 #include "scenarios/measures/theories.h"
@@ -69,8 +70,7 @@ Theory filled_box() {
             if (snapshot == nullptr || snapshot->box.empty() || snapshot->cells.empty()) return std::nan("");
             const std::vector<CellType>& types = run.study().model.types;
             double free = 0.0;
-            for (const Snapshot::Cell& cell : snapshot->cells)
-              free += 4.0 / 3.0 * std::numbers::pi * std::pow(types[cell.type].radius.mean, 3);
+            for (const Snapshot::Cell& cell : snapshot->cells) free += ball_volume(types[cell.type].radius.mean);
             const Vec3d edges = snapshot->box.size();
             const CellType& type = types[s.type >= 0 ? static_cast<std::size_t>(s.type) : snapshot->cells.front().type];
             return type.shell.bulk_modulus * std::log(free / (edges.x * edges.y * edges.z));

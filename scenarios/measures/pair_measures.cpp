@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/ball.h"
 #include "scenarios/measures/measures.h"
 
 namespace morula::scenarios {
@@ -29,7 +30,7 @@ Result<std::vector<Sample>> take_drift(FinishedRun& run, const Subject& subject,
     MORULA_TRY_ASSIGN(const auto snapshot, run.snapshot(index));
     const auto now = cells_of_pair(*snapshot, subject);
     if (!before || !now) continue;
-    const double r0 = radius_of_volume(0.5 * (now->first->volume + now->second->volume));
+    const double r0 = ball_radius(0.5 * (now->first->volume + now->second->volume));
     const Vec3d here = (now->first->centroid + now->second->centroid) * 0.5;
     const Vec3d there = (before->first->centroid + before->second->centroid) * 0.5;
     out.push_back({snapshot->time, norm(here - there) / r0, ""});

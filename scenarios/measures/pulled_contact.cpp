@@ -5,6 +5,7 @@
 #include <memory>
 #include <numbers>
 
+#include "core/ball.h"
 #include "scenarios/measures/elastic_cap.h"
 
 namespace morula::scenarios {
@@ -87,7 +88,7 @@ Result<double> radius_at_end(FinishedRun& run, const CellLoad& load) {
   if (times->empty()) return std::nan("");
   const Snapshot::Cell* cell = nullptr;
   MORULA_TRY_ASSIGN(const auto snapshot, shown_at(run, times->size() - 1, load.type, cell));
-  return cell == nullptr ? std::nan("") : radius_of_volume(cell->volume);
+  return cell == nullptr ? std::nan("") : ball_radius(cell->volume);
 }
 
 Result<double> last_contact_radius(FinishedRun& run, const CellLoad& load, const PulledContact& pulled) {

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "core/ball.h"
 
 namespace morula::scenarios {
 namespace {
@@ -72,15 +73,13 @@ double extent(std::span<const Vec3d> nodes, const Vec3d& axis) {
   return high - low;
 }
 
-double radius_of_volume(double volume) { return std::cbrt(3.0 * volume / (4.0 * std::numbers::pi)); }
-
 double node_to_volume_radius(std::size_t nodes) {
   ShapeLibrary shapes;
   const auto shape = shapes.icosphere(static_cast<std::uint32_t>(nodes));
   if (!shape.ok()) return 1.0;
   double mean = 0.0;
   for (const Vec3d& x : (*shape)->position) mean += norm(x);
-  return radius_of_volume(1.0) * static_cast<double>(nodes) / mean;
+  return ball_radius(1.0) * static_cast<double>(nodes) / mean;
 }
 
 SecondMode fit_second_mode(const ShellView& unloaded, const ShellView& loaded, const Vec3d& axis) {

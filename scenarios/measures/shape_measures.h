@@ -22,9 +22,6 @@ std::vector<ShellView> shells_of(const Snapshot& snapshot, std::size_t type);
 /// Largest minus smallest coordinate along an axis of length 1 [µm].
 double extent(std::span<const Vec3d> nodes, const Vec3d& axis);
 
-/// Radius of the ball with this volume [µm].
-double radius_of_volume(double volume);
-
 /// How much the nodes of an icosphere lie outside the sphere of the same volume: radius of that sphere over the nodes' distance from the
 /// centre (0.9886, 0.9971, 0.9993 for 162, 642, 2562 nodes). A sphere through nodes, times this, is the surface that the mesh stands for.
 /// 1 for another number of nodes.

@@ -1,5 +1,6 @@
 #include "scenarios/measures/stretched_cells.h"
 
+#include "core/ball.h"
 #include "scenarios/measures/holds.h"
 #include "scenarios/measures/single_cell.h"
 
@@ -20,7 +21,7 @@ Result<std::vector<StretchedCell>> stretched_cells(FinishedRun& run, std::size_t
     const double stress = load.size * load.course.at(snapshot->time);
     for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i)
       out.push_back({after[i].cell->id.text(), snapshot->time, stress, fit_second_mode(before[i], after[i], load.axis),
-                     theory::stretched_sphere(stress, radius_of_volume(before[i].cell->volume), spring_modulus(type), 1.0 / 3.0,
+                     theory::stretched_sphere(stress, ball_radius(before[i].cell->volume), spring_modulus(type), 1.0 / 3.0,
                                               type.shell.tension, type.shell.bulk_modulus)});
   }
   return out;

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <ctime>
 #include <limits>
-#include <numbers>
 #include <optional>
 
+#include "core/ball.h"
 #include "coupling/behaviours/balanced_growth.h"
 #include "coupling/simulation.h"
 #include "coupling/swaps.h"
@@ -89,7 +89,7 @@ void add_neighbours(const Study& study, double time, Counts& counts) {
   const auto most = static_cast<std::size_t>(std::ranges::max_element(counts.of_type) - counts.of_type.begin());
   for (const Region& region : study.model.swaps.regions) {
     if (!region.shape->counts_contacts || region.body != BodyKind::kShell || !region.exists_at(time)) continue;
-    const double room = room_of(region, 4.0 / 3.0 * std::numbers::pi * std::pow(types[most].radius.mean, 3));
+    const double room = room_of(region, ball_volume(types[most].radius.mean));
     const double places = std::min(static_cast<double>(counts.cells), static_cast<double>(study.model.swaps.max_shells));
     const auto more = std::max<std::int64_t>(0, static_cast<std::int64_t>(std::min(room, places)) - counts.shells);
     counts.shells += more;
@@ -144,7 +144,7 @@ Counts count_entries(const Study& study) {
   for (const Region& region : model.swaps.regions) {
     if (region.body != BodyKind::kShell || !region.exists_at(0.0)) continue;
     for (std::size_t t = 0; t < spheres.size(); ++t) {
-      const double room = room_of(region, 4.0 / 3.0 * std::numbers::pi * std::pow(model.types[t].radius.mean, 3));
+      const double room = room_of(region, ball_volume(model.types[t].radius.mean));
       const double left = static_cast<double>(model.swaps.max_shells) - static_cast<double>(out.shells);
       const auto promoted = static_cast<std::int64_t>(std::max(0.0, std::min({room, left, static_cast<double>(spheres[t])})));
       spheres[t] -= promoted;

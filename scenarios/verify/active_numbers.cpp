@@ -67,7 +67,7 @@ double marked_part_of_a_cavity() {
         CellRecord& cell = cells.emplace_back();
         cell.row.id = CellId::founder(cells.size());
         cell.row.body = BodyKind::kShell;
-        cell.shell = spherical_shell(shape, normalized(corner) * 30.0, ball(19.0), ball(19.0));
+        cell.shell = spherical_shell(shape, normalized(corner) * 30.0, ball_volume(19.0), ball_volume(19.0));
       }
   Tissue tissue;
   put_together(tissue, std::move(cells));

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/ball.h"
 #include "core/mesh/primitives.h"
 #include "coupling/cell_record.h"
 #include "coupling/face_marks.h"
@@ -23,7 +24,7 @@ class RigidBall {
   explicit RigidBall(bool capped = false)
       : model_(model(capped)), mechanics_(model_, contact_obstacles(model_).value(), shapes_, Comm(), 1) {
     CellRecord cell;
-    const double volume = 4.0 / 3.0 * std::numbers::pi * kRadius * kRadius * kRadius;
+    const double volume = ball_volume(kRadius);
     cell.row.id = CellId::founder(1);
     cell.row.body = BodyKind::kShell;
     cell.row.target_volume = cell.row.birth_volume = volume;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/ball.h"
 #include "scenarios/verify/run_study.h"
 #include "scenarios/verify/study_numbers.h"
 
@@ -10,8 +11,6 @@ namespace morula::scenarios {
 namespace {
 
 constexpr double kRadius = 6.0, kTension = 0.2, kBulk = 2.5;  // [µm], [nN/µm], [kPa]
-
-double ball(double radius) { return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius; }
 
 /// One shell with default parameters but for its cortex, in a cycle of 2 h. Its divisions are at 2, 4 and 6 h.
 std::shared_ptr<StudyToRun> one_to_eight() {
@@ -41,7 +40,7 @@ double free_volume(const FoundInRun& found, double time) {
   if (at == nullptr) return std::nan("");
   double sum = 0.0;
   for (const Snapshot::Cell& cell : at->cells) sum += cell.volume * std::exp(cell.inner_pressure / kBulk);
-  const double target = 1.5 * ball(kRadius), radius = kRadius * std::cbrt(1.5);
+  const double target = 1.5 * ball_volume(kRadius), radius = kRadius * std::cbrt(1.5);
   const double count = std::exp2(std::floor(time / 7200.0));
   return sum / (count * target * std::exp(2.0 * kTension / radius / kBulk));
 }
@@ -63,7 +62,7 @@ double energy_rise(const FoundInRun& found) {
     if (event.kind != "division" || !event.energy_rise) continue;
     const auto together =
         std::ranges::count_if(found.events, [&](const EventLine& e) { return e.kind == event.kind && e.time == event.time; });
-    const double radius = std::cbrt(event.volume / ball(1.0));
+    const double radius = std::cbrt(event.volume / ball_volume(1.0));
     const double rise = *event.energy_rise / static_cast<double>(together) / (kTension * 4.0 * std::numbers::pi * radius * radius);
     worst = std::isnan(worst) ? rise : std::max(worst, rise);
   }

@@ -28,7 +28,7 @@ double variance_by_stiffness(const dcm::ShellParameters& p) {
   const auto energy = [&](double amplitude) {
     std::vector<Vec3d> x = shells.position;
     for (Vec3d& v : x) v *= 1.0 + amplitude * second_modes(normalized(v)).y[4];
-    const double size = std::cbrt(ball(kRadius) / geometry(shells, x).volume[0]);
+    const double size = std::cbrt(ball_volume(kRadius) / geometry(shells, x).volume[0]);
     return mechanics(shells, p, scaled(x, size)).energy[0];
   };
   const double h = 1e-3;

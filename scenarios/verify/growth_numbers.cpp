@@ -26,8 +26,8 @@ dcm::ShellParameters elastic() {
 /// Energy over E h A of the shape that has doubled its volume with its rest state.
 double energy_after_doubling() {
   dcm::Shells shells = sphere(162, Size::kVolume);
-  dcm::set_rest_volume(shells, 0, 2.0 * ball(kRadius));
-  shells.reference_volume[0] = 2.0 * ball(kRadius);
+  dcm::set_rest_volume(shells, 0, 2.0 * ball_volume(kRadius));
+  shells.reference_volume[0] = 2.0 * ball_volume(kRadius);
   shells.position = scaled(shells.position, std::cbrt(2.0));
   return mechanics(shells, elastic()).energy[0] / (kYoung * kThickness * geometry(shells).area[0]);
 }
@@ -43,7 +43,7 @@ double radius_after_doubling() {
   auto simulation = Simulation::create(model, std::move(tissue), Comm(), 1).value();
   while (simulation->tissue().clock.time < 600.0)
     if (!simulation->step(600.0).ok()) return NAN;
-  return std::cbrt(simulation->values().volume[0] / ball(kRadius));
+  return std::cbrt(simulation->values().volume[0] / ball_volume(kRadius));
 }
 
 /// Tension of a spring lattice stretched by 2^(1/3): −x·F = 2 τ A.

@@ -17,7 +17,7 @@
 namespace morula::scenarios {
 namespace {
 
-constexpr double kVolume = ball(kRadius);
+constexpr double kVolume = ball_volume(kRadius);
 constexpr const char* kClosedForm = "closed form";
 
 /// Force per displacement of a nucleus on links from all nodes of 162, 0.01 nN/um each.
@@ -94,7 +94,7 @@ double drag_of_a_shell() {
 Balance balance_with_rigid_nucleus() {
   const dcm::Shells shells = rough(sphere(162, Size::kVolume));
   dcm::InteriorParameters p;
-  p.nucleus_fraction = ball(2.5) / kVolume;
+  p.nucleus_fraction = ball_volume(2.5) / kVolume;
   p.nucleus_links = p.cortex_links = {dcm::LinkParameters::kAll, 0.01, 0.0, false};
   const dcm::InteriorLinks links = dcm::choose_links(*shells.shape[0], p);
   const Vec3d nucleus{3.0, -2.0, 1.0};  // 3.74 µm from the centre
@@ -131,7 +131,7 @@ double push_on_flat_cortex(double half) {
   const TriangleMesh mesh = make_box({6.0, 6.0, 2.0 * half}, 0.1).value();
   const auto topology = Topology::build(static_cast<std::uint32_t>(mesh.position.size()), mesh.faces).value();
   dcm::InteriorParameters p;
-  p.nucleus_fraction = ball(2.5) / kVolume;
+  p.nucleus_fraction = ball_volume(2.5) / kVolume;
   const dcm::InteriorLinks none;
   const Vec3d nucleus{};
   const dcm::InteriorView cell{&p, &none, topology.get(), mesh.position, &nucleus, kVolume, 100.0};
@@ -163,7 +163,7 @@ class SqueezedNucleus {
     Model out = lone_cell_model();
     solve_tightly(out);
     out.contact.repulsion = 100.0;
-    out.types[0].interior.nucleus_fraction = ball(4.2) / kVolume;
+    out.types[0].interior.nucleus_fraction = ball_volume(4.2) / kVolume;
     TriangleMesh lower = make_box({40, 40, 4}, 10.0).value(), upper = lower;
     for (Vec3d& x : lower.position) x.z -= 2.0 + 0.5 * kGap;
     for (Vec3d& x : upper.position) x.z += 2.0 + 0.5 * kGap;

@@ -25,7 +25,7 @@ void add_shell(dcm::Shells& out, std::shared_ptr<const ReferenceShape> shape, do
 }
 
 double size_of_mesh(const ReferenceShape& shape, Size size) {
-  return size == Size::kNodes ? kRadius / norm(shape.position[0]) : std::cbrt(ball(kRadius));
+  return size == Size::kNodes ? kRadius / norm(shape.position[0]) : std::cbrt(ball_volume(kRadius));
 }
 
 }  // namespace

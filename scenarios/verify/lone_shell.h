@@ -1,10 +1,10 @@
 #pragma once
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <span>
 #include <vector>
 
+#include "core/ball.h"
 #include "core/mesh/surface_geometry.h"
 #include "core/mesh/triangle_mesh.h"
 #include "coupling/mechanics/mechanics.h"
@@ -16,8 +16,6 @@ namespace morula::scenarios {
 
 // Table 1 of the seed with the tension that dcm.md takes; R in µm, E and K_V in kPa, h in µm, γ in nN/µm, friction per area in nN·s/µm³
 inline constexpr double kRadius = 6.0, kYoung = 1.0, kThickness = 0.2, kPoisson = 0.5, kTension = 0.5, kBulk = 2.5, kMedium = 0.1;
-
-constexpr double ball(double radius) { return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius; }
 
 enum class Size {
   kNodes,   ///< nodes on the sphere of radius 6: the mesh encloses less

@@ -36,7 +36,7 @@ Walk walk_of_cells() {
   for (int i = 0; i < kCells; ++i) {
     CellRecord& cell = cells[static_cast<std::size_t>(i)];
     cell.row.id = CellId::founder(static_cast<std::uint64_t>(i) + 1);
-    cell.row.target_volume = cell.row.birth_volume = ball(kRadius);
+    cell.row.target_volume = cell.row.birth_volume = ball_volume(kRadius);
     cell.sphere = SphereRecord{Vec3d{i % kAlong - 10.0, i / kAlong % kAlong - 10.0, i / (kAlong * kAlong) - 2.0} * kApart, kRadius, {}, {}};
     cell.row.order = curve_place(cell.sphere->position);
     cell.row.migration_velocity = initial_migration_velocity(cell.row.id, model.types[0], model.seed);

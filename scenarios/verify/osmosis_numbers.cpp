@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kClosedForm = "closed form";
 constexpr const char* kBoyle = "Boyle-van 't Hoff";
-constexpr double kVolume = ball(kRadius);
+constexpr double kVolume = ball_volume(kRadius);
 
 CellType permeable(double outside, double inactive) {
   CellType type = lone_cell_model().types[0];

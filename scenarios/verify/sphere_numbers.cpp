@@ -53,7 +53,7 @@ double packed_pressure(double s) {
   const auto hertz =
       cbm::hertz_contact(cbm::make_pair_law(cbm::ContactMaterial::elastic(0.45, 0.4, 0.45, 0.4, 0.0), kRadius, kRadius), 2.0 * kRadius - d);
   const auto caps = cbm::sphere_caps(kRadius, kRadius, d);
-  const double pressure = curve.at(12.0 * caps.volume_a / ball(kRadius)).pressure;
+  const double pressure = curve.at(12.0 * caps.volume_a / ball_volume(kRadius)).pressure;
   return 2.0 * std::numbers::sqrt2 * (hertz.force + pressure * (caps.slope_a + caps.slope_b)) / (d * d);
 }
 

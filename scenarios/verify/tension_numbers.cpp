@@ -59,7 +59,7 @@ class FluidCell {
 
   /// V/V0
   [[nodiscard]] double volume_ratio() { return at_rest().volume / reference_; }
-  [[nodiscard]] double radius() { return std::cbrt(at_rest().volume / ball(1.0)); }
+  [[nodiscard]] double radius() { return std::cbrt(at_rest().volume / ball_volume(1.0)); }
   /// p over 2γA/(3V)
   [[nodiscard]] double virial() { return at_rest().pressure * 3.0 * at_rest().volume / (2.0 * kTension * at_rest().area); }
 
@@ -104,8 +104,8 @@ void add_tension_numbers(std::vector<ReferenceNumber>& out) {
                  1e-3 * 2.0 * kTension / kRadius, "Laplace's law; dcm.md: 0.086 %", [] { return laplace(2562).pressure; }});
   out.push_back({"T4.2", "pressure over 2 gamma A/(3 V), rough surface of 162 nodes", 1.0, 1e-6, kClosedForm,
                  [] { return virial_of_a_rough_cell(); }});
-  const auto shrunk = std::make_shared<FluidCell>(ball(kRadius)),
-             held = std::make_shared<FluidCell>(dcm::pressure_free_reference(ball(kRadius), kTension, kBulk));
+  const auto shrunk = std::make_shared<FluidCell>(ball_volume(kRadius)),
+             held = std::make_shared<FluidCell>(dcm::pressure_free_reference(ball_volume(kRadius), kTension, kBulk));
   out.push_back(
       {"T4.2", "the same of a cell of 642 nodes that has come to rest", 1.0, 1e-6, kClosedForm, [shrunk] { return shrunk->virial(); }});
   out.push_back(

@@ -88,7 +88,7 @@ void add_volume_numbers(std::vector<ReferenceNumber>& out) {
     const std::string at = ", " + std::to_string(m.nodes) + " nodes";
     const std::uint32_t n = m.nodes;
     out.push_back({"dcm 0", "volume of the mesh over that of its sphere" + at, m.volume, 5e-6, kIndependent,
-                   [n] { return geometry(sphere(n, Size::kNodes)).volume[0] / ball(kRadius); }});
+                   [n] { return geometry(sphere(n, Size::kNodes)).volume[0] / ball_volume(kRadius); }});
     out.push_back({"T5.5", "rate of the breathing mode [1/s]" + at, m.rate, 6e-3, kIndependent, [n] { return breathing_rate(n); }});
   }
 }

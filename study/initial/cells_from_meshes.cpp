@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "core/ball.h"
 #include "core/mesh/mesh_check.h"
 #include "core/mesh/mesh_repair.h"
 #include "core/mesh/node_order.h"
@@ -266,7 +267,7 @@ bool MeshCellReader::mend_and_check(MeshCell& cell) {
 }
 
 void MeshCellReader::check_size(const MeshCell& cell) {
-  const double radius = std::cbrt(3.0 * cell.volume / (4.0 * std::numbers::pi));
+  const double radius = ball_radius(cell.volume);
   if (radius >= kSmallestRadius && radius <= kLargestRadius) return;
   problem(550, cell.name + " has the volume of a ball of radius " + text_of(radius, "%.3g") + " um, which is no cell",
           "check `scale`: the length that 1 in the file stands for");

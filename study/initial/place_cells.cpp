@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
+#include "core/ball.h"
 #include "core/random/philox.h"
 #include "core/random/rotation.h"
 #include "core/space/curve.h"
@@ -21,8 +21,6 @@ namespace morula::scenarios {
 namespace {
 
 constexpr std::uint64_t kMixtureDraw = 4;  // of the stream of positions
-
-double radius_of(double volume) { return std::cbrt(3.0 * volume / (4.0 * std::numbers::pi)); }
 
 std::string micrometres(double length) {
   char text[32];
@@ -50,7 +48,7 @@ void start_small(CellState& row, const InitialCells& block) {
 /// What a CSV row says about its cell.
 void apply_csv(CellState& row, const CsvCell& csv, const CellType& type, const Model& model) {
   if (csv.radius > 0.0) {
-    const double volume = 4.0 / 3.0 * std::numbers::pi * csv.radius * csv.radius * csv.radius;
+    const double volume = ball_volume(csv.radius);
     row.target_volume *= volume / row.birth_volume;
     row.birth_volume = volume;
     row.division_volume = division_volume(row, type, model.seed);
@@ -284,7 +282,7 @@ class Placer {
 
 }  // namespace
 
-double PlacedCell::radius() const { return radius_of(row.target_volume); }
+double PlacedCell::radius() const { return ball_radius(row.target_volume); }
 
 Result<PlacedCells> place_cells(const Study& study, int threads) {
   PlacedCells out;
@@ -306,7 +304,7 @@ Result<CellRecord> with_body(const PlacedCell& cell, const Model& model, ShapeLi
     return record;
   }
   if (cell.row.body == BodyKind::kSphere) {
-    record.sphere = SphereRecord{cell.center, radius_of(cell.row.target_volume), {}, {}};
+    record.sphere = SphereRecord{cell.center, ball_radius(cell.row.target_volume), {}, {}};
     return record;
   }
   MORULA_TRY_ASSIGN(auto shape, shapes.icosphere(type.shell_nodes));

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/ball.h"
 #include "core/random/philox.h"
 #include "study/initial/part_many.h"
 
@@ -18,7 +19,7 @@ constexpr double kInset = 0.9;   // of the mean radius: so near to the border do
 constexpr int kMostPasses = 400;
 
 double volume_of(const InitialCells& block) {
-  if (block.fill == FillShape::kSphere) return 4.0 / 3.0 * std::numbers::pi * std::pow(block.radius, 3);
+  if (block.fill == FillShape::kSphere) return ball_volume(block.radius);
   return block.size.x * block.size.y * block.size.z;
 }
 

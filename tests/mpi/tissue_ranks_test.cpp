@@ -155,6 +155,45 @@ TEST(TissueOnRanks, HasTheSameBitsAsOnOne) {
   expect_same(together, single);
 }
 
+/// A ball of so many spheres that what they do in common is found, and does not shorten their steps (common_way.h).
+TEST(TissueOnRanks, SwellsWithTheSameBitsAsOnOne) {
+  const Comm world(MPI_COMM_WORLD), alone(MPI_COMM_SELF);
+  Model model = hybrid_model();
+  model.swaps.regions.clear();
+  model.fields.clear();
+  model.step.max_step = 120.0;
+  const auto swollen = [&](const Comm& comm) -> Everything {
+    if (!is_asked(comm)) return {};
+    std::vector<CellRecord> cells;
+    std::uint64_t number = 0;
+    for (int i = 0; i < 2197; ++i) {
+      const Vec3d row{i % 13 - 6.0, i / 13 % 13 - 6.0, i / 169 - 6.0}, center = row * 9.0 + Vec3d{0.1, -0.2, 0.3};
+      if (norm2(row) > 42.0) continue;
+      const CellId id = CellId::founder(++number);
+      if (static_cast<int>(number % static_cast<std::uint64_t>(comm.size())) != comm.rank()) continue;
+      CellRecord& cell = cells.emplace_back();
+      cell.row = make_founder(id, 0, model.types[0], model.seed, 0.0, true);
+      cell.row.order = curve_place(center);
+      cell.sphere = SphereRecord{center, 6.0, {}, {}};
+    }
+    Tissue tissue;
+    put_together(tissue, std::move(cells));
+    auto created = Simulation::create(model, std::move(tissue), comm, 1);
+    EXPECT_TRUE(created.ok());
+    bool beyond = false;
+    for (int k = 0; k < 12; ++k) {
+      const auto done = (*created)->step(1e6);
+      EXPECT_TRUE(done.ok());
+      beyond = beyond || (done.ok() && done->mechanics.way < 0.8 * 2.0 * done->mechanics.displacement);
+    }
+    EXPECT_TRUE(beyond);
+    return everything(**created);
+  };
+  const Everything together = swollen(world), single = swollen(alone);
+  EXPECT_GT(together.size(), 1000u);
+  expect_same(together, single);
+}
+
 /// Parts of a tissue may have no cell on some of the ranks that look at them: these take part all the same.
 TEST(TissueOnRanks, FindsTheForcesOnSomeWhereARankHasNobody) {
   const Comm world(MPI_COMM_WORLD);

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include "core/ball.h"
 #include "scenarios/criteria/judge.h"
 #include "scenarios/library/library.h"
 #include "scenarios/measures/shape_measures.h"
@@ -135,7 +136,7 @@ Shape shape_of(Simulation& simulation, bool doublet) {
         fit_cap({tissue.shells.nodes(s), tissue.shells.topology(s).faces(), &cell}, point, axis * (s == 0 && doublet ? -1.0 : 1.0));
     if (!cap) return {};
     out.angle += cap->angle * 180.0 / std::numbers::pi / static_cast<double>(center.size());
-    out.contact_radius += cap->contact_radius / radius_of_volume(values.volume[s]) / static_cast<double>(center.size());
+    out.contact_radius += cap->contact_radius / ball_radius(values.volume[s]) / static_cast<double>(center.size());
   }
   return out;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/ball.h"
 #include "core/contact/contact_layer.h"
 #include "scenarios/measures/shape_measures.h"
 #include "scenarios/measures/single_cell.h"
@@ -67,7 +68,7 @@ Found measured(const Snapshot& now, std::size_t type, const theory::Cap& expecte
   for (const ShellView& cell : cells) {
     const auto cap = fit_cap(cell, middle, axis * (&cell == &cells[0] ? -1.0 : 1.0));
     if (!cap) return {};
-    const double r0 = radius_of_volume(cell.cell->volume), a = expected.contact_radius * r0;
+    const double r0 = ball_radius(cell.cell->volume), a = expected.contact_radius * r0;
     out.angle += 0.5 * cap->angle * 180.0 / std::numbers::pi;
     out.contact_radius += 0.5 * cap->contact_radius / r0;
     out.area += 0.5 * cell.cell->contact_area / (std::numbers::pi * a * a);

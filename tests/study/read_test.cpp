@@ -165,6 +165,17 @@ TEST(StudyReader, AreaTurnoverAndViscosityAreOffUnlessGiven) {
   EXPECT_DOUBLE_EQ(q.bulk_viscosity, 0.1);
 }
 
+TEST(StudyReader, MakesShorterStepsWhereACellCanBeAShell) {
+  const auto longest = [](const char* type, const char* rest) {
+    return good("schema: 1\nstudy: s\ntime: {end: 1 h}\ndomain: {size: [100 um, 100 um, 100 um]}\ncell_types: {a: " + std::string(type) +
+                "}\ninitial: [{type: a, at: [[0 um, 0 um, 0 um]]}]\n" + rest)
+        .model.step.max_step;
+  };
+  EXPECT_DOUBLE_EQ(longest("{}", ""), 120.0);
+  EXPECT_DOUBLE_EQ(longest("{body: shell}", ""), 60.0);
+  EXPECT_DOUBLE_EQ(longest("{}", "coupling: {triggers: [{promote: pressure > 1 kPa, demote: pressure < 0.5 kPa}]}\n"), 60.0);
+}
+
 TEST(StudyReader, DefaultsAreTheModelsDefaults) {
   const Study s = good(
       "schema: 1\nstudy: s\ntime: 1 h\ndomain: {size: [100 um, 100 um, 100 um]}\ncell_types: {a: {}}\ninitial: [{type: a, at: [[0 um, 0 "
@@ -182,7 +193,7 @@ TEST(StudyReader, DefaultsAreTheModelsDefaults) {
   EXPECT_DOUBLE_EQ(t.medium_friction, d.medium_friction);
   EXPECT_DOUBLE_EQ(t.sphere.young, 3.0 * d.shell.bulk_modulus * (1.0 - 2.0 * t.sphere.poisson)) << "one material (decision 0027)";
   const StepControl step;
-  EXPECT_DOUBLE_EQ(s.model.step.max_step, step.max_step);
+  EXPECT_DOUBLE_EQ(s.model.step.max_step, 2.0 * step.max_step) << "no cell can be a shell (decision 0063)";
   EXPECT_DOUBLE_EQ(s.model.step.max_displacement, step.max_displacement);
   EXPECT_EQ(s.model.step.max_newton, step.max_newton);
   EXPECT_DOUBLE_EQ(s.model.step.newton_stop, step.newton_stop);
