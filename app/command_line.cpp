@@ -73,6 +73,10 @@ void add_running_verbs(CLI::App& program, Parsed& p) {
   verb->add_option("STUDY", p.run.study, "Study file")->required();
   verb->add_option("KEY=VALUE", p.run.overrides, "Values that replace those of the study, by the path of the key");
   verb->add_option("--out", p.run.out, "Run folder; it must not exist (default: runs/STUDY-NNNN)")->type_name("DIR");
+  verb->add_option("--promote", p.run.promote, "A cell that is a shell from the start on, by its id; may stand several times")
+      ->type_name("ID")
+      ->allow_extra_args(false);
+  verb->add_option("--demote", p.run.demote, "A cell that is a sphere from the start on")->type_name("ID")->allow_extra_args(false);
   verb->add_option("--seed", p.run.seed, "Seed of all random numbers, instead of the study's")->type_name("N");
   verb->add_flag("--dry-run", p.run.dry_run, "Check, place the cells at time 0, and say what would be done; nothing is written");
   add_limits(*verb, p.run.limits);

@@ -34,6 +34,7 @@ struct RunOptions {
   std::vector<std::string> overrides;  ///< key.path=value
   std::string out;                     ///< run folder; empty: runs/<study>-NNNN
   std::optional<std::uint32_t> seed;
+  std::vector<std::string> promote, demote;  ///< ids of cells
   bool dry_run = false;
   RunLimits limits;
 };

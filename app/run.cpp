@@ -7,11 +7,25 @@
 #include "results/file_io.h"
 
 namespace morula::app {
+namespace {
+
+/// Cells that are named on the command line are a region before all others.
+void add_region_of(const std::vector<std::string>& ids, const std::string& name, const std::string& body,
+                   std::vector<std::string>& overrides) {
+  if (ids.empty()) return;
+  std::string list;
+  for (const std::string& id : ids) list += (list.empty() ? "\"" : ", \"") + id + "\"";
+  overrides.push_back("coupling.regions.+={name: " + name + ", shape: cells, ids: [" + list + "], as: " + body + "}");
+}
+
+}  // namespace
 
 Status run(const RunOptions& options, const Context& context) {
   outlive_closed_pipes();
   std::vector<std::string> overrides = options.overrides;
   if (options.seed) overrides.push_back("seed=" + std::to_string(*options.seed));
+  add_region_of(options.demote, "demoted", "sphere", overrides);
+  add_region_of(options.promote, "promoted", "shell", overrides);
   auto study = read_study_and_tell(options.study, overrides, false, context);
   MORULA_TRY(agree_on(study, options.study, context));
   scenarios::RunRequest request;

@@ -24,6 +24,7 @@ struct OwnKey {
     kMark,        ///< name of a mark of faces: its bit
     kObstacle,    ///< name of an obstacle: its number
     kCells,       ///< name of a region of bodies declared before, a cell type or an obstacle
+    kCellIds,     ///< id of a cell, or a list of ids: OwnValues::ids()
     kCourse,      ///< list of points over time: a TimeCourse. `spec.quantity` is that of the values, kNumber: factors
     kGroup,       ///< a section, with `keys`; its name is 1 where it stands in the study, and its keys are `group.key`
   } kind = Kind::kQuantity;

@@ -6,7 +6,6 @@
 #include <set>
 #include <tuple>
 
-#include "cbm/division_ramp.h"
 #include "cbm/laws/sphere_caps.h"
 #include "core/ball.h"
 #include "core/parallel/pack.h"
@@ -39,13 +38,11 @@ struct CellBall {
   CellId id;
   Vec3d center;
   double radius = 0.0;
-  bool is_young = false;  ///< it has not parted from its sister yet
 };
 
 CellBall ball_of(const Tissue& part, const BodyOfRow& body) {
   const CellRow& row = part.cells.rows[body.row];
-  return {row.id, record_of(part, body).center(), body.is_shell ? ball_radius(row.target_volume) : part.spheres.radius[body.number],
-          !cbm::sisters_have_parted(row.birth_time, part.clock.time)};
+  return {row.id, record_of(part, body).center(), body.is_shell ? ball_radius(row.target_volume) : part.spheres.radius[body.number]};
 }
 
 /// Who is a shell in a part when these have exchanged their bodies, by id. Collective.
@@ -58,11 +55,11 @@ std::vector<CellBall> shells_to_be(const Tissue& part, std::span<const CellId> e
   return out;
 }
 
-/// What a ball loses behind the planes in which it meets the others [µm³]. Sisters that have not parted lie within each other as balls: that is no contact.
+/// What a ball loses behind the planes in which it meets the others [µm³]. Daughters exchange when they have parted (swaps.cpp).
 double caps_with(std::span<const CellBall> others, const CellBall& ball, const Space& space) {
   double out = 0.0;
   for (const CellBall& other : others) {
-    if (other.id == ball.id || (ball.is_young && cbm::are_sisters(ball.id, other.id))) continue;
+    if (other.id == ball.id) continue;
     const double distance = norm(space.nearest_image(other.center - ball.center));
     if (distance < ball.radius + other.radius) out += cbm::sphere_caps(ball.radius, other.radius, distance).volume_a;
   }

@@ -1,7 +1,11 @@
 #pragma once
 #include <map>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "core/cell_id.h"
 #include "core/law_values.h"
 #include "core/numbers/time_course.h"
 #include "core/vec3.h"
@@ -15,6 +19,7 @@ class OwnValues : public LawValues {
   void set_vector(const std::string& name, const Vec3d& value) { vectors_[name] = value; }
   void set_name(const std::string& key, std::string name) { names_[key] = std::move(name); }
   void set_course(const std::string& name, TimeCourse value) { courses_[name] = std::move(value); }
+  void set_ids(const std::string& name, std::vector<CellId> value) { ids_[name] = std::move(value); }
 
   /// 0 where it is not given.
   [[nodiscard]] Vec3d vector(const std::string& name) const {
@@ -25,6 +30,11 @@ class OwnValues : public LawValues {
   [[nodiscard]] TimeCourse course(const std::string& name) const {
     const auto at = courses_.find(name);
     return at != courses_.end() ? at->second : TimeCourse{};
+  }
+  /// Empty where none is given.
+  [[nodiscard]] std::span<const CellId> ids(const std::string& name) const {
+    const auto at = ids_.find(name);
+    return at != ids_.end() ? std::span(at->second) : std::span<const CellId>();
   }
   /// Of a field or a mark, as the study has it, for messages; empty where none is given.
   [[nodiscard]] std::string name(const std::string& key) const {
@@ -40,6 +50,7 @@ class OwnValues : public LawValues {
   std::map<std::string, Vec3d> vectors_;
   std::map<std::string, std::string> names_;
   std::map<std::string, TimeCourse> courses_;
+  std::map<std::string, std::vector<CellId>> ids_;
 };
 
 }  // namespace morula

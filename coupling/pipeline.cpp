@@ -75,6 +75,10 @@ double fastest_cell(const Tissue& tissue, const Comm& comm, int threads) {
 }  // namespace
 
 Result<StepOutcome> Simulation::step(double land_on, const std::function<bool()>& give_up) {
+  if (!(land_on > tissue_.clock.time))
+    return Error{ErrorKind::kInput,
+                 "a step cannot end at " + std::to_string(land_on) + " s: it is " + std::to_string(tissue_.clock.time) + " s already",
+                 "a later time"};
   const StepPlan plan = plan_step(land_on);
   if (!give_up || plan.due_fields.empty()) return whole_step(plan, {});
   Tissue before = tissue_;  // small beside the workspaces of a step

@@ -31,7 +31,7 @@ class Simulation {
   /// Takes the tissue over: distributes it over the ranks and makes the workspaces. Errors: an obstacle that is no closed surface.
   static Result<std::unique_ptr<Simulation>> create(Model model, Tissue tissue, const Comm& comm, int threads);
 
-  /// One step, not beyond `land_on` [s]; lands there exactly when it is near. kPhysics when no step size works: the message names cell, law
+  /// One step, not beyond `land_on` [s], which is yet to come (else kInput); lands there exactly when it is near. kPhysics when no step size works: the message names cell, law
   /// and time; the tissue is that before the step. A step may be broken off between two steps of the integration of a field, which can take
   /// long: `give_up` is asked there, by all ranks together, and true is kStoppedEarly with the tissue as it was before the step. Collective.
   Result<StepOutcome> step(double land_on, const std::function<bool()>& give_up = {});

@@ -41,6 +41,7 @@ Standing standing(const Swaps& swaps, std::size_t number, const CellRow& row, st
                   std::span<const std::vector<std::uint32_t>> contacts) {
   const Region& region = swaps.regions[number];
   const bool stays = row.body == region.body;
+  if (region.shape->holds != nullptr) return {region.shape->holds(region, row) ? -1.0 : kNever, 0.0};
   if (!region.shape->counts_contacts) return {region.shape->distance(region, from), stays ? region.margin : 0.0};
   const bool known = number < contacts.size() && !contacts[number].empty();
   return {known ? contacts[number][i] - region.values("cells") : kNever, stays ? 1.0 : 0.0};

@@ -164,10 +164,12 @@ void check_center(BuildContext& c, draft::Region& r, const RegionShape& shape) {
     r.center.text.clear();
     r.follow_tissue.text.clear();
   }
-  if (shape.counts_contacts) {
+  if (shape.counts_contacts || shape.holds != nullptr) {
     if (r.margin.given)
       c.diagnostics.error(515, r.margin.place, "'margin' has no effect here",
-                          "leave it away: a cell leaves a region of shape '" + shape.info.name + "' one contact beyond its last");
+                          "leave it away: a cell " + (shape.counts_contacts
+                                                          ? "leaves a region of shape '" + shape.info.name + "' one contact beyond its last"
+                                                          : std::string("that is named is in the region wherever it is")));
     r.margin.text.clear();
   }
   if (r.follow.given && r.follow_tissue.value)

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cbm/sphere_range.h"
+#include "core/cell_id_text.h"
 #include "study/build.h"
 #include "study/read_section.h"
 
@@ -45,6 +46,20 @@ void check_mesh_of_divisions(BuildContext& c) {
                               " of the radius: many cuts of such a shell of '" + name + "' leave no good mesh, and it waits",
                           "`nodes: 162`, whose edges are 0.3 of it, or `cycle: {shells: wait}`");
   }
+}
+
+/// E406 for named cells whose founder the study has not.
+void check_named_cells(BuildContext& c) {
+  std::uint64_t founders = 0;
+  for (const InitialCells& block : c.study.initial) founders += block.count;
+  for (const auto& region : c.draft.coupling.regions)
+    for (const auto& [key, ids] : region.content.own.lists)
+      for (const std::string& text : ids.value)
+        if (const auto id = cell_id_of(text); id && id->founder_number() > founders && founders > 0)
+          c.diagnostics.error(
+              406, ids.place,
+              "there is no cell " + text + " and will be none: the study begins with " + std::to_string(founders) + " cells",
+              "founders have the numbers 1 to " + std::to_string(founders));
 }
 
 bool may_be_sphere(const BuildContext& c, std::size_t type) {
@@ -101,6 +116,7 @@ void check_jkr_range(BuildContext& c) {
 }  // namespace
 
 void check_bodies(BuildContext& c) {
+  check_named_cells(c);
   if (c.diagnostics.has_errors()) return;  // what a wrong study would be like is not worth a warning
   check_division_of_shells(c);
   check_mesh_of_divisions(c);

@@ -107,7 +107,8 @@ void declare_numerics(Section& s, draft::Numerics& n) {
              n.step, &StepControl::later_tolerance);
   s.quantity({.name = "max_displacement",
               .doc = "Allowed displacement of a cell in one step, in units of the contact range. Single points of a shell may go three "
-                     "times as far, up to the range.",
+                     "times as far, up to the range, and single spheres twice as far as points. What a thousand spheres and more do in "
+                     "common, in open space and without obstacles, does not count.",
               .fallback = "0.3",
               .low = 0.0,
               .high = 2.0,

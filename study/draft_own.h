@@ -15,6 +15,7 @@ struct OwnSection {
   std::map<std::string, Given<std::string>> texts;
   std::map<std::string, Given<bool>> flags;
   std::map<std::string, Given<Vec3d>> vectors;
+  std::map<std::string, Given<std::vector<std::string>>> lists;
   std::map<std::string, std::vector<Named<CoursePoint>>> courses;
   std::map<std::string, bool> groups;
 };

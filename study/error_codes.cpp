@@ -25,6 +25,8 @@ constexpr ErrorCode kCodes[] = {
     {112, "not a name",
      "Names begin with a letter and hold letters, digits, `_` and `-`, at most 64 characters; a name stands for one thing only."},
     {113, "comparison cannot be read", "A trigger is written `pressure > 1 kPa` or `oxygen < 0.05 mM`."},
+    {114, "not the id of a cell",
+     "Cells are named as events and results name them: `17` for a founder, `17.01` for the second daughter of its first daughter."},
     {201, "unit missing", "Every number with a dimension carries its unit: a bare 5 could be micrometres or metres."},
     {202, "unit not known",
      "The unit is not in the units database (udunits2). Prefixes and products are written `kPa`, `N s/m^3`, `amol/s`."},
@@ -40,6 +42,7 @@ constexpr ErrorCode kCodes[] = {
     {403, "no such observable or library study", "The name is not known to this program."},
     {404, "too many of something", "The study declares more cell types, fields or cells than the program can hold."},
     {405, "no such phase", "A trigger names a phase of the cycle of some type, or G0 where a type has quiescence."},
+    {406, "no such cell", "Founders are numbered from 1 in the order of `initial`, and there are not so many."},
     {410, "no such measure",
      "`measure`, `x` and `y` name a measure that the program has, or a column of series.csv that this study's runs have. `morula explain "
      "measures` lists the measures."},

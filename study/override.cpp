@@ -38,6 +38,7 @@ class Walk {
   /// One part of the path further, which ends at byte `end`; `value` is that of the whole override where this is its last part.
   bool step(const std::string& part, std::size_t begin, std::size_t end, const Node* value) {
     const Place here = place_at(whole_, begin, end - begin);
+    if (part == "+" && declared_ && declared_->kind == Declaration::Kind::kList) return open_new_item(here, end);
     open_bare_value();
     if (at_->kind == Node::Kind::kList) {
       std::size_t index = 0;
@@ -63,6 +64,16 @@ class Walk {
   [[nodiscard]] Node& at() { return *at_; }
 
  private:
+  /// A new item before the first of a list.
+  bool open_new_item(const Place& here, std::size_t end) {
+    if (at_->kind == Node::Kind::kNull) at_->kind = Node::Kind::kList;
+    if (at_->kind != Node::Kind::kList) return no_place(here, end);
+    Node fresh;
+    fresh.place = here;
+    at_ = &*at_->items.insert(at_->items.begin(), std::move(fresh));
+    return true;
+  }
+
   void open_bare_value() {
     if (at_->kind == Node::Kind::kNull) at_->kind = Node::Kind::kMap;
     const bool bare = at_->kind == Node::Kind::kScalar || at_->kind == Node::Kind::kList;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/cell_id_text.h"
 #include "study/declare.h"
 
 namespace morula::scenarios {
@@ -33,6 +34,8 @@ void declare_key(Section& s, const OwnKey& key, const std::string& name, draft::
     case Kind::kObstacle:
     case Kind::kCells:
       return s.text(spec, own.texts[name]);
+    case Kind::kCellIds:
+      return s.one_or_more(spec, own.lists[name]);
     case Kind::kCourse:
       return s.list(spec, own.courses[name], spec.quantity == Quantity::kLength ? &declare_distance_point : &declare_course_point);
     case Kind::kGroup:
@@ -55,7 +58,7 @@ Where find(const draft::OwnSection& own, const std::string& name) {
     const auto at = map.find(name);
     return at != map.end() ? Where{at->second.given, &at->second.place, &at->second.text} : Where{};
   };
-  for (const Where& where : {in(own.numbers), in(own.texts), in(own.flags), in(own.vectors)})
+  for (const Where& where : {in(own.numbers), in(own.texts), in(own.flags), in(own.vectors), in(own.lists)})
     if (where.place != nullptr) return where;
   return {};
 }
@@ -130,6 +133,8 @@ class ReadValues {
         return named(name, &find_obstacle);
       case Kind::kCells:
         return named(name, &find_cells);
+      case Kind::kCellIds:
+        return ids(name);
       case Kind::kCourse:
         return course(name);
       case Kind::kGroup:
@@ -180,6 +185,21 @@ class ReadValues {
     sound_ = sound_ && number >= 0;
     out_.set(name, number);
     out_.set_name(name, given->value);
+  }
+  void ids(const std::string& name) {
+    const auto* given = entry(own_.lists, name);
+    if (given == nullptr || !is_known(*given)) return;
+    std::vector<CellId> found;
+    for (const std::string& text : given->value) {
+      if (const auto id = cell_id_of(text)) {
+        found.push_back(*id);
+        continue;
+      }
+      c_.diagnostics.error(114, given->place, "'" + text + "' is not the id of a cell",
+                           "for example 17, or \"17.01\" for the second daughter of its first daughter");
+      sound_ = false;
+    }
+    out_.set_ids(name, std::move(found));
   }
   void course(const std::string& name) {
     const auto* points = entry(own_.courses, name);

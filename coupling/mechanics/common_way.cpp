@@ -20,8 +20,7 @@ Sums::Terms terms_of(const Vec3d& x, const Vec3d& u) {
 
 Sums sums_up_to(double place, double way) {
   Sums::Terms most;
-  for (std::size_t k = 0; k < most.size(); ++k)
-    most[k] = k < 3 ? place : k < 6 ? way : k < 12 ? place * place : place * way;
+  for (std::size_t k = 0; k < most.size(); ++k) most[k] = k < 3 ? place : k < 6 ? way : k < 12 ? place * place : place * way;
   return Sums(most);
 }
 

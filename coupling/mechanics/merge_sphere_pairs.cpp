@@ -34,9 +34,7 @@ struct Merge {
     pair.b = number.now[pair.b] & 0x7FFFFFFFu;
     return pair;
   }
-  [[nodiscard]] SpherePair pair_of(const SphereNeighbours& n) const {
-    return {n.a - first_sphere, (n.b - first_sphere) & 0x7FFFFFFFu, 0};
-  }
+  [[nodiscard]] SpherePair pair_of(const SphereNeighbours& n) const { return {n.a - first_sphere, (n.b - first_sphere) & 0x7FFFFFFFu, 0}; }
   [[nodiscard]] bool before(const SpherePair& p, const SpherePair& q) const {
     const auto a = spheres[p.a].place, b = spheres[q.a].place;
     return a != b ? a < b : spheres[p.b].place < spheres[q.b].place;
@@ -104,9 +102,7 @@ MergedPairs merge_sphere_pairs(std::span<const SpherePair> old, const SphereRenu
     last_found[t] = stretches[t + 1].found;
   }
   out.pairs.resize(kept_before.back() + stretches.back().kept + found.size());
-  on_each_thread(threads, [&](std::size_t t) {
-    merge.write(stretches[t], kept_before[t] + stretches[t].found, last_found[t], out);
-  });
+  on_each_thread(threads, [&](std::size_t t) { merge.write(stretches[t], kept_before[t] + stretches[t].found, last_found[t], out); });
   for (const Stretch& s : stretches) {
     out.dropped.insert(out.dropped.end(), s.dropped.begin(), s.dropped.end());
     out.of_fresh.insert(out.of_fresh.end(), s.of_fresh.begin(), s.of_fresh.end());

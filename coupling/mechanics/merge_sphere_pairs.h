@@ -18,10 +18,10 @@ struct SphereRenumbering {
 
 /// A list of pairs after some spheres have come or gone.
 struct MergedPairs {
-  std::vector<SpherePair> pairs;                ///< those that stay and those that were found, in canonical order
-  std::vector<std::uint32_t> dropped;           ///< old pairs that do not stay, increasing
-  std::vector<std::uint32_t> of_fresh;          ///< new pairs of which one sphere is fresh, increasing
-  std::vector<std::uint32_t> watched;           ///< where the watched old pairs are now, or kGone
+  std::vector<SpherePair> pairs;        ///< those that stay and those that were found, in canonical order
+  std::vector<std::uint32_t> dropped;   ///< old pairs that do not stay, increasing
+  std::vector<std::uint32_t> of_fresh;  ///< new pairs of which one sphere is fresh, increasing
+  std::vector<std::uint32_t> watched;   ///< where the watched old pairs are now, or kGone
   static constexpr std::uint32_t kGone = ~0u;
 };
 

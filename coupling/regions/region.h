@@ -15,6 +15,7 @@ namespace morula {
 
 class CellView;
 class TriangleTree;
+struct CellRow;
 struct Model;
 struct Region;
 struct Trigger;
@@ -33,6 +34,8 @@ struct RegionShape {
   /// Counted in contacts, not measured in space: cells that are at most so many contacts away (OwnValues `cells`) from those that the region begins
   /// with (`of`: a region before it, a type, an obstacle). contacts_from_regions() finds how many.
   bool counts_contacts = false;
+  /// Whether a cell is in it wherever it is: of shapes that name cells; distance() is not asked then.
+  bool (*holds)(const Region& region, const CellRow& row) = nullptr;
   /// Distance outside of a point that is `from` away from the centre; negative inside [µm]. Where it is more than the region's margin it may be less than
   /// what it is, if not less than the margin.
   double (*distance)(const Region& region, const Vec3d& from) = nullptr;
@@ -49,6 +52,7 @@ std::shared_ptr<const RegionShape> half_space_region();
 std::shared_ptr<const RegionShape> everything_region();
 std::shared_ptr<const RegionShape> around_region();
 std::shared_ptr<const RegionShape> neighbours_region();
+std::shared_ptr<const RegionShape> chosen_cells_region();
 
 /// Where cells are to be shells.
 struct Region {

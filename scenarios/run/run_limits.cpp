@@ -52,6 +52,7 @@ Status RunLoop::check_limits(const Measures& m) {
   }
   MORULA_TRY(check_packing(m));
   tell_contacts_beyond(m);
+  tell_shells_beyond_budget(m);
   for (std::size_t f = 0; f < study_.model.fields.size(); ++f) {
     const std::string balance = "balance of " + study_.model.fields[f].name + " off by " + number_text("%.2g", m.field_balance[f]) +
                                 " (limit " + number_text("%.2g)", limits.field_balance);
@@ -71,6 +72,16 @@ void RunLoop::tell_contacts_beyond(const Measures& m) {
            " contacts of spheres are outside the range of their law (`contacts_beyond_range` in series.csv): the overlaps it "
            "was fitted to, or else a contact radius of 0.45 R");
   warned_ |= kBeyondRange;
+}
+
+/// The budget of shells holds for spheres that are to become shells; what a study costs beyond it its user should know.
+void RunLoop::tell_shells_beyond_budget(const Measures& m) {
+  const std::uint64_t most = study_.model.swaps.max_shells;
+  if ((warned_ & kMoreShells) != 0 || static_cast<std::uint64_t>(m.shells) <= most) return;
+  const bool founders = m.time == 0.0;
+  note(Note::Kind::kNote, std::to_string(m.shells) + " cells are shells, more than `coupling.max_shells` (" + std::to_string(most) +
+                              "): " + (founders ? "cells that begin as shells" : "daughters of shells") + " are shells whatever it says");
+  warned_ |= kMoreShells;
 }
 
 /// The pressure of packing holds within the range it was calibrated in (cbm.md §3).

@@ -57,13 +57,14 @@ class RunLoop {
   Status check_packing(const Measures& measures);
   [[nodiscard]] Status check_capped_start() const;
   void tell_contacts_beyond(const Measures& measures);
+  void tell_shells_beyond_budget(const Measures& measures);
   /// A warning of the run itself: for people, and into events.jsonl.
   void warn(const std::string& text);
   /// Events of a step, to be written by the root at the next output.
   void keep_events(std::span<const Event> events);
   Status write_events();
   /// Things of which a run warns once; the bits of CheckpointInfo::warned.
-  enum Warned : std::uint32_t { kPacking = 1, kVolume = 2, kOverlap = 4, kBalance = 8, kBeyondRange = 16 };
+  enum Warned : std::uint32_t { kPacking = 1, kVolume = 2, kOverlap = 4, kBalance = 8, kBeyondRange = 16, kMoreShells = 32 };
   void warn_near_limit(Warned what, const std::string& text);
   /// Writes into results.h5; where its content is in the way, once more into a new one. Collective.
   Status write_results(const std::function<Status()>& write);

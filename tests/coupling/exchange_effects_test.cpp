@@ -123,25 +123,6 @@ TEST(ExchangeEffects, OfACellBesideShellsAreTheCapsWithTheBallsThatTheseWouldBe)
   EXPECT_NEAR(caps_among_shells(1, {2, 5})[0], 2.0 * cap, 1e-6 * cap);
 }
 
-TEST(ExchangeEffects, OfASisterThatHasNotPartedAreNoCaps) {
-  const Model model = clusters_model();
-  ShapeLibrary shapes;
-  Tissue tissue = make_tissue(model, shapes, {{0, 0, 0}, {8, 0, 0}}, {BodyKind::kSphere, BodyKind::kShell});
-  std::vector<CellRecord> cells = take_apart(tissue);
-  for (std::size_t k = 0; k < 2; ++k) cells[k].row.id = CellId::founder(1).daughter(static_cast<int>(k));
-  put_together(tissue, std::move(cells));
-  Mechanics mechanics(model, contact_obstacles(model).value(), shapes, Comm(), 1);
-  const CellId sphere = CellId::founder(1).daughter(0);
-  const auto caps_at_age = [&](double age) {
-    for (CellRow& row : tissue.cells.rows) row.birth_time = tissue.clock.time - age;
-    const std::vector<SwapOrder> orders = {{rows_of(tissue.cells, std::vector{sphere})[0], BodyKind::kShell, {}}};
-    return watch_exchanges(model, tissue, orders, mechanics, shapes, Comm()).caps_among_shells_of(sphere);
-  };
-  const double h = kRadius - 4.0;
-  EXPECT_EQ(caps_at_age(60.0), 0.0);
-  EXPECT_NEAR(caps_at_age(3600.0), std::numbers::pi * h * h * (3.0 * kRadius - h) / 3.0, 1e-3);
-}
-
 TEST(ExchangeEffects, AmongSpheresAreThoseOfTheWholeTissue) { expect_effects_of_the_whole_tissue(clusters_model(), 0); }
 
 TEST(ExchangeEffects, AmongShellsAndSpheresAreThoseOfTheWholeTissue) { expect_effects_of_the_whole_tissue(clusters_model(), 3); }

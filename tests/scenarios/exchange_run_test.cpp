@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 #include <optional>
+#include <string>
 
 #include "core/mesh/topology.h"
 #include "coupling/overlap.h"
@@ -232,6 +235,31 @@ TEST(ExchangeRun, DoesNotMakeSpheresThatTheirLawDoesNotKnow) {
       "pressure: 5 Pa}]}}\n";
   EXPECT_EQ(shells_and_demotions(packing).first, 13.0);
   EXPECT_EQ(shells_and_demotions(packing, "0 s").first, 13.0);  // asked at every step
+}
+
+/// Shells divide, and their daughters are shells: more than the budget has. The log says so once.
+TEST(ExchangeRun, TellsThatShellsAreMoreThanTheirBudget) {
+  const auto study = test::read(R"(
+schema: 1
+study: budget
+time: {end: 30 min, output: 10 min}
+domain: {size: [200 um, 200 um, 200 um], boundary: open}
+cell_types:
+  a: {body: shell, cycle: {duration: {mean: 20 min, spread: 0 %}}, dcm: {nodes: 42}}
+initial:
+  - {type: a, at: [[0 um, 0 um, 0 um]]}
+coupling: {max_shells: 1}
+)");
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  const test::Folder folder;
+  const std::filesystem::path out = folder.path();
+  ASSERT_TRUE(test::run_into(out / "run", *study));
+  std::ifstream log(out / "run" / "log.txt");
+  const std::string text{std::istreambuf_iterator<char>(log), {}};
+  const std::string note = "2 cells are shells, more than `coupling.max_shells` (1): daughters of shells are shells whatever it says";
+  const auto at = text.find(note);
+  ASSERT_NE(at, std::string::npos) << text;
+  EXPECT_EQ(text.find("coupling.max_shells", at + note.size()), std::string::npos);
 }
 
 }  // namespace

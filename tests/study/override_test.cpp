@@ -44,6 +44,22 @@ TEST(Override, NeverMakesANewThingByATypingError) {
   EXPECT_THAT(errors_of(kGoodStudy, with("tiem.end=2 h")), AllOf(HasSubstr("[E101]"), HasSubstr("did you mean `time`?")));
 }
 
+TEST(Override, PutsAnItemBeforeTheFirstOfAList) {
+  const auto study = read(kGoodStudy, with("coupling.regions.+={name: mine, shape: cells, ids: [2, \"1.0\"]}"));
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  ASSERT_EQ(study->model.swaps.regions.size(), 2u);
+  EXPECT_EQ(study->model.swaps.regions[0].name, "mine");
+  EXPECT_EQ(study->model.swaps.regions[1].name, "core");
+  const std::string bare =
+      "schema: 1\nstudy: s\ntime: {end: 1 h}\ndomain: {size: [100 um, 100 um, 100 um]}\ncell_types: {a: {}}\n"
+      "initial: [{type: a, at: [[0 um, 0 um, 0 um]]}]\n";
+  const auto first = read(bare, with("coupling.regions.+={name: mine, shape: cells, ids: 1}"));
+  ASSERT_TRUE(first.ok()) << first.error().text();
+  EXPECT_EQ(first->model.swaps.regions.size(), 1u);
+  EXPECT_THAT(errors_of(kGoodStudy, with("cell_types.+={radius: 7 um}")), HasSubstr("'+' cannot be a name [E112]"));
+  EXPECT_THAT(errors_of(kGoodStudy, with("coupling.hold.+=3")), HasSubstr("[E104]"));
+}
+
 TEST(Override, AddsAThingThatIsGivenWhole) {
   const auto study = read(kGoodStudy, with("fields.drug={diffusion: 1e-10 m^2/s, initial: 1 uM, boundary: 1 uM}"));
   ASSERT_TRUE(study.ok()) << study.error().text();

@@ -74,7 +74,7 @@ TEST(Registry, EveryEntryTellsOfItself) {
   for (const auto& one : laws->region_shapes) {
     expect_told(one->info, names);
     expect_keys(*one, "regions");
-    EXPECT_NE(one->distance != nullptr, one->counts_contacts) << one->info.name;
+    EXPECT_EQ((one->distance != nullptr) + one->counts_contacts + (one->holds != nullptr), 1) << one->info.name;
   }
   for (const auto& one : laws->reactions) {
     const bool of_cells = one->where == fields::Reaction::Where::kCells;
@@ -282,7 +282,13 @@ TEST(Registry, EveryShapeIsReadAsItsExamplesSay) {
     ASSERT_TRUE(study.ok()) << one->info.name << "\n" << study.error().text();
     const Region& region = study->model.swaps.regions.at(0);
     EXPECT_EQ(region.shape, one);
-    if (!one->counts_contacts) {
+    if (one->holds != nullptr) {
+      CellRow row;
+      row.id = CellId::founder(1);
+      EXPECT_TRUE(one->holds(region, row)) << one->info.name;
+      row.id = CellId::founder(2);
+      EXPECT_FALSE(one->holds(region, row)) << one->info.name;
+    } else if (!one->counts_contacts) {
       EXPECT_LE(region.shape->distance(region, {0.0, 0.0, 0.0}), 0.0) << one->info.name;
     }
     if (!one->keys.empty())

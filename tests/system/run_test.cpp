@@ -136,6 +136,26 @@ TEST(Run, OverridesAndFlagsReachTheRun) {
   EXPECT_THAT(read_text(folder / "short/study.resolved.yaml"), HasSubstr("count: 5"));
 }
 
+TEST(Run, CellsThatAreNamedOnTheCommandLineAreShells) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  const Outcome outcome =
+      run_morula({"run", "study.yaml", "--promote", "2", "--promote", "5", "--until", "10 min", "--out", "run"}, folder.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.all();
+  const std::string events = read_text(folder / "run/events.jsonl");
+  std::size_t promotions = 0;
+  for (std::size_t at = 0; (at = events.find("\"promotion\"", at)) != std::string::npos; ++at) ++promotions;
+  EXPECT_EQ(promotions, 2u) << events;
+  EXPECT_THAT(events, HasSubstr("promoted"));
+  EXPECT_THAT(read_text(folder / "run/study.resolved.yaml"), HasSubstr("shape: cells"));
+  const Outcome wrong = run_morula({"run", "study.yaml", "--promote", "2000"}, folder.path());
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.all(), HasSubstr("there is no cell 2000"));
+  const Outcome no_id = run_morula({"run", "study.yaml", "--demote", "x"}, folder.path());
+  EXPECT_EQ(no_id.exit_code, 2);
+  EXPECT_THAT(no_id.all(), HasSubstr("'x' is not the id of a cell"));
+}
+
 TEST(Run, OtherSeedsGiveOtherTissues) {
   const TestFolder folder;
   folder.write("study.yaml", sphere_study());

@@ -1,0 +1,38 @@
+#include <algorithm>
+
+#include "core/ball.h"
+#include "core/cell_id_text.h"
+#include "coupling/cells.h"
+#include "coupling/model.h"
+
+namespace morula {
+
+std::shared_ptr<const RegionShape> chosen_cells_region() {
+  static const auto shape = std::make_shared<const RegionShape>(RegionShape{
+      .info = {.name = "cells",
+               .title = "Region of cells that are named",
+               .equation = "the cells of these ids, and all that come of them",
+               .source = "choice of this project",
+               .parameters = {}},
+      .keys = {{OwnKey::Kind::kCellIds,
+                {.name = "ids",
+                 .doc = "Of `cells`: which cells, by the ids that events and results have: 17 is a founder (they are numbered from 1 in the "
+                        "order of `initial`), 17.01 the second daughter of its first daughter. Their daughters belong to it, too.",
+                 .required = true,
+                 .example = "[1, \"1.01\"]"}}},
+      .has_center = false,
+      .build =
+          [](const Model& model, Region& region) {
+            double largest = 0.0;
+            for (const CellType& type : model.types) largest = std::max(largest, ball_volume(type.radius.mean));
+            region.room = largest * static_cast<double>(region.values.ids("ids").size());
+          },
+      .holds =
+          [](const Region& region, const CellRow& row) {
+            return std::ranges::any_of(region.values.ids("ids"), [&](CellId id) { return descends_from(row.id, id); });
+          },
+      .volume = [](const Region& region) { return region.room; }});
+  return shape;
+}
+
+}  // namespace morula
