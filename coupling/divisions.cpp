@@ -55,8 +55,9 @@ Daughters divide_as_sphere(const CellRecord& mother, const DaughterRows& rows, c
   Daughters out(2);
   for (int which = 0; which < 2; ++which) {
     const SphereBody& body = which == 0 ? bodies.first : bodies.second;
-    out[which].row = which == 0 ? rows.first : rows.second;
-    out[which].sphere = SphereRecord{body.position, body.radius, mother.sphere->velocity,
+    const auto& row = out[which].row = which == 0 ? rows.first : rows.second;
+    const double grown = std::cbrt(row.target_volume / row.birth_volume);  // she was born within the step
+    out[which].sphere = SphereRecord{body.position, body.radius * grown, mother.sphere->velocity,
                                      cbm::daughter_partners(mother.sphere->attached, (which == 0 ? rows.second : rows.first).id)};
   }
   return out;

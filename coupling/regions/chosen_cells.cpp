@@ -16,8 +16,9 @@ std::shared_ptr<const RegionShape> chosen_cells_region() {
                .parameters = {}},
       .keys = {{OwnKey::Kind::kCellIds,
                 {.name = "ids",
-                 .doc = "Of `cells`: which cells, by the ids that events and results have: 17 is a founder (they are numbered from 1 in the "
-                        "order of `initial`), 17.01 the second daughter of its first daughter. Their daughters belong to it, too.",
+                 .doc =
+                     "Of `cells`: which cells, by the ids that events and results have: 17 is a founder (they are numbered from 1 in the "
+                     "order of `initial`), 17.01 the second daughter of its first daughter. Their daughters belong to it, too.",
                  .required = true,
                  .example = "[1, \"1.01\"]"}}},
       .has_center = false,

@@ -13,8 +13,7 @@ namespace {
 TEST(StepEnd, LiesAfterNow) {
   const Model model = test::clusters_model(0.0);
   ShapeLibrary shapes;
-  auto simulation =
-      Simulation::create(model, test::make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kSphere}), Comm(), 1).value();
+  auto simulation = Simulation::create(model, test::make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kSphere}), Comm(), 1).value();
   while (simulation->tissue().clock.time < 5.0) ASSERT_TRUE(simulation->step(5.0).ok());
   EXPECT_EQ(simulation->tissue().clock.time, 5.0);
   for (const double end : {5.0, 4.0, std::nan("")}) {

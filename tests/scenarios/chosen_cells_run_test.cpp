@@ -28,7 +28,8 @@ coupling:
   regions: REGIONS
 output: {report: false}
 )";
-constexpr const char* kFive = "[0 um, 0 um, 0 um], [7.6 um, 0 um, 0 um], [15.2 um, 0 um, 0 um], [22.8 um, 0 um, 0 um], [30.4 um, 0 um, 0 um]";
+constexpr const char* kFive =
+    "[0 um, 0 um, 0 um], [7.6 um, 0 um, 0 um], [15.2 um, 0 um, 0 um], [22.8 um, 0 um, 0 um], [30.4 um, 0 um, 0 um]";
 
 std::string row(const std::string& regions, const std::string& places = kFive, const std::string& cycle = "{model: none}",
                 const std::string& end = "20 min") {
