@@ -222,9 +222,9 @@ TEST(Resume, FromAnOlderCheckpointMakesANewRunThatEndsInTheSameBits) {
 TEST(Run, ThatCrossesALimitFailsWithExitFour) {
   const TestFolder folder;
   folder.write("study.yaml", hybrid_study());
-  const Outcome outcome = run_morula({"run", "study.yaml", "--out", "run", "limits.volume_error=1e-9"}, folder.path());
+  const Outcome outcome = run_morula({"run", "study.yaml", "--out", "run", "limits.overlap=1e-5 um"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 4) << outcome.all();
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("error: run: volume error"), HasSubstr("cell "), HasSubstr("help: ")));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("error: run: overlap"), HasSubstr("cell "), HasSubstr("help: ")));
   EXPECT_TRUE(fs::exists(folder / "run/FAILED"));
   EXPECT_FALSE(fs::exists(folder / "run/DONE"));
   const json info = info_of(folder / "run");
