@@ -1,8 +1,6 @@
 #include "coupling/mechanics/common_way.h"
 
-#include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "core/parallel/bounded_sums.h"
 #include "core/parallel/threads.h"
@@ -16,12 +14,6 @@ using Sums = BoundedSums<21>;
 Sums::Terms terms_of(const Vec3d& x, const Vec3d& u) {
   return {x.x,       x.y,       x.z,       u.x,       u.y,       u.z,       x.x * x.x, x.x * x.y, x.x * x.z, x.y * x.y, x.y * x.z,
           x.z * x.z, x.x * u.x, x.y * u.x, x.z * u.x, x.x * u.y, x.y * u.y, x.z * u.y, x.x * u.z, x.y * u.z, x.z * u.z};
-}
-
-Sums sums_up_to(double place, double way) {
-  Sums::Terms most;
-  for (std::size_t k = 0; k < most.size(); ++k) most[k] = k < 3 ? place : k < 6 ? way : k < 12 ? place * place : place * way;
-  return Sums(most);
 }
 
 DriftSums drift_sums(double count, const Sums::Terms& t) {
@@ -44,16 +36,12 @@ CommonDrift common_way_of_spheres(const Workspace& work, const std::function<Vec
   const int threads = work.setting.threads;
   const auto place = [&](std::size_t i) { return scene.position()[scene.sphere_point() + i]; };
   const auto way = [&](std::size_t i) { return way_of_point(static_cast<std::uint32_t>(scene.sphere_point() + i)); };
-  const double furthest = comm.max(parallel_max(threads, spheres, [&](std::size_t i) { return norm2(place(i)); }));
-  const double most = comm.max(parallel_max(threads, spheres, [&](std::size_t i) { return norm2(way(i)); }));
-  std::vector<Sums> sums(static_cast<std::size_t>(std::max(1, threads)), sums_up_to(std::sqrt(furthest), std::sqrt(most)));
-  on_each_thread(threads, [&](std::size_t t) {
-    Sums sum = sums[t];
-    for (std::size_t i = spheres * t / sums.size(); i < spheres * (t + 1) / sums.size(); ++i) sum.add(terms_of(place(i), way(i)));
-    sums[t] = sum;
-  });
-  for (std::size_t t = 1; t < sums.size(); ++t) sums[0] += sums[t];
-  return drift_of(drift_sums(static_cast<double>(count), sums[0].totals(comm)));
+  const double furthest = std::sqrt(comm.max(parallel_max(threads, spheres, [&](std::size_t i) { return norm2(place(i)); })));
+  const double most = std::sqrt(comm.max(parallel_max(threads, spheres, [&](std::size_t i) { return norm2(way(i)); })));
+  const Sums none(terms_of({furthest, furthest, furthest}, {most, most, most}));
+  return drift_of(
+      drift_sums(static_cast<double>(count), totals_of(
+                                                 none, threads, spheres, [&](std::size_t i) { return terms_of(place(i), way(i)); }, comm)));
 }
 
 }  // namespace morula

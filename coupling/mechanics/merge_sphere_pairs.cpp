@@ -24,7 +24,6 @@ struct Merge {
   std::uint32_t first_sphere;
   std::span<const char> fresh;
   std::span<const std::uint32_t> watched;
-  std::vector<Stretch> stretches;
 
   [[nodiscard]] bool stays(const SpherePair& pair) const {
     return number.now[pair.a] != BodyChanges::kNone && number.now[pair.b] != BodyChanges::kNone;
@@ -86,8 +85,8 @@ MergedPairs merge_sphere_pairs(std::span<const SpherePair> old, const SphereRenu
                                std::span<const ContactBody> spheres, std::uint32_t first_sphere, std::span<const char> fresh,
                                std::span<const std::uint32_t> watched, int threads) {
   const auto count = static_cast<std::size_t>(std::max(1, threads));
-  Merge merge{old, number, found, spheres, first_sphere, fresh, watched, std::vector<Stretch>(count)};
-  std::vector<Stretch>& stretches = merge.stretches;
+  const Merge merge{old, number, found, spheres, first_sphere, fresh, watched};
+  std::vector<Stretch> stretches(count);
   on_each_thread(threads, [&](std::size_t t) {
     stretches[t].first = old.size() * t / count;
     stretches[t].last = old.size() * (t + 1) / count;

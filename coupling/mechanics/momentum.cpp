@@ -43,12 +43,9 @@ using MotionSums = BoundedSums<kTerms>;
 
 /// For weights, places and ways up to these.
 MotionSums motion_sums(double weight, double place, double way) {
-  MotionTerms most;
-  for (std::size_t k = 0; k < kTerms; ++k) {
-    const int places = k == 0 ? 0 : k < 4 ? 1 : k < 7 ? 0 : k < 10 ? 1 : k == 10 ? 0 : 2;
-    most[k] = 4.0 * weight * std::pow(place, places) * (k >= 4 && k <= 10 ? way : 1.0);  // 4: friction that is not isotropic
-  }
-  return MotionSums(most);
+  const double w = 4.0 * weight;  // 4: friction that is not isotropic
+  const double x = w * place, d = w * way, xd = x * way, xx = x * place;
+  return MotionSums({w, x, x, x, d, d, d, xd, xd, xd, d, xx, xx, xx, xx, xx, xx});
 }
 
 TissueMotion motion_of(const MotionTerms& t, bool rotates) {
@@ -119,7 +116,8 @@ TissueMotion common_motion(const Workspace& work, const Tissue& tissue) {
     shells.for_medium_friction(batch, work.terms.node_friction->friction(),
                                [&](std::uint32_t shell, std::uint32_t node, const SymMat3<double>& friction) {
                                  const double weight = (friction.xx + friction.yy + friction.zz) / 3.0;
-                                 const MotionTerms terms = motion_terms(weight, friction * way(node), start(node), way(node));
+                                 const Vec3d d = way(node);
+                                 const MotionTerms terms = motion_terms(weight, friction * d, start(node), d);
                                  for (std::size_t k = 0; k < kTerms; ++k) of_shell[shell][k] += terms[k];
                                });
   });
@@ -127,20 +125,14 @@ TissueMotion common_motion(const Workspace& work, const Tissue& tissue) {
   for (const MotionTerms& terms : of_shell) weight = std::max(weight, terms[0]);
   const double furthest = parallel_max(threads, nodes + spheres, [&](std::size_t i) { return norm2(start(i)); });
   const double most = parallel_max(threads, nodes + spheres, [&](std::size_t i) { return norm2(way(i)); });
-  std::vector<MotionSums> sums(static_cast<std::size_t>(std::max(1, threads)),
-                               motion_sums(comm.max(weight), std::sqrt(comm.max(furthest)), std::sqrt(comm.max(most))));
-  for (const MotionTerms& terms : of_shell) sums[0].add(terms);
-  on_each_thread(threads, [&](std::size_t t) {
-    MotionSums sum = sums[t];
-    for (std::size_t i = spheres * t / sums.size(); i < spheres * (t + 1) / sums.size(); ++i) {
-      const double friction = medium[i];
-      const Vec3d d = way(nodes + i);
-      sum.add(motion_terms(friction, d * friction, start(nodes + i), d));
-    }
-    sums[t] = sum;
-  });
-  for (std::size_t t = 1; t < sums.size(); ++t) sums[0] += sums[t];
-  return motion_of(sums[0].totals(comm), !work.setting.model.space.any_periodic());
+  MotionSums sums = motion_sums(comm.max(weight), std::sqrt(comm.max(furthest)), std::sqrt(comm.max(most)));
+  for (const MotionTerms& terms : of_shell) sums.add(terms);
+  const auto of_sphere = [&](std::size_t i) {
+    const double friction = medium[i];
+    const Vec3d d = way(nodes + i);
+    return motion_terms(friction, d * friction, start(nodes + i), d);
+  };
+  return motion_of(totals_of(sums, threads, spheres, of_sphere, comm), !work.setting.model.space.any_periodic());
 }
 
 }  // namespace morula

@@ -85,6 +85,11 @@ class NewtonStep {
   Result<Direction, StepFault> solve(double dt, double tolerance);
   /// Cut a direction so that no point goes further than `most`, no sphere further than twice that; gives how far it wanted to go, as a point.
   [[nodiscard]] double limit(Direction& direction, double most) const;
+  /// How far a tissue goes by way(point).
+  template <class Way>
+  [[nodiscard]] double way_of_tissue(const Way& way) const {
+    return work_.points().way_of_bodies(way, common_way_of_spheres(work_, way));
+  }
   /// Move along `direction` until Φ is no higher than before, or by `allowed_rise` at most; a jump of the contact energy on the way is
   /// passed. `give_up_to_hold`: not more than the short search where nodes are held after it.
   Search search(const Direction& direction, int halvings, double allowed_rise, bool give_up_to_hold = false);
@@ -143,8 +148,7 @@ bool NewtonStep::wants_too_much(const Direction& direction, double longest) cons
   if (longest > kMuchTooFar * allowed_.of_point) return true;
   if (longest <= kMuchTooFar * allowed_.of_body) return false;
   const double cut = std::min(1.0, range_ / longest);
-  const auto way = [&](std::uint32_t i) { return direction[i]; };
-  return work_.points().way_of_bodies(way, common_way_of_spheres(work_, way)) > kMuchTooFar * cut * allowed_.of_body;
+  return way_of_tissue([&](std::uint32_t i) { return direction[i]; }) > kMuchTooFar * cut * allowed_.of_body;
 }
 
 bool NewtonStep::is_sound(const Residual& trial) {
@@ -293,8 +297,7 @@ Result<StepReport, StepFault> NewtonStep::run(Evaluation at_start) {
   }
   const auto way = [&](std::uint32_t i) { return work_.scene.position()[i] - start()[i]; };
   report_.displacement = points.largest_of(way, AllowedWays::kSphereCounts);
-  report_.way =
-      std::max(points.way_of_bodies(way, common_way_of_spheres(work_, way)), report_.displacement * allowed_.of_body / allowed_.of_point);
+  report_.way = std::max(way_of_tissue(way), report_.displacement * allowed_.of_body / allowed_.of_point);
   if ((cut || report_.way > kFurtherThanAllowed * allowed_.of_body) && task_.dt > kShortestCut)
     return undo({"points moved too far in one step", {}, true});
   finish_step(work_, tissue_, task_, now_->energy, report_);

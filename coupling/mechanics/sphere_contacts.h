@@ -127,7 +127,8 @@ class SphereContacts : public Term {
   [[nodiscard]] bool sisters_in(const Scene& scene, const SpherePair& pair) const;
   /// Counts the partners of spheres, and notes whether some have others that are no pair of the list.
   void count_partners(const Scene& scene, const Tissue& tissue);
-  void add_rigid_partners(std::vector<std::uint32_t>& by_sphere) const;
+  /// How many listed partners each sphere adheres to, ghosts too; an obstacle is one.
+  [[nodiscard]] std::vector<std::uint32_t> listed_partners() const;
   void set_attached(SpherePair& pair, bool attached);
   // Lists are mended (sphere_mending.cpp).
   /// The list after the changes; the pairs of fresh spheres are returned, spheres that have lost a pair become suspects.

@@ -59,9 +59,11 @@ bool SphereContacts::are_attached(const Scene& scene, const Tissue& tissue, cons
   return cbm::adheres(tissue.spheres.attached[owned_one], partner_id(scene, owned_one == pair.a ? pair.b : pair.a));
 }
 
-void SphereContacts::add_rigid_partners(std::vector<std::uint32_t>& by_sphere) const {
+std::vector<std::uint32_t> SphereContacts::listed_partners() const {
+  std::vector<std::uint32_t> out = adhering_;
   for (std::size_t k = 0; k < rigid_.size(); ++k)
-    if (k == 0 || !rigid_[k].same_bodies(rigid_[k - 1])) by_sphere[rigid_[k].sphere] += rigid_[k].attached;
+    if (k == 0 || !rigid_[k].same_bodies(rigid_[k - 1])) out[rigid_[k].sphere] += rigid_[k].attached;
+  return out;
 }
 
 void SphereContacts::count_partners(const Scene& scene, const Tissue& tissue) {
@@ -70,8 +72,7 @@ void SphereContacts::count_partners(const Scene& scene, const Tissue& tissue) {
     if (const SpherePair& pair = list_.pairs[k]; pair.attached)
       for (const std::uint32_t i : {pair.a, std::uint32_t{pair.b}}) std::atomic_ref(adhering_[i]).fetch_add(1, std::memory_order_relaxed);
   });
-  std::vector<std::uint32_t> known = adhering_;
-  add_rigid_partners(known);
+  const std::vector<std::uint32_t> known = listed_partners();
   partners_are_lost_ = false;
   lost_.clear();
   for (std::uint32_t i = 0; i < scene.owned_spheres(); ++i)

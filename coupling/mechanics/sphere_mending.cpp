@@ -85,7 +85,7 @@ std::vector<std::uint32_t> SphereContacts::merge_pairs(const Scene& scene, const
 void SphereContacts::set_attached(SpherePair& pair, bool attached) {
   if (attached == (pair.attached != 0)) return;
   pair.attached = attached;
-  for (const std::uint32_t i : {pair.a, std::uint32_t{pair.b}}) adhering_[i] += attached ? 1 : ~0u;
+  for (const std::uint32_t i : {pair.a, std::uint32_t{pair.b}}) attached ? ++adhering_[i] : --adhering_[i];
 }
 
 void SphereContacts::renumber_rigid_pairs(const Scene& scene, const Tissue& tissue, std::span<const std::uint32_t> now,
@@ -112,8 +112,7 @@ void SphereContacts::renumber_rigid_pairs(const Scene& scene, const Tissue& tiss
 void SphereContacts::look_for_lost(const Scene& scene, const Tissue& tissue, std::vector<char> suspects) {
   lost_.clear();
   // A shell that became a sphere is a partner of all that it touched, whether or not the sphere reaches them.
-  std::vector<std::uint32_t> known = adhering_;
-  add_rigid_partners(known);
+  const std::vector<std::uint32_t> known = listed_partners();
   for (std::uint32_t i = 0; i < scene.owned_spheres(); ++i)
     if (known[i] != tissue.spheres.attached[i].size()) suspects[i] = 1;
   const std::vector<std::pair<std::uint32_t, CellId>> found = partners_of(scene, suspects);
