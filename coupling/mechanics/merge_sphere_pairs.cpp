@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/contact/body_changes.h"
-#include "core/contact/contact_layer.h"
 #include "core/parallel/threads.h"
 
 namespace morula {
@@ -33,14 +32,10 @@ struct Merge {
     pair.b = number.now[pair.b] & 0x7FFFFFFFu;
     return pair;
   }
-  [[nodiscard]] SpherePair pair_of(const SphereNeighbours& n) const { return {n.a - first_sphere, (n.b - first_sphere) & 0x7FFFFFFFu, 0}; }
-  [[nodiscard]] bool before(const SpherePair& p, const SpherePair& q) const {
-    const auto a = spheres[p.a].place, b = spheres[q.a].place;
-    return a != b ? a < b : spheres[p.b].place < spheres[q.b].place;
-  }
   /// Of the found ones the first that does not come before a pair.
   [[nodiscard]] std::size_t first_from(const SpherePair& pair) const {
-    const auto at = std::ranges::partition_point(found, [&](const SphereNeighbours& n) { return before(pair_of(n), pair); });
+    const auto at = std::ranges::partition_point(
+        found, [&](const SphereNeighbours& n) { return comes_before(spheres, pair_of(n, first_sphere), pair); });
     return static_cast<std::size_t>(at - found.begin());
   }
 
@@ -69,13 +64,14 @@ struct Merge {
       if (is_watched) out.watched[watch] = MergedPairs::kGone;
       if (stays(old[k])) {
         const SpherePair pair = renumbered(old[k]);
-        while (next < last_found && before(pair_of(found[next]), pair)) add(pair_of(found[next++]));
+        while (next < last_found && comes_before(spheres, pair_of(found[next], first_sphere), pair))
+          add(pair_of(found[next++], first_sphere));
         if (is_watched) out.watched[watch] = static_cast<std::uint32_t>(to);
         add(pair);
       }
       watch += is_watched;
     }
-    while (next < last_found) add(pair_of(found[next++]));
+    while (next < last_found) add(pair_of(found[next++], first_sphere));
   }
 };
 

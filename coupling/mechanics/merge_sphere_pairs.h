@@ -3,12 +3,22 @@
 #include <span>
 #include <vector>
 
+#include "core/contact/contact_body.h"
+#include "core/contact/contact_layer.h"
 #include "core/friction/sphere_pairs.h"
 
 namespace morula {
 
-struct ContactBody;
-struct SphereNeighbours;
+/// The pair of two bodies that were found to be near, of which the spheres begin with `first_sphere`; it adheres to nobody yet.
+inline SpherePair pair_of(const SphereNeighbours& found, std::uint32_t first_sphere) {
+  return {found.a - first_sphere, (found.b - first_sphere) & 0x7FFFFFFFu, 0};
+}
+
+/// Canonical order of pairs of these spheres.
+inline bool comes_before(std::span<const ContactBody> spheres, const SpherePair& p, const SpherePair& q) {
+  const auto a = spheres[p.a].place, b = spheres[q.a].place;
+  return a != b ? a < b : spheres[p.b].place < spheres[q.b].place;
+}
 
 /// What has become of the spheres of a list of pairs, by old number: the new one, or BodyChanges::kNone.
 struct SphereRenumbering {

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "core/parallel/threads.h"
+#include "coupling/mechanics/merge_sphere_pairs.h"
 #include "coupling/mechanics/sphere_contacts.h"
 
 namespace morula {
@@ -33,7 +34,7 @@ void SphereContacts::set_pairs(const World& world) {
   {
     const std::vector<SphereNeighbours> found = surfaces_.layer().take_sphere_neighbours();
     list_.pairs.reserve(found.size());
-    for (const SphereNeighbours& n : found) list_.pairs.push_back({n.a - first, (n.b - first) & 0x7FFFFFFFu, 0});
+    for (const SphereNeighbours& n : found) list_.pairs.push_back(pair_of(n, first));
   }
   if (friction_is_frozen_)
     keep_step_friction(scene, std::move(old_pairs), std::move(old_elements));
@@ -82,9 +83,6 @@ void SphereContacts::count_partners(const Scene& scene, const Tissue& tissue) {
 void SphereContacts::keep_step_friction(const Scene& scene, std::vector<SpherePair> old_pairs,
                                         std::vector<SpherePairElement> old_elements) {
   const auto spheres = scene.bodies().subspan(scene.first_sphere());
-  const auto before = [&](const SpherePair& p, const SpherePair& q) {
-    return p.a != q.a ? spheres[p.a].place < spheres[q.a].place : spheres[p.b].place < spheres[q.b].place;
-  };
   std::vector<SpherePair> merged;
   merged.reserve(list_.pairs.size() + list_.pairs.size() / 64);
   list_.elements.clear();
@@ -98,7 +96,7 @@ void SphereContacts::keep_step_friction(const Scene& scene, std::vector<SpherePa
     }
   };
   for (const SpherePair& pair : list_.pairs) {
-    add_parted([&](const SpherePair& old) { return before(old, pair); });
+    add_parted([&](const SpherePair& old) { return comes_before(spheres, old, pair); });
     merged.push_back(pair);
     const bool same = k < old_pairs.size() && old_pairs[k].a == pair.a && old_pairs[k].b == pair.b;
     list_.elements.push_back(same ? old_elements[k++] : SpherePairElement{});
