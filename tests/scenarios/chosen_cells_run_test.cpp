@@ -6,9 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "results/snapshot_file.h"
-#include "tests/scenarios/run_into.h"
-#include "tests/study/study_fixture.h"
+#include "tests/scenarios/bodies_of_run.h"
 
 namespace morula::scenarios {
 namespace {
@@ -38,20 +36,10 @@ std::string row(const std::string& regions, const std::string& places = kFive, c
 
 /// By time in minutes: id and body of each cell, S or s for shell and sphere.
 std::map<int, std::string> bodies(const std::string& text) {
-  const test::Folder folder;
-  const auto study = test::read(text);
-  EXPECT_TRUE(study.ok()) << study.error().text();
-  if (!study.ok() || !test::run_into(folder.path() / "run", *study)) return {};
-  const auto entries = list_snapshots(folder.path() / "run/results.h5");
-  EXPECT_TRUE(entries.ok());
   std::map<int, std::string> out;
-  for (const auto& entry : *entries) {
-    const auto snapshot = read_snapshot(folder.path() / "run/results.h5", entry.index);
-    EXPECT_TRUE(snapshot.ok());
-    std::map<CellId, std::string> one;
-    for (const Snapshot::Cell& cell : snapshot->cells) one[cell.id] = cell.id.text() + (cell.body == BodyKind::kShell ? "S" : "s");
-    for (const auto& [id, word] : one) out[static_cast<int>(std::lround(entry.time / 60.0))] += word + " ";
-  }
+  for (const auto& [time, cells] : test::bodies_of_run(text))
+    for (const auto& [id, body] : cells)
+      out[static_cast<int>(std::lround(time / 60.0))] += id.text() + (body == BodyKind::kShell ? "S " : "s ");
   return out;
 }
 

@@ -2,12 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 #include <string>
 
-#include "results/snapshot_file.h"
-#include "scenarios/run/driver.h"
-#include "tests/study/study_fixture.h"
+#include "tests/scenarios/bodies_of_run.h"
 
 namespace morula::scenarios {
 namespace {
@@ -38,27 +35,10 @@ std::string with(const std::string& regions, const std::string& geometry = "") {
 
 /// S or s by founder: shell or sphere in the results of a run, at this time.
 std::string bodies_at(double time, const std::string& text) {
-  const test::Folder folder;
-  const auto study = test::read(text);
-  EXPECT_TRUE(study.ok()) << study.error().text();
-  if (!study.ok()) return {};
-  RunRequest request;
-  request.out = folder.path() / "run";
-  const auto done = run(*study, request, Comm());
-  EXPECT_TRUE(done.ok()) << done.error().message;
-  const auto entries = list_snapshots(folder.path() / "run/results.h5");
-  EXPECT_TRUE(entries.ok());
-  if (!entries.ok()) return {};
-  std::map<CellId, char> body;
-  for (const auto& entry : *entries) {
-    if (std::abs(entry.time - time) > 1.0) continue;
-    const auto snapshot = read_snapshot(folder.path() / "run/results.h5", entry.index);
-    EXPECT_TRUE(snapshot.ok());
-    if (!snapshot.ok()) return {};
-    for (const Snapshot::Cell& cell : snapshot->cells) body[cell.id] = cell.body == BodyKind::kShell ? 'S' : 's';
-  }
   std::string out;
-  for (const auto& [id, letter] : body) out += letter;
+  for (const auto& [moment, cells] : test::bodies_of_run(text))
+    for (const auto& [id, body] : cells)
+      if (std::abs(moment - time) <= 1.0) out += body == BodyKind::kShell ? 'S' : 's';
   return out;
 }
 
