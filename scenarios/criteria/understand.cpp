@@ -116,6 +116,11 @@ std::optional<UnderstoodCriterion> understand(const Study& study, const Criterio
                       "`against: {data: ...}`, and `within` with a unit");
     return std::nullopt;
   }
+  if (out.limit.relative && out.expected.kind == Expectation::Kind::kValue && out.expected.value.internal == 0.0) {
+    diagnostics.error(414, c.within.place, "'" + c.within.value + "' of nothing is nothing: the criterion could not hold",
+                      "`within` as a number in the unit of the measure");
+    return std::nullopt;
+  }
   if (out.question.is_pooled() && out.expected.kind == Expectation::Kind::kTheory && out.question.measured.subjects.size() > 1) {
     diagnostics.error(413, c.id.place, "a theory is about each thing by itself, and here several are made into one value",
                       "divide by it: `over`");

@@ -1,5 +1,6 @@
 // Cells with a tension are spherical caps where they touch each other or an obstacle.
 #include <algorithm>
+#include <cmath>
 
 #include "core/ball.h"
 #include "scenarios/measures/caps.h"
@@ -27,6 +28,7 @@ std::vector<MeasuredCap> caps_of_pair(const Study& study, const Snapshot& snapsh
   out.wetting = wetting_of(study, subject, snapshot.time);
   out.r0 = ball_radius(0.5 * (a.volume + b.volume));
   out.angle = 0.5 * (low->angle + high->angle);
+  out.adhesion = 2.0 * (1.0 - std::cos(out.angle));
   out.radius = 0.5 * (low->radius + high->radius) / out.r0;
   out.contact_radius = 0.5 * (low->contact_radius + high->contact_radius) / out.r0;
   out.length = (low->height + high->height) / out.r0;
@@ -51,6 +53,7 @@ std::vector<MeasuredCap> caps_on_obstacle(const Study& study, const Snapshot& sn
     one.wetting = wetting_of(study, subject, snapshot.time);
     one.r0 = ball_radius(shell.cell->volume);
     one.angle = cap->angle;
+    one.adhesion = 1.0 - std::cos(one.angle);
     one.radius = cap->radius / one.r0;
     one.contact_radius = cap->contact_radius / one.r0;
     one.height = one.length = cap->height / one.r0;
@@ -92,6 +95,9 @@ std::vector<Measure> cap_measures() {
           "Angle between the plane of contact and the free surface: 0 for a sphere that touches, 90 deg for a hemisphere. Spheres through "
           "the nodes of the far halves.",
           "cos(angle) = distance of the sphere's centre from the plane over its radius", Quantity::kAngle, &MeasuredCap::angle),
+      cap_measure("cap.adhesion", "adhesion that the angle stands for, over tension",
+                  "Adhesion of the contact over the cortical tension of the cell, as the contact angle has it by Young's law.",
+                  "1 - cos(angle) on an obstacle, 2 (1 - cos(angle)) of two cells", Quantity::kNumber, &MeasuredCap::adhesion),
       cap_measure("cap.radius", "radius of the free surface",
                   "Radius of the sphere that the free surface is, over R0 of the cell's volume.", "R/R0", Quantity::kNumber,
                   &MeasuredCap::radius),

@@ -12,6 +12,7 @@ struct MeasuredCap {
   double wetting = 0.0;                       ///< W/γ of the contact
   double r0 = 0.0;                            ///< radius of a ball of the cell's volume [µm]
   double angle = 0.0;                         ///< of contact, 0 for a sphere that touches [rad]
+  double adhesion = 0.0;                      ///< W/γ that this angle stands for
   double radius = 0.0, contact_radius = 0.0;  ///< over R0
   double height = 0.0, length = 0.0;          ///< of one cell, and of both or one, over R0
   double pressure = 0.0;                      ///< p R0/γ; not a number without a tension

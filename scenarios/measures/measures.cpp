@@ -20,6 +20,7 @@ const std::vector<Measure>& measures() {
         age_measure(),
         sphericity_measure(),
         elongation_measure(),
+        least_angle_measure(),
         width_measure(0),
         width_measure(1),
         width_measure(2),

@@ -31,6 +31,7 @@ Measure sphericity_measure();
 /// Surface of a ball of a cell's volume over the cell's surface.
 double sphericity(const Snapshot::Cell& cell);
 Measure elongation_measure();
+Measure least_angle_measure();
 Measure width_measure(int axis);
 Measure displacement_measure();
 Measure volume_change_measure();

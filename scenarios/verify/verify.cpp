@@ -11,8 +11,8 @@ namespace morula::scenarios {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kStudies[] = {"cell_shear",       "doublet",         "micropipette", "optical_stretcher",
-                                    "optical_tweezers", "parallel_plates", "pull_off",     "spreading"};
+constexpr const char* kStudies[] = {"cell_shear", "doublet",   "micropipette", "optical_stretcher", "optical_tweezers", "parallel_plates",
+                                    "pull_off",   "spreading", "torture"};
 
 /// Two digits of a tolerance, rounded up: what is printed is what a row is judged by.
 std::string told_tolerance(double tolerance) {

@@ -41,7 +41,7 @@ TEST_P(SingleCell, StudyMeetsAllItsCriteriaAndIsPlottedAgainstTheory) {
 
 INSTANTIATE_TEST_SUITE_P(Quick, SingleCell,
                          testing::Values("cell_shear", "doublet", "embryo", "micropipette", "optical_stretcher", "optical_tweezers",
-                                         "parallel_plates", "pull_off", "spreading"),
+                                         "parallel_plates", "pull_off", "spreading", "torture"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST(Holds, AreTheConstantPartsOfACourseWithTheirLastOutput) {

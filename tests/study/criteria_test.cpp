@@ -155,6 +155,7 @@ TEST(Criteria, HaveOneLimitInTheUnitOfTheMeasure) {
   EXPECT_THAT(message_of("measure: volume(left), above: area(left)"), AllOf(HasSubstr("is an area"), HasSubstr("E203")));
   EXPECT_THAT(message_of("measure: volume(left), between: [3 um^3]"), HasSubstr("E303"));
   EXPECT_THAT(message_of("measure: volume(left), between: [3 um^3, 2 um^3]"), HasSubstr("E414"));
+  EXPECT_THAT(message_of("measure: volume.change(left), against: 0, within: 2 %"), AllOf(HasSubstr("could not hold"), HasSubstr("E414")));
   EXPECT_THAT(message_of("above: 3 um^3"), AllOf(HasSubstr("measure"), HasSubstr("E103")));
 }
 

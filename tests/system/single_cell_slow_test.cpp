@@ -39,7 +39,8 @@ INSTANTIATE_TEST_SUITE_P(Library, FullStudy,
                                          StudyFile{"pull_off", "full.yaml"}, StudyFile{"pull_off", "mesh.yaml"},
                                          StudyFile{"pull_off", "speed.yaml"}, StudyFile{"pull_off", "adhesion.yaml"},
                                          StudyFile{"pull_off", "friction.yaml"}, StudyFile{"spreading", "angles.yaml"},
-                                         StudyFile{"spreading", "elastic.yaml"}, StudyFile{"spreading", "full.yaml"}),
+                                         StudyFile{"spreading", "elastic.yaml"}, StudyFile{"spreading", "full.yaml"},
+                                         StudyFile{"torture", "through.yaml"}, StudyFile{"torture", "suction.yaml"}),
                          [](const auto& instance) {
                            const std::string file = instance.param.file;
                            return std::string(instance.param.study) + "_" + file.substr(0, file.find('.'));
