@@ -1,5 +1,6 @@
 #include "results/hdf5_overlay.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -142,6 +143,15 @@ hid_t Overlay::create() {
 
 hid_t Overlay::open(bool for_writing) {
   return with_driver(this, [&](hid_t access) { return H5Fopen("existing", for_writing ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access); });
+}
+
+herr_t Overlay::close(hid_t file) {
+  const herr_t done = H5Fclose(file);
+  // HDF5 1.10 frees a damaged file that it cannot flush, and keeps its identifier: when the process ends it would close it once more, and crash. Its own
+  // function takes the identifier back; it is not in its headers.
+  if (done < 0 && H5Iis_valid(file) > 0)
+    if (const auto take_back = reinterpret_cast<void* (*)(hid_t)>(::dlsym(RTLD_DEFAULT, "H5I_remove"))) take_back(file);
+  return done;
 }
 
 void Overlay::forget() {

@@ -39,6 +39,8 @@ class Overlay {
   /// HDF5's handle on the file as seen through the overlay, or a negative number. The overlay must outlive it.
   [[nodiscard]] hid_t create();
   [[nodiscard]] hid_t open(bool for_writing);
+  /// Closes such a handle; negative if HDF5 could not finish, which leaves nothing behind either.
+  static herr_t close(hid_t file);
 
   /// What was changed, in increasing order of place, neighbours merged.
   [[nodiscard]] std::vector<Range> changes() const;

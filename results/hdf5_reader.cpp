@@ -71,7 +71,7 @@ Result<Hdf5Reader> Hdf5Reader::open(const fs::path& path) {
   if (const auto journal = read_journal(path))  // the writer was killed between journal and file: see what it meant
     for (const Overlay::Range& range : journal->ranges) overlay->patch(range);
   Overlay* raw = overlay.get();
-  auto state = std::make_unique<State>(State{path, std::move(overlay), Hdf5Handle(raw->open(false), H5Fclose)});
+  auto state = std::make_unique<State>(State{path, std::move(overlay), Hdf5Handle(raw->open(false), Overlay::close)});
   Hdf5Reader reader(std::move(state));
   if (!reader.state_->file.ok()) return reader.damaged(hdf5_reason());
   return reader;

@@ -193,7 +193,7 @@ struct Addition {
 Result<Addition> plan_addition(const fs::path& path, const std::vector<Dataset>& datasets, std::span<const std::string> removed,
                                std::vector<Extent>& extents) {
   MORULA_TRY_ASSIGN(const std::unique_ptr<Overlay> overlay, Overlay::over(path));
-  Hdf5Handle file(overlay->open(true), H5Fclose);
+  Hdf5Handle file(overlay->open(true), Overlay::close);
   if (!file.ok()) return hdf5_error(path, "open");
   const std::uint64_t end = overlay->used_end();
   for (const std::string& group : removed)
@@ -237,7 +237,7 @@ Status create_new(const fs::path& path, const StoragePlan& plan, const std::stri
   std::uint64_t length = 0;
   const auto prepare = [&]() -> Status {
     Overlay overlay;
-    Hdf5Handle file(overlay.create(), H5Fclose);
+    Hdf5Handle file(overlay.create(), Overlay::close);
     if (!file.ok()) return hdf5_error(path, "create");
     MORULA_TRY(declare(file.get(), path, datasets, extents));
     if (!manifest_checksum.empty() && !write_text_attribute(file.get(), "manifest_checksum", manifest_checksum))

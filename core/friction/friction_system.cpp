@@ -377,7 +377,7 @@ void FrictionSystem::reduce(float alpha, const Comm& comm, double (&totals)[2]) 
 }
 
 Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<Float4> v, double tolerance, int max_iterations, const Comm& comm) {
-  assert(v.size() >= layout_.point_count && r_.size() == layout_.point_count && dt_ > 0.0f);
+  assert(v.size() >= layout_.point_count && r_.size() == layout_.point_count && dt_ >= 0.0f);
   build_preconditioner();
   p_.assign(layout_.point_count, {});
   q_.assign(layout_.point_count, {});

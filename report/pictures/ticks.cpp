@@ -32,7 +32,7 @@ Ticks time_ticks(double low, double high, int wanted, const std::string& unit) {
 }
 
 Ticks linear_ticks(double low, double high, int wanted, bool widen) {
-  if (!(high > low)) {
+  if (!(high - low > 1e-9 * std::max(std::abs(low), std::abs(high)))) {  // one value, but for its last digits
     const double half = low != 0.0 ? 0.1 * std::abs(low) : 1.0;
     low -= half;
     high += half;

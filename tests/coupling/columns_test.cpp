@@ -21,7 +21,7 @@ std::vector<Value> some_values(std::size_t count, std::uint8_t& next) {
 template <class Column, class Record>
 bool same_values(const Column& column, const Record& a, const Record& b) {
   const auto left = column.values(a), right = column.values(b);
-  return left.size() == right.size() && std::memcmp(left.data(), right.data(), left.size_bytes()) == 0;
+  return left.size() == right.size() && (left.empty() || std::memcmp(left.data(), right.data(), left.size_bytes()) == 0);
 }
 
 CellRecord shell_cell(std::uint64_t number, ShapeLibrary& shapes, std::uint8_t seed, bool with_all) {

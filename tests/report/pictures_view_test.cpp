@@ -313,6 +313,17 @@ TEST(PicturesText, UnitsReadAsPeopleWriteThem) {
   EXPECT_EQ(display_text("number, umbrella, um_x, maximum, degree"), "number, umbrella, um_x, maximum, degree");
 }
 
+TEST(Ticks, OfValuesThatDifferInTheirLastDigitsAreAFewAroundThem) {
+  for (const double value : {20.0, -3e-9, 7e250}) {
+    const double next = std::nextafter(value, 2.0 * value);
+    const Ticks found = linear_ticks(std::min(value, next), std::max(value, next), 7, true);
+    EXPECT_LT(found.low, value);
+    EXPECT_GT(found.high, value);
+    EXPECT_GE(found.at.size(), 2u) << value;
+    EXPECT_LE(found.at.size(), 20u) << value;
+  }
+}
+
 TEST(PicturesTicks, TimesAreThoseOfClocks) {
   EXPECT_EQ(time_ticks(0, 24, 7, "h").at, (std::vector<double>{0, 6, 12, 18, 24}));
   EXPECT_EQ(time_ticks(0, 4, 7, "h").at, (std::vector<double>{0, 1, 2, 3, 4}));
