@@ -45,7 +45,7 @@ ContactTable::ContactTable(std::span<const SphereParameters> types, std::span<co
       const SphereParameters* second = b < types_ ? &types[b < a ? a : b] : nullptr;
       const SphereLaw* law = law_of(first, second);
       entries_.push_back({{law, law->couple(first, second, surface.adhesion), fitted_range(first, second, law)},
-                          surface.normal_friction,
+                          surface.normal_friction * (second != nullptr ? std::sqrt(first.approach_factor * second->approach_factor) : 1.0),
                           surface.tangential_friction});
     }
   }

@@ -97,6 +97,7 @@ struct SphereParameters {
   LawValues own{};                                   ///< values of the law's own keys
   PackingCurve packing{};                            ///< pressure by packing; empty: none
   double adhesion_factor = 1.0;                      ///< W of two spheres over that of the study: of a law fitted to shells
+  double approach_factor = 1.0;                      ///< γ_n of two spheres over that of the study: of a law fitted to shells
   OverlapRange fitted{};                             ///< of contacts with spheres that have a fitted law, too
 };
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -85,10 +86,30 @@ void build_fitted_law(BuildContext& c, const std::string& /*type_name*/, draft::
   take(c, "poisson", fitted->poisson, "", t.sphere_poisson);
   sphere.young = t.sphere_young.value, sphere.poisson = t.sphere_poisson.value;
   if (fitted->adhesion_of_shells > 0.0) sphere.adhesion_factor = fitted->adhesion / fitted->adhesion_of_shells;
+  sphere.approach_factor = table ? fitted->approach_beside_table : fitted->approach;
   sphere.fitted = fitted->overlap;
   take_packing(c, table ? fitted->beside_table : fitted->packing, t, sphere);
-  c.study.fitted.push_back({c.study.model.types.size(), fitted->type, fitted->material, fitted->smallest_radius, fitted->largest_radius});
+  c.study.fitted.push_back(
+      {c.study.model.types.size(), fitted->type, fitted->material, fitted->smallest_radius, fitted->largest_radius, fitted->friction});
 }
+
+namespace {
+
+/// E542 where cells are held back by another friction than those whose approach was fitted.
+void check_friction(BuildContext& c, const CellFriction& here, const CellFriction& there, const std::string& name, const Place& place) {
+  constexpr double kAlike = 0.05;
+  const auto differs = [&](double a, double b) { return std::abs(a - b) > kAlike * std::max(a, b); };
+  const char* what = differs(here.medium, there.medium)       ? "medium"
+                     : differs(here.approach, there.approach) ? "cell_cell"
+                     : differs(here.along, there.along)       ? "cell_cell_tangential"
+                                                              : nullptr;
+  if (what == nullptr) return;
+  c.diagnostics.warning(542, place,
+                        "how fast spheres of '" + name + "' come together was fitted with another friction: `" + what + "` differs",
+                        "forces at rest do not depend on it; for the speed, calibrate with this study's friction");
+}
+
+}  // namespace
 
 void check_fitted_laws(BuildContext& c) {
   for (const FittedType& fitted : c.study.fitted) {
@@ -101,6 +122,7 @@ void check_fitted_laws(BuildContext& c) {
     if (const std::string what = first_difference(material->text(), fitted.material); !what.empty())
       c.diagnostics.error(532, t.sphere_file.place, "the law was fitted to other cells than '" + name + "': " + what,
                           "there: the file, made with `" + fitted.name + "`. Run `morula calibrate jkr " + name + "` with this study");
+    if (fitted.friction) check_friction(c, material->friction, *fitted.friction, name, t.sphere_file.place);
     const double spread = 3.0 * t.radius.spread.value, mean = t.radius.mean.value;
     // E*, W and the curve of packing are material: forces go with R, and pairs of 1 to 1.3 are held out (physics/fields_and_coupling.md E).
     constexpr double kSlack = 0.3;

@@ -114,6 +114,7 @@ Result<CellMaterial> material_of(const Study& study, const std::string& name) {
   const auto t = static_cast<std::size_t>(found - model.types.begin());
   const ContactPair& pair = model.pair(t, t);
   out.adhesion = pair.adhesion;
+  out.friction = {found->medium_friction, pair.normal_friction, pair.tangential_friction};
   out.range = pair.range > 0.0 ? pair.range : model.contact.range;
   take_contact(document, name, out);
   for (const char* section : kOfShells) {

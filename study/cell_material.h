@@ -6,8 +6,8 @@
 
 namespace morula::scenarios {
 
-/// What a virtual experiment takes from a study: the deformable cell of one type, and how surfaces touch. Life, migration, friction, spheres and
-/// everything else of the study stay behind.
+/// What a virtual experiment takes from a study: the deformable cell of one type, and how surfaces touch. Life, migration, spheres and everything else
+/// of the study stay behind.
 struct CellMaterial {
   std::string type;
   double radius = 0.0;    ///< mean, of the free cell [µm]
@@ -15,9 +15,10 @@ struct CellMaterial {
   double tension = 0.0;   ///< of their cortices [nN/µm]
   double range = 0.0;     ///< of contact [µm]
   std::uint32_t nodes = 0;
-  std::string shell;    ///< the sections of the type that its shells read, as YAML in one line: `dcm: {...}`
-  std::string contact;  ///< the section `contact` without its pairs, as YAML in one line
-  std::string pair;     ///< what stands there for two cells of the type: `, repulsion: 50 kPa/um`
+  CellFriction friction;  ///< for how fast cells come together, no part of what they are
+  std::string shell;      ///< the sections of the type that its shells read, as YAML in one line: `dcm: {...}`
+  std::string contact;    ///< the section `contact` without its pairs, as YAML in one line
+  std::string pair;       ///< what stands there for two cells of the type: `, repulsion: 50 kPa/um`
 
   /// All that the shells are, as a YAML map in one line: a fit belongs to the material that has its text.
   [[nodiscard]] std::string text() const;

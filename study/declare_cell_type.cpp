@@ -56,15 +56,20 @@ void declare_life(Section& s, draft::CellType& t) {
 }
 
 void declare_friction(Section& s, draft::CellType& t) {
-  s.quantity({.name = "cell_cell",
-              .doc = "Friction with cells per contact area; for two types the mean of theirs.",
-              .quantity = Q::kFrictionPerArea,
-              .fallback = "5e10 N s/m^3",
-              .low = 0.0,
-              .high = 1e6,
-              .example = "5e10 N s/m^3",
-              .source = kTable1},
-             t.friction_cell_cell);
+  s.quantity(
+      {.name = "cell_cell",
+       .doc =
+           "Friction with cells per contact area; for two types the mean of theirs. Surfaces of shells zip together, two spheres push "
+           "their whole "
+           "contact against it: with the same value they come together some twenty times as slowly, unless their law was fitted to shells "
+           "(`cbm: {law: fitted}`), which takes that off.",
+       .quantity = Q::kFrictionPerArea,
+       .fallback = "5e10 N s/m^3",
+       .low = 0.0,
+       .high = 1e6,
+       .example = "5e10 N s/m^3",
+       .source = kTable1},
+      t.friction_cell_cell);
   s.quantity({.name = "obstacle",
               .doc = "Friction with obstacles per contact area.",
               .quantity = Q::kFrictionPerArea,
@@ -114,8 +119,9 @@ void declare_sphere_law(Section& c, draft::CellType& t) {
   c.text(
       {.name = "file",
        .doc =
-           "TYPE.jkr.yaml of `morula calibrate jkr`, for `law: fitted`: E, Poisson's ratio, the adhesion of two spheres, the pressure of "
-           "packing and "
+           "TYPE.jkr.yaml of `morula calibrate jkr`, for `law: fitted`: E, Poisson's ratio, the adhesion of two spheres and their friction "
+           "of "
+           "approach, the pressure of packing and "
            "the range of the fit are those of the file. The type must have the `dcm`, `radius`, adhesion and `contact` that were fitted.",
        .example = "tumour.jkr.yaml"},
       t.sphere_file);

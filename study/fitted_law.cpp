@@ -20,11 +20,18 @@ struct TableKnot {
 struct Ends {
   Given<double> least, most;
 };
+struct Approach {
+  Given<double> factor;
+  bool given = false;
+};
 struct File {
   Given<std::uint64_t> schema, nodes;
   Given<std::string> version, type, material, better;
   Given<double> radius, adhesion_of_shells;
   Given<double> young, poisson, adhesion, touch;
+  Approach approach, approach_beside_table;
+  Given<double> medium, cell_cell, cell_cell_tangential;
+  bool has_friction = false;
   std::vector<Named<Knot>> packing, beside_table;
   std::vector<Named<TableKnot>> knots;
   bool has_table = false;
@@ -70,6 +77,22 @@ void declare_held_out(Section& s, File& f) {
   });
 }
 
+void declare_approach(Section& s, File& f, Approach& approach) {
+  s.group({.name = "approach", .doc = "", .optional_section = true, .example = ""}, approach.given, [&](Section& g) {
+    g.quantity(number("factor", Q::kNumber, 0.0, 1e6), approach.factor);
+    declare_figures(g, f, {"friction", "misfit"});
+    g.words(section("interval"), f.others);
+  });
+}
+
+void declare_friction(Section& s, File& f) {
+  s.group({.name = "friction_of_shells", .doc = "", .optional_section = true, .example = ""}, f.has_friction, [&f](Section& g) {
+    g.quantity(number("medium", Q::kFrictionPerArea, 0.0, 1e6), f.medium);
+    g.quantity(number("cell_cell", Q::kFrictionPerArea, 0.0, 1e6), f.cell_cell);
+    g.quantity(number("cell_cell_tangential", Q::kFrictionPerArea, 0.0, 1e6), f.cell_cell_tangential);
+  });
+}
+
 void declare_jkr(Section& s, File& f) {
   s.quantity(number("young", Q::kPressure, 1e-6, 1e4), f.young);
   s.quantity(number("poisson", Q::kNumber, 0.0, 0.5), f.poisson);
@@ -78,6 +101,7 @@ void declare_jkr(Section& s, File& f) {
   s.words(section("adhesion_interval"), f.others);
   declare_figures(s, f, {"young_error", "adhesion_error", "correlation", "loss", "residuals", "misfit"});
   declare_held_out(s, f);
+  declare_approach(s, f, f.approach);
   s.list(section("packing"), f.packing, &declare_knot);
 }
 
@@ -85,6 +109,7 @@ void declare_table(Section& s, File& f) {
   s.quantity(number("touch", Q::kNumber, -10.0, 10.0, false), f.touch);
   declare_figures(s, f, {"exponent", "exponent_error"});
   declare_held_out(s, f);
+  declare_approach(s, f, f.approach_beside_table);
   s.list(section("packing"), f.beside_table, &declare_knot);
   s.list(section("knots"), f.knots, &declare_table_knot);
 }
@@ -110,6 +135,7 @@ void declare_file(Section& s, File& f) {
   s.word({.name = "better", .doc = "", .required = true, .words = {"jkr", "table"}, .example = "jkr"}, f.better);
   s.group(required("jkr"), present, [&f](Section& g) { declare_jkr(g, f); });
   s.group({.name = "table", .doc = "", .optional_section = true, .example = ""}, f.has_table, [&f](Section& g) { declare_table(g, f); });
+  declare_friction(s, f);
   s.group(required("ranges"), present, [&f](Section& g) { declare_ranges(g, f); });
   s.words(section("remarks"), f.others);
 }
@@ -164,6 +190,9 @@ std::optional<FittedLaw> read_fitted_law(const std::filesystem::path& path, cons
   out.young = file.young.value, out.poisson = file.poisson.value, out.adhesion = file.adhesion.value;
   out.adhesion_of_shells = file.adhesion_of_shells.value;
   out.packing = knots_of(file.packing), out.beside_table = knots_of(file.beside_table);
+  if (file.approach.given) out.approach = file.approach.factor.value;
+  if (file.approach_beside_table.given) out.approach_beside_table = file.approach_beside_table.factor.value;
+  if (file.has_friction) out.friction = CellFriction{file.medium.value, file.cell_cell.value, file.cell_cell_tangential.value};
   out.overlap = {file.overlap.least.value, file.overlap.most.value};
   out.smallest_radius = file.radii.least.value, out.largest_radius = file.radii.most.value;
   if (file.has_table) out.table = table_of(file, document.place, diagnostics);

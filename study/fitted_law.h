@@ -8,6 +8,7 @@
 #include "cbm/packing.h"
 #include "coupling/laws.h"
 #include "study/diagnostics.h"
+#include "study/study.h"
 
 namespace morula::scenarios {
 
@@ -23,6 +24,10 @@ struct FittedLaw {
   std::vector<cbm::PackingKnot> packing;       ///< beside JKR; empty: packings were not fitted
   std::optional<cbm::PairTable> table;         ///< none: the points made no table
   std::vector<cbm::PackingKnot> beside_table;  ///< packing beside the table
+
+  double approach = 1.0,
+         approach_beside_table = 1.0;    ///< friction of approach of two spheres of JKR, of the table, over that of shells; 1: not fitted
+  std::optional<CellFriction> friction;  ///< of the shells with which that was found
 
   cbm::OverlapRange overlap;                           ///< δ over the smaller radius of what was fitted
   double smallest_radius = 0.0, largest_radius = 0.0;  ///< of the cells that were fitted [µm]

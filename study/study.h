@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -110,12 +111,18 @@ struct InputFile {
   std::string copy;  ///< where its copy belongs in the run folder, as resolved_text names it: "inputs/cells.csv"
 };
 
+/// Friction of the cells of a type, per area [nN·s/µm³].
+struct CellFriction {
+  double medium = 0.0, approach = 0.0, along = 0.0;  ///< with the medium; of two cells of the type across and along their contact
+};
+
 /// A cell type whose spheres have a law of `morula calibrate`.
 struct FittedType {
   std::size_t type = 0;                                ///< number of the cell type
   std::string name;                                    ///< of the type that was fitted
   std::string material;                                ///< what its shells were (cell_material.h)
   double smallest_radius = 0.0, largest_radius = 0.0;  ///< that were fitted [µm]
+  std::optional<CellFriction> friction{};              ///< with which its shells came together; none: that was not fitted
 };
 
 /// The immutable, validated, unit-converted study; the only way settings enter.

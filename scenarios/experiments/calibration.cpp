@@ -48,6 +48,7 @@ class Fitting {
     out_.misfit = calibrate::misfit_share(points, out_.sure.fit);
     out_.held_out = calibrate::held_out_errors(points, law.pair, law.sphere.packing, out_.sure.fit.pull_off(1.0));
     remark_on_range(out_);
+    out_.approach = approach_of(law.pair, "JKR");
     return {};
   }
 
@@ -57,7 +58,7 @@ class Fitting {
       out_.data.remarks.push_back("no table: " + found.error().message);
       return {};
     }
-    FittedTable one{.table = std::move(found).value(), .packing = {}, .held_out = {}, .exponent = {}};
+    FittedTable one{.table = std::move(found).value(), .packing = {}, .held_out = {}, .exponent = {}, .approach = {}};
     const calibrate::PairModel pair = calibrate::table_model(one.table);
     const auto make = [&](const calibrate::Data& now) -> Result<TrialLaw> {
       one.packing = calibrate::fit_curve(now, pair, options_);
@@ -69,11 +70,20 @@ class Fitting {
     MORULA_TRY(places_.place(law, true, points_));
     one.held_out = calibrate::held_out_errors(points_, pair, law.sphere.packing, out_.sure.fit.pull_off(1.0));
     one.exponent = calibrate::force_exponent(points_, one.table);
+    one.approach = approach_of(pair, "the table");
     out_.table = std::move(one);
     return {};
   }
 
  private:
+  /// Nothing, and a remark why, where it cannot be told.
+  std::optional<calibrate::ApproachFriction> approach_of(const calibrate::PairModel& pair, const char* law) {
+    if (out_.data.relaxations.empty()) return {};
+    const auto found = calibrate::fit_approach_friction(out_.data.relaxations, pair);
+    if (found.ok()) return *found;
+    out_.data.remarks.push_back("no friction of approach for " + std::string(law) + ": " + found.error().message);
+    return {};
+  }
   [[nodiscard]] TrialLaw trial(const calibrate::Fit& fit) const {
     TrialLaw out{.sphere = {},
                  .adhesion = fit.parameters.adhesion,

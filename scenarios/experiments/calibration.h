@@ -22,6 +22,7 @@ struct FittedTable {
   std::vector<cbm::PackingKnot> packing;  ///< what these pairs leave to packings; empty: nothing
   calibrate::HeldOutErrors held_out;
   calibrate::ForceExponent exponent;
+  std::optional<calibrate::ApproachFriction> approach;  ///< with which its spheres come together as fast as shells; none: not known
 };
 
 /// A contact law of spheres, found from deformable cells.
@@ -32,14 +33,19 @@ struct Calibration {
   std::vector<ExperimentOutcome> outcomes;
   ExperimentData data;
   calibrate::SureFit sure;
-  calibrate::HeldOutErrors held_out;  ///< of JKR
-  double misfit = 0.0;                ///< part of the loss of pairs that JKR cannot take
-  std::optional<FittedTable> table;   ///< none: its points make no table, as a remark says
+  calibrate::HeldOutErrors held_out;                    ///< of JKR
+  double misfit = 0.0;                                  ///< part of the loss of pairs that JKR cannot take
+  std::optional<calibrate::ApproachFriction> approach;  ///< of spheres of the fitted JKR
+  std::optional<FittedTable> table;                     ///< none: its points make no table, as a remark says
 
   /// Contact radius over R of two spheres of the fitted JKR at rest.
   [[nodiscard]] double rest_of_jkr() const;
   /// JKR says nothing true of contacts that are so large, their area least of all.
   [[nodiscard]] bool jkr_is_beyond_range() const { return rest_of_jkr() > cbm::kJkrRange; }
+  /// Of the law to take.
+  [[nodiscard]] const std::optional<calibrate::ApproachFriction>& approach_to_take() const {
+    return table_is_better() ? table->approach : approach;
+  }
   /// Whether the table is the law to take: where JKR is beyond its range at rest, and where the table is better on what was held out.
   [[nodiscard]] bool table_is_better() const { return table && (jkr_is_beyond_range() || table->held_out.score() < held_out.score()); }
 };

@@ -85,11 +85,19 @@ std::string ranges_text(const calibrate::Data& data) {
          (r.room[0] <= r.room[1] ? ", volume_ratio: " + ends(r.room, "") : "") + ", slowest_rate: " + of(r.rate, "um/s") + "}";
 }
 
+/// How fast spheres of a law come together, where it was found.
+std::string approach_text(const std::optional<calibrate::ApproachFriction>& found) {
+  if (!found) return "";
+  return "  approach: {factor: " + number(found->factor) + ", friction: " + of(found->friction, "nN s/um^3") + ", interval: [" +
+         of(found->low, "nN s/um^3") + ", " + of(found->high, "nN s/um^3") + "], misfit: " + number(found->misfit) +
+         "}  # friction of approach of two spheres, over that of the shells\n";
+}
+
 std::string table_text(const FittedTable& fitted) {
   std::string out =
       "table:  # F/R* over delta/R* of attached pairs, R* the reduced radius\n  touch: " + number(fitted.table.touch_overlap()) +
       "\n  exponent: " + number(fitted.exponent.value) + "\n  exponent_error: " + number(fitted.exponent.error) +
-      "\n  held_out: " + errors_text(fitted.held_out) + "\n";
+      "\n  held_out: " + errors_text(fitted.held_out) + "\n" + approach_text(fitted.approach);
   if (!fitted.packing.empty()) out += "  packing: " + knots_text(fitted.packing) + "\n";
   out += "  knots:\n";
   for (const cbm::PairTableKnot& knot : fitted.table.knots())
@@ -118,9 +126,13 @@ std::string calibration_text(const Calibration& found) {
          "\n  adhesion_interval: " + interval(sure.adhesion.interval, "nN/um") + "\n  young_error: " + number(sure.covariance.young_error) +
          "\n  adhesion_error: " + number(sure.covariance.adhesion_error) + "\n  correlation: " + number(sure.covariance.correlation) +
          "\n  loss: " + number(fit.loss) + "\n  residuals: " + std::to_string(fit.residuals) + "\n  misfit: " + number(found.misfit) +
-         "  # part of the loss of pairs that JKR cannot take\n  held_out: " + errors_text(found.held_out) + "\n";
+         "  # part of the loss of pairs that JKR cannot take\n  held_out: " + errors_text(found.held_out) + "\n" +
+         approach_text(found.approach);
   if (!fit.parameters.knots.empty()) out += "  packing: " + knots_text(fit.parameters.knots) + "\n";
   if (found.table) out += table_text(*found.table);
+  if (const CellFriction& f = found.material.friction; !found.data.relaxations.empty())
+    out += "friction_of_shells: {medium: " + of(f.medium, "nN s/um^3") + ", cell_cell: " + of(f.approach, "nN s/um^3") +
+           ", cell_cell_tangential: " + of(f.along, "nN s/um^3") + "}  # with which they came together\n";
   out +=
       "ranges: " + ranges_text(found.data.points) + "\nremarks:" + (found.data.remarks.empty() && fit.remarks.empty() ? " []" : "") + "\n";
   for (const auto* remarks : {&found.data.remarks, &fit.remarks})

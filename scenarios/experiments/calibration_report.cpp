@@ -117,6 +117,32 @@ CurvePlot area_plot(const Calibration& found) {
   return plot;
 }
 
+/// Pairs that come together by themselves: shells, and spheres of the law to take with the friction that was fitted.
+CurvePlot relaxation_plot(const Calibration& found) {
+  CurvePlot plot = plot_of("Two cells that come together by themselves", axis("time", "s", true), axis("part of the way to rest", ""));
+  for (const calibrate::Relaxation& pair : found.data.relaxations) {
+    Curve shells = curve("shells, pair " + std::to_string(plot.curves.size() + 1));
+    for (std::size_t i = 1; i < pair.time.size(); ++i)
+      if (pair.overlap[i] > 0.0) shells.x.push_back(pair.time[i]), shells.y.push_back(pair.overlap[i] / pair.overlap.back());
+    plot.curves.push_back(std::move(shells));
+  }
+  const calibrate::Relaxation& first = found.data.relaxations.front();
+  const calibrate::PairModel law = found.table_is_better() ? calibrate::table_model(found.table->table)
+                                                           : calibrate::jkr_model(found.sure.fit.parameters.young, found.sure.fit.poisson,
+                                                                                  found.sure.fit.parameters.adhesion);
+  std::vector<double> parts;
+  for (int i = 2; i < 100; ++i) parts.push_back(0.01 * i);
+  const auto add = [&](const char* name, double friction) {
+    Curve spheres = curve(name);
+    for (const auto& one : calibrate::passages_of_spheres(law, first.radius, first.medium_friction, friction, parts))
+      spheres.x.push_back(one.time), spheres.y.push_back(one.part);
+    if (!spheres.x.empty()) plot.curves.push_back(std::move(spheres));
+  };
+  if (const auto& fitted = found.approach_to_take()) add("spheres, fitted", fitted->friction);
+  add("spheres with the friction of the study", first.contact_friction);
+  return plot;
+}
+
 CurvePlot profile_plot(const calibrate::Profile& profile, const char* name, const char* unit, double least) {
   CurvePlot plot = plot_of(std::string("Profile of ") + name, axis(name, unit, true), axis("loss above the least", ""));
   Curve line = curve("all others at their best");
@@ -181,6 +207,10 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
     if (taken.packings > 0)
       out.key_numbers.push_back(
           {"pressure of a random packing that was held out, root mean square", three(100.0 * taken.pressure_rms), "%"});
+    if (const auto& approach = found.approach_to_take())
+      out.key_numbers.push_back({"friction of approach of two spheres", three(100.0 * approach->factor),
+                                 "% of that of the study (" + three(approach->friction) + " nN s/um^3, 95 %: " + three(approach->low) +
+                                     " to " + three(approach->high) + ")"});
     out.key_numbers.push_back({"the law to take", found.table_is_better() ? "the table" : "JKR", ""});
   }
   const auto add = [&](const CurvePlot& plot) { out.plots.push_back({"", curves_svg(plot, SvgUse::kInline)}); };
@@ -188,6 +218,7 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
   add(area_plot(found));
   if (!found.data.points.packings.empty()) add(packing_plot(found));
   add(pair_plot(found, true));
+  if (!found.data.relaxations.empty()) add(relaxation_plot(found));
   add(profile_plot(sure.young, "E", "kPa", fit.loss));
   add(profile_plot(sure.adhesion, "W", "nN/um", fit.loss));
   for (const auto* remarks : {&found.data.remarks, &fit.remarks})

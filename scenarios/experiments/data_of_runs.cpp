@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kPlaces = 50;        // of a curve, on the way in and on the way out
 constexpr double kLoosest = 1.1;   // V/V0 of the first point of a packing
+constexpr double kAtRest = 0.02;   // part of its way that a relaxed pair may still come in the last tenth of its time
 constexpr double kNoForce = 0.01;  // of the largest force: a pair that bears less has parted
 
 /// A pair at one rate, by the way of its traps.
@@ -86,6 +87,20 @@ Status add_pair(const std::vector<Curve>& curves, int block, ExperimentData& out
   return {};
 }
 
+/// With a remark where the cells still moved at the end.
+void add_relaxation(const Experiment& experiment, calibrate::Relaxation pair, ExperimentData& out) {
+  const std::size_t n = pair.overlap.size();
+  const double end = n > 0 ? pair.overlap.back() : 0.0, late = n > 0 ? pair.overlap[n - 1 - n / 10] : 0.0;
+  if (!(end > 0.0)) {
+    out.remarks.push_back(experiment.name + ": the cells did not come together by themselves");
+    return;
+  }
+  if (std::abs(end - late) > kAtRest * end)
+    out.remarks.push_back(experiment.name + ": the cells still moved at the end, by " +
+                          number_text("%.2g", 100.0 * std::abs(end - late) / end) + " % of their way in its last tenth");
+  out.relaxations.push_back(std::move(pair));
+}
+
 }  // namespace
 
 Result<ExperimentData> data_of_runs(std::span<const Experiment> experiments, std::span<const ExperimentOutcome> outcomes) {
@@ -101,6 +116,9 @@ Result<ExperimentData> data_of_runs(std::span<const Experiment> experiments, std
     if (experiment.kind == Experiment::Kind::kPair) {
       MORULA_TRY_ASSIGN(auto points, pair_of_run(experiment, outcomes[e].run));
       if (points.size() > 1) pairs[{experiment.radius_a, experiment.radius_b}].push_back({&experiment, std::move(points)});
+    } else if (experiment.kind == Experiment::Kind::kRelaxation) {
+      MORULA_TRY_ASSIGN(auto pair, relaxation_of_run(experiment, outcomes[e].run));
+      add_relaxation(experiment, std::move(pair), out);
     } else {
       MORULA_TRY_ASSIGN(const auto points, packing_of_run(experiment, outcomes[e].run));
       for (const FoundPacking& point : points) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/ball.h"
@@ -25,15 +26,20 @@ constexpr int kRandomCells = 48;                           // no cell meets anot
 constexpr double kInflate = 900.0, kRandomStart = 1200.0;  // of a random packing: until when its cells grow, and its box stays as it is [s]
 constexpr double kRandomTime = 1500.0, kRandomOutput = 60.0;  // of its compression [s]
 constexpr std::uint32_t kRandomFitted = 2, kRandomHeldOut = 1;
+constexpr std::uint32_t kRelaxations = 3;  // each with meshes that are turned otherwise
+constexpr double kRelaxationTimes = 40.0;  // simulated, in times of relaxation as guessed
+constexpr double kZipped = 0.02;           // part of the friction in contact that is guessed to hold cells back
+constexpr int kRelaxationOutputs = 400;
+constexpr double kLeastWay = 0.1;  // δ/R at rest that is guessed at least
 /// Friction of a type with the medium and with other cells.
 struct Friction {
-  const char *medium, *cells;
+  std::string medium, cells;
 };
 /// Traps drag a pair through the medium and past each other: next to nothing.
-constexpr Friction kOfPairs{"1e6 N s/m^3", "0 N s/m^3"};
+const Friction kOfPairs{"1e6 N s/m^3", "0 N s/m^3"};
 /// A box carries its cells along; what wets its neighbours without friction does so within milliseconds, and the steps are as short. Pressures are the
 /// same within 1 % from V/V0 = 0.99 down (decision 0044).
-constexpr Friction kOfPackings{"1e8 N s/m^3", "5e10 N s/m^3"};
+const Friction kOfPackings{"1e8 N s/m^3", "5e10 N s/m^3"};
 
 std::string number(double value) { return shortest_text(value); }
 std::string of(double value, const char* unit) { return number(value) + " " + unit; }
@@ -142,6 +148,31 @@ Experiment packing_experiment(const CellMaterial& material, calibrate::Arrangeme
   return e;
 }
 
+Experiment relaxation_experiment(const CellMaterial& material, std::uint32_t seed) {
+  const CellFriction& f = material.friction;
+  const double radius = material.radius, way = std::max(kLeastWay * radius, overlap_of_doublet(material.adhesion, material.tension));
+  const double medium = 4.0 * std::numbers::pi * radius * radius * f.medium;
+  const double drag = medium + kZipped * std::numbers::pi * radius * radius * f.approach;
+  const double end =
+      std::ceil(kRelaxationTimes * drag * way / (1.5 * std::numbers::pi * material.adhesion * radius));  // δ′ = 2F/drag, F = 0.75 πWR
+  Experiment e{.kind = Experiment::Kind::kRelaxation,
+               .seed = seed,
+               .name = "relaxing_pair_" + std::to_string(seed),
+               .purpose = "Two cells that touch and come together by themselves",
+               .text = {},
+               .radius_a = radius,
+               .radius_b = radius,
+               .friction = f};
+  const double box = 16.0 * radius;
+  const std::string cells = of(f.approach, "nN s/um^3") + ", cell_cell_tangential: " + of(f.along, "nN s/um^3");
+  e.text = head(material, e, "cell, cell", end, end / kRelaxationOutputs) + "domain: {size: " + place({box, box, box}) +
+           ", boundary: open}\ncell_types:\n" +
+           type_text(material, "cell", radius, "cell: " + of(material.adhesion, "nN/um"), {of(f.medium, "nN s/um^3"), cells}) +
+           "initial:\n  - {type: cell, at: [" + place({0, 0, -radius}) + ", " + place({0, 0, radius}) + "], as: shell}\n";
+  e.work = 2.0 * (0.5 * end + 1000.0);
+  return e;
+}
+
 Experiment random_packing_experiment(const CellMaterial& material, std::uint32_t seed) {
   const double free = ball_volume(material.radius);
   const double edge = std::cbrt(kRandomCells * free * kLoose), end = kRandomStart + kRandomTime;
@@ -189,6 +220,7 @@ enum Dispensable : int {
   kFirstPacking,
   kSecondPacking,
   kEqualSlowest,
+  kRelaxing,
   kUnequalFaster,
   kHeldOutPacking,
   kUnequalSlowest,
@@ -211,6 +243,11 @@ void add_pairs(const CellMaterial& material, const std::string& name, double rat
 std::vector<Experiment> experiments_for(const CellMaterial& material, bool packings) {
   std::vector<Experiment> out;
   add_pairs(material, "equal_pair", 1.0, false, out);
+  if (material.adhesion > 0.0 && material.friction.approach > 0.0)
+    for (std::uint32_t seed = 1; seed <= kRelaxations; ++seed) {
+      out.push_back(relaxation_experiment(material, seed));
+      out.back().dispensable = kRelaxing;
+    }
   if (packings) {
     for (std::uint32_t seed = 1; seed <= kRandomFitted + kRandomHeldOut; ++seed) {
       out.push_back(random_packing_experiment(material, seed));

@@ -38,6 +38,21 @@ Result<std::vector<FoundPair>> pair_of_run(const Experiment& experiment, const s
   return out;
 }
 
+Result<calibrate::Relaxation> relaxation_of_run(const Experiment& experiment, const std::filesystem::path& run) {
+  MORULA_TRY_ASSIGN(const auto moments, all_snapshots(run));
+  calibrate::Relaxation out{.radius = experiment.radius_a,
+                            .medium_friction = 3.0 / experiment.radius_a * ball_volume(experiment.radius_a) * experiment.friction.medium,
+                            .contact_friction = experiment.friction.approach,
+                            .time = {},
+                            .overlap = {}};
+  for (const Snapshot& moment : moments) {
+    if (moment.cells.size() != 2) return Error{ErrorKind::kFile, "a pair of '" + run.string() + "' has not two cells", ""};
+    out.time.push_back(moment.time);
+    out.overlap.push_back(experiment.radius_a + experiment.radius_b - norm(moment.cells[1].centroid - moment.cells[0].centroid));
+  }
+  return out;
+}
+
 Result<std::vector<FoundPacking>> packing_of_run(const Experiment& experiment, const std::filesystem::path& run) {
   MORULA_TRY_ASSIGN(const auto series, read_series(run / "series.csv"));
   MORULA_TRY_ASSIGN(const SeriesColumn* volume, column(series, "box_volume"));

@@ -4,6 +4,7 @@
 
 #include "core/result.h"
 #include "core/vec3.h"
+#include "scenarios/calibrate/relaxation.h"
 #include "scenarios/experiments/experiment.h"
 
 namespace morula::scenarios {
@@ -25,6 +26,8 @@ struct FoundPacking {
   double edge = 0.0;             ///< of its box [µm]
 };
 
+/// Two cells that come together by themselves, over time: δ between centres of volume.
+Result<calibrate::Relaxation> relaxation_of_run(const Experiment& experiment, const std::filesystem::path& run);
 /// Errors (kFile): files of the run that are missing or damaged.
 Result<std::vector<FoundPair>> pair_of_run(const Experiment& experiment, const std::filesystem::path& run);
 Result<std::vector<FoundPacking>> packing_of_run(const Experiment& experiment, const std::filesystem::path& run);

@@ -76,6 +76,39 @@ TEST(Experiments, GiveBackTheLawOfSpheres) {
   EXPECT_GT(held_out, 20u);
 }
 
+/// Spheres of a known friction, which come together by themselves where the shells of an experiment do: their friction comes back.
+TEST(Experiments, GiveBackTheFrictionOfSpheres) {
+  const test::Folder folder;
+  CellMaterial material;
+  material.type = "ball";
+  material.radius = 5.0;
+  material.adhesion = 0.05;
+  material.range = 0.5;
+  material.friction = {0.1, 2.0, 40.0};
+  material.shell = "cbm: {law: jkr, young: 0.8 kPa, poisson: 0.4, packing: none}";
+  material.contact = "{range: 0.5 um}";
+  std::vector<Experiment> all = experiments_for(material, false), relaxing;
+  for (Experiment& e : all)
+    if (e.kind == Experiment::Kind::kRelaxation) {
+      e.text.replace(e.text.find("as: shell"), 9, "as: sphere");
+      relaxing.push_back(e);
+    }
+  ASSERT_EQ(relaxing.size(), 3u);
+  relaxing.resize(1);
+  const auto outcomes = run_experiments(relaxing, in(folder.path()), Comm());
+  ASSERT_TRUE(outcomes.ok());
+  ASSERT_TRUE((*outcomes)[0].done) << (*outcomes)[0].problem;
+  const auto pair = relaxation_of_run(relaxing[0], (*outcomes)[0].run);
+  ASSERT_TRUE(pair.ok()) << pair.error().message;
+  EXPECT_NEAR(pair->medium_friction, 0.1 * 100.0 * std::numbers::pi, 1e-9);
+  const auto found = calibrate::fit_approach_friction({*pair}, calibrate::jkr_model(0.8, 0.4, 0.05));
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  EXPECT_NEAR(found->friction, 2.0, 0.06);
+  EXPECT_LT(found->misfit, 0.03);
+  material.adhesion = 0.0;
+  for (const Experiment& e : experiments_for(material)) EXPECT_NE(e.kind, Experiment::Kind::kRelaxation) << "nothing draws them together";
+}
+
 /// A study that takes a law from the file of a calibration: two spheres come to rest where JKR with the true E and W has no load, though the shells of the
 /// type adhere twice as much; and after a swap of the law to that of the study they do not.
 TEST(Experiments, AStudyUsesTheLawThatWasFound) {
@@ -252,6 +285,7 @@ CellMaterial material_of_shells() {
   out.nodes = 162;
   out.shell = "dcm: {nodes: 162}";
   out.contact = "{range: 0.5 um}";
+  out.friction = {0.1, 50.0, 50.0};
   return out;
 }
 
@@ -276,7 +310,8 @@ TEST(Budget, LeavesOutWhatJudgesFirstAndNeverWhatTheFitNeeds) {
     EXPECT_EQ(list->kept.front().name, "equal_pair_1");
   }
   EXPECT_THAT(order, testing::ElementsAre("packing_fcc", "packing_bcc", "unequal_pair_3", "packing_random_3", "unequal_pair_1",
-                                          "unequal_pair_2", "equal_pair_3", "packing_random_2", "packing_random_1"));
+                                          "unequal_pair_2", "relaxing_pair_1", "relaxing_pair_2", "relaxing_pair_3", "equal_pair_3",
+                                          "packing_random_2", "packing_random_1"));
   EXPECT_NEAR(expected_seconds(all.front(), 642) / expected_seconds(all.front(), 162), 642.0 / 162.0, 1e-12);
 }
 

@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include "coupling/mechanics/contact_setup.h"
 #include "study/cell_material.h"
 #include "tests/study/study_fixture.h"
 
@@ -72,6 +73,29 @@ TEST(FittedLaw, TakesModulusAdhesionPackingAndRangeFromTheFile) {
   EXPECT_EQ(sphere.packing.onset(), 0.08);
   EXPECT_EQ(study->model.pair(0, 0).adhesion, 0.1);  // shells keep theirs
   EXPECT_THAT(study->warnings.text(), Not(HasSubstr("E647")));
+}
+
+TEST(FittedLaw, SpheresComeTogetherWithTheFrictionThatWasFitted) {
+  const std::string approach =
+      "  approach: {factor: 0.05, friction: 2.5 nN s/um^3, interval: [2 nN s/um^3, .inf nN s/um^3], misfit: 0.2}\n";
+  const std::string shells = "friction_of_shells: {medium: 0.1 nN s/um^3, cell_cell: 50 nN s/um^3, cell_cell_tangential: 50 nN s/um^3}\n";
+  const Written file(file_text("jkr", approach, shells));
+  const auto study = file.read();
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  EXPECT_EQ(study->model.types[0].sphere.approach_factor, 0.05);
+  EXPECT_THAT(study->warnings.text(), Not(HasSubstr("E542")));
+  const cbm::ContactTable::Entry& spheres = sphere_contact_table(study->model).entry(0, 0);
+  EXPECT_DOUBLE_EQ(spheres.normal_friction, 2.5);
+  EXPECT_DOUBLE_EQ(spheres.tangential_friction, 50.0);
+  EXPECT_DOUBLE_EQ(study->model.pair(0, 0).normal_friction, 50.0) << "shells keep theirs";
+  const auto other = file.read(test::changed("    radius: 6 um", "    radius: 6 um\n    friction: {cell_cell: 1e10 N s/m^3}", kStudy));
+  ASSERT_TRUE(other.ok()) << other.error().text();
+  EXPECT_THAT(other->warnings.text(), AllOf(HasSubstr("E542"), HasSubstr("`cell_cell`")));
+  EXPECT_DOUBLE_EQ(sphere_contact_table(other->model).entry(0, 0).normal_friction, 0.5);
+  const auto unknown = Written(file_text()).read();
+  ASSERT_TRUE(unknown.ok());
+  EXPECT_EQ(unknown->model.types[0].sphere.approach_factor, 1.0);
+  EXPECT_THAT(Written(file_text("jkr", "  approach: {factor: -1, misfit: 0}\n")).errors(), HasSubstr("E302"));
 }
 
 TEST(FittedLaw, ResolvedStudyTellsTheNumbersAndReadsBackTheSame) {
