@@ -4,6 +4,8 @@
 
 #include "cbm/sphere_range.h"
 #include "core/cell_id_text.h"
+#include "core/numbers/number_text.h"
+#include "coupling/mechanics/workspace.h"
 #include "study/build.h"
 #include "study/read_section.h"
 
@@ -113,6 +115,23 @@ void check_jkr_range(BuildContext& c) {
   }
 }
 
+/// Steps are chosen by ways on the scale of the range of contact, which is nothing to a cell of usual size and much to a small one.
+void check_ways_of_spheres(BuildContext& c) {
+  constexpr double kMuch = 0.5;  // of the radius, in one step
+  const Model& model = c.study.model;
+  const double way = allowed_ways(model).of_point / AllowedWays::kSphereCounts;
+  for (std::size_t i = 0; i < model.types.size(); ++i) {
+    const double radius = model.types[i].radius.mean;
+    if (!(way > kMuch * radius) || !may_be_sphere(c, i)) continue;
+    const auto& [name, place, t] = c.draft.cell_types[i];
+    const double wanted = kMuch * radius / way * model.step.max_displacement;
+    c.diagnostics.warning(648, t.radius.mean.given ? t.radius.mean.place : place,
+                          "a sphere of '" + name + "' may go " + number_text("%.2g", way) +
+                              " um in one step, more than half of its radius of " + number_text("%.2g um", radius),
+                          "`numerics.max_displacement: " + number_text("%.1g", wanted) + "`, or a smaller `contact.range`");
+  }
+}
+
 }  // namespace
 
 void check_bodies(BuildContext& c) {
@@ -122,6 +141,7 @@ void check_bodies(BuildContext& c) {
   check_mesh_of_divisions(c);
   check_axis_of_spheres(c);
   check_jkr_range(c);
+  check_ways_of_spheres(c);
 }
 
 }  // namespace morula::scenarios

@@ -218,6 +218,9 @@ constexpr ErrorCode kCodes[] = {
      "The JKR law of elastic spheres is one of small contacts: a contact radius up to about 0.4 R. Beyond it spheres overlap by more than "
      "a "
      "tenth, and the areas of their contacts add up to more than their surface."},
+    {648, "small spheres that may go far",
+     "How far cells go in one step is measured by the range of contact. Where that is more than half of a sphere's radius it may pass a "
+     "neighbour: `numerics.max_displacement` should be smaller."},
     {649, "spheres without a long axis",
      "A rule for the axis of division needs the shape of a shell. Where the cell is a sphere its axis is random."},
     {650, "mesh too coarse to divide",

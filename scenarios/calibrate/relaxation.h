@@ -8,9 +8,9 @@ namespace morula::calibrate {
 
 /// Two equal cells that come together by themselves, from the moment they touch until they rest.
 struct Relaxation {
-  double radius = 0.0;           ///< of the free cells [µm]
-  double medium_friction = 0.0;  ///< Γ of a cell with the medium, 4πR²γ_med [nN·s/µm]
-  double contact_friction = 0.0;  ///< γ_n of the cells per contact area [nN·s/µm³]
+  double radius = 0.0;                ///< of the free cells [µm]
+  double medium_friction = 0.0;       ///< Γ of a cell with the medium, 4πR²γ_med [nN·s/µm]
+  double contact_friction = 0.0;      ///< γ_n of the cells per contact area [nN·s/µm³]
   std::vector<double> time, overlap;  ///< δ over time, from 0 [s], [µm]
 };
 

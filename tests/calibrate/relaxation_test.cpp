@@ -32,7 +32,8 @@ Relaxation as_spheres(double friction, double contact_friction, double slower = 
 TEST(Relaxation, OfSpheresIsThatOfTheReference) {
   // physics/cbm.md §2, pair adhesion relaxation: δ after t seconds, found by another program
   const std::pair<double, double> medium_alone[] = {{1, 0.065720}, {10, 0.562946}, {30, 1.129612}, {100, 1.368858}};
-  const std::pair<double, double> with_contact[] = {{10, 0.010889}, {100, 0.103989}, {300, 0.283647}, {1000, 0.713712}, {3000, 1.197213}, {10000, 1.369359}};
+  const std::pair<double, double> with_contact[] = {{10, 0.010889},   {100, 0.103989},  {300, 0.283647},
+                                                    {1000, 0.713712}, {3000, 1.197213}, {10000, 1.369359}};
   const auto time_of = [](double overlap, double friction) {
     const auto found = passages_of_spheres(reference(), kRadius, kMedium, friction, {overlap / kRest});
     return found.empty() ? -1.0 : found.front().time;

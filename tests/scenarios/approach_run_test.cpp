@@ -12,10 +12,12 @@ namespace {
 /// When two cells of the library's calibrated type have come half of their way [s], in a body and with overrides.
 double half_time(const std::string& body, std::vector<std::string> overrides, const char* end, const char* output) {
   const test::Folder folder;
-  for (const TemplateFile& file : find_template("calibrate_hepatocyte")->files) folder.write(std::string(file.path), std::string(file.content));
-  for (const std::string& one : {std::string("initial=[{type: hepatocyte, at: [[0 um, 0 um, -6 um], [0 um, 0 um, 6 um]], as: ") + body + "}]",
-                                 std::string("time.end=") + end, std::string("time.checkpoint=") + end, std::string("time.output=") + output,
-                                 std::string("output.report=false")})
+  for (const TemplateFile& file : find_template("calibrate_hepatocyte")->files)
+    folder.write(std::string(file.path), std::string(file.content));
+  for (const std::string& one :
+       {std::string("initial=[{type: hepatocyte, at: [[0 um, 0 um, -6 um], [0 um, 0 um, 6 um]], as: ") + body + "}]",
+        std::string("time.end=") + end, std::string("time.checkpoint=") + end, std::string("time.output=") + output,
+        std::string("output.report=false")})
     overrides.push_back(one);
   ReadOptions options;
   options.overrides = overrides;

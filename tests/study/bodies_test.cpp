@@ -16,6 +16,7 @@
 namespace morula::scenarios {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -36,6 +37,18 @@ std::string with(const std::string& key, const std::string& text = kStudy) {
   return test::changed("    dcm:", "    " + key + "\n    dcm:", text);
 }
 const std::string kAsShell = "radius: 40 um, as: shell}";
+
+TEST(Bodies, SmallSpheresThatMayGoFarInAStepAreTold) {
+  const auto told = [](const std::string& text) {
+    const auto study = test::read(text);
+    EXPECT_TRUE(study.ok()) << study.error().text();
+    return study.ok() ? study->warnings.text() : std::string();
+  };
+  EXPECT_THAT(told(kStudy), Not(HasSubstr("E648")));
+  const std::string small = test::changed("radius: 6 um", "radius: 1 um", kStudy);
+  EXPECT_THAT(told(small), AllOf(HasSubstr("E648"), HasSubstr("0.9 um in one step"), HasSubstr("max_displacement: 0.2")));
+  EXPECT_THAT(told(test::changed("domain:", "numerics: {max_displacement: 0.15}\ndomain:", small)), Not(HasSubstr("E648")));
+}
 
 TEST(Bodies, WhateverIsInsideAShellMayFluctuate) {
   const std::string shells = test::changed("radius: 40 um}", kAsShell, with("fluctuations: {energy: 4e-18 J}"));
