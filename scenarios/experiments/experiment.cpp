@@ -29,7 +29,7 @@ constexpr std::uint32_t kRandomFitted = 2, kRandomHeldOut = 1;
 constexpr std::uint32_t kRelaxations = 3;  // each with meshes that are turned otherwise
 constexpr double kRelaxationTimes = 40.0;  // simulated, in times of relaxation as guessed
 constexpr double kZipped = 0.02;           // part of the friction in contact that is guessed to hold cells back
-constexpr int kRelaxationOutputs = 400;
+constexpr int kRelaxationOutputs = 120;
 constexpr double kLeastWay = 0.1;  // δ/R at rest that is guessed at least
 /// Friction of a type with the medium and with other cells.
 struct Friction {

@@ -103,6 +103,38 @@ std::string caption_of(const NamedPlot& plot, const SeriesTable& series) {
          "). Within it: overlaps that the law was fitted to, or else contact radii below 0.45 R, and packing that its curve is made for.";
 }
 
+/// Nodes of a shell, on average over the cells of the end.
+double mean_nodes(const Study& study, const SeriesTable& series) {
+  double cells = 0.0, nodes = 0.0;
+  for (const CellType& type : study.model.types) {
+    const SeriesColumn* count = series.find("count_" + type.name);
+    const double here = count != nullptr && !count->values.empty() ? count->values.back() : 1.0;
+    cells += here;
+    nodes += here * type.shell_nodes;
+  }
+  return cells > 0.0 ? nodes / cells : 0.0;
+}
+
+/// Of a hybrid: what of the time its shells took, and what the run would take were all its cells shells, by the load of either body (cost_model.h). A node
+/// costs more the more shells there are: 0.033, 0.045 and 0.08 s an hour and thousand nodes among 13, 55 and 1,000 shells, some N^0.2; and up to 2.5 times
+/// that, measured on `hybrid_spheroid`, where nothing but the body was another.
+void add_cost_by_body(const Study& study, const RunRecord& record, const SeriesTable& series, ReportContent& content) {
+  const SeriesColumn *spheres = series.find("sphere_count"), *shells = series.find("shell_count");
+  if (spheres == nullptr || shells == nullptr || !(record.wall_time > 0.0)) return;
+  const double nodes = mean_nodes(study, series);
+  Load as_it_was, all_shells;
+  for (std::size_t i = 0; i < series.rows(); ++i) {
+    as_it_was.spheres += spheres->values[i];
+    as_it_was.nodes += shells->values[i] * nodes;
+    all_shells.nodes += (spheres->values[i] + shells->values[i]) * nodes;
+  }
+  if (!(as_it_was.spheres > 0.0) || !(as_it_was.nodes > 0.0)) return;
+  const double of_shells = Load{.nodes = as_it_was.nodes}.total() / as_it_was.total();
+  content.key_numbers.push_back({"time for its shells, by their load", short_text(std::round(100.0 * of_shells)), "%"});
+  const double longer = record.wall_time * all_shells.total() / as_it_was.total() * std::pow(all_shells.nodes / as_it_was.nodes, 0.2);
+  content.key_numbers.push_back({"were all its cells shells, about", duration_text(WallRange{longer, 2.5 * longer}), ""});
+}
+
 void add_key_numbers(const RunRecord& record, const SeriesTable& series, ReportContent& content) {
   auto& out = content.key_numbers;
   const auto last = [&](const char* column) {
@@ -230,6 +262,7 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
   if (auto table = interface_table(study, snapshots)) content.tables.push_back(std::move(*table));
   for (const Picture& picture : content.pictures) MORULA_TRY(write_png(picture.image, run / "plots" / (picture.name + ".png")));
   add_key_numbers(record, series, content);
+  add_cost_by_body(study, record, series, content);
   add_limit(series, "volume_error", "volume error", study.model.limits.volume_error, "", content);
   add_limit(series, "worst_overlap", "overlap", study.model.limits.overlap, "µm", content);
   add_limit(series, "field_balance", "field balance", study.model.limits.field_balance, "", content);

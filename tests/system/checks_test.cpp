@@ -111,6 +111,25 @@ TEST(UsersStudy, GetsNumericalChecksAndIsToldWhatWasNotChecked) {
   for (const char* id : {"INV.1", "INV.4", "INV.7"}) EXPECT_THAT(ids, testing::Contains(id));
 }
 
+TEST(HybridReport, TellsWhatShellsCostAndWhatAllShellsWould) {
+  const TestFolder folder;
+  folder.write("study.yaml", R"(schema: 1
+study: both
+time: {end: 10 min, output: 5 min, checkpoint: 10 min}
+domain: {size: [120 um, 120 um, 120 um]}
+cell_types: {a: {radius: 6 um}}
+initial:
+  - {type: a, at: [[0 um, 0 um, 0 um]], as: shell}
+  - {type: a, at: [[30 um, 0 um, 0 um], [0 um, 30 um, 0 um], [0 um, 0 um, 30 um]]}
+)");
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "both"}, folder.path()).exit_code, 0);
+  // One shell of 162 nodes, each worth three spheres, beside three spheres: 486 of 489.
+  EXPECT_THAT(read_text(folder / "both/report.html"), AllOf(testing::ContainsRegex("time for its shells, by their load</dt><dd>99"),
+                                                            HasSubstr("were all its cells shells, about")));
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "one", "cell_types.a.body=shell", "initial.1.as=shell"}, folder.path()).exit_code, 0);
+  EXPECT_THAT(read_text(folder / "one/report.html"), Not(HasSubstr("were all its cells shells")));
+}
+
 TEST(Methods, SayWhichValuesTheStudyGaveAndWhereTheOthersComeFrom) {
   const TestFolder folder;
   folder.write("study.yaml", R"(schema: 1
