@@ -26,11 +26,11 @@ constexpr int kRandomCells = 48;                           // no cell meets anot
 constexpr double kInflate = 900.0, kRandomStart = 1200.0;  // of a random packing: until when its cells grow, and its box stays as it is [s]
 constexpr double kRandomTime = 1500.0, kRandomOutput = 60.0;  // of its compression [s]
 constexpr std::uint32_t kRandomFitted = 2, kRandomHeldOut = 1;
-constexpr std::uint32_t kRelaxations = 3;  // each with meshes that are turned otherwise
-constexpr double kRelaxationTimes = 40.0;  // simulated, in times of relaxation as guessed
-constexpr double kZipped = 0.02;           // part of the friction in contact that is guessed to hold cells back
-constexpr int kRelaxationOutputs = 120;
-constexpr double kLeastWay = 0.1;  // δ/R at rest that is guessed at least
+constexpr std::uint32_t kRelaxations = 3;                         // each with meshes that are turned otherwise
+constexpr double kRelaxationTimes = 40.0;                         // simulated, in times of relaxation as guessed
+constexpr double kZipped = 0.02;                                  // part of the friction in contact that is guessed to hold cells back
+constexpr int kRelaxationOutputs = 120, kRelaxationSteps = 1200;  // at least
+constexpr double kLeastWay = 0.1;                                 // δ/R at rest that is guessed at least
 /// Friction of a type with the medium and with other cells.
 struct Friction {
   std::string medium, cells;
@@ -59,9 +59,10 @@ std::string contact_text(const CellMaterial& material, const char* between) {
   return open + (open.size() > 1 ? ", " : "") + "pairs: [{between: [" + between + "]" + material.pair + "}]}";
 }
 
-std::string head(const CellMaterial& material, const Experiment& experiment, const char* between, double end, double output) {
+std::string head(const CellMaterial& material, const Experiment& experiment, const char* between, double end, double output,
+                 const std::string& step = "") {
   return "schema: 1\nstudy: " + experiment.name + "\ntitle: \"" + experiment.purpose + "\"\nseed: " + std::to_string(experiment.seed) +
-         "\ntime: {end: " + of(end, "s") + ", output: " + of(output, "s") + ", checkpoint: " + of(0.25 * end, "s") +
+         "\ntime: {end: " + of(end, "s") + ", output: " + of(output, "s") + ", checkpoint: " + of(0.25 * end, "s") + step +
          "}\ncontact: " + contact_text(material, between) + "\n" + "output: {report: false}\nlimits: {overlap: 1 um}\n";
 }
 
@@ -165,8 +166,8 @@ Experiment relaxation_experiment(const CellMaterial& material, std::uint32_t see
                .friction = f};
   const double box = 16.0 * radius;
   const std::string cells = of(f.approach, "nN s/um^3") + ", cell_cell_tangential: " + of(f.along, "nN s/um^3");
-  e.text = head(material, e, "cell, cell", end, end / kRelaxationOutputs) + "domain: {size: " + place({box, box, box}) +
-           ", boundary: open}\ncell_types:\n" +
+  e.text = head(material, e, "cell, cell", end, end / kRelaxationOutputs, ", step: " + of(end / kRelaxationSteps, "s")) +
+           "domain: {size: " + place({box, box, box}) + ", boundary: open}\ncell_types:\n" +
            type_text(material, "cell", radius, "cell: " + of(material.adhesion, "nN/um"), {of(f.medium, "nN s/um^3"), cells}) +
            "initial:\n  - {type: cell, at: [" + place({0, 0, -radius}) + ", " + place({0, 0, radius}) + "], as: shell}\n";
   e.work = 2.0 * (0.5 * end + 1000.0);
