@@ -126,11 +126,14 @@ void declare_numerics(Section& s, draft::Numerics& n) {
               .source = "chosen"},
              n.initial_step);
   s.quantity({.name = "skin",
-              .doc = "Extra distance of the candidate lists of contacts; changes speed, not results.",
+              .doc = "Extra distance of the candidate lists of contacts; changes speed, not results. `auto`: 0.5 um, and a fifth of the "
+                     "largest radius, up to 1 um, "
+                     "where no cell can be a shell.",
               .quantity = Q::kLength,
-              .fallback = "0.5 um",
+              .fallback = "auto",
               .low = 0.0,
               .low_open = true,
+              .specials = {{"auto", 0.0}},
               .example = "0.5 um",
               .source = "measured"},
              n.skin);

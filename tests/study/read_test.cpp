@@ -176,6 +176,19 @@ TEST(StudyReader, MakesShorterStepsWhereACellCanBeAShell) {
   EXPECT_DOUBLE_EQ(longest("{}", "coupling: {triggers: [{promote: pressure > 1 kPa, demote: pressure < 0.5 kPa}]}\n"), 60.0);
 }
 
+TEST(StudyReader, ListsReachFurtherWhereNoCellCanBeAShell) {
+  const auto skin = [](const char* type, const char* rest = "") {
+    return good("schema: 1\nstudy: s\ntime: {end: 1 h}\ndomain: {size: [100 um, 100 um, 100 um]}\ncell_types: {a: " + std::string(type) +
+                "}\ninitial: [{type: a, at: [[0 um, 0 um, 0 um]]}]\n" + rest)
+        .model.contact.skin;
+  };
+  EXPECT_DOUBLE_EQ(skin("{radius: 5 um}"), 1.0);
+  EXPECT_DOUBLE_EQ(skin("{radius: 3.5 um}"), 0.7);
+  EXPECT_DOUBLE_EQ(skin("{radius: 1 um}"), 0.5);
+  EXPECT_DOUBLE_EQ(skin("{body: shell}"), ContactNumerics().skin);
+  EXPECT_DOUBLE_EQ(skin("{radius: 5 um}", "numerics: {skin: 0.3 um}\n"), 0.3);
+}
+
 TEST(StudyReader, DefaultsAreTheModelsDefaults) {
   const Study s = good(
       "schema: 1\nstudy: s\ntime: 1 h\ndomain: {size: [100 um, 100 um, 100 um]}\ncell_types: {a: {}}\ninitial: [{type: a, at: [[0 um, 0 "
@@ -202,7 +215,7 @@ TEST(StudyReader, DefaultsAreTheModelsDefaults) {
   const ContactNumerics contact;
   EXPECT_DOUBLE_EQ(s.model.contact.range, contact.range);
   EXPECT_DOUBLE_EQ(s.model.contact.repulsion, contact.repulsion);
-  EXPECT_DOUBLE_EQ(s.model.contact.skin, contact.skin);
+  EXPECT_DOUBLE_EQ(s.model.contact.skin, 1.0) << "no cell can be a shell";
   EXPECT_DOUBLE_EQ(s.model.limits.volume_error, Limits{}.volume_error);
   EXPECT_DOUBLE_EQ(s.model.swaps.hold, Swaps{}.hold);
   EXPECT_EQ(s.model.swaps.max_shells, Swaps{}.max_shells);
