@@ -58,7 +58,7 @@ struct Compared {
   double time = 0.0, medium = 0.0, contact = 0.0;
 };
 
-/// γ ≥ 0 that makes Σ ln²((medium + γ contact)/time) least: its derivative rises through 0 once, as all terms are convex in ln γ near the least; found by halving.
+/// γ ≥ 0 that makes Σ ln²((medium + γ contact)/time) least: where its derivative comes from below 0 to above it, found by halving.
 double least_squares(const std::vector<Compared>& all) {
   const auto slope = [&](double friction) {
     double out = 0.0;
@@ -68,8 +68,9 @@ double least_squares(const std::vector<Compared>& all) {
     }
     return out;
   };
-  if (slope(0.0) >= 0.0) return 0.0;
-  double low = 0.0, high = 1.0;
+  const bool held_by_medium = std::ranges::all_of(all, [](const Compared& c) { return c.medium > 0.0; });
+  if (held_by_medium && slope(0.0) >= 0.0) return 0.0;
+  double low = 0.0, high = 1e-6;
   while (slope(high) < 0.0 && high < 1e12) low = high, high *= 4.0;
   for (int i = 0; i < 200; ++i) {
     const double middle = 0.5 * (low + high);

@@ -92,6 +92,12 @@ void add_contacts(const Model& model, bool shells, bool spheres, std::vector<Use
                      cbm::jkr_range_law(),
                      {{"contact_ratio", rest.radius_ratio}, {"overlap_ratio", rest.overlap_ratio}, {"covered", rest.covered}}});
     }
+    if (type.sphere.approach_factor != 1.0)
+      out.push_back({"contact of two spheres of " + type.name,
+                     law_named(surface_contact_terms(), "contact_pair"),
+                     {{"adhesion", adhesion},
+                      {"normal_friction", model.pair(t, t).normal_friction * type.sphere.approach_factor},
+                      {"tangential_friction", model.pair(t, t).tangential_friction}}});
     if (const cbm::PackingCurve& curve = type.sphere.packing; !curve.empty())
       out.push_back(
           {"spheres of " + type.name,

@@ -64,6 +64,15 @@ TEST(ApproachFriction, LiesBetweenPairsThatDiffer) {
   EXPECT_NEAR(std::log(found->friction / found->low), 4.303 * 0.1174, 0.02);
 }
 
+TEST(ApproachFriction, IsFoundWithoutAMediumToo) {
+  Relaxation pair = as_spheres(50.0, 50.0);
+  pair.medium_friction = 0.0;
+  const auto found = fit_approach_friction({pair}, reference());
+  ASSERT_TRUE(found.ok());
+  EXPECT_GT(found->friction, 50.0) << "all that held them back is the contact's now";
+  EXPECT_LT(found->friction, 55.0);
+}
+
 TEST(ApproachFriction, IsNoneWhereTheMediumAloneIsTooMuch) {
   const auto found = fit_approach_friction({as_spheres(0.0, 50.0, 0.5)}, reference());
   ASSERT_TRUE(found.ok());

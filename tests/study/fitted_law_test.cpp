@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "coupling/mechanics/contact_setup.h"
+#include "scenarios/run/used_laws.h"
 #include "study/cell_material.h"
 #include "tests/study/study_fixture.h"
 
@@ -92,6 +93,16 @@ TEST(FittedLaw, SpheresComeTogetherWithTheFrictionThatWasFitted) {
   ASSERT_TRUE(other.ok()) << other.error().text();
   EXPECT_THAT(other->warnings.text(), AllOf(HasSubstr("E542"), HasSubstr("`cell_cell`")));
   EXPECT_DOUBLE_EQ(sphere_contact_table(other->model).entry(0, 0).normal_friction, 0.5);
+  bool told = false;
+  for (const UsedLaw& law : used_laws(*study)) {
+    if (law.purpose != "contact of two spheres of cell") continue;
+    for (const auto& [name, value] : law.values) {
+      if (name != "normal_friction") continue;
+      EXPECT_DOUBLE_EQ(value, 2.5);
+      told = true;
+    }
+  }
+  EXPECT_TRUE(told) << "methods.md says it";
   const auto unknown = Written(file_text()).read();
   ASSERT_TRUE(unknown.ok());
   EXPECT_EQ(unknown->model.types[0].sphere.approach_factor, 1.0);
