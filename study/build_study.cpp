@@ -51,11 +51,12 @@ void build_box_course(BuildContext& c) {
 /// Of the lists of contacts where the study says none [µm]: spheres alone are so few in a micrometre more of reach that lists are better made less often (measured,
 /// decision 0063).
 double skin_of(const BuildContext& c) {
-  constexpr double kSkin = 0.5, kMostOfSpheres = 1.0, kOfRadius = 0.2;
-  if (may_have_shells(c.draft)) return kSkin;
+  constexpr double kMostOfSpheres = 1.0, kOfRadius = 0.2;
+  const double usual = ContactNumerics().skin;
+  if (may_have_shells(c.draft)) return usual;
   double largest = 0.0;
   for (const auto& type : c.draft.cell_types) largest = std::max(largest, type.content.radius.mean.value);
-  return std::clamp(kOfRadius * largest, kSkin, kMostOfSpheres);
+  return std::clamp(kOfRadius * largest, usual, kMostOfSpheres);
 }
 
 }  // namespace

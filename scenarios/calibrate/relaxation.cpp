@@ -1,6 +1,7 @@
 #include "scenarios/calibrate/relaxation.h"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 
@@ -79,12 +80,6 @@ double least_squares(const std::vector<Compared>& all) {
   return 0.5 * (low + high);
 }
 
-/// Two-sided 95 % of Student's t with 1, 2, … degrees of freedom (NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.6.7.2).
-double student(std::size_t freedom) {
-  constexpr double kT[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306};
-  return freedom <= std::size(kT) ? kT[freedom - 1] : 2.0;
-}
-
 void add_interval(const std::vector<double>& singly, ApproachFriction& out) {
   out.low = 0.0, out.high = std::numeric_limits<double>::infinity();
   const std::size_t n = singly.size();
@@ -92,7 +87,8 @@ void add_interval(const std::vector<double>& singly, ApproachFriction& out) {
   double mean = 0.0, square = 0.0;
   for (const double one : singly) mean += std::log(one) / static_cast<double>(n);
   for (const double one : singly) square += std::pow(std::log(one) - mean, 2);
-  const double half = student(n - 1) * std::sqrt(square / static_cast<double>((n - 1) * n));
+  const double half = boost::math::quantile(boost::math::students_t(static_cast<double>(n - 1)), 0.975) *
+                      std::sqrt(square / static_cast<double>((n - 1) * n));
   out.low = out.friction * std::exp(-half), out.high = out.friction * std::exp(half);
 }
 

@@ -149,11 +149,12 @@ Experiment packing_experiment(const CellMaterial& material, calibrate::Arrangeme
   return e;
 }
 
+double drag_of(const CellFriction& friction, double radius) { return 4.0 * std::numbers::pi * radius * radius * friction.medium; }
+
 Experiment relaxation_experiment(const CellMaterial& material, std::uint32_t seed) {
   const CellFriction& f = material.friction;
   const double radius = material.radius, way = std::max(kLeastWay * radius, overlap_of_doublet(material.adhesion, material.tension));
-  const double medium = 4.0 * std::numbers::pi * radius * radius * f.medium;
-  const double drag = medium + kZipped * std::numbers::pi * radius * radius * f.approach;
+  const double drag = drag_of(f, radius) + kZipped * std::numbers::pi * radius * radius * f.approach;
   const double end =
       std::ceil(kRelaxationTimes * drag * way / (1.5 * std::numbers::pi * material.adhesion * radius));  // δ′ = 2F/drag, F = 0.75 πWR
   Experiment e{.kind = Experiment::Kind::kRelaxation,

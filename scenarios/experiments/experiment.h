@@ -47,6 +47,8 @@ std::vector<Experiment> experiments_for(const CellMaterial& material, bool packi
 Experiment pair_experiment(const CellMaterial& material, const std::string& name, double radius_a, double radius_b, double rate);
 /// A cubic packing whose V/V0 falls from 1.35 to 0.7, V0 the volume of a free cell, over a time [s].
 Experiment packing_experiment(const CellMaterial& material, calibrate::Arrangement lattice, double time);
+/// Friction of a free cell with the medium, γ_med 4πR² [nN·s/µm], radius in µm.
+double drag_of(const CellFriction& friction, double radius);
 /// Two cells that touch, with the friction of their type, until they rest; the seed turns their meshes.
 Experiment relaxation_experiment(const CellMaterial& material, std::uint32_t seed);
 /// Cells at random places that grow into each other at V/V0 = 1.35, which then falls to 0.7.

@@ -41,7 +41,7 @@ Result<std::vector<FoundPair>> pair_of_run(const Experiment& experiment, const s
 Result<calibrate::Relaxation> relaxation_of_run(const Experiment& experiment, const std::filesystem::path& run) {
   MORULA_TRY_ASSIGN(const auto moments, all_snapshots(run));
   calibrate::Relaxation out{.radius = experiment.radius_a,
-                            .medium_friction = 3.0 / experiment.radius_a * ball_volume(experiment.radius_a) * experiment.friction.medium,
+                            .medium_friction = drag_of(experiment.friction, experiment.radius_a),
                             .contact_friction = experiment.friction.approach,
                             .time = {},
                             .overlap = {}};

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "core/mesh/renewal/own_mesh.h"
 #include "scenarios/measures/measures.h"
 
 namespace morula::scenarios {
@@ -37,18 +38,6 @@ template <int kAxis>
 double width(const Snapshot&, const Cell& cell, const ShellView* shell) {
   const Vec3d axis{kAxis == 0 ? 1.0 : 0.0, kAxis == 1 ? 1.0 : 0.0, kAxis == 2 ? 1.0 : 0.0};
   return shell != nullptr ? extent(shell->nodes, axis) : 2.0 * cell.radius;
-}
-
-/// Least angle between two edges of a face [rad].
-double least_angle(const Snapshot&, const Cell&, const ShellView* shell) {
-  if (shell == nullptr) return kNone;
-  double most = -1.0;  // cosine
-  for (const Triangle& t : shell->faces)
-    for (std::size_t c = 0; c < 3; ++c) {
-      const Vec3d &x = shell->nodes[t[c]], a = shell->nodes[t[(c + 1) % 3]] - x, b = shell->nodes[t[(c + 2) % 3]] - x;
-      most = std::max(most, dot(a, b) / std::sqrt(norm2(a) * norm2(b)));
-    }
-  return std::acos(std::clamp(most, -1.0, 1.0));
 }
 
 /// A value of each cell that was there at time 0, and of its state then.
@@ -151,7 +140,9 @@ Measure elongation_measure() {
 Measure least_angle_measure() {
   return cell_measure("least_angle", "least angle of a face",
                       "Least angle of a triangle of a shell's mesh: 60 deg at best, and near zero where triangles are needles.",
-                      Quantity::kAngle, &least_angle);
+                      Quantity::kAngle, [](const Snapshot&, const Cell&, const ShellView* shell) {
+                        return shell != nullptr ? least_angle(shell->faces, shell->nodes) : kNone;
+                      });
 }
 Measure width_measure(int axis) {
   static constexpr OfCell kWidths[] = {&width<0>, &width<1>, &width<2>};

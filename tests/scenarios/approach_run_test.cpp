@@ -3,7 +3,7 @@
 
 #include "results/snapshot_file.h"
 #include "scenarios/library/library.h"
-#include "scenarios/run/driver.h"
+#include "tests/scenarios/run_into.h"
 #include "tests/study/study_fixture.h"
 
 namespace morula::scenarios {
@@ -24,9 +24,7 @@ double half_time(const std::string& body, std::vector<std::string> overrides, co
   options.scenario_names = template_names();
   const auto study = read_study(folder.path() / "study.yaml", options);
   if (!study.ok()) return ADD_FAILURE() << study.error().text(), -1.0;
-  RunRequest request;
-  request.out = folder.path() / "run";
-  if (const auto run = scenarios::run(*study, request, Comm()); !run.ok()) return ADD_FAILURE() << run.error().message, -1.0;
+  if (!test::run_into(folder.path() / "run", *study)) return -1.0;
   const auto path = folder.path() / "run" / "results.h5";
   const auto entries = list_snapshots(path);
   if (!entries.ok()) return ADD_FAILURE() << entries.error().message, -1.0;
