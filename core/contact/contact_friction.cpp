@@ -158,6 +158,10 @@ std::vector<ElementGroup> ContactLayer::element_groups(const ContactScene& scene
     const ContactMaterial& contact = material_of(scene, pair);
     ElementGroup& group = groups.emplace_back();
     group.rigid = pair.rigid;
+    if (pair.rigid) {
+      group.obstacle = obstacles_[pair.b].topology.get();
+      group.position[1] = obstacles_[pair.b].position.data();
+    }
     if (!settings_.objective_friction) {
       group.normal_friction = static_cast<float>(contact.normal_friction);
       group.tangential_friction = static_cast<float>(contact.tangential_friction);
@@ -169,6 +173,7 @@ std::vector<ElementGroup> ContactLayer::element_groups(const ContactScene& scene
       group.topology[side] = scene.topology_of(number);
       group.body[side] = number;
       group.first[side] = body.first_point;
+      group.position[side] = scene.position.data() + body.first_point;
       group.write[side] = body.active();
     }
   }

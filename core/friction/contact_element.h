@@ -13,7 +13,8 @@ namespace morula {
 /// One contact point: a quadrature point of a source face against a point of a target face (or a sphere, or a rigid surface).
 ///
 /// With the relative velocity u = Σ β_i v(source node i) − Σ μ_j v(target node j), the element's force on the source point is
-/// −(a u + (b + Δt k) (n·u) n) with a = w γ_t, b = w (γ_n − γ_t). It enters the operator and friction only, never other forces, so that it is
+/// −(a u + (b + Δt k) (n·u) n) with a = w γ_t, b = w (γ_n − γ_t), and −Δt k u across the gap too where the target's point
+/// is on an edge (not along that) or at a node (decision 0065). It enters the operator and friction only, never other forces, so that it is
 /// kept in 16 bytes: weights in 14 bits (they still sum to one exactly, so that rigid motion feels nothing), the two smaller components of the
 /// normal in 15 bits (to 3e-5: a stiff contact that slides would feel more; the largest makes its length 1, so that a I + b n nᵀ stays
 /// positive whatever γ_n/γ_t), w to 1 in 2048, k to 1 in 256. Faces are numbered below
@@ -83,6 +84,8 @@ struct ContactElement {
   }
   /// k: contact stiffness [nN/µm], not negative.
   [[nodiscard]] float stiffness() const { return std::bit_cast<float>(static_cast<std::uint32_t>(k_) << 16); }
+  /// The target's point is on an edge of its face, or at a node: the distance has a curvature there. Of a sphere this says nothing.
+  [[nodiscard]] bool at_edge() const { return mu0_ == 0 || mu1_ == 0 || mu0_ + mu1_ == static_cast<std::uint64_t>(kWeightUnits); }
   /// The gap is negative.
   [[nodiscard]] bool inside() const { return inside_ != 0; }
   void set_inside(bool inside) { inside_ = inside; }
@@ -99,12 +102,15 @@ static_assert(sizeof(ContactElement) == 16);
 
 /// All contact points of a pair of bodies, both directions. Groups come in canonical order; only the points of active bodies are written.
 struct ElementGroup {
-  std::span<const ContactElement> elements[2];               ///< [0]: points of body 0 against body 1; [1]: the other way round
-  const Topology* topology[2] = {nullptr, nullptr};          ///< null: a sphere
-  std::uint32_t body[2] = {0, 0};                            ///< places in the list of bodies
-  std::uint32_t first[2] = {0, 0};                           ///< first points
-  bool write[2] = {true, true};                              ///< false: ghost, or held
-  bool rigid = false;                                        ///< body 1 is an obstacle, not an unknown
+  std::span<const ContactElement> elements[2];       ///< [0]: points of body 0 against body 1; [1]: the other way round
+  const Topology* topology[2] = {nullptr, nullptr};  ///< null: a sphere
+  std::uint32_t body[2] = {0, 0};                    ///< places in the list of bodies
+  std::uint32_t first[2] = {0, 0};                   ///< first points
+  bool write[2] = {true, true};                      ///< false: ghost, or held
+  const Vec3d* position[2] = {nullptr,
+                              nullptr};  ///< of the nodes of each surface, from the body's first; of an obstacle where it is defined
+  const Topology* obstacle = nullptr;    ///< faces of the obstacle
+  bool rigid = false;                    ///< body 1 is an obstacle, not an unknown
   float normal_friction = 0.0f, tangential_friction = 0.0f;  ///< γ_n, γ_t per area [nN·s/µm³]
 };
 

@@ -22,13 +22,37 @@ void add(EdgeBlock& block, float weight, Float8v matrix) {
   std::memcpy(block.m, &sum, sizeof sum);
 }
 
-/// D = a I + (b + Δt k) n nᵀ of a contact point, and its smallest eigenvalue behind.
-Float8v matrix_of(const ContactElement& e, const ElementGroup& group, float time_step) {
+/// v vᵀ, where the six numbers of an EdgeBlock are.
+Float8v square(const Vec3f& v) {
+  return Float8v{v.x, v.x, v.x, v.y, v.y, v.z, 0.0f, 0.0f} * Float8v{v.x, v.y, v.z, v.y, v.z, v.z, 0.0f, 0.0f};
+}
+constexpr Float8v kOne{1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, 0.0f, 0.0f};
+
+/// The directions across the gap in which the distance d to the target is curved: both at a node, that across the edge on an edge, none within a face and
+/// against a sphere. The energy u(d) has the second derivative u′/d there, which is u″ while the traction rises with the gap or with the depth; where it
+/// falls the matrix has neither (decision 0065).
+Float8v across_gap(const ContactElement& e, const ElementGroup& group, int d, const Vec3f& n) {
+  const Topology* const target = group.rigid ? group.obstacle : group.topology[1 - d];
+  if (target == nullptr || !e.at_edge()) return Float8v{};
+  float mu[3];
+  e.weights(mu);
+  if ((mu[0] == 0.0f) + (mu[1] == 0.0f) + (mu[2] == 0.0f) == 2) return kOne - square(n);
+  const std::size_t opposite = mu[0] == 0.0f ? 0 : mu[1] == 0.0f ? 1 : 2;
+  const Triangle& face = target->faces()[e.target()];
+  const Vec3d* const x = group.position[1 - d];
+  const Vec3f across = cross(n, to_float(x[face[(opposite + 2) % 3]] - x[face[(opposite + 1) % 3]]));
+  return square(across) * (1.0f / norm2(across));
+}
+
+/// D = a I + (b + Δt k) n nᵀ of a contact point of direction d, and Δt k across the gap where the distance is curved; its smallest eigenvalue behind.
+Float8v matrix_of(const ContactElement& e, const ElementGroup& group, int d, float time_step) {
   const Vec3f n = e.normal<float>();
+  const float stiffness = time_step * e.stiffness();
   const float a = e.area() * group.tangential_friction;
-  const float b = e.area() * (group.normal_friction - group.tangential_friction) + time_step * e.stiffness();
-  const Float8v left{n.x, n.x, n.x, n.y, n.y, n.z, 0.0f, 0.0f}, right{n.x, n.y, n.z, n.y, n.z, n.z, 0.0f, 0.0f};
-  return left * right * b + Float8v{a, 0.0f, 0.0f, a, 0.0f, a, b < 0.0f ? a + b : a, 0.0f};
+  const float b = e.area() * (group.normal_friction - group.tangential_friction) + stiffness;
+  Float8v out = square(n) * b + across_gap(e, group, d, n) * stiffness + kOne * a;
+  out[6] = b < 0.0f ? a + b : a;
+  return out;
 }
 
 /// C of a sum of points as it is kept; sum.m[6] bounds its smallest eigenvalue from below.
@@ -37,7 +61,7 @@ NodePairBlock rounded(const EdgeBlock& sum, float per_unit, std::uint16_t j) {
   using Short8v [[gnu::vector_size(16)]] = std::int16_t;
   Float8v units = load8(sum) * per_unit;
   // an error of half a unit in every entry takes at most 1.5 units from an eigenvalue
-  units += Float8v{1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, 0.0f, 0.0f} * std::max(0.0f, 1.5f - units[6]);
+  units += kOne * std::max(0.0f, 1.5f - units[6]);
   units += units < 0.0f ? Float8v{} - 0.5f : Float8v{} + 0.5f;
   const Int8v whole = __builtin_convertvector(units, Int8v);  // xx xy xz yy yz zz
   const Short8v packed = __builtin_convertvector(__builtin_shufflevector(whole, whole, 0, 7, 1, 3, 2, 4, 5, 7), Short8v);
@@ -136,7 +160,7 @@ void PairCondenser::add_pair_blocks(const ElementGroup& group, NodePairArena& ou
     const Topology* const target = target_of(group, d);
     for (const ContactElement& e : group.elements[d]) {
       const Triangle source = nodes_of(group.topology[d], e.source_face()), t = nodes_of(target, e.target());
-      const Float8v matrix = matrix_of(e, group, time_step_);
+      const Float8v matrix = matrix_of(e, group, d, time_step_);
       const float* const beta = beta_[e.point()];
       float mu[3];
       target_weights(e, target, mu);
@@ -178,14 +202,14 @@ void PairCondenser::add_edge_blocks(const ElementGroup& group, int side, std::sp
     const std::uint32_t face = sources[k].source_face();
     Float8v sum[3] = {};
     for (; k < sources.size() && sources[k].source_face() == face; ++k) {
-      const Float8v matrix = matrix_of(sources[k], group, time_step_);
+      const Float8v matrix = matrix_of(sources[k], group, side, time_step_);
       const float* const beta = beta_[sources[k].point()];
       for (std::size_t c = 0; c < 3; ++c) sum[c] += matrix * (beta[(c + 1) % 3] * beta[(c + 2) % 3]);
     }
     for (std::size_t c = 0; c < 3; ++c) add(edges[edges_of_face[face][c]], -1.0f, sum[c]);
   }
   for (const ContactElement& e : group.elements[1 - side]) {
-    const Float8v matrix = matrix_of(e, group, time_step_);
+    const Float8v matrix = matrix_of(e, group, 1 - side, time_step_);
     float mu[3];
     e.weights(mu);
     const auto& edge = edges_of_face[e.target()];

@@ -19,6 +19,7 @@ struct RandomContacts {
   std::shared_ptr<const ReferenceShape> shape = shapes.icosphere(42).value();
   std::vector<ContactElement> elements[2];
   ElementGroup group;
+  std::vector<Vec3d> place[2];
   std::mt19937_64 engine{5};
 
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
@@ -28,6 +29,11 @@ struct RandomContacts {
     group.topology[0] = topology;
     group.topology[1] = sphere ? nullptr : topology;
     group.rigid = rigid;
+    if (rigid) group.obstacle = topology;
+    for (std::size_t side = 0; side < 2; ++side) {
+      for (std::uint32_t i = 0; i < topology->node_count(); ++i) place[side].push_back({uniform(-6, 6), uniform(-6, 6), uniform(-6, 6)});
+      group.position[side] = place[side].data();
+    }
     group.normal_friction = 40.0f;
     group.tangential_friction = 15.0f;
     for (int d = 0; d < (sphere || rigid ? 1 : 2); ++d) {
@@ -36,7 +42,7 @@ struct RandomContacts {
           if (uniform(0, 1) < 0.6) continue;
           ContactElement e(face, q, sphere ? 0 : static_cast<std::uint32_t>(uniform(0, topology->face_count() - 0.01)));
           const double mu0 = uniform(0, 1) < 0.2 ? 0.0 : uniform(0, 1);
-          set_weights(e, mu0, uniform(0, 1.0 - mu0));
+          set_weights(e, mu0, uniform(0, 1) < 0.1 ? 0.0 : uniform(0, 1.0 - mu0));
           const Vec3d n = normalized(Vec3d{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)});
           e.set_normal(n);
           e.set_area(static_cast<float>(uniform(0, 0.5)));
@@ -50,7 +56,7 @@ struct RandomContacts {
 
 constexpr float kStep = 30.0f;
 
-/// Σ over the points of w (a u + (b + Δt k)(n·u) n), point by point in double.
+/// Σ over the points of a u + (b + Δt k)(n·u) n and, at an edge or a node of a surface, Δt k u across the gap (not along the edge), point by point in double.
 void apply_points(const RandomContacts& c, const std::vector<Vec3d> (&v)[2], std::vector<Vec3d> (&q)[2]) {
   const FaceQuadrature& quadrature = FaceQuadrature::with_points(3);
   for (std::size_t d = 0; d < 2; ++d)
@@ -69,8 +75,15 @@ void apply_points(const RandomContacts& c, const std::vector<Vec3d> (&v)[2], std
         if (!c.group.rigid) u -= v[1 - d][t[k]] * mu[k];
       }
       const Vec3d n = e.normal<double>();
-      const double a = e.area() * 15.0, b = e.area() * 25.0 + double(kStep) * e.stiffness();
-      const Vec3d f = u * a + n * (b * dot(n, u));
+      const double stiffness = double(kStep) * e.stiffness();
+      Vec3d f = u * (e.area() * 15.0) + n * ((e.area() * 25.0 + stiffness) * dot(n, u));
+      if (other != nullptr) {
+        const int zeros = (mu[0] == 0.0) + (mu[1] == 0.0) + (mu[2] == 0.0);
+        const std::size_t k = mu[0] == 0.0 ? 0 : mu[1] == 0.0 ? 1 : 2;
+        const Vec3d across = normalized(cross(n, c.place[1 - d][t[(k + 2) % 3]] - c.place[1 - d][t[(k + 1) % 3]]));
+        if (zeros == 2) f += (u - n * dot(n, u)) * stiffness;
+        if (zeros == 1) f += across * (dot(across, u) * stiffness);
+      }
       for (std::size_t k = 0; k < 3; ++k) {
         q[d][s[k]] += f * quadrature.weight[e.point()][k];
         if (!c.group.rigid) q[1 - d][t[k]] -= f * mu[k];

@@ -294,6 +294,9 @@ TEST(SqueezedNuclearShell, PushesBackAsARigidOneAndFlattensWhenSoft) {  // T12.3
   const Squeeze hinged = squeeze(model);
   give_nuclear_shell(model, 4.2, 5.0);
   const Squeeze soft = squeeze(model);
+  give_nuclear_shell(model, 4.2, 1000.0);
+  p.bulk_modulus = 100.0;
+  const Squeeze between = squeeze(model);
   for (const double gap : {11.0, 9.5, 8.75}) EXPECT_NEAR(stiff.at(gap) / bare.at(gap), 1.0, 0.04) << "nothing touches above 2 R_n = 8.4 µm";
   const double jump = rigid.at(8.05) - bare.at(8.05);
   EXPECT_GT(jump, 2.0 * bare.at(8.05)) << "below it the nucleus pushes";
@@ -301,7 +304,9 @@ TEST(SqueezedNuclearShell, PushesBackAsARigidOneAndFlattensWhenSoft) {  // T12.3
   EXPECT_NEAR((hinged.at(8.05) - bare.at(8.05)) / jump, 1.0, 0.25);
   EXPECT_LT(hinged.gap.size(), 2 * stiff.gap.size()) << "stiff hinges take the steps of all others";
   EXPECT_LT(soft.at(8.05) - bare.at(8.05), 0.5 * jump);
-  EXPECT_GT(soft.at(8.05), 1.02 * bare.at(8.05));
+  EXPECT_GT(between.at(8.05) - bare.at(8.05), 0.1 * jump)
+      << "the soft one adds 2 % to the force of the cell, less than that scatters by with the steps";
+  EXPECT_LT(between.at(8.05) - bare.at(8.05), 0.9 * jump);
   EXPECT_GT(soft.aspect, stiff.aspect + 0.01);
   EXPECT_GT(stiff.aspect, 0.99);
   for (const Squeeze& one : {stiff, hinged, soft}) {

@@ -5,8 +5,10 @@
 #include <algorithm>
 
 #include "core/contact/contact_layer.h"
+#include "core/friction/pair_blocks.h"
 #include "core/random/philox.h"
 #include "coupling/mechanics/scene.h"
+#include "coupling/mechanics/surface_contacts.h"
 #include "tests/coupling/energy_gradient.h"
 #include "tests/coupling/tissue_fixture.h"
 
@@ -90,6 +92,66 @@ TEST_P(EveryLawOfContact, HasAForceThatIsMinusTheGradientWhereFacesTurnAway) {
     Mechanics fresh(model, {}, shapes, Comm(), 1);
     return fresh.energy_and_forces(moved, unused);
   });
+}
+
+/// A node that sticks out to right in front of a contact point of another shell: it attracts that point from aside as much as from ahead. The matrix of a
+/// step counts on the stiffness that the forces show; by the direction of the gap alone there would be none (decision 0065).
+TEST(StiffnessOfContacts, IsThatOfForcesWhereANodeSticksOut) {
+  Model model = contacts_only(surface_laws().front());
+  model.pairs[0].normal_friction = model.pairs[0].tangential_friction = 0.0;
+  ShapeLibrary shapes;
+  Tissue start = make_tissue(clusters_model(), shapes, {{0, 0, 0}, {13.6, 0.0, 0.0}}, {BodyKind::kShell, BodyKind::kShell}, 42);
+  const std::uint32_t with_tip = start.shells.nodes(0)[0].x > 6.5 ? 0 : 1, other = 1 - with_tip;
+  const auto foremost = [&](std::span<const Vec3d> places, double way) {
+    return std::size_t(
+        std::max_element(places.begin(), places.end(), [&](const Vec3d& a, const Vec3d& b) { return way * a.x < way * b.x; }) -
+        places.begin());
+  };
+  const auto nodes = start.shells.nodes(other);
+  const auto faces = start.shells.topology(other).faces();
+  const FaceQuadrature& quadrature = FaceQuadrature::with_points(3);
+  std::vector<Vec3d> points, normals;
+  for (const Triangle& t : faces)
+    for (int q = 0; q < 3; ++q) {
+      points.push_back(nodes[t[0]] * quadrature.weight[q][0] + nodes[t[1]] * quadrature.weight[q][1] +
+                       nodes[t[2]] * quadrature.weight[q][2]);
+      normals.push_back(normalized(cross(nodes[t[1]] - nodes[t[0]], nodes[t[2]] - nodes[t[0]])));
+    }
+  const std::size_t point = foremost(points, 1.0);
+  const std::size_t first = start.shells.first_node[with_tip], count = start.shells.nodes(with_tip).size();
+  start.shells.position[first + foremost(start.shells.nodes(with_tip), -1.0)] = points[point] + normals[point] * 0.3;
+  Mechanics mechanics(model, {}, shapes, Comm(), 1);
+  const Vec3d aside = normalized(cross(normals[point], Vec3d{0.0, 0.3, 1.0}));
+  std::vector<Vec3d> force;
+  const auto pushed = [&](double way) {  // along the way, the shell with the tip
+    Tissue moved = start;
+    for (std::size_t i = first; i < first + count; ++i) moved.shells.position[i] += aside * way;
+    mechanics.bodies_changed();
+    (void)mechanics.energy_and_forces(moved, force);
+    double sum = 0.0;
+    for (std::size_t i = first; i < first + count; ++i) sum += dot(force[i], aside);
+    return sum;
+  };
+  constexpr double kWay = 1e-4;
+  const double found = (pushed(-kWay) - pushed(kWay)) / (2.0 * kWay);
+  (void)pushed(0.0);
+  double counted = 0.0, along_gaps = 0.0;  // by PairCondenser: the blocks couple the two shells, and act on their common way
+  for (const ElementGroup& group : mechanics.contacts().element_groups(contact_scene(mechanics.scene(), SurfaceGeometry()))) {
+    PairCondenser condenser(quadrature, 1.0f);
+    NodePairArena blocks;
+    condenser.add_pair_blocks(group, blocks);
+    const std::vector<Float4> still(42), moves(42, {float(aside.x), float(aside.y), float(aside.z), 0.0f});
+    std::vector<Float4> q(42);
+    apply_pair_blocks({blocks.rows, blocks.blocks}, moves.data(), q.data(), still.data(), nullptr);
+    for (const Float4& f : q) counted += dot(Vec3d{f.x, f.y, f.z}, aside);
+    for (const auto& elements : group.elements)
+      for (const ContactElement& e : elements)
+        along_gaps += e.stiffness() * dot(e.normal<double>(), aside) * dot(e.normal<double>(), aside);
+  }
+  EXPECT_GT(found, 0.05);
+  EXPECT_LT(along_gaps, 0.2 * found);
+  EXPECT_GT(counted, 0.95 * found);
+  EXPECT_LT(counted, 2.0 * found);
 }
 
 /// One shell goes past another, or past a sphere, while it comes nearer, from out of range to a gap of a tenth of it: nearest faces, edges

@@ -174,7 +174,9 @@ TEST(Promotion, WithoutRoomIsPutOffWithAWarning) {
   ASSERT_TRUE(made.ok());
   Simulation& simulation = **made;
   CellId put_off;
+  bool capped = false;  // before the step: by a cell that has found just enough room
   for (int k = 0; k < 8 && !put_off.valid(); ++k) {
+    capped = simulation.tissue().clock.capped;
     const auto done = simulation.step(60.0);
     ASSERT_TRUE(done.ok()) << done.error().message;
     for (const Event& event : done->events)
@@ -186,7 +188,7 @@ TEST(Promotion, WithoutRoomIsPutOffWithAWarning) {
   }
   ASSERT_TRUE(put_off.valid());
   const Tissue& now = simulation.tissue();
-  EXPECT_FALSE(now.clock.capped);
+  EXPECT_EQ(now.clock.capped, capped) << "a cell that is put off leaves no cap behind";
   EXPECT_EQ(now.ledger.promotions, now.shells.size());
   std::size_t sphere = 0;
   for (std::size_t i = 0; i < now.cells.size(); ++i) {
