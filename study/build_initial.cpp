@@ -1,10 +1,14 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "core/ball.h"
 #include "core/mesh/convex_hull.h"
 #include "study/build.h"
 #include "study/build_meshes.h"
 #include "study/csv.h"
+#include "study/initial/nearest_regions.h"
 #include "study/read_section.h"
 
 namespace morula::scenarios {
@@ -156,14 +160,15 @@ class InitialBuilder {
     }
     std::vector<Vec3d> positions;
     for (const CsvCell& cell : csv->cells) positions.push_back(cell.position);
-    note_coincident(*csv, shown, d, coincident_groups(positions, cells.coincident_below));
-    if (d.has_hull) share_hull(*csv, shown, d, std::move(positions), cells);
+    const auto groups = coincident_groups(positions, cells.coincident_below);
+    note_coincident(*csv, shown, d, groups);
+    if (d.has_hull) share_hull(*csv, shown, d, positions, groups, cells);
     if (c_.draft.domain.size.known()) check_rows_inside(*csv);
   }
 
   /// Each cell's part of the inflated hull of all places, less the cavity.
-  void share_hull(const CsvCells& csv, const std::string& shown, const draft::Initial& d, std::vector<Vec3d> positions,
-                  InitialCells& cells) {
+  void share_hull(const CsvCells& csv, const std::string& shown, const draft::Initial& d, const std::vector<Vec3d>& positions,
+                  const std::vector<std::vector<std::size_t>>& groups, InitialCells& cells) {
     if (!d.hull_margin.known() || (d.has_cavity && !(d.cavity_radius.known() && d.cavity_center.known()))) return;
     const Place& place = d.hull_margin.place;
     for (const CsvCell& cell : csv.cells)
@@ -173,17 +178,16 @@ class InitialBuilder {
             "leave one of them away");
         return;
       }
-    const auto hull = convex_hull(std::move(positions));
+    const auto hull = convex_hull(positions);
     if (!hull) {
       c_.diagnostics.error(510, place, "the places in '" + shown + "' share no volume: " + hull.error().message,
                            "leave `volume_from_hull` away");
       return;
     }
-    const double ball = 4.0 / 3.0 * std::numbers::pi;
     if (d.has_cavity && hull->depth(d.cavity_center.value) < -d.hull_margin.value)
       c_.diagnostics.error(510, d.cavity_center.place, "the cavity's centre is outside the inflated hull of the cells", "move it inside");
     const double whole = hull->inflated_volume(d.hull_margin.value);
-    const double cavity = d.has_cavity ? ball * std::pow(d.cavity_radius.value, 3) : 0.0;
+    const double cavity = d.has_cavity ? ball_volume(d.cavity_radius.value) : 0.0;
     if (cavity >= whole) {
       c_.diagnostics.error(510, d.cavity_radius.place,
                            "the cavity is larger than the inflated hull of the cells (" + short_number(whole) + " um^3)",
@@ -194,11 +198,29 @@ class InitialBuilder {
       cells.cavity_center = d.cavity_center.value;
       cells.cavity_radius = d.cavity_radius.value;
     }
-    cells.shared_volume = (whole - cavity) / static_cast<double>(cells.count);
-    c_.study.notes.push_back(shown + ": hull of the cells inflated by " + d.hull_margin.text + ": " + short_number(whole) + " um^3" +
-                             (d.has_cavity ? ", less the cavity: " + short_number(whole - cavity) + " um^3" : "") + "; each cell has " +
-                             short_number(cells.shared_volume) + " um^3 (radius " + short_number(std::cbrt(cells.shared_volume / ball)) +
-                             " um)");
+    const std::string room = shown + ": hull of the cells inflated by " + d.hull_margin.text + ": " + short_number(whole) + " um^3" +
+                             (d.has_cavity ? ", less the cavity: " + short_number(whole - cavity) + " um^3" : "");
+    if (d.hull_share.value != "nearest") {
+      const double each = (whole - cavity) / static_cast<double>(cells.count);
+      cells.room.assign(cells.count, each);
+      c_.study.notes.push_back(room + "; each cell has " + short_number(each) + " um^3 (radius " + short_number(ball_radius(each)) +
+                               " um)");
+      return;
+    }
+    const auto hollow = d.has_cavity ? std::optional(Hollow{cells.cavity_center, cells.cavity_radius}) : std::nullopt;
+    cells.room = nearest_regions(*hull, positions, groups, d.hull_margin.value, hollow);
+    if (const auto none = std::ranges::find(cells.room, 0.0); none != cells.room.end()) {
+      const CsvCell& cell = csv.cells[static_cast<std::size_t>(none - cells.room.begin())];
+      const std::size_t begin = csv.source->line_begin[static_cast<std::size_t>(cell.line) - 1];
+      c_.diagnostics.error(510, place_at(csv.source, begin, csv.source->line(cell.line).size()),
+                           "a cell at " + place_text(cell.position) + " is within the cavity, where no cell has room",
+                           "make the cavity smaller, or write `share: even`");
+      return;
+    }
+    const auto [least, most] = std::ranges::minmax(cells.room);
+    c_.study.notes.push_back(room + "; the cells have " + short_number(least) + " to " + short_number(most) +
+                             " um^3 of it that are nearest to them (radius " + short_number(ball_radius(least)) + " to " +
+                             short_number(ball_radius(most)) + " um)");
   }
 
   void note_coincident(const CsvCells& csv, const std::string& shown, const draft::Initial& d,

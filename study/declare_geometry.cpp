@@ -210,27 +210,34 @@ void declare_initial(Section& s, draft::Initial& i) {
               .example = "1 nm",
               .source = "chosen"},
              i.coincident_below);
-  s.group(
-      {.name = "volume_from_hull",
-       .doc = "The cells of a CSV file share evenly the room they were measured in: the convex hull of their places, inflated by a margin, "
-              "less a cavity.",
-       .optional_section = true,
-       .example = "{margin: 6 um}"},
-      i.has_hull, [&i](Section& h) {
-        h.quantity({.name = "margin",
-                    .doc = "How far the tissue reaches beyond the places of its cells.",
-                    .quantity = Q::kLength,
-                    .fallback = "6 um",
-                    .low = 0.0,
-                    .example = "6 um",
-                    .source = "chosen: one cell radius"},
-                   i.hull_margin);
-        h.group({.name = "cavity", .doc = "A ball without cells: its volume is not shared.", .optional_section = true}, i.has_cavity,
-                [&i](Section& c) {
-                  point(c, "center", "Centre.", i.cavity_center);
-                  radius(c, i.cavity_radius);
-                });
-      });
+  s.group({.name = "volume_from_hull",
+           .doc = "The cells of a CSV file share the room they were measured in: the convex hull of their places, inflated by a margin, "
+                  "less a cavity.",
+           .optional_section = true,
+           .example = "{margin: 6 um}"},
+          i.has_hull, [&i](Section& h) {
+            h.quantity({.name = "margin",
+                        .doc = "How far the tissue reaches beyond the places of its cells.",
+                        .quantity = Q::kLength,
+                        .fallback = "6 um",
+                        .low = 0.0,
+                        .example = "6 um",
+                        .source = "chosen: one cell radius"},
+                       i.hull_margin);
+            h.word(
+                {.name = "share",
+                 .doc = "even: all cells have the same volume. nearest: each has the room that is nearer to its place than to any other.",
+                 .fallback = "even",
+                 .words = {"even", "nearest"},
+                 .example = "nearest",
+                 .source = "chosen"},
+                i.hull_share);
+            h.group({.name = "cavity", .doc = "A ball without cells: its volume is not shared.", .optional_section = true}, i.has_cavity,
+                    [&i](Section& c) {
+                      point(c, "center", "Centre.", i.cavity_center);
+                      radius(c, i.cavity_radius);
+                    });
+          });
   s.word({.name = "as",
           .doc = "Body of these cells before any region or trigger; without it, as their type says.",
           .words = {"sphere", "shell"},

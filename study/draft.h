@@ -220,6 +220,7 @@ struct Initial {
   Given<double> coincident_shift, coincident_below;
   bool has_hull = false, has_cavity = false;
   Given<double> hull_margin, cavity_radius;
+  Given<std::string> hull_share;
   Given<Vec3d> cavity_center;
   Given<std::string> body;
   Given<double> start_volume, inflate;

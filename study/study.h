@@ -62,9 +62,9 @@ struct InitialCells {
   std::string csv_unit;            ///< of lengths whose column has none; empty: all have
   double coincident_shift = 6.0;   ///< coincident cells are moved apart by this distance and named [µm]
   double coincident_below = 1e-3;  ///< closer than this counts as coincident [µm]
-  double shared_volume = 0.0;      ///< of each cell at time 0, from the hull of all places; 0: as its type or its row says [µm³]
-  Vec3d cavity_center{};           ///< of the ball that is no cell's room [µm]
-  double cavity_radius = 0.0;      ///< 0: none [µm]
+  std::vector<double> room;  ///< volume of each cell, its part of the hull of all places, by row; empty: as its type or its row says [µm³]
+  Vec3d cavity_center{};     ///< of the ball that is no cell's room [µm]
+  double cavity_radius = 0.0;  ///< 0: none [µm]
 
   // meshes: surfaces from files; read with read_mesh_cells (initial/cells_from_meshes.h)
   MeshCells meshes;

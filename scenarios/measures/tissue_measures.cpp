@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 #include "core/mesh/convex_hull.h"
@@ -252,14 +253,16 @@ Theory hull_volume() {
           "physics/scenarios.md S18",
           {"total_volume"},
           [](const Study& study, const Subject&, const std::string&) {
-            return csv_of(study) != nullptr && csv_of(study)->shared_volume > 0.0
+            return csv_of(study) != nullptr && !csv_of(study)->room.empty()
                        ? Status{}
                        : Status(Error{ErrorKind::kInput, "needs all cells from one CSV file, with `volume_from_hull`", ""});
           },
           [](FinishedRun& run, const Subject&, const std::string&, const Sample& sample) -> Result<double> {
             MORULA_TRY_ASSIGN(const auto snapshot, run.snapshot_at(sample.time));
             if (snapshot == nullptr) return std::nan("");
-            return csv_of(run.study())->shared_volume * static_cast<double>(snapshot->cells.size());
+            const std::vector<double>& room = csv_of(run.study())->room;
+            return std::accumulate(room.begin(), room.end(), 0.0) * static_cast<double>(snapshot->cells.size()) /
+                   static_cast<double>(room.size());
           }};
 }
 

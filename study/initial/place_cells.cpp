@@ -233,7 +233,7 @@ class Placer {
       const CsvCell& cell = csv->cells[i];
       PlacedCell& made = out_.cells.emplace_back(PlacedCell{founder(study_, block, first + i, cell.type), position[i]});
       apply_csv(made.row, cell, study_.model.types[cell.type], study_.model);
-      if (block.shared_volume > 0.0) set_volume(made.row, study_.model, block.shared_volume);
+      if (!block.room.empty()) set_volume(made.row, study_.model, block.room[i]);
       start_small(made.row, block);
     }
     return {};

@@ -165,9 +165,9 @@ TEST_P(MeasuredEmbryo, IsImportedWhole) {
   ASSERT_TRUE(tissue.ok()) << tissue.error().message;
   EXPECT_EQ(tissue->tissue.shells.size(), static_cast<std::size_t>(known.outer));
   EXPECT_EQ(tissue->tissue.spheres.size(), static_cast<std::size_t>(known.cells - known.outer));
-  const double volume = study->initial[0].shared_volume;
   for (std::size_t i = 0; i < tissue->tissue.cells.size(); ++i) {
     const CellState row = tissue->tissue.cells.state(i);
+    const double volume = study->initial[0].room[row.id.founder_number() - 1];
     EXPECT_NEAR(row.target_volume, 0.15 * volume, 1e-9 * volume);
     EXPECT_NEAR(row.target_volume + row.inflation_left, volume, 1e-9 * volume);
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 
 #include "core/mesh/remesh.h"
 #include "results/series_reader.h"
@@ -294,13 +295,52 @@ initial: [{csv: cells.csv, volume_from_hull: {margin: 5 um, cavity: {center: [10
   ASSERT_TRUE(study.ok()) << study.error().text();
   const double ball = 4.0 / 3.0 * std::numbers::pi;
   const double expected = 8000.0 + 2400.0 * 5.0 + 60.0 * std::numbers::pi * 25.0 + ball * 125.0 - ball * 1000.0;
-  EXPECT_NEAR(study->initial[0].shared_volume, expected / 8.0, 1e-9);
+  ASSERT_EQ(study->initial[0].room.size(), 8u);
+  for (const double room : study->initial[0].room) EXPECT_NEAR(room, expected / 8.0, 1e-9);
   folder.write("inputs/cells.csv",
                "x [um],y [um],z "
                "[um],type\n0,0,0,cell\n20,0,0,cell\n0,20,0,cell\n20,20,0,cell\n0,0,20,cell\n20,0,20,cell\n0,20,20,cell\n20,20,20,cell\n");
   const auto resolved = test::read(study->resolved_text, {}, folder.path());
   ASSERT_TRUE(resolved.ok()) << resolved.error().text();
-  EXPECT_EQ(resolved->initial[0].shared_volume, study->initial[0].shared_volume);
+  EXPECT_EQ(resolved->initial[0].room, study->initial[0].room);
+}
+
+/// Nuclei at the points of a cubic lattice of 20 µm: what is nearest to the middle one is a cube; by symmetry the others have equal regions by their kind, and a pair at one
+/// place halves that of a single one.
+TEST(VolumeFromHull, OfNearestRegionsIsThatOfVoronoiCells) {
+  const test::Folder folder;
+  std::string csv = "x [um],y [um],z [um],type\n";
+  for (int x = -20; x <= 20; x += 20)
+    for (int y = -20; y <= 20; y += 20)
+      for (int z = -20; z <= 20; z += 20) csv += std::to_string(x) + "," + std::to_string(y) + "," + std::to_string(z) + ",cell\n";
+  folder.write("cells.csv", csv);
+  folder.write("twice.csv", csv + "0,0,20,cell\n");
+  const std::string text = R"(schema: 1
+study: cube
+time: {end: 1 h, output: 30 min, checkpoint: 1 h}
+domain: {size: [100 um, 100 um, 100 um]}
+cell_types: {cell: {radius: 6 um}}
+initial: [{csv: cells.csv, volume_from_hull: {margin: 10 um, share: nearest}}]
+)";
+  const auto study = test::read(text, {}, folder.path());
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  const std::vector<double>& room = study->initial[0].room;
+  ASSERT_EQ(room.size(), 27u);
+  const double whole = 64000.0 + 9600.0 * 10.0 + 120.0 * std::numbers::pi * 100.0 + 4.0 / 3.0 * std::numbers::pi * 1000.0;
+  EXPECT_NEAR(std::accumulate(room.begin(), room.end(), 0.0), whole, 1e-9 * whole);
+  EXPECT_NEAR(room[13], 8000.0, 40.0);
+  EXPECT_NEAR(room[4], 8000.0, 40.0) << "the middle of a side: the flat part of the inflated hull";
+  const double corner = 1000.0 + 3.0 * 1000.0 + 3.0 * std::numbers::pi * 250.0 +
+                        std::numbers::pi / 6.0 * 1000.0;  // cube, slabs, quarters of a cylinder, an eighth of a ball
+  EXPECT_NEAR(room[0], corner, 0.005 * corner);
+  EXPECT_NEAR(room[26], corner, 0.005 * corner);
+  const auto pair = test::read(test::changed("cells.csv", "twice.csv", text), {}, folder.path());
+  ASSERT_TRUE(pair.ok()) << pair.error().text();
+  EXPECT_EQ(pair->initial[0].room[14], pair->initial[0].room[27]);
+  EXPECT_NEAR(pair->initial[0].room[14], 0.5 * room[14], 0.005 * room[14]);
+  const auto hollow = test::errors_of(
+      test::changed("share: nearest", "share: nearest, cavity: {center: [0 um, 0 um, 5 um], radius: 8 um}", text), {}, folder.path());
+  EXPECT_NE(hollow.find("is within the cavity, where no cell has room"), std::string::npos) << hollow;
 }
 
 TEST(VolumeFromHull, IsRefusedWhereItHasNoMeaning) {
