@@ -209,14 +209,10 @@ class InitialBuilder {
     }
     const auto hollow = d.has_cavity ? std::optional(Hollow{cells.cavity_center, cells.cavity_radius}) : std::nullopt;
     cells.room = nearest_regions(*hull, positions, groups, d.hull_margin.value, hollow);
-    if (const auto none = std::ranges::find(cells.room, 0.0); none != cells.room.end()) {
-      const CsvCell& cell = csv.cells[static_cast<std::size_t>(none - cells.room.begin())];
-      const std::size_t begin = csv.source->line_begin[static_cast<std::size_t>(cell.line) - 1];
-      c_.diagnostics.error(510, place_at(csv.source, begin, csv.source->line(cell.line).size()),
-                           "a cell at " + place_text(cell.position) + " is within the cavity, where no cell has room",
-                           "make the cavity smaller, or write `share: even`");
-      return;
-    }
+    for (const CsvCell& cell : csv.cells)
+      if (hollow && norm(cell.position - hollow->center) < hollow->radius)
+        c_.study.notes.push_back(shown + " line " + std::to_string(cell.line) + ": a cell at " + place_text(cell.position) +
+                                 " is within the cavity; its room is found as if there were none");
     const auto [least, most] = std::ranges::minmax(cells.room);
     c_.study.notes.push_back(room + "; the cells have " + short_number(least) + " to " + short_number(most) +
                              " um^3 of it that are nearest to them (radius " + short_number(ball_radius(least)) + " to " +

@@ -58,8 +58,8 @@ double way_to(const Hollow& ball, const Vec3d& from, const Vec3d& direction) {
 
 }  // namespace
 
-std::vector<double> nearest_regions(const ConvexHull& hull, std::span<const Vec3d> places, std::span<const std::vector<std::size_t>> groups, double margin,
-                                    const std::optional<Hollow>& hollow) {
+std::vector<double> nearest_regions(const ConvexHull& hull, std::span<const Vec3d> places, std::span<const std::vector<std::size_t>> groups,
+                                    double margin, const std::optional<Hollow>& hollow) {
   const InflatedHull border(hull, margin);
   const std::vector<Vec3d> ways = directions();
   std::vector<std::size_t> same(places.size());  // the first of those at one place
@@ -73,14 +73,15 @@ std::vector<double> nearest_regions(const ConvexHull& hull, std::span<const Vec3
   std::vector<double> volume(places.size(), 0.0);
   std::vector<std::pair<double, std::size_t>> others;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    if (same[i] != i || (hollow && norm(places[i] - hollow->center) < hollow->radius)) continue;
+    if (same[i] != i) continue;
+    const bool outside = hollow && norm(places[i] - hollow->center) >= hollow->radius;
     others.clear();
     for (std::size_t j = 0; j < places.size(); ++j)
       if (same[j] == j && j != i) others.emplace_back(norm(places[j] - places[i]), j);
     std::sort(others.begin(), others.end());
     double sum = 0.0;
     for (const Vec3d& direction : ways) {
-      double way = hollow ? std::min(across, way_to(*hollow, places[i], direction)) : across;
+      double way = outside ? std::min(across, way_to(*hollow, places[i], direction)) : across;
       for (const auto& [distance, j] : others) {
         if (0.5 * distance >= way) break;
         const double along = dot(places[j] - places[i], direction);
@@ -93,8 +94,9 @@ std::vector<double> nearest_regions(const ConvexHull& hull, std::span<const Vec3
   for (std::size_t i = 0; i < places.size(); ++i)
     if (same[i] != i) volume[i] = volume[same[i]];
   for (std::size_t i = 0; i < places.size(); ++i) volume[i] /= of_place[i];
-  const double sum = std::accumulate(volume.begin(), volume.end(), 0.0), whole = hull.inflated_volume(margin) - (hollow ? ball_volume(hollow->radius) : 0.0);
-  for (double& v : volume) v *= sum > 0.0 ? whole / sum : 0.0;
+  const double sum = std::accumulate(volume.begin(), volume.end(), 0.0),
+               whole = hull.inflated_volume(margin) - (hollow ? ball_volume(hollow->radius) : 0.0);
+  for (double& v : volume) v *= whole / sum;
   return volume;
 }
 
