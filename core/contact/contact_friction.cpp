@@ -159,7 +159,7 @@ std::vector<ElementGroup> ContactLayer::element_groups(const ContactScene& scene
     ElementGroup& group = groups.emplace_back();
     group.rigid = pair.rigid;
     if (pair.rigid) {
-      group.obstacle = obstacles_[pair.b].topology.get();
+      group.topology[1] = obstacles_[pair.b].topology.get();
       group.position[1] = obstacles_[pair.b].position.data();
     }
     if (!settings_.objective_friction) {

@@ -102,15 +102,13 @@ static_assert(sizeof(ContactElement) == 16);
 
 /// All contact points of a pair of bodies, both directions. Groups come in canonical order; only the points of active bodies are written.
 struct ElementGroup {
-  std::span<const ContactElement> elements[2];       ///< [0]: points of body 0 against body 1; [1]: the other way round
-  const Topology* topology[2] = {nullptr, nullptr};  ///< null: a sphere
-  std::uint32_t body[2] = {0, 0};                    ///< places in the list of bodies
-  std::uint32_t first[2] = {0, 0};                   ///< first points
-  bool write[2] = {true, true};                      ///< false: ghost, or held
-  const Vec3d* position[2] = {nullptr,
-                              nullptr};  ///< of the nodes of each surface, from the body's first; of an obstacle where it is defined
-  const Topology* obstacle = nullptr;    ///< faces of the obstacle
-  bool rigid = false;                    ///< body 1 is an obstacle, not an unknown
+  std::span<const ContactElement> elements[2];               ///< [0]: points of body 0 against body 1; [1]: the other way round
+  const Topology* topology[2] = {nullptr, nullptr};          ///< an obstacle's too; null: a sphere
+  const Vec3d* position[2] = {nullptr, nullptr};             ///< of their nodes; an obstacle's as it is defined, wherever it is
+  std::uint32_t body[2] = {0, 0};                            ///< places in the list of bodies
+  std::uint32_t first[2] = {0, 0};                           ///< first points
+  bool write[2] = {true, true};                              ///< false: ghost, or held
+  bool rigid = false;                                        ///< body 1 is an obstacle, not an unknown
   float normal_friction = 0.0f, tangential_friction = 0.0f;  ///< γ_n, γ_t per area [nN·s/µm³]
 };
 

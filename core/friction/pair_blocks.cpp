@@ -32,7 +32,7 @@ constexpr Float8v kOne{1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, 0.0f, 0.0f};
 /// against a sphere. The energy u(d) has the second derivative u′/d there, which is u″ while the traction rises with the gap or with the depth; where it
 /// falls the matrix has neither (decision 0065).
 Float8v across_gap(const ContactElement& e, const ElementGroup& group, int d, const Vec3f& n) {
-  const Topology* const target = group.rigid ? group.obstacle : group.topology[1 - d];
+  const Topology* const target = group.topology[1 - d];
   if (target == nullptr || !e.at_edge()) return Float8v{};
   float mu[3];
   e.weights(mu);

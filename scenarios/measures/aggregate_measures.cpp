@@ -1,10 +1,10 @@
 // Aggregates of shells: what their shapes say about their forces, in a run and in the mesh files that it began with.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/mesh/surface_file.h"
 #include "core/mesh/topology.h"
+#include "core/spiral.h"
 #include "scenarios/measures/aggregate_shape.h"
 #include "scenarios/measures/measures.h"
 #include "study/initial/cells_from_meshes.h"
@@ -137,8 +137,7 @@ double roughness(const std::vector<TriangleMesh>& cells) {
   constexpr int kDirections = 400;
   double sum = 0.0, square = 0.0;
   for (int k = 0; k < kDirections; ++k) {
-    const double z = 1.0 - (2.0 * k + 1.0) / kDirections, turn = k * std::numbers::pi * (3.0 - std::sqrt(5.0)), r = std::sqrt(1.0 - z * z);
-    const Vec3d direction{r * std::cos(turn), r * std::sin(turn), z};
+    const Vec3d direction = spiral_direction(k, kDirections);
     double reach = 0.0;
     for (const TriangleMesh& cell : cells)
       for (const Vec3d& p : cell.position) {

@@ -2,9 +2,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 
 #include "core/space/space.h"
+#include "core/spiral.h"
 #include "scenarios/measures/outer_surface.h"
 
 namespace morula::scenarios {
@@ -55,9 +55,7 @@ class Bodies {
       return out;
     }
     for (int k = 0; k < kPatchesOfSphere; ++k) {  // a spiral of equal areas
-      const double z = 1.0 - (2.0 * k + 1.0) / kPatchesOfSphere, r = std::sqrt(1.0 - z * z),
-                   turn = k * std::numbers::pi * (3.0 - std::sqrt(5.0));
-      const Vec3d n{r * std::cos(turn), r * std::sin(turn), z};
+      const Vec3d n = spiral_direction(k, kPatchesOfSphere);
       out.push_back({s_.cells[cell].centroid + n * s_.cells[cell].radius, n, 1.0});
     }
     return out;

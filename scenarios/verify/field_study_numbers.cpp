@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/spiral.h"
 #include "report/pictures/field_slice.h"
 #include "scenarios/verify/run_study.h"
 #include "scenarios/verify/study_numbers.h"
@@ -48,10 +49,7 @@ double mean_at(const FoundInRun& found, double time, double distance) {
   if (end == nullptr || end->fields.size() != 1) return std::nan("");
   constexpr int kDirections = 400;
   double sum = 0.0;
-  for (int i = 0; i < kDirections; ++i) {
-    const double z = 1.0 - (2.0 * i + 1.0) / kDirections, turn = i * std::numbers::pi * (3.0 - std::sqrt(5.0)), r = std::sqrt(1.0 - z * z);
-    sum += concentration_at(end->fields[0], Vec3d{r * std::cos(turn), r * std::sin(turn), z} * distance);
-  }
+  for (int i = 0; i < kDirections; ++i) sum += concentration_at(end->fields[0], spiral_direction(i, kDirections) * distance);
   return sum / kDirections;
 }
 

@@ -2,27 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "core/ball.h"
 #include "core/mesh/triangle_tree.h"
+#include "core/spiral.h"
 
 namespace morula::scenarios {
 namespace {
 
 constexpr int kDirections = 2000;
 constexpr double kPrecision = 1e-4;  // of the way to the inflated hull [µm]
-
-std::vector<Vec3d> directions() {
-  std::vector<Vec3d> out;
-  const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
-  for (int k = 0; k < kDirections; ++k) {
-    const double z = 1.0 - (2.0 * k + 1.0) / kDirections, r = std::sqrt(1.0 - z * z);
-    out.push_back({r * std::cos(turn * k), r * std::sin(turn * k), z});
-  }
-  return out;
-}
 
 /// How deep a point lies below the hull inflated by the margin, at least; negative outside, where it is the distance.
 class InflatedHull {
@@ -61,7 +51,6 @@ double way_to(const Hollow& ball, const Vec3d& from, const Vec3d& direction) {
 std::vector<double> nearest_regions(const ConvexHull& hull, std::span<const Vec3d> places, std::span<const std::vector<std::size_t>> groups,
                                     double margin, const std::optional<Hollow>& hollow) {
   const InflatedHull border(hull, margin);
-  const std::vector<Vec3d> ways = directions();
   std::vector<std::size_t> same(places.size());  // the first of those at one place
   std::iota(same.begin(), same.end(), std::size_t{0});
   std::vector<double> of_place(places.size(), 1.0);
@@ -80,7 +69,8 @@ std::vector<double> nearest_regions(const ConvexHull& hull, std::span<const Vec3
       if (same[j] == j && j != i) others.emplace_back(norm(places[j] - places[i]), j);
     std::sort(others.begin(), others.end());
     double sum = 0.0;
-    for (const Vec3d& direction : ways) {
+    for (int k = 0; k < kDirections; ++k) {
+      const Vec3d direction = spiral_direction(k, kDirections);
       double way = outside ? std::min(across, way_to(*hollow, places[i], direction)) : across;
       for (const auto& [distance, j] : others) {
         if (0.5 * distance >= way) break;

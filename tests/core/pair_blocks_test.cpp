@@ -29,7 +29,6 @@ struct RandomContacts {
     group.topology[0] = topology;
     group.topology[1] = sphere ? nullptr : topology;
     group.rigid = rigid;
-    if (rigid) group.obstacle = topology;
     for (std::size_t side = 0; side < 2; ++side) {
       for (std::uint32_t i = 0; i < topology->node_count(); ++i) place[side].push_back({uniform(-6, 6), uniform(-6, 6), uniform(-6, 6)});
       group.position[side] = place[side].data();
