@@ -89,6 +89,12 @@ inline std::size_t memory_of(const Spheres& spheres) {
   return bytes;
 }
 
+/// Contact of a sphere with a shell, over what follows from its modulus and from W: fitted by pairs of both, or chosen.
+struct WithShells {
+  double stiffness = 1.0;  ///< of its foundation (sphere_foundation() in core/contact/traction_law.h)
+  double adhesion = 1.0;   ///< of W
+};
+
 /// Parameters of a sphere, for the contact laws. Every sphere has the moduli of the cell as a whole, which its contact with surfaces takes, too.
 struct SphereParameters {
   double young = 0.45;                               ///< E [kPa]
@@ -98,7 +104,8 @@ struct SphereParameters {
   PackingCurve packing{};                            ///< pressure by packing; empty: none
   double adhesion_factor = 1.0;                      ///< W of two spheres over that of the study: of a law fitted to shells
   double approach_factor = 1.0;                      ///< γ_n of two spheres over that of the study: of a law fitted to shells
-  OverlapRange fitted{};                             ///< of contacts with spheres that have a fitted law, too
+  WithShells with_shells{};
+  OverlapRange fitted{};  ///< of contacts with spheres that have a fitted law, too
 };
 
 }  // namespace morula::cbm

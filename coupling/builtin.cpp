@@ -18,6 +18,17 @@ std::vector<LawInfo> surface_contact_terms() {
        .parameters = {given_by_study("adhesion", "tension", "nN/µm", "Adhesion energy W per contact area of the pair."),
                       given_by_study("normal_friction", "friction per area", "nN·s/µm³", "γ_n per contact area."),
                       given_by_study("tangential_friction", "friction per area", "nN·s/µm³", "γ_t per contact area.")}},
+      {.name = "sphere_foundation",
+       .title = "A sphere against a shell",
+       .equation =
+           "t = k_w g at depth g, k_w = s 4E′/(3π a_ref), E′ = E/(1 − ν²), a_ref = a_0/3 with a_0³ = 9πWR²/(4E′), and from a_0 < 0.3 R on "
+           "0.3 R − 2a_0/3; adhesion w W",
+       .source = "foundation: the share of one body in the approach of JKR (decision 0009); s and w: fitted to pairs of both bodies "
+                 "(decision 0066), or 1",
+       .parameters = {given_by_study("young", "pressure", "kPa", "Young's modulus of the sphere."),
+                      given_by_study("poisson", "number", "1", "Poisson's ratio of the sphere."),
+                      given_by_study("stiffness", "number", "1", "Factor s on the stiffness of the foundation."),
+                      given_by_study("adhesion_factor", "number", "1", "Factor w on W.")}},
       {.name = "regional_adhesion",
        .title = "Adhesion by part of the surface",
        .equation =

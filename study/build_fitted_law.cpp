@@ -88,6 +88,10 @@ void build_fitted_law(BuildContext& c, const std::string& /*type_name*/, draft::
   if (fitted->adhesion_of_shells > 0.0) sphere.adhesion_factor = fitted->adhesion / fitted->adhesion_of_shells;
   sphere.approach_factor = table ? fitted->approach_beside_table : fitted->approach;
   sphere.fitted = fitted->overlap;
+  if (fitted->with_shells) {
+    take(c, "with_shells.stiffness", fitted->with_shells->stiffness, "", t.with_shells.of("stiffness", &cbm::WithShells::stiffness));
+    take(c, "with_shells.adhesion", fitted->with_shells->adhesion, "", t.with_shells.of("adhesion", &cbm::WithShells::adhesion));
+  }
   take_packing(c, table ? fitted->beside_table : fitted->packing, t, sphere);
   c.study.fitted.push_back(
       {c.study.model.types.size(), fitted->type, fitted->material, fitted->smallest_radius, fitted->largest_radius, fitted->friction});

@@ -179,6 +179,7 @@ void build_cell_types(BuildContext& c) {
     type.sphere.poisson = t.sphere_poisson.value;
     set_sphere_law(c, t, type.sphere);
     build_fitted_law(c, name, t, type.sphere);
+    t.with_shells.write_to(type.sphere.with_shells);
     if (type.sphere.packing.empty()) type.sphere.packing = build_packing(c, name, t);
     type.shell = build_shell(c, name, t, t.friction_medium.value);
     type.interior = build_interior(c, t, name);

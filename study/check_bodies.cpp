@@ -6,6 +6,7 @@
 #include "core/cell_id_text.h"
 #include "core/numbers/number_text.h"
 #include "coupling/mechanics/workspace.h"
+#include "dcm/drops.h"
 #include "study/build.h"
 #include "study/read_section.h"
 
@@ -115,6 +116,27 @@ void check_jkr_range(BuildContext& c) {
   }
 }
 
+/// Where two spheres rest at another distance than two shells: neighbours move whenever a cell changes its body.
+void check_rest_of_bodies(BuildContext& c) {
+  constexpr double kMuch = 0.2;  // of the radius; the elasticity of a cortex keeps shells up to 0.2 R further apart than drops
+  const Model& model = c.study.model;
+  for (std::size_t i = 0; i < model.types.size(); ++i) {
+    const CellType& type = model.types[i];
+    if (!type.sphere.law->of_small_contacts || type.sphere.fitted.has_ends() || !may_be_sphere(c, i) || !may_be_shell(c, i)) continue;
+    const double adhesion = model.pair(i, i).adhesion;
+    const double spheres = 2.0 * cbm::resting_contact(type.sphere, type.radius.mean, type.sphere, type.radius.mean, adhesion).overlap_ratio;
+    const double shells = dcm::overlap_of_doublet(adhesion, type.shell.tension);
+    if (!(type.shell.tension > 0.0) || std::abs(shells - spheres) <= kMuch) continue;
+    const auto& [name, place, t] = c.draft.cell_types[i];
+    c.diagnostics.warning(
+        651, t.sphere_young.given ? t.sphere_young.place : place,
+        "two spheres of '" + name + "' rest " + number_text("%.2f", 2.0 - spheres) +
+            " R apart, and two drops of the tension and adhesion of its shells " + number_text("%.2f", 2.0 - shells) +
+            " R: where a cell changes its body, its neighbours move",
+        "`morula calibrate jkr " + name + " STUDY` finds a law of spheres that rest like its shells (`cbm: {law: fitted}`)");
+  }
+}
+
 /// Steps are chosen by ways on the scale of the range of contact, which is nothing to a cell of usual size and much to a small one.
 void check_ways_of_spheres(BuildContext& c) {
   constexpr double kMuch = 0.5;  // of the radius, in one step
@@ -141,6 +163,7 @@ void check_bodies(BuildContext& c) {
   check_mesh_of_divisions(c);
   check_axis_of_spheres(c);
   check_jkr_range(c);
+  check_rest_of_bodies(c);
   check_ways_of_spheres(c);
 }
 

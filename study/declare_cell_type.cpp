@@ -134,7 +134,28 @@ void declare_sphere_law(Section& c, draft::CellType& t) {
           .example = "jkr",
           .source = "decision 0047"},
          t.sphere_form);
-  declare_law_keys(c, choosable_sphere_laws(c.laws()), {"law", "young", "poisson", "packing", "file", "form"}, t.sphere_own);
+  declare_law_keys(c, choosable_sphere_laws(c.laws()), {"law", "young", "poisson", "packing", "file", "form", "with_shells"}, t.sphere_own);
+}
+
+/// What a sphere is to a shell, beside its modulus and W.
+void declare_with_shells(Section& s, draft::CellType& t) {
+  s.quantity({.name = "stiffness",
+              .doc = "Factor on the stiffness of the foundation with which a sphere gives way, which follows from its modulus and W.",
+              .fallback = "1",
+              .low = 0.0,
+              .high = 1e3,
+              .low_open = true,
+              .example = "0.5",
+              .source = "decision 0066"},
+             t.with_shells, &cbm::WithShells::stiffness);
+  s.quantity({.name = "adhesion",
+              .doc = "Factor on the adhesion energy W of a sphere with shells.",
+              .fallback = "1",
+              .low = 0.0,
+              .high = 10.0,
+              .example = "0.85",
+              .source = "decision 0066"},
+             t.with_shells, &cbm::WithShells::adhesion);
 }
 
 }  // namespace
@@ -192,6 +213,13 @@ void declare_cell_type(Section& s, draft::CellType& t) {
   s.group({.name = "cbm", .doc = "The cell as a sphere."}, present, [&t](Section& c) {
     declare_sphere_law(c, t);
     declare_packing(c, t);
+    bool contact = false;
+    c.group(
+        {.name = "with_shells",
+         .doc =
+             "Contact of these spheres with shells. `morula calibrate jkr` fits both factors, and `law: fitted` takes them from its file.",
+         .example = "{stiffness: 0.5, adhesion: 0.85}"},
+        contact, [&t](Section& w) { declare_with_shells(w, t); });
   });
   s.group({.name = "dcm", .doc = "The cell as a deformable shell."}, present, [&t](Section& d) { declare_shell(d, t); });
 }

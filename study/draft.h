@@ -134,6 +134,7 @@ struct CellType : ShellKeys {
   std::map<std::string, Given<double>> sphere_own;  ///< keys that laws of spheres have for themselves, by name
   Given<double> sphere_young, sphere_poisson;
   Given<std::string> sphere_file, sphere_form;  ///< of `law: fitted`
+  PlainKeys<cbm::WithShells> with_shells;
   Given<std::string> packing_law;
   Given<double> packing_bulk_modulus;
   std::vector<Named<PackingKnot>> packing_knots;

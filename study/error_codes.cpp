@@ -226,6 +226,11 @@ constexpr ErrorCode kCodes[] = {
     {650, "mesh too coarse to divide",
      "The halves of a shell that is cut are mapped onto the mesh of its type. With edges longer than half the radius that mesh has no room "
      "for the rim of the cut."},
+    {651, "bodies that rest elsewhere",
+     "The law of two spheres has them at another distance at rest than the tension and the adhesion of the type's shells have these. Where "
+     "both meet, or a cell "
+     "changes its body, neighbours move by a part of the difference. A law that was fitted to the shells does not have it "
+     "(docs/calibration.md)."},
     {655, "column without a unit",
      "Lengths in a CSV file carry their unit in the header, `x [um]`, or the entry of `initial` says it for all of them, `units: um`."},
     {656, "cell types like each other without end",

@@ -24,12 +24,17 @@ struct Approach {
   Given<double> factor;
   bool given = false;
 };
+struct MixedContact {
+  Given<double> stiffness, adhesion;
+  bool given = false;
+};
 struct File {
   Given<std::uint64_t> schema, nodes;
   Given<std::string> version, type, material, better;
   Given<double> radius, adhesion_of_shells;
   Given<double> young, poisson, adhesion, touch;
   Approach approach, approach_beside_table;
+  MixedContact with_shells;
   Given<double> medium, cell_cell, cell_cell_tangential;
   bool has_friction = false;
   std::vector<Named<Knot>> packing, beside_table;
@@ -85,6 +90,16 @@ void declare_approach(Section& s, File& f, Approach& approach) {
   });
 }
 
+void declare_with_shells(Section& s, File& f) {
+  s.group({.name = "with_shells", .doc = "", .optional_section = true, .example = ""}, f.with_shells.given, [&f](Section& g) {
+    g.quantity(number("stiffness", Q::kNumber, 1e-6, 1e3), f.with_shells.stiffness);
+    g.quantity(number("adhesion", Q::kNumber, 0.0, 10.0), f.with_shells.adhesion);
+    g.words(section("stiffness_interval"), f.others);
+    g.words(section("adhesion_interval"), f.others);
+    declare_figures(g, f, {"misfit", "outside", "outside_worst", "unfitted", "held_out"});
+  });
+}
+
 void declare_friction(Section& s, File& f) {
   s.group({.name = "friction_of_shells", .doc = "", .optional_section = true, .example = ""}, f.has_friction, [&f](Section& g) {
     g.quantity(number("medium", Q::kFrictionPerArea, 0.0, 1e6), f.medium);
@@ -135,6 +150,7 @@ void declare_file(Section& s, File& f) {
   s.word({.name = "better", .doc = "", .required = true, .words = {"jkr", "table"}, .example = "jkr"}, f.better);
   s.group(required("jkr"), present, [&f](Section& g) { declare_jkr(g, f); });
   s.group({.name = "table", .doc = "", .optional_section = true, .example = ""}, f.has_table, [&f](Section& g) { declare_table(g, f); });
+  declare_with_shells(s, f);
   declare_friction(s, f);
   s.group(required("ranges"), present, [&f](Section& g) { declare_ranges(g, f); });
   s.words(section("remarks"), f.others);
@@ -190,6 +206,7 @@ std::optional<FittedLaw> read_fitted_law(const std::filesystem::path& path, cons
   out.young = file.young.value, out.poisson = file.poisson.value, out.adhesion = file.adhesion.value;
   out.adhesion_of_shells = file.adhesion_of_shells.value;
   out.packing = knots_of(file.packing), out.beside_table = knots_of(file.beside_table);
+  if (file.with_shells.given) out.with_shells = cbm::WithShells{file.with_shells.stiffness.value, file.with_shells.adhesion.value};
   if (file.approach.given) out.approach = file.approach.factor.value;
   if (file.approach_beside_table.given) out.approach_beside_table = file.approach_beside_table.factor.value;
   if (file.has_friction) out.friction = CellFriction{file.medium.value, file.cell_cell.value, file.cell_cell_tangential.value};

@@ -6,6 +6,7 @@
 
 #include "cbm/laws/table.h"
 #include "cbm/packing.h"
+#include "cbm/spheres.h"
 #include "coupling/laws.h"
 #include "study/diagnostics.h"
 #include "study/study.h"
@@ -28,6 +29,8 @@ struct FittedLaw {
   double approach = 1.0,
          approach_beside_table = 1.0;    ///< friction of approach of two spheres of JKR, of the table, over that of shells; 1: not fitted
   std::optional<CellFriction> friction;  ///< of the shells with which that was found
+
+  std::optional<cbm::WithShells> with_shells;  ///< contact of a sphere with a shell; none: not fitted
 
   cbm::OverlapRange overlap;                           ///< δ over the smaller radius of what was fitted
   double smallest_radius = 0.0, largest_radius = 0.0;  ///< of the cells that were fitted [µm]

@@ -174,12 +174,15 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
   const bool both = !pair.rigid && body[0].topology != nullptr && body[1].topology != nullptr;
   ContactMaterial contact = material_of(scene, pair);
   const ListReach reach = reach_of(pair, contact);
+  double adhering = bonding_;  // factor on W
   if (!both && !pair.rigid) {  // a sphere gives way by its own foundation (fields_and_coupling.md, D)
     const bool first = body[0].topology == nullptr;
-    const double modulus = (first ? contact : material(scene.bodies[pair.b].material, scene.bodies[pair.a].material)).sphere_modulus;
-    contact.law.repulsion = sphere_foundation(modulus, contact.law.adhesion, body[first ? 0 : 1].radius);
+    const ContactMaterial& sphere = first ? contact : material(scene.bodies[pair.b].material, scene.bodies[pair.a].material);
+    contact.law.repulsion =
+        sphere.sphere_stiffness * sphere_foundation(sphere.sphere_modulus, contact.law.adhesion, body[first ? 0 : 1].radius);
     contact.law.gives_way = true;
     contact.law.cap = 0.0;
+    adhering *= sphere.sphere_adhesion;
   }
   if (const std::optional<double> bond = both ? sister_bond(scene, pair) : std::nullopt) {
     contact.law.adhesion = *bond;
@@ -190,7 +193,7 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
     contact.regional.reset();
     contact.law.adhesion = contact.law.cap = 0.0;
   }
-  contact.law.adhesion *= bonding_;
+  contact.law.adhesion *= adhering;
   contact.normal_friction *= bonding_;
   contact.tangential_friction *= bonding_;
   for (int d = 0; d < 2; ++d) {

@@ -103,6 +103,8 @@ std::vector<ContactMaterial> contact_materials(const Model& model) {
       if (a < model.types.size()) {
         const auto& sphere = model.types[a].sphere;
         material.sphere_modulus = sphere.young / (1.0 - sphere.poisson * sphere.poisson);
+        material.sphere_stiffness = sphere.with_shells.stiffness;
+        material.sphere_adhesion = sphere.with_shells.adhesion;
       }
       material.law = traction(model, a, b);
       if (!pair.regions.empty())

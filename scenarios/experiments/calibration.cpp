@@ -124,6 +124,12 @@ Status fit_on_root(const Study& study, Calibration& out) {
 
 }  // namespace
 
+calibrate::PairModel Calibration::law_to_take() const {
+  const calibrate::Fit& fit = sure.fit;
+  return table_is_better() ? calibrate::table_model(table->table)
+                           : calibrate::jkr_model(fit.parameters.young, fit.poisson, fit.parameters.adhesion);
+}
+
 double Calibration::rest_of_jkr() const {
   const cbm::SphereParameters sphere{.young = sure.fit.parameters.young, .poisson = sure.fit.poisson};
   return cbm::resting_contact(sphere, material.radius, sphere, material.radius, sure.fit.parameters.adhesion).radius_ratio;
@@ -141,8 +147,11 @@ Result<Calibration> calibrate_jkr(const Study& study, const std::string& type, c
       request.on_note(number_text("%.0f", list.seconds) + " s of one core expected" +
                       (out.left_out.empty() ? "" : "; no time for " + joined(out.left_out)));
   }
-  MORULA_TRY_ASSIGN(out.outcomes, run_experiments(out.experiments, request, comm));
+  const auto mixed = std::ranges::find(out.experiments, Experiment::Kind::kMixedPair, &Experiment::kind);
+  const auto shells_only = std::span(out.experiments).first(static_cast<std::size_t>(mixed - out.experiments.begin()));
+  MORULA_TRY_ASSIGN(out.outcomes, run_experiments(shells_only, request, comm));
   MORULA_TRY(agree(comm.is_root() ? fit_on_root(study, out) : Status{}, comm));
+  MORULA_TRY(fit_with_shells(out, request, comm));
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include "scenarios/calibrate/held_out.h"
 #include "scenarios/calibrate/table_fit.h"
 #include "scenarios/experiments/data_of_runs.h"
+#include "scenarios/experiments/mixed_contact.h"
 #include "scenarios/experiments/run_experiments.h"
 #include "study/study.h"
 
@@ -36,6 +37,7 @@ struct Calibration {
   calibrate::HeldOutErrors held_out;                    ///< of JKR
   double misfit = 0.0;                                  ///< part of the loss of pairs that JKR cannot take
   std::optional<calibrate::ApproachFriction> approach;  ///< of spheres of the fitted JKR
+  std::optional<MixedContact> with_shells;              ///< none: not known, as a remark says
   std::optional<FittedTable> table;                     ///< none: its points make no table, as a remark says
 
   /// Contact radius over R of two spheres of the fitted JKR at rest.
@@ -46,6 +48,8 @@ struct Calibration {
   [[nodiscard]] const std::optional<calibrate::ApproachFriction>& approach_to_take() const {
     return table_is_better() ? table->approach : approach;
   }
+  /// The pair law to take.
+  [[nodiscard]] calibrate::PairModel law_to_take() const;
   /// Whether the table is the law to take: where JKR is beyond its range at rest, and where the table is better on what was held out.
   [[nodiscard]] bool table_is_better() const { return table && (jkr_is_beyond_range() || table->held_out.score() < held_out.score()); }
 };

@@ -93,6 +93,22 @@ std::string approach_text(const std::optional<calibrate::ApproachFriction>& foun
          "}  # friction of approach of two spheres, over that of the shells\n";
 }
 
+/// Contact of a sphere with a shell, where it was found.
+std::string with_shells_text(const std::optional<MixedContact>& found) {
+  if (!found) return "";
+  const auto range = [](const calibrate::Interval& i) { return "[" + number(i.low) + ", " + number(i.high) + "]"; };
+  return "with_shells:  # a sphere with a shell: factors on the stiffness of the sphere's foundation and on W, so that such a pair lies "
+         "between those of "
+         "one body\n  stiffness: " +
+         number(found->fit.stiffness) + "\n  stiffness_interval: " + range(found->fit.stiffness_interval) +
+         "\n  adhesion: " + number(found->fit.adhesion) + "\n  adhesion_interval: " + range(found->fit.adhesion_interval) +
+         "\n  misfit: " + number(found->misfit) +
+         "  # from halfway between both, root mean square in parts of the pull-off force 1.5 pi W R*" +
+         "\n  unfitted: " + number(found->unfitted) + "  # the same with both factors 1" + "\n  outside: " + number(found->outside) +
+         "  # beyond both, root mean square, and at worst\n  outside_worst: " + number(found->outside_worst) +
+         (found->held_out ? "\n  held_out: " + number(*found->held_out) + "  # misfit where radii are 1 : 1.3 and 1.3 : 1" : "") + "\n";
+}
+
 std::string table_text(const FittedTable& fitted) {
   std::string out =
       "table:  # F/R* over delta/R* of attached pairs, R* the reduced radius\n  touch: " + number(fitted.table.touch_overlap()) +
@@ -130,6 +146,7 @@ std::string calibration_text(const Calibration& found) {
          approach_text(found.approach);
   if (!fit.parameters.knots.empty()) out += "  packing: " + knots_text(fit.parameters.knots) + "\n";
   if (found.table) out += table_text(*found.table);
+  out += with_shells_text(found.with_shells);
   if (const CellFriction& f = found.material.friction; !found.data.relaxations.empty())
     out += "friction_of_shells: {medium: " + of(f.medium, "nN s/um^3") + ", cell_cell: " + of(f.approach, "nN s/um^3") +
            ", cell_cell_tangential: " + of(f.along, "nN s/um^3") + "}  # with which they came together\n";

@@ -127,9 +127,7 @@ CurvePlot relaxation_plot(const Calibration& found) {
     plot.curves.push_back(std::move(shells));
   }
   const calibrate::Relaxation& first = found.data.relaxations.front();
-  const calibrate::PairModel law = found.table_is_better() ? calibrate::table_model(found.table->table)
-                                                           : calibrate::jkr_model(found.sure.fit.parameters.young, found.sure.fit.poisson,
-                                                                                  found.sure.fit.parameters.adhesion);
+  const calibrate::PairModel law = found.law_to_take();
   std::vector<double> parts;
   for (int i = 2; i < 100; ++i) parts.push_back(0.01 * i);
   const auto add = [&](const char* name, double friction) {
@@ -140,6 +138,18 @@ CurvePlot relaxation_plot(const Calibration& found) {
   };
   if (const auto& fitted = found.approach_to_take()) add("spheres, fitted", fitted->friction);
   add("spheres with the friction of the study", first.contact_friction);
+  return plot;
+}
+
+/// A sphere with a shell between two shells and two spheres.
+CurvePlot mixed_plot(const MixedContact& mixed) {
+  CurvePlot plot = plot_of("A sphere and a shell: force over overlap", axis("overlap δ", "µm"), axis("force", "nN"));
+  Curve shells = curve("two shells"), spheres = curve("two spheres"), both = curve("a sphere and a shell, fitted");
+  for (const MixedComparison& one : mixed.comparisons) {
+    for (Curve* c : {&shells, &spheres, &both}) c->x.push_back(one.overlap);
+    shells.y.push_back(one.shells), spheres.y.push_back(one.spheres), both.y.push_back(one.mixed);
+  }
+  plot.curves = {std::move(shells), std::move(spheres), std::move(both)};
   return plot;
 }
 
@@ -213,11 +223,21 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
                                      " to " + three(approach->high) + ")"});
     out.key_numbers.push_back({"the law to take", found.table_is_better() ? "the table" : "JKR", ""});
   }
+  if (const auto& mixed = found.with_shells) {
+    const auto both = [](double value, const calibrate::Interval& interval) { return three(value) + " (95 %: " + between(interval) + ")"; };
+    out.key_numbers.push_back({"a sphere against shells, stiffness and W over what its modulus and W say",
+                               both(mixed->fit.stiffness, mixed->fit.stiffness_interval),
+                               "and " + both(mixed->fit.adhesion, mixed->fit.adhesion_interval)});
+    out.key_numbers.push_back({"force of such a pair from halfway between two shells and two spheres, root mean square",
+                               three(100.0 * mixed->misfit),
+                               "% of the pull-off force (without both factors " + three(100.0 * mixed->unfitted) + " %)"});
+  }
   const auto add = [&](const CurvePlot& plot) { out.plots.push_back({"", curves_svg(plot, SvgUse::kInline)}); };
   add(pair_plot(found, false));
   add(area_plot(found));
   if (!found.data.points.packings.empty()) add(packing_plot(found));
   add(pair_plot(found, true));
+  if (found.with_shells) add(mixed_plot(*found.with_shells));
   if (!found.data.relaxations.empty()) add(relaxation_plot(found));
   add(profile_plot(sure.young, "E", "kPa", fit.loss));
   add(profile_plot(sure.adhesion, "W", "nN/um", fit.loss));

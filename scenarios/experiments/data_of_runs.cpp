@@ -109,6 +109,7 @@ Result<ExperimentData> data_of_runs(std::span<const Experiment> experiments, std
   int block = 0;
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     const Experiment& experiment = experiments[e];
+    if (experiment.kind == Experiment::Kind::kMixedPair) continue;  // these come after the fit
     if (!outcomes[e].done) {
       out.remarks.push_back(experiment.name + " is missing: " + outcomes[e].problem);
       continue;

@@ -8,6 +8,8 @@
 #include "core/ball.h"
 #include "core/numbers/number_text.h"
 #include "core/vec3.h"
+#include "dcm/drops.h"
+#include "scenarios/experiments/mixed_contact.h"
 
 namespace morula::scenarios {
 namespace {
@@ -77,26 +79,20 @@ std::vector<Vec3d> cube_of(calibrate::Arrangement lattice) {
   return {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
 }
 
-/// δ/R of two equal cells at rest that are drops of a tension T and an adhesion W, cos θ = 1 − W/(2T): each is a ball of radius R′ cut at R′ cos θ,
-/// of the volume of the free cell, V = πR′³(2/3 + c − c³/3), whose centre of volume is R′c + π R′⁴(1 − c²)²/(4V) from the cut.
-double overlap_of_doublet(double adhesion, double tension) {
-  if (!(tension > 0.0)) return 0.0;
-  const double c = std::max(0.0, 1.0 - 0.5 * adhesion / tension), part = 2.0 / 3.0 + c - c * c * c / 3.0;
-  const double radius = std::cbrt(4.0 / 3.0 / part);
-  return 2.0 - 2.0 * radius * (c + std::pow(1.0 - c * c, 2) / (4.0 * part));
-}
-
-}  // namespace
-
-Experiment pair_experiment(const CellMaterial& material, const std::string& name, double radius_a, double radius_b, double rate) {
+/// A pair whose first cell is a shell, or a sphere of these keys.
+Experiment pair_of(const CellMaterial& material, const std::string& name, double radius_a, double radius_b, double rate,
+                   const std::string& sphere, std::uint32_t seed) {
   const double radius = std::min(radius_a, radius_b), gap = material.range;
-  const double deepest = std::max(kDeepest, overlap_of_doublet(material.adhesion, material.tension) + kBeyondRest);
+  const double deepest = std::max(kDeepest, dcm::overlap_of_doublet(material.adhesion, material.tension) + kBeyondRest);
   const double in = (gap + deepest * radius) / rate, out = (deepest - kFarthest) * radius / rate;
   const double output = std::ceil((in + out) / kPairOutputs);
+  const std::string sizes =
+      number_text("%.4g", radius_a) + (sphere.empty() ? " and " : " um and a shell of ") + number_text("%.4g", radius_b);
   Experiment e{.kind = Experiment::Kind::kPair,
+               .seed = seed,
                .name = name,
-               .purpose = "Two cells of " + number_text("%.4g", radius_a) + " and " + number_text("%.4g", radius_b) +
-                          " um, pressed together and pulled apart at " + number_text("%.4g", 1e3 * rate) + " nm/s",
+               .purpose = (sphere.empty() ? "Two cells of " : "A sphere of ") + sizes + " um, pressed together and pulled apart at " +
+                          number_text("%.4g", 1e3 * rate) + " nm/s",
                .text = {},
                .radius_a = radius_a,
                .radius_b = radius_b,
@@ -107,15 +103,35 @@ Experiment pair_experiment(const CellMaterial& material, const std::string& name
   const std::string way = ", direction: [0, 0, 1], way: [{time: 0 s, distance: 0 um}, {time: " + of(in, "s") +
                           ", distance: " + of(-(gap + deepest * radius), "um") + "}, {time: " + of(in + out, "s") +
                           ", distance: " + of(-gap - kFarthest * radius, "um") + "}]";
+  CellMaterial first = material;
+  if (!sphere.empty()) first.shell = sphere + ", " + first.shell;
   const std::string none = "0 J/m^2", w = of(material.adhesion, "nN/um");
   e.text = head(material, e, "low, high", end, output) + "domain: {size: " + place({box, box, box}) + ", boundary: open}\ncell_types:\n" +
-           type_text(material, "low", radius_a, "low: " + none + ", high: " + w, kOfPairs) +
+           type_text(first, "low", radius_a, "low: " + none + ", high: " + w, kOfPairs) +
            type_text(material, "high", radius_b, "high: " + none, kOfPairs) + "initial:\n" + "  - {type: low, at: [" + place(low) +
-           "], as: shell}\n  - {type: high, at: [" + place(high) + "], as: shell}\nloads:\n" + trap("low", low, "") +
-           trap("high", high, way);
-  e.work = 2.0 * (end + 1000.0);
+           "], as: " + (sphere.empty() ? "shell" : "sphere") + "}\n  - {type: high, at: [" + place(high) + "], as: shell}\nloads:\n" +
+           trap("low", low, "") + trap("high", high, way);
+  e.work = (sphere.empty() ? 2.0 : 1.0) * (end + 1000.0);
   return e;
 }
+
+}  // namespace
+
+Experiment pair_experiment(const CellMaterial& material, const std::string& name, double radius_a, double radius_b, double rate) {
+  return pair_of(material, name, radius_a, radius_b, rate, "", 1);
+}
+
+Experiment mixed_pair_experiment(const CellMaterial& material, const std::string& name, double radius_of_sphere, double radius_of_shell,
+                                 const cbm::SphereParameters& sphere, std::uint32_t seed) {
+  const std::string keys = "cbm: {law: jkr, packing: none, young: " + of(sphere.young, "kPa") + ", poisson: " + number(sphere.poisson) +
+                           ", with_shells: {stiffness: " + number(sphere.with_shells.stiffness) +
+                           ", adhesion: " + number(sphere.with_shells.adhesion) + "}}";
+  Experiment e = pair_of(material, name, radius_of_sphere, radius_of_shell, mixed_pair_rate(material), keys, seed);
+  e.kind = Experiment::Kind::kMixedPair;
+  return e;
+}
+
+double mixed_pair_rate(const CellMaterial& material) { return 0.5 * kFastest * material.radius; }
 
 Experiment packing_experiment(const CellMaterial& material, calibrate::Arrangement lattice, double time) {
   const bool face_centred = lattice == calibrate::Arrangement::kFaceCentred;
@@ -153,7 +169,7 @@ double drag_of(const CellFriction& friction, double radius) { return 4.0 * std::
 
 Experiment relaxation_experiment(const CellMaterial& material, std::uint32_t seed) {
   const CellFriction& f = material.friction;
-  const double radius = material.radius, way = std::max(kLeastWay * radius, overlap_of_doublet(material.adhesion, material.tension));
+  const double radius = material.radius, way = std::max(kLeastWay * radius, dcm::overlap_of_doublet(material.adhesion, material.tension));
   const double drag = drag_of(f, radius) + kZipped * std::numbers::pi * radius * radius * f.approach;
   const double end =
       std::ceil(kRelaxationTimes * drag * way / (1.5 * std::numbers::pi * material.adhesion * radius));  // δ′ = 2F/drag, F = 0.75 πWR
@@ -216,13 +232,14 @@ std::string study_of_spheres(const CellMaterial& material, std::span<const Vec3d
 namespace {
 
 /// What a calibration does without first when its time is short: the last first. Without its slowest rate a pair still tells the force at no rate, but
-/// not whether that is straight; what is held out only judges; without packings there is no curve of packing.
+/// not whether that is straight; what is held out only judges; without mixed pairs spheres meet shells by their modulus; without packings there is no curve of packing.
 enum Dispensable : int {
   kNeeded,
   kFirstPacking,
   kSecondPacking,
   kEqualSlowest,
   kRelaxing,
+  kMixedPairs,
   kUnequalFaster,
   kHeldOutPacking,
   kUnequalSlowest,
@@ -262,6 +279,10 @@ std::vector<Experiment> experiments_for(const CellMaterial& material, bool packi
     }
   }
   add_pairs(material, "unequal_pair", kUnequal, true, out);
+  for (Experiment& mixed : mixed_pairs(material)) {
+    out.push_back(std::move(mixed));
+    out.back().dispensable = kMixedPairs;
+  }
   return out;
 }
 

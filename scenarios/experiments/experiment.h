@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cbm/spheres.h"
 #include "core/vec3.h"
 #include "scenarios/calibrate/packing_geometry.h"
 #include "study/cell_material.h"
@@ -15,6 +16,7 @@ struct Experiment {
   enum class Kind {
     kPair,        ///< two cells, held at a distance by their centres, pressed together and pulled apart
     kPacking,     ///< a periodic packing whose box shrinks
+    kMixedPair,   ///< a sphere and a shell, likewise; without a text until the sphere's law is known
     kRelaxation,  ///< two cells that touch and come together by themselves, with the friction of their type
   } kind = Kind::kPair;
   calibrate::Arrangement arrangement = calibrate::Arrangement::kFaceCentred;  ///< of a packing
@@ -27,6 +29,7 @@ struct Experiment {
   double radius_a = 0.0, radius_b = 0.0;  ///< of the free cells [µm]
   double rate = 0.0;                      ///< of the distance of a pair [µm/s]; of the strain of the volume of a packing [1/s]
   double turn = 0.0;                      ///< when a pair is closest [s]
+  cbm::WithShells with_shells{};          ///< of the sphere of a mixed pair
   CellFriction friction{};                ///< of the cells of a relaxation
   double work = 1.0;                      ///< expected, against that of other experiments: cells times the time that they are simulated [s]
   int dispensable = 0;                    ///< of a calibration that has too little time the largest goes first; 0: there is no fit without
@@ -37,7 +40,7 @@ inline constexpr int kPairRates = 3;
 
 /// What the calibration of a contact law asks (fields_and_coupling.md E). E1 and E2: equal cells that come nearer until δ = 0.35 R and part, at three
 /// rates; E4, where cells adhere: three pairs that come together by themselves; E3, not without `packings`: random packings from V/V0 = 1.35 to 0.7, two to fit to and one held out, and face-centred and body-centred cubic
-/// ones, held out (decision 0056); E5: cells of radii 1 : 1.3, held out.
+/// ones, held out (decision 0056); E5: cells of radii 1 : 1.3, held out; pairs of a sphere and a shell (mixed_contact.h), last.
 ///
 /// The centres of the pairs of E1, E2 and E5 are held by springs, so that pairs are stable at any distance. Friction between their cells is 0 and that with
 /// the medium small: forces at rest do not depend on it, and they are extrapolated to no rate.
@@ -45,6 +48,11 @@ std::vector<Experiment> experiments_for(const CellMaterial& material, bool packi
 
 /// A pair of cells of these radii [µm], pressed and pulled at a rate [µm/s].
 Experiment pair_experiment(const CellMaterial& material, const std::string& name, double radius_a, double radius_b, double rate);
+/// A sphere, of the modulus and with the factors of `sphere`, and a shell, pressed and pulled at mixed_pair_rate(); the seed turns the mesh.
+Experiment mixed_pair_experiment(const CellMaterial& material, const std::string& name, double radius_of_sphere, double radius_of_shell,
+                                 const cbm::SphereParameters& sphere, std::uint32_t seed);
+/// At which mixed pairs are pressed and pulled, and one of the pairs of shells [µm/s].
+double mixed_pair_rate(const CellMaterial& material);
 /// A cubic packing whose V/V0 falls from 1.35 to 0.7, V0 the volume of a free cell, over a time [s].
 Experiment packing_experiment(const CellMaterial& material, calibrate::Arrangement lattice, double time);
 /// Friction of a free cell with the medium, γ_med 4πR² [nN·s/µm], radius in µm.

@@ -92,6 +92,13 @@ void add_contacts(const Model& model, bool shells, bool spheres, std::vector<Use
                      cbm::jkr_range_law(),
                      {{"contact_ratio", rest.radius_ratio}, {"overlap_ratio", rest.overlap_ratio}, {"covered", rest.covered}}});
     }
+    if (shells)
+      out.push_back({"spheres of " + type.name + " against shells",
+                     law_named(surface_contact_terms(), "sphere_foundation"),
+                     {{"young", type.sphere.young},
+                      {"poisson", type.sphere.poisson},
+                      {"stiffness", type.sphere.with_shells.stiffness},
+                      {"adhesion_factor", type.sphere.with_shells.adhesion}}});
     if (type.sphere.approach_factor != 1.0)
       out.push_back({"contact of two spheres of " + type.name,
                      law_named(surface_contact_terms(), "contact_pair"),

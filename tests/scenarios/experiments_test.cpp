@@ -309,6 +309,7 @@ TEST(Budget, LeavesOutWhatJudgesFirstAndNeverWhatTheFitNeeds) {
     EXPECT_EQ(list->kept.size() + order.size(), all.size());
     EXPECT_EQ(list->kept.front().name, "equal_pair_1");
   }
+  EXPECT_EQ(std::erase_if(order, [](const std::string& name) { return name.starts_with("mixed_pair"); }), 19);
   EXPECT_THAT(order, testing::ElementsAre("packing_fcc", "packing_bcc", "unequal_pair_3", "packing_random_3", "unequal_pair_1",
                                           "unequal_pair_2", "relaxing_pair_1", "relaxing_pair_2", "relaxing_pair_3", "equal_pair_3",
                                           "packing_random_2", "packing_random_1"));

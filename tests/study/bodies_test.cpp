@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "cbm/sphere_range.h"
+#include "dcm/drops.h"
 #include "results/series_reader.h"
 #include "scenarios/run/driver.h"
 #include "scenarios/run/used_laws.h"
@@ -134,6 +135,31 @@ TEST(Bodies, AdhesionBeyondJkrIsToldWithItsNumbers) {
   EXPECT_THAT(test::warnings_of(with("adhesion: {cell: 2e-4 J/m^2}")), HasSubstr("[E647]"));
   EXPECT_THAT(test::warnings_of(with("cbm: {young: 450 Pa, law: hertz}")), Not(HasSubstr("E647")));
   EXPECT_THAT(test::warnings_of(test::changed("radius: 40 um}", kAsShell, with("cbm: {young: 450 Pa}"))), Not(HasSubstr("E647")));
+}
+
+/// Drops that wet each other wholly are two halves of one ball: of radius 2^(1/3) R, their centres 3/8 of it from the cut. Without adhesion they touch.
+TEST(Bodies, DropsRestWhereTheirBallsAreCut) {
+  EXPECT_NEAR(dcm::overlap_of_doublet(0.2, 0.1), 2.0 - 0.75 * std::cbrt(2.0), 1e-12);
+  EXPECT_NEAR(dcm::overlap_of_doublet(0.0, 0.1), 0.0, 1e-12);
+  EXPECT_EQ(dcm::overlap_of_doublet(0.1, 0.0), 0.0);
+}
+
+/// A hybrid whose two bodies rest elsewhere is told so with both distances; not where one body is all that cells have, nor where moduli go together as in decision 0009.
+TEST(Bodies, ThatRestElsewhereAreWarnedOf) {
+  const auto with = [](const std::string& type, const std::string& body) {
+    return test::warnings_of(
+        "schema: 1\nstudy: both\ntime: {end: 1 h}\ndomain: {size: [200 um, 200 um, 200 um]}\ncell_types:\n  cell: {" + type +
+        "}\ninitial: [{type: cell, at: [[0 um, 0 um, 0 um]]}]\ncoupling: {regions: [{name: r, shape: sphere, center: [0 um, 0 um, 0 um], "
+        "radius: 30 um, margin: 12 um, as: " +
+        body + "}]}\n");
+  };
+  const std::string plain = with("radius: 6 um", "shell");
+  EXPECT_THAT(plain, HasSubstr("[E651]"));
+  EXPECT_THAT(plain, HasSubstr("1.89 R apart"));
+  EXPECT_THAT(plain, HasSubstr("1.32 R"));
+  EXPECT_THAT(plain, HasSubstr("morula calibrate jkr cell"));
+  EXPECT_THAT(with("radius: 6 um", "sphere"), Not(HasSubstr("E651")));
+  EXPECT_THAT(with("radius: 11.8 um, cbm: {young: 177 Pa}, dcm: {cortex: {tension: 0.3 mN/m}}", "shell"), Not(HasSubstr("E651")));
 }
 
 /// Two spheres that are put where they rest: by default a contact of 0.40 R, with 450 Pa one of 0.60 R.

@@ -76,6 +76,43 @@ TEST(FittedLaw, TakesModulusAdhesionPackingAndRangeFromTheFile) {
   EXPECT_THAT(study->warnings.text(), Not(HasSubstr("E647")));
 }
 
+/// The file's factors reach the contact layer, methods.md and the resolved study; another number in the study is an error, and without a file both may be chosen.
+TEST(FittedLaw, SpheresMeetShellsWithTheFactorsThatWereFitted) {
+  const std::string fitted =
+      "with_shells:\n  stiffness: 0.46\n  stiffness_interval: [0.3, .inf]\n  adhesion: 0.75\n  adhesion_interval: [0.6, 0.9]\n  misfit: "
+      "0.1\n"
+      "  unfitted: 0.2\n  outside: 0.05\n  outside_worst: 0.2\n  held_out: 0.1\n";
+  const Written file(file_text("jkr", "", fitted));
+  const auto study = file.read();
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  const ContactMaterial contact = contact_materials(study->model).front();
+  EXPECT_EQ(contact.sphere_stiffness, 0.46);
+  EXPECT_EQ(contact.sphere_adhesion, 0.75);
+  EXPECT_EQ(contact.law.adhesion, 0.1) << "shells keep theirs";
+  EXPECT_THAT(study->resolved_text, AllOf(HasSubstr("stiffness: 0.46"), HasSubstr("adhesion: 0.75")));
+  const auto both = file.read(
+      test::changed("[[0 um, 0 um, 0 um]]", "[[0 um, 0 um, 0 um]], as: shell}\n  - {type: cell, at: [[20 um, 0 um, 0 um]]", kStudy));
+  ASSERT_TRUE(both.ok()) << both.error().text();
+  bool told = false;
+  for (const UsedLaw& law : used_laws(*both))
+    for (const auto& [name, value] : law.values)
+      if (law.law.name == "sphere_foundation" && name == "adhesion_factor") told = value == 0.75;
+  EXPECT_TRUE(told) << "methods.md says it";
+  const auto own = [](const std::string& keys) {
+    return test::changed("file: cell.jkr.yaml", "file: cell.jkr.yaml, with_shells: " + keys, kStudy);
+  };
+  EXPECT_THAT(file.errors(own("{stiffness: 0.5}")), AllOf(HasSubstr("E510"), HasSubstr("with_shells.stiffness")));
+  EXPECT_THAT(file.errors(own("{adhesion: 0.5}")), AllOf(HasSubstr("E510"), HasSubstr("with_shells.adhesion")));
+  const auto chosen = Written(file_text()).read(own("{stiffness: 2, adhesion: 0}"));
+  ASSERT_TRUE(chosen.ok()) << chosen.error().text();
+  EXPECT_EQ(chosen->model.types[0].sphere.with_shells.stiffness, 2.0);
+  EXPECT_EQ(chosen->model.types[0].sphere.with_shells.adhesion, 0.0);
+  EXPECT_EQ(Written(file_text()).read()->model.types[0].sphere.with_shells.stiffness, 1.0);
+  for (const char* wrong : {"{stiffness: 0}", "{stiffness: -1}", "{adhesion: -0.1}", "{adhesion: 11}"})
+    EXPECT_THAT(Written(file_text()).errors(own(wrong)), HasSubstr("E302")) << wrong;
+  EXPECT_THAT(Written(file_text("jkr", "", "with_shells: {stiffness: 0, adhesion: 1}\n")).errors(), HasSubstr("E302"));
+}
+
 TEST(FittedLaw, SpheresComeTogetherWithTheFrictionThatWasFitted) {
   const std::string approach =
       "  approach: {factor: 0.05, friction: 2.5 nN s/um^3, interval: [2 nN s/um^3, .inf nN s/um^3], misfit: 0.2}\n";

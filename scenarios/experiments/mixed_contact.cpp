@@ -1,0 +1,294 @@
+#include "scenarios/experiments/mixed_contact.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include "results/file_io.h"
+#include "scenarios/experiments/calibration.h"
+#include "scenarios/experiments/found_curves.h"
+
+namespace morula::scenarios {
+namespace {
+
+constexpr std::array kStiffness = {0.25, 0.5, 1.0, 2.0}, kAdhesion = {0.7, 0.85, 1.0, 1.15};  // that are tried
+constexpr double kUnequal = 1.3;                                                              // of pairs that are held out
+constexpr int kPlaces = 60;                                                                   // of a comparison, on each way
+constexpr const char *kFitted = "mixed_pair", *kLargeSphere = "mixed_pair_of_large_sphere", *kLargeShell = "mixed_pair_of_large_shell";
+
+/// Force over overlap on the way in or out.
+class Branch {
+ public:
+  Branch(const std::vector<FoundPair>& points, double turn, bool in) {
+    for (const FoundPair& p : points)
+      if (in ? p.time <= turn : p.time >= turn) points_.push_back(p);
+    std::ranges::stable_sort(points_, {}, &FoundPair::overlap);
+  }
+  [[nodiscard]] double deepest() const { return points_.empty() ? -1e300 : points_.back().overlap; }
+  /// The least overlap from which on cells touch.
+  [[nodiscard]] double first_touch() const {
+    const auto apart = std::find_if(points_.rbegin(), points_.rend(), [](const FoundPair& p) { return !p.touching; });
+    return apart == points_.rbegin() ? 1e300 : apart.base()->overlap;
+  }
+  /// At an overlap up to the deepest; further apart than all points there is none.
+  [[nodiscard]] double force(double overlap) const {
+    const auto after = std::ranges::lower_bound(points_, overlap, {}, &FoundPair::overlap);
+    if (after == points_.begin()) return 0.0;
+    if (after == points_.end()) return points_.back().force;
+    const FoundPair &a = *(after - 1), &b = *after;
+    return a.force + (b.force - a.force) * (overlap - a.overlap) / (b.overlap - a.overlap);
+  }
+
+ private:
+  std::vector<FoundPair> points_;
+};
+
+struct Curves {
+  Branch in, out;
+  Curves(const std::vector<FoundPair>& points, double turn) : in(points, turn, true), out(points, turn, false) {}
+};
+
+Result<Curves> curves_of(const Experiment& experiment, const ExperimentOutcome& outcome) {
+  MORULA_TRY_ASSIGN(const auto points, pair_of_run(experiment, outcome.run));
+  return Curves(points, experiment.turn);
+}
+
+/// Two shells and two spheres of the same radii, which a sphere and a shell are held against.
+class Comparison {
+ public:
+  /// deepest: overlap up to which every pair is known.
+  Comparison(const Calibration& found, const Curves& shells, double reduced_radius, double deepest) {
+    const calibrate::Fit& fit = found.sure.fit;
+    const double adhesion = fit.parameters.adhesion, modulus = calibrate::pair_modulus(fit.parameters.young, fit.poisson);
+    const double length = std::cbrt(std::pow(std::numbers::pi * adhesion / modulus, 2) * reduced_radius);  // X
+    double least = std::max(-0.5 * length, shells.out.first_touch());
+    if (found.table_is_better()) least = std::max(least, found.table->table.break_overlap() * reduced_radius);
+    const double most = std::min({2.0 * length > 0.0 ? 2.0 * length : deepest, deepest, shells.in.deepest(), shells.out.deepest()});
+    const auto law = found.law_to_take();
+    for (int k = 0; k < kPlaces && most > least; ++k) {
+      const double overlap = least + (most - least) * (k + 0.5) / kPlaces;
+      const double spheres = law(overlap, reduced_radius).force;
+      if (overlap >= shells.in.first_touch()) places_.push_back({true, overlap, shells.in.force(overlap), spheres});
+      places_.push_back({false, overlap, shells.out.force(overlap), spheres});
+    }
+    std::ranges::stable_partition(places_, &Place::in);
+    scale_ = 1.5 * std::numbers::pi * found.material.adhesion * reduced_radius;
+    if (!(scale_ > 0.0))
+      for (const Place& p : places_) scale_ = std::max(scale_, std::abs(p.shells));
+  }
+
+  [[nodiscard]] double scale() const { return scale_; }
+  [[nodiscard]] std::vector<double> wanted() const {
+    std::vector<double> out;
+    for (const Place& p : places_) out.push_back(0.5 * (p.shells + p.spheres));
+    return out;
+  }
+  [[nodiscard]] std::vector<double> forces(const Curves& pair) const {
+    std::vector<double> out;
+    for (const Place& p : places_) out.push_back((p.in ? pair.in : pair.out).force(p.overlap));
+    return out;
+  }
+  /// Of all overlaps, in their order.
+  [[nodiscard]] std::vector<MixedComparison> against(const Curves& pair) const {
+    std::vector<MixedComparison> out;
+    for (const Place& p : places_) {
+      if (p.in) continue;
+      MixedComparison one{p.overlap, p.shells, p.spheres, pair.out.force(p.overlap)};
+      const auto in = std::ranges::find_if(places_, [&](const Place& q) { return q.in && q.overlap == p.overlap; });
+      if (in != places_.end()) {
+        one.shells = 0.5 * (one.shells + in->shells);
+        one.mixed = 0.5 * (one.mixed + pair.in.force(p.overlap));
+      }
+      out.push_back(one);
+    }
+    return out;
+  }
+
+ private:
+  struct Place {
+    bool in = false;
+    double overlap = 0.0, shells = 0.0, spheres = 0.0;
+  };
+  std::vector<Place> places_;
+  double scale_ = 0.0;
+};
+
+/// Mean square of a distance of each comparison [nN²].
+template <class Distance>
+double mean_square(const std::vector<MixedComparison>& all, const Distance& distance) {
+  double sum = 0.0;
+  for (const MixedComparison& one : all) sum += std::pow(distance(one), 2);
+  return sum / static_cast<double>(std::max<std::size_t>(all.size(), 1));
+}
+double from_halfway(const MixedComparison& c) { return c.mixed - 0.5 * (c.shells + c.spheres); }
+double beyond_both(const MixedComparison& c) {
+  return std::max({0.0, std::min(c.shells, c.spheres) - c.mixed, c.mixed - std::max(c.shells, c.spheres)});
+}
+
+bool is_trial(const Experiment& e) { return e.name.starts_with("mixed_pair_trial"); }
+
+/// What the root knows of mixed pairs, and what it makes of them.
+class MixedPairs {
+ public:
+  explicit MixedPairs(Calibration& found) : found_(found) {}
+
+  /// Fits both factors to the trials.
+  Status fit() {
+    std::vector<std::pair<cbm::WithShells, Curves>> trials;
+    double deepest = 1e300;
+    for (std::size_t e = 0; e < found_.experiments.size(); ++e) {
+      const Experiment& trial = found_.experiments[e];
+      if (!is_trial(trial) || !found_.outcomes[e].done) continue;
+      MORULA_TRY_ASSIGN(Curves curves, curves_of(trial, found_.outcomes[e]));
+      deepest = std::min({deepest, curves.in.deepest(), curves.out.deepest()});
+      trials.emplace_back(trial.with_shells, std::move(curves));
+    }
+    if (trials.empty()) return remark("no pair of a sphere and a shell was run: their contact follows the modulus of the sphere");
+    const auto shells = shells_of(1.0);
+    if (!shells)
+      return remark("no pair of shells at the rate of the mixed pairs: contact of spheres with shells follows the modulus of the sphere");
+    const Comparison compare(found_, *shells, 0.5 * found_.material.radius, deepest);
+    calibrate::MixedData data{.wanted = compare.wanted(), .trials = {}, .scale = compare.scale()};
+    for (const auto& [factors, curves] : trials) data.trials.push_back({factors.stiffness, factors.adhesion, compare.forces(curves)});
+    const auto fitted = calibrate::fit_mixed(data);
+    if (!fitted.ok()) return remark("contact of spheres with shells follows the modulus of the sphere: " + fitted.error().message);
+    MixedContact& out = found_.with_shells.emplace();
+    out.fit = *fitted;
+    for (const auto& [factors, curves] : trials)
+      if (factors.stiffness == 1.0 && factors.adhesion == 1.0)
+        out.unfitted = std::sqrt(mean_square(compare.against(curves), from_halfway)) / compare.scale();
+    if (out.fit.at_border)
+      found_.data.remarks.emplace_back("a sphere with a shell: a factor is at the end of what was tried, the best one is beyond");
+    return {};
+  }
+
+  /// How good they are, from runs with them.
+  Status judge() {
+    MixedContact& out = *found_.with_shells;
+    double square = 0.0;
+    int count = 0;
+    for (std::size_t e = 0; e < found_.experiments.size(); ++e) {
+      const Experiment& run = found_.experiments[e];
+      if (run.kind != Experiment::Kind::kMixedPair || is_trial(run)) continue;
+      if (!found_.outcomes[e].done) {
+        found_.data.remarks.push_back(run.name + " is missing: " + found_.outcomes[e].problem);
+        continue;
+      }
+      MORULA_TRY_ASSIGN(const Curves curves, curves_of(run, found_.outcomes[e]));
+      const bool equal = run.name == kFitted;
+      const auto shells = shells_of(equal ? 1.0 : kUnequal);
+      if (!shells) continue;
+      const double reduced = run.radius_a * run.radius_b / (run.radius_a + run.radius_b);
+      const Comparison compare(found_, *shells, reduced, std::min(curves.in.deepest(), curves.out.deepest()));
+      const auto all = compare.against(curves);
+      if (equal) {
+        out.misfit = std::sqrt(mean_square(all, from_halfway)) / compare.scale();
+        out.outside = std::sqrt(mean_square(all, beyond_both)) / compare.scale();
+        for (const MixedComparison& one : all) out.outside_worst = std::max(out.outside_worst, beyond_both(one) / compare.scale());
+        out.comparisons = all;
+      } else {
+        square += mean_square(all, from_halfway) / (compare.scale() * compare.scale());
+        ++count;
+      }
+    }
+    if (count > 0) out.held_out = std::sqrt(square / count);
+    return {};
+  }
+
+ private:
+  Status remark(std::string text) {
+    found_.data.remarks.push_back(std::move(text));
+    return {};
+  }
+  /// Two shells whose radii have this ratio, at the rate of mixed pairs.
+  [[nodiscard]] std::optional<Curves> shells_of(double ratio) const {
+    for (std::size_t e = 0; e < found_.experiments.size(); ++e) {
+      const Experiment& pair = found_.experiments[e];
+      if (pair.kind != Experiment::Kind::kPair || !found_.outcomes[e].done || pair.rate != mixed_pair_rate(found_.material) ||
+          pair.radius_b != ratio * pair.radius_a)
+        continue;
+      auto curves = curves_of(pair, found_.outcomes[e]);
+      if (curves.ok()) return std::move(curves).value();
+    }
+    return {};
+  }
+
+  Calibration& found_;
+};
+
+/// Some numbers of the root on every rank; empty: it has none.
+std::vector<double> from_root(const std::vector<double>& numbers, const Comm& comm) {
+  std::vector<std::byte> bytes(comm.is_root() ? numbers.size() * sizeof(double) : 0);
+  if (comm.is_root() && !numbers.empty()) std::memcpy(bytes.data(), numbers.data(), bytes.size());
+  comm.broadcast(bytes);
+  std::vector<double> out(bytes.size() / sizeof(double));
+  if (!out.empty()) std::memcpy(out.data(), bytes.data(), bytes.size());
+  return out;
+}
+
+/// Runs those of the mixed pairs that are chosen, with texts from a sphere.
+template <class Chosen>
+Status run_chosen(Calibration& found, cbm::SphereParameters sphere, const Chosen& chosen, const ExperimentRequest& request,
+                  const Comm& comm) {
+  std::vector<Experiment> list;
+  std::vector<std::size_t> place;
+  for (std::size_t e = 0; e < found.experiments.size(); ++e) {
+    Experiment& one = found.experiments[e];
+    if (one.kind != Experiment::Kind::kMixedPair || !chosen(one)) continue;
+    if (is_trial(one)) sphere.with_shells = one.with_shells;
+    const int dispensable = one.dispensable;
+    one = mixed_pair_experiment(found.material, one.name, one.radius_a, one.radius_b, sphere, one.seed);
+    one.with_shells = sphere.with_shells;
+    one.dispensable = dispensable;
+    list.push_back(one), place.push_back(e);
+  }
+  MORULA_TRY_ASSIGN(const auto outcomes, run_experiments(list, request, comm));
+  for (std::size_t k = 0; k < list.size(); ++k) found.outcomes[place[k]] = outcomes[k];
+  return {};
+}
+
+}  // namespace
+
+std::vector<Experiment> mixed_pairs(const CellMaterial& material) {
+  std::vector<Experiment> out;
+  const auto add = [&](const std::string& name, double sphere, double shell, const cbm::WithShells& factors) {
+    out.push_back(
+        mixed_pair_experiment(material, name, sphere, shell, {.with_shells = factors}, static_cast<std::uint32_t>(out.size()) + 1));
+    out.back().with_shells = factors;
+    out.back().text.clear();  // its sphere is not known yet
+  };
+  const double radius = material.radius;
+  for (const double stiffness : kStiffness)
+    for (const double adhesion : kAdhesion)
+      if (material.adhesion > 0.0 || adhesion == 1.0)
+        add("mixed_pair_trial_" + std::to_string(out.size() + 1), radius, radius, {stiffness, adhesion});
+  add(kFitted, radius, radius, {});
+  add(kLargeSphere, kUnequal * radius, radius, {});
+  add(kLargeShell, radius, kUnequal * radius, {});
+  return out;
+}
+
+Status fit_with_shells(Calibration& found, const ExperimentRequest& request, const Comm& comm) {
+  found.outcomes.resize(found.experiments.size());
+  const calibrate::Fit& fit = found.sure.fit;
+  const std::vector<double> body = from_root({fit.parameters.young, fit.poisson}, comm);
+  cbm::SphereParameters sphere{.young = body[0], .poisson = body[1]};
+  MORULA_TRY(run_chosen(found, sphere, is_trial, request, comm));
+  MixedPairs pairs(found);
+  MORULA_TRY(agree(comm.is_root() ? pairs.fit() : Status{}, comm));
+  std::vector<double> factors;
+  if (found.with_shells) factors = {found.with_shells->fit.stiffness, found.with_shells->fit.adhesion};
+  factors = from_root(factors, comm);
+  if (factors.empty()) return {};
+  sphere.with_shells = {factors[0], factors[1]};
+  MORULA_TRY(run_chosen(
+      found, sphere, [](const Experiment& e) { return !is_trial(e); }, request, comm));
+  return agree(comm.is_root() ? pairs.judge() : Status{}, comm);
+}
+
+}  // namespace morula::scenarios

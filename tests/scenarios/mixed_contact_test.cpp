@@ -1,0 +1,89 @@
+// Spheres of a fitted law beside shells of the same type: cells of the library's calibrated type, from a study to its results.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "results/snapshot_file.h"
+#include "scenarios/library/library.h"
+#include "tests/scenarios/run_into.h"
+#include "tests/study/study_fixture.h"
+
+namespace morula::scenarios {
+namespace {
+
+/// Snapshots of a study of the library's tumour cells.
+std::vector<Snapshot> snapshots_of(const std::string& time, const std::string& initial, const std::string& coupling) {
+  const test::Folder folder;
+  for (const TemplateFile& file : find_template("hybrid_spheroid")->files) folder.write(std::string(file.path), std::string(file.content));
+  ReadOptions options;
+  options.overrides = {"time=" + time,
+                       "initial=" + initial,
+                       "coupling=" + coupling,
+                       "fields={}",
+                       "criteria=[]",
+                       "plots=[]",
+                       "cell_types.tumour.radius.spread=0 %",
+                       "cell_types.tumour.cycle={model: none}",
+                       "output.report=false"};
+  options.scenario_names = template_names();
+  const auto study = read_study(folder.path() / "study.yaml", options);
+  if (!study.ok()) return ADD_FAILURE() << study.error().text(), std::vector<Snapshot>{};
+  if (!test::run_into(folder.path() / "run", *study)) return {};
+  const auto path = folder.path() / "run" / "results.h5";
+  const auto entries = list_snapshots(path);
+  if (!entries.ok()) return ADD_FAILURE() << entries.error().message, std::vector<Snapshot>{};
+  std::vector<Snapshot> out;
+  for (const auto& entry : *entries) out.push_back(read_snapshot(path, entry.index).value());
+  return out;
+}
+
+/// fields_and_coupling.md D (c): 64 cells at rest, the one in the middle becomes a shell, and no other moves by 0.02 R.
+TEST(MixedContact, OfFittedSpheresKeepsNeighboursWhereACellChangesItsBody) {
+  constexpr double kRadius = 5.0, kDistance = 8.9;
+  std::vector<Vec3d> places;
+  for (int i = -4; i <= 4; ++i)
+    for (int j = -4; j <= 4; ++j)
+      for (int k = -4; k <= 4; ++k)
+        if ((i + j + k) % 2 == 0) places.push_back(Vec3d{1.0 * i, 1.0 * j, 1.0 * k} * (kDistance / std::numbers::sqrt2));
+  std::stable_sort(places.begin(), places.end(), [](const Vec3d& a, const Vec3d& b) { return norm2(a) < norm2(b) - 1e-6; });
+  std::string at;
+  for (std::size_t i = 0; i < 64; ++i)
+    at += (i > 0 ? ", [" : "[") + std::to_string(places[i].x) + " um, " + std::to_string(places[i].y) + " um, " +
+          std::to_string(places[i].z) + " um]";
+  const auto found =
+      snapshots_of("{end: 23 h, output: 1 h, checkpoint: 23 h}", "[{type: tumour, as: sphere, at: [" + at + "]}]",
+                   "{regions: [{name: middle, shape: sphere, center: [0 um, 0 um, 0 um], radius: 1 um, margin: 20 um, as: shell, "
+                   "from: 72060 s}]}");
+  ASSERT_EQ(found.size(), 24u);
+  const Snapshot &before = found[20], &end = found.back();
+  ASSERT_TRUE(before.shells.empty());
+  ASSERT_EQ(end.shells.size(), 1u);
+  double most = 0.0, rest = 0.0;
+  for (std::size_t i = 0; i < end.cells.size(); ++i) {
+    rest = std::max(rest, norm(before.cells[i].centroid - found[19].cells[i].centroid) / kRadius);
+    most = std::max(most, norm(end.cells[i].centroid - before.cells[i].centroid) / kRadius);
+  }
+  EXPECT_LT(rest, 0.001) << "they did not rest before";
+  EXPECT_GT(most, 1e-4) << "nothing happened";
+  EXPECT_LT(most, 0.02);
+}
+
+/// A sphere and a shell rest between two spheres and two shells, within 0.05 R.
+TEST(MixedContact, OfFittedSpheresRestsBetweenThePairsOfEachBody) {
+  const auto distance = [](const char* one, const char* other) {
+    const std::string pair = std::string("[{type: tumour, as: ") + one + ", at: [[0 um, 0 um, -5.05 um]]}, {type: tumour, as: " + other +
+                             ", at: [[0 um, 0 um, 5.05 um]]}]";
+    const auto found = snapshots_of("{end: 40 h, output: 20 h, checkpoint: 40 h}", pair, "{}");
+    if (found.size() != 3) return ADD_FAILURE() << one << " " << other, 0.0;
+    const auto apart = [](const Snapshot& s) { return norm(s.cells[1].centroid - s.cells[0].centroid); };
+    EXPECT_NEAR(apart(found[1]), apart(found[2]), 0.02) << "not at rest: " << one << " " << other;
+    return apart(found[2]);
+  };
+  const double spheres = distance("sphere", "sphere"), shells = distance("shell", "shell"), mixed = distance("sphere", "shell");
+  EXPECT_GT(mixed, std::min(spheres, shells) - 0.25) << spheres << " " << shells;
+  EXPECT_LT(mixed, std::max(spheres, shells) + 0.25) << spheres << " " << shells;
+}
+
+}  // namespace
+}  // namespace morula::scenarios
