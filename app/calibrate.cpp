@@ -33,7 +33,7 @@ std::string found_text(const scenarios::Calibration& found) {
 
 Status calibrate(const CalibrateOptions& options, const Context& context) {
   outlive_closed_pipes();
-  auto study = read_study_and_tell(options.study, options.overrides, false, context);
+  auto study = read_study_and_tell(options.study, options.overrides, false, context, {.fitted_laws = false, .judge_places = false});
   MORULA_TRY(agree_on(study, options.study, context));
   omp_set_num_threads(options.threads);
   scenarios::ExperimentRequest request;

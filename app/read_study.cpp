@@ -9,14 +9,12 @@
 namespace morula::app {
 
 Result<scenarios::Study> read_study_and_tell(const std::string& path, const std::vector<std::string>& overrides, bool strict,
-                                             const Context& context, bool judge_places) {
-  scenarios::ReadOptions options;
+                                             const Context& context, scenarios::ReadOptions options) {
   options.laws = context.laws;
   options.overrides = overrides;
   options.scenario_names = scenarios::template_names();
   options.check_criteria = &scenarios::check_criteria;
   options.strict = strict;
-  options.judge_places = judge_places;
   auto study = scenarios::read_study(path, options);
   const scenarios::Diagnostics& told = study.ok() ? study->warnings : study.error();
   if (!told.empty()) context.console.message(told.text(context.console.colour()));

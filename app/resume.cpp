@@ -35,7 +35,8 @@ bool is_newest(const fs::path& run, const fs::path& checkpoint) {
 Status resume(const ResumeOptions& options, const Context& context) {
   outlive_closed_pipes();
   MORULA_TRY_ASSIGN(const scenarios::RunFolder folder, scenarios::RunFolder::open(options.run, context.comm));
-  auto study = read_study_and_tell((folder.path() / "study.resolved.yaml").string(), options.overrides, false, context, false);
+  auto study =
+      read_study_and_tell((folder.path() / "study.resolved.yaml").string(), options.overrides, false, context, {.judge_places = false});
   MORULA_TRY(agree_on(study, (folder.path() / "study.resolved.yaml").string(), context));
   scenarios::ResumeRequest request;
   request.laws = context.laws;

@@ -8,6 +8,7 @@
 #include "coupling/mechanics/workspace.h"
 #include "dcm/drops.h"
 #include "study/build.h"
+#include "study/declare.h"
 #include "study/read_section.h"
 
 namespace morula::scenarios {
@@ -88,11 +89,14 @@ void check_axis_of_spheres(BuildContext& c) {
   }
 }
 
+/// A law that was found from shells has its own range, and its spheres rest like shells.
+bool has_fitted_law(const BuildContext& c, std::size_t type) { return c.draft.cell_types[type].content.sphere_law.value == kFittedLaw; }
+
 /// Where spheres adhere so much that their contacts are no small part of them. Of a type's pairs the worst is told.
 void check_jkr_range(BuildContext& c) {
   const Model& model = c.study.model;
   for (std::size_t i = 0; i < model.types.size(); ++i) {
-    if (!model.types[i].sphere.law->of_small_contacts || model.types[i].sphere.fitted.has_ends() || !may_be_sphere(c, i)) continue;
+    if (!model.types[i].sphere.law->of_small_contacts || has_fitted_law(c, i) || !may_be_sphere(c, i)) continue;
     std::size_t worst = i;
     cbm::RestingContact most{};
     for (std::size_t j = i; j < model.types.size(); ++j) {
@@ -122,7 +126,7 @@ void check_rest_of_bodies(BuildContext& c) {
   const Model& model = c.study.model;
   for (std::size_t i = 0; i < model.types.size(); ++i) {
     const CellType& type = model.types[i];
-    if (!type.sphere.law->of_small_contacts || type.sphere.fitted.has_ends() || !may_be_sphere(c, i) || !may_be_shell(c, i)) continue;
+    if (!type.sphere.law->of_small_contacts || has_fitted_law(c, i) || !may_be_sphere(c, i) || !may_be_shell(c, i)) continue;
     const double adhesion = model.pair(i, i).adhesion;
     const double spheres = 2.0 * cbm::resting_contact(type.sphere, type.radius.mean, type.sphere, type.radius.mean, adhesion).overlap_ratio;
     const double shells = dcm::overlap_of_doublet(adhesion, type.shell.tension);

@@ -154,6 +154,7 @@ struct ReadOptions {
   std::function<void(const Study&, Diagnostics&)>
       check_criteria{};      ///< whether its criteria and plots can be judged and drawn; null: not checked
   bool strict = false;       ///< warnings are errors
+  bool fitted_laws = true;   ///< false: `law: fitted` is read as JKR, whose file is not looked at: it is about to be made
   bool judge_places = true;  ///< find and judge the places of all cells; false: the study has been checked before
 };
 

@@ -88,6 +88,32 @@ TEST(Calibrate, LeavesOutWhatItsBudgetHasNoTimeFor) {
               testing::AllOf(HasSubstr("young:"), HasSubstr("no time for packing_fcc, packing_bcc")));
 }
 
+/// The study may name the file before there is one, and after its cells have become others; then the study runs with it.
+TEST(Calibrate, MakesTheFileThatTheStudyNames) {
+  const TestFolder folder;
+  const auto study = [&](const char* tension) {
+    std::ofstream(folder / "study.yaml")
+        << "schema: 1\nstudy: small\ntime: {end: 1 min}\ndomain: {size: [80 um, 80 um, 80 um], boundary: open}\n"
+           "cell_types: {small: {radius: 5 um, cbm: {law: fitted, file: calibrations/small/small.jkr.yaml}, dcm: {nodes: 42, cortex: "
+           "{tension: "
+        << tension << "}}}}\ninitial: [{type: small, at: [[0 um, 0 um, 0 um]]}]\n";
+  };
+  const auto calibrate = [&] {
+    return run_morula({"calibrate", "jkr", "small", "study.yaml", "--pairs-only"}, folder.path(), {.timeout = std::chrono::seconds(180)});
+  };
+  study("0.2 mN/m");
+  EXPECT_EQ(run_morula({"check", "study.yaml"}, folder.path()).exit_code, 3);
+  const Outcome first = calibrate();
+  ASSERT_EQ(first.exit_code, 0) << first.all();
+  EXPECT_EQ(run_morula({"check", "study.yaml"}, folder.path()).exit_code, 0);
+  study("0.3 mN/m");
+  EXPECT_THAT(run_morula({"check", "study.yaml"}, folder.path()).err, HasSubstr("E532"));
+  const Outcome second = calibrate();
+  ASSERT_EQ(second.exit_code, 0) << second.all();
+  EXPECT_NE(second.out, first.out);
+  EXPECT_EQ(run_morula({"run", "study.yaml"}, folder.path()).exit_code, 0);
+}
+
 TEST(Calibrate, RefusesATypeThatTheStudyHasNot) {
   const TestFolder folder;
   write_study(folder.path() / "study.yaml");
