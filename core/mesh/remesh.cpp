@@ -17,6 +17,9 @@ constexpr int kIterations = 5;           // of splitting, drawing together, turn
 constexpr int kTries = 6;                // for the number of nodes
 constexpr double kNodeTolerance = 0.02;  // relative
 constexpr double kMostLost = 0.10;       // of the volume
+constexpr double kMostPieces =
+    10.0;  // into which edges are cut, over the number of nodes that are wanted: three of a surface that is all too coarse
+constexpr double kMostNodes = 1e6;
 
 Error too_coarse(const std::string& what) {
   return {ErrorKind::kInput, "it cannot be remeshed: " + what, "ask for more nodes, or shorter edges"};
@@ -24,6 +27,15 @@ Error too_coarse(const std::string& what) {
 
 double volume_of(const TriangleMesh& mesh) {
   return enclosed_volume(mesh.faces, mesh.position, volume_centroid(mesh.faces, mesh.position));
+}
+
+/// Into how many pieces of a length edges are cut that are longer.
+double pieces_of(const TriangleMesh& mesh, double length) {
+  double out = 0.0;  // every edge of a closed surface comes twice
+  for (const Triangle& face : mesh.faces)
+    for (std::size_t c = 0; c < 3; ++c)
+      out += 0.5 * std::max(0.0, norm(mesh.position[face[(c + 1) % 3]] - mesh.position[face[c]]) / length - 1.0);
+  return out;
 }
 
 std::string percent(double part) {
@@ -109,6 +121,11 @@ Result<Remeshed> remesh_surface(const TriangleMesh& mesh, const RemeshTarget& ta
   if (!(volume > 0.0)) return Error{ErrorKind::kInput, "it cannot be remeshed: it encloses no volume", "turn it inside out"};
 
   double edge = target.nodes > 0 ? edge_of_nodes(surface_area(mesh), target.nodes) : target.edge;
+  // A spike has hardly any area for its length: its edges would be cut into millions of pieces, and what is far too fine into more.
+  const double area = surface_area(mesh), wanted = target.nodes > 0 ? target.nodes : 2.0 * area / (std::numbers::sqrt3 * edge * edge);
+  if (!(pieces_of(mesh, edge) <= kMostPieces * wanted && wanted <= kMostNodes))
+    return Error{ErrorKind::kInput, "it cannot be remeshed: its edges would be cut into too many pieces",
+                 "look for nodes far away from all others, or ask for longer edges"};
   std::optional<TriangleMesh> best;
   double best_miss = 1e300;
   const int tries = target.nodes > 0 ? kTries : 1;

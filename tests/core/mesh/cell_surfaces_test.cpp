@@ -182,6 +182,20 @@ TEST(Remeshing, SaysWhyWhereTheBuildLacksIt) {
   }
 }
 
+/// One node of a damaged file that is far away: its spike would be cut into a hundred million pieces. One that stands out by a few radii is no spike.
+TEST(Remeshing, RefusesSpikes) {
+  TriangleMesh mesh = ball(6.0);
+  mesh.position[0] = mesh.position[0] * 2.0;
+  EXPECT_EQ(remesh_surface(mesh, {300, 0.0}).ok(), has_remesher());
+  mesh.position[0] = mesh.position[0] * 1e12;
+  for (const RemeshTarget& target : {RemeshTarget{300, 0.0}, RemeshTarget{0, 1.5}}) {
+    const auto made = remesh_surface(mesh, target);
+    ASSERT_FALSE(made.ok());
+    EXPECT_EQ(made.error().kind, ErrorKind::kInput);
+    EXPECT_THAT(made.error().message, HasSubstr(has_remesher() ? "too many pieces" : "GPL"));
+  }
+}
+
 TEST(Remeshing, RefusesTrianglesThatAreTooLargeAndOpenSurfaces) {
   const auto coarse = remesh_surface(ball(6.0), {0, 40.0});
   ASSERT_FALSE(coarse.ok());
