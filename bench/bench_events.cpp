@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "bench/cpu_seconds.h"
+#include "core/close_packing.h"
 #include "core/parallel/quiet_mpi.h"
 #include "core/space/curve.h"
 #include "coupling/behaviours/birth.h"
@@ -57,14 +58,7 @@ struct Case {
 
 /// Places of a face-centred cubic lattice, nearest to the origin first.
 std::vector<Vec3d> lattice(std::size_t count, double spacing) {
-  const double a = spacing / std::numbers::sqrt2;
-  const int n = static_cast<int>(std::cbrt(static_cast<double>(count))) + 3;
-  std::vector<Vec3d> points;
-  for (int x = -n; x <= n; ++x)
-    for (int y = -n; y <= n; ++y)
-      for (int z = -n; z <= n; ++z)
-        if ((x + y + z) % 2 == 0) points.push_back(Vec3d{a * x, a * y, a * z});
-  std::stable_sort(points.begin(), points.end(), [](const Vec3d& p, const Vec3d& q) { return norm2(p) < norm2(q) - 1e-9; });
+  std::vector<Vec3d> points = close_packed_places(static_cast<int>(std::cbrt(static_cast<double>(count))) + 3, spacing);
   points.resize(std::min(count, points.size()));
   return points;
 }

@@ -77,10 +77,7 @@ void build_fitted_law(BuildContext& c, const std::string& /*type_name*/, draft::
     refuse_keys(c, t);
     return;
   }
-  if (!c.options.fitted_laws) {
-    sphere.law = cbm::jkr_law();
-    return;
-  }
+  if (!c.options.fitted_laws) return;  // JKR
   const auto fitted = file_of(c, t);
   if (!fitted) return;
   const bool table = t.sphere_form.value == "table" || (t.sphere_form.value == "better" && fitted->table_is_better);

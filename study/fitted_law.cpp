@@ -24,7 +24,7 @@ struct Approach {
   Given<double> factor;
   bool given = false;
 };
-struct MixedContact {
+struct WithShells {
   Given<double> stiffness, adhesion;
   bool given = false;
 };
@@ -34,7 +34,7 @@ struct File {
   Given<double> radius, adhesion_of_shells;
   Given<double> young, poisson, adhesion, touch;
   Approach approach, approach_beside_table;
-  MixedContact with_shells;
+  WithShells with_shells;
   Given<double> medium, cell_cell, cell_cell_tangential;
   bool has_friction = false;
   std::vector<Named<Knot>> packing, beside_table;

@@ -22,7 +22,7 @@ struct ContactMaterial {
   SurfaceTraction law;
   double sphere_modulus = 0.5;       ///< E/(1 − ν²) of the first material's spheres: they meet surfaces with sphere_foundation() [kPa]
   double sphere_stiffness = 1.0;     ///< of their foundation over sphere_foundation()
-  double sphere_adhesion = 1.0;      ///< W of these spheres with surfaces over that of the law
+  double sphere_adhesion = 1.0;      ///< W of these spheres with shells over that of the law
   double normal_friction = 0.0;      ///< γ_n per contact area [nN·s/µm³]
   double tangential_friction = 0.0;  ///< γ_t per contact area [nN·s/µm³]
   std::shared_ptr<const RegionalAdhesion>

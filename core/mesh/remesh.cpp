@@ -80,6 +80,8 @@ double edge_of_nodes(double area, std::uint32_t nodes) {
   return std::sqrt(4.0 * area / (std::numbers::sqrt3 * (2.0 * static_cast<double>(nodes) - 4.0)));
 }
 
+double nodes_of_edge(double area, double edge) { return 2.0 + 2.0 * area / (std::numbers::sqrt3 * edge * edge); }
+
 double mean_edge_length(const TriangleMesh& mesh) {
   double sum = 0.0;  // every edge of a closed surface comes twice
   for (const Triangle& face : mesh.faces)
@@ -120,9 +122,9 @@ Result<Remeshed> remesh_surface(const TriangleMesh& mesh, const RemeshTarget& ta
   const double volume = volume_of(mesh);
   if (!(volume > 0.0)) return Error{ErrorKind::kInput, "it cannot be remeshed: it encloses no volume", "turn it inside out"};
 
-  double edge = target.nodes > 0 ? edge_of_nodes(surface_area(mesh), target.nodes) : target.edge;
+  const double area = surface_area(mesh), wanted = target.nodes > 0 ? target.nodes : nodes_of_edge(area, target.edge);
+  double edge = target.nodes > 0 ? edge_of_nodes(area, target.nodes) : target.edge;
   // A spike has hardly any area for its length: its edges would be cut into millions of pieces, and what is far too fine into more.
-  const double area = surface_area(mesh), wanted = target.nodes > 0 ? target.nodes : 2.0 * area / (std::numbers::sqrt3 * edge * edge);
   if (!(pieces_of(mesh, edge) <= kMostPieces * wanted && wanted <= kMostNodes))
     return Error{ErrorKind::kInput, "it cannot be remeshed: its edges would be cut into too many pieces",
                  "look for nodes far away from all others, or ask for longer edges"};

@@ -38,6 +38,9 @@ void restore_volume(TriangleMesh& mesh, double volume);
 /// Side of a triangle in a mesh of even triangles with this many nodes and this area: A = (2N − 4) (√3/4) L². [µm]
 double edge_of_nodes(double area, std::uint32_t nodes);
 
+/// The same the other way round: nodes of a mesh of even triangles of this side.
+double nodes_of_edge(double area, double edge);
+
 /// Mean length of the edges of a closed surface [µm].
 double mean_edge_length(const TriangleMesh& mesh);
 

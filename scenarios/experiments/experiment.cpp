@@ -18,7 +18,6 @@ constexpr double kDeepest = 0.35;              // δ/R at which a pair turns, at
 constexpr double kBeyondRest = 0.2;            // and how much deeper than a doublet at rest
 constexpr double kFarthest = -0.8;             // δ/R at which it ends
 constexpr double kFastest = 0.002;             // rate of the fastest pair over R [1/s]
-constexpr double kUnequal = 1.3;               // ratio of the radii of the pair that is held out
 constexpr double kTrap = 20.0;                 // stiffness of the traps [nN/µm]
 constexpr int kPairOutputs = 100;              // of a pair
 constexpr double kLoose = 1.35, kTight = 0.7;  // V/V0 of a packing at its start and end
@@ -128,6 +127,7 @@ Experiment mixed_pair_experiment(const CellMaterial& material, const std::string
                            ", adhesion: " + number(sphere.with_shells.adhesion) + "}}";
   Experiment e = pair_of(material, name, radius_of_sphere, radius_of_shell, mixed_pair_rate(material), keys, seed);
   e.kind = Experiment::Kind::kMixedPair;
+  e.with_shells = sphere.with_shells;
   return e;
 }
 
@@ -278,7 +278,7 @@ std::vector<Experiment> experiments_for(const CellMaterial& material, bool packi
       out.back().dispensable = kLattices;
     }
   }
-  add_pairs(material, "unequal_pair", kUnequal, true, out);
+  add_pairs(material, "unequal_pair", kUnequalPair, true, out);
   for (Experiment& mixed : mixed_pairs(material)) {
     out.push_back(std::move(mixed));
     out.back().dispensable = kMixedPairs;

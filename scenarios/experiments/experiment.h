@@ -37,6 +37,8 @@ struct Experiment {
 
 /// Rates at which a pair is pressed and pulled, the fastest first: each half of the one before, so that forces without rate are found.
 inline constexpr int kPairRates = 3;
+/// Ratio of the radii of pairs that are held out.
+inline constexpr double kUnequalPair = 1.3;
 
 /// What the calibration of a contact law asks (fields_and_coupling.md E). E1 and E2: equal cells that come nearer until δ = 0.35 R and part, at three
 /// rates; E4, where cells adhere: three pairs that come together by themselves; E3, not without `packings`: random packings from V/V0 = 1.35 to 0.7, two to fit to and one held out, and face-centred and body-centred cubic

@@ -17,9 +17,7 @@ namespace morula::scenarios {
 namespace {
 
 constexpr std::array kStiffness = {0.25, 0.5, 1.0, 2.0}, kAdhesion = {0.7, 0.85, 1.0, 1.15};  // that are tried
-constexpr double kUnequal = 1.3;                                                              // of pairs that are held out
 constexpr int kPlaces = 60;                                                                   // of a comparison, on each way
-constexpr const char *kFitted = "mixed_pair", *kLargeSphere = "mixed_pair_of_large_sphere", *kLargeShell = "mixed_pair_of_large_shell";
 
 /// Force over overlap on the way in or out.
 class Branch {
@@ -72,47 +70,47 @@ class Comparison {
     const auto law = found.law_to_take();
     for (int k = 0; k < kPlaces && most > least; ++k) {
       const double overlap = least + (most - least) * (k + 0.5) / kPlaces;
-      const double spheres = law(overlap, reduced_radius).force;
-      if (overlap >= shells.in.first_touch()) places_.push_back({true, overlap, shells.in.force(overlap), spheres});
-      places_.push_back({false, overlap, shells.out.force(overlap), spheres});
+      Place& place = places_.emplace_back(Place{overlap, law(overlap, reduced_radius).force, shells.out.force(overlap), {}});
+      if (overlap >= shells.in.first_touch()) place.shells_in = shells.in.force(overlap);
     }
-    std::ranges::stable_partition(places_, &Place::in);
     scale_ = 1.5 * std::numbers::pi * found.material.adhesion * reduced_radius;
     if (!(scale_ > 0.0))
-      for (const Place& p : places_) scale_ = std::max(scale_, std::abs(p.shells));
+      for (const Place& p : places_) scale_ = std::max({scale_, std::abs(p.shells_out), std::abs(p.shells_in.value_or(0.0))});
   }
 
   [[nodiscard]] double scale() const { return scale_; }
+  /// On the way in and then on the way out.
   [[nodiscard]] std::vector<double> wanted() const {
     std::vector<double> out;
-    for (const Place& p : places_) out.push_back(0.5 * (p.shells + p.spheres));
+    for (const Place& p : places_)
+      if (p.shells_in) out.push_back(0.5 * (*p.shells_in + p.spheres));
+    for (const Place& p : places_) out.push_back(0.5 * (p.shells_out + p.spheres));
     return out;
   }
+  /// Likewise.
   [[nodiscard]] std::vector<double> forces(const Curves& pair) const {
     std::vector<double> out;
-    for (const Place& p : places_) out.push_back((p.in ? pair.in : pair.out).force(p.overlap));
+    for (const Place& p : places_)
+      if (p.shells_in) out.push_back(pair.in.force(p.overlap));
+    for (const Place& p : places_) out.push_back(pair.out.force(p.overlap));
     return out;
   }
-  /// Of all overlaps, in their order.
+  /// Means of both ways, where both touch.
   [[nodiscard]] std::vector<MixedComparison> against(const Curves& pair) const {
     std::vector<MixedComparison> out;
     for (const Place& p : places_) {
-      if (p.in) continue;
-      MixedComparison one{p.overlap, p.shells, p.spheres, pair.out.force(p.overlap)};
-      const auto in = std::ranges::find_if(places_, [&](const Place& q) { return q.in && q.overlap == p.overlap; });
-      if (in != places_.end()) {
-        one.shells = 0.5 * (one.shells + in->shells);
-        one.mixed = 0.5 * (one.mixed + pair.in.force(p.overlap));
-      }
-      out.push_back(one);
+      MixedComparison& one = out.emplace_back(MixedComparison{p.overlap, p.shells_out, p.spheres, pair.out.force(p.overlap)});
+      if (!p.shells_in) continue;
+      one.shells = 0.5 * (one.shells + *p.shells_in);
+      one.mixed = 0.5 * (one.mixed + pair.in.force(p.overlap));
     }
     return out;
   }
 
  private:
   struct Place {
-    bool in = false;
-    double overlap = 0.0, shells = 0.0, spheres = 0.0;
+    double overlap = 0.0, spheres = 0.0, shells_out = 0.0;
+    std::optional<double> shells_in;  ///< none: they do not touch yet
   };
   std::vector<Place> places_;
   double scale_ = 0.0;
@@ -130,7 +128,8 @@ double beyond_both(const MixedComparison& c) {
   return std::max({0.0, std::min(c.shells, c.spheres) - c.mixed, c.mixed - std::max(c.shells, c.spheres)});
 }
 
-bool is_trial(const Experiment& e) { return e.name.starts_with("mixed_pair_trial"); }
+/// A trial of both factors, or a run that judges those that were found.
+bool is_mixed(const Experiment& e, bool judges) { return e.kind == Experiment::Kind::kMixedPair && e.held_out == judges; }
 
 /// What the root knows of mixed pairs, and what it makes of them.
 class MixedPairs {
@@ -143,7 +142,7 @@ class MixedPairs {
     double deepest = 1e300;
     for (std::size_t e = 0; e < found_.experiments.size(); ++e) {
       const Experiment& trial = found_.experiments[e];
-      if (!is_trial(trial) || !found_.outcomes[e].done) continue;
+      if (!is_mixed(trial, false) || !found_.outcomes[e].done) continue;
       MORULA_TRY_ASSIGN(Curves curves, curves_of(trial, found_.outcomes[e]));
       deepest = std::min({deepest, curves.in.deepest(), curves.out.deepest()});
       trials.emplace_back(trial.with_shells, std::move(curves));
@@ -174,14 +173,14 @@ class MixedPairs {
     int count = 0;
     for (std::size_t e = 0; e < found_.experiments.size(); ++e) {
       const Experiment& run = found_.experiments[e];
-      if (run.kind != Experiment::Kind::kMixedPair || is_trial(run)) continue;
+      if (!is_mixed(run, true)) continue;
       if (!found_.outcomes[e].done) {
         found_.data.remarks.push_back(run.name + " is missing: " + found_.outcomes[e].problem);
         continue;
       }
       MORULA_TRY_ASSIGN(const Curves curves, curves_of(run, found_.outcomes[e]));
-      const bool equal = run.name == kFitted;
-      const auto shells = shells_of(equal ? 1.0 : kUnequal);
+      const bool equal = run.radius_a == run.radius_b;
+      const auto shells = shells_of(equal ? 1.0 : kUnequalPair);
       if (!shells) continue;
       const double reduced = run.radius_a * run.radius_b / (run.radius_a + run.radius_b);
       const Comparison compare(found_, *shells, reduced, std::min(curves.in.deepest(), curves.out.deepest()));
@@ -231,20 +230,15 @@ std::vector<double> from_root(const std::vector<double>& numbers, const Comm& co
   return out;
 }
 
-/// Runs those of the mixed pairs that are chosen, with texts from a sphere.
-template <class Chosen>
-Status run_chosen(Calibration& found, cbm::SphereParameters sphere, const Chosen& chosen, const ExperimentRequest& request,
-                  const Comm& comm) {
+/// Runs the trials, each with its own factors, or what judges those of the sphere.
+Status run_mixed(Calibration& found, bool judges, cbm::SphereParameters sphere, const ExperimentRequest& request, const Comm& comm) {
   std::vector<Experiment> list;
   std::vector<std::size_t> place;
   for (std::size_t e = 0; e < found.experiments.size(); ++e) {
     Experiment& one = found.experiments[e];
-    if (one.kind != Experiment::Kind::kMixedPair || !chosen(one)) continue;
-    if (is_trial(one)) sphere.with_shells = one.with_shells;
-    const int dispensable = one.dispensable;
-    one = mixed_pair_experiment(found.material, one.name, one.radius_a, one.radius_b, sphere, one.seed);
-    one.with_shells = sphere.with_shells;
-    one.dispensable = dispensable;
+    if (!is_mixed(one, judges)) continue;
+    if (!judges) sphere.with_shells = one.with_shells;
+    one.text = mixed_pair_experiment(found.material, one.name, one.radius_a, one.radius_b, sphere, one.seed).text;
     list.push_back(one), place.push_back(e);
   }
   MORULA_TRY_ASSIGN(const auto outcomes, run_experiments(list, request, comm));
@@ -256,20 +250,20 @@ Status run_chosen(Calibration& found, cbm::SphereParameters sphere, const Chosen
 
 std::vector<Experiment> mixed_pairs(const CellMaterial& material) {
   std::vector<Experiment> out;
-  const auto add = [&](const std::string& name, double sphere, double shell, const cbm::WithShells& factors) {
+  const auto add = [&](const std::string& name, double sphere, double shell, const cbm::WithShells& factors, bool judges) {
     out.push_back(
         mixed_pair_experiment(material, name, sphere, shell, {.with_shells = factors}, static_cast<std::uint32_t>(out.size()) + 1));
-    out.back().with_shells = factors;
+    out.back().held_out = judges;
     out.back().text.clear();  // its sphere is not known yet
   };
-  const double radius = material.radius;
+  const double radius = material.radius, large = kUnequalPair * radius;
   for (const double stiffness : kStiffness)
     for (const double adhesion : kAdhesion)
       if (material.adhesion > 0.0 || adhesion == 1.0)
-        add("mixed_pair_trial_" + std::to_string(out.size() + 1), radius, radius, {stiffness, adhesion});
-  add(kFitted, radius, radius, {});
-  add(kLargeSphere, kUnequal * radius, radius, {});
-  add(kLargeShell, radius, kUnequal * radius, {});
+        add("mixed_pair_trial_" + std::to_string(out.size() + 1), radius, radius, {stiffness, adhesion}, false);
+  add("mixed_pair", radius, radius, {}, true);
+  add("mixed_pair_of_large_sphere", large, radius, {}, true);
+  add("mixed_pair_of_large_shell", radius, large, {}, true);
   return out;
 }
 
@@ -278,7 +272,7 @@ Status fit_with_shells(Calibration& found, const ExperimentRequest& request, con
   const calibrate::Fit& fit = found.sure.fit;
   const std::vector<double> body = from_root({fit.parameters.young, fit.poisson}, comm);
   cbm::SphereParameters sphere{.young = body[0], .poisson = body[1]};
-  MORULA_TRY(run_chosen(found, sphere, is_trial, request, comm));
+  MORULA_TRY(run_mixed(found, false, sphere, request, comm));
   MixedPairs pairs(found);
   MORULA_TRY(agree(comm.is_root() ? pairs.fit() : Status{}, comm));
   std::vector<double> factors;
@@ -286,8 +280,7 @@ Status fit_with_shells(Calibration& found, const ExperimentRequest& request, con
   factors = from_root(factors, comm);
   if (factors.empty()) return {};
   sphere.with_shells = {factors[0], factors[1]};
-  MORULA_TRY(run_chosen(
-      found, sphere, [](const Experiment& e) { return !is_trial(e); }, request, comm));
+  MORULA_TRY(run_mixed(found, true, sphere, request, comm));
   return agree(comm.is_root() ? pairs.judge() : Status{}, comm);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/close_packing.h"
 #include "core/numbers/number_text.h"
 #include "scenarios/measures/single_cell.h"
 #include "scenarios/verify/run_study.h"
@@ -147,12 +148,7 @@ void add_growth_and_exchange(std::vector<ReferenceNumber>& out) {
 /// within an hour, then the one in the middle is promoted, and its neighbours rest again three hours later.
 void add_neighbours_of_a_promotion(std::vector<ReferenceNumber>& out) {
   constexpr double kDistance = 11.35, kPromoted = 3660.0, kBefore = 3600.0, kEnd = 5.0 * 3600.0, kRadius = 6.0;
-  std::vector<Vec3d> places;
-  for (int i = -4; i <= 4; ++i)
-    for (int j = -4; j <= 4; ++j)
-      for (int k = -4; k <= 4; ++k)
-        if ((i + j + k) % 2 == 0) places.push_back(Vec3d{1.0 * i, 1.0 * j, 1.0 * k} * (kDistance / std::numbers::sqrt2));
-  std::stable_sort(places.begin(), places.end(), [](const Vec3d& a, const Vec3d& b) { return norm2(a) < norm2(b) - 1e-6; });
+  const std::vector<Vec3d> places = close_packed_places(4, kDistance);
   std::string at;
   for (std::size_t i = 0; i < 64; ++i)
     at += (i > 0 ? ", [" : "[") + number_text("%.6f", places[i].x) + " um, " + number_text("%.6f", places[i].y) + " um, " +

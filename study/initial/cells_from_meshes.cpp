@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "core/ball.h"
 #include "core/mesh/mesh_check.h"
@@ -337,8 +336,7 @@ Result<CellSurface> cell_surface(const MeshCell& cell, const MeshCells& spec) {
     const double edge = mean_edge_length(mesh);
     return CellSurface{std::move(mesh), edge, 0.0};
   }
-  // Even triangles of this edge cover the surface: N − 2 = 2 A/(√3 L²).
-  const double expected = spec.nodes > 0 ? spec.nodes : 2.0 + 2.0 * surface_area(cell.mesh) / (std::numbers::sqrt3 * spec.edge * spec.edge);
+  const double expected = spec.nodes > 0 ? spec.nodes : nodes_of_edge(surface_area(cell.mesh), spec.edge);
   if (expected > 1.2 * static_cast<double>(kMostNodes)) return too_many_nodes(cell, expected);
   auto made = remesh_surface(cell.mesh, {spec.nodes, spec.edge});
   if (!made.ok()) return Error{made.error().kind, cell.name + ": " + made.error().message, made.error().help};

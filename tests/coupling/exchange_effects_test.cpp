@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "cbm/packing.h"
+#include "core/close_packing.h"
 #include "coupling/simulation.h"
 #include "tests/coupling/tissue_fixture.h"
 
@@ -20,17 +21,6 @@ using test::make_tissue;
 constexpr double kRadius = 6.0;
 constexpr double kSpacing = 11.2;  // spheres overlap [µm]
 
-/// Face-centred places, the middle one first: 12 neighbours at kSpacing, the next ones at 1.41 of it.
-std::vector<Vec3d> lattice(int n) {
-  std::vector<Vec3d> out;
-  for (int x = -n; x <= n; ++x)
-    for (int y = -n; y <= n; ++y)
-      for (int z = -n; z <= n; ++z)
-        if ((x + y + z) % 2 == 0) out.push_back(Vec3d{1.0 * x, 1.0 * y, 1.0 * z} * (kSpacing / std::numbers::sqrt2));
-  std::ranges::stable_sort(out, {}, [](const Vec3d& p) { return norm2(p); });
-  return out;
-}
-
 std::map<CellId, Vec3d> forces_on_all(const Model& model, ShapeLibrary& shapes, const Tissue& tissue) {
   Mechanics whole(model, contact_obstacles(model).value(), shapes, Comm(), 1);
   const std::vector<Vec3d> force = whole.net_forces(tissue);
@@ -42,7 +32,7 @@ std::map<CellId, Vec3d> forces_on_all(const Model& model, ShapeLibrary& shapes, 
 /// The middle cell and one far away from it become shells; every `shell_every`th other cell is one already.
 void expect_effects_of_the_whole_tissue(const Model& model, std::size_t shell_every) {
   ShapeLibrary shapes;
-  const std::vector<Vec3d> places = lattice(4);
+  const std::vector<Vec3d> places = close_packed_places(4, kSpacing);
   std::vector<BodyKind> bodies(places.size(), BodyKind::kSphere);
   for (std::size_t i = 1; shell_every != 0 && i + 1 < places.size(); i += shell_every) bodies[i] = BodyKind::kShell;
   Tissue tissue = make_tissue(model, shapes, places, bodies);
@@ -93,7 +83,7 @@ void expect_effects_of_the_whole_tissue(const Model& model, std::size_t shell_ev
 std::vector<double> caps_among_shells(std::size_t count, const std::vector<std::size_t>& shells) {
   const Model model = clusters_model();
   ShapeLibrary shapes;
-  const std::vector<Vec3d> places = lattice(4);
+  const std::vector<Vec3d> places = close_packed_places(4, kSpacing);
   std::vector<BodyKind> bodies(places.size(), BodyKind::kSphere);
   for (const std::size_t i : shells) bodies[i] = BodyKind::kShell;
   const Tissue tissue = make_tissue(model, shapes, places, bodies);

@@ -1,9 +1,6 @@
 /// A sphere against a shell, with factors on its foundation and on the adhesion.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "tests/coupling/energy_gradient.h"
 #include "tests/coupling/tissue_fixture.h"
 

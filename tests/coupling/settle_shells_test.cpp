@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "cbm/packing.h"
+#include "core/close_packing.h"
 #include "core/mesh/primitives.h"
 #include "coupling/mechanics/relax.h"
 #include "coupling/neighbourhoods.h"
@@ -22,17 +23,6 @@ using test::clusters_model;
 using test::make_tissue;
 
 constexpr double kSpacing = 11.2;  // of cells of radius 6: spheres overlap, and shells that begin as balls, too [µm]
-
-/// Places of a cubic lattice that is centred in its cells, 2n + 1 in each direction, with the middle one first.
-std::vector<Vec3d> lattice(int n, double spacing = kSpacing) {
-  std::vector<Vec3d> out;
-  for (int x = -n; x <= n; ++x)
-    for (int y = -n; y <= n; ++y)
-      for (int z = -n; z <= n; ++z)
-        if ((x + y + z) % 2 == 0) out.push_back(Vec3d{1.0 * x, 1.0 * y, 1.0 * z} * (spacing / std::numbers::sqrt2));
-  std::ranges::stable_sort(out, {}, [](const Vec3d& p) { return norm2(p); });
-  return out;
-}
 
 using Bodies = std::function<BodyKind(std::size_t, const Vec3d&)>;
 
@@ -111,7 +101,7 @@ constexpr double kSame = 1e-5;  // [µm]
 
 TEST(SettleShells, AmongSpheresAsInTheWholeTissue) {
   Settlement s;
-  s.fill(lattice(3), {0}, kAllSpheres);
+  s.fill(close_packed_places(3, kSpacing), {0}, kAllSpheres);
   const auto here = s.settled();
   EXPECT_LT(furthest(here, s.settled_in_all()), kSame);
   EXPECT_GT(furthest(here, Settlement::nodes_of(s.tissue, s.fresh)), 0.1);
@@ -120,13 +110,14 @@ TEST(SettleShells, AmongSpheresAsInTheWholeTissue) {
 TEST(SettleShells, AmongSpheresThatResistTheirPackingAsInTheWholeTissue) {
   Settlement s;
   s.model.types[0].sphere.packing = cbm::PackingCurve::through(cbm::ideal_filled_cell(2.5, 0.45, 0.4).value()).value();
-  s.fill(lattice(4, 10.7), {0}, kAllSpheres);  // more than space holds without it
+  s.fill(close_packed_places(4, 10.7), {0}, kAllSpheres);  // more than space holds without it
   EXPECT_LT(furthest(s.settled(), s.settled_in_all()), kSame);
 }
 
 TEST(SettleShells, AmongShellsAndSpheresAsInTheWholeTissue) {
   Settlement s;
-  s.fill(lattice(2), {0}, [](std::size_t, const Vec3d& x) { return x.x > 1.0 ? BodyKind::kShell : BodyKind::kSphere; });
+  s.fill(close_packed_places(2, kSpacing), {0},
+         [](std::size_t, const Vec3d& x) { return x.x > 1.0 ? BodyKind::kShell : BodyKind::kSphere; });
   EXPECT_LT(furthest(s.settled(), s.settled_in_all()), kSame);
 }
 
@@ -136,7 +127,7 @@ TEST(SettleShells, AtAnObstacleAsInTheWholeTissue) {
   s.model.obstacles = {{"plate", mesh.position, mesh.faces, false, {}}};
   for (Vec3d& x : s.model.obstacles[0].position) x += Vec3d{0, 0, -7.5};  // its upper side is at −5.5, half a micrometre within the cells
   s.model.pairs.assign(4, ContactPair{0.1, 50.0, 50.0});
-  std::vector<Vec3d> places = lattice(3);
+  std::vector<Vec3d> places = close_packed_places(3, kSpacing);
   std::erase_if(places, [](const Vec3d& x) { return x.z < -1.0; });
   s.fill(places, {0}, kAllSpheres);
   const auto here = s.settled();
@@ -150,7 +141,7 @@ TEST(SettleShells, AcrossAPeriodicFaceAsInTheMiddle) {
     Settlement s;
     s.model.space.box = {{-0.5 * edge, -0.5 * edge, -0.5 * edge}, {0.5 * edge, 0.5 * edge, 0.5 * edge}};
     for (auto& axis : s.model.space.boundary) axis = {BoundaryKind::kPeriodic, BoundaryKind::kPeriodic};
-    std::vector<Vec3d> places = lattice(4);
+    std::vector<Vec3d> places = close_packed_places(4, kSpacing);
     std::erase_if(places, [](const Vec3d& x) { return std::max({x.x, x.y, x.z}) > 31.0; });  // the images of the other side
     for (Vec3d& x : places) x = s.model.space.wrapped(x + shift);
     s.fill(places, {0}, kAllSpheres);
@@ -168,7 +159,7 @@ TEST(SettleShells, AcrossAPeriodicFaceAsInTheMiddle) {
 
 TEST(SettleShells, TwoNeighbourhoodsAtOnceAsEachAlone) {
   Settlement s;
-  std::vector<Vec3d> places = lattice(3);
+  std::vector<Vec3d> places = close_packed_places(3, kSpacing);
   const std::size_t count = places.size();
   for (std::size_t i = 0; i < count; ++i) places.push_back(places[i] + Vec3d{70, 3, 5});
   s.fill(places, {0, count}, kAllSpheres);
@@ -182,13 +173,14 @@ TEST(SettleShells, TwoNeighbourhoodsAtOnceAsEachAlone) {
 
 TEST(SettleShells, NeighboursTogetherAsInTheWholeTissue) {
   Settlement s;
-  s.fill(lattice(3), {0, 1, 2}, kAllSpheres);
+  s.fill(close_packed_places(3, kSpacing), {0, 1, 2}, kAllSpheres);
   EXPECT_LT(furthest(s.settled(), s.settled_in_all()), kSame);
 }
 
 TEST(SettleShells, LeavesAllOthersAsTheyAre) {
   Settlement s;
-  s.fill(lattice(2), {0}, [](std::size_t i, const Vec3d&) { return i % 2 == 0 ? BodyKind::kShell : BodyKind::kSphere; });
+  s.fill(close_packed_places(2, kSpacing), {0},
+         [](std::size_t i, const Vec3d&) { return i % 2 == 0 ? BodyKind::kShell : BodyKind::kSphere; });
   for (Vec3f& v : s.tissue.spheres.velocity) v = {1e-3f, 0, 0};
   Tissue after = s.tissue;
   const Mechanics mechanics = s.mechanics();
@@ -204,7 +196,7 @@ TEST(SettleShells, LeavesAllOthersAsTheyAre) {
 
 TEST(Neighbourhoods, HoldWhatCanBeTouchedAndNothingElse) {
   Settlement s;
-  s.fill(lattice(3), {0}, kAllSpheres);
+  s.fill(close_packed_places(3, kSpacing), {0}, kAllSpheres);
   const Reach reach{0.3, 0.25, false};
   const auto found = find_neighbourhoods(s.tissue, s.model.space, s.fresh, reach, Comm());
   ASSERT_EQ(found.size(), 1u);
@@ -212,7 +204,7 @@ TEST(Neighbourhoods, HoldWhatCanBeTouchedAndNothingElse) {
   const double near = 12.0, far = 2.0 * (6.0 + std::numbers::sqrt3 * (6.0 + 3.3));  // boxes are larger than balls
   for (const CellRow& row : s.tissue.cells.rows) {
     const auto number = static_cast<std::size_t>(&row - s.tissue.cells.rows.data());
-    const Vec3d at = lattice(3)[row.id.bits() == 0 ? 0 : static_cast<std::size_t>(row.id.founder_number()) - 1];
+    const Vec3d at = close_packed_places(3, kSpacing)[row.id.bits() == 0 ? 0 : static_cast<std::size_t>(row.id.founder_number()) - 1];
     const bool in = std::ranges::binary_search(found[0].rows, number);
     if (norm(at) < near) {
       EXPECT_TRUE(in) << row.id.text();
@@ -233,7 +225,7 @@ TEST(Neighbourhoods, OfCellsThatPressOnTheSameSphereAreOne) {
 }
 
 /// The middle shell of a packing is pressed to 92 % along an axis: its nodes are in no balance, as those of a new daughter.
-Settlement with_a_pressed_shell(std::vector<Vec3d> places = lattice(2, 11.9)) {
+Settlement with_a_pressed_shell(std::vector<Vec3d> places = close_packed_places(2, 11.9)) {
   Settlement s;
   s.fill(places, {0}, [](std::size_t, const Vec3d& p) { return norm(p) < 15.0 ? BodyKind::kShell : BodyKind::kSphere; });
   for (Vec3d& p : s.tissue.shells.nodes(s.shell_of(s.fresh.front()))) p = {p.x / std::sqrt(0.92), p.y / std::sqrt(0.92), 0.92 * p.z};
@@ -242,7 +234,7 @@ Settlement with_a_pressed_shell(std::vector<Vec3d> places = lattice(2, 11.9)) {
 
 TEST(SettleDaughters, MovesNobodyElseAndLeavesThemAStepAsLongAsThatOfTheTissue) {
   constexpr double kStep = 60.0;
-  Settlement s = with_a_pressed_shell(lattice(2, 14.0));  // others that would not rest would say nothing of this one
+  Settlement s = with_a_pressed_shell(close_packed_places(2, 14.0));  // others that would not rest would say nothing of this one
   Tissue after = s.tissue;
   settle_daughters(after, s.mechanics(), s.model, s.shapes, Comm(), s.fresh, kStep);
   EXPECT_EQ(after.clock.time, s.tissue.clock.time);
@@ -266,7 +258,7 @@ TEST(SettleDaughters, MovesNobodyElseAndLeavesThemAStepAsLongAsThatOfTheTissue) 
 
 TEST(SettleDaughters, FindTheSameWhateverElseThereIs) {
   Settlement near = with_a_pressed_shell();
-  std::vector<Vec3d> places = lattice(2, 11.9);
+  std::vector<Vec3d> places = close_packed_places(2, 11.9);
   places.push_back({200, 0, 0});
   Settlement more = with_a_pressed_shell(places);
   settle_daughters(near.tissue, near.mechanics(), near.model, near.shapes, Comm(), near.fresh, 60.0);

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numbers>
 
+#include "core/close_packing.h"
 #include "results/snapshot_file.h"
 #include "scenarios/library/library.h"
 #include "tests/scenarios/run_into.h"
@@ -41,12 +41,7 @@ std::vector<Snapshot> snapshots_of(const std::string& time, const std::string& i
 /// fields_and_coupling.md D (c): 64 cells at rest, the one in the middle becomes a shell, and no other moves by 0.02 R.
 TEST(MixedContact, OfFittedSpheresKeepsNeighboursWhereACellChangesItsBody) {
   constexpr double kRadius = 5.0, kDistance = 8.9;
-  std::vector<Vec3d> places;
-  for (int i = -4; i <= 4; ++i)
-    for (int j = -4; j <= 4; ++j)
-      for (int k = -4; k <= 4; ++k)
-        if ((i + j + k) % 2 == 0) places.push_back(Vec3d{1.0 * i, 1.0 * j, 1.0 * k} * (kDistance / std::numbers::sqrt2));
-  std::stable_sort(places.begin(), places.end(), [](const Vec3d& a, const Vec3d& b) { return norm2(a) < norm2(b) - 1e-6; });
+  const std::vector<Vec3d> places = close_packed_places(4, kDistance);
   std::string at;
   for (std::size_t i = 0; i < 64; ++i)
     at += (i > 0 ? ", [" : "[") + std::to_string(places[i].x) + " um, " + std::to_string(places[i].y) + " um, " +

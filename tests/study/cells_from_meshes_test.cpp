@@ -216,6 +216,10 @@ TEST_F(CellsFromMeshes, RefuseKeysThatAreMissingOrContradictEachOther) {
   if (has_remesher()) {
     EXPECT_THAT(bad("file: a.vtk, scale: 1 um, edge: 30 um"), HasSubstr("[E548]"));
     EXPECT_THAT(bad("file: a.vtk, scale: 1 um, edge: 0.001 um"), AllOf(HasSubstr("a cell can have 15000"), HasSubstr("[E548]")));
+    std::vector<TriangleMesh> spiked = kPair;
+    spiked[1].position[0] = spiked[1].position[0] * 1e5;  // as a damaged file has it
+    folder_.write("spiked.vtk", as_vtk(spiked));
+    EXPECT_THAT(bad("file: spiked.vtk, scale: 1 um, nodes: 162"), AllOf(HasSubstr("too many pieces"), HasSubstr("[E548]")));
     EXPECT_THAT(bad("file: a.vtk, scale: 1 um, nodes: 642"), AllOf(HasSubstr("more than half of the mean edge"), HasSubstr("[E503]")));
   } else {
     EXPECT_THAT(bad("file: a.vtk, scale: 1 um, edge: 30 um"), AllOf(HasSubstr("cannot remesh cells"), HasSubstr("[E691]")));
