@@ -61,7 +61,10 @@ std::vector<ListedLaw> all_laws(const Laws& registered) {
     laws.push_back({"behaviours", behaviour->info});
     laws.back().info.keys = law_keys(behaviour->section.name, behaviour->keys);
   }
-  for (const auto& axis : registered.division_axes) laws.push_back({"axes of division", axis->info});
+  for (const auto& axis : registered.division_axes) {
+    laws.push_back({"axes of division", axis->info});
+    laws.back().info.keys = law_keys("cycle", axis->keys);
+  }
   for (const auto& law : registered.migration) {
     laws.push_back({"migration", law->info});
     laws.back().info.keys = law_keys("migration", law->keys);

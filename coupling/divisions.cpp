@@ -7,6 +7,7 @@
 #include "cbm/partners.h"
 #include "core/parallel/pack.h"
 #include "core/parallel/threads.h"
+#include "coupling/around_divisions.h"
 #include "coupling/behaviours/division.h"
 #include "coupling/behaviours/division_axis.h"
 #include "coupling/behaviours/life.h"
@@ -63,10 +64,11 @@ Daughters divide_as_sphere(const CellRecord& mother, const DaughterRows& rows, c
   return out;
 }
 
-Daughters divide_as_shell(const CellRecord& mother, const DaughterRows& rows, const ShellToDivide& what, std::uint32_t seed) {
+Daughters divide_as_shell(const CellRecord& mother, const AroundDivision& around, const DaughterRows& rows, const ShellToDivide& what,
+                          std::uint32_t seed) {
+  const CellAtDivision cell{mother.row, *what.type, {mother.shell->position, mother.shell->shape->topology.get()}, around};
   for (std::uint64_t attempt = 0; attempt < kTries; ++attempt) {
-    const Vec3d axis =
-        division_axis({mother.row, *what.type, {mother.shell->position, mother.shell->shape->topology.get()}}, seed, attempt);
+    const Vec3d axis = division_axis(cell, seed, attempt);
     auto divided = divide_shell(what, axis, rows.share, {rows.first.birth_volume, rows.second.birth_volume});
     if (!divided.ok()) continue;
     Daughters out(2);
@@ -113,10 +115,13 @@ void note_energy_rise(std::span<const CellRecord> mothers, double rise, std::vec
 
 }  // namespace
 
-void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& events) {
+Status Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& events) {
   events.insert(events.end(), life.events.begin(), life.events.end());
   const std::vector<Mother> mothers = mothers_of(tissue_, life.divisions);
   const bool cuts = comm_.any(std::ranges::any_of(mothers, [](const Mother& mother) { return mother.body.is_shell; }));
+  std::vector<BodyOfRow> bodies;
+  for (const Mother& mother : mothers) bodies.push_back(mother.body);
+  MORULA_TRY_ASSIGN(const std::vector<AroundDivision> around, look_around(model_, tissue_, *mechanics_, comm_, bodies));
   std::vector<Daughters> daughters(mothers.size());
   std::vector<std::shared_ptr<const ReferenceShape>> shape;  // of the daughters, by type
   double energy = 0.0;                                       // before the cuts
@@ -132,11 +137,11 @@ void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& e
     const double share = division_share({mother.row, type}, model_.seed);
     const DaughterRows rows = divide_row(mother.row, tissue_.cells.variables, type, model_.seed, tissue_.clock.time, late, share);
     if (!body.is_shell) {
-      daughters[k] = divide_as_sphere(mother, rows, division_axis({mother.row, type}, model_.seed, 0));
+      daughters[k] = divide_as_sphere(mother, rows, division_axis({mother.row, type, {}, around[k]}, model_.seed, 0));
       return;
     }
-    const Surroundings around = surroundings_of(mechanics_->scene(), model_.space, body.number, kReach);
-    daughters[k] = divide_as_shell(mother, rows, {&*mother.shell, &type, shape[mother.row.type], around.surfaces}, model_.seed);
+    const Surroundings walls = surroundings_of(mechanics_->scene(), model_.space, body.number, kReach);
+    daughters[k] = divide_as_shell(mother, around[k], rows, {&*mother.shell, &type, shape[mother.row.type], walls.surfaces}, model_.seed);
   });
 
   shaping.reset();
@@ -171,6 +176,7 @@ void Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>& e
   for (const Event& event : life.events) deaths += event.kind == EventKind::kDeath;
   tissue_.ledger.divisions += static_cast<std::uint64_t>(comm_.sum(divisions));
   tissue_.ledger.deaths += static_cast<std::uint64_t>(comm_.sum(deaths));
+  return {};
 }
 
 std::int64_t Simulation::settle_cuts(std::span<const CellRecord> mothers, std::vector<Event>& events) {

@@ -50,7 +50,7 @@ struct CellType {
   CellCycle cycle;                                ///< what it goes through until then
   double inhibit_pressure = kNever;               ///< growth stops above this pressure [kPa]
   std::shared_ptr<const DivisionAxis> axis = random_axis();
-  Vec3d division_direction{};             ///< of an axis that needs one
+  OwnValues axis_own{};                   ///< values of the axis' own keys
   double axis_spread = 0.0;               ///< s of division_axis() [rad]
   Distribution division_share{0.5, 0.0};  ///< part of the mother's volume that the daughter gets to which the axis points
   bool shells_divide = true;              ///< by cut; else a shell at its division volume waits until it is a sphere

@@ -120,6 +120,11 @@ double largest_edge(const Box& box) {
   return std::max({size.x, size.y, size.z});
 }
 
+Vec3d center_of(const Tissue& tissue, const BodyOfRow& body) {
+  return body.is_shell ? volume_centroid(tissue.shells.topology(body.number).faces(), tissue.shells.nodes(body.number))
+                       : tissue.spheres.position[body.number];
+}
+
 Box box_of(const Tissue& tissue, const BodyOfRow& body) {
   Box out;
   if (body.is_shell) {

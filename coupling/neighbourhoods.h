@@ -41,6 +41,8 @@ std::vector<Neighbourhood> neighbourhoods_of(const Tissue& tissue, const Model& 
                                              std::span<const CellId> movers, double way, const Comm& comm);
 
 double largest_edge(const Box& box);
+/// Where a cell is: the centroid of its volume [µm].
+Vec3d center_of(const Tissue& tissue, const BodyOfRow& body);
 /// The box around a cell's body.
 Box box_of(const Tissue& tissue, const BodyOfRow& body);
 

@@ -157,7 +157,7 @@ Result<StepOutcome> Simulation::whole_step(const StepPlan& plan, const std::func
   MORULA_TRY(advance_fields(plan.due_fields, give_up, outcome));
   {
     auto timed = timer().scope(Stage::kBehaviours);
-    divide_and_remove(life, outcome.events);
+    MORULA_TRY(divide_and_remove(life, outcome.events));
   }
   const std::vector<Event> swapped = swap_bodies();
   outcome.events.insert(outcome.events.end(), swapped.begin(), swapped.end());

@@ -12,12 +12,15 @@ namespace {
 
 double radius_of(const CellRow& row) { return ball_radius(row.target_volume); }
 
-/// Of the cells that sense one field. Collective.
-Status sense_field(const Model& model, const Tissue& tissue, int field, std::span<const Vec3d> center, const Comm& comm,
-                   std::vector<SensedField>& out) {
-  std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < tissue.cells.size(); ++i)
-    if (model.types[tissue.cells.rows[i].type].migration.sensed_field() == field) rows.push_back(i);
+}  // namespace
+
+bool any_senses_a_field(std::span<const CellType> types) {
+  return std::ranges::any_of(types, [](const CellType& type) { return type.migration.sensed_field() >= 0; });
+}
+
+Result<std::vector<SensedField>> sense_field(const Model& model, const Tissue& tissue, std::size_t field, std::span<const std::size_t> rows,
+                                             std::span<const Vec3d> center, const Comm& comm) {
+  std::vector<SensedField> out(rows.size());
   std::vector<fields::CellSource> points(rows.size());
   std::vector<double> ahead(rows.size()), behind(rows.size());
   const auto sample = [&](std::size_t axis, double sign, std::vector<double>& seen) {
@@ -26,23 +29,17 @@ Status sense_field(const Model& model, const Tissue& tissue, int field, std::spa
       points[k] = {row.id, row.type, center[rows[k]]};
       points[k].center[axis] += sign * radius_of(row);
     }
-    return fields::sample(tissue.fields[static_cast<std::size_t>(field)], model.space, points, comm, seen);
+    return fields::sample(tissue.fields[field], model.space, points, comm, seen);
   };
   for (std::size_t axis = 0; axis < 3; ++axis) {
     MORULA_TRY(sample(axis, 1.0, ahead));
     MORULA_TRY(sample(axis, -1.0, behind));
     for (std::size_t k = 0; k < rows.size(); ++k) {
-      out[rows[k]].gradient[axis] = (ahead[k] - behind[k]) / (2.0 * radius_of(tissue.cells.rows[rows[k]]));
-      out[rows[k]].concentration += (ahead[k] + behind[k]) / 6.0;
+      out[k].gradient[axis] = (ahead[k] - behind[k]) / (2.0 * radius_of(tissue.cells.rows[rows[k]]));
+      out[k].concentration += (ahead[k] + behind[k]) / 6.0;
     }
   }
-  return {};
-}
-
-}  // namespace
-
-bool any_senses_a_field(std::span<const CellType> types) {
-  return std::ranges::any_of(types, [](const CellType& type) { return type.migration.sensed_field() >= 0; });
+  return out;
 }
 
 Result<std::vector<SensedField>> sense_fields(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm) {
@@ -50,7 +47,13 @@ Result<std::vector<SensedField>> sense_fields(const Model& model, const Tissue& 
   for (const CellType& type : model.types) sensed.insert(type.migration.sensed_field());
   sensed.erase(-1);
   std::vector<SensedField> out(tissue.cells.size());
-  for (const int field : sensed) MORULA_TRY(sense_field(model, tissue, field, center, comm, out));
+  for (const int field : sensed) {
+    std::vector<std::size_t> rows;
+    for (std::size_t i = 0; i < tissue.cells.size(); ++i)
+      if (model.types[tissue.cells.rows[i].type].migration.sensed_field() == field) rows.push_back(i);
+    MORULA_TRY_ASSIGN(const auto found, sense_field(model, tissue, static_cast<std::size_t>(field), rows, center, comm));
+    for (std::size_t k = 0; k < rows.size(); ++k) out[rows[k]] = found[k];
+  }
   return out;
 }
 

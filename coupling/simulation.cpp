@@ -14,6 +14,7 @@
 #include "coupling/changing_box.h"
 #include "coupling/face_marks.h"
 #include "coupling/mechanics/contact_setup.h"
+#include "coupling/neighbourhoods.h"
 #include "coupling/still_to_come.h"
 #include "coupling/swaps.h"
 #include "dcm/growth.h"
@@ -91,16 +92,14 @@ double Simulation::longest_step_of_box(double until) const {
 
 std::vector<Vec3d> Simulation::centers() const {
   std::vector<Vec3d> out(tissue_.cells.size());
-  std::vector<std::size_t> with_shell;
+  std::vector<BodyOfRow> shells;
   for (const BodyOfRow& body : bodies_of(tissue_.cells)) {
     if (body.is_shell)
-      with_shell.push_back(body.row);
+      shells.push_back(body);
     else
-      out[body.row] = tissue_.spheres.position[body.number];
+      out[body.row] = center_of(tissue_, body);
   }
-  parallel_for(threads_, with_shell.size(), [&](std::size_t shell) {
-    out[with_shell[shell]] = volume_centroid(tissue_.shells.topology(shell).faces(), tissue_.shells.nodes(shell));
-  });
+  parallel_for(threads_, shells.size(), [&](std::size_t k) { out[shells[k].row] = center_of(tissue_, shells[k]); });
   return out;
 }
 

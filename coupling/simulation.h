@@ -91,7 +91,7 @@ class Simulation {
   /// Shells with a face of too little quality get an even mesh on the same surface (coupling/mesh_renewal.cpp). Collective.
   void renew_meshes(std::vector<Event>& events);
   /// What a step of life has asked for (coupling/divisions.cpp): daughters in place of mothers, and dead cells gone. Collective.
-  void divide_and_remove(const struct LifeReport& life, std::vector<Event>& events);
+  Status divide_and_remove(const struct LifeReport& life, std::vector<Event>& events);
   /// The daughters of cut shells settle; those that would still begin so deep within others that the run might stop are taken back, and their mothers put
   /// off: gives how many of this rank. Collective.
   std::int64_t settle_cuts(std::span<const CellRecord> mothers, std::vector<Event>& events);

@@ -41,6 +41,8 @@ std::vector<std::string> answers_to(const Model& model, const CellType& type) {
   if (type.osmosis.acts() && type.osmosis.field >= 0) out.emplace_back("fields that cells answer to");
   for (const CellBehaviour& behaviour : type.behaviours)
     if (behaviour.may_act()) out.emplace_back(behaviour.what->awaited);
+  for (const Region& region : model.swaps.regions)
+    if (region.shape->awaited != nullptr) out.emplace_back(region.shape->awaited);
   for (const Trigger& trigger : model.swaps.triggers)
     if (trigger.compares() && trigger.value->awaited != nullptr) out.emplace_back(trigger.value->awaited);
   return out;

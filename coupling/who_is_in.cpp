@@ -37,14 +37,18 @@ std::vector<Vec3d> centers_of_regions(const Model& model, const Tissue& tissue, 
   return out;
 }
 
-Standing standing(const Swaps& swaps, std::size_t number, const CellRow& row, std::size_t i, const Vec3d& from,
+Standing standing(const Swaps& swaps, std::size_t number, const CellView& cell, std::size_t i, const Vec3d& from,
                   std::span<const std::vector<std::uint32_t>> contacts) {
   const Region& region = swaps.regions[number];
-  const bool stays = row.body == region.body;
-  if (region.shape->holds != nullptr) return {region.shape->holds(region, row) ? -1.0 : kNever, 0.0};
-  if (!region.shape->counts_contacts) return {region.shape->distance(region, from), stays ? region.margin : 0.0};
-  const bool known = number < contacts.size() && !contacts[number].empty();
-  return {known ? contacts[number][i] - region.values("cells") : kNever, stays ? 1.0 : 0.0};
+  Standing out{kNever, 1.0};  // one contact
+  if (region.shape->of_cell != nullptr)
+    out = region.shape->of_cell(region, cell);
+  else if (region.shape->has_border())
+    out = {region.shape->distance(region, from), region.margin};
+  else if (number < contacts.size() && !contacts[number].empty())
+    out.outside = contacts[number][i] - region.contacts;
+  if (cell.row().body != region.body) out.margin = 0.0;
+  return out;
 }
 
 namespace {
@@ -56,8 +60,14 @@ std::vector<std::uint32_t> where_counting_begins(const Model& model, const Tissu
                                                  std::span<const std::vector<std::uint32_t>> before, Mechanics& mechanics) {
   using What = CountsFrom::What;
   const std::vector<Region>& regions = model.swaps.regions;
-  const CountsFrom from = *counts_from(model, std::span(regions).first(number), regions[number].values.name("of"));
   std::vector<std::uint32_t> out(tissue.shells.size() + tissue.spheres.size(), Mechanics::kFarAway);
+  if (regions[number].shape->counts == CountsContacts::kFromSurface) {
+    const std::vector<OpenSides> open = mechanics.open_sides(tissue);
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (open[i].any()) out[i] = 0;
+    return out;
+  }
+  const CountsFrom from = *counts_from(model, std::span(regions).first(number), regions[number].values.name("of"));
   if (from.what == What::kObstacle) {
     std::vector<char> with_material(model.types.size() + model.obstacles.size(), 0);
     with_material[model.types.size() + from.number] = 1;
@@ -69,8 +79,9 @@ std::vector<std::uint32_t> where_counting_begins(const Model& model, const Tissu
   const auto begins = [&](const CellRow& row, std::size_t i) {
     if (row.phase == Phase::kDying) return false;
     if (from.what == What::kType) return row.type == from.number;
+    const CellView cell(tissue.cells, i, model.types[row.type], tissue.clock.time);
     return regions[from.number].exists_at(tissue.clock.time) &&
-           standing(model.swaps, from.number, row, i, center[i] - center_of_region[from.number], before).is_in();
+           standing(model.swaps, from.number, cell, i, center[i] - center_of_region[from.number], before).is_in();
   };
   for (const BodyOfRow& body : bodies_of(tissue.cells))
     if (begins(tissue.cells.rows[body.row], body.row)) out[body.place(tissue.shells.size())] = 0;
@@ -82,14 +93,13 @@ std::vector<std::uint32_t> where_counting_begins(const Model& model, const Tissu
 std::vector<std::vector<std::uint32_t>> contacts_from_regions(const Model& model, const Tissue& tissue, std::span<const Vec3d> center,
                                                               Mechanics& mechanics, const Comm& comm) {
   const std::vector<Region>& regions = model.swaps.regions;
-  if (std::ranges::none_of(regions, [](const Region& region) { return region.shape->counts_contacts; })) return {};
+  if (std::ranges::none_of(regions, [](const Region& region) { return region.shape->counts != CountsContacts::kNo; })) return {};
   const std::vector<Vec3d> center_of_region = centers_of_regions(model, tissue, center, comm);
   std::vector<std::vector<std::uint32_t>> out(regions.size());
   for (std::size_t r = 0; r < regions.size(); ++r) {
-    if (!regions[r].shape->counts_contacts || !regions[r].exists_at(tissue.clock.time)) continue;
+    if (regions[r].shape->counts == CountsContacts::kNo || !regions[r].exists_at(tissue.clock.time)) continue;
     const std::vector<std::uint32_t> start = where_counting_begins(model, tissue, center, center_of_region, r, out, mechanics);
-    const std::vector<std::uint32_t> steps =
-        mechanics.contact_steps(tissue, start, static_cast<std::uint32_t>(regions[r].values("cells")) + 1);
+    const std::vector<std::uint32_t> steps = mechanics.contact_steps(tissue, start, static_cast<std::uint32_t>(regions[r].contacts) + 1);
     out[r].resize(tissue.cells.size());
     for (const BodyOfRow& body : bodies_of(tissue.cells)) out[r][body.row] = steps[body.place(tissue.shells.size())];
   }

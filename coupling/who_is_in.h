@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/parallel/comm.h"
+#include "coupling/cell_view.h"
 #include "coupling/mechanics/mechanics.h"
 #include "coupling/tissue.h"
 
@@ -12,16 +13,9 @@ namespace morula {
 /// Where the centres of the regions of bodies are now: some follow the tissue, some an obstacle. Collective.
 std::vector<Vec3d> centers_of_regions(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm);
 
-/// How far outside a region a cell is, and how far it may be and yet stay: lengths [µm], or numbers of contacts.
-struct Standing {
-  double outside, margin;
-
-  [[nodiscard]] bool is_in() const { return outside <= margin; }
-};
-
 /// How the cell of row i stands to a region of the model: `from` is its place less that of the region's centre, `contacts` are those of
 /// contacts_from_regions(); where there are none, nobody is in a region that counts them.
-Standing standing(const Swaps& swaps, std::size_t number, const CellRow& row, std::size_t i, const Vec3d& from,
+Standing standing(const Swaps& swaps, std::size_t number, const CellView& cell, std::size_t i, const Vec3d& from,
                   std::span<const std::vector<std::uint32_t>> contacts);
 
 /// By region and row: how many contacts the cells of this rank are away from those that the region counts from; empty for regions that do not count.

@@ -76,7 +76,7 @@ void build_criteria(BuildContext& context);
 void check_whole(BuildContext& context);
 /// Measured limits of meshes under strong adhesion, and cells whose volume does not bear their tension: E571, E572.
 void check_resolution(BuildContext& context);
-/// What bodies do not do: shells that wait, adhesion of spheres beyond JKR, long axes of spheres: E646, E647, E649.
+/// What bodies do not do: shells that wait, adhesion of spheres beyond JKR: E646, E647.
 void check_bodies(BuildContext& context);
 
 /// Index of a cell type or field by name, or −1 and an error with suggestions.

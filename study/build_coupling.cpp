@@ -164,12 +164,11 @@ void check_center(BuildContext& c, draft::Region& r, const RegionShape& shape) {
     r.center.text.clear();
     r.follow_tissue.text.clear();
   }
-  if (shape.counts_contacts || shape.holds != nullptr) {
+  if (!shape.has_border()) {
     if (r.margin.given)
       c.diagnostics.error(515, r.margin.place, "'margin' has no effect here",
-                          "leave it away: a cell " + (shape.counts_contacts
-                                                          ? "leaves a region of shape '" + shape.info.name + "' one contact beyond its last"
-                                                          : std::string("that is named is in the region wherever it is")));
+                          "leave it away: a region of shape '" + shape.info.name + "' has no border in space" +
+                              (shape.of_cell == nullptr ? ", a cell leaves it one contact beyond its last" : ""));
     r.margin.text.clear();
   }
   if (r.follow.given && r.follow_tissue.value)

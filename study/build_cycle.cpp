@@ -15,18 +15,15 @@ namespace {
 void set_division(BuildContext& c, const draft::CellType& t, CellType& type) {
   for (const auto& axis : c.options.laws->division_axes)
     if (axis->info.name == t.axis.value) type.axis = axis;
-  const Given<Vec3d>& direction = t.division_direction;
-  if (type.axis->needs_direction && !(direction.given && norm2(direction.value) > 0.0))
-    c.diagnostics.error(302, direction.given ? direction.place : t.axis.place, "the axis of division has no direction",
-                        "for example `direction: [0, 0, 1]`");
-  else if (!type.axis->needs_direction && direction.given)
-    c.diagnostics.error(515, direction.place, "'direction' has no effect here", "it belongs to `axis: fixed` and `axis: across_direction`");
+  std::vector<const std::vector<OwnKey>*> all;
+  for (const auto& axis : c.options.laws->division_axes) all.push_back(&axis->keys);
+  if (check_choice(c, type.axis->keys, all, t.axis_own, t.axis))
+    if (auto values = own_values(c, type.axis->keys, t.axis_own)) type.axis_own = std::move(*values);
   if (type.axis->needs_polarity && !t.activity.has_polarity)
     c.diagnostics.error(558, t.axis.place, "cells of '" + type.name + "' divide by their polarity, and have none",
                         "give the type a `polarity`");
   if (type.axis == random_axis() && t.axis_spread.given && t.axis_spread.value > 0.0)
     c.diagnostics.error(515, t.axis_spread.place, "'axis_spread' has no effect here", "a random axis has no direction to stray from");
-  type.division_direction = direction.value;
   type.axis_spread = t.axis_spread.value;
   type.division_share = {t.division_share.mean.value, t.division_share.spread.value};
   type.shells_divide = t.shells_divide.value == "cut";

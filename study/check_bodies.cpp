@@ -77,18 +77,6 @@ bool may_be_sphere(const BuildContext& c, std::size_t type) {
   return false;
 }
 
-/// A sphere has no long axis.
-void check_axis_of_spheres(BuildContext& c) {
-  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
-    const auto& [name, place, t] = c.draft.cell_types[i];
-    if (!c.study.model.types[i].axis->needs_shell || !may_be_sphere(c, i) || !may_divide(c, i)) continue;
-    c.diagnostics.warning(
-        649, t.axis.given ? t.axis.place : place,
-        "spheres of '" + name + "' have no axis `" + t.axis.value + "`: where a cell is a sphere, it divides along a random one",
-        "`axis: random`, `fixed` or by the polarity mean the same for both bodies");
-  }
-}
-
 /// A law that was found from shells has its own range, and its spheres rest like shells.
 bool has_fitted_law(const BuildContext& c, std::size_t type) { return c.draft.cell_types[type].content.sphere_law.value == kFittedLaw; }
 
@@ -165,7 +153,6 @@ void check_bodies(BuildContext& c) {
   if (c.diagnostics.has_errors()) return;  // what a wrong study would be like is not worth a warning
   check_division_of_shells(c);
   check_mesh_of_divisions(c);
-  check_axis_of_spheres(c);
   check_jkr_range(c);
   check_rest_of_bodies(c);
   check_ways_of_spheres(c);

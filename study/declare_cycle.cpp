@@ -13,16 +13,19 @@ using Q = Quantity;
 
 /// By which plane a cell divides, and what each daughter gets.
 void declare_division(Section& c, draft::CellType& t) {
-  KeySpec axis{.name = "axis",
-               .doc = "Axis of division: the cell is cut across it. Where a cell has no such axis (a round one no longest) it is random.",
-               .fallback = "random",
-               .example = "long",
-               .source = "Van Liedekerke et al."};
+  KeySpec axis{
+      .name = "axis",
+      .doc =
+          "Axis of division: the cell is cut across it. Where a cell has no such axis (a round one no longest, one within the tissue "
+          "none along its surface) it is random.",
+      .fallback = "random",
+      .example = "long",
+      .source = "Van Liedekerke et al."};
   for (const auto& one : c.laws().division_axes) axis.words.push_back(one->info.name);
   c.word(axis, t.axis);
-  c.vector(
-      {.name = "direction", .doc = "Direction of the axes `fixed` and `across_direction`.", .quantity = Q::kNumber, .example = "[0, 0, 1]"},
-      t.division_direction);
+  std::vector<const std::vector<OwnKey>*> of_axes;
+  for (const auto& one : c.laws().division_axes) of_axes.push_back(&one->keys);
+  declare_own_keys(c, of_axes, t.axis_own, false);
   c.quantity({.name = "axis_spread",
               .doc = "How far axes stray from the one that `axis` says: standard deviation of the angle in each of two directions (von "
                      "Mises-Fisher).",
@@ -54,8 +57,8 @@ void declare_growth(Section& c, draft::CellType& t) {
   growth.doc += ".";
   c.word(growth, t.growth);
   declare_law_keys(c, choosable_growth_laws(c.laws()),
-                   {"model", "duration", "growth", "ratio", "size", "phases", "arrest", "quiescence", "axis", "direction", "axis_spread",
-                    "share", "shells", "new_surface"},
+                   {"model", "duration", "growth", "ratio", "size", "phases", "arrest", "quiescence", "axis", "direction", "field",
+                    "geometry", "axis_spread", "share", "shells", "new_surface"},
                    t.growth_own);
 }
 

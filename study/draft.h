@@ -114,7 +114,7 @@ struct CellType : ShellKeys {
   Cycle cycle;
   Given<std::string> cycle_model, growth, axis, shells_divide;
   std::map<std::string, Given<double>> growth_own;  ///< keys that laws of growth have for themselves, by name
-  Given<Vec3d> division_direction;
+  OwnSection axis_own;                              ///< keys that axes of division have for themselves
   Given<double> axis_spread, new_surface;
   Spread division_share;
   Spread cycle_duration;

@@ -221,8 +221,6 @@ constexpr ErrorCode kCodes[] = {
     {648, "small spheres that may go far",
      "How far cells go in one step is measured by the range of contact. Where that is more than half of a sphere's radius it may pass a "
      "neighbour: `numerics.max_displacement` should be smaller."},
-    {649, "spheres without a long axis",
-     "A rule for the axis of division needs the shape of a shell. Where the cell is a sphere its axis is random."},
     {650, "mesh too coarse to divide",
      "The halves of a shell that is cut are mapped onto the mesh of its type. With edges longer than half the radius that mesh has no room "
      "for the rim of the cut."},

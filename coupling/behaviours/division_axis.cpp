@@ -17,19 +17,9 @@ namespace {
 
 constexpr double kTiltOfAttempt = 0.2;  // [rad]
 constexpr double kLeastShare = 0.1;
+constexpr double kRound = 0.02;  // difference of the two largest moments, as a part, below which no axis is the longest
 
 std::shared_ptr<const DivisionAxis> make_axis(DivisionAxis axis) { return std::make_shared<const DivisionAxis>(std::move(axis)); }
-
-/// The longest axis of a surface; zero where the two largest moments differ by less than two parts in a hundred.
-Vec3d longest_axis(const SurfaceView& surface) {
-  constexpr double kRound = 0.02;
-  SymMat3<double> m = second_moments(surface.position, surface.topology->faces());
-  const Vec3d u = largest_eigenvector(m);
-  const double largest = dot(u, m * u);
-  m += -largest * outer(1.0, u);
-  const Vec3d v = largest_eigenvector(m);
-  return dot(v, m * v) > (1.0 - kRound) * largest ? Vec3d{} : u;
-}
 
 /// What is left of a direction across an axis.
 Vec3d across(const Vec3d& axis, const Vec3d& direction) {
@@ -37,17 +27,36 @@ Vec3d across(const Vec3d& axis, const Vec3d& direction) {
   return length2 > 0.0 ? direction - axis * (dot(axis, direction) / length2) : Vec3d{};
 }
 
+/// The longest axis of something with these moments; of a disc any that lies in it, of a ball none.
+Vec3d longest_axis(const SymMat3<double>& moments, const Vec3d& random) {
+  const PrincipalAxes axes(moments);
+  const auto are_alike = [&](int k, int l) { return axes.moment[l] > (1.0 - kRound) * axes.moment[k]; };
+  if (!are_alike(0, 1)) return dot(axes.axis[0], random) < 0.0 ? -axes.axis[0] : axes.axis[0];  // either end
+  return are_alike(0, 2) ? Vec3d{} : across(axes.axis[2], random);
+}
+
 std::shared_ptr<const DivisionAxis> long_axis() {
   return make_axis({.info = {.name = "long",
-                             .title = "Along the longest axis of a shell",
-                             .equation = "u: eigenvector of the largest eigenvalue of Σ_T A_T (x_T − x̄)(x_T − x̄)ᵀ",
-                             .source = "Hertwig 1884; Minc, Burgess & Chang 2011, doi:10.1016/j.cell.2011.01.016",
+                             .title = "Along the longest axis of a shell; of a sphere, of its place among those that it touches",
+                             .equation = "u: eigenvector of the largest eigenvalue of Σ_T A_T (x_T − x̄)(x_T − x̄)ᵀ; of a sphere of "
+                                         "Σ_j (x_j − x)(x_j − x)ᵀ; where the two largest differ by less than 2 %, "
+                                         "any across the third; none where all three are alike",
+                             .source = "Hertwig 1884; Minc, Burgess & Chang 2011, doi:10.1016/j.cell.2011.01.016; of spheres choice of "
+                                       "this project",
                              .parameters = {}},
-                    .needs_shell = true,
+                    .spheres_look_at_neighbours = true,
                     .of = [](const CellAtDivision& cell, const Vec3d& random) {
-                      const Vec3d axis = cell.surface.topology != nullptr ? longest_axis(cell.surface) : Vec3d{};
-                      return dot(axis, random) < 0.0 ? -axis : axis;  // either end
+                      if (cell.surface.topology != nullptr)
+                        return longest_axis(second_moments(cell.surface.position, cell.surface.topology->faces()), random);
+                      SymMat3<double> moments;
+                      for (const Vec3d& d : cell.around.neighbours) moments += outer(1.0, d);
+                      return cell.around.neighbours.empty() ? Vec3d{} : longest_axis(moments, random);
                     }});
+}
+
+OwnKey direction_key() {
+  return {OwnKey::Kind::kDirection,
+          {.name = "direction", .doc = "Direction of the axes `fixed` and `across_direction`.", .required = true, .example = "[0, 0, 1]"}};
 }
 
 std::shared_ptr<const DivisionAxis> fixed_axis() {
@@ -56,18 +65,53 @@ std::shared_ptr<const DivisionAxis> fixed_axis() {
                              .equation = "u = direction",
                              .source = "choice of this project",
                              .parameters = {given_by_study("direction", "direction", "1", "Of the axis.")}},
-                    .needs_direction = true,
-                    .of = [](const CellAtDivision& cell, const Vec3d&) { return cell.type.division_direction; }});
+                    .keys = {direction_key()},
+                    .of = [](const CellAtDivision& cell, const Vec3d&) { return cell.type.axis_own.vector("direction"); }});
 }
 
 std::shared_ptr<const DivisionAxis> across_direction_axis() {
-  return make_axis({.info = {.name = "across_direction",
-                             .title = "Across a direction of the laboratory: within a layer whose normal it is",
-                             .equation = "u = (I − n nᵀ/n²) r, n = direction, r uniform on the sphere",
+  return make_axis(
+      {.info = {.name = "across_direction",
+                .title = "Across a direction of the laboratory: within a layer whose normal it is",
+                .equation = "u = (I − n nᵀ/n²) r, n = direction, r uniform on the sphere",
+                .source = "choice of this project",
+                .parameters = {given_by_study("direction", "direction", "1", "Normal of the layer.")}},
+       .keys = {direction_key()},
+       .of = [](const CellAtDivision& cell, const Vec3d& random) { return across(cell.type.axis_own.vector("direction"), random); }});
+}
+
+std::shared_ptr<const DivisionAxis> along_surface_axis() {
+  return make_axis({.info = {.name = "along_surface",
+                             .title = "Along the tissue's surface, of cells that lie at it; of others, and of single cells, random",
+                             .equation = "u = (I − n nᵀ) r, n: middle of the directions in which the cell lies at the surface (region "
+                                         "`surface`), r uniform on the sphere",
+                             .source = "choice of this project; empty cones: Marrone et al. 2010, doi:10.1016/j.jcp.2010.01.019",
+                             .parameters = {}},
+                    .looks_at_surface = true,
+                    .of = [](const CellAtDivision& cell, const Vec3d& random) { return across(cell.around.surface_normal, random); }});
+}
+
+std::shared_ptr<const DivisionAxis> along_geometry_axis() {
+  return make_axis(
+      {.info = {.name = "along_geometry",
+                .title = "Along the surface of an obstacle, where it is nearest to the cell's centre",
+                .equation = "u = (I − n nᵀ/n²) r, n = s − x, s the nearest point of the obstacle's surface, r uniform on the sphere",
+                .source = "choice of this project",
+                .parameters = {}},
+       .keys = {{OwnKey::Kind::kObstacle,
+                 {.name = "geometry", .doc = "Of the axis `along_geometry`: the obstacle.", .required = true, .example = "plate"}}},
+       .of = [](const CellAtDivision& cell, const Vec3d& random) { return across(cell.around.to_geometry, random); }});
+}
+
+std::shared_ptr<const DivisionAxis> gradient_axis() {
+  return make_axis({.info = {.name = "gradient",
+                             .title = "Along the gradient of a field",
+                             .equation = "u = ∇c, over six points a radius away from the cell's centre",
                              .source = "choice of this project",
-                             .parameters = {given_by_study("direction", "direction", "1", "Normal of the layer.")}},
-                    .needs_direction = true,
-                    .of = [](const CellAtDivision& cell, const Vec3d& random) { return across(cell.type.division_direction, random); }});
+                             .parameters = {}},
+                    .keys = {{OwnKey::Kind::kField,
+                              {.name = "field", .doc = "Of the axis `gradient`: the field.", .required = true, .example = "oxygen"}}},
+                    .of = [](const CellAtDivision& cell, const Vec3d&) { return cell.around.gradient; }});
 }
 
 std::shared_ptr<const DivisionAxis> polarity_axis() {
@@ -111,7 +155,8 @@ std::shared_ptr<const DivisionAxis> random_axis() {
 }
 
 std::vector<std::shared_ptr<const DivisionAxis>> builtin_division_axes() {
-  return {random_axis(), long_axis(), fixed_axis(), across_direction_axis(), polarity_axis(), across_polarity_axis()};
+  return {random_axis(),          long_axis(),          fixed_axis(),          across_direction_axis(), polarity_axis(),
+          across_polarity_axis(), along_surface_axis(), along_geometry_axis(), gradient_axis()};
 }
 
 Vec3d division_axis(const CellAtDivision& cell, std::uint32_t seed, std::uint64_t attempt) {

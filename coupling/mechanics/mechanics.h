@@ -15,6 +15,7 @@
 #include "coupling/mechanics/step_report.h"
 #include "coupling/mechanics/told.h"
 #include "coupling/model.h"
+#include "coupling/open_sides.h"
 #include "coupling/stage_timer.h"
 #include "coupling/tissue.h"
 
@@ -83,6 +84,14 @@ class Mechanics {
   /// nearer than half of the contact's range. The same on any ranks. Collective.
   std::vector<std::uint32_t> contact_steps(const Tissue& tissue, std::span<const std::uint32_t> start, std::uint32_t most);
   static constexpr std::uint32_t kFarAway = 1u << 30;
+
+  /// From the middles of some owned bodies (by place: shells, then spheres) to those of all that they touch, as in contact_steps(), by increasing id
+  /// [µm]. The same on any ranks. Collective.
+  std::vector<std::vector<Vec3d>> neighbours_of(const Tissue& tissue, std::span<const std::size_t> places);
+
+  /// In which directions the owned bodies (shells, then spheres) lie at the surface of the tissue: OpenSides::outward() of what they touch. The same on
+  /// any ranks. Collective.
+  std::vector<OpenSides> open_sides(const Tissue& tissue);
 
   /// How every owned body (shells, then spheres) touches the materials with with_material[material] != 0; spheres: obstacles only. Collective.
   std::vector<Touch> touch_of_bodies(const Tissue& tissue, std::span<const char> with_material);

@@ -2,7 +2,7 @@
 
 #include "core/ball.h"
 #include "core/cell_id_text.h"
-#include "coupling/cells.h"
+#include "coupling/cell_view.h"
 #include "coupling/model.h"
 
 namespace morula {
@@ -28,9 +28,10 @@ std::shared_ptr<const RegionShape> chosen_cells_region() {
             for (const CellType& type : model.types) largest = std::max(largest, ball_volume(type.radius.mean));
             region.room = largest * static_cast<double>(region.values.ids("ids").size());
           },
-      .holds =
-          [](const Region& region, const CellRow& row) {
-            return std::ranges::any_of(region.values.ids("ids"), [&](CellId id) { return descends_from(row.id, id); });
+      .of_cell =
+          [](const Region& region, const CellView& cell) {
+            const auto is_named = [&](CellId id) { return descends_from(cell.row().id, id); };
+            return Standing{std::ranges::any_of(region.values.ids("ids"), is_named) ? -1.0 : kNever, 0.0};
           },
       .volume = [](const Region& region) { return region.room; }});
   return shape;

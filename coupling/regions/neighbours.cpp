@@ -19,7 +19,7 @@ double room_of_neighbours(const Model& model, const Region& region) {
   using What = CountsFrom::What;
   double radius = 0.0;
   for (const CellType& type : model.types) radius = std::max(radius, type.radius.mean);
-  const double reach = 2.0 * radius * region.values("cells");
+  const double reach = 2.0 * radius * region.contacts;
   const std::optional<CountsFrom> from = counts_from(model, model.swaps.regions, region.values.name("of"));
   if (!from || from->what == What::kType) return kAnywhere;
   if (from->what == What::kObstacle) return room_around(model.obstacles[from->number], reach);
@@ -65,8 +65,12 @@ std::shared_ptr<const RegionShape> neighbours_region() {
              .high = 100.0,
              .example = "3"}}},
       .has_center = false,
-      .build = [](const Model& model, Region& region) { region.room = room_of_neighbours(model, region); },
-      .counts_contacts = true,
+      .build =
+          [](const Model& model, Region& region) {
+            region.contacts = region.values("cells");
+            region.room = room_of_neighbours(model, region);
+          },
+      .counts = CountsContacts::kFromNamed,
       .volume = [](const Region& region) { return region.room; }});
   return shape;
 }

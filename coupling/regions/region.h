@@ -15,7 +15,6 @@ namespace morula {
 
 class CellView;
 class TriangleTree;
-struct CellRow;
 struct Model;
 struct Region;
 struct Trigger;
@@ -24,6 +23,20 @@ inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
 enum class BodyKind : std::uint8_t { kSphere = 0, kShell = 1 };
 
+/// How far outside a region a cell is, and how far it may be and yet stay: lengths [µm], numbers of contacts, or parts of a level.
+struct Standing {
+  double outside, margin;
+
+  [[nodiscard]] bool is_in() const { return outside <= margin; }
+};
+
+/// What a region counts contacts from.
+enum class CountsContacts : std::uint8_t {
+  kNo,           ///< it does not: it lies in space, or looks at the cells
+  kFromNamed,    ///< OwnValues `of`: a region before it, a type, an obstacle
+  kFromSurface,  ///< the cells at the tissue's surface (Mechanics::open_sides())
+};
+
 /// A shape of regions: what there is to say about it, its keys in a region of the study beside `center`, and where its inside is.
 struct RegionShape {
   LawInfo info;                ///< info.name is the word of `shape`
@@ -31,11 +44,13 @@ struct RegionShape {
   bool has_center = true;      ///< `center` says where it lies, and it may follow the tissue
   /// Fills in what distance() reads of a Region, from its values and the obstacles of the model; null: it reads Region::values.
   void (*build)(const Model& model, Region& region) = nullptr;
-  /// Counted in contacts, not measured in space: cells that are at most so many contacts away (OwnValues `cells`) from those that the region begins
-  /// with (`of`: a region before it, a type, an obstacle). contacts_from_regions() finds how many.
-  bool counts_contacts = false;
-  /// Whether a cell is in it wherever it is: of shapes that name cells; distance() is not asked then.
-  bool (*holds)(const Region& region, const CellRow& row) = nullptr;
+  /// Counted in contacts, not measured in space: cells that are at most Region::contacts away from those that the region begins with.
+  /// contacts_from_regions() finds how many they are.
+  CountsContacts counts = CountsContacts::kNo;
+  /// How a cell stands to it wherever it is: of shapes that name cells or look at what these sense; distance() is not asked then. The margin is that
+  /// of a cell that is in it.
+  Standing (*of_cell)(const Region& region, const CellView& cell) = nullptr;
+  const char* awaited = nullptr;  ///< while such regions are there, a run at rest goes on for this; null: it does not
   /// Distance outside of a point that is `from` away from the centre; negative inside [µm]. Where it is more than the region's margin it may be less than
   /// what it is, if not less than the margin.
   double (*distance)(const Region& region, const Vec3d& from) = nullptr;
@@ -43,6 +58,9 @@ struct RegionShape {
   bool (*meets)(const Region& region, const Box& domain) = nullptr;
   /// How much of the domain it takes at most, for estimates of costs; null: all of it [µm³].
   double (*volume)(const Region& region) = nullptr;
+
+  /// Whether it has a border in space, which a cell leaves a length behind.
+  [[nodiscard]] bool has_border() const { return distance != nullptr; }
 };
 
 std::vector<std::shared_ptr<const RegionShape>> builtin_region_shapes();
@@ -53,6 +71,8 @@ std::shared_ptr<const RegionShape> everything_region();
 std::shared_ptr<const RegionShape> around_region();
 std::shared_ptr<const RegionShape> neighbours_region();
 std::shared_ptr<const RegionShape> chosen_cells_region();
+std::shared_ptr<const RegionShape> surface_region();
+std::shared_ptr<const RegionShape> level_region();
 
 /// Where cells are to be shells.
 struct Region {
@@ -69,6 +89,7 @@ struct Region {
   std::shared_ptr<const TriangleTree> surface{};  ///< of that obstacle at time 0, where distance() asks for it
   double reach = 0.0;                             ///< from that surface [µm]
   double room = 0.0;                              ///< within its reach [µm³]
+  double contacts = 0.0;                          ///< up to which it counts them
   double from = 0.0;                              ///< the region exists from here [s]
   double until = kNever;                          ///< to here [s]
   OwnValues values{};                             ///< of the shape's own keys

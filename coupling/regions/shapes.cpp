@@ -93,8 +93,8 @@ std::shared_ptr<const RegionShape> everything_region() {
 }
 
 std::vector<std::shared_ptr<const RegionShape>> builtin_region_shapes() {
-  return {sphere_region(), box_region(),        half_space_region(),  everything_region(),
-          around_region(), neighbours_region(), chosen_cells_region()};
+  return {sphere_region(),     box_region(),          half_space_region(), everything_region(), around_region(),
+          neighbours_region(), chosen_cells_region(), surface_region(),    level_region()};
 }
 
 }  // namespace morula

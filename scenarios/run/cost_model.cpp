@@ -9,6 +9,7 @@
 
 #include "core/ball.h"
 #include "coupling/behaviours/balanced_growth.h"
+#include "coupling/neighbourhoods.h"
 #include "coupling/simulation.h"
 #include "coupling/swaps.h"
 #include "scenarios/run/tried_steps.h"
@@ -76,9 +77,13 @@ std::int64_t nodes_of(const CellType& type) {
   return type.shell_nodes + (type.interior.has_nuclear_shell() ? type.interior.nucleus_nodes : 0);
 }
 
-/// The cells that a region can hold, of this volume each.
-double room_of(const Region& region, double cell_volume) {
+/// The cells that a region can hold of so many, of this volume each; layers at the tissue's surface as many as those of a ball.
+double room_of(const Region& region, double cell_volume, double cells) {
   const auto& shape = *region.shape;
+  if (shape.counts == CountsContacts::kFromSurface) {
+    const double within = 1.0 - 2.0 * (region.contacts + 1.0) * std::cbrt(kPacked / std::max(1.0, cells));
+    return cells * (1.0 - std::pow(std::max(0.0, within), 3.0));
+  }
   const double volume = shape.volume != nullptr ? shape.volume(region) : std::numeric_limits<double>::infinity();
   return kPacked * volume / cell_volume;
 }
@@ -88,8 +93,8 @@ void add_neighbours(const Study& study, double time, Counts& counts) {
   const auto& types = study.model.types;
   const auto most = static_cast<std::size_t>(std::ranges::max_element(counts.of_type) - counts.of_type.begin());
   for (const Region& region : study.model.swaps.regions) {
-    if (!region.shape->counts_contacts || region.body != BodyKind::kShell || !region.exists_at(time)) continue;
-    const double room = room_of(region, ball_volume(types[most].radius.mean));
+    if (region.shape->counts == CountsContacts::kNo || region.body != BodyKind::kShell || !region.exists_at(time)) continue;
+    const double room = room_of(region, ball_volume(types[most].radius.mean), static_cast<double>(counts.cells));
     const double places = std::min(static_cast<double>(counts.cells), static_cast<double>(study.model.swaps.max_shells));
     const auto more = std::max<std::int64_t>(0, static_cast<std::int64_t>(std::min(room, places)) - counts.shells);
     counts.shells += more;
@@ -112,9 +117,7 @@ Counts count_cells(const Study& study, Tissue& tissue, double time) {
   std::vector<Vec3d> center;
   for (const BodyOfRow& body : bodies_of(tissue.cells)) {
     ++out.of_type[tissue.cells.rows[body.row].type];
-    center.push_back(body.is_shell
-                         ? volume_centroid(tissue.shells.topology(body.number).faces(), std::as_const(tissue.shells).nodes(body.number))
-                         : tissue.spheres.position[body.number]);
+    center.push_back(center_of(tissue, body));
   }
   for (const SwapOrder& order : choose_swaps(study.model, tissue, {center}, Comm())) {
     const std::int64_t change = order.to == BodyKind::kShell ? 1 : -1;
@@ -144,7 +147,7 @@ Counts count_entries(const Study& study) {
   for (const Region& region : model.swaps.regions) {
     if (region.body != BodyKind::kShell || !region.exists_at(0.0)) continue;
     for (std::size_t t = 0; t < spheres.size(); ++t) {
-      const double room = room_of(region, ball_volume(model.types[t].radius.mean));
+      const double room = room_of(region, ball_volume(model.types[t].radius.mean), static_cast<double>(out.cells));
       const double left = static_cast<double>(model.swaps.max_shells) - static_cast<double>(out.shells);
       const auto promoted = static_cast<std::int64_t>(std::max(0.0, std::min({room, left, static_cast<double>(spheres[t])})));
       spheres[t] -= promoted;

@@ -128,6 +128,7 @@ Values named_values(const LawInfo& law, const OwnValues& values) {
 void add_cycle(const CellType& type, std::vector<UsedLaw>& out) {
   const CellCycle& cycle = type.cycle;
   const std::string whose = "life of " + type.name;
+  out.push_back({whose, type.axis->info, {}});
   if (cycle.control != SizeControl::kTimer)
     out.push_back({whose,
                    law_named(behaviour_laws(), cycle.control == SizeControl::kSizer ? "sizer" : "adder"),

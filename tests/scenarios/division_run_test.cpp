@@ -201,10 +201,16 @@ TEST_F(DivisionRun, SaysWhatCannotBe) {
   };
   EXPECT_EQ(errors("axis: long"), "");
   EXPECT_THAT(errors("axis: sideways"), HasSubstr("across_polarity"));
-  EXPECT_THAT(errors("axis: fixed"), HasSubstr("the axis of division has no direction"));
+  EXPECT_THAT(errors("axis: fixed"), HasSubstr("`fixed` needs `direction`"));
   EXPECT_THAT(errors("axis: fixed, direction: [0, 0, 0]"), HasSubstr("[E302]"));
-  EXPECT_THAT(errors("direction: [0, 0, 1]"), HasSubstr("it belongs to `axis: fixed`"));
+  EXPECT_THAT(errors("direction: [0, 0, 1]"), HasSubstr("'direction' has no effect here"));
   EXPECT_THAT(errors("axis: polarity"), HasSubstr("[E558]"));
+  EXPECT_EQ(errors("axis: along_surface"), "");
+  EXPECT_THAT(errors("axis: gradient"), HasSubstr("`gradient` needs `field`"));
+  EXPECT_THAT(errors("axis: gradient, field: oxygen"), HasSubstr("there is no field 'oxygen'"));
+  EXPECT_THAT(errors("axis: along_geometry"), HasSubstr("`along_geometry` needs `geometry`"));
+  EXPECT_THAT(errors("axis: along_geometry, geometry: plate"), HasSubstr("[E401]"));
+  EXPECT_THAT(errors("axis: long, field: oxygen"), HasSubstr("[E515]"));
   EXPECT_THAT(errors("axis_spread: 20 deg"), HasSubstr("[E515]"));
   EXPECT_THAT(errors("share: 5 %"), HasSubstr("[E302]"));
   EXPECT_THAT(errors("share: 95 %"), HasSubstr("[E302]"));

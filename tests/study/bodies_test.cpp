@@ -86,13 +86,6 @@ TEST(Bodies, AMeshThatIsTooCoarseToDivideIsToldWithOneThatIsNot) {
   EXPECT_THAT(test::warnings_of(test::changed("nodes: 162", "nodes: 42", waits)), Not(HasSubstr("E650")));
 }
 
-TEST(Bodies, SpheresHaveNoLongAxis) {
-  EXPECT_THAT(test::warnings_of(with("cycle: {duration: 8 h, axis: long}")), HasSubstr("[E649]"));
-  EXPECT_THAT(test::warnings_of(test::changed("radius: 40 um}", kAsShell, with("cycle: {duration: 8 h, axis: long}"))),
-              Not(HasSubstr("E649")));
-  EXPECT_THAT(test::warnings_of(with("cycle: {duration: 8 h}")), Not(HasSubstr("E649")));
-}
-
 TEST(Bodies, ShellsThatOnlyGrowAreNotWarnedOf) {
   const std::string grows =
       test::changed("radius: 40 um}", "radius: 40 um, as: shell, age: birth}", with("cycle: {duration: 18 h, shells: wait}"));

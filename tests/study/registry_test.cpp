@@ -74,8 +74,16 @@ TEST(Registry, EveryEntryTellsOfItself) {
   for (const auto& one : laws->region_shapes) {
     expect_told(one->info, names);
     expect_keys(*one, "regions");
-    EXPECT_EQ((one->distance != nullptr) + one->counts_contacts + (one->holds != nullptr), 1) << one->info.name;
+    EXPECT_EQ((one->distance != nullptr) + (one->counts != CountsContacts::kNo) + (one->of_cell != nullptr), 1)
+        << one->info.name << ": one way to say who is in it";
   }
+  names.clear();
+  for (const auto& one : laws->division_axes) {
+    expect_told(one->info, names);
+    expect_keys(*one, "cell_types.<name>.cycle");
+    EXPECT_NE(one->of, nullptr) << one->info.name;
+  }
+  names.clear();
   for (const auto& one : laws->reactions) {
     const bool of_cells = one->where == fields::Reaction::Where::kCells;
     expect_told(one->info, names);
@@ -282,16 +290,10 @@ TEST(Registry, EveryShapeIsReadAsItsExamplesSay) {
     ASSERT_TRUE(study.ok()) << one->info.name << "\n" << study.error().text();
     const Region& region = study->model.swaps.regions.at(0);
     EXPECT_EQ(region.shape, one);
-    if (one->holds != nullptr) {
-      CellRow row;
-      row.id = CellId::founder(1);
-      EXPECT_TRUE(one->holds(region, row)) << one->info.name;
-      row.id = CellId::founder(2);
-      EXPECT_FALSE(one->holds(region, row)) << one->info.name;
-    } else if (!one->counts_contacts) {
-      EXPECT_LE(region.shape->distance(region, {0.0, 0.0, 0.0}), 0.0) << one->info.name;
+    if (one->has_border()) {
+      EXPECT_LE(one->distance(region, {0.0, 0.0, 0.0}), 0.0) << one->info.name;
     }
-    if (!one->keys.empty())
+    if (std::ranges::any_of(one->keys, [](const OwnKey& key) { return key.spec.required; }))
       expect_refused(with("", "coupling: {regions: [{name: core, shape: " + one->info.name + "}]}\n"), one->info.name);
   }
 }

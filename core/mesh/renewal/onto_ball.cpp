@@ -32,12 +32,8 @@ std::optional<SurfacePlace> last_hit(const AskedSurface& surface, const Vec3d& c
 }  // namespace
 
 double elongation(const SurfaceView& surface) {
-  SymMat3<double> m = second_moments(surface.position, surface.topology->faces());
-  const Vec3d u = largest_eigenvector(m);
-  const double largest = dot(u, m * u);
-  m += -largest * outer(1.0, u);
-  const Vec3d v = largest_eigenvector(m);
-  return std::sqrt(largest / dot(v, m * v));
+  const PrincipalAxes axes(second_moments(surface.position, surface.topology->faces()));
+  return std::sqrt(axes.moment[0] / axes.moment[1]);
 }
 
 Result<RenewedSurface> onto_ball(const SurfaceView& surface, std::span<const SurfaceView> neighbours, const ReferenceShape& shape,
