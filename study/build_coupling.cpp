@@ -139,12 +139,15 @@ void build_trigger(BuildContext& c, const UnitSystem& units, const draft::Trigge
 }
 
 /// The keys of the region's own shape are there, and none of another.
-bool has_keys_of_shape(BuildContext& c, const draft::Region& r, const RegionShape& shape, const Place& place) {
+bool has_keys_of_shape(BuildContext& c, draft::Region& r, const RegionShape& shape, const Place& place) {
   const std::string who = "a region of shape '" + shape.info.name + "' ";
   for (const auto& other : c.options.laws->region_shapes)
-    for (const std::string& key : given_keys(other->keys, r.own)) {
-      const auto own = std::ranges::find_if(shape.keys, [&](const OwnKey& one) { return key == one.spec.name; });
-      if (own == shape.keys.end()) c.diagnostics.error(111, place_of_key(r.own, key), who + "has no `" + key + "`", "leave it away");
+    for (const OwnKey& key : other->keys) {
+      const std::string name = key.spec.name;
+      if (std::ranges::any_of(shape.keys, [&](const OwnKey& one) { return name == one.spec.name; })) continue;
+      if (!given_keys({key}, r.own).empty())
+        c.diagnostics.error(111, place_of_key(r.own, name), who + "has no `" + name + "`", "leave it away");
+      leave_away(r.own, name);
     }
   const auto missing = missing_keys(shape.keys, r.own);
   for (const std::string& key : missing) c.diagnostics.error(103, place, who + "needs `" + key + "`", "");

@@ -242,6 +242,13 @@ Place place_of_key(const draft::OwnSection& own, const std::string& key) {
   return where.place != nullptr ? *where.place : Place{};
 }
 
+void leave_away(draft::OwnSection& own, const std::string& key) {
+  const auto clear = [&key](auto& map) {
+    if (const auto at = map.find(key); at != map.end()) at->second.text.clear();
+  };
+  clear(own.numbers), clear(own.texts), clear(own.flags), clear(own.vectors), clear(own.lists);
+}
+
 void tell_without_effect(BuildContext& c, const std::string& key, const draft::OwnSection& own, const std::string& help) {
   if (const Where where = find(own, key); where.place != nullptr)
     c.diagnostics.error(515, *where.place, "'" + key + "' has no effect here", help);

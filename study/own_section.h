@@ -19,6 +19,8 @@ std::vector<std::string> missing_keys(const std::vector<OwnKey>& keys, const dra
 std::vector<std::string> given_keys(const std::vector<OwnKey>& keys, const draft::OwnSection& own);
 /// Where a key stands that is given.
 Place place_of_key(const draft::OwnSection& own, const std::string& key);
+/// The resolved study does not name this key: its default has no meaning here.
+void leave_away(draft::OwnSection& own, const std::string& key);
 /// Tells that a key that is given has no effect: E515.
 void tell_without_effect(BuildContext& context, const std::string& key, const draft::OwnSection& own, const std::string& help);
 /// Of several things a study has chosen one, by a word: tells what that must have and has not (E103, at the place of the word), and which keys of the

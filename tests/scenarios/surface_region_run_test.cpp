@@ -64,7 +64,7 @@ TEST(SurfaceRegion, OfADisorderedTissueIsItsRimAndNoGapWithinIt) {
   const auto study = test::read(R"(
 schema: 1
 study: disordered
-time: {end: 40 min, output: 40 min}
+time: {end: 80 min, output: 80 min}
 domain: {size: [160 um, 160 um, 160 um]}
 cell_types:
   cell: {radius: {mean: 4 um, spread: 10 %}, dcm: {nodes: 42}}
