@@ -142,7 +142,7 @@ Tissue make_tissue(const Case& c, const Model& model, const std::vector<Vec3d>& 
     cell.row.division_volume = 2.0 * cell.row.target_volume;
     if (c.shells)
       cell.shell = spherical_shell(shapes.icosphere(162).value(), places[i], cell.row.target_volume,
-                                   free_reference_volume(cell.row.target_volume, type));
+                                   free_reference_volume(cell.row.target_volume, type, 0.0));
     else
       cell.sphere = SphereRecord{places[i], std::cbrt(3.0 * cell.row.target_volume / (4.0 * std::numbers::pi)), {}, {}};
     if (c.what != What::kExchange && i % kApart == 0 && i / kApart < kEvents) prepare(c, type, static_cast<int>(i / kApart), cell);

@@ -101,7 +101,7 @@ Tissue make_tissue(const Model& model, const Case& c, const Comm& comm) {
     cell.row.order = curve_place(centers[i]);
     if (c.body == BodyKind::kShell)
       cell.shell = spherical_shell(shapes.icosphere(162).value(), centers[i], cell.row.target_volume,
-                                   free_reference_volume(cell.row.target_volume, model.types[0]));
+                                   free_reference_volume(cell.row.target_volume, model.types[0], 0.0));
     else
       cell.sphere = SphereRecord{centers[i], 6.0, {}, {}};
   }

@@ -280,8 +280,9 @@ void place_nucleus(ShellRecord& shell, const CellType& type, ShapeLibrary& shape
     return;
   }
   const double volume = interior.nucleus_fraction * shell.rest_volume;
-  ShellRecord nucleus = spherical_shell(shapes.icosphere(interior.nucleus_nodes).value(), center, volume,
-                                        dcm::nucleus_reference_volume(volume, shell.rest_volume, interior.nucleus_shell, type.shell));
+  ShellRecord nucleus =
+      spherical_shell(shapes.icosphere(interior.nucleus_nodes).value(), center, volume,
+                      dcm::nucleus_reference_volume(volume, shell.rest_volume, interior.nucleus_shell, type.shell.tension));
   if (!shell.velocity.empty())
     std::ranges::fill(nucleus.velocity, mean_of(std::span<const Vec3f>(shell.velocity)));  // it comes along with its cell
   shell.nuclear_shell = std::move(nucleus);

@@ -50,7 +50,14 @@ std::vector<CellVariable> cell_variables(const Model& model) {
                                variable.shared ? AtDivision::kShared : AtDivision::kCopied, true};
         if (std::ranges::find(out, one) == out.end()) out.push_back(one);
       }
+  if (std::ranges::any_of(model.types, [](const CellType& type) { return type.tension_factor.relative_spread > 0.0; }))
+    out.push_back({kTensionVariable, "1", AtDivision::kSet});
   return out;
+}
+
+int tension_variable(const Model& model) {
+  const std::vector<CellVariable> all = cell_variables(model);
+  return !all.empty() && all.back().name == kTensionVariable ? static_cast<int>(all.size()) - 1 : -1;
 }
 
 }  // namespace morula

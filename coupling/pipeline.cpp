@@ -144,8 +144,8 @@ Result<StepOutcome> Simulation::whole_step(const StepPlan& plan, const std::func
   const double wanted = wanted_less && outcome.retries == 0 ? clock.next_step : 0.0;
   clock.next_step = next_step(model_.step, model_.contact.range, outcome.mechanics, dt, wanted);
   wrap_cells();
-  dcm::turn_over(tissue_.shells, mechanics_->shell_parameters(), dt);
-  dcm::turn_over(tissue_.nuclei.shells, mechanics_->nucleus_parameters(), dt);
+  dcm::turn_over(tissue_.shells, mechanics_->shell_materials(), dt);
+  dcm::turn_over(tissue_.nuclei.shells, mechanics_->nucleus_materials(), dt);
   average_pressures(dt);
   turn_polarities(clock.steps - 1, dt);
   renew_faces(dt);

@@ -125,7 +125,8 @@ void Simulation::set_bodies_to_targets(double dt) {
       excess = full.reference_excess;
     };
     if (is_shell) {
-      const double free = free_reference_volume(row.target_volume, type);
+      const double deviation = tissue_.cells.tension_deviation(k, type);
+      const double free = free_reference_volume(row.target_volume, type, deviation);
       double& reference = tissue_.shells.reference_volume[number];
       if (type.osmosis.acts()) {  // growth brings its water along: what has grown begins at the same concentrations
         const double grown = free * std::exp(excess) / reference;
@@ -134,7 +135,7 @@ void Simulation::set_bodies_to_targets(double dt) {
       if (tissue_.shells.rest_volume[number] != row.target_volume) dcm::set_rest_volume(tissue_.shells, number, row.target_volume);
       reference = free * std::exp(excess);
       if (const std::size_t n = tissue_.nuclei.of_shell(number); n < tissue_.nuclei.size())
-        dcm::set_nucleus_target(tissue_.nuclei.shells, n, type.interior, type.shell, row.target_volume);
+        dcm::set_nucleus_target(tissue_.nuclei.shells, n, type.interior, type.shell.tension * (1.0 + deviation), row.target_volume);
     } else {
       if (type.osmosis.acts()) exchange(row.target_volume * std::exp(excess), tissue_.shells.size() + number);
       tissue_.spheres.radius[number] = ball_radius(row.target_volume * std::exp(excess));

@@ -185,8 +185,8 @@ void for_each_shared_column(Visit&& visit) {
 
 }  // namespace
 
-double free_reference_volume(double target_volume, const CellType& type) {
-  return dcm::pressure_free_reference(target_volume, type.shell.tension, type.shell.bulk_modulus);
+double free_reference_volume(double target_volume, const CellType& type, double deviation) {
+  return dcm::pressure_free_reference(target_volume, type.shell.tension * (1.0 + deviation), type.shell.bulk_modulus);
 }
 
 double promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes, std::uint32_t seed,
@@ -195,7 +195,8 @@ double promote(CellRecord& cell, const CellType& type, double pressure, double t
   const double ball = ball_volume(sphere.radius);
   const double left_out = std::min(later, 0.5 * ball), volume = ball - left_out;
   // −K_V ln(V/V0) = p + 2γ/R: the shell pushes back as hard as the sphere was pushed, or pulls where it was pulled.
-  const double reference = free_reference_volume(volume, type) * std::exp(pressure / type.shell.bulk_modulus);
+  const double deviation = tension_deviation(cell.row, type);
+  const double reference = free_reference_volume(volume, type, deviation) * std::exp(pressure / type.shell.bulk_modulus);
   ShellRecord shell = spherical_shell(shapes.icosphere(type.shell_nodes).value(), sphere.position, volume, reference);
   const Rotation turn = random_rotation(Random(seed, RandomStream::kOrientation), cell.row.id, 0);
   for (Vec3d& p : shell.position) p = sphere.position + turn * (p - sphere.position);
@@ -203,7 +204,7 @@ double promote(CellRecord& cell, const CellType& type, double pressure, double t
     of_nodes.give(shell, std::vector<typename Column::Value>(shell.position.size(), of_sphere.values(sphere)[0]));
   });
   place_nucleus(shell, type, shapes);
-  cell.row.reference_excess = std::log(reference / free_reference_volume(cell.row.target_volume, type));
+  cell.row.reference_excess = std::log(reference / free_reference_volume(cell.row.target_volume, type, deviation));
   cell.row.last_swap_time = time;
   cell.row.body = BodyKind::kShell;
   cell.shell = std::move(shell);

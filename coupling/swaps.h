@@ -89,7 +89,7 @@ std::vector<CellId> ids_of_all_ranks(const std::vector<CellId>& mine, const Comm
 void attach_touching(std::span<CellRecord> cells, std::span<const std::pair<CellId, CellId>> touching);
 void attach_touching(Tissue& tissue, std::span<const std::pair<CellId, CellId>> touching);
 
-/// V0 of a free shell of this target volume: V exp(2γ/(R K_V)) [µm³].
-double free_reference_volume(double target_volume, const CellType& type);
+/// V0 of a free shell of this target volume: V exp(2γ/(R K_V)) [µm³]. `deviation`: of γ from that of the type, as a part of it.
+double free_reference_volume(double target_volume, const CellType& type, double deviation);
 
 }  // namespace morula

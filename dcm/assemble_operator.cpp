@@ -57,7 +57,7 @@ void assemble_faces(Assembly<W>& a) noexcept {
   const CorticalTension<Real> tension{a.of_type(&ShellParameters::tension)};
   const TriangleShape<Real> shape{a.of_type(&ShellParameters::shape_stiffness)};
   const bool has_shape = any_lane<W>(shape.stiffness > Real(0.0f));
-  const Real sheet_shear = by_lane<float, W>(a.block, [&](std::uint32_t s) { return sheet_strengths<float>(a.types[a.shells.type[s]]); });
+  const Real sheet_shear = by_lane<float, W>(a.block, [&](std::uint32_t s) { return sheet_strengths<float>(a.materials.of(a.shells, s)); });
   const Real threshold = shape_threshold(a.of_type(&ShellParameters::spring_stiffness), sheet_shear, tension.tension);
   const ShapeArray<float, W> unit_area(a.block, a.shells, &ReferenceShape::face_area);
   const Real scale = by_lane<float, W>(a.block, [&](std::uint32_t s) { return std::pow(std::cbrt(a.shells.rest_volume[s]), 2); });
@@ -84,7 +84,7 @@ void assemble_faces(Assembly<W>& a) noexcept {
   }
   for (int lane = 0; lane < W; ++lane) {
     const std::uint32_t shell = a.block.member[lane];
-    const VolumePressure law{a.types[a.shells.type[shell]].bulk_modulus};
+    const VolumePressure law{a.materials.of(a.shells, shell).bulk_modulus};
     const double volume = six_volumes[lane] / 6.0 - (a.held.empty() ? 0.0 : a.held[shell].volume);
     a.out.volume_stiffness[lane] = volume > 0.0 ? static_cast<float>(law.curvature_psd(volume)) * a.dt[lane] : 0.0f;
   }
@@ -103,7 +103,7 @@ struct HingeChoice {
 
   static HingeChoice of(const Assembly<W>& a) noexcept {
     const auto cos_onset = by_lane<float, W>(a.block, [&](std::uint32_t shell) {
-      const ShellParameters& p = a.types[a.shells.type[shell]];
+      const ShellParameters& p = a.materials.of(a.shells, shell);
       return p.barrier_stiffness > 0.0 ? std::cos(p.barrier_angle) : -2.0;
     });
     return {cos_onset, a.of_type(&ShellParameters::hinge_stiffness),
@@ -150,8 +150,8 @@ template <int W>
 void assemble_hinges(Assembly<W>& a, const HingeChoice<W>& choice) noexcept {
   using Real = Lane<float, W>;
   using Double = Lane<double, W>;
-  const DihedralBarrier<Double> barrier{parameter<double, W>(a.block, a.shells, a.types, &ShellParameters::barrier_stiffness),
-                                        parameter<double, W>(a.block, a.shells, a.types, &ShellParameters::barrier_angle)};
+  const DihedralBarrier<Double> barrier{parameter<double, W>(a.block, a.shells, a.materials, &ShellParameters::barrier_stiffness),
+                                        parameter<double, W>(a.block, a.shells, a.materials, &ShellParameters::barrier_angle)};
   const HingeBending<Real> hinge{choice.stiffness};
   const auto edges = a.topology.edges();
   for (std::uint32_t k = 0; k < edges.size(); ++k) {
@@ -210,13 +210,13 @@ void load_inputs(Assembly<W>& a, std::span<const Vec3d> position, std::span<cons
 }
 
 template <int W>
-void assemble_block(const ShellBlocks& blocks, const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types,
+void assemble_block(const ShellBlocks& blocks, const LaneBlock& block, const Shells& shells, const ShellMaterials& materials,
                     std::span<const Vec3d> position, const ShellFriction::Block& friction, std::span<const Vec3d> start,
                     std::span<const double> contact_energy, double time_step, const EdgeBlockSource& contacts,
                     std::span<const HeldVolume> held, ShellOperator::Block& out, OperatorWorkspace& ws) noexcept {
   const Topology& topology = *block.topology;
   const std::size_t nodes = topology.node_count();
-  Assembly<W> a{block, shells, types, topology, ws, out, Lane<float, W>(static_cast<float>(time_step)), held};
+  Assembly<W> a{block, shells, materials, topology, ws, out, Lane<float, W>(static_cast<float>(time_step)), held};
   load_inputs(a, position, start, blocks, contact_energy);
   const std::size_t edges = topology.edge_count();
   out.edge.resize(edges * 6 * W);
@@ -224,7 +224,7 @@ void assemble_block(const ShellBlocks& blocks, const LaneBlock& block, const She
   out.diagonal.resize(nodes * W);
   out.shape_face.clear(), out.shape.clear(), out.hinge_edge.clear(), out.hinge.clear();
   for (std::size_t i = 0; i < nodes; ++i) to_float<W>(load_scalar<double, W>(friction.medium.data(), i)).store(out.diagonal.data() + i * W);
-  const auto any = [&](double ShellParameters::*strength) { return any_has<W>(block, shells, types, strength); };
+  const auto any = [&](double ShellParameters::*strength) { return any_has<W>(block, shells, materials, strength); };
   const bool global_area = any(&ShellParameters::global_area_modulus);
   if (global_area || any(&ShellParameters::local_area_modulus)) add_area_tensions(a);
   assemble_faces(a);
@@ -242,13 +242,13 @@ void assemble_block(const ShellBlocks& blocks, const LaneBlock& block, const She
 
 }  // namespace
 
-void assemble_shell_operator(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
+void assemble_shell_operator(const ShellBlocks& blocks, const Shells& shells, const ShellMaterials& materials,
                              std::span<const Vec3d> position, const ShellFriction& friction, std::span<const double> face_contact_energy,
                              double time_step, const EdgeBlockSource& contacts, ShellOperator& out, std::span<const HeldVolume> held) {
   out.blocks.resize(blocks.blocks.size());
   for_each_block<OperatorWorkspace>(blocks, [&]<int W>(std::size_t b, const LaneBlock& block, OperatorWorkspace& ws) {
-    assemble_block<W>(blocks, block, shells, types, position, friction.blocks[b], friction.start, face_contact_energy, time_step, contacts,
-                      held, out.blocks[b], ws);
+    assemble_block<W>(blocks, block, shells, materials, position, friction.blocks[b], friction.start, face_contact_energy, time_step,
+                      contacts, held, out.blocks[b], ws);
   });
 }
 

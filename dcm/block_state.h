@@ -53,16 +53,15 @@ struct BlockState {
 /// Sheets (laws of the strain of a face) and local area elasticity, where a shell of the block has one of them; adds to force, energy and
 /// stretch_excess.
 template <int W>
-void add_sheet_laws(BlockState<W>& state, const Shells& shells, std::span<const ShellParameters> types) noexcept;
+void add_sheet_laws(BlockState<W>& state, const Shells& shells, const ShellMaterials& materials) noexcept;
 
 /// Helfrich bending. For blocks in which a shell has it; face vectors are those of the positions.
 template <int W>
-void add_helfrich(BlockState<W>& state, const Shells& shells, std::span<const ShellParameters> types) noexcept;
+void add_helfrich(BlockState<W>& state, const Shells& shells, const ShellMaterials& materials) noexcept;
 
 /// Energy and tension K_G (A − A0)/A0 of the global area; {energy, tension} by lane.
 template <int W>
-std::array<Lane<double, W>, 2> global_area(const BlockState<W>& state, const Shells& shells,
-                                           std::span<const ShellParameters> types) noexcept;
+std::array<Lane<double, W>, 2> global_area(const BlockState<W>& state, const Shells& shells, const ShellMaterials& materials) noexcept;
 
 /// The first face of a shell whose strain leaves the range of one of its sheets; its number is face_count when there is none.
 ShellFault overstretched_face(const Topology& topology, std::span<const Sheet> sheets, std::span<const Vec3d> position,

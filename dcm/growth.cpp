@@ -13,9 +13,9 @@ void set_rest_volume(Shells& shells, std::size_t shell, double rest_volume) {
   for (std::uint32_t edge = shells.first_edge[shell]; edge < shells.first_edge[shell + 1]; ++edge) shells.rest_length[edge] *= length_scale;
 }
 
-void turn_over(Shells& shells, std::span<const ShellParameters> types, double dt) {
+void turn_over(Shells& shells, const ShellMaterials& materials, double dt) {
   for (std::size_t s = 0; s < shells.size(); ++s) {
-    const double rate = types[shells.type[s]].turnover_rate;
+    const double rate = materials.of(shells, s).turnover_rate;
     if (rate == 0.0) continue;
     const double keep = std::exp(-rate * dt);
     const auto edges = shells.topology(s).edges();

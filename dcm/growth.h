@@ -16,7 +16,7 @@ void set_rest_volume(Shells& shells, std::size_t shell, double rest_volume);
 /// Exact at constant shape, for any dt: two steps of dt are one of 2 dt, the tension of a spring decays as e^{−t/τ}, and that of a
 /// membrane likewise as long as its strain is small. Rest lengths of a face stay those of a triangle, being means of two triangles.
 /// Rest angles, V0 and the rest volume do not turn over.
-void turn_over(Shells& shells, std::span<const ShellParameters> types, double dt);
+void turn_over(Shells& shells, const ShellMaterials& materials, double dt);
 
 /// V0 at which a sphere of volume V under tension γ holds its size: V exp(2γ/(R K_V)), since the pressure −K_V ln(V/V0) then is the
 /// Laplace pressure 2γ/R (dcm.md §4: T4.3). V [µm³], γ [nN/µm], K_V [kPa].

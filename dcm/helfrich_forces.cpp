@@ -55,11 +55,11 @@ std::array<Vec3<Real>, 3> face_gradient(const std::array<Vec3<Real>, 3>& e, cons
 }  // namespace
 
 template <int W>
-void add_helfrich(BlockState<W>& state, const Shells& shells, std::span<const ShellParameters> types) noexcept {
+void add_helfrich(BlockState<W>& state, const Shells& shells, const ShellMaterials& materials) noexcept {
   using Real = Lane<double, W>;
   ForceWorkspace& ws = state.ws;
-  const Helfrich<Real> law{parameter<double, W>(state.block, shells, types, &ShellParameters::helfrich_rigidity),
-                           parameter<double, W>(state.block, shells, types, &ShellParameters::spontaneous_curvature)};
+  const Helfrich<Real> law{parameter<double, W>(state.block, shells, materials, &ShellParameters::helfrich_rigidity),
+                           parameter<double, W>(state.block, shells, materials, &ShellParameters::spontaneous_curvature)};
   measure_nodes(state);
   for (std::size_t i = 0; i < state.topology.node_count(); ++i) {
     const auto g = load_vec3<double, W>(ws.area_gradient.data(), i), v = load_vec3<double, W>(ws.volume_gradient.data(), i);
@@ -85,8 +85,8 @@ void add_helfrich(BlockState<W>& state, const Shells& shells, std::span<const Sh
   }
 }
 
-template void add_helfrich<1>(BlockState<1>&, const Shells&, std::span<const ShellParameters>) noexcept;
-template void add_helfrich<4>(BlockState<4>&, const Shells&, std::span<const ShellParameters>) noexcept;
-template void add_helfrich<8>(BlockState<8>&, const Shells&, std::span<const ShellParameters>) noexcept;
+template void add_helfrich<1>(BlockState<1>&, const Shells&, const ShellMaterials&) noexcept;
+template void add_helfrich<4>(BlockState<4>&, const Shells&, const ShellMaterials&) noexcept;
+template void add_helfrich<8>(BlockState<8>&, const Shells&, const ShellMaterials&) noexcept;
 
 }  // namespace morula::dcm

@@ -160,8 +160,8 @@ std::span<const double> rest_lengths(const Shells& shells, std::uint32_t shell) 
 }
 
 template <int W>
-void write_shell_results(const BlockState<W>& state, const Shells& shells, std::span<const ShellParameters> types,
-                         std::span<const Vec3d> position, const Lane<double, W>& cytosol, ShellMechanics& out) noexcept {
+void write_shell_results(const BlockState<W>& state, const Shells& shells, const ShellMaterials& materials, std::span<const Vec3d> position,
+                         const Lane<double, W>& cytosol, ShellMechanics& out) noexcept {
   for (int lane = 0; lane < state.block.count; ++lane) {
     const std::uint32_t shell = state.block.member[lane];
     const double volume = state.volume[lane], energy = state.energy[lane];
@@ -177,13 +177,13 @@ void write_shell_results(const BlockState<W>& state, const Shells& shells, std::
     }
     const auto x = position.subspan(shells.first_node[shell], state.topology.node_count());
     out.fault[shell] = state.stretch_excess[lane] > 0.0 && std::isfinite(energy) && cytosol[lane] > 0.0
-                           ? overstretched_face(state.topology, types[shells.type[shell]].sheets, x, rest_lengths(shells, shell))
+                           ? overstretched_face(state.topology, materials.of(shells, shell).sheets, x, rest_lengths(shells, shell))
                            : locate_fault(state.topology, x, cytosol[lane]);
   }
 }
 
 template <int W>
-void block_mechanics(const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types, std::span<const Vec3d> position,
+void block_mechanics(const LaneBlock& block, const Shells& shells, const ShellMaterials& materials, std::span<const Vec3d> position,
                      std::span<Vec3d> force, ShellMechanics& out, std::span<const HeldVolume> held, ForceWorkspace& ws) noexcept {
   using Real = Lane<double, W>;
   const Topology& topology = *block.topology;
@@ -194,12 +194,12 @@ void block_mechanics(const LaneBlock& block, const Shells& shells, std::span<con
   std::fill_n(ws.force.data(), std::size_t{topology.node_count()} * 3 * W, 0.0);
 
   BlockState<W> state{block, topology, ws};
-  const auto of_type = [&](double ShellParameters::*member) { return parameter<double, W>(block, shells, types, member); };
+  const auto of_type = [&](double ShellParameters::*member) { return parameter<double, W>(block, shells, materials, member); };
   measure_faces(state);
   Real pressure(0.0), volume_energy(0.0), cytosol(0.0);
   for (int lane = 0; lane < W; ++lane) {
     const std::uint32_t shell = block.member[lane];
-    const VolumePressure law{types[shells.type[shell]].bulk_modulus};
+    const VolumePressure law{materials.of(shells, shell).bulk_modulus};
     const HeldVolume inside = held.empty() ? HeldVolume{} : held[shell];
     const double volume = inside.cytosol(state.volume[lane]), reference = shells.reference_volume[shell];
     cytosol.set(lane, volume);
@@ -208,8 +208,8 @@ void block_mechanics(const LaneBlock& block, const Shells& shells, std::span<con
     out.pressure[shell] = pressure[lane];
   }
   Real global_tension(0.0), area_energy(0.0);
-  if (any_has<W>(block, shells, types, &ShellParameters::global_area_modulus)) {
-    const auto both = global_area<W>(state, shells, types);
+  if (any_has<W>(block, shells, materials, &ShellParameters::global_area_modulus)) {
+    const auto both = global_area<W>(state, shells, materials);
     area_energy = both[0], global_tension = both[1];
   }
   add_face_laws<W>(state, shells, {of_type(&ShellParameters::tension)}, global_tension, {of_type(&ShellParameters::shape_stiffness)},
@@ -217,29 +217,29 @@ void block_mechanics(const LaneBlock& block, const Shells& shells, std::span<con
   add_edge_laws<W>(state, shells, {of_type(&ShellParameters::spring_stiffness)}, {of_type(&ShellParameters::hinge_stiffness)});
   const DihedralBarrier<Real> barrier{of_type(&ShellParameters::barrier_stiffness), of_type(&ShellParameters::barrier_angle)};
   if (any_lane<W>(state.max_angle > barrier.onset)) add_barrier(state, barrier);
-  add_sheet_laws<W>(state, shells, types);
-  if (any_has<W>(block, shells, types, &ShellParameters::helfrich_rigidity)) add_helfrich<W>(state, shells, types);
+  add_sheet_laws<W>(state, shells, materials);
+  if (any_has<W>(block, shells, materials, &ShellParameters::helfrich_rigidity)) add_helfrich<W>(state, shells, materials);
   state.energy += volume_energy + area_energy;
   store_lanes<W, double>(ws.force.data(), std::size_t{topology.node_count()} * 3,
                          lane_pointers<W>(&force.data()->x, block, shells.first_node, 3));
-  write_shell_results(state, shells, types, position, cytosol, out);
+  write_shell_results(state, shells, materials, position, cytosol, out);
 }
 
 }  // namespace
 
-void internal_forces(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
-                     std::span<const Vec3d> position, ShellMechanics& out) {
+void internal_forces(const ShellBlocks& blocks, const Shells& shells, const ShellMaterials& materials, std::span<const Vec3d> position,
+                     ShellMechanics& out) {
   out.force.resize(shells.node_count());
-  internal_forces(blocks, shells, types, position, out.force, out);
+  internal_forces(blocks, shells, materials, position, out.force, out);
 }
 
-void internal_forces(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
-                     std::span<const Vec3d> position, std::span<Vec3d> force, ShellMechanics& out, std::span<const HeldVolume> held) {
+void internal_forces(const ShellBlocks& blocks, const Shells& shells, const ShellMaterials& materials, std::span<const Vec3d> position,
+                     std::span<Vec3d> force, ShellMechanics& out, std::span<const HeldVolume> held) {
   for (std::vector<double>* array : {&out.energy, &out.volume, &out.pressure, &out.min_quality, &out.max_angle})
     array->resize(shells.size());
   out.fault.resize(shells.size());
   for_each_block<ForceWorkspace>(blocks, [&]<int W>(std::size_t, const LaneBlock& block, ForceWorkspace& ws) {
-    block_mechanics<W>(block, shells, types, position, force, out, held, ws);
+    block_mechanics<W>(block, shells, materials, position, force, out, held, ws);
   });
 }
 

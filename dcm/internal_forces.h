@@ -31,14 +31,14 @@ struct HeldVolume {
 };
 
 /// Energies and forces of all internal laws (the conservative ones of shell_laws()) at `position`, which need not be that of the shells (a
-/// trial state); rest lengths, rest volumes and reference volumes are the shells'. `types[t]` are the parameters of cell type t.
+/// trial state); rest lengths, rest volumes and reference volumes are the shells'. `materials`: of their types, or of each.
 ///
 /// Lanes over shells of one Topology, in parallel over blocks: the same bits for every lane width and number of threads. `held`: by shell, or
 /// empty: nothing.
-void internal_forces(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
-                     std::span<const Vec3d> position, ShellMechanics& out);
+void internal_forces(const ShellBlocks& blocks, const Shells& shells, const ShellMaterials& materials, std::span<const Vec3d> position,
+                     ShellMechanics& out);
 /// The same, with the forces to `force` (by node).
-void internal_forces(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
-                     std::span<const Vec3d> position, std::span<Vec3d> force, ShellMechanics& out, std::span<const HeldVolume> held = {});
+void internal_forces(const ShellBlocks& blocks, const Shells& shells, const ShellMaterials& materials, std::span<const Vec3d> position,
+                     std::span<Vec3d> force, ShellMechanics& out, std::span<const HeldVolume> held = {});
 
 }  // namespace morula::dcm

@@ -18,16 +18,15 @@ Lane<T, W> by_lane(const LaneBlock& block, const Get& get) {
 
 /// A parameter of every lane, from the type of the shell in it.
 template <class T, int W>
-Lane<T, W> parameter(const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types,
-                     double ShellParameters::*member) {
-  return by_lane<T, W>(block, [&](std::uint32_t shell) { return types[shells.type[shell]].*member; });
+Lane<T, W> parameter(const LaneBlock& block, const Shells& shells, const ShellMaterials& materials, double ShellParameters::*member) {
+  return by_lane<T, W>(block, [&](std::uint32_t shell) { return materials.of(shells, shell).*member; });
 }
 
 /// Whether any shell of a block has this law.
 template <int W>
-bool any_has(const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types, double ShellParameters::*strength) {
+bool any_has(const LaneBlock& block, const Shells& shells, const ShellMaterials& materials, double ShellParameters::*strength) {
   for (int lane = 0; lane < W; ++lane)
-    if (types[shells.type[block.member[lane]]].*strength > 0.0) return true;
+    if (materials.of(shells, block.member[lane]).*strength > 0.0) return true;
   return false;
 }
 

@@ -6,11 +6,11 @@
 namespace morula::dcm {
 
 template <int W>
-void add_sheet_laws(BlockState<W>& state, const Shells& shells, std::span<const ShellParameters> types) noexcept {
+void add_sheet_laws(BlockState<W>& state, const Shells& shells, const ShellMaterials& materials) noexcept {
   using Real = Lane<double, W>;
-  const auto sheets = sheets_of_block<double, W>(state.block, shells, types);
-  const bool has_area = any_has<W>(state.block, shells, types, &ShellParameters::local_area_modulus);
-  const Real modulus = parameter<double, W>(state.block, shells, types, &ShellParameters::local_area_modulus);
+  const auto sheets = sheets_of_block<double, W>(state.block, shells, materials);
+  const bool has_area = any_has<W>(state.block, shells, materials, &ShellParameters::local_area_modulus);
+  const Real modulus = parameter<double, W>(state.block, shells, materials, &ShellParameters::local_area_modulus);
   const Real* const area = has_area ? &modulus : nullptr;
   if (sheets.size() == 1)
     sheets[0].law->template in_lanes<W>().add_forces(state, sheets[0].coefficient.data(), area);
@@ -21,10 +21,9 @@ void add_sheet_laws(BlockState<W>& state, const Shells& shells, std::span<const 
 }
 
 template <int W>
-std::array<Lane<double, W>, 2> global_area(const BlockState<W>& state, const Shells& shells,
-                                           std::span<const ShellParameters> types) noexcept {
+std::array<Lane<double, W>, 2> global_area(const BlockState<W>& state, const Shells& shells, const ShellMaterials& materials) noexcept {
   using Real = Lane<double, W>;
-  const AreaElasticity<Real> law{parameter<double, W>(state.block, shells, types, &ShellParameters::global_area_modulus)};
+  const AreaElasticity<Real> law{parameter<double, W>(state.block, shells, materials, &ShellParameters::global_area_modulus)};
   Real area(0.0), reference(0.0);
   for (std::size_t f = 0; f < state.topology.face_count(); ++f) {
     area += Real(0.5) * norm(state.face_vector(f));
@@ -47,11 +46,11 @@ ShellFault overstretched_face(const Topology& topology, std::span<const Sheet> s
   return {ShellFaultKind::kStretch, topology.face_count(), nullptr};
 }
 
-template void add_sheet_laws<1>(BlockState<1>&, const Shells&, std::span<const ShellParameters>) noexcept;
-template void add_sheet_laws<4>(BlockState<4>&, const Shells&, std::span<const ShellParameters>) noexcept;
-template void add_sheet_laws<8>(BlockState<8>&, const Shells&, std::span<const ShellParameters>) noexcept;
-template std::array<Lane<double, 1>, 2> global_area<1>(const BlockState<1>&, const Shells&, std::span<const ShellParameters>) noexcept;
-template std::array<Lane<double, 4>, 2> global_area<4>(const BlockState<4>&, const Shells&, std::span<const ShellParameters>) noexcept;
-template std::array<Lane<double, 8>, 2> global_area<8>(const BlockState<8>&, const Shells&, std::span<const ShellParameters>) noexcept;
+template void add_sheet_laws<1>(BlockState<1>&, const Shells&, const ShellMaterials&) noexcept;
+template void add_sheet_laws<4>(BlockState<4>&, const Shells&, const ShellMaterials&) noexcept;
+template void add_sheet_laws<8>(BlockState<8>&, const Shells&, const ShellMaterials&) noexcept;
+template std::array<Lane<double, 1>, 2> global_area<1>(const BlockState<1>&, const Shells&, const ShellMaterials&) noexcept;
+template std::array<Lane<double, 4>, 2> global_area<4>(const BlockState<4>&, const Shells&, const ShellMaterials&) noexcept;
+template std::array<Lane<double, 8>, 2> global_area<8>(const BlockState<8>&, const Shells&, const ShellMaterials&) noexcept;
 
 }  // namespace morula::dcm

@@ -29,8 +29,8 @@ void add_area_tensions(Assembly<W>& a) noexcept {
 template <int W>
 void assemble_sheets(Assembly<W>& a) noexcept {
   using Real = Lane<float, W>;
-  const auto sheets = sheets_of_block<float, W>(a.block, a.shells, a.types);
-  const bool has_area = any_has<W>(a.block, a.shells, a.types, &ShellParameters::local_area_modulus);
+  const auto sheets = sheets_of_block<float, W>(a.block, a.shells, a.materials);
+  const bool has_area = any_has<W>(a.block, a.shells, a.materials, &ShellParameters::local_area_modulus);
   const Real modulus = a.of_type(&ShellParameters::local_area_modulus);
   const Real* const area = has_area ? &modulus : nullptr;
   if (sheets.size() == 1)

@@ -101,16 +101,16 @@ std::size_t NuclearShells::of_shell(std::size_t shell) const {
   return at != owner.end() && *at == shell ? static_cast<std::size_t>(at - owner.begin()) : size();
 }
 
-double nucleus_reference_volume(double nucleus_volume, double cell_volume, const ShellParameters& nucleus, const ShellParameters& cell) {
-  const double cytosol = 2.0 * cell.tension / ball_radius(cell_volume);
+double nucleus_reference_volume(double nucleus_volume, double cell_volume, const ShellParameters& nucleus, double cell_tension) {
+  const double cytosol = 2.0 * cell_tension / ball_radius(cell_volume);
   return pressure_free_reference(nucleus_volume, nucleus.tension, nucleus.bulk_modulus) * std::exp(cytosol / nucleus.bulk_modulus);
 }
 
-void set_nucleus_target(Shells& nuclei, std::size_t nucleus, const InteriorParameters& interior, const ShellParameters& cell,
+void set_nucleus_target(Shells& nuclei, std::size_t nucleus, const InteriorParameters& interior, double cell_tension,
                         double cell_target_volume) {
   const double volume = interior.nucleus_fraction * cell_target_volume;
   if (nuclei.rest_volume[nucleus] != volume) set_rest_volume(nuclei, nucleus, volume);
-  nuclei.reference_volume[nucleus] = nucleus_reference_volume(volume, cell_target_volume, interior.nucleus_shell, cell);
+  nuclei.reference_volume[nucleus] = nucleus_reference_volume(volume, cell_target_volume, interior.nucleus_shell, cell_tension);
 }
 
 std::vector<InteriorLink> choose_nuclear_links(const ReferenceShape& cell, const ReferenceShape& nucleus,

@@ -23,11 +23,11 @@ struct NuclearShells {
 };
 
 /// V0 of a nucleus that is at rest with this volume in a cell at rest: its pressure bears its own tension and the pressure of the cytosol, which is
-/// the Laplace pressure of the cell (dcm.md §4: T4.3 for both). V_n and V_cell [µm³].
-double nucleus_reference_volume(double nucleus_volume, double cell_volume, const ShellParameters& nucleus, const ShellParameters& cell);
+/// the Laplace pressure of the cell (dcm.md §4: T4.3 for both). V_n and V_cell [µm³], γ of the cell [nN/µm].
+double nucleus_reference_volume(double nucleus_volume, double cell_volume, const ShellParameters& nucleus, double cell_tension);
 
 /// Let a nucleus grow with its cell, as a rigid one does: it is stress-free, and at rest, at the fraction f of the cell's target volume V_t [µm³].
-void set_nucleus_target(Shells& nuclei, std::size_t nucleus, const InteriorParameters& interior, const ShellParameters& cell,
+void set_nucleus_target(Shells& nuclei, std::size_t nucleus, const InteriorParameters& interior, double cell_tension,
                         double cell_target_volume);
 
 /// Links from the nodes i of a cell to the nodes j of its nucleus that lie in the same direction in the undeformed cell. Their cortical ends are

@@ -50,7 +50,7 @@ struct Assembly {
   using Real = Lane<float, W>;
   const LaneBlock& block;
   const Shells& shells;
-  std::span<const ShellParameters> types;
+  const ShellMaterials& materials;
   const Topology& topology;
   OperatorWorkspace& ws;
   ShellOperator::Block& out;
@@ -58,7 +58,7 @@ struct Assembly {
   std::span<const HeldVolume> held;
 
   Vec3<Real> x(std::size_t node) const noexcept { return load_vec3<float, W>(ws.local.data(), node); }
-  Real of_type(double ShellParameters::*member) const noexcept { return parameter<float, W>(block, shells, types, member); }
+  Real of_type(double ShellParameters::*member) const noexcept { return parameter<float, W>(block, shells, materials, member); }
 };
 
 /// Add what contacts couple within the shells to `edge`, the edge blocks of the matrix.

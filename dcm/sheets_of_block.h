@@ -18,10 +18,10 @@ struct SheetInLanes {
 
 /// The sheets of the shells of one block, each once; a shell may have several of one law.
 template <class T, int W>
-std::vector<SheetInLanes<T, W>> sheets_of_block(const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types) {
+std::vector<SheetInLanes<T, W>> sheets_of_block(const LaneBlock& block, const Shells& shells, const ShellMaterials& materials) {
   std::vector<SheetInLanes<T, W>> out;
   for (int lane = 0; lane < W; ++lane) {
-    const auto& sheets = types[shells.type[block.member[lane]]].sheets;
+    const auto& sheets = materials.of(shells, block.member[lane]).sheets;
     for (std::size_t k = 0; k < sheets.size(); ++k) {
       if (!(sheets[k].coefficient[0] > 0.0)) continue;
       std::size_t earlier = 0;  // sheets of the same law that this shell has before

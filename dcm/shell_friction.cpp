@@ -23,7 +23,7 @@ Vec3<Lane<double, W>> direction_of(const double* start, const Edge& edge) noexce
 
 /// u = ∂V/∂x = Σ N/6 and η_V/V. Positions are in `ws.input`.
 template <int W>
-void compute_bulk_friction(const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types, ShellFriction::Block& out,
+void compute_bulk_friction(const LaneBlock& block, const Shells& shells, const ShellMaterials& materials, ShellFriction::Block& out,
                            const Workspace& ws) noexcept {
   using Real = Lane<double, W>;
   const Topology& topology = *block.topology;
@@ -36,32 +36,32 @@ void compute_bulk_friction(const LaneBlock& block, const Shells& shells, std::sp
     for (const std::uint32_t node : t) add_vec3<double, W>(out.volume_gradient.data(), node, n * Real(1.0 / 6.0));
   }
   for (int lane = 0; lane < W; ++lane) {
-    const BulkViscosity law{types[shells.type[block.member[lane]]].bulk_viscosity};
+    const BulkViscosity law{materials.of(shells, block.member[lane]).bulk_viscosity};
     const double volume = six_volumes[lane] / 6.0;
     out.bulk_friction[lane] = volume > 0.0 ? law.friction(volume) : 0.0;
   }
 }
 
 template <int W>
-void compute_block(const LaneBlock& block, const Shells& shells, std::span<const ShellParameters> types, std::span<const Vec3d> position,
+void compute_block(const LaneBlock& block, const Shells& shells, const ShellMaterials& materials, std::span<const Vec3d> position,
                    std::span<const double> node_area, ShellFriction::Block& out, Workspace& ws) noexcept {
   using Real = Lane<double, W>;
   const Topology& topology = *block.topology;
   const std::size_t nodes = topology.node_count();
   out.medium.resize(nodes * W);
   load_lanes<W, double>(lane_pointers<W>(node_area.data(), block, shells.first_node), nodes, out.medium.data());
-  const MediumFriction<Real> medium{parameter<double, W>(block, shells, types, &ShellParameters::medium_friction)};
+  const MediumFriction<Real> medium{parameter<double, W>(block, shells, materials, &ShellParameters::medium_friction)};
   for (std::size_t i = 0; i < nodes; ++i) medium.coefficient(load_scalar<double, W>(out.medium.data(), i)).store(out.medium.data() + i * W);
   for (int lane = 0; lane < LaneBlock::kMaxLanes; ++lane) {
-    const ShellParameters& p = types[shells.type[block.member[lane]]];
+    const ShellParameters& p = materials.of(shells, block.member[lane]);
     out.damping[lane] = p.edge_damping;
     out.isotropic_damping[lane] = p.isotropic_damping;
   }
-  out.isotropic = any_has<W>(block, shells, types, &ShellParameters::isotropic_damping);
-  if (any_has<W>(block, shells, types, &ShellParameters::bulk_viscosity)) {
+  out.isotropic = any_has<W>(block, shells, materials, &ShellParameters::isotropic_damping);
+  if (any_has<W>(block, shells, materials, &ShellParameters::bulk_viscosity)) {
     ws.input.resize(nodes * 3 * W);
     load_relative_positions<W>(block, lane_pointers<W>(&position.data()->x, block, shells.first_node, 3), ws.input.data());
-    compute_bulk_friction<W>(block, shells, types, out, ws);
+    compute_bulk_friction<W>(block, shells, materials, out, ws);
   } else {
     out.volume_gradient.clear();
   }
@@ -151,12 +151,12 @@ void friction_of_block(const LaneBlock& block, const Shells& shells, const Shell
 
 }  // namespace
 
-void compute_shell_friction(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
+void compute_shell_friction(const ShellBlocks& blocks, const Shells& shells, const ShellMaterials& materials,
                             std::span<const Vec3d> position, std::span<const double> node_area, ShellFriction& out) {
   out.blocks.resize(blocks.blocks.size());
   out.start = position;
   for_each_block<Workspace>(blocks, [&]<int W>(std::size_t b, const LaneBlock& block, Workspace& ws) {
-    compute_block<W>(block, shells, types, position, node_area, out.blocks[b], ws);
+    compute_block<W>(block, shells, materials, position, node_area, out.blocks[b], ws);
   });
 }
 

@@ -27,7 +27,7 @@ struct ShellFriction {
 
 /// Γ_n at the positions and node areas of the step's start; `position` must live and stay as long as `out` is used. `node_area` is indexed
 /// as the shells' nodes (SurfaceGeometry::node_area).
-void compute_shell_friction(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
+void compute_shell_friction(const ShellBlocks& blocks, const Shells& shells, const ShellMaterials& materials,
                             std::span<const Vec3d> position, std::span<const double> node_area, ShellFriction& out);
 
 /// result = Γ_n d by node, and quadratic = dᵀ Γ_n d by shell, in double: the nonlinear residual and the objective Φ of a step need both.

@@ -53,7 +53,7 @@ struct ShellOperator {
 /// (ShellBlocks::first_face); empty when there is no contact. Where tension and contact energy sum to less than zero, their stiffness is
 /// left out. `contacts` fills what contacts couple within a shell, blocks xx xy xz yy yz zz on the edges in the order of the shell's Topology;
 /// it may be empty. `held` is as in internal_forces().
-void assemble_shell_operator(const ShellBlocks& blocks, const Shells& shells, std::span<const ShellParameters> types,
+void assemble_shell_operator(const ShellBlocks& blocks, const Shells& shells, const ShellMaterials& materials,
                              std::span<const Vec3d> position, const ShellFriction& friction, std::span<const double> face_contact_energy,
                              double time_step, const EdgeBlockSource& contacts, ShellOperator& out, std::span<const HeldVolume> held = {});
 

@@ -234,6 +234,24 @@ struct ShellParameters {
   friend bool operator==(const ShellParameters&, const ShellParameters&) = default;
 };
 
+/// The parameters of some shells: those of their types, or of each its own.
+class ShellMaterials {
+ public:
+  ShellMaterials(std::span<const ShellParameters> by_type) : all_(by_type) {}     // NOLINT: parameters by type are what it says
+  ShellMaterials(const std::vector<ShellParameters>& by_type) : all_(by_type) {}  // NOLINT
+  static ShellMaterials of_each(std::span<const ShellParameters> by_shell) { return {by_shell, true}; }
+
+  [[nodiscard]] const ShellParameters& of(const Shells& shells, std::size_t shell) const {
+    return all_[each_ ? shell : shells.type[shell]];
+  }
+
+ private:
+  ShellMaterials(std::span<const ShellParameters> all, bool each) : all_(all), each_(each) {}
+
+  std::span<const ShellParameters> all_;
+  bool each_ = false;
+};
+
 /// Sum of the strengths of the sheets, which are shear moduli; of `Number`s, as the caller adds them up [nN/µm].
 template <class Number = double>
 Number sheet_strengths(const ShellParameters& p) {

@@ -104,7 +104,10 @@ std::vector<CellArrest> build_phase_arrest(BuildContext& c, const draft::CyclePh
 void build_cycle(BuildContext& c, const draft::CellType& t, const Place& place, CellType& type) {
   type.cycles = t.has_cycle && t.cycle_model.value != "none" && t.cycle_model.known();
   if (!t.has_cycle) return;
-  type.cycle_duration = {t.cycle_duration.mean.value, t.cycle_duration.spread.value};
+  type.cycle_duration = {t.cycle_duration.mean.value, t.cycle_duration.spread.value, t.cycle_duration.correlation.value};
+  if (t.cycle_duration.correlation.value != 0.0 && t.cycle_duration.spread.value == 0.0)
+    c.diagnostics.error(515, t.cycle_duration.correlation.place, "'correlation' has no effect here",
+                        "give `spread`: all cycles are alike without one");
   set_growth(c, t, type);
   set_size(c, t.cycle, type);
   type.cycle.arrest = build_arrest(c, t.cycle.arrest, place);
@@ -114,8 +117,12 @@ void build_cycle(BuildContext& c, const draft::CellType& t, const Place& place, 
   if (type.cycles && type.cycle.phases.empty() && !type.cycle.growth->grows)
     c.diagnostics.error(700, t.growth.place, "cells of '" + type.name + "' never reach their division volume: they do not grow",
                         "`model: phases` for cells that divide by the clock, or another `growth`");
-  if (paced_by_phases(type.cycle) && is_changed(t.cycle_duration.mean, "24 h"))
+  if (!paced_by_phases(type.cycle)) return;
+  if (is_changed(t.cycle_duration.mean, "24 h"))
     c.diagnostics.error(515, t.cycle_duration.mean.place, "'duration' has no effect here", "the phases say how long the cycle is");
+  if (t.cycle_duration.correlation.value != 0.0)
+    c.diagnostics.error(515, t.cycle_duration.correlation.place, "'correlation' has no effect here",
+                        "the phases say how long the cycle is");
 }
 
 }  // namespace morula::scenarios

@@ -158,6 +158,22 @@ void set_sphere_law(BuildContext& c, const draft::CellType& t, cbm::SphereParame
   check_law_keys(c, t.sphere_own, choosable_sphere_laws(*c.options.laws), sphere.law->word, "law");
 }
 
+/// How tensions of a type vary: E515.
+void set_variation(BuildContext& c, const draft::CellType& t, std::size_t number, CellType& type) {
+  const draft::Spread& tension = t.tension_variation;
+  type.tension_factor = {1.0, tension.spread.value, tension.correlation.value};
+  const auto tell = [&](const Given<double>& key, const char* name, const std::string& why) {
+    c.diagnostics.error(515, key.place, "'" + std::string(name) + "' has no effect here", why);
+  };
+  if (tension.spread.value == 0.0) {
+    if (tension.correlation.value != 0.0) tell(tension.correlation, "correlation", "give `spread`: all tensions are alike without one");
+  } else if (!may_be_shell(c, number)) {
+    tell(tension.spread, "spread", "cells of '" + type.name + "' are always spheres, which have no tension: `body: shell`");
+  } else if (t.tension.known() && t.tension.value == 0.0) {
+    tell(tension.spread, "spread", "give `dcm.cortex.tension`");
+  }
+}
+
 }  // namespace
 
 void build_cell_types(BuildContext& c) {
@@ -182,6 +198,7 @@ void build_cell_types(BuildContext& c) {
     t.with_shells.write_to(type.sphere.with_shells);
     if (type.sphere.packing.empty()) type.sphere.packing = build_packing(c, name, t);
     type.shell = build_shell(c, name, t, t.friction_medium.value);
+    set_variation(c, t, c.study.model.types.size(), type);
     type.interior = build_interior(c, t, name);
     type.self_contact = build_self_contact(c, t);
     type.renew_mesh_below = build_mesh_renewal(c, t, type);
@@ -219,14 +236,16 @@ void build_pairs(BuildContext& c) {
   for (std::size_t i = 0; i < types; ++i) {
     for (std::size_t j = i; j < materials; ++j) {
       const draft::CellType& a = c.draft.cell_types[i].content;
-      const Given<double>& other = j < types ? c.draft.cell_types[j].content.tension : a.tension;
+      const draft::CellType& b = j < types ? c.draft.cell_types[j].content : a;
       const Given<double>& w = table.at(i, j);
-      if (w.value == 0.0 || !a.tension.known() || !other.known() || w.value < a.tension.value + other.value) continue;
+      const auto least = [](const draft::CellType& t) { return t.tension.value * (1.0 - 3.0 * t.tension_variation.spread.value); };
+      if (w.value == 0.0 || !a.tension.known() || !b.tension.known() || w.value < least(a) + least(b)) continue;
       const bool no_rest = !resists_in_plane(a) || (j < types && !resists_in_plane(c.draft.cell_types[j].content));
       const std::string partner = j < types ? c.draft.cell_types[j].name : c.draft.geometry[j - types].name;
       const Place& place = w.given ? w.place : a.tension.place;
       const std::string what = "shells of '" + c.draft.cell_types[i].name + "' adhere to '" + partner + "' by " + w.text +
-                               ", not less than twice the cortical tension (" + a.tension.text + "): ";
+                               ", not less than twice the cortical tension (" + a.tension.text +
+                               (w.value < a.tension.value + b.tension.value ? ", less three times its spread): " : "): ");
       const std::string help = "raise `dcm.cortex.tension` above half of the adhesion, or lower the adhesion";
       if (no_rest)
         c.diagnostics.error(509, place, what + "a cortex that is not elastic spreads without end", help);

@@ -160,6 +160,20 @@ void declare_with_shells(Section& s, draft::CellType& t) {
 
 }  // namespace
 
+void declare_correlation(Section& s, draft::Spread& value) {
+  s.quantity(
+      {.name = "correlation",
+       .doc =
+           "Of a daughter with her mother: 100 %, she is as her mother was; 0 %, drawn anew. The spread is the same in every generation.",
+       .quantity = Q::kFraction,
+       .fallback = "0 %",
+       .low = -1.0,
+       .high = 1.0,
+       .example = "50 %",
+       .source = "chosen"},
+      value.correlation);
+}
+
 void declare_spread(Section& s, draft::Spread& value, Quantity quantity, const char* mean, const char* doc, const char* source, double low,
                     double high) {
   s.quantity({.name = "mean",
@@ -182,6 +196,30 @@ void declare_spread(Section& s, draft::Spread& value, Quantity quantity, const c
               .source = "chosen"},
              value.spread);
 }
+
+namespace {
+
+void declare_variation(Section& s, draft::CellType& t) {
+  bool given = false;
+  s.group({.name = "tension",
+           .doc = "Tension of the cortex, and of all its `regions`: each cell has its own, which it keeps where it is a sphere.",
+           .shorthand = "spread",
+           .example = "{spread: 10 %, correlation: 50 %}"},
+          given, [&t](Section& v) {
+            v.quantity({.name = "spread",
+                        .doc = "Relative standard deviation from cell to cell (Gaussian, cut at 3).",
+                        .quantity = Q::kFraction,
+                        .fallback = "0 %",
+                        .low = 0.0,
+                        .high = 0.2,
+                        .example = "10 %",
+                        .source = "chosen: off"},
+                       t.tension_variation.spread);
+            declare_correlation(v, t.tension_variation);
+          });
+}
+
+}  // namespace
 
 void declare_cell_type(Section& s, draft::CellType& t) {
   bool present = false;
@@ -206,6 +244,10 @@ void declare_cell_type(Section& s, draft::CellType& t) {
               "types take these colours in turn.",
        .example = "vermilion"},
       t.color);
+  s.group({.name = "variation",
+           .doc = "How cells of the type differ from each other in their mechanics.",
+           .example = "{tension: {spread: 10 %}}"},
+          present, [&t](Section& v) { declare_variation(v, t); });
   declare_life(s, t);
   declare_osmosis(s, t);
   s.group({.name = "friction", .doc = "Friction with what is around."}, present, [&t](Section& f) { declare_friction(f, t); });

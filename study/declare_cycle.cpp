@@ -218,6 +218,7 @@ void declare_cycle(Section& c, draft::CellType& t) {
            .example = "{mean: 18 h, spread: 10 %}"},
           given, [&t](Section& d) {
             declare_spread(d, t.cycle_duration, Q::kTime, "24 h", "Mean over cells.", "chosen: human stem cells and epithelia", 60.0, 1e9);
+            declare_correlation(d, t.cycle_duration);
           });
   declare_growth(c, t);
   declare_size(c, t.cycle);

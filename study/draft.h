@@ -35,7 +35,7 @@ struct Domain {
 };
 
 struct Spread {
-  Given<double> mean, spread;
+  Given<double> mean, spread, correlation;
 };
 
 struct PackingKnot {
@@ -117,7 +117,7 @@ struct CellType : ShellKeys {
   OwnSection axis_own;                              ///< keys that axes of division have for themselves
   Given<double> axis_spread, new_surface;
   Spread division_share;
-  Spread cycle_duration;
+  Spread cycle_duration, tension_variation;
   Given<double> pressure_above;
   std::map<std::string, OwnSection> behaviours;  ///< by name of the section
   PlainKeys<morula::CellType> plain;

@@ -1,3 +1,4 @@
+#include "coupling/cell_variables.h"
 #include "study/build.h"
 #include "study/catalogue.h"
 #include "study/declare.h"
@@ -34,6 +35,7 @@ void build(BuildContext& context) {
   build_regions(context);
   build_adhesion_regions(context);
   build_loads(context);
+  for (CellType& type : context.study.model.types) type.tension_variable = tension_variable(context.study.model);
   check_whole(context);
   Study& study = context.study;
   const draft::Study& draft = context.draft;

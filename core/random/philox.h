@@ -42,6 +42,7 @@ enum class RandomStream : std::uint32_t {
   kDivisionShare,  ///< of the mother's volume that the first daughter gets
   kDivisionSize,   ///< of a cell's division volume
   kPhaseDuration,
+  kTension,  ///< of a cell's own cortex
 };
 
 /// A pair of independent numbers.

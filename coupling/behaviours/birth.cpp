@@ -24,6 +24,7 @@ CellState make_founder(CellId id, std::uint16_t type_index, const CellType& type
   CyclePlace place = begin_cycle(row, type, seed);
   if (random_age && type.cycles) place = settle_in_balanced_growth(row, type, seed, time);
   set_place(row, type, place, cycle_variables);
+  draw_tension(row, type, seed);
   row.migration_velocity = initial_migration_velocity(id, type, seed);
   row.polarity = initial_polarity(id, type, seed);
   return row;
@@ -40,9 +41,21 @@ CellState make_daughter(const CellState& mother, int which, const CellType& type
   row.birth_time = time;
   row.birth_volume = birth_volume;
   row.target_volume = birth_volume;
-  place = begin_cycle(row, type, seed);
+  place = begin_cycle(row, type, seed, mother.cycle_duration);
   row.phase = type.cycles ? Phase::kGrowing : Phase::kResting;
   return row;
+}
+
+void draw_tension(CellState& row, const CellType& type, std::uint32_t seed, double mothers_deviation) {
+  if (type.tension_variable < 0) return;
+  const auto number = static_cast<std::size_t>(type.tension_variable);
+  if (row.variables.size() <= number) row.variables.resize(number + 1, 0.0);
+  std::uint64_t index = 0;
+  const Random random(seed, RandomStream::kTension);
+  const bool is_founder = !row.parent.valid();
+  const double factor = is_founder ? draw_truncated(type.tension_factor, random, row.id, index)
+                                   : draw_inherited(type.tension_factor, 1.0 + mothers_deviation, random, row.id, index);
+  row.variables[number] = factor - 1.0;
 }
 
 void set_place(CellState& row, const CellType& type, const CyclePlace& place, std::size_t first) {

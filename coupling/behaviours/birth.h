@@ -11,7 +11,8 @@ namespace morula {
 /// Its radius at birth and its cycle duration are drawn from the type (streams kCellVariability and kDivisionDuration), its wanted
 /// velocity from the stationary law. With random_age, a cell whose type cycles is at a random point of its cycle (balanced growth,
 /// stream kInitialPhase) and has the target volume of that point; else it is at birth. All draws are keyed by the id,
-/// so that a founder is the same in whatever order founders are made. Its variables are 0, but those of its phase (cycle_variables_of()).
+/// so that a founder is the same in whatever order founders are made. Its variables are 0, but those of its phase (cycle_variables_of()) and that of its
+/// own tension.
 CellState make_founder(CellId id, std::uint16_t type_index, const CellType& type, std::uint32_t seed, double time, bool random_age,
                        std::size_t cycle_variables = 0);
 
@@ -22,5 +23,8 @@ CellState make_daughter(const CellState& mother, int which, const CellType& type
 
 /// Puts a place in the cycle among the variables of a cell whose type has phases. `first`: number of the first of its variables.
 void set_place(CellState& row, const CellType& type, const CyclePlace& place, std::size_t first);
+
+/// Draws the tension of a cell for its own (stream kTension), a daughter's from what her mother's is; the row has all its variables then.
+void draw_tension(CellState& row, const CellType& type, std::uint32_t seed, double mothers_deviation = 0.0);
 
 }  // namespace morula

@@ -79,7 +79,7 @@ double phase_duration(const CellRow& row, const CellType& type, std::size_t numb
   return draw_phase(phase, Random(seed, RandomStream::kPhaseDuration), row.id, index);
 }
 
-CyclePlace begin_cycle(CellState& row, const CellType& type, std::uint32_t seed) {
+CyclePlace begin_cycle(CellState& row, const CellType& type, std::uint32_t seed, std::optional<double> mothers_duration) {
   const CellCycle& cycle = type.cycle;
   if (paced_by_phases(cycle)) {
     double growing = 0.0, all = 0.0;
@@ -90,7 +90,9 @@ CyclePlace begin_cycle(CellState& row, const CellType& type, std::uint32_t seed)
     }
     row.cycle_duration = growing > 0.0 ? growing : all;
   } else {
-    row.cycle_duration = draw_truncated(type.cycle_duration, Random(seed, RandomStream::kDivisionDuration), row.id, row.draws);
+    const Random random(seed, RandomStream::kDivisionDuration);
+    row.cycle_duration = mothers_duration ? draw_inherited(type.cycle_duration, *mothers_duration, random, row.id, row.draws)
+                                          : draw_truncated(type.cycle_duration, random, row.id, row.draws);
   }
   row.division_volume = division_volume(row, type, seed);
   CyclePlace place;

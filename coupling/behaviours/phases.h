@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "coupling/behaviours/growth.h"
 
@@ -30,8 +31,8 @@ double phase_duration(const CellRow& row, const CellType& type, std::size_t phas
 double draw_phase(const CyclePhase& phase, const Random& random, CellId cell, std::uint64_t& index);
 
 /// The cycle of a cell of its own id, type and birth volume: its cycle duration and division volume, and its place at the beginning of its first phase.
-/// A type without phases has the usual place.
-CyclePlace begin_cycle(CellState& row, const CellType& type, std::uint32_t seed);
+/// A daughter's duration is drawn from her mother's. A type without phases has the usual place.
+CyclePlace begin_cycle(CellState& row, const CellType& type, std::uint32_t seed, std::optional<double> mothers_duration = {});
 
 /// Factor of the rate at which a phase passes, by its number.
 using PhaseRate = std::function<double(std::size_t phase)>;

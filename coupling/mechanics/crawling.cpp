@@ -18,7 +18,7 @@ void Mechanics::add_crawling(const Tissue& tissue, std::span<const Vec3d> veloci
   for (std::size_t k = 0; k < shells; ++k) {
     const Vec3d& v = velocity[k];
     if (norm2(v) == 0.0) continue;
-    const double medium = shell_parameters()[tissue.shells.type[k]].medium_friction;
+    const double medium = shell_materials().of(tissue.shells, k).medium_friction;
     const ContactBody& body = work_->scene.bodies()[k];
     for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) {
       external[i] += v * (medium * work_->geometry.now().node_area[i]);

@@ -15,6 +15,7 @@ void FaceTensions::set(const Tissue& tissue, double time) {
   if (!any_) return;
   extra_.clear();
   const dcm::Shells& shells = tissue.shells;
+  const std::vector<double> deviation = deviations_of_shells(model_, tissue.cells);
   for (std::size_t s = 0; s < shells.size(); ++s) {
     const CellType& type = model_.types[shells.type[s]];
     const std::size_t faces = shells.topology(s).face_count();
@@ -24,10 +25,10 @@ void FaceTensions::set(const Tissue& tissue, double time) {
     }
     const dcm::FaceState& face = shells.faces_of(s);
     const MarkSets marks = shells.marks_of(s);
-    const double own = type.shell.tension;
+    const double own = type.shell.tension, factor = deviation.empty() ? 1.0 : 1.0 + deviation[s];
     for (std::size_t f = 0; f < faces; ++f) {
       const double contact = face.contact.empty() ? 0.0 : static_cast<double>(face.contact[f]);
-      extra_.push_back(type.regional_tension.of_face(own, marks[f], contact, time) - own);
+      extra_.push_back((type.regional_tension.of_face(own, marks[f], contact, time) - own) * factor);
     }
   }
 }

@@ -126,8 +126,8 @@ std::vector<Vec3d> Mechanics::net_forces(const Tissue& tissue) {
 }
 
 double Mechanics::deepest_overlap() const { return morula::deepest_overlap(*work_); }
-std::span<const dcm::ShellParameters> Mechanics::shell_parameters() const { return work_->terms.membranes->shells().parameters(); }
-std::span<const dcm::ShellParameters> Mechanics::nucleus_parameters() const { return work_->terms.nuclei->parameters(); }
+dcm::ShellMaterials Mechanics::shell_materials() const { return work_->terms.membranes->shells().materials(); }
+dcm::ShellMaterials Mechanics::nucleus_materials() const { return work_->terms.nuclei->materials(); }
 StageTimer& Mechanics::timer() { return work_->timer; }
 const ContactLayer& Mechanics::contacts() const { return work_->terms.contacts->layer(); }
 const Scene& Mechanics::scene() const { return work_->scene; }

@@ -139,10 +139,10 @@ class Mechanics {
   /// The same where only those on the owned bodies with wanted[body] != 0 count: contacts of two others are not looked at. Collective.
   std::vector<Vec3d> net_forces_on(const Tissue& tissue, std::span<const char> wanted);
 
-  /// Parameters of the single-cell mechanics by cell type.
-  [[nodiscard]] std::span<const dcm::ShellParameters> shell_parameters() const;
+  /// Parameters of the single-cell mechanics of the owned shells.
+  [[nodiscard]] dcm::ShellMaterials shell_materials() const;
   /// The same of nuclei that are shells.
-  [[nodiscard]] std::span<const dcm::ShellParameters> nucleus_parameters() const;
+  [[nodiscard]] dcm::ShellMaterials nucleus_materials() const;
   [[nodiscard]] StageTimer& timer();
   [[nodiscard]] const ContactLayer& contacts() const;
   [[nodiscard]] const Scene& scene() const;

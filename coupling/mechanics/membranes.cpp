@@ -10,6 +10,7 @@ void Membranes::bodies_changed(const World& world) {
   if (!std::ranges::all_of(owned, &ContactBody::active))
     for (const ContactBody& body : owned) moves.push_back(body.active());
   shells_.set_shells(world.tissue.shells, world.threads, moves);
+  shells_.set_tensions(world.tissue.shells, deviations_of_shells(world.model, world.tissue.cells));
   held_ = {};
 }
 
@@ -40,7 +41,7 @@ void Membranes::add_noise(const World& world, const Noise& noise, std::span<Vec3
     if (energy == 0.0) continue;
     const std::uint32_t first = shells.first_node[k], count = shells.first_node[k + 1] - first;
     const ShellNoise s{
-        shells_.parameters()[shells.type[k]], shells.topology(k), world.scene.bodies()[k].id, noise.strength(energy), shells.nodes(k),
+        shells_.materials().of(shells, k), shells.topology(k), world.scene.bodies()[k].id, noise.strength(energy), shells.nodes(k),
         force.subspan(first, count)};
     for (std::uint32_t i = 0; i < count; ++i) {
       const double area = world.geometry.node_area[first + i];

@@ -203,9 +203,13 @@ void NucleusSystem::add_noise(const World& world, const Noise& noise, std::span<
     const double energy = model_.types[item.type].fluctuations.energy;
     if (energy == 0.0) continue;
     const CellId cell = world.scene.bodies()[item.shell].id;
-    const ShellNoise own{
-        shells_.parameters()[item.type], *item.topology,      cell, noise.strength(energy), of_nucleus(world.position(), item),
-        of_nucleus(force, item),         kDrawsOfNuclearShell};
+    const ShellNoise own{shells_.materials().of(world.tissue.nuclei.shells, k),
+                         *item.topology,
+                         cell,
+                         noise.strength(energy),
+                         of_nucleus(world.position(), item),
+                         of_nucleus(force, item),
+                         kDrawsOfNuclearShell};
     add_edge_noise(own, noise);
     add_bulk_noise(own, noise, shells_.forces().volume[k]);
     std::vector<double> numbers = noise.normals(cell, kDrawsOfNucleus, dcm::nuclear_factor_count(view(k)));

@@ -49,7 +49,7 @@ class NucleusSystem : public Term {
 
   /// By owned shell; nothing where it has no nucleus of that kind.
   [[nodiscard]] std::optional<NucleusState> of_shell(std::uint32_t shell) const;
-  [[nodiscard]] std::span<const dcm::ShellParameters> parameters() const { return shells_.parameters(); }
+  [[nodiscard]] dcm::ShellMaterials materials() const { return shells_.materials(); }
 
  private:
   struct Item {

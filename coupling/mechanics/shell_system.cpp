@@ -19,22 +19,30 @@ void ShellSystem::set_shells(const dcm::Shells& shells, int threads, std::span<c
   blocks_.threads = threads;
 }
 
+void ShellSystem::set_tensions(const dcm::Shells& shells, std::span<const double> deviation) {
+  of_each_.clear();
+  for (std::size_t i = 0; i < deviation.size(); ++i) {
+    of_each_.push_back(parameters_[shells.type[i]]);
+    of_each_.back().tension *= 1.0 + deviation[i];
+  }
+}
+
 void ShellSystem::evaluate(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<Vec3d> force,
                            std::span<const dcm::HeldVolume> held) {
   held_ = held;
   const std::size_t nodes = shells.node_count();
   if (some_are_held_) std::ranges::fill(force.first(nodes), Vec3d{});
-  dcm::internal_forces(blocks_, shells, parameters_, position.first(nodes), force.first(nodes), forces_, held);
+  dcm::internal_forces(blocks_, shells, materials(), position.first(nodes), force.first(nodes), forces_, held);
 }
 
 void ShellSystem::begin_step(const dcm::Shells& shells, const SurfaceGeometry& geometry) {
   const auto node_area = std::span(geometry.node_area).first(shells.node_count());
-  dcm::compute_shell_friction(blocks_, shells, parameters_, shells.position, node_area, friction_);
+  dcm::compute_shell_friction(blocks_, shells, materials(), shells.position, node_area, friction_);
 }
 
 void ShellSystem::assemble(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<const double> face_contact_energy,
                            double dt, const EdgeBlockSource& contacts, std::span<const SymMat3<double>> node_block) {
-  dcm::assemble_shell_operator(blocks_, shells, parameters_, position.first(shells.node_count()), friction_,
+  dcm::assemble_shell_operator(blocks_, shells, materials(), position.first(shells.node_count()), friction_,
                                face_contact_energy.first(face_contact_energy.empty() ? 0 : blocks_.face_count()), dt, contacts, operator_,
                                held_);
   node_block_.resize(node_block.size());

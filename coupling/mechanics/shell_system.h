@@ -23,6 +23,8 @@ class ShellSystem : public OperatorPart {
 
   /// `computed`: the shells that have forces, friction and a part of the matrix, by shell; the others are held in place. Empty: all.
   void set_shells(const dcm::Shells& shells, int threads, std::span<const char> computed = {});
+  /// After set_shells(): how far the tension of each shell is from that of its type, as a part of it; empty: nowhere.
+  void set_tensions(const dcm::Shells& shells, std::span<const double> deviation);
   /// Internal forces at `position` into the first entries of `force`; all else is in `forces()` afterwards. `held`: what is in the shells that is
   /// not cytosol, by shell, good until assemble(); empty: nothing.
   void evaluate(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<Vec3d> force,
@@ -55,7 +57,9 @@ class ShellSystem : public OperatorPart {
   }
 
   [[nodiscard]] const dcm::ShellMechanics& forces() const { return forces_; }
-  [[nodiscard]] std::span<const dcm::ShellParameters> parameters() const { return parameters_; }
+  [[nodiscard]] dcm::ShellMaterials materials() const {
+    return of_each_.empty() ? dcm::ShellMaterials(parameters_) : dcm::ShellMaterials::of_each(of_each_);
+  }
   [[nodiscard]] std::size_t memory() const;
 
   [[nodiscard]] std::size_t point_count() const override { return shells_ == nullptr ? 0 : shells_->node_count(); }
@@ -69,6 +73,7 @@ class ShellSystem : public OperatorPart {
 
  private:
   std::vector<dcm::ShellParameters> parameters_;  ///< by cell type
+  std::vector<dcm::ShellParameters> of_each_;     ///< by shell, where tensions vary; else empty
   const dcm::Shells* shells_ = nullptr;
   std::span<const dcm::HeldVolume> held_;
   dcm::ShellBlocks blocks_;

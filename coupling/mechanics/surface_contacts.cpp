@@ -18,11 +18,13 @@ void give_back(std::vector<T>& vector) {
 /// Adhesion of the shells of this rank to their sisters, as long as the surface between them is new; sorted by cell.
 std::vector<SisterBond> new_interfaces(const Model& model, const Tissue& tissue, double time) {
   std::vector<SisterBond> out;
-  for (const CellRow& row : tissue.cells.rows) {
+  for (std::size_t i = 0; i < tissue.cells.size(); ++i) {
+    const CellRow& row = tissue.cells.rows[i];
     if (row.body != BodyKind::kShell) continue;
     const CellType& type = model.types[row.type];
     const double newness = newness_of_surface(row, type, time), own = model.pair(row.type, row.type).adhesion;
-    if (newness > 0.0) out.push_back({row.id, own + newness * (2.0 * type.shell.tension - own)});
+    const double tension = type.shell.tension * (1.0 + tissue.cells.tension_deviation(i, type));
+    if (newness > 0.0) out.push_back({row.id, own + newness * (2.0 * tension - own)});
   }
   std::ranges::sort(out, {}, &SisterBond::cell);
   return out;

@@ -27,11 +27,13 @@ Extreme over_ranks(const Extreme& mine, const Comm& comm) {
 }
 
 /// Volume that the cell's row, its reference_excess and its inner pressure ask for, beside the present one of a nucleus that is a shell [µm³].
-double volume_by_law(const CellRow& row, double reference_excess, const CellType& type, double inner_pressure,
+double volume_by_law(const Cells& cells, std::size_t i, const CellType& type, double inner_pressure,
                      const std::optional<NucleusState>& nucleus) {
-  const double excess = std::exp(reference_excess);
+  const CellRow& row = cells.rows[i];
+  const double excess = std::exp(cells.optional.reference_excess[i]);
   if (row.body == BodyKind::kSphere) return row.target_volume * excess;
-  const double volume = free_reference_volume(row.target_volume, type) * excess * std::exp(-inner_pressure / type.shell.bulk_modulus);
+  const double volume = free_reference_volume(row.target_volume, type, cells.tension_deviation(i, type)) * excess *
+                        std::exp(-inner_pressure / type.shell.bulk_modulus);
   return nucleus ? nucleus->volume + (1.0 - type.interior.nucleus_fraction) * volume : volume;
 }
 
@@ -131,7 +133,7 @@ void add_cell(Simulation& simulation, const BodyValues& values, const AsBalls& b
   const auto nucleus = owned.is_shell ? simulation.mechanics().nucleus_of(static_cast<std::uint32_t>(owned.number)) : std::nullopt;
   const CellType& type = simulation.model().types[row.type];
   const double volume = values.volume[body], p = values.pressure[body], inner = values.inner_pressure[body];
-  const double r = ball_radius(volume), law = volume_by_law(row, tissue.cells.optional.reference_excess[owned.row], type, inner, nucleus);
+  const double r = ball_radius(volume), law = volume_by_law(tissue.cells, owned.row, type, inner, nucleus);
   to.sum[kVolume].add(volume);
   to.sum[kVolumeX].add(volume * from.x);
   to.sum[kVolumeY].add(volume * from.y);

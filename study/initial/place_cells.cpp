@@ -252,9 +252,10 @@ class Placer {
       MeshCell& cell = read.cells[i];
       PlacedCell& made = out_.cells.emplace_back(PlacedCell{founder(study_, block, first + i, cell.type), {}});
       made.center = volume_centroid(cell.mesh.faces, cell.mesh.position);
-      const dcm::ShellParameters& shell = study_.model.types[cell.type].shell;
+      const CellType& type = study_.model.types[cell.type];
+      const double tension = type.shell.tension * (1.0 + tension_deviation(made.row, type));
       set_volume(made.row, study_.model,
-                 cell.pressure ? target_volume_of(cell.volume, *cell.pressure, shell.tension, shell.bulk_modulus) : cell.volume);
+                 cell.pressure ? target_volume_of(cell.volume, *cell.pressure, tension, type.shell.bulk_modulus) : cell.volume);
       made.surface = std::move(cell);
       made.meshes = &block.meshes;
     }
@@ -297,9 +298,9 @@ Result<CellRecord> with_body(const PlacedCell& cell, const Model& model, ShapeLi
   record.row = cell.row;
   record.row.order = curve_place(cell.center);
   const CellType& type = model.types[cell.row.type];
+  const double reference = free_reference_volume(cell.row.target_volume, type, tension_deviation(cell.row, type));
   if (cell.surface) {
-    MORULA_TRY_ASSIGN(record.shell,
-                      shell_of_surface(*cell.surface, *cell.meshes, free_reference_volume(cell.row.target_volume, type), shapes));
+    MORULA_TRY_ASSIGN(record.shell, shell_of_surface(*cell.surface, *cell.meshes, reference, shapes));
     place_nucleus(*record.shell, type, shapes);
     return record;
   }
@@ -309,8 +310,7 @@ Result<CellRecord> with_body(const PlacedCell& cell, const Model& model, ShapeLi
   }
   MORULA_TRY_ASSIGN(auto shape, shapes.icosphere(type.shell_nodes));
   if (cell.shape == CellShape::kBiconcave) shape = shapes.adopt(biconcave_shape(*shape));
-  ShellRecord shell =
-      spherical_shell(std::move(shape), cell.center, cell.row.target_volume, free_reference_volume(cell.row.target_volume, type));
+  ShellRecord shell = spherical_shell(std::move(shape), cell.center, cell.row.target_volume, reference);
   if (cell.orientation == Orientation::kRandom) {
     const Rotation turn = random_rotation(Random(model.seed, RandomStream::kOrientation), cell.row.id, 0);
     for (Vec3d& p : shell.position) p = cell.center + turn * (p - cell.center);

@@ -1,0 +1,236 @@
+/// The user's road to cells of a type that differ: tensions, and cycles that daughters have from their mothers.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "results/snapshot_file.h"
+#include "tests/scenarios/run_into.h"
+#include "tests/study/study_fixture.h"
+
+namespace morula::scenarios::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// Values of two columns of a run's last snapshot, or of others, by cell.
+struct Told {
+  std::map<CellId, Snapshot::Cell> cells;
+  std::map<CellId, double> deviation;
+};
+
+Told last_of(const std::filesystem::path& run) {
+  Told out;
+  const auto entries = list_snapshots(run / "results.h5");
+  EXPECT_TRUE(entries.ok());
+  if (!entries.ok()) return out;
+  const auto end = read_snapshot(run / "results.h5", entries->back().index);
+  EXPECT_TRUE(end.ok());
+  if (!end.ok()) return out;
+  for (std::size_t i = 0; i < end->cells.size(); ++i) {
+    out.cells[end->cells[i].id] = end->cells[i];
+    for (const Snapshot::Variable& variable : end->variables)
+      if (variable.name == "tension/deviation") out.deviation[end->cells[i].id] = variable.values[i];
+  }
+  return out;
+}
+
+Told run(const std::string& text) {
+  const Folder folder;
+  const auto study = read(text);
+  EXPECT_TRUE(study.ok()) << study.error().text();
+  return study.ok() && run_into(folder.path() / "run", *study) ? last_of(folder.path() / "run") : Told{};
+}
+
+/// n² places in a plane.
+std::string grid(int n, double apart) {
+  std::string out;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      out += (out.empty() ? "[" : ", [") + std::to_string(apart * (i - 0.5 * (n - 1))) + " um, " +
+             std::to_string(apart * (j - 0.5 * (n - 1))) + " um, 0 um]";
+  return out;
+}
+
+/// Free shells, 30 µm apart.
+constexpr const char* kFree = R"(
+schema: 1
+study: free
+time: {end: 20 min, output: 20 min}
+domain: {size: [400 um, 400 um, 100 um]}
+cell_types:
+  cell:
+    body: shell
+    radius: 5 um
+    variation: {tension: VARIATION}
+    dcm: {nodes: 42, bulk_modulus: 2 kPa, cortex: {elastic: none, tension: 0.5 mN/m}}
+MORE
+initial: [{type: cell, at: [PLACES]}]
+output: {report: false}
+)";
+
+std::string free_cells(const std::string& variation, const std::string& more = "") {
+  return changed("PLACES", grid(10, 30.0), changed("VARIATION", variation, changed("MORE", more, kFree)));
+}
+
+TEST(Variation, OfTensionsIsBornByThePressureOfEachShell) {
+  const Told told = run(free_cells("{spread: 10 %}"));
+  ASSERT_EQ(told.deviation.size(), 100u);
+  double sum = 0.0, squares = 0.0;
+  for (const auto& [id, d] : told.deviation) {
+    sum += d;
+    squares += d * d;
+    // A free shell at rest: Laplace's law with the tension of its own; its mesh of 42 nodes is 1.5 % off.
+    const Snapshot::Cell& cell = told.cells.at(id);
+    const double radius = std::cbrt(3.0 * cell.volume / (4.0 * 3.141592653589793));
+    EXPECT_NEAR(cell.inner_pressure / (2.0 * 0.5 * (1.0 + d) / radius), 1.0, 0.03) << id.text();
+    EXPECT_NEAR(cell.volume / (4.0 / 3.0 * 3.141592653589793 * 125.0), 1.0, 0.01) << "each begins in balance with its own tension";
+  }
+  EXPECT_NEAR(sum / 100.0, 0.0, 3.0 * 0.1 / 10.0);
+  EXPECT_NEAR(std::sqrt(squares / 100.0), 0.0987, 3.0 * 0.1 / std::sqrt(200.0)) << "cut at 3: 0.987 of the spread";
+}
+
+TEST(Variation, ReachesTheTensionsOfRegionsToo) {
+  // `whole` takes the place of the cell's own tension: twice it, and so each pressure.
+  const Told told = run(free_cells("{spread: 10 %}"));
+  const Told twice =
+      run(changed("tension: 0.5 mN/m}", "tension: 0.5 mN/m, regions: {whole: {tension: 1 mN/m}}}", free_cells("{spread: 10 %}")));
+  ASSERT_EQ(told.cells.size(), 100u);
+  ASSERT_EQ(twice.cells.size(), 100u);
+  EXPECT_EQ(told.deviation, twice.deviation);
+  for (const auto& [id, cell] : told.cells) {
+    const Snapshot::Cell& other = twice.cells.at(id);
+    EXPECT_NEAR(other.inner_pressure * std::cbrt(other.volume) / (cell.inner_pressure * std::cbrt(cell.volume)), 2.0, 0.01) << id.text();
+  }
+}
+
+TEST(Variation, IsKeptByASphereUntilItIsAShellAgain) {
+  const std::string coupling =
+      "coupling: {hold: 1 min, regions: [{name: late, shape: everything, as: sphere, from: 5 min, until: 10 min}]}";
+  const Told told = run(free_cells("{spread: 10 %}").append(coupling + "\n"));
+  const Told alone = run(free_cells("{spread: 10 %}"));
+  ASSERT_EQ(told.deviation.size(), 100u);
+  EXPECT_EQ(told.deviation, alone.deviation);
+  for (const auto& [id, cell] : told.cells) {
+    if (cell.body != BodyKind::kShell) continue;  // one in a hundred cells a step
+    EXPECT_NEAR(cell.inner_pressure / alone.cells.at(id).inner_pressure, 1.0, 0.01) << id.text();
+  }
+}
+
+/// Spheres that divide every half hour, far enough apart from the start that they do not care about each other.
+std::string dividing(const std::string& duration, const std::string& variation, const std::string& end) {
+  return R"(
+schema: 1
+study: lineage
+seed: 11
+time: {end: )" +
+         end + R"(, output: 10 min}
+domain: {size: [3 mm, 3 mm, 100 um]}
+cell_types:
+  cell:
+    radius: 3 um
+    variation: {tension: )" +
+         variation + R"(}
+    cycle: {duration: )" +
+         duration + R"(}
+coupling: {regions: [{name: r, shape: sphere, center: [-1450 um, 0 um, 0 um], radius: 1 um}]}
+initial: [{type: cell, at: [)" +
+         grid(20, 100.0) +
+         R"(], age: birth}]
+output: {report: false}
+)";
+}
+
+double correlation_of(const std::vector<std::pair<double, double>>& pairs) {
+  double x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+  const auto n = static_cast<double>(pairs.size());
+  for (const auto& [a, b] : pairs) x += a / n, y += b / n;
+  for (const auto& [a, b] : pairs) xx += (a - x) * (a - x), yy += (b - y) * (b - y), xy += (a - x) * (b - y);
+  return xy / std::sqrt(xx * yy);
+}
+
+TEST(Variation, OfDaughtersFollowsThatOfTheirMothers) {
+  const Folder folder;
+  const auto study = read(dividing("{mean: 30 min, spread: 10 %}", "{spread: 10 %, correlation: 60 %}", "45 min"));
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  ASSERT_TRUE(run_into(folder.path() / "run", *study));
+  const auto entries = list_snapshots(folder.path() / "run/results.h5");
+  ASSERT_TRUE(entries.ok());
+  std::map<CellId, double> deviation;
+  std::map<CellId, CellId> parent;
+  for (const auto& entry : *entries) {
+    const auto snapshot = read_snapshot(folder.path() / "run/results.h5", entry.index);
+    ASSERT_TRUE(snapshot.ok());
+    for (const Snapshot::Variable& variable : snapshot->variables)
+      for (std::size_t i = 0; variable.name == "tension/deviation" && i < snapshot->cells.size(); ++i) {
+        deviation[snapshot->cells[i].id] = variable.values[i];
+        parent[snapshot->cells[i].id] = snapshot->cells[i].parent;
+      }
+  }
+  std::vector<std::pair<double, double>> pairs, sisters;
+  double squares = 0.0;
+  for (const auto& [id, d] : deviation) {
+    if (!parent[id].valid()) continue;
+    pairs.emplace_back(deviation[parent[id]], d);
+    squares += d * d;
+    if (id == parent[id].daughter(0)) sisters.emplace_back(d, deviation[parent[id].daughter(1)]);
+  }
+  ASSERT_EQ(pairs.size(), 800u);
+  // Fisher's z of so many pairs; sisters share a mother, each with 0.6: 0.36.
+  EXPECT_NEAR(std::atanh(correlation_of(pairs)), std::atanh(0.6), 4.0 / std::sqrt(797.0));
+  EXPECT_NEAR(std::atanh(correlation_of(sisters)), std::atanh(0.36), 4.0 / std::sqrt(397.0));
+  EXPECT_NEAR(std::sqrt(squares / 800.0), 0.0987, 4.0 * 0.1 / std::sqrt(2.0 * 800.0)) << "as wide as that of the founders";
+}
+
+TEST(Variation, OfCyclesFollowsThatOfTheMothers) {
+  // From `events.jsonl`: when founders and their daughters divide.
+  for (const double rho : {0.0, 0.7, -0.5}) {
+    const Folder folder;
+    const auto study = read(dividing("{mean: 30 min, spread: 10 %, correlation: " + std::to_string(100.0 * rho) + " %}", "0 %", "82 min"));
+    ASSERT_TRUE(study.ok()) << study.error().text();
+    ASSERT_TRUE(run_into(folder.path() / "run", *study));
+    const auto entries = list_snapshots(folder.path() / "run/results.h5");
+    ASSERT_TRUE(entries.ok());
+    const auto end = read_snapshot(folder.path() / "run/results.h5", entries->back().index);
+    ASSERT_TRUE(end.ok());
+    std::map<CellId, double> birth;
+    for (const auto& entry : *entries) {
+      const auto snapshot = read_snapshot(folder.path() / "run/results.h5", entry.index);
+      ASSERT_TRUE(snapshot.ok());
+      for (const Snapshot::Cell& cell : snapshot->cells) birth.emplace(cell.id, entry.time - cell.age);
+    }
+    std::vector<std::pair<double, double>> pairs;  // cycles of founders and daughters
+    for (const auto& [id, born] : birth) {
+      if (id.generation() != 1) continue;
+      const auto died = birth.find(id.daughter(0));
+      if (died != birth.end()) pairs.emplace_back(born, died->second - born);
+    }
+    ASSERT_EQ(pairs.size(), 800u) << rho;
+    EXPECT_NEAR(std::atanh(correlation_of(pairs)), std::atanh(rho), 4.0 / std::sqrt(797.0)) << rho;
+  }
+}
+
+TEST(Variation, TellsWhatHasNoEffect) {
+  const auto told = [](const std::string& text) {
+    const auto study = read(text);
+    return study.ok() ? std::string() : study.error().text();
+  };
+  EXPECT_EQ(told(free_cells("10 %")), "");
+  EXPECT_THAT(told(free_cells("{spread: 30 %}")), HasSubstr("[E302]"));
+  EXPECT_THAT(told(free_cells("{spread: 10 %, correlation: 110 %}")), HasSubstr("[E302]"));
+  EXPECT_THAT(told(free_cells("{correlation: 50 %}")), HasSubstr("'correlation' has no effect here"));
+  EXPECT_THAT(told(changed("body: shell", "body: sphere", free_cells("10 %"))), HasSubstr("are always spheres"));
+  EXPECT_THAT(told(changed("elastic: none, tension: 0.5 mN/m", "elastic: springs, tension: 0 mN/m", free_cells("10 %"))),
+              HasSubstr("[E515]"));
+  EXPECT_THAT(told(dividing("{mean: 30 min, correlation: 20 %}", "10 %", "1 h")), HasSubstr("'correlation' has no effect here"));
+  // Tension 0.5 mN/m, adhesion 0.8 mJ/m²: below twice the tension of most cells, but not of all.
+  const std::string sticky = changed("radius: 5 um", "radius: 5 um\n    adhesion: {cell: 8e-4 J/m^2}", free_cells("10 %"));
+  EXPECT_THAT(told(sticky), HasSubstr("less three times its spread"));
+  EXPECT_EQ(told(changed("8e-4", "6e-4", sticky)), "");
+}
+
+}  // namespace
+}  // namespace morula::scenarios::test
