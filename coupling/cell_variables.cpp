@@ -7,6 +7,11 @@ namespace morula {
 
 namespace {
 
+bool any_varies(const Model& model, Trait trait) {
+  return std::ranges::any_of(model.types, [trait](const CellType& type) { return type.traits.vary_in(trait); });
+}
+std::string name_of(Trait trait) { return std::string(kTraitNames[number_of(trait)]) + "/deviation"; }
+
 bool has_phases(const Model& model) {
   return std::ranges::any_of(model.types, [](const CellType& type) { return !type.cycle.phases.empty(); });
 }
@@ -50,14 +55,15 @@ std::vector<CellVariable> cell_variables(const Model& model) {
                                variable.shared ? AtDivision::kShared : AtDivision::kCopied, true};
         if (std::ranges::find(out, one) == out.end()) out.push_back(one);
       }
-  if (std::ranges::any_of(model.types, [](const CellType& type) { return type.tension_factor.relative_spread > 0.0; }))
-    out.push_back({kTensionVariable, "1", AtDivision::kSet});
+  for (const Trait trait : kTraits)
+    if (any_varies(model, trait)) out.push_back({name_of(trait), "1", AtDivision::kSet});
   return out;
 }
 
-int tension_variable(const Model& model) {
+int trait_variable(const Model& model, Trait trait) {
+  if (!any_varies(model, trait)) return -1;
   const std::vector<CellVariable> all = cell_variables(model);
-  return !all.empty() && all.back().name == kTensionVariable ? static_cast<int>(all.size()) - 1 : -1;
+  return static_cast<int>(std::ranges::find(all, name_of(trait), &CellVariable::name) - all.begin());
 }
 
 }  // namespace morula

@@ -58,13 +58,11 @@ inline constexpr std::size_t kMeshRenewals = 5;
 constexpr std::size_t cycle_variables_of(std::size_t fields) { return 2 * fields; }
 inline constexpr const char* kPhaseVariable = "cycle/phase";
 
-/// How far a cell's own tension is from that of its type, as a part of it.
-inline constexpr const char* kTensionVariable = "tension/deviation";
-/// Number of this variable; −1 where no type's tension varies.
-int tension_variable(const Model& model);
+/// Number of the variable that tells how far a cell is from its type in a trait, as a part ("tension/deviation"); −1 where no type varies in it.
+int trait_variable(const Model& model, Trait trait);
 
 /// All variables of the cells of a model, by number: two for each field, three for the phases of the cycle where there are any, those of the
-/// renewal of meshes where a type has it, those of its behaviours, "<behaviour>/<variable>", and kTensionVariable where a type's tension varies.
+/// renewal of meshes where a type has it, those of its behaviours, "<behaviour>/<variable>", and one for each trait in which a type varies.
 std::vector<CellVariable> cell_variables(const Model& model);
 
 /// Number of a variable of the renewal of meshes, in a model that has a type with it.

@@ -64,9 +64,10 @@ struct CellState : CellRow, OptionalValues {
   [[nodiscard]] double variable(std::size_t number) const { return number < variables.size() ? variables[number] : 0.0; }
 };
 
-/// How far the cell's own tension is from that of its type, as a part of it.
-inline double tension_deviation(const CellState& row, const CellType& type) {
-  return type.tension_variable >= 0 ? row.variable(static_cast<std::size_t>(type.tension_variable)) : 0.0;
+/// How far the cell is from its type in a trait, as a part.
+inline double deviation(const CellState& row, const CellType& type, Trait trait) {
+  const int variable = type.traits.variable[number_of(trait)];
+  return variable >= 0 ? row.variable(static_cast<std::size_t>(variable)) : 0.0;
 }
 
 /// A column of the rows or of their optional values.
@@ -158,9 +159,10 @@ struct Cells {
   std::vector<VariableColumn> variables;  ///< those that declare() named
 
   [[nodiscard]] std::size_t size() const { return rows.size(); }
-  /// How far the own tension of a row's cell is from that of its type.
-  [[nodiscard]] double tension_deviation(std::size_t i, const CellType& type) const {
-    return type.tension_variable >= 0 ? variables[static_cast<std::size_t>(type.tension_variable)].values[i] : 0.0;
+  /// How far the cell of a row is from its type in a trait, as a part.
+  [[nodiscard]] double deviation(std::size_t i, const CellType& type, Trait trait) const {
+    const int variable = type.traits.variable[number_of(trait)];
+    return variable >= 0 ? variables[static_cast<std::size_t>(variable)].values[i] : 0.0;
   }
   /// The cells have these variables, all 0, unless they have them already.
   void declare(const std::vector<CellVariable>& wanted) {
@@ -247,17 +249,6 @@ class BodiesOfRows {
   const std::vector<CellRow>* rows_;
 };
 inline BodiesOfRows bodies_of(const Cells& cells) { return BodiesOfRows(cells.rows); }
-
-/// How far the own tensions of the shells are from those of their types (tension_deviation()), by shell; empty: nobody's is.
-inline std::vector<double> deviations_of_shells(const Model& model, const Cells& cells) {
-  std::vector<double> out;
-  for (const BodyOfRow& body : bodies_of(cells)) {
-    const CellType& type = model.types[cells.rows[body.row].type];
-    if (type.tension_variable < 0) return {};
-    if (body.is_shell) out.push_back(cells.tension_deviation(body.row, type));
-  }
-  return out;
-}
 
 /// Canonical order: along the curve, ties by id.
 inline bool before(const CellRow& a, const CellRow& b) { return a.order != b.order ? a.order < b.order : a.id < b.id; }

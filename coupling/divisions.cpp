@@ -78,8 +78,8 @@ Daughters divide_as_shell(const CellRecord& mother, const AroundDivision& around
       // Osmotic cells share their osmolytes, which go with the target volume; others keep their pressure: V0 goes with the volume.
       if (!what.type->osmosis.acts())
         out[which].row.reference_excess =
-            std::log(shell.reference_volume /
-                     free_reference_volume(out[which].row.birth_volume, *what.type, tension_deviation(out[which].row, *what.type)));
+            std::log(shell.reference_volume / free_reference_volume(out[which].row.birth_volume, *what.type,
+                                                                    deviation(out[which].row, *what.type, Trait::kTension)));
       out[which].shell = std::move(shell);
     }
     return out;

@@ -21,6 +21,7 @@
 #include "coupling/loads/load.h"
 #include "coupling/regions/region.h"
 #include "coupling/surface_law.h"
+#include "coupling/traits.h"
 #include "dcm/interior.h"
 #include "dcm/shells.h"
 #include "fields/field_spec.h"
@@ -75,13 +76,12 @@ struct CellType {
   std::uint32_t shell_nodes = 162;
   cbm::SphereParameters sphere;
   dcm::ShellParameters shell;
-  dcm::InteriorParameters interior;       ///< of a shell
-  RegionalTension regional_tension;       ///< of shells; empty: shell.tension everywhere
-  Distribution tension_factor{1.0, 0.0};  ///< of a cell's own tensions over those of its type
-  int tension_variable = -1;              ///< number of the variable with the cell's own factor less 1; −1: the model has none
-  double renew_mesh_below = 0.0;          ///< of shells: their nodes are spread evenly when a face has less quality than this; 0: never
-  bool own_mesh = false;                  ///< of shells: where that is not enough they get connectivity of their own
-  double self_contact = 0.0;              ///< of shells: distance at which a surface touches itself; 0: it passes through itself [µm]
+  dcm::InteriorParameters interior;  ///< of a shell
+  RegionalTension regional_tension;  ///< of shells; empty: shell.tension everywhere
+  Traits traits;                     ///< in which its cells differ
+  double renew_mesh_below = 0.0;     ///< of shells: their nodes are spread evenly when a face has less quality than this; 0: never
+  bool own_mesh = false;             ///< of shells: where that is not enough they get connectivity of their own
+  double self_contact = 0.0;         ///< of shells: distance at which a surface touches itself; 0: it passes through itself [µm]
 };
 
 /// Contact of two materials. Cell types come first, obstacles after them.

@@ -125,7 +125,7 @@ void Simulation::set_bodies_to_targets(double dt) {
       excess = full.reference_excess;
     };
     if (is_shell) {
-      const double deviation = tissue_.cells.tension_deviation(k, type);
+      const double deviation = tissue_.cells.deviation(k, type, Trait::kTension);
       const double free = free_reference_volume(row.target_volume, type, deviation);
       double& reference = tissue_.shells.reference_volume[number];
       if (type.osmosis.acts()) {  // growth brings its water along: what has grown begins at the same concentrations

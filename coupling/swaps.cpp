@@ -195,7 +195,7 @@ double promote(CellRecord& cell, const CellType& type, double pressure, double t
   const double ball = ball_volume(sphere.radius);
   const double left_out = std::min(later, 0.5 * ball), volume = ball - left_out;
   // −K_V ln(V/V0) = p + 2γ/R: the shell pushes back as hard as the sphere was pushed, or pulls where it was pulled.
-  const double deviation = tension_deviation(cell.row, type);
+  const double deviation = morula::deviation(cell.row, type, Trait::kTension);
   const double reference = free_reference_volume(volume, type, deviation) * std::exp(pressure / type.shell.bulk_modulus);
   ShellRecord shell = spherical_shell(shapes.icosphere(type.shell_nodes).value(), sphere.position, volume, reference);
   const Rotation turn = random_rotation(Random(seed, RandomStream::kOrientation), cell.row.id, 0);

@@ -234,6 +234,13 @@ struct ShellParameters {
   friend bool operator==(const ShellParameters&, const ShellParameters&) = default;
 };
 
+/// Makes a surface stiffer by a factor: its moduli in the plane and against bending. Tension, volume and what only keeps the mesh in order stay.
+inline void scale_stiffness(ShellParameters& p, double factor) {
+  for (double* modulus : {&p.spring_stiffness, &p.local_area_modulus, &p.global_area_modulus, &p.hinge_stiffness, &p.helfrich_rigidity})
+    *modulus *= factor;
+  for (Sheet& sheet : p.sheets) sheet.coefficient[0] *= factor;
+}
+
 /// The parameters of some shells: those of their types, or of each its own.
 class ShellMaterials {
  public:

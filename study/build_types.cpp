@@ -158,20 +158,26 @@ void set_sphere_law(BuildContext& c, const draft::CellType& t, cbm::SphereParame
   check_law_keys(c, t.sphere_own, choosable_sphere_laws(*c.options.laws), sphere.law->word, "law");
 }
 
-/// How tensions of a type vary: E515.
+/// In what cells of a type differ: E515.
 void set_variation(BuildContext& c, const draft::CellType& t, std::size_t number, CellType& type) {
-  const draft::Spread& tension = t.tension_variation;
-  type.tension_factor = {1.0, tension.spread.value, tension.correlation.value};
   const auto tell = [&](const Given<double>& key, const char* name, const std::string& why) {
     c.diagnostics.error(515, key.place, "'" + std::string(name) + "' has no effect here", why);
   };
-  if (tension.spread.value == 0.0) {
-    if (tension.correlation.value != 0.0) tell(tension.correlation, "correlation", "give `spread`: all tensions are alike without one");
-  } else if (!may_be_shell(c, number)) {
-    tell(tension.spread, "spread", "cells of '" + type.name + "' are always spheres, which have no tension: `body: shell`");
-  } else if (t.tension.known() && t.tension.value == 0.0) {
-    tell(tension.spread, "spread", "give `dcm.cortex.tension`");
+  for (const Trait trait : kTraits) {
+    const draft::Spread& given = t.variation[number_of(trait)];
+    type.traits.factor[number_of(trait)] = {1.0, given.spread.value, given.correlation.value};
+    if (given.spread.value == 0.0 && given.correlation.value != 0.0)
+      tell(given.correlation, "correlation", "give `spread`: all cells of the type are alike without one");
   }
+  const draft::Spread &tension = t.variation[number_of(Trait::kTension)], &stiffness = t.variation[number_of(Trait::kStiffness)];
+  if (tension.spread.value > 0.0 && !may_be_shell(c, number))
+    tell(tension.spread, "spread", "cells of '" + type.name + "' are always spheres, which have no tension: `body: shell`");
+  else if (tension.spread.value > 0.0 && t.tension.known() && t.tension.value == 0.0)
+    tell(tension.spread, "spread", "give `dcm.cortex.tension`");
+  const auto& parameters = type.sphere.law->info.parameters;
+  const bool elastic = std::ranges::any_of(parameters, [](const LawParameter& one) { return one.name == "young"; });
+  if (stiffness.spread.value > 0.0 && (!elastic || type.sphere.law->table != nullptr))
+    tell(stiffness.spread, "spread", "the law of spheres of '" + type.name + "' does not ask for their modulus: `cbm: {law: jkr}`");
 }
 
 }  // namespace
@@ -238,14 +244,19 @@ void build_pairs(BuildContext& c) {
       const draft::CellType& a = c.draft.cell_types[i].content;
       const draft::CellType& b = j < types ? c.draft.cell_types[j].content : a;
       const Given<double>& w = table.at(i, j);
-      const auto least = [](const draft::CellType& t) { return t.tension.value * (1.0 - 3.0 * t.tension_variation.spread.value); };
-      if (w.value == 0.0 || !a.tension.known() || !b.tension.known() || w.value < least(a) + least(b)) continue;
+      const auto least = [](const draft::CellType& t) {
+        return t.tension.value * (1.0 - 3.0 * t.variation[number_of(Trait::kTension)].spread.value);
+      };
+      const auto most = [](const draft::CellType& t) { return 1.0 + 3.0 * t.variation[number_of(Trait::kAdhesion)].spread.value; };
+      if (w.value == 0.0 || !a.tension.known() || !b.tension.known() ||
+          w.value * std::sqrt(most(a) * (j < types ? most(b) : 1.0)) < least(a) + least(b))
+        continue;
       const bool no_rest = !resists_in_plane(a) || (j < types && !resists_in_plane(c.draft.cell_types[j].content));
       const std::string partner = j < types ? c.draft.cell_types[j].name : c.draft.geometry[j - types].name;
       const Place& place = w.given ? w.place : a.tension.place;
       const std::string what = "shells of '" + c.draft.cell_types[i].name + "' adhere to '" + partner + "' by " + w.text +
                                ", not less than twice the cortical tension (" + a.tension.text +
-                               (w.value < a.tension.value + b.tension.value ? ", less three times its spread): " : "): ");
+                               (w.value < a.tension.value + b.tension.value ? ", as cells vary by three spreads): " : "): ");
       const std::string help = "raise `dcm.cortex.tension` above half of the adhesion, or lower the adhesion";
       if (no_rest)
         c.diagnostics.error(509, place, what + "a cortex that is not elastic spreads without end", help);

@@ -1,3 +1,5 @@
+#include <array>
+
 #include "cbm/sphere_keys.h"
 #include "dcm/shell_keys.h"
 #include "study/declare.h"
@@ -200,23 +202,32 @@ void declare_spread(Section& s, draft::Spread& value, Quantity quantity, const c
 namespace {
 
 void declare_variation(Section& s, draft::CellType& t) {
-  bool given = false;
-  s.group({.name = "tension",
-           .doc = "Tension of the cortex, and of all its `regions`: each cell has its own, which it keeps where it is a sphere.",
-           .shorthand = "spread",
-           .example = "{spread: 10 %, correlation: 50 %}"},
-          given, [&t](Section& v) {
-            v.quantity({.name = "spread",
-                        .doc = "Relative standard deviation from cell to cell (Gaussian, cut at 3).",
-                        .quantity = Q::kFraction,
-                        .fallback = "0 %",
-                        .low = 0.0,
-                        .high = 0.2,
-                        .example = "10 %",
-                        .source = "chosen: off"},
-                       t.tension_variation.spread);
-            declare_correlation(v, t.tension_variation);
-          });
+  constexpr std::array<const char*, kTraits.size()> kDocs{
+      "Tension of the cortex, and of all its `regions`: each cell has its own, which it keeps where it is a sphere.",
+      "Young's modulus of spheres, and of shells the moduli of their cortex in the plane and against bending. Packing stays that of the "
+      "type.",
+      "Adhesion energy: of two cells that of their types times the geometric mean of their factors; that of `contact.pairs` by region as "
+      "well."};
+  for (const Trait trait : kTraits) {
+    bool given = false;
+    draft::Spread& value = t.variation[number_of(trait)];
+    s.group({.name = kTraitNames[number_of(trait)],
+             .doc = kDocs[number_of(trait)],
+             .shorthand = "spread",
+             .example = "{spread: 10 %, correlation: 50 %}"},
+            given, [&value](Section& v) {
+              v.quantity({.name = "spread",
+                          .doc = "Relative standard deviation from cell to cell (Gaussian, cut at 3).",
+                          .quantity = Q::kFraction,
+                          .fallback = "0 %",
+                          .low = 0.0,
+                          .high = 0.2,
+                          .example = "10 %",
+                          .source = "chosen: off"},
+                         value.spread);
+              declare_correlation(v, value);
+            });
+  }
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <map>
 #include <vector>
 
@@ -117,7 +118,8 @@ struct CellType : ShellKeys {
   OwnSection axis_own;                              ///< keys that axes of division have for themselves
   Given<double> axis_spread, new_surface;
   Spread division_share;
-  Spread cycle_duration, tension_variation;
+  Spread cycle_duration;
+  std::array<Spread, kTraits.size()> variation;
   Given<double> pressure_above;
   std::map<std::string, OwnSection> behaviours;  ///< by name of the section
   PlainKeys<morula::CellType> plain;

@@ -35,7 +35,8 @@ void build(BuildContext& context) {
   build_regions(context);
   build_adhesion_regions(context);
   build_loads(context);
-  for (CellType& type : context.study.model.types) type.tension_variable = tension_variable(context.study.model);
+  for (CellType& type : context.study.model.types)
+    for (const Trait trait : kTraits) type.traits.variable[number_of(trait)] = trait_variable(context.study.model, trait);
   check_whole(context);
   Study& study = context.study;
   const draft::Study& draft = context.draft;

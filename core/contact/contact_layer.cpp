@@ -62,14 +62,19 @@ PairBody ContactLayer::view(const ContactScene& scene, const SurfacePair& pair, 
   return {topology, points, std::span(scene.geometry->node_normal).subspan(body.first_point, body.point_count), shift, 0.0, marks};
 }
 
-std::optional<double> ContactLayer::sister_bond(const ContactScene& scene, const SurfacePair& pair) const {
-  if (sister_bonds_.empty() || !are_sisters(scene.bodies[pair.a].id, scene.bodies[pair.b].id)) return std::nullopt;
-  for (const std::uint32_t body : {pair.a, pair.b}) {  // both are listed, or that which is of this rank
+const SisterBond* ContactLayer::sister_bond(const ContactScene& scene, const SurfacePair& pair) const {
+  if (sister_bonds_.empty() || !are_sisters(scene.bodies[pair.a].id, scene.bodies[pair.b].id)) return nullptr;
+  for (const std::uint32_t body : {pair.a, pair.b}) {  // both are listed, alike, or that which is of this rank
     const CellId id = scene.bodies[body].id;
     const auto at = std::ranges::lower_bound(sister_bonds_, id, {}, &SisterBond::cell);
-    if (at != sister_bonds_.end() && at->cell == id) return at->adhesion;
+    if (at != sister_bonds_.end() && at->cell == id) return &*at;
   }
-  return std::nullopt;
+  return nullptr;
+}
+
+double ContactLayer::own_adhesion(const SurfacePair& pair) const {
+  if (own_.adhesion.empty() || pair.with_itself()) return 1.0;
+  return std::sqrt(own_.adhesion[pair.a] * (pair.rigid ? 1.0 : own_.adhesion[pair.b]));
 }
 
 double ContactLayer::patch_motion(const ContactScene& scene, const SurfacePair& pair) const {
@@ -174,18 +179,22 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
   const bool both = !pair.rigid && body[0].topology != nullptr && body[1].topology != nullptr;
   ContactMaterial contact = material_of(scene, pair);
   const ListReach reach = reach_of(pair, contact);
-  double adhering = bonding_;  // factor on W
-  if (!both && !pair.rigid) {  // a sphere gives way by its own foundation (fields_and_coupling.md, D)
+  const double own = own_adhesion(pair);
+  double adhering = bonding_ * own;  // factor on W
+  if (!both && !pair.rigid) {        // a sphere gives way by its own foundation (fields_and_coupling.md, D)
     const bool first = body[0].topology == nullptr;
     const ContactMaterial& sphere = first ? contact : material(scene.bodies[pair.b].material, scene.bodies[pair.a].material);
-    contact.law.repulsion =
-        sphere.sphere_stiffness * sphere_foundation(sphere.sphere_modulus, contact.law.adhesion, body[first ? 0 : 1].radius);
+    const double modulus = own_.stiffness.empty() ? sphere.sphere_modulus : sphere.sphere_modulus * own_.stiffness[first ? pair.a : pair.b];
+    contact.law.repulsion = sphere.sphere_stiffness * sphere_foundation(modulus, contact.law.adhesion * own, body[first ? 0 : 1].radius);
     contact.law.gives_way = true;
     contact.law.cap = 0.0;
     adhering *= sphere.sphere_adhesion;
   }
-  if (const std::optional<double> bond = both ? sister_bond(scene, pair) : std::nullopt) {
-    contact.law.adhesion = *bond;
+  if (const SisterBond* bond = both ? sister_bond(scene, pair) : nullptr) {
+    const double tension = own_.tension.empty() ? 1.0 : 0.5 * (own_.tension[pair.a] + own_.tension[pair.b]);
+    const double usual = contact.law.adhesion * own;
+    contact.law.adhesion = usual + bond->newness * (bond->adhesion * tension - usual);
+    adhering = bonding_;
     contact.regional.reset();
   }
   if (contact.regional) contact.law.adhesion = 1.0;  // W comes with the faces

@@ -55,13 +55,21 @@ struct SphereTouch {
   double area = 0.0;         ///< of the surface in contact [µm²]
 };
 
+/// By body, ghosts too, how it differs from its material; empty: it does not.
+struct OwnFactors {
+  std::vector<double> tension;    ///< of a new interface of sisters (SisterBond)
+  std::vector<double> stiffness;  ///< on the modulus of a sphere
+  std::vector<double> adhesion;   ///< W of a pair takes the geometric mean of both; an obstacle's is 1
+};
+
 /// Which pairs are meant: surfaces with surfaces and obstacles, or with spheres.
 enum class SurfacePairKind : std::uint8_t { kSurfaces, kWithSphere };
 
-/// Adhesion of a surface to that of its sister, of both together.
+/// A surface that is new where it touches that of its sister: W goes there from `adhesion` to what it is elsewhere.
 struct SisterBond {
   CellId cell;            ///< one of the sisters
-  double adhesion = 0.0;  ///< W [nN/µm]
+  double newness = 0.0;   ///< 1: at the cut; 0: no more
+  double adhesion = 0.0;  ///< at the cut: twice the tension of its type, which takes the own factors of both [nN/µm]
 
   friend bool operator==(const SisterBond&, const SisterBond&) = default;
 };
@@ -93,6 +101,9 @@ class ContactLayer {
   void set_cap(double cap);
   /// Part of adhesion and contact friction that acts, 0 to 1: a new shell is let out of deep overlap before it sticks to its neighbours.
   void set_bonding(double part) { bonding_ = part; }
+  /// Of the bodies of the scene; lists stay what they are.
+  void set_own_factors(OwnFactors factors) { own_ = std::move(factors); }
+  [[nodiscard]] const OwnFactors& own_factors() const { return own_; }
   /// Surfaces of sisters that adhere otherwise than their materials do; sorted by cell.
   void set_sister_bonds(std::vector<SisterBond> bonds) { sister_bonds_ = std::move(bonds); }
   [[nodiscard]] const std::vector<SisterBond>& sister_bonds() const { return sister_bonds_; }
@@ -190,7 +201,9 @@ class ContactLayer {
   /// Where a sphere is said to have been when pairs were found, so that the drift since then brings it to its present place.
   [[nodiscard]] Vec3f listed_place(const Vec3d& now) const { return to_float(now - drift_.at(now)); }
   /// Adhesion of a pair of sisters, where it is not that of their materials.
-  [[nodiscard]] std::optional<double> sister_bond(const ContactScene& scene, const SurfacePair& pair) const;
+  [[nodiscard]] const SisterBond* sister_bond(const ContactScene& scene, const SurfacePair& pair) const;
+  /// Factor on W of a pair: √(f_a f_b).
+  [[nodiscard]] double own_adhesion(const SurfacePair& pair) const;
   /// Way of a body since the last note_motion(), when its points were `known_point` and those after it.
   [[nodiscard]] BodyMotion motion_of(const ContactScene& scene, const ContactBody& body, std::uint32_t known_point,
                                      float last_radius) const;
@@ -231,6 +244,7 @@ class ContactLayer {
   };
 
   double bonding_ = 1.0;
+  OwnFactors own_;
   std::vector<SisterBond> sister_bonds_;
   ContactSettings settings_;
   RigidSurfaces obstacles_;

@@ -42,7 +42,9 @@ enum class RandomStream : std::uint32_t {
   kDivisionShare,  ///< of the mother's volume that the first daughter gets
   kDivisionSize,   ///< of a cell's division volume
   kPhaseDuration,
-  kTension,  ///< of a cell's own cortex
+  kTension,  ///< of a cell's own factors, in the order of Trait
+  kStiffness,
+  kAdhesion,
 };
 
 /// A pair of independent numbers.

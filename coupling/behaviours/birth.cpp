@@ -1,5 +1,7 @@
 #include "coupling/behaviours/birth.h"
 
+#include <array>
+
 #include "core/ball.h"
 #include "core/random/philox.h"
 #include "coupling/behaviours/balanced_growth.h"
@@ -24,7 +26,7 @@ CellState make_founder(CellId id, std::uint16_t type_index, const CellType& type
   CyclePlace place = begin_cycle(row, type, seed);
   if (random_age && type.cycles) place = settle_in_balanced_growth(row, type, seed, time);
   set_place(row, type, place, cycle_variables);
-  draw_tension(row, type, seed);
+  draw_traits(row, type, seed);
   row.migration_velocity = initial_migration_velocity(id, type, seed);
   row.polarity = initial_polarity(id, type, seed);
   return row;
@@ -46,16 +48,20 @@ CellState make_daughter(const CellState& mother, int which, const CellType& type
   return row;
 }
 
-void draw_tension(CellState& row, const CellType& type, std::uint32_t seed, double mothers_deviation) {
-  if (type.tension_variable < 0) return;
-  const auto number = static_cast<std::size_t>(type.tension_variable);
-  if (row.variables.size() <= number) row.variables.resize(number + 1, 0.0);
-  std::uint64_t index = 0;
-  const Random random(seed, RandomStream::kTension);
-  const bool is_founder = !row.parent.valid();
-  const double factor = is_founder ? draw_truncated(type.tension_factor, random, row.id, index)
-                                   : draw_inherited(type.tension_factor, 1.0 + mothers_deviation, random, row.id, index);
-  row.variables[number] = factor - 1.0;
+void draw_traits(CellState& row, const CellType& type, std::uint32_t seed, const CellState* mother) {
+  constexpr std::array kStreams{RandomStream::kTension, RandomStream::kStiffness, RandomStream::kAdhesion};
+  for (const Trait trait : kTraits) {
+    const int variable = type.traits.variable[number_of(trait)];
+    if (variable < 0) continue;
+    const auto number = static_cast<std::size_t>(variable);
+    if (row.variables.size() <= number) row.variables.resize(number + 1, 0.0);
+    std::uint64_t index = 0;
+    const Random random(seed, kStreams[number_of(trait)]);
+    const Distribution& factor = type.traits.of(trait);
+    row.variables[number] = (mother == nullptr ? draw_truncated(factor, random, row.id, index)
+                                               : draw_inherited(factor, 1.0 + deviation(*mother, type, trait), random, row.id, index)) -
+                            1.0;
+  }
 }
 
 void set_place(CellState& row, const CellType& type, const CyclePlace& place, std::size_t first) {

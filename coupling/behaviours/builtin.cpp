@@ -33,6 +33,19 @@ LawInfo sizer_law(const char* name, const char* title, const char* equation, con
                          {"size_spread", "fraction", "1", cycle.size_spread, 0.0, 0.3, kOurs, "s: relative standard deviation."}}};
 }
 
+LawInfo variation_law() {
+  const Distribution law;
+  return {
+      .name = "variation",
+      .title = "Cells of a type differ, and daughters take after their mothers",
+      .equation =
+          "x = μ (1 + s z), z Gaussian, |z| ≤ 3; of a daughter x = μ + ρ (x_m − μ) + √(1 − ρ²) (x′ − μ), x′ drawn anew: mean and spread "
+          "stay",
+      .source = "choice of this project; what inheritance does to growth: Powell 1956, doi:10.1099/00221287-15-3-492",
+      .parameters = {{"spread", "fraction", "1", law.relative_spread, 0.0, 0.3, kOurs, "s: relative standard deviation."},
+                     {"correlation", "fraction", "1", law.correlation, -1.0, 1.0, kOurs, "ρ: of a daughter with her mother."}}};
+}
+
 LawInfo phases_law() {
   return {.name = "cycle_phases",
           .title = "Phases of the cycle",
@@ -98,6 +111,7 @@ std::vector<LawInfo> behaviour_laws() {
                     "V_s: mean division volume."),
           sizer_law("adder", "Division at a volume that is the same more than at birth", "V_d = V_b + ΔV (1 + s z), |z| ≤ 3",
                     "ΔV: mean volume that is added."),
+          variation_law(),
           phases_law(),
           quiescence_law(),
           division_law(),

@@ -22,7 +22,7 @@ DaughterRows divide_row(const CellState& mother, std::span<const VariableColumn>
   out.first = make_daughter(mother, 0, type, seed, birth, volume_1, place_1);
   out.second = make_daughter(mother, 1, type, seed, birth, volume_2, place_2);
   divide_variables(variables, mother, out.first, out.second);
-  for (CellState* daughter : {&out.first, &out.second}) draw_tension(*daughter, type, seed, tension_deviation(mother, type));
+  for (CellState* daughter : {&out.first, &out.second}) draw_traits(*daughter, type, seed, &mother);
   const std::size_t first = first_cycle_variable(variables);
   const auto go_on = [&](CellState& daughter, CyclePlace& place) {
     if (late > 0.0 && type.cycle.phases.empty()) grow(daughter, type, late);

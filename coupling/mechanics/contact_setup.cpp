@@ -9,6 +9,10 @@
 namespace morula {
 namespace {
 
+/// Deviations of factors from 1, in spreads: 3 of a founder, √2 times that of a daughter whose mother had as much of the same sign.
+constexpr double kFurthest = 3.0 * 1.4143;
+constexpr double kSoftest = 0.1;
+
 constexpr double kWallThickness = 10.0;  // of the plates that stand for walls [µm]
 
 Result<RigidSurface> rigid_surface(const std::string& name, std::vector<Vec3d> position, std::vector<Triangle> faces, bool inside,
@@ -163,6 +167,23 @@ cbm::ContactTable sphere_contact_table(const Model& model) {
   return {types, surfaces};
 }
 
+namespace {
+
+/// Of the softest spheres of two types that adhere most.
+cbm::PairCoefficients farthest_reaching(const Model& model, const cbm::SphereLaw& law, std::size_t a, std::size_t b) {
+  const auto furthest = [&](std::size_t type, Trait trait) { return kFurthest * model.types[type].traits.of(trait).relative_spread; };
+  const auto softest = [&](std::size_t type) {
+    cbm::SphereParameters out = model.types[type].sphere;
+    out.young *= std::max(kSoftest, 1.0 - furthest(type, Trait::kStiffness));
+    return out;
+  };
+  const cbm::SphereParameters first = softest(a), second = softest(b);
+  const double most = std::sqrt((1.0 + furthest(a, Trait::kAdhesion)) * (1.0 + furthest(b, Trait::kAdhesion)));
+  return law.couple(first, &second, model.pair(a, b).adhesion * most);
+}
+
+}  // namespace
+
 ContactSettings contact_settings(const Model& model, int threads) {
   ContactSettings settings;
   settings.range = model.contact.range;
@@ -179,8 +200,11 @@ ContactSettings contact_settings(const Model& model, int threads) {
       const auto radius = [&](std::size_t t) {
         return 2.0 * model.types[t].radius.mean * (1.0 + 3.0 * model.types[t].radius.relative_spread);
       };
-      const cbm::PairContact& contact = table.entry(a, b).contact;
+      cbm::PairContact contact = table.entry(a, b).contact;
       if (contact.law->reach == nullptr) continue;
+      if (model.types[a].traits.variable[number_of(Trait::kStiffness)] >= 0 ||
+          model.types[a].traits.variable[number_of(Trait::kAdhesion)] >= 0)
+        contact.coefficient = farthest_reaching(model, *contact.law, a, b);
       settings.sphere_reach = std::max(settings.sphere_reach, contact.law->reach(contact, cbm::reduced_radius(radius(a), radius(b))));
     }
   return settings;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "coupling/mechanics/body_factors.h"
+
 namespace morula {
 
 FaceTensions::FaceTensions(const Model& model) : model_(model) {
@@ -15,7 +17,7 @@ void FaceTensions::set(const Tissue& tissue, double time) {
   if (!any_) return;
   extra_.clear();
   const dcm::Shells& shells = tissue.shells;
-  const std::vector<double> deviation = deviations_of_shells(model_, tissue.cells);
+  const std::vector<double> deviation = deviations_of_shells(model_, tissue.cells, Trait::kTension);
   for (std::size_t s = 0; s < shells.size(); ++s) {
     const CellType& type = model_.types[shells.type[s]];
     const std::size_t faces = shells.topology(s).face_count();

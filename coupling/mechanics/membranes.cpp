@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "coupling/mechanics/body_factors.h"
+
 namespace morula {
 
 void Membranes::bodies_changed(const World& world) {
@@ -10,7 +12,8 @@ void Membranes::bodies_changed(const World& world) {
   if (!std::ranges::all_of(owned, &ContactBody::active))
     for (const ContactBody& body : owned) moves.push_back(body.active());
   shells_.set_shells(world.tissue.shells, world.threads, moves);
-  shells_.set_tensions(world.tissue.shells, deviations_of_shells(world.model, world.tissue.cells));
+  const auto deviations = [&](Trait trait) { return deviations_of_shells(world.model, world.tissue.cells, trait); };
+  shells_.set_deviations(world.tissue.shells, deviations(Trait::kTension), deviations(Trait::kStiffness));
   held_ = {};
 }
 

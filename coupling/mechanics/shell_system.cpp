@@ -19,11 +19,13 @@ void ShellSystem::set_shells(const dcm::Shells& shells, int threads, std::span<c
   blocks_.threads = threads;
 }
 
-void ShellSystem::set_tensions(const dcm::Shells& shells, std::span<const double> deviation) {
+void ShellSystem::set_deviations(const dcm::Shells& shells, std::span<const double> of_tension, std::span<const double> of_stiffness) {
   of_each_.clear();
-  for (std::size_t i = 0; i < deviation.size(); ++i) {
-    of_each_.push_back(parameters_[shells.type[i]]);
-    of_each_.back().tension *= 1.0 + deviation[i];
+  if (of_tension.empty() && of_stiffness.empty()) return;
+  for (std::size_t i = 0; i < shells.size(); ++i) {
+    dcm::ShellParameters& own = of_each_.emplace_back(parameters_[shells.type[i]]);
+    if (!of_tension.empty()) own.tension *= 1.0 + of_tension[i];
+    if (!of_stiffness.empty()) dcm::scale_stiffness(own, 1.0 + of_stiffness[i]);
   }
 }
 

@@ -23,8 +23,8 @@ class ShellSystem : public OperatorPart {
 
   /// `computed`: the shells that have forces, friction and a part of the matrix, by shell; the others are held in place. Empty: all.
   void set_shells(const dcm::Shells& shells, int threads, std::span<const char> computed = {});
-  /// After set_shells(): how far the tension of each shell is from that of its type, as a part of it; empty: nowhere.
-  void set_tensions(const dcm::Shells& shells, std::span<const double> deviation);
+  /// After set_shells(): how far each shell is from its type, as parts: its tension; its moduli in the plane and against bending. Empty: nowhere.
+  void set_deviations(const dcm::Shells& shells, std::span<const double> of_tension, std::span<const double> of_stiffness);
   /// Internal forces at `position` into the first entries of `force`; all else is in `forces()` afterwards. `held`: what is in the shells that is
   /// not cytosol, by shell, good until assemble(); empty: nothing.
   void evaluate(const dcm::Shells& shells, std::span<const Vec3d> position, std::span<Vec3d> force,
@@ -73,7 +73,7 @@ class ShellSystem : public OperatorPart {
 
  private:
   std::vector<dcm::ShellParameters> parameters_;  ///< by cell type
-  std::vector<dcm::ShellParameters> of_each_;     ///< by shell, where tensions vary; else empty
+  std::vector<dcm::ShellParameters> of_each_;     ///< by shell, where they vary; else empty
   const dcm::Shells* shells_ = nullptr;
   std::span<const dcm::HeldVolume> held_;
   dcm::ShellBlocks blocks_;

@@ -8,6 +8,7 @@
 #include "core/ball.h"
 #include "core/parallel/threads.h"
 #include "coupling/mechanics/contact_setup.h"
+#include "coupling/mechanics/own_contacts.h"
 
 namespace morula {
 namespace {
@@ -41,6 +42,9 @@ void SphereContacts::visit(const SpherePairs::Share& share, const Scene& scene, 
   const bool periodic = model_.space.any_periodic();
   const double reach = layer().settings().sphere_reach + 1e-6;
   cbm::PairBlock block;
+  OwnContacts own(model_, table_, layer().own_factors());
+  cbm::PairContact of_lane[cbm::PairBlock::kWidth];  // where spheres differ from their types
+  const std::size_t first = scene.first_sphere();
   std::uint32_t number[cbm::PairBlock::kWidth];
   int filled = 0;
   const auto flush = [&] {
@@ -63,7 +67,9 @@ void SphereContacts::visit(const SpherePairs::Share& share, const Scene& scene, 
       const double far = a.radius + b.radius + (pair.attached ? reach : 1e-6);
       if (norm2(between) < far * far) {
         number[filled] = k;
-        block.set(filled++, between, a.radius, b.radius, table_.entry(a.material, b.material).contact, pair.attached, offset);
+        const cbm::PairContact* contact = &table_.entry(a.material, b.material).contact;
+        if (own.vary()) contact = &(of_lane[filled] = own.of(a, first + pair.a, b, first + pair.b));
+        block.set(filled++, between, a.radius, b.radius, *contact, pair.attached, offset);
         if (filled == cbm::PairBlock::kWidth) flush();
       } else {  // most of what the skin adds
         far_away(k);
@@ -178,6 +184,17 @@ bool SphereContacts::locate_rigid(const Scene& scene, RigidPair& pair) const {
   return true;
 }
 
+std::size_t SphereContacts::material_of(const RigidPair& pair) const {
+  return std::min<std::size_t>(model_.types.size() + pair.obstacle, table_.material_count() - 1);
+}
+
+cbm::PairContact SphereContacts::contact_with_obstacle(const Scene& scene, const RigidPair& pair) const {
+  const std::size_t number = scene.first_sphere() + pair.sphere;
+  const ContactBody& body = scene.bodies()[number];
+  OwnContacts own(model_, table_, layer().own_factors());
+  return own.vary() ? own.with_obstacle(body, number, material_of(pair)) : table_.entry(body.material, material_of(pair)).contact;
+}
+
 void SphereContacts::evaluate_rigid(const Scene& scene, std::size_t k) {
   RigidPair& pair = rigid_[k];
   RigidPairElement& element = list_.rigid[k];
@@ -189,9 +206,9 @@ void SphereContacts::evaluate_rigid(const Scene& scene, std::size_t k) {
   pair.attached_next = false;
   if (!locate_rigid(scene, pair)) return;
   const double overlap = body.radius - pair.distance;
-  const std::size_t material = std::min<std::size_t>(model_.types.size() + pair.obstacle, table_.material_count() - 1);
-  const auto& entry = table_.entry(body.material, material);
-  const auto [response, attached_next] = entry.contact.law->respond(entry.contact, body.radius, overlap, pair.attached);
+  const auto& entry = table_.entry(body.material, material_of(pair));
+  const cbm::PairContact contact = contact_with_obstacle(scene, pair);
+  const auto [response, attached_next] = contact.law->respond(contact, body.radius, overlap, pair.attached);
   pair.force = response.force;
   pair.energy = response.energy;
   pair.area = response.area;
@@ -359,11 +376,9 @@ std::vector<SphereContacts::Standing> SphereContacts::standings(const Scene& sce
   for (const RigidPair& pair : rigid_) {
     if (!(pair.area > 0.0)) continue;
     const ContactBody& sphere = body[pair.sphere];
-    const std::size_t material = std::min<std::size_t>(model_.types.size() + pair.obstacle, table_.material_count() - 1);
     const double overlap = sphere.radius - pair.distance;
     Standing& sum = out[pair.sphere];
-    sum.outside =
-        std::max(sum.outside, cbm::part_of_range(table_.entry(sphere.material, material).contact, overlap, pair.area, sphere.radius));
+    sum.outside = std::max(sum.outside, cbm::part_of_range(contact_with_obstacle(scene, pair), overlap, pair.area, sphere.radius));
     sum.caps += cbm::plane_cap(sphere.radius, overlap).volume;
   }
   return out;

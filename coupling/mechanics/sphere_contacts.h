@@ -149,6 +149,9 @@ class SphereContacts : public Term {
   /// Where the part of the obstacle bears the sphere, seen from its centre: normal and distance of the pair. False: it does not (foot_on_part()).
   bool locate_rigid(const Scene& scene, RigidPair& pair) const;
   void evaluate_rigid(const Scene& scene, std::size_t k);
+  /// That of the obstacle, or of a wall of the domain.
+  [[nodiscard]] std::size_t material_of(const RigidPair& pair) const;
+  [[nodiscard]] cbm::PairContact contact_with_obstacle(const Scene& scene, const RigidPair& pair) const;
   /// Pressures of the marked spheres anew, without touching forces.
   void refresh_values(const Scene& scene, const std::vector<char>& marked);
   /// function(owned sphere, partner) for all that are attached.

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "cbm/division_ramp.h"
+#include "coupling/mechanics/own_contacts.h"
 #include "coupling/mechanics/sphere_contacts.h"
 
 namespace morula {
@@ -53,10 +54,12 @@ void SphereContacts::add_sisters(const World& world, std::span<const std::uint32
 }
 
 void SphereContacts::update_sisters(const Scene& scene, double now) {
-  const auto spheres = scene.bodies().subspan(scene.first_sphere());
+  const std::size_t first = scene.first_sphere();
+  OwnContacts own(model_, table_, layer().own_factors());
   for (Sisters& s : sisters_) {
-    const ContactBody &a = spheres[list_.pairs[s.pair].a], &b = spheres[list_.pairs[s.pair].b];
-    const cbm::PairContact& contact = table_.entry(a.material, b.material).contact;
+    const std::size_t number_a = first + list_.pairs[s.pair].a, number_b = first + list_.pairs[s.pair].b;
+    const ContactBody &a = scene.bodies()[number_a], &b = scene.bodies()[number_b];
+    const cbm::PairContact contact = own.vary() ? own.of(a, number_a, b, number_b) : table_.entry(a.material, b.material).contact;
     const double rest =
         contact.law->rest_overlap != nullptr ? contact.law->rest_overlap(contact, cbm::reduced_radius(a.radius, b.radius)) : 0.0;
     s.offset = cbm::sister_overlap_offset(rest, a.radius, b.radius, s.birth_radius_a, s.birth_radius_b, now - s.birth_time);

@@ -5,6 +5,7 @@
 
 #include "core/parallel/threads.h"
 #include "coupling/behaviours/shell_division.h"
+#include "coupling/mechanics/body_factors.h"
 #include "coupling/mechanics/contact_setup.h"
 
 namespace morula {
@@ -15,16 +16,14 @@ void give_back(std::vector<T>& vector) {
   std::vector<T>().swap(vector);
 }
 
-/// Adhesion of the shells of this rank to their sisters, as long as the surface between them is new; sorted by cell.
+/// The shells of this rank whose surface to their sister is new; sorted by cell.
 std::vector<SisterBond> new_interfaces(const Model& model, const Tissue& tissue, double time) {
   std::vector<SisterBond> out;
-  for (std::size_t i = 0; i < tissue.cells.size(); ++i) {
-    const CellRow& row = tissue.cells.rows[i];
+  for (const CellRow& row : tissue.cells.rows) {
     if (row.body != BodyKind::kShell) continue;
     const CellType& type = model.types[row.type];
-    const double newness = newness_of_surface(row, type, time), own = model.pair(row.type, row.type).adhesion;
-    const double tension = type.shell.tension * (1.0 + tissue.cells.tension_deviation(i, type));
-    if (newness > 0.0) out.push_back({row.id, own + newness * (2.0 * tension - own)});
+    const double newness = newness_of_surface(row, type, time);
+    if (newness > 0.0) out.push_back({row.id, newness, 2.0 * type.shell.tension});
   }
   std::ranges::sort(out, {}, &SisterBond::cell);
   return out;
@@ -46,14 +45,21 @@ void SurfaceContacts::look_for_new_surfaces(const World& world) {
   bonds_age_ = std::ranges::any_of(world.model.types, may_be_new) && world.comm.any(world.scene.shells() > 0);
 }
 
+void SurfaceContacts::take_own_factors(const World& world) {
+  layer_.set_own_factors(
+      {factors_of_bodies(world, Trait::kTension), factors_of_bodies(world, Trait::kStiffness), factors_of_bodies(world, Trait::kAdhesion)});
+}
+
 void SurfaceContacts::bodies_changed(const World& world) {
   look_for_new_surfaces(world);
+  take_own_factors(world);
   layer_.reset();
   forget();
 }
 
 void SurfaceContacts::bodies_replaced(const World& world, const BodyChanges& changes) {
   look_for_new_surfaces(world);
+  take_own_factors(world);
   const bool with_spheres = layer_.has_pairs(SurfacePairKind::kWithSphere);
   again_ = touched_by(changes);
   layer_.mend(contact_scene(world), world.model.space, changes);
@@ -116,7 +122,7 @@ void SurfaceContacts::parameters_changed(const World& world) {
   if (bonds_age_) bonds = new_interfaces(world.model, world.tissue, world.time);
   if (bonds == layer_.sister_bonds()) return;
   std::vector<SisterBond> changed;
-  const auto before = [](const SisterBond& a, const SisterBond& b) { return a.cell != b.cell ? a.cell < b.cell : a.adhesion < b.adhesion; };
+  const auto before = [](const SisterBond& a, const SisterBond& b) { return a.cell != b.cell ? a.cell < b.cell : a.newness < b.newness; };
   std::ranges::set_symmetric_difference(bonds, layer_.sister_bonds(), std::back_inserter(changed), before);
   again_.resize(world.scene.bodies().size(), 0);
   for (std::uint32_t i = 0; i < world.scene.shells(); ++i) {

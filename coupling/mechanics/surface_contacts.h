@@ -59,6 +59,8 @@ class SurfaceContacts : public Term {
 
  private:
   void look_for_new_surfaces(const World& world);
+  /// In which the bodies differ from their types. Collective.
+  void take_own_factors(const World& world);
   /// Bodies that are to be evaluated again because what they touch has come or gone, by new number; nothing where all are.
   [[nodiscard]] std::vector<char> touched_by(const BodyChanges& changes) const;
   /// What was found goes with the bodies that stay.

@@ -32,7 +32,7 @@ double volume_by_law(const Cells& cells, std::size_t i, const CellType& type, do
   const CellRow& row = cells.rows[i];
   const double excess = std::exp(cells.optional.reference_excess[i]);
   if (row.body == BodyKind::kSphere) return row.target_volume * excess;
-  const double volume = free_reference_volume(row.target_volume, type, cells.tension_deviation(i, type)) * excess *
+  const double volume = free_reference_volume(row.target_volume, type, cells.deviation(i, type, Trait::kTension)) * excess *
                         std::exp(-inner_pressure / type.shell.bulk_modulus);
   return nucleus ? nucleus->volume + (1.0 - type.interior.nucleus_fraction) * volume : volume;
 }

@@ -5,6 +5,7 @@
 #include "cbm/builtin.h"
 #include "cbm/sphere_range.h"
 #include "coupling/behaviours/builtin.h"
+#include "coupling/behaviours/phases.h"
 #include "coupling/builtin.h"
 #include "dcm/interior_laws.h"
 #include "fields/builtin.h"
@@ -153,7 +154,20 @@ void add_cycle(const CellType& type, std::vector<UsedLaw>& out) {
                    {{"below", cycle.quiescence.enter_below}, {"above", cycle.quiescence.leave_above}, {"hold", cycle.quiescence.hold}}});
 }
 
+/// In what cells of a type differ from each other.
+void add_variation(const CellType& type, std::vector<UsedLaw>& out) {
+  const auto add = [&](const std::string& what, const Distribution& of) {
+    if (of.relative_spread > 0.0)
+      out.push_back({what + " of " + type.name,
+                     law_named(behaviour_laws(), "variation"),
+                     {{"spread", of.relative_spread}, {"correlation", of.correlation}}});
+  };
+  if (type.cycles && !paced_by_phases(type.cycle)) add("cycle", type.cycle_duration);
+  for (const Trait trait : kTraits) add(kTraitNames[number_of(trait)], type.traits.of(trait));
+}
+
 void add_behaviours(const CellType& type, std::vector<UsedLaw>& out) {
+  add_variation(type, out);
   if (type.cycles) {
     const CellCycle& cycle = type.cycle;
     Values values{{"cycle_duration", type.cycle_duration.mean}, {"division_ratio", cycle.ratio}};

@@ -253,7 +253,7 @@ class Placer {
       PlacedCell& made = out_.cells.emplace_back(PlacedCell{founder(study_, block, first + i, cell.type), {}});
       made.center = volume_centroid(cell.mesh.faces, cell.mesh.position);
       const CellType& type = study_.model.types[cell.type];
-      const double tension = type.shell.tension * (1.0 + tension_deviation(made.row, type));
+      const double tension = type.shell.tension * (1.0 + deviation(made.row, type, Trait::kTension));
       set_volume(made.row, study_.model,
                  cell.pressure ? target_volume_of(cell.volume, *cell.pressure, tension, type.shell.bulk_modulus) : cell.volume);
       made.surface = std::move(cell);
@@ -298,7 +298,7 @@ Result<CellRecord> with_body(const PlacedCell& cell, const Model& model, ShapeLi
   record.row = cell.row;
   record.row.order = curve_place(cell.center);
   const CellType& type = model.types[cell.row.type];
-  const double reference = free_reference_volume(cell.row.target_volume, type, tension_deviation(cell.row, type));
+  const double reference = free_reference_volume(cell.row.target_volume, type, deviation(cell.row, type, Trait::kTension));
   if (cell.surface) {
     MORULA_TRY_ASSIGN(record.shell, shell_of_surface(*cell.surface, *cell.meshes, reference, shapes));
     place_nucleus(*record.shell, type, shapes);

@@ -1,6 +1,7 @@
 /// The user's road to cells of a type that differ: tensions, and cycles that daughters have from their mothers.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -19,7 +20,11 @@ using testing::HasSubstr;
 /// Values of two columns of a run's last snapshot, or of others, by cell.
 struct Told {
   std::map<CellId, Snapshot::Cell> cells;
-  std::map<CellId, double> deviation;
+  std::map<std::string, std::map<CellId, double>> of;  ///< deviations by trait
+  std::map<CellId, double>& deviation = of["tension"];
+
+  Told() = default;
+  Told(const Told& other) : cells(other.cells), of(other.of) {}
 };
 
 Told last_of(const std::filesystem::path& run) {
@@ -33,7 +38,8 @@ Told last_of(const std::filesystem::path& run) {
   for (std::size_t i = 0; i < end->cells.size(); ++i) {
     out.cells[end->cells[i].id] = end->cells[i];
     for (const Snapshot::Variable& variable : end->variables)
-      if (variable.name == "tension/deviation") out.deviation[end->cells[i].id] = variable.values[i];
+      if (variable.name.ends_with("/deviation"))
+        out.of[variable.name.substr(0, variable.name.find('/'))][end->cells[i].id] = variable.values[i];
   }
   return out;
 }
@@ -213,6 +219,108 @@ TEST(Variation, OfCyclesFollowsThatOfTheMothers) {
   }
 }
 
+/// Pairs of cells 60 µm apart, along y; in each the second lies at `way` from the first.
+std::string pairs(int n, double way, const std::string& first, const std::string& second,
+                  const std::string& of_first = ", orientation: aligned", const std::string& of_second = ", orientation: aligned") {
+  std::string a, b;
+  for (int i = 0; i < n; ++i) {
+    const std::string z = std::to_string(60.0 * (i - 0.5 * (n - 1))) + " um, 0 um]";
+    a += (i > 0 ? ", [0 um, " : "[0 um, ") + z;
+    b += (i > 0 ? ", [" : "[") + std::to_string(way) + " um, " + z;
+  }
+  return "initial:\n  - {type: " + first + ", at: [" + a + "]" + of_first + "}\n  - {type: " + second + ", at: [" + b + "]" + of_second +
+         "}\n";
+}
+
+std::string adhering(const std::string& types, const std::string& initial, const std::string& end) {
+  return "schema: 1\nstudy: pairs\ntime: {end: " + end + ", output: " + end +
+         "}\ndomain: {size: [100 um, 1000 um, 100 um]}\ncell_types:\n" + types + initial + "output: {report: false}\n";
+}
+
+/// f_a f_b of the two cells of pair i among n in a trait of deviations by cell.
+double product(const std::map<CellId, double>& deviation, std::uint64_t i, std::uint64_t n) {
+  return (1.0 + deviation.at(CellId::founder(i + 1))) * (1.0 + deviation.at(CellId::founder(n + i + 1)));
+}
+
+TEST(Variation, OfSpheresIsThatOfJohnsonKendallAndRoberts) {
+  const std::string type =
+      "  cell: {radius: 5 um, variation: {stiffness: 15 %, adhesion: 15 %}, adhesion: {cell: 5e-5 J/m^2}, "
+      "cbm: {young: 1 kPa, poisson: 0.4, packing: none}}\n";
+  const Told told = run(adhering(type, pairs(12, 9.8, "cell", "cell", "", ""), "2 h"));
+  ASSERT_EQ(told.of.at("stiffness").size(), 24u);
+  double least = 1e9, most = 0.0;
+  for (std::uint64_t i = 0; i < 12; ++i) {
+    const CellId a = CellId::founder(i + 1), b = CellId::founder(12 + i + 1);
+    // δ0 = a0²/(3R*), a0³ = 9πWR*²/(2E*); 1/E* = Σ (1 − ν²)/E (Johnson, Kendall & Roberts 1971)
+    const double compliance = 0.84 / (1.0 + told.of.at("stiffness").at(a)) + 0.84 / (1.0 + told.of.at("stiffness").at(b));
+    const double w = 0.05 * std::sqrt(product(told.of.at("adhesion"), i, 12)), radius = 2.5;
+    const double contact = std::cbrt(9.0 * 3.141592653589793 * w * radius * radius * compliance / 2.0);
+    const double overlap = 10.0 - norm(told.cells.at(a).centroid - told.cells.at(b).centroid);
+    EXPECT_NEAR(overlap, contact * contact / (3.0 * radius), 1e-3 * overlap) << i;
+    least = std::min(least, overlap), most = std::max(most, overlap);
+  }
+  EXPECT_GT(most / least, 1.15) << "they differ";
+}
+
+TEST(Variation, OfShellsIsThatOfAPairWithTheMeanAdhesion) {
+  const auto type = [](const std::string& name, const std::string& more) {
+    return "  " + name + ": {radius: 5 um, body: shell, " + more + "dcm: {nodes: 162, cortex: {elastic: none, tension: 0.2 mN/m}}}\n";
+  };
+  const Told told =
+      run(adhering(type("cell", "variation: {adhesion: 15 %}, adhesion: {cell: 1.5e-4 J/m^2}, "), pairs(4, 9.9, "cell", "cell"), "40 min"));
+  ASSERT_EQ(told.of.at("adhesion").size(), 8u);
+  for (const std::uint64_t i : {0u, 3u}) {
+    const double w = 1.5e-4 * std::sqrt(product(told.of.at("adhesion"), i, 4));
+    const Told alone =
+        run(adhering(type("cell", "adhesion: {cell: " + std::to_string(1e3 * w) + " mJ/m^2}, "), pairs(1, 9.9, "cell", "cell"), "40 min"));
+    EXPECT_NEAR(told.cells.at(CellId::founder(i + 1)).contact_area / alone.cells.at(CellId::founder(1)).contact_area, 1.0, 0.01) << i;
+  }
+  double least = 1e9, most = 0.0;
+  for (std::uint64_t i = 1; i <= 4; ++i) {
+    least = std::min(least, told.cells.at(CellId::founder(i)).contact_area);
+    most = std::max(most, told.cells.at(CellId::founder(i)).contact_area);
+  }
+  EXPECT_GT(most / least, 1.05) << "they differ";
+}
+
+TEST(Variation, OfASphereAndAShellIsThatOfBoth) {
+  const auto types = [](const std::string& ball, const std::string& adhesion) {
+    return "  ball: {radius: 5 um, adhesion: {bag: " + adhesion + "}, " + ball + "}\n  bag: {radius: 5 um, body: shell, " +
+           (adhesion == "1e-4 J/m^2" ? "variation: {adhesion: 15 %, stiffness: 15 %}, " : "") +
+           "dcm: {nodes: 162, cortex: {elastic: none, tension: 0.2 mN/m}}}\n";
+  };
+  const Told told = run(adhering(types("variation: {adhesion: 15 %, stiffness: 15 %}, cbm: {young: 0.5 kPa, packing: none}", "1e-4 J/m^2"),
+                                 pairs(4, 9.9, "ball", "bag", ""), "40 min"));
+  ASSERT_EQ(told.of.at("stiffness").size(), 8u);
+  for (const std::uint64_t i : {0u, 3u}) {
+    const double w = 0.1 * std::sqrt(product(told.of.at("adhesion"), i, 4));
+    const double young = 0.5 * (1.0 + told.of.at("stiffness").at(CellId::founder(i + 1)));
+    const Told alone = run(adhering(types("cbm: {young: " + std::to_string(young) + " kPa, packing: none}", std::to_string(w) + " mJ/m^2"),
+                                    pairs(1, 9.9, "ball", "bag", ""), "40 min"));
+    const auto apart = [](const Told& of, std::uint64_t a, std::uint64_t b) {
+      return norm(of.cells.at(CellId::founder(a)).centroid - of.cells.at(CellId::founder(b)).centroid);
+    };
+    EXPECT_NEAR(apart(told, i + 1, 4 + i + 1), apart(alone, 1, 2), 0.005) << i;
+    EXPECT_NEAR(told.cells.at(CellId::founder(4 + i + 1)).contact_area / alone.cells.at(CellId::founder(2)).contact_area, 1.0, 0.01) << i;
+  }
+}
+
+TEST(Variation, OfStiffnessMakesShellsGiveWayLess) {
+  // Springs without tension, pulled at both ends: the extension goes with one over the stiffness where the volume is kept.
+  const std::string cells =
+      changed("variation: {tension: VARIATION}", "variation: {stiffness: 15 %}",
+              changed("elastic: none, tension: 0.5 mN/m", "elastic: springs, tension: 0 mN/m, young: 5 kPa, thickness: 0.2 um",
+                      changed("PLACES", grid(5, 40.0),
+                              changed("at: [PLACES]}", "at: [PLACES], orientation: aligned}",
+                                      changed("MORE", "loads: {pull: {type: cell, pull: {force: 0.5 nN}}}", kFree)))));
+  const Told told = run(cells);
+  ASSERT_EQ(told.of.at("stiffness").size(), 25u);
+  std::vector<std::pair<double, double>> pairs_;
+  for (const auto& [id, d] : told.of.at("stiffness"))
+    pairs_.emplace_back(1.0 / (1.0 + d), told.cells.at(id).area - 4.0 * 3.141592653589793 * 25.0);
+  EXPECT_GT(correlation_of(pairs_), 0.95) << "the area grows with the square of the extension";
+}
+
 TEST(Variation, TellsWhatHasNoEffect) {
   const auto told = [](const std::string& text) {
     const auto study = read(text);
@@ -225,10 +333,14 @@ TEST(Variation, TellsWhatHasNoEffect) {
   EXPECT_THAT(told(changed("body: shell", "body: sphere", free_cells("10 %"))), HasSubstr("are always spheres"));
   EXPECT_THAT(told(changed("elastic: none, tension: 0.5 mN/m", "elastic: springs, tension: 0 mN/m", free_cells("10 %"))),
               HasSubstr("[E515]"));
+  EXPECT_THAT(told(free_cells("10 %, adhesion: {correlation: 50 %}")), HasSubstr("'correlation' has no effect here"));
+  EXPECT_THAT(
+      told(changed("    dcm: {nodes", "    cbm: {law: linear, stiffness: 1 nN/um}\n    dcm: {nodes", free_cells("10 %, stiffness: 10 %"))),
+      HasSubstr("does not ask for their modulus"));
   EXPECT_THAT(told(dividing("{mean: 30 min, correlation: 20 %}", "10 %", "1 h")), HasSubstr("'correlation' has no effect here"));
   // Tension 0.5 mN/m, adhesion 0.8 mJ/m²: below twice the tension of most cells, but not of all.
   const std::string sticky = changed("radius: 5 um", "radius: 5 um\n    adhesion: {cell: 8e-4 J/m^2}", free_cells("10 %"));
-  EXPECT_THAT(told(sticky), HasSubstr("less three times its spread"));
+  EXPECT_THAT(told(sticky), HasSubstr("as cells vary by three spreads"));
   EXPECT_EQ(told(changed("8e-4", "6e-4", sticky)), "");
 }
 
