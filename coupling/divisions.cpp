@@ -64,22 +64,22 @@ Daughters divide_as_sphere(const CellRecord& mother, const DaughterRows& rows, c
   return out;
 }
 
-Daughters divide_as_shell(const CellRecord& mother, const AroundDivision& around, const DaughterRows& rows, const ShellToDivide& what,
-                          std::uint32_t seed) {
-  const CellAtDivision cell{mother.row, *what.type, {mother.shell->position, mother.shell->shape->topology.get()}, around};
+Daughters divide_as_shell(const CellRecord& mother, const CellType& type, const AroundDivision& around, const DaughterRows& rows,
+                          const ShellToDivide& what, std::uint32_t seed) {
+  const CellAtDivision cell{mother.row, type, {mother.shell->position, mother.shell->shape->topology.get()}, around};
   for (std::uint64_t attempt = 0; attempt < kTries; ++attempt) {
     const Vec3d axis = division_axis(cell, seed, attempt);
     auto divided = divide_shell(what, axis, rows.share, {rows.first.birth_volume, rows.second.birth_volume});
     if (!divided.ok()) continue;
     Daughters out(2);
     for (std::size_t which = 0; which < 2; ++which) {
-      out[which].row = which == 0 ? rows.first : rows.second;
+      const CellType& own = *what.type[which];
+      CellState& row = out[which].row = which == 0 ? rows.first : rows.second;
       dcm::ShellRecord& shell = (*divided)[which];
       // Osmotic cells share their osmolytes, which go with the target volume; others keep their pressure: V0 goes with the volume.
-      if (!what.type->osmosis.acts())
-        out[which].row.reference_excess =
-            std::log(shell.reference_volume / free_reference_volume(out[which].row.birth_volume, *what.type,
-                                                                    deviation(out[which].row, *what.type, Trait::kTension)));
+      if (!own.osmosis.acts())
+        row.reference_excess =
+            std::log(shell.reference_volume / free_reference_volume(row.birth_volume, own, deviation(row, own, Trait::kTension)));
       out[which].shell = std::move(shell);
     }
     return out;
@@ -137,13 +137,16 @@ Status Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>&
     const auto& [body, late, mother] = mothers[k];
     const CellType& type = model_.types[mother.row.type];
     const double share = division_share({mother.row, type}, model_.seed);
-    const DaughterRows rows = divide_row(mother.row, tissue_.cells.variables, type, model_.seed, tissue_.clock.time, late, share);
+    const DaughterRows rows =
+        divide_row(mother.row, tissue_.cells.variables, type, model_.seed, tissue_.clock.time, late, share, model_.types);
     if (!body.is_shell) {
       daughters[k] = divide_as_sphere(mother, rows, division_axis({mother.row, type, {}, around[k]}, model_.seed, 0));
       return;
     }
     const Surroundings walls = surroundings_of(mechanics_->scene(), model_.space, body.number, kReach);
-    daughters[k] = divide_as_shell(mother, around[k], rows, {&*mother.shell, &type, shape[mother.row.type], walls.surfaces}, model_.seed);
+    const std::array<const CellType*, 2> become{&model_.types[rows.first.type], &model_.types[rows.second.type]};
+    daughters[k] =
+        divide_as_shell(mother, type, around[k], rows, {&*mother.shell, become, shape[mother.row.type], walls.surfaces}, model_.seed);
   });
 
   shaping.reset();

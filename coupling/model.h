@@ -18,6 +18,7 @@
 #include "coupling/cell_cycle.h"
 #include "coupling/distribution.h"
 #include "coupling/face_regions.h"
+#include "coupling/fates.h"
 #include "coupling/loads/load.h"
 #include "coupling/regions/region.h"
 #include "coupling/surface_law.h"
@@ -54,6 +55,7 @@ struct CellType {
   OwnValues axis_own{};                   ///< values of the axis' own keys
   double axis_spread = 0.0;               ///< s of division_axis() [rad]
   Distribution division_share{0.5, 0.0};  ///< part of the mother's volume that the daughter gets to which the axis points
+  Fates fates;                            ///< types and polarities of the daughters
   bool shells_divide = true;              ///< by cut; else a shell at its division volume waits until it is a sphere
   double new_surface = 600.0;             ///< time in which the interface that a cut has made takes its tension [s]
   double apoptosis_time = 8 * 3600.0;     ///< τ_a of the shrinking V0 e^{−t/τ_a} [s]

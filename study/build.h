@@ -51,6 +51,8 @@ TimeCourse build_course(BuildContext& context, const std::vector<Named<draft::Co
 void build_regions(BuildContext& context);
 /// Growth, phases and division of a cell type: E302, E510, E515, E558, E700–E703.
 void build_cycle(BuildContext& context, const draft::CellType& draft, const Place& type_place, CellType& type);
+/// Types and polarities of daughters; after all types are there.
+void build_fates(BuildContext& context, const draft::CellType& draft, CellType& type);
 /// Its phases and quiescence, after growth and size: E112, E510, E515, E516, E700, E702, E703.
 void build_phases(BuildContext& context, const draft::CellType& draft, CellType& type);
 /// The factors of the rate of a phase.
@@ -97,6 +99,8 @@ void check_places(BuildContext& context);
 bool resists_in_plane(const draft::ShellKeys& t);
 /// Whether cells of a type may be shells at some time.
 bool may_be_shell(const BuildContext& context, std::size_t type);
+/// The types whose cells this one may come of by the fates of daughters, itself first.
+std::vector<std::size_t> origins_of(const draft::Study& draft, std::size_t type);
 int find_field(BuildContext& context, const std::string& name, const Place& place);
 /// Whether any cell may have this body: by its type, by `as`, or by coupling.
 bool may_have_shells(const draft::Study& draft);

@@ -101,6 +101,42 @@ std::vector<CellArrest> build_phase_arrest(BuildContext& c, const draft::CyclePh
   return build_arrest(c, phase.arrest, place);
 }
 
+/// What daughters of a type become, once all types are there: E401, E510, E515.
+void build_fates(BuildContext& c, const draft::CellType& t, CellType& type) {
+  double sum = 0.0;
+  for (const auto& [name, place, fate] : t.fates) {
+    if (!fate.share.known() || !fate.types.known()) continue;
+    if (fate.types.value.size() != 2) {
+      c.diagnostics.error(111, fate.types.place, "a division has two daughters", "for example `types: [stem, transit]`");
+      continue;
+    }
+    Fate out{fate.share.value, {}};
+    bool found = true;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const int number = find_type(c, fate.types.value[k], fate.types.place);
+      found = found && number >= 0;
+      if (number < 0) continue;
+      out.type[k] = static_cast<std::uint16_t>(number);
+      if (c.study.model.types[out.type[k]].shell_nodes != type.shell_nodes)
+        c.diagnostics.error(510, fate.types.place,
+                            "daughters of '" + type.name + "' that become '" + fate.types.value[k] + "' would have another number of nodes",
+                            "give both types the same `dcm.nodes`");
+    }
+    if (found) type.fates.all.push_back(out);
+    sum += fate.share.value;
+    if (sum > 1.0 + 1e-9)
+      c.diagnostics.error(510, fate.share.place, "the fates of '" + type.name + "' are more than all of its divisions",
+                          "shares of 100 % at most; what is left to that keeps the mother's type");
+  }
+  const std::string& polarity = t.daughter_polarity.value;
+  type.fates.polarity = polarity == "mirrored" ? DaughterPolarity::kMirrored
+                        : polarity == "new"    ? DaughterPolarity::kNew
+                                               : DaughterPolarity::kKept;
+  if (type.fates.polarity != DaughterPolarity::kKept && !t.activity.has_polarity)
+    c.diagnostics.error(515, t.daughter_polarity.place, "'polarity' has no effect here",
+                        "cells of '" + type.name + "' have none: give the type a `polarity`");
+}
+
 void build_cycle(BuildContext& c, const draft::CellType& t, const Place& place, CellType& type) {
   type.cycles = t.has_cycle && t.cycle_model.value != "none" && t.cycle_model.known();
   if (!t.has_cycle) return;

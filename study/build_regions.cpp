@@ -180,16 +180,32 @@ void build_springs(BuildContext& c) {
 
 }  // namespace
 
+std::vector<std::size_t> origins_of(const draft::Study& d, std::size_t type) {
+  std::vector<std::size_t> out{type};
+  const auto may_become = [&](std::size_t from, std::size_t to) {
+    return std::ranges::any_of(d.cell_types[from].content.fates, [&](const auto& fate) {
+      return std::ranges::find(fate.content.types.value, d.cell_types[to].name) != fate.content.types.value.end();
+    });
+  };
+  for (std::size_t k = 0; k < out.size(); ++k)
+    for (std::size_t from = 0; from < d.cell_types.size(); ++from)
+      if (std::ranges::find(out, from) == out.end() && may_become(from, out[k])) out.push_back(from);
+  return out;
+}
+
 bool may_be_shell(const BuildContext& c, std::size_t type) {
   const draft::Study& d = c.draft;
-  if (d.cell_types[type].content.body.value == "shell" || !d.coupling.triggers.empty()) return true;
+  if (!d.coupling.triggers.empty()) return true;
   for (const auto& region : d.coupling.regions)
     if (region.content.body.value == "shell") return true;
-  const auto is_this = [&](const auto& share) { return share.name == d.cell_types[type].name; };
-  for (const auto& initial : d.initial)
-    if (initial.content.body.value == "shell" && (initial.content.csv.given || initial.content.type.value == d.cell_types[type].name ||
-                                                  std::ranges::any_of(initial.content.types, is_this)))
-      return true;
+  for (const std::size_t origin : origins_of(d, type)) {
+    if (d.cell_types[origin].content.body.value == "shell") return true;
+    const auto is_this = [&](const auto& share) { return share.name == d.cell_types[origin].name; };
+    for (const auto& initial : d.initial)
+      if (initial.content.body.value == "shell" && (initial.content.csv.given || initial.content.type.value == d.cell_types[origin].name ||
+                                                    std::ranges::any_of(initial.content.types, is_this)))
+        return true;
+  }
   return false;
 }
 

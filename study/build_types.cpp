@@ -212,6 +212,7 @@ void build_cell_types(BuildContext& c) {
     build_color(c, t);
     c.study.model.types.push_back(std::move(type));
   }
+  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) build_fates(c, c.draft.cell_types[i].content, c.study.model.types[i]);
 }
 
 void build_pairs(BuildContext& c) {

@@ -69,10 +69,14 @@ void check_named_cells(BuildContext& c) {
 bool may_be_sphere(const BuildContext& c, std::size_t type) {
   const draft::Study& d = c.draft;
   if (std::ranges::any_of(d.coupling.regions, [](const auto& r) { return r.content.body.value == "sphere"; })) return true;
-  for (const auto& block : d.initial) {
-    const draft::Initial& b = block.content;
-    if (b.has_meshes || (!b.csv.given && b.type.value != d.cell_types[type].name)) continue;
-    if ((b.body.known() && !b.body.value.empty() ? b.body.value : d.cell_types[type].content.body.value) != "shell") return true;
+  for (const std::size_t origin : origins_of(d, type)) {
+    const std::string& name = d.cell_types[origin].name;
+    for (const auto& block : d.initial) {
+      const draft::Initial& b = block.content;
+      const bool is_of_it = b.type.value == name || std::ranges::any_of(b.types, [&](const auto& share) { return share.name == name; });
+      if (b.has_meshes || (!b.csv.given && !is_of_it)) continue;
+      if ((b.body.known() && !b.body.value.empty() ? b.body.value : d.cell_types[origin].content.body.value) != "shell") return true;
+    }
   }
   return false;
 }

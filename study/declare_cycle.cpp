@@ -11,6 +11,23 @@ namespace {
 
 using Q = Quantity;
 
+void declare_fate(Section& f, draft::Fate& fate) {
+  f.quantity({.name = "share",
+              .doc = "Of the divisions.",
+              .quantity = Q::kFraction,
+              .required = true,
+              .low = 0.0,
+              .high = 1.0,
+              .low_open = true,
+              .example = "80 %"},
+             fate.share);
+  f.words({.name = "types",
+           .doc = "Of the daughter to which the axis points, and of the other.",
+           .required = true,
+           .example = "[stem, transit]"},
+          fate.types);
+}
+
 /// By which plane a cell divides, and what each daughter gets.
 void declare_division(Section& c, draft::CellType& t) {
   KeySpec axis{
@@ -37,6 +54,22 @@ void declare_division(Section& c, draft::CellType& t) {
               .source = "chosen: off"},
              t.axis_spread);
   bool given = false;
+  c.group({.name = "daughters", .doc = "What daughters are.", .optional_section = true, .example = "{polarity: mirrored}"}, given,
+          [&t](Section& d) {
+            d.list({.name = "fates",
+                    .doc = "Types that they may have, and how often; else both have that of their mother. One is drawn for each division.",
+                    .example = "[{share: 80 %, types: [stem, transit]}, {share: 10 %, types: [transit, transit]}]"},
+                   t.fates, &declare_fate);
+            d.word({.name = "polarity",
+                    .doc = "kept: both have that of their mother; mirrored: the one to which the axis points has it, the other the "
+                           "opposite; new: each "
+                           "one of her own, as a cell that is placed.",
+                    .fallback = "kept",
+                    .words = {"kept", "mirrored", "new"},
+                    .example = "mirrored",
+                    .source = "chosen"},
+                   t.daughter_polarity);
+          });
   c.group({.name = "share",
            .doc = "Part of the mother's volume that the daughter gets to which the axis points; kept within 10 and 90 %.",
            .shorthand = "mean",
@@ -58,7 +91,7 @@ void declare_growth(Section& c, draft::CellType& t) {
   c.word(growth, t.growth);
   declare_law_keys(c, choosable_growth_laws(c.laws()),
                    {"model", "duration", "growth", "ratio", "size", "phases", "arrest", "quiescence", "axis", "direction", "field",
-                    "geometry", "axis_spread", "share", "shells", "new_surface"},
+                    "geometry", "daughters", "axis_spread", "share", "shells", "new_surface"},
                    t.growth_own);
 }
 

@@ -107,6 +107,11 @@ struct Cycle {
   Given<double> enter_below, leave_above, hold;
 };
 
+struct Fate {
+  Given<double> share;
+  Given<std::vector<std::string>> types;
+};
+
 struct CellType : ShellKeys {
   Given<std::string> like;
   Spread radius;
@@ -115,7 +120,9 @@ struct CellType : ShellKeys {
   Cycle cycle;
   Given<std::string> cycle_model, growth, axis, shells_divide;
   std::map<std::string, Given<double>> growth_own;  ///< keys that laws of growth have for themselves, by name
-  OwnSection axis_own;                              ///< keys that axes of division have for themselves
+  std::vector<Named<Fate>> fates;
+  Given<std::string> daughter_polarity;
+  OwnSection axis_own;  ///< keys that axes of division have for themselves
   Given<double> axis_spread, new_surface;
   Spread division_share;
   Spread cycle_duration;

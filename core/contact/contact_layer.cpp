@@ -191,11 +191,17 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
     adhering *= sphere.sphere_adhesion;
   }
   if (const SisterBond* bond = both ? sister_bond(scene, pair) : nullptr) {
-    const double tension = own_.tension.empty() ? 1.0 : 0.5 * (own_.tension[pair.a] + own_.tension[pair.b]);
+    const double newness = contact.new_surface > 0.0 ? std::clamp(1.0 - bond->age / contact.new_surface, 0.0, 1.0) : 0.0;
+    const auto tension = [&](std::uint32_t i, std::uint32_t other) {
+      const double of_type = material(scene.bodies[i].material, scene.bodies[other].material).tension;
+      return own_.tension.empty() ? of_type : of_type * own_.tension[i];
+    };
     const double usual = contact.law.adhesion * own;
-    contact.law.adhesion = usual + bond->newness * (bond->adhesion * tension - usual);
-    adhering = bonding_;
-    contact.regional.reset();
+    if (newness > 0.0) {
+      contact.law.adhesion = usual + newness * (tension(pair.a, pair.b) + tension(pair.b, pair.a) - usual);
+      adhering = bonding_;
+      contact.regional.reset();
+    }
   }
   if (contact.regional) contact.law.adhesion = 1.0;  // W comes with the faces
   if (pair.with_itself()) {

@@ -65,11 +65,10 @@ struct OwnFactors {
 /// Which pairs are meant: surfaces with surfaces and obstacles, or with spheres.
 enum class SurfacePairKind : std::uint8_t { kSurfaces, kWithSphere };
 
-/// A surface that is new where it touches that of its sister: W goes there from `adhesion` to what it is elsewhere.
+/// A surface that is new where it touches that of its sister: W goes there from twice the tension to what it is elsewhere.
 struct SisterBond {
-  CellId cell;            ///< one of the sisters
-  double newness = 0.0;   ///< 1: at the cut; 0: no more
-  double adhesion = 0.0;  ///< at the cut: twice the tension of its type, which takes the own factors of both [nN/µm]
+  CellId cell;       ///< one of the sisters
+  double age = 0.0;  ///< since the cut, of both [s]
 
   friend bool operator==(const SisterBond&, const SisterBond&) = default;
 };

@@ -45,6 +45,7 @@ enum class RandomStream : std::uint32_t {
   kTension,  ///< of a cell's own factors, in the order of Trait
   kStiffness,
   kAdhesion,
+  kFate,  ///< what types the daughters of a division have
 };
 
 /// A pair of independent numbers.

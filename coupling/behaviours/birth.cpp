@@ -33,7 +33,7 @@ CellState make_founder(CellId id, std::uint16_t type_index, const CellType& type
 }
 
 CellState make_daughter(const CellState& mother, int which, const CellType& type, std::uint32_t seed, double time, double birth_volume,
-                        CyclePlace& place) {
+                        double mothers_duration, CyclePlace& place) {
   CellState row;
   for_each_cell_column([&](const CellColumn& column, auto member) {
     if (column.at_division == AtDivision::kCopied) row.*member = mother.*member;
@@ -43,7 +43,7 @@ CellState make_daughter(const CellState& mother, int which, const CellType& type
   row.birth_time = time;
   row.birth_volume = birth_volume;
   row.target_volume = birth_volume;
-  place = begin_cycle(row, type, seed, mother.cycle_duration);
+  place = begin_cycle(row, type, seed, mothers_duration);
   row.phase = type.cycles ? Phase::kGrowing : Phase::kResting;
   return row;
 }

@@ -17,9 +17,10 @@ CellState make_founder(CellId id, std::uint16_t type_index, const CellType& type
                        std::size_t cycle_variables = 0);
 
 /// The row of a daughter without its variables (divide_variables()): what is copied is her mother's, and she begins a cycle of newly drawn
-/// duration at `time` with the given birth volume; `place` is that of its beginning.
+/// duration at `time` with the given birth volume; `place` is that of its beginning. `type`: the daughter's; `mothers_duration`: of the mother's cycle, as
+/// long as it would have been in that type [s].
 CellState make_daughter(const CellState& mother, int which, const CellType& type, std::uint32_t seed, double time, double birth_volume,
-                        CyclePlace& place);
+                        double mothers_duration, CyclePlace& place);
 
 /// Puts a place in the cycle among the variables of a cell whose type has phases. `first`: number of the first of its variables.
 void set_place(CellState& row, const CellType& type, const CyclePlace& place, std::size_t first);

@@ -6,31 +6,66 @@
 #include "core/numbers/cube_root.h"
 #include "coupling/behaviours/birth.h"
 #include "coupling/behaviours/growth.h"
+#include "coupling/behaviours/migration.h"
+#include "coupling/behaviours/polarity.h"
 
 namespace morula {
 
+std::array<std::uint16_t, 2> fate_of(const CellState& mother, const CellType& type, std::uint32_t seed) {
+  if (!type.fates.all.empty()) {
+    double left = Random(seed, RandomStream::kFate).uniform(mother.id, 0).first;
+    for (const Fate& fate : type.fates.all)
+      if ((left -= fate.share) < 0.0) return fate.type;
+  }
+  return {mother.type, mother.type};
+}
+
+namespace {
+
+/// What a daughter has of her mother's polarity; of a type without one none.
+Vec3d daughters_polarity(const CellState& mother, const CellState& daughter, bool is_first, const CellType& of_mother, const CellType& type,
+                         std::uint32_t seed) {
+  const DaughterPolarity rule = of_mother.fates.polarity;
+  const Vec3d mothers = !is_first && rule == DaughterPolarity::kMirrored ? -mother.polarity : mother.polarity;
+  if (daughter.type == mother.type) return rule == DaughterPolarity::kNew ? initial_polarity(daughter.id, type, seed) : mothers;
+  if (!type.polarity.set) return {};
+  return rule == DaughterPolarity::kNew || !of_mother.polarity.set ? initial_polarity(daughter.id, type, seed) : mothers;
+}
+
+}  // namespace
+
 DaughterRows divide_row(const CellState& mother, std::span<const VariableColumn> variables, const CellType& type, std::uint32_t seed,
-                        double time, double late, double fraction) {
+                        double time, double late, double fraction, std::span<const CellType> types) {
   assert(mother.id.can_divide() && fraction > 0.0 && fraction < 1.0);
   const double volume_1 = fraction * mother.target_volume;
   const double volume_2 = mother.target_volume - volume_1;
+  const std::array<std::uint16_t, 2> becomes = fate_of(mother, type, seed);
 
   DaughterRows out;
   out.share = volume_1 / mother.target_volume;
   const double birth = time - late;
-  CyclePlace place_1, place_2;
-  out.first = make_daughter(mother, 0, type, seed, birth, volume_1, place_1);
-  out.second = make_daughter(mother, 1, type, seed, birth, volume_2, place_2);
+  std::array<CellState*, 2> daughters{&out.first, &out.second};
+  std::array<CyclePlace, 2> place;
+  const auto type_of = [&](int which) -> const CellType& { return becomes[which] == mother.type ? type : types[becomes[which]]; };
+  for (const int which : {0, 1}) {
+    const CellType& own = type_of(which);
+    CellState& daughter = *daughters[which];
+    daughter = make_daughter(mother, which, own, seed, birth, which == 0 ? volume_1 : volume_2,
+                             mother.cycle_duration * (own.cycle_duration.mean / type.cycle_duration.mean), place[which]);
+    daughter.type = becomes[which];
+    daughter.polarity = daughters_polarity(mother, daughter, which == 0, type, own, seed);
+    if (becomes[which] != mother.type) daughter.migration_velocity = initial_migration_velocity(daughter.id, own, seed);
+  }
   divide_variables(variables, mother, out.first, out.second);
-  for (CellState* daughter : {&out.first, &out.second}) draw_traits(*daughter, type, seed, &mother);
   const std::size_t first = first_cycle_variable(variables);
-  const auto go_on = [&](CellState& daughter, CyclePlace& place) {
-    if (late > 0.0 && type.cycle.phases.empty()) grow(daughter, type, late);
-    if (late > 0.0 && !type.cycle.phases.empty()) pass_phases(daughter, place, type, seed, late, 1.0, [](std::size_t) { return 1.0; });
-    set_place(daughter, type, place, first);
-  };
-  go_on(out.first, place_1);
-  go_on(out.second, place_2);
+  for (const int which : {0, 1}) {
+    const CellType& own = type_of(which);
+    CellState& daughter = *daughters[which];
+    draw_traits(daughter, own, seed, &mother);
+    if (late > 0.0 && own.cycle.phases.empty()) grow(daughter, own, late);
+    if (late > 0.0 && !own.cycle.phases.empty()) pass_phases(daughter, place[which], own, seed, late, 1.0, [](std::size_t) { return 1.0; });
+    set_place(daughter, own, place[which], first);
+  }
   return out;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -17,11 +18,16 @@ struct DaughterRows {
 /// Divide the row of a cell, whatever its body, at an instant: V_1 = f V_m and V_2 = V_m − V_1, so that nothing is lost to rounding. Variables
 /// are those of divide_variables().
 ///
+/// `types`: those of the model; asked where the mother's type, which is `type`, has fates.
+///
 /// time: end of the step [s]; late: how long before that the division volume was reached [s]. The daughters are born at time − late, and
 /// they have already gone through `late` of their cycles, freely; their bodies have not: the first step drives them there.
 /// Precondition: mother.id.can_divide(), 0 < fraction < 1.
 DaughterRows divide_row(const CellState& mother, std::span<const VariableColumn> variables, const CellType& type, std::uint32_t seed,
-                        double time, double late, double fraction);
+                        double time, double late, double fraction, std::span<const CellType> types = {});
+
+/// What the two daughters of a cell become: drawn once from the fates of its type (stream kFate), however often the division is tried.
+std::array<std::uint16_t, 2> fate_of(const CellState& mother, const CellType& type, std::uint32_t seed);
 
 /// Place and size of a sphere.
 struct SphereBody {

@@ -36,7 +36,7 @@ Result<std::array<dcm::ShellRecord, 2>> divide_shell(const ShellToDivide& what, 
   for (std::size_t k = 0; k < 2; ++k) {
     const Daughter& daughter = division.daughter[k];
     const NewMesh mesh{mother, division.asked[k], division.cut.half[k].source_face, *what.shape, daughter.position, daughter.is_cap};
-    out[k] = make_shell(mesh, *what.type, what.shape, k == 0 ? share : 1.0 - share, target[k]);
+    out[k] = make_shell(mesh, *what.type[k], what.shape, k == 0 ? share : 1.0 - share, target[k]);
   }
   return out;
 }

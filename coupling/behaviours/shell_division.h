@@ -12,8 +12,8 @@ namespace morula {
 /// A shell that is to divide by cut, and what is around it.
 struct ShellToDivide {
   const dcm::ShellRecord* shell = nullptr;
-  const CellType* type = nullptr;
-  std::shared_ptr<const ReferenceShape> shape;   ///< of the daughters
+  std::array<const CellType*, 2> type{};         ///< of the daughters
+  std::shared_ptr<const ReferenceShape> shape;   ///< of both
   std::span<const SurfaceView> neighbours = {};  ///< surfaces that daughters stay out of; their order does not matter
 };
 

@@ -109,6 +109,8 @@ std::vector<ContactMaterial> contact_materials(const Model& model) {
         material.sphere_modulus = sphere.young / (1.0 - sphere.poisson * sphere.poisson);
         material.sphere_stiffness = sphere.with_shells.stiffness;
         material.sphere_adhesion = sphere.with_shells.adhesion;
+        material.tension = model.types[a].shell.tension;
+        if (b < model.types.size()) material.new_surface = std::max(model.types[a].new_surface, model.types[b].new_surface);
       }
       material.law = traction(model, a, b);
       if (!pair.regions.empty())

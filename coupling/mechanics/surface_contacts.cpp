@@ -4,7 +4,6 @@
 #include <iterator>
 
 #include "core/parallel/threads.h"
-#include "coupling/behaviours/shell_division.h"
 #include "coupling/mechanics/body_factors.h"
 #include "coupling/mechanics/contact_setup.h"
 
@@ -16,15 +15,14 @@ void give_back(std::vector<T>& vector) {
   std::vector<T>().swap(vector);
 }
 
-/// The shells of this rank whose surface to their sister is new; sorted by cell.
+/// The shells of this rank whose surface to their sister may be new; sorted by cell.
 std::vector<SisterBond> new_interfaces(const Model& model, const Tissue& tissue, double time) {
+  double longest = 0.0;
+  for (const CellType& type : model.types) longest = std::max(longest, type.new_surface);
   std::vector<SisterBond> out;
-  for (const CellRow& row : tissue.cells.rows) {
-    if (row.body != BodyKind::kShell) continue;
-    const CellType& type = model.types[row.type];
-    const double newness = newness_of_surface(row, type, time);
-    if (newness > 0.0) out.push_back({row.id, newness, 2.0 * type.shell.tension});
-  }
+  for (const CellRow& row : tissue.cells.rows)
+    if (const double age = time - row.birth_time; row.body == BodyKind::kShell && row.parent.valid() && age < longest)
+      out.push_back({row.id, age});
   std::ranges::sort(out, {}, &SisterBond::cell);
   return out;
 }
@@ -122,7 +120,7 @@ void SurfaceContacts::parameters_changed(const World& world) {
   if (bonds_age_) bonds = new_interfaces(world.model, world.tissue, world.time);
   if (bonds == layer_.sister_bonds()) return;
   std::vector<SisterBond> changed;
-  const auto before = [](const SisterBond& a, const SisterBond& b) { return a.cell != b.cell ? a.cell < b.cell : a.newness < b.newness; };
+  const auto before = [](const SisterBond& a, const SisterBond& b) { return a.cell != b.cell ? a.cell < b.cell : a.age < b.age; };
   std::ranges::set_symmetric_difference(bonds, layer_.sister_bonds(), std::back_inserter(changed), before);
   again_.resize(world.scene.bodies().size(), 0);
   for (std::uint32_t i = 0; i < world.scene.shells(); ++i) {

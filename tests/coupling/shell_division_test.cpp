@@ -25,7 +25,7 @@ class ShellDivision : public ::testing::Test {
     mother_.face.contact.assign(shape_->topology->face_count(), 0.25f);
   }
   std::array<dcm::ShellRecord, 2> divide(const Vec3d& axis, double share) {
-    auto out = divide_shell({&mother_, &type_, shape_}, axis, share, {share * kVolume, (1.0 - share) * kVolume});
+    auto out = divide_shell({&mother_, {&type_, &type_}, shape_}, axis, share, {share * kVolume, (1.0 - share) * kVolume});
     EXPECT_TRUE(out.ok()) << out.error().message;
     return std::move(out).value();
   }

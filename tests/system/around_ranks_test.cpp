@@ -16,7 +16,7 @@ domain:
 cell_types:
   skin:
     radius: {mean: 5 um, spread: 5 %}
-    cycle: {duration: {mean: 3 h, spread: 10 %}, axis: along_surface}
+    cycle: {duration: {mean: 3 h, spread: 10 %}, axis: along_surface, daughters: {fates: [{share: 50 %, types: [skin, tip]}]}}
     adhesion: {skin: 5e-5 J/m^2, tip: 5e-5 J/m^2, row: 5e-5 J/m^2}
     variation: {tension: {spread: 10 %, correlation: 50 %}, stiffness: 10 %, adhesion: {spread: 10 %, correlation: -30 %}}
     dcm: {nodes: 162}
