@@ -54,22 +54,21 @@ void declare_division(Section& c, draft::CellType& t) {
               .source = "chosen: off"},
              t.axis_spread);
   bool given = false;
-  c.group({.name = "daughters", .doc = "What daughters are.", .optional_section = true, .example = "{polarity: mirrored}"}, given,
-          [&t](Section& d) {
-            d.list({.name = "fates",
-                    .doc = "Types that they may have, and how often; else both have that of their mother. One is drawn for each division.",
-                    .example = "[{share: 80 %, types: [stem, transit]}, {share: 10 %, types: [transit, transit]}]"},
-                   t.fates, &declare_fate);
-            d.word({.name = "polarity",
-                    .doc = "kept: both have that of their mother; mirrored: the one to which the axis points has it, the other the "
-                           "opposite; new: each "
-                           "one of her own, as a cell that is placed.",
-                    .fallback = "kept",
-                    .words = {"kept", "mirrored", "new"},
-                    .example = "mirrored",
-                    .source = "chosen"},
-                   t.daughter_polarity);
-          });
+  c.group({.name = "daughters", .doc = "What daughters are.", .example = "{polarity: mirrored}"}, given, [&t](Section& d) {
+    d.list({.name = "fates",
+            .doc = "Types that they may have, and how often; else both have that of their mother. One is drawn for each division.",
+            .example = "[{share: 80 %, types: [stem, transit]}, {share: 10 %, types: [transit, transit]}]"},
+           t.fates, &declare_fate);
+    d.word({.name = "polarity",
+            .doc = "kept: both have that of their mother; mirrored: the one to which the axis points has it, the other the "
+                   "opposite; new: each "
+                   "one of her own, as a cell that is placed.",
+            .fallback = "kept",
+            .words = {"kept", "mirrored", "new"},
+            .example = "mirrored",
+            .source = "chosen"},
+           t.daughter_polarity);
+  });
   c.group({.name = "share",
            .doc = "Part of the mother's volume that the daughter gets to which the axis points; kept within 10 and 90 %.",
            .shorthand = "mean",

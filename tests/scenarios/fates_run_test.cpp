@@ -121,6 +121,22 @@ TEST(Fates, GoOnAsTheirTypesSay) {
   EXPECT_EQ(second, 25);
 }
 
+TEST(Fates, SurviveTheResolvedStudy) {
+  const auto study =
+      read(stem("{fates: [{share: 60 %, types: [stem, transit]}, {share: 25 %, types: [transit, transit]}], polarity: mirrored}"));
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  const auto again = read(study->resolved_text);
+  ASSERT_TRUE(again.ok()) << again.error().text();
+  for (const Study* one : {&*study, &*again}) {
+    const Fates& fates = one->model.types[kStem].fates;
+    ASSERT_EQ(fates.all.size(), 2u);
+    EXPECT_EQ(fates.all[0].share, 0.6);
+    EXPECT_EQ(fates.all[0].type, (std::array<std::uint16_t, 2>{kStem, kTransit}));
+    EXPECT_EQ(fates.all[1].type, (std::array<std::uint16_t, 2>{kTransit, kTransit}));
+    EXPECT_EQ(fates.polarity, DaughterPolarity::kMirrored);
+  }
+}
+
 TEST(Fates, PolarityIsKeptOrMirrored) {
   // Cells divide along their polarity, first z: what the daughters have of it is seen when they divide.
   for (const bool mirrored : {false, true}) {
