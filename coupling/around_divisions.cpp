@@ -1,5 +1,7 @@
 #include "coupling/around_divisions.h"
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "coupling/neighbourhoods.h"
@@ -12,49 +14,53 @@ const CellType& type_of(const Model& model, const Tissue& tissue, const BodyOfRo
   return model.types[tissue.cells.rows[body.row].type];
 }
 
-/// The numbers of those with which(mother) among `mothers`.
+/// The numbers of those with which(type, body) among `mothers`; nothing where no mother of any rank is one. Of a model without such types nothing is asked
+/// of other ranks. Collective.
 template <class Which>
-std::vector<std::size_t> choose(std::span<const BodyOfRow> mothers, const Which& which) {
+std::optional<std::vector<std::size_t>> choose(const Model& model, const Tissue& tissue, const Comm& comm,
+                                               std::span<const BodyOfRow> mothers, const Which& which) {
+  const auto may_look = [&](const CellType& type) { return which(type, false) || which(type, true); };
+  if (std::ranges::none_of(model.types, may_look)) return std::nullopt;
   std::vector<std::size_t> out;
   for (std::size_t k = 0; k < mothers.size(); ++k)
-    if (which(mothers[k])) out.push_back(k);
+    if (which(type_of(model, tissue, mothers[k]), mothers[k].is_shell)) out.push_back(k);
+  if (!comm.any(!out.empty())) return std::nullopt;
   return out;
 }
 
 void find_neighbours(const Model& model, const Tissue& tissue, Mechanics& mechanics, const Comm& comm, std::span<const BodyOfRow> mothers,
                      std::vector<AroundDivision>& out) {
-  const std::vector<std::size_t> looking = choose(
-      mothers, [&](const BodyOfRow& body) { return !body.is_shell && type_of(model, tissue, body).axis->spheres_look_at_neighbours; });
-  if (!comm.any(!looking.empty())) return;
+  const auto looking = choose(model, tissue, comm, mothers,
+                              [](const CellType& type, bool is_shell) { return !is_shell && type.axis->spheres_look_at_neighbours; });
+  if (!looking) return;
   std::vector<std::size_t> places;
-  for (const std::size_t k : looking) places.push_back(mothers[k].place(tissue.shells.size()));
+  for (const std::size_t k : *looking) places.push_back(mothers[k].place(tissue.shells.size()));
   auto found = mechanics.neighbours_of(tissue, places);
-  for (std::size_t k = 0; k < looking.size(); ++k) out[looking[k]].neighbours = std::move(found[k]);
+  for (std::size_t k = 0; k < looking->size(); ++k) out[(*looking)[k]].neighbours = std::move(found[k]);
 }
 
 void find_surface(const Model& model, const Tissue& tissue, Mechanics& mechanics, const Comm& comm, std::span<const BodyOfRow> mothers,
                   std::vector<AroundDivision>& out) {
-  const std::vector<std::size_t> looking =
-      choose(mothers, [&](const BodyOfRow& body) { return type_of(model, tissue, body).axis->looks_at_surface; });
-  if (!comm.any(!looking.empty())) return;
+  const auto looking = choose(model, tissue, comm, mothers, [](const CellType& type, bool) { return type.axis->looks_at_surface; });
+  if (!looking) return;
   const std::vector<OpenSides> open = mechanics.open_sides(tissue);
-  for (const std::size_t k : looking) out[k].surface_normal = open[mothers[k].place(tissue.shells.size())].middle();
+  for (const std::size_t k : *looking) out[k].surface_normal = open[mothers[k].place(tissue.shells.size())].middle();
 }
 
 Status find_gradients(const Model& model, const Tissue& tissue, const Comm& comm, std::span<const BodyOfRow> mothers,
                       std::vector<AroundDivision>& out) {
   for (std::size_t field = 0; field < model.fields.size(); ++field) {
-    const std::vector<std::size_t> looking = choose(
-        mothers, [&](const BodyOfRow& body) { return type_of(model, tissue, body).axis_own.number("field") == static_cast<int>(field); });
-    if (!comm.any(!looking.empty())) continue;
+    const auto looking = choose(model, tissue, comm, mothers,
+                                [field](const CellType& type, bool) { return type.axis_own.number("field") == static_cast<int>(field); });
+    if (!looking) continue;
     std::vector<std::size_t> rows;
-    std::vector<Vec3d> center(tissue.cells.size());
-    for (const std::size_t k : looking) {
+    std::vector<Vec3d> center;
+    for (const std::size_t k : *looking) {
       rows.push_back(mothers[k].row);
-      center[mothers[k].row] = center_of(tissue, mothers[k]);
+      center.push_back(center_of(tissue, mothers[k]));
     }
     MORULA_TRY_ASSIGN(const auto sensed, sense_field(model, tissue, field, rows, center, comm));
-    for (std::size_t k = 0; k < looking.size(); ++k) out[looking[k]].gradient = sensed[k].gradient;
+    for (std::size_t k = 0; k < looking->size(); ++k) out[(*looking)[k]].gradient = sensed[k].gradient;
   }
   return {};
 }

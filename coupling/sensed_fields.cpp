@@ -26,7 +26,7 @@ Result<std::vector<SensedField>> sense_field(const Model& model, const Tissue& t
   const auto sample = [&](std::size_t axis, double sign, std::vector<double>& seen) {
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const CellRow& row = tissue.cells.rows[rows[k]];
-      points[k] = {row.id, row.type, center[rows[k]]};
+      points[k] = {row.id, row.type, center[k]};
       points[k].center[axis] += sign * radius_of(row);
     }
     return fields::sample(tissue.fields[field], model.space, points, comm, seen);
@@ -49,9 +49,13 @@ Result<std::vector<SensedField>> sense_fields(const Model& model, const Tissue& 
   std::vector<SensedField> out(tissue.cells.size());
   for (const int field : sensed) {
     std::vector<std::size_t> rows;
+    std::vector<Vec3d> places;
     for (std::size_t i = 0; i < tissue.cells.size(); ++i)
-      if (model.types[tissue.cells.rows[i].type].migration.sensed_field() == field) rows.push_back(i);
-    MORULA_TRY_ASSIGN(const auto found, sense_field(model, tissue, static_cast<std::size_t>(field), rows, center, comm));
+      if (model.types[tissue.cells.rows[i].type].migration.sensed_field() == field) {
+        rows.push_back(i);
+        places.push_back(center[i]);
+      }
+    MORULA_TRY_ASSIGN(const auto found, sense_field(model, tissue, static_cast<std::size_t>(field), rows, places, comm));
     for (std::size_t k = 0; k < rows.size(); ++k) out[rows[k]] = found[k];
   }
   return out;

@@ -8,7 +8,9 @@ void declare_study(Section& section, draft::Study& study);
 
 void declare_cell_type(Section& section, draft::CellType& type);
 /// `mean` and `spread` of a number that varies from cell to cell.
-/// `correlation` of a daughter with her mother, beside declare_spread() or a `spread` of another kind.
+/// `spread` alone, `most` at the most.
+void declare_relative_spread(Section& s, draft::Spread& value, double most);
+/// `correlation` of a daughter with her mother, beside `spread`.
 void declare_correlation(Section& s, draft::Spread& value);
 void declare_spread(Section& section, draft::Spread& value, Quantity quantity, const char* mean, const char* doc, const char* source,
                     double low, double high);

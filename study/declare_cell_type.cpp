@@ -162,6 +162,18 @@ void declare_with_shells(Section& s, draft::CellType& t) {
 
 }  // namespace
 
+void declare_relative_spread(Section& s, draft::Spread& value, double most) {
+  s.quantity({.name = "spread",
+              .doc = "Relative standard deviation from cell to cell (Gaussian, cut at 3).",
+              .quantity = Q::kFraction,
+              .fallback = "0 %",
+              .low = 0.0,
+              .high = most,
+              .example = "10 %",
+              .source = "chosen"},
+             value.spread);
+}
+
 void declare_correlation(Section& s, draft::Spread& value) {
   s.quantity(
       {.name = "correlation",
@@ -188,15 +200,7 @@ void declare_spread(Section& s, draft::Spread& value, Quantity quantity, const c
               .example = mean,
               .source = source},
              value.mean);
-  s.quantity({.name = "spread",
-              .doc = "Relative standard deviation from cell to cell (Gaussian, cut at 3).",
-              .quantity = Q::kFraction,
-              .fallback = "0 %",
-              .low = 0.0,
-              .high = 0.3,
-              .example = "10 %",
-              .source = "chosen"},
-             value.spread);
+  declare_relative_spread(s, value, 0.3);
 }
 
 namespace {
@@ -216,15 +220,7 @@ void declare_variation(Section& s, draft::CellType& t) {
              .shorthand = "spread",
              .example = "{spread: 10 %, correlation: 50 %}"},
             given, [&value](Section& v) {
-              v.quantity({.name = "spread",
-                          .doc = "Relative standard deviation from cell to cell (Gaussian, cut at 3).",
-                          .quantity = Q::kFraction,
-                          .fallback = "0 %",
-                          .low = 0.0,
-                          .high = 0.2,
-                          .example = "10 %",
-                          .source = "chosen: off"},
-                         value.spread);
+              declare_relative_spread(v, value, 0.2);
               declare_correlation(v, value);
             });
   }

@@ -6,9 +6,7 @@
 #include <map>
 #include <string>
 
-#include "results/snapshot_file.h"
-#include "tests/scenarios/run_into.h"
-#include "tests/study/study_fixture.h"
+#include "tests/scenarios/snapshots_of_run.h"
 
 namespace morula::scenarios::test {
 namespace {
@@ -30,24 +28,16 @@ cell_types:
 /// From the second daughter to the first, of length 1, by mother.
 std::map<CellId, Vec3d> daughters_of(const std::string& text) {
   std::map<CellId, Vec3d> out;
-  const Folder folder;
-  const auto study = read(text);
-  EXPECT_TRUE(study.ok()) << study.error().text();
-  if (!study.ok() || !run_into(folder.path() / "run", *study)) return out;
-  const auto entries = list_snapshots(folder.path() / "run/results.h5");
-  if (!entries.ok()) return out;
-  const auto end = read_snapshot(folder.path() / "run/results.h5", entries->back().index);
-  if (!end.ok()) return out;
-  for (const Snapshot::Cell& a : end->cells)
-    for (const Snapshot::Cell& b : end->cells)
+  const auto all = snapshots_of_run(text);
+  if (all.empty()) return out;
+  for (const Snapshot::Cell& a : all.back().snapshot.cells)
+    for (const Snapshot::Cell& b : all.back().snapshot.cells)
       if (a.parent == b.parent && a.parent.valid() && a.id == a.parent.daughter(0) && b.id == a.parent.daughter(1))
         out[a.parent] = normalized(a.centroid - b.centroid);
   return out;
 }
 
-std::string at(double x, double y, double z) {
-  return "[" + std::to_string(x) + " um, " + std::to_string(y) + " um, " + std::to_string(z) + " um]";
-}
+std::string at(double x, double y, double z) { return place_text({x, y, z}); }
 
 constexpr double kApart = 8.1;  // neither body begins too deep in another
 

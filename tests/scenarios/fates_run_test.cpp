@@ -5,9 +5,7 @@
 #include <map>
 #include <string>
 
-#include "results/snapshot_file.h"
-#include "tests/scenarios/run_into.h"
-#include "tests/study/study_fixture.h"
+#include "tests/scenarios/snapshots_of_run.h"
 
 namespace morula::scenarios::test {
 namespace {
@@ -17,9 +15,7 @@ using testing::HasSubstr;
 /// Stem cells, 60 µm apart, that divide along x after half an hour; what becomes transit divides no more.
 std::string stem(const std::string& daughters, const std::string& body = "sphere", int n = 20, const std::string& more = "") {
   std::string places;
-  for (int i = 0; i < n * n; ++i)
-    places +=
-        std::string(i > 0 ? ", " : "") + "[" + std::to_string(60.0 * (i % n)) + " um, " + std::to_string(60.0 * (i / n)) + " um, 0 um]";
+  for (int i = 0; i < n * n; ++i) places += (i > 0 ? ", " : "") + place_text({60.0 * (i % n), 60.0 * (i / n), 0.0});
   return R"(
 schema: 1
 study: fates
@@ -52,15 +48,9 @@ struct Daughter {
 /// Both daughters by mother at the end: first, second.
 std::map<CellId, std::array<Daughter, 2>> daughters_of(const std::string& text) {
   std::map<CellId, std::array<Daughter, 2>> out;
-  const Folder folder;
-  const auto study = read(text);
-  EXPECT_TRUE(study.ok()) << study.error().text();
-  if (!study.ok() || !run_into(folder.path() / "run", *study)) return out;
-  const auto entries = list_snapshots(folder.path() / "run/results.h5");
-  if (!entries.ok()) return out;
-  const auto end = read_snapshot(folder.path() / "run/results.h5", entries->back().index);
-  if (!end.ok()) return out;
-  for (const Snapshot::Cell& cell : end->cells)
+  const auto all = snapshots_of_run(text);
+  if (all.empty()) return out;
+  for (const Snapshot::Cell& cell : all.back().snapshot.cells)
     if (cell.parent.valid())
       out[cell.parent][cell.id == cell.parent.daughter(0) ? 0 : 1] = {cell.type, cell.centroid.x, cell.centroid.z, cell.volume,
                                                                       cell.inner_pressure};

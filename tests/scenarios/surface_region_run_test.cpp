@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/close_packing.h"
 #include "tests/scenarios/bodies_of_run.h"
 
 namespace morula::scenarios {
@@ -14,20 +15,11 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string at(const Vec3d& x) {
-  return "[" + std::to_string(x.x) + " um, " + std::to_string(x.y) + " um, " + std::to_string(x.z) + " um]";
-}
-
 /// A cell, its 12 neighbours in a cubic close packing, and the 42 around these: three layers that adhere.
 std::string ball(const std::string& regions, const std::string& more = "") {
-  const double step = 7.6 / std::sqrt(2.0);
-  std::vector<Vec3d> places;
-  for (int i = -2; i <= 2; ++i)
-    for (int j = -2; j <= 2; ++j)
-      for (int k = -2; k <= 2; ++k)
-        if ((i + j + k) % 2 == 0 && i * i + j * j + k * k <= 8) places.push_back(Vec3d(i, j, k) * step);
   // A cubic close packing has shells of 1, 12, 6, 24, 12 sites at distances √0, √2, √4, √6, √8 of half its edge: contacts are cuboctahedra.
-  std::ranges::stable_sort(places, {}, [](const Vec3d& x) { return std::round(norm2(x)); });
+  std::vector<Vec3d> places = close_packed_places(2, 7.6);
+  places.resize(55);
   std::string text = R"(
 schema: 1
 study: ball
@@ -36,7 +28,7 @@ domain: {size: [120 um, 120 um, 120 um]}
 cell_types:
   cell: {radius: 4 um}
 )" + more + "initial:\n  - {type: cell, at: [";
-  for (std::size_t k = 0; k < places.size(); ++k) text += (k > 0 ? ", " : "") + at(places[k]);
+  for (std::size_t k = 0; k < places.size(); ++k) text += (k > 0 ? ", " : "") + test::place_text(places[k]);
   return text + "]}\ncoupling:\n  hold: 1 min\n  regions: " + regions + "\noutput: {report: false}\n";
 }
 
@@ -60,8 +52,7 @@ TEST(SurfaceRegion, HasTheOutermostLayersOfTheTissue) {
 }
 
 TEST(SurfaceRegion, OfADisorderedTissueIsItsRimAndNoGapWithinIt) {
-  const test::Folder folder;
-  const auto study = test::read(R"(
+  const auto all = test::snapshots_of_run(R"(
 schema: 1
 study: disordered
 time: {end: 80 min, output: 80 min}
@@ -72,16 +63,12 @@ initial: [{type: cell, count: 400, fill: sphere, radius: 32 um}]
 coupling: {regions: [{name: rim, shape: surface, from: 35 min}]}
 output: {report: false}
 )");
-  ASSERT_TRUE(study.ok()) << study.error().text();
-  ASSERT_TRUE(test::run_into(folder.path() / "run", *study));
-  const auto entries = list_snapshots(folder.path() / "run/results.h5");
-  ASSERT_TRUE(entries.ok());
-  const auto end = read_snapshot(folder.path() / "run/results.h5", entries->back().index);
-  ASSERT_TRUE(end.ok());
+  ASSERT_FALSE(all.empty());
+  const Snapshot& end = all.back().snapshot;
   Vec3d middle{};
-  for (const Snapshot::Cell& cell : end->cells) middle += cell.centroid * (1.0 / 400.0);
+  for (const Snapshot::Cell& cell : end.cells) middle += cell.centroid * (1.0 / 400.0);
   std::vector<std::pair<double, bool>> by_radius;
-  for (const Snapshot::Cell& cell : end->cells) by_radius.emplace_back(norm(cell.centroid - middle), cell.body == BodyKind::kShell);
+  for (const Snapshot::Cell& cell : end.cells) by_radius.emplace_back(norm(cell.centroid - middle), cell.body == BodyKind::kShell);
   std::ranges::sort(by_radius);
   const auto shells = [&](std::size_t from, std::size_t until) {
     return std::count_if(by_radius.begin() + static_cast<std::ptrdiff_t>(from), by_radius.begin() + static_cast<std::ptrdiff_t>(until),

@@ -8,9 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "results/snapshot_file.h"
-#include "tests/scenarios/run_into.h"
-#include "tests/study/study_fixture.h"
+#include "tests/scenarios/snapshots_of_run.h"
 
 namespace morula::scenarios::test {
 namespace {
@@ -27,28 +25,18 @@ struct Told {
   Told(const Told& other) : cells(other.cells), of(other.of) {}
 };
 
-Told last_of(const std::filesystem::path& run) {
+Told run(const std::string& text) {
   Told out;
-  const auto entries = list_snapshots(run / "results.h5");
-  EXPECT_TRUE(entries.ok());
-  if (!entries.ok()) return out;
-  const auto end = read_snapshot(run / "results.h5", entries->back().index);
-  EXPECT_TRUE(end.ok());
-  if (!end.ok()) return out;
-  for (std::size_t i = 0; i < end->cells.size(); ++i) {
-    out.cells[end->cells[i].id] = end->cells[i];
-    for (const Snapshot::Variable& variable : end->variables)
+  const auto all = snapshots_of_run(text);
+  if (all.empty()) return out;
+  const Snapshot& end = all.back().snapshot;
+  for (std::size_t i = 0; i < end.cells.size(); ++i) {
+    out.cells[end.cells[i].id] = end.cells[i];
+    for (const Snapshot::Variable& variable : end.variables)
       if (variable.name.ends_with("/deviation"))
-        out.of[variable.name.substr(0, variable.name.find('/'))][end->cells[i].id] = variable.values[i];
+        out.of[variable.name.substr(0, variable.name.find('/'))][end.cells[i].id] = variable.values[i];
   }
   return out;
-}
-
-Told run(const std::string& text) {
-  const Folder folder;
-  const auto study = read(text);
-  EXPECT_TRUE(study.ok()) << study.error().text();
-  return study.ok() && run_into(folder.path() / "run", *study) ? last_of(folder.path() / "run") : Told{};
 }
 
 /// n² places in a plane.
@@ -56,8 +44,7 @@ std::string grid(int n, double apart) {
   std::string out;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j)
-      out += (out.empty() ? "[" : ", [") + std::to_string(apart * (i - 0.5 * (n - 1))) + " um, " +
-             std::to_string(apart * (j - 0.5 * (n - 1))) + " um, 0 um]";
+      out += (out.empty() ? "" : ", ") + place_text({apart * (i - 0.5 * (n - 1)), apart * (j - 0.5 * (n - 1)), 0.0});
   return out;
 }
 
@@ -159,23 +146,16 @@ double correlation_of(const std::vector<std::pair<double, double>>& pairs) {
 }
 
 TEST(Variation, OfDaughtersFollowsThatOfTheirMothers) {
-  const Folder folder;
-  const auto study = read(dividing("{mean: 30 min, spread: 10 %}", "{spread: 10 %, correlation: 60 %}", "45 min"));
-  ASSERT_TRUE(study.ok()) << study.error().text();
-  ASSERT_TRUE(run_into(folder.path() / "run", *study));
-  const auto entries = list_snapshots(folder.path() / "run/results.h5");
-  ASSERT_TRUE(entries.ok());
+  const auto all = snapshots_of_run(dividing("{mean: 30 min, spread: 10 %}", "{spread: 10 %, correlation: 60 %}", "45 min"));
+  ASSERT_FALSE(all.empty());
   std::map<CellId, double> deviation;
   std::map<CellId, CellId> parent;
-  for (const auto& entry : *entries) {
-    const auto snapshot = read_snapshot(folder.path() / "run/results.h5", entry.index);
-    ASSERT_TRUE(snapshot.ok());
-    for (const Snapshot::Variable& variable : snapshot->variables)
-      for (std::size_t i = 0; variable.name == "tension/deviation" && i < snapshot->cells.size(); ++i) {
-        deviation[snapshot->cells[i].id] = variable.values[i];
-        parent[snapshot->cells[i].id] = snapshot->cells[i].parent;
+  for (const auto& [time, snapshot] : all)
+    for (const Snapshot::Variable& variable : snapshot.variables)
+      for (std::size_t i = 0; variable.name == "tension/deviation" && i < snapshot.cells.size(); ++i) {
+        deviation[snapshot.cells[i].id] = variable.values[i];
+        parent[snapshot.cells[i].id] = snapshot.cells[i].parent;
       }
-  }
   std::vector<std::pair<double, double>> pairs, sisters;
   double squares = 0.0;
   for (const auto& [id, d] : deviation) {
@@ -194,20 +174,12 @@ TEST(Variation, OfDaughtersFollowsThatOfTheirMothers) {
 TEST(Variation, OfCyclesFollowsThatOfTheMothers) {
   // From `events.jsonl`: when founders and their daughters divide.
   for (const double rho : {0.0, 0.7, -0.5}) {
-    const Folder folder;
-    const auto study = read(dividing("{mean: 30 min, spread: 10 %, correlation: " + std::to_string(100.0 * rho) + " %}", "0 %", "82 min"));
-    ASSERT_TRUE(study.ok()) << study.error().text();
-    ASSERT_TRUE(run_into(folder.path() / "run", *study));
-    const auto entries = list_snapshots(folder.path() / "run/results.h5");
-    ASSERT_TRUE(entries.ok());
-    const auto end = read_snapshot(folder.path() / "run/results.h5", entries->back().index);
-    ASSERT_TRUE(end.ok());
+    const auto all =
+        snapshots_of_run(dividing("{mean: 30 min, spread: 10 %, correlation: " + std::to_string(100.0 * rho) + " %}", "0 %", "82 min"));
+    ASSERT_FALSE(all.empty());
     std::map<CellId, double> birth;
-    for (const auto& entry : *entries) {
-      const auto snapshot = read_snapshot(folder.path() / "run/results.h5", entry.index);
-      ASSERT_TRUE(snapshot.ok());
-      for (const Snapshot::Cell& cell : snapshot->cells) birth.emplace(cell.id, entry.time - cell.age);
-    }
+    for (const auto& [time, snapshot] : all)
+      for (const Snapshot::Cell& cell : snapshot.cells) birth.emplace(cell.id, time - cell.age);
     std::vector<std::pair<double, double>> pairs;  // cycles of founders and daughters
     for (const auto& [id, born] : birth) {
       if (id.generation() != 1) continue;
@@ -224,9 +196,9 @@ std::string pairs(int n, double way, const std::string& first, const std::string
                   const std::string& of_first = ", orientation: aligned", const std::string& of_second = ", orientation: aligned") {
   std::string a, b;
   for (int i = 0; i < n; ++i) {
-    const std::string z = std::to_string(60.0 * (i - 0.5 * (n - 1))) + " um, 0 um]";
-    a += (i > 0 ? ", [0 um, " : "[0 um, ") + z;
-    b += (i > 0 ? ", [" : "[") + std::to_string(way) + " um, " + z;
+    const double y = 60.0 * (i - 0.5 * (n - 1));
+    a += (i > 0 ? ", " : "") + place_text({0.0, y, 0.0});
+    b += (i > 0 ? ", " : "") + place_text({way, y, 0.0});
   }
   return "initial:\n  - {type: " + first + ", at: [" + a + "]" + of_first + "}\n  - {type: " + second + ", at: [" + b + "]" + of_second +
          "}\n";
