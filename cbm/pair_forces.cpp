@@ -44,9 +44,12 @@ ContactTable::ContactTable(std::span<const SphereParameters> types, std::span<co
       const SphereParameters& first = types[b < types_ && b < a ? b : a];
       const SphereParameters* second = b < types_ ? &types[b < a ? a : b] : nullptr;
       const SphereLaw* law = law_of(first, second);
+      const auto of_two = [&](double SphereParameters::*factor) {
+        return second != nullptr ? std::sqrt(first.*factor * second->*factor) : 1.0;
+      };
       entries_.push_back({{law, law->couple(first, second, surface.adhesion), fitted_range(first, second, law)},
-                          surface.normal_friction * (second != nullptr ? std::sqrt(first.approach_factor * second->approach_factor) : 1.0),
-                          surface.tangential_friction});
+                          surface.normal_friction * of_two(&SphereParameters::approach_factor),
+                          surface.tangential_friction * of_two(&SphereParameters::along_factor)});
     }
   }
 }

@@ -104,6 +104,7 @@ struct SphereParameters {
   PackingCurve packing{};                            ///< pressure by packing; empty: none
   double adhesion_factor = 1.0;                      ///< W of two spheres over that of the study: of a law fitted to shells
   double approach_factor = 1.0;                      ///< γ_n of two spheres over that of the study: of a law fitted to shells
+  double along_factor = 1.0;                         ///< γ_t, likewise
   WithShells with_shells{};
   OverlapRange fitted{};  ///< of contacts with spheres that have a fitted law, too
 };

@@ -66,8 +66,8 @@ struct CellState : CellRow, OptionalValues {
 
 /// How far the cell is from its type in a trait, as a part.
 inline double deviation(const CellState& row, const CellType& type, Trait trait) {
-  const int variable = type.traits.variable[number_of(trait)];
-  return variable >= 0 ? row.variable(static_cast<std::size_t>(variable)) : 0.0;
+  const std::optional<std::size_t> variable = type.traits.variable_of(trait);
+  return variable ? row.variable(*variable) : 0.0;
 }
 
 /// A column of the rows or of their optional values.
@@ -161,8 +161,8 @@ struct Cells {
   [[nodiscard]] std::size_t size() const { return rows.size(); }
   /// How far the cell of a row is from its type in a trait, as a part.
   [[nodiscard]] double deviation(std::size_t i, const CellType& type, Trait trait) const {
-    const int variable = type.traits.variable[number_of(trait)];
-    return variable >= 0 ? variables[static_cast<std::size_t>(variable)].values[i] : 0.0;
+    const std::optional<std::size_t> variable = type.traits.variable_of(trait);
+    return variable ? variables[*variable].values[i] : 0.0;
   }
   /// The cells have these variables, all 0, unless they have them already.
   void declare(const std::vector<CellVariable>& wanted) {

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "coupling/distribution.h"
 
@@ -21,11 +22,16 @@ constexpr std::size_t number_of(Trait trait) { return static_cast<std::size_t>(t
 /// How the traits of a type vary.
 struct Traits {
   std::array<Distribution, kTraits.size()> factor{Distribution{1.0, 0.0}, Distribution{1.0, 0.0}, Distribution{1.0, 0.0}};
-  /// Numbers of the variables of cells that hold their own factors less 1; −1: no type of the model varies in it.
+  /// What variable_of() reads; −1: none.
   std::array<int, kTraits.size()> variable{-1, -1, -1};
 
   [[nodiscard]] const Distribution& of(Trait trait) const { return factor[number_of(trait)]; }
   [[nodiscard]] bool vary_in(Trait trait) const { return of(trait).relative_spread > 0.0; }
+  /// Number of the variable of cells that holds their own factor less 1; none where no type of the model varies in it.
+  [[nodiscard]] std::optional<std::size_t> variable_of(Trait trait) const {
+    const int number = variable[number_of(trait)];
+    return number < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(number));
+  }
 };
 
 }  // namespace morula

@@ -87,7 +87,8 @@ void build_fitted_law(BuildContext& c, const std::string& /*type_name*/, draft::
   take(c, "poisson", fitted->poisson, "", t.sphere_poisson);
   sphere.young = t.sphere_young.value, sphere.poisson = t.sphere_poisson.value;
   if (fitted->adhesion_of_shells > 0.0) sphere.adhesion_factor = fitted->adhesion / fitted->adhesion_of_shells;
-  sphere.approach_factor = table ? fitted->approach_beside_table : fitted->approach;
+  const FittedLaw::FrictionFactors& friction = table ? fitted->of_table : fitted->of_jkr;
+  sphere.approach_factor = friction.approach, sphere.along_factor = friction.along;
   sphere.fitted = fitted->overlap;
   if (fitted->with_shells) {
     take(c, "with_shells.stiffness", fitted->with_shells->stiffness, "", t.with_shells.of("stiffness", &cbm::WithShells::stiffness));
@@ -100,7 +101,7 @@ void build_fitted_law(BuildContext& c, const std::string& /*type_name*/, draft::
 
 namespace {
 
-/// E542 where cells are held back by another friction than those whose approach was fitted.
+/// E542 where cells are held back by another friction than those whose spheres were fitted.
 void check_friction(BuildContext& c, const CellFriction& here, const CellFriction& there, const std::string& name, const Place& place) {
   constexpr double kAlike = 0.05;
   const auto differs = [&](double a, double b) { return std::abs(a - b) > kAlike * std::max(a, b); };
@@ -109,9 +110,10 @@ void check_friction(BuildContext& c, const CellFriction& here, const CellFrictio
                      : differs(here.along, there.along)       ? "cell_cell_tangential"
                                                               : nullptr;
   if (what == nullptr) return;
-  c.diagnostics.warning(542, place,
-                        "how fast spheres of '" + name + "' come together was fitted with another friction: `" + what + "` differs",
-                        "forces at rest do not depend on it; for the speed, calibrate with this study's friction");
+  c.diagnostics.warning(
+      542, place,
+      "how fast spheres of '" + name + "' come together and go past each other was fitted with another friction: `" + what + "` differs",
+      "forces at rest do not depend on it; for the speed, calibrate with this study's friction");
 }
 
 }  // namespace

@@ -118,15 +118,13 @@ void declare_sphere_law(Section& c, draft::CellType& t) {
   c.word(law, t.sphere_law);
   c.quantity(cbm::keys::young(), t.sphere_young);
   c.quantity(cbm::keys::poisson(), t.sphere_poisson);
-  c.text(
-      {.name = "file",
-       .doc =
-           "TYPE.jkr.yaml of `morula calibrate jkr`, for `law: fitted`: E, Poisson's ratio, the adhesion of two spheres and their friction "
-           "of "
-           "approach, the pressure of packing and "
-           "the range of the fit are those of the file. The type must have the `dcm`, `radius`, adhesion and `contact` that were fitted.",
-       .example = "tumour.jkr.yaml"},
-      t.sphere_file);
+  c.text({.name = "file",
+          .doc = "TYPE.jkr.yaml of `morula calibrate jkr`, for `law: fitted`: E, Poisson's ratio, the adhesion of two spheres and their "
+                 "friction, the "
+                 "pressure of packing and the range of the fit are those of the file. The type must have the `dcm`, `radius`, adhesion and "
+                 "`contact` that were fitted.",
+          .example = "tumour.jkr.yaml"},
+         t.sphere_file);
   c.word({.name = "form",
           .doc = "Which of the laws in the file. better: that which meets what was held out; jkr: elastic with adhesion; table: force and "
                  "area through points, "

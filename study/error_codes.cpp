@@ -120,9 +120,10 @@ constexpr ErrorCode kCodes[] = {
      "Links from the cortex to the nucleus need a nucleus: give the shell one, or link the cortex to itself."},
     {539, "more links than nodes", "Each node has one link to the nucleus at most, and one across the cell."},
     {540, "nucleus that water would have to leave", "A rigid nucleus is no solvent: the inactive part of the volume must hold it."},
-    {542, "approach fitted with another friction",
-     "How fast two spheres of a fitted law come together was found from shells with the friction that the file tells. With another one it "
-     "is a guess."},
+    {542, "friction fitted with another one",
+     "How fast spheres of a fitted law come together and go past each other was found from shells with the friction that the file tells. "
+     "With "
+     "another one it is a guess."},
     {545, "array of a mesh file", "A VTK file has no array of this name, or the array does not give every cell one finite number."},
     {546, "cells reach into each other", "Two surfaces of the files overlap deeper than `meshes.overlap` allows."},
     {547, "cells cannot be told apart",

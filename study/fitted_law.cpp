@@ -20,9 +20,12 @@ struct TableKnot {
 struct Ends {
   Given<double> least, most;
 };
-struct Approach {
-  Given<double> factor;
+struct Factor {
+  Given<double> value;
   bool given = false;
+};
+struct Factors {
+  Factor approach, along;
 };
 struct WithShells {
   Given<double> stiffness, adhesion;
@@ -33,7 +36,7 @@ struct File {
   Given<std::string> version, type, material, better;
   Given<double> radius, adhesion_of_shells;
   Given<double> young, poisson, adhesion, touch;
-  Approach approach, approach_beside_table;
+  Factors of_jkr, of_table;
   WithShells with_shells;
   Given<double> medium, cell_cell, cell_cell_tangential;
   bool has_friction = false;
@@ -82,12 +85,20 @@ void declare_held_out(Section& s, File& f) {
   });
 }
 
-void declare_approach(Section& s, File& f, Approach& approach) {
-  s.group({.name = "approach", .doc = "", .optional_section = true, .example = ""}, approach.given, [&](Section& g) {
-    g.quantity(number("factor", Q::kNumber, 0.0, 1e6), approach.factor);
-    declare_figures(g, f, {"friction", "misfit"});
-    g.words(section("interval"), f.others);
-  });
+void declare_factors(Section& s, File& f, Factors& factors) {
+  for (const auto& [name, factor] : {std::pair{"approach", &factors.approach}, {"along", &factors.along}})
+    s.group({.name = name, .doc = "", .optional_section = true, .example = ""}, factor->given, [&f, factor](Section& g) {
+      g.quantity(number("factor", Q::kNumber, 0.0, 1e6), factor->value);
+      declare_figures(g, f, {"friction", "misfit"});
+      g.words(section("interval"), f.others);
+    });
+}
+
+FittedLaw::FrictionFactors factors_of(const Factors& read) {
+  FittedLaw::FrictionFactors out;
+  if (read.approach.given) out.approach = read.approach.value.value;
+  if (read.along.given) out.along = read.along.value.value;
+  return out;
 }
 
 void declare_with_shells(Section& s, File& f) {
@@ -116,7 +127,7 @@ void declare_jkr(Section& s, File& f) {
   s.words(section("adhesion_interval"), f.others);
   declare_figures(s, f, {"young_error", "adhesion_error", "correlation", "loss", "residuals", "misfit"});
   declare_held_out(s, f);
-  declare_approach(s, f, f.approach);
+  declare_factors(s, f, f.of_jkr);
   s.list(section("packing"), f.packing, &declare_knot);
 }
 
@@ -124,7 +135,7 @@ void declare_table(Section& s, File& f) {
   s.quantity(number("touch", Q::kNumber, -10.0, 10.0, false), f.touch);
   declare_figures(s, f, {"exponent", "exponent_error"});
   declare_held_out(s, f);
-  declare_approach(s, f, f.approach_beside_table);
+  declare_factors(s, f, f.of_table);
   s.list(section("packing"), f.beside_table, &declare_knot);
   s.list(section("knots"), f.knots, &declare_table_knot);
 }
@@ -207,8 +218,7 @@ std::optional<FittedLaw> read_fitted_law(const std::filesystem::path& path, cons
   out.adhesion_of_shells = file.adhesion_of_shells.value;
   out.packing = knots_of(file.packing), out.beside_table = knots_of(file.beside_table);
   if (file.with_shells.given) out.with_shells = cbm::WithShells{file.with_shells.stiffness.value, file.with_shells.adhesion.value};
-  if (file.approach.given) out.approach = file.approach.factor.value;
-  if (file.approach_beside_table.given) out.approach_beside_table = file.approach_beside_table.factor.value;
+  out.of_jkr = factors_of(file.of_jkr), out.of_table = factors_of(file.of_table);
   if (file.has_friction) out.friction = CellFriction{file.medium.value, file.cell_cell.value, file.cell_cell_tangential.value};
   out.overlap = {file.overlap.least.value, file.overlap.most.value};
   out.smallest_radius = file.radii.least.value, out.largest_radius = file.radii.most.value;

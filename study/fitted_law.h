@@ -26,8 +26,11 @@ struct FittedLaw {
   std::optional<cbm::PairTable> table;         ///< none: the points made no table
   std::vector<cbm::PackingKnot> beside_table;  ///< packing beside the table
 
-  double approach = 1.0,
-         approach_beside_table = 1.0;    ///< friction of approach of two spheres of JKR, of the table, over that of shells; 1: not fitted
+  /// Friction of two spheres over that of the shells; 1: not fitted.
+  struct FrictionFactors {
+    double approach = 1.0, along = 1.0;  ///< across and along their contact
+  };
+  FrictionFactors of_jkr, of_table;      ///< of spheres of JKR, of the table
   std::optional<CellFriction> friction;  ///< of the shells with which that was found
 
   std::optional<cbm::WithShells> with_shells;  ///< contact of a sphere with a shell; none: not fitted

@@ -191,7 +191,7 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
     adhering *= sphere.sphere_adhesion;
   }
   if (const SisterBond* bond = both ? sister_bond(scene, pair) : nullptr) {
-    const double newness = contact.new_surface > 0.0 ? std::clamp(1.0 - bond->age / contact.new_surface, 0.0, 1.0) : 0.0;
+    const double newness = newness_of_interface(bond->age, contact.new_surface);
     const auto tension = [&](std::uint32_t i, std::uint32_t other) {
       const double of_type = material(scene.bodies[i].material, scene.bodies[other].material).tension;
       return own_.tension.empty() ? of_type : of_type * own_.tension[i];

@@ -13,6 +13,7 @@
 #include "core/contact/objective_friction.h"
 #include "core/contact/packing_points.h"
 #include "core/contact/rigid_surface.h"
+#include "core/contact/sister_bond.h"
 #include "core/contact/surface_pair.h"
 #include "core/friction/contact_element.h"
 #include "core/parallel/comm.h"
@@ -64,14 +65,6 @@ struct OwnFactors {
 
 /// Which pairs are meant: surfaces with surfaces and obstacles, or with spheres.
 enum class SurfacePairKind : std::uint8_t { kSurfaces, kWithSphere };
-
-/// A surface that is new where it touches that of its sister: W goes there from twice the tension to what it is elsewhere.
-struct SisterBond {
-  CellId cell;       ///< one of the sisters
-  double age = 0.0;  ///< since the cut, of both [s]
-
-  friend bool operator==(const SisterBond&, const SisterBond&) = default;
-};
 
 /// Contacts of all bodies of a rank: which bodies may touch, and for surfaces the gaps, energies, gradients and friction elements.
 ///
@@ -199,7 +192,7 @@ class ContactLayer {
   }
   /// Where a sphere is said to have been when pairs were found, so that the drift since then brings it to its present place.
   [[nodiscard]] Vec3f listed_place(const Vec3d& now) const { return to_float(now - drift_.at(now)); }
-  /// Adhesion of a pair of sisters, where it is not that of their materials.
+  /// The bond of a pair of sisters whose interface is new; null: none.
   [[nodiscard]] const SisterBond* sister_bond(const ContactScene& scene, const SurfacePair& pair) const;
   /// Factor on W of a pair: √(f_a f_b).
   [[nodiscard]] double own_adhesion(const SurfacePair& pair) const;

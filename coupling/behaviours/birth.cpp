@@ -51,16 +51,15 @@ CellState make_daughter(const CellState& mother, int which, const CellType& type
 void draw_traits(CellState& row, const CellType& type, std::uint32_t seed, const CellState* mother) {
   constexpr std::array kStreams{RandomStream::kTension, RandomStream::kStiffness, RandomStream::kAdhesion};
   for (const Trait trait : kTraits) {
-    const int variable = type.traits.variable[number_of(trait)];
-    if (variable < 0) continue;
-    const auto number = static_cast<std::size_t>(variable);
-    if (row.variables.size() <= number) row.variables.resize(number + 1, 0.0);
+    const std::optional<std::size_t> number = type.traits.variable_of(trait);
+    if (!number) continue;
+    if (row.variables.size() <= *number) row.variables.resize(*number + 1, 0.0);
     std::uint64_t index = 0;
     const Random random(seed, kStreams[number_of(trait)]);
     const Distribution& factor = type.traits.of(trait);
-    row.variables[number] = (mother == nullptr ? draw_truncated(factor, random, row.id, index)
-                                               : draw_inherited(factor, 1.0 + deviation(*mother, type, trait), random, row.id, index)) -
-                            1.0;
+    row.variables[*number] = (mother == nullptr ? draw_truncated(factor, random, row.id, index)
+                                                : draw_inherited(factor, 1.0 + deviation(*mother, type, trait), random, row.id, index)) -
+                             1.0;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contact/sister_bond.h"
 #include "core/mesh/renewal/divide_surface.h"
 #include "coupling/new_mesh.h"
 
@@ -42,8 +43,7 @@ Result<std::array<dcm::ShellRecord, 2>> divide_shell(const ShellToDivide& what, 
 }
 
 double newness_of_surface(const CellRow& row, const CellType& type, double time) {
-  if (!row.parent.valid() || !(type.new_surface > 0.0)) return 0.0;
-  return std::clamp(1.0 - (time - row.birth_time) / type.new_surface, 0.0, 1.0);
+  return row.parent.valid() ? newness_of_interface(time - row.birth_time, type.new_surface) : 0.0;
 }
 
 void renew_surfaces(std::span<const CellType> types, const Cells& cells, dcm::Shells& shells, double time, double dt) {

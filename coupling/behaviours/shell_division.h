@@ -31,8 +31,7 @@ struct ShellToDivide {
 Result<std::array<dcm::ShellRecord, 2>> divide_shell(const ShellToDivide& what, const Vec3d& axis, double share,
                                                      const std::array<double, 2>& target);
 
-/// How new the surface is that the division of its mother has made: 1 at birth, from there evenly to 0 within CellType::new_surface. Of a cell that
-/// was there from the beginning 0.
+/// How new the surface is that the division of its mother has made (newness_of_interface()). Of a cell that was there from the beginning 0.
 ///
 /// An interface of sisters of newness n adheres with W + n (2γ − W), so that at first it has no tension of its own, 2γ − W = 0, as it was not
 /// there before (decision 0039).

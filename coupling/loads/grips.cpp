@@ -1,5 +1,6 @@
 #include "coupling/loads/grips.h"
 
+#include "core/mesh/volume_centroid_gradient.h"
 #include "core/parallel/order_free_sum.h"
 #include "coupling/loads/loads.h"
 
@@ -9,7 +10,7 @@ namespace {
 Anchor on_center(Anchor spring, const Tissue& tissue, bool is_shell, std::size_t number) {
   const auto& first = tissue.shells.first_node;
   spring.node = is_shell ? first[number] : static_cast<std::uint32_t>(tissue.shells.node_count() + number);
-  spring.count = is_shell ? first[number + 1] - first[number] : 1;
+  spring.shell = is_shell ? static_cast<int>(number) : -1;
   return spring;
 }
 
@@ -42,10 +43,32 @@ std::vector<Anchor> grip_anchors(const Model& model, const Tissue& tissue, doubl
   return out;
 }
 
-Vec3d pull_of(const Anchor& anchor, const Tissue& tissue) {
-  const std::size_t nodes = tissue.shells.node_count();
-  const Vec3d at = anchor.node < nodes ? anchor.mean(tissue.shells.position, anchor.node) : tissue.spheres.position[anchor.node - nodes];
-  return (anchor.target - at) * anchor.stiffness;
+Vec3d held_place(const Anchor& anchor, const Tissue& tissue) {
+  const dcm::Shells& shells = tissue.shells;
+  if (anchor.shell >= 0) {
+    const auto shell = static_cast<std::size_t>(anchor.shell);
+    const std::uint32_t first = shells.first_node[shell];
+    return volume_centroid(shells.topology(shell).faces(), std::span(shells.position).subspan(first, shells.first_node[shell + 1] - first));
+  }
+  return anchor.node < shells.node_count() ? shells.position[anchor.node] : tissue.spheres.position[anchor.node - shells.node_count()];
+}
+
+Vec3d pull_of(const Anchor& anchor, const Tissue& tissue) { return (anchor.target - held_place(anchor, tissue)) * anchor.stiffness; }
+
+void add_pull(const Anchor& anchor, const Tissue& tissue, std::span<Vec3d> force) {
+  const dcm::Shells& shells = tissue.shells;
+  if (anchor.node >= shells.node_count()) return;
+  const Vec3d pull = pull_of(anchor, tissue);
+  if (anchor.shell < 0) {
+    force[anchor.node] += pull;
+    return;
+  }
+  const auto shell = static_cast<std::size_t>(anchor.shell);
+  const std::uint32_t first = shells.first_node[shell];
+  const auto gradient = volume_centroid_gradient(shells.topology(shell).faces(),
+                                                 std::span(shells.position).subspan(first, shells.first_node[shell + 1] - first));
+  for (std::size_t i = 0; i < gradient.size(); ++i)
+    force[first + i] += gradient[i][0] * pull.x + gradient[i][1] * pull.y + gradient[i][2] * pull.z;
 }
 
 std::vector<Vec3d> grip_forces(const Model& model, const Tissue& tissue, const Comm& comm) {

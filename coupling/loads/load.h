@@ -26,19 +26,13 @@ struct LoadedShell {
   double strength = 1.0;            ///< the load's course at this time
 };
 
-/// A spring from the mean x̄ of some points to a place: energy ½ k |x̄ − X|². The step holds it implicitly, so that it may be stiff.
+/// A spring from a point x, or the centre of volume x of a shell, to a place: energy ½ k |x − X|². The step holds it implicitly, so that it may be stiff.
 struct Anchor {
-  std::uint32_t node = 0;  ///< the first; by shell node of the rank, after them its spheres; of Load::hold, by node of the shell
+  std::uint32_t node =
+      0;  ///< the point, or the shell's first; by shell node of the rank, after them its spheres; of Load::hold, by node of the shell
   double stiffness = 0.0;  ///< k [nN/µm]
   Vec3d target{};          ///< X [µm]
-  std::uint32_t count = 1;
-
-  /// x̄ of the points of `all`, the first of which has this number.
-  [[nodiscard]] Vec3d mean(std::span<const Vec3d> all, std::uint32_t first) const {
-    Vec3d sum{};
-    for (const Vec3d& x : all.subspan(first, count)) sum += x;
-    return count == 1 ? sum : sum * (1.0 / count);
-  }
+  int shell = -1;          ///< number on the rank of the shell that is held as a whole; −1: a point is
 };
 
 /// What pulls or pushes cells from outside: what there is to say about it, its section of a load in the study, and its force. Exactly one of push,

@@ -22,7 +22,7 @@ std::shared_ptr<const Load> trap_load() {
   static const auto load = std::make_shared<const Load>(Load{
       .info = {.name = "trap",
                .title = "A spring that holds or moves the centre of a cell",
-               .equation = "E = ½ K |x̄ − X(t)|², x̄ the mean of the nodes of a shell, or the centre of a sphere",
+               .equation = "E = ½ K |x̄ − X(t)|², x̄ the centre of volume of a shell, or of a sphere",
                .source = "choice of this project",
                .parameters = {given_by_study("stiffness", "tension", "nN/µm", "K.")}},
       .section =

@@ -6,9 +6,7 @@
 namespace morula {
 namespace {
 
-bool any_varies(const Model& model, Trait trait) {
-  return !model.types.empty() && model.types.front().traits.variable[number_of(trait)] >= 0;
-}
+bool any_varies(const Model& model, Trait trait) { return !model.types.empty() && model.types.front().traits.variable_of(trait); }
 
 }  // namespace
 

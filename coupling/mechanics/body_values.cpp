@@ -26,9 +26,7 @@ std::vector<Vec3d> load_forces(const Model& model, const Tissue& tissue, const C
   out.resize(tissue.shells.node_count());
   add_surface_loads(model, tissue, tissue.clock.time, out);
   add_lumen_forces(model, tissue, tissue.clock.time, comm, out);
-  for (const Anchor& anchor : grip_anchors(model, tissue, tissue.clock.time))
-    if (anchor.node < out.size())  // that on the centre of a sphere has no arm
-      for (Vec3d& to : std::span(out).subspan(anchor.node, anchor.count)) to += pull_of(anchor, tissue) * (1.0 / anchor.count);
+  for (const Anchor& anchor : grip_anchors(model, tissue, tissue.clock.time)) add_pull(anchor, tissue, out);
   return out;
 }
 

@@ -204,8 +204,7 @@ ContactSettings contact_settings(const Model& model, int threads) {
       };
       cbm::PairContact contact = table.entry(a, b).contact;
       if (contact.law->reach == nullptr) continue;
-      if (model.types[a].traits.variable[number_of(Trait::kStiffness)] >= 0 ||
-          model.types[a].traits.variable[number_of(Trait::kAdhesion)] >= 0)
+      if (model.types[a].traits.variable_of(Trait::kStiffness) || model.types[a].traits.variable_of(Trait::kAdhesion))
         contact.coefficient = farthest_reaching(model, *contact.law, a, b);
       settings.sphere_reach = std::max(settings.sphere_reach, contact.law->reach(contact, cbm::reduced_radius(radius(a), radius(b))));
     }

@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/mesh/topology.h"
+
 namespace morula {
-namespace {
-
-/// √k/n: K = (√k/n)² between any two points of a spring.
-float weight(const Anchor& spring) { return static_cast<float>(std::sqrt(spring.stiffness) / spring.count); }
-
-}  // namespace
 
 void HeldNodes::hold(std::uint32_t node, const Vec3d& along, double stiffness) {
   const Vec3d v = along * std::sqrt(stiffness);
@@ -34,19 +30,47 @@ void HeldNodes::add_diagonal(std::span<SymMat3<float>> diagonal) const {
   }
 }
 
+Vec3d Grips::Spring::place(std::span<const Vec3d> all) const {
+  return faces.empty() ? all[first] : volume_centroid(faces, all.subspan(first, count));
+}
+
+std::vector<CentroidGradient> Grips::Spring::gradient(std::span<const Vec3d> all) const {
+  if (!faces.empty()) return volume_centroid_gradient(faces, all.subspan(first, count));
+  return {{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}};
+}
+
 void Grips::begin_step(const World& world, StepStart&) {
-  springs_.assign(anchors_.begin(), anchors_.end());
+  springs_.clear();
   const std::uint32_t nodes = world.scene.owned_nodes();
-  for (Anchor& spring : springs_)
-    if (spring.node >= nodes) spring.node += world.scene.sphere_point() - nodes;
+  const auto first_node = world.scene.first_node();
+  for (const Anchor& anchor : anchors_) {
+    const auto shell = static_cast<std::size_t>(anchor.shell);
+    const bool whole = anchor.shell >= 0;
+    springs_.push_back({.stiffness = anchor.stiffness,
+                        .target = anchor.target,
+                        .first = anchor.node < nodes ? anchor.node : anchor.node - nodes + world.scene.sphere_point(),
+                        .count = whole ? first_node[shell + 1] - first_node[shell] : 1,
+                        .faces = whole ? world.scene.topologies()[shell]->faces() : std::span<const Triangle>{}});
+  }
 }
 
 void Grips::add_outside(const Way& way, double dt, std::span<Vec3d> out, OrderFreeSum& work) {
-  for (const Anchor& spring : springs_) {
-    const Vec3d from = spring.mean(way.start, spring.node), at = spring.mean(way.position, spring.node);
-    const Vec3d push = (at - spring.target) * (spring.stiffness * dt / spring.count);
-    for (Vec3d& to : out.subspan(spring.node, spring.count)) to += push;
+  for (const Spring& spring : springs_) {
+    const Vec3d from = spring.place(way.start), at = spring.place(way.position);
+    const Vec3d push = (at - spring.target) * (spring.stiffness * dt);
+    const auto gradient = spring.gradient(way.position);
+    for (std::uint32_t i = 0; i < spring.count; ++i)
+      out[spring.first + i] += gradient[i][0] * push.x + gradient[i][1] * push.y + gradient[i][2] * push.z;
     work.add(0.5 * spring.stiffness * (norm2(from - spring.target) - norm2(at - spring.target)));  // energy at the start less that now
+  }
+}
+
+void Grips::assemble(const World& world, double dt, Assembly&) {
+  columns_.clear();
+  for (const Spring& spring : springs_) {
+    const double root = std::sqrt(dt * spring.stiffness);
+    for (const CentroidGradient& of_point : spring.gradient(world.position()))
+      columns_.push_back({to_float(of_point[0] * root), to_float(of_point[1] * root), to_float(of_point[2] * root)});
   }
 }
 
@@ -60,19 +84,28 @@ void Grips::add_tied(const World& world, std::vector<std::uint32_t>& bodies) con
 }
 
 void Grips::add_product(std::span<const Float4> p, std::span<Float4> q) const {
-  for (const Anchor& spring : springs_) {
-    Float4 sum{};
-    for (const Float4& v : p.subspan(spring.node, spring.count)) sum.x += v.x, sum.y += v.y, sum.z += v.z;
-    const float w = weight(spring), x = dt_ * (w * sum.x) * w, y = dt_ * (w * sum.y) * w, z = dt_ * (w * sum.z) * w;
-    for (Float4& to : q.subspan(spring.node, spring.count)) to.x += x, to.y += y, to.z += z;
+  const Column* columns = columns_.data();
+  for (const Spring& spring : springs_) {
+    Vec3f sum{};  // √(Δt k) Σ W p
+    for (std::uint32_t i = 0; i < spring.count; ++i) {
+      const Float4& v = p[spring.first + i];
+      const Vec3f way{v.x, v.y, v.z};
+      sum += Vec3f{dot(columns[i][0], way), dot(columns[i][1], way), dot(columns[i][2], way)};
+    }
+    for (std::uint32_t i = 0; i < spring.count; ++i) {
+      const Vec3f part = columns[i][0] * sum.x + columns[i][1] * sum.y + columns[i][2] * sum.z;
+      Float4& to = q[spring.first + i];
+      to.x += part.x, to.y += part.y, to.z += part.z;
+    }
+    columns += spring.count;
   }
 }
 
 void Grips::add_diagonal(std::span<SymMat3<float>> diagonal) const {
-  for (const Anchor& spring : springs_) {
-    const float w = weight(spring), part = dt_ * w * w;
-    for (SymMat3<float>& block : diagonal.subspan(spring.node, spring.count)) block.xx += part, block.yy += part, block.zz += part;
-  }
+  const Column* column = columns_.data();
+  for (const Spring& spring : springs_)
+    for (std::uint32_t i = 0; i < spring.count; ++i, ++column)
+      for (const Vec3f& row : *column) diagonal[spring.first + i] += outer(1.0f, row);
 }
 
 }  // namespace morula

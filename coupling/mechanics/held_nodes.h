@@ -1,8 +1,10 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/mesh/volume_centroid_gradient.h"
 #include "coupling/loads/grips.h"
 #include "coupling/mechanics/term.h"
 
@@ -34,8 +36,11 @@ class HeldNodes : public Term {
   float dt_ = 0.0f;
 };
 
-/// Springs between points, or the mean of a cell's points, and places of the laboratory: those of grips and traps, held implicitly at their places of the
-/// step's end. K = k wᵀw with w_i = 1/n for each of the n points of a spring.
+/// Springs between points, or the centres of volume of shells, and places of the laboratory: those of grips and traps, held implicitly at their
+/// places of the step's end. K = k WᵀW with W = ∂x/∂x_i: I of a point, volume_centroid_gradient() of a shell.
+///
+/// A trap pulls along the normals of a surface only, as a force that acts on the cell's inside does. The mean of the nodes would be another thing: where
+/// the cortex is fluid, they would go along the surface to the side of the pull and leave the cell behind.
 class Grips : public Term {
  public:
   /// The springs of the next step. They are not copied.
@@ -44,15 +49,30 @@ class Grips : public Term {
   void begin_step(const World& world, StepStart& start) override;
   void add_outside(const Way& way, double dt, std::span<Vec3d> out, OrderFreeSum& work) override;
   void add_tied(const World& world, std::vector<std::uint32_t>& bodies) const override;
-  void assemble(const World&, double dt, Assembly&) override { dt_ = static_cast<float>(dt); }
+  void assemble(const World& world, double dt, Assembly& out) override;
+  void drop_matrix() override { columns_.clear(); }
   [[nodiscard]] bool empty() const override { return springs_.empty(); }
   void add_product(std::span<const Float4> p, std::span<Float4> q) const override;
   void add_diagonal(std::span<SymMat3<float>> diagonal) const override;
 
  private:
+  struct Spring {
+    double stiffness;
+    Vec3d target;
+    std::uint32_t first, count;       ///< points
+    std::span<const Triangle> faces;  ///< of a shell; none: of a point
+
+    /// What it holds among all points.
+    [[nodiscard]] Vec3d place(std::span<const Vec3d> all) const;
+    /// ∂place/∂x of its points.
+    [[nodiscard]] std::vector<CentroidGradient> gradient(std::span<const Vec3d> all) const;
+  };
+  /// √(Δt k) W of one point, by row.
+  using Column = std::array<Vec3f, 3>;
+
   std::span<const Anchor> anchors_;
-  std::vector<Anchor> springs_;  ///< of the step, `node` by point
-  float dt_ = 0.0f;
+  std::vector<Spring> springs_;  ///< of the step
+  std::vector<Column> columns_;  ///< of the springs' points, spring by spring, in the matrix
 };
 
 }  // namespace morula

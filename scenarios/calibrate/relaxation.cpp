@@ -80,7 +80,7 @@ double least_squares(const std::vector<Compared>& all) {
   return 0.5 * (low + high);
 }
 
-void add_interval(const std::vector<double>& singly, ApproachFriction& out) {
+void add_interval(const std::vector<double>& singly, FittedFriction& out) {
   out.low = 0.0, out.high = std::numeric_limits<double>::infinity();
   const std::size_t n = singly.size();
   if (n < 2 || *std::ranges::min_element(singly) <= 0.0) return;
@@ -119,7 +119,7 @@ std::vector<Passage> passages_of_spheres(const PairModel& law, double radius, do
   return out;
 }
 
-Result<ApproachFriction> fit_approach_friction(const std::vector<Relaxation>& pairs, const PairModel& law) {
+Result<FittedFriction> fit_approach_friction(const std::vector<Relaxation>& pairs, const PairModel& law) {
   if (pairs.empty()) return no_fit("no pair of cells came together by itself");
   std::vector<Compared> all;
   std::vector<double> singly;
@@ -139,7 +139,7 @@ Result<ApproachFriction> fit_approach_friction(const std::vector<Relaxation>& pa
     singly.push_back(least_squares(own));
     all.insert(all.end(), own.begin(), own.end());
   }
-  ApproachFriction out;
+  FittedFriction out;
   out.friction = least_squares(all);
   out.factor = out.friction / pairs.front().contact_friction;
   for (const Compared& c : all) out.misfit += std::pow(std::log((c.medium + out.friction * c.contact) / c.time), 2);

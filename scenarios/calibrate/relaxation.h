@@ -26,16 +26,17 @@ std::vector<Passage> passages_of(const Relaxation& pair);
 std::vector<Passage> passages_of_spheres(const PairModel& law, double radius, double medium_friction, double friction,
                                          const std::vector<double>& parts);
 
-/// Friction of approach of two spheres, per contact area of their law, with which they come together as fast as shells do.
-struct ApproachFriction {
-  double friction = 0.0;         ///< γ_n [nN·s/µm³]
-  double low = 0.0, high = 0.0;  ///< 95 %, from what the pairs give one by one (Student's t of their logarithms); infinite of one pair
+/// Friction of two spheres, per contact area of their law, with which they move as fast as shells do.
+struct FittedFriction {
+  double friction = 0.0;         ///< γ_n or γ_t [nN·s/µm³]
+  double low = 0.0, high = 0.0;  ///< 95 %; infinite of a single run
   double factor = 1.0;           ///< friction over that of the shells
-  double misfit = 0.0;           ///< root mean square of ln(t of spheres/t of shells) over all passages
+  double misfit = 0.0;           ///< what is left, root mean square: in parts
 };
 
-/// Fits it to relaxations, by least squares of ln t. Friction is not negative: where spheres are slower than shells with the medium's alone, it is 0.
+/// Fits the friction of approach to relaxations, by least squares of ln t; the interval comes from what the pairs give one by one (Student's t of their
+/// logarithms), `misfit` is that of ln(t of spheres/t of shells) over all passages. Friction is not negative: where spheres are slower than shells with the medium's alone, it is 0.
 /// Errors (kInput): no pair; a pair that does not come nearer, has no friction of contact or another one than the first; spheres that do not attract each other.
-Result<ApproachFriction> fit_approach_friction(const std::vector<Relaxation>& pairs, const PairModel& law);
+Result<FittedFriction> fit_approach_friction(const std::vector<Relaxation>& pairs, const PairModel& law);
 
 }  // namespace morula::calibrate

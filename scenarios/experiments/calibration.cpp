@@ -7,6 +7,7 @@
 #include "core/numbers/number_text.h"
 #include "results/file_io.h"
 #include "scenarios/experiments/budget.h"
+#include "scenarios/experiments/pressed_spheres.h"
 #include "scenarios/experiments/spheres_in_packings.h"
 
 namespace morula::scenarios {
@@ -30,7 +31,8 @@ void remark_on_range(Calibration& out) {
 /// What only the root does, once all runs are there: the fit of JKR, and of a table.
 class Fitting {
  public:
-  Fitting(const Study& study, const SpheresInPackings& places, Calibration& out) : out_(out), places_(places), points_(out.data.points) {
+  Fitting(const Study& study, const SpheresInPackings& places, const PressedSpheres& clusters, Calibration& out)
+      : out_(out), places_(places), clusters_(clusters), points_(out.data.points) {
     options_.poisson = std::ranges::find(study.model.types, out.material.type, &CellType::name)->sphere.poisson;
     options_.seed = study.model.seed;
   }
@@ -48,7 +50,7 @@ class Fitting {
     out_.misfit = calibrate::misfit_share(points, out_.sure.fit);
     out_.held_out = calibrate::held_out_errors(points, law.pair, law.sphere.packing, out_.sure.fit.pull_off(1.0));
     remark_on_range(out_);
-    out_.approach = approach_of(law.pair, "JKR");
+    out_.friction = friction_of(law, "JKR");
     return {};
   }
 
@@ -58,7 +60,7 @@ class Fitting {
       out_.data.remarks.push_back("no table: " + found.error().message);
       return {};
     }
-    FittedTable one{.table = std::move(found).value(), .packing = {}, .held_out = {}, .exponent = {}, .approach = {}};
+    FittedTable one{.table = std::move(found).value(), .packing = {}, .held_out = {}, .exponent = {}, .friction = {}};
     const calibrate::PairModel pair = calibrate::table_model(one.table);
     const auto make = [&](const calibrate::Data& now) -> Result<TrialLaw> {
       one.packing = calibrate::fit_curve(now, pair, options_);
@@ -70,19 +72,33 @@ class Fitting {
     MORULA_TRY(places_.place(law, true, points_));
     one.held_out = calibrate::held_out_errors(points_, pair, law.sphere.packing, out_.sure.fit.pull_off(1.0));
     one.exponent = calibrate::force_exponent(points_, one.table);
-    one.approach = approach_of(pair, "the table");
+    one.friction = friction_of(law, "the table");
     out_.table = std::move(one);
     return {};
   }
 
  private:
-  /// Nothing, and a remark why, where it cannot be told.
-  std::optional<calibrate::ApproachFriction> approach_of(const calibrate::PairModel& pair, const char* law) {
-    if (out_.data.relaxations.empty()) return {};
-    const auto found = calibrate::fit_approach_friction(out_.data.relaxations, pair);
-    if (found.ok()) return *found;
-    out_.data.remarks.push_back("no friction of approach for " + std::string(law) + ": " + found.error().message);
-    return {};
+  /// Nothing of what cannot be told, and a remark why.
+  FrictionOfSpheres friction_of(const TrialLaw& law, const char* name) {
+    FrictionOfSpheres out;
+    const ExperimentData& data = out_.data;
+    const auto take = [&](const char* what, const auto& found, auto& to) {
+      if (found.ok())
+        to = *found;
+      else
+        out_.data.remarks.push_back(std::string(what) + " for " + name + ": " + found.error().message);
+    };
+    if (!data.relaxations.empty())
+      take("no friction of approach", calibrate::fit_approach_friction(data.relaxations, law.pair), out.approach);
+    if (data.pressed.empty()) return out;
+    cbm::SphereParameters sphere = law.sphere;
+    if (out.approach) sphere.approach_factor = out.approach->factor;
+    const auto spheres = [&](double factor) {
+      sphere.along_factor = factor;
+      return clusters_.press(sphere, law.adhesion);
+    };
+    take("no friction along the contact", calibrate::fit_friction_along(data.pressed, out_.material.friction.along, spheres), out.along);
+    return out;
   }
   [[nodiscard]] TrialLaw trial(const calibrate::Fit& fit) const {
     TrialLaw out{.sphere = {},
@@ -102,6 +118,7 @@ class Fitting {
 
   Calibration& out_;
   const SpheresInPackings& places_;
+  const PressedSpheres& clusters_;
   calibrate::Data points_;  // for the table, whose spheres lie elsewhere
   calibrate::FitOptions options_;
 };
@@ -117,7 +134,8 @@ Status fit_on_root(const Study& study, Calibration& out) {
   if (!out.left_out.empty())
     out.data.remarks.push_back("no time for " + joined(out.left_out) + ": intervals are wider, or nothing judges them");
   MORULA_TRY_ASSIGN(const auto places, SpheresInPackings::read(out.material, out.data.packings));
-  Fitting fitting(study, places, out);
+  MORULA_TRY_ASSIGN(const auto clusters, PressedSpheres::read(out.material, out.data.pressed_seeds));
+  Fitting fitting(study, places, clusters, out);
   MORULA_TRY(fitting.jkr());
   return fitting.table();
 }

@@ -9,6 +9,7 @@
 #include "core/result.h"
 #include "scenarios/calibrate/confidence.h"
 #include "scenarios/calibrate/held_out.h"
+#include "scenarios/calibrate/pressed_cluster.h"
 #include "scenarios/calibrate/table_fit.h"
 #include "scenarios/experiments/data_of_runs.h"
 #include "scenarios/experiments/mixed_contact.h"
@@ -17,13 +18,19 @@
 
 namespace morula::scenarios {
 
+/// With what friction the spheres of a law are as fast as shells; none: not known.
+struct FrictionOfSpheres {
+  std::optional<calibrate::FittedFriction> approach;  ///< two that come together
+  std::optional<calibrate::FittedAlong> along;        ///< along the contact: balls of cells that are pressed flat
+};
+
 /// A law by a table, fitted to the same points as JKR.
 struct FittedTable {
   cbm::PairTable table;
   std::vector<cbm::PackingKnot> packing;  ///< what these pairs leave to packings; empty: nothing
   calibrate::HeldOutErrors held_out;
   calibrate::ForceExponent exponent;
-  std::optional<calibrate::ApproachFriction> approach;  ///< with which its spheres come together as fast as shells; none: not known
+  FrictionOfSpheres friction;
 };
 
 /// A contact law of spheres, found from deformable cells.
@@ -34,20 +41,18 @@ struct Calibration {
   std::vector<ExperimentOutcome> outcomes;
   ExperimentData data;
   calibrate::SureFit sure;
-  calibrate::HeldOutErrors held_out;                    ///< of JKR
-  double misfit = 0.0;                                  ///< part of the loss of pairs that JKR cannot take
-  std::optional<calibrate::ApproachFriction> approach;  ///< of spheres of the fitted JKR
-  std::optional<MixedContact> with_shells;              ///< none: not known, as a remark says
-  std::optional<FittedTable> table;                     ///< none: its points make no table, as a remark says
+  calibrate::HeldOutErrors held_out;        ///< of JKR
+  double misfit = 0.0;                      ///< part of the loss of pairs that JKR cannot take
+  FrictionOfSpheres friction;               ///< of spheres of the fitted JKR
+  std::optional<MixedContact> with_shells;  ///< none: not known, as a remark says
+  std::optional<FittedTable> table;         ///< none: its points make no table, as a remark says
 
   /// Contact radius over R of two spheres of the fitted JKR at rest.
   [[nodiscard]] double rest_of_jkr() const;
   /// JKR says nothing true of contacts that are so large, their area least of all.
   [[nodiscard]] bool jkr_is_beyond_range() const { return rest_of_jkr() > cbm::kJkrRange; }
   /// Of the law to take.
-  [[nodiscard]] const std::optional<calibrate::ApproachFriction>& approach_to_take() const {
-    return table_is_better() ? table->approach : approach;
-  }
+  [[nodiscard]] const FrictionOfSpheres& friction_to_take() const { return table_is_better() ? table->friction : friction; }
   /// The pair law to take.
   [[nodiscard]] calibrate::PairModel law_to_take() const;
   /// Whether the table is the law to take: where JKR is beyond its range at rest, and where the table is better on what was held out.

@@ -85,12 +85,18 @@ std::string ranges_text(const calibrate::Data& data) {
          (r.room[0] <= r.room[1] ? ", volume_ratio: " + ends(r.room, "") : "") + ", slowest_rate: " + of(r.rate, "um/s") + "}";
 }
 
-/// How fast spheres of a law come together, where it was found.
-std::string approach_text(const std::optional<calibrate::ApproachFriction>& found) {
-  if (!found) return "";
-  return "  approach: {factor: " + number(found->factor) + ", friction: " + of(found->friction, "nN s/um^3") + ", interval: [" +
-         of(found->low, "nN s/um^3") + ", " + of(found->high, "nN s/um^3") + "], misfit: " + number(found->misfit) +
-         "}  # friction of approach of two spheres, over that of the shells\n";
+/// How fast spheres of a law come together and draw past each other, where it was found.
+std::string friction_text(const FrictionOfSpheres& found) {
+  std::string out;
+  const auto add = [&](const char* key, const auto& one, const char* what) {
+    if (!one) return;
+    out += std::string("  ") + key + ": {factor: " + number(one->factor) + ", friction: " + of(one->friction, "nN s/um^3") +
+           ", interval: [" + of(one->low, "nN s/um^3") + ", " + of(one->high, "nN s/um^3") + "], misfit: " + number(one->misfit) + "}  # " +
+           what + " of two spheres, over that of the shells\n";
+  };
+  add("approach", found.approach, "friction of approach");
+  add("along", found.along, "friction along the contact");
+  return out;
 }
 
 /// Contact of a sphere with a shell, where it was found.
@@ -113,7 +119,7 @@ std::string table_text(const FittedTable& fitted) {
   std::string out =
       "table:  # F/R* over delta/R* of attached pairs, R* the reduced radius\n  touch: " + number(fitted.table.touch_overlap()) +
       "\n  exponent: " + number(fitted.exponent.value) + "\n  exponent_error: " + number(fitted.exponent.error) +
-      "\n  held_out: " + errors_text(fitted.held_out) + "\n" + approach_text(fitted.approach);
+      "\n  held_out: " + errors_text(fitted.held_out) + "\n" + friction_text(fitted.friction);
   if (!fitted.packing.empty()) out += "  packing: " + knots_text(fitted.packing) + "\n";
   out += "  knots:\n";
   for (const cbm::PairTableKnot& knot : fitted.table.knots())
@@ -143,11 +149,11 @@ std::string calibration_text(const Calibration& found) {
          "\n  adhesion_error: " + number(sure.covariance.adhesion_error) + "\n  correlation: " + number(sure.covariance.correlation) +
          "\n  loss: " + number(fit.loss) + "\n  residuals: " + std::to_string(fit.residuals) + "\n  misfit: " + number(found.misfit) +
          "  # part of the loss of pairs that JKR cannot take\n  held_out: " + errors_text(found.held_out) + "\n" +
-         approach_text(found.approach);
+         friction_text(found.friction);
   if (!fit.parameters.knots.empty()) out += "  packing: " + knots_text(fit.parameters.knots) + "\n";
   if (found.table) out += table_text(*found.table);
   out += with_shells_text(found.with_shells);
-  if (const CellFriction& f = found.material.friction; !found.data.relaxations.empty())
+  if (const CellFriction& f = found.material.friction; !found.data.relaxations.empty() || !found.data.pressed.empty())
     out += "friction_of_shells: {medium: " + of(f.medium, "nN s/um^3") + ", cell_cell: " + of(f.approach, "nN s/um^3") +
            ", cell_cell_tangential: " + of(f.along, "nN s/um^3") + "}  # with which they came together\n";
   out +=

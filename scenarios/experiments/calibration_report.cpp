@@ -136,8 +136,22 @@ CurvePlot relaxation_plot(const Calibration& found) {
       spheres.x.push_back(one.time), spheres.y.push_back(one.part);
     if (!spheres.x.empty()) plot.curves.push_back(std::move(spheres));
   };
-  if (const auto& fitted = found.approach_to_take()) add("spheres, fitted", fitted->friction);
+  if (const auto& fitted = found.friction_to_take().approach) add("spheres, fitted", fitted->friction);
   add("spheres with the friction of the study", first.contact_friction);
+  return plot;
+}
+
+/// Balls of cells that plates press flat, the mean over all.
+CurvePlot pressed_plot(const calibrate::FittedAlong& found) {
+  CurvePlot plot =
+      plot_of("Balls of cells pressed flat: work of the plates", axis("part of the way", ""), axis("work over that on the shells", ""));
+  for (const auto& [name, work] : {std::pair{"shells", &found.shells},
+                                   {"spheres, fitted", &found.fitted},
+                                   {"spheres with the friction of the study", &found.unfitted}}) {
+    Curve one = curve(name);
+    one.x = found.part, one.y = *work;
+    plot.curves.push_back(std::move(one));
+  }
   return plot;
 }
 
@@ -217,10 +231,14 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
     if (taken.packings > 0)
       out.key_numbers.push_back(
           {"pressure of a random packing that was held out, root mean square", three(100.0 * taken.pressure_rms), "%"});
-    if (const auto& approach = found.approach_to_take())
-      out.key_numbers.push_back({"friction of approach of two spheres", three(100.0 * approach->factor),
-                                 "% of that of the study (" + three(approach->friction) + " nN s/um^3, 95 %: " + three(approach->low) +
-                                     " to " + three(approach->high) + ")"});
+    const auto add_friction = [&](const char* what, const auto& one) {
+      if (one)
+        out.key_numbers.push_back(
+            {what, three(100.0 * one->factor),
+             "% of that of the study (" + three(one->friction) + " nN s/um^3, 95 %: " + three(one->low) + " to " + three(one->high) + ")"});
+    };
+    add_friction("friction of approach of two spheres", found.friction_to_take().approach);
+    add_friction("friction along the contact of two spheres", found.friction_to_take().along);
     out.key_numbers.push_back({"the law to take", found.table_is_better() ? "the table" : "JKR", ""});
   }
   if (const auto& mixed = found.with_shells) {
@@ -239,6 +257,7 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
   add(pair_plot(found, true));
   if (found.with_shells) add(mixed_plot(*found.with_shells));
   if (!found.data.relaxations.empty()) add(relaxation_plot(found));
+  if (const auto& along = found.friction_to_take().along) add(pressed_plot(*along));
   add(profile_plot(sure.young, "E", "kPa", fit.loss));
   add(profile_plot(sure.adhesion, "W", "nN/um", fit.loss));
   for (const auto* remarks : {&found.data.remarks, &fit.remarks})

@@ -120,6 +120,10 @@ Result<ExperimentData> data_of_runs(std::span<const Experiment> experiments, std
     } else if (experiment.kind == Experiment::Kind::kRelaxation) {
       MORULA_TRY_ASSIGN(auto pair, relaxation_of_run(experiment, outcomes[e].run));
       add_relaxation(experiment, std::move(pair), out);
+    } else if (experiment.kind == Experiment::Kind::kPressed) {
+      MORULA_TRY_ASSIGN(auto pressed, pressed_of_run(experiment, outcomes[e].run));
+      out.pressed.push_back(std::move(pressed));
+      out.pressed_seeds.push_back(experiment.seed);
     } else {
       MORULA_TRY_ASSIGN(const auto points, packing_of_run(experiment, outcomes[e].run));
       for (const FoundPacking& point : points) {

@@ -15,8 +15,10 @@ struct ExperimentData {
   calibrate::Data points;
   std::vector<FoundPacking> packings;  ///< of points.packings, in their order
   std::vector<calibrate::Relaxation> relaxations;
-  std::vector<std::string> remarks;  ///< experiments that failed, curves that are not straight in the rate
-  double largest_remainder = 0.0;    ///< quadratic part of the force in the rate, over the largest force
+  std::vector<calibrate::PressedCluster> pressed;
+  std::vector<std::uint32_t> pressed_seeds;  ///< of `pressed`
+  std::vector<std::string> remarks;          ///< experiments that failed, curves that are not straight in the rate
+  double largest_remainder = 0.0;            ///< quadratic part of the force in the rate, over the largest force
 };
 
 /// Brings the curves of experiments together. Pairs of the same radii are one experiment at several rates: where they are as far on their way (the

@@ -9,6 +9,7 @@
 #include "core/numbers/number_text.h"
 #include "core/vec3.h"
 #include "dcm/drops.h"
+#include "scenarios/experiments/ball_of_cells.h"
 #include "scenarios/experiments/mixed_contact.h"
 
 namespace morula::scenarios {
@@ -32,6 +33,12 @@ constexpr double kRelaxationTimes = 40.0;                         // simulated, 
 constexpr double kZipped = 0.02;                                  // part of the friction in contact that is guessed to hold cells back
 constexpr int kRelaxationOutputs = 120, kRelaxationSteps = 1200;  // at least
 constexpr double kLeastWay = 0.1;                                 // δ/R at rest that is guessed at least
+constexpr std::uint32_t kPressedClusters = 3;                     // each with other places
+constexpr int kPressedCells = 32, kPressedSteps = 240;
+constexpr double kPressTime = 4.0;   // in the time of a relaxing pair
+constexpr int kAdhereOutputs = 8;    // before the plates set out
+constexpr double kFlattened = 0.57;  // half of the distance of the plates at the end, in radii of a ball with the cells' volume
+constexpr double kClearance = 0.1;   // of plates from cells at the start, in radii and beside the range of contact
 /// Friction of a type with the medium and with other cells.
 struct Friction {
   std::string medium, cells;
@@ -167,12 +174,68 @@ Experiment packing_experiment(const CellMaterial& material, calibrate::Arrangeme
 
 double drag_of(const CellFriction& friction, double radius) { return 4.0 * std::numbers::pi * radius * radius * friction.medium; }
 
-Experiment relaxation_experiment(const CellMaterial& material, std::uint32_t seed) {
+namespace {
+
+/// How long cells come together: some forty times as long as a pair is guessed to take, δ′ = 2F/drag with F = 0.75 πWR [s].
+double time_of_relaxation(const CellMaterial& material) {
   const CellFriction& f = material.friction;
   const double radius = material.radius, way = std::max(kLeastWay * radius, dcm::overlap_of_doublet(material.adhesion, material.tension));
   const double drag = drag_of(f, radius) + kZipped * std::numbers::pi * radius * radius * f.approach;
-  const double end =
-      std::ceil(kRelaxationTimes * drag * way / (1.5 * std::numbers::pi * material.adhesion * radius));  // δ′ = 2F/drag, F = 0.75 πWR
+  return std::ceil(kRelaxationTimes * drag * way / (1.5 * std::numbers::pi * material.adhesion * radius));
+}
+
+Friction friction_text(const CellFriction& f) {
+  return {of(f.medium, "nN s/um^3"), of(f.approach, "nN s/um^3") + ", cell_cell_tangential: " + of(f.along, "nN s/um^3")};
+}
+
+std::string at_text(std::span<const Vec3d> places, const char* body) {
+  std::string at;
+  for (const Vec3d& p : places) at += (at.empty() ? "" : ", ") + place(p);
+  return "initial:\n  - {type: cell, at: [" + at + "], as: " + body + "}\n";
+}
+
+/// A plate at this height that faces the middle and comes nearer after `from` [s], by `way` [µm] until `to` [s].
+std::string plate_text(const char* name, double height, double size, double from, double to, double way) {
+  const std::string inwards = height > 0.0 ? "[0, 0, -1]" : "[0, 0, 1]";
+  return "  " + std::string(name) + ": {plane: {center: " + place({0, 0, height}) + ", normal: " + inwards + ", size: " + of(size, "um") +
+         "}, motion: {direction: " + inwards + ", course: [{time: " + of(from, "s") + ", distance: 0 um}, {time: " + of(to, "s") +
+         ", distance: " + of(way, "um") + "}]}}\n";
+}
+
+Experiment pressed(const CellMaterial& material, std::uint32_t seed, const char* body) {
+  const double radius = material.radius, size = 20.0 * radius * std::cbrt(kPressedCells);
+  const std::vector<Vec3d> places = ball_of_cells(kPressedCells, radius, seed);
+  double height = 0.0;
+  for (const Vec3d& p : places) height = std::max(height, std::abs(p.z) + (1.0 + kClearance) * radius + material.range);
+  const double output = std::ceil(kPressTime * time_of_relaxation(material) / kPressedOutputs);
+  const double adhere = kAdhereOutputs * output, press = kPressedOutputs * output;
+  Experiment e{.kind = Experiment::Kind::kPressed,
+               .seed = seed,
+               .name = "pressed_cluster_" + std::to_string(seed),
+               .purpose = "A ball of " + std::to_string(kPressedCells) + " cells that two plates press flat",
+               .text = {},
+               .radius_a = radius,
+               .radius_b = radius,
+               .turn = adhere,
+               .pressing = press,
+               .way = height - kFlattened * radius * std::cbrt(kPressedCells),
+               .friction = material.friction,
+               .work = kPressedCells * (adhere + press + 1000.0)};
+  const double end = adhere + press;
+  e.text = head(material, e, "cell, cell", end, output, ", step: " + of(press / kPressedSteps, "s")) +
+           "domain: {size: " + place({size, size, 4.0 * height}) + ", boundary: open}\ngeometry:\n" +
+           plate_text("lower", -height, size, adhere, end, e.way) + plate_text("upper", height, size, adhere, end, e.way) +
+           "cell_types:\n" +
+           type_text(material, "cell", radius, "cell: " + of(material.adhesion, "nN/um") + ", lower: 0 J/m^2, upper: 0 J/m^2",
+                     friction_text(material.friction)) +
+           at_text(places, body);
+  return e;
+}
+
+}  // namespace
+
+Experiment relaxation_experiment(const CellMaterial& material, std::uint32_t seed) {
+  const double radius = material.radius, end = time_of_relaxation(material), box = 16.0 * radius;
   Experiment e{.kind = Experiment::Kind::kRelaxation,
                .seed = seed,
                .name = "relaxing_pair_" + std::to_string(seed),
@@ -180,15 +243,22 @@ Experiment relaxation_experiment(const CellMaterial& material, std::uint32_t see
                .text = {},
                .radius_a = radius,
                .radius_b = radius,
-               .friction = f};
-  const double box = 16.0 * radius;
-  const std::string cells = of(f.approach, "nN s/um^3") + ", cell_cell_tangential: " + of(f.along, "nN s/um^3");
+               .friction = material.friction,
+               .work = 2.0 * (0.5 * end + 1000.0)};
+  const Vec3d places[] = {{0, 0, -radius}, {0, 0, radius}};
   e.text = head(material, e, "cell, cell", end, end / kRelaxationOutputs, ", step: " + of(end / kRelaxationSteps, "s")) +
            "domain: {size: " + place({box, box, box}) + ", boundary: open}\ncell_types:\n" +
-           type_text(material, "cell", radius, "cell: " + of(material.adhesion, "nN/um"), {of(f.medium, "nN s/um^3"), cells}) +
-           "initial:\n  - {type: cell, at: [" + place({0, 0, -radius}) + ", " + place({0, 0, radius}) + "], as: shell}\n";
-  e.work = 2.0 * (0.5 * end + 1000.0);
+           type_text(material, "cell", radius, "cell: " + of(material.adhesion, "nN/um"), friction_text(material.friction)) +
+           at_text(places, "shell");
   return e;
+}
+
+Experiment pressed_experiment(const CellMaterial& material, std::uint32_t seed) { return pressed(material, seed, "shell"); }
+
+Experiment pressed_spheres_experiment(const CellMaterial& material, std::uint32_t seed) {
+  CellMaterial spheres = material;
+  spheres.shell = "cbm: {law: jkr, packing: none}, " + material.shell;
+  return pressed(spheres, seed, "sphere");
 }
 
 Experiment random_packing_experiment(const CellMaterial& material, std::uint32_t seed) {
@@ -239,6 +309,7 @@ enum Dispensable : int {
   kSecondPacking,
   kEqualSlowest,
   kRelaxing,
+  kPressedBalls,
   kMixedPairs,
   kUnequalFaster,
   kHeldOutPacking,
@@ -268,6 +339,11 @@ std::vector<Experiment> experiments_for(const CellMaterial& material, bool packi
       out.back().dispensable = kRelaxing;
     }
   if (packings) {
+    if (material.adhesion > 0.0 && material.friction.along > 0.0)
+      for (std::uint32_t seed = 1; seed <= kPressedClusters; ++seed) {
+        out.push_back(pressed_experiment(material, seed));
+        out.back().dispensable = kPressedBalls;
+      }
     for (std::uint32_t seed = 1; seed <= kRandomFitted + kRandomHeldOut; ++seed) {
       out.push_back(random_packing_experiment(material, seed));
       out.back().dispensable = out.back().held_out ? kHeldOutPacking : seed > 1 ? kSecondPacking : kFirstPacking;

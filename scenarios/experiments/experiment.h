@@ -18,6 +18,7 @@ struct Experiment {
     kPacking,     ///< a periodic packing whose box shrinks
     kMixedPair,   ///< a sphere and a shell, likewise; without a text until the sphere's law is known
     kRelaxation,  ///< two cells that touch and come together by themselves, with the friction of their type
+    kPressed,     ///< a ball of cells between two plates that come nearer, likewise
   } kind = Kind::kPair;
   calibrate::Arrangement arrangement = calibrate::Arrangement::kFaceCentred;  ///< of a packing
   std::uint32_t seed = 1;
@@ -28,9 +29,10 @@ struct Experiment {
   bool held_out = false;                  ///< judged by, never fitted to
   double radius_a = 0.0, radius_b = 0.0;  ///< of the free cells [µm]
   double rate = 0.0;                      ///< of the distance of a pair [µm/s]; of the strain of the volume of a packing [1/s]
-  double turn = 0.0;                      ///< when a pair is closest [s]
+  double turn = 0.0;                      ///< when a pair is closest, when the plates of a pressed cluster set out [s]
+  double pressing = 0.0, way = 0.0;       ///< how long these move [s], how far each of both comes [µm]
   cbm::WithShells with_shells{};          ///< of the sphere of a mixed pair
-  CellFriction friction{};                ///< of the cells of a relaxation
+  CellFriction friction{};                ///< of the cells of a relaxation or a pressed cluster
   double work = 1.0;                      ///< expected, against that of other experiments: cells times the time that they are simulated [s]
   int dispensable = 0;                    ///< of a calibration that has too little time the largest goes first; 0: there is no fit without
 };
@@ -41,7 +43,7 @@ inline constexpr int kPairRates = 3;
 inline constexpr double kUnequalPair = 1.3;
 
 /// What the calibration of a contact law asks (fields_and_coupling.md E). E1 and E2: equal cells that come nearer until δ = 0.35 R and part, at three
-/// rates; E4, where cells adhere: three pairs that come together by themselves; E3, not without `packings`: random packings from V/V0 = 1.35 to 0.7, two to fit to and one held out, and face-centred and body-centred cubic
+/// rates; E4, where cells adhere: three pairs that come together by themselves, and, not without `packings`, three balls of 32 cells that are pressed between plates; E3, not without `packings`: random packings from V/V0 = 1.35 to 0.7, two to fit to and one held out, and face-centred and body-centred cubic
 /// ones, held out (decision 0056); E5: cells of radii 1 : 1.3, held out; pairs of a sphere and a shell (mixed_contact.h), last.
 ///
 /// The centres of the pairs of E1, E2 and E5 are held by springs, so that pairs are stable at any distance. Friction between their cells is 0 and that with
@@ -61,6 +63,13 @@ Experiment packing_experiment(const CellMaterial& material, calibrate::Arrangeme
 double drag_of(const CellFriction& friction, double radius);
 /// Two cells that touch, with the friction of their type, until they rest; the seed turns their meshes.
 Experiment relaxation_experiment(const CellMaterial& material, std::uint32_t seed);
+/// A ball of 32 cells with the friction of their type, which adhere to each other for a while and are then pressed flat by two plates without friction; the seed is that of
+/// their places and turns their meshes.
+Experiment pressed_experiment(const CellMaterial& material, std::uint32_t seed);
+/// The same with spheres, whose law is JKR without packing.
+Experiment pressed_spheres_experiment(const CellMaterial& material, std::uint32_t seed);
+/// Outputs of the plates' way.
+inline constexpr int kPressedOutputs = 60;
 /// Cells at random places that grow into each other at V/V0 = 1.35, which then falls to 0.7.
 Experiment random_packing_experiment(const CellMaterial& material, std::uint32_t seed);
 

@@ -1,6 +1,7 @@
 #include "scenarios/experiments/found_curves.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/ball.h"
 #include "results/series_reader.h"
@@ -51,6 +52,22 @@ Result<calibrate::Relaxation> relaxation_of_run(const Experiment& experiment, co
     out.overlap.push_back(experiment.radius_a + experiment.radius_b - norm(moment.cells[1].centroid - moment.cells[0].centroid));
   }
   return out;
+}
+
+Result<calibrate::PressedCluster> pressed_of_run(const Experiment& experiment, const std::filesystem::path& run) {
+  MORULA_TRY_ASSIGN(const auto series, read_series(run / "series.csv"));
+  MORULA_TRY_ASSIGN(const SeriesColumn* times, column(series, "time"));
+  MORULA_TRY_ASSIGN(const SeriesColumn* lower, column(series, "force_z_lower"));
+  MORULA_TRY_ASSIGN(const SeriesColumn* upper, column(series, "force_z_upper"));
+  std::vector<double> part, force;
+  for (std::size_t i = 0; i < series.rows(); ++i) {
+    const double after = (times->values[i] - experiment.turn) / experiment.pressing;
+    if (after < -1e-9) continue;  // the cells adhere to each other
+    part.push_back(after);
+    force.push_back(0.5 * (std::abs(lower->values[i]) + std::abs(upper->values[i])));
+  }
+  if (part.size() < 2) return Error{ErrorKind::kFile, "the plates of '" + run.string() + "' have no way", ""};
+  return calibrate::pressed_cluster(std::move(part), force, experiment.way);
 }
 
 Result<std::vector<FoundPacking>> packing_of_run(const Experiment& experiment, const std::filesystem::path& run) {

@@ -4,6 +4,7 @@
 
 #include "core/result.h"
 #include "core/vec3.h"
+#include "scenarios/calibrate/pressed_cluster.h"
 #include "scenarios/calibrate/relaxation.h"
 #include "scenarios/experiments/experiment.h"
 
@@ -28,6 +29,8 @@ struct FoundPacking {
 
 /// Two cells that come together by themselves, over time: δ between centres of volume.
 Result<calibrate::Relaxation> relaxation_of_run(const Experiment& experiment, const std::filesystem::path& run);
+/// A ball of cells that plates press flat: their work.
+Result<calibrate::PressedCluster> pressed_of_run(const Experiment& experiment, const std::filesystem::path& run);
 /// Errors (kFile): files of the run that are missing or damaged.
 Result<std::vector<FoundPair>> pair_of_run(const Experiment& experiment, const std::filesystem::path& run);
 Result<std::vector<FoundPacking>> packing_of_run(const Experiment& experiment, const std::filesystem::path& run);

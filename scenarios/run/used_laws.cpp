@@ -100,12 +100,12 @@ void add_contacts(const Model& model, bool shells, bool spheres, std::vector<Use
                       {"poisson", type.sphere.poisson},
                       {"stiffness", type.sphere.with_shells.stiffness},
                       {"adhesion_factor", type.sphere.with_shells.adhesion}}});
-    if (type.sphere.approach_factor != 1.0)
+    if (type.sphere.approach_factor != 1.0 || type.sphere.along_factor != 1.0)
       out.push_back({"contact of two spheres of " + type.name,
                      law_named(surface_contact_terms(), "contact_pair"),
                      {{"adhesion", adhesion},
                       {"normal_friction", model.pair(t, t).normal_friction * type.sphere.approach_factor},
-                      {"tangential_friction", model.pair(t, t).tangential_friction}}});
+                      {"tangential_friction", model.pair(t, t).tangential_friction * type.sphere.along_factor}}});
     if (const cbm::PackingCurve& curve = type.sphere.packing; !curve.empty())
       out.push_back(
           {"spheres of " + type.name,

@@ -42,7 +42,7 @@ TEST(Relaxation, OfSpheresIsThatOfTheReference) {
   for (const auto& [time, overlap] : with_contact) EXPECT_NEAR(time_of(overlap, 50.0) / time, 1.0, overlap > 1.3 ? 0.02 : 2e-3) << time;
 }
 
-TEST(ApproachFriction, OfSpheresIsTheirOwn) {
+TEST(FittedFriction, OfSpheresIsTheirOwn) {
   const auto found = fit_approach_friction({as_spheres(50.0, 50.0), as_spheres(50.0, 50.0), as_spheres(50.0, 50.0)}, reference());
   ASSERT_TRUE(found.ok()) << found.error().message;
   EXPECT_NEAR(found->friction, 50.0, 0.05);
@@ -53,7 +53,7 @@ TEST(ApproachFriction, OfSpheresIsTheirOwn) {
   EXPECT_LT(found->high / found->low, 1.01);
 }
 
-TEST(ApproachFriction, LiesBetweenPairsThatDiffer) {
+TEST(FittedFriction, LiesBetweenPairsThatDiffer) {
   const auto found = fit_approach_friction({as_spheres(2.0, 50.0), as_spheres(3.0, 50.0), as_spheres(2.5, 50.0)}, reference());
   ASSERT_TRUE(found.ok());
   EXPECT_GT(found->friction, 2.2);
@@ -64,7 +64,7 @@ TEST(ApproachFriction, LiesBetweenPairsThatDiffer) {
   EXPECT_NEAR(std::log(found->friction / found->low), 4.303 * 0.1174, 0.02);
 }
 
-TEST(ApproachFriction, IsFoundWithoutAMediumToo) {
+TEST(FittedFriction, IsFoundWithoutAMediumToo) {
   Relaxation pair = as_spheres(50.0, 50.0);
   pair.medium_friction = 0.0;
   const auto found = fit_approach_friction({pair}, reference());
@@ -73,7 +73,7 @@ TEST(ApproachFriction, IsFoundWithoutAMediumToo) {
   EXPECT_LT(found->friction, 55.0);
 }
 
-TEST(ApproachFriction, IsNoneWhereTheMediumAloneIsTooMuch) {
+TEST(FittedFriction, IsNoneWhereTheMediumAloneIsTooMuch) {
   const auto found = fit_approach_friction({as_spheres(0.0, 50.0, 0.5)}, reference());
   ASSERT_TRUE(found.ok());
   EXPECT_EQ(found->friction, 0.0);
@@ -81,7 +81,7 @@ TEST(ApproachFriction, IsNoneWhereTheMediumAloneIsTooMuch) {
   EXPECT_TRUE(std::isinf(found->high)) << "one pair tells no interval";
 }
 
-TEST(ApproachFriction, SaysWhatItCannotBeFoundFrom) {
+TEST(FittedFriction, SaysWhatItCannotBeFoundFrom) {
   EXPECT_FALSE(fit_approach_friction({}, reference()).ok());
   EXPECT_THAT(fit_approach_friction({as_spheres(50.0, 0.0)}, reference()).error().message, testing::HasSubstr("without friction"));
   EXPECT_THAT(fit_approach_friction({as_spheres(50.0, 50.0), as_spheres(50.0, 20.0)}, reference()).error().message,

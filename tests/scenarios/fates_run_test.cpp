@@ -145,6 +145,37 @@ TEST(Fates, PolarityIsKeptOrMirrored) {
   }
 }
 
+TEST(Fates, NewPolaritiesOfSistersHaveNothingInCommon) {
+  // Cells divide along polarities that are drawn at random. Sisters that keep their mother's divide along one line; the mean |cosine| of two
+  // random ones is a half, with a standard deviation of √(1/12).
+  for (const bool anew : {false, true}) {
+    const std::string text = changed("polarity: {start: [0, 0, 1], turning", "polarity: {turning",
+                                     changed("axis: fixed, direction: [1, 0, 0]", "axis: polarity",
+                                             changed("40 min, output: 40 min", "62 min, output: 62 min",
+                                                     stem(anew ? "{polarity: new}" : "{polarity: kept}", "sphere", 8))));
+    const auto all = snapshots_of_run(text);
+    ASSERT_FALSE(all.empty());
+    std::map<CellId, std::map<CellId, Vec3d>> place;  // of granddaughters, by mother
+    for (const Snapshot::Cell& cell : all.back().snapshot.cells) place[cell.parent][cell.id] = cell.centroid;
+    double sum = 0.0;
+    int sisters = 0;
+    for (std::uint64_t k = 1; k <= 64; ++k) {
+      Vec3d axis[2];
+      for (int d = 0; d < 2; ++d) {
+        const CellId mother = CellId::founder(k).daughter(d);
+        ASSERT_EQ(place[mother].size(), 2u);
+        axis[d] = normalized(place[mother][mother.daughter(0)] - place[mother][mother.daughter(1)]);
+      }
+      sum += std::abs(dot(axis[0], axis[1]));
+      ++sisters;
+    }
+    if (anew)
+      EXPECT_NEAR(sum / sisters, 0.5, 4.0 * std::sqrt(1.0 / 12.0 / sisters));
+    else
+      EXPECT_GT(sum / sisters, 0.95);
+  }
+}
+
 TEST(Fates, TellWhatCannotBe) {
   const auto told = [](const std::string& text) {
     const auto study = read(text);

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "report/methods.h"
+#include "scenarios/run/used_laws.h"
 #include "tests/scenarios/snapshots_of_run.h"
 
 namespace morula::scenarios::test {
@@ -291,6 +293,19 @@ TEST(Variation, OfStiffnessMakesShellsGiveWayLess) {
   for (const auto& [id, d] : told.of.at("stiffness"))
     pairs_.emplace_back(1.0 / (1.0 + d), told.cells.at(id).area - 4.0 * 3.141592653589793 * 25.0);
   EXPECT_GT(correlation_of(pairs_), 0.95) << "the area grows with the square of the extension";
+}
+
+TEST(Variation, IsToldInTheMethods) {
+  const auto methods = [](const std::string& text) {
+    const auto study = read(text);
+    EXPECT_TRUE(study.ok()) << (study.ok() ? "" : study.error().text());
+    return study.ok() ? methods_text("a study", used_laws(*study), study->resolved_text) : std::string();
+  };
+  const std::string alike = methods(free_cells("0 %")), tensions = methods(free_cells("12.5 %"));
+  EXPECT_THAT(alike, testing::Not(HasSubstr("tension of cell")));
+  EXPECT_THAT(tensions, HasSubstr("tension of cell"));
+  EXPECT_THAT(tensions, HasSubstr("0.125"));
+  EXPECT_THAT(methods(dividing("{mean: 30 min, spread: 15 %, correlation: 25 %}", "10 %", "1 h")), HasSubstr("cycle of cell"));
 }
 
 TEST(Variation, TellsWhatHasNoEffect) {

@@ -116,15 +116,19 @@ TEST(FittedLaw, SpheresMeetShellsWithTheFactorsThatWereFitted) {
 TEST(FittedLaw, SpheresComeTogetherWithTheFrictionThatWasFitted) {
   const std::string approach =
       "  approach: {factor: 0.05, friction: 2.5 nN s/um^3, interval: [2 nN s/um^3, .inf nN s/um^3], misfit: 0.2}\n";
+  const std::string along = "  along: {factor: 0.02, friction: 1 nN s/um^3, interval: [0.7 nN s/um^3, 1.4 nN s/um^3], misfit: 0.1}\n";
   const std::string shells = "friction_of_shells: {medium: 0.1 nN s/um^3, cell_cell: 50 nN s/um^3, cell_cell_tangential: 50 nN s/um^3}\n";
-  const Written file(file_text("jkr", approach, shells));
+  const auto of_pairs = Written(file_text("jkr", approach, shells)).read();
+  ASSERT_TRUE(of_pairs.ok()) << of_pairs.error().text();
+  EXPECT_DOUBLE_EQ(sphere_contact_table(of_pairs->model).entry(0, 0).tangential_friction, 50.0) << "that was not fitted";
+  const Written file(file_text("jkr", approach + along, shells));
   const auto study = file.read();
   ASSERT_TRUE(study.ok()) << study.error().text();
   EXPECT_EQ(study->model.types[0].sphere.approach_factor, 0.05);
   EXPECT_THAT(study->warnings.text(), Not(HasSubstr("E542")));
   const cbm::ContactTable::Entry& spheres = sphere_contact_table(study->model).entry(0, 0);
   EXPECT_DOUBLE_EQ(spheres.normal_friction, 2.5);
-  EXPECT_DOUBLE_EQ(spheres.tangential_friction, 50.0);
+  EXPECT_DOUBLE_EQ(spheres.tangential_friction, 1.0);
   EXPECT_DOUBLE_EQ(study->model.pair(0, 0).normal_friction, 50.0) << "shells keep theirs";
   const auto other = file.read(test::changed("    radius: 6 um", "    radius: 6 um\n    friction: {cell_cell: 1e10 N s/m^3}", kStudy));
   ASSERT_TRUE(other.ok()) << other.error().text();
@@ -134,8 +138,8 @@ TEST(FittedLaw, SpheresComeTogetherWithTheFrictionThatWasFitted) {
   for (const UsedLaw& law : used_laws(*study)) {
     if (law.purpose != "contact of two spheres of cell") continue;
     for (const auto& [name, value] : law.values) {
-      if (name != "normal_friction") continue;
-      EXPECT_DOUBLE_EQ(value, 2.5);
+      if (name != "normal_friction" && name != "tangential_friction") continue;
+      EXPECT_DOUBLE_EQ(value, name == "normal_friction" ? 2.5 : 1.0);
       told = true;
     }
   }
@@ -143,7 +147,9 @@ TEST(FittedLaw, SpheresComeTogetherWithTheFrictionThatWasFitted) {
   const auto unknown = Written(file_text()).read();
   ASSERT_TRUE(unknown.ok());
   EXPECT_EQ(unknown->model.types[0].sphere.approach_factor, 1.0);
+  EXPECT_EQ(unknown->model.types[0].sphere.along_factor, 1.0);
   EXPECT_THAT(Written(file_text("jkr", "  approach: {factor: -1, misfit: 0}\n")).errors(), HasSubstr("E302"));
+  EXPECT_THAT(Written(file_text("jkr", "  along: {factor: -1, misfit: 0}\n")).errors(), HasSubstr("E302"));
 }
 
 TEST(FittedLaw, ResolvedStudyTellsTheNumbersAndReadsBackTheSame) {

@@ -1,0 +1,31 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "cbm/spheres.h"
+#include "core/result.h"
+#include "scenarios/calibrate/pressed_cluster.h"
+#include "scenarios/experiments/experiment.h"
+#include "study/study.h"
+
+namespace morula::scenarios {
+
+/// Spheres between plates that begin where the shells of pressed clusters do.
+class PressedSpheres {
+ public:
+  /// Clusters of these seeds (pressed_experiment()). Errors (kInternal): a study of such spheres is refused.
+  static Result<PressedSpheres> read(const CellMaterial& material, const std::vector<std::uint32_t>& seeds);
+
+  /// Work of the plates on spheres with these parameters. `adhesion`: W of two of them [nN/µm]. Errors: those of a step.
+  [[nodiscard]] Result<std::vector<calibrate::PressedCluster>> press(const cbm::SphereParameters& sphere, double adhesion) const;
+
+ private:
+  struct Cluster {
+    Experiment experiment;
+    Study study;
+  };
+  double adhesion_ = 0.0;  // of the shells [nN/µm]
+  std::vector<Cluster> clusters_;
+};
+
+}  // namespace morula::scenarios

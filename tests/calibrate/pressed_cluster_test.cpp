@@ -1,0 +1,78 @@
+#include "scenarios/calibrate/pressed_cluster.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace morula::calibrate {
+namespace {
+
+/// Clusters that resist with a yield and with the root of the friction; each with a part of its own.
+std::vector<PressedCluster> pressed(double factor, std::initializer_list<double> own = {1.0, 1.2, 0.9}) {
+  std::vector<PressedCluster> out;
+  for (const double of : own) {
+    std::vector<double> part, force;
+    for (int k = 0; k <= 60; ++k) {
+      part.push_back(k / 60.0);
+      force.push_back(5.0 * part.back() * part.back() * (1.0 + 4.0 * std::sqrt(factor * of)));
+    }
+    out.push_back(pressed_cluster(part, force, 10.0));
+  }
+  return out;
+}
+ClustersOfSpheres of_spheres() {
+  return [](double factor) -> Result<std::vector<PressedCluster>> { return pressed(factor); };
+}
+
+TEST(PressedCluster, HasTheWorkOfBothPlates) {
+  const PressedCluster one = pressed_cluster({0.0, 0.5, 1.0}, {0.0, 2.0, 2.0}, 10.0);
+  EXPECT_THAT(one.work, testing::ElementsAre(0.0, 10.0, 30.0));  // ∫F dz of one plate: 0.5·2·5, then 2·5
+}
+
+TEST(FrictionAlong, ComesBackFromClustersOfAKnownOne) {
+  for (const double truth : {0.02, 0.11, 0.5}) {
+    const auto found = fit_friction_along(pressed(truth), 50.0, of_spheres());
+    ASSERT_TRUE(found.ok()) << found.error().message;
+    EXPECT_NEAR(found->factor / truth, 1.0, 0.06);
+    EXPECT_NEAR(found->friction, 50.0 * found->factor, 1e-9);
+    EXPECT_LT(found->misfit, 0.02);
+    EXPECT_LE(found->low, found->friction);
+    EXPECT_GE(found->high, found->friction);
+    EXPECT_LT(found->high / found->low, 1.3) << "the clusters agree";
+    ASSERT_EQ(found->part.size(), found->shells.size());
+    EXPECT_DOUBLE_EQ(found->part.back(), 1.0);
+    EXPECT_DOUBLE_EQ(found->shells.back(), 1.0);
+    EXPECT_NEAR(found->fitted.back(), 1.0, 0.02);
+    EXPECT_GT(found->unfitted.back(), 1.1);
+  }
+}
+
+TEST(FrictionAlong, HasAWideIntervalWhereClustersDisagree) {
+  const auto found = fit_friction_along(pressed(0.1, {1.0, 6.0, 0.2}), 50.0, of_spheres());
+  ASSERT_TRUE(found.ok());
+  EXPECT_GT(found->high / found->low, 3.0);
+}
+
+TEST(FrictionAlong, OfOneClusterHasNoInterval) {
+  const auto found = fit_friction_along(pressed(0.1, {1.0}), 50.0,
+                                        [](double factor) -> Result<std::vector<PressedCluster>> { return pressed(factor, {1.0}); });
+  ASSERT_TRUE(found.ok());
+  EXPECT_EQ(found->low, 0.0);
+  EXPECT_TRUE(std::isinf(found->high));
+}
+
+TEST(FrictionAlong, TellsWhatCannotBe) {
+  EXPECT_FALSE(fit_friction_along({}, 50.0, of_spheres()).ok());
+  EXPECT_THAT(fit_friction_along(pressed(0.1), 0.0, of_spheres()).error().message, testing::HasSubstr("without friction"));
+  const PressedCluster loose = pressed_cluster({0.0, 1.0}, {0.0, 0.0}, 10.0);
+  EXPECT_THAT(fit_friction_along({loose}, 50.0, of_spheres()).error().message, testing::HasSubstr("did not resist"));
+  const auto too_stiff = [](double factor) -> Result<std::vector<PressedCluster>> { return pressed(factor + 0.5); };
+  EXPECT_THAT(fit_friction_along(pressed(0.01), 50.0, too_stiff).error().message, testing::HasSubstr("resist more than balls of shells"));
+  EXPECT_THAT(fit_friction_along(pressed(20.0), 50.0, of_spheres()).error().message, testing::HasSubstr("yield more than balls of shells"));
+  const auto fails = [](double) -> Result<std::vector<PressedCluster>> { return Error{ErrorKind::kPhysics, "spheres fly apart", ""}; };
+  EXPECT_EQ(fit_friction_along(pressed(0.1), 50.0, fails).error().message, "spheres fly apart");
+}
+
+}  // namespace
+}  // namespace morula::calibrate
