@@ -28,7 +28,7 @@ TEST(Calibrate, FindsALawOfShellsAndWritesAReport) {
   const TestFolder folder;
   write_study(folder.path() / "study.yaml");
   const Outcome first =
-      run_morula({"calibrate", "jkr", "small", "study.yaml", "--out", "found"}, folder.path(), {.timeout = std::chrono::seconds(300)});
+      run_morula({"calibrate", "jkr", "small", "study.yaml", "--out", "found"}, folder.path(), {.timeout = std::chrono::seconds(800)});
   ASSERT_EQ(first.exit_code, 0) << first.all();
   EXPECT_THAT(first.out, HasSubstr("kPa"));
   const std::string report = text_of(folder.path() / "found" / "report.html");
@@ -50,7 +50,7 @@ TEST(Calibrate, WritesTheSameFileOnRanksAndThreadsAndAfterASigkill) {
   const auto command = [](const char* out, const char* threads = "1") {
     return std::vector<std::string>{"calibrate", "jkr", "small", "study.yaml", "--pairs-only", "--threads", threads, "--out", out};
   };
-  ASSERT_EQ(run_morula(command("whole"), folder.path(), {.timeout = std::chrono::seconds(500)}).exit_code, 0);
+  ASSERT_EQ(run_morula(command("whole"), folder.path(), {.timeout = std::chrono::seconds(800)}).exit_code, 0);
   const std::string whole = text_of(folder / "whole/small.jkr.yaml");
   ASSERT_THAT(whole, HasSubstr("young:"));
   {
@@ -61,10 +61,10 @@ TEST(Calibrate, WritesTheSameFileOnRanksAndThreadsAndAfterASigkill) {
     EXPECT_EQ(killed.exit_code, 137) << killed.all();
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "killed/small.jkr.yaml"));
-  const Outcome again = run_morula(command("killed", "2"), folder.path(), {.timeout = std::chrono::seconds(500)});
+  const Outcome again = run_morula(command("killed", "2"), folder.path(), {.timeout = std::chrono::seconds(800)});
   ASSERT_EQ(again.exit_code, 0) << again.all();
   EXPECT_EQ(text_of(folder / "killed/small.jkr.yaml"), whole);
-  const Outcome ranks = run_morula(command("ranks"), folder.path(), {.ranks = 2, .timeout = std::chrono::seconds(500)});
+  const Outcome ranks = run_morula(command("ranks"), folder.path(), {.ranks = 2, .timeout = std::chrono::seconds(800)});
   ASSERT_EQ(ranks.exit_code, 0) << ranks.all();
   EXPECT_EQ(text_of(folder / "ranks/small.jkr.yaml"), whole);
 }
@@ -74,7 +74,7 @@ TEST(Calibrate, LeavesOutWhatItsBudgetHasNoTimeFor) {
   write_study(folder.path() / "study.yaml");
   const auto within = [&](const char* budget) {
     return run_morula({"calibrate", "jkr", "small", "study.yaml", "--budget", budget, "--out", "short"}, folder.path(),
-                      {.timeout = std::chrono::seconds(500)});
+                      {.timeout = std::chrono::seconds(800)});
   };
   const Outcome too_small = within("1 ms");
   EXPECT_EQ(too_small.exit_code, 2) << too_small.all();
@@ -99,7 +99,7 @@ TEST(Calibrate, MakesTheFileThatTheStudyNames) {
         << tension << "}}}}\ninitial: [{type: small, at: [[0 um, 0 um, 0 um]]}]\n";
   };
   const auto calibrate = [&] {
-    return run_morula({"calibrate", "jkr", "small", "study.yaml", "--pairs-only"}, folder.path(), {.timeout = std::chrono::seconds(500)});
+    return run_morula({"calibrate", "jkr", "small", "study.yaml", "--pairs-only"}, folder.path(), {.timeout = std::chrono::seconds(800)});
   };
   study("0.2 mN/m");
   EXPECT_EQ(run_morula({"check", "study.yaml"}, folder.path()).exit_code, 3);
