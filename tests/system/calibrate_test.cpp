@@ -37,7 +37,8 @@ TEST(Calibrate, FindsALawOfShellsAndWritesAReport) {
   EXPECT_THAT(text_of(folder.path() / "found" / "small.jkr.yaml"),
               testing::AllOf(HasSubstr("approach: {factor: "), HasSubstr("friction_of_shells: {medium: "), HasSubstr("with_shells:"),
                              HasSubstr("held_out: ")));
-  const Outcome again = run_morula({"calibrate", "jkr", "small", "study.yaml", "--out", "found"}, folder.path());
+  const Outcome again =
+      run_morula({"calibrate", "jkr", "small", "study.yaml", "--out", "found"}, folder.path(), {.timeout = std::chrono::seconds(800)});
   EXPECT_EQ(again.exit_code, 0) << again.all();
   EXPECT_EQ(again.out, first.out);
   EXPECT_THAT(again.err, testing::Not(HasSubstr("equal_pair_1: Two cells")));  // nothing is run again
