@@ -47,8 +47,7 @@ Vec3d held_place(const Anchor& anchor, const Tissue& tissue) {
   const dcm::Shells& shells = tissue.shells;
   if (anchor.shell >= 0) {
     const auto shell = static_cast<std::size_t>(anchor.shell);
-    const std::uint32_t first = shells.first_node[shell];
-    return volume_centroid(shells.topology(shell).faces(), std::span(shells.position).subspan(first, shells.first_node[shell + 1] - first));
+    return volume_centroid(shells.topology(shell).faces(), shells.nodes(shell));
   }
   return anchor.node < shells.node_count() ? shells.position[anchor.node] : tissue.spheres.position[anchor.node - shells.node_count()];
 }
@@ -64,11 +63,8 @@ void add_pull(const Anchor& anchor, const Tissue& tissue, std::span<Vec3d> force
     return;
   }
   const auto shell = static_cast<std::size_t>(anchor.shell);
-  const std::uint32_t first = shells.first_node[shell];
-  const auto gradient = volume_centroid_gradient(shells.topology(shell).faces(),
-                                                 std::span(shells.position).subspan(first, shells.first_node[shell + 1] - first));
-  for (std::size_t i = 0; i < gradient.size(); ++i)
-    force[first + i] += gradient[i][0] * pull.x + gradient[i][1] * pull.y + gradient[i][2] * pull.z;
+  const auto gradient = volume_centroid_gradient(shells.topology(shell).faces(), shells.nodes(shell));
+  for (std::size_t i = 0; i < gradient.size(); ++i) force[anchor.node + i] += transposed_product(gradient[i], pull);
 }
 
 std::vector<Vec3d> grip_forces(const Model& model, const Tissue& tissue, const Comm& comm) {

@@ -59,8 +59,7 @@ void Grips::add_outside(const Way& way, double dt, std::span<Vec3d> out, OrderFr
     const Vec3d from = spring.place(way.start), at = spring.place(way.position);
     const Vec3d push = (at - spring.target) * (spring.stiffness * dt);
     const auto gradient = spring.gradient(way.position);
-    for (std::uint32_t i = 0; i < spring.count; ++i)
-      out[spring.first + i] += gradient[i][0] * push.x + gradient[i][1] * push.y + gradient[i][2] * push.z;
+    for (std::uint32_t i = 0; i < spring.count; ++i) out[spring.first + i] += transposed_product(gradient[i], push);
     work.add(0.5 * spring.stiffness * (norm2(from - spring.target) - norm2(at - spring.target)));  // energy at the start less that now
   }
 }
@@ -93,7 +92,7 @@ void Grips::add_product(std::span<const Float4> p, std::span<Float4> q) const {
       sum += Vec3f{dot(columns[i][0], way), dot(columns[i][1], way), dot(columns[i][2], way)};
     }
     for (std::uint32_t i = 0; i < spring.count; ++i) {
-      const Vec3f part = columns[i][0] * sum.x + columns[i][1] * sum.y + columns[i][2] * sum.z;
+      const Vec3f part = transposed_product(columns[i], sum);
       Float4& to = q[spring.first + i];
       to.x += part.x, to.y += part.y, to.z += part.z;
     }

@@ -91,11 +91,11 @@ class Fitting {
     if (!data.relaxations.empty())
       take("no friction of approach", calibrate::fit_approach_friction(data.relaxations, law.pair), out.approach);
     if (data.pressed.empty()) return out;
-    cbm::SphereParameters sphere = law.sphere;
-    if (out.approach) sphere.approach_factor = out.approach->factor;
+    TrialLaw trial = law;
+    if (out.approach) trial.sphere.approach_factor = out.approach->factor;
     const auto spheres = [&](double factor) {
-      sphere.along_factor = factor;
-      return clusters_.press(sphere, law.adhesion);
+      trial.sphere.along_factor = factor;
+      return clusters_.press(trial);
     };
     take("no friction along the contact", calibrate::fit_friction_along(data.pressed, out_.material.friction.along, spheres), out.along);
     return out;

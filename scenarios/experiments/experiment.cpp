@@ -53,6 +53,12 @@ std::string number(double value) { return shortest_text(value); }
 std::string of(double value, const char* unit) { return number(value) + " " + unit; }
 std::string place(const Vec3d& p) { return "[" + of(p.x, "um") + ", " + of(p.y, "um") + ", " + of(p.z, "um") + "]"; }
 
+/// The material, and JKR without packing for spheres of it, in whose place a law on trial comes.
+CellMaterial with_plain_spheres(CellMaterial material) {
+  material.shell = "cbm: {law: jkr, packing: none}, " + material.shell;
+  return material;
+}
+
 /// A type with this material, without life.
 std::string type_text(const CellMaterial& material, const char* name, double radius, const std::string& adhesion,
                       const Friction& friction) {
@@ -256,9 +262,7 @@ Experiment relaxation_experiment(const CellMaterial& material, std::uint32_t see
 Experiment pressed_experiment(const CellMaterial& material, std::uint32_t seed) { return pressed(material, seed, "shell"); }
 
 Experiment pressed_spheres_experiment(const CellMaterial& material, std::uint32_t seed) {
-  CellMaterial spheres = material;
-  spheres.shell = "cbm: {law: jkr, packing: none}, " + material.shell;
-  return pressed(spheres, seed, "sphere");
+  return pressed(with_plain_spheres(material), seed, "sphere");
 }
 
 Experiment random_packing_experiment(const CellMaterial& material, std::uint32_t seed) {
@@ -286,8 +290,7 @@ Experiment random_packing_experiment(const CellMaterial& material, std::uint32_t
 }
 
 std::string study_of_spheres(const CellMaterial& material, std::span<const Vec3d> centers, double edge) {
-  CellMaterial spheres = material;
-  spheres.shell = "cbm: {law: jkr, packing: none}, " + material.shell;
+  const CellMaterial spheres = with_plain_spheres(material);
   std::string places;
   const auto inside = [edge](double x) { return x - edge * std::floor(x / edge + 0.5); };
   for (const Vec3d& center : centers)

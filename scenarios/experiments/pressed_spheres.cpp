@@ -1,20 +1,13 @@
 #include "scenarios/experiments/pressed_spheres.h"
 
 #include <cmath>
+#include <memory>
 #include <utility>
-
-#include "coupling/simulation.h"
-#include "study/initial/make_tissue.h"
 
 namespace morula::scenarios {
 namespace {
 
-Result<calibrate::PressedCluster> press_one(const Experiment& experiment, const Study& study, const cbm::SphereParameters& sphere) {
-  Model model = study.model;
-  model.types[0].sphere = sphere;
-  ShapeLibrary shapes;
-  MORULA_TRY_ASSIGN(InitialTissue initial, make_tissue(study, shapes, Comm()));
-  MORULA_TRY_ASSIGN(auto simulation, Simulation::create(std::move(model), std::move(initial.tissue), Comm(), 1));
+Result<calibrate::PressedCluster> press_one(const Experiment& experiment, std::unique_ptr<Simulation> simulation) {
   std::vector<double> part, force;
   for (int k = 0; k <= kPressedOutputs; ++k) {
     part.push_back(static_cast<double>(k) / kPressedOutputs);
@@ -41,12 +34,11 @@ Result<PressedSpheres> PressedSpheres::read(const CellMaterial& material, const 
   return out;
 }
 
-Result<std::vector<calibrate::PressedCluster>> PressedSpheres::press(const cbm::SphereParameters& sphere, double adhesion) const {
-  cbm::SphereParameters own = sphere;
-  if (adhesion_ > 0.0) own.adhesion_factor = adhesion / adhesion_;
+Result<std::vector<calibrate::PressedCluster>> PressedSpheres::press(const TrialLaw& law) const {
   std::vector<calibrate::PressedCluster> out;
-  for (const Cluster& cluster : clusters_) {
-    MORULA_TRY_ASSIGN(auto one, press_one(cluster.experiment, cluster.study, own));
+  for (const auto& [experiment, study] : clusters_) {
+    MORULA_TRY_ASSIGN(auto spheres, spheres_on_trial(study, law, adhesion_));
+    MORULA_TRY_ASSIGN(auto one, press_one(experiment, std::move(spheres)));
     out.push_back(std::move(one));
   }
   return out;

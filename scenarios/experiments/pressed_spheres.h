@@ -2,10 +2,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "cbm/spheres.h"
 #include "core/result.h"
 #include "scenarios/calibrate/pressed_cluster.h"
 #include "scenarios/experiments/experiment.h"
+#include "scenarios/experiments/trial_law.h"
 #include "study/study.h"
 
 namespace morula::scenarios {
@@ -16,8 +16,8 @@ class PressedSpheres {
   /// Clusters of these seeds (pressed_experiment()). Errors (kInternal): a study of such spheres is refused.
   static Result<PressedSpheres> read(const CellMaterial& material, const std::vector<std::uint32_t>& seeds);
 
-  /// Work of the plates on spheres with these parameters. `adhesion`: W of two of them [nN/µm]. Errors: those of a step.
-  [[nodiscard]] Result<std::vector<calibrate::PressedCluster>> press(const cbm::SphereParameters& sphere, double adhesion) const;
+  /// Work of the plates on spheres of a law. Errors: those of spheres_on_trial() and of a step.
+  [[nodiscard]] Result<std::vector<calibrate::PressedCluster>> press(const TrialLaw& law) const;
 
  private:
   struct Cluster {

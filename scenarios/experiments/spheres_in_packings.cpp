@@ -5,9 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "coupling/simulation.h"
-#include "study/initial/make_tissue.h"
-
 namespace morula::scenarios {
 namespace {
 
@@ -30,13 +27,8 @@ struct Rest {
   std::vector<Vec3d> centers;
 };
 
-/// Lets the spheres of a study in a cube of this edge [µm] come to rest, with these parameters.
-Result<Rest> rest_of_spheres(const Study& study, double edge, double radius, const cbm::SphereParameters& sphere) {
-  Model model = study.model;
-  model.types[0].sphere = sphere;
-  ShapeLibrary shapes;
-  MORULA_TRY_ASSIGN(InitialTissue initial, make_tissue(study, shapes, Comm()));
-  MORULA_TRY_ASSIGN(auto simulation, Simulation::create(std::move(model), std::move(initial.tissue), Comm(), 1));
+/// Lets spheres in a cube of this edge [µm] come to rest.
+Result<Rest> rest_of_spheres(std::unique_ptr<Simulation> simulation, double edge, double radius) {
   MORULA_TRY(simulation->first_swaps());
   Rest out;
   for (int step = 0; step < kMostSteps; ++step) {
@@ -71,13 +63,12 @@ Result<SpheresInPackings> SpheresInPackings::read(const CellMaterial& material, 
 }
 
 Status SpheresInPackings::place(const TrialLaw& law, bool held_out, calibrate::Data& data) const {
-  cbm::SphereParameters sphere = law.sphere;
-  if (adhesion_ > 0.0) sphere.adhesion_factor = law.adhesion / adhesion_;
   for (std::size_t k = 0; k < starts_.size(); ++k) {
     PackingPoint& point = data.packings[k];
     if (!starts_[k] || point.held_out != held_out) continue;
     const auto& [study, edge] = *starts_[k];
-    MORULA_TRY_ASSIGN(const Rest rest, rest_of_spheres(study, edge, point.radius, sphere));
+    MORULA_TRY_ASSIGN(auto spheres, spheres_on_trial(study, law, adhesion_));
+    MORULA_TRY_ASSIGN(const Rest rest, rest_of_spheres(std::move(spheres), edge, point.radius));
     point.random = calibrate::geometry_of_places(rest.centers, edge, point.radius);
     point.random.extra = rest.pressure - pressure_by(law, point);
   }

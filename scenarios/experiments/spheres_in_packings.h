@@ -4,20 +4,13 @@
 #include <span>
 #include <vector>
 
-#include "cbm/spheres.h"
 #include "core/result.h"
 #include "scenarios/calibrate/loss.h"
 #include "scenarios/experiments/found_curves.h"
+#include "scenarios/experiments/trial_law.h"
 #include "study/study.h"
 
 namespace morula::scenarios {
-
-/// A law of spheres on trial.
-struct TrialLaw {
-  cbm::SphereParameters sphere;  ///< with its curve of packing
-  double adhesion = 0.0;         ///< W of two of them [nN/µm]
-  calibrate::PairModel pair;     ///< what `sphere` is for an attached pair
-};
 
 /// Where spheres lie in a random packing, and what their pairs bear there, is decided by their law, which is fitted to that pressure: the fit and the
 /// places are found in turns (decision 0056).

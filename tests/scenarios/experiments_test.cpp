@@ -173,10 +173,10 @@ TEST(Experiments, GiveBackTheFrictionAlongTheContactOfSpheres) {
   material.shell = "dcm: {nodes: 42}";  // of which read() makes spheres
   const auto spheres = PressedSpheres::read(material, seeds);
   ASSERT_TRUE(spheres.ok()) << spheres.error().message;
-  cbm::SphereParameters sphere{.young = 0.8, .poisson = 0.4};
+  TrialLaw law{.sphere = {.young = 0.8, .poisson = 0.4}, .adhesion = material.adhesion, .pair = {}};
   const auto fit = calibrate::fit_friction_along(found, material.friction.along, [&](double factor) {
-    sphere.along_factor = factor;
-    return spheres->press(sphere, material.adhesion);
+    law.sphere.along_factor = factor;
+    return spheres->press(law);
   });
   ASSERT_TRUE(fit.ok()) << fit.error().message;
   EXPECT_NEAR(std::log2(fit->factor), -2.0, 0.15);

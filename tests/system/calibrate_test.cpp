@@ -33,10 +33,11 @@ TEST(Calibrate, FindsALawOfShellsAndWritesAReport) {
   EXPECT_THAT(first.out, HasSubstr("kPa"));
   const std::string report = text_of(folder.path() / "found" / "report.html");
   EXPECT_THAT(report, testing::AllOf(HasSubstr("force over overlap"), HasSubstr("Held out"), HasSubstr("Profile of E"),
-                                     HasSubstr("Two cells that come together by themselves"), HasSubstr("A sphere and a shell")));
+                                     HasSubstr("Two cells that come together by themselves"), HasSubstr("that two plates press flat"),
+                                     HasSubstr("A sphere and a shell")));
   EXPECT_THAT(text_of(folder.path() / "found" / "small.jkr.yaml"),
-              testing::AllOf(HasSubstr("approach: {factor: "), HasSubstr("friction_of_shells: {medium: "), HasSubstr("with_shells:"),
-                             HasSubstr("held_out: ")));
+              testing::AllOf(HasSubstr("approach: {factor: "), HasSubstr("along the contact"), HasSubstr("friction_of_shells: {medium: "),
+                             HasSubstr("with_shells:"), HasSubstr("held_out: ")));
   const Outcome again =
       run_morula({"calibrate", "jkr", "small", "study.yaml", "--out", "found"}, folder.path(), {.timeout = std::chrono::seconds(800)});
   EXPECT_EQ(again.exit_code, 0) << again.all();
