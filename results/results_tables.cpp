@@ -1,4 +1,5 @@
 #include <cstring>
+#include <limits>
 
 #include "results/checkpoint.h"
 #include "results/run_record.h"
@@ -54,9 +55,8 @@ Status write_results_tables(const std::filesystem::path& path, const std::string
   // Every rank must plan the same datasets: it sees the root's texts.
   MORULA_TRY_ASSIGN(const SeriesTable series, parse_series(from_root(series_csv, comm), "series.csv"));
   const std::string events = from_root(event_lines, comm);
-  MORULA_TRY_ASSIGN(const std::vector<SnapshotEntry> entries, list_snapshots(path));
-  // Taking out what is later than the end takes out the tables that are there.
-  MORULA_TRY(truncate_snapshots(path, entries.empty() ? 0.0 : entries.back().time, comm));
+  // Taking out what is later than any time takes out the tables that are there.
+  MORULA_TRY(truncate_snapshots(path, std::numeric_limits<double>::infinity(), comm));
   StoragePlan plan(comm);
   for (const SeriesColumn& column : series.columns) {
     const auto found = descriptions.find(column.name);

@@ -52,6 +52,14 @@ Status write_results_tables(const std::filesystem::path& path, const std::string
 /// What is in the file. Also while a run writes it or after it was killed.
 Result<std::vector<SnapshotEntry>> list_snapshots(const std::filesystem::path& path);
 
+/// How many snapshots a file has.
+struct SnapshotCounts {
+  std::uint64_t all = 0;
+  std::uint64_t earlier = 0;  ///< than the time asked for: the first so many
+};
+/// Snapshots earlier than `time` [s], `with_equal` those at it too. Reads the times of the later ones only: a run asks at each output.
+Result<SnapshotCounts> count_snapshots(const std::filesystem::path& path, double time, bool with_equal);
+
 /// One moment, whole, on this process. kFile for a file of another schema.
 Result<Snapshot> read_snapshot(const std::filesystem::path& path, std::size_t index);
 

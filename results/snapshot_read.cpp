@@ -211,6 +211,19 @@ Result<std::vector<SnapshotEntry>> list_snapshots(const std::filesystem::path& p
   return entries;
 }
 
+Result<SnapshotCounts> count_snapshots(const std::filesystem::path& path, double time, bool with_equal) {
+  MORULA_TRY_ASSIGN(const Hdf5Reader file, Hdf5Reader::open(path));
+  MORULA_TRY(check_schema(file, path));
+  SnapshotCounts counts;
+  if (!file.exists("snapshots")) return counts;
+  MORULA_TRY_ASSIGN(counts.all, file.links("snapshots"));
+  for (counts.earlier = counts.all; counts.earlier > 0; --counts.earlier) {
+    MORULA_TRY_ASSIGN(const double last, file.value<double>(snapshot_group(counts.earlier - 1) + "/time"));
+    if (last < time || (with_equal && last == time)) break;
+  }
+  return counts;
+}
+
 Result<Snapshot> read_snapshot(const std::filesystem::path& path, std::size_t index) {
   MORULA_TRY_ASSIGN(const Hdf5Reader file, Hdf5Reader::open(path));
   MORULA_TRY(check_schema(file, path));

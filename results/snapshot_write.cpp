@@ -314,26 +314,24 @@ Status check_local(const Snapshot& local, std::span<const fields::Field> fields)
   return {};
 }
 
-/// The snapshots in the file, the root's list on all ranks; none if there is no file.
-Result<std::vector<SnapshotEntry>> list_on_all(const std::filesystem::path& path, const Comm& comm) {
-  std::vector<SnapshotEntry> entries;
+/// The snapshots of the file that are earlier than `time` (`with_equal`: or at it) and all that it has, as the root finds them; none if there is no file.
+Result<SnapshotCounts> count_on_all(const std::filesystem::path& path, double time, bool with_equal, const Comm& comm) {
+  SnapshotCounts counts;
   Status status;
   std::error_code ignored;
   if (comm.is_root() && std::filesystem::exists(path, ignored)) {
-    auto listed = list_snapshots(path);
-    if (listed.ok())
-      entries = std::move(listed).value();
+    auto counted = count_snapshots(path, time, with_equal);
+    if (counted.ok())
+      counts = counted.value();
     else
-      status = std::move(listed).error();
+      status = std::move(counted).error();
   }
   MORULA_TRY(agree(std::move(status), comm));
   ByteWriter writer;
-  writer.put_all(std::span(entries));
+  writer.put(counts);
   std::vector<std::byte> bytes(writer.bytes().begin(), writer.bytes().end());
   comm.broadcast(bytes);
-  entries.clear();
-  ByteReader(bytes).get_all(bytes.size() / sizeof(SnapshotEntry), entries);
-  return entries;
+  return ByteReader(bytes).get<SnapshotCounts>();
 }
 
 /// The groups of write_results_tables that are in the file, the root's list on all ranks.
@@ -348,10 +346,9 @@ std::vector<std::string> tables_in(const std::filesystem::path& path, const Comm
   return out;
 }
 
-std::vector<std::string> groups_from(const std::vector<SnapshotEntry>& entries, double time, bool with_equal) {
+std::vector<std::string> later_groups(const SnapshotCounts& counts) {
   std::vector<std::string> groups;
-  for (const SnapshotEntry& entry : entries)
-    if (entry.time > time || (with_equal && entry.time == time)) groups.push_back(snapshot_group(entry.index));
+  for (std::size_t index = counts.earlier; index < counts.all; ++index) groups.push_back(snapshot_group(index));
   return groups;
 }
 
@@ -385,9 +382,8 @@ Status begin_results(const std::filesystem::path& path, const ResultsHead& head,
 
 Status append_snapshot(const std::filesystem::path& path, const Snapshot& local, std::span<const fields::Field> fields, const Comm& comm) {
   MORULA_TRY(agree(check_local(local, fields), comm));
-  MORULA_TRY_ASSIGN(const auto entries, list_on_all(path, comm));
-  const std::vector<std::string> removed = groups_from(entries, local.time, true);
-  StoragePlan plan(comm, snapshot_group(entries.size() - removed.size()) + '/');
+  MORULA_TRY_ASSIGN(const SnapshotCounts counts, count_on_all(path, local.time, false, comm));
+  StoragePlan plan(comm, snapshot_group(counts.earlier) + '/');
   add_program(plan);
   plan.add_value(results::kTime.path, results::kTime.label(), local.time);
   plan.add_value(results::kBoxLow.path, results::kBoxLow.label(), local.box.low);
@@ -405,12 +401,12 @@ Status append_snapshot(const std::filesystem::path& path, const Snapshot& local,
   add_cells(plan, sort_over_ranks(pack_cells(local, numbers), comm), local, comm);
   add_surroundings(plan, local);
   for (std::size_t f = 0; f < fields.size(); ++f) add_field(plan, local.fields[f].name, fields[f], comm);
-  return add_to_file(path, std::move(plan), removed, comm);
+  return add_to_file(path, std::move(plan), later_groups(counts), comm);
 }
 
 Status truncate_snapshots(const std::filesystem::path& path, double time, const Comm& comm) {
-  MORULA_TRY_ASSIGN(const auto entries, list_on_all(path, comm));
-  std::vector<std::string> removed = groups_from(entries, time, false);
+  MORULA_TRY_ASSIGN(const SnapshotCounts counts, count_on_all(path, time, true, comm));
+  std::vector<std::string> removed = later_groups(counts);
   for (const std::string& table : tables_in(path, comm)) removed.push_back(table);
   return removed.empty() ? Status{} : add_to_file(path, StoragePlan(comm), removed, comm);
 }

@@ -29,8 +29,7 @@ constexpr std::int64_t kSampled = 20'000;                        // cells up to 
 constexpr double kSampleTime = 3.0, kMostSampleTime = 10.0;      // CPU time of the steps that are tried, more where they are few [s]
 constexpr std::size_t kSampleSteps = 16;                         // the first are taken back and cut: four say nothing of those that follow
 constexpr double kReportTime = 2.2, kStartTime = 0.3;            // CPU, measured on single-cell studies [s]
-constexpr double kOutputTime = 3e-3, kOutputTimePerNode = 1e-6;  // CPU of one output [s]
-constexpr double kOutputTimePerOutput = 1.1e-4;                  // and of finding one's way among those before, measured on 150 to 280 [s]
+constexpr double kOutputTime = 4e-3, kOutputTimePerNode = 1e-6;  // CPU of one output [s]
 constexpr double kPacked = 0.74;                                 // part of a volume that its cells fill
 
 /// ∫_0^τ (3 nodes + spheres e^{g t}) dt
@@ -210,8 +209,8 @@ LaterBodies later_bodies(const Study& study, const Counts& first, Tissue* tissue
 Result<double> cost_of_run(const Study& study, double cells, const LaterBodies& bodies, double growth, Tissue* tissue) {
   const Load load = bodies.from.front().second;
   const double outputs = study.time.end / study.time.output;
-  double cost = kStartTime + (study.output.report ? kReportTime : 0.0) +
-                outputs * (kOutputTime + kOutputTimePerNode * (load.nodes + load.spheres) + kOutputTimePerOutput * outputs);
+  double cost =
+      kStartTime + (study.output.report ? kReportTime : 0.0) + outputs * (kOutputTime + kOutputTimePerNode * (load.nodes + load.spheres));
   const double most = std::min(study.model.step.max_step, study.time.output);
   if (tissue == nullptr) {
     const Load each{kCostPerSphere * load.spheres, kCostPerNode / 3.0 * load.nodes};  // CPU of a step
