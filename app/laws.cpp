@@ -4,6 +4,7 @@
 
 #include "app/words.h"
 #include "cbm/builtin.h"
+#include "cbm/crowded_area.h"
 #include "cbm/packing.h"
 #include "coupling/behaviours/arrest.h"
 #include "coupling/behaviours/behaviour.h"
@@ -44,6 +45,7 @@ std::vector<ListedLaw> all_laws(const Laws& registered) {
   for (const auto& law : registered.spheres) laws.push_back({"contact of spheres", law->info});
   laws.push_back({"contact of spheres", cbm::jkr_range_law()});
   laws.push_back({"contact of spheres", cbm::packing_law()});
+  laws.push_back({"contact of spheres", cbm::crowded_area_law()});
   for (const auto& law : registered.shells) laws.push_back({"shells", law.info});
   const auto add = [&laws](const char* group, std::vector<LawInfo> infos) {
     for (LawInfo& info : infos) laws.push_back({group, std::move(info)});

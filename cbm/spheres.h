@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "cbm/crowded_area.h"
 #include "cbm/packing.h"
 #include "cbm/partners.h"
 #include "cbm/sphere_law.h"
@@ -102,6 +103,7 @@ struct SphereParameters {
   std::shared_ptr<const SphereLaw> law = jkr_law();  ///< of contact with spheres and obstacles
   LawValues own{};                                   ///< values of the law's own keys
   PackingCurve packing{};                            ///< pressure by packing; empty: none
+  CrowdedArea crowded_area{};                        ///< contact areas that are told; empty: those of pairs
   double adhesion_factor = 1.0;                      ///< W of two spheres over that of the study: of a law fitted to shells
   double approach_factor = 1.0;                      ///< γ_n of two spheres over that of the study: of a law fitted to shells
   double along_factor = 1.0;                         ///< γ_t, likewise

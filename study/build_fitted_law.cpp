@@ -89,6 +89,7 @@ void build_fitted_law(BuildContext& c, const std::string& /*type_name*/, draft::
   if (fitted->adhesion_of_shells > 0.0) sphere.adhesion_factor = fitted->adhesion / fitted->adhesion_of_shells;
   const FittedLaw::FrictionFactors& friction = table ? fitted->of_table : fitted->of_jkr;
   sphere.approach_factor = friction.approach, sphere.along_factor = friction.along;
+  sphere.crowded_area = table ? fitted->area_of_table : fitted->area_of_jkr;
   sphere.fitted = fitted->overlap;
   if (fitted->with_shells) {
     take(c, "with_shells.stiffness", fitted->with_shells->stiffness, "", t.with_shells.of("stiffness", &cbm::WithShells::stiffness));

@@ -256,6 +256,8 @@ constexpr ErrorCode kCodes[] = {
     {691, "what this build of the program lacks",
      "Remeshing uses CGAL's mesh processing, which is under GPL-3-or-later, and with it the program as a whole. A build with "
      "MORULA_WITH_GPL=OFF leaves it out; cells from files keep their nodes then."},
+    {692, "two laws of one name",
+     "A program with laws of its own has added one under a name that is there already. The study could not say which of them it means."},
     {700, "cycle that never ends",
      "A cell that divides at a volume must grow, in one phase at least; one that does not grow divides by the clock of its phases."},
     {701, "division below the size at birth", "A sizer's division volume must be larger than the mean birth volume of the type."},

@@ -14,6 +14,9 @@ using Q = Quantity;
 struct Knot {
   Given<double> packing, pressure;
 };
+struct AreaKnot {
+  Given<double> pairs, cells;
+};
 struct TableKnot {
   Given<double> overlap, force, area;
 };
@@ -41,6 +44,7 @@ struct File {
   Given<double> medium, cell_cell, cell_cell_tangential;
   bool has_friction = false;
   std::vector<Named<Knot>> packing, beside_table;
+  std::vector<Named<AreaKnot>> area_of_jkr, area_of_table;
   std::vector<Named<TableKnot>> knots;
   bool has_table = false;
   Ends overlap, radii, room;
@@ -57,6 +61,11 @@ KeySpec section(const char* name) { return {.name = name, .doc = "", .example = 
 void declare_knot(Section& s, Knot& knot) {
   s.quantity(number("packing", Q::kFraction, 0.0, 10.0), knot.packing);
   s.quantity(number("pressure", Q::kPressure, 0.0, 1e4), knot.pressure);
+}
+
+void declare_area_knot(Section& s, AreaKnot& knot) {
+  s.quantity(number("pairs", Q::kFraction, 0.0, 10.0), knot.pairs);
+  s.quantity(number("cells", Q::kFraction, 0.0, 10.0), knot.cells);
 }
 
 void declare_table_knot(Section& s, TableKnot& knot) {
@@ -94,6 +103,14 @@ void declare_factors(Section& s, File& f, Factors& factors) {
     });
 }
 
+void declare_contact_area(Section& s, File& f, std::vector<Named<AreaKnot>>& knots) {
+  bool present = false;
+  s.group({.name = "contact_area", .doc = "", .optional_section = true, .example = ""}, present, [&f, &knots](Section& g) {
+    g.list(section("knots"), knots, &declare_area_knot);
+    declare_figures(g, f, {"held_out", "pairs_alone"});
+  });
+}
+
 FittedLaw::FrictionFactors factors_of(const Factors& read) {
   FittedLaw::FrictionFactors out;
   if (read.approach.given) out.approach = read.approach.value.value;
@@ -129,6 +146,7 @@ void declare_jkr(Section& s, File& f) {
   declare_held_out(s, f);
   declare_factors(s, f, f.of_jkr);
   s.list(section("packing"), f.packing, &declare_knot);
+  declare_contact_area(s, f, f.area_of_jkr);
 }
 
 void declare_table(Section& s, File& f) {
@@ -137,6 +155,7 @@ void declare_table(Section& s, File& f) {
   declare_held_out(s, f);
   declare_factors(s, f, f.of_table);
   s.list(section("packing"), f.beside_table, &declare_knot);
+  declare_contact_area(s, f, f.area_of_table);
   s.list(section("knots"), f.knots, &declare_table_knot);
 }
 
@@ -184,6 +203,17 @@ std::optional<cbm::PairTable> table_of(const File& file, const Place& place, Dia
   return {};
 }
 
+/// E533 where the knots make no curve.
+cbm::CrowdedArea areas_of(const std::vector<Named<AreaKnot>>& knots, Diagnostics& diagnostics) {
+  if (knots.empty()) return {};
+  std::vector<cbm::CrowdedKnot> all;
+  for (const auto& knot : knots) all.push_back({knot.content.pairs.value, knot.content.cells.value});
+  auto made = cbm::CrowdedArea::through(all);
+  if (made.ok()) return std::move(made).value();
+  diagnostics.error(533, knots.front().place, "contact_area: " + made.error().message, made.error().help);
+  return {};
+}
+
 bool makes_a_curve(const std::vector<cbm::PackingKnot>& knots, const Place& place, Diagnostics& diagnostics) {
   if (knots.empty()) return true;
   const auto curve = cbm::PackingCurve::through(knots);
@@ -222,6 +252,7 @@ std::optional<FittedLaw> read_fitted_law(const std::filesystem::path& path, cons
   if (file.has_friction) out.friction = CellFriction{file.medium.value, file.cell_cell.value, file.cell_cell_tangential.value};
   out.overlap = {file.overlap.least.value, file.overlap.most.value};
   out.smallest_radius = file.radii.least.value, out.largest_radius = file.radii.most.value;
+  out.area_of_jkr = areas_of(file.area_of_jkr, diagnostics), out.area_of_table = areas_of(file.area_of_table, diagnostics);
   if (file.has_table) out.table = table_of(file, document.place, diagnostics);
   if (out.table_is_better && !file.has_table)
     diagnostics.error(533, file.better.place, "the table is said to be better, but there is none", "");

@@ -19,12 +19,13 @@ struct FittedLaw {
   std::string type, material;  ///< of the cells, and what their shells are (study/cell_material.h)
   bool table_is_better = false;
 
-  double young = 0.0, poisson = 0.0;           ///< JKR: E [kPa], ν
-  double adhesion = 0.0;                       ///< W of two spheres [nN/µm]
-  double adhesion_of_shells = 0.0;             ///< that the fitted shells have [nN/µm]
-  std::vector<cbm::PackingKnot> packing;       ///< beside JKR; empty: packings were not fitted
-  std::optional<cbm::PairTable> table;         ///< none: the points made no table
-  std::vector<cbm::PackingKnot> beside_table;  ///< packing beside the table
+  double young = 0.0, poisson = 0.0;            ///< JKR: E [kPa], ν
+  double adhesion = 0.0;                        ///< W of two spheres [nN/µm]
+  double adhesion_of_shells = 0.0;              ///< that the fitted shells have [nN/µm]
+  std::vector<cbm::PackingKnot> packing;        ///< beside JKR; empty: packings were not fitted
+  std::optional<cbm::PairTable> table;          ///< none: the points made no table
+  std::vector<cbm::PackingKnot> beside_table;   ///< packing beside the table
+  cbm::CrowdedArea area_of_jkr, area_of_table;  ///< contact areas among many; empty: not fitted
 
   /// Friction of two spheres over that of the shells; 1: not fitted.
   struct FrictionFactors {

@@ -3,6 +3,7 @@
 #include "study/catalogue.h"
 #include "study/declare.h"
 #include "study/document.h"
+#include "study/law_names.h"
 #include "study/read_section.h"
 #include "study/study.h"
 #include "study/write_section.h"
@@ -54,6 +55,11 @@ Result<Study, Diagnostics> read_source(const std::shared_ptr<const SourceText>& 
   if (document.kind == Node::Kind::kNull) return diagnostics;  // what could not be parsed has been told
   if (document.kind != Node::Kind::kMap) {
     diagnostics.error(104, document.place, "a study is a map (`key: value`)", "`morula new` writes one to start from");
+    return diagnostics;
+  }
+  if (const std::vector<std::string> twice = names_twice(*options.laws); !twice.empty()) {
+    for (const std::string& name : twice)
+      diagnostics.error(692, document.place, "two laws have one name: " + name, "give the law of this program another one");
     return diagnostics;
   }
   draft::Study draft;

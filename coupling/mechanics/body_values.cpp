@@ -1,6 +1,5 @@
 /// What mechanics tells of each cell: volume, area, stress and pressure, contact; and of obstacles (decisions 0023, 0054).
 #include <cmath>
-#include <numbers>
 
 #include "core/ball.h"
 #include "core/parallel/threads.h"
@@ -89,14 +88,15 @@ void add_values_of_spheres(const Workspace& work, const Tissue& tissue, std::spa
   for (const SphereTouch& touch : touches) {
     if (!scene.bodies()[touch.sphere].owned) continue;
     SphereContacts::Pressing& sum = pressing[touch.sphere - scene.first_sphere()];
-    sum.area += touch.area;
+    sum.with_cells += touch.area;
     sum.virial += symmetric(touch.place, touch.force * -1.0);
   }
   for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
-    const double r = tissue.spheres.radius[i], modulus = work.setting.model.types[tissue.spheres.type[i]].shell.bulk_modulus;
+    const CellType& type = work.setting.model.types[tissue.spheres.type[i]];
+    const double r = tissue.spheres.radius[i], modulus = type.shell.bulk_modulus, surface = ball_surface(r);
     values.volume[shells + i] = ball_volume(r);
-    values.area[shells + i] = 4.0 * std::numbers::pi * r * r;
-    values.contact_area[shells + i] = pressing[i].area;
+    values.area[shells + i] = surface;
+    values.contact_area[shells + i] = surface * type.sphere.crowded_area.at(pressing[i].with_cells / surface) + pressing[i].with_obstacles;
     values.stressed_volume[shells + i] = cbm::pressed_volume(values.pressure[shells + i], ball_volume(r), modulus);
     values.stress[shells + i] = (-1.0 / values.stressed_volume[shells + i]) * pressing[i].virial;
   }

@@ -339,14 +339,14 @@ std::vector<SphereContacts::Pressing> SphereContacts::pressing(const Scene& scen
           if (packing_.acts) force += packing_force(scene, pair, block.distance[lane] + block.offset[lane]).force;
           for (const std::uint32_t i : {pair.a, std::uint32_t{pair.b}}) {
             if (!shares[t].has(i)) continue;
-            out[i].area += block.area[lane];
+            out[i].with_cells += block.area[lane];
             out[i].virial += outer((i == pair.a ? arm_of_a(block, lane) : arm_of_b(block, lane)) * force, normal);
           }
         },
         [](std::uint32_t) {});
   });
   for (const RigidPair& pair : rigid_) {
-    out[pair.sphere].area += pair.area;
+    out[pair.sphere].with_obstacles += pair.area;
     out[pair.sphere].virial += outer(pair.distance * pair.force, pair.normal);
   }
   return out;

@@ -54,8 +54,9 @@ class SphereContacts : public Term {
   [[nodiscard]] double virial(std::size_t i) const { return virial_[i]; }
   /// What spheres and obstacles do to a sphere.
   struct Pressing {
-    double area = 0.0;         ///< in contact [µm²]
-    SymMat3<double> virial{};  ///< Σ_k (x_i − x_k) ⊗ f_k [nN·µm]
+    double with_cells = 0.0;      ///< area in contact with spheres, by pairs [µm²]
+    double with_obstacles = 0.0;  ///< [µm²]
+    SymMat3<double> virial{};     ///< Σ_k (x_i − x_k) ⊗ f_k [nN·µm]
   };
   /// Of the owned spheres; evaluates the pairs, for nobody needs this in a step.
   [[nodiscard]] std::vector<Pressing> pressing(const Scene& scene) const;

@@ -34,7 +34,8 @@ std::vector<Observable> tissue_observables(const Model&) {
       {"max_pressure", "kPa", "Largest pressure of a cell.", [](M m) { return m.measures.pressure.value; }},
       {"mean_contact_area", "um^2",
        "Mean area of a cell that is in contact. Of shells: what is nearer than half the range. Too large at small contact angles, by "
-       "c/(2 a tan(angle)) of a contact of radius a; doublets of 162 nodes: 17, 8, 2, -2 % at W/2T = 0.1, 0.3, 0.5, 0.75.",
+       "c/(2 a tan(angle)) of a contact of radius a; doublets of 162 nodes: 17, 8, 2, -2 % at W/2T = 0.1, 0.3, 0.5, 0.75. "
+       "Of spheres: that of their pairs or, with a fitted law, that of cells among many.",
        [](M m) { return m.measures.mean_contact_area; }},
       {"contacts_beyond_range", "1",
        "Part of the contacts of two spheres whose overlap is outside of what their law was fitted to; of a law that was not fitted, whose "

@@ -31,6 +31,7 @@ struct PackingPoint {
   bool held_out = false;
   /// Where spheres in place of these cells lie, which the law itself decides: of random packings. Lattices stay what they are.
   PackingGeometry random{};
+  double contact_area = 0.0;  ///< of a cell with all its neighbours, the mean [µm²]; 0: not measured
 
   [[nodiscard]] PackingGeometry geometry() const {
     return arrangement == Arrangement::kRandom ? random : lattice_geometry(arrangement, volume_ratio);

@@ -27,10 +27,11 @@ struct PackedPart {
 struct PackingGeometry {
   std::vector<Neighbours> neighbours;  ///< in contact
   std::vector<PackedPart> parts;
-  double room = 0.0;     ///< V/R³ of a cell
-  double packing = 0.0;  ///< mean of φ over the parts, weighted by press
-  double press = 0.0;    ///< sum over the parts: Σ z d π(R² − d²/4)/(6V) of a lattice
-  double extra = 0.0;    ///< pressure of pairs beyond that of `neighbours`, as a run has it: attached pairs with a gap between them [kPa]
+  double room = 0.0;          ///< V/R³ of a cell
+  double packing = 0.0;       ///< mean of φ over the parts, weighted by press
+  double press = 0.0;         ///< sum over the parts: Σ z d π(R² − d²/4)/(6V) of a lattice
+  double contact_area = 0.0;  ///< of a sphere with spheres by the law of two, the mean of a run [µm²]; 0: not known
+  double extra = 0.0;  ///< pressure of pairs beyond that of `neighbours`, as a run has it: attached pairs with a gap between them [kPa]
 };
 
 /// A cubic packing at V/V0, V0 = 4πR³/3, face-centred or body-centred.

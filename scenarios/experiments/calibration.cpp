@@ -47,6 +47,7 @@ class Fitting {
     MORULA_TRY_ASSIGN(out_.sure, calibrate::fit_with_confidence(points, options_));
     const TrialLaw law = trial(out_.sure.fit);
     MORULA_TRY(places_.place(law, true, points));
+    MORULA_TRY_ASSIGN(out_.crowding, crowding_of(law, points));
     out_.misfit = calibrate::misfit_share(points, out_.sure.fit);
     out_.held_out = calibrate::held_out_errors(points, law.pair, law.sphere.packing, out_.sure.fit.pull_off(1.0));
     remark_on_range(out_);
@@ -60,7 +61,7 @@ class Fitting {
       out_.data.remarks.push_back("no table: " + found.error().message);
       return {};
     }
-    FittedTable one{.table = std::move(found).value(), .packing = {}, .held_out = {}, .exponent = {}, .friction = {}};
+    FittedTable one{.table = std::move(found).value(), .packing = {}, .crowding = {}, .held_out = {}, .exponent = {}, .friction = {}};
     const calibrate::PairModel pair = calibrate::table_model(one.table);
     const auto make = [&](const calibrate::Data& now) -> Result<TrialLaw> {
       one.packing = calibrate::fit_curve(now, pair, options_);
@@ -70,6 +71,7 @@ class Fitting {
     if (!points_.packings.empty()) one.packing = calibrate::fit_curve(points_, pair, options_);
     const TrialLaw law = trial(one, pair);
     MORULA_TRY(places_.place(law, true, points_));
+    MORULA_TRY_ASSIGN(one.crowding, crowding_of(law, points_));
     one.held_out = calibrate::held_out_errors(points_, pair, law.sphere.packing, out_.sure.fit.pull_off(1.0));
     one.exponent = calibrate::force_exponent(points_, one.table);
     one.friction = friction_of(law, "the table");
@@ -78,6 +80,11 @@ class Fitting {
   }
 
  private:
+  /// Contact areas of spheres of the law where they come to rest in the packings; those that were held out are there already.
+  Result<calibrate::FittedCrowding> crowding_of(const TrialLaw& law, calibrate::Data points) const {
+    MORULA_TRY(places_.place(law, false, points));
+    return calibrate::fit_crowded_area(points.packings, calibrate::resting_share(law.pair, out_.material.radius));
+  }
   /// Nothing of what cannot be told, and a remark why.
   FrictionOfSpheres friction_of(const TrialLaw& law, const char* name) {
     FrictionOfSpheres out;

@@ -8,6 +8,7 @@
 #include "core/parallel/comm.h"
 #include "core/result.h"
 #include "scenarios/calibrate/confidence.h"
+#include "scenarios/calibrate/crowded_area.h"
 #include "scenarios/calibrate/held_out.h"
 #include "scenarios/calibrate/pressed_cluster.h"
 #include "scenarios/calibrate/table_fit.h"
@@ -28,6 +29,7 @@ struct FrictionOfSpheres {
 struct FittedTable {
   cbm::PairTable table;
   std::vector<cbm::PackingKnot> packing;  ///< what these pairs leave to packings; empty: nothing
+  calibrate::FittedCrowding crowding;
   calibrate::HeldOutErrors held_out;
   calibrate::ForceExponent exponent;
   FrictionOfSpheres friction;
@@ -43,6 +45,7 @@ struct Calibration {
   calibrate::SureFit sure;
   calibrate::HeldOutErrors held_out;        ///< of JKR
   double misfit = 0.0;                      ///< part of the loss of pairs that JKR cannot take
+  calibrate::FittedCrowding crowding;       ///< contact areas among many, of spheres of the fitted JKR
   FrictionOfSpheres friction;               ///< of spheres of the fitted JKR
   std::optional<MixedContact> with_shells;  ///< none: not known, as a remark says
   std::optional<FittedTable> table;         ///< none: its points make no table, as a remark says
@@ -53,6 +56,7 @@ struct Calibration {
   [[nodiscard]] bool jkr_is_beyond_range() const { return rest_of_jkr() > cbm::kJkrRange; }
   /// Of the law to take.
   [[nodiscard]] const FrictionOfSpheres& friction_to_take() const { return table_is_better() ? table->friction : friction; }
+  [[nodiscard]] const calibrate::FittedCrowding& crowding_to_take() const { return table_is_better() ? table->crowding : crowding; }
   /// The pair law to take.
   [[nodiscard]] calibrate::PairModel law_to_take() const;
   /// Whether the table is the law to take: where JKR is beyond its range at rest, and where the table is better on what was held out.

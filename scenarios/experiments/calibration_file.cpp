@@ -36,6 +36,18 @@ std::string knots_text(const std::vector<cbm::PackingKnot>& knots) {
   return "[" + out + "]";
 }
 
+/// Contact areas among many, where they were found.
+std::string crowding_text(const calibrate::FittedCrowding& found) {
+  if (found.knots.empty()) return "";
+  std::string out;
+  for (const cbm::CrowdedKnot& knot : found.knots)
+    out += (out.empty() ? "" : ", ") + std::string("{pairs: ") + number(100.0 * knot.pairs) + " %, cells: " + number(100.0 * knot.cells) +
+           " %}";
+  return "  contact_area: {knots: [" + out + "]" +
+         (found.packings > 0 ? ", held_out: " + number(found.held_out) + ", pairs_alone: " + number(found.pairs_alone) : "") +
+         "}  # over the surface: of a sphere by pairs alone, of a shell in its place\n";
+}
+
 /// What the law tells of each random packing that was held out, beside the shells.
 std::string packings_text(const calibrate::HeldOutErrors& errors) {
   std::string out;
@@ -121,6 +133,7 @@ std::string table_text(const FittedTable& fitted) {
       "\n  exponent: " + number(fitted.exponent.value) + "\n  exponent_error: " + number(fitted.exponent.error) +
       "\n  held_out: " + errors_text(fitted.held_out) + "\n" + friction_text(fitted.friction);
   if (!fitted.packing.empty()) out += "  packing: " + knots_text(fitted.packing) + "\n";
+  out += crowding_text(fitted.crowding);
   out += "  knots:\n";
   for (const cbm::PairTableKnot& knot : fitted.table.knots())
     out += "    - {overlap: " + number(knot.overlap) + ", force: " + of(knot.force, "nN/um") + ", area: " + number(knot.area) + "}\n";
@@ -151,6 +164,7 @@ std::string calibration_text(const Calibration& found) {
          "  # part of the loss of pairs that JKR cannot take\n  held_out: " + errors_text(found.held_out) + "\n" +
          friction_text(found.friction);
   if (!fit.parameters.knots.empty()) out += "  packing: " + knots_text(fit.parameters.knots) + "\n";
+  out += crowding_text(found.crowding);
   if (found.table) out += table_text(*found.table);
   out += with_shells_text(found.with_shells);
   if (const CellFriction& f = found.material.friction; !found.data.relaxations.empty() || !found.data.pressed.empty())

@@ -176,6 +176,25 @@ CurvePlot profile_plot(const calibrate::Profile& profile, const char* name, cons
   return plot;
 }
 
+/// Of the law to take: what pairs say of a sphere among many, and what shells in its place have.
+CurvePlot crowding_plot(const Calibration& found) {
+  CurvePlot plot = plot_of("Contact area of a cell among many", axis("pairs of a sphere, over its surface", ""),
+                           axis("contact area over the surface", ""));
+  for (const bool held_out : {false, true}) {
+    Curve shells = curve(held_out ? "shells, random, held out" : "shells, random, fitted", CurveStyle::kPoints);
+    for (const calibrate::CrowdedPoint& p : found.crowding_to_take().points)
+      if (p.held_out == held_out) shells.x.push_back(p.pairs), shells.y.push_back(p.cells);
+    if (!shells.x.empty()) plot.curves.push_back(std::move(shells));
+  }
+  Curve fitted = curve("as it is told"), pairs = curve("pairs alone");
+  for (const cbm::CrowdedKnot& knot : found.crowding_to_take().knots) {
+    fitted.x.push_back(knot.pairs), fitted.y.push_back(knot.cells);
+    pairs.x.push_back(knot.pairs), pairs.y.push_back(knot.pairs);
+  }
+  plot.curves.push_back(std::move(fitted)), plot.curves.push_back(std::move(pairs));
+  return plot;
+}
+
 /// Of the law to take, beside those shells that it was not fitted to, and all others.
 CurvePlot packing_plot(const Calibration& found) {
   using calibrate::Arrangement;
@@ -231,6 +250,9 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
     if (taken.packings > 0)
       out.key_numbers.push_back(
           {"pressure of a random packing that was held out, root mean square", three(100.0 * taken.pressure_rms), "%"});
+    if (const calibrate::FittedCrowding& area = found.crowding_to_take(); area.packings > 0)
+      out.key_numbers.push_back({"contact area in a random packing that was held out, root mean square", three(100.0 * area.held_out),
+                                 "% (by pairs alone " + three(100.0 * area.pairs_alone) + " %)"});
     const auto add_friction = [&](const char* what, const auto& one) {
       if (one)
         out.key_numbers.push_back(
@@ -254,6 +276,7 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
   add(pair_plot(found, false));
   add(area_plot(found));
   if (!found.data.points.packings.empty()) add(packing_plot(found));
+  if (!found.crowding_to_take().knots.empty()) add(crowding_plot(found));
   add(pair_plot(found, true));
   if (found.with_shells) add(mixed_plot(*found.with_shells));
   if (!found.data.relaxations.empty()) add(relaxation_plot(found));

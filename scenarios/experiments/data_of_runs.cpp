@@ -134,7 +134,9 @@ Result<ExperimentData> data_of_runs(std::span<const Experiment> experiments, std
                                        .volume_ratio = point.volume_ratio,
                                        .pressure = point.pressure,
                                        .radius = experiment.radius_a,
-                                       .held_out = experiment.held_out});
+                                       .held_out = experiment.held_out,
+                                       .random = {},
+                                       .contact_area = point.contact_area});
       }
       ++block;
     }

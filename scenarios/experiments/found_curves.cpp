@@ -75,10 +75,12 @@ Result<std::vector<FoundPacking>> packing_of_run(const Experiment& experiment, c
   MORULA_TRY_ASSIGN(const SeriesColumn* volume, column(series, "box_volume"));
   MORULA_TRY_ASSIGN(const SeriesColumn* pressure, column(series, "box_pressure"));
   MORULA_TRY_ASSIGN(const SeriesColumn* cells, column(series, "cell_count"));
+  MORULA_TRY_ASSIGN(const SeriesColumn* area, column(series, "mean_contact_area"));
   const double free = ball_volume(experiment.radius_a);
   std::vector<FoundPacking> out;
   for (std::size_t i = 0; i < series.rows(); ++i)
-    out.push_back({.volume_ratio = volume->values[i] / (cells->values[i] * free), .pressure = pressure->values[i]});
+    out.push_back(
+        {.volume_ratio = volume->values[i] / (cells->values[i] * free), .pressure = pressure->values[i], .contact_area = area->values[i]});
   if (experiment.arrangement != calibrate::Arrangement::kRandom) return out;
   MORULA_TRY_ASSIGN(const auto moments, all_snapshots(run));
   if (moments.size() != out.size())

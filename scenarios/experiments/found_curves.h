@@ -23,6 +23,7 @@ struct FoundPair {
 struct FoundPacking {
   double volume_ratio = 1.0;     ///< V/V0: room of a cell over the volume of a free one
   double pressure = 0.0;         ///< of the box, p = −tr σ/3 [kPa]
+  double contact_area = 0.0;     ///< of a cell, the mean [µm²]
   std::vector<Vec3d> centers{};  ///< of volume of its cells, of a random packing [µm]
   double edge = 0.0;             ///< of its box [µm]
 };

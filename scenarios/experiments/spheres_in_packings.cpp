@@ -21,9 +21,9 @@ double pressure_by(const TrialLaw& law, const PackingPoint& point) {
   return calibrate::pair_pressure(at, point.radius, law.pair) + calibrate::curve_pressure(at, law.sphere.packing);
 }
 
-/// What the spheres bear, −tr σ/3 [kPa], and where they are.
+/// What the spheres bear, −tr σ/3 [kPa], where they are, and the mean contact area of one [µm²].
 struct Rest {
-  double pressure = 0.0;
+  double pressure = 0.0, contact_area = 0.0;
   std::vector<Vec3d> centers;
 };
 
@@ -40,7 +40,10 @@ Result<Rest> rest_of_spheres(std::unique_ptr<Simulation> simulation, double edge
     for (std::size_t i = 0; i < before.size(); ++i) way = std::max(way, norm(out.centers[i] - before[i]));
     if (way > kAtRest * radius || simulation->tissue().clock.time - time < kAtRestStep) continue;
     const BodyValues values = simulation->values();
-    for (std::size_t i = 0; i < values.pressure.size(); ++i) out.pressure += values.stressed_volume[i] * values.pressure[i];
+    for (std::size_t i = 0; i < values.pressure.size(); ++i) {
+      out.pressure += values.stressed_volume[i] * values.pressure[i];
+      out.contact_area += values.contact_area[i] / static_cast<double>(values.contact_area.size());
+    }
     out.pressure /= std::pow(edge, 3.0);
     return out;
   }
@@ -70,6 +73,7 @@ Status SpheresInPackings::place(const TrialLaw& law, bool held_out, calibrate::D
     MORULA_TRY_ASSIGN(auto spheres, spheres_on_trial(study, law, adhesion_));
     MORULA_TRY_ASSIGN(const Rest rest, rest_of_spheres(std::move(spheres), edge, point.radius));
     point.random = calibrate::geometry_of_places(rest.centers, edge, point.radius);
+    point.random.contact_area = rest.contact_area;
     point.random.extra = rest.pressure - pressure_by(law, point);
   }
   return {};

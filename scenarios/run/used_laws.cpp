@@ -106,6 +106,12 @@ void add_contacts(const Model& model, bool shells, bool spheres, std::vector<Use
                      {{"adhesion", adhesion},
                       {"normal_friction", model.pair(t, t).normal_friction * type.sphere.approach_factor},
                       {"tangential_friction", model.pair(t, t).tangential_friction * type.sphere.along_factor}}});
+    if (const cbm::CrowdedArea& area = type.sphere.crowded_area; !area.empty())
+      out.push_back({"spheres of " + type.name,
+                     cbm::crowded_area_law(),
+                     {{"pairs_first", area.knots().front().pairs},
+                      {"pairs_last", area.knots().back().pairs},
+                      {"cells_last", area.knots().back().cells}}});
     if (const cbm::PackingCurve& curve = type.sphere.packing; !curve.empty())
       out.push_back(
           {"spheres of " + type.name,

@@ -292,6 +292,24 @@ TEST_F(Snapshots, SurviveSigkillAtAnyMoment) {
   EXPECT_GT(most, 2u);
 }
 
+TEST_F(Snapshots, AreCountedByTheirTimes) {
+  for (const double time : {0.0, 10.0, 20.0, 30.0}) ASSERT_TRUE(append(path, time, 3, comm).ok());
+  const auto earlier = [&](double time, bool with_equal) {
+    const auto counts = count_snapshots(path, time, with_equal);
+    EXPECT_TRUE(counts.ok());
+    EXPECT_EQ(counts->all, 4u);
+    return counts->earlier;
+  };
+  EXPECT_EQ(earlier(-1.0, true), 0u);
+  EXPECT_EQ(earlier(0.0, false), 0u);
+  EXPECT_EQ(earlier(0.0, true), 1u);
+  EXPECT_EQ(earlier(20.0, false), 2u);
+  EXPECT_EQ(earlier(20.0, true), 3u);
+  EXPECT_EQ(earlier(25.0, true), 3u);
+  EXPECT_EQ(earlier(31.0, false), 4u);
+  EXPECT_EQ(count_snapshots(folder / "none.h5", 0.0, true).error().kind, ErrorKind::kFile);
+}
+
 TEST_F(Snapshots, ThatAreNotThereAreAClearError) {
   EXPECT_EQ(list_snapshots(folder / "none.h5").error().kind, ErrorKind::kFile);
   ASSERT_TRUE(append(path, 0.0, 3, comm).ok());

@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <numbers>
 
 #include "coupling/mechanics/contact_setup.h"
+#include "coupling/simulation.h"
 #include "scenarios/run/used_laws.h"
 #include "study/cell_material.h"
+#include "study/initial/make_tissue.h"
 #include "tests/study/study_fixture.h"
 
 namespace morula::scenarios {
@@ -111,6 +114,41 @@ TEST(FittedLaw, SpheresMeetShellsWithTheFactorsThatWereFitted) {
   for (const char* wrong : {"{stiffness: 0}", "{stiffness: -1}", "{adhesion: -0.1}", "{adhesion: 11}"})
     EXPECT_THAT(Written(file_text()).errors(own(wrong)), HasSubstr("E302")) << wrong;
   EXPECT_THAT(Written(file_text("jkr", "", "with_shells: {stiffness: 0, adhesion: 1}\n")).errors(), HasSubstr("E302"));
+}
+
+/// Areas that are told are those of cells among many; forces know nothing of it.
+TEST(FittedLaw, TellsTheContactAreaOfCellsAmongMany) {
+  const std::string area =
+      "  contact_area: {knots: [{pairs: 1 %, cells: 1 %}, {pairs: 50 %, cells: 99 %}], held_out: 0.02, pairs_alone: 0.15}\n";
+  const std::string row =
+      test::changed("[[0 um, 0 um, 0 um]]", "[[-11.5 um, 0 um, 0 um], [0 um, 0 um, 0 um], [11.5 um, 0 um, 0 um]]", kStudy);
+  const auto values = [&](const Written& file) {
+    const auto study = file.read(row);
+    EXPECT_TRUE(study.ok()) << study.error().text();
+    ShapeLibrary shapes;
+    auto tissue = make_tissue(*study, shapes, Comm());
+    EXPECT_TRUE(tissue.ok());
+    auto simulation = Simulation::create(study->model, std::move(tissue->tissue), Comm(), 1);
+    EXPECT_TRUE(simulation.ok());
+    return (*simulation)->values();
+  };
+  const BodyValues pairs = values(Written(file_text())), many = values(Written(file_text("jkr", area)));
+  const double surface = 4.0 * std::numbers::pi * 36.0;
+  ASSERT_EQ(pairs.contact_area.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double share = pairs.contact_area[i] / surface;
+    ASSERT_GT(share, 0.01);
+    EXPECT_NEAR(many.contact_area[i], surface * (0.01 + 2.0 * (share - 0.01)), 1e-9) << i;
+    EXPECT_EQ(many.pressure[i], pairs.pressure[i]);
+  }
+  const auto study = Written(file_text("jkr", area)).read();
+  bool told = false;
+  for (const UsedLaw& law : used_laws(*study)) told = told || law.law.name == "crowded_area";
+  EXPECT_TRUE(told) << "methods.md says it";
+  const std::string same = test::changed("pairs: 50 %", "pairs: 1 %", area), none = test::changed("{pairs: 1 %", "{pairs: 0 %", area);
+  for (const std::string& wrong : {same, none})
+    EXPECT_THAT(Written(file_text("jkr", wrong)).errors(), AllOf(HasSubstr("E533"), HasSubstr("contact_area: "))) << wrong;
+  EXPECT_THAT(Written(file_text("jkr", test::changed("99 %", "-1 %", area))).errors(), HasSubstr("E302"));
 }
 
 TEST(FittedLaw, SpheresComeTogetherWithTheFrictionThatWasFitted) {

@@ -10,6 +10,7 @@
 #include "coupling/regions/region.h"
 #include "fields/reaction.h"
 #include "study/catalogue.h"
+#include "study/law_names.h"
 #include "tests/study/study_fixture.h"
 
 namespace morula::scenarios::test {
@@ -98,6 +99,33 @@ TEST(Registry, EveryEntryTellsOfItself) {
     EXPECT_STRNE(one->example, "") << one->info.name;
     EXPECT_TRUE(one->of != nullptr) << one->info.name;
   }
+}
+
+TEST(Registry, ANameThatIsThereTwiceIsRefused) {
+  EXPECT_THAT(names_twice(*builtin_laws()), testing::IsEmpty());
+  const auto told = [](const auto& add) {
+    auto laws = std::make_shared<Laws>(*builtin_laws());
+    add(*laws);
+    ReadOptions options;
+    options.laws = laws;
+    const auto study = read(kGoodStudy, options);
+    return study.ok() ? std::string() : study.error().text();
+  };
+  EXPECT_THAT(told([](Laws&) {}), "");
+  const auto twice = [](auto& entries) { entries.push_back(entries.front()); };
+  EXPECT_THAT(told([&](Laws& l) { twice(l.spheres); }), testing::AllOf(HasSubstr("E692"), HasSubstr("contact of spheres: `")));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.shells); }), HasSubstr("laws of shells: `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.surfaces); }), HasSubstr("contact of surfaces: `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.behaviours); }), HasSubstr("behaviours: `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.growth); }), HasSubstr("growth: `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.arrest); }), HasSubstr("arrest: `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.division_axes); }), HasSubstr("axes of division: `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.migration); }), HasSubstr("migration: `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.polarity); }), HasSubstr("polarity: `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.loads); }), HasSubstr("loads: `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.region_shapes); }), HasSubstr("shapes of regions: `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.trigger_values); }), HasSubstr("values of triggers: `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.reactions); }), HasSubstr("reactions: `"));
 }
 
 TEST(Registry, EveryLawOfMotionTellsOfItself) {
