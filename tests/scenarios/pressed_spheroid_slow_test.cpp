@@ -1,5 +1,5 @@
 // A spheroid that two plates press: with shells where the law of spheres ends (`outside_law`), its shape is that of shells alone, and its pressure comes near. 5 % are asked
-// of both: of the pressure that is met with seed 1 (1 %), and with seeds 2 and 3 a fifth is missing, where spheres alone miss half.
+// of both: of the pressure that is met with seed 1 (1 %), and with seeds 2 and 3 a fifth is missing, where spheres alone miss a third to half.
 #include <gtest/gtest.h>
 
 #include "results/series_reader.h"
