@@ -1,9 +1,9 @@
 #include "results/series_reader.h"
 
 #include <charconv>
-#include <fstream>
 #include <limits>
-#include <sstream>
+
+#include "results/file_io.h"
 
 namespace morula::scenarios {
 namespace {
@@ -25,7 +25,7 @@ std::vector<std::string_view> fields_of(std::string_view line) {
 }
 
 Error wrong(const std::string& origin, std::size_t line, const std::string& text, const std::string& help) {
-  return {ErrorKind::kInput, origin + ":" + std::to_string(line) + ": " + text, help};
+  return {ErrorKind::kFile, origin + ":" + std::to_string(line) + ": " + text, help};
 }
 
 SeriesColumn column_of(std::string_view header) {
@@ -98,11 +98,8 @@ Result<SeriesTable> parse_series(std::string_view text, const std::string& origi
 }
 
 Result<SeriesTable> read_series(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return Error{ErrorKind::kFile, "cannot read " + path.string(), "is it there and readable?"};
-  std::ostringstream text;
-  text << file.rdbuf();
-  return parse_series(text.str(), path.string());
+  MORULA_TRY_ASSIGN(const std::string text, read_file(path));
+  return parse_series(text, path.string());
 }
 
 }  // namespace morula::scenarios

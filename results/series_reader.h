@@ -27,7 +27,7 @@ struct SeriesTable {
 /// Read a CSV whose header gives each column as `name [unit]` or `name`.
 ///
 /// A last line without its newline is still being written and is left out. Errors name file, line and column: no header, a double
-/// name, a row with too few or too many fields, a field that is not a number.
+/// name, a row with too few or too many fields, a field that is not a number, a pipe or device; all of them kFile.
 Result<SeriesTable> read_series(const std::filesystem::path& path);
 
 /// The same from text; `origin` is the file's name in messages.

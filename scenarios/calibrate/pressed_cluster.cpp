@@ -1,11 +1,12 @@
 #include "scenarios/calibrate/pressed_cluster.h"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
+
+#include "core/numbers/students_t.h"
 
 namespace morula::calibrate {
 namespace {
@@ -83,7 +84,7 @@ double half_interval(const std::vector<double>& estimates) {
   double mean = 0.0, square = 0.0;
   for (const double one : estimates) mean += one / n;
   for (const double one : estimates) square += std::pow(one - mean, 2);
-  return boost::math::quantile(boost::math::students_t(n - 1.0), 0.975) * std::sqrt((n - 1.0) / n * square);
+  return students_t_95(n - 1.0) * std::sqrt((n - 1.0) / n * square);
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
 #include "scenarios/calibrate/relaxation.h"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
+
+#include "core/numbers/students_t.h"
 
 namespace morula::calibrate {
 namespace {
@@ -87,8 +88,7 @@ void add_interval(const std::vector<double>& singly, FittedFriction& out) {
   double mean = 0.0, square = 0.0;
   for (const double one : singly) mean += std::log(one) / static_cast<double>(n);
   for (const double one : singly) square += std::pow(std::log(one) - mean, 2);
-  const double half = boost::math::quantile(boost::math::students_t(static_cast<double>(n - 1)), 0.975) *
-                      std::sqrt(square / static_cast<double>((n - 1) * n));
+  const double half = students_t_95(static_cast<double>(n - 1)) * std::sqrt(square / static_cast<double>((n - 1) * n));
   out.low = out.friction * std::exp(-half), out.high = out.friction * std::exp(half);
 }
 

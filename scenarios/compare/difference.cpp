@@ -1,11 +1,11 @@
 #include "scenarios/compare/difference.h"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 
 #include "core/numbers/sample.h"
+#include "core/numbers/students_t.h"
 
 namespace morula::scenarios {
 namespace {
@@ -76,7 +76,7 @@ ColumnDifference difference_of(const std::vector<double>& reference, const std::
   if (of.error == 0.0) {
     out.interval = 0.0;
   } else if (!std::isnan(of.error)) {
-    out.interval = of.error * boost::math::quantile(boost::math::students_t(of.freedom), 0.975);
+    out.interval = of.error * students_t_95(of.freedom);
     out.in_spreads = out.difference / of.error;
   }
   out.verdict = judge(out, size, within);

@@ -32,11 +32,33 @@ constexpr double kReportTime = 2.2, kStartTime = 0.3;            // CPU, measure
 constexpr double kOutputTime = 4e-3, kOutputTimePerNode = 1e-6;  // CPU of one output [s]
 constexpr double kPacked = 0.74;                                 // part of a volume that its cells fill
 
-/// ∫_0^τ (3 nodes + spheres e^{g t}) dt
-double load_integral(const Load& load, double growth, double duration) {
-  const double exponent = std::min(growth * duration, 60.0);
-  const double spheres = growth > 0.0 && exponent > 1e-6 ? std::expm1(exponent) / growth : duration;
-  return (load.total() - load.spheres) * duration + load.spheres * spheres;
+constexpr double kMostExponent = 60.0;  // e^60 cells are more than any number here
+
+/// ∫_0^τ e^{g t} dt
+double exponential_integral(double growth, double duration) {
+  const double exponent = std::min(growth * duration, kMostExponent);
+  return growth > 0.0 && exponent > 1e-6 ? std::expm1(exponent) / growth : duration;
+}
+
+/// ∫ of spheres and nodes over a time in which all cells multiply, and shells as long as there is room for them.
+Load load_integral(const Load& load, double growth, double duration) {
+  const double full =
+      load.shells <= 0.0 || growth <= 0.0 ? duration : std::max(0.0, std::log(std::max(1.0, load.most_shells / load.shells)) / growth);
+  const double filling = std::min(full, duration);
+  const double shells = exponential_integral(growth, filling) + std::exp(std::min(growth * filling, kMostExponent)) * (duration - filling);
+  const double cells = (load.spheres + load.shells) * exponential_integral(growth, duration);
+  return {.spheres = cells - load.shells * shells, .nodes = load.shells > 0.0 ? load.nodes * shells : load.nodes * duration};
+}
+
+/// The load after a time, likewise.
+Load load_after(const Load& load, double growth, double duration) {
+  const double times = std::exp(std::min(growth * duration, kMostExponent));
+  const double shells = std::min(load.shells * times, std::max(load.shells, load.most_shells));
+  Load out = load;
+  out.spheres = (load.spheres + load.shells) * times - shells;
+  out.shells = shells;
+  if (load.shells > 0.0) out.nodes = load.nodes * shells / load.shells;
+  return out;
 }
 
 }  // namespace
@@ -60,7 +82,8 @@ void CostModel::observe(double simulated, double wall, const Load& load) {
 
 WallRange CostModel::left(double simulated, const Load& load, double growth_rate) const {
   if (weight_ <= 0.0) return {};
-  return {0.85 * cost() * load_integral(load, 0.5 * growth_rate, simulated), 1.25 * cost() * load_integral(load, growth_rate, simulated)};
+  return {0.85 * cost() * load_integral(load, 0.5 * growth_rate, simulated).total(),
+          1.25 * cost() * load_integral(load, growth_rate, simulated).total()};
 }
 
 namespace {
@@ -69,7 +92,9 @@ namespace {
 struct Counts {
   std::int64_t cells = 0, shells = 0, nodes = 0;
   std::vector<std::int64_t> of_type;
-  [[nodiscard]] Load load() const { return {static_cast<double>(cells - shells), static_cast<double>(nodes)}; }
+  [[nodiscard]] Load load() const {
+    return {.spheres = static_cast<double>(cells - shells), .nodes = static_cast<double>(nodes), .shells = static_cast<double>(shells)};
+  }
 };
 
 std::int64_t nodes_of(const CellType& type) {
@@ -86,6 +111,24 @@ double room_of(const Region& region, double cell_volume, double cells) {
   const double volume = shape.volume != nullptr ? shape.volume(region) : std::numeric_limits<double>::infinity();
   return kPacked * volume / cell_volume;
 }
+
+}  // namespace
+
+double most_shells(const Model& model, double cells) {
+  const auto is_shell = [](const CellType& type) { return type.initial_body == BodyKind::kShell; };
+  bool bound = false;
+  double room = 0.0;
+  double radius = std::numeric_limits<double>::infinity();
+  for (const CellType& type : model.types) radius = std::min(radius, type.radius.mean);
+  for (const Region& region : model.swaps.regions) {
+    if (region.body != BodyKind::kShell) continue;
+    bound = std::ranges::none_of(model.types, is_shell);
+    room += room_of(region, ball_volume(radius), cells);
+  }
+  return bound ? room : std::numeric_limits<double>::infinity();
+}
+
+namespace {
 
 /// Regions that count contacts hold as many shells as they have room for: who touches whom is not known before the tissue is at work.
 void add_neighbours(const Study& study, double time, Counts& counts) {
@@ -188,18 +231,22 @@ Result<Tried> try_steps(const Study& study, Tissue tissue) {
 /// Bodies that regions exchange later on, cells being where they are at first.
 struct LaterBodies {
   std::vector<std::pair<double, Load>> from;  ///< the load from a time on [s], in order, the first from 0
-  double most_nodes = 0.0;
+  double most_nodes = 0.0;                    ///< at the end, of any of them
 };
-LaterBodies later_bodies(const Study& study, const Counts& first, Tissue* tissue) {
+LaterBodies later_bodies(const Study& study, const Counts& first, double growth, Tissue* tissue) {
+  const double end = study.time.end;
+  const double room = most_shells(study.model, static_cast<double>(first.cells) * std::exp(std::min(growth * end, kMostExponent)));
   std::vector<double> times;
   for (const Region& region : study.model.swaps.regions)
     for (const double time : {region.from, region.until})
       if (time > 0.0 && time < study.time.end) times.push_back(time);
   std::sort(times.begin(), times.end());
-  LaterBodies out{{{0.0, first.load()}}, first.load().nodes};
-  for (std::size_t i = 0; tissue != nullptr && i < times.size(); ++i) {
+  LaterBodies out{{{0.0, first.load()}}, 0.0};
+  for (std::size_t i = 0; tissue != nullptr && i < times.size(); ++i)
     out.from.emplace_back(times[i], count_cells(study, *tissue, times[i]).load());
-    out.most_nodes = std::max(out.most_nodes, out.from.back().second.nodes);
+  for (auto& [time, load] : out.from) {
+    load.most_shells = room;
+    out.most_nodes = std::max(out.most_nodes, load_after(load, growth, end).nodes);
   }
   if (tissue != nullptr) tissue->clock.time = 0.0;
   return out;
@@ -213,8 +260,8 @@ Result<double> cost_of_run(const Study& study, double cells, const LaterBodies& 
       kStartTime + (study.output.report ? kReportTime : 0.0) + outputs * (kOutputTime + kOutputTimePerNode * (load.nodes + load.spheres));
   const double most = std::min(study.model.step.max_step, study.time.output);
   if (tissue == nullptr) {
-    const Load each{kCostPerSphere * load.spheres, kCostPerNode / 3.0 * load.nodes};  // CPU of a step
-    return cost + kPlacing * cells + load_integral(each, growth, study.time.end) / most;
+    const Load all = load_integral(load, growth, study.time.end);
+    return cost + kPlacing * cells + (kCostPerSphere * all.spheres + kCostPerNode * all.nodes) / most;
   }
   MORULA_TRY_ASSIGN(const Tried tried_steps, try_steps(study, std::move(*tissue)));
   const std::vector<TriedStep>& steps = tried_steps.steps;
@@ -230,7 +277,7 @@ Result<double> cost_of_run(const Study& study, double cells, const LaterBodies& 
       ahead += (cost_ahead(steps, until, most) - cost_ahead(steps, from, most)) * bodies.from[i].second.total() / load.total();
   }
   const double left = study.time.end - tried;
-  return cost + steps.back().cost + (left > 0.0 ? ahead * load_integral(load, growth, left) / (load.total() * left) : 0.0);
+  return cost + steps.back().cost + (left > 0.0 ? ahead * load_integral(load, growth, left).total() / (load.total() * left) : 0.0);
 }
 
 }  // namespace
@@ -245,7 +292,8 @@ Result<Estimate> estimate(const Study& study) {
     tissue = std::move(initial.tissue);
   }
   const Counts counts = tissue ? count_cells(study, *tissue, 0.0) : count_entries(study);
-  const LaterBodies later = later_bodies(study, counts, tissue ? &*tissue : nullptr);
+  const double growth = free_growth_rate(study.model, counts.of_type);
+  const LaterBodies later = later_bodies(study, counts, growth, tissue ? &*tissue : nullptr);
   Estimate out;
   out.cells = counts.cells;
   out.shells = counts.shells;
@@ -254,12 +302,10 @@ Result<Estimate> estimate(const Study& study) {
     MORULA_TRY_ASSIGN(const fields::Grid grid, fields::grid_for(spec, study.model.space));
     out.voxels += grid.voxel_count();
   }
-  const double growth = free_growth_rate(study.model, counts.of_type);
-  const Load load = counts.load();
-  const double grown = load.spheres * std::exp(std::min(growth * study.time.end, 60.0));
-  out.cells_at_end = static_cast<double>(out.shells) + grown;
-  out.memory = kBytesAlways + (study.output.report ? kBytesReport : 0.0) + kBytesPerNode * later.most_nodes + kBytesPerSphere * grown +
-               kBytesPerVoxel * static_cast<double>(out.voxels);
+  const Load at_end = load_after(later.from.front().second, growth, study.time.end);
+  out.cells_at_end = at_end.spheres + at_end.shells;
+  out.memory = kBytesAlways + (study.output.report ? kBytesReport : 0.0) + kBytesPerNode * later.most_nodes +
+               kBytesPerSphere * at_end.spheres + kBytesPerVoxel * static_cast<double>(out.voxels);
   MORULA_TRY_ASSIGN(const double middle, cost_of_run(study, static_cast<double>(counts.cells), later, growth, tissue ? &*tissue : nullptr));
   const double range = tissue ? 1.6 : 3.0;
   out.wall = {middle / range, middle * range};

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include "core/result.h"
@@ -16,15 +17,21 @@ struct WallRange {
 /// Load of a tissue in units of one sphere: a node of a shell is worth as much as in the balance of ranks (coupling/balance.h).
 struct Load {
   double spheres = 0.0;
-  double nodes = 0.0;
+  double nodes = 0.0;  ///< of all shells
+  double shells = 0.0;
+  double most_shells = std::numeric_limits<double>::infinity();  ///< to which they multiply; cells beyond are spheres
   [[nodiscard]] double total() const { return spheres + 3.0 * nodes; }
 };
 
-/// Rate at which the number of spheres grows if nothing inhibits it: ln 2 / cycle, averaged over the cells of each type [1/s].
+/// Rate at which the number of cells grows if nothing inhibits it: ln 2 / cycle, averaged over the cells of each type [1/s].
 double free_growth_rate(const Model& model, const std::vector<std::int64_t>& cells_of_type);
 
+/// Shells for which the regions of a model have room when there are so many cells; infinite where shells are not bound to regions: then they multiply as all
+/// cells do. How many triggers will make is not foreseen.
+double most_shells(const Model& model, double cells);
+
 /// Wall time left, from what the run has cost so far for its load and from how the load will grow (elapsed/fraction is wrong when cells
-/// multiply): ∫ κ (3 N_nodes + N_spheres e^{g t}) dt, κ the wall time per simulated second and unit of load of the last steps.
+/// multiply): ∫ κ (3 N_nodes + N_spheres) dt, all cells ∝ e^{g t}, those that regions have no room for as shells being spheres, κ the wall time per simulated second and unit of load of the last steps.
 /// The range: half of the free growth and 15 % less per load, to the whole of it and 25 % more.
 class CostModel {
  public:

@@ -218,7 +218,10 @@ void RunLoop::count_cells() {
   progress_.shells = comm_.sum(static_cast<std::int64_t>(tissue.shells.size()));
   progress_.cells = spheres + progress_.shells;
   progress_.time = tissue.clock.time;
-  load_ = {static_cast<double>(spheres), static_cast<double>(comm_.sum(static_cast<std::int64_t>(tissue.shells.node_count())))};
+  load_ = {.spheres = static_cast<double>(spheres),
+           .nodes = static_cast<double>(comm_.sum(static_cast<std::int64_t>(tissue.shells.node_count()))),
+           .shells = static_cast<double>(progress_.shells),
+           .most_shells = most_shells(study_.model, static_cast<double>(progress_.cells))};
 }
 
 void RunLoop::tell_progress(double simulated, double seconds) {

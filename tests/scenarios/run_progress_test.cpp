@@ -21,7 +21,11 @@ TEST(CostModel, LeftFollowsTheLoadNotTheFraction) {
   // Growth over ln 2: ∫ e^{gt} = 1/g.
   const double growth = std::log(2.0) / 1000.0;
   EXPECT_NEAR(model.left(1000.0, {100.0, 0.0}, growth).high, 1.25 * 1e-4 * 100.0 / growth, 1e-9);
-  EXPECT_NEAR(model.left(1000.0, {0.0, 100.0}, growth).high, 37.5, 1e-9);  // shells do not multiply
+  EXPECT_NEAR(model.left(1000.0, {0.0, 100.0, 1.0}, growth).high, 1.25 * 1e-4 * 300.0 / growth, 1e-9);  // shells multiply, too
+  // Room for √2 times as many: that is reached after half of the doubling time, and cells beyond are spheres.
+  const double until = 0.5 * 1000.0, room = std::sqrt(2.0);
+  const double shells = (room - 1.0) / growth + room * (1000.0 - until), cells = 1.0 / growth;
+  EXPECT_NEAR(model.left(1000.0, {0.0, 100.0, 1.0, room}, growth).high, 1.25 * 1e-4 * (300.0 * shells + cells - shells), 1e-9);
 }
 
 TEST(CostModel, IsNotMisledByWhatHappensOnce) {
@@ -55,6 +59,19 @@ TEST(CostModel, EstimatesAStudyBeforeItRuns) {
   EXPECT_GT(guess->cells_at_end, 10000.0);  // 96 h of an 18 h cycle: 40 times
   EXPECT_GT(guess->memory, 1e7);
   EXPECT_LT(guess->wall.low, guess->wall.high);
+}
+
+/// Shells of a region fill its room; where the type itself is a shell, all cells are.
+TEST(CostModel, ShellsMultiplyAsFarAsRegionsHaveRoom) {
+  const auto study = test::read(test::kGoodStudy);
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  const double room = most_shells(study->model, 1e6);
+  EXPECT_GT(room, 20.0);
+  EXPECT_LT(room, 200.0);
+  Model free = study->model;
+  for (CellType& type : free.types) type.initial_body = BodyKind::kShell;
+  EXPECT_TRUE(std::isinf(most_shells(free, 1e6)));
+  EXPECT_TRUE(std::isinf(most_shells(Model{}, 1e6)));
 }
 
 TEST(CostModel, CountsTheNodesOfNucleiThatAreShells) {

@@ -115,7 +115,7 @@ TEST_F(Compare, RefusesWhatCannotBeCompared) {
   folder_.write("units/series.csv", std::string(series).replace(series.find("[um^3]"), 6, "[mm^3]"));
   refused({"s1", "units"}, 2, "'total_volume' is in um^3 in s1 and in mm^3 in units");
   folder_.write("units/series.csv", "time [s],cell_count [1]\n0,1,2\n");
-  refused({"s1", "units"}, 2, "units/series.csv:2: this row has 3 fields");
+  refused({"s1", "units"}, 3, "units/series.csv:2: this row has 3 fields");
 }
 
 TEST_F(Compare, GoesAsFarAsAllRunsDo) {

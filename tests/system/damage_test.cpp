@@ -136,6 +136,22 @@ TEST_F(Damage, OfTheResolvedStudyIsRefused) {
   EXPECT_THAT(resumed.err, HasSubstr("another study"));
 }
 
+TEST_F(Damage, OfTheSeriesIsToldWithItsLine) {
+  const fs::path series = folder / "run/series.csv";
+  const std::string text = read_text(series);
+  std::ofstream(series) << text.substr(0, text.find('\n') + 1) << "1,2\n";
+  const Outcome plotted = run_morula({"plot", "run"}, folder.path());
+  EXPECT_EQ(plotted.exit_code, 3) << plotted.all();
+  EXPECT_THAT(plotted.err, HasSubstr("series.csv:2: this row has 2 fields"));
+  fs::remove(series);
+  ASSERT_EQ(::mkfifo(series.c_str(), 0600), 0);
+  CommandOptions options;
+  options.timeout = std::chrono::seconds(30);
+  const Outcome waiting = run_morula({"plot", "run"}, folder.path(), options);
+  EXPECT_FALSE(waiting.timed_out);
+  EXPECT_EQ(waiting.exit_code, 3) << waiting.all();
+}
+
 TEST_F(Damage, OfTheResultsSetsThemAsideAndTheRunGoesOn) {
   fs::resize_file(folder / "run/results.h5", fs::file_size(folder / "run/results.h5") / 2);
   ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "whole", "--until", "2 h"}, folder.path()).exit_code, 0);
