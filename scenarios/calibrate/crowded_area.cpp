@@ -47,16 +47,8 @@ double rms_error(const std::vector<CrowdedPoint>& points, const cbm::CrowdedArea
 }  // namespace
 
 double resting_share(const PairModel& pair, double radius) {
-  const double step = 0.01 * radius, reduced = 0.5 * radius;
-  double pushes = 1.5 * radius;
-  while (pair(pushes - step, reduced).force > 0.0 && pushes > -radius) pushes -= step;
-  double pulls = pushes - step;
-  if (!(pair(pulls, reduced).force < 0.0)) return 0.0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (pulls + pushes);
-    (pair(middle, reduced).force > 0.0 ? pushes : pulls) = middle;
-  }
-  return pair(pushes, reduced).area / ball_surface(radius);
+  const double rest = resting_overlap(pair, radius);
+  return rest > 0.0 ? pair(rest, 0.5 * radius).area / ball_surface(radius) : 0.0;
 }
 
 FittedCrowding fit_crowded_area(std::span<const PackingPoint> packings, double resting_share) {

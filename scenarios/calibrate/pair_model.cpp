@@ -27,4 +27,20 @@ PairModel jkr_model(double young, double poisson, double adhesion) {
   };
 }
 
+double resting_overlap(const PairModel& law, double radius) {
+  const auto force = [&](double overlap) { return law(overlap, 0.5 * radius).force; };
+  if (!(force(0.0) < 0.0)) return -1.0;
+  double low = 0.0, high = 0.01 * radius;
+  while (force(high) < 0.0) {
+    low = high;
+    high *= 1.25;
+    if (high > 1.9 * radius) return -1.0;
+  }
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (force(middle) < 0.0 ? low : high) = middle;
+  }
+  return low;
+}
+
 }  // namespace morula::calibrate

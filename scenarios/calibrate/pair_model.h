@@ -25,4 +25,7 @@ using PairModel = std::function<PairAnswer(double overlap, double reduced_radius
 /// The same as a model, without tension beyond the break.
 [[nodiscard]] PairModel jkr_model(double young, double poisson, double adhesion);
 
+/// Overlap at which two attached spheres of a radius [µm] come to rest by a law that attracts at δ = 0; a negative number: none up to 1.9 R [µm].
+[[nodiscard]] double resting_overlap(const PairModel& law, double radius);
+
 }  // namespace morula::calibrate

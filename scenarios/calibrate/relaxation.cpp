@@ -17,26 +17,9 @@ struct Integrals {
   double part = 0.0, medium = 0.0, contact = 0.0;
 };
 
-/// Overlap at which a law that attracts at δ = 0 has no force, or a negative number [µm].
-double rest_of(const PairModel& law, double radius) {
-  const auto force = [&](double overlap) { return law(overlap, 0.5 * radius).force; };
-  if (!(force(0.0) < 0.0)) return -1.0;
-  double low = 0.0, high = 0.01 * radius;
-  while (force(high) < 0.0) {
-    low = high;
-    high *= 1.25;
-    if (high > 1.9 * radius) return -1.0;
-  }
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (force(middle) < 0.0 ? low : high) = middle;
-  }
-  return low;
-}
-
 /// By the midpoint rule; F keeps its sign up to the rest.
 std::vector<Integrals> integrals_of(const PairModel& law, double radius, double medium_friction, const std::vector<double>& parts) {
-  const double rest = rest_of(law, radius);
+  const double rest = resting_overlap(law, radius);
   std::vector<Integrals> out;
   if (!(rest > 0.0)) return out;
   Integrals sum;

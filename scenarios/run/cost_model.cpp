@@ -34,6 +34,9 @@ constexpr double kPacked = 0.74;                                 // part of a vo
 
 constexpr double kMostExponent = 60.0;  // e^60 cells are more than any number here
 
+/// How many times as many cells there are after a time.
+double multiplied(double growth, double duration) { return std::exp(std::min(growth * duration, kMostExponent)); }
+
 /// ∫_0^τ e^{g t} dt
 double exponential_integral(double growth, double duration) {
   const double exponent = std::min(growth * duration, kMostExponent);
@@ -45,14 +48,14 @@ Load load_integral(const Load& load, double growth, double duration) {
   const double full =
       load.shells <= 0.0 || growth <= 0.0 ? duration : std::max(0.0, std::log(std::max(1.0, load.most_shells / load.shells)) / growth);
   const double filling = std::min(full, duration);
-  const double shells = exponential_integral(growth, filling) + std::exp(std::min(growth * filling, kMostExponent)) * (duration - filling);
+  const double shells = exponential_integral(growth, filling) + multiplied(growth, filling) * (duration - filling);
   const double cells = (load.spheres + load.shells) * exponential_integral(growth, duration);
   return {.spheres = cells - load.shells * shells, .nodes = load.shells > 0.0 ? load.nodes * shells : load.nodes * duration};
 }
 
 /// The load after a time, likewise.
 Load load_after(const Load& load, double growth, double duration) {
-  const double times = std::exp(std::min(growth * duration, kMostExponent));
+  const double times = multiplied(growth, duration);
   const double shells = std::min(load.shells * times, std::max(load.shells, load.most_shells));
   Load out = load;
   out.spheres = (load.spheres + load.shells) * times - shells;
@@ -115,17 +118,16 @@ double room_of(const Region& region, double cell_volume, double cells) {
 }  // namespace
 
 double most_shells(const Model& model, double cells) {
-  const auto is_shell = [](const CellType& type) { return type.initial_body == BodyKind::kShell; };
-  bool bound = false;
-  double room = 0.0;
-  double radius = std::numeric_limits<double>::infinity();
-  for (const CellType& type : model.types) radius = std::min(radius, type.radius.mean);
-  for (const Region& region : model.swaps.regions) {
-    if (region.body != BodyKind::kShell) continue;
-    bound = std::ranges::none_of(model.types, is_shell);
-    room += room_of(region, ball_volume(radius), cells);
+  constexpr double kUnbound = std::numeric_limits<double>::infinity();
+  double radius = kUnbound;
+  for (const CellType& type : model.types) {
+    if (type.initial_body == BodyKind::kShell) return kUnbound;
+    radius = std::min(radius, type.radius.mean);
   }
-  return bound ? room : std::numeric_limits<double>::infinity();
+  std::optional<double> room;
+  for (const Region& region : model.swaps.regions)
+    if (region.body == BodyKind::kShell) room = room.value_or(0.0) + room_of(region, ball_volume(radius), cells);
+  return room.value_or(kUnbound);
 }
 
 namespace {
@@ -235,7 +237,7 @@ struct LaterBodies {
 };
 LaterBodies later_bodies(const Study& study, const Counts& first, double growth, Tissue* tissue) {
   const double end = study.time.end;
-  const double room = most_shells(study.model, static_cast<double>(first.cells) * std::exp(std::min(growth * end, kMostExponent)));
+  const double room = most_shells(study.model, static_cast<double>(first.cells) * multiplied(growth, end));
   std::vector<double> times;
   for (const Region& region : study.model.swaps.regions)
     for (const double time : {region.from, region.until})

@@ -61,7 +61,12 @@ RunLoop::RunLoop(const Study& study, const RunRequest& request, const Comm& comm
   std::vector<std::int64_t> of_type(study.model.types.size(), 0);
   for (const CellRow& row : simulation_->tissue().cells.rows) ++of_type[row.type];
   for (std::int64_t& count : of_type) count = comm_.sum(count);
-  growth_rate_ = free_growth_rate(study.model, of_type);
+  expect_growth(of_type);
+}
+
+void RunLoop::expect_growth(const std::vector<std::int64_t>& of_type) {
+  growth_rate_ = free_growth_rate(study_.model, of_type);
+  load_.most_shells = most_shells(study_.model, static_cast<double>(progress_.cells));
 }
 
 void RunLoop::note(Note::Kind kind, const std::string& text) {
@@ -218,10 +223,9 @@ void RunLoop::count_cells() {
   progress_.shells = comm_.sum(static_cast<std::int64_t>(tissue.shells.size()));
   progress_.cells = spheres + progress_.shells;
   progress_.time = tissue.clock.time;
-  load_ = {.spheres = static_cast<double>(spheres),
-           .nodes = static_cast<double>(comm_.sum(static_cast<std::int64_t>(tissue.shells.node_count()))),
-           .shells = static_cast<double>(progress_.shells),
-           .most_shells = most_shells(study_.model, static_cast<double>(progress_.cells))};
+  load_.spheres = static_cast<double>(spheres);
+  load_.nodes = static_cast<double>(comm_.sum(static_cast<std::int64_t>(tissue.shells.node_count())));
+  load_.shells = static_cast<double>(progress_.shells);
 }
 
 void RunLoop::tell_progress(double simulated, double seconds) {
@@ -241,7 +245,7 @@ Status RunLoop::output() {
   {
     auto timed = simulation_->timer().scope(Stage::kObserve);
     measures = measure(*simulation_);
-    growth_rate_ = free_growth_rate(study_.model, measures.of_type);
+    expect_growth(measures.of_type);
     MORULA_TRY(write_moment(measures));
   }
   interval_ = Interval{.energy = interval_.energy};

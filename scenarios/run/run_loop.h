@@ -77,6 +77,8 @@ class RunLoop {
   [[nodiscard]] RunStatus status(RunState state) const;
   [[nodiscard]] FinalState final_state() const;
   void count_cells();
+  /// What the cost of the time ahead is told by: how cells multiply, and for how many shells there is room. Cells have been counted.
+  void expect_growth(const std::vector<std::int64_t>& of_type);
   void tell_progress(double simulated, double seconds);
 
   const Study& study_;

@@ -77,9 +77,8 @@ TEST(Experiments, GiveBackTheLawOfSpheres) {
   EXPECT_GT(held_out, 20u);
 }
 
-/// Spheres of a known friction, which come together by themselves where the shells of an experiment do: their friction comes back.
-TEST(Experiments, GiveBackTheFrictionOfSpheres) {
-  const test::Folder folder;
+/// Spheres of JKR, E 0.8 kPa, W 0.05 nN/µm, that stand where shells would.
+CellMaterial material_of_balls() {
   CellMaterial material;
   material.type = "ball";
   material.radius = 5.0;
@@ -88,6 +87,13 @@ TEST(Experiments, GiveBackTheFrictionOfSpheres) {
   material.friction = {0.1, 2.0, 40.0};
   material.shell = "cbm: {law: jkr, young: 0.8 kPa, poisson: 0.4, packing: none}";
   material.contact = "{range: 0.5 um}";
+  return material;
+}
+
+/// Spheres of a known friction, which come together by themselves where the shells of an experiment do: their friction comes back.
+TEST(Experiments, GiveBackTheFrictionOfSpheres) {
+  const test::Folder folder;
+  CellMaterial material = material_of_balls();
   std::vector<Experiment> all = experiments_for(material, false), relaxing;
   for (Experiment& e : all)
     if (e.kind == Experiment::Kind::kRelaxation) {
@@ -139,14 +145,7 @@ TEST(Experiments, HoldFluidCellsAtTheirDistance) {
 /// Spheres whose friction along their contacts is a quarter of that of the material stand where the shells of a pressed cluster do: the factor comes back.
 TEST(Experiments, GiveBackTheFrictionAlongTheContactOfSpheres) {
   const test::Folder folder;
-  CellMaterial material;
-  material.type = "ball";
-  material.radius = 5.0;
-  material.adhesion = 0.05;
-  material.range = 0.5;
-  material.friction = {0.1, 2.0, 40.0};
-  material.shell = "cbm: {law: jkr, young: 0.8 kPa, poisson: 0.4, packing: none}";
-  material.contact = "{range: 0.5 um}";
+  CellMaterial material = material_of_balls();
   std::vector<Experiment> clusters;
   std::vector<std::uint32_t> seeds;
   for (Experiment& e : experiments_for(material)) {
