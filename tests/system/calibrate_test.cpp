@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <fstream>
+#include <regex>
+#include <sstream>
 
 #include "tests/system/morula_command.h"
 #include "tests/system/studies.h"
@@ -14,6 +17,19 @@ using testing::HasSubstr;
 
 constexpr std::chrono::seconds kLong(800);
 
+/// The last value of a column of series.csv.
+double last_of_series(const std::filesystem::path& path, const std::string& column) {
+  std::istringstream lines(read_text(path));
+  std::string header, line, last;
+  std::getline(lines, header);
+  while (std::getline(lines, line)) last = line;
+  std::istringstream names(header), values(last);
+  for (std::string name, value; std::getline(names, name, ',') && std::getline(values, value, ',');)
+    if (name == column) return std::stod(value);
+  ADD_FAILURE() << "no column '" << column << "' in " << header;
+  return 0.0;
+}
+
 /// One command from a study to numbers and a report, for shells with default parameters.
 TEST(Calibrate, FindsALawOfShellsAndWritesAReport) {
   const TestFolder folder;
@@ -24,14 +40,29 @@ TEST(Calibrate, FindsALawOfShellsAndWritesAReport) {
   const std::string report = read_text(folder.path() / "found" / "report.html");
   EXPECT_THAT(report, testing::AllOf(HasSubstr("force over overlap"), HasSubstr("Held out"), HasSubstr("Profile of E"),
                                      HasSubstr("Two cells that come together by themselves"), HasSubstr("that two plates press flat"),
-                                     HasSubstr("A sphere and a shell")));
+                                     HasSubstr("Contact area of a cell among many"), HasSubstr("A sphere and a shell")));
   EXPECT_THAT(read_text(folder.path() / "found" / "small.jkr.yaml"),
               testing::AllOf(HasSubstr("approach: {factor: "), HasSubstr("along the contact"), HasSubstr("friction_of_shells: {medium: "),
-                             HasSubstr("with_shells:"), HasSubstr("held_out: ")));
+                             HasSubstr("with_shells:"), HasSubstr("held_out: "), HasSubstr("contact_area: {knots: [")));
   const Outcome again = run_morula({"calibrate", "jkr", "small", "study.yaml", "--out", "found"}, folder.path(), {.timeout = kLong});
   EXPECT_EQ(again.exit_code, 0) << again.all();
   EXPECT_EQ(again.out, first.out);
   EXPECT_THAT(again.err, testing::Not(HasSubstr("equal_pair_1: Two cells")));  // nothing is run again
+  // A run with the law tells areas of cells among many: in a ball of spheres they are not those of pairs, which the file says without its curve.
+  const std::string file = read_text(folder.path() / "found" / "small.jkr.yaml");
+  folder.write("many.jkr.yaml", file);
+  folder.write("pairs.jkr.yaml", std::regex_replace(file, std::regex("\n  contact_area: [^\n]*"), ""));
+  std::vector<double> area;
+  for (const std::string name : {"many", "pairs"}) {
+    folder.write(name + ".yaml", changed(changed(calibrated_study(), "dcm: {nodes: 42}",
+                                                 "cbm: {law: fitted, file: " + name + ".jkr.yaml}, dcm: {nodes: 42}"),
+                                         "at: [[0 um, 0 um, 0 um]]", "count: 40, fill: sphere, radius: 20 um, as: sphere"));
+    const Outcome run = run_morula({"run", name + ".yaml", "--out", name}, folder.path());
+    ASSERT_EQ(run.exit_code, 0) << run.all();
+    area.push_back(last_of_series(folder.path() / name / "series.csv", "mean_contact_area [um^2]"));
+  }
+  EXPECT_GT(area[1], 0.0);
+  EXPECT_GT(std::abs(area[0] / area[1] - 1.0), 0.01);
 }
 
 TEST(Calibrate, LeavesOutWhatItsBudgetHasNoTimeFor) {
