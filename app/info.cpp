@@ -6,6 +6,7 @@
 #include "app/run_state.h"
 #include "app/verbs.h"
 #include "app/words.h"
+#include "core/numbers/joined.h"
 #include "results/checkpoint_folder.h"
 #include "results/file_io.h"
 #include "results/run_folder.h"
@@ -109,9 +110,7 @@ Status info_of_study(const InfoOptions& options, const Context& context) {
     return {};
   }
   const auto names = [](const Json& list) {
-    std::string out;
-    for (const auto& name : list) out += (out.empty() ? "" : ", ") + name.get<std::string>();
-    return out.empty() ? std::string("none") : out;
+    return list.empty() ? std::string("none") : joined(list, [](const Json& name) { return name.get<std::string>(); });
   };
   context.console.result(study.name + (study.title.empty() ? "" : ": " + study.title) + "\n  end         " +
                          scenarios::time_text(study.time.end) + "\n  seed        " + std::to_string(model.seed) + "\n  cells       " +

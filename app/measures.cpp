@@ -1,6 +1,9 @@
 #include "app/measures.h"
 
+#include <ranges>
+
 #include "app/words.h"
+#include "core/numbers/joined.h"
 #include "scenarios/measures/measures.h"
 #include "scenarios/measures/theories.h"
 
@@ -40,22 +43,15 @@ std::string text_of(const Measure& m) {
   std::string out = m.name + ": " + m.title + " [" + unit_of(m) + "]\n  " + m.doc + "\n  of:       " + of_words(m.of) + "\n";
   if (!m.formula.empty()) out += "  formula:  " + m.formula + "\n";
   if (!m.source.empty()) out += "  source:   " + m.source + "\n";
-  std::string known;
-  for (const Theory& theory : scenarios::theories())
-    if (theory.is_about(m.name)) known += (known.empty() ? "" : ", ") + theory.name;
+  const auto about = [&](const Theory& theory) { return theory.is_about(m.name); };
+  const std::string known = joined(scenarios::theories() | std::views::filter(about), &Theory::name);
   if (!known.empty()) out += "  theories: " + known + "\n";
-  return out;
-}
-
-std::string predictions_of(const Theory& theory) {
-  std::string out;
-  for (const std::string& one : theory.predicts) out += (out.empty() ? "" : ", ") + one + (one.ends_with('_') ? "<name>" : "");
   return out;
 }
 
 std::string text_of(const Theory& t) {
   return t.name + ": " + t.title + "\n  " + t.doc + "\n  formula:  " + t.formula + "\n  source:   " + t.source +
-         "\n  predicts: " + predictions_of(t) + "\n";
+         "\n  predicts: " + t.predictions() + "\n";
 }
 
 std::string in_cell(std::string text) {
@@ -74,7 +70,7 @@ std::string explain_measure(const std::string& name) {
   }
   if (name == "theories") {
     std::vector<std::vector<std::string>> rows{{"theory", "what", "predicts"}};
-    for (const Theory& t : scenarios::theories()) rows.push_back({t.name, t.title, predictions_of(t)});
+    for (const Theory& t : scenarios::theories()) rows.push_back({t.name, t.title, t.predictions()});
     return table_text(rows);
   }
   for (const Measure& m : scenarios::measures())
@@ -92,7 +88,7 @@ std::string measure_reference() {
     out += "| `" + m.name + "` | " + unit_of(m) + " | " + in_cell(m.doc) + " | " + in_cell(m.formula) + " | " + of_words(m.of) + " |\n";
   out += "\n## Theories\n\n| theory | what | formula | predicts | source |\n|---|---|---|---|---|\n";
   for (const Theory& t : scenarios::theories())
-    out += "| `" + t.name + "` | " + in_cell(t.doc) + " | " + in_cell(t.formula) + " | " + predictions_of(t) + " | " + in_cell(t.source) +
+    out += "| `" + t.name + "` | " + in_cell(t.doc) + " | " + in_cell(t.formula) + " | " + t.predictions() + " | " + in_cell(t.source) +
            " |\n";
   return out;
 }

@@ -5,6 +5,7 @@
 #include "app/run_request.h"
 #include "app/signals.h"
 #include "app/verbs.h"
+#include "core/numbers/joined.h"
 #include "results/checkpoint_folder.h"
 #include "results/file_io.h"
 #include "results/run_folder.h"
@@ -18,8 +19,8 @@ Result<fs::path> find_checkpoint(const fs::path& run, const std::string& from) {
   std::error_code error;
   for (const fs::path& path : {run / "checkpoints" / from, run / "checkpoints" / (from + ".h5"), fs::path(from)})
     if (fs::is_regular_file(path, error)) return path;
-  std::string there;
-  for (const fs::path& path : scenarios::checkpoints_in(run / "checkpoints")) there += (there.empty() ? "" : ", ") + path.stem().string();
+  const std::string there =
+      joined(scenarios::checkpoints_in(run / "checkpoints"), [](const fs::path& path) { return path.stem().string(); });
   return Error{ErrorKind::kFile, "there is no checkpoint '" + from + "' in '" + run.string() + "'",
                there.empty() ? "the run has no checkpoints" : "there are: " + there};
 }

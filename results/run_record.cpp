@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/numbers/joined.h"
 #include "core/numbers/number_text.h"
 #include "results/build_info.h"
 #include "results/file_io.h"
@@ -319,9 +320,7 @@ std::string Judgement::failures() const {
   std::vector<std::string> ids;
   for (const Verdict& v : verdicts)
     if (!v.passed && std::find(ids.begin(), ids.end(), v.id) == ids.end()) ids.push_back(v.id);
-  std::string out;
-  for (const std::string& id : ids) out += (out.empty() ? "checks failed: " : ", ") + id;
-  return out;
+  return ids.empty() ? "" : "checks failed: " + joined(ids);
 }
 
 std::string to_json(const Judgement& judgement) {

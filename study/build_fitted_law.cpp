@@ -36,17 +36,15 @@ void refuse_keys(BuildContext& c, const draft::CellType& t) {
 }
 
 /// Packing of the file where it has one, and the study asks for none of its own.
-void take_packing(BuildContext& c, const std::vector<cbm::PackingKnot>& knots, draft::CellType& t, cbm::SphereParameters& sphere) {
+void take_packing(BuildContext& c, const cbm::PackingCurve& packing, draft::CellType& t, cbm::SphereParameters& sphere) {
   if (t.packing_law.given && t.packing_law.value != kFittedLaw) return;
-  if (knots.empty()) {
+  if (packing.empty()) {
     if (t.packing_law.value == kFittedLaw)
       c.diagnostics.error(516, t.packing_law.place, "the file has no packing for this form of the law",
                           "calibrate without `--pairs-only`, or write `packing: ideal_filled_cell`");
     return;
   }
-  auto curve = cbm::PackingCurve::through(knots);
-  if (!curve.ok()) return;  // told with the file
-  sphere.packing = std::move(curve).value();
+  sphere.packing = packing;
   t.packing_law.value = t.packing_law.text = kFittedLaw;
   t.packing_law.given = true;
 }
@@ -87,15 +85,15 @@ void build_fitted_law(BuildContext& c, const std::string& /*type_name*/, draft::
   take(c, "poisson", fitted->poisson, "", t.sphere_poisson);
   sphere.young = t.sphere_young.value, sphere.poisson = t.sphere_poisson.value;
   if (fitted->adhesion_of_shells > 0.0) sphere.adhesion_factor = fitted->adhesion / fitted->adhesion_of_shells;
-  const FittedLaw::FrictionFactors& friction = table ? fitted->of_table : fitted->of_jkr;
-  sphere.approach_factor = friction.approach, sphere.along_factor = friction.along;
-  sphere.crowded_area = table ? fitted->area_of_table : fitted->area_of_jkr;
+  const FittedLaw::Spheres& spheres = table ? fitted->of_table : fitted->of_jkr;
+  sphere.approach_factor = spheres.approach_factor, sphere.along_factor = spheres.along_factor;
+  sphere.crowded_area = spheres.area;
   sphere.fitted = fitted->overlap;
   if (fitted->with_shells) {
     take(c, "with_shells.stiffness", fitted->with_shells->stiffness, "", t.with_shells.of("stiffness", &cbm::WithShells::stiffness));
     take(c, "with_shells.adhesion", fitted->with_shells->adhesion, "", t.with_shells.of("adhesion", &cbm::WithShells::adhesion));
   }
-  take_packing(c, table ? fitted->beside_table : fitted->packing, t, sphere);
+  take_packing(c, spheres.packing, t, sphere);
   c.study.fitted.push_back(
       {c.study.model.types.size(), fitted->type, fitted->material, fitted->smallest_radius, fitted->largest_radius, fitted->friction});
 }

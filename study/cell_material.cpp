@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 
+#include "core/numbers/joined.h"
 #include "core/numbers/number_text.h"
 #include "study/document.h"
 
@@ -16,20 +17,17 @@ constexpr const char* kNoMaterial = "own_mesh";
 
 /// A part of a document in one line.
 std::string flow(const Node& node) {
-  std::string out;
   switch (node.kind) {
     case Node::Kind::kNull:
       return "~";
     case Node::Kind::kScalar:
       return node.text;
     case Node::Kind::kList:
-      for (const Node& item : node.items) out += (out.empty() ? "" : ", ") + flow(item);
-      return "[" + out + "]";
+      return "[" + joined(node.items, flow) + "]";
     case Node::Kind::kMap:
-      for (const Node::Entry& entry : node.entries) out += (out.empty() ? "" : ", ") + entry.key + ": " + flow(entry.value);
-      return "{" + out + "}";
+      return "{" + joined(node.entries, [](const Node::Entry& entry) { return entry.key + ": " + flow(entry.value); }) + "}";
   }
-  return out;
+  return "";
 }
 
 bool names_both(const Node& pair, const std::string& type) {

@@ -27,8 +27,11 @@ struct Factor {
   Given<double> value;
   bool given = false;
 };
-struct Factors {
+/// Beside JKR, or beside the table.
+struct Beside {
   Factor approach, along;
+  std::vector<Named<Knot>> packing;
+  std::vector<Named<AreaKnot>> area;
 };
 struct WithShells {
   Given<double> stiffness, adhesion;
@@ -39,12 +42,10 @@ struct File {
   Given<std::string> version, type, material, better;
   Given<double> radius, adhesion_of_shells;
   Given<double> young, poisson, adhesion, touch;
-  Factors of_jkr, of_table;
+  Beside jkr, table;
   WithShells with_shells;
   Given<double> medium, cell_cell, cell_cell_tangential;
   bool has_friction = false;
-  std::vector<Named<Knot>> packing, beside_table;
-  std::vector<Named<AreaKnot>> area_of_jkr, area_of_table;
   std::vector<Named<TableKnot>> knots;
   bool has_table = false;
   Ends overlap, radii, room;
@@ -94,28 +95,21 @@ void declare_held_out(Section& s, File& f) {
   });
 }
 
-void declare_factors(Section& s, File& f, Factors& factors) {
-  for (const auto& [name, factor] : {std::pair{"approach", &factors.approach}, {"along", &factors.along}})
+/// What spheres have beside their pair law.
+void declare_beside(Section& s, File& f, Beside& beside) {
+  declare_held_out(s, f);
+  for (const auto& [name, factor] : {std::pair{"approach", &beside.approach}, {"along", &beside.along}})
     s.group({.name = name, .doc = "", .optional_section = true, .example = ""}, factor->given, [&f, factor](Section& g) {
       g.quantity(number("factor", Q::kNumber, 0.0, 1e6), factor->value);
       declare_figures(g, f, {"friction", "misfit"});
       g.words(section("interval"), f.others);
     });
-}
-
-void declare_contact_area(Section& s, File& f, std::vector<Named<AreaKnot>>& knots) {
+  s.list(section("packing"), beside.packing, &declare_knot);
   bool present = false;
-  s.group({.name = "contact_area", .doc = "", .optional_section = true, .example = ""}, present, [&f, &knots](Section& g) {
-    g.list(section("knots"), knots, &declare_area_knot);
+  s.group({.name = "contact_area", .doc = "", .optional_section = true, .example = ""}, present, [&f, &beside](Section& g) {
+    g.list(section("knots"), beside.area, &declare_area_knot);
     declare_figures(g, f, {"held_out", "pairs_alone"});
   });
-}
-
-FittedLaw::FrictionFactors factors_of(const Factors& read) {
-  FittedLaw::FrictionFactors out;
-  if (read.approach.given) out.approach = read.approach.value.value;
-  if (read.along.given) out.along = read.along.value.value;
-  return out;
 }
 
 void declare_with_shells(Section& s, File& f) {
@@ -143,19 +137,13 @@ void declare_jkr(Section& s, File& f) {
   s.words(section("young_interval"), f.others);
   s.words(section("adhesion_interval"), f.others);
   declare_figures(s, f, {"young_error", "adhesion_error", "correlation", "loss", "residuals", "misfit"});
-  declare_held_out(s, f);
-  declare_factors(s, f, f.of_jkr);
-  s.list(section("packing"), f.packing, &declare_knot);
-  declare_contact_area(s, f, f.area_of_jkr);
+  declare_beside(s, f, f.jkr);
 }
 
 void declare_table(Section& s, File& f) {
   s.quantity(number("touch", Q::kNumber, -10.0, 10.0, false), f.touch);
   declare_figures(s, f, {"exponent", "exponent_error"});
-  declare_held_out(s, f);
-  declare_factors(s, f, f.of_table);
-  s.list(section("packing"), f.beside_table, &declare_knot);
-  declare_contact_area(s, f, f.area_of_table);
+  declare_beside(s, f, f.table);
   s.list(section("knots"), f.knots, &declare_table_knot);
 }
 
@@ -186,12 +174,6 @@ void declare_file(Section& s, File& f) {
   s.words(section("remarks"), f.others);
 }
 
-std::vector<cbm::PackingKnot> knots_of(const std::vector<Named<Knot>>& knots) {
-  std::vector<cbm::PackingKnot> out;
-  for (const auto& knot : knots) out.push_back({knot.content.packing.value, knot.content.pressure.value});
-  return out;
-}
-
 /// The table of the file; E533 where its knots make none.
 std::optional<cbm::PairTable> table_of(const File& file, const Place& place, Diagnostics& diagnostics) {
   std::vector<cbm::PairTableKnot> knots;
@@ -203,23 +185,29 @@ std::optional<cbm::PairTable> table_of(const File& file, const Place& place, Dia
   return {};
 }
 
-/// E533 where the knots make no curve.
-cbm::CrowdedArea areas_of(const std::vector<Named<AreaKnot>>& knots, Diagnostics& diagnostics) {
+/// The curve through knots; where they make none the error `code` at the first of them, and an empty curve.
+template <class Curve, class Knot, class Content>
+Curve curve_through(const std::vector<Named<Content>>& knots, Knot (*knot_of)(const Content&), int code, const char* what,
+                    Diagnostics& diagnostics) {
   if (knots.empty()) return {};
-  std::vector<cbm::CrowdedKnot> all;
-  for (const auto& knot : knots) all.push_back({knot.content.pairs.value, knot.content.cells.value});
-  auto made = cbm::CrowdedArea::through(all);
+  std::vector<Knot> all;
+  for (const auto& knot : knots) all.push_back(knot_of(knot.content));
+  auto made = Curve::through(all);
   if (made.ok()) return std::move(made).value();
-  diagnostics.error(533, knots.front().place, "contact_area: " + made.error().message, made.error().help);
+  diagnostics.error(code, knots.front().place, std::string(what) + ": " + made.error().message, made.error().help);
   return {};
 }
 
-bool makes_a_curve(const std::vector<cbm::PackingKnot>& knots, const Place& place, Diagnostics& diagnostics) {
-  if (knots.empty()) return true;
-  const auto curve = cbm::PackingCurve::through(knots);
-  if (curve.ok()) return true;
-  diagnostics.error(530, place, "packing: " + curve.error().message, curve.error().help);
-  return false;
+cbm::PackingKnot packing_knot(const Knot& knot) { return {knot.packing.value, knot.pressure.value}; }
+cbm::CrowdedKnot area_knot(const AreaKnot& knot) { return {knot.pairs.value, knot.cells.value}; }
+
+FittedLaw::Spheres spheres_of(const Beside& read, Diagnostics& diagnostics) {
+  FittedLaw::Spheres out;
+  if (read.approach.given) out.approach_factor = read.approach.value.value;
+  if (read.along.given) out.along_factor = read.along.value.value;
+  out.packing = curve_through<cbm::PackingCurve>(read.packing, &packing_knot, 530, "packing", diagnostics);
+  out.area = curve_through<cbm::CrowdedArea>(read.area, &area_knot, 533, "contact_area", diagnostics);
+  return out;
 }
 
 }  // namespace
@@ -246,18 +234,15 @@ std::optional<FittedLaw> read_fitted_law(const std::filesystem::path& path, cons
   out.table_is_better = file.better.value == "table";
   out.young = file.young.value, out.poisson = file.poisson.value, out.adhesion = file.adhesion.value;
   out.adhesion_of_shells = file.adhesion_of_shells.value;
-  out.packing = knots_of(file.packing), out.beside_table = knots_of(file.beside_table);
   if (file.with_shells.given) out.with_shells = cbm::WithShells{file.with_shells.stiffness.value, file.with_shells.adhesion.value};
-  out.of_jkr = factors_of(file.of_jkr), out.of_table = factors_of(file.of_table);
+  out.of_jkr = spheres_of(file.jkr, diagnostics), out.of_table = spheres_of(file.table, diagnostics);
   if (file.has_friction) out.friction = CellFriction{file.medium.value, file.cell_cell.value, file.cell_cell_tangential.value};
   out.overlap = {file.overlap.least.value, file.overlap.most.value};
   out.smallest_radius = file.radii.least.value, out.largest_radius = file.radii.most.value;
-  out.area_of_jkr = areas_of(file.area_of_jkr, diagnostics), out.area_of_table = areas_of(file.area_of_table, diagnostics);
   if (file.has_table) out.table = table_of(file, document.place, diagnostics);
   if (out.table_is_better && !file.has_table)
     diagnostics.error(533, file.better.place, "the table is said to be better, but there is none", "");
   if (!(out.overlap.least < out.overlap.most)) diagnostics.error(533, file.overlap.least.place, "the range of overlaps has no width", "");
-  for (const auto* knots : {&out.packing, &out.beside_table}) makes_a_curve(*knots, document.place, diagnostics);
   if (diagnostics.error_count() > errors) return {};
   return out;
 }

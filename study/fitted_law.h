@@ -19,20 +19,20 @@ struct FittedLaw {
   std::string type, material;  ///< of the cells, and what their shells are (study/cell_material.h)
   bool table_is_better = false;
 
-  double young = 0.0, poisson = 0.0;            ///< JKR: E [kPa], ν
-  double adhesion = 0.0;                        ///< W of two spheres [nN/µm]
-  double adhesion_of_shells = 0.0;              ///< that the fitted shells have [nN/µm]
-  std::vector<cbm::PackingKnot> packing;        ///< beside JKR; empty: packings were not fitted
-  std::optional<cbm::PairTable> table;          ///< none: the points made no table
-  std::vector<cbm::PackingKnot> beside_table;   ///< packing beside the table
-  cbm::CrowdedArea area_of_jkr, area_of_table;  ///< contact areas among many; empty: not fitted
+  double young = 0.0, poisson = 0.0;    ///< JKR: E [kPa], ν
+  double adhesion = 0.0;                ///< W of two spheres [nN/µm]
+  double adhesion_of_shells = 0.0;      ///< that the fitted shells have [nN/µm]
+  std::optional<cbm::PairTable> table;  ///< none: the points made no table
 
-  /// Friction of two spheres over that of the shells; 1: not fitted.
-  struct FrictionFactors {
-    double approach = 1.0, along = 1.0;  ///< across and along their contact
+  /// What spheres of a pair law have beside it.
+  struct Spheres {
+    cbm::PackingCurve packing;  ///< empty: packings were not fitted
+    cbm::CrowdedArea area;      ///< contact areas among many; empty: not fitted
+    double approach_factor = 1.0,
+           along_factor = 1.0;  ///< friction of two spheres over that of the shells, across and along their contact; 1: not fitted
   };
-  FrictionFactors of_jkr, of_table;      ///< of spheres of JKR, of the table
-  std::optional<CellFriction> friction;  ///< of the shells with which that was found
+  Spheres of_jkr, of_table;
+  std::optional<CellFriction> friction;  ///< of the shells with which friction was fitted
 
   std::optional<cbm::WithShells> with_shells;  ///< contact of a sphere with a shell; none: not fitted
 
@@ -41,7 +41,7 @@ struct FittedLaw {
 };
 
 /// Reads such a file. Errors go to `diagnostics`: E601–E605 at `referred_from`, what is wrong in the file at its place (E1xx, E2xx, E3xx), and E533 where
-/// its numbers make no law; then nothing.
+/// its numbers make no law, E530 where they make no curve of packing; then nothing.
 std::optional<FittedLaw> read_fitted_law(const std::filesystem::path& path, const std::string& shown_name, const Place& referred_from,
                                          const Laws& laws, Diagnostics& diagnostics);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/numbers/joined.h"
 #include "study/read_section.h"
 
 namespace morula::scenarios {
@@ -76,11 +77,7 @@ std::string range_words(const KeySpec& key) {
 }
 
 std::string allowed_values(const KeySpec& key) {
-  if (!key.words.empty()) {
-    std::string out;
-    for (const std::string& word : key.words) out += (out.empty() ? "one of " : ", ") + word;
-    return out;
-  }
+  if (!key.words.empty()) return "one of " + joined(key.words);
   const KeySpec any;
   return key.quantity == any.quantity && key.low == any.low && key.high == any.high ? "" : range_words(key);
 }

@@ -1,5 +1,9 @@
 #include "study/layer_words.h"
 
+#include <ranges>
+
+#include "core/numbers/joined.h"
+
 namespace morula::scenarios {
 namespace {
 
@@ -26,10 +30,8 @@ const dcm::LayerWord* find_layer_word(const Laws& laws, dcm::LayerWord::Of of, c
 }
 
 std::string area_words(const Laws& laws) {
-  std::string out;
-  for (const dcm::LayerWord* word : layer_words(laws, dcm::LayerWord::Of::kElastic))
-    if (word->resists_area) out += (out.empty() ? "" : ", ") + word->word;
-  return out;
+  const auto resists = [](const dcm::LayerWord* word) { return word->resists_area; };
+  return joined(layer_words(laws, dcm::LayerWord::Of::kElastic) | std::views::filter(resists), &dcm::LayerWord::word);
 }
 
 LawValues layer_values(const draft::Layer& layer, const dcm::LayerWord& word) {

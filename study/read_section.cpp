@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/numbers/decimal_number.h"
+#include "core/numbers/joined.h"
 #include "study/key_range.h"
 
 namespace morula::scenarios {
@@ -119,9 +120,7 @@ void ReadSection::whole(const KeySpec& key, Given<std::uint64_t>& value) {
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
   const bool allowed = key.words.empty() || std::find(key.words.begin(), key.words.end(), text) != key.words.end();
   if (!allowed) {
-    std::string list;
-    for (const std::string& word : key.words) list += (list.empty() ? "" : ", ") + word;
-    diagnostics_.error(302, node->place, shown(key) + " is " + text + ", but must be one of " + list, example_of(key));
+    diagnostics_.error(302, node->place, shown(key) + " is " + text + ", but must be one of " + joined(key.words), example_of(key));
   } else if (code != std::errc() || !range_of(key).holds(static_cast<double>(number))) {
     diagnostics_.error(302, node->place, shown(key) + " is " + text + ", but must be " + range_words(key), example_of(key));
   } else {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/numbers/joined.h"
+
 namespace morula {
 namespace {
 
@@ -72,11 +74,10 @@ Status check_edge(std::span<const FaceSide> sides) {
   if (sides.size() == 1)
     return mesh_error(edge + " has one face only, face " + std::to_string(sides[0].face) + ": the surface is open",
                       "every edge of a closed surface has two faces");
-  if (sides.size() > 2) {
-    std::string list;
-    for (const FaceSide& side : sides) list += (list.empty() ? "" : ", ") + std::to_string(side.face);
-    return mesh_error(edge + " has " + std::to_string(sides.size()) + " faces: " + list, "every edge of a closed surface has two faces");
-  }
+  if (sides.size() > 2)
+    return mesh_error(edge + " has " + std::to_string(sides.size()) +
+                          " faces: " + joined(sides, [](const FaceSide& side) { return std::to_string(side.face); }),
+                      "every edge of a closed surface has two faces");
   if (sides[0].forward == sides[1].forward)
     return mesh_error("faces " + std::to_string(sides[0].face) + " and " + std::to_string(sides[1].face) + " walk along " + edge +
                           " in the same direction: one of them is flipped",

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/ball.h"
+#include "core/numbers/joined.h"
 #include "report/pictures/projection.h"
 
 namespace morula::scenarios {
@@ -151,8 +152,7 @@ DrawnSurroundings draw_surroundings(const Snapshot& snapshot, const Camera& came
 std::vector<LegendEntry> surroundings_legend(const Snapshot& snapshot, bool with_cut) {
   std::vector<LegendEntry> entries;
   constexpr std::size_t kNamed = 3;
-  std::string names;  // they share a colour
-  for (const Snapshot::Obstacle& obstacle : snapshot.obstacles) names += (names.empty() ? "" : ", ") + obstacle.name;
+  std::string names = joined(snapshot.obstacles, &Snapshot::Obstacle::name);  // they share a colour
   if (snapshot.obstacles.size() > kNamed) names = std::to_string(snapshot.obstacles.size()) + " obstacles";
   if (!names.empty()) entries.push_back({names, kObstacleColor});
   if (with_cut)

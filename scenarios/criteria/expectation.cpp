@@ -68,9 +68,8 @@ bool find_theory_of(const Study& study, const Given<std::string>& name, const st
   out.text = out.theory->title;
   for (const MeasureCall* call : calls) {
     if (!out.theory->is_about(call->measure.name)) {
-      std::string known;
-      for (const std::string& one : out.theory->predicts) known += (known.empty() ? "" : ", ") + one + (one.ends_with('_') ? "<name>" : "");
-      diagnostics.error(413, name.place, "'" + name.value + "' says nothing about '" + call->measure.name + "'", "it predicts " + known);
+      diagnostics.error(413, name.place, "'" + name.value + "' says nothing about '" + call->measure.name + "'",
+                        "it predicts " + out.theory->predictions());
       return false;
     }
     for (const Subject& subject : call->subjects)

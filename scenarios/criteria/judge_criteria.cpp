@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numbers/joined.h"
 #include "core/numbers/number_text.h"
 #include "scenarios/measures/verdicts.h"
 
@@ -38,11 +39,7 @@ std::string words_of_curve(const Question& q) {
   return q.curve == "rms" ? over + ", root mean square" : "";
 }
 
-std::string names_of(const std::vector<Subject>& things) {
-  std::string out;
-  for (const Subject& thing : things) out += (out.empty() ? "" : ", ") + thing.text;
-  return out;
-}
+std::string names_of(const std::vector<Subject>& things) { return joined(things, &Subject::text); }
 
 /// What is asked, for people.
 std::string quantity_text(const UnderstoodCriterion& c, const std::string& things) {

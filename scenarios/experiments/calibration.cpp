@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "core/numbers/joined.h"
 #include "core/numbers/number_text.h"
 #include "results/file_io.h"
 #include "scenarios/experiments/budget.h"
@@ -45,13 +46,9 @@ class Fitting {
     };
     MORULA_TRY(fit_in_turns(points, options_.weights, make, places_));
     MORULA_TRY_ASSIGN(out_.sure, calibrate::fit_with_confidence(points, options_));
-    const TrialLaw law = trial(out_.sure.fit);
-    MORULA_TRY(places_.place(law, true, points));
-    MORULA_TRY_ASSIGN(out_.crowding, crowding_of(law, points));
     out_.misfit = calibrate::misfit_share(points, out_.sure.fit);
-    out_.held_out = calibrate::held_out_errors(points, law.pair, law.sphere.packing, out_.sure.fit.pull_off(1.0));
     remark_on_range(out_);
-    out_.friction = friction_of(law, "JKR");
+    MORULA_TRY_ASSIGN(out_.jkr, spheres_of(trial(out_.sure.fit), out_.sure.fit.parameters.knots, "JKR", points));
     return {};
   }
 
@@ -61,25 +58,32 @@ class Fitting {
       out_.data.remarks.push_back("no table: " + found.error().message);
       return {};
     }
-    FittedTable one{.table = std::move(found).value(), .packing = {}, .crowding = {}, .held_out = {}, .exponent = {}, .friction = {}};
+    FittedTable one{.table = std::move(found).value(), .exponent = {}, .spheres = {}};
     const calibrate::PairModel pair = calibrate::table_model(one.table);
+    std::vector<cbm::PackingKnot> packing;
     const auto make = [&](const calibrate::Data& now) -> Result<TrialLaw> {
-      one.packing = calibrate::fit_curve(now, pair, options_);
-      return trial(one, pair);
+      packing = calibrate::fit_curve(now, pair, options_);
+      return trial(one, pair, packing);
     };
     MORULA_TRY(fit_in_turns(points_, options_.weights, make, places_));
-    if (!points_.packings.empty()) one.packing = calibrate::fit_curve(points_, pair, options_);
-    const TrialLaw law = trial(one, pair);
-    MORULA_TRY(places_.place(law, true, points_));
-    MORULA_TRY_ASSIGN(one.crowding, crowding_of(law, points_));
-    one.held_out = calibrate::held_out_errors(points_, pair, law.sphere.packing, out_.sure.fit.pull_off(1.0));
+    if (!points_.packings.empty()) packing = calibrate::fit_curve(points_, pair, options_);
     one.exponent = calibrate::force_exponent(points_, one.table);
-    one.friction = friction_of(law, "the table");
+    MORULA_TRY_ASSIGN(one.spheres, spheres_of(trial(one, pair, packing), packing, "the table", points_));
     out_.table = std::move(one);
     return {};
   }
 
  private:
+  /// What is found for spheres of any law: they come to rest in the packings that were held out, where `points` then has them.
+  Result<SpheresOfLaw> spheres_of(const TrialLaw& law, std::vector<cbm::PackingKnot> packing, const char* name, calibrate::Data& points) {
+    SpheresOfLaw out;
+    out.packing = std::move(packing);
+    MORULA_TRY(places_.place(law, true, points));
+    MORULA_TRY_ASSIGN(out.crowding, crowding_of(law, points));
+    out.held_out = calibrate::held_out_errors(points, law.pair, law.sphere.packing, out_.sure.fit.pull_off(1.0));
+    out.friction = friction_of(law, name);
+    return out;
+  }
   /// Contact areas of spheres of the law where they come to rest in the packings; those that were held out are there already.
   Result<calibrate::FittedCrowding> crowding_of(const TrialLaw& law, calibrate::Data points) const {
     MORULA_TRY(places_.place(law, false, points));
@@ -115,11 +119,12 @@ class Fitting {
     out.sphere.packing = curve_of(fit.parameters.knots);
     return out;
   }
-  [[nodiscard]] TrialLaw trial(const FittedTable& table, const calibrate::PairModel& pair) const {
+  [[nodiscard]] TrialLaw trial(const FittedTable& table, const calibrate::PairModel& pair,
+                               std::span<const cbm::PackingKnot> packing) const {
     TrialLaw out = trial(out_.sure.fit);
     out.pair = pair;
     out.sphere.law = cbm::table_law(table.table);
-    out.sphere.packing = curve_of(table.packing);
+    out.sphere.packing = curve_of(packing);
     return out;
   }
 
@@ -129,12 +134,6 @@ class Fitting {
   calibrate::Data points_;  // for the table, whose spheres lie elsewhere
   calibrate::FitOptions options_;
 };
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string out;
-  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
-  return out;
-}
 
 Status fit_on_root(const Study& study, Calibration& out) {
   MORULA_TRY_ASSIGN(out.data, data_of_runs(out.experiments, out.outcomes));

@@ -25,14 +25,19 @@ struct FrictionOfSpheres {
   std::optional<calibrate::FittedAlong> along;        ///< along the contact: balls of cells that are pressed flat
 };
 
+/// What spheres of a pair law have beside it, found from the same shells, and how well they do.
+struct SpheresOfLaw {
+  std::vector<cbm::PackingKnot> packing;  ///< what their pairs leave to packings; empty: nothing
+  calibrate::FittedCrowding crowding;     ///< contact areas among many
+  FrictionOfSpheres friction;
+  calibrate::HeldOutErrors held_out;
+};
+
 /// A law by a table, fitted to the same points as JKR.
 struct FittedTable {
   cbm::PairTable table;
-  std::vector<cbm::PackingKnot> packing;  ///< what these pairs leave to packings; empty: nothing
-  calibrate::FittedCrowding crowding;
-  calibrate::HeldOutErrors held_out;
   calibrate::ForceExponent exponent;
-  FrictionOfSpheres friction;
+  SpheresOfLaw spheres;
 };
 
 /// A contact law of spheres, found from deformable cells.
@@ -42,11 +47,9 @@ struct Calibration {
   std::vector<std::string> left_out;  ///< names of experiments that the budget has no time for
   std::vector<ExperimentOutcome> outcomes;
   ExperimentData data;
-  calibrate::SureFit sure;
-  calibrate::HeldOutErrors held_out;        ///< of JKR
+  calibrate::SureFit sure;                  ///< of JKR
   double misfit = 0.0;                      ///< part of the loss of pairs that JKR cannot take
-  calibrate::FittedCrowding crowding;       ///< contact areas among many, of spheres of the fitted JKR
-  FrictionOfSpheres friction;               ///< of spheres of the fitted JKR
+  SpheresOfLaw jkr;                         ///< of the fitted JKR
   std::optional<MixedContact> with_shells;  ///< none: not known, as a remark says
   std::optional<FittedTable> table;         ///< none: its points make no table, as a remark says
 
@@ -54,13 +57,13 @@ struct Calibration {
   [[nodiscard]] double rest_of_jkr() const;
   /// JKR says nothing true of contacts that are so large, their area least of all.
   [[nodiscard]] bool jkr_is_beyond_range() const { return rest_of_jkr() > cbm::kJkrRange; }
-  /// Of the law to take.
-  [[nodiscard]] const FrictionOfSpheres& friction_to_take() const { return table_is_better() ? table->friction : friction; }
-  [[nodiscard]] const calibrate::FittedCrowding& crowding_to_take() const { return table_is_better() ? table->crowding : crowding; }
-  /// The pair law to take.
+  /// The pair law to take, and what its spheres have beside it.
   [[nodiscard]] calibrate::PairModel law_to_take() const;
+  [[nodiscard]] const SpheresOfLaw& spheres_to_take() const { return table_is_better() ? table->spheres : jkr; }
   /// Whether the table is the law to take: where JKR is beyond its range at rest, and where the table is better on what was held out.
-  [[nodiscard]] bool table_is_better() const { return table && (jkr_is_beyond_range() || table->held_out.score() < held_out.score()); }
+  [[nodiscard]] bool table_is_better() const {
+    return table && (jkr_is_beyond_range() || table->spheres.held_out.score() < jkr.held_out.score());
+  }
 };
 
 /// Runs the experiments for a cell type of a study in the folder of the request, and fits JKR and a packing curve to what they find. Everything that was

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <span>
 #include <string>
 
+#include "core/numbers/joined.h"
 #include "core/numbers/number_text.h"
 #include "results/build_info.h"
 #include "results/hash128.h"
@@ -29,33 +31,35 @@ std::string interval(const calibrate::Interval& range, const char* unit) {
 }
 
 std::string knots_text(const std::vector<cbm::PackingKnot>& knots) {
-  std::string out;
-  for (const cbm::PackingKnot& knot : knots)
-    out += (out.empty() ? "" : ", ") + std::string("{packing: ") + number(100.0 * knot.packing) +
-           " %, pressure: " + of(knot.pressure, "kPa") + "}";
-  return "[" + out + "]";
+  return "[" +
+         joined(knots,
+                [](const cbm::PackingKnot& knot) {
+                  return "{packing: " + number(100.0 * knot.packing) + " %, pressure: " + of(knot.pressure, "kPa") + "}";
+                }) +
+         "]";
 }
 
 /// Contact areas among many, where they were found.
 std::string crowding_text(const calibrate::FittedCrowding& found) {
   if (found.knots.empty()) return "";
-  std::string out;
-  for (const cbm::CrowdedKnot& knot : found.knots)
-    out += (out.empty() ? "" : ", ") + std::string("{pairs: ") + number(100.0 * knot.pairs) + " %, cells: " + number(100.0 * knot.cells) +
-           " %}";
-  return "  contact_area: {knots: [" + out + "]" +
+  const auto knot = [](const cbm::CrowdedKnot& k) {
+    return "{pairs: " + number(100.0 * k.pairs) + " %, cells: " + number(100.0 * k.cells) + " %}";
+  };
+  return "  contact_area: {knots: [" + joined(found.knots, knot) + "]" +
          (found.packings > 0 ? ", held_out: " + number(found.held_out) + ", pairs_alone: " + number(found.pairs_alone) : "") +
          "}  # over the surface: of a sphere by pairs alone, of a shell in its place\n";
 }
 
 /// What the law tells of each random packing that was held out, beside the shells.
 std::string packings_text(const calibrate::HeldOutErrors& errors) {
-  std::string out;
-  for (const calibrate::HeldOutPacking& p : errors.all_packings)
-    if (p.arrangement == calibrate::Arrangement::kRandom)
-      out += (out.empty() ? "" : ", ") + number_text("\"%.4g: ", p.volume_ratio) + number_text("%.1f ", 1e3 * p.pressure) +
-             number_text("%.1f\"", 1e3 * p.by_law);
-  return "[" + out + "]";
+  const auto random = [](const calibrate::HeldOutPacking& p) { return p.arrangement == calibrate::Arrangement::kRandom; };
+  return "[" +
+         joined(errors.all_packings | std::views::filter(random),
+                [](const calibrate::HeldOutPacking& p) {
+                  return number_text("\"%.4g: ", p.volume_ratio) + number_text("%.1f ", 1e3 * p.pressure) +
+                         number_text("%.1f\"", 1e3 * p.by_law);
+                }) +
+         "]";
 }
 
 std::string errors_text(const calibrate::HeldOutErrors& errors) {
@@ -127,14 +131,17 @@ std::string with_shells_text(const std::optional<MixedContact>& found) {
          (found->held_out ? "\n  held_out: " + number(*found->held_out) + "  # misfit where radii are 1 : 1.3 and 1.3 : 1" : "") + "\n";
 }
 
+/// What spheres of a law have beside it.
+std::string spheres_text(const SpheresOfLaw& found) {
+  return "  held_out: " + errors_text(found.held_out) + "\n" + friction_text(found.friction) +
+         (found.packing.empty() ? "" : "  packing: " + knots_text(found.packing) + "\n") + crowding_text(found.crowding);
+}
+
 std::string table_text(const FittedTable& fitted) {
   std::string out =
       "table:  # F/R* over delta/R* of attached pairs, R* the reduced radius\n  touch: " + number(fitted.table.touch_overlap()) +
-      "\n  exponent: " + number(fitted.exponent.value) + "\n  exponent_error: " + number(fitted.exponent.error) +
-      "\n  held_out: " + errors_text(fitted.held_out) + "\n" + friction_text(fitted.friction);
-  if (!fitted.packing.empty()) out += "  packing: " + knots_text(fitted.packing) + "\n";
-  out += crowding_text(fitted.crowding);
-  out += "  knots:\n";
+      "\n  exponent: " + number(fitted.exponent.value) + "\n  exponent_error: " + number(fitted.exponent.error) + "\n" +
+      spheres_text(fitted.spheres) + "  knots:\n";
   for (const cbm::PairTableKnot& knot : fitted.table.knots())
     out += "    - {overlap: " + number(knot.overlap) + ", force: " + of(knot.force, "nN/um") + ", area: " + number(knot.area) + "}\n";
   return out;
@@ -161,10 +168,7 @@ std::string calibration_text(const Calibration& found) {
          "\n  adhesion_interval: " + interval(sure.adhesion.interval, "nN/um") + "\n  young_error: " + number(sure.covariance.young_error) +
          "\n  adhesion_error: " + number(sure.covariance.adhesion_error) + "\n  correlation: " + number(sure.covariance.correlation) +
          "\n  loss: " + number(fit.loss) + "\n  residuals: " + std::to_string(fit.residuals) + "\n  misfit: " + number(found.misfit) +
-         "  # part of the loss of pairs that JKR cannot take\n  held_out: " + errors_text(found.held_out) + "\n" +
-         friction_text(found.friction);
-  if (!fit.parameters.knots.empty()) out += "  packing: " + knots_text(fit.parameters.knots) + "\n";
-  out += crowding_text(found.crowding);
+         "  # part of the loss of pairs that JKR cannot take\n" + spheres_text(found.jkr);
   if (found.table) out += table_text(*found.table);
   out += with_shells_text(found.with_shells);
   if (const CellFriction& f = found.material.friction; !found.data.relaxations.empty() || !found.data.pressed.empty())

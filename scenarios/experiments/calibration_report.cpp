@@ -136,7 +136,7 @@ CurvePlot relaxation_plot(const Calibration& found) {
       spheres.x.push_back(one.time), spheres.y.push_back(one.part);
     if (!spheres.x.empty()) plot.curves.push_back(std::move(spheres));
   };
-  if (const auto& fitted = found.friction_to_take().approach) add("spheres, fitted", fitted->friction);
+  if (const auto& fitted = found.spheres_to_take().friction.approach) add("spheres, fitted", fitted->friction);
   add("spheres with the friction of the study", first.contact_friction);
   return plot;
 }
@@ -182,12 +182,12 @@ CurvePlot crowding_plot(const Calibration& found) {
                            axis("contact area over the surface", ""));
   for (const bool held_out : {false, true}) {
     Curve shells = curve(held_out ? "shells, random, held out" : "shells, random, fitted", CurveStyle::kPoints);
-    for (const calibrate::CrowdedPoint& p : found.crowding_to_take().points)
+    for (const calibrate::CrowdedPoint& p : found.spheres_to_take().crowding.points)
       if (p.held_out == held_out) shells.x.push_back(p.pairs), shells.y.push_back(p.cells);
     if (!shells.x.empty()) plot.curves.push_back(std::move(shells));
   }
   Curve fitted = curve("as it is told"), pairs = curve("pairs alone");
-  for (const cbm::CrowdedKnot& knot : found.crowding_to_take().knots) {
+  for (const cbm::CrowdedKnot& knot : found.spheres_to_take().crowding.knots) {
     fitted.x.push_back(knot.pairs), fitted.y.push_back(knot.cells);
     pairs.x.push_back(knot.pairs), pairs.y.push_back(knot.pairs);
   }
@@ -206,7 +206,7 @@ CurvePlot packing_plot(const Calibration& found) {
   for (const auto& p : found.data.points.packings)
     if (!p.held_out) fitted.x.push_back(p.volume_ratio), fitted.y.push_back(p.pressure);
   add(std::move(fitted));
-  const auto& held_out = (found.table_is_better() ? found.table->held_out : found.held_out).all_packings;
+  const auto& held_out = found.spheres_to_take().held_out.all_packings;
   for (const auto& [arrangement, name] : {std::pair<Arrangement, std::string>{Arrangement::kRandom, "random"},
                                           {Arrangement::kFaceCentred, "face-centred"},
                                           {Arrangement::kBodyCentred, "body-centred"}}) {
@@ -240,17 +240,17 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
       {"correlation of ln E and ln W", three(sure.covariance.correlation), ""},
       {"loss over its terms", three(fit.loss / static_cast<double>(std::max<std::size_t>(fit.residuals, 1))), ""},
       {"part of the loss of pairs that JKR cannot take", three(100.0 * found.misfit), "%"},
-      {"JKR on what was held out, root mean square", three(100.0 * found.held_out.force_rms), "% of the pull-off force"}};
+      {"JKR on what was held out, root mean square", three(100.0 * found.jkr.held_out.force_rms), "% of the pull-off force"}};
   if (found.table) {
-    out.key_numbers.push_back(
-        {"a table on what was held out, root mean square", three(100.0 * found.table->held_out.force_rms), "% of the pull-off force"});
+    out.key_numbers.push_back({"a table on what was held out, root mean square", three(100.0 * found.table->spheres.held_out.force_rms),
+                               "% of the pull-off force"});
     out.key_numbers.push_back({"n of F ∝ (δ − δ_0)ⁿ where cells push (Hertz: 1.5)", three(found.table->exponent.value),
                                "± " + three(found.table->exponent.error)});
-    const calibrate::HeldOutErrors& taken = found.table_is_better() ? found.table->held_out : found.held_out;
+    const calibrate::HeldOutErrors& taken = found.spheres_to_take().held_out;
     if (taken.packings > 0)
       out.key_numbers.push_back(
           {"pressure of a random packing that was held out, root mean square", three(100.0 * taken.pressure_rms), "%"});
-    if (const calibrate::FittedCrowding& area = found.crowding_to_take(); area.packings > 0)
+    if (const calibrate::FittedCrowding& area = found.spheres_to_take().crowding; area.packings > 0)
       out.key_numbers.push_back({"contact area in a random packing that was held out, root mean square", three(100.0 * area.held_out),
                                  "% (by pairs alone " + three(100.0 * area.pairs_alone) + " %)"});
     const auto add_friction = [&](const char* what, const auto& one) {
@@ -259,8 +259,8 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
             {what, three(100.0 * one->factor),
              "% of that of the study (" + three(one->friction) + " nN s/um^3, 95 %: " + three(one->low) + " to " + three(one->high) + ")"});
     };
-    add_friction("friction of approach of two spheres", found.friction_to_take().approach);
-    add_friction("friction along the contact of two spheres", found.friction_to_take().along);
+    add_friction("friction of approach of two spheres", found.spheres_to_take().friction.approach);
+    add_friction("friction along the contact of two spheres", found.spheres_to_take().friction.along);
     out.key_numbers.push_back({"the law to take", found.table_is_better() ? "the table" : "JKR", ""});
   }
   if (const auto& mixed = found.with_shells) {
@@ -276,11 +276,11 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
   add(pair_plot(found, false));
   add(area_plot(found));
   if (!found.data.points.packings.empty()) add(packing_plot(found));
-  if (!found.crowding_to_take().knots.empty()) add(crowding_plot(found));
+  if (!found.spheres_to_take().crowding.knots.empty()) add(crowding_plot(found));
   add(pair_plot(found, true));
   if (found.with_shells) add(mixed_plot(*found.with_shells));
   if (!found.data.relaxations.empty()) add(relaxation_plot(found));
-  if (const auto& along = found.friction_to_take().along) add(pressed_plot(*along));
+  if (const auto& along = found.spheres_to_take().friction.along) add(pressed_plot(*along));
   add(profile_plot(sure.young, "E", "kPa", fit.loss));
   add(profile_plot(sure.adhesion, "W", "nN/um", fit.loss));
   for (const auto* remarks : {&found.data.remarks, &fit.remarks})

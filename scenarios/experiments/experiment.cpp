@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/ball.h"
+#include "core/numbers/joined.h"
 #include "core/numbers/number_text.h"
 #include "core/vec3.h"
 #include "dcm/drops.h"
@@ -195,9 +196,7 @@ Friction friction_text(const CellFriction& f) {
 }
 
 std::string at_text(std::span<const Vec3d> places, const char* body) {
-  std::string at;
-  for (const Vec3d& p : places) at += (at.empty() ? "" : ", ") + place(p);
-  return "initial:\n  - {type: cell, at: [" + at + "], as: " + body + "}\n";
+  return "initial:\n  - {type: cell, at: [" + joined(places, place) + "], as: " + body + "}\n";
 }
 
 /// A plate at this height that faces the middle and comes nearer after `from` [s], by `way` [µm] until `to` [s].
@@ -291,10 +290,8 @@ Experiment random_packing_experiment(const CellMaterial& material, std::uint32_t
 
 std::string study_of_spheres(const CellMaterial& material, std::span<const Vec3d> centers, double edge) {
   const CellMaterial spheres = with_plain_spheres(material);
-  std::string places;
   const auto inside = [edge](double x) { return x - edge * std::floor(x / edge + 0.5); };
-  for (const Vec3d& center : centers)
-    places += (places.empty() ? "" : ", ") + place({inside(center.x), inside(center.y), inside(center.z)});
+  const std::string places = joined(centers, [&](const Vec3d& c) { return place({inside(c.x), inside(c.y), inside(c.z)}); });
   const Experiment e{.kind = Experiment::Kind::kPacking, .name = "spheres", .purpose = "Spheres in a packing", .text = {}};
   return head(material, e, "cell, cell", kRandomTime, kRandomOutput) + "domain: {size: " + place({edge, edge, edge}) +
          ", boundary: periodic}\nnumerics: {max_displacement: 1, initial_step: 60 s}\ncell_types:\n" +

@@ -2,7 +2,13 @@
 
 #include <algorithm>
 
+#include "core/numbers/joined.h"
+
 namespace morula::scenarios {
+
+std::string Theory::predictions() const {
+  return joined(predicts, [](const std::string& one) { return one + (one.ends_with('_') ? "<name>" : ""); });
+}
 
 bool Theory::is_about(const std::string& measure) const {
   return std::any_of(predicts.begin(), predicts.end(),

@@ -20,6 +20,8 @@ struct Theory {
   std::function<Result<double>(FinishedRun&, const Subject&, const std::string& measure, const Sample&)> value;
 
   [[nodiscard]] bool is_about(const std::string& measure) const;
+  /// What it predicts, for people.
+  [[nodiscard]] std::string predictions() const;
 };
 
 /// All named theories. To add one: its file, and its line in theories.cpp.

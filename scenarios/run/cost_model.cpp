@@ -32,6 +32,13 @@ constexpr double kReportTime = 2.2, kStartTime = 0.3;            // CPU, measure
 constexpr double kOutputTime = 4e-3, kOutputTimePerNode = 1e-6;  // CPU of one output [s]
 constexpr double kPacked = 0.74;                                 // part of a volume that its cells fill
 
+// Shells cost ∝ n^1.25: each has more neighbours, and solves take more iterations (0.032, 0.042, 0.077 s per hour and 1000 nodes of 13, 55 and 1,000, bench/README.md; alone
+// less than half of 13).
+constexpr double kCostOfShells = 1.25;
+constexpr std::size_t kFirstSteps = 32;  // that tell by how they grow what is to come, from the eighth on
+constexpr std::size_t kLeastSteps = 8;
+constexpr int kMoments = 16;  // at which the places of moving regions are looked up
+
 constexpr double kMostExponent = 60.0;  // e^60 cells are more than any number here
 
 /// How many times as many cells there are after a time.
@@ -43,14 +50,16 @@ double exponential_integral(double growth, double duration) {
   return growth > 0.0 && exponent > 1e-6 ? std::expm1(exponent) / growth : duration;
 }
 
-/// ∫ of spheres and nodes over a time in which all cells multiply, and shells as long as there is room for them.
+/// ∫ of spheres and nodes over a time in which all cells multiply, and shells as long as there is room for them; a node costs more among more shells.
 Load load_integral(const Load& load, double growth, double duration) {
   const double full =
       load.shells <= 0.0 || growth <= 0.0 ? duration : std::max(0.0, std::log(std::max(1.0, load.most_shells / load.shells)) / growth);
   const double filling = std::min(full, duration);
-  const double shells = exponential_integral(growth, filling) + multiplied(growth, filling) * (duration - filling);
+  const auto shells = [&](double power) {
+    return exponential_integral(power * growth, filling) + multiplied(power * growth, filling) * (duration - filling);
+  };
   const double cells = (load.spheres + load.shells) * exponential_integral(growth, duration);
-  return {.spheres = cells - load.shells * shells, .nodes = load.shells > 0.0 ? load.nodes * shells : load.nodes * duration};
+  return {.spheres = cells - load.shells * shells(1.0), .nodes = load.nodes * (load.shells > 0.0 ? shells(kCostOfShells) : duration)};
 }
 
 /// The load after a time, likewise.
@@ -76,17 +85,24 @@ double free_growth_rate(const Model& model, const std::vector<std::int64_t>& cel
   return cells > 0.0 ? sum / cells : 0.0;
 }
 
+double longest_step(const Study& study) { return std::min(study.model.step.max_step, study.time.output); }
+
 void CostModel::observe(double simulated, double wall, const Load& load) {
   if (step_ > 0.0) wall = std::min(wall, kMostOfAStep * step_);
   step_ = step_ > 0.0 ? kFade * step_ + (1.0 - kFade) * wall : wall;
   wall_ = kFade * wall_ + wall;
   weight_ = kFade * weight_ + simulated * load.total();
+  if (first_.size() >= kFirstSteps) return;
+  const TriedStep before = first_.empty() ? TriedStep{} : first_.back();
+  first_.push_back({before.end + simulated, before.cost + wall});
 }
 
 WallRange CostModel::left(double simulated, const Load& load, double growth_rate) const {
-  if (weight_ <= 0.0) return {};
-  return {0.85 * cost() * load_integral(load, 0.5 * growth_rate, simulated).total(),
-          1.25 * cost() * load_integral(load, growth_rate, simulated).total()};
+  if (first_.size() < kLeastSteps || weight_ <= 0.0 || simulated <= 0.0) return {};
+  double each = cost() * load.total();  // wall time per simulated second, for what is there now
+  if (first_.size() < kFirstSteps) each = cost_ahead(first_, first_.back().end + simulated, most_) / simulated;
+  const auto times = [&](double growth) { return load_integral(load, growth, simulated).total() / load.total(); };
+  return {0.85 * each * times(0.5 * growth_rate), 1.25 * each * times(growth_rate)};
 }
 
 namespace {
@@ -230,10 +246,14 @@ Result<Tried> try_steps(const Study& study, Tissue tissue) {
   return Tried{begin - start, std::move(out)};
 }
 
-/// Bodies that regions exchange later on, cells being where they are at first.
+/// Bodies that regions exchange later on, cells being where they are at first: regions come and go, and move with what they surround.
 struct LaterBodies {
   std::vector<std::pair<double, Load>> from;  ///< the load from a time on [s], in order, the first from 0
   double most_nodes = 0.0;                    ///< at the end, of any of them
+  [[nodiscard]] const Load& at(double time) const {
+    const auto later = std::ranges::find_if(from, [&](const auto& piece) { return piece.first > time; });
+    return std::prev(later)->second;  // the first piece begins at 0
+  }
 };
 LaterBodies later_bodies(const Study& study, const Counts& first, double growth, Tissue* tissue) {
   const double end = study.time.end;
@@ -241,11 +261,13 @@ LaterBodies later_bodies(const Study& study, const Counts& first, double growth,
   std::vector<double> times;
   for (const Region& region : study.model.swaps.regions)
     for (const double time : {region.from, region.until})
-      if (time > 0.0 && time < study.time.end) times.push_back(time);
+      if (time > 0.0 && time < end) times.push_back(time);
+  if (!study.model.swaps.regions.empty())
+    for (int i = 1; i < kMoments; ++i) times.push_back(end * i / kMoments);
   std::sort(times.begin(), times.end());
   LaterBodies out{{{0.0, first.load()}}, 0.0};
   for (std::size_t i = 0; tissue != nullptr && i < times.size(); ++i)
-    out.from.emplace_back(times[i], count_cells(study, *tissue, times[i]).load());
+    out.from.emplace_back(times[i], count_cells(study, *tissue, 0.5 * (times[i] + (i + 1 < times.size() ? times[i + 1] : end))).load());
   for (auto& [time, load] : out.from) {
     load.most_shells = room;
     out.most_nodes = std::max(out.most_nodes, load_after(load, growth, end).nodes);
@@ -254,32 +276,40 @@ LaterBodies later_bodies(const Study& study, const Counts& first, double growth,
   return out;
 }
 
+/// What a step costs with a load, over what one costs with another, of which it is known [s]. Where that had no shells, what a node costs is not known from it.
+double relative_cost(const Load& load, const Load& known, double step) {
+  if (known.nodes > 0.0 || known.spheres <= 0.0) return load.total() / known.total();
+  return load.spheres / known.spheres + kCostPerNode * load.nodes / step;
+}
+
 /// CPU time of a whole run [s].
 Result<double> cost_of_run(const Study& study, double cells, const LaterBodies& bodies, double growth, Tissue* tissue) {
   const Load load = bodies.from.front().second;
   const double outputs = study.time.end / study.time.output;
   double cost =
       kStartTime + (study.output.report ? kReportTime : 0.0) + outputs * (kOutputTime + kOutputTimePerNode * (load.nodes + load.spheres));
-  const double most = std::min(study.model.step.max_step, study.time.output);
+  const double most = longest_step(study);
   if (tissue == nullptr) {
     const Load all = load_integral(load, growth, study.time.end);
     return cost + kPlacing * cells + (kCostPerSphere * all.spheres + kCostPerNode * all.nodes) / most;
   }
-  MORULA_TRY_ASSIGN(const Tried tried_steps, try_steps(study, std::move(*tissue)));
-  const std::vector<TriedStep>& steps = tried_steps.steps;
-  cost += tried_steps.start;
-  if (steps.empty()) return cost;
-  // what each piece of the time ahead costs, by its load
-  const double tried = steps.back().end;
+  MORULA_TRY_ASSIGN(const Tried tried, try_steps(study, std::move(*tissue)));
+  cost += tried.start;
+  if (tried.steps.empty()) return cost;
+  cost += tried.steps.back().cost;
+  // What each piece of the time ahead costs, by its load over that of the later half of what was tried, as if no cell divided; then how they multiply.
+  const double here = tried.steps.back().end, left = study.time.end - here;
+  if (left <= 0.0) return cost;
+  const Load known = bodies.at(0.75 * here), now = load_after(bodies.at(here), growth, here);
   double ahead = 0.0;
   for (std::size_t i = 0; i < bodies.from.size(); ++i) {
-    const double from = std::max(tried, bodies.from[i].first),
+    const double from = std::max(here, bodies.from[i].first),
                  until = i + 1 < bodies.from.size() ? bodies.from[i + 1].first : study.time.end;
     if (until > from)
-      ahead += (cost_ahead(steps, until, most) - cost_ahead(steps, from, most)) * bodies.from[i].second.total() / load.total();
+      ahead += (cost_ahead(tried.steps, until, most) - cost_ahead(tried.steps, from, most)) *
+               relative_cost(bodies.from[i].second, known, cost_of_late_step(tried.steps));
   }
-  const double left = study.time.end - tried;
-  return cost + steps.back().cost + (left > 0.0 ? ahead * load_integral(load, growth, left).total() / (load.total() * left) : 0.0);
+  return cost + ahead * load_integral(now, growth, left).total() / (now.total() * left);
 }
 
 }  // namespace
@@ -288,11 +318,13 @@ Result<Estimate> estimate(const Study& study) {
   std::int64_t cells = 0;
   for (const InitialCells& block : study.initial) cells += static_cast<std::int64_t>(block.count);
   std::optional<Tissue> tissue;
+  const double before = cpu_time();
   if (cells <= kSampled) {
     ShapeLibrary shapes;
     MORULA_TRY_ASSIGN(InitialTissue initial, make_tissue(study, shapes, Comm()));
     tissue = std::move(initial.tissue);
   }
+  const double placing = 2.0 * (cpu_time() - before);  // to judge the places, and to run; surfaces of files are remeshed
   const Counts counts = tissue ? count_cells(study, *tissue, 0.0) : count_entries(study);
   const double growth = free_growth_rate(study.model, counts.of_type);
   const LaterBodies later = later_bodies(study, counts, growth, tissue ? &*tissue : nullptr);
@@ -308,15 +340,18 @@ Result<Estimate> estimate(const Study& study) {
   out.cells_at_end = at_end.spheres + at_end.shells;
   out.memory = kBytesAlways + (study.output.report ? kBytesReport : 0.0) + kBytesPerNode * later.most_nodes +
                kBytesPerSphere * at_end.spheres + kBytesPerVoxel * static_cast<double>(out.voxels);
-  MORULA_TRY_ASSIGN(const double middle, cost_of_run(study, static_cast<double>(counts.cells), later, growth, tissue ? &*tissue : nullptr));
-  const double range = tissue ? 1.6 : 3.0;
+  MORULA_TRY_ASSIGN(const double from_there,
+                    cost_of_run(study, static_cast<double>(counts.cells), later, growth, tissue ? &*tissue : nullptr));
+  const double middle = placing + from_there, range = tissue ? 1.6 : 3.0;
   out.wall = {middle / range, middle * range};
   return out;
 }
 
 std::string duration_text(double seconds) {
   char text[64];
-  if (seconds < 90.0)
+  if (seconds < 9.95)
+    std::snprintf(text, sizeof text, "%.1f s", seconds);
+  else if (seconds < 90.0)
     std::snprintf(text, sizeof text, "%.0f s", seconds);
   else if (seconds < 90.0 * 60.0)
     std::snprintf(text, sizeof text, "%.0f min", seconds / 60.0);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/numbers/joined.h"
 #include "core/numbers/number_text.h"
 #include "results/checkpoint_folder.h"
 #include "results/damaged_file.h"
@@ -54,7 +55,8 @@ RunLoop::RunLoop(const Study& study, const RunRequest& request, const Comm& comm
       record_(std::move(record)),
       simulation_(std::move(simulation)),
       end_(end_of_run(study.time, request.until)),
-      wall_before_(record_.wall_time) {
+      wall_before_(record_.wall_time),
+      cost_(longest_step(study)) {
   checkpoint_due_ = next_multiple(simulation_->tissue().clock.time, study.time.checkpoint);
   progress_.end = end_;
   count_cells();
@@ -190,11 +192,7 @@ bool RunLoop::at_rest() {
     for (const Vec3f& v : *velocities) fastest = std::max(fastest, static_cast<double>(norm2(v)));
   if (!(std::sqrt(comm_.max(fastest)) < study_.time.rest)) return false;
   const std::vector<std::string> coming = simulation_->still_to_come();
-  if (!coming.empty() && coming != awaited_) {
-    std::string all;
-    for (const std::string& what : coming) all += (all.empty() ? "" : ", ") + what;
-    note(Note::Kind::kNote, "nothing moves, but there is still to come: " + all);
-  }
+  if (!coming.empty() && coming != awaited_) note(Note::Kind::kNote, "nothing moves, but there is still to come: " + joined(coming));
   awaited_ = coming;
   return coming.empty();
 }

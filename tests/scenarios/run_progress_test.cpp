@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "scenarios/library/library.h"
 #include "scenarios/run/cost_model.h"
 #include "scenarios/run/progress.h"
 #include "scenarios/run/timings.h"
@@ -11,7 +12,7 @@ namespace morula::scenarios {
 namespace {
 
 TEST(CostModel, LeftFollowsTheLoadNotTheFraction) {
-  CostModel model;
+  CostModel model(60.0);
   for (int i = 0; i < 100; ++i) model.observe(60.0, 0.6, {100.0, 0.0});  // 1e-4 wall s per simulated s and sphere
   const WallRange still = model.left(1000.0, {100.0, 0.0}, 0.0);
   EXPECT_NEAR(still.low, 0.85 * 10.0, 1e-9);
@@ -21,22 +22,40 @@ TEST(CostModel, LeftFollowsTheLoadNotTheFraction) {
   // Growth over ln 2: ∫ e^{gt} = 1/g.
   const double growth = std::log(2.0) / 1000.0;
   EXPECT_NEAR(model.left(1000.0, {100.0, 0.0}, growth).high, 1.25 * 1e-4 * 100.0 / growth, 1e-9);
-  EXPECT_NEAR(model.left(1000.0, {0.0, 100.0, 1.0}, growth).high, 1.25 * 1e-4 * 300.0 / growth, 1e-9);  // shells multiply, too
+  // Shells multiply, too, and each node costs more among more of them: ∫ e^{1.25 g t}.
+  const auto integral = [&](double power, double time) { return std::expm1(power * growth * time) / (power * growth); };
+  EXPECT_NEAR(model.left(1000.0, {0.0, 100.0, 1.0}, growth).high, 1.25 * 1e-4 * 300.0 * integral(1.25, 1000.0), 1e-9);
   // Room for √2 times as many: that is reached after half of the doubling time, and cells beyond are spheres.
   const double until = 0.5 * 1000.0, room = std::sqrt(2.0);
-  const double shells = (room - 1.0) / growth + room * (1000.0 - until), cells = 1.0 / growth;
-  EXPECT_NEAR(model.left(1000.0, {0.0, 100.0, 1.0, room}, growth).high, 1.25 * 1e-4 * (300.0 * shells + cells - shells), 1e-9);
+  const auto shells = [&](double power) { return integral(power, until) + std::pow(room, power) * (1000.0 - until); };
+  EXPECT_NEAR(model.left(1000.0, {0.0, 100.0, 1.0, room}, growth).high,
+              1.25 * 1e-4 * (300.0 * shells(1.25) + integral(1.0, 1000.0) - shells(1.0)), 1e-9);
 }
 
 TEST(CostModel, IsNotMisledByWhatHappensOnce) {
-  CostModel model;
+  CostModel model(60.0);
   for (int i = 0; i < 200; ++i) model.observe(60.0, 0.6, {100.0, 0.0});
   model.observe(60.0, 120.0, {100.0, 0.0});  // two hundred times as long as a step
   // It counts as ten steps among those that are remembered, 1/(1 − 0.97) = 33: (33 + 9)/33 of the cost.
   EXPECT_NEAR(model.left(1000.0, {100.0, 0.0}, 0.0).high, 12.5 * (1.0 + 9.0 * 0.03), 0.2);
 }
 
-TEST(CostModel, KnowsNothingBeforeTheFirstStep) { EXPECT_LT(CostModel().left(1.0, {1.0, 1.0}, 0.0).low, 0.0); }
+/// The first step of a second, of a run whose steps will be of two minutes, says nothing; eight of them, by how they grow, most of it.
+TEST(CostModel, KnowsWhatIsLeftFromHowTheFirstStepsGrow) {
+  CostModel model(120.0);
+  EXPECT_LT(model.left(1.0, {1.0, 1.0}, 0.0).low, 0.0);
+  double time = 0.0, step = 1.0;
+  const double end = 24.0 * 3600.0, each = 0.01;
+  for (int i = 0; i < 12; ++i, step = std::min(1.5 * step, 120.0)) {
+    EXPECT_EQ(model.left(end - time, {100.0}, 0.0).low >= 0.0, i >= 8);
+    model.observe(step, each, {100.0});
+    time += step;
+  }
+  const double steps_left = (end - time) / 120.0 + 1.0;
+  const WallRange left = model.left(end - time, {100.0}, 0.0);
+  EXPECT_LT(left.low, 1.5 * steps_left * each);
+  EXPECT_GT(left.high, steps_left * each / 1.5);
+}
 
 TEST(CostModel, GrowthRateIsTheMeanOverCells) {
   Model model;
@@ -81,6 +100,26 @@ TEST(CostModel, CountsTheNodesOfNucleiThatAreShells) {
   ASSERT_TRUE(guess.ok()) << guess.error().message;
   EXPECT_GT(guess->shells, 20);
   EXPECT_EQ(guess->nodes, (162 + 42) * guess->shells);
+}
+
+/// A region around a needle that goes into a tissue has none of its cells at first.
+TEST(CostModel, FollowsRegionsThatMove) {
+  const auto memory_with = [](std::vector<std::string> overrides) {
+    const test::Folder folder;
+    for (const TemplateFile& file : find_template("hybrid_hotspot")->files) folder.write(std::string(file.path), std::string(file.content));
+    ReadOptions options;
+    options.overrides = std::move(overrides);
+    const auto study = read_study(folder.path() / "study.yaml", options);
+    if (!study.ok()) return ADD_FAILURE() << study.error().text(), 0.0;
+    const auto guess = estimate(*study);
+    if (!guess.ok()) return ADD_FAILURE() << guess.error().message, 0.0;
+    EXPECT_EQ(guess->shells, 0);
+    return guess->memory;
+  };
+  constexpr double kBytesOfTwentyShells = 20 * 162 * 2200.0;
+  EXPECT_GT(memory_with({}), memory_with({"geometry.needle.motion.course=[{time: 0 s, distance: 0 um}, {time: 1 h, distance: 0 um}]",
+                                          "criteria=[]", "plots=[]"}) +
+                                 kBytesOfTwentyShells);
 }
 
 TEST(Progress, LiveLineReadsAsInTheGuide) {
