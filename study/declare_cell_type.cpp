@@ -64,7 +64,7 @@ void declare_friction(Section& s, draft::CellType& t) {
            "Friction with cells per contact area; for two types the mean of theirs. Surfaces of shells zip together, two spheres push "
            "their whole "
            "contact against it: with the same value they come together some twenty times as slowly, unless their law was fitted to shells "
-           "(`cbm: {law: fitted}`), which takes that off.",
+           "(`cbm: {law: fitted}`), which takes that off, from their contacts with shells, too.",
        .quantity = Q::kFrictionPerArea,
        .fallback = "5e10 N s/m^3",
        .low = 0.0,

@@ -7,11 +7,20 @@
 
 namespace morula {
 
+FrictionPerArea ContactLayer::friction_of(std::span<const ContactBody> bodies, const SurfacePair& pair) const {
+  const ContactBody& a = bodies[pair.a];
+  if (pair.rigid) return material(a.material, obstacles_[pair.b].material).friction;
+  const ContactBody& b = bodies[pair.b];
+  if (a.shape == BodyShape::kSphere) return material(a.material, b.material).with_sphere;
+  if (b.shape == BodyShape::kSphere) return material(b.material, a.material).with_sphere;
+  return material(a.material, b.material).friction;
+}
+
 ObjectiveFriction ContactLayer::friction_now(const ContactScene& scene) const {
   ObjectiveFriction out;
   out.clear(scene.bodies, settings_.threads);
   for (const SurfacePair& pair : pairs_)
-    out.add(pair, {view(scene, pair, 0), view(scene, pair, 1)}, scene, material_of(scene, pair),
+    out.add(pair, {view(scene, pair, 0), view(scene, pair, 1)}, scene, friction_of(scene.bodies, pair),
             FaceQuadrature::with_points(settings_.points_per_face));
   return out;
 }
@@ -67,10 +76,10 @@ struct RubbingBody {
 
 /// Adds a·u + b (n·u) n of all points of one body against the other to their nodes and returns the sum of uᵀ(…)u; u is the jump of the
 /// displacement. The points of a face come one after the other.
-double rub(std::span<const ContactElement> elements, const FaceQuadrature& quadrature, const ContactMaterial& contact,
+double rub(std::span<const ContactElement> elements, const FaceQuadrature& quadrature, const FrictionPerArea& friction,
            const RubbingBody& source, const RubbingBody& target, const Vec3d& rigid_displacement) {
   using Vector = PaddedVec3::Vector;
-  const double normal = contact.normal_friction, tangential = contact.tangential_friction;
+  const auto [normal, tangential] = friction;
   const Vector rest = -PaddedVec3::of(rigid_displacement);
   const auto dot3 = [](Vector a, Vector b) {
     const Vector m = a * b;
@@ -137,7 +146,8 @@ void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const 
                                    b == nullptr ? RubbingBody() : RubbingBody(scene, pair.b, start, out, write[1])};
       const Vec3d rigid = pair.rigid ? offsets_[pair.b] - step_offsets_[pair.b] : Vec3d{};
       double sum = 0.0;
-      for (int d = 0; d < 2; ++d) sum += rub(pair.step_elements[d], quadrature, material_of(scene, pair), body[d], body[1 - d], rigid);
+      for (int d = 0; d < 2; ++d)
+        sum += rub(pair.step_elements[d], quadrature, friction_of(scene.bodies, pair), body[d], body[1 - d], rigid);
       if (count) sums[thread].add(sum);
     }
   });
@@ -155,7 +165,6 @@ std::vector<ElementGroup> ContactLayer::element_groups(const ContactScene& scene
   for (const std::uint32_t k : order) {
     const SurfacePair& pair = pairs_[k];
     if (pair.present(0).empty() && pair.present(1).empty()) continue;
-    const ContactMaterial& contact = material_of(scene, pair);
     ElementGroup& group = groups.emplace_back();
     group.rigid = pair.rigid;
     if (pair.rigid) {
@@ -163,8 +172,9 @@ std::vector<ElementGroup> ContactLayer::element_groups(const ContactScene& scene
       group.position[1] = obstacles_[pair.b].position.data();
     }
     if (!settings_.objective_friction) {
-      group.normal_friction = static_cast<float>(contact.normal_friction);
-      group.tangential_friction = static_cast<float>(contact.tangential_friction);
+      const auto [normal, tangential] = friction_of(scene.bodies, pair);
+      group.normal_friction = static_cast<float>(normal);
+      group.tangential_friction = static_cast<float>(tangential);
     }
     for (std::size_t side = 0; side < (pair.rigid ? 1 : 2); ++side) {
       const std::uint32_t number = side == 0 ? pair.a : pair.b;

@@ -209,8 +209,6 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
     contact.law.adhesion = contact.law.cap = 0.0;
   }
   contact.law.adhesion *= adhering;
-  contact.normal_friction *= bonding_;
-  contact.tangential_friction *= bonding_;
   for (int d = 0; d < 2; ++d) {
     if (pair.points[d].empty()) continue;
     evaluate_points({body[d], body[1 - d], contact, FaceQuadrature::with_points(settings_.points_per_face), reach, both ? 0.5 : 1.0,

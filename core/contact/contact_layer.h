@@ -91,7 +91,7 @@ class ContactLayer {
   void set_depth(double depth);
   void set_offsets(std::span<const Vec3d> offsets);
   void set_cap(double cap);
-  /// Part of adhesion and contact friction that acts, 0 to 1: a new shell is let out of deep overlap before it sticks to its neighbours.
+  /// Part of adhesion that acts, 0 to 1: a new shell is let out of deep overlap before it sticks to its neighbours.
   void set_bonding(double part) { bonding_ = part; }
   /// Of the bodies of the scene; lists stay what they are.
   void set_own_factors(OwnFactors factors) { own_ = std::move(factors); }
@@ -137,6 +137,8 @@ class ContactLayer {
   /// bears friction; without any it is the centre.
   [[nodiscard]] std::vector<SphereTouch> touches_of_spheres(const ContactScene& scene) const;
 
+  /// Friction of a pair of these bodies, by what they are.
+  [[nodiscard]] FrictionPerArea friction_of(std::span<const ContactBody> bodies, const SurfacePair& pair) const;
   /// Keep the present friction as that of the step (Γ_n).
   void begin_step(const ContactScene& scene);
   /// The friction of the step's start is not needed any more.

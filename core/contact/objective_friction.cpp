@@ -41,10 +41,10 @@ void set_levers(ObjectiveElement& e, int first, const TurningFace& face, double 
 
 }  // namespace
 
-void ObjectiveFriction::add(const SurfacePair& pair, const PairBody (&body)[2], const ContactScene& scene, const ContactMaterial& material,
+void ObjectiveFriction::add(const SurfacePair& pair, const PairBody (&body)[2], const ContactScene& scene, const FrictionPerArea& friction,
                             const FaceQuadrature& quadrature) {
-  const auto tangential = static_cast<float>(material.tangential_friction);
-  const auto more = static_cast<float>(material.normal_friction - material.tangential_friction);
+  const auto tangential = static_cast<float>(friction.tangential);
+  const auto more = static_cast<float>(friction.normal - friction.tangential);
   const std::uint32_t number[2] = {pair.a, pair.b};
   const std::size_t begin = elements_.size();
   for (std::size_t d = 0; d < (pair.rigid ? 1 : 2); ++d) {

@@ -64,7 +64,7 @@ class ObjectiveFriction : public AddedPart {
     bodies_ = bodies, threads_ = threads;
   }
   /// The points of a pair as they are at present positions, after those of the pairs before.
-  void add(const SurfacePair& pair, const PairBody (&body)[2], const ContactScene& scene, const ContactMaterial& material,
+  void add(const SurfacePair& pair, const PairBody (&body)[2], const ContactScene& scene, const FrictionPerArea& friction,
            const FaceQuadrature& quadrature);
 
   /// Adds Γ d to `out` at active bodies, and dᵀΓ d of the pairs that this rank counts to the sum, for the ways d from `start` to `position` and those

@@ -17,16 +17,22 @@
 
 namespace morula {
 
+/// Friction of a contact per contact area [nN·s/µm³].
+struct FrictionPerArea {
+  double normal = 0.0;      ///< γ_n
+  double tangential = 0.0;  ///< γ_t
+};
+
 /// Contact of two materials as the contact layer needs it.
 struct ContactMaterial {
   SurfaceTraction law;
-  double sphere_modulus = 0.5;       ///< E/(1 − ν²) of the first material's spheres: they meet surfaces with sphere_foundation() [kPa]
-  double sphere_stiffness = 1.0;     ///< of their foundation over sphere_foundation()
-  double sphere_adhesion = 1.0;      ///< W of these spheres with shells over that of the law
-  double tension = 0.0;              ///< of surfaces of the first material: what a new interface of sisters begins with [nN/µm]
-  double new_surface = 0.0;          ///< time in which such an interface takes its own adhesion: the longer one of both materials [s]
-  double normal_friction = 0.0;      ///< γ_n per contact area [nN·s/µm³]
-  double tangential_friction = 0.0;  ///< γ_t per contact area [nN·s/µm³]
+  double sphere_modulus = 0.5;    ///< E/(1 − ν²) of the first material's spheres: they meet surfaces with sphere_foundation() [kPa]
+  double sphere_stiffness = 1.0;  ///< of their foundation over sphere_foundation()
+  double sphere_adhesion = 1.0;   ///< W of these spheres with shells over that of the law
+  double tension = 0.0;           ///< of surfaces of the first material: what a new interface of sisters begins with [nN/µm]
+  double new_surface = 0.0;       ///< time in which such an interface takes its own adhesion: the longer one of both materials [s]
+  FrictionPerArea friction{};     ///< of two surfaces
+  FrictionPerArea with_sphere{};  ///< of a sphere of the first material with a surface of the second
   std::shared_ptr<const RegionalAdhesion>
       regional{};  ///< W by the marks of the faces, in place of that of the law; null: everywhere the same
   double self_distance =

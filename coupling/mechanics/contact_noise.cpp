@@ -59,14 +59,13 @@ void ContactFriction::add_noise(const World& world, const Noise& noise, std::spa
       const double own = energy_of(world.model, source.material);
       const double energy = pair.rigid ? own : 0.5 * (own + energy_of(world.model, partner));
       if (energy == 0.0) continue;
-      const ContactMaterial& material = layer.material(source.material, partner);
+      const FrictionPerArea friction = layer.friction_of(bodies, pair);
       const CellId other = pair.rigid ? CellId(pair.b + 1) : touching.target->id;
       const std::uint64_t step = mixed(noise.step + std::uint64_t{d == 0 ? 0u : 1u << 30});
       for (std::size_t k = 0; k < pair.present(d).size(); ++k) {
         const ContactElement& e = pair.present(d)[k];
         const Vec3d numbers = normal_vector(random, source.id, point_draw(step, other, e.place()));
-        const double across = static_cast<double>(e.area()) * material.tangential_friction,
-                     along = static_cast<double>(e.area()) * material.normal_friction;
+        const double across = static_cast<double>(e.area()) * friction.tangential, along = static_cast<double>(e.area()) * friction.normal;
         const Vec3d f = along_and_across(numbers, normalized(e.normal<double>()), across, along) * noise.strength(energy);
         if (objective == nullptr) {
           add_to_corners(touching, quadrature, e, f, force);

@@ -120,8 +120,11 @@ std::vector<ContactMaterial> contact_materials(const Model& model) {
         material.self_distance = model.types[a].self_contact;
         material.self_radius = model.types[a].radius.mean;
       }
-      material.normal_friction = pair.normal_friction;
-      material.tangential_friction = pair.tangential_friction;
+      material.friction = material.with_sphere = {pair.normal_friction, pair.tangential_friction};
+      if (a < model.types.size() && b < model.types.size()) {
+        material.with_sphere.normal *= model.types[a].sphere.approach_factor;
+        material.with_sphere.tangential *= model.types[a].sphere.along_factor;
+      }
     }
   return out;
 }

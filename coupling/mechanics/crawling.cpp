@@ -29,7 +29,7 @@ void Mechanics::add_crawling(const Tissue& tissue, std::span<const Vec3d> veloci
   for (const SurfacePair& pair : contacts().pairs()) {
     const ContactBody& body = work_->scene.bodies()[pair.a];
     if (!pair.rigid || pair.a >= shells || norm2(velocity[pair.a]) == 0.0) continue;
-    const double friction = contacts().material(body.material, contacts().obstacles()[pair.b].material).tangential_friction;
+    const double friction = contacts().friction_of(work_->scene.bodies(), pair).tangential;
     for (const ContactElement& e : pair.present(0)) {
       const Vec3d f = along(velocity[pair.a], e.normal<double>()) * (static_cast<double>(e.area()) * friction);
       const Triangle& face = work_->scene.topologies()[pair.a]->faces()[e.source_face()];

@@ -350,7 +350,7 @@ Result<Estimate> estimate(const Study& study) {
 std::string duration_text(double seconds) {
   char text[64];
   if (seconds < 9.95)
-    std::snprintf(text, sizeof text, "%.1f s", seconds);
+    std::snprintf(text, sizeof text, "%.2g s", seconds);
   else if (seconds < 90.0)
     std::snprintf(text, sizeof text, "%.0f s", seconds);
   else if (seconds < 90.0 * 60.0)

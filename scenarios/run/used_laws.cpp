@@ -101,7 +101,7 @@ void add_contacts(const Model& model, bool shells, bool spheres, std::vector<Use
                       {"stiffness", type.sphere.with_shells.stiffness},
                       {"adhesion_factor", type.sphere.with_shells.adhesion}}});
     if (type.sphere.approach_factor != 1.0 || type.sphere.along_factor != 1.0)
-      out.push_back({"contact of two spheres of " + type.name,
+      out.push_back({"contact of spheres of " + type.name + " with cells",
                      law_named(surface_contact_terms(), "contact_pair"),
                      {{"adhesion", adhesion},
                       {"normal_friction", model.pair(t, t).normal_friction * type.sphere.approach_factor},

@@ -22,7 +22,7 @@ constexpr double kGap = 0.03, kRange = 0.1;  // friction acts whole up to half t
 ContactMaterial rubbing() {
   ContactMaterial out;
   out.law.range = kRange;
-  out.normal_friction = out.tangential_friction = 50.0;
+  out.friction = {50.0, 50.0};
   return out;
 }
 

@@ -89,7 +89,7 @@ double speed_on_a_substrate() {
   p.medium_friction = kMedium;
   ContactMaterial material;
   material.law.range = 0.1;
-  material.normal_friction = material.tangential_friction = 50.0;
+  material.friction = {50.0, 50.0};
   TwoBodies on_substrate(mesh, height, 0.03, material);
   const Vec3d x{1, 0, 0};
   std::vector<Vec3d> force(nodes);

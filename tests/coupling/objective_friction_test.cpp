@@ -89,8 +89,7 @@ class Blocks {
   static std::vector<ContactMaterial> materials(double range) {
     ContactMaterial material;
     material.law.range = range;
-    material.normal_friction = 20.0;
-    material.tangential_friction = 50.0;
+    material.friction = {20.0, 50.0};
     return {material};
   }
 

@@ -80,5 +80,26 @@ TEST(MixedContact, OfFittedSpheresRestsBetweenThePairsOfEachBody) {
   EXPECT_LT(mixed, std::max(spheres, shells) + 0.25) << spheres << " " << shells;
 }
 
+/// A sphere and a shell that touch come together as fast as two shells: half of their way, within a factor of 3 (decision 0072). With the friction of the study it takes them three
+/// times as long.
+TEST(MixedContact, OfFittedSpheresComesTogetherAsFastAsShells) {
+  constexpr double kOutput = 10.0;
+  const auto half_time = [](const char* one, const char* other) {
+    const std::string pair = std::string("[{type: tumour, as: ") + one + ", at: [[0 um, 0 um, -4.98 um]]}, {type: tumour, as: " + other +
+                             ", at: [[0 um, 0 um, 4.98 um]]}]";
+    const auto found = snapshots_of("{end: 1 h, output: 10 s, checkpoint: 1 h}", pair, "{}");
+    if (found.size() != 361) return ADD_FAILURE() << one << " " << other, 0.0;
+    const auto apart = [&](std::size_t i) { return norm(found[i].cells[1].centroid - found[i].cells[0].centroid); };
+    const double middle = 0.5 * (apart(0) + apart(360));
+    std::size_t i = 0;
+    while (i < 360 && apart(i) > middle) ++i;
+    return kOutput * static_cast<double>(i);
+  };
+  const double shells = half_time("shell", "shell"), mixed = half_time("sphere", "shell");
+  EXPECT_GT(shells, 5 * kOutput);
+  EXPECT_LT(mixed, 1.5 * shells);
+  EXPECT_GT(mixed, shells / 3.0);
+}
+
 }  // namespace
 }  // namespace morula::scenarios

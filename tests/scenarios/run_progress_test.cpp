@@ -147,6 +147,9 @@ TEST(Progress, PlainLinesComeEachTwentieth) {
 }
 
 TEST(Progress, DurationsAreForPeople) {
+  EXPECT_EQ(duration_text(0.62), "0.62 s");
+  EXPECT_EQ(duration_text(2.04), "2 s");
+  EXPECT_EQ(duration_text(9.96), "10 s");
   EXPECT_EQ(duration_text(12.0), "12 s");
   EXPECT_EQ(duration_text(81 * 60.0), "81 min");
   EXPECT_EQ(duration_text(2 * 3600.0 + 300.0), "2 h 05 min");

@@ -36,13 +36,13 @@ TEST(ContactPairs, AreReadAndReachTheLaw) {
   EXPECT_DOUBLE_EQ(dish.range, 0.7);
   EXPECT_DOUBLE_EQ(dish.hertz, 20.0 / (std::numbers::pi * std::sqrt(6.0)));
   EXPECT_DOUBLE_EQ(dish.flat_to, 0.9);
-  EXPECT_DOUBLE_EQ(materials[0 * count + 2].tangential_friction, 0.0);
-  EXPECT_GT(materials[0 * count + 2].normal_friction, 0.0);
+  EXPECT_DOUBLE_EQ(materials[0 * count + 2].friction.tangential, 0.0);
+  EXPECT_GT(materials[0 * count + 2].friction.normal, 0.0);
   const TractionLaw mixed = piecewise_form(materials[0 * count + 1].law);
   EXPECT_DOUBLE_EQ(mixed.range, 0.5);
   EXPECT_DOUBLE_EQ(mixed.repulsion, 50.0);
   EXPECT_DOUBLE_EQ(mixed.flat_to, 0.1);
-  EXPECT_DOUBLE_EQ(materials[1 * count + 0].normal_friction, 1.0);
+  EXPECT_DOUBLE_EQ(materials[1 * count + 0].friction.normal, 1.0);
   const TractionLaw plain = piecewise_form(materials[0].law);
   EXPECT_DOUBLE_EQ(plain.flat_from, 0.5);
   EXPECT_EQ(plain.hertz, 0.0);

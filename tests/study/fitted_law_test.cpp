@@ -167,14 +167,18 @@ TEST(FittedLaw, SpheresComeTogetherWithTheFrictionThatWasFitted) {
   const cbm::ContactTable::Entry& spheres = sphere_contact_table(study->model).entry(0, 0);
   EXPECT_DOUBLE_EQ(spheres.normal_friction, 2.5);
   EXPECT_DOUBLE_EQ(spheres.tangential_friction, 1.0);
-  EXPECT_DOUBLE_EQ(study->model.pair(0, 0).normal_friction, 50.0) << "shells keep theirs";
+  const ContactMaterial with_cells = contact_materials(study->model).front();
+  EXPECT_DOUBLE_EQ(with_cells.with_sphere.normal, 2.5) << "a sphere has its factors against shells, too";
+  EXPECT_DOUBLE_EQ(with_cells.with_sphere.tangential, 1.0);
+  EXPECT_DOUBLE_EQ(with_cells.friction.normal, 50.0) << "shells keep theirs";
+  EXPECT_DOUBLE_EQ(with_cells.friction.tangential, 50.0);
   const auto other = file.read(test::changed("    radius: 6 um", "    radius: 6 um\n    friction: {cell_cell: 1e10 N s/m^3}", kStudy));
   ASSERT_TRUE(other.ok()) << other.error().text();
   EXPECT_THAT(other->warnings.text(), AllOf(HasSubstr("E542"), HasSubstr("`cell_cell`")));
   EXPECT_DOUBLE_EQ(sphere_contact_table(other->model).entry(0, 0).normal_friction, 0.5);
   bool told = false;
   for (const UsedLaw& law : used_laws(*study)) {
-    if (law.purpose != "contact of two spheres of cell") continue;
+    if (law.purpose != "contact of spheres of cell with cells") continue;
     for (const auto& [name, value] : law.values) {
       if (name != "normal_friction" && name != "tangential_friction") continue;
       EXPECT_DOUBLE_EQ(value, name == "normal_friction" ? 2.5 : 1.0);
