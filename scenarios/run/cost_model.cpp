@@ -98,7 +98,7 @@ void CostModel::observe(double simulated, double wall, const Load& load) {
 }
 
 WallRange CostModel::left(double simulated, const Load& load, double growth_rate) const {
-  if (first_.size() < kLeastSteps || weight_ <= 0.0 || simulated <= 0.0) return {};
+  if (first_.size() < kLeastSteps || weight_ <= 0.0 || simulated <= 0.0 || load.total() <= 0.0) return {};
   double each = cost() * load.total();  // wall time per simulated second, for what is there now
   if (first_.size() < kFirstSteps) each = cost_ahead(first_, first_.back().end + simulated, most_) / simulated;
   const auto times = [&](double growth) { return load_integral(load, growth, simulated).total() / load.total(); };

@@ -18,6 +18,7 @@ TEST(CostModel, LeftFollowsTheLoadNotTheFraction) {
   EXPECT_NEAR(still.low, 0.85 * 10.0, 1e-9);
   EXPECT_NEAR(still.high, 1.25 * 10.0, 1e-9);
   EXPECT_NEAR(model.left(1000.0, {200.0, 0.0}, 0.0).high, 25.0, 1e-9);
+  EXPECT_LT(model.left(1000.0, {}, 0.0).low, 0.0) << "no cell is left";
   EXPECT_NEAR(model.left(1000.0, {0.0, 100.0}, 0.0).high, 37.5, 1e-9);  // a node is worth three spheres
   // Growth over ln 2: ∫ e^{gt} = 1/g.
   const double growth = std::log(2.0) / 1000.0;
