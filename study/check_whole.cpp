@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/ball.h"
 #include "core/mesh/renewal/own_mesh.h"
 #include "coupling/observables/observable.h"
 #include "dcm/derived_parameters.h"
@@ -200,7 +201,7 @@ double nucleus_limit(const Laws& laws, const draft::CellType& t, double repulsio
   double limit = 2.0 * friction / (links * l.stiffness.value / 3.0 + 0.1 * std::numbers::pi * radius * radius * repulsion);
   if (n.kind.value != "shell" || !(n.shell.nodes.value > 0)) return limit;
   // Of a nucleus that is a shell the modes of shells, each node with its share of the drag.
-  const double area = 4.0 * std::numbers::pi * radius * radius, per_area = 6.0 * std::numbers::pi * n.viscosity.value * radius / area;
+  const double area = ball_surface(radius), per_area = 6.0 * std::numbers::pi * n.viscosity.value * radius / area;
   const double node_area = area / static_cast<double>(n.shell.nodes.value);
   limit = std::min(limit, 2.0 * per_area * radius / (3.0 * std::max(n.shell.bulk_modulus.value, 1e-300)));
   return std::min({limit, in_plane_limit(laws, n.shell, per_area * node_area), surface_limit(laws, n.shell, per_area, node_area, radius)});
@@ -218,7 +219,7 @@ double explicit_step_limit(const Laws& laws, const draft::Study& study) {
     if (shells && t.bulk_modulus.value > 0.0 && mean_edge(t.nodes.value) > 0.0) {
       // Fastest modes of a free shell of N nodes: the volume, stiffness K A²/(V N) against γ A/N for each node; the membrane; tension and
       // bending; the repulsion, k_r against the contact friction.
-      const double node_area = 4.0 * std::numbers::pi * radius * radius / std::max(1.0, static_cast<double>(t.nodes.value));
+      const double node_area = ball_surface(radius) / std::max(1.0, static_cast<double>(t.nodes.value));
       limit = std::min(limit, 2.0 * friction * radius / (3.0 * t.bulk_modulus.value));
       limit = std::min({limit, in_plane_limit(laws, t, friction * node_area), surface_limit(laws, t, friction, node_area, radius)});
       limit = std::min(limit, nucleus_limit(laws, t, study.contact.repulsion.value));

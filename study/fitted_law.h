@@ -26,10 +26,10 @@ struct FittedLaw {
 
   /// What spheres of a pair law have beside it.
   struct Spheres {
-    cbm::PackingCurve packing;  ///< empty: packings were not fitted
-    cbm::CrowdedArea area;      ///< contact areas among many; empty: not fitted
-    double approach_factor = 1.0,
-           along_factor = 1.0;  ///< friction of two spheres over that of the shells, across and along their contact; 1: not fitted
+    cbm::PackingCurve packing;     ///< empty: packings were not fitted
+    cbm::CrowdedArea area;         ///< contact areas among many; empty: not fitted
+    double approach_factor = 1.0;  ///< friction of such a sphere with cells over that of the shells, across their contact; 1: not fitted
+    double along_factor = 1.0;     ///< along it, likewise
   };
   Spheres of_jkr, of_table;
   std::optional<CellFriction> friction;  ///< of the shells with which friction was fitted

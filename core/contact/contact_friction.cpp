@@ -145,9 +145,9 @@ void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const 
       const RubbingBody body[2] = {{scene, pair.a, start, out, write[0]},
                                    b == nullptr ? RubbingBody() : RubbingBody(scene, pair.b, start, out, write[1])};
       const Vec3d rigid = pair.rigid ? offsets_[pair.b] - step_offsets_[pair.b] : Vec3d{};
+      const FrictionPerArea friction = friction_of(scene.bodies, pair);
       double sum = 0.0;
-      for (int d = 0; d < 2; ++d)
-        sum += rub(pair.step_elements[d], quadrature, friction_of(scene.bodies, pair), body[d], body[1 - d], rigid);
+      for (int d = 0; d < 2; ++d) sum += rub(pair.step_elements[d], quadrature, friction, body[d], body[1 - d], rigid);
       if (count) sums[thread].add(sum);
     }
   });

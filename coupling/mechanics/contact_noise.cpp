@@ -1,6 +1,6 @@
 /// The noise of what rubs in contacts: surfaces on each other, spheres on each other, on obstacles and on the medium (dcm.md §10).
-#include <numbers>
 
+#include "core/ball.h"
 #include "coupling/mechanics/noise.h"
 #include "coupling/mechanics/sphere_contacts.h"
 #include "coupling/mechanics/surface_contacts.h"
@@ -86,8 +86,7 @@ void SphereFriction::add_noise(const World& world, const Noise& noise, std::span
   const cbm::Spheres& spheres = world.tissue.spheres;
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     if (energy(i) == 0.0) continue;
-    const double r = spheres.radius[i], area = 4.0 * std::numbers::pi * r * r;
-    const double friction = world.model.types[spheres.type[i]].medium_friction * area;
+    const double friction = world.model.types[spheres.type[i]].medium_friction * ball_surface(spheres.radius[i]);
     on[i] += normal_vector(random, bodies[i].id, noise.draw(0)) * std::sqrt(2.0 * energy(i) * friction / noise.dt);
   }
   const SpherePairs& list = contacts_.pairs();

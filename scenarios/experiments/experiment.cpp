@@ -179,7 +179,7 @@ Experiment packing_experiment(const CellMaterial& material, calibrate::Arrangeme
   return e;
 }
 
-double drag_of(const CellFriction& friction, double radius) { return 4.0 * std::numbers::pi * radius * radius * friction.medium; }
+double drag_of(const CellFriction& friction, double radius) { return ball_surface(radius) * friction.medium; }
 
 namespace {
 

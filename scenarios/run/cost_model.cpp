@@ -301,13 +301,14 @@ Result<double> cost_of_run(const Study& study, double cells, const LaterBodies& 
   const double here = tried.steps.back().end, left = study.time.end - here;
   if (left <= 0.0) return cost;
   const Load known = bodies.at(0.75 * here), now = load_after(bodies.at(here), growth, here);
+  const double step = cost_of_late_step(tried.steps);
   double ahead = 0.0;
   for (std::size_t i = 0; i < bodies.from.size(); ++i) {
     const double from = std::max(here, bodies.from[i].first),
                  until = i + 1 < bodies.from.size() ? bodies.from[i + 1].first : study.time.end;
     if (until > from)
-      ahead += (cost_ahead(tried.steps, until, most) - cost_ahead(tried.steps, from, most)) *
-               relative_cost(bodies.from[i].second, known, cost_of_late_step(tried.steps));
+      ahead +=
+          (cost_ahead(tried.steps, until, most) - cost_ahead(tried.steps, from, most)) * relative_cost(bodies.from[i].second, known, step);
   }
   return cost + ahead * load_integral(now, growth, left).total() / (now.total() * left);
 }

@@ -17,9 +17,10 @@ std::size_t ended_by(std::span<const TriedStep> steps, double time) {
   return static_cast<std::size_t>(std::ranges::count_if(steps, [&](const TriedStep& s) { return s.end <= time; }));
 }
 
-}  // namespace
-
+/// Index of the first step that ends in the later half of the time that was tried.
 std::size_t first_late_step(std::span<const TriedStep> steps) { return ended_by(steps, 0.5 * steps.back().end); }
+
+}  // namespace
 
 double cost_of_late_step(std::span<const TriedStep> steps) {
   const std::size_t half = first_late_step(steps);

@@ -1,5 +1,4 @@
 #pragma once
-#include <cstddef>
 #include <span>
 
 namespace morula::scenarios {
@@ -20,9 +19,7 @@ struct TriedStep {
 /// end, most [s]: of the run, largest step. 0 when nothing was tried.
 double cost_ahead(std::span<const TriedStep> steps, double end, double most);
 
-/// Index of the first step that ends in the later half of the time that was tried.
-std::size_t first_late_step(std::span<const TriedStep> steps);
-/// CPU time of one of the steps from there on [s]; there is one at least.
+/// CPU time of one of the steps that end in the later half of the time that was tried [s]; there is one at least.
 double cost_of_late_step(std::span<const TriedStep> steps);
 
 }  // namespace morula::scenarios
