@@ -1,6 +1,7 @@
 #include "scenarios/experiments/calibration.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -44,7 +45,7 @@ class Fitting {
       MORULA_TRY_ASSIGN(const calibrate::Fit fit, calibrate::fit(now, options_));
       return trial(fit);
     };
-    MORULA_TRY(fit_in_turns(points, options_.weights, make, places_));
+    MORULA_TRY(rest_in_packings(points, make));
     MORULA_TRY_ASSIGN(out_.sure, calibrate::fit_with_confidence(points, options_));
     out_.misfit = calibrate::misfit_share(points, out_.sure.fit);
     remark_on_range(out_);
@@ -65,7 +66,7 @@ class Fitting {
       packing = calibrate::fit_curve(now, pair, options_);
       return trial(one, pair, packing);
     };
-    MORULA_TRY(fit_in_turns(points_, options_.weights, make, places_));
+    MORULA_TRY(rest_in_packings(points_, make));
     if (!points_.packings.empty()) packing = calibrate::fit_curve(points_, pair, options_);
     one.exponent = calibrate::force_exponent(points_, one.table);
     MORULA_TRY_ASSIGN(one.spheres, spheres_of(trial(one, pair, packing), packing, "the table", points_));
@@ -74,11 +75,28 @@ class Fitting {
   }
 
  private:
+  /// Gives the spheres of the random packings the places in which laws that `make` fits to them let them rest, with the friction that such spheres have. That along
+  /// their contacts is not known before there is a law: at first that of approach stands for it (decision 0073).
+  template <class Make>
+  Status rest_in_packings(calibrate::Data& points, const Make& make) {
+    along_.reset();
+    const auto resting = [&](const calibrate::Data& now) -> Result<TrialLaw> {
+      MORULA_TRY_ASSIGN(TrialLaw law, make(now));
+      return with_friction(std::move(law));
+    };
+    MORULA_TRY(fit_in_turns(points, options_.weights, resting, places_));
+    if (points.packings.empty() || out_.data.pressed.empty()) return {};
+    MORULA_TRY_ASSIGN(const TrialLaw first, resting(points));
+    const auto along = along_of(first);
+    if (!along.ok()) return {};
+    along_ = along->factor;
+    return fit_in_turns(points, options_.weights, resting, places_);
+  }
   /// What is found for spheres of any law: they come to rest in the packings that were held out, where `points` then has them.
   Result<SpheresOfLaw> spheres_of(const TrialLaw& law, std::vector<cbm::PackingKnot> packing, const char* name, calibrate::Data& points) {
     SpheresOfLaw out;
     out.packing = std::move(packing);
-    MORULA_TRY(places_.place(law, true, points));
+    MORULA_TRY(places_.place(with_friction(law), true, points));
     MORULA_TRY_ASSIGN(out.crowding, crowding_of(law, points));
     out.held_out = calibrate::held_out_errors(points, law.pair, law.sphere.packing, out_.sure.fit.pull_off(1.0));
     out.friction = friction_of(law, name);
@@ -86,7 +104,7 @@ class Fitting {
   }
   /// Contact areas of spheres of the law where they come to rest in the packings; those that were held out are there already.
   Result<calibrate::FittedCrowding> crowding_of(const TrialLaw& law, calibrate::Data points) const {
-    MORULA_TRY(places_.place(law, false, points));
+    MORULA_TRY(places_.place(with_friction(law), false, points));
     return calibrate::fit_crowded_area(points.packings, calibrate::resting_share(law.pair, out_.material.radius));
   }
   /// Nothing of what cannot be told, and a remark why.
@@ -101,15 +119,24 @@ class Fitting {
     };
     if (!data.relaxations.empty())
       take("no friction of approach", calibrate::fit_approach_friction(data.relaxations, law.pair), out.approach);
-    if (data.pressed.empty()) return out;
-    TrialLaw trial = law;
-    if (out.approach) trial.sphere.approach_factor = out.approach->factor;
-    const auto spheres = [&](double factor) {
-      trial.sphere.along_factor = factor;
-      return clusters_.press(trial);
-    };
-    take("no friction along the contact", calibrate::fit_friction_along(data.pressed, out_.material.friction.along, spheres), out.along);
+    if (!data.pressed.empty()) take("no friction along the contact", along_of(with_friction(law)), out.along);
     return out;
+  }
+  /// With which spheres of a law that has its friction of approach are pressed flat as shells are.
+  [[nodiscard]] Result<calibrate::FittedAlong> along_of(TrialLaw law) const {
+    const auto spheres = [&](double factor) {
+      law.sphere.along_factor = factor;
+      return clusters_.press(law);
+    };
+    return calibrate::fit_friction_along(out_.data.pressed, out_.material.friction.along, spheres);
+  }
+  /// Gives spheres of the law the friction of approach that their pairs tell, and along their contacts that which was found, or else the same.
+  [[nodiscard]] TrialLaw with_friction(TrialLaw law) const {
+    if (!out_.data.relaxations.empty())
+      if (const auto found = calibrate::fit_approach_friction(out_.data.relaxations, law.pair); found.ok())
+        law.sphere.approach_factor = found->factor;
+    law.sphere.along_factor = along_.value_or(law.sphere.approach_factor);
+    return law;
   }
   [[nodiscard]] TrialLaw trial(const calibrate::Fit& fit) const {
     TrialLaw out{.sphere = {},
@@ -133,6 +160,8 @@ class Fitting {
   const PressedSpheres& clusters_;
   calibrate::Data points_;  // for the table, whose spheres lie elsewhere
   calibrate::FitOptions options_;
+  std::optional<double>
+      along_;  ///< friction along contacts with which spheres come to rest in packings, over that of the study; none: not found yet
 };
 
 Status fit_on_root(const Study& study, Calibration& out) {

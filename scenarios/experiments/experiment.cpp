@@ -36,8 +36,9 @@ constexpr int kRelaxationOutputs = 120, kRelaxationSteps = 1200;  // at least
 constexpr double kLeastWay = 0.1;                                 // δ/R at rest that is guessed at least
 constexpr std::uint32_t kPressedClusters = 3;                     // each with other places
 constexpr int kPressedCells = 32, kPressedSteps = 240;
-constexpr double kPressTime = 4.0;   // in the time of a relaxing pair
-constexpr int kAdhereOutputs = 8;    // before the plates set out
+constexpr double kPressTime = 4.0;                      // in the time of a relaxing pair
+constexpr double kRestTime = 4.0, kLeastRest = 1800.0;  // of spheres in a packing, at most: in the same, but no less than this [s]
+constexpr int kAdhereOutputs = 8;                       // before the plates set out
 constexpr double kFlattened = 0.57;  // half of the distance of the plates at the end, in radii of a ball with the cells' volume
 constexpr double kClearance = 0.1;   // of plates from cells at the start, in radii and beside the range of contact
 /// Friction of a type with the medium and with other cells.
@@ -293,9 +294,12 @@ std::string study_of_spheres(const CellMaterial& material, std::span<const Vec3d
   const auto inside = [edge](double x) { return x - edge * std::floor(x / edge + 0.5); };
   const std::string places = joined(centers, [&](const Vec3d& c) { return place({inside(c.x), inside(c.y), inside(c.z)}); });
   const Experiment e{.kind = Experiment::Kind::kPacking, .name = "spheres", .purpose = "Spheres in a packing", .text = {}};
-  return head(material, e, "cell, cell", kRandomTime, kRandomOutput) + "domain: {size: " + place({edge, edge, edge}) +
+  const double end = material.adhesion > 0.0 ? std::max(kLeastRest, kRestTime * time_of_relaxation(material)) : kLeastRest;
+  Friction friction = friction_text(material.friction);
+  if (material.friction.medium == 0.0) friction.medium = kOfPairs.medium;
+  return head(material, e, "cell, cell", end, end) + "domain: {size: " + place({edge, edge, edge}) +
          ", boundary: periodic}\nnumerics: {max_displacement: 1, initial_step: 60 s}\ncell_types:\n" +
-         type_text(spheres, "cell", material.radius, "cell: " + of(material.adhesion, "nN/um"), kOfPairs) +
+         type_text(spheres, "cell", material.radius, "cell: " + of(material.adhesion, "nN/um"), friction) +
          "initial:\n  - {type: cell, at: [" + places + "], as: sphere}\n";
 }
 

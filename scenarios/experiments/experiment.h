@@ -73,7 +73,8 @@ inline constexpr int kPressedOutputs = 60;
 /// Cells at random places that grow into each other at V/V0 = 1.35, which then falls to 0.7.
 Experiment random_packing_experiment(const CellMaterial& material, std::uint32_t seed);
 
-/// A study of spheres of the type at these places [µm], or their images, in a periodic cube [µm], next to without friction. Their law is JKR without packing.
+/// A study of spheres of the type at these places [µm], or their images, in a periodic cube [µm], with the friction of the type, for four times as
+/// long as two cells are given to come together. Their law is JKR without packing.
 std::string study_of_spheres(const CellMaterial& material, std::span<const Vec3d> centers, double edge);
 
 }  // namespace morula::scenarios

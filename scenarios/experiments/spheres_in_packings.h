@@ -19,9 +19,9 @@ class SpheresInPackings {
   /// `packings`: those of Data::packings, in their order; those without centres are no random ones. Errors (kInternal): a study of such spheres is refused.
   static Result<SpheresInPackings> read(const CellMaterial& material, std::span<const FoundPacking> packings);
 
-  /// Puts spheres of a law where the shells of the random packings are, those that are held out or those that are not, and lets them come to rest. Points get
-  /// the places, with which the law tells the pressure of these spheres. Errors: kPhysics,
-  /// spheres that find no rest.
+  /// Puts spheres of a law where the shells of the random packings are, those that are held out or those that are not, and lets them come to rest with the friction
+  /// of the law, or as far as they do in four times the time in which a pair does (decision 0073). Points get the places, with which the law tells the pressure
+  /// of these spheres. Errors: steps that fail.
   Status place(const TrialLaw& law, bool held_out, calibrate::Data& data) const;
 
  private:
@@ -35,7 +35,7 @@ class SpheresInPackings {
 };
 
 /// Makes a law that fits the points, lets spheres of the law find their places, makes it anew with these, and so on, until two turns in a row bring the
-/// pressures of these spheres no nearer to those of the shells, in eight turns at most. `data` then has the places with which `make` gives the law whose spheres
+/// pressures of these spheres hardly nearer to those of the shells, in eight turns at most. `data` then has the places with which `make` gives the law whose spheres
 /// came nearest. Without random packings to fit to nothing is done.
 Status fit_in_turns(calibrate::Data& data, const calibrate::LossWeights& weights,
                     const std::function<Result<TrialLaw>(const calibrate::Data&)>& make, const SpheresInPackings& places);

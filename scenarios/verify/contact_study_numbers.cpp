@@ -1,9 +1,10 @@
 // A packing under pressure and a sphere pushed onto a shell, by studies that are run.
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
+#include "core/close_packing.h"
 #include "core/numbers/number_text.h"
 #include "scenarios/verify/run_study.h"
 #include "scenarios/verify/study_numbers.h"
@@ -15,22 +16,13 @@ constexpr double kBulk = 2.5;  // K_V, the default of a type [kPa]
 
 /// 108 spheres of 6 µm with default parameters but no adhesion, in cubic close packing in a periodic box that leaves them `part` of their volume.
 std::shared_ptr<StudyToRun> packed_block(const char* name, double part) {
-  constexpr int kSide = 3;
-  const double lattice = std::cbrt(4.0 * part * 4.0 / 3.0 * std::numbers::pi * 216.0), size = kSide * lattice;
-  std::string at;
-  for (int i = 0; i < 4 * kSide * kSide * kSide; ++i) {
-    const int site = i % 4, x = i / 4 % kSide, y = i / (4 * kSide) % kSide, z = i / (4 * kSide * kSide);
-    const double base[3] = {x + (site == 1 || site == 2 ? 0.75 : 0.25), y + (site == 1 || site == 3 ? 0.75 : 0.25),
-                            z + (site >= 2 ? 0.75 : 0.25)};
-    char text[96];
-    std::snprintf(text, sizeof text, "%s[%.6f um, %.6f um, %.6f um]", i > 0 ? ", " : "", base[0] * lattice - 0.5 * size,
-                  base[1] * lattice - 0.5 * size, base[2] * lattice - 0.5 * size);
-    at += text;
-  }
+  constexpr std::array kBlock{3, 3, 3};
+  const double lattice = std::cbrt(4.0 * part * 4.0 / 3.0 * std::numbers::pi * 216.0), size = kBlock[0] * lattice;
   const std::string length = number_text("%.6f", size) + " um";
   return study_to_run(name, "time: {end: 30 min, output: 30 min, checkpoint: 30 min}\ndomain: {size: [" + length + ", " + length + ", " +
                                 length + "], boundary: periodic}\ncell_types: {cell: {radius: 6 um, adhesion: {cell: 0 J/m^2}}}\n" +
-                                "initial:\n  - {type: cell, start_volume: 50 %, inflate: 15 min, as: sphere, at: [" + at + "]}\n");
+                                "initial:\n  - {type: cell, start_volume: 50 %, inflate: 15 min, as: sphere, at: [" +
+                                list_of_places(close_packed_block({0, 0, 0}, kBlock, kBlock, lattice)) + "]}\n");
 }
 
 /// Largest pressure of a cell less the smallest, over their mean.

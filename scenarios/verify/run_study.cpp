@@ -2,10 +2,15 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
+#include <map>
 
+#include "core/numbers/number_text.h"
 #include "results/file_io.h"
+#include "scenarios/library/library.h"
 #include "scenarios/measures/single_cell.h"
 #include "scenarios/run/driver.h"
 #include "study/study.h"
@@ -15,26 +20,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-FoundInRun run_text(const std::string& name, const std::string& text) {
-  const fs::path folder = fs::temp_directory_path() / ("morula-verify-" + std::to_string(getpid()) + "-" + name);
-  FoundInRun out;
-  const auto study = read_study_text(name, text, folder);
-  if (study.ok()) {
-    RunRequest request;
-    request.out = folder / "run";
-    std::error_code ignored;
-    fs::create_directories(folder, ignored);
-    if (const auto done = run(*study, request, Comm()); done.ok()) {
-      auto moments = all_snapshots(done->path);
-      auto series = read_series(done->path / "series.csv");
-      auto events = read_file(done->path / "events.jsonl");
-      auto lives = read_lineage(done->path / "results.h5", done->path / "events.jsonl");
-      if (moments.ok() && series.ok() && events.ok() && lives.ok())
-        out = {std::move(*moments), std::move(*series), events_of_lines(*events), std::move(*lives)};
-    }
-    fs::remove_all(folder, ignored);
+FoundInRun found_in(const fs::path& run) {
+  auto moments = all_snapshots(run);
+  auto series = read_series(run / "series.csv");
+  auto events = read_file(run / "events.jsonl");
+  auto lives = read_lineage(run / "results.h5", run / "events.jsonl");
+  if (!moments.ok() || !series.ok() || !events.ok() || !lives.ok()) return {};
+  return {std::move(*moments), std::move(*series), events_of_lines(*events), std::move(*lives)};
+}
+
+FoundInRun run_in_folder(const fs::path& folder, const StudyInFolder& given) {
+  std::error_code ignored;
+  for (const StudyInFolder::File& file : given.files) {
+    fs::create_directories((folder / file.path).parent_path(), ignored);
+    if (!write_file_atomically(folder / file.path, file.content).ok()) return {};
   }
-  return out;
+  ReadOptions options;
+  options.overrides = given.overrides;
+  const auto study = read_study(folder / given.study, options);
+  if (!study.ok()) return {};
+  RunRequest request;
+  request.out = folder / "run";
+  const auto done = run(*study, request, Comm());
+  return done.ok() ? found_in(done->path) : FoundInRun{};
 }
 
 }  // namespace
@@ -45,6 +53,23 @@ const Snapshot* FoundInRun::at(double time) const {
   return nullptr;
 }
 
+std::vector<EventLine> FoundInRun::exchanges() const {
+  std::vector<EventLine> out;
+  std::ranges::copy_if(events, std::back_inserter(out),
+                       [](const EventLine& event) { return event.kind == "promotion" || event.kind == "demotion"; });
+  return out;
+}
+
+double FoundInRun::shortest_hold() const {
+  std::map<std::string, double> last;
+  double shortest = std::nan("");
+  for (const EventLine& event : exchanges()) {
+    if (const auto before = last.find(event.cell); before != last.end()) shortest = std::fmin(shortest, event.time - before->second);
+    last[event.cell] = event.time;
+  }
+  return shortest;
+}
+
 double FoundInRun::column(const char* name, double time) const {
   const SeriesColumn *values = series.find(name), *times = series.find("time");
   for (std::size_t i = 0; values != nullptr && times != nullptr && i < times->values.size(); ++i)
@@ -53,12 +78,34 @@ double FoundInRun::column(const char* name, double time) const {
 }
 
 const FoundInRun& StudyToRun::found() {
-  if (!found_) found_ = std::make_unique<FoundInRun>(run_text(name_, text_));
+  if (found_) return *found_;
+  const fs::path folder = fs::temp_directory_path() / ("morula-verify-" + std::to_string(getpid()) + "-" + name_);
+  found_ = std::make_unique<FoundInRun>(run_in_folder(folder, study_));
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
   return *found_;
 }
 
-std::shared_ptr<StudyToRun> study_to_run(const char* name, const std::string& text) {
-  return std::make_shared<StudyToRun>(name, "schema: 1\nstudy: " + std::string(name) + "\n" + text + "output: {report: false}\n");
+std::shared_ptr<StudyToRun> study_to_run(const std::string& name, const std::string& text) {
+  return std::make_shared<StudyToRun>(
+      name, StudyInFolder{{{"study.yaml", "schema: 1\nstudy: " + name + "\n" + text + "output: {report: false}\n"}}, "study.yaml", {}});
+}
+
+std::shared_ptr<StudyToRun> library_study_to_run(const std::string& name, std::string_view library, const std::string& file,
+                                                 std::vector<std::string> overrides) {
+  StudyInFolder study{{}, file, std::move(overrides)};
+  for (const TemplateFile& one : find_template(library)->files) study.files.push_back({std::string(one.path), std::string(one.content)});
+  for (const char* without : {"output.report=false", "criteria=[]", "plots=[]"}) study.overrides.emplace_back(without);
+  return std::make_shared<StudyToRun>(name, std::move(study));
+}
+
+std::string list_of_places(std::span<const Vec3d> places) {
+  std::string out;
+  for (const Vec3d& at : places) {
+    out += out.empty() ? "[" : ", [";
+    for (int k = 0; k < 3; ++k) out += number_text("%.6f", at[k]) + (k < 2 ? " um, " : " um]");
+  }
+  return out;
 }
 
 }  // namespace morula::scenarios

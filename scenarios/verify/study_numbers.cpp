@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/close_packing.h"
 #include "core/numbers/number_text.h"
 #include "scenarios/measures/single_cell.h"
 #include "scenarios/verify/run_study.h"
@@ -144,43 +143,12 @@ void add_growth_and_exchange(std::vector<ReferenceNumber>& out) {
                  [=] { return exchanged([](const auto& then, const auto& now) { return norm(now.centroid - then.centroid); }); }});
 }
 
-/// Interface test (c) of fields_and_coupling.md D with default parameters: 64 spheres in cubic close packing at about the distance at which they rest find it
-/// within an hour, then the one in the middle is promoted, and its neighbours rest again three hours later.
-void add_neighbours_of_a_promotion(std::vector<ReferenceNumber>& out) {
-  constexpr double kDistance = 11.35, kPromoted = 3660.0, kBefore = 3600.0, kEnd = 5.0 * 3600.0, kRadius = 6.0;
-  const std::vector<Vec3d> places = close_packed_places(4, kDistance);
-  std::string at;
-  for (std::size_t i = 0; i < 64; ++i)
-    at += (i > 0 ? ", [" : "[") + number_text("%.6f", places[i].x) + " um, " + number_text("%.6f", places[i].y) + " um, " +
-          number_text("%.6f", places[i].z) + " um]";
-  const auto swap = study_to_run("neighbours",
-                                 "time: {end: 5 h, output: 1 h, checkpoint: 5 h}\ndomain: {size: [200 um, 200 um, 200 um]}\n"
-                                 "cell_types: {cell: {radius: 6 um}}\ninitial:\n  - {type: cell, as: sphere, at: [" +
-                                     at +
-                                     "]}\ncoupling: {regions: [{name: middle, shape: sphere, center: [0 um, 0 um, 0 um], radius: 1 um, "
-                                     "margin: 20 um, as: shell, from: " +
-                                     number_text("%g", kPromoted) + " s}]}\n");
-  const auto way = [swap] {
-    const Snapshot *before = swap->found().at(kBefore), *end = swap->found().at(kEnd);
-    if (before == nullptr || end == nullptr || !before->shells.empty() || end->shells.size() != 1) return std::nan("");
-    double most = 0.0;
-    for (std::size_t i = 0; i < end->cells.size(); ++i)
-      most = std::max(most, norm(end->cells[i].centroid - before->cells[i].centroid) / kRadius);
-    return most;
-  };
-  // With the default adhesion and tension two spheres rest further apart than two shells, and a shell among spheres draws them nearer (E651; with a law that
-  // was fitted to the shells 0.01 R, decision 0066). 0.05 is what is, not what is wanted: a change that moves neighbours further is to be seen here.
-  out.push_back({"D (c)", "study: largest way of a neighbour of a promoted cell, 64 cells, default parameters [R]; aim 0.02, not met yet",
-                 0.0, 0.05, "fields_and_coupling.md D (c); limit: what default parameters do today, rounded up", way});
-}
-
 }  // namespace
 
 void add_study_numbers(std::vector<ReferenceNumber>& out) {
   add_motion(out);
   add_walk(out);
   add_growth_and_exchange(out);
-  add_neighbours_of_a_promotion(out);
   add_contact_study_numbers(out);
   add_field_study_numbers(out);
 }

@@ -20,4 +20,11 @@ void add_arrest_study_numbers(std::vector<ReferenceNumber>& out);
 /// and shells that divide.
 void add_division_study_numbers(std::vector<ReferenceNumber>& out);
 
+/// Of the suite `hybrid`: where spheres and shells touch,
+void add_interface_study_numbers(std::vector<ReferenceNumber>& out);
+/// cells that exchange their bodies,
+void add_exchange_study_numbers(std::vector<ReferenceNumber>& out);
+/// and whole tissues of both beside those of one.
+void add_hybrid_tissue_numbers(std::vector<ReferenceNumber>& out);
+
 }  // namespace morula::scenarios

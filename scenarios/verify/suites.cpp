@@ -15,9 +15,18 @@ std::vector<ReferenceNumber> life_numbers() {
   return out;
 }
 
+std::vector<ReferenceNumber> hybrid_numbers() {
+  std::vector<ReferenceNumber> out;
+  add_interface_study_numbers(out);
+  add_exchange_study_numbers(out);
+  add_hybrid_tissue_numbers(out);
+  return out;
+}
+
 constexpr VerifySuite kSuites[] = {
     {"physics", "reference numbers of the laws; with --studies the single-cell experiments of the library", &physics_numbers},
     {"life", "cycles, growth, arrest and divisions as runs of studies have them (a minute)", &life_numbers},
+    {"hybrid", "what spheres and shells of one tissue share: pressure, exchanges of bodies, growth (five minutes)", &hybrid_numbers, true},
 };
 
 }  // namespace

@@ -23,7 +23,9 @@ std::string told_tolerance(double tolerance) {
 
 /// A number that is not found yet.
 VerifiedRow row_of(const ReferenceNumber& number) {
-  return {number.id, number.quantity, number.reference, std::nan(""), told_tolerance(number.tolerance), false, number.source};
+  std::string quantity = number.quantity;
+  if (number.aim > 0.0) quantity += "; aim " + number_text("%g", number.aim) + ", not met yet";
+  return {number.id, std::move(quantity), number.reference, std::nan(""), told_tolerance(number.tolerance), false, number.source};
 }
 
 }  // namespace

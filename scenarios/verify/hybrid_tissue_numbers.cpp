@@ -1,0 +1,105 @@
+// Whole tissues of spheres and shells beside those of one body, by studies that are run: fields_and_coupling.md D (e) and (f), scenarios.md S7 and S16.
+#include <algorithm>
+#include <cmath>
+
+#include "core/numbers/number_text.h"
+#include "scenarios/verify/run_study.h"
+#include "scenarios/verify/study_numbers.h"
+
+namespace morula::scenarios {
+namespace {
+
+/// Exchanges of a cell that came within `hold` [s] after one before; not a number where nobody exchanged its body.
+double hasty_exchanges(const FoundInRun& found, double hold) {
+  const std::vector<EventLine> all = found.exchanges();
+  double count = all.empty() ? std::nan("") : 0.0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) count += all[i].cell == all[k].cell && all[i].time - all[k].time < hold;
+  return count;
+}
+
+constexpr double kGrown = 48.0 * 3600.0;  // [s]
+
+/// The library's spheroid that grows from eight cells, for 48 h.
+std::shared_ptr<StudyToRun> spheroid(const std::string& name, std::vector<std::string> bodies) {
+  bodies.insert(bodies.end(), {"time.end=48 h", "time.checkpoint=48 h"});
+  return library_study_to_run(name, "hybrid_spheroid", "growth.yaml", std::move(bodies));
+}
+
+void add_growing_spheroids(std::vector<ReferenceNumber>& out) {
+  const auto spheres = spheroid("growing_spheres", {"coupling={}"}),
+             shells = spheroid("growing_shells", {"coupling={}", "cell_types.tumour.body=shell"}),
+             both = spheroid("growing_hybrid", {"coupling.regions.0.radius=10 um"});
+  const auto ratio = [](const std::shared_ptr<StudyToRun>& one, const std::shared_ptr<StudyToRun>& other, const char* column) {
+    return [=] { return one->found().column(column, kGrown) / other->found().column(column, kGrown); };
+  };
+  const std::string after = ", of a spheroid that grew from 8 cells for 48 h by a fitted law";
+  const char* const page = "fields_and_coupling.md D (e)";
+  out.push_back({"D (e)", "study: number of cells, hybrid over shells" + after, 1.0, 1e-9, std::string(page) + ": the same, growth does not depend on pressure",
+                 ratio(both, shells, "cell_count")});
+  out.push_back({"D (e)", "study: number of cells, spheres over shells" + after, 1.0, 1e-9, page, ratio(spheres, shells, "cell_count")});
+  out.push_back({"S7", "study: part of the hybrid's cells that are shells" + after, 0.3, 0.2, "the study's region: neither body alone",
+                 [both] { return both->found().column("shell_count", kGrown) / both->found().column("cell_count", kGrown); }});
+  out.push_back({"S7.6", "study: radius, spheres over shells" + after, 1.0, 0.06, "scenarios.md S7.6: 6 %", ratio(spheres, shells, "spheroid_radius")});
+  out.push_back({"S7.7", "study: radius, hybrid over shells" + after, 1.0, 0.03, "scenarios.md S7.7: 4 %; aim of this project 3 %",
+                 ratio(both, shells, "spheroid_radius")});
+  out.push_back({"S7.7", "study: radius, hybrid over spheres" + after, 1.0, 0.04, "scenarios.md S7.7: 4 %", ratio(both, spheres, "spheroid_radius")});
+  out.push_back({"D (e)", "study: mean contact area, hybrid over shells" + after, 1.0, 0.06,
+                 "aim of this project: 3 %; limit: what is today, rounded up",
+                 ratio(both, shells, "mean_contact_area"), 0.03});
+  out.push_back({"S7.8", "study: exchanges of a cell of the hybrid within 30 min after one before", 0.0, 1e-9, "scenarios.md S7.8",
+                 [both] { return hasty_exchanges(both->found(), 1800.0); }});
+  for (const auto& [name, study] : {std::pair{"hybrid", both}, std::pair{"spheres", spheres}, std::pair{"shells", shells}})
+    out.push_back({"D (f)", std::string("study: way of the centre of friction over the mean way of a cell, ") + name + after, 0.0, 1e-3,
+                   "fields_and_coupling.md D (f): contacts add up to nothing; aim of this project 0.1 % of the mean way",
+                   [study] { return study->found().column("centre_drift", kGrown) / study->found().column("mean_way", kGrown); }});
+}
+
+/// The library's needle that enters a tissue, until it has begun to; two minutes later spheres alone would be beyond their law.
+void add_hotspot(std::vector<ReferenceNumber>& out) {
+  const auto study = library_study_to_run("hotspot", "hybrid_hotspot", "study.yaml", {"time.end=44 min", "time.checkpoint=44 min"});
+  out.push_back({"S16.2", "study: most shells around a needle at an output, over the budget of 120", 0.5, 0.5,
+                 "scenarios.md S16.2: the budget holds", [study] {
+                   const SeriesColumn* shells = study->found().series.find("shell_count");
+                   return shells != nullptr ? std::ranges::max(shells->values) / 120.0 : std::nan("");
+                 }});
+  out.push_back({"S16.2", "study: exchanges of a cell beside the needle within the hold of 10 min after one before", 0.0, 1e-9,
+                 "scenarios.md S16.2: no flicker", [study] { return hasty_exchanges(study->found(), 600.0); }});
+  out.push_back({"S16.3", "study: error of the balance of oxygen with all exchanges beside the needle, relative", 0.0, 1e-9,
+                 "scenarios.md S16.3: 1e-9", [study] { return study->found().column("field_balance", 2640.0); }});
+}
+
+constexpr double kBlockAtRest = 12000.0;  // of the block at V/V0 = 0.90 [s]
+
+/// Mean pressure of the cells of the block that lie more than two diameters from its middle along x [kPa].
+double pressure_outside(const FoundInRun& found) {
+  const Snapshot* end = found.at(kBlockAtRest);
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; end != nullptr && i < end->cells.size(); ++i)
+    if (std::abs(end->cells[i].centroid.x) > 20.0) sum += end->cells[i].pressure, count += 1.0;
+  return sum / count;
+}
+
+/// The library's block at V/V0 = 0.90: all spheres, and with shells within 8 µm of its middle.
+void add_hotspot_in_block(std::vector<ReferenceNumber>& out) {
+  const auto block = [](const char* name, const char* coupling) {
+    return library_study_to_run(name, "hybrid_block", "study.yaml", {"time.end=200 min", "time.checkpoint=200 min", coupling});
+  };
+  const auto spheres = block("block_of_spheres", "coupling={}"),
+             both = block("block_with_hotspot",
+                          "coupling={regions: [{name: hotspot, shape: sphere, center: [0 um, 0 um, 0 um], radius: 8 um, margin: 5 um}]}");
+  out.push_back({"S16.1", "study: p outside of a few shells in a block of spheres at V/V0 0.90, over that without them", 1.0, 0.1,
+                 "scenarios.md S16.1: 10 % outside the hotspot", [=] { return pressure_outside(both->found()) / pressure_outside(spheres->found()); }});
+  out.push_back({"S16", "study: number of these shells", 6.0, 3.0, "the study's region: neither none nor many",
+                 [both] { return both->found().column("shell_count", kBlockAtRest); }});
+}
+
+}  // namespace
+
+void add_hybrid_tissue_numbers(std::vector<ReferenceNumber>& out) {
+  add_growing_spheroids(out);
+  add_hotspot(out);
+  add_hotspot_in_block(out);
+}
+
+}  // namespace morula::scenarios
