@@ -102,7 +102,7 @@ TEST(ContactLines, OfFluidDoubletsLieWhereYoungsLawSaysAndTheirAreasAreTold) {
     }
     for (std::size_t l = 0; l < k; ++l)
       if (kPairs[l].ratio == pair.ratio) {
-        EXPECT_NEAR(found[k].angle, found[l].angle, 0.55);  // asked for: 0.5; at 0.5 it is 0.51
+        EXPECT_NEAR(found[k].angle, found[l].angle, 0.5);
       }
     RecordProperty(std::string(pair.name) + "_angle", std::to_string(found[k].angle - expected.angle * 180.0 / std::numbers::pi));
     RecordProperty(std::string(pair.name) + "_radius", std::to_string(found[k].contact_radius / expected.contact_radius - 1.0));
@@ -144,8 +144,8 @@ TEST(ContactLines, OfFourEqualCellsAreAlike) {
                                volume_centroid(shells.topology(b).faces(), shells.nodes(b))));
   ASSERT_EQ(areas.size(), 6u);
   // Asked for: 1 % and 0.25 %, which nine points everywhere and a tenth of the shape stiffness reach.
-  EXPECT_LE(scatter(areas), 0.02);
-  EXPECT_LE(scatter(distances), 0.005);
+  EXPECT_LE(scatter(areas), 0.018);
+  EXPECT_LE(scatter(distances), 0.004);
   RecordProperty("areas", std::to_string(scatter(areas)));
   RecordProperty("distances", std::to_string(scatter(distances)));
 }
