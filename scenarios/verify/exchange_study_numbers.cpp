@@ -53,13 +53,14 @@ void add_round_trip(std::vector<ReferenceNumber>& out) {
   const auto study = round_trip();
   const char* const page = "fields_and_coupling.md D (b): 1e-10";
   using Cell = Snapshot::Cell;
-  out.push_back({"D (b)", "study: cells that became shells and spheres again, each once, of 100", 100.0, 1e-9, "the study's region", [study] {
-                   std::map<std::string, int> ups, downs;
-                   for (const EventLine& event : study->found().exchanges()) ++(event.kind == "promotion" ? ups : downs)[event.cell];
-                   double whole = 0.0;
-                   for (const auto& [id, count] : ups) whole += count == 1 && downs[id] == 1;
-                   return study->found().moments.empty() ? std::nan("") : whole;
-                 }});
+  out.push_back(
+      {"D (b)", "study: cells that became shells and spheres again, each once, of 100", 100.0, 1e-9, "the study's region", [study] {
+         std::map<std::string, int> ups, downs;
+         for (const EventLine& event : study->found().exchanges()) ++(event.kind == "promotion" ? ups : downs)[event.cell];
+         double whole = 0.0;
+         for (const auto& [id, count] : ups) whole += count == 1 && downs[id] == 1;
+         return study->found().moments.empty() ? std::nan("") : whole;
+       }});
   out.push_back({"D (b)", "study: change of a cell's volume by an exchange, relative, the most of 100", 0.0, 1e-10, page, [study] {
                    return most_of_exchanges(study->found(), [](const Cell&, const Cell& now, const EventLine& event) {
                      return std::abs(now.volume / event.exchange->volume - 1.0);
@@ -76,14 +77,15 @@ void add_round_trip(std::vector<ReferenceNumber>& out) {
                    });
                  }});
   out.push_back({"D (b)", "study: error of the balance of what cells took from a field meanwhile, relative", 0.0, 1e-9,
-                 "scenarios.md S16.3: field totals across exchanges, 1e-9", [study] { return study->found().column("field_balance", 3600.0); }});
+                 "scenarios.md S16.3: field totals across exchanges, 1e-9",
+                 [study] { return study->found().column("field_balance", 3600.0); }});
 }
 
 /// A cluster of `count` cells at about the distance at which they rest, of which the one in the middle becomes a shell when it has come to rest.
 struct Cluster {
   std::size_t count;
-  bool fitted;       ///< the library's calibrated cells of 5 µm, else cells of 6 µm with default parameters
-  double limit;      ///< of the largest way of another cell, over the radius
+  bool fitted;   ///< the library's calibrated cells of 5 µm, else cells of 6 µm with default parameters
+  double limit;  ///< of the largest way of another cell, over the radius
   const char* reason;
 };
 
@@ -92,23 +94,24 @@ void add_neighbours_of_a_promotion(std::vector<ReferenceNumber>& out) {
   const char* const page = "fields_and_coupling.md D (c)";
   // With the default adhesion and tension two spheres rest further apart than two shells, and a shell among spheres draws them nearer (E651). A free cluster of
   // 13 has no neighbours that hold its outer cells. Limits above the aim are what is, rounded up: a change that moves neighbours further is to be seen here.
-  for (const Cluster& cluster :
-       {Cluster{64, false, 0.05, "default parameters"}, Cluster{13, false, 0.06, "default parameters"},
-        Cluster{64, true, kAim, "a fitted law"}, Cluster{13, true, 0.06, "a fitted law"}}) {
+  for (const Cluster& cluster : {Cluster{64, false, 0.05, "default parameters"}, Cluster{13, false, 0.06, "default parameters"},
+                                 Cluster{64, true, kAim, "a fitted law"}, Cluster{13, true, 0.06, "a fitted law"}}) {
     const double distance = cluster.fitted ? 8.9 : 11.35, rest = cluster.fitted ? 20.0 : 1.0, radius = cluster.fitted ? 5.0 : 6.0;
     const std::vector<Vec3d> all = close_packed_places(4, distance);
     const std::string type = cluster.fitted ? "tumour" : "cell", name = "neighbours_" + std::to_string(cluster.count);
     const std::string initial = "[{type: " + type + ", as: sphere, at: [" + list_of_places(std::span(all).first(cluster.count)) + "]}]";
-    const std::string coupling = "{regions: [{name: middle, shape: sphere, center: [0 um, 0 um, 0 um], radius: 1 um, margin: 20 um, as: shell, from: " +
-                                 number_text("%g", kHour * rest + 60.0) + " s}]}";
+    const std::string coupling =
+        "{regions: [{name: middle, shape: sphere, center: [0 um, 0 um, 0 um], radius: 1 um, margin: 20 um, as: shell, from: " +
+        number_text("%g", kHour * rest + 60.0) + " s}]}";
     const std::string end = number_text("%g h", rest + 4.0), time = "{end: " + end + ", output: 1 h, checkpoint: " + end + "}";
     const auto study =
         cluster.fitted
             ? library_study_to_run(name + "_fitted", "hybrid_spheroid", "study.yaml",
                                    {"time=" + time, "initial=" + initial, "coupling=" + coupling, "fields={}",
                                     "cell_types.tumour.radius.spread=0 %", "cell_types.tumour.cycle={model: none}"})
-            : study_to_run(name, "time: " + time + "\ndomain: {size: [200 um, 200 um, 200 um]}\ncell_types: {cell: {radius: 6 um}}\ninitial: " +
-                                     initial + "\ncoupling: " + coupling + "\n");
+            : study_to_run(name, "time: " + time +
+                                     "\ndomain: {size: [200 um, 200 um, 200 um]}\ncell_types: {cell: {radius: 6 um}}\ninitial: " + initial +
+                                     "\ncoupling: " + coupling + "\n");
     out.push_back({"D (c)",
                    "study: largest way of another cell of " + std::to_string(cluster.count) + " when the middle one is promoted, " +
                        cluster.reason + " [R]",
@@ -137,8 +140,8 @@ std::shared_ptr<StudyToRun> at_the_threshold(const std::string& name, double low
     course += ", {time: " + number_text("%g", t) + " s, volume: " + volume(up ? high : low) + "}";
   const std::string end = number_text("%g", kBegin + steps * kStep) + " s", edge = number_text("%.6f", size) + " um";
   return study_to_run(
-      name, "time: {end: " + end + ", step: 30 s, output: 10 min, checkpoint: " + end + "}\ndomain:\n  size: [" + edge + ", " + edge + ", " +
-                edge + "]\n  boundary: periodic\n  course: [" + course +
+      name, "time: {end: " + end + ", step: 30 s, output: 10 min, checkpoint: " + end + "}\ndomain:\n  size: [" + edge + ", " + edge +
+                ", " + edge + "]\n  boundary: periodic\n  course: [" + course +
                 "]\ncell_types: {cell: {radius: 6 um, adhesion: {cell: 0 J/m^2}}}\ninitial:\n  - {type: cell, as: sphere, at: [" +
                 list_of_places(close_packed_block({0, 0, 0}, {2, 2, 2}, {2, 2, 2}, 0.5 * size)) +
                 "]}\ncoupling: {triggers: [{promote: pressure > 200 Pa, demote: pressure < 160 Pa}]}\n");
@@ -156,14 +159,18 @@ double most_exchanges(const FoundInRun& found) {
 
 void add_thresholds(std::vector<ReferenceNumber>& out) {
   const char* const page = "fields_and_coupling.md D (d)";
-  const auto at = at_the_threshold("at_threshold", 198.0, 202.0, 1000.0), between = at_the_threshold("between_thresholds", 178.0, 182.0, 1000.0),
+  const auto at = at_the_threshold("at_threshold", 198.0, 202.0, 1000.0),
+             between = at_the_threshold("between_thresholds", 178.0, 182.0, 1000.0),
              across = at_the_threshold("across_thresholds", 120.0, 260.0, 250.0);
   out.push_back({"D (d)", "study: exchanges of a cell whose pressure swings by 1 % about the threshold, 1,000 steps, the most", 1.0, 1e-9,
                  std::string(page) + ": it is promoted, and not again", [at] { return most_exchanges(at->found()); }});
   out.push_back({"D (d)", "study: exchanges of cells whose pressure swings between both thresholds, 1,000 steps", 0.0, 1e-9, page,
                  [between] { return most_exchanges(between->found()); }});
-  out.push_back({"D (d)", "study: least time between two exchanges of a cell whose pressure crosses both thresholds every 5 min, over the hold of 30 min, at least 1",
-                 1.0, 0.02, std::string(page) + ", S7.8: it is asked again at the first step after the hold", [across] { return across->found().shortest_hold() / 1800.0; }});
+  out.push_back({"D (d)",
+                 "study: least time between two exchanges of a cell whose pressure crosses both thresholds every 5 min, over the hold of "
+                 "30 min, at least 1",
+                 1.0, 0.02, std::string(page) + ", S7.8: it is asked again at the first step after the hold",
+                 [across] { return across->found().shortest_hold() / 1800.0; }});
 }
 
 }  // namespace

@@ -35,18 +35,19 @@ void add_growing_spheroids(std::vector<ReferenceNumber>& out) {
   };
   const std::string after = ", of a spheroid that grew from 8 cells for 48 h by a fitted law";
   const char* const page = "fields_and_coupling.md D (e)";
-  out.push_back({"D (e)", "study: number of cells, hybrid over shells" + after, 1.0, 1e-9, std::string(page) + ": the same, growth does not depend on pressure",
-                 ratio(both, shells, "cell_count")});
+  out.push_back({"D (e)", "study: number of cells, hybrid over shells" + after, 1.0, 1e-9,
+                 std::string(page) + ": the same, growth does not depend on pressure", ratio(both, shells, "cell_count")});
   out.push_back({"D (e)", "study: number of cells, spheres over shells" + after, 1.0, 1e-9, page, ratio(spheres, shells, "cell_count")});
   out.push_back({"S7", "study: part of the hybrid's cells that are shells" + after, 0.3, 0.2, "the study's region: neither body alone",
                  [both] { return both->found().column("shell_count", kGrown) / both->found().column("cell_count", kGrown); }});
-  out.push_back({"S7.6", "study: radius, spheres over shells" + after, 1.0, 0.06, "scenarios.md S7.6: 6 %", ratio(spheres, shells, "spheroid_radius")});
+  out.push_back({"S7.6", "study: radius, spheres over shells" + after, 1.0, 0.06, "scenarios.md S7.6: 6 %",
+                 ratio(spheres, shells, "spheroid_radius")});
   out.push_back({"S7.7", "study: radius, hybrid over shells" + after, 1.0, 0.03, "scenarios.md S7.7: 4 %; aim of this project 3 %",
                  ratio(both, shells, "spheroid_radius")});
-  out.push_back({"S7.7", "study: radius, hybrid over spheres" + after, 1.0, 0.04, "scenarios.md S7.7: 4 %", ratio(both, spheres, "spheroid_radius")});
+  out.push_back(
+      {"S7.7", "study: radius, hybrid over spheres" + after, 1.0, 0.04, "scenarios.md S7.7: 4 %", ratio(both, spheres, "spheroid_radius")});
   out.push_back({"D (e)", "study: mean contact area, hybrid over shells" + after, 1.0, 0.06,
-                 "aim of this project: 3 %; limit: what is today, rounded up",
-                 ratio(both, shells, "mean_contact_area"), 0.03});
+                 "aim of this project: 3 %; limit: what is today, rounded up", ratio(both, shells, "mean_contact_area"), 0.03});
   out.push_back({"S7.8", "study: exchanges of a cell of the hybrid within 30 min after one before", 0.0, 1e-9, "scenarios.md S7.8",
                  [both] { return hasty_exchanges(both->found(), 1800.0); }});
   for (const auto& [name, study] : {std::pair{"hybrid", both}, std::pair{"spheres", spheres}, std::pair{"shells", shells}})
@@ -89,7 +90,8 @@ void add_hotspot_in_block(std::vector<ReferenceNumber>& out) {
              both = block("block_with_hotspot",
                           "coupling={regions: [{name: hotspot, shape: sphere, center: [0 um, 0 um, 0 um], radius: 8 um, margin: 5 um}]}");
   out.push_back({"S16.1", "study: p outside of a few shells in a block of spheres at V/V0 0.90, over that without them", 1.0, 0.1,
-                 "scenarios.md S16.1: 10 % outside the hotspot", [=] { return pressure_outside(both->found()) / pressure_outside(spheres->found()); }});
+                 "scenarios.md S16.1: 10 % outside the hotspot",
+                 [=] { return pressure_outside(both->found()) / pressure_outside(spheres->found()); }});
   out.push_back({"S16", "study: number of these shells", 6.0, 3.0, "the study's region: neither none nor many",
                  [both] { return both->found().column("shell_count", kBlockAtRest); }});
 }

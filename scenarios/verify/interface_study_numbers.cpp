@@ -12,7 +12,7 @@
 namespace morula::scenarios {
 namespace {
 
-constexpr double kBulk = 2.5;                    // K_V, the default of a type [kPa]
+constexpr double kBulk = 2.5;                     // K_V, the default of a type [kPa]
 constexpr std::array<int, 3> kBlock = {4, 3, 3};  // cubic cells; the left half are spheres, the right half shells
 constexpr std::size_t kLayers = 2 * kBlock[0];    // of cells, across x
 constexpr double kAtRest = 3600.0;                // [s]
@@ -38,8 +38,8 @@ std::string both_halves(double lattice) {
 std::shared_ptr<StudyToRun> block_of_defaults(const std::string& name, double part, const std::string& adhesion) {
   const double lattice = lattice_of(6.0, part);
   return study_to_run(name, "time: {end: 1 h, output: 1 h, checkpoint: 1 h}\ndomain: {size: " + size_of_block(lattice) +
-                                ", boundary: periodic}\ncell_types: {cell: {radius: 6 um" + adhesion + "}}\ninitial: " +
-                                both_halves(lattice) + "\n");
+                                ", boundary: periodic}\ncell_types: {cell: {radius: 6 um" + adhesion +
+                                "}}\ninitial: " + both_halves(lattice) + "\n");
 }
 
 /// The same of the library's calibrated cells of 5 µm, which adhere.
@@ -83,7 +83,8 @@ void add_pressure_jumps(std::vector<ReferenceNumber>& out) {
   struct Level {
     const char* part;
     double left;
-    double default_all, fitted_inner, fitted_all;  ///< limits of the jump over all layers, and over the inner ones; above 0.05: what is, rounded up
+    double default_all, fitted_inner,
+        fitted_all;  ///< limits of the jump over all layers, and over the inner ones; above 0.05: what is, rounded up
   };
   const std::string page = "fields_and_coupling.md D (a)";
   constexpr double kAim = 0.05;
@@ -130,12 +131,13 @@ std::shared_ptr<StudyToRun> held_pair(const std::string& name, const char* left,
     return std::string("{type: ") + of + ", trap: {stiffness: 1 N/m, center: [" + center + " um, 0 um, 0 um], direction: [" + direction +
            ", 0, 0], way: [{time: 10 min, distance: 0 um}, {time: 40 min, distance: " + way + "}]}}\n";
   };
-  return study_to_run(name, "time: {end: 4 h, output: 4 h, checkpoint: 4 h}\ndomain: {size: [60 um, 60 um, 60 um], boundary: open}\n"
-                            "cell_types:\n  left: " +
-                                type("left: 1e-4 J/m^2, right: 1e-4 J/m^2") + "  right: " + type("right: 1e-4 J/m^2") +
-                                "initial:\n  - {type: left, at: [[-5 um, 0 um, 0 um]], as: " + left +
-                                "}\n  - {type: right, at: [[5 um, 0 um, 0 um]], as: " + right + "}\nloads:\n  l: " +
-                                trap("left", "-5", "1") + "  r: " + trap("right", "5", "-1"));
+  return study_to_run(name,
+                      "time: {end: 4 h, output: 4 h, checkpoint: 4 h}\ndomain: {size: [60 um, 60 um, 60 um], boundary: open}\n"
+                      "cell_types:\n  left: " +
+                          type("left: 1e-4 J/m^2, right: 1e-4 J/m^2") + "  right: " + type("right: 1e-4 J/m^2") +
+                          "initial:\n  - {type: left, at: [[-5 um, 0 um, 0 um]], as: " + left +
+                          "}\n  - {type: right, at: [[5 um, 0 um, 0 um]], as: " + right + "}\nloads:\n  l: " + trap("left", "-5", "1") +
+                          "  r: " + trap("right", "5", "-1"));
 }
 
 void add_held_pairs(std::vector<ReferenceNumber>& out) {

@@ -135,9 +135,9 @@ TEST(LibraryStudies, CalibratedSpheresRestWhereShellsDo) {
   const AtRest shells = at_rest({"cell_types.hepatocyte.body=shell"}), fitted = at_rest({});
   const AtRest plain = at_rest({"cell_types.hepatocyte.cbm={law: jkr}"});
   // The law is fitted to compressed disorder (decision 0056); balls whose adhesion is as large as the tension of their shells are drawn 1 to 2 % closer together
-  // where nothing presses.
+  // where nothing presses, and 1 % less room between two cells is some 5 % more of their contact: 10 % (decision 0073; 9 % before it).
   EXPECT_NEAR(fitted.radius / shells.radius, 1.0, 0.02);
-  EXPECT_NEAR(fitted.area / shells.area, 1.0, 0.1);
+  EXPECT_NEAR(fitted.area / shells.area, 1.0, 0.11);
   EXPECT_GT(plain.radius / shells.radius, 1.03);
 }
 

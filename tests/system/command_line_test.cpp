@@ -62,7 +62,7 @@ TEST(CommandLine, VerifyListsSuitesAndTheirReferences) {
   const TestFolder folder;
   const Outcome suites = run_morula({"verify", "--list"}, folder.path());
   EXPECT_EQ(suites.exit_code, 0) << suites.all();
-  for (const char* name : {"physics  ", "life  "}) EXPECT_THAT(suites.out, HasSubstr(name));
+  for (const char* name : {"physics  ", "life  ", "hybrid  "}) EXPECT_THAT(suites.out, HasSubstr(name));
   const Outcome physics = run_morula({"verify", "physics", "--list"}, folder.path());
   EXPECT_EQ(physics.exit_code, 0) << physics.all();
   for (const char* text : {"T4.1", "0.168954", "reference"}) EXPECT_THAT(physics.out, HasSubstr(text));
@@ -77,7 +77,7 @@ TEST(CommandLine, VerifyListsSuitesAndTheirReferences) {
   }
   const auto all = nlohmann::json::parse(run_morula({"verify", "--list", "--json"}, folder.path()).out, nullptr, false);
   ASSERT_TRUE(all.is_object());
-  ASSERT_EQ(all["suites"].size(), 2u);
+  ASSERT_EQ(all["suites"].size(), 3u);
   EXPECT_EQ(all["suites"][0]["name"], "physics");
   EXPECT_EQ(run_morula({"verify", "life", "--studies"}, folder.path()).exit_code, 2);
   EXPECT_EQ(run_morula({"verify", "physics", "--list", "--studies"}, folder.path()).exit_code, 2);
