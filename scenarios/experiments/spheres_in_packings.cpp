@@ -12,6 +12,7 @@ using calibrate::Arrangement;
 using calibrate::PackingPoint;
 
 constexpr int kMostTurns = 8, kPatience = 2;
+constexpr int kMostSteps = 20000;
 constexpr double kGain = 0.02;  // part of the sum of squares by which a turn must be better than all before
 constexpr double kAtRest = 1e-4,
                  kAtRestStep = 10.0;  // spheres that move less than this part of R in steps that are so long [s] are at rest
@@ -39,7 +40,9 @@ Result<Rest> rest_of_spheres(std::unique_ptr<Simulation> simulation, double edge
     for (std::size_t i = 0; i < before.size(); ++i) way = std::max(way, norm(now[i] - before[i]));
     return way > kAtRest * radius || simulation->tissue().clock.time - time < kAtRestStep;
   };
-  for (bool goes_on = true; goes_on && simulation->tissue().clock.time < end;) {
+  int steps = 0;
+  for (bool goes_on = true; goes_on && simulation->tissue().clock.time < end; ++steps) {
+    if (steps == kMostSteps) return Error{ErrorKind::kPhysics, "spheres in a random packing find no rest", "calibrate with `--pairs-only`"};
     MORULA_TRY_ASSIGN(goes_on, steps_on());
   }
   Rest out{.pressure = 0.0, .contact_area = 0.0, .centers = simulation->centers()};

@@ -21,7 +21,7 @@ class SpheresInPackings {
 
   /// Puts spheres of a law where the shells of the random packings are, those that are held out or those that are not, and lets them come to rest with the friction
   /// of the law, or as far as they do in four times the time in which a pair does (decision 0073). Points get the places, with which the law tells the pressure
-  /// of these spheres. Errors: steps that fail.
+  /// of these spheres. Errors: kPhysics, spheres that find no rest; steps that fail.
   Status place(const TrialLaw& law, bool held_out, calibrate::Data& data) const;
 
  private:
