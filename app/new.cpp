@@ -16,17 +16,6 @@ std::string list_of_templates() {
   return table_text(rows);
 }
 
-Status write_files(const scenarios::Template& one, const fs::path& folder) {
-  for (const scenarios::TemplateFile& file : one.files) {
-    const fs::path path = folder / file.path;
-    std::error_code error;
-    fs::create_directories(path.parent_path(), error);
-    if (error) return scenarios::file_error(path.parent_path(), "create", error.value());
-    MORULA_TRY(scenarios::write_file_atomically(path, file.content));
-  }
-  return {};
-}
-
 }  // namespace
 
 Status make_new(const NewOptions& options, const Context& context) {
@@ -46,7 +35,7 @@ Status make_new(const NewOptions& options, const Context& context) {
   if (folder.has_parent_path()) fs::create_directories(folder.parent_path(), error);
   if (error) return scenarios::file_error(folder.parent_path(), "create", error.value());
   if (!fs::create_directory(folder, error) || error) return scenarios::file_error(folder, "create", error.value());
-  if (Status written = write_files(*one, folder); !written.ok()) {
+  if (Status written = scenarios::write_files(one->files, folder); !written.ok()) {
     fs::remove_all(folder, error);  // the folder is ours: it did not exist a moment ago
     return written;
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "results/file_io.h"
+
 namespace morula::scenarios {
 
 std::string Template::title() const {
@@ -25,6 +27,17 @@ const Template* find_template(std::string_view name) {
   const auto all = templates();
   const auto found = std::find_if(all.begin(), all.end(), [&](const Template& t) { return t.name == name; });
   return found == all.end() ? nullptr : &*found;
+}
+
+Status write_files(std::span<const TemplateFile> files, const std::filesystem::path& folder) {
+  for (const TemplateFile& file : files) {
+    const std::filesystem::path path = folder / file.path;
+    std::error_code error;
+    std::filesystem::create_directories(path.parent_path(), error);
+    if (error) return file_error(path.parent_path(), "create", error.value());
+    MORULA_TRY(write_file_atomically(path, file.content));
+  }
+  return {};
 }
 
 std::vector<std::string> template_names() {

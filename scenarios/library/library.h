@@ -1,8 +1,11 @@
 #pragma once
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/result.h"
 
 namespace morula::scenarios {
 
@@ -26,6 +29,9 @@ std::span<const Template> templates();
 
 /// The template of this name, or null.
 const Template* find_template(std::string_view name);
+
+/// Writes files below a folder, which is made where it is missing. Errors: kFile.
+Status write_files(std::span<const TemplateFile> files, const std::filesystem::path& folder);
 
 /// Names of all templates: what `scenario:` in a study file may say.
 std::vector<std::string> template_names();

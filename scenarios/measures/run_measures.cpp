@@ -1,12 +1,10 @@
 // What a run has as a whole, beyond the columns of series.csv.
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <numbers>
 
+#include "results/exchanges.h"
 #include "results/file_io.h"
-#include "results/run_record.h"
 #include "scenarios/measures/measures.h"
 
 namespace morula::scenarios {
@@ -28,18 +26,11 @@ Result<std::vector<Sample>> take_shortest_hold(FinishedRun& run, const Subject&,
   if (moments.among(*times).empty()) return std::vector<Sample>{};
   const double end = (*times)[moments.among(*times).back()];
   MORULA_TRY_ASSIGN(const std::string lines, read_file(run.folder() / "events.jsonl"));
-  double shortest = std::numeric_limits<double>::infinity(), first = std::numeric_limits<double>::quiet_NaN();
-  std::map<std::string, double> last;
-  for (const EventLine& event : events_of_lines(lines)) {
-    const bool exchanged = event.kind == name_of(EventKind::kPromotion) || event.kind == name_of(EventKind::kDemotion);
-    if (!exchanged || event.time == 0.0 || event.time > end) continue;
-    first = std::fmin(first, event.time);
-    const auto [at, fresh] = last.try_emplace(event.cell, event.time);
-    if (!fresh) shortest = std::min(shortest, event.time - at->second);
-    at->second = event.time;
-  }
-  const double found = std::isfinite(shortest) ? shortest : end - first;
-  return std::isnan(found) ? std::vector<Sample>{} : std::vector<Sample>{{end, found, ""}};
+  std::vector<EventLine> exchanges = exchanges_of(events_of_lines(lines));
+  std::erase_if(exchanges, [&](const EventLine& event) { return event.time == 0.0 || event.time > end; });
+  if (exchanges.empty()) return std::vector<Sample>{};
+  const std::vector<double> kept = times_between_exchanges(exchanges);
+  return std::vector<Sample>{{end, kept.empty() ? end - exchanges.front().time : std::ranges::min(kept), ""}};
 }
 
 }  // namespace

@@ -91,20 +91,17 @@ void add_one_to_eight(std::vector<ReferenceNumber>& out) {
 
 /// The corners of an icosahedron around the origin, 12 µm away, as a list of a study.
 std::string twelve_places() {
-  std::string out;
-  for (const char* y : {"-6.309", "6.309"})
-    for (const char* z : {"-10.208", "10.208"}) {
-      const std::string one = std::string(y) + " um", other = std::string(z) + " um";
-      out += "[0 um, " + one + ", " + other + "], [" + one + ", " + other + ", 0 um], [" + other + ", 0 um, " + one + "], ";
-    }
-  return out.substr(0, out.size() - 2);
+  std::vector<Vec3d> out;
+  for (const double y : {-6.309, 6.309})
+    for (const double z : {-10.208, 10.208}) out.insert(out.end(), {Vec3d{0.0, y, z}, Vec3d{y, z, 0.0}, Vec3d{z, 0.0, y}});
+  return list_of_places(out);
 }
 
 /// Twelve resting shells around one that divides after 2 h, or waits.
 std::shared_ptr<StudyToRun> among_neighbours(const std::string& name, const std::string& cortex, const char* at_its_end) {
   const std::string body = "body: shell, radius: 6 um, dcm: {nodes: 162, " + cortex + ", bulk_modulus: 2.5 kPa}, ";
   return study_to_run(
-      name.c_str(),
+      name,
       "time: {end: 121 min, output: 1 min, checkpoint: 1 h}\ndomain: {size: [150 um, 150 um, 150 um], boundary: open}\n"
       "cell_types:\n  mother: {" +
           body +

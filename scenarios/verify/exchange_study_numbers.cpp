@@ -6,6 +6,7 @@
 #include "core/ball.h"
 #include "core/close_packing.h"
 #include "core/numbers/number_text.h"
+#include "results/exchanges.h"
 #include "scenarios/verify/lone_shell.h"
 #include "scenarios/verify/run_study.h"
 #include "scenarios/verify/study_numbers.h"
@@ -38,7 +39,7 @@ template <class Value>
 double most_of_exchanges(const FoundInRun& found, Value value) {
   double most = 0.0;
   std::size_t count = 0;
-  for (const EventLine& event : found.exchanges()) {
+  for (const EventLine& event : exchanges_of(found.events)) {
     const Snapshot *after = found.at(event.time), *before = found.at(event.time - 30.0);
     if (after == nullptr) continue;
     const auto *now = cell_of(*after, event.cell), *then = before != nullptr ? cell_of(*before, event.cell) : nullptr;
@@ -56,7 +57,7 @@ void add_round_trip(std::vector<ReferenceNumber>& out) {
   out.push_back(
       {"D (b)", "study: cells that became shells and spheres again, each once, of 100", 100.0, 1e-9, "the study's region", [study] {
          std::map<std::string, int> ups, downs;
-         for (const EventLine& event : study->found().exchanges()) ++(event.kind == "promotion" ? ups : downs)[event.cell];
+         for (const EventLine& event : exchanges_of(study->found().events)) ++(event.kind == "promotion" ? ups : downs)[event.cell];
          double whole = 0.0;
          for (const auto& [id, count] : ups) whole += count == 1 && downs[id] == 1;
          return study->found().moments.empty() ? std::nan("") : whole;
@@ -151,7 +152,7 @@ std::shared_ptr<StudyToRun> at_the_threshold(const std::string& name, double low
 double most_exchanges(const FoundInRun& found) {
   if (found.moments.empty() || found.moments.back().cells.size() != 32) return std::nan("");
   std::map<std::string, double> count;
-  for (const EventLine& event : found.exchanges()) count[event.cell] += 1.0;
+  for (const EventLine& event : exchanges_of(found.events)) count[event.cell] += 1.0;
   double most = 0.0;
   for (const auto& [cell, number] : count) most = std::max(most, number);
   return most;
@@ -169,8 +170,10 @@ void add_thresholds(std::vector<ReferenceNumber>& out) {
   out.push_back({"D (d)",
                  "study: least time between two exchanges of a cell whose pressure crosses both thresholds every 5 min, over the hold of "
                  "30 min, at least 1",
-                 1.0, 0.02, std::string(page) + ", S7.8: it is asked again at the first step after the hold",
-                 [across] { return across->found().shortest_hold() / 1800.0; }});
+                 1.0, 0.02, std::string(page) + ", S7.8: it is asked again at the first step after the hold", [across] {
+                   const std::vector<double> kept = times_between_exchanges(exchanges_of(across->found().events));
+                   return kept.empty() ? std::nan("") : std::ranges::min(kept) / 1800.0;
+                 }});
 }
 
 }  // namespace

@@ -2,20 +2,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/numbers/number_text.h"
+#include "results/exchanges.h"
 #include "scenarios/verify/run_study.h"
 #include "scenarios/verify/study_numbers.h"
 
 namespace morula::scenarios {
 namespace {
 
-/// Exchanges of a cell that came within `hold` [s] after one before; not a number where nobody exchanged its body.
+/// Exchanges of a cell that came within `hold` [s] after the one before; not a number where nobody exchanged its body.
 double hasty_exchanges(const FoundInRun& found, double hold) {
-  const std::vector<EventLine> all = found.exchanges();
-  double count = all.empty() ? std::nan("") : 0.0;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k) count += all[i].cell == all[k].cell && all[i].time - all[k].time < hold;
-  return count;
+  const std::vector<EventLine> all = exchanges_of(found.events);
+  if (all.empty()) return std::nan("");
+  return static_cast<double>(std::ranges::count_if(times_between_exchanges(all), [&](double kept) { return kept < hold; }));
 }
 
 constexpr double kGrown = 48.0 * 3600.0;  // [s]

@@ -83,8 +83,8 @@ void add_pressure_jumps(std::vector<ReferenceNumber>& out) {
   struct Level {
     const char* part;
     double left;
-    double default_all, fitted_inner,
-        fitted_all;  ///< limits of the jump over all layers, and over the inner ones; above 0.05: what is, rounded up
+    /// Limits of the jump, over all layers and over the inner ones; above 0.05: what is, rounded up.
+    double default_all, fitted_inner, fitted_all;
   };
   const std::string page = "fields_and_coupling.md D (a)";
   constexpr double kAim = 0.05;

@@ -2,15 +2,11 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
-#include <map>
 
 #include "core/numbers/number_text.h"
 #include "results/file_io.h"
-#include "scenarios/library/library.h"
 #include "scenarios/measures/single_cell.h"
 #include "scenarios/run/driver.h"
 #include "study/study.h"
@@ -30,11 +26,8 @@ FoundInRun found_in(const fs::path& run) {
 }
 
 FoundInRun run_in_folder(const fs::path& folder, const StudyInFolder& given) {
-  std::error_code ignored;
-  for (const StudyInFolder::File& file : given.files) {
-    fs::create_directories((folder / file.path).parent_path(), ignored);
-    if (!write_file_atomically(folder / file.path, file.content).ok()) return {};
-  }
+  const TemplateFile alone[] = {{"study.yaml", given.text}};
+  if (!write_files(given.library != nullptr ? given.library->files : alone, folder).ok()) return {};
   ReadOptions options;
   options.overrides = given.overrides;
   const auto study = read_study(folder / given.study, options);
@@ -51,23 +44,6 @@ const Snapshot* FoundInRun::at(double time) const {
   for (const Snapshot& moment : moments)
     if (std::abs(moment.time - time) < 1e-6) return &moment;
   return nullptr;
-}
-
-std::vector<EventLine> FoundInRun::exchanges() const {
-  std::vector<EventLine> out;
-  std::ranges::copy_if(events, std::back_inserter(out),
-                       [](const EventLine& event) { return event.kind == "promotion" || event.kind == "demotion"; });
-  return out;
-}
-
-double FoundInRun::shortest_hold() const {
-  std::map<std::string, double> last;
-  double shortest = std::nan("");
-  for (const EventLine& event : exchanges()) {
-    if (const auto before = last.find(event.cell); before != last.end()) shortest = std::fmin(shortest, event.time - before->second);
-    last[event.cell] = event.time;
-  }
-  return shortest;
 }
 
 double FoundInRun::column(const char* name, double time) const {
@@ -87,14 +63,12 @@ const FoundInRun& StudyToRun::found() {
 }
 
 std::shared_ptr<StudyToRun> study_to_run(const std::string& name, const std::string& text) {
-  return std::make_shared<StudyToRun>(
-      name, StudyInFolder{{{"study.yaml", "schema: 1\nstudy: " + name + "\n" + text + "output: {report: false}\n"}}, "study.yaml", {}});
+  return std::make_shared<StudyToRun>(name, StudyInFolder{.text = "schema: 1\nstudy: " + name + "\n" + text + "output: {report: false}\n"});
 }
 
 std::shared_ptr<StudyToRun> library_study_to_run(const std::string& name, std::string_view library, const std::string& file,
                                                  std::vector<std::string> overrides) {
-  StudyInFolder study{{}, file, std::move(overrides)};
-  for (const TemplateFile& one : find_template(library)->files) study.files.push_back({std::string(one.path), std::string(one.content)});
+  StudyInFolder study{.text = "", .library = find_template(library), .study = file, .overrides = std::move(overrides)};
   for (const char* without : {"output.report=false", "criteria=[]", "plots=[]"}) study.overrides.emplace_back(without);
   return std::make_shared<StudyToRun>(name, std::move(study));
 }

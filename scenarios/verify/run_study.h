@@ -10,6 +10,7 @@
 #include "results/run_record.h"
 #include "results/series_reader.h"
 #include "results/snapshot.h"
+#include "scenarios/library/library.h"
 
 namespace morula::scenarios {
 
@@ -22,22 +23,16 @@ struct FoundInRun {
 
   /// The snapshot of a time [s]; null where there is none.
   [[nodiscard]] const Snapshot* at(double time) const;
-  /// The exchanges of bodies among the events.
-  [[nodiscard]] std::vector<EventLine> exchanges() const;
-  /// Shortest time between two exchanges of the body of one cell [s]; not a number where none has two.
-  [[nodiscard]] double shortest_hold() const;
   /// A column of series.csv at a time; not a number where there is none.
   [[nodiscard]] double column(const char* name, double time) const;
 };
 
 /// What a user has in the folder of a study, and how it is run.
 struct StudyInFolder {
-  struct File {
-    std::string path, content;  ///< relative to the folder
-  };
-  std::vector<File> files;
-  std::string study = "study.yaml";    ///< which of them is run
-  std::vector<std::string> overrides;  ///< `key.path=value`
+  std::string text;                      ///< of study.yaml, where there is no library study
+  const Template* library = nullptr;     ///< the files, where there is one
+  std::string study = "study.yaml";      ///< which of them is run
+  std::vector<std::string> overrides{};  ///< `key.path=value`
 };
 
 /// A study that is run as a user runs it when the first of its numbers is asked for: its files are written, read, checked and run in a folder of its own, and

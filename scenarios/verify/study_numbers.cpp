@@ -35,10 +35,10 @@ std::shared_ptr<StudyToRun> pushed_pair(double step) {
 }
 
 std::shared_ptr<StudyToRun> chain(double step) {
-  std::string at;
-  for (int i = -5; i <= 5; ++i) at += (i > -5 ? ", [" : "[") + std::to_string(5 * i) + " um, 0 um, 0 um]";
+  std::vector<Vec3d> places;
+  for (int i = -5; i <= 5; ++i) places.push_back({5.0 * i, 0.0, 0.0});
   return study_to_run("chain", spheres_of_hertz("2 min", "20 s", step) + "cell_types:\n" + sphere_type("cell", "cell: 0 J/m^2") +
-                                   "initial:\n  - {type: cell, at: [" + at + "], as: sphere}\n");
+                                   "initial:\n  - {type: cell, at: [" + list_of_places(places) + "], as: sphere}\n");
 }
 
 /// Distance of the first and the last cell along x [µm].
@@ -80,17 +80,15 @@ void add_motion(std::vector<ReferenceNumber>& out) {
 
 void add_walk(std::vector<ReferenceNumber>& out) {
   constexpr int kSide = 10;
-  std::string at;
-  for (int i = 0; i < kSide * kSide * kSide; ++i) {
-    const auto place = [](int k) { return std::to_string(60 * k - 270) + " um"; };
-    at += (i > 0 ? ", [" : "[") + place(i % kSide) + ", " + place(i / kSide % kSide) + ", " + place(i / kSide / kSide) + "]";
-  }
+  std::vector<Vec3d> places;
+  const auto place = [](int k) { return 60.0 * k - 270.0; };
+  for (int i = 0; i < kSide * kSide * kSide; ++i) places.push_back({place(i % kSide), place(i / kSide % kSide), place(i / kSide / kSide)});
   const auto walk =
       study_to_run("walk",
                    "time: {end: 3 h, output: 1 h, checkpoint: 3 h}\ndomain: {size: [900 um, 900 um, 900 um], boundary: open}\n"
                    "cell_types: {cell: {radius: 5 um, adhesion: {cell: 0 J/m^2}, migration: {speed: 20 um/h, persistence: 30 min}}}\n"
                    "initial:\n  - {type: cell, at: [" +
-                       at + "], as: sphere}\n");
+                       list_of_places(places) + "], as: sphere}\n");
   const double three_errors = 3.0 * std::sqrt(2.0 / (3.0 * kSide * kSide * kSide));
   for (const double hours : {1.0, 3.0}) {
     const double speed = 20.0, persistence = 0.5;  // [µm/h], [h]

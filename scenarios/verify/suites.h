@@ -12,7 +12,7 @@ struct VerifySuite {
   std::string_view name;
   std::string_view what;  ///< for people, in the list of suites
   std::vector<ReferenceNumber> (*numbers)();
-  bool takes_minutes = false;
+  bool takes_minutes = false;  ///< its test has the label `slow`
 };
 
 /// All suites, the default first.

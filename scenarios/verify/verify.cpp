@@ -50,11 +50,7 @@ Result<std::vector<VerifiedRow>> verify_single_cell_studies(const fs::path& fold
   std::vector<VerifiedRow> out;
   for (const char* name : kStudies) {
     tell(name);
-    std::error_code error;
-    fs::create_directories(folder / name, error);
-    if (error) return file_error(folder / name, "create folder", error.value());
-    for (const TemplateFile& file : find_template(name)->files)
-      MORULA_TRY(write_file_atomically(folder / name / std::string(file.path), file.content));
+    MORULA_TRY(write_files(find_template(name)->files, folder / name));
     ReadOptions options;
     options.overrides = {"output.report=false"};
     const auto study = read_study(folder / name / "study.yaml", options);

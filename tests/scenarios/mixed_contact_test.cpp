@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <span>
+#include <string>
 
 #include "core/close_packing.h"
 #include "results/snapshot_file.h"
 #include "scenarios/library/library.h"
+#include "scenarios/verify/run_study.h"
 #include "tests/scenarios/run_into.h"
 #include "tests/study/study_fixture.h"
 
@@ -42,10 +45,7 @@ std::vector<Snapshot> snapshots_of(const std::string& time, const std::string& i
 TEST(MixedContact, OfFittedSpheresKeepsNeighboursWhereACellChangesItsBody) {
   constexpr double kRadius = 5.0, kDistance = 8.9;
   const std::vector<Vec3d> places = close_packed_places(4, kDistance);
-  std::string at;
-  for (std::size_t i = 0; i < 64; ++i)
-    at += (i > 0 ? ", [" : "[") + std::to_string(places[i].x) + " um, " + std::to_string(places[i].y) + " um, " +
-          std::to_string(places[i].z) + " um]";
+  const std::string at = list_of_places(std::span(places).first(64));
   const auto found =
       snapshots_of("{end: 23 h, output: 1 h, checkpoint: 23 h}", "[{type: tumour, as: sphere, at: [" + at + "]}]",
                    "{regions: [{name: middle, shape: sphere, center: [0 um, 0 um, 0 um], radius: 1 um, margin: 20 um, as: shell, "
