@@ -19,7 +19,7 @@ bool write_rows(png_structp png, png_infop info, const Image& image, std::vector
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB,
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-  png_set_compression_level(png, 6);
+  png_set_compression_level(png, 4);
   png_write_info(png, info);
   const std::size_t stride = static_cast<std::size_t>(image.width) * 3;
   for (int y = 0; y < image.height; ++y) png_write_row(png, image.rgb.data() + static_cast<std::size_t>(y) * stride);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <utility>
 
 #include "report/pictures/cut_faces.h"
 #include "report/pictures/projection.h"
@@ -10,11 +12,21 @@
 namespace morula::scenarios {
 namespace {
 
+struct DrawnNode {
+  Vec3d at;      // x, y in pixels (y down), z in µm
+  Vec3d normal;  // in the view frame
+};
+
 struct DrawnTriangle {
-  std::array<Vec3d, 3> corner;  // x, y in pixels (y down), z in µm
-  std::array<Vec3d, 3> normal;  // in the view frame
+  Triangle corner;  // among the drawn nodes
   std::int32_t surface;
   std::uint32_t face;
+};
+
+// The surfaces of shells as the camera sees them.
+struct DrawnSurfaces {
+  std::vector<DrawnNode> nodes;
+  std::vector<DrawnTriangle> triangles;
 };
 
 // What is drawn into the rows [first, last); every band is drawn by one thread.
@@ -46,8 +58,23 @@ void draw_sphere(const Disc& disc, const ClipDepth& clip, const Band& band, doub
   }
 }
 
-void draw_triangle(const DrawnTriangle& t, const ClipDepth& clip, const Band& band, PixelBuffer& pixels) {
-  const auto& [a, b, c] = t.corner;
+// From where to where the line at this height goes through the triangle; within rounding.
+std::pair<double, double> span_of_row(const std::array<Vec3d, 3>& corner, double y) {
+  double left = 1e300, right = -1e300;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d &a = corner[k], &b = corner[(k + 1) % 3];
+    if ((a.y < y && b.y < y) || (a.y > y && b.y > y)) continue;
+    const double x = a.y == b.y ? a.x : a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
+    left = std::min(left, x), right = std::max(right, x);
+    if (a.y == b.y) left = std::min(left, b.x), right = std::max(right, b.x);
+  }
+  return {left, right};
+}
+
+void draw_triangle(const DrawnTriangle& t, std::span<const DrawnNode> nodes, const ClipDepth& clip, const Band& band, PixelBuffer& pixels) {
+  const DrawnNode &first = nodes[t.corner[0]], &second = nodes[t.corner[1]], &third = nodes[t.corner[2]];
+  const std::array<Vec3d, 3> corner{first.at, second.at, third.at};
+  const auto& [a, b, c] = corner;
   const double twice_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   if (!(std::abs(twice_area) > 1e-12)) return;  // a line, or not a number
   const auto [low_x, high_x] = std::minmax({a.x, b.x, c.x});
@@ -58,7 +85,10 @@ void draw_triangle(const DrawnTriangle& t, const ClipDepth& clip, const Band& ba
   const int x1 = std::min(pixels.width - 1, static_cast<int>(std::floor(high_x - 0.5)));
   const double inverse = 1.0 / twice_area;
   for (int y = y0; y <= y1; ++y) {
-    for (int x = x0; x <= x1; ++x) {
+    const auto [left, right] = span_of_row(corner, y + 0.5);
+    if (left > right) continue;
+    const int from = std::max(x0, static_cast<int>(std::floor(left - 0.5))), to = std::min(x1, static_cast<int>(std::ceil(right - 0.5)));
+    for (int x = from; x <= to; ++x) {
       const double px = x + 0.5, py = y + 0.5;
       const double v = ((px - a.x) * (c.y - a.y) - (py - a.y) * (c.x - a.x)) * inverse;
       const double w = ((b.x - a.x) * (py - a.y) - (b.y - a.y) * (px - a.x)) * inverse;
@@ -67,7 +97,7 @@ void draw_triangle(const DrawnTriangle& t, const ClipDepth& clip, const Band& ba
       const double depth = u * a.z + v * b.z + w * c.z;
       const std::size_t i = pixels.index(x, y);
       if (!(depth > pixels.depth[i]) || depth > clip.at(x, y)) continue;
-      Vec3d normal = t.normal[0] * u + t.normal[1] * v + t.normal[2] * w;
+      Vec3d normal = first.normal * u + second.normal * v + third.normal * w;
       normal.z = std::max(normal.z, 0.0);  // an interpolated normal may point away just before the silhouette
       const double length = norm(normal);
       pixels.put(i, static_cast<float>(depth), t.surface, length > 0.0 ? normal / length : Vec3d{0.0, 0.0, 1.0}, t.face);
@@ -90,26 +120,40 @@ std::vector<Vec3d> node_normals(const Snapshot& snapshot, const Snapshot::Shell&
   return normals;
 }
 
-/// `first_face`: among the faces of all shells.
+/// `first_face`: among the faces of all shells. Faces that are seen from behind are left out, for a front face always hides them, and those
+/// that the cut takes off.
 void add_shell(const Snapshot& snapshot, const Snapshot::Shell& shell, std::size_t first_face, const Projection& projection,
-               std::vector<DrawnTriangle>& out) {
+               const std::optional<CutPlane>& cut, DrawnSurfaces& out) {
   const auto normals = node_normals(snapshot, shell);
-  std::vector<Vec3d> corner(shell.node_count), normal(shell.node_count);
+  const auto first_node = static_cast<std::uint32_t>(out.nodes.size());
+  std::vector<char> is_cut_off(shell.node_count, 0);
   for (std::size_t i = 0; i < shell.node_count; ++i) {
-    corner[i] = projection.pixel(snapshot.nodes[shell.first_node + i]);
-    normal[i] = projection.direction(normals[i]);
+    const Vec3d& x = snapshot.nodes[shell.first_node + i];
+    out.nodes.push_back({projection.pixel(x), projection.direction(normals[i])});
+    is_cut_off[i] = cut && dot(x - cut->point, cut->normal) > 0.0;
   }
   const std::vector<Triangle>& faces = snapshot.topologies[shell.topology];
   for (std::size_t k = 0; k < faces.size(); ++k) {
-    const Triangle& f = faces[k];
-    const auto &a = corner[f[0]], &b = corner[f[1]], &c = corner[f[2]];
-    // Seen from behind (y points down: the sign is reversed). The mesh is closed, so that a front face always hides it.
-    if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) >= 0.0) continue;
-    out.push_back({{a, b, c},
-                   {normal[f[0]], normal[f[1]], normal[f[2]]},
-                   static_cast<std::int32_t>(2 * shell.cell),
-                   static_cast<std::uint32_t>(first_face + k)});
+    const Triangle f = {faces[k][0] + first_node, faces[k][1] + first_node, faces[k][2] + first_node};
+    const auto &a = out.nodes[f[0]].at, &b = out.nodes[f[1]].at, &c = out.nodes[f[2]].at;
+    if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) >= 0.0) continue;  // y points down: the sign is reversed
+    if (is_cut_off[faces[k][0]] && is_cut_off[faces[k][1]] && is_cut_off[faces[k][2]]) continue;
+    out.triangles.push_back({f, static_cast<std::int32_t>(2 * shell.cell), static_cast<std::uint32_t>(first_face + k)});
   }
+}
+
+/// The triangles that reach into each band of so many rows, in their order.
+std::vector<std::vector<std::uint32_t>> by_band(const DrawnSurfaces& surfaces, int rows, int bands) {
+  std::vector<std::vector<std::uint32_t>> out(static_cast<std::size_t>(bands));
+  const double last = bands - 1.0;
+  for (std::uint32_t k = 0; k < surfaces.triangles.size(); ++k) {
+    const Triangle& corner = surfaces.triangles[k].corner;
+    const auto [low, high] = std::minmax({surfaces.nodes[corner[0]].at.y, surfaces.nodes[corner[1]].at.y, surfaces.nodes[corner[2]].at.y});
+    if (!(high >= 0.0 && low / rows <= bands)) continue;  // beside the picture, or not a number
+    const auto end = static_cast<std::size_t>(std::min(last, high / rows));
+    for (auto band = static_cast<std::size_t>(std::clamp(low / rows, 0.0, last)); band <= end; ++band) out[band].push_back(k);
+  }
+  return out;
 }
 
 std::vector<Disc> discs_of(const Snapshot& snapshot, const Projection& projection) {
@@ -172,10 +216,10 @@ void rasterize(const Snapshot& snapshot, const Camera& camera, const std::option
   std::vector<Disc> discs = discs_of(snapshot, projection);
   // Nearest first: what is hidden is then rejected before its square root is taken. Ties keep the order of ids.
   std::stable_sort(discs.begin(), discs.end(), [](const Disc& a, const Disc& b) { return a.depth + a.radius > b.depth + b.radius; });
-  std::vector<DrawnTriangle> triangles;
+  DrawnSurfaces surfaces;
   std::size_t face = 0;
   for (const auto& shell : snapshot.shells) {
-    add_shell(snapshot, shell, face, projection, triangles);
+    add_shell(snapshot, shell, face, projection, cut, surfaces);
     face += snapshot.topologies[shell.topology].size();
   }
   const CutFaces faces = cut ? CutFaces(snapshot, projection, *cut) : CutFaces();
@@ -183,11 +227,13 @@ void rasterize(const Snapshot& snapshot, const Camera& camera, const std::option
 
   constexpr int kBandRows = 64;
   const int bands = (pixels.height + kBandRows - 1) / kBandRows;
+  const std::vector<std::vector<std::uint32_t>> triangles_of = by_band(surfaces, kBandRows, bands);
 #pragma omp parallel for schedule(dynamic, 1)
   for (int b = 0; b < bands; ++b) {
     const Band band{b * kBandRows, std::min((b + 1) * kBandRows, pixels.height)};
     for (const Disc& disc : discs) draw_sphere(disc, clip, band, camera.pixels_per_um, pixels);
-    for (const DrawnTriangle& triangle : triangles) draw_triangle(triangle, clip, band, pixels);
+    for (const std::uint32_t k : triangles_of[static_cast<std::size_t>(b)])
+      draw_triangle(surfaces.triangles[k], surfaces.nodes, clip, band, pixels);
     if (cut) faces.draw(band.first, band.last, discs, clip, pixels);
     for (const CutNucleus& nucleus : nuclei) draw_nucleus(nucleus, clip, band, camera.pixels_per_um, pixels);
   }

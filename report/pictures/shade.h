@@ -19,8 +19,9 @@ struct ShadeOptions {
 /// Light the surfaces and write them into the image at (left, top), `samples`² sub-pixels to a pixel.
 ///
 /// A key light from the upper left, ambient light with screen-space occlusion, so that the furrow between cells in contact is dark
-/// (estimator: McGuire et al. 2011, eq. 10, doi:10.1145/2018323.2018327; its samples are rotated from sub-pixel to sub-pixel), a
-/// slight fade with depth, and a thin dark line where one cell ends and another one begins. Cut faces are flat and a little lighter.
+/// (estimator: McGuire et al. 2011, eq. 10, doi:10.1145/2018323.2018327; its samples are rotated from pixel to pixel, and the mean over the
+/// pixels around that show the same surface counts), a slight fade with depth, and a thin dark line where one cell ends and another one
+/// begins. Cut faces are flat and a little lighter.
 ///
 /// Obstacles are grey: behind cells they are hidden, before them a thin veil, where no cell is they are seen. Fluid of cavities is a pale
 /// blue.
