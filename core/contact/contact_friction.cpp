@@ -168,6 +168,7 @@ std::vector<ElementGroup> ContactLayer::element_groups(const ContactScene& scene
     ElementGroup& group = groups.emplace_back();
     group.rigid = pair.rigid;
     if (pair.rigid) {
+      group.obstacle = pair.b;
       group.topology[1] = obstacles_[pair.b].topology.get();
       group.position[1] = obstacles_[pair.b].position.data();
     }

@@ -109,6 +109,7 @@ struct ElementGroup {
   std::uint32_t first[2] = {0, 0};                           ///< first points
   bool write[2] = {true, true};                              ///< false: ghost, or held
   bool rigid = false;                                        ///< body 1 is an obstacle, not an unknown
+  std::uint32_t obstacle = 0;                                ///< which, if so
   float normal_friction = 0.0f, tangential_friction = 0.0f;  ///< γ_n, γ_t per area [nN·s/µm³]
 };
 

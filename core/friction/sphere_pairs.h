@@ -29,7 +29,7 @@ struct SpherePairElement {
 
 /// A sphere against something rigid: the same with v_b = 0. Few, so that it carries its own coefficients.
 struct RigidPairElement {
-  std::uint32_t sphere = 0;
+  std::uint32_t sphere = 0, obstacle = 0;
   float n[3] = {0.0f, 0.0f, 1.0f};
   float isotropic = 0.0f;  ///< A γ_t [nN·s/µm]
   float axial = 0.0f;      ///< A (γ_n − γ_t) [nN·s/µm]

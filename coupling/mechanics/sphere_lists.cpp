@@ -127,7 +127,7 @@ void SphereContacts::add_rigid_pairs(const Scene& scene, const Tissue& tissue, s
       pair.obstacle = o;
       pair.part = part;
       pair.attached = pair.attached_next = attached;
-      list_.rigid.emplace_back().sphere = sphere;
+      list_.rigid.push_back({sphere, o});
     }
   }
 }

@@ -104,7 +104,7 @@ void SphereContacts::renumber_rigid_pairs(const Scene& scene, const Tissue& tiss
     if (pair.sphere == BodyChanges::kNone || fresh[pair.sphere]) continue;
     add_fresh(pair.sphere);
     rigid_.push_back(pair);
-    list_.rigid.emplace_back().sphere = pair.sphere;
+    list_.rigid.push_back({pair.sphere, pair.obstacle});
   }
   add_fresh(fresh.size());
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/parallel/threads.h"
+#include "coupling/mechanics/contact_setup.h"
 
 namespace morula {
 namespace {
@@ -41,7 +42,8 @@ void add_random_forces(Workspace& work, const Tissue& tissue, double dt, std::sp
 void find_clusters(Workspace& work, const World& world, std::span<const ElementGroup> groups) {
   std::vector<std::uint32_t> tied;
   for (const auto& term : work.terms.all) term->add_tied(world, tied);
-  work.solver.clusters.find(work.scene, groups, work.terms.spheres->pairs(), tied, work.setting.threads, work.setting.comm);
+  work.solver.clusters.find(work.scene, groups, work.terms.spheres->pairs(), tied, wall_axes(work.setting.model), work.setting.threads,
+                            work.setting.comm);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "coupling/mechanics/contact_setup.h"
 #include "tests/coupling/tissue_fixture.h"
@@ -39,7 +40,7 @@ Mechanics mechanics_of(const Model& model, ShapeLibrary& shapes, int threads = 1
   return {model, contact_obstacles(model).value(), shapes, Comm(), threads};
 }
 
-TEST(FreeClusters, EachKeepsItsOwnCentreAndTheOneAtAWallDoesNot) {
+TEST(FreeClusters, EachKeepsItsOwnCentreAndTheOneAtAWallDoesAlongIt) {
   Model model = test::clusters_model(0.02);
   model.space.box = {{-200, -200, -5.5}, {200, 200, 200}};
   model.space.boundary[2][0] = BoundaryKind::kWall;
@@ -60,6 +61,7 @@ TEST(FreeClusters, EachKeepsItsOwnCentreAndTheOneAtAWallDoesNot) {
   }
   const Cluster held = way_of(before, tissue, {6, 7});
   EXPECT_GT(norm(held.push), 1e-2 * held.way);  // the wall pushes
+  EXPECT_LE(std::hypot(held.push.x, held.push.y), 1e-6 * held.way) << "across itself only";
   // Nothing but the medium: v = f/γ, γ = 4π R² γ_med.
   const double expected = 0.1 / (4.0 * std::numbers::pi * 36.0 * model.types[0].medium_friction);
   EXPECT_NEAR(way_of(before, tissue, {8}).push.x, expected, 1e-6 * expected);

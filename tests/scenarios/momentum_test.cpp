@@ -29,6 +29,7 @@ cell_types:
 struct Moved {
   double drift = 0.0, way = 0.0, rotation = 0.0;  // of series.csv
   double centre = 0.0, mean_way = 0.0;            // of the spheres' centres in results.h5, weighted by their surface
+  Vec3d of_centre;                                // where it went
   double area[2] = {0.0, 0.0};                    // of all cells, there
 };
 
@@ -59,7 +60,8 @@ Moved run_study(const std::string& text, const std::filesystem::path& folder) {
     out.area[0] += first->cells[i].area;
     out.area[1] += last->cells[i].area;
   }
-  out.centre = norm(sum) / weight;
+  out.of_centre = sum * (1.0 / weight);
+  out.centre = norm(out.of_centre);
   out.mean_way /= weight;
   return out;
 }
@@ -122,6 +124,30 @@ TEST(Momentum, AForceFromOutsideMovesTheCentreAsFrictionSays) {
   EXPECT_NEAR(moved.drift, expected, expected * (1e-4 + std::abs(last / first - 1.0)));
   EXPECT_LT(std::abs(last / first - 1.0), 0.02);
   EXPECT_GT(moved.rotation, 1e-3);  // it pulls beside the centre
+}
+
+/// A wall of the domain is flat and rubs nobody: along it nothing but the medium holds a cell, however hard it is pressed on.
+TEST(Momentum, APressedShellSlidesAlongAWallAsFrictionSays) {
+  const test::Folder folder;
+  const std::string text = test::changed("size: [200 um, 200 um, 200 um]", "size: [200 um, 200 um, 200 um], boundary: {z_low: wall}",
+                                         study("  - {type: cell, at: [[-40 um, 0 um, -94 um]], as: shell}\n", "2 h",
+                                               "loads:\n  drag: {type: cell, body_force: [0.2 nN, 0 nN, -3 nN]}\n"));
+  const Moved moved = run_study(text, folder.path());
+  const double way = 0.2 * 7200.0 / 0.1;  // F t/γ, over the area: that of the round cell at the start, a little more of the flat one
+  EXPECT_GT(moved.area[1], 1.01 * moved.area[0]);
+  EXPECT_LT(moved.centre, 1.001 * way / moved.area[0]);
+  EXPECT_GT(moved.centre, 0.999 * way / moved.area[1]);
+}
+
+TEST(Momentum, SpheresOnAWallKeepTheirCentreAlongIt) {
+  const test::Folder folder;
+  const Moved moved = run_study(test::changed("size: [200 um, 200 um, 200 um]", "size: [200 um, 200 um, 200 um], boundary: {z_low: wall}",
+                                              study("  - {type: cell, at: [[-5.5 um, 0 um, -94.1 um], [2 um, 9 um, -94.1 um]], as: cbm}\n"
+                                                    "  - {type: small, at: [[5 um, 1 um, -95.1 um]], as: cbm}\n",
+                                                    "1 h", "loads:\n  weight: {type: cell, body_force: [0 nN, 0 nN, -1 nN]}\n")),
+                                folder.path());
+  EXPECT_GT(moved.mean_way, 0.05);
+  EXPECT_LE(std::hypot(moved.of_centre.x, moved.of_centre.y), kMost * moved.mean_way);
 }
 
 }  // namespace
