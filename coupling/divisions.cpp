@@ -99,12 +99,15 @@ void put_off(CellRow& mother, std::vector<Event>& events) {
   *division = {division->time, EventKind::kDivisionWaits, mother.id, {}, {}, {EventReason::Cause::kNoPlane}};
 }
 
-/// Tells the volumes of a division.
-void note_volumes(const CellRow& mother, const Daughters& daughters, std::vector<Event>& events) {
+/// Tells the volumes of a division, and what the daughters are.
+void note_daughters(const CellRow& mother, const Daughters& daughters, std::vector<Event>& events) {
   for (Event& event : events) {
     if (event.kind != EventKind::kDivision || event.cell != mother.id) continue;
     event.volume = mother.target_volume;
-    for (std::size_t which = 0; which < 2; ++which) event.birth_volume[which] = daughters[which].row.birth_volume;
+    for (std::size_t which = 0; which < 2; ++which) {
+      event.birth_volume[which] = daughters[which].row.birth_volume;
+      event.birth_type[which] = daughters[which].row.type;
+    }
   }
 }
 
@@ -160,7 +163,7 @@ Status Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>&
       continue;
     }
     ++divisions;
-    note_volumes(mothers[k].cell.row, daughters[k], events);
+    note_daughters(mothers[k].cell.row, daughters[k], events);
     gone.push_back(mothers[k].body.row);
     if (mothers[k].body.is_shell) cut.push_back(mothers[k].cell);
     for (CellRecord& daughter : daughters[k]) {

@@ -48,7 +48,7 @@ std::string text_of_cause(const EventReason& reason, const Model& model) {
     case Cause::kTrigger:
       return text_of(model.swaps.triggers[reason.number], model);
     case Cause::kOutside:
-      return "outside";
+      return model.swaps.regions.empty() && model.swaps.triggers.empty() ? "its type" : "outside";
     case Cause::kBecameShell:
       return "how far its neighbours went since it became a shell";
     case Cause::kBecameSphere:

@@ -66,8 +66,9 @@ struct Event {
   CellId cell;
   CellId first_daughter, second_daughter;
   EventReason reason;
-  double volume = 0.0;                  ///< of a division: the mother's target volume [µm³]
-  double birth_volume[2] = {0.0, 0.0};  ///< and those of her daughters at birth [µm³]
+  double volume = 0.0;                   ///< of a division: the mother's target volume [µm³]
+  double birth_volume[2] = {0.0, 0.0};   ///< and those of her daughters at birth [µm³]
+  std::uint16_t birth_type[2] = {0, 0};  ///< and what her daughters are
   /// Of a division by cut: how much the energy of the whole rose by the divisions of the same moment [nN·µm].
   std::optional<double> energy_rise{};
   /// Of an exchange of bodies in a run, and of what became of it.

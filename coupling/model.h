@@ -133,6 +133,9 @@ struct Swaps {
   double hold = 600.0;  ///< of regions [s]
   /// A sphere that becomes a shell among shells, or with others, begins with the room that its ball has between theirs (decision 0059).
   bool gradual = true;
+  bool by_fate = false;  ///< some daughters are of a type with another body than their mother's
+  /// Whether any cell may exchange its body.
+  [[nodiscard]] bool any() const { return by_fate || !regions.empty() || !triggers.empty(); }
 };
 
 enum class Integrator : std::uint8_t { kImplicit, kExplicitEuler };

@@ -99,7 +99,7 @@ LookedAt look_for_swaps(const Model& model, const Tissue& tissue, std::span<cons
 
 std::vector<SwapOrder> choose_swaps(const Model& model, const Tissue& tissue, const SwapBodies& bodies, const Comm& comm) {
   const std::span<const Vec3d> center = bodies.center;
-  if (model.swaps.regions.empty() && model.swaps.triggers.empty()) return {};
+  if (!model.swaps.any()) return {};
   const std::vector<Vec3d> center_of_region = centers_of_regions(model, tissue, center, comm);
   std::vector<SwapOrder> orders;
   std::int64_t shells = 0;
@@ -147,7 +147,7 @@ bool is_too_tight_for_a_sphere(const CellRow& row, const CellType& type, double 
 
 bool swaps_wait(const Model& model, const Tissue& tissue, const SwapBodies& bodies, std::span<const double> caps, const Comm& comm) {
   const std::span<const Vec3d> center = bodies.center;
-  if (model.swaps.regions.empty() && model.swaps.triggers.empty()) return false;
+  if (!model.swaps.any()) return false;
   const std::vector<Vec3d> center_of_region = centers_of_regions(model, tissue, center, comm);
   bool up = false, down = false;
   std::int64_t shells = 0;

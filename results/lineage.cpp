@@ -48,7 +48,7 @@ class Lives {
     const std::string type = life.type;  // begin() moves the lives
     life.division_volume = event.volume;
     for (std::size_t which = 0; which < event.daughters.size(); ++which) {
-      begin({event.daughters[which], event.cell, type, event.time, end_});
+      begin({event.daughters[which], event.cell, which < event.birth_types.size() ? event.birth_types[which] : type, event.time, end_});
       if (which < event.birth_volumes.size()) lives_.back().birth_volume = event.birth_volumes[which];
     }
   }

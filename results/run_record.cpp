@@ -11,6 +11,7 @@
 
 #include "core/numbers/joined.h"
 #include "core/numbers/number_text.h"
+#include "coupling/model.h"
 #include "results/build_info.h"
 #include "results/file_io.h"
 
@@ -264,6 +265,13 @@ std::optional<ExchangeEffect> exchange_in(const Json& json) {
 
 }  // namespace
 
+ToldEvent told(const Event& event, const Model& model) {
+  ToldEvent out{event, text_of(event.reason, model), {}};
+  if (event.kind != EventKind::kDivision) return out;
+  for (std::size_t which = 0; which < 2; ++which) out.birth_types[which] = model.types[event.birth_type[which]].name;
+  return out;
+}
+
 std::string to_json_line(const ToldEvent& told) {
   const Event& event = told.event;
   Json json{{"time_s", number(event.time)}, {"kind", name_of(event.kind)}};
@@ -274,6 +282,7 @@ std::string to_json_line(const ToldEvent& told) {
     json["volume_um3"] = number(event.volume);
     json["birth_volumes_um3"] = {number(event.birth_volume[0]), number(event.birth_volume[1])};
   }
+  if (!told.birth_types[0].empty()) json["birth_types"] = {told.birth_types[0], told.birth_types[1]};
   if (event.energy_rise) json["energy_rise_nN_um"] = number(*event.energy_rise);
   if (event.exchange) add_exchange(event, json);
   json["text"] = told.text;
@@ -295,6 +304,9 @@ std::optional<EventLine> event_of_line(const std::string& line) {
   if (const auto volumes = json.find("birth_volumes_um3"); volumes != json.end())
     for (const Json& volume : *volumes)
       if (volume.is_number()) out.birth_volumes.push_back(volume.get<double>());
+  if (const auto types = json.find("birth_types"); types != json.end())
+    for (const Json& type : *types)
+      if (type.is_string()) out.birth_types.push_back(type.get<std::string>());
   if (const auto rise = json.find("energy_rise_nN_um"); rise != json.end() && rise->is_number()) out.energy_rise = rise->get<double>();
   out.exchange = exchange_in(json);
   return out;

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -73,11 +74,14 @@ struct RunStatus {
 [[nodiscard]] std::string to_json(const RunStatus& status);
 Result<RunStatus> read_run_status(const std::filesystem::path& status_json);
 
-/// An event, and the reason for it in words.
+/// An event, and what its numbers stand for in words.
 struct ToldEvent {
   Event event;
-  std::string text;
+  std::string text;                          ///< the reason
+  std::array<std::string, 2> birth_types{};  ///< of a division: Event::birth_type; empty: not told
 };
+/// The words for an event of this model.
+[[nodiscard]] ToldEvent told(const Event& event, const Model& model);
 /// One line of events.jsonl, with the newline.
 [[nodiscard]] std::string to_json_line(const ToldEvent& told);
 /// What a line of events.jsonl says.
@@ -89,6 +93,7 @@ struct EventLine {
   std::string text;
   double volume = 0.0;                     ///< of a division: the mother's target volume; 0: not told [µm³]
   std::vector<double> birth_volumes;       ///< of her daughters [µm³]
+  std::vector<std::string> birth_types;    ///< and their types; empty: not told
   std::optional<double> energy_rise;       ///< of the divisions by cut of its moment, together [nN·µm]
   std::optional<ExchangeEffect> exchange;  ///< of an exchange of bodies, and of what became of it
 };

@@ -117,6 +117,7 @@ void build_fates(BuildContext& c, const draft::CellType& t, CellType& type) {
       found = found && number >= 0;
       if (number < 0) continue;
       out.type[k] = static_cast<std::uint16_t>(number);
+      if (c.study.model.types[out.type[k]].initial_body != type.initial_body) c.study.model.swaps.by_fate = true;
       if (c.study.model.types[out.type[k]].shell_nodes != type.shell_nodes)
         c.diagnostics.error(510, fate.types.place,
                             "daughters of '" + type.name + "' that become '" + fate.types.value[k] + "' would have another number of nodes",

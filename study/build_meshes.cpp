@@ -239,7 +239,7 @@ void build_meshes(BuildContext& context, draft::Initial& draft, const Place& pla
 }
 
 bool only_from_meshes(const Study& study, std::size_t type) {
-  if (!study.model.swaps.regions.empty() || !study.model.swaps.triggers.empty()) return false;
+  if (study.model.swaps.any()) return false;
   bool from_meshes = false;
   for (const InitialCells& cells : study.initial) {
     const bool own = cells.source == InitialCells::Source::kMeshes, here = cells.may_have(type);

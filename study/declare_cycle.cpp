@@ -56,7 +56,9 @@ void declare_division(Section& c, draft::CellType& t) {
   bool given = false;
   c.group({.name = "daughters", .doc = "What daughters are.", .example = "{polarity: mirrored}"}, given, [&t](Section& d) {
     d.list({.name = "fates",
-            .doc = "Types that they may have, and how often; else both have that of their mother. One is drawn for each division.",
+            .doc = "Types that they may have, and how often; else both have that of their mother. One is drawn for each division. Where "
+                   "`body` of "
+                   "the type is another one than of the mother's, a daughter gets it when the sisters have parted, half an hour later.",
             .example = "[{share: 80 %, types: [stem, transit]}, {share: 10 %, types: [transit, transit]}]"},
            t.fates, &declare_fate);
     d.word({.name = "polarity",

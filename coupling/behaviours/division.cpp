@@ -54,7 +54,9 @@ DaughterRows divide_row(const CellState& mother, std::span<const VariableColumn>
                              mother.cycle_duration * (own.cycle_duration.mean / type.cycle_duration.mean), place[which]);
     daughter.type = becomes[which];
     daughter.polarity = daughters_polarity(mother, daughter, which == 0, type, own, seed);
-    if (becomes[which] != mother.type) daughter.migration_velocity = initial_migration_velocity(daughter.id, own, seed);
+    if (becomes[which] == mother.type) continue;
+    daughter.migration_velocity = initial_migration_velocity(daughter.id, own, seed);
+    if (own.initial_body != type.initial_body) daughter.own_body = own.initial_body;
   }
   divide_variables(variables, mother, out.first, out.second);
   const std::size_t first = first_cycle_variable(variables);

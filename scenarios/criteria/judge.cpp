@@ -61,8 +61,7 @@ bool is_passive(const Study& study) {
     if (block.start_volume_fraction < 1.0) return false;
   for (const ObstacleSpec& obstacle : model.obstacles)
     if (obstacle.moves()) return false;
-  return model.box_volume.empty() && model.loads.empty() && model.lumens.empty() && model.apical_springs.empty() &&
-         model.swaps.regions.empty() && model.swaps.triggers.empty();
+  return model.box_volume.empty() && model.loads.empty() && model.lumens.empty() && model.apical_springs.empty() && !model.swaps.any();
 }
 
 Result<Judgement> common_criteria(const Study& study, const std::filesystem::path& run) {
@@ -78,10 +77,14 @@ Result<Judgement> common_criteria(const Study& study, const std::filesystem::pat
   else
     out.verdicts.push_back(at_most("INV.4", penetration, largest(series.find("worst_overlap")), limits.overlap, "um"));
   if (const auto* clearance = series.find("nucleus_clearance")) {
+    const char* quantity = "how far a node of a nucleus is outside its cortex, at any output";
     Largest outside;
-    for (const double value : clearance->values) outside.add(std::isnan(value) ? value : std::max(0.0, -value));
-    out.verdicts.push_back(
-        at_most("INV.5", "how far a node of a nucleus is outside its cortex, at any output", outside.value(), limits.overlap, "um"));
+    for (const double value : clearance->values)
+      if (!std::isnan(value)) outside.add(std::max(0.0, -value));
+    if (outside.shown())
+      out.verdicts.push_back(at_most("INV.5", quantity, outside.value(), limits.overlap, "um"));
+    else
+      out.not_checked.push_back({"INV.5", quantity, "no cell had a nucleus at any output"});
   }
   const char* rise = "rise of the energy between outputs, relative to its range";
   if (!is_passive(study))

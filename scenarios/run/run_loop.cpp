@@ -86,7 +86,7 @@ void RunLoop::warn(const std::string& text) {
 
 void RunLoop::keep_events(std::span<const Event> events) {
   if (!comm_.is_root()) return;  // the root writes them, and makes their words
-  for (const Event& event : events) events_.push_back({event, text_of(event.reason, study_.model)});
+  for (const Event& event : events) events_.push_back(told(event, study_.model));
 }
 
 Status RunLoop::write_events() {
@@ -275,23 +275,24 @@ void RunLoop::tell_events() {
     double room = 0.0, later = 0.0, volume = 0.0;  // [µm³]
   };
   std::map<std::pair<EventKind, std::string>, Exchanges> exchanges;
-  for (const auto& [event, text] : events_) {
+  for (const auto& [event, text, types] : events_) {
     if (event.kind != EventKind::kPromotion && event.kind != EventKind::kDemotion) continue;
     Exchanges& one = exchanges[{event.kind, text}];
     ++one.count;
     if (event.exchange) one.room += event.exchange->room, one.later += event.exchange->later, one.volume += event.exchange->volume;
   }
   for (const auto& [what, all] : exchanges) {
-    const bool up = what.first == EventKind::kPromotion;
+    const bool up = what.first == EventKind::kPromotion, one = all.count == 1;
+    const char* became =
+        up ? (one ? " cell became a shell (" : " cells became shells (") : (one ? " cell became a sphere (" : " cells became spheres (");
     const std::string room = number_text("%.3g um^3", std::abs(all.room)) + " (" +
-                             number_text("%.2g %%", 100.0 * std::abs(all.room) / all.volume) + " of their volume) " +
-                             (up ? "more" : "less") + " room than before" +
+                             number_text("%.2g %%", 100.0 * std::abs(all.room) / all.volume) + " of " + (one ? "its" : "their") +
+                             " volume) " + (up ? "more" : "less") + " room than before" +
                              (all.later > 0.0 ? ", " + number_text("%.3g um^3", all.later) + " of it little by little" : "");
-    note(Note::Kind::kNote, std::to_string(all.count) + (all.count == 1 ? " cell" : " cells") +
-                                (up ? " became shells (" : " became spheres (") + what.second + ")" +
-                                (all.room != 0.0 && all.volume > 0.0 ? "; they take " + room : ""));
+    note(Note::Kind::kNote, std::to_string(all.count) + became + what.second + ")" +
+                                (all.room != 0.0 && all.volume > 0.0 ? (one ? "; it takes " : "; they take ") + room : ""));
   }
-  for (const auto& [event, text] : events_)
+  for (const auto& [event, text, types] : events_)
     if (event.kind == EventKind::kWarning) note(Note::Kind::kWarning, "cell " + event.cell.text() + ": " + text);
 }
 

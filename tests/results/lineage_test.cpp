@@ -50,6 +50,16 @@ constexpr const char* kEvents =
     "{\"time_s\":6600.0,\"kind\":\"death\",\"cell\":\"2.01\",\"text\":\"\"}\n"
     "{\"time_s\":9000.0,\"kind\":\"division\",\"cell\":\"11\",\"daughters\":[\"11.0\",\"11.1\"],\"text\":\"\"}\n";
 
+TEST_F(Lineage, DaughtersAreOfTheTypesThatTheDivisionTells) {
+  const std::vector<CellLife> found = lives(
+      "{\"time_s\":1200.0,\"kind\":\"division\",\"cell\":\"2\",\"daughters\":[\"2.0\",\"2.1\"],\"birth_types\":[\"egg\",\"wall\"],"
+      "\"text\":\"\"}\n");
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_EQ(found[1].type, "egg");
+  EXPECT_EQ(found[2].id, "2.1");
+  EXPECT_EQ(found[2].type, "wall");
+}
+
 TEST_F(Lineage, TellsEveryLifeFromBirthToEnd) {
   EXPECT_EQ(lineage_csv(lives(kEvents)),
             "id,parent,type,birth [s],end [s],how,birth volume [um^3],division volume [um^3]\n"

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "results/lineage.h"
 #include "tests/scenarios/snapshots_of_run.h"
 
 namespace morula::scenarios::test {
@@ -96,6 +97,39 @@ TEST(Fates, OfShellsHaveTheTensionOfTheirOwnType) {
     const double stems = pair[0].pressure * std::cbrt(pair[0].volume), others = pair[1].pressure * std::cbrt(pair[1].volume);
     EXPECT_NEAR(others / stems, 2.0, 0.25) << mother.text();
   }
+}
+
+TEST(Fates, HaveTheBodyOfTheirTypeOnceSistersHaveParted) {
+  // First divisions at half an hour, second ones of the stem cells at an hour.
+  for (const bool become_shells : {true, false}) {
+    const std::string study = changed("40 min, output: 40 min", "70 min, output: 5 min",
+                                      stem("{fates: [{share: 100 %, types: [stem, transit]}]}", become_shells ? "sphere" : "shell", 2));
+    const std::string text = become_shells ? changed("body: sphere\n    adhesion", "body: shell\n    adhesion", study) : study;
+    const auto all = snapshots_of_run(text);
+    ASSERT_FALSE(all.empty());
+    const BodyKind mothers = become_shells ? BodyKind::kSphere : BodyKind::kShell;
+    int transit = 0;
+    for (const Snapshot::Cell& cell : all.back().snapshot.cells) {
+      if (cell.type == kStem || cell.age < 1800.0) {
+        EXPECT_EQ(cell.body, mothers) << cell.id.text();
+        continue;
+      }
+      ++transit;
+      EXPECT_NE(cell.body, mothers) << cell.id.text();
+    }
+    EXPECT_EQ(transit, 4);
+  }
+}
+
+TEST(Fates, StandInTheLineage) {
+  const Folder folder;
+  const auto study = read(stem("{fates: [{share: 100 %, types: [stem, transit]}]}", "sphere", 2));
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  ASSERT_TRUE(run_into(folder.path() / "run", *study));
+  const auto lives = read_lineage(folder.path() / "run/results.h5", folder.path() / "run/events.jsonl");
+  ASSERT_TRUE(lives.ok()) << lives.error().message;
+  ASSERT_EQ(lives->size(), 12u);
+  for (const CellLife& life : *lives) EXPECT_EQ(life.type, !life.parent.empty() && life.id.back() == '1' ? "transit" : "stem") << life.id;
 }
 
 TEST(Fates, GoOnAsTheirTypesSay) {
