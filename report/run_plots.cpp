@@ -122,11 +122,14 @@ class Plots {
       if (!found || found->values.empty()) continue;
       Curve curve{shown, time_, found->values, style};
       for (double& y : curve.y) y *= scale;
-      const auto [low, high] = std::minmax_element(curve.y.begin(), curve.y.end());
-      const bool zero = *low == 0.0 && *high == 0.0;
+      double low = 1e300, high = -1e300;
+      for (const double y : curve.y)
+        if (!std::isnan(y)) low = std::min(low, y), high = std::max(high, y);
+      if (low > high) continue;
+      const bool zero = low == 0.0 && high == 0.0;
       const bool again = std::any_of(plot.curves.begin(), plot.curves.end(), [&](const Curve& c) { return c.y == curve.y; });
       if (least_change && (zero || again)) continue;
-      changes = changes || *high - *low > least_change.value_or(0.0) * std::max(std::abs(*low), std::abs(*high));
+      changes = changes || high - low > least_change.value_or(0.0) * std::max(std::abs(low), std::abs(high));
       plot.curves.push_back(std::move(curve));
     }
     if (plot.curves.empty() || (least_change && !changes)) return nullptr;

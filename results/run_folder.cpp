@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <functional>
@@ -200,7 +201,7 @@ Status RunFolder::begin_series(std::span<const SeriesHeader> columns) const {
 Status RunFolder::add_to_series(double time, std::span<const double> values) const {
   if (!is_root_) return {};
   std::string line = shortest_text(time);
-  for (const double value : values) line += ',' + shortest_text(value);
+  for (const double value : values) line += ',' + (std::isnan(value) ? std::string() : shortest_text(value));
   return append_to_text(series(), line + '\n');
 }
 

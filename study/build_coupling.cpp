@@ -91,8 +91,9 @@ bool is_phase(BuildContext& c, const draft::Trigger& t) {
     if (type.cycle.quiescence.phase >= 0) names.emplace_back(kQuiescentPhase);
   }
   if (std::ranges::find(names, t.phase.value) != names.end()) return true;
-  c.diagnostics.error(405, t.phase.place, "no type has a phase '" + t.phase.value + "'",
-                      names.empty() ? "give a type `cycle: {phases: [...]}`" : suggest(t.phase.value, names));
+  c.diagnostics.error(
+      405, t.phase.place, "no type has a phase '" + t.phase.value + "'",
+      names.empty() ? "give a type phases: `cycle: {model: phases, phases: {g1: {duration: 8 h}}}`" : suggest(t.phase.value, names));
   return false;
 }
 

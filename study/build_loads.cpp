@@ -15,6 +15,14 @@ Vec3d unit_axis(BuildContext& c, const Given<Vec3d>& axis, const char* key) {
   return normalized(axis.value);
 }
 
+/// Whether cells of this type may exchange their body: regions take everyone, triggers by type only theirs.
+bool may_change_body(const BuildContext& c, std::size_t type) {
+  if (!c.draft.coupling.regions.empty()) return true;
+  const std::string& name = c.draft.cell_types[type].name;
+  return std::ranges::any_of(c.draft.coupling.triggers,
+                             [&](const auto& trigger) { return !trigger.content.type.given || trigger.content.type.value == name; });
+}
+
 /// A load on the surface needs shells; one on chosen nodes needs to know where these were at the start.
 void check_bodies(BuildContext& c, const std::string& name, const Place& place, const CellLoad& load) {
   if (load.what->of_whole_cells()) return;
@@ -35,10 +43,13 @@ void check_bodies(BuildContext& c, const std::string& name, const Place& place, 
       return;
     }
   }
-  const bool swaps = !c.draft.coupling.regions.empty() || !c.draft.coupling.triggers.empty();
   const CellType& type = c.study.model.types[load.type];
-  if (chosen && (swaps || type.cycles || type.renew_mesh_below > 0.0))
-    c.diagnostics.error(520, place, who + " at chosen nodes, which a cell that divides, changes its body or renews its mesh would not keep",
+  const char* why = may_change_body(c, load.type) ? "changes its body (`coupling` may ask for it)"
+                    : type.cycles                 ? "divides"
+                    : type.renew_mesh_below > 0.0 ? "renews its mesh"
+                                                  : nullptr;
+  if (chosen && why != nullptr)
+    c.diagnostics.error(520, place, who + " at chosen nodes, which a cell that " + why + " would not keep",
                         "use a load on the whole cell, or cells that stay as they are");
 }
 

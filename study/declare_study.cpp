@@ -206,7 +206,8 @@ void declare_domain(Section& s, draft::Domain& domain) {
                      value);
             };
             draft::DomainBoundary& d = domain.boundary;
-            face("all", "All faces: open, a rigid wall, or periodic.", d.all, "open");
+            face("all", "All faces: open, a rigid wall without friction or adhesion (a `plane` of `geometry` has both), or periodic.",
+                 d.all, "open");
             face("x", "Both faces across x.", d.x);
             face("y", "Both faces across y.", d.y);
             face("z", "Both faces across z.", d.z);

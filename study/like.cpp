@@ -27,6 +27,9 @@ Node written_out(const Node& node, const Declaration* section) {
   return map;
 }
 
+/// `key: default` takes back what the other type says of this key.
+bool takes_back(const Node& node) { return node.kind == Node::Kind::kScalar && node.text == "default"; }
+
 /// `own` over `base`: maps key by key, all else as a whole.
 Node over(const Node& base, const Node& own, const Declaration* section) {
   const Node below = written_out(base, section), above = written_out(own, section);
@@ -35,6 +38,7 @@ Node over(const Node& base, const Node& own, const Declaration* section) {
   out.entries.clear();
   for (const Node::Entry& entry : below.entries) {
     const Node* mine = above.find(entry.key);
+    if (mine && takes_back(*mine)) continue;
     out.entries.push_back({entry.key, entry.key_place, mine ? over(entry.value, *mine, child_of(section, entry.key)) : entry.value});
   }
   for (const Node::Entry& entry : above.entries)

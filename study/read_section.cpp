@@ -106,8 +106,12 @@ void ReadSection::whole(const KeySpec& key, Given<std::uint64_t>& value) {
   }
   const bool digits = !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
   if (!digits) {
+    const bool negative =
+        text.size() > 1 && text[0] == '-' && std::all_of(text.begin() + 1, text.end(), [](char c) { return c >= '0' && c <= '9'; });
     if (is_not_finite_word(text))
       diagnostics_.error(301, node->place, shown(key) + " is not a finite number: '" + text + "'", example_of(key));
+    else if (negative && key.words.empty())
+      diagnostics_.error(302, node->place, shown(key) + " is " + text + ", but must be " + range_words(key), example_of(key));
     else
       diagnostics_.error(109, node->place, shown(key) + " must be a whole number, but is '" + text + "'", example_of(key));
     return;

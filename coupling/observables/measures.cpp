@@ -49,7 +49,7 @@ double least_clearance(const Simulation& simulation) {
     least = std::min(least, dcm::nucleus_clearance(view));
   }
   least = simulation.comm().min(least);
-  return least < 1e300 ? least : 0.0;
+  return least < 1e300 ? least : Measures::kNone;
 }
 
 double highest_on_faces(const fields::FieldSpec& spec) {
@@ -165,7 +165,7 @@ void count_all(const Tissue& tissue, OverCells& cells, const Comm& comm, Measure
   for (std::int64_t& count : out.of_type) count = comm.sum(count);
   out.pressure = over_ranks(cells.pressure, comm);
   out.volume_error = over_ranks(cells.volume_error, comm);
-  out.most_outside = comm.max(cells.most_outside);
+  if (const double most = comm.max(cells.most_outside); out.spheres > 0) out.most_outside = most;
   out.spheres_outside = comm.sum(cells.spheres_outside);
 }
 

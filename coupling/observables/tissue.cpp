@@ -34,28 +34,33 @@ std::vector<Observable> tissue_observables(const Model&) {
       {"max_pressure", "kPa", "Largest pressure of a cell.", [](M m) { return m.measures.pressure.value; }},
       {"mean_contact_area", "um^2",
        "Mean area of a cell that is in contact. Of shells: what is nearer than half the range. Too large at small contact angles, by "
-       "c/(2 a tan(angle)) of a contact of radius a; doublets of 162 nodes: 17, 8, 2, -2 % at W/2T = 0.1, 0.3, 0.5, 0.75. "
+       "c/(2 a tan(angle)) of a contact of radius a; doublets of 162 nodes: 17, 8, 2, -2 % at W/2T = 0.1, 0.3, 0.5, 0.75; far too large "
+       "where shells are pressed together and do not adhere. "
        "Of spheres: that of their pairs or, with a fitted law, that of cells among many.",
        [](M m) { return m.measures.mean_contact_area; }},
       {"contacts_beyond_range", "1",
        "Part of the contacts of two spheres whose overlap is outside of what their law was fitted to; of a law that was not fitted, whose "
        "radius is above 0.45 of the smaller sphere's.",
-       [](M m) { return m.measures.sphere_contacts > 0 ? double(m.measures.contacts_beyond) / double(m.measures.sphere_contacts) : 0.0; }},
+       [](M m) {
+         return m.measures.sphere_contacts > 0 ? double(m.measures.contacts_beyond) / double(m.measures.sphere_contacts) : Measures::kNone;
+       }},
       {"mean_outside_law", "1",
        "Mean over the spheres of `outside_law`: overlap and packing over what their laws are for, 1 at the end of the range.",
        [](M m) { return m.measures.mean_outside; }},
       {"max_outside_law", "1", "Largest `outside_law` of a sphere.", [](M m) { return m.measures.most_outside; }},
       {"spheres_outside_law", "1", "Part of the spheres that are outside of the range of their laws (`outside_law` above 1).",
-       [](M m) { return m.measures.spheres > 0 ? double(m.measures.spheres_outside) / double(m.measures.spheres) : 0.0; }},
+       [](M m) { return m.measures.spheres > 0 ? double(m.measures.spheres_outside) / double(m.measures.spheres) : Measures::kNone; }},
       {"overlap", "um", "Deepest penetration of a shell, obstacle or nucleus at this time.", [](M m) { return m.measures.overlap.value; }},
       {"worst_overlap", "um", "Deepest penetration in any step since the last output.",
        [](M m) { return std::max(m.interval.worst_overlap, m.measures.overlap.value); }},
-      {"volume_error", "1", "Largest relative difference of a cell's volume from what its row and its inner pressure ask for.",
+      {"volume_error", "1", "Largest relative difference of a cell's volume from what its row and, of a shell, its inner pressure ask for.",
        [](M m) { return m.measures.volume_error.value; }},
       {"total_volume_error", "1",
-       "Relative difference of the volume of all cells together from what their rows and inner pressures ask for.",
+       "Relative difference of the volume of all cells together from what their rows and, of shells, inner pressures ask for.",
        [](M m) { return m.measures.total_volume_error; }},
-      {"energy", "nN um", "Elastic, surface and contact energy after the last step.", [](M m) { return m.interval.energy; }},
+      {"energy", "nN um",
+       "Elastic, surface and contact energy after the last step; of a pair of spheres that adheres from where it would break apart.",
+       [](M m) { return m.interval.energy; }},
       {"step_count", "1", "Steps since time 0.", [](M m) { return double(m.clock.steps); }},
       {"step_size", "s", "Mean step since the last output.",
        [](M m) { return m.interval.steps > 0 ? m.interval.time / double(m.interval.steps) : m.clock.next_step; }},

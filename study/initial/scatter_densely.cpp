@@ -15,6 +15,7 @@ namespace {
 constexpr std::uint64_t kFirstDraw = std::uint64_t{1} << 40;  // of the first founder; lower ones are those of other patterns
 constexpr std::uint64_t kDrawsOfCube = 3;
 constexpr int kMostTries = 200;  // of lattices with ever smaller cubes
+constexpr double kNext = 0.9;    // of the width of cubes none of which lay within the shape
 constexpr double kInset = 0.9;   // of the mean radius: so near to the border do the cubes' middles begin
 constexpr int kMostPasses = 400;
 
@@ -74,7 +75,7 @@ Packing scatter_densely(const InitialCells& block, std::span<const double> radiu
   for (int tries = 0; tries < kMostTries && width > 0.5 * mean; ++tries) {
     cubes = cubes_within(block, width, mean, space, around);
     if (cubes.size() >= radius.size()) break;
-    width *= std::min(0.995, std::cbrt(static_cast<double>(cubes.size()) / count));
+    width *= cubes.empty() ? kNext : std::min(0.995, std::cbrt(static_cast<double>(cubes.size()) / count));
   }
   out.room = std::min(cubes.size(), radius.size());
   if (out.room < radius.size()) return out;

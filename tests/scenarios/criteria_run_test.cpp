@@ -81,6 +81,7 @@ TEST_F(OwnCriteria, PassFailOrFindNothingAndAreTold) {
   - {id: NOTHING, measure: volume(none), above: 1 um^3}
   - {id: NO_PAIR, measure: cap.angle, of: {pair: [cell, ball]}, below: 90 deg}
   - {id: TOO_FEW, measure: cell_count, at: start, over_time: slope, below: 1 1/s}
+  - {id: NO_CONTACT, measure: contacts_beyond_range, at: every, below: 1}
   - {id: EACH, measure: volume, of: [cell, ball], below: 800 um^3})"));
   EXPECT_FALSE(passed_);
   const Verdict pass = verdict("PASS");
@@ -91,7 +92,7 @@ TEST_F(OwnCriteria, PassFailOrFindNothingAndAreTold) {
   EXPECT_FALSE(fail.passed);
   EXPECT_EQ(fail.limit, ">= 1e-06 mm^3");
   EXPECT_NEAR(fail.value, 900e-9, 50e-9);
-  for (const char* id : {"NOTHING", "NO_PAIR", "TOO_FEW"}) {
+  for (const char* id : {"NOTHING", "NO_PAIR", "TOO_FEW", "NO_CONTACT"}) {
     EXPECT_FALSE(verdict(id).passed) << id;
     EXPECT_TRUE(std::isnan(verdict(id).value)) << id;
   }

@@ -81,6 +81,18 @@ TEST(Fills, SayWithLineAndCodeThatThereIsNoRoom) {
                                      HasSubstr("[E658]")));
 }
 
+TEST(Fills, AtRandomFindRoomForAFewInABallThatIsWide) {
+  for (int count = 1; count <= 6; ++count)  // a third of the ball; the first lattice of places is too wide for any of its cubes
+    EXPECT_EQ(
+        cells_of(with_cells("  - {type: big, count: " + std::to_string(count) + ", fill: random, center: [-50 um, 0 um, -20 um], radius: " +
+                            (count == 1  ? "9"
+                             : count < 4 ? "13"
+                                         : "16") +
+                            " um}\n"))
+            .size(),
+        static_cast<std::size_t>(count));
+}
+
 TEST(Fills, SayWhichCellLiesDeepInWhatWhereALayerIsTooLow) {
   // A gap of 11.5 µm between plates has room for the mean cell, of 5.5 µm, and none for one of 6 µm.
   const std::string low = with_cells("  - {types: {red: 50 %, big: 50 %}, count: 6, fill: layer, on: dish}\n",

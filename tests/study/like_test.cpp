@@ -33,6 +33,34 @@ const CellType& type_of(const Study& study, const std::string& name) {
   throw std::runtime_error(name);
 }
 
+TEST(Like, TakesBackWhatTheOtherSays) {
+  const std::string cycle = R"(schema: 1
+study: alike
+time: {end: 1 h}
+domain: {size: [100 um, 100 um, 100 um]}
+cell_types:
+  stem:
+    radius: {mean: 6 um, spread: 3 %}
+    cycle: {model: phases, phases: {early: {duration: 2 h}, late: {duration: 1 h}}}
+    dcm: {nodes: 162, nucleus: {kind: shell, radius: 2 um, nodes: 42}}
+  done: {like: stem, radius: {spread: default}, cycle: {model: none, phases: default}, dcm: {nodes: default, nucleus: default}}
+initial:
+  - {type: done, at: [[0 um, 0 um, 0 um]]}
+)";
+  const auto study = read(cycle);
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  const CellType &stem = type_of(*study, "stem"), &done = type_of(*study, "done");
+  EXPECT_TRUE(stem.cycles);
+  EXPECT_TRUE(stem.interior.has_nuclear_shell());
+  EXPECT_FALSE(done.cycles);
+  EXPECT_FALSE(done.interior.has_nuclear_shell());
+  EXPECT_EQ(done.radius.mean, 6.0) << "what is beside a key that is taken back stays";
+  EXPECT_EQ(done.radius.relative_spread, 0.0);
+  std::string kept = cycle;
+  kept.replace(kept.find(", phases: default"), 17, "");
+  EXPECT_FALSE(read(kept).ok()) << "phases of a type without a cycle";
+}
+
 TEST(Like, TakesWhatIsNotSaidKeyByKey) {
   const auto study = read(kTypes);
   ASSERT_TRUE(study.ok()) << study.error().text();

@@ -173,6 +173,15 @@ TEST(Loads, GripsAreReadAndHoldPlacesOfTheLaboratoryOnly) {
   EXPECT_NE(test::errors_of(test::changed(", orientation: aligned", "", text)).find("[E520]"), std::string::npos);
 }
 
+TEST(Loads, GripsAreForCellsThatStayAsTheyAre) {
+  const std::string text = test::changed("pull: {force: 193 pN, axis: [0, 3, 0], part: 2 %, ends: high}", kGrip, kStudy);
+  const auto with = [&](const std::string& triggers) { return text + "coupling: {triggers: [" + triggers + "]}\n"; };
+  EXPECT_NE(test::errors_of(with("{promote: pressure > 1 kPa, demote: pressure < 0.5 kPa}")).find("a cell that changes its body"),
+            std::string::npos);
+  const auto others = test::read(test::changed("cell_types:\n", "cell_types:\n  other: {radius: 5 um}\n", with("{type: other}")));
+  EXPECT_TRUE(others.ok()) << others.error().text() << "only cells of another type do";
+}
+
 TEST(Loads, SuctionActsWithinACylinder) {
   const std::string text =
       test::changed("pull: {force: 193 pN, axis: [0, 3, 0], part: 2 %, ends: high}",
