@@ -95,11 +95,14 @@ bool had_spheres(const SeriesTable& series) {
 std::string caption_of(const NamedPlot& plot, const SeriesTable& series) {
   const SeriesColumn *time = series.find("time"), *part = series.find("contacts_beyond_range");
   if (plot.name != "outside_law" || time == nullptr || part == nullptr || part->values.empty()) return "";
-  const auto most = std::ranges::max_element(part->values) - part->values.begin();
-  return short_text(100.0 * part->values.back()) +
-         " % of the contacts of spheres are outside of the range of their law at the end, at most " +
-         short_text(100.0 * part->values[static_cast<std::size_t>(most)]) + " % (at " +
-         time_text(time->values[static_cast<std::size_t>(most)]) +
+  const auto size = [](double value) { return std::isnan(value) ? -1.0 : value; };  // no number where no spheres touch
+  const auto most = static_cast<std::size_t>(std::ranges::max_element(part->values, {}, size) - part->values.begin());
+  if (std::isnan(part->values[most])) return "";
+  const double last = part->values.back();
+  return (std::isnan(last) ? std::string("No spheres touch at the end; of the contacts of spheres")
+                           : short_text(100.0 * last) + " % of the contacts of spheres are outside of the range of their law at the end,") +
+         " at most " + short_text(100.0 * part->values[most]) + " % " +
+         (std::isnan(last) ? "were outside of the range of their law " : "") + "(at " + time_text(time->values[most]) +
          "). Within it: overlaps that the law was fitted to, or else contact radii below 0.45 R, and packing that its curve is made for.";
 }
 

@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"Hexadecimal", "seed: 20261121", "seed: 0x10", "'seed' must be a whole number, but is '0x10' [E109]"},
         Case{"SeedTooLarge", "seed: 20261121", "seed: 4294967296", "[E302]"},
         Case{"SeedHuge", "seed: 20261121", "seed: 99999999999999999999999999", "[E302]"},
-        Case{"NegativeCount", "count: 400", "count: -4", "[E109]"},
+        Case{"NegativeCount", "count: 400", "count: -4", "'count' is -4, but must be between 1 and 2e+08 [E302]"},
         Case{"NodesNotAnIcosphere", "nodes: 162", "nodes: 163", "must be one of 42, 162, 642, 2562 [E302]"},
         Case{"TwoComponents", "[400 um, 400 um, 400 um]", "[400 um, 400 um]", "'size' has 2 numbers, but needs 3: [x, y, z] [E303]"},
         Case{"ComponentWithoutUnit", "[400 um, 400 um, 400 um]", "[400 um, 400, 400 um]", "study.yaml:6:25: error: 'size' is a length"}),
