@@ -36,8 +36,7 @@ struct CellRow {
   std::uint16_t type = 0;
   Phase phase = Phase::kGrowing;
   BodyKind body = BodyKind::kSphere;
-  BodyKind own_body = BodyKind::
-      kSphere;  ///< what it has outside all regions and below all triggers: as placed, its mother's, or that of the type it became
+  BodyKind own_body = BodyKind::kSphere;  ///< outside all regions and below all triggers: as placed, its mother's, or of the type it became
   std::uint8_t unused_[3] = {};
 };
 static_assert(std::is_trivially_copyable_v<CellRow>);

@@ -55,12 +55,13 @@ void declare_division(Section& c, draft::CellType& t) {
              t.axis_spread);
   bool given = false;
   c.group({.name = "daughters", .doc = "What daughters are.", .example = "{polarity: mirrored}"}, given, [&t](Section& d) {
-    d.list({.name = "fates",
-            .doc = "Types that they may have, and how often; else both have that of their mother. One is drawn for each division. Where "
-                   "`body` of "
-                   "the type is another one than of the mother's, a daughter gets it when the sisters have parted, half an hour later.",
-            .example = "[{share: 80 %, types: [stem, transit]}, {share: 10 %, types: [transit, transit]}]"},
-           t.fates, &declare_fate);
+    d.list(
+        {.name = "fates",
+         .doc =
+             "Types that they may have, and how often; else both have that of their mother. One is drawn for each division. Where "
+             "`body` of the type is another one than of the mother's, a daughter gets it when the sisters have parted, half an hour later.",
+         .example = "[{share: 80 %, types: [stem, transit]}, {share: 10 %, types: [transit, transit]}]"},
+        t.fates, &declare_fate);
     d.word({.name = "polarity",
             .doc = "kept: both have that of their mother; mirrored: the one to which the axis points has it, the other the "
                    "opposite; new: each "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <string_view>
 
 #include "core/numbers/decimal_number.h"
 #include "core/numbers/joined.h"
@@ -14,6 +15,10 @@ namespace {
 std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
 std::string example_of(const KeySpec& key) { return *key.example ? "for example `" + std::string(key.example) + "`" : ""; }
+
+bool is_digits(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
 
 const Special* find_special(const KeySpec& key, const std::string& text) {
   for (const Special& special : key.specials)
@@ -104,13 +109,10 @@ void ReadSection::whole(const KeySpec& key, Given<std::uint64_t>& value) {
     value.text = text;
     return;
   }
-  const bool digits = !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-  if (!digits) {
-    const bool negative =
-        text.size() > 1 && text[0] == '-' && std::all_of(text.begin() + 1, text.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (!is_digits(text)) {
     if (is_not_finite_word(text))
       diagnostics_.error(301, node->place, shown(key) + " is not a finite number: '" + text + "'", example_of(key));
-    else if (negative && key.words.empty())
+    else if (text.starts_with('-') && is_digits(std::string_view(text).substr(1)) && key.words.empty())
       diagnostics_.error(302, node->place, shown(key) + " is " + text + ", but must be " + range_words(key), example_of(key));
     else
       diagnostics_.error(109, node->place, shown(key) + " must be a whole number, but is '" + text + "'", example_of(key));

@@ -64,9 +64,10 @@ class Shader {
   [[nodiscard]] Rgb pixel(int column, int row) const {
     const int n = options_.samples, x = column * n, y = row * n;
     const std::int32_t whole = whole_[index_of_pixel(column, row)];
-    if (whole == PixelBuffer::kNothing && is_inner(column, row) && around_.fluid.empty() && !around_.obstacles) return kBackground;
+    const bool inner = is_inner(column, row);
+    if (whole == PixelBuffer::kNothing && inner && around_.fluid.empty() && !around_.obstacles) return kBackground;
     const std::optional<float> open = has_openness(whole) ? std::optional(mean_openness(column, row)) : std::nullopt;
-    const bool lines = options_.outlines && !is_inner(column, row);
+    const bool lines = options_.outlines && !inner;
     Rgb sum;
     for (int sy = 0; sy < n; ++sy)
       for (int sx = 0; sx < n; ++sx) sum = sum + sub_pixel(x + sx, y + sy, open, lines);
@@ -148,8 +149,7 @@ class Shader {
     if (obstacle != PixelBuffer::kNothing) {
       const bool is_cut = obstacle % 2 == 1;
       const bool hollow = around_.hollow[static_cast<std::size_t>(obstacle / 2)];
-      const float nx = static_cast<float>(obstacles.normal_x[i]) / 32767.0f, ny = static_cast<float>(obstacles.normal_y[i]) / 32767.0f;
-      const float nz = std::sqrt(std::max(0.0f, 1.0f - nx * nx - ny * ny));
+      const float nz = normal_at(obstacles, i).z;
       const Rgb lit = is_cut ? kObstacleColor * 0.85f : mix({1.0f, 1.0f, 1.0f}, kObstacleColor, 0.75f - 0.4f * nz);
       const float opacity = is_cut ? (hollow ? 0.0f : 1.0f) : cell == PixelBuffer::kNothing ? 0.9f : 0.25f;
       seen = mix(seen, lit, opacity);
@@ -160,8 +160,8 @@ class Shader {
   struct Normal {
     float x, y, z;
   };
-  [[nodiscard]] Normal normal_at(std::size_t i) const {
-    const float x = static_cast<float>(pixels_.normal_x[i]) / 32767.0f, y = static_cast<float>(pixels_.normal_y[i]) / 32767.0f;
+  static Normal normal_at(const PixelBuffer& pixels, std::size_t i) {
+    const float x = static_cast<float>(pixels.normal_x[i]) / 32767.0f, y = static_cast<float>(pixels.normal_y[i]) / 32767.0f;
     return {x, y, std::sqrt(std::max(0.0f, 1.0f - x * x - y * y))};
   }
 
@@ -170,7 +170,7 @@ class Shader {
     const Rgb base =
         face < face_colors_.size() && face_colors_[face] ? *face_colors_[face] : colors_[static_cast<std::size_t>(surface / 2)];
     if (surface % 2 == 1) return mix(base, {1.0f, 1.0f, 1.0f}, options_.cut_lightening);
-    const auto [nx, ny, nz] = normal_at(i);
+    const auto [nx, ny, nz] = normal_at(pixels_, i);
     const float open = open_of_pixel ? *open_of_pixel : openness(x, y, noise(x, y));
     // light from (−0.42, 0.58, 0.70); half Lambert keeps the shadow side readable
     const float wrap = 0.5f + 0.5f * (-0.42f * nx + 0.58f * ny + 0.70f * nz);
@@ -186,7 +186,7 @@ class Shader {
   // 1 where nothing stands around the point, 0 in a deep furrow. The samples are turned by this part of a whole turn.
   [[nodiscard]] float openness(int x, int y, float part_of_turn) const {
     const std::size_t i = pixels_.index(x, y);
-    const auto [nx, ny, nz] = normal_at(i);
+    const auto [nx, ny, nz] = normal_at(pixels_, i);
     const float um_per_px = 1.0f / static_cast<float>(options_.pixels_per_um);
     const float reach = reach_px_ * um_per_px, depth = pixels_.depth[i];
     const Offset turn = turn_[static_cast<std::size_t>(part_of_turn * kTurns) % kTurns];

@@ -242,7 +242,7 @@ void add_loads(const Model& model, std::vector<UsedLaw>& out) {
 
 std::vector<UsedLaw> used_laws(const Study& study) {
   const Model& model = study.model;
-  bool shells = !model.swaps.triggers.empty(), spheres = false;
+  bool shells = !model.swaps.triggers.empty() || model.swaps.by_fate, spheres = model.swaps.by_fate;
   for (const Region& region : model.swaps.regions) (region.body == BodyKind::kShell ? shells : spheres) = true;
   std::vector<bool> given(model.types.size(), false);
   for (const InitialCells& block : study.initial)
@@ -250,10 +250,6 @@ std::vector<UsedLaw> used_laws(const Study& study) {
       (block.body == BodyKind::kShell ? shells : spheres) = true;
     else
       for (std::size_t t = 0; t < model.types.size(); ++t) given[t] = given[t] || block.may_have(t);
-  for (std::size_t round = 0; round < model.types.size(); ++round)  // and what daughters become
-    for (std::size_t t = 0; t < model.types.size(); ++t)
-      for (const Fate& fate : model.types[t].fates.all)
-        for (const std::uint16_t daughter : fate.type) given[daughter] = given[daughter] || given[t];
   for (std::size_t t = 0; t < model.types.size(); ++t)
     if (given[t]) (model.types[t].initial_body == BodyKind::kShell ? shells : spheres) = true;
   std::vector<UsedLaw> out;

@@ -82,15 +82,12 @@ TEST(Fills, SayWithLineAndCodeThatThereIsNoRoom) {
 }
 
 TEST(Fills, AtRandomFindRoomForAFewInABallThatIsWide) {
-  for (int count = 1; count <= 6; ++count)  // a third of the ball; the first lattice of places is too wide for any of its cubes
-    EXPECT_EQ(
-        cells_of(with_cells("  - {type: big, count: " + std::to_string(count) + ", fill: random, center: [-50 um, 0 um, -20 um], radius: " +
-                            (count == 1  ? "9"
-                             : count < 4 ? "13"
-                                         : "16") +
-                            " um}\n"))
-            .size(),
-        static_cast<std::size_t>(count));
+  const char* const radius[] = {"9", "13", "13", "16", "16", "16"};  // the first lattice of places is too wide for any of its cubes
+  for (std::size_t count = 1; count <= 6; ++count)
+    EXPECT_EQ(cells_of(with_cells("  - {type: big, count: " + std::to_string(count) +
+                                  ", fill: random, center: [-50 um, 0 um, -20 um], radius: " + radius[count - 1] + " um}\n"))
+                  .size(),
+              count);
 }
 
 TEST(Fills, SayWhichCellLiesDeepInWhatWhereALayerIsTooLow) {
