@@ -63,6 +63,8 @@ void build_behaviours(BuildContext& context, const draft::CellType& draft, const
 void build_activity(BuildContext& context);
 /// External loads; after the cells of time 0.
 void build_loads(BuildContext& context);
+/// After all that acts on cells.
+void build_tolerance(BuildContext& context);
 /// Adhesion and friction of all pairs of materials; missing pairs get their default, in the draft, too.
 void build_pairs(BuildContext& context);
 /// What `contact.pairs` says of them, after build_pairs(): E515–E517.

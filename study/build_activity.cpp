@@ -60,6 +60,8 @@ void build_migration(BuildContext& c, const draft::CellType& t, CellType& type) 
   }
   if (check_choice(c, migration.law->keys, all, t.migration, t.migration_law))
     if (auto values = own_values(c, migration.law->keys, t.migration)) migration.own = std::move(*values);
+  if (t.migration_law.given && !t.migration_speed.given)
+    c.diagnostics.error(515, t.migration_law.place, "'law' has no effect without a speed", "give `migration.speed`");
   if (!t.migration_substrate.given) return;
   migration.substrate = find_substrate(c, t.migration_substrate);
   if (migration.speed == 0.0)
@@ -75,8 +77,6 @@ void build_activity(BuildContext& c) {
     const draft::Activity& a = t.activity;
     if (a.has_fluctuations) {
       type.fluctuations = {a.energy.value, a.resolve.value};
-      // The rigid motion of a cell is what the linear solver resolves last; with random forces nothing makes up for what it leaves.
-      c.study.model.step.first_tolerance = std::min(c.study.model.step.first_tolerance, 1e-4);
       if (a.resolve.value > 0.0) c.study.model.step.max_step = std::min(c.study.model.step.max_step, type.fluctuations.longest_step());
     }
     build_polarity(c, t, type);

@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <array>
 #include <cctype>
+#include <string>
 
 #include "study/build.h"
 
@@ -27,12 +30,27 @@ void drop_unused(MeasuredMoments& moments, ExpectedValue& against) {
 
 }  // namespace
 
+namespace {
+
+/// What needs several moments is asked of one: E515.
+void check_course(BuildContext& c, const MeasuredMoments& m) {
+  constexpr std::array kOfCourse{"rise", "growth", "slope", "change", "left", "rising", "falling"};
+  const std::string& at = m.at.value;
+  const bool several = m.from.given || m.until.given || at == "every" || at.starts_with("holds");
+  if (!several && std::ranges::find(kOfCourse, m.over_time.value) != kOfCourse.end())
+    c.diagnostics.error(515, m.over_time.place, "'" + m.over_time.value + "' finds nothing at one moment alone",
+                        "give `from` and `until`, or `at: every`");
+}
+
+}  // namespace
+
 void build_criteria(BuildContext& c) {
   for (auto& [name, place, criterion] : c.draft.criteria) {
     criterion.place = place;
     build_expected(c, criterion.over);
     build_expected(c, criterion.against);
     if (!criterion.over.data.given) criterion.over.x.text.clear();
+    check_course(c, criterion.moments);
     drop_unused(criterion.moments, criterion.against);
     c.study.criteria.push_back(criterion);
   }

@@ -127,6 +127,8 @@ void build_geometry(BuildContext& c) {
     obstacle.inside = o.side.value == "inside";
     obstacle.velocity = o.velocity.value;
     build_motion_course(c, o, obstacle);
+    if (o.direction.given && o.course.empty())
+      c.diagnostics.error(515, o.direction.place, "'direction' has no effect without a course", "give `course`, or `velocity` alone");
     if (!o.direction.given && o.course.empty()) o.direction.text.clear();  // no meaning: not part of the resolved study
     TriangleMesh surface;
     if (count == 1) surface = from_file ? surface_from_file(c, o.stl.given ? o.stl : o.obj, o.scale) : PrimitiveBuilder(c, place).build(o);

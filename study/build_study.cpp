@@ -108,6 +108,29 @@ void build_time_and_numerics(BuildContext& c) {
   c.study.model.seed = static_cast<std::uint32_t>(c.draft.seed.value);
 }
 
+namespace {
+
+/// Whether something acts on cells that is no cell, and whose forces somebody may want to know.
+bool is_acted_on_from_outside(const Model& model) {
+  const auto is_wall = [](const auto& faces) { return std::ranges::find(faces, BoundaryKind::kWall) != std::end(faces); };
+  const auto is_active = [](const CellType& type) { return type.migration.speed > 0.0 || type.protrusion.force > 0.0; };
+  return !model.obstacles.empty() || !model.loads.empty() || !model.apical_springs.empty() || !model.box_volume.empty() ||
+         std::ranges::any_of(model.space.boundary, is_wall) || std::ranges::any_of(model.types, is_active);
+}
+
+}  // namespace
+
+void build_tolerance(BuildContext& c) {
+  constexpr double kOfOutside = 0.01, kOfCells = 0.02, kOfFluctuations = 1e-4;
+  Model& model = c.study.model;
+  const double given = c.draft.numerics.tolerance.value;
+  double& tolerance = model.step.first_tolerance;
+  tolerance = given > 0.0 ? given : is_acted_on_from_outside(model) ? kOfOutside : kOfCells;
+  // The rigid motion of a cell is what the linear solver resolves last; with random forces nothing makes up for what it leaves.
+  if (std::ranges::any_of(model.types, [](const CellType& type) { return type.fluctuations.energy > 0.0; }))
+    tolerance = std::min(tolerance, kOfFluctuations);
+}
+
 void build_domain(BuildContext& c) {
   const draft::Domain& d = c.draft.domain;
   Space& space = c.study.model.space;

@@ -56,14 +56,17 @@ void check_mesh_of_divisions(BuildContext& c) {
 void check_named_cells(BuildContext& c) {
   std::uint64_t founders = 0;
   for (const InitialCells& block : c.study.initial) founders += block.count;
+  const auto check = [&](const std::string& text, const Place& place) {
+    if (const auto id = cell_id_of(text); id && id->founder_number() > founders && founders > 0)
+      c.diagnostics.error(406, place,
+                          "there is no cell " + text + " and will be none: the study begins with " + std::to_string(founders) + " cells",
+                          "founders have the numbers 1 to " + std::to_string(founders));
+  };
   for (const auto& region : c.draft.coupling.regions)
     for (const auto& [key, ids] : region.content.own.lists)
-      for (const std::string& text : ids.value)
-        if (const auto id = cell_id_of(text); id && id->founder_number() > founders && founders > 0)
-          c.diagnostics.error(
-              406, ids.place,
-              "there is no cell " + text + " and will be none: the study begins with " + std::to_string(founders) + " cells",
-              "founders have the numbers 1 to " + std::to_string(founders));
+      for (const std::string& text : ids.value) check(text, ids.place);
+  for (const auto& criterion : c.draft.criteria) check(criterion.content.of.cell.value, criterion.content.of.cell.place);
+  for (const auto& plot : c.draft.plots) check(plot.content.of.cell.value, plot.content.of.cell.place);
 }
 
 bool may_be_sphere(const BuildContext& c, std::size_t type) {

@@ -120,7 +120,7 @@ void declare_activity(Section& s, draft::CellType& t) {
         declare_own_keys(p, keys, t.polarity, true);
       });
   s.group({.name = "protrusion",
-           .doc = "A force of the leading edge of a shell along its polarity.",
+           .doc = "A force of the leading edge of a cell along its polarity: on the front of a shell, on the whole of a sphere.",
            .optional_section = true,
            .example = "{force: 1 nN, substrate: plane}"},
           a.has_protrusion, [&a](Section& p) { declare_protrusion(p, a); });

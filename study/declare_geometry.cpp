@@ -109,7 +109,9 @@ void declare_obstacle(Section& s, draft::Obstacle& o) {
            .example = "{from: [0 um, 0 um, 0 um], to: [0 um, 0 um, 15 um], radius: 2.5 um}"},
           o.pipette.present, [&o](Section& p) { declare_pipette(p, o); });
   s.word({.name = "side",
-          .doc = "Where the cells are: outside the surface, or inside it (a capsule, a mould).",
+          .doc = "Where the cells are: outside the surface, or inside it (a capsule, a mould). A smooth part of a surface bears a sphere "
+                 "in one place only, as a plane through "
+                 "its nearest point would: what is to be confined by a mould, a mouth or a tube as narrow as a cell is a shell.",
           .fallback = "outside",
           .words = {"outside", "inside"},
           .example = "inside",
@@ -189,7 +191,9 @@ void declare_initial(Section& s, draft::Initial& i) {
           .source = "chosen"},
          i.age);
   s.text({.name = "csv",
-          .doc = "Cells from a CSV file with the columns x,y,z,type[,radius,phase,model]; units in the header, `x [um]`, or as `units`.",
+          .doc = "Cells from a CSV file with the columns x,y,z,type[,radius,phase,model]; units in the header, `x [um]`, or as `units`. "
+                 "`phase`: how far a cell is in its "
+                 "cycle, from 0 (birth) to below 1; of types without a cycle it says nothing. `model`: `sphere` or `shell`.",
           .example = "cells.csv"},
          i.csv);
   s.text({.name = "units", .doc = "Unit of the lengths of a CSV file whose header has none.", .example = "um"}, i.units);

@@ -87,15 +87,20 @@ void declare_numerics(Section& s, draft::Numerics& n) {
               .example = "0.2",
               .source = "measured"},
              n.step, &StepControl::newton_stop);
-  s.quantity({.name = "tolerance",
-              .doc = "Relative residual of the first linear solve of a step.",
-              .fallback = "0.01",
-              .low = 0.0,
-              .high = 0.5,
-              .low_open = true,
-              .example = "0.01",
-              .source = "measured"},
-             n.step, &StepControl::first_tolerance);
+  s.quantity(
+      {.name = "tolerance",
+       .doc =
+           "Relative residual of the first linear solve of a step. `auto`: 0.02 where cells are left to themselves, 0.01 where something "
+           "from outside acts on them (obstacles, walls, loads, a box that changes, migration, protrusions), so that forces on it "
+           "can be read. With `fluctuations` 1e-4 at most.",
+       .fallback = "auto",
+       .low = 0.0,
+       .high = 0.5,
+       .low_open = true,
+       .specials = {{"auto", 0.0}},
+       .example = "0.01",
+       .source = "measured: growing clusters, and cells between plates"},
+      n.tolerance);
   s.quantity({.name = "later_tolerance",
               .doc = "Relative residual of the later linear solves of a step.",
               .fallback = "0.1",

@@ -20,7 +20,7 @@ struct Time {
 
 struct Numerics {
   Given<std::uint64_t> newton;
-  Given<double> initial_step, skin, start_cap, start_cap_within;
+  Given<double> initial_step, skin, start_cap, start_cap_within, tolerance;
   PlainKeys<StepControl> step;
 };
 

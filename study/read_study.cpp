@@ -36,6 +36,7 @@ void build(BuildContext& context) {
   build_regions(context);
   build_adhesion_regions(context);
   build_loads(context);
+  build_tolerance(context);
   for (CellType& type : context.study.model.types)
     for (const Trait trait : kTraits) type.traits.variable[number_of(trait)] = trait_variable(context.study.model, trait);
   check_whole(context);

@@ -122,13 +122,16 @@ double rub(std::span<const ContactElement> elements, const FaceQuadrature& quadr
 
 }  // namespace
 
+std::vector<Vec3d> ContactLayer::obstacle_ways() const {
+  std::vector<Vec3d> out(offsets_.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = offsets_[i] - step_offsets_[i];
+  return out;
+}
+
 void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const Vec3d> start, bool moved, std::span<Vec3d> out,
                                      OrderFreeSum& quadratic) const {
-  if (settings_.objective_friction) {
-    std::vector<Vec3d> way(offsets_.size());
-    for (std::size_t i = 0; i < way.size(); ++i) way[i] = offsets_[i] - step_offsets_[i];
-    return objective_.rub(scene.position, start, way, out, quadratic);
-  }
+  const std::vector<Vec3d> obstacle_way = obstacle_ways();
+  if (settings_.objective_friction) return objective_.rub(scene.position, start, obstacle_way, out, quadratic);
   const auto& quadrature = FaceQuadrature::with_points(settings_.points_per_face);
   const std::size_t threads = static_cast<std::size_t>(settings_.threads);
   std::vector<OrderFreeSum> sums(threads);
@@ -144,7 +147,7 @@ void ContactLayer::add_step_friction(const ContactScene& scene, std::span<const 
       if (!write[0] && !write[1] && !count) continue;
       const RubbingBody body[2] = {{scene, pair.a, start, out, write[0]},
                                    b == nullptr ? RubbingBody() : RubbingBody(scene, pair.b, start, out, write[1])};
-      const Vec3d rigid = pair.rigid ? offsets_[pair.b] - step_offsets_[pair.b] : Vec3d{};
+      const Vec3d rigid = pair.rigid ? obstacle_way[pair.b] : Vec3d{};
       const FrictionPerArea friction = friction_of(scene.bodies, pair);
       double sum = 0.0;
       for (int d = 0; d < 2; ++d) sum += rub(pair.step_elements[d], quadrature, friction, body[d], body[1 - d], rigid);

@@ -141,6 +141,8 @@ class ContactLayer {
   [[nodiscard]] FrictionPerArea friction_of(std::span<const ContactBody> bodies, const SurfacePair& pair) const;
   /// Keep the present friction as that of the step (Γ_n).
   void begin_step(const ContactScene& scene);
+  /// How far each obstacle has gone since the step began [µm].
+  [[nodiscard]] std::vector<Vec3d> obstacle_ways() const;
   /// The friction of the step's start is not needed any more.
   void end_step();
   /// The matrix is made: forget the present points (not those of the step's start) until the next evaluate().

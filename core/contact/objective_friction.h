@@ -72,6 +72,13 @@ class ObjectiveFriction : public AddedPart {
   void rub(std::span<const Vec3d> position, std::span<const Vec3d> start, std::span<const Vec3d> obstacle_way, std::span<Vec3d> out,
            OrderFreeSum& quadratic) const;
   [[nodiscard]] std::span<const ObjectiveElement> elements() const { return elements_; }
+  /// Calls function(element) for the points of active bodies on obstacles, in canonical order. A common velocity V of the body gives the jump V there.
+  template <class F>
+  void for_elements_on_obstacles(F&& function) const {
+    for (const Pair& pair : pairs_)
+      for (std::size_t k = pair.begin; pair.rigid && k < pair.end; ++k)
+        if (bodies_[elements_[k].body[0]].active()) function(elements_[k]);
+  }
   [[nodiscard]] std::size_t memory() const { return elements_.capacity() * sizeof(ObjectiveElement); }
 
   void add_product(std::span<const Float4> p, std::span<Float4> q) const override;

@@ -217,6 +217,28 @@ void PairCondenser::add_edge_blocks(const ElementGroup& group, int side, std::sp
   }
 }
 
+void add_held_points(const ElementGroup& group, const FaceQuadrature& quadrature, float time_step, std::vector<HeldPoint>& out) {
+  if (!group.rigid || !group.write[0]) return;
+  std::vector<SymMat3<double>> by_node(node_count(group.topology[0]));
+  std::vector<char> held(by_node.size(), 0);
+  for (int d = 0; d < 2; ++d)
+    for (const ContactElement& e : group.elements[d]) {
+      const Float8v m = matrix_of(e, group, d, time_step);
+      const SymMat3<double> block{m[0], m[1], m[2], m[3], m[4], m[5]};
+      const Triangle nodes = nodes_of(group.topology[0], d == 0 ? e.source_face() : e.target());
+      float mu[3];
+      target_weights(e, group.topology[0], mu);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double weight = d == 0 ? quadrature.weight[e.point()][k] : static_cast<double>(mu[k]);
+        if (weight == 0.0) continue;
+        by_node[nodes[k]] += weight * block;
+        held[nodes[k]] = 1;
+      }
+    }
+  for (std::uint32_t i = 0; i < by_node.size(); ++i)
+    if (held[i] != 0) out.push_back({group.body[0], group.first[0] + i, by_node[i]});
+}
+
 EdgeBlockSource edge_blocks_of(std::span<const ElementGroup> groups, std::size_t bodies, const FaceQuadrature& quadrature,
                                float time_step) {
   std::vector<std::uint32_t> begin(bodies + 1, 0), incident;

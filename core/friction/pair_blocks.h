@@ -73,6 +73,16 @@ class PairCondenser {
   std::vector<EdgeBlock> sum_;
 };
 
+/// How an obstacle holds a point of a body: the force on it is −C v.
+struct HeldPoint {
+  std::uint32_t body = 0, point = 0;
+  SymMat3<double> block;  ///< C, with friction and stiffness [nN·s/µm]
+};
+
+/// Appends what a group whose second body is an obstacle couples with it, by point in ascending order; not rounded. Nothing for other groups, and for bodies that
+/// are not written.
+void add_held_points(const ElementGroup& group, const FaceQuadrature& quadrature, float time_step, std::vector<HeldPoint>& out);
+
 /// What the points of all groups couple within one body; `groups` and their points must live as long as the result is used. By number of
 /// body, of which there are `bodies`.
 EdgeBlockSource edge_blocks_of(std::span<const ElementGroup> groups, std::size_t bodies, const FaceQuadrature& quadrature, float time_step);

@@ -160,8 +160,8 @@ void SpherePairs::add_diagonal(std::span<SymMat3<float>> diagonal, float dt) con
   if (packing.on && dt > 0.0f) add_packing_diagonal(diagonal, dt);
 }
 
-void SpherePairs::add_friction(std::span<const Vec3d> from, std::span<const Vec3d> to, std::span<Vec3d> out,
-                               OrderFreeSum& quadratic) const {
+void SpherePairs::add_friction(std::span<const Vec3d> from, std::span<const Vec3d> to, std::span<const Vec3d> obstacle_way,
+                               std::span<Vec3d> out, OrderFreeSum& quadratic) const {
   const auto displacement = [&](std::uint32_t sphere) { return to[first_point_ + sphere] - from[first_point_ + sphere]; };
   Vec3d* force = out.data() + first_point_;
   std::vector<OrderFreeSum> sums(shares_.size());
@@ -196,7 +196,7 @@ void SpherePairs::add_friction(std::span<const Vec3d> from, std::span<const Vec3
     sum.add(of_sphere);
     for (const RigidPairElement& e : rigid) {
       if (!share.has(e.sphere)) continue;
-      const Vec3d n{e.n[0], e.n[1], e.n[2]}, d = displacement(e.sphere);
+      const Vec3d n{e.n[0], e.n[1], e.n[2]}, d = displacement(e.sphere) - obstacle_way[e.obstacle];
       const Vec3d f = d * static_cast<double>(e.isotropic) + n * (static_cast<double>(e.axial) * dot(n, d));
       force[e.sphere] += f;
       sum.add(dot(f, d));

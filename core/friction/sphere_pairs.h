@@ -97,9 +97,10 @@ class SpherePairs {
   void add_product(std::span<const Float4> p, std::span<Float4> q, float dt) const;
   /// Add the 3×3 diagonal blocks.
   void add_diagonal(std::span<SymMat3<float>> diagonal, float dt) const;
-  /// Friction alone, in double, on displacements d = to − from: adds Γ d to `out` (owned spheres), and dᵀΓ d of the pairs that this rank
-  /// counts (whose first sphere it owns).
-  void add_friction(std::span<const Vec3d> from, std::span<const Vec3d> to, std::span<Vec3d> out, OrderFreeSum& quadratic) const;
+  /// Friction alone, in double, on displacements d = to − from, against obstacles d − their ways: adds Γ d to `out` (owned spheres), and dᵀΓ d of the pairs that
+  /// this rank counts (whose first sphere it owns).
+  void add_friction(std::span<const Vec3d> from, std::span<const Vec3d> to, std::span<const Vec3d> obstacle_way, std::span<Vec3d> out,
+                    OrderFreeSum& quadratic) const;
 
   [[nodiscard]] std::size_t memory() const;
 

@@ -30,7 +30,7 @@ Vec3d at_birth(const MigratingCell& cell, const OwnValues&) { return cell.speed 
 Vec3d after(const MigratingCell& cell, const OwnValues& own) {
   const double persistence = own("persistence"), kept = std::exp(-cell.dt / persistence);
   const Vec3d part = drift(cell, own), mean = cell.speed * part;
-  const double deviation = cell.speed * std::sqrt((1.0 - norm2(part)) / 3.0);
+  const double deviation = cell.speed * std::sqrt(std::max(0.0, 1.0 - norm2(part)) / 3.0);
   return mean + kept * (cell.velocity - mean) + deviation * std::sqrt(-std::expm1(-2.0 * cell.dt / persistence)) * cell.normal();
 }
 

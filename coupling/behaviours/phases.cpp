@@ -131,8 +131,10 @@ Leaving leave_or_return(CyclePlace& place, const CellCycle& cycle, double dt, co
     place.held = 0.0;
     return Leaving::kNo;
   }
-  place.held += dt;
-  if (place.held < rest.hold * (1.0 - kRounding)) return Leaving::kNo;
+  if (place.held < rest.hold * (1.0 - kRounding)) {  // it has held so long until now, and will during the coming step
+    place.held += dt;
+    return Leaving::kNo;
+  }
   place.held = 0.0;
   place.phase = rests ? phase : cycle.phases.size();
   return rests ? Leaving::kReturns : Leaving::kLeaves;

@@ -153,15 +153,12 @@ Result<std::vector<RigidSurface>> contact_obstacles(const Model& model) {
   return out;
 }
 
-std::vector<int> wall_axes(const Model& model) {
-  std::vector<int> out(model.obstacles.size(), kNoWall);
-  for (int axis = 0; axis < 3; ++axis)
-    for (const BoundaryKind kind : model.space.boundary[static_cast<std::size_t>(axis)])
-      if (kind == BoundaryKind::kWall) out.push_back(axis);
-  return out;
+std::size_t contact_obstacle_count(const Model& model) {
+  std::size_t walls = 0;
+  for (const auto& axis : model.space.boundary)
+    for (const BoundaryKind kind : axis) walls += kind == BoundaryKind::kWall;
+  return model.obstacles.size() + walls;
 }
-
-std::size_t contact_obstacle_count(const Model& model) { return wall_axes(model).size(); }
 
 cbm::ContactTable sphere_contact_table(const Model& model) {
   std::vector<cbm::SphereParameters> types;

@@ -20,10 +20,6 @@ Result<std::vector<RigidSurface>> contact_obstacles(const Model& model);
 /// How many surfaces contact_obstacles() makes: what `Tissue::obstacle_offset` has one entry each for.
 [[nodiscard]] std::size_t contact_obstacle_count(const Model& model);
 
-/// Of each of these surfaces the axis that it stands across, where it is a wall of the domain; kNoWall of obstacles.
-inline constexpr int kNoWall = -1;
-[[nodiscard]] std::vector<int> wall_axes(const Model& model);
-
 /// Contact of spheres with all materials: types, obstacles, and one more for walls, which neither adhere nor rub.
 cbm::ContactTable sphere_contact_table(const Model& model);
 

@@ -21,7 +21,6 @@ Result<StepReport, StepFault> explicit_step(Workspace& work, Tissue& tissue, con
   const Residual residual = residual_of(work, tissue, task, start, std::move(now), false);
   const auto solved = AssembledMatrix(work, tissue, 0.0).solve(residual.force, kTolerance, kMostIterations);
   if (!solved) return undo({solved.error().what, {}, true});
-  conserve_momentum(work, residual.force);
   if (!solved->converged) return undo({"the velocities are not found in " + std::to_string(kMostIterations) + " iterations", {}, false});
   report.linear_iterations = solved->iterations;
   report.newton = 1;

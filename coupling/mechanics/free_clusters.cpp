@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint64_t kTied = 0;            // no cell has this label, and it is smaller than all
 constexpr std::uint32_t kManyMembers = 2048;  // of a cluster whose sums several threads share
-constexpr double kLeastFriction = 1e-9;       // of the determinant, in units of that of isotropic friction of the same trace
+constexpr double kLeastDeterminant = 1e-13;   // of what resists, over the product of its diagonal: below it, rounding decides
 
 /// Disjoint sets of bodies, each known by its smallest number.
 class Sets {
@@ -53,39 +53,23 @@ Sets sets_of_pairs(const Scene& scene, std::span<const ElementGroup> groups, con
   return std::move(all);
 }
 
-/// Calls tie(body, obstacle) for those that touch an obstacle.
-template <class Tie>
-void for_tied(const Scene& scene, std::span<const ElementGroup> groups, const SpherePairs& spheres, Tie&& tie) {
-  for (const ElementGroup& group : groups)
-    if (group.rigid && !(group.elements[0].empty() && group.elements[1].empty())) tie(group.body[0], group.obstacle);
-  for (const RigidPairElement& e : spheres.rigid)
-    if (e.isotropic != 0.0f || e.axial != 0.0f || e.stiffness != 0.0f)
-      tie(static_cast<std::uint32_t>(scene.first_sphere()) + e.sphere, e.obstacle);
-}
-
 /// Sums of the bodies of a cluster, order-free.
 struct ClusterSums {
   static constexpr std::size_t kTerms = 9;
   using Terms = std::array<double, kTerms>;
 
-  static Terms terms_of(const MediumBalance& b) {
-    const SymMat3<double>& f = b.friction;
-    return {b.missing.x, b.missing.y, b.missing.z, f.xx, f.xy, f.xz, f.yy, f.yz, f.zz};
+  static Terms terms_of(const OutsideBalance& b) {
+    const SymMat3<double>& c = b.resistance;
+    return {b.missing.x, b.missing.y, b.missing.z, c.xx, c.xy, c.xz, c.yy, c.yz, c.zz};
   }
-  static void add(const MediumBalance& b, OrderFreeSum* sums) {
+  static void add(const OutsideBalance& b, OrderFreeSum* sums) {
     const Terms terms = terms_of(b);
     for (std::size_t k = 0; k < kTerms; ++k) sums[k].add(terms[k]);
   }
-  /// `walls`: bits of the axes along which nothing moves.
-  static Vec3d velocity(const double* t, std::uint64_t walls) {
-    Vec3d missing{t[0], t[1], t[2]};
-    SymMat3<double> friction{t[3], t[4], t[5], t[6], t[7], t[8]};
-    const double mean = (friction.xx + friction.yy + friction.zz) / 3.0;
-    if (walls & 1) missing.x = friction.xy = friction.xz = 0.0, friction.xx = mean;
-    if (walls & 2) missing.y = friction.xy = friction.yz = 0.0, friction.yy = mean;
-    if (walls & 4) missing.z = friction.xz = friction.yz = 0.0, friction.zz = mean;
-    if (!(mean > 0.0) || !(determinant(friction) > kLeastFriction * mean * mean * mean)) return {};
-    return inverse(friction) * missing;
+  static Vec3d velocity(const double* t) {
+    const SymMat3<double> resistance{t[3], t[4], t[5], t[6], t[7], t[8]};
+    if (!(determinant(resistance) > kLeastDeterminant * resistance.xx * resistance.yy * resistance.zz)) return {};
+    return inverse(resistance) * Vec3d{t[0], t[1], t[2]};
   }
 };
 
@@ -98,40 +82,27 @@ std::vector<std::uint64_t> sorted_unique(std::vector<std::uint64_t> list) {
 }  // namespace
 
 void FreeClusters::find(const Scene& scene, std::span<const ElementGroup> groups, const SpherePairs& spheres,
-                        std::span<const std::uint32_t> tied, std::span<const int> walls, int threads, const Comm& comm) {
+                        std::span<const std::uint32_t> tied, int threads, const Comm& comm) {
   threads_ = threads;
   const auto bodies = scene.bodies();
-  const bool has_walls = std::ranges::any_of(walls, [](int axis) { return axis >= 0; });
-  std::vector<std::uint64_t> label(bodies.size()), least(bodies.size()), across(has_walls ? bodies.size() : 0), all(across);
+  std::vector<std::uint64_t> label(bodies.size()), least(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) label[i] = bodies[i].moves ? bodies[i].id.bits() : kTied;
   for (const std::uint32_t body : tied) label[body] = kTied;
   Sets sets = sets_of_pairs(scene, groups, spheres, threads);
-  for_tied(scene, groups, spheres, [&](std::uint32_t body, std::uint32_t obstacle) {
-    if (const int axis = walls[obstacle]; axis < 0)
-      label[body] = kTied;
-    else
-      across[body] |= std::uint64_t{1} << axis;
-  });
-  // Each rank knows a part of a cluster: the smallest label, and the walls of all, go from rank to rank until nobody finds more.
+  // Each rank knows a part of a cluster: the smallest label goes from rank to rank until nobody finds a smaller one.
   for (bool changed = true; changed;) {
     least = label;
     for (std::uint32_t i = 0; i < bodies.size(); ++i) least[sets.find(i)] = std::min(least[sets.find(i)], label[i]);
     for (std::uint32_t i = 0; i < bodies.size(); ++i) label[i] = least[sets.find(i)];
-    all = across;
-    for (std::uint32_t i = 0; i < all.size(); ++i) all[sets.find(i)] |= across[i];
-    for (std::uint32_t i = 0; i < all.size(); ++i) across[i] = all[sets.find(i)];
     if (comm.size() == 1) break;
     least = label;
-    all = across;
     scene.exchange_bodies(std::span(label));
-    if (has_walls) scene.exchange_bodies(std::span(across));
-    changed = comm.any(label != least || across != all);
+    changed = comm.any(label != least);
   }
-  collect(scene, label, across, comm);
+  collect(scene, label, comm);
 }
 
-void FreeClusters::collect(const Scene& scene, std::span<const std::uint64_t> label, std::span<const std::uint64_t> walls,
-                           const Comm& comm) {
+void FreeClusters::collect(const Scene& scene, std::span<const std::uint64_t> label, const Comm& comm) {
   const auto bodies = scene.bodies();
   std::vector<std::uint64_t> labels, of_ghosts;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -147,11 +118,7 @@ void FreeClusters::collect(const Scene& scene, std::span<const std::uint64_t> la
   };
   const auto is_member = [&](std::size_t body) { return label[body] != kTied && bodies[body].active(); };
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (is_member(i)) {
-      Cluster& cluster = cluster_of(i);
-      ++cluster.last;
-      if (!walls.empty()) cluster.walls = walls[i];
-    }
+    if (is_member(i)) ++cluster_of(i).last;
   std::uint32_t next = 0;
   for (Cluster& cluster : clusters_) {
     cluster.first = next;
@@ -167,7 +134,7 @@ void FreeClusters::collect(const Scene& scene, std::span<const std::uint64_t> la
   over_ranks_.find(sorted_unique(std::move(of_ghosts)), comm);
 }
 
-std::vector<Vec3d> FreeClusters::shifts(std::span<const MediumBalance> by_body, const Comm& comm) const {
+std::vector<Vec3d> FreeClusters::shifts(std::span<const OutsideBalance> by_body, const Comm& comm) const {
   constexpr std::size_t kTerms = ClusterSums::kTerms;
   std::vector<Vec3d> out(by_body.size());
   const std::span<const std::uint64_t> shared = over_ranks_.keys();
@@ -183,7 +150,7 @@ std::vector<Vec3d> FreeClusters::shifts(std::span<const MediumBalance> by_body, 
       for (std::uint32_t m = cluster.first; m < cluster.last; ++m) ClusterSums::add(by_body[members_[m]], parts.data() + kTerms * place);
       wait.emplace_back(&cluster, place);
     } else if (cluster.last - cluster.first == 1) {  // most clusters of a dilute tissue; an order-free sum is large
-      give(cluster, ClusterSums::velocity(ClusterSums::terms_of(by_body[members_[cluster.first]]).data(), cluster.walls));
+      give(cluster, ClusterSums::velocity(ClusterSums::terms_of(by_body[members_[cluster.first]]).data()));
     } else {
       const std::uint32_t count = cluster.last - cluster.first;
       const int threads = count < kManyMembers ? 1 : threads_;
@@ -197,12 +164,12 @@ std::vector<Vec3d> FreeClusters::shifts(std::span<const MediumBalance> by_body, 
         for (std::size_t k = 0; k < kTerms; ++k) sums[k] += of_part[t][k];
       ClusterSums::Terms total;
       std::transform(sums.begin(), sums.end(), total.begin(), [](const OrderFreeSum& sum) { return sum.value(); });
-      give(cluster, ClusterSums::velocity(total.data(), cluster.walls));
+      give(cluster, ClusterSums::velocity(total.data()));
     }
   }
   if (comm.size() == 1) return out;
   const std::vector<double> totals = over_ranks_.totals(parts, kTerms, comm);
-  for (const auto& [cluster, place] : wait) give(*cluster, ClusterSums::velocity(totals.data() + kTerms * place, cluster->walls));
+  for (const auto& [cluster, place] : wait) give(*cluster, ClusterSums::velocity(totals.data() + kTerms * place));
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contact/float_rounding.h"
 #include "core/mesh/topology.h"
 
 namespace morula {
@@ -42,12 +43,15 @@ std::vector<CentroidGradient> Grips::Spring::gradient(std::span<const Vec3d> all
 void Grips::begin_step(const World& world, StepStart&) {
   springs_.clear();
   const std::uint32_t nodes = world.scene.owned_nodes();
-  const auto first_node = world.scene.first_node();
+  const auto first_node = world.scene.first_node().first(world.scene.owned_shells() + 1);
   for (const Anchor& anchor : anchors_) {
     const auto shell = static_cast<std::size_t>(anchor.shell);
     const bool whole = anchor.shell >= 0;
+    const auto shell_of_node = std::upper_bound(first_node.begin(), first_node.end(), anchor.node) - first_node.begin() - 1;
     springs_.push_back({.stiffness = anchor.stiffness,
                         .target = anchor.target,
+                        .body = static_cast<std::uint32_t>(anchor.node < nodes ? static_cast<std::size_t>(shell_of_node)
+                                                                               : world.scene.first_sphere() + (anchor.node - nodes)),
                         .first = anchor.node < nodes ? anchor.node : anchor.node - nodes + world.scene.sphere_point(),
                         .count = whole ? first_node[shell + 1] - first_node[shell] : 1,
                         .faces = whole ? world.scene.topologies()[shell]->faces() : std::span<const Triangle>{}});
@@ -65,6 +69,7 @@ void Grips::add_outside(const Way& way, double dt, std::span<Vec3d> out, OrderFr
 }
 
 void Grips::assemble(const World& world, double dt, Assembly&) {
+  dt_ = dt;
   columns_.clear();
   for (const Spring& spring : springs_) {
     const double root = std::sqrt(dt * spring.stiffness);
@@ -73,12 +78,18 @@ void Grips::assemble(const World& world, double dt, Assembly&) {
   }
 }
 
-void Grips::add_tied(const World& world, std::vector<std::uint32_t>& bodies) const {
-  const auto first_node = world.scene.first_node().first(world.scene.owned_shells() + 1);
-  const std::uint32_t nodes = world.scene.owned_nodes();
-  for (const Anchor& anchor : anchors_) {
-    const auto shell = std::upper_bound(first_node.begin(), first_node.end(), anchor.node) - first_node.begin() - 1;
-    bodies.push_back(static_cast<std::uint32_t>(anchor.node < nodes ? shell : world.scene.first_sphere() + (anchor.node - nodes)));
+void Grips::add_outside_balance(std::span<const Float4> velocity, std::span<OutsideBalance> by_body) const {
+  const Column* column = columns_.data();
+  for (const Spring& spring : springs_) {
+    const double all = dt_ * spring.stiffness;  // of a common velocity: Σ W = 1
+    Vec3d sum;                                  // √(Δt k) Σ W v
+    for (std::uint32_t i = 0; i < spring.count; ++i, ++column) {
+      const Float4& v = velocity[spring.first + i];
+      const Vec3d way{v.x, v.y, v.z};
+      sum += Vec3d{dot(to_double((*column)[0]), way), dot(to_double((*column)[1]), way), dot(to_double((*column)[2]), way)};
+    }
+    by_body[spring.body].missing -= sum * std::sqrt(all);
+    by_body[spring.body].resistance += isotropic(all);
   }
 }
 

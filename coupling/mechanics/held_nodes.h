@@ -48,9 +48,9 @@ class Grips : public Term {
 
   void begin_step(const World& world, StepStart& start) override;
   void add_outside(const Way& way, double dt, std::span<Vec3d> out, OrderFreeSum& work) override;
-  void add_tied(const World& world, std::vector<std::uint32_t>& bodies) const override;
   void assemble(const World& world, double dt, Assembly& out) override;
   void drop_matrix() override { columns_.clear(); }
+  void add_outside_balance(std::span<const Float4> velocity, std::span<OutsideBalance> by_body) const override;
   [[nodiscard]] bool empty() const override { return springs_.empty(); }
   void add_product(std::span<const Float4> p, std::span<Float4> q) const override;
   void add_diagonal(std::span<SymMat3<float>> diagonal) const override;
@@ -59,6 +59,7 @@ class Grips : public Term {
   struct Spring {
     double stiffness;
     Vec3d target;
+    std::uint32_t body;
     std::uint32_t first, count;       ///< points
     std::span<const Triangle> faces;  ///< of a shell; none: of a point
 
@@ -73,6 +74,7 @@ class Grips : public Term {
   std::span<const Anchor> anchors_;
   std::vector<Spring> springs_;  ///< of the step
   std::vector<Column> columns_;  ///< of the springs' points, spring by spring, in the matrix
+  double dt_ = 0.0;              ///< of the matrix [s]
 };
 
 }  // namespace morula

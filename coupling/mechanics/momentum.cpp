@@ -72,10 +72,10 @@ void conserve_momentum(Workspace& work, std::span<const Vec3d> right) {
   const int threads = work.setting.threads;
   const ShellSystem& shells = work.terms.membranes->shells();
   std::vector<Float4>& velocity = work.solver.velocity;
-  std::vector<MediumBalance> balance(scene.bodies().size());
+  std::vector<OutsideBalance> balance(scene.bodies().size());
   const auto add = [&](std::uint32_t body, std::uint32_t point, const SymMat3<double>& friction) {
     balance[body].missing += right[point] - friction * to_double(velocity[point]);
-    balance[body].friction += friction;
+    balance[body].resistance += friction;
   };
   parallel_for(threads, shells.batch_count(),
                [&](std::size_t batch) { shells.for_medium_friction(batch, work.terms.node_friction->friction(), add); });
@@ -86,6 +86,11 @@ void conserve_momentum(Workspace& work, std::span<const Vec3d> right) {
     const auto body = static_cast<std::uint32_t>(scene.first_sphere() + i);
     add(body, scene.bodies()[body].first_point, isotropic(static_cast<double>(medium[i])));
   });
+  for (const HeldPoint& held : work.solver.held) {
+    balance[held.body].missing -= held.block * to_double(velocity[held.point]);
+    balance[held.body].resistance += held.block;
+  }
+  for (const auto& term : work.terms.all) term->add_outside_balance(velocity, balance);
 
   const std::vector<Vec3d> shift = work.solver.clusters.shifts(balance, work.setting.comm);
   const auto move = [&](std::size_t body, std::uint32_t first, std::uint32_t count) {

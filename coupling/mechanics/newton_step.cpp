@@ -23,6 +23,7 @@ constexpr int kMostHolds = 3;              // times that nodes may be held in on
 constexpr double kHeldShare = 0.1;         // of the force that drives a node back, over the largest such force, from which on it is held
 constexpr double kHold = 100.0;            // stiffness that holds a node, over the secant one
 constexpr double kLastResortStep = 0.2;    // in units of the contact range
+constexpr double kLeastScale = 0.02;       // of forces before obstacles moved, over the residual after it: cells may have been at rest
 constexpr int kMaxLinearIterations = 400;
 constexpr double kMuchTooFar = 4.0;    // first way of Newton's method, over what is allowed, from which on a step is not worth a search
 constexpr double kShortestCut = 1e-3;  // a step that is no longer is not refused for the length of its way [s]
@@ -117,7 +118,8 @@ class NewtonStep {
   std::vector<Vec3d> copy_;      ///< of the positions of the start, where the tissue has not all of them
   std::optional<Residual> now_;  ///< at the accepted positions; none while a search is under way, or after it failed
   double phi_ = 0.0;             ///< Φ at the accepted positions
-  double force_norm_ = 0.0;      ///< of the residual at the start
+  double force_norm_ = 0.0;      ///< of the residual at the start; where obstacles have moved, of the forces before that
+  double scale_ = 1.0;           ///< that over the residual at the start
   StepReport report_;
 };
 
@@ -131,7 +133,6 @@ Residual NewtonStep::measure(std::optional<Residual>&& old) {
 Result<Direction, StepFault> NewtonStep::solve(double dt, double tolerance) {
   auto solved = AssembledMatrix(work_, tissue_, dt).solve(now_->force, tolerance, kMaxLinearIterations);
   if (!solved) return StepFault{solved.error().what, {}, true};
-  conserve_momentum(work_, now_->force);
   report_.linear_iterations += solved->iterations;
   const Direction direction{work_.solver.velocity, task_.dt};
   if (!std::isfinite(work_.points().largest(direction))) return StepFault{"the velocities are not numbers", {}, true};
@@ -221,7 +222,7 @@ Result<Iteration, StepFault> NewtonStep::iterate(int number) {
   Direction direction;
   if (number > 0) std::fill(work_.solver.velocity.begin(), work_.solver.velocity.end(), Float4{});
   for (int holds = 0;; ++holds) {
-    MORULA_TRY_ASSIGN(direction, solve(task_.dt, number == 0 ? control_.first_tolerance : control_.later_tolerance));
+    MORULA_TRY_ASSIGN(direction, solve(task_.dt, number == 0 ? control_.first_tolerance * scale_ : control_.later_tolerance));
     out.longest = limit(direction, range_);
     if (number + holds == 0 && task_.dt > kShortestCut && wants_too_much(direction, out.longest))
       return StepFault{"points would move too far in one step", {}, true};
@@ -286,6 +287,10 @@ Result<StepReport, StepFault> NewtonStep::run(Evaluation at_start) {
   now_ = residual_of(work_, tissue_, task_, start(), std::move(at_start), false);
   phi_ = now_->phi;
   force_norm_ = std::sqrt(points.dot(now_->force, now_->force));
+  if (task_.forces_before && force_norm_ > 0.0) {
+    scale_ = std::clamp(*task_.forces_before / force_norm_, kLeastScale, 1.0);
+    force_norm_ *= scale_;
+  }
   if (!std::isfinite(phi_) || !std::isfinite(force_norm_)) return undo({"forces are not numbers", {}, false});
   bool cut = false;  // the last iteration's way was cut to the contact range, gone to its end, and did not suffice
   for (int number = 0; number < control_.max_newton; ++number) {

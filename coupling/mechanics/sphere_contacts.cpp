@@ -422,7 +422,8 @@ void SphereFriction::begin_step(const World& world, StepStart& start) {
 }
 
 void SphereFriction::add_friction(const World& world, const Way& way, std::span<Vec3d> out, OrderFreeSum& quadratic) {
-  if (!way.moved) return;
+  const std::vector<Vec3d> of_obstacles = contacts_.obstacle_ways();
+  if (!way.moved && std::ranges::all_of(of_obstacles, [](const Vec3d& d) { return norm2(d) == 0.0; })) return;
   const auto threads = static_cast<std::size_t>(std::max(1, world.threads));
   std::vector<OrderFreeSum> sums(threads);
   on_each_thread(world.threads, [&](std::size_t t) {
@@ -434,7 +435,7 @@ void SphereFriction::add_friction(const World& world, const Way& way, std::span<
     }
   });
   for (const OrderFreeSum& sum : sums) quadratic += sum;
-  contacts_.pairs().add_friction(way.start, way.position, out, quadratic);
+  contacts_.pairs().add_friction(way.start, way.position, of_obstacles, out, quadratic);
 }
 
 }  // namespace morula

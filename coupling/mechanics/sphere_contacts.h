@@ -46,6 +46,8 @@ class SphereContacts : public Term {
   [[nodiscard]] double packing(std::size_t i) const { return packing_.acts ? packing_.part[i] : 0.0; }
   /// The pairs' part of the friction system.
   [[nodiscard]] const SpherePairs& pairs() const { return list_; }
+  /// How far each obstacle has gone since the step began [µm].
+  [[nodiscard]] std::vector<Vec3d> obstacle_ways() const { return layer().obstacle_ways(); }
   /// Flags at the present positions, into the tissue; pressures follow. Returns whether any flag of this rank has changed.
   bool update_attached(const World& world, Tissue& tissue);
   /// The time has moved on: rest distances and pressures of young sisters anew. Returns whether any has changed.

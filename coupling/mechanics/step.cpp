@@ -1,10 +1,10 @@
 #include "coupling/mechanics/step.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/parallel/threads.h"
-#include "coupling/mechanics/contact_setup.h"
 
 namespace morula {
 namespace {
@@ -42,8 +42,22 @@ void add_random_forces(Workspace& work, const Tissue& tissue, double dt, std::sp
 void find_clusters(Workspace& work, const World& world, std::span<const ElementGroup> groups) {
   std::vector<std::uint32_t> tied;
   for (const auto& term : work.terms.all) term->add_tied(world, tied);
-  work.solver.clusters.find(work.scene, groups, work.terms.spheres->pairs(), tied, wall_axes(work.setting.model), work.setting.threads,
-                            work.setting.comm);
+  work.solver.clusters.find(work.scene, groups, work.terms.spheres->pairs(), tied, work.setting.threads, work.setting.comm);
+}
+
+/// What obstacles and walls hold, with a step of dt.
+void find_held_points(Workspace& work, std::span<const ElementGroup> groups, const FaceQuadrature& quadrature, double dt) {
+  const Scene& scene = work.scene;
+  std::vector<HeldPoint>& held = work.solver.held;
+  held.clear();
+  for (const ElementGroup& group : groups) add_held_points(group, quadrature, static_cast<float>(dt), held);
+  for (const RigidPairElement& e : work.terms.spheres->pairs().rigid) {
+    const auto body = static_cast<std::uint32_t>(scene.first_sphere() + e.sphere);
+    if (!scene.bodies()[body].active()) continue;
+    const Vec3d n{e.n[0], e.n[1], e.n[2]};
+    const double along = e.axial + dt * static_cast<double>(e.stiffness);
+    held.push_back({body, scene.bodies()[body].first_point, isotropic(static_cast<double>(e.isotropic)) + outer(along, n)});
+  }
 }
 
 }  // namespace
@@ -61,6 +75,7 @@ AssembledMatrix::AssembledMatrix(Workspace& work, const Tissue& tissue, double d
   work.solver.system.set_step(dt);
   work.solver.system.set_elements(assembly.contacts, quadrature);
   find_clusters(work, world, assembly.contacts);
+  find_held_points(work, assembly.contacts, quadrature, dt);
   work.terms.contacts->make_room();
 }
 
@@ -77,7 +92,10 @@ Result<SolveReport, SolveFault> AssembledMatrix::solve(std::span<const Vec3d> ri
   work_.points().for_all([&](std::uint32_t i) {
     to[i] = {static_cast<float>(right[i].x), static_cast<float>(right[i].y), static_cast<float>(right[i].z), 0.0f};
   });
-  return work_.solver.system.solve(work_.solver.velocity, tolerance, max_iterations, work_.setting.comm);
+  MORULA_TRY_ASSIGN(const SolveReport report,
+                    work_.solver.system.solve(work_.solver.velocity, tolerance, max_iterations, work_.setting.comm));
+  conserve_momentum(work_, right);
+  return report;
 }
 
 Evaluation begin_step(Workspace& work, const Tissue& tissue, StepTask& task, Evaluation now) {
@@ -99,7 +117,14 @@ Evaluation begin_step(Workspace& work, const Tissue& tissue, StepTask& task, Eva
   std::vector<Vec3d> offsets = tissue.obstacle_offset;
   for (std::size_t i = 0; i < work.setting.model.obstacles.size(); ++i)
     offsets[i] += work.setting.model.obstacles[i].way(tissue.clock.time, tissue.clock.time + task.dt);
-  if (work.terms.contacts->set_offsets(offsets)) now = evaluate(work, tissue, std::move(now.force));
+  if (!std::ranges::equal(offsets, work.terms.contacts->layer().offsets())) {
+    const OwnedPoints points = work.points();
+    std::vector<Vec3d>& force = now.force;
+    points.for_all([&](std::uint32_t i) { force[i] += work.external_on(task, i); });
+    task.forces_before = std::sqrt(points.dot(force, force));
+    work.terms.contacts->set_offsets(offsets);
+    now = evaluate(work, tissue, std::move(force));
+  }
   return now;
 }
 

@@ -24,7 +24,8 @@ class AssembledMatrix {
   AssembledMatrix(const AssembledMatrix&) = delete;
   AssembledMatrix& operator=(const AssembledMatrix&) = delete;
 
-  /// Velocities for the forces `right` into Workspace::Solver::velocity, which is where the iterations start. Collective.
+  /// Velocities for the forces `right` into Workspace::Solver::velocity, which is where the iterations start; every cluster that is not tied then gets
+  /// the common velocity that it lacks (FreeClusters). Collective.
   Result<SolveReport, SolveFault> solve(std::span<const Vec3d> right, double tolerance, int max_iterations) &&;
 
  private:
@@ -40,8 +41,7 @@ std::vector<Vec3d> random_forces(Workspace& work, const Tissue& tissue, double d
 /// Collective.
 Residual residual_of(Workspace& work, const Tissue& tissue, const StepTask& task, std::span<const Vec3d> start, Evaluation now,
                      bool moved = true);
-/// After a linear solve for the forces `right`: give every cluster that is free of the outside the common velocity that it lacks
-/// (FreeClusters). Collective.
+/// The second part of AssembledMatrix::solve(), while the matrix is there.
 void conserve_momentum(Workspace& work, std::span<const Vec3d> right);
 /// Way of the tissue as a whole from the tissue's positions to the scene's. Collective.
 TissueMotion common_motion(const Workspace& work, const Tissue& tissue);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/contact/float_rounding.h"
 #include "core/parallel/threads.h"
 #include "coupling/mechanics/body_factors.h"
 #include "coupling/mechanics/contact_setup.h"
@@ -234,6 +235,16 @@ void ContactFriction::add_friction(const World& world, const Way& way, std::span
 
 void ContactFriction::add_product(std::span<const Float4> p, std::span<Float4> q) const {
   if (const ObjectiveFriction* friction = contacts_.layer().own_friction()) friction->add_product(p, q);
+}
+
+void ContactFriction::add_outside_balance(std::span<const Float4> velocity, std::span<OutsideBalance> by_body) const {
+  const ObjectiveFriction* const friction = contacts_.layer().own_friction();
+  if (friction == nullptr) return;  // within the element groups
+  friction->for_elements_on_obstacles([&](const ObjectiveElement& e) {
+    const Vec3d u = e.jump([&](std::uint32_t i) { return Vec3d{velocity[i].x, velocity[i].y, velocity[i].z}; });
+    by_body[e.body[0]].missing -= e.drag(u);
+    by_body[e.body[0]].resistance += isotropic(static_cast<double>(e.across)) + outer(static_cast<double>(e.along), to_double(e.n));
+  });
 }
 
 void ContactFriction::add_diagonal(std::span<SymMat3<float>> diagonal) const {

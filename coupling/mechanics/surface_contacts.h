@@ -94,6 +94,7 @@ class ContactFriction : public Term {
   [[nodiscard]] bool empty() const override { return contacts_.layer().own_friction() == nullptr; }
   void add_product(std::span<const Float4> p, std::span<Float4> q) const override;
   void add_diagonal(std::span<SymMat3<float>> diagonal) const override;
+  void add_outside_balance(std::span<const Float4> velocity, std::span<OutsideBalance> by_body) const override;
 
  private:
   const SurfaceContacts& contacts_;

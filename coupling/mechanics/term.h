@@ -9,6 +9,7 @@
 #include "core/parallel/comm.h"
 #include "core/parallel/order_free_sum.h"
 #include "coupling/mechanics/noise.h"
+#include "coupling/mechanics/outside_balance.h"
 #include "coupling/mechanics/scene.h"
 #include "coupling/mechanics/step_report.h"
 #include "coupling/model.h"
@@ -100,7 +101,7 @@ class Term : public AddedPart {
   virtual void add_noise(const World&, const Noise&, std::span<Vec3d> /*force*/) const {}
   /// Adds −Δt times the forces of what stands outside of the tissue to `out` [nN·s], and what it has given since the start to the sum [fJ].
   virtual void add_outside(const Way&, double /*dt*/, std::span<Vec3d> /*out*/, OrderFreeSum& /*work*/) {}
-  /// Adds the owned bodies that something outside of the tissue holds, apart from obstacles.
+  /// Adds the owned bodies that something outside of the tissue holds, where it is not in add_outside_balance().
   virtual void add_tied(const World&, std::vector<std::uint32_t>& /*bodies*/) const {}
   /// The step has come to its end: what it leaves in the tissue beside positions. Collective.
   virtual void end_step(const World&, StepEnd&) {}
@@ -110,6 +111,9 @@ class Term : public AddedPart {
   /// The part of Γ + Δt K̃ at the present positions, for the products below or into `out`; until drop_matrix().
   virtual void assemble(const World&, double /*dt*/, Assembly& /*out*/) {}
   virtual void drop_matrix() {}
+  /// Takes what the matrix of something outside of the tissue does at these velocities by point from what is missing, by body, and adds its resistance
+  /// to a common motion; of active bodies.
+  virtual void add_outside_balance(std::span<const Float4> /*velocity*/, std::span<OutsideBalance> /*by_body*/) const {}
   [[nodiscard]] bool empty() const override { return true; }
   void add_product(std::span<const Float4>, std::span<Float4>) const override {}
   void add_diagonal(std::span<SymMat3<float>>) const override {}

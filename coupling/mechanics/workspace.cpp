@@ -165,7 +165,7 @@ Vec3d Workspace::external_on(const StepTask& task, std::uint32_t point) const {
 std::size_t Workspace::bytes_now() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   std::size_t total = solver.system.memory() + solver.clusters.memory() + scene.memory() + scene.point_count() * sizeof(Vec3d) +
-                      bytes(solver.velocity) + geometry.memory() + (age ? bytes(age->start) : 0);
+                      bytes(solver.velocity) + bytes(solver.held) + geometry.memory() + (age ? bytes(age->start) : 0);
   for (const auto& term : terms.all) total += term->memory();
   return total;
 }

@@ -30,6 +30,9 @@ struct StepTask {
   std::span<const Anchor> anchors;     ///< springs to places of the laboratory
   const Settling* settling = nullptr;  ///< null: the clock runs
   std::vector<Vec3d> by_point{};       ///< `external` and random forces; empty: there are none of these [nN]
+  /// Norm of all forces before obstacles went to where they are at the step's end, where they do [nN]. What they do to cells that have not moved yet, stretched
+  /// over a step, may be a hundred times the forces that are left when all have: no measure for what may be left of the residual.
+  std::optional<double> forces_before{};
 };
 
 /// Energy and forces of all terms at the present positions of the scene.
@@ -92,6 +95,7 @@ struct Workspace {
     FrictionSystem system;
     std::vector<Float4> velocity;  ///< by point; the last solution is the next start
     FreeClusters clusters;         ///< of the present matrix
+    std::vector<HeldPoint> held;   ///< by obstacles in the present matrix, in canonical order; of active bodies
   };
 
   Setting setting;

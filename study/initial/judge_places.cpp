@@ -182,7 +182,8 @@ class Judge {
     const Vec3d at = cell == cells_.end() ? Vec3d{} : cell->center;
     add(597, cell == cells_.end() ? 0 : cell->entry, cells_.size(), overlap.value,
         {.text = "the surface of the cell at " + place_text(at) + " begins " + rounded(overlap.value) +
-                 " deep in another one: the run would stop at its limit (" + short_number(study_.model.limits.overlap) + " um)",
+                 " deep in another one, an obstacle or a wall: the run would stop at its limit (" +
+                 short_number(study_.model.limits.overlap) + " um)",
          .help = "place it further away, or let it come out first with `numerics: {start_cap: auto}`"});
     return {};
   }

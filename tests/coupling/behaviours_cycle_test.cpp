@@ -9,6 +9,7 @@
 #include "coupling/behaviours/division.h"
 #include "coupling/behaviours/division_axis.h"
 #include "coupling/behaviours/life.h"
+#include "coupling/behaviours/phases.h"
 
 namespace morula {
 namespace {
@@ -348,7 +349,7 @@ TEST(Quiescence, IsEnteredAndLeftAfterTheHold) {
   population.cells.rows[0].pressure = 0.79;
   population.run_to(2.8 * kHour, 600.0);
   EXPECT_EQ(at().variable(0), 0.0);
-  population.run_to(3.1 * kHour, 600.0);
+  population.run_to(3.2 * kHour, 600.0);  // a step begins after the hour
   EXPECT_EQ(at().variable(0), 4.0) << "G0";
   EXPECT_EQ(population.events[EventKind::kQuiescence], 1);
   const double volume = population.volume(), left = at().variable(1);
@@ -361,7 +362,7 @@ TEST(Quiescence, IsEnteredAndLeftAfterTheHold) {
   population.run_to(33.9 * kHour, 600.0);
   EXPECT_EQ(at().variable(0), 4.0);
   EXPECT_EQ(at().variable(1), left);
-  population.run_to(34.1 * kHour, 600.0);
+  population.run_to(34.2 * kHour, 600.0);
   EXPECT_EQ(at().variable(0), 0.0);
   EXPECT_EQ(population.events[EventKind::kReturn], 1);
   population.run_to(60 * kHour, 600.0);
@@ -374,6 +375,23 @@ TEST(CycleVariables, ThereAreNoneWherePhasesAreNot) {
   EXPECT_TRUE(cell_variables(model).empty());
   model.types[0] = four_phases();
   EXPECT_EQ(cell_variables(model).size(), 3u);
+}
+
+/// What holds a cell back is looked at when a step begins: after ten minutes of it a cell leaves, however long the steps are.
+TEST(Quiescence, BeginsWhenItsConditionHasHeldAsLongAsIsSaid) {
+  CellType type = four_phases();
+  type.cycle.quiescence = {.phase = 0, .enter_below = 0.5, .leave_above = 0.7, .hold = 600.0};
+  for (const double dt : {5.0, 60.0, 600.0}) {
+    CyclePlace place{.phase = 0, .left = 3600.0};
+    double time = 0.0;
+    while (leave_or_return(place, type.cycle, dt, [](std::size_t) { return 0.1; }) == Leaving::kNo && time < 1e4) time += dt;
+    EXPECT_NEAR(time, 600.0, 1e-6) << dt;
+    EXPECT_EQ(place.phase, type.cycle.phases.size());
+    for (time = 0.0; leave_or_return(place, type.cycle, dt, [](std::size_t) { return 0.9; }) == Leaving::kNo && time < 1e4;) time += dt;
+    EXPECT_NEAR(time, 600.0, 1e-6) << dt;
+    EXPECT_EQ(place.phase, 0u);
+    EXPECT_EQ(place.left, 3600.0) << "what was left of it";
+  }
 }
 
 }  // namespace

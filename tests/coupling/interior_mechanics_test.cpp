@@ -113,7 +113,11 @@ Squeeze squeeze(double nucleus) {
                      {"upper", upper.position, upper.faces, false, {0, 0, -speed}, {}, {}}};
   model.pairs.assign(9, ContactPair{0.0, 0.1, 0.1});
   model.step.max_step = 1.0;
-  model.step.newton_stop = 0.01;  // the plates bear the residual
+  // The plates bear the residual; and what is left of the nucleus' own, step by step, carries it off the middle.
+  model.step.first_tolerance = 1e-5;
+  model.step.later_tolerance = 1e-4;
+  model.step.newton_stop = 1e-3;
+  model.step.max_newton = 20;
   const auto simulation = one_cell(model);
   Squeeze out;
   while (out.gap.empty() || out.gap.back() > 8.0) {
@@ -140,7 +144,8 @@ TEST(SqueezedNucleus, PushesBackWhenThePlatesAreCloserThanItsWidth) {  // T12.3,
   EXPECT_GT(with.at(8.05), 3.0 * bare.at(8.05)) << "below it the nucleus pushes";
   EXPECT_GT(with.overlap, 0.0);
   EXPECT_LT(with.overlap, 0.1);
-  EXPECT_GT(with.inside, 3.9) << "the nucleus is inside, at its radius from every face";
+  EXPECT_GT(with.inside, 3.8)
+      << "the nucleus is inside, at its radius from every face, but for what faces under 36 nN dip in between their points";
 }
 
 /// T12.3: the balance of forces between cell, nucleus and plates is closed to 1e-8 of what a plate bears, in any state; the force on the

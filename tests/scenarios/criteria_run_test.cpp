@@ -80,7 +80,7 @@ TEST_F(OwnCriteria, PassFailOrFindNothingAndAreTold) {
   - {id: FAIL, measure: volume(cell), above: 1e-6 mm^3}
   - {id: NOTHING, measure: volume(none), above: 1 um^3}
   - {id: NO_PAIR, measure: cap.angle, of: {pair: [cell, ball]}, below: 90 deg}
-  - {id: TOO_FEW, measure: cell_count, at: start, over_time: slope, below: 1 1/s}
+  - {id: TOO_FEW, measure: cell_count, from: 0 s, until: 0 s, over_time: slope, below: 1 1/s}
   - {id: NO_CONTACT, measure: contacts_beyond_range, at: every, below: 1}
   - {id: EACH, measure: volume, of: [cell, ball], below: 800 um^3})"));
   EXPECT_FALSE(passed_);

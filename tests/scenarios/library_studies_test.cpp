@@ -169,8 +169,8 @@ TEST(LibraryStudies, HybridSpheroidRunsShortened) {
 /// Cells near the needle are shells from the moment it comes near, and bear it.
 TEST(LibraryStudies, HybridHotspotRunsShortened) {
   const auto run = NewStudy("hybrid_hotspot")
-                       .run({"time.end=40 min", "time.checkpoint=40 min", "criteria.1.from=36 min", "criteria.1.until=40 min",
-                             "criteria.3.at=40 min", "criteria.4.from=36 min", "criteria.4.until=40 min"});
+                       .run({"time.end=46 min", "time.checkpoint=46 min", "criteria.1.from=40 min", "criteria.1.until=46 min",
+                             "criteria.3.at=46 min", "criteria.4.from=42 min", "criteria.4.until=46 min"});
   expect_sound(run);
   ASSERT_TRUE(run.ok());
   for (const char* text : {"nearest sphere", "force on the resting needle"}) {

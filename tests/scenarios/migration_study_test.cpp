@@ -182,5 +182,16 @@ TEST_F(Walkers, ChemotaxisDriftsByTheGradientOfAFieldAndKeepsItsSpeed) {
   }
 }
 
+/// Where the response is whole nothing is left to chance: b = 1, and all go up the gradient with S once they have forgotten how they began.
+TEST_F(Walkers, ChemotaxisWithAWholeResponseGoesStraight) {
+  const std::string field =
+      "fields: {bait: {diffusion: 1e-9 m^2/s, initial: 0.6 mM, voxel: 42 um, boundary: {x_low: 0.2 mM, x_high: 1 mM}}}\n";
+  const auto places = run_study(free_walkers("law: chemotaxis, field: bait, persistence: 5 min, half_response: 0, index: 100 %", field,
+                                             true, "end: 3 h, output: 30 min"));
+  ASSERT_EQ(places.size(), 7u);
+  for (std::size_t i = 0; i < places[6].size(); ++i)
+    EXPECT_NEAR((places[6][i] - places[4][i]).x, kSpeed * 3600.0, 0.01 * kSpeed * 3600.0) << i;
+}
+
 }  // namespace
 }  // namespace morula::scenarios

@@ -20,7 +20,7 @@ time: {end: )" +
          end + ", output: " + end + R"(}
 domain: {size: [200 um, 200 um, 200 um]}
 cell_types:
-  cell: {radius: 6 um}
+  cell: {radius: 6 um, friction: {obstacle_tangential: 0 N s/m^3}}
   small: {radius: 5 um}
 )" + more +
          "initial:\n" + initial + "output: {report: false}\n";
@@ -127,9 +127,10 @@ TEST(Momentum, AForceFromOutsideMovesTheCentreAsFrictionSays) {
 }
 
 /// A wall of the domain is flat and rubs nobody: along it nothing but the medium holds a cell, however hard it is pressed on.
-TEST(Momentum, APressedShellSlidesAlongAWallAsFrictionSays) {
+/// A shell on the floor that 3 nN press onto it and 0.2 nN drag along it; nothing rubs but the medium.
+void expect_slide(const std::string& floor) {
   const test::Folder folder;
-  const std::string text = test::changed("size: [200 um, 200 um, 200 um]", "size: [200 um, 200 um, 200 um], boundary: {z_low: wall}",
+  const std::string text = test::changed("domain: {size: [200 um, 200 um, 200 um]}", floor,
                                          study("  - {type: cell, at: [[-40 um, 0 um, -94 um]], as: shell}\n", "2 h",
                                                "loads:\n  drag: {type: cell, body_force: [0.2 nN, 0 nN, -3 nN]}\n"));
   const Moved moved = run_study(text, folder.path());
@@ -137,6 +138,16 @@ TEST(Momentum, APressedShellSlidesAlongAWallAsFrictionSays) {
   EXPECT_GT(moved.area[1], 1.01 * moved.area[0]);
   EXPECT_LT(moved.centre, 1.001 * way / moved.area[0]);
   EXPECT_GT(moved.centre, 0.999 * way / moved.area[1]);
+}
+
+TEST(Momentum, APressedShellSlidesAlongAWallAsFrictionSays) {
+  expect_slide("domain: {size: [200 um, 200 um, 200 um], boundary: {z_low: wall}}");
+}
+
+TEST(Momentum, APressedShellSlidesAlongAnObstacleThatDoesNotRub) {
+  expect_slide(
+      "domain: {size: [200 um, 200 um, 200 um]}\n"
+      "geometry: {glass: {plane: {center: [0 um, 0 um, -100 um], size: 190 um}}}");
 }
 
 TEST(Momentum, SpheresOnAWallKeepTheirCentreAlongIt) {

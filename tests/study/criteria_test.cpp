@@ -194,6 +194,14 @@ TEST(Criteria, AskForOutputsThatTheRunHas) {
   EXPECT_THAT(message_of("measure: cell_count, from: 30 min, until: 10 min, above: 3"), HasSubstr("E416"));
 }
 
+TEST(Criteria, OfACourseAskForSeveralMoments) {
+  for (const char* word : {"slope", "rise", "left", "falling"})
+    EXPECT_THAT(message_of("measure: cell_count, over_time: " + std::string(word) + ", above: 0"),
+                AllOf(HasSubstr("finds nothing at one moment alone"), HasSubstr("E515")));
+  EXPECT_TRUE(read(criterion("measure: cell_count, at: every, over_time: rise, above: 0"), with_criteria()).ok());
+  EXPECT_TRUE(read(criterion("measure: cell_count, over_time: max, above: 0"), with_criteria()).ok());
+}
+
 TEST(Criteria, AskEachQuestionOnce) {
   for (const char* twice : {"criteria:\n  - {id: A, measure: cell_count, above: 3}\n  - {id: A, measure: cell_count, above: 4}\n",
                             "criteria:\n  - {id: A, measure: volume(left), over: {measure: volume(right)}, above: 3}\n"

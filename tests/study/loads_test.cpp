@@ -135,6 +135,8 @@ TEST(Loads, OnMarkedFacesAreRefusedWhereTheyContradictThemselves) {
   EXPECT_NE(unknown.find("did you mean `apical`"), std::string::npos) << unknown;
   EXPECT_EQ(unknown.find("orientation"), std::string::npos) << "where it acts is not known yet";
   EXPECT_NE(message("pressure: {value: 10 Pa, origin: [1 um, 0 um, 0 um]}").find("'origin' has no effect here [E515]"), std::string::npos);
+  EXPECT_NE(message("pressure: {value: 10 Pa, ends: high}").find("'ends' has no effect here [E515]"), std::string::npos);
+  EXPECT_NE(message("pressure: {value: 10 Pa, axis: [0, 1, 0]}").find("'axis' has no effect here [E515]"), std::string::npos);
   EXPECT_NE(message("patch: {toward: [0, 0, 1]}").find("force"), std::string::npos);
   const std::string other = test::changed("types: [cell]", "types: [other]", with_load("pressure: {value: 10 Pa, marked: apical}"));
   EXPECT_NE(
