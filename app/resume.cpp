@@ -39,6 +39,9 @@ Status resume(const ResumeOptions& options, const Context& context) {
   auto study =
       read_study_and_tell((folder.path() / "study.resolved.yaml").string(), options.overrides, false, context, {.judge_places = false});
   MORULA_TRY(agree_on(study, (folder.path() / "study.resolved.yaml").string(), context));
+  for (const std::string& change : options.overrides)
+    if (change.starts_with("initial.") || change.starts_with("initial="))
+      return Error{ErrorKind::kInput, "`initial` says how a run begins, and this one has begun", "start a new run with `morula run`"};
   scenarios::ResumeRequest request;
   request.laws = context.laws;
   MORULA_TRY(fill_request(options.limits, context, request));
@@ -47,7 +50,7 @@ Status resume(const ResumeOptions& options, const Context& context) {
     auto found = find_checkpoint(folder.path(), options.from);
     MORULA_TRY(scenarios::agree(found.ok() ? Status{} : Status{found.error()}, context.comm));
     request.from = std::move(found).value();
-    go_back = !is_newest(folder.path(), request.from);
+    go_back = !options.out.empty() || !is_newest(folder.path(), request.from);
   }
   RunDisplay display(context.console, first_line(*study, options.limits.threads, context));
   display.listen_to(request);

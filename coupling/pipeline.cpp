@@ -93,7 +93,9 @@ Result<StepOutcome> Simulation::step(double land_on, const std::function<bool()>
 Simulation::StepPlan Simulation::plan_step(double land_on) const {
   StepPlan plan;
   const Clock& clock = tissue_.clock;
-  plan.land_on = std::min(land_on, next_corner(model_, clock.time));
+  constexpr double kSameTime = 1e-12;  // a corner and an output that differ by rounding are one moment
+  const double corner = next_corner(model_, clock.time * (1.0 + kSameTime));
+  plan.land_on = corner < land_on * (1.0 - kSameTime) ? corner : land_on;
   plan.dt = fit_step(std::min({clock.next_step, model_.step.max_step, longest_step_of_box(plan.land_on)}), clock.time, plan.land_on);
   const double end = end_of_step(plan.dt, clock.time, plan.land_on);
   for (std::size_t f = 0; f < tissue_.fields.size(); ++f)

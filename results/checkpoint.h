@@ -6,6 +6,7 @@
 #include "core/mesh/topology.h"
 #include "core/parallel/comm.h"
 #include "core/result.h"
+#include "coupling/observables/measures.h"
 #include "coupling/tissue.h"
 #include "results/hdf5_reader.h"
 #include "results/text_lengths.h"
@@ -22,6 +23,7 @@ struct CheckpointInfo {
   double wall_time = 0.0;      ///< spent on the run so far [s]
   std::string morula_version;  ///< filled by write_checkpoint
   std::uint32_t warned = 0;    ///< what the run has warned of once and will not again; bits of the run loop
+  Interval interval{};         ///< since the last output
   TextLengths texts{};
 };
 

@@ -63,6 +63,18 @@ Status read_globals(const Hdf5Reader& file, LoadedCheckpoint& out) {
     MORULA_TRY_ASSIGN(out.info.texts.events, file.value<std::uint64_t>("info/events_length"));
     MORULA_TRY_ASSIGN(out.info.texts.log, file.value<std::uint64_t>("info/log_length"));
   }
+  if (file.exists("info/interval/steps")) {
+    Status read;
+    for_each_interval_field([&](const std::string& name, const char*, auto member) {
+      if (!read.ok()) return;
+      auto value = file.value<std::remove_cvref_t<decltype(out.info.interval.*member)>>("info/interval/" + name);
+      if (value.ok())
+        out.info.interval.*member = *value;
+      else
+        read = value.error();
+    });
+    MORULA_TRY(std::move(read));
+  }
   MORULA_TRY_ASSIGN(out.tissue.obstacle_offset, file.read<Vec3d>("obstacles/offset"));
   const auto read_one = [&](const std::string& path, auto& member) -> Status {
     using Value = std::remove_cvref_t<decltype(member)>;

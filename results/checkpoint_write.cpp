@@ -187,6 +187,9 @@ void add_globals(StoragePlan& plan, const Tissue& tissue, const CheckpointInfo& 
   plan.add_value("info/warned", "1", info.warned);
   plan.add_value("info/events_length", "1", info.texts.events);
   plan.add_value("info/log_length", "1", info.texts.log);
+  for_each_interval_field([&](const std::string& name, const char* units, auto member) {
+    plan.add_value("info/interval/" + name, units, info.interval.*member);
+  });
   plan.add_value("info/field_count", "1", static_cast<std::uint32_t>(tissue.fields.size()));
   for_each_clock_field(
       [&](const std::string& name, const char* units, auto member) { plan.add_value("clock/" + name, units, tissue.clock.*member); });

@@ -1,4 +1,5 @@
 #pragma once
+#include "coupling/observables/measures.h"
 #include "coupling/tissue.h"
 
 namespace morula::scenarios {
@@ -11,6 +12,18 @@ void for_each_clock_field(Visit&& visit) {
   visit("capped", "1", &Clock::capped);
 }
 static_assert(sizeof(Clock) == 4 * 8, "list every member of Clock in for_each_clock_field");
+
+template <class Visit>
+void for_each_interval_field(Visit&& visit) {
+  visit("steps", "1", &Interval::steps);
+  visit("time", "s", &Interval::time);
+  visit("newton", "1", &Interval::newton);
+  visit("linear", "1", &Interval::linear);
+  visit("retries", "1", &Interval::retries);
+  visit("worst_overlap", "um", &Interval::worst_overlap);
+  visit("energy", "nN um", &Interval::energy);
+}
+static_assert(sizeof(Interval) == 7 * 8, "list every member of Interval in for_each_interval_field");
 
 template <class Visit>
 void for_each_lumen_field(Visit&& visit) {

@@ -138,8 +138,13 @@ void check_names(BuildContext& c) {
   };
   if (c.draft.scenario.known()) check_known(c.draft.scenario.value, c.draft.scenario.place, c.options.scenario_names, "library study");
   if (c.diagnostics.has_errors()) return;  // which observables there are depends on what the model has
-  for (const std::string& name : c.draft.output.series.value)
-    check_known(name, c.draft.output.series.place, observable_names(c.study.model, *c.options.laws), "observable");
+  const auto& series = c.draft.output.series;
+  for (std::size_t i = 0; i < series.value.size(); ++i) {
+    check_known(series.value[i], series.place, observable_names(c.study.model, *c.options.laws), "observable");
+    if (std::find(series.value.begin(), series.value.begin() + static_cast<std::ptrdiff_t>(i), series.value[i]) !=
+        series.value.begin() + static_cast<std::ptrdiff_t>(i))
+      c.diagnostics.error(102, series.place, "column '" + series.value[i] + "' is named twice", "once is enough");
+  }
 }
 
 /// What the laws of both layers of a shell say of their stiffness.

@@ -216,7 +216,10 @@ Measures measure(Simulation& simulation) {
     out.nucleus_clearance = least_clearance(simulation);
   out.obstacle_force = simulation.mechanics().obstacle_forces(tissue);
   out.grip_force = grip_forces(model, tissue, comm);
-  if (out.cells == 0) return out;
+  if (out.cells == 0) {  // nothing is said of cells where there are none
+    out.spheroid_radius = out.largest_extent = out.mean_pressure = out.mean_contact_area = Measures::kNone;
+    return out;
+  }
   const Vec3d mean = set_means(total, out);
   double extent = 0.0;
   for (const BodyOfRow& body : bodies_of(tissue.cells))

@@ -12,6 +12,7 @@
 #include "results/damaged_file.h"
 #include "results/file_io.h"
 #include "results/observables/local_snapshot.h"
+#include "results/series_reader.h"
 #include "results/snapshot_file.h"
 #include "results/state_hash.h"
 #include "scenarios/run/exit_code.h"
@@ -22,10 +23,12 @@ namespace {
 
 constexpr auto kStatusEvery = std::chrono::seconds(2);
 
-/// Index of the first multiple of the interval that is later than `time`.
+constexpr double kSameTime = 1e-12;  // moments that differ by less than this part of them are one: 3 × 0.7 s is not 2.1 s
+
+/// The first multiple of the interval that is later than `time`.
 double next_multiple(double time, double interval) {
   double k = std::floor(time / interval);
-  while (k * interval <= time) ++k;
+  while (k * interval <= time * (1.0 + kSameTime)) ++k;
   return k * interval;
 }
 
@@ -35,7 +38,10 @@ ResultsHead results_head(const Study& study) {
   return {study.name, study.title, study.model.seed, study.source_text, study.resolved_text, obstacles_at_start(study.model)};
 }
 
-double next_output(double time, double interval, double end) { return std::min(next_multiple(time, interval), end); }
+double next_output(double time, double interval, double end) {
+  const double next = next_multiple(time, interval);
+  return next >= end * (1.0 - kSameTime) ? end : next;
+}
 
 double end_of_run(const TimeSpec& time, const std::optional<double>& until) {
   if (!until) return time.end;
@@ -134,13 +140,31 @@ void RunLoop::tell_idle_loads() {
 
 Status RunLoop::go_back(const CheckpointInfo& checkpoint) {
   warned_ = checkpoint.warned;
+  interval_ = checkpoint.interval;
   std::vector<SeriesHeader> header;
   for (const Observable& column : columns_) header.push_back({column.name, column.unit});
   MORULA_TRY(agree(folder_.begin_series(header), comm_));
   const double time = simulation_->tissue().clock.time;
   MORULA_TRY(agree(folder_.cut_back(time, checkpoint.texts), comm_));
   MORULA_TRY(write_results([&] { return truncate_snapshots(folder_.results(), time, comm_); }));
-  return begin_results(folder_.results(), results_head(study_), comm_);  // where the file is gone
+  MORULA_TRY(begin_results(folder_.results(), results_head(study_), comm_));  // where the file is gone
+  return tell_what_is_lost();
+}
+
+Status RunLoop::tell_what_is_lost() {
+  std::size_t rows = 0, snapshots = 0;
+  const auto count = [&]() -> Status {
+    MORULA_TRY_ASSIGN(const SeriesTable series, read_series(folder_.series()));
+    MORULA_TRY_ASSIGN(const auto there, list_snapshots(folder_.results()));
+    rows = series.rows(), snapshots = there.size();
+    return {};
+  };
+  MORULA_TRY(agree(comm_.is_root() ? count() : Status{}, comm_));
+  if (comm_.any(rows != snapshots))
+    warn("up to here series.csv has " + std::to_string(comm_.sum(static_cast<std::int64_t>(rows))) + " rows, results.h5 " +
+         std::to_string(comm_.sum(static_cast<std::int64_t>(snapshots))) +
+         " snapshots: some were lost, and criteria, pictures and lineage know of those alone that are left");
+  return {};
 }
 
 Status RunLoop::write_results(const std::function<Status()>& write) {
@@ -170,11 +194,12 @@ Result<RunSummary> RunLoop::go() {
       return summary;
     }
     const std::uint64_t steps = clock.steps;
-    if (Status done = step(); !done.ok()) {
+    const double due = next_output(clock.time, study_.time.output, end_);
+    if (Status done = step(due); !done.ok()) {
       if (done.error().kind == ErrorKind::kStoppedEarly) continue;  // broken off by a wish to stop; the state is that before the step
       return fail(done.error(), clock.steps == steps);
     }
-    if (clock.time < next_output(std::nextafter(clock.time, 0.0), study_.time.output, end_)) continue;
+    if (clock.time < due) continue;
     if (Status done = output(); !done.ok()) return fail(done.error(), true);
     if (at_rest()) break;
     if (clock.time < checkpoint_due_ || clock.time >= end_) continue;
@@ -197,12 +222,11 @@ bool RunLoop::at_rest() {
   return coming.empty();
 }
 
-Status RunLoop::step() {
+Status RunLoop::step(double land_on) {
   const Clock& clock = simulation_->tissue().clock;
   const double before = clock.time;
   const auto began = SteadyClock::now();
-  MORULA_TRY_ASSIGN(StepOutcome outcome,
-                    simulation_->step(next_output(clock.time, study_.time.output, end_), [this] { return wish_to_stop() != kGoOn; }));
+  MORULA_TRY_ASSIGN(StepOutcome outcome, simulation_->step(land_on, [this] { return wish_to_stop() != kGoOn; }));
   interval_.add(outcome);
   ++work_.steps;
   work_.node_steps += load_.nodes;
@@ -301,12 +325,13 @@ Status RunLoop::write_tables() {
   const auto read = [&]() -> Status {
     MORULA_TRY_ASSIGN(series, read_file(folder_.series()));
     MORULA_TRY_ASSIGN(events, read_file(folder_.events()));
+    MORULA_TRY(parse_series(series, folder_.series().string()));  // what is wrong with it is no fault of results.h5
     return {};
   };
   MORULA_TRY(agree(comm_.is_root() ? read() : Status{}, comm_));
   std::map<std::string, std::string> descriptions{{"time", "Simulated time."}};
   for (const Observable& column : columns_) descriptions[column.name] = column.doc;
-  return write_results_tables(folder_.results(), series, events, descriptions, comm_);
+  return write_results([&] { return write_results_tables(folder_.results(), series, events, descriptions, comm_); });
 }
 
 Status RunLoop::checkpoint() {
@@ -315,7 +340,7 @@ Status RunLoop::checkpoint() {
   checkpoint_due_ = next_multiple(tissue.clock.time, study_.time.checkpoint);
   auto texts = folder_.sync_texts();  // they are on the disk before the checkpoint that counts on them
   MORULA_TRY(agree(texts.ok() ? Status{} : Status(texts.error()), comm_));
-  const CheckpointInfo info{record_.study, record_.study_hash, wall_before_ + wall(), {}, warned_, *texts};
+  const CheckpointInfo info{record_.study, record_.study_hash, wall_before_ + wall(), {}, warned_, interval_, *texts};
   auto saved = save_checkpoint(folder_.checkpoints(), tissue, info, comm_);
   return saved.ok() ? Status{} : Status(std::move(saved).error());
 }
@@ -355,7 +380,7 @@ Status RunLoop::finish(RunState state, ErrorKind kind, RunSummary& summary) {
   if (told.ok()) told = write_events();
   MORULA_TRY(agree(std::move(told), comm_));
   MORULA_TRY(checkpoint());
-  MORULA_TRY(write_results([&] { return write_tables(); }));
+  MORULA_TRY(write_tables());
   record_.state = state;
   record_.exit_code = done ? 0 : exit_code(kind);
   record_.message = done ? "" : how + " at " + time_text(progress_.time) + ", with a checkpoint";

@@ -46,13 +46,15 @@ class RunLoop {
  private:
   using SteadyClock = std::chrono::steady_clock;
 
-  Status step();
+  Status step(double land_on);
   /// The study asks to end at rest, and nothing moves or will move any more. Collective.
   [[nodiscard]] bool at_rest();
   Status output();
   Status write_moment(const Measures& measures);
   /// series.csv and events.jsonl into results.h5. Collective.
   Status write_tables();
+  /// After going back: warns where rows of the series and snapshots are not as many; a series that cannot be read is an error. Collective.
+  Status tell_what_is_lost();
   Status check_limits(const Measures& measures);
   Status check_packing(const Measures& measures);
   [[nodiscard]] Status check_capped_start() const;

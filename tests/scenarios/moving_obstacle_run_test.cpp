@@ -42,8 +42,10 @@ double way_of(const std::string& text) {
   return moments.size() < 4 ? std::nan("") : moments[3].snapshot.cells[0].centroid.x - moments[0].snapshot.cells[0].centroid.x;
 }
 
-const std::string kFloor = "{plane: {center: [0 um, 0 um, -20 um], normal: [0, 0, 1], size: 180 um}, motion: {velocity: [60 um/h, 0 um/h, 0 um/h]}}";
-const std::string kPlate = "{plane: {center: [-50 um, 0 um, 0 um], normal: [1, 0, 0], size: 90 um}, motion: {velocity: [60 um/h, 0 um/h, 0 um/h]}}";
+const std::string kFloor =
+    "{plane: {center: [0 um, 0 um, -20 um], normal: [0, 0, 1], size: 180 um}, motion: {velocity: [60 um/h, 0 um/h, 0 um/h]}}";
+const std::string kPlate =
+    "{plane: {center: [-50 um, 0 um, 0 um], normal: [1, 0, 0], size: 90 um}, motion: {velocity: [60 um/h, 0 um/h, 0 um/h]}}";
 const std::string kWeight = "loads: {w: {type: a, body_force: [0 nN, 0 nN, -2 nN]}}\n";
 
 TEST(MovingObstacles, TakeSpheresAlongThatTheyRub) {
@@ -60,8 +62,7 @@ TEST(MovingObstacles, TakeShellsAlongThatTheyRub) {
 }
 
 TEST(MovingObstacles, PushSpheresWithTheirDrag) {
-  const std::string text = study("adhesion: {others: 0 J/m^2}, friction: {obstacle: 0 N s/m^3}", kPlate,
-                                 "[-43.9 um, 0 um, 0 um]");
+  const std::string text = study("adhesion: {others: 0 J/m^2}, friction: {obstacle: 0 N s/m^3}", kPlate, "[-43.9 um, 0 um, 0 um]");
   EXPECT_NEAR(-last_of(text, "force_x_p"), kDrag * 60.0 / 3600.0, 0.1 * kDrag * 60.0 / 3600.0) << "newton_stop leaves a part of the force";
 }
 
@@ -78,7 +79,8 @@ TEST(MovingObstacles, PushShellsThatStayRound) {
   ASSERT_EQ(moments.size(), 5u);
   const double round = moments.front().snapshot.cells[0].area;
   for (const auto& moment : moments) EXPECT_NEAR(moment.snapshot.cells[0].area, round, 0.002 * round) << moment.time;  // was 1.3 % more
-  EXPECT_NEAR(-last_of(text, "force_x_p"), kDrag * 6.0 / 3600.0, 0.3) << "nN; a tight solver has the drag within 0.002, and 3.5 were told before";
+  EXPECT_NEAR(-last_of(text, "force_x_p"), kDrag * 6.0 / 3600.0, 0.3)
+      << "nN; a tight solver has the drag within 0.002, and 3.5 were told before";
 }
 
 TEST(Traps, BearTheLoadWhateverIsFarAway) {

@@ -108,7 +108,12 @@ TEST(OutputTimes, AreMultiplesOfTheIntervalAndTheEnd) {
   EXPECT_EQ(next_output(1800.0, 1800.0, 7200.0), 3600.0);
   EXPECT_EQ(next_output(7000.0, 1800.0, 7100.0), 7100.0);
   for (int k = 1; k < 1000; ++k) ASSERT_EQ(next_output(k * 0.1, 0.1, 1e9), (k + 1) * 0.1);  // 0.1 is no binary number
-  for (int k = 1; k < 1000; ++k) ASSERT_EQ(next_output(std::nextafter(k * 0.1, 0.0), 0.1, 1e9), k * 0.1);
+  for (int k = 1; k < 1000; ++k) ASSERT_EQ(next_output(std::nextafter(k * 0.1, 0.0), 0.1, 1e9), (k + 1) * 0.1) << "one moment";
+  for (const double interval : {0.3, 0.7, 2.3, 1.2})
+    for (int n = 1; n < 100; ++n) {  // n × interval as a study writes it: rounded to the nearest number
+      const double end = std::round(n * interval * 10.0) / 10.0;
+      ASSERT_EQ(next_output((n - 1) * interval, interval, end), end) << n << " × " << interval;
+    }
 }
 
 TEST(OutputTimes, UntilIsRoundedUp) {
@@ -325,6 +330,25 @@ TEST_F(Runs, AWishToStopBreaksOffTheIntegrationOfAField) {
   const auto run_stopped = run(read, hurried, Comm());
   ASSERT_TRUE(run_stopped.ok()) << run_stopped.error().message;
   EXPECT_EQ(run_stopped->stopped, ErrorKind::kStoppedEarly);
+}
+
+/// What happened between the last output and the stop belongs to the next row, overlap and steps that were refused too.
+TEST_F(Runs, StoppedBetweenOutputsHaveTheSameSeriesAfterAResume) {
+  const std::string text = test::changed("output: 1 min", "output: 4 min", kShells);
+  (void)run_whole(text, "whole");
+  std::atomic<int> stop{kGoOn};
+  RunRequest hurried = request("stopped");
+  hurried.stop = &stop;
+  int calls = 0;
+  hurried.on_progress = [&](const Progress& progress) {
+    if (++calls >= 4 && progress.time > 0.0) stop = kStopEarly;
+  };
+  const auto stopped = run(study(text), hurried, Comm());
+  ASSERT_TRUE(stopped.ok()) << stopped.error().message;
+  ASSERT_EQ(stopped->stopped, ErrorKind::kStoppedEarly);
+  const auto rest = resume(folder_.path() / "stopped", resume_request(), Comm());
+  ASSERT_TRUE(rest.ok()) << rest.error().message;
+  EXPECT_EQ(slurp(*this / "stopped/series.csv"), slurp(*this / "whole/series.csv"));
 }
 
 TEST_F(Runs, ATargetThatExistsIsLeftAlone) {

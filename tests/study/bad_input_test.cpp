@@ -37,6 +37,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"NoValue", "seed: 20261121", "seed:", "study.yaml:4:1: error: 'seed' has no value [E104]"},
         Case{"MapForScalar", "seed: 20261121", "seed: {a: 1}", "'seed' must be a single value, but here is a map [E104]"},
         Case{"ScalarForMap", "limits: {volume_error: 2 %, overlap: 0.3 um, field_balance: 1e-6}", "limits: 3", "'limits' must be a map"},
+        Case{"ColumnTwice", "series: [cell_count, volume_error]", "series: [cell_count, volume_error, cell_count]",
+             "column 'cell_count' is named twice [E102]"},
         Case{"ScalarForList", "series: [cell_count, volume_error]", "series: cell_count", "must be a list of words"},
         Case{"Tab", "    radius:", "\tradius:", "study.yaml:9:1: error: a tab is used for indentation [E105]"},
         Case{"Anchor", "    radius: {", "    radius: &r {", "anchors (`&name`) are not allowed in a study [E106]"},

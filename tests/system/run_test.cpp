@@ -205,6 +205,46 @@ TEST(Resume, WithAChangeMakesANewRunWithItsParent) {
   EXPECT_EQ(wrong.exit_code, 2) << wrong.all();
 }
 
+/// What the checkpoint knows by number or has on a grid cannot become something else.
+TEST(Resume, RefusesChangesThatTheCheckpointCannotFollow) {
+  const TestFolder folder;
+  folder.write("study.yaml", changed(sphere_study(), "initial:",
+                                     "fields:\n  o: {diffusion: 1e-9 m^2/s, initial: 1 mM, voxel: 20 um}\n  p: {diffusion: 1e-9 m^2/s, "
+                                     "initial: 2 mM, voxel: 20 um}\ninitial:"));
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "first", "--until", "30 min"}, folder.path()).exit_code, 0);
+  const auto refused = [&](const std::string& change, const std::string& why) {
+    const Outcome outcome = run_morula({"resume", "first", "--set", change, "--out", "second"}, folder.path());
+    EXPECT_EQ(outcome.exit_code, 2) << change << outcome.all();
+    EXPECT_THAT(outcome.all(), testing::HasSubstr(why)) << change;
+    EXPECT_FALSE(fs::exists(folder / "second")) << change;
+  };
+  refused("fields={p: {diffusion: 1e-9 m^2/s, initial: 2 mM, voxel: 20 um}, o: {diffusion: 1e-9 m^2/s, initial: 1 mM, voxel: 20 um}}",
+          "other fields");
+  refused("fields.o.voxel=25 um", "other voxels");
+  refused("domain.size=[400 um, 400 um, 400 um]", "other bounds of the domain");
+  refused("time.end=10 min", "later than `time.end`");
+  refused("initial.0.count=2", "how a run begins");
+}
+
+TEST(Resume, KnowsWhenItsInputsOrItsResultsAreNotWhatTheyWere) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "run", "--until", "30 min"}, folder.path()).exit_code, 0);
+  std::string series = read_text(folder / "run/series.csv");
+  const std::size_t second = series.find('\n', series.find('\n') + 1);
+  folder.write("run/series.csv", series.substr(0, second + 1));  // its last row is gone
+  const Outcome lost = run_morula({"resume", "run"}, folder.path());
+  EXPECT_EQ(lost.exit_code, 0) << lost.all();
+  EXPECT_THAT(lost.all(), testing::HasSubstr("some were lost"));
+  series = read_text(folder / "run/series.csv");
+  folder.write("run/series.csv", series.substr(0, series.rfind(',')) + "\n");  // a field of it
+  const Outcome damaged = run_morula({"resume", "run"}, folder.path());
+  EXPECT_EQ(damaged.exit_code, 3) << damaged.all();
+  EXPECT_THAT(damaged.all(), testing::HasSubstr("series.csv"));
+  for (const auto& file : fs::directory_iterator(folder / "run"))
+    EXPECT_EQ(file.path().filename().string().find("damaged"), std::string::npos) << "results.h5 is whole";
+}
+
 TEST(Resume, FromAnOlderCheckpointMakesANewRunThatEndsInTheSameBits) {
   const TestFolder folder;
   folder.write("study.yaml", changed(sphere_study(), "checkpoint: 30 min", "checkpoint: 10 min"));
