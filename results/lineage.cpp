@@ -1,6 +1,7 @@
 #include "results/lineage.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -94,6 +95,25 @@ void put_tree(std::span<const CellLife> lives, const std::multimap<std::string, 
 
 }  // namespace
 
+namespace {
+
+/// The cells that live by the events are those of the last snapshot.
+Status agree_on_who_lives(std::span<const CellLife> lives, const Snapshot& last, const fs::path& events) {
+  std::set<std::string> told, there;
+  for (const CellLife& life : lives)
+    if (life.how == LifeEnd::kAlive || life.how == LifeEnd::kDying) told.insert(life.id);
+  for (const auto& cell : last.cells) there.insert(cell.id.text());
+  std::vector<std::string> odd;
+  std::set_symmetric_difference(told.begin(), told.end(), there.begin(), there.end(), std::back_inserter(odd));
+  if (odd.empty()) return {};
+  return Error{ErrorKind::kFile,
+               "'" + events.string() + "' and the last snapshot differ in who lives: " + std::to_string(odd.size()) + " cells, " +
+                   odd.front() + " among them",
+               "divisions or deaths were lost from the file, and without them there is no lineage"};
+}
+
+}  // namespace
+
 Result<std::vector<CellLife>> read_lineage(const fs::path& results, const fs::path& events) {
   MORULA_TRY_ASSIGN(const auto entries, list_snapshots(results));
   if (entries.empty())
@@ -103,7 +123,10 @@ Result<std::vector<CellLife>> read_lineage(const fs::path& results, const fs::pa
   Lives lives(first, entries.back().time);
   for (const EventLine& event : events_of_lines(text))
     if (event.time <= entries.back().time) lives.note(event);
-  return std::move(lives).in_order();
+  std::vector<CellLife> out = std::move(lives).in_order();
+  MORULA_TRY_ASSIGN(const Snapshot last, read_snapshot(results, entries.size() - 1));
+  MORULA_TRY(agree_on_who_lives(out, last, events));
+  return out;
 }
 
 std::string lineage_csv(std::span<const CellLife> lives) {

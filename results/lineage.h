@@ -23,7 +23,8 @@ struct CellLife {
   double division_volume = 0.0;  ///< of one that divided; 0: not known, or it did not [µm³]
 };
 
-/// All cells of a run in the order (founder, generation, place among its sisters), from the founders of its first snapshot and its events. kFile: a file that cannot be read.
+/// All cells of a run in the order (founder, generation, place among its sisters), from the founders of its first snapshot and its events. kFile: a file that cannot be read, or events after
+/// which other cells live than those of the last snapshot.
 Result<std::vector<CellLife>> read_lineage(const std::filesystem::path& results, const std::filesystem::path& events);
 
 /// Table of lives: id, parent, type, birth [s], end [s], how it ended (divided, died, dying, alive), birth volume and division volume [um^3], empty where

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/cell_id_text.h"
 #include "results/file_io.h"
 #include "results/snapshot_file.h"
 #include "tests/results/results_support.h"
@@ -23,17 +24,24 @@ class Lineage : public ::testing::Test {
       cell.radius = 5.0;
     }
     append(first);
-    first.time = 7200.0;
-    append(first);
   }
   void append(const Snapshot& snapshot) {
     const Status status = append_snapshot(results(), snapshot, {}, Comm());
     EXPECT_TRUE(status.ok()) << status.error().message;
   }
   [[nodiscard]] std::filesystem::path results() const { return folder_ / "results.h5"; }
-  std::vector<CellLife> lives(const std::string& events) {
+  /// `last`: who lives at the end, after two hours.
+  Result<std::vector<CellLife>> read(const std::string& events, std::initializer_list<const char*> last) {
+    Snapshot snapshot;
+    snapshot.type_names = {"egg", "wall"};
+    snapshot.time = 7200.0;
+    for (const char* id : last) snapshot.cells.emplace_back().id = cell_id_of(id).value();
+    append(snapshot);
     EXPECT_TRUE(write_file_atomically(folder_ / "events.jsonl", events).ok());
-    auto out = read_lineage(results(), folder_ / "events.jsonl");
+    return read_lineage(results(), folder_ / "events.jsonl");
+  }
+  std::vector<CellLife> lives(const std::string& events, std::initializer_list<const char*> last = {"2.00", "2.01", "11"}) {
+    auto out = read(events, last);
     EXPECT_TRUE(out.ok()) << out.error().message;
     return out.ok() ? *out : std::vector<CellLife>{};
   }
@@ -53,7 +61,8 @@ constexpr const char* kEvents =
 TEST_F(Lineage, DaughtersAreOfTheTypesThatTheDivisionTells) {
   const std::vector<CellLife> found = lives(
       "{\"time_s\":1200.0,\"kind\":\"division\",\"cell\":\"2\",\"daughters\":[\"2.0\",\"2.1\"],\"birth_types\":[\"egg\",\"wall\"],"
-      "\"text\":\"\"}\n");
+      "\"text\":\"\"}\n",
+      {"2.0", "2.1", "11"});
   ASSERT_EQ(found.size(), 4u);
   EXPECT_EQ(found[1].type, "egg");
   EXPECT_EQ(found[2].id, "2.1");
@@ -70,6 +79,16 @@ TEST_F(Lineage, TellsEveryLifeFromBirthToEnd) {
             "2.01,2.0,egg,4800,7200,dying,,\n"
             "11,,wall,0,7200,alive,,\n")
       << "what comes after the last snapshot is not told";
+}
+
+/// A division that is gone from the file would leave its mother alive for ever.
+TEST_F(Lineage, IsRefusedWhereEventsAndTheLastSnapshotDisagree) {
+  std::string events = kEvents;
+  events.erase(0, events.find('\n') + 1);
+  const auto found = read(events, {"2.00", "2.01", "11"});
+  ASSERT_FALSE(found.ok());
+  EXPECT_EQ(found.error().kind, ErrorKind::kFile);
+  EXPECT_NE(found.error().message.find("differ in who lives"), std::string::npos) << found.error().message;
 }
 
 TEST_F(Lineage, IsATreeForEachFounder) {
