@@ -28,10 +28,6 @@ void drop_unused(MeasuredMoments& moments, ExpectedValue& against) {
   if (!against.data.given && !against.x.given) against.x.text.clear();
 }
 
-}  // namespace
-
-namespace {
-
 /// What needs several moments is asked of one: E515.
 void check_course(BuildContext& c, const MeasuredMoments& m) {
   constexpr std::array kOfCourse{"rise", "growth", "slope", "change", "left", "rising", "falling"};

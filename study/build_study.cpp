@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "coupling/changing_box.h"
+#include "coupling/mechanics/contact_setup.h"
 #include "coupling/regions/counts_from.h"
 #include "study/build.h"
 #include "study/read_section.h"
@@ -112,10 +113,9 @@ namespace {
 
 /// Whether something acts on cells that is no cell, and whose forces somebody may want to know.
 bool is_acted_on_from_outside(const Model& model) {
-  const auto is_wall = [](const auto& faces) { return std::ranges::find(faces, BoundaryKind::kWall) != std::end(faces); };
   const auto is_active = [](const CellType& type) { return type.migration.speed > 0.0 || type.protrusion.force > 0.0; };
-  return !model.obstacles.empty() || !model.loads.empty() || !model.apical_springs.empty() || !model.box_volume.empty() ||
-         std::ranges::any_of(model.space.boundary, is_wall) || std::ranges::any_of(model.types, is_active);
+  return contact_obstacle_count(model) > 0 || !model.loads.empty() || !model.apical_springs.empty() || !model.box_volume.empty() ||
+         std::ranges::any_of(model.types, is_active);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "core/ball.h"
 #include "core/mesh/renewal/own_mesh.h"
@@ -139,11 +140,11 @@ void check_names(BuildContext& c) {
   if (c.draft.scenario.known()) check_known(c.draft.scenario.value, c.draft.scenario.place, c.options.scenario_names, "library study");
   if (c.diagnostics.has_errors()) return;  // which observables there are depends on what the model has
   const auto& series = c.draft.output.series;
-  for (std::size_t i = 0; i < series.value.size(); ++i) {
-    check_known(series.value[i], series.place, observable_names(c.study.model, *c.options.laws), "observable");
-    if (std::find(series.value.begin(), series.value.begin() + static_cast<std::ptrdiff_t>(i), series.value[i]) !=
-        series.value.begin() + static_cast<std::ptrdiff_t>(i))
-      c.diagnostics.error(102, series.place, "column '" + series.value[i] + "' is named twice", "once is enough");
+  const std::vector<std::string> known = observable_names(c.study.model, *c.options.laws);
+  std::set<std::string> named;
+  for (const std::string& name : series.value) {
+    check_known(name, series.place, known, "observable");
+    if (!named.insert(name).second) c.diagnostics.error(102, series.place, "column '" + name + "' is named twice", "once is enough");
   }
 }
 

@@ -226,8 +226,8 @@ void add_held_points(const ElementGroup& group, const FaceQuadrature& quadrature
       const Float8v m = matrix_of(e, group, d, time_step);
       const SymMat3<double> block{m[0], m[1], m[2], m[3], m[4], m[5]};
       const Triangle nodes = nodes_of(group.topology[0], d == 0 ? e.source_face() : e.target());
-      float mu[3];
-      target_weights(e, group.topology[0], mu);
+      float mu[3] = {};
+      if (d == 1) e.weights(mu);
       for (std::size_t k = 0; k < 3; ++k) {
         const double weight = d == 0 ? quadrature.weight[e.point()][k] : static_cast<double>(mu[k]);
         if (weight == 0.0) continue;

@@ -38,16 +38,14 @@ void build(const OwnValues& values, CellLoad& out) {
 
 std::vector<LawProblem> judge(const CellLoad& load, const Model& model) {
   std::vector<LawProblem> out;
-  keys::judge_marked(load, model, {{"axis", load.axis == Vec3d{1, 0, 0}}, {"part", load.part == 1.0}, {"ends", load.end == LoadEnd::kBoth}},
-                     out);
-  if (load.mark < 0 && load.part >= 1.0) {
-    const auto not_without_part = [&](const char* key) {
-      out.push_back(
-          {515, key, std::string("'") + key + "' has no effect here", "give `part`: without it the pressure acts on the whole surface"});
-    };
-    if (load.end != LoadEnd::kBoth) not_without_part("ends");
-    if (norm2(load.axis - Vec3d{1, 0, 0}) > 0.0) not_without_part("axis");
-  }
+  const std::pair<const char*, bool> at_axis{"axis", load.axis == Vec3d{1, 0, 0}}, at_ends{"ends", load.end == LoadEnd::kBoth};
+  const bool whole = load.part == 1.0;
+  keys::judge_marked(load, model, {at_axis, {"part", whole}, at_ends}, out);
+  if (load.mark < 0 && whole)
+    for (const auto& [key, usual] : {at_ends, at_axis})
+      if (!usual)
+        out.push_back(
+            {515, key, std::string("'") + key + "' has no effect here", "give `part`: without it the pressure acts on the whole surface"});
   if (norm2(load.gradient) == 0.0 && norm2(load.origin) > 0.0)
     out.push_back({515, "origin", "'origin' has no effect here", "it is where a pressure with a `gradient` has its `value`"});
   for (int axis = 0; axis < 3; ++axis)

@@ -18,15 +18,16 @@ namespace {
 /// The columns of series.csv: those the study names, then what the criteria of every run and its own are judged on, and its plots show.
 Result<std::vector<Observable>> columns_of(const Study& study) {
   std::vector<std::string> names = study.output.series;
-  const std::vector<std::string> known = observable_names(study.model, *study.laws);
-  const auto is_known = [&](const std::string& name) { return std::find(known.begin(), known.end(), name) != known.end(); };
-  if (!names.empty())
-    for (std::string needed : {"cell_count", "shell_count", "volume_error", "overlap", "worst_overlap", "energy", "step_count", "step_size",
-                               "field_balance", "nucleus_clearance"})
-      if (is_known(needed) && std::find(names.begin(), names.end(), needed) == names.end()) names.push_back(needed);
-  if (!names.empty())
-    for (const std::string& needed : series_columns(study))
-      if (std::find(names.begin(), names.end(), needed) == names.end()) names.push_back(needed);
+  if (!names.empty()) {
+    const auto need = [&](const std::string& name) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    };
+    const std::vector<std::string> known = observable_names(study.model, *study.laws);
+    for (const char* of_every_run : {"cell_count", "shell_count", "volume_error", "overlap", "worst_overlap", "energy", "step_count",
+                                     "step_size", "field_balance", "nucleus_clearance"})
+      if (std::find(known.begin(), known.end(), of_every_run) != known.end()) need(of_every_run);
+    for (const std::string& of_study : series_columns(study)) need(of_study);
+  }
   return select_observables(study.model, *study.laws, names);
 }
 
@@ -92,6 +93,55 @@ Status set_aside_damaged(Restored& restored, const Comm& comm) {
   return {};
 }
 
+/// The copies of the files that the study reads are those that the run began with.
+Status check_inputs(const std::filesystem::path& run, const RunRecord& record) {
+  for (const InputRecord& input : record.inputs) {
+    if (input.copy == "study.yaml") continue;  // the resolved one counts
+    MORULA_TRY_ASSIGN(const std::string now, sha256_of_file(run / input.copy));
+    if (now != input.sha256)
+      return Error{ErrorKind::kInput, "'" + (run / input.copy).string() + "' is not what the run began with",
+                   "the copies in `inputs` must not be changed; start a new run instead"};
+  }
+  return {};
+}
+
+/// An error where the run is later than the time that it is asked to go to.
+Status is_before(double time, double wanted, const char* key) {
+  if (wanted >= time) return {};
+  return Error{ErrorKind::kInput, "the run is at " + time_text(time) + " already, later than " + key + ' ' + time_text(wanted),
+               "give a later time, or `--from` an earlier checkpoint"};
+}
+
+/// What a checkpoint knows by number must have the same numbers in the study that goes on from it; and what lies on a grid must keep the grid.
+Status can_go_on(const Study& parent, const Study& study, double time) {
+  const auto differs = [](const std::string& what) {
+    return Error{ErrorKind::kInput,
+                 "the run that goes on has other " + what + " than the one that it goes on from, or has them in another order",
+                 "keep them as they are; types, obstacles and lumens that are new come last"};
+  };
+  const auto begins_alike = [](const auto& before, const auto& now) {
+    return before.size() <= now.size() &&
+           std::equal(before.begin(), before.end(), now.begin(), [](const auto& a, const auto& b) { return a.name == b.name; });
+  };
+  const Model &was = parent.model, &is = study.model;
+  if (!begins_alike(was.types, is.types)) return differs("cell types");
+  if (!begins_alike(was.obstacles, is.obstacles)) return differs("obstacles");
+  if (!begins_alike(was.lumens, is.lumens)) return differs("lumens");
+  if (!begins_alike(was.fields, is.fields)) return differs("fields");
+  for (std::size_t f = 0; f < was.fields.size(); ++f)
+    if (was.fields[f].voxel != is.fields[f].voxel) return differs("voxels");
+  const Box &a = was.space.box, &b = is.space.box;
+  if (!was.fields.empty() && (norm2(a.low - b.low) > 0.0 || norm2(a.high - b.high) > 0.0))
+    return differs("bounds of the domain, in which fields lie,");
+  return is_before(time, study.time.end, "`time.end`");
+}
+
+/// Whether the checkpoint is of the study in this folder; `otherwise` if not.
+Status is_of_run(const RunFolder& folder, const Restored& restored, Error otherwise) {
+  MORULA_TRY_ASSIGN(const std::string study_hash, sha256_of_file(folder.path() / "study.resolved.yaml"));
+  return restored.checkpoint.info.study_hash == study_hash ? Status{} : Status(std::move(otherwise));
+}
+
 }  // namespace
 
 Result<RunSummary> run(const Study& study, const RunRequest& request, const Comm& comm) {
@@ -112,22 +162,6 @@ Result<RunSummary> run(const Study& study, const RunRequest& request, const Comm
   return loop.go();
 }
 
-namespace {
-
-/// The copies of the files that the study reads are those that the run began with.
-Status check_inputs(const std::filesystem::path& run, const RunRecord& record) {
-  for (const InputRecord& input : record.inputs) {
-    if (input.copy == "study.yaml") continue;  // the resolved one counts
-    MORULA_TRY_ASSIGN(const std::string now, sha256_of_file(run / input.copy));
-    if (now != input.sha256)
-      return Error{ErrorKind::kInput, "'" + (run / input.copy).string() + "' is not what the run began with",
-                   "the copies in `inputs` must not be changed; start a new run instead"};
-  }
-  return {};
-}
-
-}  // namespace
-
 Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest& request, const Comm& comm) {
   MORULA_TRY_ASSIGN(RunFolder folder, RunFolder::open(run, comm));
   MORULA_TRY_ASSIGN(const RunLock lock, RunLock::take(folder.path(), comm));
@@ -137,16 +171,13 @@ Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest&
   MORULA_TRY_ASSIGN(RunRecord record, read_run_record(folder.record()));
   MORULA_TRY_ASSIGN(auto columns, columns_of(study));
   MORULA_TRY_ASSIGN(Restored restored, restore(folder, request, study, comm));
-  MORULA_TRY_ASSIGN(const std::string study_hash, sha256_of_file(folder.path() / "study.resolved.yaml"));
-  if (restored.checkpoint.info.study_hash != study_hash)
-    return Error{ErrorKind::kInput,
-                 "the checkpoint belongs to another study than '" + (folder.path() / "study.resolved.yaml").string() + "'",
-                 "the resolved study of a run must not be changed; start a new run instead"};
+  MORULA_TRY(is_of_run(
+      folder, restored,
+      {ErrorKind::kInput, "the checkpoint belongs to another study than '" + (folder.path() / "study.resolved.yaml").string() + "'",
+       "the resolved study of a run must not be changed; start a new run instead"}));
   MORULA_TRY(agree(comm.is_root() ? check_inputs(folder.path(), record) : Status{}, comm));
   const double time = restored.checkpoint.tissue.clock.time;
-  if (request.until && *request.until < time)
-    return Error{ErrorKind::kInput, "the run is at " + time_text(time) + " already, later than --until " + time_text(*request.until),
-                 "give a later time, or `--from` an earlier checkpoint"};
+  if (request.until) MORULA_TRY(is_before(time, *request.until, "--until"));
   MORULA_TRY(set_aside_damaged(restored, comm));
   const std::string failure = record.state == RunState::kFailed ? record.message : "";
   MORULA_TRY_ASSIGN(auto simulation, Simulation::create(study.model, std::move(restored.checkpoint.tissue), comm, request.threads));
@@ -172,37 +203,6 @@ Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest&
   return loop.go();
 }
 
-namespace {
-
-/// What a checkpoint knows by number must have the same numbers in the study that goes on from it; and what lies on a grid must keep the grid.
-Status can_go_on(const Study& parent, const Study& study, double time) {
-  const auto differs = [](const std::string& what) {
-    return Error{ErrorKind::kInput,
-                 "the run that goes on has other " + what + " than the one that it goes on from, or has them in another order",
-                 "keep them as they are; types, obstacles and lumens that are new come last"};
-  };
-  const auto begins_alike = [](const auto& before, const auto& now) {
-    return before.size() <= now.size() &&
-           std::equal(before.begin(), before.end(), now.begin(), [](const auto& a, const auto& b) { return a.name == b.name; });
-  };
-  const Model &was = parent.model, &is = study.model;
-  if (!begins_alike(was.types, is.types)) return differs("cell types");
-  if (!begins_alike(was.obstacles, is.obstacles)) return differs("obstacles");
-  if (!begins_alike(was.lumens, is.lumens)) return differs("lumens");
-  if (!begins_alike(was.fields, is.fields)) return differs("fields");
-  for (std::size_t f = 0; f < was.fields.size(); ++f)
-    if (was.fields[f].voxel != is.fields[f].voxel) return differs("voxels");
-  const Box &a = was.space.box, &b = is.space.box;
-  if (!was.fields.empty() && (norm2(a.low - b.low) > 0.0 || norm2(a.high - b.high) > 0.0))
-    return differs("bounds of the domain, in which fields lie,");
-  if (study.time.end < time)
-    return Error{ErrorKind::kInput, "the run is at " + time_text(time) + " already, later than `time.end` " + time_text(study.time.end),
-                 "give a later time, or `--from` an earlier checkpoint"};
-  return {};
-}
-
-}  // namespace
-
 Result<RunSummary> branch(const std::filesystem::path& parent, const Study& study, const ResumeRequest& request, const Comm& comm) {
   MORULA_TRY_ASSIGN(const RunFolder from, RunFolder::open(parent, comm));
   MORULA_TRY_ASSIGN(auto columns, columns_of(study));
@@ -211,10 +211,9 @@ Result<RunSummary> branch(const std::filesystem::path& parent, const Study& stud
   auto parent_study = read_run_study(from.path(), request.laws);
   MORULA_TRY(agree(parent_study.ok() ? Status{} : Status(parent_study.error()), comm));
   MORULA_TRY(agree(can_go_on(*parent_study, study, time), comm));
-  MORULA_TRY_ASSIGN(const std::string study_hash, sha256_of_file(from.path() / "study.resolved.yaml"));
-  if (restored.checkpoint.info.study_hash != study_hash)
-    return Error{ErrorKind::kInput, "the checkpoint belongs to another run than '" + from.path().string() + "'",
-                 "give `--from` a checkpoint of that run"};
+  MORULA_TRY(is_of_run(from, restored,
+                       {ErrorKind::kInput, "the checkpoint belongs to another run than '" + from.path().string() + "'",
+                        "give `--from` a checkpoint of that run"}));
   MORULA_TRY_ASSIGN(auto simulation, Simulation::create(study.model, std::move(restored.checkpoint.tissue), comm, request.threads));
   MORULA_TRY_ASSIGN(RunFolder folder, RunFolder::create(request.runs, request.out, study.name, comm));
   MORULA_TRY_ASSIGN(const RunLock lock, RunLock::take(folder.path(), comm));
