@@ -11,7 +11,7 @@ Result<std::string> estimate_text(const scenarios::Study& study, int ranks) {
   std::string out = "  cells   " + std::to_string(estimate.cells) + " at the start (" +
                     count_words(static_cast<std::uint64_t>(estimate.shells), "shell", "shells") + ")";
   if (estimate.cells_at_end > static_cast<double>(estimate.cells))
-    out += ", at most " + number_text(estimate.cells_at_end < 1e7 ? "%.0f" : "%.3g", estimate.cells_at_end) + " at " +
+    out += ", about " + number_text(estimate.cells_at_end < 1e7 ? "%.0f" : "%.3g", estimate.cells_at_end) + " at " +
            scenarios::time_text(study.time.end);
   out += "\n  nodes   " + std::to_string(estimate.nodes) + "\n";
   if (estimate.voxels > 0) out += "  voxels  " + std::to_string(estimate.voxels) + "\n";

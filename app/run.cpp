@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "app/estimate_text.h"
 #include "app/read_study.h"
 #include "app/run_display.h"
@@ -24,6 +26,9 @@ Status run(const RunOptions& options, const Context& context) {
   outlive_closed_pipes();
   std::vector<std::string> overrides = options.overrides;
   if (options.seed) overrides.push_back("seed=" + std::to_string(*options.seed));
+  for (const std::string& id : options.promote)
+    if (std::ranges::find(options.demote, id) != options.demote.end())
+      return Error{ErrorKind::kInput, "cell " + id + " is named by --promote and by --demote", "name it by one of them"};
   add_region_of(options.demote, "demoted", "sphere", overrides);
   add_region_of(options.promote, "promoted", "shell", overrides);
   auto study = read_study_and_tell(options.study, overrides, false, context);

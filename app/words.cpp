@@ -21,7 +21,13 @@ Result<double> read_above_zero(const std::string& flag, const std::string& text,
 
 }  // namespace
 
-Result<double> read_time(const std::string& flag, const std::string& text) { return read_above_zero(flag, text, Quantity::kTime, "48h"); }
+Result<double> read_time(const std::string& flag, const std::string& text) {
+  constexpr double kLongest = 3.2e9;  // a hundred years, as `time.end` [s]
+  MORULA_TRY_ASSIGN(const double time, read_above_zero(flag, text, Quantity::kTime, "48h"));
+  if (time <= kLongest) return time;
+  return Error{ErrorKind::kInput, flag + " must be at most " + number_text("%.2g", kLongest) + " s, but is '" + text + "'",
+               "for example `" + flag + " 48h`"};
+}
 
 Result<double> read_part(const std::string& flag, const std::string& text) {
   return read_above_zero(flag, text, Quantity::kFraction, "3%");

@@ -85,9 +85,9 @@ std::vector<Vec3d> Simulation::forces_on_cells(double time) {
   return shells;
 }
 
-void Simulation::add_crawling(std::span<Vec3d> external) {
+void Simulation::add_crawling(std::span<const Vec3d> walk, std::span<Vec3d> external) {
   const auto walks = [](const CellType& type) { return type.migration.acts(); };
-  if (std::none_of(model_.types.begin(), model_.types.end(), walks)) return;
+  if (walk.empty()) return;
   const Touches touch = find_touches(model_, tissue_, *mechanics_, [&](const CellType& type) {
     return walks(type) ? std::optional(type.migration.substrate) : std::nullopt;
   });
@@ -98,8 +98,7 @@ void Simulation::add_crawling(std::span<Vec3d> external) {
     if (!walks(type)) continue;
     const auto found = touch.find(type.migration.substrate);
     const Touch on = found != touch.end() ? found->second[body] : Touch{};
-    velocity[body] =
-        crawling_velocity(tissue_.cells.optional.migration_velocity[i], on.area > 0.0, on.normal, type.migration.substrate >= 0);
+    velocity[body] = crawling_velocity(walk[i], on.area > 0.0, on.normal, type.migration.substrate >= 0);
   }
   mechanics_->add_crawling(tissue_, velocity, external);
 }
@@ -133,12 +132,12 @@ void Simulation::add_protrusions(std::span<Vec3d> external) {
   }
 }
 
-std::vector<Vec3d> Simulation::external_forces(double time) {
+std::vector<Vec3d> Simulation::external_forces(double time, std::span<const Vec3d> walk) {
   std::vector<Vec3d> out = mechanics_->spread(tissue_, forces_on_cells(time));
   add_surface_loads(model_, tissue_, time, out);
   add_lumen_forces(model_, tissue_, time, comm_, out);
   add_protrusions(out);
-  add_crawling(out);
+  add_crawling(walk, out);
   return out;
 }
 

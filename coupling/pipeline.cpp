@@ -127,7 +127,8 @@ Result<StepOutcome> Simulation::whole_step(const StepPlan& plan, const std::func
     }
     carry_to(end_of_step(dt, clock.time, land_on));
     // mechanics: ghosts, candidates, contacts, forces, system, solve, advance
-    const auto moved = mechanics_->step(tissue_, dt, external_forces(clock.time + dt), grip_anchors(model_, tissue_, clock.time + dt));
+    const auto moved =
+        mechanics_->step(tissue_, dt, external_forces(clock.time + dt, life.walk), grip_anchors(model_, tissue_, clock.time + dt));
     if (moved) {
       outcome.mechanics = *moved;
       break;

@@ -69,9 +69,9 @@ class Simulation {
   [[nodiscard]] std::vector<Vec3d> forces_on_cells(double time);
   /// Migration and external loads at a time, by shell node, then by sphere. Implicit in time, explicit in shape: strengths are those of the
   /// step's end, directions and areas those of its start, and the step holds them as dead loads.
-  [[nodiscard]] std::vector<Vec3d> external_forces(double time);
+  [[nodiscard]] std::vector<Vec3d> external_forces(double time, std::span<const Vec3d> walk);
   /// Forces of the migrating cells, by shell node, then by sphere.
-  void add_crawling(std::span<Vec3d> external);
+  void add_crawling(std::span<const Vec3d> walk, std::span<Vec3d> external);
   /// Protrusions of the shells, by shell node.
   void add_protrusions(std::span<Vec3d> external);
   /// Polarities after the step with this number.

@@ -35,7 +35,7 @@ Wish wish(const Model& model, const CellView& cell, std::size_t i, const SwapBod
     const EventReason reason{Cause::kRegion, false, number};
     const Vec3d from = bodies.center[i] - center_of_region[number++];
     if (!region.exists_at(cell.time())) continue;
-    const Standing stands = standing(model.swaps, reason.number, cell, i, from, bodies.contacts);
+    const Standing stands = standing(model, reason.number, cell, i, from, bodies.contacts);
     if (stands.is_in()) return {region.body, model.swaps.hold, reason, -stands.outside};
   }
   double hold = model.swaps.hold;

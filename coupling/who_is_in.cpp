@@ -1,6 +1,7 @@
 #include "coupling/who_is_in.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "coupling/regions/counts_from.h"
 
@@ -24,6 +25,19 @@ Vec3d tissue_centroid(std::span<const Vec3d> center, const Comm& comm) {
   return total[3] > 0.0 ? Vec3d{total[0], total[1], total[2]} * (1.0 / total[3]) : Vec3d{};
 }
 
+/// Of the images of a place along the periodic axes that which is deepest in the region, or nearest to it.
+double distance_outside(const Region& region, const Vec3d& from, const Space& space) {
+  if (!region.shape->repeats || !space.any_periodic()) return region.shape->distance(region, from);
+  const Vec3d edges = space.box.size();
+  const auto images = [&](int axis) { return space.periodic(axis) ? 1 : 0; };
+  double least = std::numeric_limits<double>::infinity();
+  for (int x = -images(0); x <= images(0); ++x)
+    for (int y = -images(1); y <= images(1); ++y)
+      for (int z = -images(2); z <= images(2); ++z)
+        least = std::min(least, region.shape->distance(region, from + Vec3d{x * edges.x, y * edges.y, z * edges.z}));
+  return least;
+}
+
 }  // namespace
 
 std::vector<Vec3d> centers_of_regions(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm) {
@@ -37,14 +51,14 @@ std::vector<Vec3d> centers_of_regions(const Model& model, const Tissue& tissue, 
   return out;
 }
 
-Standing standing(const Swaps& swaps, std::size_t number, const CellView& cell, std::size_t i, const Vec3d& from,
+Standing standing(const Model& model, std::size_t number, const CellView& cell, std::size_t i, const Vec3d& from,
                   std::span<const std::vector<std::uint32_t>> contacts) {
-  const Region& region = swaps.regions[number];
+  const Region& region = model.swaps.regions[number];
   Standing out{kNever, 1.0};  // one contact
   if (region.shape->of_cell != nullptr)
     out = region.shape->of_cell(region, cell);
   else if (region.shape->has_border())
-    out = {region.shape->distance(region, from), region.margin};
+    out = {distance_outside(region, from, model.space), region.margin};
   else if (number < contacts.size() && !contacts[number].empty())
     out.outside = contacts[number][i] - region.contacts;
   if (cell.row().body != region.body) out.margin = 0.0;
@@ -81,7 +95,7 @@ std::vector<std::uint32_t> where_counting_begins(const Model& model, const Tissu
     if (from.what == What::kType) return row.type == from.number;
     const CellView cell(tissue.cells, i, model.types[row.type], tissue.clock.time);
     return regions[from.number].exists_at(tissue.clock.time) &&
-           standing(model.swaps, from.number, cell, i, center[i] - center_of_region[from.number], before).is_in();
+           standing(model, from.number, cell, i, center[i] - center_of_region[from.number], before).is_in();
   };
   for (const BodyOfRow& body : bodies_of(tissue.cells))
     if (begins(tissue.cells.rows[body.row], body.row)) out[body.place(tissue.shells.size())] = 0;

@@ -15,7 +15,7 @@ std::vector<Vec3d> centers_of_regions(const Model& model, const Tissue& tissue, 
 
 /// How the cell of row i stands to a region of the model: `from` is its place less that of the region's centre, `contacts` are those of
 /// contacts_from_regions(); where there are none, nobody is in a region that counts them.
-Standing standing(const Swaps& swaps, std::size_t number, const CellView& cell, std::size_t i, const Vec3d& from,
+Standing standing(const Model& model, std::size_t number, const CellView& cell, std::size_t i, const Vec3d& from,
                   std::span<const std::vector<std::uint32_t>> contacts);
 
 /// By region and row: how many contacts the cells of this rank are away from those that the region counts from; empty for regions that do not count.

@@ -80,6 +80,9 @@ Error failure(const std::string& what) {
 
 constexpr int kMostIterations = 500;
 constexpr std::int64_t kMostSteps = 1'000'000;
+/// Attempts at one step. A field at rest is gone through in steps as long as the interval; where a border or a source then begins to change, the first one is a
+/// thousand times too long and more, and each attempt shortens it to a third at most.
+constexpr int kMostFailedTests = 60;
 
 bool set_up_implicit(Session& s, Problem& p, const BrickVectorSpace& space, double first_step) {
   s.implicit = true;
@@ -104,6 +107,7 @@ bool set_up_implicit(Session& s, Problem& p, const BrickVectorSpace& space, doub
     set(ARKStepSetLinear(s.arkode, 0));
   else
     set(ARKStepSetNlsRhsFn(s.arkode, rate_of_concentrations));
+  set(ARKStepSetMaxErrTestFails(s.arkode, kMostFailedTests));
   set(ARKStepSetStopTime(s.arkode, p.settings->interval));
   if (first_step > 0.0) set(ARKStepSetInitStep(s.arkode, first_step));
   return ok;
@@ -124,6 +128,7 @@ bool set_up_explicit(Session& s, Problem& p, double first_step) {
     set(ERKStepSetCFLFraction(s.arkode, 0.95));
     first_step = std::min(first_step, 0.95 * kExplicitStability / p.settings->largest_rate);
   }
+  set(ERKStepSetMaxErrTestFails(s.arkode, kMostFailedTests));
   set(ERKStepSetStopTime(s.arkode, p.settings->interval));
   if (first_step > 0.0) set(ERKStepSetInitStep(s.arkode, first_step));
   return ok;

@@ -214,8 +214,8 @@ Result<TextLengths> RunFolder::sync_texts() const {
   return out;
 }
 
-Status RunFolder::cut_back(double time, const TextLengths& lengths) const {
-  if (!is_root_) return {};
+Result<bool> RunFolder::cut_back(double time, const TextLengths& lengths) const {
+  if (!is_root_) return false;
   MORULA_TRY(filter_lines(log(), lengths.log, [](const std::string&, std::size_t) { return true; }));
   MORULA_TRY(filter_lines(series(), kWholeText, [&](const std::string& line, std::size_t number) {
     if (number == 0) return true;  // the header
@@ -223,10 +223,15 @@ Status RunFolder::cut_back(double time, const TextLengths& lengths) const {
     const auto [end, problem] = std::from_chars(line.data(), line.data() + line.size(), at);
     return problem == std::errc() && at <= time;
   }));
-  return filter_lines(events(), lengths.events, [&](const std::string& line, std::size_t) {
+  std::error_code none;
+  const std::uintmax_t length = fs::file_size(events(), none);
+  bool lost = lengths.events != kWholeText && (none ? 0 : length) < lengths.events;
+  MORULA_TRY(filter_lines(events(), lengths.events, [&](const std::string& line, std::size_t) {
     const std::optional<EventLine> event = event_of_line(line);
+    lost = lost || (!event && lengths.events != kWholeText);  // up to that length all lines were whole
     return event && event->time <= time;
-  });
+  }));
+  return lost;
 }
 
 }  // namespace morula::scenarios

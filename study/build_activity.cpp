@@ -81,6 +81,7 @@ void build_activity(BuildContext& c) {
     }
     build_polarity(c, t, type);
     build_protrusion(c, name, place, a, type);
+    if (type.protrusion.force > 0.0) c.study.model.step.max_step = std::min(c.study.model.step.max_step, type.polarity.longest_step());
     build_migration(c, t, type);
     set_friction(t, type);
   }

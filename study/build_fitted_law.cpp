@@ -8,6 +8,7 @@
 #include "study/cell_material.h"
 #include "study/declare.h"
 #include "study/fitted_law.h"
+#include "study/law_keys.h"
 
 namespace morula::scenarios {
 namespace {
@@ -75,6 +76,7 @@ void build_fitted_law(BuildContext& c, const std::string& /*type_name*/, draft::
     refuse_keys(c, t);
     return;
   }
+  check_law_keys(c, t.sphere_own, choosable_sphere_laws(*c.options.laws), kFittedLaw, "law");
   if (!c.options.fitted_laws) return;  // JKR
   const auto fitted = file_of(c, t);
   if (!fitted) return;

@@ -125,6 +125,9 @@ void build_tensions(BuildContext& c) {
       region.course = build_course(c, item.content.course);
       if (item.content.amplitude.value > 0.0 && region.period == 0.0)
         c.diagnostics.error(515, item.content.amplitude.place, "'amplitude' has no effect without a period", "give `period`");
+      if (region.phase != 0.0 && (region.period == 0.0 || region.amplitude == 0.0))
+        c.diagnostics.error(515, item.place, "'phase' of '" + item.name + "' has no effect without a modulation",
+                            "give `amplitude` and `period`, or leave it away");
       if (item.name == "lateral")
         region.mark = TensionRegion::kLateral;
       else if (item.name == "whole")
@@ -135,6 +138,10 @@ void build_tensions(BuildContext& c) {
       check_tension(c, i, region, item);
       out.regions.push_back(std::move(region));
     }
+    const auto is_lateral = [](const auto& item) { return item.name == "lateral"; };
+    // Resolved studies name the usual value in any case: it is part of the material that laws are fitted to.
+    if (t.lateral_easing.given && t.lateral_easing.value != RegionalTension().easing && std::ranges::none_of(t.tension_regions, is_lateral))
+      c.diagnostics.error(515, t.lateral_easing.place, "'lateral_easing' has no effect here", "it belongs to the region `lateral`");
     if (!out.empty() && !may_be_shell(c, i))
       c.diagnostics.error(555, t.tension_regions.front().place,
                           "regions are of a surface, and cells of '" + c.draft.cell_types[i].name + "' are always spheres",

@@ -74,7 +74,7 @@ void build_time_and_numerics(BuildContext& c) {
   check_interval(time.output, "output");
   check_interval(time.checkpoint, "checkpoint");
 
-  const draft::Numerics& n = c.draft.numerics;
+  draft::Numerics& n = c.draft.numerics;
   StepControl& step = c.study.model.step;
   step.integrator = time.integrator.value == "explicit_euler" ? Integrator::kExplicitEuler : Integrator::kImplicit;
   step.initial_step = n.initial_step.value;
@@ -95,9 +95,10 @@ void build_time_and_numerics(BuildContext& c) {
           "use `step: auto`, a smaller step, or `integrator: implicit`");
   }
   if (step.initial_step > step.max_step) {
-    if (n.initial_step.given && n.initial_step.known() && time.step.known())
+    if (n.initial_step.given && n.initial_step.known() && time.step.value > 0.0)
       c.diagnostics.warning(510, n.initial_step.place, "the first step (" + n.initial_step.text + ") is larger than the largest step",
                             "make `numerics.initial_step` at most `time.step`");
+    if (!n.initial_step.given) n.initial_step.text.clear();  // no part of the resolved study, which says nothing that is not so
     step.initial_step = step.max_step;
   }
   ContactNumerics& contact = c.study.model.contact;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "study/build.h"
 #include "study/color.h"
@@ -202,7 +203,8 @@ void build_cell_types(BuildContext& c) {
     set_sphere_law(c, t, type.sphere);
     build_fitted_law(c, name, t, type.sphere);
     t.with_shells.write_to(type.sphere.with_shells);
-    if (type.sphere.packing.empty()) type.sphere.packing = build_packing(c, name, t);
+    cbm::PackingCurve packing = build_packing(c, name, t);
+    if (type.sphere.packing.empty()) type.sphere.packing = std::move(packing);
     type.shell = build_shell(c, name, t, t.friction_medium.value);
     set_variation(c, t, c.study.model.types.size(), type);
     type.interior = build_interior(c, t, name);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 
 #include "core/numbers/joined.h"
 #include "core/numbers/number_text.h"
+#include "core/numbers/unit_conversion.h"
 #include "study/document.h"
 
 namespace morula::scenarios {
@@ -51,11 +53,22 @@ void take_contact(const Node& document, const std::string& type, CellMaterial& o
         if (entry.key != "between") out.pair += ", " + entry.key + ": " + flow(entry.value);
 }
 
+/// Whether two values are one quantity in different words, as 1 kPa and 1000 Pa are.
+bool same_quantity(const std::string& a, const std::string& b) {
+  constexpr double kRounding = 1e-12;
+  const UnitSystem units;
+  for (int q = 0; q < kQuantityCount; ++q) {
+    const auto first = units.parse(a, static_cast<Quantity>(q)), second = units.parse(b, static_cast<Quantity>(q));
+    if (first.ok() && second.ok()) return std::abs(*first - *second) <= kRounding * std::max(std::abs(*first), std::abs(*second));
+  }
+  return false;
+}
+
 /// What two maps say differently first; empty: nothing.
 std::string difference(const Node& here, const Node& there, const std::string& path) {
   if (here.kind != Node::Kind::kMap || there.kind != Node::Kind::kMap) {
     const std::string a = flow(here), b = flow(there);
-    return a == b ? "" : "`" + path + "` is " + a + " here and " + b + " there";
+    return a == b || same_quantity(a, b) ? "" : "`" + path + "` is " + a + " here and " + b + " there";
   }
   const auto under = [&](const std::string& key) { return path.empty() ? key : path + "." + key; };
   for (const Node::Entry& entry : here.entries) {
@@ -89,7 +102,7 @@ std::string first_difference(const std::string& here, const std::string& there) 
     return parse_document(std::make_shared<SourceText>(SourceText("material", text)), ignored);
   };
   const std::string found = difference(parsed(here), parsed(there), "");
-  return found.empty() ? "they are written in another way" : found;
+  return found;
 }
 
 Result<CellMaterial> material_of(const Study& study, const std::string& name) {

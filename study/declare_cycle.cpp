@@ -159,7 +159,8 @@ void declare_arrest(Section& s, const char* doc, bool& present, std::map<std::st
 
 void declare_phase(Section& s, draft::CyclePhase& p) {
   s.quantity({.name = "duration",
-              .doc = "How long it lasts on average.",
+              .doc = "How long it lasts: the mean of its law before it is cut, which with a `gaussian` spread above 40 % is less than the "
+                     "mean over cells.",
               .quantity = Q::kTime,
               .low = 0.0,
               .high = 1e9,
@@ -184,13 +185,16 @@ void declare_phase(Section& s, draft::CyclePhase& p) {
   s.whole(
       {.name = "stages", .doc = "Number of stages, of `law: erlang`; 1: one exponential time.", .low = 1, .high = 10000, .example = "10"},
       p.stages);
-  s.word({.name = "until",
-          .doc = "time: it ends after `duration`; size: when the cell has its division volume, in the last phase in which it grows.",
-          .fallback = "time",
-          .words = {"time", "size"},
-          .example = "size",
-          .source = "chosen"},
-         p.until);
+  s.word(
+      {.name = "until",
+       .doc =
+           "time: it ends after `duration`; size: when the cell has its division volume, in the last phase in which it grows. That phase "
+           "lasts until the division volume is there in any case: what slows growth alone makes it longer.",
+       .fallback = "time",
+       .words = {"time", "size"},
+       .example = "size",
+       .source = "chosen"},
+      p.until);
   s.flag({.name = "grows", .doc = "Whether cells grow in it.", .fallback = "true", .example = "false", .source = "chosen"}, p.grows);
   declare_arrest(s, "Factors of the rate at which it passes; they multiply.", p.has_arrest, p.arrest);
 }

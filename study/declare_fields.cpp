@@ -227,8 +227,12 @@ void declare_coupling(Section& s, draft::Coupling& c) {
        .example = "at_once",
        .source = "decision 0059"},
       c.exchange);
-  s.list({.name = "regions", .doc = "Where cells are shells (or spheres)."}, c.regions, &declare_region);
-  s.list({.name = "triggers", .doc = "When cells become shells, and spheres again."}, c.triggers, &declare_trigger);
+  s.list({.name = "regions",
+          .doc = "Where cells are shells (or spheres). Once a run has begun, one cell in a hundred (at least one) "
+                 "exchanges its body in a step, the most urgent first; the others wait."},
+         c.regions, &declare_region);
+  s.list({.name = "triggers", .doc = "When cells become shells, and spheres again; as many in a step as of regions."}, c.triggers,
+         &declare_trigger);
 }
 
 }  // namespace morula::scenarios

@@ -110,8 +110,10 @@ void declare_obstacle(Section& s, draft::Obstacle& o) {
           o.pipette.present, [&o](Section& p) { declare_pipette(p, o); });
   s.word({.name = "side",
           .doc = "Where the cells are: outside the surface, or inside it (a capsule, a mould). A smooth part of a surface bears a sphere "
-                 "in one place only, as a plane through "
-                 "its nearest point would: what is to be confined by a mould, a mouth or a tube as narrow as a cell is a shell.",
+                 "in one place "
+                 "only, its nearest point, with the curvature that it has there: what is to be confined by a mould, a mouth or a tube as "
+                 "narrow as a cell "
+                 "is a shell.",
           .fallback = "outside",
           .words = {"outside", "inside"},
           .example = "inside",

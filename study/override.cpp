@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 
 #include "study/catalogue.h"
@@ -9,9 +10,28 @@ namespace {
 
 constexpr const char* kExample = "write `key.path=value`, for example `cell_types.hepatocyte.radius=\"7 um\"` or `time.end=2h`";
 
+/// Where a comment begins in YAML: at a `#` after a blank, outside of quotes; npos without one.
+std::size_t comment_in(const std::string& text, std::size_t from) {
+  char quote = '\0';
+  for (std::size_t i = from; i < text.size(); ++i) {
+    if (quote != '\0')
+      quote = text[i] == quote ? '\0' : quote;
+    else if (text[i] == '"' || text[i] == '\'')
+      quote = text[i];
+    else if (text[i] == '#' && (i == from || std::isspace(static_cast<unsigned char>(text[i - 1])) != 0))
+      return i;
+  }
+  return std::string::npos;
+}
+
 /// The value as it stands after the `=`; its places are those of the argument as it was typed.
 bool parse_value(const std::shared_ptr<const SourceText>& whole, std::size_t equals, Node& value, Diagnostics& diagnostics) {
   const std::string& assignment = whole->bytes;
+  if (const std::size_t cut = comment_in(assignment, equals + 1); cut != std::string::npos) {
+    diagnostics.error(110, place_at(whole, cut, 1), "from this `#` on the value would be read as a comment",
+                      "put the value in quotes of its own: `key.path='\"a # b\"'`");
+    return false;
+  }
   // The value keeps its column: blanks stand where the key path was.
   const auto text = std::make_shared<const SourceText>("command line", std::string(equals + 1, ' ') + assignment.substr(equals + 1));
   Diagnostics of_value;

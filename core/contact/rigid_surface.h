@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,14 +22,21 @@ struct SmoothPart {
 /// Turn of a surface from which on the two sides of an edge are two parts: a regular octagon has eight walls, a regular decagon is a curve [rad].
 inline constexpr double kSharpTurn = 0.7;
 
+/// How a surface bends in its two principal directions, κ > 0 where it bulges towards the cells.
+struct SurfaceCurvature {
+  double mean = 0.0;      ///< (κ₁ + κ₂)/2 [1/µm]
+  double gaussian = 0.0;  ///< κ₁ κ₂ [1/µm²]
+};
+
 /// A rigid triangulated obstacle. Its shape never changes; it may move as a whole.
 struct RigidSurface {
   std::shared_ptr<const Topology> topology;
   std::vector<Vec3d> position;
   SurfaceGeometry geometry;
   std::unique_ptr<TriangleTree> tree;
-  std::vector<SmoothPart> parts;            ///< by their lowest face
-  std::vector<std::uint32_t> part_of_face;  ///< by face
+  std::vector<SmoothPart> parts;                           ///< by their lowest face
+  std::vector<std::uint32_t> part_of_face;                 ///< by face
+  std::vector<std::array<SurfaceCurvature, 3>> curvature;  ///< of the smooth part, at the corners of each face
   std::uint16_t material = 0;
 };
 
@@ -50,7 +58,7 @@ class RigidSurfaces {
   std::shared_ptr<const std::vector<RigidSurface>> surfaces_;
 };
 
-/// Finds the smooth parts of a surface that has its topology, positions and tree.
+/// Finds the smooth parts of a surface that has its topology, positions and tree, and their curvature.
 void find_smooth_parts(RigidSurface& surface);
 
 /// Where a ball around p touches a part of a surface.
@@ -58,6 +66,7 @@ struct Foot {
   Vec3d point;            ///< the point of the part that is nearest to p
   double distance = 0.0;  ///< from p, < 0 where p lies behind the surface [µm]
   std::uint32_t face = 0;
+  SurfaceCurvature curvature;
 };
 
 /// The foot of p on one part of a surface, if a ball around p rests there: a smooth part bears a ball at its nearest point alone, however many

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "coupling/behaviours/migration_law.h"
+#include "coupling/behaviours/persistence.h"
 
 namespace morula {
 namespace {
@@ -26,12 +26,10 @@ Vec3d drift(const MigratingCell& cell, const OwnValues& own) {
 
 Vec3d at_birth(const MigratingCell& cell, const OwnValues&) { return cell.speed / std::numbers::sqrt3 * cell.normal(); }
 
-/// u ← w + ρ(u − w) + σ√(1 − ρ²) ξ, ρ = e^(−dt/P), w = S b ∇c/|∇c|, σ = S√((1 − b²)/3).
-Vec3d after(const MigratingCell& cell, const OwnValues& own) {
-  const double persistence = own("persistence"), kept = std::exp(-cell.dt / persistence);
-  const Vec3d part = drift(cell, own), mean = cell.speed * part;
-  const double deviation = cell.speed * std::sqrt(std::max(0.0, 1.0 - norm2(part)) / 3.0);
-  return mean + kept * (cell.velocity - mean) + deviation * std::sqrt(-std::expm1(-2.0 * cell.dt / persistence)) * cell.normal();
+/// w = S b ∇c/|∇c|, σ = S√((1 − b²)/3).
+Walk step(const MigratingCell& cell, const OwnValues& own) {
+  const Vec3d part = drift(cell, own);
+  return walk_about(cell.speed * part, cell.speed * std::sqrt(std::max(0.0, 1.0 - norm2(part)) / 3.0), own("persistence"), cell);
 }
 
 std::vector<OwnKey> keys() {
@@ -87,7 +85,7 @@ std::shared_ptr<const MigrationLaw> chemotaxis() {
       .keys = keys(),
       .senses_field = true,
       .at_birth = &at_birth,
-      .after = &after});
+      .step = &step});
   return law;
 }
 

@@ -67,18 +67,18 @@ Event describe(const CellRow& row, const CellType& type, const LifeStep& step, c
   return event;
 }
 
-/// The velocity that a cell wants after the step.
-Vec3d turn_migration(const CellRow& row, const LifeValues& values, const CellType& type, const LifeStep& step, const CellWish& wish) {
+/// How a cell moves by itself in the step.
+Walk walk_of(const CellRow& row, const LifeValues& values, const CellType& type, const LifeStep& step, const CellWish& wish) {
   if (!type.migration.acts()) return {};
-  return next_migration_velocity({.id = row.id,
-                                  .velocity = values.migration_velocity,
-                                  .speed = wish.migration * type.migration.speed,
-                                  .radius = ball_radius(row.target_volume),
-                                  .sensed = values.sensed,
-                                  .random = Random(step.seed, RandomStream::kMigration),
-                                  .step = step.step,
-                                  .dt = step.dt},
-                                 type);
+  return migrate({.id = row.id,
+                  .velocity = values.migration_velocity,
+                  .speed = wish.migration * type.migration.speed,
+                  .radius = ball_radius(row.target_volume),
+                  .sensed = values.sensed,
+                  .random = Random(step.seed, RandomStream::kMigration),
+                  .step = step.step,
+                  .dt = step.dt},
+                 type);
 }
 
 /// A step in the phases of the cycle.
@@ -106,7 +106,9 @@ LifeDecision live(CellRow& row, LifeValues& values, const CellType& type, const 
     values.migration_velocity = {};
     return {Kind::kBeginDying, 0.0};
   }
-  values.migration_velocity = turn_migration(row, values, type, step, wish);
+  const Walk walk = walk_of(row, values, type, step, wish);
+  values.migration_velocity = walk.velocity;
+  values.walk = walk.mean;
   if (wish.polarity) values.polarity = normalized(*wish.polarity);
   if (wish.volume != 1.0) row.target_volume *= wish.volume;
   if (row.phase == Phase::kWaiting || wish.divide) return at_division_volume(row, 0.0, type, step);
@@ -146,6 +148,8 @@ LifeReport live(Cells& cells, std::span<const CellType> types, const LifeStep& s
   const auto turns = [](const CellType& type) { return type.polarity.set && !type.behaviours.empty(); };
   if (std::any_of(types.begin(), types.end(), behaves)) optional.death_time.make_room(rows.size());
   if (std::any_of(types.begin(), types.end(), turns)) optional.polarity.make_room(rows.size());
+  LifeReport report;
+  if (std::any_of(types.begin(), types.end(), migrates)) report.walk.resize(rows.size());
   AskBehaviours behaviours(cells, types, step);
   const std::size_t first = first_cycle_variable(cells.variables);
   const bool has_phases = first < cells.variables.size();
@@ -164,11 +168,11 @@ LifeReport live(Cells& cells, std::span<const CellType> types, const LifeStep& s
     if (in_phases) put_place(values.place, first, k, cells);
     if (decisions[k].kind == Kind::kBeginDying) decisions[k].behaviour = asked.deadly;
     optional.migration_velocity.set(k, values.migration_velocity);
+    if (!report.walk.empty()) report.walk[static_cast<std::size_t>(k)] = values.walk;
     optional.death_time.set(k, values.death_time);
     if (asked.wish.polarity && type.polarity.set) optional.polarity.set(k, values.polarity);
   }
 
-  LifeReport report;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const LifeDecision& decision = decisions[k];
     if (decision.kind == Kind::kNone) continue;

@@ -47,6 +47,7 @@ struct LifeValues {
   Vec3d polarity{};            ///< read and written
   CyclePlace place{};          ///< read and written, of a type with phases
   SensedField sensed{};        ///< read
+  Vec3d walk{};                ///< written: mean of the wanted velocity over the step [µm/s]
 };
 
 /// One step in the life of one cell: growth, cycle, death and the wanted velocity, and what its behaviours ask for. Reads and writes this row and its
@@ -70,6 +71,7 @@ struct LifeReport {
   std::vector<Event> events;
   std::vector<DivisionOrder> divisions;  ///< rows to replace by their daughters, whose events are told already
   std::vector<std::size_t> removals;     ///< rows to remove
+  std::vector<Vec3d> walk;  ///< by row: mean of the velocity that a cell wants over the step [µm/s]; empty where none migrates
 };
 
 /// One step in the life of all cells, which are changed in place; divisions and removals are only asked for. types: by row.type.

@@ -21,10 +21,15 @@ Vec3d MigratingCell::normal() const {
   return {one.first, one.second, two.first};
 }
 
+Vec3d MigratingCell::other_normal() const {
+  const RandomPair one = random.normal(id, kFurther + 2 * step), two = random.normal(id, kFurther + 2 * step + 1);
+  return {one.first, one.second, two.first};
+}
+
 std::vector<std::shared_ptr<const MigrationLaw>> migration_laws() { return {persistent_walk(), run_and_tumble(), chemotaxis()}; }
 
-Vec3d next_migration_velocity(const MigratingCell& cell, const CellType& type) {
-  return type.migration.acts() ? type.migration.law->after(cell, type.migration.own) : Vec3d{};
+Walk migrate(const MigratingCell& cell, const CellType& type) {
+  return type.migration.acts() ? type.migration.law->step(cell, type.migration.own) : Walk{};
 }
 
 Vec3d initial_migration_velocity(CellId cell, const CellType& type, std::uint32_t seed) {

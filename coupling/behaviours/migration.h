@@ -7,8 +7,8 @@
 
 namespace morula {
 
-/// The velocity that a cell wants after a step, by the law of its type. 0 where cells of the type do not migrate.
-Vec3d next_migration_velocity(const MigratingCell& cell, const CellType& type);
+/// A step of a cell by the law of its type. 0 where cells of the type do not migrate.
+Walk migrate(const MigratingCell& cell, const CellType& type);
 
 /// That of a new founder.
 Vec3d initial_migration_velocity(CellId cell, const CellType& type, std::uint32_t seed);

@@ -30,23 +30,37 @@ struct MigratingCell {
   std::uint64_t step = 0;
   double dt = 0.0;  ///< length of the step [s]
 
-  /// Three independent standard normal numbers of this cell and step.
+  /// Three independent standard normal numbers of this cell and step, and three others.
   [[nodiscard]] Vec3d normal() const;
+  [[nodiscard]] Vec3d other_normal() const;
+  /// The pieces of a step in which a cell turns more than once: a uniform number in (0, 1) and a direction for each k < kPieces.
+  static constexpr std::uint64_t kPieces = 1024;
+  [[nodiscard]] double uniform(std::uint64_t k) const { return random.uniform(id, kOfPieces + 2 * (step * kPieces + k)).first; }
+  [[nodiscard]] Vec3d direction(std::uint64_t k) const { return random.direction(id, kOfPieces + 2 * (step * kPieces + k) + 1); }
   /// A uniform number in (0, 1), and a direction that is independent of it, of this cell and step.
   [[nodiscard]] double uniform() const { return random.uniform(id, 2 * step).first; }
   [[nodiscard]] Vec3d direction() const { return random.direction(id, 2 * step + 1); }
+
+  /// Where the numbers of further draws of a step begin, and of those of its pieces.
+  static constexpr std::uint64_t kFurther = std::uint64_t{1} << 62, kOfPieces = std::uint64_t{1} << 63;
+};
+
+/// A step of a cell that moves by itself.
+struct Walk {
+  Vec3d velocity{};  ///< that it wants at the end [µm/s]
+  Vec3d mean{};      ///< of that over the step: what it goes by
 };
 
 /// A law by which the velocity changes that a cell wants: what there is to say about it, and its solution, exact whatever the steps while what it senses
-/// stays the same. What follows from the velocity where the cell is: crawling_velocity() in migration.h.
+/// stays the same, in velocity and way. What follows from the velocity where the cell is: crawling_velocity() in migration.h.
 struct MigrationLaw {
   LawInfo info;                ///< info.name is the word of `migration.law`
   std::string doc;             ///< what it is, after the word and a colon
   std::vector<OwnKey> keys{};  ///< of its own, beside those of `migration`; laws may share one
   bool senses_field = false;   ///< that its key `field` names
-  /// The velocity of a founder [µm/s], and that after a step of one that is `cell.velocity` at its start.
+  /// The velocity of a founder [µm/s], and a step of one that is `cell.velocity` at its start.
   Vec3d (*at_birth)(const MigratingCell& cell, const OwnValues& values) = nullptr;
-  Vec3d (*after)(const MigratingCell& cell, const OwnValues& values) = nullptr;
+  Walk (*step)(const MigratingCell& cell, const OwnValues& values) = nullptr;
 };
 
 /// The laws that Morula brings, the default first.

@@ -1,18 +1,15 @@
-#include <cmath>
 #include <numbers>
 
-#include "coupling/behaviours/migration_law.h"
+#include "coupling/behaviours/persistence.h"
 
 namespace morula {
 namespace {
 
 Vec3d at_birth(const MigratingCell& cell, const OwnValues&) { return cell.speed / std::numbers::sqrt3 * cell.normal(); }
 
-/// u ← ρu + σ√(1 − ρ²) ξ, ρ = e^(−dt/P), σ = S/√3.
-Vec3d after(const MigratingCell& cell, const OwnValues& own) {
-  const double persistence = own("persistence"), kept = std::exp(-cell.dt / persistence);
-  const double renewed = cell.speed / std::numbers::sqrt3 * std::sqrt(-std::expm1(-2.0 * cell.dt / persistence));
-  return kept * cell.velocity + renewed * cell.normal();
+/// σ = S/√3.
+Walk step(const MigratingCell& cell, const OwnValues& own) {
+  return walk_about({}, cell.speed / std::numbers::sqrt3, own("persistence"), cell);
 }
 
 }  // namespace
@@ -49,7 +46,7 @@ std::shared_ptr<const MigrationLaw> persistent_walk() {
       .doc = "the velocity changes all the time, with normal increments (Ornstein-Uhlenbeck)",
       .keys = {persistence_key()},
       .at_birth = &at_birth,
-      .after = &after});
+      .step = &step});
   return law;
 }
 

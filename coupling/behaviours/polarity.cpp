@@ -21,6 +21,13 @@ bool Polarity::looks_at_velocity() const {
   return std::ranges::any_of(rules, [](const TypePolarityRule& rule) { return rule.what->looks_at_velocity; });
 }
 
+double Polarity::longest_step() const {
+  double out = std::numeric_limits<double>::infinity();
+  for (const TypePolarityRule& rule : rules)
+    if (rule.what->longest_step != nullptr) out = std::min(out, rule.what->longest_step(rule.values));
+  return out;
+}
+
 Vec3d initial_polarity(CellId cell, const CellType& type, std::uint32_t seed) {
   if (!type.polarity.set) return {};
   if (norm2(type.polarity.start) > 0.0) return type.polarity.start;

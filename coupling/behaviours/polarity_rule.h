@@ -27,6 +27,8 @@ struct PolarityRule {
   std::vector<OwnKey> keys{};  ///< each with a default with which the rule does not act
   bool looks_at_velocity = false;
   bool (*acts)(const OwnValues& values) = nullptr;
+  /// The longest step in which cells that go along their polarity still go as far as it says [s]; null: any.
+  double (*longest_step)(const OwnValues& values) = nullptr;
   /// A polarity of length 1 after the step; of length 1 again.
   Vec3d (*turn)(const Vec3d& polarity, const TurningCell& cell, const OwnValues& values) = nullptr;
 };
@@ -49,6 +51,8 @@ struct Polarity {
   /// Adds a rule with these values, if it acts with them.
   void add(const std::shared_ptr<const PolarityRule>& rule, const OwnValues& values);
   [[nodiscard]] bool looks_at_velocity() const;
+  /// Of all its rules (PolarityRule::longest_step); infinite where none limits it.
+  [[nodiscard]] double longest_step() const;
 };
 
 }  // namespace morula

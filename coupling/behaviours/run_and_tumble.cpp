@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdint>
 
 #include "coupling/behaviours/migration_law.h"
 
@@ -7,12 +8,29 @@ namespace {
 
 Vec3d at_birth(const MigratingCell& cell, const OwnValues&) { return cell.speed * cell.direction(); }
 
-/// In a step the cell tumbles with the probability 1 − e^(−dt/τ), once or several times: its direction is then one of the whole sphere, whatever it was. A
-/// cell that its behaviours had stopped has none to keep.
-Vec3d after(const MigratingCell& cell, const OwnValues& own) {
-  const double now = norm(cell.velocity);
-  const bool tumbles = cell.uniform() < -std::expm1(-cell.dt / own("run_time"));
-  return tumbles || now == 0.0 ? cell.speed * cell.direction() : cell.velocity * (cell.speed / now);
+/// The way of runs that begin and end within a time in which there are too many to be drawn one by one: a normal number, of the variance (2/3)S²τt per component.
+Vec3d way_of_many_runs(const MigratingCell& cell, double run_time, double time) {
+  return cell.speed * std::sqrt(2.0 / 3.0 * run_time * time) * cell.other_normal();
+}
+
+/// Runs of exponential times; after each the direction is one of the whole sphere, whatever it was. The last goes on in the next step. A cell that its
+/// behaviours had stopped has none to keep.
+Walk step(const MigratingCell& cell, const OwnValues& own) {
+  const double now = norm(cell.velocity), run_time = own("run_time");
+  double time = now == 0.0 ? 0.0 : -run_time * std::log1p(-cell.uniform());
+  const Vec3d kept = now == 0.0 ? Vec3d{} : cell.velocity * (cell.speed / now);
+  if (time >= cell.dt) return {kept, kept};
+  const Vec3d last = cell.speed * cell.direction();
+  Vec3d way = kept * time;
+  if (cell.dt - time > 0.5 * static_cast<double>(MigratingCell::kPieces) * run_time)
+    return {last, (way + way_of_many_runs(cell, run_time, cell.dt - time)) * (1.0 / cell.dt)};
+  for (std::uint64_t k = 0;; ++k) {
+    const double end = time - run_time * std::log(cell.uniform(k));
+    if (end >= cell.dt) break;
+    way += (cell.speed * (end - time)) * cell.direction(k);
+    time = end;
+  }
+  return {last, (way + last * (cell.dt - time)) * (1.0 / cell.dt)};
 }
 
 }  // namespace
@@ -37,7 +55,7 @@ std::shared_ptr<const MigrationLaw> run_and_tumble() {
                                       .example = "10 min",
                                       .source = "chosen"}}},
                    .at_birth = &at_birth,
-                   .after = &after});
+                   .step = &step});
   return law;
 }
 

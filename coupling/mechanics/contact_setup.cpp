@@ -6,6 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include "cbm/radius_on.h"
+
 namespace morula {
 namespace {
 
@@ -174,7 +176,7 @@ cbm::ContactTable sphere_contact_table(const Model& model) {
 
 namespace {
 
-/// Of the softest spheres of two types that adhere most.
+/// Of the softest spheres of two types that adhere most; or of one type and an obstacle.
 cbm::PairCoefficients farthest_reaching(const Model& model, const cbm::SphereLaw& law, std::size_t a, std::size_t b) {
   const auto furthest = [&](std::size_t type, Trait trait) { return kFurthest * model.types[type].traits.of(trait).relative_spread; };
   const auto softest = [&](std::size_t type) {
@@ -182,9 +184,11 @@ cbm::PairCoefficients farthest_reaching(const Model& model, const cbm::SphereLaw
     out.young *= std::max(kSoftest, 1.0 - furthest(type, Trait::kStiffness));
     return out;
   };
-  const cbm::SphereParameters first = softest(a), second = softest(b);
-  const double most = std::sqrt((1.0 + furthest(a, Trait::kAdhesion)) * (1.0 + furthest(b, Trait::kAdhesion)));
-  return law.couple(first, &second, model.pair(a, b).adhesion * most);
+  const cbm::SphereParameters first = softest(a);
+  const double most = 1.0 + furthest(a, Trait::kAdhesion), adhesion = model.pair(a, b).adhesion;
+  if (b >= model.types.size()) return law.couple(first, nullptr, adhesion * std::sqrt(most));
+  const cbm::SphereParameters second = softest(b);
+  return law.couple(first, &second, adhesion * std::sqrt(most * (1.0 + furthest(b, Trait::kAdhesion))));
 }
 
 }  // namespace
@@ -198,18 +202,17 @@ ContactSettings contact_settings(const Model& model, int threads) {
   settings.points_per_face = model.contact.points_per_face;
   settings.threads = threads;
   settings.objective_friction = model.contact.objective_friction;
-  // Spheres may hold on to each other over a gap, at the largest radius a cell of the type reaches.
+  // Spheres may hold on to each other and to obstacles over a gap, at the largest radius a cell of the type reaches.
   const cbm::ContactTable table = sphere_contact_table(model);
+  const auto radius = [&](std::size_t t) { return 2.0 * model.types[t].radius.mean * (1.0 + 3.0 * model.types[t].radius.relative_spread); };
   for (std::size_t a = 0; a < model.types.size(); ++a)
-    for (std::size_t b = a; b < model.types.size(); ++b) {
-      const auto radius = [&](std::size_t t) {
-        return 2.0 * model.types[t].radius.mean * (1.0 + 3.0 * model.types[t].radius.relative_spread);
-      };
+    for (std::size_t b = a; b < model.material_count(); ++b) {
       cbm::PairContact contact = table.entry(a, b).contact;
       if (contact.law->reach == nullptr) continue;
       if (model.types[a].traits.variable_of(Trait::kStiffness) || model.types[a].traits.variable_of(Trait::kAdhesion))
         contact.coefficient = farthest_reaching(model, *contact.law, a, b);
-      settings.sphere_reach = std::max(settings.sphere_reach, contact.law->reach(contact, cbm::reduced_radius(radius(a), radius(b))));
+      const double reduced = b < model.types.size() ? cbm::reduced_radius(radius(a), radius(b)) : cbm::kMostOfHollow * radius(a);
+      settings.sphere_reach = std::max(settings.sphere_reach, contact.law->reach(contact, reduced));
     }
   return settings;
 }

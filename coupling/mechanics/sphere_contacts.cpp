@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cbm/radius_on.h"
 #include "cbm/sphere_range.h"
 #include "core/ball.h"
 #include "core/parallel/threads.h"
@@ -181,6 +182,8 @@ bool SphereContacts::locate_rigid(const Scene& scene, RigidPair& pair) const {
   const double distance = norm(between), side = foot->distance < 0.0 ? -1.0 : 1.0;
   pair.normal = distance > cbm::kCoincident ? between * (side / distance) : -obstacle.geometry.face_normal[foot->face];
   pair.distance = side * distance;
+  // Kept over the step, as its friction is: the force is the gradient of the energy then.
+  if (!friction_is_frozen_ || !pair.curvature) pair.curvature = foot->curvature;
   return true;
 }
 
@@ -208,7 +211,8 @@ void SphereContacts::evaluate_rigid(const Scene& scene, std::size_t k) {
   const double overlap = body.radius - pair.distance;
   const auto& entry = table_.entry(body.material, material_of(pair));
   const cbm::PairContact contact = contact_with_obstacle(scene, pair);
-  const auto [response, attached_next] = contact.law->respond(contact, body.radius, overlap, pair.attached);
+  const auto [response, attached_next] =
+      contact.law->respond(contact, cbm::radius_on(body.radius, pair.curvature->mean, pair.curvature->gaussian), overlap, pair.attached);
   pair.force = response.force;
   pair.energy = response.energy;
   pair.area = response.area;

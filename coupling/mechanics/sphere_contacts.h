@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -96,6 +97,7 @@ class SphereContacts : public Term {
     std::uint32_t sphere, obstacle, part;
     bool attached = false, attached_next = false;
     Vec3d normal{};
+    std::optional<SurfaceCurvature> curvature;  ///< of the obstacle where the sphere touched it at the start of the step, or came to it
     double distance = 0.0, force = 0.0, energy = 0.0, area = 0.0;
     [[nodiscard]] bool same_bodies(const RigidPair& other) const { return sphere == other.sphere && obstacle == other.obstacle; }
   };

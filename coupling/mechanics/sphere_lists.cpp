@@ -152,9 +152,10 @@ void SphereContacts::find_rigid_pairs(const Scene& scene, const Tissue& tissue) 
     return std::tie(a.sphere, a.obstacle, a.part) < std::tie(b.sphere, b.obstacle, b.part);
   };
   for (std::size_t n = 0; n < old.size(); ++n) {
-    if (!rubs(old_elements[n])) continue;
-    list_.rigid[static_cast<std::size_t>(std::lower_bound(rigid_.begin(), rigid_.end(), old[n], before) - rigid_.begin())] =
-        old_elements[n];
+    const auto now = std::lower_bound(rigid_.begin(), rigid_.end(), old[n], before);
+    if (now == rigid_.end() || before(old[n], *now)) continue;
+    now->curvature = old[n].curvature;
+    if (rubs(old_elements[n])) list_.rigid[static_cast<std::size_t>(now - rigid_.begin())] = old_elements[n];
   }
 }
 

@@ -53,6 +53,7 @@ std::shared_ptr<const RegionShape> around_region() {
             const auto nearest = region.surface->nearest(from, far);
             return nearest ? std::sqrt(nearest->closest.distance2) - region.reach : 2.0 * region.margin + 1.0;
           },
+      .repeats = true,
       .volume = [](const Region& region) { return region.room; }});
   return shape;
 }

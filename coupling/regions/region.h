@@ -54,6 +54,7 @@ struct RegionShape {
   /// Distance outside of a point that is `from` away from the centre; negative inside [µm]. Where it is more than the region's margin it may be less than
   /// what it is, if not less than the margin.
   double (*distance)(const Region& region, const Vec3d& from) = nullptr;
+  bool repeats = false;  ///< in a periodic domain it is there in every image of the domain, as what lies in it is
   /// Whether any of it lies in the domain; null: some always does.
   bool (*meets)(const Region& region, const Box& domain) = nullptr;
   /// How much of the domain it takes at most, for estimates of costs; null: all of it [µm³].

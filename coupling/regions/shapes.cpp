@@ -33,6 +33,7 @@ std::shared_ptr<const RegionShape> sphere_region() {
                              .example = "25 um"}}},
                   .build = [](const Model&, Region& region) { region.radius = region.values("radius"); },
                   .distance = [](const Region& region, const Vec3d& from) { return norm(from) - region.radius; },
+                  .repeats = true,
                   .meets =
                       [](const Region& r, const Box& domain) {
                         return meets_box(domain, r, {r.radius, r.radius, r.radius});
@@ -62,6 +63,7 @@ std::shared_ptr<const RegionShape> box_region() {
             return std::max(
                 {std::abs(from.x) - 0.5 * region.size.x, std::abs(from.y) - 0.5 * region.size.y, std::abs(from.z) - 0.5 * region.size.z});
           },
+      .repeats = true,
       .meets = [](const Region& r, const Box& domain) { return meets_box(domain, r, r.size * 0.5); },
       .volume = [](const Region& region) { return region.size.x * region.size.y * region.size.z; }});
   return shape;

@@ -86,6 +86,9 @@ Result<Judgement> common_criteria(const Study& study, const std::filesystem::pat
     else
       out.not_checked.push_back({"INV.5", quantity, "no cell had a nucleus at any output"});
   }
+  if (std::any_of(study.model.types.begin(), study.model.types.end(),
+                  [](const CellType& type) { return type.interior.has_rigid_nucleus(); }))
+    out.not_checked.push_back({"INV.5", "how far rigid nuclei are outside their cortex", "only of nuclei that are shells it is measured"});
   const char* rise = "rise of the energy between outputs, relative to its range";
   if (!is_passive(study))
     out.not_checked.push_back(

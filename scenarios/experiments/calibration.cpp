@@ -120,6 +120,11 @@ class Fitting {
     if (!data.relaxations.empty())
       take("no friction of approach", calibrate::fit_approach_friction(data.relaxations, law.pair), out.approach);
     if (!data.pressed.empty()) take("no friction along the contact", along_of(with_friction(law)), out.along);
+    constexpr double kHardlyTold = 100.0;  // of an interval, its end over its begin
+    if (out.along && out.along->high > kHardlyTold * out.along->low)
+      out_.data.remarks.push_back("friction along the contact for " + std::string(name) +
+                                  " is hardly told by pressed clusters: anything from " + number_text("%.2g", out.along->low) + " to " +
+                                  number_text("%.2g nN s/um^3", out.along->high));
     return out;
   }
   /// With which spheres of a law that has its friction of approach are pressed flat as shells are.
@@ -167,7 +172,8 @@ class Fitting {
 Status fit_on_root(const Study& study, Calibration& out) {
   MORULA_TRY_ASSIGN(out.data, data_of_runs(out.experiments, out.outcomes));
   if (!out.left_out.empty())
-    out.data.remarks.push_back("no time for " + joined(out.left_out) + ": intervals are wider, or nothing judges them");
+    out.data.remarks.push_back("no time for " + joined(out.left_out) +
+                               ": what they would have told is not fitted, intervals are wider, or nothing judges the fit");
   MORULA_TRY_ASSIGN(const auto places, SpheresInPackings::read(out.material, out.data.packings));
   MORULA_TRY_ASSIGN(const auto clusters, PressedSpheres::read(out.material, out.data.pressed_seeds));
   Fitting fitting(study, places, clusters, out);

@@ -222,6 +222,12 @@ CurvePlot packing_plot(const Calibration& found) {
   return plot;
 }
 
+/// How far a law is off on pairs that were held out; where none were, nothing judges it.
+ReportNumber error_of_pairs(const std::string& law, const calibrate::HeldOutErrors& held_out) {
+  if (held_out.pairs == 0) return {law + " on what was held out", "not judged", "no pair was held out"};
+  return {law + " on what was held out, root mean square", three(100.0 * held_out.force_rms), "% of the pull-off force"};
+}
+
 ReportContent content_of(const Calibration& found, const std::string& command) {
   const calibrate::SureFit& sure = found.sure;
   const calibrate::Fit& fit = sure.fit;
@@ -240,10 +246,9 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
       {"correlation of ln E and ln W", three(sure.covariance.correlation), ""},
       {"loss over its terms", three(fit.loss / static_cast<double>(std::max<std::size_t>(fit.residuals, 1))), ""},
       {"part of the loss of pairs that JKR cannot take", three(100.0 * found.misfit), "%"},
-      {"JKR on what was held out, root mean square", three(100.0 * found.jkr.held_out.force_rms), "% of the pull-off force"}};
+      error_of_pairs("JKR", found.jkr.held_out)};
   if (found.table) {
-    out.key_numbers.push_back({"a table on what was held out, root mean square", three(100.0 * found.table->spheres.held_out.force_rms),
-                               "% of the pull-off force"});
+    out.key_numbers.push_back(error_of_pairs("a table", found.table->spheres.held_out));
     out.key_numbers.push_back({"n of F ∝ (δ − δ_0)ⁿ where cells push (Hertz: 1.5)", three(found.table->exponent.value),
                                "± " + three(found.table->exponent.error)});
     const calibrate::HeldOutErrors& taken = found.spheres_to_take().held_out;

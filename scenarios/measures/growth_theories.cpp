@@ -1,6 +1,7 @@
 // How tissues grow.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "coupling/behaviours/balanced_growth.h"
 #include "scenarios/measures/theories.h"
@@ -27,12 +28,19 @@ Theory exponential_growth() {
           "Cells that all divide once in every mean duration D of their cycle, from what there was at time 0; without death and "
           "inhibition. With "
           "phases at the rate that follows from the times of all of them.",
-          "N(t) = N(0) 2^(t/D); with phases N(0) e^(αt), Π E[e^(−αT)] = ½",
+          "N(t) = N(0) 2^(t/D), with a spread c of D 2^((1 + c² ln 2/2) t/D); with phases N(0) e^(αt), Π E[e^(−αT)] = ½",
           "Malthus 1798; physics/cbm.md §5",
           {"cell_count", "total_volume", "count_"},
-          [](const Study& study, const Subject&, const std::string& measure) {
-            return dividing_type(study.model, measure) >= 0 ? Status{}
-                                                            : Status(Error{ErrorKind::kInput, "needs cells of one type, with a cycle", ""});
+          [](const Study& study, const Subject&, const std::string& measure) -> Status {
+            const int type = dividing_type(study.model, measure);
+            if (type < 0) return Error{ErrorKind::kInput, "needs cells of one type, with a cycle", ""};
+            const CellType& dividing = study.model.types[static_cast<std::size_t>(type)];
+            if (dividing.cycle_duration.relative_spread > 0.0 && dividing.cycle_duration.correlation != 0.0)
+              return Error{ErrorKind::kInput,
+                           "needs cells that do not take after their mothers: `correlation` makes families of fast cells", ""};
+            if (dividing.cycle.phases.empty() && dividing.cycle.control != SizeControl::kTimer)
+              return Error{ErrorKind::kInput, "needs a cycle of times: where size is controlled, the sizes at the start decide", ""};
+            return Status{};
           },
           [](FinishedRun& run, const Subject&, const std::string& measure, const Sample& sample) -> Result<double> {
             MORULA_TRY_ASSIGN(const SeriesTable* const series, run.series());
@@ -41,7 +49,9 @@ Theory exponential_growth() {
             if (type < 0 || column == nullptr || column->values.empty()) return std::nan("");
             const CellType& dividing = run.study().model.types[static_cast<std::size_t>(type)];
             if (!dividing.cycle.phases.empty()) return column->values.front() * std::exp(population_growth_rate(dividing) * sample.time);
-            return column->values.front() * std::exp2(sample.time / dividing.cycle_duration.mean);
+            // E[e^(−αT)] = ½ of normal times: α D − (α D c)²/2 = ln 2, c the spread; this to first order in c².
+            const double c = dividing.cycle_duration.relative_spread;
+            return column->values.front() * std::exp2(sample.time / dividing.cycle_duration.mean * (1.0 + 0.5 * std::numbers::ln2 * c * c));
           }};
 }
 

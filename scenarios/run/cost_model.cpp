@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <ctime>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "core/ball.h"
@@ -23,7 +24,10 @@ constexpr double kMostOfAStep = 10.0;  // times the mean of those before it
 // CPU of a step, measured on clusters of shells at W = 0.1 mN/m and on 25,000 and 100,000 packed spheres [s]
 constexpr double kCostPerNode = 4e-6, kCostPerSphere = 1.2e-5;
 constexpr double kPlacing = 3e-4;  // CPU of finding the place of a cell, on these [s]
-constexpr double kBytesPerNode = 2200.0, kBytesPerSphere = 2500.0, kBytesPerVoxel = 120.0;
+constexpr double kBytesPerNode = 2200.0, kBytesPerSphere = 2500.0;
+constexpr double kBytesPerVoxel = 20.0,
+                 kBytesToSolve =
+                     290.0;  // of all fields; of the largest, which are solved one by one: stages and multigrid, measured on 10⁶ voxels
 constexpr double kBytesAlways = 3.0e7, kBytesReport = 6.5e7;     // measured: program and libraries; the pictures of the report
 constexpr std::int64_t kSampled = 20'000;                        // cells up to which places are made and steps are tried
 constexpr double kSampleTime = 3.0, kMostSampleTime = 10.0;      // CPU time of the steps that are tried, more where they are few [s]
@@ -75,14 +79,44 @@ Load load_after(const Load& load, double growth, double duration) {
 
 }  // namespace
 
-double free_growth_rate(const Model& model, const std::vector<std::int64_t>& cells_of_type) {
-  double sum = 0.0, cells = 0.0;
-  for (std::size_t t = 0; t < model.types.size(); ++t) {
-    const auto count = static_cast<double>(cells_of_type[t]);
-    cells += count;
-    if (model.types[t].cycles) sum += count * population_growth_rate(model.types[t]);
+double free_growth_rate(const Model& model, const std::vector<std::int64_t>& cells_of_type, double duration) {
+  constexpr int kSteps = 400;
+  std::vector<double> rate, cells(cells_of_type.begin(), cells_of_type.end());
+  for (const CellType& type : model.types) rate.push_back(type.cycles ? population_growth_rate(type) : 0.0);
+  const double before = std::accumulate(cells.begin(), cells.end(), 0.0);
+  if (!(before > 0.0)) return 0.0;
+  if (std::ranges::all_of(model.types, [](const CellType& type) { return type.fates.all.empty(); }) || !(duration > 0.0)) {
+    double sum = 0.0;
+    for (std::size_t t = 0; t < rate.size(); ++t) sum += rate[t] * cells[t];
+    return sum / before;
   }
-  return cells > 0.0 ? sum / cells : 0.0;
+  // A division takes a cell of its type and gives two, of types by their fates: dN_s/dt = Σ_t r_t (E_st − δ_st) N_t, by the midpoint rule.
+  const auto change = [&](const std::vector<double>& n) {
+    std::vector<double> out(n.size(), 0.0);
+    for (std::size_t t = 0; t < n.size(); ++t) {
+      double alike = 1.0;
+      for (const Fate& fate : model.types[t].fates.all) {
+        alike -= fate.share;
+        for (const std::uint16_t to : fate.type) out[to] += fate.share * rate[t] * n[t];
+      }
+      out[t] += (2.0 * alike - 1.0) * rate[t] * n[t];
+    }
+    return out;
+  };
+  const double step = duration / kSteps;
+  double grown = 0.0;  // as a logarithm
+  for (int k = 0; k < kSteps; ++k) {
+    const std::vector<double> first = change(cells);
+    std::vector<double> middle = cells;
+    for (std::size_t t = 0; t < cells.size(); ++t) middle[t] += 0.5 * step * first[t];
+    const std::vector<double> second = change(middle);
+    for (std::size_t t = 0; t < cells.size(); ++t) cells[t] = std::max(0.0, cells[t] + step * second[t]);
+    const double sum = std::accumulate(cells.begin(), cells.end(), 0.0);
+    if (!(sum > 0.0)) return 0.0;
+    grown += std::log(sum);
+    for (double& n : cells) n /= sum;
+  }
+  return (grown - std::log(before)) / duration;
 }
 
 double longest_step(const Study& study) { return std::min(study.model.step.max_step, study.time.output); }
@@ -327,20 +361,23 @@ Result<Estimate> estimate(const Study& study) {
   }
   const double placing = 2.0 * (cpu_time() - before);  // to judge the places, and to run; surfaces of files are remeshed
   const Counts counts = tissue ? count_cells(study, *tissue, 0.0) : count_entries(study);
-  const double growth = free_growth_rate(study.model, counts.of_type);
+  const double growth = free_growth_rate(study.model, counts.of_type, study.time.end);
   const LaterBodies later = later_bodies(study, counts, growth, tissue ? &*tissue : nullptr);
   Estimate out;
   out.cells = counts.cells;
   out.shells = counts.shells;
   out.nodes = counts.nodes;
+  std::int64_t largest = 0;
   for (const auto& spec : study.model.fields) {
     MORULA_TRY_ASSIGN(const fields::Grid grid, fields::grid_for(spec, study.model.space));
     out.voxels += grid.voxel_count();
+    largest = std::max(largest, grid.voxel_count());
   }
   const Load at_end = load_after(later.from.front().second, growth, study.time.end);
   out.cells_at_end = at_end.spheres + at_end.shells;
   out.memory = kBytesAlways + (study.output.report ? kBytesReport : 0.0) + kBytesPerNode * later.most_nodes +
-               kBytesPerSphere * at_end.spheres + kBytesPerVoxel * static_cast<double>(out.voxels);
+               kBytesPerSphere * at_end.spheres + kBytesPerVoxel * static_cast<double>(out.voxels) +
+               kBytesToSolve * static_cast<double>(largest);
   MORULA_TRY_ASSIGN(const double from_there,
                     cost_of_run(study, static_cast<double>(counts.cells), later, growth, tissue ? &*tissue : nullptr));
   const double middle = placing + from_there, range = tissue ? 1.6 : 3.0;

@@ -25,8 +25,9 @@ struct Load {
   [[nodiscard]] double total() const { return spheres + 3.0 * nodes; }
 };
 
-/// Rate at which the number of cells grows if nothing inhibits it: ln 2 / cycle, averaged over the cells of each type [1/s].
-double free_growth_rate(const Model& model, const std::vector<std::int64_t>& cells_of_type);
+/// Rate at which the number of cells grows if nothing inhibits it: ln 2 / cycle, averaged over the cells of each type [1/s]; where daughters are of other types, the
+/// mean rate over `duration` [s] with the mixture that comes of it.
+double free_growth_rate(const Model& model, const std::vector<std::int64_t>& cells_of_type, double duration);
 
 /// Shells for which the regions of a model have room when there are so many cells; infinite where shells are not bound to regions: then they multiply as all
 /// cells do. How many triggers will make is not foreseen.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <new>
 
 #include "core/numbers/joined.h"
 #include "core/numbers/number_text.h"
@@ -30,6 +31,16 @@ double next_multiple(double time, double interval) {
   double k = std::floor(time / interval);
   while (k * interval <= time * (1.0 + kSameTime)) ++k;
   return k * interval;
+}
+
+/// Criteria, pictures and report. They need memory that the run itself did not: where there is none, the run is told as failed and goes on later.
+Result<RunOutputs> outputs_of(const Study& study, const RunRecord& record, const RunFolder& folder) {
+  try {
+    return finish_outputs(study, record, folder);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorKind::kResources, "out of memory at the criteria, pictures and report",
+                 "the results are whole: `morula resume` makes them again, where there is more memory"};
+  }
 }
 
 }  // namespace
@@ -73,7 +84,7 @@ RunLoop::RunLoop(const Study& study, const RunRequest& request, const Comm& comm
 }
 
 void RunLoop::expect_growth(const std::vector<std::int64_t>& of_type) {
-  growth_rate_ = free_growth_rate(study_.model, of_type);
+  growth_rate_ = free_growth_rate(study_.model, of_type, end_ - simulation_->tissue().clock.time);
   load_.most_shells = most_shells(study_.model, static_cast<double>(progress_.cells));
 }
 
@@ -145,9 +156,14 @@ Status RunLoop::go_back(const CheckpointInfo& checkpoint) {
   for (const Observable& column : columns_) header.push_back({column.name, column.unit});
   MORULA_TRY(agree(folder_.begin_series(header), comm_));
   const double time = simulation_->tissue().clock.time;
-  MORULA_TRY(agree(folder_.cut_back(time, checkpoint.texts), comm_));
+  const Result<bool> events_lost = folder_.cut_back(time, checkpoint.texts);
+  MORULA_TRY(agree(events_lost.ok() ? Status{} : Status(events_lost.error()), comm_));
   MORULA_TRY(write_results([&] { return truncate_snapshots(folder_.results(), time, comm_); }));
   MORULA_TRY(begin_results(folder_.results(), results_head(study_), comm_));  // where the file is gone
+  if (comm_.any(*events_lost))
+    warn(
+        "events.jsonl is damaged: some of what happened up to here is lost from it, and criteria, report and lineage know of the rest "
+        "alone");
   return tell_what_is_lost();
 }
 
@@ -394,7 +410,7 @@ Status RunLoop::finish(RunState state, ErrorKind kind, RunSummary& summary) {
   }
   Status written = folder_.write_status(status(state));
   if (written.ok() && comm_.is_root() && done) {
-    auto outputs = finish_outputs(study_, record_, folder_);
+    Result<RunOutputs> outputs = outputs_of(study_, record_, folder_);
     if (outputs.ok()) {
       record_.message = outputs->judgement.failures();
       record_.exit_code = record_.message.empty() ? 0 : exit_code(ErrorKind::kVerification);

@@ -279,6 +279,19 @@ TEST(ChooseSwaps, LeavesACellOutsideAllRegionsTheBodyItWasPlacedWith) {
   EXPECT_EQ(orders[0].to, kShell);
 }
 
+TEST(ChooseSwaps, SeesARegionAcrossThePeriodicBorder) {
+  Model model = clusters_model();
+  ShapeLibrary shapes;
+  const Vec3d half = model.space.box.size() * 0.5, middle = model.space.box.center();
+  const std::vector<Vec3d> places{middle + Vec3d{3.0 - half.x, 0, 0}, middle + Vec3d{half.x - 3.0, 0, 0}, middle};
+  const Tissue tissue = make_tissue(model, shapes, places, {kSphere, kSphere, kSphere});
+  model.swaps.regions = {ball_of_shells(5.0, 0.0, kNever)};
+  model.swaps.regions[0].center = middle + Vec3d{half.x - 1.0, 0, 0};
+  EXPECT_EQ(choose_swaps(model, tissue, {places}, Comm()).size(), 1u);
+  model.space.boundary[0] = {BoundaryKind::kPeriodic, BoundaryKind::kPeriodic};
+  EXPECT_EQ(choose_swaps(model, tissue, {places}, Comm()).size(), 2u);
+}
+
 TEST(ChooseSwaps, LeavesDaughtersTheirBodyUntilTheyHaveParted) {
   Model model = clusters_model();
   model.swaps.regions = {ball_of_shells(50.0, 0.0, kNever)};

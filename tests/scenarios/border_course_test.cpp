@@ -41,6 +41,46 @@ TEST_F(BorderCourse, IsFollowedByTheFieldAndItsCornersAreNotCut) {
   EXPECT_LT(column("whole", "balance_dye").back(), 1e-12);
 }
 
+/// A field at rest is gone through in steps as long as there are; what then begins to change it needs a thousandth of them.
+TEST_F(BorderCourse, BeginsAfterARestOfHours) {
+  run_whole(R"(schema: 1
+study: late
+time: {end: 150 min, output: 30 min}
+domain: {size: [200 um, 200 um, 200 um]}
+cell_types: {idle: {radius: 6 um}}
+fields:
+  dye: {diffusion: 1e-9 m^2/s, initial: 0.1 mM, boundary: 0.1 mM, course: [{time: 60 min, factor: 1}, {time: 120 min, factor: 0}]}
+initial: [{type: idle, at: [[0 um, 0 um, 0 um]]}]
+output: {report: false}
+)",
+            "late");
+  const auto dye = column("late", "mean_dye");
+  ASSERT_EQ(dye.size(), 6u);
+  EXPECT_NEAR(dye[2], 0.1, 1e-9);
+  // Behind the border by the mean of u, ∇²u = −1/D, 0.8 s of the ramp; and by half of an interval of at most two minutes, in which the border is what it is in the middle.
+  EXPECT_NEAR(dye[3], 0.05, 61.0 * 0.1 / 3600.0);
+  EXPECT_NEAR(dye[5], 0.0, 1e-6);
+}
+
+TEST_F(BorderCourse, IsNotNeededForAFieldToBeginLate) {
+  run_whole(R"(schema: 1
+study: late
+time: {end: 4 h, output: 1 h}
+domain: {size: [200 um, 200 um, 200 um]}
+cell_types:
+  mother: {radius: 6 um, cycle: {duration: 100 min, daughters: {fates: [{share: 100 %, types: [mother, source]}]}}}
+  source: {radius: 6 um}
+fields:
+  dye: {diffusion: 1e-9 m^2/s, initial: 0 mM, secretion: {source: 10 amol/s}, decay: 0.001 1/s}
+initial: [{type: mother, at: [[0 um, 0 um, 0 um]], age: birth}]
+output: {report: false}
+)",
+            "source");
+  // One source from 100 min on, a second from 200 min: d(cV)/dt = 10 amol/s each − k cV, V = 8e6 µm³.
+  const double k = 0.001, at_end = 10.0 / k * (2.0 - std::exp(-k * 8400.0) - std::exp(-k * 2400.0));
+  EXPECT_NEAR(column("source", "mean_dye").back(), at_end / 8e6, 0.02 * at_end / 8e6);  // cells begin with a step
+}
+
 TEST_F(BorderCourse, MayTakeAllAwayWithoutAFalseAlarmOfTheBalance) {
   run_whole(changed("factor: 0.5}]", "factor: 0}]", kStudy), "gone");
   EXPECT_LT(column("gone", "mean_dye").back(), 1e-7);

@@ -63,8 +63,20 @@ TEST(CostModel, GrowthRateIsTheMeanOverCells) {
   model.types.resize(2);
   model.types[0].cycles = true;
   model.types[0].cycle_duration.mean = 1000.0;
-  EXPECT_NEAR(free_growth_rate(model, {30, 10}), 0.75 * std::log(2.0) / 1000.0, 1e-15);
-  EXPECT_EQ(free_growth_rate(model, {0, 0}), 0.0);
+  EXPECT_NEAR(free_growth_rate(model, {30, 10}, 1e4), 0.75 * std::log(2.0) / 1000.0, 1e-15);
+  EXPECT_EQ(free_growth_rate(model, {0, 0}, 1e4), 0.0);
+}
+
+/// A stem cell (D = 4000 s) divides into one of its kind and one that divides four times as fast: dS/dt = 0, dA/dt = r_S S + r_A A with r = ln 2/D.
+TEST(CostModel, GrowthRateCountsWhatDaughtersBecome) {
+  Model model;
+  model.types.resize(2);
+  model.types[0].cycles = model.types[1].cycles = true;
+  model.types[0].cycle_duration.mean = 4000.0, model.types[1].cycle_duration.mean = 1000.0;
+  model.types[0].fates.all = {{1.0, {0, 1}}};
+  const double t = 6000.0, r = std::log(2.0) / 1000.0;
+  const double at_end = 10.0 + 10.0 * 0.25 * std::expm1(r * t);
+  EXPECT_NEAR(free_growth_rate(model, {10, 0}, t), std::log(at_end / 10.0) / t, 2e-3 * r);
 }
 
 TEST(CostModel, EstimatesAStudyBeforeItRuns) {

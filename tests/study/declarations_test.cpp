@@ -78,6 +78,16 @@ TEST(ResolvedStudy, ReadsBackToTheSameStudy) {
   }
 }
 
+/// What nobody gave contradicts nothing, in the resolved study either.
+TEST(ResolvedStudy, OfExplicitStepsWarnsOfNothingMore) {
+  const auto study = read(changed("step: auto", "step: auto, integrator: explicit_euler"));
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  EXPECT_THAT(study->warnings.text(), Not(HasSubstr("E510")));
+  EXPECT_THAT(warnings_of(study->resolved_text), Not(HasSubstr("E510")));
+  EXPECT_THAT(warnings_of(changed("step: auto", "step: 1 ms, integrator: explicit_euler")), Not(HasSubstr("E510")));
+  EXPECT_THAT(warnings_of(changed("step: auto", "step: 1 ms") + "numerics: {initial_step: 1 s}\n"), HasSubstr("E510"));
+}
+
 TEST(ResolvedStudy, NamesTheCopiesOfItsInputFiles) {
   const Folder folder;
   folder.write("data/cells.csv", "x [um],y [um],z [um],type\n1,2,3,hepatocyte\n");

@@ -256,6 +256,18 @@ TEST(FittedLaw, KeysThatContradictTheFileOrHaveNoEffectAreErrors) {
   EXPECT_THAT(file.errors(test::changed("law: fitted", "law: jkr", kStudy)), AllOf(HasSubstr("E515"), HasSubstr("`law: fitted`")));
   EXPECT_THAT(file.errors(test::changed(", file: cell.jkr.yaml", "", kStudy)), AllOf(HasSubstr("E516"), HasSubstr("morula calibrate jkr")));
   EXPECT_THAT(file.errors(test::changed("cell.jkr.yaml", "other.jkr.yaml", kStudy)), HasSubstr("E601"));
+  for (const char* key : {"spring_stiffness: 0.1 nN/um", "packing: {law: fitted, bulk_modulus: 1 kPa}",
+                          "packing: {law: fitted, knots: [{packing: 5 %, pressure: 0 kPa}, {packing: 30 %, pressure: 1 kPa}]}"})
+    EXPECT_THAT(Written(file_text("jkr", kPacking)).errors(test::changed("law: fitted", std::string("law: fitted, ") + key, kStudy)),
+                HasSubstr("E515"))
+        << key;
+}
+
+TEST(FittedLaw, KnowsItsCellsInOtherUnits) {
+  const Written file(file_text());
+  const auto study = file.read(test::changed("    cbm:", "    dcm: {bulk_modulus: 2500 Pa}\n    cbm:", kStudy));
+  EXPECT_TRUE(study.ok()) << study.error().text();
+  EXPECT_THAT(file.errors(test::changed("    cbm:", "    dcm: {bulk_modulus: 2600 Pa}\n    cbm:", kStudy)), HasSubstr("E532"));
 }
 
 TEST(FittedLaw, DamagedFilesAreToldAtTheirPlace) {

@@ -22,6 +22,16 @@ TEST(Override, SetsWhatIsThere) {
   EXPECT_EQ(read(kGoodStudy, with("contact.range=0.4 um"))->model.contact.range, 0.4) << "a section that the file leaves out";
 }
 
+/// YAML takes a `#` after a blank for a comment: what stands behind it would be lost without a word.
+TEST(Override, IsNotCutAtAComment) {
+  EXPECT_THAT(errors_of(kGoodStudy, with("title=a # b")),
+              AllOf(HasSubstr("command line:1:9: error:"), HasSubstr("read as a comment [E110]")));
+  EXPECT_THAT(errors_of(kGoodStudy, with("title=#1")), HasSubstr("[E110]"));
+  EXPECT_EQ(read(kGoodStudy, with("title='a # b'"))->title, "a # b");
+  EXPECT_EQ(read(kGoodStudy, with("title=\"it's # 1\""))->title, "it's # 1");
+  EXPECT_EQ(read(kGoodStudy, with("title=a#b"))->title, "a#b");
+}
+
 TEST(Override, OpensABareValue) {
   const std::string text = changed("radius: {mean: 6 um, spread: 10 %}", "radius: 6.5 um");
   const auto study = read(text, with("cell_types.hepatocyte.radius.spread=4 %"));

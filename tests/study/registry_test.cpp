@@ -137,7 +137,7 @@ TEST(Registry, EveryLawOfMotionTellsOfItself) {
   for (const auto& one : laws->migration) {
     expect_told(one->info, names);
     expect_told(one->info.name, one->keys);
-    EXPECT_TRUE(one->at_birth != nullptr && one->after != nullptr) << one->info.name;
+    EXPECT_TRUE(one->at_birth != nullptr && one->step != nullptr) << one->info.name;
     EXPECT_EQ(one->senses_field, has(one->keys, "field")) << one->info.name;
     for (const LawParameter& parameter : one->info.parameters)
       EXPECT_TRUE(parameter.name == "speed" || has(one->keys, parameter.name)) << one->info.name << "." << parameter.name;

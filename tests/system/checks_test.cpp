@@ -111,6 +111,51 @@ TEST(UsersStudy, GetsNumericalChecksAndIsToldWhatWasNotChecked) {
   for (const char* id : {"INV.1", "INV.4", "INV.7"}) EXPECT_THAT(ids, testing::Contains(id));
 }
 
+TEST(UsersStudy, IsNotPassedOnATissueThatHasDied) {
+  const TestFolder folder;
+  folder.write("study.yaml", R"(schema: 1
+study: dead
+time: {end: 4 h, output: 1 h, checkpoint: 4 h}
+domain: {size: [120 um, 120 um, 120 um]}
+cell_types: {a: {radius: 6 um, death: {food_below: 1 mM, rate: 1 1/s, shrink_time: 10 min, removed_below: 50 %}}}
+initial:
+  - {type: a, at: [[0 um, 0 um, 0 um], [11 um, 0 um, 0 um]]}
+fields:
+  food: {diffusion: 1e-9 m^2/s, initial: 0.1 mM, boundary: {all: 0.1 mM}}
+criteria:
+  - {id: PRESSURE, measure: mean_pressure, below: 1 kPa}
+  - {id: RADIUS, measure: spheroid_radius, below: 100 um}
+  - {id: GONE, measure: cell_count, below: 0.5}
+output: {report: false}
+)");
+  const Outcome outcome = run_morula({"run", "study.yaml", "--out", "run"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 5) << outcome.all();
+  const json said = json::parse(read_text(folder / "run/verdict.json"));
+  std::map<std::string, bool> passed;
+  for (const json& one : said["criteria"]) passed[one["id"]] = one["passed"];
+  EXPECT_TRUE(passed.at("GONE"));
+  EXPECT_FALSE(passed.at("PRESSURE"));
+  EXPECT_FALSE(passed.at("RADIUS"));
+}
+
+/// What a run judges does not depend on the columns that the user wants to see; what is measured of no nucleus is said.
+TEST(UsersStudy, IsJudgedOnItsNucleiWhateverItsSeries) {
+  const TestFolder folder;
+  folder.write("study.yaml", R"(schema: 1
+study: nuclei
+time: {end: 2 min, output: 1 min}
+domain: {size: [120 um, 120 um, 120 um]}
+cell_types: {a: {radius: 6 um, body: shell, dcm: {nodes: 162, nucleus: {kind: shell, radius: 3 um, nodes: 42}}}}
+initial:
+  - {type: a, at: [[0 um, 0 um, 0 um]]}
+output: {report: false, series: [cell_count]}
+)");
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "shell"}, folder.path()).exit_code, 0);
+  EXPECT_THAT(read_text(folder / "shell/verdict.json"), HasSubstr("how far a node of a nucleus is outside its cortex"));
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "rigid", "cell_types.a.dcm.nucleus={radius: 3 um}"}, folder.path()).exit_code, 0);
+  EXPECT_THAT(read_text(folder / "rigid/verdict.json"), HasSubstr("how far rigid nuclei are outside their cortex"));
+}
+
 TEST(HybridReport, TellsWhatShellsCostAndWhatAllShellsWould) {
   const TestFolder folder;
   folder.write("study.yaml", R"(schema: 1

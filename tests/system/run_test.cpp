@@ -245,6 +245,45 @@ TEST(Resume, KnowsWhenItsInputsOrItsResultsAreNotWhatTheyWere) {
     EXPECT_EQ(file.path().filename().string().find("damaged"), std::string::npos) << "results.h5 is whole";
 }
 
+TEST(Resume, SaysWhenEventsAreLost) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "run", "--until", "1 h"}, folder.path()).exit_code, 0);
+  const std::string events = read_text(folder / "run/events.jsonl");
+  ASSERT_GT(lines_of(events).size(), 1u);
+  const auto resumed = [&](const std::string& text) {
+    fs::copy(folder / "run", folder / "copy", fs::copy_options::recursive);
+    folder.write("copy/events.jsonl", text);
+    const Outcome outcome = run_morula({"resume", "copy", "--until", "70 min"}, folder.path());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
+    fs::remove_all(folder / "copy");
+    return outcome.all();
+  };
+  EXPECT_THAT(resumed(events), Not(HasSubstr("events.jsonl is damaged")));
+  EXPECT_THAT(resumed(events.substr(events.find('\n') + 1)), HasSubstr("events.jsonl is damaged"));
+  EXPECT_THAT(resumed("?" + events.substr(1)), HasSubstr("events.jsonl is damaged"));
+}
+
+TEST(Resume, RefusesInputsAndCheckpointsOfAnotherRun) {
+  const TestFolder folder;
+  folder.write("places.csv", "x [um],y [um],z [um],type\n0,0,0,round\n12,0,0,round\n");
+  folder.write("study.yaml",
+               changed(sphere_study(), "{type: round, count: 20, fill: sphere, radius: 20 um, as: sphere}", "{csv: places.csv}"));
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "run", "--until", "10 min"}, folder.path()).exit_code, 0);
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "other", "--until", "10 min", "seed=8"}, folder.path()).exit_code, 0);
+  std::string theirs;
+  for (const auto& file : fs::directory_iterator(folder / "other/checkpoints")) theirs = fs::absolute(file.path()).string();
+  const Outcome foreign = run_morula({"resume", "run", "--from", theirs, "--out", "new"}, folder.path());
+  EXPECT_EQ(foreign.exit_code, 2) << foreign.all();
+  EXPECT_THAT(foreign.all(), HasSubstr("belongs to another run"));
+  EXPECT_FALSE(fs::exists(folder / "new"));
+  for (const auto& file : fs::directory_iterator(folder / "run/inputs"))
+    folder.write("run/inputs/" + file.path().filename().string(), "x [um],y [um],z [um],type\n0,0,0,round\n40,0,0,round\n");
+  const Outcome exchanged = run_morula({"resume", "run"}, folder.path());
+  EXPECT_EQ(exchanged.exit_code, 2) << exchanged.all();
+  EXPECT_THAT(exchanged.all(), HasSubstr("is not what the run began with"));
+}
+
 TEST(Resume, FromAnOlderCheckpointMakesANewRunThatEndsInTheSameBits) {
   const TestFolder folder;
   folder.write("study.yaml", changed(sphere_study(), "checkpoint: 30 min", "checkpoint: 10 min"));
@@ -310,6 +349,9 @@ TEST(Resume, UntilATimeThatHasPassedIsRefused) {
   const Outcome outcome = run_morula({"resume", "run", "--until", "40 s"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 2) << outcome.all();
   EXPECT_THAT(outcome.err, HasSubstr("later than --until"));
+  const Outcome never = run_morula({"resume", "run", "--until", "1e30 h"}, folder.path());
+  EXPECT_EQ(never.exit_code, 2) << never.all();
+  EXPECT_THAT(never.err, HasSubstr("must be at most"));
   EXPECT_EQ(run_morula({"resume", "run", "--until", "80 s"}, folder.path()).exit_code, 0);
 }
 

@@ -1,0 +1,79 @@
+/// Spheres on obstacles that are curved: studies, and Hertz's overlap read back.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/scenarios/snapshots_of_run.h"
+
+namespace morula::scenarios {
+namespace {
+
+constexpr double kRadius = 6.0, kForce = 1.0;
+constexpr double kModulus = 1.0 / (1.0 - 0.4 * 0.4);  // E* of a cell of 1 kPa on a rigid body [nN/µm²]
+
+/// Hertz: F = (4/3) E* √R* δ^(3/2).
+double hertz(double reduced) { return std::pow(0.75 * kForce / (kModulus * std::sqrt(reduced)), 2.0 / 3.0); }
+
+/// Of a sphere on a cylinder: Johnson 1985, Contact Mechanics, eqs. 4.28 to 4.32, solved with complete elliptic integrals; principal curvatures a > b of the gap.
+double hertz_elliptic(double a, double b) {
+  const auto both = [](double q) {  // q: minor over major half axis of the contact
+    const double k = std::sqrt(1.0 - q * q);
+    return std::pair{std::comp_ellint_1(k), std::comp_ellint_2(k)};
+  };
+  const auto ratio = [&](double q) {
+    const auto [K, E] = both(q);
+    return (E / (q * q) - K) / (K - E);
+  };
+  double low = 1e-4, high = 1.0 - 1e-6;
+  for (int k = 0; k < 200; ++k) (ratio(0.5 * (low + high)) > a / b ? low : high) = 0.5 * (low + high);
+  const double q = low, e2 = 1.0 - q * q;
+  const auto [K, E] = both(q);
+  const double f1 = std::cbrt(4.0 / (std::numbers::pi * e2) * std::pow(q, 1.5) * std::sqrt((E / (q * q) - K) * (K - E)));
+  const double f2 = 2.0 / std::numbers::pi * std::sqrt(q) * K / f1;
+  return hertz(1.0 / std::sqrt(a * b)) * f2;
+}
+
+/// How deep a cell that begins at this height goes into an obstacle below it, which it touches without overlap at the height `touching`, under 1 nN [µm].
+double overlap(const std::string& obstacle, double z, double touching) {
+  const auto moments = test::snapshots_of_run(R"(schema: 1
+study: curved
+time: {end: 40 min, output: 40 min}
+domain: {size: [200 um, 200 um, 200 um]}
+cell_types:
+  a: {radius: 6 um, cbm: {law: hertz, young: 1 kPa, poisson: 0.4, packing: none}}
+geometry:
+  p: )" + obstacle + R"(
+loads: {w: {type: a, body_force: [0 nN, 0 nN, -1 nN]}}
+initial: [{type: a, at: [[0 um, 0 um, )" + std::to_string(z) +
+                                               R"( um]]}]
+output: {report: false}
+)");
+  return moments.size() < 2 ? std::nan("") : touching - moments.back().snapshot.cells[0].centroid.z;
+}
+
+TEST(CurvedObstacles, BearSpheresAsHertzSays) {
+  EXPECT_NEAR(overlap("{plane: {center: [0 um, 0 um, -20 um], normal: [0, 0, 1], size: 150 um}}", -14.2, -14.0), hertz(kRadius), 2e-3);
+  EXPECT_NEAR(overlap("{sphere: {center: [0 um, 0 um, 0 um], radius: 2 um}}", 7.6, 8.0), hertz(1.5), 0.01 * hertz(1.5));
+  EXPECT_NEAR(overlap("{sphere: {center: [0 um, 0 um, 0 um], radius: 12 um}}", 17.7, 18.0), hertz(4.0), 0.01 * hertz(4.0));
+}
+
+TEST(CurvedObstacles, ThatAreHollowBearSpheresOverMoreOfThem) {
+  const double reduced = 1.0 / (1.0 / 6.0 - 1.0 / 20.0);  // 8.6 µm: the mould has its nodes on the sphere, its faces up to 0.03 µm within it
+  EXPECT_NEAR(overlap("{sphere: {center: [0 um, 0 um, 0 um], radius: 20 um}, side: inside}", -13.8, -14.0), hertz(reduced), 0.01 * hertz(reduced) + 0.03);
+  // One that fits the cell acts as one of twice its radius.
+  EXPECT_NEAR(overlap("{sphere: {center: [0 um, 0 um, 0 um], radius: 7 um}, side: inside}", -0.8, -1.0), hertz(12.0), 0.01 * hertz(12.0) + 0.02);
+}
+
+TEST(CurvedObstacles, ThatAreRodsBearSpheresOnEllipses) {
+  for (const double rod : {6.0, 2.0}) {
+    const double expected = hertz_elliptic(1.0 / kRadius + 1.0 / rod, 1.0 / kRadius);
+    const std::string text = std::to_string(rod);
+    EXPECT_NEAR(overlap("{cylinder: {from: [-40 um, 0 um, 0 um], to: [40 um, 0 um, 0 um], radius: " + text + " um}}", rod + 5.7, rod + 6.0), expected,
+                0.01 * expected)
+        << rod;
+  }
+}
+
+}  // namespace
+}  // namespace morula::scenarios
