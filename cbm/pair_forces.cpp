@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "cbm/laws/table.h"
+
 namespace morula::cbm {
 namespace {
 
@@ -43,7 +45,10 @@ ContactTable::ContactTable(std::span<const SphereParameters> types, std::span<co
       // Always from the lower type's side, so that (a, b) and (b, a) are the same numbers to the last bit.
       const SphereParameters& first = types[b < types_ && b < a ? b : a];
       const SphereParameters* second = b < types_ ? &types[b < a ? a : b] : nullptr;
-      const SphereLaw* law = law_of(first, second);
+      const std::size_t low = std::min(a, b), high = std::max(a, b);
+      const bool adhere_alike = second == nullptr || (surface.adhesion == surfaces[low * materials_ + low].adhesion &&
+                                                      surface.adhesion == surfaces[high * materials_ + high].adhesion);
+      const SphereLaw* law = law_of(first, second, adhere_alike);
       const auto of_two = [&](double SphereParameters::*factor) {
         return second != nullptr ? std::sqrt(first.*factor * second->*factor) : 1.0;
       };
@@ -54,9 +59,11 @@ ContactTable::ContactTable(std::span<const SphereParameters> types, std::span<co
   }
 }
 
-const SphereLaw* ContactTable::law_of(const SphereParameters& a, const SphereParameters* b) const {
+const SphereLaw* ContactTable::law_of(const SphereParameters& a, const SphereParameters* b, bool adhere_alike) const {
   const auto stand_in = [](const SphereLaw* law) { return law->elsewhere != nullptr ? law->elsewhere.get() : law; };
-  if (b != nullptr && a.law == b->law) return a.law.get();
+  // A table has its adhesion in it: it is that of two types which have it both, of one file, and adhere to each other as each to itself.
+  const auto same_table = [&] { return a.law->table && b->law->table && *a.law->table == *b->law->table && adhere_alike; };
+  if (b != nullptr && (a.law->table ? same_table() : a.law == b->law)) return a.law.get();
   const SphereLaw* law = stand_in(a.law.get());
   return b == nullptr || stand_in(b->law.get()) == law ? law : other_.get();
 }

@@ -36,7 +36,8 @@ class ContactTable {
   [[nodiscard]] const Entry& entry(std::size_t a, std::size_t b) const { return entries_[a * materials_ + b]; }
 
  private:
-  [[nodiscard]] const SphereLaw* law_of(const SphereParameters& a, const SphereParameters* b) const;
+  /// `adhere_alike`: as the spheres of each type among themselves.
+  [[nodiscard]] const SphereLaw* law_of(const SphereParameters& a, const SphereParameters* b, bool adhere_alike) const;
 
   std::size_t types_ = 0, materials_ = 0;
   std::vector<Entry> entries_;

@@ -179,8 +179,8 @@ Status Simulation::advance_fields(std::span<const std::size_t> due, const std::f
   for (const std::size_t f : due) {
     fields::Field& field = tissue_.fields[f];
     const double interval = tissue_.clock.time - field.time;
-    // All fields are due at the corners of a course, so that the middle of an interval has its mean.
-    const fields::FieldSpec spec = fields::at_time(model_.fields[f], tissue_.clock.time - 0.5 * interval);
+    const fields::FieldSpec spec =
+        fields::in_interval(model_.fields[f], field.time, interval);  // all fields are due at the corners of a course
     MORULA_TRY_ASSIGN(auto report, field_solver_.advance(field, spec, model_.space, sources, interval, comm_, taken, seen, give_up));
     field.time = tissue_.clock.time;
     field.interval = fields::next_interval(interval, report.change, spec.interval_tolerance);

@@ -52,7 +52,7 @@ void BrickOperator::fill_ghosts(std::size_t brick, std::size_t side, const doubl
   const GhostSource& source = halo_.source(brick, side);
   if (source.kind == GhostSource::Kind::kBoundary) {
     const bool held = face(side).kind == FaceCondition::Kind::kValue;
-    const double twice = held ? 2.0 * scale * face(side).value : 0.0;
+    const double twice = held ? 2.0 * scale * face(side).at(time_) : 0.0;
     const double* inner = (side % 2) ? to - padded_stride[axis] : to + padded_stride[axis];
     for (std::size_t j = 0; j < nv; ++j)
       for (std::size_t i = 0; i < nu; ++i) to[i * su + j * sv] = held ? twice - inner[i * su + j * sv] : inner[i * su + j * sv];
@@ -105,13 +105,14 @@ void BrickOperator::boundary_amounts(std::size_t brick, const double* c, double*
     amounts[side] = 0.0;
     if (halo_.source(brick, side).kind != GhostSource::Kind::kBoundary || face(side).kind != FaceCondition::Kind::kValue) continue;
     double gradient = 0.0;
-    const double twice = 2.0 * face(side).value;
+    const double twice = 2.0 * face(side).at(time_);
     for_each_in_layer(layout_.extent[brick], side, [&](std::size_t voxel, std::size_t) { gradient += (twice - c[voxel]) - c[voxel]; });
     amounts[side] = conductance_[side / 2] * voxel_volume_ * gradient;
   }
 }
 
-void BrickOperator::evaluate(const double* unknowns, double* rate, bool amounts) {
+void BrickOperator::evaluate(double time, const double* unknowns, double* rate, bool amounts) {
+  time_ = time;
   halo_.exchange(unknowns);
   double* taken_rate = amounts ? rate + layout_.sinks_at() : nullptr;
   if (!amounts) std::fill(rate + layout_.concentrations(), rate + layout_.unknowns(), 0.0);

@@ -21,8 +21,8 @@ class BrickOperator {
   /// Keeps references to all but `grid`.
   BrickOperator(const Grid& grid, const FieldSpec& spec, const FieldReactions& reactions, const Layout& layout, Halo<double>& halo);
 
-  /// d(unknowns)/dt. Collective. Rates of the amounts [amol/s] only if `amounts`, else 0.
-  void evaluate(const double* unknowns, double* rate, bool amounts);
+  /// d(unknowns)/dt at a time of the interval [s]. Collective. Rates of the amounts [amol/s] only if `amounts`, else 0.
+  void evaluate(double time, const double* unknowns, double* rate, bool amounts);
 
   /// Take the slopes of the reactions at these concentrations; what follows uses them. J = ∂(dc/dt)/∂c.
   void linearize(const double* unknowns);
@@ -45,7 +45,7 @@ class BrickOperator {
   static constexpr std::size_t kPadded = Grid::kBrick + 2;
   using Padded = std::array<double, kPadded * kPadded * kPadded>;
 
-  /// The brick with a layer of ghosts around it. At faces with a value the ghost is 2·scale·c_b − c.
+  /// The brick with a layer of ghosts around it. At faces with a value the ghost is 2·scale·c_b − c, c_b that of time_.
   void fill(std::size_t brick, const double* values, double scale, Padded& padded) const;
   void fill_ghosts(std::size_t brick, std::size_t side, const double* values, double scale, Padded& padded) const;
   /// out = D ∇²_h c − λ c, λ of the reactions of first order
@@ -60,6 +60,7 @@ class BrickOperator {
   Halo<double>& halo_;
   std::array<double, 3> conductance_{};  ///< D/h² along x, y, z [1/s]
   double voxel_volume_ = 0.0;
+  double time_ = 0.0;             ///< of the last evaluate(), from the start of the interval [s]
   std::vector<double> slope_;     ///< −∂(dc/dt)/∂c of reactions that are not of first order, by voxel [1/s]
   std::vector<double> diagonal_;  ///< −diag J without these, by voxel [1/s]
   std::vector<double> partial_;   ///< a sum per brick

@@ -51,11 +51,11 @@ Status check(const FieldSpec& spec) {
 namespace {
 
 /// The largest concentration that matters: start, faces, now.
-double concentration_scale(const Field& field, const FieldSpec& spec, const Comm& comm) {
+double concentration_scale(const Field& field, const FieldSpec& spec, double interval, const Comm& comm) {
   double scale = std::fabs(spec.initial);
   for (const auto& axis : spec.boundary)
     for (const auto& face : axis)
-      if (face.kind == FaceCondition::Kind::kValue) scale = std::max(scale, std::fabs(face.value));
+      if (face.kind == FaceCondition::Kind::kValue) scale = std::max({scale, std::fabs(face.value), std::fabs(face.at(interval))});
   for (const auto& brick : field.concentration)
     for (const double c : brick) scale = std::max(scale, std::fabs(c));
   return comm.max(scale);
@@ -163,7 +163,7 @@ Result<IntervalReport> FieldSolver::advance(Field& field, const FieldSpec& spec,
   settings.interval = interval;
   settings.first_step = field.next_step;
   settings.relative_tolerance = spec.relative_tolerance;
-  double scale = concentration_scale(field, spec, comm);
+  double scale = concentration_scale(field, spec, interval, comm);
   if (scale == 0.0) scale = what_arises(field, layout, reactions, interval, comm);  // else no error at all would be allowed
   settings.absolute_tolerance = std::max(1e-3 * spec.relative_tolerance * scale, 1e-30);
   settings.largest_rate = comm.max(op.largest_rate(scale));

@@ -16,6 +16,9 @@ struct Reaction;
 struct FaceCondition {
   enum class Kind { kValue, kNoFlux } kind = Kind::kNoFlux;
   double value = 0.0;  ///< concentration on the face [mM]
+  double slope = 0.0;  ///< how it changes from the start of an interval on, where it is `value` [mM/s]
+
+  [[nodiscard]] double at(double time) const { return value + slope * time; }
 };
 
 /// A reaction of a field with the values that a study gives its keys.
@@ -38,10 +41,14 @@ struct FieldSpec {
   std::vector<FieldReaction> reactions;                  ///< in the order of the registry
 };
 
-/// The field with the concentrations that its faces have at a time.
-inline FieldSpec at_time(FieldSpec spec, double time) {
+/// The field with the concentrations that its faces have in an interval without corners of their course, from a time on [s].
+inline FieldSpec in_interval(FieldSpec spec, double from, double interval) {
+  const double first = spec.course.at(from), last = spec.course.at(from + interval);
   for (auto& axis : spec.boundary)
-    for (FaceCondition& face : axis) face.value *= spec.course.at(time);
+    for (FaceCondition& face : axis) {
+      face.slope = interval > 0.0 ? face.value * (last - first) / interval : 0.0;
+      face.value *= first;
+    }
   return spec;
 }
 

@@ -23,13 +23,13 @@ struct Problem {
 
 Problem& problem(void* user) { return *static_cast<Problem*>(user); }
 
-int rate(double, N_Vector y, N_Vector ydot, void* user) {
-  problem(user).op->evaluate(unknowns_of(y), unknowns_of(ydot), true);
+int rate(double time, N_Vector y, N_Vector ydot, void* user) {
+  problem(user).op->evaluate(time, unknowns_of(y), unknowns_of(ydot), true);
   return 0;
 }
 /// For Newton's residuals: without the rates of the amounts, which nothing in the iteration depends on.
-int rate_of_concentrations(double, N_Vector y, N_Vector ydot, void* user) {
-  problem(user).op->evaluate(unknowns_of(y), unknowns_of(ydot), false);
+int rate_of_concentrations(double time, N_Vector y, N_Vector ydot, void* user) {
+  problem(user).op->evaluate(time, unknowns_of(y), unknowns_of(ydot), false);
   return 0;
 }
 int error_weights(N_Vector y, N_Vector weights, void* user) {
@@ -75,7 +75,7 @@ struct Session {
 
 Error failure(const std::string& what) {
   return Error{ErrorKind::kPhysics, "the time integration of a field failed: " + what,
-               "look at the reactions and boundary values; a larger relative tolerance or smaller coupling step may help"};
+               "look at the reactions and boundary values; another `tolerance` of the field, or a smaller `time.step`, may help"};
 }
 
 constexpr int kMostIterations = 500;

@@ -11,6 +11,8 @@ namespace morula::cbm {
 
 /// A point of the law of two attached spheres, scaled with R*.
 struct PairTableKnot {
+  bool operator==(const PairTableKnot&) const = default;
+
   double overlap = 0.0;  ///< δ/R*
   double force = 0.0;    ///< F/R* [nN/µm], > 0 pushes apart
   double area = 0.0;     ///< A/R*²
@@ -30,6 +32,8 @@ class PairTable {
   /// increase, or all of one sign; areas that are negative or fall; a touch that is before the break; numbers that are not finite.
   static Result<PairTable> through(std::span<const PairTableKnot> knots, double touch);
 
+  /// The knots and the touch make all of it.
+  bool operator==(const PairTable& other) const { return knots_ == other.knots_ && touch_ == other.touch_; }
   [[nodiscard]] std::span<const PairTableKnot> knots() const { return knots_; }
   /// δ/R* at which an attached pair breaks, carries no load, and at which a pair attaches.
   [[nodiscard]] double break_overlap() const { return knots_.front().overlap; }
@@ -53,8 +57,8 @@ class PairTable {
   double touch_ = 0.0, rest_ = 0.0, rest_energy_ = 0.0;
 };
 
-/// A law of spheres that is this table, between spheres of one type or of types that have this very law. JKR with the moduli of the spheres
-/// stands in for it in contacts with obstacles and with spheres of other laws, which the table says nothing about.
+/// A law of spheres that is this table, between spheres of one type, or of types that have the same table and adhere to each other as each to itself. JKR with the
+/// moduli of the spheres stands in for it in contacts with obstacles and with other spheres, which the table says nothing about.
 std::shared_ptr<const SphereLaw> table_law(PairTable table);
 
 /// What there is to say about such a law.

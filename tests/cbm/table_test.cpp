@@ -65,7 +65,9 @@ TEST(PairTable, SaysWhatKnotsItCannotTake) {
 
 // The table is of spheres of one kind: obstacles and others are met by JKR, and springs, which JKR does not stand in for, by Hertz.
 TEST(PairTable, IsStoodInForByJkrElsewhere) {
-  const auto mine = table_law(example_table()), other = table_law(example_table());
+  const PairTable all = example_table();
+  const auto mine = table_law(all),
+             other = table_law(PairTable::through(all.knots().first(all.knots().size() - 1), all.touch_overlap()).value());
   const std::vector<SphereParameters> types = {{1.0, 0.4, mine}, {1.0, 0.4, other}, {1.0, 0.4, jkr_law()}, {1.0, 0.4, hertz_law()}};
   const std::vector<SurfacePair> surfaces(4 * 5, SurfacePair{0.05, 0.0, 0.0});
   const ContactTable table(types, surfaces);
@@ -76,6 +78,18 @@ TEST(PairTable, IsStoodInForByJkrElsewhere) {
   EXPECT_EQ(table.entry(0, 3).contact.law, hertz_law().get());
   EXPECT_EQ(table.entry(0, 4).contact.law, jkr_law().get());
   EXPECT_EQ(table.entry(0, 2).contact.coefficient[1], 0.05);
+}
+
+// Two types of one material, as of labelled cells in a mixture, with one file: what they are among each other they are with the others. A table has its adhesion in it.
+TEST(PairTable, IsThatOfTypesWhichHaveItBothAndAdhereAlike) {
+  const auto mine = table_law(example_table()), copy = table_law(example_table());
+  const std::vector<SphereParameters> types = {{1.0, 0.4, mine}, {1.0, 0.4, copy}};
+  std::vector<SurfacePair> surfaces(2 * 3, SurfacePair{0.05, 0.0, 0.0});
+  EXPECT_EQ(ContactTable(types, surfaces).entry(0, 1).contact.law, mine.get());
+  EXPECT_EQ(ContactTable(types, surfaces).entry(1, 0).contact.law, mine.get());
+  surfaces[1].adhesion = surfaces[3].adhesion = 0.02;
+  EXPECT_EQ(ContactTable(types, surfaces).entry(0, 1).contact.law, jkr_law().get());
+  EXPECT_EQ(ContactTable(types, surfaces).entry(1, 1).contact.law, copy.get());
 }
 
 // A block whose pairs have different tables: each by its own.

@@ -201,7 +201,7 @@ double staircase_ball_centre(double h, double radius) {
                momentum = std::pow((1 - root) / (1 + root), 2);
   std::vector<double> before = c;
   for (int i = 0; i < 400; ++i) {
-    op.evaluate(c.data(), rate.data(), false);
+    op.evaluate(0.0, c.data(), rate.data(), false);
     for (std::size_t v = 0; v < layout.concentrations(); ++v) {
       const double now = c[v];
       c[v] += free_voxel[v] * (step * rate[v] + momentum * (now - before[v]));

@@ -46,7 +46,7 @@ geometry:
   p: )" + obstacle + R"(
 loads: {w: {type: a, body_force: [0 nN, 0 nN, -1 nN]}}
 initial: [{type: a, at: [[0 um, 0 um, )" + std::to_string(z) +
-                                               R"( um]]}]
+                                              R"( um]]}]
 output: {report: false}
 )");
   return moments.size() < 2 ? std::nan("") : touching - moments.back().snapshot.cells[0].centroid.z;
@@ -59,18 +59,21 @@ TEST(CurvedObstacles, BearSpheresAsHertzSays) {
 }
 
 TEST(CurvedObstacles, ThatAreHollowBearSpheresOverMoreOfThem) {
-  const double reduced = 1.0 / (1.0 / 6.0 - 1.0 / 20.0);  // 8.6 µm: the mould has its nodes on the sphere, its faces up to 0.03 µm within it
-  EXPECT_NEAR(overlap("{sphere: {center: [0 um, 0 um, 0 um], radius: 20 um}, side: inside}", -13.8, -14.0), hertz(reduced), 0.01 * hertz(reduced) + 0.03);
+  const double reduced =
+      1.0 / (1.0 / 6.0 - 1.0 / 20.0);  // 8.6 µm: the mould has its nodes on the sphere, its faces up to 0.03 µm within it
+  EXPECT_NEAR(overlap("{sphere: {center: [0 um, 0 um, 0 um], radius: 20 um}, side: inside}", -13.8, -14.0), hertz(reduced),
+              0.01 * hertz(reduced) + 0.03);
   // One that fits the cell acts as one of twice its radius.
-  EXPECT_NEAR(overlap("{sphere: {center: [0 um, 0 um, 0 um], radius: 7 um}, side: inside}", -0.8, -1.0), hertz(12.0), 0.01 * hertz(12.0) + 0.02);
+  EXPECT_NEAR(overlap("{sphere: {center: [0 um, 0 um, 0 um], radius: 7 um}, side: inside}", -0.8, -1.0), hertz(12.0),
+              0.01 * hertz(12.0) + 0.02);
 }
 
 TEST(CurvedObstacles, ThatAreRodsBearSpheresOnEllipses) {
   for (const double rod : {6.0, 2.0}) {
     const double expected = hertz_elliptic(1.0 / kRadius + 1.0 / rod, 1.0 / kRadius);
     const std::string text = std::to_string(rod);
-    EXPECT_NEAR(overlap("{cylinder: {from: [-40 um, 0 um, 0 um], to: [40 um, 0 um, 0 um], radius: " + text + " um}}", rod + 5.7, rod + 6.0), expected,
-                0.01 * expected)
+    EXPECT_NEAR(overlap("{cylinder: {from: [-40 um, 0 um, 0 um], to: [40 um, 0 um, 0 um], radius: " + text + " um}}", rod + 5.7, rod + 6.0),
+                expected, 0.01 * expected)
         << rod;
   }
 }
