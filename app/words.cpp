@@ -5,6 +5,7 @@
 
 #include "core/numbers/number_text.h"
 #include "core/numbers/unit_conversion.h"
+#include "study/key_range.h"
 
 namespace morula::app {
 
@@ -22,10 +23,10 @@ Result<double> read_above_zero(const std::string& flag, const std::string& text,
 }  // namespace
 
 Result<double> read_time(const std::string& flag, const std::string& text) {
-  constexpr double kLongest = 3.2e9;  // a hundred years, as `time.end` [s]
+  const double longest = scenarios::range_of({.name = "", .quantity = Quantity::kTime}).high;
   MORULA_TRY_ASSIGN(const double time, read_above_zero(flag, text, Quantity::kTime, "48h"));
-  if (time <= kLongest) return time;
-  return Error{ErrorKind::kInput, flag + " must be at most " + number_text("%.2g", kLongest) + " s, but is '" + text + "'",
+  if (time <= longest) return time;
+  return Error{ErrorKind::kInput, flag + " must be at most " + number_text("%.2g", longest) + " s, but is '" + text + "'",
                "for example `" + flag + " 48h`"};
 }
 

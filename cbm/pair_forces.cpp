@@ -43,11 +43,10 @@ ContactTable::ContactTable(std::span<const SphereParameters> types, std::span<co
     for (std::size_t b = 0; b < materials_; ++b) {
       const SurfacePair& surface = surfaces[a * materials_ + b];
       // Always from the lower type's side, so that (a, b) and (b, a) are the same numbers to the last bit.
-      const SphereParameters& first = types[b < types_ && b < a ? b : a];
-      const SphereParameters* second = b < types_ ? &types[b < a ? a : b] : nullptr;
-      const std::size_t low = std::min(a, b), high = std::max(a, b);
-      const bool adhere_alike = second == nullptr || (surface.adhesion == surfaces[low * materials_ + low].adhesion &&
-                                                      surface.adhesion == surfaces[high * materials_ + high].adhesion);
+      const SphereParameters& first = types[std::min(a, b)];
+      const SphereParameters* second = b < types_ ? &types[std::max(a, b)] : nullptr;
+      const auto adheres_as = [&](std::size_t type) { return surface.adhesion == surfaces[type * materials_ + type].adhesion; };
+      const bool adhere_alike = second == nullptr || (adheres_as(a) && adheres_as(b));
       const SphereLaw* law = law_of(first, second, adhere_alike);
       const auto of_two = [&](double SphereParameters::*factor) {
         return second != nullptr ? std::sqrt(first.*factor * second->*factor) : 1.0;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "core/mesh/pseudonormal.h"
 
@@ -67,72 +66,6 @@ bool rests(const RigidSurface& surface, std::uint32_t part, const NearestFace& n
   return true;
 }
 
-/// ∫H dA of a face is a quarter of Σ length × angle over its edges: half of an edge's share, which is half of that (Steiner's formula of polyhedra). At a node H is
-/// that of the faces of its part around it, which evens out how the mesh is laid, and K what the angles around it lack of 2π, over its Voronoi area (Meyer, Desbrun, Schröder & Barr 2003, doi:10.1007/978-3-662-05105-4_2). At the rim of a
-/// part angles say nothing: it is taken to be bent in one direction there.
-class CurvatureOfParts {
- public:
-  CurvatureOfParts(const RigidSurface& surface, std::span<const Vec3d> normal)
-      : surface_(surface), topology_(*surface.topology), turned_(topology_.face_count(), 0.0), area_(topology_.face_count()) {
-    constexpr double kFlat = 1e-6;  // turn of a surface that is rounding [rad]
-    for (std::uint32_t f = 0; f < topology_.face_count(); ++f) area_[f] = 0.5 * norm(cross(side(f, 0, 1), side(f, 0, 2)));
-    for (const Edge& edge : topology_.edges()) {
-      if (surface_.part_of_face[edge.left] != surface_.part_of_face[edge.right]) continue;
-      const Vec3d along = surface_.position[edge.j] - surface_.position[edge.i];
-      const double length = norm(along), sine = dot(cross(normal[edge.left], normal[edge.right]), along) / length;
-      const double angle = std::atan2(sine, dot(normal[edge.left], normal[edge.right]));
-      if (std::abs(angle) < kFlat) continue;
-      for (const std::uint32_t face : {edge.left, edge.right}) turned_[face] += 0.25 * length * angle;
-    }
-  }
-
-  [[nodiscard]] SurfaceCurvature at_corner(std::uint32_t face, std::size_t corner) const {
-    const std::uint32_t node = topology_.faces()[face][corner];
-    double turned = 0.0, area = 0.0, angles = 0.0, voronoi = 0.0;
-    bool rim = false;
-    for (const std::uint32_t other : topology_.faces_of_node(node)) {
-      if (surface_.part_of_face[other] != surface_.part_of_face[face]) {
-        rim = true;
-        continue;
-      }
-      turned += turned_[other];
-      area += area_[other];
-      const Triangle& t = topology_.faces()[other];
-      const std::size_t here = t[0] == node ? 0 : t[1] == node ? 1 : 2;
-      const Vec3d a = side(other, here, (here + 1) % 3), b = side(other, here, (here + 2) % 3);
-      angles += std::atan2(norm(cross(a, b)), dot(a, b));
-      voronoi += voronoi_part(a, b, area_[other]);
-    }
-    if (turned == 0.0) return {};
-    return {turned / area, rim ? 0.0 : (2.0 * std::numbers::pi - angles) / voronoi};
-  }
-
- private:
-  /// Of a triangle with the sides a and b what is nearest to the corner between them; of an obtuse one a half or a quarter.
-  static double voronoi_part(const Vec3d& a, const Vec3d& b, double area) {
-    const Vec3d c = b - a;
-    const double here = dot(a, b), at_a = -dot(a, c), at_b = dot(b, c);
-    if (here < 0.0) return 0.5 * area;
-    if (at_a < 0.0 || at_b < 0.0) return 0.25 * area;
-    return (norm2(a) * at_b + norm2(b) * at_a) / (16.0 * area);  // ⅛(|a|² cot B + |b|² cot A), cot = dot/2A
-  }
-  [[nodiscard]] Vec3d side(std::uint32_t face, std::size_t from, std::size_t to) const {
-    const Triangle& t = topology_.faces()[face];
-    return surface_.position[t[to]] - surface_.position[t[from]];
-  }
-  const RigidSurface& surface_;
-  const Topology& topology_;
-  std::vector<double> turned_;  ///< ∫H dA by face [µm]
-  std::vector<double> area_;    ///< by face [µm²]
-};
-
-void find_curvature(RigidSurface& surface, std::span<const Vec3d> normal) {
-  const CurvatureOfParts of_parts(surface, normal);
-  surface.curvature.resize(surface.topology->face_count());
-  for (std::uint32_t f = 0; f < surface.topology->face_count(); ++f)
-    for (std::size_t corner = 0; corner < 3; ++corner) surface.curvature[f][corner] = of_parts.at_corner(f, corner);
-}
-
 }  // namespace
 
 void find_smooth_parts(RigidSurface& surface) {
@@ -163,7 +96,7 @@ void find_smooth_parts(RigidSurface& surface) {
     }
     std::sort(part.face.begin(), part.face.end());
   }
-  find_curvature(surface, normal);
+  surface.curvature = curvature_of_parts(topology, surface.position, surface.geometry, surface.part_of_face);
   if (surface.parts.size() == 1) return;
   for (SmoothPart& part : surface.parts) part.tree = tree_of(surface, part.face);
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/contact/surface_curvature.h"
 #include "core/mesh/surface_geometry.h"
 #include "core/mesh/topology.h"
 #include "core/mesh/triangle_tree.h"
@@ -21,12 +22,6 @@ struct SmoothPart {
 
 /// Turn of a surface from which on the two sides of an edge are two parts: a regular octagon has eight walls, a regular decagon is a curve [rad].
 inline constexpr double kSharpTurn = 0.7;
-
-/// How a surface bends in its two principal directions, κ > 0 where it bulges towards the cells.
-struct SurfaceCurvature {
-  double mean = 0.0;      ///< (κ₁ + κ₂)/2 [1/µm]
-  double gaussian = 0.0;  ///< κ₁ κ₂ [1/µm²]
-};
 
 /// A rigid triangulated obstacle. Its shape never changes; it may move as a whole.
 struct RigidSurface {
@@ -58,7 +53,7 @@ class RigidSurfaces {
   std::shared_ptr<const std::vector<RigidSurface>> surfaces_;
 };
 
-/// Finds the smooth parts of a surface that has its topology, positions and tree, and their curvature.
+/// Finds the smooth parts of a surface that has all else, and their curvature.
 void find_smooth_parts(RigidSurface& surface);
 
 /// Where a ball around p touches a part of a surface.

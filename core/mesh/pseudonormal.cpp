@@ -16,6 +16,11 @@ double corner_angle(const Triangle& face, int corner, std::span<const Vec3d> pos
   return std::atan2(norm(cross(u, v)), dot(u, v));  // atan2(0, 0) = 0
 }
 
+double turning_angle(const Vec3d& left_normal, const Vec3d& right_normal, const Vec3d& along) {
+  // Walking along, a ridge turns the left normal into the right one about the direction of walking.
+  return std::atan2(dot(cross(left_normal, right_normal), along) / norm(along), dot(left_normal, right_normal));
+}
+
 Vec3d pseudonormal(const Topology& topology, std::span<const Vec3d> position, std::uint32_t face, TriangleFeature feature) {
   const auto faces = topology.faces();
   if (feature == TriangleFeature::kFace) return unit_face_normal(faces[face], position);

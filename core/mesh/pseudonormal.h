@@ -12,6 +12,9 @@ Vec3d unit_face_normal(const Triangle& face, std::span<const Vec3d> position);
 /// Angle of a face at its corner 0, 1 or 2 [rad]; zero where an edge has no length.
 double corner_angle(const Triangle& face, int corner, std::span<const Vec3d> position);
 
+/// Angle by which a surface turns across an edge, from its left face to its right one along its direction: 0 flat, > 0 convex [rad]. Normals of any lengths.
+double turning_angle(const Vec3d& left_normal, const Vec3d& right_normal, const Vec3d& along);
+
 /// A vector on the outer side of a feature of a face: the face's normal, the sum of both faces' unit normals at an edge, and at a node the sum
 /// of the faces' unit normals weighted by their angles. A point whose nearest point on the surface lies on that feature is outside exactly
 /// when its offset from there has a positive component along this vector (Bærentzen & Aanæs 2005, doi:10.1109/TVCG.2005.49). Not normalised.

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/mesh/pseudonormal.h"
 #include "core/mesh/topology.h"
 
 namespace morula {
@@ -71,10 +72,8 @@ std::shared_ptr<const ReferenceShape> make_reference_shape(std::shared_ptr<const
   for (const Edge& edge : topology->edges()) {
     const Vec3d along = position[edge.j] - position[edge.i];
     const Vec3d left = area_vector(faces[edge.left], position), right = area_vector(faces[edge.right], position);
-    const double length = norm(along);
-    shape->edge_length.push_back(length);
-    // Walking from i to j, a ridge turns the left normal into the right one about the direction of walking.
-    shape->hinge_angle.push_back(std::atan2(dot(cross(left, right), along) / length, dot(left, right)));
+    shape->edge_length.push_back(norm(along));
+    shape->hinge_angle.push_back(turning_angle(left, right, along));
   }
   shape->topology = std::move(topology);
   shape->position = std::move(position);

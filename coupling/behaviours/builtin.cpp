@@ -51,8 +51,7 @@ LawInfo phases_law() {
           .title = "Phases of the cycle",
           .equation =
               "dτ_p/dt = −g_p, the next phase begins at τ_p = 0 with its own τ, after the last phase of growth not before the cell has its "
-              "division "
-              "volume; the cell divides after the last. Growth of an unlimited "
+              "division volume; the cell divides after the last. Growth of an unlimited "
               "population α: Π_p E[e^(−α T_p)] = ½",
           .source = "Powell 1956, doi:10.1099/00221287-15-3-492; physics/cbm.md §5",
           .parameters = {}};

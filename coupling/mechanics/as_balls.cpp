@@ -103,9 +103,7 @@ void add_obstacles_of_shells(const Workspace& work, const Balls& balls, Standing
         const auto foot = foot_on_part(obstacles[o], part, center, radius);
         if (!foot || !(foot->distance < radius)) continue;
         const double overlap = radius - foot->distance;
-        const double area =
-            contact.law->respond(contact, cbm::radius_on(radius, foot->curvature.mean, foot->curvature.gaussian), overlap, true)
-                .response.area;
+        const double area = contact.law->respond(contact, cbm::radius_on(radius, foot->curvature), overlap, true).response.area;
         to[i].outside = std::max(to[i].outside, cbm::part_of_range(contact, overlap, area, radius));
         to[i].caps += cbm::plane_cap(radius, overlap).volume;
       }

@@ -212,7 +212,7 @@ void SphereContacts::evaluate_rigid(const Scene& scene, std::size_t k) {
   const auto& entry = table_.entry(body.material, material_of(pair));
   const cbm::PairContact contact = contact_with_obstacle(scene, pair);
   const auto [response, attached_next] =
-      contact.law->respond(contact, cbm::radius_on(body.radius, pair.curvature->mean, pair.curvature->gaussian), overlap, pair.attached);
+      contact.law->respond(contact, cbm::radius_on(body.radius, *pair.curvature), overlap, pair.attached);
   pair.force = response.force;
   pair.energy = response.energy;
   pair.area = response.area;

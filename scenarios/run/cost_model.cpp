@@ -25,9 +25,8 @@ constexpr double kMostOfAStep = 10.0;  // times the mean of those before it
 constexpr double kCostPerNode = 4e-6, kCostPerSphere = 1.2e-5;
 constexpr double kPlacing = 3e-4;  // CPU of finding the place of a cell, on these [s]
 constexpr double kBytesPerNode = 2200.0, kBytesPerSphere = 2500.0;
-constexpr double kBytesPerVoxel = 20.0,
-                 kBytesToSolve =
-                     290.0;  // of all fields; of the largest, which are solved one by one: stages and multigrid, measured on 10⁶ voxels
+// Of all fields; and of the largest, for they are solved one by one: stages and multigrid, measured on 10⁶ voxels
+constexpr double kBytesPerVoxel = 20.0, kBytesToSolve = 290.0;
 constexpr double kBytesAlways = 3.0e7, kBytesReport = 6.5e7;     // measured: program and libraries; the pictures of the report
 constexpr std::int64_t kSampled = 20'000;                        // cells up to which places are made and steps are tried
 constexpr double kSampleTime = 3.0, kMostSampleTime = 10.0;      // CPU time of the steps that are tried, more where they are few [s]
@@ -77,46 +76,50 @@ Load load_after(const Load& load, double growth, double duration) {
   return out;
 }
 
-}  // namespace
-
-double free_growth_rate(const Model& model, const std::vector<std::int64_t>& cells_of_type, double duration) {
-  constexpr int kSteps = 400;
-  std::vector<double> rate, cells(cells_of_type.begin(), cells_of_type.end());
-  for (const CellType& type : model.types) rate.push_back(type.cycles ? population_growth_rate(type) : 0.0);
-  const double before = std::accumulate(cells.begin(), cells.end(), 0.0);
-  if (!(before > 0.0)) return 0.0;
-  if (std::ranges::all_of(model.types, [](const CellType& type) { return type.fates.all.empty(); }) || !(duration > 0.0)) {
-    double sum = 0.0;
-    for (std::size_t t = 0; t < rate.size(); ++t) sum += rate[t] * cells[t];
-    return sum / before;
-  }
-  // A division takes a cell of its type and gives two, of types by their fates: dN_s/dt = Σ_t r_t (E_st − δ_st) N_t, by the midpoint rule.
-  const auto change = [&](const std::vector<double>& n) {
-    std::vector<double> out(n.size(), 0.0);
-    for (std::size_t t = 0; t < n.size(); ++t) {
-      double alike = 1.0;
-      for (const Fate& fate : model.types[t].fates.all) {
-        alike -= fate.share;
-        for (const std::uint16_t to : fate.type) out[to] += fate.share * rate[t] * n[t];
-      }
-      out[t] += (2.0 * alike - 1.0) * rate[t] * n[t];
+/// How the numbers of cells by type change, which divide at these rates: a division takes a cell of its type and gives two, of types by their fates.
+std::vector<double> change_by_divisions(const Model& model, const std::vector<double>& rate, const std::vector<double>& cells) {
+  std::vector<double> out(cells.size(), 0.0);
+  for (std::size_t t = 0; t < cells.size(); ++t) {
+    const double divisions = rate[t] * cells[t];
+    double alike = 1.0;
+    for (const Fate& fate : model.types[t].fates.all) {
+      alike -= fate.share;
+      for (const std::uint16_t to : fate.type) out[to] += fate.share * divisions;
     }
-    return out;
-  };
+    out[t] += (2.0 * alike - 1.0) * divisions;
+  }
+  return out;
+}
+
+/// Logarithm of how many times as many cells come of these after a time, by the midpoint rule.
+double growth_by_fates(const Model& model, const std::vector<double>& rate, std::vector<double> cells, double duration) {
+  constexpr int kSteps = 400;
   const double step = duration / kSteps;
-  double grown = 0.0;  // as a logarithm
+  double grown = -std::log(std::accumulate(cells.begin(), cells.end(), 0.0));
+  const auto add = [](std::vector<double>& to, double times, const std::vector<double>& change) {
+    for (std::size_t t = 0; t < to.size(); ++t) to[t] = std::max(0.0, to[t] + times * change[t]);
+  };
   for (int k = 0; k < kSteps; ++k) {
-    const std::vector<double> first = change(cells);
     std::vector<double> middle = cells;
-    for (std::size_t t = 0; t < cells.size(); ++t) middle[t] += 0.5 * step * first[t];
-    const std::vector<double> second = change(middle);
-    for (std::size_t t = 0; t < cells.size(); ++t) cells[t] = std::max(0.0, cells[t] + step * second[t]);
-    const double sum = std::accumulate(cells.begin(), cells.end(), 0.0);
-    if (!(sum > 0.0)) return 0.0;
+    add(middle, 0.5 * step, change_by_divisions(model, rate, cells));
+    add(cells, step, change_by_divisions(model, rate, middle));
+    const double sum = std::accumulate(cells.begin(), cells.end(), 0.0);  // numbers may go beyond those of a double
     grown += std::log(sum);
     for (double& n : cells) n /= sum;
   }
-  return (grown - std::log(before)) / duration;
+  return grown;
+}
+
+}  // namespace
+
+double free_growth_rate(const Model& model, const std::vector<std::int64_t>& cells_of_type, double duration) {
+  std::vector<double> rate, cells(cells_of_type.begin(), cells_of_type.end());
+  for (const CellType& type : model.types) rate.push_back(type.cycles ? population_growth_rate(type) : 0.0);
+  const double count = std::accumulate(cells.begin(), cells.end(), 0.0);
+  if (!(count > 0.0)) return 0.0;
+  const bool any_fates = std::ranges::any_of(model.types, [](const CellType& type) { return !type.fates.all.empty(); });
+  if (any_fates && duration > 0.0) return growth_by_fates(model, rate, cells, duration) / duration;
+  return std::inner_product(rate.begin(), rate.end(), cells.begin(), 0.0) / count;
 }
 
 double longest_step(const Study& study) { return std::min(study.model.step.max_step, study.time.output); }

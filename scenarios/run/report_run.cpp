@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <new>
 #include <sstream>
 
 #include "report/pictures/palette.h"
@@ -281,7 +282,9 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
   return run / "report.html";
 }
 
-Result<RunOutputs> finish_outputs(const Study& study, const RunRecord& record, const RunFolder& folder) {
+namespace {
+
+Result<RunOutputs> make_outputs(const Study& study, const RunRecord& record, const RunFolder& folder) {
   RunOutputs out;
   MORULA_TRY_ASSIGN(out.judgement, judge(study, folder.path()));
   MORULA_TRY(folder.write_verdict(out.judgement));
@@ -296,6 +299,17 @@ Result<RunOutputs> finish_outputs(const Study& study, const RunRecord& record, c
     MORULA_TRY_ASSIGN(out.report, write_run_report(study, record, folder.path(), out.judgement));
   }
   return out;
+}
+
+}  // namespace
+
+Result<RunOutputs> finish_outputs(const Study& study, const RunRecord& record, const RunFolder& folder) {
+  try {
+    return make_outputs(study, record, folder);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorKind::kResources, "out of memory at the criteria, pictures and report",
+                 "the results are whole: `morula resume` makes them again, where there is more memory"};
+  }
 }
 
 Result<fs::path> plot_run(const fs::path& run, std::shared_ptr<const Laws> laws) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <new>
 
 #include "core/numbers/joined.h"
 #include "core/numbers/number_text.h"
@@ -31,16 +30,6 @@ double next_multiple(double time, double interval) {
   double k = std::floor(time / interval);
   while (k * interval <= time * (1.0 + kSameTime)) ++k;
   return k * interval;
-}
-
-/// Criteria, pictures and report. They need memory that the run itself did not: where there is none, the run is told as failed and goes on later.
-Result<RunOutputs> outputs_of(const Study& study, const RunRecord& record, const RunFolder& folder) {
-  try {
-    return finish_outputs(study, record, folder);
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorKind::kResources, "out of memory at the criteria, pictures and report",
-                 "the results are whole: `morula resume` makes them again, where there is more memory"};
-  }
 }
 
 }  // namespace
@@ -410,7 +399,7 @@ Status RunLoop::finish(RunState state, ErrorKind kind, RunSummary& summary) {
   }
   Status written = folder_.write_status(status(state));
   if (written.ok() && comm_.is_root() && done) {
-    Result<RunOutputs> outputs = outputs_of(study_, record_, folder_);
+    auto outputs = finish_outputs(study_, record_, folder_);
     if (outputs.ok()) {
       record_.message = outputs->judgement.failures();
       record_.exit_code = record_.message.empty() ? 0 : exit_code(ErrorKind::kVerification);
