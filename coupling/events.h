@@ -49,11 +49,12 @@ struct EventReason {
 /// What an exchange of bodies did to the neighbours of the cell, which kept theirs (decision 0050).
 struct ExchangeEffect {
   std::uint32_t neighbours = 0;
+  bool became_shell = false;
   double volume = 0.0;  ///< of the body that the cell had [µm³]
-  /// dV: how much more room the cell takes as a shell than as a sphere, whose ball overlaps its neighbours': the caps of the ball behind the
-  /// planes of its contacts. Of a promotion > 0, of a demotion < 0 [µm³].
+  /// dV: how much more room the cell takes than before, which as a sphere has its ball without the caps behind the planes of its contacts, and as a shell the
+  /// volume that its pressure leaves. Of promotions mostly > 0, of demotions < 0 [µm³].
   double room = 0.0;
-  double later = 0.0;  ///< of `room`, what a new shell among shells takes little by little (decision 0059) [µm³]
+  double later = 0.0;  ///< of its free volume, what a new shell among shells takes little by little (decision 0059) [µm³]
   double largest_force = 0.0, mean_force = 0.0;  ///< change of the force on a neighbour before anyone has moved [nN]
   double largest_way = 0.0, mean_way = 0.0;      ///< of a neighbour from just before the exchange on, over its radius; of kExchangeSettled
 };

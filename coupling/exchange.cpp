@@ -76,18 +76,22 @@ std::vector<Event> Simulation::swap_bodies() {
   for (std::size_t k = 0; k < orders.size(); ++k) {
     CellRecord& cell = changed.emplace_back(record_of(tissue_, bodies[k]));
     const bool up = orders[k].to == BodyKind::kShell;
+    const CellType& type = model_.types[cell.row.type];
     const double had = volume_of(cell);
     double later = 0.0;
     if (up) {
       if (may_stay) before.push_back(cell);
-      later = promote(cell, model_.types[cell.row.type], pressure[k], tissue_.clock.time, shapes_, model_.seed,
+      later = promote(cell, type, pressure[k], tissue_.clock.time, shapes_, model_.seed,
                       model_.swaps.gradual ? watch.caps_among_shells_of(cell.row.id) : 0.0);
       fresh.push_back(cell.row.id);
     } else {
-      demote(cell, tissue_.clock.time);
+      demote(cell, type, tissue_.clock.time);
     }
     events.push_back({tissue_.clock.time, up ? EventKind::kPromotion : EventKind::kDemotion, cell.row.id, {}, {}, orders[k].reason});
-    events.back().exchange = ExchangeEffect{.volume = had, .room = (up ? 1.0 : -1.0) * watch.caps_of(cell.row.id), .later = later};
+    const double as_shell = up ? volume_under_pressure(had, pressure[k], type) : had;
+    const double as_sphere = (up ? had : volume_of(cell)) - watch.caps_of(cell.row.id);
+    events.back().exchange =
+        ExchangeEffect{.became_shell = up, .volume = had, .room = up ? as_shell - as_sphere : as_sphere - as_shell, .later = later};
   }
   replace_cells(tissue_, rows, std::move(changed));
   attach_touching(tissue_, touching);  // what adhered as a shell goes on adhering

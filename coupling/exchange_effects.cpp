@@ -217,7 +217,7 @@ void Simulation::tell_settled_exchanges(std::vector<Event>& events) {
   for_each_exchange(ways, exchange_of, [&](std::size_t first, std::size_t last) {
     if (!comm_.is_root()) return;
     const WatchedNeighbour& one = due[ways[first].number];
-    ExchangeEffect effect{.neighbours = static_cast<std::uint32_t>(last - first), .room = one.room};
+    ExchangeEffect effect{.neighbours = static_cast<std::uint32_t>(last - first), .became_shell = one.is_promotion != 0, .room = one.room};
     for (std::size_t k = first; k < last; ++k) {
       effect.largest_way = std::max(effect.largest_way, ways[k].part);
       effect.mean_way += ways[k].part / static_cast<double>(last - first);

@@ -40,11 +40,20 @@ struct Outcome {
 
 bool holds(const Box& box, const Box& other) { return box.contains(other.low) && box.contains(other.high); }
 
-/// New shells find their shape, at their volume.
+double enclosed_volume_of(const Tissue& part, std::size_t shell) {
+  const auto faces = part.shells.topology(shell).faces();
+  const auto nodes = part.shells.nodes(shell);
+  return enclosed_volume(faces, nodes, volume_centroid(faces, nodes));
+}
+
+/// New shells find their shape, at the volume with which they begin.
 double find_shapes(Mechanics& mechanics, Tissue& part, std::span<const char> moves) {
+  std::vector<double> volume(part.shells.size());
+  for (std::size_t s = 0; s < volume.size(); ++s)
+    if (moves[s] != 0) volume[s] = enclosed_volume_of(part, s);
   const double overlap = mechanics.relax(part, moves);
-  for (std::size_t s = 0; s < part.shells.size(); ++s)
-    if (moves[s] != 0) set_enclosed_volume(part.shells.topology(s), part.shells.nodes(s), part.shells.rest_volume[s]);
+  for (std::size_t s = 0; s < volume.size(); ++s)
+    if (moves[s] != 0) set_enclosed_volume(part.shells.topology(s), part.shells.nodes(s), volume[s]);
   return overlap;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cbm/division_ramp.h"
+#include "cbm/pair_forces.h"
 #include "core/ball.h"
 #include "core/parallel/pack.h"
 #include "core/random/rotation.h"
@@ -17,6 +18,8 @@
 
 namespace morula {
 namespace {
+
+constexpr double kLeastPart = 0.5;  ///< of its ball, that a new shell has in any case
 
 struct Wish {
   BodyKind body;
@@ -189,15 +192,24 @@ double free_reference_volume(double target_volume, const CellType& type, double 
   return dcm::pressure_free_reference(target_volume, type.shell.tension * (1.0 + deviation), type.shell.bulk_modulus);
 }
 
+double volume_under_pressure(double ball, double pressure, const CellType& type) {
+  if (type.osmosis.acts()) return ball;
+  return std::max(kLeastPart * ball, cbm::pressed_volume(pressure, ball, type.shell.bulk_modulus));
+}
+
 double promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes, std::uint32_t seed,
-               double later) {
+               double caps) {
   const SphereRecord& sphere = *cell.sphere;
-  const double ball = ball_volume(sphere.radius);
-  const double left_out = std::min(later, 0.5 * ball), volume = ball - left_out;
+  const double ball = ball_volume(sphere.radius), pressed = volume_under_pressure(ball, pressure, type);
+  const double volume = std::max(kLeastPart * ball, std::min(pressed, std::max(pressed, ball) - caps));
   // −K_V ln(V/V0) = p + 2γ/R: the shell pushes back as hard as the sphere was pushed, or pulls where it was pulled.
   const double deviation = morula::deviation(cell.row, type, Trait::kTension);
-  const double reference = free_reference_volume(volume, type, deviation) * std::exp(pressure / type.shell.bulk_modulus);
+  const double to_come = (pressed - volume) * (ball / pressed);
+  double reference = free_reference_volume(ball - to_come, type, deviation);
+  if (type.osmosis.acts()) reference *= std::exp(pressure / type.shell.bulk_modulus);
   ShellRecord shell = spherical_shell(shapes.icosphere(type.shell_nodes).value(), sphere.position, volume, reference);
+  shell.rest_volume = cell.row.target_volume;  // stress-free at the size of the cell, as in every step
+  shell.rest_length = free_rest_lengths(*shell.shape, shell.rest_volume);
   const Rotation turn = random_rotation(Random(seed, RandomStream::kOrientation), cell.row.id, 0);
   for (Vec3d& p : shell.position) p = sphere.position + turn * (p - sphere.position);
   for_each_shared_column([&]<class Column>(const Column& of_nodes, const auto& of_sphere) {
@@ -209,20 +221,19 @@ double promote(CellRecord& cell, const CellType& type, double pressure, double t
   cell.row.body = BodyKind::kShell;
   cell.shell = std::move(shell);
   cell.sphere.reset();
-  return left_out;
+  return to_come;
 }
 
-void demote(CellRecord& cell, double time) {
+void demote(CellRecord& cell, const CellType& type, double time) {
   const ShellRecord& shell = *cell.shell;
   const auto faces = shell.shape->topology->faces();
-  const Vec3d center = volume_centroid(faces, shell.position);
-  const double volume = enclosed_volume(faces, shell.position, center);
   SphereRecord sphere;
-  sphere.position = center;
-  sphere.radius = ball_radius(volume);
+  sphere.position = volume_centroid(faces, shell.position);
+  if (type.osmosis.acts())
+    cell.row.reference_excess = std::log(enclosed_volume(faces, shell.position, sphere.position) / cell.row.target_volume);
+  sphere.radius = ball_radius(cell.row.target_volume * std::exp(cell.row.reference_excess));
   for_each_shared_column(
       [&](const auto& of_nodes, const auto& of_sphere) { of_sphere.give(sphere, std::array{mean_of(of_nodes.values(shell))}); });
-  cell.row.reference_excess = std::log(volume / cell.row.target_volume);
   cell.row.last_swap_time = time;
   cell.row.body = BodyKind::kSphere;
   cell.sphere = std::move(sphere);

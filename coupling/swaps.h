@@ -73,13 +73,18 @@ bool is_too_tight_for_a_sphere(const CellRow& row, const CellType& type, double 
 /// type's law of spheres ends at a packing. Collective.
 bool swaps_wait(const Model& model, const Tissue& tissue, const SwapBodies& bodies, std::span<const double> caps, const Comm& comm);
 
-/// The sphere becomes a shell of the same volume, its mesh a sphere in the orientation that the seed gives to its id, so that no direction of the
-/// lattice is common to the shells of a tissue; V0 such that its inner pressure bears `pressure` (negative: tension) and the cortex. Of the volume,
-/// `later` is left out at first, of which the shell keeps half in any case, and comes as the cell eases to its own [µm³]; gives what was left out.
+/// What a pressure [kPa] leaves of the ball V of a cell of this type that becomes a shell: V exp(−p/K_V), half of it at least; the ball itself
+/// where the cell follows its water, whose amount is the ball (decision 0076) [µm³].
+double volume_under_pressure(double ball, double pressure, const CellType& type);
+/// The sphere becomes a shell of volume_under_pressure(), its mesh a sphere in the orientation that the seed gives to its id, so that no direction of
+/// the lattice is common to the shells of a tissue. V0 is that of the free cell whose volume is the ball: its inner pressure bears `pressure` (negative:
+/// tension) and the cortex. Where the ball has `caps` that are left out at first [µm³], the shell has what is left of it, and half of the ball
+/// in any case; gives the part of the free volume that is still to come as the cell eases to its own [µm³].
 double promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes, std::uint32_t seed,
-               double later = 0.0);
-/// The shell becomes a sphere of the same volume at its centroid.
-void demote(CellRecord& cell, double time);
+               double caps = 0.0);
+/// The shell becomes a sphere at its centroid: of the volume that it has when nothing presses it, for a sphere that is pressed overlaps its
+/// neighbours; of the shell's own volume where the cell follows its water (decision 0076).
+void demote(CellRecord& cell, const CellType& type, double time);
 
 /// The ids of all ranks, sorted. Collective.
 std::vector<CellId> ids_of_all_ranks(const std::vector<CellId>& mine, const Comm& comm);

@@ -1,8 +1,8 @@
 #pragma once
 #include <span>
 
+#include "core/numbers/hash128.h"
 #include "core/parallel/comm.h"
-#include "results/hash128.h"
 
 namespace morula::scenarios {
 

@@ -5,8 +5,8 @@
 #include <cerrno>
 #include <string_view>
 
+#include "core/numbers/hash128.h"
 #include "results/file_io.h"
-#include "results/hash128.h"
 #include "results/parcels.h"
 
 namespace morula::scenarios {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "core/numbers/hash128.h"
 #include "results/file_io.h"
-#include "results/hash128.h"
 #include "results/hash_sums.h"
 #include "results/hdf5_handle.h"
 #include "results/hdf5_journal.h"

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <memory>
 
+#include "core/numbers/hash128.h"
 #include "results/file_io.h"
-#include "results/hash128.h"
 #include "results/hash_sums.h"
 #include "results/hdf5_handle.h"
 #include "results/hdf5_journal.h"

@@ -241,6 +241,7 @@ namespace {
 /// What an exchange of bodies does: room and forces at once, ways when its neighbours have come to rest.
 void add_exchange(const Event& event, Json& json) {
   const ExchangeEffect& effect = *event.exchange;
+  json["became"] = effect.became_shell ? "shell" : "sphere";
   json["room_um3"] = number(effect.room);
   if (effect.later > 0.0) json["room_later_um3"] = number(effect.later);
   json["neighbours"] = effect.neighbours;
@@ -256,6 +257,7 @@ std::optional<ExchangeEffect> exchange_in(const Json& json) {
   if (!json.contains("room_um3")) return std::nullopt;
   ExchangeEffect out;
   out.neighbours = number_at(json, "neighbours", std::uint32_t{0});
+  out.became_shell = text_at(json, "became") == "shell";
   out.room = number_at(json, "room_um3", 0.0), out.later = number_at(json, "room_later_um3", 0.0);
   out.volume = number_at(json, "cell_volume_um3", 0.0);
   out.largest_force = number_at(json, "largest_force_nN", 0.0), out.mean_force = number_at(json, "mean_force_nN", 0.0);

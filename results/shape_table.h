@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/mesh/topology.h"
+#include "core/numbers/hash128.h"
 #include "core/parallel/comm.h"
 #include "core/result.h"
-#include "results/hash128.h"
 #include "results/hdf5_plan.h"
 #include "results/hdf5_reader.h"
 

@@ -4,10 +4,10 @@
 #include <set>
 #include <type_traits>
 
+#include "core/numbers/hash128.h"
 #include "results/build_info.h"
 #include "results/checkpoint.h"
 #include "results/file_io.h"
-#include "results/hash128.h"
 #include "results/hdf5_plan.h"
 #include "results/hdf5_reader.h"
 #include "results/parcels.h"

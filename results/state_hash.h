@@ -1,9 +1,9 @@
 #pragma once
 #include <memory>
 
+#include "core/numbers/hash128.h"
 #include "core/parallel/comm.h"
 #include "coupling/tissue.h"
-#include "results/hash128.h"
 
 namespace morula::scenarios {
 

@@ -258,6 +258,10 @@ constexpr ErrorCode kCodes[] = {
      "MORULA_WITH_GPL=OFF leaves it out; cells from files keep their nodes then."},
     {692, "two laws of one name",
      "A program with laws of its own has added one under a name that is there already. The study could not say which of them it means."},
+    {693, "fitted law that was changed",
+     "A file that `morula calibrate` made says by its `checksum` what it was like. Somebody has changed it since: what it says about its "
+     "own error and range "
+     "may not hold. A file without a `checksum` is taken as it is."},
     {700, "cycle that never ends",
      "A cell that divides at a volume must grow, in one phase at least; one that does not grow divides by the clock of its phases."},
     {701, "division below the size at birth", "A sizer's division volume must be larger than the mean birth volume of the type."},

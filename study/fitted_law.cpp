@@ -1,7 +1,9 @@
 #include "study/fitted_law.h"
 
+#include <span>
 #include <utility>
 
+#include "core/numbers/hash128.h"
 #include "study/document.h"
 #include "study/read_section.h"
 
@@ -39,7 +41,7 @@ struct WithShells {
 };
 struct File {
   Given<std::uint64_t> schema, nodes;
-  Given<std::string> version, type, material, better;
+  Given<std::string> version, type, material, better, checksum;
   Given<double> radius, adhesion_of_shells;
   Given<double> young, poisson, adhesion, touch;
   Beside jkr, table;
@@ -163,6 +165,7 @@ void declare_file(Section& s, File& f) {
     s.text(required(name), *value);
   s.text(section("hash"), f.other);
   s.whole(section("nodes"), f.nodes);
+  s.text(section("checksum"), f.checksum);
   s.quantity(number("radius", Q::kLength, 0.01, 1e3), f.radius);
   s.quantity(number("adhesion_of_shells", Q::kTension, 0.0, 1e4), f.adhesion_of_shells);
   s.word({.name = "better", .doc = "", .required = true, .words = {"jkr", "table"}, .example = "jkr"}, f.better);
@@ -212,6 +215,8 @@ FittedLaw::Spheres spheres_of(const Beside& read, Diagnostics& diagnostics) {
 
 }  // namespace
 
+std::string checksum_of_law(std::string_view text_before) { return hash128(std::as_bytes(std::span(text_before))).hex(); }
+
 std::optional<FittedLaw> read_fitted_law(const std::filesystem::path& path, const std::string& shown_name, const Place& referred_from,
                                          const Laws& laws, Diagnostics& diagnostics) {
   const std::size_t errors = diagnostics.error_count();
@@ -229,6 +234,11 @@ std::optional<FittedLaw> read_fitted_law(const std::filesystem::path& path, cons
   declare_file(top, file);
   top.finish();
   if (diagnostics.error_count() > errors) return {};
+  if (const std::string_view text(source->bytes); file.checksum.given) {
+    if (checksum_of_law(text.substr(0, text.rfind("checksum:"))) != file.checksum.value)
+      diagnostics.warning(693, file.checksum.place, "the fitted law is not as it was made: its `checksum` is another one",
+                          "`morula calibrate` makes it again; without the line `checksum` it is a law of your own");
+  }
   FittedLaw out;
   out.version = file.version.value, out.type = file.type.value, out.material = file.material.value;
   out.table_is_better = file.better.value == "table";

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cbm/laws/table.h"
@@ -40,7 +41,10 @@ struct FittedLaw {
   double smallest_radius = 0.0, largest_radius = 0.0;  ///< of the cells that were fitted [µm]
 };
 
-/// Reads such a file. Errors go to `diagnostics`: E601–E605 at `referred_from`, what is wrong in the file at its place (E1xx, E2xx, E3xx), and E533 where
+/// What a file says of itself in its last line, `checksum`: of all bytes before that line.
+std::string checksum_of_law(std::string_view text_before);
+
+/// Reads such a file. W693 where it is not as it was made. Errors go to `diagnostics`: E601–E605 at `referred_from`, what is wrong in the file at its place (E1xx, E2xx, E3xx), and E533 where
 /// its numbers make no law, E530 where they make no curve of packing; then nothing.
 std::optional<FittedLaw> read_fitted_law(const std::filesystem::path& path, const std::string& shown_name, const Place& referred_from,
                                          const Laws& laws, Diagnostics& diagnostics);

@@ -342,21 +342,33 @@ void ContactLayer::collect(const ContactScene& scene, const SurfacePair& pair, i
   for (const std::uint16_t node : pair.node[side]) gradient.force[body.first_point + node] += part.force[node].value();
   if (part.has_node_normal)
     for (const std::uint16_t node : pair.node[side]) gradient.node_normal[body.first_point + node] += part.node_normal[node];
-  for (std::size_t m = 0; m < part.source_face.size(); ++m)
-    gradient.face_energy[scene.first_face[number] + part.source_face[m]] += part.face_energy[m];
-  if (body.shape == BodyShape::kSurface) gradient.contact_area[number] += part.contact_area;
+  for (std::size_t m = 0; m < part.source_face.size(); ++m) {
+    const std::size_t face = scene.first_face[number] + part.source_face[m];
+    gradient.face_energy[face] += part.face_energy[m];
+    gradient.told_area[face] += part.told_area[m];
+  }
 }
 
-void ContactGradient::set_zero(std::size_t points, std::size_t surface_points, std::size_t faces, std::size_t surfaces) {
+void ContactGradient::set_zero(std::size_t points, std::size_t surface_points, std::size_t faces) {
   force.assign(points, {});
   node_normal.assign(surface_points, {});
   face_energy.assign(faces, 0.0);
-  contact_area.assign(surfaces, 0.0);
+  told_area.assign(faces, 0.0f);
+}
+
+double ContactGradient::contact_area(std::span<const Triangle> faces, std::span<const Vec3d> nodes, std::size_t first_face) const {
+  double sum = 0.0;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if (const auto told = static_cast<double>(told_area[first_face + f]); told > 0.0) {
+      const auto [a, b, c] = faces[f];
+      sum += std::min(told, 0.5 * norm(cross(nodes[b] - nodes[a], nodes[c] - nodes[a])));
+    }
+  return sum;
 }
 
 std::size_t ContactGradient::memory() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
-  return bytes(force) + bytes(node_normal) + bytes(face_energy) + bytes(contact_area);
+  return bytes(force) + bytes(node_normal) + bytes(face_energy) + bytes(told_area);
 }
 
 void ContactLayer::add_energy(const ContactScene& scene, OrderFreeSum& sum) const {

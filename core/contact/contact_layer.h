@@ -38,13 +38,16 @@ struct ContactSettings {
 
 /// Gradients that contacts leave on the points and faces of all bodies; sized like the scene. Only owned bodies are written.
 struct ContactGradient {
-  std::vector<Vec3d> force;          ///< by point: at fixed face areas and node normals
-  std::vector<Vec3d> node_normal;    ///< ∂E/∂n_v by point
-  std::vector<double> face_energy;   ///< ∂E/∂A_T by face
-  std::vector<double> contact_area;  ///< by surface: its area that is in contact [µm²]
+  std::vector<Vec3d> force;         ///< by point: at fixed face areas and node normals
+  std::vector<Vec3d> node_normal;   ///< ∂E/∂n_v by point
+  std::vector<double> face_energy;  ///< ∂E/∂A_T by face
+  std::vector<float> told_area;     ///< by face: its area in contact, summed over all that it touches; contact_area() [µm²]
 
-  /// Zero for so many points, of which the first `surface_points` may belong to surfaces, faces and surfaces.
-  void set_zero(std::size_t points, std::size_t surface_points, std::size_t faces, std::size_t surfaces);
+  /// Zero for so many points, of which the first `surface_points` may belong to surfaces, and faces.
+  void set_zero(std::size_t points, std::size_t surface_points, std::size_t faces);
+  /// Area in contact of a surface whose faces begin with `first_face` [µm²]. A face counts with its own area at most: along the edges of cells it is near
+  /// to two others and more.
+  [[nodiscard]] double contact_area(std::span<const Triangle> faces, std::span<const Vec3d> nodes, std::size_t first_face) const;
   [[nodiscard]] std::size_t memory() const;
 };
 

@@ -324,7 +324,10 @@ void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists,
   const double scale = e.share * (1.0 / e.quadrature.count);
   pair.energy += batch.area[lane] * batch.density[lane];
   sink.source.face_energy[p.source_place] += scale * batch.density[lane];
-  if (kPlain || !e.with_itself) sink.source.contact_area += batch.told[lane];
+  if (kPlain || !e.with_itself) {
+    sink.source.contact_area += batch.told[lane];
+    sink.source.told_area[p.source_place] += static_cast<float>(batch.told[lane]);
+  }
   if (kPlain || !e.with_itself) add_within(e, d, batch, lane, pair);
   if (kPlain || !e.with_itself) pair.overlap = gap.gap < -pair.overlap ? -gap.gap : pair.overlap;
 

@@ -211,6 +211,7 @@ void clear_results(SurfacePair& pair, const std::size_t (&node_count)[2], PairGr
     }
     g.has_node_normal = false;
     g.face_energy.assign(pair.points[body].source_count(), 0.0);
+    g.told_area.assign(pair.points[body].source_count(), 0.0f);
     g.source_face.clear();
     g.contact_area = 0.0;
     pair.elements[body] = {};

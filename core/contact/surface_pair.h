@@ -88,6 +88,7 @@ struct PairGradient {
   std::vector<Vec3d> node_normal;          ///< ∂E/∂n_v likewise [nN·µm]
   bool has_node_normal = false;            ///< false: all of node_normal is zero
   std::vector<double> face_energy;         ///< ∂E/∂A_T by source face [nN/µm]
+  std::vector<float> told_area;            ///< of these in contact [µm²]
   std::vector<std::uint32_t> source_face;  ///< these faces
   double contact_area = 0.0;               ///< of the faces of this body, see SurfacePair::area [µm²]
 };

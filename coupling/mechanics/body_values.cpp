@@ -141,8 +141,11 @@ BodyValues Mechanics::values(const Tissue& tissue) {
     values.volume[i] = values.stressed_volume[i] = work.geometry.now().volume[i];
     values.area[i] = work.geometry.now().area[i];
     values.inner_pressure[i] = work.terms.membranes->found().pressure[i];
-    values.contact_area[i] = work.terms.contacts->found().contact_area[i];
   }
+  parallel_for(work.setting.threads, shells, [&](std::size_t i) {
+    values.contact_area[i] =
+        work.terms.contacts->found().contact_area(work.scene.topologies()[i]->faces(), tissue.shells.nodes(i), work.scene.first_face()[i]);
+  });
   add_values_of_spheres(work, tissue, touches, values);
   return values;
 }

@@ -131,7 +131,7 @@ void NucleusSystem::evaluate(const World& world, Forces& out) {
   compute_node_geometry(surfaces(), surfaces_.position, surfaces_.geometry);
   const ContactScene scene = contact_scene();
   if (contacts_.note_motion(scene)) contacts_.rebuild(scene, surfaces_.pairs);
-  surfaces_.gradient.set_zero(surfaces_.position.size(), surfaces_.position.size(), surfaces_.first_face.back(), surfaces_.topology.size());
+  surfaces_.gradient.set_zero(surfaces_.position.size(), surfaces_.position.size(), surfaces_.first_face.back());
   contacts_.evaluate(scene, SurfacePairKind::kSurfaces, surfaces_.gradient);
   add_surface_forces(surfaces(), surfaces_.position, surfaces_.geometry,
                      {surfaces_.gradient.face_energy, {}, surfaces_.gradient.node_normal}, surfaces_.gradient.force);

@@ -96,8 +96,7 @@ void SurfaceContacts::carry_found(const World& world, const BodyChanges& changes
   for (std::size_t i = 0; i < changes.shells_before; ++i) old_face.push_back(old_face.back() + 2 * (changes.before[i].point_count - 2));
   const auto carry = [&](ContactGradient& gradient) {
     ContactGradient out;
-    out.set_zero(scene.shells() > 0 ? scene.point_count() : 0, gradient.node_normal.empty() ? 0 : scene.sphere_point(), scene.face_count(),
-                 scene.shells());
+    out.set_zero(scene.shells() > 0 ? scene.point_count() : 0, gradient.node_normal.empty() ? 0 : scene.sphere_point(), scene.face_count());
     for (std::size_t i = 0; i < scene.shells(); ++i) {
       const std::uint32_t was = changes.was[i];
       if (again_[i] || was == BodyChanges::kNone) continue;
@@ -107,7 +106,8 @@ void SurfaceContacts::carry_found(const World& world, const BodyChanges& changes
         std::copy_n(gradient.node_normal.begin() + before.first_point, now.point_count, out.node_normal.begin() + now.first_point);
       std::copy_n(gradient.face_energy.begin() + old_face[was], scene.topologies()[i]->face_count(),
                   out.face_energy.begin() + scene.first_face()[i]);
-      out.contact_area[i] = gradient.contact_area[was];
+      std::copy_n(gradient.told_area.begin() + old_face[was], scene.topologies()[i]->face_count(),
+                  out.told_area.begin() + scene.first_face()[i]);
     }
     gradient = std::move(out);
   };
@@ -161,8 +161,7 @@ void SurfaceContacts::evaluate(const World& world, Forces& out) {
   if (!known) {
     again_.clear();
     // spheres alone add to the forces at once; they have no normals, and their contacts with shells are counted on the shells' faces
-    gradient_.set_zero(world.scene.shells() > 0 ? world.scene.point_count() : 0, world.scene.sphere_point(), world.scene.face_count(),
-                       world.scene.shells());
+    gradient_.set_zero(world.scene.shells() > 0 ? world.scene.point_count() : 0, world.scene.sphere_point(), world.scene.face_count());
     layer_.evaluate(scene, SurfacePairKind::kSurfaces, gradient_);
     if (with_spheres) surfaces_only_ = gradient_;
   } else {
@@ -197,7 +196,7 @@ void SurfaceContacts::evaluate_again(const World& world, bool with_spheres) {
     std::fill_n(gradient.force.begin() + body.first_point, body.point_count, Vec3d{});
     std::fill_n(gradient.node_normal.begin() + body.first_point, body.point_count, Vec3d{});
     std::fill_n(gradient.face_energy.begin() + scene.first_face()[i], scene.topologies()[i]->face_count(), 0.0);
-    gradient.contact_area[i] = 0.0;
+    std::fill_n(gradient.told_area.begin() + scene.first_face()[i], scene.topologies()[i]->face_count(), 0.0f);
   }
   layer_.evaluate_of(again_, contact_scene(world), SurfacePairKind::kSurfaces, gradient);
   again_.clear();

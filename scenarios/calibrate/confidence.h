@@ -12,7 +12,7 @@ struct Interval {
   double low = 0.0, high = 0.0;
 };
 
-/// Covariance of the logarithms of E, W and the increments of p_c (Gauss–Newton, (JᵀJ)⁻¹ of the residuals at the best fit). A direction that the
+/// Covariance of the logarithms of E, W and the increments of p_c (Gauss–Newton, (JᵀJ)⁻¹ of the residuals at the best fit, times Fit::dispersion()). A direction that the
 /// residuals do not see has an infinite variance; an increment at its lower bound is left out (variance 0).
 struct Covariance {
   std::vector<std::vector<double>> matrix;
@@ -21,8 +21,8 @@ struct Covariance {
 };
 [[nodiscard]] Covariance covariance(const Data& data, const Fit& fit);
 
-/// Largest loss above the least one of a 95 % interval of one parameter: χ²(0.95; 1).
-inline constexpr double kProfileRise = 3.841459;
+/// Largest loss above the least one of a 95 % interval of one parameter: χ²(0.95; 1) times Fit::dispersion().
+[[nodiscard]] double profile_rise(const Fit& fit);
 
 /// The loss along one parameter, all others at their best for each of its values.
 struct Profile {

@@ -30,7 +30,7 @@ Covariance covariance(const Data& data, const Fit& fit) {
         const double share = solver.eigenvectors()(i, e) * solver.eigenvectors()(j, e);
         double& entry = out.matrix[used[i]][used[j]];
         if (value > unseen)
-          entry += share / value;
+          entry += fit.dispersion() * share / value;
         else if (std::abs(share) > 1e-8)
           entry += share > 0.0 ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
       }

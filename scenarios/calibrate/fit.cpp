@@ -93,6 +93,11 @@ void remark_on_bounds(Fit& fit) {
 
 }  // namespace
 
+double Fit::dispersion() const {
+  const double free = static_cast<double>(residuals) - static_cast<double>(parameters.logarithms().size());
+  return free > 0.0 ? std::max(1.0, loss / free) : 1.0;
+}
+
 double Fit::modulus() const { return pair_modulus(parameters.young, poisson); }
 
 double Fit::pull_off(double reduced_radius) const { return 1.5 * std::numbers::pi * parameters.adhesion * reduced_radius; }

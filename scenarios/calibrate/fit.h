@@ -31,6 +31,9 @@ struct Fit {
   bool converged = false;
   std::vector<std::string> remarks;  ///< what a reader must know: bounds that were reached, parts without data
 
+  /// How many times the weights' variance the residuals have, L/(terms − parameters), and 1 at least: a law that cannot take the data is known less
+  /// well than their weights say, and variances grow by this factor (Birge 1932, Phys. Rev. 40:207).
+  [[nodiscard]] double dispersion() const;
   /// E* of two such spheres [kPa].
   [[nodiscard]] double modulus() const;
   /// 1.5 πWR* [nN].

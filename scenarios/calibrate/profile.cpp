@@ -13,6 +13,7 @@ struct Walk {
   LeastSquares loss;
   std::size_t parameter = 0;
   double least = 0.0;
+  double limit = 0.0;  ///< of the rise
   Profile out;
 
   /// The least loss with the parameter at a value, searched from a place nearby, which becomes that of the minimum.
@@ -49,7 +50,7 @@ struct Walk {
       std::vector<double> next = place;
       const double rise = at(outside, next) - least;
       if (other_is_unbounded(next)) return std::copysign(std::numeric_limits<double>::infinity(), step);
-      if (rise > kProfileRise) return between(inside, inside_rise, outside, rise, place);
+      if (rise > limit) return between(inside, inside_rise, outside, rise, place);
       if (outside == bound) return std::copysign(std::numeric_limits<double>::infinity(), step);
       inside = outside, inside_rise = std::max(0.0, rise), place = next;
       step *= 1.6;
@@ -58,13 +59,13 @@ struct Walk {
 
   /// False position in the square root of the rise, which is nearly a straight line.
   double between(double inside, double inside_rise, double outside, double outside_rise, std::vector<double>& place) {
-    double a = std::sqrt(inside_rise) - std::sqrt(kProfileRise), b = std::sqrt(outside_rise) - std::sqrt(kProfileRise);
+    double a = std::sqrt(inside_rise) - std::sqrt(limit), b = std::sqrt(outside_rise) - std::sqrt(limit);
     double middle = outside;
     for (int k = 0; k < 40 && std::abs(outside - inside) > 1e-7; ++k) {
       // Every third time the middle, so that a bent curve cannot make it crawl.
       const double part = k % 3 == 2 ? 0.5 : std::clamp(a / (a - b), 0.02, 0.98);
       middle = inside + part * (outside - inside);
-      const double f = std::sqrt(std::max(0.0, at(middle, place) - least)) - std::sqrt(kProfileRise);
+      const double f = std::sqrt(std::max(0.0, at(middle, place) - least)) - std::sqrt(limit);
       if (std::abs(f) < 1e-6) break;
       (f > 0.0 ? outside : inside) = middle;
       (f > 0.0 ? b : a) = f;
@@ -75,12 +76,14 @@ struct Walk {
 
 }  // namespace
 
+double profile_rise(const Fit& fit) { return 3.841459 * fit.dispersion(); }
+
 Profile profile(const Data& data, const Fit& fit, int parameter) {
   const std::vector<double> best = fit.parameters.logarithms();
   const Covariance errors = covariance(data, fit);
   const double error = parameter == 0 ? errors.young_error : errors.adhesion_error;
   const double step = std::isfinite(error) ? std::clamp(0.7 * error, 1e-6, 0.5) : 0.1;
-  Walk walk{loss_of(data, fit), static_cast<std::size_t>(parameter), fit.loss, {}};
+  Walk walk{loss_of(data, fit), static_cast<std::size_t>(parameter), fit.loss, profile_rise(fit), {}};
   walk.out.points.push_back({std::exp(best[walk.parameter]), fit.loss});
   walk.out.interval.low = std::exp(walk.crossing(best, -step));
   walk.out.interval.high = std::exp(walk.crossing(best, step));

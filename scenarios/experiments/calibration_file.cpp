@@ -4,11 +4,12 @@
 #include <span>
 #include <string>
 
+#include "core/numbers/hash128.h"
 #include "core/numbers/joined.h"
 #include "core/numbers/number_text.h"
 #include "results/build_info.h"
-#include "results/hash128.h"
 #include "scenarios/experiments/calibration.h"
+#include "study/fitted_law.h"
 
 namespace morula::scenarios {
 namespace {
@@ -157,7 +158,9 @@ std::string hash_of(const CellMaterial& material) {
 std::string calibration_text(const Calibration& found) {
   const calibrate::SureFit& sure = found.sure;
   const calibrate::Fit& fit = sure.fit;
-  std::string out = "# Contact law of spheres, found from shells by `morula calibrate jkr`. Intervals: 95 %, by profiles of the loss.\n";
+  std::string out =
+      "# Contact law of spheres, found from shells by `morula calibrate jkr`. Intervals: 95 %, by profiles of the loss, with what the law "
+      "cannot take.\n";
   out += "schema: 1\nversion: " + build_info().version + "\ntype: " + found.material.type +
          "\nmaterial: " + in_quotes(found.material.text()) + "  # what the shells are\nhash: " + hash_of(found.material) +
          "  # of the material\nnodes: " + std::to_string(found.material.nodes) + "\nradius: " + of(found.material.radius, "um") +
@@ -178,7 +181,7 @@ std::string calibration_text(const Calibration& found) {
       "ranges: " + ranges_text(found.data.points) + "\nremarks:" + (found.data.remarks.empty() && fit.remarks.empty() ? " []" : "") + "\n";
   for (const auto* remarks : {&found.data.remarks, &fit.remarks})
     for (const std::string& remark : *remarks) out += "  - " + in_quotes(remark) + "\n";
-  return out;
+  return out + "checksum: " + checksum_of_law(out) + "\n";
 }
 
 }  // namespace morula::scenarios

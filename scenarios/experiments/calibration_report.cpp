@@ -167,12 +167,12 @@ CurvePlot mixed_plot(const MixedContact& mixed) {
   return plot;
 }
 
-CurvePlot profile_plot(const calibrate::Profile& profile, const char* name, const char* unit, double least) {
+CurvePlot profile_plot(const calibrate::Profile& profile, const char* name, const char* unit, const calibrate::Fit& fit) {
   CurvePlot plot = plot_of(std::string("Profile of ") + name, axis(name, unit, true), axis("loss above the least", ""));
   Curve line = curve("all others at their best");
-  for (const auto& p : profile.points) line.x.push_back(p.value), line.y.push_back(p.loss - least);
+  for (const auto& p : profile.points) line.x.push_back(p.value), line.y.push_back(p.loss - fit.loss);
   plot.curves.push_back(std::move(line));
-  plot.limits.push_back({calibrate::kProfileRise, "95 %"});
+  plot.limits.push_back({calibrate::profile_rise(fit), "95 %"});
   return plot;
 }
 
@@ -286,8 +286,8 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
   if (found.with_shells) add(mixed_plot(*found.with_shells));
   if (!found.data.relaxations.empty()) add(relaxation_plot(found));
   if (const auto& along = found.spheres_to_take().friction.along) add(pressed_plot(*along));
-  add(profile_plot(sure.young, "E", "kPa", fit.loss));
-  add(profile_plot(sure.adhesion, "W", "nN/um", fit.loss));
+  add(profile_plot(sure.young, "E", "kPa", fit));
+  add(profile_plot(sure.adhesion, "W", "nN/um", fit));
   for (const auto* remarks : {&found.data.remarks, &fit.remarks})
     for (const std::string& remark : *remarks) out.warnings.emplace_back(0.0, remark);
   out.provenance = {{"version", build_info().version}, {"command", command}, {"material", hash_of(found.material)}};

@@ -12,6 +12,7 @@
 #include "scenarios/measures/point_statistics.h"
 #include "scenarios/measures/theories.h"
 #include "study/csv.h"
+#include "study/initial/cells_from_meshes.h"
 
 namespace morula::scenarios {
 namespace {
@@ -155,12 +156,21 @@ Measure ids_measure() {
   return out;
 }
 
+/// Volume that a cell has when nothing presses it: the ball of a sphere, that of V0 = V exp(p_in/K_V) of a shell [µm³].
+double free_volume(const Cell& cell, const CellType& type) {
+  if (cell.body == BodyKind::kSphere || type.osmosis.acts()) return cell.volume;
+  return target_volume_of(cell.volume, cell.inner_pressure, type.shell.tension, type.shell.bulk_modulus);
+}
+
 /// Of each cell that has another body than at the output before.
 Measure exchange_measure() {
-  Measure out = of_cells("exchange.volume_change", "volume of the cells just exchanged, relative change",
-                         "Change of the volume of a cell since the output before, of those that have got another body since; what a new "
-                         "shell among shells takes little by little (`room_later_um3` in events.jsonl) counts as its own.",
-                         "|(V + V_later)/V_before - 1|", Quantity::kFraction);
+  Measure out = of_cells(
+      "exchange.volume_change", "free volume of the cells just exchanged, relative change",
+      "Change since the output before of the volume that a cell has when nothing presses it, of the cells that have got another body "
+      "since: of a sphere its ball, of a shell that of its V0 = V exp(p_in/K_V) at the tension of its type; where cells follow their "
+      "water, the volume of the body. What a new shell among shells takes little by little (`room_later_um3` in events.jsonl) counts as "
+      "its own.",
+      "|(V_free + V_later)/V_free,before - 1|", Quantity::kFraction);
   out.take = [](FinishedRun& run, const Subject& subject, const Moments& moments) -> Result<std::vector<Sample>> {
     MORULA_TRY_ASSIGN(const std::vector<double>* const times, run.snapshot_times());
     MORULA_TRY_ASSIGN(const std::vector<EventLine>* const events, run.events());
@@ -175,8 +185,11 @@ Measure exchange_measure() {
       std::map<CellId, const Cell*> then;
       for (const Cell& cell : before->cells) then.emplace(cell.id, &cell);
       for (const Cell& cell : now->cells)
-        if (const auto same = then.find(cell.id); same != then.end() && is_meant(cell, subject) && cell.body != same->second->body)
-          found.push_back({now->time, std::abs((cell.volume + later[cell.id.text()]) / same->second->volume - 1.0), cell.id.text()});
+        if (const auto same = then.find(cell.id); same != then.end() && is_meant(cell, subject) && cell.body != same->second->body) {
+          const CellType& type = run.study().model.types[cell.type];
+          const double change = (free_volume(cell, type) + later[cell.id.text()]) / free_volume(*same->second, type) - 1.0;
+          found.push_back({now->time, std::abs(change), cell.id.text()});
+        }
     }
     return found;
   };

@@ -50,7 +50,7 @@ void add_exchange(const EventLine& event, std::map<std::string, ReportExchanges>
       all.mean_force += (effect.mean_force - all.mean_force) / static_cast<double>(++all.measured);
     return;
   }
-  ReportExchanges& all = by_kind[name_of(effect.room < 0.0 ? EventKind::kDemotion : EventKind::kPromotion)];
+  ReportExchanges& all = by_kind[name_of(effect.became_shell ? EventKind::kPromotion : EventKind::kDemotion)];
   all.largest_way = std::max(all.largest_way, effect.largest_way);
   all.mean_way += (effect.mean_way - all.mean_way) / static_cast<double>(++all.settled);
 }

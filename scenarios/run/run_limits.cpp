@@ -62,6 +62,18 @@ Status RunLoop::check_limits(const Measures& m) {
   return {};
 }
 
+void RunLoop::tell_to_and_fro(const ToldEvent& exchange) {
+  constexpr int kTooOften = 4;
+  const Event& event = exchange.event;
+  if (event.kind != EventKind::kPromotion || event.reason.cause != EventReason::Cause::kTrigger) return;
+  if (++promotions_[event.cell] != kTooOften) return;
+  warn_near_limit(kToAndFro, "cell " + event.cell.text() + " became a shell for the " + std::to_string(kTooOften) +
+                                 "th time: what the rule (" + exchange.text +
+                                 ") compares is another number for a shell than for a sphere in its place. Put its thresholds farther "
+                                 "apart, or give spheres the law of "
+                                 "these shells (`morula calibrate`)");
+}
+
 /// Elastic spheres are spheres as long as their contacts are small (cbm.md §2), and a fit holds where it was made.
 void RunLoop::tell_contacts_beyond(const Measures& m) {
   constexpr double kMostBeyond = 0.1;

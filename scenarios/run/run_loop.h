@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -66,12 +67,22 @@ class RunLoop {
   void keep_events(std::span<const Event> events);
   Status write_events();
   /// Things of which a run warns once; the bits of CheckpointInfo::warned.
-  enum Warned : std::uint32_t { kPacking = 1, kVolume = 2, kOverlap = 4, kBalance = 8, kBeyondRange = 16, kMoreShells = 32 };
+  enum Warned : std::uint32_t {
+    kPacking = 1,
+    kVolume = 2,
+    kOverlap = 4,
+    kBalance = 8,
+    kBeyondRange = 16,
+    kMoreShells = 32,
+    kToAndFro = 64
+  };
   void warn_near_limit(Warned what, const std::string& text);
   /// Writes into results.h5; where its content is in the way, once more into a new one. Collective.
   Status write_results(const std::function<Status()>& write);
   void tell_idle_loads();
   void tell_events();
+  /// Warns of cells that change their body again and again: a rule asks for a shell what only spheres answer so.
+  void tell_to_and_fro(const ToldEvent& exchange);
   Status checkpoint();
   Status finish(RunState state, ErrorKind kind, RunSummary& summary);
   [[nodiscard]] int wish_to_stop() const;
@@ -101,6 +112,7 @@ class RunLoop {
   Load load_;
   double growth_rate_ = 0.0;          ///< of the spheres, if nothing inhibits it [1/s]
   std::vector<ToldEvent> events_;     ///< of the tissue, not yet written
+  std::map<CellId, int> promotions_;  ///< of each cell by a trigger, since the run began or was resumed
   std::vector<std::string> awaited_;  ///< what was still to come when nothing moved, as last told
   std::vector<ToldEvent> warnings_;   ///< of the run, not yet written
   bool state_is_whole_ = true;

@@ -20,10 +20,11 @@ TwoBodies::TwoBodies(const TriangleMesh& mesh, double height, double gap, const 
   topologies_[0] = topologies_[1] = topology_.get();
   first_face_[1] = faces, first_face_[2] = 2 * faces;
   compute_surface_geometry({topologies_, first_node, first_face_}, position_, geometry_);
-  gradient_.set_zero(2 * nodes, 2 * nodes, 2 * faces, 2);
+  gradient_.set_zero(2 * nodes, 2 * nodes, 2 * faces);
   layer_.rebuild(scene(position_), {.box = {{-50, -50, -50}, {50, 50, 50}}});
   layer_.evaluate(scene(position_), SurfacePairKind::kSurfaces, gradient_);
-  area_ = 0.5 * (gradient_.contact_area[0] + gradient_.contact_area[1]);
+  const std::span<const Vec3d> position = position_;
+  for (std::size_t k = 0; k < 2; ++k) area_ += 0.5 * gradient_.contact_area(topology_->faces(), position.subspan(k * nodes), k * faces);
   layer_.begin_step(scene(position_));
 }
 

@@ -123,7 +123,7 @@ TEST(Osmosis, SolutesAreKeptOverASwapAndSharedByDaughters) {
   ShapeLibrary shapes;
   promote(cell, type, 0.0, 0.0, shapes, 1);
   EXPECT_EQ(osmotic_cell(cell.row, type, 0.0, kArea, 0.0).osmolytes, before);
-  demote(cell, 1.0);
+  demote(cell, type, 1.0);
   EXPECT_EQ(osmotic_cell(cell.row, type, 0.0, kArea, 0.0).osmolytes, before);
   EXPECT_NEAR(cell.sphere->radius, radius, 1e-9);
   EXPECT_NEAR(cell.row.reference_excess, std::log(1.7), 1e-9) << "a swollen sphere stays swollen";

@@ -62,7 +62,7 @@ class TwoShells {
     gradient.force.resize(position_.size());
     gradient.node_normal.resize(position_.size());
     gradient.face_energy.resize(first_face_[2]);
-    gradient.contact_area.resize(2);
+    gradient.told_area.resize(first_face_[2]);
     layer_.evaluate(scene(), SurfacePairKind::kSurfaces, gradient);
   }
 

@@ -225,7 +225,7 @@ TEST(Nucleus, ComesWithAPromotionAndTravelsInARecord) {
   ASSERT_NE(tissue.shells.nucleus_of(0), nullptr);
   EXPECT_EQ(*tissue.shells.nucleus_of(0), *cell.shell->nucleus);
   EXPECT_EQ(take_apart(tissue)[0].shell->nucleus, cell.shell->nucleus);
-  demote(cell, 1.0);
+  demote(cell, type, 1.0);
   EXPECT_FALSE(cell.shell);
 }
 

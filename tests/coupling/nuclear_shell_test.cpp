@@ -345,7 +345,7 @@ TEST(NuclearShell, ComesWithAPromotionTravelsInARecordAndGoesWithADemotion) {
   append_bytes(take_apart(tissue)[0], again);
   EXPECT_EQ(again, bytes);
   EXPECT_EQ(tissue.nuclei.size(), 0u);
-  demote(cell, 1.0);
+  demote(cell, type, 1.0);
   EXPECT_FALSE(cell.shell);
 }
 

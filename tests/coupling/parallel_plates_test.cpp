@@ -73,7 +73,7 @@ class Plates {
     gap_ = gap;
     if (layer_.note_motion(scene())) layer_.rebuild(scene(), {.box = {{-50, -50, -50}, {50, 50, 50}}});
     ContactGradient gradient;
-    gradient.set_zero(position_.size(), position_.size(), first_face_.back(), bodies_.size());
+    gradient.set_zero(position_.size(), position_.size(), first_face_.back());
     layer_.evaluate(scene(), SurfacePairKind::kSurfaces, gradient);
     Pull out{0.0, 0.0};
     for (std::size_t i = position_.size() - topology_->node_count(); i < position_.size(); ++i) out.force -= gradient.force[i].z;

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "results/hash128.h"
+#include "core/numbers/hash128.h"
 #include "results/parcels.h"
 #include "results/state_hash.h"
 #include "tests/results/results_support.h"

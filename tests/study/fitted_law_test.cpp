@@ -8,6 +8,7 @@
 #include "coupling/simulation.h"
 #include "scenarios/run/used_laws.h"
 #include "study/cell_material.h"
+#include "study/fitted_law.h"
 #include "study/initial/make_tissue.h"
 #include "tests/study/study_fixture.h"
 
@@ -114,6 +115,18 @@ TEST(FittedLaw, SpheresMeetShellsWithTheFactorsThatWereFitted) {
   for (const char* wrong : {"{stiffness: 0}", "{stiffness: -1}", "{adhesion: -0.1}", "{adhesion: 11}"})
     EXPECT_THAT(Written(file_text()).errors(own(wrong)), HasSubstr("E302")) << wrong;
   EXPECT_THAT(Written(file_text("jkr", "", "with_shells: {stiffness: 0, adhesion: 1}\n")).errors(), HasSubstr("E302"));
+}
+
+/// A number that was changed by hand is told; a law of one's own says nothing about how it was made.
+TEST(FittedLaw, SaysThatTheFileWasChanged) {
+  const std::string text = file_text("jkr", kPacking), made = text + "checksum: " + checksum_of_law(text) + "\n";
+  const auto warnings = [](const std::string& of_file) {
+    const auto study = Written(of_file).read();
+    return study.ok() ? study->warnings.text() : study.error().text();
+  };
+  EXPECT_THAT(warnings(made), Not(HasSubstr("E693")));
+  EXPECT_THAT(warnings(text), Not(HasSubstr("E693")));
+  EXPECT_THAT(warnings(test::changed("young: 0.5 kPa", "young: 0.6 kPa", made)), AllOf(HasSubstr("E693"), HasSubstr("not as it was made")));
 }
 
 /// Areas that are told are those of cells among many; forces know nothing of it.

@@ -1,10 +1,10 @@
-#include "results/hash128.h"
+#include "core/numbers/hash128.h"
 
 #include <array>
 #include <bit>
 #include <cstring>
 
-namespace morula::scenarios {
+namespace morula {
 namespace {
 
 constexpr std::uint64_t kFirst = 0x87c37b91114253d5u, kSecond = 0x4cf5ad432745937fu;
@@ -65,4 +65,4 @@ std::string Hash128::hex() const {
   return out;
 }
 
-}  // namespace morula::scenarios
+}  // namespace morula

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-namespace morula::scenarios {
+namespace morula {
 
 /// A 128-bit hash; addition is modulo 2^128, so that hashes of parts can be combined in any order.
 struct Hash128 {
@@ -28,4 +28,4 @@ Hash128 hash128(std::span<const std::byte> bytes, std::uint64_t seed = 0);
 /// Order-free checksum of a table: the sum over rows of the hash of (row number, row). Slices of a table may be added in any order.
 Hash128 table_checksum(std::span<const std::byte> bytes, std::size_t row_size, std::uint64_t first_row);
 
-}  // namespace morula::scenarios
+}  // namespace morula
