@@ -81,8 +81,9 @@ std::vector<Event> Simulation::swap_bodies() {
     double later = 0.0;
     if (up) {
       if (may_stay) before.push_back(cell);
+      const double part = volume_under_pressure(had, pressure[k], type) / had;
       later = promote(cell, type, pressure[k], tissue_.clock.time, shapes_, model_.seed,
-                      model_.swaps.gradual ? watch.caps_among_shells_of(cell.row.id) : 0.0);
+                      model_.swaps.gradual ? watch.room_to_come_of(cell.row.id, had, part) : 0.0);
       fresh.push_back(cell.row.id);
     } else {
       demote(cell, type, tissue_.clock.time);

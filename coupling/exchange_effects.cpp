@@ -95,7 +95,10 @@ ExchangeWatch::Caps ExchangeWatch::of(CellId id) const {
 }
 
 double ExchangeWatch::caps_of(CellId id) const { return of(id).caps; }
-double ExchangeWatch::caps_among_shells_of(CellId id) const { return of(id).among_shells; }
+
+double ExchangeWatch::room_to_come_of(CellId id, double ball, double part) const {
+  return std::max(0.0, of(id).among_shells - std::max(0.0, 1.0 - part) * ball);
+}
 
 ExchangeWatch watch_exchanges(const Model& model, const Tissue& tissue, std::span<const SwapOrder> orders, const Mechanics& mechanics,
                               ShapeLibrary& shapes, const Comm& comm) {

@@ -198,10 +198,10 @@ double volume_under_pressure(double ball, double pressure, const CellType& type)
 }
 
 double promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes, std::uint32_t seed,
-               double caps) {
+               double left_out) {
   const SphereRecord& sphere = *cell.sphere;
   const double ball = ball_volume(sphere.radius), pressed = volume_under_pressure(ball, pressure, type);
-  const double volume = std::max(kLeastPart * ball, std::min(pressed, std::max(pressed, ball) - caps));
+  const double volume = std::max(kLeastPart * ball, pressed - left_out);
   // −K_V ln(V/V0) = p + 2γ/R: the shell pushes back as hard as the sphere was pushed, or pulls where it was pulled.
   const double deviation = morula::deviation(cell.row, type, Trait::kTension);
   const double to_come = (pressed - volume) * (ball / pressed);

@@ -78,10 +78,10 @@ bool swaps_wait(const Model& model, const Tissue& tissue, const SwapBodies& bodi
 double volume_under_pressure(double ball, double pressure, const CellType& type);
 /// The sphere becomes a shell of volume_under_pressure(), its mesh a sphere in the orientation that the seed gives to its id, so that no direction of
 /// the lattice is common to the shells of a tissue. V0 is that of the free cell whose volume is the ball: its inner pressure bears `pressure` (negative:
-/// tension) and the cortex. Where the ball has `caps` that are left out at first [µm³], the shell has what is left of it, and half of the ball
-/// in any case; gives the part of the free volume that is still to come as the cell eases to its own [µm³].
+/// tension) and the cortex. Of the volume `left_out` is missing at first [µm³], but half of the ball it has in any case; gives the part of the free volume
+/// that is still to come as the cell eases to its own [µm³].
 double promote(CellRecord& cell, const CellType& type, double pressure, double time, ShapeLibrary& shapes, std::uint32_t seed,
-               double caps = 0.0);
+               double left_out = 0.0);
 /// The shell becomes a sphere at its centroid: of the volume that it has when nothing presses it, for a sphere that is pressed overlaps its
 /// neighbours; of the shell's own volume where the cell follows its water (decision 0076).
 void demote(CellRecord& cell, const CellType& type, double time);

@@ -44,8 +44,8 @@ void add_growing_spheroids(std::vector<ReferenceNumber>& out) {
                  ratio(both, shells, "spheroid_radius")});
   out.push_back(
       {"S7.7", "study: radius, hybrid over spheres" + after, 1.0, 0.04, "scenarios.md S7.7: 4 %", ratio(both, spheres, "spheroid_radius")});
-  out.push_back({"D (e)", "study: mean contact area, hybrid over shells" + after, 1.0, 0.06,
-                 "aim of this project: 3 %; limit: what is today, rounded up", ratio(both, shells, "mean_contact_area"), 0.03});
+  out.push_back({"D (e)", "study: mean contact area, hybrid over shells" + after, 1.0, 0.03, "aim of this project: 3 %",
+                 ratio(both, shells, "mean_contact_area")});
   out.push_back({"S7.8", "study: exchanges of a cell of the hybrid within 30 min after one before", 0.0, 1e-9, "scenarios.md S7.8",
                  [both] { return hasty_exchanges(both->found(), 1800.0); }});
   for (const auto& [name, study] : {std::pair{"hybrid", both}, std::pair{"spheres", spheres}, std::pair{"shells", shells}})

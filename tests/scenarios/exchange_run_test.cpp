@@ -151,7 +151,7 @@ time: {end: 80 min, output: 1 min, checkpoint: 80 min}
 domain: {size: [200 um, 200 um, 200 um]}
 output: {report: false}
 cell_types:
-  cell: {radius: 6 um, cycle: {model: none}, adhesion: {cell: 2e-5 J/m^2}}
+  cell: {radius: 6 um, cycle: {model: none}, adhesion: {cell: 1e-4 J/m^2}}
 initial:
   - {type: cell, count: 1500, fill: sphere, radius: 74 um, start_volume: 50 %, inflate: 20 min}
 coupling:
@@ -205,26 +205,26 @@ Grouped run_group(const std::string& exchange) {
 TEST(ExchangeRun, OfAGroupTakesItsRoomLittleByLittle) {
   const Grouped slow = run_group("");
   EXPECT_GE(slow.promotions, 8.0);
-  EXPECT_GT(slow.later, 5e-3 * slow.volume);
+  EXPECT_GT(slow.later, 1e-3 * slow.volume);
   EXPECT_LT(slow.later, slow.room);
   EXPECT_LT(slow.at_once, slow.volume - slow.later);  // pressed as their balls were
   EXPECT_GT(slow.at_once, 0.97 * (slow.volume - slow.later));
   EXPECT_GT(slow.in_the_end, 0.98 * slow.volume);  // 6 time constants later, pressed as they are
-  EXPECT_LT(slow.overlap, 0.04);
+  EXPECT_LT(slow.overlap, 0.06);
   const Grouped fast = run_group("  exchange: at_once\n");
   EXPECT_EQ(fast.promotions, slow.promotions);
   EXPECT_EQ(fast.later, 0.0);
   EXPECT_LT(fast.at_once, fast.volume);
   EXPECT_GT(fast.at_once, slow.at_once + 0.9 * slow.later);
   EXPECT_NEAR(fast.in_the_end, slow.in_the_end, 5e-3 * fast.volume);
-  EXPECT_LT(fast.overlap, 0.04);
+  EXPECT_LT(fast.overlap, 0.06);
 }
 
-/// A full periodic box, pressed to 0.88 of the volume of its cells, in which all cells get another body at 30 min.
+/// A full periodic box, pressed to 0.9 of the volume of its cells, in which all cells are shells from 30 to 60 min.
 constexpr const char* kPressed = R"(
 schema: 1
 study: pressed
-time: {end: 45 min, output: 1 min}
+time: {end: 75 min, output: 1 min}
 domain: {size: [24 um, 24 um, 24 um], boundary: periodic, course: [{time: 0 s, volume: 1}, {time: 10 min, volume: 0.9}]}
 cell_types:
   a: {radius: 5 um, body: sphere, adhesion: {a: 0 J/m^2}, dcm: {nodes: 42}}
@@ -232,38 +232,37 @@ initial:
   - {type: a, count: 27, fill: random, size: [24 um, 24 um, 24 um], start_volume: 50 %, inflate: 5 min}
 coupling:
   exchange: gradual
-  regions: [{name: all, shape: everything, as: shell, from: 30 min}]
+  regions: [{name: all, shape: everything, as: shell, from: 30 min, until: 60 min}]
 output: {report: false}
 )";
 
 /// Decision 0076. Who is a shell does not change how much a tissue is pressed: p and the room of its cells are those of before, both ways, and nobody gains or
 /// loses volume. (With the volume of their balls shells pressed each other twice as much, and spheres of the volume of pressed shells half as much.)
 TEST(ExchangeRun, KeepsThePressureOfAPressedTissue) {
-  for (const bool up : {true, false})
-    for (const char* exchange : {"gradual", "at_once"}) {
-      std::string text = test::changed("exchange: gradual", std::string("exchange: ") + exchange, kPressed);
-      if (!up) text = test::changed("body: sphere", "body: shell", test::changed("as: shell", "as: sphere", text));
-      const auto study = test::read(text);
-      ASSERT_TRUE(study.ok()) << study.error().text();
-      const test::Folder folder;
-      const std::filesystem::path out = folder.path() / "run";
-      ASSERT_TRUE(test::run_into(out, *study));
-      FinishedRun files(*study, out);
-      const auto series = files.series();
-      ASSERT_TRUE(series.ok());
-      const auto column = [&](const char* name) { return (*series)->find(name)->values; };
-      const auto time = column("time"), pressure = column("mean_pressure"), shells = column("shell_count");
-      const auto before = static_cast<std::size_t>(std::ranges::find(time, 1740.0) - time.begin());
-      ASSERT_LT(before, time.size());
-      EXPECT_EQ(shells[before], up ? 0.0 : 27.0);
-      EXPECT_EQ(shells.back(), up ? 27.0 : 0.0);
-      EXPECT_GT(pressure[before], 0.1);
-      // Disorder finds other places for balls than for bodies that fill the room, as fast as friction lets it.
-      for (std::size_t k = before; k < time.size(); ++k)
-        EXPECT_NEAR(pressure[k] / pressure[before], 1.0, 0.2) << exchange << " at " << time[k] << " s";
-      EXPECT_NEAR(pressure.back() / pressure[before], 1.0, 0.1) << exchange;
-      EXPECT_LT(std::ranges::max(column("worst_overlap")), 0.2);
-    }
+  for (const char* exchange : {"gradual", "at_once"}) {
+    const auto study = test::read(test::changed("exchange: gradual", std::string("exchange: ") + exchange, kPressed));
+    ASSERT_TRUE(study.ok()) << study.error().text();
+    const test::Folder folder;
+    const std::filesystem::path out = folder.path() / "run";
+    ASSERT_TRUE(test::run_into(out, *study));
+    FinishedRun files(*study, out);
+    const auto series = files.series();
+    ASSERT_TRUE(series.ok());
+    const auto column = [&](const char* name) { return (*series)->find(name)->values; };
+    const auto time = column("time"), pressure = column("mean_pressure"), shells = column("shell_count");
+    const auto row_at = [&](double when) { return static_cast<std::size_t>(std::ranges::find(time, when) - time.begin()); };
+    const std::size_t before = row_at(1740.0), as_shells = row_at(3540.0);
+    ASSERT_LT(as_shells, time.size());
+    EXPECT_EQ(shells[before], 0.0);
+    EXPECT_EQ(shells[as_shells], 27.0);
+    EXPECT_EQ(shells.back(), 0.0);
+    EXPECT_GT(pressure[before], 0.2);
+    for (std::size_t k = before; k < time.size(); ++k)
+      EXPECT_NEAR(pressure[k] / pressure[before], 1.0, 0.16) << exchange << " at " << time[k] << " s";
+    EXPECT_NEAR(pressure[as_shells] / pressure[before], 1.0, 0.08) << exchange;
+    EXPECT_NEAR(pressure.back() / pressure[before], 1.0, 0.04) << exchange;
+    EXPECT_LT(std::ranges::max(column("worst_overlap")), 0.2);
+  }
 }
 
 /// Decision 0059. Shells that rest in a cluster are to become spheres, whose law ends where the balls of the cluster hardly overlap: they stay shells, and
