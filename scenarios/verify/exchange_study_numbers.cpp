@@ -171,7 +171,7 @@ void add_thresholds(std::vector<ReferenceNumber>& out) {
   const char* const page = "fields_and_coupling.md D (d)";
   const auto at = at_the_threshold("at_threshold", 198.0, 202.0, 1000.0),
              between = at_the_threshold("between_thresholds", 178.0, 182.0, 1000.0),
-             across = at_the_threshold("across_thresholds", 120.0, 260.0, 250.0);
+             across = at_the_threshold("across_thresholds", 80.0, 260.0, 250.0);
   out.push_back({"D (d)", "study: exchanges of a cell whose pressure swings by 1 % about the threshold, 1,000 steps, the most", 1.0, 1e-9,
                  std::string(page) + ": it is promoted, and not again", [at] { return most_exchanges(at->found()); }});
   out.push_back({"D (d)", "study: exchanges of cells whose pressure swings between both thresholds, 1,000 steps", 0.0, 1e-9, page,

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -262,7 +263,41 @@ TEST(ExchangeRun, KeepsThePressureOfAPressedTissue) {
     EXPECT_NEAR(pressure[as_shells] / pressure[before], 1.0, 0.08) << exchange;
     EXPECT_NEAR(pressure.back() / pressure[before], 1.0, 0.04) << exchange;
     EXPECT_LT(std::ranges::max(column("worst_overlap")), 0.2);
+    // Shells that fill the room are in contact all over, and nowhere twice: faces along the edges of cells are near to two others (decision 0026).
+    const auto full = files.snapshot_at(3540.0);
+    ASSERT_TRUE(full.ok() && *full);
+    for (const Snapshot::Cell& cell : (*full)->cells) {
+      EXPECT_GT(cell.contact_area, 0.9 * cell.area);
+      EXPECT_LT(cell.contact_area, 1.000001 * cell.area);
+    }
   }
+}
+
+/// A trigger asks for a shell what only spheres answer so: the run says that cells go to and fro, once.
+TEST(ExchangeRun, SaysThatCellsGoToAndFro) {
+  std::string text = test::changed(", course: [{time: 0 s, volume: 1}, {time: 10 min, volume: 0.9}]", "", kPressed);
+  text = test::changed("  exchange: gradual\n", "", text);
+  text = test::changed("{end: 75 min, output: 1 min}", "{end: 45 min, output: 5 min}", text);
+  text = test::changed("  regions: [{name: all, shape: everything, as: shell, from: 30 min, until: 60 min}]",
+                       "  triggers: [{promote: contact_share < 0.3, demote: contact_share > 0.5, hold: 3 min}]", text);
+  const auto study = test::read(text);
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  const test::Folder folder;
+  const std::filesystem::path out = folder.path() / "run";
+  ASSERT_TRUE(test::run_into(out, *study));
+  FinishedRun files(*study, out);
+  const auto events = files.events();
+  ASSERT_TRUE(events.ok());
+  std::map<std::string, int> promotions;
+  int warnings = 0;
+  for (const EventLine& event : **events) {
+    if (event.kind == "promotion") ++promotions[event.cell];
+    if (event.kind != "warning" || event.text.find("became a shell for the 4th time") == std::string::npos) continue;
+    ++warnings;
+    EXPECT_NE(event.text.find("contact_share"), std::string::npos) << event.text;
+  }
+  EXPECT_EQ(warnings, 1);
+  EXPECT_TRUE(std::ranges::any_of(promotions, [](const auto& one) { return one.second >= 4; }));
 }
 
 /// Decision 0059. Shells that rest in a cluster are to become spheres, whose law ends where the balls of the cluster hardly overlap: they stay shells, and
