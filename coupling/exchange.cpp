@@ -77,19 +77,17 @@ std::vector<Event> Simulation::swap_bodies() {
     CellRecord& cell = changed.emplace_back(record_of(tissue_, bodies[k]));
     const bool up = orders[k].to == BodyKind::kShell;
     const CellType& type = model_.types[cell.row.type];
-    const double had = volume_of(cell);
+    const double had = volume_of(cell), as_shell = up ? volume_under_pressure(had, pressure[k], type) : had;
     double later = 0.0;
     if (up) {
       if (may_stay) before.push_back(cell);
-      const double part = volume_under_pressure(had, pressure[k], type) / had;
       later = promote(cell, type, pressure[k], tissue_.clock.time, shapes_, model_.seed,
-                      model_.swaps.gradual ? watch.room_to_come_of(cell.row.id, had, part) : 0.0);
+                      model_.swaps.gradual ? watch.room_to_come_of(cell.row.id, had - as_shell) : 0.0);
       fresh.push_back(cell.row.id);
     } else {
       demote(cell, type, tissue_.clock.time);
     }
     events.push_back({tissue_.clock.time, up ? EventKind::kPromotion : EventKind::kDemotion, cell.row.id, {}, {}, orders[k].reason});
-    const double as_shell = up ? volume_under_pressure(had, pressure[k], type) : had;
     const double as_sphere = (up ? had : volume_of(cell)) - watch.caps_of(cell.row.id);
     events.back().exchange =
         ExchangeEffect{.became_shell = up, .volume = had, .room = up ? as_shell - as_sphere : as_sphere - as_shell, .later = later};

@@ -96,8 +96,8 @@ ExchangeWatch::Caps ExchangeWatch::of(CellId id) const {
 
 double ExchangeWatch::caps_of(CellId id) const { return of(id).caps; }
 
-double ExchangeWatch::room_to_come_of(CellId id, double ball, double part) const {
-  return std::max(0.0, of(id).among_shells - std::max(0.0, 1.0 - part) * ball);
+double ExchangeWatch::room_to_come_of(CellId id, double pressed) const {
+  return std::max(0.0, of(id).among_shells - std::max(0.0, pressed));
 }
 
 ExchangeWatch watch_exchanges(const Model& model, const Tissue& tissue, std::span<const SwapOrder> orders, const Mechanics& mechanics,

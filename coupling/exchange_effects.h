@@ -32,9 +32,8 @@ struct ExchangeWatch {
   std::vector<Beside> beside;  ///< of the neighbourhoods that this rank looks at
 
   [[nodiscard]] double caps_of(CellId id) const;
-  /// Of a new shell that its pressure leaves this part of its ball: what it begins without, its caps among shells beyond what the pressure takes (decisions
-  /// 0059, 0076) [µm³].
-  [[nodiscard]] double room_to_come_of(CellId id, double ball, double part) const;
+  /// What a new shell begins without: its caps among shells beyond `pressed`, what its pressure takes of its ball (decisions 0059, 0076) [µm³].
+  [[nodiscard]] double room_to_come_of(CellId id, double pressed) const;
 
  private:
   [[nodiscard]] Caps of(CellId id) const;

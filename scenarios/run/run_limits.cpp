@@ -62,13 +62,12 @@ Status RunLoop::check_limits(const Measures& m) {
   return {};
 }
 
-void RunLoop::tell_to_and_fro(const ToldEvent& exchange) {
+void RunLoop::tell_to_and_fro(const Event& event, const std::string& reason) {
   constexpr int kTooOften = 4;
-  const Event& event = exchange.event;
   if (event.kind != EventKind::kPromotion || event.reason.cause != EventReason::Cause::kTrigger) return;
   if (++promotions_[event.cell] != kTooOften) return;
   warn_near_limit(kToAndFro, "cell " + event.cell.text() + " became a shell for the " + std::to_string(kTooOften) +
-                                 "th time: what the rule (" + exchange.text +
+                                 "th time: what the rule (" + reason +
                                  ") compares is another number for a shell than for a sphere in its place. Put its thresholds farther "
                                  "apart, or give spheres the law of "
                                  "these shells (`morula calibrate`)");

@@ -306,7 +306,7 @@ void RunLoop::tell_events() {
   std::map<std::pair<EventKind, std::string>, Exchanges> exchanges;
   for (const auto& [event, text, types] : events_) {
     if (event.kind != EventKind::kPromotion && event.kind != EventKind::kDemotion) continue;
-    tell_to_and_fro({event, text, types});
+    tell_to_and_fro(event, text);
     Exchanges& one = exchanges[{event.kind, text}];
     ++one.count;
     if (event.exchange) one.room += event.exchange->room, one.later += event.exchange->later, one.volume += event.exchange->volume;

@@ -82,7 +82,7 @@ class RunLoop {
   void tell_idle_loads();
   void tell_events();
   /// Warns of cells that change their body again and again: a rule asks for a shell what only spheres answer so.
-  void tell_to_and_fro(const ToldEvent& exchange);
+  void tell_to_and_fro(const Event& event, const std::string& reason);
   Status checkpoint();
   Status finish(RunState state, ErrorKind kind, RunSummary& summary);
   [[nodiscard]] int wish_to_stop() const;

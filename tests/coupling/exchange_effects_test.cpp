@@ -7,7 +7,6 @@
 #include <map>
 #include <numbers>
 
-#include "core/ball.h"
 #include "core/close_packing.h"
 #include "coupling/simulation.h"
 #include "tests/coupling/tissue_fixture.h"
@@ -80,8 +79,8 @@ void expect_effects_of_the_whole_tissue(const Model& model, std::size_t shell_ev
 }
 
 /// Face-centred balls of which `shells` are shells and the first `count`, the middle one and those around it, become some: caps of each among shells, beyond
-/// what a pressure takes that leaves this part of a ball.
-std::vector<double> caps_among_shells(std::size_t count, const std::vector<std::size_t>& shells, double part = 1.0) {
+/// what a pressure takes of a ball.
+std::vector<double> caps_among_shells(std::size_t count, const std::vector<std::size_t>& shells, double pressed = 0.0) {
   const Model model = clusters_model();
   ShapeLibrary shapes;
   const std::vector<Vec3d> places = close_packed_places(4, kSpacing);
@@ -95,7 +94,7 @@ std::vector<double> caps_among_shells(std::size_t count, const std::vector<std::
   for (const std::size_t row : rows_of(tissue.cells, exchanged)) orders.push_back({row, BodyKind::kShell, {}});
   const ExchangeWatch watch = watch_exchanges(model, tissue, orders, mechanics, shapes, Comm());
   std::vector<double> out;
-  for (const CellId id : exchanged) out.push_back(watch.room_to_come_of(id, ball_volume(kRadius), part));
+  for (const CellId id : exchanged) out.push_back(watch.room_to_come_of(id, pressed));
   return out;
 }
 
@@ -110,11 +109,10 @@ TEST(ExchangeEffects, OfAGroupAreTheCapsOfItsBallsWithEachOther) {
 
 /// Decision 0076: what its pressure takes from a ball is not left out once more.
 TEST(ExchangeEffects, OfPressedBallsAreTheCapsBeyondWhatPressureTakes) {
-  const double h = kRadius - 0.5 * kSpacing, caps = 12.0 * std::numbers::pi * h * h * (3.0 * kRadius - h) / 3.0,
-               ball = ball_volume(kRadius);
-  EXPECT_NEAR(caps_among_shells(13, {}, 1.0 - 0.25 * caps / ball)[0], 0.75 * caps, 1e-9 * caps);
-  EXPECT_EQ(caps_among_shells(13, {}, 1.0 - 1.1 * caps / ball)[0], 0.0);
-  EXPECT_NEAR(caps_among_shells(13, {}, 1.2)[0], caps, 1e-9 * caps);  // pulled
+  const double h = kRadius - 0.5 * kSpacing, caps = 12.0 * std::numbers::pi * h * h * (3.0 * kRadius - h) / 3.0;
+  EXPECT_NEAR(caps_among_shells(13, {}, 0.25 * caps)[0], 0.75 * caps, 1e-9 * caps);
+  EXPECT_EQ(caps_among_shells(13, {}, 1.1 * caps)[0], 0.0);
+  EXPECT_NEAR(caps_among_shells(13, {}, -0.2 * caps)[0], caps, 1e-9 * caps);  // pulled
 }
 
 TEST(ExchangeEffects, OfACellBesideShellsAreTheCapsWithTheBallsThatTheseWouldBe) {
