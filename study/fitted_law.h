@@ -30,7 +30,7 @@ struct FittedLaw {
     cbm::PackingCurve packing;     ///< empty: packings were not fitted
     cbm::CrowdedArea area;         ///< contact areas among many; empty: not fitted
     double approach_factor = 1.0;  ///< friction of such a sphere with cells over that of the shells, across their contact; 1: not fitted
-    double along_factor = 1.0;     ///< along it, likewise
+    double along_factor = 1.0;     ///< along it, likewise; not fitted: that of approach stands for it
   };
   Spheres of_jkr, of_table;
   std::optional<CellFriction> friction;  ///< of the shells with which friction was fitted

@@ -327,9 +327,9 @@ void add_point(const PointsEvaluation& e, int d, const PointsAgainstBody& lists,
   if (kPlain || !e.with_itself) {
     sink.source.contact_area += batch.told[lane];
     sink.source.told_area[p.source_place] += static_cast<float>(batch.told[lane]);
+    add_within(e, d, batch, lane, pair);
+    pair.overlap = gap.gap < -pair.overlap ? -gap.gap : pair.overlap;
   }
-  if (kPlain || !e.with_itself) add_within(e, d, batch, lane, pair);
-  if (kPlain || !e.with_itself) pair.overlap = gap.gap < -pair.overlap ? -gap.gap : pair.overlap;
 
   const Vec3d pull = get(batch.pull, lane);
   sink.push_source(e.quadrature, p.q, -pull);

@@ -6,13 +6,15 @@
 #include <numeric>
 #include <utility>
 
-#include "core/numbers/students_t.h"
-
 namespace morula::calibrate {
 namespace {
 
 constexpr int kParts = 16;              // of the way, by which clusters are compared
 constexpr int kLeast = -10, kMost = 2;  // powers of two that are tried as factors
+constexpr int kBetween = 64;            // places from one to the next
+constexpr double kFromApproach = 4.0;   // by what factor it may differ from that of approach: a standard deviation (decision 0077)
+constexpr double kResolved = 1e-3;      // of the work, by integration over the outputs of a run
+constexpr double kRise = 3.841459;      // of a loss, −2 ln L, at the ends of an interval of 95 %
 
 double part_of(int k) { return (k + 1.0) / kParts; }
 
@@ -45,47 +47,66 @@ std::vector<double> mean_of(const Works& works, double unit) {
   return out;
 }
 
-/// Difference of the means over all clusters but `left_out` (−1: all), by part of the way.
-std::vector<double> difference(const Works& a, const Works& b, int left_out) {
-  std::vector<double> out(kParts, 0.0);
-  const double count = static_cast<double>(a.size()) - (left_out < 0 ? 0.0 : 1.0);
-  for (std::size_t c = 0; c < a.size(); ++c)
-    for (std::size_t k = 0; k < out.size() && static_cast<int>(c) != left_out; ++k) out[k] += (a[c][k] - b[c][k]) / count;
-  return out;
-}
-
 double inner_product(const std::vector<double>& a, const std::vector<double>& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
-/// log2 of the factor with the least squares, from the differences by power of two, which are taken as straight in between.
-double best_of(const std::vector<std::vector<double>>& differences) {
-  double at = kLeast, least = inner_product(differences.front(), differences.front());
-  for (std::size_t k = 0; k + 1 < differences.size(); ++k) {
-    const std::vector<double>&here = differences[k], &next = differences[k + 1];
-    std::vector<double> step(here.size());
-    for (std::size_t i = 0; i < step.size(); ++i) step[i] = next[i] - here[i];
-    const double squares = inner_product(step, step);
-    const double part = squares > 0.0 ? std::clamp(-inner_product(here, step) / squares, 0.0, 1.0) : 0.0;
-    const double loss = inner_product(here, here) + 2.0 * part * inner_product(here, step) + part * part * squares;
-    if (!(loss < least)) continue;
-    least = loss;
-    at = kLeast + static_cast<double>(k) + part;
-  }
-  return at;
+/// a + part (b − a), by cluster and part of the way.
+Works between(const Works& a, const Works& b, double part) {
+  Works out = a;
+  for (std::size_t c = 0; c < a.size(); ++c)
+    for (std::size_t k = 0; k < kParts; ++k) out[c][k] += part * (b[c][k] - a[c][k]);
+  return out;
 }
+
+/// How spheres differ from shells, mean squares over the parts of the way, in parts of the work on a cluster of shells.
+struct Misfit {
+  double mean = 0.0;     ///< of the mean over the clusters
+  double scatter = 0.0;  ///< variance of single clusters around it
+};
+Misfit misfit_of(const Works& spheres, const Works& shells, double whole) {
+  const auto count = static_cast<double>(shells.size());
+  Works difference = spheres;
+  for (std::size_t c = 0; c < shells.size(); ++c)
+    for (std::size_t k = 0; k < kParts; ++k) difference[c][k] = (spheres[c][k] - shells[c][k]) / whole;
+  const std::vector<double> mean = mean_of(difference, 1.0);
+  Misfit out{.mean = inner_product(mean, mean) / kParts, .scatter = 0.0};
+  double all = 0.0;
+  for (const auto& one : difference) all += inner_product(one, one) / kParts;
+  if (count > 1.0) out.scatter = (all - count * out.mean) / (count - 1.0);
+  return out;
+}
+
+/// What speaks against each factor: −2 ln of its likelihood, Student's t of the mean over the clusters, and what it is away from that of approach. The scatter is that where
+/// the mean is nearest to shells, and what no friction takes away there: spheres that are wrong in another way tell less.
+class Loss {
+ public:
+  Loss(const std::vector<Works>& tried, const Works& shells, double whole, double approach) : approach_(std::log2(approach)) {
+    const auto last = static_cast<std::size_t>(kMost - kLeast) * kBetween;
+    for (std::size_t i = 0; i <= last; ++i) {
+      const std::size_t k = std::min(i / kBetween, tried.size() - 2);
+      const double part = static_cast<double>(i) / kBetween - static_cast<double>(k);
+      misfits_.push_back(misfit_of(between(tried[k], tried[k + 1], part), shells, whole));
+    }
+    count_ = static_cast<double>(shells.size());
+    const Misfit& nearest = *std::ranges::min_element(misfits_, {}, &Misfit::mean);
+    scatter_ = std::max(kResolved * kResolved, nearest.scatter + count_ * nearest.mean);
+  }
+  [[nodiscard]] std::size_t size() const { return misfits_.size(); }
+  /// log2 of the factor at a place.
+  static double exponent(std::size_t i) { return kLeast + static_cast<double>(i) / kBetween; }
+  [[nodiscard]] double at(std::size_t i) const {
+    const double away = (exponent(i) - approach_) / std::log2(kFromApproach);
+    const double told = count_ > 1.0 ? count_ * std::log1p(count_ * misfits_[i].mean / ((count_ - 1.0) * scatter_)) : 0.0;
+    return told + away * away;
+  }
+
+ private:
+  double approach_, count_ = 0.0, scatter_ = 0.0;
+  std::vector<Misfit> misfits_;
+};
 
 Error no_fit(const char* what) { return Error{ErrorKind::kInput, what, ""}; }
-
-/// Of the jackknife over n estimates, each without one cluster: half of the interval of 95 %.
-double half_interval(const std::vector<double>& estimates) {
-  const auto n = static_cast<double>(estimates.size());
-  if (n < 2.0) return std::numeric_limits<double>::infinity();
-  double mean = 0.0, square = 0.0;
-  for (const double one : estimates) mean += one / n;
-  for (const double one : estimates) square += std::pow(one - mean, 2);
-  return students_t_95(n - 1.0) * std::sqrt((n - 1.0) / n * square);
-}
 
 }  // namespace
 
@@ -99,7 +120,8 @@ PressedCluster pressed_cluster(std::vector<double> part, const std::vector<doubl
   return out;
 }
 
-Result<FittedAlong> fit_friction_along(const std::vector<PressedCluster>& shells, double friction, const ClustersOfSpheres& spheres) {
+Result<FittedAlong> fit_friction_along(const std::vector<PressedCluster>& shells, double friction, double approach,
+                                       const ClustersOfSpheres& spheres) {
   if (shells.empty()) return no_fit("no cluster of cells was pressed");
   if (!(friction > 0.0)) return no_fit("cells without friction along their contact tell nothing about that of spheres");
   const Works of_shells = works_of(shells);
@@ -111,26 +133,23 @@ Result<FittedAlong> fit_friction_along(const std::vector<PressedCluster>& shells
     MORULA_TRY_ASSIGN(const auto clusters, spheres(std::exp2(k)));
     tried.push_back(works_of(clusters));
   }
-  const auto best_without = [&](int left_out) {
-    std::vector<std::vector<double>> differences;
-    for (const Works& one : tried) differences.push_back(difference(one, of_shells, left_out));
-    return best_of(differences);
-  };
+  const Loss loss(tried, of_shells, whole, std::clamp(approach, std::exp2(kLeast), std::exp2(kMost)));
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < loss.size(); ++i)
+    if (loss.at(i) < loss.at(best)) best = i;
+  std::size_t low = best, high = best;
+  const double limit = loss.at(best) + kRise;
+  for (std::size_t i = 0; i < loss.size(); ++i)
+    if (loss.at(i) <= limit) low = std::min(low, i), high = std::max(high, i);
+
   FittedAlong out;
-  const double best = best_without(-1);
-  if (best <= kLeast) return no_fit("balls of spheres with next to none resist more than balls of shells: their work does not tell it");
-  if (best >= kMost)
-    return no_fit("balls of spheres with four times that of the shells yield more than balls of shells: their work does not tell it");
-  out.factor = std::exp2(best);
+  out.factor = std::exp2(Loss::exponent(best));
   out.friction = out.factor * friction;
-  std::vector<double> estimates;
-  for (int k = 0; k < static_cast<int>(shells.size()) && shells.size() > 1; ++k) estimates.push_back(std::log(2.0) * best_without(k));
-  const double half = half_interval(estimates);
-  out.low = out.friction * std::exp(-half), out.high = out.friction * std::exp(half);
+  out.low = low == 0 ? 0.0 : friction * std::exp2(Loss::exponent(low));
+  out.high = high + 1 == loss.size() ? std::numeric_limits<double>::infinity() : friction * std::exp2(Loss::exponent(high));
   MORULA_TRY_ASSIGN(const auto fitted, spheres(out.factor));
   const Works of_fitted = works_of(fitted);
-  const std::vector<double> left = difference(of_fitted, of_shells, -1);
-  out.misfit = std::sqrt(inner_product(left, left) / kParts) / whole;
+  out.misfit = std::sqrt(misfit_of(of_fitted, of_shells, whole).mean);
   for (int k = 0; k < kParts; ++k) out.part.push_back(part_of(k));
   out.shells = mean_of(of_shells, whole), out.fitted = mean_of(of_fitted, whole), out.unfitted = mean_of(tried[-kLeast], whole);
   return out;

@@ -25,12 +25,13 @@ struct FittedAlong : FittedFriction {
 /// The clusters of the shells, of spheres whose friction along their contacts is this part of that of the shells.
 using ClustersOfSpheres = std::function<Result<std::vector<PressedCluster>>(double factor)>;
 
-/// Friction along the contact of two spheres, per contact area, with which they go past each other as shells do: the factor, of all powers of two from 1/1024 to 4 and then
-/// between them, where the work is taken as straight in the logarithm, for which the mean work on the clusters is nearest to that on the shells, by least squares over sixteen parts of the way. The
-/// interval (95 %) comes from clusters left out one by one (jackknife, Student's t of logarithms); `misfit`: root mean square of what is left, over the
-/// shells' work. `friction`: γ_t of the shells [nN·s/µm³].
-/// Errors (kInput): no cluster; shells that resist nothing, or have no friction along their contact; a best factor at either end of those that are tried, which the
-/// work then does not tell. Those of `spheres`.
-Result<FittedAlong> fit_friction_along(const std::vector<PressedCluster>& shells, double friction, const ClustersOfSpheres& spheres);
+/// Friction along the contact of two spheres, per contact area, with which they go past each other as shells do: a factor between 1/1024 and 4. What speaks against one is how far the mean
+/// work is from that on the shells, over sixteen parts of the way, beside the scatter of single clusters and what no factor takes away (Student's t), and how far it is from the factor of
+/// approach, of which the logarithm is taken to differ by a standard deviation of ln 4 where nothing tells it. Between powers of two the work is taken as straight in the logarithm.
+/// The interval (95 %) is where this loss is less than 3.84 above its least; an end that no factor reaches is 0 or infinite. `misfit`: root mean square of what is left, over the
+/// shells' work. `friction`: γ_t of the shells [nN·s/µm³]; `approach`: the factor on their friction across the contact.
+/// Errors (kInput): no cluster; shells that resist nothing, or have no friction along their contact. Those of `spheres`.
+Result<FittedAlong> fit_friction_along(const std::vector<PressedCluster>& shells, double friction, double approach,
+                                       const ClustersOfSpheres& spheres);
 
 }  // namespace morula::calibrate

@@ -125,6 +125,11 @@ class Fitting {
       out_.data.remarks.push_back("friction along the contact for " + std::string(name) +
                                   " is hardly told by pressed clusters: anything from " + number_text("%.2g", out.along->low) + " to " +
                                   number_text("%.2g nN s/um^3", out.along->high));
+    constexpr double kWrongLaw = 0.1;  // of the work
+    if (out.along && out.along->misfit > kWrongLaw)
+      out_.data.remarks.push_back(
+          "balls of spheres of " + std::string(name) + ", pressed flat with the friction that was found, differ by " +
+          number_text("%.0f %%", 100.0 * out.along->misfit) + " of the work from balls of shells: that is their law, not their friction");
     return out;
   }
   /// With which spheres of a law that has its friction of approach are pressed flat as shells are.
@@ -133,7 +138,7 @@ class Fitting {
       law.sphere.along_factor = factor;
       return clusters_.press(law);
     };
-    return calibrate::fit_friction_along(out_.data.pressed, out_.material.friction.along, spheres);
+    return calibrate::fit_friction_along(out_.data.pressed, out_.material.friction.along, law.sphere.approach_factor, spheres);
   }
   /// Gives spheres of the law the friction of approach that their pairs tell, and along their contacts that which was found, or else the same.
   [[nodiscard]] TrialLaw with_friction(TrialLaw law) const {

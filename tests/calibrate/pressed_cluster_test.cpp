@@ -32,7 +32,7 @@ TEST(PressedCluster, HasTheWorkOfBothPlates) {
 
 TEST(FrictionAlong, ComesBackFromClustersOfAKnownOne) {
   for (const double truth : {0.02, 0.11, 0.5}) {
-    const auto found = fit_friction_along(pressed(truth), 50.0, of_spheres());
+    const auto found = fit_friction_along(pressed(truth), 50.0, 0.1, of_spheres());
     ASSERT_TRUE(found.ok()) << found.error().message;
     EXPECT_NEAR(found->factor / truth, 1.0, 0.06);
     EXPECT_NEAR(found->friction, 50.0 * found->factor, 1e-9);
@@ -49,29 +49,59 @@ TEST(FrictionAlong, ComesBackFromClustersOfAKnownOne) {
 }
 
 TEST(FrictionAlong, HasAWideIntervalWhereClustersDisagree) {
-  const auto found = fit_friction_along(pressed(0.1, {1.0, 6.0, 0.2}), 50.0, of_spheres());
-  ASSERT_TRUE(found.ok());
-  EXPECT_GT(found->high / found->low, 3.0);
+  const auto agree = fit_friction_along(pressed(0.1, {1.0, 1.3, 0.8}), 50.0, 0.1, of_spheres());
+  const auto disagree = fit_friction_along(pressed(0.1, {1.0, 3.0, 0.3}), 50.0, 0.1, of_spheres());
+  ASSERT_TRUE(agree.ok());
+  ASSERT_TRUE(disagree.ok());
+  EXPECT_GT(disagree->high / disagree->low, 3.0 * agree->high / agree->low);
 }
 
-TEST(FrictionAlong, OfOneClusterHasNoInterval) {
-  const auto found = fit_friction_along(pressed(0.1, {1.0}), 50.0,
-                                        [](double factor) -> Result<std::vector<PressedCluster>> { return pressed(factor, {1.0}); });
-  ASSERT_TRUE(found.ok());
-  EXPECT_EQ(found->low, 0.0);
-  EXPECT_TRUE(std::isinf(found->high));
+TEST(FrictionAlong, LeansOnThatOfApproachByWhatClustersLeaveOpen) {
+  const auto found = [](double approach, std::initializer_list<double> own) {
+    const auto fit = fit_friction_along(pressed(0.1, own), 50.0, approach, of_spheres());
+    return fit.ok() ? std::log2(fit->factor) : 99.0;
+  };
+  EXPECT_NEAR(found(0.4, {1.0, 1.2, 0.9}) - found(0.025, {1.0, 1.2, 0.9}), 0.0, 0.1);
+  const double open = found(0.4, {1.0, 6.0, 0.1}) - found(0.025, {1.0, 6.0, 0.1});
+  EXPECT_GT(open, 0.5);
+  EXPECT_LT(open, 4.0) << "what they say counts";
+}
+
+TEST(FrictionAlong, OfOneClusterIsThatOfApproach) {
+  const auto of_one = [](double factor) -> Result<std::vector<PressedCluster>> { return pressed(factor, {1.0}); };
+  const auto found = fit_friction_along(pressed(0.1, {1.0}), 50.0, 0.0625, of_one);
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  EXPECT_DOUBLE_EQ(found->factor, 0.0625);
+  const double reach = std::pow(4.0, 1.96);  // 95 % of what it may differ from approach
+  EXPECT_NEAR(found->high / found->friction, reach, 0.02 * reach);
+  EXPECT_NEAR(found->friction / found->low, reach, 0.02 * reach);
+}
+
+TEST(FrictionAlong, OfSpheresThatAlwaysResistMoreIsLessThanThatOfApproach) {
+  const auto too_stiff = [](double factor) -> Result<std::vector<PressedCluster>> { return pressed(factor + 0.5); };
+  const auto found = fit_friction_along(pressed(0.01), 50.0, 0.1, too_stiff);
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  EXPECT_LT(found->factor, 0.1);
+  EXPECT_GT(found->misfit, 0.1) << "which tells that it is not the friction";
+}
+
+TEST(FrictionAlong, HasAnOpenIntervalWhereAnEndIsNotReached) {
+  const auto most = fit_friction_along(pressed(4.0), 50.0, 1.0, of_spheres());
+  ASSERT_TRUE(most.ok()) << most.error().message;
+  EXPECT_TRUE(std::isinf(most->high));
+  EXPECT_NEAR(most->factor, 4.0, 0.2);
+  const auto least = fit_friction_along(pressed(1.0 / 1024.0), 50.0, 0.01, of_spheres());
+  ASSERT_TRUE(least.ok()) << least.error().message;
+  EXPECT_EQ(least->low, 0.0);
 }
 
 TEST(FrictionAlong, TellsWhatCannotBe) {
-  EXPECT_FALSE(fit_friction_along({}, 50.0, of_spheres()).ok());
-  EXPECT_THAT(fit_friction_along(pressed(0.1), 0.0, of_spheres()).error().message, testing::HasSubstr("without friction"));
+  EXPECT_FALSE(fit_friction_along({}, 50.0, 0.1, of_spheres()).ok());
+  EXPECT_THAT(fit_friction_along(pressed(0.1), 0.0, 0.1, of_spheres()).error().message, testing::HasSubstr("without friction"));
   const PressedCluster loose = pressed_cluster({0.0, 1.0}, {0.0, 0.0}, 10.0);
-  EXPECT_THAT(fit_friction_along({loose}, 50.0, of_spheres()).error().message, testing::HasSubstr("did not resist"));
-  const auto too_stiff = [](double factor) -> Result<std::vector<PressedCluster>> { return pressed(factor + 0.5); };
-  EXPECT_THAT(fit_friction_along(pressed(0.01), 50.0, too_stiff).error().message, testing::HasSubstr("resist more than balls of shells"));
-  EXPECT_THAT(fit_friction_along(pressed(20.0), 50.0, of_spheres()).error().message, testing::HasSubstr("yield more than balls of shells"));
+  EXPECT_THAT(fit_friction_along({loose}, 50.0, 0.1, of_spheres()).error().message, testing::HasSubstr("did not resist"));
   const auto fails = [](double) -> Result<std::vector<PressedCluster>> { return Error{ErrorKind::kPhysics, "spheres fly apart", ""}; };
-  EXPECT_EQ(fit_friction_along(pressed(0.1), 50.0, fails).error().message, "spheres fly apart");
+  EXPECT_EQ(fit_friction_along(pressed(0.1), 50.0, 0.1, fails).error().message, "spheres fly apart");
 }
 
 }  // namespace

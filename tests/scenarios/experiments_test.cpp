@@ -173,7 +173,7 @@ TEST(Experiments, GiveBackTheFrictionAlongTheContactOfSpheres) {
   const auto spheres = PressedSpheres::read(material, seeds);
   ASSERT_TRUE(spheres.ok()) << spheres.error().message;
   TrialLaw law{.sphere = {.young = 0.8, .poisson = 0.4}, .adhesion = material.adhesion, .pair = {}};
-  const auto fit = calibrate::fit_friction_along(found, material.friction.along, [&](double factor) {
+  const auto fit = calibrate::fit_friction_along(found, material.friction.along, 1.0, [&](double factor) {
     law.sphere.along_factor = factor;
     return spheres->press(law);
   });

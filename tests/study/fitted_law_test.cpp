@@ -171,7 +171,7 @@ TEST(FittedLaw, SpheresComeTogetherWithTheFrictionThatWasFitted) {
   const std::string shells = "friction_of_shells: {medium: 0.1 nN s/um^3, cell_cell: 50 nN s/um^3, cell_cell_tangential: 50 nN s/um^3}\n";
   const auto of_pairs = Written(file_text("jkr", approach, shells)).read();
   ASSERT_TRUE(of_pairs.ok()) << of_pairs.error().text();
-  EXPECT_DOUBLE_EQ(sphere_contact_table(of_pairs->model).entry(0, 0).tangential_friction, 50.0) << "that was not fitted";
+  EXPECT_DOUBLE_EQ(sphere_contact_table(of_pairs->model).entry(0, 0).tangential_friction, 2.5) << "that of approach stands for it";
   const Written file(file_text("jkr", approach + along, shells));
   const auto study = file.read();
   ASSERT_TRUE(study.ok()) << study.error().text();
