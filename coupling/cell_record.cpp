@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/mesh/shape_bytes.h"
+#include "core/space/best_turn.h"
 
 namespace morula {
 namespace {
@@ -283,6 +284,8 @@ void place_nucleus(ShellRecord& shell, const CellType& type, ShapeLibrary& shape
   ShellRecord nucleus =
       spherical_shell(shapes.icosphere(interior.nucleus_nodes).value(), center, volume,
                       dcm::nucleus_reference_volume(volume, shell.rest_volume, interior.nucleus_shell, type.shell.tension));
+  const Rotation turn = best_turn(shell.shape->position, shell.position);  // links are chosen between meshes that lie alike
+  for (Vec3d& p : nucleus.position) p = center + turn * (p - center);
   if (!shell.velocity.empty())
     std::ranges::fill(nucleus.velocity, mean_of(std::span<const Vec3f>(shell.velocity)));  // it comes along with its cell
   shell.nuclear_shell = std::move(nucleus);

@@ -76,10 +76,9 @@ Daughters divide_as_shell(const CellRecord& mother, const CellType& type, const 
       const CellType& own = *what.type[which];
       CellState& row = out[which].row = which == 0 ? rows.first : rows.second;
       dcm::ShellRecord& shell = (*divided)[which];
-      // Osmotic cells share their osmolytes, which go with the target volume; others keep their pressure: V0 goes with the volume.
-      if (!own.osmosis.acts())
-        row.reference_excess =
-            std::log(shell.reference_volume / free_reference_volume(row.birth_volume, own, deviation(row, own, Trait::kTension)));
+      // A daughter keeps the pressure: V0 goes with the volume. Osmolytes are shared with the target volume, and water follows them.
+      row.reference_excess =
+          std::log(shell.reference_volume / free_reference_volume(row.birth_volume, own, deviation(row, own, Trait::kTension)));
       out[which].shell = std::move(shell);
     }
     return out;

@@ -17,8 +17,8 @@ namespace {
 
 /// How far a shell may bulge before its neighbourhood is too small, in units of its diameter.
 constexpr double kFirstWay = 0.25, kLastWay = 4.0;
-/// A new shell that is left this deep within a neighbour has no room [µm].
-constexpr double kNoRoom = 0.5;
+/// A new shell that is left this deep within a neighbour has no room: it would end a run at the usual limit [µm].
+constexpr double kNoRoom = Limits().overlap;
 
 /// Moves the owned bodies with moves[body] != 0 of a part; gives their overlap [µm].
 using Move = std::function<double(Mechanics&, Tissue&, std::span<const char>)>;

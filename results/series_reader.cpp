@@ -78,13 +78,13 @@ const SeriesColumn* SeriesTable::find(std::string_view name) const {
   return nullptr;
 }
 
-Result<SeriesTable> parse_series(std::string_view text, const std::string& origin) {
+Result<SeriesTable> parse_series(std::string_view text, const std::string& origin, LastLine last) {
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   SeriesTable table;
   std::size_t number = 0;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = text.find('\n', begin);
-    if (end == std::string_view::npos && number > 0) break;  // being written
+    if (end == std::string_view::npos && number > 0 && last == LastLine::kBeingWritten) break;
     const std::string_view line = trimmed(text.substr(begin, end == std::string_view::npos ? end : end - begin));
     begin = end == std::string_view::npos ? text.size() : end + 1;
     ++number;
@@ -97,9 +97,9 @@ Result<SeriesTable> parse_series(std::string_view text, const std::string& origi
   return table;
 }
 
-Result<SeriesTable> read_series(const std::filesystem::path& path) {
+Result<SeriesTable> read_series(const std::filesystem::path& path, LastLine last) {
   MORULA_TRY_ASSIGN(const std::string text, read_file(path));
-  return parse_series(text, path.string());
+  return parse_series(text, path.string(), last);
 }
 
 }  // namespace morula::scenarios

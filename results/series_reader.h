@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -24,13 +25,19 @@ struct SeriesTable {
   [[nodiscard]] const SeriesColumn* find(std::string_view name) const;
 };
 
+/// What a last line without its newline is.
+enum class LastLine : std::uint8_t {
+  kBeingWritten,  ///< of the table of a run: it is left out
+  kWhole,         ///< of a file that somebody made
+};
+
 /// Read a CSV whose header gives each column as `name [unit]` or `name`.
 ///
-/// A last line without its newline is still being written and is left out. Errors name file, line and column: no header, a double
+/// Errors name file, line and column: no header, a double
 /// name, a row with too few or too many fields, a field that is not a number, a pipe or device; all of them kFile.
-Result<SeriesTable> read_series(const std::filesystem::path& path);
+Result<SeriesTable> read_series(const std::filesystem::path& path, LastLine last = LastLine::kBeingWritten);
 
 /// The same from text; `origin` is the file's name in messages.
-Result<SeriesTable> parse_series(std::string_view text, const std::string& origin);
+Result<SeriesTable> parse_series(std::string_view text, const std::string& origin, LastLine last = LastLine::kBeingWritten);
 
 }  // namespace morula::scenarios

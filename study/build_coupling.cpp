@@ -80,6 +80,18 @@ void check_thresholds(BuildContext& c, const UnitSystem& units, const draft::Tri
   }
 }
 
+/// A threshold that no cell reaches, or that all are beyond from the start.
+void warn_of_idle_threshold(BuildContext& c, const draft::Trigger& t, const Comparison& up) {
+  const bool nobody = up.above ? up.value >= up.of->most : up.value <= up.of->least;
+  const bool everybody = up.above ? up.value < up.of->least : up.value > up.of->most;
+  if (nobody)
+    c.diagnostics.warning(694, t.promote.place, "no cell ever has `" + t.promote.value + "`: nobody becomes a shell by this trigger",
+                          "for example `" + std::string(up.of->example) + "`");
+  if (everybody)
+    c.diagnostics.warning(694, t.promote.place, "every cell has `" + t.promote.value + "`: all become shells by this trigger",
+                          "`body: shell` of the type says the same");
+}
+
 /// Demotion by the short form `outside_law: 1.0`: spheres of default types rest in pairs at 0.81 of the range, and would not come back below that.
 constexpr double kBackInside = 0.9;
 
@@ -131,6 +143,7 @@ void build_trigger(BuildContext& c, const UnitSystem& units, const draft::Trigge
   const auto down = t.demote.known() ? read_comparison(c, units, "demote", t.demote) : std::nullopt;
   if (!up || !down) return;
   check_thresholds(c, units, t, *up, *down);
+  warn_of_idle_threshold(c, t, *up);
   trigger.value = up->of;
   trigger.field = up->field;
   trigger.promote_above = up->above;
@@ -215,6 +228,10 @@ void build_region(BuildContext& c, draft::Region& r, const Place& place) {
     if (r.from.known() && r.until.known() && !(region.from < region.until))
       c.diagnostics.error(510, r.until.given ? r.until.place : r.from.place, "region '" + region.name + "' ends before it begins",
                           "set until after from");
+    if (const auto& end = c.draft.time.end; r.from.given && r.from.known() && end.known() && !(region.from < end.value))
+      c.diagnostics.warning(694, r.from.place,
+                            "region '" + region.name + "' begins at " + r.from.text + ", and the run ends at " + end.text,
+                            "nobody changes its body by it: begin earlier, or leave the region away");
     check_inside_domain(c, r, region);
   }
   for (const Region& other : c.study.model.swaps.regions)

@@ -104,13 +104,15 @@ void declare_curve(Section& s, Criterion& c) {
           .fallback = "",
           .example = "force"},
          c.along);
-  s.word({.name = "curve",
-          .doc = "What is made of the measure as a curve over `along`, of all moments and things together: `r_squared`, `intercept` or "
-                 "`relative_intercept` (over the largest value) of the straight line through its points; `rms`: root mean square of its "
-                 "differences from the data, at those of their points that it reaches.",
-          .words = {"r_squared", "intercept", "relative_intercept", "rms"},
-          .example = "r_squared"},
-         c.curve);
+  s.word(
+      {.name = "curve",
+       .doc =
+           "What is made of the measure as a curve over `along`, of all moments and things together: `r_squared`, `intercept` or "
+           "`relative_intercept` (over the value of largest size) of the straight line through its points; `rms`: root mean square of its "
+           "differences from the data, at those of their points that it reaches.",
+       .words = {"r_squared", "intercept", "relative_intercept", "rms"},
+       .example = "r_squared"},
+      c.curve);
 }
 
 }  // namespace

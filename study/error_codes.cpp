@@ -262,6 +262,10 @@ constexpr ErrorCode kCodes[] = {
      "A file that `morula calibrate` made says by its `checksum` what it was like. Somebody has changed it since: what it says about its "
      "own error and range "
      "may not hold. A file without a `checksum` is taken as it is."},
+    {694, "rule that nobody meets",
+     "A trigger compares with what no cell can have (a share of a surface above 2, an age below 0), or with what all have, or a region "
+     "begins "
+     "when the run has ended."},
     {700, "cycle that never ends",
      "A cell that divides at a volume must grow, in one phase at least; one that does not grow divides by the clock of its phases."},
     {701, "division below the size at birth", "A sizer's division volume must be larger than the mean birth volume of the type."},

@@ -99,6 +99,10 @@ class ContactLayer {
   /// Of the bodies of the scene; lists stay what they are.
   void set_own_factors(OwnFactors factors) { own_ = std::move(factors); }
   [[nodiscard]] const OwnFactors& own_factors() const { return own_; }
+  /// Tensions of surfaces where others have them at another time: those of `materials`, in the same order as at the start.
+  void take_tensions(std::span<const ContactMaterial> materials) {
+    for (std::size_t i = 0; i < materials_.size(); ++i) materials_[i].tension = materials[i].tension;
+  }
   /// Surfaces of sisters that adhere otherwise than their materials do; sorted by cell.
   void set_sister_bonds(std::vector<SisterBond> bonds) { sister_bonds_ = std::move(bonds); }
   [[nodiscard]] const std::vector<SisterBond>& sister_bonds() const { return sister_bonds_; }

@@ -5,7 +5,7 @@
 
 namespace morula {
 
-/// A surface that is new where it touches that of its sister: W goes there from the sum of their tensions to what it is elsewhere, as
+/// A surface that is new where it touches that of its sister: W goes there from the sum of their tensions at that time to what it is elsewhere, as
 /// newness_of_interface() fades.
 struct SisterBond {
   CellId cell;       ///< one of the sisters

@@ -96,7 +96,7 @@ SurfaceTraction traction(const Model& model, std::size_t a, std::size_t b) {
 
 }  // namespace
 
-std::vector<ContactMaterial> contact_materials(const Model& model) {
+std::vector<ContactMaterial> contact_materials(const Model& model, double time) {
   const std::size_t given = model.material_count(), count = contact_material_count(model);
   std::vector<ContactMaterial> out(count * count);
   for (std::size_t a = 0; a < count; ++a)
@@ -111,7 +111,7 @@ std::vector<ContactMaterial> contact_materials(const Model& model) {
         material.sphere_modulus = sphere.young / (1.0 - sphere.poisson * sphere.poisson);
         material.sphere_stiffness = sphere.with_shells.stiffness;
         material.sphere_adhesion = sphere.with_shells.adhesion;
-        material.tension = model.types[a].shell.tension;
+        material.tension = model.types[a].regional_tension.of_face(model.types[a].shell.tension, {}, 1.0, time);
         if (b < model.types.size()) material.new_surface = std::max(model.types[a].new_surface, model.types[b].new_surface);
       }
       material.law = traction(model, a, b);

@@ -9,8 +9,8 @@
 namespace morula {
 
 /// Materials of the contact layer: cell types, obstacles, and one for the walls of the domain (no adhesion, no friction), in this order.
-/// A (count × count) table; count = contact_material_count(model).
-std::vector<ContactMaterial> contact_materials(const Model& model);
+/// A (count × count) table; count = contact_material_count(model). Tensions of surfaces are those without marks, at a time [s].
+std::vector<ContactMaterial> contact_materials(const Model& model, double time = 0.0);
 [[nodiscard]] inline std::size_t contact_material_count(const Model& model) { return model.material_count() + 1; }
 
 /// Obstacles of the study and a thick plate for every wall of the domain. Errors name the obstacle whose mesh is no closed

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "core/ball.h"
 #include "core/contact/contact_layer.h"
@@ -124,7 +125,7 @@ struct OverCells {
   std::int64_t spheres_outside = 0;  ///< of the range of their laws
 };
 
-/// Adds one cell; `from`: its centre from the middle of the domain.
+/// Adds one cell; `from`: its centre from middle_of().
 void add_cell(Simulation& simulation, const BodyValues& values, const AsBalls& balls, const BodyOfRow& owned, const Vec3d& from,
               OverCells& to) {
   const Tissue& tissue = simulation.tissue();
@@ -153,6 +154,35 @@ void add_cell(Simulation& simulation, const BodyValues& values, const AsBalls& b
   to.pressure.offer(p, row.id);
   to.volume_error.offer(std::abs(volume - law) / law, row.id);
   ++to.of_type[row.type];
+}
+
+/// From where centres are measured: the middle of the domain; along periodic axes the direction in which the cells' volumes lie about a circle, so that a tissue
+/// across a face is one. Collective.
+Vec3d middle_of(const Space& space, const Tissue& tissue, const BodyValues& values, std::span<const Vec3d> center, const Comm& comm) {
+  Vec3d out = space.box.center();
+  if (!space.any_periodic()) return out;
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  constexpr double kEven = 1e-6;  // part of the volume: cells all around have no direction
+  double Vec3d::*const along[] = {&Vec3d::x, &Vec3d::y, &Vec3d::z};
+  OrderFreeSum sums[7];
+  for (const BodyOfRow& owned : bodies_of(tissue.cells)) {
+    const double volume = values.volume[owned.place(tissue.shells.size())];
+    sums[6].add(volume);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto at = along[axis];
+      const double angle = kTurn * (center[owned.row].*at - out.*at) / (space.box.size().*at);
+      sums[2 * axis].add(volume * std::cos(angle));
+      sums[2 * axis + 1].add(volume * std::sin(angle));
+    }
+  }
+  double total[7];
+  comm.sum(sums, total);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double c = total[2 * axis], s = total[2 * axis + 1];
+    if (space.periodic(axis) && std::hypot(c, s) > kEven * total[6])
+      out.*along[axis] += space.box.size().*along[axis] * std::atan2(s, c) / kTurn;
+  }
+  return out;
 }
 
 /// Numbers and extremes over all ranks. Collective.
@@ -193,7 +223,8 @@ Measures measure(Simulation& simulation) {
   const Model& model = simulation.model();
   const Comm& comm = simulation.comm();
   const std::vector<Vec3d> center = simulation.centers();
-  const Vec3d middle = model.space.box.center();
+  const Vec3d middle = middle_of(model.space, tissue, values, center, comm);
+  const auto from_middle = [&](const BodyOfRow& owned) { return model.space.nearest_image(center[owned.row] - middle); };
   Measures out;
   out.time = tissue.clock.time;
   const Vec3d edges = model.space.box.size();
@@ -202,7 +233,7 @@ Measures measure(Simulation& simulation) {
   out.lumens.resize(model.lumens.size());
   OverCells over;
   over.of_type.assign(model.types.size(), 0);
-  for (const BodyOfRow& owned : bodies_of(tissue.cells)) add_cell(simulation, values, balls, owned, center[owned.row] - middle, over);
+  for (const BodyOfRow& owned : bodies_of(tissue.cells)) add_cell(simulation, values, balls, owned, from_middle(owned), over);
   double total[kSums];
   comm.sum(over.sum, total);
   count_all(tissue, over, comm, out);
@@ -223,7 +254,7 @@ Measures measure(Simulation& simulation) {
   const Vec3d mean = set_means(total, out);
   double extent = 0.0;
   for (const BodyOfRow& body : bodies_of(tissue.cells))
-    extent = std::max(extent, norm(center[body.row] - middle - mean) + ball_radius(values.volume[body.place(tissue.shells.size())]));
+    extent = std::max(extent, norm(from_middle(body) - mean) + ball_radius(values.volume[body.place(tissue.shells.size())]));
   out.largest_extent = comm.max(extent);
   return out;
 }

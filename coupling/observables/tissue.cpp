@@ -20,7 +20,9 @@ std::vector<Observable> tissue_observables(const Model&) {
       {"shell_count", "1", "Cells whose body is a deformable shell.", [](M m) { return double(m.measures.shells); }},
       {"shell_fraction", "1", "Part of the cells whose body is a shell.",
        [](M m) { return m.measures.cells > 0 ? double(m.measures.shells) / double(m.measures.cells) : 0.0; }},
-      {"spheroid_radius", "um", "Radius of the ball with the tissue's radius of gyration, cells weighted by volume.",
+      {"spheroid_radius", "um",
+       "Radius of the ball with the tissue's radius of gyration, cells weighted by volume. In periodic domains of the images nearest to "
+       "where most volume lies.",
        [](M m) { return m.measures.spheroid_radius; }},
       {"largest_extent", "um", "Largest distance of a cell's far side from the tissue's centre.",
        [](M m) { return m.measures.largest_extent; }},

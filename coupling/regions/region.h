@@ -105,6 +105,7 @@ struct TriggerValue {
   const char* example = "";       ///< of a comparison: "pressure > 1 kPa"
   bool looks_at_body = false;     ///< of CellView: what the body is at present positions
   const char* awaited = nullptr;  ///< while such triggers are there, a run at rest goes on for this; null: it does not
+  double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();  ///< that a cell can have
   double (*of)(const Trigger& trigger, const CellView& cell) = nullptr;
 };
 

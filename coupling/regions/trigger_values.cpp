@@ -34,6 +34,7 @@ std::shared_ptr<const TriggerValue> field_value() {
       .quantity = Quantity::kConcentration,
       .example = "oxygen < 0.05 mM",
       .awaited = "fields that cells answer to",
+      .least = 0.0,
       .of = [](const Trigger& trigger, const CellView& cell) { return cell.concentration(static_cast<std::size_t>(trigger.field)); }});
   return value;
 }
@@ -49,11 +50,15 @@ std::shared_ptr<const TriggerValue> outside_law_value() {
                    .quantity = Quantity::kNumber,
                    .example = "outside_law > 1",
                    .looks_at_body = true,
+                   .least = 0.0,
                    .of = [](const Trigger&, const CellView& cell) { return cell.outside_law; }});
   return value;
 }
 
 namespace {
+
+/// Contacts of spheres are told by laws of pairs, of which the areas may add up to more than a surface.
+constexpr double kMostShare = 2.0;
 
 /// The filter of the pressure lags a steady rise by its own time.
 std::shared_ptr<const TriggerValue> pressure_rise_value() {
@@ -80,6 +85,7 @@ std::shared_ptr<const TriggerValue> packing_value() {
                    .quantity = Quantity::kFraction,
                    .example = "packing > 20 %",
                    .looks_at_body = true,
+                   .least = 0.0,
                    .of = [](const Trigger&, const CellView& cell) { return cell.packing; }});
   return value;
 }
@@ -94,6 +100,7 @@ std::shared_ptr<const TriggerValue> age_value() {
                    .quantity = Quantity::kTime,
                    .example = "age > 2 h",
                    .awaited = "cells that grow old enough for a trigger",
+                   .least = 0.0,
                    .of = [](const Trigger&, const CellView& cell) { return cell.age(); }});
   return value;
 }
@@ -108,6 +115,8 @@ std::shared_ptr<const TriggerValue> contact_share_value() {
       .quantity = Quantity::kNumber,
       .example = "contact_share < 0.5",
       .looks_at_body = true,
+      .least = 0.0,
+      .most = kMostShare,
       .of = [](const Trigger&, const CellView& cell) { return cell.contact_area / cell.area; }});
   return value;
 }

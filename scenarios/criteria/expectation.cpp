@@ -8,11 +8,11 @@
 namespace morula::scenarios {
 namespace {
 
-/// Rows of a table that have no value in the column are left out.
+/// Rows of a table that lack one of both values are left out.
 void leave_out_empty(Expectation& data) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < data.xs.size(); ++i) {
-    if (std::isnan(data.ys[i])) continue;
+    if (std::isnan(data.xs[i]) || std::isnan(data.ys[i])) continue;
     data.xs[kept] = data.xs[i];
     data.ys[kept++] = data.ys[i];
   }
@@ -26,7 +26,7 @@ bool read_data(const ExpectedValue& against, Quantity x, Quantity y, Expectation
     diagnostics.error(417, against.data.place, what, help);
     return false;
   };
-  const auto table = read_series(against.data.value);
+  const auto table = read_series(against.data.value, LastLine::kWhole);
   if (!table.ok()) return wrong(table.error().message, table.error().help);
   if (!against.y.given) return wrong("'y' is missing: which column of the file is compared?", "");
   std::vector<std::string> names;
@@ -117,7 +117,7 @@ std::optional<Expectation> expectation_of(const Study& study, const ExpectedValu
     return std::nullopt;
   }
   if (against.value.given) {
-    const auto number = number_of(against.value.value, comparison.dimension, "against", against.value.place, diagnostics);
+    const auto number = number_of(against.value.value, comparison.dimension, comparison.key, against.value.place, diagnostics);
     if (!number) return std::nullopt;
     out.kind = Expectation::Kind::kValue;
     out.value = *number;
@@ -127,7 +127,9 @@ std::optional<Expectation> expectation_of(const Study& study, const ExpectedValu
   if (against.theory.given)
     return find_theory_of(study, against.theory, comparison.measures, out, diagnostics) ? std::optional(out) : std::nullopt;
   if (against.data.given)
-    return read_data(against, comparison.along, comparison.dimension.quantity, out, diagnostics) ? std::optional(out) : std::nullopt;
+    return read_data(against, comparison.along, comparison.of_data.value_or(comparison.dimension.quantity), out, diagnostics)
+               ? std::optional(out)
+               : std::nullopt;
   out.measure = compared_measure(study, against.measure, comparison.dimension.quantity, comparison.several, diagnostics);
   out.kind = Expectation::Kind::kMeasure;
   out.text = against.measure.value;
@@ -160,6 +162,11 @@ std::optional<MeasureLimit> limit_of(const Study& study, const Criterion& c, Dim
     const auto number =
         number_of(c.within.value, out.relative ? Dimension{Quantity::kFraction, false} : dimension, "within", c.within.place, diagnostics);
     if (!number) return std::nullopt;
+    if (number->internal < 0.0) {
+      diagnostics.error(414, c.within.place, "'within' is " + c.within.value + ": nothing is as near as that",
+                        "give it as a distance, 0 or more");
+      return std::nullopt;
+    }
     out.high = *number;
     if (out.relative) out.high = {number->internal, number->internal, 1.0, ""};
     return out;

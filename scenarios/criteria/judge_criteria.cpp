@@ -68,7 +68,7 @@ std::string limit_text(const MeasureLimit& limit, double other) {
     case Kind::kAbove:
       return ">= " + (limit.other ? of_other : text(limit.low));
     case Kind::kBetween:
-      return number_text("%g", limit.low.number) + " to " + text(limit.high);
+      return (limit.low.unit == limit.high.unit ? number_text("%g", limit.low.number) : text(limit.low)) + " to " + text(limit.high);
   }
   return "";
 }
@@ -97,6 +97,7 @@ Judged judged(const UnderstoodCriterion& c, double value, double expected) {
     const double above = value / limit.high.factor - limit.high.number, below = limit.low.number - value / limit.low.factor;
     out.excess = limit.kind == Kind::kBelow ? above : limit.kind == Kind::kAbove ? below : std::max(above, below);
   }
+  if (!std::isfinite(out.value)) out.excess = kNothing;  // over nothing
   return out;
 }
 
@@ -104,8 +105,7 @@ Judged judged(const UnderstoodCriterion& c, double value, double expected) {
 Result<std::vector<double>> references(FinishedRun& run, const UnderstoodCriterion& c, const Subject& subject,
                                        const std::vector<Sample>& samples) {
   if (!c.limit.other) return expected_values(run, c.expected, c.question, subject, samples);
-  Question same = c.question;
-  same.over_cells = "mean";
+  const Question same = as_compared(c.question);
   MORULA_TRY_ASSIGN(const auto others, answers(run, same, *c.limit.other, c.limit.other->subjects, c.expected));
   const bool whatever_time = c.question.over_time != "each" || !c.question.curve.empty() || (samples.size() == 1 && others.size() == 1);
   std::vector<double> out;
@@ -144,8 +144,9 @@ Result<std::vector<Verdict>> judge_criterion(FinishedRun& run, const UnderstoodC
   std::optional<Judged> all;
   for (const Subject& thing : things) {
     MORULA_TRY_ASSIGN(const auto worst, worst_of(run, c, {thing}));
-    if (worst) all = all ? worse(*all, *worst) : *worst;
-    if (!c.question.together) out.push_back(verdict_of(c, {thing}, worst.value_or(Judged{})));
+    const Judged of_thing = worst.value_or(Judged{});
+    all = all ? worse(*all, of_thing) : of_thing;
+    if (!c.question.together) out.push_back(verdict_of(c, {thing}, of_thing));
   }
   if (c.question.together) out.push_back(verdict_of(c, things, all.value_or(Judged{})));
   return out;

@@ -30,7 +30,10 @@ Result<std::vector<Sample>> measured(FinishedRun& run, const Measure& measure, c
 /// The mean of what another measure found at a time [s]; of all where the time does not matter. No number where there is nothing.
 double mean_at(const std::vector<Sample>& samples, double time, bool whatever_time);
 
-/// What is expected in the place of each sample of a thing; no number where nothing is.
+/// The same question of a measure that another is compared with: not divided, and of a value of each cell the mean.
+Question as_compared(const Question& question);
+
+/// What is expected in the place of each sample of a thing; no number where nothing is. What is made of several moments is made of data and theories alike.
 Result<std::vector<double>> expected_values(FinishedRun& run, const Expectation& expected, const Question& question, const Subject& subject,
                                             const std::vector<Sample>& samples);
 

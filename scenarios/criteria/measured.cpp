@@ -100,7 +100,7 @@ double of_line(const CurvePoints& points, const std::string& what) {
     sxx += points.x[i] * points.x[i];
     syy += points.y[i] * points.y[i];
     sxy += points.x[i] * points.y[i];
-    largest = std::max(largest, points.y[i]);
+    largest = std::max(largest, std::abs(points.y[i]));
   }
   const double n = static_cast<double>(points.x.size());
   if (n < (what == "r_squared" ? 3.0 : 2.0)) return kNothing;
@@ -110,8 +110,20 @@ double of_line(const CurvePoints& points, const std::string& what) {
   return what == "intercept" ? intercept : intercept / largest;
 }
 
+/// The points from left to right, those of one place in their order; without those that have none.
+CurvePoints from_left(const CurvePoints& curve) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+    if (!std::isnan(curve.x[i]) && !std::isnan(curve.y[i])) order.push_back(i);
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return curve.x[i]; });
+  CurvePoints out;
+  for (const std::size_t i : order) out.x.push_back(curve.x[i]), out.y.push_back(curve.y[i]);
+  return out;
+}
+
 /// Root mean square of what a curve is above the data, at those of their points that lie between its own. No number where none does.
-double rms_from_data(const CurvePoints& curve, const Expectation& data) {
+double rms_from_data(const CurvePoints& points, const Expectation& data) {
+  const CurvePoints curve = from_left(points);
   double sum = 0.0;
   int count = 0;
   for (std::size_t i = 0; i < data.xs.size(); ++i) {
@@ -123,18 +135,22 @@ double rms_from_data(const CurvePoints& curve, const Expectation& data) {
   return count > 0 ? std::sqrt(sum / count) : kNothing;
 }
 
-/// Where each sample of a thing lies along: at its time, or at what the other measure finds then. No number where that finds nothing.
+/// Where each sample of a thing lies along: at its time, or at what the other measure finds then, of a sample of several cells the mean over all. No number where that finds nothing.
 Result<std::vector<double>> places_of(FinishedRun& run, const Question& q, const Subject& thing, const std::vector<Sample>& samples) {
   std::vector<double> out;
   for (const Sample& one : samples) out.push_back(q.along ? kNothing : one.time);
   if (!q.along) return out;
   const Subject& whose = q.along_of_thing && q.along->measure.of != MeasureOf::kRun ? thing : q.along->subjects.front();
   MORULA_TRY_ASSIGN(const auto found, q.along->measure.take(run, whose, q.moments.of(run.study(), whose)));
-  for (std::size_t i = 0; i < samples.size(); ++i)
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    double sum = 0.0;
+    int count = 0;
     for (const Sample& x : found)
       if (std::abs(x.time - samples[i].time) <= 1e-6 * std::max(1.0, x.time) &&
           (x.cell == samples[i].cell || x.cell.empty() || samples[i].cell.empty()))
-        out[i] = x.value;
+        sum += x.value, ++count;
+    if (count > 0) out[i] = sum / count;
+  }
   return out;
 }
 
@@ -206,15 +222,49 @@ Result<std::vector<Sample>> answers(FinishedRun& run, const Question& q, const M
   return all;
 }
 
+Question as_compared(const Question& question) {
+  Question out = question;
+  out.over = {};
+  if (out.over_cells == "each") out.over_cells = "mean";
+  return out;
+}
+
+namespace {
+
+/// What data or a theory say at each moment, made into one as the measure is.
+Result<std::vector<double>> expected_over_time(FinishedRun& run, const Expectation& expected, const Question& question,
+                                               const Subject& subject, const std::vector<Sample>& samples) {
+  Question each = question;
+  each.over = {};
+  each.over_cells = each.over_time = "each";
+  MORULA_TRY_ASSIGN(std::vector<Sample> course, answers(run, each, question.measured, {subject}, {}));
+  MORULA_TRY_ASSIGN(const std::vector<double> values, expected_values(run, expected, each, subject, course));
+  for (std::size_t i = 0; i < course.size(); ++i) course[i].value = values[i];
+  course = made_into_one(std::move(course), question.over_cells, question.over_time);
+  std::vector<double> out;
+  for (const Sample& one : samples) {
+    const auto same = std::ranges::find_if(course, [&](const Sample& c) { return c.cell == one.cell || course.size() == 1; });
+    out.push_back(same != course.end() ? same->value : kNothing);
+  }
+  return out;
+}
+
+/// Whether a value of this is of several moments, and of none of them.
+bool is_of_a_course(const std::string& over_time) {
+  return over_time != "each" && over_time != "min" && over_time != "max" && over_time != "first" && over_time != "last";
+}
+
+}  // namespace
+
 Result<std::vector<double>> expected_values(FinishedRun& run, const Expectation& expected, const Question& question, const Subject& subject,
                                             const std::vector<Sample>& samples) {
   if (question.curve == "rms") return std::vector<double>(samples.size(), 0.0);  // the samples are differences already
+  const bool by_moment = expected.kind == Expectation::Kind::kData || expected.kind == Expectation::Kind::kTheory;
+  if (by_moment && is_of_a_course(question.over_time)) return expected_over_time(run, expected, question, subject, samples);
   std::vector<Sample> others;
   std::vector<double> places;
   if (expected.kind == Expectation::Kind::kMeasure) {
-    Question same = question;
-    same.over = {};
-    same.over_cells = "mean";
+    const Question same = as_compared(question);
     MORULA_TRY_ASSIGN(others, answers(run, same, *expected.measure, expected.measure->subjects, {}));
   }
   if (expected.kind == Expectation::Kind::kData) {

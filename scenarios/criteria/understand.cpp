@@ -41,8 +41,9 @@ std::string words_of(const Criterion& c) {
 /// Of what a question finds, after all that is made of it.
 Dimension dimension_of(const Question& q) {
   static const std::set<std::string> numbers{"growth", "change", "left", "rising", "falling"};
-  if (q.over.kind != Expectation::Kind::kNone || q.curve == "r_squared" || q.curve == "relative_intercept") return {};
+  if (q.over.kind == Expectation::Kind::kMeasure || q.curve == "r_squared" || q.curve == "relative_intercept") return {};
   if (numbers.contains(q.over_time)) return {Quantity::kFraction, false};
+  if (q.over.kind != Expectation::Kind::kNone) return {Quantity::kNumber, q.over_time == "slope"};
   return {q.measured.measure.quantity, q.over_time == "slope"};
 }
 
@@ -66,12 +67,22 @@ bool find_along(const Study& study, const Criterion& c, Question& q, Diagnostics
   return false;
 }
 
+std::optional<Question> twice_named(const Criterion& c, const Place& place, Diagnostics& diagnostics) {
+  diagnostics.error(412, place, "'" + c.measure.value + "' says of what it is, and `of` says it once more", "keep one of them");
+  return std::nullopt;
+}
+
 std::optional<Question> question_of(const Study& study, const Criterion& c, Diagnostics& diagnostics) {
   Question out;
   out.together = c.of.together.value;
   out.over_time = c.moments.over_time.value;
   out.over_cells = c.moments.over_cells.value;
   out.curve = c.curve.value;
+  const bool for_along = c.along.given && c.along.value.find('(') == std::string::npos;
+  const bool named = c.measure.value.find('(') != std::string::npos && !for_along;
+  for (const auto* one : {&c.of.type, &c.of.load, &c.of.obstacle, &c.of.field, &c.of.pair})
+    if (named && one->given) return twice_named(c, one->place, diagnostics);
+  if (named && c.of.cell.given) return twice_named(c, c.of.cell.place, diagnostics);
   auto call = find_call(study, c.measure.value, c.measure.place, &c.of, diagnostics);
   const auto moments = moments_of(study, c.moments, diagnostics);
   if (!call || !moments) return std::nullopt;
@@ -84,7 +95,7 @@ std::optional<Question> question_of(const Study& study, const Criterion& c, Diag
   }
   if (!find_along(study, c, out, diagnostics)) return std::nullopt;
   const Dimension own{out.measured.measure.quantity, false};
-  auto over = expectation_of(study, c.over, {{&out.measured}, own, Quantity::kTime, true}, c.id.place, diagnostics);
+  auto over = expectation_of(study, c.over, {{&out.measured}, own, Quantity::kTime, true, "over"}, c.id.place, diagnostics);
   if (!over) return std::nullopt;
   if (over->kind == Expectation::Kind::kData) {
     diagnostics.error(414, c.over.data.place, "a measure is not divided by data", "hold it `against` them");
@@ -106,7 +117,10 @@ std::optional<UnderstoodCriterion> understand(const Study& study, const Criterio
   const Dimension dimension = dimension_of(out.question);
   const Quantity along = out.question.along ? out.question.along->measure.quantity : Quantity::kTime;
   const auto limit = limit_of(study, c, dimension, diagnostics);
-  const auto expected = expectation_of(study, c.against, {{&out.question.measured}, dimension, along}, c.id.place, diagnostics);
+  Comparison comparison{{&out.question.measured}, dimension, along};
+  if (out.question.over.kind == Expectation::Kind::kNone && out.question.curve.empty())
+    comparison.of_data = out.question.measured.measure.quantity;
+  const auto expected = expectation_of(study, c.against, comparison, c.id.place, diagnostics);
   if (!limit || !expected) return std::nullopt;
   out.limit = *limit;
   out.expected = *expected;

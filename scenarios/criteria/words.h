@@ -33,6 +33,8 @@ struct Comparison {
   Dimension dimension;                       ///< of what is compared
   Quantity along = Quantity::kTime;          ///< what data lie along
   bool several = false;                      ///< a measure of several things may be named
+  const char* key = "against";               ///< for messages
+  std::optional<Quantity> of_data{};         ///< of data, where what is compared is made of several of their values; none: of `dimension`
 };
 /// E201–E205, E410–E414, E417.
 std::optional<Expectation> expectation_of(const Study& study, const ExpectedValue& against, const Comparison& comparison,

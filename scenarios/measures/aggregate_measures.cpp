@@ -103,8 +103,9 @@ Result<std::vector<Sample>> told_volume_errors(FinishedRun& run, const Subject& 
 }
 
 Result<std::vector<Sample>> start_volume_errors(FinishedRun& run, const Subject&, const std::vector<MeshCell>& cells) {
-  MORULA_TRY_ASSIGN(const auto start, run.snapshot(0));
+  MORULA_TRY_ASSIGN(const auto start, run.start());
   std::vector<Sample> out;
+  if (start == nullptr) return out;
   for (std::size_t c = 0; c < std::min(cells.size(), start->cells.size()); ++c)
     out.push_back({0.0, std::abs(start->cells[c].volume / cells[c].volume - 1.0), id_of(c)});
   return out;
@@ -160,8 +161,8 @@ Measure motion_measure() {
   out.take = [](FinishedRun& run, const Subject& subject, const Moments& moments) -> Result<std::vector<Sample>> {
     MORULA_TRY_ASSIGN(const std::vector<double>* const times, run.snapshot_times());
     std::vector<Sample> found;
-    if (times->empty()) return found;
-    MORULA_TRY_ASSIGN(const auto first, run.snapshot(0));
+    MORULA_TRY_ASSIGN(const auto first, run.start());
+    if (first == nullptr) return found;
     const auto before = surfaces(*first, subject);
     for (const std::size_t index : moments.among(*times)) {
       MORULA_TRY_ASSIGN(const auto snapshot, run.snapshot(index));

@@ -97,8 +97,8 @@ Measure at_outputs(const char* name, const char* title, const char* doc, const c
     const Mouth mouth = mouth_of(run.study().model, load);
     MORULA_TRY_ASSIGN(const std::vector<double>* const times, run.snapshot_times());
     std::vector<Sample> found;
-    if (times->empty()) return found;
-    MORULA_TRY_ASSIGN(const auto first, run.snapshot(0));
+    MORULA_TRY_ASSIGN(const auto first, run.start());
+    if (first == nullptr) return found;
     const auto start = shells_of(*first, load.type);
     for (const std::size_t index : moments.among(*times)) {
       if (index == 0) continue;
@@ -115,7 +115,8 @@ Measure at_outputs(const char* name, const char* title, const char* doc, const c
 
 /// Suction above which the theory says that the cell flows in [kPa].
 Result<double> theory_of(FinishedRun& run, const CellLoad& load) {
-  MORULA_TRY_ASSIGN(const auto first, run.snapshot(0));
+  MORULA_TRY_ASSIGN(const auto first, run.start());
+  if (first == nullptr) return std::nan("");
   const auto start = shells_of(*first, load.type);
   if (start.empty()) return std::nan("");
   return theory::critical_aspiration(type_of(run.study(), load).shell.tension, mouth_of(run.study().model, load).radius,

@@ -45,9 +45,9 @@ Result<std::vector<Sample>> since_start(FinishedRun& run, const Subject& subject
                                         double (*value)(const Cell& now, const Cell& start)) {
   MORULA_TRY_ASSIGN(const std::vector<double>* const times, run.snapshot_times());
   std::vector<Sample> out;
-  if (times->empty()) return out;
   std::map<CellId, const Cell*> start;
-  MORULA_TRY_ASSIGN(const auto first, run.snapshot(0));
+  MORULA_TRY_ASSIGN(const auto first, run.start());
+  if (first == nullptr) return out;
   for (const Cell& cell : first->cells) start.emplace(cell.id, &cell);
   for (const std::size_t index : moments.among(*times)) {
     MORULA_TRY_ASSIGN(const auto snapshot, run.snapshot(index));

@@ -38,6 +38,8 @@ class FinishedRun {
   Result<const std::vector<double>*> snapshot_times();
   /// `index` as in snapshot_times().
   Result<std::shared_ptr<const Snapshot>> snapshot(std::size_t index);
+  /// The snapshot of time 0; null where there is none: a run that goes on from another begins later.
+  Result<std::shared_ptr<const Snapshot>> start() { return snapshot_at(0.0); }
   /// The snapshot of a time [s]; null where there is none.
   Result<std::shared_ptr<const Snapshot>> snapshot_at(double time);
   /// Those of events.jsonl; lines that are not whole are left out.

@@ -46,7 +46,9 @@ Theory exponential_growth() {
             MORULA_TRY_ASSIGN(const SeriesTable* const series, run.series());
             const int type = dividing_type(run.study().model, measure);
             const SeriesColumn* const column = series->find(measure);
-            if (type < 0 || column == nullptr || column->values.empty()) return std::nan("");
+            const SeriesColumn* const time = series->find("time");
+            const bool from_start = time != nullptr && !time->values.empty() && time->values.front() == 0.0;  // N(0) is there
+            if (type < 0 || column == nullptr || !from_start) return std::nan("");
             const CellType& dividing = run.study().model.types[static_cast<std::size_t>(type)];
             if (!dividing.cycle.phases.empty()) return column->values.front() * std::exp(population_growth_rate(dividing) * sample.time);
             // E[e^(−αT)] = ½ of normal times: α D − (α D c)²/2 = ln 2, c the spread; this to first order in c².

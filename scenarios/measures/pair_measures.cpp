@@ -23,8 +23,8 @@ std::optional<std::pair<const Snapshot::Cell*, const Snapshot::Cell*>> cells_of_
 Result<std::vector<Sample>> take_drift(FinishedRun& run, const Subject& subject, const Moments& moments) {
   MORULA_TRY_ASSIGN(const std::vector<double>* const times, run.snapshot_times());
   std::vector<Sample> out;
-  if (times->empty()) return out;
-  MORULA_TRY_ASSIGN(const auto start, run.snapshot(0));
+  MORULA_TRY_ASSIGN(const auto start, run.start());
+  if (start == nullptr) return out;
   const auto before = cells_of_pair(*start, subject);
   for (const std::size_t index : moments.among(*times)) {
     MORULA_TRY_ASSIGN(const auto snapshot, run.snapshot(index));

@@ -144,7 +144,8 @@ Measure ids_measure() {
       "ids_changed",     "ids that came or went", "Number of cells that are there and were not at time 0, or the other way round.", "", "",
       Quantity::kNumber, MeasureOf::kRun};
   out.take = [](FinishedRun& run, const Subject& subject, const Moments& moments) -> Result<std::vector<Sample>> {
-    MORULA_TRY_ASSIGN(const auto first, run.snapshot(0));
+    MORULA_TRY_ASSIGN(const auto first, run.start());
+    if (first == nullptr) return std::vector<Sample>();
     std::set<CellId> start;
     for (const Cell& cell : first->cells) start.insert(cell.id);
     return by_snapshot([&](const Study&, const Snapshot& snapshot, const Subject&) -> std::optional<double> {

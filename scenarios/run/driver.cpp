@@ -113,7 +113,7 @@ Status is_before(double time, double wanted, const char* key) {
 }
 
 /// What a checkpoint knows by number must have the same numbers in the study that goes on from it; and what lies on a grid must keep the grid.
-Status can_go_on(const Study& parent, const Study& study, double time) {
+Status can_go_on(const Study& parent, const Study& study, double time, const std::optional<double>& until) {
   const auto differs = [](const std::string& what) {
     return Error{ErrorKind::kInput,
                  "the run that goes on has other " + what + " than the one that it goes on from, or has them in another order",
@@ -133,7 +133,7 @@ Status can_go_on(const Study& parent, const Study& study, double time) {
   const Box &a = was.space.box, &b = is.space.box;
   if (!was.fields.empty() && (norm2(a.low - b.low) > 0.0 || norm2(a.high - b.high) > 0.0))
     return differs("bounds of the domain, in which fields lie,");
-  return is_before(time, study.time.end, "`time.end`");
+  return until ? is_before(time, *until, "--until") : is_before(time, study.time.end, "`time.end`");
 }
 
 /// Whether the checkpoint is of the study in this folder; `otherwise` if not.
@@ -210,7 +210,7 @@ Result<RunSummary> branch(const std::filesystem::path& parent, const Study& stud
   const double time = restored.checkpoint.tissue.clock.time;
   auto parent_study = read_run_study(from.path(), request.laws);
   MORULA_TRY(agree(parent_study.ok() ? Status{} : Status(parent_study.error()), comm));
-  MORULA_TRY(agree(can_go_on(*parent_study, study, time), comm));
+  MORULA_TRY(agree(can_go_on(*parent_study, study, time, request.until), comm));
   MORULA_TRY(is_of_run(from, restored,
                        {ErrorKind::kInput, "the checkpoint belongs to another run than '" + from.path().string() + "'",
                         "give `--from` a checkpoint of that run"}));

@@ -1,6 +1,7 @@
 // Whole tissues of spheres and shells beside those of one body, by studies that are run: fields_and_coupling.md D (e) and (f), scenarios.md S7 and S16.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "results/exchanges.h"
 #include "scenarios/verify/run_study.h"
@@ -18,26 +19,54 @@ double hasty_exchanges(const FoundInRun& found, double hold) {
 
 constexpr double kGrown = 48.0 * 3600.0;  // [s]
 
-/// The library's spheroid that grows from eight cells, for 48 h.
-std::shared_ptr<StudyToRun> spheroid(const std::string& name, std::vector<std::string> bodies) {
-  bodies.insert(bodies.end(), {"time.end=48 h", "time.checkpoint=48 h"});
-  return library_study_to_run(name, "hybrid_spheroid", "growth.yaml", std::move(bodies));
+/// Studies that differ in their seeds.
+using SeededStudies = std::vector<std::shared_ptr<StudyToRun>>;
+
+/// The library's spheroid that grows from eight cells, for 48 h. One of some 55 cells that go past each other is 2 to 3 % wider or narrower than another of its kind.
+SeededStudies spheroids(const std::string& name, const std::vector<std::string>& bodies) {
+  SeededStudies out;
+  for (const char* seed : {"1", "2", "3"}) {
+    std::vector<std::string> overrides = bodies;
+    overrides.insert(overrides.end(), {"time.end=48 h", "time.checkpoint=48 h", std::string("seed=") + seed});
+    out.push_back(library_study_to_run(name + "_" + seed, "hybrid_spheroid", "growth.yaml", std::move(overrides)));
+  }
+  return out;
+}
+
+/// Of a column at the end, over the seeds.
+double mean_at_end(const SeededStudies& studies, const char* column) {
+  double sum = 0.0;
+  for (const auto& study : studies) sum += study->found().column(column, kGrown);
+  return sum / static_cast<double>(studies.size());
+}
+
+/// The largest over the seeds; not a number where any is none.
+template <class Of>
+double most_of(const SeededStudies& studies, const Of& of) {
+  double out = -std::numeric_limits<double>::infinity();
+  for (const auto& study : studies) {
+    const double one = of(study->found());
+    out = std::isnan(one) ? one : std::max(out, one);
+    if (std::isnan(out)) break;
+  }
+  return out;
 }
 
 void add_growing_spheroids(std::vector<ReferenceNumber>& out) {
-  const auto spheres = spheroid("growing_spheres", {"coupling={}"}),
-             shells = spheroid("growing_shells", {"coupling={}", "cell_types.tumour.body=shell"}),
-             both = spheroid("growing_hybrid", {"coupling.regions.0.radius=10 um"});
-  const auto ratio = [](const std::shared_ptr<StudyToRun>& one, const std::shared_ptr<StudyToRun>& other, const char* column) {
-    return [=] { return one->found().column(column, kGrown) / other->found().column(column, kGrown); };
+  const auto spheres = spheroids("growing_spheres", {"coupling={}"}),
+             shells = spheroids("growing_shells", {"coupling={}", "cell_types.tumour.body=shell"}),
+             both = spheroids("growing_hybrid", {"coupling.regions.0.radius=10 um"});
+  const auto ratio = [](const SeededStudies& one, const SeededStudies& other, const char* column) {
+    return [=] { return mean_at_end(one, column) / mean_at_end(other, column); };
   };
-  const std::string after = ", of a spheroid that grew from 8 cells for 48 h by a fitted law";
+  const std::string after = ", of spheroids that grew from 8 cells for 48 h by a fitted law, mean of 3 seeds",
+                    most = ", of spheroids that grew from 8 cells for 48 h by a fitted law, the most of 3 seeds";
   const char* const page = "fields_and_coupling.md D (e)";
   out.push_back({"D (e)", "study: number of cells, hybrid over shells" + after, 1.0, 1e-9,
                  std::string(page) + ": the same, growth does not depend on pressure", ratio(both, shells, "cell_count")});
   out.push_back({"D (e)", "study: number of cells, spheres over shells" + after, 1.0, 1e-9, page, ratio(spheres, shells, "cell_count")});
   out.push_back({"S7", "study: part of the hybrid's cells that are shells" + after, 0.3, 0.2, "the study's region: neither body alone",
-                 [both] { return both->found().column("shell_count", kGrown) / both->found().column("cell_count", kGrown); }});
+                 [both] { return mean_at_end(both, "shell_count") / mean_at_end(both, "cell_count"); }});
   out.push_back({"S7.6", "study: radius, spheres over shells" + after, 1.0, 0.06, "scenarios.md S7.6: 6 %",
                  ratio(spheres, shells, "spheroid_radius")});
   out.push_back({"S7.7", "study: radius, hybrid over shells" + after, 1.0, 0.03, "scenarios.md S7.7: 4 %; aim of this project 3 %",
@@ -46,12 +75,13 @@ void add_growing_spheroids(std::vector<ReferenceNumber>& out) {
       {"S7.7", "study: radius, hybrid over spheres" + after, 1.0, 0.04, "scenarios.md S7.7: 4 %", ratio(both, spheres, "spheroid_radius")});
   out.push_back({"D (e)", "study: mean contact area, hybrid over shells" + after, 1.0, 0.03, "aim of this project: 3 %",
                  ratio(both, shells, "mean_contact_area")});
-  out.push_back({"S7.8", "study: exchanges of a cell of the hybrid within 30 min after one before", 0.0, 1e-9, "scenarios.md S7.8",
-                 [both] { return hasty_exchanges(both->found(), 1800.0); }});
-  for (const auto& [name, study] : {std::pair{"hybrid", both}, std::pair{"spheres", spheres}, std::pair{"shells", shells}})
-    out.push_back({"D (f)", std::string("study: way of the centre of friction over the mean way of a cell, ") + name + after, 0.0, 1e-3,
+  out.push_back({"S7.8", "study: exchanges of a cell of the hybrid within 30 min after one before" + most, 0.0, 1e-9, "scenarios.md S7.8",
+                 [both] { return most_of(both, [](const FoundInRun& found) { return hasty_exchanges(found, 1800.0); }); }});
+  const auto drift = [](const FoundInRun& found) { return found.column("centre_drift", kGrown) / found.column("mean_way", kGrown); };
+  for (const auto& [name, studies] : {std::pair{"hybrid", both}, std::pair{"spheres", spheres}, std::pair{"shells", shells}})
+    out.push_back({"D (f)", std::string("study: way of the centre of friction over the mean way of a cell, ") + name + most, 0.0, 1e-3,
                    "fields_and_coupling.md D (f): contacts add up to nothing; aim of this project 0.1 % of the mean way",
-                   [study] { return study->found().column("centre_drift", kGrown) / study->found().column("mean_way", kGrown); }});
+                   [=] { return most_of(studies, drift); }});
 }
 
 /// The library's needle that enters a tissue, until it has begun to; two minutes later spheres alone would be beyond their law.

@@ -156,6 +156,40 @@ TEST_F(OwnCriteria, DivideJoinAndFollowCurves) {
   EXPECT_EQ(verdict("RATIO").quantity, "volume over volume(ball) against 1.728, relative, cell");
 }
 
+TEST_F(OwnCriteria, FindNothingInWhatIsInfiniteOrMissing) {
+  ASSERT_TRUE(runs(R"(  - {id: INFINITE, measure: cell_count, over: {measure: divisions}, above: 2}
+  - {id: TOGETHER, measure: volume, of: {type: [cell, none], together: true}, above: 1 um^3}
+  - {id: ONE, measure: volume, of: {type: [cell, ball], together: true}, above: 1 um^3})"));
+  for (const char* id : {"INFINITE", "TOGETHER"}) {
+    EXPECT_FALSE(verdict(id).passed) << id;
+    EXPECT_TRUE(std::isnan(verdict(id).value)) << id;
+  }
+  EXPECT_TRUE(verdict("ONE").passed);
+}
+
+TEST_F(OwnCriteria, AreHeldAgainstWhatIsMadeInTheSameWay) {
+  folder_.write("whole.csv", "time [min],cells\n0,3\n2,3\n4,7");  // no newline at the end
+  folder_.write("rising.csv", "time [min],v [um^3]\n0,100\n4,104\n");
+  ASSERT_TRUE(runs(R"(  - {id: DIVIDED, measure: cell_count, over: 3, at: start, above: sphere_count}
+  - {id: NOT_DIVIDED, measure: cell_count, over: 3, at: start, below: sphere_count}
+  - {id: LAST_ROW, measure: cell_count, at: end, against: {data: whole.csv, y: cells}, within: 0.1}
+  - {id: MEAN, measure: cell_count, from: 0 min, until: 4 min, over_time: mean, against: {data: count.csv, y: cells}, within: 1e-9}
+  - {id: SLOPE, measure: total_volume, from: 0 min, until: 4 min, over_time: slope, against: {data: rising.csv, y: v}, within: 0.5 um^3/min}
+  - {id: SUM, measure: volume(cell), over_cells: sum, against: {measure: volume(cell)}, within: 1e-9 %}
+  - {id: RATE, measure: obstacle.way(lid), over: 2 um, over_time: slope, from: 0 min, until: 4 min, between: [0.49 1/min, 0.51 1/min]}
+  - {id: UNITS, measure: volume(ball), between: [0.5 pL, 600 fL]})"));
+  EXPECT_TRUE(verdict("DIVIDED").passed) << "3/3 is not below 1";
+  EXPECT_EQ(verdict("DIVIDED").limit, ">= 1");
+  EXPECT_TRUE(verdict("NOT_DIVIDED").passed);
+  EXPECT_FALSE(verdict("LAST_ROW").passed) << "7 cells at the end, says the file";
+  EXPECT_TRUE(verdict("MEAN").passed) << verdict("MEAN").value;
+  EXPECT_FALSE(verdict("SLOPE").passed) << "the volume hardly rises, the data do by 1 um^3/min";
+  EXPECT_NEAR(verdict("SLOPE").value, 1.0, 0.3);
+  EXPECT_TRUE(verdict("SUM").passed) << verdict("SUM").value;
+  EXPECT_TRUE(verdict("RATE").passed) << verdict("RATE").value;
+  EXPECT_EQ(verdict("UNITS").limit, "0.5 pL to 600 fL");
+}
+
 TEST_F(OwnCriteria, PlotsStandInTheReportAndBesideIt) {
   ASSERT_TRUE(runs("  - {id: PASS, measure: cell_count, above: 3}"));
   EXPECT_TRUE(passed_);

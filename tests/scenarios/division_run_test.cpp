@@ -1,6 +1,7 @@
 // Shells that divide in runs of studies.
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "coupling/behaviours/division_axis.h"
 #include "results/snapshot_file.h"
@@ -192,6 +193,45 @@ output: {report: false}
   EXPECT_THAT(file("spheroid", "events.jsonl"), Not(HasSubstr("division_waits")));
   EXPECT_GE(column("spheroid", "divisions").back(), 4.0);
   for (const double overlap : column("spheroid", "worst_overlap")) EXPECT_LT(overlap, 0.1);
+}
+
+TEST_F(DivisionRun, OfACellThatFollowsItsWaterTellsVolumesOfItsLaw) {
+  // Daughters keep the mother's pressure; at their radius a tension of 1 mN/m bears 60 Pa more, which was 2.7 % of the volume and ended the run.
+  run_whole(test::changed("tension: 0.2 mN/m", "tension: 1 mN/m", one_shell("growth: linear, share: 40 %", "40 min", "    osmosis: {}\n")),
+            "water");
+  EXPECT_EQ(column("water", "cell_count").back(), 2.0);
+  for (const double error : column("water", "volume_error")) EXPECT_LT(error, 1e-6);
+}
+
+/// Energy that the first division of a run brings [nN µm].
+double first_rise(const std::string& events) {
+  const std::string key = "\"energy_rise_nN_um\":";
+  const std::size_t at = events.find(key);
+  return at == std::string::npos ? std::nan("") : std::stod(events.substr(at + key.size()));
+}
+
+TEST_F(DivisionRun, ANewInterfaceBeginsWithTheTensionThatItsFacesHave) {
+  const std::string usual = one_shell("growth: linear, axis: fixed, direction: [1, 0, 0]", "32 min");
+  const auto rise = [&](const std::string& cortex, const std::string& name) {
+    run_whole(test::changed("tension: 0.2 mN/m", cortex, usual), name);
+    return first_rise(file(name, "events.jsonl"));
+  };
+  const double plain = rise("tension: 0.3 mN/m", "plain");
+  // V0 is that of a cell with the type's own tension: a mother with a region is a little smaller. An interface with the wrong tension of 0.1 mN/m brings 36 more.
+  EXPECT_NEAR(rise("tension: 0.2 mN/m, regions: {whole: {tension: 0.3 mN/m}}", "whole"), plain, 2.0);
+  const std::string course = "{tension: 0.15 mN/m, course: [{time: 0 s, factor: 1}, {time: 20 min, factor: 2}]}";
+  EXPECT_NEAR(rise("tension: 0.2 mN/m, regions: {whole: " + course + "}", "course"), plain, 2.0);
+}
+
+TEST_F(DivisionRun, GoesOnWhereContactsAreLessTense) {
+  // Sisters adhered with twice the free tension while their faces eased to half of it: an interface of negative tension.
+  run_whole(test::changed("tension: 0.2 mN/m", "tension: 0.3 mN/m, regions: {lateral: {tension: 0.15 mN/m}}",
+                          one_shell("growth: linear, share: 40 %", "45 min")),
+            "lateral");
+  EXPECT_EQ(column("lateral", "cell_count").back(), 2.0);
+  const double rise = first_rise(file("lateral", "events.jsonl"));
+  EXPECT_GT(rise, -5.0);
+  EXPECT_LT(rise, 10.0);
 }
 
 TEST_F(DivisionRun, SaysWhatCannotBe) {

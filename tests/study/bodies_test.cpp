@@ -73,6 +73,25 @@ TEST(Bodies, ShellsThatWaitAreToldWhereverTheyComeFrom) {
   EXPECT_THAT(test::warnings_of(test::changed("radius: 6 um", "radius: 6 um\n    body: shell", cycle)), HasSubstr("[E646]"));
 }
 
+TEST(Bodies, RulesThatNobodyMeetsAreToldWithWhere) {
+  const auto of_trigger = [](const std::string& promote, const std::string& demote) {
+    return test::warnings_of(std::string(kStudy) + "coupling: {triggers: [{promote: " + promote + ", demote: " + demote + "}]}\n");
+  };
+  EXPECT_THAT(of_trigger("contact_share > 2", "contact_share < 1"),
+              AllOf(HasSubstr("no cell ever has `contact_share > 2`"), HasSubstr("[E694]")));
+  EXPECT_THAT(of_trigger("age < 0 h", "age > 1 h"), HasSubstr("[E694]"));
+  EXPECT_THAT(of_trigger("age > -1 h", "age < -2 h"), HasSubstr("every cell has `age > -1 h`"));
+  EXPECT_THAT(of_trigger("packing < 0 %", "packing > 10 %"), HasSubstr("[E694]"));
+  EXPECT_THAT(of_trigger("age > 2 h", "age < 0 h"), Not(HasSubstr("E694"))) << "a cell that stays a shell";
+  EXPECT_THAT(of_trigger("pressure < -1 kPa", "pressure > 0 kPa"), Not(HasSubstr("E694")));
+  const auto of_region = [](const std::string& from) {
+    return test::warnings_of(std::string(kStudy) + "coupling: {regions: [{name: late, shape: everything, as: shell, from: " + from +
+                             "}]}\n");
+  };
+  EXPECT_THAT(of_region("1000 h"), AllOf(HasSubstr("region 'late' begins at 1000 h, and the run ends at"), HasSubstr("[E694]")));
+  EXPECT_THAT(of_region("0 h"), Not(HasSubstr("E694")));
+}
+
 TEST(Bodies, ShellsThatDivideAreNotWarnedOf) {
   EXPECT_EQ(test::warnings_of(test::changed("radius: 40 um}", kAsShell, with("cycle: {duration: 18 h}"))), "");
 }

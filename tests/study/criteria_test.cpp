@@ -135,6 +135,8 @@ TEST(Criteria, AreTakenOfWhatTheMeasureIsTakenOf) {
               AllOf(HasSubstr("is not taken of a load"), HasSubstr("E412")));
   EXPECT_THAT(message_of("measure: energy, of: {type: left}, above: 3 fJ"), HasSubstr("leave `of` away"));
   EXPECT_THAT(message_of("measure: energy(left), above: 3 fJ"), HasSubstr("E412"));
+  EXPECT_THAT(message_of("measure: volume(left), of: {type: left}, above: 3 um^3"),
+              AllOf(HasSubstr("says it once more"), HasSubstr("E412")));
   EXPECT_THAT(message_of("measure: cap.angle, of: {pair: [left]}, above: 3 deg"), HasSubstr("needs 2"));
   EXPECT_THAT(message_of("measure: way(push), above: 3 um"), HasSubstr("needs a grip with a `way`"));
   EXPECT_THAT(message_of("measure: volume, of: {tipe: left}, above: 3 um^3"), AllOf(HasSubstr("unknown key 'tipe'"), HasSubstr("E101")));
@@ -155,6 +157,8 @@ TEST(Criteria, HaveOneLimitInTheUnitOfTheMeasure) {
   EXPECT_THAT(message_of("measure: volume(left), above: area(left)"), AllOf(HasSubstr("is an area"), HasSubstr("E203")));
   EXPECT_THAT(message_of("measure: volume(left), between: [3 um^3]"), HasSubstr("E303"));
   EXPECT_THAT(message_of("measure: volume(left), between: [3 um^3, 2 um^3]"), HasSubstr("E414"));
+  EXPECT_THAT(message_of("measure: volume(left), against: 3 um^3, within: -5 %"), AllOf(HasSubstr("'within' is -5 %"), HasSubstr("E414")));
+  EXPECT_THAT(message_of("measure: volume(left), over: 5, above: 1"), HasSubstr("'over' is a volume"));
   EXPECT_THAT(message_of("measure: volume.change(left), against: 0, within: 2 %"), AllOf(HasSubstr("could not hold"), HasSubstr("E414")));
   EXPECT_THAT(message_of("above: 3 um^3"), AllOf(HasSubstr("measure"), HasSubstr("E103")));
 }
