@@ -336,7 +336,8 @@ void declare_study(Section& s, draft::Study& study) {
   s.group({.name = "coupling", .doc = "Which cells are spheres and which are shells, and when that changes."}, present,
           [&](Section& c) { declare_coupling(c, study.coupling); });
   s.group({.name = "output", .doc = "What a run writes."}, present, [&](Section& o) { declare_output(o, study.output); });
-  s.group({.name = "limits", .doc = "Limits that stop a run."}, present, [&](Section& l) { declare_limits(l, study.limits); });
+  s.group({.name = "limits", .doc = "Limits that stop a run, looked at at each output."}, present,
+          [&](Section& l) { declare_limits(l, study.limits); });
 }
 
 }  // namespace morula::scenarios

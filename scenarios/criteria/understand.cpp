@@ -4,6 +4,7 @@
 #include <cctype>
 #include <set>
 
+#include "results/observables/select_observables.h"
 #include "scenarios/criteria/words.h"
 #include "scenarios/measures/measures.h"
 #include "study/read_section.h"
@@ -183,6 +184,8 @@ std::optional<UnderstoodPlot> understand(const Study& study, const StudyPlot& p,
 }
 
 void check_criteria(const Study& study, Diagnostics& diagnostics) {
+  if (const auto columns = select_observables(study.model, *study.laws, {}); !columns.ok())
+    diagnostics.error(112, Place(), columns.error().message, columns.error().help);
   std::set<std::string> asked, plots;
   for (const Criterion& c : study.criteria) {
     if (!asked.insert(words_of(c)).second)

@@ -86,8 +86,8 @@ struct UnderstoodPlot {
 std::optional<UnderstoodCriterion> understand(const Study& study, const Criterion& criterion, Diagnostics& diagnostics);
 std::optional<UnderstoodPlot> understand(const Study& study, const StudyPlot& plot, Diagnostics& diagnostics);
 
-/// Whether all criteria and plots of a study can be judged and drawn, each id asks one question once (E415): what
-/// ReadOptions::check_criteria asks.
+/// Whether all criteria and plots of a study can be judged and drawn, each id asks one question once (E415), and no two columns of series.csv have one name (E112):
+/// what ReadOptions::check_criteria asks.
 void check_criteria(const Study& study, Diagnostics& diagnostics);
 
 /// Columns of series.csv that its criteria and plots read: a run writes them, whatever `output.series` says.

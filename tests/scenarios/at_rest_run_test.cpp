@@ -31,9 +31,10 @@ output: {report: false}
 
 TEST_F(AtRest, TissueAcrossAPeriodicFaceIsOne) {
   const auto text = [](const char* x) {
-    return std::string("schema: 1\nstudy: periodic\ntime: {end: 2 s, output: 1 s}\n"
-                       "domain: {size: [60 um, 60 um, 60 um], boundary: {x_low: periodic, x_high: periodic}}\n"
-                       "cell_types: {a: {radius: 5 um}}\ninitial: [{type: a, at: [[") +
+    return std::string(
+               "schema: 1\nstudy: periodic\ntime: {end: 2 s, output: 1 s}\n"
+               "domain: {size: [60 um, 60 um, 60 um], boundary: {x_low: periodic, x_high: periodic}}\n"
+               "cell_types: {a: {radius: 5 um}}\ninitial: [{type: a, at: [[") +
            x + "]]}]\noutput: {report: false}\n";
   };
   run_whole(text("-6 um, 0 um, 3 um], [6 um, 0 um, 3 um], [0 um, 11 um, 3 um"), "middle");

@@ -156,6 +156,21 @@ TEST_F(OwnCriteria, DivideJoinAndFollowCurves) {
   EXPECT_EQ(verdict("RATIO").quantity, "volume over volume(ball) against 1.728, relative, cell");
 }
 
+TEST(ColumnNames, ThatTwoThingsHaveAreToldByCheck) {
+  ReadOptions options;
+  options.check_criteria = &check_criteria;
+  const auto text = [](const char* field) {
+    return std::string(
+               "schema: 1\nstudy: names\ntime: {end: 1 h}\ndomain: {size: [100 um, 100 um, 100 um]}\ncell_types: {a: {radius: 5 um}}\n"
+               "initial: [{type: a, at: [[0 um, 0 um, 0 um]]}]\nfields: {") +
+           field + ": {diffusion: 2e-10 m^2/s, initial: 0.1 mM, voxel: 20 um}}\n";
+  };
+  EXPECT_TRUE(test::read(text("oxygen"), options).ok());
+  const auto study = test::read(text("way"), options);
+  ASSERT_FALSE(study.ok());
+  EXPECT_THAT(study.error().text(), testing::AllOf(HasSubstr("two observables are called 'mean_way'"), HasSubstr("[E112]")));
+}
+
 TEST_F(OwnCriteria, FindNothingInWhatIsInfiniteOrMissing) {
   ASSERT_TRUE(runs(R"(  - {id: INFINITE, measure: cell_count, over: {measure: divisions}, above: 2}
   - {id: TOGETHER, measure: volume, of: {type: [cell, none], together: true}, above: 1 um^3}
