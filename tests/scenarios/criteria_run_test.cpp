@@ -185,6 +185,8 @@ TEST_F(OwnCriteria, FindNothingInWhatIsInfiniteOrMissing) {
 TEST_F(OwnCriteria, AreHeldAgainstWhatIsMadeInTheSameWay) {
   folder_.write("whole.csv", "time [min],cells\n0,3\n2,3\n4,7");  // no newline at the end
   folder_.write("rising.csv", "time [min],v [um^3]\n0,100\n4,104\n");
+  folder_.write("line.csv", "r [um],v [um^3]\n4,400\n7,700\n");
+  folder_.write("between.csv", "r [um],v [um^3]\n5.5,714\n");
   ASSERT_TRUE(runs(R"(  - {id: DIVIDED, measure: cell_count, over: 3, at: start, above: sphere_count}
   - {id: NOT_DIVIDED, measure: cell_count, over: 3, at: start, below: sphere_count}
   - {id: LAST_ROW, measure: cell_count, at: end, against: {data: whole.csv, y: cells}, within: 0.1}
@@ -192,7 +194,11 @@ TEST_F(OwnCriteria, AreHeldAgainstWhatIsMadeInTheSameWay) {
   - {id: SLOPE, measure: total_volume, from: 0 min, until: 4 min, over_time: slope, against: {data: rising.csv, y: v}, within: 0.5 um^3/min}
   - {id: SUM, measure: volume(cell), over_cells: sum, against: {measure: volume(cell)}, within: 1e-9 %}
   - {id: RATE, measure: obstacle.way(lid), over: 2 um, over_time: slope, from: 0 min, until: 4 min, between: [0.49 1/min, 0.51 1/min]}
+  - {id: ALONG, measure: volume(all), over_cells: mean, along: radius, against: {data: line.csv, x: r, y: v}, within: 1 um^3}
+  - {id: FALLING, measure: volume, of: [cell, ball], along: radius, curve: rms, against: {data: between.csv, x: r, y: v}, within: 20 um^3}
   - {id: UNITS, measure: volume(ball), between: [0.5 pL, 600 fL]})"));
+  EXPECT_NEAR(verdict("ALONG").value, 2333.0 / 3.0 - 100.0 * 17.0 / 3.0, 10.0) << "at the mean radius of the three";
+  EXPECT_TRUE(verdict("FALLING").passed) << "from the large cells to the small one: " << verdict("FALLING").value;
   EXPECT_TRUE(verdict("DIVIDED").passed) << "3/3 is not below 1";
   EXPECT_EQ(verdict("DIVIDED").limit, ">= 1");
   EXPECT_TRUE(verdict("NOT_DIVIDED").passed);
