@@ -120,7 +120,8 @@ void SurfaceContacts::parameters_changed(const World& world) {
   std::vector<SisterBond> bonds;
   if (bonds_age_) bonds = new_interfaces(world.model, world.tissue, world.time);
   if (bonds == layer_.sister_bonds()) return;
-  layer_.take_tensions(contact_materials(world.model, world.time));
+  const auto has_regions = [](const CellType& type) { return !type.regional_tension.empty(); };  // of others it is that of the start
+  if (std::ranges::any_of(world.model.types, has_regions)) layer_.take_tensions(contact_materials(world.model, world.time));
   std::vector<SisterBond> changed;
   const auto before = [](const SisterBond& a, const SisterBond& b) { return a.cell != b.cell ? a.cell < b.cell : a.age < b.age; };
   std::ranges::set_symmetric_difference(bonds, layer_.sister_bonds(), std::back_inserter(changed), before);

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/numbers/students_t.h"
+
 namespace morula::calibrate {
 namespace {
 
@@ -14,7 +16,6 @@ constexpr int kLeast = -10, kMost = 2;  // powers of two that are tried as facto
 constexpr int kBetween = 64;            // places from one to the next
 constexpr double kFromApproach = 4.0;   // by what factor it may differ from that of approach: a standard deviation (decision 0077)
 constexpr double kResolved = 1e-3;      // of the work, by integration over the outputs of a run
-constexpr double kRise = 3.841459;      // of a loss, −2 ln L, at the ends of an interval of 95 %
 
 double part_of(int k) { return (k + 1.0) / kParts; }
 
@@ -138,7 +139,7 @@ Result<FittedAlong> fit_friction_along(const std::vector<PressedCluster>& shells
   for (std::size_t i = 0; i < loss.size(); ++i)
     if (loss.at(i) < loss.at(best)) best = i;
   std::size_t low = best, high = best;
-  const double limit = loss.at(best) + kRise;
+  const double limit = loss.at(best) + kRiseOf95;
   for (std::size_t i = 0; i < loss.size(); ++i)
     if (loss.at(i) <= limit) low = std::min(low, i), high = std::max(high, i);
 

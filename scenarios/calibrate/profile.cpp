@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/numbers/students_t.h"
 #include "scenarios/calibrate/confidence.h"
 
 namespace morula::calibrate {
@@ -76,7 +77,7 @@ struct Walk {
 
 }  // namespace
 
-double profile_rise(const Fit& fit) { return 3.841459 * fit.dispersion(); }
+double profile_rise(const Fit& fit) { return kRiseOf95 * fit.dispersion(); }
 
 Profile profile(const Data& data, const Fit& fit, int parameter) {
   const std::vector<double> best = fit.parameters.logarithms();

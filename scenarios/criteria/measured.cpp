@@ -135,6 +135,8 @@ double rms_from_data(const CurvePoints& points, const Expectation& data) {
   return count > 0 ? std::sqrt(sum / count) : kNothing;
 }
 
+bool is_at(const Sample& sample, double time) { return std::abs(sample.time - time) <= 1e-6 * std::max(1.0, time); }
+
 /// Where each sample of a thing lies along: at its time, or at what the other measure finds then, of a sample of several cells the mean over all. No number where that finds nothing.
 Result<std::vector<double>> places_of(FinishedRun& run, const Question& q, const Subject& thing, const std::vector<Sample>& samples) {
   std::vector<double> out;
@@ -146,9 +148,7 @@ Result<std::vector<double>> places_of(FinishedRun& run, const Question& q, const
     double sum = 0.0;
     int count = 0;
     for (const Sample& x : found)
-      if (std::abs(x.time - samples[i].time) <= 1e-6 * std::max(1.0, x.time) &&
-          (x.cell == samples[i].cell || x.cell.empty() || samples[i].cell.empty()))
-        sum += x.value, ++count;
+      if (is_at(x, samples[i].time) && (x.cell == samples[i].cell || x.cell.empty() || samples[i].cell.empty())) sum += x.value, ++count;
     if (count > 0) out[i] = sum / count;
   }
   return out;
@@ -183,7 +183,7 @@ double mean_at(const std::vector<Sample>& samples, double time, bool whatever_ti
   double sum = 0.0;
   int count = 0;
   for (const Sample& one : samples)
-    if (whatever_time || std::abs(one.time - time) <= 1e-6 * std::max(1.0, time)) sum += one.value, ++count;
+    if (whatever_time || is_at(one, time)) sum += one.value, ++count;
   return count > 0 ? sum / count : kNothing;
 }
 
