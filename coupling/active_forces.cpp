@@ -134,7 +134,7 @@ void Simulation::add_protrusions(std::span<Vec3d> external) {
 
 std::vector<Vec3d> Simulation::external_forces(double time, std::span<const Vec3d> walk) {
   std::vector<Vec3d> out = mechanics_->spread(tissue_, forces_on_cells(time));
-  add_surface_loads(model_, tissue_, time, out);
+  add_surface_loads(model_, tissue_, time, LoadsThat::kDoNotFollow, out);
   add_lumen_forces(model_, tissue_, time, comm_, out);
   add_protrusions(out);
   add_crawling(walk, out);

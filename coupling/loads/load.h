@@ -49,8 +49,12 @@ struct Load {
   /// It acts on nodes that it finds on the undeformed cell: cells keep these nodes, and lie as placed.
   bool (*of_chosen_nodes)(const CellLoad& load) = nullptr;
 
-  /// Adds the force on the nodes of a shell at present positions [nN]; a step holds it as a dead load.
+  /// Adds the force on the nodes of a shell at present positions [nN]; a step holds it as a dead load, unless it follows the surface.
   void (*push)(const CellLoad& load, const LoadedShell& shell, std::span<Vec3d> force) = nullptr;
+  /// Whether this one follows the surface: a step finds it where it ends, by its energy. Null: never.
+  bool (*follows)(const CellLoad& load) = nullptr;
+  /// Of a load that follows: the energy whose negative gradient push() is [fJ].
+  double (*energy)(const CellLoad& load, const LoadedShell& shell) = nullptr;
   /// The force on a whole cell of either body [nN].
   Vec3d (*push_cell)(const CellLoad& load, double strength) = nullptr;
   /// Springs on the nodes of a shell of this target volume [µm³] at a time [s].

@@ -43,10 +43,12 @@ Vec3d body_force(const Model& model, std::uint16_t type, double time) {
   return out;
 }
 
-void add_surface_loads(const Model& model, const Tissue& tissue, double time, std::span<Vec3d> external) {
+bool follows_surface(const CellLoad& load) { return load.what->follows != nullptr && load.what->follows(load); }
+
+void add_surface_loads(const Model& model, const Tissue& tissue, double time, LoadsThat which, std::span<Vec3d> external) {
   for (const CellLoad& load : model.loads) {
     const double strength = load.course.at(time);
-    if (strength == 0.0 || load.what->push == nullptr) continue;
+    if (strength == 0.0 || load.what->push == nullptr || (which == LoadsThat::kDoNotFollow && follows_surface(load))) continue;
     for (const auto [row, is_shell, shell] : bodies_of(tissue.cells)) {
       if (is_shell && tissue.cells.rows[row].type == load.type) {
         const std::uint32_t first = tissue.shells.first_node[shell], count = tissue.shells.first_node[shell + 1] - first;

@@ -30,8 +30,13 @@ void add_shell_load(const CellLoad& load, const ReferenceShape& shape, std::span
 /// The forces of the model on one whole cell of a type at a time [nN]; Mechanics::spread() puts them on its nodes.
 Vec3d body_force(const Model& model, std::uint16_t type, double time);
 
+/// Whether a load follows the surface of a cell within a step (Load::energy).
+bool follows_surface(const CellLoad& load);
+
+enum class LoadsThat : std::uint8_t { kAll, kDoNotFollow };
+
 /// The loads of the model on surfaces at a time on all shells of the rank, added to `external` (by shell node, as in Mechanics::step) [nN].
-void add_surface_loads(const Model& model, const Tissue& tissue, double time, std::span<Vec3d> external);
+void add_surface_loads(const Model& model, const Tissue& tissue, double time, LoadsThat which, std::span<Vec3d> external);
 
 /// The first corner of the course of the box, of any load, obstacle, region of tension or cavity after a time [s]; infinity when none is left.
 double next_corner(const Model& model, double time);

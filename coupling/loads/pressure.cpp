@@ -1,3 +1,5 @@
+#include <array>
+
 #include "coupling/loads/load_keys.h"
 #include "coupling/loads/loads.h"
 #include "coupling/loads/surface.h"
@@ -6,12 +8,39 @@
 namespace morula {
 namespace {
 
+double pressure_at(const CellLoad& load, const Vec3d& x) { return load.size + dot(load.gradient, x - load.origin); }
+
+bool follows(const CellLoad& load) { return load.mark < 0 && load.part >= 1.0 && !load.within; }
+
+/// ∫ p dV over the volume of the shell: a sum over tetrahedra to its first node, over each of which a linear p has its mean at the centroid.
+double energy(const CellLoad& load, const LoadedShell& shell) {
+  const std::span<const Vec3d> x = shell.position;
+  const Vec3d from = x[0];
+  double sum = 0.0;
+  for (const Triangle& t : shell.shape.topology->faces()) {
+    const Vec3d &a = x[t[0]], &b = x[t[1]], &c = x[t[2]];
+    sum += dot(a - from, cross(b - from, c - from)) * pressure_at(load, (from + a + b + c) * 0.25);
+  }
+  return sum * (shell.strength / 6.0);
+}
+
+/// On all faces: −∂/∂x_i ∫ p dV = −n ∫ p φ_i dA = −A_T n (2 p_i + p_j + p_k)/12.
+void push_everywhere(const CellLoad& load, const LoadedShell& shell, std::span<Vec3d> force) {
+  const std::span<const Vec3d> x = shell.position;
+  for_faces(*shell.shape.topology, x, [&](const Triangle& t, const Vec3d& area) {
+    const std::array<double, 3> p{pressure_at(load, x[t[0]]), pressure_at(load, x[t[1]]), pressure_at(load, x[t[2]])};
+    const double sum = p[0] + p[1] + p[2];
+    for (std::size_t corner = 0; corner < 3; ++corner) force[t[corner]] -= area * (shell.strength * (sum + p[corner]) / 12.0);
+  });
+}
+
 void push(const CellLoad& load, const LoadedShell& shell, std::span<Vec3d> force) {
+  if (follows(load)) return push_everywhere(load, shell, force);
   const std::span<const Vec3d> x = shell.position;
   const auto press = [&](const Triangle& t, const Vec3d& area) {
     const Vec3d at = face_middle(t, x);
     if (load.within && !lies_within(load, at)) return;
-    add_to_corners(t, area * (-shell.strength * (load.size + dot(load.gradient, at - load.origin))), force);
+    add_to_corners(t, area * (-shell.strength * pressure_at(load, at)), force);
   };
   if (load.mark >= 0) return for_marked_faces(*shell.shape.topology, x, shell.marks, load.mark, press);
   std::vector<char> chosen(x.size(), load.part >= 1.0);
@@ -82,7 +111,7 @@ std::shared_ptr<const Load> pressure_load() {
   static const auto load = std::make_shared<const Load>(Load{
       .info = {.name = "pressure",
                .title = "Pressure on a cell, on its ends or on marked faces",
-               .equation = "F_T = −p A_T n_T, p = p0 + g·(x_T − x0) at the middle x_T of the face",
+               .equation = "F_T = −p A_T n_T, p = p0 + g·(x_T − x0) at the middle x_T of the face; on the whole surface −∂/∂x ∫ p dV",
                .source = "choice of this project",
                .parameters = {given_by_study("value", "pressure", "kPa", "p0, against the outward normal."),
                               given_by_study("gradient", "pressure per length", "kPa/µm", "Size of the gradient g."),
@@ -115,7 +144,9 @@ std::shared_ptr<const Load> pressure_load() {
       .build = &build,
       .judge = &judge,
       .of_chosen_nodes = [](const CellLoad& one) { return one.mark < 0 && one.part < 1.0; },
-      .push = &push});
+      .push = &push,
+      .follows = &follows,
+      .energy = &energy});
   return load;
 }
 

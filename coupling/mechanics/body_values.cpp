@@ -23,7 +23,7 @@ std::vector<Vec3d> load_forces(const Model& model, const Tissue& tissue, const C
   std::vector<Vec3d> out;
   if (model.loads.empty() && tissue.lumens.empty()) return out;
   out.resize(tissue.shells.node_count());
-  add_surface_loads(model, tissue, tissue.clock.time, out);
+  add_surface_loads(model, tissue, tissue.clock.time, LoadsThat::kAll, out);
   add_lumen_forces(model, tissue, tissue.clock.time, comm, out);
   for (const Anchor& anchor : grip_anchors(model, tissue, tissue.clock.time)) add_pull(anchor, tissue, out);
   return out;

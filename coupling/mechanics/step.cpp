@@ -102,6 +102,7 @@ Evaluation begin_step(Workspace& work, const Tissue& tissue, StepTask& task, Eva
   auto timed = work.timer.scope(Stage::kAssemble);
   work.most_bytes = 0;
   work.terms.grips->set_anchors(task.anchors);
+  work.terms.following->set_on(task.settling == nullptr);
   start_from_last_velocities(work, tissue);
   freeze_friction(work, tissue);
   if (task.settling != nullptr) {

@@ -25,6 +25,7 @@ Terms make_terms(const Model& model, RigidSurfaces obstacles, int threads) {
   add(std::make_unique<ContactFriction>(*out.contacts));
   add(std::make_unique<SphereFriction>(*out.spheres));
   out.grips = add(std::make_unique<Grips>());
+  out.following = add(std::make_unique<FollowingLoads>());
   out.kinks = add(std::make_unique<HeldNodes>());
   return out;
 }

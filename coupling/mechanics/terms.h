@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/contact/rigid_surface.h"
+#include "coupling/mechanics/following_loads.h"
 #include "coupling/mechanics/held_nodes.h"
 #include "coupling/mechanics/interior_system.h"
 #include "coupling/mechanics/membranes.h"
@@ -26,6 +27,7 @@ struct Terms {
   InteriorSystem* interior = nullptr;
   NucleusSystem* nuclei = nullptr;
   Grips* grips = nullptr;
+  FollowingLoads* following = nullptr;
   HeldNodes* kinks = nullptr;
 };
 

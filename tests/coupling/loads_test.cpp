@@ -212,6 +212,41 @@ TEST(Load, PressureWithAGradientIsTheBuoyancyOfTheVolume) {
   EXPECT_NEAR(virial(forces(load, 162), 162), -3.0 * 5.0 * volume, 1e-8);
 }
 
+/// What a step needs of a load that follows the surface: its force is the gradient of its energy, also on a shape without any symmetry. The energy
+/// of a uniform pressure is p V; that of a gradient is g·∫(x − x0) dV, on a ball V g·(c − x0).
+TEST(Load, PressureOnAWholeCellIsTheGradientOfItsEnergy) {
+  CellLoad load;
+  load.what = pressure_load();
+  load.size = 0.05;
+  load.gradient = {1e-3, 0.0, -2e-3};
+  load.origin = {1, 0, 2};
+  ASSERT_TRUE(follows_surface(load));
+  const auto shape = icosphere(42);
+  std::vector<Vec3d> x = ball(*shape);
+  const auto energy = [&] { return load.what->energy(load, {*shape, x, {}, 0.7}); };
+  const double volume = 4.0 / 3.0 * std::numbers::pi * kRadius * kRadius * kRadius;
+  EXPECT_NEAR(energy(), 0.7 * volume * (0.05 + dot(load.gradient, Vec3d{3, -2, 7} - load.origin)), 1e-9);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const auto k = static_cast<double>(i);
+    x[i] += {0.3 * std::sin(3.0 * k), 0.2 * std::cos(5.0 * k), 0.1 * std::sin(7.0 * k)};
+  }
+  std::vector<Vec3d> force(x.size());
+  add_shell_load(load, *shape, x, {}, 0.7, force);
+  constexpr double kStep = 1e-4;
+  for (std::size_t i = 0; i < x.size(); i += 5)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double here = x[i][axis];
+      x[i][axis] = here + kStep;
+      const double above = energy();
+      x[i][axis] = here - kStep;
+      const double slope = (above - energy()) / (2.0 * kStep);
+      x[i][axis] = here;
+      EXPECT_NEAR(force[i][axis], -slope, 1e-8) << i;
+    }
+  load.part = 0.5;
+  EXPECT_FALSE(follows_surface(load));
+}
+
 /// T9.2 of dcm.md: a force F on a cell moves it with V = F/(γ_ECM A), A the area of the mesh: 45.023 nN·s/µm at 642 nodes on R = 6, γ = 0.1.
 TEST(Load, BodyForceMovesAFreeCellWithTheSpeedOfItsDrag) {
   Model model = test::clusters_model();

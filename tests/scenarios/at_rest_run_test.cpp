@@ -1,4 +1,8 @@
 /// What a cell at rest says of itself, wherever it lies and however its mesh is turned.
+#include <cmath>
+#include <numbers>
+
+#include "core/ball.h"
 #include "tests/scenarios/own_parts.h"
 
 namespace morula::scenarios::test {
@@ -43,6 +47,49 @@ TEST_F(AtRest, TissueAcrossAPeriodicFaceIsOne) {
     EXPECT_NEAR(column("face", name).front(), column("middle", name).front(), 1e-9) << name;
     EXPECT_LT(column("face", name).back(), 14.0) << name;
   }
+}
+
+/// A pressure on all of a cell is borne by its volume alone: its shape and its tension know nothing of it, and it comes to rest as it does without.
+/// −K_V ln(V/V0) = P + 2γ/R with V0 of a cell that is at rest at 6 µm (T4.3 of dcm.md).
+TEST_F(AtRest, PressureOnAWholeCellIsBorneByItsVolume) {
+  const std::string study = R"(schema: 1
+study: pressed
+time: {end: 10 h, output: 10 min, rest: 1e-5 um/s}
+domain: {size: [100 um, 100 um, 100 um]}
+cell_types: {cell: {body: shell, cycle: {model: none}, dcm: {cortex: {elastic: none}}}}
+initial: [{type: cell, at: [[0 um, 0 um, 0 um]]}]
+loads: {all: {type: cell, pressure: {value: -0.3 kPa}}}
+output: {report: false}
+)";
+  constexpr double kModulus = 2.5, kTension = 0.1;  // the defaults [kPa], [nN/µm]
+  const double reference = ball_volume(6.0) * std::exp(2.0 * kTension / 6.0 / kModulus);
+  for (const double pressure : {-2.0, -0.3, 1.0, 3.0}) {
+    const std::string name = std::to_string(pressure);
+    run_whole(changed("-0.3 kPa", name + " kPa", study), name.c_str());
+    const double volume = column(name.c_str(), "total_volume").back(), radius = std::cbrt(0.75 * volume / std::numbers::pi);
+    EXPECT_NEAR(-kModulus * std::log(volume / reference), pressure + 2.0 * kTension / radius, 1e-3) << name;
+    EXPECT_NEAR(column(name.c_str(), "shell_pressure").back(), pressure, 1e-6) << name;
+    EXPECT_LE(column(name.c_str(), "time").back(), 3600.0) << name << ": it rests";
+    EXPECT_LT(column(name.c_str(), "mean_way").back(), 3.0) << name << ": nodes go with the surface alone";
+  }
+}
+
+/// The weight of a medium: a cell in a pressure with a gradient g drifts as by the force −g V (Archimedes), against the friction of its surface.
+TEST_F(AtRest, PressureWithAGradientPushesAsBuoyancy) {
+  const std::string study = R"(schema: 1
+study: buoyant
+time: {end: 10 min, output: 5 min}
+domain: {size: [100 um, 100 um, 100 um]}
+cell_types: {cell: {body: shell, cycle: {model: none}, friction: {medium: 1e8 N s/m^3}}}
+initial: [{type: cell, at: [[0 um, 0 um, 0 um]]}]
+loads: {weight: {type: cell, pressure: {value: 0.2 kPa, gradient: [0 Pa/um, 0 Pa/um, 0.5 Pa/um]}}}
+output: {report: false}
+)";
+  run_whole(study, "weight");
+  const auto drift = column("weight", "centre_drift");
+  const double volume = column("weight", "total_volume").back(), radius = std::cbrt(0.75 * volume / std::numbers::pi);
+  const double speed = 0.5e-3 * volume / (0.1 * 4.0 * std::numbers::pi * radius * radius);
+  EXPECT_NEAR((drift.back() - drift[1]) / (300.0 * speed), 1.0, 0.01);
 }
 
 }  // namespace

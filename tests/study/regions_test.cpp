@@ -176,6 +176,16 @@ TEST(Regions, TensionBelowHalfOfTheAdhesionIsWarnedOfAndRefusedInAFluid) {
   EXPECT_NE(test::errors_of(fluid).find("E556"), std::string::npos);
 }
 
+TEST(Regions, LateralTensionOfAFluidIsWarnedOfWithTheAdhesionThatDoesTheSame) {
+  const std::string fluid = test::changed("        tension: 0.3 mN/m\n", "        elastic: none\n        tension: 0.3 mN/m\n", kStudy);
+  EXPECT_EQ(test::warnings_of(kStudy).find("695"), std::string::npos) << "an elastic cortex";
+  const std::string told = test::warnings_of(fluid);
+  EXPECT_NE(told.find("differs from that of the free surface by 0.1 mN/m"), std::string::npos) << told;
+  EXPECT_NE(told.find("an adhesion of 0.4 mJ/m^2"), std::string::npos) << told;
+  const std::string alike = test::changed("lateral: {tension: 0.2 mN/m}", "lateral: {tension: 0.3 mN/m}", fluid);
+  EXPECT_EQ(test::warnings_of(alike).find("695"), std::string::npos);
+}
+
 TEST(Regions, ValuesOutOfRangeAndWithoutEffectAreRefused) {
   EXPECT_NE(errors("amplitude: 20 %, period: 80 s", "amplitude: 20 %").find("E515"), std::string::npos);
   EXPECT_NE(errors("amplitude: 20 %", "amplitude: 120 %").find("E302"), std::string::npos);
