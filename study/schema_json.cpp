@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/numbers/unit_conversion.h"
@@ -9,7 +10,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kNumberPattern = "^[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?";
+/// A number with its unit, which may begin with one over something: `10 1/h`. Not a number alone, of which the end could be taken for a unit.
+constexpr const char* kQuantityPattern =
+    "^(?![+-]?[0-9.]+([eE][+-]?[0-9]+)?$)[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?( ?[^0-9 .].*| +[0-9]+ */.+)$";
 
 Json description_of(const Declaration& d) {
   std::string text = d.spec.doc;
@@ -32,7 +35,7 @@ Json quantity_schema(const KeySpec& key) {
     choices.push_back(number);
   } else {
     if (key.quantity == Quantity::kFraction) choices.push_back({{"type", "number"}});
-    choices.push_back({{"type", "string"}, {"pattern", std::string(kNumberPattern) + " ?[^0-9 ].*$"}});
+    choices.push_back({{"type", "string"}, {"pattern", kQuantityPattern}});
   }
   for (const Special& special : key.specials) choices.push_back({{"const", special.word}});
   return choices.size() == 1 ? choices[0] : Json{{"anyOf", choices}};
@@ -62,21 +65,23 @@ Json whole_schema(const KeySpec& key) {
   return {{"anyOf", choices}};
 }
 
-Json schema_of(const Declaration& declaration);
+/// `takes_back`: within something that may be like another, of which any key can be taken back by `default`.
+Json schema_of(const Declaration& declaration, bool takes_back);
 
-Json section_schema(const Declaration& section) {
+Json section_schema(const Declaration& section, bool takes_back) {
+  takes_back = takes_back || std::ranges::any_of(section.children, [](const Declaration& child) { return std::string_view(child.spec.name) == "like"; });
   Json schema{{"type", "object"}, {"properties", Json::object()}};
   Json required = Json::array();
   for (const Declaration& child : section.children) {
-    schema["properties"][child.spec.name] = schema_of(child);
+    schema["properties"][child.spec.name] = schema_of(child, takes_back);
     if (child.spec.required) required.push_back(child.spec.name);
-    if (!child.suffix.empty()) schema["patternProperties"]["^[A-Za-z_][A-Za-z0-9_-]*" + child.suffix + "$"] = schema_of(child);
+    if (!child.suffix.empty()) schema["patternProperties"]["^[A-Za-z_][A-Za-z0-9_-]*" + child.suffix + "$"] = schema_of(child, takes_back);
   }
   if (!required.empty()) schema["required"] = required;
   schema["additionalProperties"] = false;
   if (!section.spec.shorthand) return schema;
   for (const Declaration& child : section.children)
-    if (child.spec.name == std::string(section.spec.shorthand)) return {{"anyOf", Json::array({schema_of(child), schema})}};
+    if (child.spec.name == std::string(section.spec.shorthand)) return {{"anyOf", Json::array({schema_of(child, takes_back), schema})}};
   return schema;
 }
 
@@ -90,7 +95,7 @@ Json vector_schema(const KeySpec& key) {
   return {{"anyOf", choices}};
 }
 
-Json bare_schema(const Declaration& d) {
+Json bare_schema(const Declaration& d, bool takes_back) {
   using Kind = Declaration::Kind;
   switch (d.kind) {
     case Kind::kQuantity:
@@ -120,17 +125,21 @@ Json bare_schema(const Declaration& d) {
     case Kind::kQuantities:
       return {{"type", "object"}, {"additionalProperties", quantity_schema(d.spec)}};
     case Kind::kNamed:
-      return {{"type", "object"}, {"additionalProperties", section_schema(d)}};
+      return {{"type", "object"}, {"additionalProperties", section_schema(d, takes_back)}};
     case Kind::kList:
-      return {{"type", "array"}, {"items", section_schema(d)}};
+      return {{"type", "array"}, {"items", section_schema(d, takes_back)}};
     case Kind::kGroup:
-      return section_schema(d);
+      return section_schema(d, takes_back);
   }
   return Json::object();
 }
 
-Json schema_of(const Declaration& d) {
-  Json schema = bare_schema(d);
+Json schema_of(const Declaration& d, bool takes_back) {
+  Json schema = bare_schema(d, takes_back);
+  if (takes_back && !d.spec.required) {
+    if (!schema.contains("anyOf")) schema = {{"anyOf", Json::array({schema})}};
+    schema["anyOf"].push_back({{"const", "default"}});
+  }
   schema["description"] = description_of(d);
   if (d.spec.fallback && *d.spec.fallback) schema["default"] = d.spec.fallback;
   if (*d.spec.example) schema["examples"] = Json::array({d.spec.example});
@@ -142,7 +151,7 @@ Json schema_of(const Declaration& d) {
 std::string study_json_schema(const Laws& laws) {
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Morula study"}};
   const Declaration root = study_declarations(laws);
-  schema.update(section_schema(root));
+  schema.update(section_schema(root, false));
   return schema.dump(2) + "\n";
 }
 

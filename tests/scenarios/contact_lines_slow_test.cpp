@@ -118,10 +118,15 @@ double scatter(const std::vector<double>& values) {
   return std::sqrt(square) / mean;
 }
 
-/// Four equal cells at the corners of a tetrahedron touch each other alike, however their meshes lie.
-TEST(ContactLines, OfFourEqualCellsAreAlike) {
+/// Scatter of the areas of contacts and of the distances of four equal cells at the corners of a tetrahedron, after two hours.
+struct FourCells {
+  double areas = 0.0, distances = 0.0;
+};
+
+void find_four_cells(int seed, FourCells& out) {
   const auto study = test::read(
-      "schema: 1\nstudy: four\nseed: 1\ntime: {end: 2 h}\ndomain: {size: [80 um, 80 um, 80 um], boundary: open}\ncell_types:\n  cell:\n"
+      "schema: 1\nstudy: four\nseed: " + std::to_string(seed) +
+      "\ntime: {end: 2 h}\ndomain: {size: [80 um, 80 um, 80 um], boundary: open}\ncell_types:\n  cell:\n"
       "    radius: 6 um\n    friction: {medium: 1e8 N s/m^3, cell_cell: 1e8 N s/m^3}\n    adhesion: {cell: 0.07 mJ/m^2}\n"
       "    dcm: {cortex: {elastic: none, tension: 0.1 mN/m}}\ninitial:\n  - type: cell\n    as: shell\n"
       "    at: [[4.25 um, 4.25 um, 4.25 um], [4.25 um, -4.25 um, -4.25 um], [-4.25 um, 4.25 um, -4.25 um], [-4.25 um, -4.25 um, 4.25 "
@@ -143,11 +148,24 @@ TEST(ContactLines, OfFourEqualCellsAreAlike) {
       distances.push_back(norm(volume_centroid(shells.topology(a).faces(), shells.nodes(a)) -
                                volume_centroid(shells.topology(b).faces(), shells.nodes(b))));
   ASSERT_EQ(areas.size(), 6u);
-  // Asked for: 1 % and 0.25 %, which nine points everywhere and a tenth of the shape stiffness reach.
-  EXPECT_LE(scatter(areas), 0.018);
-  EXPECT_LE(scatter(distances), 0.004);
-  RecordProperty("areas", std::to_string(scatter(areas)));
-  RecordProperty("distances", std::to_string(scatter(distances)));
+  out = {scatter(areas), scatter(distances)};
+}
+
+/// They touch each other alike, however their meshes lie. One way that they lie says little: distances scatter by 0.16 to 0.55 %.
+TEST(ContactLines, OfFourEqualCellsAreAlike) {
+  constexpr int kSeeds = 8;
+  FourCells mean;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    FourCells found;
+    ASSERT_NO_FATAL_FAILURE(find_four_cells(seed, found)) << seed;
+    mean.areas += found.areas / kSeeds;
+    mean.distances += found.distances / kSeeds;
+  }
+  // Asked for: 1 % and 0.25 %, which nine points everywhere and a tenth of the shape stiffness reach, or 642 nodes.
+  EXPECT_LE(mean.areas, 0.018);
+  EXPECT_LE(mean.distances, 0.004);
+  RecordProperty("areas", std::to_string(mean.areas));
+  RecordProperty("distances", std::to_string(mean.distances));
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cstring>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <regex>
 #include <tuple>
 
 #include "fields/reaction.h"
@@ -135,12 +137,20 @@ TEST(StudyDeclarations, EveryDefaultAndExampleCanBeRead) {
   EXPECT_GT(documented, 120);
 }
 
+/// Of a section that may be written otherwise, too, what holds its keys.
+const nlohmann::json& written_out(const nlohmann::json& schema, const char* type) {
+  if (!schema.contains("anyOf")) return schema;
+  for (const nlohmann::json& choice : schema.at("anyOf"))
+    if (choice.contains("type") && choice.at("type") == type) return choice;
+  return schema;
+}
+
 void expect_keys(const Declaration& d, const nlohmann::json& schema) {
-  const nlohmann::json* object = &schema;
-  if (d.kind == Declaration::Kind::kNamed) object = &schema.at("additionalProperties");
-  if (d.kind == Declaration::Kind::kList) object = &schema.at("items");
-  if (object->contains("anyOf")) object = &object->at("anyOf").at(1);
   if (d.children.empty()) return;
+  const nlohmann::json* object = &schema;
+  if (d.kind == Declaration::Kind::kNamed) object = &written_out(schema, "object").at("additionalProperties");
+  if (d.kind == Declaration::Kind::kList) object = &written_out(schema, "array").at("items");
+  object = &written_out(*object, "object");
   EXPECT_EQ(object->at("additionalProperties"), false) << d.path;
   EXPECT_EQ(object->at("properties").size(), d.children.size()) << d.path;
   for (const Declaration& child : d.children) {
@@ -156,6 +166,21 @@ TEST(StudyDeclarations, SchemaHoldsEveryKey) {
   EXPECT_EQ(schema.at("$schema"), "https://json-schema.org/draft/2020-12/schema");
   expect_keys(study_declarations(*builtin_laws()), schema);
   EXPECT_THAT(schema.at("required").dump(), HasSubstr("cell_types"));
+}
+
+/// What `check` takes an editor takes, and what it does not take an editor marks.
+TEST(StudyDeclarations, SchemaTakesQuantitiesAsTheyAreWritten) {
+  const auto schema = nlohmann::json::parse(study_json_schema(*builtin_laws()));
+  const auto& type = schema.at("properties").at("cell_types").at("additionalProperties").at("properties");
+  const std::regex quantity(type.at("dcm").at("anyOf").at(0).at("properties").at("bulk_modulus").at("anyOf").at(0).at("pattern").get<std::string>());
+  for (const char* text : {"2.5 kPa", "2.5kPa", "1e-3 kPa", "-.5 Pa", "10 1/h", "10 1 / h", "1 N s/m^3"})
+    EXPECT_TRUE(std::regex_search(text, quantity)) << text;
+  for (const char* text : {"2.5", "kPa", "10 5", "", "1e3"}) EXPECT_FALSE(std::regex_search(text, quantity)) << text;
+  const auto takes_default = [](const nlohmann::json& key) {
+    return std::ranges::any_of(key.at("anyOf"), [](const nlohmann::json& choice) { return choice.value("const", "") == "default"; });
+  };
+  for (const char* key : {"radius", "cycle", "adhesion", "variation"}) EXPECT_TRUE(takes_default(type.at(key))) << key << ": of the type that it is `like`";
+  EXPECT_EQ(schema.at("properties").at("time").dump().find("\"default\"}"), std::string::npos) << "only there";
 }
 
 TEST(StudyDeclarations, ReferenceHoldsEveryKeyAndCode) {
