@@ -39,9 +39,11 @@ Status resume(const ResumeOptions& options, const Context& context) {
   auto study =
       read_study_and_tell((folder.path() / "study.resolved.yaml").string(), options.overrides, false, context, {.judge_places = false});
   MORULA_TRY(agree_on(study, (folder.path() / "study.resolved.yaml").string(), context));
-  for (const std::string& change : options.overrides)
-    if (change.starts_with("initial.") || change.starts_with("initial="))
-      return Error{ErrorKind::kInput, "`initial` says how a run begins, and this one has begun", "start a new run with `morula run`"};
+  for (const std::string& change : options.overrides) {
+    const std::string key = change.substr(0, change.find('='));
+    if (key == "initial" || key.starts_with("initial.") || (key.starts_with("fields.") && key.ends_with(".initial")))
+      return Error{ErrorKind::kInput, "`" + key + "` says how a run begins, and this one has begun", "start a new run with `morula run`"};
+  }
   scenarios::ResumeRequest request;
   request.laws = context.laws;
   MORULA_TRY(fill_request(options.limits, context, request));

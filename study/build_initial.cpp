@@ -152,6 +152,9 @@ class InitialBuilder {
     for (const auto& type : c_.draft.cell_types) names.push_back(type.name);
     const auto csv = read_cells_csv(cells.csv_path, shown, names, d.csv.place, units_, c_.diagnostics, cells.csv_unit);
     if (!csv) return;
+    if (d.units.known() && !csv->common_unit_used)
+      c_.diagnostics.error(515, d.units.place, "'units' has no effect here: all columns of '" + shown + "' have a unit of their own",
+                           "leave it away, or take the units out of the header");
     cells.count = csv->cells.size();
     if (!csv->ignored_columns.empty()) {
       std::string note = shown + ": columns left aside:";

@@ -120,6 +120,7 @@ class CsvReader {
   void take_common_unit(std::size_t column, Field field) {
     if (column == kType || column == kModel || column == kPhase) return;
     const auto factor = units_.factor(unit_, Quantity::kLength);  // that of the entry has been checked
+    cells_.common_unit_used = true;
     if (factor.ok())
       factor_[column] = *factor;
     else

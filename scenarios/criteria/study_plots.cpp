@@ -28,8 +28,10 @@ ShownUnit shown_time(double last) {
 /// Points of a curve in internal units, and what a theory expects at each.
 struct PlotPoints {
   std::vector<double> x, y, expected;
+  bool of_many = false;  ///< several cells at one moment: no line leads from one to the next
 
   void sort_by_x() {
+    if (expected.empty()) expected.resize(x.size(), std::nan(""));
     std::vector<std::size_t> order(x.size());
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) { return x[a] < x[b]; });
@@ -81,6 +83,7 @@ class StudyPlotMaker {
       if (plot_.x && x == xs.end()) continue;
       out.x.push_back(plot_.x ? x->value : y.time);
       out.y.push_back(y.value);
+      out.of_many = out.of_many || (!used.empty() && used.back().time == y.time);
       used.push_back(y);
     }
     if (plot_.expected.kind == Expectation::Kind::kTheory || plot_.expected.kind == Expectation::Kind::kMeasure) {
@@ -112,17 +115,17 @@ class StudyPlotMaker {
     for (const MeasureCall& call : plot_.y) {
       PlotPoints together;  // of all things, where each is one point
       for (std::size_t i = 0; i < call.subjects.size(); ++i) {
-        MORULA_TRY_ASSIGN(const PlotPoints points, points_of(call, i));
+        MORULA_TRY_ASSIGN(PlotPoints points, points_of(call, i));
         if (single_) {
           together.x.insert(together.x.end(), points.x.begin(), points.x.end());
           together.y.insert(together.y.end(), points.y.begin(), points.y.end());
           together.expected.insert(together.expected.end(), points.expected.begin(), points.expected.end());
           continue;
         }
-        add_pair(out, name_of(call, call.subjects[i]), points, CurveStyle::kLine, color++);
+        if (points.of_many) points.sort_by_x();
+        add_pair(out, name_of(call, call.subjects[i]), points, points.of_many ? CurveStyle::kPoints : CurveStyle::kLine, color++);
       }
       if (!single_) continue;
-      if (together.expected.empty()) together.expected.resize(together.x.size(), std::nan(""));
       together.sort_by_x();
       add_pair(out, plot_.y.size() > 1 ? call.measure.title : "cells", together, CurveStyle::kPoints, color++);
     }

@@ -41,6 +41,7 @@ plots:
   - {name: lid, x: obstacle.way(lid), y: pressure(cell), title: Under the lid}
   - {name: pressures, y: pressure_inside, of: [cell, ball], at: end, x: radius, against: laplace}
   - {name: counted, y: cell_count, against: {data: count.csv, y: cells, source: a count}}
+  - {name: each, y: volume(cell), over_cells: each}
 )";
 
 class OwnCriteria : public testing::Test {
@@ -216,7 +217,7 @@ TEST_F(OwnCriteria, PlotsStandInTheReportAndBesideIt) {
   EXPECT_TRUE(passed_);
   const auto plots = declared_plots(study_, folder_.path() / "run");
   ASSERT_TRUE(plots.ok()) << plots.error().message;
-  ASSERT_EQ(plots->size(), 4u);
+  ASSERT_EQ(plots->size(), 5u);
   EXPECT_EQ((*plots)[0].plot.curves.size(), 2u);
   EXPECT_EQ((*plots)[0].plot.curves[0].x.size(), 5u);
   EXPECT_EQ((*plots)[0].plot.limits.size(), 1u);
@@ -230,6 +231,11 @@ TEST_F(OwnCriteria, PlotsStandInTheReportAndBesideIt) {
   EXPECT_EQ(pressures.curves[0].x.size(), 2u);
   EXPECT_EQ(pressures.curves[1].name, "Laplace's law");
   EXPECT_EQ((*plots)[3].plot.curves.back().name, "a count");
+  const CurvePlot& each = (*plots)[4].plot;  // two cells at each of five moments: no line leads from one to the other
+  ASSERT_EQ(each.curves.size(), 1u);
+  EXPECT_EQ(each.curves[0].x.size(), 10u);
+  EXPECT_EQ(each.curves[0].style, CurveStyle::kPoints);
+  EXPECT_EQ((*plots)[0].plot.curves[0].style, CurveStyle::kLine);
   const std::string report = testing_support::slurp(folder_.path() / "run/report.html");
   for (const char* words : {"Under the lid", "Laplace", "a count", "criteria passed"}) EXPECT_THAT(report, HasSubstr(words));
   for (const char* name : {"volumes.svg", "volumes.csv", "lid.svg", "pressures.svg", "counted.svg"})

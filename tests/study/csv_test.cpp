@@ -86,6 +86,11 @@ TEST(StudyCsv, UnitsOfTheEntryHoldForColumnsWithoutOne) {
   EXPECT_THAT(none.error().text(), HasSubstr("column 'x' has no unit [E655]"));
   EXPECT_THAT(none.error().text(), HasSubstr("`units: um` beside `csv` in the study"));
   ASSERT_FALSE(read(changed("count: 400", "units: um, count: 400")).ok()) << "a key of another source of cells";
+  folder.write("cells.csv", "x [mm],y [mm],z [um],type\n0.01,0.02,30,hepatocyte\n");
+  EXPECT_TRUE(read_with("{csv: cells.csv}").ok());
+  const auto idle = read_with("{csv: cells.csv, units: um}");
+  ASSERT_FALSE(idle.ok());
+  EXPECT_THAT(idle.error().text(), HasSubstr("'units' has no effect here: all columns of 'cells.csv' have a unit of their own [E515]"));
 }
 
 TEST(StudyCsv, AMillionEqualErrorsAreCutShort) {

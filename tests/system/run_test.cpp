@@ -224,6 +224,7 @@ TEST(Resume, RefusesChangesThatTheCheckpointCannotFollow) {
   refused("domain.size=[400 um, 400 um, 400 um]", "other bounds of the domain");
   refused("time.end=10 min", "later than `time.end`");
   refused("initial.0.count=2", "how a run begins");
+  refused("fields.o.initial=3 mM", "`fields.o.initial` says how a run begins");
 }
 
 TEST(Resume, KnowsWhenItsInputsOrItsResultsAreNotWhatTheyWere) {
