@@ -98,23 +98,37 @@ void put_off(CellRow& mother, std::vector<Event>& events) {
   *division = {division->time, EventKind::kDivisionWaits, mother.id, {}, {}, {EventReason::Cause::kNoPlane}};
 }
 
+/// The divisions among events, by their mothers. Good until an event comes or goes.
+class DivisionEvents {
+ public:
+  explicit DivisionEvents(std::span<Event> events) {
+    for (Event& event : events)
+      if (event.kind == EventKind::kDivision) by_mother_.push_back(&event);
+    std::ranges::sort(by_mother_, {}, &Event::cell);
+  }
+  /// Null: she does not divide.
+  [[nodiscard]] Event* of(CellId mother) const {
+    const auto at = std::ranges::lower_bound(by_mother_, mother, {}, &Event::cell);
+    return at != by_mother_.end() && (*at)->cell == mother ? *at : nullptr;
+  }
+
+ private:
+  std::vector<Event*> by_mother_;
+};
+
 /// Tells the volumes of a division, and what the daughters are.
-void note_daughters(const CellRow& mother, const Daughters& daughters, std::vector<Event>& events) {
-  for (Event& event : events) {
-    if (event.kind != EventKind::kDivision || event.cell != mother.id) continue;
-    event.volume = mother.target_volume;
-    for (std::size_t which = 0; which < 2; ++which) {
-      event.birth_volume[which] = daughters[which].row.birth_volume;
-      event.birth_type[which] = daughters[which].row.type;
-    }
+void note_daughters(const CellRow& mother, const Daughters& daughters, Event& event) {
+  event.volume = mother.target_volume;
+  for (std::size_t which = 0; which < 2; ++which) {
+    event.birth_volume[which] = daughters[which].row.birth_volume;
+    event.birth_type[which] = daughters[which].row.type;
   }
 }
 
 /// Tells by how much the divisions of these shells raised the energy.
 void note_energy_rise(std::span<const CellRecord> mothers, double rise, std::vector<Event>& events) {
-  for (Event& event : events)
-    if (event.kind == EventKind::kDivision && std::ranges::any_of(mothers, [&](const CellRecord& m) { return m.row.id == event.cell; }))
-      event.energy_rise = rise;
+  const DivisionEvents divisions(events);
+  for (const CellRecord& mother : mothers) divisions.of(mother.row.id)->energy_rise = rise;
 }
 
 }  // namespace
@@ -156,13 +170,11 @@ Status Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>&
   std::vector<CellRecord> fresh;
   std::vector<CellRecord> cut;  // mothers that were shells
   std::int64_t divisions = 0, deaths = 0;
+  const DivisionEvents division(events);
   for (std::size_t k = 0; k < mothers.size(); ++k) {
-    if (daughters[k].empty()) {
-      put_off(tissue_.cells.rows[mothers[k].body.row], events);
-      continue;
-    }
+    if (daughters[k].empty()) continue;
     ++divisions;
-    note_daughters(mothers[k].cell.row, daughters[k], events);
+    note_daughters(mothers[k].cell.row, daughters[k], *division.of(mothers[k].cell.row.id));
     gone.push_back(mothers[k].body.row);
     if (mothers[k].body.is_shell) cut.push_back(mothers[k].cell);
     for (CellRecord& daughter : daughters[k]) {
@@ -170,6 +182,8 @@ Status Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>&
       fresh.push_back(std::move(daughter));
     }
   }
+  for (std::size_t k = 0; k < mothers.size(); ++k)
+    if (daughters[k].empty()) put_off(tissue_.cells.rows[mothers[k].body.row], events);
   if (!gone.empty()) {
     std::sort(gone.begin(), gone.end());
     replace_cells(tissue_, gone, std::move(fresh));
