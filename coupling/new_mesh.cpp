@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <type_traits>
 
 #include "core/mesh/renewal/transfer_marks.h"
@@ -14,6 +15,10 @@ namespace {
 
 /// Where the stretch of a new edge is looked at, as parts of its length.
 constexpr std::array<double, 3> kPointsOfEdge = {1.0 / 6.0, 0.5, 5.0 / 6.0};
+
+/// Part of the area that a face at rest has if its edges are shortened alike: no cortex is stretched ten times as much along one direction as across it.
+constexpr double kLeastOfArea = 0.3;
+constexpr int kMostPasses = 100;
 
 /// Lengths that vectors in the plane of a face had before they were stretched.
 class RestMetric {
@@ -62,6 +67,30 @@ void for_places_of_edges(const AskedSurface& surface, const Topology& topology, 
 double area_of_sides(double a, double b, double c) {
   const double s = 0.5 * (a + b + c);
   return std::sqrt(std::max(0.0, s * (s - a) * (s - b) * (s - c)));
+}
+
+/// Whether rest lengths, as parts of lengths, give a face a triangle at rest that is much flatter than it is; of a face that is flat itself, a small
+/// difference between its edges is enough, and leaves no triangle at all.
+bool is_flattened(const std::array<std::uint32_t, 3>& edge, std::span<const double> length, std::span<const double> shrink) {
+  const auto side = [&](int k) { return length[edge[k]] * shrink[edge[k]]; };
+  const double mean = (shrink[edge[0]] + shrink[edge[1]] + shrink[edge[2]]) / 3.0;
+  const double alike = mean * mean * area_of_sides(length[edge[0]], length[edge[1]], length[edge[2]]);
+  return area_of_sides(side(0), side(1), side(2)) < kLeastOfArea * alike;
+}
+
+/// Gives the edges of such faces their mean, until there is none; all edges of the mesh where that does not end.
+void even_out(const Topology& topology, std::span<const double> length, std::vector<double>& shrink) {
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    bool any = false;
+    for (const auto& edge : topology.face_edges()) {
+      if (!is_flattened(edge, length, shrink)) continue;
+      const double mean = (shrink[edge[0]] + shrink[edge[1]] + shrink[edge[2]]) / 3.0;
+      for (const std::uint32_t e : edge) shrink[e] = mean;
+      any = true;
+    }
+    if (!any) return;
+  }
+  std::ranges::fill(shrink, std::accumulate(shrink.begin(), shrink.end(), 0.0) / static_cast<double>(shrink.size()));
 }
 
 /// Distance between the middles of the two stress-free faces of an edge.
@@ -152,10 +181,11 @@ std::vector<double> carried_rest_lengths(const NewMesh& mesh) {
     const Vec3d along = mesh.position[topology.edges()[e].j] - mesh.position[topology.edges()[e].i];
     out[e] += face < mesh.source_face.size() ? rest_metric(mesh.old, mesh.old.rest_length, mesh.source_face[face]).shrink(along) : 1.0;
   });
-  for (std::size_t e = 0; e < out.size(); ++e) {
-    const Edge& edge = topology.edges()[e];
-    out[e] = norm(mesh.position[edge.j] - mesh.position[edge.i]) * out[e] / static_cast<double>(kPointsOfEdge.size());
-  }
+  for (double& shrink : out) shrink /= static_cast<double>(kPointsOfEdge.size());
+  std::vector<double> length;
+  for (const Edge& edge : topology.edges()) length.push_back(norm(mesh.position[edge.j] - mesh.position[edge.i]));
+  even_out(topology, length, out);
+  for (std::size_t e = 0; e < out.size(); ++e) out[e] *= length[e];
   return out;
 }
 

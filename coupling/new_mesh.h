@@ -23,7 +23,8 @@ struct NewMesh {
 };
 
 /// Rest lengths of the old metric where the nearest point is of the old surface; of new faces the present ones. The metric of a face with rest lengths
-/// l1, l2, l3 is the form that gives its three sides these lengths.
+/// l1, l2, l3 is the form that gives its three sides these lengths. A face that would have no triangle of such lengths, or a much flatter one than it is
+/// itself, has its edges shortened alike.
 std::vector<double> carried_rest_lengths(const NewMesh& mesh);
 
 /// The stress-free shape of a shell on a mesh with connectivity of its own, of nodes at `position` that lie on the old surface.

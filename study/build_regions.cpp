@@ -120,7 +120,8 @@ void check_lateral(BuildContext& c, std::size_t type, const TensionRegion& regio
   const double adhesion = model.pairs.empty() ? 0.0 : model.pair(type, type).adhesion, as_adhesion = adhesion + 2.0 * difference;
   std::string help = "give an elastic cortex";
   if (as_adhesion > 0.0 && as_adhesion < 2.0 * free)
-    help = "an adhesion of " + short_number(as_adhesion) + " mJ/m^2 between such cells, with one tension everywhere, has the angle of that law";
+    help = "an adhesion of " + short_number(as_adhesion) +
+           " mJ/m^2 between such cells, with one tension everywhere, has the angle of that law";
   c.diagnostics.warning(695, item.content.tension.place,
                         "the tension in contact differs from that of the free surface by " + short_number(std::abs(difference)) +
                             " mN/m, and a cortex that is not elastic flows to where it is higher: contact angles miss Young's law, as if a "

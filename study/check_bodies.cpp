@@ -52,6 +52,21 @@ void check_mesh_of_divisions(BuildContext& c) {
   }
 }
 
+/// A cut draws faces beside the new interface out, or together.
+void check_sheets_of_divisions(BuildContext& c) {
+  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
+    const auto& [name, place, t] = c.draft.cell_types[i];
+    const CellType& type = c.study.model.types[i];
+    if (!type.shells_divide || !may_be_shell(c, i) || !may_divide(c, i)) continue;
+    for (const dcm::Sheet& sheet : type.shell.sheets)
+      if (sheet.law->excess != nullptr)
+        c.diagnostics.warning(696, t.elastic.given ? t.elastic.place : place,
+                              "shells of '" + name + "' divide, and a cut takes faces beyond the range of " + sheet.law->name +
+                                  ": the run ends where a face " + sheet.law->limit,
+                              "`elastic: neo_hooke` or `springs`, or `cycle: {shells: wait}`");
+  }
+}
+
 /// E406 for named cells whose founder the study has not.
 void check_named_cells(BuildContext& c) {
   std::uint64_t founders = 0;
@@ -160,6 +175,7 @@ void check_bodies(BuildContext& c) {
   if (c.diagnostics.has_errors()) return;  // what a wrong study would be like is not worth a warning
   check_division_of_shells(c);
   check_mesh_of_divisions(c);
+  check_sheets_of_divisions(c);
   check_jkr_range(c);
   check_rest_of_bodies(c);
   check_ways_of_spheres(c);

@@ -26,7 +26,7 @@ struct CsvCell {
 struct CsvCells {
   std::vector<CsvCell> cells;
   std::vector<std::string> ignored_columns;
-  bool common_unit_used = false;  ///< some column has the unit of all
+  bool common_unit_used = false;             ///< some column has the unit of all
   std::shared_ptr<const SourceText> source;  ///< for messages about rows
 };
 

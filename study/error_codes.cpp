@@ -267,9 +267,13 @@ constexpr ErrorCode kCodes[] = {
      "begins "
      "when the run has ended."},
     {695, "tension in contact of a fluid cortex",
-     "A fluid bears no difference of tension along its surface. Where faces in contact have a tension of their own, it is the resistance of triangles "
-     "to distortion that bears the difference, and contact angles lie 2 to 6 degrees beside Young's law. The same angle comes of adhesion: W + 2 "
+     "A fluid bears no difference of tension along its surface. Where faces in contact have a tension of their own, it is the resistance "
+     "of triangles "
+     "to distortion that bears the difference, and contact angles lie 2 to 6 degrees beside Young's law. The same angle comes of adhesion: "
+     "W + 2 "
      "(γ − γ_lateral) in place of W."},
+    {696, "elastic law whose range divisions leave",
+     "Faces beside a new interface are stretched by a fifth and more. A law that holds for small stretches only ends the run there."},
     {700, "cycle that never ends",
      "A cell that divides at a volume must grow, in one phase at least; one that does not grow divides by the clock of its phases."},
     {701, "division below the size at birth", "A sizer's division volume must be larger than the mean birth volume of the type."},

@@ -69,7 +69,8 @@ Json whole_schema(const KeySpec& key) {
 Json schema_of(const Declaration& declaration, bool takes_back);
 
 Json section_schema(const Declaration& section, bool takes_back) {
-  takes_back = takes_back || std::ranges::any_of(section.children, [](const Declaration& child) { return std::string_view(child.spec.name) == "like"; });
+  takes_back = takes_back ||
+               std::ranges::any_of(section.children, [](const Declaration& child) { return std::string_view(child.spec.name) == "like"; });
   Json schema{{"type", "object"}, {"properties", Json::object()}};
   Json required = Json::array();
   for (const Declaration& child : section.children) {

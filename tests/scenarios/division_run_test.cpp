@@ -258,5 +258,23 @@ TEST_F(DivisionRun, SaysWhatCannotBe) {
   EXPECT_THAT(errors("shells: cocoon"), HasSubstr("cut"));
 }
 
+/// Rest lengths that a flat face of a daughter takes from her mother, edge by edge, need not make a triangle: what is elastic by springs does not mind, a sheet
+/// has no force then. Daughters of daughters have such faces.
+TEST_F(DivisionRun, SheetsOfAnyLawDivideAgainAndAgain) {
+  for (const char* law : {"neo_hooke", "skalak", "springs_with_area"}) {
+    run_whole(std::string(R"(schema: 1
+study: sheets
+time: {end: 40 h, output: 20 h}
+domain: {size: [100 um, 100 um, 100 um]}
+cell_types: {c: {radius: 6 um, body: shell, cycle: {duration: 18 h}, adhesion: {c: 0.05 mJ/m^2}, dcm: {cortex: {elastic: )") +
+                  law + R"(}}}}
+initial: [{type: c, at: [[0 um, 0 um, 0 um]]}]
+output: {report: false}
+)",
+              law);
+    EXPECT_EQ(column(law, "cell_count").back(), 8.0) << law;
+  }
+}
+
 }  // namespace
 }  // namespace morula::scenarios::test

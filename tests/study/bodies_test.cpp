@@ -105,6 +105,18 @@ TEST(Bodies, AMeshThatIsTooCoarseToDivideIsToldWithOneThatIsNot) {
   EXPECT_THAT(test::warnings_of(test::changed("nodes: 162", "nodes: 42", waits)), Not(HasSubstr("E650")));
 }
 
+TEST(Bodies, ALawWhoseRangeDivisionsLeaveIsToldWithOneThatHolds) {
+  const std::string divides = test::changed("radius: 40 um}", kAsShell, with("cycle: {duration: 18 h}"));
+  const auto with_law = [&](const std::string& law, const std::string& study) {
+    return test::warnings_of(test::changed("nodes: 162", "nodes: 162\n      cortex: {elastic: " + law + "}", study));
+  };
+  EXPECT_THAT(with_law("stvk", divides),
+              AllOf(HasSubstr("beyond the range of st_venant_kirchhoff"), HasSubstr("neo_hooke"), HasSubstr("[E696]")));
+  EXPECT_THAT(with_law("neo_hooke", divides), Not(HasSubstr("E696")));
+  const std::string waits = test::changed("radius: 40 um}", kAsShell, with("cycle: {duration: 18 h, shells: wait}"));
+  EXPECT_THAT(with_law("stvk", waits), Not(HasSubstr("E696")));
+}
+
 TEST(Bodies, ShellsThatOnlyGrowAreNotWarnedOf) {
   const std::string grows =
       test::changed("radius: 40 um}", "radius: 40 um, as: shell, age: birth}", with("cycle: {duration: 18 h, shells: wait}"));

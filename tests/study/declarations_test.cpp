@@ -172,14 +172,16 @@ TEST(StudyDeclarations, SchemaHoldsEveryKey) {
 TEST(StudyDeclarations, SchemaTakesQuantitiesAsTheyAreWritten) {
   const auto schema = nlohmann::json::parse(study_json_schema(*builtin_laws()));
   const auto& type = schema.at("properties").at("cell_types").at("additionalProperties").at("properties");
-  const std::regex quantity(type.at("dcm").at("anyOf").at(0).at("properties").at("bulk_modulus").at("anyOf").at(0).at("pattern").get<std::string>());
+  const std::regex quantity(
+      type.at("dcm").at("anyOf").at(0).at("properties").at("bulk_modulus").at("anyOf").at(0).at("pattern").get<std::string>());
   for (const char* text : {"2.5 kPa", "2.5kPa", "1e-3 kPa", "-.5 Pa", "10 1/h", "10 1 / h", "1 N s/m^3"})
     EXPECT_TRUE(std::regex_search(text, quantity)) << text;
   for (const char* text : {"2.5", "kPa", "10 5", "", "1e3"}) EXPECT_FALSE(std::regex_search(text, quantity)) << text;
   const auto takes_default = [](const nlohmann::json& key) {
     return std::ranges::any_of(key.at("anyOf"), [](const nlohmann::json& choice) { return choice.value("const", "") == "default"; });
   };
-  for (const char* key : {"radius", "cycle", "adhesion", "variation"}) EXPECT_TRUE(takes_default(type.at(key))) << key << ": of the type that it is `like`";
+  for (const char* key : {"radius", "cycle", "adhesion", "variation"})
+    EXPECT_TRUE(takes_default(type.at(key))) << key << ": of the type that it is `like`";
   EXPECT_EQ(schema.at("properties").at("time").dump().find("\"default\"}"), std::string::npos) << "only there";
 }
 
