@@ -72,12 +72,14 @@ std::vector<Vec3d> Simulation::forces_on_cells(double time) {
     const CellType& type = model_.types[row.type];
     Vec3d force = body_force(model_, row.type, time);
     if (!is_shell && type.protrusion.force > 0.0 && !type.protrusion.internal) {  // a sphere has no front: the force is that of the whole
-      Vec3d push = optional.polarity[i] * type.protrusion.force;
+      Vec3d direction = optional.polarity[i];
+      double size = type.protrusion.force;
       if (type.protrusion.substrate >= 0) {
         const Touch& on = touch.at(type.protrusion.substrate)[body];
-        push = along_surface(push, on) * (type.protrusion.contact_area > 0.0 ? std::min(1.0, on.area / type.protrusion.contact_area) : 1.0);
+        direction = along_surface(direction, on);
+        if (type.protrusion.contact_area > 0.0) size *= std::min(1.0, on.area / type.protrusion.contact_area);
       }
-      force += push;
+      if (norm2(direction) > 0.0) force += normalized(direction) * size;
     }
     (is_shell ? shells : spheres).push_back(force);
   }

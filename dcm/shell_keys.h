@@ -65,7 +65,8 @@ inline KeySpec tension() {
 inline KeySpec turnover() {
   return {.name = "turnover",
           .doc =
-              "Time after which 1/e of the elastic stress in the plane is left at constant shape, because the layer is renewed; "
+              "Time after which 1/e of the elastic stress in the plane is left at constant shape, because the layer is renewed; steps are "
+              "a tenth of it at most; "
               "`never`: it is permanent.",
           .quantity = Quantity::kTime,
           .fallback = "never",

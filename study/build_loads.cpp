@@ -29,7 +29,7 @@ void check_bodies(BuildContext& c, const std::string& name, const Place& place, 
   const std::string who = "load '" + name + "' acts on the surface of '" + c.study.model.types[load.type].name + "'";
   const bool chosen = load.what->of_chosen_nodes != nullptr && load.what->of_chosen_nodes(load);
   for (const InitialCells& block : c.study.initial) {
-    if (block.type != load.type && block.source != InitialCells::Source::kCsv) continue;
+    if (!block.may_have(load.type)) continue;
     const BodyKind body = block.body_given ? block.body : c.study.model.types[load.type].initial_body;
     if (body == BodyKind::kSphere && c.draft.coupling.regions.empty() && c.draft.coupling.triggers.empty()) {
       c.diagnostics.error(520, place, who + ", but cells of that type are spheres",

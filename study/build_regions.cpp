@@ -134,6 +134,9 @@ void build_tensions(BuildContext& c) {
     const draft::CellType& t = c.draft.cell_types[i].content;
     RegionalTension& out = c.study.model.types[i].regional_tension;
     out.easing = t.lateral_easing.value;
+    // Renewal comes after each step, at the shape that this has found.
+    if (const double rate = c.study.model.types[i].shell.turnover_rate; rate > 0.0)
+      c.study.model.step.max_step = std::min(c.study.model.step.max_step, 0.1 / rate);
     for (const auto& item : t.tension_regions) {
       TensionRegion region;
       region.tension = item.content.tension.value;

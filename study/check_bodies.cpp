@@ -20,8 +20,9 @@ bool may_divide(const BuildContext& c, std::size_t type) {
   if (!of.cycles) return false;
   const double shortest = of.cycle_duration.mean * (1.0 - 3.0 * of.cycle_duration.relative_spread);
   if (shortest < c.study.time.end) return true;
-  return std::ranges::any_of(c.study.initial, [&](const InitialCells& block) { return block.random_age && block.type == type; }) ||
-         std::ranges::any_of(c.draft.initial, [](const auto& block) { return block.content.csv.given; });
+  return std::ranges::any_of(c.study.initial, [&](const InitialCells& block) {
+    return (block.random_age || block.source == InitialCells::Source::kCsv) && block.may_have(type);
+  });
 }
 
 void check_division_of_shells(BuildContext& c) {

@@ -112,6 +112,32 @@ void check_periodic_size(BuildContext& c) {
           "at least " + short_number(std::ceil(needed)) + " um, or a `wall`");
 }
 
+/// Obstacles have no images: what crosses a periodic face leaves those on this side, and those on the other begin at once.
+void check_periodic_obstacles(BuildContext& c) {
+  if (!c.draft.domain.size.known()) return;
+  double reach = 0.0;
+  for (const CellType& type : c.study.model.types)
+    reach = std::max(reach, std::cbrt(type.cycles ? 2.0 : 1.0) * type.radius.mean * (1.0 + 3.0 * type.radius.relative_spread));
+  const Box& box = c.study.model.space.box;
+  for (std::size_t i = 0; i < c.study.model.obstacles.size(); ++i) {
+    const ObstacleSpec& obstacle = c.study.model.obstacles[i];
+    Box of;
+    for (const Vec3d& p : obstacle.position) of.include(p);
+    for (std::size_t axis = 0; axis < 3 && !obstacle.position.empty(); ++axis) {
+      if (!c.study.model.space.periodic(static_cast<int>(axis))) continue;
+      const bool within = of.low[axis] >= box.low[axis] + reach && of.high[axis] <= box.high[axis] - reach;
+      const bool beyond = of.low[axis] <= box.low[axis] - reach && of.high[axis] >= box.high[axis] + reach;
+      if (!within && !beyond)
+        c.diagnostics.warning(697, c.draft.geometry[i].place,
+                              "obstacle '" + obstacle.name + "' ends near a periodic face across " + "xyz"[axis] +
+                                  ", and obstacles have no images: a cell at this face meets only what lies on its own side",
+                              "let it reach " + short_number(std::ceil(reach)) +
+                                  " um beyond the domain, or keep it that far from the face" +
+                                  (obstacle.faces.size() <= 12 ? "; a floor can be a `wall`" : ""));
+    }
+  }
+}
+
 void check_names(BuildContext& c) {
   const auto check_reserved = [&c](const auto& things) {
     for (const auto& thing : things)
@@ -245,6 +271,7 @@ void check_whole(BuildContext& c) {
   check_contact_ranges(c);
   check_friction(c);
   check_periodic_size(c);
+  check_periodic_obstacles(c);
   check_nuclei(c);
   check_resolution(c);
   check_bodies(c);

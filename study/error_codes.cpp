@@ -274,6 +274,10 @@ constexpr ErrorCode kCodes[] = {
      "(γ − γ_lateral) in place of W."},
     {696, "elastic law whose range divisions leave",
      "Faces beside a new interface are stretched by a fifth and more. A law that holds for small stretches only ends the run there."},
+    {697, "obstacle at a periodic face",
+     "Cells and regions are seen across periodic faces, obstacles are not: one that ends at such a face or crosses it bears cells on its "
+     "own side only. "
+     "A plane that reaches a cell's radius beyond the domain on all sides is the same everywhere."},
     {700, "cycle that never ends",
      "A cell that divides at a volume must grow, in one phase at least; one that does not grow divides by the clock of its phases."},
     {701, "division below the size at birth", "A sizer's division volume must be larger than the mean birth volume of the type."},

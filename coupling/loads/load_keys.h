@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "coupling/loads/load.h"
 #include "coupling/model.h"
 
@@ -74,6 +76,9 @@ inline OwnKey way() {
 
 /// A load that holds places of the laboratory cannot follow a cell through a periodic face.
 inline std::vector<LawProblem> judge_places(const CellLoad& load, const Model& model) {
+  if (std::ranges::any_of(load.course.value, [](double factor) { return factor < 0.0; }))
+    return {{302, "", "the course of a " + load.what->info.name + " has a factor below 0: its springs would push away from where they are",
+             "0 lets the cell go"}};
   for (int axis = 0; axis < 3; ++axis)
     if (model.space.periodic(axis))
       return {{570, "center", "a " + load.what->info.name + " holds places, but the domain is periodic along " + "xyz"[axis],

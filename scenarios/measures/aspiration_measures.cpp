@@ -5,6 +5,7 @@
 
 #include "core/ball.h"
 #include "coupling/loads/loads.h"
+#include "scenarios/measures/elastic_cap.h"
 #include "scenarios/measures/holds.h"
 #include "scenarios/measures/measures.h"
 #include "scenarios/measures/theories.h"
@@ -119,7 +120,7 @@ Result<double> theory_of(FinishedRun& run, const CellLoad& load) {
   if (first == nullptr) return std::nan("");
   const auto start = shells_of(*first, load.type);
   if (start.empty()) return std::nan("");
-  return theory::critical_aspiration(type_of(run.study(), load).shell.tension, mouth_of(run.study().model, load).radius,
+  return theory::critical_aspiration(tension_at(type_of(run.study(), load), 0.0), mouth_of(run.study().model, load).radius,
                                      ball_radius(start[0].cell->volume));
 }
 
@@ -148,7 +149,7 @@ Measure critical_measure(const char* name, const char* title, const char* doc, c
   out.take = [over_tension](FinishedRun& run, const Subject& subject, const Moments& moments) -> Result<std::vector<Sample>> {
     MORULA_TRY_ASSIGN(const auto critical, critical_suction_of(run, subject, moments));
     const CellLoad& load = load_of(run.study(), subject);
-    const double unit = over_tension ? type_of(run.study(), load).shell.tension / mouth_of(run.study().model, load).radius : 1.0;
+    const double unit = over_tension ? tension_at(type_of(run.study(), load), 0.0) / mouth_of(run.study().model, load).radius : 1.0;
     return critical ? std::vector<Sample>{{run.study().time.end, *critical / unit, ""}} : std::vector<Sample>{};
   };
   return out;

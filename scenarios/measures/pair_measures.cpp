@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "core/ball.h"
+#include "scenarios/measures/elastic_cap.h"
 #include "scenarios/measures/measures.h"
 
 namespace morula::scenarios {
@@ -45,7 +46,8 @@ std::optional<double> bend_over_laplace(const Study& study, const Snapshot& snap
   if (!pair) return std::nullopt;
   const Model& model = study.model;
   const auto a = static_cast<std::size_t>(subject.type), b = static_cast<std::size_t>(subject.partner);
-  const double adhesion = model.pair(a, b).adhesion, high = model.types[a].shell.tension, low = model.types[b].shell.tension;
+  const double adhesion = model.pair(a, b).adhesion, high = tension_at(model.types[a], snapshot.time),
+               low = tension_at(model.types[b], snapshot.time);
   const Snapshot::Cell &tense = *pair->first.cell, &slack = *pair->second.cell;
   const Vec3d axis = normalized(slack.centroid - tense.centroid);
   const double radius = std::sqrt(tense.contact_area / std::numbers::pi);
@@ -59,11 +61,17 @@ std::optional<double> bend_over_laplace(const Study& study, const Snapshot& snap
 }  // namespace
 
 Measure pair_distance_measure() {
-  Measure out{"pair.distance",   "distance of the centres", "Distance of the centres of two cells.", "", "",
-              Quantity::kLength, MeasureOf::kPair};
-  out.take = by_snapshot([](const Study&, const Snapshot& snapshot, const Subject& subject) -> std::optional<double> {
+  Measure out{"pair.distance",
+              "distance of the centres",
+              "Distance of the centres of two cells; in a periodic domain that of the nearest images.",
+              "",
+              "",
+              Quantity::kLength,
+              MeasureOf::kPair};
+  out.take = by_snapshot([](const Study& study, const Snapshot& snapshot, const Subject& subject) -> std::optional<double> {
     const auto pair = cells_of_pair(snapshot, subject);
-    return pair ? std::optional(norm(pair->second->centroid - pair->first->centroid)) : std::nullopt;
+    if (!pair) return std::nullopt;
+    return norm(study.model.space.nearest_image(pair->second->centroid - pair->first->centroid));
   });
   return out;
 }

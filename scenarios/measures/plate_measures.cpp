@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/ball.h"
+#include "scenarios/measures/elastic_cap.h"
 #include "scenarios/measures/holds.h"
 #include "scenarios/measures/measures.h"
 #include "scenarios/measures/shape_measures.h"
@@ -59,7 +60,7 @@ Result<std::vector<Pressing>> pressings(FinishedRun& run, const Moments& moments
     if (forces.empty() || opposite.empty() || !(std::abs(forces[0].value) > 1e-6)) continue;  // not yet touched, or no such column
     MORULA_TRY_ASSIGN(const auto snapshot, run.snapshot(hold.output));
     for (const ShellView& shell : shells_of(*snapshot, 0)) {
-      const double force = forces[0].value, r0 = ball_radius(shell.cell->volume), gamma = model.types[0].shell.tension;
+      const double force = forces[0].value, r0 = ball_radius(shell.cell->volume), gamma = tension_at(model.types[0], hold.time);
       Pressing p;
       p.time = hold.time;
       p.height = extent(shell.nodes, {0, 0, 1}) / r0;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scenarios/measures/elastic_cap.h"
 #include "scenarios/measures/measures.h"
 #include "scenarios/measures/pulled_contact.h"
 #include "scenarios/measures/theories.h"
@@ -143,7 +144,7 @@ Theory fluid_pull_off() {
             MORULA_TRY_ASSIGN(const auto pulled, pulled_contact(run, load));
             if (!pulled) return std::nan("");
             MORULA_TRY_ASSIGN(const double pressure, pressure_at_peak(run, load, *pulled));
-            const double tension = run.study().model.types[load.type].shell.tension;
+            const double tension = tension_at(run.study().model.types[load.type], pulled->peak_time);
             const double angle = theory::cap_of_angle(1.0 - pulled->adhesion / ((pulled->on_obstacle ? 1.0 : 2.0) * tension)).angle;
             return std::numbers::pi * tension * tension * std::pow(std::sin(angle), 2) / pressure;
           }};

@@ -1,4 +1,5 @@
 #include "scenarios/measures/stretched_cells.h"
+#include "scenarios/measures/elastic_cap.h"
 
 #include "core/ball.h"
 #include "scenarios/measures/holds.h"
@@ -22,7 +23,7 @@ Result<std::vector<StretchedCell>> stretched_cells(FinishedRun& run, std::size_t
     for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i)
       out.push_back({after[i].cell->id.text(), snapshot->time, stress, fit_second_mode(before[i], after[i], load.axis),
                      theory::stretched_sphere(stress, ball_radius(before[i].cell->volume), spring_modulus(type), 1.0 / 3.0,
-                                              type.shell.tension, type.shell.bulk_modulus)});
+                                              tension_at(type, snapshot->time), type.shell.bulk_modulus)});
   }
   return out;
 }

@@ -30,6 +30,24 @@ Vec3d turned(const Vec3d& polarity, const Vec3d& velocity, CellId id, const Cell
                        type);
 }
 
+/// dp/dt = (v − (v·p) p)/τ for p of length 1: from a right angle the part of p across v falls as 1/cosh(t/τ), whatever the steps.
+TEST(Polarity, FollowsTheVelocityExactlyInStepsOfAnyLength) {
+  const CellType type = turning(0.0, 60.0);
+  for (const auto& [dt, steps] : {std::pair{90.0, 1}, {9.0, 10}, {0.5, 180}}) {
+    Vec3d p{0, 1, 0};
+    for (int step = 0; step < steps; ++step) p = turned(p, {2.0, 0, 0}, CellId::founder(1), type, 7, static_cast<std::uint64_t>(step), dt);
+    EXPECT_NEAR(p.y, 1.0 / std::cosh(1.5), 1e-12) << dt;
+    EXPECT_NEAR(p.x, std::tanh(1.5), 1e-12) << dt;
+  }
+  // Backwards: it turns within some times τ, in short steps, too.
+  for (const double dt : {600.0, 6.0}) {
+    Vec3d p{-1, 0, 0};
+    for (double time = 0.0; time < 600.0; time += dt) p = turned(p, {2.0, 0, 0}, CellId::founder(1), type, 7, 0, dt);
+    EXPECT_NEAR(norm(p), 1.0, 1e-12);
+    EXPECT_GT(p.x, 0.9) << dt;
+  }
+}
+
 TEST(Polarity, ForgetsItsDirectionAsRotationalDiffusionDoes) {  // ⟨p(0)·p(t)⟩ = e^(−2 D t), whatever the steps
   const CellType type = turning(0.01);
   for (const auto& [dt, steps] : {std::pair{40.0, 1}, {10.0, 4}, {0.5, 80}}) {

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "core/ball.h"
+#include "results/snapshot_file.h"
 #include "tests/scenarios/own_parts.h"
 
 namespace morula::scenarios::test {
@@ -90,6 +91,41 @@ output: {report: false}
   const double volume = column("weight", "total_volume").back(), radius = std::cbrt(0.75 * volume / std::numbers::pi);
   const double speed = 0.5e-3 * volume / (0.1 * 4.0 * std::numbers::pi * radius * radius);
   EXPECT_NEAR((drift.back() - drift[1]) / (300.0 * speed), 1.0, 0.01);
+}
+
+/// A sphere and a shell push along what they lie on with the same force, however their polarity is tilted (dcm.md §11).
+TEST_F(AtRest, ProtrusionAlongASubstrateHasOneSizeForBothBodies) {
+  run_whole(R"(schema: 1
+study: tilted
+time: {end: 150 s, output: 50 s}
+domain: {size: [100 um, 100 um, 60 um]}
+cell_types:
+  ball:
+    friction: {obstacle: 0 N s/m^3}
+    adhesion: {glass: 1e-4 J/m^2}
+    polarity: {start: [1, 0, 0]}
+    protrusion: {force: 1 nN, substrate: glass, angle: 90 deg}
+  ball_tilted: {like: ball, polarity: {start: [1, 0, -1.732]}}
+  shell_tilted: {like: ball_tilted, body: shell}
+geometry:
+  glass: {plane: {center: [0 um, 0 um, -10 um], size: 100 um}}
+initial:
+  - {type: ball, at: [[-20 um, -30 um, -4.1 um]]}
+  - {type: ball_tilted, at: [[-20 um, -10 um, -4.1 um]]}
+  - {type: shell_tilted, at: [[-20 um, 30 um, -4.1 um]]}
+output: {report: false}
+)",
+            "tilted");
+  const auto path = folder_.path() / "tilted/results.h5";
+  const auto entries = list_snapshots(path);
+  ASSERT_TRUE(entries.ok() && !entries->empty());
+  const auto last = read_snapshot(path, entries->back().index);
+  ASSERT_TRUE(last.ok());
+  ASSERT_EQ(last->cells.size(), 3u);
+  const auto way = [&](std::size_t cell) { return last->cells[cell].centroid.x + 20.0; };
+  EXPECT_GT(way(0), 1.0);
+  EXPECT_NEAR(way(1), way(0), 1e-3 * way(0));
+  EXPECT_NEAR(way(2), way(0), 0.1 * way(0));
 }
 
 }  // namespace

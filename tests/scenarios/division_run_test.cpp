@@ -276,5 +276,12 @@ output: {report: false}
   }
 }
 
+/// Daughters that are born within a step have grown since, and an output may come at its end: with this cycle by 3 % of their volume.
+TEST_F(DivisionRun, HaveTheVolumeOfTheirLawFromTheFirstOutputOn) {
+  run_whole(changed("output: 5 min", "output: 1 min", one_shell("growth: linear", "65 min")), "newborn");
+  EXPECT_EQ(column("newborn", "cell_count").back(), 4.0);
+  for (const double error : column("newborn", "volume_error")) EXPECT_LT(error, 1e-9);
+}
+
 }  // namespace
 }  // namespace morula::scenarios::test

@@ -64,6 +64,10 @@ TEST(Loads, ThatContradictTheStudyAreRefusedWithTheirPlace) {
   const auto message = [](const std::string& from, const std::string& to) { return test::errors_of(test::changed(from, to, kStudy)); };
   EXPECT_NE(message(", orientation: aligned", "").find("place them with `orientation: aligned`"), std::string::npos);
   EXPECT_NE(message("as: shell", "as: sphere").find("[E520]"), std::string::npos);
+  const std::string two = test::changed("  cell: {radius: 6 um}\n", "  cell: {radius: 6 um}\n  other: {like: cell}\n", kStudy);
+  const std::string mixed = test::changed("{type: cell, at: [[0 um, 0 um, 0 um]], as: shell, orientation: aligned}",
+                                          "{types: {other: 50 %, cell: 50 %}, count: 4, fill: sphere, radius: 15 um, as: sphere}", two);
+  EXPECT_NE(test::errors_of(mixed).find("but cells of that type are spheres"), std::string::npos) << "of a mixture, not its first type";
   EXPECT_NE(message("radius: 6 um}\ngeo", "radius: 6 um, cycle: {duration: 18 h}}\ngeo").find("would not keep"), std::string::npos);
   EXPECT_NE(message("type: cell\n", "type: cel\n").find("[E401]"), std::string::npos);
   EXPECT_NE(message("{time: 10 s, factor: 1}", "{time: 0 s, factor: 1}").find("must increase"), std::string::npos);
@@ -193,6 +197,31 @@ TEST(Loads, SuctionActsWithinACylinder) {
   EXPECT_TRUE(study->model.loads[0].within);
   EXPECT_DOUBLE_EQ(study->model.loads[0].size, -0.05);
   EXPECT_NE(test::errors_of(test::changed("to: [0 um, 0 um, 9 um]", "to: [0 um, 0 um, 4 um]", text)).find("same point"), std::string::npos);
+}
+
+TEST(Loads, SpringsWithANegativeFactorAreRefused) {
+  for (const char* spring : {"trap: {stiffness: 1 mN/m, center: [0 um, 0 um, 0 um]}",
+                             "grip: {stiffness: 1 mN/m, axis: [1, 0, 0], part: 5 %, center: [0 um, 0 um, 0 um]}"}) {
+    const std::string text = test::changed("pull: {force: 193 pN, axis: [0, 3, 0], part: 2 %, ends: high}", spring, kStudy);
+    EXPECT_TRUE(test::read(text).ok()) << test::errors_of(text);
+    EXPECT_NE(test::errors_of(test::changed("factor: 1}", "factor: -1}", text)).find("has a factor below 0"), std::string::npos) << spring;
+  }
+}
+
+TEST(Obstacles, ThatEndAtAPeriodicFaceAreWarnedOf) {
+  const auto told = [](const std::string& size, const char* boundary) {
+    return test::warnings_of(
+        test::changed("size: [100 um, 100 um, 100 um]}", std::string("size: [100 um, 100 um, 100 um], boundary: {") + boundary + "}}",
+                      test::changed("size: 50 um}", "size: " + size + "}",
+                                    test::changed("loads:\n  beads:\n    type: cell\n    pull: {force: 193 pN, axis: [0, 3, 0], part: 2 %, "
+                                                  "ends: high}\n    course: [{time: 0 s, factor: 0}, {time: 10 s, factor: 1}]\n",
+                                                  "", kStudy))));
+  };
+  EXPECT_EQ(told("50 um", "x: periodic").find("E697"), std::string::npos) << "far from the faces";
+  EXPECT_NE(told("100 um", "x: periodic").find("'plate' ends near a periodic face across x"), std::string::npos);
+  EXPECT_NE(told("100 um", "x: periodic").find("let it reach 6 um beyond the domain"), std::string::npos);
+  EXPECT_EQ(told("114 um", "x: periodic").find("E697"), std::string::npos) << "the same everywhere";
+  EXPECT_EQ(told("100 um", "z: wall").find("E697"), std::string::npos);
 }
 
 }  // namespace

@@ -186,6 +186,17 @@ TEST(Regions, LateralTensionOfAFluidIsWarnedOfWithTheAdhesionThatDoesTheSame) {
   EXPECT_EQ(test::warnings_of(alike).find("695"), std::string::npos);
 }
 
+TEST(Regions, TurnoverIsFollowedInTenStepsATime) {
+  const auto step = [](const std::string& turnover) {
+    const auto study =
+        test::read(test::changed("        tension: 0.3 mN/m\n", "        turnover: " + turnover + "\n        tension: 0.3 mN/m\n", kStudy));
+    EXPECT_TRUE(study.ok()) << study.error().text();
+    return study.ok() ? study->model.step.max_step : 0.0;
+  };
+  EXPECT_DOUBLE_EQ(step("10 s"), 1.0);
+  EXPECT_GT(step("never"), 1.0);
+}
+
 TEST(Regions, ValuesOutOfRangeAndWithoutEffectAreRefused) {
   EXPECT_NE(errors("amplitude: 20 %, period: 80 s", "amplitude: 20 %").find("E515"), std::string::npos);
   EXPECT_NE(errors("amplitude: 20 %", "amplitude: 120 %").find("E302"), std::string::npos);
