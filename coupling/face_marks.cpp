@@ -10,10 +10,10 @@ namespace {
 Vec3d face_center(const Triangle& t, std::span<const Vec3d> x) { return (x[t[0]] + x[t[1]] + x[t[2]]) * (1.0 / 3.0); }
 
 /// The axis of a cone or band for one cell; zero where there is none.
-Vec3d axis_of(const FaceMark& rule, const Vec3d& centroid, const Vec3d& polarity) {
+Vec3d axis_of(const FaceMark& rule, const Space& space, const Vec3d& centroid, const Vec3d& polarity) {
   Vec3d axis = rule.axis;
   if (rule.axis_from == FaceMark::Axis::kPolarity) axis = polarity;
-  if (rule.axis_from == FaceMark::Axis::kTowardPoint) axis = rule.center - centroid;
+  if (rule.axis_from == FaceMark::Axis::kTowardPoint) axis = space.nearest_image(rule.center - centroid);
   const double length = norm(axis);
   return length > 0.0 ? axis * (1.0 / length) : Vec3d{};
 }
@@ -39,10 +39,11 @@ bool type_has_marks(const Model& model, std::uint16_t type) {
 
 }  // namespace
 
-std::vector<char> faces_by_place(const FaceMark& rule, const Topology& topology, std::span<const Vec3d> x, const Vec3d& polarity) {
+std::vector<char> faces_by_place(const FaceMark& rule, const Space& space, const Topology& topology, std::span<const Vec3d> x,
+                                 const Vec3d& polarity) {
   std::vector<char> out(topology.face_count(), 0);
   const Vec3d centroid = volume_centroid(topology.faces(), x);
-  const Vec3d axis = axis_of(rule, centroid, polarity);
+  const Vec3d axis = axis_of(rule, space, centroid, polarity);
   const double cosine = std::cos(rule.angle);
   for (std::size_t f = 0; f < out.size(); ++f) {
     const Vec3d at = face_center(topology.faces()[f], x), from = at - centroid;
@@ -54,10 +55,10 @@ std::vector<char> faces_by_place(const FaceMark& rule, const Topology& topology,
         out[f] = norm2(axis) > 0.0 && std::abs(dot(from, axis)) < rule.half_width;
         break;
       case FaceMark::Rule::kBall:
-        out[f] = norm2(at - rule.center) < rule.radius * rule.radius;
+        out[f] = norm2(space.nearest_image(at - rule.center)) < rule.radius * rule.radius;
         break;
       case FaceMark::Rule::kBox: {
-        const Vec3d off = at - rule.center;
+        const Vec3d off = space.nearest_image(at - rule.center);
         out[f] = std::abs(off.x) < 0.5 * rule.size.x && std::abs(off.y) < 0.5 * rule.size.y && std::abs(off.z) < 0.5 * rule.size.z;
         break;
       }
@@ -77,7 +78,8 @@ void mark_new_shells(const Model& model, Tissue& tissue) {
     mark.assign(topology.face_count() * mark_bytes(model.mark_names.size()), 0);
     for (const FaceMark& rule : model.marks) {
       if (rule.type != type) continue;
-      const auto faces = faces_by_place(rule, topology, std::as_const(tissue.shells).nodes(shell), tissue.cells.optional.polarity[i]);
+      const auto faces =
+          faces_by_place(rule, model.space, topology, std::as_const(tissue.shells).nodes(shell), tissue.cells.optional.polarity[i]);
       give_mark(mark, rule.mark, faces, true);
     }
   });
@@ -104,7 +106,7 @@ void renew_marks(const Model& model, Tissue& tissue, std::span<const std::vector
         faces.assign(touched[r].begin() + static_cast<std::ptrdiff_t>(begin),
                      touched[r].begin() + static_cast<std::ptrdiff_t>(begin + topology.face_count()));
       else
-        faces = faces_by_place(rule, topology, std::as_const(tissue.shells).nodes(shell), tissue.cells.optional.polarity[i]);
+        faces = faces_by_place(rule, model.space, topology, std::as_const(tissue.shells).nodes(shell), tissue.cells.optional.polarity[i]);
       give_mark(mark, rule.mark, faces, !cleared.insert(rule.mark).second || rule.keep);
     }
   });

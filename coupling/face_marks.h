@@ -11,7 +11,8 @@ namespace morula {
 /// Faces of one shell that a rule of place marks, at these positions: by face, 1 or 0. The contact of kTouched is not looked at: nothing is marked.
 ///
 /// polarity: of the cell, any length; without one a cone about it is empty.
-std::vector<char> faces_by_place(const FaceMark& rule, const Topology& topology, std::span<const Vec3d> position, const Vec3d& polarity);
+std::vector<char> faces_by_place(const FaceMark& rule, const Space& space, const Topology& topology, std::span<const Vec3d> position,
+                                 const Vec3d& polarity);
 
 /// Give every shell of a type with marks its first marks, unless it has marks already: at time 0, after a cell became a shell. Rules of place
 /// are applied to the present shape; faces that are marked by touch or by sight follow at the end of the next step.

@@ -192,6 +192,13 @@ void build_lumens(BuildContext& c) {
     if (c.study.model.space.any_periodic())
       c.diagnostics.error(557, place, "the cavity '" + name + "' is in a domain with periodic faces, where nothing is outside",
                           "open faces or walls");
+    const auto& boundary = c.study.model.space.boundary;
+    const bool walls = std::ranges::any_of(boundary, [](const auto& axis) {
+      return std::ranges::any_of(axis, [](BoundaryKind kind) { return kind == BoundaryKind::kWall; });
+    });
+    if (lumen.by_sight && (walls || !c.draft.geometry.empty()))
+      c.diagnostics.warning(698, place, "the walls of the cavity '" + name + "' are cells alone: where an obstacle closes it, it is open",
+                            "cells all around it, or no obstacle near it");
     if (lumen.mark >= 0) c.study.model.lumens.push_back(std::move(lumen));
   }
 }

@@ -278,6 +278,10 @@ constexpr ErrorCode kCodes[] = {
      "Cells and regions are seen across periodic faces, obstacles are not: one that ends at such a face or crosses it bears cells on its "
      "own side only. "
      "A plane that reaches a cell's radius beyond the domain on all sides is the same everywhere."},
+    {698, "cavity beside obstacles",
+     "A cavity that finds its faces by sight knows cells only. What an obstacle closes counts as an opening: the volume is taken from the "
+     "cells around, and "
+     "with less than half of all directions closed there is no pressure."},
     {700, "cycle that never ends",
      "A cell that divides at a volume must grow, in one phase at least; one that does not grow divides by the clock of its phases."},
     {701, "division below the size at birth", "A sizer's division volume must be larger than the mean birth volume of the type."},

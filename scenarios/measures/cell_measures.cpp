@@ -7,6 +7,7 @@
 
 #include "core/mesh/renewal/own_mesh.h"
 #include "scenarios/measures/measures.h"
+#include "scenarios/measures/ways_of_cells.h"
 
 namespace morula::scenarios {
 namespace {
@@ -151,10 +152,22 @@ Measure width_measure(int axis) {
                       "Largest less smallest coordinate of a cell's surface along " + letter + ".", Quantity::kLength, kWidths[axis]);
 }
 Measure displacement_measure() {
-  Measure out{"displacement",    "displacement",   "Distance of a cell's centre from where it was at time 0.", "|x(t) - x(0)|", "",
-              Quantity::kLength, MeasureOf::kCells};
-  out.take = [](FinishedRun& run, const Subject& subject, const Moments& moments) {
-    return since_start(run, subject, moments, [](const Cell& now, const Cell& start) { return norm(now.centroid - start.centroid); });
+  Measure out{"displacement",
+              "displacement",
+              "Distance of a cell's centre from where it was at time 0; across periodic faces along its way from output to output.",
+              "|x(t) - x(0)|",
+              "",
+              Quantity::kLength,
+              MeasureOf::kCells};
+  out.take = [](FinishedRun& run, const Subject& subject, const Moments& moments) -> Result<std::vector<Sample>> {
+    MORULA_TRY_ASSIGN(const std::vector<double>* const times, run.snapshot_times());
+    MORULA_TRY_ASSIGN(const auto first, run.start());
+    std::vector<Sample> found;
+    if (first == nullptr) return found;
+    MORULA_TRY(for_ways_since(run, 0, moments.among(*times), [&](const Snapshot& snapshot, const Cell& cell, const Vec3d& way) {
+      if (is_meant(cell, subject)) found.push_back({snapshot.time, norm(way), cell.id.text()});
+    }));
+    return found;
   };
   return out;
 }

@@ -5,6 +5,7 @@
 #include "scenarios/measures/bearing_area.h"
 #include "scenarios/measures/elastic_cap.h"
 #include "scenarios/measures/measures.h"
+#include "scenarios/measures/ways_of_cells.h"
 
 namespace morula::scenarios {
 namespace {
@@ -138,7 +139,10 @@ Measure slide_measure() {
     MORULA_TRY_ASSIGN(const auto last, run.snapshot(asked.back()));
     const auto before = shells_of(*first, load.type), after = shells_of(*last, load.type);
     if (before.empty() || after.empty()) return found;
-    const double way = dot(after[0].cell->centroid - before[0].cell->centroid, normalized(load.force));
+    double way = 0.0;
+    MORULA_TRY(for_ways_since(run, asked.front(), {asked.back()}, [&](const Snapshot&, const Snapshot::Cell& cell, const Vec3d& of_cell) {
+      if (cell.id == after[0].cell->id) way = dot(of_cell, normalized(load.force));
+    }));
     const double drag = run.study().model.types[load.type].medium_friction * after[0].cell->area;
     found.push_back({last->time, way / (last->time - first->time) * drag / norm(load.force), ""});
     return found;

@@ -10,12 +10,12 @@
 namespace morula {
 namespace {
 
-double part_marked(const FaceMark& rule, const Vec3d& polarity = {}) {
+double part_marked(const FaceMark& rule, const Vec3d& polarity = {}, const Space& space = {}) {
   ShapeLibrary shapes;
   const auto shape = shapes.icosphere(2562).value();
   std::vector<Vec3d> x;
   for (const Vec3d& p : shape->position) x.push_back(Vec3d{5, -7, 11} + normalized(p) * 6.0);
-  const auto faces = faces_by_place(rule, *shape->topology, x, polarity);
+  const auto faces = faces_by_place(rule, space, *shape->topology, x, polarity);
   const std::vector<std::uint8_t> marks(faces.begin(), faces.end());
   const std::vector<std::uint8_t> all(faces.size(), 1);
   return marked_area(*shape->topology, x, {marks, marks.size()}, 0) / marked_area(*shape->topology, x, {all, all.size()}, 0);
@@ -47,13 +47,31 @@ TEST(FaceMarks, PolarityAndPointGiveTheAxis) {
   const auto shape = shapes.icosphere(642).value();
   std::vector<Vec3d> x;
   for (const Vec3d& p : shape->position) x.push_back(Vec3d{5, -7, 11} + p * 10.0);
-  const auto faces = faces_by_place(rule, *shape->topology, x, {});
+  const auto faces = faces_by_place(rule, Space(), *shape->topology, x, {});
   for (std::size_t f = 0; f < faces.size(); ++f) {
     if (faces[f]) {
       EXPECT_LT(x[shape->topology->faces()[f][0]].z, 11.0 - 5.0);
     }
   }
   EXPECT_GT(std::count(faces.begin(), faces.end(), 1), 0);
+}
+
+TEST(FaceMarks, PlacesAreSeenAcrossPeriodicFaces) {
+  Space around;
+  around.box = {{-15, -20, -20}, {15, 20, 20}};
+  around.boundary[0] = {BoundaryKind::kPeriodic, BoundaryKind::kPeriodic};
+  for (const FaceMark::Rule kind : {FaceMark::Rule::kBall, FaceMark::Rule::kBox}) {
+    FaceMark rule;
+    rule.rule = kind;
+    rule.radius = 4.0;
+    rule.size = {8, 8, 8};
+    rule.center = {-1, -7, 11};
+    const double part = part_marked(rule);
+    EXPECT_GT(part, 0.05);
+    rule.center.x += 30.0;
+    EXPECT_EQ(part_marked(rule), 0.0);
+    EXPECT_EQ(part_marked(rule, {}, around), part);
+  }
 }
 
 Model marked_model() {

@@ -128,5 +128,40 @@ output: {report: false}
   EXPECT_NEAR(way(2), way(0), 0.1 * way(0));
 }
 
+/// What is pushed through a periodic face is as far from its start as what is pushed in a larger domain, and a pair across it is near.
+TEST_F(AtRest, WaysAndDistancesGoAcrossPeriodicFaces) {
+  const auto text = [](const char* size, const char* partner) {
+    return std::string(R"(schema: 1
+study: across
+time: {end: 200 s, output: 20 s}
+domain: {size: [)") +
+           size + R"(, 60 um, 60 um], boundary: periodic}
+cell_types: {a: {}, b: {like: a, body: shell}, c: {like: a}}
+initial:
+  - {type: a, at: [[10 um, 0 um, 0 um]]}
+  - {type: b, at: [[10 um, 20 um, 0 um]]}
+  - {type: c, at: [[-15 um, -20 um, 0 um], [)" +
+           partner + R"(, -20 um, 0 um]]}
+loads:
+  fa: {type: a, body_force: [10 nN, 0 nN, 0 nN]}
+  fb: {type: b, body_force: [10 nN, 0 nN, 0 nN]}
+criteria:
+  - {id: D, measure: displacement, of: {type: [a, b]}, at: end, between: [0 um, 1 mm]}
+  - {id: S, measure: slide.speed, of: {load: fb}, from: 0 s, until: 200 s, between: [0, 10]}
+  - {id: P, measure: pair.distance, of: {pair: [c, c]}, at: start, between: [0 um, 1 mm]}
+output: {report: false}
+)";
+  };
+  const auto small = run_whole(text("40 um", "15 um"), "small").verdicts, large = run_whole(text("200 um", "-5 um"), "large").verdicts;
+  ASSERT_EQ(small.size(), large.size());
+  int judged = 0;
+  for (std::size_t i = 0; i < small.size(); ++i)
+    if (small[i].id.size() == 1) {
+      EXPECT_NEAR(small[i].value, large[i].value, 1e-4 * large[i].value) << small[i].quantity;
+      ++judged;
+    }
+  EXPECT_EQ(judged, 4);
+}
+
 }  // namespace
 }  // namespace morula::scenarios::test

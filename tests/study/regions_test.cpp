@@ -197,6 +197,11 @@ TEST(Regions, TurnoverIsFollowedInTenStepsATime) {
   EXPECT_GT(step("never"), 1.0);
 }
 
+TEST(Regions, CavitiesBesideObstaclesAreWarnedOf) {
+  EXPECT_NE(test::warnings_of(kStudy).find("the walls of the cavity 'gap' are cells alone"), std::string::npos);
+  EXPECT_EQ(test::warnings_of(kStudy).find("cavity 'inner'"), std::string::npos) << "its faces are marked";
+}
+
 TEST(Regions, ValuesOutOfRangeAndWithoutEffectAreRefused) {
   EXPECT_NE(errors("amplitude: 20 %, period: 80 s", "amplitude: 20 %").find("E515"), std::string::npos);
   EXPECT_NE(errors("amplitude: 20 %", "amplitude: 120 %").find("E302"), std::string::npos);
