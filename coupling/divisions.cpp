@@ -169,7 +169,6 @@ Status Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>&
   std::vector<std::size_t> gone = life.removals;
   std::vector<CellRecord> fresh;
   std::vector<CellRecord> cut;  // mothers that were shells
-  std::vector<CellId> newborn;  // daughters that are shells
   std::int64_t divisions = 0, deaths = 0;
   const DivisionEvents division(events);
   for (std::size_t k = 0; k < mothers.size(); ++k) {
@@ -179,7 +178,6 @@ Status Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>&
     gone.push_back(mothers[k].body.row);
     if (mothers[k].body.is_shell) cut.push_back(mothers[k].cell);
     for (CellRecord& daughter : daughters[k]) {
-      if (daughter.shell) newborn.push_back(daughter.row.id);
       if (daughter.shell) place_nucleus(*daughter.shell, model_.types[daughter.row.type], shapes_);
       fresh.push_back(std::move(daughter));
     }
@@ -195,24 +193,11 @@ Status Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>&
     note_energy_rise(cut, mechanics_->energy(tissue_) - energy, events);
     divisions -= settle_cuts(cut, events);
   }
-  if (cuts) grow_newborn_shells(std::move(newborn));
   rename_partners(events);  // before anybody looks at bodies
   for (const Event& event : life.events) deaths += event.kind == EventKind::kDeath;
   tissue_.ledger.divisions += static_cast<std::uint64_t>(comm_.sum(divisions));
   tissue_.ledger.deaths += static_cast<std::uint64_t>(comm_.sum(deaths));
   return {};
-}
-
-void Simulation::grow_newborn_shells(std::vector<CellId> newborn) {
-  std::ranges::sort(newborn);
-  for (const BodyOfRow& body : bodies_of(tissue_.cells, rows_of(tissue_.cells, newborn))) {
-    const CellRow& row = tissue_.cells.rows[body.row];
-    const CellType& type = model_.types[row.type];
-    if (type.osmosis.acts()) continue;
-    const double free = free_reference_volume(row.target_volume, type, tissue_.cells.deviation(body.row, type, Trait::kTension));
-    tissue_.shells.reference_volume[body.number] = free * std::exp(tissue_.cells.optional.reference_excess[body.row]);
-  }
-  mechanics_->parameters_changed();
 }
 
 std::int64_t Simulation::settle_cuts(std::span<const CellRecord> mothers, std::vector<Event>& events) {

@@ -95,9 +95,6 @@ class Simulation {
   /// The daughters of cut shells settle; those that would still begin so deep within others that the run might stop are taken back, and their mothers put
   /// off: gives how many of this rank. Collective.
   std::int64_t settle_cuts(std::span<const CellRecord> mothers, std::vector<Event>& events);
-  /// V0 of daughters that were born within the step and have grown since, as their rows say; the next step would give it to them. Where water follows, it
-  /// does so then.
-  void grow_newborn_shells(std::vector<CellId> newborn);
   /// Partners of a mother become partners of her daughters, also on other ranks. `events` are those of this rank. Collective.
   void rename_partners(const std::vector<Event>& events);
   void wrap_cells();

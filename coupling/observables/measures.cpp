@@ -29,13 +29,28 @@ Extreme over_ranks(const Extreme& mine, const Comm& comm) {
 
 /// Volume that the cell's row, its reference_excess and its inner pressure ask for, beside the present one of a nucleus that is a shell [µm³].
 double volume_by_law(const Cells& cells, std::size_t i, const CellType& type, double inner_pressure,
-                     const std::optional<NucleusState>& nucleus) {
+                     const std::optional<NucleusState>& nucleus, bool is_newborn) {
   const CellRow& row = cells.rows[i];
   const double excess = std::exp(cells.optional.reference_excess[i]);
   if (row.body == BodyKind::kSphere) return row.target_volume * excess;
-  const double volume = free_reference_volume(row.target_volume, type, cells.deviation(i, type, Trait::kTension)) * excess *
-                        std::exp(-inner_pressure / type.shell.bulk_modulus);
+  const double volume =
+      free_reference_volume(is_newborn ? row.birth_volume : row.target_volume, type, cells.deviation(i, type, Trait::kTension)) * excess *
+      std::exp(-inner_pressure / type.shell.bulk_modulus);
   return nucleus ? nucleus->volume + (1.0 - type.interior.nucleus_fraction) * volume : volume;
+}
+
+/// The same at a moment of a run. A shell that was born within the last step has the V0 of its birth until the next.
+double law_of_cell(const Simulation& simulation, const BodyOfRow& owned, double inner_pressure, const std::optional<NucleusState>& nucleus,
+                   double volume) {
+  const Tissue& tissue = simulation.tissue();
+  const CellRow& row = tissue.cells.rows[owned.row];
+  const auto law = [&](bool is_newborn) {
+    return volume_by_law(tissue.cells, owned.row, simulation.model().types[row.type], inner_pressure, nucleus, is_newborn);
+  };
+  const double now = law(false);
+  if (!owned.is_shell || !row.parent.valid() || row.birth_time <= tissue.clock.time - simulation.model().step.max_step) return now;
+  const double at_birth = law(true);
+  return std::abs(volume - at_birth) < std::abs(volume - now) ? at_birth : now;
 }
 
 /// How near the nuclei that are shells have come to their cortex. Collective.
@@ -132,9 +147,8 @@ void add_cell(Simulation& simulation, const BodyValues& values, const AsBalls& b
   const std::size_t body = owned.place(tissue.shells.size());
   const CellRow& row = tissue.cells.rows[owned.row];
   const auto nucleus = owned.is_shell ? simulation.mechanics().nucleus_of(static_cast<std::uint32_t>(owned.number)) : std::nullopt;
-  const CellType& type = simulation.model().types[row.type];
   const double volume = values.volume[body], p = values.pressure[body], inner = values.inner_pressure[body];
-  const double r = ball_radius(volume), law = volume_by_law(tissue.cells, owned.row, type, inner, nucleus);
+  const double r = ball_radius(volume), law = law_of_cell(simulation, owned, inner, nucleus, volume);
   to.sum[kVolume].add(volume);
   to.sum[kVolumeX].add(volume * from.x);
   to.sum[kVolumeY].add(volume * from.y);
