@@ -78,13 +78,13 @@ std::vector<Renewal> shells_to_renew(const Model& model, const Tissue& tissue) {
 
 /// The shell on a mesh that stands for its surface: body and nucleus stay, nodes, edges and faces follow the rules of their columns.
 dcm::ShellRecord on_new_mesh(const dcm::ShellRecord& old, const AskedSurface& surface, std::shared_ptr<const ReferenceShape> shape,
-                             std::span<const Vec3d> position) {
+                             std::span<const Vec3d> position, bool of_triangles) {
   std::vector<std::uint32_t> same(old.shape->topology->face_count());
   std::iota(same.begin(), same.end(), 0u);
   const NewMesh mesh{old, surface, same, *shape, position};
   dcm::ShellRecord out = old;
   carry_columns(mesh, 1.0, out);
-  out.rest_length = carried_rest_lengths(mesh);
+  out.rest_length = carried_rest_lengths(mesh, of_triangles);
   out.position.assign(position.begin(), position.end());
   out.shape = std::move(shape);
   return out;
@@ -93,11 +93,12 @@ dcm::ShellRecord on_new_mesh(const dcm::ShellRecord& old, const AskedSurface& su
 /// The shell with its new mesh of either kind.
 dcm::ShellRecord renewed_shell(const dcm::ShellRecord& old, const Renewal& renewal, const CellType& type, ShapeLibrary& shapes) {
   const AskedSurface surface(SurfaceView{old.position, old.shape->topology.get()});
-  if (renewal.mesh && !renewal.has_own) return on_new_mesh(old, surface, old.shape, renewal.mesh->position);
+  if (renewal.mesh && !renewal.has_own) return on_new_mesh(old, surface, old.shape, renewal.mesh->position, strains_faces(type.shell));
   const bool is_elastic = dcm::has_elastic_surface(type.shell);
   auto shape = renewal.mesh ? shapes.icosphere(type.shell_nodes).value()
                             : shapes.adopt(carried_shape(old, surface, renewal.own->topology, renewal.own->position, is_elastic));
-  dcm::ShellRecord out = on_new_mesh(old, surface, shape, renewal.mesh ? renewal.mesh->position : renewal.own->position);
+  dcm::ShellRecord out =
+      on_new_mesh(old, surface, shape, renewal.mesh ? renewal.mesh->position : renewal.own->position, strains_faces(type.shell));
   if (!is_elastic) out.rest_length = free_rest_lengths(*out.shape, out.rest_volume);  // a fluid forgets
   return out;
 }

@@ -174,7 +174,7 @@ void carry(const Column& column, const NewMesh& mesh, double part, dcm::ShellRec
 
 }  // namespace
 
-std::vector<double> carried_rest_lengths(const NewMesh& mesh) {
+std::vector<double> carried_rest_lengths(const NewMesh& mesh, bool of_triangles) {
   const Topology& topology = *mesh.shape.topology;
   std::vector<double> out(topology.edges().size(), 0.0);
   for_places_of_edges(mesh.surface, topology, mesh.position, [&](std::size_t e, std::uint32_t face) {
@@ -184,7 +184,7 @@ std::vector<double> carried_rest_lengths(const NewMesh& mesh) {
   for (double& shrink : out) shrink /= static_cast<double>(kPointsOfEdge.size());
   std::vector<double> length;
   for (const Edge& edge : topology.edges()) length.push_back(norm(mesh.position[edge.j] - mesh.position[edge.i]));
-  even_out(topology, length, out);
+  if (of_triangles) even_out(topology, length, out);
   for (std::size_t e = 0; e < out.size(); ++e) out[e] *= length[e];
   return out;
 }

@@ -23,9 +23,12 @@ struct NewMesh {
 };
 
 /// Rest lengths of the old metric where the nearest point is of the old surface; of new faces the present ones. The metric of a face with rest lengths
-/// l1, l2, l3 is the form that gives its three sides these lengths. A face that would have no triangle of such lengths, or a much flatter one than it is
-/// itself, has its edges shortened alike.
-std::vector<double> carried_rest_lengths(const NewMesh& mesh);
+/// l1, l2, l3 is the form that gives its three sides these lengths. Where a law asks for the strain of faces (`of_triangles`), a face that would have no
+/// triangle of such lengths, or a much flatter one than it is itself, has its edges shortened alike; springs do without.
+std::vector<double> carried_rest_lengths(const NewMesh& mesh, bool of_triangles);
+
+/// Whether a law of the shell asks for the strain of faces.
+inline bool strains_faces(const dcm::ShellParameters& law) { return !law.sheets.empty() || law.local_area_modulus > 0.0; }
 
 /// The stress-free shape of a shell on a mesh with connectivity of its own, of nodes at `position` that lie on the old surface.
 ///
