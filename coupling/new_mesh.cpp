@@ -69,11 +69,15 @@ double area_of_sides(double a, double b, double c) {
   return std::sqrt(std::max(0.0, s * (s - a) * (s - b) * (s - c)));
 }
 
+double mean_of_face(const std::array<std::uint32_t, 3>& edge, std::span<const double> by_edge) {
+  return (by_edge[edge[0]] + by_edge[edge[1]] + by_edge[edge[2]]) / 3.0;
+}
+
 /// Whether rest lengths, as parts of lengths, give a face a triangle at rest that is much flatter than it is; of a face that is flat itself, a small
 /// difference between its edges is enough, and leaves no triangle at all.
 bool is_flattened(const std::array<std::uint32_t, 3>& edge, std::span<const double> length, std::span<const double> shrink) {
   const auto side = [&](int k) { return length[edge[k]] * shrink[edge[k]]; };
-  const double mean = (shrink[edge[0]] + shrink[edge[1]] + shrink[edge[2]]) / 3.0;
+  const double mean = mean_of_face(edge, shrink);
   const double alike = mean * mean * area_of_sides(length[edge[0]], length[edge[1]], length[edge[2]]);
   return area_of_sides(side(0), side(1), side(2)) < kLeastOfArea * alike;
 }
@@ -84,7 +88,7 @@ void even_out(const Topology& topology, std::span<const double> length, std::vec
     bool any = false;
     for (const auto& edge : topology.face_edges()) {
       if (!is_flattened(edge, length, shrink)) continue;
-      const double mean = (shrink[edge[0]] + shrink[edge[1]] + shrink[edge[2]]) / 3.0;
+      const double mean = mean_of_face(edge, shrink);
       for (const std::uint32_t e : edge) shrink[e] = mean;
       any = true;
     }

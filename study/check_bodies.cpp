@@ -37,35 +37,39 @@ void check_division_of_shells(BuildContext& c) {
   }
 }
 
-/// A shell of few nodes is cut once, and then no plane serves: a half of it has corners finer than its mesh (decision 0038).
-void check_mesh_of_divisions(BuildContext& c) {
-  constexpr double kLongestEdge = 0.5;  // of the radius
+/// function(name, place, draft of the type, type) for the types whose shells may be cut in the run.
+template <class F>
+void for_types_that_are_cut(const BuildContext& c, F&& function) {
   for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
     const auto& [name, place, t] = c.draft.cell_types[i];
     const CellType& type = c.study.model.types[i];
-    if (!type.shells_divide || !may_be_shell(c, i) || !may_divide(c, i)) continue;
+    if (type.shells_divide && may_be_shell(c, i) && may_divide(c, i)) function(name, place, t, type);
+  }
+}
+
+/// A shell of few nodes is cut once, and then no plane serves: a half of it has corners finer than its mesh (decision 0038).
+void check_mesh_of_divisions(BuildContext& c) {
+  static constexpr double kLongestEdge = 0.5;  // of the radius
+  for_types_that_are_cut(c, [&c](const std::string& name, const Place& place, const draft::CellType& t, const CellType& type) {
     const double edge = mean_edge(type.shell_nodes);  // over the radius
-    if (edge <= kLongestEdge) continue;
+    if (edge <= kLongestEdge) return;
     c.diagnostics.warning(650, t.nodes.given ? t.nodes.place : place,
                           "edges of " + std::to_string(type.shell_nodes) + " nodes are " + short_number(std::round(100.0 * edge) / 100.0) +
                               " of the radius: many cuts of such a shell of '" + name + "' leave no good mesh, and it waits",
                           "`nodes: 162`, whose edges are 0.3 of it, or `cycle: {shells: wait}`");
-  }
+  });
 }
 
 /// A cut draws faces beside the new interface out, or together.
 void check_sheets_of_divisions(BuildContext& c) {
-  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
-    const auto& [name, place, t] = c.draft.cell_types[i];
-    const CellType& type = c.study.model.types[i];
-    if (!type.shells_divide || !may_be_shell(c, i) || !may_divide(c, i)) continue;
+  for_types_that_are_cut(c, [&c](const std::string& name, const Place& place, const draft::CellType& t, const CellType& type) {
     for (const dcm::Sheet& sheet : type.shell.sheets)
       if (sheet.law->excess != nullptr)
         c.diagnostics.warning(696, t.elastic.given ? t.elastic.place : place,
                               "shells of '" + name + "' divide, and a cut takes faces beyond the range of " + sheet.law->name +
                                   ": the run ends where a face " + sheet.law->limit,
                               "`elastic: neo_hooke` or `springs`, or `cycle: {shells: wait}`");
-  }
+  });
 }
 
 /// E406 for named cells whose founder the study has not.

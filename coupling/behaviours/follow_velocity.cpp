@@ -17,11 +17,10 @@ Vec3d turn(const Vec3d& polarity, const TurningCell& cell, const OwnValues& own)
   const double cosine = dot(polarity, ahead);
   Vec3d aside = polarity - ahead * cosine;
   const double sine = norm(aside);
-  if (sine < 1.0 / kMostTangent) {
-    if (cosine > 0.0) return ahead;
-    aside = cross(ahead, std::abs(ahead.x) < 0.5 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0});
-  }
-  const double tangent = sine < 1.0 / kMostTangent ? kMostTangent : std::min(kMostTangent, sine / (1.0 + cosine));
+  const bool in_line = sine < 1.0 / kMostTangent;
+  if (in_line && cosine > 0.0) return ahead;
+  if (in_line) aside = cross(ahead, std::abs(ahead.x) < 0.5 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0});
+  const double tangent = in_line ? kMostTangent : std::min(kMostTangent, sine / (1.0 + cosine));
   const double angle = 2.0 * std::atan(tangent * std::exp(-cell.dt / own("follow_velocity")));
   return normalized(ahead * std::cos(angle) + normalized(aside) * std::sin(angle));
 }
