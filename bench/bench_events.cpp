@@ -15,6 +15,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -159,9 +160,19 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+constexpr std::size_t kStages = kStageNames.size();
+using StageSeconds = std::array<double, kStages>;
+
+StageSeconds stage_seconds(const StageTimer& timer) {
+  StageSeconds out;
+  for (std::size_t s = 0; s < kStages; ++s) out[s] = timer.seconds(static_cast<Stage>(s));
+  return out;
+}
+
 /// Steps of one kind.
 struct Steps {
   std::vector<double> seconds, iterations;
+  std::array<std::vector<double>, kStages> by_stage;  ///< wall time [s]
 };
 
 struct Figures {
@@ -169,6 +180,9 @@ struct Figures {
   std::vector<double> shape;  ///< [s]
   [[nodiscard]] double step() const { return median(usual.seconds); }
   [[nodiscard]] double extra() const { return median(with.seconds) + median(after.seconds) - 2.0 * step(); }
+  [[nodiscard]] double extra(std::size_t stage) const {
+    return median(with.by_stage[stage]) + median(after.by_stage[stage]) - 2.0 * median(usual.by_stage[stage]);
+  }
 };
 
 bool is_the_event(const Case& c, const Event& event) {
@@ -191,7 +205,8 @@ bool run_case(const Case& c, std::size_t cells, const Comm& comm, int threads, F
   Simulation& simulation = **created;
   bool follows = false, verbose = std::getenv("BENCH_VERBOSE") != nullptr;
   while (simulation.tissue().clock.time < c.time_of(kEvents) - 0.5 * c.step) {
-    const double before = cpu_seconds(), shapes = simulation.timer().seconds(Stage::kShapes);
+    const double before = cpu_seconds();
+    const StageSeconds stages = stage_seconds(simulation.timer());
     const auto done = simulation.step(c.time_of(kEvents));
     if (!done) {
       std::fprintf(stderr, "%s: %s\n", c.name, done.error().message.c_str());
@@ -210,11 +225,13 @@ bool run_case(const Case& c, std::size_t cells, const Comm& comm, int threads, F
                       : follows                                                ? &out.after
                       : simulation.tissue().clock.time > 10 * c.step && !other ? &out.usual
                                                                                : nullptr;
-    if (event) out.shape.push_back(simulation.timer().seconds(Stage::kShapes) - shapes);
+    if (event) out.shape.push_back(simulation.timer().seconds(Stage::kShapes) - stages[static_cast<std::size_t>(Stage::kShapes)]);
     follows = event;
     if (to == nullptr) continue;
     to->seconds.push_back(spent);
     to->iterations.push_back(done->mechanics.linear_iterations);
+    const StageSeconds now = stage_seconds(simulation.timer());
+    for (std::size_t s = 0; s < kStages; ++s) to->by_stage[s].push_back(now[s] - stages[s]);
   }
   return true;
 }
@@ -233,6 +250,7 @@ int main(int argc, char** argv) {
     std::string json, name;
     int threads = 1;
     std::size_t only = 0;
+    const bool stages = std::getenv("BENCH_STAGES") != nullptr;
     for (int i = 1; i + 1 < argc; i += 2) {
       if (std::strcmp(argv[i], "--json") == 0) json = argv[i + 1];
       if (std::strcmp(argv[i], "--only") == 0) name = argv[i + 1];
@@ -263,6 +281,9 @@ int main(int argc, char** argv) {
             cells, c.shells ? "shells" : "spheres", f.with.seconds.size(), f.extra(), f.step(), f.extra() / f.step(), median(f.shape),
             median(f.with.iterations), median(f.after.iterations), median(f.usual.iterations));
         std::puts(line);
+        if (stages)
+          for (std::size_t s = 0; s < kStages; ++s)
+            if (std::abs(f.extra(s)) > 0.005 * f.step()) std::printf("    %-16s %+.4f s\n", kStageNames[s].data(), f.extra(s));
         std::fflush(stdout);
         std::snprintf(
             line, sizeof line,

@@ -1,6 +1,7 @@
 #include "coupling/around_divisions.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -71,8 +72,16 @@ void find_geometry(const Model& model, const Tissue& tissue, const Mechanics& me
     const int number = type_of(model, tissue, mothers[k]).axis_own.number("geometry");
     if (number < 0) continue;
     const auto obstacle = static_cast<std::size_t>(number);
-    const Vec3d from = center_of(tissue, mothers[k]) - tissue.obstacle_offset[obstacle];
-    if (const auto nearest = mechanics.obstacles()[obstacle].tree->nearest(from)) out[k].to_geometry = nearest->closest.point - from;
+    const RigidSurface& surface = mechanics.obstacles()[obstacle];
+    const Vec3d center = center_of(tissue, mothers[k]), offset = tissue.obstacle_offset[obstacle];
+    double least = std::numeric_limits<double>::infinity();
+    for_images(surface, offset, model.space, model.space.box, [&](const SurfaceImage& image) {
+      const Vec3d from = center - (offset + image.shift);
+      const auto nearest = surface.tree->nearest(from);
+      if (!nearest || nearest->closest.distance2 >= least) return;
+      least = nearest->closest.distance2;
+      out[k].to_geometry = nearest->closest.point - from;
+    });
   }
 }
 

@@ -165,7 +165,8 @@ void Simulation::renew_meshes(std::vector<Event>& events) {
   for (const CellType& type : model_.types) ball.push_back(shapes_.icosphere(type.shell_nodes).value());
   parallel_for(threads_, found.size(), [&](std::size_t k) {
     Surroundings around = surroundings_of(mechanics_->scene(), model_.space, found[k].body.number, kReach);
-    add_obstacles(mechanics_->obstacles(), tissue_.obstacle_offset, tissue_.shells.nodes(found[k].body.number), kReach, around);
+    add_obstacles(mechanics_->obstacles(), tissue_.obstacle_offset, model_.space, tissue_.shells.nodes(found[k].body.number), kReach,
+                  around);
     find_mesh(model_, tissue_, around, ball[tissue_.cells.rows[found[k].body.row].type].get(), found[k]);
   });
 

@@ -35,16 +35,18 @@ Surroundings surroundings_of(const Scene& scene, const Space& space, std::size_t
   return out;
 }
 
-void add_obstacles(std::span<const RigidSurface> obstacles, std::span<const Vec3d> offset, std::span<const Vec3d> shell, double reach,
-                   Surroundings& around) {
+void add_obstacles(std::span<const RigidSurface> obstacles, std::span<const Vec3d> offset, const Space& space, std::span<const Vec3d> shell,
+                   double reach, Surroundings& around) {
   const Box own = box_of(shell).inflated(reach);
-  for (std::size_t o = 0; o < obstacles.size(); ++o) {
-    const Box box = box_of(obstacles[o].position);
-    if (!own.overlaps({box.low + offset[o], box.high + offset[o]})) continue;
-    std::vector<Vec3d>& moved = around.moved.emplace_back(obstacles[o].position);
-    for (Vec3d& x : moved) x += offset[o];
-    around.surfaces.push_back({moved, obstacles[o].topology.get()});
-  }
+  for (std::size_t o = 0; o < obstacles.size(); ++o)
+    for_images(obstacles[o], offset[o], space, own, [&](const SurfaceImage& image) {
+      const Box box = obstacles[o].tree->bounds();
+      const Vec3d way = offset[o] + image.shift;
+      if (!own.overlaps({box.low + way, box.high + way})) return;
+      std::vector<Vec3d>& moved = around.moved.emplace_back(obstacles[o].position);
+      for (Vec3d& x : moved) x += way;
+      around.surfaces.push_back({moved, obstacles[o].topology.get()});
+    });
 }
 
 }  // namespace morula

@@ -20,8 +20,8 @@ struct Surroundings {
 /// where they are nearest. The same on any number of ranks for a reach within that of the ghosts.
 Surroundings surroundings_of(const Scene& scene, const Space& space, std::size_t shell, double reach);
 
-/// Adds the obstacles whose boxes come closer than that to a shell, moved by `offset` each [µm].
-void add_obstacles(std::span<const RigidSurface> obstacles, std::span<const Vec3d> offset, std::span<const Vec3d> shell, double reach,
-                   Surroundings& around);
+/// Adds the obstacles, moved by `offset` each [µm], and their images across periodic faces, whose boxes come closer than that to a shell.
+void add_obstacles(std::span<const RigidSurface> obstacles, std::span<const Vec3d> offset, const Space& space, std::span<const Vec3d> shell,
+                   double reach, Surroundings& around);
 
 }  // namespace morula

@@ -112,7 +112,7 @@ void check_periodic_size(BuildContext& c) {
           "at least " + short_number(std::ceil(needed)) + " um, or a `wall`");
 }
 
-/// Obstacles have no images: what crosses a periodic face leaves those on this side, and those on the other begin at once.
+/// An obstacle as long as the domain, or one that cells live in, has no images (for_images()): cells that cross a periodic face leave it.
 void check_periodic_obstacles(BuildContext& c) {
   if (!c.draft.domain.size.known()) return;
   double reach = 0.0;
@@ -125,14 +125,21 @@ void check_periodic_obstacles(BuildContext& c) {
     for (const Vec3d& p : obstacle.position) of.include(p);
     for (std::size_t axis = 0; axis < 3 && !obstacle.position.empty(); ++axis) {
       if (!c.study.model.space.periodic(static_cast<int>(axis))) continue;
+      const bool has_images = !obstacle.inside && of.size()[axis] < box.size()[axis];
       const bool within = of.low[axis] >= box.low[axis] + reach && of.high[axis] <= box.high[axis] - reach;
       const bool beyond = of.low[axis] <= box.low[axis] - reach && of.high[axis] >= box.high[axis] + reach;
-      if (!within && !beyond)
+      if (has_images || within || beyond) continue;
+      const std::string across = std::string(" a periodic face across ") + "xyz"[axis];
+      if (obstacle.inside && of.size()[axis] < box.size()[axis])
         c.diagnostics.warning(697, c.draft.geometry[i].place,
-                              "obstacle '" + obstacle.name + "' ends near a periodic face across " + "xyz"[axis] +
-                                  ", and obstacles have no images: a cell at this face meets only what lies on its own side",
-                              "let it reach " + short_number(std::ceil(reach)) +
-                                  " um beyond the domain, or keep it that far from the face" +
+                              "obstacle '" + obstacle.name + "', in which cells live, ends near" + across +
+                                  ": a cell that crosses this face comes in on the other side, which may lie outside the obstacle",
+                              "keep it " + short_number(std::ceil(reach)) + " um from the face");
+      else
+        c.diagnostics.warning(697, c.draft.geometry[i].place,
+                              "obstacle '" + obstacle.name + "' is as long as the domain and ends near" + across +
+                                  ": so long a one has no images, and a cell at this face meets only what lies on its own side",
+                              "let it reach " + short_number(std::ceil(reach)) + " um beyond the domain on both sides, or make it shorter" +
                                   (obstacle.faces.size() <= 12 ? "; a floor can be a `wall`" : ""));
     }
   }

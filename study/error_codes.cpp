@@ -275,9 +275,12 @@ constexpr ErrorCode kCodes[] = {
     {696, "elastic law whose range divisions leave",
      "Faces beside a new interface are stretched by a fifth and more. A law that holds for small stretches only ends the run there."},
     {697, "obstacle at a periodic face",
-     "Cells and regions are seen across periodic faces, obstacles are not: one that ends at such a face or crosses it bears cells on its "
-     "own side only. "
-     "A plane that reaches a cell's radius beyond the domain on all sides is the same everywhere."},
+     "An obstacle that is shorter than the domain is seen across periodic faces, as cells are. One that is as long goes on beyond them by "
+     "itself, "
+     "as far as it reaches: a plane or a tube that reaches a cell's radius beyond the domain on both sides is the same everywhere. One "
+     "that "
+     "cells live "
+     "in has no images: they would leave it."},
     {698, "cavity beside obstacles",
      "A cavity that finds its faces by sight knows cells only. What an obstacle closes counts as an opening: the volume is taken from the "
      "cells around, and "

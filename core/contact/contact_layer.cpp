@@ -50,7 +50,7 @@ void ContactLayer::set_cap(double cap) {
 PairBody ContactLayer::view(const ContactScene& scene, const SurfacePair& pair, int which) const {
   if (which == 1 && pair.rigid) {
     const RigidSurface& obstacle = obstacles_[pair.b];
-    return {obstacle.topology.get(), obstacle.position, obstacle.geometry.node_normal, offsets_[pair.b], 0.0};
+    return {obstacle.topology.get(), obstacle.position, obstacle.geometry.node_normal, offsets_[pair.b] + pair.shift, 0.0};
   }
   const std::uint32_t number = which == 0 ? pair.a : pair.b;
   const ContactBody& body = scene.bodies[number];

@@ -225,7 +225,7 @@ class ContactLayer {
   [[nodiscard]] Extent extent_of(const ContactScene& scene, std::uint32_t body) const;
   /// Pairs of bodies that may touch, to the lists of spheres and of surfaces. `wanted`: only those with one of these bodies; else all.
   void add_body_pairs(const ContactScene& scene, const Space& space, std::span<const std::uint32_t> wanted);
-  void add_obstacle_pairs(const ContactScene& scene, std::span<const std::uint32_t> bodies);
+  void add_obstacle_pairs(const ContactScene& scene, const Space& space, std::span<const std::uint32_t> bodies);
   /// Surfaces that may touch themselves, after all other pairs.
   void add_self_pairs(const ContactScene& scene, std::span<const std::uint32_t> bodies);
   void renumber_motions(const ContactScene& scene, const BodyChanges& changes);

@@ -17,7 +17,7 @@ constexpr std::uint32_t kGone = 0xFFFFFFFFu;  // instead of a body's number
 
 }  // namespace
 
-void ContactLayer::add_obstacle_pairs(const ContactScene& scene, std::span<const std::uint32_t> bodies) {
+void ContactLayer::add_obstacle_pairs(const ContactScene& scene, const Space& space, std::span<const std::uint32_t> bodies) {
   if (obstacles_.empty()) return;
   const double distance = reach().candidates() + settings_.body_skin;
   for (const std::uint32_t i : bodies) {
@@ -25,16 +25,18 @@ void ContactLayer::add_obstacle_pairs(const ContactScene& scene, std::span<const
     if (!body.owned) continue;
     Box box;
     for (std::uint32_t p = 0; p < body.point_count; ++p) box.include(scene.position[body.first_point + p]);
-    for (std::uint32_t o = 0; o < obstacles_.size(); ++o) {
-      Box there = box.inflated(distance);
-      there = {there.low - offsets_[o], there.high - offsets_[o]};
-      if (obstacles_[o].tree->faces_in(there).empty()) continue;
-      SurfacePair pair;
-      pair.a = i;
-      pair.b = o;
-      pair.rigid = true;
-      pairs_.push_back(std::move(pair));
-    }
+    box = box.inflated(distance);
+    for (std::uint32_t o = 0; o < obstacles_.size(); ++o)
+      for_images(obstacles_[o], offsets_[o], space, box, [&](const SurfaceImage& image) {
+        const Vec3d there = offsets_[o] + image.shift;
+        if (obstacles_[o].tree->faces_in({box.low - there, box.high - there}).empty()) return;
+        SurfacePair& pair = pairs_.emplace_back();
+        pair.a = i;
+        pair.b = o;
+        pair.rigid = true;
+        pair.shift = image.shift;
+        pair.image = image.number;
+      });
   }
 }
 
@@ -177,7 +179,7 @@ void ContactLayer::rebuild(const ContactScene& scene, const Space& space) {
   add_body_pairs(scene, space, {});
   sphere_pairs_before_ = spheres_.size();
   const std::vector<std::uint32_t> surfaces = surfaces_in_order(scene);
-  add_obstacle_pairs(scene, surfaces);
+  add_obstacle_pairs(scene, space, surfaces);
   add_self_pairs(scene, surfaces);
   keep_lists(scene, std::move(old));
 }

@@ -27,7 +27,7 @@ void ContactLayer::mend(const ContactScene& scene, const Space& space, const Bod
   std::erase_if(surfaces, [&](std::uint32_t i) { return scene.bodies[i].shape == BodyShape::kSphere; });
   std::ranges::sort(surfaces, {}, [&](std::uint32_t i) { return scene.bodies[i].place; });
   if (!changes.fresh.empty()) add_body_pairs(scene, space, changes.fresh);
-  add_obstacle_pairs(scene, surfaces);
+  add_obstacle_pairs(scene, space, surfaces);
   add_self_pairs(scene, surfaces);
   if (pairs_.empty()) {
     pairs_ = std::move(kept);

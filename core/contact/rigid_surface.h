@@ -1,5 +1,7 @@
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -11,6 +13,7 @@
 #include "core/mesh/surface_geometry.h"
 #include "core/mesh/topology.h"
 #include "core/mesh/triangle_tree.h"
+#include "core/space/space.h"
 
 namespace morula {
 
@@ -33,7 +36,41 @@ struct RigidSurface {
   std::vector<std::uint32_t> part_of_face;                 ///< by face
   std::vector<std::array<SurfaceCurvature, 3>> curvature;  ///< of the smooth part, at the corners of each face
   std::uint16_t material = 0;
+  bool inside = false;  ///< cells live inside it
 };
+
+/// A rigid surface, or one of its images across periodic faces.
+struct SurfaceImage {
+  std::uint32_t number = 0;  ///< tells the images of a surface apart; they come in the order of these
+  Vec3d shift{};             ///< from where the surface itself is [µm]
+};
+
+/// Calls function(SurfaceImage) for those images of a surface that has gone `offset` whose bounds meet a box; for the surface itself always. Along a
+/// periodic axis it has images where it is shorter than the domain: what is longer goes on beyond the face by itself. A surface that cells live inside has none.
+template <class F>
+void for_images(const RigidSurface& surface, const Vec3d& offset, const Space& space, const Box& box, F&& function) {
+  constexpr std::uint32_t kItself = 512, kMost = 511;
+  const Box bounds = surface.tree->bounds();
+  const Vec3d period = space.box.size(), size = bounds.size();
+  std::array<int, 3> first{}, last{};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (surface.inside || !space.periodic(axis) || size[axis] >= period[axis]) continue;
+    const auto whole = [](double periods) { return static_cast<int>(std::clamp(periods, -double{kMost}, double{kMost})); };
+    first[axis] = std::min(0, whole(std::ceil((box.low[axis] - bounds.high[axis] - offset[axis]) / period[axis])));
+    last[axis] = std::max(0, whole(std::floor((box.high[axis] - bounds.low[axis] - offset[axis]) / period[axis])));
+  }
+  std::array<int, 3> n{};
+  for (n[0] = first[0]; n[0] <= last[0]; ++n[0])
+    for (n[1] = first[1]; n[1] <= last[1]; ++n[1])
+      for (n[2] = first[2]; n[2] <= last[2]; ++n[2]) {
+        SurfaceImage image;
+        for (int axis = 0; axis < 3; ++axis) {
+          image.number = image.number << 10 | (static_cast<std::uint32_t>(n[axis] + static_cast<int>(kItself)));
+          image.shift[axis] = n[axis] * period[axis];
+        }
+        function(image);
+      }
+}
 
 /// Rigid surfaces that several contact layers look at; nobody changes them.
 class RigidSurfaces {

@@ -100,6 +100,7 @@ struct SurfacePair {
   bool rigid = false;
   bool at_start = false;      ///< not evaluated since the step began: the elements are those of its start
   Vec3d shift{};              ///< image of b
+  std::uint32_t image = 0;    ///< of an obstacle: SurfaceImage::number
   double motion = 0.0;        ///< how far the bodies have moved against each other since the pair came to be (an upper bound) [µm]
   double built_at = -1e300;   ///< motion when the lists were built
   double patch_motion = 0.0;  ///< that of the nodes in the lists alone, since the lists were built
@@ -125,10 +126,10 @@ struct SurfacePair {
   [[nodiscard]] std::span<const ContactElement> present(std::size_t d) const { return at_start ? step_elements[d] : elements[d]; }
 };
 
-/// Pairs come in the order of these: by the places of their bodies, obstacles and then surfaces with themselves last.
+/// Pairs come in the order of these: by the places of their bodies, obstacles with their images and then surfaces with themselves last.
 inline std::array<std::uint64_t, 3> pair_key(const ContactScene& scene, const SurfacePair& pair) {
   const std::uint64_t kind = pair.rigid ? 1 : pair.with_itself() ? 2 : 0;
-  return {kind, scene.bodies[pair.a].place, pair.rigid ? pair.b : scene.bodies[pair.b].place};
+  return {kind, scene.bodies[pair.a].place, pair.rigid ? std::uint64_t{pair.b} << 32 | pair.image : scene.bodies[pair.b].place};
 }
 
 /// Everything that evaluating one direction of a pair reads.

@@ -87,27 +87,33 @@ void add_obstacles_of_shells(const Workspace& work, const Balls& balls, Standing
   const auto obstacles = layer.obstacles();
   const cbm::ContactTable& table = work.terms.spheres->table();
   std::vector<std::uint32_t> faces, parts;
-  for (std::size_t i = 0; i < work.scene.owned_shells(); ++i)
-    for (std::uint32_t o = 0; o < obstacles.size(); ++o) {
-      const double radius = balls.extent[i].radius;
-      const Vec3d center = balls.extent[i].center - layer.obstacle_offset(o);
-      obstacles[o].tree->faces_in(Box{center, center}.inflated(radius), faces);
-      parts.clear();
-      for (const std::uint32_t face : faces) parts.push_back(obstacles[o].part_of_face[face]);
-      std::ranges::sort(parts);
-      const auto repeated = std::ranges::unique(parts);
-      parts.erase(repeated.begin(), repeated.end());
-      const std::size_t material = std::min<std::size_t>(work.setting.model.types.size() + o, table.material_count() - 1);
-      const cbm::PairContact& contact = table.entry(work.scene.bodies()[i].material, material).contact;
-      for (const std::uint32_t part : parts) {
-        const auto foot = foot_on_part(obstacles[o], part, center, radius);
-        if (!foot || !(foot->distance < radius)) continue;
-        const double overlap = radius - foot->distance;
-        const double area = contact.law->respond(contact, cbm::radius_on(radius, foot->curvature), overlap, true).response.area;
-        to[i].outside = std::max(to[i].outside, cbm::part_of_range(contact, overlap, area, radius));
-        to[i].caps += cbm::plane_cap(radius, overlap).volume;
-      }
+  const auto add = [&](std::size_t i, std::uint32_t o, const SurfaceImage& image) {
+    const double radius = balls.extent[i].radius;
+    const Vec3d center = balls.extent[i].center - (layer.obstacle_offset(o) + image.shift);
+    obstacles[o].tree->faces_in(Box{center, center}.inflated(radius), faces);
+    parts.clear();
+    for (const std::uint32_t face : faces) parts.push_back(obstacles[o].part_of_face[face]);
+    std::ranges::sort(parts);
+    const auto repeated = std::ranges::unique(parts);
+    parts.erase(repeated.begin(), repeated.end());
+    const std::size_t material = std::min<std::size_t>(work.setting.model.types.size() + o, table.material_count() - 1);
+    const cbm::PairContact& contact = table.entry(work.scene.bodies()[i].material, material).contact;
+    for (const std::uint32_t part : parts) {
+      const auto foot = foot_on_part(obstacles[o], part, center, radius);
+      if (!foot || !(foot->distance < radius)) continue;
+      const double overlap = radius - foot->distance;
+      const double area = contact.law->respond(contact, cbm::radius_on(radius, foot->curvature), overlap, true).response.area;
+      to[i].outside = std::max(to[i].outside, cbm::part_of_range(contact, overlap, area, radius));
+      to[i].caps += cbm::plane_cap(radius, overlap).volume;
     }
+  };
+  for (std::size_t i = 0; i < work.scene.owned_shells(); ++i) {
+    const Extent& ball = balls.extent[i];
+    const Box around = Box{ball.center, ball.center}.inflated(ball.radius);
+    for (std::uint32_t o = 0; o < obstacles.size(); ++o)
+      for_images(obstacles[o], layer.obstacle_offset(o), work.setting.model.space, around,
+                 [&](const SurfaceImage& image) { add(i, o, image); });
+  }
 }
 
 }  // namespace

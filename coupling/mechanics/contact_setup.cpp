@@ -27,6 +27,7 @@ Result<RigidSurface> rigid_surface(const std::string& name, std::vector<Vec3d> p
   out.topology = std::move(topology).value();
   out.position = std::move(position);
   out.material = material;
+  out.inside = inside;
   const Topology* const topologies[1] = {out.topology.get()};
   const std::uint32_t first_node[1] = {0};
   const std::uint32_t first_face[2] = {0, out.topology->face_count()};

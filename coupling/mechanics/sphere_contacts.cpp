@@ -175,7 +175,7 @@ bool SphereContacts::locate_rigid(const Scene& scene, RigidPair& pair) const {
   const ContactBody& body = scene.bodies()[scene.first_sphere() + pair.sphere];
   const auto& obstacle = layer().obstacles()[pair.obstacle];
   const double reach = body.radius + layer().settings().sphere_reach + layer().settings().body_skin;
-  const Vec3d center = scene.position()[body.first_point], from = center - layer().obstacle_offset(pair.obstacle);
+  const Vec3d center = scene.position()[body.first_point], from = center - (layer().obstacle_offset(pair.obstacle) + pair.image.shift);
   const auto foot = foot_on_part(obstacle, pair.part, from, reach);
   if (!foot) return false;
   const Vec3d between = foot->point - from;

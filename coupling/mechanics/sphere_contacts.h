@@ -95,6 +95,7 @@ class SphereContacts : public Term {
   /// An owned sphere near a smooth part of an obstacle. A sphere adheres to an obstacle as a whole: the pairs of both share the flag.
   struct RigidPair {
     std::uint32_t sphere, obstacle, part;
+    SurfaceImage image{};  ///< of the obstacle
     bool attached = false, attached_next = false;
     Vec3d normal{};
     std::optional<SurfaceCurvature> curvature;  ///< of the obstacle where the sphere touched it at the start of the step, or came to it

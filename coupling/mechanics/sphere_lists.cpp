@@ -109,15 +109,15 @@ void SphereContacts::add_rigid_pairs(const Scene& scene, const Tissue& tissue, s
   const auto obstacles = layer().obstacles();
   const ContactBody& body = scene.bodies()[scene.first_sphere() + sphere];
   const double reach = body.radius + layer().settings().sphere_reach + layer().settings().body_skin;
+  const Vec3d center = scene.position()[body.first_point];
   std::vector<std::uint32_t> faces, parts;
-  for (std::uint32_t o = 0; o < obstacles.size(); ++o) {
-    Box box;
-    box.include(scene.position()[body.first_point] - layer().obstacle_offset(o));
-    obstacles[o].tree->faces_in(box.inflated(reach), faces);
+  const auto add = [&](std::uint32_t o, const SurfaceImage& image) {
+    const Vec3d from = center - (layer().obstacle_offset(o) + image.shift);
+    obstacles[o].tree->faces_in(Box{from, from}.inflated(reach), faces);
     parts.clear();
     for (const std::uint32_t face : faces) parts.push_back(obstacles[o].part_of_face[face]);
     for (const RigidPair& pair : rubs)
-      if (pair.obstacle == o) parts.push_back(pair.part);
+      if (pair.obstacle == o && pair.image.number == image.number) parts.push_back(pair.part);
     std::sort(parts.begin(), parts.end());
     parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
     const bool attached = !parts.empty() && cbm::adheres(tissue.spheres.attached[sphere], obstacle_partner(o));
@@ -126,10 +126,14 @@ void SphereContacts::add_rigid_pairs(const Scene& scene, const Tissue& tissue, s
       pair.sphere = sphere;
       pair.obstacle = o;
       pair.part = part;
+      pair.image = image;
       pair.attached = pair.attached_next = attached;
       list_.rigid.push_back({sphere, o});
     }
-  }
+  };
+  const Box around = Box{center, center}.inflated(2.0 * reach);  // further than what rubbed at the step's start has gone since
+  for (std::uint32_t o = 0; o < obstacles.size(); ++o)
+    for_images(obstacles[o], layer().obstacle_offset(o), model_.space, around, [&](const SurfaceImage& image) { add(o, image); });
 }
 
 void SphereContacts::find_rigid_pairs(const Scene& scene, const Tissue& tissue) {
@@ -149,7 +153,7 @@ void SphereContacts::find_rigid_pairs(const Scene& scene, const Tissue& tissue) 
   }
   if (!friction_is_frozen_) return;
   const auto before = [](const RigidPair& a, const RigidPair& b) {
-    return std::tie(a.sphere, a.obstacle, a.part) < std::tie(b.sphere, b.obstacle, b.part);
+    return std::tie(a.sphere, a.obstacle, a.image.number, a.part) < std::tie(b.sphere, b.obstacle, b.image.number, b.part);
   };
   for (std::size_t n = 0; n < old.size(); ++n) {
     const auto now = std::lower_bound(rigid_.begin(), rigid_.end(), old[n], before);

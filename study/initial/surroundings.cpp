@@ -39,6 +39,20 @@ void Surroundings::prepare(double largest_radius, double touch) {
 std::string Surroundings::name(std::size_t surface) const { return is_wall(surface) ? "the wall" : "obstacle '" + names_[surface] + "'"; }
 
 double Surroundings::distance(std::size_t surface, const Vec3d& p, double cutoff, Vec3d* away) const {
+  double least = cutoff;
+  bool first = true;
+  for_images(*surfaces_[surface], {}, space_, Box{p, p}.inflated(cutoff), [&](const SurfaceImage& image) {
+    Vec3d from_it{};
+    const double apart = distance_of_one(surface, p - image.shift, cutoff, away != nullptr ? &from_it : nullptr);
+    if (!first && apart >= least) return;
+    first = false;
+    least = apart;
+    if (away != nullptr) *away = from_it;
+  });
+  return least;
+}
+
+double Surroundings::distance_of_one(std::size_t surface, const Vec3d& p, double cutoff, Vec3d* away) const {
   const RigidSurface& s = *surfaces_[surface];
   const bool inside = !is_wall(surface) && inside_[surface];
   if (!inside && !s.tree->bounds().inflated(cutoff).contains(p)) return cutoff;

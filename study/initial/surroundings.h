@@ -35,10 +35,13 @@ class Surroundings {
   [[nodiscard]] std::size_t surface_count() const { return surfaces_.size(); }
   [[nodiscard]] std::string name(std::size_t surface) const;
   [[nodiscard]] bool is_wall(std::size_t surface) const { return surface >= obstacles_; }
-  /// Distance of a point from a surface on the side where cells live; negative within it. Far outside (beyond `cutoff`): cutoff. [µm]
+  /// Distance of a point from a surface, or from the nearest of its images, on the side where cells live; negative within it. Far outside (beyond
+  /// `cutoff`): cutoff. [µm]
   [[nodiscard]] double distance(std::size_t surface, const Vec3d& p, double cutoff, Vec3d* away = nullptr) const;
 
  private:
+  /// The same without images.
+  [[nodiscard]] double distance_of_one(std::size_t surface, const Vec3d& p, double cutoff, Vec3d* away) const;
   Space space_;
   std::vector<std::string> names_;
   std::vector<bool> inside_;

@@ -163,5 +163,59 @@ output: {report: false}
   EXPECT_EQ(judged, 4);
 }
 
+TEST_F(AtRest, ObstaclesAreSeenAcrossPeriodicFaces) {
+  // A ball that moves through the face, a plate and a rod that cross it; cells that adhere to them from the other side. The same run in the middle
+  // of the domain is the reference.
+  const auto text = [](double shift) {
+    const auto at = [shift](double x, double y, double z) {  // wrapped into the domain of 60 um
+      const auto wrapped = [](double v) { return v - 60.0 * std::floor((v + 30.0) / 60.0); };
+      return "[" + std::to_string(wrapped(x + shift)) + " um, " + std::to_string(wrapped(y + shift)) + " um, " + std::to_string(z) + " um]";
+    };
+    return R"(schema: 1
+study: images
+time: {end: 300 s, output: 60 s}
+domain: {size: [60 um, 60 um, 60 um], boundary: {x: periodic, y: periodic, z: open}}
+cell_types:
+  a: {adhesion: {others: 1e-4 J/m^2}}
+  b: {like: a, body: shell}
+geometry:
+  ball: {sphere: {center: )" +
+           at(0, 0, 0) + R"(, radius: 8 um}, motion: {velocity: [60 um/h, 0 um/h, 0 um/h]}}
+  plate: {box: {center: )" +
+           at(0, 0, -24) + R"(, size: [20 um, 20 um, 4 um]}}
+  rod: {box: {center: )" +
+           at(4, 4, 24) + R"(, size: [6 um, 30 um, 6 um]}}
+initial:
+  - {type: a, at: [)" +
+           at(13.8, 0, 0) + R"(], as: sphere}
+  - {type: b, at: [)" +
+           at(0, 14.1, 0) + R"(]}
+  - {type: b, at: [)" +
+           at(10, 0, 14) + R"(]}
+  - {type: a, at: [)" +
+           at(6, 6, -16.2) + R"(], as: sphere}
+  - {type: b, at: [)" +
+           at(-6, 6, -15.9) + R"(]}
+loads: {down: {type: b, body_force: [-1 nN, 0 nN, 0 nN]}}
+criteria:
+  - {id: A, measure: contact_area, of: {type: a}, over_cells: mean, at: end, between: [1 um^2, 1 mm^2]}
+  - {id: B, measure: contact_area, of: {type: b}, over_cells: mean, at: end, between: [1 um^2, 1 mm^2]}
+  - {id: C, measure: displacement, of: {type: a}, at: end, between: [0.1 um, 1 mm]}
+  - {id: D, measure: displacement, of: {type: b}, at: end, between: [0.2 um, 1 mm]}
+output: {report: false}
+)";
+  };
+  const auto across = run_whole(text(29.0), "across").verdicts, within = run_whole(text(0.0), "within").verdicts;
+  ASSERT_EQ(across.size(), within.size());
+  int judged = 0;
+  for (std::size_t i = 0; i < across.size(); ++i)
+    if (across[i].id.size() == 1) {
+      EXPECT_TRUE(within[i].passed) << within[i].quantity << " " << within[i].value;
+      EXPECT_NEAR(across[i].value, within[i].value, 1e-4 * within[i].value) << across[i].quantity;
+      ++judged;
+    }
+  EXPECT_EQ(judged, 4);
+}
+
 }  // namespace
 }  // namespace morula::scenarios::test
