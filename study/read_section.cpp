@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <span>
 #include <string_view>
 
 #include "core/numbers/decimal_number.h"
@@ -232,14 +233,16 @@ void ReadSection::vectors(const KeySpec& key, Given<std::vector<Vec3d>>& value) 
   value.place = entry ? entry->value.place : place_;
   if (!entry) return;
   if (entry->value.kind != Node::Kind::kList || entry->value.items.empty()) {
-    wrong_shape(key, entry->value, "a list of [x, y, z]");
+    wrong_shape(key, entry->value, "[x, y, z], or a list of these");
     return;
   }
   KeySpec item = key;
   item.example = "[0 um, 0 um, 0 um]";
   std::string all = "[";
   bool good = true;
-  for (const Node& node : entry->value.items) {
+  const std::vector<Node>& items = entry->value.items;
+  const bool is_one = std::ranges::all_of(items, [](const Node& node) { return node.kind == Node::Kind::kScalar; });
+  for (const Node& node : is_one ? std::span(&entry->value, 1) : std::span(items)) {
     Vec3d v{};
     std::string text;
     good = vector_items(item, node, v, text) && good;

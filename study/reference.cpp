@@ -34,7 +34,7 @@ std::string kind_text(const Declaration& d) {
     case Kind::kVector:
       return "[x, y, z], each " + quantity + (words.empty() ? "" : ", or " + words);
     case Kind::kVectors:
-      return "a list of [x, y, z], each " + quantity;
+      return "[x, y, z], or a list of these, each " + quantity;
     case Kind::kWords:
       return "a list of words" + (words.empty() ? "" : ": " + words);
     case Kind::kOneOrMore:

@@ -114,7 +114,7 @@ Json bare_schema(const Declaration& d, bool takes_back) {
     case Kind::kVector:
       return vector_schema(d.spec);
     case Kind::kVectors:
-      return {{"type", "array"}, {"items", vector_schema(d.spec)}, {"minItems", 1}};
+      return {{"anyOf", Json::array({vector_schema(d.spec), {{"type", "array"}, {"items", vector_schema(d.spec)}, {"minItems", 1}}})}};
     case Kind::kWords:
       return {{"type", "array"}, {"items", words_schema(d.spec)}};
     case Kind::kOneOrMore:

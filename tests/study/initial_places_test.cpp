@@ -131,6 +131,14 @@ TEST(Mixture, RefusesPartsThatAreNoWhole) {
   EXPECT_THAT(errors_of(with_cells("  - {types: {red: 100 %}, at: [[0 um, 0 um, 0 um]]}\n")), HasSubstr("[E111]"));
 }
 
+TEST(Points, MayBeOneAlone) {
+  const auto one = cells_of(with_cells("  - {type: big, at: [1 um, 2 um, 80 um]}\n"));
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0].center, (Vec3d{1.0, 2.0, 80.0}));
+  EXPECT_THAT(errors_of(with_cells("  - {type: big, at: [1 um, 80 um]}\n")), HasSubstr("'at' has 2 numbers, but needs 3: [x, y, z]"));
+  EXPECT_THAT(errors_of(with_cells("  - {type: big, at: 80 um}\n")), HasSubstr("'at' must be [x, y, z], or a list of these"));
+}
+
 TEST(Layer, LiesHexagonallyOnAWall) {
   const auto cells = cells_of(with_cells("  - {type: red, count: 19, fill: layer, on: z_low, center: [10 um, 20 um, 0 um]}\n"));
   ASSERT_EQ(cells.size(), 19u);
